@@ -199,7 +199,8 @@ static bool are_together(const plan_job *job) {
   if (!plan_game_fits(&job->game))
     return false;
   if (job->tries && (job->value || job->hand))
-    complain("--try is of strokes from where the cue ball lies: without --value and --in-hand");
+    complain(
+        "--try plays strokes from where the cue ball lies: give it without --value and --in-hand");
   else if (job->value && job->game.rules == CAROM_RULES_THREECUSHION)
     complain("--value: no estimate of a layout of three-cushion is known; a plan reports chances");
   else if (job->why && (job->csv || job->value))

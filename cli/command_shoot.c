@@ -423,7 +423,7 @@ static bool go_together(const shoot_job *job, bool words, const char *path) {
   else if (job->from.json && playing != NULL)
     complain("--json prints the shot and plays nothing: give it without --%s", playing);
   else if (job->csv && job->error.given)
-    complain("--csv has no columns for --spread: give one of both");
+    complain("--csv has no columns for --spread: give only one of them");
   else if (job->id != NULL && (job->together || !drawn))
     complain("--id is which shot of a file --plot or --animate draws");
   else

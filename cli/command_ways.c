@@ -460,7 +460,7 @@ int command_ways(int argc, char **argv) {
     return EXIT_USAGE;
   without_bounds(&s.player);
   if (job.csv && job.json) {
-    complain("--csv and --json: give one of both");
+    complain("--csv and --json: give only one of them");
     return EXIT_USAGE;
   }
 

@@ -110,7 +110,7 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
   bool good = false;
   free_table(t);
   if (l->table.pockets == 0)
-    complain("--pocket: the table has none");
+    complain("--pocket: the table has no pockets");
   else if (pot.ball < 0 || pot.pocket < 0)
     complain("--pocket is BALL:POCKET, such as 1:foot-left, with a ball of --balls and one of %s "
              "or its id; not '%.60s'%s",

@@ -52,7 +52,7 @@ static shot_file *strokes_of(const shoot_flags *f, const carom_shot_options *opt
   const bool good = flags_write(lines, &all, options, MOST_ROWS);
   close_text(lines, text);
   if (good && size == 0)
-    complain("--leave: by no speed and tip that is tried there is such an aim");
+    complain("--leave: none of the speeds and tips that carom tries has such an aim");
   if (!good || size == 0)
     return NULL;
   FILE *in = fmemopen(*text, size, "r");
@@ -151,7 +151,7 @@ static bool try_strokes(const ways_search *s, way w, trial *t) {
 /* Says that no stroke does it, and which one comes nearest. */
 static void complain_of_none(const trial *t) {
   if (t->nearest < 0) {
-    complain("--leave: by none of %d strokes the cue ball stays on the table", t->count);
+    complain("--leave: the cue ball stays on the table with none of %d strokes", t->count);
     return;
   }
   const carom_cue *nearest = &t->cue[t->nearest];

@@ -23,7 +23,7 @@ const char *way_name(const ways_search *s, const way *w) {
 
 bool player_of(const given_player *given, carom_player *player) {
   if (given->rated && given->errs) {
-    complain("--player is a rating, --errors are errors: give one of both");
+    complain("--player is a rating, --errors are errors: give only one of them");
     return false;
   }
   if (given->rated)

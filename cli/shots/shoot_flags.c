@@ -333,7 +333,7 @@ static bool strike_of(const shoot_flags *f, const layout *l, const combination *
     return false;
   }
   if (least && f->pocket == NULL) {
-    complain("--elevation least is of a pot that is aimed: give --pocket");
+    complain("--elevation least needs a pot to aim: give --pocket");
     return false;
   }
   const carom_status status = carom_strike(cue, &l->ball[0].kind, &after);
@@ -446,7 +446,8 @@ static bool options_agree(const shoot_flags *f) {
     bool broken;
     const char *why;
   } rules[] = {
-      {aim && at_ball, "--aim is a direction, --at-ball and --cut aim at a ball: give one of both"},
+      {aim && at_ball,
+       "--aim is a direction, --at-ball and --cut aim at a ball: give only one of them"},
       {f->pocket != NULL && (aim || at_ball),
        "--pocket says the direction, and so do --aim, --at-ball and --cut: give one of them"},
       {f->to.count > 0 && (aim || at_ball || f->pocket != NULL),
@@ -454,7 +455,7 @@ static bool options_agree(const shoot_flags *f) {
       {f->via != NULL && f->pocket == NULL,
        "--via is the way of a ball to its pocket: give --pocket too"},
       {f->speed.count > 0 && f->ball_speed.count > 0,
-       "--speed is that of the cue, --ball-speed that of the ball: give one of both"},
+       "--speed is that of the cue, --ball-speed that of the ball: give only one of them"},
       {(f->gap.count > 0 || f->seed.count > 0) && f->balls.rack == 0,
        "--gap and --seed are of a rack: give --balls nineball or the like"},
       {f->cue.count > 1, "--cue is one place"}};

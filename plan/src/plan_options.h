@@ -18,9 +18,9 @@
          "1: with a level cue, whose stick may pass through cushions and balls; 0: the stick is " \
          "above them")                                                                            \
   OPTION(chance_me, "", NUMBER(""), 0, 1, OPTIONS,                                                \
-         "chance of each later pot of a visit, of the player; 0: by the layout")                  \
+         "the player's chance of each later pot of a visit; 0: it follows from the layout")       \
   OPTION(chance_opponent, "", NUMBER(""), 0, 1, OPTIONS,                                          \
-         "chance of each later pot of a visit, of the opponent; 0: by the layout")                \
+         "the opponent's chance of each later pot of a visit; 0: it follows from the layout")     \
   OPTION(unsure, "unsure", NUMBER(""), 0, 1, OPTIONS,                                             \
          "how little the player knows about the table; 0: the player knows it; 1: as little as "  \
          "about any table. Its cushions and cloth are drawn at random, like the errors")          \

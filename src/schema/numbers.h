@@ -38,7 +38,7 @@
        "restitution of ball and cushion")                                                       \
   BALL(gravity, "g", "m/s^2", CAROM_ABOVE(0), 1e6, NAN, GRAVITY, ALWAYS, "gravity")             \
   BALL(drag, "drag", "1/m", 0, 1, NAN, DRAG, ALWAYS,                                            \
-       "deceleration of a rolling ball over the square of its speed")                           \
+       "deceleration of a rolling ball divided by the square of its speed")                     \
   CUSHION(roll_loss, "roll_loss", "", 0, 1, NAN, BALL_CUSHION, ALWAYS,                          \
           "part of the speed along a cushion that an impact takes from the roll along it")      \
   BALL(law_a, "law_a", "", 0, 1, NAN, MU_BALL, BY_FRICTION(ALCIATORE),                          \
@@ -51,7 +51,7 @@
        "height of the noses of all cushions above the cloth; 0: those of the table")            \
   CUSHION(omega_ratio, "omega_ratio", "", CAROM_ABOVE(1), CAROM_BELOW(2), 0, OMEGA_RATIO,       \
           BY_CUSHION(STRONGE),                                                                  \
-          "frequency of the nose along its surface over that across it; 0: 1.8")                \
+          "frequency of the nose along its surface divided by that across it; 0: 1.8")          \
   BALL(restitution_table, "e_t", "", 0, 0.98, -1, RESTITUTION, ALWAYS,                          \
        "restitution of ball and slate; 0: 0.5; -1: none")                                       \
   BALL(modulus, "modulus", "Pa", 1e6, 1e15, 0, MODULUS, ALWAYS,                                 \
@@ -60,8 +60,9 @@
           "change of the cushion's restitution for each unit of ln(speed)")                     \
   CUSHION(mu_log, "f_c_log", "", -1, 1, NAN, SPEED_LOG, ALWAYS,                                 \
           "change of the cushion's friction for each unit of ln(speed)")                        \
-  CUSHION(smooth_q, "smooth_q", "", 1e-12, 0.5, 0, SMOOTH, BY_CUSHION(SMOOTH),                  \
-          "width of the passage from sticking to sliding; 0: all numbers as on one table")      \
+  CUSHION(                                                                                      \
+      smooth_q, "smooth_q", "", 1e-12, 0.5, 0, SMOOTH, BY_CUSHION(SMOOTH),                      \
+      "width of the change from sticking to sliding; 0: all numbers of smooth as on one table") \
   CUSHION(smooth_x, "smooth_x", "", 0, 2, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                  \
           "part of the slip along the cushion that friction takes")                             \
   CUSHION(smooth_t, "smooth_t", "", 0, 2, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                  \
@@ -69,7 +70,7 @@
   CUSHION(smooth_a, "smooth_a", "", 0, 1, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                  \
           "how much farther friction across the cushion reaches")                               \
   CUSHION(smooth_k, "smooth_k", "", 0, 1, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                  \
-          "part of the impulse that the rebound gains where friction is used up")               \
+          "part of the impulse that the rebound gains where friction reaches its limit")        \
   CUSHION(smooth_g, "smooth_g", "", -1, 1, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                 \
           "part of the impulse that the rebound gains, at most, where friction slides")         \
   CUSHION(smooth_g_log, "smooth_g_log", "", -1, 1, NAN, SMOOTH, WITH(SMOOTH, smooth_q),         \
@@ -101,7 +102,7 @@
   LATER(b, "b", "R", -1, 1, NAN, MISCUE, "where the tip touches, above the centre")               \
   ROW(mass, "M", "kg", CAROM_ABOVE(0), DBL_MAX, NAN, CUE_MASS, "mass of the cue")                 \
   ROW(end_mass, "end_mass", "kg", CAROM_ABOVE(0), DBL_MAX, NAN, CUE_END_MASS,                     \
-      "effective mass of the end of the cue, which makes squirt")                                 \
+      "effective mass of the end of the cue, which causes squirt")                                \
   ROW(tip_restitution, "tip_restitution", "", 0, 1, NAN, CUE_TIP_RESTITUTION,                     \
       "restitution of tip and ball; 0: 1")                                                        \
   LATER(tip_radius, "tip_radius", "m", 0, DBL_MAX, NAN, NONE,                                     \

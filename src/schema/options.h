@@ -51,8 +51,8 @@
       stop_at, "", SET(EVENT), 0, 8191, STOP_AT,                                                   \
       "events right after which a shot is stopped; bit 0: a contact of the cue ball with another") \
   OPTION(first_of, "", SET(BALLS), 0, UINT64_MAX, SHOT_OPTIONS,                                    \
-         "a shot is stopped after the first contact of the cue ball with another that is none of " \
-         "these; 0: it is not")                                                                    \
+         "a shot is stopped after the first contact of the cue ball if the other ball is none of " \
+         "these; 0: it is not stopped")                                                            \
   OPTION(events_most, "events-most", COUNT, 0, INT32_MAX, EVENTS_MOST,                             \
          "largest number of events of a shot; 0: 10000")
 
@@ -61,19 +61,20 @@
   OPTION(threads, "threads", COUNT, -1, INT32_MAX, THREADS,                                        \
          "largest number of threads of a batch, including the calling one; 0: only that one; -1: " \
          "one for each processor")
-#define CAROM_COMPUTE_OPTIONS(OPTION)                                                    \
-  OPTION(fast, "", FLAG, 0, 1, FAST,                                                     \
-         "1: with the instruction set in use; 0: with the bits that all machines share") \
+#define CAROM_COMPUTE_OPTIONS(OPTION)                                                              \
+  OPTION(                                                                                          \
+      fast, "", FLAG, 0, 1, FAST,                                                                  \
+      "1: computes with the instruction set in use; 0: computes the bits that all machines share") \
   CAROM_THREAD_OPTIONS(OPTION)
 
 #define CAROM_SHOT_OPTIONS(OPTION) \
   CAROM_MOTION_OPTIONS(OPTION) CAROM_STOP_OPTIONS(OPTION) CAROM_COMPUTE_OPTIONS(OPTION)
 
 /* Options of calls of single impacts. */
-#define CAROM_CALL_OPTIONS(OPTION)                                                          \
-  OPTION(steps, "steps", COUNT, 0, INT32_MAX, STEPS, "steps of Euler's method; 0: 1000")    \
-  OPTION(plain, "", FLAG, 0, 1, PLAIN,                                                      \
-         "1: with the instruction set plain, and so with the bits that all machines share") \
+#define CAROM_CALL_OPTIONS(OPTION)                                                              \
+  OPTION(steps, "steps", COUNT, 0, INT32_MAX, STEPS, "steps of Euler's method; 0: 1000")        \
+  OPTION(plain, "", FLAG, 0, 1, PLAIN,                                                          \
+         "1: computes with the instruction set plain, and so the bits that all machines share") \
   CAROM_THREAD_OPTIONS(OPTION)
 
 /* Options of carom_options, for two balls. */
@@ -90,11 +91,11 @@
          "model of the impact")                                                                 \
   CAROM_CALL_OPTIONS(OPTION)                                                                    \
   OPTION(convention, "convention", WORDS(CUSHION_CONVENTION), 0, CAROM_CONVENTION_POOLTOOL,     \
-         CONVENTION, "the convention where pooltool differs from the papers")                   \
+         CONVENTION, "the convention to follow where pooltool differs from the papers")         \
   OPTION(law, "law", WORDS(CUSHION_LAW), 0, CAROM_CUSHION_LAW_HAN, CUSHION_LAW,                 \
          "where restitution and friction of the cushion come from")                             \
   OPTION(least_step, "least-step", NUMBER("N s"), 0, DBL_MAX, LEAST_STEP,                       \
-         "least impulse of a step of Euler's method; pooltool: 0.001")
+         "smallest impulse of a step of Euler's method; pooltool: 0.001")
 
 /* Whether the value x of an option is right. */
 #define CAROM_IN_FLAG(x, low, high) ((uint32_t)(x) <= (uint32_t)(high))

@@ -4,65 +4,65 @@
 #ifndef CAROM_SRC_SCHEMA_WORDS_H
 #define CAROM_SRC_SCHEMA_WORDS_H
 
-#define CAROM_WORD_ROWS(WORD)                                                                    \
-  WORD(WORLD, WORLD_CAROM, "carom", "an event is where a gap is closed and closing")             \
-  WORD(WORLD, WORLD_POOLTOOL, "pooltool", "pooltool's rules of contact, for its histories")      \
-  WORD(BALL_MODEL, BALL_MODEL_DEFAULT, "default", "exact; in the world pooltool inelastic")      \
-  WORD(BALL_MODEL, BALL_MODEL_EXACT, "exact", "the exact limit of the 2014 model")               \
-  WORD(BALL_MODEL, BALL_MODEL_EULER, "euler", "the 2014 model in N steps")                       \
-  WORD(BALL_MODEL, BALL_MODEL_INELASTIC, "inelastic", "one impulse in closed form, as pooltool") \
-  WORD(BALL_MODEL, BALL_MODEL_MIRROR, "mirror", "no friction")                                   \
-  WORD(SHOT_CUSHION, SHOT_CUSHION_DEFAULT, "default",                                            \
-       "smooth for balls with its numbers, else han; in the world pooltool stronge")             \
-  WORD(SPACE, SPACE_3D, "3d", "balls can leave the cloth")                                       \
-  WORD(SPACE, SPACE_FLAT, "flat", "balls stay on the cloth")                                     \
-  WORD(SIMULTANEOUS, SIMULTANEOUS_CLUSTER, "cluster", "contacts last and overlap in time")       \
-  WORD(SIMULTANEOUS, SIMULTANEOUS_PAIRS, "pairs", "one contact after the other")                 \
-  WORD(CUSHION_CONVENTION, CONVENTION_PAPER, "paper", "that of the papers")                      \
-  WORD(CUSHION_CONVENTION, CONVENTION_POOLTOOL, "pooltool", "that of pooltool")                  \
-  WORD(CUSHION_LAW, CUSHION_LAW_CONSTANT, "constant", "restitution and friction as given")       \
-  WORD(CUSHION_LAW, CUSHION_LAW_HAN, "han", "Han's fits over speed and angle")                   \
-  WORD(GAME, GAME_POOL, "pool", "typical numbers of pool")                                       \
-  WORD(GAME, GAME_SNOOKER, "snooker", "snooker, measured on one table")                          \
-  WORD(GAME, GAME_BILLIARD, "billiard", "three-cushion, measured on one table")                  \
-  WORD(GAME, GAME_POOLTOOL_POOL, "pooltool_pool", "pooltool's numbers of pool")                  \
-  WORD(GAME, GAME_POOLTOOL_SNOOKER, "pooltool_snooker", "pooltool's numbers of snooker")         \
-  WORD(GAME, GAME_POOLTOOL_BILLIARD, "pooltool_billiard", "pooltool's numbers of carom")         \
-  WORD(EVENT, EVENT_STRIKE, "stick_ball", "the cue strikes a ball")                              \
-  WORD(EVENT, EVENT_BALL_BALL, "ball_ball", "two balls meet")                                    \
-  WORD(EVENT, EVENT_RAIL, "ball_linear_cushion", "a ball meets a rail")                          \
-  WORD(EVENT, EVENT_JAW, "ball_circular_cushion", "a ball meets a jaw")                          \
-  WORD(EVENT, EVENT_POCKET, "ball_pocket", "a ball falls")                                       \
-  WORD(EVENT, EVENT_SLIDING_ROLLING, "sliding_rolling", "a ball rolls from here on")             \
-  WORD(EVENT, EVENT_ROLLING_SPINNING, "rolling_spinning", "a ball turns on the spot")            \
-  WORD(EVENT, EVENT_ROLLING_STATIONARY, "rolling_stationary", "a rolling ball rests")            \
-  WORD(EVENT, EVENT_SPINNING_STATIONARY, "spinning_stationary", "a turning ball rests")          \
-  WORD(EVENT, EVENT_SLATE, "slate", "a ball lands")                                              \
-  WORD(EVENT, EVENT_RAIL_TOP, "rail_top", "a ball lands on a rail")                              \
-  WORD(EVENT, EVENT_LEFT_TABLE, "left_table", "a ball leaves the table")                         \
-  WORD(LABEL, BALL_STATIONARY, "stationary", "at rest")                                          \
-  WORD(LABEL, BALL_SPINNING, "spinning", "turning on the spot")                                  \
-  WORD(LABEL, BALL_SLIDING, "sliding", "slipping over the cloth")                                \
-  WORD(LABEL, BALL_ROLLING, "rolling", "without slip")                                           \
-  WORD(LABEL, BALL_POCKETED, "pocketed", "in a pocket")                                          \
-  WORD(LABEL, BALL_AIRBORNE, "airborne", "in flight")                                            \
-  WORD(LABEL, BALL_OFF, "off", "off the table")                                                  \
-  WORD(TABLE, TABLE_POOL_7FT, "7ft", "pool, 7 feet")                                             \
-  WORD(TABLE, TABLE_POOL_8FT, "8ft", "pool, 8 feet")                                             \
-  WORD(TABLE, TABLE_POOL_9FT, "9ft", "pool, 9 feet")                                             \
-  WORD(TABLE, TABLE_SNOOKER, "snooker", "snooker, 12 feet")                                      \
-  WORD(TABLE, TABLE_THREECUSHION, "threecushion", "three-cushion, without pockets")              \
-  WORD(TABLE, TABLE_POOLTOOL, "pooltool", "pooltool's default, 7 feet, with wider side pockets") \
-  WORD(RACK, RACK_NINEBALL, "nineball",                                                          \
-       "cue ball, then 1 to 9 by number; 1 in front, 9 in the middle")                           \
-  WORD(RACK, RACK_EIGHTBALL, "eightball",                                                        \
-       "cue ball, then 1 to 15 by number; 8 in the middle, both kinds in the corners")           \
-  WORD(RACK, RACK_TENBALL, "tenball", "cue ball, then 1 to 10 by number; 10 in the middle")      \
-  WORD(RACK, RACK_SNOOKER, "snooker", "white, 15 reds, yellow, green, brown, blue, pink, black") \
-  WORD(RACK, RACK_THREECUSHION, "threecushion", "white, yellow, red, as for the opening")        \
-  WORD(SOLVER, SOLVER_EXACT, "exact", "the limit of infinitely many steps")                      \
-  WORD(SOLVER, SOLVER_EULER, "euler", "N steps of equal impulse")                                \
-  WORD(SLIP, SLIP_PAPER, "paper", "that of the 2014 paper")                                      \
+#define CAROM_WORD_ROWS(WORD)                                                                      \
+  WORD(WORLD, WORLD_CAROM, "carom", "an event occurs where a gap is closed and closing")           \
+  WORD(WORLD, WORLD_POOLTOOL, "pooltool", "pooltool's rules of contact, which give its histories") \
+  WORD(BALL_MODEL, BALL_MODEL_DEFAULT, "default", "exact; in the world pooltool inelastic")        \
+  WORD(BALL_MODEL, BALL_MODEL_EXACT, "exact", "the exact limit of the 2014 model")                 \
+  WORD(BALL_MODEL, BALL_MODEL_EULER, "euler", "the 2014 model in N steps")                         \
+  WORD(BALL_MODEL, BALL_MODEL_INELASTIC, "inelastic", "one impulse in closed form, as pooltool")   \
+  WORD(BALL_MODEL, BALL_MODEL_MIRROR, "mirror", "no friction")                                     \
+  WORD(SHOT_CUSHION, SHOT_CUSHION_DEFAULT, "default",                                              \
+       "smooth for balls with its numbers, else han; in the world pooltool stronge")               \
+  WORD(SPACE, SPACE_3D, "3d", "balls can leave the cloth")                                         \
+  WORD(SPACE, SPACE_FLAT, "flat", "balls stay on the cloth")                                       \
+  WORD(SIMULTANEOUS, SIMULTANEOUS_CLUSTER, "cluster", "contacts last and overlap in time")         \
+  WORD(SIMULTANEOUS, SIMULTANEOUS_PAIRS, "pairs", "one contact after the other")                   \
+  WORD(CUSHION_CONVENTION, CONVENTION_PAPER, "paper", "that of the papers")                        \
+  WORD(CUSHION_CONVENTION, CONVENTION_POOLTOOL, "pooltool", "that of pooltool")                    \
+  WORD(CUSHION_LAW, CUSHION_LAW_CONSTANT, "constant", "restitution and friction as given")         \
+  WORD(CUSHION_LAW, CUSHION_LAW_HAN, "han", "Han's fits over speed and angle")                     \
+  WORD(GAME, GAME_POOL, "pool", "typical numbers of pool")                                         \
+  WORD(GAME, GAME_SNOOKER, "snooker", "snooker, measured on one table")                            \
+  WORD(GAME, GAME_BILLIARD, "billiard", "three-cushion, measured on one table")                    \
+  WORD(GAME, GAME_POOLTOOL_POOL, "pooltool_pool", "pooltool's numbers of pool")                    \
+  WORD(GAME, GAME_POOLTOOL_SNOOKER, "pooltool_snooker", "pooltool's numbers of snooker")           \
+  WORD(GAME, GAME_POOLTOOL_BILLIARD, "pooltool_billiard", "pooltool's numbers of carom")           \
+  WORD(EVENT, EVENT_STRIKE, "stick_ball", "the cue strikes a ball")                                \
+  WORD(EVENT, EVENT_BALL_BALL, "ball_ball", "two balls meet")                                      \
+  WORD(EVENT, EVENT_RAIL, "ball_linear_cushion", "a ball meets a rail")                            \
+  WORD(EVENT, EVENT_JAW, "ball_circular_cushion", "a ball meets a jaw")                            \
+  WORD(EVENT, EVENT_POCKET, "ball_pocket", "a ball falls")                                         \
+  WORD(EVENT, EVENT_SLIDING_ROLLING, "sliding_rolling", "a ball rolls from here on")               \
+  WORD(EVENT, EVENT_ROLLING_SPINNING, "rolling_spinning", "a ball turns on the spot")              \
+  WORD(EVENT, EVENT_ROLLING_STATIONARY, "rolling_stationary", "a rolling ball rests")              \
+  WORD(EVENT, EVENT_SPINNING_STATIONARY, "spinning_stationary", "a turning ball rests")            \
+  WORD(EVENT, EVENT_SLATE, "slate", "a ball lands")                                                \
+  WORD(EVENT, EVENT_RAIL_TOP, "rail_top", "a ball lands on a rail")                                \
+  WORD(EVENT, EVENT_LEFT_TABLE, "left_table", "a ball leaves the table")                           \
+  WORD(LABEL, BALL_STATIONARY, "stationary", "at rest")                                            \
+  WORD(LABEL, BALL_SPINNING, "spinning", "turning on the spot")                                    \
+  WORD(LABEL, BALL_SLIDING, "sliding", "slipping over the cloth")                                  \
+  WORD(LABEL, BALL_ROLLING, "rolling", "without slip")                                             \
+  WORD(LABEL, BALL_POCKETED, "pocketed", "in a pocket")                                            \
+  WORD(LABEL, BALL_AIRBORNE, "airborne", "in flight")                                              \
+  WORD(LABEL, BALL_OFF, "off", "off the table")                                                    \
+  WORD(TABLE, TABLE_POOL_7FT, "7ft", "pool, 7 feet")                                               \
+  WORD(TABLE, TABLE_POOL_8FT, "8ft", "pool, 8 feet")                                               \
+  WORD(TABLE, TABLE_POOL_9FT, "9ft", "pool, 9 feet")                                               \
+  WORD(TABLE, TABLE_SNOOKER, "snooker", "snooker, 12 feet")                                        \
+  WORD(TABLE, TABLE_THREECUSHION, "threecushion", "three-cushion, without pockets")                \
+  WORD(TABLE, TABLE_POOLTOOL, "pooltool", "pooltool's default, 7 feet, with wider side pockets")   \
+  WORD(RACK, RACK_NINEBALL, "nineball",                                                            \
+       "cue ball, then 1 to 9 by number; 1 in front, 9 in the middle")                             \
+  WORD(RACK, RACK_EIGHTBALL, "eightball",                                                          \
+       "cue ball, then 1 to 15 by number; 8 in the middle, both kinds in the corners")             \
+  WORD(RACK, RACK_TENBALL, "tenball", "cue ball, then 1 to 10 by number; 10 in the middle")        \
+  WORD(RACK, RACK_SNOOKER, "snooker", "white, 15 reds, yellow, green, brown, blue, pink, black")   \
+  WORD(RACK, RACK_THREECUSHION, "threecushion", "white, yellow, red, as for the opening")          \
+  WORD(SOLVER, SOLVER_EXACT, "exact", "the limit of infinitely many steps")                        \
+  WORD(SOLVER, SOLVER_EULER, "euler", "N steps of equal impulse")                                  \
+  WORD(SLIP, SLIP_PAPER, "paper", "that of the 2014 paper")                                        \
   WORD(SLIP, SLIP_POOLTOOL, "pooltool", "that of pooltool")
 
 #endif
