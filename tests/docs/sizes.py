@@ -44,8 +44,20 @@ FIGURES = [
         "threads carom_shoot_batch",
         MOST,
     ),
-    ("include/carom_shot.h", r"Instead of `balls`, with (\d+) bytes a ball", 1, "carom_shot_ball", EXACT),
-    ("include/carom_shot.h", r"and `states`, with (\d+) bytes a ball", 1, "carom_ball_state", EXACT),
+    (
+        "include/carom_shot.h",
+        r"Instead of `balls`, with (\d+) bytes a ball",
+        1,
+        "carom_shot_ball",
+        EXACT,
+    ),
+    (
+        "include/carom_shot.h",
+        r"and `states`, with (\d+) bytes a ball",
+        1,
+        "carom_ball_state",
+        EXACT,
+    ),
     (
         "include/carom_tangent.h",
         r"Stack: (\d+) KiB; a batch",

@@ -83,7 +83,7 @@ class ShotOptions(NamedTuple):
     events_most : int
         Largest number of events of a shot; 0: 10000
     fast : bool
-        1: with the instruction set in use; 0: with the bits that all machines share
+        1: computes with the instruction set in use; 0: computes the bits that all machines share
     t_final : float | None
         The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that lasts
         longer than 1000 s is an error.
@@ -142,13 +142,13 @@ class CushionNumbers(TypedDict, total=False):
     roll_loss: float
     """any model: part of the speed along a cushion that an impact takes from the roll along it; 0 to 1"""
     omega_ratio: float
-    """stronge: frequency of the nose along its surface over that across it; 0: 1.8; 0, or between 1 and 2"""
+    """stronge: frequency of the nose along its surface divided by that across it; 0: 1.8; 0, or between 1 and 2"""
     restitution_log: float
     """any model: change of the cushion's restitution for each unit of ln(speed); -1 to 1"""
     mu_log: float
     """any model: change of the cushion's friction for each unit of ln(speed); -1 to 1"""
     smooth_q: float
-    """smooth: width of the passage from sticking to sliding; 0: all numbers as on one table; 0, or 1e-12 to 0.5"""
+    """smooth: width of the change from sticking to sliding; 0: all numbers of smooth as on one table; 0, or 1e-12 to 0.5"""
     smooth_x: float
     """smooth: part of the slip along the cushion that friction takes; 0 to 2"""
     smooth_t: float
@@ -156,7 +156,7 @@ class CushionNumbers(TypedDict, total=False):
     smooth_a: float
     """smooth: how much farther friction across the cushion reaches; 0 to 1"""
     smooth_k: float
-    """smooth: part of the impulse that the rebound gains where friction is used up; 0 to 1"""
+    """smooth: part of the impulse that the rebound gains where friction reaches its limit; 0 to 1"""
     smooth_g: float
     """smooth: part of the impulse that the rebound gains, at most, where friction slides; -1 to 1"""
     smooth_g_log: float
@@ -193,7 +193,7 @@ class BallNumbers(TypedDict, total=False):
     gravity: npt.ArrayLike | None
     """gravity; above 0 and at most 1e6, in m/s^2"""
     drag: npt.ArrayLike | None
-    """deceleration of a rolling ball over the square of its speed; 0 to 1, in 1/m"""
+    """deceleration of a rolling ball divided by the square of its speed; 0 to 1, in 1/m"""
     roll_loss: npt.ArrayLike | None
     """part of the speed along a cushion that an impact takes from the roll along it; 0 to 1"""
     law_a: npt.ArrayLike | None
@@ -205,7 +205,7 @@ class BallNumbers(TypedDict, total=False):
     nose_height: npt.ArrayLike | None
     """height of the noses of all cushions above the cloth; 0: those of the table; 0 or more and finite, in m"""
     omega_ratio: npt.ArrayLike | None
-    """frequency of the nose along its surface over that across it; 0: 1.8; 0, or between 1 and 2"""
+    """frequency of the nose along its surface divided by that across it; 0: 1.8; 0, or between 1 and 2"""
     restitution_table: npt.ArrayLike | None
     """restitution of ball and slate; 0: 0.5; -1: none; -1, or 0 to 0.98"""
     modulus: npt.ArrayLike | None
@@ -215,7 +215,7 @@ class BallNumbers(TypedDict, total=False):
     mu_log: npt.ArrayLike | None
     """change of the cushion's friction for each unit of ln(speed); -1 to 1"""
     smooth_q: npt.ArrayLike | None
-    """width of the passage from sticking to sliding; 0: all numbers as on one table; 0, or 1e-12 to 0.5"""
+    """width of the change from sticking to sliding; 0: all numbers of smooth as on one table; 0, or 1e-12 to 0.5"""
     smooth_x: npt.ArrayLike | None
     """part of the slip along the cushion that friction takes; 0 to 2"""
     smooth_t: npt.ArrayLike | None
@@ -223,7 +223,7 @@ class BallNumbers(TypedDict, total=False):
     smooth_a: npt.ArrayLike | None
     """how much farther friction across the cushion reaches; 0 to 1"""
     smooth_k: npt.ArrayLike | None
-    """part of the impulse that the rebound gains where friction is used up; 0 to 1"""
+    """part of the impulse that the rebound gains where friction reaches its limit; 0 to 1"""
     smooth_g: npt.ArrayLike | None
     """part of the impulse that the rebound gains, at most, where friction slides; -1 to 1"""
     smooth_g_log: npt.ArrayLike | None
