@@ -202,7 +202,7 @@ static progress alone(const way *w, const carom_cue *cue, double *time) {
   options.stop_at = CAROM_STOP_AT(CAROM_EVENT_POCKET);
   carom_shoot(w->table, w->alone, w->balls, cue, &options, &shot);
   *time = shot.time;
-  return follow(w, own, w->events, shot.count < EVENTS ? shot.count : EVENTS);
+  return follow(w, own, w->events, carom_min(shot.count, EVENTS));
 }
 
 /* The least elevation of the stick of a cue of the way in its direction, degrees. */
@@ -256,8 +256,8 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
 static bool is_beside(const way *w, const carom_brief_event *e) {
   const carom_rail *r = &w->table->rail[e->b];
   const double *jaw = w->table->jaw[e->b].centre, *c = w->pocket->centre;
-  const double *ends[2] = {e->type == CAROM_EVENT_JAW ? jaw : r->p,
-                           e->type == CAROM_EVENT_JAW ? jaw : r->q};
+  const bool is_jaw = e->type == CAROM_EVENT_JAW;
+  const double *ends[2] = {is_jaw ? jaw : r->p, is_jaw ? jaw : r->q};
   bool beside = false;
   for (int k = 0; k < 2; k++) {
     const double x = ends[k][0] - c[0], y = ends[k][1] - c[1];
@@ -272,7 +272,7 @@ static carom_pot_is fate(const way *w, const carom_shot_ball *balls, int count,
   carom_facts facts;
   carom_shot shot = {.brief = w->events, .room = EVENTS, .facts = &facts};
   carom_shoot(w->table, balls, count, cue, &w->options, &shot);
-  const progress p = follow(w, w->ball, w->events, shot.count < EVENTS ? shot.count : EVENTS);
+  const progress p = follow(w, w->ball, w->events, carom_min(shot.count, EVENTS));
   const int last = w->ball[w->balls - 1];
   const bool falls = facts.pocket[last] >= 0 && &w->table->pocket[facts.pocket[last]] == w->pocket;
   *met = p.end;
@@ -284,9 +284,9 @@ static carom_pot_is fate(const way *w, const carom_shot_ball *balls, int count,
     return falls ? CAROM_POT_FALLS : CAROM_POT_REJECTED;
   if (done && (type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW))
     return falls && is_beside(w, &p.end) ? CAROM_POT_FALLS : CAROM_POT_REJECTED;
-  return type == CAROM_EVENT_ROLLING_SPINNING || type == CAROM_EVENT_ROLLING_STATIONARY || type == 0
-             ? CAROM_POT_SHORT
-             : CAROM_POT_BARRED;
+  const bool rests =
+      type == CAROM_EVENT_ROLLING_SPINNING || type == CAROM_EVENT_ROLLING_STATIONARY || type == 0;
+  return rests ? CAROM_POT_SHORT : CAROM_POT_BARRED;
 }
 
 /* The last value of *field, of the cue, from its own on and up to `end`, with which the ball falls:
@@ -294,20 +294,25 @@ static carom_pot_is fate(const way *w, const carom_shot_ball *balls, int count,
 static double last_good(const way *w, const carom_shot_ball *balls, int count, const carom_cue *cue,
                         double *field, double step, double growth, double end) {
   const double own = *field;
-  double good, bad = own;
+  double falls, misses = own;
   carom_brief_event unused;
   do {
-    good = bad;
-    bad = (good + step < end) == (step > 0.0) ? good + step : end;
+    falls = misses;
+    misses = falls + step;
+    if ((misses < end) != (step > 0.0))
+      misses = end;
     step *= growth;
-    *field = bad;
-  } while (bad != good && fate(w, balls, count, cue, &unused) == CAROM_POT_FALLS);
-  for (int k = 0; k < HALVINGS / 2 && bad != good; k++) {
-    *field = 0.5 * (good + bad);
-    *(fate(w, balls, count, cue, &unused) == CAROM_POT_FALLS ? &good : &bad) = *field;
+    *field = misses;
+  } while (misses != falls && fate(w, balls, count, cue, &unused) == CAROM_POT_FALLS);
+  for (int k = 0; k < HALVINGS / 2 && misses != falls; k++) {
+    *field = 0.5 * (falls + misses);
+    if (fate(w, balls, count, cue, &unused) == CAROM_POT_FALLS)
+      falls = *field;
+    else
+      misses = *field;
   }
   *field = own;
-  return good;
+  return falls;
 }
 
 /* ---- The search */
@@ -321,7 +326,10 @@ static bool root_of(const way *w, const carom_cue *cue, const double between[2],
   for (int k = 0; k < HALVINGS && !isnan(e); k++) {
     found->phi = 0.5 * (low + high);
     attempt(w, found->phi, *cue, &e, half);
-    *((e > 0.0) == (e0 > 0.0) ? &low : &high) = found->phi;
+    if ((e > 0.0) == (e0 > 0.0))
+      low = found->phi;
+    else
+      high = found->phi;
   }
   found->theta = elevation_of(w, found);
   for (int side = 0; side < 2 && fabs(e) >= root_most; side++) {
@@ -368,10 +376,12 @@ static void judge(const way *w, const carom_shot_ball *balls, int count, const c
   pot->met = (carom_brief_event){0};
   carom_cue c = *cue;
   for (int side = 0; side < 2; side++) {
-    const double sign = side == 0 ? -1.0 : 1.0, growth = side == 0 ? 1.0 / 1.1 : 1.1;
-    pot->phi[side] = last_good(w, balls, count, &c, &c.phi, 1e-3 * sign, 1.5, c.phi + 10.0 * sign);
-    pot->speed[side] = last_good(w, balls, count, &c, &c.speed, c.speed * (growth - 1.0), growth,
-                                 side == 0 ? speed_least : speed_most);
+    static const double sign[2] = {-1.0, 1.0}, growth[2] = {1.0 / 1.1, 1.1};
+    const double bound[2] = {speed_least, speed_most};
+    pot->phi[side] =
+        last_good(w, balls, count, &c, &c.phi, 1e-3 * sign[side], 1.5, c.phi + 10.0 * sign[side]);
+    pot->speed[side] = last_good(w, balls, count, &c, &c.speed, c.speed * (growth[side] - 1.0),
+                                 growth[side], bound[side]);
   }
 }
 
@@ -408,7 +418,7 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
       if (p.links == most) {
         at_rest = p;
         short_of = short_of && rests;
-        carom_sincos(pi * (k + 1 > SAMPLES ? SAMPLES : k + 1) / (double)SAMPLES - 0.5 * pi, &sine,
+        carom_sincos(pi * (double)carom_min(k + 1, SAMPLES) / (double)SAMPLES - 0.5 * pi, &sine,
                      &cosine);
         high = mid + wide * sine;
       }

@@ -16,7 +16,8 @@ bool carom_search_doubles(const search *plan) {
 static void next_plan(search *plan) {
   const int64_t n = plan->first, rest = plan->rest;
   /* what does not suffice for the plan after this one belongs to it */
-  const int64_t shots = carom_search_doubles(plan) && rest >= 3 * n ? n : rest;
+  const bool ends = !carom_search_doubles(plan) || rest < 3 * n;
+  const int64_t shots = ends ? rest : n;
   plan->rest -= shots;
   plan->first = 2 * n;
   carom_search_begin(plan, shots);
@@ -49,7 +50,7 @@ bool carom_search_double(search *plan) {
   /* one that was stopped tells the best so far */
   if (!better) {
     plan->found[0] = plan->best;
-    plan->count = plan->count > 0 ? plan->count : 1;
+    plan->count = carom_max(plan->count, 1);
   }
   return false;
 }

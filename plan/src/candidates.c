@@ -34,9 +34,9 @@ static void bound(const search *plan, candidate *c) {
 /* The least elevation of a candidate's stick, or none by a level cue, degrees. */
 static double raised(const search *plan, const candidate *c) {
   const carom_cue cue = {.phi = c->phi, .a = c->a, .b = c->b, .ball = plan->cue_ball};
-  return plan->options.level
-             ? 0.0
-             : carom_least_elevation(plan->job.table, plan->played, (int)plan->plays, &cue);
+  if (plan->options.level)
+    return 0.0;
+  return carom_least_elevation(plan->job.table, plan->played, (int)plan->plays, &cue);
 }
 
 /* The elevation is the least of the stick, but where the caller gave it, or an aim did. A gentle
@@ -59,9 +59,9 @@ static double squirt_of(const carom_cue *cue, const carom_ball_kind *kind) {
   carom_cue along = *cue;
   carom_motion motion;
   along.phi = 0.0;
-  return carom_strike(&along, kind, &motion) < 0
-             ? 0.0
-             : carom_angle_of(motion.v[0], motion.v[1]) / degree;
+  if (carom_strike(&along, kind, &motion) < 0)
+    return 0.0;
+  return carom_angle_of(motion.v[0], motion.v[1]) / degree;
 }
 
 /* Turns a candidate until the ball that it aims at, hit by the cue ball, goes in its direction phi,
@@ -121,9 +121,28 @@ static size_t aim_rows(const void *context, size_t first, size_t end) {
     const int64_t row = plan->stage.done + (int64_t)k;
     if (row > 0 && carom_is_stopped(plan))
       return k;
-    plan->outcome[row] = (outcome){.is = aim(plan, &plan->found[row])};
+    plan->outcome[row] = (outcome){.turn = aim(plan, &plan->found[row])};
   }
   return end;
+}
+
+/* Changes one number of a stroke, to more or to less: the speed, a place of the tip, or the
+ * direction by one of two steps. */
+static void step_aside(candidate *c, int number, bool more) {
+  enum { SPEED, SIDE, HEIGHT, DIRECTION };
+  static const double faster = 1.2, farther = 0.15; /* radii */
+  static const double turned[2] = {0.4, 0.13};      /* degrees */
+  const double sign = more ? 1.0 : -1.0;
+  if (number == SPEED)
+    c->speed = more ? c->speed * faster : c->speed / faster;
+  c->a += number == SIDE ? sign * farther : 0.0;
+  c->b += number == HEIGHT ? sign * farther : 0.0;
+  if (number >= DIRECTION)
+    c->phi += sign * turned[number - DIRECTION];
+  if (c->phi < 0.0)
+    c->phi += 360.0;
+  else if (c->phi >= 360.0)
+    c->phi -= 360.0;
 }
 
 /* Strokes near the best `parents` ones, between those of the grid: one of speed, both places of the
@@ -132,29 +151,14 @@ static size_t aim_rows(const void *context, size_t first, size_t end) {
  * and half as much again, could not be told from them. */
 void carom_search_near(search *plan, int64_t parents) {
   enum { POT_WAYS = 6, WAYS = 10 };
-  static const double faster = 1.2, farther = 0.15; /* radii */
-  static const double turned[2] = {0.4, 0.13};      /* degrees */
   for (int64_t k = 0; k < parents; k++) {
     const bool pot = plan->found[k].kind == CAROM_PLAN_POT;
     for (int way = 0; way < (pot ? POT_WAYS : WAYS); way++) {
       candidate c = plan->found[k];
       if (!pot && c.kind != CAROM_PLAN_SCAN)
         break;
-      const bool more = way % 2 == 1;
-      const double turn = way < POT_WAYS ? 0.0 : turned[(way - POT_WAYS) / 2];
       c.round = 0;
-      const double aside = more ? farther : -farther;
-      if (way / 2 == 0)
-        c.speed = more ? c.speed * faster : c.speed / faster;
-      c.a += way / 2 == 1 ? aside : 0.0;
-      c.b += way / 2 == 2 ? aside : 0.0;
-      c.phi += more ? turn : -turn;
-      double back = 0.0;
-      if (c.phi < 0.0)
-        back = 360.0;
-      else if (c.phi >= 360.0)
-        back = -360.0;
-      c.phi += back;
+      step_aside(&c, way / 2, way % 2 == 1);
       bound(plan, &c);
       if (pot) {
         c.phi = plan->view.window[c.aimed_ball][c.aimed_pocket].psi / degree;
@@ -180,7 +184,7 @@ void carom_search_pots(search *plan, int64_t most) {
   carom_pot_found *way = plan->pot;
   int ways = 0;
   for (int k = 0; k < plan->view.count; k++)
-    for (int p = 0; p < plan->view.pockets && (plan->on >> k & 1); p++) {
+    for (int p = 0; p < plan->view.pockets && (plan->targets >> k & 1); p++) {
       /* ball k into pocket p, if that is likely at all */
       if (!(plan->pockets >> p & 1))
         continue;
@@ -198,13 +202,9 @@ void carom_search_pots(search *plan, int64_t most) {
   int order[STROKES];
   draw_order(plan, DRAW_STROKES, order, STROKES);
   CAROM_PROMISE(ways <= CAROM_BALLS_MOST * CAROM_POCKETS_MOST);
-  const int64_t fit = most / STROKES > 4 ? most / STROKES : 4;
-  ways = ways > fit ? (int)fit : ways;
-  int64_t strokes = ways > 0 ? most / ways : 0;
-  if (strokes > STROKES)
-    strokes = STROKES;
-  if (strokes < 3)
-    strokes = 3;
+  ways = (int)carom_min(ways, carom_max(most / STROKES, 4));
+  const int64_t share = ways > 0 ? most / ways : 0;
+  const int64_t strokes = carom_max(carom_min(share, STROKES), 3);
 
   for (int w = 0; w < ways; w++)
     for (int n = 0; n < strokes; n++) {
@@ -225,7 +225,7 @@ void carom_search_pots(search *plan, int64_t most) {
 void carom_search_aimed(search *plan) {
   plan->count = 0;
   for (int64_t k = 0; k < plan->stage.done; k++)
-    if (plan->outcome[k].is)
+    if (plan->outcome[k].turn)
       carom_search_add(plan, plan->found[k]);
 }
 
@@ -251,7 +251,7 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
   int balls = 0;
   for (int k = 0; k < plan->view.count; k++) {
     const double *r = plan->job.balls[k].state.r, x = r[0] - c[0], y = r[1] - c[1];
-    if (!(plan->on >> k & 1))
+    if (!(plan->targets >> k & 1))
       continue;
     const double to = carom_angle_of(x, y), far = sqrt(x * x + y * y);
     const double key = thin ? -fabs(to - foot) : far;
@@ -273,12 +273,18 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
     const double beside = ball[target].outer * side[thin][stroke % SIDES] / ball[target].far;
     const double phi = (ball[target].to + carom_asin(carom_within(beside, -1.0, 1.0))) / degree;
     const double off = tip[thin][stroke / SIDES / SPEEDS];
-    carom_search_add(
-        plan, (candidate){.speed = share[thin][stroke / SIDES % SPEEDS] * plan->player.speed_most,
-                          .phi = phi < 0.0 ? phi + 360.0 : phi,
-                          .a = thin ? -ball[target].outer * off : 0.0,
-                          .b = thin ? 0.0 : off,
-                          .kind = thin ? CAROM_PLAN_SCAN : CAROM_PLAN_BREAK});
+    candidate strike = {.speed = share[thin][stroke / SIDES % SPEEDS] * plan->player.speed_most,
+                        .phi = phi};
+    if (phi < 0.0)
+      strike.phi += 360.0;
+    if (thin) {
+      strike.a = -ball[target].outer * off;
+      strike.kind = CAROM_PLAN_SCAN;
+    } else {
+      strike.b = off;
+      strike.kind = CAROM_PLAN_BREAK;
+    }
+    carom_search_add(plan, strike);
   }
 }
 

@@ -72,7 +72,8 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
       if (!(pockets >> p & 1))
         continue;
       const carom_way way = carom_way_of(view, balls, in_play, k, p, who, in_hand, likeliest);
-      likeliest = way.chance > likeliest ? way.chance : likeliest;
+      if (way.chance > likeliest)
+        likeliest = way.chance;
     }
 
     /* the two best of all balls */
@@ -88,14 +89,14 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
       each[k] = likeliest;
   }
 
-  const double is[NEXT_NUMBERS] = {1.0,
-                                   view->log_error[who],
-                                   count > 0 ? sum / count : 0.0,
-                                   best,
-                                   second,
-                                   count == 1 ? 1.0 : 0.0,
-                                   in_hand ? 1.0 : 0.0};
-  memcpy(x, is, sizeof is);
+  const double numbers[NEXT_NUMBERS] = {1.0,
+                                        view->log_error[who],
+                                        count > 0 ? sum / count : 0.0,
+                                        best,
+                                        second,
+                                        count == 1 ? 1.0 : 0.0,
+                                        in_hand ? 1.0 : 0.0};
+  memcpy(x, numbers, sizeof numbers);
 }
 
 double carom_stretched(const carom_view *view, double value) {

@@ -90,8 +90,9 @@ static size_t bytes_of(int64_t shots, double scan, bool unsure) {
 
 size_t carom_plan_memory(const carom_plan_options *options) {
   const carom_plan_options *o = options != NULL ? options : &no_options;
-  return check_options(o) == CAROM_OK ? bytes_of(shots_of(o), carom_scan_of(o), o->unsure > 0.0)
-                                      : 0;
+  if (check_options(o) != CAROM_OK)
+    return 0;
+  return bytes_of(shots_of(o), carom_scan_of(o), o->unsure > 0.0);
 }
 
 /* Where a plan is in the caller's memory; NULL where there is too little of it, or nothing to
@@ -213,8 +214,8 @@ static carom_status ask_rules(search *plan, bool in_hand) {
 
   /* the balls */
   plan->in_play = carom_in_play(plan->state, plan->view.count) | (in_hand ? cue_ball : 0);
-  plan->on = rules->on(&rules->state, plan->in_play) & plan->in_play & ~cue_ball;
-  if (plan->on == 0)
+  plan->targets = rules->on(&rules->state, plan->in_play) & plan->in_play & ~cue_ball;
+  if (plan->targets == 0)
     return CAROM_ERROR_GAME_OVER;
 
   /* the stroke */
@@ -227,7 +228,7 @@ static carom_status ask_rules(search *plan, bool in_hand) {
   /* the balls that are left to the player, at least one */
   int32_t left[2];
   rules->left(&rules->state, plan->in_play, left);
-  plan->left = left[0] > 1 ? left[0] : 1;
+  plan->left = (int32_t)carom_max(left[0], 1);
   return CAROM_OK;
 }
 
@@ -320,8 +321,7 @@ static void put(search *plan, int k) {
 
 /* The shots of the plan from each place. */
 static int64_t small_of(const search *plan) {
-  const int64_t share = shots_of(&plan->options) / (2 * PLACES_PLANNED);
-  return share > 100 ? share : 100;
+  return carom_max(shots_of(&plan->options) / (2 * PLACES_PLANNED), 100);
 }
 
 /* A small plan from each place, then one with half of the shots from the best. Where that is
@@ -345,13 +345,14 @@ static void plan_places(void *context, carom_crew *crew) {
     /* the next place; behind the last one the shots that are left, from the best */
     const bool stops = carom_is_stopped(plan);
     plan->place = stops ? plan->places : plan->place + 1;
-    put(plan, plan->place < plan->places ? plan->place : plan->chosen);
+    const bool is_last = plan->place == plan->places;
+    put(plan, is_last ? plan->chosen : plan->place);
     plan->count = 0;
-    if (!stops && plan->place < plan->places)
+    if (!is_last)
       carom_search_begin(plan, small);
     else if (!stops)
-      carom_search_begin_doubling(plan, 2 * small, rest < small ? small : rest);
-    plan->joins = plan->place == plan->places && carom_search_doubles(plan);
+      carom_search_begin_doubling(plan, 2 * small, carom_max(rest, small));
+    plan->joins = is_last && carom_search_doubles(plan);
   }
   do {
     if (!carom_search_run(plan))
@@ -364,7 +365,7 @@ static void plan_places(void *context, carom_crew *crew) {
 static void try_all(void *context, carom_crew *crew) {
   search *plan = context;
   plan->crew = crew;
-  const int64_t each = shots_of(&plan->options) / (plan->tries > 0 ? plan->tries : 1);
+  const int64_t each = shots_of(&plan->options) / carom_max(plan->tries, 1);
   for (int k = 0; k < plan->tries; k++) {
     const carom_cue *cue = &plan->cues[k];
     plan->count = 0;
@@ -382,7 +383,7 @@ static void try_all(void *context, carom_crew *crew) {
       carom_search_stage(plan, 0, 1, 1, 0);
       carom_search_play(plan);
       carom_search_take(plan, 0, &plan->outcome[0]);
-      carom_search_stage(plan, 0, 1, each > 10 ? each : 10, DRAW_ROUND);
+      carom_search_stage(plan, 0, 1, carom_max(each, 10), DRAW_ROUND);
       carom_search_play(plan);
       carom_search_add_up(plan);
     }
@@ -400,8 +401,8 @@ static void temper(const search *plan, const candidate *best, carom_choice *c) {
       plan->job.rules->race == CAROM_RACE_ALONE)
     return;
   double x[NEXT_NUMBERS];
-  carom_plan_features(&plan->view, plan->state, plan->in_play, plan->on, plan->pockets, 0, false,
-                      NULL, x);
+  carom_plan_features(&plan->view, plan->state, plan->in_play, plan->targets, plan->pockets, 0,
+                      false, NULL, x);
   const double value = carom_value_of(&plan->view, &plan->job.rules->state, plan->state, 0, false);
   const double n = (double)best->seen, all = n + shots;
   c->value = (best->sum + shots * value) / all;
@@ -511,8 +512,12 @@ static bool range_of(const search *plan, const double low[2], const double high[
   const double R = plan->view.radius[plan->view.cue_ball];
   const double size[2] = {plan->view.width, plan->view.length};
   for (int x = 0; x < 2; x++) {
-    range->low[x] = low == NULL || low[x] <= R ? R : low[x];
-    range->high[x] = high == NULL || high[x] >= size[x] - R ? size[x] - R : high[x];
+    range->low[x] = R;
+    range->high[x] = size[x] - R;
+    if (low != NULL && !(low[x] <= R))
+      range->low[x] = low[x];
+    if (high != NULL && !(high[x] >= size[x] - R))
+      range->high[x] = high[x];
   }
 
   /* in snooker the box around the D */
@@ -542,7 +547,9 @@ static void break_place(const search *plan, const hand_range *range, bool bounde
   static const double across[PLACES_PLANNED] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
   const double head = 0.25 * plan->view.length;
   r[0] = range->low[0] + (range->high[0] - range->low[0]) * across[k % PLACES_PLANNED];
-  r[1] = !bounded && range->high[1] > head ? head : range->high[1];
+  r[1] = range->high[1];
+  if (!bounded && r[1] > head)
+    r[1] = head;
 }
 
 /* Puts the cue ball in hand on a place. False where rules or balls do not allow it. */
@@ -645,8 +652,7 @@ carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *va
   if (status != CAROM_OK)
     return status;
   const double found = carom_value_of(&plan.view, &job->rules->state, plan.state, 0, in_hand != 0);
-  *value = job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL
-               ? carom_search_share(&plan, found)
-               : found;
+  const bool is_share = job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL;
+  *value = is_share ? carom_search_share(&plan, found) : found;
   return CAROM_OK;
 }

@@ -66,9 +66,10 @@ static double value_from(const carom_view *view, const carom_rules_state *game,
   double x[NEXT_NUMBERS], pot[CAROM_BALLS_MOST], chosen = 0.0, w = each, most = -1.0;
   carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, pot, x);
   for (int k = 0; targets >> k != 0; k++) {
-    const bool on = targets >> k & 1;
-    const double points = on && rules->points != NULL ? rules->points(game, in_play, k) : 1.0;
-    if (on && pot[k] * (points + each) > most) {
+    const bool is_target = targets >> k & 1;
+    const double points =
+        is_target && rules->points != NULL ? rules->points(game, in_play, k) : 1.0;
+    if (is_target && pot[k] * (points + each) > most) {
       most = pot[k] * (points + each);
       chosen = pot[k];
       w = points;
@@ -112,7 +113,8 @@ double carom_points_value(const carom_view *view, const carom_rules_state *game,
     placed[view->cue_ball].r[0] = d.x + 0.6 * k * d.radius;
     placed[view->cue_ball].r[1] = d.y - (k == 0 ? 0.5 * d.radius : 0.0);
     const double value = value_from(view, game, placed, in_play, who, false);
-    best = value > best ? value : best;
+    if (value > best)
+      best = value;
   }
   return best;
 }

@@ -110,8 +110,8 @@ uint32_t carom_stroke_marks(const carom_facts *facts, int cue_ball) {
 
 /* ---- The kind of a pot */
 
-static double square_of_distance(const double one[2], const double other[2]) {
-  const double x = one[0] - other[0], y = one[1] - other[1];
+static double square_of_distance(const double a[2], const double b[2]) {
+  const double x = a[0] - b[0], y = a[1] - b[1];
   return x * x + y * y;
 }
 

@@ -13,8 +13,10 @@ typedef carom_search search;
 static const double softer = 0.002;
 
 static double merit_of(const candidate *c) {
-  const double hard = c->kind == CAROM_PLAN_BREAK ? 0.0 : softer * c->speed;
-  return c->sum / (double)c->seen - hard;
+  const double mean = c->sum / (double)c->seen;
+  if (c->kind == CAROM_PLAN_BREAK)
+    return mean;
+  return mean - softer * c->speed;
 }
 
 static bool is_better(const candidate *a, const candidate *b) {
@@ -46,7 +48,10 @@ static void vote(candidate *c, const outcome *o) {
     return;
   if (c->votes == 0)
     name(c, o);
-  c->votes += o->ball == c->ball && o->pocket == c->pocket ? 1 : -1;
+  if (o->ball == c->ball && o->pocket == c->pocket)
+    c->votes++;
+  else
+    c->votes--;
 }
 
 void carom_search_take(search *plan, int64_t k, const outcome *o) {
@@ -94,8 +99,8 @@ void carom_search_add_up(search *plan) {
         vote(c, o);
       c->sum += o->worth;
       c->squares += o->worth * o->worth;
-      c->keep += o->is == CAROM_TURN_KEEP || o->is == CAROM_TURN_WIN;
-      c->lose += o->is == CAROM_TURN_LOSE;
+      c->keep += o->turn == CAROM_TURN_KEEP || o->turn == CAROM_TURN_WIN;
+      c->lose += o->turn == CAROM_TURN_LOSE;
       c->foul += o->foul;
     }
     c->seen += each;

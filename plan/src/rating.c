@@ -38,7 +38,11 @@ __attribute__((noinline)) static double edge(const carom_score *row, int64_t cou
   double slope;
   for (int k = 0; k < 60; k++) {
     const double r = 0.5 * (inside + outside), l = likely(row, count, r, &slope);
-    *((of_slope ? slope > 0.0 : l > least) ? &inside : &outside) = r;
+    const bool is_inside = of_slope ? slope > 0.0 : l > least;
+    if (is_inside)
+      inside = r;
+    else
+      outside = r;
   }
   return outside;
 }

@@ -12,11 +12,11 @@ typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 typedef carom_search search;
 
-/* What a shot tells. */
-typedef struct told {
+/* What comes of a shot. */
+typedef struct shot_result {
   carom_facts facts;
   carom_ball_state final[CAROM_BALLS_MOST];
-} told;
+} shot_result;
 
 carom_cue carom_search_stroke(const search *plan, const candidate *c, uint32_t draws, int64_t row) {
   carom_cue cue = *plan->job.cue;
@@ -38,7 +38,7 @@ carom_cue carom_search_stroke(const search *plan, const candidate *c, uint32_t d
 static carom_call call_of(const search *plan, const carom_facts *facts) {
   carom_call call = {plan->view.pockets > 0 ? -1 : facts->first[0], -1};
   const uint32_t all = ~(UINT32_C(1) << plan->view.cue_ball);
-  const uint32_t down = facts->down & (plan->job.rules->calls ? plan->on : all);
+  const uint32_t down = facts->down & (plan->job.rules->calls ? plan->targets : all);
   for (int k = 0; down >> k != 0; k++)
     if ((down >> k & 1) && (plan->pockets >> facts->pocket[k] & 1) &&
         (call.ball < 0 || facts->pocket_time[k] < facts->pocket_time[call.ball]))
@@ -79,7 +79,7 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
                                                      : call_of(plan, facts);
   carom_rules_state game = rules->state; /* rules change it as they judge */
   carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, facts, call);
-  outcome o = {.is = (int8_t)turn.is,
+  outcome o = {.turn = (int8_t)turn.is,
                .foul = turn.foul != 0,
                .ball = -1,
                .pocket = -1,
@@ -132,7 +132,7 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
 
 /* Whether a stroke of the scan met a ball first that is on. */
 bool carom_search_begins_well(const search *plan, int first) {
-  return first >= 0 && (plan->on >> first & 1);
+  return first >= 0 && (plan->targets >> first & 1);
 }
 
 /* The balls in play of a layout become those of shots. */
@@ -142,7 +142,7 @@ void carom_search_lay_out(search *plan, const carom_shot_ball *balls) {
   for (int k = 0; k < plan->view.count; k++) {
     plan->state[k] = balls[k].state;
     if (plan->in_play >> k & 1) {
-      if (plan->first_decides && (plan->on >> k & 1))
+      if (plan->first_decides && (plan->targets >> k & 1))
         plan->shot.first_of |= UINT32_C(1) << plan->plays;
       if (k == plan->view.cue_ball)
         plan->cue_ball = plan->plays;
@@ -153,7 +153,7 @@ void carom_search_lay_out(search *plan, const carom_shot_ball *balls) {
 }
 
 /* From the balls of a shot to those of the layout. */
-static void spread(const search *plan, told *with) {
+static void spread(const search *plan, shot_result *with) {
   carom_facts *f = &with->facts;
   const carom_facts of_shot = *f;
   uint32_t *const set[] = {&f->down, &f->off, &f->moved, &f->frozen, &f->pushed, &f->banked};
@@ -179,8 +179,8 @@ static void spread(const search *plan, told *with) {
 static size_t play_rows(const void *context, size_t first, size_t end) {
   const search *plan = context;
   const carom_stage *s = &plan->stage;
-  told what;
-  carom_shot shot = {.final = what.final, .facts = &what.facts};
+  shot_result result;
+  carom_shot shot = {.final = result.final, .facts = &result.facts};
   for (size_t k = first; k < end; k++) {
     const int64_t row = s->done + (int64_t)k;
     if (row > 0 && (carom_is_stopped(plan) || carom_is_late(plan)))
@@ -191,8 +191,8 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const carom_prepared layout = carom_search_layout(plan, s->draws, row % s->each);
     const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
     if (plan->plays < plan->view.count)
-      spread(plan, &what);
-    const int met = status < 0 ? -1 : what.facts.first[0];
+      spread(plan, &result);
+    const int met = status < 0 ? -1 : result.facts.first[0];
     const bool dropped =
         s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(plan, met);
     plan->outcome[row] = dropped ? (outcome){.first = (int8_t)met}

@@ -23,13 +23,13 @@ enum { ROUNDS = 4, NEAR_ROUND = 2, BLIND_PARENTS = 4 };
 /* The candidates of the first round: the best `keep`, of which pots come first, and a third of
  * `keep` of the scan, or half; of tables without pockets the best. */
 static int64_t first_round(search *plan, int64_t keep) {
-  const int64_t n = plan->count < keep ? plan->count : keep;
-  const int64_t share = keep / (plan->blind ? 2 : 3);
+  const int64_t n = carom_min(plan->count, keep);
+  const int64_t share = carom_max(keep / (plan->blind ? 2 : 3), 3);
   int64_t scanned = 0, good = 0;
   for (int64_t k = 0; k < n; k++) {
     candidate *c = &plan->found[k];
-    const bool stays = c->kind == CAROM_PLAN_POT || plan->breaks || plan->view.pockets == 0 ||
-                       scanned++ < (share > 3 ? share : 3);
+    const bool stays =
+        c->kind == CAROM_PLAN_POT || plan->breaks || plan->view.pockets == 0 || scanned++ < share;
     if (stays) {
       const candidate kept = *c;
       *c = plan->found[good];
@@ -46,13 +46,15 @@ static candidate gentle(const search *plan) {
   double least = INFINITY, phi = 0.0;
   for (int k = 0; k < plan->view.count; k++) {
     const double x = plan->job.balls[k].state.r[0] - c[0], y = plan->job.balls[k].state.r[1] - c[1];
-    if ((plan->on >> k & 1) && x * x + y * y < least) {
+    if ((plan->targets >> k & 1) && x * x + y * y < least) {
       least = x * x + y * y;
       phi = carom_angle_of(x, y) / degree;
     }
   }
+  if (phi < 0.0)
+    phi += 360.0;
   return (candidate){.speed = plan->player.speed_least,
-                     .phi = phi < 0.0 ? phi + 360.0 : phi,
+                     .phi = phi,
                      .kind = CAROM_PLAN_FOUL,
                      .ball = -1,
                      .pocket = -1};
@@ -79,13 +81,17 @@ static named_pot pot_of(const candidate *c) {
  * aimed at; another pot is a find of the scan. */
 static int kind_of(const candidate *c, const named_pot *pot) {
   const bool aimed = pot->ball == c->aimed_ball && pot->pocket == c->aimed_pocket;
-  return c->kind == CAROM_PLAN_POT && !aimed ? CAROM_PLAN_SCAN : c->kind;
+  if (c->kind == CAROM_PLAN_POT && !aimed)
+    return CAROM_PLAN_SCAN;
+  return c->kind;
 }
 
 /* The standard error of the mean of the worths of a candidate. */
 static double error_of(const candidate *c) {
   const double n = (double)c->seen, mean = c->sum / n, variance = c->squares / n - mean * mean;
-  return c->seen > 1 && variance > 0.0 ? sqrt(variance / (n - 1.0)) : 0.0;
+  if (c->seen <= 1 || !(variance > 0.0))
+    return 0.0;
+  return sqrt(variance / (n - 1.0));
 }
 
 carom_choice carom_search_choice(const search *plan, const candidate *c) {
@@ -127,14 +133,14 @@ double carom_scan_of(const carom_plan_options *o) {
   static const double usual = 0.5;
   if (o->scan == 0.0)
     return usual;
-  return o->scan > 0.0 ? o->scan : 0.0;
+  return fmax(o->scan, 0.0);
 }
 
 /* ---- The course of a search: each of these sets the next stage, and what comes after it */
 
 /* Shots of the rounds. */
 static int64_t left_for_rounds(const search *plan) {
-  return plan->shots > plan->count ? plan->shots - plan->count : 0;
+  return carom_max(plan->shots - plan->count, 0);
 }
 
 /* Another pot that looks better than the best, after fewer strokes, is played as often as the best
@@ -163,11 +169,8 @@ static void look_again(search *plan) {
   plan->found[0] = plan->found[plan->better];
   plan->found[plan->better] = first;
   plan->found[0].round = ROUNDS - 1;
-  int64_t each = left_for_rounds(plan) / ROUNDS / 2;
-  if (each > plan->room)
-    each = plan->room;
-  if (each < 2)
-    each = 2;
+  const int64_t share = left_for_rounds(plan) / ROUNDS / 2;
+  const int64_t each = carom_max(carom_min(share, plan->room), 2);
   carom_search_stage(plan, 0, 1, each, DRAW_ROUND + ROUNDS - 1);
   plan->look++;
   plan->next = NEXT_LOOK;
@@ -175,12 +178,11 @@ static void look_again(search *plan) {
 
 /* The candidates of a round that were in the one before. */
 static int64_t in_round(search *plan) {
-  const int64_t keep = plan->shots / 25 > 6 ? plan->shots / 25 : 6;
-  int64_t n = keep >> (2 * plan->round);
-  n = n < 2 ? 2 : n;
+  const int64_t keep = carom_max(plan->shots / 25, 6);
+  const int64_t n = carom_max(keep >> (2 * plan->round), 2);
   if (plan->round == 0)
     return first_round(plan, n);
-  return n < plan->count ? n : plan->count;
+  return carom_min(n, plan->count);
 }
 
 /* Strokes near the best are played once without errors. False where there are none. */
@@ -189,7 +191,7 @@ static bool add_near(search *plan) {
   plan->near = 0;
   plan->entered = in_round(plan);
   const int64_t parents = plan->blind ? BLIND_PARENTS : 1;
-  carom_search_near(plan, plan->entered < parents ? plan->entered : parents);
+  carom_search_near(plan, carom_min(plan->entered, parents));
   if (plan->count == first)
     return false;
   carom_search_stage(plan, first, plan->count - first, 1, 0);
@@ -224,10 +226,8 @@ static void next_round(search *plan) {
   if (joined && plan->near < 0 && add_near(plan))
     return;
   const int64_t n = joined ? plan->entered + plan->near : in_round(plan);
-  int64_t each = left_for_rounds(plan) / ROUNDS / n;
-  each = each < 2 ? 2 : each;
-  if (each * n > plan->room)
-    each = plan->room / n;
+  const int64_t share = carom_max(left_for_rounds(plan) / ROUNDS / n, 2);
+  const int64_t each = carom_min(share, plan->room / n);
   carom_search_stage(plan, 0, n, each, DRAW_ROUND + (uint32_t)plan->round);
   plan->round++;
   plan->near = -1;
@@ -276,7 +276,8 @@ static void go_on(search *plan) {
     for (int64_t k = 0; k < plan->count; k++)
       carom_search_take(plan, k, &plan->outcome[k]);
     plan->blind = plan->count == 0 && plan->view.pockets > 0;
-    plan->scan += plan->blind && plan->options.scan == 0.0 ? plan->shots / 5 : 0;
+    if (plan->blind && plan->options.scan == 0.0)
+      plan->scan += plan->shots / 5;
     plan->scan_end = plan->count + plan->scan;
     scan(plan);
     break;

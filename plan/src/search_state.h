@@ -33,7 +33,7 @@ typedef struct carom_candidate {
 /* What one shot tells. */
 typedef struct carom_outcome {
   double worth;        /* to the player, 0 to 1 */
-  int8_t is, foul;     /* a carom_turn_is; 1: a foul */
+  int8_t turn, foul;   /* a carom_turn_is, or 1 of a pot that was aimed; 1: a foul */
   int8_t ball, pocket; /* the pot that keeps the turn, or -1 */
   int16_t cushions;    /* impacts of that ball on cushions */
   int8_t first;        /* the ball that was met first, or -1 */
@@ -90,7 +90,7 @@ typedef struct carom_search {
   carom_prepared layout;   /* all balls */
   carom_view view;
   carom_player player;
-  uint32_t in_play, on;                     /* balls in play; those of them that may be met first */
+  uint32_t in_play, targets;                /* balls in play; those of them that may be met first */
   uint32_t permissions;                     /* of the stroke: the bits CAROM_MAY_... */
   uint32_t pockets;                         /* that count */
   bool breaks;                              /* the stroke is a break */

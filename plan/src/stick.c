@@ -82,7 +82,10 @@ static double most_between(const stick *axis, const nose *n, double low, double 
     if (step >= 0)
       next = theta[0] < theta[1] ? 1 : 0;
     if (step >= 0) {
-      *(next == 1 ? &low : &high) = at[1 - next];
+      if (next == 1)
+        low = at[1 - next];
+      else
+        high = at[1 - next];
       at[1 - next] = at[next];
       theta[1 - next] = theta[next];
     }

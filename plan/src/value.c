@@ -31,26 +31,26 @@ uint32_t carom_in_play(const carom_ball_state *balls, int count) {
   return set;
 }
 
-/* The chain: of each pair of numbers of balls the equations of W and V are solved together; on[]
+/* The chain: of each pair of numbers of balls the equations of W and V are solved together; u[]
  * is U of both. */
 static void chain(carom_view *view, double a[2][MOST_LEFT + 1], double e[2][MOST_LEFT + 1]) {
   const bool shared = view->rules->race == CAROM_RACE_SHARED;
-  double on[2][MOST_LEFT + 1][MOST_LEFT + 1];
+  double u[2][MOST_LEFT + 1][MOST_LEFT + 1];
   for (int k = 0; k <= MOST_LEFT; k++)
-    on[0][0][k] = on[1][0][k] = 1.0;
+    u[0][0][k] = u[1][0][k] = 1.0;
   for (int total = 2; total <= 2 * MOST_LEFT; total++)
-    for (int n = total > MOST_LEFT ? total - MOST_LEFT : 1; n < total && n <= MOST_LEFT; n++) {
+    for (int n = (int)carom_max(total - MOST_LEFT, 1); n < total && n <= MOST_LEFT; n++) {
       const int m = total - n;
       if (shared && n != m)
         continue;
-      const double s = on[0][n - 1][shared ? n - 1 : m], t = on[1][m - 1][shared ? m - 1 : n];
+      const double s = u[0][n - 1][shared ? n - 1 : m], t = u[1][m - 1][shared ? m - 1 : n];
       const double c = e[0][n], d = e[1][m], f = c * s + 1.0 - c, g = d * t + 1.0 - d;
       const double det = 1.0 - (1.0 - c) * (1.0 - d);
       const double w = (f - (1.0 - c) * g) / det, v = (g - (1.0 - d) * f) / det;
       view->win[0][n][m] = w;
       view->win[1][m][n] = v;
-      on[0][n][m] = a[0][n] * s + (1.0 - a[0][n]) * (1.0 - v);
-      on[1][m][n] = a[1][m] * t + (1.0 - a[1][m]) * (1.0 - w);
+      u[0][n][m] = a[0][n] * s + (1.0 - a[0][n]) * (1.0 - v);
+      u[1][m][n] = a[1][m] * t + (1.0 - a[1][m]) * (1.0 - w);
     }
 }
 
@@ -100,7 +100,7 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
     if (given[k] < 1)
       left[k] = 1;
     else
-      left[k] = given[k] > most ? most : given[k];
+      left[k] = (int32_t)carom_min(given[k], most);
   CAROM_PROMISE(who == 0 || who == 1);
   double x[NEXT_NUMBERS];
   carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, NULL, x);

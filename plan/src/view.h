@@ -16,6 +16,17 @@ static inline double carom_within(double x, double least, double most) {
   return x > most ? most : x;
 }
 
+static inline int64_t carom_min(int64_t a, int64_t b) {
+  if (a < b)
+    return a;
+  return b;
+}
+static inline int64_t carom_max(int64_t a, int64_t b) {
+  if (a > b)
+    return a;
+  return b;
+}
+
 /* Whether a point, `to` from where a way begins, is nearer than `least` to the way: so long, in the
  * direction u. */
 static inline bool carom_is_near_way(const double to[2], const double u[2], double length,
