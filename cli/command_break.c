@@ -110,12 +110,12 @@ static void set_up(const breaker *b, const shot_line *line, double gap, int numb
 static void count_break(const breaker *b, const carom_facts *f, const carom_ball_state *final,
                         uint32_t wings, counts *c) {
   const uint32_t others = ~(uint32_t)1;
-  int made = 0;
+  int potted = 0;
   for (uint32_t down = f->down & others; down != 0; down &= down - 1)
-    made++;
+    potted++;
   c->breaks++;
-  c->balls += made;
-  c->makes += made > 0;
+  c->balls += potted;
+  c->makes += potted > 0;
   c->scratch += (carom_stroke_marks(f, 0) & CAROM_MARK_SCRATCH) != 0;
   c->off += f->off != 0;
   c->wing += (f->down & wings) != 0;
@@ -157,10 +157,10 @@ static bool play(const breaker *b, const shot_line *line, double gap, counts *c)
                                 .n = (uint64_t)n,
                                 .options = &b->options,
                                 .shots = shot};
-    const carom_status bad = carom_shoot_batch(&job);
-    if (bad < 0) {
+    const carom_status status = carom_shoot_batch(&job);
+    if (status < 0) {
       progress_clear();
-      complain("the break cannot be played: %s", carom_status_string(bad));
+      complain("the break cannot be played: %s", carom_status_string(status));
       return false;
     }
     for (int k = 0; k < n; k++) /* the seed draws which balls lie there */

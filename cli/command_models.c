@@ -11,7 +11,7 @@
 
 /* Enumerations with models or ways to play, and the options that take their words. */
 static const struct kind {
-  carom_words of;
+  carom_words list;
   const char *what, *option;
 } kinds[] = {{CAROM_WORDS_SHOT_CUSHION, "impact on a cushion", "--cushion, --model"},
              {CAROM_WORDS_BALL_FRICTION, "friction between balls", "--friction"},
@@ -69,12 +69,12 @@ static void print_all(FILE *out) {
   const char *word;
   for (int k = 0; k < KINDS; k++) {
     fprintf(out, "%s (%s):\n", kinds[k].what, kinds[k].option);
-    for (int value = 0; (word = carom_word(kinds[k].of, value)) != NULL; value++)
-      fprintf(out, "  %-*s %s\n", NAME_WIDTH, word, carom_word_text(kinds[k].of, value));
+    for (int value = 0; (word = carom_word(kinds[k].list, value)) != NULL; value++)
+      fprintf(out, "  %-*s %s\n", NAME_WIDTH, word, carom_word_text(kinds[k].list, value));
   }
-  for (int of = 0; of < LISTS; of++) {
-    fprintf(out, "%s:\n", lists[of].title);
-    for (int k = 0; (n = carom_number_of(lists[of].part, k)) != NULL; k++)
+  for (int list = 0; list < LISTS; list++) {
+    fprintf(out, "%s:\n", lists[list].title);
+    for (int k = 0; (n = carom_number_of(lists[list].part, k)) != NULL; k++)
       print_number(out, n);
   }
 }
@@ -85,21 +85,21 @@ static bool print_named(FILE *out, const char *name) {
   const char *word;
   bool found = false;
   for (int k = 0; k < KINDS; k++)
-    for (int value = 0; (word = carom_word(kinds[k].of, value)) != NULL; value++) {
+    for (int value = 0; (word = carom_word(kinds[k].list, value)) != NULL; value++) {
       if (strcmp(word, name) != 0)
         continue;
       found = true;
       fprintf(out, "%s: %s (%s): %s\n", word, kinds[k].what, kinds[k].option,
-              carom_word_text(kinds[k].of, value));
-      if (kinds[k].of == CAROM_WORDS_SHOT_CUSHION && value > 0)
+              carom_word_text(kinds[k].list, value));
+      if (kinds[k].list == CAROM_WORDS_SHOT_CUSHION && value > 0)
         print_numbers_of(out, CAROM_READ_BY_CUSHION,
                          (carom_shot_options){.cushion_model = (carom_shot_cushion)value});
-      if (kinds[k].of == CAROM_WORDS_BALL_FRICTION)
+      if (kinds[k].list == CAROM_WORDS_BALL_FRICTION)
         print_numbers_of(out, CAROM_READ_BY_FRICTION,
                          (carom_shot_options){.friction = (carom_ball_friction)value});
     }
-  for (int of = 0; of < LISTS; of++)
-    for (int k = 0; (n = carom_number_of(lists[of].part, k)) != NULL; k++)
+  for (int list = 0; list < LISTS; list++)
+    for (int k = 0; (n = carom_number_of(lists[list].part, k)) != NULL; k++)
       if (strcmp(n->name, name) == 0 || strcmp(n->key, name) == 0) {
         found = true;
         print_number(out, n);
@@ -114,10 +114,10 @@ static void hint_at_name(const char *name) {
   const char *word;
   int size = 0;
   for (int k = 0; k < KINDS; k++)
-    for (int value = 0; (word = carom_word(kinds[k].of, value)) != NULL; value++)
+    for (int value = 0; (word = carom_word(kinds[k].list, value)) != NULL; value++)
       size += snprintf(known + size, sizeof known - (size_t)size, "%s|", word);
-  for (int of = 0; of < LISTS; of++)
-    for (int k = 0; (n = carom_number_of(lists[of].part, k)) != NULL; k++)
+  for (int list = 0; list < LISTS; list++)
+    for (int k = 0; (n = carom_number_of(lists[list].part, k)) != NULL; k++)
       size += snprintf(known + size, sizeof known - (size_t)size, "%s|%s|", n->name, n->key);
   known[size - 1] = '\0';
   complain("there is no model or number '%.40s'%s", name, did_you_mean(name, known, hint));

@@ -106,7 +106,7 @@ static void play(block *b, int from, int end, const carom_shot_options *options)
                               .options = options,
                               .shots = b->shot + from,
                               .status = b->batch_status};
-  const carom_status bad = carom_shoot_batch(&job);
+  const carom_status batch = carom_shoot_batch(&job);
   for (int k = 0; k < n; k++) {
     const shot_line *line = &b->line[from + k];
     carom_shot *shot = &b->shot[from + k];
@@ -116,7 +116,7 @@ static void play(block *b, int from, int end, const carom_shot_options *options)
     /* what is common to the batch may be at fault, and then nothing was played */
     int where;
     carom_status common = CAROM_OK;
-    if (bad != CAROM_OK)
+    if (batch != CAROM_OK)
       common =
           carom_shot_check(&line->table->table, line->ball, count, &line->cue, options, &where);
     if (common != CAROM_OK) {

@@ -130,10 +130,10 @@ static json_t *way_line(const ways_search *s, const way *w) {
 }
 
 static int by_chance(const void *a, const void *b) {
-  const way *one = a, *other = b;
-  if (one->chance != other->chance)
-    return one->chance < other->chance ? 1 : -1;
-  const double wide = one->phi[1] - one->phi[0], others = other->phi[1] - other->phi[0];
+  const way *first = a, *second = b;
+  if (first->chance != second->chance)
+    return first->chance < second->chance ? 1 : -1;
+  const double wide = first->phi[1] - first->phi[0], others = second->phi[1] - second->phi[0];
   if (wide == others)
     return 0;
   return wide < others ? 1 : -1;

@@ -32,13 +32,13 @@ OPTION_SET(set_leave) {
 }
 
 bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *options,
-                  char told[LEFT_TEXT]) {
-  (void)to, (void)f, (void)options, (void)told;
+                  char report[LEFT_TEXT]) {
+  (void)to, (void)f, (void)options, (void)report;
   return refuse("--leave");
 }
 
 bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
-                   const carom_shot_options *options, carom_cue *cue, char told[AIMED_TEXT]) {
-  (void)pocket, (void)via, (void)l, (void)options, (void)cue, (void)told;
+                   const carom_shot_options *options, carom_cue *cue, char report[AIMED_TEXT]) {
+  (void)pocket, (void)via, (void)l, (void)options, (void)cue, (void)report;
   return refuse("--pocket");
 }

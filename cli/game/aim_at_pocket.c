@@ -98,7 +98,7 @@ static void complain_of(const char *pocket, const char *via, const layout *l, co
 }
 
 bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
-                   const carom_shot_options *options, carom_cue *cue, char told[AIMED_TEXT]) {
+                   const carom_shot_options *options, carom_cue *cue, char report[AIMED_TEXT]) {
   const char *colon = strchr(pocket, ':'), *name = colon != NULL ? colon + 1 : "";
   char known[NAMES_TEXT] = "", balls[NAMES_TEXT], by[AIMED_TEXT], hint[HINT_TEXT];
   char ball[PLACE_NAME];
@@ -137,7 +137,7 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
                pot.elevation);
     good =
         snprintf(
-            told, AIMED_TEXT,
+            report, AIMED_TEXT,
             "aim    %s to the %s pocket%s: cut %.1f degrees to the %s; %s\n       falls with aims "
             "of %.2f to %.2f degrees at this speed, and with %.3g to %.3g m/s of the cue at this "
             "aim\n%s",

@@ -19,9 +19,9 @@ OPTION_SET(set_leave) {
   bool good = strlen(text) < sizeof copy;
   snprintf(copy, sizeof copy, "%s", place_spelt(text, spelt));
   value_of(MEASURE_LENGTH, "0.15", &to->radius);
-  for (char *one = strtok_r(copy, ",", &rest); one != NULL && good;
-       one = strtok_r(NULL, ",", &rest), parts++)
-    good = parts < 3 && value_of(MEASURE_PLACE, one, part[parts]);
+  for (char *token = strtok_r(copy, ",", &rest); token != NULL && good;
+       token = strtok_r(NULL, ",", &rest), parts++)
+    good = parts < 3 && value_of(MEASURE_PLACE, token, part[parts]);
   to->given = good && parts >= 2 && to->radius.x > 0.0;
   if (!to->given)
     complain("--%s is X,Y or X,Y,R in m, or with units: 2d,4d,20cm, or PLACE or PLACE,R: " PLACES

@@ -54,10 +54,10 @@ static bool play(const ways_search *s, const carom_cue *cues, int n, carom_shot 
                               .n = (uint64_t)n,
                               .options = &s->options,
                               .shots = shots};
-  const carom_status bad = carom_shoot_batch(&job);
-  if (bad < 0)
-    complain("the strokes cannot be played: %s", carom_status_string(bad));
-  return bad >= 0;
+  const carom_status status = carom_shoot_batch(&job);
+  if (status < 0)
+    complain("the strokes cannot be played: %s", carom_status_string(status));
+  return status >= 0;
 }
 
 bool way_is_good(const ways_search *s, const carom_facts *f, const carom_ball_state *final,

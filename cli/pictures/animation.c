@@ -98,9 +98,9 @@ static void write_shot(FILE *out, const played *p) {
     fputs(ball > 0 ? ",\n[" : "[", out);
     /* A ball that lies still has one pose. */
     for (size_t k = 0; k < (ball_moved(p->shot, ball) ? frames : 1); k++) {
-      const size_t one = k * (size_t)count + (size_t)ball;
+      const size_t pose = k * (size_t)count + (size_t)ball;
       fputs(k > 0 ? "," : "", out);
-      write_pose(out, &states[one], turned[one]);
+      write_pose(out, &states[pose], turned[pose]);
     }
     fputc(']', out);
   }

@@ -73,7 +73,7 @@ int rows_of(const option_row *for_all, option_row rows[MOST_OF_LIBRARY]);
 
 /* The words of an enumeration of the library with bars between them, with or without "default". */
 enum { MOST_WORDS = 200 };
-const char *words_of(int of, bool with_default, char text[MOST_WORDS]);
+const char *words_of(int list, bool with_default, char text[MOST_WORDS]);
 
 /* Sets the place of the text among words with bars between them; complains and returns false where
  * it is none of them. */

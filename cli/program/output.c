@@ -75,8 +75,8 @@ static bool follow_links(const char *path) {
   if (realpath(path, place) != NULL)
     return true;
   hold_signals(true);
-  const int made = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-  bool good = made >= 0 && close(made) == 0 && realpath(path, place) != NULL;
+  const int descriptor = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  bool good = descriptor >= 0 && close(descriptor) == 0 && realpath(path, place) != NULL;
   good = good && unlink(place) == 0;
   hold_signals(false);
   return good;

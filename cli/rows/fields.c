@@ -98,11 +98,11 @@ OPTION_SET(set_choice) {
   return set_place(row, text, row->argument, field);
 }
 
-const char *words_of(int of, bool with_default, char text[MOST_WORDS]) {
+const char *words_of(int list, bool with_default, char text[MOST_WORDS]) {
   int size = 0;
   const char *word;
   text[0] = '\0';
-  for (int value = 0; (word = carom_word((carom_words)of, value)) != NULL; value++)
+  for (int value = 0; (word = carom_word((carom_words)list, value)) != NULL; value++)
     if (with_default || strcmp(word, "default") != 0)
       size += snprintf(text + size, MOST_WORDS - (size_t)size, "%s%s", size > 0 ? "|" : "", word);
   return text;
@@ -216,11 +216,11 @@ static const carom_number *number_named(const option_row *row, const char *name,
   char known[1200] = "", hint[HINT_TEXT];
   const carom_number *n, *other = NULL;
   int of_other = 0;
-  for (int of = 0, size = 0; of < OWNERS; of++)
-    for (int k = 0; (n = carom_number_of(owners[of].part, k)) != NULL; k++) {
+  for (int owner = 0, size = 0; owner < OWNERS; owner++)
+    for (int k = 0; (n = carom_number_of(owners[owner].part, k)) != NULL; k++) {
       const bool named =
           strcmp(n->name, name) == 0 || (name[0] != '\0' && strcmp(n->key, name) == 0);
-      *part = owners[of].part;
+      *part = owners[owner].part;
       *place = k;
       if (refusal(row, *part, n) == NULL && named)
         return n;
@@ -229,7 +229,7 @@ static const carom_number *number_named(const option_row *row, const char *name,
                          n->name);
       else if (named && other == NULL) {
         other = n;
-        of_other = of;
+        of_other = owner;
       }
     }
   if (other != NULL)
@@ -273,19 +273,20 @@ static bool give_fit(const char *path, given_numbers *given) {
 static OPTION_SET(set_numbers) {
   given_numbers *given = field;
   char *rest = NULL;
-  for (char *one = strtok_r(text, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {
-    char *value = strchr(one, '='), must[100];
+  for (char *token = strtok_r(text, ",", &rest); token != NULL;
+       token = strtok_r(NULL, ",", &rest)) {
+    char *value = strchr(token, '='), must[100];
     carom_part_kind part;
     int k;
     double x;
     if (value != NULL)
       *value++ = '\0';
-    else if (strstr(one, ".json") != NULL) {
-      if (give_fit(one, given))
+    else if (strstr(token, ".json") != NULL) {
+      if (give_fit(token, given))
         continue;
       return false;
     }
-    const carom_number *n = number_named(row, one, &part, &k);
+    const carom_number *n = number_named(row, token, &part, &k);
     if (n == NULL)
       return false;
     if (value == NULL || !parse_number(value, &x) ||
@@ -304,11 +305,11 @@ static OPTION_SET(set_numbers) {
 
 bool give_number(given_numbers *given, const char *name, double x) {
   const option_row with = {.name = name};
-  char one[200];
-  snprintf(one, sizeof one, "%s=%.17g", name, x);
-  for (char *dash = one; (dash = strchr(dash, '-')) != NULL && dash < strchr(one, '=');)
+  char text[200];
+  snprintf(text, sizeof text, "%s=%.17g", name, x);
+  for (char *dash = text; (dash = strchr(dash, '-')) != NULL && dash < strchr(text, '=');)
     *dash = '_';
-  return set_numbers(&with, one, given);
+  return set_numbers(&with, text, given);
 }
 
 void give_cue(const given_numbers *given, carom_cue *cue) {

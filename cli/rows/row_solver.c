@@ -64,13 +64,13 @@ static void finish_row(run *r, const source_block *block, size_t k) {
     error = doubt;
     memset(result, 0xff, results * sizeof *result); /* NaN throughout */
   }
-  const bool bad = error != NULL || status < 0;
-  if (bad && r->errors < MOST_NAMED)
+  const bool in_error = error != NULL || status < 0;
+  if (in_error && r->errors < MOST_NAMED)
     source_report(r->in, block, k, status, doubt);
   sink_write(r->out, note != NULL ? note->id : NULL, row, result, status, error);
-  r->ok += !bad && status == CAROM_OK;
-  r->separating += !bad && status == CAROM_SEPARATING;
-  r->errors += bad;
+  r->ok += !in_error && status == CAROM_OK;
+  r->separating += !in_error && status == CAROM_SEPARATING;
+  r->errors += in_error;
 }
 
 static void solve_and_write(run *r, const source_block *block) {

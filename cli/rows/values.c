@@ -281,8 +281,8 @@ static bool set_one(const option_row *row, const char *text, int common, value *
   if (found == NO_UNIT && bare && number == 0.0) /* 0 of any unit */
     found = find_unit(measure, "rad/s");
   if (found == NO_UNIT && bare && measure >= MEASURE_SPIN) {
-    const char *of = measure == MEASURE_SPIN ? " of rolling" : " of english";
-    complain("--%s %s needs a unit: %srad/s, %s%%%s or %stip", row->name, text, text, text, of,
+    const char *share = measure == MEASURE_SPIN ? " of rolling" : " of english";
+    complain("--%s %s needs a unit: %srad/s, %s%%%s or %stip", row->name, text, text, text, share,
              text);
     return false;
   }

@@ -41,7 +41,7 @@ bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *op
 /* Aims a cue at a pocket, as --pocket and --via say, and tells of it; via may be NULL. False after
  * a complaint. */
 bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
-                   const carom_shot_options *options, carom_cue *cue, char told[AIMED_TEXT]);
+                   const carom_shot_options *options, carom_cue *cue, char report[AIMED_TEXT]);
 
 /* The pocket of a name or an id, or -1; adds the names to a text, with bars between. */
 int pocket_named(const carom_table *t, char *const id[], const char *name, char names[NAMES_TEXT]);

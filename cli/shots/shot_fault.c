@@ -30,9 +30,9 @@ static const char *part_words(carom_part_kind kind) {
 }
 
 /* Says where the fault is, "balls[1] ('2'): ", or nothing; returns the length of it. */
-static int say_where(const shot_line *line, carom_status bad, const carom_part *part,
+static int say_where(const shot_line *line, carom_status status, const carom_part *part,
                      char text[FAULT_TEXT]) {
-  if (bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT)
+  if (status == CAROM_ERROR_TABLE || status == CAROM_ERROR_NOSE_HEIGHT)
     return snprintf(text, FAULT_TEXT, "table '%s': ", line->table->id);
   if (part->kind == CAROM_PART_BALL || part->kind == CAROM_PART_STATE)
     return snprintf(text, FAULT_TEXT, "balls[%d] ('%s'): ", part->index, line->name[part->index]);
@@ -57,25 +57,25 @@ bool shot_fault(const shot_line *line, const carom_shot_options *options, char t
       [CAROM_PART_RAIL] = "linear", [CAROM_PART_JAW] = "circular", [CAROM_PART_POCKET] = "pockets"};
   carom_fault f;
   char must[100];
-  const carom_status bad = carom_shot_fault(&line->table->table, line->ball, line->count,
-                                            &line->cue, options, &f, must, sizeof must);
-  if (bad == CAROM_OK)
+  const carom_status status = carom_shot_fault(&line->table->table, line->ball, line->count,
+                                               &line->cue, options, &f, must, sizeof must);
+  if (status == CAROM_OK)
     return false;
 
   const carom_number *n = f.row;
-  const int at = f.part.index, size = say_where(line, bad, &f.part, text);
+  const int at = f.part.index, size = say_where(line, status, &f.part, text);
   char *rest = text + size;
   const size_t room = (size_t)(FAULT_TEXT - size);
 
   /* which number it is, and what would be right */
-  if (bad == CAROM_ERROR_MISCUE)
+  if (status == CAROM_ERROR_MISCUE)
     snprintf(rest, room,
              "cue: the tip is %.4g R from the centre; it slips off the ball from %.4g R on",
              tip_off_centre(&line->cue), line->cue.miscue > 0.0 ? line->cue.miscue : 1.0);
-  else if (bad == CAROM_ERROR_OFF_TABLE && at >= 0 && at < line->count)
+  else if (status == CAROM_ERROR_OFF_TABLE && at >= 0 && at < line->count)
     say_off_table(&line->ball[at], rest, room);
   else if (n == NULL || must[0] == '\0' || f.part.kind == CAROM_PART_STATE)
-    snprintf(rest, room, "%s", carom_status_string(bad));
+    snprintf(rest, room, "%s", carom_status_string(status));
   else if (f.part.kind <= CAROM_PART_POCKET)
     snprintf(rest, room, "%s[%d].%s must be %s, not %.6g", lists[f.part.kind], at, key_of(n), must,
              f.value);
@@ -87,7 +87,8 @@ bool shot_fault(const shot_line *line, const carom_shot_options *options, char t
 
 /* Gives the balls the numbers of --with, and says once for each which numbers of a file these
  * models do not read. --strict makes it an error. */
-void shot_numbers(shot_line *line, const shared_options *shared, const char *file, uint64_t *told) {
+void shot_numbers(shot_line *line, const shared_options *shared, const char *file,
+                  uint64_t *warned) {
   const carom_number *n;
   if (line->error != NULL)
     return;
@@ -106,9 +107,9 @@ void shot_numbers(shot_line *line, const shared_options *shared, const char *fil
       line->table = NULL;
       return;
     }
-    if ((*told & bit) == 0)
+    if ((*warned & bit) == 0)
       complain("%s:%zu: %s", file, line->number, text);
-    *told |= bit;
+    *warned |= bit;
   }
   const given_numbers *with = &shared->with;
   give_cue(with, &line->cue);

@@ -15,6 +15,7 @@ bool shot_fault(const shot_line *line, const carom_shot_options *options, char t
 
 /* Gives balls and cue the numbers of --with, and says once for each, which then is in `told`, which
  * numbers of a file these models do not read. --strict makes it an error of the line. */
-void shot_numbers(shot_line *line, const shared_options *shared, const char *file, uint64_t *told);
+void shot_numbers(shot_line *line, const shared_options *shared, const char *file,
+                  uint64_t *warned);
 
 #endif

@@ -60,12 +60,12 @@ static bool read_kind(const json_t *params, const char *where, carom_ball_kind *
 }
 
 void kind_of_game(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind) {
-  static bool told = false;
-  if (!carom_ball_kind_for(game, cushion, kind) && !told)
+  static bool warned = false;
+  if (!carom_ball_kind_for(game, cushion, kind) && !warned)
     complain("%s has no constants for the cushion %s: the balls have those for its default model",
              carom_word(CAROM_WORDS_GAME, (int)game),
              carom_word(CAROM_WORDS_SHOT_CUSHION, (int)cushion));
-  told |= !carom_ball_kind_for(game, cushion, NULL);
+  warned |= !carom_ball_kind_for(game, cushion, NULL);
 }
 
 /* The kind of the balls of a game, by its name; pooltool's pool balls where there is none. */

@@ -140,13 +140,13 @@ static bool give_measures(char *keys, carom_measures *m, json_fault *f) {
 }
 
 /* Says what is wrong with measures. */
-static bool tell_measures(carom_status bad, const carom_table_fault *at, json_fault *f) {
+static bool tell_measures(carom_status status, const carom_table_fault *at, json_fault *f) {
   char range[100];
   if (at->part.kind != CAROM_PART_MEASURES && at->gap > 0.0)
-    return json_wrong(f, "%s; %.3g m are open at x = %.4g, y = %.4g m", carom_status_string(bad),
+    return json_wrong(f, "%s; %.3g m are open at x = %.4g, y = %.4g m", carom_status_string(status),
                       at->gap, at->place[0], at->place[1]);
   if (at->part.kind != CAROM_PART_MEASURES)
-    return json_wrong(f, "%s", carom_status_string(bad));
+    return json_wrong(f, "%s", carom_status_string(status));
   const carom_number *n = carom_number_of(CAROM_PART_MEASURES, at->part.index);
   carom_number_range(n, range, sizeof range);
   if (at->other.kind != CAROM_PART_MEASURES)
@@ -184,8 +184,8 @@ named_table *built_in_table(const char *id, json_fault *f) {
     free(keys);
     if (good) {
       const double R = carom_ball_kind_of(game_of_table((carom_table_kind)kind)).radius;
-      const carom_status bad = carom_table_measured(&m, R, &t->table, &at);
-      good = bad == CAROM_OK || tell_measures(bad, &at, f);
+      const carom_status status = carom_table_measured(&m, R, &t->table, &at);
+      good = status == CAROM_OK || tell_measures(status, &at, f);
     }
     if (!good) {
       free_table(t);

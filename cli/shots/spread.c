@@ -33,9 +33,9 @@ OPTION_SET(set_player_error) {
   bool good = strlen(text) < sizeof copy, all_zero = true;
   snprintf(copy, sizeof copy, "%s", text);
   *error = (player_error){.given = true};
-  for (char *one = strtok_r(copy, ",", &rest); one != NULL && good;
-       one = strtok_r(NULL, ",", &rest)) {
-    good = count < ERRORS && value_of(measure[count], one, &error->of[count]) &&
+  for (char *part = strtok_r(copy, ",", &rest); part != NULL && good;
+       part = strtok_r(NULL, ",", &rest)) {
+    good = count < ERRORS && value_of(measure[count], part, &error->of[count]) &&
            error->of[count].x >= 0.0;
     all_zero = all_zero && good && error->of[count].x == 0.0;
     count++;
