@@ -356,7 +356,6 @@ int command_break(int argc, char **argv) {
   static carom_cue stroke[MOST_STROKES];
   static shot_line line;
   static values gaps;
-  char *lines = NULL;
   job = (break_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"},
                              .balls = {.rack = CAROM_RACK_EIGHTBALL}},
                     .racks = RACKS};
@@ -381,7 +380,7 @@ int command_break(int argc, char **argv) {
     values_default(&f->speed, MEASURE_SPEED, "9");
   if (!take_gaps(f, &gaps))
     return EXIT_USAGE;
-  shot_file *file = flags_open(f, &b.options, MOST_STROKES, &lines);
+  shot_file *file = flags_open(f, &b.options, MOST_STROKES);
   const int strokes =
       file != NULL ? strokes_read(file, &f->shared, &line, stroke, MOST_STROKES) : 0;
   const int code = strokes > 0 ? run(&b, &line, stroke, strokes, &gaps) : EXIT_USAGE;
@@ -389,6 +388,5 @@ int command_break(int argc, char **argv) {
     shot_line_free(&line);
   if (file != NULL)
     shot_file_close(file);
-  free(lines);
   return code;
 }

@@ -368,8 +368,7 @@ int command_plan(int argc, char **argv) {
     return parsed;
   if (!are_together(&job) || !svg_possible(job.plot))
     return EXIT_USAGE;
-  char *lines;
-  shot_file *file = layout_open(&job.from, path, &job.from.shared.shot, 1, &lines);
+  shot_file *file = layout_open(&job.from, path, &job.from.shared.shot, 1);
   if (file == NULL)
     return EXIT_USAGE;
   static shot_line line;
@@ -396,6 +395,5 @@ int command_plan(int argc, char **argv) {
     shot_line_free(&line);
   }
   shot_file_close(file);
-  free(lines);
   return code;
 }

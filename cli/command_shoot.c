@@ -463,15 +463,14 @@ static bool can_play(const shoot_job *job) {
   return false;
 }
 
-/* Plays the shots of a file to an output, and draws; an exit code. `lines` is what --json writes
- * instead. */
-static int shoot_file(shoot_job *job, shot_file *file, const char *lines) {
+/* Plays the shots of a file to an output, and draws, or prints them for --json; an exit code. */
+static int shoot_file(shoot_job *job, shot_file *file) {
   FILE *out = output_open(job->from.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
   int code = EXIT_GOOD;
   if (job->from.json)
-    fputs(lines, out);
+    shot_file_print(out, file);
   else
     code = shoot_all(job, file, out);
   if (code == EXIT_USAGE) {
@@ -513,17 +512,15 @@ int command_shoot(int argc, char **argv) {
   if (!can_play(&job) || !chooses(&job, &options))
     return EXIT_USAGE;
 
-  char *lines = NULL;
   shot_file *file;
   if (job.together)
-    file = flags_open(&job.from, &options, job.csv ? MOST_ROWS : MOST_SHOTS, &lines);
+    file = flags_open(&job.from, &options, job.csv ? MOST_ROWS : MOST_SHOTS);
   else
     file = shot_file_open(path, options.cushion_model);
   int code = EXIT_USAGE;
   if (file != NULL) {
-    code = shoot_file(&job, file, lines);
+    code = shoot_file(&job, file);
     shot_file_close(file);
   }
-  free(lines);
   return code;
 }

@@ -99,10 +99,7 @@ static const char *cut_text(const way *w, char text[CUT_TEXT]) {
 /* The line of a way's stroke. */
 static json_t *way_line(const ways_search *s, const way *w) {
   char text[WAY_TEXT], parts[PARTS_TEXT];
-  json_t *to = json_object(), *cue = json_object();
-  json_object_set_new(to, "kind", json_string("shot"));
-  json_object_set_new(to, "id", json_string(way_text(s, w, text)));
-  json_object_set_new(to, "table", json_string(s->line->table->id));
+  json_t *cue = json_object();
   const json_t *given = json_object_get(s->line->json, "cue");
   if (given != NULL)
     json_object_update(cue, (json_t *)given);
@@ -114,8 +111,8 @@ static json_t *way_line(const ways_search *s, const way *w) {
     if (n->offset <= (int32_t)offsetof(carom_cue, b))
       json_object_set_new(cue, n->key, json_real(x + 0.0));
   }
-  json_object_set_new(to, "cue", cue);
-  json_object_set_new(to, "balls", json_deep_copy(json_object_get(s->line->json, "balls")));
+  json_t *balls = json_deep_copy(json_object_get(s->line->json, "balls"));
+  json_t *to = shot_json(json_string(way_text(s, w, text)), NULL, s->line->table->id, cue, balls);
   json_t *about = json_pack("{s: s, s: s, s: f, s: f, s: [f, f]}", "kind", way_name(s, w), "by",
                             parts_text(s, w, parts), "chance", w->chance, "error", w->error,
                             "window", w->phi[0], w->phi[1]);
@@ -398,12 +395,8 @@ static void fill_strokes(ways_job *job) {
 
 /* Writes each way as the line of its stroke. */
 static void write_lines(FILE *out, const ways_search *s) {
-  for (int k = 0; k < s->ways; k++) {
-    json_t *shot = way_line(s, &s->way[k]);
-    json_dumpf(shot, out, JSON_REAL_PRECISION(17));
-    fputc('\n', out);
-    json_decref(shot);
-  }
+  for (int k = 0; k < s->ways; k++)
+    shot_json_write(out, way_line(s, &s->way[k]));
 }
 
 /* Finds the ways, writes them to the output, which is open, and draws them; an exit code. */
@@ -449,7 +442,6 @@ static int ways_of_file(const ways_job *job, ways_search *s, shot_file *file) {
 int command_ways(int argc, char **argv) {
   static ways_job job;
   const char *path;
-  char *lines = NULL;
   job = (ways_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}}, .rails = 2};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
@@ -465,11 +457,10 @@ int command_ways(int argc, char **argv) {
   }
 
   fill_strokes(&job);
-  shot_file *file = layout_open(&job.from, path, &s.options, MOST_STROKES, &lines);
+  shot_file *file = layout_open(&job.from, path, &s.options, MOST_STROKES);
   if (file == NULL)
     return EXIT_USAGE;
   const int code = ways_of_file(&job, &s, file);
   shot_file_close(file);
-  free(lines);
   return code;
 }

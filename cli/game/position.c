@@ -4,7 +4,6 @@
 #include "game/position.h"
 
 #include "game/ways.h"
-#include "program/memory.h"
 #include "program/message.h"
 
 #include <math.h>
@@ -37,28 +36,24 @@ void leave_into(const leave *to, ways_search *s) {
   s->place[1] = place_along(&to->y, 0.125 * t->length);
 }
 
-/* A file of the strokes of all values, without those by which the ball cannot be aimed; *text is to
- * be freed in the end. NULL after a complaint. */
-static shot_file *strokes_of(const shoot_flags *f, const carom_shot_options *options, char **text) {
+/* The strokes of all values, without those by which the ball cannot be aimed. NULL after a
+ * complaint. */
+static shot_file *strokes_of(const shoot_flags *f, const carom_shot_options *options) {
   static shoot_flags all; /* what is not given becomes what is usual */
-  size_t size;
   all = *f;
   all.tries = true;
   if (f->speed.count == 0 && f->ball_speed.count == 0)
     values_default(&all.speed, MEASURE_SPEED, "0.5:4:0.1");
   if (f->tip.count == 0)
     option_tip.set(&option_tip, (char[]){"0,-0.4:0.4:0.2"}, &all.tip);
-  FILE *lines = open_text(text, &size);
-  const bool good = flags_write(lines, &all, options, MOST_ROWS);
-  close_text(lines, text);
-  if (good && size == 0)
-    complain("--leave: none of the speeds and tips that carom tries has such an aim");
-  if (!good || size == 0)
+  json_t *shots = flags_shots(&all, options, MOST_ROWS);
+  if (shots == NULL)
     return NULL;
-  FILE *in = fmemopen(*text, size, "r");
-  if (in == NULL)
-    out_of_memory();
-  return shot_file_of(in, "the shot given");
+  if (json_array_size(shots) > 0)
+    return shot_file_of(shots, SHOTS_GIVEN);
+  complain("--leave: none of the speeds and tips that carom tries has such an aim");
+  json_decref(shots);
+  return NULL;
 }
 
 /* The ball and the pocket of --pocket, which has been aimed at. */
@@ -200,11 +195,10 @@ bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *opt
   static shot_line line;
   static trial strokes;
   ways_search s = {.line = &line, .options = *options};
-  char *lines;
   if (!player_of(&f->shared.player, &s.player))
     return false;
   without_bounds(&s.player);
-  shot_file *file = strokes_of(f, options, &lines);
+  shot_file *file = strokes_of(f, options);
   strokes.cue = cue;
   strokes.count = file != NULL ? strokes_read(file, &f->shared, &line, cue, MOST_ROWS) : 0;
   const bool found = strokes.count > 0 && choose(to, f, &s, &strokes, text);
@@ -212,6 +206,5 @@ bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *opt
     shot_line_free(&line);
   if (file != NULL)
     shot_file_close(file);
-  free(lines);
   return found;
 }

@@ -3,10 +3,58 @@
 
 #include "program/memory.h"
 #include "program/words.h"
+#include "rows/number.h"
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+static void *json_memory(size_t size) {
+  return allocate(size, 1);
+}
+
+void json_use_memory(void) {
+  json_set_alloc_funcs(json_memory, free);
+}
+
+json_t *json_short(double x) {
+  char text[NUMBER_TEXT];
+  json_t *number = json_loads(number_text(x, text), JSON_DECODE_ANY, NULL);
+  return number != NULL ? number : json_null(); /* NaN is no JSON */
+}
+
+void json_write_short(FILE *out, const json_t *value) {
+  const char *before = "", *key;
+  char text[NUMBER_TEXT];
+  json_t *part;
+  size_t k;
+  switch (json_typeof(value)) {
+  case JSON_OBJECT:
+    putc('{', out);
+    json_object_foreach((json_t *)value, key, part) {
+      fprintf(out, "%s\"%s\": ", before, key);
+      json_write_short(out, part);
+      before = ", ";
+    }
+    putc('}', out);
+    break;
+  case JSON_ARRAY:
+    putc('[', out);
+    json_array_foreach((json_t *)value, k, part) {
+      fputs(before, out);
+      json_write_short(out, part);
+      before = ", ";
+    }
+    putc(']', out);
+    break;
+  case JSON_REAL:
+    fputs(number_text(json_real_value(value), text), out);
+    break;
+  default:
+    json_dumpf(value, out, JSON_ENCODE_ANY);
+  }
+}
 
 bool json_wrong(json_fault *f, const char *format, ...) {
   va_list arguments;

@@ -6,10 +6,21 @@
 
 #include <jansson.h>
 #include <stdbool.h>
+#include <stdio.h>
 
 typedef struct json_fault {
   char text[512];
 } json_fault;
+
+/* Has Jansson take its memory as the command does, so that no value is missing for want of it. It
+ * is called before any value is made. */
+void json_use_memory(void);
+
+/* A number as the shortest text that reads back the same says it: 2, not 2.0. */
+json_t *json_short(double x);
+
+/* Writes a value with such numbers. */
+void json_write_short(FILE *out, const json_t *value);
 
 /* Says what is wrong; returns false. */
 __attribute__((format(printf, 2, 3))) bool json_wrong(json_fault *f, const char *format, ...);

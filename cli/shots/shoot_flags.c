@@ -387,56 +387,67 @@ static void name_shot(const shoot_flags *f, const combination *c, char id[MOST_T
              f->tip.at[c->tip].x.name, f->tip.at[c->tip].y.name);
 }
 
-static void write_line(FILE *out, const layout *l, const given_numbers *given, const char *id,
-                       const carom_cue *cue) {
-  char number[NUMBER_TEXT];
+/* The numbers of a cue by their keys: the stroke, and what is given or not 0 besides. */
+static json_t *cue_json(const layout *l, const given_numbers *given, const carom_cue *cue) {
   const carom_number *n;
-  fprintf(out, "{\"kind\": \"shot\", \"id\": \"%s\", \"table\": \"%s\", \"cue\": {",
-          id[0] != '\0' ? id : "shot", l->table_name);
+  json_t *to = json_object();
   for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
     double x = 0.0;
     if (n->key[0] != '\0')
       memcpy(&x, (const char *)cue + n->offset, sizeof x);
-    /* the stroke is always said */
-    if (x != 0.0 || (given->of_cue >> k & 1) != 0 || n->offset <= (int32_t)offsetof(carom_cue, b))
-      fprintf(out, "\"%s\": %s, ", n->key, number_text(x + 0.0, number));
+    const bool of_stroke = n->offset <= (int32_t)offsetof(carom_cue, b);
+    if (x != 0.0 || (given->of_cue >> k & 1) != 0 || of_stroke)
+      json_object_set_new(to, n->key, json_short(x + 0.0));
   }
-  fprintf(out, "\"ball\": \"%s\"}, \"balls\": [", l->name[0]);
-  for (int k = 0; k < l->count; k++) {
-    static const char *const games[] = {"pool", "snooker", "billiard"};
-    fprintf(out, "%s{\"id\": \"%s\", \"params\": {\"game\": \"%s\"", k > 0 ? ", " : "", l->name[k],
-            games[l->game]);
-    for (int j = 0; (n = carom_number_of(CAROM_PART_BALL, j)) != NULL; j++) {
-      double x;
-      memcpy(&x, (const char *)&l->ball[k].kind + n->offset, sizeof x);
-      if ((given->which >> j & 1) != 0)
-        fprintf(out, ", \"%s\": %s", n->key, number_text(x, number));
-    }
-    fputs("}, \"state\": [0", out);
-    for (int axis = 0; axis < 2; axis++)
-      fprintf(out, ", %s", number_text(l->ball[k].state.r[axis], number));
-    fprintf(out, ", %s, 0, 0, 0, 0, 0, 0]}", number_text(l->ball[0].kind.radius, number));
-  }
-  fputs("]}\n", out);
+  json_object_set_new(to, "ball", json_string(l->name[0]));
+  return to;
 }
 
-/* One of the combinations; false after a complaint. */
-static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
-                       const carom_shot_options *options, int index) {
+/* A ball at rest, with the numbers that are given. */
+static json_t *ball_json(const layout *l, const given_numbers *given, int ball) {
+  static const char *const games[] = {"pool", "snooker", "billiard"};
+  enum { LABEL, X, Y, Z, NUMBERS = 10 };
+  const double *r = l->ball[ball].state.r;
+  const double state[NUMBERS] = {[X] = r[0], [Y] = r[1], [Z] = l->ball[0].kind.radius};
+  const carom_number *n;
+  json_t *params = json_pack("{s: s}", "game", games[l->game]), *numbers = json_array();
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
+    double x;
+    memcpy(&x, (const char *)&l->ball[ball].kind + n->offset, sizeof x);
+    if ((given->which >> k & 1) != 0)
+      json_object_set_new(params, n->key, json_short(x));
+  }
+  for (int k = LABEL; k < NUMBERS; k++)
+    json_array_append_new(numbers, json_short(state[k]));
+  return json_pack("{s: s, s: o, s: o}", "id", l->name[ball], "params", params, "state", numbers);
+}
+
+/* The line of a shot, as a file would have it. */
+static json_t *line_of(const layout *l, const given_numbers *given, const char *id,
+                       const carom_cue *cue) {
+  json_t *balls = json_array();
+  for (int k = 0; k < l->count; k++)
+    json_array_append_new(balls, ball_json(l, given, k));
+  return shot_json(json_string(id[0] != '\0' ? id : "shot"), NULL, l->table_name,
+                   cue_json(l, given, cue), balls);
+}
+
+/* One of the combinations; NULL after a complaint. */
+static json_t *make_shot(shoot_flags *f, const layout *l, const carom_shot_options *options,
+                         int index) {
   const combination c = combination_at(f, index);
   given_numbers with = f->shared.with;
   carom_cue cue;
   char id[MOST_TEXT];
   if (f->tip_time.count > 0 && !give_number(&with, "tip-time", f->tip_time.at[c.time].x))
-    return false;
+    return NULL;
   if (f->tip_restitution.count > 0 &&
       !give_number(&with, "tip-restitution", f->tip_restitution.at[c.bounce].x))
-    return false;
+    return NULL;
   if (!strike_of(f, l, &c, &with, &cue) || !aim_of(f, l, options, &c, &cue))
-    return false;
+    return NULL;
   name_shot(f, &c, id);
-  write_line(out, l, &with, id, &cue);
-  return true;
+  return line_of(l, &with, id, &cue);
 }
 
 /* Complains of options that exclude or need each other; returns whether there are none. */
@@ -519,10 +530,10 @@ static int combinations_of(const shoot_flags *f, int most) {
   return 0;
 }
 
-/* Writes `count` combinations. Of several shots, those that cannot be aimed are left out, and only
+/* Makes `count` combinations. Of several shots, those that cannot be aimed are left out, and only
  * the first of them is complained of. */
-static bool write_combinations(FILE *out, shoot_flags *f, const carom_shot_options *options,
-                               int count) {
+static bool make_shots(shoot_flags *f, const carom_shot_options *options, int count,
+                       json_t *shots) {
   static layout l;
   const int shots_per_rack = count / (f->gap.count * f->seed.count);
   const bool may_leave_out = f->tries || count > 1;
@@ -535,64 +546,64 @@ static bool write_combinations(FILE *out, shoot_flags *f, const carom_shot_optio
     if (k % shots_per_rack == 0 && !lay_out(f, &l, cushion, k / shots_per_rack))
       return false;
     l.quiet = f->tries || k > f->written;
-    if (write_shot(out, f, &l, options, k))
-      f->written++;
-    else if (!cannot_be_aimed || !may_leave_out)
+    json_t *shot = make_shot(f, &l, options, k);
+    if (shot == NULL && (!cannot_be_aimed || !may_leave_out))
       return false;
+    if (shot != NULL) {
+      json_array_append_new(shots, shot);
+      f->written++;
+    }
   }
   return true;
 }
 
-bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, int most) {
+json_t *flags_shots(shoot_flags *f, const carom_shot_options *options, int most) {
   f->written = 0;
   f->left_out = 0;
   if (!options_agree(f))
-    return false;
+    return NULL;
   fill_defaults(f);
   if (!racks_are_valid(f))
-    return false;
+    return NULL;
   /* A decimal comma was warned of when its list was read. */
   if (f->shared.strict && any_list(f, true))
-    return false;
+    return NULL;
   const int count = combinations_of(f, most);
-  if (count == 0 || !write_combinations(out, f, options, count))
-    return false;
+  if (count == 0)
+    return NULL;
 
+  json_use_memory();
+  json_t *shots = json_array();
+  bool good = make_shots(f, options, count, shots);
   f->left_out = count - f->written;
-  if (f->tries)
-    return true;
-  if (f->written > 0 && f->left_out > 0)
-    complain("%d of %d shots are left out: they cannot be aimed", f->left_out, count);
-  return f->written > 0;
+  if (good && !f->tries) {
+    if (f->written > 0 && f->left_out > 0)
+      complain("%d of %d shots are left out: they cannot be aimed", f->left_out, count);
+    good = f->written > 0;
+  }
+  if (good)
+    return shots;
+  json_decref(shots);
+  return NULL;
 }
 
-shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int most, char **text) {
-  size_t size;
-  FILE *lines = open_text(text, &size);
-  const bool good = flags_write(lines, f, options, most);
-  close_text(lines, text);
-  if (!good) {
-    free(*text);
-    *text = NULL;
-    return NULL;
-  }
-  FILE *in = fmemopen(*text, size, "r");
-  if (in == NULL)
-    out_of_memory();
-  return shot_file_of(in, "the shot given");
+shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int most) {
+  json_t *shots = flags_shots(f, options, most);
+  return shots != NULL ? shot_file_of(shots, SHOTS_GIVEN) : NULL;
 }
 
 shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_options *options,
-                       int most, char **text) {
-  *text = NULL;
-  if (has_flags(f) == (path != NULL)) {
-    complain(path != NULL ? "a file has its own balls: give it, or --cue, --balls and the like"
-                          : "the balls are needed: a file of shots, or --cue 0.6,0.8 --balls "
-                            "0.5,1.6:0.9,1.2");
-    return NULL;
-  }
-  return path != NULL ? shot_file_open(path, options->cushion_model)
-                      : flags_open(f, options, most, text);
+                       int most) {
+  const bool by_options = has_flags(f);
+  if (by_options && path != NULL)
+    complain("a file has its own balls: give it, or --cue, --balls and the like");
+  else if (!by_options && path == NULL)
+    complain("the balls are needed: a file of shots, or --cue 0.6,0.8 --balls 0.5,1.6:0.9,1.2");
+  else if (by_options)
+    return flags_open(f, options, most);
+  else
+    return shot_file_open(path, options->cushion_model);
+  return NULL;
 }
 
 /* Whether the balls of two shots are the same ones in the same places. */

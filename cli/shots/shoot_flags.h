@@ -1,5 +1,6 @@
 /* Shots from words: `carom shoot --cue 0.6,0.8 --at-ball 1 --cut 20 --balls 0.6,1.5`. They
- * become the lines that a file would have, so that everything behind is the same. */
+ * become the lines that a file would have, as JSON in memory, so that everything behind is the
+ * same. */
 #ifndef CAROM_CLI_SHOOT_FLAGS_H
 #define CAROM_CLI_SHOOT_FLAGS_H
 
@@ -38,17 +39,18 @@ extern const option_row option_table, option_cue, option_balls, option_aim, opti
 /* Whether one of them is given. */
 bool has_flags(const shoot_flags *f);
 
-/* Writes the shots as lines of JSON, one for each combination and at most `most`, aimed for a play
- * by these options; false after a complaint. */
-bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, int most);
+/* The shots as an array of lines of JSON, one for each combination and at most `most`, aimed for a
+ * play by these options; NULL after a complaint. */
+json_t *flags_shots(shoot_flags *f, const carom_shot_options *options, int most);
 
-/* The same lines as a file, whose *text is to be freed afterwards; NULL after a complaint. */
-shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int most, char **text);
+/* The same lines as a file, of this name; NULL after a complaint. */
+#define SHOTS_GIVEN "the shot given"
+shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int most);
 
 /* Opens the file of a subcommand, or the shots that its options describe; complains and returns
- * NULL where both or none are given, or it cannot. *text is to be freed in the end. */
+ * NULL where both or none are given, or it cannot. */
 shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_options *options,
-                       int most, char **text);
+                       int most);
 
 /* Reads all shots of the file with the numbers of --with, at most `most`, of which all must have
  * the layout of the first one; where `most` is 1, the first alone. *line is to be freed; how

@@ -17,7 +17,8 @@
 enum { FIRST_ROOM = 512 }; /* for events */
 
 struct shot_file {
-  FILE *in;
+  FILE *in;      /* NULL where */
+  json_t *lines; /* they are an array */
   const char *path;
   char *text;
   size_t space, number;
@@ -183,28 +184,32 @@ static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json
 
 /* ---- The file */
 
-/* Jansson's memory: so none of its values is ever missing for want of it. */
-static void *json_memory(size_t size) {
-  return allocate(size, 1);
-}
-
 shot_file *shot_file_open(const char *path, carom_shot_cushion cushion) {
   FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
   if (in == NULL) {
     complain("cannot read %s: %s", path, strerror(errno));
     return NULL;
   }
-  shot_file *file = shot_file_of(in, in == stdin ? "standard input" : path);
+  shot_file *file = allocate(1, sizeof *file);
+  json_use_memory();
+  file->in = in;
+  file->path = in == stdin ? "standard input" : path;
   file->cushion = cushion;
   return file;
 }
 
-shot_file *shot_file_of(FILE *in, const char *name) {
+shot_file *shot_file_of(json_t *lines, const char *name) {
   shot_file *file = allocate(1, sizeof *file);
-  json_set_alloc_funcs(json_memory, free);
-  file->in = in;
+  file->lines = lines;
   file->path = name;
   return file;
+}
+
+void shot_file_print(FILE *out, const shot_file *file) {
+  for (size_t k = 0; k < json_array_size(file->lines); k++) {
+    json_write_short(out, json_array_get(file->lines, k));
+    putc('\n', out);
+  }
 }
 
 const char *shot_file_name(const shot_file *file) {
@@ -232,7 +237,67 @@ static bool is_other_kind(const shot_file *file, size_t size, const json_t *json
   return kind != NULL;
 }
 
+/* Reads a table, which is kept. */
+static shot_read take_table(shot_file *file, shot_line *line) {
+  json_fault f;
+  named_table *t = allocate(1, sizeof *t);
+  if (!read_table(line->json, t, &f)) {
+    free_table(t);
+    return bad_line(line, f.text);
+  }
+  keep_table(file, t);
+  json_decref(line->json);
+  line->json = NULL;
+  return SHOT_TABLE;
+}
+
+/* Reads a line that is JSON: a shot or a table. SHOT_END: it is of another kind, and passed
+ * over. */
+static shot_read take_line(shot_file *file, json_t *json, shot_line *line) {
+  json_fault f;
+  line->json = json;
+  const char *kind = json_string_value(json_object_get(json, "kind"));
+  if (kind == NULL)
+    return bad_line(line, "kind must be a text");
+  if (strcmp(kind, "table") == 0)
+    return take_table(file, line);
+  if (strcmp(kind, "shot") == 0) {
+    if (read_shot(file, json, line, &f))
+      return SHOT_SHOT;
+    line->table = NULL;
+    return bad_line(line, f.text);
+  }
+  const char *engine = json_string_value(json_object_get(json, "engine"));
+  if (engine != NULL)
+    snprintf(file->engine, sizeof file->engine, "%s", engine);
+  json_decref(json);
+  line->json = NULL;
+  return SHOT_END;
+}
+
+/* The next line of the array. */
+static shot_read next_of_array(shot_file *file, shot_line *line) {
+  if (file->number == json_array_size(file->lines))
+    return SHOT_END;
+  json_t *json = json_incref(json_array_get(file->lines, file->number++));
+  *line = (shot_line){.number = file->number};
+  return take_line(file, json, line);
+}
+
+/* The end of the file, unless it could not be read or is empty. */
+static shot_read end_of(const shot_file *file) {
+  if (!feof(file->in))
+    complain("cannot read %s: %s", file->path, strerror(errno));
+  else if (!file->begun)
+    complain("%s: empty; a shot is a line of JSON", file->path);
+  else
+    return SHOT_END;
+  return SHOT_FAILED;
+}
+
 shot_read shot_file_next(shot_file *file, shot_line *line, const char **text) {
+  if (file->lines != NULL)
+    return next_of_array(file, line);
   ssize_t size;
   while ((size = getline(&file->text, &file->space, file->in)) >= 0) {
     if (file->number++ == 0 && size >= 3 && memcmp(file->text, "\xEF\xBB\xBF", 3) == 0)
@@ -252,43 +317,12 @@ shot_read shot_file_next(shot_file *file, shot_line *line, const char **text) {
       json_wrong(&f, "no JSON at column %d: %s", error.column, error.text);
       return bad_line(line, f.text);
     }
-    line->json = json;
-    const char *kind = json_string_value(json_object_get(json, "kind"));
-    if (kind == NULL)
-      return bad_line(line, "kind must be a text");
-    if (strcmp(kind, "shot") == 0) {
-      if (!read_shot(file, json, line, &f)) {
-        line->table = NULL;
-        return bad_line(line, f.text);
-      }
-      return SHOT_SHOT;
-    }
-    if (strcmp(kind, "table") == 0) {
-      named_table *t = allocate(1, sizeof *t);
-      if (!read_table(json, t, &f)) {
-        free_table(t);
-        return bad_line(line, f.text);
-      }
-      keep_table(file, t);
-      json_decref(json);
-      line->json = NULL;
-      *text = file->text;
-      return SHOT_TABLE;
-    }
-    const char *engine = json_string_value(json_object_get(json, "engine"));
-    if (engine != NULL)
-      snprintf(file->engine, sizeof file->engine, "%s", engine);
-    json_decref(json);
+    *text = file->text;
+    const shot_read what = take_line(file, json, line);
+    if (what != SHOT_END)
+      return what;
   }
-  if (!feof(file->in)) {
-    complain("cannot read %s: %s", file->path, strerror(errno));
-    return SHOT_FAILED;
-  }
-  if (!file->begun) {
-    complain("%s: empty; a shot is a line of JSON", file->path);
-    return SHOT_FAILED;
-  }
-  return SHOT_END;
+  return end_of(file);
 }
 
 shot_read shot_file_next_shot(shot_file *file, shot_line *line) {
@@ -341,7 +375,8 @@ void shot_file_close(shot_file *file) {
     free_table(file->table[k]);
   free(file->table);
   free(file->text);
-  if (file->in != stdin)
+  if (file->in != NULL && file->in != stdin)
     fclose(file->in);
+  json_decref(file->lines);
   free(file);
 }

@@ -32,8 +32,12 @@ typedef struct shot_file shot_file;
  * Complains and returns NULL if that fails. */
 shot_file *shot_file_open(const char *path, carom_shot_cushion cushion);
 
-/* The same of a stream, which it closes; `name` is for messages. */
-shot_file *shot_file_of(FILE *in, const char *name);
+/* Shots that are no file but an array of lines of JSON, which it takes over; `name` is for
+ * messages. */
+shot_file *shot_file_of(json_t *lines, const char *name);
+
+/* Writes those lines, with the shortest numbers. */
+void shot_file_print(FILE *out, const shot_file *file);
 
 /* The balls of a game for a model of the cushion; tells once where the game has none for it. */
 void kind_of_game(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind);
@@ -73,6 +77,13 @@ int shot_event_side(const carom_event *event, int ball);
 const char *shot_part_name(const named_table *table, const carom_event *event);
 
 enum { EVENTS_NONE, EVENTS_BRIEF, EVENTS_FULL };
+
+/* A line of a shot: its head, to which results may be added. Takes over the parts, and leaves out
+ * those that are NULL. */
+json_t *shot_json(json_t *id, json_t *family, const char *table, json_t *cue, json_t *balls);
+
+/* Writes a line of JSON, and frees it. */
+void shot_json_write(FILE *out, json_t *line);
 
 /* Writes a shot with its result as one line; `spread` may be NULL, else it is taken over. */
 void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status,

@@ -92,19 +92,25 @@ static json_t *pockets_of(const shot_line *line, const carom_ball_state *final) 
 
 /* ---- Lines */
 
-static json_t *head_of(const shot_line *line) {
-  json_t *id = json_object_get(line->json, "id");
-  return json_pack("{s: s, s: O}", "kind", "shot", "id", id != NULL ? id : json_null());
+json_t *shot_json(json_t *id, json_t *family, const char *table, json_t *cue, json_t *balls) {
+  json_t *line = json_pack("{s: s, s: o}", "kind", "shot", "id", id != NULL ? id : json_null());
+  if (family != NULL)
+    json_object_set_new(line, "family", family);
+  if (table != NULL)
+    json_object_set_new(line, "table", json_string(table));
+  if (cue != NULL)
+    json_object_set_new(line, "cue", cue);
+  if (balls != NULL)
+    json_object_set_new(line, "balls", balls);
+  return line;
 }
 
-/* What was read, as it was read. */
-static void set_given(json_t *to, const shot_line *line, const char *key) {
-  json_t *given = json_object_get(line->json, key);
-  if (given != NULL)
-    json_object_set(to, key, given);
+/* What was read, as it was read; NULL where the line has no such key. */
+static json_t *given(const shot_line *line, const char *key) {
+  return json_incref(json_object_get(line->json, key));
 }
 
-static void write_line(FILE *out, json_t *line) {
+void shot_json_write(FILE *out, json_t *line) {
   json_dumpf(line, out, JSON_REAL_PRECISION(17));
   putc('\n', out);
   json_decref(line);
@@ -112,11 +118,8 @@ static void write_line(FILE *out, json_t *line) {
 
 void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status,
                 int events, json_t *spread) {
-  json_t *all = head_of(line), *balls = json_object();
-  set_given(all, line, "family");
-  json_object_set_new(all, "table", json_string(line->table->id));
-  set_given(all, line, "cue");
-  set_given(all, line, "balls");
+  json_t *all = shot_json(given(line, "id"), given(line, "family"), line->table->id,
+                          given(line, "cue"), given(line, "balls"));
   /* What happened. */
   json_object_set_new(all, "n_events", json_integer(shot->count + 2));
   if (events != EVENTS_NONE) {
@@ -127,6 +130,7 @@ void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_
     json_object_set_new(all, "events", list);
   }
   /* How it ended. */
+  json_t *balls = json_object();
   for (int k = 0; k < line->count; k++)
     json_object_set_new(balls, line->name[k], state_of(&shot->final[k]));
   json_object_set_new(all, "final",
@@ -137,12 +141,12 @@ void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_
   json_object_set_new(all, "status", json_string(carom_status_name(status)));
   if (status < 0)
     json_object_set_new(all, "error", json_string(carom_status_string(status)));
-  write_line(out, all);
+  shot_json_write(out, all);
 }
 
 void shot_write_error(FILE *out, const shot_line *line, const char *status, const char *error) {
-  json_t *all = head_of(line);
+  json_t *all = shot_json(given(line, "id"), NULL, NULL, NULL, NULL);
   json_object_set_new(all, "status", json_string(status));
   json_object_set_new(all, "error", json_string(error));
-  write_line(out, all);
+  shot_json_write(out, all);
 }
