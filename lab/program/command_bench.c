@@ -119,7 +119,9 @@ static const char *isa_of(const workload *w) {
 }
 
 static const char *precision_of(const workload *w) {
-  return w->size == 0 ? w->kernel->precision : w->single ? "single" : "double";
+  if (w->size == 0)
+    return w->kernel->precision;
+  return w->single ? "single" : "double";
 }
 
 /* ---- Verification */
@@ -546,12 +548,13 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
     else
       fprintf(out, columns[k].format, columns[k].x);
   }
-  const bool paper = w != NULL && w->module != NULL && w->module == all.reference_module;
+  const char *paper = "-";
+  if (w == NULL)
+    paper = "paper";
+  else if (w->module != NULL && w->module == all.reference_module)
+    paper = ladder_rung_find(w->kernel->name)->paper;
   if (!csv)
-    fprintf(out, ",%s",
-            w == NULL ? "paper"
-            : paper   ? ladder_rung_find(w->kernel->name)->paper
-                      : "-");
+    fprintf(out, ",%s", paper);
   fputc('\n', out);
 }
 
@@ -762,9 +765,11 @@ static int bench(bench_job *job) {
     complain("--kernel, --config, --steps, --batch, --isa, --precision, --pairs and --errors are "
              "for collisions of two balls");
   else {
-    job->table = job->shots != NULL ? &bench_of_shots
-                 : job->cushions    ? &bench_of_cushions
-                                    : &bench_of_collisions;
+    job->table = &bench_of_collisions;
+    if (job->shots != NULL)
+      job->table = &bench_of_shots;
+    else if (job->cushions)
+      job->table = &bench_of_cushions;
     return bench_all(job) ? job->code : EXIT_USAGE;
   }
   return usage_hint(&form);

@@ -49,11 +49,12 @@ static int ball_of(const shot_line *line, const json_t *id) {
 }
 
 static bool read_state(const json_t *v, carom_ball_state *s) {
+  double *const parts[] = {s->r, s->v, s->w};
   for (size_t k = 0; k < 9; k++) {
     const json_t *number = json_array_get(v, k + 1);
     if (!json_is_number(number))
       return false;
-    (k < 3 ? s->r : k < 6 ? s->v : s->w)[k % 3] = json_number_value(number);
+    parts[k / 3][k % 3] = json_number_value(number);
   }
   s->label = (int64_t)json_number_value(json_array_get(v, 0));
   return true;

@@ -384,9 +384,11 @@ int command_stress(int argc, char **argv) {
   if (out == NULL)
     return EXIT_USAGE;
   stress *all = allocate(1, sizeof *all);
-  all->kind = job.cushions > 0       ? DRAW_CUSHION
-              : job.coincidences > 0 ? DRAW_COINCIDENCES
-                                     : (draw_kind)job.kind;
+  all->kind = (draw_kind)job.kind;
+  if (job.cushions > 0)
+    all->kind = DRAW_CUSHION;
+  else if (job.coincidences > 0)
+    all->kind = DRAW_COINCIDENCES;
   all->seed = (uint64_t)job.seed;
   all->draws = counts > 0 ? (uint64_t)(job.draws + job.cushions + job.coincidences) : 100000;
   carom_in_threads(run_blocks, &all,
@@ -396,5 +398,7 @@ int command_stress(int argc, char **argv) {
   print_table(all, out);
   const bool good = holds(all);
   free(all);
-  return !output_commit() ? EXIT_USAGE : good ? EXIT_GOOD : EXIT_SOME;
+  if (!output_commit())
+    return EXIT_USAGE;
+  return good ? EXIT_GOOD : EXIT_SOME;
 }

@@ -49,12 +49,10 @@ void sheet_end(sheet *s, FILE *rows) {
         numbers[k] |= number;
         if (print == 0)
           width[k] = (int)strlen(cell) > width[k] ? (int)strlen(cell) : width[k];
-        else
-          fprintf(s->out, "%s%*s", k > 0 ? "  " : "",
-                  numbers[k]   ? width[k]
-                  : at != NULL ? -width[k]
-                               : 0,
-                  cell);
+        else {
+          const int left = at != NULL ? -width[k] : 0; /* nothing behind the last cell */
+          fprintf(s->out, "%s%*s", k > 0 ? "  " : "", numbers[k] ? width[k] : left, cell);
+        }
       }
       if (print == 1)
         fputc('\n', s->out);

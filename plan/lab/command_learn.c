@@ -138,60 +138,53 @@ static void share_out(lab_rack *rack, lab_random *draw) {
   rack->rules.state.score[1] = down - own;
 }
 
-static void play(const learn_job *job, int number, visit *to) {
-  static const double errors[] = {0.25, 0.5, 1.0, 2.0, 3.0, 4.5};
-  enum { PLAYERS = sizeof errors / sizeof errors[0] };
-  lab_random draw = {((uint64_t)job->seed << 32) + 104729 * ((uint64_t)number + 1)};
-  const carom_rules_kind game = (carom_rules_kind)job->rules;
-  const double scale = errors[(int)lab_uniform(&draw, 0.0, PLAYERS)];
-  lab_rack rack = {.options = {.shots = job->shots}};
-  lab_rack_begin(&rack, game, scale);
+/* Begins a rack of the game as its players find it in the middle of a game: some balls are down,
+ * and the cue ball is anywhere, or in hand once in eight. */
+static void make_rack(lab_rack *rack, carom_rules_kind game, lab_random *draw) {
   const carom_rules_about *about = carom_rules_about_of(game);
   const bool snooker = game == CAROM_RULES_SNOOKER, straight = game == CAROM_RULES_STRAIGHT;
-  lab_rack_make(&rack, straight ? CAROM_RULES_EIGHTBALL : game, lab_bits(&draw));
-  rack.rules = straight ? carom_plan_rules_of(CAROM_RULES_STRAIGHT) : rack.rules;
-  const bool groups = game == CAROM_RULES_EIGHTBALL, breaks = rack.rules.breaks == 1;
-  const bool counts = rack.rules.race == CAROM_RACE_OWN && !groups;
+  lab_rack_make(rack, straight ? CAROM_RULES_EIGHTBALL : game, lab_bits(draw));
+  if (straight)
+    rack->rules = carom_plan_rules_of(CAROM_RULES_STRAIGHT);
+  const bool groups = game == CAROM_RULES_EIGHTBALL, breaks = rack->rules.breaks == 1;
+  const bool counts = rack->rules.race == CAROM_RACE_OWN && !groups;
   if (snooker)
-    open_snooker(&rack, &draw);
+    open_snooker(rack, draw);
   if (counts)
-    open_rack(&rack, &draw, 1.0, 8.0);
+    open_rack(rack, draw, 1.0, 8.0);
 
-  /* some balls are down; the cue ball is anywhere, or in hand once in eight */
+  /* the balls */
   int balls = breaks ? about->last - 1 : about->last - 2;
   if (snooker)
     balls = 15;
   if (groups)
     balls = 7;
   if (groups)
-    rack.rules.state.group = CAROM_GROUP_SOLIDS;
+    rack->rules.state.group = CAROM_GROUP_SOLIDS;
   for (int group = 0; group < (groups ? 2 : 1); group++)
-    for (int left = (int)lab_uniform(&draw, 0.0, balls + 1); left > 0; left--) {
-      const int k = 1 + 8 * group + (int)lab_uniform(&draw, 0.0, balls);
-      take_away(&rack, k);
+    for (int left = (int)lab_uniform(draw, 0.0, balls + 1); left > 0; left--) {
+      const int k = 1 + 8 * group + (int)lab_uniform(draw, 0.0, balls);
+      take_away(rack, k);
     }
   if (counts)
-    share_out(&rack, &draw);
+    share_out(rack, draw);
+
+  /* the cue ball */
   double x, y;
   do {
-    x = lab_uniform(&draw, 0.0, rack.table.width);
-    y = lab_uniform(&draw, 0.0, rack.table.length);
-  } while (carom_place_ball(&rack.table, rack.balls, (int)rack.plan.count, 0, x, y, NULL) !=
+    x = lab_uniform(draw, 0.0, rack->table.width);
+    y = lab_uniform(draw, 0.0, rack->table.length);
+  } while (carom_place_ball(&rack->table, rack->balls, (int)rack->plan.count, 0, x, y, NULL) !=
            CAROM_OK);
-  rack.hand = lab_bits(&draw) % 8 == 0 && !snooker;
+  rack->hand = lab_bits(draw) % 8 == 0 && !snooker;
+}
 
-  /* until the turn ends, and the other's first stroke */
-  carom_turn turn = {.is = CAROM_TURN_KEEP};
-  to->count = 0;
-  while (turn.is == CAROM_TURN_KEEP && to->count < STROKES_MOST) {
-    carom_choice choice;
-    sample s = look(&rack);
-    if (!lab_rack_stroke(&rack, &choice, &turn))
-      break;
-    s.kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
-    to->samples[to->count++] = s;
-  }
-  /* of each pair of strokes the later one, by the mean before the first one */
+static bool keeps(const carom_turn *turn) {
+  return turn->is == CAROM_TURN_KEEP || turn->is == CAROM_TURN_WIN;
+}
+
+/* Of each pair of strokes of a visit the later one, by the mean before the first one. */
+static void add_pairs(visit *to) {
   const int strokes = to->count;
   for (int k = 0; k < strokes; k++)
     for (int j = k + 1; j < strokes; j++) {
@@ -201,13 +194,36 @@ static void play(const learn_job *job, int number, visit *to) {
       s.x[3] = to->samples[k].x[2];
       to->samples[to->count++] = s;
     }
+}
+
+/* Plays a visit until the turn ends, and the other's first stroke. */
+static void play(const learn_job *job, int number, visit *to) {
+  static const double errors[] = {0.25, 0.5, 1.0, 2.0, 3.0, 4.5};
+  enum { PLAYERS = sizeof errors / sizeof errors[0] };
+  lab_random draw = {((uint64_t)job->seed << 32) + 104729 * ((uint64_t)number + 1)};
+  const carom_rules_kind game = (carom_rules_kind)job->rules;
+  const double scale = errors[(int)lab_uniform(&draw, 0.0, PLAYERS)];
+  lab_rack rack = {.options = {.shots = job->shots}};
+  lab_rack_begin(&rack, game, scale);
+  make_rack(&rack, game, &draw);
+
+  carom_turn turn = {.is = CAROM_TURN_KEEP};
+  carom_choice choice;
+  to->count = 0;
+  while (turn.is == CAROM_TURN_KEEP && to->count < STROKES_MOST) {
+    sample s = look(&rack);
+    if (!lab_rack_stroke(&rack, &choice, &turn))
+      break;
+    s.kept = keeps(&turn);
+    to->samples[to->count++] = s;
+  }
+  add_pairs(to);
   if (turn.is == CAROM_TURN_PASS) {
-    carom_choice choice;
     sample s = look(&rack);
     s.what = FIRST;
     s.x[2] = 1.0 / s.left;
     if (lab_rack_stroke(&rack, &choice, &turn)) {
-      s.kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+      s.kept = keeps(&turn);
       to->samples[to->count++] = s;
     }
   }

@@ -80,8 +80,12 @@ TEST(onepocket_rulings) {
     const onepocket_case *c = &onepocket[k];
     carom_facts facts = facts_of(c->first, c->cushions, c->mine | c->his | c->neutral, c->off);
     for (int ball = 0; ball < CAROM_BALLS_MOST; ball++)
-      if (facts.down >> ball & 1)
-        facts.pocket[ball] = c->mine >> ball & 1 ? MINE : c->his >> ball & 1 ? HIS : NEUTRAL;
+      if (c->mine >> ball & 1)
+        facts.pocket[ball] = MINE;
+      else if (c->his >> ball & 1)
+        facts.pocket[ball] = HIS;
+      else if (facts.down >> ball & 1)
+        facts.pocket[ball] = NEUTRAL;
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_ONEPOCKET);
     ck_assert(of.state.pocket[0] == MINE && of.state.pocket[1] == HIS);
     ck_assert_uint_eq(of.pockets(&of.state), 1U << MINE);

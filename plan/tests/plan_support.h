@@ -31,7 +31,7 @@ static inline void make_layout(uint64_t seed, int in_play) {
   for (int k = 0; k < BALLS; k++)
     balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
   for (int n = 0; n < in_play; n++) {
-    const int k = n == 0 ? 0 : n == 1 ? 8 : n;
+    const int k = n == 1 ? 8 : n; /* the cue ball, the eight, then 2, 3, ... */
     double x, y;
     do { /* one draw after the other: the order of arguments is the compiler's */
       y = random_between(&r, 0.05, 2.49);

@@ -182,9 +182,11 @@ TEST(double_hits) {
     ck_assert_msg((int)carom_foul_of(&f, R1, 0) == given[k].pool, "%s", given[k].what);
     for (int game = 0; carom_rules_about_of((carom_rules_kind)game) != NULL; game++) {
       carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)game);
-      const int foul = game == CAROM_RULES_SNOOKER        ? given[k].snooker
-                       : game == CAROM_RULES_THREECUSHION ? given[k].three
-                                                          : given[k].pool;
+      int foul = given[k].pool;
+      if (game == CAROM_RULES_SNOOKER)
+        foul = given[k].snooker;
+      else if (game == CAROM_RULES_THREECUSHION)
+        foul = given[k].three;
       const carom_turn turn = rules.judge(&rules.state, 0xffff, 0, &f, (carom_call){NONE, -1});
       ck_assert_msg((int)turn.foul == foul, "%s: %s", carom_word(CAROM_WORDS_RULES, game),
                     given[k].what);

@@ -6,10 +6,15 @@
 static void point_of_nose(const carom_rail *rail, const carom_jaw *jaw, double share,
                           double point[3]) {
   const double turn = share * 360.0 * per_degree;
-  for (int k = 0; k < 2; k++)
-    point[k] = rail != NULL ? rail->p[k] + share * (rail->q[k] - rail->p[k])
-                            : jaw->centre[k] + jaw->radius * (k == 0 ? cos(turn) : sin(turn));
-  point[2] = rail != NULL ? rail->height : jaw->height;
+  if (rail != NULL) {
+    for (int k = 0; k < 2; k++)
+      point[k] = rail->p[k] + share * (rail->q[k] - rail->p[k]);
+    point[2] = rail->height;
+  } else {
+    point[0] = jaw->centre[0] + jaw->radius * cos(turn);
+    point[1] = jaw->centre[1] + jaw->radius * sin(turn);
+    point[2] = jaw->height;
+  }
 }
 
 /* The least elevation, degrees, of a stick in the cue's direction that is `radius` and more from a

@@ -157,13 +157,14 @@ TEST(straight_racks) {
     ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
     const double *at[2] = {given[k].cue, given[k].last};
     const int goes[2] = {given[k].cue_goes, given[k].last_goes}, who[2] = {0, last};
-    for (int n = 0; n < 2; n++)
-      ck_assert_msg(goes[n] == STAYS     ? is_at(who[n], at[n][0], at[n][1])
-                    : goes[n] == HEAD    ? is_at(who[n], x, head_y)
-                    : goes[n] == CENTRE  ? is_at(who[n], x, 0.5 * l)
-                    : goes[n] == IN_HAND ? balls[0].state.label == CAROM_BALL_POCKETED
-                                         : turn.spot == 0xfffe,
-                    "%s: ball %d", given[k].what, who[n]);
+    for (int n = 0; n < 2; n++) {
+      const bool there[] = {[STAYS] = is_at(who[n], at[n][0], at[n][1]),
+                            [HEAD] = is_at(who[n], x, head_y),
+                            [CENTRE] = is_at(who[n], x, 0.5 * l),
+                            [IN_HAND] = balls[0].state.label == CAROM_BALL_POCKETED,
+                            [RACKED] = turn.spot == 0xfffe};
+      ck_assert_msg(there[goes[n]], "%s: ball %d", given[k].what, who[n]);
+    }
     ck_assert_msg((turn.leave == CAROM_LEAVE_KITCHEN) == (goes[0] == IN_HAND), "%s", given[k].what);
 
     /* all lie, close together, and the front place is taken by the fifteenth alone */
