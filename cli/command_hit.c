@@ -9,6 +9,7 @@
 #include "pictures/series.h"
 #include "program/command.h"
 #include "program/message.h"
+#include "program/words.h"
 #include "rows/quantities.h"
 #include "subcommands.h"
 
@@ -175,7 +176,7 @@ static void tell(FILE *out, const series *s, const one_case *c) {
     fputs("              throw:       none: it leaves along the line of centres\n", out);
   else
     fprintf(out, "              throw:       %.2f degrees to the %s of the line of centres\n",
-            fabs(d.throw_deg), side_of(d.throw_deg));
+            fabs(d.throw_deg), left_or_right(d.throw_deg));
   tell_spin(out, after->b.w);
   fprintf(out, "cue ball      at once:     %s\n", velocity_text(after->a.v, scale, text));
   fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_1, scale, text));

@@ -9,6 +9,7 @@
 #include "program/message.h"
 #include "program/options.h"
 #include "program/output.h"
+#include "program/words.h"
 #include "shots/shoot_aim.h"
 #include "shots/shoot_flags.h"
 #include "shots/shot_file.h"
@@ -131,8 +132,8 @@ static void tell(FILE *out, const plan_job *job, const carom_plan_job *asked, co
       fprintf(out, "   cue ball at  %.4f, %.4f m\n", c->place[0], c->place[1]);
     fprintf(out, "   stroke       speed %.3g m/s, direction %.3f degrees, raised %.1f, ",
             c->cue.speed, c->cue.phi, c->cue.theta);
-    fprintf(out, "tip %.2f %s, %.2f %s\n", fabs(c->cue.a), c->cue.a > 0.0 ? "left" : "right",
-            fabs(c->cue.b), c->cue.b < 0.0 ? "below" : "above");
+    fprintf(out, "tip %.2f %s, %.2f %s\n", fabs(c->cue.a), left_or_right(c->cue.a), fabs(c->cue.b),
+            above_or_below(c->cue.b));
     fprintf(out,
             "   chances      %s %.1f %% (error %.1f), plays on %.0f %%, foul %.0f %%; played %lld "
             "times\n",

@@ -9,6 +9,7 @@
 #include "pictures/series.h"
 #include "program/command.h"
 #include "program/message.h"
+#include "program/words.h"
 #include "rows/quantities.h"
 #include "subcommands.h"
 
@@ -144,7 +145,8 @@ static const char *rebound_text(double angle, const double v[2], char text[64]) 
     snprintf(text, 64, "at rest");
   else
     snprintf(text, 64, "%.3f m/s, %.2f degrees from the normal%s%s", hypot(v[0], v[1]), fabs(angle),
-             fabs(angle) < 0.005 ? "" : " to the ", fabs(angle) < 0.005 ? "" : side_of(angle));
+             fabs(angle) < 0.005 ? "" : " to the ",
+             fabs(angle) < 0.005 ? "" : left_or_right(angle));
   return text;
 }
 

@@ -69,7 +69,7 @@ static const char *parts_text(const ways_search *s, const way *w, char text[PART
       name = s->line->table->rail[w->part[k].index];
     else if (!rail)
       name = s->line->name[w->part[k].index];
-    snprintf(text + strlen(text), PARTS_TEXT - strlen(text), "%s%s", k > 0 ? ", " : "", name);
+    snprintf(text + strlen(text), PARTS_TEXT - strlen(text), "%s%s", text_if(k > 0, ", "), name);
   }
   return text;
 }
@@ -84,7 +84,7 @@ static const char *way_text(const ways_search *s, const way *w, char text[WAY_TE
   else
     snprintf(text, WAY_TEXT, "%s to %s, %s%s%s", s->line->name[w->ball],
              pocket != NULL ? pocket : s->line->table->pocket[w->pocket], way_name(s, w),
-             w->parts > 0 ? ": " : "", parts);
+             text_if(w->parts > 0, ": "), parts);
   return text;
 }
 
@@ -364,7 +364,9 @@ static const char *usual_speeds(const ways_job *job, bool alone, bool points) {
 
 /* How many strokes in all directions are searched: as asked, or the default, at least one each. */
 static int scan_of(const ways_job *job, const shot_line *line, int strokes) {
-  int scan = SCANNED_EACH * strokes > SCANNED ? SCANNED_EACH * strokes : SCANNED;
+  int scan = SCANNED_EACH * strokes;
+  if (scan < SCANNED)
+    scan = SCANNED;
   if (line->table->table.pockets == 0 || line->count == 1)
     scan = SCANNED_TO_SCORE;
   if (job->scanned > 0)

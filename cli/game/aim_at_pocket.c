@@ -93,7 +93,7 @@ static void complain_of(const char *pocket, const char *via, const layout *l, co
   else if (pot->is == CAROM_POT_BARRED)
     snprintf(why, sizeof why, "%s is in the way of %s", obstacle(l, met->type, other, text),
              ball_words(l, own, more));
-  complain("--pocket %s%s%s: no such aim: %s", pocket, via != NULL ? " --via " : "",
+  complain("--pocket %s%s%s: no such aim: %s", pocket, text_if(via != NULL, " --via "),
            via != NULL ? via : "", why);
 }
 

@@ -1,6 +1,7 @@
 /* Why a shot of a plan: the stroke without errors is played and told; then some with errors, and
  * the same without those of speed and without those of aim, which tells what these cost. */
 #include "game/plan_why.h"
+#include "program/words.h"
 #include "rows/quantities.h"
 #include "shots/shoot_aim.h"
 #include "shots/shot_story.h"
@@ -220,8 +221,8 @@ static bool tell_aim(FILE *out, const shot_line *line, const carom_cue *cue,
     const double x = o->r[0] - c->r[0], y = o->r[1] - c->r[1];
     const double cross = c->v[0] * y - c->v[1] * x, dot = c->v[0] * x + c->v[1] * y;
     const double cut = atan2(cross, dot), part = 1.0 - fabs(sin(cut));
-    fprintf(out, "%scut of %.0f degrees to the %s, %s", before ? "; " : "", fabs(cut) / degree,
-            cut > 0.0 ? "left" : "right", part_words(part));
+    fprintf(out, "%scut of %.0f degrees to the %s, %s", text_if(before, "; "), fabs(cut) / degree,
+            left_or_right(cut), part_words(part));
   }
   return before || meets != NULL;
 }

@@ -6,6 +6,7 @@
 #include "player.h"
 #include "program/memory.h"
 #include "program/message.h"
+#include "program/words.h"
 #include "shots/shot_story.h"
 
 #include <jansson.h>
@@ -26,7 +27,7 @@ OPTION_SET(set_animation) {
 
 /* The times of a shot's frames in order, to be freed. */
 static double *frames_of(const carom_shot *shot, size_t *count) {
-  const int64_t events = shot->count < shot->room ? shot->count : shot->room;
+  const int64_t events = shot_events_kept(shot);
   const size_t steps = (size_t)ceil(shot->time / step) + 1;
   double *at = allocate(steps + (size_t)events, sizeof *at);
   int64_t next = 0;
@@ -54,15 +55,15 @@ static void write_layout(FILE *out, const shot_line *line) {
   const carom_table *t = &line->table->table;
   fprintf(out, "\"table\":{\"width\":%.6g,\"length\":%.6g,\"rails\":[", t->width, t->length);
   for (int64_t k = 0; k < t->rails; k++)
-    fprintf(out, "%s{\"p\":[%.5f,%.5f],\"q\":[%.5f,%.5f]}", k > 0 ? "," : "", t->rail[k].p[0],
+    fprintf(out, "%s{\"p\":[%.5f,%.5f],\"q\":[%.5f,%.5f]}", text_if(k > 0, ","), t->rail[k].p[0],
             t->rail[k].p[1], t->rail[k].q[0], t->rail[k].q[1]);
   fputs("],\"jaws\":[", out);
   for (int64_t k = 0; k < t->jaws; k++)
-    fprintf(out, "%s{\"centre\":[%.5f,%.5f],\"radius\":%.5f}", k > 0 ? "," : "",
+    fprintf(out, "%s{\"centre\":[%.5f,%.5f],\"radius\":%.5f}", text_if(k > 0, ","),
             t->jaw[k].centre[0], t->jaw[k].centre[1], t->jaw[k].radius);
   fputs("],\"pockets\":[", out);
   for (int64_t k = 0; k < t->pockets; k++)
-    fprintf(out, "%s{\"centre\":[%.5f,%.5f],\"radius\":%.5f}", k > 0 ? "," : "",
+    fprintf(out, "%s{\"centre\":[%.5f,%.5f],\"radius\":%.5f}", text_if(k > 0, ","),
             t->pocket[k].centre[0], t->pocket[k].centre[1], t->pocket[k].radius);
   fputs("]},\n\"balls\":[", out);
   for (int ball = 0; ball < line->count; ball++) {
@@ -87,7 +88,7 @@ static void write_shot(FILE *out, const played *p) {
   const int count = p->line->count;
   fputs("{\"times\":[", out);
   for (size_t k = 0; k < frames; k++)
-    fprintf(out, "%s%.6f", k > 0 ? "," : "", at[k]);
+    fprintf(out, "%s%.6f", text_if(k > 0, ","), at[k]);
   fputs("],\"poses\":[", out);
 
   /* Of all balls at each time, and then ball by ball. */
@@ -99,7 +100,7 @@ static void write_shot(FILE *out, const played *p) {
     /* A ball that lies still has one pose. */
     for (size_t k = 0; k < (ball_moved(p->shot, ball) ? frames : 1); k++) {
       const size_t pose = k * (size_t)count + (size_t)ball;
-      fputs(k > 0 ? "," : "", out);
+      fputs(text_if(k > 0, ","), out);
       write_pose(out, &states[pose], turned[pose]);
     }
     fputc(']', out);
@@ -145,7 +146,7 @@ void shots_animate(FILE *out, const played *shots, int count, const char *footer
   write_layout(out, shots[0].line);
   fputs(",\n\"shots\":[", out);
   for (int k = 0; k < count; k++) {
-    fputs(k > 0 ? ",\n" : "", out);
+    fputs(text_if(k > 0, ",\n"), out);
     write_shot(out, &shots[k]);
   }
   fputs("]});\n"

@@ -7,6 +7,7 @@
 #include "program/memory.h"
 #include "program/message.h"
 #include "program/output.h"
+#include "program/words.h"
 #include "rows/doubts.h"
 #include "rows/number.h"
 #include "rows/quantities.h"
@@ -61,7 +62,7 @@ static void make_case(const series *s, int index, one_case *c) {
   /* The first value, and those of lists. */
   for (int k = 0; k < inputs; k++)
     if (k == 0 || s->in[k].count > 1)
-      snprintf(c->id + strlen(c->id), sizeof c->id - strlen(c->id), "%s%s", k > 0 ? "-" : "",
+      snprintf(c->id + strlen(c->id), sizeof c->id - strlen(c->id), "%s%s", text_if(k > 0, "-"),
                c->given[k]->name);
   for (char *blank = c->id; (blank = strchr(blank, ' ')) != NULL;)
     memmove(blank, blank + 1, strlen(blank));
@@ -111,10 +112,6 @@ static bool check_all(const series *s, int count) {
 
 /* ---- Velocities and spins in words */
 
-const char *side_of(double degrees) {
-  return degrees > 0.0 ? "left" : "right";
-}
-
 const char *velocity_text(const double v[2], double scale, char text[64]) {
   const double speed = hypot(v[0], v[1]), angle = angle_between((const double[]){1.0, 0.0}, v);
   if (speed < 1e-9 * scale)
@@ -125,7 +122,7 @@ const char *velocity_text(const double v[2], double scale, char text[64]) {
       snprintf(text + size, (size_t)(64 - size), "straight %s", fabs(angle) < 90.0 ? "on" : "back");
     else
       snprintf(text + size, (size_t)(64 - size), "%.2f degrees to the %s", fabs(angle),
-               side_of(angle));
+               left_or_right(angle));
   }
   return text;
 }
@@ -199,7 +196,7 @@ static void write_words(FILE *out, const series *s, int count) {
   one_case c;
   for (int k = 0; k < count; k++) {
     resolve_case(s, k, &c);
-    fputs(k > 0 ? "\n" : "", out);
+    fputs(text_if(k > 0, "\n"), out);
     s->scene->tell(out, s, &c);
   }
 }

@@ -60,9 +60,6 @@ struct series {
 int series_command(series *s, const command_form *form, int argc, char **argv, int angle,
                    const char *complaint);
 
-/* "left" where an angle is above 0, else "right". */
-const char *side_of(double degrees);
-
 /* "1.2 m/s, 30.00 degrees to the left"; angles are from +x. Below 1e-9 of `scale`, m/s, a ball
  * is at rest. */
 const char *velocity_text(const double v[2], double scale, char text[64]);

@@ -6,6 +6,7 @@
 #include "pictures/picture.h"
 #include "pictures/table_picture.h"
 #include "program/memory.h"
+#include "program/words.h"
 #include "rows/quantities.h"
 #include "shots/shot_story.h"
 
@@ -38,10 +39,13 @@ static void draw_piece(const view *v, const shot_line *line, const carom_shot *s
   carom_ball_state states[CAROM_BALLS_MOST];
   double x = across(v, start), y = down(v, start);
   for (int n = curved ? 1 : 8; n <= 8; n++) {
-    const double last[2] = {x, y};
-    carom_shot_at(line->ball, line->count, shot, from + (to - from) * n / 8.0, states);
-    x = across(v, n < 8 ? states[ball].r : end);
-    y = down(v, n < 8 ? states[ball].r : end);
+    const double last[2] = {x, y}, *r = end;
+    if (n < 8) {
+      carom_shot_at(line->ball, line->count, shot, from + (to - from) * n / 8.0, states);
+      r = states[ball].r;
+    }
+    x = across(v, r);
+    y = down(v, r);
     fprintf(v->out, "L%.1f %.1f", x, y);
     keep_line(v->labels, last[0], last[1], x, y);
   }
@@ -78,20 +82,24 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
   bool moved = false;
   for (int64_t k = 0; last < shot->time; k++) {
     /* The next event, or the end of the picture. */
-    const bool is_event = k < shot->count && k < shot->room && shot->events[k].time <= shot->time;
-    const carom_event *e = is_event ? &shot->events[k] : NULL;
-    const int side = is_event ? shot_event_side(e, ball) : 0;
-    if (side < 0)
-      continue;
-    const double time = is_event ? e->time : shot->time;
-    const carom_ball_state *to = is_event ? &e->before[side] : &shot->final[ball];
+    const bool is_event = k < shot_events_kept(shot) && shot->events[k].time <= shot->time;
+    const carom_ball_state *to = &shot->final[ball];
+    double time = shot->time;
+    if (is_event) {
+      const int side = shot_event_side(&shot->events[k], ball);
+      if (side < 0)
+        continue;
+      to = &shot->events[k].before[side];
+      time = shot->events[k].time;
+    }
     carom_shot_at(line->ball, line->count, shot, 0.5 * (last + time), states);
     const carom_ball_state middle = states[ball];
     const int64_t label = is_event ? to->label : middle.label;
     carom_shot_at(line->ball, line->count, shot, last, states);
 
     /* a piece from the event before, unless the ball has not moved yet or lies at the end */
-    if (is_event ? moved || time > last : is_moving(label)) {
+    const bool has_piece = is_event ? moved || time > last : is_moving(label);
+    if (has_piece) {
       if (!moved)
         fprintf(v->out,
                 "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\"%s "
@@ -253,7 +261,7 @@ static double rise_of(const shot_line *line, const carom_shot *shot, int ball) {
   const bool flies =
       start->label == CAROM_BALL_AIRBORNE || start->v[2] != 0.0 || start->r[2] > R + 1e-6;
   double most = flies ? start->r[2] - R + 0.5 * start->v[2] * fabs(start->v[2]) / g : 0.0;
-  for (int64_t k = 0; k < shot->count && k < shot->room; k++) {
+  for (int64_t k = 0; k < shot_events_kept(shot); k++) {
     const int side = shot_event_side(&shot->events[k], ball);
     if (side < 0)
       continue;
@@ -274,7 +282,7 @@ static void draw_heights(const view *v, const shot_line *line, const carom_shot 
           "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"",
           colour_of(line->name[ball], ball));
   double last = 0.0;
-  for (int64_t k = 0; k < shot->count && k < shot->room; k++) {
+  for (int64_t k = 0; k < shot_events_kept(shot); k++) {
     const carom_event *e = &shot->events[k];
     const int side = shot_event_side(e, ball);
     if (side < 0)
@@ -319,7 +327,7 @@ static void draw_side(const view *v, const shot_line *line, const carom_shot *sh
 static void draw_rails(const view *v, labels *l, const shot_line *line, const carom_shot *shot) {
   const int ball = (int)line->cue.ball;
   char text[40];
-  for (int64_t k = 0, rails = 0; k < shot->count && k < shot->room && rails < MOST_MARKED; k++)
+  for (int64_t k = 0, rails = 0; k < shot_events_kept(shot) && rails < MOST_MARKED; k++)
     if (counts_as_rail(line, shot, k, ball)) {
       snprintf(text, sizeof text, "rail %d, %.2f s", (int)++rails, shot->events[k].time);
       put_label(l, across(v, shot->events[k].before[0].r), down(v, shot->events[k].before[0].r),
@@ -372,18 +380,21 @@ static void draw_paths(const view *v, const played *shots, int count) {
   view thin = *v;
   thin.labels = &nowhere;
   for (int shot = 0; shot < count; shot++) {
-    fputs(shots[shot].others_count > 0 ? "<g class=\"others\" opacity=\"0.4\">\n" : "", v->out);
+    fputs(text_if(shots[shot].others_count > 0, "<g class=\"others\" opacity=\"0.4\">\n"), v->out);
     for (int n = 0; n < shots[shot].others_count; n++)
       for (int k = shots[shot].line->count - 1; k >= 0; k--)
         draw_path(&thin, shots[shot].line, &shots[shot].others[n], k,
                   colour_of(shots[shot].line->name[k], k), "", true);
-    fputs(shots[shot].others_count > 0 ? "</g>\n" : "", v->out);
+    fputs(text_if(shots[shot].others_count > 0, "</g>\n"), v->out);
   }
   for (int shot = count - 1; shot >= 0; shot--)
-    for (int k = shots[shot].line->count - 1; k >= 0; k--)
-      draw_path(v, shots[shot].line, shots[shot].shot, k,
-                count > 1 ? shot_colour(shot) : colour_of(shots[shot].line->name[k], k),
-                count > 1 && k != shots[shot].line->cue.ball ? DASHES : "", false);
+    for (int k = shots[shot].line->count - 1; k >= 0; k--) {
+      const shot_line *line = shots[shot].line;
+      const bool is_dashed = count > 1 && k != line->cue.ball;
+      draw_path(v, line, shots[shot].shot, k,
+                count > 1 ? shot_colour(shot) : colour_of(line->name[k], k),
+                text_if(is_dashed, DASHES), false);
+    }
 }
 
 /* Where they end, kept free of labels and then drawn; what does not move, once. */

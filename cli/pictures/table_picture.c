@@ -12,10 +12,13 @@
 static const double table_scale = 400.0, table_margin = 0.05;
 
 double across(const view *v, const double r[2]) {
-  return v->scale * ((v->turned ? r[1] - v->low[1] : r[0] - v->low[0]) + v->margin);
+  const int axis = v->turned;
+  return v->scale * (r[axis] - v->low[axis] + v->margin);
 }
 double down(const view *v, const double r[2]) {
-  return v->scale * ((v->turned ? r[0] - v->low[0] : v->high[1] - r[1]) + v->margin);
+  if (v->turned)
+    return v->scale * (r[0] - v->low[0] + v->margin);
+  return v->scale * (v->high[1] - r[1] + v->margin);
 }
 
 view view_of(FILE *out, const carom_table *t) {
@@ -24,12 +27,11 @@ view view_of(FILE *out, const carom_table *t) {
             .high = {-INFINITY, -INFINITY},
             .scale = table_scale};
   for (int k = 0; k < t->rails; k++)
-    for (int end = 0; end < 2; end++)
-      for (int axis = 0; axis < 2; axis++) {
-        const double x = end == 0 ? t->rail[k].p[axis] : t->rail[k].q[axis];
-        v.low[axis] = fmin(v.low[axis], x);
-        v.high[axis] = fmax(v.high[axis], x);
-      }
+    for (int axis = 0; axis < 2; axis++) {
+      const double p = t->rail[k].p[axis], q = t->rail[k].q[axis];
+      v.low[axis] = fmin(v.low[axis], fmin(p, q));
+      v.high[axis] = fmax(v.high[axis], fmax(p, q));
+    }
   v.turned = v.high[1] - v.low[1] > v.high[0] - v.low[0];
   v.margin = table_margin * fmax(v.high[0] - v.low[0], v.high[1] - v.low[1]);
   return v;
@@ -54,16 +56,18 @@ static void draw_diamonds(const view *v, const carom_table *t) {
   double low[2], high[2];
   noses_of(t, low, high);
   const int along = high[1] - low[1] > high[0] - low[0]; /* the axis of the long ones */
-  for (int axis = 0; axis < 2; axis++)
-    for (int k = 1; k < (axis == along ? 8 : 4); k++)
+  for (int axis = 0; axis < 2; axis++) {
+    const int parts = axis == along ? 8 : 4, other = 1 - axis;
+    const double beside[2] = {v->low[other] - 0.75 * v->margin, v->high[other] + 0.75 * v->margin};
+    for (int k = 1; k < parts; k++)
       for (int side = 0; side < 2 && (axis != along || k != 4 || t->pockets == 0); side++) {
         double r[2];
-        r[axis] = low[axis] + (high[axis] - low[axis]) * k / (axis == along ? 8 : 4);
-        r[1 - axis] =
-            side == 0 ? v->low[1 - axis] - 0.75 * v->margin : v->high[1 - axis] + 0.75 * v->margin;
+        r[axis] = low[axis] + (high[axis] - low[axis]) * k / parts;
+        r[other] = beside[side];
         fprintf(v->out, "<path d=\"M%.1f %.1fl3 4l-3 4l-3 -4Z\" fill=\"#e8dcc0\"/>\n", across(v, r),
                 down(v, r) - 4.0);
       }
+  }
 }
 
 /* The names of the pockets, on the wood beside them. */
@@ -96,7 +100,8 @@ static void draw_axes(const view *v, const carom_table *t) {
   for (int axis = 0; axis < 2; axis++) {
     double from[2] = {v->low[0], v->low[1]}, to[2];
     from[1 - axis] -= out;
-    from[axis] += axis == 1 && t->pockets > 0 && v->turned ? 1.2 / 8.0 * t->length : 0.0;
+    if (axis == 1 && t->pockets > 0 && v->turned)
+      from[axis] += 1.2 / 8.0 * t->length;
     memcpy(to, from, sizeof to);
     to[axis] += far;
     const double left = across(v, from), top = down(v, from), x = across(v, to) - left,
@@ -110,11 +115,12 @@ static void draw_axes(const view *v, const carom_table *t) {
     /* The name is on the outer side of its arrow: above it, left of it, or below one along the
      * lower edge. */
     const double size = v->labels->size;
-    svg_text(v->out, y > 1.0 ? left - 4.0 : left + 4.0,
-             x > 1.0 && !v->turned ? top + size : top - 0.25 * size, names[axis], 20,
+    const bool is_level = x > 1.0, goes_down = y > 1.0;
+    svg_text(v->out, goes_down ? left - 4.0 : left + 4.0,
+             is_level && !v->turned ? top + size : top - 0.25 * size, names[axis], 20,
              "class=\"axis\" font-size=\"%.1f\" fill=\"#e8dcc0\" text-anchor=\"%s\" "
              "transform=\"rotate(%d %.1f %.1f)\"",
-             size, y > 1.0 ? "end" : "start", x > 1.0 ? 0 : -90, left, top);
+             size, goes_down ? "end" : "start", is_level ? 0 : -90, left, top);
   }
 }
 
@@ -142,10 +148,9 @@ static void keep_rails(const view *v, const carom_table *t, double width, double
 void draw_table(const view *v, const carom_table *t, double below) {
   FILE *out = v->out;
   const double scale = v->scale;
-  const double width =
-      scale * ((v->turned ? v->high[1] - v->low[1] : v->high[0] - v->low[0]) + 2.0 * v->margin);
-  const double height =
-      scale * ((v->turned ? v->high[0] - v->low[0] : v->high[1] - v->low[1]) + 2.0 * v->margin);
+  const int axis = v->turned; /* that across the picture */
+  const double width = scale * (v->high[axis] - v->low[axis] + 2.0 * v->margin);
+  const double height = scale * (v->high[1 - axis] - v->low[1 - axis] + 2.0 * v->margin);
   svg_begin(out, width, height + below, "rx=\"18\" fill=\"#5b3a21\"");
   const double inset = scale * 0.5 * v->margin;
   fprintf(

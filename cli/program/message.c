@@ -2,6 +2,7 @@
 #include "program/message.h"
 
 #include "program/monotonic.h"
+#include "program/words.h"
 
 #include <limits.h>
 #include <stdarg.h>
@@ -59,7 +60,7 @@ void print_wrapped(FILE *out, const char *text, int width) {
     for (size_t k = 0; k < size;) { /* a word with the blanks before it */
       const int blanks = (int)strspn(text + k, " "), word = (int)strcspn(text + k + blanks, " \n");
       const bool breaks = column > indent && column + blanks + word > width;
-      fprintf(out, "%s%*s%.*s", breaks ? "\n" : "", breaks ? indent : blanks, "", word,
+      fprintf(out, "%s%*s%.*s", text_if(breaks, "\n"), breaks ? indent : blanks, "", word,
               text + k + blanks);
       column = (breaks ? indent : column + blanks) + word;
       k += (size_t)(blanks + word);

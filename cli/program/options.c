@@ -26,7 +26,7 @@ static int write_head(const option_row *row, char text[80]) {
   if (strlen(argument) > HELP_WIDTH - OPTION_WIDTH)
     argument = "NAME";
   return snprintf(text, 80, "  %s--%s%s%s", row->letter != 0 ? letter : "", row->name,
-                  argument[0] != '\0' ? " " : "", argument);
+                  text_if(argument[0] != '\0', " "), argument);
 }
 
 /* The help beside the head, or below it where that is long. */
@@ -77,8 +77,8 @@ static void print_all_options(FILE *out, const command_form *form, const char *t
 }
 
 static void print_help(FILE *out, const command_form *form) {
-  fprintf(out, "usage: %s %s%s%s\n\n", program_name, form->name, form->usage[0] != '\0' ? " " : "",
-          form->usage);
+  fprintf(out, "usage: %s %s%s%s\n\n", program_name, form->name,
+          text_if(form->usage[0] != '\0', " "), form->usage);
   print_wrapped(out, form->about, HELP_WIDTH);
   fputs("\noptions:\n", out);
   print_all_options(out, form, "\noptions %s:\n", print_row);

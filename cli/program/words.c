@@ -7,6 +7,18 @@
 
 enum { LONGEST_WORD = 24 };
 
+const char *text_if(bool given, const char *text) {
+  return given ? text : "";
+}
+
+const char *left_or_right(double to_left) {
+  return to_left > 0.0 ? "left" : "right";
+}
+
+const char *above_or_below(double above) {
+  return above < 0.0 ? "below" : "above";
+}
+
 int place_among(const char *words, const char *text, size_t size) {
   for (int place = 0; *words != '\0'; place++) {
     const size_t length = strcspn(words, " |");

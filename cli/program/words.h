@@ -3,7 +3,15 @@
 #ifndef CAROM_CLI_WORDS_H
 #define CAROM_CLI_WORDS_H
 
+#include <stdbool.h>
 #include <stddef.h>
+
+/* The text where `given` is set, else "". */
+const char *text_if(bool given, const char *text);
+
+/* "left" of a number above 0, else "right"; "below" of a number below 0, else "above". */
+const char *left_or_right(double to_left);
+const char *above_or_below(double above);
 
 /* The place of `text`, of `size` characters, among the words; -1 if it is none of them. */
 int place_among(const char *words, const char *text, size_t size);

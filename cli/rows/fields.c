@@ -104,7 +104,8 @@ const char *words_of(int list, bool with_default, char text[MOST_WORDS]) {
   text[0] = '\0';
   for (int value = 0; (word = carom_word((carom_words)list, value)) != NULL; value++)
     if (with_default || strcmp(word, "default") != 0)
-      size += snprintf(text + size, MOST_WORDS - (size_t)size, "%s%s", size > 0 ? "|" : "", word);
+      size +=
+          snprintf(text + size, MOST_WORDS - (size_t)size, "%s%s", text_if(size > 0, "|"), word);
   return text;
 }
 
@@ -225,7 +226,7 @@ static const carom_number *number_named(const option_row *row, const char *name,
       if (refusal(row, *part, n) == NULL && named)
         return n;
       if (refusal(row, *part, n) == NULL)
-        size += snprintf(known + size, sizeof known - (size_t)size, "%s%s", size > 0 ? "|" : "",
+        size += snprintf(known + size, sizeof known - (size_t)size, "%s%s", text_if(size > 0, "|"),
                          n->name);
       else if (named && other == NULL) {
         other = n;

@@ -4,6 +4,7 @@
 #include "program/memory.h"
 #include "program/message.h"
 #include "program/output.h"
+#include "program/words.h"
 #include "rows/npy.h"
 #include "rows/number.h"
 #include "rows/precision.h"
@@ -44,7 +45,7 @@ result_sink *sink_open(const shared_options *asked, bool single) {
   if (s->array)
     write_header(s);
   else
-    fprintf(file, "id,%s,status%s%s\n", s->kind->result_columns, s->derived ? "," : "",
+    fprintf(file, "id,%s,status%s%s\n", s->kind->result_columns, text_if(s->derived, ","),
             s->derived ? s->kind->derived_columns : "");
   return s;
 }

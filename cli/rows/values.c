@@ -139,7 +139,7 @@ static bool set_value(value *v, double given, int unit) {
   else
     v->x = given * units[unit].factor;
   const bool apart = units[unit].name[0] >= 'a' && units[unit].times != DIAMONDS; /* 2d, 2 m */
-  snprintf(v->name, sizeof v->name, "%.6g%s%s", given, apart ? " " : "", units[unit].name);
+  snprintf(v->name, sizeof v->name, "%.6g%s%s", given, text_if(apart, " "), units[unit].name);
   return isfinite(v->x);
 }
 
@@ -174,7 +174,7 @@ static void list_units(int measure, char *text, size_t room) {
       between = ", ";
     }
   snprintf(text + strlen(text), room - strlen(text), "%sa number",
-           between[0] != '\0' ? ", or " : "");
+           text_if(between[0] != '\0', ", or "));
   between = measure >= MEASURE_SPIN ? " with a unit: " : ", with a unit or without: ";
   for (int k = 0; k < UNITS; k++)
     if (units[k].measure == measure && units[k].name[0] != '\0') {

@@ -72,7 +72,7 @@ static bool refuse(const option_row *row, const char *text) {
                : "X,Y in m, or with a unit: 2,3ft, or 2,3d in diamonds, or a place: " PLACES
                  "; or frozen-left,4d, frozen-1,90, which touches a rail or a ball; several with "
                  "colons: 0.6,1.5:foot-spot",
-           row->words != 0 ? "; or a rack: " : "", racks, text,
+           text_if(row->words != 0, "; or a rack: "), racks, text,
            tip ? hint : did_you_mean(text, known, hint));
   return false;
 }

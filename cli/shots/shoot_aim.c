@@ -89,7 +89,7 @@ int pocket_named(const carom_table *t, char *const id[], const char *name, char 
   int found = -1;
   for (int p = 0; p < t->pockets; p++) {
     const char *own = carom_pocket_name(t, p) != NULL ? carom_pocket_name(t, p) : id[p];
-    snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s%s", p > 0 ? "|" : "", own);
+    snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s%s", text_if(p > 0, "|"), own);
     if (strcmp(own, name) == 0 || strcmp(id[p], name) == 0)
       found = p;
   }

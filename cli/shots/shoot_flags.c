@@ -242,7 +242,7 @@ static double tip_of(const value *v, double radius) {
 /* What differs between shots, as text. */
 static void name_value(char *id, const char *what, const values *list, int k) {
   if (list->count > 1)
-    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%s%s %s", id[0] != '\0' ? ", " : "", what,
+    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%s%s %s", text_if(id[0] != '\0', ", "), what,
              list->at[k].name);
 }
 
@@ -376,14 +376,14 @@ static void name_shot(const shoot_flags *f, const combination *c, char id[MOST_T
   name_value(id, "aim", &f->aim, c->way);
   name_value(id, "cut", &f->cut, c->way);
   if (f->to.count > 1)
-    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%sto %s,%s", id[0] != '\0' ? ", " : "",
+    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%sto %s,%s", text_if(id[0] != '\0', ", "),
              f->to.at[c->way].x.name, f->to.at[c->way].y.name);
   name_value(id, "elevation", &f->elevation, c->rise);
   name_value(id, "tip-time", &f->tip_time, c->time);
   name_value(id, "tip-restitution", &f->tip_restitution, c->bounce);
   name_value(id, "speed", c->speeds, c->speed);
   if (f->tip.count > 1)
-    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%stip %s,%s", id[0] != '\0' ? ", " : "",
+    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%stip %s,%s", text_if(id[0] != '\0', ", "),
              f->tip.at[c->tip].x.name, f->tip.at[c->tip].y.name);
 }
 

@@ -3,6 +3,7 @@
 
 #include "program/memory.h"
 #include "program/message.h"
+#include "program/words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -48,7 +49,7 @@ static void say_off_table(const carom_shot_ball *ball, char *text, size_t room) 
              r[2]);
   else
     snprintf(text, room, "%s: x = %.6g, y = %.6g m is in a cushion or a pocket, or outside%s",
-             wrong, r[0], r[1], fmax(r[0], r[1]) > 10.0 ? "; are places in m?" : "");
+             wrong, r[0], r[1], text_if(fmax(r[0], r[1]) > 10.0, "; are places in m?"));
 }
 
 /* What is wrong with the arguments of a shot, with the key. False if nothing is. */

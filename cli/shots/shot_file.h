@@ -70,6 +70,8 @@ void shot_file_close(shot_file *file);
 
 /* The name of an event's type as it stands in the files ("ball_ball"), or NULL. */
 const char *shot_event_name(int type);
+/* How many events a shot had room for. */
+int64_t shot_events_kept(const carom_shot *shot);
 /* On which side of an event, 0 or 1, the states of a ball are; -1 where the ball is not in it. */
 int shot_event_side(const carom_event *event, int ball);
 /* The id of the rail, jaw or pocket that ball a met, or NULL where the event is of no such

@@ -6,6 +6,7 @@
  * samples and the golden section. */
 #include "shots/shot_story.h"
 
+#include "program/words.h"
 #include "rows/number.h"
 #include "rows/quantities.h"
 
@@ -47,10 +48,6 @@ static bool has_ball(const carom_event *e, int ball) {
   return shot_event_side(e, ball) >= 0;
 }
 
-static int64_t kept_events(const carom_shot *shot) {
-  return shot->count < shot->room ? shot->count : shot->room;
-}
-
 /* ---- What counts */
 
 static double length_of(const carom_rail *r) {
@@ -76,7 +73,7 @@ bool counts_as_rail(const shot_line *line, const carom_shot *shot, int64_t k, in
 }
 
 bool ball_moved(const carom_shot *shot, int ball) {
-  for (int64_t k = 0; k < shot->count && k < shot->room; k++)
+  for (int64_t k = 0; k < shot_events_kept(shot); k++)
     if (has_ball(&shot->events[k], ball))
       return true;
   return false;
@@ -226,7 +223,7 @@ static double gap_at(const shot_line *line, const carom_shot *shot, int a, int b
 }
 
 static bool ever_meet(const carom_shot *shot, int a, int b) {
-  for (int64_t k = 0; k < kept_events(shot); k++)
+  for (int64_t k = 0; k < shot_events_kept(shot); k++)
     if (shot->events[k].type == CAROM_EVENT_BALL_BALL && has_ball(&shot->events[k], a) &&
         has_ball(&shot->events[k], b))
       return true;
@@ -292,7 +289,7 @@ static void add_contact(story *s, const moment *m, double *met) {
 static double add_events(const shot_line *line, const carom_shot *shot, int ball, story *s) {
   const int most = MOST_MOMENTS - 2 * CAROM_BALLS_MOST; /* with room for its end and those passed */
   double last = 0.0, met = -INFINITY;
-  for (int64_t k = 0; k < kept_events(shot) && s->count < most; k++) {
+  for (int64_t k = 0; k < shot_events_kept(shot) && s->count < most; k++) {
     moment m;
     if (!has_ball(&shot->events[k], ball))
       continue;
@@ -537,10 +534,10 @@ void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const s
   else
     fputs(", tip ", out);
   if (cue->a != 0.0)
-    fprintf(out, "%.3g R %s%s", fabs(cue->a), cue->a > 0.0 ? "left" : "right",
+    fprintf(out, "%.3g R %s%s", fabs(cue->a), left_or_right(cue->a),
             cue->b != 0.0 ? " and " : " of the centre\n");
   if (cue->b != 0.0)
-    fprintf(out, "%.3g R %s the centre\n", fabs(cue->b), cue->b < 0.0 ? "below" : "above");
+    fprintf(out, "%.3g R %s the centre\n", fabs(cue->b), above_or_below(cue->b));
   if (shot->facts != NULL)
     tell_push(out, line, shot->facts);
   int moved = 0;

@@ -9,6 +9,10 @@ int shot_event_side(const carom_event *event, int ball) {
   return event->type == CAROM_EVENT_BALL_BALL && event->b == ball ? 1 : -1;
 }
 
+int64_t shot_events_kept(const carom_shot *shot) {
+  return shot->count < shot->room ? shot->count : shot->room;
+}
+
 const char *shot_event_name(int type) {
   return carom_event_name((carom_event_type)type);
 }
