@@ -40,9 +40,10 @@
  *
  * Cost of the exact solver for one collision, on one core of an Intel Xeon of 2 GHz with
  * AVX-512:
- *   - A call takes 0.4 us in the mean of play: 0.2 us if the slip on the cloth is smooth, 0.3 to
- *     3 us if it turns or the balls stick. A row of a batch takes 0.16 us. With SSE2 or in plain
- *     C a call takes a quarter longer.
+ *   - A call takes 0.6 us in the mean of play: 0.3 us if the slip on the cloth is smooth, 0.4 to
+ *     4 us if it turns or the balls stick. A row of a batch takes 0.3 us. With SSE2 or in plain
+ *     C a call takes a third longer.
+ *   - With CAROM_SOLVER_FAST a call takes 0.4 us, and a row of a batch 0.16 us.
  *   - Strong friction, very small restitution or very unequal masses take some microseconds.
  *   - No input takes more than 200 us: the solver ends after 400 iterations with
  *     CAROM_ERROR_UNRESOLVED, and evaluates the equations at most 3,300 times
@@ -57,17 +58,22 @@
  *   - Each row of a batch and a single call on that row, for any batch size, split, neighbours
  *     and thread count.
  *   - Two runs on one processor with one instruction set.
- *   - All machines and compilers, for lockstep, replays and tests: shots, unless options.fast is
- *     set; other calls with options.plain = 1, with the environment variable CAROM_ISA=plain, or
- *     after carom_isa_limit(CAROM_ISA_PLAIN). This holds for every function, also with flags such
- *     as -mfma, -march=native and LTO.
+ *   - All machines, compilers and instruction sets: shots, unless options.fast is set, and
+ *     collisions in double precision by CAROM_SOLVER_EXACT and CAROM_SOLVER_EULER.
+ *   - All machines and compilers: other calls with options.plain = 1, with the environment
+ *     variable CAROM_ISA=plain, or after carom_isa_limit(CAROM_ISA_PLAIN). This holds for every
+ *     function, also with flags such as -mfma, -march=native and LTO.
  *     tests/platforms/bits.expected has hashes on which gcc and clang, Linux on x86-64 and
  *     arm64, Windows and WebAssembly agree.
- *   - All instruction sets, for Euler's method in double precision.
+ * Otherwise bits differ between instruction sets: those of CAROM_SOLVER_FAST, of functions in
+ * single precision, of traces, and of the exact limit of a cushion. With sse2 and avx2 they also
+ * differ between makes of processors, whose estimates of reciprocals differ. Results then differ
+ * within the solver's errors. The bits of a NaN are not specified.
  *
- * Otherwise the exact solver's bits differ between instruction sets. With sse2 and avx2 they
- * also differ between makes of processors, whose estimates of reciprocals differ. Results then
- * differ within the solver's errors. The bits of a NaN are not specified.
+ * Smoothness. The exact solver's result is smooth to rounding errors, about 1e-15 of the fastest
+ * speed, except for isolated jumps where another kind or number of steps solves the collision:
+ * some 3 to 8 for each change of a velocity by its own size, in the median of 1e-9 and at most
+ * 1e-6 of the fastest speed. So differences may take any step (docs/using/derivatives.md).
  *
  * Floating-point environment.
  *   - The rounding mode must be to nearest. With another mode, ordinary collisions are about 1e-6
@@ -303,9 +309,13 @@ CAROM_API const char *carom_status_string(carom_status status);
 /* How the collision is computed. */
 typedef enum carom_solver {
   CAROM_SOLVER_EXACT = 0, /* the limit of infinitely many steps, by collocation: the solution of
-                             the model. */
+                             the model. Smooth, and with the same bits on all machines. */
   CAROM_SOLVER_EULER = 1, /* Mathavan's N steps of equal normal impulse. With the slip of
                              pooltool the result has pooltool's bits. */
+  CAROM_SOLVER_FAST = 2,  /* EXACT with single precision inside: two thirds of the time of a call
+                             and half of that of a batch, within the same bounds of the error. The
+                             result has steps of 1e-9 to 1e-7 m/s, so differences need steps of
+                             1e-4 or more. The functions _f32 do so for EXACT too. */
 } carom_solver;
 
 /* How the slip on the cloth is computed. */

@@ -229,10 +229,9 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
  * Bits: a shot has the same bits on every machine, with every model and in both worlds, unless
  * options.fast asks for the instruction set in use. A batch has the bits of single calls, for any
  * number of threads and any split. Cost: an event takes about 0.4 us with Han's cushions, the
- * default. A shot with two balls takes 3 us, and a nine-ball break 40 us; options.fast saves 1 to 2
- * % of this. The exact limit of a cushion adds 7 to 10 us for each impact, of which options.fast
- * saves two fifths. Stack: 53 KiB; a batch 58, with threads 60. Nothing is allocated, except for
- * the threads of a batch. */
+ * default. A shot with two balls takes 3 us, and a nine-ball break 40 us. The exact limit of a
+ * cushion adds 7 to 10 us for each impact, of which options.fast saves two fifths. Stack: 53 KiB;
+ * a batch 58, with threads 60. Nothing is allocated, except for the threads of a batch. */
 
 /* ---- Balls ----------------------------------------------------------------------------------- */
 
@@ -681,8 +680,8 @@ typedef struct carom_shot_options {
                        with CAROM_STOPPED_AT_EVENT. The set is CAROM_STOP_AT(type) of a
                        carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: it is not
                        stopped. */
-  int32_t fast;     /* 0: with the bits that all machines share (CAROM_ISA_PLAIN). 1: with the
-                       instruction set in use. */
+  int32_t fast;     /* 0: with the bits that all machines share. 1: the exact limit of a cushion
+                       is computed with the instruction set in use, and has its bits. */
   carom_simultaneous simultaneous;
   int32_t cluster_steps; /* steps of the integrator of clusters for the duration of a contact, at
                             most 10000; 0: 25. */

@@ -7,7 +7,7 @@ Needs mpmath; what it prints is kept in the tree:
     tools/format
 
 For contact_law: Gauss's rule of 8 nodes on [0, 1] in double precision, described in that file. For
-ball_ball, in single precision:
+ball_ball, in both precisions:
 
 Gauss rules of n nodes on [0, 1], and one of Gauss and Jacobi for the weight (1 - x)^4, for steps to
 stick; each has what the steps over its nodes need. With L_j the Lagrange basis on the nodes x_k:
@@ -86,8 +86,8 @@ def centred(c):
 
 
 def text(row):
-    numbers = [mp.nstr(v, 10, min_fixed=-4, max_fixed=4) for v in row]
-    return "{" + ", ".join((t if "." in t or "e" in t else t + ".0") + "f" for t in numbers) + "}"
+    numbers = [mp.nstr(v, 18, min_fixed=-4, max_fixed=4) for v in row]
+    return "{" + ", ".join(t if "." in t or "e" in t else t + ".0" for t in numbers) + "}"
 
 
 def print_rule(name, n, w):
@@ -149,10 +149,17 @@ def print_rule(name, n, w):
 
 def print_ball_ball():
     print('#include "ball_ball/carrier.h"\n')
+    print("/* The compiler rounds the numbers to the precision of the build. */")
+    print("#ifdef __clang__\n#pragma clang diagnostic push")
+    print('#pragma clang diagnostic ignored "-Wimplicit-float-conversion"')
+    print("#else\n#pragma GCC diagnostic push")
+    print('#pragma GCC diagnostic ignored "-Wfloat-conversion"\n#endif\n')
     print_rule("gauss", 4, 0)
     print_rule("gauss", 6, 0)
     print_rule("gauss", 8, 0)
     print_rule("jacobi", 6, 4)
+    print("#ifdef __clang__\n#pragma clang diagnostic pop")
+    print("#else\n#pragma GCC diagnostic pop\n#endif")
 
 
 def print_impact():
@@ -194,9 +201,10 @@ def print_impact():
 room = sys.argv[1] if len(sys.argv) == 2 else ""
 if room not in ("ball_ball", "contact_law"):
     sys.exit("usage: collocation_rules.py ball_ball|contact_law")
-guard = "CAROM_SRC_%s_RULES_H" % room.upper()
+guard = "CAROM_SRC_%s_QUADRATURE_H" % room.upper()
 print(
-    "/* The quadrature rules of the collocation steps: see tools/collocation_rules.py, which printed them. */"
+    "/* The quadrature rules of the collocation steps: see tools/collocation_rules.py, which printed\n"
+    " * them. */"
 )
 print("#ifndef %s\n#define %s\n" % (guard, guard))
 (print_ball_ball if room == "ball_ball" else print_impact)()

@@ -27,10 +27,14 @@ WRAPPER = "carom.hpp"
 PASSES = [
     ("rows.c", "", "f64"),
     ("rows.c", "F32", "f32"),
+    ("rows.c", "MIXED", "mixed"),
     ("rows.c", "ONE", "one_f64"),
     ("rows.c", "ONE F32", "one_f32"),
-    ("collocate.c", "F32", "steps"),
-    ("collocate.c", "ONE F32", "one_steps"),
+    ("rows.c", "ONE MIXED", "one_mixed"),
+    ("collocate.c", "", "steps_f64"),
+    ("collocate.c", "F32", "steps_f32"),
+    ("collocate.c", "ONE", "one_steps_f64"),
+    ("collocate.c", "ONE F32", "one_steps_f32"),
     ("advance.c", "", "impact"),
 ]
 KERNELS = {"rows.c": "ball_ball", "collocate.c": "ball_ball", "advance.c": "contact_law"}

@@ -47,8 +47,46 @@ typedef struct work {
   int8_t *status;
   size_t first_bad;
   row_list list[STEP_KINDS][PLACES];
-  float state[STEP_KINDS][LANE_COLUMNS][ROOM]; /* of rows on their way, as in their list */
+  union {
+    float single_numbers[LANE_COLUMNS][ROOM];
+    double double_numbers[LANE_COLUMNS][ROOM / 2];
+  } state[STEP_KINDS]; /* of rows on their way, as in their list */
 } work;
+
+/* Twice the lanes. */
+static int room_of(const work *w) {
+  return w->precision == CAROM_F64 ? ROOM / 2 : ROOM;
+}
+
+/* The state of a row on its way, between its place in a list and a lane. */
+static void put_state(work *w, enum step_kind kind, int place, lane_state at, int lane) {
+  if (w->precision == CAROM_F64)
+    for (int c = 0; c < LANE_COLUMNS; c++)
+      w->state[kind].double_numbers[c][place] = at[c].double_numbers[lane];
+  else
+    for (int c = 0; c < LANE_COLUMNS; c++)
+      w->state[kind].single_numbers[c][place] = at[c].single_numbers[lane];
+}
+static void take_state(const work *w, enum step_kind kind, int place, lane_state at, int lane) {
+  if (w->precision == CAROM_F64)
+    for (int c = 0; c < LANE_COLUMNS; c++)
+      at[c].double_numbers[lane] = w->state[kind].double_numbers[c][place];
+  else
+    for (int c = 0; c < LANE_COLUMNS; c++)
+      at[c].single_numbers[lane] = w->state[kind].single_numbers[c][place];
+}
+/* The same for all lanes, of places one behind the other. */
+static void take_states(const work *w, enum step_kind kind, int first, int lanes, lane_state at) {
+  const size_t numbers = (size_t)lanes;
+  if (w->precision == CAROM_F64)
+    for (int c = 0; c < LANE_COLUMNS; c++)
+      memcpy(at[c].double_numbers, w->state[kind].double_numbers[c] + first,
+             numbers * sizeof(double));
+  else
+    for (int c = 0; c < LANE_COLUMNS; c++)
+      memcpy(at[c].single_numbers, w->state[kind].single_numbers[c] + first,
+             numbers * sizeof(float));
+}
 
 enum { MOST_ROWS = 1 << 30, CACHE_LINE = 64 };
 
@@ -66,13 +104,12 @@ static void one_by_one(work *w, uint32_t row) {
 static void add_row(work *w, enum step_kind kind, int place, uint32_t row, lane_state at,
                     int lane) {
   row_list *list = &w->list[kind][place];
-  if (list->count == ROOM) {
+  if (list->count == room_of(w)) {
     one_by_one(w, row);
     return;
   }
   if (place == ON_THEIR_WAY)
-    for (int c = 0; c < LANE_COLUMNS; c++)
-      w->state[kind][c][list->count] = at[c][lane];
+    put_state(w, kind, list->count, at, lane);
   list->row[list->count++] = row;
 }
 
@@ -118,8 +155,8 @@ static void sort(work *w, const lane_group *t, uint32_t good, const step_io *h, 
 __attribute__((noinline)) static void first_steps(work *w, const lane_group *t) {
   step_io h;
   const uint32_t good = w->with->rows_in[w->precision](w->in, t->row, w->s, &h.context, h.in);
-  w->with->first_step(h.in, good, (float)(2.5 * w->s), carom_tolerances[w->precision], h.out,
-                      h.next);
+  w->with->first_step[w->precision](h.in, good, 2.5 * w->s, carom_tolerances[w->precision], h.out,
+                                    h.next);
   sort(w, t, good, &h, AT_START, NULL);
 }
 
@@ -127,27 +164,26 @@ __attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, i
                                                  const lane_group *t, lane_state at) {
   step_io h;
   const uint32_t good = w->with->rows_in[w->precision](w->in, t->row, w->s, &h.context, h.in);
-  w->with->next_step(kind, place == AT_START, h.in, (float)(2.5 * w->s),
-                     carom_tolerances[w->precision], at, h.out, h.next);
+  w->with->next_step[w->precision](kind, place == AT_START, h.in, 2.5 * w->s,
+                                   carom_tolerances[w->precision], at, h.out, h.next);
   sort(w, t, good, &h, ON_THEIR_WAY, at);
 }
 
 /* Takes up to a register's worth of rows off the end of a list, and their steps. */
 static void work_off(work *w, enum step_kind kind, int place) {
   row_list *list = &w->list[kind][place];
-  const int lanes = w->with->lanes;
+  const int lanes = w->with->lanes[w->precision];
   lane_state at;
   lane_group t = {.count = list->count < lanes ? list->count : lanes};
   CAROM_PROMISE(t.count >= 1 && t.count <= lanes);
   list->count -= t.count;
   for (int lane = 0; lane < lanes; lane++)
     t.row[lane] = list->row[list->count + (lane < t.count ? lane : t.count - 1)];
-  for (int c = 0; c < LANE_COLUMNS && place == ON_THEIR_WAY; c++)
-    if (t.count == lanes)
-      memcpy(at[c], w->state[kind][c] + list->count, (size_t)lanes * sizeof(float));
-    else
-      for (int lane = 0; lane < lanes; lane++)
-        at[c][lane] = w->state[kind][c][list->count + (lane < t.count ? lane : t.count - 1)];
+  if (place == ON_THEIR_WAY && t.count == lanes)
+    take_states(w, kind, list->count, lanes, at);
+  else if (place == ON_THEIR_WAY)
+    for (int lane = 0; lane < lanes; lane++)
+      take_state(w, kind, list->count + (lane < t.count ? lane : t.count - 1), at, lane);
   next_steps(w, kind, place, &t, at);
 }
 
@@ -186,7 +222,7 @@ static size_t solve_part(carom_precision precision, const char *in, size_t n,
     w.list[kind][AT_START].count = w.list[kind][ON_THEIR_WAY].count = 0;
   if (status != NULL)
     memset(status, CAROM_OK, n * sizeof *status); /* rows that no step solves get their own */
-  const size_t lanes = (size_t)w.with->lanes, register_size = lanes * w.in_size,
+  const size_t lanes = (size_t)w.with->lanes[precision], register_size = lanes * w.in_size,
                size = n * w.in_size;
   for (size_t first = 0; first < n; first += lanes) {
     /* the data of two registers later, while there is work to hide it */
@@ -265,7 +301,7 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
 
 carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt,
                                  carom_result *out, int8_t *status) {
-  return collide_batch(CAROM_F64, in, n, opt, out, status);
+  return collide_batch(carom_precision_of(opt), in, n, opt, out, status);
 }
 
 carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt,

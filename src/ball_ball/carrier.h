@@ -8,37 +8,47 @@
  *
  * A batch computes LANES collisions at once: a vreal has a lane for each, and so has a reg,
  * which holds one node of each of them. A single call (CAROM_LANES_ONE) computes one: a vreal is
- * a float, and a reg or two hold all nodes, so that the chain of dependent operations, which
+ * a number, and a few regs hold all nodes, so that the chain of dependent operations, which
  * bounds the time of a single call, is gone through once for all of them. Sums over nodes are taken
  * in the same order in both, so the bits are the same. In a step of four nodes a reg of eight
  * has four to spare, whose junk no sum and no maximum takes in.
- */
+ *
+ * The text is compiled in two precisions. Its numbers are written REAL(), because one that is not
+ * a sum of powers of two has other digits in each. */
 #ifndef CAROM_SRC_BALL_BALL_CARRIER_H
 #define CAROM_SRC_BALL_BALL_CARRIER_H
 
 #include "ball_ball/lanes.h"
+
+/* A number of the text, in the precision of the build. */
+#define REAL(x) ((real)(x))
 
 /* the constants of a rule must reach the inner loops */
 #define always static inline __attribute__((always_inline))
 
 enum { MOST_NODES = 8 };
 /* Numbers at the nodes, in memory. */
-typedef float node_row[MOST_NODES];
+typedef real node_row[MOST_NODES];
 
 #ifdef CAROM_LANES_ONE
-#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
+#if (defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)) && defined(CAROM_LANES_F32)
 #define REG_NODES 8
 #define REGS(n) ((n) > 0) /* 1 */
-#else
+#elif defined(CAROM_LANES_F32) || defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_AVX512)
 #define REG_NODES 4
 #define REGS(n) (((n) + 3) / 4)
+#else
+#define REG_NODES 2
+#define REGS(n) (((n) + 1) / 2)
 #endif
-typedef float reg __attribute__((vector_size(4 * REG_NODES)));
-typedef int32_t reg_int __attribute__((vector_size(4 * REG_NODES)));
-typedef uint32_t reg_bits __attribute__((vector_size(4 * REG_NODES))); /* sums of junk may wrap */
-typedef float reg_unaligned __attribute__((vector_size(4 * REG_NODES), aligned(4), may_alias));
-typedef float quad __attribute__((vector_size(16)));
-typedef float quad_unaligned __attribute__((vector_size(16), aligned(4), may_alias));
+#define REG_BYTES (REAL_BYTES * REG_NODES)
+typedef real reg __attribute__((vector_size(REG_BYTES)));
+typedef lane_int reg_int __attribute__((vector_size(REG_BYTES)));
+typedef lane_bits reg_bits __attribute__((vector_size(REG_BYTES))); /* sums of junk may wrap */
+typedef real reg_unaligned __attribute__((vector_size(REG_BYTES), aligned(REAL_BYTES), may_alias));
+typedef real quad __attribute__((vector_size(4 * REAL_BYTES)));
+typedef real quad_unaligned
+    __attribute__((vector_size(4 * REAL_BYTES), aligned(REAL_BYTES), may_alias));
 enum { MOST_REGS = MOST_NODES / REG_NODES };
 /* Register k of a row. */
 #define AT(row, k) ((reg) * (const reg_unaligned *)((row) + REG_NODES * (k)))
@@ -51,7 +61,7 @@ enum { MOST_REGS = MOST_NODES / REG_NODES };
 #else
 typedef vreal reg;
 typedef vint reg_int;
-typedef uint32_t reg_bits __attribute__((vector_size(VECTOR_BYTES)));
+typedef lane_bits reg_bits __attribute__((vector_size(VECTOR_BYTES)));
 #define REGS(n) (n)
 enum { MOST_REGS = MOST_NODES };
 #define AT(row, k) ((row)[k])
@@ -70,11 +80,13 @@ always reg reg_itself(reg x) {
   return x;
 }
 #ifdef CAROM_LANES_ONE
-always reg reg_of(float x) {
-#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
+always reg reg_of(real x) {
+#if REG_NODES == 8
   return (reg){x, x, x, x, x, x, x, x};
-#else
+#elif REG_NODES == 4
   return (reg){x, x, x, x};
+#else
+  return (reg){x, x};
 #endif
 }
 #else
@@ -90,38 +102,54 @@ always reg reg_of(real x) {
 #ifdef CAROM_LANES_ONE
 
 always reg reg_fma(reg a, reg b, reg c) {
-#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
-  return (reg)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
-#elif defined(CAROM_LANES_NEON)
-  return (reg)vfmaq_f32((float32x4_t)c, (float32x4_t)a, (float32x4_t)b);
-#else
+#if !V_FUSES
   return a * b + c;
+#elif LANES_X86
+  return (reg)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
+#else
+  return (reg)vfmaq_f32((float32x4_t)c, (float32x4_t)a, (float32x4_t)b);
 #endif
 }
 
-/* 1/sqrt(x) and 1/x: to three digits, for predictors; and properly. */
-always reg rough_reciprocal_sqrt(reg x) {
-#if defined(CAROM_LANES_AVX512)
-  return (reg)_mm256_rsqrt14_ps((__m256)x);
-#elif defined(CAROM_LANES_AVX2)
-  return (reg)_mm256_rsqrt_ps((__m256)x);
-#elif defined(CAROM_LANES_SSE2)
-  return (reg)_mm_rsqrt_ps((__m128)x);
+/* The square root, as IEEE asks. */
+always reg reg_sqrt(reg x) {
+#if LANES_X86 && defined(CAROM_LANES_F32) && REG_NODES == 8
+  return (reg)_mm256_sqrt_ps((__m256)x);
+#elif LANES_X86 && defined(CAROM_LANES_F32)
+  return (reg)_mm_sqrt_ps((__m128)x);
+#elif LANES_X86 && REG_NODES == 4
+  return (reg)_mm256_sqrt_pd((__m256d)x);
+#elif LANES_X86
+  return (reg)_mm_sqrt_pd((__m128d)x);
+#elif defined(CAROM_LANES_NEON) && defined(CAROM_LANES_F32)
+  return (reg)vsqrtq_f32((float32x4_t)x);
 #elif defined(CAROM_LANES_NEON)
-  return 1 / (reg)vsqrtq_f32((float32x4_t)x);
+  return (reg)vsqrtq_f64((float64x2_t)x);
 #else
-  reg y = x;
   for (int k = 0; k < REG_NODES; k++)
-    y[k] = sqrtf(x[k]);
-  return 1 / y;
+    x[k] = LANE(sqrt)(x[k]);
+  return x;
+#endif
+}
+
+/* 1/sqrt(x) and 1/x: to three digits where there are estimates, for predictors; and properly. */
+always reg rough_reciprocal_sqrt(reg x) {
+#if V_ESTIMATES && defined(CAROM_LANES_AVX512)
+  return (reg)_mm256_rsqrt14_ps((__m256)x);
+#elif V_ESTIMATES && defined(CAROM_LANES_AVX2)
+  return (reg)_mm256_rsqrt_ps((__m256)x);
+#elif V_ESTIMATES
+  return (reg)_mm_rsqrt_ps((__m128)x);
+#else
+  return 1 / reg_sqrt(x);
 #endif
 }
 always reg rough_reciprocal(reg x) {
-#if defined(CAROM_LANES_AVX512)
+#if V_ESTIMATES && defined(CAROM_LANES_AVX512)
   return (reg)_mm256_rcp14_ps((__m256)x);
-#elif defined(CAROM_LANES_AVX2)
+#elif V_ESTIMATES && defined(CAROM_LANES_AVX2)
   return (reg)_mm256_rcp_ps((__m256)x);
-#elif defined(CAROM_LANES_SSE2)
+#elif V_ESTIMATES
   return (reg)_mm_rcp_ps((__m128)x);
 #else
   return 1 / x;
@@ -129,34 +157,51 @@ always reg rough_reciprocal(reg x) {
 }
 always reg reg_reciprocal_sqrt(reg x) {
   const reg y = rough_reciprocal_sqrt(x);
-  return V_ESTIMATES ? reg_fma(0.5f * y, reg_fma(-(x * y), y, SPREAD(1.0f)), y) : y;
+  return V_ESTIMATES ? reg_fma(REAL(0.5) * y, reg_fma(-(x * y), y, SPREAD(REAL(1.0))), y) : y;
 }
 always reg reg_reciprocal(reg x) {
   const reg y = rough_reciprocal(x);
-  return V_ESTIMATES ? reg_fma(y, reg_fma(-x, y, SPREAD(1.0f)), y) : y;
+  return V_ESTIMATES ? reg_fma(y, reg_fma(-x, y, SPREAD(REAL(1.0))), y) : y;
 }
 
 always reg reg_abs(reg x) {
-  return (reg)((reg_int)x & 0x7fffffff);
+  const reg_int sign = (reg_int)SPREAD(REAL(-0.0));
+  return (reg)((reg_int)x & ~sign);
 }
 
-/* Nodes 0 to 3 and 4 to 7. */
-#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
-#define FIRST_HALF(x) __builtin_shufflevector((x)[0], (x)[0], 0, 1, 2, 3)
-#define SECOND_HALF(x) __builtin_shufflevector((x)[0], (x)[0], 4, 5, 6, 7)
+/* Nodes 0 to 3 and, of six or eight, 4 to 7. */
+always quad first_half(const reg *x) {
+#if REG_NODES == 8
+  return __builtin_shufflevector(x[0], x[0], 0, 1, 2, 3);
+#elif REG_NODES == 4
+  return x[0];
 #else
-#define FIRST_HALF(x) ((x)[0])
-#define SECOND_HALF(x) ((x)[1])
+  return (quad){x[0][0], x[0][1], x[1][0], x[1][1]};
 #endif
+}
+always quad second_half(const reg *x, int n) {
+#if REG_NODES == 8
+  (void)n;
+  return __builtin_shufflevector(x[0], x[0], 4, 5, 6, 7);
+#elif REG_NODES == 4
+  (void)n;
+  return x[1];
+#else
+  const int last = n == 8 ? 3 : 2;
+  return (quad){x[2][0], x[2][1], x[last][0], x[last][1]};
+#endif
+}
 
 /* The largest of the numbers at n nodes. */
 always vreal largest(const reg *x, int n) {
-  const quad low = FIRST_HALF(x),
-             high = n == 8   ? SECOND_HALF(x)
-                    : n == 6 ? __builtin_shufflevector(SECOND_HALF(x), low, 0, 1, 6, 7)
+  const quad low = first_half(x),
+             high = n == 8   ? second_half(x, n)
+                    : n == 6 ? __builtin_shufflevector(second_half(x, n), low, 0, 1, 6, 7)
                              : low;
-#if LANES_X86
+#if LANES_X86 && defined(CAROM_LANES_F32)
   const quad most = (quad)_mm_max_ps((__m128)low, (__m128)high);
+#elif defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
+  const quad most = (quad)_mm256_max_pd((__m256d)low, (__m256d)high);
 #else
   quad most;
   lanes_unrolled for (int k = 0; k < 4; k++) most[k] = v_max(low[k], high[k]);
@@ -166,12 +211,12 @@ always vreal largest(const reg *x, int n) {
 
 /* The sum of numbers at n nodes. */
 always vreal sum_of(const reg *x, int n) {
-  const quad low = FIRST_HALF(x), both = n > 4 ? low + SECOND_HALF(x) : low;
+  const quad low = first_half(x), both = n > 4 ? low + second_half(x, n) : low;
   const quad sum = n == 6 ? __builtin_shufflevector(both, low, 0, 1, 6, 7) : both;
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 /* Sum over the nodes of weight times x; the weights those of a rule, or computed. */
-always vreal dot(const float *weight, const reg *x, int n) {
+always vreal dot(const real *weight, const reg *x, int n) {
   reg product[MOST_REGS];
   EACH_REG(k, n) product[k] = AT(weight, k) * x[k];
   return sum_of(product, n);
@@ -184,7 +229,7 @@ always vreal sum_of_products(const reg *weight, const reg *x, int n) {
 
 /* The number at node j. */
 #define NODE(x, j) ((x)[(j) / REG_NODES][(j) % REG_NODES])
-#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
+#if REG_NODES == 8 && defined(CAROM_LANES_F32)
 /* The number at node j, at every node. */
 always reg at_all_nodes(const reg *x, int j) {
   return (reg)_mm256_permutevar8x32_ps((__m256)x[0], _mm256_set1_epi32(j));
@@ -194,12 +239,22 @@ always quad quad_at_all_nodes(quad x, int j) {
   return (quad)_mm_permutevar_ps((__m128)x, _mm_set1_epi32(j));
 }
 always void apply_to_four(const node_row *M, const reg *x, reg *out) {
-  const quad low = FIRST_HALF(x);
+  const quad low = first_half(x);
   quad pair[2];
   lanes_unrolled for (int j = 0; j < 4; j += 2) pair[j / 2] =
       (quad)_mm_fmadd_ps((__m128)QUAD_AT(M[j + 1]), (__m128)quad_at_all_nodes(low, j + 1),
                          (__m128)(QUAD_AT(M[j]) * quad_at_all_nodes(low, j)));
   out[0] = (reg)_mm256_castps128_ps256((__m128)(pair[0] + pair[1]));
+}
+#elif defined(CAROM_LANES_AVX512)
+always reg at_all_nodes(const reg *x, int j) {
+  return (reg)_mm256_permutexvar_pd(_mm256_set1_epi64x(j % 4), (__m256d)x[j / 4]);
+}
+#elif defined(CAROM_LANES_AVX2) && !defined(CAROM_LANES_F32)
+always reg at_all_nodes(const reg *x, int j) {
+  const int at = 2 * (j % 4);
+  return (reg)_mm256_permutevar8x32_ps(
+      (__m256)x[j / 4], _mm256_setr_epi32(at, at + 1, at, at + 1, at, at + 1, at, at + 1));
 }
 #else
 always reg at_all_nodes(const reg *x, int j) {
@@ -209,7 +264,7 @@ always reg at_all_nodes(const reg *x, int j) {
 
 /* out = M' x: out at node k is the sum over the nodes j of M[j][k] x at j. */
 always void apply(const node_row *M, const reg *x, reg *out, int n) {
-#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
+#if REG_NODES == 8
   if (n == 4) {
     apply_to_four(M, x, out);
     return;
@@ -234,6 +289,9 @@ always void apply(const node_row *M, const reg *x, reg *out, int n) {
 always reg reg_fma(reg a, reg b, reg c) {
   return v_fma(a, b, c);
 }
+always reg reg_sqrt(reg x) {
+  return v_sqrt(x);
+}
 always reg rough_reciprocal_sqrt(reg x) {
   return v_rough_reciprocal_sqrt(x);
 }
@@ -256,7 +314,7 @@ always vreal largest(const reg *x, int n) {
   return v_max(v_max(most[0], most[2]), v_max(most[1], most[3]));
 }
 
-always vreal dot(const float *weight, const reg *x, int n) {
+always vreal dot(const real *weight, const reg *x, int n) {
   vreal sum[4];
   lanes_unrolled for (int k = 0; k < 4; k++) sum[k] =
       k + 4 < n ? weight[k] * x[k] + weight[k + 4] * x[k + 4] : weight[k] * x[k];
@@ -285,36 +343,57 @@ always void apply(const node_row *M, const reg *x, reg *out, int n) {
 
 /* ---- Functions over both --------------------------------------------------------------------- */
 
-/* sqrt(x) for x > 0, to the precision of its reciprocal. */
+/* sqrt(x) for x > 0, in single precision to that of its reciprocal. */
 always vreal root(vreal x) {
-  return x * v_reciprocal_sqrt(x);
+  return V_HASTY ? x * v_reciprocal_sqrt(x) : v_sqrt(x);
 }
 always reg reg_root(reg x) {
-  return x * reg_reciprocal_sqrt(x);
+  return V_HASTY ? x * reg_reciprocal_sqrt(x) : reg_sqrt(x);
 }
 
-/* e^x for |x| < 80, to about 2e-7: 2^n times a polynomial in the rest of x. */
+/* Of numbers as bits, for exponential() and logarithm(). */
+#ifdef CAROM_LANES_F32
+enum { FRACTION_BITS = 23 };
+static const lane_int BITS_OF_ROOT_HALF = 0x3f3504f3; /* sqrt(1/2) */
+/* log(2) in two parts, the first of few digits */
+static const real LOG_2_HIGH = REAL(0.693145752), LOG_2_LOW = REAL(1.42860677e-6);
+/* terms of the series of e^x, and of that of log(x) */
+enum { EXPONENTIAL_TERMS = 6, LOGARITHM_TERMS = 4 };
+#else
+enum { FRACTION_BITS = 52 };
+static const lane_int BITS_OF_ROOT_HALF = 0x3fe6a09e667f3bcd;
+static const real LOG_2_HIGH = 0x1.62e42fefa38p-1, LOG_2_LOW = 0x1.ef35793c7673p-45;
+enum { EXPONENTIAL_TERMS = 13, LOGARITHM_TERMS = 11 };
+#endif
+
+/* e^x for |x| < 80, to about 2e-7 or 4e-16: 2^n times a polynomial in the rest of x. */
 always reg exponential(reg x) {
-  const float rounder = 12582912.0f; /* 1.5 2^23: adding it rounds to an integer, which then
-                                        stands in the lowest bits */
-  const reg shifted = MADD(x, 1.44269504f, rounder), n = shifted - rounder;
-  /* log(2) in two parts, the first of few digits */
-  const reg r = MADD(n, -1.42860677e-6f, MADD(n, -0.693145752f, x));
-  const reg p =
-      MADD(r, MADD(r, MADD(r, MADD(r, MADD(r, 1 / 720.0f, 1 / 120.0f), 1 / 24.0f), 1 / 6.0f), 0.5f),
-           1.0f);
-  return (reg)((reg_bits)MADD(r, p, 1.0f) + ((reg_bits)shifted << 23));
+  static const real per_factorial[] = {
+      1 / REAL(1.0),         1 / REAL(1.0),         1 / REAL(2.0),       1 / REAL(6.0),
+      1 / REAL(24.0),        1 / REAL(120.0),       1 / REAL(720.0),     1 / REAL(5040.0),
+      1 / REAL(40320.0),     1 / REAL(362880.0),    1 / REAL(3628800.0), 1 / REAL(39916800.0),
+      1 / REAL(479001600.0), 1 / REAL(6227020800.0)};
+  /* adding 1.5 2^FRACTION_BITS rounds to an integer, which then stands in the lowest bits */
+  const real rounder = REAL(1.5) * (real)((lane_int)1 << FRACTION_BITS);
+  const reg shifted = MADD(x, REAL(1.4426950408889634), rounder), n = shifted - rounder;
+  const reg r = MADD(n, -LOG_2_LOW, MADD(n, -LOG_2_HIGH, x));
+  reg p = SPREAD(per_factorial[EXPONENTIAL_TERMS]);
+  lanes_unrolled for (int k = EXPONENTIAL_TERMS - 1; k > 0; k--) p = MADD(r, p, per_factorial[k]);
+  return (reg)((reg_bits)MADD(r, p, REAL(1.0)) + ((reg_bits)shifted << FRACTION_BITS));
 }
 
-/* log(x) for x > 0, to about 6e-7: the exponent, and the series of 2 artanh in the rest. */
+/* log(x) for x > 0, to about 6e-7 or 4e-16: the exponent, and the series of 2 artanh in the rest,
+ * which is between sqrt(1/2) and sqrt(2). */
 always reg logarithm(reg x) {
-  /* of sqrt(1/2): the rest is between that and sqrt(2) */
-  const reg_int bits = (reg_int)((reg_bits)x - 0x3f3504f3);
-  const reg exponent = __builtin_convertvector(bits >> 23, reg),
-            m = (reg)((bits & 0x7fffff) + 0x3f3504f3);
+  const lane_int fraction = ((lane_int)1 << FRACTION_BITS) - 1;
+  const reg_int bits = (reg_int)x - BITS_OF_ROOT_HALF;
+  const reg exponent = __builtin_convertvector(bits >> FRACTION_BITS, reg),
+            m = (reg)((bits & fraction) + BITS_OF_ROOT_HALF);
   const reg t = (m - 1) * reg_reciprocal(m + 1), t2 = t * t;
-  const reg series = MADD(t2, MADD(t2, MADD(t2, 2 / 7.0f, 2 / 5.0f), 2 / 3.0f), 2.0f);
-  return MADD(exponent, 0.693147181f, t * series);
+  reg series = SPREAD(2 / REAL(2 * LOGARITHM_TERMS - 1));
+  lanes_unrolled for (int k = LOGARITHM_TERMS - 2; k >= 0; k--) series =
+      MADD(t2, series, 2 / REAL(2 * k + 1));
+  return MADD(exponent, REAL(0.69314718055994531), t * series);
 }
 
 /* The inverse hyperbolic sine. */

@@ -52,7 +52,7 @@ static carom_detail report_of_integrals(const carom_frame *frame, const carom_re
 }
 
 static carom_detail report_of_solution(const carom_frame *frame, const carom_local *before,
-                                       const float solution[OUT_COLUMNS], int evaluations) {
+                                       const double solution[OUT_COLUMNS], int evaluations) {
   carom_reduced c = carom_reduce(before);
   const double unit = -c.v_n / c.kappa, u = sqrt(c.u_x * c.u_x + c.u_z * c.u_z);
   /* as in rows.h */
@@ -60,19 +60,19 @@ static carom_detail report_of_solution(const carom_frame *frame, const carom_loc
   c.mu_b = fmax(c.mu_b, LEAST_MU_B);
   const double mu_mu_b = c.mu * c.mu_b * unit;
   const bool stick = solution[OUT_STICK] >= 0;
-  carom_integrals g = {.p = unit * (1 + c.e + (double)solution[OUT_OVERSHOOT]),
-                       .F_x = -mu_mu_b * (double)solution[OUT_I_X],
-                       .F_y = -mu_mu_b * (double)solution[OUT_I_Y]};
+  carom_integrals g = {.p = unit * (1 + c.e + solution[OUT_OVERSHOOT]),
+                       .F_x = -mu_mu_b * solution[OUT_I_X],
+                       .F_y = -mu_mu_b * solution[OUT_I_Y]};
   if (stick) {
     g.Q_1 = (c.u_x + g.F_x) / (3.5 * c.kappa);
     g.Q_2 = (c.u_z + 2.5 * g.F_y) / (2.5 * c.kappa);
   } else if (u > 0) {
-    g.Q_1 = c.mu_b * (c.u_x / u * g.p + unit * (double)solution[OUT_J_C]);
-    g.Q_2 = c.mu_b * (c.u_z / u * g.p + unit * (double)solution[OUT_J_Z]);
+    g.Q_1 = c.mu_b * (c.u_x / u * g.p + unit * solution[OUT_J_C]);
+    g.Q_2 = c.mu_b * (c.u_z / u * g.p + unit * solution[OUT_J_Z]);
   }
   /* v = v_n / kappa in units of `unit`, with the slope 1 - f: see problem.h */
-  const double compression = c.kappa * unit * unit * ((double)solution[OUT_K_C] - 0.5),
-               p_stick = unit * (double)solution[OUT_STICK];
+  const double compression = c.kappa * unit * unit * (solution[OUT_K_C] - 0.5),
+               p_stick = unit * solution[OUT_STICK];
   carom_detail d = report_of_integrals(frame, &c, before, &g, compression, stick ? p_stick : NAN,
                                        c.v_n + c.kappa * p_stick - g.F_y < 0);
   d.evaluations = evaluations;
@@ -115,10 +115,10 @@ static carom_detail report_of_euler(const carom_frame *frame, const carom_local 
 
 static bool solve_by_collocation(const carom_impact *in, const carom_options *opt,
                                  carom_result *out, carom_detail *detail) {
-  float solution[OUT_COLUMNS];
-  const int evaluations =
-      carom_kernels_of_call(opt->plain)
-          ->call[CAROM_F64](in, carom_spin_sign(opt->slip), out, detail == NULL ? NULL : solution);
+  double solution[OUT_COLUMNS];
+  const int evaluations = carom_kernels_of_call(opt->plain)
+                              ->call[carom_precision_of(opt)](in, carom_spin_sign(opt->slip), out,
+                                                              detail == NULL ? NULL : solution);
   if (evaluations > 0 && detail != NULL) {
     const carom_frame frame = carom_frame_of(in);
     const carom_local before = carom_to_frame(&frame, in, opt->slip);
@@ -151,7 +151,7 @@ static carom_status solve_euler(const carom_frame *frame, carom_local *local, in
 
 static carom_status collide_one_pair(const carom_impact *in, const carom_options *opt,
                                      carom_result *out, carom_detail *detail) {
-  if (opt->solver == CAROM_SOLVER_EXACT && solve_by_collocation(in, opt, out, detail))
+  if (opt->solver != CAROM_SOLVER_EULER && solve_by_collocation(in, opt, out, detail))
     return CAROM_OK;
   int field;
   const carom_status bad = carom_check_impact(in, &field);
@@ -167,8 +167,10 @@ static carom_status collide_one_pair(const carom_impact *in, const carom_options
     carom_copy_state(in, out);
     return CAROM_SEPARATING;
   }
-  const carom_status status = opt->solver == CAROM_SOLVER_EXACT
-                                  ? solve_exact(&frame, &local, opt->plain, detail)
+  const int plain =
+      opt->plain || opt->solver == CAROM_SOLVER_EXACT; /* with equal bits everywhere */
+  const carom_status status = opt->solver != CAROM_SOLVER_EULER
+                                  ? solve_exact(&frame, &local, plain, detail)
                                   : solve_euler(&frame, &local, carom_steps(opt), detail);
   if (status != CAROM_OK)
     return status;
@@ -221,19 +223,23 @@ static carom_status to_single(carom_status status, const carom_result *in, carom
 
 static carom_status collide_single(const carom_impact_f32 *in, const carom_options *opt,
                                    carom_result_f32 *out) {
-  if (opt->solver == CAROM_SOLVER_EXACT &&
+  if (opt->solver != CAROM_SOLVER_EULER &&
       carom_kernels_of_call(opt->plain)
               ->call[CAROM_F32](in, carom_spin_sign(opt->slip), out, NULL) > 0)
     return CAROM_OK;
   carom_impact wide;
   carom_result result;
+  carom_options own = *opt;
+  /* double precision inside would say nothing about numbers that were rounded before */
+  if (own.solver == CAROM_SOLVER_EXACT)
+    own.solver = CAROM_SOLVER_FAST;
   to_double(in, &wide);
-  return to_single(carom_collide(&wide, opt, &result), &result, out);
+  return to_single(carom_collide(&wide, &own, &result), &result, out);
 }
 
 carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt,
                                void *out) {
-  return precision == CAROM_F64 ? carom_collide(in, opt, out) : collide_single(in, opt, out);
+  return precision == CAROM_F32 ? collide_single(in, opt, out) : carom_collide(in, opt, out);
 }
 
 /* ---- Friction around the collision: between the balls, by the speed of their slip; and the

@@ -41,33 +41,33 @@ enum { MOST_ATTEMPTS = 14 };
  *     LEAST_PART            twice: errors to 5.2e-7; half: nothing changes
  *     TURN_SHARE            twice: 0.02 % go to the precise solver with pooltool's slip; half:
  *                           nothing changes */
-static const float EASY_SHARE = 6;            /* error of an EASY step over mu_b rho^-8 with rho
+static const real EASY_SHARE = 6;                 /* error of an EASY step over mu_b rho^-8 with rho
                                                  for u, */
-static const float MOST_EASY_Q = 0.62f;       /* its q */
-static const float MOST_EASY_MU_MU_B = 5e-3f; /* and its mu mu_b q^2 */
-static const float FULL_Q = 0.66f;            /* q of a FULL step over even nodes, */
-static const float FULL_GRADED_Q = 0.96f;     /* and over graded ones */
-static const float BEND_4 = 20,
-                   BEND_8 = 30;     /* by q^2: a way that is not straight adds this to the error,
+static const real MOST_EASY_Q = REAL(0.62);       /* its q */
+static const real MOST_EASY_MU_MU_B = REAL(5e-3); /* and its mu mu_b q^2 */
+static const real FULL_Q = REAL(0.66);            /* q of a FULL step over even nodes, */
+static const real FULL_GRADED_Q = REAL(0.96);     /* and over graded ones */
+static const real BEND_4 = 20,
+                  BEND_8 = 30; /* by q^2: a way that is not straight adds this to the error,
                                        with 4 nodes and with more */
-static const float STICK_Q = 1.05f; /* q from which the balls will stick */
-static const float TURN_Q = 0.5f;   /* q of a TURN step */
-static const float LEFT_Q = 0.5f;   /* q that a PART would leave; */
+static const real STICK_Q = REAL(1.05); /* q from which the balls will stick */
+static const real TURN_Q = REAL(0.5);   /* q of a TURN step */
+static const real LEFT_Q = REAL(0.5);   /* q that a PART would leave; */
 /* its share of |u|, and of q */
-static const float LEAST_PART = 0.3f, MOST_PART = 0.85f, MOST_OF_WAY = 0.8f;
+static const real LEAST_PART = REAL(0.3), MOST_PART = REAL(0.85), MOST_OF_WAY = REAL(0.8);
 /* delta of a TURN step; of sensitive collisions */
-static const float LEAST_DELTA = 1e-5f, LEAST_DELTA_SENSITIVE = 1e-3f;
+static const real LEAST_DELTA = REAL(1e-5), LEAST_DELTA_SENSITIVE = REAL(1e-3);
 /* of xi of a TURN step */
-static const float WIDEST_RANGE = 4.5f;
+static const real WIDEST_RANGE = REAL(4.5);
 /* its error over (mu mu_b sigma)^2 L rho^-16 */
-static const float TURN_SHARE = 350;
+static const real TURN_SHARE = 350;
 /* of its usual length */
-static const float LEAST_SHARE = 0.1f;
+static const real LEAST_SHARE = REAL(0.1);
 
 #define separate static __attribute__((noinline)) /* the inlined text of a step is long */
 
 always vreal choose_kind(vmask m, enum step_kind kind, vreal otherwise) {
-  return v_select(m, v_splat((float)kind), otherwise);
+  return v_select(m, v_splat((real)kind), otherwise);
 }
 
 always vreal power_4(vreal x) {
@@ -90,7 +90,7 @@ typedef struct collision {
  * + |d_1|) / |d_1 - d_0|. Friction of the cloth shortens d on the way, in a direction that is
  * not known: its size is subtracted. */
 always vreal inverse_rho(const problem *a, const state *s, const prediction *g, vreal length) {
-  const float own = a->spin < 1 ? 1 - a->spin : 0;
+  const real own = a->spin < 1 ? 1 - a->spin : 0;
   const vreal g_x = length * (a->mu_b * g->c),
               g_y = length * v_fma(-a->spin * a->mu_b, g->z, v_splat(1)), tiny = v_splat(TINY);
   /* d at the end of the step, and |d| at both ends */
@@ -115,7 +115,7 @@ always vmask is_smooth(int n, const problem *a, const prediction *g, vreal lengt
   const vreal inverse_4 = power_4(inverse), inverse_8 = inverse_4 * inverse_4, q = g->rate * length;
   const vreal left_out =
       a->mu_mu_b * g->z * length *
-      (n == 4 ? 4 * inverse_8 : (n == 6 ? 6.0f : 2.0f) * (inverse_8 * inverse_8));
+      (n == 4 ? 4 * inverse_8 : (n == 6 ? REAL(6.0) : REAL(2.0)) * (inverse_8 * inverse_8));
   return v_less(left_out * v_fma((n == 4 ? BEND_4 : BEND_8) * q, q, v_splat(1)), a->tolerance);
 }
 
@@ -133,11 +133,11 @@ always vmask is_easy(const problem *a, const prediction *g, vreal to_end, vreal 
  * slip on the cloth; and of a W that falls with a high power of lambda. */
 always vreal stick_error(const problem *a, const state *s, const prediction *g, vreal inverse) {
   const vreal inverse_2 = inverse * inverse, mu = a->mu;
-  const vreal by_turn = 0.35f * inverse_2 * (inverse_2 * inverse_2);
+  const vreal by_turn = REAL(0.35) * inverse_2 * (inverse_2 * inverse_2);
   const vreal share = mu * v_reciprocal(a->kappa - mu),
-              from_rest = 2.6e-4f * (share * share * share) * (g->z * g->z);
-  const vreal by_b = 1e-4f * v_max(v_fma(-12 * mu, g->t_y, -5 * a->kappa), v_splat(0));
-  return mu * (v_select(has_no_slip(a, s), from_rest, by_turn) + by_b + 1e-6f);
+              from_rest = REAL(2.6e-4) * (share * share * share) * (g->z * g->z);
+  const vreal by_b = REAL(1e-4) * v_max(v_fma(-12 * mu, g->t_y, -5 * a->kappa), v_splat(0));
+  return mu * (v_select(has_no_slip(a, s), from_rest, by_turn) + by_b + REAL(1e-6));
 }
 
 /* The TURN step from a state of a collision: where d passes nearest to zero, and how far the
@@ -159,8 +159,8 @@ always turn_step select_turn_step(const problem *a, const collision *c, const pr
    * the curve */
   const vreal straight =
       -(s->d_x * g_x + s->d_y * g_y) * v_reciprocal(g_x * g_x + g_y * g_y + TINY);
-  const vreal d_x = s->d_x + straight * (g_x + 0.5f * straight * c_x),
-              d_y = s->d_y + straight * (g_y + 0.5f * straight * c_y);
+  const vreal d_x = s->d_x + straight * (g_x + REAL(0.5) * straight * c_x),
+              d_y = s->d_y + straight * (g_y + REAL(0.5) * straight * c_y);
   const vreal v_x = g_x + straight * c_x, v_y = g_y + straight * c_y,
               per_v = inverse_length(v_x, v_y), per_v2 = per_v * per_v;
 
@@ -177,10 +177,10 @@ always turn_step select_turn_step(const problem *a, const collision *c, const pr
    * of 2 pi / (rho - 1 / rho) */
   const vreal cloth = a->mu_mu_b * g->z,
               needed = v_max((TURN_SHARE * v_reciprocal(a->tolerance)) * cloth * cloth * reach,
-                             v_splat(1.0001f));
+                             v_splat(REAL(1.0001)));
   const vreal rho = root(root(root(root(needed))));
   const vreal widest =
-      v_min(6.2831853f * v_reciprocal(rho - v_reciprocal(rho)), v_splat(WIDEST_RANGE));
+      v_min(REAL(6.2831853) * v_reciprocal(rho - v_reciprocal(rho)), v_splat(WIDEST_RANGE));
 
   /* a zero far from the step is as good as one that is nearer by and wider: p_t near the step,
    * delta within bounds */
@@ -195,7 +195,7 @@ always turn_step select_turn_step(const problem *a, const collision *c, const pr
               sinh_1 = (reach - p.p_t) * per_delta;
   const vreal from = inverse_sinh(sinh_0), range = inverse_sinh(sinh_1) - from;
   const vreal e = ONE_OF(exponential(SPREAD(from + widest))),
-              bound = p.p_t + 0.5f * p.delta * (e - v_reciprocal(e));
+              bound = p.p_t + REAL(0.5) * p.delta * (e - v_reciprocal(e));
   const vmask whole = v_less_equal(range, widest);
   p.length = v_select(whole, reach, v_min(bound, reach));
   *last = whole & v_less(q, v_splat(TURN_Q)) & v_less_equal(one, c->share);
@@ -260,7 +260,7 @@ always vreal next_kind(const problem *a, const collision *c, vreal inverse, bool
     part = part & is_smooth(MOST_NODES, a, ahead, length, inverse_rho(a, s, ahead, length));
   }
   /* the cheapest that is possible; later lines win */
-  vreal kind = choose_kind(part, PART, v_splat((float)TURN));
+  vreal kind = choose_kind(part, PART, v_splat((real)TURN));
   kind = choose_kind(stick, STICK, kind);
   kind = choose_kind(full, FULL_GRADED, kind);
   kind = choose_kind(even, FULL, kind);
@@ -390,7 +390,7 @@ always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead,
     c->s = choose_state(moved_on, &behind, s);
     c->to_end = impulse_to_end(a, &c->s);
     c->g = predict(a, &c->s, c->to_end);
-    c->share = v_select(moved_on, v_splat(1), kind == TURN ? 0.5f * c->share : c->share);
+    c->share = v_select(moved_on, v_splat(1), kind == TURN ? REAL(0.5) * c->share : c->share);
     c->careful = v_not(moved_on);
   } else
     c->careful = v_all();
@@ -410,9 +410,9 @@ static const int evaluations_of[STEP_KINDS] = {
     [FULL_GRADED] = MOST_NODES * (GRADED_MOST + 1), [STICK] = STICK_NODES * (STICK_MOST + 1),
     [PART] = MOST_NODES * (GRADED_MOST + 1),        [TURN] = MOST_NODES * (TURN_MOST + 1)};
 
-int KERNEL(carom_collocate)(const float in[IN_COLUMNS], float spin, float tolerance,
-                            float out[OUT_COLUMNS]) {
-  const problem a = problem_of(in, spin, tolerance);
+int COLLOCATION_KERNEL(carom_collocate)(const real in[IN_COLUMNS], double spin, float tolerance,
+                                        real out[OUT_COLUMNS]) {
+  const problem a = problem_of(in, (real)spin, tolerance);
   collision c;
   solution answer;
   vreal kind;
@@ -421,7 +421,7 @@ int KERNEL(carom_collocate)(const float in[IN_COLUMNS], float spin, float tolera
     put_solution(&answer, out);
     return evaluations_of[EASY];
   }
-  for (int evaluations = 0; kind < (float)STEP_KINDS;) {
+  for (int evaluations = 0; kind < (real)STEP_KINDS;) {
     evaluations += evaluations_of[(int)kind];
     if (take_step((enum step_kind)kind, &a, &ahead, &c, &answer, &kind)) {
       put_solution(&answer, out);
@@ -437,10 +437,10 @@ _Static_assert(LANE_STATE + (int)STATE_COLUMNS == LANE_RESTITUTION,
                "the columns of a state come first");
 
 static collision load_collision(const problem *a, lane_state at) {
-  collision c = {.share = v_load(at[LANE_SHARE]), .attempts = v_load(at[LANE_ATTEMPTS])};
-  lanes_unrolled for (int k = 0; k < STATE_COLUMNS; k++) c.s.column[k] = v_load(at[LANE_STATE + k]);
-  c.s.restitution = v_less(v_splat(0), v_load(at[LANE_RESTITUTION]));
-  c.careful = v_less(v_splat(0), v_load(at[LANE_CAREFUL]));
+  collision c = {.share = COLUMN(at, LANE_SHARE), .attempts = COLUMN(at, LANE_ATTEMPTS)};
+  lanes_unrolled for (int k = 0; k < STATE_COLUMNS; k++) c.s.column[k] = COLUMN(at, LANE_STATE + k);
+  c.s.restitution = v_less(v_splat(0), COLUMN(at, LANE_RESTITUTION));
+  c.careful = v_less(v_splat(0), COLUMN(at, LANE_CAREFUL));
   c.to_end = impulse_to_end(a, &c.s);
   c.g = predict(a, &c.s, c.to_end);
   return c;
@@ -448,11 +448,11 @@ static collision load_collision(const problem *a, lane_state at) {
 
 static void store_collision(const collision *c, lane_state at) {
   lanes_unrolled for (int k = 0; k < STATE_COLUMNS; k++)
-      v_store(at[LANE_STATE + k], c->s.column[k]);
-  v_store(at[LANE_RESTITUTION], v_select(c->s.restitution, v_splat(1), v_splat(0)));
-  v_store(at[LANE_SHARE], c->share);
-  v_store(at[LANE_CAREFUL], v_select(c->careful, v_splat(1), v_splat(0)));
-  v_store(at[LANE_ATTEMPTS], c->attempts);
+      put_column(at, LANE_STATE + k, c->s.column[k]);
+  put_column(at, LANE_RESTITUTION, v_select(c->s.restitution, v_splat(1), v_splat(0)));
+  put_column(at, LANE_SHARE, c->share);
+  put_column(at, LANE_CAREFUL, v_select(c->careful, v_splat(1), v_splat(0)));
+  put_column(at, LANE_ATTEMPTS, c->attempts);
 }
 
 /* The next step after a step, in the lanes that it solved and in others. Returns whether there
@@ -464,17 +464,17 @@ static bool store_kinds(vmask solved, vmask others, vreal kind, lanes_by_step ne
     return false;
   kind = choose_kind(solved, SOLVED, kind);
   lanes_unrolled for (int k = 0; k < STEP_ENDS; k++) next[k] =
-      v_bits(v_equal(kind, v_splat((float)k)));
+      v_bits(v_equal(kind, v_splat((real)k)));
   return true;
 }
 
-void KERNEL(carom_first_step)(step_inputs in, uint32_t good, float spin, float tolerance,
-                              step_outputs out, lanes_by_step next) {
-  const problem a = problem_of(in, spin, tolerance);
+void COLLOCATION_KERNEL(carom_first_step)(step_inputs in, uint32_t good, double spin,
+                                          float tolerance, step_outputs out, lanes_by_step next) {
+  const problem a = problem_of(in, (real)spin, tolerance);
   const vmask lanes = v_from_bits(good);
   collision c;
   solution answer = {.K_c = v_splat(0)}; /* of lanes that no step solves: zeros */
-  vreal kind = v_splat((float)REFUSED);
+  vreal kind = v_splat((real)REFUSED);
   prediction ahead;
   const vmask solved = begin_collision(&a, in, lanes, &c, &kind, &ahead, &answer);
   if (v_any(solved))
@@ -482,14 +482,15 @@ void KERNEL(carom_first_step)(step_inputs in, uint32_t good, float spin, float t
   store_kinds(solved, lanes & v_not(solved), kind, next);
 }
 
-void KERNEL(carom_next_step)(enum step_kind kind, int at_start, step_inputs in, float spin,
-                             float tolerance, lane_state at, step_outputs out, lanes_by_step next) {
-  const problem a = problem_of(in, spin, tolerance);
+void COLLOCATION_KERNEL(carom_next_step)(enum step_kind kind, int at_start, step_inputs in,
+                                         double spin, float tolerance, lane_state at,
+                                         step_outputs out, lanes_by_step next) {
+  const problem a = problem_of(in, (real)spin, tolerance);
   collision c = at_start ? collision_of(&a, in) : load_collision(&a, at);
   if (at_start && kind == EASY) /* lanes that the first step did not wait for: it does not count */
     c.attempts = v_splat(-1);
   solution answer;
-  vreal then = v_splat((float)REFUSED);
+  vreal then = v_splat((real)REFUSED);
   prediction ahead = kind == EASY ? c.g : predict_ahead(&a, &c);
   const vmask solved = take_step(kind, &a, &ahead, &c, &answer, &then);
   if (kind != PART)

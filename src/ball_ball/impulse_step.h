@@ -68,7 +68,7 @@ typedef union node_map {
   };
 } node_map;
 
-static const float MOST_GRADING = 0.995f; /* q */
+static const real MOST_GRADING = REAL(0.995); /* q */
 
 always node_map graded_map(vreal q) {
   node_map m;
@@ -86,7 +86,7 @@ always node_map turned_map(const turn_step *p, vreal length) {
   const vreal per_delta = v_reciprocal(p->delta);
   node_map m;
   m.sinh_0 = -p->p_t * per_delta;
-  m.half_width = 0.5f * p->delta * v_reciprocal(length);
+  m.half_width = REAL(0.5) * p->delta * v_reciprocal(length);
   m.xi_0 = inverse_sinh(m.sinh_0);
   m.xi_range = inverse_sinh((length - p->p_t) * per_delta) - m.xi_0;
   return m;
@@ -99,7 +99,7 @@ always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m
     /* X = x X_per_x (1 + y) (1 + y^2) and dX/dx = 4 X_per_x y^3, with y = 1 - h x */
     const vreal h = share * m->h, to_X = share * m->X_per_x;
     EACH_REG(k, n) {
-      const reg x = SPREAD(AT(r->node, k)), y = MADD(-h, x, 1.0f), y2 = y * y;
+      const reg x = SPREAD(AT(r->node, k)), y = MADD(-h, x, REAL(1.0)), y2 = y * y;
       to->X[k] = (to_X * x) * ((1 + y) * (1 + y2));
       to->weight[k] = (4 * to_X) * (y2 * y);
     }
@@ -132,11 +132,12 @@ always vreal x_at(bool turned, const node_map *m, vreal X) {
 /* Found by trial with `carom-lab stress --draws 60000`. With half of CONTRACTION errors reach
  * 3.8e-7 instead of 3.5e-7, with half of CONTRACTION_CLOTH 8.1e-7; at twice, or with other
  * CONTRACTION_Q, the largest errors do not grow. */
-static const float CONTRACTION = 0.02f, CONTRACTION_CLOTH = 1.2f, CONTRACTION_Q = 0.1f;
+static const real CONTRACTION = REAL(0.02), CONTRACTION_CLOTH = REAL(1.2),
+                  CONTRACTION_Q = REAL(0.1);
 /* The factor of that estimate: it is too small where d passes near zero, and too large for the
  * few nodes of smooth steps. */
-always float estimate_scale(int n, bool turned) {
-  return turned ? 4 : n == 4 ? 0.33f : n == 6 ? 0.4f : 1;
+always real estimate_scale(int n, bool turned) {
+  return turned ? 4 : n == 4 ? REAL(0.33) : n == 6 ? REAL(0.4) : 1;
 }
 
 /* Coefficients of the equations, times L (S_in_d: of S_x in u_x and S in d; ...); and q, the
@@ -152,9 +153,9 @@ always coefficients coefficients_of(const problem *a, const prediction *g, vreal
                     .mu_mu_b_y = a->mu_mu_b_y * length};
   l.S_in_d = (a->spin - 1) * l.mu_mu_b;
   l.Z_in_d_y = a->spin * l.mu_b;
-  l.C_in_u_x = -3.5f * (a->kappa * l.mu_b);
-  l.Z_in_u_z = -2.5f * (a->kappa * l.mu_b);
-  l.S_in_u_z = -2.5f * l.mu_mu_b;
+  l.C_in_u_x = REAL(-3.5) * (a->kappa * l.mu_b);
+  l.Z_in_u_z = REAL(-2.5) * (a->kappa * l.mu_b);
+  l.S_in_u_z = REAL(-2.5) * l.mu_mu_b;
   l.q = g->rate * length;
   return l;
 }
@@ -197,28 +198,29 @@ typedef struct turning {
 always turning predict_turning(bool turn, const problem *a, const prediction *g, const state *s,
                                vreal b) {
   /* u' = -mu_b (A c + E z, B z): friction of the balls, and of the cloth along the mean t */
-  const vreal A = 3.5f * a->kappa, B = 2.5f * v_fma(a->mu, g->t_y, a->kappa), E = a->mu * g->t_x;
+  const vreal A = REAL(3.5) * a->kappa, B = REAL(2.5) * v_fma(a->mu, g->t_y, a->kappa),
+              E = a->mu * g->t_x;
   const vreal c2 = g->c * g->c, z2 = g->z * g->z, cs = g->c * g->z, D = A - B;
   /* f_0, f_1, f_2 at the start */
   const vreal f_0 = g->z * v_fma(D, g->c, E * g->z), f_1 = v_fma(D, c2 - z2, 2 * E * cs),
               f_2 = v_fma(3 * E, c2 - z2, -6 * cs * D);
   const vreal h = v_fma(A, c2, v_fma(E, cs, B * z2)), both = f_1 + h;
   /* the coefficients, in powers of x */
-  turning w = {.alpha = b * a->kappa * v_fma(v_splat(0.5f), c2, v_splat(1.25f)),
+  turning w = {.alpha = b * a->kappa * v_fma(v_splat(REAL(0.5)), c2, v_splat(REAL(1.25))),
                .w_1 = -b * f_0,
                .by_t = v_splat(0)};
   const vreal b_both = b * both;
-  w.second = v_fma(v_splat(0.5f), b_both, -w.alpha);
-  w.third = v_fma((1 / 6.0f) * b, b * v_fma(both, v_fma(v_splat(2), h, f_1), f_0 * f_2),
+  w.second = v_fma(v_splat(REAL(0.5)), b_both, -w.alpha);
+  w.third = v_fma((1 / REAL(6.0)) * b, b * v_fma(both, v_fma(v_splat(2), h, f_1), f_0 * f_2),
                   w.alpha * (w.alpha - b_both));
   if (!turn) {
     /* t differs from its mean by (2 X - 1) times half of its change, which acts across u;
      * without slip t does not turn */
     const vreal i_d =
-        v_rough_reciprocal_sqrt(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, v_splat(1e-12f))));
+        v_rough_reciprocal_sqrt(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, v_splat(REAL(1e-12)))));
     const vreal half_x = v_fma(-s->d_x, i_d, g->t_x), half_y = v_fma(-s->d_y, i_d, g->t_y);
     w.by_t = v_select(has_no_slip(a, s), w.by_t,
-                      b * g->z * a->mu * v_fma(2.5f * half_y, g->c, -half_x * g->z));
+                      b * g->z * a->mu * v_fma(REAL(2.5) * half_y, g->c, -half_x * g->z));
   }
   return w;
 }
@@ -235,21 +237,21 @@ always void predict_directions(int n, bool turned, impulse_step *p) {
   /* the cloth's own pull on d, along its direction half way */
   const vreal own = turned ? v_splat(0) : l->S_in_d * g->z, own_x = own * g->t_x,
               own_y = l->length - own * g->t_y;
-  const vreal half_b = 0.5f * l->mu_b, half_y = 0.5f * l->Z_in_d_y;
+  const vreal half_b = REAL(0.5) * l->mu_b, half_y = REAL(0.5) * l->Z_in_d_y;
   EACH_REG(k, n) {
     /* u turned by w: cosine and sine to second order; sums begin with the first known */
-    const reg X = p->nodes.X[k], x = X * rough_reciprocal(MADD(-turns.alpha, X, 1.0f));
-    const reg w = MADD(turns.w_1 * x, MADD(x * x, turns.third, MADD(x, turns.second, 1.0f)),
+    const reg X = p->nodes.X[k], x = X * rough_reciprocal(MADD(-turns.alpha, X, REAL(1.0)));
+    const reg w = MADD(turns.w_1 * x, MADD(x * x, turns.third, MADD(x, turns.second, REAL(1.0))),
                        turns.by_t * (X * (X - 1)));
-    f->c[k] = MADD(w, MADD(-0.5f * g->c, w, g->z), g->c);
-    f->z[k] = MADD(w, MADD(-0.5f * g->z, w, -g->c), g->z);
+    f->c[k] = MADD(w, MADD(REAL(-0.5) * g->c, w, g->z), g->c);
+    f->z[k] = MADD(w, MADD(REAL(-0.5) * g->z, w, -g->c), g->z);
     /* d along the means of the directions at the start and here */
     const reg d_x = MADD(-half_b * X, f->c[k], MADD(-X, half_b * g->c - own_x, s->d_x));
     const reg d_y = MADD(half_y * X, f->z[k], MADD(-X, own_y - half_y * g->z, s->d_y));
     const reg sigma_d = f->z[k] * reg_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
     f->s_x[k] = sigma_d * d_x;
     f->s_y[k] = sigma_d * d_y;
-    f->dx[k] = f->dz[k] = f->per_u[k] = f->back[k] = f->S_y[k] = SPREAD(0.0f);
+    f->dx[k] = f->dz[k] = f->per_u[k] = f->back[k] = f->S_y[k] = SPREAD(REAL(0.0));
   }
   f->error = v_splat(0);
 }
@@ -300,7 +302,7 @@ always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_
     t_y[k] = d_y * i_d;
     /* rho, the sine of the angle by which u has moved, and D rho: see the head */
     const reg rho = MADD(f->c[k], u_z[k], -(f->z[k] * u_c[k]));
-    const reg D = (mu_b_kappa * i_u) * MADD(f->z[k], f->z[k], 2.5f);
+    const reg D = (mu_b_kappa * i_u) * MADD(f->z[k], f->z[k], REAL(2.5));
     rate[k] = weighed(n, nodes, k, D * rho);
     REG_MOVE(going, &f->S_y[k], S_y[k]);
     REG_MOVE(going, &f->dx[k], du_x);
@@ -346,7 +348,7 @@ always void end_iterations(int n, const gauss_rule *r, impulse_step *p, vreal *d
     const reg u_x_k = s->u_x + f->dx[k], u_z_k = s->u_z + f->dz[k];
     const reg sine = MADD(g->c, f->dz[k], -g->z * f->dx[k]) * f->per_u[k],
               e_c = MADD(u_x_k, f->per_u[k], -g->c), e_z = MADD(u_z_k, f->per_u[k], -g->z);
-    const reg drop = 0.5f * MADD(e_c, e_c, e_z * e_z);
+    const reg drop = REAL(0.5) * MADD(e_c, e_c, e_z * e_z);
     turned[k] = weighed(n, &p->nodes, k, MADD(-f->back[k], 1 - drop, sine));
     lost[k] = weighed(n, &p->nodes, k, MADD(-f->back[k], sine, drop));
     f->w_x[k] = weighed(n, &p->nodes, k, f->s_x[k]);
@@ -374,19 +376,19 @@ always end_slopes slopes_at_end(const problem *a, const state *s) {
   const vreal c = s->u_x * i_u, z = s->u_z * i_u, t_x = s->d_x * i_d, t_y = s->d_y * i_d;
   end_slopes end = {.c = c, .z = z, .x = z * t_x, .y = z * t_y};
   /* u' = -mu_b (turn_x, turn_z); the rate at which u turns */
-  const vreal turn_z = 2.5f * (a->kappa * z + a->mu * end.y),
-              turn_x = 3.5f * a->kappa * c + a->mu * end.x;
+  const vreal turn_z = REAL(2.5) * (a->kappa * z + a->mu * end.y),
+              turn_x = REAL(3.5) * a->kappa * c + a->mu * end.x;
   const vreal turn_u = -a->mu_b * (z * turn_x - c * turn_z) * i_u;
   /* d' = (-d_x, d_y) but for the cloth's own friction, which is along d; the rate at which t
    * turns */
   const vreal d_x = a->mu_b * c, d_y = v_fma(a->spin * a->mu_b, z, v_splat(-1));
   const vreal turn_d = (t_x * d_y + t_y * d_x) * i_d;
   /* bounds of the second derivatives, and the rate at which |u| falls */
-  const vreal most_fall = 3.5f * a->kappa * a->mu_b * i_u, turn_rate = v_abs(turn_u);
-  end.bend_u = (1 / 6.0f) * turn_rate * v_fma(v_splat(2), most_fall, turn_rate);
+  const vreal most_fall = REAL(3.5) * a->kappa * a->mu_b * i_u, turn_rate = v_abs(turn_u);
+  end.bend_u = (1 / REAL(6.0)) * turn_rate * v_fma(v_splat(2), most_fall, turn_rate);
   end.fall = a->mu_b * v_fma(c, turn_x, z * turn_z) * i_u;
-  end.bend_d =
-      v_select(has_no_slip(a, s), v_splat(0), 0.5f * z * v_fma(d_x, d_x, d_y * d_y) * (i_d * i_d));
+  end.bend_d = v_select(has_no_slip(a, s), v_splat(0),
+                        REAL(0.5) * z * v_fma(d_x, d_x, d_y * d_y) * (i_d * i_d));
   /* the slopes of c, z and of s = z t */
   end.dc = z * turn_u;
   end.dz = -c * turn_u;
@@ -405,9 +407,9 @@ always vreal extrapolate_to_end(const problem *a, const state *s, const end_slop
                                 vreal third_x, vreal third_y, solution *out) {
   /* f and half of its slope here; the work to be returned if no more were done on friction, and
    * p to the end then */
-  const vreal f = -a->mu_mu_b_y * here->y, half_df = (-0.5f * a->mu_mu_b_y) * here->dy,
+  const vreal f = -a->mu_mu_b_y * here->y, half_df = (REAL(-0.5) * a->mu_mu_b_y) * here->dy,
               returned = work_returned(a, s->K_c, s->K);
-  const vreal half_excess = 0.5f * v_fma(-s->v, s->v, v_fma(a->e, a->e, returned));
+  const vreal half_excess = REAL(0.5) * v_fma(-s->v, s->v, v_fma(a->e, a->e, returned));
   const vreal near = half_excess * v_reciprocal(v_max(s->v, v_splat(TINY)));
   /* the term of the change of f in int f dp; K, all further work on friction; v at the end */
   const vreal bend = (near * near) * v_fma(near, -a->mu_mu_b_y * third_y, half_df),
@@ -415,9 +417,9 @@ always vreal extrapolate_to_end(const problem *a, const state *s, const end_slop
   const vreal left = v_fma(v_splat(-2), K, returned),
               v = root(v_max(v_fma(a->e, a->e, left), v_splat(TINY)));
   /* p to the end, and the integrals up to there */
-  const vreal dp = ((v - s->v) + bend) * v_reciprocal(1 - f), half = 0.5f * dp;
-  out->I_x = v_fma(dp, v_fma(dp, v_fma(dp, third_x, 0.5f * here->dx), here->x), s->I_x);
-  out->I_y = v_fma(dp, v_fma(dp, v_fma(dp, third_y, 0.5f * here->dy), here->y), s->I_y);
+  const vreal dp = ((v - s->v) + bend) * v_reciprocal(1 - f), half = REAL(0.5) * dp;
+  out->I_x = v_fma(dp, v_fma(dp, v_fma(dp, third_x, REAL(0.5) * here->dx), here->x), s->I_x);
+  out->I_y = v_fma(dp, v_fma(dp, v_fma(dp, third_y, REAL(0.5) * here->dy), here->y), s->I_y);
   out->J_c = v_fma(dp, v_fma(half, here->dc, here->c - s->c_0), s->J_c);
   out->J_z = v_fma(dp, v_fma(half, here->dz, here->z - s->z_0), s->J_z);
   out->overshoot = v_fma(-a->mu_mu_b_y, out->I_y, left * v_reciprocal(v + a->e));
@@ -431,10 +433,10 @@ always vreal extrapolate_to_end(const problem *a, const state *s, const end_slop
 /* p that the Taylor series may cover, over the length of the step before it. */
 /* With twice or half of each, `carom-lab stress --draws 60000` shows the same errors; with half
  * of the second, 1 % more collisions of its regimes go to the precise solver. */
-static const float MOST_EXTRAPOLATION = 0.03f, MOST_EXTRAPOLATION_TURN = 0.1f;
+static const real MOST_EXTRAPOLATION = REAL(0.03), MOST_EXTRAPOLATION_TURN = REAL(0.1);
 /* The share of |u| that may be lost there. After a step with four nodes, much more of |u| is
  * left. */
-static const float MOST_FALL = 0.5f;
+static const real MOST_FALL = REAL(0.5);
 
 /* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and
  * those of c and sigma against their values at first; K at v = 0 does not change. */
@@ -460,8 +462,8 @@ always state state_after(const prediction *g, const coefficients *l, const state
  * pull_y w_y. The little that is left for a mean f. */
 always vreal K_by_parts(const coefficients *l, const state *s, vreal f, vreal v, vreal S,
                         vreal int_S) {
-  const vreal by_parts = v_fma(v_fma(0.5f * l->mu_mu_b_y, S, -v), S, l->length * int_S);
-  return v_fma(l->mu_mu_b_y, by_parts, v_fma(-0.5f * f * (1 + f), v * v, s->K));
+  const vreal by_parts = v_fma(v_fma(REAL(0.5) * l->mu_mu_b_y, S, -v), S, l->length * int_S);
+  return v_fma(l->mu_mu_b_y, by_parts, v_fma(REAL(-0.5) * f * (1 + f), v * v, s->K));
 }
 
 /* Over even nodes; the point near v = 0 is where a constant f, its mean, would put it. */

@@ -11,7 +11,8 @@
  *     CAROM_LANES_AVX512, CAROM_LANES_AVX2 (with FMA), CAROM_LANES_SSE2, CAROM_LANES_NEON,
  *     CAROM_LANES_PLAIN
  *
- * and CAROM_LANES_F32 for float. PLAIN uses nothing but the extensions and runs anywhere. With
+ * and CAROM_LANES_F32 for float, or CAROM_LANES_MIXED for rows in double around collocation in
+ * float. PLAIN uses nothing but the extensions and runs anywhere. With
  * CAROM_LANES_ONE a vreal is one number: the same text then serves a single collision, with the
  * same bits, since every function here does the same operations on a lane whatever the width.
  */
@@ -48,10 +49,12 @@
 #ifdef CAROM_LANES_F32
 typedef float real;
 typedef int32_t lane_int;
+typedef uint32_t lane_bits;
 #define REAL_BYTES 4
 #else
 typedef double real;
 typedef int64_t lane_int;
+typedef uint64_t lane_bits;
 #define REAL_BYTES 8
 #endif
 
@@ -69,14 +72,21 @@ typedef int64_t lane_int;
 #define lanes_rolled _Pragma("GCC unroll 1")
 #endif
 
-/* Whether the set fuses a product with a sum, and whether it estimates 1/x and 1/sqrt(x) in this
- * precision. */
-#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_NEON)
+/* Whether a product is fused with a sum, and whether 1/x and 1/sqrt(x) are estimated. Collisions
+ * in double precision do neither: every operation is rounded as IEEE asks, so all instruction sets
+ * give equal bits, and an estimate, which has steps, cannot put them into a result. */
+#if defined(CAROM_LANES_F32) || defined(CAROM_LANES_MIXED)
+#define V_HASTY 1
+#else
+#define V_HASTY 0
+#endif
+#if V_HASTY && \
+    (defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_NEON))
 #define V_FUSES 1
 #else
 #define V_FUSES 0
 #endif
-#if defined(CAROM_LANES_AVX512) || (LANES_X86 && defined(CAROM_LANES_F32))
+#if V_HASTY && (defined(CAROM_LANES_AVX512) || (LANES_X86 && defined(CAROM_LANES_F32)))
 #define V_ESTIMATES 1
 #else
 #define V_ESTIMATES 0
@@ -275,14 +285,14 @@ static inline vreal v_sqrt(vreal x) {
 
 /* a b + c: rounded once where the instruction set fuses (V_FUSES), twice elsewhere. */
 static inline vreal v_fma(vreal a, vreal b, vreal c) {
-#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
-  return SIMD(fmadd)(a, b, c);
-#elif defined(CAROM_LANES_NEON) && defined(CAROM_LANES_F32)
-  return (vreal)vfmaq_f32((float32x4_t)c, (float32x4_t)a, (float32x4_t)b);
-#elif defined(CAROM_LANES_NEON)
-  return (vreal)vfmaq_f64((float64x2_t)c, (float64x2_t)a, (float64x2_t)b);
-#else
+#if !V_FUSES
   return a * b + c;
+#elif LANES_X86
+  return SIMD(fmadd)(a, b, c);
+#elif defined(CAROM_LANES_F32)
+  return (vreal)vfmaq_f32((float32x4_t)c, (float32x4_t)a, (float32x4_t)b);
+#else
+  return (vreal)vfmaq_f64((float64x2_t)c, (float64x2_t)a, (float64x2_t)b);
 #endif
 }
 

@@ -1,5 +1,5 @@
 /* A collision as the collocation steps see it: constants, variables, predictions, the
- * solution. All in single precision, in units of |v_n0| / kappa, so that the impulse that stops
+ * solution. In units of |v_n0| / kappa, so that the impulse that stops
  * a ball without friction is 1; reduced.h has the symbols. Instead of v_n there is v = v_n /
  * kappa, which starts at -1 and has the slope 1 - f with f = f_y / kappa = -pull_y sigma t_y.
  *
@@ -13,17 +13,17 @@
 #include "ball_ball/carrier.h"
 #include "ball_ball/kernels.h"
 
-static const float TINY = 1e-36f; /* keeps 0 / 0 away */
+static const real TINY = REAL(1e-36); /* keeps 0 / 0 away */
 /* Of a step's tolerance, for the error after its iteration. By `carom-lab stress --draws 60000`
  * errors reach 8.2e-7 with twice of it instead of 3.5e-7, and with half no time is lost beyond
  * the 4 % that times vary. */
-static const float ITERATION_SHARE = 0.5f;
+static const real ITERATION_SHARE = REAL(0.5);
 
 /* The constants of a collision. */
 typedef struct problem {
   vreal kappa, per_kappa, mu, mu_b, e;
   vreal mu_mu_b, mu_mu_b_y; /* mu mu_b; mu mu_b / kappa */
-  float spin;               /* 5/2 s */
+  real spin;                /* 5/2 s */
   vreal tolerance;          /* of a step's error estimate, in p */
   vreal no_slip;            /* square of the mu mu_b |d| below which the cloth slip does not
                                matter */
@@ -74,7 +74,7 @@ always vreal inverse_length(vreal x, vreal y) {
 /* A pressed ball has no slip on the cloth if mu mu_b |d| is below this share of the tolerance;
  * in sensitive collisions, if its square is below this number, which holds of a ball that lies
  * still. */
-static const float NO_SLIP = 0.03f, NO_SLIP_SENSITIVE = 1e-26f;
+static const real NO_SLIP = REAL(0.03), NO_SLIP_SENSITIVE = REAL(1e-26);
 
 always vmask has_no_slip(const problem *a, const state *s) {
   return v_less(a->mu_mu_b * a->mu_mu_b * v_fma(s->d_x, s->d_x, s->d_y * s->d_y), a->no_slip);
@@ -86,7 +86,7 @@ always vmask has_no_slip(const problem *a, const state *s) {
  * 1 - 5/2 s mu_b or more. While |d| grows at the rate drift, the difference of the two, an error
  * of t decreases only like |d|^(own / drift - 1), and an error of d made at |d| = w reaches the
  * result multiplied by w^(-own / drift). */
-static const float SENSITIVE = 0.12f; /* own / drift; at twice this, errors of 1e-6 occur in
+static const real SENSITIVE = REAL(0.12); /* own / drift; at twice this, errors of 1e-6 occur in
                                          collisions of play */
 always vmask is_sensitive(const problem *a) {
   const vreal own = (a->spin - 1) * a->mu_mu_b, drift = v_fma(v_splat(-a->spin), a->mu_b, 1 - own);
@@ -101,16 +101,16 @@ always prediction predict(const problem *a, const state *s, vreal length) {
   g.c = s->u_x * g.inverse_u;
   g.z = s->u_z * g.inverse_u;
   /* d runs straight, but for the friction between the balls */
-  const vreal half = 0.5f * length, friction = half * a->mu_b * rough;
+  const vreal half = REAL(0.5) * length, friction = half * a->mu_b * rough;
   const vreal d_x = v_fma(-friction, s->u_x, s->d_x),
               d_y = v_fma(friction * a->spin, s->u_z, s->d_y - half);
   const vreal i_d = v_rough_reciprocal_sqrt(v_fma(d_x, d_x, v_fma(d_y, d_y, v_splat(TINY))));
   g.t_x = d_x * i_d;
   g.t_y = d_y * i_d;
   /* |u|' at first; as u turns towards z it falls more slowly, for which the last factor stands */
-  const vreal c2 = g.c * g.c, cloth = a->mu * g.z * v_fma(2.5f * g.t_y, g.z, g.t_x * g.c);
-  g.rate = (a->mu_b * g.inverse_u) * v_fma(a->kappa, 2.5f + c2, cloth) *
-           v_fma(-0.182f * c2, 1 - c2, v_splat(1));
+  const vreal c2 = g.c * g.c, cloth = a->mu * g.z * v_fma(REAL(2.5) * g.t_y, g.z, g.t_x * g.c);
+  g.rate = (a->mu_b * g.inverse_u) * v_fma(a->kappa, REAL(2.5) + c2, cloth) *
+           v_fma(REAL(-0.182) * c2, 1 - c2, v_splat(1));
   return g;
 }
 
@@ -128,16 +128,15 @@ always vreal impulse_to_end(const problem *a, const state *s) {
 
 /* Columns of kernels.h, in a register each. */
 #ifdef CAROM_LANES_ONE
-typedef float column;
-typedef const float in_column;
+typedef real column;
+typedef const real in_column;
 #define COLUMN(columns, k) ((columns)[k])
 #else
-typedef float column[MOST_LANES];
-typedef column in_column; /* const would not convert in C17 */
-#define COLUMN(columns, k) v_load((columns)[k])
+typedef lane_column column, in_column;
+#define COLUMN(columns, k) v_load(LANE_NUMBERS((columns)[k]))
 #endif
 
-always problem problem_of(in_column *columns, float spin, float tolerance) {
+always problem problem_of(in_column *columns, real spin, real tolerance) {
   problem a;
   a.kappa = COLUMN(columns, IN_KAPPA);
   a.mu = COLUMN(columns, IN_MU);
@@ -150,7 +149,7 @@ always problem problem_of(in_column *columns, float spin, float tolerance) {
   a.mu_mu_b = a.mu * a.mu_b;
   a.mu_mu_b_y = a.mu_mu_b * a.per_kappa;
   a.sensitive = is_sensitive(&a);
-  a.tolerance = v_select(a.sensitive, 0.5f * a.tolerance, a.tolerance);
+  a.tolerance = v_select(a.sensitive, REAL(0.5) * a.tolerance, a.tolerance);
   a.no_slip = v_select(a.sensitive, v_splat(NO_SLIP_SENSITIVE),
                        (NO_SLIP * a.tolerance) * (NO_SLIP * a.tolerance));
   return a;
@@ -176,7 +175,7 @@ always void put_column(column *columns, int k, vreal x) {
 #ifdef CAROM_LANES_ONE
   columns[k] = x;
 #else
-  v_store(columns[k], x);
+  v_store(LANE_NUMBERS(columns[k]), x);
 #endif
 }
 

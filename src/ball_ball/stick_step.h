@@ -34,7 +34,7 @@ enum { STICK_LEAST = 2, STICK_MOST = 5 }; /* iterations; the first does not chan
 /* The error after an iteration of a step to stick, over its move, at least and by mu. With twice
  * or half of each,
  * `carom-lab stress --draws 60000` shows the same errors and times. */
-static const float CONTRACTION_STICK = 0.05f, CONTRACTION_STICK_MU = 0.25f;
+static const real CONTRACTION_STICK = REAL(0.05), CONTRACTION_STICK_MU = REAL(0.25);
 
 /* tau at the nodes, from d there. */
 always void tau_of(const problem *a, reg d_x, reg d_y, reg *tau_x, reg *tau_y) {
@@ -62,7 +62,7 @@ always vreal K_at_v_0_to_stick(const problem *a, const stick_rule *r, const stat
 
   /* |u| falls as lambda^(5 + 2 c^2) at first and more slowly then, so Newton's method comes from
    * one side */
-  const vreal left = v_max(v * v_reciprocal(v - s->v), v_splat(1e-10f)),
+  const vreal left = v_max(v * v_reciprocal(v - s->v), v_splat(REAL(1e-10))),
               power = v_reciprocal(v_fma(2 * c, c, v_splat(5)));
   vreal x_c = v_min(1 - ONE_OF(exponential(SPREAD(power) * logarithm(SPREAD(left)))), v_splat(1));
 
@@ -79,11 +79,11 @@ always vreal K_at_v_0_to_stick(const problem *a, const stick_rule *r, const stat
   /* v' and tau at the nodes of Gauss's rule from the start to there */
   reg dv[MOST_REGS], tau[MOST_REGS], on_way[MOST_REGS], part[MOST_REGS];
   EACH_REG(k, n) {
-    const reg l = MADD(-x_c, AT(gauss_6.node, k), 1.0f), l4 = (l * l) * (l * l), t = 2 * l - 1;
+    const reg l = MADD(-x_c, AT(gauss_6.node, k), REAL(1.0)), l4 = (l * l) * (l * l), t = 2 * l - 1;
     const reg W_k = polynomial_at_nodes(W_power, n, t),
               tau_k = polynomial_at_nodes(tau_power, n, t);
-    dv[k] = (x_c * l4) *
-            MADD(per_p * reg_root(MADD(W_k, W_k, u_z2)), MADD(-a->mu, tau_k, 1.0f), -per_f * tau_k);
+    dv[k] = (x_c * l4) * MADD(per_p * reg_root(MADD(W_k, W_k, u_z2)),
+                              MADD(-a->mu, tau_k, REAL(1.0)), -per_f * tau_k);
     tau[k] = (x_c * l4) * tau_k;
   }
 
@@ -91,7 +91,8 @@ always vreal K_at_v_0_to_stick(const problem *a, const stick_rule *r, const stat
   apply(gauss_6.sum, dv, on_way, n);
   EACH_REG(k, n) part[k] = tau[k] * (s->v + on_way[k]);
   const vreal v_c = s->v + dot(gauss_6.all, dv, n);
-  return v_fma(per_f, dot(gauss_6.all, part, n), s->K) - 0.5f * f * v_c * v_c * v_reciprocal(1 - f);
+  return v_fma(per_f, dot(gauss_6.all, part, n), s->K) -
+         REAL(0.5) * f * v_c * v_c * v_reciprocal(1 - f);
 }
 
 /* From *s, where *g has been predicted for the way to stick. Returns an estimate of the error,
@@ -105,13 +106,13 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   /* factors of the integrals in p, F, v and Q_1, Q_2 */
   const vreal per_mu_b = v_reciprocal(a->mu_b), per_p = 2 * a->per_kappa * per_mu_b;
   const vreal per_F = -2 * mu * u_z, per_f = per_F * a->per_kappa,
-              per_x = a->per_kappa * (1 / 3.5f), per_z = a->per_kappa * 0.4f;
+              per_x = a->per_kappa * (1 / REAL(3.5)), per_z = a->per_kappa * REAL(0.4);
 
   /* by how much friction of the balls and p change d up to stick, at the present rates; and the
    * factor of F in d */
   const vreal d_change_x = to_stick * (a->mu_b * g->c),
               d_change_y = to_stick * v_fma(-a->spin * a->mu_b, g->z, v_splat(1));
-  const float F_in_d = 1 - a->spin;
+  const real F_in_d = 1 - a->spin;
 
   /* tau_s, from d at stick; b and A of W_s */
   const vreal d_stick_x = s->d_x - d_change_x, d_stick_y = s->d_y - d_change_y,
@@ -148,7 +149,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   }
 
   reg slope[MOST_REGS], Y[MOST_REGS];
-  EACH_REG(k, n) Y[k] = SPREAD(0.0f);
+  EACH_REG(k, n) Y[k] = SPREAD(REAL(0.0));
   vmask going = v_all();
   vreal error = zero;
   lanes_rolled for (int i = 0; i < STICK_MOST; i++) {
@@ -157,12 +158,12 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
     if (i > 0) {
       reg rest[MOST_REGS], T[MOST_REGS];
       EACH_REG(k, n)
-      rest[k] = T_factor[k] * MADD(u_z, tau_x[k] - mean_x, -3.5f * (tau_y[k] - mean_y) * W[k]);
+      rest[k] = T_factor[k] * MADD(u_z, tau_x[k] - mean_x, REAL(-3.5) * (tau_y[k] - mean_y) * W[k]);
       apply(r->turn, rest, T, n);
       EACH_REG(k, n) REG_MOVE(going, &W[k], MADD(-lambda_b[k], T[k], W_homogeneous[k]));
     }
     /* the integrals of p and F up to each node */
-    EACH_REG(k, n) slope[k] = reg_root(MADD(W[k], W[k], u_z2)) * MADD(-mu, tau_y[k], 1.0f);
+    EACH_REG(k, n) slope[k] = reg_root(MADD(W[k], W[k], u_z2)) * MADD(-mu, tau_y[k], REAL(1.0));
     apply(r->sum, slope, P, n);
     apply(r->sum, tau_x, X, n);
     apply(r->sum, tau_y, new_Y, n);
@@ -170,7 +171,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
       /* Q_1 and Q_2 follow from the loss of u and from F; then d, and the new tau */
       const reg F_x = per_F * X[k], F_y = per_F * new_Y[k];
       const reg Q_1 = per_x * (MADD(-lambda_5[k], W[k], s->u_x) + F_x),
-                Q_2 = per_z * MADD(2.5f, F_y, MADD(-lambda_5[k], u_z, u_z));
+                Q_2 = per_z * MADD(REAL(2.5), F_y, MADD(-lambda_5[k], u_z, u_z));
       reg new_x, new_y;
       tau_of(a, s->d_x + MADD(F_in_d, F_x, -Q_1),
              MADD(-per_p, P[k], s->d_y) + MADD(a->spin, Q_2, F_in_d * F_y), &new_x, &new_y);
@@ -193,7 +194,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   /* over the whole step: p, F and v, with v' / lambda^4 at the nodes */
   reg work[MOST_REGS], slope_v[MOST_REGS];
   EACH_REG(k, n) {
-    slope[k] = reg_root(MADD(W[k], W[k], u_z2)) * MADD(-mu, tau_y[k], 1.0f);
+    slope[k] = reg_root(MADD(W[k], W[k], u_z2)) * MADD(-mu, tau_y[k], REAL(1.0));
     slope_v[k] = MADD(per_p, slope[k], -per_f * tau_y[k]);
     work[k] = Y[k] * slope_v[k];
   }
@@ -220,7 +221,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   const vreal returned = work_returned(a, K_c, K),
               v_end = v_sqrt(v_max(v_fma(a->e, a->e, returned), zero)), share = p * g->rate;
   const vmask in_reach =
-      v_less_equal(v, v_end) & v_less(v_splat(0.3f), share) & v_less(share, v_splat(3));
+      v_less_equal(v, v_end) & v_less(v_splat(REAL(0.3)), share) & v_less(share, v_splat(3));
 
   /* the solution: v at the end by the balance of work, p beyond 1 + e by v_n = v_n0 + kappa p -
    * F_y */

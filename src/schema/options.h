@@ -78,11 +78,11 @@
   CAROM_THREAD_OPTIONS(OPTION)
 
 /* Options of carom_options, for two balls. */
-#define CAROM_IMPACT_OPTIONS(OPTION)                                     \
-  OPTION(solver, "solver", WORDS(SOLVER), 0, CAROM_SOLVER_EULER, SOLVER, \
-         "how the collision is solved")                                  \
-  OPTION(slip, "slip", WORDS(SLIP), 0, CAROM_SLIP_POOLTOOL, SLIP,        \
-         "sign of the spin in the slip over the cloth")                  \
+#define CAROM_IMPACT_OPTIONS(OPTION)                                    \
+  OPTION(solver, "solver", WORDS(SOLVER), 0, CAROM_SOLVER_FAST, SOLVER, \
+         "how the collision is solved")                                 \
+  OPTION(slip, "slip", WORDS(SLIP), 0, CAROM_SLIP_POOLTOOL, SLIP,       \
+         "sign of the spin in the slip over the cloth")                 \
   CAROM_CALL_OPTIONS(OPTION)
 
 /* Options of carom_cushion_options, beside the numbers of numbers.h. */

@@ -62,6 +62,7 @@
   WORD(RACK, RACK_THREECUSHION, "threecushion", "white, yellow, red, as for the opening")          \
   WORD(SOLVER, SOLVER_EXACT, "exact", "the limit of infinitely many steps")                        \
   WORD(SOLVER, SOLVER_EULER, "euler", "N steps of equal impulse")                                  \
+  WORD(SOLVER, SOLVER_FAST, "fast", "exact in less time, but not smooth")                          \
   WORD(SLIP, SLIP_PAPER, "paper", "that of the 2014 paper")                                        \
   WORD(SLIP, SLIP_POOLTOOL, "pooltool", "that of pooltool")
 

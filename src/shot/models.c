@@ -155,8 +155,7 @@ __attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim, c
   const bool euler = model == CAROM_BALL_MODEL_EULER;
   const carom_options options = {.solver = euler ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
                                  .slip = euler ? sim->rules->euler_slip : CAROM_SLIP_PAPER,
-                                 .steps = sim->opt->steps,
-                                 .plain = !sim->opt->fast};
+                                 .steps = sim->opt->steps};
   const carom_status status = carom_collide(&in, &options, &out);
   if (status == CAROM_SEPARATING && euler && sim->rules->part_by_steps != NULL)
     sim->rules->part_by_steps(&in, &options, &out);

@@ -360,7 +360,7 @@ carom_status carom_collide_tangent(const carom_impact *in, const carom_options *
   carom_status status = carom_collide(in, opt, &out);
   opt = opt != NULL ? opt : &defaults;
   memset(tangent, 0, 12 * m * sizeof *tangent);
-  if (status >= 0 && (opt->solver != CAROM_SOLVER_EXACT || opt->slip != CAROM_SLIP_PAPER))
+  if (status >= 0 && (opt->solver == CAROM_SOLVER_EULER || opt->slip != CAROM_SLIP_PAPER))
     status = CAROM_ERROR_TANGENT;
   status = status >= 0 && BUILT < 0 ? BUILT : status;
 
