@@ -214,6 +214,13 @@ def copied(records: Array) -> Array:
     return np.frombuffer(bytearray(records.tobytes()), records.dtype).reshape(records.shape)
 
 
+def sealed(array: Array) -> Array:
+    """A view that cannot be written to."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
 def repeated(record: bytes, dtype: np.dtype[Any], shape: tuple[int, ...]) -> Array:
     """An array of equal records, which may be written to."""
     return np.frombuffer(bytearray(record * math.prod(shape)), dtype).reshape(shape)

@@ -41,7 +41,9 @@ class Options(ShotOptions):
     if not TYPE_CHECKING:
 
         def __new__(cls, *given, **named):
-            return super().__new__(cls, *given, **_known(named))
+            made = super().__new__(cls, *given, **_known(named)).changed({})
+            shot_options(made)  # refuses what is wrong now, not when a shot is played
+            return made
 
     def __repr__(self) -> str:
         """What differs from the defaults, which keeps signatures short."""
@@ -53,7 +55,7 @@ class Options(ShotOptions):
         return f"Options({', '.join(others)})"
 
     def changed(self, changes: Any) -> Options:
-        """These options but for some, by their names."""
+        """These options except some, by their names."""
         made = self._replace(**_known(changes))
         if not isinstance(made.first_of, (int, tuple)):
             balls = several(made.first_of, "first_of", "the index of a ball is needed, or several")
@@ -78,7 +80,7 @@ def chosen(options: object, changes: Any) -> Options:
             f"options: a carom.Options is needed, such as carom.Options(world='pooltool'), not {reprlib.repr(options)}; "
             "single options are keywords of their own: world='pooltool'"
         )
-    return options.changed(changes)
+    return options.changed(changes) if changes else options
 
 
 @cached

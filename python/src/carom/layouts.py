@@ -24,6 +24,7 @@ from carom._rows import (
     number,
     pointer,
     raw,
+    sealed,
     several,
     whole,
     with_numbers,
@@ -41,6 +42,9 @@ GAMES, _CUSHIONS = worded("GAME"), worded("SHOT_CUSHION")
 
 class Table:
     """A table of any geometry: cushions, their rounded ends, pockets.
+
+    A table does not change: its arrays cannot be written to, and `changed` makes another table.
+    Tables with equal numbers are equal, and have one hash.
 
     Parameters
     ----------
@@ -101,14 +105,31 @@ class Table:
                 )
             record[name] = len(values)
             raw(record[part])[: len(values)] = raw(np.ascontiguousarray(values))
-        self.record: dtypes.Records = record
+        self.record: dtypes.Records = sealed(record)
 
     @classmethod
     def from_record(cls, record: dtypes.Records) -> Table:
         """The table of a record of `carom.dtypes.table`, of shape (), which is copied."""
         table = cls.__new__(cls)
-        table.record = copied(np.asarray(record, dtypes.table)).reshape(())
+        table.record = sealed(copied(np.asarray(record, dtypes.table)).reshape(()))
         return table
+
+    def changed(self, **parts: Any) -> Table:
+        """This table except some of its parameters, by their names.
+
+        >>> rails = table.rails.copy()
+        >>> rails["mu_cushion"] = 0.3
+        >>> table = table.changed(rails=rails)
+        """
+        sizes = ("width", "length", "ball_radius", "rail_width", "pocket_back")
+        given: dict[str, Any] = {name: float(self.record[name]) for name in sizes}
+        given |= {"rails": self.rails, "jaws": self.jaws, "pockets": self.pockets}
+        if unknown := parts.keys() - given.keys():
+            raise TypeError(f"table: there is no {min(unknown)!r}; known are {', '.join(given)}")
+        return Table(**{**given, **parts})
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.record = sealed(state["record"])
 
     @property
     def width(self) -> float:
@@ -122,17 +143,17 @@ class Table:
 
     @property
     def rails(self) -> dtypes.Records:
-        """The straight pieces of cushion, a view."""
+        """The straight pieces of cushion: a view, which cannot be written to."""
         return self._parts("rail", "rails")
 
     @property
     def jaws(self) -> dtypes.Records:
-        """The rounded ends of cushions, a view."""
+        """The rounded ends of cushions: a view, which cannot be written to."""
         return self._parts("jaw", "jaws")
 
     @property
     def pockets(self) -> dtypes.Records:
-        """The pockets, a view."""
+        """The pockets: a view, which cannot be written to."""
         return self._parts("pocket", "pockets")
 
     @property
@@ -177,7 +198,11 @@ class Table:
         """Whether all numbers are the same."""
         return isinstance(other, Table) and bool(np.array_equal(self.record, other.record))
 
-    __hash__ = None  # type: ignore[assignment]
+    def __hash__(self) -> int:
+        # of what equal tables share; numbers, as -0.0 and 0.0 are equal and have other bytes
+        numbers = (self.rails["p"], self.rails["restitution"], self.pockets["centre"])
+        parts = (tuple(values.ravel().tolist()) for values in numbers)
+        return hash((self.width, self.length, len(self.jaws), *parts))
 
     def __repr__(self) -> str:
         sizes = f"{len(self.rails)} rails, {len(self.jaws)} jaws, {len(self.pockets)} pockets"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 import functools
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, overload
@@ -27,6 +28,7 @@ from carom._rows import (
     needed,
     one_or_all,
     pointer,
+    sealed,
     several,
     spread,
     whole,
@@ -47,6 +49,36 @@ def _moments(times: npt.ArrayLike) -> dtypes.Doubles:
     return at
 
 
+def _picker(index: Any, shape: tuple[int, ...]) -> Callable[[Array], Array]:
+    """Takes the shots that an index chooses out of any array of a batch.
+
+    The index is resolved against the shape of the batch alone, as NumPy resolves it on an array of
+    that shape; what an array has in further dimensions stays whole. Integers, slices, None and
+    Ellipsis give views, as in NumPy; other indices give copies.
+    """
+    entries: tuple[Any, ...] = index if isinstance(index, tuple) else (index,)
+    if all(map(_is_basic, entries)):
+        missing = len(shape) - sum(entry is not None and entry is not ... for entry in entries)
+        if ... not in entries:
+            entries += (...,)
+        at = entries.index(...)
+        whole_ones = (slice(None),) * missing
+        view = (*entries[:at], *whole_ones, *entries[at + 1 :], ...)
+        return lambda array: array[view]
+    # which shots are chosen, as coordinates: an array that is broadcast is not copied for them
+    places: Array = np.arange(math.prod(shape)).reshape(shape)[index]
+    where: tuple[Any, ...] = (*np.unravel_index(places, shape or (1,)), ...)
+    return lambda array: (array if shape else array[np.newaxis])[where]
+
+
+def _is_basic(entry: Any) -> bool:
+    """Whether an entry of an index is basic in NumPy's sense; True and False are masks."""
+    if entry is None or entry is ... or isinstance(entry, slice):
+        return True
+    return isinstance(entry, (int, np.integer)) and not isinstance(entry, bool)
+
+
+_USUAL = Options()
 UNKNOWN = fill(dtypes.ball_state, {}, {**dict.fromkeys("rvw", np.nan), "label": -1})
 
 
@@ -54,10 +86,12 @@ UNKNOWN = fill(dtypes.ball_state, {}, {**dict.fromkeys("rvw", np.nan), "label": 
 class Shot:
     """One shot.
 
+    The table, the balls, the cue and the events cannot be written to, because later calls, such as
+    `positions`, `carom.resume` and `carom.tangents`, read them. Copies can.
+
     Attributes
     ----------
     table : Table
-        A copy, as of the balls and the cue: a shot knows what it was played with.
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
         The layout before the strike.
     status : Status
@@ -233,7 +267,8 @@ class _OfBatch(Shot):
 
     def _seen(self, times: npt.ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...]) -> Array:
         index: tuple[Any, ...] = self._index if isinstance(self._index, tuple) else (self._index,)
-        seen, codes = self._batch[(*index, ...)]._look_at(times, dtype, numbers, 0)
+        alone: Shots = self._batch[(*index, ...)]
+        seen, codes = alone._look_at(times, dtype, numbers, 0)
         if codes[0] < 0:
             raise (
                 self._batch.error(self._index)
@@ -252,16 +287,16 @@ class _OfBatch(Shot):
 
 def _kept(batch: Shots, index: Any) -> dtypes.Records:
     kept: dtypes.Records = batch.events[index]
-    return kept[: int(batch.record["count"][index])]
+    return sealed(kept[: int(batch.record["count"][index])])
 
 
 def _layout(batch: Shots, index: Any) -> dtypes.Records:
-    given = np.broadcast_to(batch.layouts, batch.final.shape)[index]
+    given: dtypes.Records = np.broadcast_to(batch.layouts, batch.final.shape)[index]
     if batch.kinds is None:
-        return np.array(given, dtypes.shot_ball)
+        return sealed(np.array(given, dtypes.shot_ball))
     balls = np.empty(given.shape, dtypes.shot_ball)
     balls["kind"], balls["state"] = batch.kinds, given
-    return balls
+    return sealed(balls)
 
 
 _ATTRIBUTES: dict[str, Callable[[Shots, Any], Any]] = {
@@ -274,7 +309,7 @@ _ATTRIBUTES: dict[str, Callable[[Shots, Any], Any]] = {
     "final": lambda batch, index: batch.final[index],
     "cue": lambda batch, index: None
     if batch.cues is None
-    else np.array(np.broadcast_to(batch.cues, batch.shape)[index]),
+    else sealed(np.array(np.broadcast_to(batch.cues, batch.shape)[index])),
     "options": lambda batch, index: batch.options,
 }
 
@@ -302,8 +337,9 @@ class Features(Arrays):
     cushions: npt.NDArray[np.int32]
 
     def __getitem__(self, index: Any) -> Features:
-        """Those of some shots."""
-        return Features(*(getattr(self, field.name)[index] for field in fields(self)))
+        """Those of some shots: the index is that of `Shots`."""
+        pick = _picker(index, self.cushions_after.shape)
+        return Features(*(pick(getattr(self, field.name)) for field in fields(self)))
 
 
 _OF_BALLS = {"pocket", "pocket_time", "cushions"}
@@ -312,8 +348,10 @@ _OF_BALLS = {"pocket", "pocket_time", "cushions"}
 class Shots:
     """Many shots: arrays of the shape of the batch.
 
-    `shots[k]` is a `Shot`, whose attributes are made when they are first used; slices and arrays of
-    indices are `Shots`, as NumPy has them. An iteration gives every shot, in C order.
+    A batch is indexed, iterated and measured by `len` as its array `status` is. Where NumPy gives a
+    number, a batch gives a `Shot`, whose attributes are made when they are first used; where NumPy
+    gives an array, a batch gives `Shots`. Slices are views; masks and arrays of indices make copies.
+    `flat` gives every shot, in C order.
 
     Attributes
     ----------
@@ -359,17 +397,17 @@ class Shots:
         self.events: dtypes.Records = np.zeros((*shape, room), event)
         self.record: dtypes.Records = np.zeros(shape, dtypes.shot)
         self._facts: dtypes.Records | None = None  # dtypes.facts, with features
-        self.options = Options()
+        self.options = _USUAL
 
     @property
     def time(self) -> dtypes.Doubles:
-        """When the last event happened, s."""
-        return np.asarray(self.record["time"])
+        """When the last event happened, s: a view, which cannot be written to."""
+        return sealed(self.record["time"])
 
     @property
     def count(self) -> npt.NDArray[np.int64]:
-        """Events that happened."""
-        return np.asarray(self.record["count"])
+        """Events that happened: a view, which cannot be written to."""
+        return sealed(self.record["count"])
 
     @property
     def refused(self) -> npt.NDArray[np.bool_]:
@@ -400,42 +438,65 @@ class Shots:
         """The shape of the batch."""
         return self.status.shape
 
+    @property
+    def ndim(self) -> int:
+        """How many dimensions the batch has."""
+        return self.status.ndim
+
+    @property
+    def size(self) -> int:
+        """How many shots the batch has."""
+        return self.status.size
+
     def __len__(self) -> int:
         return len(self.status)
 
-    def __iter__(self) -> Iterator[Shot]:
+    def __iter__(self) -> Iterator[Any]:
+        """The parts `shots[0]`, `shots[1]` and so on, each a `Shot` in a batch of one dimension."""
+        if not self.shape:
+            raise TypeError("iteration over a batch of shape (), which is one shot: shots[()]")
+        return (self[k] for k in range(len(self)))
+
+    @property
+    def flat(self) -> Iterator[Shot]:
         """Every shot, in C order."""
-        for index in np.ndindex(self.shape):
-            yield _OfBatch(self, index)
+        return (_OfBatch(self, index) for index in np.ndindex(self.shape))
 
     @overload
-    def __getitem__(self, index: int | np.integer[Any] | tuple[int, ...]) -> Shot: ...
+    def __getitem__(self, index: tuple[int, ...]) -> Shot: ...
     @overload
-    def __getitem__(self, index: Any) -> Shots: ...
-    def __getitem__(self, index: Any) -> Shot | Shots:
-        """One shot of the batch, by its full index, or some."""
+    def __getitem__(self, index: slice | npt.NDArray[Any] | list[Any]) -> Shots: ...
+    @overload
+    def __getitem__(self, index: Any) -> Any: ...
+    def __getitem__(self, index: Any) -> Any:
+        """One shot of the batch, or some, as NumPy indexes `status`."""
         chosen = self.status[index]
         if not isinstance(chosen, np.ndarray):
             return _OfBatch(self, index)
-        if isinstance(index, (int, np.integer)):
-            raise IndexError(
-                f"a shot of a batch of shape {self.shape} has {len(self.shape)} indices; [{index}, ...] are some"
-            )
+        pick = _picker(index, self.shape)
         part = Shots.__new__(Shots)
-        part.table, part.options, part.status, part.kinds = (
-            self.table,
-            self.options,
-            chosen,
-            self.kinds,
+        part.table, part.options, part.kinds = self.table, self.options, self.kinds
+        part.status, part.final, part.events, part.record = (
+            pick(self.status),
+            pick(self.final),
+            pick(self.events),
+            pick(self.record),
         )
-        part.layouts = np.broadcast_to(self.layouts, self.final.shape)[index]
-        part.cues = None if self.cues is None else np.broadcast_to(self.cues, self.shape)[index]
-        part.final, part.events, part.record = (
-            self.final[index],
-            self.events[index],
-            self.record[index],
+        part._facts = None if self._facts is None else pick(self._facts)
+        # one layout or one cue for all stays one
+        count = self.final.shape[-1]
+        part.layouts = (
+            self.layouts.reshape(count)
+            if self.layouts.size == count
+            else pick(np.broadcast_to(self.layouts, self.final.shape))
         )
-        part._facts = None if self._facts is None else self._facts[index]
+        part.cues = self.cues
+        if self.cues is not None:
+            part.cues = (
+                self.cues.reshape(())
+                if self.cues.size == 1
+                else pick(np.broadcast_to(self.cues, self.shape))
+            )
         return part
 
     # ---- Trajectories

@@ -25,6 +25,7 @@ from carom._rows import (
     number,
     output,
     pointer,
+    sealed,
     whole,
 )
 from carom._shot_options import Options, StopAt, chosen, shot_options
@@ -93,8 +94,8 @@ def simulate(
             f"balls: the shape must be (balls,), not {layout.shape}; simulate_batch plays many layouts"
         )
     check_table(table)
-    table, layout = Table.from_record(table.record), copied(layout)
-    cue = None if cue is None else copied(one_cue(cue))
+    layout = sealed(copied(layout))
+    cue = None if cue is None else sealed(copied(one_cue(cue)))
     models = chosen(options, changes)
     doubt_balls(table, layout["kind"], models.cushion_model)
     if models.first_of != ():
@@ -150,7 +151,7 @@ def _run(begun: Shot, play: Callable[[Any], int]) -> Shot:
             break
         room = shot.count
     begun.status, begun.time, begun.count = Status(code), shot.time, shot.count
-    begun.events, begun.final, begun.state = copied(events[: shot.count]), final, state
+    begun.events, begun.final, begun.state = sealed(copied(events[: shot.count])), final, state
     if code < 0:
         raise CaromError(code, shot=begun)
     return begun

@@ -343,7 +343,6 @@ def test_a_shot_knows_what_it_was_played_with():
     shots = carom.simulate_batch(table, balls, cues, room=99, **CLOSED)
     assert shots[1].cue == cues[1] and pickle.loads(pickle.dumps(shots[1])).cue == cues[1]
     cue["phi"], balls["kind"]["mu_slide"] = 12.0, 0.3
-    table.rails["restitution"] = 0.5
     assert carom.tangents(shot, names).states.tobytes() == expected
     with pytest.raises(ValueError, match="wrt: name at least one number"):
         carom.tangents(shot, [])

@@ -44,8 +44,9 @@ def billiard(**fields):
 
 def spoiled():
     table = carom.tables.pool_9ft()
-    table.record["rail"]["restitution"][..., 3] = np.nan
-    return table
+    rails = table.rails.copy()
+    rails["restitution"][3] = np.nan
+    return table.changed(rails=rails)
 
 
 def rows_of(part):

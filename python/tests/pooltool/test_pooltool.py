@@ -145,7 +145,8 @@ def amplification(system, engine):
         bridge.balls_of(system),
         bridge.cue_of(system),
     )
-    one = carom.simulate(table, balls, cue, options=bridge._options_of(engine, table, balls))
+    options, played_on = bridge._options_of(engine, table, balls)
+    one = carom.simulate(played_on, balls, cue, options=options)
     same, change = one.count, np.ones(one.count)
     for k in range(4):
         moved, struck = balls.copy(), cue.copy()
@@ -154,9 +155,8 @@ def amplification(system, engine):
         )
         struck["speed"] *= 1 + 1e-13
         struck["phi"] += 1e-13
-        other = carom.simulate(
-            table, moved, struck, options=bridge._options_of(engine, table, moved)
-        )
+        options, played_on = bridge._options_of(engine, table, moved)
+        other = carom.simulate(played_on, moved, struck, options=options)
         count = min(same, other.count)
         mine, theirs = one.events[:count], other.events[:count]
         differ = (

@@ -122,7 +122,7 @@ def table_of(table: Any) -> Table:
         if len(_tables) >= 16:
             _tables.clear()
         cached = _tables[key] = (_table_of(linear, circular, pockets), (linear, circular, pockets))
-    return Table.from_record(cached[0].record)
+    return cached[0]
 
 
 _tables: dict[tuple[Any, ...], tuple[Table, Any]] = {}
@@ -215,11 +215,12 @@ def _one_of(known: Collection[str], name: str, part: str) -> None:
         raise UnsupportedError(f"engine: carom knows {', '.join(known)} for {part}, not {name}")
 
 
-def _options_of(engine: Any, table: Table, balls: dtypes.Records) -> Options:
-    """The models of an engine of pooltool's, or an error that says what of it carom does not know.
+def _options_of(engine: Any, table: Table, balls: dtypes.Records) -> tuple[Options, Table]:
+    """The models of an engine of pooltool's and the table for them, or an error that says what of
+    it carom does not know.
 
-    Numbers that pooltool has in its models carom has in the balls, rails and jaws, which are
-    changed.
+    Numbers that pooltool has in its models carom has in the balls, which are changed, and in rails
+    and jaws.
     """
     resolver, kinds = engine.resolver, balls["kind"]
     if getattr(engine, "is_3d", False):
@@ -269,8 +270,10 @@ def _options_of(engine: Any, table: Table, balls: dtypes.Records) -> Options:
     if cushion_model == "stronge":
         kinds["omega_ratio"] = linear.omega_ratio
     elif cushion_model == "mirror":
-        table.rails["restitution"] = 0.0 if linear.restitution else 1.0
-        table.jaws["restitution"] = 0.0 if circular.restitution else 1.0
+        rails, jaws = table.rails.copy(), table.jaws.copy()
+        rails["restitution"] = 0.0 if linear.restitution else 1.0
+        jaws["restitution"] = 0.0 if circular.restitution else 1.0
+        table = table.changed(rails=rails, jaws=jaws)
     elif cushion_model == "euler":
         steps.add(int(linear.max_steps))
         if linear.delta_p != 0.001:
@@ -281,7 +284,8 @@ def _options_of(engine: Any, table: Table, balls: dtypes.Records) -> Options:
         raise UnsupportedError(
             "engine: carom knows the same number of steps for FrictionalMathavan and Mathavan2010"
         )
-    return Options("pooltool", ball_model, cushion_model, friction, steps=next(iter(steps), 0))
+    most = next(iter(steps), 0)
+    return Options("pooltool", ball_model, cushion_model, friction, steps=most), table
 
 
 def simulate(
@@ -335,12 +339,8 @@ def simulate(
             raise UnsupportedError("include: carom resolves all types of events")
         table, balls, cue = table_of(shot.table), balls_of(shot), cue_of(shot)
         if models == "pooltool":
-            played = _play(
-                table,
-                balls,
-                cue,
-                options=_options_of(engine or _simulate.DEFAULT_ENGINE, table, balls),
-            )
+            options, table = _options_of(engine or _simulate.DEFAULT_ENGINE, table, balls)
+            played = _play(table, balls, cue, options=options)
         else:
             if engine is not None:
                 raise UnsupportedError("engine: with models='carom' the models are carom's")
@@ -521,7 +521,7 @@ class Agent:
             [0] if hand != "none" else []
         )
         layout["state"]["label"][down] = Label.POCKETED
-        options = _options_of(self.engine or _simulate.DEFAULT_ENGINE, table, layout)
+        options, table = _options_of(self.engine or _simulate.DEFAULT_ENGINE, table, layout)
         cue = cue_of(system)
         cue["ball"] = 0
 
