@@ -276,6 +276,20 @@ def whole(value: object, name: str, least: int = 0, most: int = 2**31 - 1) -> in
     )
 
 
+Seed = int | np.random.Generator
+"""What begins random numbers: a whole number, or a generator that draws one."""
+
+
+def seed_of(seed: Seed, most: int = 2**31 - 1) -> int:
+    """The whole number of a seed; a generator draws it, and stands elsewhere afterwards."""
+    if isinstance(seed, np.random.Generator):
+        return int(seed.integers(min(most, 2**63 - 1), endpoint=True))
+    try:
+        return whole(seed, "seed", most=most)
+    except ValueError as error:
+        raise ValueError(f"{error}; a numpy.random.Generator will do too") from None
+
+
 _Made = TypeVar("_Made", bound=Callable[..., Any])
 
 

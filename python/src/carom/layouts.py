@@ -419,6 +419,15 @@ def by_number(
     return made
 
 
+def _finite(**given: npt.ArrayLike) -> None:
+    """Refuses one layout whose numbers are not finite; of many, a wrong one costs its own shots."""
+    for name, values in given.items():
+        numbers = as_array(values, name, np.float64)
+        if not np.isfinite(numbers).all():
+            wrong = numbers[~np.isfinite(numbers)].flat[0]
+            raise ValueError(f"{name}: finite numbers are needed, not {wrong}")
+
+
 @with_numbers(lib.CAROM_PART_BALL)
 def balls(
     r: npt.ArrayLike,
@@ -462,6 +471,8 @@ def balls(
         raise ValueError(
             f"r: the shape must be (..., balls, 2) or (..., balls, 3), not {centres.shape}"
         )
+    if centres.ndim == 2:
+        _finite(r=centres, v=v, w=w)
     places = np.zeros((*centres.shape[:-1], 3))
     places[..., : centres.shape[-1]] = centres
     ball, number = ffi.new("carom_shot_ball *"), choice(GAMES, game, "game")

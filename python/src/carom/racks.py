@@ -1,8 +1,8 @@
 """The racks, with the cue ball first: `carom.racks.nineball(table)`.
 
-Each takes the table, the gap between neighbours (m; 0 is a frozen rack) and the seed that draws by
-how much each ball is moved, up to a quarter of the gap, and where the other balls of the rack go;
-and gives an ndarray of `carom.dtypes.shot_ball`.
+Each takes the table, the gap between neighbours (m; 0 is a frozen rack) and the seed, a whole number
+or a `numpy.random.Generator`. The seed draws by how much each ball is moved, up to a quarter of the
+gap, and where the other balls of the rack go. The result is an ndarray of `carom.dtypes.shot_ball`.
 """
 
 from __future__ import annotations
@@ -13,26 +13,26 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, called, number, pointer, whole, worded
+from carom._rows import Array, Seed, called, number, pointer, seed_of, worded
 from carom.layouts import Table, check_table
 from carom.status import CaromError
 
 
 class _Rack(Protocol):
-    def __call__(self, table: Table, gap: float = 1e-4, seed: int = 1) -> dtypes.Records: ...
+    def __call__(self, table: Table, gap: float = 1e-4, seed: Seed = 1) -> dtypes.Records: ...
 
 
 def _maker(name: str) -> _Rack:
     kind = worded("RACK")[name]
     text = f"{lib.carom_rack_size(kind)} balls: {ffi.string(lib.carom_word_text(lib.CAROM_WORDS_RACK, kind)).decode()}."
 
-    def make(table: Table, gap: float = 1e-4, seed: int = 1) -> dtypes.Records:
+    def make(table: Table, gap: float = 1e-4, seed: Seed = 1) -> dtypes.Records:
         size = int(lib.carom_rack_size(kind))
         balls: Array = np.zeros(size, dtypes.shot_ball)
         check_table(table)
         of_table, drawn = (
             pointer("carom_table[]", table.record),
-            whole(seed, "seed", most=2**64 - 1),
+            seed_of(seed, 2**64 - 1),
         )
         gap = number(gap, "gap", "a distance in m is needed")
         code = lib.carom_rack(kind, of_table, gap, drawn, pointer("carom_shot_ball[]", balls), size)

@@ -36,6 +36,12 @@ def balls(**fields):
     return carom.simulate(TABLE, carom.balls(**{"r": [[0.5, 0.5], [0.7, 0.5]], **fields}), CUE)
 
 
+def unknown_motion():
+    layout = RACK.copy()
+    layout["state"]["v"][1] = 0.0, np.nan, 0.0
+    return layout
+
+
 def billiard(**fields):
     return carom.simulate(
         carom.tables.threecushion(), carom.balls([[0.7, 1.0]], game="billiard", **fields)
@@ -396,7 +402,7 @@ FIELDS = [
         )
         for row in ROWS_OF_BALL
     ),
-    (r"balls\[1\]\.state\.v = \[ ?0\. nan ", lambda: balls(v=[[0, 0, 0], [0, np.nan, 0]])),
+    (r"balls\[1\]\.state\.v = \[ ?0\. nan ", lambda: carom.simulate(TABLE, unknown_motion(), CUE)),
     (r"balls\[1\]\.state\.r = \[-0\.5", lambda: balls(r=[[0.5, 0.5], [-0.5, 0.5]])),
     (
         r"balls\[0\]\.kind\.nose_height = 0\.07: it must be below 2 R",
@@ -435,6 +441,31 @@ def test_message(kind, message, call):
         assert (
             caught.value.field == str(caught.value).partition(" = ")[0] and caught.value.status < 0
         )
+
+
+def test_what_is_wrong_is_refused_when_it_is_made():
+    for name, fields in (("r", {"r": [[np.nan, 0.8]]}), ("v", {"r": [[0.6, 0.8]], "v": np.inf})):
+        with pytest.raises(ValueError, match=f"^{name}: finite numbers are needed, not (nan|inf)$"):
+            carom.balls(**fields)
+    # of many layouts a wrong one costs its own shot
+    layouts = carom.balls([[[0.6, 0.8]], [[np.nan, 0.8]]])
+    assert carom.simulate_batch(TABLE, layouts, CUE).refused.tolist() == [False, True]
+    for wrong in ({"cushion_model": "hann"}, {"steps": -1}, {"t_final": -1.0}, {"first_of": 99}):
+        (name,) = wrong
+        with pytest.raises(ValueError, match=f"^{name}: "):
+            carom.Options(**wrong)
+
+
+def test_a_generator_is_a_seed():
+    """It draws a seed, so that each call has another, and the same generator gives the same."""
+
+    def racks(generator):
+        return [carom.racks.nineball(TABLE, seed=generator).tobytes() for _ in range(2)]
+
+    first, again = (racks(np.random.default_rng(5)) for _ in range(2))
+    assert first == again and first[0] != first[1]
+    with pytest.raises(ValueError, match="^seed: it must be a whole number .*Generator will do"):
+        carom.racks.nineball(TABLE, seed=0.5)
 
 
 SHOT, BATCH = (

@@ -257,6 +257,30 @@ def test_random_parameters_ball_sets_and_rewards():
 # -----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize(
+    ("action", "message"),
+    [
+        ("hit", "real numbers are needed, not 'hit'"),
+        (np.zeros((2, 4)), r"the shape must be \(4,\), not \(2, 4\)"),
+        ([0, 0, 0], r"the shape must be \(4,\), not \(3,\)"),
+        ([5, 0, 0, 0], r"each number must be from -1 to 1, not 5, which is at \[0\]"),
+        ([0, 0, 0, np.nan], r"each number must be from -1 to 1, not nan, which is at \[3\]"),
+        (None, "real numbers are needed, not None"),
+    ],
+)
+def test_an_action_outside_of_its_space_says_what_is_right(gymnasium, action, message):
+    game = gymnasium.make("carom/Potting-v1").unwrapped
+    game.reset(seed=1)
+    with pytest.raises((TypeError, ValueError), match=f"^action: {message}"):
+        game.step(action)
+    games = gymnasium.make_vec("carom/Potting-v1", num_envs=3)
+    games.reset(seed=1)
+    with pytest.raises((TypeError, ValueError), match="^actions: "):
+        games.step([[0, 0, 0, 0], [0, 0, -1.5, 0]] if action is None else action)
+    # single precision rounds 1
+    game.step(np.full(4, 1.0 + 1e-7))
+
+
 @pytest.mark.parametrize("render_mode", [None, "svg", "rgb_array"])
 def test_gymnasiums_checkers(gymnasium, render_mode):
     """That of an environment, and the passive one of what make() gives; neither warns."""

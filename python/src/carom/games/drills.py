@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes, racks
-from carom._rows import copied, listing
+from carom._rows import Seed, copied, listing
 from carom.games import plans
 from carom.games._draws import Draws, Games
 from carom.games.potting import Potting
@@ -83,7 +83,7 @@ class Break(Potting):
         )
         return laid
 
-    def best(self, balls: dtypes.Records, *, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
+    def best(self, balls: dtypes.Records, *, shots: int = 500, seed: Seed = 0) -> dtypes.Doubles:
         """The action, of shape (6,), of the planner, which wants to win the game of nine-ball
         against a player with the same errors.
         """

@@ -28,7 +28,7 @@ from carom._rows import listing, raw
 from carom.games._draws import Draws, Games
 from carom.games.drills import Break, ThreeCushion
 from carom.games.matches import Match
-from carom.games.potting import Potting, Strokes
+from carom.games.potting import Potting, Strokes, in_space
 
 try:
     import gymnasium
@@ -206,7 +206,8 @@ class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
         """Play a stroke: observation, reward, terminated, truncated, info."""
         if self._games.ended[0]:
             raise gymnasium.error.ResetNeeded("the game has ended, or has not begun: call reset()")
-        strokes = self._games.play(_ONE, np.asarray(action, np.float64)[np.newaxis])
+        given = in_space(action, (self.rules.acts,), "action")
+        strokes = self._games.play(_ONE, given[np.newaxis])
         info = {
             "potted": int(strokes.potted[0]),
             "scratch": bool(strokes.scratch[0]),
@@ -301,11 +302,7 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
         """Play a stroke of each game, or begin it anew: observations (num_envs, ...); rewards,
         terminated, truncated (num_envs,); infos.
         """
-        given = np.asarray(actions, dtype=np.float64)
-        if given.shape != (self.num_envs, self.rules.acts):
-            raise ValueError(
-                f"actions: the shape must be ({self.num_envs}, {self.rules.acts}), not {given.shape}"
-            )
+        given = in_space(actions, (self.num_envs, self.rules.acts), "actions")
         if not self._games.begun:
             raise gymnasium.error.ResetNeeded(
                 "no game has begun: call reset() before the first step()"

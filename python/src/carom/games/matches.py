@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
-from carom._rows import Array, listing, whole
+from carom._rows import Array, Seed, listing, whole
 from carom.games._draws import Draws, Games
 from carom.games.plans import player, with_errors
 from carom.games.pool import Hand, Pool, Position
@@ -180,7 +180,7 @@ class Match:
         return self.pool.base.shot(balls, cue)
 
     def best_seen(
-        self, observation: npt.ArrayLike, *, shots: int = 500, seed: int = 0
+        self, observation: npt.ArrayLike, *, shots: int = 500, seed: Seed = 0
     ) -> dtypes.Doubles:
         """The action, of shape (6,), of the library's planner for an observation."""
         return self.pool.best(

@@ -23,6 +23,7 @@ import numpy.typing as npt
 from carom import dtypes, pictures
 from carom._rows import listing, needed
 from carom.games.pool import Pool, Stroke
+from carom.games.potting import in_space
 
 needed("pettingzoo", "carom.pettingzoo")
 from gymnasium import spaces  # noqa: E402
@@ -110,7 +111,8 @@ class PoolEnv(AECEnv):
         self._cumulative_rewards[agent] = 0.0
         if action is None:
             raise ValueError("action: six numbers are needed while the game goes on")
-        self.position, self.stroke = self.rules.play(self.position, action)
+        given = in_space(action, (6,), "action")
+        self.position, self.stroke = self.rules.play(self.position, given)
         winner = self.position.winner
         told = {
             "foul": self.stroke.foul,

@@ -15,7 +15,7 @@ from carom import dtypes
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
 from carom._rows import Array, Arrays, as_array, choice, copied, listing, number, pointer
-from carom._rows import several, whole
+from carom._rows import Seed, seed_of, several, whole
 from carom._shot_options import Options, chosen, shot_options
 from carom.games.rules import Game, GivenState, Group, Hand, Made, Rules
 from carom.layouts import Table, check_table, of_record, one_cue
@@ -96,7 +96,7 @@ def rating(scores: npt.ArrayLike) -> Rating:
 
 
 def with_errors(
-    cue: dtypes.Records, player: dtypes.Records, seed: int, number: int = 0
+    cue: dtypes.Records, player: dtypes.Records, seed: Seed, number: int = 0
 ) -> dtypes.Records:
     """The stroke that a player makes of the one that he means, with errors drawn from a seed and
     the number of the stroke.
@@ -107,7 +107,7 @@ def with_errors(
     made = copied(one_cue(cue))
     lib.carom_player_strike(
         _one_player(player),
-        whole(seed, "seed", most=2**63 - 1),
+        seed_of(seed, 2**63 - 1),
         whole(number, "number"),
         pointer("carom_cue[]", made),
     )
@@ -318,7 +318,7 @@ class _Job:
         own: dtypes.Records | None,
         opponent: dtypes.Records | None,
         shots: int | None,
-        seed: int,
+        seed: Seed,
         threads: int,
         unsure: float,
         stop: threading.Event | None,
@@ -340,7 +340,7 @@ class _Job:
             "carom_plan_options *",
             {
                 "shots": 0 if shots is None else whole(shots, "shots", least=100, most=1_000_000),
-                "seed": whole(seed, "seed"),
+                "seed": seed_of(seed),
             },
         )
         wanted.threads = whole(threads, "threads", least=-1)
@@ -409,7 +409,7 @@ def plan(
     seconds: float = 0.0,
     in_hand: bool | Hand | npt.ArrayLike = False,
     best: int = 5,
-    seed: int = 0,
+    seed: Seed = 0,
     threads: int = 0,
     unsure: float = 0.0,
     level: bool = False,
@@ -456,7 +456,7 @@ def plan(
         where to put it. Two corners (m) of a rectangle: there alone.
     best : int
         How many choices at most.
-    seed : int
+    seed : int or numpy.random.Generator
         Of the errors of strokes.
     threads : int
         Most threads to use; 0 is one alone, -1 all processors. No bit depends on it.
@@ -531,7 +531,7 @@ def chances(
     player: dtypes.Records | None = None,
     opponent: dtypes.Records | None = None,
     shots: int = 2000,
-    seed: int = 0,
+    seed: Seed = 0,
     threads: int = 0,
     unsure: float = 0.0,
     stop: threading.Event | None = None,

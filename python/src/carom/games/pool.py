@@ -23,7 +23,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes, racks
-from carom._rows import Array, Arrays, choice, listing
+from carom._rows import Array, Arrays, Seed, choice, listing, seed_of
 from carom._shot_options import ShotCushion
 from carom.games._draws import Draws
 from carom.games.plans import plan
@@ -123,10 +123,11 @@ class Pool:
         )
         self.table = self.base.table
 
-    def begin(self, seed: int) -> Position:
+    def begin(self, seed: Seed) -> Position:
         """The position before the break: the rack drawn from a seed, the cue ball in hand behind
         the head string.
         """
+        seed = seed_of(seed, 2**64 - 1)
         draws = Draws([seed])
         rack = getattr(racks, self.game)(self.table, seed=seed)
         balls = self.base.deal(draws, _ONE)[0]
@@ -151,7 +152,7 @@ class Pool:
         *,
         opponent: dtypes.Records | None = None,
         shots: int = 500,
-        seed: int = 0,
+        seed: Seed = 0,
     ) -> dtypes.Doubles:
         """The action, of shape (6,), of the library's planner: a baseline and an opponent for
         agents. It allows for the noise.
@@ -173,7 +174,7 @@ class Pool:
         player: dtypes.Records,
         opponent: dtypes.Records | None,
         shots: int,
-        seed: int,
+        seed: Seed,
         level: bool = False,
     ) -> dtypes.Records:
         """The best choice of `carom.plan`, of shape (), for a player; actions are strokes of a

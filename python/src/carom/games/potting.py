@@ -29,6 +29,8 @@ from carom._rows import (
     number,
     one_or_all,
     pointer,
+    Seed,
+    as_array,
     raw,
     repeated,
     several,
@@ -81,6 +83,22 @@ class Turned(NamedTuple):
     cues: dtypes.Records  # (...): The strikes, with the noise
     strokes: Strokes
     ended: npt.NDArray[np.bool_]  # (...): Whether the game is over, whatever strokes are left
+
+
+def in_space(actions: npt.ArrayLike, shape: tuple[int, ...], name: str) -> dtypes.Doubles:
+    """The actions that an environment is given: numbers of its space, from -1 to 1, of a shape."""
+    given = as_array(actions, name, np.float64)
+    if given.shape != shape:
+        raise ValueError(f"{name}: the shape must be {shape}, not {given.shape}")
+    # in single precision, as policies give them, 1 may be a little more
+    outside = ~(np.abs(given) <= 1.0 + 1e-6)
+    if outside.any():
+        where = tuple(int(k) for k in np.argwhere(outside)[0])
+        raise ValueError(
+            f"{name}: each number must be from -1 to 1, not {given[where]:g}, which is at {list(where)}; "
+            "np.clip or gymnasium.wrappers.ClipAction brings it there"
+        )
+    return given
 
 
 class Potting:
@@ -363,7 +381,7 @@ class Potting:
         made["speed_least"], made["speed_most"], made["tip_most"] = *self.speeds, 0.35
         return made
 
-    def best(self, balls: dtypes.Records, *, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
+    def best(self, balls: dtypes.Records, *, shots: int = 500, seed: Seed = 0) -> dtypes.Doubles:
         """The action, of shape (4,), of the library's planner for a layout of shape (balls + 1,): a
         baseline for agents.
 
@@ -385,7 +403,7 @@ class Potting:
         return self.actions(found["phi"], found["speed"], found["a"], found["b"])
 
     def best_seen(
-        self, observation: npt.ArrayLike, *, shots: int = 500, seed: int = 0
+        self, observation: npt.ArrayLike, *, shots: int = 500, seed: Seed = 0
     ) -> dtypes.Doubles:
         """The action, of shape (acts,), of the library's planner for an observation."""
         return self.best(self.layouts(observation), shots=shots, seed=seed)

@@ -24,7 +24,7 @@ from typing import Any, Literal
 import numpy as np
 
 from carom import dtypes
-from carom._rows import Array, listing
+from carom._rows import Array, Seed, listing, seed_of
 from carom._shot_options import BallModel, Friction, Options, ShotCushion
 from carom.collisions import alciatore
 from carom.games.plans import plan, player as usual_player, with_errors
@@ -416,7 +416,7 @@ class Agent:
         exact: bool = False,
         engine: Any = None,
         shots: int = 2000,
-        seed: int = 0,
+        seed: Seed = 0,
         threads: int = 0,
     ) -> None:
         self.player = usual_player() if player is None else player
@@ -425,7 +425,7 @@ class Agent:
             exact,
             engine,
             shots,
-            seed,
+            seed_of(seed),
             threads,
         )
         self.strokes = 0

@@ -32,7 +32,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from carom._rows import as_array, listing, number, whole
+from carom._rows import Seed, as_array, listing, number, seed_of, whole
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles
 from carom.results import Shot
@@ -255,7 +255,7 @@ def synthetic(
     noise: float = NOISE,
     rate: float = 50.0,
     thin: float = 0.016,
-    seed: int = 0,
+    seed: Seed = 0,
 ) -> Synthetic:
     """Play shots of three balls with strikes drawn at random, and record them as a camera does.
 
@@ -266,7 +266,7 @@ def synthetic(
     kept. The same seed gives the same recordings.
     """
     whole(shots, "shots")
-    random = np.random.default_rng(whole(seed, "seed", most=2**64 - 1))
+    random = np.random.default_rng(seed_of(seed, 2**64 - 1))
     values = _constants.complete({} if constants is None else constants, cushion_model)
     radius, noise, rate, thin = (
         number(radius, "radius"),

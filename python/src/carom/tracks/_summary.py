@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from carom import pictures
 from carom._carom import lib
+from carom._rows import Seed, seed_of
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
 from carom.layouts import Table
@@ -160,7 +161,7 @@ class Fit:
             plays, 0, self.strikes[i] - [0.0, 0.0, 0.0, 0.0, 0.0, plays.origins[0]], self.fitted
         )
 
-    def draws(self, i: int, count: int, seed: int = 0) -> tuple[Table, Records, Doubles]:
+    def draws(self, i: int, count: int, seed: Seed = 0) -> tuple[Table, Records, Doubles]:
         """Shot i as it may have been, for `simulate_batch`: table, layouts just after the strike,
         (count, balls), and times of the strike, s.
 
@@ -171,7 +172,7 @@ class Fit:
         """
         own, follow, rest = self._strike_off(i)
         random, by, names = (
-            np.random.default_rng(seed),
+            np.random.default_rng(seed_of(seed, 2**64 - 1)),
             np.zeros((count, len(self.fitted))),
             self.fitted,
         )

@@ -22,7 +22,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from carom._rows import listing
+from carom._rows import Seed, listing, seed_of
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
 from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
@@ -238,7 +238,7 @@ def fit(
     free: str | Sequence[str] = "default",
     priors: Mapping[str, tuple[float, float]] | None = None,
     train: Sequence[int] | None = None,
-    seed: int = 0,
+    seed: Seed = 0,
     threads: int = 0,
     progress: Progress | None = None,
     state: Path | None = None,
@@ -270,9 +270,10 @@ def fit(
     train : sequence of int, optional
         The shots, from 0, that constants are fitted to; all without. The others then tell how well
         the constants predict.
-    seed, threads : int
-        Of what is drawn, and most threads: 0 is the calling one alone, -1 all processors. In one
-        environment the bits depend on the seed alone.
+    seed : int or numpy.random.Generator
+        Of what is drawn. In one environment the bits depend on the seed alone.
+    threads : int
+        Most threads: 0 is the calling one alone, -1 all processors.
     progress : callable(what, part), optional
         Is told the name of the work and the part of it that is done, 0 to 1.
     state : path, optional
@@ -285,7 +286,7 @@ def fit(
 
     Raises ValueError: An argument is wrong: which, and what would be right.
     """
-    recordings = list(recordings)
+    recordings, seed = list(recordings), seed_of(seed, 2**64 - 1)
     if not recordings:
         raise ValueError("recordings: at least one shot is needed")
     recordings, notes, noise, told = _sound(recordings, table, radius, train, calibrate)
