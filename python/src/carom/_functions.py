@@ -43,13 +43,21 @@ _ORDER = np.argsort([*ELEMENTS["r"], *ELEMENTS["v"], *ELEMENTS["w"]])
 
 
 class Final(NamedTuple):
-    """Final states: arrays of float64, of the library that differentiates."""
+    """Final states: arrays of float64, of the library that differentiates; and, with `reach=True`,
+    how far derivatives hold.
 
-    r: Any  # (..., balls, 2): Places, m, and velocities, m/s, along x and y
-    v: Any  # (..., balls, 2): Places, m, and velocities, m/s, along x and y
+    `reach` has, by the names of the numbers, by how much each may change until an event of the shot
+    is another one, as `carom.Tangents` has it: arrays of the shape of the number, in its unit.
+    `flags` (...) has the sum of `carom.Flag` over the events of a shot. Neither has a gradient.
+    """
+
+    r: Any  # (..., balls, 2): Places, m, along x and y
+    v: Any  # (..., balls, 2): Velocities, m/s, along x and y
     w: Any  # (..., balls, 3): Angular velocities, rad/s
-    z: Any  # (..., balls): Heights of the centres, m, and velocities upward, m/s
-    v_z: Any  # (..., balls): Heights of the centres, m, and velocities upward, m/s
+    z: Any  # (..., balls): Heights of the centres, m
+    v_z: Any  # (..., balls): Velocities upward, m/s
+    reach: Any = None
+    flags: Any = None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -68,6 +76,8 @@ class Shots:
     threads: int
     room: int
     nan: bool
+    told: bool
+    """Whether reach and flags are wanted beside the states."""
 
     @property
     def count(self) -> int:
@@ -116,26 +126,34 @@ class Shots:
         )
         return _One(self) if single and "kind.radius" not in self.names else None
 
-    def states(self, x: Any) -> dtypes.Doubles:
-        """The final states, of shape (..., balls, STATE)."""
+    def states(self, x: Any) -> tuple[Array, ...]:
+        """The final states, of shape (..., balls, STATE); where they are wanted, reach (..., m) and
+        flags (...).
+        """
         numbers = np.asarray(x)
+        if self.told:
+            states, _, *told = self.both(numbers)
+            return (states, *told)
         if (
             numbers.ndim == 1
             and self.one is not None
             and (played := self.one.play(numbers, False)) is not None
         ):
-            return played[0]
+            return (played[0],)
         layouts, cues = self.records(numbers)
         shots = simulate_batch(
             self.played_on, layouts, cues, threads=self.threads, options=self.options
         )
-        return self.numbers(numbers, shots.final, shots.status)
+        return (self.numbers(numbers, shots.final, shots.status),)
 
-    def both(self, x: Any) -> tuple[dtypes.Doubles, dtypes.Doubles]:
-        """The final states and their derivatives, of shape (..., balls, STATE, m)."""
+    def both(self, x: Any) -> tuple[Array, ...]:
+        """What `states` gives, with the derivatives of shape (..., balls, STATE, m) after the
+        states.
+        """
         numbers = np.asarray(x)
         if (
-            numbers.ndim == 1
+            not self.told
+            and numbers.ndim == 1
             and self.one is not None
             and (found_alone := self.one.play(numbers, True)) is not None
         ):
@@ -147,7 +165,7 @@ class Shots:
             cues,
             self.seeds,
             np.zeros(0),
-            ("final",),
+            ("final", "reach", "flags") if self.told else ("final",),
             self.room,
             self.threads,
             self.options,
@@ -157,7 +175,8 @@ class Shots:
             if self.nan
             else codes
         )
-        return self.numbers(numbers, final, played), found["final"]
+        told = (found["reach"], found["flags"]) if self.told else ()
+        return (self.numbers(numbers, final, played), found["final"], *told)
 
     def second(self, x: Any) -> dtypes.Doubles:
         """The second derivatives of the final states, of shape (..., balls, STATE, m, m), as
@@ -313,6 +332,7 @@ def shots_of(
     errors: str,
     threads: int,
     options: Options,
+    told: bool,
 ) -> tuple[Shots, list[tuple[Any, tuple[int, ...]]], tuple[int, ...]]:
     """The shots, each of their numbers as an `array` (...) or (..., elements) with the shape to
     which it is broadcast, and that of the batch.
@@ -362,10 +382,19 @@ def shots_of(
         threads,
         room,
         errors == "nan",
+        told,
     )
     return shots, [(part, (*batch, *own)) for part, own in zip(parts, owns)], batch
 
 
-def named(states: Any) -> Final:
-    """The parts of states (..., balls, STATE)."""
-    return Final(**{name: states[..., part] for name, part in PARTS.items()})
+def named(shots: Shots, states: Any, reach: Any = None, flags: Any = None) -> Final:
+    """The parts of states (..., balls, STATE), and of the reach (..., m)."""
+    found = Final(**{name: states[..., part] for name, part in PARTS.items()})
+    if reach is None:
+        return found
+    parts, first = dict[str, Any](), 0
+    for name, several in zip(shots.names, _directions(shots.names, shots.count)):
+        end = first + len(several)
+        parts[name] = reach[..., first] if name == several[0].name else reach[..., first:end]
+        first = end
+    return found._replace(reach=parts, flags=flags)

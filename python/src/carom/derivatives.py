@@ -709,6 +709,8 @@ def play(
         events = min(longest, room)
         job = shots._jobs(tangent_options(shots.options, threads))
         found, codes[part] = _differentiate(job, many, balls, events, seeds, times, wanted, threads)
+        if "flags" in found:  # those of all events of a shot together
+            found["flags"] = np.bitwise_or.reduce(np.maximum(found["flags"], 0), axis=1)
         raw(final)[part] = raw(shots.final)
         parts.append(found)
     gathered: dict[str, Array] = {}

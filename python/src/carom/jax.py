@@ -4,8 +4,7 @@
     jax.config.update("jax_enable_x64", True)
     import carom.jax
 
-    def miss(aim):                                             # (speed, phi) of the cue, m/s and
-        degrees
+    def miss(aim):                              # (speed, phi) of the cue, m/s and degrees
         ends = carom.jax.final(table, balls, cue, {"cue.speed": aim[0], "cue.phi": aim[1]})
         return ((ends.r[1] - goal) ** 2).sum()                 # of ball 1, m^2
 
@@ -16,7 +15,7 @@ Shots are played and differentiated by C, in callbacks: a batch, or a function u
 one batch of `carom.simulate_batch`, and its derivative one of `carom.tangents`. `grad`, `jacfwd`
 and `jacrev` all use the Jacobian of `carom.tangents`, and `hessian` what `carom.hessian` finds, nan
 where that is; third derivatives are not known. docs/using/derivatives.md says what a derivative
-cannot tell: `carom.jacobian(..., of="reach")` has its reach.
+cannot tell: with `final(..., reach=True)` the result has its reach and its flags.
 
 Needs JAX with 64-bit numbers. Its objects have no types here, so that carom can be checked without
 it.
@@ -44,21 +43,35 @@ _jax: Any = needed("jax", __name__)
 _jnp: Any = needed("jax.numpy", __name__)
 
 
+def _shapes(shots: Shots, x: Any, *, slopes: bool) -> tuple[Any, ...]:
+    """What `Shots.states` gives, or with slopes `Shots.both`."""
+    lead, m = x.shape[:-1], x.shape[-1]
+    shape: Any = _jax.ShapeDtypeStruct
+    states = (*lead, shots.count, STATE)
+    first: tuple[Any, ...] = (shape(states, np.float64),)
+    if slopes:
+        first += (shape((*states, m), np.float64),)
+    told = (shape((*lead, m), np.float64), shape(lead, np.int32))
+    return first + told if shots.told else first
+
+
+def _constant(values: Any) -> Any:
+    """The change of what has no gradient."""
+    whole = _jnp.issubdtype(values.dtype, _jnp.integer)
+    return np.zeros(values.shape, _jax.dtypes.float0) if whole else _jnp.zeros_like(values)
+
+
 # Each is differentiated by the next. What a tangent is multiplied by does not depend on the
 # tangent, so that JAX can transpose the rules.
 @functools.partial(_jax.custom_jvp, nondiff_argnums=(0,))
 def _states(shots: Shots, x: Any) -> Any:
-    shape = _jax.ShapeDtypeStruct((*x.shape[:-1], shots.count, STATE), np.float64)
-    return _jax.pure_callback(shots.states, shape, x, vmap_method="expand_dims")
+    shapes = _shapes(shots, x, slopes=False)
+    return _jax.pure_callback(shots.states, shapes, x, vmap_method="expand_dims")
 
 
 @functools.partial(_jax.custom_jvp, nondiff_argnums=(0,))
 def _both(shots: Shots, x: Any) -> Any:
-    states = (*x.shape[:-1], shots.count, STATE)
-    shapes = (
-        _jax.ShapeDtypeStruct(states, np.float64),
-        _jax.ShapeDtypeStruct((*states, x.shape[-1]), np.float64),
-    )
+    shapes = _shapes(shots, x, slopes=True)
     return _jax.pure_callback(shots.both, shapes, x, vmap_method="expand_dims")
 
 
@@ -71,17 +84,16 @@ def _second(shots: Shots, x: Any) -> Any:
 
 
 def _of_states(shots: Shots, primals: Any, changes: Any) -> Any:
-    states, derivatives = _both(shots, primals[0])
-    return states, _jnp.einsum("...bsm,...m->...bs", derivatives, changes[0])
+    states, derivatives, *told = _both(shots, primals[0])
+    slope = _jnp.einsum("...bsm,...m->...bs", derivatives, changes[0])
+    return (states, *told), (slope, *map(_constant, told))
 
 
 def _of_both(shots: Shots, primals: Any, changes: Any) -> Any:
-    states, derivatives = _both(shots, primals[0])
+    states, derivatives, *told = _both(shots, primals[0])
     slope = _jnp.einsum("...bsm,...m->...bs", derivatives, changes[0])
-    return (states, derivatives), (
-        slope,
-        _jnp.einsum("...bsmk,...k->...bsm", _second(shots, primals[0]), changes[0]),
-    )
+    bend = _jnp.einsum("...bsmk,...k->...bsm", _second(shots, primals[0]), changes[0])
+    return (states, derivatives, *told), (slope, bend, *map(_constant, told))
 
 
 def _of_second(shots: Shots, primals: Any, changes: Any) -> Any:
@@ -103,6 +115,7 @@ def final(
     *,
     room: int = 512,
     errors: Literal["raise", "nan"] = "raise",
+    reach: bool = False,
     threads: int = 0,
     options: Options = Options(),
     **changes: Any,
@@ -127,6 +140,8 @@ def final(
     errors : {"raise", "nan"}
         What a shot in error gives: an exception, or nan, so that the other shots of a batch are not
         lost.
+    reach : bool
+        Whether the result has `reach` and `flags`, for which shots are differentiated at any rate.
     threads, options, **changes
         As for `carom.simulate_batch`. With t_final the states are those at that time.
 
@@ -152,6 +167,7 @@ def final(
         errors,
         threads,
         chosen(options, changes),
+        bool(reach),
     )
     wide = [_jnp.broadcast_to(part, shape).reshape((*batch, -1)) for part, shape in parts]
-    return named(_states(shots, _jnp.concatenate(wide, axis=-1)))
+    return named(shots, *_states(shots, _jnp.concatenate(wide, axis=-1)))

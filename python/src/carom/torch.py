@@ -3,8 +3,8 @@
     import torch
     import carom.torch
 
-    aim = torch.tensor([1.5, 79.0], dtype=torch.float64, requires_grad=True)     # (speed, phi) of
-        the cue, m/s and degrees
+    # (speed, phi) of the cue, m/s and degrees
+    aim = torch.tensor([1.5, 79.0], dtype=torch.float64, requires_grad=True)
     ends = carom.torch.final(table, balls, cue, {"cue.speed": aim[0], "cue.phi": aim[1]})
     miss = ((ends.r[1] - goal) ** 2).sum()                                       # of ball 1, m^2
     miss.backward()
@@ -15,7 +15,7 @@ is one batch of `carom.simulate_batch`, or, where a number needs a gradient, one
 `carom.jacobian`. `backward`, forward mode and `torch.func` use the Jacobian of `carom.tangents`,
 and second derivatives what `carom.hessian` finds, nan where that is; third ones are not known.
 `torch.compile` leaves shots as they are. docs/using/derivatives.md says what a derivative cannot
-tell: `carom.jacobian(..., of="reach")` has its reach.
+tell: with `final(..., reach=True)` the result has its reach and its flags.
 
 Its objects have no types here, so that carom can be checked without PyTorch.
 """
@@ -29,7 +29,7 @@ from typing import Any, Literal
 import numpy as np
 
 from carom import dtypes
-from carom._functions import Final, shots_of
+from carom._functions import Final, named, shots_of
 from carom._rows import listing, needed
 from carom._shot_options import Options, chosen
 from carom.layouts import Table
@@ -83,22 +83,21 @@ class _Known(_torch.autograd.Function):
 
 class _States(_Known):
     """The final states (..., balls, STATE) with, where they are wanted at once, their derivatives
-    (..., balls, STATE, m).
+    (..., balls, STATE, m); and reach and flags, where they are wanted.
     """
 
     @staticmethod
     def forward(shots: Any, x: Any, differentiated: bool) -> Any:
         numbers = x.detach().numpy()
-        states, slopes = (
-            shots.both(numbers)
-            if differentiated
-            else (shots.states(numbers), numbers[..., 0].copy())
-        )
-        return _torch.from_numpy(states), _torch.from_numpy(slopes)
+        if differentiated:
+            states, slopes, *told = shots.both(numbers)
+        else:
+            (states, *told), slopes = shots.states(numbers), numbers[..., 0].copy()
+        return tuple(map(_torch.from_numpy, map(np.asarray, (states, slopes, *told))))
 
     @staticmethod
-    def backward(ctx: Any, cotangent: Any, _: Any) -> Any:
-        x, slopes = ctx.saved_tensors
+    def backward(ctx: Any, cotangent: Any, *_: Any) -> Any:
+        x, slopes = ctx.saved_tensors[:2]
         if _torch.is_grad_enabled() or slopes.ndim < x.ndim:
             slopes = _Slopes.of(ctx.shots, x, slopes)
         return (
@@ -113,13 +112,14 @@ class _States(_Known):
             raise NotImplementedError(
                 "carom.torch: PyTorch loses derivatives in forward mode of forward mode: use torch.func.hessian, or jacrev twice"
             )
-        return _torch.einsum(
-            "...bsm,...m->...bs", _Slopes.of(ctx.shots, *ctx.saved_tensors), change
-        ), None
+        slopes = _Slopes.of(ctx.shots, *ctx.saved_tensors[:2])
+        change_of_states = _torch.einsum("...bsm,...m->...bs", slopes, change)
+        return (change_of_states, None, *(None for _ in ctx.saved_tensors[2:]))
 
     @staticmethod
     def vmap(info: Any, dims: Any, shots: Any, x: Any, differentiated: bool) -> Any:
-        return _States.of(shots, _front(x, dims[1], info.batch_size), differentiated), (0, 0)
+        found = _States.of(shots, _front(x, dims[1], info.batch_size), differentiated)
+        return found, (0,) * len(found)
 
 
 class _Slopes(_Known):
@@ -220,6 +220,7 @@ def _play(
     threads: int,
     options: Any,
     changes: Any,
+    reach: bool,
 ) -> Final:
     shots, parts, batch = shots_of(
         table,
@@ -231,6 +232,7 @@ def _play(
         errors,
         threads,
         chosen(options, changes),
+        reach,
     )
     wide = [
         part if part.shape == shape else _torch.broadcast_to(part, shape) for part, shape in parts
@@ -244,7 +246,11 @@ def _play(
     differentiated = (
         x.requires_grad and _torch.is_grad_enabled()
     ) or _torch.autograd.forward_ad.unpack_dual(x).tangent is not None
-    r, v, w, z, v_z = _States.of(shots, x, differentiated)[0].split((2, 2, 3, 1, 1), -1)
+    states, _, *told = _States.of(shots, x, differentiated)
+    if told:
+        return named(shots, states, *told)
+    # one call of PyTorch takes the time of some of the shot
+    r, v, w, z, v_z = states.split((2, 2, 3, 1, 1), -1)
     return Final(r, v, w, z[..., 0], v_z[..., 0])
 
 
@@ -266,6 +272,7 @@ def final(
     *,
     room: int = 512,
     errors: Literal["raise", "nan"] = "raise",
+    reach: bool = False,
     threads: int = 0,
     options: Options = Options(),
     **changes: Any,
@@ -290,6 +297,8 @@ def final(
     errors : {"raise", "nan"}
         What a shot in error gives: an exception, or nan, so that the other shots of a batch are not
         lost.
+    reach : bool
+        Whether the result has `reach` and `flags`, for which shots are differentiated at any rate.
     threads, options, **changes
         As for `carom.simulate_batch`. With t_final the states are those at that time.
 
@@ -299,4 +308,4 @@ def final(
         and what is wrong with it.
     """
     play = _left_out if _compiling() or "torch._dynamo" in sys.modules else _play
-    return play(table, balls, cue, numbers, room, errors, threads, options, changes)
+    return play(table, balls, cue, numbers, room, errors, threads, options, changes, bool(reach))

@@ -270,6 +270,41 @@ def test_batches_of_layouts_cues_and_numbers():
         )
 
 
+def test_reach_and_flags_are_outputs_without_gradient():
+    """Those of carom.tangents, in a batch and compiled; what needs them can be differentiated."""
+    shot = played(AIM)
+    expected = carom.tangents(shot, NAMES)
+    flags = np.bitwise_or.reduce(expected.flags)
+
+    def told(aim):
+        return ends(aim, reach=True)
+
+    for found in (told(AIM), jax.jit(told)(AIM)):
+        assert np.array_equal(np.stack([found.reach[name] for name in NAMES]), expected.reach)
+        assert int(found.flags) == flags and np.array_equal(found.r, ends(AIM).r)
+    many = jax.vmap(told)(jnp.stack([AIM, AIM + 0.01, AIM]))
+    assert many.reach["cue.phi"].shape == many.flags.shape == (3,)
+    assert float(many.reach["cue.phi"][2]) == expected.reach[1]
+    assert ends(AIM).reach is None and ends(AIM).flags is None
+
+    def guarded(aim):
+        found = told(aim)
+        near = found.reach["cue.phi"] < 12.0 * 1e-3
+        return jnp.where(near, 0.0, ((found.r[1] - GOAL) ** 2).sum()) + found.reach["cue.phi"]
+
+    value, slope = jax.value_and_grad(guarded)(AIM)
+    assert np.isfinite(value) and np.array_equal(slope, jax.grad(miss)(AIM))
+    assert jax.jacfwd(lambda aim: told(aim).reach["cue.a"])(AIM).tolist() == [0.0] * 4
+    np.testing.assert_array_equal(
+        jax.hessian(lambda aim: told(aim).r[1, 0])(AIM),
+        jax.hessian(lambda aim: ends(aim).r[1, 0])(AIM),
+    )
+    # numbers of several elements, and a shot in error
+    place = {"balls[0].r": jnp.array([[0.4, 0.5], [-0.4, 0.5]]), "cue.phi": 79.0}
+    found = carom.jax.final(TABLE, BALLS, CUE, place, errors="nan", reach=True, **CLOSED)
+    assert found.reach["balls[0].r"].shape == (2, 2) and np.isnan(found.reach["cue.phi"][1])
+
+
 def test_a_search_in_compiled_code_improves_an_aim():
     goal = jnp.asarray(played(AIM).final["r"][1, :2])
 

@@ -81,6 +81,28 @@ def test_batches_are_broadcast_and_have_the_bits_of_single_shots():
     np.testing.assert_allclose(places.grad.numpy(), slopes, rtol=1e-12)
 
 
+def test_reach_and_flags_are_outputs_without_gradient():
+    expected = carom.tangents(played(AIM), NAMES)
+    aim = AIM.clone().requires_grad_()
+    for given in (AIM, aim):
+        found = ends(given, reach=True)
+        reach = torch.stack([found.reach[name] for name in NAMES])
+        assert np.array_equal(reach.numpy(), expected.reach) and not reach.requires_grad
+        assert int(found.flags) == np.bitwise_or.reduce(expected.flags)
+    slope, plain = (
+        torch.autograd.grad(ends(aim, reach=told).r[1].sum(), aim)[0] for told in (True, False)
+    )
+    assert torch.equal(slope, plain)
+    many = ends(torch.stack([AIM, AIM + 0.01]), reach=True)
+    assert many.reach["cue.phi"].shape == many.flags.shape == (2,)
+    assert ends(AIM).reach is None
+    if hasattr(torch, "func"):
+        mapped = torch.func.vmap(lambda one: ends(one, reach=True).reach["cue.phi"])
+        assert torch.equal(mapped(torch.stack([AIM, AIM + 0.01])), many.reach["cue.phi"])
+        jacobian = torch.func.jacrev(lambda one: ends(one, reach=True).r[1])(AIM)
+        assert torch.equal(jacobian, torch.func.jacrev(lambda one: ends(one).r[1])(AIM))
+
+
 def test_shots_that_are_refused_say_why():
     bad = AIM.clone()
     bad[3] = 2.0
