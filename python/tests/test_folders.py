@@ -10,7 +10,8 @@ import pytest
 
 import carom
 
-ABSENT = [name for name in ("gymnasium", "pettingzoo") if not importlib.util.find_spec(name)]
+NEEDED = {"gymnasium": "gymnasium", "pettingzoo": "pettingzoo", "sb3": "stable_baselines3"}
+ABSENT = [name for name, package in NEEDED.items() if not importlib.util.find_spec(package)]
 MODULES = {
     f"carom.{name}": f"carom.{'tracks' if name == 'fit' else 'games'}.{name}"
     for name in sorted(carom._MODULES_OF_FOLDERS)

@@ -10,6 +10,7 @@ import carom.plans
 import carom.pool
 import carom.potting
 import carom.rules
+import carom.sb3
 from carom.pettingzoo import PoolEnv
 from carom.pool import Pool
 
@@ -22,3 +23,4 @@ run = carom.fit.main
 game: carom.potting.Potting = carom.drills.ThreeCushion()
 match: type[carom.matches.Match] = carom.matches.Match
 env: type[carom.gymnasium.GameEnv] = carom.gymnasium.GameEnv
+games: type[carom.sb3.VecGames] = carom.sb3.VecGames

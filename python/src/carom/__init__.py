@@ -10,7 +10,7 @@
     rules        referee, Rules, Ruling, Facts, Turn, Foul
     other        dtypes, the structured dtypes; cite, physics_revision, isa_in_force
     modules      record, tracks, fit, jax, torch, pooltool; games: potting, drills, pool, matches,
-                 gymnasium, pettingzoo
+                 gymnasium, pettingzoo, sb3
 
 `help(carom.simulate)` is the manual of a call. Units are SI; vectors are right-handed with z up.
 Every call that computes releases the GIL.
@@ -87,6 +87,7 @@ if _TYPE_CHECKING:
     from carom import pool as pool
     from carom import potting as potting
     from carom import rules as rules
+    from carom import sb3 as sb3
     from carom.games import (
         Facts as Facts,
         Foul as Foul,
@@ -172,7 +173,7 @@ _OF_GAMES = frozenset(
     "with_errors".split()
 )
 _MODULES_OF_FOLDERS = frozenset(
-    "drills fit gymnasium matches pettingzoo plans pool potting rules".split()
+    "drills fit gymnasium matches pettingzoo plans pool potting rules sb3".split()
 )
 
 _MODULES_OF_LISTINGS = (

@@ -288,6 +288,27 @@ def test_pettingzoo_finds_nothing_wrong(environment):
     seed_test(lambda: environment(strokes=20, cushion_model="han"), num_cycles=30)
 
 
+def test_a_parallel_environment(environment):
+    """Of the actions of both, that of the player at the table is played."""
+    from pettingzoo.test import parallel_api_test
+
+    from carom.pettingzoo import PoolEnv, parallel
+
+    parallel_api_test(parallel(strokes=8), num_cycles=60)
+    game, turns = parallel(strokes=8), PoolEnv(strokes=8)
+    game.reset(seed=4)
+    turns.reset(seed=4)
+    rng = np.random.default_rng(4)
+    while game.agents:
+        actions = {agent: rng.uniform(-1.0, 1.0, 6) for agent in game.agents}
+        turns.step(actions[turns.agent_selection])
+        seen, rewards, terminated, truncated, _ = game.step(actions)
+        for agent, expected in turns.rewards.items():
+            assert rewards[agent] == expected and truncated[agent] == turns.truncations[agent]
+            assert np.array_equal(seen[agent], turns.observe(agent))
+    assert turns.position.winner is not None or turns.position.strokes == 8
+
+
 def test_a_game_of_the_environment(environment):
     game = environment(cushion_model="han", render_mode="svg")
     game.reset(seed=3, options={"position": position_of({0: CUE, 9: NEAR}, player=1)})

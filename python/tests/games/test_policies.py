@@ -30,6 +30,51 @@ def test_the_checker_does_not_warn():
             check_env(gymnasium.make(name).unwrapped)
 
 
+def test_games_of_the_adapter_are_those_of_single_environments():
+    """Stable Baselines3's own vector of single games gives the same."""
+    from stable_baselines3.common.vec_env import DummyVecEnv
+
+    from carom.sb3 import VecGames
+
+    rules = {"balls": 2, "strokes": 2}
+    many = VecGames("carom/Potting-v1", 4, **rules)
+    singles = DummyVecEnv([lambda: gymnasium.make("carom/Potting-v1", **rules)] * 4)
+    for games in (many, singles):
+        games.seed(5)
+    assert np.array_equal(many.reset(), singles.reset())
+    rng, ends = np.random.default_rng(1), 0
+    for _ in range(7):
+        actions = rng.uniform(-1.0, 1.0, (4, 4))
+        (seen, rewards, ended, infos), expected = many.step(actions), singles.step(actions)
+        for found, other in zip((seen, rewards, ended), expected):
+            assert np.array_equal(found, other) and found.dtype == other.dtype
+        for info, other in zip(infos, expected[3]):
+            assert np.array_equal(
+                info.pop("terminal_observation", 0), other.pop("terminal_observation", 0)
+            )
+            assert info | {"TimeLimit.truncated": False} == other
+        ends += int(ended.sum())
+    assert ends == 12
+    with pytest.raises(AttributeError, match="games share their attributes"):
+        many.set_attr("strokes", 3)
+    with pytest.raises(ValueError, match="^id: must be one of 'carom/Potting-v1'"):
+        VecGames("carom/Potting-v9")
+
+
+def test_ppo_learns_on_the_adapter():
+    from stable_baselines3 import PPO
+    from stable_baselines3.common.evaluation import evaluate_policy
+
+    from carom.sb3 import VecGames
+
+    model = PPO("MlpPolicy", VecGames("carom/PotOne-v1", 16), n_steps=8, batch_size=64, seed=1)
+    model.learn(256)
+    returns, lengths = evaluate_policy(
+        model, VecGames("carom/PotOne-v1", 4), 8, warn=False, return_episode_rewards=True
+    )
+    assert len(returns) == 8 and lengths == [1] * 8
+
+
 def test_ppo_is_trained(tmp_path):
     """In each game a round at least, by which the policy changes: the curve, and the table of all
     agents.

@@ -4,6 +4,7 @@ and against each other.
 
 import importlib.util
 import warnings
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -12,6 +13,8 @@ import pytest
 
 import carom
 from carom.games._draws import Draws
+from carom.games.matches import Match
+from carom.games.pool import Hand
 from carom.games.potting import Potting
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "game_agents.py"
@@ -299,6 +302,72 @@ def test_gymnasiums_checkers(gymnasium, render_mode):
         env.step(env.action_space.sample())
         env.render()
         env.close()
+
+
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep", "Disabled"])
+def test_games_that_have_ended(gymnasium, mode):
+    """Each mode gives what gymnasium's own vector of single games gives."""
+    from gymnasium.vector import AutoresetMode, SyncVectorEnv
+
+    import carom.gymnasium
+
+    rules = {"balls": 2, "strokes": 2, "noise": (0.3, 0.1, 0.01)}
+    many = carom.gymnasium.GameVectorEnv(5, autoreset_mode=mode, **rules)
+    singles = SyncVectorEnv(
+        [lambda: carom.gymnasium.GameEnv(**rules)] * 5, autoreset_mode=AutoresetMode(mode)
+    )
+    assert many.metadata["autoreset_mode"] is AutoresetMode(mode)
+    assert np.array_equal(many.reset(seed=3)[0], singles.reset(seed=3)[0])
+    rng, ends = np.random.default_rng(1), 0
+    for turn in range(9):
+        if turn == 4:  # some begin anew before they have ended
+            mask = np.array([True, False, False, True, False])
+            seeds = [7, None, None, 8, 9]
+            begun = many.reset(seed=seeds, options={"reset_mask": mask, "strokes": 1})[0]
+            expected = singles.reset(seed=seeds, options={"reset_mask": mask, "strokes": 1})[0]
+            assert np.array_equal(begun, expected)
+        actions = rng.uniform(-1.0, 1.0, (5, 4))
+        found, expected = many.step(actions), singles.step(actions)
+        for k in range(4):
+            assert np.array_equal(found[k], expected[k]), (turn, k)
+        same_infos(found[4], expected[4])
+        ends += int(found[2].sum())
+        if mode == "Disabled" and found[2].any():
+            with pytest.raises(gymnasium.error.ResetNeeded, match="have ended: reset"):
+                many.step(actions)
+            options = {"reset_mask": found[2]}
+            begun = many.reset(options=dict(options))[0]
+            assert np.array_equal(begun, singles.reset(options=dict(options))[0])
+    assert ends > 10
+
+
+def same_infos(found, expected):
+    """Where a value is not set, it does not count."""
+    assert found.keys() >= expected.keys()
+    assert not any(np.any(found[name]) for name in found if name not in expected and name[0] == "_")
+    for name in (name for name in expected if name[0] != "_"):
+        mask = expected["_" + name]
+        assert np.array_equal(found["_" + name], mask), name
+        if name == "final_info":
+            same_infos(found[name], expected[name])
+        else:
+            assert all(
+                np.array_equal(found[name][k], expected[name][k]) for k in np.flatnonzero(mask)
+            )
+
+
+def test_what_a_vector_of_games_refuses(gymnasium):
+    import carom.gymnasium
+
+    with pytest.raises(ValueError, match="^autoreset_mode: must be one of 'NextStep', 'SameStep'"):
+        carom.gymnasium.GameVectorEnv(2, autoreset_mode="later")
+    games = carom.gymnasium.GameVectorEnv(2)
+    with pytest.raises(gymnasium.error.ResetNeeded, match="the first reset"):
+        games.reset(options={"reset_mask": np.array([True, False])})
+    games.reset(seed=1)
+    for mask in ([True], np.zeros(2, bool), np.ones(2), np.ones((2, 1), bool)):
+        with pytest.raises(ValueError, match=r"reset_mask: an array of bool of shape \(2,\)"):
+            games.reset(options={"reset_mask": mask})
 
 
 @pytest.mark.parametrize("threads", [0, 2])
@@ -619,7 +688,35 @@ def test_a_match(gymnasium):
     with pytest.raises(ValueError, match="game: must be one of 'potting'"):
         carom.gymnasium.GameEnv("snooker")
     with pytest.raises(ValueError, match="opponent_shots"):
-        Match(opponent_shots=1)
+        Match(opponent_shots=0)
+
+
+@pytest.mark.parametrize("game", ["nineball", "eightball"])
+def test_the_opponent_is_stopped_by_shots(monkeypatch, game):
+    """With few shots he does not plan, tries at most so many strokes, and still runs balls out."""
+    import carom.games.pool as pool
+
+    tried = []
+    played = pool.Pool.played
+    monkeypatch.setattr(
+        pool.Pool, "played", lambda *given: (tried.append(given[2].size), played(*given))[1]
+    )
+    monkeypatch.setattr(pool, "plan", lambda *given, **named: pytest.fail("a plan was made"))
+    rules = Match(game, opponent=carom.player(0.0), opponent_shots=12)
+    potted, visits = 0, 20
+    for seed in range(visits):
+        position = rules.pool.begin(seed)
+        position, _ = rules.pool.play(position, [0.5, 0.9, 0.0, 0.2, 0.0, 0.0])
+        position = replace(position, player=1, hand=Hand.ANYWHERE, winner=None)
+        before = (position.balls["state"]["label"] == carom.Label.POCKETED).sum()
+        tried.clear()
+        after = rules._visit(position)
+        assert 0 < max(tried) <= 12
+        potted += (after.balls["state"]["label"] == carom.Label.POCKETED).sum() - before
+    assert potted > 1.5 * visits
+    monkeypatch.setattr(pool, "plan", lambda *given, **named: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        Match(game, opponent_shots=100)._visit(position)
 
 
 def test_the_planner_plays_the_level_cue_of_the_game():

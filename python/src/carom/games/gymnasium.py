@@ -229,15 +229,20 @@ class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
 
 
 class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]]):
-    """Many games, all strokes of a step in one `carom.simulate_batch`, but for matches, which are
+    """Many games, all strokes of a step in one `carom.simulate_batch`, except matches, which are
     played one after another.
 
     Arguments are those of `GameEnv`, after the number of games; `threads` plays the strokes of a
-    step side by side, and `render` gives a tuple of pictures. A game that has ended begins anew
-    with the next step, whose action for it is not played (AutoresetMode.NEXT_STEP, gymnasium's
-    default). Seeds are as for gymnasium's SyncVectorEnv: s is s, s + 1, ...; a list has one for
-    each game. Options of `reset` are as for `GameEnv`; layout may be of shape (num_envs, balls + 1,
-    2). `infos` has arrays, and under "_" + name where they are set.
+    step side by side, and `render` gives a tuple of pictures. Seeds are as for gymnasium's
+    SyncVectorEnv: s is s, s + 1, ...; a list has one for each game. Options of `reset` are as for
+    `GameEnv`; layout may be of shape (num_envs, balls + 1, 2), and reset_mask, an array of bool of
+    shape (num_envs,), says which games begin anew. `infos` has arrays, and under "_" + name where
+    they are set.
+
+    `autoreset_mode` says what becomes of a game that has ended, as in gymnasium 1.1 and later:
+    "NextStep", where the next step begins it anew and does not play its action; "SameStep", where
+    the step that ends it begins it anew, and `infos` has "final_obs" and "final_info"; "Disabled",
+    where reset(options={"reset_mask": ended}) does before the next step.
     """
 
     metadata: dict[str, Any] = {
@@ -252,10 +257,18 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
         game: str = "potting",
         *,
         render_mode: RenderMode | None = None,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         **rules: Any,
     ) -> None:
         if num_envs < 1:
             raise ValueError(f"num_envs: must be at least 1, not {num_envs}")
+        modes = {mode.value: mode for mode in AutoresetMode}
+        if autoreset_mode not in (*modes, *modes.values()):
+            raise ValueError(
+                f"autoreset_mode: must be one of {', '.join(map(repr, modes))}, not {autoreset_mode!r}"
+            )
+        self.autoreset_mode = AutoresetMode(autoreset_mode)
+        self.metadata = {**self.metadata, "autoreset_mode": self.autoreset_mode}
         self.rules = _rules(game, rules)
         self.num_envs = num_envs
         self.render_mode = render_mode
@@ -273,26 +286,44 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
         seed: int | Sequence[int | None] | None = None,
         options: dict[str, Any] | None = None,
     ) -> tuple[dtypes.Doubles, dict[str, Any]]:
-        """Begin all games anew."""
+        """Begin all games anew, or those of the mask."""
         seeds = [None] * self.num_envs if seed is None else seed
         if isinstance(seeds, int):
             seeds = [seeds + k for k in range(self.num_envs)]
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed: one number or {self.num_envs} are needed, not {len(seeds)}")
-        given = _checked(options)
+        given = dict({} if options is None else options)
+        chosen = np.flatnonzero(self._mask(given.pop("reset_mask", None)))
+        given = _checked(given)
         layouts: list[Any] | None = None
         if given.get("layout") is not None:
             centres = np.asarray(given["layout"], dtype=np.float64)
             layouts = list(centres) if centres.ndim == 3 else [centres] * self.num_envs
             if len(layouts) != self.num_envs:
                 raise ValueError(f"layout: one or {self.num_envs} are needed, not {len(layouts)}")
-        for game, own in enumerate(seeds):
-            if own is not None:
-                self._games.draws.begin(
-                    np.array([game]), int(seeding.np_random(own)[0].integers(2**63))
-                )
-        self._games.begin(np.arange(self.num_envs), layouts, given.get("strokes"))
+            layouts = [layouts[game] for game in chosen]
+        for game in chosen:
+            if (own := seeds[game]) is not None:
+                key = int(seeding.np_random(own)[0].integers(2**63))
+                self._games.draws.begin(np.array([game]), key)
+        self._games.begin(chosen, layouts, given.get("strokes"))
         return self._games.observe(), {}
+
+    def _mask(self, mask: Any) -> npt.NDArray[np.bool_]:
+        """Which games a reset begins anew."""
+        if mask is None:
+            return np.ones(self.num_envs, np.bool_)
+        given: npt.NDArray[Any] = np.asarray(mask)
+        if given.dtype != np.bool_ or given.shape != (self.num_envs,) or not given.any():
+            raise ValueError(
+                f"options: reset_mask: an array of bool of shape ({self.num_envs},) with a True in it is needed, "
+                f"not of {given.dtype} and shape {given.shape}"
+            )
+        if not (self._games.begun or given.all()):
+            raise gymnasium.error.ResetNeeded(
+                "no game has begun: the first reset() is of all games"
+            )
+        return given
 
     def step(
         self, actions: npt.ArrayLike
@@ -309,29 +340,53 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
             )
         playing = ~self._games.ended
         if not playing.all():
-            self._games.begin(np.flatnonzero(~playing))
+            over = np.flatnonzero(~playing)
+            if self.autoreset_mode is AutoresetMode.DISABLED:
+                raise gymnasium.error.ResetNeeded(
+                    f"games {over.tolist()} have ended: reset(options={{'reset_mask': ended}}) begins them anew"
+                )
+            self._games.begin(over)
         rewards = np.zeros(self.num_envs)
         infos: dict[str, Any] = {}
         if playing.any():
             strokes = self._games.play(np.flatnonzero(playing), given[playing])
             rewards[playing] = strokes.rewards
-            told: dict[str, npt.NDArray[Any]] = {
-                "potted": strokes.potted,
-                "scratch": strokes.scratch,
-                "foul": strokes.foul.astype(np.int64),
-            }
-            told |= {"status": strokes.status.astype(np.int64), "time": strokes.time}
-            for name, values in told.items():
-                infos[name] = np.zeros(self.num_envs, values.dtype)
-                infos[name][playing] = values
-                infos["_" + name] = playing.copy()
-        return (
-            self._games.observe(),
-            rewards,
-            self._games.ended.copy(),
-            np.zeros(self.num_envs, np.bool_),
-            infos,
-        )
+            infos = self._infos(strokes, playing)
+        ended = self._games.ended.copy()
+        if ended.any() and self.autoreset_mode is AutoresetMode.SAME_STEP:
+            infos = self._begun_at_once(infos, ended)
+        return self._games.observe(), rewards, ended, np.zeros(self.num_envs, np.bool_), infos
+
+    def _infos(self, strokes: Strokes, playing: npt.NDArray[np.bool_]) -> dict[str, Any]:
+        """What the strokes of some games were."""
+        told: dict[str, npt.NDArray[Any]] = {
+            "potted": strokes.potted,
+            "scratch": strokes.scratch,
+            "foul": strokes.foul.astype(np.int64),
+            "status": strokes.status.astype(np.int64),
+            "time": strokes.time,
+        }
+        infos: dict[str, Any] = {}
+        for name, values in told.items():
+            infos[name] = np.zeros(self.num_envs, values.dtype)
+            infos[name][playing] = values
+            infos["_" + name] = playing.copy()
+        return infos
+
+    def _begun_at_once(self, infos: dict[str, Any], ended: npt.NDArray[np.bool_]) -> dict[str, Any]:
+        """Begins the games anew that have ended; what was theirs is final."""
+        last, final = self._games.observe(), dict[str, Any]()
+        final_obs = np.full(self.num_envs, None, dtype=object)
+        for game in np.flatnonzero(ended):
+            final_obs[game] = last[game]
+        for name in [name for name in infos if name[0] != "_"]:
+            values, mask = infos[name], infos["_" + name]
+            final[name] = np.where(ended, values, np.zeros_like(values))
+            final["_" + name] = mask & ended
+            values[ended], mask[ended] = 0, False
+        self._games.begin(np.flatnonzero(ended))
+        whose = {"_final_obs": ended.copy(), "_final_info": ended.copy()}
+        return {**infos, "final_obs": final_obs, "final_info": final, **whose}
 
     def render(self) -> tuple[Any, ...] | None:
         """The pictures of all games, as `render_mode` says."""
@@ -352,8 +407,9 @@ GAMES: dict[str, dict[str, Any]] = {
 }
 """The ids, and the arguments of `GameEnv` that they have.
 
-But in the first, strokes err as those of a player with a Fargo rating of 600; the opponent of the
-last two is the planner with 300 shots and the errors of a 500.
+Except in the first, strokes err as those of a player with a Fargo rating of 600. The opponent of
+matches has the errors of a 500 and plays the best of 12 strokes straight at balls, so that a step
+takes some milliseconds; `opponent=` and `opponent_shots=` make him weaker or stronger.
 """
 _registry = cast("Any", gymnasium)
 for _id, _arguments in GAMES.items():

@@ -1,6 +1,4 @@
-"""Games of pool of an agent against the library's planner, in the form that `carom.gymnasium`
-plays.
-"""
+"""Games of pool of an agent against an opponent, in the form that `carom.gymnasium` plays."""
 
 from __future__ import annotations
 
@@ -11,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
-from carom._rows import Array, Seed, listing, whole
+from carom._rows import Seed, listing, whole
 from carom.games._draws import Draws, Games
 from carom.games.plans import player, with_errors
 from carom.games.pool import Hand, Pool, Position
@@ -34,8 +32,8 @@ def _state(words: npt.NDArray[np.uint64]) -> State:
 
 
 class Match:
-    """A game of nine-ball or eight-ball: the agent breaks, and the library's planner plays whenever
-    it is the opponent's turn.
+    """A game of nine-ball or eight-ball: the agent breaks, and the library plays whenever it is the
+    opponent's turn.
 
     **Actions** are those of `carom.pool.Pool`, six numbers. An **observation** is that of
         `Pool.observe` and the number of strokes left. It is
@@ -52,7 +50,9 @@ class Match:
     opponent : ndarray of `carom.dtypes.player`, shape (), optional
         His errors. Default: `carom.player(fargo=500)`.
     opponent_shots : int
-        Of each of his plans; 300 are those of which the ratings are.
+        By how many shots he finds a stroke. With fewer than 100 he plays the best of so many strokes
+        straight at balls, which takes a millisecond. From 100 on `carom.plan` finds it, which takes
+        10 to 30 milliseconds with 300 shots, of which the ratings are.
     **rules
         As for `Pool`: the table, and the noise of the agent.
     """
@@ -69,13 +69,13 @@ class Match:
         strokes: int = 60,
         *,
         opponent: dtypes.Records | None = None,
-        opponent_shots: int = 300,
+        opponent_shots: int = 12,
         **rules: Any,
     ) -> None:
         self.pool = Pool(game, **rules)
         self.strokes = whole(strokes, "strokes", least=1)
         self.opponent = player(fargo=500) if opponent is None else opponent
-        self.opponent_shots = whole(opponent_shots, "opponent_shots", least=100, most=1_000_000)
+        self.opponent_shots = whole(opponent_shots, "opponent_shots", least=1, most=1_000_000)
         self.balls, self.table, self.noise = (
             self.pool.base.balls,
             self.pool.table,
@@ -163,16 +163,11 @@ class Match:
         """The position when the agent plays again, or the game has ended."""
         while position.player == 1 and position.winner is None:
             key = position.draws.key(0)
-            found = self.pool.planned(
+            laid, cue, call = self.pool.stroke_of(
                 position, self.opponent, self._agent, self.opponent_shots, key % 2**31
             )
-            laid: Array = position.balls.copy()
-            if position.hand:
-                self.pool.lay(laid, found["place"])
-            stroke = with_errors(found["cue"], self.opponent, key)
-            position, _ = self.pool.struck(
-                replace(position, balls=laid), stroke, (int(found["ball"]), int(found["pocket"]))
-            )
+            stroke = with_errors(cue, self.opponent, key)
+            position, _ = self.pool.struck(replace(position, balls=laid), stroke, call)
         return position
 
     def shot(self, balls: dtypes.Records, cue: dtypes.Records | None) -> Shot:

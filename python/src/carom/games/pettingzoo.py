@@ -9,7 +9,7 @@ turns.
         observation, reward, terminated, truncated, info = game.last()
         game.step(None if terminated or truncated else game.action_space(agent).sample())
 
-Actions, observations and rules are those of `carom.pool.Pool`. The winner gets 1, the other -1.
+`parallel` has the same game as a parallel environment. Actions, observations and rules are those of `carom.pool.Pool`. The winner gets 1, the other -1.
 Needs PettingZoo.
 """
 
@@ -29,8 +29,9 @@ needed("pettingzoo", "carom.pettingzoo")
 from gymnasium import spaces  # noqa: E402
 from gymnasium.utils import seeding  # noqa: E402
 from pettingzoo import AECEnv  # noqa: E402
+from pettingzoo.utils.conversions import turn_based_aec_to_parallel  # noqa: E402
 
-__all__ = ["PoolEnv"]
+__all__ = ["PoolEnv", "parallel"]
 __dir__ = listing(__name__)
 
 _PLAYERS = ("player_0", "player_1")
@@ -141,3 +142,13 @@ class PoolEnv(AECEnv):
 
     def close(self) -> None:
         """Nothing is held open."""
+
+
+def parallel(
+    game: Literal["nineball", "eightball"] = "nineball", strokes: int = 200, **options: Any
+) -> Any:
+    """A `PoolEnv` with these arguments as a parallel environment of PettingZoo.
+
+    A step takes an action of each player, and plays that of the player at the table.
+    """
+    return turn_based_aec_to_parallel(PoolEnv(game, strokes, **options))

@@ -26,6 +26,7 @@ from carom import dtypes, racks
 from carom._rows import Array, Arrays, Seed, choice, listing, seed_of
 from carom._shot_options import ShotCushion
 from carom.games._draws import Draws
+from carom.games._quick import quick_stroke
 from carom.games.plans import plan
 from carom.games.potting import Potting
 from carom.games.rules import Made, State, calls_of, judge, on_of, referee
@@ -37,10 +38,13 @@ __all__ = ["Hand", "Pool", "Position", "Stroke"]
 __dir__ = listing(__name__)
 
 _ONE = np.zeros(1, np.int64)
+PLANNED = 100
+"""The least number of shots of a plan."""
 _GAMES = {"nineball": 9, "eightball": 15}
 _WORTH = np.array(
     [0.5, 0.0, 1.0, -1.0]
 )  # of a stroke that keeps the turn, passes it, wins and loses
+_LOSE = 3
 
 
 class Hand(enum.IntEnum):
@@ -196,6 +200,28 @@ class Pool:
         )[0]
         return found
 
+    def stroke_of(
+        self,
+        position: Position,
+        player: dtypes.Records,
+        opponent: dtypes.Records | None,
+        shots: int,
+        seed: int,
+    ) -> tuple[dtypes.Records, dtypes.Records, tuple[int, int]]:
+        """The stroke of a player who thinks for so many shots, without errors: the layout, in which
+        he has put a cue ball in hand, the cue and the call.
+
+        From PLANNED shots on it is that of `carom.plan`; with fewer it is the best of so many
+        strokes straight at balls (`carom.games._quick`).
+        """
+        if shots < PLANNED:
+            return quick_stroke(self, position, shots)
+        found = self.planned(position, player, opponent, shots, seed)
+        laid: Array = position.balls.copy()
+        if position.hand:
+            self.lay(laid, found["place"])
+        return laid, found["cue"], (int(found["ball"]), int(found["pocket"]))
+
     def on(self, position: Position) -> tuple[int, ...]:
         """The balls that the player may meet first."""
         return on_of(Made(self.game, position.state), position.balls)
@@ -211,10 +237,11 @@ class Pool:
             self.lay(balls, low + (high - low) * draws.uniform(_ONE, 2)[0])
 
     def lay(self, balls: dtypes.Records, place: npt.ArrayLike) -> None:
-        """Lay the cue ball of a layout to a place, m, at rest."""
-        state = balls["state"][0]
-        state["r"][:2], state["r"][2], state["v"], state["w"] = place, self.base.radius, 0.0, 0.0
-        balls["state"]["label"][0] = Label.STATIONARY
+        """Lay the cue ball of layouts (..., balls) to places (..., 2), m, at rest."""
+        state = balls["state"]
+        state["r"][..., 0, :2], state["r"][..., 0, 2] = place, self.base.radius
+        state["v"][..., 0, :], state["w"][..., 0, :] = 0.0, 0.0
+        state["label"][..., 0] = Label.STATIONARY
 
     # ---- Strokes
     # --------------------------------------------------------------------------------------------------------
@@ -231,7 +258,7 @@ class Pool:
             self.put(balls, position.hand, given[4:], draws)
         call = (-1, -1)
         if self.game == "eightball":
-            meant = self._played(balls[np.newaxis], self.base.cues(given[np.newaxis, :4]))
+            meant = self.played(balls[np.newaxis], self.base.cues(given[np.newaxis, :4]))
             call = tuple(calls_of(Made(self.game, position.state), balls, meant)[0].tolist())
         done = self.base.cues(given[:4], draws.seeds(_ONE) if any(self.base.noise) else None)
         return self.struck(replace(position, balls=balls, draws=draws), done, call)
@@ -282,7 +309,8 @@ class Pool:
             ruled.shot,
         )
 
-    def _played(self, layouts: dtypes.Records, cues: dtypes.Records) -> Shots:
+    def played(self, layouts: dtypes.Records, cues: dtypes.Records) -> Shots:
+        """Strokes of cues from layouts, with features."""
         return simulate_batch(
             self.table, layouts, cues, features=True, cushion_model=self.base.cushion_model
         )
@@ -298,14 +326,20 @@ class Pool:
             for layout, wanted in zip(layouts, given[:, 4:]):
                 self.put(layout, position.hand, wanted, draws)
         made = Made(self.game, position.state)
-        shots = self._played(layouts, self.base.cues(given[:, :4]))
+        shots = self.played(layouts, self.base.cues(given[:, :4]))
         turns = judge(
             made,
             layouts,
             shots,
             calls=calls_of(made, position.balls, shots) if self.game == "eightball" else None,
         )
-        return np.where((turns["foul"] != 0) & (turns["is"] != 3), -0.5, _WORTH[turns["is"]])
+        return self.worth(turns)
+
+    @staticmethod
+    def worth(turns: Array) -> dtypes.Doubles:
+        """What strokes are worth to the player, as `tried` has it, by `carom.dtypes.turn`."""
+        foul = (turns["foul"] != 0) & (turns["is"] != _LOSE)
+        return np.where(foul, -0.5, _WORTH[turns["is"]])
 
     # ---- Observations
     # ---------------------------------------------------------------------------------------------------

@@ -1,0 +1,132 @@
+"""A stroke of pool found by geometry and a few shots: an opponent that costs a millisecond.
+
+The candidates are strokes at ghost balls, the places where the cue ball must be when it drives a
+ball straight into a pocket: Each pair of a ball that the player may meet and a pocket gives a cut c,
+a way d of the cue ball to the ghost ball, and a way p of the ball to the pocket. An error of the
+direction grows with d p / cos(c) until it reaches the pocket, so that pairs are taken by
+
+    ease = cos(c) / (d p).
+
+A ball is thrown by friction towards the way of the cue ball, 2 degrees or so for cuts of 20 to 60
+degrees [understanding/physics.md]. So each pair is aimed at without that and with it, softly and
+harder: four candidates. With the cue ball in hand it lies DISTANCE behind the ghost ball, on the
+line to the pocket, where that is free.
+
+Each candidate is played once, without errors, and judged by the rules. The best one is the stroke,
+the first of equal ones: it neither looks at the next layout nor knows how strokes err.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from carom import dtypes
+from carom._rows import Array, raw
+from carom.games.rules import Made, calls_of, judge, on_of
+from carom.layouts import cue as cue_of
+
+if TYPE_CHECKING:
+    from carom.games.pool import Pool, Position
+
+DISTANCE = 0.35  # m
+THROWN = np.radians([0.0, 2.0])
+SPEEDS = np.array([2.0, 3.5])  # m/s, of the cue, and more for long ways
+OF_PAIR = len(THROWN) * len(SPEEDS)
+BREAK = 9.0  # m/s
+_LEAST_COS = np.cos(np.radians(75.0))  # of a cut
+
+
+def quick_stroke(
+    pool: Pool, position: Position, shots: int
+) -> tuple[dtypes.Records, dtypes.Records, tuple[int, int]]:
+    """The layout, with the cue ball where it is put, the cue, and the call of eight-ball."""
+    made = Made(pool.game, position.state)
+    layouts, cues = _candidates(pool, position, made, max(shots // OF_PAIR, 1))
+    played = pool.played(layouts, cues)
+    calls = calls_of(made, position.balls, played) if pool.game == "eightball" else None
+    best = int(pool.worth(judge(made, layouts, played, calls=calls)).argmax())
+    call = (-1, -1) if calls is None else (int(calls[best, 0]), int(calls[best, 1]))
+    return layouts[best], cues[best], call
+
+
+def _candidates(
+    pool: Pool, position: Position, made: Made, pairs: int
+) -> tuple[dtypes.Records, dtypes.Records]:
+    """Layouts (n, balls) and cues (n,) of the easiest pairs of a ball and a pocket."""
+    balls, radius = position.balls, pool.base.radius
+    centres = balls["state"]["r"][:, :2]
+    on = np.array(on_of(made, balls))
+    if position.state["opening"]:
+        return _break(pool, position, centres[on])
+
+    # of each pair: the way of the ball to the pocket, and the ghost ball
+    way = pool.table.pockets["centre"] - centres[on][:, np.newaxis]
+    far = np.linalg.norm(way, axis=-1).ravel()
+    way = way.reshape(-1, 2) / far[:, np.newaxis]
+    ghost = np.repeat(centres[on], len(pool.table.pockets), axis=0) - 2.0 * radius * way
+    if position.hand:
+        places = np.clip(ghost - DISTANCE * way, *pool.area(position.hand))
+    else:
+        places = np.broadcast_to(centres[0], ghost.shape)
+    line = ghost - places
+    near = np.linalg.norm(line, axis=-1)
+    cosine = np.einsum("ij,ij->i", line, way) / near
+    ease = np.where(cosine > _LEAST_COS, cosine, 1e-3 * (2.0 + cosine)) / (near * far)
+
+    # the easiest of them, from places that are free
+    chosen = np.argsort(-ease, kind="stable")[:pairs]
+    way, ghost, far = way[chosen], ghost[chosen], far[chosen]
+    places = _free(pool, position, places[chosen])
+    line = ghost - places
+    near = np.linalg.norm(line, axis=-1)
+
+    # thrown to the side of the cue ball's way, the ball needs a ghost ball beside that
+    side = np.sign(line[:, 0] * way[:, 1] - line[:, 1] * way[:, 0])
+    cos, sin = np.cos(THROWN), side[:, np.newaxis] * np.sin(THROWN)
+    x, y = way[:, :1], way[:, 1:]
+    turned = np.stack([x * cos - y * sin, x * sin + y * cos], axis=-1)
+    aim = (line + 2.0 * radius * way)[:, np.newaxis] - 2.0 * radius * turned
+    phi = np.degrees(np.arctan2(aim[..., 1], aim[..., 0]))[..., np.newaxis]
+    longer = 0.7 + 0.3 * (near + far)[:, np.newaxis, np.newaxis]
+    phi, speed = np.broadcast_arrays(phi, np.minimum(SPEEDS * longer, pool.base.speeds[1]))
+    layouts = _laid(pool, position, np.repeat(places, OF_PAIR, axis=0))
+    return layouts, cue_of(speed=speed.ravel(), phi=phi.ravel(), b=0.0)
+
+
+def _break(
+    pool: Pool, position: Position, on: dtypes.Doubles
+) -> tuple[dtypes.Records, dtypes.Records]:
+    """A stroke at the first ball of the rack, from behind the head string."""
+    low, high = pool.area(position.hand)
+    place = np.array([(low[0] + high[0]) / 2.0, high[1]])
+    line = on[np.argmin(on[:, 1])] - place
+    phi = np.degrees(np.arctan2(line[1], line[0]))
+    speed = min(BREAK, pool.base.speeds[1])
+    return _laid(pool, position, place[np.newaxis]), cue_of(speed=[speed], phi=[phi], b=0.0)
+
+
+def _free(pool: Pool, position: Position, wanted: dtypes.Doubles) -> dtypes.Doubles:
+    """The places that are free, where the cue ball is in hand, and others in place of those that
+    are not.
+    """
+    if not position.hand:
+        return wanted
+    tried: Array = position.balls.copy()
+    draws = position.draws.copy()
+    for place in wanted:
+        pool.lay(tried, place)
+        if not pool.base.free(tried):
+            pool.put(tried, position.hand, np.zeros(2), draws)
+            place[...] = tried["state"]["r"][0, :2]
+    return wanted
+
+
+def _laid(pool: Pool, position: Position, places: dtypes.Doubles) -> dtypes.Records:
+    """The layout with the cue ball at each of some places, if it is in hand."""
+    layouts: Array = np.repeat(raw(position.balls)[np.newaxis], len(places), axis=0)
+    layouts = layouts.view(dtypes.shot_ball)
+    if position.hand:
+        pool.lay(layouts, places)
+    return layouts

@@ -1,0 +1,3 @@
+"""A vector environment of Stable Baselines3: `carom.games.sb3`."""
+
+from carom.games.sb3 import *
