@@ -141,7 +141,8 @@ static bool is_named(block *b) {
   return b->unnamed++ < 0;
 }
 
-/* How far the plays of the fit were off after as many contacts, where --with has one. */
+/* The residuals of the fit after as many contacts, where --with has one. They are no errors of a
+ * forecast, as the strikes of the fit knew the whole shots. */
 static void tell_bands(FILE *out, const given_numbers *with, const carom_shot *shot) {
   int met = 0, row = 0;
   for (int64_t k = 0; k < shot->count; k++)
@@ -151,8 +152,8 @@ static void tell_bands(FILE *out, const given_numbers *with, const carom_shot *s
     row++;
   if (with->bands > 0)
     fprintf(out,
-            "of the fit, 68 %% of places were within %.2g m, 95 %% within %.2g m, after as many "
-            "contacts\n",
+            "residuals of the fit after as many contacts, with strikes fitted to whole shots: 68 %% "
+            "within %.2g m, 95 %% within %.2g m\n",
             with->band[row][1], with->band[row][2]);
 }
 

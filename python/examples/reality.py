@@ -2,6 +2,7 @@
 
     python reality.py TRACKS.csv --table 2.84,1.42 --radius 0.03075 --pictures FOLDER
     python reality.py TRACKS.csv --table 2.84,1.42 --radius 0.03075 --few 7
+    python reality.py TRACKS.csv --table 2.84,1.42 --radius 0.03075 --forecast 2,4
 
 For each model of the cushion, constants are fitted to every second shot and used for the others,
 and the other way round. The first table has the RMSE of the shots that the constants were not
@@ -9,7 +10,8 @@ fitted to, of both halves: of each shot only the strike, six numbers, is fitted,
 by the better of two with other seeds. Then follow the floor, which is the RMSE of a perfect model;
 how far single impacts are from each model, output by output; how the error grows with the part of a
 shot that the strike is fitted to; and the laws of single events. With --few N there is only what
-few shots tell of the table, over N draws of them. Markdown on standard output; the pictures are
+few shots tell of the table, over N draws of them; with --forecast, how many places after the first
+seconds lie in the regions that `fit.forecast` gives. Markdown on standard output; the pictures are
 SVG.
 """
 
@@ -211,6 +213,45 @@ def few_shots(
         )
 
 
+def forecasts(
+    recordings: Recordings,
+    table: tuple[float, float],
+    radius: float,
+    afters: Sequence[float],
+    seed: int,
+) -> None:
+    """Which part of the places of shots that were not fitted lies in the regions of forecasts."""
+    print(
+        "| known, s | shots | places | in 68 % | in 95 % | radius of 68 %, median, cm |\n|--:|--:|--:|--:|--:|--:|"
+    )
+    halves = [
+        carom.tracks.fit.fit(recordings[fold::2], table, radius, free="table", seed=seed)
+        for fold in (0, 1)
+    ]
+    for after in afters:
+        inside, radii, shots = [np.zeros((2, 0), bool)], [np.zeros(0)], 0
+        for fold, fit in enumerate(halves):
+            for shot in recordings[1 - fold :: 2]:
+                try:
+                    seen = fit.forecast(shot, after=after, seed=seed)
+                except ValueError:  # no strike was found
+                    continue
+                rows, balls = seen.later()
+                if len(rows):
+                    each = np.arange(len(rows))
+                    middle, radius_of = seen.regions(rows[:, 0])
+                    off = np.linalg.norm(rows[:, 1:] - middle[each, balls], axis=-1)
+                    inside.append(off <= radius_of[:, each, balls])
+                    radii.append(radius_of[0, each, balls])
+                    shots += 1
+        whole = np.concatenate(inside, axis=1)
+        print(
+            f"| {after:g} | {shots} | {whole.shape[1]} | {100 * whole[0].mean():.0f} % | {100 * whole[1].mean():.0f} % | "
+            f"{100 * np.median(np.concatenate(radii)):.1f} |",
+            flush=True,
+        )
+
+
 def single_events(seen: carom.tracks.Events) -> None:
     (a, a_error), (b, b_error) = seen.roll
     print("\n| law | measured |\n|---|---|")
@@ -247,11 +288,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "--few", type=int, metavar="N", help="only what few shots tell, over N draws of them"
     )
+    parser.add_argument(
+        "--forecast",
+        type=lambda text: [float(part) for part in text.split(",")],
+        metavar="T,...",
+        help="only how well forecasts from the first T seconds hold",
+    )
     parser.add_argument("--pictures", type=Path, metavar="FOLDER")
     given = parser.parse_args(arguments)
     recordings = carom.tracks.read(given.tracks, table=given.table, radius=given.radius)
     recordings = [shot for shot in recordings if np.isfinite(shot.moves).any()]
     models = given.models.split(",")
+    if given.forecast:
+        forecasts(recordings, given.table, given.radius, given.forecast, given.seed)
+        return 0
     if given.few:
         few_shots(recordings, given.table, given.radius, given.few, given.seed)
         return 0

@@ -156,7 +156,9 @@ def test_a_start_is_near_the_strike_however_few_rows_tell_it(made, rows):
         found = _strikes.starts(
             SimpleNamespace(
                 cue=shot.cue, tracks=shot.tracks, rest=shot.rest, moves=moves, noise=shot.noise
-            )
+            ),
+            TABLE,
+            RADIUS,
         )
         share = np.hypot(found[:, 0], found[:, 1]) / np.hypot(*strike[:2])
         turn = np.abs(
@@ -171,6 +173,75 @@ def test_a_start_is_near_the_strike_however_few_rows_tell_it(made, rows):
             & (share < (1.35 if rows < 3 else 1.0))
             & (turn < 0.012)
         ).any()
+
+
+def test_a_strike_at_a_near_rail_is_found():
+    """A camera shows the ball leaving a rail that it met within 80 ms: the search also starts at
+    the rail.
+    """
+    random, recordings, true = np.random.default_rng(11), [], []
+    values = _constants.complete({}, "smooth")
+    table = _constants.rectangle(TABLE, values["nose_height"])
+    while len(recordings) < 12:
+        places = random.uniform([0.2, 0.2], [2.6, 1.2], (3, 2))
+        places[0, 1] = RADIUS + random.uniform(0.04, 0.2)
+        if min(np.hypot(*(places[i] - places[j])) for i in range(3) for j in range(i)) < 0.2:
+            continue
+        balls = _constants.layout(places, RADIUS, values)
+        speed, angle = random.uniform(2.0, 4.5), np.radians(random.uniform(230.0, 310.0))
+        velocity = speed * np.array([np.cos(angle), np.sin(angle)])
+        balls["state"]["v"][0, :2] = velocity
+        side, follow = random.uniform(-0.5, 0.5, 2) * speed / RADIUS
+        balls["state"]["w"][0] = *(follow * np.array([-np.sin(angle), np.cos(angle)])), side
+        shot = carom.simulate(table, balls, cushion_model="smooth")
+        rails = shot.events["time"][shot.events["type"] == carom.EventType.RAIL]
+        if shot.time < 3.0 or not 0.04 < rails[0] < 0.08:
+            continue
+        t = np.arange(0.0, shot.time + 0.5, 0.02)
+        seen = shot.positions(np.maximum(t - 0.2, 0.0))[..., :2]
+        seen += random.normal(0.0, 5e-4, seen.shape)
+        tracks_of = tuple(np.column_stack([t, seen[:, ball]]) for ball in range(3))
+        recordings.append(tracks.Recording(len(recordings) + 1, (1, 2, 3), tracks_of))
+        true.append(velocity)
+    found = fitted(
+        recordings, TABLE, RADIUS, cushion_model="smooth", constants=values, free="none", seed=1
+    )
+    assert (found.rmse < 1e-3).sum() >= 10
+    near = np.abs(found.strikes[:, :2] - np.array(true)).max(axis=1) < 0.05
+    assert near.sum() >= 10
+
+
+def test_forecasts_hold_on_shots_with_known_constants(made):
+    """Of shots without errors of the models the regions are wide, never too narrow; the known rows
+    alone count.
+    """
+    known = fitted(made.recordings, TABLE, RADIUS, constants=made.constants, free="none")
+    inside, some = [], made.recordings[:6]
+    for shot in some:
+        seen = known.forecast(shot, after=2.0, draws=60)
+        rows, balls = seen.later()
+        assert (rows[:, 0] > shot.moves.min() + 2.0).all() and len(rows) == len(balls)
+        middle, radii = seen.regions(rows[:, 0])
+        assert middle.shape == (len(rows), 3, 2) and radii.shape == (2, len(rows), 3)
+        assert (radii[0] <= radii[1]).all() and (radii > 0.0).all()
+        inside.append(seen.covered())
+    inside = np.mean(inside, axis=0)
+    assert 0.6 < inside[0] < inside[1] <= 1.0 and inside[1] > 0.9
+    # what comes later changes nothing, and the seed everything
+    shot = some[0]
+    cut = [track[track[:, 0] <= shot.moves.min() + 2.0] for track in shot.tracks]
+    short = replace(shot, tracks=tuple(cut))
+    times = shot.moves.min() + np.array([2.5, 3.5])
+    whole, alone, other = (
+        known.forecast(one, after=2.0, draws=20, seed=seed).positions(times)
+        for one, seed in ((0, 3), (short, 3), (short, 4))
+    )
+    assert whole.shape == (20, 2, 3, 2) and np.array_equal(whole, alone)
+    assert not np.array_equal(whole, other)
+    with pytest.raises(ValueError, match="^after: it must be positive and finite"):
+        known.forecast(0, after=-1.0)
+    with pytest.raises(ValueError, match="^draws: "):
+        known.forecast(0, after=1.0, draws=3)
 
 
 def test_known_constants_give_the_strikes_back(made):

@@ -2,7 +2,7 @@
 
 A kick is a small change of the motion just after a contact, five numbers over the speed V before
 it, as loops.h has them. The cost of a shot with kicks y is that of `_strikes`, and PRICE (y/s)^2
-for each: s are the deviations of _CUSHION and _BALLS. From the strikes that are known Levenberg and
+for each: s are the deviations of CUSHION and BALLS. From the strikes that are known Levenberg and
 Marquardt's method descends over the strike and the kicks of the first 16 contacts, with more and
 more of the samples. No chaos is left, as the track pins the balls at every contact.
 
@@ -32,7 +32,7 @@ from carom.tracks._strikes import KICKS, Plays
 
 CONTACTS = 16  # of a shot, at most, that have kicks
 PRICE = 1e-4  # m^2
-_CUSHION, _BALLS = (
+CUSHION, BALLS = (
     np.array([0.01, 0.01, 0.03, 0.03, 0.03]),
     np.array([0.01, 0.01, 0.01, 0.02, 0.02]),
 )
@@ -64,10 +64,10 @@ def contacts(plays: Plays, row: int, numbers: Doubles) -> Records:
 def _held(met: Sequence[Records]) -> Doubles:
     """What the square of each number costs, (shots, numbers)."""
     price = np.zeros((len(met), 6 + KICKS * CONTACTS))
-    price[:, 6:] = np.tile(PRICE / _CUSHION**2, CONTACTS)
+    price[:, 6:] = np.tile(PRICE / CUSHION**2, CONTACTS)
     for k, events in enumerate(met):
         for j in np.flatnonzero(events["type"] == lib.CAROM_EVENT_BALL_BALL):
-            price[k, 6 + KICKS * j : 6 + KICKS * (j + 1)] = PRICE / _BALLS**2
+            price[k, 6 + KICKS * j : 6 + KICKS * (j + 1)] = PRICE / BALLS**2
     return price
 
 
@@ -261,7 +261,7 @@ class Kicks(Arrays):
         made = []
         for one in self.contacts[self.contacts["shot"] == shot]:
             cushion = one["rail"] >= 0
-            largest = int(np.argmax(np.abs(one["kick"]) / (_CUSHION if cushion else _BALLS)))
+            largest = int(np.argmax(np.abs(one["kick"]) / (CUSHION if cushion else BALLS)))
             short = f"{OUTPUTS[bool(cushion)][largest]} {100.0 * one['kick'][largest]:+.1f} %"
             long = ", ".join(
                 f"{name} {100.0 * kick:+.2f} ± {100.0 * error:.2f} %"

@@ -44,6 +44,17 @@ HUBER = 0.01  # c, m
 STEP = 1e-5
 EARLIEST, LATEST = -0.03, 0.13  # of a strike on the clock of a play, s
 _STILL = 0.12  # s: a ball was struck no longer before the first row that shows its motion
+# Strikes at a near rail: the speed into it over that away from it, how long the ball may have been
+# on its way to it (s), rows since the first motion that show it leaving (s), and their grid: turns,
+# factors of the speed, side and follow over the speed.
+_REBOUND, _NEAR = 1.4, 0.15
+_WINDOWS = ((0.0, 0.05), (0.04, 0.1), (0.08, 0.16))
+_ROUGH = (
+    np.linspace(-0.16, 0.16, 5),
+    np.array([0.85, 1.0, 1.2]),
+    np.linspace(-1.0, 1.0, 4),
+    np.linspace(-0.8, 0.9, 3),
+)
 _SPIN_MOST = 2.0  # greatest |R w| of a strike over |v|: a tip that does not slip gives 1.3
 _NUMBERS = 6
 KICKS = 5  # numbers of a contact's kicks, which follow a strike
@@ -279,7 +290,48 @@ def origin(shot: Recording) -> float:
     return float(max(shot.tracks[cue][shot.still[cue] - 1, 0], shot.moves[cue] - _STILL))
 
 
-def starts(shot: Recording) -> Doubles:
+def _line(rows: Doubles) -> tuple[Doubles, Doubles]:
+    """The middle (t, x, y) of rows, and the velocity by the line through them."""
+    t = rows[:, 0] - rows[:, 0].mean()
+    return rows.mean(axis=0), t @ rows[:, 1:] / (t @ t)
+
+
+def _off_rails(
+    shot: Recording, table: tuple[float, float], radius: float
+) -> list[tuple[float, float, float]]:
+    """Speeds, directions and times of strikes at a rail so near that the first motion which a
+    camera shows may be the one away from it.
+
+    The ball is seen to leave a rail with a speed w across it, and is within reach of it. Then it
+    may have gone there with _REBOUND times w, and the time of the strike is that before the way to
+    the rail and back to where it is seen.
+    """
+    track, rest = shot.tracks[shot.cue], shot.rest[shot.cue]
+    since = track[:, 0] - shot.moves[shot.cue]
+    found = []
+    for begin, end in _WINDOWS:
+        rows = track[(since >= begin) & (since <= end)]
+        if len(rows) < 2:
+            continue
+        middle, velocity = _line(rows)
+        for axis in range(2):
+            for away, gap in (
+                (1.0, rest[axis] - radius),
+                (-1.0, table[axis] - radius - rest[axis]),
+            ):
+                leaving, gap = away * float(velocity[axis]), max(float(gap), 0.0)
+                if leaving < 0.2 or gap > _NEAR * leaving:
+                    continue
+                arriving = velocity.copy()
+                arriving[axis] = -away * _REBOUND * leaving
+                way = away * float(middle[axis + 1] - rest[axis])
+                time = middle[0] - gap / (_REBOUND * leaving) - (way + gap) / leaving
+                speed, angle = np.hypot(*arriving), np.arctan2(arriving[1], arriving[0])
+                found.append((float(speed), float(angle), float(time)))
+    return found
+
+
+def starts(shot: Recording, table: tuple[float, float], radius: float) -> Doubles:
     """Strikes to start from, (n, 6), on the clock of the recording."""
     cue = shot.cue
     track, rest = shot.tracks[cue], shot.rest[cue]
@@ -321,6 +373,22 @@ def starts(shot: Recording) -> Doubles:
         if known <= 3
         else (np.linspace(-1.3, 1.3, 9), np.linspace(-0.9, 1.0, 6))
     )
+    made = [_grid(speed, angle, begin, turns, faster, sides, follows)]
+    for motion in _off_rails(shot, table, radius):
+        made.append(_grid(*motion, *_ROUGH))
+    return np.concatenate(made)
+
+
+def _grid(
+    speed: float,
+    angle: float,
+    begin: float,
+    turns: Doubles,
+    faster: Doubles,
+    sides: Doubles,
+    follows: Doubles,
+) -> Doubles:
+    """Strikes about a speed, a direction and a time, with spins over the speed."""
     turn, fast, side, follow = (
         grid.ravel() for grid in np.meshgrid(turns, faster, sides, follows, indexing="ij")
     )
@@ -461,7 +529,7 @@ def find(
     """
     random = np.random.default_rng(seed)
     first = [
-        starts(shot) - [0.0, 0.0, 0.0, 0.0, 0.0, begin]
+        starts(shot, plays.table_size, plays.radius) - [0.0, 0.0, 0.0, 0.0, 0.0, begin]
         for shot, begin in zip(plays.recordings, plays.origins)
     ]
     of = np.repeat(np.arange(len(first), dtype=np.int32), [len(rows) for rows in first])

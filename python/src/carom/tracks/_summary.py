@@ -6,7 +6,7 @@ import copy
 import html
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ import numpy.typing as npt
 from carom import pictures
 from carom._carom import lib
 from carom._rows import Seed, seed_of
+from carom._rows import whole as _whole
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
 from carom.layouts import Table
@@ -22,6 +23,7 @@ from carom.results import Shot
 from carom.shots import simulate
 from carom.tracks import _constants, _covariance, _joint, _kicks, _strikes
 from carom.tracks._events import events
+from carom.tracks._forecast import Forecast, first_seconds, forecast
 from carom.tracks._kicks import Kicks
 from carom.tracks._recordings import Recording
 
@@ -183,11 +185,57 @@ class Fit:
             random.multivariate_normal(self.strikes[i], own, count)
             + np.hstack([by, moved]) @ follow.T
         )
-        changed = {
+        moved = moved.reshape(count, -1, 2)
+        return (*self._struck(i, strikes, moved, self.changed(by)), strikes[:, 5])
+
+    def forecast(
+        self, shot: int | Recording, *, after: float, draws: int = 200, seed: Seed = 0
+    ) -> Forecast:
+        """What comes after the first seconds of a shot, as far as these tell it.
+
+        Parameters
+        ----------
+        shot : int or Recording
+            The index of a shot of this fit, or a recording of the same table.
+        after : float
+            So many seconds from the first motion of a ball are known; the strike is fitted to
+            their rows alone, and later rows are not looked at.
+        draws : int
+            Of the strike, of the constants (by `covariance`) and of the places of rest. From 2 s on
+            the regions of 200 hold what they say on recorded shots: docs/understanding/reality.md.
+        seed : int or numpy.random.Generator
+
+        Returns Forecast: Its `positions` are the draws, its `regions` where balls will be.
+        Raises ValueError: No strike was found, or no row is known after the first.
+        """
+        whole = self.recordings[shot] if isinstance(shot, int) else shot
+        if not 0.0 < after < np.inf:
+            raise ValueError(f"after: it must be positive and finite, in s, not {after!r}")
+        draws, seed = _whole(draws, "draws", least=10), seed_of(seed)
+        from carom.tracks.fit import fit
+
+        part = fit(
+            [first_seconds(whole, after)],
+            self.table,
+            self.radius,
+            cushion_model=self.cushion_model,
+            constants=self.constants,
+            free="none",
+            seed=seed,
+        )
+        if not np.isfinite(part.strikes).all():
+            raise ValueError(
+                f"shot: in its first {after:g} s no strike was found: {part.status[0]}"
+            )
+        part = replace(part, fitted=self.fitted, covariance=self.covariance)
+        return forecast(whole, part, after, draws, seed)
+
+    def changed(self, by: Doubles) -> dict[str, Doubles]:
+        """The fitted constants, off by numbers of shape (n, fitted), within their bounds."""
+        return {
             name: np.clip(self.constants[name] + off, *_joint.prior(name)[1:])
-            for name, off in zip(names, by.T)
+            for name, off in zip(self.fitted, by.T)
         }
-        return (*self._struck(i, strikes, moved.reshape(count, -1, 2), changed), strikes[:, 5])
 
     def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
         """The centres of shot i's balls as played at times of the recording's clock, m, shape (...,
@@ -228,9 +276,13 @@ class Fit:
         return np.concatenate(found)
 
     def bands(self, train: bool | None = None) -> Doubles:
-        """Within which distances, m, 68 and 95 % of the samples of another shot are, shape (rows,
-        3); first a number of contacts, from which a row holds. Of n shots the shares are (n + 1)/n
-        as large, as another one may be farther off than all of them.
+        """The residuals of fitted strikes: within which distances, m, 68 and 95 % of the samples of
+        another shot are whose strike is fitted to all of its samples. Shape (rows, 3); first a
+        number of contacts, from which a row holds. Of n shots the shares are (n + 1)/n as large, as
+        another one may be farther off than all of them.
+
+        They are no forecast: the samples after the first seconds of a shot are several times as far
+        off where the strike knows these seconds alone. `forecast` gives regions for them.
         """
         off, made = self.off(train), []
         larger = 1.0 + 1.0 / max(off[:, 2].sum(), 1.0)
@@ -446,8 +498,8 @@ def histogram(fit: Fit) -> str:
 
 
 def bands(fit: Fit) -> str:
-    """How far off places are, over the contacts before them, and within which distances 68 and 95 %
-    are.
+    """How far off places are where strikes are fitted to all of them, over the contacts before
+    them, and within which distances 68 and 95 % are.
     """
     unseen = None if fit.train is None else False
     off, rows = fit.off(unseen), fit.bands(None if fit.train is None else True)
@@ -455,7 +507,10 @@ def bands(fit: Fit) -> str:
     top = 200.0 * float(np.median(rows[:, 2]))
     ends = np.append(rows[1:, 0], max(float(off[:, 0].max(initial=0.0)), rows[-1, 0]) + 1.0)
     chart = _Chart(
-        (0.0, float(ends[-1])), (0.0, top), "contacts of the shot before", "distance, cm"
+        (0.0, float(ends[-1])),
+        (0.0, top),
+        "contacts of the shot before",
+        "residual of a fitted strike, cm",
     )
     chart.dots(shown[:, 0] + np.modf(0.618034 * np.arange(len(shown)))[0], 100.0 * shown[:, 1])
     for column in (1, 2):
@@ -556,7 +611,10 @@ def page(fit: Fit, name: str, kicks: Kicks | None = None) -> str:
     if order:
         whose = "shots" if fit.train is None else "shots that the constants were not fitted to"
         figures.append(
-            (f"How far off the places of {whose} are. Lines: the bands of 68 and 95 %.", bands(fit))
+            (
+                f"Residuals of {whose}, each with a strike fitted to the whole shot: no forecast. Lines: 68 and 95 %.",
+                bands(fit),
+            )
         )
     for what, k in (
         [("best", order[0]), ("median", order[len(order) // 2]), ("worst", order[-1])]

@@ -543,7 +543,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if found.train is not None and len(rmse):
         within = 100.0 * found.covered(found.bands(True), False)
         print(
-            f"of their samples {within[0]:.0f} and {within[1]:.0f} % are within the bands of 68 and 95 % of those that were fitted"
+            f"of their samples, with strikes fitted to whole shots, {within[0]:.0f} and {within[1]:.0f} % "
+            "are within the residuals of 68 and 95 % of the shots that were fitted"
         )
     print("\n".join(_summary.told(found)))
     if kicks is not None and np.isfinite(kicks.rmse).any():
