@@ -44,7 +44,8 @@ def lines(project):
     p, text = project, json.dumps
     name, _, mail = p["contact"].removesuffix(">").partition(" <")
     author = text(", ".join(p["people"]), ensure_ascii=False)
-    people = ", ".join(f"{{ name = {text(each, ensure_ascii=False)} }}" for each in p["people"])
+    named = p["people"] or [NOBODY]
+    people = ", ".join(f"{{ name = {text(each, ensure_ascii=False)} }}" for each in named)
     urls = ", ".join(
         f"{what} = {text(to)}"
         for what, to in (("Repository", p["address"]), ("Issues", p["tracker"]))
@@ -54,7 +55,7 @@ def lines(project):
         "python/pyproject.toml",
         "license = ",
         [
-            ("authors = ", people and f"[{people}]"),
+            ("authors = ", f"[{people}]"),
             (
                 "maintainers = ",
                 name and f"[{{ name = {text(name, ensure_ascii=False)}, email = {text(mail)} }}]",

@@ -211,6 +211,10 @@ class Table:
     def _repr_svg_(self) -> str:
         return pictures.picture(self)
 
+    def plot(self, ax: Any = None) -> Any:
+        """The table, drawn on axes of matplotlib, in metres; the axes are returned."""
+        return pictures.plot(self, None, ax)
+
 
 def refuse_table(code: int, fault: Any) -> None:
     """Raises an error of a table, with the place of its fault."""

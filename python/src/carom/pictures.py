@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
-from carom._rows import listing, number
+from carom._rows import listing, needed, number
 
 __all__ = ["Animation", "Picture"]
 __dir__ = listing(__name__)
@@ -238,6 +238,41 @@ def animation(shot: Any, speed: float) -> Animation:
         for ball in range(len(shot.balls))
     ]
     return Animation(canvas.document(parts))
+
+
+def plot(table: Any, shot: Any, ax: Any) -> Any:
+    """What `picture` draws, on axes of matplotlib, whose numbers are metres."""
+    matplotlib = needed("matplotlib.pyplot", "plot()")
+    patches = needed("matplotlib.patches", "plot()")
+    ax = matplotlib.gca() if ax is None else ax
+    ax.add_patch(patches.Rectangle((0.0, 0.0), table.width, table.length, color=_CLOTH, zorder=0))
+    for part, ink in ((table.pockets, _POCKET), (table.jaws, _CUSHION)):
+        for piece in part:
+            ax.add_patch(patches.Circle(piece["centre"], piece["radius"], color=ink, zorder=1))
+    for rail in table.rails:
+        ax.plot(*zip(rail["p"], rail["q"]), color=_CUSHION, linewidth=3, zorder=1)
+    if shot is not None:
+        paths = _paths(shot)
+        radii = shot.balls["kind"]["radius"]
+        for ball in range(len(shot.balls)):
+            ink = colour(ball)
+            ax.plot(paths[:, ball, 0], paths[:, ball, 1], color=ink, linewidth=1.0, zorder=2)
+            for states, opacity in ((shot.balls["state"], 0.35), (shot.final, 1.0)):
+                place = states["r"][ball, :2]
+                ax.add_patch(
+                    patches.Circle(
+                        place,
+                        radii[ball],
+                        facecolor=ink,
+                        edgecolor="black",
+                        alpha=opacity,
+                        zorder=3,
+                    )
+                )
+    ax.set_aspect("equal")
+    ax.set_xlabel("x, m")
+    ax.set_ylabel("y, m")
+    return ax
 
 
 # ---- Pixels

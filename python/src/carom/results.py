@@ -5,6 +5,7 @@ from __future__ import annotations
 import enum
 import functools
 import math
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, overload
@@ -230,6 +231,14 @@ class Shot:
     def _repr_svg_(self) -> str:
         return pictures.picture(self.table, self)
 
+    def plot(self, ax: Any = None) -> Any:
+        """The table and the paths, drawn on axes of matplotlib, in metres; the axes are returned.
+
+        Balls are faint where they began and full where they ended. Needs matplotlib; `ax` is by
+        default the current axes.
+        """
+        return pictures.plot(self.table, self, ax)
+
     def animate(self, speed: float = 1.0) -> Animation:
         """A moving picture, for Jupyter or a file: `speed` 1 is that of the shot, and `svg` is the
         text, which moves in any browser.
@@ -340,6 +349,28 @@ class Features(Arrays):
         """Those of some shots: the index is that of `Shots`."""
         pick = _picker(index, self.cushions_after.shape)
         return Features(*(pick(getattr(self, field.name)) for field in fields(self)))
+
+
+# Units of the columns and variables of tables.
+_UNITS = {
+    **dict.fromkeys(("time", "contact_time", "pocket_time", "cue_tip_time"), "s"),
+    **dict.fromkeys(("cue_phi", "cue_theta"), "degree"),
+    **dict.fromkeys(("cue_mass", "cue_end_mass"), "kg"),
+    **dict.fromkeys(("cue_tip_radius", "cue_follow", "r"), "m"),
+    **dict.fromkeys(("cue_speed", "v"), "m/s"),
+    "w": "rad/s",
+}
+
+
+def _units(name: str) -> dict[str, str]:
+    """The unit of a column or variable, as attributes have it: of ball_0_r_x that of r."""
+    *front, last = re.sub(r"^ball_\d+_", "", name).split("_")
+    base = (
+        "_".join(front)
+        if front and (last.isdecimal() or last in "xyz")
+        else "_".join([*front, last])
+    )
+    return {"units": _UNITS[base]} if base in _UNITS else {}
 
 
 _OF_BALLS = {"pocket", "pocket_time", "cushions"}
@@ -678,13 +709,16 @@ class Shots:
 
     def to_arrow(self, first: int = 0) -> Any:
         """The shots as a pyarrow Table with the columns of `to_dataframe`, after "shot", which
-        counts from `first` on. Needs pyarrow.
+        counts from `first` on. The metadata of a field has its unit under "units", where it has
+        one. Needs pyarrow.
         """
         arrow, (codes, names, found) = needed("pyarrow", "to_arrow()"), self._columns()
         status = arrow.DictionaryArray.from_arrays(codes.astype(np.int8), names)
-        return arrow.table(
+        table = arrow.table(
             {"shot": np.arange(first, first + len(codes)), "status": status, **found}
         )
+        fields_with_units = [field.with_metadata(_units(field.name)) for field in table.schema]
+        return table.cast(arrow.schema(fields_with_units))
 
     def to_xarray(self, dims: Sequence[str] | None = None) -> Any:
         """The shots as an xarray Dataset: status, time, count, cue_speed and what else the cue has;
@@ -700,24 +734,6 @@ class Shots:
             self.final.shape[-1],
             self._dims(dims),
         )
-        units = {
-            "time": "s",
-            "contact_time": "s",
-            "pocket_time": "s",
-            "cue_speed": "m/s",
-            "cue_phi": "degree",
-            "cue_theta": "degree",
-        }
-        units |= {
-            "cue_mass": "kg",
-            "cue_end_mass": "kg",
-            "cue_tip_radius": "m",
-            "cue_tip_time": "s",
-            "cue_follow": "m",
-            "r": "m",
-            "v": "m/s",
-            "w": "rad/s",
-        }
         found: dict[str, tuple[tuple[str, ...], Array]] = {
             "status": (dims, self.status),
             "time": (dims, self.time),
@@ -746,7 +762,7 @@ class Shots:
             name: (
                 names,
                 np.array(values),
-                {**of.get(name, {}), **({"units": units[name]} if name in units else {})},
+                {**of.get(name, {}), **_units(name)},
             )
             for name, (names, values) in found.items()
         }
@@ -755,13 +771,12 @@ class Shots:
             "ball": count,
             **({} if self._facts is None else {"met": 2}),
         }
-        return xarray.Dataset(
-            variables,
-            {
-                **{name: self._along(dims, name, size) for name, size in sizes.items()},
-                "axis": list("xyz"),
-            },
-        )
+        along = {name: self._along(dims, name, size) for name, size in sizes.items()}
+        coordinates: dict[str, Any] = {
+            name: (name, values, _units(f"cue_{name}") if values.dtype == np.float64 else {})
+            for name, values in along.items()
+        }
+        return xarray.Dataset(variables, {**coordinates, "axis": list("xyz")})
 
     def _along(self, dims: tuple[str, ...], name: str, size: int) -> Array:
         """The coordinates of a dimension: the cue's field of its name, where that changes along it

@@ -135,6 +135,40 @@ def test_tables_of_a_part(batches, shape):
         )
 
 
+def test_tables_have_units():
+    pytest.importorskip("pyarrow")
+    pytest.importorskip("xarray")
+    shots = batch((4,))
+    schema = shots.to_arrow().schema
+    units = {field.name: (field.metadata or {}).get(b"units", b"").decode() for field in schema}
+    wanted = {"time": "s", "cue_speed": "m/s", "cue_phi": "degree", "ball_1_r_x": "m"}
+    wanted |= {"ball_0_w_z": "rad/s", "pocket_time_1": "s", "contact_time_0": "s", "cue_mass": "kg"}
+    wanted |= {"count": "", "shot": "", "cue_a": "", "ball_0_label": "", "contact_0": ""}
+    assert {name: units[name] for name in wanted} == wanted
+    reader = carom.simulate_arrow(TABLE, BALLS, carom.cue(speed=[1.0, 2.0]))
+    assert reader.schema.field("ball_0_v_y").metadata == {b"units": b"m/s"}
+    data = shots.to_xarray(["speed"])
+    assert data["speed"].attrs == {"units": "m/s"} and data["r"].attrs == {"units": "m"}
+    assert data["time"].attrs == {"units": "s"} and "units" not in data["ball"].attrs
+
+
+def test_a_shot_on_axes_of_matplotlib():
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    shot = carom.simulate(TABLE, BALLS, carom.cue(speed=2.0, phi=80.8))
+    figure, axes = pyplot.subplots(1, 2)
+    assert shot.plot(ax=axes[1]) is axes[1] and TABLE.plot(axes[0]) is axes[0]
+    assert axes[1].get_xlabel() == "x, m"
+    paths = axes[1].lines[len(TABLE.rails) :]
+    assert len(paths) == len(BALLS)
+    for ball, line in enumerate(paths):
+        assert np.allclose(
+            line.get_xydata()[[0, -1]], shot.positions([0.0, shot.time])[:, ball, :2]
+        )
+    pyplot.close(figure)
+
+
 @pytest.mark.parametrize("shape", [(5,), (4, 6), (2, 3, 2), (0,)], ids=str)
 def test_a_batch_is_a_sequence_as_arrays_are(batches, shape):
     shots = batches[shape]
