@@ -621,8 +621,10 @@ typedef enum carom_ball_friction {
 
 /* Whether balls can leave the cloth. With 3D, a shot in which no ball leaves the cloth has the same
  * bits and the same speed as with FLAT: two balls on the cloth collide by the 2014 model, and a
- * ball on the cloth meets a cushion by the flat model. If a ball flies, or two radii differ,
- * contacts are those of spheres in space (carom_impact3()). The world pooltool is always flat. */
+ * ball on the cloth meets a cushion by the flat model. A ball that flies has the contacts of
+ * spheres in space (carom_impact3()). Balls of different radii, and balls less than 1 mm above the
+ * cloth, follow a law between the two (docs/using/shots.md), which changes continuously with radius
+ * and height. The world pooltool is always flat. */
 typedef enum carom_space {
   CAROM_SPACE_3D = 0,  /* elevated cues make balls hop; balls jump, fall on each other and on
                           rails, and leave the table */
@@ -860,11 +862,12 @@ typedef struct carom_cluster_contact {
  * equations, their limits and their consequences. A single contact follows the law of
  * carom_collide(), within 4e-4 of the closing speed.
  *
- * Two balls touch if they are less than 1e-9 m apart. The cluster is in space if one of its balls
- * is CAROM_BALL_AIRBORNE or two radii differ, unless opt->space is FLAT; otherwise it is on the
- * cloth. The slate takes no part in space. Balls out of play are left out. The call reads these
- * members of `opt`, which may be NULL for the defaults: ball_model, which may be EXACT or MIRROR,
- * friction, space, cluster_steps. A restitution below 0.2 counts as 0.2.
+ * Two balls touch if they are less than 1e-9 m apart. Unless opt->space is FLAT, a contact is in
+ * space if one of its balls is CAROM_BALL_AIRBORNE, and between the two laws if its balls are less
+ * than 1 mm above the cloth or have different radii, as in a shot. The slate takes no part. Balls
+ * out of play are left out. The call reads these members of `opt`, which may be NULL for the
+ * defaults: ball_model, which may be EXACT or MIRROR, friction, space, cluster_steps. A restitution
+ * below 0.2 counts as 0.2.
  *
  * out[] takes `count` motions. contacts[] takes the contacts that had an impulse, in the order in
  * which they touched; `room` of them are kept, and *contacts_count, which may be NULL, becomes

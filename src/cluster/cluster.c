@@ -88,7 +88,7 @@ static inline void slip_of(bool flat, const contact *x, double u[2]) {
     u[1] = W[0] * t[0] + W[1] * t[1];
   } else {
     u[0] = cluster_dot(false, v, t) - cluster_dot(false, W, third);
-    u[1] = cluster_dot(false, v, third) + cluster_dot(false, W, t);
+    u[1] = x->freedom * cluster_dot(false, v, third) + cluster_dot(false, W, t);
   }
 }
 
@@ -109,10 +109,13 @@ static inline void rub(bool flat, const contact *x, const double f[2]) {
     p->load -= f[1];
     q->load += f[1];
   } else {
-    cluster_add(false, p->v, p_1, third);
-    cluster_add(false, q->v, -q_1, third);
+    const double held = (1.0 - x->freedom) * f[1];
+    cluster_add(false, p->v, x->freedom * p_1, third);
+    cluster_add(false, q->v, -x->freedom * q_1, third);
     cluster_add(false, p->W, -2.5 * p_0, third);
     cluster_add(false, q->W, -2.5 * q_0, third);
+    p->load -= held;
+    q->load += held;
   }
 }
 
@@ -405,7 +408,7 @@ static inline void rub_all(bool flat, state *c, const pushes *now) {
     rub(flat, x, x->f);
   }
   for (int iteration = 0; iteration <= ITERATIONS; iteration++) {
-    for (int k = 0; (flat || c->on_slate) && k < now->balls; k++)
+    for (int k = 0; k < now->balls; k++)
       rub_on_cloth(&c->ball[now->pushed[k]]);
     if (iteration == ITERATIONS)
       return;

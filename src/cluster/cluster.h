@@ -27,6 +27,19 @@
  * IN SPACE v_z is free and the cloth takes no part: a ball that is pressed down lands
  * afterwards, as an event of its own.
  *
+ * BETWEEN THE TWO a contact has the freedom phi. With h the greater height of the two balls above
+ * the cloth, 0 for a ball that lies on it, and n_z the tilt of the line of centres, which unlike
+ * radii have too,
+ *
+ *     phi = min(1, h / 1 mm + (n_z / 0.1)^2).
+ *
+ * phi is 0 for equal balls on the cloth and 1 in space. The friction along t x n, which is upright
+ * for a level n, meets v with the share phi: it sees phi of v in the slip, gives phi of its impulse
+ * to v, and presses 1 - phi of it on the cloth. Seeing and giving the same share keeps the energy
+ * of a contact what its impulses do. So neither a radius nor a height changes the law by a jump.
+ * 1 mm is the convention of cushions (shot/resolve.c). 0.1 is one too: beyond a tilt of mu, some
+ * 0.05, the normal impulse lifts or presses a ball more than friction can.
+ *
  * A contact that is open at the start takes its n where the balls touch, moved by s = int v
  * dtau. Compression and duration of a contact that closes at v: delta = (5 v^2 / (4 K B))^0.4, T
  * = 2.943 delta / v. docs/understanding/clusters.md has what the law explains, cluster.c the
@@ -40,6 +53,18 @@
 #include <stdint.h>
 
 #define CAROM_TOUCHING 1e-9 /* m: a ball that is nearer touches */
+
+/* BETWEEN THE TWO, above: how free of the cloth a ball is by its height, m, and a contact of two
+ * balls by the greater height and by the tilt. */
+static inline double carom_freedom_of_height(double height) {
+  static const double near = 1e-3; /* m */
+  return height > 0.0 ? height / near : (double)0.0;
+}
+static inline double carom_freedom_of_balls(double height, double n_z) {
+  static const double steep = 0.1;
+  const double tilt = n_z / steep, freedom = carom_freedom_of_height(height) + tilt * tilt;
+  return freedom < 1.0 ? freedom : (double)1.0;
+}
 
 /* As many as 32 balls of one radius have on the cloth at most. */
 #ifndef CAROM_CLUSTER_CONTACTS
@@ -81,6 +106,7 @@ typedef struct carom_cluster_contact_state {
   double d, d_max;    /* d_max: 0 while open */
   double size;        /* the compression that it has, or will have */
   double K, e, quick; /* quick: (e T)^-4 of a compression of 1 m */
+  double freedom;     /* phi; read in space */
   double mu, U;
   double J, f[2];            /* impulses of a step along n, and of friction along t and the
                                 third; between steps f/J */

@@ -12,6 +12,7 @@
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
 #include "platform/promise.h"
+#include "platform/ranges.h"
 
 #include <math.h>
 #include <string.h>
@@ -126,6 +127,10 @@ static void follow(const carom_cluster_state *c, const first_contact *first,
   CAROM_PROMISE(found <= c->balls);
 }
 
+static double height_of(const carom_cluster_ball *p) {
+  return p->flies ? p->r[2] - p->radius : (double)0.0;
+}
+
 static void make_contact(carom_cluster_state *c, int i, int j, const two_balls *two,
                          carom_cluster_contact_state *x) {
   carom_cluster_ball *a = &c->ball[i], *b = &c->ball[j];
@@ -145,6 +150,8 @@ static void make_contact(carom_cluster_state *c, int i, int j, const two_balls *
   const double pace = x->e * pace_of(x->K, a->inverse_mass + b->inverse_mass);
   x->quick = 1.0 / (pace * pace * (pace * pace));
   x->time = -1.0;
+  const double height = carom_greater(height_of(a), height_of(b));
+  x->freedom = carom_freedom_of_balls(height, two->n[2]);
 }
 
 /* The contacts of all balls that are nearer than so many delta, and what they close; -1 where there

@@ -65,9 +65,11 @@ void carom_cluster_put_on_slate(carom_cluster_state *c) {
   c->on_slate = c->in_space = true;
   c->slates = 0;
   add_slate(c, struck);
-  for (int k = 0; k < c->contacts; k++)
+  for (int k = 0; k < c->contacts; k++) {
+    c->contact[k].freedom = 1.0; /* the slate itself holds a ball, not its share of the cloth */
     if (c->contact[k].i == struck || c->contact[k].j == struck)
       add_slate(c, c->contact[k].i == struck ? c->contact[k].j : c->contact[k].i);
+  }
   for (int k = 0; k < c->balls; k++)
     add_slate(c, k);
 }

@@ -1,5 +1,6 @@
 /* Collisions of balls with each other and with cushions, by the model that the options ask for. */
 #include "cushion/models.h"
+#include "cluster/cluster.h"
 #include "friction/laws.h"
 #include "platform/ranges.h"
 #include "schema/numbers.h"
@@ -114,34 +115,23 @@ void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state
     n[k] /= size;
 }
 
-__attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim, const carom_due *due,
-                                                         const double n[3], bool in_space,
-                                                         carom_ball_state *a, carom_ball_state *b) {
-  const int i = due->a, j = due->b;
-  const carom_ball_kind *kind_a = sim->layout->kind[i], *kind_b = sim->layout->kind[j];
+/* A ball on the cloth takes part in a contact whose line of centres n is level; n_z is dropped. The
+ * radii are equal. */
+static carom_status balls_on_cloth(const carom_sim *sim, const carom_due *due, const double n[3],
+                                   carom_ball_state *a, carom_ball_state *b) {
+  const carom_ball_kind *kind_a = sim->layout->kind[due->a], *kind_b = sim->layout->kind[due->b];
   const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);
   const carom_ball_model model = carom_ball_model_of(sim->opt);
   carom_result out;
 
-  /* spheres in space; without friction where the model has none */
-  if (in_space) {
-    carom_impact in = {.a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .restitution = e};
-    in.mu_ball =
-        model == CAROM_BALL_MODEL_MIRROR ? 0.0 : friction_of(sim, i, j, carom_spheres_slip(&in, n));
-    carom_spheres_collide(&in, n, &out);
-    take_motion(&out.a, a);
-    take_motion(&out.b, b);
-    return CAROM_OK;
-  }
-
-  /* on the cloth: closed forms */
+  /* closed forms */
   if (model == CAROM_BALL_MODEL_MIRROR) {
     exchange(e, kind_a->mass, kind_b->mass, n, a, b);
     return CAROM_OK;
   }
 
   const contact_slip s = slip_of(n, R, a, b);
-  const double mu = friction_of(sim, i, j, sqrt(s.along * s.along + s.up * s.up));
+  const double mu = friction_of(sim, due->a, due->b, sqrt(s.along * s.along + s.up * s.up));
   if (model == CAROM_BALL_MODEL_INELASTIC) {
     inelastic(n, R, e, mu, &s, a, b);
     return CAROM_OK;
@@ -150,6 +140,7 @@ __attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim, c
   /* the 2014 model; the first ball is at the origin, since only the direction counts */
   carom_impact in = {
       .a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .mu_ball = mu, .restitution = e};
+  in.b.radius = R;
   in.b.r[0] = n[0];
   in.b.r[1] = n[1];
   const bool euler = model == CAROM_BALL_MODEL_EULER;
@@ -164,6 +155,94 @@ __attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim, c
     take_motion(&out.b, b);
     a->v[2] = b->v[2] = 0.0;
   }
+  return status;
+}
+
+/* Spheres in space; without friction where the model has none. */
+static void balls_in_space(const carom_sim *sim, const carom_due *due, const double n[3],
+                           carom_ball_state *a, carom_ball_state *b) {
+  const carom_ball_kind *kind_a = sim->layout->kind[due->a], *kind_b = sim->layout->kind[due->b];
+  const double e = 0.5 * (kind_a->restitution + kind_b->restitution);
+  carom_impact in = {.a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .restitution = e};
+  if (carom_ball_model_of(sim->opt) != CAROM_BALL_MODEL_MIRROR)
+    in.mu_ball = friction_of(sim, due->a, due->b, carom_spheres_slip(&in, n));
+  carom_result out;
+  carom_spheres_collide(&in, n, &out);
+  take_motion(&out.a, a);
+  take_motion(&out.b, b);
+}
+
+/* Turns the plane of n and the level direction across it into that of the cloth: n to `level`, and
+ * k, which is up across n, to z. Or back. */
+static void turn_plane(const double from[2][3], const double to[2][3], double x[3]) {
+  double along[2];
+  for (int axis = 0; axis < 2; axis++)
+    along[axis] = x[0] * from[axis][0] + x[1] * from[axis][1] + x[2] * from[axis][2];
+  for (int k = 0; k < 3; k++)
+    x[k] += along[0] * (to[0][k] - from[0][k]) + along[1] * (to[1][k] - from[1][k]);
+}
+
+/* Two balls as balls_on_cloth() has them, though n is tilted or the radii differ: all vectors are
+ * turned until n is level, and R_b w_b is kept, as the law has R and w only as this product. The
+ * velocities along k stay. */
+static carom_status balls_on_tilted_cloth(const carom_sim *sim, const carom_due *due,
+                                          const double n[3], carom_ball_state *a,
+                                          carom_ball_state *b) {
+  const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
+  const double level[3] = {n[0] / size, n[1] / size, 0.0};
+  const double tilted[2][3] = {{n[0], n[1], n[2]}, {-level[0] * n[2], -level[1] * n[2], size}};
+  const double upright[2][3] = {{level[0], level[1], 0.0}, {0.0, 0.0, 1.0}};
+  const double ratio = sim->layout->kind[due->b]->radius / sim->layout->kind[due->a]->radius;
+  carom_ball_state *ball[2] = {a, b};
+  double rise[2];
+
+  for (int side = 0; side < 2; side++) {
+    turn_plane(tilted, upright, ball[side]->v);
+    turn_plane(tilted, upright, ball[side]->w);
+    rise[side] = ball[side]->v[2];
+    ball[side]->v[2] = 0.0;
+  }
+  for (int k = 0; k < 3; k++)
+    b->w[k] *= ratio;
+
+  const carom_status status = balls_on_cloth(sim, due, level, a, b);
+
+  for (int k = 0; k < 3; k++)
+    b->w[k] /= ratio;
+  for (int side = 0; side < 2; side++) {
+    ball[side]->v[2] = rise[side];
+    turn_plane(upright, tilted, ball[side]->v);
+    turn_plane(upright, tilted, ball[side]->w);
+  }
+  return status;
+}
+
+static double height_above_cloth(const carom_ball_kind *kind, const carom_ball_state *s) {
+  return carom_flies(s) ? s->r[2] - kind->radius : (double)0.0;
+}
+
+__attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim, const carom_due *due,
+                                                         const double n[3], bool in_space,
+                                                         carom_ball_state *a, carom_ball_state *b) {
+  if (!in_space)
+    return balls_on_cloth(sim, due, n, a, b);
+
+  /* how free of the cloth they are; without friction the cloth takes no part at all */
+  const double height = carom_greater(height_above_cloth(sim->layout->kind[due->a], a),
+                                      height_above_cloth(sim->layout->kind[due->b], b));
+  const double freedom = carom_freedom_of_balls(height, n[2]);
+  carom_ball_state held[2] = {*a, *b}, *ball[2] = {a, b};
+  balls_in_space(sim, due, n, a, b);
+  if (freedom >= 1.0 || carom_ball_model_of(sim->opt) == CAROM_BALL_MODEL_MIRROR)
+    return CAROM_OK;
+
+  const carom_status status = balls_on_tilted_cloth(sim, due, n, &held[0], &held[1]);
+  for (int side = 0; side < 2 && status >= 0; side++)
+    for (int k = 0; k < 3; k++) {
+      double *v = &ball[side]->v[k], *w = &ball[side]->w[k];
+      *v = (1.0 - freedom) * held[side].v[k] + freedom * *v;
+      *w = (1.0 - freedom) * held[side].w[k] + freedom * *w;
+    }
   return status;
 }
 
@@ -262,12 +341,11 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
 /* NEAR THE CLOTH in resolve.c has the blend. */
 carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3],
                                  carom_ball_state *s) {
-  static const double near = 1e-3; /* m */
   const carom_ball_kind *kind = sim->layout->kind[due->a];
   const carom_nose nose = carom_nose_of(sim->table, due);
   if (!carom_flies(s))
     return impact_on_cloth(sim, kind, n, &nose, s);
-  const double chi = carom_greater((s->r[2] - kind->radius) / near, 0.0);
+  const double chi = carom_freedom_of_height(s->r[2] - kind->radius);
   carom_ball_state flat = *s;
   free_impact(sim, kind, n, &nose, s);
   if (chi >= 1.0)

@@ -33,10 +33,10 @@
  * times where the nose is near the cloth. The same event lets it part as a slow contact does.
  *
  * IN SPACE. Where a ball flies, or two radii differ, the line of centres and the normal of a
- * nose have a third component, and the models are those of spheres; the rules above are the
- * same. A ball on the cloth may leave it then: pushed down it is airborne with v_z < 0 and lands
- * at the same instant, as an event of its own, since two balls part long before ball and cloth
- * do.
+ * nose have a third component, and the models are those of spheres, far enough from the cloth;
+ * the rules above are the same. A ball on the cloth may leave it then: pushed down it is airborne
+ * with v_z < 0 and lands at the same instant, as an event of its own, since two balls part long
+ * before ball and cloth do.
  *
  * NEAR THE CLOTH. The cloth holds a ball that a cushion presses down, which takes longer than
  * the contact with the cloth; nose and slate one after the other would let it hop by
@@ -45,6 +45,12 @@
  * v and w, the flat one's v_z being min(v_z, 0). This is continuous at both ends and safe:
  * kinetic energy is convex and neither end has more than before, and both ends part. 1 mm is a
  * convention.
+ *
+ * Two balls near the cloth are alike: they have (1 - phi) of the model on the cloth and phi of that
+ * of spheres. cluster/cluster.h has phi, which grows with the height and with the tilt of the line
+ * of centres, so that it is 0 for equal balls on the cloth. The model on the cloth has its plane
+ * through the line of centres then, and leaves velocities across that plane as they are. Both ends
+ * part along the line of centres. A ball that is lifted flies, one that is pressed down lands.
  *
  * PRESSED BY WEIGHT. A ball that lies on another, or on a nose, is pressed by its weight, which
  * does not end as spin does. So a slow contact in space takes energy from the motion of the

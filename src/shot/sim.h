@@ -142,7 +142,8 @@ typedef struct carom_nose {
 
 /* models.c: v and w after a collision by the model asked for. n: unit vector from ball i to ball
  * j, or into the cushion. Balls `in_space` are not both on the cloth, or have unlike radii: they
- * collide as spheres; an airborne ball meets a nose with less of the cloth the higher it is. */
+ * collide the more as spheres the higher they are and the more n is tilted; an airborne ball meets
+ * a nose with less of the cloth the higher it is. */
 carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3],
                                bool in_space, carom_ball_state *a, carom_ball_state *b);
 carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3],

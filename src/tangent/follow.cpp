@@ -1054,6 +1054,11 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
       (e->after[0].label != CAROM_BALL_AIRBORNE || e->after[1].label != CAROM_BALL_AIRBORNE))
     w->note.flags |= CAROM_TANGENT_KINK;
 
+  /* of two equal balls on the cloth the one that becomes larger is lifted, the other pressed
+   * down */
+  if (s.two && !in_space && text::changes(s.ball[1].kind.radius - s.ball[0].kind.radius))
+    w->note.flags |= CAROM_TANGENT_KINK;
+
   /* the paths from here on */
   for (int i = 0; i <= s.two; i++) {
     set(e->after[i], &s.ball[i].state);

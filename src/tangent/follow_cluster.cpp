@@ -88,11 +88,14 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
     return false;
 
   /* of the contact that starts it also where its spin is that of a slide of a millimetre */
-  for (int k = 0; k < state.contacts && !state.in_space; k++) {
+  for (int k = 0; k < state.contacts; k++) {
     const text::carom_cluster_contact_state &x = state.contact[k];
+    if (state.in_space && x.freedom.x >= 1)
+      continue;
     const bool starts =
         (x.i == c->first && x.j == c->second) || (x.i == c->second && x.j == c->first);
-    *kink |= is_level(x, starts ? 1e-4 : 1e-9);
+    *kink |= is_level(x, starts ? 1e-4 : 1e-9) ||
+             (!state.in_space && x.p->radius.d[0] != x.q->radius.d[0]);
   }
 
   /* their motion behind it */

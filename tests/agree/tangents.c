@@ -147,9 +147,16 @@ static layout draw_in_space(random_source *random, start_kind start) {
   return l;
 }
 
+/* Whether balls of a kind meet by the exact model, of which differences need the precise solver. */
+static bool has_exact_balls(int kind) {
+  const start_kind start = kinds[kind].start;
+  return (kind < LEVEL_KINDS || start == UNLIKE) &&
+         kinds[kind].options.ball_model == CAROM_BALL_MODEL_DEFAULT;
+}
+
 START_TEST(shots_agree_with_differences) {
   const bool space = _i >= LEVEL_KINDS;
-  const bool exact = !space && kinds[_i].options.ball_model == CAROM_BALL_MODEL_DEFAULT;
+  const bool exact = has_exact_balls(_i);
   const int m = space ? SPACE_DIRECTIONS : DIRECTIONS, draws = draws_of_each(FEWER(40)),
             most_shots = space ? draws * 4 / 5 : draws;
   const direction *by = space ? in_space : directions;

@@ -70,6 +70,19 @@ static int in_space(const carom_shot_ball *balls, const carom_event *e) {
          balls[e->a].kind.radius != balls[e->b].kind.radius;
 }
 
+/* The share of a contact of two balls that the cloth has a part in, src/cluster/cluster.h: all of
+ * it where equal balls lie on it, none 1 mm above it, or where the line of centres is steep. */
+static double share_of_cloth(const carom_shot_ball *balls, const carom_event *e) {
+  double z[2], height = 0.0;
+  for (int side = 0; side < 2; side++) {
+    const double R = balls[side == 0 ? e->a : e->b].kind.radius;
+    z[side] = flies(&e->before[side]) ? e->before[side].r[2] : R;
+    height = fmax(height, z[side] - R);
+  }
+  const double tilt = (z[1] - z[0]) / (balls[e->a].kind.radius + balls[e->b].kind.radius) / 0.1;
+  return fmax(1.0 - height / 1e-3 - tilt * tilt, 0.0);
+}
+
 typedef struct follower {
   carom_shot before; /* the shot up to the next event */
   bool drag;         /* some ball has it: the library has the motion, since its path is an
@@ -202,19 +215,19 @@ static double momentum_change(const follower *f, const carom_event *e) {
     change[axis] = p_a + p_b;
     normal[axis] = p_b;
   }
-  if (in_space(f->balls, e)) { /* heights count, but for a ball that stays on the cloth; the
-                                  cloth has no other part */
+  const double share = share_of_cloth(f->balls, e);
+  const double allowed = share * fmax(a->mu_slide, b->mu_slide) * 0.12 * 1.01 *
+                             length2(normal[0], normal[1]) / (1.0 - 0.12) +
+                         1e-13;
+  if (in_space(f->balls, e)) { /* heights count, but for a ball that stays on the cloth */
     const double p_a = a->mass * (e->after[0].v[2] - e->before[0].v[2]),
                  p_b = b->mass * (e->after[1].v[2] - e->before[1].v[2]);
     bool lies = false;
     for (int side = 0; side < 2; side++)
       lies |= !flies(&e->before[side]) && !flies(&e->after[side]);
     return hypot(length2(change[0], change[1]), lies ? 0.0 : p_a + p_b) /
-           (1e-13 + 1e-9 * (a->mass + b->mass));
+           (allowed + 1e-9 * (a->mass + b->mass));
   }
-  const double allowed =
-      fmax(a->mu_slide, b->mu_slide) * 0.12 * 1.01 * length2(normal[0], normal[1]) / (1.0 - 0.12) +
-      1e-13;
   return length2(change[0], change[1]) / allowed;
 }
 
@@ -224,8 +237,11 @@ static double momentum_change(const follower *f, const carom_event *e) {
  * the balls of the cluster change together. */
 static double momentum_change_of_cluster(const follower *f, const carom_event *e) {
   double change[3] = {0.0}, sum = 0.0, mass = 0.0, mu = 0.0;
+  double share = 0.0;
   bool space = false, changed[CAROM_BALLS_MOST] = {false};
-  for (int k = 0; k < e->cluster; k++)
+  for (int k = 0; k < e->cluster; k++) {
+    if (e[k].type == CAROM_EVENT_BALL_BALL)
+      share = fmax(share, share_of_cloth(f->balls, &e[k]));
     for (int side = 0; side < 2; side++) {
       const int i = side == 0 ? e[k].a : e[k].b;
       if (i < 0 || changed[i])
@@ -242,9 +258,11 @@ static double momentum_change_of_cluster(const follower *f, const carom_event *e
       mu = fmax(mu, kind->mu_slide);
       space |= flies(&e[k].before[side]) || kind->radius != f->balls[e->a].kind.radius;
     }
+  }
   const double given = e->type == CAROM_EVENT_STRIKE ? e->impulse : 0.0,
                size = fmax(hypot(length2(change[0], change[1]), change[2]) - given, 0.0);
-  return size / (space ? 1e-13 + 1e-9 * mass : 1e-13 + mu * 0.12 * e->cluster * sum);
+  const double cloth = mu * 0.12 * e->cluster * sum;
+  return size / (1e-13 + (space ? 1e-9 * mass + share * cloth : cloth));
 }
 
 static double impulse_on(const follower *f, const carom_event *e, int side) {

@@ -10,7 +10,7 @@ typedef struct shot_measures {
   double depth;     /* deepest of a flying ball into the cloth, m */
   double gain;      /* greatest rise of energy, over the greatest energy of the shot */
   double momentum;  /* greatest change of the momentum of two balls in their collision, over what
-                       the cloth may take away, or, where  one flies or their radii differ, over
+                       the cloth may take away and, where one flies or their radii differ,
                        1e-13 N s + 1e-9 m/s of both masses; > 1 is wrong */
   double impulse;   /* greatest difference of an event's impulse from the change of momentum of its
                        balls, over 1e-12 of it, in a cluster over 0.04; > 1 is wrong */
