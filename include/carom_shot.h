@@ -469,6 +469,8 @@ typedef struct carom_measures {
                                                                              0: a table without
                                                                              pockets. */
   double side_mouth, side_cut, side_shelf, side_jaw, side_hole; /* the same, m and degrees. */
+  double facing_restitution, facing_friction; /* of facings and jaws, as restitution and mu_cushion
+                           of a carom_rail, 0 to 1; 0: those of the ball. */
 } carom_measures;
 
 /* The measures of a built-in table. Statuses are those of carom_table_make(). */

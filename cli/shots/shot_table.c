@@ -114,6 +114,20 @@ carom_game game_of_table(carom_table_kind kind) {
   }
 }
 
+/* How the number of a measure is written, by its unit. */
+typedef struct measure_form {
+  int measure;
+  const char *example;
+} measure_form;
+
+static measure_form form_of(const carom_number *n) {
+  if (strcmp(n->unit, "m") == 0)
+    return (measure_form){MEASURE_LENGTH, "4.25in"};
+  if (n->unit[0] == '\0')
+    return (measure_form){MEASURE_NUMBER, "0.8"};
+  return (measure_form){MEASURE_ANGLE, "104"};
+}
+
 /* Changes measures by "corner=4.25in,side_cut=104", which it cuts up. */
 static bool give_measures(char *keys, carom_measures *m, json_fault *f) {
   char all[JSON_KEYS], hint[HINT_TEXT], range[100], *rest = NULL;
@@ -131,9 +145,10 @@ static bool give_measures(char *keys, carom_measures *m, json_fault *f) {
       return json_wrong(f, "%.40s is no measure; there are%s%s", key, all,
                         did_you_mean(key, all, hint));
     carom_number_range(n, range, sizeof range);
-    if (!value_of(strcmp(n->unit, "m") == 0 ? MEASURE_LENGTH : MEASURE_ANGLE, text, &v))
+    const measure_form form = form_of(n);
+    if (!value_of(form.measure, text, &v))
       return json_wrong(f, "%s is a number, such as %s=%s, and must be %s; not '%.40s'", key, key,
-                        strcmp(n->unit, "m") == 0 ? "4.25in" : "104", range, text);
+                        form.example, range, text);
     memcpy((char *)m + n->offset, &v.x, sizeof v.x);
   }
   return true;

@@ -45,13 +45,12 @@ TEST(tables_that_are_not_known) {
       const carom_choice c = tried(&stroke, unsure[k]);
       keep[bank][k] = c.keep;
 
+      /* facings and jaws have numbers of their own already */
       for (int r = 0; r < table.rails; r++) {
+        if (table.rail[r].restitution > 0.0)
+          continue;
         table.rail[r].restitution = balls[0].kind.restitution_cushion;
         table.rail[r].mu_cushion = balls[0].kind.mu_cushion;
-      }
-      for (int j = 0; j < table.jaws; j++) {
-        table.jaw[j].restitution = balls[0].kind.restitution_cushion;
-        table.jaw[j].mu_cushion = balls[0].kind.mu_cushion;
       }
       const carom_choice own = tried(&stroke, unsure[k]);
       ck_assert_mem_eq(&own, &c, sizeof c);

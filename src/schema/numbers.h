@@ -141,7 +141,11 @@
   LATER(side_cut, "side_cut", "degrees", 90, 165, NAN, TABLE, "angle of nose and facing")          \
   LATER(side_shelf, "side_shelf", "m", 0, 0.2, NAN, TABLE, "from the mouth to the hole")           \
   LATER(side_jaw, "side_jaw", "m", 0, 0.5, NAN, TABLE, "radius of the points of noses")            \
-  LATER(side_hole, "side_hole", "m", 0.005, 0.5, NAN, TABLE, "radius of the hole")
+  LATER(side_hole, "side_hole", "m", 0.005, 0.5, NAN, TABLE, "radius of the hole")                 \
+  LATER(facing_restitution, "facing_restitution", "", 0, 1, NAN, TABLE,                            \
+        "restitution of ball and facing or jaw; 0: that of the ball")                              \
+  LATER(facing_friction, "facing_friction", "", 0, 1, NAN, TABLE,                                  \
+        "friction of ball and facing or jaw; 0: that of the ball")
 
 #define CAROM_RAIL_NUMBERS(ROW, LATER)                                                           \
   ROW(p, "", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "one end")                                      \

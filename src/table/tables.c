@@ -132,6 +132,19 @@ static void add_pockets(carom_table *t, const carom_measures *m, const openings 
   add_pocket(t, m->corner_hole, w + off, l + off);
 }
 
+/* Facings, which follow the cushions of the six sides, and jaws have numbers of their own. */
+static void give_facings(carom_table *t, const carom_measures *m) {
+  static const int sides = 6;
+  for (int k = sides; k < t->rails; k++) {
+    t->rail[k].restitution = m->facing_restitution;
+    t->rail[k].mu_cushion = m->facing_friction;
+  }
+  for (int k = 0; k < t->jaws; k++) {
+    t->jaw[k].restitution = m->facing_restitution;
+    t->jaw[k].mu_cushion = m->facing_friction;
+  }
+}
+
 /* ---- The tables that are built in */
 
 /* A line for each table, its corners and its sides. */
@@ -139,11 +152,13 @@ static void add_pockets(carom_table *t, const carom_measures *m, const openings 
 /* Pool: the WPA's equipment specification: the middles of its ranges, mouths 4.5 to 4.625 and 5 to
  * 5.125 in, cuts 142 and 104 degrees, shelves 1 to 2.25 and 0 to 0.375 in, noses at 62.5 to 64.5 %
  * of the ball, cushions 1.875 to 2 in deep; 8 ft are those of homes, 7 ft those of bars. What it
- * leaves open, points and holes, is pooltool's. */
+ * leaves open, points and holes, is pooltool's. Facings and jaws: docs/understanding/constants.md.
+ */
 #define WPA \
   0.03629025, 0.0492125, \
   0.1158875, 142.0, 0.041275, 0.02095, 0.062, \
-  0.1285875, 104.0, 0.0047625, 0.00795, 0.0645
+  0.1285875, 104.0, 0.0047625, 0.00795, 0.0645, \
+  0.8, 0.15
 static const carom_measures built_in[] = {
   [CAROM_TABLE_POOL_7FT] = {0.9906, 1.9812, WPA},
   [CAROM_TABLE_POOL_8FT] = {1.1176, 2.2352, WPA},
@@ -152,7 +167,8 @@ static const carom_measures built_in[] = {
    * at 7/5 R as in the 2010 paper; parallel facings, well-rounded jaws */
   [CAROM_TABLE_SNOOKER] = {1.778, 3.569, 1.4 * 0.02619375, 0.0508,
                            0.0865, 135.0, 0.02995, 0.07, 0.055,
-                           0.0865, 90.0, 0.0085, 0.04, 0.05},
+                           0.0865, 90.0, 0.0085, 0.04, 0.05,
+                           0.8, 0.2},
   [CAROM_TABLE_THREECUSHION] = {1.42, 2.84, .nose_height = 0.037},
   [CAROM_TABLE_POOLTOOL] = {0.9906, 1.9812, 0.036576, 0.0508,
                             0.118, 140.3, 0.0387, 0.02095, 0.062,
@@ -173,10 +189,12 @@ static void make(const carom_measures *m, const openings *f, carom_table *table)
   memset(table, 0, sizeof *table);
   table->width = m->width;
   table->length = m->length;
-  if (m->corner_mouth == 0.0)
+  if (m->corner_mouth == 0.0) {
     add_plain_rails(table, m->nose_height);
-  else
-    add_pockets(table, m, f);
+    return;
+  }
+  add_pockets(table, m, f);
+  give_facings(table, m);
 }
 
 carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
