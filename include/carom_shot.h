@@ -263,8 +263,8 @@ typedef struct carom_ball_kind {
                                  CAROM_FRICTION_CONSTANT. */
   double restitution;         /* restitution of two balls, 0 to 1; a pair has the mean. Pool
                                  0.95. */
-  double mu_cushion;          /* friction of ball and cushion, 0 to 1. Pool 0.2. */
-  double restitution_cushion; /* restitution of ball and cushion, 0 to 1. Pool 0.85. */
+  double mu_cushion;          /* friction of ball and cushion, 0 to 1. Pool 0.28. */
+  double restitution_cushion; /* restitution of ball and cushion, 0 to 1. Pool 0.8. */
   double gravity;             /* g, m/s^2, > 0, at most 1e6. */
   double drag;                /* k, 1/m, 0 to 1: a rolling ball has the deceleration mu_roll g + k
                                  v^2, m/s^2. 0: only mu_roll g. */
@@ -313,10 +313,12 @@ typedef struct carom_shot_ball {
 
 /* Games, for their balls and cues. docs/understanding/constants.md has the source of each number.
  * The numbers of the cushion belong to the default model of the world carom: the smooth model for
- * BILLIARD, Han's model for the others. carom_ball_kind_for() has the numbers for other models. */
+ * the first three games, Han's model for those of pooltool. carom_ball_kind_for() has the numbers
+ * for other models. */
 typedef enum carom_game {
-  CAROM_GAME_POOL = 0,             /* typical numbers, each within the published range; no table was
-                                      measured */
+  CAROM_GAME_POOL = 0,             /* typical numbers, each within the published range. Those of
+                                      the cushion are fitted to public systems of players; no table
+                                      was measured */
   CAROM_GAME_SNOOKER = 1,          /* measured by Mathavan and others, 2009 to 2014, on one table */
   CAROM_GAME_BILLIARD = 2,         /* three-cushion: measured on one table, from 182 recorded
                                       shots, with drag, loss of roll and the numbers of
@@ -651,8 +653,7 @@ typedef enum carom_shot_cushion {
 
 /* Writes the constants of a game's balls that belong to a model of the cushion, and returns 1. If
  * the game has none for the model, writes those of carom_ball_kind_of() and returns 0. The games of
- * pooltool have one set for all models, and POOL has one set for all models except SMOOTH. If kind
- * is NULL, nothing is written. */
+ * pooltool have one set for all models. If kind is NULL, nothing is written. */
 CAROM_API int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion,
                                   carom_ball_kind *kind);
 

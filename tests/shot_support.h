@@ -36,9 +36,10 @@ static inline carom_table empty_table(double size) {
   return t;
 }
 
-/* A pool ball at rest. */
+/* A ball of the size of pool at rest. Its cushions have restitution and friction alone, and the
+ * noses of the table. */
 static inline carom_shot_ball ball_at(double x, double y) {
-  carom_shot_ball b = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  carom_shot_ball b = {.kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL)};
   b.state.r[0] = x;
   b.state.r[1] = y;
   b.state.r[2] = b.kind.radius;

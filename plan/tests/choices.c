@@ -37,10 +37,10 @@ TEST(golden_choices) {
   ck_assert_msg(h == golden, "the choices are others: 0x%016llx", (unsigned long long)h);
 }
 
-/* The chances that plans tell are those of the same strokes with other errors: in the mean of 60
+/* The chances that plans tell are those of the same strokes with other errors: in the mean of 120
  * layouts within 0.02. The shots that chose them tell more. The ball is the same. */
 TEST(luck_of_the_choice) {
-  enum { LAYOUTS = 60 };
+  enum { LAYOUTS = 120 };
   double more = 0.0, luck = 0.0;
   for (uint64_t k = 0; k < LAYOUTS; k++) {
     make_layout(k + 1, 7);
@@ -77,7 +77,7 @@ static carom_turn judge_and_see(carom_rules_state *state, uint32_t in_play, int 
 TEST(the_first_ball_that_falls) {
   enum { CUES = 40 };
   int named = 0, second = 0, others = 0;
-  for (int layout = 0; layout < 40; layout++) {
+  for (int layout = 0; layout < 60; layout++) {
     make_layout((uint64_t)layout, 10);
     rules = carom_plan_rules_of(layout % 2 == 0 ? CAROM_RULES_NINEBALL : CAROM_RULES_EIGHTBALL);
     player = carom_player_of(0.0);
@@ -284,7 +284,9 @@ TEST(openings) {
     ck_assert_int_eq(carom_shoot(&table, balls, BALLS, &best.cue, NULL, &shot), CAROM_OK);
     for (int n = 1; n < BALLS; n++)
       moved += fabs(final[n].r[0] - balls[n].state.r[0]) > 0.05;
-    ck_assert(best.cue.speed < 5.0 && best.foul < 0.1 && moved < 10);
+    ck_assert_msg(best.cue.speed < 5.0 && best.foul < 0.15 && moved < 10,
+                  "seed %d: %g m/s, foul %g, %d balls moved", (int)seed, best.cue.speed, best.foul,
+                  moved);
     edge_free(&memory);
   }
 }

@@ -1,4 +1,4 @@
-/* Balls and cues of the games. */
+/* Balls and cues of the games. docs/understanding/constants.md has the source of each number. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
@@ -18,8 +18,72 @@ carom_cue carom_cue_of(carom_game game) {
                      .follow = pooltool ? 0.0 : CAROM_CUE_FOLLOW};
 }
 
+/* What the smooth law has in every game: its form was read off one billiard table. */
+static void take_smooth_law(carom_ball_kind *kind) {
+  kind->smooth_q = 0.35;
+  kind->smooth_x = 1.3;
+  kind->smooth_t = 1.18;
+  kind->smooth_a = 0.25;
+  kind->smooth_g = 0.067;
+  kind->smooth_g_log = -0.059;
+  kind->smooth_e = 0.06;
+  kind->roll_loss_log = 0.034;
+}
+
+/* Takes away what the default's model of the cushion has beside friction and restitution. */
+static void drop_smooth_law(carom_ball_kind *kind) {
+  kind->smooth_q = kind->smooth_x = kind->smooth_t = kind->smooth_a = 0.0;
+  kind->smooth_g = kind->smooth_g_log = kind->smooth_e = 0.0;
+  kind->mu_log = kind->restitution_log = kind->restitution_log2 = 0.0;
+  kind->roll_loss = kind->roll_loss_log = kind->nose_height = 0.0;
+}
+
+static void take_pool(carom_ball_kind *kind) {
+  take_smooth_law(kind);
+  kind->mu_cushion = 0.28;
+  kind->restitution_cushion = 0.8;
+  kind->nose_height = 0.034;
+  kind->roll_loss = 0.09;
+}
+
+/* Measured on one table: m/s^2 over g, or the coefficient itself. */
+static void take_snooker(carom_ball_kind *kind) {
+  kind->mu_slide = 2.075 / 9.81;
+  kind->mu_roll = 0.125 / 9.81;
+  kind->restitution = 0.89;
+
+  /* rolling balls rebound as measured, at 0.5 to 2.5 m/s (physics/terms) */
+  take_smooth_law(kind);
+  kind->mu_cushion = 0.28;
+  kind->restitution_cushion = 0.884;
+  kind->restitution_log = 0.017;
+  kind->restitution_log2 = -0.0989;
+  kind->nose_height = 0.0304;
+  kind->roll_loss = 0.09;
+}
+
+/* Measured on one table, from recorded shots. */
+static void take_billiard(carom_ball_kind *kind) {
+  kind->mu_slide = 0.196;
+  kind->mu_roll = 0.0042;
+  kind->drag = 0.0118;
+  kind->mu_spin = 0.0038;
+  kind->restitution = 0.947;
+  kind->mu_ball = 0.08;
+  kind->law_a = 0.049;
+  kind->law_b = 0.165;
+  kind->law_c = 0.56;
+
+  take_smooth_law(kind);
+  kind->mu_cushion = 0.255;
+  kind->mu_log = -0.010;
+  kind->restitution_cushion = 0.798;
+  kind->nose_height = 0.0365;
+  kind->roll_loss = 0.091;
+}
+
 carom_ball_kind carom_ball_kind_of(carom_game game) {
-  /* pool, by pooltool too */
+  /* pooltool's: pool */
   carom_ball_kind kind = {.mass = 0.170097,
                           .radius = 0.028575,
                           .mu_slide = 0.2,
@@ -29,6 +93,8 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
                           .mu_cushion = 0.2,
                           .restitution_cushion = 0.85,
                           .gravity = 9.81};
+
+  /* snooker and carom */
   if (game == CAROM_GAME_SNOOKER || game == CAROM_GAME_POOLTOOL_SNOOKER) {
     kind.mass = 0.140;
     kind.radius = 0.02619375;
@@ -40,70 +106,63 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
   }
   kind.mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind.radius;
 
-  /* measured: m/s^2 over g, or the coefficient itself */
-  if (game == CAROM_GAME_SNOOKER) {
-    kind.mu_slide = 2.075 / 9.81;
-    kind.mu_roll = 0.125 / 9.81;
-    kind.restitution = 0.89;
-    /* of Han's closed form: rolling balls rebound as measured, at 0.5 to 2.5 m/s (physics/terms) */
-    kind.mu_cushion = 0.2;
-    kind.restitution_cushion = 0.948;
-    kind.restitution_log = 0.0079;
-    kind.restitution_log2 = -0.0948;
-    kind.nose_height = 0.03074;
-  } else if (game == CAROM_GAME_BILLIARD) {
-    kind.mu_slide = 0.196;
-    kind.mu_roll = 0.0042;
-    kind.drag = 0.0118;
-    kind.mu_spin = 0.0038;
-    kind.restitution = 0.947;
-    kind.mu_ball = 0.08;
-    kind.law_a = 0.049;
-    kind.law_b = 0.165;
-    kind.law_c = 0.56;
-    /* of the smooth cushion, the default of a ball that has its numbers */
-    kind.mu_cushion = 0.255;
-    kind.mu_log = -0.010;
-    kind.restitution_cushion = 0.798;
-    kind.nose_height = 0.0365;
-    kind.roll_loss = 0.091;
-    kind.roll_loss_log = 0.034;
-    kind.smooth_q = 0.35;
-    kind.smooth_x = 1.3;
-    kind.smooth_t = 1.18;
-    kind.smooth_a = 0.25;
-    kind.smooth_g = 0.067;
-    kind.smooth_g_log = -0.059;
-    kind.smooth_e = 0.06;
-  }
+  /* carom's own */
+  if (game == CAROM_GAME_SNOOKER)
+    take_snooker(&kind);
+  else if (game == CAROM_GAME_BILLIARD)
+    take_billiard(&kind);
+  else if (game != CAROM_GAME_POOLTOOL_POOL && game != CAROM_GAME_POOLTOOL_SNOOKER &&
+           game != CAROM_GAME_POOLTOOL_BILLIARD)
+    take_pool(&kind);
   return kind;
+}
+
+/* The numbers of a game for a model that is not its default. Those of billiard are in list.h,
+ * because a fit of another table begins with them. */
+static const struct model_numbers {
+  carom_game game;
+  carom_shot_cushion cushion;
+  double restitution, mu, nose_height, omega_ratio, restitution_log, restitution_log2;
+} others[] = {
+    {CAROM_GAME_POOL, CAROM_SHOT_CUSHION_HAN, 0.92, 0.3, 0.0, 0.0, 0.0, 0.0},
+    {CAROM_GAME_POOL, CAROM_SHOT_CUSHION_STRONGE, 0.81, 0.28, 0.032, 1.96, 0.0, 0.0},
+    {CAROM_GAME_POOL, CAROM_SHOT_CUSHION_MATHAVAN, 0.97, 0.3, 0.0, 0.0, 0.0, 0.0},
+    {CAROM_GAME_POOL, CAROM_SHOT_CUSHION_EULER, 0.97, 0.3, 0.0, 0.0, 0.0, 0.0},
+    {CAROM_GAME_POOL, CAROM_SHOT_CUSHION_MIRROR, 0.85, 0.0, 0.0, 0.0, 0.0, 0.0},
+    {CAROM_GAME_SNOOKER, CAROM_SHOT_CUSHION_HAN, 0.948, 0.2, 0.03074, 0.0, 0.0079, -0.0948},
+    {CAROM_GAME_SNOOKER, CAROM_SHOT_CUSHION_MATHAVAN, 0.98, 0.14, 0.0, 0.0, 0.0, 0.0},
+    {CAROM_GAME_SNOOKER, CAROM_SHOT_CUSHION_EULER, 0.98, 0.14, 0.0, 0.0, 0.0, 0.0}};
+
+/* Gives a kind the numbers of another model; false where the game has none for it. */
+static bool take_other(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind) {
+  drop_smooth_law(kind);
+  if (game == CAROM_GAME_BILLIARD) {
+    kind->roll_loss = cushion == CAROM_SHOT_CUSHION_MIRROR ? 0.0 : 0.087;
+    if (cushion == CAROM_SHOT_CUSHION_EULER)
+      cushion = CAROM_SHOT_CUSHION_MATHAVAN;
+    return carom_cushion_start((carom_cushion_model)((int)cushion - 1), kind);
+  }
+  for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
+    const struct model_numbers *row = &others[k];
+    if (row->game != game || row->cushion != cushion)
+      continue;
+    kind->restitution_cushion = row->restitution;
+    kind->mu_cushion = row->mu;
+    kind->nose_height = row->nose_height;
+    kind->omega_ratio = row->omega_ratio;
+    kind->restitution_log = row->restitution_log;
+    kind->restitution_log2 = row->restitution_log2;
+    return true;
+  }
+  return false;
 }
 
 int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind) {
   carom_ball_kind made = carom_ball_kind_of(game);
-  const bool billiard = game == CAROM_GAME_BILLIARD, snooker = game == CAROM_GAME_SNOOKER;
-  const bool exact = cushion == CAROM_SHOT_CUSHION_MATHAVAN || cushion == CAROM_SHOT_CUSHION_EULER;
-  const carom_cushion_model model =
-      exact ? CAROM_CUSHION_MATHAVAN : (carom_cushion_model)((int)cushion - 1);
-  const bool usual = cushion == CAROM_SHOT_CUSHION_DEFAULT ||
-                     cushion == (billiard ? CAROM_SHOT_CUSHION_SMOOTH : CAROM_SHOT_CUSHION_HAN);
-  int own = usual || game != CAROM_GAME_POOL || cushion != CAROM_SHOT_CUSHION_SMOOTH;
-
-  if (!usual && (billiard || (snooker && exact))) {
-    /* what the default's model has besides is none of this one */
-    made.mu_log = made.restitution_log = made.restitution_log2 = made.roll_loss_log = 0.0;
-    made.smooth_q = made.smooth_x = made.smooth_t = made.smooth_a = 0.0;
-    made.smooth_g = made.smooth_g_log = made.smooth_e = 0.0;
-    made.mu_cushion = 0.14;
-    made.restitution_cushion = 0.98;
-    made.nose_height = 0.0;
-    if (billiard) {
-      own = carom_cushion_start(model, &made);
-      made.roll_loss = cushion == CAROM_SHOT_CUSHION_MIRROR ? 0.0 : 0.087;
-    }
-  } else if (!usual && snooker) {
-    own = 0;
-  }
+  const bool smooth = made.smooth_q > 0.0;
+  bool own = true;
+  if (smooth && cushion != CAROM_SHOT_CUSHION_DEFAULT && cushion != CAROM_SHOT_CUSHION_SMOOTH)
+    own = take_other(game, cushion, &made);
   if (kind != NULL)
     *kind = own ? made : carom_ball_kind_of(game);
   return own;

@@ -515,8 +515,8 @@ TEST(places_in_space) {
   carom_table t;
   carom_part part;
   carom_table_make(CAROM_TABLE_POOL_9FT, &t);
-  carom_shot_ball balls[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_POOL)},
-                              {.kind = carom_ball_kind_of(CAROM_GAME_POOL)}};
+  carom_shot_ball balls[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL)},
+                              {.kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL)}};
   const double R = balls[0].kind.radius;
   for (int k = 0; k < 2; k++) {
     balls[1].state = (carom_ball_state){.r = {0.5, 0.5, (k == 0 ? 3.001 : 2.999) * R}};

@@ -76,7 +76,7 @@ TEST(conditions_blame_a_number) {
              {"smooth_t", 0.3, "smooth_t", "0 where smooth_q is 0"},
              {"smooth_k", 0.3, "smooth_k", "0 where smooth_q is 0"}};
   for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
-    carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+    carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
     char text[80], cut[6];
     kind.law_a = 0.01;
     set(&kind, number_of(bad[k].given), bad[k].x);
@@ -118,7 +118,7 @@ TEST(ranges_in_words) {
 }
 
 TEST(what_is_read) {
-  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
   const carom_shot_options constant = {.friction = CAROM_FRICTION_CONSTANT},
                            smooth = {.cushion_model = CAROM_SHOT_CUSHION_SMOOTH},
                            mirror = {.ball_model = CAROM_BALL_MODEL_MIRROR},

@@ -157,7 +157,7 @@ TEST(states) {
   expect(CAROM_OK, -1);
   balls[2].state.r[0] = -0.05; /* over the rail */
   expect(CAROM_OK, -1);
-  balls[2].state.r[2] = 0.064; /* in its top */
+  balls[2].state.r[2] = 0.062; /* in its top */
   expect(CAROM_ERROR_OFF_TABLE, 2);
   balls[2].state.r[0] = -0.5; /* beyond it */
   expect(CAROM_ERROR_OFF_TABLE, 2);
