@@ -84,7 +84,10 @@ def shot_ball(r, v=(0, 0, 0), w=(0, 0, 0), game=0, **numbers):
 
 
 def shoot(kind, balls, stroke=None, room=100):
-    """The events of a shot, its facts, and where the first ball ends."""
+    """The events of a shot on a table or on one of a kind, its facts, and where the first ball
+    ends.
+    """
+    made = table(kind) if isinstance(kind, int) else kind
     events, facts, final = (
         (OF["carom_event"] * room)(),
         OF["carom_facts"](),
@@ -95,7 +98,7 @@ def shoot(kind, balls, stroke=None, room=100):
         ctypes.cast(one, ctypes.c_void_p) for one in (events, by(facts), final)
     )
     LIBRARY.carom_shoot(
-        by(table(kind)),
+        by(made),
         (OF["carom_shot_ball"] * len(balls))(*balls),
         len(balls),
         by(stroke) if stroke else None,
@@ -328,6 +331,196 @@ def diamond(kind, game, start, aim, speed, side, nth, **numbers):
         if met.r[0] < 0.5 * made.width
         else nan
     )
+
+
+# ---- Systems of players, data/pool_systems.csv: sets P G V C F T. A diamond is an eighth of the
+# length of the table. The ball starts on the long rail x = 0; sights lie `SIGHT` behind the noses.
+
+SIGHT, MOST_OFF = 0.094, 1.5  # m; diamonds that a shot counts that does not arrive
+ENGLISH = [0.25 + 0.15 * k for k in range(7)]  # R w / v, of what texts call one tip
+
+
+@cache
+def rows_of_systems():
+    with open(Path(sys.argv[2]).parent / "pool_systems.csv", encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def flight(kind, place, direction, speed, roll, side, nth):
+    """Place and velocity of a lone ball just before its contact number `nth` with a rail, a jaw or
+    a pocket: it starts at a place in a direction, radians from +x, with side spin R w / v to the
+    left.
+    """
+    R, x, y = ball().radius, cos(direction), sin(direction)
+    events, _, _ = shoot(
+        kind,
+        [
+            shot_ball(
+                (*place, R),
+                (speed * x, speed * y, 0),
+                (-roll * speed * y / R, roll * speed * x / R, side * speed / R),
+            )
+        ],
+    )
+    met = [e for e in events if e.type in (EVENT_RAIL, EVENT_JAW, EVENT_POCKET)]
+    before = met[nth - 1].before[0] if len(met) >= nth else None
+    return (before.r, before.v) if before else ((nan, nan), (nan, nan))
+
+
+def place_at(motion, x):
+    """How far along the table the line of a motion has this x, in m."""
+    r, v = motion
+    return r[1] + v[1] / v[0] * (x - r[0]) if v[0] else nan
+
+
+def through(start, end, x):
+    """The place on the line through two others that has this x, and the direction of the line."""
+    way = (end[0] - start[0], end[1] - start[1])
+    return (x, start[1] + way[1] * (x - start[0]) / way[0]), atan2(way[1], way[0])
+
+
+def bank(kind, row, speed, side):
+    """P: from a sight of the long rail to one of the other; read where it comes back to the nose.
+    F: the same along the grooves, and towards the corner at 0.
+    """
+    made, groove = table(kind), row["set"] == "F"
+    diamond_, back = made.length / 8, -ball().radius if groove else SIGHT
+    start, end = (-back, row["start"] * diamond_), (made.width + back, row["aim"] * diamond_)
+    if row["set"] == "P" and row["start"] == 0:
+        start = (-back, -back)
+    length = hypot(end[0] - start[0], end[1] - start[1])
+    x = 0.35 if not groove else -back + 0.12 * (end[0] - start[0]) / length
+    place, direction = through(start, end, x)
+    return place_at(flight(kind, place, direction, speed, row["roll"], side, 2), 0) / diamond_
+
+
+def two_rails(kind, row, speed, side):
+    """G, V: from a sight of the long rail to one of the short rail y = 0, counted from the far
+    corner; read through the sights of the first rail, which it meets third.
+    """
+    made = table(kind)
+    diamond_ = made.length / 8
+    start = (-SIGHT, row["start"] * diamond_)
+    end = ((4 - row["aim"]) * diamond_, -SIGHT)
+    place, direction = through(start, end, 0.06)
+    motion = flight(kind, place, direction, speed, row["roll"], -side, 3)
+    return place_at(motion, -SIGHT) / diamond_ if motion[0][0] < 0.05 else nan
+
+
+def corner_five(kind, row, speed, side):
+    """C: from an origin, 5 in the corner, to the first rail; read on the third, from the far end."""
+    made = table(kind)
+    diamond_ = made.length / 8
+    start = (-SIGHT, (5 - row["start"]) * 2 * diamond_ if row["start"] < 5 else -SIGHT)
+    end = (made.width + SIGHT, (8 - row["aim"]) * diamond_)
+    place, direction = through(start, end, 0.06)
+    place = (place[0], max(place[1], ball().radius + 1e-4))
+    motion = flight(kind, place, direction, speed, row["roll"], -side, 3)
+    on_it = motion[0][0] < 0.05 and motion[1][0] < 0
+    return 8 - place_at(motion, -SIGHT) / diamond_ if on_it else nan
+
+
+ARRIVES = {"P": bank, "F": bank, "G": two_rails, "V": two_rails, "C": corner_five}
+
+
+def mean_square(kind, of_set, side):
+    """Of the errors of a set in diamonds, with this english."""
+    squares = []
+    for text in rows_of_systems():
+        if text["set"] != of_set:
+            continue
+        row = {name: float(text[name]) for name in ("start", "aim", "arrives", "roll")}
+        row["set"] = of_set
+        for speed in text["speeds"].split():
+            off = ARRIVES[of_set](kind, row, float(speed), side) - row["arrives"]
+            squares.append(MOST_OFF**2 if isnan(off) else min(abs(off), MOST_OFF) ** 2)
+    return sum(squares) / len(squares)
+
+
+@cache
+def system(of_set, kind=2):
+    """The error of a set, rms in diamonds. A set with english has that which fits it best, between
+    the points of a parabola.
+    """
+    if all(row["english"] == "0" for row in rows_of_systems() if row["set"] == of_set):
+        return sqrt(mean_square(kind, of_set, 0))
+    means = [mean_square(kind, of_set, side) for side in ENGLISH]
+    k = min(range(len(means)), key=means.__getitem__)
+    if not 0 < k < len(means) - 1:
+        return sqrt(means[k])
+    a, b, c = means[k - 1 : k + 2]
+    shift = 0.5 * (a - c) / (a - 2 * b + c)
+    return sqrt(mean_square(kind, of_set, ENGLISH[k] + shift * (ENGLISH[1] - ENGLISH[0])))
+
+
+def systems(kind=2):
+    """The error of all six sets: rms of those of each; T counts in diamonds of a crossing."""
+    errors = [system(of_set, kind) for of_set in "PGVCF"]
+    errors.append(sqrt(sum(tan(radians(a)) ** 2 for a in twice_across(kind)) / 3) * 4)
+    return sqrt(sum(e * e for e in errors) / len(errors))
+
+
+def twice_across(kind=2):
+    """T: degrees from straight across after two, three and four rails."""
+    row = next(row for row in rows_of_systems() if row["set"] == "T")
+    direction = radians(float(row["start"]))
+    motions = [
+        flight(kind, (0.2, 0.15), direction, float(row["speeds"]), 0, 0, nth) for nth in (3, 4, 5)
+    ]
+    return [degrees(atan2(v[1], abs(v[0]))) for _, v in motions]
+
+
+# ---- Pockets with the measures of Alciatore's TP 3.5 and TP 3.6, whose points are sharp
+
+
+@cache
+def pockets_of_tp():
+    inch = 0.0254
+    of = OF["carom_measures"]()
+    LIBRARY.carom_table_measures(TABLE_POOL_9FT, by(of))
+    of.corner_mouth, of.corner_shelf, of.corner_hole = 4.5875 * inch, 1.125 * inch, 2.75 * inch
+    of.side_mouth, of.side_shelf, of.side_hole = 5.0625 * inch, 0.1875 * inch, 3 * inch
+    of.corner_jaw = of.side_jaw = 0.0005
+    made = OF["carom_table"]()
+    LIBRARY.carom_table_measured(by(of), ctypes.c_double(ball().radius), by(made), None)
+    return made
+
+
+def size(side_pocket, angle, speed, kind=None):
+    """The width, mm, of the paths of a rolling ball that end in a pocket without another cushion
+    farther than half a meter: at an angle to the rail of a corner, or to the line across the table.
+    """
+    made = kind if kind is not None else pockets_of_tp()
+    made = table(made) if isinstance(made, int) else made
+    R, step, away = ball().radius, 0.001, 0.45
+    middle = (0, 0.5 * made.length) if side_pocket else (0, 0)
+    along, across = cos(radians(angle)), sin(radians(angle))
+    way = (-along, -across) if side_pocket else (-across, -along)
+    fall = 0
+    for k in range(-70, 71):
+        x = middle[0] - away * way[0] - k * step * way[1]
+        y = middle[1] - away * way[1] + k * step * way[0]
+        if min(x, y) <= R:
+            continue
+        events, _, _ = shoot(
+            made,
+            [
+                shot_ball(
+                    (x, y, R),
+                    (speed * way[0], speed * way[1], 0),
+                    (-speed * way[1] / R, speed * way[0] / R, 0),
+                )
+            ],
+            room=16,
+        )
+        for e in events:
+            r = e.before[0].r
+            if hypot(r[0] - middle[0], r[1] - middle[1]) > 0.6:
+                break
+            if e.type == EVENT_POCKET:
+                fall += 1
+                break
+    return 1e3 * step * fall
 
 
 def bounce(height):
