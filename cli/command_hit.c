@@ -266,7 +266,7 @@ static const command_form form = {
 
 int command_hit(int argc, char **argv) {
   static const scene hit = {&ball_kind, inputs, QUANTITIES, quantity, make,
-                            measure,    tell,   draw,       law};
+                            measure,    tell,   draw,       law,      NULL};
   static series s;
   s = (series){.asked = {.options = COMMAND_OPTIONS, .friction = {.law = carom_alciatore()}},
                .scene = &hit};

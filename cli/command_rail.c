@@ -22,13 +22,14 @@ static const scene_input inputs[] = {
     [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
     [ANGLE] = {"angle of incidence", MEASURE_ANGLE, "45"},
     [SIDE] = {"side spin", MEASURE_SIDE_RAIL, "none"},
-    [HEIGHT] = {"height of the nose", MEASURE_LENGTH, "0.036576"},
-    [RESTITUTION] = {"restitution", MEASURE_NUMBER, "0.85"},
-    [FRICTION] = {"friction of the cushion", MEASURE_NUMBER, "0.2"},
-    [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
-    [RADIUS] = {"radius of the ball", MEASURE_LENGTH, "0.028575"},
-    [MASS] = {"mass of the ball", MEASURE_MASS, "0.170097"},
-    [MODEL] = {"model", MEASURE_MODEL, "han"}, /* that of shots */
+    /* without a usual value: those of the game for the model */
+    [HEIGHT] = {"height of the nose", MEASURE_LENGTH, NULL},
+    [RESTITUTION] = {"restitution", MEASURE_NUMBER, NULL},
+    [FRICTION] = {"friction of the cushion", MEASURE_NUMBER, NULL},
+    [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, NULL},
+    [RADIUS] = {"radius of the ball", MEASURE_LENGTH, NULL},
+    [MASS] = {"mass of the ball", MEASURE_MASS, NULL},
+    [MODEL] = {"model", MEASURE_MODEL, "smooth"}, /* that of shots */
     [MODEL + 1] = {NULL, 0, NULL}};
 _Static_assert(sizeof inputs / sizeof inputs[0] == MOST_INPUTS + 1, "room for all");
 
@@ -54,19 +55,20 @@ OPTION(
     "cushion: right at an angle above 0; reverse is the other. A number with a unit: rad/s, % of "
     "english (100%: 1.25 V/R) or tip; right, left, running, reverse: 100%; "
     "gearing: the ball rolls along the cushion; none (default)");
+OPTION(series, option_game, "game", game, 0, "pool|snooker|billiard", set_choice, 0,
+       "the game whose ball, cloth and cushion are used for numbers that are not given (default pool)");
 OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_LENGTH,
-       "height of the nose above the cloth, m, or with a unit: mm, in (default 0.036576, that of a "
-       "pool table)");
+       "height of the nose above the cloth, m, or with a unit: mm, in (default: that of the game)");
 OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
-       MEASURE_NUMBER, "restitution of the cushion (default 0.85)");
+       MEASURE_NUMBER, "restitution of the cushion (default: that of the game for the model)");
 OPTION(series, option_friction_rail, "friction", in[FRICTION], 0, "MU", set_values, MEASURE_NUMBER,
-       "friction of the cushion (default 0.2)");
+       "friction of the cushion (default: that of the game for the model)");
 OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
-       "friction with the cloth (default 0.2)");
+       "friction with the cloth (default: that of the game)");
 OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
-       "radius of the ball, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
+       "radius of the ball, m, or with a unit: mm, cm, in (default: that of the game)");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
-       "mass of the ball, kg, or with a unit: g, oz (default 0.170097, 6 oz)");
+       "mass of the ball, kg, or with a unit: g, oz (default: that of the game)");
 
 static OPTION_SET(set_models) {
   series *s = (series *)(void *)((char *)field - row->field);
@@ -80,7 +82,7 @@ static OPTION_SET(set_models) {
 
 static const option_row option_models = {
     .name = "model",
-    .help = "model of the impact; `carom models NAME` describes it (default: han, as in shots)",
+    .help = "model of the impact; `carom models NAME` describes it (default: smooth, as in shots)",
     .set = set_models,
     .field = offsetof(series, in[MODEL]),
     .least = MEASURE_MODEL,
@@ -95,23 +97,95 @@ OPTION(series, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
        "draw the ball and its path of every impact from above; or curves over a range, by gnuplot. "
        "OUT.svg, OUT.png or OUT.pdf");
 
+/* The ball and the cushion of the game for a model, with the numbers of --with; false where the
+ * game has none for the model. */
+static bool ball_of_game(const series *s, int model, carom_ball_kind *kind) {
+  static const carom_table_kind table[] = {CAROM_TABLE_POOL_9FT, CAROM_TABLE_SNOOKER,
+                                           CAROM_TABLE_THREECUSHION};
+  carom_measures measures;
+  const bool own =
+      carom_ball_kind_for((carom_game)s->game, (carom_shot_cushion)(model + 1), kind) != 0;
+  give_ball(&s->asked.with, kind);
+  carom_table_measures(table[s->game], &measures);
+  if (kind->nose_height == 0.0)
+    kind->nose_height = measures.nose_height;
+  return own;
+}
+
+/* The numbers of a ball that the options of its impacts have too. */
+static void give_cushion(const carom_ball_kind *kind, carom_cushion_options *options) {
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
+    if (n->cushion_offset >= 0)
+      memcpy((char *)options + n->cushion_offset, (const char *)kind + n->offset, sizeof(double));
+}
+
+/* A value that was given, or that of the game. */
+static double given_or(const value *v, double of_game) {
+  return isnan(v->x) ? of_game : v->x;
+}
+
 static void make(const series *s, one_case *c) {
   const value *const *v = c->given;
-  const double angle = v[ANGLE]->x * degree, speed = v[SPEED]->x, R = v[RADIUS]->x;
-  const double x = sin(angle), y = cos(angle), spin = spin_of(v[SPIN], speed, R, 0.0);
+  carom_ball_kind kind;
+  c->asked.rail.model = (carom_cushion_model)v[MODEL]->x;
+  ball_of_game(s, (int)c->asked.rail.model, &kind);
+  give_cushion(&kind, &c->asked.rail);
+
+  const double angle = v[ANGLE]->x * degree, speed = v[SPEED]->x;
+  const double R = given_or(v[RADIUS], kind.radius), x = sin(angle), y = cos(angle),
+               spin = spin_of(v[SPIN], speed, R, 0.0);
   const carom_cushion_impact in = {
       .v = {speed * x, speed * y, 0.0},
       .w = {-spin * y, spin * x, spin_of(v[SIDE], speed, R, speed * x / R)},
       .normal = {0.0, 1.0},
-      .height = v[HEIGHT]->x,
+      .height = given_or(v[HEIGHT], kind.nose_height),
       .radius = R,
-      .mass = v[MASS]->x,
-      .mu_cloth = v[CLOTH]->x,
-      .mu_cushion = v[FRICTION]->x,
-      .restitution = v[RESTITUTION]->x};
-  (void)s;
+      .mass = given_or(v[MASS], kind.mass),
+      .mu_cloth = given_or(v[CLOTH], kind.mu_slide),
+      .mu_cushion = given_or(v[FRICTION], kind.mu_cushion),
+      .restitution = given_or(v[RESTITUTION], kind.restitution_cushion)};
   memcpy(c->row, &in, sizeof in);
-  c->asked.rail.model = (carom_cushion_model)v[MODEL]->x;
+}
+
+/* Whether an impact at another speed is another but for its scale. */
+static bool knows_speed(const carom_cushion_options *o) {
+  const bool slides = o->smooth_q > 0.0 ? o->smooth_g_log != 0.0 : true;
+  return o->law == CAROM_CUSHION_LAW_HAN || o->restitution_log != 0.0 ||
+         o->restitution_log2 != 0.0 || o->mu_log != 0.0 || o->roll_loss_log != 0.0 ||
+         (o->model == CAROM_CUSHION_SMOOTH && slides);
+}
+
+/* The first value of each input. */
+static void case_of_first(const series *s, one_case *c) {
+  *c = (one_case){.asked = s->asked};
+  for (int k = 0; k < MOST_INPUTS; k++)
+    c->given[k] = &s->in[k].at[0];
+}
+
+/* Whether all impacts can be made; else a complaint. */
+static bool check(const series *s) {
+  carom_ball_kind kind;
+  const values *models = &s->in[MODEL];
+  for (int k = 0; k < models->count; k++)
+    if (!ball_of_game(s, (int)models->at[k].x, &kind) &&
+        (isnan(s->in[FRICTION].at[0].x) || isnan(s->in[RESTITUTION].at[0].x))) {
+      complain("%s has no constants for the cushion %s: give --friction and --restitution",
+               carom_word(CAROM_WORDS_GAME, s->game), models->at[k].name);
+      return false;
+    }
+
+  /* a list of speeds is a question that some laws do not answer */
+  one_case c;
+  for (int k = 0; k < models->count && s->in[SPEED].count > 1; k++) {
+    case_of_first(s, &c);
+    c.given[MODEL] = &models->at[k];
+    make(s, &c);
+    if (!knows_speed(&c.asked.rail))
+      complain("the law of %s has no speed: at another speed the angles are the same",
+               models->at[k].name);
+  }
+  return true;
 }
 
 /* angle_in, angle_out, angle_rolling, rollx, rolly, energy_lost: see kind_cushion.c; angles to
@@ -229,6 +303,8 @@ static void tell(FILE *out, const series *s, const one_case *c) {
       share_of_rolling(c->given[SPIN]), hypot(in->w[0], in->w[1]), in->w[2]);
   fprintf(out, "Friction with the cushion %.4g, with the cloth %.4g, restitution %.4g; model %s.\n",
           in->mu_cushion, in->mu_cloth, in->restitution, cushion_kind.name(&c->asked));
+  if (!knows_speed(&c->asked.rail))
+    fprintf(out, "At another speed the angles are the same: the law has no speed.\n");
   fprintf(out, "rebound       at once:     %s\n", rebound_text(d[1], v, text));
   fprintf(out, "              rolling:     %s\n", rebound_text(d[2], d + 3, text));
   tell_cloth(out, v, d);
@@ -268,10 +344,17 @@ static double draw(FILE *out, double top, const series *s, const one_case *c, co
 
 static const char *law(const series *s, char text[80]) {
   const values *models = &s->in[MODEL];
+  one_case first;
+  case_of_first(s, &first);
+  make(s, &first);
+
+  const char *how = "";
+  if (s->asked.rail.law == CAROM_CUSHION_LAW_HAN)
+    how = " with Han's restitution and friction";
+  else if (models->count == 1 && !knows_speed(&first.asked.rail))
+    how = ", whose law has no speed";
   snprintf(text, 80, "%s%s%s", models->count == 1 ? "model " : "",
-           models->count == 1 ? models->at[0].name : "every model",
-           s->asked.rail.law == CAROM_CUSHION_LAW_HAN ? " with Han's restitution and friction"
-                                                      : "");
+           models->count == 1 ? models->at[0].name : "every model", how);
   return text;
 }
 
@@ -281,15 +364,19 @@ static const command_form form = {
     .about =
         "Computes the impact of a ball on a cushion, and describes it in words: the rebound angle "
         "just after and once the ball rolls, speeds, spin, and which contacts stuck or slipped. "
-        "The ball moves to the right along the cushion, so right english is running english.\n",
-    .options =
-        (const option_row *const[]){&option_speed,         &option_angle,  &option_spin,
-                                    &option_side,          &option_height, &option_restitution,
-                                    &option_friction_rail, &option_cloth,  &option_radius,
-                                    &option_mass,          &option_models, &option_with,
-                                    &option_convention,    &option_law,    &option_steps,
-                                    &option_quantity,      &option_csv,    &option_plot,
-                                    &option_strict,        &option_output, NULL},
+        "The ball moves to the right along the cushion, so right english is running english. Ball, "
+        "cloth and cushion are those of a game, as in shots.\n",
+    .options = (const option_row *const[]){&option_speed,       &option_angle,
+                                           &option_spin,        &option_side,
+                                           &option_game,        &option_height,
+                                           &option_restitution, &option_friction_rail,
+                                           &option_cloth,       &option_radius,
+                                           &option_mass,        &option_models,
+                                           &option_with,        &option_convention,
+                                           &option_law,         &option_steps,
+                                           &option_quantity,    &option_csv,
+                                           &option_plot,        &option_strict,
+                                           &option_output,      NULL},
     .details =
         "Every number may be a list, separated by commas; one may be a range A:B or A:B:STEP. A "
         "unit after the last number holds for all: --speed 1,3,7mph, --side -100:100%. Each value "
@@ -308,11 +395,13 @@ static const command_form form = {
 
 int command_rail(int argc, char **argv) {
   static const scene rail = {&cushion_kind, inputs, QUANTITIES, quantity, make,
-                             measure,       tell,   draw,       law};
+                             measure,       tell,   draw,       law,      check};
   static series s;
-  s = (series){
-      .asked = {.cushion = true, .rail = {.model = CAROM_CUSHION_HAN}, .options = COMMAND_OPTIONS},
-      .scene = &rail};
+  s = (series){.asked = {.cushion = true,
+                         .of_game = true,
+                         .rail = {.model = CAROM_CUSHION_SMOOTH},
+                         .options = COMMAND_OPTIONS},
+               .scene = &rail};
   return series_command(
       &s, &form, argc, argv, ANGLE,
       "--angle is between -90 and 90 degrees; at 90 the ball moves along the cushion");

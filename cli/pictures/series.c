@@ -340,13 +340,21 @@ static bool write_all(const series *s, int count) {
 int series_command(series *s, const command_form *form, int argc, char **argv, int angle,
                    const char *complaint) {
   s->quantity = NO_QUANTITY;
-  for (int k = 0; k < inputs_of(s); k++)
-    values_default(&s->in[k], s->scene->inputs[k].measure, s->scene->inputs[k].usual);
+  for (int k = 0; k < inputs_of(s); k++) {
+    const scene_input *input = &s->scene->inputs[k];
+    if (input->usual != NULL)
+      values_default(&s->in[k], input->measure, input->usual);
+    else
+      s->in[k] = (values){.count = 1, .unit = "", .at = {{.x = NAN, .given = NAN}}};
+  }
   const int code = parse_arguments(form, argc, argv, s, NULL), count = count_of(s);
   if (code >= 0)
     return code;
-  if (!are_in_range(s, angle, complaint) || !is_possible(s, count) ||
-      !output_possible(s->picture) || !check_all(s, count))
+  if (!are_in_range(s, angle, complaint))
+    return EXIT_USAGE;
+  if (s->scene->check != NULL && !s->scene->check(s))
+    return EXIT_USAGE;
+  if (!is_possible(s, count) || !output_possible(s->picture) || !check_all(s, count))
     return EXIT_USAGE;
   /* With a picture of curves the table is only written where it is asked for. */
   const bool writes = range_of(s) < 0 || s->picture == NULL || s->csv || s->asked.output != NULL;

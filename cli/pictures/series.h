@@ -20,7 +20,8 @@ typedef struct one_case {
   char id[MOST_INPUTS * VALUE_NAME];
 } one_case;
 
-/* What an input is, on an axis: "cut angle", its measure, and its usual value. */
+/* What an input is, on an axis: "cut angle", its measure, and its usual value; NULL: NaN, for
+ * which the scene knows what stands. */
 typedef struct scene_input {
   const char *name;
   int measure;
@@ -44,13 +45,15 @@ typedef struct scene {
   double (*draw)(FILE *out, double top, const series *s, const one_case *c, const char *words);
   /* What holds for all curves and is no input, or "": the law of friction. */
   const char *(*law)(const series *s, char text[80]);
+  /* Whether all can be made; else a complaint. NULL: it can. */
+  bool (*check)(const series *s);
 } scene;
 
 struct series {
   shared_options asked;
   const scene *scene;
   values in[MOST_INPUTS];
-  int quantity;
+  int quantity, game; /* game: of a rail, a carom_game */
   bool csv;
   const char *picture;
 };

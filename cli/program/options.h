@@ -126,6 +126,7 @@ typedef struct shared_options {
   uint32_t models;            /* a bit for each of several models; 0: that of rail */
   carom_shot_options shot;    /* of whole shots: --models, --ball-ball, ... */
   given_numbers with;         /* --with */
+  bool of_game;               /* of impacts: --with changes the numbers of a game, not 0s */
   carom_options options;      /* --solver of one, --slip, --steps, --threads */
   friction_law friction;
   given_player player;

@@ -382,7 +382,8 @@ bool numbers_are_read(shared_options *shared) {
   if (!shared->cushion)
     return true;
   give(with, &shared->rail, true);
-  carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  carom_ball_kind kind =
+      carom_ball_kind_of(shared->of_game ? CAROM_GAME_POOL : CAROM_GAME_POOLTOOL_POOL);
   char must[100];
   give_ball(with, &kind);
   if ((n = carom_ball_fault(&kind, must, sizeof must)) != NULL)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -55,7 +56,7 @@ def _options(
     ):
         raise ValueError(f"least_step: it must be 0 or more and finite, in N s, not {least_step!r}")
     kind, must = (
-        ffi.new("carom_ball_kind *", lib.carom_ball_kind_of(lib.CAROM_GAME_POOL)),
+        ffi.new("carom_ball_kind *", lib.carom_ball_kind_of(lib.CAROM_GAME_POOLTOOL_POOL)),
         ffi.new("char[]", 100),
     )
     for name, value in own:
@@ -80,20 +81,46 @@ def _options(
     )
 
 
+_TABLES = {
+    "pool": lib.CAROM_TABLE_POOL_9FT,
+    "snooker": lib.CAROM_TABLE_SNOOKER,
+    "billiard": lib.CAROM_TABLE_THREECUSHION,
+}
+
+
+@functools.cache
+def _ball(game: str, model: str) -> Any:
+    """The ball and the cushion of a game for a model; its nose is that of the game's table where
+    the ball has none.
+    """
+    if game not in _TABLES:
+        raise ValueError(f"game: must be one of {', '.join(_TABLES)}, not {game!r}")
+    kind, measures = ffi.new("carom_ball_kind *"), ffi.new("carom_measures *")
+    shot_cushion = choice(_MODELS, model, "model") + 1
+    if not lib.carom_ball_kind_for(choice(worded("GAME"), game, "game"), shot_cushion, kind):
+        raise ValueError(f"model: {game} has no constants for {model!r}")
+    lib.carom_table_measures(_TABLES[game], measures)
+    kind.nose_height = kind.nose_height or measures.nose_height
+    return kind
+
+
 def cushion_impacts(
     *,
     v: npt.ArrayLike,
     w: npt.ArrayLike = 0.0,
     normal: npt.ArrayLike = (0.0, 1.0),
-    height: npt.ArrayLike = 0.036576,
-    radius: npt.ArrayLike = 0.028575,
-    mass: npt.ArrayLike = 0.170097,
-    mu_cloth: npt.ArrayLike = 0.2,
-    mu_cushion: npt.ArrayLike = 0.2,
-    restitution: npt.ArrayLike = 0.85,
+    height: npt.ArrayLike | None = None,
+    radius: npt.ArrayLike | None = None,
+    mass: npt.ArrayLike | None = None,
+    mu_cloth: npt.ArrayLike | None = None,
+    mu_cushion: npt.ArrayLike | None = None,
+    restitution: npt.ArrayLike | None = None,
     jaw_radius: npt.ArrayLike = 0.0,
+    game: str = "pool",
+    model: CushionModel = "mathavan",
 ) -> dtypes.Records:
-    """Impacts for `cushion`, from fields that are broadcast against each other.
+    """Impacts for `cushion`, from fields that are broadcast against each other. Fields that are
+    not given are those of a game for a model.
 
     Parameters
     ----------
@@ -102,27 +129,31 @@ def cushion_impacts(
     normal : array_like, shape (..., 2)
         Direction from the ball into the cushion, of any length but 0.
     height : array_like, shape (...)
-        Of the nose above the cloth, m, between 0 and 2 radius. The defaults are those of a pool
-        table and its balls.
+        Of the nose above the cloth, m, between 0 and 2 radius.
     radius, mass : array_like, shape (...)
         Of the ball, m and kg.
     mu_cloth, mu_cushion, restitution : array_like, shape (...)
         0 to 1.
     jaw_radius : array_like, shape (...)
         m; 0 for a straight rail.
+    game : {"pool", "snooker", "billiard"}
+        Whose ball, cloth and cushion.
+    model : str
+        The model of the cushion for which the game's numbers are; give the same to `cushion`.
 
     Returns an ndarray of `carom.dtypes.cushion_impact`, shape (...).
     """
-    fields = {
-        "v": v,
-        "w": w,
-        "normal": normal,
-        "height": height,
-        "radius": radius,
-        "mass": mass,
-        "mu_cloth": mu_cloth,
+    of_game: dict[str, tuple[npt.ArrayLike | None, str]] = {
+        "height": (height, "nose_height"),
+        "radius": (radius, "radius"),
+        "mass": (mass, "mass"),
+        "mu_cloth": (mu_cloth, "mu_slide"),
+        "mu_cushion": (mu_cushion, "mu_cushion"),
+        "restitution": (restitution, "restitution_cushion"),
     }
-    fields |= {"mu_cushion": mu_cushion, "restitution": restitution, "jaw_radius": jaw_radius}
+    fields: dict[str, npt.ArrayLike] = {"v": v, "w": w, "normal": normal, "jaw_radius": jaw_radius}
+    for name, (given, number_of_kind) in of_game.items():
+        fields[name] = given if given is not None else getattr(_ball(game, model), number_of_kind)
     return fill(dtypes.cushion_impact, {"v": 3, "w": 3, "normal": 2}, fields)
 
 
@@ -137,6 +168,7 @@ def cushion(
     plain: bool = False,
     threads: int = 0,
     out: tuple[Array, Array] | None = None,
+    game: str | None = None,
     **numbers: Unpack[CushionNumbers],
 ) -> Outcome:
     """Resolve impacts of a ball on a cushion.
@@ -158,6 +190,9 @@ def cushion(
         Least impulse of a step of Euler's, N s; pooltool has 0.001.
     plain, threads, out
         As for `carom.collide`.
+    game : {"pool", "snooker", "billiard"}, optional
+        Whose numbers of the model hold, such as the loss of roll, where none is given. None: the
+        options of C, which are 0.
     **numbers : float
         Numbers of the models, such as omega_ratio of stronge; `carom models` of the command lists
         them.
@@ -171,7 +206,13 @@ def cushion(
 
     Raises CaromError: One impact, of shape (15,) or (), that is in error.
     """
-    options = _options(model, convention, law, steps, threads, least_step, plain, _own(numbers))
+    own = dict(_own(numbers))
+    if game is not None:
+        kind = _ball(game, model)
+        own = {name: getattr(kind, name) for name in NUMBERS} | own
+    options = _options(
+        model, convention, law, steps, threads, least_step, plain, tuple(own.items())
+    )
     seconds = 1e-5 if model == "mathavan" else 1e-7 * (steps or 1000) if model == "euler" else 1e-7
     return resolve(CUSHION, impacts, options, seconds, threads, out)
 

@@ -193,14 +193,22 @@ def test_impacts_broadcast_and_have_their_places_and_defaults():
         0,
         0,
         1,
-        0.036576,
+        0.03629025,
         0.028575,
         0.170097,
         0.2,
-        0.2,
-        0.85,
+        0.3,
+        0.97,
         0,
     ]
+    snooker = carom.cushion_impacts(v=(1, 2, 0), game="snooker", model="smooth", mass=0.15)
+    kind = carom.balls([[0.5, 0.5]], game="snooker")["kind"][0]
+    assert snooker["restitution"] == kind["restitution_cushion"] and snooker["mass"] == 0.15
+    assert snooker["height"] == kind["nose_height"] and snooker["radius"] == kind["radius"]
+    lossless = carom.cushion(snooker, model="smooth").motion
+    assert (carom.cushion(snooker, model="smooth", game="snooker").motion != lossless).any()
+    with pytest.raises(ValueError, match="snooker has no constants for 'stronge'"):
+        carom.cushion_impacts(v=(1, 2, 0), game="snooker", model="stronge")
     names = ("height", "radius", "mass", "mu_cloth", "mu_cushion", "restitution", "jaw_radius")
     built = carom.cushion_impacts(
         v=(0, 1, 2), w=(3, 4, 5), normal=(6, 7), **{name: 8 + k for k, name in enumerate(names)}

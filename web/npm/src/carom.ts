@@ -85,16 +85,6 @@ const BALL = {
   mass: 0.17,
   muCloth: 0.2,
 } as const;
-const RAIL = {
-  w: [0, 0, 0],
-  height: 0.0365,
-  radius: 0.028575,
-  mass: 0.17,
-  muCloth: 0.2,
-  muCushion: 0.2,
-  restitution: 0.85,
-  jawRadius: 0,
-} as const;
 
 /** How continue() refuses arguments, with nothing played. */
 const REFUSED: readonly number[] = [
@@ -478,11 +468,27 @@ export class Carom {
 
   // ---- A ball and a cushion ---------------------------------------------------------------------
 
+  /** What an impact does not say: the ball and the cushion of pool for a model. */
+  #rail(model: CushionOptions["model"] = "mathavan"): object {
+    const kind = this.kind("pool", model);
+    return {
+      w: [0, 0, 0],
+      height: kind.noseHeight || 0.03629025,
+      radius: kind.radius,
+      mass: kind.mass,
+      muCloth: kind.muSlide,
+      muCushion: kind.muCushion,
+      restitution: kind.restitutionCushion,
+      jawRadius: 0,
+    };
+  }
+
   /** Resolves one impact of a ball on a cushion. */
   cushion(impact: CushionImpact, options: CushionOptions = {}): Motion & { status: string } {
     const { impact: at, options: opt, motion, number } = this.#at;
     refuseUnknown(options, KEYS.cushion);
-    writeStruct(this.#memory, at, "carom_cushion_impact", impact, "impact", RAIL);
+    const rail = this.#rail(options.model);
+    writeStruct(this.#memory, at, "carom_cushion_impact", impact, "impact", rail);
     writeOptions(this.#memory, opt, "carom_cushion_options", options);
     const code = this.#call.carom_cushion(at, opt, motion);
     if (code < 0) {

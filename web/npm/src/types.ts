@@ -69,8 +69,8 @@ export interface TracePoint
 }
 
 /**
- * A ball that touches a cushion. What is missing: no spin, the ball of a collision, height 0.0365,
- * muCushion 0.2, restitution 0.85, jawRadius 0.
+ * A ball that touches a cushion. What is missing: no spin, the ball and the cushion of pool for the
+ * model, jawRadius 0.
  */
 export type CushionImpact = Optional<
   C.CushionImpact,
