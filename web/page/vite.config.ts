@@ -1,5 +1,5 @@
 import { spawnSync } from "node:child_process";
-import { readFileSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { build, defineConfig, type Plugin, type Rollup, transformWithEsbuild } from "vite";
@@ -45,6 +45,12 @@ function gzip(text: string): Buffer {
   return zopfli.status === 0 ? zopfli.stdout : gzipSync(text, { level: 9 });
 }
 
+/** The file of a package with its licence, however its author spells the word. */
+function licenceFile(folder: string): string {
+  const name = readdirSync(folder).find((file) => /^licen[cs]e/i.test(file));
+  if (name === undefined) throw new Error(`one-file: ${folder} has no licence`);
+  return `${folder}/${name}`;
+}
 /**
  * The page's licences, without their indents: that of carom, of the libraries in its WebAssembly,
  * and of every package that was bundled.
@@ -56,7 +62,7 @@ function licences(modules: string[]): string {
   const texts = [
     here("../../LICENSE"),
     here("../npm/NOTICES"),
-    ...[...packages].map((folder) => `${folder}/LICENSE`),
+    ...[...packages].map(licenceFile),
   ].map((file) =>
     readFileSync(file, "utf8")
       .trim()

@@ -422,6 +422,7 @@ export class Plans {
       turn: names.carom_turn_is[turn.is]!,
       foul: reason !== "none",
       reason,
+      why: memory.text(memory.exports.carom_foul_string(turn.foul))!,
       hand: HANDS[turn.leave]!,
       points: turn.points,
       text: memory.text(text)!,

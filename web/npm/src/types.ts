@@ -333,6 +333,8 @@ export interface Ruling {
   foul: boolean;
   /** By which rule it is a foul: "none" of a legal shot. */
   reason: C.Foul;
+  /** That rule in words: "the cue ball met no ball"; "" of a legal shot. */
+  why: string;
   /** Where whoever plays next may put the cue ball. */
   hand: "no" | "anywhere" | "kitchen" | "d";
   /** Of the shot, in games of points; of three-cushion and of the drill too. */

@@ -2,19 +2,27 @@
 // worker runs the page's own script, which serves where there is no document. Each kind of call has
 // a worker: the chance of a stroke does not wait for a plan.
 import { type Carom, load } from "carom";
+import { drillStroke } from "./play/drill_search.js";
 import { wrong } from "./ui.js";
 
-type Calls = Pick<Carom, "plan" | "chances">;
+/** What runs in workers, by name. */
+const callsOf = (carom: Carom) => ({
+  plan: carom.plan.bind(carom),
+  chances: carom.chances.bind(carom),
+  drill: (...args: Rest<typeof drillStroke>) => drillStroke(carom, ...args),
+});
+type Rest<F> = F extends (first: Carom, ...rest: infer R) => unknown ? R : never;
+type Calls = ReturnType<typeof callsOf>;
 type Name = keyof Calls;
 
 /** Answers calls, in the worker. */
 export async function serve(): Promise<void> {
-  const library = load();
+  const calls = load().then(callsOf);
   self.addEventListener(
     "message",
     async ({ data: [number, name, args] }: MessageEvent<[number, Name, never]>) => {
       try {
-        self.postMessage([number, ((await library)[name] as (...args: never) => unknown)(...args)]);
+        self.postMessage([number, ((await calls)[name] as (...args: never) => unknown)(...args)]);
       } catch (error) {
         self.postMessage([number, undefined, wrong(error)]);
       }

@@ -1,6 +1,6 @@
 // The coach and the view in three dimensions, in a browser.
 import { describe, expect, test } from "vitest";
-import { browserPath, pages, violations } from "./page.js";
+import { browserPath, keptGame, pages, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("beside the game", () => {
   const { open, frames, text, set, turnTo } = pages();
@@ -27,7 +27,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await expect
       .poll(() => text(one, "said"))
       .toMatch(
-        /^Hint: ball [19] into the .*\. A \d+, as you are, keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/,
+        /^Hint: ball [19] into the .*\. An average player \(\d+\) keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/,
       );
     // A stroke that meets nothing: a foul, which the chances and the review tell.
     await turnTo(one, 200);
@@ -35,7 +35,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await expect
       .poll(() => text(one, "said"))
       .toMatch(
-        /^By this stroke a \d+, as you are, keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/,
+        /^This stroke: An average player \(\d+\) keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/,
       );
     await one.locator("#shoot").click();
     await expect
@@ -259,9 +259,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     for (let k = 10; k <= 60; k += 10) await touch("touchMove", from[0] + k, from[1]);
     await touch("touchEnd");
     await one.locator("#shoot").click();
-    const { entries } = JSON.parse(
-      (await one.evaluate(() => localStorage.getItem("carom-game")))!,
-    ) as { entries: { place: number[] }[] };
+    const { entries } = JSON.parse(await keptGame(one)) as { entries: { place: number[] }[] };
     // It lay on the head spot.
     expect(
       Math.hypot(entries[1]!.place[0]! - 0.635, entries[1]!.place[1]! - 0.635),

@@ -3,7 +3,7 @@ import { readFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { describe, expect, test } from "vitest";
 import type { Page } from "playwright-core";
-import { browserPath, pages, sizes, violations } from "./page.js";
+import { browserPath, keptGame, pages, sizes, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("a diagram", () => {
   const { open, text, set, turnTo } = pages();
@@ -80,7 +80,7 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
 
       // Another page shows the same, and keeps the game that it had.
       const other = await open("", how);
-      const game = await other.evaluate(() => localStorage.getItem("carom-game"));
+      const game = await keptGame(other);
       await other.evaluate((hash) => (location.hash = hash), new URL(link).hash);
       await expect.poll(() => other.locator("#diagram").isVisible()).toBe(true);
       expect(await other.locator("#notes").inputValue()).toBe(NOTES);
@@ -90,7 +90,7 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
       expect(await other.locator("#diagram-which").isVisible()).toBe(false);
       await other.locator("#diagram .close").click();
       await expect.poll(() => other.evaluate(() => location.hash)).toBe("#view=play");
-      expect(await other.evaluate(() => localStorage.getItem("carom-game"))).toBe(game);
+      expect(await keptGame(other)).toBe(game);
       await one.close();
       await other.close();
     },

@@ -3,10 +3,11 @@
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import type { Carom, Cue, ShotBall, Shot } from "carom";
+import { drillStroke, strokesFor } from "../src/play/drill_search.js";
 import { type Drill, drillsOf, judge } from "../src/play/drills.js";
 import { Play } from "../src/play/game.js";
 import { builds } from "../../test/builds.js";
-import { Draws, root } from "../../test/support.js";
+import { root } from "../../test/support.js";
 
 const drills = drillsOf(readFileSync(`${root}data/drills.csv`, "utf8"));
 const OPTIONS = { cushionModel: "han" } as const;
@@ -25,47 +26,12 @@ function layout(
   for (const [ball, [x, y]] of balls) lie = carom.placeBall(table, lie, ball, x, y);
   return { table, balls: lie };
 }
-/** Strokes that may make a drill: at pockets where a ball is to fall, and in all directions. */
-function* strokes(carom: Carom, drill: Drill, most: number): Generator<Partial<Cue>> {
-  const { table, balls } = layout(carom, drill);
-  const draws = new Draws(3n);
-  const ways: { ball: number; via?: (string | number)[]; into?: string | undefined }[] = [];
-  for (const [word, value] of drill.goal) {
-    const ball = parseInt(value);
-    const into = value.split("@")[1];
-    if (word === "pot")
-      ways.push(
-        { ball, into },
-        ...[1, 2]
-          .filter((one) => one !== ball && drill.balls.has(one))
-          .map((one) => ({ ball, via: [one] })),
-      );
-    if (word === "bank")
-      for (const rail of ["head", "foot", "left", "right"]) ways.push({ ball, via: [rail] });
-    if (word === "clear") ways.push(...[1, 2, 3].map((ball) => ({ ball })));
-  }
-  for (let k = 0; k < most; k++) {
-    const stroke = {
-      speed: draws.between(0.5, 5),
-      a: draws.between(-0.3, 0.3),
-      b: draws.between(-0.5, 0.5),
-    };
-    if (ways.length === 0) yield { ...stroke, phi: draws.between(0, 360) };
-    else
-      for (const { into, ...way } of ways)
-        for (const pocket of into === undefined ? [0, 1, 2, 3, 4, 5] : [into]) {
-          const aim = carom.aim(table, balls, { ...stroke, a: 0 }, { ...way, pocket }, OPTIONS);
-          if (aim.is !== "no_way") yield aim.cue;
-        }
-  }
-}
-
 test("there are twenty, with names of their own", () => {
   expect(drills).toHaveLength(20);
   expect(new Set(drills.map(({ name }) => name)).size).toBe(20);
 });
 
-// For new drills: CAROM_DRILLS=1 tells each rating, by the best of 200 strokes; three balls fall by
+// For new drills: CAROM_DRILLS=1 prints each rating, by the best of 200 strokes; three balls fall by
 // three such strokes.
 test.runIf(process.env.CAROM_DRILLS)("ratings that make a drill in half of the tries", () => {
   const { carom } = builds[0]!;
@@ -74,7 +40,8 @@ test.runIf(process.env.CAROM_DRILLS)("ratings that make a drill in half of the t
     const good = (cue: Partial<Cue>): boolean =>
       judge(drill, carom.simulate(table, balls, cue, OPTIONS)).outcome !== "missed";
     const made: Partial<Cue>[] = [];
-    for (const cue of strokes(carom, drill, 4000)) if (good(cue) && made.push(cue) === 200) break;
+    for (const cue of strokesFor(carom, table, balls, drill, 200, OPTIONS))
+      if (good(cue) && made.push(cue) === 200) break;
     const share = (cue: Partial<Cue>, fargo: number, count: number): number =>
       Array.from({ length: count }, (_, k) =>
         good(carom.withErrors(cue, carom.player({ fargo }), count, k)),
@@ -105,9 +72,21 @@ test.each(drills.map((drill) => [drill.name, drill] as const))(
     const play = (cue: Partial<Cue>): Shot => carom.simulate(table, balls, cue, OPTIONS);
     expect(judge(drill, play({ speed: 0.1, phi: 200, b: 0 }))).toMatchObject({ outcome: "missed" });
     // Where three balls are to fall, the stroke goes on.
-    for (const cue of strokes(carom, drill, 1000))
+    for (const cue of strokesFor(carom, table, balls, drill, 200, OPTIONS))
       if (judge(drill, play(cue)).outcome !== "missed") return;
-    expect.fail(`${drill.name}: no stroke of 1000 makes it`);
+    expect.fail(`${drill.name}: no stroke of 200 for each way makes it`);
+  },
+);
+
+test.each(drills.map((drill) => [drill.name, drill] as const))(
+  "the hint of %s makes it, and a player of its rating makes it in about half of the tries",
+  (_, drill) => {
+    const { carom } = builds[0]!;
+    const { table, balls } = layout(carom, drill);
+    const player = carom.player({ fargo: drill.rating });
+    const { cue, made } = drillStroke(carom, table, balls, drill, player, OPTIONS)!;
+    expect(judge(drill, carom.simulate(table, balls, cue, OPTIONS)).outcome).not.toBe("missed");
+    expect(made).toBeGreaterThan(0.25);
   },
 );
 

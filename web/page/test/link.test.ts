@@ -6,7 +6,7 @@ import type { AddressInfo } from "node:net";
 import { deflateRawSync, inflateRawSync } from "node:zlib";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import type { BrowserContext, Page } from "playwright-core";
-import { browserPath, page, pages, sizes } from "./page.js";
+import { browserPath, keptGame, page, pages, sizes } from "./page.js";
 
 const packed = (text: string): string => deflateRawSync(text).toString("base64url");
 const unpacked = (url: string): string =>
@@ -222,9 +222,7 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
       there,
       new URL(await own.evaluate(() => navigator.clipboard.readText())).hash,
     );
-    const kept = (page: Page): Promise<string | null> =>
-      page.evaluate(() => localStorage.getItem("carom-game"));
-    expect(await kept(again)).toBe(await kept(own));
+    expect(await keptGame(again)).toBe(await keptGame(own));
     await here.close();
     await there.close();
   });

@@ -37,6 +37,30 @@ export const sizes = [
   ["phone", { width: 390, height: 844, touch: true }],
 ] as const;
 
+/** The games that a page's browser keeps, as text, by their ids; and which one the tab has open. */
+export function keptGames(one: Page): Promise<{ open: string; games: Record<string, string> }> {
+  return one.evaluate(async () => {
+    const finished = <T>(request: IDBRequest<T>): Promise<T> =>
+      new Promise((done, failed) => {
+        request.addEventListener("success", () => done(request.result));
+        request.addEventListener("error", () => failed(request.error));
+      });
+    const database = await finished(indexedDB.open("carom"));
+    const store = database.transaction("games").objectStore("games");
+    const games = (await finished(store.getAll())) as { id: string; text: string }[];
+    database.close();
+    return {
+      open: sessionStorage.getItem("carom-open") ?? "",
+      games: Object.fromEntries(games.map(({ id, text }) => [id, text])),
+    };
+  });
+}
+/** The text of the game that a page has open, as its browser keeps it. */
+export async function keptGame(one: Page): Promise<string> {
+  const { open, games } = await keptGames(one);
+  return games[open]!;
+}
+
 const seed = Number(process.env.CAROM_TEST_SEED ?? 20141);
 /**
  * Makes the random numbers of a page those of a seed (T. Ettinger's mulberry32), so that its racks
@@ -183,9 +207,7 @@ const set = (one: Page, id: string, value: number): Promise<void> =>
  * text.
  */
 async function struck(one: Page, key: string): Promise<number> {
-  const { entries } = await one.evaluate(
-    () => JSON.parse(localStorage.getItem("carom-game")!) as { entries: { line: string }[] },
-  );
+  const { entries } = JSON.parse(await keptGame(one)) as { entries: { line: string }[] };
   const value = (JSON.parse(entries[0]!.line) as { shot: Record<string, number | string> }).shot[
     key
   ]!;
@@ -238,6 +260,9 @@ export function pages() {
     await one.evaluate(
       (text) => {
         localStorage.clear();
+        sessionStorage.clear();
+        indexedDB.deleteDatabase("carom");
+        // As version 0.3 kept a game: the page takes it over.
         if (text) localStorage.setItem("carom-game", text);
       },
       game && JSON.stringify(game),

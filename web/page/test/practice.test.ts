@@ -2,7 +2,7 @@
 import { describe, expect, test } from "vitest";
 import { pinhole } from "./camera.js";
 import { Draws } from "../../test/support.js";
-import { browserPath, pages, sizes, violations } from "./page.js";
+import { browserPath, keptGame, pages, sizes, violations } from "./page.js";
 
 const W = 1.27;
 const L = 2.54;
@@ -164,9 +164,7 @@ describe.runIf(browserPath !== undefined)("practice", () => {
       }
       expect(await text(one, "photo-said")).toContain("4 balls");
       await one.locator("#photo-use").click();
-      const { at } = await one.evaluate(
-        () => JSON.parse(localStorage.getItem("carom-game")!) as { at: string },
-      );
+      const { at } = JSON.parse(await keptGame(one)) as { at: string };
       const places = at.split(" ");
       let worst = 0;
       for (const [ball, x, y] of balls) {

@@ -19,6 +19,7 @@ import {
   SAFETY,
   says,
   why,
+  wordsOfLevel,
 } from "./session.js";
 
 /** Shots of a plan, and of the chances of one stroke. */
@@ -98,12 +99,13 @@ function wordsOfCue({ a, b, speed }: Cue): string {
   const tip = [height, side].filter(Boolean).join(" and ");
   return `, at ${speed.toFixed(1)} m/s${tip && ` with ${tip}`}`;
 }
-function wordsOfHint({ play, first }: Session, choice: Choice, level: number): string {
+function wordsOfHint(s: Session, choice: Choice): string {
+  const { play, first } = s;
   const stroke = wordsOfChoice(play.table, play.names, choice, first?.ball === -1);
   const cue = choice.kind === "pass" ? "" : wordsOfCue(choice.cue);
   const chances = wordsOfChances(choice, play.setup.game === "threecushion");
   const errors = play.practice ? "" : " This stroke errs like his.";
-  return `Hint: ${stroke}${cue}. A ${level}, as you are, ${chances}.${errors}`;
+  return `Hint: ${stroke}${cue}. ${wordsOfLevel(s)} ${chances}.${errors}`;
 }
 
 /** Puts the stroke of a hint on the table: the cue ball in hand, the aim and the call. */
@@ -124,6 +126,22 @@ function setHint(s: Session, choice: Choice): void {
   s.showing.rest();
 }
 
+/** The best stroke of the drill that is practised. */
+async function adviseDrill(s: Session, name: string, isWanted: () => boolean): Promise<void> {
+  const { play, training } = s;
+  const player = playerOf(play.carom, String(levelOf(s)));
+  const drill = training.drill(name);
+  drop("drill"); // a search for another stroke
+  const found = await far("drill", play.table, play.balls, drill, player, OPTIONS);
+  if (!isWanted()) return;
+  if (!found) return says(s, "The search found no stroke that makes this drill from here.");
+  aimAt(s, found.cue);
+  s.hinted = true;
+  s.showing.rest();
+  const share = `makes it in ${percent(found.made)} of ${found.plays} tries`;
+  says(s, `Hint: the stroke that is aimed${wordsOfCue(found.cue)}. ${wordsOfLevel(s)} ${share}.`);
+}
+
 async function advise(s: Session): Promise<void> {
   if (!free(s)) return says(s, why(s));
   const generation = ++s.searchGeneration;
@@ -131,11 +149,13 @@ async function advise(s: Session): Promise<void> {
   const isWanted = (): boolean => generation === s.searchGeneration && free(s);
   says(s, "Looking for the best stroke …");
   try {
+    const { drill } = s.play.setup;
+    if (drill !== undefined) return await adviseDrill(s, drill, isWanted);
     drop("plan"); // a search for another stroke
     const choice = await best(requestOf(s.play, levelOf(s)), { inHand: placeOf(s.play) });
     if (!isWanted()) return;
     setHint(s, choice);
-    says(s, wordsOfHint(s, choice, levelOf(s)));
+    says(s, wordsOfHint(s, choice));
   } catch (error) {
     if (isWanted()) says(s, wrong(error));
   }
@@ -153,7 +173,7 @@ async function chances(s: Session): Promise<void> {
     const choice = await chancesOf(requestOf(s.play, levelOf(s)), cueOf(s));
     if (generation !== s.chancesGeneration || !free(s)) return;
     const words = wordsOfChances(choice, play.setup.game === "threecushion");
-    says(s, `By this stroke a ${levelOf(s)}, as you are, ${words}.`);
+    says(s, `This stroke: ${wordsOfLevel(s)} ${words}.`);
   } catch (error) {
     if (generation === s.chancesGeneration) says(s, wrong(error));
   }

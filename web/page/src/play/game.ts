@@ -103,10 +103,13 @@ export class Play {
       .map(({ state }) => ({ kind, state }));
     this.names = this.balls.map((_, k) => of.names(k));
     if (setup.at !== undefined) this.balls = placesOf(setup.at, this.table, this.balls).balls;
-    const rules = this.played?.rules ?? "potting";
+    // Practice has no rules: every ball counts.
+    const isPotting = this.practice && this.hasPockets;
+    const rules = isPotting ? "potting" : this.played!.rules;
     const opens =
       (games[rules].members as readonly string[]).includes("opening") && setup.at === undefined;
-    this.state = { rules, group: "open", opening: opens, ...this.played?.state };
+    const own = isPotting ? {} : this.played!.state;
+    this.state = { rules, group: "open", opening: opens, ...own };
     this.hand = this.practice || !this.hasPockets ? "no" : (this.played!.opening as Ruling["hand"]);
     this.#recording = carom.record(this.table, this.balls, OPTIONS);
   }

@@ -1,29 +1,61 @@
-// What is kept in this browser, and what is on its way to another page: texts, packed for links,
-// and counts.
+// What this browser keeps beside games: settings, counts and the log, as JSON under a key; and how a
+// text is packed into a link.
 
 import type { Setup } from "./game.js";
 import { wrong } from "../ui.js";
 
-const KEY = "carom-game";
-/** What was kept; undefined where the browser keeps nothing. */
-export function kept(key = KEY): string | undefined {
+/** What was kept under a key; undefined where the browser keeps nothing. */
+export function kept(key: string): string | undefined {
   try {
     return localStorage.getItem(key) ?? undefined;
   } catch {
     return undefined; // the reader has forbidden it
   }
 }
-export function keepText(text: string, key = KEY): void {
+/** Keeps a text under a key, or nothing any more. */
+export function keepText(text: string | undefined, key: string): void {
   try {
-    localStorage.setItem(key, text);
+    if (text === undefined) localStorage.removeItem(key);
+    else localStorage.setItem(key, text);
   } catch (error) {
-    console.info("This browser keeps no games:", error);
+    console.info("This browser keeps nothing:", error);
   }
 }
 
+/** The keys whose values were damaged since the page was loaded. */
+export const damaged = new Set<string>();
+/**
+ * The value that was kept as JSON under a key. Where it is damaged, `otherwise` is returned, the
+ * damaged text is put aside under another key, and the page says so once.
+ */
+export function keptValue<T>(
+  key: string,
+  otherwise: T,
+  fits: (value: unknown) => boolean = isObject,
+): T {
+  const text = kept(key);
+  if (text === undefined) return otherwise;
+  try {
+    const value: unknown = JSON.parse(text);
+    if (fits(value)) return value as T;
+  } catch {
+    // It is no JSON: as damaged as a value of another kind.
+  }
+  damaged.add(key);
+  keepText(text, `${key}-damaged`);
+  keepText(undefined, key);
+  return otherwise;
+}
+const isObject = (value: unknown): boolean =>
+  typeof value === "object" && value !== null && !Array.isArray(value);
+
 /** Two numbers that are counted under a name. */
 type Tally = Record<string, [number, number]>;
-export const tally = (key: string): Tally => JSON.parse(kept(key) ?? "{}") as Tally;
+const isPair = (value: unknown): boolean =>
+  Array.isArray(value) && value.length === 2 && value.every((count) => count >= 0);
+const isTally = (value: unknown): boolean =>
+  isObject(value) && Object.values(value as object).every(isPair);
+export const tally = (key: string): Tally => keptValue(key, {}, isTally);
 export const countsOf = (key: string, name: string): [number, number] => tally(key)[name] ?? [0, 0];
 /** Counts one more of the first or of the second, or of both. */
 export function count(

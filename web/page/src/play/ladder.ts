@@ -35,10 +35,13 @@ function results(drills: readonly Drill[]): { games: Score[]; tries: Score[] } {
     ),
   };
 }
-export function ownRating(
-  carom: Carom,
-  drills: readonly Drill[],
-): { rating: number; words: string } {
+export interface OwnRating {
+  rating: number;
+  /** Whether it is a guess, before the first game and drill. */
+  isGuess: boolean;
+  words: string;
+}
+export function ownRating(carom: Carom, drills: readonly Drill[]): OwnRating {
   const { games, tries } = results(drills);
   const own = carom.rating([...games, ...tries]);
   const rating = Math.round(own.mean);
@@ -46,11 +49,13 @@ export function ownRating(
   const high = Math.round(own.high);
   const made = tries.reduce((sum, { won }) => sum + won, 0);
   const missed = tries.reduce((sum, { lost }) => sum + lost, 0);
-  const isUnknown = [...games, ...tries].every(({ won, lost }) => won + lost === 0);
+  const isGuess = [...games, ...tries].every(({ won, lost }) => won + lost === 0);
   const from = [
     ...games.map((one) => `${one.won} : ${one.lost} against a ${one.against}`),
     ...(made + missed > 0 ? [`${made} of ${made + missed} tries of drills`] : []),
   ];
-  const basis = isUnknown ? "a guess before the first game" : `by ${from.join(", ")}`;
-  return { rating, words: `Your rating is about ${rating} (95 %: ${low} to ${high}), ${basis}.` };
+  const words = isGuess
+    ? `You have no rating yet. Until your first game the page takes you for an average player, a ${rating}.`
+    : `Your rating is about ${rating} (95 %: ${low} to ${high}), by ${from.join(", ")}.`;
+  return { rating, isGuess, words };
 }

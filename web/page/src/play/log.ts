@@ -2,7 +2,7 @@
 // print.
 import { percent } from "../table/words.js";
 import { button, dialog, el } from "../ui.js";
-import { kept, keepText } from "./keep.js";
+import { keepText, keptValue } from "./keep.js";
 
 const LOG = "carom-log";
 const MOST = 500;
@@ -32,7 +32,7 @@ export interface Row {
 export const costOf = ({ value, bestValue }: Row): number | undefined =>
   value === undefined ? undefined : Math.max(bestValue! - value, 0);
 
-const rows = (): Row[] => JSON.parse(kept(LOG) ?? "[]") as Row[];
+const rows = (): Row[] => keptValue<Row[]>(LOG, [], Array.isArray);
 export const keepRow = (row: Row): void =>
   keepText(JSON.stringify([...rows(), row].slice(-MOST)), LOG);
 
@@ -79,8 +79,8 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
   function fill(): void {
     const all = rows();
     const fixed = (x: number | undefined, places: number): string =>
-      x === undefined ? "" : x.toFixed(places);
-    const share = (x: number | undefined): string => (x === undefined ? "" : percent(x));
+      x === undefined ? "–" : x.toFixed(places).replace(/^-(?=[0.]*$)/, "");
+    const share = (x: number | undefined): string => (x === undefined ? "–" : percent(x));
     body.replaceChildren(
       ...[...all]
         .reverse()
@@ -104,14 +104,25 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
           ),
         ),
     );
-    const mean = (value: (row: Row) => number | undefined): number => {
+    /** The mean of what was measured, and of how many strokes; "" where nothing was. */
+    const mean = (
+      value: (row: Row) => number | undefined,
+      words: (mean: number) => string,
+    ): string => {
       const known = all.flatMap((row) => value(row) ?? []);
-      return known.reduce((total, x) => total + x, 0) / Math.max(known.length, 1);
+      if (known.length === 0) return "";
+      const sum = known.reduce((total, x) => total + x, 0);
+      return ` ${words(sum / known.length)} (mean of ${known.length}).`;
     };
+    const cost = mean(costOf, (x) => `A stroke cost ${percent(x)} of a game`);
+    const aim = mean(
+      ({ phi }) => phi && Math.abs(phi),
+      (x) => `The aim was off by ${x.toFixed(2)}°`,
+    );
     sum.textContent =
       all.length === 0
         ? `No stroke yet: the coach, in New game, and drills write one line for each. ${plan()}`
-        : `${all.length} ${all.length === 1 ? "stroke" : "strokes"}. A stroke cost ${percent(mean(costOf))} of a game on average. The aim was off by ${mean(({ phi }) => phi && Math.abs(phi)).toFixed(2)}°. ${plan()}`;
+        : `${all.length} ${all.length === 1 ? "stroke" : "strokes"}.${cost}${aim} ${plan()}`;
   }
   return {
     root,

@@ -3,17 +3,30 @@ import { GAMES, PLAYED, POOL_TABLES } from "../table/games.js";
 import { RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
 import { type Against, isComputer } from "./game.js";
-import { kept, keepText } from "./keep.js";
+import { keepText, keptValue } from "./keep.js";
 import type { Session, Settings } from "./parts.js";
-import { begin } from "./turns.js";
+import { gamesList } from "./games_list.js";
+import { begin } from "./opening.js";
 
 const KEY = "carom-settings";
+const LINES: readonly (readonly [Settings["lines"], string])[] = [
+  ["level", "by your rating"],
+  ["none", "none"],
+  ["short", "short: the way of the ball"],
+  ["full", "full: both balls"],
+];
+function areSettings(value: unknown): boolean {
+  if (typeof value !== "object" || value === null) return false;
+  const { lines = "level", sound = true, coach = true } = value as Partial<Settings>;
+  const isKnown = LINES.some(([name]) => name === lines);
+  return isKnown && typeof sound === "boolean" && typeof coach === "boolean";
+}
 /** The settings that the browser has kept; else sound is on where a mouse is. */
 export const settingsOf = (coarse: boolean): Settings => ({
   lines: "level",
   sound: !coarse,
   coach: false,
-  ...(JSON.parse(kept(KEY) ?? "{}") as Partial<Settings>),
+  ...keptValue<Partial<Settings>>(KEY, {}, areSettings),
 });
 
 export function menu(
@@ -58,17 +71,7 @@ export function menu(
     Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const),
     () => undefined,
   );
-  const lines = choice(
-    "lines",
-    "Lines",
-    [
-      ["level", "by your rating"],
-      ["none", "none"],
-      ["short", "short: the way of the ball"],
-      ["full", "full: both balls"],
-    ],
-    keepSettings,
-  );
+  const lines = choice("lines", "Lines", LINES, keepSettings);
   const note = el("p", { class: "note", id: "new-note" });
   /** Strokes against the page's player err a little, if nothing else is chosen. */
   function chooseErrors(): void {
@@ -125,12 +128,14 @@ export function menu(
     },
     { id: "start", class: "main" },
   );
-  const root = dialog(
+  const games = gamesList(s, () => root.close());
+  const root: HTMLDialogElement = dialog(
     "menu",
     "New game",
     el("div", { class: "fields" }, game.root, table.root, against.root, own.root),
     note,
     start,
+    games.root,
     el("h3", {}, "Settings"),
     lines.root,
     sound.root,
@@ -147,6 +152,7 @@ export function menu(
       own.select.value = setup.own;
       table.select.value = setup.table ?? "9ft";
       describe();
+      void games.refresh();
       root.showModal();
     },
   };

@@ -4,7 +4,9 @@ import type { Call, Carom, Cue } from "carom";
 import type { player as filmPlayer } from "../../../player/player.js";
 import type { filmOf, Quaternion } from "../table/filmed.js";
 import type { Stroke as StrokeValues } from "../table/stroke.js";
+import type { Drill } from "./drills.js";
 import type { Play, Stroke } from "./game.js";
+import type { OwnRating } from "./ladder.js";
 import type { Look } from "./look.js";
 import type { Sound } from "./sound.js";
 
@@ -60,9 +62,10 @@ export interface Training {
   readonly parts: HTMLElement[];
   readonly photo: HTMLDialogElement;
   wordsOfStart(name: string): string;
+  drill(name: string): Drill;
   /** Counts a try of a drill. */
   played(name: string, stroke: Stroke): { text: string; again: boolean };
-  rating(): { rating: number; words: string };
+  rating(): OwnRating;
   /** What to practise next. */
   plan(): string;
 }
@@ -122,6 +125,8 @@ interface Parts {
 /** How the game stands, and what is shown of it now. */
 export interface Progress {
   play: Play;
+  /** Under which the game is kept; "" before one is opened. */
+  id: string;
   /** Which of both sits here; of two at this page, whoever is at the table. */
   seat: 0 | 1;
   chosen: Chosen;

@@ -111,6 +111,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
     ],
     photo: photo.root,
     rating: () => ownRating(carom, drills),
+    drill: drillOf,
     wordsOfStart: (name) =>
       `${drillOf(name).text}${wordsOfTries(name)} It counts for your rating: strokes err a little, like those of an 800.`,
     /** What to practise next: what was made least, beside how often one's rating makes it. */

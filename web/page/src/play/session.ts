@@ -15,6 +15,7 @@ export const SAFETY = -2;
 /** How a game is on its way before anything was played. */
 export const progressOf = (play: Play): Progress => ({
   play,
+  id: "",
   seat: 0,
   chosen: NONE,
   special: undefined,
@@ -104,6 +105,11 @@ export function look(s: Session): void {
   s.first = lookAlong(carom, play.table, play.balls, cue, OPTIONS, showsWays);
 }
 
+/** Whom chances are told of. */
+export function wordsOfLevel(s: Pick<Session, "play" | "training">): string {
+  const level = levelOf(s);
+  return s.training.rating().isGuess ? `An average player (${level})` : `A ${level}, as you are,`;
+}
 /** The rating of whoever sits here: his own one, or that of his errors where they are larger. */
 export function levelOf({ play, training }: Pick<Session, "play" | "training">): number {
   const { own } = play.setup;

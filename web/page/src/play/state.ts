@@ -17,23 +17,38 @@ const groupOf = (play: Play, who: 0 | 1): string => {
 const ballsLeft = (play: Play, from: number, to: number): number =>
   play.balls.filter(({ state }, k) => k >= from && k <= to && onTable(state)).length;
 
-/** carom_foul_string() of each, as far as a reader can do with it. */
-const WHY: Partial<Record<string, string>> = {
-  cue_ball: "the cue ball fell or left the table",
-  no_ball: "the cue ball hit no ball",
-  first: "the cue ball hit a wrong ball first",
-  off: "a ball left the table",
-  cushion: "no ball fell or reached a cushion",
-  break: "the break drove fewer than four balls to cushions",
-  double_hit: "the tip was still on the cue ball, or touched it again, as it met a ball",
-};
-
 /** What has just happened, as far as it is not a plain change of turns. */
 function wordsOfFoul(play: Play, { who, ruling }: Stroke, seat: 0 | 1): string {
   if (!ruling?.foul) return "";
   const name = nameOf(play, who, seat);
-  const why = WHY[ruling.reason];
-  return `${name} ${name === "You" ? "foul" : "fouls"}${why ? `: ${why}` : ""}. `;
+  return `${name} ${name === "You" ? "foul" : "fouls"}: ${ruling.why}. `;
+}
+
+const fell = ({ shot }: Stroke, ball: number): boolean =>
+  shot?.events.some(({ type, a }) => type === "ball_pocket" && a === ball) === true;
+/** Why the eight lost the game. */
+function wordsOfEight({ state, ruling, balls, shot, call }: Stroke): string {
+  if (shot?.final[8]?.label === "off") return "the 8 left the table";
+  const [from, to] = state.group === "solids" ? [1, 7] : [9, 15];
+  const hasOwn = balls.some((ball, k) => k >= from && k <= to && onTable(ball.state));
+  if (state.group === "open" || hasOwn) return "the 8 fell before its group was cleared";
+  if (ruling?.foul) return `the 8 fell with a foul: ${ruling.why}`;
+  const isCalled = typeof call === "object" && call.ball === 8;
+  return isCalled ? "the 8 fell into another pocket than the called one" : "the 8 was not called";
+}
+/** Why the game has ended, as far as the stroke tells more than the score. */
+function wordsOfEnd(play: Play): string {
+  const { last, setup, played, winner } = play;
+  if (!last?.ruling) return "";
+  const hasLost = winner !== last.who;
+  const deciding = { eightball: 8, nineball: 9 }[setup.game];
+  if (deciding === undefined) {
+    const score = play.points.join(" : ").replaceAll("-", "−");
+    return played?.points ? `the score is ${score}` : "";
+  }
+  if (!hasLost) return fell(last, deciding) ? `the ${deciding} fell` : "";
+  if (deciding === 8) return wordsOfEight(last);
+  return last.ruling.foul ? `the third foul in a row: ${last.ruling.why}` : "";
 }
 
 /** Where balls count for whoever plays. */
@@ -71,7 +86,8 @@ export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = fa
   const before = play.last && !short ? wordsOfFoul(play, play.last, seat) : "";
   if (play.winner !== undefined) {
     const winner = nameOf(play, play.winner, seat);
-    return `${before}${winner} ${winner === "You" ? "have" : "has"} won.`;
+    const end = wordsOfEnd(play);
+    return `${winner} ${winner === "You" ? "have" : "has"} won${end && `: ${end}`}.`;
   }
   const name = nameOf(play, play.turn, seat);
   const aim = aimOf(play);

@@ -1,14 +1,15 @@
-// The turns of a game: it begins, a stroke is played by whoever sits here or by the page's player,
-// and the next one comes to the table.
+// The turns of a game: a stroke is played by whoever sits here or by the page's player, the game is
+// saved, and the next one comes to the table.
 import type { Call, Choice, Cue } from "carom";
-import { drop, far } from "../far.js";
+import { far } from "../far.js";
 import { angleFrom, direction } from "../table/grip.js";
 import { wordsOfChoice } from "../table/words.js";
 import { parameters, wrong } from "../ui.js";
-import { isComputer, OPTIONS, Play, read, type Setup, type Stroke } from "./game.js";
-import { countRack, kept, keepText, unpack } from "./keep.js";
+import { isComputer, OPTIONS, Play, type Stroke } from "./game.js";
+import { countRack, racksOf } from "./keep.js";
 import { countGame, isRated } from "./ladder.js";
 import type { Session } from "./parts.js";
+import { saveGame } from "./saved.js";
 import {
   aimAt,
   ballsOn,
@@ -27,15 +28,14 @@ import {
   says,
   why,
 } from "./session.js";
-import { nameOf, wordsOfStroke } from "./state.js";
+import { nameOf, wordsOfScore, wordsOfStroke } from "./state.js";
 
 /** Shots of a plan of the page's player. */
 const REPLY = 400;
 /** How long the stroke of the page's player is shown before it is played, ms. */
 const SHOWN = 700;
 /** The power after the break, m/s. */
-const SPEED = 2.5;
-export const FIRST: Setup = { game: "eightball", against: "300", own: "800", seed: 1 };
+export const SPEED = 2.5;
 
 // ---- Strokes ------------------------------------------------------------------------------------
 
@@ -209,96 +209,43 @@ async function reply(s: Session): Promise<void> {
   }
 }
 
-// ---- Games --------------------------------------------------------------------------------------
+// ---- What is kept of a game ---------------------------------------------------------------------
 
-/** Puts a game on the table. */
-export function start(s: Session, play: Play): void {
-  drop("plan");
-  const turned = play.balls.map(() => [1, 0, 0, 0] as const);
-  Object.assign(s, {
-    searchGeneration: s.searchGeneration + 1,
-    then: undefined,
-    theirs: undefined,
-    thinks: false,
-    play,
-    turned,
-    turnedBefore: turned,
-    chosen: NONE,
-    special: undefined,
-    hinted: false,
-  });
-  s.film.stop();
-  s.film.look(1);
-}
-/** What a game says as it begins. */
-function wordsOfStart({ setup, practice }: Play, training: Session["training"]): string {
-  if (setup.drill !== undefined) return training.wordsOfStart(setup.drill);
-  if (practice) return "Drag balls to lay them, drag on the cloth to aim, tap Shoot.";
-  return "Drag on the table to aim, then tap Shoot.";
-}
-export function begin(s: Session, setup: Setup): void {
-  s.seat = 0;
-  start(s, new Play(s.carom, structuredClone(setup)));
-  const { play } = s;
-  aimAt(s, {
-    ...cueOf(s),
-    theta: 0,
-    ...(play.played?.begin ?? { speed: 4, phi: 62, a: 0, b: 0 }),
-    ...(setup.at === undefined ? {} : { speed: 2, phi: 90 }),
-  });
-  says(s, wordsOfStart(play, s.training));
-  save(s);
-  s.showing.rest();
-}
 /**
- * Keeps the game: in the browser; one by link in the address and on other pages of this machine.
+ * Whether a game is worth a line in the list of games: somebody has played or laid balls. Drills
+ * have counts of their own.
  */
-function save({ play, link }: Pick<Session, "play" | "link">): void {
-  if (play.setup.against === "link") return link.save();
-  keepText(play.text());
+export function isWorthKeeping({ setup, practice, entries, past }: Play): boolean {
+  if (setup.drill !== undefined) return false;
+  return practice ? past.length > 0 || setup.at !== undefined : entries.length > 0;
+}
+/** Saves the game in this browser; one by link also in the address and on other pages. */
+export function save({ play, link, seat, id, words }: Saved): void {
+  const { setup } = play;
+  const { length: strokes } = play.entries;
+  const game = {
+    id,
+    text: play.text(),
+    setup,
+    score: wordsOfScore(play, seat, racksOf(setup)),
+    strokes,
+    isOver: play.winner !== undefined,
+    when: Date.now(),
+  };
+  saveGame(game).catch((error: unknown) =>
+    says({ words }, `This browser does not keep the game: ${wrong(error)}.`),
+  );
+  if (setup.against === "link") return link.save();
   if (location.hash !== "#view=play" && !parameters().has("d"))
     history.replaceState(null, "", "#view=play");
 }
-/** Keeps the game after a stroke, and who has won it. */
-export function keep({ play, link }: Pick<Session, "play" | "link">): void {
-  const { winner, setup } = play;
+type Saved = Pick<Session, "play" | "link" | "seat" | "id" | "words">;
+/** Saves the game after a stroke, and counts who has won it. */
+export function keep(s: Saved): void {
+  const { winner, setup } = s.play;
   if (winner !== undefined) {
     countRack(setup, winner);
     countGame(setup, winner);
   }
-  save({ play, link });
-}
-
-/** Goes on with a game that was read, for one of both seats. */
-function goOn(s: Session, play: Play, seat: 0 | 1, isLink: boolean): void {
-  start(s, play);
-  s.seat = seat;
-  const begins = play.breaks || play.practice;
-  aimAt(s, {
-    ...cueOf(s),
-    theta: 0,
-    ...(begins ? play.played?.begin : { speed: SPEED }),
-  });
   save(s);
-  s.link.ask();
-  const { length } = play.entries;
-  const strokes = length === 1 ? "stroke was" : "strokes were";
-  says(s, isLink && length > 0 ? `${length} ${strokes} repeated; every bit agrees.` : "");
-  if (isLink && play.last?.shot && mine(s)) s.showing.perform(play.last, () => next(s));
-  else next(s);
-}
-/** The game of the address, the one that was kept, or a new one. */
-export async function resume(s: Session): Promise<void> {
-  const given = parameters();
-  let failure = "";
-  try {
-    const packed = given.get("g");
-    const text = packed ? await unpack(packed) : kept();
-    const seat = packed && given.get("seat") === "1" ? 1 : 0;
-    if (text !== undefined) return goOn(s, read(s.carom, text), seat, Boolean(packed));
-  } catch (error) {
-    failure = `The game was not read: ${wrong(error)}.`;
-  }
-  begin(s, { ...FIRST, seed: Math.floor(Math.random() * 2 ** 31) });
-  if (failure) says(s, failure);
 }

@@ -18,7 +18,8 @@ import type { Session } from "./parts.js";
 import { cueOf, progressOf, says } from "./session.js";
 import { Sound } from "./sound.js";
 import { Space } from "./space.js";
-import { begin, choose, FIRST, resume, start, undo } from "./turns.js";
+import { begin, FIRST, resume, start } from "./opening.js";
+import { choose, undo } from "./turns.js";
 
 const wordsOf = (): Session["words"] => ({
   turn: el("p", { id: "turn", role: "status" }),
@@ -179,7 +180,7 @@ export function playView(
     el("div", { class: "play" }, felt, stroke.side, bar, stroke.numbers, ...all),
   );
 
-  start(s, s.play);
+  start(s, s.play, "");
   s.showing.rest();
   const asked = parameters().get("d");
   const ready = resume(s)

@@ -13,11 +13,13 @@ const BY: Partial<Record<Choice["kind"], string>> = {
   carom: ", by a carom",
   kiss: ", by a kiss",
 };
+/** Choices in which no ball is named. */
 const WITHOUT: Partial<Record<Choice["kind"], string>> = {
-  foul: "a foul, as no stroke without one was found",
+  foul: "a foul, because no stroke without one was found",
   break: "a break",
   push: "a push-out",
-  pass: "a pass, which lets the other player go on",
+  pass: "a pass: the other player goes on",
+  safety: "a safety",
 };
 
 /**
@@ -31,7 +33,8 @@ export function wordsOfChances(
   return `keeps the turn in ${percent(keep)}, ${alone ? "" : `wins the game in ${percent(value)}, `}fouls in ${percent(foul)} of tries`;
 }
 
-export const isSafe = ({ ball, keep }: Choice): boolean => ball < 0 && keep < 0.005;
+export const isSafe = ({ kind, ball, keep }: Choice): boolean =>
+  ball < 0 && (kind === "safety" || keep < 0.005);
 /** What a choice is, by which the cue ball may be known to meet a cushion first. */
 export function wordsOfChoice(
   table: Table,
@@ -40,12 +43,16 @@ export function wordsOfChoice(
   cushionFirst = false,
 ): string {
   const { kind, ball, pocket } = choice;
+  const hasPockets = table.pockets.length > 0;
   if (ball < 0) {
-    const luck = "a stroke without a sure pot: which ball falls is luck";
-    return WITHOUT[kind] ?? (isSafe(choice) ? "a safety" : luck);
+    const named = WITHOUT[kind] ?? (isSafe(choice) ? WITHOUT.safety : undefined);
+    if (named !== undefined) return named;
+    return hasPockets
+      ? "a stroke without a sure pot: several balls may fall"
+      : "a stroke after which the first ball is not sure";
   }
   const name = names[ball]!;
-  if (table.pockets.length === 0) return `the ${name} ball first`;
+  if (!hasPockets) return `the ${name} ball first`;
   const article = Number(name) > 0 ? "ball" : "the";
   const first = cushionFirst && kind !== "kick" ? ", off a cushion first" : "";
   return `${article} ${name} into the ${pocketName(table, pocket)}${BY[kind] ?? ""}${first}`;

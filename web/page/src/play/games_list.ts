@@ -1,0 +1,105 @@
+// The list of the games that this browser keeps: one goes on with any of them, saves it as a file
+// that `carom verify` takes, or deletes it.
+import type { Carom } from "carom";
+import { GAMES, PLAYED } from "../table/games.js";
+import { button, el, wrong } from "../ui.js";
+import { read } from "./game.js";
+import { countGame, isRated } from "./ladder.js";
+import { openGame } from "./opening.js";
+import type { Session } from "./parts.js";
+import { deleteGame, type SavedGame, savedGames } from "./saved.js";
+import { says } from "./session.js";
+
+const OPPONENTS: Record<string, string> = {
+  practice: "practice",
+  person: "two players at this page",
+  link: "by link",
+};
+function titleOf({ setup }: SavedGame): string {
+  const game = (PLAYED[setup.game] ?? GAMES[setup.game])?.text ?? setup.game;
+  return `${game}, ${OPPONENTS[setup.against] ?? `against a ${setup.against}`}`;
+}
+function detailsOf({ when, strokes, score, isOver }: SavedGame): string {
+  const date = new Date(when).toISOString().slice(0, 16).replace("T", " ");
+  const count = `${strokes} ${strokes === 1 ? "stroke" : "strokes"}`;
+  return [date, count, score, isOver ? "over" : ""].filter((part) => part !== "").join(" · ");
+}
+/** A game against a rating that is left for good counts as lost. */
+const isLostByLeaving = ({ setup, isOver, strokes }: SavedGame): boolean =>
+  isRated(setup) && !isOver && strokes > 0;
+
+function download(carom: Carom, { setup, text, when }: SavedGame): void {
+  const recording = new Blob([read(carom, text).end()], { type: "application/jsonl" });
+  const url = URL.createObjectURL(recording);
+  const date = new Date(when).toISOString().slice(0, 10);
+  el("a", { href: url, download: `carom-${setup.game}-${date}.jsonl` }).click();
+  URL.revokeObjectURL(url);
+}
+
+export function gamesList(
+  s: Session,
+  close: () => void,
+): { root: HTMLElement; refresh(): Promise<void> } {
+  const list = el("ul", { class: "saved", id: "saved-games" });
+  const root = el("section", {}, el("h3", {}, "Your games"), list);
+
+  async function goOn(game: SavedGame): Promise<void> {
+    close();
+    try {
+      if (game.id !== s.id) await openGame(s, game.id);
+    } catch (error) {
+      says(s, `The game was not opened: ${wrong(error)}.`);
+    }
+  }
+  /** The first press says what the second one does. */
+  function deleteButton(game: SavedGame): HTMLButtonElement {
+    const question = isLostByLeaving(game) ? "Delete: it counts as lost" : "Delete for good";
+    const made = button("Delete", async () => {
+      if (made.textContent !== question) {
+        made.textContent = question;
+        return;
+      }
+      if (isLostByLeaving(game)) countGame(game.setup, 1);
+      await deleteGame(game.id);
+      await refresh();
+    });
+    return made;
+  }
+  function save(game: SavedGame): void {
+    try {
+      download(s.carom, game);
+    } catch (error) {
+      close();
+      says(s, `The game was not saved as a file: ${wrong(error)}.`);
+    }
+  }
+  function rowOf(game: SavedGame): HTMLElement {
+    const isOpen = game.id === s.id;
+    const title = titleOf(game);
+    // The game on the table is not deleted under the player's hands.
+    const buttons = isOpen
+      ? [button("Save file", () => save(game))]
+      : [
+          button("Go on", () => void goOn(game), { "aria-label": `Go on with ${title}` }),
+          button("Save file", () => save(game)),
+          deleteButton(game),
+        ];
+    const mark = isOpen ? " (on the table)" : "";
+    return el(
+      "li",
+      {},
+      el("div", {}, el("strong", {}, title + mark), el("p", { class: "note" }, detailsOf(game))),
+      el("div", { class: "row" }, ...buttons),
+    );
+  }
+  async function refresh(): Promise<void> {
+    try {
+      const games = await savedGames();
+      list.replaceChildren(...games.map(rowOf));
+      root.hidden = games.length === 0;
+    } catch (error) {
+      list.replaceChildren(el("li", {}, `This browser shows no games: ${wrong(error)}.`));
+    }
+  }
+  return { root, refresh };
+}

@@ -1,0 +1,135 @@
+// Which game is on the table: a new one, one that this browser keeps, or that of a link.
+import { drop } from "../far.js";
+import { parameters, wrong } from "../ui.js";
+import { Play, read, type Setup } from "./game.js";
+import { damaged, unpack } from "./keep.js";
+import type { Session } from "./parts.js";
+import {
+  deleteGame,
+  holdGame,
+  idOfLink,
+  idOfTab,
+  newId,
+  savedGame,
+  savedGames,
+  takeOver,
+} from "./saved.js";
+import { aimAt, cueOf, mine, NONE, says } from "./session.js";
+import { isWorthKeeping, next, save, SPEED } from "./turns.js";
+
+export const FIRST: Setup = { game: "eightball", against: "300", own: "800", seed: 1 };
+
+/** Puts a game on the table. */
+export function start(s: Session, play: Play, id: string, seat: 0 | 1 = 0): void {
+  drop("plan");
+  const turned = play.balls.map(() => [1, 0, 0, 0] as const);
+  Object.assign(s, {
+    searchGeneration: s.searchGeneration + 1,
+    then: undefined,
+    theirs: undefined,
+    thinks: false,
+    play,
+    id,
+    seat,
+    turned,
+    turnedBefore: turned,
+    chosen: NONE,
+    special: undefined,
+    hinted: false,
+  });
+  s.film.stop();
+  s.film.look(1);
+}
+/** What a game says as it begins. */
+function wordsOfStart({ setup, practice }: Play, training: Session["training"]): string {
+  if (setup.drill !== undefined) return training.wordsOfStart(setup.drill);
+  if (practice) return "Drag balls to lay them, drag on the cloth to aim, tap Shoot.";
+  return "Drag on the table to aim, then tap Shoot.";
+}
+
+/** Begins a game under an id of its own; the one before is kept if anybody has played in it. */
+export function begin(s: Session, setup: Setup): void {
+  const left = { id: s.id, play: s.play };
+  const isKept = left.id !== "" && isWorthKeeping(left.play);
+  if (left.id !== "" && !isKept) void deleteGame(left.id);
+  const play = new Play(s.carom, structuredClone(setup));
+  start(s, play, setup.against === "link" ? idOfLink(setup, 0) : newId());
+  void holdGame(s.id);
+  aimAt(s, {
+    ...cueOf(s),
+    theta: 0,
+    ...(play.played?.begin ?? { speed: 4, phi: 62, a: 0, b: 0 }),
+    ...(setup.at === undefined ? {} : { speed: 2, phi: 90 }),
+  });
+  const isUnfinished = isKept && left.play.winner === undefined;
+  const note = isUnfinished ? " The game before is kept under New game." : "";
+  says(s, wordsOfStart(play, s.training) + note);
+  save(s);
+  s.showing.rest();
+}
+
+/** Goes on with a game that was read, for one of both seats. */
+function goOn(s: Session, play: Play, id: string, seat: 0 | 1, isLink: boolean): void {
+  start(s, play, id, seat);
+  const begins = play.breaks || play.practice;
+  aimAt(s, {
+    ...cueOf(s),
+    theta: 0,
+    ...(begins ? play.played?.begin : { speed: SPEED }),
+  });
+  save(s);
+  s.link.ask();
+  const { length } = play.entries;
+  const strokes = length === 1 ? "stroke was" : "strokes were";
+  says(s, isLink && length > 0 ? `${length} ${strokes} repeated; every bit agrees.` : "");
+  if (isLink && play.last?.shot && mine(s)) s.showing.perform(play.last, () => next(s));
+  else next(s);
+}
+
+/** Opens a game that is kept. Throws where it is damaged or open in another tab. */
+export async function openGame(s: Session, id: string): Promise<void> {
+  const saved = await savedGame(id);
+  if (!saved) throw new TypeError("that game is no longer kept");
+  const play = read(s.carom, saved.text);
+  // Two pages of one machine may play both sides of a game by link: they hear of each stroke.
+  if (saved.setup.against !== "link" && !(await holdGame(id)))
+    throw new TypeError("that game is open in another tab: go on there");
+  goOn(s, play, id, id === idOfLink(saved.setup, 1) ? 1 : 0, false);
+}
+/** Opens the game of a link under an id of its own. */
+async function openLink(s: Session, packed: string, seat: 0 | 1): Promise<void> {
+  const play = read(s.carom, await unpack(packed));
+  const id = play.setup.against === "link" ? idOfLink(play.setup, seat) : newId();
+  await holdGame(id);
+  goOn(s, play, id, seat, true);
+}
+
+/** What was damaged of what this browser keeps beside games. */
+function wordsOfDamage(): string {
+  if (damaged.size === 0) return "";
+  const keys = [...damaged].map((key) => key.replace("carom-", ""));
+  return ` What this browser had kept as ${keys.join(", ")} was damaged and begins anew.`;
+}
+/** The game of the address, the one that this tab had open or that was saved last, or a new one. */
+export async function resume(s: Session): Promise<void> {
+  const given = parameters();
+  const packed = given.get("g");
+  const ways = [
+    takeOver,
+    async () => packed && openLink(s, packed, given.get("seat") === "1" ? 1 : 0),
+    async () => {
+      const id = idOfTab() ?? (await savedGames())[0]?.id;
+      if (id !== undefined) await openGame(s, id);
+    },
+  ];
+  let failure = "";
+  for (const way of ways)
+    try {
+      if (s.id === "") await way();
+    } catch (error) {
+      failure += `The game was not opened: ${wrong(error)}. `;
+    }
+  if (s.id === "") begin(s, { ...FIRST, seed: Math.floor(Math.random() * 2 ** 31) });
+  const said = failure || s.words.said.textContent!;
+  if (failure || damaged.size > 0) says(s, said.trim() + wordsOfDamage());
+}

@@ -1,0 +1,91 @@
+// The games that this browser keeps: each under an id of its own in IndexedDB, with what a list
+// shows of it. A tab has one game open and holds a lock on its id, so that no other tab plays the
+// same game.
+import { createStore, del, get, set, values } from "idb-keyval";
+import type { Setup } from "./game.js";
+import { kept, keepText } from "./keep.js";
+
+export interface SavedGame {
+  id: string;
+  /** The game as text: its setup and its strokes. */
+  text: string;
+  setup: Setup;
+  score: string;
+  strokes: number;
+  isOver: boolean;
+  /** When it was saved, ms since 1970. */
+  when: number;
+}
+
+const store = createStore("carom", "games");
+/** The key under which a tab remembers which game it has open. */
+const OPEN = "carom-open";
+/** Where version 0.3 kept its only game. */
+const OLD_KEY = "carom-game";
+
+export const newId = (): string => crypto.randomUUID();
+/** The id of a game by link, which both of its players' pages on one machine may have open. */
+export const idOfLink = ({ game, seed }: Setup, seat: 0 | 1): string =>
+  `link-${game}-${seed}-${seat}`;
+
+export const saveGame = (game: SavedGame): Promise<void> => set(game.id, game, store);
+export const deleteGame = (id: string): Promise<void> => del(id, store);
+export const savedGame = (id: string): Promise<SavedGame | undefined> => get(id, store);
+/** All games, the last saved one first. */
+export async function savedGames(): Promise<SavedGame[]> {
+  const games = await values<SavedGame>(store);
+  return games.sort((a, b) => b.when - a.when);
+}
+
+/** Which game the tab had open before it was loaded again. */
+export function idOfTab(): string | undefined {
+  try {
+    return sessionStorage.getItem(OPEN) ?? undefined;
+  } catch {
+    return undefined; // the reader has forbidden it
+  }
+}
+
+/** The game that this tab holds, and how it lets go of it. */
+let held: { id: string; release(): void } | undefined;
+/**
+ * Holds a game for this tab, and lets go of the one before. False where another tab has it open.
+ * Browsers without locks (pages that are served without TLS) do not know of other tabs.
+ */
+export async function holdGame(id: string): Promise<boolean> {
+  const isHeld =
+    "locks" in navigator && held?.id !== id
+      ? await new Promise<boolean>((answer) => {
+          void navigator.locks.request(`carom ${id}`, { ifAvailable: true }, (lock) => {
+            answer(lock !== null);
+            if (lock === null) return undefined;
+            held?.release();
+            return new Promise<void>((release) => (held = { id, release }));
+          });
+        })
+      : true;
+  try {
+    if (isHeld) sessionStorage.setItem(OPEN, id);
+  } catch (error) {
+    console.info("This browser does not remember which game a tab has open:", error);
+  }
+  return isHeld;
+}
+
+/** Takes over the only game that version 0.3 kept. */
+export async function takeOver(): Promise<void> {
+  const text = kept(OLD_KEY);
+  if (text === undefined) return;
+  const { entries = [], ...setup } = JSON.parse(text) as Setup & { entries?: unknown[] };
+  const strokes = entries.length;
+  await saveGame({
+    id: newId(),
+    text,
+    setup,
+    score: "",
+    strokes,
+    isOver: false,
+    when: Date.now(),
+  });
+  keepText(undefined, OLD_KEY);
+}

@@ -1,0 +1,166 @@
+// Games that the browser keeps: several at once, each of them through damaged links, new games,
+// drills and second tabs; and what happens where something that was kept is damaged.
+import { describe, expect, test } from "vitest";
+import { browserPath, keptGames, page, pages } from "./page.js";
+
+describe.runIf(browserPath !== undefined)("kept games", () => {
+  const { browser, open, set, text } = pages();
+  type Page = Awaited<ReturnType<typeof open>>;
+
+  /** Begins a game by the menu. */
+  async function begin(one: Page, game: string, against: string): Promise<void> {
+    await one.locator("#new-game").click();
+    await one.locator("#new-which").selectOption(game);
+    await one.locator("#new-against").selectOption(against);
+    await one.locator("#rate").selectOption("1000");
+    await one.locator("#start").click();
+  }
+  async function shoot(one: Page, power: number): Promise<void> {
+    await set(one, "power", power);
+    const before = (await keptGames(one)).open;
+    await one.locator("#shoot").click();
+    await expect
+      .poll(async () => {
+        const { open, games } = await keptGames(one);
+        return open === before && games[open]!.includes('"line"');
+      })
+      .toBe(true);
+  }
+  async function load(one: Page, hash = ""): Promise<void> {
+    await one.goto(`${one.url().split("#")[0]!}?again=${Math.random()}${hash}`);
+    await one.waitForSelector("main[aria-busy=false]");
+  }
+
+  test("a damaged link, a new game and a drill leave the game before in the list", async () => {
+    const one = await open("");
+    await begin(one, "nineball", "person");
+    await shoot(one, 8);
+    const { open: first, games } = await keptGames(one);
+
+    await load(one, "#view=play&seat=1&g=bY_damaged");
+    expect(await text(one, "said")).toMatch(/not opened: the link is cut off or damaged/);
+    expect((await keptGames(one)).open).toBe(first);
+    expect((await keptGames(one)).games[first]).toBe(games[first]);
+
+    await begin(one, "snooker", "person");
+    expect(await text(one, "said")).toMatch(/The game before is kept under New game\.$/);
+    await one.locator("#new-game").click();
+    await one.locator("#start-drill").click();
+    const after = await keptGames(one);
+    expect(after.games[first]).toBe(games[first]);
+    // Nobody has played in the game of snooker.
+    expect(Object.values(after.games).some((game) => game.includes("snooker"))).toBe(false);
+
+    await one.locator("#new-game").click();
+    const rows = one.locator("#saved-games li");
+    await expect.poll(() => rows.count()).toBe(2);
+    await one.getByRole("button", { name: "Go on with Nine-ball" }).click();
+    await expect.poll(async () => (await keptGames(one)).open).toBe(first);
+    expect(await text(one, "turn")).not.toContain("break");
+    await one.close();
+  });
+
+  test("a second tab does not play the game that the first one has open", async () => {
+    const context = await browser().newContext();
+    const visit = async (): Promise<Page> => {
+      const tab = await context.newPage();
+      await tab.goto(`file://${page}`);
+      await tab.waitForSelector("main[aria-busy=false]");
+      return tab;
+    };
+    const one = await visit();
+    await begin(one, "nineball", "person");
+    await shoot(one, 8);
+    const { open: first, games } = await keptGames(one);
+    const other = await visit();
+    expect(await text(other, "said")).toMatch(/open in another tab: go on there/);
+    await begin(other, "eightball", "person");
+    await shoot(other, 8);
+    const both = await keptGames(other);
+    expect(both.open).not.toBe(first);
+    expect(both.games[first]).toBe(games[first]);
+    await one.reload();
+    await one.waitForSelector("main[aria-busy=false]");
+    expect((await keptGames(one)).open).toBe(first);
+    await context.close();
+  });
+
+  test("a rated game that is deleted counts as lost, and its button says so before", async () => {
+    const one = await open("");
+    await begin(one, "nineball", "300");
+    await shoot(one, 8);
+    await begin(one, "eightball", "person");
+    await one.locator("#new-game").click();
+    const remove = one
+      .locator("#saved-games li", { hasText: "Nine-ball" })
+      .getByRole("button")
+      .last();
+    await remove.click();
+    expect(await remove.textContent()).toBe("Delete: it counts as lost");
+    const lost = (): Promise<string | null> =>
+      one.evaluate(() => localStorage.getItem("carom-ladder"));
+    expect(await lost()).toBe(null);
+    await remove.click();
+    await expect.poll(lost).toBe('{"300":[0,1]}');
+    await expect.poll(() => one.locator("#saved-games li").count()).toBe(1);
+    await one.close();
+  });
+
+  test("what is damaged begins anew, is put aside, and is named; the page starts", async () => {
+    const one = await open("");
+    await one.evaluate(() => {
+      localStorage.setItem("carom-settings", "{bad");
+      localStorage.setItem("carom-ladder", '{"300":"many"}');
+    });
+    await one.reload();
+    await one.waitForSelector("main[aria-busy=false]");
+    expect(await text(one, "said")).toMatch(/kept as settings, ladder was damaged and begins anew/);
+    expect(await one.evaluate(() => localStorage.getItem("carom-settings-damaged"))).toBe("{bad");
+    await one.close();
+  });
+
+  test("a file of a game is a recording with every stroke", async () => {
+    const one = await open("");
+    await begin(one, "nineball", "person");
+    await shoot(one, 8);
+    await one.locator("#new-game").click();
+    const waiting = one.waitForEvent("download");
+    await one.getByRole("button", { name: "Save file" }).first().click();
+    const stream = await (await waiting).createReadStream();
+    const chunks: Buffer[] = [];
+    for await (const chunk of stream) chunks.push(chunk as Buffer);
+    const lines = Buffer.concat(chunks).toString().trim().split("\n");
+    expect(lines.filter((line) => line.includes('"shot"'))).toHaveLength(1);
+    expect(lines.at(-1)).toContain('"end"');
+    await one.close();
+  });
+
+  test("a log of drills alone states neither a cost nor an aim that nobody measured", async () => {
+    const one = await open("");
+    await one.locator("#new-game").click();
+    await one.locator("#drill").selectOption("Lag");
+    await one.locator("#rate").selectOption("1000");
+    await one.locator("#start-drill").click();
+    await set(one, "power", 0.3);
+    await one.locator("#shoot").click();
+    await expect.poll(() => text(one, "said")).toMatch(/^Missed: 0 of 1/);
+    await one.locator("#new-game").click();
+    await one.locator("#open-log").click();
+    expect(await text(one, "log-sum")).toMatch(/^1 stroke\. Practise next:/);
+    const cells = await one.locator("#log tbody td").allTextContents();
+    expect(cells.filter((cell) => cell === "–").length).toBeGreaterThan(5);
+    await one.close();
+  });
+
+  test("Hint in a drill aims a stroke, and tells how often it makes the drill", async () => {
+    const one = await open("");
+    await one.locator("#new-game").click();
+    await one.locator("#drill").selectOption("Kick by one cushion");
+    await one.locator("#start-drill").click();
+    await one.locator("#hint").click();
+    await expect
+      .poll(() => text(one, "said"))
+      .toMatch(/^Hint: the stroke that is aimed, at .* makes it in \d+ % of 200 tries\.$/);
+    await one.close();
+  });
+});
