@@ -117,6 +117,10 @@ export function drawBall(g, view, { name, radius: R }, k, { r, q }, alpha, ring)
   const number = Number(name);
   const axes = axesOf(q);
   g.globalAlpha = alpha;
+  // The shadow lies away from the lamp above the middle, farther off where the ball flies.
+  g.fillStyle = "#0000003a";
+  const fall = 0.14 * R + 0.6 * Math.max(r[2] - R, 0);
+  disc(g, view, [r[0] + fall, r[1] - fall], 1.04 * radius);
   g.fillStyle = colour;
   disc(g, view, r, radius);
   for (const sign of [1, -1]) {

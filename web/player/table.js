@@ -113,40 +113,169 @@ export const disc = (g, view, [x, y], radius) => {
   g.fill();
 };
 
+/** How wide a cushion is from its nose to the wood, m. */
+const CUSHION = 0.05;
+/** Rails longer than this are cushions, the others facings of pockets, m. */
+const FACING = 0.3;
+
 /**
- * Draws cloth, wood, pockets, noses and diamonds. @param {CanvasRenderingContext2D} g @param {View}
- * view @param {Table} table @param {string} bed
+ * The outline of a rectangle around the noses, farther out by `more`, m.
+ * @param {CanvasRenderingContext2D} g @param {View} view @param {Table} table @param {number} more
+ */
+function rectangle(g, view, { width, length }, more) {
+  const [x0, y0] = view.place(-more, -more);
+  const [x1, y1] = view.place(width + more, length + more);
+  g.rect(Math.min(x0, x1), Math.min(y0, y1), Math.abs(x1 - x0), Math.abs(y1 - y0));
+}
+
+/**
+ * The arc of a jaw between the ends of the rails that it joins; none where it joins none.
+ * @param {Table} table @param {Table["jaws"][number]} jaw @returns {Point[]}
+ */
+export function arcOf(table, { centre, radius }) {
+  const ends = table.rails
+    .flatMap(({ p, q }) => [p, q])
+    .filter(([x, y]) => Math.abs(Math.hypot(x - centre[0], y - centre[1]) - radius) < 1e-3);
+  if (ends.length !== 2) return [];
+  const [from, to] = ends.map(([x, y]) => Math.atan2(y - centre[1], x - centre[0]));
+  const turned = Math.atan2(Math.sin(to - from), Math.cos(to - from));
+  return Array.from({ length: 9 }, (_, k) => [
+    centre[0] + radius * Math.cos(from + (turned * k) / 8),
+    centre[1] + radius * Math.sin(from + (turned * k) / 8),
+  ]);
+}
+
+/**
+ * The mouths of the pockets, as cloth between their facings, their liners, and their holes.
+ * @param {CanvasRenderingContext2D} g @param {View} view @param {Table} table @param {string} bed
+ */
+function drawPockets(g, view, table, bed) {
+  const facings = table.rails
+    .filter(({ p, q }) => Math.hypot(q[0] - p[0], q[1] - p[1]) < FACING)
+    .flatMap(({ p, q }) => [p, q])
+    .concat(...table.jaws.map((jaw) => arcOf(table, jaw)));
+  for (const { centre, radius } of table.pockets) {
+    const mouth = facings.filter(([x, y]) => Math.hypot(x - centre[0], y - centre[1]) < 3 * radius);
+    const middle = [0, 1].map((c) => mouth.reduce((sum, at) => sum + at[c], 0) / mouth.length);
+    const angle = (/** @type {Point} */ [x, y]) => Math.atan2(y - middle[1], x - middle[0]);
+    g.beginPath();
+    for (const at of mouth.sort((one, other) => angle(one) - angle(other)))
+      g.lineTo(...view.place(at[0], at[1]));
+    g.fillStyle = bed;
+    g.fill();
+    g.fillStyle = "#241811"; // the leather around the hole
+    disc(g, view, centre, (radius + 0.011) * view.scale);
+    const [x, y] = view.place(centre[0], centre[1]);
+    const hole = g.createRadialGradient(x, y, 0, x, y, radius * view.scale);
+    hole.addColorStop(0, "#000");
+    hole.addColorStop(0.75, "#060808");
+    hole.addColorStop(1, "#14100d");
+    g.fillStyle = hole;
+    disc(g, view, centre, radius * view.scale);
+  }
+}
+
+/**
+ * The light of a lamp above the middle, and the shadow of the cushions on the cloth.
+ * @param {CanvasRenderingContext2D} g @param {View} view @param {Table} table
+ */
+function drawLight(g, view, table) {
+  const [x, y] = view.place(table.width / 2, table.length / 2);
+  const far = 0.62 * table.length * view.scale;
+  const lamp = g.createRadialGradient(x, y, 0.1 * far, x, y, far);
+  lamp.addColorStop(0, "#ffffff1c");
+  lamp.addColorStop(0.6, "#00000010");
+  lamp.addColorStop(1, "#00000058");
+  g.fillStyle = lamp;
+  g.beginPath();
+  rectangle(g, view, table, CUSHION);
+  g.fill();
+  for (const [wide, shade] of /** @type {const} */ ([
+    [0.03, "#00000018"],
+    [0.014, "#00000026"],
+  ])) {
+    g.strokeStyle = shade;
+    g.lineWidth = wide * view.scale;
+    for (const { p, q } of table.rails) line(g, view, [p, q]);
+  }
+}
+
+/**
+ * Where lines and spots are drawn on the cloth, m. Snooker's are those of the WPBSA's rules: the
+ * baulk line 29 in from the baulk cushion, a D of 11 1/2 in, the pyramid spot halfway from the
+ * middle to the top cushion, the black one 12 3/4 in from it. Pool has a head and a foot spot.
+ * @param {Table} table
+ */
+function markingsOf({ width, length, pockets }) {
+  const middle = width / 2;
+  if (pockets.length === 0) return { lines: [], spots: [] };
+  const at = (/** @type {number[]} */ ...heights) =>
+    heights.map((y) => /** @type {Point} */ ([middle, y]));
+  if (length < 3) return { lines: [], spots: at(length / 4, (3 * length) / 4) };
+  const baulk = 0.7366;
+  const radius = 0.2921;
+  const d = Array.from({ length: 25 }, (_, k) => {
+    const turn = Math.PI * (1 + k / 24);
+    return /** @type {Point} */ ([
+      middle + radius * Math.cos(turn),
+      baulk + radius * Math.sin(turn),
+    ]);
+  });
+  /** @type {Point[]} */
+  const line = [
+    [0, baulk],
+    [width, baulk],
+  ];
+  /** @type {Point[]} */
+  const corners = [
+    [middle - radius, baulk],
+    [middle + radius, baulk],
+  ];
+  const spots = at(baulk, length / 2, (3 * length) / 4, length - 0.32385);
+  return { lines: [line, d], spots: [...corners, ...spots] };
+}
+
+/**
+ * Draws cloth, cushions, pockets, noses, lines, spots and diamonds on the wood.
+ * @param {CanvasRenderingContext2D} g @param {View} view @param {Table} table @param {string} bed
  */
 function drawCloth(g, view, table, bed) {
+  g.fillStyle = "#0005"; // the edge of the wood
+  g.beginPath();
+  rectangle(g, view, table, CUSHION + 0.004);
+  g.fill();
   g.fillStyle = bed;
-  const [x0, y0] = view.place(0, 0);
-  const [x1, y1] = view.place(table.width, table.length);
-  g.fillRect(Math.min(x0, x1), Math.min(y0, y1), Math.abs(x1 - x0), Math.abs(y1 - y0));
-  g.fillStyle = "#0c0f10";
-  for (const pocket of table.pockets) disc(g, view, pocket.centre, pocket.radius * view.scale);
-  g.strokeStyle = "#0f3b31";
-  g.lineWidth = 3;
+  g.beginPath();
+  rectangle(g, view, table, CUSHION);
+  g.fill();
+  // Cushions have the cloth of the bed, and less light.
+  g.fillStyle = "#00000030";
+  g.beginPath();
+  rectangle(g, view, table, CUSHION);
+  rectangle(g, view, table, 0);
+  g.fill("evenodd");
   g.lineCap = "round";
+  drawPockets(g, view, table, bed);
+  drawLight(g, view, table);
+  g.strokeStyle = "#0b2d25";
+  g.lineWidth = Math.max(2, 0.006 * view.scale);
   for (const { p, q } of table.rails) line(g, view, [p, q]);
-  // Of a jaw the part between the ends of the rails that it joins.
-  for (const { centre, radius } of table.jaws) {
-    const ends = table.rails
-      .flatMap(({ p, q }) => [p, q])
-      .filter(([x, y]) => Math.abs(Math.hypot(x - centre[0], y - centre[1]) - radius) < 1e-3);
-    if (ends.length !== 2) continue;
-    const [from, to] = ends.map(([x, y]) => Math.atan2(y - centre[1], x - centre[0]));
-    const turned = Math.atan2(Math.sin(to - from), Math.cos(to - from));
-    line(
-      g,
-      view,
-      Array.from({ length: 9 }, (_, k) => [
-        centre[0] + radius * Math.cos(from + (turned * k) / 8),
-        centre[1] + radius * Math.sin(from + (turned * k) / 8),
-      ]),
-    );
-  }
-  // Diamonds: the long cushions in eight parts, the short ones in four. None where a pocket is,
-  // none in snooker.
+  for (const jaw of table.jaws) line(g, view, arcOf(table, jaw));
+  const { lines, spots } = markingsOf(table);
+  g.strokeStyle = "#ffffff66";
+  g.lineWidth = Math.max(1, 0.003 * view.scale);
+  for (const points of lines) line(g, view, points);
+  g.fillStyle = "#ffffff88";
+  for (const spot of spots) disc(g, view, spot, Math.max(1.2, 0.006 * view.scale));
+  drawDiamonds(g, view, table);
+}
+
+/**
+ * Diamonds: the long cushions in eight parts, the short ones in four. None where a pocket is, none
+ * in snooker.
+ * @param {CanvasRenderingContext2D} g @param {View} view @param {Table} table
+ */
+function drawDiamonds(g, view, table) {
   if (table.length > 3) return;
   g.fillStyle = "#e8dcc0";
   for (const side of [0, 1]) {
@@ -156,6 +285,26 @@ function drawCloth(g, view, table, bed) {
         disc(g, view, [side * table.width + out, (table.length * k) / 8], 0.008 * view.scale);
     for (let k = 1; k < 4; k++)
       disc(g, view, [(table.width * k) / 4, side * table.length + out], 0.008 * view.scale);
+  }
+}
+
+/**
+ * Wood around the table: darker towards its outer edge, with a bright line where it is rounded.
+ * @param {CanvasRenderingContext2D} g @param {number} width @param {number} height pixels @param
+ * {string} wood @param {number} scale
+ */
+function drawWood(g, width, height, wood, scale) {
+  g.fillStyle = wood;
+  g.fillRect(0, 0, width, height);
+  const wide = WOOD * scale;
+  for (const [share, shade] of /** @type {const} */ ([
+    [0.12, "#00000055"],
+    [0.3, "#00000022"],
+    [0.55, "#ffffff12"],
+  ])) {
+    g.strokeStyle = shade;
+    g.lineWidth = share * wide;
+    g.strokeRect(0, 0, width, height);
   }
 }
 
@@ -188,8 +337,7 @@ export function clothFor(view, canvas) {
     [cloth.width, cloth.height] = [canvas.width, canvas.height];
     const g = /** @type {CanvasRenderingContext2D} */ (cloth.getContext("2d", { alpha: false }));
     g.setTransform(dpr, 0, 0, dpr, 0, 0);
-    g.fillStyle = wood || "#5b3a24";
-    g.fillRect(0, 0, width, height);
+    drawWood(g, width, height, wood || "#5b3a24", view.scale);
     drawCloth(g, view, table, bed || "#1f6f5c");
     return cloth;
   };

@@ -87,16 +87,22 @@ export function pad(
   root.innerHTML =
     '<svg viewBox="-1.05 -1.05 2.1 2.1"><circle r="1" fill="#fbfaf5" stroke="#000a" stroke-width="0.03"/><circle r="0.5" fill="none" stroke="#0006" stroke-width="0.02" stroke-dasharray="0.06 0.05"/>' +
     '<path d="M-1 0H1M0-1V1" stroke="#0003" stroke-width="0.02"/><circle class="tip" r="0.15" fill="#3f7fbf" stroke="#000a" stroke-width="0.02"/></svg>';
+  // The place on the ball, and where the pointer was when it was there. A pad may grow while it is
+  // held, within the page and not around the finger, so moves count and not places.
+  let place: [number, number] = [0, 0];
+  let pointer: [number, number] = [0, 0];
   drags(root, (event, first) => {
     const box = root.getBoundingClientRect();
-    const x = (2.1 * (event.clientX - box.left)) / box.width - 1.05;
-    const y = 1.05 - (2.1 * (event.clientY - box.top)) / box.height;
-    const most = Math.min(1, 0.7 / Math.hypot(x, y));
-    onInput(Math.round(100 * most * x) / 100, Math.round(100 * most * y) / 100);
-    if (!first) return;
-    // One that grows does so around the finger, which stays on the same place of the ball.
-    root.style.transformOrigin = `${event.clientX - box.left}px ${event.clientY - box.top}px`;
-    root.classList.add("held");
+    const from = first ? [(box.left + box.right) / 2, (box.top + box.bottom) / 2] : pointer;
+    const [x, y] = first ? [0, 0] : place;
+    place = [
+      x + (2.1 * (event.clientX - from[0]!)) / box.width,
+      y - (2.1 * (event.clientY - from[1]!)) / box.height,
+    ];
+    pointer = [event.clientX, event.clientY];
+    const most = Math.min(1, 0.7 / Math.hypot(...place));
+    onInput(Math.round(100 * most * place[0]) / 100, Math.round(100 * most * place[1]) / 100);
+    if (first) root.classList.add("held");
   });
   for (const type of ["pointerup", "pointercancel"])
     root.addEventListener(type, () => root.classList.remove("held"));

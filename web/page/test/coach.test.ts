@@ -96,6 +96,9 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
       },
     );
     await turnTo(one, 90);
+    await one.locator("#new-game").click();
+    await one.locator("#numbers").check();
+    await one.locator("#menu .close").click();
     await one.locator("#space").click();
     await one.locator("#scene").waitFor();
     expect(await violations(one)).toEqual([]);

@@ -86,7 +86,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     const manifest = await devtools.send("Page.getAppManifest");
     expect(manifest.errors).toEqual([]);
     expect(JSON.parse(manifest.data!)).toMatchObject({
-      name: "carom explorer",
+      name: "carom",
       display: "standalone",
     });
     expect(

@@ -17,17 +17,26 @@ const LINES: readonly (readonly [Settings["lines"], string])[] = [
 ];
 function areSettings(value: unknown): boolean {
   if (typeof value !== "object" || value === null) return false;
-  const { lines = "level", sound = true, coach = true } = value as Partial<Settings>;
+  const {
+    lines = "level",
+    sound = true,
+    coach = true,
+    numbers = true,
+  } = value as Partial<Settings>;
   const isKnown = LINES.some(([name]) => name === lines);
-  return isKnown && typeof sound === "boolean" && typeof coach === "boolean";
+  return isKnown && [sound, coach, numbers].every((one) => typeof one === "boolean");
 }
-/** The settings that the browser has kept; else sound is on where a mouse is. */
-export const settingsOf = (coarse: boolean): Settings => ({
+/** The settings that the browser has kept. Sound is on after the first touch, unless it was muted. */
+export const settingsOf = (): Settings => ({
   lines: "level",
-  sound: !coarse,
+  sound: true,
   coach: false,
+  numbers: false,
   ...keptValue<Partial<Settings>>(KEY, {}, areSettings),
 });
+
+export const keepSettings = ({ settings }: Pick<Session, "settings">): void =>
+  keepText(JSON.stringify(settings), KEY);
 
 export function menu(
   s: Session,
@@ -71,33 +80,31 @@ export function menu(
     Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const),
     () => undefined,
   );
-  const lines = choice("lines", "Lines", LINES, keepSettings);
+  const lines = choice("lines", "Lines", LINES, changeSettings);
   const note = el("p", { class: "note", id: "new-note" });
   /** Strokes against the page's player err a little, if nothing else is chosen. */
   function chooseErrors(): void {
     own.select.value = isComputer(against.select.value as Against) ? "800" : "0";
     describe();
   }
-  function keepSettings(): void {
+  function changeSettings(): void {
     Object.assign(s.settings, {
       lines: lines.select.value,
-      sound: sound.input.checked,
       coach: coach.input.checked,
+      numbers: numbers.input.checked,
     });
-    s.sound.on = s.settings.sound;
-    s.sound.wake();
-    keepText(JSON.stringify(s.settings), KEY);
+    keepSettings(s);
     s.changed();
   }
-  const sound = check("sound", "Sound", keepSettings);
   const coach = check(
     "coach",
-    "Coach: tells the chances of a stroke, and then its cost",
-    keepSettings,
+    "Coach: shows the chances of a stroke, and then its cost",
+    changeSettings,
   );
+  const numbers = check("numbers", "Numbers beside the balls in 3D", changeSettings);
   lines.select.value = s.settings.lines;
-  sound.input.checked = s.settings.sound;
   coach.input.checked = s.settings.coach;
+  numbers.input.checked = s.settings.numbers;
 
   const isPool = (): boolean =>
     GAMES[PLAYED[game.select.value]?.of ?? game.select.value]!.game === "pool";
@@ -138,8 +145,8 @@ export function menu(
     games.root,
     el("h3", {}, "Settings"),
     lines.root,
-    sound.root,
     coach.root,
+    numbers.root,
     el("div", { class: "row" }, el("span", {}, "Speed of the film"), s.film.pace),
     ...more,
   );

@@ -27,6 +27,8 @@ export interface Settings {
   lines: "level" | Lines;
   sound: boolean;
   coach: boolean;
+  /** Whether numbers stand beside balls in the view from behind the cue. */
+  numbers: boolean;
 }
 
 /** What a stroke is set by (controls.ts): its elements, and its values. */
@@ -108,7 +110,17 @@ interface Parts {
   readonly sound: Sound;
   readonly words: Record<"turn" | "score" | "said", HTMLElement>;
   readonly buttons: Record<
-    "menu" | "hint" | "replay" | "undo" | "rack" | "push" | "pass" | "skip" | "link" | "space",
+    | "menu"
+    | "hint"
+    | "replay"
+    | "undo"
+    | "rack"
+    | "push"
+    | "pass"
+    | "skip"
+    | "link"
+    | "space"
+    | "sound",
     HTMLButtonElement
   >;
   readonly stroke: Controls;

@@ -1,13 +1,14 @@
-// The table from behind the cue, by three.js: cloth, cushions and pockets, balls with stripes and
-// numbers that turn as the library computed, and shadows. A module by itself: the page has it
+// The table from behind the cue, by three.js: the table in its room (furniture.ts), the cue, and
+// balls with stripes and numbers that turn as the library computed. A module by itself: the page has it
 // compressed and starts it when it is asked for.
 import type { Cue } from "carom";
 import * as THREE from "three";
 import { WOOD } from "../../../player/table.js";
+import { furnish } from "./furniture.js";
 import { IVORY, type Pose, type Table } from "../../../player/words.js";
 
 export interface SceneOf {
-  table: Pick<Table, "width" | "length" | "rails" | "pockets">;
+  table: Table;
   balls: { name: string; radius: number; colour: string }[];
   cloth: string;
   wood: string;
@@ -76,119 +77,56 @@ function surface({ name, colour }: SceneOf["balls"][number]): THREE.CanvasTextur
   });
 }
 
-/** A lamp above the table. */
-function lampOver(scene: THREE.Scene, width: number, length: number): void {
-  scene.add(new THREE.HemisphereLight("#ffffff", "#445544", 1.3));
-  const lamp = new THREE.DirectionalLight("#fff6e0", 2.2);
-  lamp.position.set(width * 0.2, length * 0.35, 2.2);
-  lamp.target.position.set(width / 2, length / 2, 0);
-  lamp.castShadow = true;
-  lamp.shadow.mapSize.set(2048, 2048);
-  const half = 0.6 * length;
-  Object.assign(lamp.shadow.camera, {
-    left: -half,
-    right: half,
-    top: half,
-    bottom: -half,
-    near: 0.5,
-    far: 5,
+/** What a ball reflects: a dark room with a lamp above. */
+function surroundings(): THREE.CubeTexture {
+  const faces = ["px", "nx", "py", "ny", "pz", "nz"].map((name) => {
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [64, 64];
+    const g = canvas.getContext("2d")!;
+    g.fillStyle = name === "nz" ? "#0d2a20" : "#0a0b0d";
+    g.fillRect(0, 0, 64, 64);
+    g.fillStyle = "#fff4dd";
+    if (name === "pz") g.fillRect(28, 20, 8, 24);
+    return canvas;
   });
-  lamp.shadow.bias = -5e-4;
-  scene.add(lamp, lamp.target);
+  const cube = new THREE.CubeTexture(faces);
+  cube.colorSpace = THREE.SRGBColorSpace;
+  cube.needsUpdate = true;
+  return cube;
 }
-/** Parts that never move, as one mesh: each mesh that is drawn costs a frame some time. */
-function joined(
-  parts: THREE.Mesh[],
-  material: THREE.Material,
-  receiveShadow: boolean,
-  castShadow = false,
-): THREE.Mesh {
-  const all = parts.map((part) => {
-    part.updateMatrix();
-    return part.geometry.toNonIndexed().applyMatrix4(part.matrix);
-  });
-  const geometry = new THREE.BufferGeometry();
-  for (const name of ["position", "normal"])
-    geometry.setAttribute(
-      name,
-      new THREE.Float32BufferAttribute(
-        all.flatMap((one) => [...one.getAttribute(name)!.array]),
-        3,
-      ),
+/** A cue, its tip at the origin, and its butt towards -y: tip, ferrule, shaft, butt. */
+function cueOf(): THREE.Group {
+  const cue = new THREE.Group();
+  const parts = [
+    [0, 0.006, 0.0058, 0.006, "#3f7fbf"],
+    [0.006, 0.026, 0.006, 0.0062, "#f6f2e6"],
+    [0.026, 0.75, 0.0062, 0.0105, "#dcb783"],
+    [0.75, 0.79, 0.0105, 0.011, "#1a1a1c"],
+    [0.79, 1.42, 0.011, 0.0148, "#5a2a1c"],
+  ] as const;
+  for (const [from, to, thin, thick, colour] of parts) {
+    const part = new THREE.Mesh(
+      new THREE.CylinderGeometry(thin, thick, to - from, 20),
+      new THREE.MeshPhongMaterial({ color: colour, shininess: 50, specular: "#444444" }),
     );
-  return Object.assign(new THREE.Mesh(geometry, material), { receiveShadow, castShadow });
-}
-/**
- * Slate with cloth up to the middle of the pockets, wood around it, the faces of cushions, and dark
- * pockets.
- */
-function furnish(scene: THREE.Scene, of: SceneOf): void {
-  const { width, length } = of.table;
-  const cloth = new THREE.MeshLambertMaterial({ color: of.cloth });
-  const box = (
-    x: number,
-    y: number,
-    w: number,
-    l: number,
-    low: number,
-    high: number,
-  ): THREE.Mesh => {
-    const mesh = new THREE.Mesh(new THREE.BoxGeometry(w, l, high - low));
-    mesh.position.set(x, y, (low + high) / 2);
-    return mesh;
-  };
-  const nose = 0.0365;
-  const wood = [-1, 1].flatMap((side) => [
-    box(
-      width / 2 + side * (width / 2 + WOOD),
-      length / 2,
-      WOOD,
-      length + 3 * WOOD,
-      -0.06,
-      1.2 * nose,
-    ),
-    box(width / 2, length / 2 + side * (length / 2 + WOOD), width + WOOD, WOOD, -0.06, 1.2 * nose),
-  ]);
-  const strips = of.table.rails.flatMap(({ p, q, height = nose }) => {
-    // A strip from the nose outwards, over the cloth.
-    const along = Math.hypot(q[0] - p[0], q[1] - p[1]);
-    if (along < 1e-6) return [];
-    const ux = (q[0] - p[0]) / along;
-    const uy = (q[1] - p[1]) / along;
-    const thick = 0.045;
-    const middle = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2] as const;
-    const outward = Math.sign(-uy * (middle[0] - width / 2) + ux * (middle[1] - length / 2)) || 1;
-    const mesh = box(
-      middle[0] - (outward * uy * thick) / 2,
-      middle[1] + (outward * ux * thick) / 2,
-      along,
-      thick,
-      height - 0.006,
-      height + 0.006,
-    );
-    mesh.rotation.z = Math.atan2(uy, ux);
-    return [mesh];
-  });
-  const holes = of.table.pockets.map(({ centre, radius }) => {
-    const hole = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, 0.09, 32));
-    hole.rotation.x = Math.PI / 2;
-    hole.position.set(centre[0], centre[1], 0.002);
-    return hole;
-  });
-  scene.add(
-    joined([box(width / 2, length / 2, width + WOOD, length + WOOD, -0.03, 0)], cloth, true),
-    joined(wood, new THREE.MeshLambertMaterial({ color: of.wood }), true),
-  );
-  scene.add(
-    joined(strips, cloth, true, true),
-    joined(holes, new THREE.MeshBasicMaterial({ color: "#050606" }), false),
-  );
+    part.position.y = -(from + to) / 2;
+    part.castShadow = true;
+    cue.add(part);
+  }
+  return cue;
 }
 /** A ball: a sphere whose y is the ball's z. */
-function ballOf(ball: SceneOf["balls"][number]): THREE.Group {
+function ballOf(ball: SceneOf["balls"][number], envMap: THREE.CubeTexture): THREE.Group {
   const sphere = new THREE.Mesh(
     new THREE.SphereGeometry(ball.radius, 40, 28),
-    new THREE.MeshPhongMaterial({ map: surface(ball), shininess: 90, specular: "#666666" }),
+    new THREE.MeshPhongMaterial({
+      map: surface(ball),
+      shininess: 140,
+      specular: "#333333",
+      envMap,
+      combine: THREE.AddOperation,
+      reflectivity: 0.15,
+    }),
   );
   sphere.rotation.x = Math.PI / 2;
   sphere.castShadow = true;
@@ -201,7 +139,7 @@ export class Scene {
   readonly #scene = new THREE.Scene();
   readonly #camera = new THREE.PerspectiveCamera(40, 1, 0.02, 12);
   readonly #balls: THREE.Group[];
-  readonly #stick: THREE.Mesh;
+  readonly #stick: THREE.Group;
   readonly #aim: THREE.Mesh;
   readonly #ghost: THREE.Mesh;
   readonly #within: readonly [number, number];
@@ -214,18 +152,14 @@ export class Scene {
     this.#renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     const { width, length } = of.table;
     const scene = this.#scene;
+    const around = surroundings();
     this.#camera.up.set(0, 0, 1);
-    scene.background = new THREE.Color("#15181b");
+    scene.background = new THREE.Color("#0e0f11");
 
-    lampOver(scene, width, length);
     furnish(scene, of);
-    this.#balls = of.balls.map(ballOf);
+    this.#balls = of.balls.map((ball) => ballOf(ball, around));
     scene.add(...this.#balls);
-    this.#stick = new THREE.Mesh(
-      new THREE.CylinderGeometry(0.0055, 0.014, 1.4, 16),
-      new THREE.MeshLambertMaterial({ color: "#d9b077" }),
-    );
-    this.#stick.castShadow = true;
+    this.#stick = cueOf();
     // The aim on the cloth: a line to the place of the cue ball at its first contact, and a ring
     // there.
     const light = new THREE.MeshBasicMaterial({
@@ -320,7 +254,7 @@ export class Scene {
         .set(r[0]!, r[1]!, R)
         .addScaledVector(right, -a * R)
         .addScaledVector(up, b * R)
-        .addScaledVector(along, -(stick.gap + 0.7));
+        .addScaledVector(along, -stick.gap);
       this.#stick.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along);
     }
     this.#renderer.render(this.#scene, this.#camera);

@@ -171,8 +171,8 @@ export class Space implements SpaceView {
     this.#label(poses, of !== undefined);
   }
   /**
-   * Draws the way of a ball that is aimed at, and the number of each ball where it lies over no
-   * other one.
+   * Draws the way of a ball that is aimed at; and, if the settings ask for it, the number of each
+   * ball where it lies over no other one.
    */
   #label(poses: readonly Pose[], aims: boolean): void {
     const over = this.#over;
@@ -203,6 +203,7 @@ export class Space implements SpaceView {
         },
       };
     });
+    if (!this.s.settings.numbers) return;
     drawNumbers({ g, scale: 1, place: (x, y) => [x, y] }, seen, this.#of!.names);
   }
 

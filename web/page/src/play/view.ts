@@ -12,7 +12,7 @@ import { finish, moved, showing } from "./filming.js";
 import { Play } from "./game.js";
 import { byLink } from "./link.js";
 import { logPage } from "./log.js";
-import { menu, settingsOf } from "./menu.js";
+import { keepSettings, menu, settingsOf } from "./menu.js";
 import { practice } from "./practice.js";
 import type { Session } from "./parts.js";
 import { cueOf, progressOf, says } from "./session.js";
@@ -49,6 +49,11 @@ function buttonsOf(session: () => Session): Session["buttons"] {
     pass: named("pass", "Pass", (s) => choose(s, "pass")),
     skip: named("skip", "Skip", (s) => s.showing.skip()),
     link: named("send", "Send link", (s) => s.link.send()),
+    sound: named("sound", "♪", toggleSound, {
+      "aria-label": "Sound",
+      "aria-pressed": "true",
+      title: "Sound on or off",
+    }),
     space: named("space", "3D", toggle, {
       "aria-pressed": "false",
       title: "The view from behind the cue",
@@ -59,7 +64,7 @@ function buttonsOf(session: () => Session): Session["buttons"] {
 /** The game before it begins, with all that it is played by. */
 function sessionOf(carom: Carom, felt: HTMLElement): Session {
   const coarse = window.matchMedia("(pointer: coarse)").matches;
-  const settings = settingsOf(coarse);
+  const settings = settingsOf();
   const changed = eachFrame(() => {
     if (!s.film.playing && s.then === undefined) s.showing.rest();
     if (settings.coach) void s.coach.chances();
@@ -91,6 +96,14 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
     training: practice(carom, (setup) => begin(s, setup)),
     space: new Space(s, felt),
   });
+}
+function toggleSound(s: Session): void {
+  const isOn = !s.settings.sound;
+  s.settings.sound = isOn;
+  s.sound.on = isOn;
+  s.sound.wake();
+  keepSettings(s);
+  s.buttons.sound.setAttribute("aria-pressed", String(isOn));
 }
 async function toggle(s: Session): Promise<void> {
   try {
@@ -181,6 +194,8 @@ export function playView(
   );
 
   start(s, s.play, "");
+  buttons.sound.setAttribute("aria-pressed", String(s.settings.sound));
+  document.querySelector("header")!.append(buttons.sound);
   s.showing.rest();
   const asked = parameters().get("d");
   const ready = resume(s)
@@ -197,6 +212,7 @@ export function playView(
       s.space.draw();
     },
     close() {
+      buttons.sound.remove();
       s.space.close();
       s.searchGeneration++;
       drop("plan");
