@@ -10,7 +10,7 @@ import { builds } from "../../test/builds.js";
 import { root } from "../../test/support.js";
 
 const drills = drillsOf(readFileSync(`${root}data/drills.csv`, "utf8"));
-const OPTIONS = { cushionModel: "han" } as const;
+const OPTIONS = {};
 
 function layout(
   carom: Carom,

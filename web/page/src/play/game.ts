@@ -59,7 +59,7 @@ export interface Stroke {
   ruling: Ruling | undefined;
 }
 
-export const OPTIONS: ShotOptions = { cushionModel: "han" };
+export const OPTIONS: ShotOptions = {};
 const same = (a: readonly ShotBall[], b: readonly ShotBall[]): boolean =>
   a.every(
     ({ state }, k) =>
