@@ -441,8 +441,8 @@ static OPTION_SET(set_errors) {
   OPTION_ROW(shared_options, only, row, name, member, letter, argument, set, least, help)
 
 ROW(option_solver, "solver", options.solver, 0, NULL, set_named, CAROM_WORDS_SOLVER, BALLS_ONLY,
-    "exact: the limit of infinitely many steps (default); euler: N steps of equal impulse, as in "
-    "the 2014 paper");
+    "exact: the limit of infinitely many steps (default); fast: the same in less time, but not "
+    "smooth; euler: N steps of equal impulse, as in the 2014 paper");
 ROW(option_slip, "slip", options.slip, 0, NULL, set_named, CAROM_WORDS_SLIP, BALLS_ONLY,
     "sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's");
 ROW(option_friction, "friction", friction, 0, "alciatore|LAW", set_law, 0, BALLS_ONLY,

@@ -22,6 +22,8 @@ static const kernel kernels[] = {
     {"exact", "double",
      "the limit of infinitely many steps, by collocation: the physics of the model itself",
      CAROM_SOLVER_EXACT, false, claims_exact},
+    {"fast", "double", "the same with single precision inside: in less time, but not smooth",
+     CAROM_SOLVER_FAST, false, claims_exact},
     {"euler", "double",
      "Mathavan's N steps of equal normal impulse; with the pooltool slip, pooltool's result to the "
      "last bit",

@@ -4,7 +4,7 @@ try carom > said 2>&1
 sed -n '1p;$p' said
 rm said
 for words in frobnicate resolve "resolve a b" "resolve --frobnicate x.csv" "resolve --outptu x.csv" "hit --sp 3" "hit --csv=3" "resolve -o" "resolve --steps" \
-  "resolve -x x.csv" --verison "help nosuch" "resolve --solver fast x.csv" "resolve --precision half x.csv" "resolve --threads -1 x.csv" "resolve --kernel exact x.csv" \
+  "resolve -x x.csv" --verison "help nosuch" "resolve --solver rough x.csv" "resolve --precision half x.csv" "resolve --threads -1 x.csv" "resolve --kernel exact x.csv" \
   bench "resolve --slip none x.csv" "resolve --steps 0 x.csv" "resolve --steps 1e3 x.csv" "resolve missing.csv" "resolve ."; do
   # shellcheck disable=SC2086
   try carom $words

@@ -6,10 +6,10 @@ try lab sweep
 try lab kernels now
 try lab kernels --csv -o nowhere/kernels.csv
 try lab verify now
-try lab verify --kernel fast
+try lab verify --kernel rough
 try lab verify --data nowhere
 try lab resolve
-try lab resolve --kernel fast x.csv
+try lab resolve --kernel rough x.csv
 try lab resolve --solver exact x.csv
 lab kernels > /dev/full || echo "exit $?"
 for budget in x 0 -1 nan 1x ""; do try lab bench --budget "$budget"; done
