@@ -15,6 +15,7 @@ from carom.pettingzoo import PoolEnv
 from carom.pool import Pool
 
 rules: Pool = Pool("nineball", cushion_model="han")
+same_rules: carom.pool.Pool = rules
 rating: carom.Rating = carom.plans.rating([(1.0, 500.0)])
 same: carom.plans.Rating = rating
 entry: type[PoolEnv] = carom.pettingzoo.PoolEnv

@@ -13,10 +13,21 @@ import pytest
 from conftest import refused_by_name
 
 import carom
+from carom._rows import numbered
 from carom.games.potting import Potting
+from carom.plans import Kind
 
 TABLE = carom.tables.pool_9ft()
 LAYOUT = carom.balls([[0.4, 0.9], [0.3, 1.9], [0.9, 1.7], [0.7, 0.5]])
+
+
+def test_kinds_of_strokes_are_those_of_c_and_have_words():
+    values = numbered("carom_plan_kind")
+    assert {kind.name.lower(): kind.value for kind in Kind} == values
+    assert (Kind.BANK.text, Kind.COMBINATION.text) == ("bank", "combination")
+    assert all(kind.text for kind in Kind) and len({kind.text for kind in Kind}) == len(Kind)
+    best = carom.plan(TABLE, LAYOUT, rules="potting", shots=100)
+    assert all(Kind(kind).text for kind in best["kind"])
 
 
 def test_plan():

@@ -1175,7 +1175,7 @@ def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, mo
     assert (
         "fitted, 4 of 8 shots: RMSE median" in told
         and "predicted, 4 of 8 shots" in told
-        and "% are within the bands of 68 and 95 %" in told
+        and "% are within the residuals of 68 and 95 %" in told
     )
     assert written["bands"][0][0] == 0 and all(
         0.0 < near <= far for _, near, far in written["bands"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import enum
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
@@ -27,10 +28,47 @@ if TYPE_CHECKING:
 
     from carom._shot_options import Changes
 
-__all__ = ["Pot", "Rating", "aim", "chances", "plan", "player", "rating", "value", "with_errors"]
+__all__ = [
+    "Kind",
+    "Pot",
+    "Rating",
+    "aim",
+    "chances",
+    "plan",
+    "player",
+    "rating",
+    "value",
+    "with_errors",
+]
 __dir__ = listing(__name__)
 
 _USUAL = Options()
+
+
+class Kind(enum.IntEnum):
+    """What a stroke that `plan` proposes is: `Kind(choice["kind"]).text` is its word.
+
+    `carom_plan.h` explains each. The command, the page and the npm package use the same words.
+    """
+
+    POT = 0
+    SCAN = 1
+    FOUL = 2
+    GIVEN = 3
+    PUSH = 4
+    PASS = 5
+    BREAK = 6
+    BANK = 7
+    KICK = 8
+    COMBINATION = 9
+    CAROM = 10
+    SAFETY = 11
+    KISS = 12
+
+    @property
+    def text(self) -> str:
+        """Its word, such as "bank"."""
+        return str(ffi.string(lib.carom_plan_kind_name(self)).decode())
 
 
 def player(errors: float | None = None, *, fargo: float | None = None) -> dtypes.Records:
@@ -477,7 +515,8 @@ def plan(
     Returns
     -------
     ndarray of `carom.dtypes.choice`, shape (up to best,)
-        The best first: `cue` is the stroke, `value` the chance to win.
+        The best first: `cue` is the stroke, `value` the chance to win, and `kind` what the stroke
+        is, as `carom.plans.Kind`.
 
     Raises
     ------
