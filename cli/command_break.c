@@ -143,7 +143,9 @@ static bool play(const breaker *b, const shot_line *line, double gap, counts *c)
   static carom_ball_state final[BLOCK][CAROM_BALLS_MOST];
   *c = (counts){0};
   for (int from = 0; from < b->job->racks; from += BLOCK) {
-    const int n = b->job->racks - from < BLOCK ? b->job->racks - from : BLOCK;
+    int n = b->job->racks - from;
+    if (n > BLOCK)
+      n = BLOCK;
     for (int k = 0; k < n; k++) {
       set_up(b, line, gap, from + k, ball[k], &cue[k]);
       shot[k] = (carom_shot){.facts = &facts[k], .final = final[k]};

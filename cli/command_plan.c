@@ -38,7 +38,8 @@ OPTION(plan_job, option_rules, "rules", game.rules, 0, NULL, set_named, CAROM_WO
        "and threecushion take any names");
 OPTION(plan_job, option_group, "group", game.group, 0, "open|solids|stripes", set_choice, 0,
        "the balls of the player, where each has a group (default open: any but the eight)");
-OPTION(plan_job, option_may, "may", game.may, 0, "shoot|push-out|pass|free-ball", set_choice, 0,
+OPTION(plan_job, option_permission, "may", game.permission, 0, "shoot|push-out|pass|free-ball",
+       set_choice, 0,
        "what the player may do besides a shot (default shoot: nothing); free-ball: pass, or play "
        "any ball");
 OPTION(plan_job, option_score, "score", game.score, 0, "OWN,OTHER", set_score, 0,
@@ -334,7 +335,7 @@ static const command_form form = {
     .options = (const option_row *const[]){&option_rules,         &option_table,
                                            &option_cue,           &option_balls,
                                            &option_one_gap,       &option_group,
-                                           &option_may,           &option_score,
+                                           &option_permission,    &option_score,
                                            &option_target,        &option_own_pocket,
                                            &option_colour,        &option_opening,
                                            &option_hand,          &option_try,
@@ -373,7 +374,7 @@ int command_plan(int argc, char **argv) {
   if (file == NULL)
     return EXIT_USAGE;
   static shot_line line;
-  static planned made;
+  static planned result;
   int code = EXIT_USAGE;
   static carom_cue strokes[TRIED_MOST];
   const int strokes_of_file =
@@ -382,15 +383,15 @@ int command_plan(int argc, char **argv) {
     const int tried = job.tries ? strokes_of_file : 0;
     FILE *out = output_open(job.from.shared.output);
     if (out != NULL) {
-      code = plan(&job, &line, shot_file_name(file), out, strokes, tried, &made);
+      code = plan(&job, &line, shot_file_name(file), out, strokes, tried, &result);
       if (code == EXIT_USAGE)
         output_abandon();
       else if (!output_commit())
         code = EXIT_USAGE;
       else if (job.plot != NULL) {
         char what[200];
-        describe(&line, &made.best, what);
-        code = plan_draw(job.plot, &line, &made, job.plan.seed, what) ? code : EXIT_SOME;
+        describe(&line, &result.best, what);
+        code = plan_draw(job.plot, &line, &result, job.plan.seed, what) ? code : EXIT_SOME;
       }
     }
     shot_line_free(&line);

@@ -8,6 +8,7 @@
 #include "program/message.h"
 #include "program/options.h"
 #include "program/output.h"
+#include "program/words.h"
 #include "rows/doubts.h"
 #include "shots/shoot_flags.h"
 #include "shots/shot_fault.h"
@@ -329,8 +330,8 @@ static shot_read fill_block(block *b, shoot_job *job, shot_file *file, const cha
 static bool was_drawn(const shoot_job *job) {
   if (!drawings_asked(&job->drawn) || drawings_made(&job->drawn))
     return true;
-  complain("nothing to draw: there is no shot without an error%s%s", job->id != NULL ? " " : "",
-           job->id != NULL ? job->id : "");
+  complain("nothing to draw: there is no shot without an error%s%s", text_if(job->id != NULL, " "),
+           text_if(job->id != NULL, job->id));
   return false;
 }
 

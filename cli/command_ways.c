@@ -196,7 +196,9 @@ static bool plot(const ways_search *s, const char *path) {
   static carom_shot shot[MOST_DRAWN];
   static carom_ball_state final[MOST_DRAWN][CAROM_BALLS_MOST];
   static played drawn[MOST_DRAWN];
-  const int count = s->ways < MOST_DRAWN ? s->ways : MOST_DRAWN;
+  int count = s->ways;
+  if (count > MOST_DRAWN)
+    count = MOST_DRAWN;
   if (count == 0) {
     complain("nothing to draw: there is no way");
     return false;

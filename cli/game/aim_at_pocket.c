@@ -33,7 +33,7 @@ static void say_way(const layout *l, const carom_pot *pot, char words[AIMED_TEXT
 
 /* The way of --via; false after a complaint. */
 static bool read_via(const layout *l, const char *via, carom_pot *pot) {
-  char names[NAMES_TEXT], one[PLACE_NAME] = "", hint[HINT_TEXT];
+  char names[NAMES_TEXT], wrong[PLACE_NAME] = "", hint[HINT_TEXT];
   bool named = false, good = true;
   for (size_t size; via != NULL && good; via = via[size] != '\0' ? via + size + 1 : NULL) {
     size = strcspn(via, ",");
@@ -45,7 +45,8 @@ static bool read_via(const layout *l, const char *via, carom_pot *pot) {
           strncmp(name, via, size) == 0)
         part = (carom_part){CAROM_PART_RAIL, rail};
     }
-    snprintf(one, sizeof one, "%.*s", (int)(size < sizeof one ? size : sizeof one - 1), via);
+    snprintf(wrong, sizeof wrong, "%.*s", (int)(size < sizeof wrong ? size : sizeof wrong - 1),
+             via);
     good = part.kind != CAROM_PART_NONE && pot->vias < CAROM_VIA_MOST &&
            !(named && part.kind == CAROM_PART_BALL);
     for (int k = 0; k < pot->vias; k++) /* a ball is met once */
@@ -60,7 +61,7 @@ static bool read_via(const layout *l, const char *via, carom_pot *pot) {
   if (!good)
     complain("--via is up to %d of balls, the one of --pocket last, and rails (head, foot, left, "
              "right), such as 2,left, or head,%s for a kick; '%s' is none that can be there%s",
-             CAROM_VIA_MOST, l->name[pot->ball], one, did_you_mean(one, names, hint));
+             CAROM_VIA_MOST, l->name[pot->ball], wrong, did_you_mean(wrong, names, hint));
   return good;
 }
 
@@ -94,7 +95,7 @@ static void complain_of(const char *pocket, const char *via, const layout *l, co
     snprintf(why, sizeof why, "%s is in the way of %s", obstacle(l, met->type, other, text),
              ball_words(l, own, more));
   complain("--pocket %s%s%s: no such aim: %s", pocket, text_if(via != NULL, " --via "),
-           via != NULL ? via : "", why);
+           text_if(via != NULL, via), why);
 }
 
 bool aim_at_pocket(const char *pocket, const char *via, const layout *l,

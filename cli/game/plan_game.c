@@ -122,13 +122,13 @@ bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
 }
 
 void plan_game_state(const plan_game *game, const shot_line *line, carom_plan_rules *rules) {
-  static const int32_t may[] = {0, CAROM_MAY_PUSH, CAROM_MAY_PASS,
-                                CAROM_MAY_PASS | CAROM_MAY_FREE_BALL};
+  static const int32_t permissions[] = {0, CAROM_MAY_PUSH, CAROM_MAY_PASS,
+                                        CAROM_MAY_PASS | CAROM_MAY_FREE_BALL};
   *rules = carom_plan_rules_of((carom_rules_kind)game->rules);
   carom_rules_state *state = &rules->state;
   state->opening = game->opening;
   state->group = game->group;
-  state->may = may[game->may];
+  state->may = permissions[game->permission];
   state->on = game->colour;
   if (game->target > 0)
     state->target = game->target;

@@ -12,10 +12,10 @@
 enum { NOT_GIVEN = -1 };
 
 typedef struct plan_game {
-  int rules;            /* a carom_rules_kind */
-  int group, may;       /* of their choices */
-  int target, score[2]; /* 0: not given */
-  int pocket;           /* the player's: 0 foot-right, 1 foot-left, or NOT_GIVEN */
+  int rules;             /* a carom_rules_kind */
+  int group, permission; /* of their choices */
+  int target, score[2];  /* 0: not given */
+  int pocket;            /* the player's: 0 foot-right, 1 foot-left, or NOT_GIVEN */
   bool opening, colour;
 } plan_game;
 

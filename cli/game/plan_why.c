@@ -65,9 +65,11 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
     fputs("the visit ends\n", out);
     return;
   }
-  const carom_status status = left->turn.leave == CAROM_LEAVE_AFTER
-                                  ? carom_plan(&next, &c, 1, &found)
-                                  : carom_plan_hand(&next, NULL, NULL, &c, 1, &found);
+  carom_status status;
+  if (left->turn.leave == CAROM_LEAVE_AFTER)
+    status = carom_plan(&next, &c, 1, &found);
+  else
+    status = carom_plan_hand(&next, NULL, NULL, &c, 1, &found);
   char pocket[WHERE_TEXT], ball[BALL_TEXT];
   if (status != CAROM_OK)
     fputs("nothing to play\n", out);

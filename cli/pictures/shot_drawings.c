@@ -33,20 +33,20 @@ void drawings_draw(drawings *d, const played *shots, int count, const char *foot
 }
 
 /* A drawing that was made. */
-typedef struct made {
+typedef struct written {
   const char *text;
   size_t size;
-} made;
+} written;
 
 static void write_made(FILE *out, const void *data) {
-  const made *m = data;
+  const written *m = data;
   fwrite(m->text, 1, m->size, out);
 }
 
 bool drawings_write(drawings *d) {
   bool good = true;
   for (int k = 0; k < DRAWINGS; k++) {
-    const made m = {d->text[k], d->size[k]};
+    const written m = {d->text[k], d->size[k]};
     if (d->text[k] != NULL && good)
       good = (k == FILM ? file_draw : svg_draw)(d->path[k], write_made, &m);
     free(d->text[k]);

@@ -15,11 +15,11 @@
 #endif
 
 int print_report(const char *name) {
-  struct utsname on = {.sysname = "unknown system"};
-  uname(&on);
+  struct utsname system = {.sysname = "unknown system"};
+  uname(&system);
   printf("%s %s, physics revision %d\n", name, carom_version(), carom_physics_revision());
   printf("compiled by %s\n", COMPILER);
-  printf("on %s %s, %s, %ld processors\n", on.sysname, on.release, on.machine,
+  printf("on %s %s, %s, %ld processors\n", system.sysname, system.release, system.machine,
          sysconf(_SC_NPROCESSORS_ONLN));
 
   /* the instruction sets that this processor has and the library was built for */

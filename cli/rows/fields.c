@@ -248,11 +248,12 @@ static const carom_number *number_named(const option_row *row, const char *name,
 /* Gives the numbers of a fit, which `python -m carom.fit -o` wrote: constants, radius, cushion. */
 static bool give_fit(const char *path, given_numbers *given) {
   json_error_t error;
-  json_t *fit = json_load_file(path, 0, &error), *of = json_object_get(fit, "constants"), *x;
+  json_t *fit = json_load_file(path, 0, &error), *constants = json_object_get(fit, "constants"), *x;
+  const json_t *bands = json_object_get(fit, "bands");
   const char *name, *model = json_string_value(json_object_get(fit, "cushion_model"));
-  bool good = json_is_object(of);
-  json_object_set(of, "radius", json_object_get(fit, "radius"));
-  json_object_foreach(of, name, x) good =
+  bool good = json_is_object(constants);
+  json_object_set(constants, "radius", json_object_get(fit, "radius"));
+  json_object_foreach(constants, name, x) good =
       good && give_number(given, name, json_is_number(x) ? json_number_value(x) : NAN);
   if (!good)
     complain("--with %.200s: %s", path,
@@ -261,10 +262,10 @@ static bool give_fit(const char *path, given_numbers *given) {
     if (strcmp(carom_word(CAROM_WORDS_CUSHION_MODEL, k), model) == 0)
       given->fitted = (carom_shot_cushion)(k + 1);
   given->of_fit = given->which;
-  of = json_object_get(fit, "bands");
   double *row = given->band[0];
   for (given->bands = 0; given->bands < 8; row = given->band[++given->bands])
-    if (json_unpack(json_array_get(of, (size_t)given->bands), "[FFF]", row, row + 1, row + 2) != 0)
+    if (json_unpack(json_array_get(bands, (size_t)given->bands), "[FFF]", row, row + 1, row + 2) !=
+        0)
       break;
   json_decref(fit);
   return good;

@@ -102,8 +102,8 @@ static void solve_and_write(run *r, const source_block *block) {
  * complaint. */
 static bool resolve_all(run *r) {
   reading readings[2] = {{.in = r->in}, {.in = r->in}}, *now = &readings[0], *next = &readings[1];
-  for (read_block(now); now->result == READ_ONE;
-       now = next, next = now == &readings[0] ? &readings[1] : &readings[0]) {
+  read_block(now);
+  while (now->result == READ_ONE) {
     pthread_t reader;
     /* Where no thread can be started, the next block is read when this one is done. */
     const bool apart = pthread_create(&reader, NULL, read_block, next) == 0;
@@ -114,6 +114,9 @@ static bool resolve_all(run *r) {
       read_block(next);
     const double share = source_share(r->in), rows = (double)(r->ok + r->separating + r->errors);
     progress_show("rows", rows, share > 0.0 ? rows / share : -1.0);
+    reading *const done = now;
+    now = next;
+    next = done;
   }
   progress_clear();
   if (r->errors > MOST_NAMED)

@@ -46,7 +46,7 @@ result_sink *sink_open(const shared_options *asked, bool single) {
     write_header(s);
   else
     fprintf(file, "id,%s,status%s%s\n", s->kind->result_columns, text_if(s->derived, ","),
-            s->derived ? s->kind->derived_columns : "");
+            text_if(s->derived, s->kind->derived_columns));
   return s;
 }
 

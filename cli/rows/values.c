@@ -187,10 +187,12 @@ static bool refuse(const option_row *row, const char *text) {
   char list[MOST_TEXT] = "", known[MOST_TEXT] = "", hint[HINT_TEXT];
   const char *word = text + strspn(text, "+-.0123456789");
   list_units(row->least, list, sizeof list);
-  for (int k = 0; k < WORDS + UNITS; k++)
-    if ((k < WORDS ? words[k].measure : units[k - WORDS].measure) == row->least)
-      snprintf(known + strlen(known), sizeof known - strlen(known), "%s|",
-               k < WORDS ? words[k].name : units[k - WORDS].name);
+  for (int k = 0; k < WORDS; k++)
+    if (words[k].measure == row->least)
+      snprintf(known + strlen(known), sizeof known - strlen(known), "%s|", words[k].name);
+  for (int k = 0; k < UNITS; k++)
+    if (units[k].measure == row->least)
+      snprintf(known + strlen(known), sizeof known - strlen(known), "%s|", units[k].name);
   complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'%s", row->name,
            list, text, did_you_mean(word, known, hint));
   return false;
@@ -234,7 +236,8 @@ static bool set_range(const option_row *row, const char *text, char *copy, value
     }
     if (parts == 3 || !split(part, &end[parts], &own))
       return refuse(row, text);
-    unit = own[0] != '\0' ? own : unit;
+    if (own[0] != '\0')
+      unit = own;
   }
   if (worded > 0 && unit[0] != '\0')
     return refuse(row, text);
@@ -249,7 +252,8 @@ static bool set_range(const option_row *row, const char *text, char *copy, value
     const double x = parts == 3 ? end[0] + k * end[2] : end[0] + (end[1] - end[0]) * k / steps;
     if (!set_value(&list->at[k], x, found))
       return refuse(row, text);
-    list->at[k].times = worded > 0 ? word.times : list->at[k].times;
+    if (worded > 0)
+      list->at[k].times = word.times;
   }
   return true;
 }
@@ -378,7 +382,8 @@ void values_default(values *list, int measure, const char *text) {
 double tip_offset(const value *const *given, int count, double radius) {
   double square = 0.0;
   for (int k = 0; k < count; k++)
-    square += given[k]->times == OFFSET ? given[k]->x * given[k]->x : 0.0;
+    if (given[k]->times == OFFSET)
+      square += given[k]->x * given[k]->x;
   return sqrt(square) / (strike * radius);
 }
 

@@ -27,12 +27,12 @@ static OPTION_SET(set_table) {
     return false;
   table->kind++;
   table->text = text;
-  named_table *made = built_in_table(text, &fault);
-  if (made == NULL)
+  named_table *built_in = built_in_table(text, &fault);
+  if (built_in == NULL)
     complain("--%s %.80s: %s", row->name, text, fault.text);
   else
-    free_table(made);
-  return made != NULL;
+    free_table(built_in);
+  return built_in != NULL;
 }
 
 #define ROW(row, name, member, argument, set, least, help) \
@@ -279,6 +279,11 @@ static bool aim_to(const given_place *to, const layout *l, carom_cue *cue) {
   return true;
 }
 
+/* The speeds of the cue, or of the ball where those are given. */
+static const values *speeds_of(const shoot_flags *f) {
+  return f->ball_speed.count > 0 ? &f->ball_speed : &f->speed;
+}
+
 static int directions_of(const shoot_flags *f) {
   if (f->to.count > 0)
     return f->to.count;
@@ -304,7 +309,7 @@ static int take(int *index, int count) {
 }
 
 static combination combination_at(const shoot_flags *f, int index) {
-  combination c = {.speeds = f->ball_speed.count > 0 ? &f->ball_speed : &f->speed};
+  combination c = {.speeds = speeds_of(f)};
   c.speed = take(&index, c.speeds->count);
   c.tip = take(&index, f->tip.count);
   c.rise = take(&index, f->elevation.count);
@@ -518,7 +523,7 @@ static bool racks_are_valid(const shoot_flags *f) {
 
 /* How many combinations there are, at most `most`; 0 after a complaint where there are more. */
 static int combinations_of(const shoot_flags *f, int most) {
-  const values *speeds = f->ball_speed.count > 0 ? &f->ball_speed : &f->speed;
+  const values *speeds = speeds_of(f);
   /* The product may exceed an int. */
   const double all = (double)speeds->count * f->tip.count * f->elevation.count *
                      choices_of(&f->tip_time) * choices_of(&f->tip_restitution) * directions_of(f) *

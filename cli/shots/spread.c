@@ -35,13 +35,13 @@ OPTION_SET(set_player_error) {
   *error = (player_error){.given = true};
   for (char *part = strtok_r(copy, ",", &rest); part != NULL && good;
        part = strtok_r(NULL, ",", &rest)) {
-    good = count < ERRORS && value_of(measure[count], part, &error->of[count]) &&
-           error->of[count].x >= 0.0;
-    all_zero = all_zero && good && error->of[count].x == 0.0;
+    good = count < ERRORS && value_of(measure[count], part, &error->deviation[count]) &&
+           error->deviation[count].x >= 0.0;
+    all_zero = all_zero && good && error->deviation[count].x == 0.0;
     count++;
   }
   if (count == ERROR_ABOVE)
-    error->of[count++] = error->of[ERROR_RIGHT];
+    error->deviation[count++] = error->deviation[ERROR_RIGHT];
   if (good && count == ERRORS && !all_zero)
     return true;
   complain("--%s is SPEED,AIM,RIGHT,ABOVE, standard deviations in %%, degrees and radii of the "
@@ -158,16 +158,16 @@ static bool parts_cluster(const carom_shot *shot, int64_t count) {
 static carom_status find_until(const shot_line *line, const carom_shot *shot,
                                const carom_shot_options *options, const carom_tangent_seeds *seeds,
                                const shot_tangents *t, double *until) {
-  int64_t good = 0, bad = shot->count;
-  while (bad - good > 1) {
+  int64_t same = 0, changed = shot->count;
+  while (changed - same > 1) {
     double reach[ERRORS];
     carom_shot part = *shot;
-    part.count = good + (bad - good) / 2;
-    while (part.count > good && parts_cluster(shot, part.count))
+    part.count = same + (changed - same) / 2;
+    while (part.count > same && parts_cluster(shot, part.count))
       part.count--;
-    for (part.count += part.count == good; part.count < bad && parts_cluster(shot, part.count);)
+    for (part.count += part.count == same; part.count < changed && parts_cluster(shot, part.count);)
       part.count++;
-    if (part.count == bad)
+    if (part.count == changed)
       break;
     part.time = shot->events[part.count - 1].time;
     carom_tangent tangent = {.final = t->final, .time = t->time, .reach = reach};
@@ -175,9 +175,12 @@ static carom_status find_until(const shot_line *line, const carom_shot *shot,
                                                    &line->cue, options, &part, seeds, &tangent);
     if (status != CAROM_OK)
       return status;
-    *(together(reach) < 1.0 ? &bad : &good) = part.count;
+    if (together(reach) < 1.0)
+      changed = part.count;
+    else
+      same = part.count;
   }
-  *until = shot->events[bad - 1].time;
+  *until = shot->events[changed - 1].time;
   return CAROM_OK;
 }
 
@@ -191,8 +194,8 @@ void spread_of(const player_error *error, const shot_line *line, const carom_sho
   /* one direction for each error, as long as its standard deviation */
   double cue[CAROM_CUE_NUMBERS][ERRORS] = {{0}};
   for (int j = 0; j < ERRORS; j++) {
-    to->error[j] = error->of[j].x * (j == ERROR_SPEED ? line->cue.speed : 1.0) /
-                   (error->of[j].times == OFFSET ? R : 1.0);
+    to->error[j] = error->deviation[j].x * (j == ERROR_SPEED ? line->cue.speed : 1.0) /
+                   (error->deviation[j].times == OFFSET ? R : 1.0);
     cue[number_of[j]][j] = to->error[j];
   }
   const carom_tangent_seeds seeds = {.directions = ERRORS, .cue = &cue[0][0]};

@@ -12,7 +12,7 @@
 enum { ERROR_SPEED, ERROR_AIM, ERROR_RIGHT, ERROR_ABOVE, ERRORS };
 typedef struct player_error {
   bool given;
-  value of[ERRORS];
+  value deviation[ERRORS];
 } player_error;
 
 /* For a player_error: SPEED,AIM,RIGHT,ABOVE such as 1%,0.05,0.01,0.01; without ABOVE it is that

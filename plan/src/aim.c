@@ -171,7 +171,8 @@ static progress follow(const way *w, const int *ball, const carom_brief_event *e
       p.links++;
       if (e->type == CAROM_EVENT_BALL_BALL) {
         /* the next ball is on its way; the contacts of one instant are in any order */
-        p.first = at == 0 ? e->time : p.first;
+        if (at == 0)
+          p.first = e->time;
         at++;
         next = first_of_instant(events, k);
       }
@@ -258,12 +259,12 @@ static bool is_beside(const way *w, const carom_brief_event *e) {
   const double *jaw = w->table->jaw[e->b].centre, *c = w->pocket->centre;
   const bool is_jaw = e->type == CAROM_EVENT_JAW;
   const double *ends[2] = {is_jaw ? jaw : r->p, is_jaw ? jaw : r->q};
-  bool beside = false;
+  bool is_near = false;
   for (int k = 0; k < 2; k++) {
     const double x = ends[k][0] - c[0], y = ends[k][1] - c[1];
-    beside |= x * x + y * y < beside_most * beside_most * w->pocket->radius * w->pocket->radius;
+    is_near |= x * x + y * y < beside_most * beside_most * w->pocket->radius * w->pocket->radius;
   }
-  return beside;
+  return is_near;
 }
 
 /* What comes of a cue, of the whole layout. */
@@ -485,7 +486,8 @@ static void sweep(way *w, const carom_shot_ball *balls, int count, double mid, d
                        fate(w, balls, count, &c, &met) == CAROM_POT_FALLS;
     if (falls && !fell)
       from = c.phi;
-    last = falls ? c.phi : last;
+    if (falls)
+      last = c.phi;
     if (falls && last - from >= high - low) {
       low = from;
       high = last;

@@ -270,8 +270,8 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
   draw_order(plan, DRAW_BREAKS, order, strokes);
   for (int n = 0; n < strokes && n < most; n++) {
     const int target = order[n] % balls, stroke = order[n] / balls;
-    const double beside = ball[target].outer * side[thin][stroke % SIDES] / ball[target].far;
-    const double phi = (ball[target].to + carom_asin(carom_within(beside, -1.0, 1.0))) / degree;
+    const double sine = ball[target].outer * side[thin][stroke % SIDES] / ball[target].far;
+    const double phi = (ball[target].to + carom_asin(carom_within(sine, -1.0, 1.0))) / degree;
     const double off = tip[thin][stroke / SIDES / SPEEDS];
     candidate strike = {.speed = share[thin][stroke / SIDES % SPEEDS] * plan->player.speed_most,
                         .phi = phi};

@@ -125,6 +125,10 @@ static carom_status prepare(search *plan, const carom_shot_ball *balls, bool wit
   return check_stroke(plan, &(carom_cue){0});
 }
 
+static const carom_plan_options *options_of(const carom_plan_job *job) {
+  return job->options != NULL ? job->options : &no_options;
+}
+
 static bool is_whole(const carom_plan_job *job) {
   return job != NULL && job->table != NULL && job->balls != NULL && job->cue != NULL &&
          job->player != NULL && job->rules != NULL;
@@ -158,7 +162,7 @@ static bool good_rules(const carom_plan_rules *rules) {
 static carom_status check_job(const carom_plan_job *job) {
   if (!is_whole(job))
     return CAROM_ERROR_NULL;
-  const carom_plan_options *options = job->options != NULL ? job->options : &no_options;
+  const carom_plan_options *options = options_of(job);
   const bool good_players =
       good_player(job->player) && (options->opponent == NULL || good_player(options->opponent));
   const bool good = check_options(options) == CAROM_OK && good_players && good_rules(job->rules) &&
@@ -170,7 +174,7 @@ static carom_status check_job(const carom_plan_job *job) {
  * which the plan says itself. */
 static void take_job(search *plan, const carom_plan_job *job) {
   plan->job = *job;
-  plan->options = job->options != NULL ? *job->options : no_options;
+  plan->options = *options_of(job);
   plan->player = carom_player_bounded(job->player, job->cue);
   plan->shot = job->shot != NULL ? *job->shot : no_shot;
   plan->shot.threads = 0;
