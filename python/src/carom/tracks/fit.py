@@ -16,7 +16,7 @@ import json
 import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -228,6 +228,105 @@ def _told_by_events(
     }
 
 
+@dataclass(frozen=True)
+class _Job:
+    """What is asked of a fit, and what it keeps of its work."""
+
+    recordings: list[Recording]
+    table: tuple[float, float]
+    radius: float
+    cushion_model: ShotCushion
+    free: list[str]
+    priors: Mapping[str, tuple[float, float]]
+    seed: int
+    threads: int
+    progress: Progress | None
+    saved: _Saved
+
+    def plays(self, shots: Sequence[int], values: dict[str, float]) -> _strikes.Plays:
+        """The recordings of these shots, as they are played with these constants."""
+        chosen = [self.recordings[k] for k in shots]
+        return _strikes.Plays(
+            chosen, self.table, self.radius, values, self.cushion_model, self.threads
+        )
+
+    def report(self, what: str, part: float) -> None:
+        if self.progress:
+            self.progress(what, part)
+
+
+def _fit_to_events(
+    job: _Job, fitted: Sequence[int], values: dict[str, float], told: list[str]
+) -> tuple[dict[str, float], dict[str, float]]:
+    """The constants that single events of these shots tell, and their errors."""
+    job.report("events", 0.0)
+    shots = [job.recordings[k] for k in fitted]
+
+    def measured() -> Any:
+        found = events(shots, job.table, job.radius)
+        return _from_events.measured(found, job.radius, job.cushion_model, job.seed, values)
+
+    return _told_by_events(values, told, *job.saved.get("events", measured))
+
+
+def _search(job: _Job, first: _joint.Search) -> _joint.Search:
+    """Searches the constants, at first also without a change of the friction with the slip; returns
+    the search at its end.
+    """
+    searches = {"": first}
+    if set(first.names) >= _LAW and not _LAW & job.priors.keys():
+        searches["flat "] = _joint.without_slip(first)
+    for number in range(_joint.STAGES):
+        job.report("constants", number / (_joint.STAGES + 2))
+        for law, search in searches.items():
+            stage = functools.partial(search.stage, number, job.seed)
+            search.resume(job.saved.get(f"{law}constants {number}", stage))
+        if number == _BOTH:
+            law = min(searches, key=lambda law: searches[law].middle)
+            searches = {law: searches[law]}
+    (search,) = searches.values()
+    finish = functools.partial(search.finish, job.seed, _joint.ROUNDS)
+    search.resume(job.saved.get("end", finish))
+    return search
+
+
+def _fit_to_shots(
+    job: _Job,
+    fitted: Sequence[int],
+    values: dict[str, float],
+    spread: dict[str, float],
+    told: list[str],
+) -> tuple[dict[str, float], dict[str, float], tuple[str, ...], Doubles | None]:
+    """The constants that these shots as a whole tell, the errors of all, and the names and the
+    covariance of those that were fitted.
+    """
+    plays = job.plays(fitted, values)
+    found = job.saved.get(
+        "strikes", lambda: _strikes.find(plays, job.seed, job.progress)[0].tolist()
+    )
+    wanted = _priors(job.free, job.priors, values, job.cushion_model)
+    search = _search(job, _joint.Search(plays, np.array(found), range(len(fitted)), wanted))
+    job.report("spread", _joint.STAGES / (_joint.STAGES + 2))
+    if search.middle >= _joint.MOST:
+        told.append(
+            "half of the shots are off by centimetres: whole shots tell no constants, which stay as they were before"
+        )
+        return values, spread, (), None
+
+    values, names = search.constants(search.values), tuple(search.names)
+    evidence = {name: error for name, error in spread.items() if name not in job.priors}
+    covariance = _covariance.of_constants(search, evidence)
+    if covariance is not None:
+        errors = np.sqrt(covariance.diagonal()).tolist()
+        spread = {**spread, **dict(zip(names, errors))}
+    told += [
+        f"{name} is at its bound, {values[name]:g}: the recordings do not tell it, or the cushion's model does not fit them"
+        for name in names
+        if values[name] in _joint.prior(name)[1:]
+    ]
+    return values, spread, names, covariance
+
+
 def fit(
     recordings: Sequence[Recording],
     table: tuple[float, float],
@@ -304,77 +403,31 @@ def fit(
         saved = _Saved(
             state, [recordings, table, radius, cushion_model, values, free, priors, fitted, seed]
         )
-        if free[0] in ("events", "default"):
-            if progress:
-                progress("events", 0.0)
-            shots = [recordings[k] for k in fitted]
-            values, spread = _told_by_events(
-                values,
-                told,
-                *saved.get(
-                    "events",
-                    lambda: _from_events.measured(
-                        events(shots, table, radius), radius, cushion_model, seed, values
-                    ),
-                ),
-            )
-        if free[0] not in ("none", "events") and fitted:
-            plays = _strikes.Plays(
-                [recordings[k] for k in fitted], table, radius, values, cushion_model, threads
-            )
-            found = saved.get("strikes", lambda: _strikes.find(plays, seed, progress)[0].tolist())
-            wanted = _priors(free, priors or {}, values, cushion_model)
-            searches = {"": _joint.Search(plays, np.array(found), range(len(fitted)), wanted)}
-            if _LAW <= wanted.keys() and not _LAW & (priors or {}).keys():
-                searches["flat "] = _joint.without_slip(searches[""])
-            for number in range(_joint.STAGES):
-                if progress:
-                    progress("constants", number / (_joint.STAGES + 2))
-                for law, search in searches.items():
-                    search.resume(
-                        saved.get(
-                            f"{law}constants {number}",
-                            functools.partial(search.stage, number, seed),
-                        )
-                    )
-                if number == _BOTH:
-                    searches = dict([min(searches.items(), key=lambda one: one[1].middle)])
-            (search,) = searches.values()
-            search.resume(saved.get("end", functools.partial(search.finish, seed, _joint.ROUNDS)))
-            if progress:
-                progress("spread", _joint.STAGES / (_joint.STAGES + 2))
-            if search.middle < _joint.MOST:
-                values, names = search.constants(search.values), tuple(search.names)
-                evidence = {
-                    name: error for name, error in spread.items() if name not in (priors or {})
-                }
-                covariance = _covariance.of_constants(search, evidence)
-            else:
-                told.append(
-                    "half of the shots are off by centimetres: whole shots tell no constants, which stay as they were before"
-                )
-            if covariance is not None:
-                spread = {**spread, **dict(zip(names, np.sqrt(covariance.diagonal()).tolist()))}
-            told += [
-                f"{name} is at its bound, {values[name]:g}: the recordings do not tell it, or the cushion's model does not fit them"
-                for name in names
-                if values[name] in _joint.prior(name)[1:]
-            ]
-        plays = _strikes.Plays(
-            [recordings[k] for k in played], table, radius, values, cushion_model, threads
+        job = _Job(
+            recordings,
+            table,
+            radius,
+            cushion_model,
+            free,
+            priors or {},
+            seed,
+            threads,
+            progress,
+            saved,
         )
+        if free[0] in ("events", "default"):
+            values, spread = _fit_to_events(job, fitted, values, told)
+        if free[0] not in ("none", "events") and fitted:
+            values, spread, names, covariance = _fit_to_shots(job, fitted, values, spread, told)
+        plays = job.plays(played, values)
         strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])
         _seek_again(plays, played, strikes, rmse, _ROUGH * noise * math.sqrt(2.0))
-        for k, strike in zip(played, strikes[played]):
+        for k in played:
             if not np.isfinite(rmse[k]):
                 status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
             elif status[k] == "ok":
-                told_of = [
-                    _quality(strike, float(rmse[k]), noise, radius),
-                    f"mended: {'; '.join(notes[k])}" if notes[k] else "",
-                ]
-                status[k] = "; ".join(filter(None, told_of)) or "ok"
+                status[k] = _remarks(strikes[k], float(rmse[k]), noise, radius, notes[k])
         strikes[played, 5] += plays.origins
         saved.done()
     part = None if train is None else [k in set(train) for k in range(len(recordings))]
@@ -399,6 +452,16 @@ def fit(
             f"models are off by more than the camera"
         )
     return found
+
+
+def _remarks(
+    strike: Doubles, rmse: float, noise: float, radius: float, mended: Sequence[str]
+) -> str:
+    """What there is to say of a strike that was found, or "ok"."""
+    remarks = [_quality(strike, rmse, noise, radius)]
+    if mended:
+        remarks.append(f"mended: {'; '.join(mended)}")
+    return "; ".join(filter(None, remarks)) or "ok"
 
 
 def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
