@@ -172,7 +172,8 @@ static const carom_measures built_in[] = {
   [CAROM_TABLE_THREECUSHION] = {1.42, 2.84, .nose_height = 0.037},
   [CAROM_TABLE_POOLTOOL] = {0.9906, 1.9812, 0.036576, 0.0508,
                             0.118, 140.3, 0.0387, 0.02095, 0.062,
-                            0.137, 97.14, 0.004, 0.00795, 0.0645}};
+                            0.137, 97.14, 0.004, 0.00795, 0.0645,
+                            0.0, 0.0}};
 /* clang-format on */
 
 carom_status carom_table_measures(carom_table_kind kind, carom_measures *measures) {
