@@ -56,7 +56,7 @@ OPTION(
     "english (100%: 1.25 V/R) or tip; right, left, running, reverse: 100%; "
     "gearing: the ball rolls along the cushion; none (default)");
 OPTION(series, option_game, "game", game, 0, "pool|snooker|billiard", set_choice, 0,
-       "the game whose ball, cloth and cushion are used for numbers that are not given (default pool)");
+       "the game whose ball, cloth and cushion give the numbers that you leave out (default pool)");
 OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_LENGTH,
        "height of the nose above the cloth, m, or with a unit: mm, in (default: that of the game)");
 OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
@@ -182,8 +182,9 @@ static bool check(const series *s) {
     c.given[MODEL] = &models->at[k];
     make(s, &c);
     if (!knows_speed(&c.asked.rail))
-      complain("the law of %s has no speed: at another speed the angles are the same",
-               models->at[k].name);
+      complain(
+          "the law of %s does not depend on the speed: at another speed the angles are the same",
+          models->at[k].name);
   }
   return true;
 }
@@ -304,7 +305,8 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   fprintf(out, "Friction with the cushion %.4g, with the cloth %.4g, restitution %.4g; model %s.\n",
           in->mu_cushion, in->mu_cloth, in->restitution, cushion_kind.name(&c->asked));
   if (!knows_speed(&c->asked.rail))
-    fprintf(out, "At another speed the angles are the same: the law has no speed.\n");
+    fprintf(out, "At another speed the angles are the same, because the law does not depend on the "
+                 "speed.\n");
   fprintf(out, "rebound       at once:     %s\n", rebound_text(d[1], v, text));
   fprintf(out, "              rolling:     %s\n", rebound_text(d[2], d + 3, text));
   tell_cloth(out, v, d);
@@ -352,7 +354,7 @@ static const char *law(const series *s, char text[80]) {
   if (s->asked.rail.law == CAROM_CUSHION_LAW_HAN)
     how = " with Han's restitution and friction";
   else if (models->count == 1 && !knows_speed(&first.asked.rail))
-    how = ", whose law has no speed";
+    how = ", whose law does not depend on the speed";
   snprintf(text, 80, "%s%s%s", models->count == 1 ? "model " : "",
            models->count == 1 ? models->at[0].name : "every model", how);
   return text;
@@ -361,11 +363,10 @@ static const char *law(const series *s, char text[80]) {
 static const command_form form = {
     .name = "rail",
     .usage = "[OPTIONS]",
-    .about =
-        "Computes the impact of a ball on a cushion, and describes it in words: the rebound angle "
-        "just after and once the ball rolls, speeds, spin, and which contacts stuck or slipped. "
-        "The ball moves to the right along the cushion, so right english is running english. Ball, "
-        "cloth and cushion are those of a game, as in shots.\n",
+    .about = "Computes the impact of a ball on a cushion, and describes it in words: the rebound "
+             "angle just after and once the ball rolls, speeds, spin, and which contacts stuck or "
+             "slipped. The ball moves to the right along the cushion, so right english is running "
+             "english. The ball, the cloth and the cushion are those of a game, as in shots.\n",
     .options = (const option_row *const[]){&option_speed,       &option_angle,
                                            &option_spin,        &option_side,
                                            &option_game,        &option_height,

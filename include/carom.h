@@ -70,10 +70,11 @@
  * differ between makes of processors, whose estimates of reciprocals differ. Results then differ
  * within the solver's errors. The bits of a NaN are not specified.
  *
- * Smoothness. The exact solver's result is smooth to rounding errors, about 1e-15 of the fastest
- * speed, except for isolated jumps where another kind or number of steps solves the collision:
- * some 3 to 8 for each change of a velocity by its own size, in the median of 1e-9 and at most
- * 1e-6 of the fastest speed. So differences may take any step (docs/using/derivatives.md).
+ * Smoothness. The result of the exact solver is smooth to rounding errors, about 1e-15 of the
+ * fastest speed, except for isolated jumps where a different kind or number of steps solves the
+ * collision. If a velocity changes by its own size, there are some 3 to 8 such jumps. Their median
+ * is 1e-9 of the fastest speed, and the largest is at most 1e-6 of it. Differences may therefore
+ * take any step (docs/using/derivatives.md).
  *
  * Floating-point environment.
  *   - The rounding mode must be to nearest. With another mode, ordinary collisions are about 1e-6
@@ -312,10 +313,10 @@ typedef enum carom_solver {
                              the model. Smooth, and with the same bits on all machines. */
   CAROM_SOLVER_EULER = 1, /* Mathavan's N steps of equal normal impulse. With the slip of
                              pooltool the result has pooltool's bits. */
-  CAROM_SOLVER_FAST = 2,  /* EXACT with single precision inside: two thirds of the time of a call
-                             and half of that of a batch, within the same bounds of the error. The
-                             result has steps of 1e-9 to 1e-7 m/s, so differences need steps of
-                             1e-4 or more. The functions _f32 do so for EXACT too. */
+  CAROM_SOLVER_FAST = 2,  /* EXACT with single precision inside. It takes two thirds of the time of
+                             a call and half of that of a batch, with the same bounds of the error.
+                             Its result jumps by 1e-9 to 1e-7 m/s, so differences need steps of 1e-4
+                             or more. The functions _f32 compute EXACT in this way too. */
 } carom_solver;
 
 /* How the slip on the cloth is computed. */

@@ -228,10 +228,10 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
  *
  * Bits: a shot has the same bits on every machine, with every model and in both worlds, unless
  * options.fast asks for the instruction set in use. A batch has the bits of single calls, for any
- * number of threads and any split. Cost: an event takes about 0.4 us with Han's cushions, the
- * default. A shot with two balls takes 3 us, and a nine-ball break 40 us. The exact limit of a
- * cushion adds 7 to 10 us for each impact, of which options.fast saves two fifths. Stack: 53 KiB;
- * a batch 58, with threads 60. Nothing is allocated, except for the threads of a batch. */
+ * number of threads and any split. Cost: an event takes about 0.4 us with Han's cushions. A shot
+ * with two balls takes 3 us, and a nine-ball break 40 us. The exact limit of a cushion adds 7 to 10
+ * us for each impact, of which options.fast saves two fifths. Stack: 53 KiB; a batch 58, with
+ * threads 60. Nothing is allocated, except for the threads of a batch. */
 
 /* ---- Balls ----------------------------------------------------------------------------------- */
 
@@ -637,9 +637,9 @@ typedef enum carom_space {
 
 /* The impact of a ball on a cushion, with the models of carom_cushion_model. In the world pooltool,
  * DEFAULT is STRONGE. In the world carom it is SMOOTH for a ball whose smooth_q is above 0, such as
- * those of CAROM_GAME_BILLIARD, and otherwise HAN. HAN predicts recorded shots as well as MATHAVAN,
- * the exact limit, at a tenth of the cost or less (docs/understanding/reality.md). These values are
- * not those of carom_cushion_model, in which 0 is a model. Compilers warn if the two are mixed
+ * those of carom's games, and otherwise HAN. HAN predicts recorded shots as well as MATHAVAN, the
+ * exact limit, at a tenth of the cost or less (docs/understanding/reality.md). These values are not
+ * those of carom_cushion_model, in which 0 is a model. Compilers warn if the two are mixed
  * (-Wenum-conversion, which -Wextra of gcc turns on). */
 typedef enum carom_shot_cushion {
   CAROM_SHOT_CUSHION_DEFAULT = 0,

@@ -475,7 +475,7 @@ ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
     "impacts of a ball on a cushion, instead of collisions of two balls");
 ROW(option_model, "model", rail.model, 0, NULL, set_named, CAROM_WORDS_CUSHION_MODEL, CUSHION_ONLY,
     "model of the impact; `carom models NAME` describes it (default: mathavan; `carom rail` uses "
-    "han, as in shots)");
+    "smooth, as in shots)");
 ROW(option_convention, "convention", rail.convention, 0, NULL, set_named,
     CAROM_WORDS_CUSHION_CONVENTION, CUSHION_ONLY,
     "the conventions to follow where pooltool differs from the papers (default: paper)");

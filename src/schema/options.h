@@ -25,8 +25,8 @@
   OPTION(cushion_model, "cushion", WORDS(SHOT_CUSHION), 0, CAROM_CUSHION_MODEL_COUNT,              \
          SHOT_CUSHION_MODEL,                                                                       \
          "model of the impact on a cushion; mathavan, the exact limit, is the slowest (default: "  \
-         "smooth for balls with a smooth_q, such as those of billiard, else han; in the world "    \
-         "pooltool stronge)",                                                                      \
+         "smooth for balls with a smooth_q, such as those of carom's games, else han; in the "     \
+         "world pooltool stronge)",                                                                \
          2)                                                                                        \
   OPTION(friction, "friction", WORDS(BALL_FRICTION), 0, CAROM_LAW_COUNT - 1, FRICTION,             \
          "friction between balls: a function of the speed of slip (default), or their mu_ball", 3) \
