@@ -68,7 +68,7 @@ class ShotOptions(NamedTuple):
         Model of the collision of two balls (default: exact; in the world pooltool inelastic)
     cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler", "smooth"}
         Model of the impact on a cushion; mathavan, the exact limit, is the slowest (default: smooth for balls with a smooth_q, such as
-        those of billiard, else han; in the world pooltool stronge)
+        those of carom's games, else han; in the world pooltool stronge)
     friction : {"alciatore", "constant"}
         Friction between balls: a function of the speed of slip (default), or their mu_ball
     space : {"3d", "flat"}
