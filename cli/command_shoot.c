@@ -152,11 +152,10 @@ static void tell_bands(FILE *out, const given_numbers *with, const carom_shot *s
   while (row + 1 < with->bands && with->band[row + 1][0] <= met)
     row++;
   if (with->bands > 0)
-    fprintf(
-        out,
-        "residuals of the fit after as many contacts, with strikes fitted to whole shots: 68 %% "
-        "within %.2g m, 95 %% within %.2g m\n",
-        with->band[row][1], with->band[row][2]);
+    fprintf(out,
+            "residuals of the fit after as many contacts, with strikes fitted to whole shots: "
+            "68 %% within %.2g m, 95 %% within %.2g m\n",
+            with->band[row][1], with->band[row][2]);
 }
 
 /* Tells the shots of a block in words, and draws them over each other. */

@@ -81,9 +81,8 @@ static sample look(const lab_rack *rack) {
   const uint32_t in_play = carom_in_play(state, count) | 1;
   sample s = {.kept = 0};
   carom_plan_features(&view, state, in_play, rack->rules.on(&rack->rules.state, in_play),
-                      rack->rules.pockets != NULL ? rack->rules.pockets(&rack->rules.state)
-                                                  : ~UINT32_C(0),
-                      who, rack->hand, NULL, s.x);
+                      carom_pockets_of(&rack->rules, &rack->rules.state), who, rack->hand, NULL,
+                      s.x);
   int32_t left[2];
   rack->rules.left(&rack->rules.state, in_play, left);
   s.left = rack->rules.race == CAROM_RACE_POINTS ? objects_of(in_play) : left[0];

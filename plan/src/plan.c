@@ -225,7 +225,7 @@ static carom_status ask_rules(search *plan, bool in_hand) {
   /* the stroke */
   plan->breaks = rules->breaks && rules->state.opening == 1;
   plan->permissions = (uint32_t)rules->state.may;
-  plan->pockets = rules->pockets != NULL ? rules->pockets(&rules->state) : ~UINT32_C(0);
+  plan->pockets = carom_pockets_of(rules, &rules->state);
   plan->first_decides = rules->first_decides && !(plan->permissions & CAROM_MAY_PUSH);
   carom_search_lay_out(plan, plan->job.balls);
 

@@ -54,8 +54,8 @@ static double value_from(const carom_view *view, const carom_rules_state *game,
                          const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand) {
   const carom_plan_rules *rules = view->rules;
   const uint32_t targets = rules->on(game, in_play) & in_play;
-  const uint32_t pockets = rules->pockets != NULL ? rules->pockets(game) : ~UINT32_C(0);
-  const double each = rules->points != NULL ? rules->points(game, in_play, -1) : 1.0;
+  const uint32_t pockets = carom_pockets_of(rules, game);
+  const double each = carom_points_of(rules, game, in_play, -1);
   int32_t left[2];
   rules->left(game, in_play, left);
   if (left[0] < 1 || left[1] < 1)
@@ -66,10 +66,10 @@ static double value_from(const carom_view *view, const carom_rules_state *game,
   double x[NEXT_NUMBERS], pot[CAROM_BALLS_MOST], chosen = 0.0, w = each, most = -1.0;
   carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, pot, x);
   for (int k = 0; targets >> k != 0; k++) {
-    const bool is_target = targets >> k & 1;
-    const double points =
-        is_target && rules->points != NULL ? rules->points(game, in_play, k) : 1.0;
-    if (is_target && pot[k] * (points + each) > most) {
+    if (!(targets >> k & 1))
+      continue;
+    const double points = carom_points_of(rules, game, in_play, k);
+    if (pot[k] * (points + each) > most) {
       most = pot[k] * (points + each);
       chosen = pot[k];
       w = points;

@@ -129,7 +129,7 @@ static double value_of_playing(const carom_view *view, const carom_rules_state *
     return rules->value(game, balls, view->count, in_hand);
   if (rules->race == CAROM_RACE_POINTS)
     return carom_points_value(view, game, balls, in_play, who, in_hand);
-  const uint32_t pockets = rules->pockets != NULL ? rules->pockets(game) : ~UINT32_C(0);
+  const uint32_t pockets = carom_pockets_of(rules, game);
   int32_t left[2];
   rules->left(game, in_play, left);
   return with_targets(view, balls, in_play, rules->on(game, in_play), pockets, left, who, in_hand);

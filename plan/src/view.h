@@ -27,6 +27,23 @@ static inline int64_t carom_max(int64_t a, int64_t b) {
   return b;
 }
 
+/* The pockets in which balls count for the player at the table, as a set. */
+static inline uint32_t carom_pockets_of(const carom_plan_rules *rules,
+                                        const carom_rules_state *game) {
+  if (rules->pockets == NULL)
+    return ~UINT32_C(0);
+  return rules->pockets(game);
+}
+
+/* The points of a ball if it falls in the next stroke, or with ball -1 the mean of a later pot; 1
+ * in games without points. */
+static inline double carom_points_of(const carom_plan_rules *rules, const carom_rules_state *game,
+                                     uint32_t in_play, int ball) {
+  if (rules->points == NULL)
+    return 1.0;
+  return rules->points(game, in_play, ball);
+}
+
 /* Whether a point, `to` from where a way begins, is nearer than `least` to the way: so long, in the
  * direction u. */
 static inline bool carom_is_near_way(const double to[2], const double u[2], double length,
