@@ -2,8 +2,9 @@
 // which are several of the photo.
 //   Corners: along each side of the table, the strongest edge across it within reach, weighed by
 // how near it is; of the lines through two of such places the
-//   one that has most of the others within two pixels; where less than a third are on it the side
-// stays. Corners are where sides meet.
+//   one that has most of the others within two pixels. The side stays where less than a third are
+// on it, or where another edge is within reach, as on tables with cushions: the face of a cushion
+// has two edges, and the wood is behind it. Corners are where sides meet.
 //   Balls: the disc, of a ball's radius there, that differs most from the cloth within it and least
 // around it; where both are alike the mark stays.
 import type { Pixel } from "./photo.js";
@@ -25,6 +26,11 @@ function at(
 const apart = (a: readonly number[], b: readonly number[]): number =>
   Math.abs(a[0]! - b[0]!) + Math.abs(a[1]! - b[1]!) + Math.abs(a[2]! - b[2]!);
 
+/** An edge that differs by more than this share of the strongest one competes with it. */
+const RIVAL = 0.5;
+/** Edges farther apart than this, pixels, are two. */
+const APART = 5;
+
 /** The side between two corners as a point and a direction, moved to an edge. */
 function sideOf(picture: Picture, from: Pixel, to: Pixel, reach: number): { p: Pixel; d: Pixel } {
   const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
@@ -36,19 +42,27 @@ function sideOf(picture: Picture, from: Pixel, to: Pixel, reach: number): { p: P
   // The strongest edge at each of 60 places: the change of colour over four pixels.
   const seen = Array.from({ length: 60 }, (_, k) => {
     const along = length * (0.06 + (0.88 * k) / 59);
-    const edge = (off: number): number =>
-      apart(at(picture, ...place(along, off - 2)), at(picture, ...place(along, off + 2)));
+    const edgeAt = (there: number, off: number): number =>
+      apart(at(picture, ...place(there, off - 2)), at(picture, ...place(there, off + 2)));
+    const edge = (off: number): number => edgeAt(along, off);
+    // The mean of three places, which noise does not reach.
+    const steady = (off: number): number =>
+      (edgeAt(along - 4, off) + edge(off) + edgeAt(along + 4, off)) / 3;
     let best = 0;
     let most = 0;
     for (let off = -reach; off <= reach; off++) {
       const here = edge(off) * Math.exp(-((off / reach) ** 2));
       if (here > most) [best, most] = [off, here];
     }
+    let rival = 0;
+    for (let off = -2 * reach; off <= 2 * reach; off++)
+      if (Math.abs(off - best) > APART) rival = Math.max(rival, steady(off));
     // The middle of the edge, which is as wide as the pixels that are compared.
     const offs = Array.from({ length: 17 }, (_, k) => best + (k - 8) / 2);
     const edges = edge(best);
     const on = offs.filter((off) => edge(off) > 0.7 * edges);
-    return [along, on.reduce((sum, off) => sum + off, 0) / on.length] as const;
+    const middle = on.reduce((sum, off) => sum + off, 0) / on.length;
+    return [along, middle, rival > RIVAL * edges] as const;
   });
   let on = 0;
   let line = [0, 0] as readonly [number, number];
@@ -60,10 +74,11 @@ function sideOf(picture: Picture, from: Pixel, to: Pixel, reach: number): { p: P
       ).length;
       if (count > on) [on, line] = [count, [a[1] - slope * a[0], slope]];
     }
-  if (on < 20) return { p: from, d };
+  const rivals = seen.filter(([, , hasRival]) => hasRival).length;
+  if (on < 20 || rivals > 20) return { p: from, d };
   // Least squares of those that are on it.
   const near = seen.filter(([along, off]) => Math.abs(off - line[0] - line[1] * along) < 2);
-  const mean = (of: (one: readonly [number, number]) => number): number =>
+  const mean = (of: (one: (typeof seen)[number]) => number): number =>
     near.reduce((sum, one) => sum + of(one), 0) / near.length;
   const u = mean(([along]) => along);
   const v = mean(([, off]) => off);

@@ -11,7 +11,6 @@ import { countGame, isRated } from "./ladder.js";
 import type { Session } from "./parts.js";
 import { saveGame } from "./saved.js";
 import {
-  aimAt,
   ballsOn,
   callOf,
   cueOf,
