@@ -145,7 +145,7 @@ def main(arguments: list[str] | None = None) -> None:
     given = parser.parse_args(arguments)
     numpyro.enable_x64()
     shots = Shots(given.shots, seed=0)
-    chains, seconds = timed(lambda: by_emcee(shots, 2 * given.steps))
+    chains, seconds = timed(lambda: by_emcee(shots, 20 * given.steps))
     show(f"emcee, {given.shots} shots", chains.swapaxes(0, 1), seconds)
     means, deviations = chains.mean(axis=(0, 1)), chains.std(axis=(0, 1))
     (chains, divergences), seconds = timed(lambda: by_nuts(shots, given.steps))

@@ -24,7 +24,8 @@ cmake windows    docs/using/building.md's: built and run by the test platforms/w
 js            a page is a session, run in Node by the test web/package
 csharp, rust  docs/using/languages.md's: built and run by tests/bindings/game
 python        a page is a session, in the environment of the test python/installed; its kinds
-              pooltool, jax, torch, gymnasium, pettingzoo and scale need those packages
+              pooltool, jax, torch, gymnasium, pettingzoo, scale, sb3 and sampling need those
+              packages
 """
 
 import re
@@ -52,7 +53,17 @@ KINDS = {
 }
 KINDS |= {
     f"python {need}"
-    for need in ("pooltool", "jax", "torch", "gymnasium", "pettingzoo", "scale", "elsewhere")
+    for need in (
+        "pooltool",
+        "jax",
+        "torch",
+        "gymnasium",
+        "pettingzoo",
+        "scale",
+        "sb3",
+        "sampling",
+        "elsewhere",
+    )
 }
 
 # Blocks that no test of docs/ runs, by page: a new one needs a good reason and a line here.

@@ -1,7 +1,7 @@
 """A stroke of pool found by geometry and a few shots: an opponent that costs a millisecond.
 
 The candidates are strokes at ghost balls, the places where the cue ball must be when it drives a
-ball straight into a pocket: Each pair of a ball that the player may meet and a pocket gives a cut c,
+ball straight into a pocket. Each pair of a ball that the player may meet and a pocket gives a cut c,
 a way d of the cue ball to the ghost ball, and a way p of the ball to the pocket. An error of the
 direction grows with d p / cos(c) until it reaches the pocket, so that pairs are taken by
 
@@ -14,11 +14,13 @@ line to the pocket, where that is free.
 
 Each candidate is played once, without errors, and judged by the rules. The best one is the stroke,
 the first of equal ones: it neither looks at the next layout nor knows how strokes err.
+
+`carom.games.pool` imports this module, so its `Pool` and `Position` have no types here.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
@@ -26,9 +28,6 @@ from carom import dtypes
 from carom._rows import Array, raw
 from carom.games.rules import Made, calls_of, judge, on_of
 from carom.layouts import cue as cue_of
-
-if TYPE_CHECKING:
-    from carom.games.pool import Pool, Position
 
 DISTANCE = 0.35  # m
 THROWN = np.radians([0.0, 2.0])
@@ -39,7 +38,7 @@ _LEAST_COS = np.cos(np.radians(75.0))  # of a cut
 
 
 def quick_stroke(
-    pool: Pool, position: Position, shots: int
+    pool: Any, position: Any, shots: int
 ) -> tuple[dtypes.Records, dtypes.Records, tuple[int, int]]:
     """The layout, with the cue ball where it is put, the cue, and the call of eight-ball."""
     made = Made(pool.game, position.state)
@@ -52,7 +51,7 @@ def quick_stroke(
 
 
 def _candidates(
-    pool: Pool, position: Position, made: Made, pairs: int
+    pool: Any, position: Any, made: Made, pairs: int
 ) -> tuple[dtypes.Records, dtypes.Records]:
     """Layouts (n, balls) and cues (n,) of the easiest pairs of a ball and a pocket."""
     balls, radius = position.balls, pool.base.radius
@@ -95,9 +94,7 @@ def _candidates(
     return layouts, cue_of(speed=speed.ravel(), phi=phi.ravel(), b=0.0)
 
 
-def _break(
-    pool: Pool, position: Position, on: dtypes.Doubles
-) -> tuple[dtypes.Records, dtypes.Records]:
+def _break(pool: Any, position: Any, on: dtypes.Doubles) -> tuple[dtypes.Records, dtypes.Records]:
     """A stroke at the first ball of the rack, from behind the head string."""
     low, high = pool.area(position.hand)
     place = np.array([(low[0] + high[0]) / 2.0, high[1]])
@@ -107,7 +104,7 @@ def _break(
     return _laid(pool, position, place[np.newaxis]), cue_of(speed=[speed], phi=[phi], b=0.0)
 
 
-def _free(pool: Pool, position: Position, wanted: dtypes.Doubles) -> dtypes.Doubles:
+def _free(pool: Any, position: Any, wanted: dtypes.Doubles) -> dtypes.Doubles:
     """The places that are free, where the cue ball is in hand, and others in place of those that
     are not.
     """
@@ -123,7 +120,7 @@ def _free(pool: Pool, position: Position, wanted: dtypes.Doubles) -> dtypes.Doub
     return wanted
 
 
-def _laid(pool: Pool, position: Position, places: dtypes.Doubles) -> dtypes.Records:
+def _laid(pool: Any, position: Any, places: dtypes.Doubles) -> dtypes.Records:
     """The layout with the cue ball at each of some places, if it is in hand."""
     layouts: Array = np.repeat(raw(position.balls)[np.newaxis], len(places), axis=0)
     layouts = layouts.view(dtypes.shot_ball)

@@ -6,7 +6,7 @@ import copy
 import html
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -23,7 +23,7 @@ from carom.results import Shot
 from carom.shots import simulate
 from carom.tracks import _constants, _covariance, _joint, _kicks, _strikes
 from carom.tracks._events import events
-from carom.tracks._forecast import Forecast, first_seconds, forecast
+from carom.tracks._forecast import Forecast, forecast
 from carom.tracks._kicks import Kicks
 from carom.tracks._recordings import Recording
 
@@ -212,23 +212,7 @@ class Fit:
         if not 0.0 < after < np.inf:
             raise ValueError(f"after: it must be positive and finite, in s, not {after!r}")
         draws, seed = _whole(draws, "draws", least=10), seed_of(seed)
-        from carom.tracks.fit import fit
-
-        part = fit(
-            [first_seconds(whole, after)],
-            self.table,
-            self.radius,
-            cushion_model=self.cushion_model,
-            constants=self.constants,
-            free="none",
-            seed=seed,
-        )
-        if not np.isfinite(part.strikes).all():
-            raise ValueError(
-                f"shot: in its first {after:g} s no strike was found: {part.status[0]}"
-            )
-        part = replace(part, fitted=self.fitted, covariance=self.covariance)
-        return forecast(whole, part, after, draws, seed)
+        return forecast(self, whole, after, draws, seed)
 
     def changed(self, by: Doubles) -> dict[str, Doubles]:
         """The fitted constants, off by numbers of shape (n, fitted), within their bounds."""

@@ -28,6 +28,7 @@ from carom.dtypes import Doubles, Records
 from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
 from carom.tracks import _recordings, _strikes, _summary
 from carom.tracks import Recording, TrackError, events, read
+from carom.tracks._forecast import ROUGH
 from carom.tracks._kicks import Kicks, contact
 from carom.tracks._summary import Fit
 
@@ -44,9 +45,6 @@ _LAW = {
     # a friction between balls that changes with the slip: a search without the change begins beside it,
 }
 _BOTH = 1  # and after this stage that one goes on whose misfit is the smaller
-# an RMSE so many times that of the noise is no longer ok: with the true constants nine in ten shots
-# are below
-_ROUGH = 2.0
 
 
 def _status(shot: Recording, radius: float) -> str:
@@ -422,7 +420,7 @@ def fit(
         plays = job.plays(played, values)
         strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])
-        _seek_again(plays, played, strikes, rmse, _ROUGH * noise * math.sqrt(2.0))
+        _seek_again(plays, played, strikes, rmse, ROUGH * noise * math.sqrt(2.0))
         for k in played:
             if not np.isfinite(rmse[k]):
                 status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
@@ -473,7 +471,7 @@ def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
         return f"doubtful: {at} of the strike is at its bound"
     return (
         f"rough: RMSE {1e3 * rmse:.1f} mm, {above:.2g} times that of the noise"
-        if above > _ROUGH
+        if above > ROUGH
         else ""
     )
 
