@@ -75,7 +75,8 @@ typedef enum carom_tangent_flag {
   CAROM_TANGENT_CLUSTER = 128     /* it is a contact of a cluster, a further touch of the tip, or a
                                      single contact with a third ball within 1 mm. The reach does
                                      not count touches of balls that come or go there, nor their
-                                     order. */
+                                     order. It ends where the velocity of a ball behind the contact
+                                     changes by as much as itself. */
 } carom_tangent_flag;
 
 /* The changes in each direction; `directions` is their number m, 1 to 64. NULL stands for zeros.

@@ -14,6 +14,8 @@
  *               there over its derivative, at a fixed time of the contact
  *     hop       the last hop of a ball on the slate: its fall less the least one after which
  *               there is a hop
+ *     turn      the velocity of a ball behind a contact of a cluster changes by itself:
+ *               |v| / |dv|
  *
  * In flight the tops of rails, the backs of pockets and the edge of the table do not count. */
 #include "tangent/reach.h"
@@ -347,6 +349,19 @@ static void take_landing(carom_reach *reach, const carom_event *event, carom_tan
   }
 }
 
+/* A ball behind a contact of a cluster, where touches come and go that nobody follows: a change
+ * that makes its velocity another one, by as much as the velocity itself, has others. */
+static void take_turn(carom_reach *reach, int i) {
+  const carom_tangent_work *w = reach->work;
+  const double *v = w->ball[i].from.v;
+  const int row = i * CAROM_STATE_NUMBERS;
+  const double *d_x = carom_tangent_columns(&w->pass, w->tangent->final, row + S_V_X),
+               *d_y = carom_tangent_columns(&w->pass, w->tangent->final, row + S_V_Y);
+  const double speed = sqrt(v[0] * v[0] + v[1] * v[1]);
+  for (int j = 0; j < w->pass.columns && speed > 0.0; j++)
+    take(reach, j, speed, sqrt(d_x[j] * d_x[j] + d_y[j] * d_y[j]));
+}
+
 void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) {
   carom_tangent_work *w = reach->work;
   carom_tangent_rows *d = w->before;
@@ -384,7 +399,10 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) 
       take(reach, j, left, end[j] - w->time[j]);
   }
 
-  /* of a cluster the contact that starts it */
+  /* of a cluster the contact that starts it, and a ball that leaves it quite otherwise */
+  if (w->note.flags & CAROM_TANGENT_CLUSTER)
+    for (int side = 0; side <= two; side++)
+      take_turn(reach, side == 0 ? event->a : event->b);
   for (int j = 0; j < m && !w->inner && w->margin < INFINITY; j++)
     take(reach, j, w->margin, w->margin_row[j]);
 }
