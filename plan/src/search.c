@@ -28,8 +28,11 @@ static int64_t first_round(search *plan, int64_t keep) {
   int64_t scanned = 0, good = 0;
   for (int64_t k = 0; k < n; k++) {
     candidate *c = &plan->found[k];
-    const bool stays =
-        c->kind == CAROM_PLAN_POT || plan->breaks || plan->view.pockets == 0 || scanned++ < share;
+    bool stays = c->kind == CAROM_PLAN_POT || plan->breaks || plan->view.pockets == 0;
+    if (!stays && scanned < share) {
+      scanned++;
+      stays = true;
+    }
     if (stays) {
       const candidate kept = *c;
       *c = plan->found[good];
@@ -77,8 +80,8 @@ static named_pot pot_of(const candidate *c) {
   return (named_pot){c->ball, c->pocket, c->cushions};
 }
 
-/* The kind of a candidate, as far as it tells itself: a direct pot is that of the ball that was
- * aimed at; another pot is a find of the scan. */
+/* The kind of a candidate as far as the candidate determines it: a direct pot is one of the ball
+ * that was aimed at, and any other pot is a find of the scan. */
 static int kind_of(const candidate *c, const named_pot *pot) {
   const bool aimed = pot->ball == c->aimed_ball && pot->pocket == c->aimed_pocket;
   if (c->kind == CAROM_PLAN_POT && !aimed)
@@ -88,7 +91,9 @@ static int kind_of(const candidate *c, const named_pot *pot) {
 
 /* The standard error of the mean of the worths of a candidate. */
 static double error_of(const candidate *c) {
-  const double n = (double)c->seen, mean = c->sum / n, variance = c->squares / n - mean * mean;
+  const double n = (double)c->seen;
+  const double mean = c->sum / n;
+  const double variance = c->squares / n - mean * mean;
   if (c->seen <= 1 || !(variance > 0.0))
     return 0.0;
   return sqrt(variance / (n - 1.0));
@@ -99,12 +104,12 @@ carom_choice carom_search_choice(const search *plan, const candidate *c) {
   const double n = (double)c->seen, error = error_of(c);
   const double *place = plan->job.balls[plan->view.cue_ball].state.r;
 
-  /* The shots that chose a stroke were lucky for it, by about so much: the games of
-   * understanding/plan.md tell it. What is not a number stays none. */
+  /* The shots by which a stroke was chosen overestimate it by about this much, as the games of
+   * docs/understanding/plan.md show. NaN stays NaN. */
   const double luck = c->kind == CAROM_PLAN_GIVEN ? 0.0 : 0.75 * error;
   const double value = c->sum / n - luck;
 
-  /* what its shots told */
+  /* the shares of its shots */
   const named_pot pot = pot_of(c);
   const bool played = c->round > 0 && c->kind != CAROM_PLAN_PASS;
   carom_choice choice = {.cue = *plan->job.cue,
@@ -143,8 +148,8 @@ static int64_t left_for_rounds(const search *plan) {
   return carom_max(plan->shots - plan->count, 0);
 }
 
-/* Another pot that looks better than the best, after fewer strokes, is played as often as the best
- * in the last round before it is told. */
+/* A pot that looks better than the best one after fewer strokes is played as often as the best one
+ * in the last round, before the plan reports it. */
 static void look_again(search *plan) {
   enum { LOOKS = 2 };
   plan->next = NEXT_ENDED;
@@ -176,10 +181,11 @@ static void look_again(search *plan) {
   plan->next = NEXT_LOOK;
 }
 
-/* The candidates of a round that were in the one before. */
+/* The candidates of a round that were in the one before: a quarter of them stays. */
 static int64_t in_round(search *plan) {
-  const int64_t keep = carom_max(plan->shots / 25, 6);
-  const int64_t n = carom_max(keep >> (2 * plan->round), 2);
+  enum { SHOTS_EACH = 25, FIRST_LEAST = 6, LEAST = 2 };
+  const int64_t keep = carom_max(plan->shots / SHOTS_EACH, FIRST_LEAST);
+  const int64_t n = carom_max(keep >> (2 * plan->round), LEAST);
   if (plan->round == 0)
     return first_round(plan, n);
   return carom_min(n, plan->count);
@@ -199,8 +205,8 @@ static bool add_near(search *plan) {
   return true;
 }
 
-/* Those that meet a ball that is on come behind the candidates of the round, as if they had been in
- * all before; the others are left out. */
+/* Strokes near the best that meet a ball that is on join behind the candidates of the round, and
+ * count as if they had played every round before. The others are left out. */
 static void take_near(search *plan) {
   const int64_t first = plan->stage.first;
   for (int64_t k = 0; k < plan->stage.done; k++) {
@@ -239,7 +245,7 @@ static void join(search *plan) {
   candidate c = plan->best;
   if (!plan->joins || c.kind == CAROM_PLAN_FOUL || plan->count == plan->most)
     return;
-  c.sum = 2.0; /* above all that were played once */
+  c.sum = 2.0; /* a mean above 1 sorts before all that were played once */
   c.seen = 1;
   c.squares = 0.0;
   c.keep = c.lose = c.foul = 0;

@@ -1,5 +1,5 @@
-// The turns of a game: a stroke is played by whoever sits here or by the page's player, the game is
-// saved, and the next one comes to the table.
+// The turns of a game: the person at the page or the page's player plays a stroke, the page saves
+// the game, and the next player comes to the table.
 import type { Call, Choice, Cue } from "carom";
 import { far } from "../far.js";
 import { angleFrom, direction } from "../table/grip.js";
@@ -87,7 +87,7 @@ function wasBreak({ setup, entries }: Play, stroke: Stroke): boolean {
   const isFirst = setup.at === undefined && entries.length === 1;
   return stroke.state.opening === true || isFirst;
 }
-/** A stroke was played: its film, and whoever comes next. */
+/** Shows the film of a stroke that was played, then gives the turn to the next player. */
 function follow(s: Session, stroke: Stroke): void {
   // Nobody breaks twice: the next stroke begins as one of medium speed.
   if (wasBreak(s.play, stroke) && !s.play.breaks) s.stroke.set({ speed: SPEED });
