@@ -202,7 +202,7 @@ class Fit:
             their rows alone, and later rows are not looked at.
         draws : int
             Of the strike, of the constants (by `covariance`) and of the places of rest. From 2 s on
-            the regions of 200 hold what they say on recorded shots: docs/understanding/reality.md.
+            the regions of 200 were compared with recorded shots: docs/understanding/reality.md.
         seed : int or numpy.random.Generator
 
         Returns Forecast: Its `positions` are the draws, its `regions` where balls will be.
