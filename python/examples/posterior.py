@@ -32,7 +32,12 @@ import carom
 import carom.jax
 
 Doubles = npt.NDArray[np.float64]
-TRUTH = {"mu_slide": 0.22, "mu_roll": 0.0085, "restitution": 0.93, "restitution_cushion": 0.83}
+TRUTH: dict[str, Any] = {
+    "mu_slide": 0.22,
+    "mu_roll": 0.0085,
+    "restitution": 0.93,
+    "restitution_cushion": 0.83,
+}
 NAMES = [f"kind.{name}" for name in TRUTH]
 LOW, HIGH = np.array([0.1, 0.004, 0.85, 0.6]), np.array([0.35, 0.02, 1.0, 1.0])
 AFTER, NOISE = 1.2, 3e-3  # s, m
@@ -77,7 +82,9 @@ def by_emcee(shots: Shots, steps: int) -> Doubles:
     def density(given: Doubles) -> Doubles:
         inside = ((given > LOW) & (given < HIGH)).all(axis=1)
         found = np.full(len(given), -np.inf)
-        constants = {name: given[inside][:, k, None, None] for k, name in enumerate(TRUTH)}
+        constants: dict[str, Any] = {
+            name: given[inside][:, k, None, None] for k, name in enumerate(TRUTH)
+        }
         places = np.broadcast_to(shots.places, (int(inside.sum()), *shots.places.shape))
         played = carom.simulate_batch(
             TABLE, carom.balls(places, **constants), shots.cues[None], **OPTIONS
