@@ -219,7 +219,7 @@ class Potting:
         self.threads = threads
         self.reward = reward
         self.noise = noise
-        ball = layouts.balls(np.zeros((1, 2)), game=ball_set)
+        ball = layouts.balls(np.zeros((1, 2)), game=ball_set, cushion_model=cushion_model)
         self._ball = ball.tobytes()
         self.radius = float(ball["kind"]["radius"][0])
         self._for_c()
