@@ -350,10 +350,13 @@ def main():
 KERNEL_MACROS = {
     "KERNEL_SUFFIX",
     "KERNEL_PRECISION",
+    "COLLOCATED_SUFFIX",
+    "LANE_NUMBERS",
     "KERNEL_PASTE",
     "KERNEL_PASTE_EXPANDED",
+    "KERNEL_OF_SET",
     "KERNEL",
-    "PRECISE_KERNEL",
+    "COLLOCATION_KERNEL",
 }
 
 
@@ -365,7 +368,7 @@ def names_of_pass(name):
             part, text_of("contact_law/impact.h"), re.S
         ).group(0)
     return re.search(
-        r"#ifdef CAROM_LANES_SUFFIX\n.*?PRECISE_KERNEL.*?\n#endif\n",
+        r"#ifdef CAROM_LANES_SUFFIX\n.*?COLLOCATION_KERNEL.*?\n#endif\n",
         text_of("ball_ball/kernels.h"),
         re.S,
     ).group(0)

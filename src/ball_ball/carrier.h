@@ -356,13 +356,15 @@ always reg reg_root(reg x) {
 enum { FRACTION_BITS = 23 };
 static const lane_int BITS_OF_ROOT_HALF = 0x3f3504f3; /* sqrt(1/2) */
 /* log(2) in two parts, the first of few digits */
-static const real LOG_2_HIGH = REAL(0.693145752), LOG_2_LOW = REAL(1.42860677e-6);
+static const real LOG_2_HIGH = REAL(0.693145752);
+static const real LOG_2_LOW = REAL(1.42860677e-6);
 /* terms of the series of e^x, and of that of log(x) */
 enum { EXPONENTIAL_TERMS = 6, LOGARITHM_TERMS = 4 };
 #else
 enum { FRACTION_BITS = 52 };
 static const lane_int BITS_OF_ROOT_HALF = 0x3fe6a09e667f3bcd;
-static const real LOG_2_HIGH = 0x1.62e42fefa38p-1, LOG_2_LOW = 0x1.ef35793c7673p-45;
+static const real LOG_2_HIGH = 0x1.62e42fefa38p-1;
+static const real LOG_2_LOW = 0x1.ef35793c7673p-45;
 enum { EXPONENTIAL_TERMS = 13, LOGARITHM_TERMS = 11 };
 #endif
 

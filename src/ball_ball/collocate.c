@@ -47,16 +47,19 @@ static const real MOST_EASY_Q = REAL(0.62);       /* its q */
 static const real MOST_EASY_MU_MU_B = REAL(5e-3); /* and its mu mu_b q^2 */
 static const real FULL_Q = REAL(0.66);            /* q of a FULL step over even nodes, */
 static const real FULL_GRADED_Q = REAL(0.96);     /* and over graded ones */
-static const real BEND_4 = 20,
-                  BEND_8 = 30; /* by q^2: a way that is not straight adds this to the error,
+static const real BEND_4 = 20;
+static const real BEND_8 = 30; /* by q^2: a way that is not straight adds this to the error,
                                        with 4 nodes and with more */
 static const real STICK_Q = REAL(1.05); /* q from which the balls will stick */
 static const real TURN_Q = REAL(0.5);   /* q of a TURN step */
 static const real LEFT_Q = REAL(0.5);   /* q that a PART would leave; */
 /* its share of |u|, and of q */
-static const real LEAST_PART = REAL(0.3), MOST_PART = REAL(0.85), MOST_OF_WAY = REAL(0.8);
+static const real LEAST_PART = REAL(0.3);
+static const real MOST_PART = REAL(0.85);
+static const real MOST_OF_WAY = REAL(0.8);
 /* delta of a TURN step; of sensitive collisions */
-static const real LEAST_DELTA = REAL(1e-5), LEAST_DELTA_SENSITIVE = REAL(1e-3);
+static const real LEAST_DELTA = REAL(1e-5);
+static const real LEAST_DELTA_SENSITIVE = REAL(1e-3);
 /* of xi of a TURN step */
 static const real WIDEST_RANGE = REAL(4.5);
 /* its error over (mu mu_b sigma)^2 L rho^-16 */

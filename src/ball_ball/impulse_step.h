@@ -132,8 +132,9 @@ always vreal x_at(bool turned, const node_map *m, vreal X) {
 /* Found by trial with `carom-lab stress --draws 60000`. With half of CONTRACTION errors reach
  * 3.8e-7 instead of 3.5e-7, with half of CONTRACTION_CLOTH 8.1e-7; at twice, or with other
  * CONTRACTION_Q, the largest errors do not grow. */
-static const real CONTRACTION = REAL(0.02), CONTRACTION_CLOTH = REAL(1.2),
-                  CONTRACTION_Q = REAL(0.1);
+static const real CONTRACTION = REAL(0.02);
+static const real CONTRACTION_CLOTH = REAL(1.2);
+static const real CONTRACTION_Q = REAL(0.1);
 /* The factor of that estimate: it is too small where d passes near zero, and too large for the
  * few nodes of smooth steps. */
 always real estimate_scale(int n, bool turned) {
@@ -433,7 +434,8 @@ always vreal extrapolate_to_end(const problem *a, const state *s, const end_slop
 /* p that the Taylor series may cover, over the length of the step before it. */
 /* With twice or half of each, `carom-lab stress --draws 60000` shows the same errors; with half
  * of the second, 1 % more collisions of its regimes go to the precise solver. */
-static const real MOST_EXTRAPOLATION = REAL(0.03), MOST_EXTRAPOLATION_TURN = REAL(0.1);
+static const real MOST_EXTRAPOLATION = REAL(0.03);
+static const real MOST_EXTRAPOLATION_TURN = REAL(0.1);
 /* The share of |u| that may be lost there. After a step with four nodes, much more of |u| is
  * left. */
 static const real MOST_FALL = REAL(0.5);

@@ -127,9 +127,8 @@ typedef struct carom_kernels {
 CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 #undef CAROM_KERNEL_PROTOTYPES
 
-/* In a source of kernels: the build's precision; a number of collocation, and such numbers of a
- * column; the name of a kernel of the build's instruction set, of its precision or of that of
- * collocation. */
+/* In a source of kernels: the build's precision; the numbers of a column; the name of a kernel of
+ * the build's instruction set, of its precision or of that of collocation. */
 #ifdef CAROM_LANES_SUFFIX
 #if defined(CAROM_LANES_F32)
 #define KERNEL_SUFFIX f32
@@ -142,11 +141,9 @@ CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 #define KERNEL_PRECISION CAROM_F64
 #endif
 #if defined(CAROM_LANES_F32) || defined(CAROM_LANES_MIXED)
-typedef float collocated;
 #define COLLOCATED_SUFFIX f32
 #define LANE_NUMBERS(column) ((column).single_numbers)
 #else
-typedef double collocated;
 #define COLLOCATED_SUFFIX f64
 #define LANE_NUMBERS(column) ((column).double_numbers)
 #endif

@@ -58,6 +58,13 @@ typedef uint64_t lane_bits;
 #define REAL_BYTES 8
 #endif
 
+/* A number of collocation. */
+#if defined(CAROM_LANES_F32) || defined(CAROM_LANES_MIXED)
+typedef float collocated;
+#else
+typedef double collocated;
+#endif
+
 /* Before a loop of few turns: arrays of vectors live in registers only if the compiler unrolls
  * it. */
 #if defined(__clang__)

@@ -74,7 +74,8 @@ always vreal inverse_length(vreal x, vreal y) {
 /* A pressed ball has no slip on the cloth if mu mu_b |d| is below this share of the tolerance;
  * in sensitive collisions, if its square is below this number, which holds of a ball that lies
  * still. */
-static const real NO_SLIP = REAL(0.03), NO_SLIP_SENSITIVE = REAL(1e-26);
+static const real NO_SLIP = REAL(0.03);
+static const real NO_SLIP_SENSITIVE = REAL(1e-26);
 
 always vmask has_no_slip(const problem *a, const state *s) {
   return v_less(a->mu_mu_b * a->mu_mu_b * v_fma(s->d_x, s->d_x, s->d_y * s->d_y), a->no_slip);

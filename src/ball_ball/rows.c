@@ -28,10 +28,15 @@ typedef struct row_lanes {
 
 /* The limits of collocation: beyond them the fallback is needed anyway, or
  * nothing is known of it. */
-static const real LEAST_E = (real)0.05, MOST_MU_B = (real)0.5, MOST_MU_MU_B = (real)0.25,
-                  LEAST_RATIO = (real)0.05;
-static const real MOST_RATIO = 20, LEAST_MARGIN = (real)0.5, LEAST_DRIFT = (real)0.25,
-                  MOST_SLIP = (real)1e6, LEAST_APPROACH = (real)1e-30;
+static const real LEAST_E = (real)0.05;
+static const real MOST_MU_B = (real)0.5;
+static const real MOST_MU_MU_B = (real)0.25;
+static const real LEAST_RATIO = (real)0.05;
+static const real MOST_RATIO = 20;
+static const real LEAST_MARGIN = (real)0.5;
+static const real LEAST_DRIFT = (real)0.25;
+static const real MOST_SLIP = (real)1e6;
+static const real LEAST_APPROACH = (real)1e-30;
 static const real MOST_APPROACH = (real)1e30;
 
 /* Reads rows into *r and lane k of the columns of `out`. Returns the lanes whose row passes

@@ -34,7 +34,8 @@ enum { STICK_LEAST = 2, STICK_MOST = 5 }; /* iterations; the first does not chan
 /* The error after an iteration of a step to stick, over its move, at least and by mu. With twice
  * or half of each,
  * `carom-lab stress --draws 60000` shows the same errors and times. */
-static const real CONTRACTION_STICK = REAL(0.05), CONTRACTION_STICK_MU = REAL(0.25);
+static const real CONTRACTION_STICK = REAL(0.05);
+static const real CONTRACTION_STICK_MU = REAL(0.25);
 
 /* tau at the nodes, from d there. */
 always void tau_of(const problem *a, reg d_x, reg d_y, reg *tau_x, reg *tau_y) {
