@@ -27,8 +27,9 @@
  * where there are none: contacts that never touched are met later, as other events.
  *
  * Without friction the order is 2; contacts that stick make it 1 (docs/understanding/clusters.md
- * has the errors). The energy rises by 3e-4 at most where e = 1 and nothing rubs; what it has
- * risen is then taken from the motion about the centre of mass.
+ * has the errors). The energy rises by 3e-4 at most where e = 1 and nothing rubs. What it has risen
+ * is then taken from the motion about the centre of mass, of a strike first from the parting of tip
+ * and ball, so momentum is kept.
  */
 #include "cluster/cluster.h"
 #include "cluster/hertz.h"
@@ -377,9 +378,9 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
       p->acting = (int8_t)(p->acting < 2 ? p->acting + 1 : 2);
     }
   }
-  for (int k = 0; c->on_slate && k < c->slates; k++)
+  for (int k = 0; c->on_slate && k < c->balls; k++)
     if (c->slate[k].J > 0.0)
-      list_pushed(c, now, &c->ball[c->slate[k].ball]);
+      list_pushed(c, now, &c->ball[k]);
   CAROM_PROMISE(now->contacts <= now->pressed && now->balls <= c->balls);
 
   /* all normal impulses, when all of that is known */
@@ -390,8 +391,8 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
   }
   if (c->struck)
     tip_push(flat, c);
-  for (int k = 0; c->on_slate && k < c->slates; k++) {
-    ball *p = &c->ball[c->slate[k].ball];
+  for (int k = 0; c->on_slate && k < c->balls; k++) {
+    ball *p = &c->ball[k];
     p->v[2] += c->slate[k].J * p->inverse_mass;
     p->load = c->slate[k].J;
   }
@@ -449,7 +450,8 @@ static inline void end_step(bool flat, state *c, double h, const pushes *now) {
 /* ---- All of it */
 
 static double energy_of(const state *c) {
-  double sum = 0.0;
+  const carom_cluster_tip *x = &c->tip;
+  double sum = c->struck ? 0.5 * x->V * x->V / x->inverse_mass : (double)0.0;
   for (int k = 0; k < c->balls; k++) {
     const ball *p = &c->ball[k];
     sum += (0.5 * cluster_dot(false, p->v, p->v) + 0.2 * cluster_dot(false, p->W, p->W)) /
@@ -478,6 +480,8 @@ static void take_back(state *c, double before) {
     mass += 1.0 / c->ball[k].inverse_mass;
     cluster_add(false, P, 1.0 / c->ball[k].inverse_mass, c->ball[k].v);
   }
+  if (!(mass > 0.0))
+    return;
   const double centre[3] = {P[0] / mass, P[1] / mass, P[2] / mass};
   for (int k = 0; k < c->balls; k++) {
     if (!touched[k])
@@ -492,6 +496,22 @@ static void take_back(state *c, double before) {
   for (int k = 0; k < c->balls; k++)
     for (int axis = 0; axis < 3 && touched[k]; axis++)
       c->ball[k].v[axis] = centre[axis] + share * (c->ball[k].v[axis] - centre[axis]);
+}
+
+/* The same of a strike: by an impulse -J of the tip, which takes J |b| - J^2 k/2. */
+static void take_back_from_tip(bool flat, state *c, double before) {
+  carom_cluster_tip *x = &c->tip;
+  const ball *p = &c->ball[x->ball];
+  const double more = energy_of(c) - before;
+  const double b = x->V - cluster_dot(flat, p->v, x->along) - cluster_dot(false, p->W, x->arm);
+  if (!(more > 0.0 && b < 0.0))
+    return;
+  const double k = x->inverse_mass + p->inverse_mass * (cluster_dot(flat, x->along, x->along) +
+                                                        2.5 * cluster_dot(false, x->arm, x->arm));
+  const double left = sqrt(carom_greater(b * b - 2.0 * k * more, 0.0));
+  x->J = (b + left) / k * (1.0 + 1e-12); /* a little more, so that rounding adds nothing */
+  x->impulse += x->J;
+  tip_push(flat, c);
 }
 
 /* The duration of a step before any contact has acted: by those that touch and close. */
@@ -511,11 +531,12 @@ static inline bool solve(bool flat, state *c) {
   const double before = energy_of(c);
   double h = first_step(flat, c), tau = 0.0, norm;
   if (c->struck)
-    h = tip_step(&c->tip);
-  c->taken = 0;
+    h = strike_step(c);
+  const int least = c->steps > CAROM_CLUSTER_STEPS ? (int)c->steps : CAROM_CLUSTER_STEPS,
+            most = CAROM_CLUSTER_STEPS_MOST * least;
   c->late = false;
-  for (;; c->taken++) {
-    if (c->taken == CAROM_CLUSTER_STEPS_MOST)
+  for (c->taken = 0;; c->taken++) {
+    if (c->taken == most)
       return false;
 
     /* half a step of the positions */
@@ -536,7 +557,7 @@ static inline bool solve(bool flat, state *c) {
                cue = c->struck && tip_acts(c, h, tau), slate = c->on_slate && slate_acts(c, h);
     c->late |= slate && !balls && !cue;
     if (!balls && !cue && !slate) {
-      if (!touch_again(flat, c))
+      if (!touch_again(flat, c) && !(c->struck && c->on_slate && go_to_touch(c, &tau)))
         break;
       continue;
     }
@@ -548,11 +569,12 @@ static inline bool solve(bool flat, state *c) {
     tau += 0.5 * h;
     h = step_of(balls ? norm : (double)0.0, c->steps);
     if (c->struck)
-      h = carom_lesser(h, tip_step(&c->tip));
+      h = step_to_touch(c, carom_lesser(h, strike_step(c)));
   }
   c->duration = tau;
-  if (!c->struck)
-    take_back(c, before);
+  if (c->struck)
+    take_back_from_tip(flat, c, before);
+  take_back(c, before);
   return true;
 }
 

@@ -52,7 +52,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define CAROM_TOUCHING 1e-9 /* m: a ball that is nearer touches */
+#define CAROM_TOUCHING 1e-9       /* m: a ball that is nearer touches */
+#define CAROM_LEAST_OVERLAP 1e-15 /* m: of tip or slate where they touch anew */
 
 /* BETWEEN THE TWO, above: how free of the cloth a ball is by its height, m, and a contact of two
  * balls by the greater height and by the tilt. */
@@ -72,11 +73,8 @@ static inline double carom_freedom_of_balls(double height, double n_z) {
 #endif
 enum {
   CAROM_CLUSTER_BALLS = 32,
-  CAROM_CLUSTER_SLATES = 8, /* balls of a push that the slate holds meanwhile: the struck one,
-                                      those near it, and others as there is room. The rest lands
-                                      afterwards */
-  CAROM_CLUSTER_STEPS = 25, /* of a contact's duration, where the caller does not say */
-  CAROM_CLUSTER_STEPS_MOST = 20000 /* of a cluster; more are not tried */
+  CAROM_CLUSTER_STEPS = 25,       /* of a contact's duration, where the caller does not say */
+  CAROM_CLUSTER_STEPS_MOST = 4000 /* of a cluster, for each of a contact's duration */
 };
 
 typedef struct carom_cluster_ball {
@@ -120,19 +118,20 @@ typedef struct carom_cluster_tip {
   double along[3], arm[3]; /* c' and q */
   double inverse_mass, V;  /* 1/M; the speed of the cue, m/s */
   double T, k, e;          /* duration with the ball alone, s; stiffness, N/m; restitution */
+  double reach;            /* m: how far the cue goes on after it has parted; the caller sets it */
   int ball;                /* of ball[] */
   /* of the integrator */
   double d, d_max, J, closing, lost;
   double impulse;       /* sum of J */
+  bool gone;            /* it has parted, and does not go on */
   int touches;          /* how many times it has touched */
   double first, second; /* closing speeds of the first and the second of them, m/s */
   double last;          /* tau at which it acts last */
 } carom_cluster_tip;
 
-/* The contact of the slate and a ball, tip.h. The caller sets k, over the mass, and e. */
+/* The contact of the slate and a ball, tip.h. The caller sets e. */
 typedef struct carom_cluster_slate {
-  int ball; /* of ball[] */
-  double k, e;
+  double e; /* restitution; 0: the ball flies, and there is none */
   /* of the integrator */
   double d, d_max, J, closing, impulse;
 } carom_cluster_slate;
@@ -142,7 +141,7 @@ typedef struct carom_cluster_slate {
 typedef struct carom_cluster_state {
   bool in_space;
   bool struck;   /* by a cue: tip is read, */
-  bool on_slate; /* and slate[] */
+  bool on_slate; /* and slate[], one for each of ball[] */
   bool late;     /* of the integrator: only the slate has acted once, and balls meet later */
   int balls, contacts;
   double steps;    /* of a contact's duration */
@@ -152,8 +151,7 @@ typedef struct carom_cluster_state {
   carom_cluster_ball ball[CAROM_CLUSTER_BALLS];
   carom_cluster_contact_state contact[CAROM_CLUSTER_CONTACTS];
   carom_cluster_tip tip;
-  int slates;
-  carom_cluster_slate slate[CAROM_CLUSTER_SLATES];
+  carom_cluster_slate *slate; /* CAROM_CLUSTER_BALLS of the caller's, where a cue strikes */
 } carom_cluster_state;
 
 /* members.c: compression of a contact of stiffness K and 1/reduced mass B that closes at v, and
@@ -179,8 +177,8 @@ void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8
 /* push.c: a push of a ball that nothing else touches, in closed form. */
 void carom_cluster_push_alone(carom_cluster_state *c);
 
-/* push.c: puts the struck ball and those near it on the slate, whose k and e the caller sets
- * then; and the impulse of the slate on a ball. */
+/* push.c: begins slate[], whose e the caller sets then of balls that do not fly; and the impulse of
+ * the slate on a ball. */
 void carom_cluster_put_on_slate(carom_cluster_state *c);
 double carom_cluster_slate_impulse(const carom_cluster_state *c, int ball);
 

@@ -4,6 +4,7 @@
 
 #include "carom_shot.h"
 #include "platform/elementary.h"
+#include "platform/ranges.h"
 
 #include <math.h>
 
@@ -13,7 +14,7 @@ static inline void carom_cue_axes(double phi, double theta, double axis[3], doub
                                   double above[3]) {
   double sin_phi, cos_phi, sin_theta, cos_theta;
   carom_sincos_degrees(phi, &sin_phi, &cos_phi);
-  carom_sincos_degrees(theta, &sin_theta, &cos_theta);
+  carom_sincos_degrees(carom_above(theta, CAROM_LEAST_ELEVATION), &sin_theta, &cos_theta);
   axis[0] = cos_theta * cos_phi;
   axis[1] = cos_theta * sin_phi;
   axis[2] = -sin_theta;

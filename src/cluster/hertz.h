@@ -6,7 +6,10 @@
  *
  * Unloading gives back e^2 of the work of compression, for any course of d. A contact that closes
  * at v, with B the inverse of the reduced mass, is pressed delta = (5 v^2 / (4 K B))^0.4 deep, and
- * lasts CAROM_HERTZ_DURATION delta / v. */
+ * lasts CAROM_HERTZ_DURATION delta / v.
+ *
+ * Tip and slate have linear branches instead, k d and k/e^2 (d - (1 - e^2) d_max), which give back
+ * e^2 of the work too. */
 #ifndef CAROM_SRC_CLUSTER_HERTZ_H
 #define CAROM_SRC_CLUSTER_HERTZ_H
 
@@ -26,6 +29,32 @@ static inline double carom_hertz_force(double K, double e, double d, double *d_m
   }
   const double y = d - (1.0 - e * e) * *d_max;
   return y > 0.0 ? K / (e * e * e) * y * sqrt(y) : 0.0;
+}
+
+/* k over the mass of a contact with linear branches that lasts so long alone, against that mass. */
+static inline double carom_linear_stiffness(double time, double e) {
+  const double rate = 1.57079632679489662 * (1.0 + e) / time;
+  return rate * rate;
+}
+
+/* Hertz's force with linear branches. */
+static inline double carom_linear_force(double k, double e, double d, double *d_max) {
+  CAROM_PROMISE(!(d <= 0.0 || *d_max < 0.0) && e > 0.0 && e <= 1.0);
+  if (d >= *d_max) {
+    *d_max = d;
+    return k * d;
+  }
+  const double y = d - (1.0 - e * e) * *d_max;
+  return y > 0.0 ? k / (e * e) * y : 0.0;
+}
+
+/* d_max of a contact whose force has reached 0: its set recovers as d falls, so that it loads again
+ * along the line of unloading. It is open where d is 0. */
+static inline double carom_set_left(double e, double d, double d_max) {
+  const double lost = 1.0 - e * e;
+  if (d > lost * d_max)
+    return d_max;
+  return d > 0.0 && lost > 0.0 ? d / lost : 0.0;
 }
 
 /* d_max after a step of h, in the middle of which the overlap was d, and which took the closing

@@ -10,7 +10,6 @@
 static const double least_restitution = 0.05; /* a tip that gives nothing back parts at once */
 
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T) {
-  static const double half_pi = 1.57079632679489662;
   carom_cluster_tip *x = &c->tip;
   memset(x, 0, sizeof *x);
   const double a = cue[3], b = cue[4], inverse = c->ball[struck].inverse_mass;
@@ -31,8 +30,8 @@ void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8
   x->V = cue[0];
   x->T = T;
   x->e = cue[7] > least_restitution ? cue[7] : cue[7] == 0.0 ? 1.0 + cue[7] : least_restitution;
-  const double rate = half_pi * (1.0 + x->e) / T;
-  x->k = rate * rate / (x->inverse_mass + (1.0 + 2.5 * (a * a + b * b)) * inverse);
+  x->k =
+      carom_linear_stiffness(T, x->e) / (x->inverse_mass + (1.0 + 2.5 * (a * a + b * b)) * inverse);
   x->first = x->V - cluster_dot(false, c->ball[struck].v, x->along) -
              cluster_dot(false, c->ball[struck].W, x->arm);
 }
@@ -48,35 +47,13 @@ void carom_cluster_push_alone(carom_cluster_state *c) {
   tip_push(!c->in_space, c);
 }
 
-/* Adds a ball that is not among those yet, and does not fly. */
-static void add_slate(carom_cluster_state *c, int ball) {
-  bool there = c->ball[ball].flies || c->slates == CAROM_CLUSTER_SLATES;
-  for (int k = 0; k < c->slates; k++)
-    there |= c->slate[k].ball == ball;
-  if (there)
-    return;
-  carom_cluster_slate *x = &c->slate[c->slates++];
-  memset(x, 0, sizeof *x);
-  x->ball = ball;
-}
-
 void carom_cluster_put_on_slate(carom_cluster_state *c) {
-  const int struck = c->tip.ball;
   c->on_slate = c->in_space = true;
-  c->slates = 0;
-  add_slate(c, struck);
-  for (int k = 0; k < c->contacts; k++) {
+  memset(c->slate, 0, (size_t)c->balls * sizeof *c->slate);
+  for (int k = 0; k < c->contacts; k++)
     c->contact[k].freedom = 1.0; /* the slate itself holds a ball, not its share of the cloth */
-    if (c->contact[k].i == struck || c->contact[k].j == struck)
-      add_slate(c, c->contact[k].i == struck ? c->contact[k].j : c->contact[k].i);
-  }
-  for (int k = 0; k < c->balls; k++)
-    add_slate(c, k);
 }
 
 double carom_cluster_slate_impulse(const carom_cluster_state *c, int ball) {
-  for (int k = 0; c->on_slate && k < c->slates; k++)
-    if (c->slate[k].ball == ball)
-      return c->slate[k].impulse;
-  return 0.0;
+  return c->on_slate ? c->slate[ball].impulse : 0.0;
 }

@@ -15,20 +15,34 @@
  *
  *     T = pi/2 (1 + e) sqrt(m_e / k),     1/m_e = 1/M + (1 + 5/2 |q|^2)/m.
  *
- * Where F has reached 0 the rest is forgotten, and a further touch counts from 0. On the cloth the
- * part of the push that goes down is lost, with the speed that it would give.
+ * Under a raised cue, the set that is left where F reaches 0 recovers as delta falls: then
+ * delta_max = delta/(1 - e^2), and a tip that closes again loads along the line of unloading. A tip
+ * at delta < 0 is open, and touches anew. On the cloth the rest is forgotten where F reaches 0, so
+ * that each further touch counts from 0; there the part of the push that goes down is lost, with
+ * the speed that it would give.
  *
- * SLATE. Hertz's contact (hertz.h) of the slate and the foot of a ball, per unit of its mass, with
- * the restitution e of both; friction |g| <= mu F against the slip of the foot, as on the cloth
- * (cluster.h) with F for L. shot/pulse.c has its duration. */
+ * A cue goes on for a `reach` after it has parted. Without one it never touches anew. With one,
+ * where nothing acts, a raised cue goes on to its next touch, and a ball above the slate down to
+ * it. Contacts that close slower than 1e-9 of the speed of the cue are none.
+ *
+ * SLATE. A linear contact of the slate and the foot of a ball, per unit of its mass, with the same
+ * set and the restitution e of both; friction |g| <= mu F against the slip of the foot, as on the
+ * cloth (cluster.h) with F for L. It lasts CAROM_SLATE_TIME alone. A ball that nothing else touches
+ * has the same law in phases: shot/raised.c. */
 #ifndef CAROM_SRC_CLUSTER_TIP_H
 #define CAROM_SRC_CLUSTER_TIP_H
 
+#include "carom_shot.h"
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
 #include "platform/ranges.h"
 
-enum { CAROM_TIP_STEPS = 200 }; /* of T: 5 us of a leather tip; errors of 2e-4, 9e-4 at most */
+/* Steps of the duration of tip or slate, for each of a contact of balls: 200 by default, which are
+ * 5 us of a leather tip, with errors of 2e-4, and 9e-4 at most. Fewer are not taken. */
+enum { CAROM_TIP_STEPS = 200, CAROM_TIP_STEPS_EACH = 8 };
+static const double long_tip = 1e-4;   /* s: a shorter tip that is open takes steps of this one */
+static const double far_behind = 20.0; /* of how far the cue goes in the duration of the tip */
+static const double too_slow = 1e-9;   /* of the speed of the cue */
 
 /* ---- The tip */
 
@@ -37,9 +51,35 @@ static inline double tip_closing(const carom_cluster_tip *x, const carom_cluster
          cluster_dot(false, p->W, x->arm);
 }
 
-/* The longest step that suits the tip: unloading is shorter than loading by e. */
-static inline double tip_step(const carom_cluster_tip *x) {
-  return 2.0 * x->e / (1.0 + x->e) * x->T / (double)CAROM_TIP_STEPS;
+/* The longest step that suits a contact of tip or slate: unloading is shorter than loading by e. */
+static inline double push_step(const carom_cluster_state *c, double T, double e) {
+  const double steps = carom_greater((double)CAROM_TIP_STEPS, c->steps * CAROM_TIP_STEPS_EACH);
+  return 2.0 * e / (1.0 + e) * T / steps;
+}
+
+/* The longest step of a strike. A cue that is far behind does not count, as contacts of balls may
+ * last long where they are slow. */
+static inline double strike_step(const carom_cluster_state *c) {
+  const carom_cluster_tip *x = &c->tip;
+  const bool open = x->touches > 0 && x->d <= 0.0;
+  const double T = open ? carom_greater(x->T, long_tip) : x->T;
+  const bool far = open && x->d < -far_behind * T * x->first;
+  double h = far ? (double)INFINITY : push_step(c, T, x->e);
+  for (int k = 0; c->on_slate && k < c->balls; k++)
+    if (c->slate[k].e > 0.0 && (!far || c->slate[k].J > 0.0))
+      h = carom_lesser(h, push_step(c, (double)CAROM_SLATE_TIME, c->slate[k].e));
+  return h;
+}
+
+/* The longest step in which an open tip that is to touch goes no deeper than one of its own steps.
+ */
+static inline double step_to_touch(const carom_cluster_state *c, double h) {
+  const carom_cluster_tip *x = &c->tip;
+  const double own = push_step(c, x->T, x->e);
+  if (x->gone || !(h > own) || x->d > 0.0)
+    return h;
+  const double closing = tip_closing(x, &c->ball[x->ball]);
+  return closing > 0.0 ? carom_lesser(h, own - x->d / closing) : h;
 }
 
 /* Half a step of its compression, and its impulse; whether it acts. */
@@ -48,23 +88,20 @@ static inline bool tip_acts(carom_cluster_state *c, double h, double tau) {
   x->J = 0.0;
   x->closing = tip_closing(x, &c->ball[x->ball]);
   x->d += 0.5 * h * x->closing;
-  if (x->d <= 0.0)
+  if (x->d <= 0.0 || x->gone)
     return false;
   if (x->d_max == 0.0) { /* it touches */
     x->touches++;
     if (x->touches == 2)
       x->second = x->closing;
   }
-  const double e2 = x->e * x->e;
-  if (x->d >= x->d_max) {
-    x->d_max = x->d;
-    x->J = h * x->k * x->d;
-  } else {
-    x->J = h * x->k / e2 * carom_greater(x->d - (1.0 - e2) * x->d_max, 0.0);
-  }
+  x->J = h * carom_linear_force(x->k, x->e, x->d, &x->d_max);
   x->impulse += x->J;
-  x->last = tau;
-  return true;
+
+  /* a raised tip without a force acts where it closes */
+  const bool acts = !c->on_slate || x->J > 0.0 || x->closing > too_slow * x->first;
+  x->last = acts ? tau : x->last;
+  return acts;
 }
 
 static inline void tip_push(bool flat, carom_cluster_state *c) {
@@ -86,45 +123,86 @@ static inline void tip_parts(carom_cluster_state *c, double h) {
     return;
   x->d_max = carom_hertz_vertex(middle, x->d_max, h, x->closing, closing);
   const double rest = (1.0 - x->e * x->e) * x->d_max;
-  if (x->d <= rest) {
+  if (c->on_slate) {
+    x->d_max = carom_set_left(x->e, x->d, x->d_max);
+  } else if (x->d <= rest) {
     x->d -= rest;
     x->d_max = 0.0;
   }
+  x->gone = x->d_max == 0.0 && !(x->reach > 0.0);
+}
+
+/* How long the cue needs to its next touch, where nothing acts; infinite: it does not touch. */
+static inline double wait_of_tip(const carom_cluster_state *c) {
+  const carom_cluster_tip *x = &c->tip;
+  const double closing = tip_closing(x, &c->ball[x->ball]);
+  if (x->gone || x->d > 0.0 || !(closing > too_slow * x->first))
+    return INFINITY;
+  const double wait = -x->d / closing;
+  return wait * x->V <= x->reach ? wait : (double)INFINITY;
 }
 
 /* ---- The slate */
 
+/* The same of a ball above the slate. */
+static inline double wait_of_slate(const carom_cluster_state *c, int ball) {
+  const carom_cluster_slate *x = &c->slate[ball];
+  const double down = -c->ball[ball].v[2];
+  const bool comes = x->e > 0.0 && x->d <= 0.0 && down > too_slow * c->tip.first;
+  return comes ? -x->d / down : (double)INFINITY;
+}
+
+/* Nothing acts under a raised cue: all goes on to the next touch of tip or slate. Returns whether
+ * there is one. */
+static inline bool go_to_touch(carom_cluster_state *c, double *tau) {
+  const double of_tip = wait_of_tip(c);
+  double wait = of_tip;
+  for (int k = 0; k < c->balls; k++)
+    wait = carom_lesser(wait, wait_of_slate(c, k));
+  if (!(wait < INFINITY))
+    return false;
+  for (int k = 0; k < c->balls; k++) {
+    carom_cluster_slate *x = &c->slate[k];
+    const bool touches = wait_of_slate(c, k) <= wait;
+    x->d -= wait * c->ball[k].v[2];
+    x->d = touches ? (double)CAROM_LEAST_OVERLAP : x->d;
+  }
+  c->tip.d += wait * tip_closing(&c->tip, &c->ball[c->tip.ball]);
+  c->tip.d = of_tip <= wait ? (double)CAROM_LEAST_OVERLAP : c->tip.d;
+  for (int k = 0; k < c->balls; k++)
+    cluster_add(false, c->ball[k].s, wait, c->ball[k].v);
+  *tau += wait;
+  return true;
+}
+
 /* Half a step of the overlaps of all, and their impulses; whether one acts. */
 static inline bool slate_acts(carom_cluster_state *c, double h) {
   bool any = false;
-  for (int k = 0; k < c->slates; k++) {
+  for (int k = 0; k < c->balls; k++) {
     carom_cluster_slate *x = &c->slate[k];
-    const carom_cluster_ball *p = &c->ball[x->ball];
+    const carom_cluster_ball *p = &c->ball[k];
     x->J = 0.0;
     x->closing = -p->v[2];
     x->d += 0.5 * h * x->closing;
-    if (x->d <= 0.0)
+    if (x->d <= 0.0 || !(x->e > 0.0))
       continue;
-    x->J = h * carom_hertz_force(x->k, x->e, x->d, &x->d_max) / p->inverse_mass;
+    const double stiff = carom_linear_stiffness((double)CAROM_SLATE_TIME, x->e);
+    x->J = h * carom_linear_force(stiff, x->e, x->d, &x->d_max) / p->inverse_mass;
     x->impulse += x->J;
-    any = true;
+    any |= x->J > 0.0 || x->closing > too_slow * c->tip.first;
   }
   return any;
 }
 
 static inline void slate_parts(carom_cluster_state *c, double h) {
-  for (int k = 0; k < c->slates; k++) {
+  for (int k = 0; k < c->balls; k++) {
     carom_cluster_slate *x = &c->slate[k];
-    const double closing = -c->ball[x->ball].v[2], middle = x->d;
+    const double closing = -c->ball[k].v[2], middle = x->d;
     x->d += 0.5 * h * closing;
     if (x->d_max == 0.0)
       continue;
     x->d_max = carom_hertz_vertex(middle, x->d_max, h, x->closing, closing);
-    const double rest = (1.0 - x->e * x->e) * x->d_max;
-    if (x->d <= rest) {
-      x->d -= rest;
-      x->d_max = 0.0;
-    }
+    x->d_max = carom_set_left(x->e, x->d, x->d_max);
   }
 }
 

@@ -4,18 +4,15 @@
  * (a, b) the offset in units of R and I = 2/5 m R^2:
  *
  *   V = (1 + e) V0 / (1 + m/M + 5/2 (a^2 + b^2))     speed along the cue
- *   v = V cos(theta) in the direction phi + alpha
+ *   v = V (cos(alpha) (cos(theta) d - sin(theta) z) + sin(alpha) l)
  *   tan(alpha) = -(5/2) a sqrt(1 - a^2) / (1 + m/m_e + 5/2 (1 - a^2))
  *   w = 5 V/(2R) (b, a sin(theta), -a cos(theta))     turned about z by phi + 90 degrees
  *
- * In flat play the part of the blow that goes down into the table is lost. In space, with d the
- * horizontal direction of phi and l the horizontal to its left,
- *
- *   v = V (cos(alpha) (cos(theta) d - sin(theta) z) + sin(alpha) l)
- *
- * the blow alone, which drives the ball into the slate; shot/slate.c has the impact of the
- * ball on it. With theta = 0 both are the same, to the last bit. Sources: D. Alciatore, TP A-30
- * and TP A-31; pooltool's. */
+ * d is the horizontal direction of phi and l the horizontal to its left. In space this is the blow
+ * alone, which drives the ball into the slate; shot/raised.c has what the slate does meanwhile. In
+ * flat play the part of the blow that goes down is lost. pooltool turns what is left of it: v = V
+ * cos(theta) in the direction phi + alpha. With theta = 0 all three are the same, to the last bit.
+ * Sources: D. Alciatore, TP A-30 and TP A-31; pooltool's. */
 #include "motion/strike.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
@@ -37,13 +34,13 @@ double carom_speed_of_blow(const carom_cue *cue, const carom_ball_kind *kind) {
          (1.0 + kind->mass / cue->mass + 2.5 * (a * a + b * b));
 }
 
-carom_status carom_blow(const carom_cue *cue, const carom_ball_kind *kind, bool in_space,
+carom_status carom_blow(const carom_cue *cue, const carom_ball_kind *kind, carom_blow_kind how,
                         carom_motion *out) {
   /* the directions of the cue, and the speed of the ball along it */
   const double a = cue->a, b = cue->b, inside = 1.0 - a * a, V = carom_speed_of_blow(cue, kind);
   double sin_phi, cos_phi, sin_theta, cos_theta;
   carom_sincos_degrees(cue->phi, &sin_phi, &cos_phi);
-  carom_sincos_degrees(cue->theta, &sin_theta, &cos_theta);
+  carom_sincos_degrees(carom_above(cue->theta, CAROM_LEAST_ELEVATION), &sin_theta, &cos_theta);
 
   /* squirt as a turn of v, by its sine and cosine */
   const double aside = -2.5 * a * sqrt(inside),
@@ -54,16 +51,16 @@ carom_status carom_blow(const carom_cue *cue, const carom_ball_kind *kind, bool 
   if (!(size < INFINITY && fabs(turn) < INFINITY))
     return CAROM_ERROR_OVERFLOW;
 
-  /* flat: the vertical part of the blow is lost; in space the slate takes it */
   const double x = turn * b, y = turn * a * sin_theta;
   *out = (carom_motion){
-      .v = {V * cos_theta * (cos_phi * c - sin_phi * s),
-            V * cos_theta * (sin_phi * c + cos_phi * s), 0.0},
+      .v = {V * (c * cos_theta * cos_phi - s * sin_phi),
+            V * (c * cos_theta * sin_phi + s * cos_phi), 0.0},
       .w = {-x * sin_phi - y * cos_phi, x * cos_phi - y * sin_phi, -turn * a * cos_theta}};
-  if (in_space && sin_theta > 0.0) {
-    out->v[0] = V * (c * cos_theta * cos_phi - s * sin_phi);
-    out->v[1] = V * (c * cos_theta * sin_phi + s * cos_phi);
+  if (how == CAROM_BLOW_IN_SPACE && carom_is_raised(cue))
     out->v[2] = -V * c * sin_theta;
+  if (how == CAROM_BLOW_TURNED) {
+    out->v[0] = V * cos_theta * (cos_phi * c - sin_phi * s);
+    out->v[1] = V * cos_theta * (sin_phi * c + cos_phi * s);
   }
   return CAROM_OK;
 }
@@ -76,5 +73,6 @@ carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, car
     return bad;
   if (!carom_is_positive(kind->mass))
     return CAROM_ERROR_MASS;
-  return carom_is_positive(kind->radius) ? carom_blow(cue, kind, false, out) : CAROM_ERROR_RADIUS;
+  return carom_is_positive(kind->radius) ? carom_blow(cue, kind, CAROM_BLOW_ON_CLOTH, out)
+                                         : CAROM_ERROR_RADIUS;
 }

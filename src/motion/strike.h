@@ -12,16 +12,34 @@ static inline double carom_tip_of(const carom_cue *cue) {
   return cue->tip_restitution == 0.0 ? 1.0 + cue->tip_restitution : cue->tip_restitution;
 }
 
+/* How long the tip touches a ball that is alone and free, s. */
+static inline double carom_tip_time(const carom_cue *cue) {
+  return cue->tip_time > 0.0 ? cue->tip_time : CAROM_TIP_TIME;
+}
+
 /* How much faster a cue is than one whose tip loses nothing, and which strikes as hard. */
 static inline double carom_tip_gain(const carom_cue *cue) {
   return 2.0 / (1.0 + carom_tip_of(cue));
 }
 
+/* Whether a cue is raised, and not level. */
+static inline bool carom_is_raised(const carom_cue *cue) {
+  return cue->theta >= CAROM_LEAST_ELEVATION;
+}
+
+/* Where the part of the blow goes that goes down: the slate takes it in space, on the cloth it is
+ * lost, or squirt turns what is left of the blow, as pooltool does. */
+typedef enum carom_blow_kind {
+  CAROM_BLOW_IN_SPACE,
+  CAROM_BLOW_ON_CLOTH,
+  CAROM_BLOW_TURNED
+} carom_blow_kind;
+
 /* The numbers of a cue, apart from its ball; the speed V that it gives a ball; and carom_strike()
- * of a cue and a ball that have been checked, in space with the part of the blow that goes down. */
+ * of a cue and a ball that have been checked. */
 carom_status carom_check_cue(const carom_cue *cue);
 double carom_speed_of_blow(const carom_cue *cue, const carom_ball_kind *kind);
-carom_status carom_blow(const carom_cue *cue, const carom_ball_kind *kind, bool in_space,
+carom_status carom_blow(const carom_cue *cue, const carom_ball_kind *kind, carom_blow_kind how,
                         carom_motion *out);
 
 #endif

@@ -27,6 +27,10 @@ static inline bool carom_varies(double x) {
   (void)x;
   return false;
 }
+/* A number that is 0 below some least value, where it keeps its derivatives. */
+static inline double carom_above(double x, double least) {
+  return x < least ? 0.0 : x;
+}
 /* A sum that begins with `from`, within 0 and 1. At either end it has the derivatives of the sum;
  * there it has a kink by all numbers but `from`, whose range ends there. */
 static inline double carom_limited(double from, double sum) {

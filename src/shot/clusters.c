@@ -124,11 +124,9 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
   if (size == 0 || size == 1)
     return 0;
 
-  /* too many contacts, or too many steps: one by one, at this instant */
-  if (size < 0 || !carom_cluster_solve(c)) {
-    sim->one_by_one = sim->now;
-    return 0;
-  }
+  /* too many contacts, or too many steps */
+  if (size < 0 || !carom_cluster_solve(c))
+    return -1;
 
   /* the contact that is due goes first */
   const int count = in_order(c, order);
@@ -163,13 +161,27 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone) {
   return false;
 }
 
-/* The slate under the balls of a push, with the duration of pulse.c. */
+/* The slate under the balls of a push. */
 static void put_on_slate(const carom_sim *sim, carom_cluster_state *c) {
   carom_cluster_put_on_slate(c);
-  for (int k = 0; k < c->slates; k++) {
-    carom_cluster_slate *x = &c->slate[k];
-    carom_slate_under(sim->layout->kind[c->ball[x->ball].which], &x->k, &x->e);
-  }
+  for (int k = 0; k < c->balls; k++)
+    if (!c->ball[k].flies)
+      c->slate[k].e = carom_slate_under(sim->layout->kind[c->ball[k].which]);
+}
+
+/* The tip of a cue at ball[struck]. */
+static void put_tip(const carom_cue *cue, int struck, carom_cluster_state *c) {
+  const double numbers[8] = {cue->speed, cue->phi,  cue->theta,    cue->a,
+                             cue->b,     cue->mass, cue->end_mass, cue->tip_restitution};
+  carom_cluster_tip_of(c, struck, numbers, carom_tip_time(cue));
+  c->tip.reach = cue->follow;
+}
+
+/* A ball as it is now, as one of a cluster. */
+static carom_cluster_ball member_now(const carom_sim *sim, int k) {
+  carom_ball_state now;
+  carom_path_at(&sim->path[k], &sim->rates[k], sim->now, &now);
+  return member_of(sim->layout->kind[k], &now, sim->opt, carom_flies(&now), k);
 }
 
 int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
@@ -181,33 +193,28 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
   c->on_slate = false;
   int struck = 0;
   for (int k = 0; k < sim->count; k++) {
-    carom_ball_state now;
-    carom_path_at(&sim->path[k], &sim->rates[k], sim->now, &now);
-    if (carom_is_out(now.label))
+    if (carom_is_out(sim->path[k].from.label))
       continue;
     if (k == sim->struck)
       struck = c->balls;
-    c->ball[c->balls++] = member_of(sim->layout->kind[k], &now, sim->opt, carom_flies(&now), k);
+    c->ball[c->balls++] = member_now(sim, k);
   }
 
   /* those that the ball can reach, and of a raised cue the slate */
-  const double numbers[8] = {cue->speed, cue->phi,  cue->theta,    cue->a,
-                             cue->b,     cue->mass, cue->end_mass, cue->tip_restitution};
-  carom_cluster_tip_of(c, struck, numbers, carom_tip_time(cue));
-  if (c->tip.first < CAROM_LEAST_TOUCH || carom_cluster_members_of_tip(c, most) < 0)
+  put_tip(cue, struck, c);
+  if (carom_cluster_members_of_tip(c, most) < 0)
     return -1;
   if (slate)
     put_on_slate(sim, c);
-  const carom_cluster_tip tip = c->tip;
-  const carom_cluster_ball ball = c->ball[tip.ball];
   if ((slate || c->contacts > 0) && !carom_cluster_solve(c))
     return -1;
   const int count = c->contacts > 0 ? in_order(c, order) : 0;
 
-  /* none of those near was touched: all was as if it were alone */
+  /* none of those near was touched: all is as if it were alone */
   if (count == 0 && !slate) {
-    c->tip = tip;
-    c->ball[tip.ball] = ball;
+    struck = c->tip.ball;
+    c->ball[struck] = member_now(sim, sim->struck);
+    put_tip(cue, struck, c);
     carom_cluster_push_alone(c);
   }
   return count;

@@ -11,8 +11,8 @@ bool carom_third_is_near(const carom_sim *sim, int i, int j);
 
 /* The cluster around balls i < j, which touch now and close at the speed of slow contacts or
  * faster. Returns how many contacts had an impulse, in the order of order[]; 0 where the contact
- * of i and j is one of two balls alone, or the cluster takes more than it may: the contacts of
- * this instant then are resolved one by one. */
+ * of i and j is one of two balls alone; -1 where the cluster has too many contacts, or takes too
+ * many steps. */
 int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
                       uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
@@ -27,10 +27,10 @@ bool carom_lasts(const carom_shot_options *opt);
 bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
 
 /* The push of a cue, now, of the struck ball, which gets the speed `most` at most, and of those
- * that it meets meanwhile; of a raised one on the slate. Returns how many contacts of balls had an
- * impulse, in the order of order[]; -1 where the tip does not close at CAROM_LEAST_TOUCH, or where
- * there are too many contacts or steps. */
-#define CAROM_LEAST_TOUCH 0.01 /* m/s: slower the tip has come to lie at the ball */
+ * that it meets meanwhile; of a raised one on the slate. cue->follow is what is left of it. Returns
+ * how many contacts of balls had an impulse, in the order of order[]; -1 where there are too many
+ * contacts or steps. */
+#define CAROM_LEAST_TOUCH 0.01 /* m/s: a further touch that is slower is none */
 int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
                          carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
@@ -42,10 +42,9 @@ void carom_follow_find(carom_sim *sim);
 /* *now becomes the cue with the place of its tip and its speed. Returns whether that is a touch. */
 bool carom_follow_cue(const carom_sim *sim, carom_cue *now);
 
-/* pulse.c: how long a tip touches; the contact of a ball with the slate; and what an impulse J of
- * it, over the mass, takes from the turn about the vertical and the end of hops from v[2]. */
-double carom_tip_time(const carom_cue *cue);
-void carom_slate_under(const carom_ball_kind *kind, double *k, double *e);
+/* raised.c: e of the contact of a ball with the slate; and what an impulse J of it, over the mass,
+ * takes from the turn about the vertical and the end of hops from v[2]. */
+double carom_slate_under(const carom_ball_kind *kind);
 void carom_leave_slate(const carom_ball_kind *kind, double J, carom_ball_state *s);
 
 /* The motion of member k after a push, of a raised cue with what the slate takes from it. */

@@ -7,10 +7,11 @@
  *     |p| = R,   p = p0 + t V c - v t - a t^2
  *
  * (gap.c). There it pushes as tip.h has it, with the (a, b) of p, and goes on at the speed that is
- * left. It is looked for from the first contact of the cue ball with another ball on: before that
- * the ball runs away from the cue, but in slow draws, in which an arm stops. A tip that closes
- * slower than CAROM_LEAST_TOUCH has come to lie at the ball, and one that comes past its middle
- * misses: there the follow-through ends. */
+ * left. It is looked for from the first contact of the cue ball with another ball or a cushion on:
+ * before that the ball runs away from the cue, but in slow draws, in which an arm stops. A tip that
+ * closes slower than CAROM_LEAST_TOUCH has come to lie at the ball, and one that comes past its
+ * middle misses: there the follow-through ends.
+ */
 #include "cluster/cue.h"
 #include "motion/gap.h"
 #include "shot/clusters.h"
@@ -46,7 +47,7 @@ void carom_follow_find(carom_sim *sim) {
   const bool out = carom_is_out(path->from.label);
   f->time = INFINITY;
   f->until = out ? -1.0 : f->until;
-  if (out || !sim->met)
+  if (out || !sim->turned)
     return;
 
   /* the ball as it moves from now on, and the tip from there */
@@ -74,6 +75,7 @@ bool carom_follow_cue(const carom_sim *sim, carom_cue *now) {
   const double p2 = carom_tip_on(axes, p, on);
   *now = *sim->cue;
   now->speed = sim->follow.V;
+  now->follow -= sim->follow.along + sim->follow.V * (sim->now - sim->follow.since);
   now->a = on[1];
   now->b = on[2];
   return p2 > 0.25 * R * R && on[0] < -0.1;

@@ -91,19 +91,28 @@ static uint32_t frozen_to(const carom_sim *sim) {
   return set;
 }
 
-/* What a push with `count` contacts of balls adds to the facts, which have its event. */
+/* What the touches of the tip within a push add to the facts, which have its event: how many, and
+ * the closing speeds of the first two. */
+static void add_touches(const carom_sim *sim, int touches, double first, double second) {
+  carom_facts *facts = sim->shot->facts;
+  if (facts == NULL)
+    return;
+  const int before = facts->touches - 1;
+  facts->touches = before + touches;
+  if (before < 2 && facts->touches >= 2) {
+    facts->second_time = sim->now;
+    facts->second_speed = before == 1 ? first : second;
+    memcpy(facts->second_place, sim->path[sim->struck].from.r, sizeof facts->second_place);
+  }
+}
+
+/* What a push with `count` contacts of balls adds to the facts. */
 static void add_push(const carom_sim *sim, const carom_cluster_state *c, const uint8_t order[],
                      int count) {
   carom_facts *facts = sim->shot->facts;
   if (facts == NULL)
     return;
-  const int before = facts->touches - 1;
-  facts->touches = before + c->tip.touches;
-  if (before < 2 && facts->touches >= 2) {
-    facts->second_time = sim->now;
-    facts->second_speed = before == 1 ? c->tip.first : c->tip.second;
-    memcpy(facts->second_place, sim->path[sim->struck].from.r, sizeof facts->second_place);
-  }
+  add_touches(sim, c->tip.touches, c->tip.first, c->tip.second);
   for (int k = 0; k < count; k++) {
     const carom_cluster_contact_state *x = &c->contact[order[k]];
     const int other = x->i == c->tip.ball ? x->j : x->j == c->tip.ball ? x->i : -1;
@@ -233,6 +242,12 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
   return status;
 }
 
+/* The shot ends at this instant, before a cluster or a push that cannot be solved. */
+static carom_status unresolved(carom_sim *sim) {
+  sim->shot->time = sim->now;
+  return CAROM_ERROR_UNRESOLVED;
+}
+
 /* The contact that is due with all that lasts at the same time. Returns false where there is
  * nothing else. *due becomes the first contact of the struck ball, where it has one. Apart, as a
  * cluster needs 20 KiB of stack. */
@@ -243,22 +258,39 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
   const int count = carom_cluster_now(sim, due->a, due->b, &c, order);
   if (count == 0)
     return false;
+  if (count < 0) {
+    *status = unresolved(sim);
+    return true;
+  }
   bool changed[CAROM_BALLS_MOST] = {false};
   *status = note_contacts(sim, &c, order, count, changed, due);
   carom_detect_all(sim);
   return true;
 }
 
+/* Which strike a push is: the first, of a ball that has others near or of one that is alone, or a
+ * further touch. */
+typedef enum push_kind { PUSH_OF_SEVERAL, PUSH_OF_ONE, PUSH_AGAIN } push_kind;
+
 /* The push of a cue, now, with the contacts of balls that last meanwhile, as events behind that of
- * the strike. Returns false where the struck ball is as if it were alone, and `needs` others. *met
- * becomes the first contact of the struck ball. */
+ * the strike. Returns false where no other ball takes part in a push of several, and where a
+ * further touch closes below CAROM_LEAST_TOUCH. *met becomes the first contact of the struck ball.
+ */
 __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_cue *cue, double most,
-                                                 bool slate, bool needs, carom_due *met,
+                                                 bool slate, push_kind kind, carom_due *met,
                                                  carom_status *status) {
   carom_cluster_state c;
+  carom_cluster_slate slates[CAROM_CLUSTER_BALLS];
   uint8_t order[CAROM_CLUSTER_CONTACTS];
+  c.slate = slates;
   const int count = carom_cluster_strike(sim, cue, most, slate, &c, order), i = sim->struck;
-  if (count < needs)
+  if (kind == PUSH_AGAIN && c.tip.first < CAROM_LEAST_TOUCH)
+    return false;
+  if (count < 0) {
+    *status = unresolved(sim);
+    return true;
+  }
+  if (kind == PUSH_OF_SEVERAL && count == 0)
     return false;
 
   const carom_due due = {sim->now, CAROM_EVENT_STRIKE, i, -1};
@@ -291,7 +323,7 @@ __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_cue
 /* Whether a contact may be one of several that last. */
 static inline bool may_last(const carom_sim *sim, const carom_due *due) {
   return due->type == CAROM_EVENT_BALL_BALL && sim->rules->clusters && carom_lasts(sim->opt) &&
-         sim->one_by_one != sim->now && carom_third_is_near(sim, due->a, due->b);
+         carom_third_is_near(sim, due->a, due->b);
 }
 
 /* One event, or those of a cluster. */
@@ -355,7 +387,10 @@ static carom_status strike(carom_sim *sim, carom_due *met) {
   const int i = (int)cue->ball;
   carom_motion motion;
   const bool flat = sim->rules->flat || sim->opt->space == CAROM_SPACE_FLAT;
-  const carom_status status = carom_blow(cue, sim->layout->kind[i], !flat, &motion);
+  carom_blow_kind blow = flat ? CAROM_BLOW_ON_CLOTH : CAROM_BLOW_IN_SPACE;
+  if (sim->rules->flat)
+    blow = CAROM_BLOW_TURNED;
+  const carom_status status = carom_blow(cue, sim->layout->kind[i], blow, &motion);
   if (status < 0)
     return status;
 
@@ -366,30 +401,36 @@ static carom_status strike(carom_sim *sim, carom_due *met) {
   const double *v = motion.v, most = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   memcpy(sim->follow.from, sim->path[i].from.r, sizeof sim->follow.from);
   sim->follow.along = 0.0;
-  if (carom_may_push(sim, &motion) &&
-      push(sim, cue, most, !flat && v[2] != 0.0, true, met, &together))
+  const bool down = v[2] != 0.0, presses = down && cue->tip_time >= 0.0;
+  if (carom_may_push(sim, &motion) && push(sim, cue, most, down, PUSH_OF_SEVERAL, met, &together))
     return together;
+
+  /* alone: level in closed form, raised with the slate. A blow that has no time lands at once */
   const carom_ball_kind *kind = sim->layout->kind[i];
-  carom_follow_on(sim, cue->speed - kind->mass / cue->mass * carom_speed_of_blow(cue, kind), 0.0);
+  carom_ball_state alone = sim->path[i].from;
+  carom_raised raised = {.touches = 1, .behind = 0.0};
+  raised.V = cue->speed - kind->mass / cue->mass * carom_speed_of_blow(cue, kind);
+  memcpy(alone.v, motion.v, sizeof alone.v);
+  memcpy(alone.w, motion.w, sizeof alone.w);
+  if (presses && !carom_press_alone(kind, cue, &alone, &raised)) {
+    push(sim, cue, most, true, PUSH_OF_ONE, met, &together);
+    return together;
+  }
+  carom_follow_on(sim, raised.V, raised.behind);
 
   /* the event, and the motion that the cue gives */
   const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
   carom_event spare, *event = note(sim, &spare, &due);
   carom_ball_state *state = &sim->path[i].from;
+  add_touches(sim, raised.touches, cue->speed, raised.second);
   event->before[0] = *state;
-  memcpy(state->v, motion.v, sizeof state->v);
-  memcpy(state->w, motion.w, sizeof state->w);
-
-  /* a blow that goes down presses the ball on the slate, or has it land at once */
-  const bool down = state->v[2] != 0.0;
-  if (down && cue->tip_time >= 0.0)
-    carom_press_on_slate(sim->layout->kind[i], cue->tip_time, state);
-  carom_label_after(down, sim->layout->kind[i], state);
+  *state = alone;
+  carom_label_after(down, kind, state);
   if (sim->rules->contacts_slide)
     state->label = CAROM_BALL_SLIDING;
   event->after[0] = *state;
   memset(&event->after[1], 0, sizeof event->after[1]);
-  event->impulse = impulse_of(sim, event);
+  event->impulse = presses ? raised.impulse : impulse_of(sim, event);
   carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
   return CAROM_OK;
 }
@@ -408,8 +449,10 @@ static void begin(carom_sim *sim) {
  * it, or where the first ball that the cue ball meets is not one of first_of. */
 static bool stops_at(carom_sim *sim, int type, int a, int b) {
   const bool contact = type == CAROM_EVENT_BALL_BALL && (a == sim->struck || b == sim->struck);
+  const bool cushion = (type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW) && a == sim->struck;
   const bool first = contact && !sim->met;
   sim->met |= contact;
+  sim->turned |= contact || cushion;
   if (first && sim->opt->first_of != 0 && !(sim->opt->first_of >> (a == sim->struck ? b : a) & 1))
     return true;
   return ((contact ? CAROM_STOP_AT_CONTACT : 0) | CAROM_STOP_AT(type)) & sim->opt->stop_at;
@@ -421,12 +464,12 @@ __attribute__((noinline, cold)) static carom_status touch_again(carom_sim *sim, 
   carom_cue cue;
   carom_status status = CAROM_OK;
   const bool touches = carom_follow_cue(sim, &cue);
-  const bool raised = cue.theta > 0.0 && sim->opt->space != CAROM_SPACE_FLAT;
+  const bool raised = carom_is_raised(&cue) && sim->opt->space != CAROM_SPACE_FLAT;
   f->along += f->V * (sim->now - f->since);
   f->until = -1.0;
   f->time = INFINITY;
   due->type = 0;
-  if (touches && push(sim, &cue, 2.0 * cue.speed, raised, false, due, &status)) {
+  if (touches && push(sim, &cue, 2.0 * cue.speed, raised, PUSH_AGAIN, due, &status)) {
     carom_detect_all(sim);
     if (status == CAROM_OK && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1))
       status = CAROM_STOPPED_AT_EVENT;
@@ -541,11 +584,11 @@ __attribute__((noinline)) static carom_status shoot(const carom_prepared *p, con
     /* a cue of speed 0 is not read, and may name any ball */
     sim.struck = cue != NULL && cue->ball >= 0 && cue->ball < p->count ? (int)cue->ball : 0;
     sim.world = p->opt->world;
-    sim.met = false;
+    sim.met = sim.turned = false;
     sim.now = 0.0;
     sim.round = 0;
     sim.slow_instants = 0;
-    sim.slow_last = sim.one_by_one = sim.follow.until = -1.0;
+    sim.slow_last = sim.follow.until = -1.0;
     sim.follow.time = INFINITY;
     if (shot->state != NULL)
       carom_state_begin(&sim);

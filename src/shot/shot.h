@@ -76,9 +76,21 @@ double carom_rebound(double v_n, double e);
 /* The ball, with v[2] < 0, falls on the slate or the top of a rail, at the height at which it
  * is. Its label does not change. */
 void carom_hit_slate(const carom_ball_kind *kind, carom_ball_state *state);
-/* The ball on the slate, with v[2] <= 0 by a blow alone, is pressed for tip_time, s; 0 stands for
- * CAROM_TIP_TIME. Afterwards v[2] >= 0. Returns the speed at which it would leave the slate but
- * for the end of hops. */
-double carom_press_on_slate(const carom_ball_kind *kind, double tip_time, carom_ball_state *state);
+
+/* What a raised cue leaves behind its strike. */
+typedef struct carom_raised {
+  double impulse;   /* of the tip, N s */
+  double V, behind; /* of the cue: speed, m/s; how far its tip is behind the ball, m */
+  double second;    /* closing speed of the second touch, m/s */
+  double leaves;    /* the speed at which the slate lets the ball go, but for the end of hops */
+  int touches;      /* of the tip */
+  unsigned course;  /* a hash of the phases: which ended, and by what */
+} carom_raised;
+
+/* raised.c: a raised cue, cue->tip_time >= 0, strikes a ball at rest on the slate that nothing else
+ * touches. *state has the motion by the blow alone, carom_blow() in space, and gets that behind the
+ * strike. Returns false where that takes too many steps; *state is as it was then. */
+bool carom_press_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *state,
+                       carom_raised *out);
 
 #endif

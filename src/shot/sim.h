@@ -37,7 +37,8 @@ typedef struct carom_sim {
   carom_shot *shot;
   int count, struck; /* struck: the cue ball */
   carom_world world;
-  bool met;      /* the cue ball has met another */
+  bool met;      /* the cue ball has met another, */
+  bool turned;   /* or a cushion */
   bool unlike;   /* radii differ from each other or from the table's reference: contacts are those
                   of spheres in space */
   int flying;    /* airborne balls */
@@ -45,8 +46,6 @@ typedef struct carom_sim {
   double now;
   int64_t slow_instants; /* that had a slow contact, so far; see resolve.c */
   double slow_last;      /* s: the last of them */
-  double one_by_one;     /* s: the instant of a cluster that took too many steps; its contacts
-                            are resolved one by one */
   int64_t round;         /* events so far: tells when an entry below was computed */
   carom_ball_rates rates[CAROM_BALLS_MOST];
   carom_path path[CAROM_BALLS_MOST];

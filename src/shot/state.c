@@ -216,8 +216,8 @@ static bool good_follow(const carom_sim *sim) {
 static bool restore(carom_sim *sim) {
   static const int64_t many = INT64_C(1) << 62;
   if (!(sim->now >= 0.0 && sim->now < INFINITY) || !in(sim->round, 0, many) ||
-      !in(sim->slow_instants, 0, many) || isnan(sim->slow_last) || isnan(sim->one_by_one) ||
-      !is_bool(&sim->met) || !good_follow(sim) || !in(sim->struck, 0, sim->count - 1))
+      !in(sim->slow_instants, 0, many) || isnan(sim->slow_last) || !is_bool(&sim->met) ||
+      !is_bool(&sim->turned) || !good_follow(sim) || !in(sim->struck, 0, sim->count - 1))
     return false;
   carom_take_rates(sim);
   for (int i = 0; i < sim->count; i++)

@@ -239,6 +239,9 @@ CAROM_RULE bool carom_absent(const number &a) {
 CAROM_RULE bool carom_varies(const number &a) {
   return !carom_absent({0, a.d});
 }
+CAROM_RULE number carom_above(const number &a, real least) {
+  return a.x < least ? number(0, a.d) : a;
+}
 CAROM_RULE number carom_limited(const number &from, const number &sum) {
   if ((sum.x == 0 || sum.x == 1) && watched.on && part(from.d, sum.d))
     watched.note.flags |= CAROM_TANGENT_KINK;

@@ -241,7 +241,7 @@ bool lands(const scene *s) {
           e->time >= start + s->sim.path[0].end.x - 1e-12);
 }
 
-/* The numbers of the cue, with their seeds. */
+/* The numbers of the cue, with their seeds; times and lengths have none. */
 CAROM_APART void load_cue(const carom_tangent_work *w, text::carom_cue *cue) {
   *cue = {};
   number *x = &cue->speed;
@@ -249,6 +249,8 @@ CAROM_APART void load_cue(const carom_tangent_work *w, text::carom_cue *cue) {
     x[k] = (&w->cue->speed)[k];
     load(w->pass, w->seeds->cue, k, &x[k]);
   }
+  cue->tip_time = w->cue->tip_time;
+  cue->follow = w->cue->follow;
 }
 
 /* The tip that goes on, at the time of an event, from the middle of the struck ball; the cue, with
@@ -468,11 +470,31 @@ CAROM_APART void note_order(scene *s, const number &g) {
 
 /* ---- The states after an event ---- */
 
-/* The speed at which the slate lets a ball go that is struck `scale` times as fast. */
-real leaves_slate(const scene *s, const carom_ball_state *struck, real scale) {
-  ::carom_ball_state state = {};
-  state.v[2] = scale * struck->v[2].x;
-  return ::carom_press_on_slate(s->w->ball[s->event->a].kind, s->w->cue->tip_time, &state);
+/* Whether the phases of a raised strike are others where the time of the tip or the elevation
+ * changes by a thousandth. There a derivative changes. */
+bool phases_change(const scene *s) {
+  const carom_tangent_work *w = s->w;
+  const ::carom_ball_kind *kind = w->ball[s->event->a].kind;
+  unsigned course = 0;
+  bool change = false;
+  for (int k = 0; k < 5; k++) {
+    ::carom_cue cue = *w->cue;
+    ::carom_motion motion;
+    ::carom_ball_state state = {};
+    ::carom_raised raised;
+    const real off = k == 0 ? 0 : 1e-3, scale = k % 2 == 0 ? 1 + off : 1 - off;
+    if (k <= 2)
+      cue.tip_time = scale * ::carom_tip_time(&cue);
+    else
+      cue.theta = __builtin_fmin(scale * cue.theta, 90);
+    ::carom_blow(&cue, kind, CAROM_BLOW_IN_SPACE, &motion);
+    memcpy(state.v, motion.v, sizeof state.v);
+    memcpy(state.w, motion.w, sizeof state.w);
+    ::carom_press_alone(kind, &cue, &state, &raised);
+    course = k == 0 ? raised.course : course;
+    change |= raised.course != course;
+  }
+  return change;
 }
 
 CAROM_APART text::carom_status strike(scene *s) {
@@ -480,44 +502,43 @@ CAROM_APART text::carom_status strike(scene *s) {
   text::carom_cue cue;
   load_cue(w, &cue);
 
-  /* a level cue that a change raises is raised a trace now */
+  /* a level cue that a change raises is raised as little as counts now */
   const bool flat = w->opt->space == CAROM_SPACE_FLAT,
-             level = !flat && cue.theta.x == 0 && text::changes(cue.theta);
+             level = !flat && !::carom_is_raised(w->cue) && text::changes(cue.theta);
   if (level)
-    cue.theta.x = AT_ONCE;
+    cue.theta.x = CAROM_LEAST_ELEVATION;
   text::carom_motion motion;
-  const text::carom_status status = text::carom_blow(&cue, &s->ball[0].kind, !flat, &motion);
+  const text::carom_status status =
+      text::carom_blow(&cue, &s->ball[0].kind,
+                       flat ? text::CAROM_BLOW_ON_CLOTH : text::CAROM_BLOW_IN_SPACE, &motion);
   if (status < 0)
     return status;
 
   /* the cue goes on */
   const text::carom_ball_kind *kind = &s->ball[0].kind;
-  const number V = cue.speed - kind->mass / cue.mass * text::carom_speed_of_blow(&cue, kind);
-  w->tip.V = V.x;
-  store(V, w->tip.V_row);
-
-  /* a blow that goes down presses the ball on the slate */
   carom_ball_state *state = &s->ball[0].state;
+  text::carom_raised raised = {};
+  raised.V = cue.speed - kind->mass / cue.mass * text::carom_speed_of_blow(&cue, kind);
   memcpy(state->v, motion.v, sizeof motion.v);
   memcpy(state->w, motion.w, sizeof motion.w);
-  if (!level && state->v[2].x != 0 && w->cue->tip_time >= 0) {
-    /* a hop has a step where the slate is loaded once more, or once less */
-    const real closing = -state->v[2].x,
-               around = leaves_slate(s, state, 1 - GRAZING) + leaves_slate(s, state, 1 + GRAZING);
-    const real v = text::carom_press_on_slate(&s->ball[0].kind, number(w->cue->tip_time), state).x;
-    if (__builtin_fabs(around - 2 * v) > GRAZING * closing ||
-        (::carom_rebound(v, 1) < GRAZING * v && ::carom_rebound((1 + GRAZING) * v, 1) > 0))
-      s->w->note.flags |= CAROM_TANGENT_GRAZING;
-  }
 
-  /* a change of the elevation raises a level cue: the ball falls onto the slate at a speed that
-   * is 0 */
-  if (level) {
-    set(s->event->after[0], &s->ball[0].state);
-    s->ball[0].state.v[2].x = -AT_ONCE;
-    text::carom_hit_slate(&s->ball[0].kind, &s->ball[0].state);
-    s->w->note.flags |= CAROM_TANGENT_KINK;
+  /* a blow that goes down presses the ball on the slate, or lands at once */
+  const bool down = !flat && cue.theta.x >= CAROM_LEAST_ELEVATION;
+  if (down && w->cue->tip_time >= 0) {
+    if (!text::carom_press_alone(kind, &cue, state, &raised))
+      return text::CAROM_ERROR_TANGENT;
+    w->note.flags |= !level && phases_change(s) ? CAROM_TANGENT_KINK : 0;
+    const real v = raised.leaves.x;
+    if (v > 0 && ::carom_rebound(v, 1) < GRAZING * v && ::carom_rebound((1 + GRAZING) * v, 1) > 0)
+      w->note.flags |= CAROM_TANGENT_GRAZING;
+  } else if (level) {
+    text::carom_hit_slate(kind, state);
   }
+  w->note.flags |= level ? CAROM_TANGENT_KINK : 0;
+  w->tip.V = raised.V.x;
+  store(raised.V, w->tip.V_row);
+  w->tip.along = -raised.behind.x;
+  store(-raised.behind, w->tip.along_row);
   return text::CAROM_OK;
 }
 
@@ -712,7 +733,8 @@ CAROM_APART void take_cue(const scene *s, const row &dT, cluster *c) {
   load_cue(s->w, &cue);
   if (!carom_touches_again(s->event)) {
     for (int j = 0; j < s->w->pass.columns; j++)
-      if (cue.theta.x == 0 && cue.theta.d[j] != 0 && s->w->opt->space != CAROM_SPACE_FLAT)
+      if (!::carom_is_raised(s->w->cue) && cue.theta.d[j] != 0 &&
+          s->w->opt->space != CAROM_SPACE_FLAT)
         s->w->note.flags |= CAROM_TANGENT_KINK; /* raised it presses the balls on the slate */
   } else {
     number along, axes[3][3], p[3], on[3];
@@ -805,8 +827,8 @@ void give_cue(void *context, real x[8], real d[8]) {
   }
 }
 
-bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS + 2],
-          real d[CAROM_MEMBER_NUMBERS + 2]) {
+bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS + 1],
+          real d[CAROM_MEMBER_NUMBERS + 1]) {
   const cluster *c = (const cluster *)context;
   const member *m = &c->members[k];
   text::carom_ball_kind kind;
@@ -821,12 +843,9 @@ bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS + 2],
     x[n] = from[n].x;
     d[n] = from[n].d[c->direction];
   }
-  number slate[2];
-  text::carom_slate_under(&kind, &slate[0], &slate[1]);
-  for (int n = 0; n < 2; n++) {
-    x[CAROM_MEMBER_NUMBERS + n] = slate[n].x;
-    d[CAROM_MEMBER_NUMBERS + n] = slate[n].d[c->direction];
-  }
+  const number slate = text::carom_slate_under(&kind);
+  x[CAROM_MEMBER_NUMBERS] = slate.x;
+  d[CAROM_MEMBER_NUMBERS] = slate.d[c->direction];
   return ball.flies;
 }
 
@@ -869,24 +888,23 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS + 1],
 CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
   carom_tangent_work *w = c->w;
   const int64_t steps = w->opt->cluster_steps;
-  carom_tangent_cluster task = {
-      .balls = c->count,
-      .first = place_of(c, first->a),
-      .second = place_of(c, first->b),
-      .steps = steps > 0 ? (real)steps : (real)text::CAROM_CLUSTER_STEPS,
-      .slow = text::carom_slow_speed(w->slow_instants).x,
-      .friction = (int)w->opt->friction,
-      .on_slate = c->on_slate,
-      .tip_time =
-          w->cue != nullptr ? (w->cue->tip_time > 0 ? w->cue->tip_time : CAROM_TIP_TIME) : 0,
-      .give_cue = give_cue,
-      .give = give,
-      .take = take,
-      .context = c,
-      .V = 0,
-      .V_rate = 0,
-      .behind = 0,
-      .behind_rate = 0};
+  carom_tangent_cluster task = {.balls = c->count,
+                                .first = place_of(c, first->a),
+                                .second = place_of(c, first->b),
+                                .steps = steps > 0 ? (real)steps : (real)text::CAROM_CLUSTER_STEPS,
+                                .slow = text::carom_slow_speed(w->slow_instants).x,
+                                .friction = (int)w->opt->friction,
+                                .on_slate = c->on_slate,
+                                .tip_time = w->cue != nullptr ? ::carom_tip_time(w->cue) : 0,
+                                .reach = w->cue != nullptr ? w->cue->follow - w->tip.along : 0,
+                                .give_cue = give_cue,
+                                .give = give,
+                                .take = take,
+                                .context = c,
+                                .V = 0,
+                                .V_rate = 0,
+                                .behind = 0,
+                                .behind_rate = 0};
   carom_tangent_tip *tip = &w->tip;
   const real along = tip->along;
   bool kink = false;
@@ -932,7 +950,7 @@ carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_eve
   watched = {false, {0, 0}};
   find_members(w, events, count, &c);
   c.on_slate = events[0].type == CAROM_EVENT_STRIKE && w->opt->space != CAROM_SPACE_FLAT &&
-               w->cue->theta > 0;
+               ::carom_is_raised(w->cue);
   const row dT = begin_cluster(w, &events[0], &c);
   for (int k = 0; k < c.count; k++) {
     const member *m = &c.members[k];

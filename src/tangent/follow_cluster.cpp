@@ -35,7 +35,9 @@ row row_of(real d) {
 
 bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
   text::carom_cluster_state state;
-  number slate[CAROM_BALLS_MOST][2];
+  text::carom_cluster_slate slates[CAROM_BALLS_MOST];
+  number slate_e[CAROM_BALLS_MOST];
+  state.slate = slates;
   state.balls = c->balls;
   state.struck = c->second < 0;
   state.on_slate = c->on_slate;
@@ -49,7 +51,7 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
     static_assert(offsetof(text::carom_cluster_ball, flies) ==
                       CAROM_MEMBER_NUMBERS * sizeof(number),
                   "the numbers come first");
-    real x[CAROM_MEMBER_NUMBERS + 2], d[CAROM_MEMBER_NUMBERS + 2];
+    real x[CAROM_MEMBER_NUMBERS + 1], d[CAROM_MEMBER_NUMBERS + 1];
     ball->flies = c->give(c->context, k, x, d);
     ball->which = (int8_t)k;
     ball->friction = (int8_t)c->friction;
@@ -57,8 +59,7 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
       to[n].x = x[n];
       to[n].d[0] = d[n];
     }
-    for (int n = 0; n < 2; n++)
-      slate[k][n] = number(x[CAROM_MEMBER_NUMBERS + n], row_of(d[CAROM_MEMBER_NUMBERS + n]));
+    slate_e[k] = number(x[CAROM_MEMBER_NUMBERS], row_of(d[CAROM_MEMBER_NUMBERS]));
   }
 
   /* all of them must be members, as when the shot was played */
@@ -70,13 +71,12 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
     for (int n = 0; n < 8; n++)
       cue[n] = number(x[n], row_of(d[n]));
     text::carom_cluster_tip_of(&state, c->first, cue, c->tip_time);
+    state.tip.reach = c->reach;
     contacts = text::carom_cluster_members_of_tip(&state, 1e3);
     if (c->on_slate)
       text::carom_cluster_put_on_slate(&state);
-    for (int k = 0; c->on_slate && k < state.slates; k++) {
-      state.slate[k].k = slate[state.slate[k].ball][0];
-      state.slate[k].e = slate[state.slate[k].ball][1];
-    }
+    for (int k = 0; c->on_slate && k < state.balls; k++)
+      slates[k].e = state.ball[k].flies ? number(0) : slate_e[state.ball[k].which];
   } else {
     contacts = text::carom_cluster_members(&state, c->first, c->second);
   }

@@ -14,12 +14,13 @@ typedef struct carom_tangent_cluster {
   double steps, slow;       /* as in carom_cluster_state */
   int friction;             /* the law of its balls, friction/laws.h */
   bool on_slate;
-  double tip_time; /* of the cue that pushes ball `first`, where `second` is below 0; */
+  double tip_time, reach; /* of the cue that pushes ball `first`, where `second` is below 0; how far
+                             it goes on, m; */
   /* gives the numbers of the cue and their tangents, in the order of carom_cue; */
   void (*give_cue)(void *context, double x[8], double d[8]);
-  /* gives numbers and tangents of member k, the last two of its slate, and whether it flies; */
-  bool (*give)(void *context, int k, double x[CAROM_MEMBER_NUMBERS + 2],
-               double d[CAROM_MEMBER_NUMBERS + 2]);
+  /* gives numbers and tangents of member k, the last one e of its slate, and whether it flies; */
+  bool (*give)(void *context, int k, double x[CAROM_MEMBER_NUMBERS + 1],
+               double d[CAROM_MEMBER_NUMBERS + 1]);
   /* takes those of its motion, v and W, and of the impulse of the slate. */
   void (*take)(void *context, int k, const double x[CAROM_MOTION_NUMBERS + 1],
                const double d[CAROM_MOTION_NUMBERS + 1]);

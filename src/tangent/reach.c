@@ -253,12 +253,12 @@ static void misses_of(carom_reach *reach, int i, const carom_event *event) {
 }
 
 /* The tip that goes on, up to the event: it is looked for from the first contact of the struck ball
- * on. */
+ * with another or a cushion on. */
 static void misses_of_tip(carom_reach *reach, int i, const carom_event *event) {
   const carom_tangent_work *w = reach->work;
   const carom_tangent_tip *tip = &w->tip;
   const carom_tangent_ball *ball = &w->ball[i];
-  if (!tip->met || !(tip->V > 0.0 && w->cue->follow > 0.0) || i != w->cue->ball ||
+  if (!tip->turned || !(tip->V > 0.0 && w->cue->follow > 0.0) || i != w->cue->ball ||
       carom_touches_again(event) || carom_is_out(ball->from.label))
     return;
   carom_tangent_row d;

@@ -175,6 +175,12 @@ __attribute__((noinline)) static bool is_in_pile(const work *w, const carom_even
   return false;
 }
 
+/* Whether the struck ball meets a ball or a cushion, so that it may come back to the tip. */
+static bool turns_to_tip(const carom_event *e, int struck) {
+  const bool ball = e->type == CAROM_EVENT_BALL_BALL && (e->a == struck || e->b == struck);
+  return ball || ((e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW) && e->a == struck);
+}
+
 /* The directions of one pass. */
 static carom_status differentiate(work *w, const carom_prepared *p, const carom_shot *shot) {
   carom_tangent *tangent = w->tangent;
@@ -215,8 +221,7 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
     if (status < 0)
       return status;
     tell(w, k, event, &reach);
-    w->tip.met |= event->type == CAROM_EVENT_BALL_BALL && w->cue != NULL &&
-                  (event->a == w->cue->ball || event->b == w->cue->ball);
+    w->tip.turned |= w->cue != NULL && turns_to_tip(event, (int)w->cue->ball);
     if (tangent->flags != NULL)
       tangent->flags[k] = w->note.flags | (w->pass.first > 0 ? tangent->flags[k] : 0);
     tangent->all_flags |= w->note.flags;

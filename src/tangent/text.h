@@ -184,7 +184,7 @@ double carom_cluster_slate_impulse(const carom_cluster_state *, int) {
 #include "cushion/stronge.c"
 #include "motion/path.c"
 #include "shot/models.c"
-#include "shot/pulse.c"
+#include "shot/raised.c"
 #include "shot/slate.c"
 #include "table/nose.c"
 #define contact slow_contact

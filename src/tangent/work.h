@@ -46,7 +46,7 @@ typedef struct carom_tangent_ball {
 typedef struct carom_tangent_tip {
   double V, along, since, from[2];
   carom_tangent_row V_row, along_row, start;
-  bool met; /* the struck ball has met another */
+  bool turned; /* the struck ball has met another, or a cushion */
 } carom_tangent_tip;
 
 /* A shot on its way through its events once more. */

@@ -761,7 +761,7 @@ TEST(slips) {
   for (int k = 0; k < 20; k++) {
     carom_cue cue = cues[0];
     cue.speed = 7.0;
-    cue.theta = k % 2 == 0 ? 30.0 : 0.0;
+    cue.theta = k % 2 == 0 ? 12.0 : 0.0;
     cue.phi = 90.0 + k;
     cue.a = 0.3;
     carom_shot shot = {.events = events, .room = ROOM};

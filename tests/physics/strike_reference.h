@@ -15,21 +15,22 @@ typedef long double num;
 enum { REF_BALLS = 6 };
 
 /* A contact that is pressed d deep, F = k d^power as it loads, 1 or 1.5, and gives back e^2
- * of the work. */
+ * of the work. Where F has reached 0 the rest is forgotten, or recovers as d falls. */
 typedef struct ref_press {
   num k, e, power, d, most;
-  bool met;
+  bool met, recovers;
 } ref_press;
 
 typedef struct ref_strike {
   int count;
-  num m, R, mu, mu_cloth, M, V;
+  num m, R, mu, mu_cloth, M, V, first; /* first: V before the strike */
   num axis[3], push[3], arm[3];
   num v[REF_BALLS][3], W[REF_BALLS][3], r[REF_BALLS][3]; /* W = R w */
   bool slate, late;                                      /* late: only the slate acts */
   ref_press tip, under[REF_BALLS], pair[REF_BALLS][REF_BALLS];
   num n[REF_BALLS][REF_BALLS][3];
   num impulse; /* of the tip, N s */
+  num reach;   /* m: how far the cue goes on */
   int touches;
 } ref_strike;
 
@@ -60,7 +61,10 @@ static inline num ref_force(ref_press *x) {
   const num y = x->d - (1 - x->e * x->e) * x->most;
   if (y > 0) /* k / e^(2 power) of the spring, and e^2 of the work */
     return x->k / ref_power(x, x->e * x->e) * ref_power(x, y);
-  x->d = x->most = 0;
+  if (x->recovers && x->e < 1)
+    x->most = x->d / (1 - x->e * x->e);
+  else
+    x->d = x->most = 0;
   return 0;
 }
 
@@ -106,8 +110,9 @@ static inline void ref_begin(ref_strike *s, const carom_shot_ball *balls, int co
   s->mu = kind->mu_ball;
   s->mu_cloth = kind->mu_slide;
   s->M = cue->mass;
-  s->V = cue->speed;
+  s->V = s->first = cue->speed;
   s->slate = cue->theta > 0.0;
+  s->reach = cue->follow;
 
   /* the cue: its axis, the push turned by squirt, and the arm p x c / R */
   const num c[3] = {cosl(theta) * cosl(phi), cosl(theta) * sinl(phi), -sinl(theta)};
@@ -125,11 +130,13 @@ static inline void ref_begin(ref_strike *s, const carom_shot_ball *balls, int co
   const num e = cue->tip_restitution, T = cue->tip_time;
   const num mass = 1 / (1 / s->M + (1 + 2.5L * (a * a + b * b)) / s->m);
   s->tip = (ref_press){.k = mass * powl(pi / 2 * (1 + e) / T, 2), .e = e, .power = 1};
+  s->tip.recovers = s->slate;
 
-  /* slate and balls by Hertz: delta = T v / 2.9432 and (5 v^2 / (4 K/m))^0.4 */
-  const num size = 8e-4L / 2.9432L, E = 6.6e9L / 2;
+  /* the slate lasts 1 ms; balls by Hertz: delta = (5 v^2 / (4 K/m))^0.4 */
+  const num E = 6.6e9L / 2, given = kind->restitution_table, e_s = given > 0 ? given : 0.5L;
   for (int i = 0; i < count; i++) {
-    s->under[i] = (ref_press){.k = s->m * 1.25L / powl(size, 2.5L), .e = 0.5L, .power = 1.5L};
+    s->under[i] = (ref_press){
+        .k = s->m * powl(pi / 2 * (1 + e_s) / 1e-3L, 2), .e = e_s, .power = 1, .recovers = true};
     for (int k = 0; k < 3; k++)
       s->r[i][k] = balls[i].state.r[k];
     for (int j = 0; j < i; j++)
@@ -177,8 +184,8 @@ static inline bool ref_push(ref_strike *s, num h) {
   memset(cloth, 0, sizeof cloth);
 
   /* normal forces */
-  const bool was = s->tip.most > 0;
-  const num F = h * ref_force(&s->tip);
+  const bool was = s->tip.most > 0, gone = s->touches > 0 && !was && !(s->reach > 0);
+  const num F = gone ? 0 : h * ref_force(&s->tip);
   s->touches += !was && s->tip.most > 0;
   s->V -= F / s->M;
   s->impulse += F;
@@ -186,13 +193,14 @@ static inline bool ref_push(ref_strike *s, num h) {
     s->v[0][k] += F * s->push[k] / s->m;
     s->W[0][k] += 2.5L * F * s->arm[k] / s->m;
   }
-  any |= s->tip.most > 0;
+  const num comes = gone ? 0 : s->V - ref_dot(s->v[0], s->push) - ref_dot(s->W[0], s->arm);
+  any |= s->slate ? F > 0 || (s->tip.d > 0 && comes > 0) : s->tip.most > 0;
   bool slate = false;
   for (int i = 0; i < s->count; i++) {
     if (s->slate) {
       load[i] = h * ref_force(&s->under[i]);
       s->v[i][2] += load[i] / s->m;
-      slate |= s->under[i].most > 0;
+      slate |= load[i] > 0 || (s->under[i].d > 0 && s->v[i][2] < 0);
     }
     for (int j = i + 1; j < s->count; j++) {
       J[i][j] = h * ref_force(&s->pair[i][j]);
@@ -245,6 +253,24 @@ static inline bool ref_push(ref_strike *s, num h) {
   return any || slate;
 }
 
+/* Under a raised cue where nothing acts: on to the next touch of tip or slate, if there is one. */
+static inline bool ref_go_to_touch(ref_strike *s) {
+  const num closing = s->V - ref_dot(s->v[0], s->push) - ref_dot(s->W[0], s->arm),
+            least = 1e-9L * s->first;
+  const bool comes = s->tip.d <= 0 && closing > least && -s->tip.d / closing * s->V <= s->reach;
+  const num of_tip = comes ? -s->tip.d / closing : INFINITY;
+  num wait = of_tip;
+  for (int i = 0; i < s->count; i++)
+    if (s->under[i].d <= 0 && -s->v[i][2] > least)
+      wait = fminl(wait, s->under[i].d / s->v[i][2]);
+  if (!(wait < INFINITY))
+    return false;
+  ref_move(s, wait, false);
+  if (of_tip <= wait)
+    s->tip.d = 1e-15L;
+  return true;
+}
+
 /* From the touch of the tip until nothing acts. */
 static inline void ref_solve(ref_strike *s, num h) {
   for (bool go_on = true, first = true; go_on; first = false) {
@@ -260,6 +286,7 @@ static inline void ref_solve(ref_strike *s, num h) {
           go_on = true;
         }
       }
+    go_on |= !go_on && s->slate && ref_go_to_touch(s);
   }
 }
 

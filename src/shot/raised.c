@@ -1,0 +1,587 @@
+/* The strike of a raised cue at a ball that nothing else touches: tip and slate are contacts that
+ * last, by the law of cluster/tip.h. With other balls near, cluster.c integrates the same law.
+ *
+ * x and y are the compressions of tip and slate, and s is the slip of the foot of the ball. F, N
+ * and f are the forces of tip, slate and cloth over the mass m of the ball:
+ *
+ *   x'' = -B F + S N + D f     B = m/M + 1 + 5/2 |q|^2      f = mu N where the foot slips,
+ *   y'' = S F - N              S = -c'_z                    f = 2/7 D F where it holds
+ *   s'  = D F - 7/2 f          D t = c'_h + 5/2 z x q
+ *
+ * c' is the direction of the push, c'_h its horizontal part, q the arm of the tip, and t a unit
+ * vector. The slip begins at 0 and the push gives it the direction t, so that direction never
+ * changes. Therefore a ball finally rolls where Coriolis found. Weight has no part, and positions
+ * stay.
+ *
+ * SPRINGS. Both contacts load as k d, and unload as k/e^2 (d - rest) with rest = (1 - e^2) d_max,
+ * so that e^2 of the work comes back. Where the force has reached 0 the contact leaves: it has no
+ * force, and the set recovers as d falls. If it closes again before d is 0, it loads along the line
+ * of unloading from there. It is open where d < 0; what closes then touches anew. A cue without a
+ * follow-through does not touch anew.
+ *
+ * PHASES. Between two changes of a branch, or of the foot, the equations are linear:
+ * z'' = -A z with z = (x, y) less its rest. Each eigenvalue lambda of A is a mode
+ *
+ *   z(t) = z(0) C(t) + z'(0) U(t)     C'' = -lambda C, C(0) = 1, C'(0) = 0, and U' = C, U(0) = 0
+ *
+ * and C and U of a sum of two times follow from those of both. No step has to be small: steps are
+ * taken only to find where a phase ends. That is where a value changes its sign within a step, or
+ * dips below 0 and comes back. Hermite's cubic gives the time, and one step of Newton's method on
+ * the modes themselves makes it exact. Slip and impulses follow from the speeds.
+ *
+ * The law is homogeneous: all speeds over V are the same for each V, and only the ratio of the
+ * times of tip and slate counts. Two limits break this, the end of the follow-through and the end
+ * of hops. A slate whose e is below 0.2 is computed with 0.2, and the speed at which the ball
+ * leaves it is multiplied by e/0.2.
+ *
+ * Found by trial (tests/physics/strike.c, raised_alone): STEP may be 0.3 to 0.6; at 1.2 the cubic
+ * misses ends of phases. Usual strikes have 5 to 8 phases. */
+#include "cluster/hertz.h"
+#include "platform/ranges.h"
+#include "shot/clusters.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+enum { PHASES_MOST = 400, STEPS_OF_PHASE = 3000, FINER_MOST = 5 };
+static const double STEP = 0.6;      /* of a phase's faster mode, rad */
+static const double FINER = 6.0;     /* parts of a step whose ends do not tell what happens in it */
+static const double too_slow = 1e-9; /* of the cue's speed: contacts that close slower are none */
+static const double least_e = 0.2;   /* of a slate */
+static const double least_tip = 0.05; /* e of a tip, as in cluster/push.c */
+
+enum { TIP, SLATE, FOOT, ENDS };
+enum { OPEN, LOADS, UNLOADS, LEAVES, GONE }; /* GONE: a cue that does not follow through */
+
+typedef struct press_spring {
+  int branch;
+  bool returns;       /* touches anew once it is open */
+  double k, e;        /* over the mass of the ball, 1/s^2; restitution */
+  double d, v;        /* compression, m, and its rate, m/s */
+  double top;         /* d_max */
+  double rest, stiff; /* of the branch: d without a force, and the rate of the force, 1/s^2 */
+} press_spring;
+
+typedef struct pressed {
+  double B, S, D, mu;   /* the numbers of the equations */
+  double V, mass_ratio; /* of the cue: speed before the strike, m/s; m/M */
+  double follow;        /* m: how far the cue goes on */
+  press_spring of[2];   /* of tip and slate */
+  double slip;          /* s, m/s */
+  bool slips;           /* else the foot holds */
+  bool lets_go;         /* it has just begun to slip */
+  int stuck;            /* phases in a row that took no time */
+  carom_raised *out;
+} pressed;
+
+/* C and U of both modes, at one time. */
+typedef struct swing {
+  double C[2], U[2];
+} swing;
+
+/* One phase: A, its eigenvalues, and what each mode has of compressions and speeds at its start. */
+typedef struct press_phase {
+  double A[2][2], lambda[2], quick; /* quick: sqrt(lambda[0]), the faster one */
+  double z[2][2], v[2][2];          /* [mode][contact] */
+  double of_tip, of_slate;          /* the slip by the changes of both speeds */
+} press_phase;
+
+/* Values at one time of a phase. `foot` ends its state as it passes 0: the slip, or the friction
+ * that it needs to hold less what it has. */
+typedef struct instant {
+  double d[2], v[2], a[2], slip, foot, foot_rate;
+} instant;
+
+/* A value whose sign ends a phase: at the start of a step and at its end, or at its vertex within
+ * the step, and its rates there. */
+typedef struct ending {
+  double from, from_rate, to, to_rate, share; /* share: the part of the step up to `to` */
+  int next;                                   /* the branch that follows */
+} ending;
+
+double carom_slate_under(const carom_ball_kind *kind) {
+  return carom_greater(carom_slate_restitution(kind->restitution_table), least_e);
+}
+
+/* ---- Contacts */
+
+/* Begins a branch where the last one has ended. */
+static void turn_to(press_spring *x, int next) {
+  const double lost = 1.0 - x->e * x->e;
+  const bool comes_back = x->branch == LEAVES;
+  x->stiff = x->rest = 0.0;
+  x->branch = next;
+  if (next == LOADS) {
+    x->v = carom_greater(x->v, 0.0);
+    x->stiff = x->k;
+  } else if (next == UNLOADS) {
+    x->v = 0.0;
+    x->top = comes_back ? x->d / lost : x->d;
+    x->rest = lost * x->top;
+    x->stiff = x->k / (x->e * x->e);
+  } else if (next == OPEN || x->d <= 0.0 || !(lost > 0.0)) {
+    x->branch = x->returns ? OPEN : GONE;
+    x->top = 0.0;
+    x->d = carom_lesser(x->d, 0.0); /* it is not beyond by rounding */
+  }
+}
+
+/* Whether a value that is not beyond 0 at either end of a step is so at its vertex within it. *near
+ * becomes true where that is too close to tell. */
+static bool dips(double from, double from_rate, double to_rate, double h, int next, bool *near,
+                 ending *e) {
+  const bool falls_first =
+      from > 0.0 ? from_rate < 0.0 && to_rate > 0.0 : from_rate > 0.0 && to_rate < 0.0;
+  if (!falls_first)
+    return false;
+  const double share = from_rate / (from_rate - to_rate), fall = 0.5 * from_rate * share * h;
+  const double vertex = from + fall;
+  *near |= fabs(vertex) < 0.1 * fabs(fall);
+  if ((vertex > 0.0) == (from > 0.0))
+    return false;
+  *e = (ending){from, from_rate, vertex, 0.0, share, next};
+  return true;
+}
+
+/* The end of a branch that is left as its compression passes `level`, downwards or upwards. */
+static bool passes(double level, bool down, int i, const instant *from, const instant *to, double h,
+                   int next, bool *near, ending *e) {
+  const double start = from->d[i] - level, end = to->d[i] - level;
+  if (down ? end < 0.0 : end > 0.0) {
+    *e = (ending){start, from->v[i], end, to->v[i], 1.0, next};
+    return true;
+  }
+  const bool inside = down ? start > 0.0 : start < 0.0;
+  return inside && dips(start, from->v[i], to->v[i], h, next, near, e);
+}
+
+/* The same of one that is left as it begins to unload, or to close. */
+static bool turns(bool unloads, int i, const instant *from, const instant *to, double h, bool *near,
+                  ending *e) {
+  if (unloads ? to->v[i] < 0.0 : to->v[i] > 0.0) {
+    *e = (ending){from->v[i], from->a[i], to->v[i], to->a[i], 1.0, UNLOADS};
+    return true;
+  }
+  return dips(from->v[i], from->a[i], to->a[i], h, UNLOADS, near, e);
+}
+
+/* Whether the branch of contact i ends within a step of h. */
+static bool branch_ends(const press_spring *x, int i, const instant *from, const instant *to,
+                        double h, bool *near, ending *e) {
+  switch (x->branch) {
+  case LOADS:
+    return turns(true, i, from, to, h, near, e);
+  case UNLOADS:
+    return passes(x->rest, true, i, from, to, h, LEAVES, near, e) ||
+           passes(x->top, false, i, from, to, h, LOADS, near, e);
+  case LEAVES:
+    return dips(from->d[i], from->v[i], to->v[i], h, OPEN, near, e) ||
+           turns(false, i, from, to, h, near, e) ||
+           passes(0.0, true, i, from, to, h, OPEN, near, e);
+  case OPEN:
+    return passes(0.0, false, i, from, to, h, LOADS, near, e);
+  default:
+    return false;
+  }
+}
+
+/* Whether the foot begins to hold, or to slip, within a step of h. */
+static bool foot_ends(const pressed *p, const instant *from, const instant *to, double h,
+                      bool *near, ending *e) {
+  const bool passed = p->slips ? to->foot < 0.0 : to->foot > 0.0,
+             inside = p->slips ? from->foot > 0.0 : from->foot < 0.0;
+  if (passed) {
+    *e = (ending){from->foot, from->foot_rate, to->foot, to->foot_rate, 1.0, 0};
+    return true;
+  }
+  return inside && dips(from->foot, from->foot_rate, to->foot_rate, h, 0, near, e);
+}
+
+/* The part of a step of h at which an ending is 0: of Hermite's cubic, less the zeros that it has
+ * at its start, by Newton's method within bounds. */
+static double part_of_step(const ending *e, double step) {
+  const double h = e->share * step, rise = e->to - e->from;
+  double c[4] = {e->from, h * e->from_rate, 3.0 * rise - h * (2.0 * e->from_rate + e->to_rate),
+                 h * (e->from_rate + e->to_rate) - 2.0 * rise};
+  for (int n = 0; n < 2 && c[0] == 0.0; n++) {
+    c[0] = c[1];
+    c[1] = c[2];
+    c[2] = c[3];
+    c[3] = 0.0;
+  }
+  const double end = c[0] + c[1] + c[2] + c[3];
+  if ((c[0] > 0.0) == (end > 0.0))
+    return 0.0; /* it is beyond at once */
+
+  double low = 0.0, high = 1.0, t = c[0] / (c[0] - end);
+  for (int n = 0; n < 3; n++) {
+    const double q = c[0] + t * (c[1] + t * (c[2] + t * c[3])),
+                 slope = c[1] + t * (2.0 * c[2] + 3.0 * t * c[3]);
+    *((q > 0.0) == (c[0] > 0.0) ? &low : &high) = t;
+    const double next = t - q / slope;
+    t = next >= low && next <= high ? next : 0.5 * (low + high);
+  }
+  return e->share * t;
+}
+
+/* ---- A phase */
+
+/* C and U of an eigenvalue at a time up to STEP of the faster mode, to 1e-15, by sums and products
+ * alone. */
+static void swing_of(double lambda, double t, double *C, double *U) {
+  const double q = -lambda * t * t;
+  double c = 1.0, u = 1.0;
+  for (int n = 7; n > 0; n--) {
+    c = 1.0 + q / (double)(2 * n * (2 * n - 1)) * c;
+    u = 1.0 + q / (double)(2 * n * (2 * n + 1)) * u;
+  }
+  *C = c;
+  *U = t * u;
+}
+
+static swing swing_by(const press_phase *f, double t) {
+  swing by;
+  for (int n = 0; n < 2; n++)
+    swing_of(f->lambda[n], t, &by.C[n], &by.U[n]);
+  return by;
+}
+
+/* At the sum of two times. */
+static swing swing_on(const press_phase *f, const swing *a, const swing *b) {
+  swing sum;
+  for (int n = 0; n < 2; n++) {
+    sum.C[n] = a->C[n] * b->C[n] - f->lambda[n] * a->U[n] * b->U[n];
+    sum.U[n] = a->U[n] * b->C[n] + a->C[n] * b->U[n];
+  }
+  return sum;
+}
+
+/* The two modes of the phase that begins. */
+static void begin_phase(const pressed *p, press_phase *f) {
+  const press_spring *tip = &p->of[TIP], *slate = &p->of[SLATE];
+  const double held = p->D * p->D / 3.5;
+  const double B = p->slips ? p->B : p->B - held,
+               S = p->slips ? p->S + p->mu * p->D : p->S; /* of N in x'' */
+  f->A[TIP][TIP] = B * tip->stiff;
+  f->A[TIP][SLATE] = -S * slate->stiff;
+  f->A[SLATE][TIP] = -p->S * tip->stiff;
+  f->A[SLATE][SLATE] = slate->stiff;
+
+  /* eigenvalues: the first is the greater; a steep cue on a rough cloth wedges the ball where the
+   * second is below 0 */
+  const double half = 0.5 * (f->A[0][0] - f->A[1][1]), sum = f->A[0][0] + f->A[1][1];
+  const double root = carom_greater(sqrt(half * half + f->A[0][1] * f->A[1][0]), 1e-8 * sum);
+  f->lambda[0] = 0.5 * sum + root;
+  f->lambda[1] = tip->stiff * slate->stiff * (B - p->S * S) / f->lambda[0];
+  f->quick = sqrt(f->lambda[0]);
+
+  /* the first mode has (A - lambda_1) z / (lambda_0 - lambda_1), the second the rest */
+  const double over = 0.5 / root;
+  const double y[2] = {tip->d - tip->rest, slate->d - slate->rest}, w[2] = {tip->v, slate->v};
+  for (int i = 0; i < 2; i++) {
+    f->z[0][i] = f->v[0][i] = 0.0;
+    for (int j = 0; j < 2; j++) {
+      const double share = over * (i == j ? f->A[i][j] - f->lambda[1] : f->A[i][j]);
+      f->z[0][i] += share * y[j];
+      f->v[0][i] += share * w[j];
+    }
+    f->z[1][i] = y[i] - f->z[0][i];
+    f->v[1][i] = w[i] - f->v[0][i];
+  }
+
+  /* s' as a sum of x'' and y'' */
+  const double both = p->B - p->S * (p->S + p->mu * p->D);
+  f->of_tip = p->slips && both != 0.0 ? -(p->D - 3.5 * p->mu * p->S) / both : (double)0.0;
+  f->of_slate = p->slips ? f->of_tip * S + 3.5 * p->mu : (double)0.0;
+}
+
+static void instant_at(const pressed *p, const press_phase *f, const swing *q, instant *now) {
+  double force[2], rate[2], y[2];
+  for (int i = 0; i < 2; i++) {
+    y[i] = now->v[i] = 0.0;
+    for (int n = 0; n < 2; n++) {
+      y[i] += f->z[n][i] * q->C[n] + f->v[n][i] * q->U[n];
+      now->v[i] += f->v[n][i] * q->C[n] - f->lambda[n] * f->z[n][i] * q->U[n];
+    }
+    now->d[i] = y[i] + p->of[i].rest;
+    force[i] = p->of[i].stiff * y[i];
+    rate[i] = p->of[i].stiff * now->v[i];
+  }
+  for (int i = 0; i < 2; i++)
+    now->a[i] = -(f->A[i][0] * y[0] + f->A[i][1] * y[1]);
+
+  /* the foot */
+  now->slip = p->slip + f->of_tip * (now->v[TIP] - p->of[TIP].v) +
+              f->of_slate * (now->v[SLATE] - p->of[SLATE].v);
+  if (p->slips) {
+    now->foot = now->slip;
+    now->foot_rate = p->D * force[TIP] - 3.5 * p->mu * force[SLATE];
+  } else {
+    now->foot = p->D / 3.5 * force[TIP] - p->mu * force[SLATE];
+    now->foot_rate = p->D / 3.5 * rate[TIP] - p->mu * rate[SLATE];
+  }
+}
+
+/* Which of the endings comes first within a step, or -1, and at which part of it. */
+static int first_ending(const pressed *p, const instant *from, const instant *to, double h,
+                        bool *near, double *part, ending *first) {
+  int which = -1;
+  *part = 2.0;
+  for (int k = 0; k < ENDS; k++) {
+    ending e;
+    const bool ends = k == FOOT ? foot_ends(p, from, to, h, near, &e)
+                                : branch_ends(&p->of[k], k, from, to, h, near, &e);
+    const double at = ends ? part_of_step(&e, h) : (double)2.0;
+    if (!(at < *part))
+      continue;
+    *part = at;
+    *first = e;
+    which = k;
+  }
+  return which;
+}
+
+/* The value of an ending, and its rate. */
+static double value_of(const pressed *p, int which, int next, const instant *now, double *rate) {
+  if (which == FOOT) {
+    *rate = now->foot_rate;
+    return now->foot;
+  }
+  const press_spring *x = &p->of[which];
+  if (next == UNLOADS) {
+    *rate = now->a[which];
+    return now->v[which];
+  }
+  *rate = now->v[which];
+  double level = 0.0;
+  if (next == LEAVES)
+    level = x->rest;
+  else if (x->branch == UNLOADS)
+    level = x->top;
+  return now->d[which] - level;
+}
+
+static bool held(const pressed *p) {
+  const press_spring *tip = &p->of[TIP], *slate = &p->of[SLATE];
+  return p->D / 3.5 * tip->stiff * (tip->d - tip->rest) <=
+         p->mu * slate->stiff * (slate->d - slate->rest);
+}
+
+/* The tip touches anew. */
+static void count_touch(pressed *p) {
+  p->out->touches++;
+  if (p->out->touches == 2)
+    p->out->second = p->of[TIP].v;
+}
+
+/* Ends the phase where an ending is 0, near the time of q. */
+static void end_phase(pressed *p, const press_phase *f, swing q, double before, double h, int which,
+                      int next) {
+  instant now;
+  double rate;
+  instant_at(p, f, &q, &now);
+  const double value = value_of(p, which, next, &now, &rate);
+  double off = rate != 0.0 ? -value / rate : (double)0.0;
+  off = fabs(off) < 0.2 * h ? carom_greater(off, -before) : (double)0.0;
+  const swing by = swing_by(f, off), at = swing_on(f, &q, &by);
+  p->stuck = before + off > 1e-9 * h ? 0 : p->stuck + 1;
+  instant_at(p, f, &at, &now);
+
+  /* the state there, and the branch that follows */
+  for (int i = 0; i < 2; i++) {
+    p->of[i].d = now.d[i];
+    p->of[i].v = now.v[i];
+  }
+  p->slip = carom_greater(now.slip, 0.0);
+  p->out->course = p->out->course * 31U + (unsigned)(which * 4 + next) + 1U;
+  p->lets_go = false;
+  if (which == FOOT) {
+    p->slips = !p->slips;
+    p->lets_go = p->slips;
+    p->slip = 0.0;
+    return;
+  }
+  if (p->of[which].branch == OPEN) {
+    p->of[which].d = 0.0;
+    if (which == TIP)
+      count_touch(p);
+  }
+  turn_to(&p->of[which], next);
+  p->slips = p->slips || !held(p);
+}
+
+/* One phase, to its end. False: it takes too many steps. */
+static bool run_phase(pressed *p) {
+  press_phase f;
+  begin_phase(p, &f);
+  const double whole = STEP / f.quick;
+  double h = whole, short_steps = 1.0, done = 0.0;
+  int finer = 0;
+  for (; finer < p->stuck - 2 && finer < FINER_MOST; finer++) {
+    /* where the cubic sees two endings at once, as it is not exact, shorter steps part them */
+    h = h / FINER;
+    short_steps = short_steps * FINER;
+  }
+  swing at = {{1.0, 1.0}, {0.0, 0.0}}, by = swing_by(&f, h);
+  instant from, to;
+  instant_at(p, &f, &at, &from);
+  if (p->lets_go && from.slip == 0.0)
+    from.foot_rate = 0.0; /* as it lets go, it begins to slip without a rate */
+
+  for (int n = 0; n < STEPS_OF_PHASE; n++) {
+    const swing next = swing_on(&f, &at, &by);
+    instant_at(p, &f, &next, &to);
+    bool near = false;
+    double part;
+    ending e;
+    const int which = first_ending(p, &from, &to, h, &near, &part, &e);
+    if (near && finer < FINER_MOST) { /* the same once more, in shorter steps */
+      short_steps = finer == 0 ? FINER : short_steps * FINER;
+      finer++;
+      h = h / FINER;
+      by = swing_by(&f, h);
+      continue;
+    }
+    if (which >= 0) { /* back from the end of the step */
+      const swing back = swing_by(&f, part * h - h);
+      end_phase(p, &f, swing_on(&f, &next, &back), done + part * h, h, which, e.next);
+      return true;
+    }
+    at = next;
+    from = to;
+    done = done + h;
+
+    /* past it, in long steps again */
+    short_steps -= 1.0;
+    if (finer > 0 && short_steps < 0.5) {
+      finer = 0;
+      h = whole;
+      by = swing_by(&f, h);
+    }
+  }
+  return false;
+}
+
+/* ---- All of it */
+
+/* The impulse of the tip so far. */
+static double impulse_of_tip(const pressed *p) {
+  const double both = p->B - p->S * p->S - p->D * p->D / 3.5;
+  return (p->V - p->of[TIP].v - p->S * p->of[SLATE].v - p->D / 3.5 * p->slip) / both;
+}
+
+/* How long contact i, which has no force, needs until it has one again; infinite: it has none any
+ * more. */
+static double wait_of(const pressed *p, int i) {
+  const press_spring *x = &p->of[i];
+  if (x->branch == LEAVES)
+    return x->v > 0.0 ? (double)0.0 : (double)INFINITY;
+  if (x->branch == GONE || !(x->v > too_slow * p->V))
+    return INFINITY;
+  const double wait = -x->d / x->v;
+  const double V = p->V - p->mass_ratio * impulse_of_tip(p);
+  return i == TIP && wait * V > p->follow ? (double)INFINITY : wait;
+}
+
+/* Nothing acts: on to where a contact does. False: none will. */
+static bool fly(pressed *p) {
+  const double wait[2] = {wait_of(p, TIP), wait_of(p, SLATE)},
+               first = carom_lesser(wait[TIP], wait[SLATE]);
+  if (!(first < INFINITY))
+    return false;
+  for (int i = 0; i < 2; i++) {
+    press_spring *x = &p->of[i];
+    x->d += first * x->v;
+    if (x->branch == LEAVES && x->d < 0.0)
+      turn_to(x, OPEN);
+  }
+  for (int i = 0; i < 2; i++) {
+    press_spring *x = &p->of[i];
+    if (wait[i] > first)
+      continue;
+    if (x->branch == OPEN) {
+      x->d = 0.0;
+      turn_to(x, LOADS);
+      if (i == TIP)
+        count_touch(p);
+    } else {
+      turn_to(x, UNLOADS);
+    }
+  }
+  p->slips = true;
+  p->out->course = p->out->course * 31U + 17U;
+  return true;
+}
+
+/* From the touch of the tip until nothing acts. False: that takes too long. */
+static bool press_on(pressed *p) {
+  for (int n = 0; n < PHASES_MOST; n++) {
+    /* a contact without a force at which nothing moves any more has parted */
+    for (int i = 0; i < 2; i++) {
+      press_spring *x = &p->of[i];
+      if (x->branch == UNLOADS && p->of[1 - i].stiff == 0.0 && x->d <= x->rest && x->v <= 0.0)
+        turn_to(x, LEAVES);
+    }
+    const bool acts = p->of[TIP].stiff > 0.0 || p->of[SLATE].stiff > 0.0;
+    if (acts ? !run_phase(p) : !fly(p))
+      return !acts;
+  }
+  return false;
+}
+
+bool carom_press_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *s,
+                       carom_raised *out) {
+  const carom_touch touch = carom_touch_slate(kind, s);
+  const double blow = carom_speed_of_blow(cue, kind), over = 1.0 / blow;
+  pressed p;
+  memset(&p, 0, sizeof p);
+  memset(out, 0, sizeof *out);
+  p.out = out;
+  p.mass_ratio = kind->mass / cue->mass;
+  p.B = 1.0 + p.mass_ratio + 2.5 * (cue->a * cue->a + cue->b * cue->b);
+  p.S = touch.closing * over;
+  p.D = touch.slip * over;
+  p.mu = kind->mu_slide;
+  p.V = cue->speed;
+  p.follow = cue->follow;
+  p.slips = true;
+
+  /* both contacts at their touch */
+  press_spring *tip = &p.of[TIP], *slate = &p.of[SLATE];
+  tip->e = carom_greater(carom_tip_of(cue), least_tip);
+  tip->k = carom_linear_stiffness(carom_tip_time(cue), tip->e) / p.B;
+  tip->v = p.V;
+  slate->e = carom_slate_under(kind);
+  slate->k = carom_linear_stiffness(CAROM_SLATE_TIME, slate->e);
+  tip->returns = p.follow > 0.0;
+  slate->returns = true;
+  turn_to(tip, LOADS);
+  turn_to(slate, LOADS);
+  out->touches = 1;
+  if (!press_on(&p))
+    return false;
+
+  /* the impulses of tip, slate and cloth */
+  const double P = impulse_of_tip(&p), Q = p.S * P - slate->v, G = (p.D * P - p.slip) / 3.5;
+  const double part = P * over;
+  out->impulse = P * kind->mass;
+  out->V = p.V - p.mass_ratio * P;
+  out->behind = carom_greater(-tip->d, 0.0);
+  for (int k = 0; k < 3; k++) {
+    s->v[k] *= part;
+    s->w[k] *= part;
+  }
+  carom_take_impulse(&touch, kind->radius, Q, G, s);
+  carom_leave_slate(kind, Q, s);
+  out->leaves = -slate->v;
+  return true;
+}
+
+void carom_leave_slate(const carom_ball_kind *kind, double J, carom_ball_state *s) {
+  const double e = carom_slate_restitution(kind->restitution_table);
+  const double fall = 2.5 * kind->mu_spin * J / kind->radius;
+  s->w[2] = fabs(s->w[2]) <= fall ? 0.0 : s->w[2] - copysign(fall, s->w[2]);
+  if (s->v[2] > 0.0)
+    s->v[2] = carom_rebound(s->v[2] * (e < least_e ? e / least_e : (double)1.0), 1.0);
+}
