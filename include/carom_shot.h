@@ -587,7 +587,7 @@ typedef struct carom_cue {
 #define CAROM_SLATE_TIME 0.001
 
 /* degrees: a cue that is raised by less is level. */
-#define CAROM_LEAST_ELEVATION 1e-6
+#define CAROM_LEAST_ELEVATION 0.000001
 
 /* The restitution of a leather tip: billiards.colostate.edu, "cue tip efficiency", 0.71 to 0.75.
  * One of phenolic resin has 0.81 to 0.87 there. */
