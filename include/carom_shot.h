@@ -564,9 +564,9 @@ typedef struct carom_cue {
   int64_t ball;           /* index of the ball that is struck. */
   double miscue;          /* R, 0 to 1: the offset at which the tip slips off the ball; 0: 1, the
                              edge of the ball. Chalked tips reach 0.5. */
-  double tip_time;        /* s, at most 0.01: how long the tip touches a ball that is alone and free.
-                             0: CAROM_TIP_TIME; tips of hard resin have 0.0008. -1: no time; blow
-                             and landing are then two events, as before revision 8. */
+  double tip_time;        /* s, at most 0.01: how long the tip touches a single, free ball. 0:
+                             CAROM_TIP_TIME; tips of hard resin have 0.0008. -1: no time; blow and
+                             landing are then two events, as before revision 8. */
   double follow; /* m, 0 to 1: how far the cue goes on after it has touched the ball, with the speed
                     that it has left. If it touches a ball then, this is another event STRIKE. 0: it
                     stops at once; carom_cue_of() gives CAROM_CUE_FOLLOW. */
