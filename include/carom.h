@@ -225,9 +225,9 @@ typedef enum carom_status {
                                         and at most 1. */
   CAROM_ERROR_GRAVITY = -49,         /* gravity is not above 0 and at most 1e6 m/s^2. */
   CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below miscue^2. */
-  CAROM_ERROR_TABLE = -52, /* there are too many parts; or a part is not finite, has no length, or
+  CAROM_ERROR_TABLE = -52,           /* there is no part; or a part is not finite, has no length, or
                               has a bad mu or e; or rail_width is too small. */
-  CAROM_ERROR_RACK = -53,  /* there is no such rack, the gap is not between 0 and R, or there is too
+  CAROM_ERROR_RACK = -53, /* there is no such rack, the gap is not between 0 and R, or there is too
                               little room. */
   CAROM_ERROR_EVENTS_LOST = -54,   /* carom_shot_at(), carom_shot_continue(): not all events so
                                       far are in shot.events. */
@@ -294,7 +294,17 @@ typedef enum carom_status {
   CAROM_ERROR_CORNERS = -106,           /* a polygon has fewer than 3 or more than 32 corners. */
   CAROM_ERROR_SIDES_CROSS = -107,       /* two sides of a polygon that are not neighbours meet. */
   CAROM_ERROR_CUE_FOLLOW = -108,        /* cue.follow is not 0 to 1 m. */
-  CAROM_ERROR_SCORE = -109              /* carom_plan.h: a score of games is wrong. */
+  CAROM_ERROR_SCORE = -109,             /* carom_plan.h: a score of games is wrong. */
+  CAROM_ERROR_CUE_TIP_RADIUS = -110,    /* cue.tip_radius is negative or not finite. */
+  CAROM_ERROR_TABLE_KIND = -111,        /* not one of carom_table_kind. */
+  CAROM_ERROR_CORNER = -112,            /* a corner of a polygon has a number that is not finite, a
+                                           place above 1e6 m, or a mouth below 0. */
+  CAROM_ERROR_CORNERS_MEET = -113,      /* two corners that follow each other are at one place. */
+  CAROM_ERROR_CORNERS_IN_LINE = -114,   /* all corners lie on one line. */
+  CAROM_ERROR_MOUTHS = -115,            /* the mouths at its ends leave nothing of a side. */
+  CAROM_ERROR_POCKETS = -116,           /* a table has more than CAROM_POCKETS_MOST pockets, */
+  CAROM_ERROR_JAWS = -117,              /* more than CAROM_JAWS_MOST jaws, */
+  CAROM_ERROR_RAILS = -118              /* or more than CAROM_RAILS_MOST rails. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output; "unknown" for a value not
@@ -393,7 +403,8 @@ CAROM_API double carom_mu_ball(const carom_impact *in, carom_speed_law law);
 
 /* The velocity, m/s, at which a ball of the given velocity, angular velocity and radius stops
  * sliding and begins to roll: (5/7) v + (2/7) R (w_y, -w_x, 0). It does not depend on the
- * cloth's friction, which only determines when this happens. `rolling` may be `v` or `w`. */
+ * cloth's friction, which only determines when this happens. `rolling` may be `v` or `w`. Where v
+ * or w is NULL, `rolling` becomes NaN; where `rolling` is NULL, nothing is done. */
 CAROM_API void carom_rolling_velocity(const double v[3], const double w[3], double radius,
                                       double rolling[3]);
 

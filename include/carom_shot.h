@@ -362,7 +362,7 @@ typedef struct carom_pocket {
 
 /* A table: any geometry. Fill the counts and the arrays, or call carom_table_make(). */
 typedef struct carom_table {
-  double width, length; /* m, for drawing and racks. */
+  double width, length; /* m, 0 or more, for drawing and racks. */
   int64_t rails, jaws, pockets;
   carom_rail rail[CAROM_RAILS_MOST];
   carom_jaw jaw[CAROM_JAWS_MOST];
@@ -421,7 +421,8 @@ typedef enum carom_part_kind {
   CAROM_PART_CUE = 9,             /* carom_cue */
   CAROM_PART_TABLE = 10,          /* carom_table */
   CAROM_PART_STATE = 11,          /* carom_ball_state */
-  CAROM_PART_MEASURES = 12        /* carom_measures */
+  CAROM_PART_MEASURES = 12,       /* carom_measures */
+  CAROM_PART_CORNER = 13          /* carom_corner, of a polygon */
 } carom_part_kind;
 
 /* A part of a table or of a layout. */
@@ -450,7 +451,8 @@ typedef struct carom_table_fault {
  * first fault, and may be NULL. In case (5), gap is the distance between the centres of balls that
  * touch the two rails. The check does not look for holes between noses of different heights,
  * through which balls of other radii may pass. Returns CAROM_OK, CAROM_ERROR_NULL,
- * CAROM_ERROR_RADIUS, CAROM_ERROR_TABLE, CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RAIL_LINE,
+ * CAROM_ERROR_RADIUS, CAROM_ERROR_TABLE, CAROM_ERROR_RAILS, CAROM_ERROR_JAWS or
+ * CAROM_ERROR_POCKETS for too many (the part is the first without room), CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RAIL_LINE,
  * CAROM_ERROR_TABLE_OPEN (with the hole that has to be closed last; CAROM_PART_NONE if there is no
  * ring, or no room for a ball in its middle), or CAROM_ERROR_RAIL_SIDE. */
 CAROM_API carom_status carom_table_check(const carom_table *table, double radius,
@@ -485,15 +487,15 @@ CAROM_API carom_status carom_table_measures(carom_table_kind kind, carom_measure
 CAROM_API carom_status carom_table_measured(const carom_measures *measures, double ball_radius,
                                             carom_table *table, carom_table_fault *fault);
 
-/* A corner of a table of any closed shape: its place, m, 0 or more, and the width of the pocket's
- * mouth there, from jaw to jaw, m; 0: no pocket. A corner on a straight side makes a side
+/* A corner of a table of any closed shape: its place, m, from any origin, and the width of the
+ * pocket's mouth there, from jaw to jaw, m; 0: no pocket. A corner on a straight side makes a side
  * pocket. */
 typedef struct carom_corner {
   double x, y, mouth;
 } carom_corner;
 
 /* Makes a table from its corners, 3 to CAROM_RAILS_MOST, in the order of a walk around it, in
- * either direction. nose_height, m, is the height of all noses; jaw_radius, m, the radius of the
+ * either direction. The table is moved so that its least x and y are 0. nose_height, m, is the height of all noses; jaw_radius, m, the radius of the
  * rounded ends of rails at pockets; ball_radius, m, that of the balls. Rails end where mouths
  * begin. A pocket is a circle as wide as the mouth. It lies behind the mouth, or a little inside it
  * if a ball could otherwise slip past. There must be room for a ball in the middle (width/2,
@@ -501,9 +503,10 @@ typedef struct carom_corner {
  * L or a U. carom_table_check() checks the result; the status and *fault are those of the check,
  * and *fault may be NULL. Further errors are CAROM_ERROR_CORNERS for the number of corners;
  * CAROM_ERROR_SIDES_CROSS, with the two sides as rails that have the index of the corner where they
- * begin; and CAROM_ERROR_TABLE with CAROM_PART_NONE for a number below 0 or not finite, for mouths
- * that leave nothing of a rail, and for more than CAROM_POCKETS_MOST pockets or CAROM_JAWS_MOST
- * jaws. */
+ * begin; and these, with the corner as a CAROM_PART_CORNER: CAROM_ERROR_CORNER for a number of it;
+ * CAROM_ERROR_CORNERS_MEET and CAROM_ERROR_MOUTHS, with the next corner as fault->other;
+ * CAROM_ERROR_POCKETS and CAROM_ERROR_JAWS, with the first corner that has no room for its own; and
+ * CAROM_ERROR_CORNERS_IN_LINE, with the first corner. */
 CAROM_API carom_status carom_table_polygon(const carom_corner *corner, int count,
                                            double nose_height, double jaw_radius,
                                            double ball_radius, carom_table *table,
@@ -560,7 +563,7 @@ typedef struct carom_cue {
                              speed of the ball is proportional to 1 + e. Leather 0.73, phenolic
                              resin 0.85, pooltool 1. carom_cue_of() gives carom's games a tip of
                              leather, and pooltool's games 1, with the bits of pooltool. */
-  double tip_radius;      /* m; the strike does not use it; it is kept with the cue. */
+  double tip_radius;      /* m, 0 or more; the strike does not use it. */
   int64_t ball;           /* index of the ball that is struck. */
   double miscue;          /* R, 0 to 1: the offset at which the tip slips off the ball; 0: 1, the
                              edge of the ball. Chalked tips reach 0.5. */

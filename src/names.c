@@ -89,8 +89,8 @@
   X(ERROR_MISCUE, -51, "miscue",                                                                   \
     "the tip misses the ball: a^2 + b^2 must be below miscue^2, which is 1 by default")            \
   X(ERROR_TABLE, -52, "bad_table",                                                                 \
-    "the table has too many parts, a part that is not finite or has no length, friction or "       \
-    "restitution outside 0 to 1, or a rail_width below the radius of a ball")                      \
+    "the table has no part, a part that is not finite or has no length, friction or restitution "  \
+    "outside 0 to 1, or a rail_width below the radius of a ball")                                  \
   X(ERROR_RACK, -53, "bad_rack",                                                                   \
     "no such rack, or its gap is not between 0 and R, or there is too little room")                \
   X(ERROR_EVENTS_LOST, -54, "events_lost",                                                         \
@@ -166,7 +166,19 @@
   X(ERROR_CORNERS, -106, "bad_corners", "a table has 3 to 32 corners")                             \
   X(ERROR_SIDES_CROSS, -107, "sides_cross", "two sides of the table cross or touch")               \
   X(ERROR_CUE_FOLLOW, -108, "bad_cue_follow", "cue.follow must be 0 to 1 m")                       \
-  X(ERROR_SCORE, -109, "bad_score", "a rating must be 0 to 1000, games won and lost 0 to 1e9 each")
+  X(ERROR_SCORE, -109, "bad_score",                                                                \
+    "a rating must be 0 to 1000, games won and lost 0 to 1e9 each, and their number not negative") \
+  X(ERROR_CUE_TIP_RADIUS, -110, "bad_cue_tip_radius", "cue.tip_radius must be 0 m or more")        \
+  X(ERROR_TABLE_KIND, -111, "bad_table_kind", "there is no such kind of table")                    \
+  X(ERROR_CORNER, -112, "bad_corner",                                                              \
+    "a corner must lie within 1e6 m of 0, and its mouth be 0 to 1e6 m wide")                       \
+  X(ERROR_CORNERS_MEET, -113, "corners_meet", "two corners of the table are at one place")         \
+  X(ERROR_CORNERS_IN_LINE, -114, "corners_in_line", "all corners of the table lie on one line")    \
+  X(ERROR_MOUTHS, -115, "mouths_too_wide",                                                         \
+    "the mouths at both ends of a side leave nothing of its rail")                                 \
+  X(ERROR_POCKETS, -116, "too_many_pockets", "a table has at most 8 pockets")                      \
+  X(ERROR_JAWS, -117, "too_many_jaws", "a table has at most 32 jaws")                              \
+  X(ERROR_RAILS, -118, "too_many_rails", "a table has at most 32 rails")
 
 #define AGREES(NAME, value, name, text) \
   _Static_assert(CAROM_##NAME == (value), "values are never renumbered");

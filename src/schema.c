@@ -17,8 +17,6 @@
 #include <stdint.h>
 #include <string.h>
 
-#define CAROM_ERROR_NONE CAROM_OK
-
 /* A row of any struct; behind its text stand the members of carom_number that it has besides. */
 #define TYPE_OF(x) \
   _Generic(x, double *: CAROM_TYPE_DOUBLE, double: CAROM_TYPE_DOUBLE,          \
@@ -298,8 +296,13 @@ static void add_measure(words *w, const carom_number *n) {
   }
 }
 
+/* Words that are to go into text[room], of which NULL takes none. */
+static words words_in(char *text, size_t room) {
+  return (words){text, text != NULL ? room : 0, 0};
+}
+
 size_t carom_number_range(const carom_number *n, char *text, size_t room) {
-  words w = {text, room, 0};
+  words w = words_in(text, room);
   if (n == NULL)
     return end_of(&w);
   if (n->type == CAROM_TYPE_UINT64)
@@ -323,7 +326,7 @@ static const carom_number *number_at(size_t offset) {
 #define WITHOUT_WITH(model, number) "0 where " #number " is 0"
 
 const carom_number *carom_ball_fault(const carom_ball_kind *k, char *text, size_t room) {
-  words w = {text, room, 0};
+  words w = words_in(text, room);
   if (k == NULL)
     return NULL;
 #define RANGE(member, key, unit, low, high, other, error, reader, about)  \

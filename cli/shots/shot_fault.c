@@ -33,7 +33,8 @@ static const char *part_words(carom_part_kind kind) {
 /* Says where the fault is, "balls[1] ('2'): ", or nothing; returns the length of it. */
 static int say_where(const shot_line *line, carom_status status, const carom_part *part,
                      char text[FAULT_TEXT]) {
-  if (status == CAROM_ERROR_TABLE || status == CAROM_ERROR_NOSE_HEIGHT)
+  if (status == CAROM_ERROR_TABLE || status == CAROM_ERROR_NOSE_HEIGHT ||
+      status == CAROM_ERROR_RAILS || status == CAROM_ERROR_JAWS || status == CAROM_ERROR_POCKETS)
     return snprintf(text, FAULT_TEXT, "table '%s': ", line->table->id);
   if (part->kind == CAROM_PART_BALL || part->kind == CAROM_PART_STATE)
     return snprintf(text, FAULT_TEXT, "balls[%d] ('%s'): ", part->index, line->name[part->index]);

@@ -61,7 +61,8 @@ CAROM_API carom_player carom_player_of(double scale);
 CAROM_API carom_player carom_player_fargo(double rating);
 
 /* Adds errors to the stroke that a player intends. The errors follow from `seed` and the number of
- * the stroke, so the same arguments give the same errors on every machine. */
+ * the stroke, so the same arguments give the same errors on every machine.
+ * If a pointer is NULL, the call does nothing. */
 CAROM_API void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t number,
                                    carom_cue *cue);
 
@@ -80,8 +81,9 @@ typedef struct carom_rating {
 
 /* Estimates the rating of a player, 300 to 850, from games. A player with rating r beats one with
  * rating d with odds of 2^((r - d)/100) : 1. Before the first game, ratings have a normal
- * distribution around 400 with a standard deviation of 150. Returns CAROM_OK; CAROM_ERROR_NULL; or
- * CAROM_ERROR_SCORE, with rating->row and NaN for the numbers. It takes about 0.1 ms a row, for any
+ * distribution around 400 with a standard deviation of 150, cut at 300 and 850; so without games the
+ * mean is 463. Returns CAROM_OK; CAROM_ERROR_NULL; or CAROM_ERROR_SCORE for a score or a negative
+ * count, with rating->row, which is -1 for the count, and NaN for the numbers. It takes about 0.1 ms a row, for any
  * number of games. */
 CAROM_API carom_status carom_rating_of(const carom_score *scores, int64_t count,
                                        carom_rating *rating);
@@ -127,7 +129,8 @@ typedef enum carom_foul {
 } carom_foul;
 
 /* The foul of a shot by the rules that all games share: those up to CAROM_FOUL_CUSHION, and
- * DOUBLE_HIT. `on` is the set of the balls that the cue ball may hit first. */
+ * DOUBLE_HIT. `on` is the set of the balls that the cue ball may hit first. Without facts
+ * the foul is CAROM_FOUL_NO_BALL. */
 CAROM_API carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball);
 
 /* A foul in words, such as "the cue ball met no ball"; "" for NONE and for a value not listed. */

@@ -55,6 +55,8 @@ void carom_player_errs(const carom_player *player, const double z[6], carom_cue 
 
 void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t number,
                          carom_cue *cue) {
+  if (player == NULL || cue == NULL)
+    return;
   const carom_player bounded = carom_player_bounded(player, cue);
   double z[6];
   carom_normals(seed, DRAW_PLAYED, number, z);

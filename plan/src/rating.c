@@ -60,6 +60,10 @@ static double below(const double f[2 * CELLS + 1], double low, double cell, doub
 carom_status carom_rating_of(const carom_score *rows, int64_t count, carom_rating *rating) {
   if (rating == NULL || (rows == NULL && count > 0))
     return CAROM_ERROR_NULL;
+  if (count < 0) {
+    *rating = (carom_rating){NAN, NAN, NAN, -1};
+    return CAROM_ERROR_SCORE;
+  }
   for (int64_t k = 0; k < count; k++)
     if (!(rows[k].against >= 0.0 && rows[k].against <= 1000.0 && rows[k].won >= 0.0 &&
           rows[k].won <= 1e9 && rows[k].lost >= 0.0 && rows[k].lost <= 1e9)) {

@@ -91,6 +91,10 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
   if (count < 1 || count > CAROM_BALLS_MOST || cue_ball < 0 || cue_ball >= count)
     return CAROM_ERROR_BALLS;
 
+  for (int k = 0; shot != NULL && k < 2; k++)
+    if (shot->facts->first[k] < -1 || shot->facts->first[k] >= count)
+      return CAROM_ERROR_BALLS;
+
   /* what happened; without a shot no ball was met */
   memset(ruling, 0, sizeof *ruling);
   ruling->state = rules->state;
@@ -126,11 +130,12 @@ size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) 
     return 0;
   const bool foul = ruling->turn.foul != CAROM_FOUL_NONE;
   const int32_t permissions = ruling->next >= 0 ? ruling->state.may : 0;
-  const int size = snprintf(
-      text, room, "%s%s%s%s%s%s%s%s", foul ? "foul: " : "", carom_foul_string(ruling->turn.foul),
-      foul ? "; " : "", turns[ruling->turn.is], ruling->next >= 0 ? leaves[ruling->turn.leave] : "",
-      permissions & CAROM_MAY_PASS ? "; may pass" : "",
-      permissions & CAROM_MAY_PUSH ? "; may push out" : "",
-      permissions & CAROM_MAY_FREE_BALL ? "; has a free ball" : "");
+  const int size =
+      snprintf(text, text != NULL ? room : 0, "%s%s%s%s%s%s%s%s", foul ? "foul: " : "",
+               carom_foul_string(ruling->turn.foul), foul ? "; " : "", turns[ruling->turn.is],
+               ruling->next >= 0 ? leaves[ruling->turn.leave] : "",
+               permissions & CAROM_MAY_PASS ? "; may pass" : "",
+               permissions & CAROM_MAY_PUSH ? "; may push out" : "",
+               permissions & CAROM_MAY_FREE_BALL ? "; has a free ball" : "");
   return size > 0 ? (size_t)size : 0;
 }

@@ -23,10 +23,13 @@ carom_turn carom_give(carom_rules_state *game, carom_turn turn) {
 }
 
 carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
+  if (facts == NULL)
+    return CAROM_FOUL_NO_BALL;
   const int first = facts->first[0];
-  if ((facts->down | facts->off) >> cue_ball & 1)
+  const bool is_ball = cue_ball >= 0 && cue_ball < CAROM_BALLS_MOST;
+  if (is_ball && ((facts->down | facts->off) >> cue_ball & 1) != 0)
     return CAROM_FOUL_CUE_BALL;
-  if (first < 0)
+  if (first < 0 || first >= CAROM_BALLS_MOST)
     return CAROM_FOUL_NO_BALL;
   if (!(on >> first & 1))
     return CAROM_FOUL_FIRST;

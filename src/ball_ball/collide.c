@@ -262,6 +262,12 @@ double carom_mu_ball(const carom_impact *in, carom_speed_law law) {
 
 void carom_rolling_velocity(const double v[3], const double w[3], double radius,
                             double rolling[3]) {
+  if (rolling == NULL)
+    return;
+  if (v == NULL || w == NULL) {
+    rolling[0] = rolling[1] = rolling[2] = NAN;
+    return;
+  }
   /* first both: `rolling` may be v or w */
   const double x = (5.0 * v[0] + 2.0 * radius * w[1]) / 7.0;
   rolling[1] = (5.0 * v[1] - 2.0 * radius * w[0]) / 7.0;

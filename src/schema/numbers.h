@@ -92,7 +92,7 @@
 
 /* Numbers of other structs, of doubles but where the header says otherwise, in their order:
  * ROW(member, key, unit, low, high, other, ERROR, text), as above. LATER(...): it is checked where
- * more is known, as the radius of the balls; with the error NONE by nobody. */
+ * more is known, as the radius of the balls. */
 #define CAROM_CUE_NUMBERS(ROW, LATER)                                                             \
   ROW(speed, "V0", "m/s", 0, 1e3, NAN, CUE_SPEED,                                                 \
       "speed of the cue before the strike; 0: no strike")                                         \
@@ -105,8 +105,8 @@
       "effective mass of the end of the cue, which causes squirt")                                \
   ROW(tip_restitution, "tip_restitution", "", 0, 1, NAN, CUE_TIP_RESTITUTION,                     \
       "restitution of tip and ball; 0: 1")                                                        \
-  LATER(tip_radius, "tip_radius", "m", 0, DBL_MAX, NAN, NONE,                                     \
-        "radius of the tip, which no strike reads")                                               \
+  ROW(tip_radius, "tip_radius", "m", 0, DBL_MAX, NAN, CUE_TIP_RADIUS,                             \
+      "radius of the tip, which no strike reads")                                                 \
   LATER(ball, "", "", 0, CAROM_BALLS_MOST - 1, NAN, CUE_BALL, "index of the ball that is struck") \
   ROW(miscue, "miscue", "R", 0, 1, NAN, CUE_MISCUE,                                               \
       "offset at which the tip slips off the ball; 0: 1")                                         \
@@ -115,14 +115,14 @@
   ROW(follow, "follow", "m", 0, 1, NAN, CUE_FOLLOW,                                               \
       "how far the cue goes on after it has touched the ball; 0: it stops")
 
-#define CAROM_TABLE_NUMBERS(ROW, LATER)                                            \
-  LATER(width, "w", "m", 0, DBL_MAX, NAN, NONE, "width, for racks and drawings")   \
-  LATER(length, "l", "m", 0, DBL_MAX, NAN, NONE, "length, for racks and drawings") \
-  ROW(ball_radius, "ball_radius", "m", 0, DBL_MAX, NAN, TABLE,                     \
-      "radius of the balls for which rails are placed; 0: that of the last ball")  \
-  ROW(rail_width, "rail_width", "m", 0, DBL_MAX, NAN, TABLE,                       \
-      "width of the tops of rails; 0: 0.12")                                       \
-  ROW(pocket_back, "pocket_back", "m", 0, DBL_MAX, NAN, TABLE,                     \
+#define CAROM_TABLE_NUMBERS(ROW, LATER)                                           \
+  ROW(width, "w", "m", 0, DBL_MAX, NAN, TABLE, "width, for racks and drawings")   \
+  ROW(length, "l", "m", 0, DBL_MAX, NAN, TABLE, "length, for racks and drawings") \
+  ROW(ball_radius, "ball_radius", "m", 0, DBL_MAX, NAN, TABLE,                    \
+      "radius of the balls for which rails are placed; 0: that of the last ball") \
+  ROW(rail_width, "rail_width", "m", 0, DBL_MAX, NAN, TABLE,                      \
+      "width of the tops of rails; 0: 0.12")                                      \
+  ROW(pocket_back, "pocket_back", "m", 0, DBL_MAX, NAN, TABLE,                    \
       "height of the backs of pockets; 0: that of the highest nose")
 
 #define CAROM_MEASURES_NUMBERS(ROW, LATER)                                                         \

@@ -156,6 +156,7 @@ static unsigned sources_of(const carom_shot_options *o) {
 size_t carom_cite(const carom_shot_options *options, char *text, size_t room) {
   static const carom_shot_options usual;
   const carom_shot_options *o = options != NULL ? options : &usual;
+  room = text != NULL ? room : 0;
   if (room > 0)
     text[0] = '\0';
   if (carom_check_shot_options(o) != CAROM_OK)

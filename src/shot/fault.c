@@ -1,6 +1,7 @@
 /* What is at fault in a shot that is refused: of which part, and which of its numbers. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
+#include "table/table.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -117,6 +118,11 @@ carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls
   *fault = (carom_fault){.status = carom_shot_check(t, balls, count, cue, opt, &at)};
   if (fault->status >= 0 || fault->status == CAROM_ERROR_NULL)
     return fault->status;
+
+  if (carom_surplus_of(fault->status) != CAROM_PART_NONE) {
+    fault->part = (carom_part){carom_surplus_of(fault->status), at};
+    return fault->status;
+  }
 
   /* A number outside its range has the range as its text. */
   const carom_shot_ball *ball = at >= 0 && at < count ? &balls[at] : NULL;

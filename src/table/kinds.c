@@ -140,7 +140,7 @@ static bool take_other(carom_game game, carom_shot_cushion cushion, carom_ball_k
     kind->roll_loss = cushion == CAROM_SHOT_CUSHION_MIRROR ? 0.0 : 0.087;
     if (cushion == CAROM_SHOT_CUSHION_EULER)
       cushion = CAROM_SHOT_CUSHION_MATHAVAN;
-    return carom_cushion_start((carom_cushion_model)((int)cushion - 1), kind);
+    return carom_cushion_start((carom_cushion_model)((uint32_t)cushion - 1), kind);
   }
   for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
     const struct model_numbers *row = &others[k];

@@ -38,13 +38,23 @@ static carom_status at(int *where, int index, carom_status status) {
   return status;
 }
 
+static bool has_good_numbers(const carom_table *t) {
+  return carom_is_not_negative(t->width) && carom_is_not_negative(t->length) &&
+         carom_is_not_negative(t->ball_radius) && carom_is_not_negative(t->rail_width) &&
+         carom_is_not_negative(t->pocket_back);
+}
+
 carom_status carom_check_table(const carom_table *t, int *where) {
   *where = -1;
-  if (t->rails < 0 || t->rails > CAROM_RAILS_MOST || t->jaws < 0 || t->jaws > CAROM_JAWS_MOST ||
-      t->pockets < 0 || t->pockets > CAROM_POCKETS_MOST || t->rails + t->jaws < 1)
+  if (t->rails > CAROM_RAILS_MOST)
+    return at(where, CAROM_RAILS_MOST, CAROM_ERROR_RAILS);
+  if (t->jaws > CAROM_JAWS_MOST)
+    return at(where, CAROM_JAWS_MOST, CAROM_ERROR_JAWS);
+  if (t->pockets > CAROM_POCKETS_MOST)
+    return at(where, CAROM_POCKETS_MOST, CAROM_ERROR_POCKETS);
+  if (t->rails < 0 || t->jaws < 0 || t->pockets < 0 || t->rails + t->jaws < 1)
     return CAROM_ERROR_TABLE;
-  if (!carom_is_not_negative(t->ball_radius) || !carom_is_not_negative(t->rail_width) ||
-      !carom_is_not_negative(t->pocket_back))
+  if (!has_good_numbers(t))
     return CAROM_ERROR_TABLE;
   for (int k = 0; k < t->rails; k++)
     if (!good_rail(&t->rail[k]))
@@ -91,6 +101,8 @@ carom_status carom_check_parts(const carom_table *table, double radius, double u
                               &where);
   }
   *part = (carom_part){CAROM_PART_NONE, 0};
+  if (carom_surplus_of(bad) != CAROM_PART_NONE)
+    *part = (carom_part){carom_surplus_of(bad), where};
   /* the checks tell an index alone: they go through rails, jaws and pockets in this order */
   if ((bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT) && where >= 0) {
     const carom_rail *rail = &table->rail[where];

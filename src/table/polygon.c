@@ -68,21 +68,55 @@ static void add_pocket(carom_table *t, const joint *j, double nose, double r, do
       .depth = 0.08};
 }
 
-/* The corners in the order that has the table to the left; false for numbers that are not
- * finite, negative places, edges without length or parts that do not fit into the struct. *twice
- * becomes twice the area, whose sign tells the order. */
-static bool joints_of(const carom_corner *corner, int count, double r, joint *j, double *twice) {
-  double area = 0.0;
-  int jaws = 0, pockets = 0;
+/* Tells which corner is at fault, and beside which other; -1: none. */
+static carom_status blame(carom_table_fault *fault, int corner, int other, carom_status status) {
+  fault->part = (carom_part){CAROM_PART_CORNER, corner};
+  if (other >= 0)
+    fault->other = (carom_part){CAROM_PART_CORNER, other};
+  return status;
+}
+
+/* Checks each corner by itself and with the next one. */
+static carom_status check_corners(const carom_corner *corner, int count, carom_table_fault *fault) {
+  int pockets = 0;
   for (int k = 0; k < count; k++) {
     const carom_corner *a = &corner[k], *b = &corner[(k + 1) % count];
-    if (!(a->x >= 0.0 && a->x < 1e6 && a->y >= 0.0 && a->y < 1e6 && a->mouth >= 0.0 &&
-          a->mouth < 1e6) ||
-        (a->x == b->x && a->y == b->y))
-      return false;
-    area += a->x * b->y - b->x * a->y;
+    if (!(fabs(a->x) < 1e6 && fabs(a->y) < 1e6 && a->mouth >= 0.0 && a->mouth < 1e6))
+      return blame(fault, k, -1, CAROM_ERROR_CORNER);
+    if (a->x == b->x && a->y == b->y)
+      return blame(fault, k, (k + 1) % count, CAROM_ERROR_CORNERS_MEET);
     pockets += a->mouth > 0.0;
+    if (pockets > CAROM_POCKETS_MOST)
+      return blame(fault, k, -1, CAROM_ERROR_POCKETS);
   }
+  return CAROM_OK;
+}
+
+/* Moves the corners so that the least x and y are 0. */
+static void move_to_origin(const carom_corner *from, int count, carom_corner *to) {
+  double x = from[0].x, y = from[0].y;
+  for (int k = 1; k < count; k++) {
+    x = carom_lesser(x, from[k].x);
+    y = carom_lesser(y, from[k].y);
+  }
+  for (int k = 0; k < count; k++)
+    to[k] = (carom_corner){from[k].x - x, from[k].y - y, from[k].mouth};
+}
+
+/* Twice the area, above 0 where the corners go round with the table to the left. */
+static double twice_area_of(const carom_corner *corner, int count) {
+  double area = 0.0;
+  for (int k = 0; k < count; k++) {
+    const carom_corner *a = &corner[k], *b = &corner[(k + 1) % count];
+    area += a->x * b->y - b->x * a->y;
+  }
+  return area;
+}
+
+/* The corners in the order that has the table to the left. */
+static carom_status joints_of(const carom_corner *corner, int count, double r, double area,
+                              joint *j, carom_table_fault *fault) {
+  int jaws = 0;
 
   /* each corner with the directions to its neighbours */
   for (int k = 0; k < count; k++) {
@@ -103,14 +137,23 @@ static bool joints_of(const carom_corner *corner, int count, double r, joint *j,
     j[k].mouth = a->mouth;
     j[k].cut = a->mouth > 0.0 ? (0.5 * a->mouth + r * (1.0 - c)) / s : 0.0;
     jaws += a->mouth > 0.0 ? 2 : j[k].turn < CLEARLY;
+    if (jaws > CAROM_JAWS_MOST)
+      return blame(fault, here, -1, CAROM_ERROR_JAWS);
   }
-  *twice = area;
-  return jaws <= CAROM_JAWS_MOST && pockets <= CAROM_POCKETS_MOST;
+  return CAROM_OK;
 }
 
 /* On which side of the line from a to b a corner is, by the sign. */
 static double side_of(const carom_corner *a, const carom_corner *b, const carom_corner *c) {
   return (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
+}
+
+/* Whether all corners lie on one line. */
+static bool are_in_line(const carom_corner *corner, int count) {
+  for (int k = 2; k < count; k++)
+    if (side_of(&corner[0], &corner[1], &corner[k]) != 0.0)
+      return false;
+  return true;
 }
 
 /* Whether two sides meet that are no neighbours; *first and *second become theirs, each from its
@@ -136,35 +179,65 @@ static bool sides_cross(const carom_corner *corner, int count, int *first, int *
   return false;
 }
 
-carom_status carom_table_polygon(const carom_corner *corner, int count, double nose_height,
+/* The rails from corner to corner, cut short by their mouths and jaws, and what is at the corner
+ * where each begins: a pocket, or a jaw where the corner juts into the table. */
+static carom_status add_sides(const joint *j, int count, double nose_height, double jaw_radius,
+                              double ball_radius, bool turned, carom_table *table,
+                              carom_table_fault *fault) {
+  for (int k = 0; k < count; k++) {
+    const int next = (k + 1) % count;
+    const joint *a = &j[k], *b = &j[next];
+    double u[2], p[2], q[2];
+    if (direction(a->at, b->at, u) <= a->cut + b->cut)
+      return turned ? blame(fault, count - 1 - next, count - 1 - k, CAROM_ERROR_MOUTHS)
+                    : blame(fault, k, next, CAROM_ERROR_MOUTHS);
+    for (int i = 0; i < 2; i++) {
+      p[i] = a->at[i] + a->cut * u[i];
+      q[i] = b->at[i] - b->cut * u[i];
+    }
+    add_rail(table, nose_height, p, q);
+    if (a->mouth > 0.0)
+      add_pocket(table, a, nose_height, jaw_radius, ball_radius);
+    else if (a->turn < CLEARLY)
+      add_jaw(table, nose_height, 0.0, a->at[0], a->at[1]);
+  }
+  return CAROM_OK;
+}
+
+carom_status carom_table_polygon(const carom_corner *given, int count, double nose_height,
                                  double jaw_radius, double ball_radius, carom_table *table,
                                  carom_table_fault *fault) {
-  if (corner == NULL || table == NULL)
+  carom_table_fault unused;
+  if (given == NULL || table == NULL)
     return CAROM_ERROR_NULL;
-  if (fault != NULL)
-    memset(fault, 0, sizeof *fault);
+  fault = fault != NULL ? fault : &unused;
+  memset(fault, 0, sizeof *fault);
   memset(table, 0, sizeof *table);
-
-  joint j[CAROM_RAILS_MOST];
   if (!carom_is_positive(ball_radius))
     return CAROM_ERROR_RADIUS;
   if (!(jaw_radius >= 0.0 && jaw_radius < 1e6))
     return CAROM_ERROR_JAW_RADIUS;
   if (count < 3 || count > CAROM_RAILS_MOST)
     return CAROM_ERROR_CORNERS;
-  double area = 0.0;
+
+  carom_status bad = check_corners(given, count, fault);
+  if (bad != CAROM_OK)
+    return bad;
+  carom_corner corner[CAROM_RAILS_MOST];
+  move_to_origin(given, count, corner);
+  const double area = twice_area_of(corner, count);
+  if (are_in_line(corner, count))
+    return blame(fault, 0, -1, CAROM_ERROR_CORNERS_IN_LINE);
   int first, second;
-  if (!joints_of(corner, count, jaw_radius, j, &area))
-    return CAROM_ERROR_TABLE;
   if (sides_cross(corner, count, &first, &second)) {
-    if (fault != NULL) {
-      fault->part = (carom_part){CAROM_PART_RAIL, first};
-      fault->other = (carom_part){CAROM_PART_RAIL, second};
-    }
+    fault->part = (carom_part){CAROM_PART_RAIL, first};
+    fault->other = (carom_part){CAROM_PART_RAIL, second};
     return CAROM_ERROR_SIDES_CROSS;
   }
-  if (area == 0.0)
-    return CAROM_ERROR_TABLE;
+  joint j[CAROM_RAILS_MOST];
+  bad = joints_of(corner, count, jaw_radius, area, j, fault);
+  if (bad != CAROM_OK)
+    return bad;
 
   /* the playing area reaches as far as the corners */
   table->ball_radius = ball_radius;
@@ -172,23 +245,8 @@ carom_status carom_table_polygon(const carom_corner *corner, int count, double n
     table->width = carom_greater(table->width, corner[k].x);
     table->length = carom_greater(table->length, corner[k].y);
   }
-  for (int k = 0; k < count; k++) {
-    /* a rail from corner to corner, cut short by their mouths and jaws */
-    const joint *a = &j[k], *b = &j[(k + 1) % count];
-    double u[2], p[2], q[2];
-    if (direction(a->at, b->at, u) <= a->cut + b->cut)
-      return CAROM_ERROR_TABLE;
-    for (int i = 0; i < 2; i++) {
-      p[i] = a->at[i] + a->cut * u[i];
-      q[i] = b->at[i] - b->cut * u[i];
-    }
-
-    /* and the corner where it begins: a pocket, or a jaw where the corner juts into the table */
-    add_rail(table, nose_height, p, q);
-    if (a->mouth > 0.0)
-      add_pocket(table, a, nose_height, jaw_radius, ball_radius);
-    else if (a->turn < CLEARLY)
-      add_jaw(table, nose_height, 0.0, a->at[0], a->at[1]);
-  }
+  bad = add_sides(j, count, nose_height, jaw_radius, ball_radius, area < 0.0, table, fault);
+  if (bad != CAROM_OK)
+    return bad;
   return carom_table_check(table, ball_radius, fault);
 }

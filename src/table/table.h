@@ -117,4 +117,18 @@ bool carom_beside_longest(const carom_table *table, const carom_features *featur
 /* Whether a place is outside, as above, by the parts of the table alone: some microseconds. */
 bool carom_is_cut_off(const carom_ground *ground, const double r[2]);
 
+/* The kind of part of which a table has too many, by the error; NONE for other errors. */
+static inline carom_part_kind carom_surplus_of(carom_status bad) {
+  switch (bad) {
+  case CAROM_ERROR_RAILS:
+    return CAROM_PART_RAIL;
+  case CAROM_ERROR_JAWS:
+    return CAROM_PART_JAW;
+  case CAROM_ERROR_POCKETS:
+    return CAROM_PART_POCKET;
+  default:
+    return CAROM_PART_NONE;
+  }
+}
+
 #endif

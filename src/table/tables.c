@@ -180,7 +180,7 @@ carom_status carom_table_measures(carom_table_kind kind, carom_measures *measure
   if (measures == NULL)
     return CAROM_ERROR_NULL;
   if ((uint32_t)kind >= sizeof built_in / sizeof *built_in)
-    return CAROM_ERROR_TABLE;
+    return CAROM_ERROR_TABLE_KIND;
   *measures = built_in[kind];
   return CAROM_OK;
 }

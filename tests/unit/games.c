@@ -471,16 +471,71 @@ TEST(polygon_tables) {
   ck_assert_int_eq(carom_table_polygon(pool, 6, 0.2, r, R, &t, NULL), CAROM_ERROR_NOSE_HEIGHT);
   ck_assert_int_eq(carom_table_polygon(pool, 6, 0.0366, r, NAN, &t, NULL), CAROM_ERROR_RADIUS);
   ck_assert_int_eq(carom_table_polygon(NULL, 6, 0.0366, r, R, &t, NULL), CAROM_ERROR_NULL);
-  /* a place below 0, or not finite; mouths that meet; twice a place */
-  for (int k = 0; k < 4; k++) {
-    memcpy(other, pool, sizeof other);
-    if (k < 2)
-      other[1].y = k == 0 ? -0.1 : NAN;
-    else if (k == 2)
-      other[1].mouth = 2.0;
-    else
-      other[2] = other[1];
-    ck_assert_int_eq(carom_table_polygon(other, 6, 0.0366, r, R, &t, NULL), CAROM_ERROR_TABLE);
+}
+
+/* Each fault of a polygon has a status of its own, and names its corners. */
+TEST(faults_of_polygons) {
+  static const double R = 0.028575, r = 0.01;
+  static const carom_corner square[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}},
+                            line[3] = {{0, 0, 0}, {1, 1, 0}, {3, 3, 0}};
+  carom_table t;
+  carom_table_fault fault;
+  const struct {
+    int at;
+    carom_corner corner;
+    carom_status status;
+    int first, second; /* -1: none */
+  } wrong[] = {{1, {NAN, 0, 0}, CAROM_ERROR_CORNER, 1, -1},
+               {2, {2, 2e6, 0}, CAROM_ERROR_CORNER, 2, -1},
+               {3, {0, 2, -0.1}, CAROM_ERROR_CORNER, 3, -1},
+               {2, {2, 0, 0}, CAROM_ERROR_CORNERS_MEET, 1, 2},
+               {3, {0, 2, 4.0}, CAROM_ERROR_MOUTHS, 2, 3}};
+  for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++)
+    for (int turned = 0; turned < 2; turned++) {
+      /* the same corners the other way round, in which a fault has another place */
+      carom_corner corner[4];
+      for (int n = 0; n < 4; n++)
+        corner[turned ? 3 - n : n] = n == wrong[k].at ? wrong[k].corner : square[n];
+      ck_assert_int_eq(carom_table_polygon(corner, 4, 0.0366, r, R, &t, &fault), wrong[k].status);
+      ck_assert_int_eq(fault.part.kind, CAROM_PART_CORNER);
+      if (turned)
+        continue;
+      ck_assert_int_eq(fault.part.index, wrong[k].first);
+      ck_assert_int_eq(fault.other.kind, wrong[k].second < 0 ? CAROM_PART_NONE : CAROM_PART_CORNER);
+      ck_assert(wrong[k].second < 0 || fault.other.index == wrong[k].second);
+    }
+  ck_assert_int_eq(carom_table_polygon(line, 3, 0.0366, r, R, &t, &fault),
+                   CAROM_ERROR_CORNERS_IN_LINE);
+
+  /* the ninth pocket, and the jaws of a star */
+  carom_corner round[32];
+  for (int k = 0; k < 32; k++) {
+    const double way = 6.283185307179586 * k / 32.0, far = k % 2 == 0 ? 3.0 : 1.5;
+    round[k] = (carom_corner){far * cos(way), far * sin(way), 0.0};
+  }
+  for (int k = 0; k < 32; k++)
+    round[k].mouth = k % 2 == 0 && k < 18 ? 0.1 : 0.0;
+  ck_assert_int_eq(carom_table_polygon(round, 32, 0.0366, r, R, &t, &fault), CAROM_ERROR_POCKETS);
+  ck_assert(fault.part.kind == CAROM_PART_CORNER && fault.part.index == 16);
+  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+  t.pockets = 9;
+  ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_POCKETS);
+  ck_assert(fault.part.kind == CAROM_PART_POCKET && fault.part.index == 8);
+}
+
+/* A polygon from any origin is the same table. */
+TEST(polygons_take_any_origin) {
+  static const double R = 0.028575, from[3][2] = {{-1.0, -2.0}, {-8.0, 4.0}, {16.0, 32.0}};
+  static const carom_corner square[4] = {{0, 0, 0.125}, {2, 0, 0}, {2, 4, 0}, {0, 4, 0.125}};
+  carom_table at_origin, t;
+  ck_assert_int_eq(carom_table_polygon(square, 4, 0.0366, 0.01, R, &at_origin, NULL), CAROM_OK);
+  for (int k = 0; k < 3; k++) {
+    carom_corner moved[4];
+    for (int n = 0; n < 4; n++)
+      moved[n] =
+          (carom_corner){square[n].x + from[k][0], square[n].y + from[k][1], square[n].mouth};
+    ck_assert_int_eq(carom_table_polygon(moved, 4, 0.0366, 0.01, R, &t, NULL), CAROM_OK);
+    ck_assert_mem_eq(&t, &at_origin, sizeof t);
   }
 }
 

@@ -86,7 +86,13 @@ def argument_error(
     if name and kind in (lib.CAROM_PART_BALL, lib.CAROM_PART_STATE):
         part = "kind" if kind == lib.CAROM_PART_BALL else "state"
         return _fault(code, f"balls[{index}].{part}", [name], layout[index][part], must)
-    if code in (lib.CAROM_ERROR_TABLE, lib.CAROM_ERROR_NOSE_HEIGHT):
+    if code in (
+        lib.CAROM_ERROR_TABLE,
+        lib.CAROM_ERROR_NOSE_HEIGHT,
+        lib.CAROM_ERROR_RAILS,
+        lib.CAROM_ERROR_JAWS,
+        lib.CAROM_ERROR_POCKETS,
+    ):
         if name and must:
             part = f"table.{_TABLE[kind]}[{index}]" if kind in _TABLE else "table"
             return CaromError(code, f"{part}.{name}", told.value, text=f"it must be {must}")

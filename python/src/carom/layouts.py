@@ -221,11 +221,11 @@ def refuse_table(code: int, fault: Any) -> None:
     if code < 0:
         other = "" if fault.other.kind == lib.CAROM_PART_NONE else f", beside {_part(fault.other)}"
         gap = f", {fault.gap:.4g} m wide" if fault.gap > 0.0 else ""
-        where = (
-            f" (at x = {fault.place[0]:.4g} m, y = {fault.place[1]:.4g} m{gap}{other})"
-            if any(fault.place)
-            else ""
-        )
+        where = ""
+        if any(fault.place):
+            where = f" (at x = {fault.place[0]:.4g} m, y = {fault.place[1]:.4g} m{gap}{other})"
+        elif other:
+            where = other
         raise CaromError(code, _part(fault.part), text=Status(code).text + where)
 
 
@@ -328,8 +328,9 @@ def _part(part: Any) -> str:
         lib.CAROM_PART_RAIL: "table.rails",
         lib.CAROM_PART_JAW: "table.jaws",
         lib.CAROM_PART_POCKET: "table.pockets",
+        lib.CAROM_PART_BALL: "balls",
+        lib.CAROM_PART_CORNER: "corners",
     }
-    names[lib.CAROM_PART_BALL] = "balls"
     return f"{names[part.kind]}[{part.index}]" if part.kind in names else "table"
 
 

@@ -106,13 +106,14 @@ def polygon(
     Parameters
     ----------
     corners : sequence of (x, y) or (x, y, mouth)
-        Places, m, from 0, and the width of a pocket's mouth there, m. Without a mouth there is no
-        pocket. A corner on a straight side makes a side pocket.
+        Places, m, from any origin, and the width of a pocket's mouth there, m. Without a mouth there
+        is no pocket. A corner on a straight side makes a side pocket. The table is moved so that its
+        least x and y are 0.
     nose_height, jaw_radius, ball_radius : float
         Of all noses, of the rounded ends of rails at pockets, and of the balls, m.
 
     Raises CaromError: The table is not closed, its middle has no room for a ball, or a number is
-        out of range; the sentence says where.
+        out of range; its `field` is the corner or the part, and the sentence says where.
     """
     rows = []
     for k, corner in enumerate(
