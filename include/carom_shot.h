@@ -362,7 +362,7 @@ typedef struct carom_pocket {
 
 /* A table: any geometry. Fill the counts and the arrays, or call carom_table_make(). */
 typedef struct carom_table {
-  double width, length; /* m, 0 or more, for drawing and racks. */
+  double width, length; /* m, for drawing and racks. */
   int64_t rails, jaws, pockets;
   carom_rail rail[CAROM_RAILS_MOST];
   carom_jaw jaw[CAROM_JAWS_MOST];

@@ -115,14 +115,14 @@
   ROW(follow, "follow", "m", 0, 1, NAN, CUE_FOLLOW,                                               \
       "how far the cue goes on after it has touched the ball; 0: it stops")
 
-#define CAROM_TABLE_NUMBERS(ROW, LATER)                                           \
-  ROW(width, "w", "m", 0, DBL_MAX, NAN, TABLE, "width, for racks and drawings")   \
-  ROW(length, "l", "m", 0, DBL_MAX, NAN, TABLE, "length, for racks and drawings") \
-  ROW(ball_radius, "ball_radius", "m", 0, DBL_MAX, NAN, TABLE,                    \
-      "radius of the balls for which rails are placed; 0: that of the last ball") \
-  ROW(rail_width, "rail_width", "m", 0, DBL_MAX, NAN, TABLE,                      \
-      "width of the tops of rails; 0: 0.12")                                      \
-  ROW(pocket_back, "pocket_back", "m", 0, DBL_MAX, NAN, TABLE,                    \
+#define CAROM_TABLE_NUMBERS(ROW, LATER)                                                  \
+  ROW(width, "w", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "width, for racks and drawings")   \
+  ROW(length, "l", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "length, for racks and drawings") \
+  ROW(ball_radius, "ball_radius", "m", 0, DBL_MAX, NAN, TABLE,                           \
+      "radius of the balls for which rails are placed; 0: that of the last ball")        \
+  ROW(rail_width, "rail_width", "m", 0, DBL_MAX, NAN, TABLE,                             \
+      "width of the tops of rails; 0: 0.12")                                             \
+  ROW(pocket_back, "pocket_back", "m", 0, DBL_MAX, NAN, TABLE,                           \
       "height of the backs of pockets; 0: that of the highest nose")
 
 #define CAROM_MEASURES_NUMBERS(ROW, LATER)                                                         \

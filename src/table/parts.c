@@ -39,9 +39,8 @@ static carom_status at(int *where, int index, carom_status status) {
 }
 
 static bool has_good_numbers(const carom_table *t) {
-  return carom_is_not_negative(t->width) && carom_is_not_negative(t->length) &&
-         carom_is_not_negative(t->ball_radius) && carom_is_not_negative(t->rail_width) &&
-         carom_is_not_negative(t->pocket_back);
+  return isfinite(t->width) && isfinite(t->length) && carom_is_not_negative(t->ball_radius) &&
+         carom_is_not_negative(t->rail_width) && carom_is_not_negative(t->pocket_back);
 }
 
 carom_status carom_check_table(const carom_table *t, int *where) {
