@@ -221,6 +221,13 @@ static double height_above_cloth(const carom_ball_kind *kind, const carom_ball_s
   return carom_flies(s) ? s->r[2] - kind->radius : (double)0.0;
 }
 
+double carom_freedom_of_pair(const carom_sim *sim, const carom_due *due, const double n[3],
+                             const carom_ball_state *a, const carom_ball_state *b) {
+  const double height = carom_greater(height_above_cloth(sim->layout->kind[due->a], a),
+                                      height_above_cloth(sim->layout->kind[due->b], b));
+  return carom_freedom_of_balls(height, n[2]);
+}
+
 __attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim, const carom_due *due,
                                                          const double n[3], bool in_space,
                                                          carom_ball_state *a, carom_ball_state *b) {
@@ -228,9 +235,7 @@ __attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim, c
     return balls_on_cloth(sim, due, n, a, b);
 
   /* how free of the cloth they are; without friction the cloth takes no part at all */
-  const double height = carom_greater(height_above_cloth(sim->layout->kind[due->a], a),
-                                      height_above_cloth(sim->layout->kind[due->b], b));
-  const double freedom = carom_freedom_of_balls(height, n[2]);
+  const double freedom = carom_freedom_of_pair(sim, due, n, a, b);
   carom_ball_state held[2] = {*a, *b}, *ball[2] = {a, b};
   balls_in_space(sim, due, n, a, b);
   if (freedom >= 1.0 || carom_ball_model_of(sim->opt) == CAROM_BALL_MODEL_MIRROR)

@@ -53,8 +53,8 @@
  * part along the line of centres. A ball that is lifted flies, one that is pressed down lands.
  *
  * PRESSED BY WEIGHT. A ball that lies on another, or on a nose, is pressed by its weight, which
- * does not end as spin does. So a slow contact in space takes energy from the motion of the
- * balls past each other, too, as opposite impulses on both. The cloth takes an impulse that
+ * does not end as spin does. So a slow contact in space takes energy from phi of the motion of
+ * the balls past each other, too, as opposite impulses on both. The cloth takes an impulse that
  * pushes a ball down at once, without a landing. The upper ball hops as it rolls off.
  *
  * ON TOP. Two balls above each other, n_z > 0.7, have s >= 20 mm/s: hops of the upper one are as
@@ -65,6 +65,7 @@
  * as if it had been laid down from 5 um. Energy rises nowhere else, and there by 9 uJ at most.
  * A fall then ends after 130 events in the mean, and after 301 of 2,912 falls at most
  * (tests/physics/air.c). */
+#include "cluster/cluster.h"
 #include "platform/promise.h"
 #include "shot/sim.h"
 
@@ -104,6 +105,7 @@ typedef struct contact {
   carom_ball_state *a, *b;
   double n[3];         /* from a to b, or into the cushion */
   bool in_space;       /* a ball flies, or the radii differ */
+  double freedom;      /* phi, NEAR THE CLOTH */
   bool held_a, held_b; /* the cloth takes the vertical part of an impulse that pushes the ball
                           down */
 } contact;
@@ -153,7 +155,7 @@ static double part_slowly(const contact *c, double s, double m, double closing) 
   double u[3] = {0.0};
   const double there = spin_energy(c->kind_a, c->a) +
                        (c->b != NULL ? spin_energy(c->kind_b, c->b) : 0.0) +
-                       (c->in_space ? passing(c, m, closing, u) : 0.0);
+                       (c->in_space ? c->freedom * passing(c, m, closing, u) : 0.0);
   const double taken = fmin(0.5 * m * (s * s - closing * closing), 0.5 * there);
   if (!(taken > 0.0))
     return fmax(closing, 0.0);
@@ -165,9 +167,10 @@ static double part_slowly(const contact *c, double s, double m, double closing) 
   if (c->b != NULL)
     slow_spin(c->b, share);
   if (c->in_space) {
+    const double of_all = sqrt(1.0 - c->freedom * (1.0 - share * share));
     for (int k = 0; k < 3; k++)
       u[k] /= mobility(c, k);
-    push(c, 1.0 - share, u);
+    push(c, 1.0 - (c->freedom < 1.0 ? of_all : share), u);
   }
   return sqrt(closing * closing + 2.0 * taken / m);
 }
@@ -286,11 +289,14 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_stat
   contact c = {.kind_a = sim->layout->kind[due->a], .a = a, .b = b};
   c.in_space = carom_flies(a);
   carom_contact_normal(sim, due, a, b, c.n);
+  c.freedom = c.in_space ? carom_lesser(carom_freedom_of_height(a->r[2] - c.kind_a->radius), 1.0)
+                         : (double)0.0;
   CAROM_PROMISE(!(fabs(c.n[0] * c.n[0] + c.n[1] * c.n[1] + c.n[2] * c.n[2] - 1.0) > 1e-9));
 
   if (b != NULL) {
     c.kind_b = sim->layout->kind[due->b];
     c.in_space = c.in_space || carom_flies(b) || c.kind_a->radius != c.kind_b->radius;
+    c.freedom = carom_freedom_of_pair(sim, due, c.n, a, b);
     c.held_a = c.in_space && !carom_flies(a) && c.n[2] > 0.0;
     c.held_b = c.in_space && !carom_flies(b) && c.n[2] < 0.0;
   }

@@ -145,6 +145,9 @@ typedef struct carom_nose {
  * a nose with less of the cloth the higher it is. */
 carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3],
                                bool in_space, carom_ball_state *a, carom_ball_state *b);
+/* How free of the cloth a contact of two balls is, phi of cluster/cluster.h. */
+double carom_freedom_of_pair(const carom_sim *sim, const carom_due *due, const double n[3],
+                             const carom_ball_state *a, const carom_ball_state *b);
 carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3],
                                  carom_ball_state *state);
 /* The unit vector from ball a to ball b, in space. A ball on the cloth is at z = R exactly. */
