@@ -451,10 +451,11 @@ typedef struct carom_table_fault {
  * first fault, and may be NULL. In case (5), gap is the distance between the centres of balls that
  * touch the two rails. The check does not look for holes between noses of different heights,
  * through which balls of other radii may pass. Returns CAROM_OK, CAROM_ERROR_NULL,
- * CAROM_ERROR_RADIUS, CAROM_ERROR_TABLE, CAROM_ERROR_RAILS, CAROM_ERROR_JAWS or
- * CAROM_ERROR_POCKETS for too many (the part is the first without room), CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RAIL_LINE,
- * CAROM_ERROR_TABLE_OPEN (with the hole that has to be closed last; CAROM_PART_NONE if there is no
- * ring, or no room for a ball in its middle), or CAROM_ERROR_RAIL_SIDE. */
+ * CAROM_ERROR_RADIUS, CAROM_ERROR_TABLE, CAROM_ERROR_RAILS, CAROM_ERROR_JAWS or CAROM_ERROR_POCKETS
+ * for too many (the part is the first without room), CAROM_ERROR_NOSE_HEIGHT,
+ * CAROM_ERROR_RAIL_LINE, CAROM_ERROR_TABLE_OPEN (with the hole that has to be closed last;
+ * CAROM_PART_NONE if there is no ring, or no room for a ball in its middle), or
+ * CAROM_ERROR_RAIL_SIDE. */
 CAROM_API carom_status carom_table_check(const carom_table *table, double radius,
                                          carom_table_fault *fault);
 
@@ -495,17 +496,18 @@ typedef struct carom_corner {
 } carom_corner;
 
 /* Makes a table from its corners, 3 to CAROM_RAILS_MOST, in the order of a walk around it, in
- * either direction. The table is moved so that its least x and y are 0. nose_height, m, is the height of all noses; jaw_radius, m, the radius of the
- * rounded ends of rails at pockets; ball_radius, m, that of the balls. Rails end where mouths
- * begin. A pocket is a circle as wide as the mouth. It lies behind the mouth, or a little inside it
- * if a ball could otherwise slip past. There must be room for a ball in the middle (width/2,
- * length/2), where width and length are the greatest x and y, or beside the longest rail, as in an
- * L or a U. carom_table_check() checks the result; the status and *fault are those of the check,
- * and *fault may be NULL. Further errors are CAROM_ERROR_CORNERS for the number of corners;
- * CAROM_ERROR_SIDES_CROSS, with the two sides as rails that have the index of the corner where they
- * begin; and these, with the corner as a CAROM_PART_CORNER: CAROM_ERROR_CORNER for a number of it;
- * CAROM_ERROR_CORNERS_MEET and CAROM_ERROR_MOUTHS, with the next corner as fault->other;
- * CAROM_ERROR_POCKETS and CAROM_ERROR_JAWS, with the first corner that has no room for its own; and
+ * either direction. The table is moved so that its least x and y are 0. nose_height, m, is the
+ * height of all noses; jaw_radius, m, the radius of the rounded ends of rails at pockets;
+ * ball_radius, m, that of the balls. Rails end where mouths begin. A pocket is a circle as wide as
+ * the mouth. It lies behind the mouth, or a little inside it if a ball could otherwise slip past.
+ * There must be room for a ball in the middle (width/2, length/2), where width and length are the
+ * greatest x and y, or beside the longest rail, as in an L or a U. carom_table_check() checks the
+ * result; the status and *fault are those of the check, and *fault may be NULL. Further errors are
+ * CAROM_ERROR_CORNERS for the number of corners; CAROM_ERROR_SIDES_CROSS, with the two sides as
+ * rails that have the index of the corner where they begin; and these, with the corner as a
+ * CAROM_PART_CORNER: CAROM_ERROR_CORNER for a number of it; CAROM_ERROR_CORNERS_MEET and
+ * CAROM_ERROR_MOUTHS, with the next corner as fault->other; CAROM_ERROR_POCKETS and
+ * CAROM_ERROR_JAWS, with the first corner that has no room for its own; and
  * CAROM_ERROR_CORNERS_IN_LINE, with the first corner. */
 CAROM_API carom_status carom_table_polygon(const carom_corner *corner, int count,
                                            double nose_height, double jaw_radius,

@@ -81,10 +81,10 @@ typedef struct carom_rating {
 
 /* Estimates the rating of a player, 300 to 850, from games. A player with rating r beats one with
  * rating d with odds of 2^((r - d)/100) : 1. Before the first game, ratings have a normal
- * distribution around 400 with a standard deviation of 150, cut at 300 and 850; so without games the
- * mean is 463. Returns CAROM_OK; CAROM_ERROR_NULL; or CAROM_ERROR_SCORE for a score or a negative
- * count, with rating->row, which is -1 for the count, and NaN for the numbers. It takes about 0.1 ms a row, for any
- * number of games. */
+ * distribution around 400 with a standard deviation of 150, cut at 300 and 850; so without games
+ * the mean is 463. Returns CAROM_OK; CAROM_ERROR_NULL; or CAROM_ERROR_SCORE for a score or a
+ * negative count, with rating->row, which is -1 for the count, and NaN for the numbers. It takes
+ * about 0.1 ms a row, for any number of games. */
 CAROM_API carom_status carom_rating_of(const carom_score *scores, int64_t count,
                                        carom_rating *rating);
 
