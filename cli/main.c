@@ -11,6 +11,7 @@ int main(int argc, char **argv) {
       {"plan", "the shots that win most often from a layout", command_plan},
       {"ways", "the ways to pot a ball, or to score in three-cushion", command_ways},
       {"break", "what comes of many breaks of a rack", command_break},
+      {"calibrate", "the cushion of your table, by three banks", command_calibrate},
       {"models", "models, their words and their numbers", command_models},
       {"record", "play shots and record them, with a hash of their bits", command_record},
       {"replay", "play a recording again", command_replay},

@@ -6,6 +6,7 @@ int command_resolve(int argc, char **argv);
 int command_hit(int argc, char **argv);
 int command_rail(int argc, char **argv);
 int command_shoot(int argc, char **argv);
+int command_calibrate(int argc, char **argv);
 int command_models(int argc, char **argv);
 int command_record(int argc, char **argv);
 int command_replay(int argc, char **argv);

@@ -1172,6 +1172,40 @@ CAROM_API carom_status carom_shot_fault(const carom_table *table, const carom_sh
 CAROM_API int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind,
                                    const carom_shot_options *options);
 
+/* ---- The cushion of a table, by three banks that a player reads ------------------------------ */
+
+enum { CAROM_BANKS = 3 };
+
+/* A bank: the ball lies on the line from behind the corner x = 0, y = 0 through a sight of the rail
+ * x = width, 0.35 m from the rail x = 0, and is played along it without english. Sights are
+ * counted from the corner, 8 to the length of a table; they, and the corner, are taken 94 mm behind
+ * the noses. It is read where the ball touches the rail x = 0 again. */
+typedef struct carom_bank {
+  double aim;   /* the sight */
+  double speed; /* of the ball, m/s */
+  double roll;  /* 1: it rolls at once; 0: it slides, hit at its centre */
+} carom_bank;
+
+/* Bank number 0, 1 or 2. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_POSITION for another number. */
+CAROM_API carom_status carom_bank_of(int bank, carom_bank *out);
+
+/* What three readings tell. */
+typedef struct carom_calibration {
+  double restitution, friction; /* of the cushion: restitution_cushion and mu_cushion of balls */
+  double restitution_error, friction_error; /* their standard deviations: what readings, wrong by 25
+                                   mm, leave of 0.05 and 0.06 */
+  double comes_back[CAROM_BANKS]; /* where the banks come back with these numbers, in sights */
+  double misfit; /* of the readings, rms, over 25 mm; above 2: one is misread, or a speed wrong */
+} carom_calibration;
+
+/* Finds the numbers of a table's cushion for a ball, whose own are the most probable before it is
+ * played. `reading` are CAROM_BANKS sights, above 0 and below 8; NULL: nothing is found, and
+ * comes_back is that of the ball. CAROM_OK, CAROM_ERROR_NULL, CAROM_ERROR_POSITION for another
+ * reading or where a bank does not come back, or what carom_shoot() returns. It takes some 450
+ * shots of one ball. docs/using/calibrate.md shows how to play the banks. */
+CAROM_API carom_status carom_calibrate(const carom_table *table, const carom_ball_kind *ball,
+                                       const double *reading, carom_calibration *out);
+
 /* The start of a fit of recorded shots for a model of the cushion: writes the restitution_cushion,
  * mu_cushion and nose_height that the model needs for single impacts on the table of
  * CAROM_GAME_BILLIARD, and returns 1. Returns 0 and writes nothing if the model has no such

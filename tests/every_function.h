@@ -186,6 +186,26 @@ EVERY_BODY(ball_kind_for) {
     }
   return h;
 }
+EVERY_BODY(bank_of) {
+  carom_bank bank = {0};
+  for (int k = -1; k <= CAROM_BANKS; k++) {
+    const carom_status status = carom_bank_of(k, &bank);
+    HASH(status);
+    HASH(bank);
+  }
+  return h;
+}
+
+EVERY_BODY(calibrate) {
+  static const double reading[CAROM_BANKS] = {4.8, 5.1, 6.8};
+  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  carom_calibration found;
+  const carom_status status = carom_calibrate(&in->table, &kind, reading, &found);
+  HASH(status);
+  HASH(found);
+  return h;
+}
+
 EVERY_BODY(cushion_start) {
   carom_ball_kind kind = {.mass = carom_cushion_start(CAROM_CUSHION_EULER, NULL)};
   for (int model = 0; carom_cushion_model_name((carom_cushion_model)model) != NULL; model++) {
@@ -605,7 +625,8 @@ EVERY_BODY(record_settle) {
 
 /* clang-format off */
 #define EVERY_ONE(F) \
-  F(alciatore) F(ball_fault) F(ball_kind_for) F(ball_kind_of) F(check) F(cite) F(collide) \
+  F(alciatore) F(ball_fault) F(ball_kind_for) F(ball_kind_of) F(bank_of) F(calibrate) \
+  F(check) F(cite) F(collide) \
   F(cluster) F(collide_batch) \
   F(collide_batch_f32) F(collide_detail) F(collide_tangent) F(cue_of) F(cushion) \
   F(cushion_batch) F(cushion_check) F(cushion_field_name) F(cushion_model_name) F(cushion_start) \

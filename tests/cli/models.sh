@@ -17,7 +17,7 @@ reaches han 0.2 restitution_log=-0.1
 reaches han 0.2 mu_log=0.2
 for one in 0.2,smooth_x=1.3,smooth_t=1.2 0.35,smooth_x=1,smooth_t=1.2 0.35,smooth_x=1.3,smooth_t=1 0.35,smooth_x=1.3,smooth_t=1.2,smooth_a=0.9 \
   0.35,smooth_x=1.3,smooth_t=1.2,smooth_k=0.9; do reaches smooth 0.2 smooth_q=$one; done
-try carom rail --with smooth_q=0.2
+try carom rail --model han --with smooth_q=0.2
 try carom rail --with mass=0.2
 try carom rail --with omega=1
 try carom rail --model stronge --with omega_ratio=2

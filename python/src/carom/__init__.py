@@ -1,7 +1,7 @@
 """Billiards, computed: collisions of balls and cushions, whole shots, and millions of any of them.
 
     collisions   impacts, cushion_impacts, collide, cushion, mu_ball, alciatore, Outcome; step by
-                 step: trace, cushion_trace
+                 step: trace, cushion_trace; a table's cushion by three banks: calibrate, Calibration
     layouts      tables, Table, racks, balls, by_number, cue, struck, place_ball
     shots        simulate, simulate_batch, simulate_arrow, resume, Options, ALL_THREADS
     results      Shot, Shots, Features, EventType, Label, Status, CaromError
@@ -37,6 +37,8 @@ from carom.collisions import (
     trace as trace,
 )
 from carom.cushions import (
+    Calibration as Calibration,
+    calibrate as calibrate,
     cushion as cushion,
     cushion_impacts as cushion_impacts,
     cushion_trace as cushion_trace,
@@ -110,6 +112,7 @@ if _TYPE_CHECKING:
 # whole of every name there.
 _OFFERED = [
     "ALL_THREADS",
+    "Calibration",
     "CaromError",
     "EventType",
     "Facts",
@@ -135,6 +138,7 @@ _OFFERED = [
     "alciatore",
     "balls",
     "by_number",
+    "calibrate",
     "chances",
     "cite",
     "collide",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -13,10 +13,13 @@ from carom._carom import ffi, lib
 from carom._described import CushionConvention, CushionLaw, CushionModel, CushionNumbers
 from carom._impacts import CUSHION, Outcome, resolve
 from carom._impacts import trace as follow
-from carom._rows import Array, cached, choice, fill, number, whole, worded
+from carom._rows import Array, as_array, cached, choice, fill, number, pointer, whole, worded
+from carom.status import CaromError
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
+
+    from carom.layouts import Table
 
 _MODELS, _CONVENTIONS, _LAWS = (
     worded("CUSHION_MODEL"),
@@ -215,6 +218,60 @@ def cushion(
     )
     seconds = 1e-5 if model == "mathavan" else 1e-7 * (steps or 1000) if model == "euler" else 1e-7
     return resolve(CUSHION, impacts, options, seconds, threads, out)
+
+
+class Calibration(NamedTuple):
+    """What three banks tell of a table's cushion; `constants` are fields of a ball's kind, which
+    `carom.balls(r, **constants)` takes.
+    """
+
+    constants: dict[str, float]
+    errors: dict[str, float]
+    comes_back: tuple[float, float, float]
+    misfit: float
+
+
+def calibrate(
+    readings: npt.ArrayLike | None, table: Table | None = None, *, game: str = "pool"
+) -> Calibration:
+    """Find restitution and friction of a table's cushions from three banks that were played.
+
+    Parameters
+    ----------
+    readings : array_like, shape (3,), or None
+        Where the three banks of `carom calibrate` came back, in sights from their corner. None:
+        nothing is found, and `comes_back` tells where they come back on the usual table.
+    table : Table, optional
+        Where they were played; by default `carom.tables.pool_9ft()`.
+    game : {"pool", "snooker", "billiard"}
+        Whose ball and cushion are the most probable before.
+
+    Returns a Calibration: the constants and their standard deviations, where the banks come back
+    by them, and the misfit of the readings over 25 mm, which is above 2 where one is misread.
+
+    Raises CaromError: A reading is not above 0 and below 8, or a bank does not come back.
+    """
+    from carom import tables  # a table is made of layouts, which do not know of cushions
+
+    record = (tables.pool_9ft() if table is None else table).record
+    kind = ffi.new(
+        "carom_ball_kind *", lib.carom_ball_kind_of(choice(worded("GAME"), game, "game"))
+    )
+    given, found = ffi.NULL, ffi.new("carom_calibration *")
+    if readings is not None:
+        read = as_array(readings, "readings", np.float64)
+        if read.shape != (3,):
+            raise ValueError(f"readings: three are needed, of shape (3,), not {read.shape}")
+        given = ffi.new("double[3]", read.tolist())
+    code = lib.carom_calibrate(pointer("carom_table[]", record), kind, given, found)
+    if code < 0:
+        raise CaromError(code, "readings", None if readings is None else tuple(read.tolist()))
+    return Calibration(
+        {"restitution_cushion": found.restitution, "mu_cushion": found.friction},
+        {"restitution_cushion": found.restitution_error, "mu_cushion": found.friction_error},
+        tuple(found.comes_back),
+        found.misfit,
+    )
 
 
 def cushion_trace(

@@ -1,0 +1,22 @@
+"""The cushion of a table by three banks."""
+
+import pytest
+
+import carom
+
+
+def test_three_banks():
+    usual = carom.calibrate(None)
+    kind = carom.balls([[0.5, 0.5]])["kind"][0]
+    assert usual.constants["restitution_cushion"] == kind["restitution_cushion"]
+    assert usual.misfit == 0 and all(4 < place < 8 for place in usual.comes_back)
+    same = carom.calibrate(usual.comes_back)
+    assert same.constants["mu_cushion"] == pytest.approx(kind["mu_cushion"], abs=1e-6)
+    lively = carom.calibrate([4.7, 4.8, 6.5], carom.tables.pool_9ft())
+    assert lively.constants["restitution_cushion"] > kind["restitution_cushion"]
+    assert 0 < lively.errors["restitution_cushion"] < 0.05 and lively.misfit < 2
+    carom.balls([[0.5, 0.5]], **lively.constants)
+    with pytest.raises(ValueError, match="of shape"):
+        carom.calibrate([4.7, 4.8])
+    with pytest.raises(carom.CaromError, match="readings"):
+        carom.calibrate([4.7, 4.8, 8.5])

@@ -1,0 +1,83 @@
+/* The cushion of a table by three banks. */
+#include "shot_support.h"
+
+#include <math.h>
+
+static carom_table table;
+static carom_ball_kind usual;
+
+static void set_up(void) {
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  usual = carom_ball_kind_of(CAROM_GAME_POOL);
+}
+
+/* Without readings the banks come back as those of the ball, away from the pockets. */
+TEST(usual_table) {
+  carom_calibration told;
+  static const carom_table_kind kinds[] = {CAROM_TABLE_POOL_7FT, CAROM_TABLE_POOL_8FT,
+                                           CAROM_TABLE_POOL_9FT};
+  set_up();
+  for (int t = 0; t < 3; t++) {
+    carom_table_make(kinds[t], &table);
+    ck_assert_int_eq(carom_calibrate(&table, &usual, NULL, &told), CAROM_OK);
+    ck_assert_double_eq(told.restitution, usual.restitution_cushion);
+    ck_assert_double_eq(told.friction, usual.mu_cushion);
+    for (int k = 0; k < CAROM_BANKS; k++)
+      ck_assert(told.comes_back[k] > 4.5 && told.comes_back[k] < 7.4);
+  }
+}
+
+/* The readings of a table with other numbers tell them: nearer than those of the ball, by the two
+ * deviations that are told, in the mean of 60 tables. */
+TEST(other_tables) {
+  random_source random = {test_seed()};
+  double before = 0.0, after = 0.0, deviations = 0.0;
+  int count = 0;
+  set_up();
+  for (int n = 0; n < 60; n++) {
+    carom_ball_kind kind = usual;
+    carom_calibration truth, found;
+    kind.restitution_cushion = random_between(&random, 0.74, 0.86);
+    kind.mu_cushion = random_between(&random, 0.2, 0.36);
+    const carom_status status = carom_calibrate(&table, &kind, NULL, &truth);
+    ck_assert_int_eq(status, CAROM_OK);
+    if (truth.comes_back[2] > 7.5) /* in the corner pocket */
+      continue;
+    ck_assert_int_eq(carom_calibrate(&table, &usual, truth.comes_back, &found), CAROM_OK);
+    ck_assert(found.misfit < 1.0);
+    ck_assert(found.restitution_error < 0.05 && found.friction_error < 0.06);
+
+    /* in units of what is known before, and of what is told */
+    const double e = found.restitution - kind.restitution_cushion,
+                 mu = found.friction - kind.mu_cushion;
+    before += pow((usual.restitution_cushion - kind.restitution_cushion) / 0.05, 2) +
+              pow((usual.mu_cushion - kind.mu_cushion) / 0.06, 2);
+    after += pow(e / 0.05, 2) + pow(mu / 0.06, 2);
+    deviations += pow(e / found.restitution_error, 2) + pow(mu / found.friction_error, 2);
+    count++;
+  }
+  ck_assert_int_gt(count, 40);
+  ck_assert_msg(after < 0.4 * before, "%g after %g", after, before);
+  ck_assert(deviations < 2.0 * count);
+}
+
+/* A reading that no cushion gives is told by the misfit, or refused. */
+TEST(bad_readings) {
+  carom_calibration found;
+  carom_bank bank;
+  set_up();
+  const double off[CAROM_BANKS] = {3.0, 5.0, 6.9};
+  ck_assert_int_eq(carom_calibrate(&table, &usual, off, &found), CAROM_OK);
+  ck_assert(found.misfit > 2.0);
+  static const double bad[][CAROM_BANKS] = {{0.0, 5.0, 6.9}, {4.8, 8.0, 6.9}, {4.8, 5.0, NAN}};
+  for (int k = 0; k < 3; k++)
+    ck_assert_int_eq(carom_calibrate(&table, &usual, bad[k], &found), CAROM_ERROR_POSITION);
+  ck_assert_int_eq(carom_calibrate(NULL, &usual, off, &found), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_calibrate(&table, NULL, off, &found), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_calibrate(&table, &usual, off, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_bank_of(CAROM_BANKS, &bank), CAROM_ERROR_POSITION);
+  ck_assert_int_eq(carom_bank_of(-1, &bank), CAROM_ERROR_POSITION);
+  ck_assert_int_eq(carom_bank_of(0, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_bank_of(1, &bank), CAROM_OK);
+  ck_assert(bank.speed > 0.0 && bank.roll == 0.0);
+}
