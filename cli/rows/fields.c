@@ -245,6 +245,23 @@ static const carom_number *number_named(const option_row *row, const char *name,
   return NULL;
 }
 
+/* A fit whose smooth_q is 0 has no smooth law: what it does not say of the law is 0, whatever the
+ * balls of the game have. */
+static void give_no_smooth_law(given_numbers *given) {
+  static const carom_shot_options smooth = {.cushion_model = CAROM_SHOT_CUSHION_SMOOTH};
+  const carom_number *n;
+  bool dropped = false;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
+    if (strcmp(n->name, "smooth_q") == 0)
+      dropped = (given->which >> k & 1) != 0 && given->kind.smooth_q == 0.0;
+    if (!dropped || n->reader != CAROM_READ_BY_CUSHION || (given->which >> k & 1) != 0 ||
+        !carom_number_is_read(n, &given->kind, &smooth))
+      continue;
+    memset((char *)&given->kind + n->offset, 0, sizeof(double));
+    given->which |= (uint64_t)1 << k;
+  }
+}
+
 /* Gives the numbers of a fit, which `python -m carom.fit -o` wrote: constants, radius, cushion. */
 static bool give_fit(const char *path, given_numbers *given) {
   json_error_t error;
@@ -261,6 +278,7 @@ static bool give_fit(const char *path, given_numbers *given) {
   for (int k = 0; model != NULL && carom_word(CAROM_WORDS_CUSHION_MODEL, k) != NULL; k++)
     if (strcmp(carom_word(CAROM_WORDS_CUSHION_MODEL, k), model) == 0)
       given->fitted = (carom_shot_cushion)(k + 1);
+  give_no_smooth_law(given);
   given->of_fit = given->which;
   double *row = given->band[0];
   for (given->bands = 0; given->bands < 8; row = given->band[++given->bands])

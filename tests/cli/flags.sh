@@ -104,7 +104,7 @@ fell = 0
 rail_names = {"3": "left", "6": "left", "15": "right", "12": "right", "18": "foot", "9": "head"}
 for places, ball, pocket, words in (
     ("0.4,1.7", "1", "foot-left", "--tip 0.4,0"), ("0.7,1.9", "1", "foot-right", "--tip -0.3,0.2 --speed 3"), ("1.0,1.15", "1", "side-right", "--speed 1.5"), ("0.3,0.5", "1", "lb", "--tip 0,-0.3"),
-    ("0.9,1.5", "1", "foot-left", "--via right --speed 3"), ("0.9,1.5", "1", "foot-left", "--via right --speed 3 --cushion mathavan"), ("0.9,1.5", "1", "foot-right", "--via right,left --speed 4"), ("0.55,1.3:8=0.4,1.8", "8", "foot-left", "--via 1"), ("0.55,1.3:8=0.4,1.8", "8", "foot-right", "--via 1,left --speed 3"),
+    ("0.9,1.7", "1", "foot-left", "--via right --speed 3"), ("0.9,1.7", "1", "foot-left", "--via right --speed 3 --cushion mathavan"), ("0.8,1.4", "1", "foot-right", "--via right,left --speed 4"), ("0.55,1.3:8=0.4,1.8", "8", "foot-left", "--via 1"), ("0.6,1.3:8=0.4,1.8", "8", "foot-right", "--via 1,left --speed 3"),
     ("1.0,2.2", "1", "foot-left", "--via right,1 --speed 3"),
 ):
     asked = ("--cue", "0.6,0.9" if "via" not in words else "0.6,0.8", "--balls", places, "--pocket", f"{ball}:{pocket}", *words.split())

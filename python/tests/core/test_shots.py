@@ -506,7 +506,7 @@ def test_games_and_terms():
     for game in ("pool", "snooker", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"):
         terms = ("drag", "roll_loss", "law_a", "law_b", "law_c", "nose_height", "omega_ratio")
         given = [name for name in terms if carom.balls(r, game=game)["kind"][name].any()]
-        assert given == (["nose_height"] if game == "snooker" else [])
+        assert given == (["roll_loss", "nose_height"] if game in ("pool", "snooker") else [])
     shots = carom.simulate_batch(table, np.stack([measured, plain]))
     assert shots.time[0] < shots.time[1]
     assert all(
