@@ -42,34 +42,34 @@ typedef struct learned {
 /* Of the games that were played for it; the others have those of one with the same race. */
 static const learned learned_of[] = {
     [CAROM_RULES_EIGHTBALL] =
-        {/* of 23041 strokes: carom-lab learn --rules eightball --racks 6144 --shots 200 --seed 0 */
-         /* log-likelihood of a stroke -0.2725; of one number for all, -0.4080 */
-         .next = {-0.199, -0.956, 1.209, 2.257, 0.391, 0.051, 0.320},
-         /* log-likelihood of a stroke -0.2851; of one number for all, -0.3569 */
-         .later = {1.936, -1.352, -0.278, 0.805},
-         /* log-likelihood of a stroke -0.5482; of one number for all, -0.6064 */
-         .first = {2.654, -1.336, -2.274},
-         .mean = 0.620,
+        {/* of 23001 strokes: carom-lab learn --rules eightball --racks 6144 --shots 200 --seed 0 */
+         /* log-likelihood of a stroke -0.2723; of one number for all, -0.4124 */
+         .next = {-0.351, -0.922, 1.072, 2.570, 0.239, 0.008, 0.371},
+         /* log-likelihood of a stroke -0.2919; of one number for all, -0.3579 */
+         .later = {1.838, -1.253, -0.193, 0.792},
+         /* log-likelihood of a stroke -0.5535; of one number for all, -0.6161 */
+         .first = {2.520, -1.370, -1.846},
+         .mean = 0.624,
          .stretch = 0.9},
     [CAROM_RULES_NINEBALL] =
-        {/* of 19258 strokes: carom-lab learn --rules nineball --racks 6144 --shots 200 --seed 0 */
-         /* log-likelihood of a stroke -0.2791; of one number for all, -0.4510 */
-         .next = {0.066, -1.209, 1.521, 1.521, 0.000, 0.066, 0.000},
-         /* log-likelihood of a stroke -0.1922; of one number for all, -0.2489 */
-         .later = {1.849, -1.561, 0.987, 0.325},
-         /* log-likelihood of a stroke -0.5831; of one number for all, -0.6766 */
-         .first = {1.175, -1.387, 1.824},
-         .mean = 0.734,
+        {/* of 19183 strokes: carom-lab learn --rules nineball --racks 6144 --shots 200 --seed 0 */
+         /* log-likelihood of a stroke -0.2877; of one number for all, -0.4606 */
+         .next = {-0.023, -1.126, 1.574, 1.574, 0.000, -0.023, 0.000},
+         /* log-likelihood of a stroke -0.2096; of one number for all, -0.2677 */
+         .later = {1.769, -1.507, 1.047, 0.210},
+         /* log-likelihood of a stroke -0.5699; of one number for all, -0.6717 */
+         .first = {1.141, -1.421, 2.196},
+         .mean = 0.738,
          .stretch = 1.5},
     [CAROM_RULES_ONEPOCKET] =
-        {/* of 18017 strokes: carom-lab learn --rules onepocket --racks 6144 --shots 200 --seed 0 */
-         /* log-likelihood of a stroke -0.3255; of one number for all, -0.5495 */
-         .next = {-0.678, -0.777, 0.389, 4.047, -0.243, -0.695, -2.111},
-         /* log-likelihood of a stroke -0.3407; of one number for all, -0.4060 */
-         .later = {1.697, -1.283, -0.738, 0.674},
-         /* log-likelihood of a stroke -0.6642; of one number for all, -0.6923 */
-         .first = {0.439, -0.555, -0.731},
-         .mean = 0.154,
+        {/* of 17534 strokes: carom-lab learn --rules onepocket --racks 6144 --shots 200 --seed 0 */
+         /* log-likelihood of a stroke -0.3248; of one number for all, -0.5642 */
+         .next = {-0.883, -0.723, 0.965, 4.184, -0.345, -0.805, -2.275},
+         /* log-likelihood of a stroke -0.3481; of one number for all, -0.4123 */
+         .later = {1.709, -1.237, -0.877, 0.757},
+         /* log-likelihood of a stroke -0.6616; of one number for all, -0.6888 */
+         .first = {0.211, -0.555, -0.329},
+         .mean = 0.155,
          .stretch = 1.6},
     [CAROM_RULES_STRAIGHT] =
         {/* of 19836 strokes: carom-lab learn --rules straight --racks 2048 --shots 200 --seed 0 */
