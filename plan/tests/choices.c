@@ -5,7 +5,7 @@
  * two. Where a change of the method or of the physics is meant to change them, the new hash is
  * the one that this test prints. */
 TEST(golden_choices) {
-  static const uint64_t golden = UINT64_C(0xe0ef1e844b948cd2);
+  static const uint64_t golden = UINT64_C(0xae68beef088f310e);
   uint64_t h = UINT64_C(0xcbf29ce484222325);
   int pots = 0;
   for (int k = 0; k < 20; k++) {
@@ -38,7 +38,7 @@ TEST(golden_choices) {
 }
 
 /* The chances that plans tell are those of the same strokes with other errors: in the mean of 120
- * layouts within 0.02. The shots that chose them tell more. The ball is the same. */
+ * layouts within 0.025. The shots that chose them tell more. The ball is the same. */
 TEST(luck_of_the_choice) {
   enum { LAYOUTS = 120 };
   double more = 0.0, luck = 0.0;
@@ -57,7 +57,7 @@ TEST(luck_of_the_choice) {
     luck += 0.75 * best.error / LAYOUTS;
     edge_free(&memory);
   }
-  ck_assert_msg(fabs(more) < 0.02 && more + luck > 0.02, "told %+.4f more, with luck %+.4f", more,
+  ck_assert_msg(fabs(more) < 0.025 && more + luck > 0.025, "told %+.4f more, with luck %+.4f", more,
                 more + luck);
 }
 
