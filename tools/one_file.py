@@ -236,17 +236,7 @@ def main():
     system = sorted(
         {line.strip() for text in texts.values() for line in SYSTEM.findall(COMMENT.sub("", text))}
     )
-    everywhere = [
-        line
-        for line in system
-        if re.search(
-            r"<(math|stdbool|stddef|stdint|string|float|limits|stdlib|stdio|stdatomic)\.h>", line
-        )
-    ]
-    posix = [
-        line for line in system if re.search(r"<(pthread|sched|signal|unistd|fcntl|time)\.h>", line)
-    ]
-    x86 = [line for line in system if re.search(r"<(cpuid|immintrin|emmintrin)\.h>", line)]
+    everywhere, posix, x86, android = sorted_out(system)
 
     out = [
         f"/* carom {version()} in one file, written by tools/one_file.py. It includes itself; its name must stay. */\n"
@@ -267,6 +257,7 @@ def main():
         + "\n".join(x86)
         + "\n#elif defined(__aarch64__)\n#include <arm_neon.h>\n#endif\n"
     )
+    out.append("#ifdef __ANDROID__\n" + "\n".join(android) + "\n#endif\n")
     out.append("#ifdef __wasm_simd128__\n#include <wasm_simd128.h>\n#endif\n")
     out.append("".join(f'#include "{name}"\n' for name in PUBLIC))
     for name in common:
@@ -345,6 +336,33 @@ def main():
     (folder / "carom.c").write_text("".join(out), encoding="utf-8")
     for name in [*PUBLIC, WRAPPER]:
         (folder / name).write_bytes(HEADERS[name].read_bytes())
+
+
+# The headers of systems and processors, by the condition under which carom.c includes them. Those
+# of `elsewhere` stand in carom.c beside what is made of them.
+SYSTEM_HEADERS = {
+    "everywhere": "math stdbool stddef stdint string float limits stdlib stdio stdatomic",
+    "posix": "pthread sched signal unistd fcntl time",
+    "x86": "cpuid immintrin emmintrin",
+    "android": "sys/auxv",
+    "elsewhere": "arm_neon wasm_simd128",
+}
+
+
+def sorted_out(includes):
+    """The lines of includes by their conditions. A header on no list would be missing on some
+    system only, so it is an error here.
+    """
+    found = {condition: [] for condition in SYSTEM_HEADERS}
+    for line in includes:
+        name = re.search(r"<(.+)\.h>", line)[1]
+        conditions = [key for key, names in SYSTEM_HEADERS.items() if name in names.split()]
+        if not conditions:
+            raise SystemExit(
+                f"tools/one_file.py: {line} is on no list: SYSTEM_HEADERS must say where it is included"
+            )
+        found[conditions[0]].append(line)
+    return [found[key] for key in ("everywhere", "posix", "x86", "android")]
 
 
 KERNEL_MACROS = {
