@@ -786,8 +786,8 @@ typedef struct carom_facts {
                                        them; 0 where it met none, */
   double first_time[2];             /* and when it met them, s. */
   int32_t cushions_after;           /* impacts of all balls on cushions after the first contact. If
-                                       a ball touches a cushion, within 1e-6 m, when the shot
-                                       begins, its impacts on it do not count until it has left the
+                                       a ball touches a cushion, within CAROM_RULES_TOUCH,
+                                       when the shot begins, its impacts on it do not count until it has left the
                                        cushion. */
   uint32_t down;                    /* the set of the balls that fell into a pocket in this shot, */
   uint32_t off;                     /* of those that left the table in this shot, */
@@ -795,8 +795,8 @@ typedef struct carom_facts {
   int32_t pocket[CAROM_BALLS_MOST]; /* the pocket that took each ball in this shot, */
   double pocket_time[CAROM_BALLS_MOST]; /* and when, s. */
   int32_t cushions[CAROM_BALLS_MOST];   /* impacts of each ball on cushions. */
-  uint32_t frozen; /* the set of the balls that touched the cue ball, within 1e-9 m, when it was
-                      struck, */
+  uint32_t frozen;                      /* the set of the balls that touched the cue ball, within
+                      CAROM_RULES_TOUCH, when it was struck, */
   uint32_t pushed; /* and of those that it met before the tip left it: while the tip pushed it, or
                       while the tip touched it again within the push. */
   int32_t touches; /* how often the tip touched the cue ball: 0 without a strike, 1, or 2 and more
@@ -808,14 +808,34 @@ typedef struct carom_facts {
                              within the push, */
   double second_speed;    /* the closing speed of the tip then, m/s, */
   double second_place[2]; /* and the place of the cue ball, m. 0 if there was none. */
+  uint32_t first_set;     /* the set of the balls that the cue ball met first, at one instant: the
+                             first one and those met within CAROM_RULES_INSTANT after it. */
+  uint32_t barred;        /* the set of the balls that may not be met first because of their places.
+                             A referee sets it; a shot leaves it 0. */
+  int32_t order[CAROM_BALLS_MOST]; /* the different balls that the cue ball met, in their order; -1
+                                      behind them. */
+  double first_place[2]; /* m: the place of the cue ball when it met the first ball; 0 if it met
+                            none. */
+  double first_low[2];   /* m: the least x and y of the cue ball at its strike and at its events up
+                            to the first contact, */
+  double first_high[2];  /* m: and the greatest. */
 } carom_facts;
+
+/* m: for the rules, balls and cushions that are nearer than this touch. This is a convention: about
+ * the least gap that an eye of normal acuity (1 minute of arc) sees at 0.3 m. */
+#define CAROM_RULES_TOUCH 0.0001
+
+/* s: for the rules, contacts of the cue ball that are not further apart happen at one instant. This
+ * is a convention: a ball of 10 m/s moves by 0.01 mm in this time. */
+#define CAROM_RULES_INSTANT 0.000001
 
 /* The state of a game for the player at the table. The first number of a pair belongs to this
  * player, the second to the opponent. A game of carom_plan.h reads the members that
  * carom_rules_kind names; the others are 0. */
 typedef struct carom_rules_state {
   int32_t opening;   /* 1: the stroke is a break, else 0. */
-  int32_t group;     /* a carom_group of carom_plan.h, the player's. */
+  int32_t group;     /* a carom_group of carom_plan.h, the player's; in three-cushion 1 + the index
+                        of the player's cue ball. */
   int32_t fouls[2];  /* successive fouls in their last strokes, 0 to 2. */
   int32_t score[2];  /* points, or balls that count, 0 to 1,000,000. The score of a player is score
                         less lost. */

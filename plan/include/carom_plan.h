@@ -152,7 +152,11 @@ typedef struct carom_call {
 } carom_call;
 enum {
   CAROM_CALL_PUSH = -2, /* the stroke is a push-out */
-  CAROM_CALL_PASS = -3  /* the player does not play: the opponent gets the table as it is */
+  CAROM_CALL_PASS = -3, /* the player does not play: the opponent gets the table as it is */
+  CAROM_CALL_RACK = -4, /* the other choices of carom_may, likewise: the player breaks again, */
+  CAROM_CALL_OTHER_RACK = -5, /* the opponent breaks again, */
+  CAROM_CALL_STAY = -6,       /* the cue ball stays where it lies, */
+  CAROM_CALL_SPOT = -7        /* touching balls go to their spots */
 };
 
 /* What the rules let a player do besides a stroke; a sum. */
@@ -160,8 +164,15 @@ typedef enum carom_may {
   CAROM_MAY_PASS = 1,      /* leave the table to the opponent, with the call CAROM_CALL_PASS */
   CAROM_MAY_PUSH = 2,      /* push out, with the call CAROM_CALL_PUSH */
   CAROM_MAY_FREE_BALL = 4, /* name any ball as one that is on */
-  CAROM_MAY_PLACE = 8      /* place the cue ball in the D, where it is after the foul. A player who
-                              passes leaves it in hand */
+  CAROM_MAY_PLACE = 8,     /* place the cue ball in the D, where it is after the foul. A player who
+                                passes leaves it in hand */
+  CAROM_MAY_RACK = 16,     /* have the balls racked and break, with the call CAROM_CALL_RACK */
+  CAROM_MAY_OTHER_RACK = 32, /* have the balls racked and let the opponent break, with the call
+                                CAROM_CALL_OTHER_RACK */
+  CAROM_MAY_STAY = 64,       /* leave the cue ball, which is in hand, where it lies, with the call
+                                CAROM_CALL_STAY */
+  CAROM_MAY_SPOT = 128       /* have the balls that touch put on their spots, with the call
+                                CAROM_CALL_SPOT */
 } carom_may;
 
 /* The group of a player in eight-ball. */
@@ -248,22 +259,28 @@ typedef struct carom_plan_rules {
 
 /* Built-in rules. The index of a ball is its number, and the cue ball is ball 0.
  *
- * EIGHTBALL and NINEBALL are the World Standardized Rules of the WPA (2016), with three exceptions.
- * After a break of eight-ball that is not legal, the opponent has ball in hand. Nobody chooses a
- * new rack, not even if the eight falls. From behind the head string, the cue ball may first hit a
- * ball that is also behind it. */
+ * EIGHTBALL and NINEBALL are the World Standardized Rules of the WPA (2016). From behind the head
+ * string, the cue ball may first hit a ball that is also behind it, unless facts->barred names that
+ * ball, as a carom_match does. */
 typedef enum carom_rules_kind {
   CAROM_RULES_EIGHTBALL = 0,    /* 15 balls; the game is over without the eight. Ball and pocket are
-                                   called. State: opening, group. */
+                                   called. State: opening, group; may, after a break: to have a new
+                                   rack if the break was not legal or the eight fell, and to leave
+                                   the cue ball where it lies after a foul. */
   CAROM_RULES_NINEBALL = 1,     /* 9 balls. The nine wins; without it, the highest ball. State:
                                    opening; fouls: a third one loses; may: to push out just after a
                                    break without a foul, to pass after a push-out. */
   CAROM_RULES_POTTING = 2,      /* a drill for one player, who may pot any ball until a miss or a
                                    foul. */
-  CAROM_RULES_THREECUSHION = 3, /* for one player, who scores a point if the cue ball meets three
-                                   cushions before the second ball. The value of a shot is the
-                                   chance of its point; later strokes are not estimated. The table
-                                   needs no pockets. */
+  CAROM_RULES_THREECUSHION = 3, /* three-cushion, UMB: a player scores a point if the cue ball meets
+                                   three cushions before the second ball. The opening must hit the
+                                   red first. Balls that left the table come back to their spots.
+                                   There is no equalizing inning. The value of a shot is the chance
+                                   of its point; later strokes are not estimated. The table needs no
+                                   pockets. State: opening; group: 1 if ball 0 is the cue ball of
+                                   the player, 2 if ball 1 is, 0 if ball 0 is that of both; score;
+                                   target, 40 to begin with; may: to have the balls that touch the
+                                   cue ball spotted. */
   CAROM_RULES_STRAIGHT = 4,     /* straight pool, 14.1, WPA: 15 balls, of which any may be played;
                                    ball and pocket are called. When one ball is left, the others are
                                    racked again. State: opening; target, 100 to begin with; score,
@@ -356,8 +373,9 @@ typedef struct carom_ruling {
   int32_t hand;   /* 1: the cue ball is in hand. */
   uint32_t on;    /* the set of the balls that the cue ball may hit first in the next stroke. */
   uint32_t put;   /* the set of the balls that are no longer where the shot left them. */
-  int32_t unused; /* 0. */
-  int64_t falls;  /* how many balls fell. */
+  uint32_t touching; /* the set of the balls that touch the cue ball, within CAROM_RULES_TOUCH;
+                        empty if it is in hand. */
+  int64_t falls;     /* how many balls fell. */
   carom_fall fall[CAROM_BALLS_MOST];       /* these balls, in the order in which they fell. */
   carom_facts facts;                       /* of the shot. */
   carom_shot_ball balls[CAROM_BALLS_MOST]; /* the layout of the next stroke, with all balls that

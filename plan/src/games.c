@@ -38,6 +38,10 @@ const carom_rules_about *carom_rules_about_of(carom_rules_kind kind) {
   return (unsigned)kind < GAMES ? &games[kind].about : NULL;
 }
 
+bool carom_has_opening(carom_rules_kind kind) {
+  return (unsigned)kind < GAMES && (games[kind].members & OPENING) != 0;
+}
+
 carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
   const int k = (unsigned)kind < GAMES ? (int)kind : CAROM_RULES_EIGHTBALL;
   carom_plan_rules rules = *games[k].rules;

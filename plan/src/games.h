@@ -12,13 +12,14 @@
 
 #define CAROM_GAMES(GAME)                                                                         \
   GAME(EIGHTBALL, carom_eightball, "eightball", "eight-ball by the WPA", POOL, EIGHTBALL, 15,     \
-       KITCHEN, HAND, 1, OPENING | GROUP, 0)                                                      \
+       KITCHEN, HAND, 1, OPENING | GROUP | MAY,                                                   \
+       CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK | CAROM_MAY_STAY)                                    \
   GAME(NINEBALL, carom_nineball, "nineball", "nine-ball by the WPA", POOL, NINEBALL, 9, KITCHEN,  \
        HAND, 0, OPENING | FOULS | MAY, CAROM_MAY_PASS | CAROM_MAY_PUSH)                           \
   GAME(POTTING, carom_potting, "potting", "a drill: all balls count", POOL, EIGHTBALL, 0, HAND,   \
        HAND, 0, NO_MEMBER, 0)                                                                     \
   GAME(THREECUSHION, carom_threecushion, "threecushion", "three-cushion", BILLIARD, THREECUSHION, \
-       0, AFTER, AFTER, 0, NO_MEMBER, 0)                                                          \
+       0, AFTER, AFTER, 0, OPENING | GROUP | SCORE | TARGET | MAY, CAROM_MAY_SPOT)                \
   GAME(STRAIGHT, carom_straight, "straight", "straight pool by the WPA", POOL, EIGHTBALL, 15,     \
        KITCHEN, KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY | TARGET, CAROM_MAY_PASS)        \
   GAME(SNOOKER, carom_snooker, "snooker", "snooker by the WPBSA", SNOOKER, SNOOKER, 21, D, D, 1,  \

@@ -114,10 +114,31 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
   /* who plays next, and how */
   ruling->hand = ruling->turn.leave >= CAROM_LEAVE_HAND ? 1 : 0;
   name_players(ruling);
+  if (ruling->hand == 0)
+    ruling->touching = carom_touching(ruling->balls, count, cue_ball);
   if (ruling->next >= 0 && rules->on != NULL)
     ruling->on =
         rules->on(&ruling->state, in_play(ruling->balls, count) & ~(UINT32_C(1) << cue_ball));
   return status;
+}
+
+/* What the next player may do besides a stroke, in words, each behind "; ". */
+static void write_choices(int32_t may, char *text, size_t room) {
+  static const struct {
+    int32_t may;
+    const char *words;
+  } choices[] = {{CAROM_MAY_PASS, "may pass"},
+                 {CAROM_MAY_PUSH, "may push out"},
+                 {CAROM_MAY_FREE_BALL, "has a free ball"},
+                 {CAROM_MAY_RACK, "may have the balls racked and break"},
+                 {CAROM_MAY_OTHER_RACK, "may have the balls racked for the other"},
+                 {CAROM_MAY_STAY, "may leave the cue ball where it lies"},
+                 {CAROM_MAY_SPOT, "may have the touching balls spotted"}};
+  size_t at = 0;
+  text[0] = '\0';
+  for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
+    if ((may & choices[k].may) != 0)
+      at += (size_t)snprintf(text + at, room - at, "; %s", choices[k].words);
 }
 
 size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) {
@@ -129,13 +150,11 @@ size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) 
       (uint32_t)ruling->turn.leave > CAROM_LEAVE_D)
     return 0;
   const bool foul = ruling->turn.foul != CAROM_FOUL_NONE;
-  const int32_t permissions = ruling->next >= 0 ? ruling->state.may : 0;
+  char choices[200];
+  write_choices(ruling->next >= 0 ? ruling->state.may : 0, choices, sizeof choices);
   const int size =
-      snprintf(text, text != NULL ? room : 0, "%s%s%s%s%s%s%s%s", foul ? "foul: " : "",
+      snprintf(text, text != NULL ? room : 0, "%s%s%s%s%s%s", foul ? "foul: " : "",
                carom_foul_string(ruling->turn.foul), foul ? "; " : "", turns[ruling->turn.is],
-               ruling->next >= 0 ? leaves[ruling->turn.leave] : "",
-               permissions & CAROM_MAY_PASS ? "; may pass" : "",
-               permissions & CAROM_MAY_PUSH ? "; may push out" : "",
-               permissions & CAROM_MAY_FREE_BALL ? "; has a free ball" : "");
+               ruling->next >= 0 ? leaves[ruling->turn.leave] : "", choices);
   return size > 0 ? (size_t)size : 0;
 }

@@ -156,7 +156,8 @@ void carom_search_lay_out(search *plan, const carom_shot_ball *balls) {
 static void spread(const search *plan, shot_result *with) {
   carom_facts *f = &with->facts;
   const carom_facts of_shot = *f;
-  uint32_t *const set[] = {&f->down, &f->off, &f->moved, &f->frozen, &f->pushed, &f->banked};
+  uint32_t *const set[] = {&f->down,   &f->off,    &f->moved,    &f->frozen,
+                           &f->pushed, &f->banked, &f->first_set};
   for (int s = 0; s < (int)(sizeof set / sizeof set[0]); s++) {
     uint32_t all = 0;
     for (int n = 0; n < plan->plays; n++)
@@ -165,6 +166,8 @@ static void spread(const search *plan, shot_result *with) {
   }
   for (int n = 0; n < 2; n++)
     f->first[n] = f->first[n] < 0 ? f->first[n] : plan->which[f->first[n]];
+  for (int m = 0; m < plan->plays; m++)
+    f->order[m] = f->order[m] < 0 ? f->order[m] : plan->which[f->order[m]];
   int n = plan->plays - 1;
   for (int k = plan->view.count - 1; k >= 0; k--) {
     const bool plays = n >= 0 && plan->which[n] == k;

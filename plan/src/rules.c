@@ -8,7 +8,7 @@
 
 enum { FOULS_MOST = 3 };
 enum { OPEN = CAROM_GROUP_OPEN, SOLIDS = CAROM_GROUP_SOLIDS, STRIPES = CAROM_GROUP_STRIPES };
-static const uint32_t balls_of[] = {0xfefe, 0xfe, 0xfe00}, eight = 0x100, nine = 0x200;
+static const uint32_t balls_of[] = {0xfefe, 0xfe, 0xfe00}, eight = 0x100;
 
 static const carom_turn win = {CAROM_TURN_WIN, CAROM_LEAVE_AFTER, 0, 0, 0.0};
 
@@ -52,28 +52,64 @@ static carom_turn give(carom_rules_state *game, carom_turn turn) {
   return turn;
 }
 
-/* The turn after an opening break: nothing is called. */
-static carom_turn turn_of_break(const carom_facts *facts, int cue_ball, int32_t foul) {
-  if (foul != CAROM_FOUL_NONE)
-    return foul_for(foul);
-  if (!carom_is_break(facts, cue_ball))
-    return foul_for(CAROM_FOUL_BREAK);
-  return (facts->down & 0xfffe) != 0 ? carom_keep : carom_pass;
+/* The break, by the WPA, 3.3: nothing is called, the eight comes back, and the table is open. */
+static carom_turn eightball_break(carom_rules_state *game, const carom_facts *facts, int cue_ball,
+                                  int32_t foul) {
+  const uint32_t eight_gone = (facts->down | facts->off) & eight;
+  const bool cue_ball_gone = (facts->down | facts->off) >> cue_ball & 1;
+  carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, eight_gone, 0.0};
+  game->may = eight_gone != 0 ? CAROM_MAY_RACK : 0;
+
+  /* a foul: the other has the cue ball behind the head string, or leaves it where it lies */
+  if (foul != CAROM_FOUL_NONE) {
+    turn.leave = CAROM_LEAVE_KITCHEN;
+    game->may |= cue_ball_gone ? 0 : CAROM_MAY_STAY;
+    return turn;
+  }
+
+  /* a break that is not legal is no foul: the other has the table as it is, or a new rack */
+  if (!carom_is_break(facts, cue_ball)) {
+    turn.foul = CAROM_FOUL_BREAK;
+    game->may = CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK;
+    return turn;
+  }
+  turn.is = (facts->down & 0xfffe) != 0 ? CAROM_TURN_KEEP : CAROM_TURN_PASS;
+  return turn;
+}
+
+/* A choice after a break, which the state allows. False of any other call. */
+static bool eightball_chooses(carom_rules_state *game, int32_t call, carom_turn *turn) {
+  static const struct {
+    int32_t call, may;
+  } choices[] = {{CAROM_CALL_RACK, CAROM_MAY_RACK},
+                 {CAROM_CALL_OTHER_RACK, CAROM_MAY_OTHER_RACK},
+                 {CAROM_CALL_STAY, CAROM_MAY_STAY}};
+  bool chosen = false;
+  for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
+    chosen |= call == choices[k].call && (game->may & choices[k].may) != 0;
+  if (!chosen)
+    return false;
+  *turn = call == CAROM_CALL_OTHER_RACK ? carom_pass : carom_keep;
+  game->may = 0;
+  if (call != CAROM_CALL_STAY) {
+    game->opening = 1;
+    turn->leave = CAROM_LEAVE_KITCHEN;
+    turn->spot = 0xfffe;
+  }
+  return true;
 }
 
 static carom_turn eightball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                   const carom_facts *facts, carom_call call) {
+  carom_turn turn;
+  if (eightball_chooses(game, call.ball, &turn))
+    return turn;
   const uint32_t on = eightball_targets(game, in_play);
   const int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
-
-  /* The break: nothing is called, the eight comes back, and the table is open after it. */
-  if (game->opening != 0) {
-    game->opening = 0;
-    carom_turn turn = turn_of_break(facts, cue_ball, foul);
-    turn.leave = foul != 0 ? CAROM_LEAVE_KITCHEN : turn.leave;
-    turn.spot = (facts->down | facts->off) & eight;
-    return turn;
-  }
+  const bool opening = game->opening != 0;
+  game->opening = game->may = 0;
+  if (opening)
+    return eightball_break(game, facts, cue_ball, foul);
 
   /* The eight wins as the last ball, in the pocket that was called, without a foul. */
   const bool called = carom_is_called(facts, call);
@@ -97,7 +133,9 @@ const carom_plan_rules carom_eightball = {.on = eightball_on,
                                           .left = eightball_left,
                                           .race = CAROM_RACE_OWN,
                                           .first_decides = 1,
-                                          .breaks = 1};
+                                          .breaks = 1,
+                                          .settle = carom_settle_rack,
+                                          .rack = CAROM_RACK_EIGHTBALL};
 
 /* ---- Nine-ball */
 
@@ -110,6 +148,14 @@ static uint32_t nineball_on(const carom_rules_state *game, uint32_t in_play) {
 static void nineball_left(const carom_rules_state *game, uint32_t in_play, int32_t left[2]) {
   (void)game;
   left[0] = left[1] = carom_count_of(in_play & 0x3fe);
+}
+
+/* The highest ball of a set, as a set. */
+static uint32_t highest_of(uint32_t balls) {
+  uint32_t highest = 0;
+  for (; balls != 0; balls &= balls - 1)
+    highest = balls & (~balls + 1);
+  return highest;
 }
 
 /* The foul of a push-out, which may meet any ball or none, and needs no cushion; not that the cue
@@ -129,6 +175,10 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
   if (passes)
     return carom_give(game, carom_pass);
 
+  /* the nine wins, or the highest ball of a game without it; it comes back after a foul or a
+   * push-out */
+  const uint32_t balls = in_play & 0x3fe, wins = highest_of(balls);
+
   /* the foul, of a push-out or of another stroke */
   int32_t foul = (int32_t)carom_foul_of(facts, nineball_on(game, in_play), cue_ball);
   if (pushes && foul != CAROM_FOUL_CUE_BALL)
@@ -137,25 +187,25 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
     foul = CAROM_FOUL_BREAK;
   if (foul != CAROM_FOUL_NONE) {
     carom_turn turn = foul_for(foul);
-    turn.spot = (facts->down | facts->off) & nine;
+    turn.spot = (facts->down | facts->off) & wins;
     carom_add(&game->fouls[0], 1);
-    turn.is = game->fouls[0] >= FOULS_MOST ? CAROM_TURN_LOSE : turn.is;
+    if (game->fouls[0] < FOULS_MOST)
+      return carom_give(game, turn);
+    game->fouls[0] = 0;
+    turn.is = CAROM_TURN_LOSE;
     return carom_give(game, turn);
   }
   if (pushes) {
     carom_turn turn = carom_pass;
-    turn.spot = facts->down & nine;
+    turn.spot = facts->down & wins;
     game->may = CAROM_MAY_PASS;
     return carom_give(game, turn);
   }
 
-  /* The nine wins, or the highest ball in games that do not put the nine back. A set of balls is
-   * above half of the set that it is from if it has its highest ball. */
-  const uint32_t balls = in_play & 0x3fe;
   game->fouls[0] = 0;
-  game->may = opening ? CAROM_MAY_PUSH : 0;
-  if ((facts->down & balls) > balls >> 1)
+  if ((facts->down & wins) != 0)
     return win;
+  game->may = opening ? CAROM_MAY_PUSH : 0;
   return facts->down != 0 ? carom_keep : carom_give(game, carom_pass);
 }
 
@@ -186,7 +236,8 @@ static carom_turn potting_judge(carom_rules_state *game, uint32_t in_play, int c
   foul = foul == CAROM_FOUL_CUSHION ? CAROM_FOUL_NONE : foul;
   if (foul != CAROM_FOUL_NONE) {
     carom_turn turn = foul_for(foul);
-    turn.points = 0.0;
+    if ((on & ~(facts->down | facts->off)) == 0) /* no ball is left to be played */
+      turn.is = CAROM_TURN_LOSE;
     return turn;
   }
   carom_turn turn = carom_pass;
@@ -201,25 +252,100 @@ const carom_plan_rules carom_potting = {
 
 /* ---- Three-cushion */
 
+enum { WHITE = 0, YELLOW = 1, RED = 2, BALLS_OF_THREE = 3 };
+
+/* The cue ball of the player, by the group; of both ball 0 where there is none. */
+static int cue_ball_of(const carom_rules_state *game) {
+  return game->group == 2 ? YELLOW : WHITE;
+}
+
+static uint32_t threecushion_on(const carom_rules_state *game, uint32_t in_play) {
+  const uint32_t others = in_play & ~(UINT32_C(1) << cue_ball_of(game));
+  return game->opening != 0 ? others & UINT32_C(1) << RED : others;
+}
+
 static void threecushion_left(const carom_rules_state *game, uint32_t in_play, int32_t left[2]) {
   (void)game, (void)in_play;
   left[0] = left[1] = 1;
 }
 
+/* The turn goes to the other, who has the other cue ball. */
+static carom_turn threecushion_give(carom_rules_state *game, carom_turn turn) {
+  if (game->group != 0)
+    game->group = 3 - game->group;
+  return carom_give(game, turn);
+}
+
 /* A point: before the cue ball meets the second ball, it meets three cushions. */
 static carom_turn threecushion_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                      const carom_facts *facts, carom_call call) {
-  (void)game, (void)in_play, (void)cue_ball, (void)call;
+  (void)cue_ball;
+  if ((game->may & CAROM_MAY_SPOT) && call.ball == CAROM_CALL_SPOT)
+    return carom_keep; /* settle() spots, and takes the choice back */
+  const uint32_t on = threecushion_on(game, in_play), first = carom_met_first(facts);
+  const bool opening = game->opening != 0;
+  game->opening = game->may = 0;
   int32_t foul = CAROM_FOUL_NONE;
   if (facts->off != 0)
     foul = CAROM_FOUL_OFF;
   else if (facts->pushed != 0 || facts->touches > 1)
     foul = CAROM_FOUL_DOUBLE_HIT;
+  else if (opening && first != 0 && (first & on) == 0)
+    foul = CAROM_FOUL_FIRST;
   if (foul != CAROM_FOUL_NONE || facts->first[1] < 0 || facts->cushions_before[1] < 3)
-    return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, 0, 0.0};
+    return threecushion_give(
+        game, (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, facts->off, 0.0});
   carom_turn turn = carom_keep;
   turn.points = 1.0;
+  carom_add(&game->score[0], 1);
+  if (game->score[0] >= game->target)
+    turn.is = CAROM_TURN_WIN;
   return turn;
+}
+
+/* The spots of the UMB: of the red the foot spot, of the cue ball of the player who comes to the
+ * table the head spot, of the other one the centre. */
+static void threecushion_spot(const carom_table *table, int cue_ball, int ball, double at[2]) {
+  at[0] = 0.5 * table->width;
+  at[1] = 0.5 * table->length;
+  if (ball == RED)
+    at[1] = 0.75 * table->length;
+  if (ball == cue_ball)
+    at[1] = 0.25 * table->length;
+}
+
+/* Puts a ball on its spot, or where that is taken on the spot of the ball that is in the way. */
+static void put_on_spot(const carom_table *table, carom_shot_ball *balls, int count, int cue_ball,
+                        int ball) {
+  double at[2];
+  int of = ball;
+  for (int tried = 0; tried < BALLS_OF_THREE; tried++) {
+    carom_part there;
+    threecushion_spot(table, cue_ball, of, at);
+    if (carom_place_ball(table, balls, count, ball, at[0], at[1], &there) == CAROM_OK)
+      return;
+    if (there.kind != CAROM_PART_BALL)
+      return;
+    of = there.index;
+  }
+}
+
+/* Balls that left the table come back; and where the player chose so, those that touch his cue
+ * ball, with it. */
+static void threecushion_settle(carom_rules_state *game, const carom_table *table,
+                                carom_shot_ball *balls, int count, carom_turn *turn) {
+  const int cue_ball = cue_ball_of(game);
+  if (count < BALLS_OF_THREE)
+    return;
+  if ((game->may & CAROM_MAY_SPOT) && turn->is == CAROM_TURN_KEEP)
+    turn->spot = carom_touching(balls, count, cue_ball) | UINT32_C(1) << cue_ball;
+  for (int k = 0; k < BALLS_OF_THREE; k++)
+    if (turn->spot >> k & 1)
+      balls[k].state.label = CAROM_BALL_OFF;
+  for (int k = 0; k < BALLS_OF_THREE; k++)
+    if (turn->spot >> k & 1)
+      put_on_spot(table, balls, count, cue_ball, k);
+  game->may = carom_touching(balls, count, cue_ball) != 0 ? CAROM_MAY_SPOT : 0;
 }
 
 /* What follows is not estimated. */
@@ -229,8 +355,12 @@ static double threecushion_value(const carom_rules_state *game, const carom_ball
   return 0.0;
 }
 
-const carom_plan_rules carom_threecushion = {.on = potting_on,
+/* 40 points, as in the world championship of the UMB. */
+const carom_plan_rules carom_threecushion = {.state = {.target = 40},
+                                             .on = threecushion_on,
                                              .judge = threecushion_judge,
+                                             .settle = threecushion_settle,
                                              .left = threecushion_left,
                                              .value = threecushion_value,
-                                             .race = CAROM_RACE_ALONE};
+                                             .race = CAROM_RACE_ALONE,
+                                             .rack = CAROM_RACK_THREECUSHION};

@@ -22,6 +22,10 @@ static inline double carom_square(const double a[2], const double b[2]) {
 static inline bool carom_is_called(const carom_facts *facts, carom_call call) {
   return call.ball >= 0 && call.ball < CAROM_BALLS_MOST && facts->pocket[call.ball] == call.pocket;
 }
+/* The balls that were met first, at one instant, as a set; 0: none. */
+uint32_t carom_met_first(const carom_facts *facts);
+/* The balls in play that touch a ball for the rules, as a set; 0 of one that is out of play. */
+uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball);
 /* The turn goes to the other: the pairs of the state become his. Any of 15 balls may be met. */
 carom_turn carom_give(carom_rules_state *game, carom_turn turn);
 carom_rules_on carom_on_any;

@@ -1,6 +1,7 @@
 /* What the rulings of all games share: fouls, and balls that are put back. */
 #include "rules.h"
 
+#include <math.h>
 #include <stddef.h>
 
 static void swap(int32_t pair[2]) {
@@ -22,16 +23,39 @@ carom_turn carom_give(carom_rules_state *game, carom_turn turn) {
   return turn;
 }
 
+uint32_t carom_met_first(const carom_facts *facts) {
+  if (facts->first[0] < 0 || facts->first[0] >= CAROM_BALLS_MOST)
+    return 0;
+  return facts->first_set | UINT32_C(1) << facts->first[0];
+}
+
+static bool is_out(const carom_shot_ball *ball) {
+  return ball->state.label == CAROM_BALL_POCKETED || ball->state.label == CAROM_BALL_OFF;
+}
+
+uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball) {
+  uint32_t set = 0;
+  for (int k = 0; k < count && !is_out(&balls[ball]); k++) {
+    const double reach = balls[k].kind.radius + balls[ball].kind.radius + CAROM_RULES_TOUCH;
+    const bool near = carom_square(balls[k].state.r, balls[ball].state.r) < reach * reach;
+    if (k != ball && !is_out(&balls[k]) && near)
+      set |= UINT32_C(1) << k;
+  }
+  return set;
+}
+
+/* Of balls that are met at one instant it is assumed that the one that is on came first (WPA,
+ * regulations for referees, split hits). */
 carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
   if (facts == NULL)
     return CAROM_FOUL_NO_BALL;
-  const int first = facts->first[0];
+  const uint32_t first = carom_met_first(facts);
   const bool is_ball = cue_ball >= 0 && cue_ball < CAROM_BALLS_MOST;
   if (is_ball && ((facts->down | facts->off) >> cue_ball & 1) != 0)
     return CAROM_FOUL_CUE_BALL;
-  if (first < 0 || first >= CAROM_BALLS_MOST)
+  if (first == 0)
     return CAROM_FOUL_NO_BALL;
-  if (!(on >> first & 1))
+  if ((on & ~facts->barred & first) == 0)
     return CAROM_FOUL_FIRST;
   if (facts->off != 0)
     return CAROM_FOUL_OFF;
@@ -59,17 +83,45 @@ const char *carom_foul_string(int foul) {
 
 /* ---- Balls that are put back */
 
+/* How far from a ball another one is put that comes beside it, m: a ball of pool is frozen to an
+ * object ball (WPA 1.4); beside the cue ball, and in snooker (WPBSA, section 3, spotting colours),
+ * it must not touch, so it stands as near as balls that clearly do not. */
+static double room_beside(carom_rack_kind kind, int other) {
+  const bool frozen = kind != CAROM_RACK_SNOOKER && other != 0;
+  return frozen ? 0.0 : 2.0 * CAROM_RULES_TOUCH;
+}
+
+/* Where a ball at x on the long string stands behind another one on a side, y: their centres are
+ * then at least the sum of the radii and a gap apart, by as little as doubles allow. */
+static double beside(const carom_shot_ball *ball, const carom_shot_ball *other, double x, int side,
+                     double gap) {
+  const double both = ball->kind.radius + other->kind.radius + gap;
+  const double across = x - other->state.r[0], at = other->state.r[1];
+  const double y = at + side * sqrt(fmax(both * both - across * across, 0.0));
+  return y + side * 4e-16 * (1.0 + fabs(y));
+}
+
 /* As near to a place as there is room, towards y = length, else away from it. */
-static carom_status put_near(const carom_table *table, carom_shot_ball *balls, int count, int ball,
-                             const double at[2]) {
+static carom_status put_near(carom_rack_kind kind, const carom_table *table, carom_shot_ball *balls,
+                             int count, int ball, const double at[2]) {
   const double step = table->length > 10.0 ? 1e-4 * table->length : 1e-3;
   carom_status status = CAROM_ERROR_OFF_TABLE;
-  for (int side = 1; side >= -1; side -= 2)
-    for (double y = at[1]; y > 0.0 && y < table->length; y += side * step) {
-      status = carom_place_ball(table, balls, count, ball, at[0], y, NULL);
+  for (int side = 1; side >= -1; side -= 2) {
+    double y = at[1];
+    while (y > 0.0 && y < table->length) {
+      carom_part there;
+      status = carom_place_ball(table, balls, count, ball, at[0], y, &there);
       if (status != CAROM_ERROR_OVERLAP && status != CAROM_ERROR_OFF_TABLE)
         return status;
+
+      /* to behind a ball that is there, or past a part of the table */
+      double next = y + side * step;
+      if (status == CAROM_ERROR_OVERLAP && there.kind == CAROM_PART_BALL)
+        next =
+            beside(&balls[ball], &balls[there.index], at[0], side, room_beside(kind, there.index));
+      y = (next - y) * side > 0.0 ? next : y + side * step;
     }
+  }
   return status;
 }
 
@@ -78,7 +130,7 @@ carom_status carom_spot_ball(const carom_table *table, carom_shot_ball *balls, i
   if (table == NULL)
     return CAROM_ERROR_NULL;
   const double foot[2] = {0.5 * table->width, 0.75 * table->length};
-  return put_near(table, balls, count, ball, foot);
+  return put_near(CAROM_RACK_EIGHTBALL, table, balls, count, ball, foot);
 }
 
 carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
@@ -97,7 +149,7 @@ carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
     if (status != CAROM_ERROR_OVERLAP)
       return status;
   }
-  return put_near(table, balls, count, ball, own);
+  return put_near(kind, table, balls, count, ball, own);
 }
 
 carom_status carom_turn_settle(const carom_plan_rules *rules, carom_rules_state *game,

@@ -143,7 +143,12 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   const uint32_t gone = (facts->down | facts->off) & balls;
   const uint32_t wrong = (facts->down & balls & ~to_fall) | (facts->off & balls);
   const bool off_cue = (facts->down | facts->off) >> cue_ball & 1;
-  const bool wrong_first = first >= 0 && !(to_meet >> first & 1);
+  /* two balls at one instant are a foul, but for two reds, and a free ball with a ball on */
+  const uint32_t together = first >= 0 && first == facts->first[0] ? carom_met_first(facts) : 0;
+  const uint32_t met_first = first >= 0 ? together | UINT32_C(1) << first : 0;
+  const uint32_t may_meet = free_ball ? to_meet | due : to_meet;
+  const bool wrong_first =
+      met_first != 0 && ((met_first & to_meet) == 0 || (met_first & ~may_meet) != 0);
   const bool pushes = facts->pushed != 0 || facts->touches > 1;
   int32_t foul = CAROM_FOUL_NONE;
   if (off_cue)
@@ -162,7 +167,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   game->on = 0;
   if (foul != CAROM_FOUL_NONE) {
     int cost = value > LEAST ? value : LEAST;
-    const int by_first = wrong_first ? worth(first) : 0,
+    const int by_first = wrong_first ? highest(met_first) : 0,
               by_fall = highest((wrong | facts->pushed) & ~(free_ball ? its : 0));
     cost = by_first > cost ? by_first : cost;
     cost = by_fall > cost ? by_fall : cost;

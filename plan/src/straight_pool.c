@@ -142,15 +142,19 @@ static void place_at_head(const carom_table *table, carom_shot_ball *balls, int 
   carom_place_ball(table, balls, count, ball, x, y, NULL);
 }
 
-/* Puts the balls of the set in order on the places of the triangle; 14 leave the front one free. */
+/* Puts the balls of the set on the places of the triangle: all 15 as in eight-ball, with the eight
+ * in the middle and unlike balls in the corners; 14 in their order, with the front one free. */
 static void rack_up(const carom_table *table, carom_shot_ball *balls, int count, uint32_t spot,
                     double place[LAST_BALL][2]) {
+  static const int of_place[LAST_BALL] = {1, 9, 2, 10, 8, 3, 11, 7, 14, 4, 5, 13, 15, 6, 12};
   int n = spot == all ? 0 : 1;
-  for (int k = 1; k <= LAST_BALL; k++)
-    if (spot >> k & 1) {
-      carom_place_ball(table, balls, count, k, place[n][0], place[n][1], NULL);
+  for (int k = 1; k <= LAST_BALL; k++) {
+    const int ball = spot == all ? of_place[n] : k;
+    if (spot >> ball & 1) {
+      carom_place_ball(table, balls, count, ball, place[n][0], place[n][1], NULL);
       n++;
     }
+  }
 }
 
 /* Whether balls that come back are racked: 14 or all 15 of them, in straight pool or as a break. */

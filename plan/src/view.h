@@ -137,6 +137,9 @@ uint32_t carom_in_play(const carom_ball_state *balls, int count);
 double carom_points_value(const carom_view *view, const carom_rules_state *game,
                           const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand);
 
+/* games.c: whether a game begins with a break. */
+bool carom_has_opening(carom_rules_kind kind);
+
 /* draws.c: elementary functions beyond platform/elementary.h, and random numbers that are a
  * function of where they stand. */
 /* of a vector, -pi to pi, rad */

@@ -63,11 +63,13 @@ TEST(breaks_of_eightball) {
     uint32_t down;
     int driven, is, leave, foul;
     uint32_t spot;
-  } given[] = {{0, 4, PASS, AFTER, 0, 0},
-               {0, 3, PASS, CAROM_LEAVE_HAND, BREAK, 0},
-               {0x0008, 0, KEEP, AFTER, 0, 0},
-               {0x0100, 0, KEEP, AFTER, 0, 0x0100},
-               {0x0001, 4, PASS, KITCHEN, CUE_BALL, 0}};
+    int may;
+  } given[] = {{0, 4, PASS, AFTER, 0, 0, 0},
+               {0, 3, PASS, AFTER, BREAK, 0, CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK},
+               {0x0008, 0, KEEP, AFTER, 0, 0, 0},
+               {0x0100, 0, KEEP, AFTER, 0, 0x0100, CAROM_MAY_RACK},
+               {0x0101, 0, PASS, KITCHEN, CUE_BALL, 0x0100, CAROM_MAY_RACK},
+               {0x0001, 4, PASS, KITCHEN, CUE_BALL, 0, 0}};
   for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
     carom_facts facts = facts_of(1, given[k].driven, given[k].down, 0);
     for (int i = 1; i <= given[k].driven; i++)
@@ -76,7 +78,7 @@ TEST(breaks_of_eightball) {
     of.state.opening = 1;
     const carom_turn turn = of.judge(&of.state, 0xffff, 0, &facts, (carom_call){-1, -1});
     ruled("break", &turn, given[k].is, given[k].leave, given[k].foul, given[k].spot);
-    ck_assert(of.state.group == 0 && of.state.opening == 0);
+    ck_assert(of.state.group == 0 && of.state.opening == 0 && of.state.may == given[k].may);
   }
 }
 

@@ -179,16 +179,16 @@
   LATER(label, "", "", 0, 6, NAN, LABEL, "how it moves, a carom_label")
 
 /* MEMBER(NAME, member, low, high, range), of carom_rules_state, in its order. */
-#define CAROM_STATE_MEMBERS(MEMBER)                     \
-  MEMBER(OPENING, opening, 0, 1, "0 or 1")              \
-  MEMBER(GROUP, group, 0, 2, "0, 1 or 2")               \
-  MEMBER(FOULS, fouls, 0, 2, "0, 1 or 2")               \
-  MEMBER(SCORE, score, 0, 1000000, "0 to 1000000")      \
-  MEMBER(LOST, lost, 0, 1000000, "0 to 1000000")        \
-  MEMBER(POCKET, pocket, 0, 7, "0 to 7")                \
-  MEMBER(MAY, may, 0, 15, "a sum that the game allows") \
-  MEMBER(ON, on, 0, 1, "0 or 1")                        \
-  MEMBER(FREE_BALL, free_ball, 0, 21, "0 to 21")        \
+#define CAROM_STATE_MEMBERS(MEMBER)                      \
+  MEMBER(OPENING, opening, 0, 1, "0 or 1")               \
+  MEMBER(GROUP, group, 0, 2, "0, 1 or 2")                \
+  MEMBER(FOULS, fouls, 0, 2, "0, 1 or 2")                \
+  MEMBER(SCORE, score, 0, 1000000, "0 to 1000000")       \
+  MEMBER(LOST, lost, 0, 1000000, "0 to 1000000")         \
+  MEMBER(POCKET, pocket, 0, 7, "0 to 7")                 \
+  MEMBER(MAY, may, 0, 255, "a sum that the game allows") \
+  MEMBER(ON, on, 0, 1, "0 or 1")                         \
+  MEMBER(FREE_BALL, free_ball, 0, 21, "0 to 21")         \
   MEMBER(TARGET, target, 1, 1000000, "1 to 1000000")
 
 /* For the rows that are not wanted. */

@@ -21,31 +21,66 @@ static void no_facts(carom_facts *facts) {
   for (int i = 0; i < CAROM_BALLS_MOST; i++) {
     facts->pocket[i] = -1;
     facts->pocket_time[i] = INFINITY;
+    facts->order[i] = -1;
   }
 }
 
-/* The cue ball meets a ball: the first, or the second that is another. */
-static void meet(carom_facts *facts, int cue, int other, double now) {
-  const int n = facts->first[0] >= 0;
-  if (facts->first[n] >= 0 || other == facts->first[0])
+/* Where ball i is now. */
+static carom_ball_state state_now(const carom_sim *sim, int i) {
+  carom_ball_state now;
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &now);
+  return now;
+}
+
+/* The cue ball has an event before it has met a ball: how far it came. */
+static void reach_to(carom_facts *facts, const carom_sim *sim, bool first) {
+  const carom_ball_state now = state_now(sim, sim->struck);
+  for (int axis = 0; axis < 2; axis++) {
+    const double x = now.r[axis];
+    facts->first_low[axis] = first ? x : fmin(facts->first_low[axis], x);
+    facts->first_high[axis] = first ? x : fmax(facts->first_high[axis], x);
+  }
+}
+
+/* The cue ball meets a ball, which it may have met before. */
+static void meet(carom_facts *facts, const carom_sim *sim, int other) {
+  int n = 0;
+  for (; n < CAROM_BALLS_MOST && facts->order[n] >= 0; n++)
+    if (facts->order[n] == other)
+      return;
+  if (n == CAROM_BALLS_MOST)
     return;
-  facts->first[n] = other;
-  facts->first_time[n] = now;
-  facts->cushions_before[n] = facts->cushions[cue];
+  facts->order[n] = other;
+
+  /* the first ball, and those of the same instant */
+  if (n == 0) {
+    const carom_ball_state now = state_now(sim, sim->struck);
+    memcpy(facts->first_place, now.r, sizeof facts->first_place);
+  }
+  if (n == 0 || sim->now - facts->first_time[0] <= CAROM_RULES_INSTANT)
+    facts->first_set |= UINT32_C(1) << other;
+
+  /* the first two */
+  if (n < 2) {
+    facts->first[n] = other;
+    facts->first_time[n] = sim->now;
+    facts->cushions_before[n] = facts->cushions[sim->struck];
+  }
 }
 
 /* Whether a ball that meets a cushion lies where it lay at first: it was frozen to it, and has not
  * left it. */
 static bool is_frozen(const carom_sim *sim, int i) {
   const double *first = sim->layout->state[i]->r;
-  carom_ball_state now;
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &now);
-  return fabs(now.r[0] - first[0]) + fabs(now.r[1] - first[1]) < 1e-6;
+  const carom_ball_state now = state_now(sim, i);
+  return fabs(now.r[0] - first[0]) + fabs(now.r[1] - first[1]) < CAROM_RULES_TOUCH;
 }
 
 /* Adds an event to the facts. */
 static void add_fact(carom_facts *facts, const carom_due *due, const carom_sim *sim) {
   const int a = due->a, b = due->b, cue = sim->struck;
+  if (facts->first[0] < 0 && (a == cue || (due->type == CAROM_EVENT_BALL_BALL && b == cue)))
+    reach_to(facts, sim, due->type == CAROM_EVENT_STRIKE && facts->touches == 0);
   switch (due->type) {
   case CAROM_EVENT_STRIKE:
     facts->moved |= UINT32_C(1) << a;
@@ -54,7 +89,7 @@ static void add_fact(carom_facts *facts, const carom_due *due, const carom_sim *
   case CAROM_EVENT_BALL_BALL:
     facts->moved |= UINT32_C(1) << a | UINT32_C(1) << b;
     if (a == cue || b == cue)
-      meet(facts, cue, a == cue ? b : a, sim->now);
+      meet(facts, sim, a == cue ? b : a);
     break;
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW:
@@ -76,14 +111,15 @@ static void add_fact(carom_facts *facts, const carom_due *due, const carom_sim *
   }
 }
 
-/* The set of the balls that touch the struck one. */
+/* The set of the balls that touch the struck one for the rules. */
 static uint32_t frozen_to(const carom_sim *sim) {
   const int i = sim->struck;
   const double *r = sim->path[i].from.r;
   uint32_t set = 0;
   for (int k = 0; k < sim->count; k++) {
     const double *q = sim->path[k].from.r;
-    const double R = sim->rates[i].radius, Q = sim->rates[k].radius, reach = R + Q + CAROM_TOUCHING;
+    const double R = sim->rates[i].radius, Q = sim->rates[k].radius,
+                 reach = R + Q + CAROM_RULES_TOUCH;
     const double x = q[0] - r[0], y = q[1] - r[1], z = Q - R;
     if (k != i && !carom_is_out(sim->path[k].from.label) && x * x + y * y + z * z < reach * reach)
       set |= UINT32_C(1) << k;

@@ -198,7 +198,7 @@ static bool good_result(const carom_sim *sim, const result *so_far) {
             f->first_time[n] >= 0.0;
   for (int i = 0; i < CAROM_BALLS_MOST; i++)
     good &= in(f->pocket[i], -1, sim->table->pockets - 1) && f->pocket_time[i] >= 0.0 &&
-            in(f->cushions[i], 0, most);
+            in(f->cushions[i], 0, most) && in(f->order[i], -1, sim->count - 1);
   return good;
 }
 
