@@ -42,7 +42,8 @@ typedef enum carom_record_kind {
   CAROM_RECORD_EVENT = 8,    /* "event": an event of the shot before it; may be left out */
   CAROM_RECORD_END = 9,      /* "end": the last line; a recording without it was cut off */
   CAROM_RECORD_GAME = 10,    /* "game": the rules, who is at the table, and how the game stands */
-  CAROM_RECORD_WRONG = 11    /* a line that was refused; nothing is read after it */
+  CAROM_RECORD_WRONG = 11,   /* a line that was refused; nothing is read after it */
+  CAROM_RECORD_ACT = 12 /* "act", of a match: what a player decided besides strokes and places */
 } carom_record_kind;
 
 /* The bytes that any line fits into, even that of 32 balls that have nothing in common. */
@@ -63,7 +64,9 @@ typedef struct carom_record {
   int64_t kind;     /* kind of the last line, a carom_record_kind. */
   int64_t line;     /* lines so far. */
   int64_t revision; /* carom_physics_revision() of the library that recorded it. */
-  int64_t format;   /* format of the text, 2. */
+  int64_t format;   /* format of the text: 2, or 3 for a match. In a match, lines "act" have what
+                       players decided, and lines "balls", "place", "game" and "act" have the hash
+                       of all lines so far. */
   int64_t shots;    /* number of strokes and continuations so far. */
   uint64_t hash;    /* hash of all lines so far, except the end. */
   int64_t count;    /* number of balls. */
@@ -77,8 +80,17 @@ typedef struct carom_record {
   int64_t placed;  /* the last ball in hand, */
   double place[2]; /* m: and the place where it was put. */
   int64_t hand;    /* 1: it is in hand and not placed yet. */
+  int64_t bounds;  /* where it may be placed: a carom_leave of carom_plan.h; 0: anywhere. */
   int64_t rules;   /* the rules of the game, a carom_rules_kind of carom_plan.h. */
   int64_t player;  /* who is at the table, 0 or 1. */
+  int64_t winner;  /* 1 + the player who has won; 0: the game goes on. */
+  int64_t foul;    /* the foul of the last stroke, a carom_foul of carom_plan.h. */
+  int64_t act;     /* the last act that was decided, a carom_act of carom_match.h, */
+  int64_t actor;   /* the player who decided it, 0 or 1, */
+  int64_t choice;  /* the choice, a carom_may, */
+  int64_t call[2]; /* and the ball and the pocket that were called. */
+  uint64_t seal;   /* the hash in the last line that has one. */
+  int64_t match;   /* 1: the recording is of a match. Set it before the first line is written. */
   /* The state of the game for this player; carom_rules_fault() checks it. */
   carom_rules_state standing;
   carom_record_end recorded; /* how the last shot that was read had ended; */
@@ -106,7 +118,7 @@ CAROM_API carom_status carom_record_read(carom_record *record, const char *line,
  * stopped, with the bits that all machines share. The balls begin where the shot before left them.
  * `shot` may be NULL; otherwise the caller sets events, brief and room in it, and the call sets the
  * rest. Returns the status of carom_shoot(), or CAROM_ERROR_NULL, or CAROM_ERROR_RECORD if there is
- * nothing to play. record->played says how the shot ended; after a line that was read, compare it
+ * nothing to play or the recording has ended. record->played says how the shot ended; after a line that was read, compare it
  * with record->recorded. A shot with a wrong argument changes nothing. */
 CAROM_API carom_status carom_record_play(carom_record *record, carom_record_kind kind,
                                          carom_shot *shot);

@@ -786,9 +786,9 @@ typedef struct carom_facts {
                                        them; 0 where it met none, */
   double first_time[2];             /* and when it met them, s. */
   int32_t cushions_after;           /* impacts of all balls on cushions after the first contact. If
-                                       a ball touches a cushion, within CAROM_RULES_TOUCH,
-                                       when the shot begins, its impacts on it do not count until it has left the
-                                       cushion. */
+                                       a ball touches a cushion, within CAROM_RULES_TOUCH, when the
+                                       shot begins, its impacts on it do not count until it has left
+                                       the cushion. */
   uint32_t down;                    /* the set of the balls that fell into a pocket in this shot, */
   uint32_t off;                     /* of those that left the table in this shot, */
   uint32_t moved;                   /* and of those that were struck or met by another ball. */

@@ -83,14 +83,31 @@ static const field table[] = {
     LISTED("pockets", CAROM_POCKETS_MOST, table.pocket, table.pockets, pocket_fields),
     END};
 static const field models[] = {CAROM_MOTION_OPTIONS(OPTION_KEY) END};
-static const field layout[] = {LISTED("list", CAROM_BALLS_MOST, balls, count, ball_fields), END};
+/* The hash so far, with which a line of a match ends. */
+#define SEAL R("hash", HASH, false, 1, seal)
+static const field layout[] = {LISTED("list", CAROM_BALLS_MOST, balls, count, ball_fields), SEAL,
+                               END};
 #define MEMBER_KEY(NAME, member, ...) MEMBER(#member, carom_record, standing.member)
-static const field game_fields[] = {
-    R("rules", INT64, true, 1, rules), R("player", INT64, false, 1, player),
-    CAROM_STATE_MEMBERS(MEMBER_KEY) R("user", INT64, false, 8, standing.user), END};
+static const field game_fields[] = {R("rules", INT64, true, 1, rules),
+                                    R("player", INT64, false, 1, player),
+                                    CAROM_STATE_MEMBERS(MEMBER_KEY)
+                                        R("user", INT64, false, 8, standing.user),
+                                    R("winner", INT64, false, 1, winner),
+                                    R("foul", INT64, false, 1, foul),
+                                    SEAL,
+                                    END};
 static const field place_fields[] = {R("ball", INT64, true, 1, placed),
                                      R("at", DOUBLE, false, 2, place),
-                                     R("hand", INT64, false, 1, hand), END};
+                                     R("hand", INT64, false, 1, hand),
+                                     R("bounds", INT64, false, 1, bounds),
+                                     SEAL,
+                                     END};
+static const field act_fields[] = {R("act", INT64, true, 1, act),
+                                   R("player", INT64, false, 1, actor),
+                                   R("choice", INT64, false, 1, choice),
+                                   R("call", INT64, false, 2, call),
+                                   SEAL,
+                                   END};
 
 /* How a shot ended. */
 #define ENDS                                                                                  \
@@ -117,7 +134,8 @@ static const struct {
 } lines[] = {{"", NULL},          {"recording", head},   {"table", table},
              {"options", models}, {"balls", layout},     {"place", place_fields},
              {"shot", shot},      {"continue", goes_on}, {"event", event},
-             {"end", end},        {"game", game_fields}};
+             {"end", end},        {"game", game_fields}, {"", NULL},
+             {"act", act_fields}};
 enum { KINDS = sizeof lines / sizeof lines[0] };
 
 static size_t size_of(const field *f) {
@@ -128,7 +146,14 @@ static const int64_t MOST_WHOLE = 9007199254740991; /* of a double, 2^53 - 1 */
 
 /* ---- The hash of the lines ------------------------------------------------------------------- */
 
-enum { FORMAT = 2 };
+/* Of recordings of shots, and of matches. */
+enum { FORMAT = 2, FORMAT_OF_MATCH = 3 };
+
+/* Whether lines of a kind end with the hash so far in a match. */
+static bool is_sealed(int kind) {
+  return kind == CAROM_RECORD_BALLS || kind == CAROM_RECORD_PLACE || kind == CAROM_RECORD_GAME ||
+         kind == CAROM_RECORD_ACT;
+}
 
 /* Adds an object to a hash: each of its numbers that is not 0, behind its place among them, counted
  * from 1; of a list the number of its objects and these; and 0 as its end. So a key that a later
@@ -406,6 +431,8 @@ static const char *out_of_place(const carom_record *record, int kind) {
   if ((record->format == 0) != (kind == CAROM_RECORD_HEAD))
     return record->format == 0 ? "stands where {\"recording\": ...} must: in the first line"
                                : "comes twice";
+  if (kind == CAROM_RECORD_ACT && record->match != 1)
+    return "is a line of matches, format 3, in a recording of format 2";
   if (kind == CAROM_RECORD_EVENT && !shot_before)
     return "must follow a shot, its continuation, or another event";
   if ((kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_PLACE) && record->count == 0)
@@ -431,12 +458,16 @@ carom_status carom_record_place(carom_record *record, int ball, double x, double
   const carom_status bad = carom_record_settle(record);
   if (bad < 0)
     return bad;
+  const carom_status status =
+      carom_place_ball(&record->table, record->balls, (int)record->count, ball, x, y, in_the_way);
+  if (status != CAROM_OK)
+    return status;
   record->placed = ball;
   record->hand = 0;
+  record->bounds = 0;
   record->place[0] = x;
   record->place[1] = y;
-  return carom_place_ball(&record->table, record->balls, (int)record->count, ball, x, y,
-                          in_the_way);
+  return CAROM_OK;
 }
 
 carom_status carom_record_hand(carom_record *record, int ball) {
@@ -452,7 +483,10 @@ carom_status carom_record_hand(carom_record *record, int ball) {
   return CAROM_OK;
 }
 
-/* How the game stands: each member within its row, or 0 of a game without it. */
+enum { RULES_MOST = 1000 }; /* more kinds of rules than there will be */
+
+/* How the game stands: each member within its row, or 0 of a game without it. Lines that are
+ * written are checked too. */
 static bool check_standing(reader *in) {
 #define CHECK_MEMBER(NAME, member, low, high, range)                \
   in->key = #member;                                                \
@@ -463,8 +497,68 @@ static bool check_standing(reader *in) {
   const carom_rules_state *state = &in->record->standing;
   int32_t value[2];
   CAROM_STATE_MEMBERS(CHECK_MEMBER)
+  in->key = "rules";
+  if (in->record->rules < 0 || in->record->rules > RULES_MOST)
+    return wrong(in, "must be a carom_rules_kind");
+  in->key = "winner";
+  if (in->record->winner < 0 || in->record->winner > 2)
+    return wrong(in, "must be 0, 1 or 2");
   in->key = "player";
   return (in->record->player >> 1) == 0 || wrong(in, "must be 0 or 1");
+}
+
+/* Whether the place of a ball in hand can be one. */
+static bool check_place(reader *in) {
+  enum { LEAVES = 5 };
+  in->key = "hand";
+  if ((in->record->hand >> 1) != 0)
+    return wrong(in, "must be 0 or 1");
+  in->key = "bounds";
+  return (in->record->bounds >= 0 && in->record->bounds < LEAVES) ||
+         wrong(in, "must be a carom_leave");
+}
+
+/* What a player decided. */
+static bool check_act(reader *in) {
+  in->key = "player";
+  return (in->record->actor >> 1) == 0 || wrong(in, "must be 0 or 1");
+}
+
+/* Whether the seal of a line that was read is the hash so far, which the line becomes a part of. */
+static bool check_seal(reader *in, int kind, uint64_t seal) {
+  const carom_record *record = in->record;
+  in->key = "hash";
+  if (!is_sealed(kind) || seal == (record->match == 1 ? record->hash : 0))
+    return true;
+  if (record->match != 1)
+    return wrong(in, "stands in lines of matches alone, format 3");
+  return wrong(in, seal == 0 ? "is missing" : "is not that of the lines up to here");
+}
+
+/* The format of the text. */
+static bool check_head(reader *in) {
+  carom_record *record = in->record;
+  in->key = "format";
+  record->match = record->format == FORMAT_OF_MATCH;
+  if (record->format == FORMAT || record->match == 1)
+    return true;
+  return wrong(in, record->format == 1 ? "is 1, whose hashes do not cover tables and strokes; this "
+                                         "carom reads 2 and 3. Record the shots again"
+                                       : "must be 2 or 3: a newer carom wrote this");
+}
+
+/* A ball comes in hand, or is placed by the rules of carom_place_ball(). */
+static bool apply_place(reader *in) {
+  carom_record *record = in->record;
+  if (!check_place(in))
+    return false;
+  in->key = NULL;
+  const bool exists = record->placed >= 0 && record->placed < record->count;
+  const int ball = exists ? (int)record->placed : -1;
+  const carom_status status = record->hand != 0 ? carom_record_hand(record, ball)
+                                                : carom_record_place(record, ball, record->place[0],
+                                                                     record->place[1], NULL);
+  return status == CAROM_OK || wrong(in, carom_status_string(status));
 }
 
 /* A line that was read is applied to the game. */
@@ -474,27 +568,15 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
   switch (kind) {
   /* what the game begins with */
   case CAROM_RECORD_HEAD:
-    in->key = "format";
-    return record->format == FORMAT ||
-           wrong(in, record->format == 1
-                         ? "is 1, whose hashes do not cover tables and strokes; this "
-                           "carom reads 2. Record the shots again"
-                         : "must be 2: a newer carom wrote this");
+    return check_head(in);
   case CAROM_RECORD_BALLS:
     record->moved = 0;
     in->key = "list";
     return record->count > 0 || wrong(in, "must have 1 to 32 balls");
 
   /* a ball is placed by the rules of carom_place_ball() */
-  case CAROM_RECORD_PLACE: {
-    const int ball =
-        record->placed >= 0 && record->placed < record->count ? (int)record->placed : -1;
-    const carom_status status =
-        record->hand != 0
-            ? carom_record_hand(record, ball)
-            : carom_record_place(record, ball, record->place[0], record->place[1], NULL);
-    return status == CAROM_OK || wrong(in, carom_status_string(status));
-  }
+  case CAROM_RECORD_PLACE:
+    return apply_place(in);
 
   /* the caller is to play it before the next line */
   case CAROM_RECORD_SHOT:
@@ -509,6 +591,8 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
 
   case CAROM_RECORD_GAME:
     return check_standing(in);
+  case CAROM_RECORD_ACT:
+    return check_act(in);
 
   /* of what was read up to here */
   case CAROM_RECORD_END: {
@@ -532,7 +616,7 @@ static bool read_line(reader *in, int *kind) {
   in->line = key;
   for (*kind = 1; *kind < KINDS && strcmp(lines[*kind].key, key) != 0; ++*kind)
     continue;
-  if (*kind == KINDS)
+  if (*kind == KINDS || lines[*kind].fields == NULL)
     return wrong(in, "is no line of a recording");
   const char *why = out_of_place(record, *kind);
   if (why == NULL && record->pending == 1 && *kind != CAROM_RECORD_EVENT &&
@@ -544,6 +628,7 @@ static bool read_line(reader *in, int *kind) {
   const int64_t shots = record->shots;
   const uint64_t hash = record->hash;
   clear(record, lines[*kind].fields);
+  record->seal = 0;
   if (!read_object(in, lines[*kind].fields, (unsigned char *)record) ||
       !expect(in, '}', "must be the only key of its line"))
     return false;
@@ -552,9 +637,13 @@ static bool read_line(reader *in, int *kind) {
     return wrong(in, "has more text behind its object");
   if (!apply(in, *kind, shots, hash))
     return false;
-  if (*kind != CAROM_RECORD_END)
-    record->hash = hash_behind(hash, *kind, record);
-  return true;
+  if (*kind == CAROM_RECORD_END)
+    return true;
+  const uint64_t seal = record->seal;
+  record->seal = 0;
+  record->hash = hash_behind(hash, *kind, record);
+  record->seal = seal;
+  return check_seal(in, *kind, seal);
 }
 
 carom_status carom_record_read(carom_record *record, const char *line, size_t size) {
@@ -587,6 +676,12 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
   if (record == NULL)
     return CAROM_ERROR_NULL;
   const bool goes = kind == CAROM_RECORD_CONTINUE;
+  const bool ended = record->kind == CAROM_RECORD_END || record->kind == CAROM_RECORD_WRONG;
+  if (ended) {
+    reader in = {.record = record};
+    wrong(&in, out_of_place(record, (int)kind));
+    return CAROM_ERROR_RECORD;
+  }
   if ((!goes && kind != CAROM_RECORD_SHOT) || record->count < 1 ||
       record->count > CAROM_BALLS_MOST || (goes && record->moved == 0)) {
     reader in = {.record = record};
@@ -741,22 +836,50 @@ static void write_object(writer *out, const field *fields, const unsigned char *
   write_text(out, "}");
 }
 
+/* Whether the reader takes the values of a line by the same ranges. */
+static bool can_be_read(carom_record *record, int kind) {
+  reader in = {.record = record};
+  switch (kind) {
+  case CAROM_RECORD_BALLS:
+    return record->count > 0;
+  case CAROM_RECORD_GAME:
+    return check_standing(&in);
+  case CAROM_RECORD_PLACE:
+    return check_place(&in);
+  case CAROM_RECORD_ACT:
+    return check_act(&in);
+  default:
+    return true;
+  }
+}
+
+/* Whether a line of a kind can be written here: the reader would take it. */
+static bool can_be_written(carom_record *record, int kind) {
+  const bool is_shot = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE;
+  if (out_of_place(record, kind) != NULL || !can_be_read(record, kind))
+    return false;
+  return !is_shot || (record->pending == 2 && record->kind == kind);
+}
+
 size_t carom_record_write(carom_record *record, carom_record_kind kind, char *text, size_t room) {
   if (record == NULL || text == NULL || room == 0 || kind == CAROM_RECORD_BLANK ||
-      (uint32_t)kind >= KINDS) /* enumerations may be signed or not */
+      (uint32_t)kind >= KINDS || lines[kind].fields == NULL) /* enumerations may be signed or not */
     return 0;
   const bool is_shot = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE;
-  if (out_of_place(record, (int)kind) != NULL ||
-      (is_shot && (record->pending != 2 || record->kind != kind)))
+  if (!can_be_written(record, (int)kind))
     return 0;
 
   /* what the line says beside what is there */
   if (kind == CAROM_RECORD_HEAD) {
-    record->format = FORMAT;
+    record->format = record->match == 1 ? FORMAT_OF_MATCH : FORMAT;
     record->revision = carom_physics_revision();
   }
   if (is_shot)
     record->recorded = record->played;
+
+  record->seal = 0;
+  const uint64_t hash = hash_behind(record->hash, (int)kind, record);
+  record->seal = record->match == 1 && is_sealed((int)kind) ? hash : 0;
 
   /* the text; where there is no room for it nothing has happened */
   writer out = {text, text + room};
@@ -777,7 +900,7 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
     record->shots++;
   }
   if (kind != CAROM_RECORD_END)
-    record->hash = hash_behind(record->hash, (int)kind, record);
+    record->hash = hash;
   record->kind = kind;
   record->line++;
   return (size_t)(out.at - text);

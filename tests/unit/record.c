@@ -205,7 +205,8 @@ static void refused(const char *what, const char *with, const char *said) {
 
 TEST(lines_that_are_refused) {
   write_game();
-  refused("\"format\":2", "\"format\":3", "recording.format must be 2");
+  refused("\"format\":2", "\"format\":4", "recording.format must be 2 or 3");
+  refused("\"format\":2", "\"format\":3", "balls.hash is missing");
   refused("\"format\":2", "\"format\":1", "recording.format is 1, whose hashes do not cover");
   refused("\"width\":", "\"widht\":", "table.widht is no key of the format");
   refused("\"width\":1.27,", "", "table.width is missing");
@@ -310,6 +311,9 @@ TEST(records_that_cannot_be) {
 /* A shot with a wrong argument changes nothing. */
 TEST(a_refused_shot_changes_nothing) {
   write_game();
+  ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_SHOT, NULL), CAROM_ERROR_RECORD);
+  ck_assert_str_eq(game.fault, "stands behind the end of the recording");
+  game.kind = CAROM_RECORD_EVENT; /* the line before its end */
   game.cue.phi = NAN;
   again = game;
   ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_SHOT, NULL), CAROM_ERROR_CUE_PHI);
@@ -317,6 +321,21 @@ TEST(a_refused_shot_changes_nothing) {
   ck_assert_mem_eq(&game.played, &again.played, sizeof game.played);
   ck_assert_uint_eq(game.hash, again.hash);
   ck_assert_int_eq(game.pending, again.pending);
+}
+
+/* What the reader refuses of how a game stands is not written. */
+TEST(standings_that_are_not_written) {
+  for (int k = 0; k < 6; k++) {
+    write_game();
+    game.kind = CAROM_RECORD_EVENT;
+    game.rules = k == 1 ? -5 : 0;
+    game.player = k == 2 ? 77 : 0;
+    game.standing.group = k == 3 ? 9 : 0;
+    game.standing.fouls[0] = k == 4 ? 50 : 0;
+    game.winner = k == 5 ? 3 : 0;
+    const size_t length = carom_record_write(&game, CAROM_RECORD_GAME, text, ROOM);
+    ck_assert_msg((length > 0) == (k == 0), "%d: %zu", k, length);
+  }
 }
 
 /* A shot that ran to its end cannot go on, whatever the one before left. */
