@@ -18,7 +18,14 @@ from pathlib import Path
 
 from pycparser import c_ast, c_parser
 
-HEADERS = ("carom.h", "carom_shot.h", "carom_tangent.h", "carom_plan.h", "carom_record.h")
+HEADERS = (
+    "carom.h",
+    "carom_shot.h",
+    "carom_tangent.h",
+    "carom_plan.h",
+    "carom_record.h",
+    "carom_match.h",
+)
 SIZES = {
     "double": 8,
     "float": 4,
@@ -42,6 +49,9 @@ READ_AND_WRITTEN = {
     ("carom_aim", "cue"),
     ("carom_aim", "pot"),
     ("carom_rules_judge", "state"),
+    ("carom_match_stroke", "shot"),
+    ("carom_match_continue", "shot"),
+    ("carom_match_plan", "job"),
 }
 # Macros without a value of their own: guards, marks, and expressions of other constants.
 NO_VALUE = {"CAROM_API", "CAROM_VERSION_NUMBER", "CAROM_STOP_AT", "CAROM_KIND_NUMBERS"}
@@ -206,7 +216,9 @@ class Api:
         if "to_array" in found:
             found["to_array"] = [self.value(one) for one in found["to_array"]]
         written = found.get("pointer") and not found.get("const")
-        both = (function, node.name) in READ_AND_WRITTEN
+        both = (function, node.name) in READ_AND_WRITTEN or (
+            function.startswith("carom_match_") and node.name == "match"
+        )
         return {**found, "direction": "inout" if both else "out" if written else "in"}
 
     def value(self, node):

@@ -304,7 +304,9 @@ typedef enum carom_status {
   CAROM_ERROR_MOUTHS = -115,            /* the mouths at its ends leave nothing of a side. */
   CAROM_ERROR_POCKETS = -116,           /* a table has more than CAROM_POCKETS_MOST pockets, */
   CAROM_ERROR_JAWS = -117,              /* more than CAROM_JAWS_MOST jaws, */
-  CAROM_ERROR_RAILS = -118              /* or more than CAROM_RAILS_MOST rails. */
+  CAROM_ERROR_RAILS = -118,             /* or more than CAROM_RAILS_MOST rails. */
+  CAROM_ERROR_ACT = -119                /* carom_match.h: match.fault says what the rules do not
+                                           allow, and what would be right. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output; "unknown" for a value not

@@ -4,6 +4,9 @@
 #ifndef CAROM_TESTS_EVERY_FUNCTION_H
 #define CAROM_TESTS_EVERY_FUNCTION_H
 
+#ifndef CAROM_WITHOUT_PLAN
+#include "carom_match.h"
+#endif
 #include "carom_record.h"
 #include "carom_tangent.h"
 #include "support.h"
@@ -61,6 +64,9 @@ typedef struct every_room {
   double plan[32768], choice[27 * EVERY_FEW]; /* of every_plan.h */
   carom_record record;
   char line[CAROM_RECORD_TEXT];
+#ifndef CAROM_WITHOUT_PLAN
+  carom_match match, reader;
+#endif
 } every_room;
 
 /* number: whose input it is; others have other numbers. */

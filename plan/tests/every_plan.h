@@ -129,8 +129,74 @@ EVERY_BODY(rating_of) {
 }
 EVERY_OBJECT(plan_rules_of, carom_plan_rules, carom_plan_rules_of(CAROM_RULES_NINEBALL))
 
+/* ---- carom_match.h */
+
+/* A match of eight-ball whose cue ball is placed. */
+static inline void every_match(const every_input *in, every_room *room) {
+  carom_match_begin(&room->match, CAROM_RULES_EIGHTBALL, &in->table, 3, 0);
+  carom_match_place(&room->match, 0, 0.6, 0.6);
+}
+/* The same, and an act of it by a call. */
+#define EVERY_ACT(name, call)             \
+  EVERY_BODY(name) {                      \
+    every_match(in, room);                \
+    STATUS(call);                         \
+    h = every_text(h, room->match.fault); \
+    return HASH(room->match.record.hash); \
+  }
+EVERY_BODY(hand_bounds) {
+  carom_bounds bounds;
+  STATUS(carom_hand_bounds(CAROM_LEAVE_D, &in->table, 0.028, &bounds));
+  return HASH(bounds);
+}
+EVERY_BODY(is_within) {
+  const carom_bounds bounds = {{0.0, 0.0}, {1.0, 2.0}, {0.5, 0.5}, 0.4};
+  return h + (uint64_t)carom_is_within(&bounds, 0.5, 0.3);
+}
+EVERY_BODY(refusal_name) {
+  return every_text(h, carom_refusal_name(CAROM_REFUSED_BOUNDS));
+}
+EVERY_ACT(match_begin, 0)
+EVERY_BODY(match_begin_at) {
+  STATUS(carom_match_begin_at(&room->match, CAROM_RULES_NINEBALL, NULL, &in->table, in->balls, 10,
+                              NULL, CAROM_LEAVE_AFTER, 1));
+  return HASH(room->match.record.hash);
+}
+EVERY_ACT(match_place, carom_match_place(&room->match, 0, 0.7, 0.5))
+EVERY_ACT(match_call, carom_match_call(&room->match, 0, (carom_call){3, 1}))
+EVERY_ACT(match_choose, carom_match_choose(&room->match, 0, CAROM_MAY_PASS))
+EVERY_ACT(match_stroke, carom_match_stroke(&room->match, 0, &in->cue[0], NULL, NULL))
+EVERY_ACT(match_continue, carom_match_continue(&room->match, NULL, NULL))
+EVERY_ACT(match_concede, carom_match_concede(&room->match, 1))
+EVERY_ACT(match_clock, carom_match_clock(&room->match, 0))
+EVERY_ACT(match_end, carom_match_end(&room->match))
+EVERY_BODY(match_read) {
+  every_match(in, room);
+  memset(&room->reader, 0, sizeof room->reader);
+  const char *line = room->match.text;
+  STATUS(carom_match_read(&room->reader, &room->record, line, strcspn(line, "\n")));
+  return HASH(room->reader.record.hash);
+}
+EVERY_BODY(match_plan) {
+  every_match(in, room);
+  const carom_player player = carom_player_of(1.0);
+  const carom_plan_options options = {.shots = 100};
+  carom_plan_job job = {.player = &player,
+                        .cue = &in->cue[0],
+                        .options = &options,
+                        .memory = room->plan,
+                        .memory_size = carom_plan_memory(&options)};
+  carom_choice choice;
+  int found = 0;
+  STATUS(carom_match_plan(&room->match, &job, &choice, 1, &found));
+  return HASH(choice);
+}
+
 /* clang-format off */
 #define EVERY_OF_PLANS(F) \
+  F(hand_bounds) F(is_within) F(match_begin) F(match_begin_at) F(match_call) F(match_choose) \
+  F(match_clock) F(match_concede) F(match_continue) F(match_end) F(match_place) F(match_plan) \
+  F(match_read) F(match_stroke) F(refusal_name) \
   F(aim) F(foul_of) F(foul_string) F(is_beside) F(plan) F(plan_continue) F(plan_hand) \
   F(plan_kind_name) F(plan_memory) F(plan_rules_of) F(plan_try) F(plan_value) F(player_fargo) \
   F(player_of) F(player_strike) F(pot_kind) \

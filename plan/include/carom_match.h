@@ -1,0 +1,200 @@
+/* carom_match.h: a match between two players: the table, the balls, the rules and the recording in
+ * one object, which takes one act after another.
+ *
+ *     static carom_match match;  // all zero; some 200 KiB
+ *     carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+ *     carom_match_begin(&match, CAROM_RULES_EIGHTBALL, &table, 1, 0);
+ *     while (match.phase != CAROM_MATCH_OVER) {
+ *       fwrite(match.text, 1, (size_t)match.size, file);  // the lines of the last act
+ *       int player = (int)match.record.player;
+ *       if (match.phase == CAROM_MATCH_PLACE)
+ *         status = carom_match_place(&match, player, x, y);
+ *       else if (wants to call)
+ *         status = carom_match_call(&match, player, (carom_call){ball, pocket});
+ *       else
+ *         status = carom_match_stroke(&match, player, &cue, NULL, NULL);
+ *       if (status == CAROM_ERROR_ACT)
+ *         printf("%s\n", match.fault);  // such as "place: the cue ball must be within ..."
+ *     }
+ *
+ * An act that the rules forbid is refused with CAROM_ERROR_ACT: match.refusal is its name, and
+ * match.fault says what would be right. Then nothing has changed, and match.size is 0.
+ *
+ * Each act is a line of a recording, of format 3, and so is each ruling. Whoever reads the lines by
+ * carom_match_read() judges them again: a line that is not by the rules is refused. Nothing here
+ * allocates. */
+#ifndef CAROM_MATCH_H
+#define CAROM_MATCH_H
+
+#include "carom_plan.h"
+#include "carom_record.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Ball in hand ---------------------------------------------------------------------------- */
+
+/* Where a ball in hand may be put: its centre is within low[0] <= x <= high[0] and low[1] <= y <=
+ * high[1], and where `radius` is above 0 also in the half circle around `centre`, towards y = 0. */
+typedef struct carom_bounds {
+  double low[2], high[2]; /* m */
+  double centre[2];       /* m: of the D */
+  double radius;          /* m: of the D; 0: there is none */
+} carom_bounds;
+
+/* The bounds that a leave sets on a table for balls of this radius, m: HAND the whole table,
+ * KITCHEN behind the head string or on it, D the D of snooker. AFTER and BEFORE, where no ball is
+ * in hand, are as HAND. CAROM_ERROR_NULL; CAROM_ERROR_ACT for a value not listed. */
+CAROM_API carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, double radius,
+                                         carom_bounds *bounds);
+
+/* 1 where a place is within the bounds, else 0. Whether a ball lies there, carom_place_ball()
+ * tells. */
+CAROM_API int carom_is_within(const carom_bounds *bounds, double x, double y);
+
+/* ---- A match --------------------------------------------------------------------------------- */
+
+/* What a match waits for. */
+typedef enum carom_match_phase {
+  CAROM_MATCH_NONE = 0,   /* it has not begun */
+  CAROM_MATCH_STROKE = 1, /* a stroke, or one of the choices in match.may */
+  CAROM_MATCH_PLACE = 2,  /* the cue ball is in hand: a place within match.bounds, or a choice */
+  CAROM_MATCH_MOVING = 3, /* the shot was stopped while balls move: it goes on */
+  CAROM_MATCH_OVER = 4    /* nothing: match.winner has won */
+} carom_match_phase;
+
+/* The acts of lines "act". */
+typedef enum carom_act {
+  CAROM_ACT_CHOOSE = 1,  /* one of the choices */
+  CAROM_ACT_CALL = 2,    /* a ball and a pocket */
+  CAROM_ACT_CONCEDE = 3, /* the player gives the game to the other */
+  CAROM_ACT_CLOCK = 4    /* the time for a stroke is over: a foul */
+} carom_act;
+
+/* Why an act was refused. */
+typedef enum carom_refusal {
+  CAROM_REFUSED_NOT = 0,
+  CAROM_REFUSED_NOT_BEGUN = 1, /* the match has not begun */
+  CAROM_REFUSED_OVER = 2,      /* the match is over */
+  CAROM_REFUSED_TURN = 3,      /* the other player is at the table */
+  CAROM_REFUSED_MOVING = 4,    /* balls move */
+  CAROM_REFUSED_AT_REST = 5,   /* no ball moves, so no shot goes on */
+  CAROM_REFUSED_IN_HAND = 6,   /* the cue ball must be placed first */
+  CAROM_REFUSED_NO_HAND = 7,   /* the cue ball is not in hand */
+  CAROM_REFUSED_BOUNDS = 8,    /* the place is outside the bounds */
+  CAROM_REFUSED_OCCUPIED = 9,  /* a ball or a cushion is in the way */
+  CAROM_REFUSED_CHOICE = 10,   /* the rules do not allow this choice now */
+  CAROM_REFUSED_CALL = 11,     /* the call is none that the game knows, or a ball that is not on */
+  CAROM_REFUSED_CUE_BALL = 12, /* another ball than the cue ball would be struck */
+  CAROM_REFUSED_STROKE = 13,   /* the stroke cannot be played: its status is in match.fault */
+  CAROM_REFUSED_BEGIN = 14,    /* a match cannot begin so */
+  CAROM_REFUSED_LINE = 15      /* a line that was read is not by the rules */
+} carom_refusal;
+
+/* The word for a refusal, such as "bounds"; "" for NOT and a value not listed. */
+CAROM_API const char *carom_refusal_name(int refusal);
+
+/* Bytes with room for the lines of any act. */
+enum { CAROM_MATCH_TEXT = 135168 };
+
+/* A match. The caller reads it, and changes it by calls alone. It may be copied. */
+typedef struct carom_match {
+  carom_record
+      record; /* table, balls, count, options; player, who is at the table; hand, whether the
+                          cue ball is to be placed. Its final states and facts are of the last
+                          shot. */
+  carom_plan_rules rules; /* their state is that of the player at the table. */
+  int32_t phase;          /* a carom_match_phase. */
+  int32_t winner;         /* 0 or 1; -1: none yet. */
+  int32_t may;            /* the choices: the sum of the carom_may for carom_match_choose(). */
+  int32_t cue_ball;       /* of the player at the table. */
+  uint32_t on;            /* balls that may be met first in the next stroke, as a set. */
+  uint32_t touching;      /* balls that touch the cue ball, as a set. */
+  carom_bounds bounds;    /* of a cue ball in hand, until the stroke. */
+  int32_t leave;          /* the carom_leave of these bounds. */
+  int32_t refusal;        /* of the last act: a carom_refusal. */
+  carom_call call;        /* of the next stroke; {-1, -1}: none. */
+  carom_ruling ruling;    /* the last one; all zero before it. */
+  int64_t rulings;        /* how many there were. */
+  int64_t size;    /* bytes of text[]: the lines of the last act; behind lines that were read:
+                             those that are still missing. */
+  char fault[256]; /* of the last act, why it was refused. */
+  char text[CAROM_MATCH_TEXT];
+} carom_match;
+
+/* Begins a match with the rack of a game, by gaps of 0.1 mm and the seed, on a table that it fits;
+ * `player`, 0 or 1, breaks. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT for a game not listed or
+ * another player; or an error of carom_rack(). */
+CAROM_API carom_status carom_match_begin(carom_match *match, carom_rules_kind rules,
+                                         const carom_table *table, uint64_t seed, int player);
+
+/* The same from any layout. `of` NULL: the rules of this kind, as they stand at the beginning; else
+ * these, with their state: of a caller's own rules the reader needs the same in match->rules. With
+ * `leave` HAND, KITCHEN or D the cue ball is in hand. `options`, which may be NULL, has the models.
+ * Also an error of carom_shot_check(). */
+CAROM_API carom_status carom_match_begin_at(carom_match *match, carom_rules_kind rules,
+                                            const carom_plan_rules *of, const carom_table *table,
+                                            const carom_shot_ball *balls, int count,
+                                            const carom_shot_options *options, carom_leave leave,
+                                            int player);
+
+/* ---- Acts ------------------------------------------------------------------------------------ */
+
+/* All return CAROM_OK, CAROM_ERROR_NULL or CAROM_ERROR_ACT. `player` is who acts.
+ *
+ * carom_match_choose: one of match->may: PUSH for the next stroke, the others instead of it. */
+CAROM_API carom_status carom_match_choose(carom_match *match, int player, carom_may choice);
+
+/* Puts the cue ball in hand, m; until the stroke it may be put elsewhere. */
+CAROM_API carom_status carom_match_place(carom_match *match, int player, double x, double y);
+
+/* Calls the ball and the pocket of the next stroke; ball -1: a safety. In snooker it names a colour
+ * or a free ball, and the pocket is not read. Without a call a stroke is a safety, and in snooker
+ * the ball is the one that is met first. */
+CAROM_API carom_status carom_match_call(carom_match *match, int player, carom_call call);
+
+/* Plays a stroke of match->cue_ball, and rules. `stop` says when to stop the shot, by time_most,
+ * stop_at, first_of and events_most, and may be NULL: at its end. `shot` may be NULL; else events,
+ * brief and room in it are the caller's, and the rest is set. A stopped shot is not ruled yet; it
+ * returns CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT. A shot that ends in an error is ruled as
+ * one that met nothing, and the balls lie as before. */
+CAROM_API carom_status carom_match_stroke(carom_match *match, int player, const carom_cue *cue,
+                                          const carom_shot_options *stop, carom_shot *shot);
+
+/* Goes on with a stopped shot, as carom_shot_continue() does; rules at its end. */
+CAROM_API carom_status carom_match_continue(carom_match *match, const carom_shot_options *stop,
+                                            carom_shot *shot);
+
+/* The player gives the game to the other, at any time. */
+CAROM_API carom_status carom_match_concede(carom_match *match, int player);
+
+/* The time of the player at the table is over: ruled as a stroke that met no ball. */
+CAROM_API carom_status carom_match_clock(carom_match *match, int player);
+
+/* Ends the recording: match->text is its last line. Nothing follows it. */
+CAROM_API carom_status carom_match_end(carom_match *match);
+
+/* ---- Reading and planning -------------------------------------------------------------------- */
+
+/* Reads a line of a match, with its end of line or without; `scratch` is room that is overwritten.
+ * It applies the line by the rules, and compares
+ * the lines of the ruling with those that follow. match->text has the lines that are still missing,
+ * as of a file that was cut off behind a shot. CAROM_OK; CAROM_ERROR_NULL; an error of
+ * carom_record_read(), with record.fault in match->fault; CAROM_ERROR_ACT for a line that is not by
+ * the rules: match->fault names it. Nothing is read behind it. */
+CAROM_API carom_status carom_match_read(carom_match *match, carom_record *scratch, const char *line,
+                                        size_t size);
+
+/* A plan for the player at the table: sets table, balls, count, rules and shot of the job, whose
+ * player, cue, options and memory are the caller's, and plans, with a cue ball in hand within
+ * its bounds. As carom_plan() and carom_plan_hand(); goes on by carom_plan_continue(), with the
+ * match unchanged. CAROM_ERROR_ACT where no stroke may be played. */
+CAROM_API carom_status carom_match_plan(carom_match *match, carom_plan_job *job,
+                                        carom_choice *choices, int room, int *found);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* CAROM_MATCH_H */

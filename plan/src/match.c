@@ -1,0 +1,601 @@
+/* A match: acts, rulings and lines of a recording.
+ *
+ * An act is checked against the phase, the player and the choices, and refused with nothing
+ * changed; else it is applied to the record, and its line is written to match->text. A stroke that
+ * ends, a choice that is played instead of one, and a clock that ran out are ruled by
+ * carom_referee(); the ruling makes further lines: "balls" where balls lie elsewhere than the shot
+ * left them, "place" where the cue ball comes in hand, and "game" with the standing. match_read.c
+ * reads them back. */
+#include "match.h"
+#include "rules.h"
+#include "table/spots.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* ---- Ball in hand */
+
+carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, double radius,
+                               carom_bounds *bounds) {
+  if (table == NULL || bounds == NULL)
+    return CAROM_ERROR_NULL;
+  if ((uint32_t)leave > CAROM_LEAVE_D)
+    return CAROM_ERROR_ACT;
+
+  /* the table, up to where balls touch its cushions */
+  memset(bounds, 0, sizeof *bounds);
+  bounds->low[0] = bounds->low[1] = radius;
+  bounds->high[0] = table->width - radius;
+  bounds->high[1] = table->length - radius;
+  if (leave == CAROM_LEAVE_KITCHEN)
+    bounds->high[1] = 0.25 * table->length;
+
+  /* the box around the D */
+  if (leave == CAROM_LEAVE_D) {
+    const carom_d d = carom_d_of(table->width, table->length);
+    bounds->centre[0] = d.x;
+    bounds->centre[1] = d.y;
+    bounds->radius = d.radius;
+    bounds->low[0] = d.x - d.radius;
+    bounds->low[1] = d.y - d.radius;
+    bounds->high[0] = d.x + d.radius;
+    bounds->high[1] = d.y;
+  }
+  return CAROM_OK;
+}
+
+int carom_is_within(const carom_bounds *bounds, double x, double y) {
+  if (bounds == NULL)
+    return 0;
+  const double at[2] = {x, y};
+  for (int axis = 0; axis < 2; axis++)
+    if (!(at[axis] >= bounds->low[axis] && at[axis] <= bounds->high[axis]))
+      return 0;
+  /* an arc that is touched is within, to the width of its line */
+  const double reach = bounds->radius + 1e-9;
+  return bounds->radius <= 0.0 || carom_square(at, bounds->centre) <= reach * reach;
+}
+
+/* ---- Refusals */
+
+const char *carom_refusal_name(int refusal) {
+  static const char *const names[] = {
+      "",       "not begun", "over",   "turn", "moving",   "at rest", "in hand", "not in hand",
+      "bounds", "occupied",  "choice", "call", "cue ball", "stroke",  "begin",   "line"};
+  const int known = sizeof names / sizeof names[0];
+  return refusal > 0 && refusal < known ? names[refusal] : "";
+}
+
+carom_status carom_match_refuse(carom_match *match, carom_refusal why, const char *act,
+                                const char *right) {
+  match->refusal = (int32_t)why;
+  match->size = 0;
+  snprintf(match->fault, sizeof match->fault, "%.40s: %.200s", act, right);
+  return CAROM_ERROR_ACT;
+}
+
+/* A set of balls as text, such as "1, 2, 9". */
+static const char *list_balls(uint32_t set, char text[128]) {
+  size_t at = 0;
+  text[0] = '\0';
+  for (int k = 0; k < CAROM_BALLS_MOST && at + 5 < 128; k++)
+    if (set >> k & 1)
+      at += (size_t)snprintf(text + at, 128 - at, "%s%d", at == 0 ? "" : ", ", k);
+  return text;
+}
+
+/* The choices as text. */
+static const char *list_choices(int32_t may, char text[128]) {
+  static const char *const names[] = {
+      "pass", "push", "free ball", "place in the D", "rack", "rack for the other", "stay", "spot"};
+  size_t at = 0;
+  snprintf(text, 128, "none");
+  for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
+    if (may >> k & 1)
+      at += (size_t)snprintf(text + at, 128 - at, "%s%s", at == 0 ? "" : ", ", names[k]);
+  return text;
+}
+
+/* Whether a match goes on, and this player may act. */
+static carom_status check_player(carom_match *match, int player, const char *act) {
+  if (match->phase == CAROM_MATCH_NONE)
+    return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, act, "the match has not begun");
+  if (match->phase == CAROM_MATCH_OVER)
+    return carom_match_refuse(match, CAROM_REFUSED_OVER, act, "the match is over");
+  if (player == match->record.player)
+    return CAROM_OK;
+  return carom_match_refuse(match, CAROM_REFUSED_TURN, act,
+                            match->record.player == 0 ? "player 0 is at the table"
+                                                      : "player 1 is at the table");
+}
+
+/* The same, and no ball may move. */
+static carom_status check_turn(carom_match *match, int player, const char *act) {
+  const carom_status status = check_player(match, player, act);
+  if (status != CAROM_OK || match->phase != CAROM_MATCH_MOVING)
+    return status;
+  return carom_match_refuse(match, CAROM_REFUSED_MOVING, act,
+                            "balls move: carom_match_continue() goes on with the shot");
+}
+
+/* ---- Lines */
+
+static void begin_act(carom_match *match) {
+  match->refusal = CAROM_REFUSED_NOT;
+  match->fault[0] = '\0';
+  match->size = 0;
+}
+
+static void put_line(carom_match *match, carom_record_kind kind) {
+  const size_t at = (size_t)match->size;
+  match->size +=
+      (int64_t)carom_record_write(&match->record, kind, match->text + at, sizeof match->text - at);
+}
+
+static void put_act(carom_match *match, carom_act act, int player, int32_t choice,
+                    carom_call call) {
+  carom_record *record = &match->record;
+  record->act = (int64_t)act;
+  record->actor = player;
+  record->choice = choice;
+  record->call[0] = call.ball;
+  record->call[1] = call.pocket;
+  put_line(match, CAROM_RECORD_ACT);
+}
+
+/* ---- How a match stands */
+
+static uint32_t in_play(const carom_record *record) {
+  uint32_t set = 0;
+  for (int k = 0; k < record->count; k++)
+    set |= (uint32_t)(record->balls[k].state.label != CAROM_BALL_POCKETED &&
+                      record->balls[k].state.label != CAROM_BALL_OFF)
+           << k;
+  return set;
+}
+
+int carom_match_cue_ball(const carom_match *match) {
+  const bool own = match->rules.rack == CAROM_RACK_THREECUSHION && match->rules.state.group == 2;
+  return own ? 1 : 0;
+}
+
+void carom_match_look(carom_match *match) {
+  carom_record *record = &match->record;
+  match->cue_ball = carom_match_cue_ball(match);
+  match->call = (carom_call){-1, -1};
+  match->may = match->rules.state.may;
+  match->winner = (int32_t)record->winner - 1;
+  match->on =
+      match->rules.on(&match->rules.state, in_play(record)) & ~(UINT32_C(1) << match->cue_ball);
+  match->touching = 0;
+  if (record->hand == 0)
+    match->touching = carom_touching(record->balls, (int)record->count, match->cue_ball);
+  match->phase = record->hand != 0 ? CAROM_MATCH_PLACE : CAROM_MATCH_STROKE;
+  if (record->winner != 0) {
+    match->phase = CAROM_MATCH_OVER;
+    match->may = 0;
+  }
+}
+
+/* The cue ball comes in hand. */
+static void give_hand(carom_match *match, int32_t leave) {
+  carom_record *record = &match->record;
+  const int cue_ball = carom_match_cue_ball(match);
+  match->leave = leave;
+  if (leave < CAROM_LEAVE_HAND || record->winner != 0)
+    return;
+  carom_record_hand(record, cue_ball);
+  record->bounds = leave;
+  carom_hand_bounds((carom_leave)leave, &record->table, record->balls[cue_ball].kind.radius,
+                    &match->bounds);
+  put_line(match, CAROM_RECORD_PLACE);
+}
+
+/* ---- Beginning */
+
+carom_status carom_match_begin_at(carom_match *match, carom_rules_kind kind,
+                                  const carom_plan_rules *of, const carom_table *table,
+                                  const carom_shot_ball *balls, int count,
+                                  const carom_shot_options *options, carom_leave leave,
+                                  int player) {
+  if (match == NULL || table == NULL || balls == NULL)
+    return CAROM_ERROR_NULL;
+  memset(match, 0, sizeof *match);
+  match->winner = -1;
+  const bool known = of != NULL || carom_rules_about_of(kind) != NULL;
+  if (!known || (player >> 1) != 0 || (uint32_t)leave > CAROM_LEAVE_D)
+    return carom_match_refuse(
+        match, CAROM_REFUSED_BEGIN, "begin",
+        "the rules must be a carom_rules_kind, the player 0 or 1, leave a carom_leave");
+  match->rules = of != NULL ? *of : carom_plan_rules_of(kind);
+  if (match->rules.on == NULL || match->rules.judge == NULL)
+    return CAROM_ERROR_NULL;
+  const char *range = "", *wrong = of != NULL && carom_rules_about_of(kind) == NULL
+                                       ? NULL
+                                       : carom_rules_fault(kind, &match->rules.state, &range);
+  if (wrong != NULL) {
+    char right[128];
+    snprintf(right, sizeof right, "%s must be %s", wrong, range);
+    return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin", right);
+  }
+
+  /* the layout must be one that a shot can be played from, but for a cue ball in hand */
+  carom_record *record = &match->record;
+  carom_shot_ball lies[CAROM_BALLS_MOST];
+  if (count < 2 || count > CAROM_BALLS_MOST)
+    return CAROM_ERROR_BALLS;
+  memcpy(lies, balls, (size_t)count * sizeof *balls);
+  if (leave >= CAROM_LEAVE_HAND)
+    lies[carom_match_cue_ball(match)].state.label = CAROM_BALL_POCKETED;
+  const carom_status bad = carom_shot_check(table, lies, count, NULL, options, NULL);
+  if (bad != CAROM_OK)
+    return bad;
+
+  /* the record, and its first lines */
+  record->match = 1;
+  record->table = *table;
+  if (options != NULL)
+    record->options = *options;
+  record->count = count;
+  memcpy(record->balls, balls, (size_t)count * sizeof *balls);
+  record->rules = (int64_t)kind;
+  record->player = player;
+  record->standing = match->rules.state;
+  put_line(match, CAROM_RECORD_HEAD);
+  put_line(match, CAROM_RECORD_TABLE);
+  put_line(match, CAROM_RECORD_OPTIONS);
+  put_line(match, CAROM_RECORD_BALLS);
+  give_hand(match, (int32_t)leave);
+  put_line(match, CAROM_RECORD_GAME);
+  carom_match_look(match);
+  return CAROM_OK;
+}
+
+carom_status carom_match_begin(carom_match *match, carom_rules_kind kind, const carom_table *table,
+                               uint64_t seed, int player) {
+  if (match == NULL || table == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_rules_about *about = carom_rules_about_of(kind);
+  if (about == NULL) {
+    memset(match, 0, sizeof *match);
+    return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin",
+                              "the rules must be a carom_rules_kind");
+  }
+
+  /* the rack, which a break opens in the games that have one */
+  carom_shot_ball balls[CAROM_BALLS_MOST];
+  const carom_rack_kind rack = (carom_rack_kind)about->rack;
+  const carom_status bad = carom_rack(rack, table, 1e-4, seed, balls, CAROM_BALLS_MOST);
+  if (bad != CAROM_OK)
+    return bad;
+  carom_plan_rules rules = carom_plan_rules_of(kind);
+  rules.state.opening = carom_has_opening(kind);
+  if (kind == CAROM_RULES_THREECUSHION)
+    rules.state.group = 1 + player;
+  if (rules.state.group == 2) { /* the white spot is that of who opens */
+    const carom_ball_state white = balls[0].state;
+    balls[0].state = balls[1].state;
+    balls[1].state = white;
+  }
+  return carom_match_begin_at(match, kind, &rules, table, balls, carom_rack_size(rack), NULL,
+                              (carom_leave)about->opening, player);
+}
+
+/* ---- Rulings */
+
+/* Balls behind the head string may not be met first from there, before the cue ball has crossed it
+ * (WPA 6.11). */
+static uint32_t barred(const carom_match *match) {
+  const carom_record *record = &match->record;
+  const double head = 0.25 * record->table.length;
+  uint32_t set = 0;
+  if (match->leave != CAROM_LEAVE_KITCHEN || record->facts.first_high[1] > head)
+    return set;
+  for (int k = 0; k < record->count; k++)
+    set |= (uint32_t)(record->balls[k].state.r[1] < head) << k;
+  return set;
+}
+
+/* A cue ball that was in hand and was not placed, as when the clock ran out, stays in hand within
+ * the same bounds. */
+static void keep_in_hand(carom_match *match) {
+  carom_ruling *ruling = &match->ruling;
+  const int64_t label = match->record.balls[carom_match_cue_ball(match)].state.label;
+  const bool down = label == CAROM_BALL_POCKETED || label == CAROM_BALL_OFF;
+  if (!down || ruling->turn.leave >= CAROM_LEAVE_HAND || ruling->next < 0)
+    return;
+  const bool had = match->leave >= CAROM_LEAVE_HAND;
+  ruling->turn.leave = had ? (carom_leave)match->leave : CAROM_LEAVE_HAND;
+  ruling->hand = 1;
+}
+
+/* Takes the ruling over: the layout, who plays and how the game stands. */
+static void apply(carom_match *match) {
+  carom_record *record = &match->record;
+  const carom_ruling *ruling = &match->ruling;
+
+  /* balls that lie elsewhere than the record has them */
+  carom_record_settle(record);
+  bool moved = false;
+  for (int k = 0; k < record->count; k++) {
+    const carom_ball_state *lies = &ruling->balls[k].state;
+    moved |= memcmp(&record->balls[k].state, lies, sizeof *lies) != 0;
+    record->balls[k].state = *lies;
+  }
+  if (moved)
+    put_line(match, CAROM_RECORD_BALLS);
+
+  /* who plays, and who has won */
+  const int64_t player = record->player;
+  match->rulings++;
+  match->rules.state = record->standing = ruling->state;
+  record->foul = ruling->turn.foul;
+  if (ruling->winner >= 0)
+    record->winner = 1 + (player ^ ruling->winner);
+  else
+    record->player = player ^ ruling->next;
+  record->hand = 0;
+  keep_in_hand(match);
+  give_hand(match, (int32_t)ruling->turn.leave);
+  put_line(match, CAROM_RECORD_GAME);
+  carom_match_look(match);
+}
+
+/* Rules the shot that the record has just played, or that none was played: `none`, as after an
+ * error, a choice, or a clock that ran out. */
+static void rule(carom_match *match, bool none, carom_call call) {
+  carom_record *record = &match->record;
+  carom_facts facts = record->facts;
+  facts.barred = barred(match);
+  const carom_shot shot = {.facts = &facts, .final = record->final};
+  carom_referee(&match->rules, &record->table, record->balls, (int)record->count, match->cue_ball,
+                none ? NULL : &shot, call, &match->ruling);
+}
+
+/* ---- Strokes */
+
+/* When the next shot stops. */
+static void set_stops(carom_record *record, const carom_shot_options *stop) {
+  static const carom_shot_options none = {0};
+  stop = stop != NULL ? stop : &none;
+  record->options.time_most = stop->time_most;
+  record->options.stop_at = stop->stop_at;
+  record->options.first_of = stop->first_of;
+  record->options.events_most = stop->events_most;
+}
+
+/* Plays a shot or a part of one, and rules where it has ended. */
+static carom_status play(carom_match *match, carom_record_kind kind, const carom_shot_options *stop,
+                         carom_shot *shot, const char *act) {
+  carom_record *record = &match->record;
+  const int64_t pending = record->pending;
+  set_stops(record, stop);
+  record->pending = 0;
+  const carom_status status = carom_record_play(record, kind, shot);
+  if (record->pending != 2) {
+    record->pending = pending;
+    return carom_match_refuse(match, CAROM_REFUSED_STROKE, act, carom_status_string(status));
+  }
+  put_line(match, kind);
+  match->phase = CAROM_MATCH_MOVING;
+  if (status > 0)
+    return status;
+  rule(match, status < 0, match->call);
+  apply(match);
+  return CAROM_OK;
+}
+
+carom_status carom_match_stroke(carom_match *match, int player, const carom_cue *cue,
+                                const carom_shot_options *stop, carom_shot *shot) {
+  if (match == NULL || cue == NULL)
+    return CAROM_ERROR_NULL;
+  begin_act(match);
+  const carom_status bad = check_turn(match, player, "stroke");
+  if (bad != CAROM_OK)
+    return bad;
+  if (match->phase == CAROM_MATCH_PLACE)
+    return carom_match_refuse(
+        match, CAROM_REFUSED_IN_HAND, "stroke",
+        "the cue ball is in hand: carom_match_place() puts it within match.bounds");
+  if (cue->ball != match->cue_ball)
+    return carom_match_refuse(match, CAROM_REFUSED_CUE_BALL, "stroke",
+                              "cue.ball must be match.cue_ball");
+  if (!(cue->speed > 0.0))
+    return carom_match_refuse(match, CAROM_REFUSED_STROKE, "stroke",
+                              "cue.speed must be above 0 m/s");
+  match->record.cue = *cue;
+  return play(match, CAROM_RECORD_SHOT, stop, shot, "stroke");
+}
+
+carom_status carom_match_continue(carom_match *match, const carom_shot_options *stop,
+                                  carom_shot *shot) {
+  if (match == NULL)
+    return CAROM_ERROR_NULL;
+  begin_act(match);
+  if (match->phase != CAROM_MATCH_MOVING)
+    return carom_match_refuse(match, CAROM_REFUSED_AT_REST, "continue",
+                              "no ball moves: play a stroke");
+  return play(match, CAROM_RECORD_CONTINUE, stop, shot, "continue");
+}
+
+/* ---- Places, calls and choices */
+
+carom_status carom_match_place(carom_match *match, int player, double x, double y) {
+  if (match == NULL)
+    return CAROM_ERROR_NULL;
+  begin_act(match);
+  const carom_status bad = check_turn(match, player, "place");
+  if (bad != CAROM_OK)
+    return bad;
+  if (match->leave < CAROM_LEAVE_HAND)
+    return carom_match_refuse(match, CAROM_REFUSED_NO_HAND, "place", "the cue ball is not in hand");
+  if (!carom_is_within(&match->bounds, x, y)) {
+    const carom_bounds *b = &match->bounds;
+    char right[160];
+    snprintf(right, sizeof right, "the cue ball must be within %g <= x <= %g, %g <= y <= %g m%s",
+             b->low[0], b->high[0], b->low[1], b->high[1], b->radius > 0.0 ? " and in the D" : "");
+    return carom_match_refuse(match, CAROM_REFUSED_BOUNDS, "place", right);
+  }
+
+  /* the ball is taken from where it was put before */
+  carom_record *record = &match->record;
+  carom_part there;
+  const carom_status status = carom_record_place(record, match->cue_ball, x, y, &there);
+  if (status != CAROM_OK) {
+    char right[128];
+    snprintf(right, sizeof right, "%s%s %d", carom_status_string(status),
+             there.kind == CAROM_PART_BALL ? ": ball" : ": part", there.index);
+    return carom_match_refuse(match, CAROM_REFUSED_OCCUPIED, "place", right);
+  }
+  put_line(match, CAROM_RECORD_PLACE);
+  match->phase = CAROM_MATCH_STROKE;
+  match->touching = carom_touching(record->balls, (int)record->count, match->cue_ball);
+  return CAROM_OK;
+}
+
+carom_status carom_match_call(carom_match *match, int player, carom_call call) {
+  if (match == NULL)
+    return CAROM_ERROR_NULL;
+  begin_act(match);
+  const carom_status bad = check_turn(match, player, "call");
+  if (bad != CAROM_OK)
+    return bad;
+  if (match->rules.calls == 0)
+    return carom_match_refuse(match, CAROM_REFUSED_CALL, "call", "nothing is called in this game");
+  const bool is_on = call.ball >= 0 && call.ball < CAROM_BALLS_MOST && match->on >> call.ball & 1;
+  if (call.ball != -1 && !is_on) {
+    char text[128], right[200];
+    snprintf(right, sizeof right, "ball %d is not on; on are %s, and -1 is a safety",
+             (int)call.ball, list_balls(match->on, text));
+    return carom_match_refuse(match, CAROM_REFUSED_CALL, "call", right);
+  }
+  const bool names_pocket = call.ball >= 0 && match->rules.rack != CAROM_RACK_SNOOKER;
+  if (!names_pocket)
+    call.pocket = -1;
+  if (names_pocket && (call.pocket < 0 || call.pocket >= match->record.table.pockets)) {
+    char right[128];
+    snprintf(right, sizeof right, "the pocket must be 0 to %d",
+             (int)match->record.table.pockets - 1);
+    return carom_match_refuse(match, CAROM_REFUSED_CALL, "call", right);
+  }
+  match->call = call;
+  put_act(match, CAROM_ACT_CALL, player, 0, call);
+  return CAROM_OK;
+}
+
+/* The call of a choice that is taken instead of a stroke; 0 of another one. */
+static int32_t call_of(carom_may choice) {
+  switch (choice) {
+  case CAROM_MAY_PASS:
+    return CAROM_CALL_PASS;
+  case CAROM_MAY_RACK:
+    return CAROM_CALL_RACK;
+  case CAROM_MAY_OTHER_RACK:
+    return CAROM_CALL_OTHER_RACK;
+  case CAROM_MAY_STAY:
+    return CAROM_CALL_STAY;
+  case CAROM_MAY_SPOT:
+    return CAROM_CALL_SPOT;
+  default:
+    return 0;
+  }
+}
+
+carom_status carom_match_choose(carom_match *match, int player, carom_may choice) {
+  if (match == NULL)
+    return CAROM_ERROR_NULL;
+  begin_act(match);
+  const carom_status bad = check_turn(match, player, "choose");
+  if (bad != CAROM_OK)
+    return bad;
+  const bool is_one = choice > 0 && ((int32_t)choice & ((int32_t)choice - 1)) == 0 &&
+                      (match->may & (int32_t)choice) != 0;
+  const bool pushes = choice == CAROM_MAY_PUSH;
+  if (!is_one || (!pushes && call_of(choice) == 0)) {
+    char text[128], right[200];
+    snprintf(right, sizeof right, "the choices are: %s; a free ball is named by a call",
+             list_choices(match->may, text));
+    return carom_match_refuse(match, CAROM_REFUSED_CHOICE, "choose", right);
+  }
+  const carom_call none = {-1, -1}, call = {pushes ? CAROM_CALL_PUSH : call_of(choice), -1};
+  put_act(match, CAROM_ACT_CHOOSE, player, (int32_t)choice, none);
+  if (pushes) {
+    match->call = call;
+    return CAROM_OK;
+  }
+  rule(match, true, call);
+  if (choice == CAROM_MAY_STAY)
+    match->ruling.balls[match->cue_ball].state.label = CAROM_BALL_STATIONARY;
+  apply(match);
+  return CAROM_OK;
+}
+
+/* ---- Concessions, clocks, the end */
+
+carom_status carom_match_concede(carom_match *match, int player) {
+  if (match == NULL)
+    return CAROM_ERROR_NULL;
+  begin_act(match);
+  if (match->phase == CAROM_MATCH_NONE || match->phase == CAROM_MATCH_OVER)
+    return check_player(match, player, "concede");
+  if ((player >> 1) != 0)
+    return carom_match_refuse(match, CAROM_REFUSED_TURN, "concede", "the player must be 0 or 1");
+  put_act(match, CAROM_ACT_CONCEDE, player, 0, (carom_call){-1, -1});
+  carom_record *record = &match->record;
+  record->winner = 1 + (1 - player);
+  record->hand = 0;
+  record->standing = match->rules.state;
+  put_line(match, CAROM_RECORD_GAME);
+  carom_match_look(match);
+  return CAROM_OK;
+}
+
+carom_status carom_match_clock(carom_match *match, int player) {
+  if (match == NULL)
+    return CAROM_ERROR_NULL;
+  begin_act(match);
+  const carom_status bad = check_turn(match, player, "clock");
+  if (bad != CAROM_OK)
+    return bad;
+  put_act(match, CAROM_ACT_CLOCK, player, 0, (carom_call){-1, -1});
+  rule(match, true, (carom_call){-1, -1});
+  apply(match);
+  return CAROM_OK;
+}
+
+carom_status carom_match_end(carom_match *match) {
+  if (match == NULL)
+    return CAROM_ERROR_NULL;
+  begin_act(match);
+  if (match->phase == CAROM_MATCH_NONE || match->record.kind == CAROM_RECORD_END)
+    return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, "end",
+                              "there is no match to be ended");
+  put_line(match, CAROM_RECORD_END);
+  match->phase = CAROM_MATCH_OVER;
+  return CAROM_OK;
+}
+
+/* ---- Plans */
+
+carom_status carom_match_plan(carom_match *match, carom_plan_job *job, carom_choice *choices,
+                              int room, int *found) {
+  if (match == NULL || job == NULL || job->cue == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_record *record = &match->record;
+  begin_act(match);
+  const carom_status bad = check_turn(match, (int)record->player, "plan");
+  if (bad != CAROM_OK)
+    return bad;
+  if (job->cue->ball != match->cue_ball)
+    return carom_match_refuse(match, CAROM_REFUSED_CUE_BALL, "plan",
+                              "job.cue->ball must be match.cue_ball");
+  set_stops(&match->record, NULL);
+  job->table = &record->table;
+  job->balls = record->balls;
+  job->count = record->count;
+  job->rules = &match->rules;
+  job->shot = &record->options;
+  if (match->phase == CAROM_MATCH_PLACE)
+    return carom_plan_hand(job, match->bounds.low, match->bounds.high, choices, room, found);
+  return carom_plan(job, choices, room, found);
+}

@@ -1,0 +1,178 @@
+/* Lines of a match, read back and judged.
+ *
+ * A line that says what a player did is done again, as a call of his would be: the rules refuse it,
+ * or make its line and those of the ruling, which wait in match->text. The lines of the file must
+ * be these, byte for byte. */
+#include "match.h"
+#include "rules.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* What the next line must be, of those that the last act made. */
+static size_t line_due(const carom_match *match) {
+  const char *end = memchr(match->text, '\n', (size_t)match->size);
+  return end != NULL ? (size_t)(end - match->text) + 1 : 0;
+}
+
+/* The line that was due has come. */
+static void take_line(carom_match *match, size_t length) {
+  match->size -= (int64_t)length;
+  memmove(match->text, match->text + length, (size_t)match->size);
+}
+
+/* Without blanks at its ends. */
+static const char *trimmed(const char *line, size_t *size) {
+  while (*size > 0 && (line[*size - 1] == '\n' || line[*size - 1] == '\r' ||
+                       line[*size - 1] == ' ' || line[*size - 1] == '\t'))
+    --*size;
+  while (*size > 0 && (*line == ' ' || *line == '\t')) {
+    line++;
+    --*size;
+  }
+  return line;
+}
+
+/* Whether a line is of a kind, such as "event". */
+static bool is_kind(const char *line, size_t size, const char *kind) {
+  const size_t length = strlen(kind);
+  return size > length + 3 && line[0] == '{' && line[1] == '"' &&
+         memcmp(line + 2, kind, length) == 0 && line[2 + length] == '"';
+}
+
+/* A line that is not by the rules: what is due, and why. Nothing is read behind it. */
+static carom_status refuse_line(carom_match *match, int64_t line, const char *what) {
+  char act[40], right[300], due[64] = "";
+  const size_t length = line_due(match);
+  if (length > 0)
+    snprintf(due, sizeof due, "; due is %.*s...", length < 40 ? (int)length - 1 : 40, match->text);
+  snprintf(act, sizeof act, "line %lld", (long long)line);
+  snprintf(right, sizeof right, "%s%s", what, due);
+  const int64_t size = match->size;
+  const carom_status status = carom_match_refuse(match, CAROM_REFUSED_LINE, act, right);
+  match->size = size;
+  match->record.kind = CAROM_RECORD_WRONG;
+  return status;
+}
+
+/* The first lines, up to the first "game", are read into the record itself. */
+static carom_status read_beginning(carom_match *match, const char *line, size_t size) {
+  carom_record *record = &match->record;
+  const carom_status status = carom_record_read(record, line, size);
+  if (status != CAROM_OK) {
+    snprintf(match->fault, sizeof match->fault, "line %lld: %s", (long long)record->line,
+             record->fault);
+    return status;
+  }
+  const int64_t kind = record->kind;
+  if (kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE || kind == CAROM_RECORD_ACT ||
+      kind == CAROM_RECORD_END)
+    return refuse_line(match, record->line, "a line \"game\" must come before it");
+  if (kind == CAROM_RECORD_HEAD && record->match != 1)
+    return refuse_line(
+        match, record->line,
+        "this is no match, but a recording of format 2: carom_record_read() reads it");
+  if (kind != CAROM_RECORD_GAME)
+    return CAROM_OK;
+
+  /* how the game stands at its beginning */
+  const char *range = "";
+  if (match->rules.judge == NULL) {
+    if (carom_rules_about_of((carom_rules_kind)record->rules) == NULL)
+      return refuse_line(match, record->line, "game.rules must be a carom_rules_kind");
+    match->rules = carom_plan_rules_of((carom_rules_kind)record->rules);
+    const char *wrong =
+        carom_rules_fault((carom_rules_kind)record->rules, &record->standing, &range);
+    char what[128];
+    snprintf(what, sizeof what, "game.%s must be %s", wrong != NULL ? wrong : "", range);
+    if (wrong != NULL)
+      return refuse_line(match, record->line, what);
+  }
+  match->rules.state = record->standing;
+  match->leave = 0;
+  if (record->hand != 0) {
+    match->leave = record->bounds != 0 ? (int32_t)record->bounds : CAROM_LEAVE_HAND;
+    carom_hand_bounds((carom_leave)match->leave, &record->table,
+                      record->balls[carom_match_cue_ball(match)].kind.radius, &match->bounds);
+  }
+  carom_match_look(match);
+  return CAROM_OK;
+}
+
+/* Does what a line says, as the player would; its own line is then due. `read` is the record behind
+ * it. */
+static carom_status do_line(carom_match *match, const carom_record *read) {
+  const int player = (int)match->record.player;
+  const carom_call call = {(int32_t)read->call[0], (int32_t)read->call[1]};
+  switch (read->kind) {
+  case CAROM_RECORD_SHOT:
+    return carom_match_stroke(match, player, &read->cue, &read->options, NULL);
+  case CAROM_RECORD_CONTINUE:
+    return carom_match_continue(match, &read->options, NULL);
+  case CAROM_RECORD_PLACE:
+    return carom_match_place(match, player, read->place[0], read->place[1]);
+  case CAROM_RECORD_END:
+    return carom_match_end(match);
+  case CAROM_RECORD_ACT:
+    break;
+  default:
+    return carom_match_refuse(match, CAROM_REFUSED_LINE, "line",
+                              "by the rules nothing of this kind follows");
+  }
+  switch (read->act) {
+  case CAROM_ACT_CHOOSE:
+    return carom_match_choose(match, (int)read->actor, (carom_may)read->choice);
+  case CAROM_ACT_CALL:
+    return carom_match_call(match, (int)read->actor, call);
+  case CAROM_ACT_CONCEDE:
+    return carom_match_concede(match, (int)read->actor);
+  case CAROM_ACT_CLOCK:
+    return carom_match_clock(match, (int)read->actor);
+  default:
+    return carom_match_refuse(match, CAROM_REFUSED_LINE, "act", "must be a carom_act");
+  }
+}
+
+carom_status carom_match_read(carom_match *match, carom_record *scratch, const char *line,
+                              size_t size) {
+  if (match == NULL || scratch == NULL || line == NULL)
+    return CAROM_ERROR_NULL;
+  line = trimmed(line, &size);
+  carom_record *record = &match->record;
+  if (size == 0)
+    return CAROM_OK;
+  if (match->phase == CAROM_MATCH_NONE) {
+    match->size = 0;
+    return read_beginning(match, line, size);
+  }
+  if (is_kind(line, size, "event") && record->kind != CAROM_RECORD_WRONG)
+    return CAROM_OK; /* the shot tells its events */
+
+  /* a line that the rules have made already */
+  size_t due = line_due(match);
+  const int64_t number = record->line + 1;
+  if (due == 0) {
+    *scratch = *record;
+    const carom_status status = carom_record_read(scratch, line, size);
+    if (status != CAROM_OK) {
+      snprintf(match->fault, sizeof match->fault, "line %lld: %s", (long long)number,
+               scratch->fault);
+      match->refusal = CAROM_REFUSED_LINE;
+      record->kind = CAROM_RECORD_WRONG;
+      return status;
+    }
+    if (do_line(match, scratch) < 0) {
+      char why[200];
+      snprintf(why, sizeof why, "%.199s", match->fault);
+      return refuse_line(match, number, why);
+    }
+    due = line_due(match);
+  }
+  if (due != size + 1 || memcmp(line, match->text, size) != 0) {
+    char words[200] = "";
+    carom_ruling_string(&match->ruling, words, sizeof words);
+    return refuse_line(match, number, words[0] != '\0' ? words : "the line has other values");
+  }
+  take_line(match, due);
+  return CAROM_OK;
+}

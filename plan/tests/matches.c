@@ -1,0 +1,257 @@
+/* Matches: what is refused, and by which name; rulings with their sections; recordings that are
+ * judged; and random matches by random acts over all games. */
+#include "carom_match.h"
+#include "game_support.h"
+
+static carom_match match, reader;
+static carom_record scratch;
+static char file[1 << 22];
+static size_t length;
+
+static void keep(void) {
+  ck_assert(length + (size_t)match.size < sizeof file);
+  memcpy(file + length, match.text, (size_t)match.size);
+  length += (size_t)match.size;
+}
+
+static void begin(carom_rules_kind kind, uint64_t seed, int player) {
+  const carom_rules_about *about = carom_rules_about_of(kind);
+  carom_table_kind of = CAROM_TABLE_POOL_9FT;
+  if (about->balls == CAROM_GAME_SNOOKER)
+    of = CAROM_TABLE_SNOOKER;
+  if (about->balls == CAROM_GAME_BILLIARD)
+    of = CAROM_TABLE_THREECUSHION;
+  carom_table_make(of, &table);
+  length = 0;
+  ck_assert_int_eq(carom_match_begin(&match, kind, &table, seed, player), CAROM_OK);
+  keep();
+}
+
+static carom_cue cue_of(carom_rules_kind kind) {
+  carom_cue cue = carom_cue_of((carom_game)carom_rules_about_of(kind)->balls);
+  cue.ball = match.cue_ball;
+  return cue;
+}
+
+/* Reads text[size] by lines; returns the first status that is no CAROM_OK. */
+static carom_status read_all(const char *from, size_t size) {
+  memset(&reader, 0, sizeof reader);
+  for (const char *line = from; line < from + size;) {
+    const char *end = memchr(line, '\n', (size_t)(from + size - line));
+    const char *next = end != NULL ? end + 1 : from + size;
+    const carom_status status = carom_match_read(&reader, &scratch, line, (size_t)(next - line));
+    if (status != CAROM_OK)
+      return status;
+    line = next;
+  }
+  return CAROM_OK;
+}
+
+/* ---- Refusals */
+
+static void refused(carom_status status, carom_refusal why, const char *said) {
+  ck_assert_int_eq(status, CAROM_ERROR_ACT);
+  ck_assert_msg(match.refusal == (int32_t)why && strstr(match.fault, said) != NULL, "%s: %s",
+                carom_refusal_name(match.refusal), match.fault);
+  ck_assert_int_eq(match.size, 0);
+}
+
+TEST(acts_that_are_refused) {
+  carom_shot_options stop = {.time_most = 0.1};
+  memset(&match, 0, sizeof match);
+  refused(carom_match_place(&match, 0, 0.5, 0.5), CAROM_REFUSED_NOT_BEGUN, "not begun");
+  begin(CAROM_RULES_EIGHTBALL, 1, 1);
+  carom_cue cue = cue_of(CAROM_RULES_EIGHTBALL);
+  cue.speed = 9.0;
+  ck_assert_int_eq(match.phase, CAROM_MATCH_PLACE);
+  refused(carom_match_place(&match, 0, 0.6, 0.6), CAROM_REFUSED_TURN, "player 1");
+  refused(carom_match_place(&match, 1, 0.6, 1.0), CAROM_REFUSED_BOUNDS, "0.635");
+  refused(carom_match_stroke(&match, 1, &cue, NULL, NULL), CAROM_REFUSED_IN_HAND, "place");
+  refused(carom_match_choose(&match, 1, CAROM_MAY_PASS), CAROM_REFUSED_CHOICE, "none");
+  ck_assert_int_eq(carom_match_place(&match, 1, 0.6, 0.6), CAROM_OK);
+  ck_assert_int_eq(carom_match_place(&match, 1, 0.635, 0.6),
+                   CAROM_OK); /* it may be put elsewhere */
+  refused(carom_match_continue(&match, NULL, NULL), CAROM_REFUSED_AT_REST, "no ball moves");
+  refused(carom_match_call(&match, 1, (carom_call){0, 1}), CAROM_REFUSED_CALL, "1, 2, 3");
+  refused(carom_match_call(&match, 1, (carom_call){3, 6}), CAROM_REFUSED_CALL, "0 to 5");
+  cue.ball = 3;
+  refused(carom_match_stroke(&match, 1, &cue, NULL, NULL), CAROM_REFUSED_CUE_BALL, "cue_ball");
+  cue.ball = 0;
+  cue.theta = -1.0;
+  refused(carom_match_stroke(&match, 1, &cue, NULL, NULL), CAROM_REFUSED_STROKE, "theta");
+  cue.theta = 0.0;
+
+  /* while balls move */
+  ck_assert_int_eq(carom_match_stroke(&match, 1, &cue, &stop, NULL), CAROM_STOPPED_AT_TIME);
+  ck_assert_int_eq(match.phase, CAROM_MATCH_MOVING);
+  refused(carom_match_stroke(&match, 1, &cue, NULL, NULL), CAROM_REFUSED_MOVING, "continue");
+  refused(carom_match_call(&match, 1, (carom_call){1, 1}), CAROM_REFUSED_MOVING, "continue");
+  ck_assert_int_eq(match.rulings, 0);
+  ck_assert_int_eq(carom_match_continue(&match, NULL, NULL), CAROM_OK);
+  ck_assert_int_eq(match.rulings, 1);
+
+  /* the end */
+  ck_assert_int_eq(carom_match_concede(&match, 0), CAROM_OK);
+  ck_assert(match.phase == CAROM_MATCH_OVER && match.winner == 1);
+  refused(carom_match_stroke(&match, 1, &cue, NULL, NULL), CAROM_REFUSED_OVER, "over");
+}
+
+/* ---- Recordings */
+
+/* Plays random strokes until some are ruled; the file has all lines. */
+static void play_some(carom_rules_kind kind, uint64_t seed, int strokes) {
+  random_source r = {seed};
+  begin(kind, seed, (int)(seed & 1));
+  for (int k = 0; k < strokes && match.phase != CAROM_MATCH_OVER; k++) {
+    const int player = (int)match.record.player;
+    const carom_bounds *b = &match.bounds;
+    while (match.phase == CAROM_MATCH_PLACE) {
+      const double y = random_between(&r, b->low[1], b->high[1]);
+      const double x = random_between(&r, b->low[0], b->high[0]);
+      if (carom_match_place(&match, player, x, y) == CAROM_OK)
+        keep();
+    }
+    carom_cue cue = cue_of(kind);
+    cue.phi = random_between(&r, 0.0, 360.0);
+    cue.speed = random_between(&r, 0.5, 6.0);
+    ck_assert_int_eq(carom_match_stroke(&match, player, &cue, NULL, NULL), CAROM_OK);
+    keep();
+  }
+  ck_assert_int_eq(carom_match_end(&match), CAROM_OK);
+  keep();
+}
+
+/* A match that is read again is the same; one of which any line is changed, left out or doubled is
+ * refused, but for a file that ends behind a line, which goes on where it was cut off. */
+TEST(recordings_are_judged) {
+  for (int kind = CAROM_RULES_EIGHTBALL; kind <= CAROM_RULES_BANK; kind++) {
+    play_some((carom_rules_kind)kind, 11, 12);
+    ck_assert_msg(read_all(file, length) == CAROM_OK, "game %d: %s", kind, reader.fault);
+    ck_assert_mem_eq(reader.record.balls, match.record.balls, sizeof match.record.balls);
+    ck_assert_mem_eq(&reader.rules.state, &match.rules.state, sizeof match.rules.state);
+    ck_assert_uint_eq(reader.record.hash, match.record.hash);
+  }
+
+  /* every line but the last left out, doubled, or with a digit changed */
+  static char forged[sizeof file];
+  int lines = 0, refused_lines = 0;
+  for (char *line = file; line < file + length;) {
+    char *end = memchr(line, '\n', (size_t)(file + length - line));
+    const size_t before = (size_t)(line - file), size_of_line = (size_t)(end + 1 - line);
+    char *digit = line + strcspn(line, "123456789");
+    for (int how = 0; how < 3; how++) {
+      if (how == 0 && end + 1 == file + length)
+        continue; /* it is cut off, which carom verify tells */
+      size_t n = before;
+      memcpy(forged, file, length);
+      if (how == 2 && digit < end)
+        forged[digit - file] = *digit == '1' ? '2' : '1';
+      if (how == 1) {
+        memcpy(forged + n, line, size_of_line);
+        n += size_of_line;
+      }
+      const char *rest = how == 0 ? end + 1 : line;
+      if (how < 2) {
+        memcpy(forged + n, rest, (size_t)(file + length - rest));
+        n += (size_t)(file + length - rest);
+      } else {
+        n = length;
+      }
+      const bool same = how == 2 && digit >= end;
+      const bool plain = lines < 3 && how == 1; /* a second line of a table or of options */
+      const carom_status status = read_all(forged, n);
+      ck_assert_msg(same || plain || status < 0, "line %d, %d: %.60s", lines + 1, how, line);
+      refused_lines += status < 0;
+    }
+    lines++;
+    line = end + 1;
+  }
+  ck_assert(lines > 20 && refused_lines > 2 * lines);
+}
+
+/* A file that was cut off behind a shot: the reader knows the ruling, has the lines that are
+ * missing, and the other player goes on. */
+TEST(cut_off_behind_a_shot) {
+  play_some(CAROM_RULES_STRAIGHT, 3, 1);
+  const char *shot = strstr(file, "{\"shot\"");
+  const char *end = strchr(shot, '\n') + 1;
+  ck_assert_int_eq(read_all(file, (size_t)(end - file)), CAROM_OK);
+  ck_assert(reader.size > 0 && memcmp(reader.text, end, (size_t)reader.size) == 0);
+  ck_assert_int_eq(reader.record.player, match.record.player);
+}
+
+/* ---- Random matches */
+
+/* One random act, most of which are refused: with a name, and with nothing changed. */
+static carom_status act(random_source *r, carom_rules_kind kind) {
+  const int player = (int)match.record.player ^ (random_between(r, 0.0, 1.0) < 0.05);
+  const carom_bounds *b = &match.bounds;
+  const double what = random_between(r, 0.0, 1.0);
+  carom_cue cue = cue_of(kind);
+  const carom_shot_options stop = {.time_most = random_between(r, 0.0, 1.0) < 0.1 ? 0.3 : 0.0};
+  if (match.phase == CAROM_MATCH_MOVING && what < 0.7)
+    return carom_match_continue(&match, NULL, NULL);
+  if (what < 0.1) {
+    const int ball = (int)random_between(r, -2.0, 23.0);
+    return carom_match_call(&match, player, (carom_call){ball, (int)random_between(r, -1.0, 7.0)});
+  }
+  if (what < 0.25)
+    return carom_match_choose(&match, player, (carom_may)(1 << (int)random_between(r, 0.0, 8.999)));
+  if (what < 0.255)
+    return carom_match_clock(&match, player);
+  if (what < 0.2552)
+    return carom_match_concede(&match, player);
+  if (match.phase == CAROM_MATCH_PLACE && what < 0.9) {
+    const double y = random_between(r, b->low[1] - 0.1, b->high[1] + 0.1);
+    return carom_match_place(&match, player, random_between(r, b->low[0], b->high[0]), y);
+  }
+  cue.phi = random_between(r, 0.0, 360.0);
+  cue.speed = random_between(r, 0.2, 9.0);
+  cue.theta = random_between(r, 0.0, 1.0) < 0.1 ? 30.0 : 0.0;
+  return carom_match_stroke(&match, player, &cue, &stop, NULL);
+}
+
+/* Over all games: no dead end, no standing that a game cannot have, every refusal with a name and
+ * nothing changed, every file that is read again. CAROM_TEST_ACTS: how many acts. */
+TEST(random_matches) {
+  const uint64_t seed = test_seed();
+  const char *given = getenv("CAROM_TEST_ACTS");
+  const long most = given != NULL ? atol(given) : 4000;
+  long acts = 0, taken = 0, over = 0, games = 0;
+  printf("random matches: seed %llu\n", (unsigned long long)seed);
+  static carom_match before;
+  for (uint64_t game = 0; acts < most; game++) {
+    random_source r = {seed + game};
+    const carom_rules_kind kind = (carom_rules_kind)(game % (CAROM_RULES_BANK + 1));
+    begin(kind, seed + game, (int)(game & 1));
+    games++;
+    int idle = 0;
+    for (int n = 0; n < 120 && match.phase != CAROM_MATCH_OVER; n++, acts++) {
+      before = match;
+      const carom_status status = act(&r, kind);
+      if (status >= 0) {
+        const char *range = "", *wrong = carom_rules_fault(kind, &match.rules.state, &range);
+        ck_assert_msg(wrong == NULL || match.phase == CAROM_MATCH_OVER, "seed %llu: %s must be %s",
+                      (unsigned long long)(seed + game), wrong, range);
+        ck_assert_msg(match.size > 0, "seed %llu: no line", (unsigned long long)(seed + game));
+        ck_assert(match.phase == CAROM_MATCH_OVER || match.on != 0);
+        keep();
+        taken++;
+        idle = 0;
+        continue;
+      }
+      ck_assert_int_eq(status, CAROM_ERROR_ACT);
+      ck_assert(carom_refusal_name(match.refusal)[0] != '\0' && match.fault[0] != '\0');
+      ck_assert(match.record.hash == before.record.hash && match.phase == before.phase &&
+                match.record.player == before.record.player && match.may == before.may);
+      ck_assert_msg(++idle < 100, "seed %llu: a dead end: %s", (unsigned long long)(seed + game),
+                    match.fault);
+    }
+    over += match.phase == CAROM_MATCH_OVER;
+    ck_assert_msg(read_all(file, length) == CAROM_OK, "seed %llu, game %d: %s",
+                  (unsigned long long)(seed + game), (int)kind, reader.fault);
+    ck_assert_int_eq(reader.size, 0);
+    ck_assert_uint_eq(reader.record.hash, match.record.hash);
+  }
+  printf("%ld acts, %ld taken, %ld games, %ld of them over\n", acts, taken, games, over);
+}
