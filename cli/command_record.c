@@ -2,6 +2,7 @@
  * carom_record.h. docs/using/games.md has the format. */
 #include "carom_record.h"
 
+#include "game/judge_match.h"
 #include "program/command.h"
 #include "program/memory.h"
 #include "program/message.h"
@@ -169,7 +170,7 @@ typedef struct recording {
   const char *path;
   FILE *in;
   char *text;
-  size_t space;
+  size_t space, size; /* bytes of text, and of the line in it */
   bool open; /* a shot ended otherwise, and is told: hashes of lines behind it differ too */
 } recording;
 
@@ -201,7 +202,8 @@ static bool next_line(recording *r, carom_record *game, bool *bad) {
                game->line);
     return false;
   }
-  const carom_status status = carom_record_read(game, r->text, (size_t)size);
+  r->size = (size_t)size;
+  const carom_status status = carom_record_read(game, r->text, r->size);
   *bad = status < 0;
   if (status == CAROM_ERROR_REVISION)
     complain("%s: recorded with revision %" PRId64 " of the physics; this carom has revision %d, "
@@ -374,59 +376,88 @@ static void tell_end(const recording *r, const player *p, int64_t line, int64_t 
 static const command_form verify_form = {
     .name = "verify",
     .usage = "GAME",
-    .about = "Plays a recording again and compares every bit. Tells the first shot, and where "
-             "events were recorded the first event and the first number, that differs, and by how "
-             "much. GAME may be -.\n",
+    .about = "Plays a recording again and compares every bit. Judges a match by its rules. Tells "
+             "the first shot, and where events were recorded the first event and the first number, "
+             "that differs, and by how much; of a match the first line that is not by the rules. "
+             "GAME may be -.\n",
     .options = (const option_row *const[]){NULL},
-    .details = "exit code: 0 if every bit agrees; 1 if one does not; 2 for bad usage, a recording "
-               "of another revision of the physics, and one that is damaged or cut off\n",
+    .details = "exit code: 0 if all agrees; 1 if a bit or a ruling does not; 2 for bad usage, a "
+               "recording of another revision of the physics, and one that is damaged or cut off\n",
     .example = "carom verify game.jsonl",
     .files = ONE_FILE,
 };
 
-/* Reads and compares all lines; an exit code. */
+/* Compares the event of the last line with that of the shot; tells the first difference. */
+static bool compare_event(const recording *r, const player *p, int64_t line, int64_t compared) {
+  const carom_record *game = &p->game;
+  const int64_t k = p->first + compared;
+  if (k < p->shot.count && same_event(&p->shot.events[k], game))
+    return true;
+  tell_shot(r, game, line);
+  printf(", event %" PRId64 " (line %" PRId64 "): ", k + 1, game->line);
+  if (k < p->shot.count)
+    tell_event(&p->shot.events[k], game);
+  else
+    printf("it was recorded, and does not happen\n");
+  return false;
+}
+
+/* Judges the last line of a match by its rules. */
+static bool judge(const recording *r, const carom_record *game) {
+  char why[JUDGED_TEXT];
+  if (game->match != 1 || r->open || judge_line(r->text, r->size, why))
+    return true;
+  printf("%s: not by the rules: %s\n", r->path, why);
+  return false;
+}
+
+/* Tells that all lines agree; an exit code. */
+static int tell_good(const recording *r, const carom_record *game) {
+  char what[JUDGED_TEXT] = "";
+  const bool whole = game->match != 1 || judge_end(what);
+  printf("%s: %" PRId64 " shots, every bit agrees (revision %" PRId64 " of the physics)%s%s\n",
+         r->path, game->shots, game->revision, game->match == 1 ? "; " : "", what);
+  if (!whole)
+    printf("%s: cut off: lines of the last ruling are missing\n", r->path);
+  return whole ? EXIT_GOOD : EXIT_SOME;
+}
+
+/* Reads, compares and judges all lines; an exit code. */
 static int verify(recording *r, player *p) {
   carom_record *game = &p->game;
   bool bad; /* r->open: a shot ended otherwise; its events will tell where it began */
   int64_t line = 0, compared = 0;
   while (next_line(r, game, &bad)) {
     if (game->kind == CAROM_RECORD_EVENT) {
-      const int64_t k = p->first + compared;
-      if (k < p->shot.count && same_event(&p->shot.events[k], game)) {
-        compared++;
-        continue;
-      }
-      tell_shot(r, game, line);
-      printf(", event %" PRId64 " (line %" PRId64 "): ", k + 1, game->line);
-      if (k < p->shot.count)
-        tell_event(&p->shot.events[k], game);
-      else
-        printf("it was recorded, and does not happen\n");
-      return EXIT_SOME;
+      if (!compare_event(r, p, line, compared))
+        return EXIT_SOME;
+      compared++;
+      continue;
     }
     if (r->open) {
       game->shots -= is_shot(game); /* the one before is told */
       tell_end(r, p, line, compared);
       return EXIT_SOME;
     }
-    if (!is_shot(game))
-      continue;
-    line = game->line;
-    compared = 0;
-    const carom_status status = play(p, (carom_record_kind)game->kind);
-    if (game->pending == 1) {
-      tell_shot(r, game, line);
-      printf(" cannot be played: %s\n", carom_status_string(status));
-      return EXIT_SOME;
+    if (is_shot(game)) {
+      line = game->line;
+      compared = 0;
+      const carom_status status = play(p, (carom_record_kind)game->kind);
+      if (game->pending == 1) {
+        tell_shot(r, game, line);
+        printf(" cannot be played: %s\n", carom_status_string(status));
+        return EXIT_SOME;
+      }
+      r->open = !same_end(&game->played, &game->recorded);
     }
-    r->open = !same_end(&game->played, &game->recorded);
+    if (!judge(r, game))
+      return EXIT_SOME;
   }
-  if (r->open)
+  if (r->open) {
     tell_end(r, p, line, compared);
-  else if (!bad)
-    printf("%s: %" PRId64 " shots, every bit agrees (revision %" PRId64 " of the physics)\n",
-           r->path, game->shots, game->revision);
-  return r->open ? EXIT_SOME : bad ? EXIT_USAGE : EXIT_GOOD;
+    return EXIT_SOME;
+  }
+  return bad ? EXIT_USAGE : tell_good(r, game);
 }
 
 int command_verify(int argc, char **argv) {

@@ -1,9 +1,12 @@
 /* What stands for the planner's commands and options in a build without it (-DCAROM_PLAN=OFF), of
  * `carom` and of `carom-lab`: each says that there is no planner. */
+#include "game/judge_match.h"
 #include "game/position.h"
 #include "program/command.h"
 #include "program/message.h"
 #include "subcommands.h"
+
+#include <stdio.h>
 
 static bool refuse(const char *what) {
   complain("%s: this build has no planner; it was configured with -DCAROM_PLAN=OFF", what);
@@ -41,4 +44,15 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
                    const carom_shot_options *options, carom_cue *cue, char report[AIMED_TEXT]) {
   (void)pocket, (void)via, (void)l, (void)options, (void)cue, (void)report;
   return refuse("--pocket");
+}
+
+bool judge_line(const char *line, size_t size, char why[JUDGED_TEXT]) {
+  (void)line, (void)size;
+  snprintf(why, JUDGED_TEXT, "this build has no planner, which judges matches");
+  return false;
+}
+
+bool judge_end(char what[JUDGED_TEXT]) {
+  what[0] = '\0';
+  return false;
 }

@@ -1,4 +1,4 @@
-/* carom.hpp: the library from C++20, header only. Structs and functions are those of the C headers.
+/* carom.hpp: the library from C++17, header only. Structs and functions are those of the C headers.
  * C++ adds spans for arrays with their lengths, vectors for owned memory, and exceptions if they
  * are enabled.
  *
@@ -17,6 +17,7 @@
 #define CAROM_HPP
 
 #if __has_include("carom_plan.h") /* a build without the planner has none */
+#include "carom_match.h"
 #include "carom_plan.h"
 #endif
 #include "carom_record.h"
@@ -27,7 +28,6 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,8 +35,48 @@
 #ifdef __cpp_exceptions
 #include <stdexcept>
 #endif
+#if __cplusplus >= 202002L && __has_include(<span>)
+#include <span>
+#endif
 
 namespace carom {
+
+#ifdef __cpp_lib_span
+using std::span;
+#else
+/* An array and its length, as C++20 has it: for C++17. */
+template <class T> class span {
+public:
+  constexpr span() = default;
+  constexpr span(T *data, std::size_t size) : data_(data), size_(size) {
+  }
+  template <class Container, class = decltype(static_cast<T *>(std::declval<Container &>().data()))>
+  constexpr span(Container &&of) : data_(of.data()), size_(of.size()) {
+  }
+  constexpr T *data() const {
+    return data_;
+  }
+  constexpr std::size_t size() const {
+    return size_;
+  }
+  constexpr bool empty() const {
+    return size_ == 0;
+  }
+  constexpr T *begin() const {
+    return data_;
+  }
+  constexpr T *end() const {
+    return data_ + size_;
+  }
+  constexpr T &operator[](std::size_t k) const {
+    return data_[k];
+  }
+
+private:
+  T *data_ = nullptr;
+  std::size_t size_ = 0;
+};
+#endif
 
 #ifdef __cpp_exceptions
 /* A call that could not be served. */
@@ -69,15 +109,15 @@ inline carom_status checked(carom_status code, [[maybe_unused]] const char *faul
 
 /* Resolves in[k] to out[k]. The spans have the same length; `status` may be empty. A row in error
  * is no error of the call: status[k] has its status, and the call returns the first one. */
-inline carom_status collide(std::span<const carom_impact> in, std::span<carom_result> out,
-                            std::span<std::int8_t> status = {}, const carom_options &options = {}) {
+inline carom_status collide(span<const carom_impact> in, span<carom_result> out,
+                            span<std::int8_t> status = {}, const carom_options &options = {}) {
   if (out.size() != in.size() || (!status.empty() && status.size() != in.size()))
     return checked(CAROM_ERROR_NULL);
   return carom_collide_batch(in.data(), in.size(), &options, out.data(),
                              status.empty() ? nullptr : status.data());
 }
-inline carom_status cushion(std::span<const carom_cushion_impact> in, std::span<carom_motion> out,
-                            std::span<std::int8_t> status = {},
+inline carom_status cushion(span<const carom_cushion_impact> in, span<carom_motion> out,
+                            span<std::int8_t> status = {},
                             const carom_cushion_options &options = {}) {
   if (out.size() != in.size() || (!status.empty() && status.size() != in.size()))
     return checked(CAROM_ERROR_NULL);
@@ -124,7 +164,7 @@ struct placed {
   carom_status status;
   carom_part in_the_way;
 };
-inline placed place(const carom_table &on, std::span<carom_shot_ball> balls, int ball, double x,
+inline placed place(const carom_table &on, span<carom_shot_ball> balls, int ball, double x,
                     double y) {
   placed made{};
   made.status = carom_place_ball(&on, balls.data(), static_cast<int>(balls.size()), ball, x, y,
@@ -141,8 +181,8 @@ inline placed place(const carom_table &on, std::span<carom_shot_ball> balls, int
 class shot {
 public:
   /* Plays the shot; with options.time_most or stop_at only up to there. */
-  carom_status play(const carom_table &on, std::span<const carom_shot_ball> balls,
-                    const carom_cue &cue, const carom_shot_options &options = {}) {
+  carom_status play(const carom_table &on, span<const carom_shot_ball> balls, const carom_cue &cue,
+                    const carom_shot_options &options = {}) {
     table_ = on;
     balls_.assign(balls.begin(), balls.end());
     if (state_ == nullptr)
@@ -158,10 +198,10 @@ public:
         [&] { return carom_shot_continue(&on, balls_.data(), count(), &options, &shot_); });
   }
 
-  std::span<const carom_event> events() const {
+  span<const carom_event> events() const {
     return {events_.data(), static_cast<std::size_t>(shot_.count)};
   }
-  std::span<const carom_ball_state> final_states() const {
+  span<const carom_ball_state> final_states() const {
     return final_;
   }
   const carom_facts &facts() const {
@@ -233,6 +273,9 @@ private:
   friend class film;
   friend class recording;
 #ifdef CAROM_PLAN_H
+  friend class match;
+#endif
+#ifdef CAROM_PLAN_H
   friend carom_ruling referee(const carom_plan_rules &, const shot &, carom_call, int);
 #endif
 
@@ -275,8 +318,8 @@ private:
 /* Frames: for time k of a call, the states of all n balls are states[k n ...], and their
  * quaternions (w, x, y, z) are turned[k n ...]. */
 struct frames {
-  std::span<const carom_ball_state> states;
-  std::span<const std::array<double, 4>> turned;
+  span<const carom_ball_state> states;
+  span<const std::array<double, 4>> turned;
 };
 
 /* A film of shots, for drawing, in which pocketed balls fall: each frame goes on from the frame
@@ -284,7 +327,7 @@ struct frames {
 class film {
 public:
   /* Valid until the next call; empty after an error. */
-  frames at(const shot &of, std::span<const double> times) {
+  frames at(const shot &of, span<const double> times) {
     const std::size_t size = times.size() * of.balls_.size();
     states_.resize(size);
     turned_.resize(size);
@@ -310,8 +353,8 @@ private:
 /* ---- Plans */
 
 /* Aims a pot, as carom_aim() does. */
-inline carom_status aim(const carom_table &on, std::span<const carom_shot_ball> balls,
-                        carom_pot &pot, carom_cue &cue, const carom_shot_options &options = {}) {
+inline carom_status aim(const carom_table &on, span<const carom_shot_ball> balls, carom_pot &pot,
+                        carom_cue &cue, const carom_shot_options &options = {}) {
   return checked(
       carom_aim(&on, balls.data(), static_cast<int>(balls.size()), &options, &pot, &cue));
 }
@@ -344,7 +387,7 @@ inline carom_cue strike(const carom_player &by, std::uint64_t seed, std::int64_t
 }
 
 /* A plan for the player at the table; options, models and memory are not set. */
-inline carom_plan_job job(const carom_table &on, std::span<const carom_shot_ball> balls,
+inline carom_plan_job job(const carom_table &on, span<const carom_shot_ball> balls,
                           const carom_cue &cue, const carom_player &player,
                           const carom_plan_rules &rules) {
   carom_plan_job made{};
@@ -359,13 +402,13 @@ inline carom_plan_job job(const carom_table &on, std::span<const carom_shot_ball
 
 /* A plan that is made in slices, for an opponent who thinks between the frames of a game.
  * Everything that the job points to must stay unchanged until the end. The memory of the job is
- * allocated here. */
+ * allocated here. `in_hand` says whether the cue ball is in hand: 0: no; 1 or true: within the bounds
+ * that the game sets after a foul; or a carom_leave from CAROM_LEAVE_HAND on. */
 class thinking {
 public:
   /* A slice has about `slice` events; 0: all at once. `most` is the largest number of strokes to
    * return. */
-  explicit thinking(const carom_plan_job &job, std::int64_t slice, int most = 1,
-                    bool in_hand = false)
+  explicit thinking(const carom_plan_job &job, std::int64_t slice, int most = 1, int in_hand = 0)
       : job_(job), options_(std::make_unique<carom_plan_options>()), in_hand_(in_hand),
         choices_(static_cast<std::size_t>(most)) {
     if (job.options != nullptr)
@@ -376,39 +419,67 @@ public:
     job_.memory = memory_.data();
     job_.memory_size = memory_.size() * sizeof(double);
   }
+  /* The same for the player at the table of a match, with a cue ball in hand within its bounds. The
+   * job needs a player and a cue; the match must stay unchanged until the end. */
+  explicit thinking(carom_match &of, const carom_plan_job &job, std::int64_t slice, int most = 1)
+      : thinking(job, slice, most) {
+    match_ = &of;
+  }
 
   /* Plays a slice. */
   carom_status go_on() {
-    const int room = static_cast<int>(choices_.size());
     const carom_status code =
-        begun_     ? carom_plan_continue(&job_, choices_.data(), room, &found_)
-        : in_hand_ ? carom_plan_hand(&job_, nullptr, nullptr, choices_.data(), room, &found_)
-                   : carom_plan(&job_, choices_.data(), room, &found_);
+        begun_ ? carom_plan_continue(&job_, choices_.data(), room(), &found_) : first_slice();
     begun_ = true;
     ended_ = code < 0 || found_ > 0;
-    return checked(code);
+    return checked(code, match_ != nullptr ? match_->fault : "");
   }
   /* Whether the plan has ended, also with an error. */
   bool ended() const {
     return ended_;
   }
   /* The best strokes, best first; empty until the end, and after an error. */
-  std::span<const carom_choice> choices() const {
+  span<const carom_choice> choices() const {
     return {choices_.data(), static_cast<std::size_t>(found_)};
   }
 
 private:
+  int room() const {
+    return static_cast<int>(choices_.size());
+  }
+  carom_status first_slice() {
+    if (match_ != nullptr)
+      return carom_match_plan(match_, &job_, choices_.data(), room(), &found_);
+    if (in_hand_ == 0)
+      return carom_plan(&job_, choices_.data(), room(), &found_);
+    const carom_bounds bounds = hand_bounds();
+    return carom_plan_hand(&job_, bounds.low, bounds.high, choices_.data(), room(), &found_);
+  }
+  /* Those of the leave; else of the game by its rules. */
+  carom_bounds hand_bounds() const {
+    carom_bounds bounds{};
+    int leave = in_hand_;
+    if (leave < CAROM_LEAVE_HAND) {
+      const auto kind = static_cast<carom_rules_kind>(job_.rules->learned - 1);
+      const carom_rules_about *about = carom_rules_about_of(kind);
+      leave = about != nullptr ? about->hand : CAROM_LEAVE_HAND;
+    }
+    carom_hand_bounds(static_cast<carom_leave>(leave), job_.table, 0.0, &bounds);
+    return bounds;
+  }
+
   carom_plan_job job_;
   std::unique_ptr<carom_plan_options> options_;
-  bool in_hand_, begun_ = false, ended_ = false;
+  int in_hand_;
+  carom_match *match_ = nullptr;
+  bool begun_ = false, ended_ = false;
   int found_ = 0;
   std::vector<carom_choice> choices_;
   std::vector<double> memory_;
 };
 
 /* The best strokes, best first, at most `most`. The memory of the job is allocated here. */
-inline std::vector<carom_choice> plan(const carom_plan_job &job, int most = 1,
-                                      bool in_hand = false) {
+inline std::vector<carom_choice> plan(const carom_plan_job &job, int most = 1, int in_hand = 0) {
   thinking all(job, 0, most, in_hand);
   all.go_on();
   return {all.choices().begin(), all.choices().end()};
@@ -432,7 +503,7 @@ public:
   }
 
   /* Begins a game: the lines up to that of the balls. */
-  std::string begin(const carom_table &on, std::span<const carom_shot_ball> balls,
+  std::string begin(const carom_table &on, span<const carom_shot_ball> balls,
                     const carom_shot_options &options = {}) {
     std::string lines;
     if (balls.size() > CAROM_BALLS_MOST) {
@@ -449,7 +520,7 @@ public:
     return lines;
   }
   /* The balls after the last shot. */
-  std::span<const carom_shot_ball> layout() {
+  span<const carom_shot_ball> layout() {
     carom_record_settle(game_.get());
     return {game_->balls, static_cast<std::size_t>(game_->count)};
   }
@@ -531,6 +602,129 @@ inline std::string_view stand(recording &of, carom_rules_kind rules, const carom
   of.game().player = player;
   return of.write(CAROM_RECORD_GAME);
 }
+
+/* A match, as carom_match.h has it. An act that the rules forbid is thrown as carom::error, whose
+ * text says what would be right. */
+class match {
+public:
+  match() : match_(std::make_unique<carom_match>()), scratch_(std::make_unique<carom_record>()) {
+  }
+
+  const carom_match &state() const {
+    return *match_;
+  }
+  carom_match &state() {
+    return *match_;
+  }
+  bool over() const {
+    return match_->phase == CAROM_MATCH_OVER;
+  }
+  /* Who is at the table. */
+  int player() const {
+    return static_cast<int>(match_->record.player);
+  }
+  /* The lines of the last act; after load() those that the text lacks. */
+  std::string_view lines() const {
+    return {match_->text, static_cast<std::size_t>(match_->size)};
+  }
+  /* The last ruling in words. */
+  std::string words() const {
+    return carom::words(match_->ruling);
+  }
+  /* The last shot, with all its events. */
+  const shot &last() const {
+    return last_;
+  }
+
+  carom_status begin(carom_rules_kind rules, const carom_table &on, std::uint64_t seed,
+                     int player = 0) {
+    return told(carom_match_begin(match_.get(), rules, &on, seed, player));
+  }
+  carom_status choose(carom_may choice) {
+    return told(carom_match_choose(match_.get(), player(), choice));
+  }
+  carom_status place(double x, double y) {
+    return told(carom_match_place(match_.get(), player(), x, y));
+  }
+  carom_status call(int ball, int pocket) {
+    return told(carom_match_call(match_.get(), player(), {ball, pocket}));
+  }
+  carom_status stroke(const carom_cue &cue, const carom_shot_options &stop = {}) {
+    return play(true, [&] {
+      return carom_match_stroke(match_.get(), player(), &cue, &stop, &last_.shot_);
+    });
+  }
+  carom_status go_on(const carom_shot_options &stop = {}) {
+    return play(false, [&] { return carom_match_continue(match_.get(), &stop, &last_.shot_); });
+  }
+  carom_status concede(int who) {
+    return told(carom_match_concede(match_.get(), who));
+  }
+  carom_status clock() {
+    return told(carom_match_clock(match_.get(), player()));
+  }
+  carom_status end() {
+    return told(carom_match_end(match_.get()));
+  }
+
+  /* Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the stroke as
+   * the player makes it. Returns the lines of all these acts. */
+  std::string take(const carom_choice &best, const carom_cue &cue) {
+    std::string all;
+    if (match_->phase == CAROM_MATCH_PLACE && place(best.place[0], best.place[1]) >= 0)
+      all += lines();
+    if (best.kind == CAROM_PLAN_PASS) {
+      choose(CAROM_MAY_PASS);
+      return all.append(lines());
+    }
+    if (best.kind == CAROM_PLAN_PUSH && choose(CAROM_MAY_PUSH) >= 0)
+      all += lines();
+    if (match_->rules.calls != 0 && best.ball >= 0 && call(best.ball, best.pocket) >= 0)
+      all += lines();
+    if (stroke(cue) >= 0)
+      all += lines();
+    return all;
+  }
+
+  /* Reads and judges the lines of a match. */
+  carom_status load(std::string_view text) {
+    *match_ = {};
+    for (std::size_t size; !text.empty(); text.remove_prefix(size)) {
+      size = std::min(text.find('\n'), text.size() - 1) + 1;
+      const carom_status code =
+          told(carom_match_read(match_.get(), scratch_.get(), text.data(), size));
+      if (code < 0)
+        return code;
+    }
+    return CAROM_OK;
+  }
+
+private:
+  carom_status told(carom_status code) const {
+    return checked(code, match_->fault);
+  }
+  /* Plays, with room for all events. */
+  template <class Play> carom_status play(bool new_shot, Play once) {
+    const auto before = std::make_unique<carom_match>(*match_);
+    const carom_record &record = match_->record;
+    if (new_shot) {
+      last_.shot_ = {};
+      last_.table_ = record.table;
+      last_.balls_.assign(record.balls, record.balls + record.count);
+    }
+    return last_.with_room([&] {
+      *match_ = *before;
+      const carom_status code = once();
+      last_.facts_ = record.facts;
+      last_.final_.assign(record.final, record.final + record.count);
+      return told(code);
+    });
+  }
+
+  std::unique_ptr<carom_match> match_;
+  std::unique_ptr<carom_record> scratch_;
+  shot last_;
+};
 
 /* Puts the layout of the next stroke into a game. Returns the lines for balls that come back, and
  * for a cue ball in hand. */

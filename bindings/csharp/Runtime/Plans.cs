@@ -202,6 +202,14 @@ namespace Carom {
       GC.SuppressFinalize(this);
     }
 
+    /// <summary>Where the game lets a cue ball in hand be put after a foul.</summary>
+    public Bounds BoundsInHand() {
+      Bounds bounds;
+      var about = Native.carom_rules_about_of((RulesKind)(Job->rules->learned - 1));
+      var leave = about != null ? (Leave)about->hand : Leave.Hand;
+      Billiards.Check(Native.carom_hand_bounds(leave, Job->table, 0.0, &bounds));
+      return bounds;
+    }
     ~Held() {
       Marshal.FreeHGlobal((IntPtr)parts);
     }
@@ -231,10 +239,12 @@ namespace Carom {
         return true;
       int found = 0;
       Status status;
+      var bounds = held.BoundsInHand();
       fixed(Choice *to = room) status =
-          begun    ? Native.carom_plan_continue(held.Job, to, room.Length, &found)
-          : inHand ? Native.carom_plan_hand(held.Job, null, null, to, room.Length, &found)
-                   : Native.carom_plan(held.Job, to, room.Length, &found);
+          begun ? Native.carom_plan_continue(held.Job, to, room.Length, &found)
+          : inHand
+              ? Native.carom_plan_hand(held.Job, bounds.low, bounds.high, to, room.Length, &found)
+              : Native.carom_plan(held.Job, to, room.Length, &found);
       begun = true;
       Ended = status < 0 || found > 0;
       Billiards.Check(status);

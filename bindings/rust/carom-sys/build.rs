@@ -3,7 +3,7 @@
 use std::{env, path::Path, process::Command};
 
 fn main() {
-    for name in ["CAROM_LIB_DIR", "CC", "AR", "CFLAGS"] {
+    for name in ["CAROM_LIB_DIR", "CFLAGS"] {
         println!("cargo:rerun-if-env-changed={name}");
     }
     if let Ok(folder) = env::var("CAROM_LIB_DIR") {
@@ -17,7 +17,7 @@ fn main() {
         Path::new(&out).join("carom.o"),
         Path::new(&out).join("libcarom.a"),
     );
-    let mut cc = tool("CC", "cc");
+    let mut cc = tool("CC");
     cc.args(env::var("CFLAGS").unwrap_or_default().split_whitespace());
     cc.args([
         "-std=c17",
@@ -31,7 +31,7 @@ fn main() {
     ])
     .arg(&object);
     run(cc);
-    let mut ar = tool("AR", "ar");
+    let mut ar = tool("AR");
     ar.arg("crs").args([&library, &object]);
     run(ar);
     println!("cargo:rustc-link-search=native={out}");
@@ -41,9 +41,48 @@ fn main() {
     }
 }
 
-/// The program that the variable names, or the usual one.
-fn tool(variable: &str, usual: &str) -> Command {
-    Command::new(env::var(variable).unwrap_or_else(|_| usual.to_string()))
+/// The compiler or archiver for the target, CC or AR: the program that CC_TARGET names, with the
+/// target's dashes or with underscores, or TARGET_CC where another machine is the target, or CC;
+/// else the usual one of the target.
+fn tool(kind: &str) -> Command {
+    let of_cargo = |name: &str| env::var(name).expect("cargo sets TARGET and HOST");
+    let (target, host) = (of_cargo("TARGET"), of_cargo("HOST"));
+    let mut names = vec![
+        format!("{kind}_{target}"),
+        format!("{kind}_{}", target.replace('-', "_")),
+    ];
+    if target != host {
+        names.push(format!("TARGET_{kind}"));
+    }
+    names.push(kind.to_string());
+    for name in names {
+        println!("cargo:rerun-if-env-changed={name}");
+        if let Ok(program) = env::var(&name) {
+            return Command::new(program);
+        }
+    }
+    usual_tool(kind, &target, &host)
+}
+
+/// cc and ar on this machine; for another one gcc's names, as aarch64-linux-gnu-gcc, and for Apple
+/// and Android clang, which knows all targets.
+fn usual_tool(kind: &str, target: &str, host: &str) -> Command {
+    if target == host {
+        return Command::new(kind.to_lowercase());
+    }
+    if target.contains("apple") || target.contains("android") {
+        if kind == "AR" {
+            return Command::new("llvm-ar");
+        }
+        let mut clang = Command::new("clang");
+        clang.arg(format!("--target={target}"));
+        return clang;
+    }
+    let prefix = target.replace("-unknown", "").replace("-pc", "");
+    Command::new(match kind {
+        "AR" => format!("{prefix}-ar"),
+        _ => format!("{prefix}-gcc"),
+    })
 }
 
 fn run(mut command: Command) {
@@ -51,7 +90,7 @@ fn run(mut command: Command) {
         Ok(status) if status.success() => {}
         Ok(status) => panic!("{command:?}: {status}"),
         Err(error) => panic!(
-            "{command:?}: {error}; carom needs gcc or clang, which CC names, or CAROM_LIB_DIR"
+            "{command:?}: {error}; carom needs gcc or clang for the target, which CC names, or CAROM_LIB_DIR"
         ),
     }
 }

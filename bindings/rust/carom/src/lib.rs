@@ -15,10 +15,12 @@
 //!
 //! Units are SI; directions of a cue are in degrees. A shot has the same bits on all machines,
 //! unless `fast` is set.
+mod match_game;
 mod plan;
 mod record;
 
 pub use carom_sys as sys;
+pub use match_game::Match;
 pub use plan::{built_in_rules, rules, strike, words, Game, Position, Thinking};
 pub use record::Recording;
 pub use sys::{

@@ -187,6 +187,25 @@ impl Position {
     }
 }
 
+// The pointers in PlanOptions are not read; those in the memory are to boxes of the same object.
+unsafe impl Send for Position {}
+unsafe impl Sync for Position {}
+unsafe impl Send for Thinking {}
+unsafe impl Sync for Thinking {}
+
+/// Where the game lets a cue ball in hand be put after a foul.
+unsafe fn bounds_in_hand(job: &sys::carom_plan_job) -> sys::carom_bounds {
+    let mut bounds = sys::carom_bounds::default();
+    let about = sys::carom_rules_about_of((*job.rules).learned - 1);
+    let leave = if about.is_null() {
+        sys::CAROM_LEAVE_HAND
+    } else {
+        (*about).hand
+    };
+    sys::carom_hand_bounds(leave, job.table, 0.0, &mut bounds);
+    bounds
+}
+
 /// A plan on its way.
 pub struct Thinking {
     // Boxed, as the memory points to it and to the options.
@@ -217,8 +236,9 @@ impl Thinking {
             if self.begun {
                 sys::carom_plan_continue(&job, to, room, &mut found)
             } else if self.in_hand {
-                let nothing = std::ptr::null();
-                sys::carom_plan_hand(&job, nothing, nothing, to, room, &mut found)
+                let bounds = bounds_in_hand(&job);
+                let (low, high) = (bounds.low.as_ptr(), bounds.high.as_ptr());
+                sys::carom_plan_hand(&job, low, high, to, room, &mut found)
             } else {
                 sys::carom_plan(&job, to, room, &mut found)
             }

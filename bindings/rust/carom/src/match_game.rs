@@ -1,0 +1,207 @@
+//! Matches: one object that knows the rules, and writes its recording.
+use crate::{check, sys, text, words, Choice, Cue, Error, Options, Ruling, Table};
+use std::os::raw::c_char;
+
+/// A match, as `carom_match.h` has it. An act that the rules forbid is an error that says what
+/// would be right; then nothing has changed.
+pub struct Match {
+    of: Box<sys::carom_match>,
+    scratch: Box<sys::carom_record>,
+}
+
+impl Match {
+    /// Begins a match with the rack of a game; `player`, 0 or 1, breaks.
+    pub fn begin(
+        rules: sys::carom_rules_kind,
+        table: &Table,
+        seed: u64,
+        player: usize,
+    ) -> Result<Match, Error> {
+        let mut made = Match::empty();
+        let player = player.min(2) as i32;
+        let status = unsafe { sys::carom_match_begin(&mut *made.of, rules, table, seed, player) };
+        made.told(status)?;
+        Ok(made)
+    }
+
+    /// Reads and judges the lines of a match. `lines` has those that the text lacks.
+    pub fn load(lines: &str) -> Result<Match, Error> {
+        let mut made = Match::empty();
+        for line in lines.split_inclusive('\n') {
+            let at = line.as_ptr() as *const c_char;
+            let status =
+                unsafe { sys::carom_match_read(&mut *made.of, &mut *made.scratch, at, line.len()) };
+            made.told(status)?;
+        }
+        Ok(made)
+    }
+
+    fn empty() -> Match {
+        Match {
+            of: Box::default(),
+            scratch: Box::default(),
+        }
+    }
+
+    fn told(&self, status: sys::carom_status) -> Result<(), Error> {
+        if status < 0 && self.of.fault[0] != 0 {
+            let fault = text(self.of.fault.as_ptr());
+            return Err(Error { status, fault });
+        }
+        check(status)
+    }
+
+    /// All that is known of the match: its phase, choices, bounds and record.
+    pub fn state(&self) -> &sys::carom_match {
+        &self.of
+    }
+
+    /// Who is at the table, 0 or 1.
+    pub fn player(&self) -> usize {
+        self.of.record.player as usize
+    }
+
+    /// The player who has won.
+    pub fn winner(&self) -> Option<usize> {
+        usize::try_from(self.of.winner).ok()
+    }
+
+    /// Whether the match is over.
+    pub fn is_over(&self) -> bool {
+        self.of.phase == sys::CAROM_MATCH_OVER
+    }
+
+    /// The lines of the last act.
+    pub fn lines(&self) -> String {
+        let bytes = &self.of.text[..self.of.size as usize];
+        bytes.iter().map(|&one| char::from(one as u8)).collect()
+    }
+
+    /// The last ruling.
+    pub fn ruling(&self) -> &Ruling {
+        &self.of.ruling
+    }
+
+    /// Takes one of the choices, a sum of which is `state().may`.
+    pub fn choose(&mut self, choice: sys::carom_may) -> Result<(), Error> {
+        let status = unsafe { sys::carom_match_choose(&mut *self.of, self.at_table(), choice) };
+        self.told(status)
+    }
+
+    /// Puts the cue ball in hand, m.
+    pub fn place(&mut self, x: f64, y: f64) -> Result<(), Error> {
+        let status = unsafe { sys::carom_match_place(&mut *self.of, self.at_table(), x, y) };
+        self.told(status)
+    }
+
+    /// Calls the ball and the pocket of the next stroke; ball -1: a safety.
+    pub fn call(&mut self, ball: i32, pocket: i32) -> Result<(), Error> {
+        let call = sys::carom_call { ball, pocket };
+        let status = unsafe { sys::carom_match_call(&mut *self.of, self.at_table(), call) };
+        self.told(status)
+    }
+
+    /// Plays a stroke; `stop` says when to stop its shot. Returns whether the shot has ended, and
+    /// is ruled.
+    pub fn stroke(&mut self, cue: &Cue, stop: &Options) -> Result<bool, Error> {
+        let (player, nothing) = (self.at_table(), std::ptr::null_mut());
+        let status = unsafe { sys::carom_match_stroke(&mut *self.of, player, cue, stop, nothing) };
+        self.told(status)?;
+        Ok(status == sys::CAROM_OK)
+    }
+
+    /// Goes on with a stopped shot, likewise.
+    pub fn go_on(&mut self, stop: &Options) -> Result<bool, Error> {
+        let nothing = std::ptr::null_mut();
+        let status = unsafe { sys::carom_match_continue(&mut *self.of, stop, nothing) };
+        self.told(status)?;
+        Ok(status == sys::CAROM_OK)
+    }
+
+    /// A player gives the game to the other.
+    pub fn concede(&mut self, player: usize) -> Result<(), Error> {
+        let player = player.min(2) as i32;
+        let status = unsafe { sys::carom_match_concede(&mut *self.of, player) };
+        self.told(status)
+    }
+
+    /// The time of the player at the table is over.
+    pub fn clock(&mut self) -> Result<(), Error> {
+        let status = unsafe { sys::carom_match_clock(&mut *self.of, self.at_table()) };
+        self.told(status)
+    }
+
+    /// Ends the recording.
+    pub fn end(&mut self) -> Result<(), Error> {
+        let status = unsafe { sys::carom_match_end(&mut *self.of) };
+        self.told(status)
+    }
+
+    /// Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the
+    /// stroke as the player makes it. Returns the lines of all these acts.
+    pub fn take(&mut self, best: &Choice, cue: &Cue) -> Result<String, Error> {
+        let mut all = String::new();
+        if self.of.phase == sys::CAROM_MATCH_PLACE {
+            self.place(best.place[0], best.place[1])?;
+            all += &self.lines();
+        }
+        if best.kind == sys::CAROM_PLAN_PASS {
+            self.choose(sys::CAROM_MAY_PASS)?;
+            return Ok(all + &self.lines());
+        }
+        if best.kind == sys::CAROM_PLAN_PUSH {
+            self.choose(sys::CAROM_MAY_PUSH)?;
+            all += &self.lines();
+        }
+        if self.of.rules.calls != 0 && best.ball >= 0 {
+            self.call(best.ball, best.pocket)?;
+            all += &self.lines();
+        }
+        self.stroke(cue, &Options::default())?;
+        Ok(all + &self.lines())
+    }
+
+    /// The last ruling in words.
+    pub fn words(&self) -> String {
+        words(&self.of.ruling)
+    }
+
+    fn at_table(&self) -> i32 {
+        self.of.record.player as i32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refuses_rules_and_reads_again() -> Result<(), Error> {
+        fn can_move<T: Send + Sync>() {}
+        can_move::<Match>();
+        can_move::<crate::Position>();
+        can_move::<crate::Thinking>();
+        let table = crate::table(sys::CAROM_TABLE_POOL_9FT)?;
+        let mut game = Match::begin(sys::CAROM_RULES_EIGHTBALL, &table, 1, 0)?;
+        let mut file = game.lines();
+        let beyond = game.place(0.6, 1.0).unwrap_err();
+        assert_eq!(beyond.status, sys::CAROM_ERROR_ACT);
+        assert!(beyond.fault.contains("0.635"), "{}", beyond.fault);
+        game.place(0.6, 0.6)?;
+        file += &game.lines();
+        let cue = Cue {
+            speed: 8.0,
+            ..crate::cue(sys::CAROM_GAME_POOL)
+        };
+        assert!(game.stroke(&cue, &Options::default())?);
+        file += &game.lines();
+        let again = Match::load(&file)?;
+        assert_eq!(again.player(), game.player());
+        assert_eq!(again.state().record.hash, game.state().record.hash);
+        assert!(
+            Match::load(&file.replace("\"foul\":", "\"foul\":1")).is_err()
+                || !file.contains("foul")
+        );
+        Ok(())
+    }
+}
