@@ -241,10 +241,10 @@ namespace Carom {
       Status status;
       var bounds = held.BoundsInHand();
       fixed(Choice *to = room) status =
-          begun ? Native.carom_plan_continue(held.Job, to, room.Length, &found)
-          : inHand
-              ? Native.carom_plan_hand(held.Job, bounds.low, bounds.high, to, room.Length, &found)
-              : Native.carom_plan(held.Job, to, room.Length, &found);
+          begun    ? Native.carom_plan_continue(held.Job, to, room.Length, &found)
+          : inHand ? Native.carom_plan_hand(held.Job, (double *)&bounds.low, (double *)&bounds.high,
+                                            to, room.Length, &found)
+                   : Native.carom_plan(held.Job, to, room.Length, &found);
       begun = true;
       Ended = status < 0 || found > 0;
       Billiards.Check(status);

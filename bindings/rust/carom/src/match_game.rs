@@ -48,7 +48,7 @@ impl Match {
             let fault = text(self.of.fault.as_ptr());
             return Err(Error { status, fault });
         }
-        check(status)
+        check(status).map(|_| ())
     }
 
     /// All that is known of the match: its phase, choices, bounds and record.
