@@ -59,6 +59,9 @@ public:
   constexpr std::size_t size() const {
     return size_;
   }
+  constexpr std::size_t size_bytes() const {
+    return size_ * sizeof(T);
+  }
   constexpr bool empty() const {
     return size_ == 0;
   }

@@ -22,7 +22,7 @@ WARNINGS = ["-Wall", "-Wextra", "-pedantic", "-Werror"]
 
 
 def program(pieces, end="return 0;"):
-    return f"#include <carom_record.h>\n#include <carom_tangent.h>\n#include <stdio.h>\n\nint main(void) {{\n{''.join(pieces)}{end}\n}}\n"
+    return f"#include <carom_match.h>\n#include <carom_record.h>\n#include <carom_tangent.h>\n#include <stdio.h>\n\nint main(void) {{\n{''.join(pieces)}{end}\n}}\n"
 
 
 def header_programs():
@@ -51,11 +51,7 @@ for page in pages(SOURCE):
     )
     pieces = [text for kind, text in found if kind == "c piece"]
     programs += [(page, C, text, "ball 1 is hit after") for kind, text in found if kind == "c"]
-    programs += [
-        (page, C[2 if "carom.hpp" in text else 1 :], text, shown[1])
-        for kind, text in found
-        if kind == "cpp"
-    ]
+    programs += [(page, C[1:], text, shown[1]) for kind, text in found if kind == "cpp"]
     if pieces:
         programs.append((page, C, program(pieces), "balls 0 and 4 meet after 0.129 s"))
 assert len(programs) >= 7, programs

@@ -112,6 +112,38 @@ int main() {
   CHECK(slices > 5 && thinks.choices().size() == planned.size());
   CHECK(std::memcmp(thinks.choices().data(), planned.data(), thinks.choices().size_bytes()) == 0);
 
+  // a match: what the rules forbid is refused, and its lines are read again
+  carom::match game;
+  CHECK(game.begin(CAROM_RULES_NINEBALL, table, 3, 1) == CAROM_OK && game.player() == 1);
+  std::string lines(game.lines());
+#ifdef __cpp_exceptions
+  try {
+    game.place(0.6, 1.0);
+    CHECK(false);
+  } catch (const carom::error &e) {
+    CHECK(e.status() == CAROM_ERROR_ACT && std::strstr(e.what(), "0.635") != nullptr);
+  }
+#else
+  CHECK(game.place(0.6, 1.0) == CAROM_ERROR_ACT);
+#endif
+  carom_plan_job mine{};
+  mine.player = &player;
+  mine.cue = &cue;
+  mine.options = &wanted;
+  carom::thinking turn(game.state(), mine, 0);
+  CHECK(turn.go_on() == CAROM_OK && turn.choices()[0].place[1] <= 0.635);
+  lines += game.take(turn.choices()[0], turn.choices()[0].cue);
+  CHECK(game.state().rulings == 1 && game.last().events().size() > 1 && !game.words().empty());
+  carom::match reader;
+  CHECK(reader.load(lines) == CAROM_OK && reader.lines().empty());
+  CHECK(reader.state().record.hash == game.state().record.hash);
+
+  // in hand, within the bounds that the game sets after a foul
+  carom_plan_rules pocket = carom_plan_rules_of(CAROM_RULES_ONEPOCKET);
+  carom_plan_job hand = carom::job(table, lie, cue, player, pocket);
+  hand.options = &wanted;
+  CHECK(carom::plan(hand, 1, true)[0].place[1] <= 0.635);
+
   // batches of impacts
   std::array<carom_cushion_impact, 2> in{};
   in[0] = {{0.5, 1.2, 0}, {0, 0, 0}, {0, 1}, 0.0365, 0.028575, 0.17, 0.2, 0.2, 0.85, 0};
