@@ -14,6 +14,43 @@
     }                                                       \
   while (0)
 
+/* A match: what the rules forbid is refused, and its lines are read again. Plans place a ball in
+ * hand within the bounds. */
+static int plays_match(const carom_table &table, const carom_cue &cue, const carom_player &player,
+                       const carom_plan_options &wanted, const std::vector<carom_shot_ball> &lie) {
+  carom::match game;
+  CHECK(game.begin(CAROM_RULES_NINEBALL, table, 3, 1) == CAROM_OK && game.player() == 1);
+  std::string lines(game.lines());
+#ifdef __cpp_exceptions
+  try {
+    game.place(0.6, 1.0);
+    CHECK(false);
+  } catch (const carom::error &e) {
+    CHECK(e.status() == CAROM_ERROR_ACT && std::strstr(e.what(), "0.635") != nullptr);
+  }
+#else
+  CHECK(game.place(0.6, 1.0) == CAROM_ERROR_ACT);
+#endif
+  carom_plan_job mine{};
+  mine.player = &player;
+  mine.cue = &cue;
+  mine.options = &wanted;
+  carom::thinking turn(game.state(), mine, 0);
+  CHECK(turn.go_on() == CAROM_OK && turn.choices()[0].place[1] <= 0.635);
+  lines += game.take(turn.choices()[0], turn.choices()[0].cue);
+  CHECK(game.state().rulings == 1 && game.last().events().size() > 1 && !game.words().empty());
+  carom::match reader;
+  CHECK(reader.load(lines) == CAROM_OK && reader.lines().empty());
+  CHECK(reader.state().record.hash == game.state().record.hash);
+
+  // in hand, within the bounds that the game sets after a foul
+  carom_plan_rules pocket = carom_plan_rules_of(CAROM_RULES_ONEPOCKET);
+  carom_plan_job hand = carom::job(table, lie, cue, player, pocket);
+  hand.options = &wanted;
+  CHECK(carom::plan(hand, 1, true)[0].place[1] <= 0.635);
+  return 0;
+}
+
 int main() {
   const carom_table table = carom::table(CAROM_TABLE_POOL_9FT);
   const carom_table again_made = carom::table(carom::measures(CAROM_TABLE_POOL_9FT));
@@ -112,37 +149,7 @@ int main() {
   CHECK(slices > 5 && thinks.choices().size() == planned.size());
   CHECK(std::memcmp(thinks.choices().data(), planned.data(), thinks.choices().size_bytes()) == 0);
 
-  // a match: what the rules forbid is refused, and its lines are read again
-  carom::match game;
-  CHECK(game.begin(CAROM_RULES_NINEBALL, table, 3, 1) == CAROM_OK && game.player() == 1);
-  std::string lines(game.lines());
-#ifdef __cpp_exceptions
-  try {
-    game.place(0.6, 1.0);
-    CHECK(false);
-  } catch (const carom::error &e) {
-    CHECK(e.status() == CAROM_ERROR_ACT && std::strstr(e.what(), "0.635") != nullptr);
-  }
-#else
-  CHECK(game.place(0.6, 1.0) == CAROM_ERROR_ACT);
-#endif
-  carom_plan_job mine{};
-  mine.player = &player;
-  mine.cue = &cue;
-  mine.options = &wanted;
-  carom::thinking turn(game.state(), mine, 0);
-  CHECK(turn.go_on() == CAROM_OK && turn.choices()[0].place[1] <= 0.635);
-  lines += game.take(turn.choices()[0], turn.choices()[0].cue);
-  CHECK(game.state().rulings == 1 && game.last().events().size() > 1 && !game.words().empty());
-  carom::match reader;
-  CHECK(reader.load(lines) == CAROM_OK && reader.lines().empty());
-  CHECK(reader.state().record.hash == game.state().record.hash);
-
-  // in hand, within the bounds that the game sets after a foul
-  carom_plan_rules pocket = carom_plan_rules_of(CAROM_RULES_ONEPOCKET);
-  carom_plan_job hand = carom::job(table, lie, cue, player, pocket);
-  hand.options = &wanted;
-  CHECK(carom::plan(hand, 1, true)[0].place[1] <= 0.635);
+  CHECK(plays_match(table, cue, player, wanted, lie) == 0);
 
   // batches of impacts
   std::array<carom_cushion_impact, 2> in{};
