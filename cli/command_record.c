@@ -171,6 +171,7 @@ typedef struct recording {
   FILE *in;
   char *text;
   size_t space, size; /* bytes of text, and of the line in it */
+  bool stands;        /* a line told how a game stands */
   bool open; /* a shot ended otherwise, and is told: hashes of lines behind it differ too */
 } recording;
 
@@ -415,8 +416,10 @@ static bool judge(const recording *r, const carom_record *game) {
 static int tell_good(const recording *r, const carom_record *game) {
   char what[JUDGED_TEXT] = "";
   const bool whole = game->match != 1 || judge_end(what);
+  if (game->match != 1 && r->stands)
+    snprintf(what, sizeof what, "its rulings are not judged, as it is no match (format 3)");
   printf("%s: %" PRId64 " shots, every bit agrees (revision %" PRId64 " of the physics)%s%s\n",
-         r->path, game->shots, game->revision, game->match == 1 ? "; " : "", what);
+         r->path, game->shots, game->revision, what[0] != '\0' ? "; " : "", what);
   if (!whole)
     printf("%s: cut off: lines of the last ruling are missing\n", r->path);
   return whole ? EXIT_GOOD : EXIT_SOME;
@@ -428,6 +431,7 @@ static int verify(recording *r, player *p) {
   bool bad; /* r->open: a shot ended otherwise; its events will tell where it began */
   int64_t line = 0, compared = 0;
   while (next_line(r, game, &bad)) {
+    r->stands |= game->kind == CAROM_RECORD_GAME;
     if (game->kind == CAROM_RECORD_EVENT) {
       if (!compare_event(r, p, line, compared))
         return EXIT_SOME;
