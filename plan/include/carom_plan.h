@@ -279,8 +279,8 @@ typedef enum carom_rules_kind {
                                    of its point; later strokes are not estimated. The table needs no
                                    pockets. State: opening; group: 1 if ball 0 is the cue ball of
                                    the player, 2 if ball 1 is, 0 if ball 0 is that of both; score;
-                                   target, 40 to begin with; may: to have the balls that touch the
-                                   cue ball spotted. */
+                                   target, 40 to begin with, 0: none; may: to have the balls that
+                                   touch the cue ball spotted. */
   CAROM_RULES_STRAIGHT = 4,     /* straight pool, 14.1, WPA: 15 balls, of which any may be played;
                                    ball and pocket are called. When one ball is left, the others are
                                    racked again. State: opening; target, 100 to begin with; score,

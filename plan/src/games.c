@@ -50,6 +50,14 @@ carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
   return rules;
 }
 
+/* Whether a game that has a member may stand so: three-cushion may have no target. */
+static bool may_be(carom_rules_kind kind, size_t member, int32_t value) {
+  if (kind == CAROM_RULES_THREECUSHION && member == PLACE_OF_TARGET && value == 0)
+    return true;
+  const int32_t not_allowed = member == PLACE_OF_MAY ? value & ~games[kind].may : 0;
+  return value >= members[member].low && value <= members[member].high && not_allowed == 0;
+}
+
 const char *carom_rules_fault(carom_rules_kind kind, const carom_rules_state *state,
                               const char **range) {
   if ((unsigned)kind >= GAMES || state == NULL || range == NULL)
@@ -58,8 +66,7 @@ const char *carom_rules_fault(carom_rules_kind kind, const carom_rules_state *st
   for (size_t k = 0; k < MEMBERS; k++)
     for (size_t i = 0; i < members[k].count; i++, value++) {
       const bool has = games[kind].members >> k & 1;
-      const int not_allowed = k == PLACE_OF_MAY ? *value & ~games[kind].may : 0;
-      if (has ? *value < members[k].low || *value > members[k].high || not_allowed : *value != 0) {
+      if (has ? !may_be(kind, k, *value) : *value != 0) {
         *range = has ? members[k].range : "0, as the game has none";
         return members[k].name;
       }

@@ -298,7 +298,7 @@ static carom_turn threecushion_judge(carom_rules_state *game, uint32_t in_play, 
   carom_turn turn = carom_keep;
   turn.points = 1.0;
   carom_add(&game->score[0], 1);
-  if (game->score[0] >= game->target)
+  if (game->target > 0 && game->score[0] >= game->target)
     turn.is = CAROM_TURN_WIN;
   return turn;
 }

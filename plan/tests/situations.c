@@ -487,6 +487,8 @@ static const situation rows[] = {
      AFTER,
      OFF,
      B(2)},
+    {"UMB 83 a drill without a target", THREE, .first = 1, .second = 2, .cushions = 3, NO_CALL,
+     KEEP, .points = 1},
     {"UMB 29 the last point",
      THREE,
      {.target = 40, .score = {39, 20}},
