@@ -23,7 +23,7 @@ typedef struct jump_kind {
 } jump_kind;
 
 static const jump_kind known[] = {
-    {"ball_ball", 1e-6, "the exact contact's collocation is solved in single precision"},
+    {"ball_ball", 1e-6, "some in 100,000 moves; their law is not found yet"},
     {"ball_ball in space", 1e-6, "as ball_ball, where the cloth has a share"},
     {"ball_ball of a cluster", 5e-3,
      "1 nm divides balls that touch from others, and the reach of members.c those that take part"},
