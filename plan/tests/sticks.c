@@ -1,6 +1,7 @@
 /* The stick over cushions and balls: of choices, and of aims that leave the elevation to it. */
-#include "plan_support.h"
 #include "view.h"
+
+#include "plan_support.h"
 
 /* The point of a rail, or of the circle of a jaw, at a share of it. */
 static void point_of_nose(const carom_rail *rail, const carom_jaw *jaw, double share,
