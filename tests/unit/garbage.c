@@ -5,6 +5,7 @@
  *
  * The list of functions is that of install/abi.expected, so that none is forgotten. */
 #define _POSIX_C_SOURCE 200809L
+#include "carom_match.h"
 #include "carom_plan.h"
 #include "carom_record.h"
 #include "carom_tangent.h"
@@ -77,6 +78,11 @@ static carom_record record;
 static carom_shot_job job;
 static carom_tangent_job tangent_job;
 static carom_choice choices[4];
+static carom_match match;
+static carom_bounds bounds;
+static carom_bank bank;
+static carom_calibration calibration;
+static const double readings[CAROM_BANKS] = {2.0, 2.5, 3.0};
 static carom_turn settled;
 static double ends[BALLS * CAROM_STATE_NUMBERS], numbers[32], turned[BALLS][4];
 static const double zeros[64];
@@ -147,6 +153,21 @@ static const carom_plan_job *sliced_plan(void) {
   carom_plan(&plan, choices, 4, &begun);
   return &plan;
 }
+/* A match that has begun: the cue ball is in hand. */
+static carom_match *begun(void) {
+  carom_match_begin(&match, CAROM_RULES_NINEBALL, &table, 1, 0);
+  return &match;
+}
+/* A match whose cue ball is placed, and one whose balls move. */
+static carom_match *ready(void) {
+  carom_match_place(begun(), 0, 0.6, 0.5);
+  return &match;
+}
+static carom_match *moving(void) {
+  const carom_shot_options half = {.time_most = 0.5};
+  carom_match_stroke(ready(), 0, &cue, &half, NULL);
+  return &match;
+}
 static const char *line_of_record(void) {
   carom_record_write(&record, CAROM_RECORD_HEAD, text, sizeof text);
   return text;
@@ -181,6 +202,31 @@ static const carom_options *no_options;
 /* F(name, call): the call gives a status, or ACCEPTED. */
 #define FUNCTIONS(F)                                                                               \
   F(alciatore, (carom_alciatore(), ACCEPTED))                                                      \
+  F(bank_of, carom_bank_of(INT(0), PTR(&bank)))                                                    \
+  F(calibrate,                                                                                     \
+    carom_calibrate(PTR(&table), PTR(&balls[0].kind), MAYBE(readings), PTR(&calibration)))         \
+  F(hand_bounds, carom_hand_bounds(ENUM(carom_leave, CAROM_LEAVE_KITCHEN), PTR(&table), NUM(0.03), \
+                                   PTR(&bounds)))                                                  \
+  F(is_within, (carom_is_within(MAYBE(&bounds), ANY(0.5), ANY(0.5)), ACCEPTED))                    \
+  F(match_begin, carom_match_begin(PTR(&match), ENUM(carom_rules_kind, CAROM_RULES_NINEBALL),      \
+                                   PTR(&table), 1, INT(0)))                                        \
+  F(match_begin_at,                                                                                \
+    carom_match_begin_at(PTR(&match), ANYENUM(carom_rules_kind, CAROM_RULES_NINEBALL),             \
+                         MAYBE(&rules), PTR(&table), PTR(balls), INT(BALLS), NULL,                 \
+                         ENUM(carom_leave, CAROM_LEAVE_HAND), INT(0)))                             \
+  F(match_call,                                                                                    \
+    (carom_match_call(MAYBE(ready()), ANYINT(0), ((carom_call){ANYINT(1), ANYINT(1)})), ACCEPTED)) \
+  F(match_choose,                                                                                  \
+    (carom_match_choose(MAYBE(ready()), ANYINT(0), ANYENUM(carom_may, CAROM_MAY_PUSH)), ACCEPTED)) \
+  F(match_clock, carom_match_clock(PTR(ready()), INT(0)))                                          \
+  F(match_concede, carom_match_concede(PTR(ready()), INT(0)))                                      \
+  F(match_continue, carom_match_continue(PTR(moving()), NULL, MAYBE(&other)))                      \
+  F(match_end, carom_match_end(PTR(ready())))                                                      \
+  F(match_place, carom_match_place(PTR(begun()), INT(0), NUM(0.6), NUM(0.5)))                      \
+  F(match_plan, carom_match_plan(PTR(ready()), PTR(&plan), PTR(choices), ROOM(4), PTR(&found)))    \
+  F(match_read, (carom_match_read(MAYBE(&match), MAYBE(&record), MAYBE("{}"), 2), ACCEPTED))       \
+  F(match_stroke, carom_match_stroke(PTR(ready()), INT(0), PTR(&cue), NULL, MAYBE(&other)))        \
+  F(refusal_name, (carom_refusal_name(ANYINT(1)), ACCEPTED))                                       \
   F(ball_fault, (carom_ball_fault(MAYBE(&balls[0].kind), MAYBE(text), 99), ACCEPTED))              \
   F(ball_kind_for,                                                                                 \
     (carom_ball_kind_for(ANYENUM(carom_game, 0), ANYENUM(carom_shot_cushion, 0), MAYBE(&kind)),    \
