@@ -617,12 +617,27 @@ TEST(bytes_of_states) {
   }
 }
 
+/* What the cue ball meets in a contact: the order of its balls, those of the first instant, and
+ * where it was then. */
+static void meet(carom_facts *f, const carom_event *e, int cue) {
+  const int side = e->a == cue ? 0 : 1, other = side == 0 ? e->b : e->a;
+  int place = 0;
+  while (f->order[place] >= 0 && f->order[place] != other)
+    place++;
+  f->order[place] = other;
+  if (f->first[0] == -1)
+    memcpy(f->first_place, e->before[side].r, sizeof f->first_place);
+  if (f->first[0] == -1 || e->time <= f->first_time[0] + CAROM_RULES_INSTANT)
+    f->first_set |= 1U << other;
+}
+
 /* The facts of a shot by a walk over its events. */
 static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
   carom_facts f = {.first = {-1, -1}, .first_time = {INFINITY, INFINITY}, .second_time = INFINITY};
   for (int i = 0; i < CAROM_BALLS_MOST; i++) {
     f.pocket[i] = -1;
     f.pocket_time[i] = INFINITY;
+    f.order[i] = -1;
   }
   for (int64_t k = 0; k < count; k++) {
     const carom_event *e = &events[k];
@@ -647,6 +662,8 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
       f.off |= 1U << e->a;
     } else if (e->type == CAROM_EVENT_BALL_BALL) {
       f.moved |= 1U << e->b;
+      if (e->a == cue || e->b == cue)
+        meet(&f, e, cue);
       const int n = f.first[0] == -1 ? 0 : 1;
       if ((e->a == cue || e->b == cue) && f.first[1] == -1 && f.first[0] != other) {
         f.first[n] = other;
@@ -696,6 +713,22 @@ TEST(facts_of_shots) {
       memcpy(found.second_place, facts.second_place, sizeof found.second_place);
       pushes += facts.pushed != 0;
     }
+
+    /* the balls that touch at the strike, and the box of the way to the first contact */
+    const carom_shot_ball *lie = balls + 16 * k;
+    const double reach = 2.0 * lie[0].kind.radius + CAROM_RULES_TOUCH;
+    for (int i = 0; i < 16; i++) {
+      const double *a = lie[i].state.r, *b = lie[cue.ball].state.r;
+      if (i != cue.ball && hypot(a[0] - b[0], a[1] - b[1]) < reach)
+        found.frozen |= 1U << i;
+    }
+    for (int axis = 0; axis < 2; axis++) {
+      const double from = lie[cue.ball].state.r[axis], to = facts.first_place[axis];
+      ck_assert_double_le(facts.first_low[axis], fmin(from, facts.first[0] >= 0 ? to : from));
+      ck_assert_double_ge(facts.first_high[axis], fmax(from, facts.first[0] >= 0 ? to : from));
+    }
+    memcpy(found.first_low, facts.first_low, sizeof found.first_low);
+    memcpy(found.first_high, facts.first_high, sizeof found.first_high);
     ck_assert_int_eq(memcmp(&found, &facts, sizeof facts), 0);
     down += facts.down != 0;
     off += facts.off != 0;

