@@ -142,6 +142,8 @@ static void stand_for_zero(layout *l, const char *name) {
       k->smooth_e = 0.06;
     }
   }
+  if (IS("theta"))
+    l->cue.theta = CAROM_LEAST_ELEVATION; /* below it the cue is level */
   l->cue.tip_restitution = IS("tip_restitution") ? 1.0 : l->cue.tip_restitution;
   l->nose[1] += IS("nose.mu_cushion") ? l->ball[0].kind.mu_cushion : 0.0;
   l->nose[2] += IS("nose.restitution") ? l->ball[0].kind.restitution_cushion : 0.0;

@@ -282,10 +282,11 @@ static double impulse_error(const follower *f, const carom_event *e, int togethe
                        e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP;
   if (!touches)
     return e->impulse;
-  /* Under a raised cue the slate presses against the ball too, and takes part of the push. Level
-   * strokes are compared with their momentum in physics/strike. */
+  /* Under a raised cue the slate presses against the ball too: it takes part of the push, and
+   * throws the ball back. Level strokes are compared with their momentum in physics/strike. */
+  const double thrown = 1.1;
   if (e->cluster == 0 && e->type == CAROM_EVENT_STRIKE)
-    return fmax(impulse_on(f, e, 0) - e->impulse, 0.0) / (1e-13 + 1e-12 * e->impulse);
+    return fmax(impulse_on(f, e, 0) - thrown * e->impulse, 0.0) / (1e-13 + 1e-12 * e->impulse);
   if (e->cluster == 0)
     return fabs(e->impulse - impulse_on(f, e, 0)) / (1e-13 + 1e-12 * e->impulse);
   double sum[CAROM_BALLS_MOST] = {0.0}, shown[CAROM_BALLS_MOST] = {0.0}, worst = 0.0;
