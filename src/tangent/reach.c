@@ -362,28 +362,30 @@ static void take_turn(carom_reach *reach, int i) {
     take(reach, j, speed, sqrt(d_x[j] * d_x[j] + d_y[j] * d_y[j]));
 }
 
+/* The order of the events of ball i: event k comes after its last one. */
+static void take_order(carom_reach *reach, int64_t k, const carom_event *event, int i) {
+  carom_tangent_work *w = reach->work;
+  const int64_t last = reach->last_event[i];
+  /* a ball that is pressed into the slate lands at once, and one that lies on a rail is off
+   * the table, whatever changes */
+  const bool is_forced = event->type == CAROM_EVENT_SLATE || event->type == CAROM_EVENT_LEFT_TABLE;
+  const bool at_once = is_forced && event->time <= reach->last_time[i];
+  if (last >= 0 && !at_once) {
+    const double *before = carom_tangent_columns(&w->pass, w->tangent->time, last);
+    for (int j = 0; j < w->pass.columns; j++)
+      take(reach, j, event->time - reach->last_time[i], w->time[j] - before[j]);
+  }
+  reach->last_event[i] = k;
+  reach->last_time[i] = event->time;
+}
+
 void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) {
   carom_tangent_work *w = reach->work;
   carom_tangent_rows *d = w->before;
   const int m = w->pass.columns;
   const bool two = event->type == CAROM_EVENT_BALL_BALL;
-
-  /* the order of the events of each ball */
-  for (int side = 0; side <= two; side++) {
-    const int i = side == 0 ? event->a : event->b;
-    const int64_t last = reach->last_event[i];
-    /* a ball that is pressed into the slate lands at once, and one that lies on a rail is off
-     * the table, whatever changes */
-    const bool at_once =
-        (event->type == CAROM_EVENT_SLATE || event->type == CAROM_EVENT_LEFT_TABLE) && last >= 0 &&
-        event->time <= reach->last_time[i];
-    const double *before =
-        last >= 0 ? carom_tangent_columns(&w->pass, w->tangent->time, last) : NULL;
-    for (int j = 0; j < m && last >= 0 && !at_once; j++)
-      take(reach, j, event->time - reach->last_time[i], w->time[j] - before[j]);
-    reach->last_event[i] = k;
-    reach->last_time[i] = event->time;
-  }
+  for (int side = 0; side <= two; side++)
+    take_order(reach, k, event, side == 0 ? event->a : event->b);
   if (event->type == CAROM_EVENT_SLATE)
     take_landing(reach, event, d[0]);
   const bool on_cloth = !carom_flies(&event->before[0]);
