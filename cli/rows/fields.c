@@ -199,7 +199,7 @@ static const char *refusal(const option_row *row, carom_part_kind part, const ca
     return "--table has it by its key, as in --table 9ft,corner=4.25in";
   if (part != CAROM_PART_BALL && part != CAROM_PART_CUE)
     return "a table in a file for `carom shoot` has it";
-  if (part == CAROM_PART_CUE && n->error == CAROM_OK)
+  if (part == CAROM_PART_CUE && n->offset == (int32_t)offsetof(carom_cue, tip_radius))
     return "no strike reads it";
   if (part == CAROM_PART_CUE && n->type != CAROM_TYPE_DOUBLE)
     return "a file for `carom shoot` has it";

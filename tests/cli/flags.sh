@@ -88,10 +88,10 @@ for number, (_, played) in enumerate(shots(*balls, "--at-ball", 1, "--cut", "10,
 [past] = [row for row in rows("--cue", "0.6,0.8", "--balls", f"{0.6 + 2 * R + 0.005!r},1.3", "--aim", 90) if row["what"] == "passes"]
 print("passes by", round(float(past["gap_mm"]), 6), "mm at y =", round(float(past["y_m"]), 4))
 # One that flies over a ball, by the parabola of its launch, passes it between two samples of a long shot.
-jump = ("--cue", "0.6,0.8", "--balls", "0.6,1.1", "--elevation", 40, "--tip", "0,0", "--tip-time", 0.0006, "--tip-restitution", 1, "--speed", 2.6, "--time-most", 0.3)
+jump = ("--cue", "0.6,0.8", "--balls", "0.6,1.1", "--elevation", 40, "--tip", "0,0", "--tip-time", 0.0006, "--tip-restitution", 1, "--speed", 3.2, "--time-most", 0.3)
 [over] = [row for row in rows(*jump) if row["what"] == "passes"]
 [(_, flown)] = shots(*jump)
-[strike] = [event for event in flown["events"] if event[1] == "stick_ball"]
+[*_, strike] = [event for event in flown["events"] if event[1] == "stick_ball"]
 along, up = strike[4][0][5:7]
 least = min(math.hypot(along * t - 0.3, up * t - 4.905 * t * t) for t in (k * 1e-6 for k in range(200000))) - 2 * R
 print("passes over:", abs(float(over["gap_mm"]) - 1e3 * least) < 0.01, round(1e3 * least, 1))

@@ -3,7 +3,7 @@ error=1%,0.05,0.01,0.02
 small=0.2%,0.01,0.002,0.004
 bank="--table threecushion --cue 0.4,0.6 --aim 60 --ball-speed 2.5 --tip 0.3,0.2"
 hit="--cue 0.6,0.8 --balls 0.75,1.6 --at-ball 1 --cut 40 --tip 0,0.1 --ball-speed 2.0"
-hop="--table threecushion --cue 0.4,0.6 --aim 60 --speed 1.9135791290702795 --tip 0,0 --elevation 30 --tip-time 0.0006 --tip-restitution 1"
+hop="--table threecushion --cue 0.4,0.6 --aim 60 --speed 1.8 --tip 0,0 --elevation 30 --tip-time 0.0006 --tip-restitution 1"
 echo "--- in words"
 # shellcheck disable=SC2086
 carom shoot $bank --spread $error --plot bank.svg
