@@ -532,7 +532,7 @@ static inline bool solve(bool flat, state *c) {
   double h = first_step(flat, c), tau = 0.0, norm;
   if (c->struck)
     h = strike_step(c);
-  const int least = c->steps > CAROM_CLUSTER_STEPS ? (int)c->steps : CAROM_CLUSTER_STEPS,
+  const int least = c->steps > (double)CAROM_CLUSTER_STEPS ? (int)c->steps : CAROM_CLUSTER_STEPS,
             most = CAROM_CLUSTER_STEPS_MOST * least;
   c->late = false;
   for (c->taken = 0;; c->taken++) {

@@ -53,7 +53,8 @@ static inline double tip_closing(const carom_cluster_tip *x, const carom_cluster
 
 /* The longest step that suits a contact of tip or slate: unloading is shorter than loading by e. */
 static inline double push_step(const carom_cluster_state *c, double T, double e) {
-  const double steps = carom_greater((double)CAROM_TIP_STEPS, c->steps * CAROM_TIP_STEPS_EACH);
+  const double steps =
+      carom_greater((double)CAROM_TIP_STEPS, c->steps * (double)CAROM_TIP_STEPS_EACH);
   return 2.0 * e / (1.0 + e) * T / steps;
 }
 

@@ -328,6 +328,7 @@ static int first_ending(const pressed *p, const instant *from, const instant *to
                         bool *near, double *part, ending *first) {
   int which = -1;
   *part = 2.0;
+  *first = (ending){0.0, 0.0, 0.0, 0.0, 1.0, 0};
   for (int k = 0; k < ENDS; k++) {
     ending e;
     const bool ends = k == FOOT ? foot_ends(p, from, to, h, near, &e)
