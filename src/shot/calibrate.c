@@ -169,6 +169,6 @@ carom_status carom_calibrate(const carom_table *table, const carom_ball_kind *ba
   out->friction = number[1];
   out->restitution_error = sqrt(inverse[0][0]);
   out->friction_error = sqrt(inverse[1][1]);
-  out->misfit = sqrt(squares / CAROM_BANKS) / unsure_reading;
+  out->misfit = sqrt(squares / (double)CAROM_BANKS) / unsure_reading;
   return CAROM_OK;
 }
