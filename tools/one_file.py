@@ -291,7 +291,7 @@ def main():
                 f'#else\n#pragma GCC push_options\n#pragma GCC target("{TARGETS[isa]}")\n#endif\n'
             )
         for number, (name, definitions, tag) in enumerate(PASSES, 1):
-            if name == "advance.c" and isa not in ("plain", "avx2"):
+            if not has_pass(isa, name, definitions):
                 continue
             defined = [
                 f"CAROM_LANES_{isa.upper()}",
@@ -376,6 +376,13 @@ KERNEL_MACROS = {
     "KERNEL",
     "COLLOCATION_KERNEL",
 }
+
+
+def has_pass(isa, name, definitions):
+    """Whether CMakeLists.txt compiles a source for an instruction set with these definitions."""
+    if name == "advance.c":
+        return isa in ("plain", "avx2")
+    return isa != "plain" or definitions != ""
 
 
 def names_of_pass(name):

@@ -22,22 +22,27 @@
 #define FEWEST_OF_AVX512 48, 18, 29
 
 /* CAROM_WITHOUT_LANES leaves the steps in lanes out: every batch is then solved by calls, which
- * have the same
- * bits. That is for targets without vectors, such as WebAssembly without SIMD128, on which lanes
- * are long scalar code. */
+ * have the same bits. That is for targets without vectors, such as WebAssembly without SIMD128, on
+ * which lanes are long scalar code. Plain C has no steps in lanes in double precision, as no batch
+ * would take them. */
+#define DOUBLE_LANES_OF_PLAIN(kernel) NULL
+#define DOUBLE_LANES_OF_SSE2(kernel) kernel
+#define DOUBLE_LANES_OF_NEON(kernel) kernel
+#define DOUBLE_LANES_OF_AVX2(kernel) kernel
+#define DOUBLE_LANES_OF_AVX512(kernel) kernel
 #ifdef CAROM_WITHOUT_LANES
 #define EXACT_LANES(NAME, suffix) .fewest = {UINT32_MAX, UINT32_MAX, UINT32_MAX}
 #else
-#define EXACT_LANES(NAME, suffix)                                                  \
-  .fewest = {FEWEST_OF_##NAME},                                                    \
-  .rows_in = {carom_rows_in_##suffix##_f64, carom_rows_in_##suffix##_f32,          \
-              carom_rows_in_##suffix##_mixed},                                     \
-  .rows_out = {carom_rows_out_##suffix##_f64, carom_rows_out_##suffix##_f32,       \
-               carom_rows_out_##suffix##_mixed},                                   \
-  .first_step = {carom_first_step_##suffix##_f64, carom_first_step_##suffix##_f32, \
-                 carom_first_step_##suffix##_f32},                                 \
-  .next_step = {carom_next_step_##suffix##_f64, carom_next_step_##suffix##_f32,    \
-                carom_next_step_##suffix##_f32}
+#define EXACT_LANES(NAME, suffix)                                                              \
+  .fewest = {FEWEST_OF_##NAME},                                                                \
+  .rows_in = {DOUBLE_LANES_OF_##NAME(carom_rows_in_##suffix##_f64),                            \
+              carom_rows_in_##suffix##_f32, carom_rows_in_##suffix##_mixed},                   \
+  .rows_out = {DOUBLE_LANES_OF_##NAME(carom_rows_out_##suffix##_f64),                          \
+               carom_rows_out_##suffix##_f32, carom_rows_out_##suffix##_mixed},                \
+  .first_step = {DOUBLE_LANES_OF_##NAME(carom_first_step_##suffix##_f64),                      \
+                 carom_first_step_##suffix##_f32, carom_first_step_##suffix##_f32},            \
+  .next_step = {DOUBLE_LANES_OF_##NAME(carom_next_step_##suffix##_f64),                        \
+                carom_next_step_##suffix##_f32, carom_next_step_##suffix##_f32}
 #endif
 
 static const carom_kernels kernels[CAROM_ISA_COUNT] = {

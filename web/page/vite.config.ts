@@ -126,11 +126,17 @@ function oneFile(): Plugin {
 }
 
 // The page has the library once: browsers without vectors in WebAssembly are older than 2023, and
-// the build for them is a third of the page.
-function vectorsOnly(): Plugin {
+// the build for them is a third of the page. It has the module that npm/build links for it, without
+// the steps in lanes of batches.
+function moduleOfPage(): Plugin {
   return {
-    name: "vectors-only",
-    load: (id) => (id.endsWith("/generated/plain.js") ? 'export default "";' : undefined),
+    name: "module-of-page",
+    load(id) {
+      if (id.endsWith("/generated/plain.js")) return 'export default "";';
+      if (!id.endsWith("/generated/simd.js")) return undefined;
+      const module = readFileSync(here("../../build/web/page.wasm.gz")).toString("base64");
+      return `export default "${module}";`;
+    },
   };
 }
 
@@ -150,5 +156,5 @@ export default defineConfig({
     chunkSizeWarningLimit: 4000,
     rollupOptions: { output: { inlineDynamicImports: true } },
   },
-  plugins: [vectorsOnly(), oneFile()],
+  plugins: [moduleOfPage(), oneFile()],
 });
