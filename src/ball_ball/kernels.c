@@ -33,15 +33,15 @@
 #ifdef CAROM_WITHOUT_LANES
 #define EXACT_LANES(NAME, suffix) .fewest = {UINT32_MAX, UINT32_MAX, UINT32_MAX}
 #else
-#define EXACT_LANES(NAME, suffix)                                                              \
-  .fewest = {FEWEST_OF_##NAME},                                                                \
-  .rows_in = {DOUBLE_LANES_OF_##NAME(carom_rows_in_##suffix##_f64),                            \
-              carom_rows_in_##suffix##_f32, carom_rows_in_##suffix##_mixed},                   \
-  .rows_out = {DOUBLE_LANES_OF_##NAME(carom_rows_out_##suffix##_f64),                          \
-               carom_rows_out_##suffix##_f32, carom_rows_out_##suffix##_mixed},                \
-  .first_step = {DOUBLE_LANES_OF_##NAME(carom_first_step_##suffix##_f64),                      \
-                 carom_first_step_##suffix##_f32, carom_first_step_##suffix##_f32},            \
-  .next_step = {DOUBLE_LANES_OF_##NAME(carom_next_step_##suffix##_f64),                        \
+#define EXACT_LANES(NAME, suffix)                                                                 \
+  .fewest = {FEWEST_OF_##NAME},                                                                   \
+  .rows_in = {DOUBLE_LANES_OF_##NAME(carom_rows_in_##suffix##_f64), carom_rows_in_##suffix##_f32, \
+              carom_rows_in_##suffix##_mixed},                                                    \
+  .rows_out = {DOUBLE_LANES_OF_##NAME(carom_rows_out_##suffix##_f64),                             \
+               carom_rows_out_##suffix##_f32, carom_rows_out_##suffix##_mixed},                   \
+  .first_step = {DOUBLE_LANES_OF_##NAME(carom_first_step_##suffix##_f64),                         \
+                 carom_first_step_##suffix##_f32, carom_first_step_##suffix##_f32},               \
+  .next_step = {DOUBLE_LANES_OF_##NAME(carom_next_step_##suffix##_f64),                           \
                 carom_next_step_##suffix##_f32, carom_next_step_##suffix##_f32}
 #endif
 
