@@ -21,6 +21,18 @@ function digest(numbers) {
     .padStart(8, "0");
 }
 
+/** Ball in hand: a free place on the head string of the table, as near its middle as tenths say. */
+function placeOnHeadString(table, balls) {
+  const y = table.length / 4;
+  const isFree = (x) =>
+    balls.every(
+      ({ kind, state }) =>
+        state.label === "pocketed" ||
+        Math.hypot(state.r[0] - x, state.r[1] - y) > kind.radius + balls[0].kind.radius,
+    );
+  return [[5, 4, 6, 3, 7, 2, 8].map((k) => (k * table.width) / 10).find(isFree), y];
+}
+
 /** A client: its balls, and what it does with a stroke that arrives as text. */
 async function client(build) {
   const carom = await load({ build });
@@ -32,7 +44,7 @@ async function client(build) {
       const shot = carom.simulate(table, balls, JSON.parse(text));
       balls = balls.map(({ kind }, k) => ({ kind, state: shot.final[k] }));
       if (balls[0].state.label === "pocketed")
-        balls = carom.placeBall(table, balls, 0, table.width / 2, table.length / 4);
+        balls = carom.placeBall(table, balls, 0, ...placeOnHeadString(table, balls));
       return digest(balls.flatMap(({ state }) => [...state.r, ...state.w]));
     },
   };

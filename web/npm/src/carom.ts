@@ -487,9 +487,9 @@ export class Carom {
   cushion(impact: CushionImpact, options: CushionOptions = {}): Motion & { status: string } {
     const { impact: at, options: opt, motion, number } = this.#at;
     refuseUnknown(options, KEYS.cushion);
+    writeOptions(this.#memory, opt, "carom_cushion_options", options);
     const rail = this.#rail(options.model);
     writeStruct(this.#memory, at, "carom_cushion_impact", impact, "impact", rail);
-    writeOptions(this.#memory, opt, "carom_cushion_options", options);
     const code = this.#call.carom_cushion(at, opt, motion);
     if (code < 0) {
       this.#call.carom_cushion_check(at, opt, number);

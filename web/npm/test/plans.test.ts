@@ -148,7 +148,7 @@ test.runIf(thereIsACommand)(
       const one: Vec2[] = [[0.9, 1.5]];
       const two: Vec2[] = [
         [0.55, 1.3],
-        [0.4, 1.8],
+        [0.4, 1.7],
       ];
       const asked = [
         [one, 1, "foot-right", []],
@@ -360,7 +360,7 @@ test("arguments in error", () => {
   const { carom } = builds[0]!;
   const { table, balls } = lay(carom, "nineball", PLACES);
   expect(() => carom.plan(table, balls, { rules: "croquet" as "nineball" })).toThrow(/rules/);
-  expect(() => carom.plan(table, balls, { shots: 10 })).toThrow(/shots/);
+  expect(() => carom.plan(table, balls, { rules: "nineball", shots: 10 })).toThrow(/shots/);
   expect(() => carom.plan(table, balls, { shot: { space: "wide" as "flat" } })).toThrow(/space/);
   expect(() => carom.plan(table, balls, { oponent: carom.player() } as object)).toThrow(
     /did you mean "opponent"/,
