@@ -376,8 +376,8 @@ test("arguments in error", () => {
   expect(() => carom.plan(table, balls, { rules: "potting", may: ["push"] })).toThrow(
     "may: by the rules potting it must be 0, as the game has none",
   );
-  expect(() => carom.plan(carom.table("threecushion"), balls.slice(0, 3), {})).toThrow(
-    "table: it has no pockets, which eightball needs",
+  expect(() => carom.plan(carom.table("threecushion"), balls, { rules: "nineball" })).toThrow(
+    "table: it has no pockets, which nineball needs",
   );
   const more = carom.rack("eightball", table, { seed: 1 });
   expect(() => carom.plan(table, more, { rules: "nineball" })).toThrow(

@@ -202,7 +202,7 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
       [packed(JSON.stringify(game)).slice(0, -40), "the link is cut off or damaged"],
     ] as const) {
       const bad = await open(there, `#view=play&seat=1&g=${g}`);
-      expect(await text(bad, "said")).toContain(`The game was not read: ${why}`);
+      expect(await text(bad, "said")).toContain(`The game was not opened: ${why}`);
       expect(await turn(bad)).toContain("You break");
       await bad.close();
     }
