@@ -402,7 +402,7 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
       // the stick is drawn back: 0.04 m for each m/s
       await drag(one, [0.635, 0.6 - 0.35], [0.635, 0.6 - 0.43], touch);
       expect(Number(await one.locator("#speed").inputValue())).toBeCloseTo(5, 0);
-      await one.locator("#speed").fill("2.5");
+      await one.locator("#speed").fill("2.8");
       const ball = (await one.locator("#spin").boundingBox())!;
       const at = [
         ball.x + ball.width * (0.5 + 0.2 / 1.05),
