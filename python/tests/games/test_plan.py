@@ -152,7 +152,7 @@ def test_aim():
 
 
 def test_aim_by_a_way():
-    bank, combination = [[0.9, 1.5]], [[0.55, 1.3], [0.4, 1.8]]
+    bank, combination = [[0.9, 1.5]], [[0.55, 1.3], [0.45, 1.75]]
     ways = (
         (bank, 1, "foot-left", ["right"]),
         (combination, 2, 2, [1]),
@@ -464,6 +464,17 @@ def test_a_referee():
     assert carom.referee(TABLE, ORDER, away, rules="nineball", state=foul.state).turn == "lose"
 
 
+def test_the_choices_after_a_break_are_calls():
+    """Eight-ball has the balls racked again, which needs all of them."""
+    rack, state, cue = carom.racks.eightball(TABLE), {"may": 16 | 32}, carom.cue()
+    for call, turn in (((-4, -1), "keep"), ((-5, -1), "pass")):
+        ruling = carom.referee(TABLE, rack, cue, state=state, call=call)
+        assert (ruling.turn, ruling.foul, ruling.hand) == (turn, carom.Foul.NONE, "kitchen")
+        assert int(ruling.state["opening"]) == 1 and int(ruling.state["may"]) == 0
+        with pytest.raises(ValueError, match="there are 4 balls, none is 4"):
+            carom.referee(TABLE, LAYOUT, cue, state=state, call=call)
+
+
 def test_a_push_out_may_be_passed():
     pushed = carom.referee(
         TABLE,
@@ -539,7 +550,7 @@ def test_a_plan_is_stopped():
 
         def judge(self, state, in_play, facts, call):
             Long.calls += 1
-            if Long.calls == 300:
+            if Long.calls == 3000:  # enough for a stroke that pots a ball
                 self.ends()
             return super().judge(state, in_play, facts, call)
 

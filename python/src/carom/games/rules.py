@@ -349,8 +349,11 @@ class Made:
         self.check_count(len(layout))
 
     def check_count(self, count: int) -> None:
-        """Refuses a layout in which balls are missing that may come back."""
-        if not isinstance(self.rules, Rules) and self.c.settle and count <= (self.last or 0):
+        """Refuses a layout in which balls are missing that may come back. In eight-ball they come
+        back for a new break alone, which the referee refuses without them.
+        """
+        is_built_in = not isinstance(self.rules, Rules) and self.rules != "eightball"
+        if is_built_in and self.c.settle and count <= (self.last or 0):
             raise ValueError(
                 f"balls: {self.rules} has the cue ball and 1 to {self.last}, of which some may be down, not {count} balls"
             )
@@ -481,7 +484,9 @@ def referee(
         As for `plan`. The `state` of a ruling is that for the next stroke.
     call : tuple of two ints
         The ball and the pocket that are called: `ball` and `pocket` of a choice of `plan`, which
-        say a push-out and a pass, too.
+        say a push-out and a pass, too. The other choices that `state["may"]` allows are the balls
+        -4 (racked again, the player breaks), -5 (racked again, the other breaks), -6 (the cue ball
+        stays) and -7 (touching balls go to their spots).
     options, **changes
         As for `simulate`.
 
@@ -495,7 +500,7 @@ def referee(
     made = Made(rules, state, group, opening)
     made.check_count(layout.shape[-1])
     strike = one_cue(cue).copy()
-    if call[0] == lib.CAROM_CALL_PASS:
+    if call[0] <= lib.CAROM_CALL_PASS:  # a choice without a stroke
         strike["speed"] = 0.0
     shots = simulate_batch(
         table,
@@ -518,7 +523,8 @@ def referee(
         },
     )
     called = ffi.new(
-        "carom_call *", [whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)]
+        "carom_call *",
+        [whole(call[0], "call", least=lib.CAROM_CALL_SPOT), whole(call[1], "call", least=-1)],
     )
     code = lib.carom_referee(
         made.c,
