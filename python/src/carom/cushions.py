@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -220,13 +220,20 @@ def cushion(
     return resolve(CUSHION, impacts, options, seconds, threads, out)
 
 
+class Calibrated(TypedDict):
+    """The fields of a ball's kind that three banks tell."""
+
+    restitution_cushion: float
+    mu_cushion: float
+
+
 class Calibration(NamedTuple):
     """What three banks tell of a table's cushion; `constants` are fields of a ball's kind, which
     `carom.balls(r, **constants)` takes.
     """
 
-    constants: dict[str, float]
-    errors: dict[str, float]
+    constants: Calibrated
+    errors: Calibrated
     comes_back: tuple[float, float, float]
     misfit: float
 
