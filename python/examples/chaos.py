@@ -1,7 +1,7 @@
 """Chaos: how far does each ball end from its place, for a degree of the cue's direction, after one
 contact, two, and more?
 
-Every contact of two balls multiplies derivatives by about five. Random layouts of 2 to 9 balls are
+Every contact of two balls multiplies derivatives by about six. Random layouts of 2 to 9 balls are
 played at random speeds, and `carom.tangents` gives the exact derivative of each ball's end. A ball
 is counted by the largest number of contacts between the cue and it. A derivative of hundreds of
 metres per degree is exact and of no use: it holds for a thousandth of a degree only.
@@ -20,7 +20,7 @@ import carom
 matplotlib.use("Agg")
 table, random = carom.tables.pool_9ft(), np.random.default_rng(7)
 found: list[tuple[np.ndarray, np.ndarray]] = []
-while len(found) < 1000:
+while len(found) < 2000:
     r = random.uniform([0.1, 0.1], [1.17, 2.44], (random.integers(2, 10), 2))
     if np.hypot(*(r[:, None] - r)[np.triu_indices(len(r), 1)].T).min() < 0.06:
         continue
