@@ -52,9 +52,9 @@ def play(part: Part) -> Summary:
         phi=generator.uniform(85.0, 95.0, part.shots),
     )
     table = carom.tables.pool_9ft()
-    shots = carom.simulate_batch(
-        table, carom.racks.nineball(table), cues, cushion_model="han", threads=part.threads
-    )
+    rack = carom.racks.nineball(table)
+    rack["kind"] = carom.balls([[0.0, 0.0]], cushion_model="han")["kind"]
+    shots = carom.simulate_batch(table, rack, cues, cushion_model="han", threads=part.threads)
     digest = hashlib.sha256(shots.final.tobytes() + shots.status.tobytes()).digest()
     down = (shots.final["label"] == carom.Label.POCKETED).sum(axis=-1)
     return digest, np.bincount(down, minlength=11)

@@ -89,7 +89,7 @@ def tasks(draws: int, seed: int) -> list[tuple[carom.dtypes.Records, Doubles, Do
                 random.uniform(-0.2, 0.3),
             ]
         )
-        balls = carom.balls(centres)
+        balls = carom.balls(centres, cushion_model="han")
         shot = play(x, balls)
         if shot is not None and not (shot.final["label"] == carom.Label.POCKETED).any():
             found.append((balls, x, ends(shot), x + random.normal(size=4) * OFF * SCALES))
