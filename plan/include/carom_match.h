@@ -1,7 +1,7 @@
 /* carom_match.h: a match between two players: the table, the balls, the rules and the recording in
  * one object, which takes one act after another.
  *
- *     static carom_match match;  // all zero; some 200 KiB
+ *     static carom_match match;  // all zero
  *     carom_table_make(CAROM_TABLE_POOL_9FT, &table);
  *     carom_match_begin(&match, CAROM_RULES_EIGHTBALL, &table, 1, 0);
  *     while (match.phase != CAROM_MATCH_OVER) {

@@ -74,9 +74,11 @@ namespace Carom {
       get { return Open->ruling; }
     }
 
+    /// <summary>Makes one of the choices that the rules allow now.</summary>
     public void Choose(May choice) {
       Told(Native.carom_match_choose(Open, Player, choice));
     }
+    /// <summary>Puts the cue ball in hand at a place, m, within the bounds.</summary>
     public void Place(double x, double y) {
       Told(Native.carom_match_place(Open, Player, x, y));
     }
@@ -93,6 +95,7 @@ namespace Carom {
     public bool GoOn(ShotOptions stop = default(ShotOptions)) {
       return Told(Native.carom_match_continue(Open, &stop, null)) == Status.Ok;
     }
+    /// <summary>A player, 0 or 1, gives the game to the other.</summary>
     public void Concede(int player) {
       Told(Native.carom_match_concede(Open, player));
     }
