@@ -59,10 +59,10 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   return turn.is == CAROM_TURN_PASS ? carom_give(game, turn) : turn;
 }
 
-const carom_plan_rules carom_bank_pool = {.on = carom_on_any,
-                                          .judge = judge,
-                                          .left = carom_left_of_eight,
-                                          .race = CAROM_RACE_OWN,
-                                          .breaks = 1,
-                                          .settle = carom_settle_rack,
-                                          .rack = CAROM_RACK_EIGHTBALL};
+CAROM_RULES_OBJECT(carom_bank_pool) = {.on = carom_on_any,
+                                       .judge = judge,
+                                       .left = carom_left_of_eight,
+                                       .race = CAROM_RACE_OWN,
+                                       .breaks = 1,
+                                       .settle = carom_settle_rack,
+                                       .rack = CAROM_RACK_EIGHTBALL};

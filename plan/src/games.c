@@ -32,27 +32,45 @@ static const struct {
   int calls, members, may;
 } games[] = {CAROM_GAMES(GAME)};
 #undef GAME
-enum { GAMES = sizeof games / sizeof games[0] };
+
+/* Rows stand by their values, and each value has one: a value without a row does not compile. */
+#define GAME(NAME, ...) ROW_OF_##NAME,
+enum { CAROM_GAMES(GAME) };
+#undef GAME
+#define GAME(NAME, ...) \
+  _Static_assert((int)CAROM_RULES_##NAME == (int)ROW_OF_##NAME, "rows stand by their values");
+CAROM_GAMES(GAME)
+#undef GAME
+#pragma GCC diagnostic error "-Wswitch"
+static bool is_game(carom_rules_kind kind) {
+#define GAME(NAME, ...) case CAROM_RULES_##NAME:
+  switch (kind) {
+    CAROM_GAMES(GAME)
+    return true;
+  }
+#undef GAME
+  return false;
+}
 
 const carom_rules_about *carom_rules_about_of(carom_rules_kind kind) {
-  return (unsigned)kind < GAMES ? &games[kind].about : NULL;
+  return is_game(kind) ? &games[kind].about : NULL;
 }
 
 bool carom_has_opening(carom_rules_kind kind) {
-  return (unsigned)kind < GAMES && (games[kind].members & OPENING) != 0;
+  return is_game(kind) && (games[kind].members & OPENING) != 0;
 }
 
 carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
-  const int k = (unsigned)kind < GAMES ? (int)kind : CAROM_RULES_EIGHTBALL;
+  const int k = is_game(kind) ? (int)kind : CAROM_RULES_EIGHTBALL;
   carom_plan_rules rules = *games[k].rules;
   rules.calls = games[k].calls;
   rules.learned = k + 1;
   return rules;
 }
 
-/* Whether a game that has a member may stand so: three-cushion may have no target. */
+/* Whether a game that has a member may stand so: carom games may have no target. */
 static bool may_be(carom_rules_kind kind, size_t member, int32_t value) {
-  if (kind == CAROM_RULES_THREECUSHION && member == PLACE_OF_TARGET && value == 0)
+  if (games[kind].about.balls == CAROM_GAME_BILLIARD && member == PLACE_OF_TARGET && value == 0)
     return true;
   const int32_t not_allowed = member == PLACE_OF_MAY ? value & ~games[kind].may : 0;
   return value >= members[member].low && value <= members[member].high && not_allowed == 0;
@@ -60,7 +78,7 @@ static bool may_be(carom_rules_kind kind, size_t member, int32_t value) {
 
 const char *carom_rules_fault(carom_rules_kind kind, const carom_rules_state *state,
                               const char **range) {
-  if ((unsigned)kind >= GAMES || state == NULL || range == NULL)
+  if (!is_game(kind) || state == NULL || range == NULL)
     return NULL;
   const int32_t *value = &state->opening; /* all members, one behind the other */
   for (size_t k = 0; k < MEMBERS; k++)

@@ -2,8 +2,8 @@
  * of other languages are made of these rows.
  *
  * GAME(NAME, rules, word, text, BALLS, RACK, last, OPENING, HAND, calls, members, may): `rules` is
- * the object that its file defines, `members` are those of its state, by the names of
- * CAROM_STATE_MEMBERS of schema/numbers.h, and carom_rules_about has the rest. */
+ * the object that its file defines by CAROM_RULES_OBJECT, `members` are those of its state, by the
+ * names of CAROM_STATE_MEMBERS of schema/numbers.h, and carom_rules_about has the rest. */
 #ifndef CAROM_PLAN_GAMES_H
 #define CAROM_PLAN_GAMES_H
 
@@ -31,6 +31,14 @@
 
 #define CAROM_GAME_RULES(NAME, rules, ...) extern const carom_plan_rules rules;
 CAROM_GAMES(CAROM_GAME_RULES)
+
+/* Begins the definition of the rules of a game. An object that no row names does not compile. */
+#define CAROM_GAME_ROW(NAME, rules, ...) CAROM_ROW_OF_##rules = CAROM_RULES_##NAME,
+enum { CAROM_GAMES(CAROM_GAME_ROW) };
+#define CAROM_RULES_OBJECT(rules)                                               \
+  _Static_assert((int)CAROM_ROW_OF_##rules >= 0, "rules have a row of a game"); \
+  const carom_plan_rules rules
+
 #define CAROM_GAME_WORD(NAME, rules, word, text, ...) \
   {CAROM_WORDS_RULES, CAROM_RULES_##NAME, word, text},
 

@@ -57,11 +57,11 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
 }
 
 /* To begin with, the pockets at the foot of a table of carom_table_make(): 5 and 2. */
-const carom_plan_rules carom_onepocket = {.state = {.pocket = {5, 2}},
-                                          .on = carom_on_any,
-                                          .judge = judge,
-                                          .left = carom_left_of_eight,
-                                          .pockets = pockets,
-                                          .race = CAROM_RACE_OWN,
-                                          .settle = carom_settle_rack,
-                                          .rack = CAROM_RACK_EIGHTBALL};
+CAROM_RULES_OBJECT(carom_onepocket) = {.state = {.pocket = {5, 2}},
+                                       .on = carom_on_any,
+                                       .judge = judge,
+                                       .left = carom_left_of_eight,
+                                       .pockets = pockets,
+                                       .race = CAROM_RACE_OWN,
+                                       .settle = carom_settle_rack,
+                                       .rack = CAROM_RACK_EIGHTBALL};

@@ -128,14 +128,14 @@ static carom_turn eightball_judge(carom_rules_state *game, uint32_t in_play, int
   return carom_keep;
 }
 
-const carom_plan_rules carom_eightball = {.on = eightball_on,
-                                          .judge = eightball_judge,
-                                          .left = eightball_left,
-                                          .race = CAROM_RACE_OWN,
-                                          .first_decides = 1,
-                                          .breaks = 1,
-                                          .settle = carom_settle_rack,
-                                          .rack = CAROM_RACK_EIGHTBALL};
+CAROM_RULES_OBJECT(carom_eightball) = {.on = eightball_on,
+                                       .judge = eightball_judge,
+                                       .left = eightball_left,
+                                       .race = CAROM_RACE_OWN,
+                                       .first_decides = 1,
+                                       .breaks = 1,
+                                       .settle = carom_settle_rack,
+                                       .rack = CAROM_RACK_EIGHTBALL};
 
 /* ---- Nine-ball */
 
@@ -209,12 +209,12 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
   return facts->down != 0 ? carom_keep : carom_give(game, carom_pass);
 }
 
-const carom_plan_rules carom_nineball = {.on = nineball_on,
-                                         .judge = nineball_judge,
-                                         .left = nineball_left,
-                                         .race = CAROM_RACE_SHARED,
-                                         .first_decides = 1,
-                                         .breaks = 1};
+CAROM_RULES_OBJECT(carom_nineball) = {.on = nineball_on,
+                                      .judge = nineball_judge,
+                                      .left = nineball_left,
+                                      .race = CAROM_RACE_SHARED,
+                                      .first_decides = 1,
+                                      .breaks = 1};
 
 /* ---- Potting */
 
@@ -247,7 +247,7 @@ static carom_turn potting_judge(carom_rules_state *game, uint32_t in_play, int c
   return turn;
 }
 
-const carom_plan_rules carom_potting = {
+CAROM_RULES_OBJECT(carom_potting) = {
     .on = potting_on, .judge = potting_judge, .left = potting_left, .race = CAROM_RACE_ALONE};
 
 /* ---- Three-cushion */
@@ -356,11 +356,11 @@ static double threecushion_value(const carom_rules_state *game, const carom_ball
 }
 
 /* 40 points, as in the world championship of the UMB. */
-const carom_plan_rules carom_threecushion = {.state = {.target = 40},
-                                             .on = threecushion_on,
-                                             .judge = threecushion_judge,
-                                             .settle = threecushion_settle,
-                                             .left = threecushion_left,
-                                             .value = threecushion_value,
-                                             .race = CAROM_RACE_ALONE,
-                                             .rack = CAROM_RACK_THREECUSHION};
+CAROM_RULES_OBJECT(carom_threecushion) = {.state = {.target = 40},
+                                          .on = threecushion_on,
+                                          .judge = threecushion_judge,
+                                          .settle = threecushion_settle,
+                                          .left = threecushion_left,
+                                          .value = threecushion_value,
+                                          .race = CAROM_RACE_ALONE,
+                                          .rack = CAROM_RACK_THREECUSHION};

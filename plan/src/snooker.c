@@ -310,10 +310,10 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
     game->may |= CAROM_MAY_FREE_BALL;
 }
 
-const carom_plan_rules carom_snooker = {.on = on,
-                                        .judge = judge,
-                                        .left = left,
-                                        .race = CAROM_RACE_POINTS,
-                                        .points = points,
-                                        .settle = settle,
-                                        .rack = CAROM_RACK_SNOOKER};
+CAROM_RULES_OBJECT(carom_snooker) = {.on = on,
+                                     .judge = judge,
+                                     .left = left,
+                                     .race = CAROM_RACE_POINTS,
+                                     .points = points,
+                                     .settle = settle,
+                                     .rack = CAROM_RACK_SNOOKER};

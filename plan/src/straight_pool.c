@@ -211,11 +211,11 @@ void carom_settle_rack(carom_rules_state *game, const carom_table *table, carom_
     turn->leave = CAROM_LEAVE_KITCHEN;
 }
 
-const carom_plan_rules carom_straight = {.state = {.target = 100},
-                                         .on = carom_on_any,
-                                         .judge = judge,
-                                         .left = left,
-                                         .race = CAROM_RACE_POINTS,
-                                         .breaks = 2,
-                                         .settle = carom_settle_rack,
-                                         .rack = CAROM_RACK_EIGHTBALL};
+CAROM_RULES_OBJECT(carom_straight) = {.state = {.target = 100},
+                                      .on = carom_on_any,
+                                      .judge = judge,
+                                      .left = left,
+                                      .race = CAROM_RACE_POINTS,
+                                      .breaks = 2,
+                                      .settle = carom_settle_rack,
+                                      .rack = CAROM_RACK_EIGHTBALL};
