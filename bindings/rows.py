@@ -177,7 +177,7 @@ def games():
             "rack": named[f"RACK_{rack}"],
             "last": int(last),
             "opening": opening.lower(),
-            "calls": calls == "1",
+            "calls": calls != "0",
             "members": members.lower().split(" | "),
         }
         for _, (

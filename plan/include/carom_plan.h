@@ -239,7 +239,8 @@ typedef struct carom_plan_rules {
   carom_rules_pockets *pockets; /* NULL: all. */
   int32_t race;                 /* a carom_race. */
   int32_t calls;                /* 1: shots are called. A candidate then calls the pot that it makes
-                                   without errors. */
+                                   without errors. 2: the same, and a ball that is not in on() may
+                                   be called too. */
   int32_t first_decides;        /* 1: a shot whose first contact is not with a ball of on() is
                                    always a foul. The plan does not play such shots to their end. */
   int32_t breaks;               /* 1: if state.opening is 1, the plan tries strokes of a break: it
@@ -302,7 +303,7 @@ typedef enum carom_rules_kind {
                                    right and the foot left pocket of carom_table_make(); the player
                                    who breaks chooses one of them; score; lost: balls that are owed;
                                    fouls: a third one loses. */
-  CAROM_RULES_BANK = 7          /* bank pool, BCA: 15 balls, of which any may be played; ball and
+  CAROM_RULES_BANK = 7,         /* bank pool, BCA: 15 balls, of which any may be played; ball and
                                    pocket are called. A ball counts if the cue ball hit it first,
                                    without a cushion before, and if it meets a cushion before it
                                    falls. It may kiss another ball on its way. Other balls that fall
@@ -310,6 +311,12 @@ typedef enum carom_rules_kind {
                                    opening; score; lost: balls that are owed; fouls: a third one
                                    loses; may: to pass just after a break of the opponent that was
                                    not legal, so that the opponent breaks again. */
+  CAROM_RULES_TENBALL = 8 /* ten-ball, WPA: 10 balls, of which the lowest must be met first. Any
+                                   ball and its pocket are called, except on the break. The ten wins
+                                   as the last ball, and comes back if it falls before; without it,
+                                   the highest ball. State: opening; fouls: a third one loses; may: to
+                                   push out just after a break without a foul, and to pass after a
+                                   push-out of the opponent, or a ball of his that fell uncalled. */
 } carom_rules_kind;
 
 /* The description of a game. */

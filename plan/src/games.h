@@ -27,7 +27,9 @@
   GAME(ONEPOCKET, carom_onepocket, "onepocket", "one-pocket by the BCA", POOL, EIGHTBALL, 15,     \
        KITCHEN, KITCHEN, 0, FOULS | SCORE | LOST | POCKET, 0)                                     \
   GAME(BANK, carom_bank_pool, "bank", "bank pool by the BCA", POOL, EIGHTBALL, 15, KITCHEN,       \
-       KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY, CAROM_MAY_PASS)
+       KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY, CAROM_MAY_PASS)                          \
+  GAME(TENBALL, carom_ten_ball, "tenball", "ten-ball by the WPA", POOL, TENBALL, 10, KITCHEN,     \
+       HAND, 2, OPENING | FOULS | MAY, CAROM_MAY_PASS | CAROM_MAY_PUSH)
 
 #define CAROM_GAME_RULES(NAME, rules, ...) extern const carom_plan_rules rules;
 CAROM_GAMES(CAROM_GAME_RULES)

@@ -465,11 +465,14 @@ carom_status carom_match_call(carom_match *match, int player, carom_call call) {
     return bad;
   if (match->rules.calls == 0)
     return carom_match_refuse(match, CAROM_REFUSED_CALL, "call", "nothing is called in this game");
-  const bool is_on = call.ball >= 0 && call.ball < CAROM_BALLS_MOST && match->on >> call.ball & 1;
-  if (call.ball != -1 && !is_on) {
+  const uint32_t cue_ball = UINT32_C(1) << match->cue_ball;
+  const uint32_t may_call =
+      match->rules.calls == 1 ? match->on : in_play(&match->record) & ~cue_ball;
+  const bool is_ball = call.ball >= 0 && call.ball < CAROM_BALLS_MOST;
+  if (call.ball != -1 && !(is_ball && may_call >> call.ball & 1)) {
     char text[128], right[200];
-    snprintf(right, sizeof right, "ball %d is not on; on are %s, and -1 is a safety",
-             (int)call.ball, list_balls(match->on, text));
+    snprintf(right, sizeof right, "ball %d may not be called; these may: %s, and -1 is a safety",
+             (int)call.ball, list_balls(may_call, text));
     return carom_match_refuse(match, CAROM_REFUSED_CALL, "call", right);
   }
   const bool names_pocket = call.ball >= 0 && match->rules.rack != CAROM_RACK_SNOOKER;

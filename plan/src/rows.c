@@ -33,12 +33,12 @@ carom_cue carom_search_stroke(const search *plan, const candidate *c, uint32_t d
 }
 
 /* The pot that a shot made: the first ball that fell into a pocket that counts. Where shots are
- * called it is one of the balls that were on, and the candidate calls it. Without pockets it is the
- * ball that was met first. */
+ * called, the candidate calls it; where only balls that are on may be called, it is one of them.
+ * Without pockets it is the ball that was met first. */
 static carom_call call_of(const search *plan, const carom_facts *facts) {
   carom_call call = {plan->view.pockets > 0 ? -1 : facts->first[0], -1};
   const uint32_t all = ~(UINT32_C(1) << plan->view.cue_ball);
-  const uint32_t down = facts->down & (plan->job.rules->calls ? plan->targets : all);
+  const uint32_t down = facts->down & (plan->job.rules->calls == 1 ? plan->targets : all);
   for (int k = 0; down >> k != 0; k++)
     if ((down >> k & 1) && (plan->pockets >> facts->pocket[k] & 1) &&
         (call.ball < 0 || facts->pocket_time[k] < facts->pocket_time[call.ball]))

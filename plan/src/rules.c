@@ -140,22 +140,13 @@ CAROM_RULES_OBJECT(carom_eightball) = {.on = eightball_on,
 /* ---- Nine-ball */
 
 static uint32_t nineball_on(const carom_rules_state *game, uint32_t in_play) {
-  const uint32_t balls = in_play & 0x3fe; /* 1 to 9 */
   (void)game;
-  return balls & (~balls + 1); /* the lowest */
+  return carom_lowest_of(in_play & 0x3fe); /* of 1 to 9 */
 }
 
 static void nineball_left(const carom_rules_state *game, uint32_t in_play, int32_t left[2]) {
   (void)game;
   left[0] = left[1] = carom_count_of(in_play & 0x3fe);
-}
-
-/* The highest ball of a set, as a set. */
-static uint32_t highest_of(uint32_t balls) {
-  uint32_t highest = 0;
-  for (; balls != 0; balls &= balls - 1)
-    highest = balls & (~balls + 1);
-  return highest;
 }
 
 /* The foul of a push-out, which may meet any ball or none, and needs no cushion; not that the cue
@@ -164,6 +155,27 @@ static carom_foul push_out_foul_of(const carom_facts *facts) {
   if (facts->off != 0)
     return CAROM_FOUL_OFF;
   return carom_is_double_hit(facts) ? CAROM_FOUL_DOUBLE_HIT : CAROM_FOUL_NONE;
+}
+
+int32_t carom_rotation_foul_of(const carom_facts *facts, uint32_t on, int cue_ball, bool opening,
+                               bool pushes) {
+  int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
+  if (pushes && foul != CAROM_FOUL_CUE_BALL)
+    foul = (int32_t)push_out_foul_of(facts);
+  if (foul == CAROM_FOUL_NONE && opening && !carom_is_break(facts, cue_ball))
+    foul = CAROM_FOUL_BREAK;
+  return foul;
+}
+
+carom_turn carom_give_hand(carom_rules_state *game, int32_t foul, uint32_t spot) {
+  carom_turn turn = foul_for(foul);
+  turn.spot = spot;
+  carom_add(&game->fouls[0], 1);
+  if (game->fouls[0] >= FOULS_MOST) {
+    game->fouls[0] = 0;
+    turn.is = CAROM_TURN_LOSE;
+  }
+  return carom_give(game, turn);
 }
 
 static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
@@ -177,24 +189,11 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
 
   /* the nine wins, or the highest ball of a game without it; it comes back after a foul or a
    * push-out */
-  const uint32_t balls = in_play & 0x3fe, wins = highest_of(balls);
-
-  /* the foul, of a push-out or of another stroke */
-  int32_t foul = (int32_t)carom_foul_of(facts, nineball_on(game, in_play), cue_ball);
-  if (pushes && foul != CAROM_FOUL_CUE_BALL)
-    foul = (int32_t)push_out_foul_of(facts);
-  if (foul == CAROM_FOUL_NONE && opening && !carom_is_break(facts, cue_ball))
-    foul = CAROM_FOUL_BREAK;
-  if (foul != CAROM_FOUL_NONE) {
-    carom_turn turn = foul_for(foul);
-    turn.spot = (facts->down | facts->off) & wins;
-    carom_add(&game->fouls[0], 1);
-    if (game->fouls[0] < FOULS_MOST)
-      return carom_give(game, turn);
-    game->fouls[0] = 0;
-    turn.is = CAROM_TURN_LOSE;
-    return carom_give(game, turn);
-  }
+  const uint32_t wins = carom_highest_of(in_play & 0x3fe);
+  const int32_t foul =
+      carom_rotation_foul_of(facts, nineball_on(game, in_play), cue_ball, opening, pushes);
+  if (foul != CAROM_FOUL_NONE)
+    return carom_give_hand(game, foul, (facts->down | facts->off) & wins);
   if (pushes) {
     carom_turn turn = carom_pass;
     turn.spot = facts->down & wins;

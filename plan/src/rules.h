@@ -15,6 +15,16 @@ static inline int carom_count_of(uint32_t set) {
     n++;
   return n;
 }
+/* The lowest ball of a set and the highest one, as sets. */
+static inline uint32_t carom_lowest_of(uint32_t set) {
+  return set & (~set + 1);
+}
+static inline uint32_t carom_highest_of(uint32_t set) {
+  uint32_t highest = 0;
+  for (; set != 0; set &= set - 1)
+    highest = carom_lowest_of(set);
+  return highest;
+}
 /* The square of a distance. */
 static inline double carom_square(const double a[2], const double b[2]) {
   return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
@@ -34,6 +44,12 @@ carom_rules_on carom_on_any;
 static inline void carom_add(int32_t *to, int more) {
   *to = *to > INT32_MAX - more ? INT32_MAX : *to + more;
 }
+
+/* Nine-ball and ten-ball: the foul of a break, of a push-out or of another stroke; and the turn
+ * after a foul, with the cue ball in hand. The third foul in a row loses. */
+int32_t carom_rotation_foul_of(const carom_facts *facts, uint32_t on, int cue_ball, bool opening,
+                               bool pushes);
+carom_turn carom_give_hand(carom_rules_state *game, int32_t foul, uint32_t spot);
 
 /* Games in which eight balls win: a ball that counts, or is no more owed; one that a foul costs, or
  * is owed; what each player needs; and the balls that come back after a stroke. */

@@ -173,9 +173,9 @@ TEST(spots) {
  * other cushion is met. One that lay 1 mm off is driven. */
 TEST(a_ball_frozen_to_a_cushion) {
   static const carom_rules_kind kinds[] = {CAROM_RULES_EIGHTBALL, CAROM_RULES_NINEBALL,
-                                           CAROM_RULES_STRAIGHT, CAROM_RULES_ONEPOCKET,
-                                           CAROM_RULES_BANK};
-  for (int k = 0; k < 20; k++) {
+                                           CAROM_RULES_STRAIGHT,  CAROM_RULES_ONEPOCKET,
+                                           CAROM_RULES_BANK,      CAROM_RULES_TENBALL};
+  for (int k = 0; k < 24; k++) {
     carom_plan_rules of = carom_plan_rules_of(kinds[k / 4]);
     const bool off = k & 1, hard = k & 2;
     const int count = lay_out((carom_rack_kind)of.rack, CAROM_TABLE_POOL_9FT, 0xffff);

@@ -41,7 +41,7 @@ function wordsOfEnd(play: Play): string {
   const { last, setup, played, winner } = play;
   if (!last?.ruling) return "";
   const hasLost = winner !== last.who;
-  const deciding = { eightball: 8, nineball: 9 }[setup.game];
+  const deciding = { eightball: 8, nineball: 9, tenball: 10 }[setup.game];
   if (deciding === undefined) {
     const score = play.points.join(" : ").replaceAll("-", "−");
     return played?.points ? `the score is ${score}` : "";
@@ -128,7 +128,7 @@ export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, n
     );
     return `${wordsOfPoints(balls.map((count) => (count === 0 ? "on the 8" : `${count} left`)))}${won && ` · ${won}`}`;
   }
-  if (play.setup.game === "nineball") {
+  if (["nineball", "tenball"].includes(play.setup.game)) {
     const next = play.balls.findIndex(({ state }, k) => k > 0 && onTable(state));
     return [next > 0 ? `lowest ball ${next}` : "", won].filter((part) => part !== "").join(" · ");
   }

@@ -28,6 +28,7 @@ function snookerName(k: number): string {
 }
 export const GAMES: Record<string, GameOf> = {
   nineball: { text: "Nine-ball", table: "9ft", rack: "nineball", game: "pool", names: pool },
+  tenball: { text: "Ten-ball", table: "9ft", rack: "tenball", game: "pool", names: pool },
   eightball: { text: "Eight-ball", table: "9ft", rack: "eightball", game: "pool", names: pool },
   snooker: {
     text: "Snooker",
