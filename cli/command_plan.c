@@ -34,8 +34,8 @@ typedef struct plan_job {
 
 OPTION(plan_job, option_rules, "rules", game.rules, 0, NULL, set_named, CAROM_WORDS_RULES,
        "the game (default eightball; potting has no rules: all balls count). The cue ball is named "
-       "cue, and the others by their numbers, or in snooker as in its rack: red1, yellow; potting "
-       "and threecushion take any names");
+       "cue, and the others by their numbers, or in snooker as in its rack: red1, yellow; "
+       "potting, threecushion and straightrail take any names");
 OPTION(plan_job, option_group, "group", game.group, 0, "open|solids|stripes", set_choice, 0,
        "the balls of the player, where each has a group (default open: any but the eight)");
 OPTION(plan_job, option_permission, "may", game.permission, 0, "shoot|push-out|pass|free-ball",
@@ -116,10 +116,15 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
   }
 }
 
+/* Whether the game is one of points on a table without pockets. */
+static bool is_carom(const plan_job *job) {
+  return carom_rules_about_of(job->game.rules)->balls == CAROM_GAME_BILLIARD;
+}
+
 static const char *value_words(const plan_job *job) {
   if (job->game.rules == CAROM_RULES_POTTING)
     return "share potted";
-  return job->game.rules == CAROM_RULES_THREECUSHION ? "scores" : "wins";
+  return is_carom(job) ? "scores" : "wins";
 }
 
 static void tell(FILE *out, const plan_job *job, const carom_plan_job *asked, const shot_line *line,
@@ -203,8 +208,9 @@ static bool are_together(const plan_job *job) {
   if (job->tries && (job->value || job->hand))
     complain(
         "--try plays strokes from where the cue ball lies: give it without --value and --in-hand");
-  else if (job->value && job->game.rules == CAROM_RULES_THREECUSHION)
-    complain("--value: no estimate of a layout of three-cushion is known; a plan reports chances");
+  else if (job->value && is_carom(job))
+    complain("--value: no estimate of a layout of %s is known; a plan reports chances",
+             carom_rules_about_of(job->game.rules)->text);
   else if (job->why && (job->csv || job->value))
     complain("--why explains shots in words: give it without --csv and --value");
   else if (job->value && job->plot != NULL)
@@ -228,15 +234,15 @@ static carom_status tell_value(const plan_job *job, const carom_plan_job *asked,
 /* Whether a game can be played on a layout; complains where it cannot. */
 static bool is_playable(const plan_job *job, const shot_line *line, const char *file) {
   const bool pockets = line->table->table.pockets > 0;
-  const bool scores = job->game.rules == CAROM_RULES_THREECUSHION;
+  const bool scores = is_carom(job);
+  const char *game = carom_rules_about_of(job->game.rules)->name;
   if (!scores && !pockets)
     complain("%s:%zu: the table has no pockets, which this game needs", file, line->number);
   else if (scores && pockets)
-    complain("%s:%zu: the table has pockets; threecushion needs one without, such as --table "
-             "threecushion",
-             file, line->number);
+    complain("%s:%zu: the table has pockets; %s needs one without, such as --table threecushion",
+             file, line->number, game);
   else if (scores && line->count < 3)
-    complain("%s:%zu: threecushion needs three balls", file, line->number);
+    complain("%s:%zu: %s needs three balls", file, line->number, game);
   else if (line->count < 2)
     complain("%s:%zu: a plan needs the cue ball and one more", file, line->number);
   else

@@ -311,12 +311,18 @@ typedef enum carom_rules_kind {
                                    opening; score; lost: balls that are owed; fouls: a third one
                                    loses; may: to pass just after a break of the opponent that was
                                    not legal, so that the opponent breaks again. */
-  CAROM_RULES_TENBALL = 8 /* ten-ball, WPA: 10 balls, of which the lowest must be met first. Any
-                                   ball and its pocket are called, except on the break. The ten wins
-                                   as the last ball, and comes back if it falls before; without it,
-                                   the highest ball. State: opening; fouls: a third one loses; may: to
-                                   push out just after a break without a foul, and to pass after a
-                                   push-out of the opponent, or a ball of his that fell uncalled. */
+  CAROM_RULES_TENBALL = 8,      /* ten-ball, WPA: 10 balls, of which the lowest must be met first.
+                                   Any ball and its pocket are called, except on the break. The ten
+                                   wins as the last ball, and comes back if it falls before; without
+                                   it, the highest ball. State: opening; fouls: a third one loses;
+                                   may: to push out just after a break without a foul, and to pass
+                                   after a push-out of the opponent, or after a ball that the
+                                   opponent potted without calling it. */
+  CAROM_RULES_STRAIGHTRAIL = 9  /* straight rail, UMB: a player scores a point if the cue ball meets
+                                   both other balls. There are no barred corners. If a ball leaves
+                                   the table, or a player whose cue ball touches another one asks
+                                   for it, all three are placed as for the opening. Everything else
+                                   is as in THREECUSHION; target is 100 to begin with. */
 } carom_rules_kind;
 
 /* The description of a game. */

@@ -29,7 +29,9 @@
   GAME(BANK, carom_bank_pool, "bank", "bank pool by the BCA", POOL, EIGHTBALL, 15, KITCHEN,       \
        KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY, CAROM_MAY_PASS)                          \
   GAME(TENBALL, carom_ten_ball, "tenball", "ten-ball by the WPA", POOL, TENBALL, 10, KITCHEN,     \
-       HAND, 2, OPENING | FOULS | MAY, CAROM_MAY_PASS | CAROM_MAY_PUSH)
+       HAND, 2, OPENING | FOULS | MAY, CAROM_MAY_PASS | CAROM_MAY_PUSH)                           \
+  GAME(STRAIGHTRAIL, carom_straight_rail, "straightrail", "straight rail by the UMB", BILLIARD,   \
+       THREECUSHION, 0, AFTER, AFTER, 0, OPENING | GROUP | SCORE | TARGET | MAY, CAROM_MAY_SPOT)
 
 #define CAROM_GAME_RULES(NAME, rules, ...) extern const carom_plan_rules rules;
 CAROM_GAMES(CAROM_GAME_RULES)

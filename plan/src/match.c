@@ -273,7 +273,7 @@ carom_status carom_match_begin(carom_match *match, carom_rules_kind kind, const 
     return bad;
   carom_plan_rules rules = carom_plan_rules_of(kind);
   rules.state.opening = carom_has_opening(kind);
-  if (kind == CAROM_RULES_THREECUSHION)
+  if (rules.rack == CAROM_RACK_THREECUSHION)
     rules.state.group = 1 + player;
   if (rules.state.group == 2) { /* the white spot is that of who opens */
     const carom_ball_state white = balls[0].state;

@@ -6,7 +6,7 @@
 
 enum { E = CAROM_RULES_EIGHTBALL, N = CAROM_RULES_NINEBALL, ST = CAROM_RULES_STRAIGHT };
 enum { SN = CAROM_RULES_SNOOKER, ONE = CAROM_RULES_ONEPOCKET, BANK = CAROM_RULES_BANK };
-enum { THREE = CAROM_RULES_THREECUSHION };
+enum { THREE = CAROM_RULES_THREECUSHION, RAIL = CAROM_RULES_STRAIGHTRAIL };
 enum { HAND_ANY = CAROM_LEAVE_HAND };
 enum { RACK = CAROM_MAY_RACK, OTHER = CAROM_MAY_OTHER_RACK, STAY = CAROM_MAY_STAY };
 enum { PUSH = CAROM_MAY_PUSH, SPOT = CAROM_MAY_SPOT };
@@ -498,6 +498,30 @@ static const situation rows[] = {
      NO_CALL,
      WIN,
      .points = 40},
+    {"UMB 23 straight rail: the red first",
+     RAIL,
+     {.opening = 1},
+     .first = 1,
+     .second = 2,
+     NO_CALL,
+     PASS,
+     AFTER,
+     FIRST},
+    {"UMB 61 both balls", RAIL, .first = 1, .second = 2, NO_CALL, KEEP, .points = 1},
+    {"UMB 61 one ball", RAIL, .first = 1, .cushions = 3, NO_CALL, PASS},
+    {"UMB 61 none", RAIL, NO_CALL, PASS},
+    {"UMB 28 straight rail: a ball leaves the table", RAIL, .first = 1, .second = 2, .off = B(2),
+     NO_CALL, PASS, AFTER, OFF, B(2)},
+    {"UMB 41 straight rail: a double hit", RAIL, .first = 1, .second = 2, .touches = 2, NO_CALL,
+     PASS, AFTER, DOUBLE_HIT},
+    {"UMB 29 straight rail: the last point",
+     RAIL,
+     {.target = 100, .score = {99, 3}},
+     .first = 2,
+     .second = 1,
+     NO_CALL,
+     WIN,
+     .points = 100},
 };
 
 static uint32_t balls_of(int game) {
@@ -505,7 +529,7 @@ static uint32_t balls_of(int game) {
     return nine9;
   if (game == SN)
     return frame;
-  return game == THREE ? 7 : all15;
+  return game == THREE || game == RAIL ? 7 : all15;
 }
 
 static carom_facts facts_of_row(const situation *row) {

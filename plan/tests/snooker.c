@@ -185,7 +185,7 @@ TEST(double_hits) {
       int foul = given[k].pool;
       if (game == CAROM_RULES_SNOOKER)
         foul = given[k].snooker;
-      else if (game == CAROM_RULES_THREECUSHION)
+      else if (rules.rack == CAROM_RACK_THREECUSHION)
         foul = given[k].three;
       const carom_turn turn = rules.judge(&rules.state, 0xffff, 0, &f, (carom_call){NONE, -1});
       ck_assert_msg((int)turn.foul == foul, "%s: %s", carom_word(CAROM_WORDS_RULES, game),

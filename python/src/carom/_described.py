@@ -20,7 +20,7 @@ CushionLaw = Literal["constant", "han"]
 Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"]
 Solver = Literal["exact", "euler", "fast"]
 Slip = Literal["paper", "pooltool"]
-Rules = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket", "bank", "tenball"]
+Rules = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket", "bank", "tenball", "straightrail"]
 StopAt = Literal[
     "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",
     "spinning_stationary", "slate", "rail_top", "left_table",

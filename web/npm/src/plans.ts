@@ -1,5 +1,5 @@
 // Which shot to play, players who err, and the rules of games: the calls of carom_plan.h.
-import { layout, names, values } from "./generated/layout.js";
+import { games, layout, names, values } from "./generated/layout.js";
 import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import { LAST, refuseOrder } from "./lines.js";
@@ -70,12 +70,12 @@ type Method = (...numbers: Pointer[]) => number;
 
 /** Refuses what is no layout of a game, for a plan. */
 function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: string): void {
-  const pool = rules !== "threecushion";
+  const pool = games[rules as C.RulesKind].balls !== "billiard";
   if (pool && pockets.length === 0)
     throw new TypeError(`table: it has no pockets, which ${rules} needs`);
   if (!pool && pockets.length > 0)
-    throw new TypeError("table: threecushion needs one without pockets");
-  if (!pool && balls.length < 3) throw new TypeError("balls: threecushion needs three");
+    throw new TypeError(`table: ${rules} needs one without pockets`);
+  if (!pool && balls.length < 3) throw new TypeError(`balls: ${rules} needs three`);
   const last = LAST[rules as C.RulesKind] ?? balls.length;
   const beyond = balls.findIndex(
     ({ state }, k) => k > last && state.label !== "pocketed" && state.label !== "off",

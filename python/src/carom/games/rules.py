@@ -332,13 +332,15 @@ class Made:
     def check_layout(self, table: Table, layout: dtypes.Records) -> None:
         """Refuses what is no layout of the game, for a plan."""
         pockets = len(table.pocket_names)
-        if self.rules == "threecushion" and (pockets or len(layout) < 3):
+        is_named = isinstance(self.rules, str)
+        is_carom = is_named and self.c.rack == lib.CAROM_RACK_THREECUSHION
+        if is_carom and (pockets or len(layout) < 3):
             raise ValueError(
-                "table: threecushion needs one without pockets"
+                f"table: {self.rules} needs one without pockets"
                 if pockets
-                else "balls: threecushion needs three"
+                else f"balls: {self.rules} needs three"
             )
-        if isinstance(self.rules, str) and self.rules != "threecushion" and not pockets:
+        if is_named and not is_carom and not pockets:
             raise ValueError(f"table: it has no pockets, which {self.rules} needs")
         label = layout["state"]["label"]
         for ball in range(len(layout) if self.last is None else self.last + 1, len(layout)):

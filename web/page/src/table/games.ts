@@ -137,6 +137,11 @@ const OWN: Record<string, Partial<Played>> = {
     target: 10,
     begin: { speed: 4, phi: 62, a: 0, b: 0.2 },
   },
+  straightrail: {
+    text: "Straight rail, to 25 points",
+    state: { target: 25 },
+    begin: { speed: 3, phi: 97, a: 0, b: 0.2 },
+  },
 };
 /** The games whose rules the library has, but for its drill. */
 export const PLAYED: Record<string, Played> = Object.fromEntries(

@@ -1,0 +1,171 @@
+/* Games on a table without pockets: three-cushion and straight rail, by the world rules of carom
+ * billiard of the UMB.
+ *
+ * Each player has a cue ball, and the opening meets the red first (article 23). A point is a stroke
+ * in which the cue ball meets both others (24): in three-cushion after three cushions (83), in
+ * straight rail in any way (61). Balls that leave the table are a foul (41) and come back (28), and
+ * a player whose cue ball touches another ball may have balls spotted (27): in three-cushion each
+ * of these balls on its spot, in straight rail all three as for the opening.
+ *
+ * Two rules are left out: the inning that draws level, and the barred corners of straight rail (52
+ * to 54), in which the number of points in a row is limited. */
+#include "games.h"
+#include "rules.h"
+
+enum { WHITE = 0, YELLOW = 1, RED = 2, BALLS_OF_THREE = 3 };
+
+/* The cue ball of the player, by the group; of both ball 0 where there is none. */
+static int cue_ball_of(const carom_rules_state *game) {
+  return game->group == 2 ? YELLOW : WHITE;
+}
+
+static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
+  const uint32_t others = in_play & ~(UINT32_C(1) << cue_ball_of(game));
+  return game->opening != 0 ? others & UINT32_C(1) << RED : others;
+}
+
+static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
+  (void)game, (void)in_play;
+  needed[0] = needed[1] = 1;
+}
+
+/* The turn goes to the other, who has the other cue ball. */
+static carom_turn give(carom_rules_state *game, carom_turn turn) {
+  if (game->group != 0)
+    game->group = 3 - game->group;
+  return carom_give(game, turn);
+}
+
+/* A point: before the cue ball meets the second ball, it meets so many cushions. */
+static carom_turn judge_point(carom_rules_state *game, uint32_t in_play, const carom_facts *facts,
+                              carom_call call, int cushions) {
+  if ((game->may & CAROM_MAY_SPOT) && call.ball == CAROM_CALL_SPOT)
+    return carom_keep; /* settle() spots, and takes the choice back */
+  const uint32_t may_meet = on(game, in_play), first = carom_met_first(facts);
+  const bool opening = game->opening != 0;
+  game->opening = game->may = 0;
+  int32_t foul = CAROM_FOUL_NONE;
+  if (facts->off != 0)
+    foul = CAROM_FOUL_OFF;
+  else if (facts->pushed != 0 || facts->touches > 1)
+    foul = CAROM_FOUL_DOUBLE_HIT;
+  else if (opening && first != 0 && (first & may_meet) == 0)
+    foul = CAROM_FOUL_FIRST;
+  if (foul != CAROM_FOUL_NONE || facts->first[1] < 0 || facts->cushions_before[1] < cushions)
+    return give(game, (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, facts->off, 0.0});
+  carom_turn turn = carom_keep;
+  turn.points = 1.0;
+  carom_add(&game->score[0], 1);
+  if (game->target > 0 && game->score[0] >= game->target)
+    turn.is = CAROM_TURN_WIN;
+  return turn;
+}
+
+static carom_turn judge_three(carom_rules_state *game, uint32_t in_play, int cue_ball,
+                              const carom_facts *facts, carom_call call) {
+  (void)cue_ball;
+  return judge_point(game, in_play, facts, call, 3);
+}
+
+static carom_turn judge_any(carom_rules_state *game, uint32_t in_play, int cue_ball,
+                            const carom_facts *facts, carom_call call) {
+  (void)cue_ball;
+  return judge_point(game, in_play, facts, call, 0);
+}
+
+/* ---- Balls that come back */
+
+/* The spots of three-cushion: of the red the foot spot, of the cue ball of the player who comes to the
+ * table the head spot, of the other one the centre. */
+static void spot_of(const carom_table *table, int cue_ball, int ball, double at[2]) {
+  at[0] = 0.5 * table->width;
+  at[1] = 0.5 * table->length;
+  if (ball == RED)
+    at[1] = 0.75 * table->length;
+  if (ball == cue_ball)
+    at[1] = 0.25 * table->length;
+}
+
+/* Puts a ball on its spot, or where that is taken on the spot of the ball that is in the way. */
+static void put_on_spot(const carom_table *table, carom_shot_ball *balls, int count, int cue_ball,
+                        int ball) {
+  double at[2];
+  int of = ball;
+  for (int tried = 0; tried < BALLS_OF_THREE; tried++) {
+    carom_part there;
+    spot_of(table, cue_ball, of, at);
+    if (carom_place_ball(table, balls, count, ball, at[0], at[1], &there) == CAROM_OK)
+      return;
+    if (there.kind != CAROM_PART_BALL)
+      return;
+    of = there.index;
+  }
+}
+
+/* Balls that left the table come back; and where the player chose so, those that touch his cue
+ * ball, with it. */
+static void settle_one(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
+                       int count, carom_turn *turn) {
+  const int cue_ball = cue_ball_of(game);
+  if (count < BALLS_OF_THREE)
+    return;
+  if ((game->may & CAROM_MAY_SPOT) && turn->is == CAROM_TURN_KEEP)
+    turn->spot = carom_touching(balls, count, cue_ball) | UINT32_C(1) << cue_ball;
+  for (int k = 0; k < BALLS_OF_THREE; k++)
+    if (turn->spot >> k & 1)
+      balls[k].state.label = CAROM_BALL_OFF;
+  for (int k = 0; k < BALLS_OF_THREE; k++)
+    if (turn->spot >> k & 1)
+      put_on_spot(table, balls, count, cue_ball, k);
+  game->may = carom_touching(balls, count, cue_ball) != 0 ? CAROM_MAY_SPOT : 0;
+}
+
+/* All balls go to the places of the opening of the player who comes to the table. */
+static void settle_all(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
+                       int count, carom_turn *turn) {
+  const int cue_ball = cue_ball_of(game);
+  if (count < BALLS_OF_THREE)
+    return;
+  const bool asked = (game->may & CAROM_MAY_SPOT) && turn->is == CAROM_TURN_KEEP;
+  if (asked || turn->spot != 0) {
+    turn->spot = (UINT32_C(1) << BALLS_OF_THREE) - 1;
+    for (int k = 0; k < BALLS_OF_THREE; k++)
+      balls[k].state.label = CAROM_BALL_OFF;
+    for (int k = 0; k < BALLS_OF_THREE; k++) {
+      /* the rack has the white as the cue ball */
+      const int white = k == cue_ball ? WHITE : YELLOW;
+      double at[2] = {0.0, 0.0};
+      carom_spot_of(CAROM_RACK_THREECUSHION, table, k == RED ? RED : white, at);
+      carom_place_ball(table, balls, count, k, at[0], at[1], NULL);
+    }
+  }
+  game->may = carom_touching(balls, count, cue_ball) != 0 ? CAROM_MAY_SPOT : 0;
+}
+
+/* ---- The games */
+
+/* What follows is not estimated. */
+static double value(const carom_rules_state *game, const carom_ball_state *layout, int count,
+                    int in_hand) {
+  (void)game, (void)layout, (void)count, (void)in_hand;
+  return 0.0;
+}
+
+/* 40 points, as in the world championship of the UMB. */
+CAROM_RULES_OBJECT(carom_threecushion) = {.state = {.target = 40},
+                                          .on = on,
+                                          .judge = judge_three,
+                                          .settle = settle_one,
+                                          .left = left,
+                                          .value = value,
+                                          .race = CAROM_RACE_ALONE,
+                                          .rack = CAROM_RACK_THREECUSHION};
+
+CAROM_RULES_OBJECT(carom_straight_rail) = {.state = {.target = 100},
+                                           .on = on,
+                                           .judge = judge_any,
+                                           .settle = settle_all,
+                                           .left = left,
+                                           .value = value,
+                                           .race = CAROM_RACE_ALONE,
+                                           .rack = CAROM_RACK_THREECUSHION};
