@@ -46,7 +46,7 @@ typedef struct carom_bounds {
 /* The bounds that a leave sets on a table for balls of this radius, m: HAND the whole table,
  * KITCHEN behind the head string or on it, D the D of snooker. AFTER and BEFORE, where no ball is
  * in hand, are as HAND. CAROM_ERROR_NULL; CAROM_ERROR_ACT for a value not listed;
- * CAROM_ERROR_RADIUS for a radius that is not positive and finite. */
+ * CAROM_ERROR_RADIUS for a radius that is not 0 or more and finite. */
 CAROM_API carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, double radius,
                                          carom_bounds *bounds);
 

@@ -75,8 +75,8 @@ static carom_turn judge_any(carom_rules_state *game, uint32_t in_play, int cue_b
 
 /* ---- Balls that come back */
 
-/* The spots of three-cushion: of the red the foot spot, of the cue ball of the player who comes to the
- * table the head spot, of the other one the centre. */
+/* The spots of three-cushion: of the red the foot spot, of the cue ball of the player who comes to
+ * the table the head spot, of the other one the centre. */
 static void spot_of(const carom_table *table, int cue_ball, int ball, double at[2]) {
   at[0] = 0.5 * table->width;
   at[1] = 0.5 * table->length;

@@ -22,7 +22,7 @@ carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, doub
     return CAROM_ERROR_NULL;
   if ((uint32_t)leave > CAROM_LEAVE_D)
     return CAROM_ERROR_ACT;
-  if (!(radius > 0.0) || isinf(radius))
+  if (!(radius >= 0.0) || isinf(radius))
     return CAROM_ERROR_RADIUS;
 
   /* the table, up to where balls touch its cushions */

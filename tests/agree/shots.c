@@ -631,6 +631,13 @@ static void meet(carom_facts *f, const carom_event *e, int cue) {
     f->first_set |= 1U << other;
 }
 
+static void meet_cushion(carom_facts *f, const carom_event *e) {
+  f->cushions[e->a]++;
+  if (e->type == CAROM_EVENT_RAIL && !carom_is_cut(&table, e->b))
+    f->banked |= 1U << e->a;
+  f->cushions_after += f->first[0] != -1;
+}
+
 /* The facts of a shot by a walk over its events. */
 static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
   carom_facts f = {.first = {-1, -1}, .first_time = {INFINITY, INFINITY}, .second_time = INFINITY};
@@ -650,10 +657,7 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
     if (e->type == CAROM_EVENT_STRIKE || e->type == CAROM_EVENT_BALL_BALL)
       f.moved |= 1U << e->a;
     if (e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW) {
-      f.cushions[e->a]++;
-      if (e->type == CAROM_EVENT_RAIL && !carom_is_cut(&table, e->b))
-        f.banked |= 1U << e->a;
-      f.cushions_after += f.first[0] != -1;
+      meet_cushion(&f, e);
     } else if (e->type == CAROM_EVENT_POCKET) {
       f.down |= 1U << e->a;
       f.pocket[e->a] = e->b;

@@ -203,7 +203,7 @@ namespace Carom {
     }
 
     /// <summary>Where the game lets a cue ball in hand be put after a foul.</summary>
-    public Bounds BoundsInHand() {
+    internal Bounds BoundsInHand() {
       Bounds bounds;
       var about = Native.carom_rules_about_of((RulesKind)(Job->rules->learned - 1));
       var leave = about != null ? (Leave)about->hand : Leave.Hand;

@@ -73,8 +73,7 @@ function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: str
   const pool = games[rules as C.RulesKind].balls !== "billiard";
   if (pool && pockets.length === 0)
     throw new TypeError(`table: it has no pockets, which ${rules} needs`);
-  if (!pool && pockets.length > 0)
-    throw new TypeError(`table: ${rules} needs one without pockets`);
+  if (!pool && pockets.length > 0) throw new TypeError(`table: ${rules} needs one without pockets`);
   if (!pool && balls.length < 3) throw new TypeError(`balls: ${rules} needs three`);
   const last = LAST[rules as C.RulesKind] ?? balls.length;
   const beyond = balls.findIndex(
