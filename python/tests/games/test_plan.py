@@ -127,7 +127,7 @@ def test_a_layout_is_planned_by_the_numbers_of_its_balls():
         (["cue", "0", "1", "9"], "nineball", "ball '0'"),
         (["1", "2", "3", "9"], "nineball", "cue: it must be one of the ids"),
         (["cue", "5"], "nineball", "ids: one for each ball"),
-        (["cue", "5", "2", "9"], "tenball", "rules: must be one of"),
+        (["cue", "5", "2", "9"], "elevenball", "rules: must be one of"),
         (["cue", "red5", "pink", "red20"], "snooker", "ball 'red20'"),
     ):
         with pytest.raises(ValueError, match=told):
@@ -345,7 +345,7 @@ def test_strokes_with_errors():
 
 def test_arguments_in_error():
     with pytest.raises(ValueError, match="rules"):
-        carom.plan(TABLE, LAYOUT, rules="tenball")
+        carom.plan(TABLE, LAYOUT, rules="elevenball")
     with pytest.raises(ValueError, match="shots"):
         carom.plan(TABLE, LAYOUT, shots=10)
     with pytest.raises(ValueError, match="errors"):
