@@ -118,7 +118,7 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
 
 /* Whether the game is one of points on a table without pockets. */
 static bool is_carom(const plan_job *job) {
-  return carom_rules_about_of(job->game.rules)->balls == CAROM_GAME_BILLIARD;
+  return carom_rules_about_of((carom_rules_kind)job->game.rules)->balls == CAROM_GAME_BILLIARD;
 }
 
 static const char *value_words(const plan_job *job) {
@@ -210,7 +210,7 @@ static bool are_together(const plan_job *job) {
         "--try plays strokes from where the cue ball lies: give it without --value and --in-hand");
   else if (job->value && is_carom(job))
     complain("--value: no estimate of a layout of %s is known; a plan reports chances",
-             carom_rules_about_of(job->game.rules)->text);
+             carom_rules_about_of((carom_rules_kind)job->game.rules)->text);
   else if (job->why && (job->csv || job->value))
     complain("--why explains shots in words: give it without --csv and --value");
   else if (job->value && job->plot != NULL)
@@ -235,7 +235,7 @@ static carom_status tell_value(const plan_job *job, const carom_plan_job *asked,
 static bool is_playable(const plan_job *job, const shot_line *line, const char *file) {
   const bool pockets = line->table->table.pockets > 0;
   const bool scores = is_carom(job);
-  const char *game = carom_rules_about_of(job->game.rules)->name;
+  const char *game = carom_rules_about_of((carom_rules_kind)job->game.rules)->name;
   if (!scores && !pockets)
     complain("%s:%zu: the table has no pockets, which this game needs", file, line->number);
   else if (scores && pockets)

@@ -514,8 +514,8 @@ carom_status carom_match_choose(carom_match *match, int player, carom_may choice
   const carom_status bad = check_turn(match, player, "choose");
   if (bad != CAROM_OK)
     return bad;
-  const bool is_one = choice > 0 && ((int32_t)choice & ((int32_t)choice - 1)) == 0 &&
-                      (match->may & (int32_t)choice) != 0;
+  const int32_t bits = (int32_t)choice;
+  const bool is_one = bits > 0 && (bits & (bits - 1)) == 0 && (match->may & bits) != 0;
   const bool pushes = choice == CAROM_MAY_PUSH;
   if (!is_one || (!pushes && call_of(choice) == 0)) {
     char text[128], right[200];

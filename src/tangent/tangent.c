@@ -244,6 +244,13 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
 
 static const carom_shot_options no_options = {0};
 
+static bool are_finite(const double *x, int64_t count) {
+  for (int64_t k = 0; x != NULL && k < count; k++)
+    if (!isfinite(x[k]))
+      return false;
+  return true;
+}
+
 static carom_status shot_tangent(const carom_prepared *p, const carom_cue *cue,
                                  const carom_shot *shot, const carom_tangent_seeds *seeds,
                                  carom_tangent *tangent) {
@@ -272,8 +279,10 @@ static carom_status shot_tangent(const carom_prepared *p, const carom_cue *cue,
 
   /* derivatives that overflow, and those of an error, are NaN */
   const int64_t finals = (int64_t)p->count * CAROM_STATE_NUMBERS * seeds->directions;
-  for (int64_t k = 0; status == CAROM_OK && k < finals; k++)
-    status = isfinite(tangent->final[k]) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+  const int64_t times = shot->count * seeds->directions;
+  if (status == CAROM_OK &&
+      !(are_finite(tangent->final, finals) && are_finite(tangent->time, times)))
+    status = CAROM_ERROR_OVERFLOW;
   for (int64_t k = 0; status != CAROM_OK && k < finals; k++)
     tangent->final[k] = NAN;
   return status;
