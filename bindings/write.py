@@ -27,6 +27,20 @@ def pascal(name):
     return "".join(part[:1].upper() + part[1:].lower() for part in name.split("_"))
 
 
+def type_name(name):
+    """carom_ball_state as BallState."""
+    return pascal(name.removeprefix("carom_"))
+
+
+def enumerators(enum):
+    """Names and values of an enumeration, without what all names begin with: (Pool9ft, about)."""
+    prefix = commonprefix([value["name"] for value in enum["values"]])
+    prefix = prefix[: prefix.rindex("_") + 1]
+    for value in enum["values"]:
+        name = pascal(value["name"].removeprefix(prefix))
+        yield ("_" if name[0].isdigit() else "") + name, value
+
+
 def wrapped(words, before, width=100):
     """Lines of a comment."""
     lines = [""]
@@ -56,6 +70,15 @@ class CSharp:
         "void": "void",
     }
     SAFE_MOST = 32  # numbers of an array that code without pointers reads and sets
+    # System and UnityEngine, which games import beside Carom, have types of these names.
+    RENAMED = {
+        "Bounds": "HandBounds",
+        "Event": "ShotEvent",
+        "EventType": "ShotEventType",
+        "Motion": "BallMotion",
+        "Space": "ShotSpace",
+        "Type": "NumberType",
+    }
     KEYWORDS = {
         "is",
         "in",
@@ -79,12 +102,15 @@ class CSharp:
         found = found[:1].lower() + found[1:]
         return f"@{found}" if found in self.KEYWORDS else found
 
+    def type_name(self, name):
+        found = type_name(name)
+        return self.RENAMED.get(found, found)
+
     def type(self, about):
         if about["type"] in self.callbacks:
             return "IntPtr"
-        return (
-            self.BASE.get(about["type"]) or pascal(about["type"].removeprefix("carom_"))
-        ) + "*" * about.get("pointer", 0)
+        found = self.BASE.get(about["type"]) or self.type_name(about["type"])
+        return found + "*" * about.get("pointer", 0)
 
     @staticmethod
     def summary(words, indent):
@@ -110,23 +136,20 @@ class CSharp:
             "namespace Carom {",
         ]
         for one in self.api["enums"]:
-            prefix = commonprefix([value["name"] for value in one["values"]])
-            prefix = prefix[: prefix.rindex("_") + 1]
             lines += [
                 *self.summary(one["comment"], "  "),
-                f"  public enum {pascal(one['name'].removeprefix('carom_'))} {{",
+                f"  public enum {self.type_name(one['name'])} {{",
             ]
-            for value in one["values"]:
-                name = pascal(value["name"].removeprefix(prefix))
+            for name, value in enumerators(one):
                 lines += self.summary(value["comment"], "    ")
-                lines.append(f"    {'_' if name[0].isdigit() else ''}{name} = {value['value']},")
+                lines.append(f"    {name} = {value['value']},")
             lines += ["  }", ""]
         for one in self.api["structs"]:
             lines += [
                 *self.summary(one["comment"], "  "),
                 "  [StructLayout(LayoutKind.Sequential)]",
             ]
-            lines.append(f"  public unsafe struct {pascal(one['name'].removeprefix('carom_'))} {{")
+            lines.append(f"  public unsafe struct {self.type_name(one['name'])} {{")
             for field in one["fields"]:
                 lines += [*self.summary(field["comment"], "    "), f"    {self.field(field)}"]
             lines += ["  }", ""]
@@ -201,7 +224,7 @@ class CSharp:
             "  static unsafe int Main() {",
         ]
         for one in self.api["structs"]:
-            struct = pascal(one["name"].removeprefix("carom_"))
+            struct = self.type_name(one["name"])
             lines.append(f'    Same("{struct}", sizeof({struct}), {one["size"]});')
             lines += [
                 f'    Same("{struct}.{name}", (long)Marshal.OffsetOf(typeof({struct}), "{name.lstrip("@")}"), {field["offset"]});'

@@ -1,7 +1,8 @@
 // As game.c, in C#.
 using System;
 using System.IO;
-using System.Collections.Generic;
+using System.Linq;
+using System.Reflection;
 using Carom;
 
 static class Program {
@@ -86,6 +87,10 @@ static class Program {
       return 1;
 
     Plans(table);
+    Callbacks(table, shot);
+    Matches(table);
+    Names();
+    Disposed(table);
 
     cue.speed = -1;
     try {
@@ -198,5 +203,163 @@ static class Program {
            "a shot that was read differs");
       Must(read.Facts.moved == game.Facts.moved, "facts differ");
     }
+  }
+
+  /// Rules with every callback, which are all asked, and each of which may throw.
+  sealed class Every : GameRules {
+    public string Throws = "";
+    public readonly System.Collections.Generic.HashSet<string> Asked =
+        new System.Collections.Generic.HashSet<string>();
+
+    void Ask(string what) {
+      lock (Asked) Asked.Add(what);
+      if (what == Throws)
+        throw new InvalidOperationException(what);
+    }
+    protected override uint On(ulong[] user, uint inPlay) {
+      Ask("On");
+      return inPlay & ~1u;
+    }
+    protected override Turn Judge(ulong[] user, uint inPlay, int cueBall, Facts facts, Call call) {
+      Ask("Judge");
+      return new Turn { @is = TurnIs.Pass, spot = facts.down & ~1u };
+    }
+    protected override int[] Left(ulong[] user, uint inPlay) {
+      Ask("Left");
+      return new[] { 2, 2 };
+    }
+    protected override uint Pockets(ulong[] user) {
+      Ask("Pockets");
+      return 63;
+    }
+    protected override double Value(ulong[] user, BallState[] layout, bool inHand) {
+      Ask("Value");
+      return layout.Length == 3 ? 0.25 : 0.0;
+    }
+    protected override double Points(ulong[] user, uint inPlay, int ball) {
+      Ask("Points");
+      return 1;
+    }
+    protected override void Settle(ulong[] user, Table table, ShotBall[] balls, ref Turn turn) {
+      Ask("Settle");
+      user[0] = 7;
+      for (int k = 0; k < balls.Length; k++)
+        if ((turn.spot >> k & 1) != 0)
+          Billiards.Spot(RackKind.Nineball, table, balls, k);
+    }
+  }
+
+  static void Callbacks(Table table, PlayedShot shot) {
+    Part part;
+    var balls = Billiards.Rack(RackKind.Nineball, table);
+    Array.Resize(ref balls, 3);
+    for (int k = 0; k < 3; k++)
+      Billiards.Place(table, balls, k, 0.3 + 0.25 * k, 0.5 + 0.4 * k, out part);
+    var rules = new Every();
+    var of = new Position(table, balls, Billiards.Cue(Game.Pool), rules.Data(), 600);
+    of.Rules.race = (int)Race.Points;
+    of.Options.shots = 100;
+    Must(of.Value() == 0.25, "a value of the rules'");
+    of.Rules.value = IntPtr.Zero; // the library's, which asks for points
+    of.Plan();
+    var ruling = Billiards.Referee(of.Rules, shot);
+    Must(ruling.state.user[0] == 7 && ruling.put == (shot.Facts.down & ~1u), "a layout");
+    Must(rules.Asked.Count == 7, string.Join(" ", rules.Asked));
+    foreach (var what in rules.Asked.ToArray()) {
+      rules.Throws = what;
+      int thrown = 0;
+      foreach (var call in new Action[] { () => of.Plan(), () => of.Value(),
+                                          () => Billiards.Referee(of.Rules, shot) })
+        try {
+          of.Rules.value = what == "Value" ? rules.Data().value : IntPtr.Zero;
+          call();
+        } catch (InvalidOperationException wrong) {
+          Must(wrong.Message == what, wrong.Message);
+          thrown++;
+        }
+      Must(thrown > 0, $"{what} threw in no call");
+    }
+    rules.Throws = "";
+    of.Plan(); // what was thrown once is over
+    Must(new Drill().Data().value == IntPtr.Zero, "what is not overridden is the library's own");
+  }
+
+  /// A match, planned and broken within its bounds, in parts, and read again.
+  static void Matches(Table table) {
+    using (var game = LiveMatch.Begin(RulesKind.Eightball, table, 1)) {
+      var lines = game.Lines;
+      var of = game.Position(Billiards.Cue(Game.Pool), 600);
+      of.Options.shots = 100;
+      var best = of.Plan()[0];
+      Must(best.place[1] <= table.length / 4, "a break from beyond the head string");
+      try {
+        game.Place(0.6, 1.0);
+        Must(false, "a place beyond the head string");
+      } catch (CaromException wrong) {
+        Must(wrong.Status == Status.ErrorAct && wrong.Message.Contains("0.635"), wrong.Message);
+      }
+      game.Place(best.place[0], best.place[1]);
+      lines += game.Lines;
+      bool ended = game.Stroke(best.cue, new ShotOptions { timeMost = 0.2 });
+      Must(!ended && game.Last.Time == 0.2, "a shot that is stopped");
+      lines += game.Lines;
+      Must(game.GoOn() && game.Last.Events.Length > 20 && game.Words != "", "a shot that goes on");
+      lines += game.Lines;
+      using (var read = LiveMatch.Load(lines))
+          Must(read.State.record.hash == game.State.record.hash && read.Player == game.Player,
+               "a match that is read");
+    }
+    foreach (var kind in new[] { RulesKind.Straight, RulesKind.Onepocket, RulesKind.Bank }) {
+      var of = new Position(table, Billiards.Rack(RackKind.Eightball, table),
+                            Billiards.Cue(Game.Pool), Billiards.Rules(kind), 600);
+      of.Options.shots = 100;
+      Must(of.Plan(1, true)[0].place[1] <= table.length / 4, $"{kind} from beyond the head string");
+    }
+  }
+
+  /// No type has the name of one of the namespaces that games import too.
+  static void Names() {
+    var unity =
+        ("Animation Avatar Behaviour Bounds Cache Camera Canvas Cloth Collider Collision Color " +
+         "Component Compass Cursor Debug Display Event EventType Flare Font Gradient Graphics " +
+         "Grid Input Joint Keyframe Light Logger Material Mesh Motion Object Physics Ping Plane " +
+         "Pose Projector Quaternion Random Ray Rect Resolution Screen Shader Skybox Social " +
+         "Space Sprite Terrain Texture Time Touch Transform Tree Types")
+            .Split(' ');
+    var system = new[] { typeof(object), typeof(Uri), typeof(Enumerable) }
+                     .SelectMany(one => one.Assembly.GetExportedTypes())
+                     .Where(one => one.Namespace == "System")
+                     .Select(one => one.Name);
+    foreach (var type in typeof(Table).Assembly.GetExportedTypes())
+      Must(!unity.Concat(system).Contains(type.Name),
+           $"Carom.{type.Name} is a name of System or UnityEngine");
+  }
+
+  /// After Dispose() every member either throws ObjectDisposedException or has what it had.
+  static void Disposed(Table table) {
+    var position = new Position(table, Billiards.Rack(RackKind.Nineball, table),
+                                Billiards.Cue(Game.Pool), Billiards.Rules(RulesKind.Nineball), 600);
+    foreach (var of in new IDisposable[] { new Recording(), position.Think(0),
+                                           LiveMatch.Begin(RulesKind.Nineball, table, 1) }) {
+      of.Dispose();
+      int refused = 0;
+      foreach (var method in of.GetType().GetMethods(BindingFlags.Instance | BindingFlags.Public |
+                                                     BindingFlags.DeclaredOnly))
+        try {
+          method.Invoke(of, method.GetParameters().Select(Any).ToArray());
+        } catch (TargetInvocationException wrong) {
+          Must(wrong.InnerException is ObjectDisposedException,
+               $"{method}: {wrong.InnerException.Message}");
+          refused++;
+        }
+      Must(refused > 0, $"{of} is not disposed");
+    }
+  }
+  static object Any(ParameterInfo of) {
+    var type = of.ParameterType.IsByRef ? of.ParameterType.GetElementType() : of.ParameterType;
+    if (type == typeof(string))
+      return "{}";
+    return type.IsArray ? Array.CreateInstance(type.GetElementType(), 1)
+                        : Activator.CreateInstance(type);
   }
 }

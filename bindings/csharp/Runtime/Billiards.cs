@@ -26,7 +26,7 @@ namespace Carom {
     /// <summary>Ok; or StoppedAtTime or StoppedAtEvent, as the options ask.</summary>
     public Status Status { get; internal set; }
     /// <summary>All events, in the order in which they happened.</summary>
-    public Event[] Events { get; internal set; }
+    public ShotEvent[] Events { get; internal set; }
     /// <summary>The states at the end, one for each ball.</summary>
     public BallState[] Final { get; internal set; }
     /// <summary>Up to when the shot was followed, s.</summary>
@@ -41,18 +41,41 @@ namespace Carom {
       table = on;
       balls = (ShotBall[])layout.Clone();
       Final = new BallState[balls.Length];
-      Events = new Event[0];
+      Events = new ShotEvent[0];
       state = stops ? new ShotState[1] : null;
     }
 
-    internal PlayedShot(Record *of, Event[] events, Status status)
-        : this(of->table, Billiards.Copy((ShotBall *)&of->balls, of->count), false) {
-      for (int k = 0; k < Final.Length; k++)
-        Final[k] = ((BallState *)&of->final)[k];
-      Events = events;
-      Status = status;
-      Time = of->played.time;
-      Facts = of->facts;
+    internal delegate Status Playing(Shot *to);
+
+    /// <summary>Plays a stroke of a recording or a match, with room for all its events: `takeBack`
+    /// undoes a try that had too little. `last` becomes the shot.</summary>
+    internal static Status Recorded(Record *of, ref PlayedShot last, bool goesOn, Playing play,
+                                    Action takeBack) {
+      var shot =
+          new PlayedShot(of->table, Billiards.Copy((ShotBall *)&of->balls, of->count), false);
+      var first = goesOn && last != null ? last.Events : shot.Events;
+      for (long room = first.Length + 256;;) {
+        var events = new ShotEvent[room];
+        first.CopyTo(events, 0);
+        var data = new Shot { room = room };
+        fixed(ShotEvent *to = events) {
+          data.events = to;
+          shot.Status = play(&data);
+        }
+        if (data.count <= room) {
+          Array.Resize(ref events, (int)data.count);
+          shot.Events = events;
+          shot.Time = data.time;
+          shot.Facts = of->facts;
+          for (int k = 0; k < shot.Final.Length; k++)
+            shot.Final[k] = ((BallState *)&of->final)[k];
+          if (shot.Status >= 0 || data.count > 0)
+            last = shot;
+          return shot.Status;
+        }
+        room = data.count;
+        takeBack();
+      }
     }
 
     /// <summary>Goes on with a shot that its options stopped, with the bits of the unbroken one;
@@ -71,14 +94,14 @@ namespace Carom {
     /// where there were more. Without a cue it goes on.</summary>
     internal Status Follow(long room, Table *table, Cue *cue, ShotOptions *options) {
       for (;;) {
-        var events = new Event[room];
+        var events = new ShotEvent[room];
         Events.CopyTo(events, 0);
         var stopped = state == null ? null : (ShotState[])state.Clone();
         var facts = Facts;
         var data = new Shot { room = room, facts = &facts };
         Status status;
         fixed(ShotBall *of = balls) fixed(BallState * final = Final) fixed(ShotState *at = stopped)
-            fixed(Event *to = events) {
+            fixed(ShotEvent *to = events) {
           data.events = to;
           data.final = final;
           data.state = at;
@@ -111,7 +134,7 @@ namespace Carom {
     /// pockets.</summary>
     public BallState[] Drawn(Table table, double time) {
       var states = new BallState[balls.Length];
-      fixed(ShotBall *of = balls) fixed(Event *events = Events) fixed(BallState *to = states) {
+      fixed(ShotBall *of = balls) fixed(ShotEvent *events = Events) fixed(BallState *to = states) {
         var shot = Data(events);
         Billiards.Check(
             Native.carom_shot_drawn(&table, of, balls.Length, &shot, &time, (UIntPtr)1, to));
@@ -121,20 +144,20 @@ namespace Carom {
 
     /// <summary>How fast surfaces pass each other in an event, m/s: with its impulse, how it
     /// sounds.</summary>
-    public double Slip(Event of) {
+    public double Slip(ShotEvent of) {
       fixed(ShotBall *layout = balls)
           fixed(Table *on = &table) return Native.carom_event_slip(on, layout, balls.Length, &of);
     }
 
     /// <summary>What the library reads of it.</summary>
-    internal Shot Data(Event *events) {
+    internal Shot Data(ShotEvent *events) {
       return new Shot { events = events, room = Events.Length, count = Events.Length, time = Time };
     }
 
     /// <summary>The states of all balls at a time, s.</summary>
     public BallState[] At(double time) {
       var states = new BallState[balls.Length];
-      fixed(ShotBall *of = balls) fixed(Event *events = Events) fixed(BallState *to = states) {
+      fixed(ShotBall *of = balls) fixed(ShotEvent *events = Events) fixed(BallState *to = states) {
         var shot = Data(events);
         Billiards.Check(Native.carom_shot_at(of, balls.Length, &shot, time, to));
       }
@@ -162,7 +185,7 @@ namespace Carom {
         Turned = new double[4 * count];
       }
       fixed(ShotBall *balls = shot.balls) fixed(Table *table = &shot.table)
-          fixed(Event *events = shot.Events) fixed(Frames *film = onward)
+          fixed(ShotEvent *events = shot.Events) fixed(Frames *film = onward)
               fixed(BallState *states = States) fixed(double *turned = Turned) {
         var data = shot.Data(events);
         Billiards.Check(
@@ -272,12 +295,13 @@ namespace Carom {
     public static Ruling Referee(PlanRules rules, PlayedShot shot, Call? call = null,
                                  int cueBall = 0) {
       Ruling made;
+      var watch = new GameRules.Watch(rules);
       Facts facts = shot.Facts;
       fixed(Table *table = &shot.table) fixed(ShotBall *balls = shot.balls)
           fixed(BallState * final = shot.Final) {
         var seen = new Shot { facts = &facts, final = final };
-        Check(Native.carom_referee(&rules, table, balls, shot.balls.Length, cueBall, &seen,
-                                   call ?? new Call { ball = -1, pocket = -1 }, &made));
+        watch.Check(Native.carom_referee(&rules, table, balls, shot.balls.Length, cueBall, &seen,
+                                         call ?? new Call { ball = -1, pocket = -1 }, &made));
       }
       return made;
     }
@@ -309,6 +333,12 @@ namespace Carom {
         return false;
       Check(status);
       return true;
+    }
+
+    /// <summary>Puts a ball back as the rules of a rack's game ask.</summary>
+    public static void Spot(RackKind kind, Table table, ShotBall[] balls, int ball) {
+      fixed(ShotBall *of = balls)
+          Check(Native.carom_spot_ball_of(kind, &table, of, balls.Length, ball));
     }
 
     /// <summary>The numbers of a part, or the options of a call, as the library describes
@@ -405,29 +435,16 @@ namespace Carom {
 
     /// <summary>The last shot that was played or read, with its events; of one that went on, from
     /// its start.</summary>
-    public PlayedShot Last { get; private set; }
+    public PlayedShot Last {
+      get { return last; }
+    }
+    PlayedShot last;
 
     Status Play(RecordKind kind) {
-      var before = new[] { *record };
-      var first = kind == RecordKind.Continue && Last != null ? Last.Events : new Event[0];
-      for (long room = first.Length + 256;;) {
-        var events = new Event[room];
-        first.CopyTo(events, 0);
-        var data = new Shot { room = room };
-        Status status;
-        fixed(Event *to = events) {
-          data.events = to;
-          status = Native.carom_record_play(record, kind, &data);
-        }
-        if (data.count <= room) {
-          Array.Resize(ref events, (int)data.count);
-          if (status >= 0 || data.count > 0)
-            Last = new PlayedShot(record, events, status);
-          return status;
-        }
-        room = data.count;
-        *record = before[0];
-      }
+      var before = new[] { *Open };
+      return PlayedShot.Recorded(record, ref last, kind == RecordKind.Continue,
+                                 to => Native.carom_record_play(record, kind, to),
+                                 () => *record = before[0]);
     }
 
     /// <summary>Puts a ball at x, y (m), at rest, and returns the line.</summary>
@@ -536,16 +553,16 @@ namespace Carom {
 
     /// <summary>Shots so far.</summary>
     public long Shots {
-      get { return record->shots; }
+      get { return Open->shots; }
     }
     /// <summary>The hash of all lines so far.</summary>
     public ulong Hash {
-      get { return record->hash; }
+      get { return Open->hash; }
     }
 
     /// <summary>Whether the last line was the end; without it a recording was cut off.</summary>
     public bool Ended {
-      get { return record->kind == (long)RecordKind.End; }
+      get { return Open->kind == (long)RecordKind.End; }
     }
 
     public void Dispose() {

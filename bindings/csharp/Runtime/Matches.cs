@@ -62,6 +62,7 @@ namespace Carom {
     public int Winner {
       get { return Open->winner; }
     }
+    /// <summary>Whether the match is over.</summary>
     public bool Over {
       get { return Open->phase == (int)MatchPhase.Over; }
     }
@@ -72,6 +73,28 @@ namespace Carom {
     /// <summary>The last ruling.</summary>
     public Ruling Ruling {
       get { return Open->ruling; }
+    }
+
+    /// <summary>The last ruling in words.</summary>
+    public string Words {
+      get { return Billiards.Words(ref Open->ruling); }
+    }
+    /// <summary>The last shot, with all its events.</summary>
+    public PlayedShot Last {
+      get { return last; }
+    }
+    PlayedShot last;
+
+    /// <summary>The position of the player at the table, of a rating, for plans; in hand, with the
+    /// bounds of the match.</summary>
+    public Position Position(Cue cue, double rating) {
+      cue.ball = Open->cueBall;
+      var balls = Billiards.Copy((ShotBall *)&match->record.balls, match->record.count);
+      var of = new Position(match->record.table, balls, cue, match->rules, rating);
+      of.Shot = match->record.options;
+      if (match->phase == (int)MatchPhase.Place)
+        of.Bounds = match->bounds;
+      return of;
     }
 
     /// <summary>Makes one of the choices that the rules allow now.</summary>
@@ -89,11 +112,20 @@ namespace Carom {
     /// <summary>Plays a stroke; `stop` says when to stop its shot. Returns whether the shot has
     /// ended, and is ruled.</summary>
     public bool Stroke(Cue cue, ShotOptions stop = default(ShotOptions)) {
-      return Told(Native.carom_match_stroke(Open, Player, &cue, &stop, null)) == Status.Ok;
+      Cue *by = &cue;
+      ShotOptions *until = &stop;
+      return Play(false, to => Native.carom_match_stroke(match, Player, by, until, to));
     }
     /// <summary>Goes on with a stopped shot, likewise.</summary>
     public bool GoOn(ShotOptions stop = default(ShotOptions)) {
-      return Told(Native.carom_match_continue(Open, &stop, null)) == Status.Ok;
+      ShotOptions *until = &stop;
+      return Play(true, to => Native.carom_match_continue(match, until, to));
+    }
+    bool Play(bool goesOn, PlayedShot.Playing once) {
+      var before = new[] { *Open };
+      var status =
+          PlayedShot.Recorded(&match->record, ref last, goesOn, once, () => *match = before[0]);
+      return Told(status) == Status.Ok;
     }
     /// <summary>A player, 0 or 1, gives the game to the other.</summary>
     public void Concede(int player) {

@@ -1,6 +1,7 @@
 // Plans: which stroke to play, by built-in rules or by those of the caller.
 using System;
 using System.Collections.Generic;
+using System.Runtime.ExceptionServices;
 using System.Runtime.InteropServices;
 
 namespace Carom {
@@ -14,23 +15,52 @@ namespace Carom {
   /// <summary>Rules of a game of the caller's. Sets of balls have bit k for ball k. The methods may
   /// be called from several threads at once, and depend on their arguments only; `user` are the
   /// seven words of the state that are theirs, as the player at the table has them; the eighth
-  /// names the object, which lives as long as the program. An exception of theirs ends the program,
-  /// as none passes through C.</summary>
+  /// names the object, which lives as long as the program. An exception of theirs goes to the
+  /// caller of the plan or of the ruling, at its end. carom_plan.h describes the methods.</summary>
   public abstract unsafe class GameRules {
     const int Own = 7;
     static readonly List<GameRules> all = new List<GameRules>();
     static readonly Native.carom_rules_on on = OnOf;
     static readonly Native.carom_rules_judge judge = JudgeOf;
     static readonly Native.carom_rules_left left = LeftOf;
+    static readonly Native.carom_rules_pockets pockets = PocketsOf;
+    static readonly Native.carom_rules_value value = ValueOf;
+    static readonly Native.carom_rules_points points = PointsOf;
+    static readonly Native.carom_rules_settle settle = SettleOf;
     readonly ulong number;
+    Exception failure; // the last one
+    int failures;      // how many there were
 
     /// <summary>The balls that may be met first, and potted.</summary>
     protected abstract uint On(ulong[] user, uint inPlay);
     /// <summary>The outcome of a shot; it leaves `user` as the next player has it.</summary>
     protected abstract Turn Judge(ulong[] user, uint inPlay, int cueBall, Facts facts, Call call);
     /// <summary>How many balls the player at the table, [0], and the other one, [1], have to pot to
-    /// win.</summary>
+    /// win; in a race for points, how many points.</summary>
     protected abstract int[] Left(ulong[] user, uint inPlay);
+
+    // The library has its own of those below, which rules override that need others.
+
+    /// <summary>The pockets in which balls count for the player at the table, as a set.</summary>
+    protected virtual uint Pockets(ulong[] user) {
+      throw new NotImplementedException();
+    }
+    /// <summary>The chance that the player at the table wins, 0 to 1; without an opponent, how many
+    /// balls this player is still going to pot.</summary>
+    protected virtual double Value(ulong[] user, BallState[] layout, bool inHand) {
+      throw new NotImplementedException();
+    }
+    /// <summary>In a race for points, those of a ball that falls in the next stroke; of ball -1,
+    /// the mean of a later pot.</summary>
+    protected virtual double Points(ulong[] user, uint inPlay, int ball) {
+      throw new NotImplementedException();
+    }
+    /// <summary>Does what depends on the places of the balls after a stroke that was judged, and
+    /// puts back the balls of turn.spot, as by Billiards.Spot().</summary>
+    protected virtual void Settle(ulong[] user, Table table, ShotBall[] balls, ref Turn turn) {
+      throw new NotImplementedException();
+    }
+    delegate void Settling(ulong[] user, Table table, ShotBall[] balls, ref Turn turn);
 
     protected GameRules() {
       lock (all) {
@@ -46,54 +76,124 @@ namespace Carom {
         on = Marshal.GetFunctionPointerForDelegate(on),
         judge = Marshal.GetFunctionPointerForDelegate(judge),
         left = Marshal.GetFunctionPointerForDelegate(left),
+        pockets = Overridden((Func<ulong[], uint>)Pockets, pockets),
+        value = Overridden((Func<ulong[], BallState[], bool, double>)Value, value),
+        points = Overridden((Func<ulong[], uint, int, double>)Points, points),
+        settle = Overridden((Settling)Settle, settle),
       };
       data.state.user[Own] = number;
       return data;
     }
 
+    static IntPtr Overridden(Delegate method, Delegate callback) {
+      return method.Method.DeclaringType == typeof(GameRules)
+                 ? IntPtr.Zero
+                 : Marshal.GetFunctionPointerForDelegate(callback);
+    }
+
     [MonoPInvokeCallback(typeof(Native.carom_rules_on))]
     static uint OnOf(RulesState *state, uint inPlay) {
-      return Guarded(() => Of(state).On(Words(state), inPlay));
+      return Guarded(state, (rules, user) => rules.On(user, inPlay));
     }
 
     [MonoPInvokeCallback(typeof(Native.carom_rules_judge))]
     static Turn JudgeOf(RulesState *state, uint inPlay, int cueBall, Facts *facts, Call call) {
-      return Guarded(() => {
-        var words = Words(state);
-        var turn = Of(state).Judge(words, inPlay, cueBall, *facts, call);
-        for (int k = 0; k < Own; k++)
-          state->user[k] = words[k];
+      return Guarded(state, (rules, user) => {
+        var turn = rules.Judge(user, inPlay, cueBall, *facts, call);
+        Keep(state, user);
         return turn;
       });
     }
 
     [MonoPInvokeCallback(typeof(Native.carom_rules_left))]
     static void LeftOf(RulesState *state, uint inPlay, int *to) {
-      Guarded(() => {
-        var balls = Of(state).Left(Words(state), inPlay);
-        to[0] = balls[0];
+      to[0] = to[1] = 1;
+      Guarded(state, (rules, user) => {
+        var balls = rules.Left(user, inPlay);
         to[1] = balls[1];
+        return to[0] = balls[0];
+      });
+    }
+
+    [MonoPInvokeCallback(typeof(Native.carom_rules_pockets))]
+    static uint PocketsOf(RulesState *state) {
+      return Guarded(state, (rules, user) => rules.Pockets(user));
+    }
+
+    [MonoPInvokeCallback(typeof(Native.carom_rules_value))]
+    static double ValueOf(RulesState *state, BallState *layout, int count, int inHand) {
+      return Guarded(state, (rules, user) => {
+        var states = new BallState[count];
+        for (int k = 0; k < count; k++)
+          states[k] = layout[k];
+        return rules.Value(user, states, inHand != 0);
+      });
+    }
+
+    [MonoPInvokeCallback(typeof(Native.carom_rules_points))]
+    static double PointsOf(RulesState *state, uint inPlay, int ball) {
+      return Guarded(state, (rules, user) => rules.Points(user, inPlay, ball));
+    }
+
+    [MonoPInvokeCallback(typeof(Native.carom_rules_settle))]
+    static void SettleOf(RulesState *state, Table *table, ShotBall *balls, int count, Turn *turn) {
+      Guarded(state, (rules, user) => {
+        var layout = Billiards.Copy(balls, count);
+        rules.Settle(user, *table, layout, ref * turn);
+        for (int k = 0; k < count; k++)
+          balls[k] = layout[k];
+        Keep(state, user);
         return 0;
       });
     }
 
-    static GameRules Of(RulesState *state) {
-      lock (all) return all[(int)state->user[Own]];
-    }
-
-    static ulong[] Words(RulesState *state) {
-      var words = new ulong[Own];
+    static void Keep(RulesState *state, ulong[] user) {
       for (int k = 0; k < Own; k++)
-        words[k] = state->user[k];
-      return words;
+        state->user[k] = user[k];
     }
 
-    static T Guarded<T>(Func<T> call) {
+    /// No exception passes through C: the call that uses the rules throws it at its end.
+    static T Guarded<T>(RulesState *state, Func<GameRules, ulong[], T> call) {
+      GameRules rules;
+      lock (all) rules = all[(int)state->user[Own]];
+      var user = new ulong[Own];
+      for (int k = 0; k < Own; k++)
+        user[k] = state->user[k];
       try {
-        return call();
+        return call(rules, user);
       } catch (Exception error) {
-        Environment.FailFast(error.ToString());
-        throw;
+        lock (all) {
+          rules.failure = error;
+          rules.failures++;
+        }
+        return default(T);
+      }
+    }
+
+    /// <summary>What throws the exceptions of a caller's rules since it was made.</summary>
+    internal struct Watch {
+      readonly GameRules rules;
+      readonly int before;
+
+      internal Watch(PlanRules of) {
+        rules = null;
+        before = 0;
+        if (of.on != Marshal.GetFunctionPointerForDelegate(on))
+          return;
+        lock (all) {
+          rules = all[(int)of.state.user[Own]];
+          before = rules.failures;
+        }
+      }
+
+      internal Exception Failure {
+        get { lock (all) return rules != null && rules.failures != before ? rules.failure : null; }
+      }
+
+      internal Status Check(Status status) {
+        if (Failure != null)
+          ExceptionDispatchInfo.Capture(Failure).Throw();
+        return Billiards.Check(status);
       }
     }
   }
@@ -111,6 +211,9 @@ namespace Carom {
     public ShotOptions Shot;
     /// <summary>`opponent` and `stop` of it are not read.</summary>
     public PlanOptions Options;
+    /// <summary>Where the cue ball may be put in hand, as in a match. Null: where the game lets it
+    /// be put after a foul, if a plan is made in hand.</summary>
+    public HandBounds? Bounds;
 
     /// <summary>Of two players of the same rating, 0 to 1000.</summary>
     public Position(Table table, ShotBall[] balls, Cue cue, PlanRules rules, double rating) {
@@ -133,14 +236,14 @@ namespace Carom {
     /// <summary>A plan of the position as it is now, made in slices of so many events, about (500
     /// take 1 ms), between the frames of a game.</summary>
     public Thinking Think(long slice, int most = 1, bool inHand = false) {
-      return new Thinking(this, slice, most, inHand);
+      return new Thinking(this, slice, most, inHand || Bounds != null);
     }
 
     /// <summary>The chances of strokes of the caller's, in their order.</summary>
     public Choice[] Chances(Cue[] cues) {
       var told = new Choice[cues.Length];
       using (var held = new Held(this, 0)) fixed(Cue * of = cues) fixed(Choice * to = told)
-          Billiards.Check(Native.carom_plan_try(held.Job, of, cues.Length, to));
+          held.Rules.Check(Native.carom_plan_try(held.Job, of, cues.Length, to));
       return told;
     }
 
@@ -148,7 +251,7 @@ namespace Carom {
     public double Value(bool inHand = false) {
       double value;
       using (var held = new Held(this, 0))
-          Billiards.Check(Native.carom_plan_value(held.Job, inHand ? 1 : 0, &value));
+          held.Rules.Check(Native.carom_plan_value(held.Job, inHand ? 1 : 0, &value));
       return value;
     }
   }
@@ -165,11 +268,13 @@ namespace Carom {
       public PlanOptions options;
     }
     Parts *parts;
+    internal readonly GameRules.Watch Rules;
     internal PlanJob *Job {
       get { return parts != null ? &parts->job : throw new ObjectDisposedException("Thinking"); }
     }
 
     internal Held(Position of, long slice) {
+      Rules = new GameRules.Watch(of.Rules);
       var options = of.Options;
       options.stop = null;
       options.opponent = null;
@@ -202,14 +307,6 @@ namespace Carom {
       GC.SuppressFinalize(this);
     }
 
-    /// <summary>Where the game lets a cue ball in hand be put after a foul.</summary>
-    internal Bounds BoundsInHand() {
-      Bounds bounds;
-      var about = Native.carom_rules_about_of((RulesKind)(Job->rules->learned - 1));
-      var leave = about != null ? (Leave)about->hand : Leave.Hand;
-      Billiards.Check(Native.carom_hand_bounds(leave, Job->table, 0.0, &bounds));
-      return bounds;
-    }
     ~Held() {
       Marshal.FreeHGlobal((IntPtr)parts);
     }
@@ -219,6 +316,7 @@ namespace Carom {
   public sealed unsafe class Thinking : IDisposable {
     readonly Held held;
     readonly Choice[] room;
+    HandBounds bounds;
     readonly bool inHand;
     bool begun;
 
@@ -231,6 +329,16 @@ namespace Carom {
       held = new Held(of, slice);
       room = new Choice[most];
       this.inHand = inHand;
+      bounds = of.Bounds ?? BoundsAfterFoul(of);
+    }
+
+    static HandBounds BoundsAfterFoul(Position of) {
+      HandBounds bounds;
+      var about = Native.carom_rules_about_of((RulesKind)(of.Rules.learned - 1));
+      var leave = about != null ? (Leave)about->hand : Leave.Hand;
+      fixed(Table *table = &of.Table)
+          Billiards.Check(Native.carom_hand_bounds(leave, table, 0.0, &bounds));
+      return bounds;
     }
 
     /// <summary>Plays a slice. Returns whether the plan has ended.</summary>
@@ -239,15 +347,19 @@ namespace Carom {
         return true;
       int found = 0;
       Status status;
-      var bounds = held.BoundsInHand();
-      fixed(Choice *to = room) status =
-          begun    ? Native.carom_plan_continue(held.Job, to, room.Length, &found)
-          : inHand ? Native.carom_plan_hand(held.Job, (double *)&bounds.low, (double *)&bounds.high,
-                                            to, room.Length, &found)
-                   : Native.carom_plan(held.Job, to, room.Length, &found);
+      var within = bounds;
+      fixed(Choice *to = room) {
+        if (begun)
+          status = Native.carom_plan_continue(held.Job, to, room.Length, &found);
+        else if (inHand)
+          status = Native.carom_plan_hand(held.Job, (double *)&within.low, (double *)&within.high,
+                                          to, room.Length, &found);
+        else
+          status = Native.carom_plan(held.Job, to, room.Length, &found);
+      }
       begun = true;
-      Ended = status < 0 || found > 0;
-      Billiards.Check(status);
+      Ended = status < 0 || found > 0 || held.Rules.Failure != null;
+      held.Rules.Check(status);
       Choices = new Choice[found];
       Array.Copy(room, Choices, found);
       return Ended;
