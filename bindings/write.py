@@ -299,6 +299,7 @@ class Rust:
         ]
         lines += [
             "#![allow(non_camel_case_types)]",
+            "pub mod words;",
             "use std::os::raw::{c_char, c_int, c_void};",
             "",
         ]
@@ -351,6 +352,51 @@ class Rust:
             ]
         return "\n".join([*lines, "}", ""])
 
+    WORDS = """
+macro_rules! words {
+    ($($(#[$about:meta])* $of:ident { $($(#[$text:meta])* $word:ident = $value:literal,)* })*) => {$(
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        #[repr(i32)]
+        pub enum $of {
+            $($(#[$text])* $word = $value,)*
+        }
+
+        impl From<$of> for i32 {
+            fn from(word: $of) -> i32 {
+                word as i32
+            }
+        }
+
+        /// The error is a value that is not listed.
+        impl TryFrom<i32> for $of {
+            type Error = i32;
+            fn try_from(value: i32) -> Result<Self, i32> {
+                match value {
+                    $($value => Ok($of::$word),)*
+                    other => Err(other),
+                }
+            }
+        }
+    )*};
+}
+
+words! {
+"""
+
+    def words(self):
+        """carom-sys/src/words.rs: the enumerations as those of Rust."""
+        about = "//! The enumerations as types of Rust. Structs and functions have their values as i32.\n"
+        lines = [NOTE.format(version=self.api["version"]) + about + self.WORDS.rstrip()]
+        for one in self.api["enums"]:
+            lines += [*self.about(one["comment"], "    "), f"    {type_name(one['name'])} {{"]
+            for name, value in enumerators(one):
+                lines += self.about(value["comment"], "        ")
+                lines.append(f"        {name} = {value['value']},")
+            lines.append("    }")
+        return "\n".join([*lines, "}", ""])
+
     def layout_test(self):
         """A test that compares sizes and offsets with those of C."""
         lines = [
@@ -381,6 +427,7 @@ def main():
         "csharp/Runtime/Native.cs": CSharp(api).text(),
         "csharp/Tests/Layout.cs": CSharp(api).layout_test(),
         "rust/carom-sys/src/lib.rs": Rust(api).text(),
+        "rust/carom-sys/src/words.rs": Rust(api).words(),
         "rust/carom-sys/tests/layout.rs": Rust(api).layout_test(),
     }
     for language in ("csharp", "rust"):

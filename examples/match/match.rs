@@ -1,20 +1,20 @@
 //! The game of match.cpp in Rust: `match FILE` keeps its recording, and goes on with one that was
 //! saved.
-use carom::{sys, Call, Film, Position, Recording};
+use carom::{Call, Film, Game, Position, RackKind, Recording, RulesKind, TableKind};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args().nth(1).ok_or("match FILE")?;
-    let table = carom::table(sys::CAROM_TABLE_POOL_9FT)?;
-    let cue = carom::cue(sys::CAROM_GAME_POOL);
-    let mut rules = carom::built_in_rules(sys::CAROM_RULES_NINEBALL);
+    let table = carom::table(TableKind::Pool9ft)?;
+    let cue = carom::cue(Game::Pool);
+    let mut rules = carom::built_in_rules(RulesKind::Nineball);
     let (mut game, mut read, mut film) = <(Recording, Recording, Film)>::default();
     let mut lines = std::fs::read_to_string(&file).unwrap_or_default();
     assert!(game.load(&lines)?, "a shot has other bits");
     if lines.is_empty() {
-        let rack = carom::rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 2)?;
+        let rack = carom::rack(RackKind::Nineball, &table, 1e-4, 2)?;
         lines = game.begin(&table, &rack, &Default::default())?;
         rules.state.opening = 1; // before the break
-        lines += &game.stand(sys::CAROM_RULES_NINEBALL, &rules.state, 0)?;
+        lines += &game.stand(RulesKind::Nineball, &rules.state, 0)?;
     }
     let (mut winner, mut frames, mut loudest) = (-1, 0, 0.0_f64); // N s
     while winner < 0 {
@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             winner = player ^ i64::from(ruling.winner);
         } else {
             let next = player ^ i64::from(ruling.next);
-            lines += &game.stand(sys::CAROM_RULES_NINEBALL, &ruling.state, next)?;
+            lines += &game.stand(RulesKind::Nineball, &ruling.state, next)?;
         }
     }
     lines += &game.end()?;

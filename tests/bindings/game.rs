@@ -1,5 +1,5 @@
 // As game.c, in Rust.
-use carom::{sys, Error, Film, Recording};
+use carom::{Error, Film, Game, RackKind, Recording, TableKind};
 
 fn add(hash: u64, numbers: &[f64]) -> u64 {
     let bytes = numbers
@@ -26,11 +26,11 @@ fn main() -> Result<(), Error> {
         recording.hash()
     );
 
-    let table = carom::table(sys::CAROM_TABLE_POOL_9FT)?;
-    let balls = carom::rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 1)?;
+    let table = carom::table(TableKind::Pool9ft)?;
+    let balls = carom::rack(RackKind::Nineball, &table, 1e-4, 1)?;
     let cue = carom::Cue {
         speed: 8.0,
-        ..carom::cue(sys::CAROM_GAME_POOL)
+        ..carom::cue(Game::Pool)
     };
     let shot = carom::shoot(&table, &balls, &cue, &Default::default())?;
     let mut hash = 0xcbf29ce484222325;

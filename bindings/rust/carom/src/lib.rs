@@ -2,11 +2,11 @@
 //! every other function of the library.
 //!
 //! ```
-//! use carom::{sys, Error};
+//! use carom::{Error, Game, RackKind, TableKind};
 //! # fn main() -> Result<(), Error> {
-//! let table = carom::table(sys::CAROM_TABLE_POOL_9FT)?;
-//! let balls = carom::rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 1)?;
-//! let cue = carom::Cue { speed: 8.0, ..carom::cue(sys::CAROM_GAME_POOL) };
+//! let table = carom::table(TableKind::Pool9ft)?;
+//! let balls = carom::rack(RackKind::Nineball, &table, 1e-4, 1)?;
+//! let cue = carom::Cue { speed: 8.0, ..carom::cue(Game::Pool) };
 //! let shot = carom::shoot(&table, &balls, &cue, &carom::Options::default())?;
 //! assert_eq!(shot.at(shot.time())?.len(), 10);
 //! # Ok(())
@@ -21,15 +21,16 @@ mod record;
 
 pub use carom_sys as sys;
 pub use match_game::Match;
-pub use plan::{built_in_rules, rules, strike, words, Game, Position, Thinking};
+pub use plan::{built_in_rules, rules, spot, strike, words, GameRules, Position, Thinking};
 pub use record::Recording;
+pub use sys::words::*;
 pub use sys::{
-    carom_ball_state as BallState, carom_call as Call, carom_choice as Choice, carom_cue as Cue,
-    carom_event as Event, carom_facts as Facts, carom_measures as Measures,
-    carom_plan_options as PlanOptions, carom_plan_rules as Rules, carom_player as Player,
-    carom_pot as Pot, carom_rules_state as RulesState, carom_ruling as Ruling,
-    carom_shot_ball as ShotBall, carom_shot_options as Options, carom_table as Table,
-    carom_turn as Turn,
+    carom_ball_state as BallState, carom_bounds as Bounds, carom_call as Call,
+    carom_choice as Choice, carom_cue as Cue, carom_event as Event, carom_facts as Facts,
+    carom_measures as Measures, carom_plan_options as PlanOptions, carom_plan_rules as Rules,
+    carom_player as Player, carom_pot as Pot, carom_rules_state as RulesState,
+    carom_ruling as Ruling, carom_shot_ball as ShotBall, carom_shot_options as Options,
+    carom_table as Table, carom_turn as Turn,
 };
 
 use std::ffi::CStr;
@@ -39,8 +40,7 @@ use std::os::raw::c_char;
 /// A call that could not be served.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
-    /// A value of `sys::carom_status`, below 0.
-    pub status: sys::carom_status,
+    pub status: Status,
     /// What is wrong with the line of a recording, or the number of a shot.
     pub fault: String,
 }
@@ -48,10 +48,10 @@ pub struct Error {
 impl fmt::Display for Error {
     fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
         // Never NULL, by the header.
-        let words = text(unsafe { sys::carom_status_string(self.status) });
+        let words = text(unsafe { sys::carom_status_string(self.status.into()) });
         if self.fault.is_empty() {
             write!(to, "{words}")
-        } else if self.status == sys::CAROM_ERROR_RECORD {
+        } else if self.status == Status::ErrorRecord {
             write!(to, "{words}: {}", self.fault)
         } else {
             write!(to, "{}", self.fault)
@@ -82,10 +82,10 @@ pub struct Row {
     pub other: f64,
 }
 
-/// The numbers of a part, such as `sys::CAROM_PART_BALL`, or the options of a call, as the library
+/// The numbers of a part, such as `PartKind::Ball`, or the options of a call, as the library
 /// describes them.
-pub fn rows(part: sys::carom_part_kind) -> Vec<Row> {
-    let row = |k| unsafe { sys::carom_number_of(part, k).as_ref() };
+pub fn rows(part: PartKind) -> Vec<Row> {
+    let row = |k| unsafe { sys::carom_number_of(part.into(), k).as_ref() };
     let told = |one: &sys::carom_number| {
         let mut range = [0 as c_char; 200];
         unsafe { sys::carom_number_range(one, range.as_mut_ptr(), range.len()) };
@@ -103,9 +103,9 @@ pub fn rows(part: sys::carom_part_kind) -> Vec<Row> {
     (0..).map_while(row).map(told).collect()
 }
 
-/// The word of a value, such as "han" of `sys::CAROM_WORDS_SHOT_CUSHION`.
-pub fn word(of: sys::carom_words, value: i32) -> Option<String> {
-    let found = unsafe { sys::carom_word(of, value) };
+/// The word of a value, such as "han" of `Words::ShotCushion`.
+pub fn word(of: Words, value: i32) -> Option<String> {
+    let found = unsafe { sys::carom_word(of.into(), value) };
     (!found.is_null()).then(|| text(found))
 }
 
@@ -133,7 +133,7 @@ fn refused(
     };
     let (row, must) = (unsafe { fault.row.as_ref() }, text(must.as_ptr()));
     Error {
-        status,
+        status: status_of(status),
         fault: row
             .filter(|_| !must.is_empty())
             .map_or(String::new(), |row| {
@@ -142,14 +142,16 @@ fn refused(
     }
 }
 
-fn check(status: sys::carom_status) -> Result<sys::carom_status, Error> {
-    if status < 0 {
-        return Err(Error {
-            status,
-            fault: String::new(),
-        });
+fn check(status: sys::carom_status) -> Result<Status, Error> {
+    let (code, status, fault) = (status, status_of(status), String::new());
+    if code < 0 {
+        return Err(Error { status, fault });
     }
     Ok(status)
+}
+
+fn status_of(code: sys::carom_status) -> Status {
+    Status::try_from(code).expect("the library is of the version of carom-sys")
 }
 
 /// The revision of the physics: players in lockstep agree only with the same number.
@@ -157,17 +159,17 @@ pub fn physics_revision() -> i32 {
     unsafe { sys::carom_physics_revision() }
 }
 
-/// A built-in table, such as `sys::CAROM_TABLE_POOL_9FT`.
-pub fn table(kind: sys::carom_table_kind) -> Result<Table, Error> {
+/// A built-in table, such as `TableKind::Pool9ft`.
+pub fn table(kind: TableKind) -> Result<Table, Error> {
     let mut table = Table::default();
-    check(unsafe { sys::carom_table_make(kind, &mut table) })?;
+    check(unsafe { sys::carom_table_make(kind.into(), &mut table) })?;
     Ok(table)
 }
 
 /// The measures of a built-in table.
-pub fn measures(kind: sys::carom_table_kind) -> Result<Measures, Error> {
+pub fn measures(kind: TableKind) -> Result<Measures, Error> {
     let mut measures = Measures::default();
-    check(unsafe { sys::carom_table_measures(kind, &mut measures) })?;
+    check(unsafe { sys::carom_table_measures(kind.into(), &mut measures) })?;
     Ok(measures)
 }
 
@@ -177,7 +179,10 @@ pub fn table_measured(measures: &Measures, radius: f64) -> Result<Table, Error> 
     let (mut table, mut at) = (Table::default(), sys::carom_table_fault::default());
     let status = unsafe { sys::carom_table_measured(measures, radius, &mut table, &mut at) };
     if at.part.kind == sys::CAROM_PART_MEASURES {
-        let fault = rows(at.part.kind).swap_remove(at.part.index as usize).name;
+        let fault = rows(PartKind::Measures)
+            .swap_remove(at.part.index as usize)
+            .name;
+        let status = status_of(status);
         return Err(Error { status, fault });
     }
     check(status)?;
@@ -185,21 +190,16 @@ pub fn table_measured(measures: &Measures, radius: f64) -> Result<Table, Error> 
 }
 
 /// A rack, with the cue ball first. `gap`, m, is left between neighbours; `seed` draws the rest.
-pub fn rack(
-    kind: sys::carom_rack_kind,
-    table: &Table,
-    gap: f64,
-    seed: u64,
-) -> Result<Vec<ShotBall>, Error> {
-    let size = unsafe { sys::carom_rack_size(kind) };
+pub fn rack(kind: RackKind, table: &Table, gap: f64, seed: u64) -> Result<Vec<ShotBall>, Error> {
+    let size = unsafe { sys::carom_rack_size(kind.into()) };
     let mut balls = vec![ShotBall::default(); size as usize];
-    check(unsafe { sys::carom_rack(kind, table, gap, seed, balls.as_mut_ptr(), size) })?;
+    check(unsafe { sys::carom_rack(kind.into(), table, gap, seed, balls.as_mut_ptr(), size) })?;
     Ok(balls)
 }
 
 /// The usual cue of a game.
-pub fn cue(game: sys::carom_game) -> Cue {
-    unsafe { sys::carom_cue_of(game) }
+pub fn cue(game: Game) -> Cue {
+    unsafe { sys::carom_cue_of(game.into()) }
 }
 
 /// Ball in hand: puts a ball at rest at x, y (m). `Ok(Err(part))` where that place is not free: the
@@ -249,7 +249,7 @@ fn count_of(balls: &[ShotBall]) -> i32 {
 #[derive(Clone, Debug)]
 pub struct Shot {
     facts: Facts,
-    status: sys::carom_status,
+    status: Status,
     events: Vec<Event>,
     last: Vec<BallState>,
     time: f64,
@@ -280,7 +280,7 @@ impl Shot {
     fn begun(table: &Table, balls: &[ShotBall], stops: bool) -> Self {
         Shot {
             facts: Facts::default(),
-            status: sys::CAROM_OK,
+            status: Status::Ok,
             events: Vec::new(),
             last: vec![BallState::default(); balls.len()],
             time: 0.0,
@@ -290,8 +290,8 @@ impl Shot {
         }
     }
 
-    /// `sys::CAROM_OK`, or that the options stopped it.
-    pub fn status(&self) -> sys::carom_status {
+    /// `Status::Ok`, or that the options stopped it.
+    pub fn status(&self) -> Status {
         self.status
     }
 
@@ -317,7 +317,7 @@ impl Shot {
 
     /// Goes on with a shot that its options stopped, with the bits of the unbroken one; `options`
     /// say when to stop again. After an error the shot is as before.
-    pub fn resume(&mut self, table: &Table, options: &Options) -> Result<sys::carom_status, Error> {
+    pub fn resume(&mut self, table: &Table, options: &Options) -> Result<Status, Error> {
         if self.state.is_none() {
             return check(sys::CAROM_ERROR_STATE);
         }
@@ -327,7 +327,7 @@ impl Shot {
             sys::carom_shot_continue(table, of, count, options, to)
         })
         .map_err(|status| {
-            let cue = cue(sys::CAROM_GAME_POOL);
+            let cue = cue(Game::Pool);
             let error = refused(status, table, &before.balls, &cue, options);
             *self = before;
             error
@@ -340,7 +340,7 @@ impl Shot {
         &mut self,
         mut room: usize,
         play: impl Fn(*const ShotBall, i32, *mut sys::carom_shot) -> sys::carom_status,
-    ) -> Result<sys::carom_status, sys::carom_status> {
+    ) -> Result<Status, sys::carom_status> {
         let (happened, state) = (self.events.len(), self.state.clone());
         loop {
             self.events.resize(room, Event::default());
@@ -356,19 +356,43 @@ impl Shot {
                 ..Default::default()
             };
             let status = play(self.balls.as_ptr(), count_of(&self.balls), &mut shot);
-            if status < 0 {
-                return Err(status);
-            }
-            if shot.count <= shot.room {
-                self.events.truncate(shot.count as usize);
+            if status < 0 || shot.count <= shot.room {
+                self.events
+                    .truncate(shot.count.clamp(0, shot.room) as usize);
                 self.time = shot.time;
-                self.status = status;
-                return Ok(status);
+                self.status = status_of(status);
+                return if status < 0 {
+                    Err(status)
+                } else {
+                    Ok(self.status)
+                };
             }
             room = shot.count as usize;
             self.events.truncate(happened);
             self.state = state.clone();
         }
+    }
+
+    /// Plays a stroke of a recording or a match, with room for all its events; `play` may be called
+    /// again, and begins from the record as it was. `last` becomes the shot.
+    unsafe fn of_record(
+        record: *const sys::carom_record,
+        last: &mut Option<Shot>,
+        goes_on: bool,
+        play: impl Fn(*mut sys::carom_shot) -> sys::carom_status,
+    ) -> sys::carom_status {
+        let before = &*record;
+        let count = before.count.clamp(0, i64::from(sys::CAROM_BALLS_MOST)) as usize;
+        let begun = last.take().filter(|_| goes_on);
+        let mut shot =
+            begun.unwrap_or_else(|| Shot::begun(&before.table, &before.balls[..count], false));
+        let room = shot.events.len() + 256;
+        let played = shot.follow(room, |_, _, to| play(to));
+        let after = &*record;
+        shot.facts = after.facts;
+        shot.last = after.r#final[..count].to_vec();
+        *last = Some(shot);
+        played.map_or_else(|error| error, i32::from)
     }
 
     /// The layout that it leaves.
@@ -404,8 +428,10 @@ impl Shot {
             r#final: last.as_mut_ptr(),
             ..Default::default()
         };
-        let (on, to) = (&self.table, &mut made);
-        check(unsafe { sys::carom_referee(rules, on, balls, count, cue_ball, &seen, call, to) })?;
+        let (on, to, watch) = (&self.table, &mut made, plan::Watch::new(rules));
+        watch.check(unsafe {
+            sys::carom_referee(rules, on, balls, count, cue_ball, &seen, call, to)
+        })?;
         Ok(made)
     }
 
@@ -467,38 +493,41 @@ mod tests {
 
     #[test]
     fn errors_say_what_is_wrong() {
-        let table = table(sys::CAROM_TABLE_POOL_9FT).unwrap();
-        let balls = rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 1).unwrap();
+        let table = table(TableKind::Pool9ft).unwrap();
+        let balls = rack(RackKind::Nineball, &table, 1e-4, 1).unwrap();
         let wrong = Cue {
             speed: -1.0,
-            ..cue(sys::CAROM_GAME_POOL)
+            ..cue(Game::Pool)
         };
         let error = shoot(&table, &balls, &wrong, &Options::default()).unwrap_err();
-        assert_eq!(error.status, sys::CAROM_ERROR_CUE_SPEED);
+        assert_eq!(error.status, Status::ErrorCueSpeed);
         assert_eq!(error.to_string(), "speed must be 0 to 1000, in m/s, not -1");
-        let mut wide = measures(sys::CAROM_TABLE_POOL_9FT).unwrap();
+        let mut wide = measures(TableKind::Pool9ft).unwrap();
         assert_eq!(table_measured(&wide, 0.028575).unwrap().width, table.width);
         wide.side_mouth = 2.0;
         assert!(table_measured(&wide, 0.028575)
             .unwrap_err()
             .to_string()
             .contains("side_mouth"));
+        assert_eq!(TableKind::try_from(99), Err(99));
         assert_eq!(
-            rack(99, &table, 1e-4, 1).unwrap_err().status,
-            sys::CAROM_ERROR_RACK
+            rack(RackKind::Nineball, &table, f64::NAN, 1)
+                .unwrap_err()
+                .status,
+            Status::ErrorRack
         );
         let mut damaged = Recording::default();
         let error = damaged.read("{\"game\":1}").unwrap_err();
         assert!(!damaged.ended());
-        assert_eq!(error.status, sys::CAROM_ERROR_RECORD);
+        assert_eq!(error.status, Status::ErrorRecord);
         assert!(error.fault.contains("game"), "{}", error.fault);
     }
 
     #[test]
     fn each_number_of_a_ball_is_refused_by_its_row() {
-        let table = table(sys::CAROM_TABLE_POOL_9FT).unwrap();
-        let balls = rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 1).unwrap();
-        let all = rows(sys::CAROM_PART_BALL);
+        let table = table(TableKind::Pool9ft).unwrap();
+        let balls = rack(RackKind::Nineball, &table, 1e-4, 1).unwrap();
+        let all = rows(PartKind::Ball);
         assert_eq!(all.len() * 8, std::mem::size_of_val(&balls[0].kind));
         for (k, row) in all.iter().enumerate() {
             let mut bad = balls.clone();
@@ -506,25 +535,25 @@ mod tests {
             unsafe {
                 *(&mut bad[2].kind as *mut sys::carom_ball_kind as *mut f64).add(k) = f64::NAN
             };
-            let cue = cue(sys::CAROM_GAME_POOL);
+            let cue = cue(Game::Pool);
             let error = shoot(&table, &bad, &cue, &Options::default()).unwrap_err();
             assert_eq!(
                 error.fault,
                 format!("{} must be {}, not NaN", row.name, row.range)
             );
         }
-        let han = sys::CAROM_SHOT_CUSHION_HAN;
-        assert_eq!(word(sys::CAROM_WORDS_SHOT_CUSHION, han).unwrap(), "han");
-        assert_eq!(word(sys::CAROM_WORDS_SHOT_CUSHION, 99), None);
+        let han = ShotCushion::Han.into();
+        assert_eq!(word(Words::ShotCushion, han).unwrap(), "han");
+        assert_eq!(word(Words::ShotCushion, 99), None);
     }
 
     #[test]
     fn states_end_where_the_shot_does() {
-        let table = table(sys::CAROM_TABLE_SNOOKER).unwrap();
-        let balls = rack(sys::CAROM_RACK_SNOOKER, &table, 0.0, 1).unwrap();
+        let table = table(TableKind::Snooker).unwrap();
+        let balls = rack(RackKind::Snooker, &table, 0.0, 1).unwrap();
         let hard = Cue {
             speed: 6.0,
-            ..cue(sys::CAROM_GAME_SNOOKER)
+            ..cue(Game::Snooker)
         };
         let shot = shoot(&table, &balls, &hard, &Options::default()).unwrap();
         assert!(shot.events.len() > 20);
@@ -538,7 +567,7 @@ mod tests {
         let mut layout = balls.clone();
         let [x, y, _] = layout[3].state.r;
         let part = place(&table, &mut layout, 0, x, y).unwrap().unwrap_err();
-        assert_eq!((part.kind, part.index), (sys::CAROM_PART_BALL, 3));
+        assert_eq!((part.kind, part.index), (PartKind::Ball.into(), 3));
         assert!(place(&table, &mut layout, 0, 0.5, 0.31).unwrap().is_ok());
         assert_eq!(layout[0].state.r[1], 0.31);
         assert!(place(&table, &mut layout, 99, 0.5, 0.3).is_err());

@@ -1,5 +1,8 @@
 //! Matches: one object that knows the rules, and writes its recording.
-use crate::{check, sys, text, words, Choice, Cue, Error, Options, Ruling, Table};
+use crate::{
+    check, status_of, sys, text, words, Choice, Cue, Error, MatchPhase, May, Options, Position,
+    RulesKind, Ruling, Shot, Table,
+};
 use std::os::raw::c_char;
 
 /// A match, as `carom_match.h` has it. An act that the rules forbid is an error that says what
@@ -7,19 +10,21 @@ use std::os::raw::c_char;
 pub struct Match {
     of: Box<sys::carom_match>,
     scratch: Box<sys::carom_record>,
+    last: Option<Shot>,
 }
 
 impl Match {
     /// Begins a match with the rack of a game; `player`, 0 or 1, breaks.
     pub fn begin(
-        rules: sys::carom_rules_kind,
+        rules: RulesKind,
         table: &Table,
         seed: u64,
         player: usize,
     ) -> Result<Match, Error> {
         let mut made = Match::empty();
         let player = player.min(2) as i32;
-        let status = unsafe { sys::carom_match_begin(&mut *made.of, rules, table, seed, player) };
+        let status =
+            unsafe { sys::carom_match_begin(&mut *made.of, rules.into(), table, seed, player) };
         made.told(status)?;
         Ok(made)
     }
@@ -40,12 +45,13 @@ impl Match {
         Match {
             of: Box::default(),
             scratch: Box::default(),
+            last: None,
         }
     }
 
     fn told(&self, status: sys::carom_status) -> Result<(), Error> {
         if status < 0 && self.of.fault[0] != 0 {
-            let fault = text(self.of.fault.as_ptr());
+            let (status, fault) = (status_of(status), text(self.of.fault.as_ptr()));
             return Err(Error { status, fault });
         }
         check(status).map(|_| ())
@@ -66,9 +72,31 @@ impl Match {
         usize::try_from(self.of.winner).ok()
     }
 
+    /// What the match waits for.
+    pub fn phase(&self) -> MatchPhase {
+        MatchPhase::try_from(self.of.phase).expect("a phase of carom_match.h")
+    }
+
     /// Whether the match is over.
     pub fn is_over(&self) -> bool {
-        self.of.phase == sys::CAROM_MATCH_OVER
+        self.phase() == MatchPhase::Over
+    }
+
+    /// The last shot, with all its events.
+    pub fn last(&self) -> Option<&Shot> {
+        self.last.as_ref()
+    }
+
+    /// The position of the player at the table, of a rating, for plans; in hand, with the bounds
+    /// of the match.
+    pub fn position(&self, cue: &Cue, rating: f64) -> Position {
+        let (of, ball) = (&self.of.record, self.of.cue_ball.into());
+        let balls = &of.balls[..of.count as usize];
+        let cue = Cue { ball, ..*cue };
+        let mut made = Position::new(&of.table, balls, &cue, &self.of.rules, rating);
+        made.shot = of.options;
+        made.bounds = (self.phase() == MatchPhase::Place).then_some(self.of.bounds);
+        made
     }
 
     /// The lines of the last act.
@@ -83,8 +111,9 @@ impl Match {
     }
 
     /// Takes one of the choices, a sum of which is `state().may`.
-    pub fn choose(&mut self, choice: sys::carom_may) -> Result<(), Error> {
-        let status = unsafe { sys::carom_match_choose(&mut *self.of, self.at_table(), choice) };
+    pub fn choose(&mut self, choice: May) -> Result<(), Error> {
+        let status =
+            unsafe { sys::carom_match_choose(&mut *self.of, self.at_table(), choice.into()) };
         self.told(status)
     }
 
@@ -104,16 +133,31 @@ impl Match {
     /// Plays a stroke; `stop` says when to stop its shot. Returns whether the shot has ended, and
     /// is ruled.
     pub fn stroke(&mut self, cue: &Cue, stop: &Options) -> Result<bool, Error> {
-        let (player, nothing) = (self.at_table(), std::ptr::null_mut());
-        let status = unsafe { sys::carom_match_stroke(&mut *self.of, player, cue, stop, nothing) };
-        self.told(status)?;
-        Ok(status == sys::CAROM_OK)
+        let player = self.at_table();
+        self.play(false, |of, to| unsafe {
+            sys::carom_match_stroke(of, player, cue, stop, to)
+        })
     }
 
     /// Goes on with a stopped shot, likewise.
     pub fn go_on(&mut self, stop: &Options) -> Result<bool, Error> {
-        let nothing = std::ptr::null_mut();
-        let status = unsafe { sys::carom_match_continue(&mut *self.of, stop, nothing) };
+        self.play(true, |of, to| unsafe {
+            sys::carom_match_continue(of, stop, to)
+        })
+    }
+
+    fn play(
+        &mut self,
+        goes_on: bool,
+        once: impl Fn(*mut sys::carom_match, *mut sys::carom_shot) -> sys::carom_status,
+    ) -> Result<bool, Error> {
+        let (before, of): (_, *mut sys::carom_match) = (self.of.clone(), &mut *self.of);
+        let status = unsafe {
+            Shot::of_record(&(*of).record, &mut self.last, goes_on, |to| {
+                *of = *before;
+                once(of, to)
+            })
+        };
         self.told(status)?;
         Ok(status == sys::CAROM_OK)
     }
@@ -141,16 +185,16 @@ impl Match {
     /// stroke as the player makes it. Returns the lines of all these acts.
     pub fn take(&mut self, best: &Choice, cue: &Cue) -> Result<String, Error> {
         let mut all = String::new();
-        if self.of.phase == sys::CAROM_MATCH_PLACE {
+        if self.phase() == MatchPhase::Place {
             self.place(best.place[0], best.place[1])?;
             all += &self.lines();
         }
         if best.kind == sys::CAROM_PLAN_PASS {
-            self.choose(sys::CAROM_MAY_PASS)?;
+            self.choose(May::Pass)?;
             return Ok(all + &self.lines());
         }
         if best.kind == sys::CAROM_PLAN_PUSH {
-            self.choose(sys::CAROM_MAY_PUSH)?;
+            self.choose(May::Push)?;
             all += &self.lines();
         }
         if self.of.rules.calls != 0 && best.ball >= 0 {
@@ -174,6 +218,7 @@ impl Match {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Game, RackKind, Status, TableKind};
 
     #[test]
     fn refuses_rules_and_reads_again() -> Result<(), Error> {
@@ -181,19 +226,29 @@ mod tests {
         can_move::<Match>();
         can_move::<crate::Position>();
         can_move::<crate::Thinking>();
-        let table = crate::table(sys::CAROM_TABLE_POOL_9FT)?;
-        let mut game = Match::begin(sys::CAROM_RULES_EIGHTBALL, &table, 1, 0)?;
+        let table = crate::table(TableKind::Pool9ft)?;
+        let mut game = Match::begin(RulesKind::Eightball, &table, 1, 0)?;
         let mut file = game.lines();
         let beyond = game.place(0.6, 1.0).unwrap_err();
-        assert_eq!(beyond.status, sys::CAROM_ERROR_ACT);
+        assert_eq!(beyond.status, Status::ErrorAct);
         assert!(beyond.fault.contains("0.635"), "{}", beyond.fault);
         game.place(0.6, 0.6)?;
         file += &game.lines();
         let cue = Cue {
             speed: 8.0,
-            ..crate::cue(sys::CAROM_GAME_POOL)
+            ..crate::cue(Game::Pool)
         };
-        assert!(game.stroke(&cue, &Options::default())?);
+        let of = game.position(&cue, 600.0);
+        assert!(of.plan(1, false)?[0].place[1] <= table.length / 4.0);
+        let stop = Options {
+            time_most: 0.2,
+            ..Options::default()
+        };
+        assert!(!game.stroke(&cue, &stop)?);
+        assert_eq!(game.last().map(Shot::time), Some(0.2));
+        file += &game.lines();
+        assert!(game.go_on(&Options::default())?);
+        assert!(game.last().map_or(0, |shot| shot.events().len()) > 20);
         file += &game.lines();
         let again = Match::load(&file)?;
         assert_eq!(again.player(), game.player());
@@ -202,6 +257,13 @@ mod tests {
             Match::load(&file.replace("\"foul\":", "\"foul\":1")).is_err()
                 || !file.contains("foul")
         );
+        for kind in [RulesKind::Straight, RulesKind::Onepocket, RulesKind::Bank] {
+            let balls = crate::rack(RackKind::Eightball, &table, 1e-4, 1)?;
+            let rules = crate::built_in_rules(kind);
+            let mut of = Position::new(&table, &balls, &cue, &rules, 600.0);
+            of.options.shots = 100;
+            assert!(of.plan(1, true)?[0].place[1] <= table.length / 4.0);
+        }
         Ok(())
     }
 }

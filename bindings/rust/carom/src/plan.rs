@@ -1,59 +1,205 @@
 //! Plans: which stroke to play, by built-in rules or by those of the caller.
 use crate::{
-    check, count_of, sys, text, Call, Choice, Cue, Error, Facts, Options, PlanOptions, Player,
-    Rules, RulesState, Ruling, ShotBall, Table, Turn,
+    check, count_of, sys, text, BallState, Bounds, Call, Choice, Cue, Error, Facts, Options,
+    PlanOptions, Player, RackKind, Rules, RulesKind, RulesState, Ruling, ShotBall, Status, Table,
+    Turn,
 };
+use std::any::{type_name, TypeId};
 use std::os::raw::{c_char, c_int};
 use std::panic::{catch_unwind, AssertUnwindSafe};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Rules of a game. Sets of balls have bit k for ball k. The functions may be called from several
 /// threads at once, and depend on their arguments only; `user` are the eight words of the state
-/// that are theirs, as the player at the table has them. A function that panics ends the program.
-pub trait Game {
+/// that are theirs, as the player at the table has them. A function that panics makes the call that
+/// uses the rules an error, at its end; where panics abort, it ends the program. `carom_plan.h`
+/// describes the functions; the library has its own of those that are None.
+pub trait GameRules: 'static {
     /// The balls that may be met first, and potted.
     fn on(user: &[u64; 8], in_play: u32) -> u32;
     /// The outcome of a shot; it leaves `user` as the next player has it.
     fn judge(user: &mut [u64; 8], in_play: u32, cue_ball: usize, facts: &Facts, call: Call)
         -> Turn;
-    /// How many balls the player at the table and the other one have to pot to win.
+    /// How many balls the player at the table and the other one have to pot to win; in a race for
+    /// points, how many points.
     fn left(user: &[u64; 8], in_play: u32) -> [i32; 2];
+    /// The pockets in which balls count for the player at the table, as a set.
+    const POCKETS: Option<fn(user: &[u64; 8]) -> u32> = None;
+    /// The chance that the player at the table wins, 0 to 1; without an opponent, how many balls
+    /// this player is still going to pot.
+    const VALUE: Option<fn(user: &[u64; 8], layout: &[BallState], in_hand: bool) -> f64> = None;
+    /// In a race for points, those of a ball that falls in the next stroke; without a ball, the
+    /// mean of a later pot.
+    const POINTS: Option<fn(user: &[u64; 8], in_play: u32, ball: Option<usize>) -> f64> = None;
+    /// Does what depends on the places of the balls after a stroke that was judged, and puts back
+    /// the balls of `turn.spot`, as by `spot`.
+    const SETTLE: Option<fn(user: &mut [u64; 8], &Table, balls: &mut [ShotBall], &mut Turn)> = None;
 }
 
 /// The rules of a game, with a state that is all 0; `calls`, `race` and the like can be set.
-pub fn rules<G: Game>() -> Rules {
-    unsafe extern "C" fn on<G: Game>(game: *const RulesState, in_play: u32) -> u32 {
-        guarded(|| G::on(unsafe { &(*game).user }, in_play))
+pub fn rules<G: GameRules>() -> Rules {
+    unsafe extern "C" fn on<G: GameRules>(game: *const RulesState, in_play: u32) -> u32 {
+        guarded::<G, _>(0, || G::on(unsafe { &(*game).user }, in_play))
     }
-    unsafe extern "C" fn judge<G: Game>(
+    unsafe extern "C" fn judge<G: GameRules>(
         game: *mut RulesState,
         in_play: u32,
         cue_ball: c_int,
         facts: *const Facts,
         call: Call,
     ) -> Turn {
-        guarded(|| unsafe {
+        guarded::<G, _>(Turn::default(), || unsafe {
             G::judge(&mut (*game).user, in_play, cue_ball as usize, &*facts, call)
         })
     }
-    unsafe extern "C" fn left<G: Game>(game: *const RulesState, in_play: u32, to: *mut i32) {
-        guarded(|| unsafe { *to.cast() = G::left(&(*game).user, in_play) })
+    unsafe extern "C" fn left<G: GameRules>(game: *const RulesState, in_play: u32, to: *mut i32) {
+        *to.cast() = guarded::<G, _>([1, 1], || G::left(unsafe { &(*game).user }, in_play));
     }
-    Rules {
+    unsafe extern "C" fn pockets<G: GameRules>(game: *const RulesState) -> u32 {
+        guarded::<G, _>(0, || {
+            G::POCKETS.map_or(0, |call| call(unsafe { &(*game).user }))
+        })
+    }
+    unsafe extern "C" fn value<G: GameRules>(
+        game: *const RulesState,
+        layout: *const BallState,
+        count: c_int,
+        in_hand: c_int,
+    ) -> f64 {
+        guarded::<G, _>(0.0, || unsafe {
+            let layout = std::slice::from_raw_parts(layout, count as usize);
+            G::VALUE.map_or(0.0, |call| call(&(*game).user, layout, in_hand != 0))
+        })
+    }
+    unsafe extern "C" fn points<G: GameRules>(
+        game: *const RulesState,
+        in_play: u32,
+        ball: c_int,
+    ) -> f64 {
+        guarded::<G, _>(0.0, || {
+            let (user, ball) = (unsafe { &(*game).user }, usize::try_from(ball).ok());
+            G::POINTS.map_or(0.0, |call| call(user, in_play, ball))
+        })
+    }
+    unsafe extern "C" fn settle<G: GameRules>(
+        game: *mut RulesState,
+        table: *const Table,
+        balls: *mut ShotBall,
+        count: c_int,
+        turn: *mut Turn,
+    ) {
+        guarded::<G, _>((), || unsafe {
+            let balls = std::slice::from_raw_parts_mut(balls, count as usize);
+            if let Some(call) = G::SETTLE {
+                call(&mut (*game).user, &*table, balls, &mut *turn);
+            }
+        })
+    }
+    let made = Rules {
         on: Some(on::<G>),
         judge: Some(judge::<G>),
         left: Some(left::<G>),
+        pockets: G::POCKETS.map(|_| pockets::<G> as _),
+        value: G::VALUE.map(|_| value::<G> as _),
+        points: G::POINTS.map(|_| points::<G> as _),
+        settle: G::SETTLE.map(|_| settle::<G> as _),
         ..Default::default()
+    };
+    panics_of::<G, _>(|of| of.on.extend(made.on.map(|one| one as usize)));
+    made
+}
+
+/// The panics of a caller's rules, and the functions by which plans know these.
+struct Panics {
+    of: TypeId,
+    on: Vec<usize>,
+    count: u64,
+    words: String,
+}
+static PANICS: Mutex<Vec<Panics>> = Mutex::new(Vec::new());
+
+fn panics() -> MutexGuard<'static, Vec<Panics>> {
+    PANICS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn panics_of<G: GameRules, T>(call: impl FnOnce(&mut Panics) -> T) -> T {
+    let (of, mut all) = (TypeId::of::<G>(), panics());
+    let at = all.iter().position(|one| one.of == of).unwrap_or(all.len());
+    if at == all.len() {
+        all.push(Panics {
+            of,
+            on: Vec::new(),
+            count: 0,
+            words: String::new(),
+        });
+    }
+    call(&mut all[at])
+}
+
+/// No panic passes through C: the call that uses the rules returns it as an error.
+fn guarded<G: GameRules, T>(otherwise: T, call: impl FnOnce() -> T) -> T {
+    catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|cause| {
+        let text = cause.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| cause.downcast_ref::<&str>().copied());
+        let (name, text) = (type_name::<G>(), text.unwrap_or("no text"));
+        panics_of::<G, _>(|of| {
+            of.count += 1;
+            of.words = format!("the rules {name} panicked: {text}");
+        });
+        otherwise
+    })
+}
+
+/// Whether rules of a caller's have panicked since it was made.
+pub(crate) struct Watch {
+    on: usize,
+    before: u64,
+}
+
+impl Watch {
+    pub(crate) fn new(rules: &Rules) -> Watch {
+        let on = rules.on.map_or(0, |one| one as usize);
+        let before = Watch::seen(on).0;
+        Watch { on, before }
+    }
+
+    /// How many panics there were, and the words of one of them.
+    fn seen(on: usize) -> (u64, String) {
+        panics().iter().filter(|one| one.on.contains(&on)).fold(
+            (0, String::new()),
+            |(count, words), one| {
+                let last = if one.count > 0 { &one.words } else { &words };
+                (count + one.count, last.clone())
+            },
+        )
+    }
+
+    pub(crate) fn check(&self, status: sys::carom_status) -> Result<Status, Error> {
+        let (count, fault) = Watch::seen(self.on);
+        if count > self.before {
+            let status = Status::ErrorOptions;
+            return Err(Error { status, fault });
+        }
+        check(status)
     }
 }
 
-/// No panic passes through C.
-fn guarded<T>(call: impl FnOnce() -> T) -> T {
-    catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|_| std::process::abort())
+/// Puts a ball back as the rules of a rack's game ask.
+pub fn spot(
+    kind: RackKind,
+    table: &Table,
+    balls: &mut [ShotBall],
+    ball: usize,
+) -> Result<(), Error> {
+    let (count, ball) = (count_of(balls), ball.min(i32::MAX as usize) as i32);
+    let to = balls.as_mut_ptr();
+    check(unsafe { sys::carom_spot_ball_of(kind.into(), table, to, count, ball) })?;
+    Ok(())
 }
 
-/// Built-in rules, such as `sys::CAROM_RULES_NINEBALL`, with the state after the break.
-pub fn built_in_rules(kind: sys::carom_rules_kind) -> Rules {
-    unsafe { sys::carom_plan_rules_of(kind) }
+/// Built-in rules, such as `RulesKind::Nineball`, with the state after the break.
+pub fn built_in_rules(kind: RulesKind) -> Rules {
+    unsafe { sys::carom_plan_rules_of(kind.into()) }
 }
 
 /// A ruling in words.
@@ -87,6 +233,9 @@ pub struct Position {
     pub shot: Options,
     /// `opponent` and `stop` of it are not read.
     pub options: PlanOptions,
+    /// Where the cue ball may be put in hand, as in a match. None: where the game lets it be put
+    /// after a foul, if a plan is made in hand.
+    pub bounds: Option<Bounds>,
 }
 
 impl Position {
@@ -101,6 +250,7 @@ impl Position {
             rules: *rules,
             shot: Options::default(),
             options: PlanOptions::default(),
+            bounds: None,
         }
     }
 
@@ -123,11 +273,12 @@ impl Position {
             check(sys::CAROM_ERROR_OPTIONS)?;
         }
         Ok(Thinking {
+            watch: Watch::new(&of.rules),
+            in_hand: in_hand || of.bounds.is_some(),
             of,
             memory: vec![0.0; bytes / 8 + 1],
             choices: Vec::new(),
             most: most.clamp(1, 1000),
-            in_hand,
             begun: false,
             ended: false,
             wanted: Box::default(),
@@ -142,7 +293,8 @@ impl Position {
         });
         let mut memory = vec![0.0; bytes / 8 + 1];
         let count = cues.len().min(c_int::MAX as usize) as c_int;
-        check(self.with_job(&mut memory, |job| unsafe {
+        let watch = Watch::new(&self.rules);
+        watch.check(self.with_job(&mut memory, |job| unsafe {
             sys::carom_plan_try(job, cues.as_ptr(), count, told.as_mut_ptr())
         }))?;
         Ok(told)
@@ -150,8 +302,8 @@ impl Position {
 
     /// The chance that the player at the table wins, without playing a shot.
     pub fn value(&self, in_hand: bool) -> Result<f64, Error> {
-        let mut value = 0.0;
-        check(self.with_job(&mut [], |job| unsafe {
+        let (mut value, watch) = (0.0, Watch::new(&self.rules));
+        watch.check(self.with_job(&mut [], |job| unsafe {
             sys::carom_plan_value(job, in_hand.into(), &mut value)
         }))?;
         Ok(value)
@@ -194,8 +346,8 @@ unsafe impl Send for Thinking {}
 unsafe impl Sync for Thinking {}
 
 /// Where the game lets a cue ball in hand be put after a foul.
-unsafe fn bounds_in_hand(job: &sys::carom_plan_job) -> sys::carom_bounds {
-    let mut bounds = sys::carom_bounds::default();
+unsafe fn bounds_in_hand(job: &sys::carom_plan_job) -> Bounds {
+    let mut bounds = Bounds::default();
     let about = sys::carom_rules_about_of((*job.rules).learned - 1);
     let leave = if about.is_null() {
         sys::CAROM_LEAVE_HAND
@@ -211,6 +363,7 @@ pub struct Thinking {
     // Boxed, as the memory points to it and to the options.
     of: Box<Position>,
     wanted: Box<PlanOptions>,
+    watch: Watch,
     memory: Vec<f64>,
     choices: Vec<Choice>,
     most: usize,
@@ -236,7 +389,7 @@ impl Thinking {
             if self.begun {
                 sys::carom_plan_continue(&job, to, room, &mut found)
             } else if self.in_hand {
-                let bounds = bounds_in_hand(&job);
+                let bounds = self.of.bounds.unwrap_or_else(|| bounds_in_hand(&job));
                 let (low, high) = (bounds.low.as_ptr(), bounds.high.as_ptr());
                 sys::carom_plan_hand(&job, low, high, to, room, &mut found)
             } else {
@@ -244,8 +397,9 @@ impl Thinking {
             }
         };
         self.begun = true;
-        self.ended = status < 0 || found > 0;
-        check(status)?;
+        let checked = self.watch.check(status);
+        self.ended = checked.is_err() || found > 0;
+        checked?;
         choices.truncate(found as usize);
         self.choices = choices;
         Ok(self.ended)
@@ -260,12 +414,12 @@ impl Thinking {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{aim, cue, place, rack, shoot, table, Pot};
+    use crate::{aim, cue, place, rack, shoot, table, Game, Pot, PotIs, Race, TableKind, TurnIs};
 
     /// A drill: any ball counts, until one misses.
     struct Drill;
 
-    impl Game for Drill {
+    impl GameRules for Drill {
         fn on(_: &[u64; 8], in_play: u32) -> u32 {
             in_play & !1
         }
@@ -273,11 +427,7 @@ mod tests {
             let potted = facts.down != 0 && facts.down & 1 == 0;
             user[0] += u64::from(potted);
             Turn {
-                is: if potted {
-                    sys::CAROM_TURN_KEEP
-                } else {
-                    sys::CAROM_TURN_PASS
-                },
+                is: if potted { TurnIs::Keep } else { TurnIs::Pass }.into(),
                 points: f64::from(facts.down.count_ones()),
                 ..Default::default()
             }
@@ -289,21 +439,21 @@ mod tests {
 
     /// Two balls near a corner.
     fn layout() -> (Table, Vec<ShotBall>, Cue) {
-        let table = table(sys::CAROM_TABLE_POOL_9FT).unwrap();
-        let mut balls = rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 1).unwrap();
+        let table = table(TableKind::Pool9ft).unwrap();
+        let mut balls = rack(RackKind::Nineball, &table, 1e-4, 1).unwrap();
         balls.truncate(3);
         for (k, (x, y)) in [(0.6, 0.9), (0.3, 0.4), (0.9, 2.0)].into_iter().enumerate() {
             assert!(place(&table, &mut balls, k, x, y).unwrap().is_ok());
         }
-        (table, balls, cue(sys::CAROM_GAME_POOL))
+        (table, balls, cue(Game::Pool))
     }
 
     #[test]
     fn slices_choose_what_one_call_chooses() {
         let (table, balls, cue) = layout();
-        for rules in [built_in_rules(sys::CAROM_RULES_POTTING), rules::<Drill>()] {
+        for rules in [built_in_rules(RulesKind::Potting), rules::<Drill>()] {
             let mut of = Position::new(&table, &balls, &cue, &rules, 600.0);
-            of.rules.race = sys::CAROM_RACE_ALONE;
+            of.rules.race = Race::Alone.into();
             of.options.shots = 300;
             let best = of.plan(2, false).unwrap();
             assert!(best[0].value > 0.3 && best[0].keep > 0.5, "{best:?}");
@@ -321,11 +471,94 @@ mod tests {
             assert!((0.0..=1.0).contains(&of.value(true).unwrap()));
             assert!(!of.plan(1, true).unwrap().is_empty());
             of.options.shots = -1;
-            assert_eq!(
-                of.plan(1, false).unwrap_err().status,
-                sys::CAROM_ERROR_OPTIONS
-            );
+            assert_eq!(of.plan(1, false).unwrap_err().status, Status::ErrorOptions);
         }
+    }
+
+    /// Rules with every callback, each of which panics where it is the one that is named.
+    struct Every;
+    static PANICS_IN: Mutex<&str> = Mutex::new("");
+
+    fn ask(what: &str) {
+        let named = *PANICS_IN.lock().unwrap();
+        assert!(what != named, "in {what}");
+    }
+
+    impl GameRules for Every {
+        fn on(_: &[u64; 8], in_play: u32) -> u32 {
+            ask("on");
+            in_play & !1
+        }
+        fn judge(_: &mut [u64; 8], _: u32, _: usize, facts: &Facts, _: Call) -> Turn {
+            ask("judge");
+            Turn {
+                is: TurnIs::Pass.into(),
+                spot: facts.down & !1,
+                ..Default::default()
+            }
+        }
+        fn left(_: &[u64; 8], _: u32) -> [i32; 2] {
+            ask("left");
+            [2, 2]
+        }
+        const POCKETS: Option<fn(&[u64; 8]) -> u32> = Some(|_| {
+            ask("pockets");
+            63
+        });
+        const VALUE: Option<fn(&[u64; 8], &[BallState], bool) -> f64> = Some(|_, layout, _| {
+            ask("value");
+            layout.len() as f64 / 12.0
+        });
+        const POINTS: Option<fn(&[u64; 8], u32, Option<usize>) -> f64> = Some(|_, _, _| {
+            ask("points");
+            1.0
+        });
+        const SETTLE: Option<fn(&mut [u64; 8], &Table, &mut [ShotBall], &mut Turn)> =
+            Some(|user, table, balls, turn| {
+                ask("settle");
+                user[0] = 7;
+                for ball in (0..balls.len()).filter(|k| turn.spot >> k & 1 != 0) {
+                    spot(RackKind::Nineball, table, balls, ball).unwrap();
+                }
+            });
+    }
+
+    #[test]
+    fn a_panic_in_any_callback_is_an_error() {
+        let (table, balls, mut cue) = layout();
+        let mut of = Position::new(&table, &balls, &cue, &rules::<Every>(), 600.0);
+        assert_eq!(of.value(false).unwrap(), 0.25);
+        let by_value = of.clone();
+        of.rules.value = None; // the library's, which asks for points
+        of.rules.race = Race::Points.into();
+        of.options.shots = 100;
+        let mut pot = Pot {
+            ball: 1,
+            ..Default::default()
+        };
+        cue.speed = 2.0;
+        aim(&table, &balls, &mut pot, &mut cue, &Options::default()).unwrap();
+        let shot = shoot(&table, &balls, &cue, &Options::default()).unwrap();
+        let call = Call::default();
+        let ruling = shot.referee(&of.rules, call, 0).unwrap();
+        assert_eq!((ruling.state.user[0], ruling.put), (7, 2));
+        for what in [
+            "on", "judge", "left", "pockets", "value", "points", "settle",
+        ] {
+            *PANICS_IN.lock().unwrap() = what;
+            let plan = of.plan(1, false).err();
+            let value = by_value.value(false).err();
+            let ruling = shot.referee(&of.rules, call, 0).err();
+            let errors: Vec<Error> = [plan, value, ruling].into_iter().flatten().collect();
+            assert!(!errors.is_empty(), "{what}");
+            for error in errors {
+                let said = format!("panicked: in {what}");
+                assert!(error.fault.ends_with(&said), "{error:?}");
+            }
+        }
+        *PANICS_IN.lock().unwrap() = "";
+        assert!(of.plan(1, false).is_ok());
+        assert!(rules::<Drill>().value.is_none());
     }
 
     #[test]
@@ -339,7 +572,7 @@ mod tests {
         };
         cue.speed = 2.0;
         aim(&table, &balls, &mut pot, &mut cue, &options).unwrap();
-        assert_eq!(pot.is, sys::CAROM_POT_FALLS);
+        assert_eq!(pot.is, PotIs::Falls.into());
         let whole = shoot(&table, &balls, &cue, &options).unwrap();
         assert_eq!(whole.facts().down & 2, 2);
         let mut parts = shoot(
@@ -352,7 +585,7 @@ mod tests {
             },
         )
         .unwrap();
-        while parts.status() == sys::CAROM_STOPPED_AT_TIME {
+        while parts.status() == Status::StoppedAtTime {
             let time_most = parts.time() + 0.2;
             parts
                 .resume(
@@ -368,7 +601,7 @@ mod tests {
         for (one, other) in parts.last().iter().zip(whole.last()) {
             assert_eq!((one.r, one.w), (other.r, other.w));
         }
-        assert_eq!(parts.resume(&table, &options).unwrap(), sys::CAROM_OK);
+        assert_eq!(parts.resume(&table, &options).unwrap(), Status::Ok);
         assert!(whole.clone().resume(&table, &options).is_err());
         let player = unsafe { sys::carom_player_fargo(400.0) };
         assert_ne!(strike(&player, 1, 0, &cue).phi, cue.phi);

@@ -1,7 +1,7 @@
 //! Recordings: games that verify themselves. docs/using/games.md has the format.
 use crate::{
-    check, count_of, sys, text, Cue, Error, Facts, Options, RulesState, Ruling, Shot, ShotBall,
-    Table,
+    check, count_of, status_of, sys, text, Cue, Error, Facts, Options, RulesKind, RulesState,
+    Ruling, Shot, ShotBall, Status, Table,
 };
 use std::os::raw::c_char;
 
@@ -62,16 +62,23 @@ impl Recording {
     }
 
     /// How a game stands for the player at the table, 0 or 1. Returns the line.
-    pub fn stand(&mut self, rules: i32, state: &RulesState, player: i64) -> Result<String, Error> {
-        (self.record.rules, self.record.player) = (i64::from(rules), player);
+    pub fn stand(
+        &mut self,
+        rules: RulesKind,
+        state: &RulesState,
+        player: i64,
+    ) -> Result<String, Error> {
+        (self.record.rules, self.record.player) = (rules as i64, player);
         self.record.standing = *state;
         self.line(sys::CAROM_RECORD_GAME)
     }
 
-    /// The state of the last line of `stand`; with it the rules, a carom_rules_kind, and who is at
-    /// the table.
-    pub fn standing(&self) -> (i64, &RulesState, i64) {
-        (self.record.rules, &self.record.standing, self.record.player)
+    /// The state of the last line of `stand`; with it the rules, and who is at the table.
+    pub fn standing(&self) -> (Option<RulesKind>, &RulesState, i64) {
+        let of = &self.record;
+        let rules = i32::try_from(of.rules).ok();
+        let rules = rules.and_then(|one| RulesKind::try_from(one).ok());
+        (rules, &of.standing, of.player)
     }
 
     /// The last shot that was played or read, with its events; of one that went on, from its start.
@@ -117,21 +124,13 @@ impl Recording {
 
     fn play(&mut self, kind: sys::carom_record_kind) -> sys::carom_status {
         let (before, goes_on) = (self.record.clone(), kind == sys::CAROM_RECORD_CONTINUE);
-        let count = before.count.clamp(0, i64::from(sys::CAROM_BALLS_MOST)) as usize;
-        let begun = self.last.take().filter(|_| goes_on);
-        let mut shot = begun.unwrap_or_else(|| Shot::begun(&before.table, &[], false));
         let record: *mut sys::carom_record = &mut *self.record;
-        let room = shot.events.len() + 256;
-        let played = shot.follow(room, |_, _, to| unsafe {
-            *record = *before;
-            sys::carom_record_play(record, kind, to)
-        });
-        let of = &self.record;
-        shot.facts = of.facts;
-        shot.balls = of.balls[..count].to_vec();
-        shot.last = of.r#final[..count].to_vec();
-        self.last = Some(shot);
-        played.unwrap_or_else(|error| error)
+        unsafe {
+            Shot::of_record(record, &mut self.last, goes_on, |to| {
+                *record = *before;
+                sys::carom_record_play(record, kind, to)
+            })
+        }
     }
 
     fn line(&mut self, kind: sys::carom_record_kind) -> Result<String, Error> {
@@ -140,7 +139,7 @@ impl Recording {
         let size = unsafe { sys::carom_record_write(&mut *self.record, kind, to, line.len()) };
         if size == 0 {
             return Err(Error {
-                status: sys::CAROM_ERROR_RECORD,
+                status: Status::ErrorRecord,
                 fault: "this line cannot stand here".to_string(),
             });
         }
@@ -156,7 +155,7 @@ impl Recording {
             unsafe { sys::carom_record_read(record, line.as_ptr() as *const c_char, line.len()) };
         if status < 0 {
             return Err(Error {
-                status,
+                status: status_of(status),
                 fault: text(record.fault.as_ptr()),
             });
         }
@@ -198,19 +197,19 @@ impl Recording {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{cue, rack, table};
+    use crate::{cue, rack, table, Game, RackKind, TableKind};
 
     #[test]
     fn what_is_written_is_read_with_the_same_bits() {
-        let table = table(sys::CAROM_TABLE_POOL_9FT).unwrap();
-        let balls = rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 1).unwrap();
+        let table = table(TableKind::Pool9ft).unwrap();
+        let balls = rack(RackKind::Nineball, &table, 1e-4, 1).unwrap();
         let mut game = Recording::default();
         assert!(game.end().is_err());
         let mut lines = game.begin(&table, &balls, &Options::default()).unwrap();
         for speed in [8.0, 3.0] {
             let stroke = Cue {
                 speed,
-                ..cue(sys::CAROM_GAME_POOL)
+                ..cue(Game::Pool)
             };
             lines += &game.hand(0).unwrap();
             lines += &game.place(0, 0.5, 0.3).unwrap();
