@@ -22,7 +22,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BEST = 5, TRIED_MOST = 1000, SHOTS_OF_RATING = 300 };
+enum { BEST = 5, TRIED_MOST = 1000 };
 
 typedef struct plan_job {
   shoot_flags from;        /* --threads, --output; and a layout from words */
@@ -294,8 +294,6 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
 
   carom_plan_options options = job->plan;
   options.threads = job->from.shared.options.threads;
-  if (job->from.shared.player.rated && options.shots == 0)
-    options.shots = SHOTS_OF_RATING;
   carom_plan_job asked = {.table = &line->table->table,
                           .balls = line->ball,
                           .count = line->count,

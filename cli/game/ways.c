@@ -30,6 +30,9 @@ bool player_of(const given_player *given, carom_player *player) {
     *player = carom_player_fargo(given->rating);
   else
     *player = carom_player_of(given->errs ? given->scale : 1.0);
+
+  /* a player who is advised thinks of all strokes */
+  player->only_pots = player->shots = 0.0;
   return true;
 }
 

@@ -442,9 +442,9 @@ static OPTION_SET(set_player) {
   given->rated = true;
   if (!set_number(row, text, &given->rating))
     return false;
-  const bool good = given->rating >= 300.0 && given->rating <= 850.0;
+  const bool good = given->rating >= 200.0 && given->rating <= 850.0;
   if (!good)
-    complain("--%s: it must be 300 to 850, not %g", row->name, given->rating);
+    complain("--%s: it must be 200 to 850, not %g", row->name, given->rating);
   return good;
 }
 
@@ -507,8 +507,7 @@ ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
     "them");
 
 ROW(option_player, "player", player, 0, "RATING", set_player, 0, ANY_KIND,
-    "a player with this Fargo rating, 300 to 850, such as 500. The rating holds for plans of 300 "
-    "shots, which is then the default; with more shots the player is stronger");
+    "a player with this Fargo rating, 200 to 850, such as 500");
 ROW(option_player_errors, "errors", player, 0, "SCALE", set_errors, 0, ANY_KIND,
     "a player with these errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE (default 1)");
 

@@ -45,19 +45,31 @@ typedef struct carom_player {
   double speed_most;  /* and 0: 8 times 2/(1 + e), or speed_least if that is higher: 9.2 with a
                          tip of leather. */
   double tip_most;    /* bound of |a| and |b|, radii, 0 to 1. 0: 0.5. */
-  double reserved[3]; /* must be 0. */
+  double growth;      /* s/m: how the errors of phi, a and b grow with the speed v of the cue, by
+                         sqrt(1 + (growth v)^2), for a tip as above; that of phi also grows as
+                         1/cos(theta) with the elevation. 0: they are the same for all strokes.
+                         Above 0, a plan's strokes except breaks are at most half as fast as
+                         speed_most. */
+  double only_pots; /* share of the strokes in which the player thinks of nothing but potting, 0 to
+                         1. carom_plan() and carom_plan_hand() draw from their seed whether the
+                         stroke is one of them. They then plan as if the opponent made every ball
+                         and the player 90 % of the later pots, and carom_choice.value is the chance
+                         that this pays. 0 for advice to a player. */
+  double shots;     /* of this player's plans, if the options have neither shots nor seconds: 100 to
+                         2000. 0: 2000. */
 } carom_player;
 
-/* A player with all errors proportional to `scale` >= 0: 0.1 m/s, 0.1 degrees of direction and
- * of elevation, and 0.003 radii each way, times scale. These are the errors of a public
- * benchmark of eight-ball (AI3603, 2025). One scale for all errors is a convention. The scale
- * is not checked here: carom_plan() refuses a player with an error that is not 0 to 1000. */
+/* A player with all errors proportional to `scale` >= 0: 0.1 m/s, 0.1 degrees of direction and of
+ * elevation, and 0.003 radii each way, times scale, for all strokes. These are the errors of a
+ * public benchmark of eight-ball (AI3603, 2025). One scale for all errors is a convention. The
+ * scale is not checked here: carom_plan() refuses a player with an error that is not 0 to 1000. */
 CAROM_API carom_player carom_player_of(double scale);
 
-/* A player with a Fargo rating, 300 to 850; other numbers count as the nearest of these. With plans
- * of 300 shots this player runs out eight-ball about as often as sources report for the rating, on
- * the table CAROM_TABLE_POOLTOOL, from ball in hand after a break that pots nothing. More shots
- * make the player stronger. docs/understanding/plan.md has the sources. */
+/* A player with a Fargo rating, 200 to 850; other numbers count as the nearest of these. The player
+ * has errors that grow with the speed, a number of shots of a plan, and a share of strokes that
+ * only pot, and plays as rated if plans have neither shots nor seconds in their options. The
+ * numbers are chosen so that a player beats one who is 100 points weaker in 2 of 3 games.
+ * docs/understanding/plan.md has the numbers, and how often each player wins and runs out. */
 CAROM_API carom_player carom_player_fargo(double rating);
 
 /* Adds errors to the stroke that a player intends. The errors follow from `seed` and the number of
@@ -79,12 +91,13 @@ typedef struct carom_rating {
   int64_t row;            /* index of a score that is wrong; otherwise -1. */
 } carom_rating;
 
-/* Estimates the rating of a player, 300 to 850, from games. A player with rating r beats one with
+/* Estimates the rating of a player, 200 to 850, from games. A player with rating r beats one with
  * rating d with odds of 2^((r - d)/100) : 1. Before the first game, ratings have a normal
- * distribution around 400 with a standard deviation of 150, cut at 300 and 850; so without games
- * the mean is 463. Returns CAROM_OK; CAROM_ERROR_NULL; or CAROM_ERROR_SCORE for a score or a
- * negative count, with rating->row, which is -1 for the count, and NaN for the numbers. It takes
- * about 0.1 ms a row, for any number of games. */
+ * distribution around 400 with a standard deviation of 150, cut at 200 and 850: a stated choice, by
+ * which the mean without games is 426. Such a player is unrated. Returns CAROM_OK;
+ * CAROM_ERROR_NULL; or CAROM_ERROR_SCORE for a score or a negative count, with rating->row, which
+ * is -1 for the count, and NaN for the numbers. It takes about 0.1 ms a row, for any number of
+ * games. */
 CAROM_API carom_status carom_rating_of(const carom_score *scores, int64_t count,
                                        carom_rating *rating);
 
@@ -416,7 +429,8 @@ CAROM_API size_t carom_ruling_string(const carom_ruling *ruling, char *text, siz
 /* All zero means the defaults. */
 typedef struct carom_plan_options {
   int64_t shots;                /* about how many shots of the whole layout a plan plays, 100 to
-                                   1,000,000. 0: 2000; with `seconds` 200,000. */
+                                   1,000,000. 0: with `seconds` 200,000, otherwise those of the
+                                   player, or 2000. */
   double scan;                  /* share of the shots for strokes in all directions, at most 0.9. 0:
                                    0.5. Below 0: none. */
   uint64_t seed;                /* seed of the errors, which are a function of the seed, the stage

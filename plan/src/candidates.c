@@ -26,7 +26,9 @@ static const double scan_tip[TIPS][2] = {
 /* Keeps a stroke within what the player can do. */
 static void bound(const search *plan, candidate *c) {
   const carom_player *player = &plan->player;
-  c->speed = carom_within(c->speed, player->speed_least, player->speed_most);
+  const bool is_calm = player->growth > 0.0 && !plan->breaks;
+  const double most = player->speed_most * (is_calm ? 0.5 : 1.0);
+  c->speed = carom_within(c->speed, player->speed_least, fmax(most, player->speed_least));
   c->a = carom_within(c->a, -player->tip_most, player->tip_most);
   c->b = carom_within(c->b, -player->tip_most, player->tip_most);
 }

@@ -43,7 +43,7 @@ enum { PLACES = 60 }; /* of a cue ball in hand, of which PLACES_PLANNED are plan
 static const carom_plan_options no_options = {0};
 static const carom_shot_options no_shot = {0};
 /* FIRST: of the first round of doubling */
-enum { SHOTS_USUAL = 2000, SHOTS_IN_TIME = 200000, FIRST = 100, SPARE = 160 };
+enum { SHOTS_LEAST = 100, SHOTS_USUAL = 2000, SHOTS_IN_TIME = 200000, FIRST = 100, SPARE = 160 };
 static const double player_most = 1000.0; /* of each number of a player */
 
 static carom_status check_options(const carom_plan_options *o) {
@@ -53,14 +53,14 @@ static carom_status check_options(const carom_plan_options *o) {
 }
 
 static bool good_player(const carom_player *p) {
-  const double numbers[] = {p->speed, p->speed_share, p->phi,        p->theta,   p->a,
-                            p->b,     p->speed_least, p->speed_most, p->tip_most};
+  const double numbers[] = {p->speed,    p->speed_share, p->phi,         p->theta,
+                            p->a,        p->b,           p->speed_least, p->speed_most,
+                            p->tip_most, p->growth,      p->only_pots};
   bool good = p->tip_most <= 1.0 && (p->speed_most == 0.0 || p->speed_most >= p->speed_least);
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
     good &= numbers[k] >= 0.0 && numbers[k] <= player_most;
-  for (size_t k = 0; k < sizeof p->reserved / sizeof p->reserved[0]; k++)
-    good &= p->reserved[k] == 0.0;
-  return good;
+  const bool has_shots = p->shots >= SHOTS_LEAST && p->shots <= SHOTS_USUAL;
+  return good && p->only_pots <= 1.0 && (p->shots == 0.0 || has_shots);
 }
 
 static int64_t shots_of(const carom_plan_options *o) {
@@ -176,6 +176,8 @@ static void take_job(search *plan, const carom_plan_job *job) {
   plan->job = *job;
   plan->options = *options_of(job);
   plan->player = carom_player_bounded(job->player, job->cue);
+  if (plan->options.shots == 0 && plan->options.seconds == 0.0)
+    plan->options.shots = (int64_t)job->player->shots;
   plan->shot = job->shot != NULL ? *job->shot : no_shot;
   plan->shot.threads = 0;
   plan->shot.stop_at = 0;
@@ -292,6 +294,17 @@ static carom_status prepare_job(const carom_plan_job *job, bool in_hand, search 
     carom_search_tables(plan, (carom_drawn_table *)(plan->outcome + plan->room));
   *prepared = plan;
   return CAROM_OK;
+}
+
+/* A player who thinks of nothing but potting believes in later pots, and that a turn which ends
+ * before is lost. */
+static void think(search *plan) {
+  if (!carom_player_only_pots(&plan->player, plan->options.seed))
+    return;
+  plan->options.chance_me = 0.9;
+  plan->options.chance_opponent = 1.0;
+  carom_view_make(&plan->view, &plan->job, &plan->options);
+  plan->foul_value = foul_value_of(plan);
 }
 
 /* ---- What callers have */
@@ -486,6 +499,7 @@ carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int ro
   if (status != CAROM_OK)
     return status;
   plan->fingerprint = fingerprint_of(job);
+  think(plan);
   plan->go = plan_here;
   carom_search_begin_doubling(plan, FIRST, shots_of(&plan->options));
   return play_slice(plan, choices, room, found);
@@ -607,6 +621,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   carom_status status = prepare_job(job, true, &plan);
   if (status != CAROM_OK)
     return status;
+  think(plan);
   memcpy(plan->hand, job->balls, (size_t)job->count * sizeof *plan->hand);
   if (!find_places(plan, low, high))
     return CAROM_ERROR_OFF_TABLE;

@@ -1,11 +1,13 @@
 /* Players: how their strokes differ from those that they mean. */
+#include "platform/elementary.h"
 #include "shot/shot.h"
 #include "view.h"
 
 #include <math.h>
 
-/* The stage of draws of strokes outside plans; plan.c has the others. */
-enum { DRAW_PLAYED = 4 };
+/* The stages of draws of strokes outside plans, and of what a player thinks of; plan.c has the
+ * others. */
+enum { DRAW_PLAYED = 4, DRAW_MIND = 7 };
 
 carom_player carom_player_of(double scale) {
   return (carom_player){.speed = 0.1 * scale,
@@ -15,24 +17,49 @@ carom_player carom_player_of(double scale) {
                         .b = 0.003 * scale};
 }
 
-/* Errors by rating, in steps of 50 from 300, between which they are linear.
- * docs/understanding/plan.md has the run-outs from which they follow; build/carom-lab plan --racks
- * 1000 --shots 300 --errors E makes one of them again. */
+/* The numbers of players by rating, in steps of 100 from 200. Between them shots and the share are
+ * linear, and the error of aim is exponential. docs/understanding/plan.md has the games of which
+ * they come. */
 carom_player carom_player_fargo(double rating) {
-  static const double errors[] = {12.4, 8.5,  5.8,  4.1,  3.06, 2.48,
-                                  1.99, 1.51, 1.15, 0.81, 0.58, 0.36};
-  enum { LAST = sizeof errors / sizeof errors[0] - 1 };
-  double at = (rating - 300.0) / 50.0;
-  at = at > 0.0 ? at : 0.0;
-  const int k = at < (double)LAST ? (int)at : LAST - 1;
-  const double part = at < (double)LAST ? at - k : 1.0;
-  return carom_player_of(errors[k] + part * (errors[k + 1] - errors[k]));
+  /* the error of aim of a stroke of 2 m/s, degrees; shots; the share of strokes that only pot */
+  static const double at_rating[][3] = {
+      {0.978, 146.0, 1.0},  {0.621, 163.0, 0.97}, {0.394, 183.0, 0.92}, {0.25, 205.0, 0.79},
+      {0.159, 230.0, 0.57}, {0.101, 257.0, 0.31}, {0.05, 500.0, 0.0},   {0.025, 500.0, 0.0}};
+  enum { STEPS = sizeof at_rating / sizeof at_rating[0] - 1 };
+  static const double least = 200.0, most = 850.0, step = 100.0, growth = 0.25, speed = 2.0;
+  const double r = rating > least ? carom_within(rating, least, most) : least;
+  const int k = (int)carom_min((int64_t)((r - least) / step), STEPS - 1);
+  const double part = (r - least) / step - k, *low = at_rating[k], *high = at_rating[k + 1];
+
+  /* the other errors of a stroke of this speed, by a power of that of aim */
+  const double aim = low[0] * carom_exp(part * carom_log(high[0] / low[0]));
+  const double power = carom_exp(0.7 * carom_log(aim / 0.1)), tip = 0.02 * power;
+  const double grown = sqrt(1.0 + growth * speed * growth * speed);
+  return (carom_player){.speed = 0.02,
+                        .speed_share = carom_within(0.035 * power, 0.0, 0.25),
+                        .phi = aim / grown,
+                        .theta = aim,
+                        .a = tip / grown,
+                        .b = tip / grown,
+                        .growth = growth,
+                        .only_pots = low[2] + part * (high[2] - low[2]),
+                        .shots = round(low[1] + part * (high[1] - low[1]))};
+}
+
+double carom_player_growth(const carom_player *player, double speed) {
+  const double grows = player->growth * speed;
+  return sqrt(1.0 + grows * grows);
+}
+
+bool carom_player_only_pots(const carom_player *player, uint64_t seed) {
+  return carom_uniform(seed, DRAW_MIND, 0, 0) < player->only_pots;
 }
 
 carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue) {
   carom_player bounded = *player;
   const double gain = carom_tip_gain(cue), usual_least = 0.5 * gain, usual_most = 8.0 * gain;
   bounded.speed = gain * player->speed;
+  bounded.growth = player->growth / gain;
   const double least = player->speed_least, most = player->speed_most;
   const bool is_slow = most > 0.0 && most < usual_least;
   if (!(least > 0.0))
@@ -46,11 +73,19 @@ carom_player carom_player_bounded(const carom_player *player, const carom_cue *c
 void carom_player_errs(const carom_player *player, const double z[6], carom_cue *cue) {
   const double share = player->speed_share * cue->speed;
   const double speed = sqrt(player->speed * player->speed + share * share);
+  double grown = 1.0, turned = 1.0;
+  if (player->growth > 0.0) {
+    /* the tip errs across the stick, so a steep stick turns farther; 80 degrees are the most */
+    double sine, cosine;
+    carom_sincos(cue->theta * degree, &sine, &cosine);
+    grown = carom_player_growth(player, cue->speed);
+    turned = grown / carom_within(cosine, 0.17, 1.0);
+  }
   cue->speed = carom_within(cue->speed + z[0] * speed, player->speed_least, player->speed_most);
-  cue->phi += z[1] * player->phi;
+  cue->phi += z[1] * player->phi * turned;
   cue->theta = carom_within(cue->theta + z[2] * player->theta, 0.0, 90.0);
-  cue->a = carom_within(cue->a + z[3] * player->a, -player->tip_most, player->tip_most);
-  cue->b = carom_within(cue->b + z[4] * player->b, -player->tip_most, player->tip_most);
+  cue->a = carom_within(cue->a + z[3] * player->a * grown, -player->tip_most, player->tip_most);
+  cue->b = carom_within(cue->b + z[4] * player->b * grown, -player->tip_most, player->tip_most);
 }
 
 void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t number,

@@ -12,7 +12,7 @@
 #include <math.h>
 
 enum { CELLS = 1024 };
-static const double LEAST = 300.0, MOST = 850.0, LN2 = 0x1.62e42fefa39efp-1;
+static const double LEAST = 200.0, MOST = 850.0, LN2 = 0x1.62e42fefa39efp-1;
 
 /* l(r), and its slope. */
 __attribute__((noinline)) static double likely(const carom_score *row, int64_t count, double r,

@@ -73,8 +73,11 @@ void carom_view_make(carom_view *view, const carom_plan_job *job,
   }
   const carom_player *players[2] = {job->player, other};
   for (int who = 0; who < 2; who++) {
-    view->sigma[who] = players[who]->phi * (pi / 180.0);
-    view->log_error[who] = carom_log(players[who]->phi > 0.01 ? players[who]->phi / 0.1 : 0.1);
+    /* the error of a usual pot */
+    static const double usual_speed = 2.0;
+    const double phi = players[who]->phi * carom_player_growth(players[who], usual_speed);
+    view->sigma[who] = phi * (pi / 180.0);
+    view->log_error[who] = carom_log(phi > 0.01 ? phi / 0.1 : 0.1);
     view->given[who] = who == 0 ? options->chance_me : options->chance_opponent;
   }
   const double mean = carom_chance_usual(view);

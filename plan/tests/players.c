@@ -37,19 +37,86 @@ TEST(players_of_any_tip) {
   }
 }
 
-/* Errors fall with the rating, evenly between its steps, and stay beyond the ends. */
+/* Errors fall with the rating, shots and sense rise, and all stay beyond the ends. An error of aim
+ * of 0.25 degrees at 2 m/s is a 500. */
 TEST(ratings) {
-  double last = INFINITY;
-  for (int rating = 300; rating <= 850; rating += 5) {
+  carom_player last = {.phi = INFINITY, .only_pots = 1.0};
+  for (int rating = 200; rating <= 850; rating += 5) {
     const carom_player p = carom_player_fargo(rating);
-    ck_assert(p.phi < last && p.phi > 0.0 && p.phi == p.speed && p.a == p.b);
-    last = p.phi;
+    ck_assert(p.phi < last.phi && p.phi > 0.0 && p.a == p.b);
+    ck_assert(p.shots >= last.shots && p.only_pots <= last.only_pots && p.only_pots >= 0.0);
+    last = p;
   }
-  ck_assert(carom_player_fargo(200.0).phi == carom_player_fargo(300.0).phi);
-  ck_assert(carom_player_fargo(900.0).phi == last);
-  const double half = carom_player_fargo(525.0).phi,
-               ends = carom_player_fargo(500.0).phi + carom_player_fargo(550.0).phi;
-  ck_assert(fabs(half - 0.5 * ends) < 1e-15);
+  const carom_player ends[2] = {carom_player_fargo(200.0), carom_player_fargo(850.0)};
+  const carom_player beyond[3] = {carom_player_fargo(100.0), carom_player_fargo(900.0),
+                                  carom_player_fargo(NAN)};
+  ck_assert(memcmp(&ends, &beyond, sizeof ends) == 0);
+  ck_assert(beyond[2].phi == ends[0].phi);
+  const carom_player league = carom_player_fargo(500.0);
+  ck_assert_double_eq_tol(league.phi * sqrt(1.25), 0.25, 1e-12);
+  ck_assert_double_eq_tol(league.speed_share, 0.035 * pow(2.5, 0.7), 1e-12);
+  ck_assert_double_eq_tol(carom_player_fargo(450.0).phi / league.phi, sqrt(0.394 / 0.25), 1e-12);
+}
+
+/* Errors of aim and of the tip grow with the speed, that of aim with the elevation too; but not
+ * those of a player without growth. */
+TEST(errors_grow) {
+  static const double speed[2] = {1.0, 4.0}, theta[2] = {0.0, 60.0};
+  for (int grows = 0; grows < 2; grows++) {
+    const carom_player errs = {.phi = 0.1, .a = 0.001, .growth = grows ? 0.25 : 0.0};
+    double off[4], side[4];
+    for (int k = 0; k < 4; k++) {
+      carom_cue made = {.speed = speed[k % 2], .theta = theta[k / 2], .tip_restitution = 1.0};
+      carom_player_strike(&errs, 3, 8, &made);
+      off[k] = made.phi;
+      side[k] = made.a;
+    }
+    const double more = grows ? sqrt((1.0 + 1.0) / (1.0 + 0.0625)) : 1.0;
+    ck_assert_double_eq_tol(off[1] / off[0], more, 1e-12);
+    ck_assert_double_eq_tol(side[1] / side[0], more, 1e-12);
+    ck_assert_double_eq_tol(off[2] / off[0], grows ? 2.0 : 1.0, 1e-12);
+    ck_assert(side[2] == side[0]);
+  }
+}
+
+/* A player who thinks of nothing but potting plans as one whose opponent makes every ball; a share
+ * of strokes is drawn by the seed; the player's shots count where the options have none, and a
+ * player whose errors grow never smashes. */
+TEST(players_choose) {
+  make_layout(17, 3);
+  player = carom_player_fargo(400.0);
+  player.shots = 300.0;
+  options = (carom_plan_options){.seed = 5};
+  carom_choice choice[2];
+  int found;
+  int64_t differ = 0;
+  for (uint64_t seed = 0; seed < 8; seed++) {
+    options = (carom_plan_options){.seed = seed};
+    make_memory();
+    player.only_pots = 0.5;
+    player.shots = 300.0;
+    ck_assert_int_eq(carom_plan(&job, &choice[0], 1, &found), CAROM_OK);
+    ck_assert(choice[0].cue.speed <= 4.0 * 2.0 / (1.0 + CAROM_TIP_LEATHER) + 1e-12);
+    edge_free(&memory);
+
+    /* the same by the options of a caller: of a stroke that only pots, or of any other */
+    int same = 0;
+    for (int pots = 0; pots < 2; pots++) {
+      options.shots = 300;
+      options.chance_me = pots ? 0.9 : 0.0;
+      options.chance_opponent = pots ? 1.0 : 0.0;
+      player.only_pots = player.shots = 0.0;
+      make_memory();
+      ck_assert_int_eq(carom_plan(&job, &choice[1], 1, &found), CAROM_OK);
+      edge_free(&memory);
+      if (memcmp(&choice[0], &choice[1], sizeof choice[0]) == 0) {
+        same++;
+        differ += pots;
+      }
+    }
+    ck_assert_int_eq(same, 1);
+  }
+  ck_assert(differ > 0 && differ < 8);
 }
 
 /* A player's strokes have his errors, and stay within his bounds. */
@@ -85,13 +152,13 @@ TEST(rating_by_games) {
   static const struct {
     carom_score scores[2];
     double rating[3];
-  } known[] = {{{{0}}, {463.32767, 308.59761, 708.05045}},
-               {{{500, 7, 3}, {600, 2, 4}}, {541.07907, 409.73742, 672.87917}},
+  } known[] = {{{{0}}, {426.37834, 219.09101, 696.51005}},
+               {{{500, 7, 3}, {600, 2, 4}}, {541.01983, 409.47716, 672.87243}},
                {{{400, 200, 100}}, {498.97971, 464.89153, 533.72511}},
                {{{800, 1000, 0}}, {849.65026, 848.71142, 849.99113}},
-               {{{300, 0, 1000}}, {300.28833, 300.00731, 301.06272}},
+               {{{300, 0, 1000}}, {200.43274, 200.01098, 201.59361}},
                {{{500, 1e9, 1e9}}, {500.0, 499.98735, 500.01265}},
-               {{{0, 5, 3.5}, {1000, 1, 2}}, {366.93143, 302.16848, 509.04914}}};
+               {{{0, 5, 3.5}, {1000, 1, 2}}, {298.20865, 204.24671, 470.35038}}};
   carom_rating rating;
   for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
     ck_assert_int_eq(carom_rating_of(known[k].scores, 2, &rating), CAROM_OK);

@@ -20,9 +20,9 @@ static carom_plan_options options;
 static carom_plan_job job;
 
 static carom_player make_player(void) {
-  carom_player p = choice(2) ? carom_player_of(number(0, 3)) : carom_player_fargo(number(300, 850));
+  carom_player p = choice(2) ? carom_player_of(number(0, 3)) : carom_player_fargo(number(200, 850));
   if (choice(4) == 0)
-    (&p.speed)[choice(9)] = number(0, 1);
+    (&p.speed)[choice(11)] = number(0, 1);
   return p;
 }
 

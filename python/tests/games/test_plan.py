@@ -316,9 +316,9 @@ def test_the_opponent_counts():
 
 
 def test_ratings():
-    errors = [float(carom.player(fargo=rating)["phi"]) for rating in (300, 400, 500, 600, 700, 850)]
+    errors = [float(carom.player(fargo=rating)["phi"]) for rating in (200, 400, 500, 600, 700, 850)]
     assert errors == sorted(errors, reverse=True) and errors[0] > 5 * errors[-1] > 0.0
-    with pytest.raises(ValueError, match="fargo: it must be 300 to 850, not 0"):
+    with pytest.raises(ValueError, match="fargo: it must be 200 to 850, not 0"):
         carom.player(fargo=0)
 
 
@@ -897,7 +897,7 @@ def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(call, go
 
 def test_rating():
     """A rating by games is that of a fine sum over all ratings; a score in error is named."""
-    random, r = np.random.default_rng(7), np.linspace(300, 850, 200_001)
+    random, r = np.random.default_rng(7), np.linspace(200, 850, 200_001)
     for rows in [[], *(random.uniform(0, [1000, 30, 30], (n, 3)) for n in (1, 2, 5))]:
         logs = -((r - 400) ** 2) / 45000 - sum(
             w * np.logaddexp(0, x) + n * np.logaddexp(0, -x)

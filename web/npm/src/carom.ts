@@ -1073,8 +1073,8 @@ export class Carom {
 
   /**
    * A player by his errors: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each
-   * way, times `errors`. Or by a Fargo rating,
-   * 300 to 850, such as 500.
+   * way, times `errors`. Or by a Fargo rating, 200 to 850, such as 500: its plans then play as
+   * rated where `shots` is not given; `onlyPots: 0` makes plans that advise such a player.
    */
   player(of: { errors?: number; fargo?: number } = {}): Player {
     refuseUnknown(of, KEYS.player);
@@ -1082,7 +1082,7 @@ export class Carom {
   }
 
   /**
-   * The Fargo rating of a player by games won and lost, 300 to 850, with its interval of 95 %.
+   * The Fargo rating of a player by games won and lost, 200 to 850, with its interval of 95 %.
    * Without games it is a guess.
    */
   rating(scores: readonly Score[]): Rating {

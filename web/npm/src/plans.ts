@@ -53,7 +53,15 @@ const of = (state: object, keys: readonly string[]): object =>
     Object.entries(state).filter(([key, value]) => keys.includes(key) && value !== undefined),
   );
 const SCORE = layout.carom_score;
-const BOUNDS = { speedShare: 0, speedLeast: 0, speedMost: 0, tipMost: 0, reserved: [0, 0, 0] };
+const BOUNDS = {
+  speedShare: 0,
+  speedLeast: 0,
+  speedMost: 0,
+  tipMost: 0,
+  growth: 0,
+  onlyPots: 0,
+  shots: 0,
+};
 
 /** What the calls of this file need of the library. */
 export interface Host {
@@ -138,17 +146,11 @@ export class Plans {
     const errors = given ?? 1;
     if (!(errors >= 0 && errors < Infinity))
       throw new RangeError(`errors: it must be finite and at least 0, not ${errors}`);
-    if (fargo !== undefined && !(fargo >= 300 && fargo <= 850))
-      throw new RangeError(`fargo: it must be 300 to 850, not ${fargo}`);
+    if (fargo !== undefined && !(fargo >= 200 && fargo <= 850))
+      throw new RangeError(`fargo: it must be 200 to 850, not ${fargo}`);
     if (fargo === undefined) this.#memory.exports.carom_player_of(this.#at.player, errors);
     else this.#memory.exports.carom_player_fargo(this.#at.player, fargo);
-    const read = readStruct<Player & { reserved?: number[] }>(
-      this.#memory,
-      this.#at.player,
-      "carom_player",
-    );
-    delete read.reserved;
-    return read;
+    return readStruct<Player>(this.#memory, this.#at.player, "carom_player");
   }
 
   rating(scores: readonly Score[]): Rating {

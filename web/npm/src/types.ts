@@ -203,7 +203,10 @@ export type Measures = C.Measures;
 export type RackName = C.RackKind;
 
 /** How the strokes of a player differ from those that are meant. What is missing is 0. */
-export type Player = Optional<C.Player, "speedShare" | "speedLeast" | "speedMost" | "tipMost">;
+export type Player = Optional<
+  C.Player,
+  "speedShare" | "speedLeast" | "speedMost" | "tipMost" | "growth" | "onlyPots" | "shots"
+>;
 
 /** Games won and lost against a player of a Fargo rating, 0 to 1000. */
 export type Score = C.Score;

@@ -27,7 +27,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await expect
       .poll(() => text(one, "said"))
       .toMatch(
-        /^Hint: ball [19] into the .*\. An average player \(\d+\) keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/,
+        /^Hint: ball [19] into the .*\. An unrated player \(\d+\) keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/,
       );
     // A stroke that meets nothing: a foul, which the chances and the review tell.
     await turnTo(one, 200);
@@ -35,7 +35,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await expect
       .poll(() => text(one, "said"))
       .toMatch(
-        /^This stroke: An average player \(\d+\) keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/,
+        /^This stroke: An unrated player \(\d+\) keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/,
       );
     await one.locator("#shoot").click();
     await expect

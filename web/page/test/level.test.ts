@@ -83,7 +83,7 @@ describe.runIf(browserPath !== undefined)("by level", () => {
     );
     await one.locator("#new-game").click();
     expect(await text(one, "new-note")).toMatch(
-      /You have no rating yet\. Until your first game the page takes you for an average player, a 4\d\d\./,
+      /You are unrated until your first game\. Hints are those for a 426, the mean of all players\./,
     );
     await one.locator("#rate").selectOption("1000");
     await one.locator("#menu .close").click();

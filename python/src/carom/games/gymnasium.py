@@ -395,7 +395,7 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
         return tuple(self._games.render(game) for game in range(self.num_envs))
 
 
-_ERRORS = (0.2, 0.2, 0.006)  # degrees, m/s and radii: those of carom.player(fargo=600)
+_ERRORS = (0.2, 0.2, 0.006)  # degrees, m/s and radii: those of carom.player(2)
 GAMES: dict[str, dict[str, Any]] = {
     "carom/Potting-v1": {},
     "carom/PotOne-v1": {"balls": 1, "strokes": 1, "noise": _ERRORS},
@@ -407,8 +407,8 @@ GAMES: dict[str, dict[str, Any]] = {
 }
 """The ids, and the arguments of `GameEnv` that they have.
 
-Except in the first, strokes err as those of a player with a Fargo rating of 600. The opponent of
-matches has the errors of a 500 and plays the best of 12 strokes straight at balls, so that a step
+Except in the first, strokes err as those of `carom.player(2)`. The opponent of matches
+has the errors of a Fargo rating of 500 and plays the best of 12 strokes straight at balls, so that a step
 takes some milliseconds; `opponent=` and `opponent_shots=` make him weaker or stronger.
 """
 _registry = cast("Any", gymnasium)

@@ -52,7 +52,7 @@ class Match:
     opponent_shots : int
         By how many shots he finds a stroke. With fewer than 100 he plays the best of so many strokes
         straight at balls, which takes a millisecond. From 100 on `carom.plan` finds it, which takes
-        10 to 30 milliseconds with 300 shots, of which the ratings are.
+        10 to 30 milliseconds with 300 shots.
     **rules
         As for `Pool`: the table, and the noise of the agent.
     """

@@ -83,9 +83,10 @@ def player(errors: float | None = None, *, fargo: float | None = None) -> dtypes
         0.003 radii each way, times errors. Default: 1. The speed is that of a cue whose tip loses
         nothing; others err by 2/(1 + tip_restitution) times as much.
     fargo : float, optional
-        A Fargo rating, 300 to 850, instead: the errors with which plans of 300 shots run out
-        eight-ball as often as players of this rating are said to (docs/understanding/plan.md). More
-        shots make him stronger.
+        A Fargo rating, 200 to 850, instead: errors that grow with the speed, the shots of a plan and
+        `only_pots`, the share of strokes in which the player thinks of nothing but potting. Such
+        players beat those who are 100 points weaker in about 2 of 3 games, if `shots` of `plan` is
+        not given (docs/understanding/plan.md). Set `only_pots` to 0 for a plan that advises one.
     """
     if errors is not None and fargo is not None:
         raise ValueError("errors, fargo: a player has errors or a rating, not both")
@@ -93,11 +94,11 @@ def player(errors: float | None = None, *, fargo: float | None = None) -> dtypes
         raise ValueError(f"errors: it must be finite and at least 0, not {errors}")
     if (
         fargo is not None
-        and not 300.0
-        <= (fargo := number(fargo, "fargo", "a rating of 300 to 850 is needed"))
+        and not 200.0
+        <= (fargo := number(fargo, "fargo", "a rating of 200 to 850 is needed"))
         <= 850.0
     ):
-        raise ValueError(f"fargo: it must be 300 to 850, not {fargo}")
+        raise ValueError(f"fargo: it must be 200 to 850, not {fargo}")
     made: Array = np.zeros((), dtypes.player)
     pointer("carom_player[]", made)[0] = (
         lib.carom_player_of(errors) if fargo is None else lib.carom_player_fargo(fargo)
@@ -116,11 +117,12 @@ class Rating(NamedTuple):
 
 
 def rating(scores: npt.ArrayLike) -> Rating:
-    """The Fargo rating of a player by games, 300 to 850.
+    """The Fargo rating of a player by games, 200 to 850.
 
     `scores` has a row (against, won, lost) for each opponent: the rating, 0 to 1000, and the games
     won and lost. Of ratings r and d, the odds that r wins a game are 2^((r - d) / 100) : 1; before
-    the first game ratings are normal around 400 with a spread of 150.
+    the first game ratings are normal around 400 with a spread of 150, which is a stated choice; a
+    player without games is unrated.
     """
     given = np.ascontiguousarray(as_array(scores, "scores", np.float64))
     if given.size and (given.ndim != 2 or given.shape[1] != 3):
@@ -485,7 +487,8 @@ def plan(
     opponent : ndarray of `carom.dtypes.player`, shape (), optional
         Default: he errs as the player does.
     shots : int, optional
-        That the plan plays, about: 100 to 1,000,000. Default: 2,000, and 200,000 with `seconds`.
+        That the plan plays, about: 100 to 1,000,000. Default: 200,000 with `seconds`, else those of
+        `player`, or 2,000.
     seconds : float
         At which the plan ends, if it has not played its shots by then; 0 is never. It then has one
         choice, the best so far.

@@ -50,7 +50,7 @@ function requestOf(play: Play, level: number): Request {
     names: play.names,
     options: {
       ...play.state,
-      player: playerOf(play.carom, rating),
+      player: { ...playerOf(play.carom, rating), onlyPots: 0 },
       opponent: playerOf(play.carom, isComputer(against) ? against : rating),
       shot: OPTIONS,
       seed: seed + play.entries.length,

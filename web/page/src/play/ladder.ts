@@ -55,7 +55,7 @@ export function ownRating(carom: Carom, drills: readonly Drill[]): OwnRating {
     ...(made + missed > 0 ? [`${made} of ${made + missed} tries of drills`] : []),
   ];
   const words = isGuess
-    ? `You have no rating yet. Until your first game the page takes you for an average player, a ${rating}.`
+    ? `You are unrated until your first game. Hints are those for a ${rating}, the mean of all players.`
     : `Your rating is about ${rating} (95 %: ${low} to ${high}), by ${from.join(", ")}.`;
   return { rating, isGuess, words };
 }

@@ -119,7 +119,7 @@ export function menu(
     };
     note.textContent =
       notes[against.select.value] ??
-      `The computer errs like a ${against.select.value} on the scale of Fargo ratings. ${s.training.rating().words} A 300 is a beginner, a 500 plays in a league, a 700 is a strong amateur.`;
+      `The computer plays like a ${against.select.value} on the scale of Fargo ratings. ${s.training.rating().words} A 200 is a beginner, a 500 plays in a league, a 700 is a strong amateur.`;
   }
   const start = button(
     "Start",

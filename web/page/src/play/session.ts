@@ -108,7 +108,7 @@ export function look(s: Session): void {
 /** Whom chances are told of. */
 export function wordsOfLevel(s: Pick<Session, "play" | "training">): string {
   const level = levelOf(s);
-  return s.training.rating().isGuess ? `An average player (${level})` : `A ${level}, as you are,`;
+  return s.training.rating().isGuess ? `An unrated player (${level})` : `A ${level}, as you are,`;
 }
 /** The rating of whoever sits here: his own one, or that of his errors where they are larger. */
 export function levelOf({ play, training }: Pick<Session, "play" | "training">): number {

@@ -29,8 +29,6 @@ import {
 } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfStroke } from "./state.js";
 
-/** Shots of a plan of the page's player. */
-const REPLY = 400;
 /** How long the stroke of the page's player is shown before it is played, ms. */
 const SHOWN = 700;
 /** The power after the break, m/s. */
@@ -164,7 +162,6 @@ async function choiceOf(play: Play): Promise<Choice> {
     seed: seed + play.entries.length,
     inHand: placeOf(play)!,
     best: 1,
-    shots: REPLY,
   };
   const [choice] = await far("plan", play.table, play.balls, options);
   return choice!;

@@ -3,7 +3,7 @@ import type { Choice, Table } from "carom";
 import { pocketName } from "../../../player/words.js";
 
 /** Fargo ratings that one can choose. */
-export const RATINGS = ["300", "400", "500", "600", "700", "800"];
+export const RATINGS = ["200", "300", "400", "500", "600", "700", "800"];
 export const percent = (x: number): string => `${(100 * x).toFixed(0)} %`;
 
 const BY: Partial<Record<Choice["kind"], string>> = {
