@@ -11,12 +11,13 @@
 #include "program/message.h"
 #include "program/words.h"
 #include "rows/quantities.h"
+#include "shots/ball_aim.h"
 #include "subcommands.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { SPIN, SPEED, CUT, SIDE, RESTITUTION, CLOTH, RADIUS, MASS, OBJECT_MASS, FRICTION };
+enum { SPIN, SPEED, CUT, SIDE, RESTITUTION, CLOTH, ROLL, RADIUS, MASS, OBJECT_MASS, FRICTION };
 static const scene_input inputs[] = {
     [SPIN] = {"spin", MEASURE_SPIN, "stun"},
     [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
@@ -24,6 +25,7 @@ static const scene_input inputs[] = {
     [SIDE] = {"side spin", MEASURE_SIDE, "none"},
     [RESTITUTION] = {"restitution", MEASURE_NUMBER, "0.95"},
     [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
+    [ROLL] = {"rolling resistance", MEASURE_NUMBER, "0.01"},
     [RADIUS] = {"radius of the balls", MEASURE_LENGTH, "0.028575"},
     [MASS] = {"mass of the balls", MEASURE_MASS, "0.170097"},
     [OBJECT_MASS] = {"mass of the object ball", MEASURE_OBJECT_MASS, "same"},
@@ -31,16 +33,29 @@ static const scene_input inputs[] = {
     [FRICTION + 1] = {NULL, 0, NULL}};
 
 /* How the names of quantities stand on axes. */
-enum { THROW, DEFLECTION, ROLLING_DEFLECTION, ANGLE_BETWEEN, OBJECT_SPEED, SPIN_TRANSFER, ENERGY };
-#define QUANTITIES \
-  "throw|deflection|rolling-deflection|angle-between|object-speed|spin-transfer|energy"
+enum {
+  THROW,
+  DEFLECTION,
+  ROLLING_DEFLECTION,
+  ANGLE_BETWEEN,
+  OBJECT_SPEED,
+  SPIN_TRANSFER,
+  ENERGY,
+  CUE_DISTANCE,
+  OBJECT_DISTANCE
+};
+#define QUANTITIES                                                                       \
+  "throw|deflection|rolling-deflection|angle-between|object-speed|spin-transfer|energy|" \
+  "cue-distance|object-distance"
 static const char *const quantity[] = {"throw of the object ball (degrees)",
                                        "deflection of the cue ball at once (degrees)",
                                        "deflection of the cue ball once it rolls (degrees)",
                                        "angle between the balls once they roll (degrees)",
                                        "speed of the object ball at once (m/s)",
                                        "side spin of the object ball over that of the cue ball (%)",
-                                       "kinetic energy that is lost (%)"};
+                                       "kinetic energy that is lost (%)",
+                                       "distance at which the cue ball rests (m)",
+                                       "distance at which the object ball rests (m)"};
 
 OPTION(series, option_speed, "speed", in[SPEED], 0, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
        "speed of the cue ball at contact, m/s, or with a unit: mph, km/h (default 1.5); or a "
@@ -85,10 +100,13 @@ OPTION(series, option_frictions, "friction", in[FRICTION], 0, "alciatore|MU", se
        "speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants");
 OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
        "friction with the cloth (default 0.2)");
+OPTION(series, option_roll, "roll", in[ROLL], 0, "MU", set_values, MEASURE_NUMBER,
+       "rolling resistance of the cloth, for distances (default 0.01)");
 OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
        MEASURE_NUMBER, "restitution of the balls (default 0.95)");
-OPTION(series, option_quantity, "quantity", quantity, 0, QUANTITIES, set_choice, 0,
-       "the quantity that curves and tables show (default: throw for curves, all for tables)");
+OPTION(series, option_quantity, "quantity", asked_for, 0, QUANTITIES, set_quantities, 0,
+       "the quantity that curves show (default: throw), or those of tables, with commas (default: "
+       "all)");
 OPTION(series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write the collisions as rows for `carom resolve`. An id is the spin and the values of "
        "other lists, such as draw-1.5m/s. With --quantity: write a table of it");
@@ -130,6 +148,26 @@ static double sign_of(const series *s) {
   return sum > 0.0 ? -1.0 : 1.0;
 }
 
+/* How far from the contact a ball rests on an endless cloth, m: a shot without a strike. */
+static double distance_of(const carom_ball *ball, const carom_motion *after, double mu_roll) {
+  const carom_table cloth = endless_cloth(ball->radius);
+  const carom_cue none = {0};
+  carom_shot_ball one = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  carom_ball_state rests;
+  carom_shot shot = {.final = &rests};
+  one.kind.radius = ball->radius;
+  one.kind.mass = ball->mass;
+  one.kind.mu_slide = ball->mu_cloth;
+  one.kind.mu_roll = mu_roll;
+  one.state = (carom_ball_state){.r = {0.0, 0.0, ball->radius},
+                                 .v = {after->v[0], after->v[1], 0.0},
+                                 .w = {after->w[0], after->w[1], after->w[2]},
+                                 .label = CAROM_BALL_SLIDING};
+  if (carom_shoot(&cloth, &one, 1, &none, NULL, &shot) != CAROM_OK)
+    return (double)NAN;
+  return hypot(rests.r[0], rests.r[1]);
+}
+
 static double measure(const series *s, const one_case *c, int which) {
   const carom_impact *in = (const carom_impact *)(const void *)c->row;
   const carom_result *out = (const carom_result *)(const void *)c->result;
@@ -149,9 +187,19 @@ static double measure(const series *s, const one_case *c, int which) {
     return hypot(out->b.v[0], out->b.v[1]);
   case SPIN_TRANSFER:
     return 100.0 * d.spin_transfer;
+  case CUE_DISTANCE:
+    return distance_of(&in->a, &out->a, c->given[ROLL]->x);
+  case OBJECT_DISTANCE:
+    return distance_of(&in->b, &out->b, c->given[ROLL]->x);
   default:
     return 100.0 * d.energy_lost;
   }
+}
+
+static void tell_distance(FILE *out, double distance) {
+  if (isfinite(distance))
+    fprintf(out, "              rests:       %.3f m from the contact, on an endless cloth\n",
+            distance);
 }
 
 /* Says in words what came of a collision. */
@@ -172,6 +220,7 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   /* The object ball, the cue ball, both together. */
   fprintf(out, "object ball   at once:     %s\n", velocity_text(after->b.v, scale, text));
   fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_2, scale, text));
+  tell_distance(out, distance_of(&in->b, &after->b, c->given[ROLL]->x));
   if (fabs(d.throw_deg) < 0.005)
     fputs("              throw:       none: it leaves along the line of centres\n", out);
   else
@@ -180,6 +229,7 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   tell_spin(out, after->b.w);
   fprintf(out, "cue ball      at once:     %s\n", velocity_text(after->a.v, scale, text));
   fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_1, scale, text));
+  tell_distance(out, distance_of(&in->a, &after->a, c->given[ROLL]->x));
   tell_spin(out, after->a.w);
   if (isfinite(d.energy_lost))
     fprintf(out, "energy        lost:        %.2f %% of %.4g J\n", 100.0 * d.energy_lost, energy);
@@ -237,12 +287,12 @@ static const command_form form = {
     .about = "Computes the collision of the cue ball with a ball at rest, and describes it in "
              "words: throw, deflection, spin, and the speeds just after the collision and once the "
              "balls roll. Angles are measured from the cue ball's path before, seen from above.\n",
-    .options = (const option_row *const[]){&option_speed, &option_cut, &option_spin, &option_side,
-                                           &option_frictions, &option_restitution, &option_cloth,
-                                           &option_radius, &option_mass, &option_object_mass,
-                                           &option_solver, &option_slip, &option_steps,
-                                           &option_quantity, &option_csv, &option_plot,
-                                           &option_strict, &option_output, NULL},
+    .options =
+        (const option_row *const[]){
+            &option_speed,       &option_cut,    &option_spin,   &option_side,   &option_frictions,
+            &option_restitution, &option_cloth,  &option_roll,   &option_radius, &option_mass,
+            &option_object_mass, &option_solver, &option_slip,   &option_steps,  &option_quantity,
+            &option_csv,         &option_plot,   &option_strict, &option_output, NULL},
     .details =
         "Every number may be a list, separated by commas; one may be a range A:B or A:B:STEP. A "
         "unit after the last number holds for all: --speed 1,3,7mph, --side 0:100%. Each value of "
@@ -258,7 +308,10 @@ static const command_form form = {
         "degrees\n"
         "  object-speed         speed of the object ball just after, m/s\n"
         "  spin-transfer        side spin of the object ball over that of the cue ball before, %\n"
-        "  energy               share of the kinetic energy that is lost, %\n\n"
+        "  energy               share of the kinetic energy that is lost, %\n"
+        "  cue-distance         how far from the contact the cue ball rests on an endless cloth, "
+        "m\n"
+        "  object-distance      the same of the object ball\n\n"
         "exit code: 0; 2 for bad usage or an impossible collision\n",
     .example = "carom hit --speed 1.5 --cut 30 --spin draw --plot hit.svg",
     .files = NO_FILES,

@@ -31,7 +31,7 @@ static const scene_input inputs[] = {
     [MASS] = {"mass of the ball", MEASURE_MASS, NULL},
     [MODEL] = {"model", MEASURE_MODEL, "smooth"}, /* that of shots */
     [MODEL + 1] = {NULL, 0, NULL}};
-_Static_assert(sizeof inputs / sizeof inputs[0] == MOST_INPUTS + 1, "room for all");
+_Static_assert(sizeof inputs / sizeof inputs[0] <= MOST_INPUTS + 1, "room for all");
 
 enum { ROLLING_REBOUND, REBOUND, SPEED_AFTER, SIDE_AFTER, ENERGY };
 #define QUANTITIES "rolling-rebound|rebound|speed|side|energy"
@@ -87,9 +87,9 @@ static const option_row option_models = {
     .field = offsetof(series, in[MODEL]),
     .least = MEASURE_MODEL,
     .words = CAROM_WORDS_CUSHION_MODEL};
-OPTION(series, option_quantity, "quantity", quantity, 0, QUANTITIES, set_choice, 0,
-       "the quantity that curves and tables show (default: rolling-rebound for curves, all for "
-       "tables)");
+OPTION(series, option_quantity, "quantity", asked_for, 0, QUANTITIES, set_quantities, 0,
+       "the quantity that curves show (default: rolling-rebound), or those of tables, with commas "
+       "(default: all)");
 OPTION(series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write the impacts as rows for `carom resolve --cushion`. With --quantity: write a table of "
        "it");

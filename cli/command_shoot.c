@@ -374,23 +374,41 @@ static const command_form form = {
         "recorded results) and writes each table and each shot with its events and final states. "
         "IN may be -. With options that describe a shot, carom plays this shot and describes it in "
         "words; several values with commas give several shots, drawn over each other.\n",
-    .options = (const option_row *const[]){&option_table,      &option_cue,
-                                           &option_balls,      &option_aim,
-                                           &option_to,         &option_at_ball,
-                                           &option_pocket,     &option_via,
-                                           &option_shot_cut,   &option_leave,
-                                           &option_player,     &option_player_errors,
-                                           &option_shot_speed, &option_ball_speed,
-                                           &option_tip,        &option_elevation,
-                                           &option_tip_time,   &option_tip_restitution,
-                                           &option_gap,        &option_seed,
-                                           &option_json,       &option_story,
-                                           &options_of_shots,  &option_with_of_shots,
-                                           &option_events,     &option_threads,
-                                           &option_plot,       &option_spread,
-                                           &option_animate,    &option_shot_id,
-                                           &option_strict,     &option_cite,
-                                           &option_output,     NULL},
+    .options = (const option_row *const[]){&option_table,
+                                           &option_cue,
+                                           &option_balls,
+                                           &option_aim,
+                                           &option_to,
+                                           &option_at_ball,
+                                           &option_pocket,
+                                           &option_via,
+                                           &option_shot_cut,
+                                           &option_leave,
+                                           &option_player,
+                                           &option_player_errors,
+                                           &option_shot_speed,
+                                           &option_ball_speed,
+                                           &option_tip,
+                                           &option_elevation,
+                                           &option_tip_time,
+                                           &option_tip_restitution,
+                                           &option_gap,
+                                           &option_seed,
+                                           &option_json,
+                                           &option_story,
+                                           &options_of_shots,
+                                           &option_with_of_shots,
+                                           &option_cue_ball,
+                                           &option_events,
+                                           &option_threads,
+                                           &option_plot,
+                                           &option_spread,
+                                           &option_animate,
+                                           &option_shot_id,
+                                           &option_strict,
+                                           &option_cite,
+                                           &option_output,
+                                           NULL},
     .details =
         "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and "
         "the error; carom plays the others); 2 for bad usage or unreadable input\n",
@@ -510,6 +528,10 @@ int command_shoot(int argc, char **argv) {
       complain("shoot needs the name of a file, or a shot by options: --cue 0.6,0.8 --aim 35 "
                "--speed 2");
     return usage_hint(&form);
+  }
+  if (!job.together && job.from.shared.with.lists > 0) {
+    complain(WITH_LISTS);
+    return EXIT_USAGE;
   }
   if (!can_play(&job) || !chooses(&job, &options))
     return EXIT_USAGE;

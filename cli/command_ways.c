@@ -232,7 +232,7 @@ static bool plot(const ways_search *s, const char *path) {
 
 /* Sets *ball to the ball of a name, -1 for any; false after a complaint. */
 static bool read_ball(const ways_search *s, const char *name, int *ball) {
-  char known[CAROM_BALLS_MOST * (PLACE_NAME + 1)] = "any", hint[HINT_TEXT];
+  char known[NAMES_TEXT] = "any", hint[HINT_TEXT];
   *ball = -1;
   if (name == NULL || strcmp(name, "any") == 0)
     return true;
@@ -245,8 +245,9 @@ static bool read_ball(const ways_search *s, const char *name, int *ball) {
     }
     snprintf(known + strlen(known), sizeof known - strlen(known), "|%s", s->line->name[k]);
   }
-  complain("--ball is a ball of the layout or any, not '%.40s'%s", name,
-           did_you_mean(name, known, hint));
+  did_you_mean(name, known, hint);
+  complain("--ball is a ball of the layout, not '%.40s'; there are %s%s", name, names_there(known),
+           hint);
   return false;
 }
 
@@ -301,31 +302,19 @@ static const command_form form = {
              "given strokes has the best chance for a player: how often it succeeds with errors, "
              "and between which directions it succeeds without. LAYOUT has shots of one layout; "
              "carom tries the stroke of each of them in all directions.\n",
-    .options = (const option_row *const[]){&option_ball,
-                                           &option_to_pocket,
-                                           &option_rails,
-                                           &option_leave,
-                                           &option_each,
-                                           &option_scan,
-                                           &option_table,
-                                           &option_cue,
-                                           &option_balls,
-                                           &option_one_gap,
-                                           &option_one_seed,
-                                           &option_shot_speed,
-                                           &option_ball_speed,
-                                           &option_tip,
-                                           &option_elevation,
-                                           &option_player,
-                                           &option_player_errors,
-                                           &options_of_motion,
-                                           &option_with_of_shots,
-                                           &option_ways_csv,
-                                           &option_ways_json,
-                                           &option_ways_plot,
-                                           &option_threads,
-                                           &option_output,
-                                           NULL},
+    .options = (const option_row *const[]){&option_ball,          &option_to_pocket,
+                                           &option_rails,         &option_leave,
+                                           &option_each,          &option_scan,
+                                           &option_table,         &option_cue,
+                                           &option_balls,         &option_one_gap,
+                                           &option_one_seed,      &option_shot_speed,
+                                           &option_ball_speed,    &option_tip,
+                                           &option_elevation,     &option_player,
+                                           &option_player_errors, &options_of_motion,
+                                           &option_with_of_shots, &option_cue_ball,
+                                           &option_ways_csv,      &option_ways_json,
+                                           &option_ways_plot,     &option_threads,
+                                           &option_output,        NULL},
     .details =
         "strokes if none are given:\n"
         "  to pot               1.5, 2.5 and 4 m/s; with --leave 1 to 4 m/s, each with five tips "

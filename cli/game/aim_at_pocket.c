@@ -58,10 +58,11 @@ static bool read_via(const layout *l, const char *via, carom_pot *pot) {
     pot->via[pot->vias++] = part;
   }
   snprintf(names + strlen(names), NAMES_TEXT - strlen(names), RAILS);
+  did_you_mean(wrong, names, hint);
   if (!good)
-    complain("--via is up to %d of balls, the one of --pocket last, and rails (head, foot, left, "
-             "right), such as 2,left, or head,%s for a kick; '%s' is none that can be there%s",
-             CAROM_VIA_MOST, l->name[pot->ball], wrong, did_you_mean(wrong, names, hint));
+    complain("--via is up to %d of balls, the one of --pocket last, and rails, such as 2,left, or "
+             "head,%s for a kick; '%s' is none that can be there; there are %s%s",
+             CAROM_VIA_MOST, l->name[pot->ball], wrong, names_there(names), hint);
   return good;
 }
 
@@ -112,12 +113,14 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
   free_table(t);
   if (l->table.pockets == 0)
     complain("--pocket: the table has no pockets");
-  else if (pot.ball < 0 || pot.pocket < 0)
-    complain("--pocket is BALL:POCKET, such as 1:foot-left, with a ball of --balls and one of %s "
-             "or its id; not '%.60s'%s",
-             known, pocket,
-             pot.ball < 0 ? did_you_mean(ball, balls, hint) : did_you_mean(name, known, hint));
-  else if (!read_via(l, via, &pot))
+  else if (pot.ball < 0 || pot.pocket < 0) {
+    const char *meant =
+        pot.ball < 0 ? did_you_mean(ball, balls, hint) : did_you_mean(name, known, hint);
+    complain(
+        "--pocket is BALL:POCKET, such as 1:foot-left, with a ball of --balls, %s, and one of %s "
+        "or its id; not '%.60s'%s",
+        names_there(balls), known, pocket, meant);
+  } else if (!read_via(l, via, &pot))
     return false;
   else if (carom_aim(&l->table, l->ball, l->count, options, &pot, cue) != CAROM_OK) {
     cue->theta = isnan(cue->theta) ? 0.0 : cue->theta;

@@ -200,6 +200,7 @@ bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *opt
   without_bounds(&s.player);
   shot_file *file = strokes_of(f, options);
   strokes.cue = cue;
+  f->shared.with.in_lines = true; /* those of the strokes have them */
   strokes.count = file != NULL ? strokes_read(file, &f->shared, &line, cue, MOST_ROWS) : 0;
   const bool found = strokes.count > 0 && choose(to, f, &s, &strokes, text);
   if (strokes.count > 0)

@@ -16,6 +16,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MOST_COMBINED = 1000000 }; /* of a table */
 
@@ -158,9 +159,38 @@ static bool quantity_word(const series *s, int quantity, char word[32]) {
   return at != NULL;
 }
 
-/* The values that are several, as they were given, and the quantity asked for, or all. */
+OPTION_SET(set_quantities) {
+  uint32_t *asked_for = field;
+  char *rest = NULL;
+  int place;
+  *asked_for = 0;
+  for (char *word = strtok_r(text, ",", &rest); word != NULL; word = strtok_r(NULL, ",", &rest)) {
+    if (!set_place(row, word, row->argument, &place))
+      return false;
+    *asked_for |= 1U << place;
+  }
+  return *asked_for != 0 || set_place(row, "", row->argument, &place);
+}
+
+/* The next quantity of a table from `q` on, with its word: those asked for, or all; false: there is
+ * none. */
+static bool next_quantity(const series *s, int *q, char word[32]) {
+  for (; quantity_word(s, *q, word); ++*q)
+    if (s->asked_for == 0 || (s->asked_for >> *q & 1) != 0)
+      return true;
+  return false;
+}
+
+/* The quantity of curves: the first of those asked for. */
+static int quantity_of_curves(const series *s) {
+  int first = 0;
+  while (s->asked_for != 0 && (s->asked_for >> first & 1) == 0)
+    first++;
+  return first;
+}
+
+/* The values that are several, as they were given, and the quantities. */
 static void write_table(FILE *out, const series *s, int count) {
-  const int first = s->quantity != NO_QUANTITY ? s->quantity : 0;
   char word[32];
   one_case c;
   for (int k = 0; k < inputs_of(s); k++)
@@ -168,8 +198,7 @@ static void write_table(FILE *out, const series *s, int count) {
       fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k].name,
               s->in[k].unit);
   const char *between = "";
-  for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY);
-       q++) {
+  for (int q = 0; next_quantity(s, &q, word); q++) {
     fprintf(out, "%s%s", between, word);
     between = ",";
   }
@@ -183,8 +212,7 @@ static void write_table(FILE *out, const series *s, int count) {
         fprintf(out, "%s,", isnan(v->given) ? v->name : number_text(v->given, text));
       }
     between = "";
-    for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY);
-         q++) {
+    for (int q = 0; next_quantity(s, &q, word); q++) {
       fprintf(out, "%s%s", between, number_text(s->scene->measure(s, &c, q) + 0.0, text));
       between = ",";
     }
@@ -207,7 +235,7 @@ static void write_words(FILE *out, const series *s, int count) {
 static void write_curves(FILE *out, const void *data) {
   const series *s = data;
   const int range = range_of(s), points = s->in[range].count, curves = count_of(s) / points;
-  const int quantity = s->quantity != NO_QUANTITY ? s->quantity : 0;
+  const int quantity = quantity_of_curves(s);
   char law[80];
   one_case c;
   fprintf(out, "# x: %s (%s)\n# y: %s\n# footer: ", s->scene->inputs[range].name, s->in[range].unit,
@@ -292,15 +320,17 @@ static bool is_possible(const series *s, int count) {
   else if (ranges > 0 && s->picture != NULL && count / s->in[range_of(s)].count > MOST_CASES)
     complain("%d curves are too many to draw: at most %d", count / s->in[range_of(s)].count,
              MOST_CASES);
-  else if (s->csv && s->quantity == NO_QUANTITY && s->asked.models != 0)
+  else if (s->csv && s->asked_for == 0 && s->asked.models != 0)
     complain(
         "--csv writes rows, which have no model: give --model to `carom resolve --cushion`, or "
         "--quantity here");
-  else if (s->csv && s->quantity == NO_QUANTITY && s->asked.options.solver != CAROM_SOLVER_EXACT)
+  else if (s->csv && s->asked_for == 0 && s->asked.options.solver != CAROM_SOLVER_EXACT)
     complain("--csv writes rows, which have no solver: give --solver to `carom resolve`, or "
              "--quantity here");
-  else if (ranges == 0 && s->quantity != NO_QUANTITY && !s->csv && s->picture != NULL)
+  else if (ranges == 0 && s->asked_for != 0 && !s->csv && s->picture != NULL)
     complain("--quantity is for curves and tables: give a range, such as --speed 1:5");
+  else if (s->picture != NULL && (s->asked_for & (s->asked_for - 1)) != 0)
+    complain("curves show one --quantity; a table has several");
   else
     return true;
   return false;
@@ -324,7 +354,7 @@ static bool are_in_range(const series *s, int angle, const char *complaint) {
 
 /* Writes the words, the table or the rows; false after a complaint. */
 static bool write_all(const series *s, int count) {
-  const bool curves = range_of(s) >= 0, quantity = s->quantity != NO_QUANTITY;
+  const bool curves = range_of(s) >= 0, quantity = s->asked_for != 0;
   FILE *out = output_open(s->asked.output != NULL ? s->asked.output : "-");
   if (out == NULL)
     return false;
@@ -339,7 +369,6 @@ static bool write_all(const series *s, int count) {
 
 int series_command(series *s, const command_form *form, int argc, char **argv, int angle,
                    const char *complaint) {
-  s->quantity = NO_QUANTITY;
   for (int k = 0; k < inputs_of(s); k++) {
     const scene_input *input = &s->scene->inputs[k];
     if (input->usual != NULL)

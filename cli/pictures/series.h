@@ -8,7 +8,7 @@
 #include "rows/values.h"
 
 /* the speed is the second input of a scene */
-enum { SPEED_INPUT = 1, MOST_INPUTS = 11, MOST_CASES = 16, NO_QUANTITY = -1 };
+enum { SPEED_INPUT = 1, MOST_INPUTS = 12, MOST_CASES = 16 };
 
 typedef struct series series;
 
@@ -53,10 +53,14 @@ struct series {
   shared_options asked;
   const scene *scene;
   values in[MOST_INPUTS];
-  int quantity, game; /* game: of a rail, a carom_game */
+  uint32_t asked_for; /* --quantity: a bit for each of the words; 0: none was given */
+  int game;           /* of a rail, a carom_game */
   bool csv;
   const char *picture;
 };
+
+/* series.asked_for: words of row->argument, with commas. */
+OPTION_SET(set_quantities);
 
 /* A subcommand: reads the arguments and does what they ask for; an exit code. Input `angle` is
  * below 90 degrees, or that is what it complains of. */

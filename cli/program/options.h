@@ -82,6 +82,13 @@ bool set_place(const option_row *row, const char *text, const char *words, int *
 /* What the help calls the argument of an option, "this|that"; NULL for a flag. */
 const char *argument_of(const option_row *row);
 
+/* Several values of one number, of which shots by options take each. */
+enum { LIST_MOST = 32, LISTS_MOST = 6 };
+typedef struct number_list {
+  int part, number, count; /* CAROM_PART_BALL or CAROM_PART_CUE; as carom_number_of() has it */
+  double at[LIST_MOST];
+} number_list;
+
 /* Numbers that --with gives: bit k of `which` is carom_number_of(CAROM_PART_BALL, k), and of
  * `of_cue` that of CAROM_PART_CUE; `of_fit` are those of a fit, and `fitted`
  * is its cushion, or 0. */
@@ -92,11 +99,13 @@ typedef struct given_numbers {
   carom_shot_cushion fitted;
   carom_ball_kind kind;
   carom_cue cue;
+  int lists; /* numbers with several values, of which no bit is set */
+  number_list list[LISTS_MOST];
+  bool in_lines; /* the lines of the shots have them already */
 } given_numbers;
 
-/* Gives the number of a cue that has the name, with - for _ as options write it; complains and
- * returns false where it is out of its bounds. */
-bool give_number(given_numbers *given, const char *name, double x);
+/* Gives value `k` of a list. */
+void give_of_list(const number_list *list, int k, given_numbers *given);
 
 /* Puts the numbers that are given into those of a ball, or of a cue. */
 void give_ball(const given_numbers *given, carom_ball_kind *kind);
@@ -148,6 +157,12 @@ extern const option_row option_solver, option_slip, option_steps, option_threads
     option_precision, option_data, option_output, option_summary, option_strict, option_derived,
     option_cushion, option_model, option_convention, option_law, option_least_step, option_with,
     options_of_shots, options_of_motion, option_with_of_shots, option_player, option_player_errors;
+
+OPTION_SET(
+    set_numbers); /* given_numbers: NAME=X,... of balls and cues, or the file of a fit; with a
+                            part only those of it */
+OPTION_SET(set_cue_number); /* given_numbers: values of the number of a cue that has the option's
+                               name, with _ for - */
 
 /* A row of a job: the kind of rows that it is for, its own name, and what stands in an option_row.
  * OPTION() is one of a single table, for every kind. */

@@ -1,8 +1,10 @@
 /* What options read into their fields, and the rows that several tables have. */
+#include "program/memory.h"
 #include "program/message.h"
 #include "program/options.h"
 #include "program/words.h"
 #include "rows/number.h"
+#include "rows/values.h"
 
 #include <errno.h>
 #include <jansson.h>
@@ -38,13 +40,13 @@ static const char *one_hint(const char *text) {
 OPTION_SET(set_count) {
   char *end;
   errno = 0;
-  const long value = strtol(text, &end, 10);
-  if (end == text || *end != '\0' || errno != 0 || value < row->least || value > INT_MAX) {
+  const long count = strtol(text, &end, 10);
+  if (end == text || *end != '\0' || errno != 0 || count < row->least || count > INT_MAX) {
     complain("--%s is a whole number from %d to %d, not '%s'%s", row->name, row->least, INT_MAX,
              text, one_hint(text));
     return false;
   }
-  *(int *)field = (int)value;
+  *(int *)field = (int)count;
   return true;
 }
 
@@ -78,7 +80,7 @@ bool set_place(const option_row *row, const char *text, const char *words, int *
     *place = found;
     return true;
   }
-  char list[120] = "", hint[HINT_TEXT]; /* "this, that or another" */
+  char list[200] = "", hint[HINT_TEXT]; /* "this, that or another" */
   for (const char *at = words; *at != '\0';) {
     const size_t used = strlen(list), size = strcspn(at, "|");
     const bool last = at[size] == '\0';
@@ -102,7 +104,7 @@ const char *words_of(int list, bool with_default, char text[MOST_WORDS]) {
   int size = 0;
   const char *word;
   text[0] = '\0';
-  for (int value = 0; (word = carom_word((carom_words)list, value)) != NULL; value++)
+  for (int k = 0; (word = carom_word((carom_words)list, k)) != NULL; k++)
     if (with_default || strcmp(word, "default") != 0)
       size +=
           snprintf(text + size, MOST_WORDS - (size_t)size, "%s%s", text_if(size > 0, "|"), word);
@@ -127,13 +129,14 @@ static const carom_number *option_of(const option_row *row) {
 OPTION_SET(set_option) {
   const carom_number *n = option_of(row);
   char all[MOST_WORDS], must[100];
-  double x;
+  value v;
   if (n->words >= 0)
     return set_place(row, text, words_of(n->words, true, all), field);
   const bool whole = n->type != CAROM_TYPE_DOUBLE;
   const double most = n->type == CAROM_TYPE_UINT64 ? WHOLE_MOST : n->high;
-  if (parse_number(text, &x) && ((x >= n->low && x <= most) || x == n->other) &&
-      (!whole || x == floor(x))) {
+  const bool good = value_of(measure_of_unit(n->unit), text, &v);
+  const double x = v.x;
+  if (good && ((x >= n->low && x <= most) || x == n->other) && (!whole || x == floor(x))) {
     if (n->type == CAROM_TYPE_UINT64)
       *(uint64_t *)field = (uint64_t)x;
     else if (whole)
@@ -199,6 +202,8 @@ static const char *refusal(const option_row *row, carom_part_kind part, const ca
     return "--table has it by its key, as in --table 9ft,corner=4.25in";
   if (part != CAROM_PART_BALL && part != CAROM_PART_CUE)
     return "a table in a file for `carom shoot` has it";
+  if (part == CAROM_PART_CUE && row->part == CAROM_PART_BALL)
+    return "--with has it";
   if (part == CAROM_PART_CUE && n->offset == (int32_t)offsetof(carom_cue, tip_radius))
     return "no strike reads it";
   if (part == CAROM_PART_CUE && n->type != CAROM_TYPE_DOUBLE)
@@ -237,8 +242,7 @@ static const carom_number *number_named(const option_row *row, const char *name,
     complain("--%s: %s is a number of %s; %s", row->name, name, owners[of_other].whose,
              refusal(row, owners[of_other].part, other));
   else if (name[strspn(name, "+-.:0123456789")] == '\0')
-    complain("--%s is NAME=X,...; '%.40s' has no NAME, as each number takes one value", row->name,
-             name);
+    complain("--%s is NAME=X,...; '%.40s' has no NAME", row->name, name);
   else
     complain("--%s is NAME=X,...; there is no number '%.40s'%s; `carom models` lists them",
              row->name, name, did_you_mean(name, known, hint));
@@ -262,6 +266,14 @@ static void give_no_smooth_law(given_numbers *given) {
   }
 }
 
+/* Gives a number of balls by its name; complains and returns false where it is out of bounds. */
+static bool give_named(given_numbers *given, const char *name, double x) {
+  const option_row with = {.name = "with", .part = CAROM_PART_BALL};
+  char text[200];
+  snprintf(text, sizeof text, "%s=%.17g", name, x);
+  return set_numbers(&with, text, given);
+}
+
 /* Gives the numbers of a fit, which `python -m carom.fit -o` wrote: constants, radius, cushion. */
 static bool give_fit(const char *path, given_numbers *given) {
   json_error_t error;
@@ -271,7 +283,7 @@ static bool give_fit(const char *path, given_numbers *given) {
   bool good = json_is_object(constants);
   json_object_set(constants, "radius", json_object_get(fit, "radius"));
   json_object_foreach(constants, name, x) good =
-      good && give_number(given, name, json_is_number(x) ? json_number_value(x) : NAN);
+      good && give_named(given, name, json_is_number(x) ? json_number_value(x) : NAN);
   if (!good)
     complain("--with %.200s: %s", path,
              fit == NULL ? error.text : "no fit, whose `constants` are numbers of balls");
@@ -289,47 +301,114 @@ static bool give_fit(const char *path, given_numbers *given) {
   return good;
 }
 
-/* given_numbers: NAME=X,... of the library's numbers of balls and cues, or the file of a fit */
-static OPTION_SET(set_numbers) {
+/* Sets one value of a number. */
+static void give_value(given_numbers *given, carom_part_kind part, int k, double x) {
+  const bool of_cue = part == CAROM_PART_CUE;
+  const size_t offset = (size_t)carom_number_of(part, k)->offset;
+  memcpy((of_cue ? (char *)&given->cue : (char *)&given->kind) + offset, &x, sizeof x);
+  *(of_cue ? &given->of_cue : &given->which) |= (uint64_t)1 << k;
+}
+
+void give_of_list(const number_list *list, int k, given_numbers *given) {
+  give_value(given, (carom_part_kind)list->part, list->number, list->at[k]);
+}
+
+/* Adds a value to the list of a number, which begins with the value that it has; false after a
+ * complaint. */
+static bool add_to_list(const option_row *row, given_numbers *given, carom_part_kind part, int k,
+                        double x) {
+  const carom_number *n = carom_number_of(part, k);
+  const bool of_cue = part == CAROM_PART_CUE;
+  number_list *list = given->list;
+  while (list < given->list + given->lists && (list->part != (int)part || list->number != k))
+    list++;
+  if (row->only == CUSHION_ONLY) {
+    complain("--%s: %s takes one value here; `carom shoot` takes a list", row->name, n->name);
+    return false;
+  }
+  if (list == given->list + LISTS_MOST || list->count == LIST_MOST) {
+    complain("--%s: at most %d numbers have lists, of at most %d values", row->name, LISTS_MOST,
+             LIST_MOST);
+    return false;
+  }
+  if (list == given->list + given->lists) {
+    *list = (number_list){.part = (int)part, .number = k, .count = 1};
+    memcpy(list->at, (of_cue ? (char *)&given->cue : (char *)&given->kind) + n->offset,
+           sizeof *list->at);
+    given->lists++;
+  }
+  list->at[list->count++] = x;
+  *(of_cue ? &given->of_cue : &given->which) &= ~((uint64_t)1 << k);
+  return true;
+}
+
+/* Reads the value of a number with its unit, or a range of values; false after a complaint. */
+static bool read_numbers(const option_row *row, const carom_number *n, char *text, values *list) {
+  const option_row of_number = {.name = row->name, .least = measure_of_unit(n->unit)};
+  char must[100];
+  bool good = text != NULL;
+  if (good && (strchr(text, ':') != NULL || strstr(text, "..") != NULL)) {
+    if (!set_values(&of_number, text, list))
+      return false;
+  } else {
+    list->count = 1;
+    good = good && value_of(of_number.least, text, &list->at[0]);
+  }
+  for (int k = 0; k < list->count && good; k++) {
+    const double x = list->at[k].x;
+    good = (x >= n->low && x <= n->high) || x == n->other;
+  }
+  if (good)
+    return true;
+  carom_number_range(n, must, sizeof must);
+  complain("--%s: %s must be %s, not '%.40s'%s", row->name, n->name, must, text != NULL ? text : "",
+           one_hint(text != NULL ? text : ""));
+  return false;
+}
+
+OPTION_SET(set_numbers) {
+  static values list;
   given_numbers *given = field;
+  const carom_number *n = NULL;
+  carom_part_kind part = CAROM_PART_NONE;
   char *rest = NULL;
+  int k = 0;
   for (char *token = strtok_r(text, ",", &rest); token != NULL;
        token = strtok_r(NULL, ",", &rest)) {
-    char *value = strchr(token, '='), must[100];
-    carom_part_kind part;
-    int k;
-    double x;
-    if (value != NULL)
-      *value++ = '\0';
-    else if (strstr(token, ".json") != NULL) {
-      if (give_fit(token, given))
-        continue;
-      return false;
+    char *number = strchr(token, '=');
+    /* a further value of the number before it, the file of a fit, or NAME=X */
+    const bool further =
+        number == NULL && n != NULL && strchr("+-.0123456789", *token) != NULL;
+    if (number == NULL && strstr(token, ".json") != NULL) {
+      if (!give_fit(token, given))
+        return false;
+      continue;
     }
-    const carom_number *n = number_named(row, token, &part, &k);
-    if (n == NULL)
+    if (number != NULL)
+      *number++ = '\0';
+    if (!further)
+      n = number_named(row, token, &part, &k);
+    if (n == NULL || !read_numbers(row, n, further ? token : number, &list))
       return false;
-    if (value == NULL || !parse_number(value, &x) ||
-        !((x >= n->low && x <= n->high) || x == n->other)) {
-      carom_number_range(n, must, sizeof must);
-      complain("--%s: %s must be %s, not '%.40s'%s", row->name, n->name, must,
-               value != NULL ? value : "", one_hint(value != NULL ? value : ""));
-      return false;
-    }
-    const bool of_cue = part == CAROM_PART_CUE;
-    memcpy((of_cue ? (char *)&given->cue : (char *)&given->kind) + n->offset, &x, sizeof x);
-    *(of_cue ? &given->of_cue : &given->which) |= (uint64_t)1 << k;
+    if (!further)
+      give_value(given, part, k, list.at[0].x);
+    for (int value_at = !further; value_at < list.count; value_at++)
+      if (!add_to_list(row, given, part, k, list.at[value_at].x))
+        return false;
   }
   return true;
 }
 
-bool give_number(given_numbers *given, const char *name, double x) {
-  const option_row with = {.name = name};
-  char text[200];
-  snprintf(text, sizeof text, "%s=%.17g", name, x);
-  for (char *dash = text; (dash = strchr(dash, '-')) != NULL && dash < strchr(text, '=');)
-    *dash = '_';
-  return set_numbers(&with, text, given);
+OPTION_SET(set_cue_number) {
+  const size_t room = strlen(row->name) + strlen(text) + 2;
+  char *pair = allocate(room, 1);
+  snprintf(pair, room, "%s=%s", row->name, text);
+  for (char *at = pair; *at != '='; at++)
+    if (*at == '-')
+      *at = '_';
+  const bool good = set_numbers(row, pair, field);
+  free(pair);
+  return good;
 }
 
 void give_cue(const given_numbers *given, carom_cue *cue) {
@@ -386,6 +465,10 @@ static bool is_read(const shared_options *shared, uint32_t models, const carom_n
 
 bool numbers_are_read(shared_options *shared) {
   const given_numbers *with = &shared->with;
+  uint64_t which = with->which & ~with->of_fit;
+  for (int k = 0; k < with->lists; k++)
+    if (with->list[k].part == CAROM_PART_BALL)
+      which |= (uint64_t)1 << with->list[k].number;
   const uint32_t models = shared->models != 0 ? shared->models : 1U << shared->rail.model;
   const carom_number *n;
   char reader[160];
@@ -393,7 +476,7 @@ bool numbers_are_read(shared_options *shared) {
     shared->shot.cushion_model = with->fitted; /* balls with a smooth_q have the smooth one */
   /* a fit has numbers of all models */
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
-    if (((with->which & ~with->of_fit) >> k & 1) != 0 && !is_read(shared, models, n)) {
+    if ((which >> k & 1) != 0 && !is_read(shared, models, n)) {
       complain("--with: %s has no effect; %s reads it", n->name,
                reader_of(n, shared->cushion ? "model" : "cushion", reader));
       return false;
@@ -516,5 +599,6 @@ ROW(options_of_shots, NULL, shot, 0, NULL, set_option, CAROM_READ_TO_STOP, ANY_K
 ROW(options_of_motion, NULL, shot, 0, NULL, set_option, CAROM_READ_ALWAYS, ANY_KIND, NULL);
 ROW(option_with_of_shots, "with", with, 0, "NAME=X,...", set_numbers, 0, ANY_KIND,
     "numbers of all balls, their cushions and the cue, instead of those of IN, such as "
-    "mu_slide=0.15,u_b=0.03,end_mass=0.01: `carom models` lists them. M is the cue's mass. Or the "
-    "file of a fit, FIT.json");
+    "mu_slide=0.15,mass=6oz,end_mass=0.01: `carom models` lists them. M is the cue's mass. Several "
+    "values, end_mass=0.003,0.007, give several shots where options describe the shot. Or the file "
+    "of a fit, FIT.json");

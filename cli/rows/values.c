@@ -24,94 +24,97 @@ enum { POINTS = 161, MOST_TEXT = 256, LIST_TEXT = MOST_VALUES * VALUE_NAME };
 #define BALL_FRACTION \
   ((double)NAN) /* an angle by the part x of the ball that is hit, 0 to 1:
                                        asin(1 - x) */
-static const double strike = 2.5, tip_width = 0.013, mph = 0.44704;
+static const double strike = 2.5, tip_width = 0.013, mph = 0.44704, inch = 0.0254, foot = 0.3048;
 
-/* The first unit of a measure is that of a bare number; a spin has none. */
+/* Measures that share units. */
+#define OF(measure) (1U << (measure))
+enum {
+  NUMBERS = OF(MEASURE_NUMBER) | OF(MEASURE_FRICTION),
+  ANGLES = OF(MEASURE_ANGLE) | OF(MEASURE_ELEVATION) | OF(MEASURE_CUT),
+  LENGTHS = OF(MEASURE_LENGTH) | OF(MEASURE_PLACE),
+  MASSES = OF(MEASURE_MASS) | OF(MEASURE_OBJECT_MASS),
+  SIDES = OF(MEASURE_SIDE) | OF(MEASURE_SIDE_RAIL),
+  SPINS = OF(MEASURE_SPIN) | SIDES
+};
+
+/* Every unit of the program. The first one of a measure is that of a bare number; a spin has
+ * none. */
 static const struct {
-  int measure;
+  unsigned of;
   const char *name, *axis;
   double factor;
   int times;
 } units[] = {
-    {MEASURE_NUMBER, "", "", 1.0, FIXED},
-    {MEASURE_SPEED, "m/s", "m/s", 1.0, FIXED},
-    {MEASURE_SPEED, "mph", "mph", mph, FIXED},
-    {MEASURE_SPEED, "km/h", "km/h", 1.0 / 3.6, FIXED},
-    {MEASURE_CUT, "deg", "degrees", 1.0, FIXED},
-    {MEASURE_CUT, "ball", "part of the ball that is hit", BALL_FRACTION, FIXED},
-    {MEASURE_CUT, "\u00b0", "degrees", 1.0, FIXED},
-    {MEASURE_ANGLE, "deg", "degrees", 1.0, FIXED},
-    {MEASURE_ANGLE, "\u00b0", "degrees", 1.0, FIXED},
-    {MEASURE_ELEVATION, "deg", "degrees", 1.0, FIXED},
-    {MEASURE_ELEVATION, "\u00b0", "degrees", 1.0, FIXED},
-    {MEASURE_LENGTH, "m", "m", 1.0, FIXED},
-    {MEASURE_LENGTH, "mm", "mm", 1e-3, FIXED},
-    {MEASURE_LENGTH, "cm", "cm", 1e-2, FIXED},
-    {MEASURE_LENGTH, "in", "inches", 0.0254, FIXED},
-    {MEASURE_LENGTH, "ft", "feet", 0.3048, FIXED},
-    {MEASURE_PLACE, "m", "m", 1.0, FIXED},
-    {MEASURE_PLACE, "mm", "mm", 1e-3, FIXED},
-    {MEASURE_PLACE, "cm", "cm", 1e-2, FIXED},
-    {MEASURE_PLACE, "in", "inches", 0.0254, FIXED},
-    {MEASURE_PLACE, "ft", "feet", 0.3048, FIXED},
-    {MEASURE_PLACE, "d", "diamonds", 1.0, DIAMONDS},
-    {MEASURE_MASS, "kg", "kg", 1.0, FIXED},
-    {MEASURE_MASS, "g", "g", 1e-3, FIXED},
-    {MEASURE_MASS, "oz", "ounces", 0.028349523125, FIXED},
-    {MEASURE_OBJECT_MASS, "kg", "kg", 1.0, FIXED},
-    {MEASURE_OBJECT_MASS, "g", "g", 1e-3, FIXED},
-    {MEASURE_OBJECT_MASS, "oz", "ounces", 0.028349523125, FIXED},
-    {MEASURE_FRICTION, "", "", 1.0, FIXED},
-    {MEASURE_TIP, "R", "R", 1.0, FIXED},
-    {MEASURE_TIP, "tip", "tips", tip_width, OFFSET},
-    {MEASURE_SHARE, "%", "%", 0.01, FIXED},
-    {MEASURE_SPIN, "rad/s", "rad/s", 1.0, FIXED},
-    {MEASURE_SPIN, "%", "% of rolling", 0.01, ROLLING},
-    {MEASURE_SPIN, "tip", "tips above the centre", strike *tip_width, OFFSET},
-    {MEASURE_SIDE, "rad/s", "rad/s counterclockwise", 1.0, FIXED},
-    {MEASURE_SIDE, "%", "% of right english", 0.01 * strike * 0.5, ROLLING},
-    {MEASURE_SIDE, "tip", "tips to the right", strike *tip_width, OFFSET},
-    {MEASURE_SIDE_RAIL, "rad/s", "rad/s counterclockwise", 1.0, FIXED},
-    {MEASURE_SIDE_RAIL, "%", "% of right english", 0.01 * strike * 0.5, ROLLING},
-    {MEASURE_SIDE_RAIL, "tip", "tips to the right", strike *tip_width, OFFSET},
+    {NUMBERS, "", "", 1.0, FIXED},
+    {OF(MEASURE_SPEED), "m/s", "m/s", 1.0, FIXED},
+    {OF(MEASURE_SPEED), "cm/s", "cm/s", 1e-2, FIXED},
+    {OF(MEASURE_SPEED), "ft/s", "feet/s", foot, FIXED},
+    {OF(MEASURE_SPEED), "in/s", "inches/s", inch, FIXED},
+    {OF(MEASURE_SPEED), "mph", "mph", mph, FIXED},
+    {OF(MEASURE_SPEED), "km/h", "km/h", 1.0 / 3.6, FIXED},
+    {ANGLES, "deg", "degrees", 1.0, FIXED},
+    {OF(MEASURE_CUT), "ball", "part of the ball that is hit", BALL_FRACTION, FIXED},
+    {ANGLES, "\u00b0", "degrees", 1.0, FIXED},
+    {ANGLES, "rad", "rad", 1.0 / degree, FIXED},
+    {LENGTHS, "m", "m", 1.0, FIXED},
+    {LENGTHS, "mm", "mm", 1e-3, FIXED},
+    {LENGTHS, "cm", "cm", 1e-2, FIXED},
+    {LENGTHS, "in", "inches", inch, FIXED},
+    {LENGTHS, "ft", "feet", foot, FIXED},
+    {OF(MEASURE_PLACE), "d", "diamonds", 1.0, DIAMONDS},
+    {MASSES, "kg", "kg", 1.0, FIXED},
+    {MASSES, "g", "g", 1e-3, FIXED},
+    {MASSES, "oz", "ounces", 0.028349523125, FIXED},
+    {OF(MEASURE_TIME), "s", "s", 1.0, FIXED},
+    {OF(MEASURE_TIME), "ms", "ms", 1e-3, FIXED},
+    {OF(MEASURE_TIP), "R", "R", 1.0, FIXED},
+    {OF(MEASURE_TIP), "tip", "tips", tip_width, OFFSET},
+    {OF(MEASURE_TIP), "mm", "mm", 1e-3, OFFSET},
+    {OF(MEASURE_TIP), "cm", "cm", 1e-2, OFFSET},
+    {OF(MEASURE_TIP), "in", "inches", inch, OFFSET},
+    {OF(MEASURE_SHARE), "%", "%", 0.01, FIXED},
+    {OF(MEASURE_SPIN), "rad/s", "rad/s", 1.0, FIXED},
+    {SIDES, "rad/s", "rad/s counterclockwise", 1.0, FIXED},
+    {SPINS, "rpm", "turns a minute", 6.0 * degree, FIXED},
+    {OF(MEASURE_SPIN), "%", "% of rolling", 0.01, ROLLING},
+    {SIDES, "%", "% of right english", 0.01 * strike * 0.5, ROLLING},
+    {OF(MEASURE_SPIN), "tip", "tips above the centre", strike *tip_width, OFFSET},
+    {SIDES, "tip", "tips to the right", strike *tip_width, OFFSET},
+    {SPINS, "mm", "mm from the centre", strike * 1e-3, OFFSET},
 };
 
 static const struct {
-  int measure;
+  unsigned of;
   const char *name;
   double x;
   int times;
 } words[] = {
-    {MEASURE_CUT, "full", 0.0, FIXED},
-    {MEASURE_CUT, "three-quarter", 14.477512185929925, FIXED},
-    {MEASURE_CUT, "half", 30.0, FIXED},
-    {MEASURE_CUT, "quarter", 48.590377890729144, FIXED},
-    {MEASURE_CUT, "thin", 61.044975628140819, FIXED}, /* an eighth */
-    {MEASURE_ELEVATION, "least", (double)NAN, FIXED},
-    {MEASURE_OBJECT_MASS, "same", (double)NAN, FIXED},
-    {MEASURE_FRICTION, "alciatore", (double)NAN, FIXED},
-    {MEASURE_SPEED, "soft", 0.5 * mph, OF_BALL},
-    {MEASURE_SPEED, "slow", 1.5 * mph, OF_BALL},
-    {MEASURE_SPEED, "medium", 3.0 * mph, OF_BALL},
-    {MEASURE_SPEED, "fast", 5.5 * mph, OF_BALL},
-    {MEASURE_SPEED, "power", 8.5 * mph, OF_BALL},
-    {MEASURE_SPEED, "break", 27.5 * mph, OF_BALL},
-    {MEASURE_SPIN, "stun", 0.0, FIXED},
-    {MEASURE_SPIN, "follow", 1.0, ROLLING},
-    {MEASURE_SPIN, "roll", 1.0, ROLLING},
-    {MEASURE_SPIN, "draw", -1.0, ROLLING},
-    {MEASURE_SIDE, "none", 0.0, FIXED},
-    {MEASURE_SIDE, "right", 1.25, ROLLING},
-    {MEASURE_SIDE, "left", -1.25, ROLLING},
-    {MEASURE_SIDE, "outside", 1.25, GEARED},
-    {MEASURE_SIDE, "inside", -1.25, GEARED},
-    {MEASURE_SIDE, "gearing", 1.0, GEARING},
-    {MEASURE_SIDE_RAIL, "none", 0.0, FIXED},
-    {MEASURE_SIDE_RAIL, "right", 1.25, ROLLING},
-    {MEASURE_SIDE_RAIL, "left", -1.25, ROLLING},
-    {MEASURE_SIDE_RAIL, "running", 1.25, GEARED},
-    {MEASURE_SIDE_RAIL, "reverse", -1.25, GEARED},
-    {MEASURE_SIDE_RAIL, "gearing", 1.0, GEARING},
+    {OF(MEASURE_CUT), "full", 0.0, FIXED},
+    {OF(MEASURE_CUT), "three-quarter", 14.477512185929925, FIXED},
+    {OF(MEASURE_CUT), "half", 30.0, FIXED},
+    {OF(MEASURE_CUT), "quarter", 48.590377890729144, FIXED},
+    {OF(MEASURE_CUT), "thin", 61.044975628140819, FIXED}, /* an eighth */
+    {OF(MEASURE_ELEVATION), "least", (double)NAN, FIXED},
+    {OF(MEASURE_OBJECT_MASS), "same", (double)NAN, FIXED},
+    {OF(MEASURE_FRICTION), "alciatore", (double)NAN, FIXED},
+    {OF(MEASURE_SPEED), "soft", 0.5 * mph, OF_BALL},
+    {OF(MEASURE_SPEED), "slow", 1.5 * mph, OF_BALL},
+    {OF(MEASURE_SPEED), "medium", 3.0 * mph, OF_BALL},
+    {OF(MEASURE_SPEED), "fast", 5.5 * mph, OF_BALL},
+    {OF(MEASURE_SPEED), "power", 8.5 * mph, OF_BALL},
+    {OF(MEASURE_SPEED), "break", 27.5 * mph, OF_BALL},
+    {OF(MEASURE_SPIN), "stun", 0.0, FIXED},
+    {OF(MEASURE_SPIN), "follow", 1.0, ROLLING},
+    {OF(MEASURE_SPIN), "roll", 1.0, ROLLING},
+    {OF(MEASURE_SPIN), "draw", -1.0, ROLLING},
+    {SIDES, "none", 0.0, FIXED},
+    {SIDES, "right", 1.25, ROLLING},
+    {SIDES, "left", -1.25, ROLLING},
+    {OF(MEASURE_SIDE), "outside", 1.25, GEARED},
+    {OF(MEASURE_SIDE), "inside", -1.25, GEARED},
+    {OF(MEASURE_SIDE_RAIL), "running", 1.25, GEARED},
+    {OF(MEASURE_SIDE_RAIL), "reverse", -1.25, GEARED},
+    {SIDES, "gearing", 1.0, GEARING},
 };
 
 enum {
@@ -124,8 +127,8 @@ enum {
 static int find_unit(int measure, const char *name) {
   const bool plural = strcmp(name, "tips") == 0;
   for (int k = 0; k < UNITS; k++)
-    if (units[k].measure == measure && ((name[0] == '\0' && measure < MEASURE_SPIN) ||
-                                        strcmp(plural ? "tip" : name, units[k].name) == 0))
+    if ((units[k].of & OF(measure)) != 0 && ((name[0] == '\0' && measure < MEASURE_SPIN) ||
+                                             strcmp(plural ? "tip" : name, units[k].name) == 0))
       return k;
   return NO_UNIT;
 }
@@ -169,7 +172,7 @@ static bool split(const char *text, double *number, const char **unit) {
 static void list_units(int measure, char *text, size_t room) {
   const char *between = "";
   for (int k = 0; k < WORDS; k++)
-    if (words[k].measure == measure) {
+    if ((words[k].of & OF(measure)) != 0) {
       snprintf(text + strlen(text), room - strlen(text), "%s%s", between, words[k].name);
       between = ", ";
     }
@@ -177,7 +180,7 @@ static void list_units(int measure, char *text, size_t room) {
            text_if(between[0] != '\0', ", or "));
   between = measure >= MEASURE_SPIN ? " with a unit: " : ", with a unit or without: ";
   for (int k = 0; k < UNITS; k++)
-    if (units[k].measure == measure && units[k].name[0] != '\0') {
+    if ((units[k].of & OF(measure)) != 0 && units[k].name[0] != '\0') {
       snprintf(text + strlen(text), room - strlen(text), "%s%s", between, units[k].name);
       between = ", ";
     }
@@ -188,10 +191,10 @@ static bool refuse(const option_row *row, const char *text) {
   const char *word = text + strspn(text, "+-.0123456789");
   list_units(row->least, list, sizeof list);
   for (int k = 0; k < WORDS; k++)
-    if (words[k].measure == row->least)
+    if ((words[k].of & OF(row->least)) != 0)
       snprintf(known + strlen(known), sizeof known - strlen(known), "%s|", words[k].name);
   for (int k = 0; k < UNITS; k++)
-    if (units[k].measure == row->least)
+    if ((units[k].of & OF(row->least)) != 0)
       snprintf(known + strlen(known), sizeof known - strlen(known), "%s|", units[k].name);
   complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'%s", row->name,
            list, text, did_you_mean(word, known, hint));
@@ -208,7 +211,7 @@ static bool set_word(const char *text, int measure, value *v) {
   const char *end = measure == MEASURE_CUT ? strstr(text, "-ball") : NULL;
   const size_t size = end != NULL && end[5] == '\0' ? (size_t)(end - text) : strlen(text);
   for (int k = 0; k < WORDS; k++)
-    if (words[k].measure == measure && strlen(words[k].name) == size &&
+    if ((words[k].of & OF(measure)) != 0 && strlen(words[k].name) == size &&
         strncmp(words[k].name, text, size) == 0) {
       *v = (value){.x = words[k].x, .given = (double)NAN, .times = words[k].times};
       snprintf(v->name, sizeof v->name, "%s", text);
@@ -363,6 +366,21 @@ OPTION_SET(set_values) {
              good = read_values(row, text, field);
   ((values *)field)->comma = comma;
   return good;
+}
+
+int measure_of_unit(const char *unit) {
+  static const struct {
+    const char *unit;
+    int measure;
+  } of[] = {{"m", MEASURE_LENGTH},
+            {"kg", MEASURE_MASS},
+            {"s", MEASURE_TIME},
+            {"m/s", MEASURE_SPEED},
+            {"degrees", MEASURE_ANGLE}};
+  for (size_t k = 0; k < sizeof of / sizeof *of; k++)
+    if (strcmp(of[k].unit, unit) == 0)
+      return of[k].measure;
+  return MEASURE_NUMBER;
 }
 
 bool value_of(int measure, const char *text, value *v) {

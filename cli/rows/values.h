@@ -16,6 +16,7 @@ enum measure {
   MEASURE_ELEVATION, /* an angle, or the least one of the stick: NaN */
   MEASURE_LENGTH,
   MEASURE_PLACE, /* a length, or diamonds of a table */
+  MEASURE_TIME,
   MEASURE_MASS,
   MEASURE_OBJECT_MASS, /* or that of the other ball: NaN */
   MEASURE_FRICTION,    /* of two balls, or by a law: NaN */
@@ -63,6 +64,10 @@ bool too_many(const option_row *row, double count, int most);
 
 /* Reads what set_values() would, for defaults; `text` is not changed. */
 void values_default(values *list, int measure, const char *text);
+
+/* The measure of the library's numbers that have a unit, "m"; MEASURE_NUMBER where no other unit is
+ * read. */
+int measure_of_unit(const char *unit);
 
 /* Reads one number of a measure, with a unit or without; false where it is none. */
 bool value_of(int measure, const char *text, value *v);

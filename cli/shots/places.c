@@ -167,7 +167,7 @@ static bool name_is_valid(const option_row *row, const place_entry *entry) {
 
 /* Whether a text has two numbers' characters, units included, and a comma. */
 static bool looks_like_pair(const char *text) {
-  return strspn(text, "+-.,0123456789/ eEacdfhimnprtR\"\1") == strlen(text) &&
+  return strspn(text, "+-.,0123456789/ eEacdfhimnprstR\"\1") == strlen(text) &&
          strchr(text, ',') != NULL;
 }
 

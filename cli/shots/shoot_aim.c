@@ -19,6 +19,21 @@ int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_
   return found;
 }
 
+const char *names_there(char names[NAMES_TEXT]) {
+  char text[NAMES_TEXT];
+  size_t size = 0;
+  for (const char *at = names; *at != '\0' && size + 3 < sizeof text; at++) {
+    const bool between = *at == '|';
+    if (!between)
+      text[size++] = *at;
+    else if (at[1] != '\0')
+      size += (size_t)snprintf(text + size, sizeof text - size, ", ");
+  }
+  text[size] = '\0';
+  snprintf(names, NAMES_TEXT, "%s", size > 0 ? text : "none");
+  return names;
+}
+
 const char *named_ball(const char *name, char text[BALL_TEXT]) {
   const size_t letters = strspn(name, "abcdefghijklmnopqrstuvwxyz");
   const char *article = "";
@@ -54,9 +69,10 @@ bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *op
   char text[BALL_TEXT], names[NAMES_TEXT], hint[HINT_TEXT];
   carom_event met;
   const int at = ball_named(l, name, strlen(name), names);
+  did_you_mean(name, names, hint);
   if (at < 0)
-    complain("--at-ball '%s': there is no such ball; --balls says where balls are%s", name,
-             did_you_mean(name, names, hint));
+    complain("--at-ball '%s': there is no such ball; the balls of --balls are %s%s", name,
+             names_there(names), hint);
   else if (!(fabs(cut) < 90.0))
     complain("--cut is between -90 and 90 degrees");
   else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)

@@ -26,6 +26,9 @@ typedef struct layout {
 /* The ball other than that of the cue with this name, or -1; their names, with bars between. */
 int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_TEXT]);
 
+/* The same names as a message has them, "1, 2, black"; changes the text. */
+const char *names_there(char names[NAMES_TEXT]);
+
 /* Ball 3, the black, red11; and "the cue ball" or one of these. */
 enum { BALL_TEXT = PLACE_NAME + 8 };
 const char *named_ball(const char *name, char text[BALL_TEXT]);

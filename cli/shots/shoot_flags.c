@@ -22,6 +22,7 @@ static OPTION_SET(set_table) {
   struct chosen_table *table = field;
   char all[MOST_WORDS], name[MOST_WORDS];
   json_fault fault;
+  text = table_spelt(text);
   snprintf(name, sizeof name, "%.*s", (int)strcspn(text, ","), text);
   if (!set_place(row, name, words_of(row->words, true, all), &table->kind))
     return false;
@@ -40,9 +41,11 @@ static OPTION_SET(set_table) {
 
 const option_row option_table = {
     .name = "table",
-    .help = "play one shot on this table, instead of those of a file (default 9ft). x runs across "
-            "the table, y along it. Measures change it: 9ft,corner=4.25in,side_cut=104; `carom "
-            "models` lists them. To use a table of your own, give a file",
+    .help =
+        "play one shot on this table, instead of those of a file (default 9ft). x runs across "
+        "the table, y along it. Measures change it: 9ft,corner=4.25in,side_cut=104; `carom "
+        "models` lists them. 10ft is threecushion, 12ft is snooker. To use a table of your own, "
+        "give a file",
     .set = set_table,
     .field = offsetof(shoot_flags, table),
     .words = CAROM_WORDS_TABLE};
@@ -62,6 +65,14 @@ const option_row option_balls = {
     .field = offsetof(shoot_flags, balls),
     .least = MEASURE_PLACE,
     .words = CAROM_WORDS_RACK};
+const option_row option_cue_ball = {
+    .name = "cue-ball",
+    .argument = "NAME=X,...",
+    .help = "numbers of the cue ball alone, as in --with: mass=6.5oz,radius=30mm. Several values "
+            "give several shots",
+    .set = set_numbers,
+    .field = offsetof(shoot_flags, own),
+    .part = CAROM_PART_BALL};
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
     "direction of the cue, counterclockwise from +x; 90 (default) is along the table. With side "
     "spin the ball leaves a little beside it, because of squirt");
@@ -84,22 +95,25 @@ ROW(option_via, "via", via, "BALL|RAIL,...", set_text, 0,
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|thin|DEGREES", set_values,
     MEASURE_CUT, "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
 ROW(option_shot_speed, "speed", speed, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
-    "speed of the cue just before the strike, m/s, or with a unit: mph, km/h (default 2). A word "
+    "speed of the cue just before the strike, m/s, or with a unit: mph, km/h, ft/s, in/s (default "
+    "2). A word "
     "is the speed of the ball after the strike: " SPEEDS);
 ROW(option_ball_speed, "ball-speed", ball_speed, "V", set_values, MEASURE_SPEED,
-    "instead of --speed: speed of the cue ball just after the strike of a level cue");
+    "instead of --speed: speed of the cue ball just after the strike of a level cue; a raised cue "
+    "strikes as fast as the level one would");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
-    "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip; several "
-    "with colons, or ranges: 0,-0.4:0.4:0.2. Right is positive, as it is for english everywhere in "
+    "where the tip touches, from the centre, in radii of the ball, or with a unit: 1,0.5tip or "
+    "12mm,0; several with colons, or ranges: 0,-0.4:0.4:0.2. Right is positive, as it is for "
+    "english everywhere in "
     "this command (default 0,0.25). Beyond 0.5 R a chalked tip slips off the ball, and carom "
     "warns");
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELEVATION,
     "elevation of the butt of the cue (default 0). With a --pocket it may be least: as little as "
     "the stick needs to clear the cushions and balls behind the cue ball");
-ROW(option_tip_time, "tip-time", tip_time, "SECONDS", set_values, MEASURE_NUMBER,
+ROW(option_tip_time, "tip-time", own, "SECONDS", set_cue_number, 0,
     "how long the tip of a raised cue presses the ball on the slate, at most 0.01 (default 0.001, "
     "for leather; 0.0008 for hard resin, with which balls jump). -1: no time");
-ROW(option_tip_restitution, "tip-restitution", tip_restitution, "E", set_values, MEASURE_NUMBER,
+ROW(option_tip_restitution, "tip-restitution", own, "E", set_cue_number, 0,
     "restitution of the tip and the ball, above 0 to 1: the speed of the ball is proportional to 1 "
     "+ E (default 0.73, for leather; 0.85 for phenolic resin; 1 in pooltool)");
 ROW(option_json, "json", json, NULL, set_flag, 0,
@@ -125,8 +139,8 @@ ROW(option_one_seed, "seed", seed, "N", set_single, MEASURE_NUMBER, SEED_HELP);
 
 /* Whether one of the lists is given, or looks like a number with a decimal comma. */
 static bool any_list(const shoot_flags *f, bool comma) {
-  const values *const all[] = {&f->speed,    &f->ball_speed,      &f->aim, &f->cut, &f->elevation,
-                               &f->tip_time, &f->tip_restitution, &f->gap, &f->seed};
+  const values *const all[] = {&f->speed,     &f->ball_speed, &f->aim, &f->cut,
+                               &f->elevation, &f->gap,        &f->seed};
   bool any = false;
   for (size_t k = 0; k < sizeof all / sizeof *all; k++)
     any |= comma ? all[k]->comma : all[k]->count > 0;
@@ -136,7 +150,8 @@ static bool any_list(const shoot_flags *f, bool comma) {
 bool has_flags(const shoot_flags *f) {
   return f->table.kind != 0 || f->at_ball != NULL || f->pocket != NULL || f->via != NULL ||
          f->json || f->cue.count > 0 || f->to.count > 0 || f->balls.count > 0 ||
-         f->balls.rack > 0 || f->tip.count > 0 || any_list(f, false);
+         f->balls.rack > 0 || f->tip.count > 0 || f->own.which != 0 || f->own.of_cue != 0 || f->own.lists > 0 ||
+         any_list(f, false);
 }
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
@@ -175,9 +190,12 @@ static bool lay(layout *l, int k, const given_place *at, int laid) {
     while (other >= 0 && strcmp(l->name[other], at->touches) != 0)
       other--;
     if (other < 0 || other == k) {
+      char names[NAMES_TEXT] = "";
+      for (int ball = 0; ball < laid; ball++)
+        snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s|", l->name[ball]);
       complain("frozen-%s: it is a rail, " RAILS ", or a ball that lies already: cue, or one that "
-               "stands before it",
-               at->touches);
+               "stands before it; there are %s",
+               at->touches, names_there(names));
       return false;
     }
     const carom_shot_ball *ball = &l->ball[other];
@@ -189,9 +207,15 @@ static bool lay(layout *l, int k, const given_place *at, int laid) {
   return true;
 }
 
+/* The numbers of the balls and the cue in a combination: of --with, and of shoot_flags.own. */
+typedef struct chosen_numbers {
+  given_numbers all, own;
+} chosen_numbers;
+
 /* The layout with rack number `which` of those that gaps and seeds ask for; false after a
  * complaint. */
-static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion, int which) {
+static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion,
+                    const chosen_numbers *numbers, int which) {
   const carom_table_kind kind =
       f->table.kind != 0 ? (carom_table_kind)(f->table.kind - 1) : CAROM_TABLE_POOL_9FT;
   l->table_name = f->table.text != NULL ? f->table.text : carom_table_name(kind);
@@ -201,7 +225,7 @@ static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion,
   l->game = game_of_table(kind);
   carom_ball_kind ball;
   kind_of_game(l->game, cushion, &ball);
-  give_ball(&f->shared.with, &ball);
+  give_ball(&numbers->all, &ball);
   snprintf(l->name[0], PLACE_NAME, "cue");
   l->ball[0].state = (carom_ball_state){.r = {0.5 * l->table.width, 0.25 * l->table.length}};
   l->count = 1 + f->balls.count;
@@ -214,7 +238,9 @@ static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion,
   }
   for (int k = 0; k < l->count; k++) {
     l->ball[k].kind = ball;
-    l->ball[k].state.r[2] = ball.radius;
+    if (k == 0)
+      give_ball(&numbers->own, &l->ball[k].kind);
+    l->ball[k].state.r[2] = l->ball[k].kind.radius;
   }
 
   /* The places given. A cue ball that touches a ball is put there after it. */
@@ -246,21 +272,15 @@ static void name_value(char *id, const char *what, const values *list, int k) {
              list->at[k].name);
 }
 
-/* Gives a level cue the speed with which its ball leaves it at `speed`; false after a complaint.
- * The ball's speed is in proportion to the cue's. Along x, and by a root, it has the same bits in
- * other languages. */
-static bool strike_to(double speed, const carom_ball_kind *kind, carom_cue *cue) {
+/* Gives a cue the speed with which a level one would give its ball `speed`. The ball's speed is in
+ * proportion to the cue's. Along x, and by a root, it has the same bits in other languages. */
+static void strike_to(double speed, const carom_ball_kind *kind, carom_cue *cue) {
+  carom_cue level = *cue;
   carom_motion after;
-  if (cue->theta > 0.0) {
-    complain("--ball-speed, and a word as --speed, is the speed that a level cue gives the ball; "
-             "with --elevation give --speed as a number, the speed of the cue");
-    return false;
-  }
-  cue->speed = 1.0;
-  if (carom_strike(cue, kind, &after) != CAROM_OK)
-    return true; /* which is told when it is played */
-  cue->speed = speed / sqrt(after.v[0] * after.v[0] + after.v[1] * after.v[1]);
-  return true;
+  level.speed = 1.0;
+  level.theta = 0.0;
+  if (carom_strike(&level, kind, &after) == CAROM_OK)
+    cue->speed = speed / sqrt(after.v[0] * after.v[0] + after.v[1] * after.v[1]);
 }
 
 /* Turns a cue so that its ball leaves towards a place; false after a complaint. */
@@ -293,12 +313,16 @@ static int directions_of(const shoot_flags *f) {
 /* Which value of each number a combination has: the speed changes fastest. */
 typedef struct combination {
   const values *speeds;
-  int speed, tip, rise, time, bounce, way, rack;
+  int speed, tip, rise, way, rack;
+  int number[2 * LISTS_MOST]; /* of the lists of --with, then of the own ones */
 } combination;
 
-/* How many values a combination chooses from; a list that is not given counts as one. */
-static int choices_of(const values *list) {
-  return list->count > 0 ? list->count : 1;
+/* List `k` of those of --with and then of the own ones; NULL: there are no more. */
+static const number_list *number_list_at(const shoot_flags *f, int k) {
+  const given_numbers *with = &f->shared.with;
+  if (k < with->lists)
+    return &with->list[k];
+  return k < with->lists + f->own.lists ? &f->own.list[k - with->lists] : NULL;
 }
 
 /* Takes a place among `count` off the index of a combination. */
@@ -313,16 +337,24 @@ static combination combination_at(const shoot_flags *f, int index) {
   c.speed = take(&index, c.speeds->count);
   c.tip = take(&index, f->tip.count);
   c.rise = take(&index, f->elevation.count);
-  c.time = take(&index, choices_of(&f->tip_time));
-  c.bounce = take(&index, choices_of(&f->tip_restitution));
+  const number_list *list;
+  for (int k = 0; (list = number_list_at(f, k)) != NULL; k++)
+    c.number[k] = take(&index, list->count);
   c.way = take(&index, directions_of(f));
   c.rack = index;
   return c;
 }
 
+static void numbers_of(const shoot_flags *f, const combination *c, chosen_numbers *to) {
+  const number_list *list;
+  *to = (chosen_numbers){f->shared.with, f->own};
+  for (int k = 0; (list = number_list_at(f, k)) != NULL; k++)
+    give_of_list(list, c->number[k], k < f->shared.with.lists ? &to->all : &to->own);
+}
+
 /* The strike of a combination, towards +x; false after a complaint where there is no such one. */
 static bool strike_of(const shoot_flags *f, const layout *l, const combination *c,
-                      const given_numbers *with, carom_cue *cue) {
+                      const chosen_numbers *numbers, carom_cue *cue) {
   const double R = l->ball[0].kind.radius;
   const bool least = isnan(f->elevation.at[c->rise].x);
   carom_motion after;
@@ -330,7 +362,8 @@ static bool strike_of(const shoot_flags *f, const layout *l, const combination *
   cue->speed = c->speeds->at[c->speed].x;
   cue->phi = 0.0;
   cue->theta = least ? 0.0 : f->elevation.at[c->rise].x;
-  give_cue(with, cue);
+  give_cue(&numbers->all, cue);
+  give_cue(&numbers->own, cue);
   cue->a = -tip_of(&f->tip.at[c->tip].x, R);
   cue->b = tip_of(&f->tip.at[c->tip].y, R);
   if (!(cue->speed > 0.0)) {
@@ -349,7 +382,9 @@ static bool strike_of(const shoot_flags *f, const layout *l, const combination *
   else if (status != CAROM_OK)
     complain("no such strike: %s", carom_status_string(status));
   const bool of_ball = f->ball_speed.count > 0 || c->speeds->at[c->speed].times == OF_BALL;
-  return status == CAROM_OK && (!of_ball || strike_to(cue->speed, &l->ball[0].kind, cue));
+  if (of_ball)
+    strike_to(cue->speed, &l->ball[0].kind, cue);
+  return status == CAROM_OK;
 }
 
 /* Turns the cue as the combination says; false after a complaint. */
@@ -384,8 +419,12 @@ static void name_shot(const shoot_flags *f, const combination *c, char id[MOST_T
     snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%sto %s,%s", text_if(id[0] != '\0', ", "),
              f->to.at[c->way].x.name, f->to.at[c->way].y.name);
   name_value(id, "elevation", &f->elevation, c->rise);
-  name_value(id, "tip-time", &f->tip_time, c->time);
-  name_value(id, "tip-restitution", &f->tip_restitution, c->bounce);
+  const number_list *list;
+  for (int k = 0; (list = number_list_at(f, k)) != NULL; k++)
+    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%s%s%s %.6g", text_if(id[0] != '\0', ", "),
+             text_if(k >= f->shared.with.lists && list->part == CAROM_PART_BALL, "cue ball "),
+             carom_number_of((carom_part_kind)list->part, list->number)->name,
+             list->at[c->number[k]]);
   name_value(id, "speed", c->speeds, c->speed);
   if (f->tip.count > 1)
     snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%stip %s,%s", text_if(id[0] != '\0', ", "),
@@ -393,7 +432,8 @@ static void name_shot(const shoot_flags *f, const combination *c, char id[MOST_T
 }
 
 /* The numbers of a cue by their keys: the stroke, and what is given or not 0 besides. */
-static json_t *cue_json(const layout *l, const given_numbers *given, const carom_cue *cue) {
+static json_t *cue_json(const layout *l, const chosen_numbers *numbers, const carom_cue *cue) {
+  const uint64_t given = numbers->all.of_cue | numbers->own.of_cue;
   const carom_number *n;
   json_t *to = json_object();
   for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
@@ -401,7 +441,7 @@ static json_t *cue_json(const layout *l, const given_numbers *given, const carom
     if (n->key[0] != '\0')
       memcpy(&x, (const char *)cue + n->offset, sizeof x);
     const bool of_stroke = n->offset <= (int32_t)offsetof(carom_cue, b);
-    if (x != 0.0 || (given->of_cue >> k & 1) != 0 || of_stroke)
+    if (x != 0.0 || (given >> k & 1) != 0 || of_stroke)
       json_object_set_new(to, n->key, json_short(x + 0.0));
   }
   json_object_set_new(to, "ball", json_string(l->name[0]));
@@ -409,17 +449,18 @@ static json_t *cue_json(const layout *l, const given_numbers *given, const carom
 }
 
 /* A ball at rest, with the numbers that are given. */
-static json_t *ball_json(const layout *l, const given_numbers *given, int ball) {
+static json_t *ball_json(const layout *l, const chosen_numbers *chosen, int ball) {
   static const char *const games[] = {"pool", "snooker", "billiard"};
   enum { LABEL, X, Y, Z, NUMBERS = 10 };
   const double *r = l->ball[ball].state.r;
-  const double state[NUMBERS] = {[X] = r[0], [Y] = r[1], [Z] = l->ball[0].kind.radius};
+  const double state[NUMBERS] = {[X] = r[0], [Y] = r[1], [Z] = r[2]};
+  const uint64_t given = chosen->all.which | (ball == 0 ? chosen->own.which : 0);
   const carom_number *n;
   json_t *params = json_pack("{s: s}", "game", games[l->game]), *numbers = json_array();
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
     double x;
     memcpy(&x, (const char *)&l->ball[ball].kind + n->offset, sizeof x);
-    if ((given->which >> k & 1) != 0)
+    if ((given >> k & 1) != 0)
       json_object_set_new(params, n->key, json_short(x));
   }
   for (int k = LABEL; k < NUMBERS; k++)
@@ -428,31 +469,24 @@ static json_t *ball_json(const layout *l, const given_numbers *given, int ball) 
 }
 
 /* The line of a shot, as a file would have it. */
-static json_t *line_of(const layout *l, const given_numbers *given, const char *id,
+static json_t *line_of(const layout *l, const chosen_numbers *numbers, const char *id,
                        const carom_cue *cue) {
   json_t *balls = json_array();
   for (int k = 0; k < l->count; k++)
-    json_array_append_new(balls, ball_json(l, given, k));
+    json_array_append_new(balls, ball_json(l, numbers, k));
   return shot_json(json_string(id[0] != '\0' ? id : "shot"), NULL, l->table_name,
-                   cue_json(l, given, cue), balls);
+                   cue_json(l, numbers, cue), balls);
 }
 
 /* One of the combinations; NULL after a complaint. */
 static json_t *make_shot(shoot_flags *f, const layout *l, const carom_shot_options *options,
-                         int index) {
-  const combination c = combination_at(f, index);
-  given_numbers with = f->shared.with;
+                         const chosen_numbers *numbers, const combination *c) {
   carom_cue cue;
   char id[MOST_TEXT];
-  if (f->tip_time.count > 0 && !give_number(&with, "tip-time", f->tip_time.at[c.time].x))
+  if (!strike_of(f, l, c, numbers, &cue) || !aim_of(f, l, options, c, &cue))
     return NULL;
-  if (f->tip_restitution.count > 0 &&
-      !give_number(&with, "tip-restitution", f->tip_restitution.at[c.bounce].x))
-    return NULL;
-  if (!strike_of(f, l, &c, &with, &cue) || !aim_of(f, l, options, &c, &cue))
-    return NULL;
-  name_shot(f, &c, id);
-  return line_of(l, &with, id, &cue);
+  name_shot(f, c, id);
+  return line_of(l, numbers, id, &cue);
 }
 
 /* Complains of options that exclude or need each other; returns whether there are none. */
@@ -525,9 +559,11 @@ static bool racks_are_valid(const shoot_flags *f) {
 static int combinations_of(const shoot_flags *f, int most) {
   const values *speeds = speeds_of(f);
   /* The product may exceed an int. */
-  const double all = (double)speeds->count * f->tip.count * f->elevation.count *
-                     choices_of(&f->tip_time) * choices_of(&f->tip_restitution) * directions_of(f) *
-                     f->gap.count * f->seed.count;
+  const number_list *list;
+  double all = (double)speeds->count * f->tip.count * f->elevation.count * directions_of(f) *
+               f->gap.count * f->seed.count;
+  for (int k = 0; (list = number_list_at(f, k)) != NULL; k++)
+    all *= list->count;
   if (all <= most)
     return (int)all;
   complain("these are %.0f shots; at most %d are described and drawn at once, and %d with --csv",
@@ -540,7 +576,7 @@ static int combinations_of(const shoot_flags *f, int most) {
 static bool make_shots(shoot_flags *f, const carom_shot_options *options, int count,
                        json_t *shots) {
   static layout l;
-  const int shots_per_rack = count / (f->gap.count * f->seed.count);
+  static chosen_numbers numbers;
   const bool may_leave_out = f->tries || count > 1;
   const carom_shot_cushion cushion =
       options != NULL ? options->cushion_model : CAROM_SHOT_CUSHION_DEFAULT;
@@ -548,10 +584,12 @@ static bool make_shots(shoot_flags *f, const carom_shot_options *options, int co
   l.missed = &cannot_be_aimed;
   for (int k = 0; k < count; k++) {
     cannot_be_aimed = false;
-    if (k % shots_per_rack == 0 && !lay_out(f, &l, cushion, k / shots_per_rack))
+    const combination c = combination_at(f, k);
+    numbers_of(f, &c, &numbers);
+    if (!lay_out(f, &l, cushion, &numbers, c.rack))
       return false;
     l.quiet = f->tries || k > f->written;
-    json_t *shot = make_shot(f, &l, options, k);
+    json_t *shot = make_shot(f, &l, options, &numbers, &c);
     if (shot == NULL && (!cannot_be_aimed || !may_leave_out))
       return false;
     if (shot != NULL) {
@@ -581,6 +619,7 @@ json_t *flags_shots(shoot_flags *f, const carom_shot_options *options, int most)
   json_t *shots = json_array();
   bool good = make_shots(f, options, count, shots);
   f->left_out = count - f->written;
+  f->shared.with.in_lines = true;
   if (good && !f->tries) {
     if (f->written > 0 && f->left_out > 0)
       complain("%d of %d shots are left out: they cannot be aimed", f->left_out, count);
@@ -606,6 +645,8 @@ shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_option
     complain("the balls are needed: a file of shots, or --cue 0.6,0.8 --balls 0.5,1.6:0.9,1.2");
   else if (by_options)
     return flags_open(f, options, most);
+  else if (f->shared.with.lists > 0)
+    complain(WITH_LISTS);
   else
     return shot_file_open(path, options->cushion_model);
   return NULL;

@@ -23,7 +23,8 @@ typedef struct shoot_flags {
     const char *text; /* its name and measures; NULL: only the kind */
   } table;
   const char *at_ball, *pocket, *via;
-  values speed, ball_speed, aim, cut, elevation, tip_time, tip_restitution, gap, seed;
+  values speed, ball_speed, aim, cut, elevation, gap, seed;
+  given_numbers own; /* numbers of the cue ball alone, and of the tip */
   place_list cue, balls, tip, to;
   bool json;
   bool tries;            /* shots that cannot be aimed are left out, without a complaint */
@@ -31,8 +32,8 @@ typedef struct shoot_flags {
   char aimed[MOST_SHOTS][AIMED_TEXT]; /* what is told of the aim of each shot, or "" */
 } shoot_flags;
 
-extern const option_row option_table, option_cue, option_balls, option_aim, option_to,
-    option_at_ball, option_pocket, option_via, option_shot_cut, option_shot_speed,
+extern const option_row option_table, option_cue, option_cue_ball, option_balls, option_aim,
+    option_to, option_at_ball, option_pocket, option_via, option_shot_cut, option_shot_speed,
     option_ball_speed, option_tip, option_elevation, option_tip_time, option_tip_restitution,
     option_json, option_gap, option_seed, option_one_gap, option_one_seed;
 
@@ -42,6 +43,9 @@ bool has_flags(const shoot_flags *f);
 /* The shots as an array of lines of JSON, one for each combination and at most `most`, aimed for a
  * play by these options; NULL after a complaint. */
 json_t *flags_shots(shoot_flags *f, const carom_shot_options *options, int most);
+
+/* What is wrong with lists of numbers beside a file. */
+#define WITH_LISTS "--with: several values of a number are for shots by options, not for a file"
 
 /* The same lines as a file, of this name; NULL after a complaint. */
 #define SHOTS_GIVEN "the shot given"

@@ -114,6 +114,8 @@ void shot_numbers(shot_line *line, const shared_options *shared, const char *fil
     *warned |= bit;
   }
   const given_numbers *with = &shared->with;
+  if (with->in_lines)
+    return;
   give_cue(with, &line->cue);
   json_t *cue = json_object_get(line->json, "cue");
   for (int k = 0; cue != NULL && (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++)

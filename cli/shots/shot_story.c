@@ -17,6 +17,8 @@ enum { SAMPLES = 1024, REFINEMENTS = 40 };
 /* where more balls move, all but that of the cue are told shortly */
 enum { MOST_TOLD = 4 };
 enum { MOST_MOMENTS = 512 };
+/* m: lower hops are not told */
+static const double hop_least = 1e-3;
 
 typedef enum moment_kind {
   MOMENT_LEAVES, /* the ball of the cue, struck */
@@ -24,6 +26,8 @@ typedef enum moment_kind {
   MOMENT_RAIL,   /* a cushion; value: where, in diamonds */
   MOMENT_JAW,    /* the cut of a pocket, or its jaw */
   MOMENT_ROLLS,  /* it rolls from here on */
+  MOMENT_FLIES,  /* it leaves the cloth; value: how high it rises above it, m */
+  MOMENT_LANDS,  /* on the slate; value: how far it flew, m */
   MOMENT_PASSES, /* another ball, without contact; value: the gap, m */
   MOMENT_FALLS,  /* into a pocket */
   MOMENT_OFF,    /* it leaves the table */
@@ -285,6 +289,32 @@ static void add_contact(story *s, const moment *m, double *met) {
     s->at[s->count++] = *m;
 }
 
+/* How high a ball that leaves a place so rises above the cloth, m. */
+static double height_of(const carom_ball_kind *kind, const carom_ball_state *s) {
+  const double up = fmax(s->v[2], 0.0);
+  return s->r[2] - kind->radius + up * up / (2.0 * kind->gravity);
+}
+
+/* Adds the flight of a ball that begins with event k and ends with the next one of the ball. */
+static void add_flight(const shot_line *line, const carom_shot *shot, int64_t k, int ball,
+                       story *s) {
+  const carom_ball_state *from = &shot->events[k].after[shot_event_side(&shot->events[k], ball)];
+  const double height = height_of(&line->ball[ball].kind, from);
+  if (from->label != CAROM_BALL_AIRBORNE || height < hop_least)
+    return;
+  moment flies = moment_at(MOMENT_FLIES, shot->events[k].time, from);
+  flies.value = height;
+  s->at[s->count++] = flies;
+  int64_t next = k + 1;
+  while (next < shot_events_kept(shot) && !has_ball(&shot->events[next], ball))
+    next++;
+  if (next == shot_events_kept(shot) || shot->events[next].type != CAROM_EVENT_SLATE)
+    return;
+  moment lands = moment_at(MOMENT_LANDS, shot->events[next].time, &shot->events[next].after[0]);
+  lands.value = hypot(lands.x - flies.x, lands.y - flies.y);
+  s->at[s->count++] = lands;
+}
+
 /* Adds the moments of the events of a ball; returns the time of the last event. */
 static double add_events(const shot_line *line, const carom_shot *shot, int ball, story *s) {
   const int most = MOST_MOMENTS - 2 * CAROM_BALLS_MOST; /* with room for its end and those passed */
@@ -294,12 +324,13 @@ static double add_events(const shot_line *line, const carom_shot *shot, int ball
     if (!has_ball(&shot->events[k], ball))
       continue;
     last = shot->events[k].time;
-    if (!moment_of(line, shot, k, ball, &m))
-      continue;
-    if (m.kind == MOMENT_MEETS)
-      add_contact(s, &m, &met);
-    else
-      s->at[s->count++] = m;
+    if (moment_of(line, shot, k, ball, &m)) {
+      if (m.kind == MOMENT_MEETS)
+        add_contact(s, &m, &met);
+      else
+        s->at[s->count++] = m;
+    }
+    add_flight(line, shot, k, ball, s);
   }
   return last;
 }
@@ -375,12 +406,14 @@ static void write_moment(FILE *out, const moment *m) {
   put_number(out, value_of_kind(m, MOMENT_MEETS));
   put_number(out, value_of_kind(m, MOMENT_RAIL));
   put_number(out, 1e3 * value_of_kind(m, MOMENT_PASSES));
+  put_number(out, 1e3 * value_of_kind(m, MOMENT_FLIES));
+  put_number(out, value_of_kind(m, MOMENT_LANDS));
   putc('\n', out);
 }
 
 void story_rows(FILE *out, int number, const shot_line *line, const carom_shot *shot) {
-  static const char *const what[] = {"leaves", "meets", "rail", "jaw",   "rolls",
-                                     "passes", "falls", "off",  "rests", "moves"};
+  static const char *const what[] = {"leaves", "meets",  "rail",  "jaw", "rolls", "flies",
+                                     "lands",  "passes", "falls", "off", "rests", "moves"};
   static story s;
   const json_t *id = json_object_get(line->json, "id");
   for (int ball = 0; ball < line->count; ball++) {
@@ -457,6 +490,14 @@ static void tell_moment(FILE *out, const shot_line *line, const moment *m, bool 
   case MOMENT_ROLLS:
     fprintf(out, "rolls after %.2f s at %.1f degrees", m->time, m->direction);
     break;
+  case MOMENT_FLIES:
+    fprintf(out, "flies %.1f mm high from x = %.3f, y = %.3f m after %.2f s", 1e3 * m->value, m->x,
+            m->y, m->time);
+    break;
+  case MOMENT_LANDS:
+    fprintf(out, "lands %.3f m on at x = %.3f, y = %.3f m after %.2f s", m->value, m->x, m->y,
+            m->time);
+    break;
   case MOMENT_PASSES:
     fprintf(out, "passes %s by %.0f mm after %.2f s", line->name[m->with], 1e3 * m->value, m->time);
     break;
@@ -479,8 +520,17 @@ static void tell_shortly(FILE *out, const shot_line *line, const story *s) {
     tell_contact(out, line, &s->at[met]);
     fputs("; ", out);
   }
-  for (int k = 0; k < s->count; k++)
-    rails += s->at[k].kind == MOMENT_RAIL;
+  double height = 0.0, far = 0.0; /* of the highest flight */
+  for (int k = 0; k < s->count; k++) {
+    const moment *m = &s->at[k];
+    rails += m->kind == MOMENT_RAIL;
+    if (m->kind == MOMENT_LANDS && m[-1].value == height)
+      far = m->value;
+    if (m->kind == MOMENT_FLIES && m->value > height) {
+      height = m->value;
+      far = 0.0;
+    }
+  }
   fprintf(out, rails == 1 ? "%d rail" : "%d rails", rails);
   const char *before = " after ";
   for (int k = 0, times = 0; k < s->count && times < MOST_TIMES; k++)
@@ -492,6 +542,11 @@ static void tell_shortly(FILE *out, const shot_line *line, const story *s) {
   if (rails > MOST_TIMES)
     fputs(", ...", out);
   fputs(rails > 0 ? " s; " : "; ", out);
+  if (height > 0.0)
+    fprintf(out, "flies %.1f mm high", 1e3 * height);
+  if (far > 0.0)
+    fprintf(out, ", %.3f m far", far);
+  fputs(text_if(height > 0.0, "; "), out);
   tell_end(out, line, &s->at[s->count - 1]);
 }
 
@@ -521,6 +576,22 @@ static void tell_push(FILE *out, const shot_line *line, const carom_facts *facts
             facts->second_time, facts->second_place[0], facts->second_place[1]);
 }
 
+/* How far the ball of a level cue leaves beside the direction of the cue, and for which length of
+ * the bridge back-hand english needs no correction: that at which a cue that turns about the bridge
+ * by the squirt moves its line from the centre to the tip's place. */
+static void tell_squirt(FILE *out, const shot_line *line, const double v[3]) {
+  const carom_cue *cue = &line->cue;
+  const double turn = cue->phi * degree;
+  const double squirt = angle_between((const double[]){cos(turn), sin(turn)}, v);
+  if (cue->theta != 0.0 || cue->a == 0.0 || fabs(squirt) < 0.005)
+    return;
+  fprintf(out,
+          "squirt %.2f degrees to the %s; the bridge for back-hand english is %.0f mm from the "
+          "centre of the ball\n",
+          fabs(squirt), left_or_right(squirt),
+          1e3 * fabs(cue->a) * line->ball[cue->ball].kind.radius / sin(fabs(squirt) * degree));
+}
+
 void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const spread *s,
                bool shortly) {
   const carom_cue *cue = &line->cue;
@@ -538,6 +609,7 @@ void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const s
             cue->b != 0.0 ? " and " : " of the centre\n");
   if (cue->b != 0.0)
     fprintf(out, "%.3g R %s the centre\n", fabs(cue->b), above_or_below(cue->b));
+  tell_squirt(out, line, v);
   if (shot->facts != NULL)
     tell_push(out, line, shot->facts);
   int moved = 0;

@@ -30,8 +30,9 @@ const char *rail_words(const named_table *t, int rail, char text[WHERE_TEXT]);
 const char *pocket_words(const named_table *t, int pocket, char text[WHERE_TEXT]);
 
 /* Writes the rows of all moments of the balls that moved; `number` is that of the shot. */
-#define STORY_COLUMNS \
-  "shot,id,ball,what,with,time_s,x_m,y_m,speed_m_s,direction_deg,cut_deg,diamonds,gap_mm"
+#define STORY_COLUMNS                                                                             \
+  "shot,id,ball,what,with,time_s,x_m,y_m,speed_m_s,direction_deg,cut_deg,diamonds,gap_mm,height_" \
+  "mm,flight_m"
 void story_rows(FILE *out, int number, const shot_line *line, const carom_shot *shot);
 
 /* Tells what each ball does that moved: its moments, or in a line where `shortly` is set; with the

@@ -114,20 +114,6 @@ carom_game game_of_table(carom_table_kind kind) {
   }
 }
 
-/* How the number of a measure is written, by its unit. */
-typedef struct measure_form {
-  int measure;
-  const char *example;
-} measure_form;
-
-static measure_form form_of(const carom_number *n) {
-  if (strcmp(n->unit, "m") == 0)
-    return (measure_form){MEASURE_LENGTH, "4.25in"};
-  if (n->unit[0] == '\0')
-    return (measure_form){MEASURE_NUMBER, "0.8"};
-  return (measure_form){MEASURE_ANGLE, "104"};
-}
-
 /* Changes measures by "corner=4.25in,side_cut=104", which it cuts up. */
 static bool give_measures(char *keys, carom_measures *m, json_fault *f) {
   char all[JSON_KEYS], hint[HINT_TEXT], range[100], *rest = NULL;
@@ -145,10 +131,11 @@ static bool give_measures(char *keys, carom_measures *m, json_fault *f) {
       return json_wrong(f, "%.40s is no measure; there are%s%s", key, all,
                         did_you_mean(key, all, hint));
     carom_number_range(n, range, sizeof range);
-    const measure_form form = form_of(n);
-    if (!value_of(form.measure, text, &v))
-      return json_wrong(f, "%s is a number, such as %s=%s, and must be %s; not '%.40s'", key, key,
-                        form.example, range, text);
+    const int measure = measure_of_unit(n->unit);
+    if (!value_of(measure, text, &v))
+      return json_wrong(f, "%s is a number%s, and must be %s; not '%.40s'", key,
+                        text_if(measure == MEASURE_LENGTH, ", with a unit or without, 4.25in"),
+                        range, text);
     memcpy((char *)m + n->offset, &v.x, sizeof v.x);
   }
   return true;
@@ -168,6 +155,19 @@ static bool tell_measures(carom_status status, const carom_table_fault *at, json
     return json_wrong(f, "%s must be %s", n->key, range);
   return json_wrong(f, "%s must be below %.4g m with this %s", n->key, at->gap,
                     carom_number_of(CAROM_PART_MEASURES, at->other.index)->key);
+}
+
+char *table_spelt(char *text) {
+  static const char *const other[][2] = {{"10ft", "threecushion"}, {"12ft", "snooker"}};
+  const size_t size = strcspn(text, ",");
+  for (size_t k = 0; k < sizeof other / sizeof *other; k++)
+    if (strlen(other[k][0]) == size && strncmp(other[k][0], text, size) == 0) {
+      const size_t room = strlen(other[k][1]) + strlen(text + size) + 1;
+      char *spelt = allocate(room, 1); /* kept, as arguments are */
+      snprintf(spelt, room, "%s%s", other[k][1], text + size);
+      return spelt;
+    }
+  return text;
 }
 
 /* Tables that need no line, by the name of carom_table_make()'s kinds, and measures behind it. */

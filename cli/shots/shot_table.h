@@ -19,6 +19,9 @@ typedef struct named_table {
  * freed either way. */
 bool read_table(const json_t *json, named_table *t, json_fault *f);
 
+/* The name of a table with its measures as built_in_table() knows it: "12ft" is "snooker". */
+char *table_spelt(char *text);
+
 /* A new table of this name, behind which measures may stand, "9ft,corner=4.25in"; NULL where that
  * cannot be, with the reason in *f, or "" if none of that name is built in. */
 named_table *built_in_table(const char *id, json_fault *f);

@@ -44,7 +44,8 @@ print("tips:", [round(speed * 1.73 / speeds[0], 2) for speed in speeds])
 assert {key: given["cue"][key] for key in ("V0", "phi", "theta", "a", "b")} == {"V0": 2, "phi": 90, "theta": 0, "a": 0, "b": 0.25}
 print("cuts are what was asked for:", worst < 1e-6)
 same = lambda a, b: run(*a, "--json") == run(*b, "--json")
-print("units:", same(["--cue", "1,2ft"], ["--cue", "0.3048,0.6096"]), same(["--speed", "3.6km/h"], ["--speed", 1]), same(["--tip", "1,0tip"], ["--tip", f"{0.013 / R!r},0"]))
+print("units:", same(["--cue", "1,2ft"], ["--cue", "0.3048,0.6096"]), same(["--speed", "3.6km/h"], ["--speed", 1]), same(["--tip", "1,0tip"], ["--tip", f"{0.013 / R!r},0"]), same(["--speed", "15ft/s"], ["--speed", 15 * 0.3048]), same(["--tip", "12mm,1.5tips"], ["--tip", f"{0.012 / R!r},{1.5 * 0.013 / R!r}"]),
+      same(["--with", "mass=6oz,radius=34mm,end_mass=4g,tip_time=2ms"], ["--with", f"mass={6 * 0.028349523125!r},radius=0.034,end_mass=0.004,tip_time=0.002"]), same(["--table", "12ft"], ["--table", "snooker"]), same(["--table", "10ft,width=4ft"], ["--table", "threecushion,width=4ft"]))
 for rack, count in (("nineball", 10), ("eightball", 16), ("tenball", 11)):
     [(given, _)] = shots("--balls", rack, "--speed", 8)
     assert [ball["id"] for ball in given["balls"]] == ["cue", *map(str, range(1, count))]
@@ -72,6 +73,25 @@ for name, x, y in (("1", R, 1.27), ("2", 0.3175, 2.54 - R), ("5", 1.27 - R, 1), 
 for name, other, degrees in (("9", "1", 30), ("4", "9", -90), ("cue", "9", 20)):
     x, y = (a - b for a, b in zip(at[name], at[other], strict=True))
     assert abs(math.hypot(x, y) - 2 * R) < 1e-15 and math.cos(math.atan2(y, x) - math.radians(degrees)) > 1 - 1e-15, (name, at)
+
+# Several values of numbers, of all balls, the cue and the cue ball alone, which may be larger.
+other = shots("--balls", "0.635,1.5", "--with", "end_mass=3g,7g,radius=28mm:30mm:2mm", "--cue-ball", "mass=6.5oz,0.2,radius=30mm")
+print([line["id"] for line, _ in other[::3]])
+for line, _ in other:
+    cue, ball = line["balls"]
+    assert cue["params"]["R"] == cue["state"][3] == 0.03 and ball["state"][3] == ball["params"]["R"] and "m" not in ball["params"] and str(cue["params"]["m"])[:4] in line["id"]
+# A cue that turns by the squirt about the bridge for back-hand english puts its tip where it was.
+for end_mass, a in ((0.003, 0.5), (0.007, -0.3)):
+    squirt, bridge = re.search(r"squirt ([\d.]+) .* is (\d+) mm", run("--tip", f"{a},0", "--with", f"end_mass={end_mass}")).groups()
+    assert abs(math.sin(math.radians(float(squirt))) * float(bridge) - 1e3 * abs(a) * R) < 0.15, (squirt, bridge)
+# A jump: as high as the speed upwards of its event carries it, and as far as to its landing.
+jump = ("--cue", "0.6,0.8", "--elevation", 40, "--tip", "0,0", "--tip-time", "0.8ms", "--speed", 3.5)
+[(_, played)] = shots(*jump)
+flights = [(a[4][0], b[4][0]) for a, b in zip(played["events"], played["events"][1:]) if b[1] == "slate"]
+flies, lands = ([row for row in csv.DictReader(io.StringIO(run(*jump, "--csv"))) if row["what"] == what] for what in ("flies", "lands"))
+for (a, b), up, down in zip(flights, flies, lands):
+    assert abs(float(up["height_mm"]) - 1e3 * (a[3] - R + a[6] ** 2 / 2 / 9.81)) < 1e-9 and abs(float(down["flight_m"]) - math.dist(a[1:3], b[1:3])) < 1e-12, (up, down)
+print("flights:", len(flies), *re.findall("flies .* high|lands .* on", run(*jump)), re.search("flies[^;]*", run(*jump[:-1], "3.5,2")).group())
 
 # What balls do, as rows: contacts are those of the events, ends those of the shot; a ball that lies 5 mm beside a straight path is passed.
 rows = lambda *words: list(csv.DictReader(io.StringIO(run(*words, "--csv"))))

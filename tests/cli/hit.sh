@@ -70,6 +70,14 @@ def velocity(x, y, scale):
     way = "straight on" if abs(angle) < 0.005 else "straight back" if abs(angle) > 179.995 else ""
     return f"{math.hypot(x, y):.3f} m/s, {way or f'{abs(angle):.2f} degrees to the ' + ('left' if angle > 0 else 'right')}"
 
+def rests(v, roll, cloth, mu_roll=0.01, g=9.81):
+    """Slips at cloth g for |v - roll| / (cloth g), and rolls for roll^2 / (2 mu_roll g)."""
+    if cloth == 0:
+        return []
+    slips, speed = math.dist(v, roll) / (cloth * g), math.hypot(*roll)
+    x, y = ((a + b) / 2 * slips + b * speed / (2 * mu_roll * g) for a, b in zip(v, roll, strict=True))
+    return [f"              rests:       {math.hypot(x, y):.3f} m from the contact, on an endless cloth"]
+
 def said(row, after, spin, cut):
     """The report in the words of `carom hit`."""
     f = {name: float(x) for name, x in row.items() if name != "id"} | {name: float(x) for name, x in after.items() if name not in row and name != "status"}
@@ -86,10 +94,12 @@ def said(row, after, spin, cut):
         f"Friction between the balls {f['u_b']:.4f}, with the cloth {f['u_s1']:.4g}, restitution {f['e_b']:.4g}.",
         "object ball   at once:     " + velocity(b["v2x"], b["v2y"], v),
         "              rolling:     " + velocity(b["roll2x"], b["roll2y"], v),
+        *rests((b["v2x"], b["v2y"]), (b["roll2x"], b["roll2y"]), f["u_s2"]),
         "              throw:       " + ("none: it leaves along the line of centres" if abs(throw) < 0.005 else f"{abs(throw):.2f} degrees to the {side} of the line of centres"),
         "              spin after:  " + spins(2),
         "cue ball      at once:     " + velocity(b["v1x"], b["v1y"], v),
         "              rolling:     " + velocity(b["roll1x"], b["roll1y"], v),
+        *rests((b["v1x"], b["v1y"]), (b["roll1x"], b["roll1y"]), f["u_s1"]),
         "              spin after:  " + spins(1),
         f"energy        lost:        {100 * lost:.2f} % of {at_first:.4g} J",
     ]

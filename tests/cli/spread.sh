@@ -98,7 +98,7 @@ echo "--- units: a tip is 13 mm wide, also in radii of its ball"
 carom shoot --spread 0%,0,0.5tip,0 --events none bank.jsonl | grep -o '"error": {[^}]*}'
 carom shoot --spread 2,0.1deg,0.02R --events none hit.jsonl | grep -o '"error": {[^}]*}'
 echo "--- what is refused"
-for wrong in "" 1% 1%,0.05 1%,0.05,0.01,0.01,0.01 -1%,0.05,0.01 1%,x,0.01 1m/s,0.05,0.01 1%,0.05,1mm 0,0,0 nan,0,0; do
+for wrong in "" 1% 1%,0.05 1%,0.05,0.01,0.01,0.01 -1%,0.05,0.01 1%,x,0.01 1m/s,0.05,0.01 1%,0.05,1kg 0,0,0 nan,0,0; do
   try carom shoot --spread "$wrong" bank.jsonl
 done
 try carom shoot --spread 1%,0.05,0.01 --models pooltool -o refused.out bank.jsonl
