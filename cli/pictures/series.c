@@ -304,6 +304,20 @@ static bool draw(const series *s) {
 
 /* ---- */
 
+/* Whether rows, where they are asked for, say all; false after a complaint. */
+static bool rows_have_all(const series *s) {
+  const bool rows = s->csv && s->asked_for == 0;
+  if (rows && s->asked.models != 0)
+    complain("--csv writes rows, which have no model: give --model to `carom resolve --cushion`, "
+             "or --quantity here");
+  else if (rows && s->asked.options.solver != CAROM_SOLVER_EXACT)
+    complain("--csv writes rows, which have no solver: give --solver to `carom resolve`, or "
+             "--quantity here");
+  else
+    return true;
+  return false;
+}
+
 /* What is asked for and cannot be; false after a complaint. */
 static bool is_possible(const series *s, int count) {
   int ranges = 0;
@@ -320,19 +334,12 @@ static bool is_possible(const series *s, int count) {
   else if (ranges > 0 && s->picture != NULL && count / s->in[range_of(s)].count > MOST_CASES)
     complain("%d curves are too many to draw: at most %d", count / s->in[range_of(s)].count,
              MOST_CASES);
-  else if (s->csv && s->asked_for == 0 && s->asked.models != 0)
-    complain(
-        "--csv writes rows, which have no model: give --model to `carom resolve --cushion`, or "
-        "--quantity here");
-  else if (s->csv && s->asked_for == 0 && s->asked.options.solver != CAROM_SOLVER_EXACT)
-    complain("--csv writes rows, which have no solver: give --solver to `carom resolve`, or "
-             "--quantity here");
   else if (ranges == 0 && s->asked_for != 0 && !s->csv && s->picture != NULL)
     complain("--quantity is for curves and tables: give a range, such as --speed 1:5");
   else if (s->picture != NULL && (s->asked_for & (s->asked_for - 1)) != 0)
     complain("curves show one --quantity; a table has several");
   else
-    return true;
+    return rows_have_all(s);
   return false;
 }
 

@@ -377,8 +377,7 @@ OPTION_SET(set_numbers) {
        token = strtok_r(NULL, ",", &rest)) {
     char *number = strchr(token, '=');
     /* a further value of the number before it, the file of a fit, or NAME=X */
-    const bool further =
-        number == NULL && n != NULL && strchr("+-.0123456789", *token) != NULL;
+    const bool further = number == NULL && n != NULL && strchr("+-.0123456789", *token) != NULL;
     if (number == NULL && strstr(token, ".json") != NULL) {
       if (!give_fit(token, given))
         return false;

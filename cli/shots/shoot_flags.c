@@ -150,8 +150,8 @@ static bool any_list(const shoot_flags *f, bool comma) {
 bool has_flags(const shoot_flags *f) {
   return f->table.kind != 0 || f->at_ball != NULL || f->pocket != NULL || f->via != NULL ||
          f->json || f->cue.count > 0 || f->to.count > 0 || f->balls.count > 0 ||
-         f->balls.rack > 0 || f->tip.count > 0 || f->own.which != 0 || f->own.of_cue != 0 || f->own.lists > 0 ||
-         any_list(f, false);
+         f->balls.rack > 0 || f->tip.count > 0 || f->own.which != 0 || f->own.of_cue != 0 ||
+         f->own.lists > 0 || any_list(f, false);
 }
 
 /* Names of the balls of a rack, by carom_rack()'s order. */

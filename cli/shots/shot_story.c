@@ -300,15 +300,20 @@ static void add_flight(const shot_line *line, const carom_shot *shot, int64_t k,
                        story *s) {
   const carom_ball_state *from = &shot->events[k].after[shot_event_side(&shot->events[k], ball)];
   const double height = height_of(&line->ball[ball].kind, from);
-  if (from->label != CAROM_BALL_AIRBORNE || height < hop_least)
+  const int64_t kept = shot_events_kept(shot);
+  int64_t next = k + 1;
+  while (next < kept && !has_ball(&shot->events[next], ball))
+    next++;
+
+  /* of contacts at one instant the last one sends it off */
+  const bool ends = next < kept;
+  const bool again = ends && shot->events[next].time == shot->events[k].time;
+  if (from->label != CAROM_BALL_AIRBORNE || height < hop_least || again)
     return;
   moment flies = moment_at(MOMENT_FLIES, shot->events[k].time, from);
   flies.value = height;
   s->at[s->count++] = flies;
-  int64_t next = k + 1;
-  while (next < shot_events_kept(shot) && !has_ball(&shot->events[next], ball))
-    next++;
-  if (next == shot_events_kept(shot) || shot->events[next].type != CAROM_EVENT_SLATE)
+  if (!ends || shot->events[next].type != CAROM_EVENT_SLATE)
     return;
   moment lands = moment_at(MOMENT_LANDS, shot->events[next].time, &shot->events[next].after[0]);
   lands.value = hypot(lands.x - flies.x, lands.y - flies.y);
