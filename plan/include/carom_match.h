@@ -120,6 +120,7 @@ typedef struct carom_match {
   int64_t rulings;        /* how many there were. */
   int64_t size;    /* bytes of text[]: the lines of the last act; behind lines that were read:
                              those that are still missing. */
+  int64_t due;     /* of these, the bytes that carom_match_read() awaits. */
   char fault[256]; /* of the last act, why it was refused. */
   char text[CAROM_MATCH_TEXT];
 } carom_match;

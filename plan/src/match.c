@@ -72,7 +72,7 @@ const char *carom_refusal_name(int refusal) {
 carom_status carom_match_refuse(carom_match *match, carom_refusal why, const char *act,
                                 const char *right) {
   match->refusal = (int32_t)why;
-  match->size = 0;
+  match->size = match->due = 0;
   snprintf(match->fault, sizeof match->fault, "%.40s: %.200s", act, right);
   return CAROM_ERROR_ACT;
 }
@@ -126,7 +126,7 @@ static carom_status check_turn(carom_match *match, int player, const char *act) 
 static void begin_act(carom_match *match) {
   match->refusal = CAROM_REFUSED_NOT;
   match->fault[0] = '\0';
-  match->size = 0;
+  match->size = match->due = 0;
 }
 
 static void put_line(carom_match *match, carom_record_kind kind) {

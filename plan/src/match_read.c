@@ -11,13 +11,13 @@
 
 /* What the next line must be, of those that the last act made. */
 static size_t line_due(const carom_match *match) {
-  const char *end = memchr(match->text, '\n', (size_t)match->size);
+  const char *end = memchr(match->text, '\n', (size_t)match->due);
   return end != NULL ? (size_t)(end - match->text) + 1 : 0;
 }
 
 /* The line that was due has come. */
 static void take_line(carom_match *match, size_t length) {
-  match->size -= (int64_t)length;
+  match->size = match->due -= (int64_t)length;
   memmove(match->text, match->text + length, (size_t)match->size);
 }
 
@@ -48,9 +48,10 @@ static carom_status refuse_line(carom_match *match, int64_t line, const char *wh
     snprintf(due, sizeof due, "; due is %.*s...", length < 40 ? (int)length - 1 : 40, match->text);
   snprintf(act, sizeof act, "line %lld", (long long)line);
   snprintf(right, sizeof right, "%s%s", what, due);
-  const int64_t size = match->size;
+  const int64_t size = match->size, awaited = match->due;
   const carom_status status = carom_match_refuse(match, CAROM_REFUSED_LINE, act, right);
   match->size = size;
+  match->due = awaited;
   match->record.kind = CAROM_RECORD_WRONG;
   return status;
 }
@@ -142,7 +143,7 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
   if (size == 0)
     return CAROM_OK;
   if (match->phase == CAROM_MATCH_NONE) {
-    match->size = 0;
+    match->size = match->due = 0;
     return read_beginning(match, line, size);
   }
   if (is_kind(line, size, "event") && record->kind != CAROM_RECORD_WRONG)
@@ -166,6 +167,7 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
       snprintf(why, sizeof why, "%.199s", match->fault);
       return refuse_line(match, number, why);
     }
+    match->due = match->size;
     due = line_due(match);
   }
   if (due != size + 1 || memcmp(line, match->text, size) != 0) {

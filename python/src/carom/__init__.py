@@ -7,7 +7,7 @@
     results      Shot, Shots, Features, EventType, Label, Status, CaromError
     derivatives  tangents, jacobian, hessian, aim_slope, Tangents, Hessian, Flag
     plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating
-    rules        referee, Rules, Ruling, Facts, Turn, Foul
+    rules        Match, a whole game; referee, Rules, Ruling, Facts, Turn, Foul
     other        dtypes, the structured dtypes; cite, physics_revision, isa_in_force
     modules      record, tracks, fit, jax, torch, pooltool; games: potting, drills, pool, matches,
                  gymnasium, pettingzoo, sb3
@@ -93,6 +93,7 @@ if _TYPE_CHECKING:
     from carom.games import (
         Facts as Facts,
         Foul as Foul,
+        Match as Match,
         Pot as Pot,
         Rating as Rating,
         Rules as Rules,
@@ -121,6 +122,7 @@ _OFFERED = [
     "Foul",
     "Hessian",
     "Label",
+    "Match",
     "Options",
     "Outcome",
     "Pot",
@@ -173,7 +175,7 @@ _OFFERED = [
 
 # Names of the folder games, and modules of folders, which are loaded when they are asked for.
 _OF_GAMES = frozenset(
-    "Facts Foul Pot Rating Rules Ruling Turn aim chances plan player rating referee value "
+    "Facts Foul Match Pot Rating Rules Ruling Turn aim chances plan player rating referee value "
     "with_errors".split()
 )
 _MODULES_OF_FOLDERS = frozenset(

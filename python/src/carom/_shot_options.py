@@ -112,3 +112,15 @@ def shot_options(given: Options, threads: int = 0) -> Any:
             "time_most": t_final or 0.0,
         },
     )
+
+
+def options_of(record: Any) -> Options:
+    """Options of C as they are here; threads are not read."""
+    made: dict[str, Any] = {
+        name: next(word for word, value in known.items() if value == getattr(record, name))
+        for name, known in _WORDS.items()
+    }
+    made |= {name: getattr(record, name) for name in COUNTS}
+    made["stop_at"] = tuple(word for word, bit in _STOPS.items() if record.stop_at >> bit & 1)
+    made["first_of"] = tuple(ball for ball in range(32) if record.first_of >> ball & 1)
+    return Options(**made, t_final=record.time_most or None)

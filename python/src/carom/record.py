@@ -188,7 +188,7 @@ class Recorder:
         """
         game = cls.__new__(cls)
         game.__setstate__(([], bytes(ffi.sizeof("carom_record"))))
-        for shot in _replay(game._game, _lines(recording, game.lines)):
+        for shot in _replay(game._game, lines_of(recording, game.lines)):
             if not shot.same:
                 raise CaromError(
                     lib.CAROM_ERROR_RECORD, f"line {shot.line}", text="the shot has other bits here"
@@ -266,7 +266,7 @@ def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replay
         the physics; it is cut off.
     """
     game = ffi.new("carom_record *")
-    yield from _replay(game, _lines(recording, []))
+    yield from _replay(game, lines_of(recording, []))
     if game.kind != lib.CAROM_RECORD_END:
         raise CaromError(
             lib.CAROM_ERROR_RECORD,
@@ -275,10 +275,10 @@ def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replay
         )
 
 
-def _lines(recording: str | os.PathLike[str] | Iterable[str], kept: list[str]) -> Iterator[str]:
+def lines_of(recording: str | os.PathLike[str] | Iterable[str], kept: list[str]) -> Iterator[str]:
     if isinstance(recording, (str, os.PathLike)):
         with Path(recording).open(encoding="utf-8") as lines:
-            yield from _lines(lines, kept)
+            yield from lines_of(lines, kept)
         return
     for text in recording:
         kept.append(text.rstrip() + "\n")

@@ -4,9 +4,10 @@ import { CaromError } from "./error.js";
 import { layout, names, values } from "./generated/layout.js";
 import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
+import { type Host as MatchHost, Match, type MatchOptions } from "./match.js";
 import type { Build, Memory, Pointer } from "./memory.js";
 import { Plans } from "./plans.js";
-import { type Host as RecordingHost, Recording, type Replayed, replayed } from "./recording.js";
+import { Recording, type Replayed, replayed } from "./recording.js";
 import { type Kept, type Reader, Shot } from "./shot.js";
 import {
   readBalls,
@@ -120,7 +121,7 @@ export class Carom {
   readonly #library: Library;
   readonly #reader: Reader;
   readonly #plans: Plans;
-  readonly #recordings: RecordingHost;
+  readonly #recordings: MatchHost;
   readonly #at: Record<
     | "impact"
     | "options"
@@ -200,6 +201,10 @@ export class Carom {
       played: (...of) => this.#played(...of),
       readState: (...of) => this.#plans.readState(...of),
       writeState: (...of) => this.#plans.writeState(...of),
+      readRuling: (...of) => this.#plans.readRuling(...of),
+      think: (table, balls, options, slice) =>
+        this.#plans.think(table, balls, undefined, options, slice),
+      film: (table, balls, cue, options) => this.#shoot(table, balls, cue, options),
       refuse: (code, field) => this.#refuse(code, field),
     };
   }
@@ -762,12 +767,16 @@ export class Carom {
     cue?: Partial<Cue>,
     options: ShotOptions = {},
   ): Shot {
-    const at = this.#at;
     const struck = cue === undefined ? undefined : this.#cue(cue);
+    return this.#shoot(table, balls, struck, this.#writeShotOptions(options));
+  }
+
+  /** Plays a shot by options in the module's memory. */
+  #shoot(table: Table, balls: readonly ShotBall[], struck: Cue | undefined, opt: Pointer): Shot {
+    const at = this.#at;
     this.#writeLayout(table, balls);
     if (struck !== undefined) writeStruct(this.#memory, at.cue, "carom_cue", struck, "cue");
     const cueAt = struck === undefined ? 0 : at.cue;
-    const opt = this.#writeShotOptions(options);
     this.#needRoom(256);
     let code: number;
     // A shot that has more events than there is room for is played again with enough of it: it has
@@ -1067,6 +1076,18 @@ export class Carom {
       final,
       shots.at(6) + k * shots.room * EVENT.size,
     );
+  }
+
+  /**
+   * Begins a match between two players by the rules of a game, or of a state of it; without them
+   * one whose lines are read at first.
+   */
+  match(): Match;
+  match(rules: GameState["rules"] | GameState, table: Table, options?: MatchOptions): Match;
+  match(rules?: GameState["rules"] | GameState, table?: Table, options: MatchOptions = {}): Match {
+    const match = new Match(this.#recordings);
+    if (rules && table) match.begin(typeof rules === "string" ? { rules } : rules, table, options);
+    return match;
   }
 
   // ---- Plans and games --------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 // was probably meant.
 import { numbers, options } from "./generated/layout.js";
 import type { PlanOptions as PlanRows } from "./generated/structs.js";
+import type { MatchOptions } from "./match.js";
 import type { AimOf, GameState, Impact, Line, Motion, PlanOptions, ShotBall } from "./types.js";
 
 /** The keys of an interface; the compiler refuses a list that lacks one or has another. */
@@ -34,6 +35,7 @@ export const KEYS = {
   shot: keysOf("carom_shot_options"),
   line: all<Line>({ id: 1, tableName: 1, table: 1, names: 1, balls: 1, cue: 1 }),
   game: all<GameState>(GAME),
+  match: all<MatchOptions>({ seed: 1, player: 1, balls: 1, hand: 1, shot: 1 }),
   aim: all<AimOf>({ ball: 1, pocket: 1, via: 1 }),
   plan: [
     ...keysOf("carom_plan_options"),

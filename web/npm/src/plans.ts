@@ -44,8 +44,9 @@ const RULING = layout.carom_ruling.offset;
 const POT = layout.carom_pot;
 const PART = layout.carom_part;
 
-const MAY = ["pass", "push", "free_ball", "place"] as const;
-const HANDS = ["no", "no", "anywhere", "kitchen", "d"] as const;
+const MAY = names.carom_may;
+/** Where the cue ball may be put, by its carom_leave. */
+export const HANDS = ["no", "no", "anywhere", "kitchen", "d"] as const;
 /** The members of a state that are numbers here, too. */
 const MEMBERS = ["fouls", "score", "lost", "pocket", "on", "freeBall", "target"] as const;
 const of = (state: object, keys: readonly string[]): object =>
@@ -387,7 +388,7 @@ export class Plans {
   ): Ruling {
     const { at } = this.#host;
     const memory = this.#memory;
-    const { call: callAt, rules, ruling, text } = this.#at;
+    const { call: callAt, rules, ruling } = this.#at;
     this.#writeRules(game, balls);
     const { ball, pocket } = numbersOf(call);
     memory.i32[callAt / 4] = ball;
@@ -405,15 +406,21 @@ export class Plans {
       ),
       "balls",
     );
-    memory.exports.carom_ruling_string(ruling, text, 256);
+    return this.readRuling(ruling, game.rules, balls);
+  }
 
+  /** A carom_ruling in the module's memory; `balls` have what it leaves as it was. */
+  readRuling(ruling: Pointer, rules: GameState["rules"], balls: readonly ShotBall[]): Ruling {
+    const memory = this.#memory;
+    const { text } = this.#at;
+    memory.exports.carom_ruling_string(ruling, text, 256);
     const turn = readStruct<Omit<C.Turn, "is" | "leave"> & { is: number; leave: number }>(
       memory,
       ruling + RULING.turn,
       "carom_turn",
     );
     const reason = names.carom_foul[turn.foul]!;
-    const state = this.readState(ruling + RULING.state, game.rules);
+    const state = this.readState(ruling + RULING.state, rules);
     const { score, lost } = readStruct<C.RulesState>(
       memory,
       ruling + RULING.state,
@@ -456,7 +463,7 @@ export class Plans {
     };
   }
 
-  writeState(game: GameState, balls: readonly ShotBall[]): Pointer {
+  writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer {
     this.#writeRules(game, balls);
     return this.#at.rules + RULES.offset.state;
   }
@@ -570,7 +577,7 @@ export class Plans {
 }
 
 /** The balls of a set. */
-function members(set: number, count: number): number[] {
+export function members(set: number, count = 32): number[] {
   return Array.from({ length: count }, (_, k) => k).filter((k) => (set >>> k) & 1);
 }
 

@@ -82,7 +82,7 @@ export interface Host {
     facts: Pointer,
   ): Shot;
   readState(at: Pointer, rules: GameState["rules"]): GameState;
-  writeState(game: GameState, balls: readonly ShotBall[]): Pointer;
+  writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer;
   refuse(code: number, field?: string): void;
 }
 

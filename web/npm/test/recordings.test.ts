@@ -82,3 +82,64 @@ test("a forged stroke, damage and other revisions are told", () => {
   refused(text.replace('"revision":', '"revision":9'), /line 1: the recording is of revision 9/);
   refused(text.split("\n").slice(0, -2).join("\n"), /cut off/);
 });
+
+test.each(builds)("a match refuses, rules and is judged again, by $name", ({ carom }) => {
+  const match = carom.match("eightball", carom.table("9ft"), { seed: 7, player: 1 });
+  const begun = match.lines;
+  const { bounds } = match;
+  expect([match.phase, match.player, bounds?.high[1]]).toEqual([
+    "place",
+    1,
+    match.table.length / 4,
+  ]);
+  for (const [act, said] of [
+    [() => match.place(0.6, 1), /place: .*0\.635/],
+    [() => match.stroke({ speed: 9 }), /stroke: .*in hand/],
+    [() => match.call(16), /call: ball 16 .* may: 1, 2/],
+    [() => match.choose("pass"), /choose: the choices are: none/],
+    [() => match.continue(), /continue: no ball moves/],
+  ] as const)
+    expect(act).toThrow(said);
+  expect(match.lines).toEqual(begun);
+
+  // A stroke while balls move is refused; one that goes on is ruled.
+  match.place(0.6, 0.6);
+  expect(match.stroke({ speed: 1.5, phi: 90 }, { timeMost: 0.3 })).toBe(false);
+  expect([match.phase, match.ruling, match.last?.time]).toEqual(["moving", undefined, 0.3]);
+  expect(() => match.stroke({ speed: 9 })).toThrow(/balls move/);
+  expect(match.continue()).toBe(true);
+  expect([match.player, match.may]).toEqual([0, expect.arrayContaining(["rack", "other_rack"])]);
+  expect(match.ruling?.facts.first[0]).toBe(match.last?.firstContact?.ball);
+  const { length } = match.lines;
+  match.choose("other_rack");
+  expect([match.player, match.game.opening]).toEqual([1, true]);
+
+  // Another program reads it, cut off behind the shot, and the rest of it; then it takes an act.
+  const { lines } = match;
+  const other = carom.match();
+  const shot = lines.findIndex((line) => line.startsWith('{"continue"'));
+  for (const line of lines.slice(0, shot + 1)) other.read(line);
+  expect(other.lines).toEqual(lines.slice(0, length));
+  for (const line of lines.slice(shot + 1)) other.read(line);
+  other.concede(0);
+  for (const line of other.lines.slice(lines.length)) match.read(line);
+  expect([match.winner, match.lines]).toEqual([1, other.lines]);
+  const forged = carom.match();
+  expect(() =>
+    lines.forEach((line) => forged.read(line.replace('"player":1', '"player":0'))),
+  ).toThrow(CaromError);
+  if (thereIsACommand) expect(run(["verify", "-"], match.end())).toContain("player 2 has won");
+});
+
+test("a match of another layout and state", () => {
+  const [{ carom }] = builds as [(typeof builds)[number]];
+  const table = carom.table("snooker");
+  const game = { rules: "snooker", group: "open", opening: false, score: [30, 10] } as const;
+  const balls = carom.rack("snooker", table);
+  const match = carom.match(game, table, { balls, hand: "d", shot: { cushionModel: "han" } });
+  expect(match.bounds?.radius).toBeCloseTo(0.292, 3);
+  const { place } = match.plan({ shots: 100, best: 1 })[0]!;
+  match.place(place[0]!, place[1]!);
+  expect([match.game.score, match.on.length, match.phase]).toEqual([[30, 10], 15, "stroke"]);
+  expect(() => carom.match("eightball", table, { seeds: 1 } as object)).toThrow(/seeds/);
+});

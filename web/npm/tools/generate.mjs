@@ -90,7 +90,10 @@ for (const [struct, list] of Object.entries(rows.options)) {
     .map((one) => ({ ...one, key: camel(one.name), of: one.words ? worded.get(one.words) : "" }));
 }
 
-/** The enumerations whose names the package looks up, by their values: "" is none. */
+/**
+ * The enumerations whose names the package looks up, by their values: "" is none; those of sets, by
+ * their bits.
+ */
 const asked = new Set(
   Object.values(options)
     .flat()
@@ -102,6 +105,8 @@ const named = Object.fromEntries(
       ({ name }) => asked.has(name) || new RegExp(`(names\\.|")${name}\\b`, "i").test(sources),
     )
     .map(({ name, values }) => {
+      if (values.length > 2 && values.every(({ value }, k) => value === 1 << k))
+        return [name, enums[name]];
       const [{ value: first }] = values;
       if (values.some(({ value }, k) => value !== first + k))
         throw new Error(`${name}: its values are not ${first}, ${first + 1}, ...`);

@@ -7,7 +7,7 @@ from __future__ import annotations
 import enum
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, cast, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -35,10 +35,10 @@ Group = Literal["open", "solids", "stripes"]
 State = npt.NDArray[Any]
 GivenState = Mapping[str, Any] | npt.ArrayLike
 Hand = Literal["no", "anywhere", "kitchen", "d"]
-_GAMES = {word: k for k, word in enumerate(get_args(RulesWord))}
+GAMES = {word: k for k, word in enumerate(get_args(RulesWord))}
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
 _TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3}
-_LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4}
+LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4}
 _RACES = {"own": 0, "shared": 1, "alone": 2, "points": 3}
 _WORDS = 8  # of the state of rules of one's own
 _USUAL = Options()
@@ -70,7 +70,7 @@ def _set_of(balls: Collection[int], name: str = "on", most: int = 31) -> int:
     return sum(1 << whole(ball, name, most=most) for ball in set(balls))
 
 
-def _of_set(bits: int) -> frozenset[int]:
+def of_set(bits: int) -> frozenset[int]:
     return frozenset(k for k in range(32) if bits >> k & 1)
 
 
@@ -104,11 +104,11 @@ class Facts:
 
 
 def _facts(record: Any) -> Facts:
-    down = sorted(_of_set(record.down), key=lambda ball: record.pocket_time[ball])
+    down = sorted(of_set(record.down), key=lambda ball: record.pocket_time[ball])
     potted = {ball: int(record.pocket[ball]) for ball in down}
     first, second = record.first
     before = (record.cushions_before[0], record.cushions_before[1])
-    sets = [_of_set(of) for of in (record.off, record.frozen, record.pushed)]
+    sets = [of_set(of) for of in (record.off, record.frozen, record.pushed)]
     return Facts(
         first,
         second,
@@ -217,7 +217,7 @@ class Made:
             )
         else:
             self.c = ffi.new(
-                "carom_plan_rules *", lib.carom_plan_rules_of(choice(_GAMES, rules, "rules"))
+                "carom_plan_rules *", lib.carom_plan_rules_of(choice(GAMES, rules, "rules"))
             )
         self.last = None if isinstance(rules, Rules) else LAST.get(rules)
         """The highest number of a ball."""
@@ -232,7 +232,7 @@ class Made:
         self.c.state.opening |= bool(opening)
         if not isinstance(rules, Rules):
             wrong = lib.carom_rules_fault(
-                _GAMES[rules], ffi.addressof(self.c, "state"), limits := ffi.new("char **")
+                GAMES[rules], ffi.addressof(self.c, "state"), limits := ffi.new("char **")
             )
             if wrong:
                 raise ValueError(
@@ -285,7 +285,7 @@ class Made:
 
         def judge(game: Any, in_play: int, cue_ball: int, facts: Any, call: Any) -> Any:
             state = list(game.user)
-            turn = rules.judge(state, _of_set(in_play), _facts(facts), (call.ball, call.pocket))
+            turn = rules.judge(state, of_set(in_play), _facts(facts), (call.ball, call.pocket))
             if not isinstance(turn, Turn):
                 raise TypeError(f"judge: it must return a carom.Turn, not {turn!r}")
             game.user = [
@@ -295,7 +295,7 @@ class Made:
                 "carom_turn *",
                 {
                     "is": choice(_TURNS, turn.turn, "Turn.turn"),
-                    "leave": choice(_LEAVES, turn.leave, "Turn.leave"),
+                    "leave": choice(LEAVES, turn.leave, "Turn.leave"),
                 },
             )
             made.foul, made.spot, made.points = (
@@ -303,7 +303,7 @@ class Made:
                 _set_of(turn.spot, "Turn.spot"),
                 turn.points,
             )
-            there = _of_set(made.spot & (in_play & ~(facts.down | facts.off) | 1))
+            there = of_set(made.spot & (in_play & ~(facts.down | facts.off) | 1))
             if there:
                 raise ValueError(
                     f"Turn.spot: balls come back that are down or off the table, not the cue ball, and not {sorted(there)}"
@@ -311,11 +311,11 @@ class Made:
             return made[0]
 
         def left(game: Any, in_play: int, out: Any) -> None:
-            own, other = rules.left(list(game.user), _of_set(in_play))
+            own, other = rules.left(list(game.user), of_set(in_play))
             out[0:2] = whole(own, "left"), whole(other, "left")
 
         def on(game: Any, in_play: int) -> int:
-            return _set_of(rules.on(list(game.user), _of_set(in_play)))
+            return _set_of(rules.on(list(game.user), of_set(in_play)))
 
         def pockets(game: Any) -> int:
             return _set_of(rules.pockets(list(game.user)), "pockets", lib.CAROM_POCKETS_MOST - 1)
@@ -404,7 +404,7 @@ def on_of(made: Made, layout: dtypes.Records) -> tuple[int, ...]:
     label = layout["state"]["label"]
     return tuple(
         sorted(
-            _of_set(
+            of_set(
                 int(
                     made.c.on(
                         ffi.addressof(made.c, "state"),
@@ -539,37 +539,44 @@ def referee(
         ruling,
     )
     made.check()
-    facts, turn = _facts(ffi.addressof(ruling, "facts")), ruling.turn
-    beyond = [ball for ball in _of_set(turn.spot) if ball >= len(layout)]
+    beyond = [ball for ball in of_set(ruling.turn.spot) if ball >= len(layout)]
     if beyond:
         raise ValueError(f"Turn.spot: there are {len(layout)} balls, none is {beyond[0]}")
     if code < 0:
         raise CaromError(code, "Turn.spot", text="there is no room for a ball that comes back")
-    after = np.frombuffer(ffi.buffer(ruling.balls, layout.nbytes), dtypes.shot_ball).copy()
+    return ruling_of(ruling, len(layout), isinstance(rules, Rules), shots[0])
+
+
+def words_of(ruling: Any) -> str:
+    """A ruling of C in words."""
+    words = ffi.new("char[]", 256)
+    lib.carom_ruling_string(ruling, words, 256)
+    return str(ffi.string(words).decode())
+
+
+def ruling_of(ruling: Any, count: int, is_own: bool, shot: Shot) -> Ruling:
+    """A ruling of C for so many balls."""
+    facts, turn = _facts(ffi.addressof(ruling, "facts")), ruling.turn
+    size = count * dtypes.shot_ball.itemsize
+    after = np.frombuffer(ffi.buffer(ruling.balls, size), dtypes.shot_ball).copy()
     state = (
         np.frombuffer(ffi.buffer(ffi.addressof(ruling, "state")), dtypes.rules_state)
         .copy()
         .reshape(())
     )
-    words = ffi.new("char[]", 256)
-    lib.carom_ruling_string(ruling, words, 256)
-    hands: dict[int, Hand] = {
-        lib.CAROM_LEAVE_HAND: "anywhere",
-        lib.CAROM_LEAVE_KITCHEN: "kitchen",
-        lib.CAROM_LEAVE_D: "d",
-    }
+    hands = {value: word for word, value in LEAVES.items() if value > LEAVES["before"]}
     return Ruling(
         tuple(_TURNS)[getattr(turn, "is")],
         Foul(turn.foul),
-        hands.get(turn.leave, "no"),
+        cast(Hand, hands.get(turn.leave, "no")),
         tuple(facts.potted),
         facts.first,
         turn.points,
         after,
-        _of_set(ruling.put),
-        state["user"] if isinstance(rules, Rules) else state,
+        of_set(ruling.put),
+        state["user"] if is_own else state,
         tuple((state["score"] - state["lost"]).tolist()),
         facts,
-        ffi.string(words).decode(),
-        shots[0],
+        words_of(ruling),
+        shot,
     )
