@@ -19,7 +19,8 @@ static const struct kind {
              {CAROM_WORDS_WORLD, "rules of contact", "--models"},
              {CAROM_WORDS_SPACE, "space", "--space"},
              {CAROM_WORDS_SIMULTANEOUS, "several contacts at one instant", "--simultaneous"},
-             {CAROM_WORDS_GAME, "game of a file", "params.game"}};
+             {CAROM_WORDS_GAME, "game of a file", "params.game"},
+             {CAROM_WORDS_CONDITION, "condition of a pool table", "--with of shots"}};
 enum { KINDS = sizeof kinds / sizeof kinds[0], NAME_WIDTH = 20 };
 
 /* What has numbers, and the title of its list. */

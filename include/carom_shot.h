@@ -670,6 +670,22 @@ typedef enum carom_shot_cushion {
 CAROM_API int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion,
                                   carom_ball_kind *kind);
 
+/* Conditions of a pool table, for players who do not measure theirs: carom_calibrate() does.
+ * docs/understanding/constants.md has the sources. */
+typedef enum carom_condition {
+  CAROM_CONDITION_SLOW_CLOTH = 0,
+  CAROM_CONDITION_MEDIUM_CLOTH = 1, /* that of CAROM_GAME_POOL */
+  CAROM_CONDITION_FAST_CLOTH = 2,
+  CAROM_CONDITION_OLD_CUSHION = 3,
+  CAROM_CONDITION_NEW_CUSHION = 4,
+  CAROM_CONDITION_HUMID_CUSHION = 5
+} carom_condition;
+
+/* Gives a ball the numbers of a condition, and returns 1: a cloth changes mu_roll, a cushion
+ * restitution_cushion and mu_cushion, which suit the default model of pool. Returns 0 and changes
+ * nothing for a value that is no condition, or if kind is NULL. */
+CAROM_API int carom_condition_give(carom_condition condition, carom_ball_kind *kind);
+
 /* Contacts of several balls at one instant. CLUSTER: they last and overlap in time, as in
  * carom_cluster(). The ball models EXACT and MIRROR have this; MIRROR has no friction. PAIRS: they
  * are resolved one after the other, the fastest first. The world pooltool and the other ball models
@@ -1250,7 +1266,8 @@ typedef enum carom_words {
   CAROM_WORDS_RACK = 13,              /* carom_rack_kind, */
   CAROM_WORDS_SOLVER = 14,            /* carom_solver, */
   CAROM_WORDS_SLIP = 15,              /* carom_slip, */
-  CAROM_WORDS_RULES = 16              /* carom_rules_kind; without the planner it has no words. */
+  CAROM_WORDS_RULES = 16,             /* carom_rules_kind; without the planner it has no words, */
+  CAROM_WORDS_CONDITION = 17          /* carom_condition. */
 } carom_words;
 
 /* The word of a value ("han"), and its meaning in a few words; NULL if there is none. */

@@ -212,6 +212,15 @@ EVERY_BODY(calibrate) {
   return h;
 }
 
+EVERY_BODY(condition_give) {
+  carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  for (int k = -1; k <= CAROM_CONDITION_HUMID_CUSHION + 1; k++) {
+    const int is = carom_condition_give((carom_condition)k, &kind);
+    HASH(is);
+    HASH(kind);
+  }
+  return h;
+}
 EVERY_BODY(cushion_start) {
   carom_ball_kind kind = {.mass = carom_cushion_start(CAROM_CUSHION_EULER, NULL)};
   for (int model = 0; carom_cushion_model_name((carom_cushion_model)model) != NULL; model++) {
@@ -222,12 +231,12 @@ EVERY_BODY(cushion_start) {
   return h;
 }
 EVERY_BODY(word) {
-  for (int of = 0; of <= CAROM_WORDS_RULES; of++)
+  for (int of = 0; of <= CAROM_WORDS_CONDITION; of++)
     h = every_text(h, carom_word((carom_words)of, 1));
   return h;
 }
 EVERY_BODY(word_text) {
-  for (int of = 0; of <= CAROM_WORDS_RULES; of++)
+  for (int of = 0; of <= CAROM_WORDS_CONDITION; of++)
     h = every_text(h, carom_word_text((carom_words)of, 1));
   return h;
 }
@@ -632,7 +641,7 @@ EVERY_BODY(record_settle) {
 /* clang-format off */
 #define EVERY_ONE(F) \
   F(alciatore) F(ball_fault) F(ball_kind_for) F(ball_kind_of) F(bank_of) F(calibrate) \
-  F(check) F(cite) F(collide) \
+  F(check) F(cite) F(collide) F(condition_give) \
   F(cluster) F(collide_batch) \
   F(collide_batch_f32) F(collide_detail) F(collide_tangent) F(cue_of) F(cushion) \
   F(cushion_batch) F(cushion_check) F(cushion_field_name) F(cushion_model_name) F(cushion_start) \

@@ -366,6 +366,26 @@ static bool read_numbers(const option_row *row, const carom_number *n, char *tex
   return false;
 }
 
+/* Gives the numbers of a condition of the table by its word; false where it is none. */
+static bool give_condition(const char *name, given_numbers *given) {
+  const carom_number *n;
+  carom_ball_kind kind;
+  int condition = 0;
+  while (carom_word(CAROM_WORDS_CONDITION, condition) != NULL &&
+         strcmp(carom_word(CAROM_WORDS_CONDITION, condition), name) != 0)
+    condition++;
+  memset(&kind, 0, sizeof kind);
+  if (carom_condition_give((carom_condition)condition, &kind) == 0)
+    return false;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
+    double x;
+    memcpy(&x, (const char *)&kind + n->offset, sizeof x);
+    if (x != 0.0)
+      give_value(given, CAROM_PART_BALL, k, x);
+  }
+  return true;
+}
+
 OPTION_SET(set_numbers) {
   static values list;
   given_numbers *given = field;
@@ -376,11 +396,15 @@ OPTION_SET(set_numbers) {
   for (char *token = strtok_r(text, ",", &rest); token != NULL;
        token = strtok_r(NULL, ",", &rest)) {
     char *number = strchr(token, '=');
-    /* a further value of the number before it, the file of a fit, or NAME=X */
+    /* a further value of the number before it, the file of a fit, a condition, or NAME=X */
     const bool further = number == NULL && n != NULL && strchr("+-.0123456789", *token) != NULL;
     if (number == NULL && strstr(token, ".json") != NULL) {
       if (!give_fit(token, given))
         return false;
+      continue;
+    }
+    if (number == NULL && row->only != CUSHION_ONLY && give_condition(token, given)) {
+      n = NULL;
       continue;
     }
     if (number != NULL)
@@ -600,4 +624,4 @@ ROW(option_with_of_shots, "with", with, 0, "NAME=X,...", set_numbers, 0, ANY_KIN
     "numbers of all balls, their cushions and the cue, instead of those of IN, such as "
     "mu_slide=0.15,mass=6oz,end_mass=0.01: `carom models` lists them. M is the cue's mass. Several "
     "values, end_mass=0.003,0.007, give several shots where options describe the shot. Or the file "
-    "of a fit, FIT.json");
+    "of a fit, FIT.json; or conditions of a pool table, such as fast_cloth,old_cushion");

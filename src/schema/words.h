@@ -28,6 +28,12 @@
   WORD(GAME, GAME_POOLTOOL_POOL, "pooltool_pool", "pooltool's numbers of pool")                    \
   WORD(GAME, GAME_POOLTOOL_SNOOKER, "pooltool_snooker", "pooltool's numbers of snooker")           \
   WORD(GAME, GAME_POOLTOOL_BILLIARD, "pooltool_billiard", "pooltool's numbers of carom")           \
+  WORD(CONDITION, CONDITION_SLOW_CLOTH, "slow_cloth", "a napped or dirty cloth")                   \
+  WORD(CONDITION, CONDITION_MEDIUM_CLOTH, "medium_cloth", "the cloth of the game pool")            \
+  WORD(CONDITION, CONDITION_FAST_CLOTH, "fast_cloth", "a new cloth without nap")                   \
+  WORD(CONDITION, CONDITION_OLD_CUSHION, "old_cushion", "slower; soft banks come back shorter")    \
+  WORD(CONDITION, CONDITION_NEW_CUSHION, "new_cushion", "faster; soft banks come back longer")     \
+  WORD(CONDITION, CONDITION_HUMID_CUSHION, "humid_cushion", "banks come back shorter")             \
   WORD(EVENT, EVENT_STRIKE, "stick_ball", "the cue strikes a ball")                                \
   WORD(EVENT, EVENT_BALL_BALL, "ball_ball", "two balls meet")                                      \
   WORD(EVENT, EVENT_RAIL, "ball_linear_cushion", "a ball meets a rail")                            \

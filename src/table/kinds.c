@@ -167,3 +167,29 @@ int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion, carom_ball_
     *kind = own ? made : carom_ball_kind_of(game);
   return own;
 }
+
+/* Conditions of a pool table; 0: the number stays. docs/understanding/constants.md has the sources
+ * of the signs and of the range of mu_roll. The changes of the cushion are one standard deviation
+ * of the tables that public systems of players describe, as in calibrate.c. The friction of old
+ * ones has two, because with less the banks of a slower rebound come back longer, not shorter. */
+static const struct condition_numbers {
+  double mu_roll, restitution, mu_cushion;
+} conditions[] = {[CAROM_CONDITION_SLOW_CLOTH] = {0.015, 0.0, 0.0},
+                  [CAROM_CONDITION_MEDIUM_CLOTH] = {0.01, 0.0, 0.0},
+                  [CAROM_CONDITION_FAST_CLOTH] = {0.005, 0.0, 0.0},
+                  [CAROM_CONDITION_OLD_CUSHION] = {0.0, 0.75, 0.4},
+                  [CAROM_CONDITION_NEW_CUSHION] = {0.0, 0.85, 0.22},
+                  [CAROM_CONDITION_HUMID_CUSHION] = {0.0, 0.8, 0.34}};
+
+int carom_condition_give(carom_condition condition, carom_ball_kind *kind) {
+  if (kind == NULL || (uint32_t)condition >= sizeof conditions / sizeof *conditions)
+    return 0;
+  const struct condition_numbers *row = &conditions[condition];
+  if (row->mu_roll > 0.0)
+    kind->mu_roll = row->mu_roll;
+  if (row->restitution > 0.0) {
+    kind->restitution_cushion = row->restitution;
+    kind->mu_cushion = row->mu_cushion;
+  }
+  return 1;
+}

@@ -12,3 +12,12 @@ try carom calibrate --read 3,5,6.9
 try carom calibrate --read 4.7,4.8
 try carom calibrate --read 4.7,4.8,8
 try carom calibrate -o my.json
+echo "--- conditions of a table"
+for with in slow_cloth medium_cloth fast_cloth old_cushion new_cushion humid_cushion fast_cloth,new_cushion; do
+  carom shoot --cue 0.6,0.8 --aim 62 --speed 2 --with $with --csv > $with.csv
+done
+carom shoot --cue 0.6,0.8 --aim 62 --speed 2 --csv | cmp - medium_cloth.csv && echo "medium is the usual cloth"
+cat ./*_*.csv | grep '^1,' | sort -u | wc -l
+try carom shoot --cue 0.6,0.8 --with fast_felt
+try carom rail --with old_cushion
+carom models old_cushion

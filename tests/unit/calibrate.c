@@ -27,6 +27,37 @@ TEST(usual_table) {
   }
 }
 
+/* Conditions move a rolling ball's way and the banks as their sources say, and nothing else. */
+TEST(conditions) {
+  carom_calibration told[CAROM_CONDITION_HUMID_CUSHION + 1];
+  set_up();
+  for (int k = 0; carom_word(CAROM_WORDS_CONDITION, k) != NULL; k++) {
+    carom_ball_kind kind = usual;
+    ck_assert_int_eq(carom_condition_give((carom_condition)k, &kind), 1);
+    ck_assert_int_eq(carom_calibrate(&table, &kind, NULL, &told[k]), CAROM_OK);
+    const bool is_cloth = k <= CAROM_CONDITION_FAST_CLOTH;
+    if (is_cloth) {
+      ck_assert_double_eq(kind.mu_roll, usual.mu_roll + 0.005 * (1 - k));
+      kind.mu_roll = usual.mu_roll;
+    }
+    ck_assert_int_eq(memcmp(&kind, &usual, sizeof kind) == 0, is_cloth);
+    kind.restitution_cushion = usual.restitution_cushion;
+    kind.mu_cushion = usual.mu_cushion;
+    ck_assert_mem_eq(&kind, &usual, sizeof kind);
+  }
+  const double *before = told[CAROM_CONDITION_MEDIUM_CLOTH].comes_back;
+  for (int k = 0; k < CAROM_BANKS; k++) {
+    const bool rolls = k != 1;
+    ck_assert(told[CAROM_CONDITION_HUMID_CUSHION].comes_back[k] < before[k]);
+    ck_assert(!rolls || told[CAROM_CONDITION_OLD_CUSHION].comes_back[k] < before[k]);
+    ck_assert(!rolls || told[CAROM_CONDITION_NEW_CUSHION].comes_back[k] > before[k]);
+  }
+  carom_ball_kind kind = usual;
+  ck_assert_int_eq(carom_condition_give((carom_condition)-1, &kind), 0);
+  ck_assert_int_eq(carom_condition_give(CAROM_CONDITION_FAST_CLOTH, NULL), 0);
+  ck_assert_mem_eq(&kind, &usual, sizeof kind);
+}
+
 /* The readings of a table with other numbers tell them: nearer than those of the ball, by the two
  * deviations that are told, in the mean of 60 tables. */
 TEST(other_tables) {

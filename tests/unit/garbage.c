@@ -249,6 +249,7 @@ static const carom_options *no_options;
   F(cushion_check, carom_cushion_check(PTR(&rail), NULL, MAYBE(&where)))                           \
   F(cushion_field_name, (carom_cushion_field_name(ANYINT(0)), ACCEPTED))                           \
   F(cushion_model_name, (carom_cushion_model_name(ANYENUM(carom_cushion_model, 0)), ACCEPTED))     \
+  F(condition_give, (carom_condition_give(ANYENUM(carom_condition, 0), MAYBE(&kind)), ACCEPTED))   \
   F(cushion_start, (carom_cushion_start(ANYENUM(carom_cushion_model, 0), MAYBE(&kind)), ACCEPTED)) \
   F(cushion_tangent,                                                                               \
     carom_cushion_tangent(PTR(&rail), NULL, INT(1), PTR(zeros), PTR(numbers), MAYBE(&flags)))      \

@@ -21,6 +21,7 @@ Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker
 Solver = Literal["exact", "euler", "fast"]
 Slip = Literal["paper", "pooltool"]
 Rules = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket", "bank", "tenball", "straightrail"]
+Condition = Literal["slow_cloth", "medium_cloth", "fast_cloth", "old_cushion", "new_cushion", "humid_cushion"]
 StopAt = Literal[
     "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",
     "spinning_stationary", "slate", "rail_top", "left_table",

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from carom import dtypes, pictures
 from carom._carom import ffi, lib
-from carom._described import BallNumbers, ShotCushion
+from carom._described import BallNumbers, Condition, ShotCushion
 from carom._described import Game as Game
 from carom._faults import strike_error
 from carom._rows import (
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 __all__ = ["Table", "balls", "by_number", "cue", "place_ball", "struck"]
 
 GAMES, _CUSHIONS = worded("GAME"), worded("SHOT_CUSHION")
+_CONDITIONS = worded("CONDITION")
 
 
 class Table:
@@ -441,6 +442,7 @@ def balls(
     w: npt.ArrayLike = 0.0,
     game: Game = "pool",
     cushion_model: ShotCushion = "default",
+    conditions: Sequence[Condition] = (),
     **kind: Unpack[BallNumbers],
 ) -> dtypes.Records:
     """Balls on a table, from fields that are broadcast against each other.
@@ -458,6 +460,9 @@ def balls(
     cushion_model
         The model of the cushion whose constants they have, as of `simulate`. A warning tells where
         the game has none for it.
+    conditions : sequence of str
+        Conditions of a pool table, such as ("fast_cloth", "old_cushion"); docs/using/calibrate.md
+        lists them. Numbers that are given besides replace theirs.
     {fields}
 
     Returns an ndarray of `carom.dtypes.shot_ball`, shape (..., balls).
@@ -488,6 +493,9 @@ def balls(
             f"cushion_model: {game} has no constants for {cushion_model!r}; the balls have those for its default model",
             stacklevel=2,
         )
+    for word in conditions:
+        condition = choice(_CONDITIONS, word, "conditions")
+        lib.carom_condition_give(condition, ffi.addressof(ball, "kind"))
     usual = bytes(ffi.buffer(ball))
     made = fill(
         dtypes.shot_ball,

@@ -16,6 +16,12 @@ def test_three_banks():
     assert lively.constants["restitution_cushion"] > kind["restitution_cushion"]
     assert 0 < lively.errors["restitution_cushion"] < 0.05 and lively.misfit < 2
     carom.balls([[0.5, 0.5]], **lively.constants)
+    slow = carom.balls([[0.5, 0.5]], conditions=("slow_cloth", "old_cushion"), mu_cushion=0.3)
+    assert slow["kind"]["mu_roll"][0] > kind["mu_roll"]
+    assert slow["kind"]["restitution_cushion"][0] < kind["restitution_cushion"]
+    assert slow["kind"]["mu_cushion"][0] == 0.3
+    with pytest.raises(ValueError, match="fast_cloth"):
+        carom.balls([[0.5, 0.5]], conditions=("felt",))
     with pytest.raises(ValueError, match="of shape"):
         carom.calibrate([4.7, 4.8])
     with pytest.raises(carom.CaromError, match="readings"):

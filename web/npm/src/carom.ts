@@ -36,6 +36,7 @@ import type {
   Choice,
   Collided,
   CollideOptions,
+  Condition,
   Contact,
   Cue,
   CushionImpact,
@@ -622,10 +623,15 @@ export class Carom {
   }
 
   /**
-   * The constants of a game's balls for a model of the cushion, which has its own; throws a
-   * RangeError where the game has none for it.
+   * The constants of a game's balls for a model of the cushion, which has its own, under conditions
+   * of a pool table, such as "fast_cloth". Throws a RangeError where the game has none for the
+   * model.
    */
-  kind(game: Game, cushion: ShotOptions["cushionModel"] = "default"): BallKind {
+  kind(
+    game: Game,
+    cushion: ShotOptions["cushionModel"] = "default",
+    conditions: readonly Condition[] = [],
+  ): BallKind {
     if (
       !this.#call.carom_ball_kind_for(
         value("carom_game", game, "game"),
@@ -634,6 +640,11 @@ export class Carom {
       )
     )
       throw new RangeError(`cushion: ${game} has no constants for "${cushion}"`);
+    for (const condition of conditions)
+      this.#call.carom_condition_give(
+        value("carom_condition", condition, "conditions"),
+        this.#at.detail,
+      );
     return readStruct(this.#memory, this.#at.detail, "carom_ball_kind");
   }
 

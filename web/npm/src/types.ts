@@ -85,6 +85,7 @@ export type CushionOptions = C.CushionOptions;
  * A game: whose balls, cloth and cue. docs/understanding/constants.md has the source of each
  * number.
  */
+export type Condition = C.Condition;
 export type Game = C.Game;
 
 export type BallKind = C.BallKind;
