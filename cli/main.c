@@ -16,6 +16,7 @@ int main(int argc, char **argv) {
       {"record", "play shots and record them, with a hash of their bits", command_record},
       {"replay", "play a recording again", command_replay},
       {"verify", "compare every bit of a recording", command_verify},
+      {"match", "play, go on with and tell matches of two rated players", command_match},
   };
   static const program carom = {
       .name = "carom",

@@ -11,6 +11,7 @@ int command_models(int argc, char **argv);
 int command_record(int argc, char **argv);
 int command_replay(int argc, char **argv);
 int command_verify(int argc, char **argv);
+int command_match(int argc, char **argv);
 int command_plan(int argc, char **argv);
 int command_ways(int argc, char **argv);
 int command_break(int argc, char **argv);

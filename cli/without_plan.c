@@ -27,6 +27,7 @@ static int refuse_command(char **argv) {
 COMMAND(command_plan)
 COMMAND(command_ways)
 COMMAND(command_break)
+COMMAND(command_match)
 COMMAND(command_learn)
 
 OPTION_SET(set_leave) {

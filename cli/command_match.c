@@ -1,0 +1,315 @@
+/* `carom match`: matches of two rated players, played, saved, gone on with and told in words, by
+ * carom_match.h. */
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/options.h"
+#include "program/output.h"
+#include "subcommands.h"
+
+#include "carom_match.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct match_job {
+  shared_options shared; /* --output */
+  carom_rules_kind rules;
+  int table; /* a carom_table_kind; -1: that of the game */
+  bool shows;
+  double fargo[2];
+  int breaks, seed, shots, strokes;
+} match_job;
+
+static bool set_ratings(const option_row *row, char *text, void *field) {
+  double *fargo = field;
+  char end;
+  const bool read = sscanf(text, "%lf,%lf%c", &fargo[0], &fargo[1], &end) == 2;
+  if (read && fmin(fargo[0], fargo[1]) >= 300.0 && fmax(fargo[0], fargo[1]) <= 850.0)
+    return true;
+  complain("--%s: two Fargo ratings from 300 to 850 are needed, such as 600,500, not %s", row->name,
+           text);
+  return false;
+}
+
+OPTION(match_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES,
+       "the game (default eightball)");
+OPTION(match_job, option_table, "table", table, 0, NULL, set_named, CAROM_WORDS_TABLE,
+       "the table (default: that of the game)");
+OPTION(match_job, option_fargo, "fargo", fargo, 0, "A,B", set_ratings, 0,
+       "the Fargo ratings of both players, 300 to 850 (default 600,600)");
+OPTION(match_job, option_breaks, "breaks", breaks, 0, "1|2", set_choice, 0,
+       "the player who breaks (default 1)");
+OPTION(match_job, option_seed, "seed", seed, 0, "N", set_count, 0,
+       "from which the gaps of the rack and the errors are drawn (default 1)");
+OPTION(match_job, option_shots, "shots", shots, 0, "N", set_count, 100,
+       "shots by which a player plans each stroke (default 300)");
+OPTION(match_job, option_strokes, "strokes", strokes, 0, "N", set_count, 1,
+       "stop after so many strokes: the recording has no end, and can be gone on with");
+OPTION(match_job, option_show, "show", shows, 0, NULL, set_flag, 0,
+       "instead of playing: judge GAME, and tell each stroke in words");
+
+static const command_form match_form = {
+    .name = "match",
+    .usage = "[OPTIONS] [GAME]",
+    .about = "Plays a match between two players who err as their ratings say, by the rules of a "
+             "game, and writes its recording, which `carom verify` judges. With GAME it goes on "
+             "with a match that was saved: give the ratings, the seed and the shots again, and the "
+             "match ends as if it had not been interrupted. GAME may be -.\n",
+    .options = (const option_row *const[]){&option_rules, &option_table, &option_fargo,
+                                           &option_breaks, &option_seed, &option_shots,
+                                           &option_strokes, &option_show, &option_output, NULL},
+    .details = "exit code: 0 for success; 1 if a line of GAME is not by the rules, which carom "
+               "names; 2 for bad usage or unreadable input\n",
+    .example = "carom match --fargo 650,500 -o game.jsonl",
+    .files = FILE_OR_NONE,
+};
+
+static carom_match match;
+
+/* ---- Words */
+
+/* What the player has decided since the last ruling. */
+static char decided[160];
+
+static bool is_line(const char *line, const char *kind) {
+  return strncmp(line, "{\"", 2) == 0 && strncmp(line + 2, kind, strlen(kind)) == 0;
+}
+
+static void add_words(const char *words) {
+  const size_t length = strlen(decided);
+  snprintf(decided + length, sizeof decided - length, "%s%s", length > 0 ? ", " : "", words);
+}
+
+/* Adds what the line of an act says. */
+static void add_act(const carom_record *record, const char *line) {
+  static const char *const choices[] = {"passes",
+                                        "pushes out",
+                                        "",
+                                        "",
+                                        "has the balls racked",
+                                        "has the balls racked for the other",
+                                        "leaves the cue ball",
+                                        "has the balls that touch spotted"};
+  char words[80] = "";
+  if (is_line(line, "place") && record->hand == 0)
+    snprintf(words, sizeof words, "puts the cue ball at %.3f, %.3f m", record->place[0],
+             record->place[1]);
+  if (is_line(line, "act"))
+    switch (record->act) {
+    case CAROM_ACT_CALL:
+      if (record->call[0] < 0)
+        snprintf(words, sizeof words, "calls a safety");
+      else if (record->call[1] < 0)
+        snprintf(words, sizeof words, "calls ball %" PRId64, record->call[0]);
+      else
+        snprintf(words, sizeof words, "calls ball %" PRId64 ", %s", record->call[0],
+                 carom_pocket_name(&record->table, (int)record->call[1]));
+      break;
+    case CAROM_ACT_CHOOSE:
+      for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
+        if (record->choice == INT64_C(1) << k)
+          snprintf(words, sizeof words, "%s", choices[k]);
+      break;
+    case CAROM_ACT_CLOCK:
+      snprintf(words, sizeof words, "has no time left");
+      break;
+    default:
+      snprintf(words, sizeof words, "concedes");
+    }
+  if (words[0] != '\0')
+    add_words(words);
+}
+
+/* Tells an act of a player by its line, once it is ruled. `out` NULL: nothing. */
+static void tell_act(FILE *out, const char *line, int64_t player, int64_t rulings) {
+  char ruling[160];
+  add_act(&match.record, line);
+  if (match.rulings == rulings && match.winner < 0)
+    return;
+  carom_ruling_string(&match.ruling, ruling, sizeof ruling);
+  const bool concedes = match.rulings == rulings;
+  for (int64_t k = 0; !concedes && k < match.ruling.falls; k++) {
+    char words[40];
+    snprintf(words, sizeof words, "pots ball %" PRId32, match.ruling.fall[k].ball);
+    add_words(match.ruling.fall[k].ball == match.cue_ball ? "scratches" : words);
+  }
+  if (out != NULL && decided[0] != '\0')
+    fprintf(out, "player %" PRId64 " %s%s%s\n", player + 1, decided, concedes ? "" : ": ",
+            concedes ? "" : ruling);
+  else if (out != NULL)
+    fprintf(out, "player %" PRId64 ": %s\n", player + 1, ruling);
+  decided[0] = '\0';
+}
+
+/* ---- Reading */
+
+/* Reads and judges the lines of a saved match; keeps them in *text, and tells them to `words`
+ * unless it is NULL. Returns an exit code. */
+static int read_match(const char *path, FILE *text, FILE *words) {
+  static carom_record scratch;
+  FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+  if (in == NULL) {
+    complain("cannot read %s: %s", path, strerror(errno));
+    return EXIT_USAGE;
+  }
+  char *line = NULL;
+  size_t space = 0;
+  ssize_t size;
+  int code = EXIT_GOOD;
+  while (code == EXIT_GOOD && (size = getline(&line, &space, in)) >= 0) {
+    const int64_t player = match.record.player, rulings = match.rulings;
+    const bool goes_on = match.phase != CAROM_MATCH_NONE && match.phase != CAROM_MATCH_OVER;
+    if (carom_match_read(&match, &scratch, line, (size_t)size) != CAROM_OK) {
+      complain("%s: %s", path, match.fault);
+      code = EXIT_SOME;
+      break;
+    }
+    if (goes_on && (match.phase != CAROM_MATCH_OVER || match.winner >= 0))
+      tell_act(words, line, player, rulings);
+    fwrite(line, 1, (size_t)size, text);
+  }
+  if (code == EXIT_GOOD && match.phase == CAROM_MATCH_NONE) {
+    complain("%s: no line tells how a match begins", path);
+    code = EXIT_USAGE;
+  }
+  fwrite(match.text, 1, (size_t)match.size, text); /* what a file that was cut off lacks */
+  free(line);
+  if (in != stdin)
+    fclose(in);
+  return code;
+}
+
+/* ---- Playing */
+
+typedef struct players {
+  const match_job *job;
+  carom_player player[2];
+  carom_plan_options options;
+  void *memory;
+  FILE *text, *words;
+} players;
+
+/* Keeps the lines of an act that was played, and tells it. */
+static bool keep(const players *p, carom_status status, int player, int64_t rulings) {
+  if (status != CAROM_OK) {
+    complain("%s", match.fault);
+    return false;
+  }
+  fwrite(match.text, 1, (size_t)match.size, p->text);
+  tell_act(p->words, match.text, player, rulings);
+  return true;
+}
+
+/* Plays the best stroke of the player at the table, or passes. */
+static bool play_stroke(players *p) {
+  const int who = (int)match.record.player;
+  const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)match.record.rules);
+  carom_cue cue = carom_cue_of((carom_game)about->balls);
+  cue.ball = match.cue_ball;
+  p->options.opponent = &p->player[1 - who];
+  carom_plan_job job = {.player = &p->player[who], .cue = &cue, .options = &p->options};
+  job.memory = p->memory;
+  job.memory_size = carom_plan_memory(&p->options);
+
+  /* the stroke, and what comes before it */
+  int found;
+  carom_choice best;
+  const carom_status status = carom_match_plan(&match, &job, &best, 1, &found);
+  if (status != CAROM_OK) {
+    complain("%s", match.fault[0] != '\0' ? match.fault : carom_status_string(status));
+    return false;
+  }
+  const int64_t rulings = match.rulings;
+  if (match.phase == CAROM_MATCH_PLACE &&
+      !keep(p, carom_match_place(&match, who, best.place[0], best.place[1]), who, rulings))
+    return false;
+  if (best.kind == CAROM_PLAN_PASS)
+    return keep(p, carom_match_choose(&match, who, CAROM_MAY_PASS), who, rulings);
+  if (best.kind == CAROM_PLAN_PUSH &&
+      !keep(p, carom_match_choose(&match, who, CAROM_MAY_PUSH), who, rulings))
+    return false;
+  const carom_call call = {best.ball, best.pocket};
+  if (match.rules.calls != 0 && best.ball >= 0 &&
+      !keep(p, carom_match_call(&match, who, call), who, rulings))
+    return false;
+  carom_player_strike(&p->player[who], (uint64_t)p->job->seed, (uint64_t)match.record.shots,
+                      &best.cue);
+  return keep(p, carom_match_stroke(&match, who, &best.cue, NULL, NULL), who, rulings);
+}
+
+/* Begins the match, unless one was read, and plays it; an exit code. */
+static int play_match(players *p) {
+  const match_job *job = p->job;
+  carom_table table;
+  if (match.phase == CAROM_MATCH_NONE) {
+    const carom_game game = (carom_game)carom_rules_about_of(job->rules)->balls;
+    carom_table_kind kind = CAROM_TABLE_POOL_9FT;
+    if (game == CAROM_GAME_SNOOKER)
+      kind = CAROM_TABLE_SNOOKER;
+    if (game == CAROM_GAME_BILLIARD)
+      kind = CAROM_TABLE_THREECUSHION;
+    carom_table_make(job->table >= 0 ? (carom_table_kind)job->table : kind, &table);
+    const carom_status status =
+        carom_match_begin(&match, job->rules, &table, (uint64_t)job->seed, job->breaks);
+    if (status != CAROM_OK) {
+      complain("%s", match.fault[0] != '\0' ? match.fault : carom_status_string(status));
+      return EXIT_USAGE;
+    }
+    fwrite(match.text, 1, (size_t)match.size, p->text);
+  }
+  for (int k = 0; match.phase != CAROM_MATCH_OVER; k++) {
+    if (job->strokes > 0 && k == job->strokes)
+      return EXIT_GOOD;
+    if (!play_stroke(p))
+      return EXIT_USAGE;
+  }
+  if (carom_match_end(&match) == CAROM_OK)
+    fwrite(match.text, 1, (size_t)match.size, p->text);
+  return EXIT_GOOD;
+}
+
+int command_match(int argc, char **argv) {
+  static match_job job;
+  const char *path;
+  job = (match_job){
+      .shared = {.output = "-"}, .table = -1, .fargo = {600.0, 600.0}, .seed = 1, .shots = 300};
+  int code = parse_arguments(&match_form, argc, argv, &job, &path);
+  if (code >= 0)
+    return code;
+  if (job.shows && path == NULL) {
+    complain("--show: it needs GAME, the file of a match");
+    return usage_hint(&match_form);
+  }
+
+  /* what was saved is read before the output, which may be the same file, is written */
+  FILE *text = tmpfile();
+  if (text == NULL) {
+    complain("no temporary file: %s", strerror(errno));
+    return EXIT_USAGE;
+  }
+  match = (carom_match){0};
+  decided[0] = '\0';
+  FILE *out = job.shows ? output_open(job.shared.output) : NULL;
+  code = path != NULL ? read_match(path, text, out) : EXIT_GOOD;
+  if (!job.shows && code == EXIT_GOOD) {
+    players p = {.job = &job, .text = text};
+    for (int k = 0; k < 2; k++)
+      p.player[k] = carom_player_fargo(job.fargo[k]);
+    p.options.shots = job.shots;
+    p.memory = allocate(carom_plan_memory(&p.options), 1);
+    p.words = strcmp(job.shared.output, "-") == 0 ? NULL : stdout;
+    code = play_match(&p);
+    free(p.memory);
+    out = code == EXIT_GOOD ? output_open(job.shared.output) : NULL;
+    if (out != NULL)
+      output_copy(text, out);
+  }
+  fclose(text);
+  if (out == NULL)
+    return code != EXIT_GOOD ? code : EXIT_USAGE;
+  return output_commit() ? code : EXIT_USAGE;
+}

@@ -1,0 +1,36 @@
+# Matches: played, stopped and gone on with to the same file, told in words, judged; what is not by the rules is told.
+try carom match --fargo 650,500 --shots 100 -o whole.jsonl
+try carom verify whole.jsonl
+carom match --fargo 650,500 --shots 100 --strokes 3 -o saved.jsonl > told
+try carom verify saved.jsonl
+try carom match --fargo 650,500 --shots 100 -o saved.jsonl saved.jsonl
+cmp whole.jsonl saved.jsonl
+try carom match --show whole.jsonl
+echo "--- cut off behind a shot: the lines that are missing are made"
+sed '/^{"shot"/q' whole.jsonl | carom match --fargo 650,500 --shots 100 - | cmp - whole.jsonl
+echo "--- other games"
+for rules in nineball snooker threecushion; do
+  carom match --rules $rules --shots 100 --strokes 4 --breaks 2 -o $rules.jsonl
+  carom match --show -o /dev/null $rules.jsonl
+done
+echo "--- a game whose rules do not agree"
+"${CAROM%/*}/tests/forge" > forged.jsonl
+try carom verify forged.jsonl
+try carom match --show -o /dev/null forged.jsonl
+forged() {
+  sed "$1" whole.jsonl > forged.jsonl
+  cmp -s whole.jsonl forged.jsonl && echo "nothing was changed"
+  try carom verify forged.jsonl
+  try carom match --show -o /dev/null forged.jsonl
+}
+forged '/^{"act"/d'
+forged '$ i {"act":{"act":3,"player":1,"hash":"0000000000000001"}}'
+carom record -o shots.jsonl "$DATA/break-nineball.jsonl"
+try carom match --show shots.jsonl
+echo "--- bad usage"
+try carom match --fargo 650
+try carom match --show
+try carom match --rules snooker --table 9ft --strokes 1 -o small.jsonl
+try carom match --table threecushion
+try carom match --rules threecushion --table 9ft
+try carom match missing.jsonl
