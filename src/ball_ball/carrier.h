@@ -194,10 +194,12 @@ always quad second_half(const reg *x, int n) {
 
 /* The largest of the numbers at n nodes. */
 always vreal largest(const reg *x, int n) {
-  const quad low = first_half(x),
-             high = n == 8   ? second_half(x, n)
-                    : n == 6 ? __builtin_shufflevector(second_half(x, n), low, 0, 1, 6, 7)
-                             : low;
+  const quad low = first_half(x);
+  quad high = low;
+  if (n == 8)
+    high = second_half(x, n);
+  else if (n == 6)
+    high = __builtin_shufflevector(second_half(x, n), low, 0, 1, 6, 7);
 #if LANES_X86 && defined(CAROM_LANES_F32)
   const quad most = (quad)_mm_max_ps((__m128)low, (__m128)high);
 #elif defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)

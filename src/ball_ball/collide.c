@@ -42,10 +42,10 @@ static carom_detail report_of_integrals(const carom_frame *frame, const carom_re
   carom_detail d = {.normal = M * g->p,
                     .work_compression = -M * compression,
                     .work = -M * (1 + c->e * c->e) * compression,
-                    .stick = isnan(p_stick)   ? CAROM_STICK_NEVER
-                             : in_compression ? CAROM_STICK_IN_COMPRESSION
-                                              : CAROM_STICK_IN_RESTITUTION,
+                    .stick = CAROM_STICK_NEVER,
                     .stick_normal = M * p_stick};
+  if (!isnan(p_stick))
+    d.stick = in_compression ? CAROM_STICK_IN_COMPRESSION : CAROM_STICK_IN_RESTITUTION;
   along(frame, -M * g->Q_1, 0.0, -sign * M * g->Q_2, d.friction);
   along(frame, sign * M * g->F_x, sign * M * g->F_y, 0.0, c->j_pressed ? d.cloth_b : d.cloth_a);
   return d;

@@ -116,9 +116,9 @@ always vreal inverse_rho_ahead(const problem *a, const state *s, const predictio
  * the less, the more of |u| is lost. */
 always vmask is_smooth(int n, const problem *a, const prediction *g, vreal length, vreal inverse) {
   const vreal inverse_4 = power_4(inverse), inverse_8 = inverse_4 * inverse_4, q = g->rate * length;
-  const vreal left_out =
-      a->mu_mu_b * g->z * length *
-      (n == 4 ? 4 * inverse_8 : (n == 6 ? REAL(6.0) : REAL(2.0)) * (inverse_8 * inverse_8));
+  const real scale = n == 6 ? REAL(6.0) : REAL(2.0);
+  const vreal share = n == 4 ? 4 * inverse_8 : scale * (inverse_8 * inverse_8);
+  const vreal left_out = a->mu_mu_b * g->z * length * share;
   return v_less(left_out * v_fma((n == 4 ? BEND_4 : BEND_8) * q, q, v_splat(1)), a->tolerance);
 }
 

@@ -138,7 +138,11 @@ static const real CONTRACTION_Q = REAL(0.1);
 /* The factor of that estimate: it is too small where d passes near zero, and too large for the
  * few nodes of smooth steps. */
 always real estimate_scale(int n, bool turned) {
-  return turned ? 4 : n == 4 ? REAL(0.33) : n == 6 ? REAL(0.4) : 1;
+  if (turned)
+    return 4;
+  if (n == 4)
+    return REAL(0.33);
+  return n == 6 ? REAL(0.4) : 1;
 }
 
 /* Coefficients of the equations, times L (S_in_d: of S_x in u_x and S in d; ...); and q, the
@@ -521,7 +525,9 @@ always end_slopes slopes_by_nodes(const gauss_rule *r, int n, vreal per_length,
 }
 
 always const gauss_rule *rule_of(int n) {
-  return n == 8 ? &gauss_8 : n == 6 ? &gauss_6 : &gauss_4;
+  if (n == 8)
+    return &gauss_8;
+  return n == 6 ? &gauss_6 : &gauss_4;
 }
 
 /* A step from *s, with its first directions. turn: of turned nodes, else NULL. */

@@ -29,7 +29,12 @@ void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8
   x->inverse_mass = 1.0 / cue[5];
   x->V = cue[0];
   x->T = T;
-  x->e = cue[7] > least_restitution ? cue[7] : cue[7] == 0.0 ? 1.0 + cue[7] : least_restitution;
+  /* a restitution of 0 stands for 1, and keeps its derivatives */
+  x->e = least_restitution;
+  if (cue[7] > least_restitution)
+    x->e = cue[7];
+  else if (cue[7] == 0.0)
+    x->e = 1.0 + cue[7];
   x->k =
       carom_linear_stiffness(T, x->e) / (x->inverse_mass + (1.0 + 2.5 * (a * a + b * b)) * inverse);
   x->first = x->V - cluster_dot(false, c->ball[struck].v, x->along) -

@@ -192,9 +192,9 @@ static void plan_carefully(const carom_trajectory *path, const step_start *s, pl
   if (path->regime.loaded && s->q > 0)
     limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->db_x) + fabs(s->db_y) + DBL_MIN));
   even_map(&n->s, length);
-  n->kind = !driving_slips(path)  ? held_exact
-            : path->regime.loaded ? exact_in_both
-                                  : exact_unloaded;
+  n->kind = held_exact;
+  if (driving_slips(path))
+    n->kind = path->regime.loaded ? exact_in_both : exact_unloaded;
   aim_u(n, &path->at, s);
   aim_t(n, &path->at, s);
 }
@@ -445,9 +445,11 @@ static bool next_step(carom_trajectory *path, double to) {
   if (r == TAKEN && path->variation != NULL) {
     /* derivatives may need a shorter step */
     const double length = path->at.p - before.p;
-    const int vanishes = n.s.goal == AT_STICK         ? (int)OF_A_X
-                         : n.s.goal == AT_CLOTH_STICK ? (int)OF_B_X
-                                                      : -1;
+    int vanishes = -1;
+    if (n.s.goal == AT_STICK)
+      vanishes = (int)OF_A_X;
+    else if (n.s.goal == AT_CLOTH_STICK)
+      vanishes = (int)OF_B_X;
     const bool stiff = n.kind == exact_in_a || n.kind == exact_unloaded ||
                        n.kind == exact_in_both || n.kind == held_exact;
     advice = variation_step(path, &before, driving_slips(path), stiff, vanishes);

@@ -166,7 +166,10 @@ static double tau_at(const closed_form *c, double length, double first, double m
     const double p =
         (fabs(slow) > 1e-9 ? c->A * (e[0] - 1) / slow : c->A * tau) + c->B * (e[1] - 1) / fast;
     const double more = (length - p) / r;
-    tau += more < -0.5 * tau ? -0.5 * tau : more < 2 * tau ? more : 2 * tau;
+    if (more < -0.5 * tau)
+      tau += -0.5 * tau;
+    else
+      tau += more < 2 * tau ? more : 2 * tau;
   }
   return tau;
 }

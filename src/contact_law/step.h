@@ -254,10 +254,10 @@ static double first_event(const carom_terms *k, const carom_point *at, const ste
   for (int n = 0; n <= NODES; n++) {
     const double next_p = scale * (n < NODES ? AT(s->p, n) : s->length),
                  next = n < NODES ? AT(f, n) : 1;
+    if (next > 0 && n == NODES)
+      return 0.5 * (p + next_p);
     if (next > 0)
-      return n == NODES  ? 0.5 * (p + next_p)
-             : value < 0 ? p + (next_p - p) * value / (value - next)
-                         : p;
+      return value < 0 ? p + (next_p - p) * value / (value - next) : p;
     p = next_p;
     value = next;
   }
@@ -417,7 +417,8 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
                 fabs(change) < SETTLED;
 
     /* the new length, within limits */
-    scale *= 1 + (change > 0.5 ? 0.5 : change > -0.4 ? change : -0.4);
+    const double at_least = change > -0.4 ? change : -0.4;
+    scale *= 1 + (change > 0.5 ? 0.5 : at_least);
     near = now < NEARLY_CONVERGED && fabs(change) < NEARLY_CONVERGED;
     last = now;
     last_rate = rate;

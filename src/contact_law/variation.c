@@ -278,10 +278,9 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
                                                     int plain, int by, carom_impact_tangent *out) {
   const double size =
       fmax(fmax(fabs(slips[0]), fabs(slips[1])), fmax(fabs(slips[2]), fabs(slips[3])));
-  double h = by <= BY_B_Y ? 2e-3 * fmax(1, 0.01 * size)
-             : by == BY_E ? 1e-3
-                          : 1e-4,
-         best = INFINITY, bends = INFINITY;
+  double h = by == BY_E ? 1e-3 : 1e-4, best = INFINITY, bends = INFINITY;
+  if (by <= BY_B_Y)
+    h = 2e-3 * fmax(1, 0.01 * size);
   const double here[5] = {out->q.p, out->q.f_x, out->q.f_y, out->q.F_x, out->q.F_y};
   if (by == BY_MU || by == BY_MU_C)
     h = fmin(h, 0.4 * (by == BY_MU ? law->mu : law->mu_c));

@@ -310,10 +310,10 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
   EACH error[i] /= size[i];
 
   /* refused where the estimate is too large, and the step can be shorter */
-  const double worst = largest(error) * largest(error) /
-                       (vanishes >= 0 ? ESTIMATE_AT_STICK
-                        : stiff       ? ESTIMATE_STIFF
-                                      : ESTIMATE);
+  double estimate = stiff ? ESTIMATE_STIFF : ESTIMATE;
+  if (vanishes >= 0)
+    estimate = ESTIMATE_AT_STICK;
+  const double worst = largest(error) * largest(error) / estimate;
   if (worst > 1 && length > SHORTEST)
     return worst;
 

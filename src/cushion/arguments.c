@@ -53,14 +53,17 @@ carom_status carom_cushion_check_impact(const carom_cushion_impact *in, int *fie
   if (*field < FIELDS)
     return of_field[*field].error;
   /* conditions on several numbers */
-  const bool no_normal = in->normal[0] == 0 && in->normal[1] == 0,
-             high = !(in->height / 2 < in->radius);
-  const bool vertical = fabs(in->v[2]) > level * (fabs(in->v[0]) + fabs(in->v[1]));
-  *field = no_normal ? FIELD(normal) : high ? FIELD(height) : vertical ? FIELD(v) + 2 : -1;
-  return no_normal  ? CAROM_ERROR_NORMAL
-         : high     ? CAROM_ERROR_NOSE_HEIGHT
-         : vertical ? CAROM_ERROR_VERTICAL
-                    : CAROM_OK;
+  *field = FIELD(normal);
+  if (in->normal[0] == 0 && in->normal[1] == 0)
+    return CAROM_ERROR_NORMAL;
+  *field = FIELD(height);
+  if (!(in->height / 2 < in->radius))
+    return CAROM_ERROR_NOSE_HEIGHT;
+  *field = FIELD(v) + 2;
+  if (fabs(in->v[2]) > level * (fabs(in->v[0]) + fabs(in->v[1])))
+    return CAROM_ERROR_VERTICAL;
+  *field = -1;
+  return CAROM_OK;
 }
 
 carom_status carom_cushion_check(const carom_cushion_impact *in, const carom_cushion_options *opt,

@@ -80,10 +80,12 @@ carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
   /* sigma, by rho or 1/rho, whichever is below 1 */
   const bool sticks = square < limit;
   const double small = sticks ? square : limit, large = sticks ? limit : square,
-               ratio = large > 0 ? small / large : 0, corner = carom_bend(ratio, q),
-               sigma = sticks       ? corner
-                       : square > 0 ? most / sqrt(square) * corner
-                                    : (double)0;
+               ratio = large > 0 ? small / large : 0, corner = carom_bend(ratio, q);
+  double sigma = 0;
+  if (sticks)
+    sigma = corner;
+  else if (square > 0)
+    sigma = most / sqrt(square) * corner;
 
   /* the rebound, the larger the further friction is from sticking; no more than energy allows,
    * which is never less than 2 c */

@@ -22,8 +22,12 @@ enum { HALVINGS = 8, MOST_TURNS = 10 };
  * that of x. */
 static void slip_direction(double x, double y, bool pooltool, double *to_x, double *to_y) {
   const double size = sqrt(x * x + y * y);
-  *to_x = size > 0 ? x / size : pooltool ? 1 : 0;
-  *to_y = size > 0 ? y / size : 0;
+  *to_x = pooltool ? 1 : 0;
+  *to_y = 0;
+  if (size > 0) {
+    *to_x = x / size;
+    *to_y = y / size;
+  }
 }
 
 static void euler_step(carom_contact *c, double P, bool pooltool) {

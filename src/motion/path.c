@@ -121,9 +121,10 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
       friction = begin_pair(path, rates, size);
     path->a[0] = -0.5 * friction * path->e[0];
     path->a[1] = -0.5 * friction * path->e[1];
-    path->end = now + (slides          ? 2.0 * size / (7.0 * friction)
-                       : path->goes_on ? path->second[1]
-                                       : size / friction);
+    if (slides)
+      path->end = now + 2.0 * size / (7.0 * friction);
+    else
+      path->end = now + (path->goes_on ? path->second[1] : size / friction);
     break;
   }
   case CAROM_BALL_AIRBORNE:
@@ -147,7 +148,9 @@ double carom_fall_time(double height, double v_z, double gravity) {
 
 /* |w_z| after its friction has acted for a while. */
 static double spun_down(double w, double fall) {
-  return fabs(w) <= fall ? 0.0 : w > 0.0 ? w - fall : w + fall;
+  if (fabs(w) <= fall)
+    return 0.0;
+  return w > 0.0 ? w - fall : w + fall;
 }
 
 void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double time,

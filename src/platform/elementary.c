@@ -150,12 +150,18 @@ static inline double binary_power(double x) {
   return whole + whole * r * series;
 }
 
+/* ln x of a number that is not normal and positive. */
+static double log_at_ends(double x) {
+  if (x == 0.0)
+    return -(double)INFINITY;
+  if (!(x > 0.0))
+    return (double)NAN;
+  return x < 1 ? carom_log(x * 0x1p100) - 100.0 * 0x1.62e42fefa39efp-1 : x;
+}
+
 double carom_log(double x) {
   if (!(x >= DBL_MIN && x < (double)INFINITY))
-    return x == 0.0           ? -(double)INFINITY
-           : x > 0.0 && x < 1 ? carom_log(x * 0x1p100) - 100.0 * 0x1.62e42fefa39efp-1
-           : x > 0.0          ? x
-                              : (double)NAN;
+    return log_at_ends(x);
   return 0x1.62e42fefa39efp-1 * binary_log(x);
 }
 
@@ -176,8 +182,11 @@ static void sincos_turned(double turns, double x, double *sine, double *cosine) 
   s *= x;
   c = 1.0 + c * x2;
   const double quarter = turns - 4.0 * floor(turns / 4.0);
-  *sine = quarter == 0.0 ? s : quarter == 1.0 ? c : quarter == 2.0 ? -s : -c;
-  *cosine = quarter == 0.0 ? c : quarter == 1.0 ? -s : quarter == 2.0 ? -c : s;
+  /* a half turn changes both signs, and a further quarter changes places */
+  const double sign = quarter >= 2.0 ? -1.0 : 1.0;
+  const bool odd = quarter == 1.0 || quarter == 3.0;
+  *sine = sign * (odd ? c : s);
+  *cosine = sign * (odd ? -s : c);
 }
 
 void carom_sincos_degrees(double degrees, double *sine, double *cosine) {

@@ -35,7 +35,9 @@ static inline double carom_above(double x, double least) {
  * there it has a kink by all numbers but `from`, whose range ends there. */
 static inline double carom_limited(double from, double sum) {
   (void)from;
-  return sum < 0 ? (double)0 : sum > 1 ? (double)1 : sum;
+  if (sum < 0)
+    return 0;
+  return sum > 1 ? (double)1 : sum;
 }
 #endif
 

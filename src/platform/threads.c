@@ -164,8 +164,11 @@ void carom_with_crew(carom_crew_caller *call, void *context, int threads, size_t
   /* How many are useful is asked first: counting the processors takes some system calls. */
   if (parts > 1 && threads == CAROM_ALL_THREADS)
     threads = carom_processors();
-  size_t most = threads < 1 ? 1 : threads < MOST_THREADS ? (size_t)threads : MOST_THREADS;
-  most = most < parts ? most : parts;
+  size_t most = threads < 1 ? 1 : (size_t)threads;
+  if (most > MOST_THREADS)
+    most = MOST_THREADS;
+  if (most > parts)
+    most = parts;
   carom_crew crew = {.threads = 0};
   atomic_init(&crew.begun, 0);
   atomic_init(&crew.over, false);

@@ -139,7 +139,9 @@ static const struct {
 enum { KINDS = sizeof lines / sizeof lines[0] };
 
 static size_t size_of(const field *f) {
-  return f->type == LIST ? f->size : f->type == INT32 ? sizeof(int32_t) : sizeof(int64_t);
+  if (f->type == LIST)
+    return f->size;
+  return f->type == INT32 ? sizeof(int32_t) : sizeof(int64_t);
 }
 
 static const int64_t MOST_WHOLE = 9007199254740991; /* of a double, 2^53 - 1 */
@@ -812,10 +814,10 @@ static void write_object(writer *out, const field *fields, const unsigned char *
       return;
     }
     /* an empty list, and a number as before, are left out */
-    if (f->type == LIST
-            ? n == 0
-            : !f->always && memcmp(object + f->at, before != NULL ? before + f->at : zeros,
-                                   (size_t)n * size_of(f)) == 0)
+    if (f->type == LIST && n == 0)
+      continue;
+    const unsigned char *last = before != NULL ? before + f->at : zeros;
+    if (f->type != LIST && !f->always && memcmp(object + f->at, last, (size_t)n * size_of(f)) == 0)
       continue;
 
     /* the key, then a list, a number, or numbers in brackets */
@@ -827,8 +829,11 @@ static void write_object(writer *out, const field *fields, const unsigned char *
       write_list(out, f, object, n);
       continue;
     }
+    if (n != 1)
+      write_text(out, "[");
     for (int k = 0; k < n; k++) {
-      write_text(out, n == 1 ? "" : k == 0 ? "[" : ",");
+      if (k > 0)
+        write_text(out, ",");
       write_value(out, f, object + f->at + (size_t)k * size_of(f));
     }
     write_text(out, n == 1 ? "" : "]");

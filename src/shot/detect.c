@@ -111,53 +111,77 @@ static double leave_hull(const carom_features *f, const motion *m, double T) {
   return first;
 }
 
-/* `unlike`, a constant: whether noses and jaws are reached at distances of their own, nose.c. */
-static inline __attribute__((always_inline)) carom_meeting
-meet_table_as(const carom_sim *sim, int i, const motion *m, double T, const bool unlike) {
-  const carom_features *f = sim->features;
-  carom_meeting first = {INFINITY, 0, 0};
-  /* the box of the path; a path that leads out of the hull ends there */
-  double low_x, high_x, low_y, high_y;
-  range_of(m->r[0], m->v[0], m->a[0], T, &low_x, &high_x);
-  range_of(m->r[1], m->v[1], m->a[1], T, &low_y, &high_y);
-  if (low_x < f->hull[0] || high_x > f->hull[1] || low_y < f->hull[2] || high_y > f->hull[3]) {
-    first.time = leave_hull(f, m, T);
-    T = carom_lesser(T, first.time);
-    range_of(m->r[0], m->v[0], m->a[0], T, &low_x, &high_x);
-    range_of(m->r[1], m->v[1], m->a[1], T, &low_y, &high_y);
-  }
-  const float lx = (float)low_x, hx = (float)high_x, ly = (float)low_y, hy = (float)high_y;
-  uint8_t is_near[MOST_FEATURES], near[MOST_FEATURES];
-  for (int k = 0; k < f->count; k++)
-    is_near[k] =
-        (f->low_x[k] <= hx) & (f->high_x[k] >= lx) & (f->low_y[k] <= hy) & (f->high_y[k] >= ly);
+/* The box of a path up to T: its range of x, then that of y. */
+static inline void box_of(const motion *m, double T, double box[4]) {
+  range_of(m->r[0], m->v[0], m->a[0], T, &box[0], &box[1]);
+  range_of(m->r[1], m->v[1], m->a[1], T, &box[2], &box[3]);
+}
+
+/* Lists the features of the table whose boxes meet that of a path. Without branches, since which
+ * ones they are cannot be predicted. */
+static inline int list_near(const carom_features *f, const double box[4],
+                            uint8_t near[MOST_FEATURES]) {
   CAROM_PROMISE(f->count == f->rails + f->jaws + f->pockets && f->count <= MOST_FEATURES);
-  int count = 0; /* listed without branches */
+  const float low_x = (float)box[0], high_x = (float)box[1];
+  const float low_y = (float)box[2], high_y = (float)box[3];
+  uint8_t is_near[MOST_FEATURES];
+  for (int k = 0; k < f->count; k++)
+    is_near[k] = (f->low_x[k] <= high_x) & (f->high_x[k] >= low_x) & (f->low_y[k] <= high_y) &
+                 (f->high_y[k] >= low_y);
+  int count = 0;
   for (int k = 0; k < f->count; k++) {
     near[count] = (uint8_t)k;
     count += is_near[k];
   }
-  const double radius = sim->rates[i].radius;
+  return count;
+}
 
-  /* each narrows the horizon of those behind it; a pocket goes first where it comes at the same
-   * time */
+/* When ball i meets feature k, up to T. `unlike`, a constant: whether noses and jaws are reached at
+ * distances of their own, nose.c. */
+static inline __attribute__((always_inline)) carom_meeting
+meet_feature(const carom_sim *sim, int i, int k, const motion *m, double T, const bool unlike) {
+  const carom_features *f = sim->features;
+  const carom_ball_kind *kind = sim->layout->kind[i];
+  double reach = sim->rates[i].radius;
+  if (k < f->rails) {
+    if (unlike)
+      reach = carom_reach_on_cloth(kind, sim->table->rail[k].height, f->reference);
+    return (carom_meeting){meet_rail(sim, k, reach, m, T), CAROM_EVENT_RAIL, k};
+  }
+  const int jaw = k - f->rails;
+  if (jaw < f->jaws) {
+    if (unlike)
+      reach = carom_reach_on_cloth(kind, sim->table->jaw[jaw].height, f->reference);
+    return (carom_meeting){meet_jaw(sim, jaw, reach, m, T), CAROM_EVENT_JAW, jaw};
+  }
+  const int pocket = jaw - f->jaws;
+  return (carom_meeting){meet_pocket(sim, pocket, m, T), CAROM_EVENT_POCKET, pocket};
+}
+
+static inline __attribute__((always_inline)) carom_meeting
+meet_table_as(const carom_sim *sim, int i, const motion *m, double T, const bool unlike) {
+  const carom_features *f = sim->features;
+  carom_meeting first = {INFINITY, CAROM_DUE_NOTHING, 0};
+
+  /* a path that leads out of the hull ends there */
+  double box[4];
+  box_of(m, T, box);
+  if (box[0] < f->hull[0] || box[1] > f->hull[1] || box[2] < f->hull[2] || box[3] > f->hull[3]) {
+    first.time = leave_hull(f, m, T);
+    T = carom_lesser(T, first.time);
+    box_of(m, T, box);
+  }
+
+  /* each feature narrows the horizon of those behind it */
+  uint8_t near[MOST_FEATURES];
+  const int count = list_near(f, box, near);
   for (int at = 0; at < count; at++) {
-    const int k = near[at];
-    const int jaw = k - f->rails, pocket = jaw - f->jaws;
-    const int type = jaw < 0 ? CAROM_EVENT_RAIL : pocket < 0 ? CAROM_EVENT_JAW : CAROM_EVENT_POCKET;
-    /* how far from the line of a rail, or beyond the circle of a jaw, the ball touches it */
-    double reach = radius;
-    if (unlike && pocket < 0)
-      reach = carom_reach_on_cloth(
-          sim->layout->kind[i], jaw < 0 ? sim->table->rail[k].height : sim->table->jaw[jaw].height,
-          f->reference);
-    const double t = jaw < 0      ? meet_rail(sim, k, reach, m, T)
-                     : pocket < 0 ? meet_jaw(sim, jaw, reach, m, T)
-                                  : meet_pocket(sim, pocket, m, T);
-    if (t < first.time ||
-        (t <= first.time && (first.type == 0 || type == CAROM_EVENT_POCKET) && t <= T)) {
-      first = (carom_meeting){t, type, jaw < 0 ? k : pocket < 0 ? jaw : pocket};
-      T = t;
+    const carom_meeting next = meet_feature(sim, i, near[at], m, T, unlike);
+    /* at the same time a pocket goes first, and anything before the end of the hull */
+    const bool first_of_equals = first.type == CAROM_DUE_NOTHING || next.type == CAROM_EVENT_POCKET;
+    if (next.time < first.time || (next.time <= first.time && first_of_equals && next.time <= T)) {
+      first = next;
+      T = next.time;
     }
   }
   return first;
@@ -284,9 +308,10 @@ static inline void take_columns(carom_sim *sim, int i) {
 static inline void take_horizon(carom_sim *sim, int i) {
   const carom_path *path = &sim->path[i];
   sim->own[i] = carom_lesser(path->end, sim->meeting[i].time);
-  sim->horizon[i] = carom_is_out(path->from.label)       ? -INFINITY
-                    : carom_translates(path->from.label) ? sim->own[i]
-                                                         : INFINITY;
+  if (carom_is_out(path->from.label))
+    sim->horizon[i] = -INFINITY;
+  else
+    sim->horizon[i] = carom_translates(path->from.label) ? sim->own[i] : INFINITY;
 }
 
 /* The path of ball i, and its next meeting with the table. */

@@ -81,7 +81,11 @@ static double least_half_curvature(const void *context, double t, double T) {
   const jaw_gap *g = context;
   const flight *f = g->f;
   const double first = leaving_at(g, t), last = leaving_at(g, T);
-  const double across = first >= 0.0 ? first * first : last <= 0.0 ? last * last : 0.0;
+  double across = 0.0;
+  if (first >= 0.0)
+    across = first * first;
+  else if (last <= 0.0)
+    across = last * last;
   /* z'^2 - g (z - h) = v_z^2 - g (z0 - h) - 3 g v_z t + 3/2 g^2 t^2, least at t = v_z / g */
   const double top = carom_lesser(carom_greater(f->v[2] / f->g, t), T);
   const double upright = f->v[2] * f->v[2] - f->g * (f->r[2] - g->c->height) +
@@ -301,12 +305,12 @@ carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3
                                    const double v[3], double landing) {
   const carom_ball_kind *kind = sim->layout->kind[i];
   const flight f = {{r[0], r[1], r[2]}, {v[0], v[1], v[2]}, kind->gravity, kind->radius};
-  carom_meeting first = {INFINITY, 0, 0};
+  carom_meeting first = {INFINITY, CAROM_DUE_NOTHING, 0};
   double T = landing;
   take_earlier(&first, leave(sim->features, &f), CAROM_EVENT_LEFT_TABLE, -1, &T);
   meet_cushions(sim, kind, &f, &first, &T);
   meet_pockets(sim, &f, landing, &first, &T);
-  if (first.type == 0) { /* it lands */
+  if (first.type == CAROM_DUE_NOTHING) { /* it lands */
     const double there[2] = {r[0] + landing * v[0], r[1] + landing * v[1]};
     if (carom_place_is_outside(sim->table, sim->features, kind, there))
       first = (carom_meeting){landing, CAROM_EVENT_LEFT_TABLE, -1};

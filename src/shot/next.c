@@ -63,7 +63,7 @@ carom_due carom_next(const carom_sim *sim) {
   }
 
   if (!(first < INFINITY))
-    return (carom_due){INFINITY, -1, -1, -1};
+    return (carom_due){INFINITY, CAROM_DUE_REST, -1, -1};
 
   /* all that the world takes for simultaneous with it; its rules choose */
   carom_due due[MOST_DUE];

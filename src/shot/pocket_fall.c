@@ -122,9 +122,9 @@ static bool around(const fall *f, double t, double p[2]) {
   double e[2];
   const double far = to_middle(f, f->touched, e), D = distance_from(f, f->touched, height_of(f, t));
   /* |q + D way| <= most */
-  const double least = far * D > 0.0 ? (far * far + D * D - f->most * f->most) / (2.0 * far * D)
-                       : far + D <= f->most ? -1.0
-                                            : 2.0;
+  double least = far + D <= f->most ? -1.0 : 2.0;
+  if (far * D > 0.0)
+    least = (far * far + D * D - f->most * f->most) / (2.0 * far * D);
   const double inward = carom_greater(f->inward, least),
                across = copysign(sqrt(carom_greater(1.0 - inward * inward, 0.0)), f->aside);
   p[0] = -far * e[0] + D * (inward * e[0] - across * e[1]);

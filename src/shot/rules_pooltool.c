@@ -67,9 +67,9 @@ static int tier_of(int kind) {
   return kind == 0 || kind == 3 ? 2 : 3;
 }
 static int round_of(const carom_sim *sim, const carom_due *due) {
-  return due->type == CAROM_EVENT_BALL_BALL        ? sim->pair_round[due->a][due->b]
-         : due->type < CAROM_EVENT_SLIDING_ROLLING ? sim->meeting_round[due->a]
-                                                   : 0;
+  if (due->type == CAROM_EVENT_BALL_BALL)
+    return sim->pair_round[due->a][due->b];
+  return due->type < CAROM_EVENT_SLIDING_ROLLING ? sim->meeting_round[due->a] : 0;
 }
 
 static carom_due choose(const carom_sim *sim, const carom_due *due, int count) {

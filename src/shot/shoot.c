@@ -4,6 +4,7 @@
 #include "platform/promise.h"
 #include "platform/threads.h"
 #include "shot/clusters.h"
+#include "shot/facts.h"
 #include "shot/rules.h"
 
 #include <math.h>
@@ -12,151 +13,6 @@
 
 static const carom_shot_options no_options = {0};
 
-/* As facts begin: nothing happened. */
-static void no_facts(carom_facts *facts) {
-  memset(facts, 0, sizeof *facts);
-  facts->second_time = INFINITY;
-  facts->first[0] = facts->first[1] = -1;
-  facts->first_time[0] = facts->first_time[1] = INFINITY;
-  for (int i = 0; i < CAROM_BALLS_MOST; i++) {
-    facts->pocket[i] = -1;
-    facts->pocket_time[i] = INFINITY;
-    facts->order[i] = -1;
-  }
-}
-
-/* Where ball i is now. */
-static carom_ball_state state_now(const carom_sim *sim, int i) {
-  carom_ball_state now;
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &now);
-  return now;
-}
-
-/* The cue ball has an event before it has met a ball: how far it came. */
-static void reach_to(carom_facts *facts, const carom_sim *sim, bool first) {
-  const carom_ball_state now = state_now(sim, sim->struck);
-  for (int axis = 0; axis < 2; axis++) {
-    const double x = now.r[axis];
-    facts->first_low[axis] = first ? x : fmin(facts->first_low[axis], x);
-    facts->first_high[axis] = first ? x : fmax(facts->first_high[axis], x);
-  }
-}
-
-/* The cue ball meets a ball, which it may have met before. */
-static void meet(carom_facts *facts, const carom_sim *sim, int other) {
-  int n = 0;
-  for (; n < CAROM_BALLS_MOST && facts->order[n] >= 0; n++)
-    if (facts->order[n] == other)
-      return;
-  if (n == CAROM_BALLS_MOST)
-    return;
-  facts->order[n] = other;
-
-  /* the first ball, and those of the same instant */
-  if (n == 0) {
-    const carom_ball_state now = state_now(sim, sim->struck);
-    memcpy(facts->first_place, now.r, sizeof facts->first_place);
-  }
-  if (n == 0 || sim->now - facts->first_time[0] <= CAROM_RULES_INSTANT)
-    facts->first_set |= UINT32_C(1) << other;
-
-  /* the first two */
-  if (n < 2) {
-    facts->first[n] = other;
-    facts->first_time[n] = sim->now;
-    facts->cushions_before[n] = facts->cushions[sim->struck];
-  }
-}
-
-/* Whether a ball that meets a cushion lies where it lay at first: it was frozen to it, and has not
- * left it. */
-static bool is_frozen(const carom_sim *sim, int i) {
-  const double *first = sim->layout->state[i]->r;
-  const carom_ball_state now = state_now(sim, i);
-  return fabs(now.r[0] - first[0]) + fabs(now.r[1] - first[1]) < CAROM_RULES_TOUCH;
-}
-
-/* Adds an event to the facts. */
-static void add_fact(carom_facts *facts, const carom_due *due, const carom_sim *sim) {
-  const int a = due->a, b = due->b, cue = sim->struck;
-  if (facts->first[0] < 0 && (a == cue || (due->type == CAROM_EVENT_BALL_BALL && b == cue)))
-    reach_to(facts, sim, due->type == CAROM_EVENT_STRIKE && facts->touches == 0);
-  switch (due->type) {
-  case CAROM_EVENT_STRIKE:
-    facts->moved |= UINT32_C(1) << a;
-    facts->touches++;
-    break;
-  case CAROM_EVENT_BALL_BALL:
-    facts->moved |= UINT32_C(1) << a | UINT32_C(1) << b;
-    if (a == cue || b == cue)
-      meet(facts, sim, a == cue ? b : a);
-    break;
-  case CAROM_EVENT_RAIL:
-  case CAROM_EVENT_JAW:
-    facts->cushions[a]++;
-    if (due->type == CAROM_EVENT_RAIL && !carom_is_cut(sim->table, b))
-      facts->banked |= UINT32_C(1) << a;
-    facts->cushions_after += facts->first[0] >= 0 && !is_frozen(sim, a);
-    break;
-  case CAROM_EVENT_POCKET:
-    facts->down |= UINT32_C(1) << a;
-    facts->pocket[a] = b;
-    facts->pocket_time[a] = sim->now;
-    break;
-  case CAROM_EVENT_LEFT_TABLE:
-    facts->off |= UINT32_C(1) << a;
-    break;
-  default:
-    break;
-  }
-}
-
-/* The set of the balls that touch the struck one for the rules. */
-static uint32_t frozen_to(const carom_sim *sim) {
-  const int i = sim->struck;
-  const double *r = sim->path[i].from.r;
-  uint32_t set = 0;
-  for (int k = 0; k < sim->count; k++) {
-    const double *q = sim->path[k].from.r;
-    const double R = sim->rates[i].radius, Q = sim->rates[k].radius,
-                 reach = R + Q + CAROM_RULES_TOUCH;
-    const double x = q[0] - r[0], y = q[1] - r[1], z = Q - R;
-    if (k != i && !carom_is_out(sim->path[k].from.label) && x * x + y * y + z * z < reach * reach)
-      set |= UINT32_C(1) << k;
-  }
-  return set;
-}
-
-/* What the touches of the tip within a push add to the facts, which have its event: how many, and
- * the closing speeds of the first two. */
-static void add_touches(const carom_sim *sim, int touches, double first, double second) {
-  carom_facts *facts = sim->shot->facts;
-  if (facts == NULL)
-    return;
-  const int before = facts->touches - 1;
-  facts->touches = before + touches;
-  if (before < 2 && facts->touches >= 2) {
-    facts->second_time = sim->now;
-    facts->second_speed = before == 1 ? first : second;
-    memcpy(facts->second_place, sim->path[sim->struck].from.r, sizeof facts->second_place);
-  }
-}
-
-/* What a push with `count` contacts of balls adds to the facts. */
-static void add_push(const carom_sim *sim, const carom_cluster_state *c, const uint8_t order[],
-                     int count) {
-  carom_facts *facts = sim->shot->facts;
-  if (facts == NULL)
-    return;
-  add_touches(sim, c->tip.touches, c->tip.first, c->tip.second);
-  for (int k = 0; k < count; k++) {
-    const carom_cluster_contact_state *x = &c->contact[order[k]];
-    const int other = x->i == c->tip.ball ? x->j : x->j == c->tip.ball ? x->i : -1;
-    if (other >= 0 && x->time <= c->tip.last)
-      facts->pushed |= UINT32_C(1) << c->ball[other].which;
-  }
-}
-
 /* The next place for an event, or a spare one where there is no room for it. */
 static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
   carom_shot *shot = sim->shot;
@@ -164,9 +20,10 @@ static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_
   const bool room = shot->count < shot->room;
   if (room && shot->brief != NULL)
     shot->brief[shot->count] = (carom_brief_event){sim->now, due->type, due->a, due->b, 0};
-  carom_event *event = room && shot->events != NULL ? &shot->events[shot->count] : spare;
+  const bool kept = room && shot->events != NULL;
+  carom_event *event = kept ? &shot->events[shot->count] : spare;
   if (shot->facts != NULL)
-    add_fact(shot->facts, due, sim);
+    carom_facts_event(sim, due);
   shot->count++;
   shot->time = sim->now;
   event->time = sim->now;
@@ -334,24 +191,26 @@ __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_cue
   carom_ball_state *state = &sim->path[i].from;
   carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
   *state = event->before[0];
-  add_push(sim, &c, order, count);
+  carom_facts_push(sim, &c, order, count);
   carom_cluster_rest(sim, &c, c.tip.ball, state);
   carom_label_after(c.in_space, sim->layout->kind[i], state);
   event->after[0] = *state;
   event->cluster = count > 0 ? count + 1 : 0;
   event->impulse = c.tip.impulse;
   memset(&event->after[1], 0, sizeof event->after[1]);
-  *status =
-      carom_is_finite(state->v) && carom_is_finite(state->w) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
-  if (*status < 0)
+  *status = CAROM_OK;
+  if (!carom_is_finite(state->v) || !carom_is_finite(state->w)) {
+    *status = CAROM_ERROR_OVERFLOW;
     *state = event->before[0];
+  }
   carom_path_begin(&sim->path[i], &sim->rates[i], sim->now);
 
   bool changed[CAROM_BALLS_MOST] = {false};
   changed[i] = true;
-  *met = (carom_due){sim->now, count > 0 ? CAROM_EVENT_BALL_BALL : 0, -1, -1};
+  *met = (carom_due){sim->now, count > 0 ? CAROM_EVENT_BALL_BALL : CAROM_DUE_NOTHING, -1, -1};
   const carom_status of_contacts = note_contacts(sim, &c, order, count, changed, met);
-  *status = *status < 0 ? *status : of_contacts;
+  if (*status == CAROM_OK)
+    *status = of_contacts;
   carom_follow_on(sim, c.tip.V, carom_greater(-c.tip.d, 0.0));
   return true;
 }
@@ -407,67 +266,80 @@ static carom_status step(carom_sim *sim, carom_due *due) {
   return status;
 }
 
-/* The strike, where there is one. *met becomes a contact of its push. */
-static carom_status strike(carom_sim *sim, carom_due *met) {
-  const carom_cue *cue = sim->cue;
-  if (cue == NULL || !(cue->speed > 0.0))
-    return CAROM_OK;
-
-  /* no ball is struck while one moves */
+/* Whether the cue strikes at all: it moves, and every ball that is in play lies still. */
+static bool may_strike(const carom_sim *sim) {
+  if (sim->cue == NULL || !(sim->cue->speed > 0.0))
+    return false;
   for (int i = 0; i < sim->count; i++) {
     const int64_t label = sim->path[i].from.label;
     if (label != CAROM_BALL_STATIONARY && !carom_is_out(label))
-      return CAROM_OK;
+      return false;
   }
+  return true;
+}
 
-  const int i = (int)cue->ball;
-  carom_motion motion;
-  const bool flat = sim->rules->flat || sim->opt->space == CAROM_SPACE_FLAT;
-  carom_blow_kind blow = flat ? CAROM_BLOW_ON_CLOTH : CAROM_BLOW_IN_SPACE;
+/* How the rules of the world take a blow. */
+static carom_blow_kind blow_kind_of(const carom_sim *sim) {
   if (sim->rules->flat)
-    blow = CAROM_BLOW_TURNED;
-  const carom_status status = carom_blow(cue, sim->layout->kind[i], blow, &motion);
+    return CAROM_BLOW_TURNED;
+  return sim->opt->space == CAROM_SPACE_FLAT ? CAROM_BLOW_ON_CLOTH : CAROM_BLOW_IN_SPACE;
+}
+
+/* The strike of a ball that meets no other meanwhile, which has the motion `alone` after it. */
+static void note_strike(carom_sim *sim, const carom_ball_state *alone, const carom_raised *raised,
+                        bool in_space, bool presses) {
+  const int i = sim->struck;
+  const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
+  carom_event spare, *event = note(sim, &spare, &due);
+  carom_ball_state *state = &sim->path[i].from;
+  carom_facts_touches(sim, raised->touches, sim->cue->speed, raised->second);
+  event->before[0] = *state;
+  *state = *alone;
+  carom_label_after(in_space, sim->layout->kind[i], state);
+  if (sim->rules->contacts_slide)
+    state->label = CAROM_BALL_SLIDING;
+  event->after[0] = *state;
+  memset(&event->after[1], 0, sizeof event->after[1]);
+  event->impulse = presses ? raised->impulse : impulse_of(sim, event);
+  carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
+}
+
+/* The strike, if the cue strikes. *met becomes a contact of its push. */
+static carom_status strike(carom_sim *sim, carom_due *met) {
+  if (!may_strike(sim))
+    return CAROM_OK;
+  const carom_cue *cue = sim->cue;
+  const int i = (int)cue->ball;
+  const carom_ball_kind *kind = sim->layout->kind[i];
+  carom_motion motion;
+  const carom_status status = carom_blow(cue, kind, blow_kind_of(sim), &motion);
   if (status < 0)
     return status;
-
-  /* with the balls that it meets meanwhile */
-  if (sim->shot->facts != NULL)
-    sim->shot->facts->frozen = frozen_to(sim);
-  carom_status together;
-  const double *v = motion.v, most = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  carom_facts_frozen(sim);
   memcpy(sim->follow.from, sim->path[i].from.r, sizeof sim->follow.from);
   sim->follow.along = 0.0;
-  const bool down = v[2] != 0.0, presses = down && cue->tip_time >= 0.0;
+
+  /* with the balls that it meets meanwhile */
+  carom_status together;
+  const double *v = motion.v, most = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  const bool down = v[2] != 0.0;
   if (carom_may_push(sim, &motion) && push(sim, cue, most, down, PUSH_OF_SEVERAL, met, &together))
     return together;
 
   /* alone: level in closed form, raised with the slate. A blow that has no time lands at once */
-  const carom_ball_kind *kind = sim->layout->kind[i];
   carom_ball_state alone = sim->path[i].from;
   carom_raised raised = {.touches = 1, .behind = 0.0};
   raised.V = cue->speed - kind->mass / cue->mass * carom_speed_of_blow(cue, kind);
   memcpy(alone.v, motion.v, sizeof alone.v);
   memcpy(alone.w, motion.w, sizeof alone.w);
+  const bool presses = down && cue->tip_time >= 0.0;
+  const bool with_slate = true;
   if (presses && !carom_press_alone(kind, cue, &alone, &raised)) {
-    push(sim, cue, most, true, PUSH_OF_ONE, met, &together);
+    push(sim, cue, most, with_slate, PUSH_OF_ONE, met, &together);
     return together;
   }
   carom_follow_on(sim, raised.V, raised.behind);
-
-  /* the event, and the motion that the cue gives */
-  const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
-  carom_event spare, *event = note(sim, &spare, &due);
-  carom_ball_state *state = &sim->path[i].from;
-  add_touches(sim, raised.touches, cue->speed, raised.second);
-  event->before[0] = *state;
-  *state = alone;
-  carom_label_after(down, kind, state);
-  if (sim->rules->contacts_slide)
-    state->label = CAROM_BALL_SLIDING;
-  event->after[0] = *state;
-  memset(&event->after[1], 0, sizeof event->after[1]);
-  event->impulse = presses ? raised.impulse : impulse_of(sim, event);
-  carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
+  note_strike(sim, &alone, &raised, down, presses);
   return CAROM_OK;
 }
 
@@ -489,9 +361,11 @@ static bool stops_at(carom_sim *sim, int type, int a, int b) {
   const bool first = contact && !sim->met;
   sim->met |= contact;
   sim->turned |= contact || cushion;
-  if (first && sim->opt->first_of != 0 && !(sim->opt->first_of >> (a == sim->struck ? b : a) & 1))
+  const int other = a == sim->struck ? b : a;
+  if (first && sim->opt->first_of != 0 && !(sim->opt->first_of >> other & 1))
     return true;
-  return ((contact ? CAROM_STOP_AT_CONTACT : 0) | CAROM_STOP_AT(type)) & sim->opt->stop_at;
+  const uint64_t kinds = CAROM_STOP_AT(type) | (contact ? CAROM_STOP_AT_CONTACT : 0);
+  return (kinds & sim->opt->stop_at) != 0;
 }
 
 /* The tip touches the struck ball again, or the follow-through ends. *due becomes what happens. */
@@ -504,14 +378,15 @@ __attribute__((noinline, cold)) static carom_status touch_again(carom_sim *sim, 
   f->along += f->V * (sim->now - f->since);
   f->until = -1.0;
   f->time = INFINITY;
-  due->type = 0;
+  due->type = CAROM_DUE_NOTHING;
   if (touches && push(sim, &cue, 2.0 * cue.speed, raised, PUSH_AGAIN, due, &status)) {
     carom_detect_all(sim);
     if (status == CAROM_OK && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1))
       status = CAROM_STOPPED_AT_EVENT;
   }
   /* the strike is told; of a contact beside it go_on() asks whether the shot stops there */
-  due->type = due->type == 0 ? CAROM_DUE_PIECE : due->type;
+  if (due->type == CAROM_DUE_NOTHING)
+    due->type = CAROM_DUE_PIECE;
   return status;
 }
 
@@ -522,13 +397,15 @@ static carom_status go_on(carom_sim *sim) {
   const double time_most = sim->opt->time_most > 0.0 ? sim->opt->time_most : 1000.0;
   carom_status status = CAROM_OK;
   while (status == CAROM_OK) {
-    /* what ends the shot: rest, or the time that the caller allows */
+    /* what is due: an event, or another touch of the tip, which goes first */
     carom_due due = carom_next(sim);
-    const bool again =
-        sim->follow.until >= 0.0 && sim->follow.time < INFINITY && sim->follow.time <= due.time;
+    const bool follows = sim->follow.until >= 0.0 && sim->follow.time < INFINITY;
+    const bool again = follows && sim->follow.time <= due.time;
     if (again)
       due = (carom_due){sim->follow.time, CAROM_EVENT_STRIKE, sim->struck, -1};
-    if (due.type < 0)
+
+    /* what ends the shot: rest, or the time that the caller allows */
+    if (due.type == CAROM_DUE_REST)
       break;
     if (due.time > time_most) {
       sim->shot->time = time_most;
@@ -549,7 +426,7 @@ static carom_status go_on(carom_sim *sim) {
     if (sim->shot->count >= events_most)
       return CAROM_ERROR_TOO_MANY_EVENTS;
     /* a ball on the cloth that finds no part of the table has left it */
-    if (due.type == 0) {
+    if (due.type == CAROM_DUE_OFF_THE_CLOTH) {
       sim->shot->time = sim->now = carom_greater(sim->now, due.time);
       return CAROM_ERROR_LEFT_TABLE;
     }
@@ -583,13 +460,13 @@ static carom_status finish(carom_sim *sim, carom_status status) {
 
 /* The strike, and whether the shot is to go on after it. */
 static carom_status start(carom_sim *sim) {
-  carom_due met = {0.0, 0, -1, -1};
+  carom_due met = {0.0, CAROM_DUE_NOTHING, -1, -1};
   const carom_status status = strike(sim, &met);
   if (status != CAROM_OK)
     return status;
   carom_detect_all(sim);
   bool stops = sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1);
-  stops |= met.type != 0 && stops_at(sim, met.type, met.a, met.b);
+  stops |= met.type != CAROM_DUE_NOTHING && stops_at(sim, met.type, met.a, met.b);
   if (sim->follow.until > 0.0)
     carom_follow_find(sim);
   return stops ? CAROM_STOPPED_AT_EVENT : CAROM_OK;
@@ -645,7 +522,7 @@ __attribute__((noinline)) static carom_status shoot(const carom_prepared *p, con
 __attribute__((noinline, cold)) static carom_status
 shoot_with_facts(const carom_prepared *p, const carom_cue *cue, carom_shot *shot, bool anew) {
   carom_facts facts;
-  no_facts(shot->facts = &facts);
+  carom_facts_begin(shot->facts = &facts);
   const carom_status status = shoot(p, cue, shot, anew);
   shot->facts = NULL;
   return status;
@@ -658,7 +535,7 @@ static void clear(carom_shot *shot) {
   if (shot->state != NULL)
     memset(shot->state, 0, sizeof *shot->state);
   if (shot->facts != NULL)
-    no_facts(shot->facts);
+    carom_facts_begin(shot->facts);
 }
 
 carom_status carom_shoot_prepared(const carom_prepared *p, const carom_cue *cue, carom_shot *shot) {
@@ -666,8 +543,9 @@ carom_status carom_shoot_prepared(const carom_prepared *p, const carom_cue *cue,
   const carom_status bad = carom_check_strike(p, cue);
   if (bad != CAROM_OK)
     return bad;
-  return (shot->state != NULL && shot->facts == NULL ? shoot_with_facts : shoot)(p, cue, shot,
-                                                                                 true);
+  if (shot->state != NULL && shot->facts == NULL)
+    return shoot_with_facts(p, cue, shot, true);
+  return shoot(p, cue, shot, true);
 }
 
 carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count,
@@ -700,7 +578,9 @@ carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball
     return bad;
   if (shot->count < 0 || !(shot->time >= 0.0 && shot->time < INFINITY))
     return CAROM_ERROR_STATE;
-  return (shot->facts == NULL ? shoot_with_facts : shoot)(&p, NULL, shot, false);
+  if (shot->facts == NULL)
+    return shoot_with_facts(&p, NULL, shot, false);
+  return shoot(&p, NULL, shot, false);
 }
 
 /* ---- Many */

@@ -42,28 +42,36 @@ carom_status carom_shoot_prepared(const carom_prepared *p, const carom_cue *cue,
 
 /* How many balls or parts of the table an event's b may be one of; INT64_MAX: it is none. */
 static inline int64_t carom_others_of(const carom_table *table, int count, int type) {
-  return type == CAROM_EVENT_BALL_BALL  ? count
-         : type == CAROM_EVENT_RAIL     ? table->rails
-         : type == CAROM_EVENT_JAW      ? table->jaws
-         : type == CAROM_EVENT_POCKET   ? table->pockets
-         : type == CAROM_EVENT_RAIL_TOP ? table->rails + table->jaws
-                                        : INT64_MAX;
+  switch (type) {
+  case CAROM_EVENT_BALL_BALL:
+    return count;
+  case CAROM_EVENT_RAIL:
+    return table->rails;
+  case CAROM_EVENT_JAW:
+    return table->jaws;
+  case CAROM_EVENT_POCKET:
+    return table->pockets;
+  case CAROM_EVENT_RAIL_TOP:
+    return table->rails + table->jaws;
+  default:
+    return INT64_MAX;
+  }
 }
 
 /* The models of a shot, where 0 is that of its world. A cushion that was measured goes with the
  * balls that have its numbers. */
 static inline carom_ball_model carom_ball_model_of(const carom_shot_options *o) {
-  return o->ball_model != CAROM_BALL_MODEL_DEFAULT ? o->ball_model
-         : o->world == CAROM_WORLD_POOLTOOL        ? CAROM_BALL_MODEL_INELASTIC
-                                                   : CAROM_BALL_MODEL_EXACT;
+  if (o->ball_model != CAROM_BALL_MODEL_DEFAULT)
+    return o->ball_model;
+  return o->world == CAROM_WORLD_POOLTOOL ? CAROM_BALL_MODEL_INELASTIC : CAROM_BALL_MODEL_EXACT;
 }
 static inline carom_cushion_model carom_cushion_model_of(const carom_shot_options *o,
                                                          const carom_ball_kind *kind) {
-  return o->cushion_model != CAROM_SHOT_CUSHION_DEFAULT
-             ? (carom_cushion_model)((int)o->cushion_model - 1)
-         : o->world == CAROM_WORLD_POOLTOOL ? CAROM_CUSHION_STRONGE
-         : kind->smooth_q > 0               ? CAROM_CUSHION_SMOOTH
-                                            : CAROM_CUSHION_HAN;
+  if (o->cushion_model != CAROM_SHOT_CUSHION_DEFAULT)
+    return (carom_cushion_model)((int)o->cushion_model - 1);
+  if (o->world == CAROM_WORLD_POOLTOOL)
+    return CAROM_CUSHION_STRONGE;
+  return kind->smooth_q > 0 ? CAROM_CUSHION_SMOOTH : CAROM_CUSHION_HAN;
 }
 
 /* slate.c: the restitution of a ball with the slate, from restitution_table of its kind: 0 stands

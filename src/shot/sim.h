@@ -71,13 +71,17 @@ typedef struct carom_sim {
 /* An event that is due. */
 typedef struct carom_due {
   double time;
-  int type, a, b; /* type 0: ball a leaves the table; -1: nothing will happen any more; or
-                     CAROM_DUE_PIECE */
+  int type, a, b; /* a type of event, or one of the following */
 } carom_due;
 
-/* Beside the types of events: another piece of ball a's path begins, and nobody is told. In the
- * order of simultaneous events it counts as an end of a phase. */
-enum { CAROM_DUE_PIECE = CAROM_EVENT_LEFT_TABLE + 1 };
+/* Beside the types of events. CAROM_DUE_PIECE, another piece of ball a's path, is reported to
+ * nobody; in the order of simultaneous events it counts as an end of a phase. */
+enum {
+  CAROM_DUE_REST = -1,         /* nothing will happen any more */
+  CAROM_DUE_NOTHING = 0,       /* no event, where one may be */
+  CAROM_DUE_OFF_THE_CLOTH = 0, /* ball a, on the cloth, will find no part of the table */
+  CAROM_DUE_PIECE = CAROM_EVENT_LEFT_TABLE + 1
+};
 
 /* Whether contacts are looked for in space, and not on the cloth alone. */
 static inline bool carom_in_space(const carom_sim *sim) {

@@ -169,9 +169,11 @@ static bool good_meeting(const carom_sim *sim, int i) {
   if (isnan(m->time) || (m->time < INFINITY && !carom_translates(sim->path[i].from.label)))
     return false;
   const int64_t parts = carom_others_of(sim->table, 0, m->type);
-  return m->type == 0                        ? m->part == 0
-         : m->type == CAROM_EVENT_LEFT_TABLE ? m->part == -1
-                                             : m->part >= 0 && m->part < parts && parts < INT64_MAX;
+  if (m->type == CAROM_DUE_NOTHING)
+    return m->part == 0;
+  if (m->type == CAROM_EVENT_LEFT_TABLE)
+    return m->part == -1;
+  return m->part >= 0 && m->part < parts && parts < INT64_MAX;
 }
 
 /* Whether the pairs of ball i with those behind it can meet when they are said to. */

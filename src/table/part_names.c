@@ -54,5 +54,7 @@ const char *carom_pocket_name(const carom_table *t, int pocket) {
   if (t == NULL || pocket < 0 || pocket >= t->pockets || !is_rectangle(t))
     return NULL;
   const double *centre = t->pocket[pocket].centre, along = centre[1] / t->length;
-  return names[centre[0] > 0.5 * t->width][along < 0.3 ? 0 : along < 0.7 ? 1 : 2];
+  const int side = centre[0] > 0.5 * t->width ? 1 : 0;
+  const int third = (along < 0.3 ? 0 : 1) + (along < 0.7 ? 0 : 1);
+  return names[side][third];
 }

@@ -112,10 +112,10 @@ carom_status carom_check_parts(const carom_table *table, double radius, double u
     const bool of_jaw = where < table->jaws &&
                         (bad == CAROM_ERROR_TABLE ? !good_jaw(&table->jaw[where])
                                                   : !good_height(table->jaw[where].height, lowest));
-    *part = (carom_part){of_rail  ? CAROM_PART_RAIL
-                         : of_jaw ? CAROM_PART_JAW
-                                  : CAROM_PART_POCKET,
-                         where};
+    part->kind = of_jaw ? CAROM_PART_JAW : CAROM_PART_POCKET;
+    if (of_rail)
+      part->kind = CAROM_PART_RAIL;
+    part->index = where;
   }
   return bad;
 }

@@ -52,8 +52,9 @@ static void add_pocket(carom_table *t, const joint *j, double nose, double r, do
   double b[2] = {j->next[0] + j->before[0], j->next[1] + j->before[1]};
   const double size = sqrt(b[0] * b[0] + b[1] * b[1]), sign = j->turn < 0.0 ? -1.0 : 1.0;
   const bool straight = size < 1e-9;
+  const double across[2] = {-j->next[1], j->next[0]};
   for (int k = 0; k < 2; k++)
-    b[k] = straight ? (k == 0 ? -j->next[1] : j->next[0]) : sign * b[k] / size;
+    b[k] = straight ? across[k] : sign * b[k] / size;
 
   /* the jaws, outside of each rail's end */
   const double first[2] = {j->at[0] + j->cut * j->before[0] + r * -j->before[1],

@@ -174,9 +174,11 @@ carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double g
                         carom_shot_ball *balls, int room) {
   if (table == NULL || balls == NULL)
     return CAROM_ERROR_NULL;
-  const carom_game game = kind == CAROM_RACK_SNOOKER        ? CAROM_GAME_SNOOKER
-                          : kind == CAROM_RACK_THREECUSHION ? CAROM_GAME_BILLIARD
-                                                            : CAROM_GAME_POOL;
+  carom_game game = CAROM_GAME_POOL;
+  if (kind == CAROM_RACK_SNOOKER)
+    game = CAROM_GAME_SNOOKER;
+  else if (kind == CAROM_RACK_THREECUSHION)
+    game = CAROM_GAME_BILLIARD;
   rack k = {table, balls, carom_ball_kind_of(game), gap, seed};
   const int size = carom_rack_size(kind);
   if (size == 0 || room < size || !(gap >= 0.0 && gap <= k.kind.radius))

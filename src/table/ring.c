@@ -100,7 +100,8 @@ static double edge(const shape *a, const shape *b, int which, double in_a[2], do
     in_b[1] = in_a[1];
     return they_do ? 0.0 : INFINITY;
   }
-  const double *end = which == 1 ? a->p : which == 2 ? a->q : which == 3 ? b->p : b->q;
+  const double *const ends[4] = {a->p, a->q, b->p, b->q};
+  const double *end = ends[which - 1];
   double *at_end = which <= 2 ? in_a : in_b;
   at_end[0] = end[0];
   at_end[1] = end[1];
@@ -122,7 +123,9 @@ static int crossing(const double a[2], const double b[2], const double P[2]) {
   if ((a[1] > P[1]) == (b[1] > P[1]))
     return 0;
   const double x = a[0] + (P[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
-  return x <= P[0] ? 0 : b[1] > a[1] ? 1 : -1;
+  if (x <= P[0])
+    return 0;
+  return b[1] > a[1] ? 1 : -1;
 }
 
 /* The windings of an edge. */

@@ -245,7 +245,9 @@ CAROM_RULE number carom_above(const number &a, real least) {
 CAROM_RULE number carom_limited(const number &from, const number &sum) {
   if ((sum.x == 0 || sum.x == 1) && watched.on && part(from.d, sum.d))
     watched.note.flags |= CAROM_TANGENT_KINK;
-  return sum.x < 0 ? number(0) : sum.x > 1 ? number(1) : sum;
+  if (sum.x < 0)
+    return number(0);
+  return sum.x > 1 ? number(1) : sum;
 }
 CAROM_RULE bool isfinite(const number &a) {
   return __builtin_isfinite(a.x);

@@ -231,10 +231,12 @@ carom_status carom_cushion_euler(carom_contact *c, int steps, double least, int,
       continue;
     real more[EULER_OUTS], less[EULER_OUTS] = {0};
     const bool constant = k > 4, forward = constant && at[k] == 0;
-    const real h = !constant ? 1e-3 * at[1]
-                   : forward ? 1e-4
-                             : __builtin_fmin(1e-4, 0.5 * __builtin_fabs(at[k])),
-               kept = at[k];
+    real h = 1e-4;
+    if (!constant)
+      h = 1e-3 * at[1];
+    else if (!forward)
+      h = __builtin_fmin(1e-4, 0.5 * __builtin_fabs(at[k]));
+    const real kept = at[k];
     at[k] = kept + h;
     status = euler_at(at, steps, least.x, most, more);
     at[k] = forward ? 0 : kept - h;

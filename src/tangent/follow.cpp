@@ -321,7 +321,9 @@ CAROM_APART number bodies(const scene *s, number d[3], number v[3]) {
   const bool flies = text::carom_flies(a), jaw = e->type == CAROM_EVENT_JAW;
   for (int k = 0; k < 3; k++) {
     d[k] = s->two ? b->r[k] - a->r[k] : number(0);
-    v[k] = s->two ? a->v[k] - b->v[k] : k < 2 ? a->v[k] : number(0);
+    v[k] = k < 2 ? a->v[k] : number(0);
+    if (s->two)
+      v[k] = a->v[k] - b->v[k];
   }
   if (carom_touches_again(e)) {
     to_tip(s, d, v);

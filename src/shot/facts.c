@@ -1,0 +1,168 @@
+/* What the rules of games ask of a shot (carom_facts), noted event by event. */
+#include "shot/facts.h"
+
+#include <math.h>
+#include <string.h>
+
+void carom_facts_begin(carom_facts *facts) {
+  memset(facts, 0, sizeof *facts);
+  facts->second_time = INFINITY;
+  for (int k = 0; k < 2; k++) {
+    facts->first[k] = -1;
+    facts->first_time[k] = INFINITY;
+  }
+  for (int i = 0; i < CAROM_BALLS_MOST; i++) {
+    facts->pocket[i] = -1;
+    facts->pocket_time[i] = INFINITY;
+    facts->order[i] = -1;
+  }
+}
+
+static uint32_t set_of(int i) {
+  return UINT32_C(1) << i;
+}
+
+/* Where ball i is now. */
+static carom_ball_state state_now(const carom_sim *sim, int i) {
+  carom_ball_state now;
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &now);
+  return now;
+}
+
+/* Widens the range of places where the cue ball was before it met a ball. `begins`: it is the first
+ * such place. */
+static void widen_range(carom_facts *facts, const carom_sim *sim, bool begins) {
+  const carom_ball_state now = state_now(sim, sim->struck);
+  for (int axis = 0; axis < 2; axis++) {
+    const double x = now.r[axis];
+    facts->first_low[axis] = begins ? x : fmin(facts->first_low[axis], x);
+    facts->first_high[axis] = begins ? x : fmax(facts->first_high[axis], x);
+  }
+}
+
+/* The cue ball meets a ball. Only the first meeting with each ball counts. */
+static void meet(carom_facts *facts, const carom_sim *sim, int other) {
+  int met = 0;
+  while (met < CAROM_BALLS_MOST && facts->order[met] >= 0) {
+    if (facts->order[met] == other)
+      return;
+    met++;
+  }
+  if (met == CAROM_BALLS_MOST)
+    return;
+  facts->order[met] = other;
+
+  /* the first ball, and those of the same instant */
+  if (met == 0) {
+    const carom_ball_state now = state_now(sim, sim->struck);
+    memcpy(facts->first_place, now.r, sizeof facts->first_place);
+  }
+  if (met == 0 || sim->now - facts->first_time[0] <= CAROM_RULES_INSTANT)
+    facts->first_set |= set_of(other);
+
+  /* the first two */
+  if (met < 2) {
+    facts->first[met] = other;
+    facts->first_time[met] = sim->now;
+    facts->cushions_before[met] = facts->cushions[sim->struck];
+  }
+}
+
+/* Whether a ball that meets a cushion is frozen to it: the ball lies where it lay at first. */
+static bool is_frozen(const carom_sim *sim, int i) {
+  const double *first = sim->layout->state[i]->r;
+  const carom_ball_state now = state_now(sim, i);
+  return fabs(now.r[0] - first[0]) + fabs(now.r[1] - first[1]) < CAROM_RULES_TOUCH;
+}
+
+/* A ball meets a rail or a jaw. */
+static void meet_cushion(carom_facts *facts, const carom_sim *sim, const carom_due *due) {
+  facts->cushions[due->a]++;
+  if (due->type == CAROM_EVENT_RAIL && !carom_is_cut(sim->table, due->b))
+    facts->banked |= set_of(due->a);
+  if (facts->first[0] >= 0 && !is_frozen(sim, due->a))
+    facts->cushions_after++;
+}
+
+void carom_facts_event(const carom_sim *sim, const carom_due *due) {
+  carom_facts *facts = sim->shot->facts;
+  const int a = due->a, b = due->b, cue = sim->struck;
+  const bool balls = due->type == CAROM_EVENT_BALL_BALL;
+  const bool of_cue = a == cue || (balls && b == cue);
+  if (of_cue && facts->first[0] < 0)
+    widen_range(facts, sim, due->type == CAROM_EVENT_STRIKE && facts->touches == 0);
+  switch (due->type) {
+  case CAROM_EVENT_STRIKE:
+    facts->moved |= set_of(a);
+    facts->touches++;
+    break;
+  case CAROM_EVENT_BALL_BALL:
+    facts->moved |= set_of(a) | set_of(b);
+    if (of_cue)
+      meet(facts, sim, a == cue ? b : a);
+    break;
+  case CAROM_EVENT_RAIL:
+  case CAROM_EVENT_JAW:
+    meet_cushion(facts, sim, due);
+    break;
+  case CAROM_EVENT_POCKET:
+    facts->down |= set_of(a);
+    facts->pocket[a] = b;
+    facts->pocket_time[a] = sim->now;
+    break;
+  case CAROM_EVENT_LEFT_TABLE:
+    facts->off |= set_of(a);
+    break;
+  default:
+    break;
+  }
+}
+
+/* Whether balls i and k touch by the rules. */
+static bool touch_by_rules(const carom_sim *sim, int i, int k) {
+  const double *r = sim->path[i].from.r, *q = sim->path[k].from.r;
+  const double R = sim->rates[i].radius, Q = sim->rates[k].radius;
+  const double reach = R + Q + CAROM_RULES_TOUCH;
+  const double x = q[0] - r[0], y = q[1] - r[1], z = Q - R;
+  return x * x + y * y + z * z < reach * reach;
+}
+
+void carom_facts_frozen(const carom_sim *sim) {
+  carom_facts *facts = sim->shot->facts;
+  if (facts == NULL)
+    return;
+  facts->frozen = 0;
+  for (int k = 0; k < sim->count; k++) {
+    const bool other = k != sim->struck && !carom_is_out(sim->path[k].from.label);
+    if (other && touch_by_rules(sim, sim->struck, k))
+      facts->frozen |= set_of(k);
+  }
+}
+
+void carom_facts_touches(const carom_sim *sim, int touches, double first, double second) {
+  carom_facts *facts = sim->shot->facts;
+  if (facts == NULL)
+    return;
+  const int before = facts->touches - 1;
+  facts->touches = before + touches;
+  if (before < 2 && facts->touches >= 2) {
+    facts->second_time = sim->now;
+    facts->second_speed = before == 1 ? first : second;
+    memcpy(facts->second_place, sim->path[sim->struck].from.r, sizeof facts->second_place);
+  }
+}
+
+void carom_facts_push(const carom_sim *sim, const carom_cluster_state *c, const uint8_t order[],
+                      int count) {
+  carom_facts *facts = sim->shot->facts;
+  if (facts == NULL)
+    return;
+  carom_facts_touches(sim, c->tip.touches, c->tip.first, c->tip.second);
+  for (int k = 0; k < count; k++) {
+    const carom_cluster_contact_state *contact = &c->contact[order[k]];
+    const bool of_tip = contact->i == c->tip.ball || contact->j == c->tip.ball;
+    const int other = contact->i == c->tip.ball ? contact->j : contact->i;
+    if (of_tip && contact->time <= c->tip.last)
+      facts->pushed |= set_of(c->ball[other].which);
+  }
+}
