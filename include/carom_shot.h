@@ -192,11 +192,11 @@ typedef struct carom_cushion_point {
 
 /* Follows one impact, by the model MATHAVAN or EULER, through `n` >= 2 points at equal steps of
  * normal impulse (EULER: the nearest whole steps) from 0 at points[0] to the end, which is the
- * result of carom_cushion() without the loss of roll. `opt` may be NULL. The call is not made for
- * speed: MATHAVAN may take 400 iterations for each point, and EULER takes n/2 times as long as an
- * impact. Returns the status of carom_cushion(), or CAROM_ERROR_CUSHION_MODEL for a model in closed
- * form. CAROM_SEPARATING: every point is the motion before, with impulse 0. An error: every number
- * is NaN (but nothing is written when a pointer is NULL or n < 2). */
+ * result of carom_cushion(): the loss of roll is in the last point alone. `opt` may be NULL. The
+ * call is not made for speed: MATHAVAN may take 400 iterations for each point, and EULER takes n/2
+ * times as long as an impact. Returns the status of carom_cushion(), or CAROM_ERROR_CUSHION_MODEL
+ * for a model in closed form. CAROM_SEPARATING: every point is the motion before, with impulse 0.
+ * An error: every number is NaN (but nothing is written when a pointer is NULL or n < 2). */
 CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
                                            const carom_cushion_options *opt, size_t n,
                                            carom_cushion_point *points);

@@ -30,8 +30,11 @@ void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt) {
     carom_apply_speed(contact, opt);
 }
 
-void carom_lose_roll(const carom_cushion_options *opt, double R, const double n[2],
+void carom_lose_roll(const carom_cushion_options *opt, double R, const carom_cushion_frame *frame,
                      const double v[3], double w[3]) {
+  if (carom_absent(opt->roll_loss) && carom_absent(opt->roll_loss_log))
+    return;
+  const double n[2] = {frame->y_x, frame->y_y};
   const double v_t = v[0] * n[1] - v[1] * n[0], roll = R * (w[0] * n[0] + w[1] * n[1]);
   const double v_y = v[0] * n[0] + v[1] * n[1];
   const double share = carom_absent(opt->roll_loss_log)
@@ -60,23 +63,12 @@ carom_status carom_cushion_solve(const carom_cushion_impact *in, const carom_cus
     status = by_model(&contact, opt, in->mass);
     if (status == CAROM_OK) {
       carom_from_cushion(&frame, &contact, in->radius, out);
+      carom_lose_roll(opt, in->radius, &frame, in->v, out->w);
       status = carom_is_finite(out->v) && carom_is_finite(out->w) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
     }
   }
   if (status != CAROM_OK)
     *out = (carom_motion){{NAN, NAN, NAN}, {NAN, NAN, NAN}};
-  return status;
-}
-
-/* The impact, and the loss of roll. */
-static carom_status solve_and_lose(const carom_cushion_impact *in, const carom_cushion_options *opt,
-                                   carom_motion *out) {
-  const carom_status status = carom_cushion_solve(in, opt, out);
-  if (status == CAROM_OK && carom_loses_roll(opt)) {
-    const carom_cushion_frame frame = carom_cushion_frame_of(in);
-    const double n[2] = {frame.y_x, frame.y_y};
-    carom_lose_roll(opt, in->radius, n, in->v, out->w);
-  }
   return status;
 }
 
@@ -88,7 +80,7 @@ carom_status carom_cushion(const carom_cushion_impact *in, const carom_cushion_o
     opt = &defaults;
   const carom_status status = carom_cushion_check_options(opt);
   if (status == CAROM_OK)
-    return solve_and_lose(in, opt, out);
+    return carom_cushion_solve(in, opt, out);
   *out = (carom_motion){{NAN, NAN, NAN}, {NAN, NAN, NAN}};
   return status;
 }
@@ -105,7 +97,7 @@ static size_t solve_rows(const void *context, size_t first, size_t end) {
   const batch *b = (const batch *)context;
   size_t first_bad = end;
   for (size_t k = first; k < end; k++) {
-    const carom_status status = solve_and_lose(&b->in[k], b->opt, &b->out[k]);
+    const carom_status status = carom_cushion_solve(&b->in[k], b->opt, &b->out[k]);
     if (b->status != NULL)
       b->status[k] = (int8_t)status;
     if (status < 0 && first_bad == end)
@@ -142,5 +134,5 @@ carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n,
     return CAROM_OK;
   /* Only its index came back through the threads; doing the row again tells its status. */
   carom_motion unused;
-  return solve_and_lose(&in[first_bad], opt, &unused);
+  return carom_cushion_solve(&in[first_bad], opt, &unused);
 }

@@ -53,19 +53,13 @@ void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt);
 
 carom_status carom_mirror(carom_contact *contact);
 
-/* Whether roll is lost after an impact. */
-static inline bool carom_loses_roll(const carom_cushion_options *opt) {
-  return !carom_absent(opt->roll_loss) || !carom_absent(opt->roll_loss_log);
-}
-
 /* Takes roll_loss, at 1 m/s across a cushion, of the speed v_t along it, before the impact, from
- * the roll along it. Along t = (n_y, -n_x) a ball rolls at R w . n. The roll does not change sign,
- * so the energy falls. Cold: the balls of pool lose none. See cushion.c. */
-__attribute__((noinline, cold)) void carom_lose_roll(const carom_cushion_options *opt, double R,
-                                                     const double n[2], const double v[3],
-                                                     double w[3]);
+ * the roll along it, if the options have such a loss. Along t = (n_y, -n_x) a ball rolls at
+ * R w . n. The roll does not change sign, so the energy falls. */
+void carom_lose_roll(const carom_cushion_options *opt, double R, const carom_cushion_frame *frame,
+                     const double v[3], double w[3]);
 
-/* carom_cushion() with options that have been checked, without the loss of roll. See cushion.c. */
+/* carom_cushion() with options that have been checked. See cushion.c. */
 carom_status carom_cushion_solve(const carom_cushion_impact *in, const carom_cushion_options *opt,
                                  carom_motion *out);
 

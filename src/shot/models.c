@@ -338,8 +338,6 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
     return status;
   take_motion(&out, s);
   s->v[2] = 0.0;
-  if (carom_loses_roll(&options))
-    carom_lose_roll(&options, kind->radius, n, in.v, s->w);
   return status;
 }
 

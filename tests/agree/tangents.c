@@ -291,9 +291,6 @@ static carom_status cushion(const double *in, double *out) {
   if (cushion_options.model != CAROM_CUSHION_MATHAVAN)
     return carom_cushion(&impact, &cushion_options, (carom_motion *)out);
   const carom_status status = carom_cushion_trace(&impact, &cushion_options, 2, points);
-  const carom_cushion_frame frame = carom_cushion_frame_of(&impact);
-  const double n[2] = {frame.y_x, frame.y_y};
-  carom_lose_roll(&cushion_options, impact.radius, n, impact.v, points[1].state.w);
   memcpy(out, &points[1].state, sizeof points[1].state);
   return status;
 }
