@@ -242,7 +242,8 @@ def main():
         f"/* carom {version()} in one file, written by tools/one_file.py. It includes itself; its name must stay. */\n"
     ]
     out.append(
-        "#ifndef CAROM_PASS\n#if defined(__linux__) && !defined(_GNU_SOURCE)\n#define _GNU_SOURCE\n#endif\n#define CAROM_BUILD\n"
+        '#ifndef CAROM_PASS\n#pragma GCC diagnostic ignored "-Wpsabi" /* wide vectors stay inside functions */\n'
+        "#if defined(__linux__) && !defined(_GNU_SOURCE)\n#define _GNU_SOURCE\n#endif\n#define CAROM_BUILD\n"
     )
     out.append(
         "#if defined(__MINGW32__) && !defined(__clang__) /* gcc for Windows cannot align the stack for their vectors */\n"
