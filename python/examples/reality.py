@@ -10,7 +10,7 @@ fitted to, of both halves: of each shot only the strike, six numbers, is fitted,
 by the better of two with other seeds. Then follow the floor, which is the RMSE of a perfect model;
 how far single impacts are from each model, output by output; how the error grows with the part of a
 shot that the strike is fitted to; and the laws of single events. With --few N there is only what
-few shots tell of the table, over N draws of them; with --forecast, how many places after the first
+few shots tell of the table, over N draws of them, asked of the other half; with --forecast, how many places after the first
 seconds lie in the regions that `fit.forecast` gives. Markdown on standard output; the pictures are
 SVG.
 """
@@ -183,19 +183,23 @@ def growth(fit: carom.tracks.fit.Fit, seed: int) -> None:
 def few_shots(
     recordings: Recordings, table: tuple[float, float], radius: float, draws: int, seed: int
 ) -> None:
-    """Medians of draws of so many shots, by which the table's constants are fitted: the RMSE of up
-    to 20 others.
+    """Medians of draws of so many shots of an odd number, by which the table's constants are
+    fitted: the RMSE of up to 20 of an even number, or of others where the file has no such half.
     """
+    halves: tuple[Recordings, Recordings] = ([], [])
+    for shot in recordings:
+        halves[int(shot.id) % 2 if str(shot.id).isdigit() else 1].append(shot)
+    even, odd = halves
+    both = min(len(even), len(odd)) >= 10
+    print("Asked of the other half of the file." if both else "Asked of the same half of the file.")
     print("| shots fitted | RMSE of others: median, cm | 9 in 10 below, cm |\n|--:|--:|--:|")
-    for count in (n for n in (0, 1, 3, 5, 10, 20) if n + 10 <= len(recordings)):
+    own = odd if both else recordings
+    for count in (n for n in (0, 1, 3, 5, 10, 20) if n + 10 * (not both) <= len(own)):
         figures = []
         for draw in range(draws):
-            drawn = [
-                recordings[k]
-                for k in np.random.default_rng((seed, draw)).permutation(len(recordings))[
-                    : count + 20
-                ]
-            ]
+            random = np.random.default_rng((seed, draw))
+            drawn = [own[k] for k in random.permutation(len(own))]
+            asked = [even[k] for k in random.permutation(len(even))] if both else drawn[count:]
             constants = (
                 carom.tracks.fit.fit(
                     drawn[:count], table, radius, free="table", seed=seed
@@ -204,7 +208,7 @@ def few_shots(
                 else None
             )
             found = carom.tracks.fit.fit(
-                drawn[count:], table, radius, constants=constants, free="none", seed=seed
+                asked[:20], table, radius, constants=constants, free="none", seed=seed
             )
             figures.append((100 * found.median_rmse, 100 * found.p90_rmse))
         print(
@@ -219,8 +223,11 @@ def forecasts(
     radius: float,
     afters: Sequence[float],
     seed: int,
+    pictures: Path | None,
 ) -> None:
-    """Which part of the places of shots that were not fitted lies in the regions of forecasts."""
+    """Which part of the places of shots that were not fitted lies in the regions of forecasts; with
+    a folder, a picture of each shot.
+    """
     print(
         "| known, s | shots | places | in 68 % | in 95 % | radius of 68 %, median, cm |\n|--:|--:|--:|--:|--:|--:|"
     )
@@ -244,6 +251,9 @@ def forecasts(
                     inside.append(off <= radius_of[:, each, balls])
                     radii.append(radius_of[0, each, balls])
                     shots += 1
+                    if pictures:
+                        pictures.mkdir(parents=True, exist_ok=True)
+                        (pictures / f"forecast-{after:g}-{shot.id}.svg").write_text(seen.plot().svg)
         whole = np.concatenate(inside, axis=1)
         print(
             f"| {after:g} | {shots} | {whole.shape[1]} | {100 * whole[0].mean():.0f} % | {100 * whole[1].mean():.0f} % | "
@@ -300,7 +310,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     recordings = [shot for shot in recordings if np.isfinite(shot.moves).any()]
     models = given.models.split(",")
     if given.forecast:
-        forecasts(recordings, given.table, given.radius, given.forecast, given.seed)
+        forecasts(recordings, given.table, given.radius, given.forecast, given.seed, given.pictures)
         return 0
     if given.few:
         few_shots(recordings, given.table, given.radius, given.few, given.seed)

@@ -1,8 +1,9 @@
 """The racks, with the cue ball first: `carom.racks.nineball(table)`.
 
-Each takes the table, the gap between neighbours (m; 0 is a frozen rack) and the seed, a whole number
-or a `numpy.random.Generator`. The seed draws by how much each ball is moved, up to a quarter of the
-gap, and where the other balls of the rack go. The result is an ndarray of `carom.dtypes.shot_ball`.
+Each takes the table, the gap between neighbours (m; 0 is a frozen rack), the seed, a whole number
+or a `numpy.random.Generator`, and the model of the cushion whose constants the balls have, as in
+`carom.balls`. The seed draws by how much each ball is moved, up to a quarter of the gap, and where
+the other balls of the rack go. The result is an ndarray of `carom.dtypes.shot_ball`.
 """
 
 from __future__ import annotations
@@ -11,22 +12,39 @@ from typing import Protocol
 
 import numpy as np
 
-from carom import dtypes
+from carom import dtypes, layouts
+from carom._described import Game, ShotCushion
 from carom._carom import ffi, lib
 from carom._rows import Array, Seed, called, number, pointer, seed_of, worded
 from carom.layouts import Table, check_table
 from carom.status import CaromError
 
 
+_GAMES: dict[str, Game] = {"snooker": "snooker", "threecushion": "billiard"}
+
+
 class _Rack(Protocol):
-    def __call__(self, table: Table, gap: float = 1e-4, seed: Seed = 1) -> dtypes.Records: ...
+    def __call__(
+        self,
+        table: Table,
+        gap: float = 1e-4,
+        seed: Seed = 1,
+        cushion_model: ShotCushion = "default",
+    ) -> dtypes.Records: ...
 
 
 def _maker(name: str) -> _Rack:
     kind = worded("RACK")[name]
     text = f"{lib.carom_rack_size(kind)} balls: {ffi.string(lib.carom_word_text(lib.CAROM_WORDS_RACK, kind)).decode()}."
 
-    def make(table: Table, gap: float = 1e-4, seed: Seed = 1) -> dtypes.Records:
+    game: Game = _GAMES.get(name, "pool")
+
+    def make(
+        table: Table,
+        gap: float = 1e-4,
+        seed: Seed = 1,
+        cushion_model: ShotCushion = "default",
+    ) -> dtypes.Records:
         size = int(lib.carom_rack_size(kind))
         balls: Array = np.zeros(size, dtypes.shot_ball)
         check_table(table)
@@ -38,6 +56,9 @@ def _maker(name: str) -> _Rack:
         code = lib.carom_rack(kind, of_table, gap, drawn, pointer("carom_shot_ball[]", balls), size)
         if code < 0:
             raise CaromError(code, "gap", gap, text="it must be 0 m to the radius of a ball")
+        if cushion_model != "default":
+            like = layouts.balls(np.zeros((1, 2)), game=game, cushion_model=cushion_model)
+            balls["kind"] = like["kind"]
         return balls
 
     return called(make, name, text)

@@ -8,7 +8,7 @@ import pytest
 import carom
 
 TABLE = carom.tables.pool_9ft()
-CLOSED = {"ball_model": "inelastic", "cushion_model": "han"}
+CLOSED = {"ball_model": "inelastic", "cushion_model": "smooth"}
 
 
 def layout():
@@ -232,7 +232,8 @@ def test_batches_have_the_bits_of_single_shots(models, threads):
     table, random = carom.tables.pool_9ft(), np.random.default_rng(11)
     layouts = carom.balls(
         random.uniform([0.1, 0.2], [0.5, 0.8], (9, 1, 2))
-        + np.array([[0.0, 0.0], [0.2, 0.9], [0.5, 1.4]])
+        + np.array([[0.0, 0.0], [0.2, 0.9], [0.5, 1.4]]),
+        cushion_model=models.get("cushion_model", "default"),
     )
     cues = carom.cue(speed=random.uniform(0.8, 3.0, 9), phi=random.uniform(60.0, 85.0, 9), a=0.1)
     cues["b"][4] = 2.0
@@ -334,7 +335,9 @@ def test_a_shot_knows_what_it_was_played_with():
         ["cue.phi", "kind.mu_slide"],
     )
     expected = carom.tangents(shot, names).states.tobytes()
-    assert shot.options.cushion_model == "han" and shot.options.t_final == 2.0 and shot.cue == cue
+    assert (
+        shot.options.cushion_model == "smooth" and shot.options.t_final == 2.0 and shot.cue == cue
+    )
     again = carom.resume(shot, t_final=3.0)
     assert again.options == shot.options._replace(t_final=3.0) and again.cue == cue
     assert carom.tangents(pickle.loads(pickle.dumps(shot)), names).states.tobytes() == expected

@@ -19,7 +19,7 @@ import jax.numpy as jnp  # noqa: E402
 import carom.jax  # noqa: E402
 
 TABLE = carom.tables.pool_9ft()
-CLOSED = {"ball_model": "inelastic", "cushion_model": "han"}
+CLOSED = {"ball_model": "inelastic", "cushion_model": "smooth"}
 BALLS = carom.balls([[0.4, 0.5], [0.6, 1.5], [0.9, 2.0]])
 CUE = carom.cue(speed=1.5, phi=79.0, a=0.1, b=0.1)
 AIM = jnp.array([1.5, 79.0, 0.1, 0.1])

@@ -79,15 +79,16 @@ def test_the_speed_of_a_ball():
 def test_a_batch_has_the_bits_of_single_shots():
     cues = carom.cue(speed=[[6.0], [9.0]], phi=np.linspace(88.0, 92.0, 5))
     options = {"cushion_model": "han"}
-    shots = carom.simulate_batch(TABLE, RACK, cues, room=1000, threads=3, **options)
+    rack = carom.racks.nineball(TABLE, **options)
+    shots = carom.simulate_batch(TABLE, rack, cues, room=1000, threads=3, **options)
     assert shots.shape == (2, 5) and not shots.failures() and (shots.count > 10).all()
     for index in np.ndindex(2, 5):
-        one = carom.simulate(TABLE, RACK, cues[index], **options)
+        one = carom.simulate(TABLE, rack, cues[index], **options)
         assert shots[index].count == one.count and shots.time[index] == one.time
         assert np.array_equal(shots[index].events, one.events)
         assert shots.final[index].tobytes() == one.final.tobytes()
         np.testing.assert_array_equal(shots[index].positions([0.3, 1.0]), one.positions([0.3, 1.0]))
-    finals = carom.simulate_batch(TABLE, RACK, cues, **options)
+    finals = carom.simulate_batch(TABLE, rack, cues, **options)
     assert finals.final.tobytes() == shots.final.tobytes()
     # Where events were not kept, the shot is played again.
     np.testing.assert_array_equal(
@@ -106,13 +107,8 @@ def breaks():
         a=np.where(np.arange(12) % 3 == 2, 1.0, 0.0),
         b=0.1,
     )
-    alone = [
-        carom.simulate(TABLE, RACK, cue, cushion_model="han") if k % 3 != 2 else None
-        for k, cue in enumerate(cues)
-    ]
-    return lambda **options: carom.simulate_batch(
-        TABLE, RACK, cues, cushion_model="han", **options
-    ), alone
+    alone = [carom.simulate(TABLE, RACK, cue) if k % 3 != 2 else None for k, cue in enumerate(cues)]
+    return lambda **options: carom.simulate_batch(TABLE, RACK, cues, **options), alone
 
 
 @pytest.mark.parametrize(
@@ -152,7 +148,7 @@ def test_trajectories_of_a_batch(breaks, options):
 
 def test_shots_that_were_changed_are_not_played_again():
     cues = carom.cue(speed=[8.0, 8.0], phi=[89.0, 90.0])
-    shots = carom.simulate_batch(TABLE, RACK, cues, cushion_model="han")
+    shots = carom.simulate_batch(TABLE, RACK, cues)
     cues["speed"][0] = 7.0
     with pytest.raises(ValueError, match="layouts, cues: they were changed"):
         shots.positions(1.0)
@@ -188,7 +184,7 @@ def test_slices_and_iteration(breaks):
     with pytest.raises(IndexError):
         shots[12]
     grid = carom.simulate_batch(
-        TABLE, RACK, carom.cue(speed=[[5.0], [6.0]], phi=[89.0, 90.0, 91.0]), cushion_model="han"
+        TABLE, RACK, carom.cue(speed=[[5.0], [6.0]], phi=[89.0, 90.0, 91.0])
     )
     assert grid[1, :].shape == (3,) and grid[:, 2].time.tolist() == grid.time[:, 2].tolist()
     np.testing.assert_array_equal(grid[:, 1:].positions(0.4), grid.positions(0.4)[:, 1:])
@@ -206,9 +202,7 @@ def test_slices_and_iteration(breaks):
 def test_a_shot_of_a_batch_is_made_in_few_calls(calls):
     """shots[k] makes the arrays of a shot when they are asked for."""
     cues = carom.cue(speed=3.0, phi=np.linspace(60.0, 120.0, 100))
-    shots = carom.simulate_batch(
-        TABLE, carom.balls([[0.5, 0.6], [0.7, 1.5]]), cues, cushion_model="han"
-    )
+    shots = carom.simulate_batch(TABLE, carom.balls([[0.5, 0.6], [0.7, 1.5]]), cues)
     assert calls(lambda: [shots[k] for k in range(100)]) <= 5 * 100
 
 
@@ -348,9 +342,7 @@ def test_shots_that_are_stopped():
         carom.simulate(TABLE, RACK, cue, stop_at=["jaw", "contact"]).events["type"][-1]
         == carom.EventType.BALL_BALL
     )
-    shots = carom.simulate_batch(
-        TABLE, RACK, carom.cue(speed=[0.05, 8.0, 9.0]), t_final=0.9, cushion_model="han"
-    )
+    shots = carom.simulate_batch(TABLE, RACK, carom.cue(speed=[0.05, 8.0, 9.0]), t_final=0.9)
     assert (
         shots.status.tolist() == [0, 2, 2]
         and not shots.failures()
@@ -412,14 +404,12 @@ def test_broadcasting_and_out():
     table = carom.tables.threecushion()
     layouts = np.stack([carom.racks.threecushion(table, seed=k) for k in range(1, 4)])
     cues = carom.cue(speed=3.0, phi=np.array([30.0, 60.0]), game="billiard")
-    shots = carom.simulate_batch(table, layouts[:, np.newaxis], cues, cushion_model="han")
+    shots = carom.simulate_batch(table, layouts[:, np.newaxis], cues)
     assert shots.shape == (3, 2) and shots.final.shape == (3, 2, 3)
     kept = shots.final.copy()
-    again = carom.simulate_batch(
-        table, layouts[:, np.newaxis], cues, cushion_model="han", out=shots
-    )
+    again = carom.simulate_batch(table, layouts[:, np.newaxis], cues, out=shots)
     assert again is shots and again.final.tobytes() == kept.tobytes()
-    one_cue = carom.simulate_batch(table, layouts, cues[1], cushion_model="han")
+    one_cue = carom.simulate_batch(table, layouts, cues[1])
     assert one_cue.final.tobytes() == kept[:, 1].tobytes()
     with pytest.raises(ValueError, match="out.status"):
         carom.simulate_batch(table, layouts, cues[1], out=shots)
@@ -428,15 +418,12 @@ def test_broadcasting_and_out():
 
 def test_a_bad_shot_costs_itself():
     cues = carom.cue(speed=5.0, a=[0.0, 0.9, 0.1], b=0.5)
-    shots = carom.simulate_batch(TABLE, RACK, cues, cushion_model="han")
+    shots = carom.simulate_batch(TABLE, RACK, cues)
     assert shots.status.tolist() == [0, carom.Status.ERROR_MISCUE, 0]
     assert shots.failures() == [
         ((1,), f"cue.a, cue.b = 0.9, 0.5: {carom.Status.ERROR_MISCUE.text}")
     ]
-    assert (
-        shots.final[2].tobytes()
-        == carom.simulate(TABLE, RACK, cues[2], cushion_model="han").final.tobytes()
-    )
+    assert shots.final[2].tobytes() == carom.simulate(TABLE, RACK, cues[2]).final.tobytes()
 
 
 def test_a_refused_shot_has_no_numbers():
@@ -447,7 +434,6 @@ def test_a_refused_shot_has_no_numbers():
         TABLE,
         RACK,
         carom.cue(speed=[8.0, 7.0, 6.0, 5.0], phi=90.3),
-        cushion_model="han",
         features=True,
     )
     other = before.final["r"].copy()
@@ -456,7 +442,6 @@ def test_a_refused_shot_has_no_numbers():
             TABLE,
             RACK,
             carom.cue(speed=[8.0, -1.0, np.nan, 5.0], phi=90.3),
-            cushion_model="han",
             features=True,
             out=out,
         )
@@ -468,9 +453,7 @@ def test_a_refused_shot_has_no_numbers():
             and (shots.final["label"][1:3] == -1).all()
         )
         assert np.isnan(shots[1].final["r"]).all() and (shots.features.pocket[1:3] == -1).all()
-    ended = carom.simulate_batch(
-        TABLE, RACK, carom.cue(speed=[8.0]), cushion_model="han", events_most=40
-    )
+    ended = carom.simulate_batch(TABLE, RACK, carom.cue(speed=[8.0]), events_most=40)
     assert (
         ended.status.tolist() == [carom.Status.ERROR_TOO_MANY_EVENTS]
         and not ended.refused.any()
@@ -617,7 +600,7 @@ def test_strike():
 
 
 def test_pictures():
-    shot = carom.simulate(TABLE, RACK, carom.cue(speed=8.0), cushion_model="han")
+    shot = carom.simulate(TABLE, RACK, carom.cue(speed=8.0))
     name = "{http://www.w3.org/2000/svg}"
     still = ElementTree.fromstring(shot._repr_svg_())
     moved = int((np.abs(shot.final["r"] - shot.balls["state"]["r"]).max(axis=-1) > 1e-3).sum())
@@ -732,7 +715,7 @@ def test_ball_in_hand():
 
 def test_columns_and_frames():
     """Every number of the records is in a column of its name."""
-    shot = carom.simulate(TABLE, RACK, carom.cue(speed=8.0), cushion_model="han")
+    shot = carom.simulate(TABLE, RACK, carom.cue(speed=8.0))
     columns = carom.dtypes.columns(shot.events)
     assert all(column.shape == (shot.count,) for column in columns.values())
     np.testing.assert_array_equal(columns["after_b_w_z"], shot.events["after"]["w"][:, 1, 2])

@@ -14,7 +14,7 @@ import carom.torch  # noqa: E402
 TABLE = carom.tables.pool_9ft()
 BALLS = carom.balls([[0.4, 0.5], [0.6, 1.5], [0.9, 2.0]])
 CUE = carom.cue(speed=1.5, phi=79.0, a=0.1, b=0.1)
-CLOSED = {"ball_model": "inelastic", "cushion_model": "han"}
+CLOSED = {"ball_model": "inelastic", "cushion_model": "smooth"}
 NAMES = ("cue.speed", "cue.phi", "cue.a", "cue.b")
 AIM = torch.tensor([1.5, 79.0, 0.1, 0.1], dtype=torch.float64)
 

@@ -811,7 +811,7 @@ def test_an_aim_that_follows_keeps_the_place_across_the_path():
         ["cue.speed", "cue.b", "balls[1].r[0]", "balls[0].r[1]"],
         0,
     )
-    closed = {"cushion_model": "han", "ball_model": "inelastic"}
+    closed = {"cushion_model": "smooth", "ball_model": "inelastic"}
     while pots < 8:
         layout = carom.balls(random.uniform([0.2, 0.4], [1.07, 2.1], (2, 2)))
         try:

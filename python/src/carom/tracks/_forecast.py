@@ -35,6 +35,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from carom import pictures
 from carom._carom import lib
 from carom._rows import Arrays
 from carom.dtypes import Doubles
@@ -52,6 +53,7 @@ _STEP = 1.2  # of a move, in deviations over the root of the dimension: 2.4 is b
 # are below
 ROUGH = 2.0
 _LONG = 100.0  # s: longer than a shot lasts
+_APART = 0.5  # s between the regions of to_dict()
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -105,6 +107,42 @@ class Forecast(Arrays):
         each = np.arange(len(rows))
         off = np.linalg.norm(rows[:, 1:] - middle[each, balls], axis=-1)
         return np.asarray((off <= radii[..., each, balls]).mean(axis=-1))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Where balls will be each half a second until the recording ends, of numbers that JSON
+        has.
+        """
+        end = max(float(track[-1, 0]) for track in self.recording.tracks)
+        times = np.arange(self.until + _APART, max(end, self.until + _APART) + 1e-9, _APART)
+        middle, radii = self.regions(times)
+        return {
+            "id": self.recording.id,
+            "after": self.after,
+            "times": times.tolist(),
+            "centres": middle.tolist(),
+            "radii": radii.tolist(),
+        }
+
+    def plot(self, waits: npt.ArrayLike = (1.0, 2.0, 4.0)) -> pictures.Picture:
+        """The regions so many seconds after the last one that is known, as circles of 68 and 95 %,
+        on the recorded places, dots. Its `svg` is the text of a file.
+        """
+        given = np.asarray(waits, np.float64)
+        middle, radii = self.regions(self.until + given)
+        marks = [
+            (
+                middle[k, ball],
+                float(radii[share, k, ball]),
+                f"ball {name} {wait:g} s later: {100 * part:.0f} %",
+                f"{wait:g} s" if share else "",
+            )
+            for k, wait in enumerate(given.tolist())
+            for ball, name in enumerate(self.recording.balls)
+            for share, part in enumerate(SHARES)
+            if radii[0, k, ball] > 3.0 * self.recording.noise
+        ]
+        seen = [track[:, 1:] for track in self.recording.tracks]
+        return pictures.Picture(pictures.picture(self.plays.table, None, seen, marks))
 
 
 def first_seconds(recording: Recording, after: float) -> Recording:

@@ -578,9 +578,21 @@ def told(fit: Fit) -> list[str]:
     ]
 
 
-def page(fit: Fit, name: str, kicks: Kicks | None = None) -> str:
+def told_forecasts(seen: Sequence[Forecast]) -> str:
+    """How many of the later places lie in the regions of forecasts."""
+    counts = [len(one.later()[0]) for one in seen]
+    inside = 100.0 * np.average([one.covered() for one in seen], axis=0, weights=counts)
+    return (
+        f"forecasts from the first {seen[0].after:g} s of {len(seen)} shots: {inside[0]:.0f} and "
+        f"{inside[1]:.0f} % of {sum(counts)} later places lie in the regions of 68 and 95 %"
+    )
+
+
+def page(
+    fit: Fit, name: str, kicks: Kicks | None = None, forecasts: Sequence[Forecast] = ()
+) -> str:
     """The page, of tracks of that name; with kicks, their tables too, and pictures of the shots as
-    played with them.
+    played with them; with forecasts, a picture of the one with the median width.
     """
     ok = [k for k, counts in enumerate(fit.counts) if counts]
     order = sorted(ok, key=lambda k: float(fit.rmse[k]))
@@ -609,6 +621,11 @@ def page(fit: Fit, name: str, kicks: Kicks | None = None) -> str:
         if kicks is not None:
             text += f" Played with kicks: {100 * kicks.rmse[k]:.2f} cm. Circles: contacts, the larger the more of the RMSE they have."
         figures.append((text, fit.plot(k, kicks).svg))
+    if forecasts:
+        wide = [float(np.median(one.regions([one.until + 2.0])[1])) for one in forecasts]
+        median = forecasts[int(np.argsort(wide)[len(wide) // 2])]
+        text = f"Shot {median.recording.id}, {told_forecasts(forecasts)}. Circles: these regions of this shot. Dots as recorded."
+        figures.append((text, median.plot().svg))
     figures += laws(fit)
     rows = [
         f"<tr><td>{constant}</td><td>{value:.5g}</td><td>{f'{fit.spread[constant]:.2g}' if constant in fit.spread else 'given'}</td></tr>"

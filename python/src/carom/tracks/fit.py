@@ -28,7 +28,7 @@ from carom.dtypes import Doubles, Records
 from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
 from carom.tracks import _recordings, _strikes, _summary
 from carom.tracks import Recording, TrackError, events, read
-from carom.tracks._forecast import ROUGH
+from carom.tracks._forecast import ROUGH, Forecast
 from carom.tracks._kicks import Kicks, contact
 from carom.tracks._summary import Fit
 
@@ -508,6 +508,26 @@ def _show(what: str, part: float) -> None:
     )
 
 
+def _forecasts(found: Fit, after: float, seed: int) -> list[Forecast]:
+    """Of the shots that the constants were not fitted to, or of all; without those of which nothing
+    is known after the first seconds.
+    """
+    seen = []
+    for k, shot in enumerate(found.recordings):
+        if found.train is not None and found.train[k]:
+            continue
+        try:
+            one = found.forecast(k, after=after, seed=seed)
+        except ValueError as error:
+            if not 0.0 < after < math.inf:
+                raise
+            print(f"carom.fit: shot {shot.id}: no forecast: {error}", file=sys.stderr)
+            continue
+        if len(one.later()[0]):
+            seen.append(one)
+    return seen
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """The command; its exit status is 0, 2 for bad usage or unreadable input, or 130 if it was
     interrupted; then nothing is written.
@@ -555,6 +575,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--kicks", action="store_true", help="tell what the models get wrong at each contact"
     )
     parser.add_argument(
+        "--forecast",
+        type=float,
+        metavar="T",
+        help="forecast each shot from its first T seconds, of --split those that are not fitted, "
+        "and tell how many of the later places lie in the regions; OUT.json has these",
+    )
+    parser.add_argument(
         "--summary", type=Path, metavar="OUT.html", help="write a page with pictures"
     )
     parser.add_argument("--seed", type=int, default=0)
@@ -583,11 +610,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
             calibrate=given.calibrate,
         )
         kicks = found.kicks() if given.kicks else None
+        seen = _forecasts(found, given.forecast, given.seed) if given.forecast else []
         if given.summary:
             given.summary.write_text(
-                _summary.page(found, given.tracks.name, kicks), encoding="utf-8"
+                _summary.page(found, given.tracks.name, kicks, seen), encoding="utf-8"
             )
-        given.output.write_text(json.dumps(found.to_dict(kicks), indent=1) + "\n", encoding="utf-8")
+        written = found.to_dict(kicks)
+        if given.forecast:
+            written["forecasts"] = [one.to_dict() for one in seen]
+        given.output.write_text(json.dumps(written, indent=1) + "\n", encoding="utf-8")
     except (OSError, ValueError) as error:
         print(f"carom.fit: {error}", file=sys.stderr)
         return 2
@@ -607,6 +638,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             f"of their samples, with strikes fitted to whole shots, {within[0]:.0f} and {within[1]:.0f} % "
             "are within the residuals of 68 and 95 % of the shots that were fitted"
         )
+    if seen:
+        print(_summary.told_forecasts(seen))
     print("\n".join(_summary.told(found)))
     if kicks is not None and np.isfinite(kicks.rmse).any():
         rmse = 100.0 * kicks.rmse[np.isfinite(kicks.rmse)]
