@@ -16,7 +16,7 @@
 #include "shots/shot_story.h"
 #include "subcommands.h"
 
-#include "carom_plan.h"
+#include "carom_match.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@ typedef struct plan_job {
   shoot_flags from;        /* --threads, --output; and a layout from words */
   carom_plan_options plan; /* --shots, --seed */
   plan_game game;
-  bool hand, csv, tries, value, why;
+  bool hand, csv, tries, value, why, run_out;
   const char *plot;
 } plan_job;
 
@@ -57,6 +57,8 @@ OPTION(plan_job, option_opening, "opening", game.opening, 0, NULL, set_flag, 0,
        "it");
 OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
        "the cue ball is in hand: the plan also says where to put it, within the rules");
+OPTION(plan_job, option_run_out, "run-out", run_out, 0, NULL, set_flag, 0,
+       "plan to run out: a turn that ends before the game is won is worth nothing");
 static const option_row options_of_plan = {
     .set = set_option, .field = offsetof(plan_job, plan), .part = CAROM_PART_PLAN_OPTIONS};
 OPTION(plan_job, option_try, "try", tries, 0, NULL, set_flag, 0,
@@ -76,13 +78,14 @@ OPTION(
 
 /* What a choice that names no ball does. */
 static const char *words_without_ball(const shot_line *line, const carom_choice *c) {
+  static const double often = 0.15; /* fouls of a stroke that is no safe one */
   if (line->table->table.pockets == 0)
     return "no point";
-  if (c->keep < 0.005)
-    return "a safety: nothing is potted";
-  if (c->keep < 0.1)
-    return "a safety: balls fall by luck alone";
-  return "no sure pot: which ball falls is luck";
+  if (c->keep >= PLAN_LUCK)
+    return "no sure pot: which ball falls is luck";
+  if (c->foul >= often)
+    return "a risky safety: it often fouls";
+  return c->keep < 0.005 ? "a safety: nothing is potted" : "a safety: balls fall by luck alone";
 }
 
 /* By which kind of stroke a ball falls: ", by a bank"; nothing where it is direct. */
@@ -103,7 +106,7 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
     snprintf(text, 200, "pass: the other plays");
   else if (c->kind == CAROM_PLAN_PUSH || c->kind == CAROM_PLAN_BREAK)
     snprintf(text, 200, "a %s", carom_plan_kind_name((carom_plan_kind)c->kind));
-  else if (c->ball < 0)
+  else if (!plan_names_ball(c))
     snprintf(text, 200, "%s", words_without_ball(line, c));
   else if (line->table->table.pockets == 0)
     snprintf(text, 200,
@@ -151,37 +154,23 @@ static void tell(FILE *out, const plan_job *job, const carom_plan_job *asked, co
 }
 
 /* Plays all choices as often once more, and sorts them by that: the chances of those that a plan
- * gave few strokes are those of their luck. Which ball falls stays as the plan has it. */
+ * gave few strokes are those of their luck. */
 static void play_again(const carom_plan_job *asked, carom_choice *choices, int n) {
   carom_shot_ball balls[CAROM_BALLS_MOST];
   memcpy(balls, asked->balls, (size_t)asked->count * sizeof *balls);
   carom_place_ball(asked->table, balls, (int)asked->count, (int)asked->cue->ball,
                    choices[0].place[0], choices[0].place[1], NULL);
-  carom_plan_options options = *asked->options;
-  options.shots = WHY_STROKES;
-  options.seed++;
   carom_plan_job job = *asked;
   job.balls = balls;
-  job.options = &options;
-  job.memory_size = carom_plan_memory(&options);
-  job.memory = allocate(1, job.memory_size);
   for (int k = 0; k < n; k++) {
-    carom_choice c = choices[k], again;
-    const bool strikes = c.kind != CAROM_PLAN_PASS && c.kind != CAROM_PLAN_PUSH;
-    if (strikes && carom_plan_try(&job, &c.cue, 1, &again) == CAROM_OK) {
-      c.value = again.value;
-      c.error = again.error;
-      c.keep = again.keep;
-      c.foul = again.foul;
-      c.lose = again.lose;
-      c.seen = again.seen;
-    }
+    carom_choice c = choices[k];
+    if (c.kind != CAROM_PLAN_PASS)
+      plan_play_again(&job, &c);
     int at = k;
     for (; at > 0 && choices[at - 1].value < c.value; at--)
       choices[at] = choices[at - 1];
     choices[at] = c;
   }
-  free(job.memory);
 }
 
 static void write_rows(FILE *out, const shot_line *line, const carom_choice *choices, int n) {
@@ -273,12 +262,11 @@ static carom_status ask(const plan_job *job, const carom_plan_job *asked, const 
     return carom_plan_try(asked, strokes, tried, choices);
   if (!job->hand)
     return carom_plan(asked, choices, BEST, n);
-  const carom_table *table = asked->table;
   const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)job->game.rules);
   const int leave = job->game.opening ? about->opening : about->hand;
-  const double kitchen[2] = {table->width, 0.25 * table->length};
-  return carom_plan_hand(asked, NULL, leave == CAROM_LEAVE_KITCHEN ? kitchen : NULL, choices, BEST,
-                         n);
+  carom_bounds bounds;
+  carom_hand_bounds((carom_leave)leave, asked->table, asked->balls[0].kind.radius, &bounds);
+  return carom_plan_hand(asked, bounds.low, bounds.high, choices, BEST, n);
 }
 
 /* Plans for a layout, or judges `tried` strokes, writes the choices and keeps the best; an exit
@@ -294,6 +282,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
 
   carom_plan_options options = job->plan;
   options.threads = job->from.shared.options.threads;
+  options.chance_opponent = job->run_out ? 1.0 : 0.0;
   carom_plan_job asked = {.table = &line->table->table,
                           .balls = line->ball,
                           .count = line->count,
@@ -338,15 +327,13 @@ static const command_form form = {
         "describes the five best shots in words: what they do, how to strike, and their chances.\n",
     .options =
         (const option_row *const[]){
-            &option_rules,      &option_table,         &option_cue,
-            &option_balls,      &option_one_gap,       &option_group,
-            &option_permission, &option_score,         &option_target,
-            &option_own_pocket, &option_colour,        &option_opening,
-            &option_hand,       &option_try,           &option_value,
-            &option_player,     &option_player_errors, &option_with_of_shots,
-            &option_cue_ball,   &options_of_plan,      &options_of_motion,
-            &option_csv,        &option_why,           &option_plan_plot,
-            &option_threads,    &option_output,        NULL},
+            &option_rules,     &option_table,         &option_cue,           &option_balls,
+            &option_one_gap,   &option_group,         &option_permission,    &option_score,
+            &option_target,    &option_own_pocket,    &option_colour,        &option_opening,
+            &option_hand,      &option_run_out,       &option_try,           &option_value,
+            &option_player,    &option_player_errors, &option_with_of_shots, &option_cue_ball,
+            &options_of_plan,  &options_of_motion,    &option_csv,           &option_why,
+            &option_plan_plot, &option_threads,       &option_output,        NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"

@@ -6,77 +6,78 @@
 #include "shots/shoot_aim.h"
 #include "shots/shot_story.h"
 
+#include "carom_match.h"
+
 #include <math.h>
 #include <string.h>
 
 enum { EVENTS = 64 };
-/* What a stroke leaves: the balls, the rules' state, and whether the cue ball is in hand. */
-typedef struct left_layout {
-  carom_turn turn;
-  carom_shot_ball balls[CAROM_BALLS_MOST];
-  carom_plan_rules rules;
-} left_layout;
-
+/* Plays a stroke and rules it: what it leaves, to whom, and where a cue ball in hand may be put. */
 static void play(const carom_plan_job *job, const carom_cue *cue, carom_call call, carom_shot *shot,
-                 left_layout *to) {
+                 carom_ruling *ruling) {
   carom_facts facts;
   carom_ball_state final[CAROM_BALLS_MOST];
-  uint32_t in_play = 0;
-  for (int k = 0; k < job->count; k++)
-    in_play |= (uint32_t)(job->balls[k].state.label != CAROM_BALL_POCKETED) << k;
   shot->final = final;
   shot->facts = &facts;
-  carom_shoot(job->table, job->balls, (int)job->count, cue, job->shot, shot);
-  to->rules = *job->rules;
-  to->turn = to->rules.judge(&to->rules.state, in_play, (int)cue->ball, &facts, call);
-  for (int k = 0; k < job->count; k++) {
-    to->balls[k] = job->balls[k];
-    to->balls[k].state = final[k];
-  }
-  carom_turn_settle(&to->rules, &to->rules.state, job->table, to->balls, (int)job->count,
-                    &to->turn);
+  const bool played =
+      carom_shoot(job->table, job->balls, (int)job->count, cue, job->shot, shot) >= 0;
+  carom_referee(job->rules, job->table, job->balls, (int)job->count, (int)cue->ball,
+                played ? shot : NULL, call, ruling);
 }
 
-/* A job from what is left, for whoever plays next. */
-static carom_plan_job job_after(const carom_plan_job *job, const left_layout *left) {
+/* A job from what is left, for whoever plays next, with room for the rules. */
+static carom_plan_job job_after(const carom_plan_job *job, const carom_ruling *ruling,
+                                carom_plan_rules *rules) {
   carom_plan_job next = *job;
-  next.balls = left->balls;
-  next.rules = &left->rules;
+  *rules = *job->rules;
+  rules->state = ruling->state;
+  next.rules = rules;
+  next.balls = ruling->balls;
   return next;
+}
+
+/* The best shot from what is left. */
+static carom_status plan_next(const carom_plan_job *job, const carom_ruling *ruling,
+                              carom_choice *choice) {
+  carom_plan_rules rules;
+  const carom_plan_job next = job_after(job, ruling, &rules);
+  const double radius = job->balls[job->cue->ball].kind.radius;
+  carom_bounds bounds;
+  int found;
+  if (!ruling->hand)
+    return carom_plan(&next, choice, 1, &found);
+  carom_hand_bounds(ruling->turn.leave, job->table, radius, &bounds);
+  return carom_plan_hand(&next, bounds.low, bounds.high, choice, 1, &found);
 }
 
 /* Where the cue ball stops, and the best shot from there. */
 static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *line,
-                      const left_layout *left, int cue_ball) {
-  const bool alone = job->rules->race == CAROM_RACE_ALONE;
-  const double *r = left->balls[cue_ball].state.r;
+                      const carom_ruling *ruling, int cue_ball) {
+  const double *r = ruling->balls[cue_ball].state.r;
   fputs("   leaves       ", out);
-  if (left->turn.is == CAROM_TURN_WIN) {
+  if (ruling->winner == 0) {
     fputs("the game won\n", out);
     return;
   }
-  if (left->balls[cue_ball].state.label == CAROM_BALL_STATIONARY)
+  if (ruling->hand)
+    fputs("ball in hand; ", out);
+  else if (ruling->balls[cue_ball].state.label == CAROM_BALL_STATIONARY)
     fprintf(out, "the cue ball at %.2f, %.2f m; ", r[0], r[1]);
-  const bool passes = left->turn.is == CAROM_TURN_PASS;
-  const carom_plan_job next = job_after(job, left);
-  carom_choice c;
-  int found;
-  if ((passes && alone) || left->turn.is == CAROM_TURN_LOSE) {
+  const bool passes = ruling->next == 1;
+  if ((passes && job->rules->race == CAROM_RACE_ALONE) || ruling->next < 0) {
     fputs("the visit ends\n", out);
     return;
   }
-  carom_status status;
-  if (left->turn.leave == CAROM_LEAVE_AFTER)
-    status = carom_plan(&next, &c, 1, &found);
-  else
-    status = carom_plan_hand(&next, NULL, NULL, &c, 1, &found);
+  carom_choice c;
   char pocket[WHERE_TEXT], ball[BALL_TEXT];
-  if (status != CAROM_OK)
+  if (plan_next(job, ruling, &c) != CAROM_OK)
     fputs("nothing to play\n", out);
   else if (passes)
     fprintf(out, "the other wins %.0f %%\n", 100.0 * c.value);
+  else if (line->table->table.pockets == 0)
+    fprintf(out, "then it scores %.0f %%\n", 100.0 * c.keep);
   else if (c.ball < 0 || c.pocket < 0)
-    fprintf(out, "then it plays on %.0f %%\n", 100.0 * c.keep);
+    fprintf(out, "then no ball is sure, and the player wins %.0f %%\n", 100.0 * c.value);
   else
     fprintf(out, "then %s into %s, %.0f %%\n", named_ball(line->name[c.ball], ball),
             pocket_words(line->table, c.pocket, pocket), 100.0 * c.keep);
@@ -84,8 +85,9 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
 
 /* What came of strokes with errors. */
 typedef struct strokes {
-  int misses, lost;
-  double worth, other; /* sums: to the player; of the misses to the other */
+  int keeps, misses, fouls, lost;
+  double worth, squares, other; /* sums: to the player, and of their squares; of the misses to the
+                                   other */
 } strokes;
 
 static int left_of(const carom_plan_job *job, const carom_shot_ball *balls) {
@@ -99,19 +101,18 @@ static int left_of(const carom_plan_job *job, const carom_shot_ball *balls) {
 
 /* What a stroke is worth to the player, by the value of what it leaves: the chance to win, or the
  * share of the balls before it. */
-static double worth_of(const carom_plan_job *job, const left_layout *left, double *other) {
-  const carom_turn *turn = &left->turn;
-  const bool alone = job->rules->race == CAROM_RACE_ALONE, passes = turn->is == CAROM_TURN_PASS;
-  if (turn->is == CAROM_TURN_WIN || turn->is == CAROM_TURN_LOSE)
-    return turn->is == CAROM_TURN_WIN;
-  const carom_plan_job next = job_after(job, left);
+static double worth_of(const carom_plan_job *job, const carom_ruling *ruling, double *other) {
+  const bool alone = job->rules->race == CAROM_RACE_ALONE, passes = ruling->next == 1;
+  if (ruling->next < 0)
+    return ruling->winner == 0;
+  carom_plan_rules rules;
+  const carom_plan_job next = job_after(job, ruling, &rules);
   double chance = 0.0;
   if (!(alone && passes))
-    carom_plan_value(&next, turn->leave == CAROM_LEAVE_HAND || turn->leave == CAROM_LEAVE_KITCHEN,
-                     &chance);
+    carom_plan_value(&next, ruling->hand, &chance);
   if (alone)
-    return fmin(1.0,
-                (turn->points + chance * left_of(&next, left->balls)) / left_of(job, job->balls));
+    return fmin(1.0, (ruling->turn.points + chance * left_of(&next, ruling->balls)) /
+                         left_of(job, job->balls));
   *other = passes ? chance : 0.0;
   return passes ? 1.0 - chance : chance;
 }
@@ -120,19 +121,40 @@ static double worth_of(const carom_plan_job *job, const left_layout *left, doubl
 static strokes play_with(const carom_plan_job *job, const carom_player *player,
                          const carom_cue *cue, carom_call call) {
   strokes s = {0};
-  static left_layout left;
+  static carom_ruling ruling;
   for (int n = 0; n < WHY_STROKES; n++) {
     carom_cue stroke = *cue;
     carom_shot shot = {.events = NULL};
     double other = 0.0;
     carom_player_strike(player, job->options->seed, (uint64_t)n, &stroke);
-    play(job, &stroke, call, &shot, &left);
-    s.worth += worth_of(job, &left, &other);
+    play(job, &stroke, call, &shot, &ruling);
+    const double worth = worth_of(job, &ruling, &other);
+    s.worth += worth;
+    s.squares += worth * worth;
     s.other += other;
-    s.misses += left.turn.is == CAROM_TURN_PASS;
-    s.lost += left.turn.is == CAROM_TURN_LOSE;
+    s.keeps += ruling.next == 0 || ruling.winner == 0;
+    s.misses += ruling.next == 1;
+    s.fouls += ruling.turn.foul != CAROM_FOUL_NONE;
+    s.lost += ruling.winner == 1;
   }
   return s;
+}
+
+bool plan_names_ball(const carom_choice *choice) {
+  const bool is_meant = choice->kind == CAROM_PLAN_POT || choice->kind == CAROM_PLAN_GIVEN;
+  return choice->ball >= 0 && (is_meant || choice->keep >= PLAN_LUCK);
+}
+
+void plan_play_again(const carom_plan_job *job, carom_choice *choice) {
+  const carom_call call = {choice->ball, choice->pocket};
+  const strokes s = play_with(job, job->player, &choice->cue, call);
+  const double n = WHY_STROKES, mean = s.worth / n;
+  choice->value = mean;
+  choice->error = sqrt(fmax(s.squares / n - mean * mean, 0.0) / (n - 1.0));
+  choice->keep = s.keeps / n;
+  choice->foul = s.fouls / n;
+  choice->lose = s.lost / n;
+  choice->seen = WHY_STROKES;
 }
 
 /* A share of the strokes, %. One that is not 0 is not told as 0. */
@@ -144,12 +166,13 @@ static const char *percent(double share, char text[16]) {
 
 /* How often a stroke with errors misses, and what that leaves the other; and what it is worth more
  * without errors of speed, and without those of aim. */
-static void tell_misses(FILE *out, const carom_plan_job *job, const carom_cue *cue,
-                        carom_call call) {
+static void tell_misses(FILE *out, const carom_plan_job *job, const carom_choice *choice) {
+  const carom_cue *cue = &choice->cue;
+  const carom_call call = {choice->ball, choice->pocket};
   const strokes all = play_with(job, job->player, cue, call);
   char text[16];
   /* a safety is meant to pass the turn */
-  fprintf(out, "   %s       %s", call.ball < 0 ? "passes" : "misses",
+  fprintf(out, "   %s       %s", plan_names_ball(choice) ? "misses" : "passes",
           percent((double)all.misses / WHY_STROKES, text));
   if (all.misses > 0 && job->rules->race != CAROM_RACE_ALONE)
     fprintf(out, ", which leave the other %.0f %%", 100.0 * all.other / all.misses);
@@ -223,8 +246,13 @@ static bool tell_aim(FILE *out, const shot_line *line, const carom_cue *cue,
     const double x = o->r[0] - c->r[0], y = o->r[1] - c->r[1];
     const double cross = c->v[0] * y - c->v[1] * x, dot = c->v[0] * x + c->v[1] * y;
     const double cut = atan2(cross, dot), part = 1.0 - fabs(sin(cut));
-    fprintf(out, "%scut of %.0f degrees to the %s, %s", text_if(before, "; "), fabs(cut) / degree,
-            left_or_right(cut), part_words(part));
+    const double degrees = round(fabs(cut) / degree);
+    fputs(text_if(before, "; "), out);
+    if (degrees == 0.0)
+      fprintf(out, "straight, %s", part_words(part));
+    else
+      fprintf(out, "cut of %.0f degree%s to the %s, %s", degrees, text_if(degrees != 1.0, "s"),
+              left_or_right(cut), part_words(part));
   }
   return before || meets != NULL;
 }
@@ -254,7 +282,7 @@ void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
     return;
   static carom_event events[EVENTS];
   static carom_shot_ball balls[CAROM_BALLS_MOST];
-  static left_layout left;
+  static carom_ruling ruling;
   carom_plan_job own = *job;
   memcpy(balls, job->balls, (size_t)job->count * sizeof *balls);
   own.balls = balls;
@@ -262,13 +290,20 @@ void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
                    choice->place[1], NULL);
   const carom_call call = {choice->ball, choice->pocket};
   carom_shot shot = {.events = events, .room = EVENTS};
-  play(&own, &choice->cue, call, &shot, &left);
+  play(&own, &choice->cue, call, &shot, &ruling);
   fputs("   aim          ", out);
   fputs(tell_aim(out, line, &choice->cue, &shot) ? "; tip " : "tip ", out);
   tell_tip(out, &choice->cue);
   fputs("; ", out);
   tell_speed(out, &choice->cue, &job->balls[choice->cue.ball].kind);
   fputc('\n', out);
-  tell_next(out, &own, line, &left, (int)choice->cue.ball);
-  tell_misses(out, &own, &choice->cue, call);
+
+  /* a stroke that is not meant to pot leaves what it mostly does, even if it pots without errors */
+  for (int n = 0; !plan_names_ball(choice) && ruling.next != 1 && n < WHY_STROKES; n++) {
+    carom_cue stroke = choice->cue;
+    carom_player_strike(own.player, own.options->seed, (uint64_t)n, &stroke);
+    play(&own, &stroke, call, &(carom_shot){.events = NULL}, &ruling);
+  }
+  tell_next(out, &own, line, &ruling, (int)choice->cue.ball);
+  tell_misses(out, &own, choice);
 }

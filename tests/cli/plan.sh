@@ -42,6 +42,13 @@ carom plan --rules potting --why --shots 300 layout.jsonl | sed -n 3,7p | sed 's
 carom plan --rules nineball --why --cue 0.4,0.4 --balls 9=0.25,0.25 --shots 300 | sed -n 3,7p | sed 's/[0-9][0-9.]*/N/g'
 carom plan --rules nineball --why --cue 0.4,0.4 --balls 9=0.25,0.25 --shots 300 | sed -n 's/.*speed cost \([0-9.]*\) %, those of aim \([0-9.]*\) %/\1 \2/p' | sed -n 1p | awk '{ print ($1 < 2 && $2 < 2) }'
 carom plan --rules nineball --why --cue 0.4,0.4 --balls 1=0.9,2.4:2=0.45,0.47:3=0.5,0.43:9=0.37,0.5 --shots 300 | grep -c "aim          off the"
+# a cue ball in the D is in hand; a push-out is played as often as the others; a straight ball is no cut of 0 degrees
+carom shoot --table snooker --balls snooker --aim 90 --json | carom plan --rules snooker --in-hand --why --shots 100 - > hand.txt
+sed -n 's/.*which leave the other \([0-9]*\) %.*/\1/p' hand.txt | awk '{ print ($1 > 40) }' | sort -u
+carom plan --rules nineball --may push-out --why --shots 300 hidden.jsonl | grep -A 2 "a push-out" | grep -o "played [0-9]* times"
+carom plan --rules nineball --why --cue 0.4,0.4 --balls 9=0.25,0.25 --shots 300 | grep "cut of [01] degrees" || echo straight
+echo "--- to run out, a turn that ends is worth nothing"
+for out in "" --run-out; do carom plan --rules nineball --shots 300 $out --csv layout.jsonl | sed -n 2p | cut -d , -f 12; done | awk 'NR == 1 { wins = $1 } END { print ($1 < wins - 0.02) }'
 echo "--- balls that are down are not on the table"
 carom plan --rules nineball --shots 300 --plot few.svg --cue 0.4,0.4 --balls 7=0.9,1.4:9=0.25,0.25 > few.txt
 grep -c 'class="ball"' few.svg

@@ -315,6 +315,17 @@ def test_the_opponent_counts():
     assert values[1] > values[0] + 0.05
 
 
+def test_run_out():
+    """A turn that ends before the game is won is worth nothing to a plan to run out."""
+    wins, runs = (
+        carom.plan(TABLE, LAYOUT, rules="nineball", shots=300, best=1, run_out=out)["value"][0]
+        for out in (False, True)
+    )
+    assert runs < wins - 0.02
+    with pytest.raises(ValueError, match="run_out"):
+        carom.plan(TABLE, LAYOUT, run_out=2)
+
+
 def test_ratings():
     errors = [float(carom.player(fargo=rating)["phi"]) for rating in (200, 400, 500, 600, 700, 850)]
     assert errors == sorted(errors, reverse=True) and errors[0] > 5 * errors[-1] > 0.0

@@ -43,6 +43,7 @@ export const KEYS = {
       player: 1,
       opponent: 1,
       inHand: 1,
+      runOut: 1,
       best: 1,
       cue: 1,
       shot: 1,

@@ -531,6 +531,8 @@ export class Plans {
     this.#writeRules(options, balls);
     refuseLayout(table, balls, options.rules ?? "eightball");
     writeOptions(memory, optionsAt, "carom_plan_options", options);
+    if (options.runOut)
+      setStruct(memory, optionsAt, "carom_plan_options", { chanceOpponent: 1 }, false);
     if (options.opponent)
       setStruct(
         memory,

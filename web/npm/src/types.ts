@@ -283,6 +283,8 @@ export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
    * there alone.
    */
   inHand?: boolean | readonly [Vec2, Vec2];
+  /** Plan to run out: a turn that ends before the game is won is worth nothing. */
+  runOut?: boolean;
   /** How many choices at most; default 5. */
   best?: number;
   /** Masses and the like of the cue; the stroke is not read. */

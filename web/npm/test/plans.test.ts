@@ -246,6 +246,10 @@ test("ball in hand, chances and errors", () => {
   expect(spread).toBeGreaterThan(0.5);
   expect(spread).toBeLessThan(0.7);
   expect(unsure!.keep).toBeLessThan(sure!.keep - 0.1);
+  const [wins, runs] = [false, true].map(
+    (runOut) => carom.plan(table, balls, { rules: "nineball", shots: 200, runOut })[0]!.value,
+  );
+  expect(runs).toBeLessThan(wins!);
   // a stronger player errs less
   const errors = [400, 500, 600, 700].map((fargo) => carom.player({ fargo }).phi);
   expect([...errors].sort((a, b) => b - a)).toEqual(errors);

@@ -365,6 +365,7 @@ class _Job:
         options: Options,
         level: bool = False,
         seconds: float = 0.0,
+        run_out: bool = False,
     ) -> None:
         check_table(table)
         self.layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
@@ -391,6 +392,7 @@ class _Job:
         wanted.seconds = number(seconds, "seconds")
         if not 0.0 <= wanted.seconds <= 1e6:
             raise ValueError(f"seconds: they must be 0 to 1e6, not {seconds}")
+        wanted.chance_opponent = whole(run_out, "run_out", most=1)
         wanted.once = stop is None and seconds == 0.0  # Ctrl-C asks for no choice
         other = None if opponent is None else _one_player(opponent, "opponent")
         wanted.opponent = ffi.NULL if other is None else other
@@ -453,6 +455,7 @@ def plan(
     threads: int = 0,
     unsure: float = 0.0,
     level: bool = False,
+    run_out: bool = False,
     stop: threading.Event | None = None,
     options: Options = _USUAL,
     **changes: Unpack[Changes],
@@ -508,6 +511,8 @@ def plan(
     level : bool
         Whether strokes are by a level cue, whose stick may be in cushions and balls. By default the
         cue is raised over them.
+    run_out : bool
+        Whether to plan to run out: a turn that ends before the game is won is worth nothing.
     stop : threading.Event, optional
         Ends the plan early when another thread, or a handler of a signal, sets it: the plan then
         has one choice, the best so far. Without a handler of yours Ctrl-C ends the plan, too, and
@@ -545,6 +550,7 @@ def plan(
         chosen(options, changes),
         level,
         seconds,
+        run_out,
     )
     choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
     found = ffi.new("int *")
