@@ -32,6 +32,8 @@ import type {
   AimOf,
   BallKind,
   BallState,
+  Bank,
+  Calibration,
   Call,
   Choice,
   Collided,
@@ -163,7 +165,10 @@ export class Carom {
       impact: part(Math.max(IMPACT.size, CUSHION.size)),
       options: part(Math.max(OPTIONS.size, CUSHION_OPTIONS.size, SHOT_OPTIONS.size)),
       result: part(RESULT.size),
-      detail: part(layout.carom_detail.size),
+      // also a kind of ball, a cue, a bank
+      detail: part(
+        Math.max(layout.carom_detail.size, layout.carom_ball_kind.size, layout.carom_cue.size),
+      ),
       table: part(layout.carom_table.size),
       balls: part(BALLS_MOST * layout.carom_shot_ball.size),
       cue: part(layout.carom_cue.size),
@@ -646,6 +651,35 @@ export class Carom {
         this.#at.detail,
       );
     return readStruct(this.#memory, this.#at.detail, "carom_ball_kind");
+  }
+
+  /** Bank number 0, 1 or 2 of those that calibrate a table: sight, speed of the ball, m/s, roll. */
+  bank(k: number): Bank {
+    this.#refuse(this.#call.carom_bank_of(k, this.#at.detail), `bank ${k}`);
+    return readStruct(this.#memory, this.#at.detail, "carom_bank");
+  }
+
+  /**
+   * The restitution and friction of a table's cushions with their standard deviations, from where
+   * the three banks came back, in sights from their corner. Without readings: where they come back
+   * on the usual table. Throws a CaromError where a reading is not above 0 and below 8, or a bank
+   * does not come back.
+   */
+  calibrate(
+    readings: readonly [number, number, number] | undefined,
+    table: Table,
+    game: Game = "pool",
+  ): Calibration {
+    const { table: of, detail, number, text } = this.#at;
+    this.#resident = undefined;
+    writeTable(this.#memory, of, table);
+    this.kind(game); // which leaves it at `detail`
+    if (readings) this.#memory.f64.set(readings, number / 8);
+    this.#refuse(
+      this.#call.carom_calibrate(of, detail, readings ? number : 0, text),
+      `readings ${readings?.join(", ")}`,
+    );
+    return readStruct(this.#memory, text, "carom_calibration");
   }
 
   /** A ball at rest at x, y (m), of a game or of constants of one's own. */

@@ -81,11 +81,16 @@ export type CushionModel = C.CushionModel;
 
 export type CushionOptions = C.CushionOptions;
 
+/** A named condition of a pool table's cloth or cushions. */
+export type Condition = C.Condition;
+/** A bank that calibrates a table, and what three of them tell. */
+export type Bank = C.Bank;
+export type Calibration = C.Calibration;
+
 /**
  * A game: whose balls, cloth and cue. docs/understanding/constants.md has the source of each
  * number.
  */
-export type Condition = C.Condition;
 export type Game = C.Game;
 
 export type BallKind = C.BallKind;

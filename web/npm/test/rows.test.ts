@@ -111,6 +111,24 @@ test.each(
   );
 });
 
+test("three banks find the cushions of a table, and conditions are named", () => {
+  const here = carom.table("9ft");
+  const usual = carom.calibrate(undefined, here);
+  const [a, b, c] = usual.comesBack as unknown as [number, number, number];
+  const found = carom.calibrate([a, b, c], here);
+  expect(found.restitution).toBeCloseTo(carom.kind("pool").restitutionCushion, 6);
+  expect(found.friction).toBeCloseTo(carom.kind("pool").muCushion, 6);
+  expect(found.misfit).toBeLessThan(1e-6);
+  expect(carom.bank(0).aim).toBe(2.5);
+  expect(() => carom.bank(3)).toThrow("bank 3");
+  expect(() => carom.calibrate([4.7, 4.8, 8.5], here)).toThrow("readings 4.7, 4.8, 8.5");
+  for (const [condition] of rows.words.CONDITION!)
+    expect(carom.kind("pool", "default", [condition as "fast_cloth"]).radius).toBeGreaterThan(0);
+  const slow = carom.kind("pool", "default", ["slow_cloth", "old_cushion"]);
+  expect([slow.muRoll, slow.restitutionCushion]).toEqual([0.015, 0.75]);
+  expect(() => carom.kind("pool", "default", ["felt" as never])).toThrow("conditions: it must be");
+});
+
 test("words of games, tables and racks", () => {
   expect(Object.entries(words)).toEqual(
     Object.entries(rows.words).map(([of, list]) => [camel(of.toLowerCase()), list]),

@@ -7,7 +7,7 @@ import { filmOf, onTable, pathsOf } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { placesText } from "../table/places.js";
 import { button, check, choice, dialog, el } from "../ui.js";
-import { OPTIONS, Play, type Setup } from "./game.js";
+import { OPTIONS, Play, type Setup, tableOf } from "./game.js";
 import { pack, send, unpack } from "./keep.js";
 
 /** Of the cue, what the page sets: m/s, degrees, radii of the ball. */
@@ -15,6 +15,8 @@ const SET = ["speed", "phi", "a", "b", "theta"] as const;
 interface Drawn {
   game: string;
   table?: string;
+  cloth?: string;
+  cushion?: string;
   /** Where balls lie, "x,y" or "in" of each, m. */
   at: string;
   /** The stroke in the order of SET, where there is one. */
@@ -125,7 +127,7 @@ function lay(d: Diagram, of: Drawn): void {
   const { after, path, words } = d.parts;
   const next = new Play(d.carom, {
     game: of.game,
-    ...(of.table !== undefined && { table: of.table }),
+    ...tableOf(of),
     against: "practice",
     own: "0",
     seed: 1,
@@ -148,10 +150,9 @@ function lay(d: Diagram, of: Drawn): void {
 /** Draws a source. */
 function take(d: Diagram, k: number): void {
   const [, balls, cue] = d.sources[k]!;
-  const { game, table } = d.drawn;
   const still: Drawn = {
-    game,
-    ...(table !== undefined && { table }),
+    game: d.drawn.game,
+    ...tableOf(d.drawn),
     at: placesText(balls),
     notes: d.parts.notes.value,
   };
@@ -227,9 +228,9 @@ export function diagramPage(
   const root = dialogOf(d, () => void link());
   return {
     root,
-    open({ game, table }, of) {
+    open(setup, of) {
       d.sources = of;
-      d.drawn = { game, ...(table !== undefined && { table }), at: "", notes: "" };
+      d.drawn = { game: setup.game, ...tableOf(setup), at: "", notes: "" };
       parts.which.select.replaceChildren(
         ...of.map(([name], k) => el("option", { value: String(k) }, name)),
       );

@@ -2,9 +2,12 @@
 // stroke is a line of a recording, which another page reads, plays and compares bit by bit. A game
 // is kept and sent as text: what it begins with, and its strokes.
 import {
+  type BallKind,
   type Call,
   type Carom,
+  type Condition,
   type Cue,
+  type Game,
   games,
   type GameState,
   type Recording,
@@ -34,6 +37,9 @@ export interface Setup {
   seed: number;
   /** Of pool, a key of POOL_TABLES. */
   table?: string;
+  /** Of pool, a condition of the cloth, and one of the cushions or their two numbers, "e,mu". */
+  cloth?: string;
+  cushion?: string;
   /** Of practice: where balls lie, "x,y" or "in" of each. */
   at?: string;
   /** The name of the drill that the layout is of. */
@@ -60,6 +66,32 @@ export interface Stroke {
 }
 
 export const OPTIONS: ShotOptions = {};
+
+/** The table of a game: what of it is not usual. */
+export function tableOf({
+  table,
+  cloth,
+  cushion,
+}: Pick<Setup, "table" | "cloth" | "cushion">): Pick<Setup, "table" | "cloth" | "cushion"> {
+  return {
+    ...(table !== undefined && { table }),
+    ...(cloth !== undefined && { cloth }),
+    ...(cushion !== undefined && { cushion }),
+  };
+}
+/** The balls of a game on its cloth, with its cushions. Throws where there are no such ones. */
+function kindOf(carom: Carom, game: Game, { cloth, cushion }: Setup): BallKind {
+  const numbers = cushion?.includes(",") ? cushion.split(",").map(Number) : undefined;
+  const named = [cloth, numbers ? undefined : cushion].filter((one) => one !== undefined);
+  if (game !== "pool" && (named.length > 0 || numbers))
+    throw new TypeError("cloth, cushion: only tables of pool have conditions");
+  const kind = carom.kind(game, OPTIONS.cushionModel, named as Condition[]);
+  if (!numbers) return kind;
+  const [restitutionCushion, muCushion] = numbers as [number, number];
+  if (!(numbers.length === 2 && restitutionCushion <= 1 && muCushion <= 1 && muCushion >= 0))
+    throw new TypeError(`cushion: two numbers from 0 to 1 are needed, not "${cushion}"`);
+  return { ...kind, restitutionCushion, muCushion };
+}
 const same = (a: readonly ShotBall[], b: readonly ShotBall[]): boolean =>
   a.every(
     ({ state }, k) =>
@@ -97,7 +129,7 @@ export class Play {
     if (!chosen || (setup.table !== undefined && of.game !== "pool"))
       throw new TypeError(`table: there is no table "${setup.table}" for this game`);
     this.table = of.game === "pool" ? carom.table(chosen[1], chosen[2]) : carom.table(of.table);
-    const kind = carom.kind(of.game, OPTIONS.cushionModel);
+    const kind = kindOf(carom, of.game, setup);
     this.balls = carom
       .rack(of.rack, this.table, { seed: setup.seed })
       .map(({ state }) => ({ kind, state }));

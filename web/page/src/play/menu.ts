@@ -1,8 +1,10 @@
 // The dialog of a new game: which one, against whom, and how the page plays it.
+import { words } from "carom";
 import { GAMES, PLAYED, POOL_TABLES } from "../table/games.js";
 import { RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
-import { type Against, isComputer } from "./game.js";
+import { calibrationPage, ownCushion, wordsOfCushion } from "./calibration.js";
+import { type Against, isComputer, tableOf } from "./game.js";
 import { keepText, keptValue } from "./keep.js";
 import type { Session, Settings } from "./parts.js";
 import { gamesList } from "./games_list.js";
@@ -15,6 +17,17 @@ const LINES: readonly (readonly [Settings["lines"], string])[] = [
   ["short", "short: the way of the ball"],
   ["full", "full: both balls"],
 ];
+/** Conditions of a pool table, and what is usual, which a game does not keep. */
+const USUAL = "";
+function conditionsOf(part: string, usual: string): (readonly [string, string])[] {
+  const named = words.condition.filter(([word]) => word.endsWith(part) && word !== "medium_cloth");
+  return [
+    [USUAL, usual],
+    ...named.map(([word, text]) => [word, `${word.split("_")[0]}: ${text}`] as const),
+  ];
+}
+const CLOTHS = conditionsOf("_cloth", "usual");
+const CUSHIONS = conditionsOf("_cushion", "usual");
 function areSettings(value: unknown): boolean {
   if (typeof value !== "object" || value === null) return false;
   const {
@@ -41,7 +54,7 @@ export const keepSettings = ({ settings }: Pick<Session, "settings">): void =>
 export function menu(
   s: Session,
   ...more: HTMLElement[]
-): { root: HTMLDialogElement; open(): void } {
+): { root: HTMLDialogElement; calibration: HTMLDialogElement; open(): void } {
   // Practice has every table.
   const others = Object.entries(GAMES).filter(([key]) => !(key in PLAYED));
   const game = choice(
@@ -80,6 +93,33 @@ export function menu(
     Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const),
     () => undefined,
   );
+  const cloth = choice("new-cloth", "Cloth", CLOTHS, () => undefined);
+  const cushion = choice("new-cushion", "Cushions", [], () => undefined);
+  /** The cushions to choose from: those of the player's own table are calibrated. */
+  function listCushions(chosen: string): void {
+    const own = ownCushion();
+    const all = [
+      ...CUSHIONS,
+      ...(own === undefined ? [] : [[own, `mine: ${wordsOfCushion(own)}`] as const]),
+    ];
+    const isListed = all.some(([value]) => value === chosen);
+    if (!isListed) all.push([chosen, wordsOfCushion(chosen)]);
+    cushion.select.replaceChildren(...all.map(([value, text]) => el("option", { value }, text)));
+    cushion.select.value = chosen;
+  }
+  const calibration = calibrationPage(s.carom, (own) => {
+    listCushions(own);
+    root.showModal();
+  });
+  const calibrate = button(
+    "Calibrate by three banks",
+    () => {
+      root.close();
+      calibration.open(table.select.value);
+    },
+    { id: "open-calibration" },
+  );
+  const ofPool = [table.root, cloth.root, cushion.root, calibrate];
   const lines = choice("lines", "Lines", LINES, changeSettings);
   const note = el("p", { class: "note", id: "new-note" });
   /** Strokes against the page's player err a little, if nothing else is chosen. */
@@ -111,7 +151,7 @@ export function menu(
   function describe(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
     own.root.hidden = against.select.value === "practice";
-    table.root.hidden = !isPool();
+    for (const one of ofPool) one.hidden = !isPool();
     const notes: Record<string, string> = {
       practice: "There are no rules. You move any ball, see every path, and undo strokes.",
       person: "Both of you play at this page, in turns.",
@@ -121,6 +161,12 @@ export function menu(
       notes[against.select.value] ??
       `The computer plays like a ${against.select.value} on the scale of Fargo ratings. ${s.training.rating().words} A 200 is a beginner, a 500 plays in a league, a 700 is a strong amateur.`;
   }
+  const chosenTable = (): ReturnType<typeof tableOf> =>
+    tableOf({
+      ...(table.select.value !== "9ft" && { table: table.select.value }),
+      ...(cloth.select.value !== USUAL && { cloth: cloth.select.value }),
+      ...(cushion.select.value !== USUAL && { cushion: cushion.select.value }),
+    });
   const start = button(
     "Start",
     () => {
@@ -130,7 +176,7 @@ export function menu(
         against: against.select.value as Against,
         own: against.select.value === "practice" ? "0" : own.select.value,
         seed: Math.floor(Math.random() * 2 ** 31),
-        ...(isPool() && table.select.value !== "9ft" ? { table: table.select.value } : {}),
+        ...(isPool() ? chosenTable() : {}),
       });
     },
     { id: "start", class: "main" },
@@ -139,7 +185,7 @@ export function menu(
   const root: HTMLDialogElement = dialog(
     "menu",
     "New game",
-    el("div", { class: "fields" }, game.root, table.root, against.root, own.root),
+    el("div", { class: "fields" }, game.root, ...ofPool, against.root, own.root),
     note,
     start,
     games.root,
@@ -152,12 +198,15 @@ export function menu(
   );
   return {
     root,
+    calibration: calibration.root,
     open() {
       const { setup } = s.play;
       game.select.value = setup.game;
       against.select.value = setup.against;
       own.select.value = setup.own;
       table.select.value = setup.table ?? "9ft";
+      cloth.select.value = setup.cloth ?? USUAL;
+      listCushions(setup.cushion ?? USUAL);
       describe();
       void games.refresh();
       root.showModal();

@@ -147,7 +147,10 @@ function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof d
     el("div", { class: "row" }, ...rows),
   );
   s.buttons.menu.addEventListener("click", games.open);
-  return { all: [games.root, log.root, diagram.root, s.training.photo], diagram };
+  return {
+    all: [games.root, games.calibration, log.root, diagram.root, s.training.photo],
+    diagram,
+  };
 }
 
 export function playView(

@@ -1,0 +1,185 @@
+// The dialog that finds the cushions of a player's own pool table: a picture of three banks, where
+// each came back, and the two numbers that follow, which the browser keeps and a file can have.
+import { type Carom, CaromError, type Table } from "carom";
+import { POOL_TABLES } from "../table/games.js";
+import { button, choice, dialog, el } from "../ui.js";
+import { keepText, kept } from "./keep.js";
+
+/** Where the browser keeps the cushions of one's own table, as "restitution,friction". */
+const KEY = "carom-cushion";
+const BANKS = [0, 1, 2] as const;
+const COLOURS = ["#1f6fb2", "#b2361f", "#2a7d3a"];
+/** How far sights lie behind the noses, m. */
+const SIGHT = 0.094;
+/** A misfit above this is that of a misread bank. */
+const MISREAD = 2;
+
+export const ownCushion = (): string | undefined => kept(KEY);
+/** The two numbers of a cushion, in words. */
+export const wordsOfCushion = (own: string): string => {
+  const [restitution, friction] = own.split(",");
+  return `restitution ${restitution}, friction ${friction}`;
+};
+
+const soft = (roll: number): string =>
+  roll > 0.5 ? "soft, so that it rolls" : "hard, at its middle";
+
+/** The table lying on its side: the corner of the banks is on the left below. Units are m. */
+function picture(carom: Carom, table: Table, back: readonly number[]): string {
+  const { length, width } = table;
+  const diamond = length / 8;
+  const sights = Array.from({ length: 7 }, (_, k) => k + 1).map((k) =>
+    [-SIGHT, width + SIGHT]
+      .map(
+        (y) =>
+          `<circle cx="${k * diamond}" cy="${y}" r="0.014"/><text x="${k * diamond + 0.03}" y="${y + 0.035}">${k}</text>`,
+      )
+      .join(""),
+  );
+  const ways = BANKS.map((k) => {
+    // The line runs from behind the corner to behind the other rail, through its sight.
+    const share = (width + SIGHT) / (width + 2 * SIGHT);
+    const met = share * (carom.bank(k).aim * diamond + SIGHT) - SIGHT;
+    const end = back[k]! * diamond;
+    return (
+      `<path d="M0 ${width}L${met} 0L${end} ${width}" stroke="${COLOURS[k]}"/>` +
+      `<text x="${end - 0.035}" y="${width - 0.06 - 0.09 * k}" style="fill:${COLOURS[k]}">${k + 1}</text>`
+    );
+  });
+  return (
+    `<svg viewBox="-0.05 -0.16 ${length + 0.1} ${width + 0.32}" role="img" aria-label="Three banks from a corner, off the other long rail, back to the first">` +
+    `<rect width="${length}" height="${width}"/>${sights.join("")}${ways.join("")}</svg>`
+  );
+}
+
+/** The dialog; `use` is told the numbers that the player keeps, as `cushion` of a game. */
+export function calibrationPage(
+  carom: Carom,
+  use: (own: string) => void,
+): { root: HTMLDialogElement; open(table: string): void } {
+  const size = choice(
+    "calibration-table",
+    "Table",
+    Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const),
+    show,
+  );
+  const drawn = el("div", { id: "calibration-picture" });
+  const told = BANKS.map(() => el("span"));
+  const inputs = BANKS.map((k) => {
+    const input = el("input", {
+      type: "number",
+      id: `bank-${k + 1}`,
+      min: "0.1",
+      max: "7.9",
+      step: "0.1",
+      inputmode: "decimal",
+    });
+    input.addEventListener("input", find);
+    return input;
+  });
+  const said = el("p", { id: "calibration-said", role: "status" });
+  let own = "";
+  let file = "";
+  const play = button(
+    "Play on this table",
+    () => {
+      keepText(own, KEY);
+      root.close();
+      use(own);
+    },
+    { id: "use-calibration", class: "main" },
+  );
+  const save = button(
+    "Save for the command",
+    () => {
+      const link = el("a", {
+        href: URL.createObjectURL(new Blob([file], { type: "application/json" })),
+        download: "my.json",
+      });
+      link.click();
+      URL.revokeObjectURL(link.href);
+    },
+    { id: "save-calibration" },
+  );
+
+  function allow(isFound: boolean): void {
+    play.disabled = !isFound;
+    save.disabled = !isFound;
+  }
+  const tableHere = (): Table => {
+    const [, name, measures] = POOL_TABLES[size.select.value]!;
+    return carom.table(name, measures);
+  };
+  function show(): void {
+    const table = tableHere();
+    const { comesBack } = carom.calibrate(undefined, table);
+    drawn.innerHTML = picture(carom, table, comesBack);
+    for (const k of BANKS) {
+      const { aim, roll } = carom.bank(k);
+      told[k]!.textContent =
+        `through sight ${aim.toFixed(1)}, ${soft(roll)}; usually back at ${comesBack[k]!.toFixed(1)}`;
+    }
+    find();
+  }
+  function find(): void {
+    const readings = inputs.map((input) => input.valueAsNumber);
+    const [a, b, c] = readings as [number, number, number];
+    const isRead = readings.every((one) => one > 0 && one < 8);
+    allow(false);
+    if (!isRead) {
+      said.textContent =
+        "Enter the sight where each bank came back, to a tenth: above 0 and below 8.";
+      return;
+    }
+    try {
+      const found = carom.calibrate([a, b, c], tableHere());
+      const { restitution, restitutionError, friction, frictionError, misfit } = found;
+      if (misfit > MISREAD) {
+        said.textContent = `No cushion brings the banks back there: they miss by ${(2.5 * misfit).toFixed(0)} cm. Read them again, and mind the speeds.`;
+        return;
+      }
+      own = `${restitution.toFixed(3)},${friction.toFixed(3)}`;
+      file = JSON.stringify({
+        cushion_model: "smooth",
+        constants: { restitution_cushion: restitution, mu_cushion: friction },
+        spread: { restitution_cushion: restitutionError, mu_cushion: frictionError },
+      });
+      said.textContent = `Your cushions: restitution ${restitution.toFixed(3)} ± ${restitutionError.toFixed(3)}, friction ${friction.toFixed(3)} ± ${frictionError.toFixed(3)}.`;
+      allow(true);
+    } catch (error) {
+      if (!(error instanceof CaromError)) throw error;
+      said.textContent = `Nothing is found: ${error.message}.`;
+    }
+  }
+
+  const root = dialog(
+    "calibration",
+    "Calibrate by three banks",
+    el(
+      "p",
+      { class: "note" },
+      "Put the cue ball 35 cm from the left rail, on the line from the corner through a sight of the other long rail. Play it along this line without english, and read where it touches the first long rail again. Sights count from that corner.",
+    ),
+    el("div", { class: "fields" }, size.root),
+    drawn,
+    ...BANKS.map((k) =>
+      el(
+        "label",
+        { class: "bank", style: `--bank: ${COLOURS[k]}` },
+        el("b", {}, String(k + 1)),
+        told[k]!,
+        inputs[k]!,
+      ),
+    ),
+    said,
+    el("div", { class: "row" }, play, save),
+  );
+  return {
+    root,
+    open(table) {
+      size.select.value = table;
+      show();
+      root.showModal();
+    },
+  };
+}
