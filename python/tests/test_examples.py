@@ -27,7 +27,9 @@ sys.path.insert(0, str(EXAMPLES))
 import refine_aim  # noqa: E402
 
 
-@pytest.mark.parametrize(("name", "pictures"), [("first_look", 6), ("rack_gap", 3)])
+@pytest.mark.parametrize(
+    ("name", "pictures"), [("first_look", 6), ("rack_gap", 3), ("thirty_trust", 1)]
+)
 def test_notebooks(capsys, name, pictures):
     """Every cell runs, prints the stored text (numbers within 2 %, as instruction sets differ by
     rounding) and gives its pictures.
