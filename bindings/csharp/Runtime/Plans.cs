@@ -215,7 +215,8 @@ namespace Carom {
     /// be put after a foul, if a plan is made in hand.</summary>
     public HandBounds? Bounds;
 
-    /// <summary>Of two players of the same rating, 0 to 1000.</summary>
+    /// <summary>Of two players of the same Fargo rating, 200 to 850. They play as rated where the
+    /// shots of the options are 0.</summary>
     public Position(Table table, ShotBall[] balls, Cue cue, PlanRules rules, double rating) {
       Table = table;
       Balls = balls;

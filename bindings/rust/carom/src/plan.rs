@@ -239,7 +239,7 @@ pub struct Position {
 }
 
 impl Position {
-    /// Of two players of the same rating, 0 to 1000, as by `sys::carom_player_fargo`.
+    /// Of two players of the same rating, 200 to 850, as by `sys::carom_player_fargo`.
     pub fn new(table: &Table, balls: &[ShotBall], cue: &Cue, rules: &Rules, rating: f64) -> Self {
         Position {
             table: *table,
