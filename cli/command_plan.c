@@ -158,12 +158,12 @@ static void tell(FILE *out, const plan_job *job, const carom_plan_job *asked, co
 static void play_again(const carom_plan_job *asked, carom_choice *choices, int n) {
   carom_shot_ball balls[CAROM_BALLS_MOST];
   memcpy(balls, asked->balls, (size_t)asked->count * sizeof *balls);
-  carom_place_ball(asked->table, balls, (int)asked->count, (int)asked->cue->ball,
-                   choices[0].place[0], choices[0].place[1], NULL);
   carom_plan_job job = *asked;
   job.balls = balls;
   for (int k = 0; k < n; k++) {
     carom_choice c = choices[k];
+    carom_place_ball(asked->table, balls, (int)asked->count, (int)asked->cue->ball, c.place[0],
+                     c.place[1], NULL);
     if (c.kind != CAROM_PLAN_PASS)
       plan_play_again(&job, &c);
     int at = k;

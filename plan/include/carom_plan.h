@@ -537,13 +537,15 @@ typedef struct carom_choice {
   double value;         /* chance to win; without an opponent, the share of the balls that are
                            potted; 0 to 1. A foul counts 0.03 less than the position that follows
                            it, so that the plan chooses a legal stroke among equally good ones. The
-                           chosen stroke was partly lucky in the shots by which it was chosen. To
-                           correct for this, in games with learned chances, the value of the layout
-                           before the stroke counts as 10 more shots of the best stroke. In other
-                           games, and for all other strokes, the value is 0.75 standard errors less
-                           than the mean of the shots, and at most that of the best stroke. */
+                           shots by which a stroke was chosen were partly lucky for it. So all
+                           chances of a choice are those of fresh shots, whose errors chose nothing,
+                           and of 10 of the others: a tenth of the shots of the plan, at least 30,
+                           for the best choice, and a 40th, at least 20, for each of the others. A
+                           choice is worth at most as much as the best one. A plan that was stopped
+                           may have none; the value is then 0.75 standard errors less than the mean
+                           of the shots. */
   double error;         /* the standard error of the mean of the shots. */
-  double keep;          /* chance that the player plays on or wins, with the same correction, */
+  double keep;          /* chance that the player plays on or wins, */
   double foul, lose;    /* chances that the shot is a foul, and that it loses. */
   int64_t seen;         /* how often the shot was played with errors. 0 if the plan was stopped
                            before that; the value is then that of the shot without errors. */
@@ -572,7 +574,8 @@ typedef struct carom_plan_job {
 CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
 
 /* Finds the best shots of a layout. Writes up to `room` of them to choices[], best first, one for
- * each ball, pocket and kind. *found becomes their number, at least 1.
+ * each ball, pocket and kind. A choice behind the best is within 0.1 of its value; but the best
+ * safety that was found is always among them. *found becomes their number, at least 1.
  *
  * Returns CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL or there is too little memory;
  * CAROM_ERROR_OPTIONS for bad options, a bad player, or rules without on(), judge() or left();
@@ -583,10 +586,10 @@ CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
 CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int room,
                                   int *found);
 
-/* The same with ball in hand: the cue ball goes to the best place that the plan finds, which is the
- * same for all choices. The place is within low[0] <= x <= high[0] and low[1] <= y <= high[1], m;
- * NULL: no bound on that side. The cue ball of job->balls may be down. Also returns
- * CAROM_ERROR_OFF_TABLE if the plan finds no free place. */
+/* The same with ball in hand: places of the cue ball and strokes are compared together, by at least
+ * 600 shots, and each choice has a place of its own. The place is within low[0] <= x <= high[0] and
+ * low[1] <= y <= high[1], m; NULL: no bound on that side. The cue ball of job->balls may be down.
+ * Also returns CAROM_ERROR_OFF_TABLE if the plan finds no free place. */
 CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double low[2],
                                        const double high[2], carom_choice *choices, int room,
                                        int *found);

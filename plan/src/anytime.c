@@ -34,7 +34,7 @@ bool carom_search_double(search *plan) {
   const bool stopped = carom_is_stopped(plan);
   const bool better = !plan->joins || !stopped ||
                       (plan->count > 0 && c->round > 0 && c->round >= plan->best.round &&
-                       c->seen >= plan->best.seen);
+                       c->chose.seen >= plan->best.chose.seen);
   if (better)
     plan->best = *c;
 

@@ -3,6 +3,7 @@
  * first that is on. */
 #include "candidates.h"
 
+#include "places.h"
 #include "platform/elementary.h"
 #include "platform/promise.h"
 #include "ranking.h"
@@ -44,6 +45,9 @@ static double raised(const search *plan, const candidate *c) {
 /* The elevation is the least of the stick, but where the caller gave it, or an aim did. A gentle
  * stroke is added whatever that is. */
 void carom_search_add(search *plan, candidate c) {
+  const double *r = plan->played[plan->cue_ball].state.r;
+  c.r[0] = r[0];
+  c.r[1] = r[1];
   const bool given = c.kind == CAROM_PLAN_GIVEN || c.kind == CAROM_PLAN_PASS;
   if (!given)
     bound(plan, &c);
@@ -71,7 +75,7 @@ static double squirt_of(const carom_cue *cue, const carom_ball_kind *kind) {
 static bool aim(const search *plan, candidate *c) {
   enum { STEPS = 3 };
   const carom_shot_ball *balls = plan->job.balls;
-  carom_shot_ball pair[2] = {balls[plan->view.cue_ball], balls[c->aimed_ball]};
+  carom_shot_ball pair[2] = {plan->played[plan->cue_ball], balls[c->aimed_ball]};
   carom_ball_state final[2];
   carom_shot_options options = plan->shot;
   options.stop_at = CAROM_STOP_AT_CONTACT;
@@ -123,7 +127,7 @@ static size_t aim_rows(const void *context, size_t first, size_t end) {
     const int64_t row = plan->stage.done + (int64_t)k;
     if (row > 0 && carom_is_stopped(plan))
       return k;
-    plan->outcome[row] = (outcome){.turn = aim(plan, &plan->found[row])};
+    plan->outcome[row] = (outcome){.turn = aim(plan, &plan->found[plan->stage.first + row])};
   }
   return end;
 }
@@ -147,21 +151,35 @@ static void step_aside(candidate *c, int number, bool more) {
     c->phi -= 360.0;
 }
 
+/* Moves the cue ball in hand to one of four sides. */
+static void move_aside(candidate *c, int side) {
+  static const double far = 0.03; /* m */
+  c->r[side / 2] += side % 2 == 1 ? far : -far;
+}
+
 /* Strokes near the best `parents` ones, between those of the grid: one of speed, both places of the
  * tip and, where nothing is aimed, the direction changed at a time, and pots aimed anew. carom-lab
  * plan --racks 1000 --shots 1000 runs out 761 racks with them, 740 without; half of these steps,
  * and half as much again, could not be told from them. */
 void carom_search_near(search *plan, int64_t parents) {
-  enum { POT_WAYS = 6, WAYS = 10 };
+  enum { POT_WAYS = 6, WAYS = 10, PLACE_WAYS = 4 };
+  const int places = plan->places > 0 && !plan->breaks ? PLACE_WAYS : 0;
   for (int64_t k = 0; k < parents; k++) {
     const bool pot = plan->found[k].kind == CAROM_PLAN_POT;
-    for (int way = 0; way < (pot ? POT_WAYS : WAYS); way++) {
+    if (!pot && plan->found[k].kind != CAROM_PLAN_SCAN)
+      continue;
+    const int strokes = pot ? POT_WAYS : WAYS;
+    for (int way = 0; way < strokes + places; way++) {
       candidate c = plan->found[k];
-      if (!pot && c.kind != CAROM_PLAN_SCAN)
-        break;
       c.round = 0;
-      step_aside(&c, way / 2, way % 2 == 1);
+      c.fresh = (carom_tally){0};
+      if (way < strokes)
+        step_aside(&c, way / 2, way % 2 == 1);
+      else
+        move_aside(&c, way - strokes);
       bound(plan, &c);
+      if (!carom_search_put(plan, c.r))
+        continue;
       if (pot) {
         c.phi = plan->view.window[c.aimed_ball][c.aimed_pocket].psi / degree;
         if (!aim(plan, &c))
@@ -203,6 +221,7 @@ void carom_search_pots(search *plan, int64_t most) {
   /* The strokes in an order that is drawn, so that few of them are of all kinds. */
   int order[STROKES];
   draw_order(plan, DRAW_STROKES, order, STROKES);
+  const int64_t first = plan->count;
   CAROM_PROMISE(ways <= CAROM_BALLS_MOST * CAROM_POCKETS_MOST);
   ways = (int)carom_min(ways, carom_max(most / STROKES, 4));
   const int64_t share = ways > 0 ? most / ways : 0;
@@ -220,15 +239,16 @@ void carom_search_pots(search *plan, int64_t most) {
                             .aimed_ball = (int16_t)way[w].ball,
                             .aimed_pocket = (int16_t)way[w].pocket});
     }
-  plan->stage = (carom_stage){.work = aim_rows, .rows = plan->count};
+  plan->stage = (carom_stage){.work = aim_rows, .first = first, .rows = plan->count - first};
 }
 
 /* Those that cannot be aimed are dropped. */
 void carom_search_aimed(search *plan) {
-  plan->count = 0;
+  const int64_t first = plan->stage.first;
+  plan->count = first;
   for (int64_t k = 0; k < plan->stage.done; k++)
     if (plan->outcome[k].turn)
-      carom_search_add(plan, plan->found[k]);
+      carom_search_add(plan, plan->found[first + k]);
 }
 
 /* Breaks: the nearest balls that are on, full and a little beside their middle, hard, with the tip
@@ -242,7 +262,7 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
   static const double share[2][SPEEDS] = {{1.0, 0.85, 0.7}, {0.25, 0.34, 0.46}},
                       tip[2][PLACES] = {{0.0, 0.2, -0.2}, {0.0, 0.25, 0.5}};
   const bool thin = plan->job.rules->breaks == 2;
-  const double *c = plan->job.balls[plan->view.cue_ball].state.r;
+  const double *c = plan->played[plan->cue_ball].state.r;
   const double foot =
       carom_angle_of(0.5 * plan->view.width - c[0], 0.75 * plan->view.length - c[1]);
 
@@ -290,14 +310,36 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
   }
 }
 
+/* A direction in which the cue ball meets a ball that is on, if nothing is between them; both are
+ * drawn. */
+static double towards(const search *plan, uint64_t row) {
+  int on[CAROM_BALLS_MOST], count = 0;
+  for (int n = 0; n < plan->view.count; n++)
+    if (plan->targets >> n & 1)
+      on[count++] = n;
+  const int k = on[(int)(count * carom_uniform(plan->options.seed, DRAW_SCAN, row, 2))];
+  const double *c = plan->played[plan->cue_ball].state.r, *r = plan->job.balls[k].state.r;
+  const double x = r[0] - c[0], y = r[1] - c[1];
+  const double both = plan->view.radius[plan->view.cue_ball] + plan->view.radius[k];
+  const double half = carom_asin(carom_within(both / sqrt(x * x + y * y), 0.0, 1.0));
+  const double off = 2.0 * carom_uniform(plan->options.seed, DRAW_SCAN, row, 3) - 1.0;
+  const double phi = (carom_angle_of(x, y) + off * half) / degree;
+  return phi < 0.0 ? phi + 360.0 : phi;
+}
+
 /* Strokes in all directions, of which those stay that meet a ball first that is on. The directions
- * follow the golden ratio, so that however many are tried, they are spread evenly. */
+ * follow the golden ratio, so that however many are tried, they are spread evenly. With ball in
+ * hand, where each place has few, every second one goes to a ball that is on: of 40 layouts of
+ * nine-ball, plans of 2,000 shots and a player with errors of 2, the chosen strokes were worth
+ * 0.595 with it, 0.572 without. */
 bool carom_search_scan(search *plan) {
   /* in blocks that are sooner made than a plan has to stop */
   enum { LEAST = 16, MOST = 4096 };
-  const int64_t block = (int64_t)carom_within((double)plan->scan / 2.0, LEAST, MOST);
+  const double parts = plan->places > 2 ? plan->places : 2.0;
+  const int64_t block = (int64_t)carom_within((double)plan->scan / parts, LEAST, MOST);
   if (plan->tried >= 4 * plan->scan || plan->count >= plan->scan_end || carom_is_stopped(plan))
     return false;
+  carom_search_next_place(plan);
   const double begin = carom_uniform(plan->options.seed, DRAW_SCAN, 0, 0);
   const int64_t first = plan->count, end = plan->tried + block;
   for (; plan->tried < end && plan->count < plan->most; plan->tried++) {
@@ -319,9 +361,12 @@ bool carom_search_scan(search *plan) {
       drawn[1] *= far;
       tip = drawn;
     }
+    double phi = 360.0 * turn;
+    if (plan->places > 0 && plan->tried % 2 == 1)
+      phi = towards(plan, row);
     const bool pushes = (plan->permissions & CAROM_MAY_PUSH) && plan->tried % 2 == 1;
     carom_search_add(plan, (candidate){.speed = carom_tip_gain(plan->job.cue) * scan_speed[speed],
-                                       .phi = 360.0 * turn,
+                                       .phi = phi,
                                        .a = tip[0],
                                        .b = tip[1],
                                        .kind = pushes ? CAROM_PLAN_PUSH : CAROM_PLAN_SCAN});

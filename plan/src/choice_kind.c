@@ -2,7 +2,6 @@
  * which the ball that is named falls. */
 #include "choice_kind.h"
 
-#include "drawn_tables.h"
 #include "pot_kind.h"
 #include "rows.h"
 
@@ -29,7 +28,8 @@ int32_t carom_search_kind(search *plan, const carom_candidate *c, const carom_ch
     carom_shot shot = {.brief = plan->event, .room = EVENTS, .facts = &facts};
     const uint32_t draws = n == 0 ? 0 : DRAW_ROUND;
     carom_cue cue = carom_search_stroke(plan, c, draws, n);
-    const carom_prepared layout = carom_search_layout(plan, draws, n);
+    carom_ball_state struck;
+    const carom_prepared layout = carom_search_layout(plan, c, draws, n, &struck);
     cue.ball = plan->cue_ball;
     carom_shoot_prepared(&layout, &cue, &shot);
     int32_t kind;

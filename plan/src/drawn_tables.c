@@ -62,7 +62,7 @@ void carom_search_tables(carom_search *plan, carom_drawn_table *room) {
   }
 }
 
-carom_prepared carom_search_layout(const carom_search *plan, uint32_t draws, int64_t row) {
+carom_prepared carom_search_drawn(const carom_search *plan, uint32_t draws, int64_t row) {
   carom_prepared p = plan->layout;
   carom_take_balls(&p, plan->played, plan->plays);
   if (draws == 0 || plan->drawn == NULL)

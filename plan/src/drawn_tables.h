@@ -7,6 +7,6 @@
 /* Draws the tables, into the caller's memory. */
 void carom_search_tables(carom_search *plan, carom_drawn_table *room);
 /* The balls in play on the table of a row. */
-carom_prepared carom_search_layout(const carom_search *plan, uint32_t draws, int64_t row);
+carom_prepared carom_search_drawn(const carom_search *plan, uint32_t draws, int64_t row);
 
 #endif

@@ -11,14 +11,18 @@
  *    shares of the shots. In each, the candidates that are left are played with errors, the same
  *    errors for all; a quarter of them stays. In the third round strokes near the best one join,
  *    with another speed, tip or direction; where no pot is direct, after each round.
+ * 5. The best is played again, with errors that have chosen nothing, which tell its chances.
+ *
+ * With ball in hand, candidates are made from several places, and race together.
  *
  * A shot is a row, whose errors are a function of seed, round and number. Rows are computed by
  * threads and added up in their order, so no bit of a sum depends on threads. The rows of a stage
  * are played at once or in slices, between which all of the plan is in the caller's memory. */
 #include "anytime.h"
 #include "candidates.h"
-#include "choice_kind.h"
 #include "drawn_tables.h"
+#include "listing.h"
+#include "places.h"
 #include "plan_options.h"
 #include "platform/fingerprint.h"
 #include "platform/ranges.h"
@@ -26,7 +30,6 @@
 #include "rows.h"
 #include "schema/options.h"
 #include "search.h"
-#include "table/spots.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -36,14 +39,19 @@ typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 typedef carom_search search;
 
-enum { PLACES = 60 }; /* of a cue ball in hand, of which PLACES_PLANNED are planned from */
-
 /* ---- Arguments */
 
 static const carom_plan_options no_options = {0};
 static const carom_shot_options no_shot = {0};
-/* FIRST: of the first round of doubling */
-enum { SHOTS_LEAST = 100, SHOTS_USUAL = 2000, SHOTS_IN_TIME = 200000, FIRST = 100, SPARE = 160 };
+/* FIRST: of the first round of doubling; IN_HAND_LEAST: of a plan whose places race */
+enum {
+  SHOTS_LEAST = 100,
+  IN_HAND_LEAST = 600,
+  SHOTS_USUAL = 2000,
+  SHOTS_IN_TIME = 200000,
+  FIRST = 100,
+  SPARE = 160
+};
 static const double player_most = 1000.0; /* of each number of a player */
 
 static carom_status check_options(const carom_plan_options *o) {
@@ -281,7 +289,8 @@ static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand)
 
 /* Prepares a job once for all that is played of it: its plan, in the job's memory, from which shots
  * can be played. */
-static carom_status prepare_job(const carom_plan_job *job, bool in_hand, search **prepared) {
+static carom_status prepare_job(const carom_plan_job *job, bool in_hand, int wanted,
+                                search **prepared) {
   search *plan = place(job);
   if (plan == NULL)
     return CAROM_ERROR_NULL;
@@ -289,6 +298,8 @@ static carom_status prepare_job(const carom_plan_job *job, bool in_hand, search 
   if (status != CAROM_OK)
     return status;
   plan->late = plan->joins = false;
+  plan->places = plan->place = 0;
+  plan->wanted = wanted < LISTED_MOST ? wanted : LISTED_MOST;
   plan->seconds = plan->options.seconds;
   if (plan->options.unsure > 0.0)
     carom_search_tables(plan, (carom_drawn_table *)(plan->outcome + plan->room));
@@ -319,58 +330,6 @@ static void with_crew(search *plan, carom_crew_caller *work) {
 static void plan_here(void *context, carom_crew *crew) {
   search *plan = context;
   plan->crew = crew;
-  do {
-    if (!carom_search_run(plan))
-      return;
-  } while (carom_search_double(plan));
-  if (plan->permissions & CAROM_MAY_PASS)
-    carom_search_pass(plan);
-  plan->ended = true;
-}
-
-/* Puts the cue ball in hand on the place k of those that are planned from. */
-static void put(search *plan, int k) {
-  const double *r = plan->best_place[k].r;
-  carom_place_ball(plan->job.table, plan->hand, (int)plan->job.count, plan->view.cue_ball, r[0],
-                   r[1], NULL);
-  carom_search_lay_out(plan, plan->hand);
-}
-
-/* The shots of the plan from each place. */
-static int64_t small_of(const search *plan) {
-  return carom_max(shots_of(&plan->options) / (2 * PLACES_PLANNED), 100);
-}
-
-/* A small plan from each place, then one with half of the shots from the best. Where that is
- * stopped before it has told more, the best so far is that of the small plans. */
-static void plan_places(void *context, carom_crew *crew) {
-  search *plan = context;
-  plan->crew = crew;
-  const int64_t small = small_of(plan), rest = shots_of(&plan->options) - plan->places * small;
-  while (plan->place < plan->places) {
-    if (!carom_search_run(plan))
-      return;
-    const candidate *c = &plan->found[0], *best = &plan->best;
-    /* a plan that was stopped before the rounds of the best one tells less */
-    const bool stopped = plan->place > 0 && c->round < best->round && carom_is_stopped(plan);
-    if (plan->place == 0 ||
-        (!stopped && c->sum / (double)c->seen > best->sum / (double)best->seen)) {
-      plan->best = *c;
-      plan->chosen = plan->place;
-    }
-
-    /* the next place; behind the last one the shots that are left, from the best */
-    const bool stops = carom_is_stopped(plan);
-    plan->place = stops ? plan->places : plan->place + 1;
-    const bool is_last = plan->place == plan->places;
-    put(plan, is_last ? plan->chosen : plan->place);
-    plan->count = 0;
-    if (!is_last)
-      carom_search_begin(plan, small);
-    else if (!stops)
-      carom_search_begin_doubling(plan, 2 * small, carom_max(rest, small));
-    plan->joins = is_last && carom_search_doubles(plan);
-  }
   do {
     if (!carom_search_run(plan))
       return;
@@ -408,86 +367,12 @@ static void try_all(void *context, carom_crew *crew) {
   }
 }
 
-/* The shots of the best choice chose it, so they were lucky for it. What the layout was worth
- * before is not, where games have taught it: it counts as so many shots. The games of
- * understanding/plan.md tell how many. */
-static void temper(const search *plan, const candidate *best, carom_choice *c) {
-  static const double shots = 10.0;
-  const bool stroke = c->kind == CAROM_PLAN_POT || c->kind == CAROM_PLAN_SCAN;
-  if (!stroke || plan->breaks || !carom_is_learned(&plan->view) ||
-      plan->job.rules->race == CAROM_RACE_ALONE)
-    return;
-  double x[NEXT_NUMBERS];
-  carom_plan_features(&plan->view, plan->state, plan->in_play, plan->targets, plan->pockets, 0,
-                      false, NULL, x);
-  const double value = carom_value_of(&plan->view, &plan->job.rules->state, plan->state, 0, false);
-  const double n = (double)best->seen, all = n + shots;
-  c->value = (best->sum + shots * value) / all;
-  c->keep = (n * c->keep + shots * carom_chance_next(&plan->view, x)) / all;
-  c->error *= n / all;
-}
-
-/* Whether a further candidate is a choice behind the best. One that was not played tells nothing;
- * one without a ball is none to a player who is alone; and one that looks better than the best was
- * played too seldom. */
-static bool is_choice(const search *plan, const candidate *from, const carom_choice *choice) {
-  const candidate *best = &plan->found[0];
-  const bool alone = plan->job.rules->race == CAROM_RACE_ALONE && !plan->breaks;
-  if (choice->seen == 0 && choice->kind != CAROM_PLAN_PASS)
-    return false;
-  if (choice->ball < 0 && alone)
-    return false;
-  const double mean = from->sum / (double)from->seen;
-  const double best_mean = best->sum / (double)best->seen;
-  return !(mean > best_mean && from->round < best->round);
-}
-
-/* Whether n choices hold one of the same ball, pocket and kind. */
-static bool has_same(const carom_choice *choices, int n, const carom_choice *choice) {
-  for (int k = 0; k < n; k++)
-    if (choices[k].ball == choice->ball && choices[k].pocket == choice->pocket &&
-        choices[k].kind == choice->kind)
-      return true;
-  return false;
-}
-
-/* Sorts a choice in behind n choices, the best first; of two of one value the earlier is first. */
-static void sort_in(carom_choice *choices, int n, const carom_choice *choice) {
-  int at = n;
-  for (; at > 0 && choices[at - 1].value < choice->value; at--)
-    choices[at] = choices[at - 1];
-  choices[at] = *choice;
-}
-
-/* The best choice of each ball, pocket and kind, the best first. A plan that was stopped has not
- * sorted what it found: the first is the best. */
-static int give(search *plan, carom_choice *choices, int room) {
-  const int most = carom_is_stopped(plan) ? 1 : room;
-  int n = 0;
-  for (int64_t k = 0; n < most && k < plan->count; k++) {
-    const candidate *from = &plan->found[k];
-    carom_choice choice = carom_search_choice(plan, from);
-    if (n > 0 && !is_choice(plan, from, &choice))
-      continue;
-
-    /* the best counts with what the layout was worth; no other is worth more */
-    if (n == 0)
-      temper(plan, from, &choice);
-    else
-      choice.value = fmin(choice.value, choices[0].value);
-    choice.kind = carom_search_kind(plan, from, &choice);
-    if (!has_same(choices, n, &choice))
-      sort_in(choices, n++, &choice);
-  }
-  return n;
-}
-
 /* Plays a slice of a plan, or what is left of it; and gives what it found if that is the end. */
 static carom_status play_slice(search *plan, carom_choice *choices, int room, int *found) {
   plan->slice = plan->options.slice > 0 ? plan->options.slice : INT64_MAX;
   if (!plan->ended)
     with_crew(plan, plan->go);
-  *found = plan->ended ? give(plan, choices, room) : 0;
+  *found = plan->ended ? carom_search_give(plan, choices, room) : 0;
   return CAROM_OK;
 }
 
@@ -495,7 +380,7 @@ carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int ro
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
   search *plan;
-  const carom_status status = prepare_job(job, false, &plan);
+  const carom_status status = prepare_job(job, false, room, &plan);
   if (status != CAROM_OK)
     return status;
   plan->fingerprint = fingerprint_of(job);
@@ -517,127 +402,28 @@ carom_status carom_plan_continue(const carom_plan_job *job, carom_choice *choice
   return same ? play_slice(plan, choices, room, found) : CAROM_ERROR_STATE;
 }
 
-/* Where a cue ball in hand may be put: the rectangle within the cushions that the caller and the
- * rules allow. */
-typedef struct hand_range {
-  double low[2], high[2];
-} hand_range;
-
-/* The range of places; low and high are the caller's bounds, or NULL. False where there is no
- * place: the range is empty, or has NaN. */
-static bool range_of(const search *plan, const double low[2], const double high[2],
-                     hand_range *range) {
-  const double R = plan->view.radius[plan->view.cue_ball];
-  const double size[2] = {plan->view.width, plan->view.length};
-  for (int x = 0; x < 2; x++) {
-    range->low[x] = R;
-    range->high[x] = size[x] - R;
-    if (low != NULL && !(low[x] <= R))
-      range->low[x] = low[x];
-    if (high != NULL && !(high[x] >= size[x] - R))
-      range->high[x] = high[x];
-  }
-
-  /* in snooker the box around the D */
-  if (plan->job.rules->rack == CAROM_RACK_SNOOKER) {
-    const carom_d d = carom_d_of(size[0], size[1]);
-    const double d_low[2] = {d.x - d.radius, d.y - d.radius}, d_high[2] = {d.x + d.radius, d.y};
-    for (int x = 0; x < 2; x++) {
-      range->low[x] = fmax(range->low[x], d_low[x]);
-      range->high[x] = fmin(range->high[x], d_high[x]);
-    }
-  }
-  return range->low[0] <= range->high[0] && range->low[1] <= range->high[1];
-}
-
-/* The place number k at random in the range. */
-static void draw_place(const search *plan, const hand_range *range, uint64_t k, double r[2]) {
-  for (int x = 0; x < 2; x++) {
-    const double share = carom_uniform(plan->options.seed, DRAW_PLACES, k, (uint32_t)x);
-    r[x] = range->low[x] + (range->high[x] - range->low[x]) * share;
-  }
-}
-
-/* The place number k of a break: one of six across, where the range ends, or at the head line, from
- * which a game is opened, if the caller has no upper bound. */
-static void break_place(const search *plan, const hand_range *range, bool bounded, uint64_t k,
-                        double r[2]) {
-  static const double across[PLACES_PLANNED] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
-  const double head = 0.25 * plan->view.length;
-  r[0] = range->low[0] + (range->high[0] - range->low[0]) * across[k % PLACES_PLANNED];
-  r[1] = range->high[1];
-  if (!bounded && r[1] > head)
-    r[1] = head;
-}
-
-/* Puts the cue ball in hand on a place. False where rules or balls do not allow it. */
-static bool place_in_hand(search *plan, const double r[2]) {
-  const carom_plan_job *job = &plan->job;
-  if (job->rules->rack == CAROM_RACK_SNOOKER && !carom_is_in_d(job->table, r[0], r[1]))
-    return false;
-  return carom_place_ball(job->table, plan->hand, (int)job->count, plan->view.cue_ball, r[0], r[1],
-                          NULL) == CAROM_OK;
-}
-
-/* Sorts the place on which the cue ball is in among the best, by the value of the layout. */
-static void keep_place(search *plan, const double r[2]) {
-  const int cue_ball = plan->view.cue_ball;
-  plan->state[cue_ball] = plan->hand[cue_ball].state;
-  const double value = carom_value_of(&plan->view, &plan->job.rules->state, plan->state, 0, false);
-  int at = plan->places < PLACES_PLANNED ? plan->places++ : PLACES_PLANNED;
-  for (; at > 0 && plan->best_place[at - 1].value < value; at--)
-    plan->best_place[at] = plan->best_place[at - 1];
-  plan->best_place[at] = (carom_place_in_hand){{r[0], r[1]}, value};
-}
-
-/* Finds the places that are planned from: of places at random the best by the value of the layout;
- * for a break all of those on the upper edge. False where there is none. */
-static bool find_places(search *plan, const double low[2], const double high[2]) {
-  hand_range range;
-  plan->places = 0;
-  if (!range_of(plan, low, high, &range))
-    return false;
-  const uint64_t draws = plan->breaks ? PLACES_PLANNED : 50 * PLACES;
-  int tried = 0;
-  for (uint64_t k = 0; k < draws && tried < PLACES; k++) {
-    double r[2];
-    if (plan->breaks)
-      break_place(plan, &range, high != NULL, k, r);
-    else
-      draw_place(plan, &range, k, r);
-    if (!place_in_hand(plan, r))
-      continue;
-    tried++;
-    keep_place(plan, r);
-  }
-  return plan->places > 0;
-}
-
 carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], const double high[2],
                              carom_choice *choices, int room, int *found) {
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
   search *plan;
-  carom_status status = prepare_job(job, true, &plan);
+  carom_status status = prepare_job(job, true, room, &plan);
   if (status != CAROM_OK)
     return status;
   think(plan);
   memcpy(plan->hand, job->balls, (size_t)job->count * sizeof *plan->hand);
-  if (!find_places(plan, low, high))
+  if (!carom_search_find_places(plan, low, high))
     return CAROM_ERROR_OFF_TABLE;
 
   /* with the cue ball on the best place the layout can be checked */
   plan->job.balls = plan->hand;
-  put(plan, 0);
+  carom_search_put(plan, plan->best_place[0].r);
   status = prepare(plan, plan->hand, true);
   if (status != CAROM_OK)
     return status;
-
-  /* the first of the small plans */
   plan->fingerprint = fingerprint_of(job);
-  plan->go = plan_places;
-  plan->place = 0;
-  carom_search_begin(plan, small_of(plan));
+  plan->go = plan_here;
+  carom_search_begin_doubling(plan, FIRST, carom_max(shots_of(&plan->options), IN_HAND_LEAST));
   return play_slice(plan, choices, room, found);
 }
 
@@ -651,7 +437,7 @@ carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, in
   if (n < 0 || n > MOST)
     return CAROM_ERROR_OPTIONS;
   search *plan;
-  carom_status status = prepare_job(job, false, &plan);
+  carom_status status = prepare_job(job, false, 1, &plan);
   for (int k = 0; k < n && status == CAROM_OK; k++)
     status = check_stroke(plan, &cues[k]);
   if (status != CAROM_OK)

@@ -13,7 +13,7 @@ typedef carom_search search;
 static const double softer = 0.002;
 
 static double merit_of(const candidate *c) {
-  const double mean = c->sum / (double)c->seen;
+  const double mean = c->chose.sum / (double)c->chose.seen;
   if (c->kind == CAROM_PLAN_BREAK)
     return mean;
   return mean - softer * c->speed;
@@ -57,14 +57,12 @@ static void vote(candidate *c, const outcome *o) {
 void carom_search_take(search *plan, int64_t k, const outcome *o) {
   CAROM_PROMISE(k >= 0 && k < plan->count);
   candidate *c = &plan->found[k];
-  c->sum = o->worth;
-  c->seen = 1;
+  c->chose = (carom_tally){.sum = o->worth, .seen = 1, .foul = o->foul};
   name(c, o);
   c->votes = c->pots = o->ball >= 0;
   c->own_ball = c->ball;
   c->own_pocket = c->pocket;
   c->own_cushions = c->cushions;
-  c->foul = o->foul;
   carom_search_lead(plan, k);
 }
 
@@ -83,29 +81,47 @@ void carom_search_sort(const search *plan, int64_t n) {
     }
 }
 
-void carom_search_add_up(search *plan) {
+static void add(carom_tally *t, const outcome *o) {
+  t->sum += o->worth;
+  t->squares += o->worth * o->worth;
+  t->keep += o->turn == CAROM_TURN_KEEP || o->turn == CAROM_TURN_WIN;
+  t->lose += o->turn == CAROM_TURN_LOSE;
+  t->foul += o->foul;
+  t->seen++;
+}
+
+/* How many candidates of the stage have been played `each` times. */
+static int64_t played(const search *plan, int64_t *each) {
   const carom_stage *s = &plan->stage;
-  const int64_t n = s->rows / s->each, each = n == 1 ? s->done : s->each;
-  CAROM_PROMISE(n >= 1 && n <= plan->count && each >= 1 && s->rows <= plan->room);
-  for (int64_t k = 0; k < s->done / each; k++) {
+  const int64_t n = s->rows / s->each;
+  *each = n == 1 ? s->done : s->each;
+  CAROM_PROMISE(n >= 1 && s->first + n <= plan->count && *each >= 1 && s->rows <= plan->room);
+  return s->done / *each;
+}
+
+void carom_search_add_up(search *plan) {
+  int64_t each;
+  const int64_t n = plan->stage.rows / plan->stage.each, done = played(plan, &each);
+  for (int64_t k = 0; k < done; k++) {
     candidate *c = &plan->found[k];
-    if (c->round == 0) { /* the shot without errors is forgotten */
-      c->sum = c->squares = 0.0;
-      c->seen = c->foul = 0;
-    }
+    if (c->round == 0) /* the shot without errors is forgotten */
+      c->chose = (carom_tally){0};
     for (int64_t j = 0; j < each; j++) {
       const outcome *o = &plan->outcome[k * each + j];
       if (!plan->job.rules->calls && c->kind != CAROM_PLAN_PUSH)
         vote(c, o);
-      c->sum += o->worth;
-      c->squares += o->worth * o->worth;
-      c->keep += o->turn == CAROM_TURN_KEEP || o->turn == CAROM_TURN_WIN;
-      c->lose += o->turn == CAROM_TURN_LOSE;
-      c->foul += o->foul;
+      add(&c->chose, o);
     }
-    c->seen += each;
     c->round++;
   }
   for (int64_t k = 1; k < n; k++)
     carom_search_lead(plan, k);
+}
+
+void carom_search_replayed(search *plan) {
+  int64_t each;
+  const int64_t done = played(plan, &each);
+  for (int64_t k = 0; k < done; k++)
+    for (int64_t j = 0; j < each; j++)
+      add(&plan->found[plan->stage.first + k].fresh, &plan->outcome[k * each + j]);
 }

@@ -10,6 +10,8 @@ void carom_search_take(carom_search *plan, int64_t k, const carom_outcome *o);
 /* Adds the outcomes of a round to its candidates. Of a round that was stopped, those count that
  * were played `each` times; of a round of one candidate all its rows. */
 void carom_search_add_up(carom_search *plan);
+/* Adds the outcomes of shots that chose nothing to the candidates of the stage. */
+void carom_search_replayed(carom_search *plan);
 /* Puts candidate k first if it is better than the first. */
 void carom_search_lead(carom_search *plan, int64_t k);
 /* Sorts the first n. */

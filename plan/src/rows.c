@@ -32,6 +32,26 @@ carom_cue carom_search_stroke(const search *plan, const candidate *c, uint32_t d
   return cue;
 }
 
+carom_prepared carom_search_layout(const search *plan, const candidate *c, uint32_t draws,
+                                   int64_t row, carom_ball_state *struck) {
+  carom_prepared layout = carom_search_drawn(plan, draws, row);
+  *struck = plan->played[plan->cue_ball].state;
+  struck->r[0] = c->r[0];
+  struck->r[1] = c->r[1];
+  layout.state[plan->cue_ball] = struck;
+  return layout;
+}
+
+/* A ball of the layout before the stroke of a candidate. */
+static carom_ball_state before(const search *plan, const candidate *c, int k) {
+  carom_ball_state state = plan->job.balls[k].state;
+  if (k == plan->view.cue_ball) {
+    state.r[0] = c->r[0];
+    state.r[1] = c->r[1];
+  }
+  return state;
+}
+
 /* The pot that a shot made: the first ball that fell into a pocket that counts. Where shots are
  * called, the candidate calls it; where only balls that are on may be called, it is one of them.
  * Without pockets it is the ball that was met first. */
@@ -55,13 +75,12 @@ double carom_search_share(const search *plan, double points) {
 /* The layout of the next stroke, by rules that ask where balls lie. Apart, as its balls would take
  * 10 KiB of the stack below a shot. */
 __attribute__((noinline)) static void settle(const search *plan, carom_rules_state *game,
-                                             carom_ball_state *final, bool taken_back,
-                                             carom_turn *turn) {
+                                             const candidate *c, carom_ball_state *final,
+                                             bool taken_back, carom_turn *turn) {
   carom_shot_ball balls[CAROM_BALLS_MOST];
   for (int k = 0; k < plan->view.count; k++) {
     balls[k] = plan->job.balls[k];
-    if (!taken_back)
-      balls[k].state = final[k];
+    balls[k].state = taken_back ? before(plan, c, k) : final[k];
   }
   carom_turn_settle(plan->job.rules, game, plan->job.table, balls, plan->view.count, turn);
   for (int k = 0; k < plan->view.count; k++)
@@ -110,10 +129,10 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   }
   const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
   if (rules->settle != NULL && (taken_back || turn.spot != 0 || turn.is == CAROM_TURN_PASS))
-    settle(plan, &game, final, taken_back, &turn);
+    settle(plan, &game, c, final, taken_back, &turn);
   for (int k = 0; k < plan->view.count; k++) {
     if (taken_back && rules->settle == NULL)
-      final[k] = plan->job.balls[k].state;
+      final[k] = before(plan, c, k);
     if (rules->settle == NULL && (turn.spot >> k & 1))
       final[k] = (carom_ball_state){
           .r = {0.5 * plan->view.width, 0.75 * plan->view.length, plan->view.radius[k]},
@@ -191,7 +210,8 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const candidate *c = &plan->found[s->first + row / s->each];
     carom_cue cue = carom_search_stroke(plan, c, s->draws, row % s->each);
     cue.ball = plan->cue_ball;
-    const carom_prepared layout = carom_search_layout(plan, s->draws, row % s->each);
+    carom_ball_state struck;
+    const carom_prepared layout = carom_search_layout(plan, c, s->draws, row % s->each, &struck);
     const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
     if (plan->plays < plan->view.count)
       spread(plan, &result);

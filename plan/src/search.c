@@ -3,6 +3,8 @@
 #include "search.h"
 
 #include "candidates.h"
+#include "listing.h"
+#include "places.h"
 #include "platform/promise.h"
 #include "ranking.h"
 #include "rows.h"
@@ -45,7 +47,7 @@ static int64_t first_round(search *plan, int64_t keep) {
 
 /* A gentle stroke towards the nearest ball that is on: nothing better is known. */
 static candidate gentle(const search *plan) {
-  const double *c = plan->job.balls[plan->view.cue_ball].state.r;
+  const double *c = plan->played[plan->cue_ball].state.r;
   double least = INFINITY, phi = 0.0;
   for (int k = 0; k < plan->view.count; k++) {
     const double x = plan->job.balls[k].state.r[0] - c[0], y = plan->job.balls[k].state.r[1] - c[1];
@@ -63,77 +65,6 @@ static candidate gentle(const search *plan) {
                      .pocket = -1};
 }
 
-/* A pot that a choice names; ball and pocket -1: none. */
-typedef struct named_pot {
-  int ball, pocket, cushions;
-} named_pot;
-
-/* Luck alone names no pot: where most strokes with errors pot nothing, it is that of the shot
- * without errors. A break names none. */
-static named_pot pot_of(const candidate *c) {
-  const bool often = 2 * c->keep >= c->seen;
-  const bool has_pot = c->ball < 0 || c->pots || often;
-  if (c->kind == CAROM_PLAN_BREAK || !has_pot)
-    return (named_pot){-1, -1, 0};
-  if (c->pots && !often)
-    return (named_pot){c->own_ball, c->own_pocket, c->own_cushions};
-  return (named_pot){c->ball, c->pocket, c->cushions};
-}
-
-/* The kind of a candidate as far as the candidate determines it: a direct pot is one of the ball
- * that was aimed at, and any other pot is a find of the scan. */
-static int kind_of(const candidate *c, const named_pot *pot) {
-  const bool aimed = pot->ball == c->aimed_ball && pot->pocket == c->aimed_pocket;
-  if (c->kind == CAROM_PLAN_POT && !aimed)
-    return CAROM_PLAN_SCAN;
-  return c->kind;
-}
-
-/* The standard error of the mean of the worths of a candidate. */
-static double error_of(const candidate *c) {
-  const double n = (double)c->seen;
-  const double mean = c->sum / n;
-  const double variance = c->squares / n - mean * mean;
-  if (c->seen <= 1 || !(variance > 0.0))
-    return 0.0;
-  return sqrt(variance / (n - 1.0));
-}
-
-carom_choice carom_search_choice(const search *plan, const candidate *c) {
-  CAROM_PROMISE(c->seen > 0 || carom_is_stopped(plan));
-  const double n = (double)c->seen, error = error_of(c);
-  const double *place = plan->job.balls[plan->view.cue_ball].state.r;
-
-  /* The shots by which a stroke was chosen overestimate it by about this much, as the games of
-   * docs/understanding/plan.md show. NaN stays NaN. */
-  const double luck = c->kind == CAROM_PLAN_GIVEN ? 0.0 : 0.75 * error;
-  const double value = c->sum / n - luck;
-
-  /* the shares of its shots */
-  const named_pot pot = pot_of(c);
-  const bool played = c->round > 0 && c->kind != CAROM_PLAN_PASS;
-  carom_choice choice = {.cue = *plan->job.cue,
-                         .place = {place[0], place[1]},
-                         .kind = kind_of(c, &pot),
-                         .ball = pot.ball,
-                         .pocket = pot.pocket,
-                         .cushions = pot.cushions,
-                         .value = value < 0.0 ? 0.0 : value,
-                         .error = error,
-                         .keep = (double)c->keep / n,
-                         .foul = (double)c->foul / n,
-                         .lose = (double)c->lose / n,
-                         .seen = played ? c->seen : 0};
-
-  /* its stroke, by the caller's cue */
-  choice.cue.speed = c->speed;
-  choice.cue.phi = c->phi;
-  choice.cue.theta = c->theta;
-  choice.cue.a = c->a;
-  choice.cue.b = c->b;
-  return choice;
-}
-
 double carom_scan_of(const carom_plan_options *o) {
   static const double usual = 0.5;
   if (o->scan == 0.0)
@@ -143,31 +74,105 @@ double carom_scan_of(const carom_plan_options *o) {
 
 /* ---- The course of a search: each of these sets the next stage, and what comes after it */
 
-/* Shots of the rounds. */
+/* Shots of the rounds: at least a third of all. */
 static int64_t left_for_rounds(const search *plan) {
-  return carom_max(plan->shots - plan->count, 0);
+  const int64_t left = plan->shots - plan->count - (plan->blind ? plan->shots / 4 : 0);
+  return carom_max(left, plan->shots / 3);
+}
+
+/* Whether one of the best has lost the game. */
+static bool loses(const search *plan) {
+  enum { BEST = 4 };
+  int64_t lost = 0;
+  for (int64_t k = 0; k < plan->count && k < BEST; k++)
+    lost += plan->found[k].round > 0 ? plan->found[k].chose.lose : 0;
+  return lost > 0;
+}
+
+/* Not to play, as one more candidate: its worth is that of the layout to the other. */
+static void pass(search *plan) {
+  carom_rules_state game = plan->job.rules->state; /* rules change it as they judge */
+  const carom_call call = {CAROM_CALL_PASS, -1};
+  plan->job.rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts, call);
+  const double value = 1.0 - carom_value_of(&plan->view, &game, plan->state, 1, false);
+  carom_search_add(plan, (candidate){.chose = {.sum = value, .squares = value * value, .seen = 1},
+                                     .kind = CAROM_PLAN_PASS,
+                                     .ball = CAROM_CALL_PASS,
+                                     .pocket = -1,
+                                     .round = plan->found[0].round});
+  plan->found[plan->count - 1].order = -1; /* of shots that are worth as much, none is played */
+  carom_search_lead(plan, plan->count - 1);
+}
+
+/* The best is played by shots that choose nothing, which tell its chances. */
+static void replay(search *plan) {
+  enum { SHARE = 10, LEAST = 30 };
+  plan->next = NEXT_ENDED;
+  if (carom_is_stopped(plan))
+    return;
+  if (plan->permissions & CAROM_MAY_PASS && plan->places == 0)
+    pass(plan);
+  carom_search_stage(plan, 0, 1, carom_max(plan->shots / SHARE, LEAST), DRAW_REPLAY);
+  plan->next = NEXT_REPLAY;
+}
+
+/* So are the other choices of the list, by fewer shots. A plan that a greater one follows has no
+ * list. */
+static void replay_list(search *plan) {
+  enum { SHARE = 40, LEAST = 20 };
+  plan->next = NEXT_ENDED;
+  if (carom_is_stopped(plan) || plan->wanted == 1 || plan->rest > 0)
+    return;
+  carom_search_sort(plan, plan->count);
+  carom_search_list(plan);
+  if (plan->listed == 1)
+    return;
+  carom_search_stage(plan, 1, plan->listed - 1, carom_max(plan->shots / SHARE, LEAST), DRAW_REPLAY);
+  plan->next = NEXT_LISTED;
+}
+
+/* Where many strokes have few shots each, or the best may lose the game at once, the few best are
+ * played more: twice, by the same errors. Returns whether they are. */
+static bool duel(search *plan) {
+  enum { DUELS = 2 };
+  if (plan->duels == DUELS || !(plan->blind || loses(plan)))
+    return false;
+  int64_t most = 2, shots = plan->shots / 10;
+  if (plan->duels == 0) {
+    most = (int64_t)carom_within((double)plan->shots / 200.0, 4.0, 10.0);
+    shots = plan->shots / 6;
+  }
+  const int64_t n = carom_min(plan->count, most);
+  const int64_t each = carom_min(carom_max(shots / n, 10), plan->room / n);
+  carom_search_stage(plan, 0, n, each, DRAW_ROUND + ROUNDS + (uint32_t)plan->duels);
+  plan->duels++;
+  plan->next = NEXT_DUEL;
+  return true;
 }
 
 /* A pot that looks better than the best one after fewer strokes is played as often as the best one
  * in the last round, before the plan reports it. */
 static void look_again(search *plan) {
   enum { LOOKS = 2 };
-  plan->next = NEXT_ENDED;
-  if (plan->look == LOOKS || carom_is_stopped(plan))
+  if (plan->look == LOOKS || plan->duels > 0 || carom_is_stopped(plan)) {
+    replay(plan);
     return;
+  }
   const candidate *best = &plan->found[0];
-  double most = best->sum / (double)best->seen;
+  double most = best->chose.sum / (double)best->chose.seen;
   plan->better = 0;
   for (int64_t k = 1; k < plan->count; k++) {
     const candidate *c = &plan->found[k];
     const bool other = c->ball != best->ball || c->pocket != best->pocket;
-    if (other && c->round > 0 && c->round < ROUNDS && c->sum / (double)c->seen > most) {
+    if (other && c->round > 0 && c->round < ROUNDS && c->chose.sum / (double)c->chose.seen > most) {
       plan->better = k;
-      most = c->sum / (double)c->seen;
+      most = c->chose.sum / (double)c->chose.seen;
     }
   }
-  if (plan->better == 0)
+  if (plan->better == 0) {
+    replay(plan);
     return;
+  }
 
   /* it is played in the place of the best, with which it is compared then */
   const candidate first = plan->found[0];
@@ -214,8 +219,7 @@ static void take_near(search *plan) {
       continue;
     carom_search_take(plan, first + k, &plan->outcome[k]);
     candidate c = plan->found[first + k];
-    c.sum = c.squares = 0.0;
-    c.seen = c.keep = c.foul = c.lose = 0;
+    c.chose = (carom_tally){0};
     c.round = (int16_t)plan->round;
     plan->found[first + plan->near] = plan->found[plan->entered + plan->near];
     plan->found[plan->entered + plan->near++] = c;
@@ -225,7 +229,8 @@ static void take_near(search *plan) {
 
 static void next_round(search *plan) {
   if (plan->round == ROUNDS || carom_is_stopped(plan)) {
-    look_again(plan);
+    if (carom_is_stopped(plan) || !duel(plan))
+      look_again(plan);
     return;
   }
   const bool joined = plan->blind ? plan->round > 0 : plan->round == NEAR_ROUND;
@@ -243,12 +248,11 @@ static void next_round(search *plan) {
 /* The best of the round of doubling before becomes a candidate that is in the first round. */
 static void join(search *plan) {
   candidate c = plan->best;
-  if (!plan->joins || c.kind == CAROM_PLAN_FOUL || plan->count == plan->most)
+  if (!plan->joins || c.kind == CAROM_PLAN_FOUL || c.kind == CAROM_PLAN_PASS ||
+      plan->count == plan->most)
     return;
-  c.sum = 2.0; /* a mean above 1 sorts before all that were played once */
-  c.seen = 1;
-  c.squares = 0.0;
-  c.keep = c.lose = c.foul = 0;
+  c.chose = (carom_tally){.sum = 2.0, .seen = 1}; /* sorts before all that were played once */
+  c.fresh = (carom_tally){0};
   c.round = 0;
   c.votes = c.pots;
   c.order = (int32_t)plan->count;
@@ -270,10 +274,21 @@ static void scan(search *plan) {
   }
 }
 
+/* The most pots, or strokes of a break, from a place. */
+static int64_t pots_of(const search *plan) {
+  const double share = plan->breaks ? 0.0 : carom_scan_of(&plan->options);
+  return (int64_t)((1.0 - share) * (double)plan->shots / 4.0) / carom_max(plan->raced, 1);
+}
+
 static void go_on(search *plan) {
   switch (plan->next) {
   case NEXT_AIMED:
     carom_search_aimed(plan);
+    if (plan->place + 1 < plan->raced && !carom_is_stopped(plan)) {
+      carom_search_next_place(plan);
+      carom_search_pots(plan, pots_of(plan));
+      break;
+    }
     carom_search_stage(plan, 0, plan->count, 1, 0);
     plan->next = NEXT_TAKEN;
     break;
@@ -292,6 +307,7 @@ static void go_on(search *plan) {
     scan(plan);
     break;
   case NEXT_ROUND:
+  case NEXT_DUEL:
     carom_search_add_up(plan);
     carom_search_sort(plan, plan->count);
     next_round(plan);
@@ -306,9 +322,18 @@ static void go_on(search *plan) {
     carom_search_sort(plan, plan->count);
     look_again(plan);
     break;
+  case NEXT_REPLAY:
+    if (plan->found[0].kind != CAROM_PLAN_PASS)
+      carom_search_replayed(plan);
+    replay_list(plan);
+    break;
+  case NEXT_LISTED:
+    carom_search_replayed(plan);
+    plan->next = NEXT_ENDED;
+    break;
   case NEXT_GENTLE:
     carom_search_add_up(plan);
-    plan->next = NEXT_ENDED;
+    replay(plan);
     break;
   case NEXT_ENDED:
     break;
@@ -316,43 +341,37 @@ static void go_on(search *plan) {
 }
 
 void carom_search_begin(search *plan, int64_t shots) {
+  enum { SHOTS_A_PLACE = 40, PLACES_LEAST = 6 };
   const double share = plan->breaks ? 0.0 : carom_scan_of(&plan->options);
-  const int64_t most = (int64_t)((1.0 - share) * (double)shots / 4.0);
   plan->shots = shots;
   plan->scan = (int64_t)(share * (double)shots);
   plan->count = plan->tried = 0;
-  plan->round = plan->look = 0;
+  plan->round = plan->look = plan->duels = 0;
   plan->near = -1;
-  if (plan->breaks) {
-    carom_search_breaks(plan, most);
-    carom_search_stage(plan, 0, plan->count, 1, 0);
-    plan->next = NEXT_TAKEN;
-  } else {
-    carom_search_pots(plan, most);
+  plan->listed = 1;
+
+  /* the first place */
+  const int64_t raced = carom_max(shots / SHOTS_A_PLACE, PLACES_LEAST);
+  plan->raced = (int)carom_min(plan->places, raced);
+  plan->place = -1;
+  plan->place = -1;
+  carom_search_next_place(plan);
+  if (!plan->breaks) {
+    carom_search_pots(plan, pots_of(plan));
     plan->next = NEXT_AIMED;
+    return;
   }
+  carom_search_breaks(plan, pots_of(plan));
+  while (plan->place + 1 < plan->raced) {
+    carom_search_next_place(plan);
+    carom_search_breaks(plan, pots_of(plan));
+  }
+  carom_search_stage(plan, 0, plan->count, 1, 0);
+  plan->next = NEXT_TAKEN;
 }
 
 bool carom_search_run(search *plan) {
   while (plan->next != NEXT_ENDED && carom_search_play(plan))
     go_on(plan);
   return plan->next == NEXT_ENDED;
-}
-
-/* Not to play, as one more candidate: its worth is that of the layout to the other. */
-void carom_search_pass(search *plan) {
-  carom_rules_state game = plan->job.rules->state; /* rules change it as they judge */
-  const carom_call call = {CAROM_CALL_PASS, -1};
-  plan->job.rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts, call);
-  const double value = 1.0 - carom_value_of(&plan->view, &game, plan->state, 1, false);
-  carom_search_add(plan, (candidate){.sum = value,
-                                     .squares = value * value,
-                                     .seen = 1,
-                                     .kind = CAROM_PLAN_PASS,
-                                     .ball = CAROM_CALL_PASS,
-                                     .pocket = -1,
-                                     .round = plan->found[0].round});
-  plan->found[plan->count - 1].order = -1; /* of shots that are worth as much, none is played */
-  carom_search_lead(plan, plan->count - 1);
-  carom_search_sort(plan, plan->count);
 }

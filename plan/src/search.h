@@ -8,9 +8,6 @@
 void carom_search_begin(carom_search *plan, int64_t shots);
 /* Goes on with them. Returns whether the end is reached, where the best candidate is the first. */
 bool carom_search_run(carom_search *plan);
-/* Adds the choice not to play as one more candidate. */
-void carom_search_pass(carom_search *plan);
-carom_choice carom_search_choice(const carom_search *plan, const carom_candidate *c);
 /* The share of the shots that the scan has. */
 double carom_scan_of(const carom_plan_options *o);
 

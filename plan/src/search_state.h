@@ -1,6 +1,7 @@
 /* The state of a search for the best shot: all that its sources share. What they do stands in a
  * header of each. A source knows this file and the headers that stand before its own, in this
- * order: drawn_tables.h, rows.h, ranking.h, choice_kind.h, candidates.h, search.h, anytime.h. */
+ * order: drawn_tables.h, rows.h, ranking.h, choice_kind.h, listing.h, places.h, candidates.h,
+ * search.h, anytime.h. */
 #ifndef CAROM_PLAN_SEARCH_STATE_H
 #define CAROM_PLAN_SEARCH_STATE_H
 
@@ -10,17 +11,32 @@
 #include "view.h"
 
 /* Stages of draws. */
-enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_BREAKS = 5, DRAW_TABLES, DRAW_ROUND = 16 };
-enum { PLACES_PLANNED = 6 }; /* of a cue ball in hand */
-enum { ROWS_LEAST = 4 };     /* rows worth a thread */
+enum {
+  DRAW_STROKES = 1,
+  DRAW_SCAN,
+  DRAW_PLACES,
+  DRAW_BREAKS = 5,
+  DRAW_TABLES,
+  DRAW_REPLAY,
+  DRAW_ROUND = 16
+};
+enum { PLACES_MOST = 24 }; /* of a cue ball in hand, from which strokes are candidates */
+enum { ROWS_LEAST = 4 };   /* rows worth a thread */
+enum { LISTED_MOST = 16 }; /* choices behind the best that are played anew */
 
-/* A stroke that may be chosen, and what its shots have told. `sum`, `squares`, `keep`, `foul`,
- * `lose` and `seen` count the shots with errors. Until there is one, they hold the shot without. */
+/* What shots with errors came to. */
+typedef struct carom_tally {
+  double sum, squares;      /* of the worths of the shots, and of their squares */
+  int32_t seen;             /* number of shots */
+  int32_t keep, foul, lose; /* shots by which the player keeps his turn, fouls, loses */
+} carom_tally;
+
+/* A stroke that may be chosen, and what its shots have told. */
 typedef struct carom_candidate {
+  double r[2];                    /* where the cue ball lies, m */
   double speed, phi, theta, a, b; /* as in carom_cue */
-  double sum, squares;            /* of the worths of its shots, and of their squares */
-  int64_t seen;                   /* number of shots */
-  int64_t keep, foul, lose;       /* shots by which the player keeps his turn, fouls, loses */
+  carom_tally chose;   /* the shots that compare it. Until there is one with errors, that without */
+  carom_tally fresh;   /* and those with errors that have chosen nothing */
   int32_t order;       /* when it was added; of two that are as good, the first is chosen */
   int32_t votes;       /* for the pot that is named, where rules have no calls */
   int16_t kind, round; /* a carom_plan_kind; rounds that it was played in */
@@ -51,14 +67,17 @@ typedef struct carom_stage {
 
 /* What the search does when all rows of its stage have been played. */
 typedef enum carom_search_next {
-  NEXT_ENDED, /* nothing: the best candidate is the first */
-  NEXT_AIMED, /* it plays the pots that could be aimed, once without errors */
-  NEXT_TAKEN, /* it takes them as candidates, and begins the scan */
-  NEXT_SCAN,  /* it takes the strokes of a block of the scan, and plays the next block */
-  NEXT_ROUND, /* it sorts the candidates of a round with errors, and begins the next round */
-  NEXT_NEAR,  /* it takes strokes near the best one into the round */
-  NEXT_LOOK,  /* it compares another pot, which was played again, with the best */
-  NEXT_GENTLE /* it ends: a gentle stroke is the only one */
+  NEXT_ENDED,  /* nothing: the best candidate is the first */
+  NEXT_AIMED,  /* it plays the pots that could be aimed, once without errors */
+  NEXT_TAKEN,  /* it takes them as candidates, and begins the scan */
+  NEXT_SCAN,   /* it takes the strokes of a block of the scan, and plays the next block */
+  NEXT_ROUND,  /* it sorts the candidates of a round with errors, and begins the next round */
+  NEXT_NEAR,   /* it takes strokes near the best one into the round */
+  NEXT_DUEL,   /* it sorts the few best, which were played against each other */
+  NEXT_LOOK,   /* it compares another pot, which was played again, with the best */
+  NEXT_REPLAY, /* it takes the shots of the best that have chosen nothing, */
+  NEXT_LISTED, /* and those of the other choices */
+  NEXT_GENTLE  /* it takes a gentle stroke, the only one */
 } carom_search_next;
 
 /* A direct pot that is a candidate. */
@@ -71,6 +90,12 @@ typedef struct carom_pot_found {
 typedef struct carom_place_in_hand {
   double r[2], value;
 } carom_place_in_hand;
+
+/* Where a cue ball in hand may be put: the rectangle within the cushions that the caller and the
+ * rules allow. */
+typedef struct carom_hand_range {
+  double low[2], high[2];
+} carom_hand_range;
 
 /* A table as it may be, where the player does not know it; the kinds are those of the balls in
  * play. */
@@ -110,11 +135,12 @@ typedef struct carom_search {
   carom_shot_ball played[CAROM_BALLS_MOST];
   int32_t plays, which[CAROM_BALLS_MOST], cue_ball;
   carom_pot_found pot[CAROM_BALLS_MOST * CAROM_POCKETS_MOST];
-  carom_brief_event event[128];                       /* of a stroke whose kind is asked */
-  carom_place_in_hand best_place[PLACES_PLANNED + 1]; /* the best first */
-  const carom_cue *cues;                              /* `tries` strokes of the caller, */
-  carom_choice *choices;                              /* and the room for their choices */
-  int places, tries;
+  carom_brief_event event[128];                    /* of a stroke whose kind is asked */
+  carom_place_in_hand best_place[PLACES_MOST + 1]; /* the best first */
+  carom_hand_range range;                          /* where the cue ball in hand may be put */
+  const carom_cue *cues;                           /* `tries` strokes of the caller, */
+  carom_choice *choices;                           /* and the room for their choices */
+  int places, tries;                               /* places 0: the cue ball is not in hand */
   /* The state of a plan in slices between two calls. */
   uint64_t fingerprint;  /* of the job; 0: no plan */
   carom_crew_caller *go; /* the function that goes on with it */
@@ -128,13 +154,15 @@ typedef struct carom_search {
   double end;     /* and when they are over; 0: never */
   carom_stage stage;
   carom_search_next next;
-  int64_t shots;                  /* of all stages, about, */
-  int64_t scan, scan_end, tried;  /* those of the scan; where its candidates end; tried so far */
-  int64_t better;                 /* the candidate that is looked at again */
-  int64_t entered;                /* candidates of that round from the one before, */
-  int64_t near;                   /* and strokes near the best that join it; -1: none yet */
-  int round, look, place, chosen; /* of places in hand: on its way, the best */
-  carom_candidate best;           /* and the stroke from there */
+  int64_t shots;                 /* of all stages, about, */
+  int64_t scan, scan_end, tried; /* those of the scan; where its candidates end; tried so far */
+  int64_t better;                /* the candidate that is looked at again */
+  int64_t entered;               /* candidates of that round from the one before, */
+  int64_t near;                  /* and strokes near the best that join it; -1: none yet */
+  int round, look, duels;        /* that have begun */
+  int place, raced;              /* from which candidates are made; how many places are tried */
+  int wanted, listed;            /* choices that the caller has room for; that stand first */
+  carom_candidate best;          /* of the rounds of doubling before */
 } carom_search;
 
 static inline bool carom_is_stopped(const carom_search *plan) {

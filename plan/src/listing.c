@@ -1,0 +1,236 @@
+/* Choices. Shots that compare a stroke overestimate the one that they choose, so the chances that a
+ * choice tells are those of fresh shots, whose errors have chosen nothing. */
+#include "listing.h"
+
+#include "choice_kind.h"
+#include "platform/promise.h"
+
+#include <math.h>
+
+typedef carom_candidate candidate;
+typedef carom_search search;
+
+/* A coach names no stroke that is much worse than the first one. */
+static const double points_most = 0.1;
+enum { SAFETIES = 3 }; /* that are played anew, of which the best is listed */
+/* A chance of fewer shots is none. */
+enum { TOLD_LEAST = 20 };
+
+/* What the shots of a candidate tell. */
+typedef struct told {
+  double value, error, keep, foul, lose;
+} told;
+
+static double mean_of(const carom_tally *t) {
+  return t->sum / (double)t->seen;
+}
+
+/* The standard error of the mean of the worths. */
+static double error_of(const carom_tally *t) {
+  const double n = (double)t->seen;
+  const double mean = mean_of(t);
+  const double variance = t->squares / n - mean * mean;
+  if (t->seen <= 1 || !(variance > 0.0))
+    return 0.0;
+  return sqrt(variance / (n - 1.0));
+}
+
+/* Some shots; NaN stays NaN. */
+static told told_by(const carom_tally *t) {
+  const double n = (double)t->seen;
+  return (told){mean_of(t), error_of(t), (double)t->keep / n, (double)t->foul / n,
+                (double)t->lose / n};
+}
+
+/* The shots of a candidate. Fresh ones are few, so as many of those that chose as count `shots`
+ * stand beside them. */
+static told told_of(const candidate *c) {
+  static const double shots = 10.0;
+  const told chose = told_by(&c->chose);
+  if (c->fresh.seen == 0)
+    return chose;
+  const told fresh = told_by(&c->fresh);
+  const double used = c->round > 0 ? fmin((double)c->chose.seen, shots) : 0.0;
+  const double part = used / ((double)c->fresh.seen + used), rest = 1.0 - part;
+  return (told){part * chose.value + rest * fresh.value, rest * fresh.error,
+                part * chose.keep + rest * fresh.keep, part * chose.foul + rest * fresh.foul,
+                part * chose.lose + rest * fresh.lose};
+}
+
+/* A pot that a choice names; ball and pocket -1: none. */
+typedef struct named_pot {
+  int ball, pocket, cushions;
+} named_pot;
+
+/* Luck alone names no pot: where most strokes with errors pot nothing, it is that of the shot
+ * without errors. A break names none. */
+static named_pot pot_of(const candidate *c) {
+  const bool often = told_of(c).keep >= 0.5;
+  const bool has_pot = c->ball < 0 || c->pots || often;
+  if (c->kind == CAROM_PLAN_BREAK || !has_pot)
+    return (named_pot){-1, -1, 0};
+  if (c->pots && !often)
+    return (named_pot){c->own_ball, c->own_pocket, c->own_cushions};
+  return (named_pot){c->ball, c->pocket, c->cushions};
+}
+
+/* The kind of a candidate as far as the candidate determines it: a direct pot is one of the ball
+ * that was aimed at, and any other pot is a find of the scan. */
+static int kind_of(const candidate *c, const named_pot *pot) {
+  const bool aimed = pot->ball == c->aimed_ball && pot->pocket == c->aimed_pocket;
+  if (c->kind == CAROM_PLAN_POT && !aimed)
+    return CAROM_PLAN_SCAN;
+  return c->kind;
+}
+
+carom_choice carom_search_choice(const search *plan, const candidate *c) {
+  const named_pot pot = pot_of(c);
+  const told chances = told_of(c);
+
+  /* by about so many standard errors a plan that was stopped overestimates what it has chosen */
+  const bool strikes = c->kind != CAROM_PLAN_PASS;
+  const bool lucky = c->fresh.seen == 0 && strikes && c->kind != CAROM_PLAN_GIVEN;
+  const double value = chances.value - (lucky ? 0.75 * chances.error : 0.0);
+  carom_choice choice = {.cue = *plan->job.cue,
+                         .place = {c->r[0], c->r[1]},
+                         .kind = kind_of(c, &pot),
+                         .ball = pot.ball,
+                         .pocket = pot.pocket,
+                         .cushions = pot.cushions,
+                         .value = value < 0.0 ? 0.0 : value,
+                         .error = chances.error,
+                         .keep = chances.keep,
+                         .foul = chances.foul,
+                         .lose = chances.lose};
+  if (strikes && (c->round > 0 || c->fresh.seen > 0))
+    choice.seen = c->fresh.seen + (c->round > 0 ? c->chose.seen : 0);
+
+  /* its stroke, by the caller's cue */
+  choice.cue.speed = c->speed;
+  choice.cue.phi = c->phi;
+  choice.cue.theta = c->theta;
+  choice.cue.a = c->a;
+  choice.cue.b = c->b;
+  return choice;
+}
+
+static bool is_same(const carom_choice *a, const carom_choice *b) {
+  return a->ball == b->ball && a->pocket == b->pocket && a->kind == b->kind;
+}
+
+/* Whether n choices hold one of the same ball, pocket and kind. */
+static bool has_same(const carom_choice *choices, int n, const carom_choice *choice) {
+  for (int k = 0; k < n; k++)
+    if (is_same(&choices[k], choice))
+      return true;
+  return false;
+}
+
+/* What a candidate tells, with its kind. */
+static carom_choice with_kind(search *plan, const candidate *c) {
+  carom_choice choice = carom_search_choice(plan, c);
+  choice.kind = carom_search_kind(plan, c, &choice);
+  return choice;
+}
+
+/* Whether a candidate is worth a place in the list. One that was not played tells nothing; one
+ * without a ball is none to a player who is alone; and one that looks better than the best was
+ * played too seldom. */
+static bool is_listed(const search *plan, const candidate *c) {
+  const candidate *best = &plan->found[0];
+  const bool alone = plan->job.rules->race == CAROM_RACE_ALONE && !plan->breaks;
+  if (c->kind == CAROM_PLAN_PASS)
+    return true;
+  if (c->round == 0 || (alone && pot_of(c).ball < 0))
+    return false;
+  const double mean = mean_of(&c->chose), best_mean = mean_of(&best->chose);
+  return mean >= best_mean - points_most && !(mean > best_mean && c->round < best->round);
+}
+
+static void swap(candidate *a, candidate *b) {
+  const candidate kept = *a;
+  *a = *b;
+  *b = kept;
+}
+
+static bool is_safety(const candidate *c) {
+  return c->kind == CAROM_PLAN_SCAN && pot_of(c).ball == -1;
+}
+
+/* Puts the safeties that look best, of those that are not listed, behind the list. */
+static void list_safeties(search *plan) {
+  for (int n = 0; n < SAFETIES; n++) {
+    int64_t best = -1;
+    for (int64_t k = plan->listed; k < plan->count; k++) {
+      const candidate *c = &plan->found[k];
+      const bool safe = is_safety(c) && 2 * c->chose.foul < c->chose.seen;
+      if (safe && (best < 0 || mean_of(&c->chose) > mean_of(&plan->found[best].chose)))
+        best = k;
+    }
+    if (best < 0)
+      return;
+    swap(&plan->found[plan->listed++], &plan->found[best]);
+  }
+}
+
+void carom_search_list(search *plan) {
+  carom_choice listed[LISTED_MOST];
+  listed[0] = with_kind(plan, &plan->found[0]);
+  plan->listed = 1;
+  bool safe = listed[0].kind == CAROM_PLAN_SAFETY;
+  for (int64_t k = 1; k < plan->count && plan->listed < plan->wanted; k++) {
+    if (!is_listed(plan, &plan->found[k]))
+      continue;
+    listed[plan->listed] = with_kind(plan, &plan->found[k]);
+    if (has_same(listed, plan->listed, &listed[plan->listed]))
+      continue;
+    safe |= listed[plan->listed].kind == CAROM_PLAN_SAFETY;
+    swap(&plan->found[plan->listed++], &plan->found[k]);
+  }
+  const bool alone = plan->job.rules->race == CAROM_RACE_ALONE;
+  if (plan->wanted > 1 && !safe && !alone && !plan->breaks && plan->view.pockets > 0)
+    list_safeties(plan);
+}
+
+/* Sorts a choice in behind n choices, the best first; of two of one value the one that keeps the
+ * turn more often, then the earlier, is first. */
+static void sort_in(carom_choice *choices, int n, const carom_choice *choice) {
+  int at = n;
+  for (; at > 1; at--) {
+    const carom_choice *before = &choices[at - 1];
+    const bool better = choice->value > before->value ||
+                        (choice->value == before->value && choice->keep > before->keep);
+    if (!better)
+      break;
+    choices[at] = *before;
+  }
+  choices[at] = *choice;
+}
+
+int carom_search_give(search *plan, carom_choice *choices, int room) {
+  carom_choice all[LISTED_MOST + SAFETIES];
+  int n = 0, given = 0;
+  for (int k = 0; k < carom_max(plan->listed, 1) && !(n > 0 && carom_is_stopped(plan)); k++) {
+    carom_choice choice = with_kind(plan, &plan->found[k]);
+    if (n > 0) {
+      if (choice.seen < TOLD_LEAST && choice.kind != CAROM_PLAN_PASS)
+        continue;
+      choice.value = fmin(choice.value, all[0].value);
+    }
+    sort_in(all, n++, &choice);
+  }
+
+  /* the best of each ball, pocket and kind; the best safety takes the last place at least, and a
+   * player who may pass is told so */
+  for (int k = 0; k < n; k++) {
+    const bool safety = all[k].kind == CAROM_PLAN_SAFETY;
+    const bool near = all[k].value >= all[0].value - points_most || all[k].kind == CAROM_PLAN_PASS;
+    if (has_same(choices, given, &all[k]) || !(near || safety))
+      continue;
+    if (given < room)
+      choices[given++] = all[k];
+    else if (safety && room > 1)
+      choices[room - 1] = all[k];
+  }
+  return given;
+}

@@ -1,0 +1,15 @@
+/* Choices: what candidates tell, and which of them a plan lists. */
+#ifndef CAROM_PLAN_LISTING_H
+#define CAROM_PLAN_LISTING_H
+
+#include "search_state.h"
+
+/* What a candidate tells. */
+carom_choice carom_search_choice(const carom_search *plan, const carom_candidate *c);
+/* Puts the candidates behind the best, plan->listed with it, that may be listed: one for each ball,
+ * pocket and kind, and some safeties. */
+void carom_search_list(carom_search *plan);
+/* Writes up to `room` choices of those that are listed, the best first. Returns their number. */
+int carom_search_give(carom_search *plan, carom_choice *choices, int room);
+
+#endif

@@ -1,0 +1,119 @@
+/* Places of a cue ball in hand. They and strokes are candidates of one race. */
+#include "places.h"
+
+#include "rows.h"
+#include "table/spots.h"
+
+#include <math.h>
+
+typedef carom_search search;
+
+enum { PLACES = 60 }; /* that are tried */
+
+/* Where the cue ball may be; low and high are the caller's bounds, or NULL. False where there is no
+ * place: the range is empty, or has NaN. */
+static bool find_range(search *plan, const double low[2], const double high[2]) {
+  const double R = plan->view.radius[plan->view.cue_ball];
+  const double size[2] = {plan->view.width, plan->view.length};
+  carom_hand_range *range = &plan->range;
+  for (int x = 0; x < 2; x++) {
+    range->low[x] = R;
+    range->high[x] = size[x] - R;
+    if (low != NULL && !(low[x] <= R))
+      range->low[x] = low[x];
+    if (high != NULL && !(high[x] >= size[x] - R))
+      range->high[x] = high[x];
+  }
+
+  /* in snooker the box around the D */
+  if (plan->job.rules->rack == CAROM_RACK_SNOOKER) {
+    const carom_d d = carom_d_of(size[0], size[1]);
+    const double d_low[2] = {d.x - d.radius, d.y - d.radius}, d_high[2] = {d.x + d.radius, d.y};
+    for (int x = 0; x < 2; x++) {
+      range->low[x] = fmax(range->low[x], d_low[x]);
+      range->high[x] = fmin(range->high[x], d_high[x]);
+    }
+  }
+  return range->low[0] <= range->high[0] && range->low[1] <= range->high[1];
+}
+
+/* The place number k at random in the range. */
+static void draw_place(const search *plan, uint64_t k, double r[2]) {
+  const carom_hand_range *range = &plan->range;
+  for (int x = 0; x < 2; x++) {
+    const double share = carom_uniform(plan->options.seed, DRAW_PLACES, k, (uint32_t)x);
+    r[x] = range->low[x] + (range->high[x] - range->low[x]) * share;
+  }
+}
+
+enum { BREAK_PLACES = 6 };
+/* The place number k of a break: one of six across, where the range ends, or at the head line, from
+ * which a game is opened, if the caller has no upper bound. */
+static void break_place(const search *plan, bool bounded, uint64_t k, double r[2]) {
+  static const double across[BREAK_PLACES] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
+  const carom_hand_range *range = &plan->range;
+  const double head = 0.25 * plan->view.length;
+  r[0] = range->low[0] + (range->high[0] - range->low[0]) * across[k % BREAK_PLACES];
+  r[1] = range->high[1];
+  if (!bounded && r[1] > head)
+    r[1] = head;
+}
+
+/* Puts the cue ball in hand on a place. */
+static bool place_in_hand(search *plan, const double r[2]) {
+  const carom_plan_job *job = &plan->job;
+  for (int x = 0; x < 2; x++)
+    if (!(r[x] >= plan->range.low[x] && r[x] <= plan->range.high[x]))
+      return false;
+  if (job->rules->rack == CAROM_RACK_SNOOKER && !carom_is_in_d(job->table, r[0], r[1]))
+    return false;
+  return carom_place_ball(job->table, plan->hand, (int)job->count, plan->view.cue_ball, r[0], r[1],
+                          NULL) == CAROM_OK;
+}
+
+/* Sorts the place on which the cue ball is in among the best, by the value of the layout. */
+static void keep_place(search *plan, const double r[2]) {
+  const int cue_ball = plan->view.cue_ball;
+  plan->state[cue_ball] = plan->hand[cue_ball].state;
+  const double value = carom_value_of(&plan->view, &plan->job.rules->state, plan->state, 0, false);
+  int at = plan->places < PLACES_MOST ? plan->places++ : PLACES_MOST;
+  for (; at > 0 && plan->best_place[at - 1].value < value; at--)
+    plan->best_place[at] = plan->best_place[at - 1];
+  plan->best_place[at] = (carom_place_in_hand){{r[0], r[1]}, value};
+}
+
+bool carom_search_find_places(search *plan, const double low[2], const double high[2]) {
+  plan->places = 0;
+  if (!find_range(plan, low, high))
+    return false;
+  const uint64_t draws = plan->breaks ? BREAK_PLACES : 50 * PLACES;
+  int tried = 0;
+  for (uint64_t k = 0; k < draws && tried < PLACES; k++) {
+    double r[2];
+    if (plan->breaks)
+      break_place(plan, high != NULL, k, r);
+    else
+      draw_place(plan, k, r);
+    if (!place_in_hand(plan, r))
+      continue;
+    tried++;
+    keep_place(plan, r);
+  }
+  return plan->places > 0;
+}
+
+bool carom_search_put(search *plan, const double r[2]) {
+  if (plan->places == 0)
+    return true;
+  const bool good = place_in_hand(plan, r);
+  if (good)
+    carom_search_lay_out(plan, plan->hand);
+  return good;
+}
+
+void carom_search_next_place(search *plan) {
+  if (plan->places == 0)
+    return;
+  plan->place = (plan->place + 1) % plan->raced;
+  carom_search_put(plan, plan->best_place[plan->place].r);
+}

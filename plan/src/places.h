@@ -1,0 +1,17 @@
+/* Places of a cue ball in hand. */
+#ifndef CAROM_PLAN_PLACES_H
+#define CAROM_PLAN_PLACES_H
+
+#include "search_state.h"
+
+/* Finds the places from which strokes are candidates, by the caller's bounds, or NULL. Of places at
+ * random these are the best by the value of the layout; for a break they are on the upper edge.
+ * False where there is none. */
+bool carom_search_find_places(carom_search *plan, const double low[2], const double high[2]);
+/* Lays the balls out with the cue ball in hand at r, for what is made next; a cue ball that is not
+ * in hand stays. False where rules or balls do not allow the place. */
+bool carom_search_put(carom_search *plan, const double r[2]);
+/* Lays the balls out with the cue ball on the next of the places. */
+void carom_search_next_place(carom_search *plan);
+
+#endif
