@@ -785,9 +785,9 @@ typedef struct carom_brief_event {
 #define CAROM_STOP_AT_CONTACT UINT64_C(1)
 
 /* Everything that a stopped shot needs to go on, with its count, time and facts, but without its
- * events; see carom_shot_continue(). The bytes may be copied, kept in a file and read by the same
- * build of the library, which refuses them if a byte has changed. They depend only on the arguments
- * of the calls, and are 0 where they hold nothing. */
+ * events; see carom_shot_continue(). The bytes may be copied, kept in a file and read by a library
+ * of the same version and physics revision, which refuses them if a byte has changed. They depend
+ * only on the arguments of the calls, and are 0 where they hold nothing. */
 typedef struct carom_shot_state {
   uint64_t opaque[4096];
 } carom_shot_state;
@@ -828,6 +828,9 @@ typedef struct carom_facts {
                              first one and those met within CAROM_RULES_INSTANT after it. */
   uint32_t barred;        /* the set of the balls that may not be met first because of their places.
                              A referee sets it; a shot leaves it 0. */
+  uint32_t jumped;        /* the set of the balls that the cue ball flew over before it met a ball:
+                             its centre passed theirs, and the balls overlap seen from above. */
+  uint32_t unused;        /* 0. */
   int32_t order[CAROM_BALLS_MOST]; /* the different balls that the cue ball met, in their order; -1
                                       behind them. */
   double first_place[2]; /* m: the place of the cue ball when it met the first ball; 0 if it met

@@ -21,7 +21,7 @@ static void draw(FILE *out, const void *data) {
 }
 
 /* Strokes with errors, of which some are drawn. */
-enum { TRIED = 500, DRAWN = 40, FOULS = CAROM_FOUL_DOUBLE_HIT + 1, MISS = FOULS, LOSS, WAYS };
+enum { TRIED = 500, DRAWN = 40, FOULS = CAROM_FOUL_JUMP + 1, MISS = FOULS, LOSS, WAYS };
 
 /* How a stroke failed: the foul, a loss or a miss. */
 static int failure_of(const carom_turn *turn) {

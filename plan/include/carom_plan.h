@@ -123,22 +123,24 @@ typedef enum carom_leave {
 /* Why a shot is a foul. The first of these that holds counts, except that DOUBLE_HIT comes before
  * CUSHION and BREAK. */
 typedef enum carom_foul {
-  CAROM_FOUL_NONE = 0,      /* it is no foul */
-  CAROM_FOUL_CUE_BALL = 1,  /* the cue ball fell or left the table */
-  CAROM_FOUL_NO_BALL = 2,   /* the cue ball met no ball */
-  CAROM_FOUL_FIRST = 3,     /* the cue ball first hit a ball that is not on */
-  CAROM_FOUL_OFF = 4,       /* a ball left the table */
-  CAROM_FOUL_CUSHION = 5,   /* nothing fell, and nothing met a cushion after the first contact.
+  CAROM_FOUL_NONE = 0,     /* it is no foul */
+  CAROM_FOUL_CUE_BALL = 1, /* the cue ball fell or left the table */
+  CAROM_FOUL_NO_BALL = 2,  /* the cue ball met no ball */
+  CAROM_FOUL_FIRST = 3,    /* the cue ball first hit a ball that is not on */
+  CAROM_FOUL_OFF = 4,      /* a ball left the table */
+  CAROM_FOUL_CUSHION = 5,  /* nothing fell, and nothing met a cushion after the first contact.
                                Unlike the WPA's rules, this counts a cushion at which a ball lay */
-  CAROM_FOUL_BREAK = 6,     /* a break that potted nothing drove too few balls to cushions. It needs
+  CAROM_FOUL_BREAK = 6,    /* a break that potted nothing drove too few balls to cushions. It needs
                                four; in straight pool the cue ball and two more, in bank pool two */
-  CAROM_FOUL_OTHER = 7,     /* another rule, such as one of the caller */
-  CAROM_FOUL_POT = 8,       /* a ball fell that was not on */
-  CAROM_FOUL_DOUBLE_HIT = 9 /* before the tip left the cue ball, the cue ball met a ball that was
+  CAROM_FOUL_OTHER = 7,    /* another rule, such as one of the caller */
+  CAROM_FOUL_POT = 8,      /* a ball fell that was not on */
+  CAROM_FOUL_DOUBLE_HIT = 9, /* before the tip left the cue ball, the cue ball met a ball that was
                                not frozen to it; or the tip touched the cue ball twice. The finest
                                graze counts too, although rules allow it. A player may play through
                                a frozen ball; in snooker and three-cushion that is a push. Later
                                touches are not known. */
+  CAROM_FOUL_JUMP = 10       /* in snooker: before it met a ball, the cue ball flew over one (WPBSA,
+                          section 2, rule 19) */
 } carom_foul;
 
 /* The foul of a shot by the rules that all games share: those up to CAROM_FOUL_CUSHION, and
@@ -306,8 +308,8 @@ typedef enum carom_rules_kind {
                                    colour or a free ball; without a call it is the ball that the cue
                                    ball hits first. A striker who is more than seven points ahead
                                    claims the frame when only the black is left. The caller has to
-                                   judge a miss, because only the caller knows the better stroke;
-                                   jump shots are not detected. State: on, score, free_ball; may,
+                                   judge a miss, because only the caller knows the better stroke.
+                                   State: on, score, free_ball; may,
                                    after a foul of the opponent: to pass, so that the opponent plays
                                    again, and a free ball. */
   CAROM_RULES_ONEPOCKET = 6,    /* one-pocket, BCA: 15 balls, of which any may be played; nothing is

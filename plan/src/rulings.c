@@ -77,7 +77,8 @@ const char *carom_foul_string(int foul) {
       "the break potted nothing, and drove too few balls to cushions",
       "another rule",
       "a ball fell that was not on",
-      "the tip was still on the cue ball, or touched it again, as it met a ball"};
+      "the tip was still on the cue ball, or touched it again, as it met a ball",
+      "the cue ball jumped over a ball"};
   return foul > 0 && foul < (int)(sizeof words / sizeof words[0]) ? words[foul] : "";
 }
 

@@ -149,6 +149,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   const uint32_t may_meet = free_ball ? to_meet | due : to_meet;
   const bool wrong_first =
       met_first != 0 && ((met_first & to_meet) == 0 || (met_first & ~may_meet) != 0);
+  const bool jumps = (facts->jumped & balls) != 0;
   const bool pushes = facts->pushed != 0 || facts->touches > 1;
   int32_t foul = CAROM_FOUL_NONE;
   if (off_cue)
@@ -161,6 +162,8 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     foul = CAROM_FOUL_OFF;
   else if (pushes)
     foul = CAROM_FOUL_DOUBLE_HIT;
+  else if (jumps)
+    foul = CAROM_FOUL_JUMP;
   else if ((facts->down & wrong) != 0)
     foul = CAROM_FOUL_POT;
   carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, gone & colours, 0.0};
@@ -168,7 +171,8 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if (foul != CAROM_FOUL_NONE) {
     int cost = value > LEAST ? value : LEAST;
     const int by_first = wrong_first ? highest(met_first) : 0,
-              by_fall = highest((wrong | facts->pushed) & ~(free_ball ? its : 0));
+              by_fall =
+                  highest((wrong | facts->pushed | facts->jumped) & balls & ~(free_ball ? its : 0));
     cost = by_first > cost ? by_first : cost;
     cost = by_fall > cost ? by_fall : cost;
     carom_add(&game->score[1], cost);

@@ -203,6 +203,45 @@ TEST(double_hits) {
   }
 }
 
+/* A cue ball that flies over a ball before it meets one is a foul in snooker (WPBSA, section 2,
+ * rule 19), which costs what the ball that it flew over is worth. */
+TEST(snooker_jumps) {
+  static const struct {
+    const char *what;
+    double theta, speed, x, at[2]; /* how far beside the way the blue is; of the red and the blue */
+    uint32_t jumped;
+    int foul, other;
+  } given[] = {{"over the blue", 30.0, 4.0, 0.0, {1.0, 0.35}, UINT32_C(1) << BLUE, JUMP, 5},
+               {"beside it", 30.0, 4.0, 0.06, {1.0, 0.35}, 0, LEGAL, 0},
+               {"level, with the blue behind", 0.0, 4.0, 0.0, {0.3, 0.9}, 0, LEGAL, 0}};
+  carom_table_make(CAROM_TABLE_SNOOKER, &table);
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+    carom_rack(CAROM_RACK_SNOOKER, &table, 1e-4, 1, balls, 22);
+    for (int ball = 2; ball < 22; ball++)
+      balls[ball].state.label = CAROM_BALL_POCKETED;
+    const double x = 0.5 * table.width;
+    carom_place_ball(&table, balls, 22, 0, x, 1.0, NULL);
+    carom_place_ball(&table, balls, 22, 1, x, 1.0 + given[k].at[0], NULL);
+    carom_place_ball(&table, balls, 22, BLUE, x + given[k].x, 1.0 + given[k].at[1], NULL);
+    carom_cue cue = carom_cue_of(CAROM_GAME_SNOOKER);
+    cue.speed = given[k].speed;
+    cue.theta = given[k].theta;
+    cue.a = cue.b = 0.0;
+    carom_facts facts;
+    carom_ball_state final[22];
+    carom_shot shot = {.facts = &facts, .final = final};
+    ck_assert_int_eq(carom_shoot(&table, balls, 22, &cue, NULL, &shot), CAROM_OK);
+    ck_assert_msg(facts.jumped == given[k].jumped && facts.first[0] == 1, "%s: %x, %d",
+                  given[k].what, facts.jumped, (int)facts.first[0]);
+    const carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
+    carom_ruling ruling;
+    carom_referee(&rules, &table, balls, 22, 0, &shot, (carom_call){NONE, -1}, &ruling);
+    ck_assert_msg(ruling.turn.foul == given[k].foul, "%s: %d", given[k].what,
+                  (int)ruling.turn.foul);
+    ck_assert_int_eq(ruling.state.score[0], given[k].other);
+  }
+}
+
 /* A ball on that touches the cue ball has been met by who plays away from it, whatever comes then;
  * of colours only the one that is named. A push costs what the ball is worth. */
 TEST(snooker_touching) {

@@ -40,6 +40,25 @@ static void widen_range(carom_facts *facts, const carom_sim *sim, bool begins) {
   }
 }
 
+/* The cue ball has an event before it has met a ball. Notes the balls, all at rest, that it has
+ * flown over since its last event, along a straight line. */
+static void fly_over(carom_facts *facts, const carom_sim *sim) {
+  const carom_ball_state *from = &sim->path[sim->struck].from, now = state_now(sim, sim->struck);
+  if (from->label != CAROM_BALL_AIRBORNE)
+    return;
+  const double x = now.r[0] - from->r[0], y = now.r[1] - from->r[1], square = x * x + y * y;
+  for (int k = 0; k < sim->count; k++) {
+    const carom_ball_state *over = &sim->path[k].from;
+    if (k == sim->struck || carom_is_out(over->label))
+      continue;
+    const double to_x = over->r[0] - from->r[0], to_y = over->r[1] - from->r[1];
+    const double along = x * to_x + y * to_y, across = x * to_y - y * to_x;
+    const double reach = sim->rates[k].radius + sim->rates[sim->struck].radius;
+    if (along > 0.0 && along < square && across * across < reach * reach * square)
+      facts->jumped |= set_of(k);
+  }
+}
+
 /* The cue ball meets a ball. Only the first meeting with each ball counts. */
 static void meet(carom_facts *facts, const carom_sim *sim, int other) {
   int met = 0;
@@ -89,8 +108,10 @@ void carom_facts_event(const carom_sim *sim, const carom_due *due) {
   const int a = due->a, b = due->b, cue = sim->struck;
   const bool balls = due->type == CAROM_EVENT_BALL_BALL;
   const bool of_cue = a == cue || (balls && b == cue);
-  if (of_cue && facts->first[0] < 0)
+  if (of_cue && facts->first[0] < 0) {
     widen_range(facts, sim, due->type == CAROM_EVENT_STRIKE && facts->touches == 0);
+    fly_over(facts, sim);
+  }
   switch (due->type) {
   case CAROM_EVENT_STRIKE:
     facts->moved |= set_of(a);

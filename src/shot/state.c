@@ -25,8 +25,13 @@ typedef struct result {
 
 enum { SIZE = sizeof(carom_sim) + sizeof(result) };
 
-/* The first number of a state: another version, or another layout, is refused. */
-static const uint64_t resumable = (uint64_t)CAROM_VERSION_NUMBER << 32 | SIZE;
+/* The first number of a state: another version, another revision of the physics, and another size
+ * are refused. */
+static uint64_t resumable(void) {
+  const uint64_t revision = (uint64_t)carom_physics_revision();
+  return (uint64_t)CAROM_VERSION_NUMBER << 32 | revision << 20 | SIZE;
+}
+_Static_assert(SIZE < 1 << 20, "the revision stands beside the size");
 _Static_assert(SIZE <= sizeof(carom_shot_state), "a shot on its way fits in the bytes of callers");
 
 /* ---- Fingerprints */
@@ -89,7 +94,7 @@ enum { SEAL = 1, SEALED = 2 }; /* words of a state: its seal, and the first afte
 _Static_assert(offsetof(carom_sim, seal) == SEAL * sizeof(uint64_t), "the seal is the second word");
 
 static uint64_t seal_of(const carom_shot_state *state) {
-  return carom_fingerprint(resumable, state->opaque + SEALED, SIZE - SEALED * sizeof(uint64_t));
+  return carom_fingerprint(resumable(), state->opaque + SEALED, SIZE - SEALED * sizeof(uint64_t));
 }
 
 /* Whether nothing stands in the bytes behind the shot. */
@@ -112,7 +117,7 @@ void carom_state_save(carom_sim *sim, carom_shot_state *state) {
   add_events(&so_far, shot, shot->count);
   so_far.time = shot->time;
   so_far.facts = *shot->facts;
-  sim->can_go_on = resumable;
+  sim->can_go_on = resumable();
   sim->rules = NULL; /* these come with the next call */
   sim->table = NULL;
   sim->features = NULL;
@@ -233,7 +238,7 @@ static bool restore(carom_sim *sim) {
 }
 
 carom_status carom_state_check(carom_sim *sim, const carom_shot_state *state, int count) {
-  if (sim->can_go_on != resumable || state->opaque[SEAL] != seal_of(state) || !ends_empty(state))
+  if (sim->can_go_on != resumable() || state->opaque[SEAL] != seal_of(state) || !ends_empty(state))
     return CAROM_ERROR_STATE;
   /* the table, the balls and the options */
   if (sim->world != sim->opt->world || sim->of_options != of_options(sim->opt))

@@ -679,6 +679,35 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
   return f;
 }
 
+/* The balls of a layout that the cue ball flew over before it met one: somewhere between two of its
+ * events it was beside each of them, and nearer to it than both radii. */
+static uint32_t jumped_over(const carom_event *events, int64_t count, int cue,
+                            const carom_shot_ball *lie, int on_table) {
+  uint32_t set = 0;
+  const carom_ball_state *from = NULL;
+  for (int64_t k = 0; k < count; k++) {
+    const carom_event *e = &events[k];
+    const bool two = e->type == CAROM_EVENT_BALL_BALL;
+    if (e->a != cue && !(two && e->b == cue))
+      continue;
+    const int side = e->a == cue ? 0 : 1;
+    const double *to = e->before[side].r;
+    for (int i = 0; from != NULL && from->label == CAROM_BALL_AIRBORNE && i < on_table; i++) {
+      const double *at = lie[i].state.r, both = lie[i].kind.radius + lie[cue].kind.radius;
+      const double way = hypot(to[0] - from->r[0], to[1] - from->r[1]);
+      const double x = (to[0] - from->r[0]) / way, y = (to[1] - from->r[1]) / way;
+      const double along = (at[0] - from->r[0]) * x + (at[1] - from->r[1]) * y;
+      const double apart = hypot(from->r[0] + along * x - at[0], from->r[1] + along * y - at[1]);
+      if (i != cue && along > 0.0 && along < way && apart < both)
+        set |= 1U << i;
+    }
+    if (two)
+      return set;
+    from = &e->after[side];
+  }
+  return set;
+}
+
 /* The balls that a cue ball pushed meets in its push. */
 static uint32_t met_in_push(const carom_event *events, int cue) {
   uint32_t met = 0;
@@ -694,7 +723,7 @@ TEST(facts_of_shots) {
   static carom_event events[10 * ROOM];
   static carom_shot_state state;
   make_breaks();
-  int down = 0, off = 0, second = 0, pushes = 0;
+  int down = 0, off = 0, second = 0, pushes = 0, jumps = 0;
   for (int k = 0; k < 60; k++) {
     carom_cue cue = cues[k == 4 ? 5 : k];
     carom_facts facts;
@@ -726,6 +755,8 @@ TEST(facts_of_shots) {
       if (i != cue.ball && hypot(a[0] - b[0], a[1] - b[1]) < reach)
         found.frozen |= 1U << i;
     }
+    found.jumped = jumped_over(events, shot.count, (int)cue.ball, lie, 16);
+    jumps += found.jumped != 0;
     for (int axis = 0; axis < 2; axis++) {
       const double from = lie[cue.ball].state.r[axis], to = facts.first_place[axis];
       ck_assert_double_le(facts.first_low[axis], fmin(from, facts.first[0] >= 0 ? to : from));
@@ -740,7 +771,7 @@ TEST(facts_of_shots) {
   }
   printf("%d shots pot, %d lose a ball over the cushions, in %d the cue ball meets a second ball\n",
          down, off, second);
-  ck_assert(down > 5 && second > 5 && pushes > 5);
+  ck_assert(down > 5 && second > 5 && pushes > 5 && jumps > 0);
   carom_facts facts;
   const carom_facts nothing = facts_of(events, 0, 0);
   ck_assert_int_lt(carom_shoot(&table, balls, 16, &cues[4], NULL, &(carom_shot){.facts = &facts}),

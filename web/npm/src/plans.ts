@@ -556,7 +556,7 @@ export class Plans {
   #readFacts(at: Pointer, count: number): ShotFacts {
     const { first, cushionsBefore, cushionsAfter, cushions, pocket, pocketTime, touches } =
       readStruct<C.Facts>(this.#memory, at, "carom_facts");
-    const all = (field: "down" | "off" | "frozen" | "pushed"): number[] =>
+    const all = (field: "down" | "off" | "frozen" | "pushed" | "jumped"): number[] =>
       members(this.#memory.u32[(at + FACTS.offset[field]) / 4]!, count);
     const potted = all("down").sort((a, b) => pocketTime[a]! - pocketTime[b]!);
     return {
@@ -568,6 +568,7 @@ export class Plans {
       off: all("off"),
       frozen: all("frozen"),
       pushed: all("pushed"),
+      jumped: all("jumped"),
       touches,
     };
   }

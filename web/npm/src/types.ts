@@ -331,6 +331,8 @@ export interface ShotFacts {
   frozen: readonly number[];
   /** The balls that it met before the tip left it. */
   pushed: readonly number[];
+  /** The balls that it flew over before it met one. */
+  jumped: readonly number[];
   /** Touches of the tip: 1, or 2 and more of a double hit within the push; 0 without a strike. */
   touches: number;
 }

@@ -59,6 +59,7 @@ class Foul(enum.IntEnum):
     OTHER = 7
     POT = 8
     DOUBLE_HIT = 9
+    JUMP = 10
 
     @property
     def text(self) -> str:
@@ -91,6 +92,7 @@ class Facts:
     cushions_after: int  # Those of all balls after the first contact
     frozen: frozenset[int]  # Balls that touched the cue ball when it was struck
     pushed: frozenset[int]  # Balls that it met before the tip left it
+    jumped: frozenset[int]  # Balls that it flew over before it met one
     touches: int  # Of the tip: 1, or 2 and more of a double hit within the push; 0 without a strike
     _record: bytes = field(repr=False)  # Of C, which copies and pickles as they are
 
@@ -108,7 +110,7 @@ def _facts(record: Any) -> Facts:
     potted = {ball: int(record.pocket[ball]) for ball in down}
     first, second = record.first
     before = (record.cushions_before[0], record.cushions_before[1])
-    sets = [of_set(of) for of in (record.off, record.frozen, record.pushed)]
+    sets = [of_set(of) for of in (record.off, record.frozen, record.pushed, record.jumped)]
     return Facts(
         first,
         second,
@@ -119,6 +121,7 @@ def _facts(record: Any) -> Facts:
         record.cushions_after,
         sets[1],
         sets[2],
+        sets[3],
         record.touches,
         bytes(ffi.buffer(record)),
     )
