@@ -3,6 +3,7 @@
 import { drawBall } from "./ball.js";
 import { drawBalls, drawTrails } from "./film.js";
 import { clothFor, fitTable, viewOf } from "./table.js";
+import { told } from "./words.js";
 
 /** @import { Film, Hooks, Point, Pose } from "./words.js" */
 /** @typedef {ReturnType<typeof parts>} Parts */
@@ -31,13 +32,17 @@ function parts() {
     id: "table-scene",
     role: "img",
     tabindex: "0",
-    "aria-label": "A billiard table from above",
+    "aria-label": told("A billiard table from above"),
   });
-  const play = make("button", { type: "button", id: "play" }, "Play");
-  const back = make("button", { type: "button", id: "back", "aria-label": "Previous event" }, "◀");
+  const play = make("button", { type: "button", id: "play" }, told("Play"));
+  const back = make(
+    "button",
+    { type: "button", id: "back", "aria-label": told("Previous event") },
+    "◀",
+  );
   const forward = make(
     "button",
-    { type: "button", id: "forward", "aria-label": "Next event" },
+    { type: "button", id: "forward", "aria-label": told("Next event") },
     "▶",
   );
   const paces = /** @type {const} */ ([
@@ -45,11 +50,11 @@ function parts() {
     ["0.25", "1/4 ×"],
     ["0.1", "1/10 ×"],
     ["4", "4 ×"],
-    ["1000", "at once"],
+    ["1000", told("at once")],
   ]);
   const pace = make(
     "select",
-    { id: "rate", "aria-label": "Speed of the film" },
+    { id: "rate", "aria-label": told("Speed of the film") },
     ...paces.map(([value, text]) => make("option", { value }, text)),
   );
   const slider = make("input", {
@@ -57,14 +62,14 @@ function parts() {
     id: "time",
     min: "0",
     step: "0.001",
-    "aria-label": "Time of the film",
+    "aria-label": told("Time of the film"),
   });
   const said = make("output", { id: "time-value", for: "time" });
   const controls = make("div", { class: "row film" }, play, back, forward, pace, slider, said);
   const list = make("ol", {});
   const events = make(
     "div",
-    { class: "events", tabindex: "0", role: "region", "aria-label": "Events" },
+    { class: "events", tabindex: "0", role: "region", "aria-label": told("Events") },
     list,
   );
   return { canvas, play, back, forward, pace, slider, said, controls, list, events };
@@ -149,13 +154,13 @@ function winding(of, clock, { ended, moved, still = () => false }, draw) {
     if (!clock.film) return;
     if (clock.time >= clock.end) clock.time = 0;
     clock.playing = true;
-    of.play.textContent = "Pause";
+    of.play.textContent = told("Pause");
     clock.before = performance.now();
     requestAnimationFrame(frame);
   }
   function stop() {
     clock.playing = false;
-    of.play.textContent = "Play";
+    of.play.textContent = told("Play");
   }
   /** @param {number} to */
   function go(to) {

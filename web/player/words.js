@@ -80,6 +80,14 @@ export function pocketName({ width, length, pockets }, pocket) {
   return `${isSide ? "side" : end}-${x > width / 2 ? "right" : "left"} pocket`;
 }
 
+/**
+ * Words of another language by the English ones: the page fills it, the pages of the command leave it
+ * empty. @type {Record<string, string>}
+ */
+export const DICTIONARY = {};
+/** A word in the reader's language; one that is not known stays English. @param {string} word */
+export const told = (word) => DICTIONARY[word] ?? word;
+
 /** @type {Record<string, string>} */
 const EVENTS = {
   ball_linear_cushion: "cushion",
@@ -97,7 +105,7 @@ const EVENTS = {
  * @param {number} a @param {number} b
  */
 export function wordsOf(table, names, type, a, b) {
-  if (type === "stick_ball") return "the cue strikes";
-  if (type === "ball_ball") return `${names[a]} hits ${names[b]}`;
-  return `${names[a]}: ${type === "ball_pocket" ? pocketName(table, b) : (EVENTS[type] ?? type)}`;
+  if (type === "stick_ball") return told("the cue strikes");
+  if (type === "ball_ball") return `${told(names[a])} ${told("hits")} ${told(names[b])}`;
+  return `${told(names[a])}: ${told(type === "ball_pocket" ? pocketName(table, b) : (EVENTS[type] ?? type))}`;
 }

@@ -4,6 +4,7 @@
 import { type Carom, load } from "carom";
 import { drillStroke } from "./play/drill_search.js";
 import { wrong } from "./ui.js";
+import { texts } from "./texts/texts.js";
 
 /** What runs in workers, by name. */
 const callsOf = (carom: Carom) => ({
@@ -52,7 +53,7 @@ function open(name: Name): Lane {
   );
   worker.addEventListener("error", (event) => {
     for (const { failed } of lane.waiting.values())
-      failed(new Error(`The worker that plans did not start: ${event.message}`));
+      failed(new Error(texts.theWorkerThatPlans(event.message)));
     lanes.delete(name);
   });
   lanes.set(name, lane);

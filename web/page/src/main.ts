@@ -8,6 +8,7 @@ import { collisionView } from "./lab/collision.js";
 import { laboratory } from "./lab/view.js";
 import { playView } from "./play/view.js";
 import { el, parameters, wrong } from "./ui.js";
+import { language, texts } from "./texts/texts.js";
 
 interface View {
   update(): void;
@@ -18,20 +19,22 @@ const VIEWS = ["play", "lab", "collision"] as const;
 
 async function begin(main: HTMLElement): Promise<void> {
   const solver = document.getElementById("solver") as HTMLSelectElement;
+  document.documentElement.lang = language;
+  for (const one of document.querySelectorAll<HTMLElement>("[data-text]"))
+    one.textContent = texts[one.dataset.text as "play"];
+  document.querySelector("nav")!.setAttribute("aria-label", texts.views);
   const theme = document.getElementById("theme") as HTMLButtonElement;
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
   let view: View | undefined;
   const dress = (isDark: boolean): void => {
     document.documentElement.dataset.theme = isDark ? "dark" : "light";
-    theme.textContent = isDark ? "Light" : "Dark";
+    theme.textContent = isDark ? texts.light : texts.dark;
     view?.theme();
   };
   dress(dark.matches);
   const carom = await load({ build: "simd" }).catch((error: unknown) => {
     throw error instanceof WebAssembly.CompileError
-      ? new Error(
-          "this page needs WebAssembly with vectors: Chrome 91, Firefox 113, Safari 16.4, or newer",
-        )
+      ? new Error(texts.thisPageNeedsWebassembly)
       : error;
   });
   document.getElementById("about")!.append(` carom ${carom.version}.`);
@@ -80,6 +83,6 @@ else {
   }
   const main = document.getElementById("main")!;
   begin(main).catch((error: unknown) => {
-    main.textContent = `The library did not start: ${wrong(error)}`;
+    main.textContent = texts.theLibraryDidNot(wrong(error));
   });
 }

@@ -1,6 +1,7 @@
 // Small helpers for the page: elements, sliders, canvases, the state in the address.
 
 import { make as el } from "../../player/player.js";
+import { texts } from "./texts/texts.js";
 
 export { el };
 
@@ -224,7 +225,7 @@ export function dialog(
       "div",
       { class: "row head" },
       el("h2", {}, title),
-      button("Close", () => made.close(), { class: "close" }),
+      button(texts.close, () => made.close(), { class: "close" }),
     ),
     ...children,
   );

@@ -6,6 +6,7 @@ import { wrong } from "../ui.js";
 import { CUSHIONS, DEFAULTS, type Desk, lay, says } from "./desk.js";
 import { placesOf, pocketed } from "../table/places.js";
 import { lineOf, take } from "./lines.js";
+import { texts } from "../texts/texts.js";
 
 /** All that differs from the defaults. */
 function stateOf(d: Desk): Record<string, string> {
@@ -96,15 +97,12 @@ export function undoing(d: Desk, changed: (past: boolean) => void) {
   }
   async function copyLink(): Promise<void> {
     commit();
-    if (!d.builtIn) return says(d, "A link names a built-in table; the recording has another one.");
+    if (!d.builtIn) return says(d, texts.aLinkNamesA);
     try {
       await navigator.clipboard.writeText(location.href);
-      says(d, "The link to this shot is copied.");
+      says(d, texts.theLinkToThis);
     } catch (error) {
-      says(
-        d,
-        `The browser does not let the page copy (${wrong(error)}). The address of the page is the link.`,
-      );
+      says(d, texts.theBrowserDoesNot(wrong(error)));
     }
   }
   return { commit, back, nextShot, copyLink };

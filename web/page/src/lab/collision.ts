@@ -17,6 +17,7 @@ import {
   valuesOf,
 } from "../ui.js";
 import { type Column, merged, plot } from "./plots.js";
+import { texts } from "../texts/texts.js";
 
 declare const MEASURED: string;
 
@@ -62,7 +63,7 @@ const turn = (degrees: number): number => ((((degrees + 180) % 360) + 360) % 360
 const sided = (degrees: number): string =>
   Math.abs(degrees) < 0.005
     ? "0.00°"
-    : `${Math.abs(degrees).toFixed(2)}° ${degrees > 0 ? "left" : "right"}`;
+    : `${Math.abs(degrees).toFixed(2)}° ${degrees > 0 ? texts.toTheLeft : texts.toTheRight}`;
 
 /**
  * Measured by Mathavan and others, 2014: rolling cue balls of snooker. Directions are those after
@@ -99,21 +100,21 @@ function controlsOf(update: () => void) {
   const given = parameters();
   const two = (x: number): string => x.toFixed(2);
   const sliders: Record<Exclude<keyof Setting, "law">, Slider> = {
-    speed: slider("speed", "Speed at the contact", 0.1, 8, 0.1, " m/s", update, (x) =>
+    speed: slider("speed", texts.speedAtTheContact, 0.1, 8, 0.1, " m/s", update, (x) =>
       x.toFixed(1),
     ),
-    cut: slider("cut", "Cut angle", -85, 85, 0.5, "°", update, (x) => x.toFixed(1)),
-    side: slider("side", "Tip to the right (+) or left", -0.7, 0.7, 0.01, " R", update, two),
-    tip: slider("tip", "Tip above (+) or below; 0.4 rolls", -0.7, 0.7, 0.01, " R", update, two),
-    mu: slider("mu", "Friction between the balls", 0, 0.2, 0.001, "", update, (x) => x.toFixed(3)),
-    cloth: slider("cloth", "Friction with the cloth", 0, 0.5, 0.01, "", update, two),
-    e: slider("e", "Restitution", 0.5, 1, 0.01, "", update, two),
+    cut: slider("cut", texts.cutAngle, -85, 85, 0.5, "°", update, (x) => x.toFixed(1)),
+    side: slider("side", texts.tipToTheRight, -0.7, 0.7, 0.01, " R", update, two),
+    tip: slider("tip", texts.tipAboveRolls, -0.7, 0.7, 0.01, " R", update, two),
+    mu: slider("mu", texts.frictionBetweenTheBalls, 0, 0.2, 0.001, "", update, (x) => x.toFixed(3)),
+    cloth: slider("cloth", texts.frictionWithTheCloth, 0, 0.5, 0.01, "", update, two),
+    e: slider("e", texts.restitution, 0.5, 1, 0.01, "", update, two),
   };
   for (const [key, one] of Object.entries(sliders)) {
     const x = given.has(key) ? Number(given.get(key)) : NaN;
     one.value = Number.isFinite(x) ? x : DEFAULTS[key]!;
   }
-  const law = check("law", "By Alciatore's law from the slip", update);
+  const law = check("law", texts.byAlciatoreSLaw, update);
   law.input.checked = given.get("law") !== "0";
   return { sliders, law };
 }
@@ -121,50 +122,50 @@ function controlsOf(update: () => void) {
 // ---- Curves -------------------------------------------------------------------------------------
 
 function plotsOf(into: HTMLElement) {
-  const cut = ["cut angle, °", -85, 85] as const;
+  const cut = [texts.cutAngleAxis, -85, 85] as const;
   return {
     throwByCut: plot(into, {
       id: "plot-throw-cut",
-      title: "Throw against cut angle",
+      title: texts.throwAgainstCutAngle,
       x: cut,
-      y: "throw, ° (+ left)",
-      note: "Orange: this collision. Grey: throw at 45° without spin, as D. Alciatore reports it for balls cleaned with Aramith (3.6°), used (4.9°), cleaned with alcohol (11°) and chalked at the contact (11.6°).",
+      y: texts.throwLeft,
+      note: texts.orangeThisCollisionGrey,
       series: [
-        { label: "throw", color: "accent" },
-        { label: "reported at 45°", color: "quiet", points: true },
+        { label: texts.throwCurve, color: "accent" },
+        { label: texts.reportedAt45, color: "quiet", points: true },
       ],
     }),
     throwBySide: plot(into, {
       id: "plot-throw-side",
-      title: "Throw against side spin",
-      x: ["tip to the right, R", -0.7, 0.7],
-      y: "throw, ° (+ left)",
-      note: "Where the curve crosses 0 the balls roll on each other like gears.",
-      series: [{ label: "throw", color: "accent" }],
+      title: texts.throwAgainstSideSpin,
+      x: [texts.tipToTheRightR, -0.7, 0.7],
+      y: texts.throwLeft,
+      note: texts.whereTheCurveCrosses,
+      series: [{ label: texts.throwCurve, color: "accent" }],
     }),
     deflection: plot(into, {
       id: "plot-deflection",
-      title: "Deflection of the cue ball, once it rolls",
+      title: texts.deflectionOfTheCue,
       x: cut,
-      y: "deflection, ° (+ left)",
+      y: texts.deflectionLeft,
       band: [27, 34],
-      note: "Band: the 30-degree rule, 27° to 34°. Points: five rolling shots measured by Mathavan and others (2014), on a snooker table.",
+      note: texts.bandThe30Degree,
       series: [
-        { label: "deflection", color: "accent" },
-        { label: "measured", color: "quiet", points: true },
+        { label: texts.deflectionCurve, color: "accent" },
+        { label: texts.measured, color: "quiet", points: true },
       ],
     }),
     inside: plot(into, {
       id: "plot-inside",
-      title: "Inside the contact",
-      x: ["normal impulse so far, N s", 0, 0],
+      title: texts.insideTheContact,
+      x: [texts.normalImpulseSoFar, 0, 0],
       y: "m/s",
-      note: "The balls press on each other for about 0.2 ms. Slips are speeds of one surface over the other; approach ends where compression turns into restitution.",
+      note: texts.theBallsPressOn,
       series: [
-        { label: "slip of the balls", color: "accent" },
-        { label: "of the cue ball on the cloth", color: "quiet", dash: [6, 4] },
-        { label: "of the object ball on the cloth", color: "cloth", dash: [2, 3] },
-        { label: "parting", color: "warm" },
+        { label: texts.slipOfTheBalls, color: "accent" },
+        { label: texts.ofTheCueBall, color: "quiet", dash: [6, 4] },
+        { label: texts.ofTheObjectBall, color: "cloth", dash: [2, 3] },
+        { label: texts.partingSpeed, color: "warm" },
       ],
     }),
   };
@@ -243,31 +244,31 @@ function rowsOf(
   const lost = before - energy(a) - energy(b);
   const gearing = Math.sin(s.cut / DEGREES) / 2.5;
   const way = (v: Vec3, stops = false): string =>
-    stops && norm(v) < 1e-9 ? "stops" : `${sided(direction(v))}, ${norm(v).toFixed(3)} m/s`;
+    stops && norm(v) < 1e-9 ? texts.stops : `${sided(direction(v))}, ${norm(v).toFixed(3)} m/s`;
   return [
-    ["throw", "Throw", sided(turn(direction(b.v) - s.cut))],
-    ["object", "Object ball", way(b.v)],
-    ["object-rolling", "once it rolls", way(rollsB!)],
-    ["deflection", "Cue ball", way(a.v, true)],
-    ["rolling", "once it rolls", way(rollsA!, true)],
-    ["spin", "Side spin transferred", `${b.w[2].toFixed(2)} rad/s`],
-    ["vertical", "Roll transferred", `${norm([b.w[0], b.w[1]]).toFixed(2)} rad/s`],
+    ["throw", texts.throwOf, sided(turn(direction(b.v) - s.cut))],
+    ["object", texts.objectBall, way(b.v)],
+    ["object-rolling", texts.onceItRolls, way(rollsB!)],
+    ["deflection", texts.cueBall, way(a.v, true)],
+    ["rolling", texts.onceItRolls, way(rollsA!, true)],
+    ["spin", texts.sideSpinTransferred, `${b.w[2].toFixed(2)} rad/s`],
+    ["vertical", texts.rollTransferred, `${norm([b.w[0], b.w[1]]).toFixed(2)} rad/s`],
     [
       "gearing",
-      "No throw with the tip at",
+      texts.noThrowWithThe,
       Math.abs(gearing) > 0.7
-        ? "beyond 0.7 R"
-        : `${Math.abs(gearing).toFixed(3)} R ${gearing > 0 ? "right" : "left"}`,
+        ? texts.beyond07R
+        : `${Math.abs(gearing).toFixed(3)} R ${gearing > 0 ? texts.toTheRight : texts.toTheLeft}`,
     ],
     [
       "energy",
-      "Energy lost",
+      texts.energyLost,
       `${(1000 * lost).toFixed(1)} mJ, ${((100 * lost) / before).toFixed(1)} %`,
     ],
-    ["impulse", "Normal impulse", `${detail.normal.toFixed(4)} N s`],
-    ["friction", "Impulse of friction", `${norm(detail.friction).toFixed(4)} N s`],
-    ["stick", "The balls stick", euler ? "unknown with Euler steps" : detail.stick],
-    ["status", "Status", status],
+    ["impulse", texts.normalImpulse, `${detail.normal.toFixed(4)} N s`],
+    ["friction", texts.impulseOfFriction, `${norm(detail.friction).toFixed(4)} N s`],
+    ["stick", texts.theBallsStick, euler ? texts.unknownWithEulerSteps : detail.stick],
+    ["status", texts.status, status],
   ];
 }
 
@@ -350,7 +351,13 @@ function show(view: View): void {
   );
   canvas.setAttribute(
     "aria-label",
-    `Two balls from above. Cut ${s.cut.toFixed(1)} degrees; the object ball goes ${sided(direction(b.v))} at ${norm(b.v).toFixed(2)} m/s, the cue ball ${sided(direction(a.v))} at ${norm(a.v).toFixed(2)} m/s.`,
+    texts.twoBallsFromAbove(
+      s.cut.toFixed(1),
+      sided(direction(b.v)),
+      norm(b.v).toFixed(2),
+      sided(direction(a.v)),
+      norm(a.v).toFixed(2),
+    ),
   );
   draw(view, s, a, b);
   drawCurves(view, s, impact, turn(direction(b.v) - s.cut), rolls[0]!);
@@ -410,29 +417,25 @@ export function collisionView(
       { class: "columns" },
       el(
         "section",
-        { class: "panel first", "aria-label": "Settings" },
-        el("h2", {}, "Two balls meet"),
+        { class: "panel first", "aria-label": texts.settings },
+        el("h2", {}, texts.twoBallsMeet),
         ...roots("speed", "cut", "side", "tip"),
         controls.law.root,
         ...roots("mu", "cloth", "e"),
       ),
       el(
         "section",
-        { class: "panel scene-panel", "aria-label": "Seen from above" },
+        { class: "panel scene-panel", "aria-label": texts.seenFromAbove },
         canvas,
-        el(
-          "p",
-          { class: "note" },
-          "Drag the white ball around the other one, or use the arrow keys, to set the cut. Solid arrows: just after the contact. Dashed: once the ball rolls. Red arcs: side spin.",
-        ),
+        el("p", { class: "note" }, texts.dragTheWhiteBall),
       ),
       el(
         "section",
-        { class: "panel", "aria-label": "Numbers" },
+        { class: "panel", "aria-label": texts.numbers },
         el(
           "table",
           { class: "numbers", id: "collision-numbers" },
-          el("caption", {}, "Just after, and once the balls roll"),
+          el("caption", {}, texts.justAfterAndOnce),
           numbers,
         ),
       ),

@@ -14,6 +14,7 @@ import type { player } from "../../../player/player.js";
 import { GAMES, type GameOf } from "../table/games.js";
 import { cueWith, strokeControls, strokeOf } from "../table/stroke.js";
 import { choice, el, slider, type Slider, wrong } from "../ui.js";
+import { texts } from "../texts/texts.js";
 
 export const DEFAULTS: Record<string, number> = { speed: 8, phi: 90, right: 0, up: 0.25, theta: 0 };
 /** Models of the cushion, the page's own choice first. */
@@ -72,7 +73,7 @@ export interface Desk {
 export function controlsOf(aimed: () => void, racked: () => void) {
   const two = (x: number): string => x.toFixed(2);
   const stroke = strokeControls(
-    slider("speed", "Speed of the cue", 0.1, 10, 0.05, " m/s", aimed, two),
+    slider("speed", texts.speedOfTheCue, 0.1, 10, 0.05, " m/s", aimed, two),
     "spin",
     aimed,
   );
@@ -85,13 +86,13 @@ export function controlsOf(aimed: () => void, racked: () => void) {
     value: (key: string): number => sliders[key]!.value,
     games: choice(
       "game",
-      "Game",
+      texts.game,
       Object.entries(GAMES).map(([key, { text }]) => [key, text] as const),
       racked,
     ),
     cushion: choice(
       "cushion",
-      "Cushions",
+      texts.cushions,
       CUSHIONS.map((word) => [word, `${word}: ${about.get(word)}`] as const),
       aimed,
     ),
@@ -128,7 +129,7 @@ export function suit(d: Desk): string {
   try {
     kind = d.carom.kind(d.game.game, optionsOf(d).cushionModel);
   } catch (error) {
-    said = `${wrong(error)}; it plays those of its own cushions.`;
+    said = texts.itPlaysThoseOf(wrong(error));
   }
   d.balls = d.balls.map(({ state }) => ({ kind, state }));
   return said;

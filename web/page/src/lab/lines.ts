@@ -6,6 +6,7 @@ import { GAMES, gameOf, type Read, TABLES } from "../table/games.js";
 import { wrong } from "../ui.js";
 import { aim, cueOf, type Desk, lay, optionsOf, says } from "./desk.js";
 import { present } from "./shown.js";
+import { texts, told } from "../texts/texts.js";
 
 export const lineOf = (d: Desk, id?: string): string =>
   toLine({
@@ -19,11 +20,7 @@ export function importLine(d: Desk): void {
   try {
     const { name, also } = take(d, d.controls.line.value);
     d.aimed();
-    if (also)
-      says(
-        d,
-        `The balls are read as those of ${GAMES[name]!.text}. If they are of ${GAMES[also]!.text}, choose this game and import again.`,
-      );
+    if (also) says(d, texts.theBallsAreRead(GAMES[name]!.text, GAMES[also]!.text));
   } catch (error) {
     says(d, wrong(error));
   }
@@ -31,8 +28,7 @@ export function importLine(d: Desk): void {
 /** Lays the balls of a line and aims as it says. Throws where it cannot be read. */
 export function take(d: Desk, text: string): Read<Line> {
   const read = fromLine(d.carom, text);
-  if (read.cue.ball !== 0)
-    throw new TypeError("cue.ball: this page strikes the first ball; put the cue ball first");
+  if (read.cue.ball !== 0) throw new TypeError(texts.cueBallThisPage);
   return use(d, gameOf(read, d.gameName));
 }
 function use<L extends Line>(d: Desk, read: Read<L>): Read<L> {
@@ -85,27 +81,27 @@ export function showRecorded(d: Desk, one: Replayed, from: number): void {
 export function aimAt(d: Desk, pocket: number): void {
   const { names, table, balls } = d;
   const ball = d.chosen > 0 ? d.chosen : (d.shot?.firstContact?.ball ?? -1);
-  const name = `ball ${names[ball]} into the ${pocketName(table, pocket)}`;
-  if (ball < 0) return says(d, "Which ball? Click it first, then the pocket.");
+  const name = texts.ballIntoThe(names[ball], told(pocketName(table, pocket)));
+  if (ball < 0) return says(d, texts.whichBallClickIt);
   const pot = d.carom.aim(table, balls, cueOf(d), { ball, pocket }, optionsOf(d));
   const { is: outcome, met } = pot;
-  if (outcome === "no_way") return says(d, `No such aim: no direction sends ${name}.`);
+  if (outcome === "no_way") return says(d, texts.noSuchAimNo(name));
   d.controls.set("phi", Math.round(pot.cue.phi * 1e4) / 1e4);
   d.aimed();
   const of = names[met?.a ?? 0];
-  const other = met?.type === "ball_ball" ? names[met.b] : "a cushion";
+  const other = met?.type === "ball_ball" ? names[met.b] : texts.aCushion;
   const why = {
     falls: "",
-    stick: "the stick would have to be raised too far",
-    rejected: "the jaws send it back",
-    short: `ball ${of} comes to rest on its way`,
-    barred: `ball ${of} meets ${other}`,
+    stick: texts.theStickWouldHave,
+    rejected: texts.theJawsSendIt,
+    short: texts.ballComesToRest(of),
+    barred: texts.ballMeets(of, other),
   }[outcome];
   const [low, high] = pot.speed.map((speed) => speed.toFixed(1));
-  if (outcome !== "falls") says(d, `Aimed, but ${name} does not fall: ${why}.`);
+  if (outcome !== "falls") says(d, texts.aimedButDoesNot(name, why));
   else
     says(
       d,
-      `Aimed: ${name}. The cut is ${Math.abs(pot.cut).toFixed(1)}°, its way may turn by ${pot.margin.toFixed(2)}° to either side, and it falls at ${low} to ${high} m/s.`,
+      texts.aimedTheCutIs(name, Math.abs(pot.cut).toFixed(1), pot.margin.toFixed(2), low, high),
     );
 }

@@ -4,6 +4,7 @@ import type { Replayed } from "carom";
 import { button, el, wrong } from "../ui.js";
 import { type Desk, type Reel, says } from "./desk.js";
 import { showRecorded } from "./lines.js";
+import { texts } from "../texts/texts.js";
 
 /** Plays the recording of a file again while it is `wanted`. The page lives meanwhile. */
 async function replayed(
@@ -17,7 +18,7 @@ async function replayed(
     for (const shot of d.carom.replay(await given.text())) {
       found.push(shot);
       if (performance.now() < pause) continue;
-      says(d, `${given.name}: ${found.length} shots so far …`);
+      says(d, texts.shotsSoFar(given.name, found.length));
       await new Promise(requestAnimationFrame);
       if (!wanted()) break;
       pause = performance.now() + 30;
@@ -34,13 +35,13 @@ export function reel(d: Desk): Reel {
   let opened = 0;
   const file = el("output", { id: "reel-file" });
   const said = el("output", { id: "reel-shot" });
-  const back = button("◀ Shot", () => go(shown - 1), {
+  const back = button(texts.shotBack, () => go(shown - 1), {
     id: "reel-back",
-    "aria-label": "Previous shot of the recording",
+    "aria-label": texts.previousShotOfThe,
   });
-  const next = button("Shot ▶", () => go(shown + 1), {
+  const next = button(texts.shotOn, () => go(shown + 1), {
     id: "reel-next",
-    "aria-label": "Next shot of the recording",
+    "aria-label": texts.nextShotOfThe,
   });
   const bar = el("div", { class: "row", id: "reel", hidden: "" }, back, next, said, file);
   const input = el("input", {
@@ -59,13 +60,13 @@ export function reel(d: Desk): Reel {
     const mine = ++opened;
     const { found, refused } = await replayed(d, given, () => mine === opened);
     if (mine !== opened) return;
-    if (found.length === 0) return says(d, `${given.name}: ${refused || "it has no shot"}`);
+    if (found.length === 0) return says(d, `${given.name}: ${refused || texts.itHasNoShot}`);
     const differ = found.filter(({ same }) => !same);
     const agrees =
       differ.length === 0
-        ? "every bit agrees"
-        : `${differ.length} ${differ.length === 1 ? "ends" : "end"} otherwise than recorded, first shot ${differ[0]!.shot} (line ${differ[0]!.line})`;
-    file.value = `${given.name}: ${found.length} ${found.length === 1 ? "shot" : "shots"}, ${agrees}.${refused && ` The rest is refused: ${refused}`}`;
+        ? texts.everyBitAgrees
+        : texts.shotsDiffer(differ.length, differ[0]!.shot, differ[0]!.line);
+    file.value = `${given.name}: ${texts.shotsCounted(found.length)}, ${agrees}.${refused && texts.theRestIsRefused(refused)}`;
     shots = found;
     bar.hidden = false;
     go(Math.max(found.indexOf(differ[0]!), 0));
@@ -81,13 +82,13 @@ export function reel(d: Desk): Reel {
     if (bar.hidden) return;
     back.disabled = shown <= 0;
     next.disabled = shown >= shots.length - 1;
-    const where = `Shot ${shown + 1} of ${shots.length}`;
-    if (shot === undefined) said.value = `${where} was changed.`;
-    else if (shot.same) said.value = `${where}: as recorded.`;
+    const where = texts.shotOf(shown + 1, shots.length);
+    if (shot === undefined) said.value = texts.wasChanged(where);
+    else if (shot.same) said.value = texts.asRecorded(where);
     else {
       const end = ({ status, events, time, hash }: Replayed["played"]): string =>
-        `${status}, ${events} events, ${time.toFixed(6)} s, hash ${hash}`;
-      said.value = `${where}, line ${shot.line}: recorded ${end(shot.recorded)}; played ${end(shot.played)}.`;
+        texts.eventsSHash(status, events, time.toFixed(6), hash);
+      said.value = texts.lineRecordedPlayed(where, shot.line, end(shot.recorded), end(shot.played));
     }
   }
 
@@ -98,7 +99,7 @@ export function reel(d: Desk): Reel {
       "span",
       {},
       input,
-      button("Open recording", () => input.click(), { id: "open-recording" }),
+      button(texts.openRecording, () => input.click(), { id: "open-recording" }),
     ),
     accept(target) {
       target.addEventListener(

@@ -3,6 +3,7 @@ import { CaromError, type Cue, type Replayed } from "carom";
 import { facing, filmOf, pathsOf } from "../table/filmed.js";
 import { el, wrong } from "../ui.js";
 import { type Desk, optionsOf, says, suit } from "./desk.js";
+import { texts } from "../texts/texts.js";
 
 /** Shows a stroke, which is played, or the shot of a recording. */
 export function present(d: Desk, stroke: Cue, played?: Replayed): void {
@@ -26,7 +27,10 @@ export function present(d: Desk, stroke: Cue, played?: Replayed): void {
     : [];
   showNumbers(d);
   d.film.show(filmOf({ table, balls, names, turned: d.faces.map(facing) }, d.shot, paths));
-  controls.cost.textContent = `The shot was computed in ${computed.toFixed(1)} ms, and drawn with its paths in ${(performance.now() - begun).toFixed(1)} ms.`;
+  controls.cost.textContent = texts.theShotWasComputed(
+    computed.toFixed(1),
+    (performance.now() - begun).toFixed(1),
+  );
   window.clearTimeout(d.writing);
   d.writing = window.setTimeout(d.settled, 150);
 }
@@ -43,23 +47,23 @@ function showNumbers({ controls, shot, balls, names, game, film }: Desk): void {
     const cushions = shot.events.filter((event) => event.type === "ball_linear_cushion").length;
     const { r, label } = shot.final[0]!;
     rows.push(
-      ["status", "Status", shot.status],
-      ["time", "Lasts", `${shot.time.toFixed(3)} s`],
-      ["count", "Events", String(shot.count)],
+      ["status", texts.status, shot.status],
+      ["time", texts.lasts, `${shot.time.toFixed(3)} s`],
+      ["count", texts.events, String(shot.count)],
     );
     rows.push([
       "contact",
-      "First ball hit",
-      contact ? `${names[contact.ball]} after ${contact.time.toFixed(3)} s` : "none",
+      texts.firstBallHit,
+      contact ? texts.afterS(names[contact.ball], contact.time.toFixed(3)) : texts.none,
     ]);
     rows.push(
-      ["cushions", "Contacts with cushions", String(cushions)],
-      ["pocketed", "Pocketed", fell.join(", ") || "none"],
+      ["cushions", texts.contactsWithCushions, String(cushions)],
+      ["pocketed", texts.pocketed, fell.join(", ") || texts.none],
     );
     rows.push([
       "cue-ball",
-      "Cue ball at the end",
-      label === "pocketed" ? "in a pocket" : `${r[0].toFixed(4)}, ${r[1].toFixed(4)} m`,
+      texts.cueBallAtThe,
+      label === "pocketed" ? texts.inAPocket : `${r[0].toFixed(4)}, ${r[1].toFixed(4)} m`,
     ]);
   }
   controls.summary.replaceChildren(
@@ -69,6 +73,10 @@ function showNumbers({ controls, shot, balls, names, game, film }: Desk): void {
   );
   film.canvas.setAttribute(
     "aria-label",
-    `${game.text} table from above. The shot lasts ${shot?.time.toFixed(1) ?? 0} seconds; ${contact ? `ball ${names[contact.ball]} is hit first` : "no ball is hit"}.`,
+    texts.tableFromAboveThe(
+      game.text,
+      shot?.time.toFixed(1) ?? 0,
+      contact ? texts.ballIsHitFirst(names[contact.ball]) : texts.noBallIsHit,
+    ),
   );
 }

@@ -9,6 +9,7 @@ import { drawHand, handle } from "./hand.js";
 import { importLine, lineOf } from "./lines.js";
 import { reel } from "./reel.js";
 import { present } from "./shown.js";
+import { texts } from "../texts/texts.js";
 
 function deskOf(carom: Carom, solver: Desk["solver"]): Desk {
   const controls = controlsOf(
@@ -52,7 +53,7 @@ function pageOf(d: Desk, tools: HTMLElement): HTMLElement {
     keys.map((key) => controls.sliders[key]!.root);
   const row = (...parts: HTMLElement[]): HTMLElement => el("div", { class: "row" }, ...parts);
   const out = button(
-    "Export",
+    texts.exportWord,
     () => {
       controls.line.value = lineOf(d, d.gameName);
       controls.line.select();
@@ -62,19 +63,19 @@ function pageOf(d: Desk, tools: HTMLElement): HTMLElement {
   const lines = el(
     "details",
     {},
-    el("summary", {}, "Export and import"),
-    el("label", { for: "line" }, "The shot as the line that carom shoot reads"),
+    el("summary", {}, texts.exportAndImport),
+    el("label", { for: "line" }, texts.theShotAsThe),
     controls.line,
     row(
       out,
-      button("Import", () => importLine(d), { id: "import" }),
+      button(texts.importWord, () => importLine(d), { id: "import" }),
       recording.open,
     ),
   );
   const numbers = el(
     "table",
     { class: "numbers", id: "shot-numbers" },
-    el("caption", {}, "The shot"),
+    el("caption", {}, texts.theShot),
     controls.summary,
   );
   return el(
@@ -82,15 +83,15 @@ function pageOf(d: Desk, tools: HTMLElement): HTMLElement {
     { class: "table-view" },
     el(
       "section",
-      { class: "stage", "aria-label": "Table" },
+      { class: "stage", "aria-label": texts.table },
       film.canvas,
       ...roots("speed"),
       controls.stroke.tip,
     ),
-    el("section", { class: "bar", "aria-label": "Film" }, film.controls, recording.bar, tools),
+    el("section", { class: "bar", "aria-label": texts.film }, film.controls, recording.bar, tools),
     el(
       "section",
-      { class: "panel aim", "aria-label": "The shot" },
+      { class: "panel aim", "aria-label": texts.theShot },
       ...roots("right", "up", "phi", "theta"),
       row(controls.games.root, controls.cushion.root),
       lines,
@@ -100,15 +101,15 @@ function pageOf(d: Desk, tools: HTMLElement): HTMLElement {
       { class: "below" },
       el(
         "section",
-        { class: "panel", "aria-label": "How" },
+        { class: "panel", "aria-label": texts.how },
         ...HELP.map((text) => el("p", { class: "note" }, text)),
         controls.cost,
       ),
-      el("section", { class: "panel", "aria-label": "The shot in numbers" }, numbers),
+      el("section", { class: "panel", "aria-label": texts.theShotInNumbers }, numbers),
       el(
         "section",
-        { class: "panel", "aria-label": "What happens" },
-        el("h2", {}, "Events"),
+        { class: "panel", "aria-label": texts.whatHappens },
+        el("h2", {}, texts.events),
         film.events,
       ),
     ),
@@ -123,18 +124,18 @@ export function laboratory(
   const d = deskOf(carom, solver);
   const { commit, back, nextShot, copyLink } = undoing(d, (past) => (undo.disabled = !past));
   d.settled = commit;
-  const undo = button("Undo", back, { id: "undo" });
+  const undo = button(texts.undo, back, { id: "undo" });
   const rack = button(
-    "New rack",
+    texts.newRack,
     () => {
       d.seed += 1;
       rackUp(d);
     },
     { id: "rack" },
   );
-  const next = button("Next shot", nextShot, {
+  const next = button(texts.nextShot, nextShot, {
     id: "next",
-    title: "The next shot, from where the balls of this one end",
+    title: texts.theNextShotFrom,
   });
   const page = pageOf(
     d,
@@ -143,7 +144,7 @@ export function laboratory(
       { class: "row" },
       undo,
       next,
-      button("Copy link", () => void copyLink(), { id: "copy" }),
+      button(texts.copyLink, () => void copyLink(), { id: "copy" }),
       rack,
       d.controls.message,
     ),
@@ -158,8 +159,8 @@ export function laboratory(
 }
 
 const HELP = [
-  "Drag on the cloth to aim, drag a ball to move it, and drag the stick to set the speed. A ball on the wood is in a pocket: drag it back onto the table.",
-  "Click a ball, then a pocket: the page aims there. The yellow handle of a ball that is picked, or the wheel, turns it in place.",
-  "Drop a recording of carom record on the page: it is played again and compared, shot by shot.",
-  "Keys on the table: ← → turn the aim (with Shift 1°), ↑ ↓ change the speed, Alt and arrows move the picked ball by 1 mm (with Shift 10), comma and full stop turn it, Ctrl Z undoes, space plays.",
+  texts.dragOnTheCloth,
+  texts.clickABallThen,
+  texts.dropARecordingOf,
+  texts.keysOnTheTable,
 ];

@@ -34,6 +34,7 @@ import {
   valid,
 } from "./session.js";
 import { shoot, undo } from "./turns.js";
+import { texts } from "../texts/texts.js";
 
 /**
  * What the pointers hold: one of them a grip, since it went down; two of them the table; and the
@@ -176,7 +177,7 @@ function choose(s: Session, target: { ball: number } | { pocket: number }): void
   const met = s.first?.ball ?? -1;
   if ("pocket" in target) {
     s.chosen = { ...valid(s), pocket: target.pocket, met };
-    if (needsCall(s.play) && !called(s)) says(s, "Which ball? Tap it first, then the pocket.");
+    if (needsCall(s.play) && !called(s)) says(s, texts.whichBallTapIt);
   } else {
     const { ball } = target;
     const mayBeCalled = needsCall(s.play) && ballsOn(s.play).includes(ball);

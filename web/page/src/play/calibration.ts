@@ -4,6 +4,7 @@ import { type Carom, CaromError, type Table } from "carom";
 import { POOL_TABLES } from "../table/games.js";
 import { button, choice, dialog, el } from "../ui.js";
 import { keepText, kept } from "./keep.js";
+import { texts } from "../texts/texts.js";
 
 /** Where the browser keeps the cushions of one's own table, as "restitution,friction". */
 const KEY = "carom-cushion";
@@ -18,11 +19,10 @@ export const ownCushion = (): string | undefined => kept(KEY);
 /** The two numbers of a cushion, in words. */
 export const wordsOfCushion = (own: string): string => {
   const [restitution, friction] = own.split(",");
-  return `restitution ${restitution}, friction ${friction}`;
+  return texts.restitutionFriction(restitution!, friction!);
 };
 
-const soft = (roll: number): string =>
-  roll > 0.5 ? "soft, so that it rolls" : "hard, at its middle";
+const soft = (roll: number): string => (roll > 0.5 ? texts.softSoThat : texts.hardAtItsMiddle);
 
 /** The table lying on its side: the corner of the banks is on the left below. Units are m. */
 function picture(carom: Carom, table: Table, back: readonly number[]): string {
@@ -47,7 +47,7 @@ function picture(carom: Carom, table: Table, back: readonly number[]): string {
     );
   });
   return (
-    `<svg viewBox="-0.05 -0.16 ${length + 0.1} ${width + 0.32}" role="img" aria-label="Three banks from a corner, off the other long rail, back to the first">` +
+    `<svg viewBox="-0.05 -0.16 ${length + 0.1} ${width + 0.32}" role="img" aria-label="${texts.threeBanks}">` +
     `<rect width="${length}" height="${width}"/>${sights.join("")}${ways.join("")}</svg>`
   );
 }
@@ -59,7 +59,7 @@ export function calibrationPage(
 ): { root: HTMLDialogElement; open(table: string): void } {
   const size = choice(
     "calibration-table",
-    "Table",
+    texts.table,
     Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const),
     show,
   );
@@ -81,7 +81,7 @@ export function calibrationPage(
   let own = "";
   let file = "";
   const play = button(
-    "Play on this table",
+    texts.playOnThisTable,
     () => {
       keepText(own, KEY);
       root.close();
@@ -90,7 +90,7 @@ export function calibrationPage(
     { id: "use-calibration", class: "main" },
   );
   const save = button(
-    "Save for the command",
+    texts.saveForTheCommand,
     () => {
       const link = el("a", {
         href: URL.createObjectURL(new Blob([file], { type: "application/json" })),
@@ -116,8 +116,11 @@ export function calibrationPage(
     drawn.innerHTML = picture(carom, table, comesBack);
     for (const k of BANKS) {
       const { aim, roll } = carom.bank(k);
-      told[k]!.textContent =
-        `through sight ${aim.toFixed(1)}, ${soft(roll)}; usually back at ${comesBack[k]!.toFixed(1)}`;
+      told[k]!.textContent = texts.throughSight(
+        aim.toFixed(1),
+        soft(roll),
+        comesBack[k]!.toFixed(1),
+      );
     }
     find();
   }
@@ -127,15 +130,14 @@ export function calibrationPage(
     const isRead = readings.every((one) => one > 0 && one < 8);
     allow(false);
     if (!isRead) {
-      said.textContent =
-        "Enter the sight where each bank came back, to a tenth: above 0 and below 8.";
+      said.textContent = texts.enterTheSight;
       return;
     }
     try {
       const found = carom.calibrate([a, b, c], tableHere());
       const { restitution, restitutionError, friction, frictionError, misfit } = found;
       if (misfit > MISREAD) {
-        said.textContent = `No cushion brings the banks back there: they miss by ${(2.5 * misfit).toFixed(0)} cm. Read them again, and mind the speeds.`;
+        said.textContent = texts.noCushionBrings((2.5 * misfit).toFixed(0));
         return;
       }
       own = `${restitution.toFixed(3)},${friction.toFixed(3)}`;
@@ -144,22 +146,23 @@ export function calibrationPage(
         constants: { restitution_cushion: restitution, mu_cushion: friction },
         spread: { restitution_cushion: restitutionError, mu_cushion: frictionError },
       });
-      said.textContent = `Your cushions: restitution ${restitution.toFixed(3)} ± ${restitutionError.toFixed(3)}, friction ${friction.toFixed(3)} ± ${frictionError.toFixed(3)}.`;
+      said.textContent = texts.yourCushions(
+        restitution.toFixed(3),
+        restitutionError.toFixed(3),
+        friction.toFixed(3),
+        frictionError.toFixed(3),
+      );
       allow(true);
     } catch (error) {
       if (!(error instanceof CaromError)) throw error;
-      said.textContent = `Nothing is found: ${error.message}.`;
+      said.textContent = texts.nothingIsFound(error.message);
     }
   }
 
   const root = dialog(
     "calibration",
-    "Calibrate by three banks",
-    el(
-      "p",
-      { class: "note" },
-      "Put the cue ball 35 cm from the left rail, on the line from the corner through a sight of the other long rail. Play it along this line without english, and read where it touches the first long rail again. Sights count from that corner.",
-    ),
+    texts.calibrateByBanks,
+    el("p", { class: "note" }, texts.putTheCueBall),
     el("div", { class: "fields" }, size.root),
     drawn,
     ...BANKS.map((k) =>

@@ -21,6 +21,7 @@ import {
   why,
   wordsOfLevel,
 } from "./session.js";
+import { texts } from "../texts/texts.js";
 
 /** Shots of a plan, and of the chances of one stroke. */
 const PLAN = 1000;
@@ -94,18 +95,18 @@ function sideOf(offset: number, above: string, below: string): string {
 }
 /** How a stroke is played: ", at 2.5 m/s with follow and left side". */
 function wordsOfCue({ a, b, speed }: Cue): string {
-  const height = sideOf(b, "follow", "draw");
-  const side = sideOf(a, "left side", "right side");
-  const tip = [height, side].filter(Boolean).join(" and ");
-  return `, at ${speed.toFixed(1)} m/s${tip && ` with ${tip}`}`;
+  const height = sideOf(b, texts.follow, texts.drawSpin);
+  const side = sideOf(a, texts.leftSide, texts.rightSide);
+  const tip = [height, side].filter(Boolean).join(texts.andWord);
+  return texts.atMS(speed.toFixed(1), tip && texts.withTip(tip));
 }
 function wordsOfHint(s: Session, choice: Choice): string {
   const { play, first } = s;
   const stroke = wordsOfChoice(play.table, play.names, choice, first?.ball === -1);
   const cue = choice.kind === "pass" ? "" : wordsOfCue(choice.cue);
   const chances = wordsOfChances(choice, play.played?.of === "threecushion");
-  const errors = play.practice ? "" : " This stroke errs like his.";
-  return `Hint: ${stroke}${cue}. ${wordsOfLevel(s)} ${chances}.${errors}`;
+  const errors = play.practice ? "" : texts.thisStrokeErrsLike;
+  return texts.hintOf(stroke, cue, wordsOfLevel(s), chances, errors);
 }
 
 /** Puts the stroke of a hint on the table: the cue ball in hand, the aim and the call. */
@@ -134,12 +135,12 @@ async function adviseDrill(s: Session, name: string, isWanted: () => boolean): P
   drop("drill"); // a search for another stroke
   const found = await far("drill", play.table, play.balls, drill, player, OPTIONS);
   if (!isWanted()) return;
-  if (!found) return says(s, "The search found no stroke that makes this drill from here.");
+  if (!found) return says(s, texts.theSearchFoundNo);
   aimAt(s, found.cue);
   s.hinted = true;
   s.showing.rest();
-  const share = `makes it in ${percent(found.made)} of ${found.plays} tries`;
-  says(s, `Hint: the stroke that is aimed${wordsOfCue(found.cue)}. ${wordsOfLevel(s)} ${share}.`);
+  const share = texts.makesItInOf(percent(found.made), found.plays);
+  says(s, texts.hintTheStrokeThat(wordsOfCue(found.cue), wordsOfLevel(s), share));
 }
 
 async function advise(s: Session): Promise<void> {
@@ -147,7 +148,7 @@ async function advise(s: Session): Promise<void> {
   const generation = ++s.searchGeneration;
   s.chancesGeneration++; // chances that come later do not hide the hint
   const isWanted = (): boolean => generation === s.searchGeneration && free(s);
-  says(s, "Looking for the best stroke …");
+  says(s, texts.lookingForTheBest);
   try {
     const { drill } = s.play.setup;
     if (drill !== undefined) return await adviseDrill(s, drill, isWanted);
@@ -173,7 +174,7 @@ async function chances(s: Session): Promise<void> {
     const choice = await chancesOf(requestOf(s.play, levelOf(s)), cueOf(s));
     if (generation !== s.chancesGeneration || !free(s)) return;
     const words = wordsOfChances(choice, play.played?.of === "threecushion");
-    says(s, `This stroke: ${wordsOfLevel(s)} ${words}.`);
+    says(s, texts.thisStroke(wordsOfLevel(s), words));
   } catch (error) {
     if (generation === s.chancesGeneration) says(s, wrong(error));
   }
@@ -208,10 +209,10 @@ async function lookBack(
     };
     keepRow(row);
     const cost = costOf(row)!;
-    const verdict = cost < 0.02 ? "You chose well." : `It cost ${percent(cost)}.`;
-    return `That stroke wins in ${percent(own.value)} of tries; the best one, ${row.best}, in ${percent(other.value)}. ${verdict}`;
+    const verdict = cost < 0.02 ? texts.youChoseWell : texts.itCost(percent(cost));
+    return texts.thatStrokeWinsIn(percent(own.value), row.best, percent(other.value), verdict);
   } catch (error) {
-    return `The review of that stroke failed: ${wrong(error)}`;
+    return texts.theReviewOfThat(wrong(error));
   }
 }
 

@@ -6,16 +6,17 @@ import { strokeControls } from "../table/stroke.js";
 import { button, drags, el, slider } from "../ui.js";
 import type { Controls, Session } from "./parts.js";
 import { shoot as play } from "./turns.js";
+import { texts } from "../texts/texts.js";
 
 const FASTEST = 10;
 /** The aim turns by so many degrees for each pixel of the wheel. */
 const STEP = 0.02;
 
 function shootButton(s: Session): HTMLButtonElement {
-  const shoot = button("Shoot", () => undefined, {
+  const shoot = button(texts.shoot, () => undefined, {
     id: "shoot",
     class: "main",
-    title: "Plays the stroke with the power that is set",
+    title: texts.playsTheStrokeWith,
   });
   let down: number | undefined;
   shoot.addEventListener("pointerdown", ({ button, pointerId }) => {
@@ -42,7 +43,13 @@ function shootButton(s: Session): HTMLButtonElement {
 function wheelOf(turn: (steps: number) => void): HTMLElement {
   const wheel = el(
     "div",
-    { id: "wheel", role: "slider", tabindex: "0", "aria-label": "Fine aim", "aria-valuenow": "0" },
+    {
+      id: "wheel",
+      role: "slider",
+      tabindex: "0",
+      "aria-label": texts.fineAim,
+      "aria-valuenow": "0",
+    },
     el("span", {}, `↺ ${STEP}° ↻`),
   );
   let from = 0;
@@ -52,7 +59,7 @@ function wheelOf(turn: (steps: number) => void): HTMLElement {
     at += steps;
     wheel.style.backgroundPositionX = `${at}px`;
     wheel.setAttribute("aria-valuenow", String(at));
-    wheel.setAttribute("aria-valuetext", `${(at * STEP).toFixed(2)} degrees to the right`);
+    wheel.setAttribute("aria-valuetext", texts.degreesToTheRight((at * STEP).toFixed(2)));
     turn(steps);
   };
   drags(wheel, ({ clientX: x }, first) => {
@@ -75,7 +82,7 @@ function wheelOf(turn: (steps: number) => void): HTMLElement {
 
 export function controls(s: Session): Controls {
   const { sliders, tip, set, value } = strokeControls(
-    slider("power", "Power", 0.1, FASTEST, 0.05, "", s.changed, (x) => `${x.toFixed(1)} m/s`),
+    slider("power", texts.power, 0.1, FASTEST, 0.05, "", s.changed, (x) => `${x.toFixed(1)} m/s`),
     "tip-ball",
     s.changed,
   );
@@ -85,7 +92,7 @@ export function controls(s: Session): Controls {
     set({ phi: (Math.round((sliders.phi.value - STEP * steps + 360) * 1000) / 1000) % 360 });
     s.changed();
   });
-  const part = el("div", { id: "part", role: "img", "aria-label": "The aim meets no ball" });
+  const part = el("div", { id: "part", role: "img", "aria-label": texts.theAimMeetsNo });
   part.innerHTML =
     '<svg viewBox="-3.1 -1.1 6.2 2.2"><circle r="1" fill="#e8702a" stroke="#000a" stroke-width="0.05"/><circle class="over" r="1" fill="#fbfaf5c0" stroke="#000a" stroke-width="0.05"/></svg>';
   const share = el("span");
@@ -94,7 +101,7 @@ export function controls(s: Session): Controls {
   return {
     side: el(
       "section",
-      { class: "side", "aria-label": "The stroke" },
+      { class: "side", "aria-label": texts.theStroke },
       sliders.speed.root,
       part,
       tip,
@@ -104,7 +111,7 @@ export function controls(s: Session): Controls {
     numbers: el(
       "details",
       { class: "numbers-of" },
-      el("summary", {}, "Stroke in numbers"),
+      el("summary", {}, texts.strokeInNumbers),
       ...(["phi", "right", "up", "theta"] as const).map((key) => sliders[key].root),
     ),
     set,
@@ -116,7 +123,7 @@ export function controls(s: Session): Controls {
         .querySelector(".over")!
         .setAttribute("cx", String(2 * contact.side * (1 - contact.share)));
       share.textContent = `${Math.round(100 * contact.share)} %`;
-      part.setAttribute("aria-label", `The aim meets ${share.textContent} of the ${name}`);
+      part.setAttribute("aria-label", texts.theAimMeetsOf(share.textContent, name));
     },
   };
 }

@@ -9,6 +9,7 @@ import { placesText } from "../table/places.js";
 import { button, check, choice, dialog, el } from "../ui.js";
 import { OPTIONS, Play, type Setup, tableOf } from "./game.js";
 import { pack, send, unpack } from "./keep.js";
+import { texts } from "../texts/texts.js";
 
 /** Of the cue, what the page sets: m/s, degrees, radii of the ball. */
 const SET = ["speed", "phi", "a", "b", "theta"] as const;
@@ -30,13 +31,18 @@ export type Source = readonly [name: string, balls: readonly ShotBall[], cue: Cu
 
 function wordsOfCue({ speed, phi, a, b, theta }: Cue): string {
   const off = [
-    [-a, "right", "left"],
-    [b, "above", "below"],
+    [-a, texts.toTheRight, texts.toTheLeft],
+    [b, texts.above, texts.below],
   ] as const;
   const tip = off.flatMap(([x, more, less]) =>
     Math.abs(x) < 0.005 ? [] : `${Math.abs(x).toFixed(2)} R ${x > 0 ? more : less}`,
   );
-  return `Cue: ${speed.toFixed(1)} m/s, direction ${phi.toFixed(2)}°, tip ${tip.join(" and ") || "in the middle"}${theta > 0 ? `, butt raised by ${theta.toFixed(0)}°` : ""}.`;
+  return texts.cueMSDirection(
+    speed.toFixed(1),
+    phi.toFixed(2),
+    tip.join(texts.andWord) || texts.inTheMiddle,
+    theta > 0 ? texts.buttRaisedBy(theta.toFixed(0)) : "",
+  );
 }
 
 /** A diagram with the parts of its dialog. */
@@ -50,13 +56,13 @@ interface Diagram {
   shot: Shot | undefined;
 }
 function partsOf(take: (k: number) => void, changed: () => void) {
-  const which = choice("diagram-which", "Draw", [], () => take(Number(which.select.value)));
+  const which = choice("diagram-which", texts.draw, [], () => take(Number(which.select.value)));
   const notes = el("textarea", { id: "notes", class: "no-print", maxlength: "2000", rows: "3" });
   // A box for text shows on paper only what fits into it.
   const printed = el("p", { class: "on-paper" });
   notes.addEventListener("input", () => (printed.textContent = notes.value));
-  const after = check("diagram-after", "after the stroke", changed);
-  const path = check("diagram-path", "with its path", changed);
+  const after = check("diagram-after", texts.afterTheStroke, changed);
+  const path = check("diagram-path", texts.withItsPath, changed);
   return {
     which,
     after,
@@ -71,18 +77,18 @@ function dialogOf({ film, parts }: Diagram, link: () => void): HTMLDialogElement
   const { which, after, path, notes, printed, words, said } = parts;
   const root = dialog(
     "diagram",
-    "Diagram",
+    texts.diagram,
     el("div", { class: "row no-print" }, which.root, after.root, path.root),
     film.canvas,
     words,
-    el("label", { for: "notes", class: "no-print" }, "Notes"),
+    el("label", { for: "notes", class: "no-print" }, texts.notes),
     notes,
     printed,
     el(
       "div",
       { class: "row no-print" },
-      button("Print", () => window.print(), { id: "print-diagram", class: "main" }),
-      button("Link to this diagram", link, { id: "link-diagram" }),
+      button(texts.print, () => window.print(), { id: "print-diagram", class: "main" }),
+      button(texts.linkToThisDiagram, link, { id: "link-diagram" }),
     ),
     said,
   );
@@ -142,7 +148,7 @@ function lay(d: Diagram, of: Drawn): void {
   path.input.checked = of.path === true;
   d.film.canvas.setAttribute(
     "aria-label",
-    `Diagram of ${next.balls.filter(({ state }) => onTable(state)).length} balls from above`,
+    texts.diagramOfBallsFrom(next.balls.filter(({ state }) => onTable(state)).length),
   );
   words.textContent = `${(next.played ?? GAMES[of.game]!).text}. ${of.cue ? wordsOfCue(cueOf(d, of.cue)) : ""}`;
   draw(d);
@@ -160,7 +166,7 @@ function take(d: Diagram, k: number): void {
     lay(d, cue ? { ...still, cue: SET.map((key) => cue[key]), path: true } : still);
   } catch (error) {
     if (!(error instanceof CaromError)) throw error;
-    d.parts.said.textContent = `This stroke cannot be played: ${error.message}.`;
+    d.parts.said.textContent = texts.thisStrokeCannotBe(error.message);
     lay(d, still);
   }
 }
@@ -182,9 +188,9 @@ async function unpacked(packed: string): Promise<Drawn> {
     of.cue !== undefined &&
     !(Array.isArray(of.cue) && of.cue.length === SET.length && of.cue.every(Number.isFinite))
   )
-    throw new TypeError(`cue: ${SET.length} numbers are needed`);
+    throw new TypeError(texts.cueNumbersAreNeeded(SET.length));
   if (typeof of.notes !== "string" || typeof of.at !== "string")
-    throw new TypeError("notes and at: texts are needed");
+    throw new TypeError(texts.notesAndAtTexts);
   return of;
 }
 
@@ -220,9 +226,9 @@ export function diagramPage(
     const text = JSON.stringify({ ...d.drawn, notes: parts.notes.value });
     parts.said.textContent = await send(
       `${location.href.split("#")[0]}#view=play&d=${await pack(text)}`,
-      "A diagram of billiards",
+      texts.aDiagramOfBilliards,
       coarse,
-      "The link to this diagram is copied.",
+      texts.theLinkToThisDiagram,
     );
   };
   const root = dialogOf(d, () => void link());
@@ -244,7 +250,7 @@ export function diagramPage(
         lay(d, of);
       } catch (error) {
         throw error instanceof CaromError
-          ? new TypeError(`the stroke cannot be played: ${error.message}`)
+          ? new TypeError(texts.theStrokeCannotBe(error.message))
           : error;
       }
       show(d, root, of.notes);

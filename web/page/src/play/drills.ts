@@ -11,6 +11,7 @@
 import type { Shot } from "carom";
 import { pocketName } from "../../../player/words.js";
 import { onTable } from "../table/filmed.js";
+import { texts, told } from "../texts/texts.js";
 
 export interface Drill {
   name: string;
@@ -82,15 +83,24 @@ function wordsOfPlace(
   const along = (at: readonly number[]): number =>
     (at[0]! - met!.r[0]) * vx + (at[1]! - met!.r[1]) * vy;
   if (!met || Math.abs((x - met.r[0]) * vy - (y - met.r[1]) * vx) > 0.1)
-    return `The cue ball ended ${cm(Math.hypot(end[0] - x, end[1] - y))} from the place, of ${cm(far)}: change its speed.`;
+    return texts.theCueBallEnded(cm(Math.hypot(end[0] - x, end[1] - y)), cm(far));
   const wanted = along([x, y]);
   const came = along(end);
   if (Math.abs(wanted) < 0.1)
-    return `The cue ball ${came > 0 ? "rolled on" : "came back"} by ${cm(came)}, and was to stop: strike it ${came > 0 ? "lower" : "higher"}.`;
+    return texts.theCueBallBy(
+      came > 0 ? texts.rolledOn : texts.cameBack,
+      cm(came),
+      came > 0 ? texts.lower : texts.higher,
+    );
   const share = came / wanted;
-  const harder = wanted > 0 ? "higher or faster" : "lower or faster";
-  const way = wanted > 0 ? "rolled on" : "came back";
-  return `The cue ball ${way} ${cm(Math.max(share, 0) * wanted)} of ${cm(wanted)}: strike it ${share > 1 ? "softer" : harder}.`;
+  const harder = wanted > 0 ? texts.higherOrFaster : texts.lowerOrFaster;
+  const way = wanted > 0 ? texts.rolledOn : texts.cameBack;
+  return texts.theCueBallOf(
+    way,
+    cm(Math.max(share, 0) * wanted),
+    cm(wanted),
+    share > 1 ? texts.softer : harder,
+  );
 }
 
 /** Whether a stroke made it, failed, or goes on; and of what failed, what was wanted and came. */
@@ -99,10 +109,9 @@ export function judge(
   shot: Shot,
 ): { outcome: "made" | "missed" | "on"; why: string[] } {
   const { events, final, table } = shot;
-  if (!onTable(final[0]!))
-    return { outcome: "missed", why: ["The cue ball fell or left the table."] };
+  if (!onTable(final[0]!)) return { outcome: "missed", why: [texts.theCueBallFell] };
   if (final.some(({ label }) => label === "off"))
-    return { outcome: "missed", why: ["A ball left the table."] };
+    return { outcome: "missed", why: [texts.aBallLeftThe] };
   const meets = events.filter(({ type, a, b }) => type === "ball_ball" && (a === 0 || b === 0));
   const other = ({ a, b }: (typeof events)[number]): number => (a === 0 ? b : a);
   const isCushion = ({ type }: (typeof events)[number]): boolean =>
@@ -143,20 +152,21 @@ export function judge(
     },
   };
   const words: Record<string, (value: string) => string> = {
-    pot: (value) =>
-      `The ${parseInt(value)} did not fall${value.includes("@") ? ` in the ${value.split("@")[1]} pocket` : ""}.`,
+    pot(value) {
+      const [ball = "", pocket] = value.split("@");
+      return pocket === undefined ? texts.didNotFall(ball) : texts.didNotFallIn(ball, told(pocket));
+    },
     bank: (value) =>
-      `The ${value} ${fell(Number(value)) ? "fell without a cushion" : "did not fall"}.`,
-    first: (value) =>
-      `The cue ball met ${meets[0] ? `the ${other(meets[0])}` : "no ball"} first, not the ${value}.`,
-    kick: (value) => `It met ${kicks} of ${value} cushions before a ball.`,
-    hit: (value) => `It met ${met} of ${value} balls.`,
-    cushions: (value) => `The cue ball met ${rails} of ${value} cushions: strike it faster.`,
+      fell(Number(value)) ? texts.fellWithoutCushion(value) : texts.didNotFall(value),
+    first: (value) => (meets[0] ? texts.metFirst(other(meets[0]), value) : texts.metNone(value)),
+    kick: (value) => texts.itMetOfCushions(kicks, value),
+    hit: (value) => texts.itMetOfBalls(met, value),
+    cushions: (value) => texts.theCueBallMetOf(rails, value),
     cue: (value) => wordsOfPlace(shot, value.split(",").map(Number) as [number, number, number]),
   };
   if (goal[0]![0] === "clear") {
     if (!events.some(({ type }) => type === "ball_pocket"))
-      return { outcome: "missed", why: ["No ball fell."] };
+      return { outcome: "missed", why: [texts.noBallFell] };
     return { outcome: final.some((state, k) => k > 0 && onTable(state)) ? "on" : "made", why: [] };
   }
   const why = goal.flatMap(([word, value]) => (checks[word]!(value) ? [] : words[word]!(value)));

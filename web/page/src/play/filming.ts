@@ -21,6 +21,7 @@ import {
   why,
 } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfTurn } from "./state.js";
+import { texts, told } from "../texts/texts.js";
 
 type Film = NonNullable<Session["filmed"]>;
 function show(s: Pick<Session, "filmed" | "film" | "space">, film: Film): void {
@@ -57,7 +58,7 @@ function rest(s: Session): void {
       look(s);
     } catch (error) {
       if (!(error instanceof CaromError)) throw error;
-      says(s, `This stroke cannot be played: ${error.message}.`);
+      says(s, texts.thisStrokeCannotBe(error.message));
     }
   s.shown = undefined;
   show(s, filmOf({ table, balls, names, turned: s.turned }, undefined, paths));
@@ -73,7 +74,7 @@ function update(s: Session): void {
   showButtons(s);
   const { play, film, words } = s;
   const { text } = GAMES[play.played?.of ?? play.setup.game]!;
-  film.canvas.setAttribute("aria-label", `${text} table from above. ${words.turn.textContent}`);
+  film.canvas.setAttribute("aria-label", texts.tableFromAbove(text, words.turn.textContent));
 }
 
 /** Who plays the stroke that is filmed; its result is told after the film. */
@@ -86,16 +87,16 @@ function wordsOfCall(s: Session): string {
   const { names, table } = s.play;
   if (!free(s) || !needsCall(s.play)) return "";
   const call = called(s);
-  if (call) return ` Call: the ${names[call.ball]}, ${pocketName(table, call.pocket)}.`;
-  if (isSafety(s)) return " Call: a safety.";
-  return " Nothing is called: aim at a ball, or tap a pocket.";
+  if (call) return texts.callThe(told(names[call.ball]!), told(pocketName(table, call.pocket)));
+  if (isSafety(s)) return texts.callASafety;
+  return texts.nothingIsCalledAim;
 }
 /** Whose turn it is, the call and the score. */
 function showWords(s: Session): void {
   const { play, seat, words } = s;
   const player = playerOnFilm(s);
   const turn = player
-    ? `${player} ${player === "You" ? "play" : "plays"} …`
+    ? texts.playing(player, player === texts.you)
     : wordsOfTurn(play, seat, s.thinks, s.hinted) + wordsOfCall(s);
   // A screen reader reads each change aloud, also to the same words.
   if (words.turn.textContent !== turn) words.turn.textContent = turn;
@@ -107,7 +108,7 @@ function showContact(s: Session): void {
   const { play, first, stroke } = s;
   const meetsBall = free(s) && first !== undefined && first.ball > 0;
   const isShown = meetsBall && (play.practice || linesOf(s) !== "none");
-  stroke.met(isShown ? first : undefined, play.names[first?.ball ?? 0]);
+  stroke.met(isShown ? first : undefined, told(play.names[first?.ball ?? 0]!));
 }
 
 /** Shows the buttons that have a meaning now. */
@@ -144,7 +145,7 @@ function showButtons(s: Session): void {
     element.setAttribute("aria-disabled", String(!isEnabled));
 
   const isPressed = (mayAim && isSafety(s)) || s.special === "push";
-  buttons.push.textContent = mayPush ? "Push out" : "Safety";
+  buttons.push.textContent = mayPush ? texts.pushOut : texts.safety;
   buttons.push.setAttribute("aria-pressed", String(isPressed));
 }
 
@@ -179,7 +180,7 @@ function skip(s: Session): void {
 }
 function replay(s: Session): void {
   const { last } = s.play;
-  if (!last?.shot) return says(s, "There is no stroke to show yet.");
+  if (!last?.shot) return says(s, texts.thereIsNoStroke);
   if (["film", "thinking"].includes(stateOf(s))) return says(s, why(s));
   const turnedNow = s.turned;
   s.turned = s.turnedBefore;

@@ -22,6 +22,7 @@ import { onTable } from "../table/filmed.js";
 import { GAMES, PLAYED, type Played, POOL_TABLES } from "../table/games.js";
 import { atHead, mayLie } from "../table/head.js";
 import { placesOf, placesText, pocketed } from "../table/places.js";
+import { texts } from "../texts/texts.js";
 
 /** Whom one plays against: a Fargo rating, a person at this page, one by link, or nobody. */
 export type Against = "practice" | "person" | "link" | `${number}`;
@@ -83,13 +84,12 @@ export function tableOf({
 function kindOf(carom: Carom, game: Game, { cloth, cushion }: Setup): BallKind {
   const numbers = cushion?.includes(",") ? cushion.split(",").map(Number) : undefined;
   const named = [cloth, numbers ? undefined : cushion].filter((one) => one !== undefined);
-  if (game !== "pool" && (named.length > 0 || numbers))
-    throw new TypeError("cloth, cushion: only tables of pool have conditions");
+  if (game !== "pool" && (named.length > 0 || numbers)) throw new TypeError(texts.onlyTablesOfPool);
   const kind = carom.kind(game, OPTIONS.cushionModel, named as Condition[]);
   if (!numbers) return kind;
   const [restitutionCushion, muCushion] = numbers as [number, number];
   if (!(numbers.length === 2 && restitutionCushion <= 1 && muCushion <= 1 && muCushion >= 0))
-    throw new TypeError(`cushion: two numbers from 0 to 1 are needed, not "${cushion}"`);
+    throw new TypeError(texts.twoNumbersAreNeeded(cushion!));
   return { ...kind, restitutionCushion, muCushion };
 }
 const same = (a: readonly ShotBall[], b: readonly ShotBall[]): boolean =>
@@ -124,10 +124,10 @@ export class Play {
     this.played = PLAYED[setup.game];
     const of = GAMES[this.played?.of ?? setup.game];
     if (!of || (!this.practice && !this.played))
-      throw new TypeError(`game: there is no game "${setup.game}"`);
+      throw new TypeError(texts.gameThereIsNo(setup.game));
     const chosen = POOL_TABLES[setup.table ?? "9ft"];
     if (!chosen || (setup.table !== undefined && of.game !== "pool"))
-      throw new TypeError(`table: there is no table "${setup.table}" for this game`);
+      throw new TypeError(texts.tableThereIsNo(setup.table!));
     this.table = of.game === "pool" ? carom.table(chosen[1], chosen[2]) : carom.table(of.table);
     const kind = kindOf(carom, of.game, setup);
     this.balls = carom
@@ -224,26 +224,20 @@ export class Play {
 
   /** A stroke that another page played: every bit has to agree. */
   read(entry: Entry): Stroke {
-    if (this.winner !== undefined) throw new TypeError("a stroke follows the end of the game");
+    if (this.winner !== undefined) throw new TypeError(texts.aStrokeFollowsThe);
     if (entry.place) {
-      if (this.hand === "no")
-        throw new TypeError(`stroke ${this.entries.length + 1}: the cue ball is not in hand`);
+      if (this.hand === "no") throw new TypeError(texts.strokeTheCueBall(this.entries.length + 1));
       const [x, y] = entry.place;
       if (!mayLie(this.table, this.hand, [x, y]))
-        throw new TypeError(`stroke ${this.entries.length + 1}: the cue ball lies beyond the line`);
+        throw new TypeError(texts.strokeTheCueBallLies(this.entries.length + 1));
       this.put(0, x, y);
       this.#recording.place(0, x, y);
     } else if (this.hand !== "no")
-      throw new TypeError(
-        `stroke ${this.entries.length + 1}: the place of the cue ball is missing`,
-      );
+      throw new TypeError(texts.strokeThePlaceOf(this.entries.length + 1));
     if (entry.call === "pass") return this.#ruled(entry, this.carom.cue(), undefined);
     const replayed = this.#recording.read(entry.line);
-    if (!replayed) throw new TypeError(`stroke ${this.entries.length + 1}: its line has no shot`);
-    if (!replayed.same)
-      throw new TypeError(
-        `stroke ${this.entries.length + 1} ends otherwise than it was recorded: it was changed on its way`,
-      );
+    if (!replayed) throw new TypeError(texts.strokeItsLineHas(this.entries.length + 1));
+    if (!replayed.same) throw new TypeError(texts.strokeEndsOtherwiseThan(this.entries.length + 1));
     return this.#ruled(entry, replayed.cue, replayed.film);
   }
 

@@ -9,20 +9,21 @@ import { openGame } from "./opening.js";
 import type { Session } from "./parts.js";
 import { deleteGame, type SavedGame, savedGames } from "./saved.js";
 import { says } from "./session.js";
+import { texts } from "../texts/texts.js";
 
 const OPPONENTS: Record<string, string> = {
-  practice: "practice",
-  person: "two players at this page",
-  link: "by link",
+  practice: texts.practiceOpponent,
+  person: texts.twoPlayersAtThis,
+  link: texts.byLink,
 };
 function titleOf({ setup }: SavedGame): string {
   const game = (PLAYED[setup.game] ?? GAMES[setup.game])?.text ?? setup.game;
-  return `${game}, ${OPPONENTS[setup.against] ?? `against a ${setup.against}`}`;
+  return `${game}, ${OPPONENTS[setup.against] ?? texts.againstA(setup.against)}`;
 }
 function detailsOf({ when, strokes, score, isOver }: SavedGame): string {
   const date = new Date(when).toISOString().slice(0, 16).replace("T", " ");
-  const count = `${strokes} ${strokes === 1 ? "stroke" : "strokes"}`;
-  return [date, count, score, isOver ? "over" : ""].filter((part) => part !== "").join(" · ");
+  const count = texts.strokesCounted(strokes);
+  return [date, count, score, isOver ? texts.over : ""].filter((part) => part !== "").join(" · ");
 }
 /** A game against a rating that is left for good counts as lost. */
 const isLostByLeaving = ({ setup, isOver, strokes }: SavedGame): boolean =>
@@ -41,20 +42,20 @@ export function gamesList(
   close: () => void,
 ): { root: HTMLElement; refresh(): Promise<void> } {
   const list = el("ul", { class: "saved", id: "saved-games" });
-  const root = el("section", {}, el("h3", {}, "Your games"), list);
+  const root = el("section", {}, el("h3", {}, texts.yourGames), list);
 
   async function goOn(game: SavedGame): Promise<void> {
     close();
     try {
       if (game.id !== s.id) await openGame(s, game.id);
     } catch (error) {
-      says(s, `The game was not opened: ${wrong(error)}.`);
+      says(s, texts.theGameWasNot(wrong(error)));
     }
   }
   /** The first press says what the second one does. */
   function deleteButton(game: SavedGame): HTMLButtonElement {
-    const question = isLostByLeaving(game) ? "Delete: it counts as lost" : "Delete for good";
-    const made = button("Delete", async () => {
+    const question = isLostByLeaving(game) ? texts.deleteItCountsAs : texts.deleteForGood;
+    const made = button(texts.deleteWord, async () => {
       if (made.textContent !== question) {
         made.textContent = question;
         return;
@@ -70,7 +71,7 @@ export function gamesList(
       download(s.carom, game);
     } catch (error) {
       close();
-      says(s, `The game was not saved as a file: ${wrong(error)}.`);
+      says(s, texts.theGameWasNotSaved(wrong(error)));
     }
   }
   function rowOf(game: SavedGame): HTMLElement {
@@ -78,13 +79,13 @@ export function gamesList(
     const title = titleOf(game);
     // The game on the table is not deleted under the player's hands.
     const buttons = isOpen
-      ? [button("Save file", () => save(game))]
+      ? [button(texts.saveFile, () => save(game))]
       : [
-          button("Go on", () => void goOn(game), { "aria-label": `Go on with ${title}` }),
-          button("Save file", () => save(game)),
+          button(texts.goOn, () => void goOn(game), { "aria-label": texts.goOnWith(title) }),
+          button(texts.saveFile, () => save(game)),
           deleteButton(game),
         ];
-    const mark = isOpen ? " (on the table)" : "";
+    const mark = isOpen ? texts.onTheTable : "";
     return el(
       "li",
       {},
@@ -98,7 +99,7 @@ export function gamesList(
       list.replaceChildren(...games.map(rowOf));
       root.hidden = games.length === 0;
     } catch (error) {
-      list.replaceChildren(el("li", {}, `This browser shows no games: ${wrong(error)}.`));
+      list.replaceChildren(el("li", {}, texts.thisBrowserShowsNo(wrong(error))));
     }
   }
   return { root, refresh };

@@ -3,6 +3,7 @@
 
 import type { Setup } from "./game.js";
 import { wrong } from "../ui.js";
+import { texts } from "../texts/texts.js";
 
 /** What was kept under a key; undefined where the browser keeps nothing. */
 export function kept(key: string): string | undefined {
@@ -98,7 +99,7 @@ export async function unpack(packed: string): Promise<string> {
     );
     return new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw")));
   } catch {
-    throw new TypeError("the link is cut off or damaged: ask for it again");
+    throw new TypeError(texts.theLinkIsCut);
   }
 }
 
@@ -112,8 +113,8 @@ export async function send(
   try {
     if (share && "share" in navigator) await navigator.share({ title, url });
     else await navigator.clipboard.writeText(url);
-    return share && "share" in navigator ? "Sent." : copied;
+    return share && "share" in navigator ? texts.sent : copied;
   } catch (error) {
-    return `The browser does not let the page send the link (${wrong(error)}).`;
+    return texts.theBrowserDoesNotLet(wrong(error));
   }
 }

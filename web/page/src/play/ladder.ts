@@ -5,6 +5,7 @@ import type { Carom, Score } from "carom";
 import type { Drill } from "./drills.js";
 import { isComputer, type Setup } from "./game.js";
 import { count, tally } from "./keep.js";
+import { texts } from "../texts/texts.js";
 
 /**
  * Where the browser keeps games won and lost against each rating, and how often each drill was
@@ -51,11 +52,11 @@ export function ownRating(carom: Carom, drills: readonly Drill[]): OwnRating {
   const missed = tries.reduce((sum, { lost }) => sum + lost, 0);
   const isGuess = [...games, ...tries].every(({ won, lost }) => won + lost === 0);
   const from = [
-    ...games.map((one) => `${one.won} : ${one.lost} against a ${one.against}`),
-    ...(made + missed > 0 ? [`${made} of ${made + missed} tries of drills`] : []),
+    ...games.map((one) => texts.wonAgainst(one.won, one.lost, one.against)),
+    ...(made + missed > 0 ? [texts.ofTriesOfDrills(made, made + missed)] : []),
   ];
   const words = isGuess
-    ? `You are unrated until your first game. Hints are those for a ${rating}, the mean of all players.`
-    : `Your rating is about ${rating} (95 %: ${low} to ${high}), by ${from.join(", ")}.`;
+    ? texts.youAreUnratedUntil(rating)
+    : texts.yourRatingIsAbout(rating, low, high, from.join(", "));
   return { rating, isGuess, words };
 }

@@ -6,6 +6,7 @@ import { pack, send } from "./keep.js";
 import type { Link, Session } from "./parts.js";
 import { says } from "./session.js";
 import { keep, next } from "./turns.js";
+import { texts } from "../texts/texts.js";
 
 export function byLink(s: Session): Link {
   let queue: Entry[] = [];
@@ -20,7 +21,7 @@ export function byLink(s: Session): Link {
     if (setup.game !== play.setup.game || setup.seed !== play.setup.seed || entries.length <= known)
       return;
     if (JSON.stringify(entries.slice(0, play.entries.length)) !== JSON.stringify(play.entries))
-      return says(s, "The other page has other strokes of this game: send the link again.");
+      return says(s, texts.theOtherPageHas);
     queue.push(...entries.slice(known));
     // After a film the next stroke follows.
     if (!s.film.playing && s.then === undefined) onward();
@@ -30,7 +31,7 @@ export function byLink(s: Session): Link {
     if (!entry) return next(s);
     try {
       const stroke = s.play.read(entry);
-      says(s, `Stroke ${s.play.entries.length} was repeated; every bit agrees.`);
+      says(s, texts.strokeWasRepeatedEvery(s.play.entries.length));
       keep(s);
       s.showing.perform(stroke, onward);
     } catch (error) {
@@ -43,10 +44,9 @@ export function byLink(s: Session): Link {
   function wordsOfTooEarly(): string {
     const { play, seat } = s;
     if (play.winner !== undefined) return "";
-    if (play.turn === seat)
-      return " You are still at the table: send it again after your turn, or the other player waits.";
+    if (play.turn === seat) return texts.youAreStillAt;
     const hasPlayed = play.last?.who === seat;
-    return hasPlayed ? "" : " It has nothing new if you have sent it before.";
+    return hasPlayed ? "" : texts.itHasNothingNew;
   }
   /** Pages of this machine send the text of a game when it has changed, or ask for it. */
   const others = new BroadcastChannel("carom-games");
@@ -74,9 +74,9 @@ export function byLink(s: Session): Link {
       const url = `${location.href.split("#")[0]}#view=play&seat=${seat}&g=${await pack(play.text())}`;
       const result = await send(
         url,
-        "A game of billiards",
+        texts.aGameOfBilliards,
         s.coarse,
-        isByLink ? "The link for the other player is copied." : "The link to this game is copied.",
+        isByLink ? texts.theLinkForThe : texts.theLinkToThisGame,
       );
       says(s, isByLink ? result + wordsOfTooEarly() : result);
     },

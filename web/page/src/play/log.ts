@@ -3,6 +3,7 @@
 import { percent } from "../table/words.js";
 import { button, dialog, el } from "../ui.js";
 import { keepText, keptValue } from "./keep.js";
+import { texts } from "../texts/texts.js";
 
 const LOG = "carom-log";
 const MOST = 500;
@@ -41,38 +42,42 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
   const body = el("tbody");
   const sum = el("p", { id: "log-sum" });
   const head = [
-    "When",
-    "Game",
-    "Meant",
-    "Aim off by, °",
-    "Speed off by, m/s",
-    "Tip to the right, R",
-    "Keeps the turn",
-    "Wins",
-    "Best stroke, or what came",
-    "Best wins",
-    "Cost",
+    texts.when,
+    texts.game,
+    texts.meant,
+    texts.aimOffBy,
+    texts.speedOffByM,
+    texts.tipRightColumn,
+    texts.keepsTheTurn,
+    texts.wins,
+    texts.bestStrokeOrWhat,
+    texts.bestWins,
+    texts.cost,
   ];
   const table = el(
     "table",
     { class: "numbers log" },
-    el("caption", {}, "Strokes, the last one first"),
+    el("caption", {}, texts.strokesTheLastOne),
     el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))),
     body,
   );
-  const clear = button("Delete all", () => {
+  const clear = button(texts.deleteAll, () => {
     keepText("[]", LOG);
     fill();
   });
   const root = dialog(
     "log",
-    "What your strokes cost",
+    texts.whatYourStrokesCost,
     sum,
-    el("div", { class: "scrolls", tabindex: "0", role: "region", "aria-label": "Strokes" }, table),
+    el(
+      "div",
+      { class: "scrolls", tabindex: "0", role: "region", "aria-label": texts.strokes },
+      table,
+    ),
     el(
       "div",
       { class: "row no-print" },
-      button("Print", () => window.print(), { id: "print-log" }),
+      button(texts.print, () => window.print(), { id: "print-log" }),
       clear,
     ),
   );
@@ -112,17 +117,17 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
       const known = all.flatMap((row) => value(row) ?? []);
       if (known.length === 0) return "";
       const sum = known.reduce((total, x) => total + x, 0);
-      return ` ${words(sum / known.length)} (mean of ${known.length}).`;
+      return texts.meanOf(words(sum / known.length), known.length);
     };
-    const cost = mean(costOf, (x) => `A stroke cost ${percent(x)} of a game`);
+    const cost = mean(costOf, (x) => texts.aStrokeCostOf(percent(x)));
     const aim = mean(
       ({ phi }) => phi && Math.abs(phi),
-      (x) => `The aim was off by ${x.toFixed(2)}°`,
+      (x) => texts.theAimWasOff(x.toFixed(2)),
     );
     sum.textContent =
       all.length === 0
-        ? `No stroke yet: the coach, in New game, and drills write one line for each. ${plan()}`
-        : `${all.length} ${all.length === 1 ? "stroke" : "strokes"}.${cost}${aim} ${plan()}`;
+        ? texts.noStrokeYetThe(plan())
+        : `${texts.strokesCounted(all.length)}.${cost}${aim} ${plan()}`;
   }
   return {
     root,

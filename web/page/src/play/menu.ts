@@ -9,13 +9,14 @@ import { keepText, keptValue } from "./keep.js";
 import type { Session, Settings } from "./parts.js";
 import { gamesList } from "./games_list.js";
 import { begin } from "./opening.js";
+import { chooseLanguage, language, LANGUAGE_NAMES, texts, told } from "../texts/texts.js";
 
 const KEY = "carom-settings";
 const LINES: readonly (readonly [Settings["lines"], string])[] = [
-  ["level", "by your rating"],
-  ["none", "none"],
-  ["short", "short: the way of the ball"],
-  ["full", "full: both balls"],
+  ["level", texts.byYourRating],
+  ["none", texts.none],
+  ["short", texts.shortTheWayOf],
+  ["full", texts.fullBothBalls],
 ];
 /** Conditions of a pool table, and what is usual, which a game does not keep. */
 const USUAL = "";
@@ -23,11 +24,11 @@ function conditionsOf(part: string, usual: string): (readonly [string, string])[
   const named = words.condition.filter(([word]) => word.endsWith(part) && word !== "medium_cloth");
   return [
     [USUAL, usual],
-    ...named.map(([word, text]) => [word, `${word.split("_")[0]}: ${text}`] as const),
+    ...named.map(([word, text]) => [word, `${told(word.split("_")[0]!)}: ${told(text)}`] as const),
   ];
 }
-const CLOTHS = conditionsOf("_cloth", "usual");
-const CUSHIONS = conditionsOf("_cushion", "usual");
+const CLOTHS = conditionsOf("_cloth", texts.usual);
+const CUSHIONS = conditionsOf("_cushion", texts.usual);
 function areSettings(value: unknown): boolean {
   if (typeof value !== "object" || value === null) return false;
   const {
@@ -59,48 +60,46 @@ export function menu(
   const others = Object.entries(GAMES).filter(([key]) => !(key in PLAYED));
   const game = choice(
     "new-which",
-    "Game",
+    texts.game,
     [...Object.entries(PLAYED), ...others].map(
-      ([key, { text }]) => [key, key in PLAYED ? text : `${text} (practice)`] as const,
+      ([key, { text }]) => [key, key in PLAYED ? text : texts.practiceOf(text)] as const,
     ),
     describe,
   );
   const against = choice(
     "new-against",
-    "Against",
+    texts.against,
     [
-      ["practice", "nobody: practice"],
-      ["person", "a person at this page"],
-      ["link", "a person by link"],
-      ...RATINGS.map((r) => [r, `the computer, a ${r}`] as const),
+      ["practice", texts.nobodyPractice],
+      ["person", texts.aPersonAtThis],
+      ["link", texts.aPersonByLink],
+      ...RATINGS.map((r) => [r, texts.theComputerA(r)] as const),
     ],
     chooseErrors,
   );
   const own = choice(
     "new-own",
-    "Your strokes",
+    texts.yourStrokes,
     [
-      ["0", "go where you aim (no rating)"],
-      ...RATINGS.map(
-        (r) => [r, r === "800" ? "err a little, like an 800" : `err like a ${r}`] as const,
-      ),
+      ["0", texts.goWhereYouAim],
+      ...RATINGS.map((r) => [r, r === "800" ? texts.errALittleLike : texts.errLikeA(r)] as const),
     ],
     () => undefined,
   );
   const table = choice(
     "new-table",
-    "Table",
+    texts.table,
     Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const),
     () => undefined,
   );
-  const cloth = choice("new-cloth", "Cloth", CLOTHS, () => undefined);
-  const cushion = choice("new-cushion", "Cushions", [], () => undefined);
+  const cloth = choice("new-cloth", texts.cloth, CLOTHS, () => undefined);
+  const cushion = choice("new-cushion", texts.cushions, [], () => undefined);
   /** The cushions to choose from: those of the player's own table are calibrated. */
   function listCushions(chosen: string): void {
     const own = ownCushion();
     const all = [
       ...CUSHIONS,
-      ...(own === undefined ? [] : [[own, `mine: ${wordsOfCushion(own)}`] as const]),
+      ...(own === undefined ? [] : [[own, texts.mine(wordsOfCushion(own))] as const]),
     ];
     const isListed = all.some(([value]) => value === chosen);
     if (!isListed) all.push([chosen, wordsOfCushion(chosen)]);
@@ -112,7 +111,7 @@ export function menu(
     root.showModal();
   });
   const calibrate = button(
-    "Calibrate by three banks",
+    texts.calibrateByBanks,
     () => {
       root.close();
       calibration.open(table.select.value);
@@ -120,7 +119,7 @@ export function menu(
     { id: "open-calibration" },
   );
   const ofPool = [table.root, cloth.root, cushion.root, calibrate];
-  const lines = choice("lines", "Lines", LINES, changeSettings);
+  const lines = choice("lines", texts.lines, LINES, changeSettings);
   const note = el("p", { class: "note", id: "new-note" });
   /** Strokes against the page's player err a little, if nothing else is chosen. */
   function chooseErrors(): void {
@@ -136,12 +135,12 @@ export function menu(
     keepSettings(s);
     s.changed();
   }
-  const coach = check(
-    "coach",
-    "Coach: shows the chances of a stroke, and then its cost",
-    changeSettings,
+  const coach = check("coach", texts.coachShowsTheChances, changeSettings);
+  const numbers = check("numbers", texts.numbersBesideTheBalls, changeSettings);
+  const speech = choice("language", texts.language, LANGUAGE_NAMES, () =>
+    chooseLanguage(speech.select.value),
   );
-  const numbers = check("numbers", "Numbers beside the balls in 3D", changeSettings);
+  speech.select.value = language;
   lines.select.value = s.settings.lines;
   coach.input.checked = s.settings.coach;
   numbers.input.checked = s.settings.numbers;
@@ -153,13 +152,13 @@ export function menu(
     own.root.hidden = against.select.value === "practice";
     for (const one of ofPool) one.hidden = !isPool();
     const notes: Record<string, string> = {
-      practice: "There are no rules. You move any ball, see every path, and undo strokes.",
-      person: "Both of you play at this page, in turns.",
-      link: "You break. Send the link after your turn. The page of the other player repeats your strokes, checks that every bit agrees, and goes on.",
+      practice: texts.thereAreNoRules,
+      person: texts.bothOfYouPlay,
+      link: texts.youBreakSendThe,
     };
     note.textContent =
       notes[against.select.value] ??
-      `The computer plays like a ${against.select.value} on the scale of Fargo ratings. ${s.training.rating().words} A 200 is a beginner, a 500 plays in a league, a 700 is a strong amateur.`;
+      texts.theComputerPlaysLike(against.select.value, s.training.rating().words);
   }
   const chosenTable = (): ReturnType<typeof tableOf> =>
     tableOf({
@@ -168,7 +167,7 @@ export function menu(
       ...(cushion.select.value !== USUAL && { cushion: cushion.select.value }),
     });
   const start = button(
-    "Start",
+    texts.start,
     () => {
       root.close();
       begin(s, {
@@ -184,16 +183,17 @@ export function menu(
   const games = gamesList(s, () => root.close());
   const root: HTMLDialogElement = dialog(
     "menu",
-    "New game",
+    texts.newGame,
     el("div", { class: "fields" }, game.root, ...ofPool, against.root, own.root),
     note,
     start,
     games.root,
-    el("h3", {}, "Settings"),
+    el("h3", {}, texts.settings),
+    speech.root,
     lines.root,
     coach.root,
     numbers.root,
-    el("div", { class: "row" }, el("span", {}, "Speed of the film"), s.film.pace),
+    el("div", { class: "row" }, el("span", {}, texts.speedOfTheFilm), s.film.pace),
     ...more,
   );
   return {

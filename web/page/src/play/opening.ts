@@ -16,6 +16,7 @@ import {
 } from "./saved.js";
 import { aimAt, cueOf, mine, NONE, says } from "./session.js";
 import { isWorthKeeping, next, save, SPEED } from "./turns.js";
+import { texts } from "../texts/texts.js";
 
 export const FIRST: Setup = { game: "eightball", against: "300", own: "800", seed: 1 };
 
@@ -43,8 +44,8 @@ export function start(s: Session, play: Play, id: string, seat: 0 | 1 = 0): void
 /** What a game says as it begins. */
 function wordsOfStart({ setup, practice }: Play, training: Session["training"]): string {
   if (setup.drill !== undefined) return training.wordsOfStart(setup.drill);
-  if (practice) return "Drag balls to lay them, drag on the cloth to aim, tap Shoot.";
-  return "Drag on the table to aim, then tap Shoot.";
+  if (practice) return texts.dragBallsToLay;
+  return texts.dragOnTheTable;
 }
 
 /** Begins a game under an id of its own; the one before is kept if anybody has played in it. */
@@ -62,7 +63,7 @@ export function begin(s: Session, setup: Setup): void {
     ...(setup.at === undefined ? {} : { speed: 2, phi: 90 }),
   });
   const isUnfinished = isKept && left.play.winner === undefined;
-  const note = isUnfinished ? " The game before is kept under New game." : "";
+  const note = isUnfinished ? texts.theGameBeforeIs : "";
   says(s, wordsOfStart(play, s.training) + note);
   save(s);
   s.showing.rest();
@@ -80,8 +81,7 @@ function goOn(s: Session, play: Play, id: string, seat: 0 | 1, isLink: boolean):
   save(s);
   s.link.ask();
   const { length } = play.entries;
-  const strokes = length === 1 ? "stroke was" : "strokes were";
-  says(s, isLink && length > 0 ? `${length} ${strokes} repeated; every bit agrees.` : "");
+  says(s, isLink && length > 0 ? texts.strokesRepeated(length) : "");
   if (isLink && play.last?.shot && mine(s)) s.showing.perform(play.last, () => next(s));
   else next(s);
 }
@@ -89,11 +89,11 @@ function goOn(s: Session, play: Play, id: string, seat: 0 | 1, isLink: boolean):
 /** Opens a game that is kept. Throws where it is damaged or open in another tab. */
 export async function openGame(s: Session, id: string): Promise<void> {
   const saved = await savedGame(id);
-  if (!saved) throw new TypeError("that game is no longer kept");
+  if (!saved) throw new TypeError(texts.thatGameIsNo);
   const play = read(s.carom, saved.text);
   // Two pages of one machine may play both sides of a game by link: they hear of each stroke.
   if (saved.setup.against !== "link" && !(await holdGame(id)))
-    throw new TypeError("that game is open in another tab: go on there");
+    throw new TypeError(texts.thatGameIsOpen);
   goOn(s, play, id, id === idOfLink(saved.setup, 1) ? 1 : 0, false);
 }
 /** Opens the game of a link under an id of its own. */
@@ -108,7 +108,7 @@ async function openLink(s: Session, packed: string, seat: 0 | 1): Promise<void> 
 function wordsOfDamage(): string {
   if (damaged.size === 0) return "";
   const keys = [...damaged].map((key) => key.replace("carom-", ""));
-  return ` What this browser had kept as ${keys.join(", ")} was damaged and begins anew.`;
+  return texts.whatThisBrowserHad(keys.join(", "));
 }
 /** The game of the address, the one that this tab had open or that was saved last, or a new one. */
 export async function resume(s: Session): Promise<void> {
@@ -127,7 +127,7 @@ export async function resume(s: Session): Promise<void> {
     try {
       if (s.id === "") await way();
     } catch (error) {
-      failure += `The game was not opened: ${wrong(error)}. `;
+      failure += texts.theGameWasNotOpened(wrong(error));
     }
   if (s.id === "") begin(s, { ...FIRST, seed: Math.floor(Math.random() * 2 ** 31) });
   const said = failure || s.words.said.textContent!;

@@ -8,6 +8,7 @@
 // the third column h3 - lower K r3, r3 = r1 x r2. Seen from right above, f stays unknown, and the
 // plane of the noses is taken: the error is then at most lower / height of the camera, of the
 // distance from the middle.
+import { texts } from "../texts/texts.js";
 
 const BALL = 0.028575;
 export type Pixel = readonly [number, number];
@@ -95,10 +96,7 @@ export function cameraOf(
   });
   // On a picture, whose v points down, a table that is not mirrored is walked around against the
   // clock.
-  if (!turns.every((turn) => turn === -1))
-    throw new TypeError(
-      "corners: mark them in their order, around the table: head left, head right, foot right, foot left",
-    );
+  if (!turns.every((turn) => turn === -1)) throw new TypeError(texts.cornersMarkThemIn);
   const H = homography(
     [
       [0, 0],
@@ -108,7 +106,7 @@ export function cameraOf(
     ],
     seen,
   );
-  if (!H) throw new TypeError("corners: three of them lie on a line");
+  if (!H) throw new TypeError(texts.cornersThreeOfThem);
 
   // 1 / f^2 from both equations.
   const a1 = H[0] * H[1] + H[3] * H[4];

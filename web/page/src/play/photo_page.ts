@@ -5,8 +5,9 @@ import { ARROWS, pixelsOf } from "../table/grip.js";
 import { button, choice, dialog, drags, el, wrong } from "../ui.js";
 import { type Camera, cameraOf, type Pixel, radiusAt, suggest } from "./photo.js";
 import { discOf, snapCorners, snapDisc } from "./snap.js";
+import { texts, told } from "../texts/texts.js";
 
-const CORNERS = ["head left", "head right", "foot right", "foot left"];
+const CORNERS = [texts.headLeft, texts.headRight, texts.footRight, texts.footLeft];
 /** The noses of cushions, above the middles of balls, m. */
 const LOWER = 0.008;
 /** How near a mark is taken hold of, and how near a tap means it, CSS pixels. */
@@ -58,10 +59,9 @@ const cameraOn = (p: Photo): Camera | undefined =>
 
 /** What is to be marked next. */
 function wordsOfMarks(corners: number, balls: number): string {
-  if (corners < 4)
-    return `Mark the corner ${CORNERS[corners]}, where the noses of the cushions would meet. The head is where one breaks.`;
-  if (balls === 0) return "Tap the middle of each ball. Marks can be dragged.";
-  return `${balls} ${balls === 1 ? "ball" : "balls"}. Another tap on a mark of a ball takes the next number.`;
+  if (corners < 4) return texts.markTheCornerWhere(CORNERS[corners]);
+  if (balls === 0) return texts.tapTheMiddleOf;
+  return texts.anotherTapOnA(texts.ballsCounted(balls));
 }
 
 function draw(p: Photo): void {
@@ -69,16 +69,13 @@ function draw(p: Photo): void {
   const asked = balls.find(({ candidates }) => candidates);
   p.done.disabled = balls.length === 0 || asked !== undefined;
   const answers = (asked?.candidates ?? []).map((ball) =>
-    button(p.host.names[ball]!, () => {
+    button(told(p.host.names[ball]!), () => {
       Object.assign(asked!, { ball, candidates: undefined });
       draw(p);
     }),
   );
-  p.ask.replaceChildren(
-    ...(asked ? ["Which ball has the mark with a question mark?", ...answers] : []),
-  );
-  if (!p.picture)
-    return void (said.textContent = "Choose or take a photo in which all four corners are seen.");
+  p.ask.replaceChildren(...(asked ? [texts.whichBallHasThe, ...answers] : []));
+  if (!p.picture) return void (said.textContent = texts.chooseOrTakeA);
   const g = p.canvas.getContext("2d")!;
   g.drawImage(p.picture, 0, 0);
   const unit = scaleOf(p);
@@ -226,8 +223,7 @@ function finish(p: Photo): boolean {
   const out = places.find(
     ([, [x, y]]) => !(x > -0.03 && x < size[0] + 0.03 && y > -0.03 && y < size[1] + 0.03),
   );
-  if (out)
-    p.said.textContent = `Ball ${names[out[0]]} lies outside of the table: drag its mark, or those of the corners.`;
+  if (out) p.said.textContent = texts.ballLiesOutsideOf(told(names[out[0]]!));
   else use(new Map(places));
   return !out;
 }
@@ -330,7 +326,7 @@ async function open(p: Photo, given: File): Promise<void> {
   try {
     p.picture = await createImageBitmap(given);
   } catch {
-    return void (p.said.textContent = `This browser cannot read ${given.name} as a picture.`);
+    return void (p.said.textContent = texts.thisBrowserCannotRead(given.name));
   }
   const { width, height } = p.picture;
   [p.canvas.width, p.canvas.height] = [width, height];
@@ -362,26 +358,28 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
     id: "photo",
     tabindex: "0",
     role: "img",
-    "aria-label": "The photo. Arrow keys move the cross, Enter marks.",
+    "aria-label": texts.thePhotoArrowKeys,
   });
   const file = el("input", {
     type: "file",
     id: "photo-file",
     accept: "image/*",
-    "aria-label": "A photo of a table",
+    "aria-label": texts.aPhotoOfA,
   });
-  const wide = number("photo-width", "Width, m", host.size[0]);
-  const long = number("photo-length", "Length, m", host.size[1]);
+  const wide = number("photo-width", texts.widthM, host.size[0]);
+  const long = number("photo-length", texts.lengthM, host.size[1]);
   const ball = choice(
     "photo-ball",
-    "Next ball",
+    texts.nextBall,
     [
-      ["auto", "by its colour"],
-      ...host.names.map((name, k) => [String(k), name === "cue" ? "cue ball" : name] as const),
+      ["auto", texts.byItsColour],
+      ...host.names.map(
+        (name, k) => [String(k), name === "cue" ? texts.cueBallName : told(name)] as const,
+      ),
     ],
     () => undefined,
   );
-  const done = button("Lay the balls", () => finish(p) && root.close(), {
+  const done = button(texts.layTheBalls, () => finish(p) && root.close(), {
     id: "photo-use",
     class: "main",
   });
@@ -408,12 +406,18 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
   };
   const root = dialog(
     "photo-page",
-    "A table from a photo",
+    texts.aTableFromA,
     el("div", { class: "row" }, file, wide.root, long.root),
     said,
     el("div", { class: "photo-frame" }, canvas),
     ask,
-    el("div", { class: "row" }, ball.root, button("Take back", back, { id: "photo-back" }), done),
+    el(
+      "div",
+      { class: "row" },
+      ball.root,
+      button(texts.takeBack, back, { id: "photo-back" }),
+      done,
+    ),
   );
 
   const pixel = (event: PointerEvent): Pixel =>

@@ -10,6 +10,7 @@ import { DRILLS_MADE as KEY, ownRating } from "./ladder.js";
 import { keepRow, type Row } from "./log.js";
 import type { Training } from "./parts.js";
 import { photoPage } from "./photo_page.js";
+import { texts, told } from "../texts/texts.js";
 
 declare const DRILLS: string;
 
@@ -35,37 +36,36 @@ function pocketsFor(ball: string | undefined, goal: string | undefined, table: T
 }
 /** What would have made the pot: a turn of the aim, and another speed. */
 function wordsOfChange({ phi = 0, speed = 0 }: Pick<Row, "phi" | "speed">): string {
-  const side = phi > 0 ? "right" : "left";
-  const turn =
-    Math.abs(phi) >= 0.05 ? ` Turn the aim ${Math.abs(phi).toFixed(2)}° to the ${side}.` : "";
-  const force = speed > 0 ? "softer" : "faster";
-  return speed === 0 ? turn : `${turn} Strike ${Math.abs(speed).toFixed(1)} m/s ${force}.`;
+  const side = phi > 0 ? texts.toTheRight : texts.toTheLeft;
+  const turn = Math.abs(phi) >= 0.05 ? texts.turnTheAimTo(Math.abs(phi).toFixed(2), side) : "";
+  const force = speed > 0 ? texts.softer : texts.faster;
+  return speed === 0 ? turn : texts.strikeMS(turn, Math.abs(speed).toFixed(1), force);
 }
 
 export function practice(carom: Carom, begin: (setup: Setup) => void): Training {
   const drills = drillsOf(DRILLS);
   const drillOf = (name: string): (typeof drills)[number] => {
     const drill = drills.find((one) => one.name === name);
-    if (!drill) throw new TypeError(`drill: there is no drill "${name}"`);
+    if (!drill) throw new TypeError(texts.drillThereIsNo(name));
     return drill;
   };
   const note = el("p", { class: "note", id: "drill-note" });
   const which = choice(
     "drill",
-    "Drill",
-    drills.map(({ name }) => [name, name] as const),
+    texts.drill,
+    drills.map(({ name }) => [name, told(name)] as const),
     describe,
   );
   function wordsOfTries(name: string): string {
     const [good, tries] = countsOf(KEY, name);
-    return tries === 0 ? "" : ` Made ${good} of ${tries}.`;
+    return tries === 0 ? "" : texts.madeOf(good, tries);
   }
   function describe(): void {
-    note.textContent = `${drillOf(which.select.value).text}${wordsOfTries(which.select.value)}`;
+    note.textContent = `${told(drillOf(which.select.value).text)}${wordsOfTries(which.select.value)}`;
   }
   const close = (): void => start.closest("dialog")!.close();
   const start: HTMLButtonElement = button(
-    "Start drill",
+    texts.startDrill,
     () => {
       close();
       begin(setupOf(atOf(drillOf(which.select.value), BALLS), which.select.value));
@@ -92,7 +92,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
   describe();
   return {
     parts: [
-      el("h3", {}, "Practice"),
+      el("h3", {}, texts.practice),
       el("div", { class: "fields" }, which.root),
       note,
       el(
@@ -100,7 +100,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
         { class: "row" },
         start,
         button(
-          "A table from a photo",
+          texts.aTableFromA,
           () => {
             close();
             photo.open();
@@ -112,23 +112,24 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
     photo: photo.root,
     rating: () => ownRating(carom, drills),
     drill: drillOf,
-    wordsOfStart: (name) =>
-      `${drillOf(name).text}${wordsOfTries(name)} It counts for your rating: strokes err a little, like those of an 800.`,
+    wordsOfStart: (name) => texts.itCountsForYour(told(drillOf(name).text), wordsOfTries(name)),
     /** What to practise next: what was made least, beside how often one's rating makes it. */
     plan() {
       const { rating } = ownRating(carom, drills);
       const rows = drills.map((one) => {
         const [good, tries] = countsOf(KEY, one.name);
         return {
-          text: `${one.name} (${tries ? `${good} of ${tries}` : "not tried"})`,
+          text: `${told(one.name)} (${tries ? texts.ofTries(good, tries) : texts.notTried})`,
           at: (good + 1) / (tries + 2) - 1 / (1 + 2 ** ((one.rating - rating) / 100)),
         };
       });
-      return `Practise next: ${rows
-        .sort((a, b) => a.at - b.at)
-        .slice(0, 3)
-        .map(({ text }) => text)
-        .join(", ")}.`;
+      return texts.practiseNext(
+        rows
+          .sort((a, b) => a.at - b.at)
+          .slice(0, 3)
+          .map(({ text }) => text)
+          .join(", "),
+      );
     },
     played(name, { shot, cue, balls }) {
       const { goal, text } = drillOf(name);
@@ -153,13 +154,18 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
         meant: text,
         ...off,
         side: -cue.a || 0,
-        best: outcome === "missed" ? review.trim() : "Made.",
+        best: outcome === "missed" ? review.trim() : texts.made,
       });
-      if (outcome === "on") return { text: "Go on with the next ball.", again: false };
+      if (outcome === "on") return { text: texts.goOnWithThe, again: false };
       const [good, tries] = count(KEY, name, [Number(outcome === "made"), 1]);
       describe();
       return {
-        text: `${outcome === "made" ? "Made" : "Missed"}: ${good} of ${tries}.${review}`,
+        text: texts.outcomeOf(
+          outcome === "made" ? texts.madeWord : texts.missed,
+          good,
+          tries,
+          review,
+        ),
         again: true,
       };
     },

@@ -8,6 +8,7 @@ import { cueWith, strokeOf } from "../table/stroke.js";
 import { OPTIONS, type Play } from "./game.js";
 import { guessOf, lookAlong } from "./look.js";
 import type { Chosen, Lines, Progress, Session } from "./parts.js";
+import { texts } from "../texts/texts.js";
 
 export const NONE: Chosen = { ball: -1, pocket: -1, met: -1 };
 export const SAFETY = -2;
@@ -108,7 +109,7 @@ export function look(s: Session): void {
 /** Whom chances are told of. */
 export function wordsOfLevel(s: Pick<Session, "play" | "training">): string {
   const level = levelOf(s);
-  return s.training.rating().isGuess ? `An unrated player (${level})` : `A ${level}, as you are,`;
+  return s.training.rating().isGuess ? texts.anUnratedPlayer(level) : texts.aAsYouAre(level);
 }
 /** The rating of whoever sits here: his own one, or that of his errors where they are larger. */
 export function levelOf({ play, training }: Pick<Session, "play" | "training">): number {
@@ -125,12 +126,11 @@ export function linesOf({ settings, training }: Pick<Session, "settings" | "trai
 /** Why nothing can be played now. */
 export function why(s: Pick<Session, "play" | "seat" | "thinks">): string {
   const { play } = s;
-  if (s.thinks) return "The other player thinks: your turn comes after his stroke.";
-  if (play.winner !== undefined) return "This game is over: begin another one.";
-  if (play.setup.against !== "link") return "Not now: a stroke is on its way.";
-  if (play.last?.who === s.seat)
-    return "The other player is at the table: send the link, and open the one that comes back.";
-  return "The other player is at the table: open the link that comes after his turn.";
+  if (s.thinks) return texts.theOtherPlayerThinks;
+  if (play.winner !== undefined) return texts.thisGameIsOver;
+  if (play.setup.against !== "link") return texts.notNowAStroke;
+  if (play.last?.who === s.seat) return texts.theOtherPlayerIs;
+  return texts.theOtherPlayerIsAt;
 }
 
 export const playerOf = (carom: Carom, rating: string): Player =>

@@ -11,6 +11,7 @@ import type { Play } from "./game.js";
 import type { Scene } from "./scene.js";
 import type { Session, SpaceView } from "./parts.js";
 import { aimed, free } from "./session.js";
+import { texts } from "../texts/texts.js";
 
 async function load(): Promise<typeof import("./scene.js")> {
   const text = document.getElementById("scene-module")!.textContent!.trim();
@@ -44,8 +45,7 @@ export class Space implements SpaceView {
   /** Rejects where the browser has no WebGL: the flat view stays. */
   async toggle(): Promise<void> {
     if (this.on) return this.#hide();
-    if (!document.createElement("canvas").getContext("webgl2"))
-      throw new Error("it has no WebGL 2");
+    if (!document.createElement("canvas").getContext("webgl2")) throw new Error(texts.itHasNoWebgl);
     this.#module ??= await load();
     this.#make();
     this.on = true;
@@ -74,7 +74,7 @@ export class Space implements SpaceView {
       id: "scene",
       role: "img",
       tabindex: "0",
-      "aria-label": "The table from behind the cue",
+      "aria-label": texts.theTableFromBehind,
     }))
       canvas.setAttribute(name, value);
     this.#handle(scene);

@@ -1,13 +1,14 @@
 // How a game stands, in words: whose turn it is, on which balls, and the score.
 import { onTable } from "../table/filmed.js";
 import type { Play, Stroke } from "./game.js";
+import { texts, told } from "../texts/texts.js";
 
 /** The name of who is at the table: 0 breaks, 1 is the other one. */
 export function nameOf(play: Play, who: 0 | 1, seat: 0 | 1): string {
   const { against } = play.setup;
-  if (against === "person") return `Player ${who + 1}`;
-  if (who === seat) return "You";
-  return against === "link" ? "The other player" : `The ${against}`;
+  if (against === "person") return texts.player(who + 1);
+  if (who === seat) return texts.you;
+  return against === "link" ? texts.theOtherPlayer : texts.theRated(against);
 }
 const groupOf = (play: Play, who: 0 | 1): string => {
   const { group } = play.state;
@@ -21,20 +22,20 @@ const ballsLeft = (play: Play, from: number, to: number): number =>
 function wordsOfFoul(play: Play, { who, ruling }: Stroke, seat: 0 | 1): string {
   if (!ruling?.foul) return "";
   const name = nameOf(play, who, seat);
-  return `${name} ${name === "You" ? "foul" : "fouls"}: ${ruling.why}. `;
+  return texts.fouls(name, name === texts.you, told(ruling.why));
 }
 
 const fell = ({ shot }: Stroke, ball: number): boolean =>
   shot?.events.some(({ type, a }) => type === "ball_pocket" && a === ball) === true;
 /** Why the eight lost the game. */
 function wordsOfEight({ state, ruling, balls, shot, call }: Stroke): string {
-  if (shot?.final[8]?.label === "off") return "the 8 left the table";
+  if (shot?.final[8]?.label === "off") return texts.the8LeftThe;
   const [from, to] = state.group === "solids" ? [1, 7] : [9, 15];
   const hasOwn = balls.some((ball, k) => k >= from && k <= to && onTable(ball.state));
-  if (state.group === "open" || hasOwn) return "the 8 fell before its group was cleared";
-  if (ruling?.foul) return `the 8 fell with a foul: ${ruling.why}`;
+  if (state.group === "open" || hasOwn) return texts.the8FellBefore;
+  if (ruling?.foul) return texts.the8FellWith(told(ruling.why));
   const isCalled = typeof call === "object" && call.ball === 8;
-  return isCalled ? "the 8 fell into another pocket than the called one" : "the 8 was not called";
+  return isCalled ? texts.the8FellInto : texts.the8WasNot;
 }
 /** Why the game has ended, as far as the stroke tells more than the score. */
 function wordsOfEnd(play: Play): string {
@@ -44,58 +45,58 @@ function wordsOfEnd(play: Play): string {
   const deciding = { eightball: 8, nineball: 9, tenball: 10 }[setup.game];
   if (deciding === undefined) {
     const score = play.points.join(" : ").replaceAll("-", "−");
-    return played?.points ? `the score is ${score}` : "";
+    return played?.points ? texts.theScoreIs(score) : "";
   }
-  if (!hasLost) return fell(last, deciding) ? `the ${deciding} fell` : "";
+  if (!hasLost) return fell(last, deciding) ? texts.theFell(deciding) : "";
   if (deciding === 8) return wordsOfEight(last);
-  return last.ruling.foul ? `the third foul in a row: ${last.ruling.why}` : "";
+  return last.ruling.foul ? texts.theThirdFoulIn(told(last.ruling.why)) : "";
 }
 
 /** Where balls count for whoever plays. */
 function pocketOf(play: Play): string {
   const [pocket = 5] = play.state.pocket ?? [];
-  return `the ${play.carom.pocketNames(play.table)[pocket] ?? "own"} pocket`;
+  return texts.thePocket(told(play.carom.pocketNames(play.table)[pocket] ?? "own"));
 }
 /** Of snooker: what is to be met. */
 function onOf(play: Play): string {
   const on = play.carom.ballsOn(play.state, play.balls);
   if (on.length === 0) return "nothing";
-  if (on.every((ball) => ball < 16)) return "a red";
-  return on.length === 1 ? play.names[on[0]!]! : "a colour";
+  if (on.every((ball) => ball < 16)) return texts.aRed;
+  return on.length === 1 ? told(play.names[on[0]!]!) : texts.aColour;
 }
 
 /** The balls that count for whoever plays, or the pocket, behind the name: ", on a red". */
 function aimOf(play: Play): string {
   const { game } = play.setup;
-  if (game === "snooker") return `, on ${onOf(play)}`;
-  if (play.played?.pockets) return `, into ${pocketOf(play)}`;
+  if (game === "snooker") return texts.onBall(onOf(play));
+  if (play.played?.pockets) return texts.intoPocket(pocketOf(play));
   if (game !== "eightball" || play.breaks) return "";
-  return play.state.group === "open" ? ", open table" : `, ${play.state.group}`;
+  return play.state.group === "open" ? texts.openTable : `, ${told(play.state.group)}`;
 }
-const PLACES: Record<string, string> = { kitchen: " behind the line", anywhere: "" };
+const PLACES: Record<string, string> = { kitchen: texts.behindTheLine, anywhere: "" };
 function wordsOfHand({ hand }: Play): string {
-  return hand === "no" ? "" : ` Cue ball in hand${PLACES[hand] ?? " in the D"}: drag it.`;
+  return hand === "no" ? "" : texts.cueBallInHand(PLACES[hand] ?? texts.inTheD);
 }
 function wordsOfTable(play: Play, name: string): string {
-  if (play.hasPockets && play.breaks) return `${name} ${name === "You" ? "break" : "breaks"}`;
-  return name === "You" ? "Your turn" : `${name}'s turn`;
+  if (play.hasPockets && play.breaks) return texts.breaks(name, name === texts.you);
+  return name === texts.you ? texts.yourTurn : texts.sTurn(name);
 }
 
 export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = false): string {
-  if (play.practice) return play.setup.drill ?? "Practice";
+  if (play.practice) return told(play.setup.drill ?? texts.practice);
   const before = play.last && !short ? wordsOfFoul(play, play.last, seat) : "";
   if (play.winner !== undefined) {
     const winner = nameOf(play, play.winner, seat);
     const end = wordsOfEnd(play);
-    return `${winner} ${winner === "You" ? "have" : "has"} won${end && `: ${end}`}.`;
+    return texts.hasWon(winner, winner === texts.you, end && `: ${end}`);
   }
   const name = nameOf(play, play.turn, seat);
   const aim = aimOf(play);
-  if (thinks) return `${before}${name} thinks${aim} …`;
+  if (thinks) return texts.thinks(before, name, aim);
   // Whoever has played has something to send; who has not waits for a link.
-  if (name !== "You" && play.setup.against === "link") {
+  if (name !== texts.you && play.setup.against === "link") {
     const sends = play.last?.who === seat;
-    return `${before}${name} plays${aim}: ${sends ? "send the link." : "wait for the link that comes after this turn."}`;
+    return texts.playsByLink(before, name, aim, sends ? texts.sendTheLink : texts.waitForTheLink);
   }
   return `${before}${wordsOfTable(play, name)}${aim}.${wordsOfHand(play)}`;
 }
@@ -103,34 +104,34 @@ export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = fa
 /** What fell in a stroke. */
 export function wordsOfStroke(play: Play, { who, shot }: Stroke, seat: 0 | 1): string {
   const name = nameOf(play, who, seat);
-  if (!shot) return `${name} passed.`;
+  if (!shot) return texts.passed(name);
   const fallen = shot.events.flatMap(({ type, a }) =>
-    type === "ball_pocket" && a > 0 ? `the ${play.names[a]}` : [],
+    type === "ball_pocket" && a > 0 ? texts.theBallNamed(told(play.names[a]!)) : [],
   );
-  return `${name} pocketed ${fallen.length > 0 ? fallen.join(" and ") : "no ball"}.`;
+  return texts.whoPocketed(name, fallen.length > 0 ? fallen.join(texts.andWord) : texts.noBall);
 }
 
 /** The score: what is left of each, or points. */
 export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, number]): string {
   if (play.practice) {
     const count = ballsLeft(play, 1, play.balls.length);
-    return `${count} ${count === 1 ? "ball" : "balls"}`;
+    return texts.ballsCounted(count);
   }
   const names = ([0, 1] as const).map((who) => nameOf(play, who, seat));
   const wordsOfPoints = (parts: readonly (string | number)[]): string =>
     parts.map((part, k) => `${names[k]}: ${part}`.replace(": -", ": −")).join(" · ");
   if (play.played?.points) return wordsOfPoints(play.points);
-  const won = racks[0] + racks[1] > 0 ? `racks won ${racks[0]} : ${racks[1]}` : "";
+  const won = racks[0] + racks[1] > 0 ? texts.racksWon(racks[0], racks[1]) : "";
   if (play.setup.game === "eightball") {
     if (play.state.group === "open") return won;
     const balls = ([0, 1] as const).map((who) =>
       groupOf(play, who) === "solids" ? ballsLeft(play, 1, 7) : ballsLeft(play, 9, 15),
     );
-    return `${wordsOfPoints(balls.map((count) => (count === 0 ? "on the 8" : `${count} left`)))}${won && ` · ${won}`}`;
+    return `${wordsOfPoints(balls.map((count) => (count === 0 ? texts.onThe8 : texts.countLeft(count))))}${won && ` · ${won}`}`;
   }
   if (["nineball", "tenball"].includes(play.setup.game)) {
     const next = play.balls.findIndex(({ state }, k) => k > 0 && onTable(state));
-    return [next > 0 ? `lowest ball ${next}` : "", won].filter((part) => part !== "").join(" · ");
+    return [next > 0 ? texts.lowestBall(next) : "", won].filter((part) => part !== "").join(" · ");
   }
   return won;
 }

@@ -28,6 +28,7 @@ import {
   why,
 } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfStroke } from "./state.js";
+import { texts } from "../texts/texts.js";
 
 /** How long the stroke of the page's player is shown before it is played, ms. */
 const SHOWN = 700;
@@ -76,7 +77,7 @@ export function choose(s: Session, what: "push" | "pass"): void {
     // A safety holds as long as the aim meets the same ball.
     const safety = { ball: -1, pocket: SAFETY, met: s.first?.ball ?? -1 };
     s.chosen = isSafety(s) ? NONE : safety;
-  } else if (s.play.breaks) says(s, "A break calls nothing.");
+  } else if (s.play.breaks) says(s, texts.aBreakCallsNothing);
   else s.special = s.special === "push" ? undefined : "push";
   s.showing.rest();
 }
@@ -98,7 +99,7 @@ function follow(s: Session, stroke: Stroke): void {
 }
 export function undo(s: Session): void {
   if (!s.play.practice) return;
-  if (!s.play.undo()) return says(s, "There is nothing to undo.");
+  if (!s.play.undo()) return says(s, texts.thereIsNothingTo);
   save(s);
   s.showing.rest();
 }
@@ -178,7 +179,7 @@ async function announce(s: Session, choice: Choice): Promise<void> {
   s.theirs = choice.cue;
   s.showing.rest();
   const stroke = wordsOfChoice(play.table, play.names, choice, s.first?.ball === -1);
-  says(s, `${nameOf(play, play.turn, seat)} plays ${stroke}.`);
+  says(s, texts.playsStroke(nameOf(play, play.turn, seat), stroke));
   const isInstant = film.pace.value === "1000";
   await new Promise((later) => window.setTimeout(later, isInstant ? 0 : SHOWN));
 }
@@ -228,9 +229,7 @@ export function save({ play, link, seat, id, words }: Saved): void {
     isOver: play.winner !== undefined,
     when: Date.now(),
   };
-  saveGame(game).catch((error: unknown) =>
-    says({ words }, `This browser does not keep the game: ${wrong(error)}.`),
-  );
+  saveGame(game).catch((error: unknown) => says({ words }, texts.thisBrowserDoesNot(wrong(error))));
   if (setup.against === "link") return link.save();
   if (location.hash !== "#view=play" && !parameters().has("d"))
     history.replaceState(null, "", "#view=play");

@@ -20,6 +20,7 @@ import { Sound } from "./sound.js";
 import { Space } from "./space.js";
 import { begin, FIRST, resume, start } from "./opening.js";
 import { choose, undo } from "./turns.js";
+import { texts } from "../texts/texts.js";
 
 const wordsOf = (): Session["words"] => ({
   turn: el("p", { id: "turn", role: "status" }),
@@ -40,23 +41,23 @@ function buttonsOf(session: () => Session): Session["buttons"] {
     more: Record<string, string> = {},
   ): HTMLButtonElement => button(text, () => void press(session()), { id, ...more });
   return {
-    menu: named("new-game", "New game", () => undefined),
-    hint: named("hint", "Hint", (s) => s.coach.advise()),
-    replay: named("replay", "Replay", (s) => s.showing.replay()),
-    undo: named("undo-stroke", "Undo", undo),
-    rack: named("rack-up", "New rack", beginAgain),
-    push: named("push", "Push out", (s) => choose(s, "push"), { "aria-pressed": "false" }),
-    pass: named("pass", "Pass", (s) => choose(s, "pass")),
-    skip: named("skip", "Skip", (s) => s.showing.skip()),
-    link: named("send", "Send link", (s) => s.link.send()),
+    menu: named("new-game", texts.newGame, () => undefined),
+    hint: named("hint", texts.hint, (s) => s.coach.advise()),
+    replay: named("replay", texts.replay, (s) => s.showing.replay()),
+    undo: named("undo-stroke", texts.undo, undo),
+    rack: named("rack-up", texts.newRack, beginAgain),
+    push: named("push", texts.pushOut, (s) => choose(s, "push"), { "aria-pressed": "false" }),
+    pass: named("pass", texts.pass, (s) => choose(s, "pass")),
+    skip: named("skip", texts.skip, (s) => s.showing.skip()),
+    link: named("send", texts.sendLink, (s) => s.link.send()),
     sound: named("sound", "♪", toggleSound, {
-      "aria-label": "Sound",
+      "aria-label": texts.sound,
       "aria-pressed": "true",
-      title: "Sound on or off",
+      title: texts.soundOnOrOff,
     }),
     space: named("space", "3D", toggle, {
       "aria-pressed": "false",
-      title: "The view from behind the cue",
+      title: texts.theViewFromBehind,
     }),
   };
 }
@@ -109,7 +110,7 @@ async function toggle(s: Session): Promise<void> {
   try {
     await s.space.toggle();
   } catch (error) {
-    says(s, `This browser does not show three dimensions (${wrong(error)}).`);
+    says(s, texts.thisBrowserDoesNotShow(wrong(error)));
   }
   s.buttons.space.setAttribute("aria-pressed", String(s.space.on));
 }
@@ -128,22 +129,22 @@ function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof d
   const draw = (): void => {
     const { play } = s;
     const sources: Source[] = play.last?.shot
-      ? [["the last stroke", play.last.balls, play.last.cue]]
+      ? [[texts.theLastStroke, play.last.balls, play.last.cue]]
       : [];
     // In a game nobody sees where the balls would go.
     if (play.practice && !play.setup.drill)
-      sources.unshift(["the stroke that is aimed", play.balls, cueOf(s)]);
-    diagram.open(play.setup, [...sources, ["the balls as they lie", play.balls, undefined]]);
+      sources.unshift([texts.theStrokeThatIs, play.balls, cueOf(s)]);
+    diagram.open(play.setup, [...sources, [texts.theBallsAsThey, play.balls, undefined]]);
   };
   const rows = [
-    shut("Link to this game", "copy-game", () => void s.link.send()),
-    shut("Log of your strokes", "open-log", log.open),
-    shut("Diagram to print", "open-diagram", draw),
+    shut(texts.linkToThisGame, "copy-game", () => void s.link.send()),
+    shut(texts.logOfYourStrokes, "open-log", log.open),
+    shut(texts.diagramToPrint, "open-diagram", draw),
   ];
   const games = menu(
     s,
     ...s.training.parts,
-    el("h3", {}, "This game"),
+    el("h3", {}, texts.thisGame),
     el("div", { class: "row" }, ...rows),
   );
   s.buttons.menu.addEventListener("click", games.open);
@@ -157,14 +158,14 @@ export function playView(
   carom: Carom,
   main: HTMLElement,
 ): { update(): void; theme(): void; close(): void } {
-  const felt = el("section", { class: "felt", "aria-label": "Table" });
+  const felt = el("section", { class: "felt", "aria-label": texts.table });
   const s = sessionOf(carom, felt);
   const { words, buttons, stroke } = s;
   aiming(s);
   const { all, diagram } = dialogs(s);
   const bar = el(
     "section",
-    { class: "play-bar", "aria-label": "Game" },
+    { class: "play-bar", "aria-label": texts.game },
     el(
       "div",
       { class: "words" },
@@ -203,7 +204,7 @@ export function playView(
   const asked = parameters().get("d");
   const ready = resume(s)
     .then(() => (asked ? diagram.read(asked) : undefined))
-    .catch((error: unknown) => says(s, `The diagram was not read: ${wrong(error)}.`));
+    .catch((error: unknown) => says(s, texts.theDiagramWasNot(wrong(error))));
   main.setAttribute("aria-busy", "true");
   void ready.then(() => main.setAttribute("aria-busy", "false"));
 

@@ -11,6 +11,7 @@ import {
   type TableName,
   words,
 } from "carom";
+import { texts, told } from "../texts/texts.js";
 
 export interface GameOf {
   text: string;
@@ -27,18 +28,18 @@ function snookerName(k: number): string {
   return k < 16 ? `red ${k}` : COLOURS[k - 16]!;
 }
 export const GAMES: Record<string, GameOf> = {
-  nineball: { text: "Nine-ball", table: "9ft", rack: "nineball", game: "pool", names: pool },
-  tenball: { text: "Ten-ball", table: "9ft", rack: "tenball", game: "pool", names: pool },
-  eightball: { text: "Eight-ball", table: "9ft", rack: "eightball", game: "pool", names: pool },
+  nineball: { text: texts.nineBall, table: "9ft", rack: "nineball", game: "pool", names: pool },
+  tenball: { text: texts.tenBall, table: "9ft", rack: "tenball", game: "pool", names: pool },
+  eightball: { text: texts.eightBall, table: "9ft", rack: "eightball", game: "pool", names: pool },
   snooker: {
-    text: "Snooker",
+    text: texts.snooker,
     table: "snooker",
     rack: "snooker",
     game: "snooker",
     names: snookerName,
   },
   threecushion: {
-    text: "Three-cushion",
+    text: texts.threeCushion,
     table: "threecushion",
     rack: "threecushion",
     game: "billiard",
@@ -50,10 +51,10 @@ export const POOL_TABLES: Record<
   string,
   readonly [text: string, table: TableName, measures?: Partial<Measures>]
 > = {
-  "9ft": ["nine feet", "9ft"],
-  "8ft": ["eight feet", "8ft"],
-  "7ft": ["seven feet", "7ft"],
-  tight: ["nine feet, corners of 4 1/4 in", "9ft", { cornerMouth: 0.10795 }],
+  "9ft": [texts.nineFeet, "9ft"],
+  "8ft": [texts.eightFeet, "8ft"],
+  "7ft": [texts.sevenFeet, "7ft"],
+  tight: [texts.nineFeetCornersOf, "9ft", { cornerMouth: 0.10795 }],
 };
 export const TABLES: readonly TableName[] = words.table.map(([word]) => word);
 
@@ -93,7 +94,7 @@ export function gameOf<L extends Line>(line: L, asked: string): Read<L> {
   if (name === undefined) return { name: "nineball", line, also: undefined };
   if (names.length > 1 && name !== asked && name !== whole)
     throw new TypeError(
-      `balls: they fit ${names.map((one) => GAMES[one]!.text).join(" and ")}; choose one of these games, then import again`,
+      texts.ballsTheyFitChoose(names.map((one) => GAMES[one]!.text).join(texts.andWord)),
     );
   return {
     name,
@@ -126,19 +127,19 @@ export interface Played {
 const BREAK = { speed: 8, phi: 90, a: 0, b: 0 };
 const OWN: Record<string, Partial<Played>> = {
   straight: {
-    text: "Straight pool, to 25 points",
+    text: texts.straightPoolTo25,
     state: { target: 25 },
     begin: { ...BREAK, speed: 4 },
   },
   snooker: { calls: false, begin: { ...BREAK, speed: 4 } },
   threecushion: {
-    text: "Three-cushion, to 10 points",
+    text: texts.threeCushionTo10,
     points: true,
     target: 10,
     begin: { speed: 4, phi: 62, a: 0, b: 0.2 },
   },
   straightrail: {
-    text: "Straight rail, to 25 points",
+    text: texts.straightRailTo25,
     state: { target: 25 },
     begin: { speed: 3, phi: 97, a: 0, b: 0.2 },
   },
@@ -157,7 +158,7 @@ export const PLAYED: Record<string, Played> = Object.fromEntries(
           [
             name,
             {
-              text: text[0]!.toUpperCase() + text.slice(1).split(" by ")[0]!,
+              text: told(text[0]!.toUpperCase() + text.slice(1).split(" by ")[0]!),
               of: rack,
               rules: name,
               calls,

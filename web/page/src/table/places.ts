@@ -2,6 +2,7 @@
 // laboratory with how it is turned, degrees.
 import type { BallState, ShotBall, Table } from "carom";
 import { onTable } from "./filmed.js";
+import { texts } from "../texts/texts.js";
 
 /** A ball that waits in the first pocket. */
 export function pocketed({ pockets: [pocket] }: Table, from: BallState): BallState {
@@ -25,9 +26,7 @@ export function placesOf(
       (place) => place === undefined || (place.length >= 2 && place.every(Number.isFinite)),
     )
   )
-    throw new TypeError(
-      `at: ${balls.length} places x,y are needed, with "in" for a ball in a pocket`,
-    );
+    throw new TypeError(texts.atPlacesXY(balls.length));
   return {
     balls: balls.map(({ kind, state }, k) => ({
       kind,

@@ -2,6 +2,7 @@
 // touches.
 import type { Cue } from "carom";
 import { pad, slider, type Slider, valuesOf } from "../ui.js";
+import { texts } from "../texts/texts.js";
 
 export type Stroke = Record<"speed" | "phi" | "right" | "up" | "theta", number>;
 /** The cue with a stroke, and the stroke of a cue: a tip to the right has a negative a. */
@@ -29,12 +30,12 @@ export function strokeControls(speed: Slider, padId: string, changed: () => void
   };
   const sliders: Record<keyof Stroke, Slider> = {
     speed,
-    phi: slider("phi", "Direction", 0, 360, 0.05, "°", changed, two),
-    right: slider("right", "Tip to the right (+) or left", -0.7, 0.7, 0.01, " R", tipped, two),
-    up: slider("up", "Tip above (+) or below", -0.7, 0.7, 0.01, " R", tipped, two),
-    theta: slider("theta", "Butt raised by", 0, 80, 1, "°", changed, (x) => x.toFixed(0)),
+    phi: slider("phi", texts.direction, 0, 360, 0.05, "°", changed, two),
+    right: slider("right", texts.tipToTheRight, -0.7, 0.7, 0.01, " R", tipped, two),
+    up: slider("up", texts.tipAbove, -0.7, 0.7, 0.01, " R", tipped, two),
+    theta: slider("theta", texts.buttRaised, 0, 80, 1, "°", changed, (x) => x.toFixed(0)),
   };
-  const tip = pad(padId, "Where the tip touches the cue ball", (right, up) => {
+  const tip = pad(padId, texts.whereTheTipTouches, (right, up) => {
     set({ right, up });
     changed();
   });

@@ -1,25 +1,26 @@
 // Plans in words: what a choice is, and chances.
 import type { Choice, Table } from "carom";
 import { pocketName } from "../../../player/words.js";
+import { texts, told } from "../texts/texts.js";
 
 /** Fargo ratings that one can choose. */
 export const RATINGS = ["200", "300", "400", "500", "600", "700", "800"];
 export const percent = (x: number): string => `${(100 * x).toFixed(0)} %`;
 
 const BY: Partial<Record<Choice["kind"], string>> = {
-  bank: ", by a bank",
-  kick: ", by a kick",
-  combination: ", by a combination",
-  carom: ", by a carom",
-  kiss: ", by a kiss",
+  bank: texts.byABank,
+  kick: texts.byAKick,
+  combination: texts.byACombination,
+  carom: texts.byACarom,
+  kiss: texts.byAKiss,
 };
 /** Choices in which no ball is named. */
 const WITHOUT: Partial<Record<Choice["kind"], string>> = {
-  foul: "a foul, because no stroke without one was found",
-  break: "a break",
-  push: "a push-out",
-  pass: "a pass: the other player goes on",
-  safety: "a safety",
+  foul: texts.aFoulBecauseNo,
+  break: texts.aBreak,
+  push: texts.aPushOut,
+  pass: texts.aPassTheOther,
+  safety: texts.aSafety,
 };
 
 /**
@@ -30,7 +31,9 @@ export function wordsOfChances(
   { keep, value, foul }: Pick<Choice, "keep" | "value" | "foul">,
   alone: boolean,
 ): string {
-  return `keeps the turn in ${percent(keep)}, ${alone ? "" : `wins the game in ${percent(value)}, `}fouls in ${percent(foul)} of tries`;
+  return alone
+    ? texts.chancesAlone(percent(keep), percent(foul))
+    : texts.chancesOf(percent(keep), percent(value), percent(foul));
 }
 
 export const isSafe = ({ kind, ball, keep }: Choice): boolean =>
@@ -47,13 +50,14 @@ export function wordsOfChoice(
   if (ball < 0) {
     const named = WITHOUT[kind] ?? (isSafe(choice) ? WITHOUT.safety : undefined);
     if (named !== undefined) return named;
-    return hasPockets
-      ? "a stroke without a sure pot: several balls may fall"
-      : "a stroke after which the first ball is not sure";
+    return hasPockets ? texts.aStrokeWithoutA : texts.aStrokeAfterWhich;
   }
   const name = names[ball]!;
-  if (!hasPockets) return `the ${name} ball first`;
-  const article = Number(name) > 0 ? "ball" : "the";
-  const first = cushionFirst && kind !== "kick" ? ", off a cushion first" : "";
-  return `${article} ${name} into the ${pocketName(table, pocket)}${BY[kind] ?? ""}${first}`;
+  if (!hasPockets) return texts.theBallFirst(told(name));
+  const first = cushionFirst && kind !== "kick" ? texts.offACushionFirst : "";
+  const how = `${BY[kind] ?? ""}${first}`;
+  const into = told(pocketName(table, pocket));
+  return Number(name) > 0
+    ? texts.ballNumberInto(name, into, how)
+    : texts.intoThe(told(name), into, how);
 }
