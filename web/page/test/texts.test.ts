@@ -2,6 +2,7 @@
 // outside of the files of texts.
 import { readdirSync, readFileSync } from "node:fs";
 import ts from "typescript";
+import { words } from "carom";
 import { describe, expect, test } from "vitest";
 import { root } from "../../test/support.js";
 import { GERMAN } from "../src/texts/de.js";
@@ -97,6 +98,12 @@ describe("the texts of the page", () => {
         !attributes.includes("data-text") && tag !== "title" && tag !== "h1",
     );
     expect(others.map(([text]) => text)).toEqual([]);
+  });
+
+  test("each game of the library has its rules", () => {
+    for (const [game] of words.rules.filter(([one]) => one !== "potting"))
+      for (const texts of [ENGLISH, GERMAN])
+        expect(texts.rules[game]?.length, game).toBeGreaterThan(100);
   });
 
   test("German has words for all drills", () => {

@@ -121,6 +121,8 @@ export function menu(
   const ofPool = [table.root, cloth.root, cushion.root, calibrate];
   const lines = choice("lines", texts.lines, LINES, changeSettings);
   const note = el("p", { class: "note", id: "new-note" });
+  const rules = el("p", { id: "new-rules" });
+  const rulesOf = el("details", {}, el("summary", {}, texts.theRules), rules);
   /** Strokes against the page's player err a little, if nothing else is chosen. */
   function chooseErrors(): void {
     own.select.value = isComputer(against.select.value as Against) ? "800" : "0";
@@ -150,6 +152,8 @@ export function menu(
   function describe(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
     own.root.hidden = against.select.value === "practice";
+    rules.textContent = texts.rules[game.select.value] ?? "";
+    rulesOf.hidden = rules.textContent === "";
     for (const one of ofPool) one.hidden = !isPool();
     const notes: Record<string, string> = {
       practice: texts.thereAreNoRules,
@@ -186,6 +190,7 @@ export function menu(
     texts.newGame,
     el("div", { class: "fields" }, game.root, ...ofPool, against.root, own.root),
     note,
+    rulesOf,
     start,
     games.root,
     el("h3", {}, texts.settings),

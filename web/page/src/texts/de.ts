@@ -523,6 +523,38 @@ export const GERMAN: typeof ENGLISH = {
   onlyTablesOfPool: "cloth, cushion: nur Pooltische haben einen Zustand",
   twoNumbersAreNeeded: (cushion) =>
     `cushion: zwei Zahlen von 0 bis 1 sind nötig, nicht „${cushion}“`,
+  rules: {
+    blackball:
+      "Rote und Gelbe sind die Gruppen, und die Schwarze kommt zuletzt; nichts wird angesagt. Triff zuerst eine Kugel deiner Gruppe, und lass eine Kugel fallen oder eine Bande treffen. Ein Foul gibt dem anderen einen freien Stoß, mit dem Spielball im Kopffeld oder wo er liegt: er darf jede Kugel treffen und versenken. Die Schwarze zu früh oder mit Foul verliert.",
+    heyball:
+      "Wie im 8-Ball sind 1 bis 7 und 9 bis 15 die Gruppen, und die 8 kommt zuletzt, aber nichts wird angesagt. Triff zuerst eine Kugel deiner Gruppe. Nach einem Foul darf der andere den Spielball frei legen; das dritte Foul in Folge verliert, ebenso die 8 zu früh oder mit Foul.",
+    fourball:
+      "Dein Ball trifft beide Roten, mit oder ohne Banden, und nicht den Ball des anderen Spielers: das zählt einen Punkt und lässt dich am Tisch. Trifft er keine Rote oder den Ball des anderen, kostet das einen Punkt.",
+    eightball:
+      "Die Gruppen sind 1 bis 7 und 9 bis 15; die erste Kugel, die nach dem Anstoß fällt, gibt dir deine. Triff zuerst eine Kugel deiner Gruppe, und sage Kugel und Tasche an. Eine angesagte Kugel lässt dich am Tisch. Ist deine Gruppe abgeräumt, gewinnt die angesagte 8; zu früh, in einer anderen Tasche oder mit Foul verliert sie. Nach dem ersten Kontakt muss eine Kugel fallen oder eine Bande treffen. Nach einem Foul darf der andere den Spielball frei legen. Du darfst eine Sicherheit ansagen, die die Aufnahme beendet.",
+    nineball:
+      "Triff zuerst die niedrigste Kugel. Jede Kugel, die ohne Foul fällt, lässt dich am Tisch, und die 9 gewinnt, auch früh. Nichts wird angesagt. Gleich nach dem Anstoß ist ein Push-out erlaubt: der andere spielt dann oder gibt den Tisch zurück. Nach einem Foul darf der andere den Spielball überall hinlegen; das dritte Foul in Folge verliert.",
+    tenball:
+      "Triff zuerst die niedrigste Kugel, und sage Kugel und Tasche an. Die angesagte Kugel lässt dich am Tisch; die 10, als letzte Kugel angesagt, gewinnt. Fällt eine andere Kugel, darf der andere dir den Tisch zurückgeben. Gleich nach dem Anstoß ist ein Push-out erlaubt. Nach einem Foul darf der andere den Spielball frei legen; das dritte Foul in Folge verliert.",
+    straight:
+      "Jede Kugel darf angespielt werden; sage Kugel und Tasche an. Jede angesagte Kugel zählt einen Punkt, und jede andere, die mit ihr fällt. Ist eine Kugel übrig, werden die anderen neu aufgebaut. Ein Foul kostet einen Punkt, das dritte in Folge mehr.",
+    snooker:
+      "Versenke eine Rote (1), dann eine Farbe deiner Wahl, die zurückkommt, und so weiter; ohne Rote fallen die Farben der Reihe nach: Gelb 2, Grün 3, Braun 4, Blau 5, Pink 6, Schwarz 7. Ein Foul gibt dem anderen mindestens 4 Punkte. Nach einem Foul, das dich snookert, kannst du einen Free Ball haben, oder du lässt den anderen noch einmal spielen. Fiel der Spielball, kommt er ins D.",
+    onepocket:
+      "Nur Kugeln in deiner Tasche zählen, einer der beiden am Fuß; acht gewinnen. Jede Kugel darf zuerst getroffen werden, und nichts wird angesagt. Eine Kugel in deiner Tasche lässt dich am Tisch, eine in der des anderen zählt für ihn. Ein Foul kostet eine Kugel.",
+    bank: "Nur Bandenstöße zählen: die angesagte Kugel trifft eine Bande, bevor sie in die angesagte Tasche fällt. Jeder zählt einen Punkt und lässt dich am Tisch. Kugeln, die anders fallen, kommen zurück. Ein Foul kostet einen Punkt.",
+    threecushion:
+      "Dein Ball trifft drei Banden oder mehr, bevor er den zweiten der beiden anderen Bälle trifft. Jeder solche Stoß zählt einen Punkt und lässt dich am Tisch.",
+    straightrail:
+      "Dein Ball trifft beide anderen Bälle, mit oder ohne Banden. Jeder solche Stoß zählt einen Punkt und lässt dich am Tisch.",
+    rotation:
+      "Triff zuerst die niedrigste Kugel. Jede Kugel, die ohne Foul fällt, zählt ihre Nummer und lässt dich am Tisch; 61 Punkte gewinnen. Kugeln, die mit einem Foul fallen, kommen zurück. Das dritte Foul in Folge verliert.",
+    pyramid:
+      "Jede Kugel darf gestoßen und jede versenkt werden, auch die gestoßene, nachdem sie eine andere traf. Jede, die ohne Foul fällt, zählt eins und lässt dich am Tisch; acht gewinnen. Ein Foul gibt dem anderen einen Punkt.",
+    cowboy:
+      "Bis 90 Punkte zählen die Kugeln 1, 3 und 5 ihre Nummer, und der Spielball, der zwei oder drei Kugeln trifft, zählt 1 oder 2; von 90 bis 100 zählt nur Letzteres. Der letzte Punkt ist der Spielball über die 1 in die angesagte Tasche. Ein Foul kostet die Punkte der Aufnahme.",
+  },
+  theRules: "Die Regeln",
   known: {
     "a napped or dirty cloth": "ein raues oder schmutziges Tuch",
     "a new cloth without nap": "ein neues Tuch ohne Strich",

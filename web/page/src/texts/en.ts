@@ -525,6 +525,39 @@ export const ENGLISH = {
   onlyTablesOfPool: "cloth, cushion: only tables of pool have conditions",
   twoNumbersAreNeeded: (cushion: Part) =>
     `cushion: two numbers from 0 to 1 are needed, not "${cushion}"`,
+  /** The rules of each game, half a screen each, by the library's word for it. */
+  rules: {
+    blackball:
+      "Reds and yellows are the groups, and the black comes last; nothing is called. Meet a ball of your group first, and let a ball fall or meet a cushion. A foul gives the other a free stroke, with the cue ball in baulk or where it lies: he may meet and pot any ball. The black too early or with a foul loses.",
+    heyball:
+      "As in eight-ball the groups are 1 to 7 and 9 to 15, and the 8 comes last, but nothing is called. Meet a ball of your group first. After a foul the other has the cue ball in hand; the third foul in a row loses, and so does the 8 too early or with a foul.",
+    fourball:
+      "Your ball meets both reds, with or without cushions, and does not meet the other player's ball: that counts a point and keeps the turn. A point is lost if it meets no red, or the other player's ball.",
+    eightball:
+      "The groups are 1 to 7 and 9 to 15; the first ball that falls after the break gives you yours. Meet a ball of your group first, and call ball and pocket. A called ball keeps the turn. With your group cleared, the called 8 wins; the 8 too early, in another pocket or with a foul loses. After the first contact a ball must fall or meet a cushion. After a foul the other has the cue ball in hand. You may call a safety, which ends the turn.",
+    nineball:
+      "Meet the lowest ball first. Any ball that falls without a foul keeps the turn, and the 9 wins, also early. Nothing is called. Right after the break you may push out: the other then plays, or passes the table back. After a foul the other has the cue ball in hand anywhere; the third foul in a row loses.",
+    tenball:
+      "Meet the lowest ball first, and call ball and pocket. The called ball keeps the turn; the 10, called as the last ball, wins. If another ball falls, the other may pass the table back to you. Right after the break you may push out. After a foul the other has the cue ball in hand; the third foul in a row loses.",
+    straight:
+      "Any ball may be met; call ball and pocket. Each called ball counts a point, and so does each other one that falls with it. With one ball left the others are racked again. A foul costs a point, and the third in a row more.",
+    snooker:
+      "Pot a red (1), then a colour of your choice, which comes back, and so on; without reds the colours fall in order: yellow 2, green 3, brown 4, blue 5, pink 6, black 7. A foul gives the other at least 4 points. After a foul that leaves you snookered you may have a free ball, or you may have the other play again. The cue ball is placed in the D after it fell.",
+    onepocket:
+      "Only balls in your pocket count, one of the two at the foot; eight of them win. Any ball may be met first, and nothing is called. A ball in your pocket keeps the turn, one in the other's counts for him. A foul costs a ball.",
+    bank: "Only banks count: the called ball meets a cushion before it falls in the called pocket. Each counts a point and keeps the turn. Balls that fall otherwise come back. A foul costs a point.",
+    threecushion:
+      "Your ball meets three cushions or more before it meets the second of both other balls. Each such stroke counts a point and keeps the turn.",
+    straightrail:
+      "Your ball meets both other balls, with or without cushions. Each such stroke counts a point and keeps the turn.",
+    rotation:
+      "Meet the lowest ball first. Each ball that falls without a foul counts its number and keeps the turn; 61 points win. Balls that fall on a foul come back. The third foul in a row loses.",
+    pyramid:
+      "Any ball may be struck and any potted, also the struck one after it met another. Each that falls without a foul counts one and keeps the turn; eight win. A foul gives the other a point.",
+    cowboy:
+      "Up to 90 points the balls 1, 3 and 5 count their numbers, and the cue ball that meets two or three balls counts 1 or 2; from 90 to 100 only the latter counts. The last point is the cue ball off the 1 into the called pocket. A foul costs the points of the visit.",
+  } as Record<string, string>,
+  theRules: "The rules",
   /** What the library says, in words of this language; what is missing stays as it is. */
   known: {} as Record<string, string>,
 };
