@@ -140,6 +140,23 @@ function moduleOfPage(): Plugin {
   };
 }
 
+// `npm run serve` sends the page compressed, as a server on the network would.
+function compressed(): Plugin {
+  return {
+    name: "compressed",
+    configurePreviewServer(server) {
+      server.middlewares.use((request, response, next) => {
+        const isPage = ["/", "/index.html"].includes(request.url ?? "");
+        const accepts = String(request.headers["accept-encoding"]).includes("gzip");
+        if (!isPage || !accepts) return next();
+        response.setHeader("content-type", "text/html; charset=utf-8");
+        response.setHeader("content-encoding", "gzip");
+        response.end(gzipSync(readFileSync(here("dist/index.html")), { level: 9 }));
+      });
+    },
+  };
+}
+
 export default defineConfig({
   root: here("."),
   base: "./",
@@ -156,5 +173,5 @@ export default defineConfig({
     chunkSizeWarningLimit: 4000,
     rollupOptions: { output: { inlineDynamicImports: true } },
   },
-  plugins: [moduleOfPage(), oneFile()],
+  plugins: [moduleOfPage(), oneFile(), compressed()],
 });
