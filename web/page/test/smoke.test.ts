@@ -37,6 +37,16 @@ describe.runIf(browserPath !== undefined)("smoke", () => {
     await one.close();
   });
 
+  test("the balls are listed in words", async () => {
+    const one = await open("");
+    await one.locator("details:has(#ball-list) summary").click();
+    await expect.poll(() => one.locator("#ball-list li").count()).toBe(16);
+    expect(await one.locator("#ball-list li").first().textContent()).toMatch(
+      /^cue: \d+ cm from the left cushion, \d+ cm from the head cushion$/,
+    );
+    await one.close();
+  });
+
   test("the laboratory: a break is played, and its events are listed", async () => {
     const one = await open("#view=lab");
     // Of the page at rest: what a film lights up changes its colour as it plays.

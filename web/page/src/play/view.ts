@@ -16,17 +16,33 @@ import { keepSettings, menu, settingsOf } from "./menu.js";
 import { practice } from "./practice.js";
 import type { Session } from "./parts.js";
 import { cueOf, progressOf, says } from "./session.js";
+import { onTable } from "../table/filmed.js";
 import { Sound } from "./sound.js";
 import { Space } from "./space.js";
 import { begin, FIRST, resume, start } from "./opening.js";
 import { choose, undo } from "./turns.js";
-import { texts } from "../texts/texts.js";
+import { texts, told } from "../texts/texts.js";
 
 const wordsOf = (): Session["words"] => ({
   turn: el("p", { id: "turn", role: "status" }),
   score: el("p", { id: "score" }),
   said: el("p", { id: "said", role: "status" }),
 });
+/** The balls on the table in words, for whoever does not see them; read anew at each opening. */
+function listOfBalls(s: Session): HTMLDetailsElement {
+  const list = el("ul", { id: "ball-list" });
+  const root = el("details", {}, el("summary", {}, texts.whereBallsLie), list);
+  root.addEventListener("toggle", () => {
+    const { balls, names } = s.play;
+    const rows = balls.flatMap(({ state }, k) => {
+      if (!onTable(state)) return [];
+      const [across, up] = [state.r[0], state.r[1]].map((x) => (100 * x).toFixed(0));
+      return el("li", {}, texts.ballLiesAt(told(names[k]!), across!, up!));
+    });
+    list.replaceChildren(...rows);
+  });
+  return root;
+}
 function beginAgain(s: Session): void {
   const setup = { ...s.play.setup, seed: s.play.setup.seed + 1 };
   delete setup.at; // the balls lie as in a rack
@@ -194,7 +210,7 @@ export function playView(
     ),
   );
   main.replaceChildren(
-    el("div", { class: "play" }, felt, stroke.side, bar, stroke.numbers, ...all),
+    el("div", { class: "play" }, felt, stroke.side, bar, stroke.numbers, listOfBalls(s), ...all),
   );
 
   start(s, s.play, "");

@@ -523,6 +523,9 @@ export const GERMAN: typeof ENGLISH = {
   onlyTablesOfPool: "cloth, cushion: nur Pooltische haben einen Zustand",
   twoNumbersAreNeeded: (cushion) =>
     `cushion: zwei Zahlen von 0 bis 1 sind nötig, nicht „${cushion}“`,
+  whereBallsLie: "Wo die Kugeln liegen",
+  ballLiesAt: (name, across, up) =>
+    `${name}: ${across} cm von der linken Bande, ${up} cm von der Kopfbande`,
   rules: {
     blackball:
       "Rote und Gelbe sind die Gruppen, und die Schwarze kommt zuletzt; nichts wird angesagt. Triff zuerst eine Kugel deiner Gruppe, und lass eine Kugel fallen oder eine Bande treffen. Ein Foul gibt dem anderen einen freien Stoß, mit dem Spielball im Kopffeld oder wo er liegt: er darf jede Kugel treffen und versenken. Die Schwarze zu früh oder mit Foul verliert.",

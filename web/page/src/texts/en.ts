@@ -525,6 +525,9 @@ export const ENGLISH = {
   onlyTablesOfPool: "cloth, cushion: only tables of pool have conditions",
   twoNumbersAreNeeded: (cushion: Part) =>
     `cushion: two numbers from 0 to 1 are needed, not "${cushion}"`,
+  whereBallsLie: "Where the balls lie",
+  ballLiesAt: (name: Part, across: Part, up: Part) =>
+    `${name}: ${across} cm from the left cushion, ${up} cm from the head cushion`,
   /** The rules of each game, half a screen each, by the library's word for it. */
   rules: {
     blackball:
