@@ -14,7 +14,7 @@ export const LANGUAGE_NAMES: readonly (readonly [Language, string])[] = [
 const KEY = "carom-language";
 
 function languageOfReader(): Language {
-  const asked = [chosenLanguage() ?? "", ...(navigator.languages ?? [])];
+  const asked = [chosenLanguage() ?? "", ...(globalThis.navigator?.languages ?? [])];
   const known = asked.map((one) => one.slice(0, 2)).find((one) => one in LANGUAGES);
   return (known as Language | undefined) ?? "en";
 }
