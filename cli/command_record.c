@@ -161,7 +161,9 @@ int command_record(int argc, char **argv) {
     output_abandon();
   else if (out != NULL && !output_commit())
     what = SHOT_FAILED;
-  return what == SHOT_FAILED ? EXIT_USAGE : good ? EXIT_GOOD : EXIT_SOME;
+  if (what == SHOT_FAILED)
+    return EXIT_USAGE;
+  return good ? EXIT_GOOD : EXIT_SOME;
 }
 
 /* ---- Recordings, line by line ---------------------------------------------------------------- */
@@ -281,7 +283,9 @@ int command_replay(int argc, char **argv) {
     output_abandon();
   else if (out != NULL && !output_commit())
     bad = true;
-  return bad ? EXIT_USAGE : good ? EXIT_GOOD : EXIT_SOME;
+  if (bad)
+    return EXIT_USAGE;
+  return good ? EXIT_GOOD : EXIT_SOME;
 }
 
 /* ---- carom verify ---------------------------------------------------------------------------- */
@@ -318,10 +322,11 @@ static bool tell_state(const char *when, int ball, const carom_ball_state *playe
                        const carom_ball_state *recorded) {
   static const char *const names[] = {"r[0]", "r[1]", "r[2]", "v[0]", "v[1]",
                                       "v[2]", "w[0]", "w[1]", "w[2]"};
+  static const char *const units[3] = {" m", " m/s", " rad/s"};
   char what[60];
   for (int k = 0; k < 9; k++) {
     snprintf(what, sizeof what, "%s of ball %d %s", names[k], ball, when);
-    if (tell_number(what, played->r[k], recorded->r[k], k < 3 ? " m" : k < 6 ? " m/s" : " rad/s"))
+    if (tell_number(what, played->r[k], recorded->r[k], units[k / 3]))
       return true;
   }
   snprintf(what, sizeof what, "the label of ball %d %s", ball, when);

@@ -150,7 +150,7 @@ void carom_python_judge(const carom_plan_rules *rules, size_t n, const int8_t *s
 /* ---- Games for agents ------------------------------------------------------------------------ */
 
 static double within(double x) {
-  return x < -1.0 ? -1.0 : x > 1.0 ? 1.0 : x;
+  return fmin(fmax(x, -1.0), 1.0);
 }
 
 bool carom_python_cues(const carom_python_game *game, size_t n, const double *actions, size_t acts,

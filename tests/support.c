@@ -176,11 +176,10 @@ static void put_number(void *to, const carom_number *n, int at, double x) {
   const size_t sizes[] = {sizeof(double), sizeof(int32_t), sizeof(int64_t), sizeof(uint64_t)};
   const int64_t whole = (int64_t)(n->type == CAROM_TYPE_DOUBLE ? 0 : x);
   const int32_t half = (int32_t)(n->type == CAROM_TYPE_INT32 ? x : 0);
-  memcpy((char *)to + (size_t)n->offset + (size_t)at * sizes[n->type],
-         n->type == CAROM_TYPE_DOUBLE  ? (const void *)&x
-         : n->type == CAROM_TYPE_INT32 ? (const void *)&half
-                                       : &whole,
-         sizes[n->type]);
+  const void *from = n->type == CAROM_TYPE_INT32 ? (const void *)&half : &whole;
+  if (n->type == CAROM_TYPE_DOUBLE)
+    from = &x;
+  memcpy((char *)to + (size_t)n->offset + (size_t)at * sizes[n->type], from, sizes[n->type]);
 }
 
 bool set_bad(void *to, const carom_number *n, int way) {

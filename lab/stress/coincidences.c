@@ -50,7 +50,10 @@ static carom_local at_contact(lab_random *r, bool cushion, carom_slip slip) {
                    .v_iy = below(r, 2) == 0 ? 1 : lab_log_uniform(r, 0.05, 8),
                    .s = cushion ? -1 : carom_spin_sign(slip)};
   c.M_j = c.M_i * (below(r, 2) == 0 ? 1 : lab_log_uniform(r, 0.5, 2));
-  c.mu_b = cushion ? friction(r) : below(r, 2) == 0 ? share(r) : U(0, 0.2);
+  if (cushion)
+    c.mu_b = friction(r);
+  else
+    c.mu_b = below(r, 2) == 0 ? share(r) : U(0, 0.2);
   c.mu_i = friction(r);
   c.mu_j = below(r, 2) == 0 ? c.mu_i : friction(r);
   c.e = restitution(r);
@@ -62,7 +65,11 @@ static void planar(carom_local *c, double *sine, lab_random *r) {
   c->v_jy = c->v_iy * others[below(r, COUNT(others))];
   const double v = c->v_iy / c->R, spins[] = {0, -v, v, *sine * v, v * U(-3, 3)};
   c->w_ix = spins[below(r, 5)];
-  c->w_jx = below(r, 2) == 0 ? spins[below(r, 5)] : below(r, 2) == 0 ? -c->w_ix : 0;
+  c->w_jx = 0;
+  if (below(r, 2) == 0)
+    c->w_jx = spins[below(r, 5)];
+  else if (below(r, 2) == 0)
+    c->w_jx = -c->w_ix;
 }
 
 /* The slip on the cloth or at the nose passes zero, or nearly. */
@@ -258,7 +265,9 @@ drawn coincidence_draw(int kind, uint64_t seed, uint64_t k) {
     return d;
   }
   carom_local c = at_contact(r, d.cushion, d.slip);
-  double sine = !d.cushion ? 0 : below(r, 2) == 0 ? noses[below(r, COUNT(noses))] : U(0.2, 0.45);
+  double sine = 0;
+  if (d.cushion)
+    sine = below(r, 2) == 0 ? noses[below(r, COUNT(noses))] : U(0.2, 0.45);
   kinds[kind].change(&c, &sine, r);
   if (d.cushion) {
     d.rail = at_rail(&c, sine, r);

@@ -28,12 +28,18 @@ static carom_impact realistic(double s, lab_random *r) {
   const double v = lab_log_uniform(r, 0.05, 10);
   for (int j = 0; j < 2; j++) {
     /* the second rests in half of the draws, and else goes any way but with the first */
-    const double speed = j == 0           ? v
-                         : chance(r, 0.5) ? 0
-                                          : v * U(0, 1),
-                 angle = j == 0 ? U(-1.5, 1.5) : U(1.6, 4.6);
-    const double roll = chance(r, 0.3) ? 1 : chance(r, 0.15) ? 0 : U(-2, 1.5);
-    const double side = speed == 0 && chance(r, 0.7) ? 0 : U(-1, 1) * (chance(r, 0.2) ? 4 : 1) * v;
+    double speed = v;
+    if (j != 0)
+      speed = chance(r, 0.5) ? 0 : v * U(0, 1);
+    const double angle = j == 0 ? U(-1.5, 1.5) : U(1.6, 4.6);
+    double roll = 1;
+    if (!chance(r, 0.3))
+      roll = chance(r, 0.15) ? 0 : U(-2, 1.5);
+    double side = 0;
+    if (!(speed == 0 && chance(r, 0.7))) {
+      side = U(-1, 1);
+      side *= (chance(r, 0.2) ? 4 : 1) * v;
+    }
     draw_ball(&c, j, speed * sin(angle), speed * cos(angle), roll, side);
     if (speed > 0 && chance(r, 0.15)) {
       *(j ? &c.w_jx : &c.w_ix) += U(-1, 1) * v / c.R;
@@ -48,15 +54,18 @@ static carom_impact realistic(double s, lab_random *r) {
 
 /* A share that is often 0 or 1, or near to it. */
 static double corner(lab_random *r) {
-  return chance(r, 0.1)   ? 0
-         : chance(r, 0.1) ? 1
-         : chance(r, 0.3) ? lab_log_uniform(r, 1e-9, 1)
-                          : U(0, 1);
+  if (chance(r, 0.1))
+    return 0;
+  if (chance(r, 0.1))
+    return 1;
+  return chance(r, 0.3) ? lab_log_uniform(r, 1e-9, 1) : U(0, 1);
 }
 static double any(lab_random *r, double scale) {
-  return chance(r, 0.15) ? 0
-                         : (chance(r, 0.5) ? 1 : -1) * scale *
-                               (chance(r, 0.5) ? lab_log_uniform(r, 1e-6, 1e3) : U(0, 2));
+  if (chance(r, 0.15))
+    return 0;
+  const int sign = chance(r, 0.5) ? 1 : -1;
+  const double size = chance(r, 0.5) ? lab_log_uniform(r, 1e-6, 1e3) : U(0, 2);
+  return sign * scale * size;
 }
 
 static carom_impact extreme(double s, lab_random *r) {
@@ -126,16 +135,17 @@ carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k) 
 }
 
 int draw_groups(draw_kind kind) {
-  return kind == DRAW_COINCIDENCES ? coincidence_kinds()
-         : kind == DRAW_CUSHION    ? CUSHION_DRAWS
-                                   : CAROM_SLIP_COUNT;
+  if (kind == DRAW_COINCIDENCES)
+    return coincidence_kinds();
+  return kind == DRAW_CUSHION ? CUSHION_DRAWS : CAROM_SLIP_COUNT;
 }
 
 const char *draw_name(draw_kind kind, int group) {
-  return kind == DRAW_COINCIDENCES ? coincidence_name(group)
-         : kind != DRAW_CUSHION    ? carom_slip_name((carom_slip)group)
-         : group == CUSHION_PLAY   ? "play"
-                                   : "any";
+  if (kind == DRAW_COINCIDENCES)
+    return coincidence_name(group);
+  if (kind != DRAW_CUSHION)
+    return carom_slip_name((carom_slip)group);
+  return group == CUSHION_PLAY ? "play" : "any";
 }
 
 bool is_of_play(const carom_impact *in) {

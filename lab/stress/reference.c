@@ -549,7 +549,8 @@ static bool pass(meeting *k, const rule *r, const equations *parameters, const t
 /* One rounding error, up or down, in number `c` of variant `n`: relative, so that zeros stay. */
 static double nudged(double x, int n, int c) {
   const unsigned bits = (unsigned)(n * 40503 + c) * 2654435761u;
-  return n == 0 ? x : x * (1 + ((bits >> 20 & 1) != 0 ? 1 : -1) * (double)ROUNDING);
+  const int sign = (bits >> 20 & 1) != 0 ? 1 : -1;
+  return n == 0 ? x : x * (1 + sign * (double)ROUNDING);
 }
 
 /* Variant n of an impact: its meeting and parameters; false if it does not approach. */
@@ -588,10 +589,9 @@ static reference_status solve_checked(set_up *prepare, const void *in, int slip,
     else
       rounding = fmax(rounding, (double)(apart(other, &rough) / scale));
   }
-  return !solved || !(error < (double)TOO_FAR)
-             ? rounding > (double)TOO_SHAKY ? REFERENCE_ROUNDING : REFERENCE_FAILED
-         : rounding > (double)TOO_SHAKY ? REFERENCE_ROUNDING
-                                        : REFERENCE_OK;
+  if (rounding > (double)TOO_SHAKY)
+    return REFERENCE_ROUNDING;
+  return solved && error < (double)TOO_FAR ? REFERENCE_OK : REFERENCE_FAILED;
 }
 
 /* A ball in the axes x = (y_y, -y_x), y. */
@@ -639,11 +639,11 @@ static bool set_up_balls(const void *subject, int slip, int n, meeting *k, equat
   real s[SLIPS];
   const real v = slips_of(k, s);
   k->pressed = s[1] < 0;
-  *q = (equations){
-      .mu = nudged(in->mu_ball, n, 10),
-      .mu_cloth = s[1] == 0 ? 0 : nudged(k->pressed == 1 ? in->b.mu_cloth : in->a.mu_cloth, n, 11),
-      .e = in->restitution,
-      .g_1 = k->pressed == 1 ? 1 : -1};
+  const double mu_pressed = k->pressed == 1 ? in->b.mu_cloth : in->a.mu_cloth;
+  *q = (equations){.mu = nudged(in->mu_ball, n, 10),
+                   .mu_cloth = s[1] == 0 ? 0 : nudged(mu_pressed, n, 11),
+                   .e = in->restitution,
+                   .g_1 = k->pressed == 1 ? 1 : -1};
   return v > 0;
 }
 

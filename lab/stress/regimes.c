@@ -106,7 +106,18 @@ static void any_friction(carom_local *c, lab_random *r) {
 }
 
 static double end_or_any(lab_random *r) {
-  return one_in(r, 2) ? 1 : one_in(r, 2) ? 0 : U(0, 1);
+  if (one_in(r, 2))
+    return 1;
+  return one_in(r, 2) ? 0 : U(0, 1);
+}
+
+/* A restitution that is often 0 or 1, or near to 0. */
+static double restitution_at_corner(lab_random *r) {
+  if (one_in(r, 3))
+    return 0;
+  if (one_in(r, 2))
+    return 1;
+  return one_in(r, 2) ? lab_log_uniform(r, 1e-9, 0.1) : U(0, 1);
 }
 
 /* What a draw begins with: the regime, the first ball's speed, direction, share of rolling and
@@ -155,10 +166,7 @@ static void draw_motion(carom_local *c, lab_random *r, const first_shot *first) 
     if (one_in(r, 2))
       move_other(c, r, v);
   } else if (IS(restitution_corners))
-    c->e = one_in(r, 3)   ? 0
-           : one_in(r, 2) ? 1
-           : one_in(r, 2) ? lab_log_uniform(r, 1e-9, 0.1)
-                          : U(0, 1);
+    c->e = restitution_at_corner(r);
   else if (IS(tiny_approach)) {
     c->v_jx = c->v_ix * U(0.9, 1.1);
     c->v_jy = c->v_iy * (1 - lab_log_uniform(r, 1e-12, 1e-2));

@@ -209,9 +209,13 @@ TEST(cut_anywhere_in_any_order) {
     const size_t n = solver != CAROM_SOLVER_EULER ? MANY : MANY / 15;
     for (size_t k = 0; k < n; k++) {
       const double s = slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0;
-      const carom_impact in = k % 8 == 7    ? mixed_row(&source, k)
-                              : k % 64 == 6 ? regimes_draw((int)(k / 64) % regimes_count(), s, &rng)
-                                            : good_row(&source, k);
+      carom_impact in;
+      if (k % 8 == 7)
+        in = mixed_row(&source, k);
+      else if (k % 64 == 6)
+        in = regimes_draw((int)(k / 64) % regimes_count(), s, &rng);
+      else
+        in = good_row(&source, k);
       put_row(precision, t.in, k, &in);
       order[k] = k;
     }

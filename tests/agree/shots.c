@@ -378,10 +378,12 @@ TEST(stopped_and_continued) {
       carom_shot_options o = next_stop(&options, way, &parts->shot, &r);
       parts->status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &o, &parts->shot);
       while (parts->status != CAROM_OK) {
-        ck_assert_int_eq(parts->status, way == 3 ? CAROM_ERROR_TOO_MANY_EVENTS
-                                        : o.time_most > 0.0 && parts->shot.time >= o.time_most
-                                            ? CAROM_STOPPED_AT_TIME
-                                            : CAROM_STOPPED_AT_EVENT);
+        carom_status expected = CAROM_STOPPED_AT_EVENT;
+        if (way == 3)
+          expected = CAROM_ERROR_TOO_MANY_EVENTS;
+        else if (o.time_most > 0.0 && parts->shot.time >= o.time_most)
+          expected = CAROM_STOPPED_AT_TIME;
+        ck_assert_int_eq(parts->status, expected);
         if (parts->status == CAROM_STOPPED_AT_TIME) {
           ck_assert_double_eq(parts->shot.time, o.time_most);
           /* as the unbroken shot was then, and nothing is known of later */

@@ -261,7 +261,7 @@ TEST(slow) {
       else if (event->type == CAROM_EVENT_RAIL)
         for (int i = 0; i < 2; i++) {
           const double size = i == 0 ? 1.27 : 2.54, place = event->before[0].r[i];
-          n[i] = place < 0.03 ? -1.0 : place > size - 0.03 ? 1.0 : 0.0;
+          n[i] = (place > size - 0.03) - (place < 0.03);
           closing += moves[i] * n[i];
           leaves += event->after[0].v[i] * n[i];
         }
@@ -703,9 +703,11 @@ TEST(ends_of_flights) {
     }
     const double w[3] = {random_between(&random, -50.0, 50.0), random_between(&random, -50.0, 50.0),
                          0.0};
-    const double start[2] = {random_between(&random, 0.3, 0.9), to[1] < 0.6   ? 0.3
-                                                                : to[1] > 1.9 ? 2.24
-                                                                              : 1.27};
+    double start[2] = {random_between(&random, 0.3, 0.9), 1.27};
+    if (to[1] < 0.6)
+      start[1] = 0.3;
+    else if (to[1] > 1.9)
+      start[1] = 2.24;
     const double speed = random_between(&random, 1.5, 8.0);
     for (int i = 0; i < 2; i++)
       v[i] = speed * (to[i] - start[i] + random_between(&random, -0.02, 0.02));
@@ -750,7 +752,10 @@ TEST(ends_of_flights) {
         else if (event->type == CAROM_EVENT_POCKET && event->before[0].label == CAROM_BALL_AIRBORNE)
           end = r[2] - R < 1e-9 ? LANDS_IN : FAR_SIDE;
         else if (event->type == CAROM_EVENT_LEFT_TABLE)
-          end = e > 0 && event->time == events[e - 1].time ? LIES : r[2] - R < 1e-9 ? BEYOND : EDGE;
+          end = r[2] - R < 1e-9 ? BEYOND : EDGE;
+        /* what leaves the table at the instant of the event before lies there */
+        if (end >= BEYOND && e > 0 && event->time == events[e - 1].time)
+          end = LIES;
         if (end < 0)
           continue;
         seen[end] += j == 0;
@@ -888,7 +893,8 @@ static carom_table parted_rails(void) {
     *rail = table.rail[0];
     for (int axis = 0; axis < 2; axis++) {
       const bool along = axis == k / 4;
-      rail->p[axis] = along ? from : k / 2 % 2 == 0 ? 0.0 : 4.0;
+      const double across = k / 2 % 2 == 0 ? 0.0 : 4.0;
+      rail->p[axis] = along ? from : across;
       rail->q[axis] = along ? from + 1.0 : rail->p[axis];
     }
     rail->side = (k / 2 % 2 == 0) == (k / 4 == 0);

@@ -110,9 +110,9 @@ static layout scene(int of) {
 
 /* The number, or that of the first ball. */
 static double *number_in(layout *l, const direction *by) {
-  return by->of == OF_CUE    ? (double *)&l->cue + by->row
-         : by->of == OF_KIND ? (double *)&l->ball[0].kind + by->row
-                             : &l->nose[by->row];
+  if (by->of == OF_CUE)
+    return (double *)&l->cue + by->row;
+  return by->of == OF_KIND ? (double *)&l->ball[0].kind + by->row : &l->nose[by->row];
 }
 
 /* Puts in the place of a number that is 0 what this 0 stands for, if it stands for something. */
@@ -228,9 +228,9 @@ TEST(every_number) {
       layout usual = l;
       if (row->by.of == OF_CUE && row->by.row >= CAROM_CUE_NUMBERS)
         continue;
-      const double was = row->by.of == OF_NOSES
-                             ? (row->by.row == 0 ? table_of(&l)->rail[0].height : 0.0)
-                             : *number_in(&usual, &row->by);
+      double was = row->by.row == 0 ? table_of(&l)->rail[0].height : 0.0;
+      if (row->by.of != OF_NOSES)
+        was = *number_in(&usual, &row->by);
       const double values[] = {was, 0.0, row->low, row->high, 0.5 * (was + row->high)};
       for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
         layout at = l;

@@ -136,7 +136,10 @@ static layout draw_in_space(random_source *random, start_kind start) {
           (what == 1 ? jaw->centre[k] : pocket->centre[k]) + random_between(random, -0.03, 0.03);
     carom_ball_state *s = &l.ball[0].state;
     s->r[0] = 0.3 + random_between(random, 0.0, 0.6);
-    s->r[1] = to[1] < 0.6 ? 0.3 : to[1] > 1.9 ? 2.2 : to[1] + random_between(random, -0.2, 0.2);
+    if (to[1] < 0.6)
+      s->r[1] = 0.3;
+    else
+      s->r[1] = to[1] > 1.9 ? 2.2 : to[1] + random_between(random, -0.2, 0.2);
     l.count = 1;
     fly(s, random, random_between(random, 0.0, 1.0) < 0.3 ? 5e-4 : 0.05, 1.0);
     for (int k = 0; k < 2; k++)

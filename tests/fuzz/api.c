@@ -195,10 +195,12 @@ static void cushion(void) {
   in.restitution = number(0.5, 1);
   if (choice(30) == 0)
     arbitrary(&in, sizeof in);
-  carom_cushion_options o = {.model = (carom_cushion_model)(choice(16) == 0 ? choice(256) - 128
-                                                            : choice(3) == 0
-                                                                ? choice(CAROM_CUSHION_MODEL_COUNT)
-                                                                : 0),
+  int model = 0;
+  if (choice(16) == 0)
+    model = choice(256) - 128;
+  else if (choice(3) == 0)
+    model = choice(CAROM_CUSHION_MODEL_COUNT);
+  carom_cushion_options o = {.model = (carom_cushion_model)model,
                              .convention = (carom_cushion_convention)choice(2),
                              .law = (carom_cushion_law)choice(2),
                              .steps = choice(16) == 0 ? -choice(3) : 1 + choice(200),

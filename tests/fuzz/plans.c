@@ -106,9 +106,13 @@ static carom_status plan(int which, int fill, const carom_cue *cues, const doubl
   memset(own.memory, fill, own.memory_size);
   memset(choices, GUARD, (ROOM + 1) * sizeof *choices);
   *found = which == 2 ? ROOM : 0;
-  carom_status status = which == 0   ? carom_plan(&own, choices, ROOM, found)
-                        : which == 1 ? carom_plan_hand(&own, low, high, choices, ROOM, found)
-                                     : carom_plan_try(&own, cues, ROOM, choices);
+  carom_status status;
+  if (which == 0)
+    status = carom_plan(&own, choices, ROOM, found);
+  else if (which == 1)
+    status = carom_plan_hand(&own, low, high, choices, ROOM, found);
+  else
+    status = carom_plan_try(&own, cues, ROOM, choices);
   while (status == CAROM_OK && *found == 0)
     status = carom_plan_continue(&own, choices, ROOM, found);
   free(own.memory);

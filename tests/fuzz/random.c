@@ -26,9 +26,9 @@ static void run(size_t size) {
 
 /* One of 16 digits, or -1. */
 static int digit(int character) {
-  return isdigit(character)                     ? character - '0'
-         : character >= 'a' && character <= 'f' ? character - 'a' + 10
-                                                : -1;
+  if (isdigit(character))
+    return character - '0';
+  return character >= 'a' && character <= 'f' ? character - 'a' + 10 : -1;
 }
 
 /* Runs every line; the number of them, or -1 where the file cannot be read. */
@@ -67,10 +67,10 @@ int main(int count, char **arguments) {
   }
   printf("%ld inputs of the corpus\n", lines);
   const char *const given = getenv("CAROM_TEST_SEED");
-  const uint64_t seed = strtoull(count > 3       ? arguments[3]
-                                 : given != NULL ? given
-                                                 : "20141",
-                                 NULL, 10);
+  const char *seed_text = given != NULL ? given : "20141";
+  if (count > 3)
+    seed_text = arguments[3];
+  const uint64_t seed = strtoull(seed_text, NULL, 10);
   for (long n = 0; n < executions; n++) {
     if (n % 100 == 0) {
       printf("seed %" PRIu64 "\n", seed + (uint64_t)n);

@@ -158,10 +158,12 @@ static bool make_inputs(void) {
     cues[k].theta = choice(4) == 0 ? number(0, 90) : 0;
     cues[k].a = number(-0.6, 0.6);
     cues[k].b = number(-0.6, 0.6);
-    cues[k].ball = mostly(choice(10) == 0 ? choice(count) : 0);
+    const int struck = choice(10) == 0 ? choice(count) : 0;
+    cues[k].ball = mostly(struck);
     cues[k].tip_restitution = choice(3) == 0 ? number(0, 1) : cues[k].tip_restitution;
     cues[k].tip_time = choice(3) == 0 ? number(0, 0.01) : choice(2) - 1.0;
-    cues[k].miscue = choice(10) == 0 ? number(tame ? 0.9 : 0, 1) : 0;
+    const double least_miscue = tame ? 0.9 : 0;
+    cues[k].miscue = choice(10) == 0 ? number(least_miscue, 1) : 0;
     cues[k].follow = choice(3) == 0 ? number(0, 1) : cues[k].follow;
   }
   make_options();
@@ -487,10 +489,9 @@ static void shots(void) {
       status >= 0 || status == CAROM_ERROR_TOO_MANY_EVENTS || status == CAROM_ERROR_TOO_LONG;
   const int64_t kept = one.count < room ? one.count : room;
   for (int k = 0; k < count && played; k++)
-    for (int c = 0; c < 9; c++)
-      if (!isfinite(c < 3   ? final[SHOTS][k].r[c]
-                    : c < 6 ? final[SHOTS][k].v[c - 3]
-                            : final[SHOTS][k].w[c - 6]))
+    for (int c = 0; c < 3; c++)
+      if (!isfinite(final[SHOTS][k].r[c]) || !isfinite(final[SHOTS][k].v[c]) ||
+          !isfinite(final[SHOTS][k].w[c]))
         fail("the end of a shot is not finite");
   if (played && (!isfinite(one.time) || one.count < 0))
     fail("the time of a shot is not finite");

@@ -225,7 +225,8 @@ static void row_by_runge_kutta(int n, double v[]) {
   for (int step = 0; step < 6000; step++) {
     double dx[4][8], dv[4][8];
     for (int stage = 0; stage < 4; stage++) {
-      const double part = stage == 0 ? 0.0 : stage == 3 ? h : 0.5 * h;
+      static const double parts[4] = {0.0, 0.5, 0.5, 1.0};
+      const double part = parts[stage] * h;
       double at[8], force[9] = {0.0};
       for (int k = 0; k < n; k++) {
         at[k] = x[k] + (stage > 0 ? part * dx[stage - 1][k] : 0.0);
@@ -872,7 +873,8 @@ TEST(mean_friction) {
   carom_motion first[2];
   for (int k = 0; k < 5; k++) {
     for (int i = 0; i < 2; i++) {
-      const double more = i == 0 ? 1.0 : k == 1 ? -1.0 : 0.0;
+      const double of_second = k == 1 ? -1.0 : 0.0;
+      const double more = i == 0 ? 1.0 : of_second;
       l.ball[i].kind.law_a = 0.0625 + (k == 1 || k == 2 ? more / 32.0 : 0.0);
       l.ball[i].kind.law_b = 0.125 + (k == 1 || k == 3 ? more / 16.0 : 0.0);
       l.ball[i].kind.law_c = 1.0 + (k == 1 || k == 4 ? more / 2.0 : 0.0);

@@ -329,10 +329,10 @@ TEST(batches_are_single_calls) {
       ck_assert_mem_eq(out, alone, sizeof out);
       ck_assert_mem_eq(status, expected, sizeof status);
       /* without statuses the first error is returned, of rows 0 to 2 seldom one */
-      const int8_t error = expected[0] < 0   ? expected[0]
-                           : expected[1] < 0 ? expected[1]
-                           : expected[2] < 0 ? expected[2]
-                                             : 0;
+      int8_t error = 0;
+      for (int row = 2; row >= 0; row--)
+        if (expected[row] < 0)
+          error = expected[row];
       ck_assert_int_eq(carom_cushion_batch(in, 3, &options, out, NULL), error);
     }
   }

@@ -41,8 +41,8 @@ TEST(drag_of_a_ball_alone) {
                                     : random_between(&random, 0.01, 12.0);
     carom_shot_ball ball = rolling(2e4, 2e4, speed, random_between(&random, 0.0, 6.28));
     /* that of a real cloth, and far more and less */
-    ball.kind.drag =
-        n % 3 == 0 ? 0.0129 : pow(10.0, random_between(&random, n % 3 == 1 ? -2.5 : -9.0, 0.0));
+    const double least = n % 3 == 1 ? -2.5 : -9.0;
+    ball.kind.drag = n % 3 == 0 ? 0.0129 : pow(10.0, random_between(&random, least, 0.0));
     ball.kind.mu_roll = n % 3 == 0 ? 0.0043 : random_between(&random, 0.001, 0.02);
     if (speed > 12.0)
       ball.kind.drag = fmax(ball.kind.drag, 1e-3);

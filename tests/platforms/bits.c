@@ -382,18 +382,21 @@ static void shots(void) {
   static carom_ball_state final[CAROM_BALLS_MOST], later[CAROM_BALLS_MOST];
   static carom_table table;
   state = 4;
-  for (int n = 0; n < 72;
-       n++) { /* the measured ones, then mathavan, behind the others, whose draws they leave as
-                 they are; then in space */
+  for (int n = 0; n < 72; n++) {
+    /* each of six models with four games, then with the two measured ones; then mathavan with all
+     * six; then five models with all six in space. Later rows leave the draws of others alone */
     const bool space = n >= 42;
-    const int m = space    ? (n - 42) / 6
-                  : n < 24 ? n / 4
-                  : n < 36 ? n / 2 - 12
-                           : 6,
-              g = space    ? (n - 42) % 6
-                  : n < 24 ? n % 4
-                  : n < 36 ? 4 + n % 2
-                           : n - 36;
+    int m = 6, g = n - 36;
+    if (n < 24) {
+      m = n / 4;
+      g = n % 4;
+    } else if (n < 36) {
+      m = n / 2 - 12;
+      g = 4 + n % 2;
+    } else if (space) {
+      m = (n - 42) / 6;
+      g = (n - 42) % 6;
+    }
     carom_shot_options options = models[m].options;
     options.space = space ? CAROM_SPACE_3D : CAROM_SPACE_FLAT;
     uint64_t hash = START;

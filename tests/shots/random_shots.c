@@ -206,9 +206,10 @@ static void unlike(random_shot *s, lab_random *r) {
     b->mu_slide = lab_uniform(r, 0.05, 0.5);
     b->mu_roll = lab_uniform(r, 0.003, 0.03);
     b->mu_spin = lab_uniform(r, 0.003, 0.03);
-    b->restitution = whole(r, 0, 4) == 0   ? 0.0
-                     : whole(r, 0, 4) == 0 ? 1.0
-                                           : lab_uniform(r, 0.0, 1.0);
+    if (whole(r, 0, 4) == 0)
+      b->restitution = 0.0;
+    else
+      b->restitution = whole(r, 0, 4) == 0 ? 1.0 : lab_uniform(r, 0.0, 1.0);
     b->restitution_cushion = whole(r, 0, 4) == 0 ? 0.0 : lab_uniform(r, 0.0, 1.0);
     b->mu_cushion = lab_uniform(r, 0.0, 0.6);
   }
@@ -383,9 +384,10 @@ static void falling(random_shot *s, lab_random *r) {
     *b = (carom_shot_ball){.kind = kind};
     memcpy(b->state.r, at, sizeof at);
     for (int axis = 0; axis < 3; axis++) {
-      b->state.v[axis] = axis < 2 ? lab_uniform(r, -2.0, 2.0)
-                         : lies   ? 0.0
-                                  : lab_uniform(r, -3.0, 2.0);
+      if (axis < 2)
+        b->state.v[axis] = lab_uniform(r, -2.0, 2.0);
+      else
+        b->state.v[axis] = lies ? 0.0 : lab_uniform(r, -3.0, 2.0);
       b->state.w[axis] = whole(r, 0, 1) * lab_uniform(r, -150.0, 150.0);
     }
   }

@@ -42,7 +42,8 @@ TEST(each_field_is_named) {
   for (int field = 0; field < 15; field++)
     for (int k = 0; k < 3; k++) {
       carom_cushion_impact in = good();
-      ((double *)&in)[field] = k == 0 ? NAN : k == 1 ? INFINITY : -INFINITY;
+      static const double wrong[3] = {NAN, INFINITY, -INFINITY};
+      ((double *)&in)[field] = wrong[k];
       expect(&in, NULL, not_finite[field], field);
     }
   static const struct {

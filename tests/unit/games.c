@@ -11,10 +11,12 @@
 enum { TABLES = CAROM_TABLE_POOLTOOL + 1 };
 
 static double radius_on(int kind) {
-  return carom_ball_kind_of(kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
-                            : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
-                                                               : CAROM_GAME_POOL)
-      .radius;
+  carom_game game = CAROM_GAME_POOL;
+  if (kind == CAROM_TABLE_SNOOKER)
+    game = CAROM_GAME_SNOOKER;
+  else if (kind == CAROM_TABLE_THREECUSHION)
+    game = CAROM_GAME_BILLIARD;
+  return carom_ball_kind_of(game).radius;
 }
 
 /* ---- Tables */
@@ -267,9 +269,8 @@ TEST(places) {
         overlaps |=
             k != ball && carom_shot_check(&t, pair, 2, NULL, NULL, NULL) == CAROM_ERROR_OVERLAP;
       }
-      ck_assert_int_eq(status, !stands    ? CAROM_ERROR_OFF_TABLE
-                               : overlaps ? CAROM_ERROR_OVERLAP
-                                          : CAROM_OK);
+      const carom_status of_stand = overlaps ? CAROM_ERROR_OVERLAP : CAROM_OK;
+      ck_assert_int_eq(status, stands ? of_stand : CAROM_ERROR_OFF_TABLE);
       seen[part.kind]++;
       if (status == CAROM_OK) {
         ck_assert(balls[ball].state.r[0] == x && balls[ball].state.r[1] == y &&
@@ -585,7 +586,8 @@ TEST(places_in_space) {
   for (int k = 0; k < 6 * 9; k++) {
     const carom_rail *rail = &t.rail[k / 9];
     const double z = (1.6 + 0.2 * (k % 3)) * R, above = z - rail->height, h0 = rail->height;
-    const double along = k / 3 % 3 == 0 ? 0.003 : k / 3 % 3 == 1 ? 0.5 : 0.997;
+    static const double ends[3] = {0.003, 0.5, 0.997};
+    const double along = ends[k / 3 % 3];
     const double clear = R - sqrt(h0 * (2.0 * R - h0)) + sqrt(R * R - above * above);
     const int axis = rail->p[0] == rail->q[0] ? 0 : 1; /* that of the rail's normal */
     const double inward = rail->p[axis] == 0.0 ? 1.0 : -1.0;
@@ -640,12 +642,13 @@ static void by_steps(const carom_shot_ball *balls, int count, const carom_shot *
     double k[4][4];
     for (int stage = 0; stage < 4; stage++) {
       /* just inside the interval, as the spin jumps at events */
-      const double part = stage == 0 ? 1e-6 : stage == 3 ? 1.0 - 1e-6 : 0.5;
+      static const double parts[4] = {1e-6, 0.5, 0.5, 1.0 - 1e-6}, shares[4] = {0.0, 0.5, 0.5, 1.0};
+      const double part = parts[stage];
       carom_shot_at(balls, count, shot, from + (n + part) * h, s);
       const double *w = s[ball].w;
       double p[4];
       for (int c = 0; c < 4; c++)
-        p[c] = q[c] + (stage == 0 ? 0.0 : h * (stage == 3 ? 1.0 : 0.5) * k[stage - 1][c]);
+        p[c] = stage == 0 ? q[c] : q[c] + h * shares[stage] * k[stage - 1][c];
       k[stage][0] = 0.5 * (-w[0] * p[1] - w[1] * p[2] - w[2] * p[3]);
       k[stage][1] = 0.5 * (w[0] * p[0] + w[1] * p[3] - w[2] * p[2]);
       k[stage][2] = 0.5 * (w[1] * p[0] + w[2] * p[1] - w[0] * p[3]);

@@ -186,9 +186,8 @@ TEST(balls_or_kinds_with_states) {
     one.status[0] = 99;
     one.shot[0].count = 77;
     const bool good = has_balls ? !has_kinds && !has_states : has_kinds && has_states;
-    const carom_status expected = good        ? CAROM_OK
-                                  : has_balls ? CAROM_ERROR_SHOT_OPTIONS
-                                              : CAROM_ERROR_NULL;
+    const carom_status of_bad = has_balls ? CAROM_ERROR_SHOT_OPTIONS : CAROM_ERROR_NULL;
+    const carom_status expected = good ? CAROM_OK : of_bad;
     ck_assert_int_eq(carom_shoot_batch(&job), expected);
     ck_assert_int_eq(one.status[0], good ? CAROM_OK : 99);
     ck_assert(good ? one.shot[0].count > 0 && one.shot[0].count != 77 : one.shot[0].count == 77);
