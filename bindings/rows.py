@@ -167,7 +167,7 @@ def parts():
 
 
 def games():
-    """What each game of words()["RULES"] has: its balls and rack, the highest number of a ball,
+    """What each game of words()["RULES"] has: its balls, table and rack, the highest number of a ball,
     where the cue ball is at first, whether a call is made, the members of its state.
     """
     named = {row[1]: text_of(row[2]) for _, row in rows("schema/words.h", "CAROM_WORD_ROWS")}
@@ -176,6 +176,7 @@ def games():
             "balls": named[f"GAME_{balls}"],
             "rack": named[f"RACK_{rack}"],
             "last": int(last),
+            "table": named[f"TABLE_{table}"],
             "opening": opening.lower(),
             "calls": calls != "0",
             "members": members.lower().split(" | "),
@@ -186,6 +187,7 @@ def games():
             word,
             _text,
             balls,
+            table,
             rack,
             last,
             opening,

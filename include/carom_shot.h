@@ -325,11 +325,16 @@ typedef enum carom_game {
                                       CAROM_CUSHION_SMOOTH */
   CAROM_GAME_POOLTOOL_POOL = 3,    /* the numbers of pooltool's balls, for parity with it: pool, */
   CAROM_GAME_POOLTOOL_SNOOKER = 4, /* snooker, */
-  CAROM_GAME_POOLTOOL_BILLIARD = 5 /* and carom */
+  CAROM_GAME_POOLTOOL_BILLIARD = 5, /* and carom */
+  CAROM_GAME_BLACKBALL = 6,         /* POOL with balls of 50.8 mm and 116 g, */
+  CAROM_GAME_PYRAMID = 7,           /* with balls of 68 mm and 285 g; */
+  CAROM_GAME_FOURBALL = 8 /* BILLIARD with balls of 65.5 mm, whose mass follows from the size. The
+                               noses of these three are as high for their balls; no table was
+                               measured */
 } carom_game;
 
 /* The constants of the balls of a game; those of pool for a value not listed. Racks use the balls
- * of the first three games. */
+ * of carom's own games. */
 CAROM_API carom_ball_kind carom_ball_kind_of(carom_game game);
 
 /* ---- Tables ---------------------------------------------------------------------------------- */
@@ -386,8 +391,12 @@ typedef enum carom_table_kind {
   CAROM_TABLE_POOL_9FT = 2,     /* 1.27 x 2.54 m */
   CAROM_TABLE_SNOOKER = 3,      /* 12 ft, 1.778 x 3.569 m */
   CAROM_TABLE_THREECUSHION = 4, /* 10 ft, 1.42 x 2.84 m, no pockets */
-  CAROM_TABLE_POOLTOOL = 5      /* pooltool's default, "7 Ft Showood", 0.9906 x 1.9812 m, with
+  CAROM_TABLE_POOLTOOL = 5,     /* pooltool's default, "7 Ft Showood", 0.9906 x 1.9812 m, with
                                    its pockets, bit for bit */
+  CAROM_TABLE_HEYBALL = 6,      /* 1.27 x 2.54 m, mouths of 85 and 86 mm with rounded jaws */
+  CAROM_TABLE_BLACKBALL = 7,    /* 0.9144 x 1.8288 m, mouths of 83.7 mm with rounded jaws */
+  CAROM_TABLE_PYRAMID = 8,      /* 1.775 x 3.55 m, mouths of 72.5 and 82.5 mm for balls of 68 mm */
+  CAROM_TABLE_FOURBALL = 9      /* 1.27 x 2.54 m, no pockets */
 } carom_table_kind;
 
 /* The name of a table ("9ft", "threecushion"), as in files of `carom shoot`, or NULL for a value
@@ -516,14 +525,22 @@ CAROM_API carom_status carom_table_polygon(const carom_corner *corner, int count
 
 /* Racks, with the cue ball first. */
 typedef enum carom_rack_kind {
-  CAROM_RACK_NINEBALL = 0,    /* 10 balls: cue ball, then 1 to 9 by number, 1 in front and 9 in
+  CAROM_RACK_NINEBALL = 0,     /* 10 balls: cue ball, then 1 to 9 by number, 1 in front and 9 in
                                  the middle. */
-  CAROM_RACK_EIGHTBALL = 1,   /* 16 balls: cue ball, then 1 to 15 by number; 8 in the middle,
+  CAROM_RACK_EIGHTBALL = 1,    /* 16 balls: cue ball, then 1 to 15 by number; 8 in the middle,
                                  both kinds in the corners. */
-  CAROM_RACK_TENBALL = 2,     /* 11 balls: cue ball, then 1 to 10 by number, 10 in the middle. */
-  CAROM_RACK_SNOOKER = 3,     /* 22 balls: white, 15 reds, yellow, green, brown, blue, pink,
+  CAROM_RACK_TENBALL = 2,      /* 11 balls: cue ball, then 1 to 10 by number, 10 in the middle. */
+  CAROM_RACK_SNOOKER = 3,      /* 22 balls: white, 15 reds, yellow, green, brown, blue, pink,
                                  black. */
-  CAROM_RACK_THREECUSHION = 4 /* 3 balls: white, yellow, red, as for the opening. */
+  CAROM_RACK_THREECUSHION = 4, /* 3 balls: white, yellow, red, as for the opening. */
+  CAROM_RACK_NINEONSPOT = 5,   /* as NINEBALL, with the 9 on the foot spot. */
+  CAROM_RACK_BLACKBALL = 6, /* as EIGHTBALL, with the 8 on the foot spot, and balls of 2 inches. */
+  CAROM_RACK_ROTATION = 7,  /* 16 balls: cue ball, then 1 to 15 by number; 1 in front, 2 and 3 in
+                                 the corners, 15 in the middle. */
+  CAROM_RACK_PYRAMID = 8,   /* 16 balls of 68 mm: the yellow one, then 15 white ones. */
+  CAROM_RACK_FOURBALL = 9,  /* 4 balls of 65.5 mm: white, yellow, two reds, as for the opening. */
+  CAROM_RACK_COWBOY = 10    /* 4 balls: cue ball; 1 on the head spot, 3 on the foot spot, 5 on the
+                                 centre. */
 } carom_rack_kind;
 
 /* The name of a rack ("eightball"), or NULL for a value not listed. */
@@ -838,6 +855,10 @@ typedef struct carom_facts {
   double first_low[2];   /* m: the least x and y of the cue ball at its strike and at its events up
                             to the first contact, */
   double first_high[2];  /* m: and the greatest. */
+  uint32_t past_middle;  /* the set of the balls that were wholly on the side of y = 0 of the line
+                            y = length/2, by their places at their events, */
+  uint32_t at_head;      /* and of those that touched the head string, y = length/4, or were on that
+                            side of it. */
 } carom_facts;
 
 /* m: for the rules, balls and cushions that are nearer than this touch. This is a convention: about
@@ -863,9 +884,10 @@ typedef struct carom_rules_state {
                         CAROM_POCKETS_MOST - 1. */
   int32_t may;       /* the sum of the carom_may of the player. */
   int32_t on;        /* 1: a colour is on after a red, else 0. */
-  int32_t free_ball; /* the ball that the opponent has just named as a free ball, otherwise 0.
-                        judge() sets it, and carom_turn_settle() reads it. */
-  int32_t target;    /* points that win, 1 to 1,000,000. */
+  int32_t free_ball; /* in snooker the ball that the opponent has just named as a free ball,
+                        otherwise 0: judge() sets it, and carom_turn_settle() reads it. In blackball
+                        1: the stroke is free. */
+  int32_t target;    /* points that win, 1 to 1,000,000; or those that a break must make. */
   uint64_t user[8];  /* eight words for rules of the caller; no game here reads them. */
 } carom_rules_state;
 

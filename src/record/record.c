@@ -511,7 +511,7 @@ static bool check_standing(reader *in) {
 
 /* Whether the place of a ball in hand can be one. */
 static bool check_place(reader *in) {
-  enum { LEAVES = 5 };
+  enum { LEAVES = 6 };
   in->key = "hand";
   if ((in->record->hand >> 1) != 0)
     return wrong(in, "must be 0 or 1");

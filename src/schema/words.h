@@ -28,6 +28,9 @@
   WORD(GAME, GAME_POOLTOOL_POOL, "pooltool_pool", "pooltool's numbers of pool")                    \
   WORD(GAME, GAME_POOLTOOL_SNOOKER, "pooltool_snooker", "pooltool's numbers of snooker")           \
   WORD(GAME, GAME_POOLTOOL_BILLIARD, "pooltool_billiard", "pooltool's numbers of carom")           \
+  WORD(GAME, GAME_BLACKBALL, "blackball", "pool with balls of 2 inches")                           \
+  WORD(GAME, GAME_PYRAMID, "pyramid", "pool with balls of 68 mm")                                  \
+  WORD(GAME, GAME_FOURBALL, "fourball", "three-cushion with balls of 65.5 mm")                     \
   WORD(CONDITION, CONDITION_SLOW_CLOTH, "slow_cloth", "a napped or dirty cloth")                   \
   WORD(CONDITION, CONDITION_MEDIUM_CLOTH, "medium_cloth", "the cloth of the game pool")            \
   WORD(CONDITION, CONDITION_FAST_CLOTH, "fast_cloth", "a new cloth without nap")                   \
@@ -59,6 +62,10 @@
   WORD(TABLE, TABLE_SNOOKER, "snooker", "snooker, 12 feet")                                        \
   WORD(TABLE, TABLE_THREECUSHION, "threecushion", "three-cushion, without pockets")                \
   WORD(TABLE, TABLE_POOLTOOL, "pooltool", "pooltool's default, 7 feet, with wider side pockets")   \
+  WORD(TABLE, TABLE_HEYBALL, "heyball", "heyball, 9 feet, with rounded jaws")                      \
+  WORD(TABLE, TABLE_BLACKBALL, "blackball", "blackball, 7 feet, with rounded jaws")                \
+  WORD(TABLE, TABLE_PYRAMID, "pyramid", "Russian pyramid, 12 feet")                                \
+  WORD(TABLE, TABLE_FOURBALL, "fourball", "four-ball, 9 feet, without pockets")                    \
   WORD(RACK, RACK_NINEBALL, "nineball",                                                            \
        "cue ball, then 1 to 9 by number; 1 in front, 9 in the middle")                             \
   WORD(RACK, RACK_EIGHTBALL, "eightball",                                                          \
@@ -66,6 +73,13 @@
   WORD(RACK, RACK_TENBALL, "tenball", "cue ball, then 1 to 10 by number; 10 in the middle")        \
   WORD(RACK, RACK_SNOOKER, "snooker", "white, 15 reds, yellow, green, brown, blue, pink, black")   \
   WORD(RACK, RACK_THREECUSHION, "threecushion", "white, yellow, red, as for the opening")          \
+  WORD(RACK, RACK_NINEONSPOT, "nineonspot", "nine-ball's, with the 9 on the foot spot")            \
+  WORD(RACK, RACK_BLACKBALL, "blackball", "eight-ball's, with the 8 on the foot spot")             \
+  WORD(RACK, RACK_ROTATION, "rotation",                                                            \
+       "cue ball, then 1 to 15 by number; 1 in front, 15 in the middle")                           \
+  WORD(RACK, RACK_PYRAMID, "pyramid", "the yellow ball, then 15 white ones")                       \
+  WORD(RACK, RACK_FOURBALL, "fourball", "white, yellow and two reds, as for the opening")          \
+  WORD(RACK, RACK_COWBOY, "cowboy", "cue ball, and the balls 1, 3 and 5 on their spots")           \
   WORD(SOLVER, SOLVER_EXACT, "exact", "the limit of infinitely many steps")                        \
   WORD(SOLVER, SOLVER_EULER, "euler", "N steps of equal impulse")                                  \
   WORD(SOLVER, SOLVER_FAST, "fast", "exact in less time, but not smooth")                          \

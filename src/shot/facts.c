@@ -103,11 +103,25 @@ static void meet_cushion(carom_facts *facts, const carom_sim *sim, const carom_d
     facts->cushions_after++;
 }
 
+/* A ball has an event: where it has been. Its last event was at the start of its path; where it
+ * comes to rest, it has no other one. */
+static void been_at(carom_facts *facts, const carom_sim *sim, int i, bool rests) {
+  const double y = rests ? state_now(sim, i).r[1] : sim->path[i].from.r[1];
+  const double length = sim->table->length, radius = sim->rates[i].radius;
+  if (y + radius < 0.5 * length)
+    facts->past_middle |= set_of(i);
+  if (y - radius <= 0.25 * length)
+    facts->at_head |= set_of(i);
+}
+
 void carom_facts_event(const carom_sim *sim, const carom_due *due) {
   carom_facts *facts = sim->shot->facts;
   const int a = due->a, b = due->b, cue = sim->struck;
   const bool balls = due->type == CAROM_EVENT_BALL_BALL;
   const bool of_cue = a == cue || (balls && b == cue);
+  been_at(facts, sim, a, due->type == CAROM_EVENT_ROLLING_STATIONARY);
+  if (balls)
+    been_at(facts, sim, b, false);
   if (of_cue && facts->first[0] < 0) {
     widen_range(facts, sim, due->type == CAROM_EVENT_STRIKE && facts->touches == 0);
     fly_over(facts, sim);

@@ -3,6 +3,7 @@
 #include "platform/arithmetic.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 carom_cue carom_cue_of(carom_game game) {
   const bool snooker = game == CAROM_GAME_SNOOKER || game == CAROM_GAME_POOLTOOL_SNOOKER;
@@ -82,7 +83,40 @@ static void take_billiard(carom_ball_kind *kind) {
   kind->roll_loss = 0.091;
 }
 
+/* Games whose balls are those of another one in a size of their own, a row each. */
+static const struct sized {
+  carom_game game, base;
+  double radius, mass;
+} sized_games[] = {
+    {CAROM_GAME_BLACKBALL, CAROM_GAME_POOL, 0.0254, 0.116},
+    {CAROM_GAME_PYRAMID, CAROM_GAME_POOL, 0.034, 0.285},
+    {CAROM_GAME_FOURBALL, CAROM_GAME_BILLIARD, 0.03275, 0.210 * 1.0650 * 1.0650 * 1.0650}};
+
+/* The row of a game; NULL of one that has numbers of its own. */
+static const struct sized *sized_of(carom_game game) {
+  for (size_t k = 0; k < sizeof sized_games / sizeof *sized_games; k++)
+    if (sized_games[k].game == game)
+      return &sized_games[k];
+  return NULL;
+}
+
+/* The numbers of the base in the size of a row: lengths are in the ratio of the balls. */
+static void resize(carom_ball_kind *kind, const struct sized *row) {
+  const double ratio = row->radius / kind->radius;
+  kind->radius = row->radius;
+  kind->mass = row->mass;
+  kind->mu_spin *= ratio;
+  kind->nose_height *= ratio;
+}
+
 carom_ball_kind carom_ball_kind_of(carom_game game) {
+  const struct sized *row = sized_of(game);
+  if (row != NULL) {
+    carom_ball_kind own = carom_ball_kind_of(row->base);
+    resize(&own, row);
+    return own;
+  }
+
   /* pooltool's: pool */
   carom_ball_kind kind = {.mass = 0.170097,
                           .radius = 0.028575,
@@ -158,6 +192,15 @@ static bool take_other(carom_game game, carom_shot_cushion cushion, carom_ball_k
 }
 
 int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind) {
+  const struct sized *row = sized_of(game);
+  if (row != NULL) {
+    carom_ball_kind of_base;
+    const int has = carom_ball_kind_for(row->base, cushion, &of_base);
+    resize(&of_base, row);
+    if (kind != NULL)
+      *kind = of_base;
+    return has;
+  }
   carom_ball_kind made = carom_ball_kind_of(game);
   const bool smooth = made.smooth_q > 0.0;
   bool own = true;

@@ -7,11 +7,67 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
-static const int sizes[] = {10, 16, 11, 22, 3};
+/* Racks as rows. A triangle has `rows` rows, of which row `spot` has its middle on the foot spot; a
+ * diamond of nine balls has its widest row in the middle. Balls of `fixed` have their places, from
+ * the front and from the left; the others have none of their own. Other balls stand on spots. */
+typedef struct rack_row {
+  carom_game game;
+  int size; /* with the cue ball */
+  int rows, spot;
+  int fixed[15];
+  bool diamond, unlike; /* unlike: a solid and a stripe in the corners of the base */
+} rack_row;
+static const rack_row racks[] = {
+    [CAROM_RACK_NINEBALL] = {.game = CAROM_GAME_POOL,
+                             .size = 10,
+                             .rows = 5,
+                             .spot = 0,
+                             .fixed = {[0] = 1, [4] = 9},
+                             .diamond = true},
+    [CAROM_RACK_EIGHTBALL] = {.game = CAROM_GAME_POOL,
+                              .size = 16,
+                              .rows = 5,
+                              .spot = 0,
+                              .fixed = {[4] = 8},
+                              .unlike = true},
+    [CAROM_RACK_TENBALL] =
+        {.game = CAROM_GAME_POOL, .size = 11, .rows = 4, .spot = 0, .fixed = {[0] = 1, [4] = 10}},
+    [CAROM_RACK_SNOOKER] = {.game = CAROM_GAME_SNOOKER,
+                            .size = 22,
+                            .rows = 5,
+                            .spot = 0,
+                            .fixed = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}},
+    [CAROM_RACK_THREECUSHION] = {.game = CAROM_GAME_BILLIARD, .size = 3},
+    [CAROM_RACK_NINEONSPOT] = {.game = CAROM_GAME_POOL,
+                               .size = 10,
+                               .rows = 5,
+                               .spot = 2,
+                               .fixed = {[0] = 1, [4] = 9},
+                               .diamond = true},
+    [CAROM_RACK_BLACKBALL] = {.game = CAROM_GAME_BLACKBALL,
+                              .size = 16,
+                              .rows = 5,
+                              .spot = 2,
+                              .fixed = {[4] = 8},
+                              .unlike = true},
+    [CAROM_RACK_ROTATION] = {.game = CAROM_GAME_POOL,
+                             .size = 16,
+                             .rows = 5,
+                             .spot = 0,
+                             .fixed = {[0] = 1, [4] = 15, [10] = 3, [14] = 2}},
+    [CAROM_RACK_PYRAMID] = {.game = CAROM_GAME_PYRAMID, .size = 16, .rows = 5, .spot = 0},
+    [CAROM_RACK_FOURBALL] = {.game = CAROM_GAME_FOURBALL, .size = 4},
+    [CAROM_RACK_COWBOY] = {.game = CAROM_GAME_POOL, .size = 4}};
+
+static const rack_row *row_of(carom_rack_kind kind) {
+  return (uint32_t)kind < sizeof racks / sizeof *racks ? &racks[kind] : NULL;
+}
 
 int carom_rack_size(carom_rack_kind kind) {
-  return (int)kind >= 0 && kind <= CAROM_RACK_THREECUSHION ? sizes[kind] : 0;
+  const rack_row *row = row_of(kind);
+  return row != NULL ? row->size : 0;
 }
 
 /* splitmix64 */
@@ -75,35 +131,25 @@ static void fill(rack *k, int *number, int last) {
       number[p] = rest[next++];
 }
 
-static void triangle(rack *k, const int *number, int rows, double front) {
-  for (int row = 0, p = 0; row < rows; row++)
-    for (int place = 0; place <= row; place++)
-      put_in_row(k, number[p++], front, row, place);
-}
-
-static void nineball(rack *k, double front) {
-  static const int rows[9] = {0, 1, 1, 2, 2, 2, 3, 3, 4}, places[9] = {0, 0, 1, 0, 1, 2, 1, 2, 2};
-  int number[9] = {[0] = 1, [4] = 9};
-  fill(k, number, 9);
-  for (int p = 0; p < 9; p++)
-    put_in_row(k, number[p], front, rows[p], places[p]);
-}
-
-static void eightball(rack *k, double front) {
-  int number[15] = {[4] = 8};
-  const uint64_t drawn = random_bits(&k->state);
-  const int solid = 1 + (int)(drawn % 7), stripe = 9 + (int)(drawn / 7 % 7),
-            left = drawn / 49 % 2 == 0;
-  number[10] = left ? solid : stripe;
-  number[14] = left ? stripe : solid;
-  fill(k, number, 15);
-  triangle(k, number, 5, front);
-}
-
-static void tenball(rack *k, double front) {
-  int number[10] = {[0] = 1, [4] = 10};
-  fill(k, number, 10);
-  triangle(k, number, 4, front);
+/* Sets up the balls of a row that form a pack, whose front lies at y = front. */
+static void pack(rack *k, const rack_row *row, double front) {
+  static const int widths[5] = {1, 2, 3, 2, 1}; /* of a diamond */
+  const int last = row->diamond ? 9 : row->rows * (row->rows + 1) / 2;
+  int number[15];
+  memcpy(number, row->fixed, sizeof number);
+  if (row->unlike) {
+    const uint64_t drawn = random_bits(&k->state);
+    const int solid = 1 + (int)(drawn % 7), stripe = 9 + (int)(drawn / 7 % 7);
+    const bool left = drawn / 49 % 2 == 0;
+    number[10] = left ? solid : stripe;
+    number[14] = left ? stripe : solid;
+  }
+  fill(k, number, last);
+  for (int line = 0, p = 0; line < row->rows; line++) {
+    const int width = row->diamond ? widths[line] : line + 1;
+    for (int place = 0; place < width; place++, p++)
+      put_in_row(k, number[p], front, line, place + (line + 1 - width) / 2);
+  }
 }
 
 /* ---- Spots by the rules of the sports */
@@ -124,17 +170,22 @@ carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int b
   if (table == NULL || place == NULL)
     return CAROM_ERROR_NULL;
   /* pool has as many balls as there may be */
-  const bool pool = kind != CAROM_RACK_SNOOKER && kind != CAROM_RACK_THREECUSHION;
-  const int balls = carom_rack_size(kind);
-  if (balls == 0 || ball < 0 || ball >= (pool ? CAROM_BALLS_MOST : balls))
+  const rack_row *row = row_of(kind);
+  const bool pool = row != NULL && row->rows > 0 && kind != CAROM_RACK_SNOOKER;
+  if (row == NULL || ball < 0 || ball >= (pool ? CAROM_BALLS_MOST : row->size))
     return CAROM_ERROR_RACK;
   const double w = table->width, l = table->length;
   const carom_d d = carom_d_of(table->width, table->length);
   /* the foot spot, or the head spot of the cue ball */
   double x = 0.5 * w, y = ball == 0 ? 0.25 * l : 0.75 * l;
-  if (kind == CAROM_RACK_THREECUSHION) {
+  if (kind == CAROM_RACK_THREECUSHION || kind == CAROM_RACK_FOURBALL) {
+    static const double along[] = {0.25, 0.25, 0.75}, along_four[] = {0.25, 0.875, 0.25, 0.75};
     x += ball == 0 ? 0.1825 / 1.42 * w : 0.0;
-    y = ball == 2 ? 0.75 * l : 0.25 * l;
+    y = (kind == CAROM_RACK_FOURBALL ? along_four[ball] : along[ball]) * l;
+  } else if (kind == CAROM_RACK_COWBOY) {
+    /* the cue ball, and the balls 1, 3 and 5 on the head spot, the foot spot and the centre */
+    static const double along[] = {0.125, 0.25, 0.75, 0.5};
+    y = along[ball] * l;
   } else if (kind == CAROM_RACK_SNOOKER && ball == 0) {
     x += 0.4 * d.radius;
     y = d.y - 0.3 * d.radius;
@@ -155,47 +206,30 @@ static void put_on_spot(rack *k, carom_rack_kind kind, int ball) {
   put(k, ball, at[0], at[1]);
 }
 
-static void snooker(rack *k) {
-  int number[15];
-  for (int n = 0; n < 15; n++)
-    number[n] = n + 1;
-  triangle(k, number, 5, 0.75 * k->table->length + 2.0 * k->kind.radius + fmax(k->gap, 1e-3));
-  put_on_spot(k, CAROM_RACK_SNOOKER, 0);
-  for (int ball = 16; ball < 22; ball++)
-    put_on_spot(k, CAROM_RACK_SNOOKER, ball);
-}
-
-static void threecushion(rack *k) {
-  for (int ball = 0; ball < 3; ball++)
-    put_on_spot(k, CAROM_RACK_THREECUSHION, ball);
-}
+/* The gap before the pink that a rack of reds has at least, m. */
+static const double red_gap = 1e-3;
 
 carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double gap, uint64_t seed,
                         carom_shot_ball *balls, int room) {
   if (table == NULL || balls == NULL)
     return CAROM_ERROR_NULL;
-  carom_game game = CAROM_GAME_POOL;
-  if (kind == CAROM_RACK_SNOOKER)
-    game = CAROM_GAME_SNOOKER;
-  else if (kind == CAROM_RACK_THREECUSHION)
-    game = CAROM_GAME_BILLIARD;
-  rack k = {table, balls, carom_ball_kind_of(game), gap, seed};
-  const int size = carom_rack_size(kind);
-  if (size == 0 || room < size || !(gap >= 0.0 && gap <= k.kind.radius))
+  const rack_row *row = row_of(kind);
+  if (row == NULL)
     return CAROM_ERROR_RACK;
-  const double front = 0.75 * table->length;
-  if (kind == CAROM_RACK_SNOOKER) {
-    snooker(&k);
-  } else if (kind == CAROM_RACK_THREECUSHION) {
-    threecushion(&k);
-  } else {
-    put_on_spot(&k, kind, 0);
-    if (kind == CAROM_RACK_NINEBALL)
-      nineball(&k, front);
-    else if (kind == CAROM_RACK_EIGHTBALL)
-      eightball(&k, front);
-    else
-      tenball(&k, front);
-  }
+  rack k = {table, balls, carom_ball_kind_of(row->game), gap, seed};
+  const double R = k.kind.radius;
+  if (room < row->size || !(gap >= 0.0 && gap <= R))
+    return CAROM_ERROR_RACK;
+
+  /* the balls that have spots, and the pack */
+  const bool snooker = kind == CAROM_RACK_SNOOKER;
+  for (int ball = 0; ball < row->size; ball++)
+    if (ball == 0 || row->rows == 0 || (snooker && ball >= 16))
+      put_on_spot(&k, kind, ball);
+  double front = 0.75 * table->length - row->spot * (2.0 * R + gap) * 0.8660254037844386;
+  if (snooker)
+    front += 2.0 * R + fmax(gap, red_gap);
+  if (row->rows > 0)
+    pack(&k, row, front);
   return CAROM_OK;
 }
