@@ -22,7 +22,7 @@ typedef struct break_job {
   shoot_flags from;
   const char *plot;
   int racks;
-  bool csv;
+  bool csv, nine_on_spot;
 } break_job;
 
 static const option_row option_rules = {
@@ -35,6 +35,8 @@ OPTION(break_job, option_racks, "racks", racks, 0, "N", set_count, 1,
        "breaks of each speed, tip and gap (default 500)");
 OPTION(break_job, option_break_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write a row for each speed, tip and gap instead of words");
+OPTION(break_job, option_nine_on_spot, "nine-on-spot", nine_on_spot, 0, NULL, set_flag, 0,
+       "nine-ball's rack, with the 9 on the foot spot");
 OPTION(break_job, option_break_plot, "plot", plot, 0, "OUT", set_picture, 0,
        "draw the break without errors, forty breaks with errors as thin lines, and the results of "
        "all breaks");
@@ -58,16 +60,27 @@ static uint32_t wings_of(const carom_table *t, const carom_shot_ball *ball, int 
   return wings;
 }
 
+/* The game of a rack, the first of those that have it; NULL where carom has none. */
+static const carom_rules_about *game_of(carom_rack_kind rack, carom_rules_kind *kind) {
+  const carom_rules_about *about;
+  if (rack == CAROM_RACK_NINEONSPOT)
+    rack = CAROM_RACK_NINEBALL;
+  for (int k = 0; (about = carom_rules_about_of((carom_rules_kind)k)) != NULL; k++)
+    if (about->rack == (int32_t)rack) {
+      *kind = (carom_rules_kind)k;
+      return about;
+    }
+  return NULL;
+}
+
 /* The rules of a rack's game, at a break; false where carom has none. */
 static bool rules_of(carom_rack_kind rack, carom_plan_rules *rules) {
-  const char *name, *own = carom_rack_name(rack);
-  for (int k = 0; (name = carom_word(CAROM_WORDS_RULES, k)) != NULL; k++)
-    if (strcmp(name, own) == 0) {
-      *rules = carom_plan_rules_of((carom_rules_kind)k);
-      rules->state.opening = 1;
-      return rules->breaks != 0;
-    }
-  return false;
+  carom_rules_kind kind;
+  if (game_of(rack, &kind) == NULL)
+    return false;
+  *rules = carom_plan_rules_of(kind);
+  rules->state.opening = 1;
+  return rules->breaks == 1;
 }
 
 /* The ball nearest to the cue ball. */
@@ -259,11 +272,13 @@ static const command_form form = {
              "aims at the middle of the ball in front.\n",
     .options =
         (const option_row *const[]){
-            &option_rules,         &option_racks,      &option_gap,           &option_one_seed,
-            &option_table,         &option_cue,        &option_aim,           &option_shot_speed,
-            &option_ball_speed,    &option_tip,        &option_elevation,     &option_player,
-            &option_player_errors, &options_of_motion, &option_with_of_shots, &option_break_csv,
-            &option_break_plot,    &option_threads,    &option_output,        NULL},
+            &option_rules,         &option_nine_on_spot,  &option_racks,
+            &option_gap,           &option_one_seed,      &option_table,
+            &option_cue,           &option_aim,           &option_shot_speed,
+            &option_ball_speed,    &option_tip,           &option_elevation,
+            &option_player,        &option_player_errors, &options_of_motion,
+            &option_with_of_shots, &option_break_csv,     &option_break_plot,
+            &option_threads,       &option_output,        NULL},
     .details = "speed if none is given: 9 m/s\n"
                "columns of --csv: "
                "rules,speed,right,above,gap_mm,racks,makes,makes_error,balls,plays_on,foul,scratch,"
@@ -307,17 +322,6 @@ static bool tell_all(breaker *b, const shot_line *first, const carom_cue *stroke
       }
     }
   return true;
-}
-
-static carom_table_kind table_of(carom_rack_kind rack) {
-  switch (rack) {
-  case CAROM_RACK_SNOOKER:
-    return CAROM_TABLE_SNOOKER;
-  case CAROM_RACK_THREECUSHION:
-    return CAROM_TABLE_THREECUSHION;
-  default:
-    return CAROM_TABLE_POOL_9FT;
-  }
 }
 
 /* Takes the gaps from the flags, of which each is a row of its own; false after a complaint. */
@@ -375,9 +379,12 @@ int command_break(int argc, char **argv) {
   without_bounds(&b.player);
 
   /* the rack stands on the table of its game, and breaks have a speed of their own */
+  carom_rules_kind game;
+  if (job.nine_on_spot)
+    b.rack = CAROM_RACK_NINEONSPOT;
   f->balls.rack = 1 + (int)b.rack;
   if (f->table.kind == 0)
-    f->table.kind = 1 + (int)table_of(b.rack);
+    f->table.kind = 1 + (int)game_of(b.rack, &game)->table;
   if (f->speed.count == 0 && f->ball_speed.count == 0)
     values_default(&f->speed, MEASURE_SPEED, "9");
   if (!take_gaps(f, &gaps))

@@ -35,7 +35,7 @@ typedef struct plan_job {
 OPTION(plan_job, option_rules, "rules", game.rules, 0, NULL, set_named, CAROM_WORDS_RULES,
        "the game (default eightball; potting has no rules: all balls count). The cue ball is named "
        "cue, and the others by their numbers, or in snooker as in its rack: red1, yellow; "
-       "potting, threecushion and straightrail take any names");
+       "potting, cowboy and games without pockets take any names, in the order of the rack");
 OPTION(plan_job, option_group, "group", game.group, 0, "open|solids|stripes", set_choice, 0,
        "the balls of the player, where each has a group (default open: any but the eight)");
 OPTION(plan_job, option_permission, "may", game.permission, 0, "shoot|push-out|pass|free-ball",
@@ -121,7 +121,8 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
 
 /* Whether the game is one of points on a table without pockets. */
 static bool is_carom(const plan_job *job) {
-  return carom_rules_about_of((carom_rules_kind)job->game.rules)->balls == CAROM_GAME_BILLIARD;
+  const int balls = carom_rules_about_of((carom_rules_kind)job->game.rules)->balls;
+  return balls == CAROM_GAME_BILLIARD || balls == CAROM_GAME_FOURBALL;
 }
 
 static const char *value_words(const plan_job *job) {

@@ -156,16 +156,24 @@ bool has_flags(const shoot_flags *f) {
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
 static void name_rack(layout *l, carom_rack_kind kind) {
-  static const char *const billiard[] = {"white", "yellow", "red"};
+  static const struct {
+    carom_rack_kind rack;
+    const char *names[4];
+  } named[] = {{CAROM_RACK_THREECUSHION, {"white", "yellow", "red"}},
+               {CAROM_RACK_FOURBALL, {"white", "yellow", "red1", "red2"}},
+               {CAROM_RACK_COWBOY, {"cue", "1", "3", "5"}}};
+  for (size_t n = 0; n < sizeof named / sizeof *named; n++)
+    if (named[n].rack == kind) {
+      for (int k = 0; k < l->count; k++)
+        snprintf(l->name[k], PLACE_NAME, "%s", named[n].names[k]);
+      return;
+    }
   for (int k = 0; k < l->count; k++)
-    if (kind == CAROM_RACK_THREECUSHION)
-      snprintf(l->name[k], PLACE_NAME, "%s", billiard[k]);
-    else if (kind == CAROM_RACK_SNOOKER && k > 15)
+    if (kind == CAROM_RACK_SNOOKER && k > 15)
       snprintf(l->name[k], PLACE_NAME, "%s", colours_of_snooker[k - 16]);
     else
       snprintf(l->name[k], PLACE_NAME, kind == CAROM_RACK_SNOOKER ? "red%d" : "%d", k);
-  if (kind != CAROM_RACK_THREECUSHION)
-    snprintf(l->name[0], PLACE_NAME, "%s", kind == CAROM_RACK_SNOOKER ? "white" : "cue");
+  snprintf(l->name[0], PLACE_NAME, "%s", kind == CAROM_RACK_SNOOKER ? "white" : "cue");
 }
 
 /* Of RAILS; -1: no rail. */

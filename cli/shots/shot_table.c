@@ -109,6 +109,12 @@ carom_game game_of_table(carom_table_kind kind) {
     return CAROM_GAME_SNOOKER;
   case CAROM_TABLE_THREECUSHION:
     return CAROM_GAME_BILLIARD;
+  case CAROM_TABLE_BLACKBALL:
+    return CAROM_GAME_BLACKBALL;
+  case CAROM_TABLE_PYRAMID:
+    return CAROM_GAME_PYRAMID;
+  case CAROM_TABLE_FOURBALL:
+    return CAROM_GAME_FOURBALL;
   default:
     return CAROM_GAME_POOL;
   }

@@ -117,7 +117,9 @@ typedef enum carom_leave {
   CAROM_LEAVE_BEFORE = 1,  /* as the balls lay before: the shot is taken back */
   CAROM_LEAVE_HAND = 2,    /* as the balls lie, but the cue ball is in hand, anywhere */
   CAROM_LEAVE_KITCHEN = 3, /* the same behind the head string; carom_plan() values it as HAND */
-  CAROM_LEAVE_D = 4        /* the same in the D of a snooker table */
+  CAROM_LEAVE_D = 4,       /* the same in the D of a snooker table */
+  CAROM_LEAVE_BAULK = 5 /* the same behind the baulk line, a fifth of the length from the head; any
+                              ball may be met from there */
 } carom_leave;
 
 /* Why a shot is a foul. The first of these that holds counts, except that DOUBLE_HIT comes before
@@ -270,8 +272,14 @@ typedef struct carom_plan_rules {
   int32_t learned;              /* 1 + the carom_rules_kind from whose played games the chances were
                                    learned. 0, or if no games of this kind were played: a kind with
                                    the same race. */
-  uint64_t reserved[4];         /* must be 0. */
+  int32_t any_cue_ball;         /* 1: but for the opening, a player may strike any ball. */
+  int32_t unused;               /* must be 0. */
+  uint64_t reserved[3];         /* must be 0. */
 } carom_plan_rules;
+
+/* The ball that the player at the table strikes: in carom games each player has one. Where any ball
+ * may be struck, ball 0. 0 for NULL. */
+CAROM_API int carom_cue_ball_of(const carom_plan_rules *rules);
 
 /* Built-in rules. The index of a ball is its number, and the cue ball is ball 0.
  *
@@ -284,8 +292,10 @@ typedef enum carom_rules_kind {
                                    rack if the break was not legal or the eight fell, and to leave
                                    the cue ball where it lies after a foul. */
   CAROM_RULES_NINEBALL = 1,     /* 9 balls. The nine wins; without it, the highest ball. State:
-                                   opening; fouls: a third one loses; may: to push out just after a
-                                   break without a foul, to pass after a push-out. */
+                                   opening; fouls: a third one loses; target: how many balls a break
+                                   must pot or drive to the head string, 0 to begin with, 3 by the
+                                   three-point rule; may: to push out just after a break without a
+                                   foul, to pass after a push-out or a break below the target. */
   CAROM_RULES_POTTING = 2,      /* a drill for one player, who may pot any ball until a miss or a
                                    foul. */
   CAROM_RULES_THREECUSHION = 3, /* three-cushion, UMB: a player scores a point if the cue ball meets
@@ -329,15 +339,45 @@ typedef enum carom_rules_kind {
   CAROM_RULES_TENBALL = 8,      /* ten-ball, WPA: 10 balls, of which the lowest must be met first.
                                    Any ball and its pocket are called, except on the break. The ten
                                    wins as the last ball, and comes back if it falls before; without
-                                   it, the highest ball. State: opening; fouls: a third one loses;
+                                   it, the highest ball. State: opening; target as in NINEBALL;
+                                   fouls: a third one loses;
                                    may: to push out just after a break without a foul, and to pass
                                    after a push-out of the opponent, or after a ball that the
                                    opponent potted without calling it. */
-  CAROM_RULES_STRAIGHTRAIL = 9  /* straight rail, UMB: a player scores a point if the cue ball meets
+  CAROM_RULES_STRAIGHTRAIL = 9, /* straight rail, UMB: a player scores a point if the cue ball meets
                                    both other balls. There are no barred corners. If a ball leaves
                                    the table, or a player whose cue ball touches another one asks
                                    for it, all three are placed as for the opening. Everything else
                                    is as in THREECUSHION; target is 100 to begin with. */
+  CAROM_RULES_BLACKBALL = 10, /* blackball, WPA: as EIGHTBALL without calls. A break that pots none
+                                   drives two balls past the middle. After a foul the cue ball is in
+                                   baulk or stays, and the first stroke is free: it may meet and pot
+                                   any ball but the black, and does not end the visit. A ball of the
+                                   opponent may fall only with one's own. A player who cannot see a
+                                   ball on must reach a cushion too, unlike the rule. State:
+                                   opening, group; free_ball: 1 for a free stroke; may: to leave the
+                                   cue ball where it lies, and to have a new rack. */
+  CAROM_RULES_HEYBALL = 11,   /* heyball: as EIGHTBALL without calls. State: as there, and fouls: a
+                                   third one loses. */
+  CAROM_RULES_ROTATION = 12,  /* rotation, BCA: 15 balls, of which the lowest must be met first.
+                                   Each ball counts its number, and 61 win. State: opening; score;
+                                   fouls: a third one loses; may, after a break that was not legal:
+                                   to have a new rack and break. */
+  CAROM_RULES_PYRAMID = 13,   /* free pyramid: 16 balls, of which any may be struck and any counts
+                                   one, also the struck one after a contact. A foul gives the
+                                   opponent one. Eight win. State: opening; score; may, as in
+                                   ROTATION. */
+  CAROM_RULES_FOURBALL = 14,  /* four-ball as in Korea: white 0, yellow 1, reds 2 and 3. A player
+                                   scores a point if the cue ball meets both reds, and loses one if
+                                   it meets no red or the other cue ball. State: as in STRAIGHTRAIL,
+                                   and lost; target 10 to begin with. */
+  CAROM_RULES_COWBOY = 15     /* cowboy, BCA: balls 1, 2 and 3 have the numbers 1, 3 and 5. Up to 90
+                                   points, exactly, a ball that falls counts its number, and two or
+                                   three balls that are met count 1 or 2; up to 100 only the latter.
+                                   The last point is the cue ball off the 1 into the pocket that is
+                                   called with it. State: opening; score; lost: the points of this
+                                   visit, which a foul costs; may, after an opening that did not
+                                   meet the 3 first: to break, or to have the opponent break. */
 } carom_rules_kind;
 
 /* The description of a game. */
@@ -347,6 +387,7 @@ typedef struct carom_rules_about {
   int32_t last;            /* the highest number of a ball; 0: balls have any number. */
   int32_t opening, hand;   /* the carom_leave before the first stroke, and after a foul that leaves
                               the cue ball in hand. */
+  int32_t table;           /* the usual table: a carom_table_kind. */
 } carom_rules_about;
 
 /* The description of a game, or NULL for a value not listed. */

@@ -13,9 +13,9 @@ bool lab_game_is_played(int rules) {
 void lab_rack_begin(lab_rack *rack, carom_rules_kind game, double errors) {
   const carom_rules_about *about = carom_rules_about_of(game);
   const bool breaks = carom_plan_rules_of(game).breaks == 1;
-  carom_table_kind table = breaks ? CAROM_TABLE_POOL_7FT : CAROM_TABLE_POOL_9FT;
-  if (about->balls == CAROM_GAME_SNOOKER)
-    table = CAROM_TABLE_SNOOKER;
+  carom_table_kind table = (carom_table_kind)about->table;
+  if (breaks && table == CAROM_TABLE_POOL_9FT)
+    table = CAROM_TABLE_POOL_7FT;
   carom_table_make(table, &rack->table);
   rack->cue = carom_cue_of((carom_game)about->balls);
   rack->player = carom_player_of(errors);

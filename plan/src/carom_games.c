@@ -1,5 +1,5 @@
 /* Games on a table without pockets: three-cushion and straight rail, by the world rules of carom
- * billiard of the UMB.
+ * billiard of the UMB, and four-ball as it is played in Korea.
  *
  * Each player has a cue ball, and the opening meets the red first (article 23). A point is a stroke
  * in which the cue ball meets both others (24): in three-cushion after three cushions (83), in
@@ -8,11 +8,18 @@
  * of these balls on its spot, in straight rail all three as for the opening.
  *
  * Two rules are left out: the inning that draws level, and the barred corners of straight rail (52
- * to 54), in which the number of points in a row is limited. */
+ * to 54), in which the number of points in a row is limited.
+ *
+ * Four-ball has no rules of a federation; it is by custom (Korean and English descriptions, which
+ * agree): white and yellow are cue balls, and the opening meets the farther red first. A point is a
+ * stroke that meets both reds. A stroke that meets no red or the other cue ball, a double hit and a
+ * ball that leaves the table cost a point. The custom of a last point off three cushions is left
+ * out. What the descriptions leave open, the place of the other cue ball at first and balls that
+ * touch or come back, is as in straight rail. */
 #include "games.h"
 #include "rules.h"
 
-enum { WHITE = 0, YELLOW = 1, RED = 2, BALLS_OF_THREE = 3 };
+enum { WHITE = 0, YELLOW = 1, RED = 2, BALLS_OF_THREE = 3, BALLS_OF_FOUR = 4 };
 
 /* The cue ball of the player, by the group; of both ball 0 where there is none. */
 static int cue_ball_of(const carom_rules_state *game) {
@@ -73,6 +80,55 @@ static carom_turn judge_any(carom_rules_state *game, uint32_t in_play, int cue_b
   return judge_point(game, in_play, facts, call, 0);
 }
 
+/* ---- Four-ball */
+
+enum { NEAR_RED = 2, FAR_RED = 3 };
+
+static uint32_t on_four(const carom_rules_state *game, uint32_t in_play) {
+  const uint32_t far_red = UINT32_C(1) << FAR_RED;
+  return in_play & (game->opening != 0 ? far_red : far_red | UINT32_C(1) << NEAR_RED);
+}
+
+static int32_t foul_of_four(const carom_facts *facts, uint32_t on, uint32_t met) {
+  const uint32_t reds = UINT32_C(1) << NEAR_RED | UINT32_C(1) << FAR_RED;
+  if (met == 0)
+    return CAROM_FOUL_NO_BALL;
+  if ((carom_met_first(facts) & on) == 0)
+    return CAROM_FOUL_FIRST;
+  if (facts->off != 0)
+    return CAROM_FOUL_OFF;
+  if (facts->pushed != 0 || facts->touches > 1)
+    return CAROM_FOUL_DOUBLE_HIT;
+  return (met & ~reds) != 0 ? CAROM_FOUL_OTHER : CAROM_FOUL_NONE;
+}
+
+static carom_turn judge_four(carom_rules_state *game, uint32_t in_play, int cue_ball,
+                             const carom_facts *facts, carom_call call) {
+  (void)cue_ball;
+  if ((game->may & CAROM_MAY_SPOT) && call.ball == CAROM_CALL_SPOT)
+    return carom_keep; /* settle() spots, and takes the choice back */
+  uint32_t met = 0;
+  for (int k = 0; k < BALLS_OF_FOUR && facts->first[0] >= 0; k++)
+    met |= facts->order[k] >= 0 ? UINT32_C(1) << facts->order[k] : 0;
+  carom_turn turn = carom_pass;
+  turn.foul = foul_of_four(facts, on_four(game, in_play), met);
+  game->opening = game->may = 0;
+  if (turn.foul != CAROM_FOUL_NONE) {
+    turn.spot = facts->off;
+    turn.points = -1.0;
+    carom_add(&game->lost[0], 1);
+    return give(game, turn);
+  }
+  if (carom_count_of(met) < 2)
+    return give(game, turn);
+  turn = carom_keep;
+  turn.points = 1.0;
+  carom_add(&game->score[0], 1);
+  if (game->target > 0 && game->score[0] - game->lost[0] >= game->target)
+    turn.is = CAROM_TURN_WIN;
+  return turn;
+}
+
 /* ---- Balls that come back */
 
 /* The spots of three-cushion: of the red the foot spot, of the cue ball of the player who comes to
@@ -121,25 +177,35 @@ static void settle_one(carom_rules_state *game, const carom_table *table, carom_
 }
 
 /* All balls go to the places of the opening of the player who comes to the table. */
-static void settle_all(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
-                       int count, carom_turn *turn) {
-  const int cue_ball = cue_ball_of(game);
-  if (count < BALLS_OF_THREE)
+static void settle_rack(carom_rack_kind rack, carom_rules_state *game, const carom_table *table,
+                        carom_shot_ball *balls, int count, carom_turn *turn) {
+  const int cue_ball = cue_ball_of(game), all = carom_rack_size(rack);
+  if (count < all)
     return;
   const bool asked = (game->may & CAROM_MAY_SPOT) && turn->is == CAROM_TURN_KEEP;
   if (asked || turn->spot != 0) {
-    turn->spot = (UINT32_C(1) << BALLS_OF_THREE) - 1;
-    for (int k = 0; k < BALLS_OF_THREE; k++)
+    turn->spot = (UINT32_C(1) << all) - 1;
+    for (int k = 0; k < all; k++)
       balls[k].state.label = CAROM_BALL_OFF;
-    for (int k = 0; k < BALLS_OF_THREE; k++) {
+    for (int k = 0; k < all; k++) {
       /* the rack has the white as the cue ball */
       const int white = k == cue_ball ? WHITE : YELLOW;
       double at[2] = {0.0, 0.0};
-      carom_spot_of(CAROM_RACK_THREECUSHION, table, k == RED ? RED : white, at);
+      carom_spot_of(rack, table, k >= RED ? k : white, at);
       carom_place_ball(table, balls, count, k, at[0], at[1], NULL);
     }
   }
   game->may = carom_touching(balls, count, cue_ball) != 0 ? CAROM_MAY_SPOT : 0;
+}
+
+static void settle_three(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
+                         int count, carom_turn *turn) {
+  settle_rack(CAROM_RACK_THREECUSHION, game, table, balls, count, turn);
+}
+
+static void settle_four(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
+                        int count, carom_turn *turn) {
+  settle_rack(CAROM_RACK_FOURBALL, game, table, balls, count, turn);
 }
 
 /* ---- The games */
@@ -164,8 +230,17 @@ CAROM_RULES_OBJECT(carom_threecushion) = {.state = {.target = 40},
 CAROM_RULES_OBJECT(carom_straight_rail) = {.state = {.target = 100},
                                            .on = on,
                                            .judge = judge_any,
-                                           .settle = settle_all,
+                                           .settle = settle_three,
                                            .left = left,
                                            .value = value,
                                            .race = CAROM_RACE_ALONE,
                                            .rack = CAROM_RACK_THREECUSHION};
+
+CAROM_RULES_OBJECT(carom_four_ball) = {.state = {.target = 10},
+                                       .on = on_four,
+                                       .judge = judge_four,
+                                       .settle = settle_four,
+                                       .left = left,
+                                       .value = value,
+                                       .race = CAROM_RACE_ALONE,
+                                       .rack = CAROM_RACK_FOURBALL};

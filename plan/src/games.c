@@ -19,12 +19,13 @@ static const struct {
 } members[] = {CAROM_STATE_MEMBERS(MEMBER)};
 #undef MEMBER
 
-#define GAME(NAME, rules, word, text, BALLS, RACK, last, OPENING, HAND, calls, members, may) \
-  {{word, text, CAROM_GAME_##BALLS, CAROM_RACK_##RACK, last, CAROM_LEAVE_##OPENING,          \
-    CAROM_LEAVE_##HAND},                                                                     \
-   &rules,                                                                                   \
-   calls,                                                                                    \
-   members,                                                                                  \
+#define GAME(NAME, rules, word, text, BALLS, TABLE, RACK, last, OPENING, HAND, calls, members, \
+             may)                                                                              \
+  {{word, text, CAROM_GAME_##BALLS, CAROM_RACK_##RACK, last, CAROM_LEAVE_##OPENING,            \
+    CAROM_LEAVE_##HAND, CAROM_TABLE_##TABLE},                                                  \
+   &rules,                                                                                     \
+   calls,                                                                                      \
+   members,                                                                                    \
    may},
 static const struct {
   carom_rules_about about;
@@ -68,9 +69,12 @@ carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
   return rules;
 }
 
-/* Whether a game that has a member may stand so: carom games may have no target. */
+/* Whether a game that has a member may stand so: carom games, and the breaks of others, may have no
+ * target. */
 static bool may_be(carom_rules_kind kind, size_t member, int32_t value) {
-  if (games[kind].about.balls == CAROM_GAME_BILLIARD && member == PLACE_OF_TARGET && value == 0)
+  const bool optional =
+      games[kind].rules->race == CAROM_RACE_ALONE || games[kind].rules->race == CAROM_RACE_SHARED;
+  if (optional && member == PLACE_OF_TARGET && value == 0)
     return true;
   const int32_t not_allowed = member == PLACE_OF_MAY ? value & ~games[kind].may : 0;
   return value >= members[member].low && value <= members[member].high && not_allowed == 0;

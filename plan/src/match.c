@@ -20,7 +20,7 @@ carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, doub
                                carom_bounds *bounds) {
   if (table == NULL || bounds == NULL)
     return CAROM_ERROR_NULL;
-  if ((uint32_t)leave > CAROM_LEAVE_D)
+  if ((uint32_t)leave > CAROM_LEAVE_BAULK)
     return CAROM_ERROR_ACT;
   if (!(radius >= 0.0) || isinf(radius))
     return CAROM_ERROR_RADIUS;
@@ -32,6 +32,8 @@ carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, doub
   bounds->high[1] = table->length - radius;
   if (leave == CAROM_LEAVE_KITCHEN)
     bounds->high[1] = 0.25 * table->length;
+  if (leave == CAROM_LEAVE_BAULK)
+    bounds->high[1] = 0.2 * table->length;
 
   /* the box around the D */
   if (leave == CAROM_LEAVE_D) {
@@ -158,8 +160,19 @@ static uint32_t in_play(const carom_record *record) {
 }
 
 int carom_match_cue_ball(const carom_match *match) {
-  const bool own = match->rules.rack == CAROM_RACK_THREECUSHION && match->rules.state.group == 2;
-  return own ? 1 : 0;
+  const uint32_t balls = in_play(&match->record);
+  int ball = carom_cue_ball_of(&match->rules);
+  while (match->rules.any_cue_ball != 0 && balls >> ball > 1 && !(balls >> ball & 1))
+    ball++;
+  return ball;
+}
+
+/* Whether the next stroke may be one of this ball. */
+static bool may_strike(const carom_match *match, int64_t ball) {
+  const bool any = match->rules.any_cue_ball != 0 && match->rules.state.opening == 0;
+  if (!any || ball < 0 || ball >= match->record.count)
+    return ball == match->cue_ball;
+  return in_play(&match->record) >> ball & 1;
 }
 
 void carom_match_look(carom_match *match) {
@@ -206,7 +219,7 @@ carom_status carom_match_begin_at(carom_match *match, carom_rules_kind kind,
   memset(match, 0, sizeof *match);
   match->winner = -1;
   const bool known = of != NULL || carom_rules_about_of(kind) != NULL;
-  if (!known || (player >> 1) != 0 || (uint32_t)leave > CAROM_LEAVE_D)
+  if (!known || (player >> 1) != 0 || (uint32_t)leave > CAROM_LEAVE_BAULK)
     return carom_match_refuse(
         match, CAROM_REFUSED_BEGIN, "begin",
         "the rules must be a carom_rules_kind, the player 0 or 1, leave a carom_leave");
@@ -279,9 +292,9 @@ carom_status carom_match_begin(carom_match *match, carom_rules_kind kind, const 
     return bad;
   carom_plan_rules rules = carom_plan_rules_of(kind);
   rules.state.opening = carom_has_opening(kind);
-  if (rules.rack == CAROM_RACK_THREECUSHION)
+  if (table->pockets == 0)
     rules.state.group = 1 + player;
-  if (rules.state.group == 2) { /* the white spot is that of who opens */
+  if (carom_cue_ball_of(&rules) == 1) { /* the white spot is that of who opens */
     const carom_ball_state white = balls[0].state;
     balls[0].state = balls[1].state;
     balls[1].state = white;
@@ -406,13 +419,15 @@ carom_status carom_match_stroke(carom_match *match, int player, const carom_cue 
     return carom_match_refuse(
         match, CAROM_REFUSED_IN_HAND, "stroke",
         "the cue ball is in hand: carom_match_place() puts it within match.bounds");
-  if (cue->ball != match->cue_ball)
+  if (!may_strike(match, cue->ball))
     return carom_match_refuse(match, CAROM_REFUSED_CUE_BALL, "stroke",
-                              "cue.ball must be match.cue_ball");
+                              "cue.ball must be match.cue_ball, or a ball in play where any may be "
+                              "struck");
   if (!(cue->speed > 0.0))
     return carom_match_refuse(match, CAROM_REFUSED_STROKE, "stroke",
                               "cue.speed must be above 0 m/s");
   match->record.cue = *cue;
+  match->cue_ball = (int32_t)cue->ball;
   return play(match, CAROM_RECORD_SHOT, stop, shot, "stroke");
 }
 
@@ -589,6 +604,24 @@ carom_status carom_match_end(carom_match *match) {
 
 /* ---- Plans */
 
+/* Where any ball may be struck, the job's cue becomes one of the ball that promises most. */
+static void choose_ball(carom_match *match, carom_plan_job *job) {
+  carom_cue *cue = &match->record.cue;
+  double best = -1.0;
+  int64_t ball = job->cue->ball;
+  *cue = *job->cue;
+  job->cue = cue;
+  for (int k = 0; k < match->record.count; k++) {
+    double value;
+    cue->ball = k;
+    if (!may_strike(match, k) || carom_plan_value(job, 0, &value) != CAROM_OK || value <= best)
+      continue;
+    best = value;
+    ball = k;
+  }
+  cue->ball = ball;
+}
+
 carom_status carom_match_plan(carom_match *match, carom_plan_job *job, carom_choice *choices,
                               int room, int *found) {
   if (match == NULL || job == NULL || job->cue == NULL)
@@ -598,15 +631,18 @@ carom_status carom_match_plan(carom_match *match, carom_plan_job *job, carom_cho
   const carom_status bad = check_turn(match, (int)record->player, "plan");
   if (bad != CAROM_OK)
     return bad;
-  if (job->cue->ball != match->cue_ball)
+  if (!may_strike(match, job->cue->ball))
     return carom_match_refuse(match, CAROM_REFUSED_CUE_BALL, "plan",
-                              "job.cue->ball must be match.cue_ball");
+                              "job.cue->ball must be match.cue_ball, or a ball in play where any "
+                              "may be struck");
   set_stops(&match->record, NULL);
   job->table = &record->table;
   job->balls = record->balls;
   job->count = record->count;
   job->rules = &match->rules;
   job->shot = &record->options;
+  if (match->rules.any_cue_ball != 0 && match->rules.state.opening == 0)
+    choose_ball(match, job);
   if (match->phase == CAROM_MATCH_PLACE)
     return carom_plan_hand(job, match->bounds.low, match->bounds.high, choices, room, found);
   return carom_plan(job, choices, room, found);

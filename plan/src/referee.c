@@ -143,11 +143,14 @@ static void write_choices(int32_t may, char *text, size_t room) {
 
 size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) {
   static const char *const turns[] = {"plays on", "the other plays", "has won", "has lost"};
-  static const char *const leaves[] = {"", ", with the balls as before", ", cue ball in hand",
+  static const char *const leaves[] = {"",
+                                       ", with the balls as before",
+                                       ", cue ball in hand",
                                        ", cue ball in hand behind the head string",
-                                       ", cue ball in hand in the D"};
+                                       ", cue ball in hand in the D",
+                                       ", cue ball in hand behind the baulk line"};
   if (ruling == NULL || (uint32_t)ruling->turn.is > CAROM_TURN_LOSE ||
-      (uint32_t)ruling->turn.leave > CAROM_LEAVE_D)
+      (uint32_t)ruling->turn.leave > CAROM_LEAVE_BAULK)
     return 0;
   const bool foul = ruling->turn.foul != CAROM_FOUL_NONE;
   char choices[200];

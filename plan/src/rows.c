@@ -63,6 +63,9 @@ static carom_call call_of(const search *plan, const carom_facts *facts) {
     if ((down >> k & 1) && (plan->pockets >> facts->pocket[k] & 1) &&
         (call.ball < 0 || facts->pocket_time[k] < facts->pocket_time[call.ball]))
       call = (carom_call){k, facts->pocket[k]};
+  const int cue_ball = plan->view.cue_ball;
+  if (call.ball < 0 && (facts->down >> cue_ball & 1) != 0) /* off a ball: cowboy's last point */
+    call = (carom_call){facts->first[0], facts->pocket[cue_ball]};
   return call;
 }
 
@@ -138,7 +141,8 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
           .r = {0.5 * plan->view.width, 0.75 * plan->view.length, plan->view.radius[k]},
           .label = CAROM_BALL_STATIONARY};
   }
-  const bool in_hand = turn.leave >= CAROM_LEAVE_HAND;
+  /* any ball may be struck: about as good as the cue ball in hand */
+  const bool in_hand = turn.leave >= CAROM_LEAVE_HAND || rules->any_cue_ball != 0;
   const bool passes = turn.is == CAROM_TURN_PASS;
   const double value = carom_value_of(&plan->view, &game, final, passes, in_hand);
   o.worth = value;
@@ -175,8 +179,8 @@ void carom_search_lay_out(search *plan, const carom_shot_ball *balls) {
 static void spread(const search *plan, shot_result *with) {
   carom_facts *f = &with->facts;
   const carom_facts of_shot = *f;
-  uint32_t *const set[] = {&f->down,   &f->off,    &f->moved,    &f->frozen,
-                           &f->pushed, &f->banked, &f->first_set};
+  uint32_t *const set[] = {&f->down,   &f->off,       &f->moved,       &f->frozen, &f->pushed,
+                           &f->banked, &f->first_set, &f->past_middle, &f->at_head};
   for (int s = 0; s < (int)(sizeof set / sizeof set[0]); s++) {
     uint32_t all = 0;
     for (int n = 0; n < plan->plays; n++)

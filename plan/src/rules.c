@@ -18,10 +18,10 @@ static carom_turn foul_for(int32_t why) {
 
 /* ---- Eight-ball */
 
-/* Of a game that is not over. */
+/* Of a game that is not over. In blackball, free_ball says that the stroke is free. */
 static uint32_t eightball_targets(const carom_rules_state *game, uint32_t in_play) {
   const uint32_t own = in_play & balls_of[(uint32_t)game->group <= STRIPES ? game->group : OPEN];
-  if (game->opening != 0)
+  if (game->opening != 0 || game->free_ball != 0)
     return in_play & 0xfffe;
   return own != 0 ? own : in_play & eight;
 }
@@ -45,11 +45,25 @@ static void eightball_left(const carom_rules_state *game, uint32_t in_play, int3
   }
 }
 
-/* The turn goes to the other: the state becomes his. */
-static carom_turn give(carom_rules_state *game, carom_turn turn) {
+static void swap_groups(carom_rules_state *game) {
   if (game->group == SOLIDS || game->group == STRIPES)
     game->group = SOLIDS + STRIPES - game->group;
-  return turn;
+}
+
+/* The turn goes to the other: the state becomes his. */
+static carom_turn give(carom_rules_state *game, carom_turn turn) {
+  swap_groups(game);
+  return carom_give(game, turn);
+}
+
+/* The turn after a foul in blackball: the cue ball comes in baulk or stays, balls that left the
+ * table come back, and the next stroke is free. */
+static carom_turn free_stroke_for(carom_rules_state *game, const carom_facts *facts, int cue_ball,
+                                  int32_t foul, int32_t may) {
+  const bool cue_ball_gone = (facts->down | facts->off) >> cue_ball & 1;
+  game->free_ball = 1;
+  game->may = may | (cue_ball_gone ? 0 : CAROM_MAY_STAY);
+  return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_BAULK, foul, facts->off & 0xfffe, 0.0};
 }
 
 /* The break, by the WPA, 3.3: nothing is called, the eight comes back, and the table is open. */
@@ -77,55 +91,127 @@ static carom_turn eightball_break(carom_rules_state *game, const carom_facts *fa
   return turn;
 }
 
-/* A choice after a break, which the state allows. False of any other call. */
-static bool eightball_chooses(carom_rules_state *game, int32_t call, carom_turn *turn) {
-  static const struct {
-    int32_t call, may;
-  } choices[] = {{CAROM_CALL_RACK, CAROM_MAY_RACK},
-                 {CAROM_CALL_OTHER_RACK, CAROM_MAY_OTHER_RACK},
-                 {CAROM_CALL_STAY, CAROM_MAY_STAY}};
-  bool chosen = false;
-  for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
-    chosen |= call == choices[k].call && (game->may & choices[k].may) != 0;
-  if (!chosen)
-    return false;
-  *turn = call == CAROM_CALL_OTHER_RACK ? carom_pass : carom_keep;
-  game->may = 0;
-  if (call != CAROM_CALL_STAY) {
+/* The break of blackball: the black has the balls racked again, without a foul; and a foul gives a
+ * free stroke. A break that pots none drives two balls past the middle. */
+static carom_turn blackball_break(carom_rules_state *game, const carom_facts *facts, int cue_ball,
+                                  int32_t foul) {
+  enum { PAST_MIDDLE = 2 };
+  if ((facts->down & eight) != 0) {
     game->opening = 1;
-    turn->leave = CAROM_LEAVE_KITCHEN;
-    turn->spot = 0xfffe;
+    return (carom_turn){CAROM_TURN_KEEP, CAROM_LEAVE_BAULK, CAROM_FOUL_NONE, 0xfffe, 0.0};
   }
-  return true;
+  const bool pots = (facts->down & 0xfffe) != 0;
+  const bool bad_break = !pots && carom_count_of(facts->past_middle & 0xfffe) < PAST_MIDDLE;
+  if (foul == CAROM_FOUL_NONE || foul == CAROM_FOUL_CUSHION)
+    foul = bad_break ? CAROM_FOUL_BREAK : CAROM_FOUL_NONE;
+  if (foul != CAROM_FOUL_NONE)
+    return free_stroke_for(game, facts, cue_ball, foul, bad_break ? CAROM_MAY_RACK : 0);
+  return pots ? carom_keep : carom_pass;
+}
+
+/* How the games with two groups differ. */
+typedef struct eight_game {
+  bool calls;        /* ball and pocket are called */
+  bool free_strokes; /* after a foul, as in blackball */
+  bool counts_fouls; /* a third one in a row loses */
+} eight_game;
+
+/* The turn after a foul that is not on the break. */
+static carom_turn eight_foul(const eight_game *as, carom_rules_state *game,
+                             const carom_facts *facts, int cue_ball, int32_t foul) {
+  if (as->free_strokes)
+    return give(game, free_stroke_for(game, facts, cue_ball, foul, 0));
+  if (!as->counts_fouls)
+    return give(game, foul_for(foul));
+  swap_groups(game);
+  return carom_give_hand(game, foul, 0);
+}
+
+/* The balls that keep the turn, and decide the groups of an open table: the one that was called, or
+ * those that fell. */
+static uint32_t eight_made(const eight_game *as, const carom_facts *facts, carom_call call) {
+  if (!as->calls)
+    return facts->down & balls_of[OPEN];
+  return carom_is_called(facts, call) ? UINT32_C(1) << call.ball : 0;
+}
+
+/* The balls of the player, of a table that is open those of both. */
+static uint32_t own_of(const carom_rules_state *game) {
+  return balls_of[(uint32_t)game->group <= STRIPES ? game->group : OPEN];
+}
+
+/* The foul of a stroke. In blackball a ball of the other group may fall with one's own alone, or in
+ * a free stroke. */
+static int32_t eight_foul_of(const eight_game *as, const carom_rules_state *game, uint32_t on,
+                             int cue_ball, const carom_facts *facts) {
+  const int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
+  const uint32_t fell = facts->down & balls_of[OPEN];
+  const bool binds = as->free_strokes && game->opening == 0 && game->free_ball == 0;
+  const bool pots_wrong = binds && fell != 0 && (fell & own_of(game)) == 0;
+  return foul == CAROM_FOUL_NONE && pots_wrong ? CAROM_FOUL_POT : foul;
+}
+
+/* The eight is gone: it wins as the last ball, without a foul, and where shots are called in its
+ * pocket. In blackball it may fall with the last balls of the group. */
+static carom_turn eight_ends(const eight_game *as, uint32_t own_in_play, const carom_facts *facts,
+                             carom_call call, int32_t foul) {
+  const uint32_t remain = own_in_play & ~(as->free_strokes ? facts->down : 0);
+  const bool called = !as->calls || (carom_is_called(facts, call) && call.ball == 8);
+  if (remain == 0 && foul == CAROM_FOUL_NONE && called)
+    return win;
+  return (carom_turn){CAROM_TURN_LOSE, CAROM_LEAVE_AFTER, foul, 0, 0.0};
+}
+
+static carom_turn judge_eight(const eight_game *as, carom_rules_state *game, uint32_t in_play,
+                              int cue_ball, const carom_facts *facts, carom_call call) {
+  carom_turn turn;
+  if (carom_racks_again(game, call.ball, 0xfffe, &turn)) {
+    if (as->free_strokes && turn.spot != 0)
+      turn.leave = CAROM_LEAVE_BAULK;
+    return turn;
+  }
+  const uint32_t on = eightball_targets(game, in_play), own = own_of(game);
+  const bool opening = game->opening != 0, is_free = game->free_ball != 0;
+  const int32_t foul = eight_foul_of(as, game, on, cue_ball, facts);
+  game->opening = game->may = game->free_ball = 0;
+  if (opening)
+    return as->free_strokes ? blackball_break(game, facts, cue_ball, foul)
+                            : eightball_break(game, facts, cue_ball, foul);
+
+  /* an eight that left the table comes back in blackball */
+  const uint32_t gone = as->free_strokes ? facts->down : facts->down | facts->off;
+  if ((gone & eight) != 0)
+    return eight_ends(as, in_play & own, facts, call, foul);
+  if (foul != CAROM_FOUL_NONE)
+    return eight_foul(as, game, facts, cue_ball, foul);
+
+  /* the first balls that are made decide the groups, where they are of one */
+  game->fouls[0] = 0;
+  const uint32_t made = eight_made(as, facts, call) & (as->calls ? on : own);
+  if (made == 0)
+    return is_free ? carom_keep : give(game, carom_pass);
+  const bool mixed = (made & balls_of[SOLIDS]) != 0 && (made & balls_of[STRIPES]) != 0;
+  if (game->group == OPEN && !mixed && !is_free)
+    game->group = made & balls_of[SOLIDS] ? SOLIDS : STRIPES;
+  return carom_keep;
 }
 
 static carom_turn eightball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                   const carom_facts *facts, carom_call call) {
-  carom_turn turn;
-  if (eightball_chooses(game, call.ball, &turn))
-    return turn;
-  const uint32_t on = eightball_targets(game, in_play);
-  const int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
-  const bool opening = game->opening != 0;
-  game->opening = game->may = 0;
-  if (opening)
-    return eightball_break(game, facts, cue_ball, foul);
+  static const eight_game as = {.calls = true};
+  return judge_eight(&as, game, in_play, cue_ball, facts, call);
+}
 
-  /* The eight wins as the last ball, in the pocket that was called, without a foul. */
-  const bool called = carom_is_called(facts, call);
-  if (((facts->down | facts->off) & eight) != 0)
-    return on == eight && !foul && called && call.ball == 8
-               ? win
-               : (carom_turn){CAROM_TURN_LOSE, CAROM_LEAVE_AFTER, foul, 0, 0.0};
-  if (foul)
-    return give(game, foul_for(foul));
+static carom_turn blackball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
+                                  const carom_facts *facts, carom_call call) {
+  static const eight_game as = {.free_strokes = true};
+  return judge_eight(&as, game, in_play, cue_ball, facts, call);
+}
 
-  /* The first ball that is called and falls decides the groups. */
-  if (!called || !(on >> call.ball & 1))
-    return give(game, carom_pass);
-  if (game->group == OPEN)
-    game->group = balls_of[SOLIDS] >> call.ball & 1 ? SOLIDS : STRIPES;
-  return carom_keep;
+static carom_turn heyball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
+                                const carom_facts *facts, carom_call call) {
+  static const eight_game as = {.counts_fouls = true};
+  return judge_eight(&as, game, in_play, cue_ball, facts, call);
 }
 
 CAROM_RULES_OBJECT(carom_eightball) = {.on = eightball_on,
@@ -136,6 +222,31 @@ CAROM_RULES_OBJECT(carom_eightball) = {.on = eightball_on,
                                        .breaks = 1,
                                        .settle = carom_settle_rack,
                                        .rack = CAROM_RACK_EIGHTBALL};
+
+/* Blackball: the rules of the WPA, by the titles of its sections 4 (play) and 5 (fouls). Its text
+ * was at hand in an edited form, which does not settle these: who breaks after a new rack that the
+ * other asked for (here he who asked), and the black with the last balls of the group in one stroke
+ * (here it wins). A player who is snookered must reach a cushion too, unlike 5(g). */
+CAROM_RULES_OBJECT(carom_blackball) = {.on = eightball_on,
+                                       .judge = blackball_judge,
+                                       .left = eightball_left,
+                                       .race = CAROM_RACE_OWN,
+                                       .first_decides = 1,
+                                       .breaks = 1,
+                                       .rack = CAROM_RACK_BLACKBALL};
+
+/* Heyball: Rules of Heyball of the World Heyball Masters (2017, 2019), sections 4 to 13, in which
+ * nothing is called; three fouls in a row are of the rules of the Chinese association. The break is
+ * that of eight-ball. Where balls of both groups fall on an open table, it stays open: the texts at
+ * hand do not settle it. */
+CAROM_RULES_OBJECT(carom_heyball) = {.on = eightball_on,
+                                     .judge = heyball_judge,
+                                     .left = eightball_left,
+                                     .race = CAROM_RACE_OWN,
+                                     .first_decides = 1,
+                                     .breaks = 1,
+                                     .settle = carom_settle_rack,
+                                     .rack = CAROM_RACK_EIGHTBALL};
 
 /* ---- Nine-ball */
 
@@ -165,6 +276,11 @@ int32_t carom_rotation_foul_of(const carom_facts *facts, uint32_t on, int cue_ba
   if (foul == CAROM_FOUL_NONE && opening && !carom_is_break(facts, cue_ball))
     foul = CAROM_FOUL_BREAK;
   return foul;
+}
+
+bool carom_is_below_target(const carom_rules_state *game, const carom_facts *facts,
+                           uint32_t balls) {
+  return carom_count_of((facts->down | facts->at_head) & balls) < game->target;
 }
 
 carom_turn carom_give_hand(carom_rules_state *game, int32_t foul, uint32_t spot) {
@@ -202,6 +318,12 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
   }
 
   game->fouls[0] = 0;
+  if (opening && carom_is_below_target(game, facts, in_play & 0x3fe)) {
+    carom_turn turn = carom_pass;
+    turn.spot = facts->down & wins;
+    game->may = CAROM_MAY_PASS;
+    return carom_give(game, turn);
+  }
   if ((facts->down & wins) != 0)
     return win;
   game->may = opening ? CAROM_MAY_PUSH : 0;

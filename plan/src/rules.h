@@ -39,6 +39,10 @@ uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball);
 /* The turn goes to the other: the pairs of the state become his. Any of 15 balls may be met. */
 carom_turn carom_give(carom_rules_state *game, carom_turn turn);
 carom_rules_on carom_on_any;
+/* Whether a call is a choice after a break that the state allows: to have all balls of the set
+ * racked and break from behind the head string, to have the other do so, or to leave the cue ball
+ * where it lies. Then *turn is what comes of it. */
+bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t all, carom_turn *turn);
 
 /* Adds points, or fouls; none of a state that no game has. */
 static inline void carom_add(int32_t *to, int more) {
@@ -50,6 +54,10 @@ static inline void carom_add(int32_t *to, int more) {
 int32_t carom_rotation_foul_of(const carom_facts *facts, uint32_t on, int cue_ball, bool opening,
                                bool pushes);
 carom_turn carom_give_hand(carom_rules_state *game, int32_t foul, uint32_t spot);
+/* Whether a break pots or drives to the head string fewer balls than the state asks for: by the
+ * three-point rule (WPA, regulation 18) three. Then the other may hand the table back, without a
+ * push-out; this is read from practice, as only paragraph 1 of the text was at hand. */
+bool carom_is_below_target(const carom_rules_state *game, const carom_facts *facts, uint32_t balls);
 
 /* Games in which eight balls win: a ball that counts, or is no more owed; one that a foul costs, or
  * is owed; what each player needs; and the balls that come back after a stroke. */

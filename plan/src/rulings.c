@@ -23,6 +23,38 @@ carom_turn carom_give(carom_rules_state *game, carom_turn turn) {
   return turn;
 }
 
+bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t all, carom_turn *turn) {
+  static const struct {
+    int32_t call, may;
+  } choices[] = {{CAROM_CALL_RACK, CAROM_MAY_RACK},
+                 {CAROM_CALL_OTHER_RACK, CAROM_MAY_OTHER_RACK},
+                 {CAROM_CALL_STAY, CAROM_MAY_STAY}};
+  bool chosen = false;
+  for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
+    chosen |= call == choices[k].call && (game->may & choices[k].may) != 0;
+  if (!chosen)
+    return false;
+  game->may = 0;
+  *turn = carom_keep;
+  if (call == CAROM_CALL_STAY)
+    return true;
+  game->opening = 1;
+  game->free_ball = 0;
+  turn->leave = CAROM_LEAVE_KITCHEN;
+  turn->spot = all;
+  if (call == CAROM_CALL_OTHER_RACK) {
+    turn->is = CAROM_TURN_PASS;
+    carom_give(game, *turn);
+  }
+  return true;
+}
+
+int carom_cue_ball_of(const carom_plan_rules *rules) {
+  const bool own = rules != NULL &&
+                   (rules->rack == CAROM_RACK_THREECUSHION || rules->rack == CAROM_RACK_FOURBALL);
+  return own && rules->state.group == 2 ? 1 : 0;
+}
+
 uint32_t carom_met_first(const carom_facts *facts) {
   if (facts->first[0] < 0 || facts->first[0] >= CAROM_BALLS_MOST)
     return 0;
@@ -153,6 +185,19 @@ carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
   return put_near(kind, table, balls, count, ball, own);
 }
 
+/* All balls of a rack stand as at first, and keep their kinds. The cue ball is in hand. */
+static carom_status rack_again(carom_rack_kind rack, const carom_table *table,
+                               carom_shot_ball *balls, int count) {
+  const double gap = 1e-4; /* that of a match */
+  carom_shot_ball racked[CAROM_BALLS_MOST];
+  const carom_status bad = carom_rack(rack, table, gap, 1, racked, CAROM_BALLS_MOST);
+  if (bad != CAROM_OK)
+    return bad;
+  for (int k = 0; k < count && k < carom_rack_size(rack); k++)
+    balls[k].state = racked[k].state;
+  return CAROM_OK;
+}
+
 carom_status carom_turn_settle(const carom_plan_rules *rules, carom_rules_state *game,
                                const carom_table *table, carom_shot_ball *balls, int count,
                                carom_turn *turn) {
@@ -164,11 +209,13 @@ carom_status carom_turn_settle(const carom_plan_rules *rules, carom_rules_state 
     rules->settle(game, table, balls, count, turn);
     return CAROM_OK;
   }
+  const carom_rack_kind rack = (carom_rack_kind)rules->rack;
+  if (game->opening != 0 && carom_count_of(turn->spot) == carom_rack_size(rack) - 1)
+    return rack_again(rack, table, balls, count);
   carom_status first = CAROM_OK;
   for (int k = 0; turn->spot >> k != 0; k++) {
     const bool back = turn->spot >> k & 1;
-    const carom_status status =
-        back ? carom_spot_ball_of((carom_rack_kind)rules->rack, table, balls, count, k) : CAROM_OK;
+    const carom_status status = back ? carom_spot_ball_of(rack, table, balls, count, k) : CAROM_OK;
     first = first == CAROM_OK ? status : first;
   }
   return first;

@@ -8,7 +8,8 @@
  * without winning or leaves the table comes back, and no other ball does (9.9). A break pots a
  * ball or drives four to cushions (9.3). The next player may push out, and then the other may hand
  * the table back (9.4). After a foul the cue ball is in hand (9.10), and the third in a row loses
- * (9.11). In a game without the ten the highest ball stands for it. */
+ * (9.11). A break below the three points of regulation 18, where the state asks for them, may be
+ * handed back. In a game without the ten the highest ball stands for it. */
 #include "games.h"
 #include "rules.h"
 
@@ -50,6 +51,10 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   game->fouls[0] = 0;
 
   /* the break, on which nothing is called */
+  if (opening && carom_is_below_target(game, facts, balls)) {
+    game->may = CAROM_MAY_PASS;
+    return carom_give(game, turn);
+  }
   if (opening) {
     game->may = CAROM_MAY_PUSH;
     turn.is = pots ? CAROM_TURN_KEEP : CAROM_TURN_PASS;

@@ -16,12 +16,7 @@ static void keep(void) {
 
 static void begin(carom_rules_kind kind, uint64_t seed, int player) {
   const carom_rules_about *about = carom_rules_about_of(kind);
-  carom_table_kind of = CAROM_TABLE_POOL_9FT;
-  if (about->balls == CAROM_GAME_SNOOKER)
-    of = CAROM_TABLE_SNOOKER;
-  if (about->balls == CAROM_GAME_BILLIARD)
-    of = CAROM_TABLE_THREECUSHION;
-  carom_table_make(of, &table);
+  carom_table_make((carom_table_kind)about->table, &table);
   length = 0;
   ck_assert_int_eq(carom_match_begin(&match, kind, &table, seed, player), CAROM_OK);
   keep();
@@ -205,6 +200,8 @@ static carom_status act(random_source *r, carom_rules_kind kind) {
     const double y = random_between(r, b->low[1] - 0.1, b->high[1] + 0.1);
     return carom_match_place(&match, player, random_between(r, b->low[0], b->high[0]), y);
   }
+  if (match.rules.any_cue_ball != 0)
+    cue.ball = (int)random_between(r, -0.999, 16.999);
   cue.phi = random_between(r, 0.0, 360.0);
   cue.speed = random_between(r, 0.2, 9.0);
   cue.theta = random_between(r, 0.0, 1.0) < 0.1 ? 30.0 : 0.0;

@@ -7,12 +7,15 @@
 enum { E = CAROM_RULES_EIGHTBALL, N = CAROM_RULES_NINEBALL, ST = CAROM_RULES_STRAIGHT };
 enum { SN = CAROM_RULES_SNOOKER, ONE = CAROM_RULES_ONEPOCKET, BANK = CAROM_RULES_BANK };
 enum { THREE = CAROM_RULES_THREECUSHION, RAIL = CAROM_RULES_STRAIGHTRAIL };
+enum { BB = CAROM_RULES_BLACKBALL, HEY = CAROM_RULES_HEYBALL, ROT = CAROM_RULES_ROTATION };
+enum { PYR = CAROM_RULES_PYRAMID, FOUR = CAROM_RULES_FOURBALL, COW = CAROM_RULES_COWBOY };
+enum { TEN = CAROM_RULES_TENBALL, BAULK = CAROM_LEAVE_BAULK, OTHER_RULE = CAROM_FOUL_OTHER };
 enum { HAND_ANY = CAROM_LEAVE_HAND };
 enum { RACK = CAROM_MAY_RACK, OTHER = CAROM_MAY_OTHER_RACK, STAY = CAROM_MAY_STAY };
 enum { PUSH = CAROM_MAY_PUSH, SPOT = CAROM_MAY_SPOT };
 
 #define B(k) (UINT32_C(1) << (k))
-static const uint32_t all15 = 0xffff, nine9 = 0x3ff, frame = 0x3fffff;
+static const uint32_t frame = 0x3fffff;
 
 typedef struct situation {
   const char *section;
@@ -29,7 +32,9 @@ typedef struct situation {
   carom_call call;
   int is, leave, foul;
   uint32_t spot;
-  int may, points; /* points: of the other in snooker after a foul, else of the player */
+  int may, points; /* points: of who plays next in snooker and pyramid, else of the player */
+  uint32_t met, past, head; /* all balls met; balls past the middle, and at the head string */
+  int free;                 /* the next stroke is free */
 } situation;
 
 #define NO_CALL .call = {-1, -1}
@@ -524,12 +529,177 @@ static const situation rows[] = {
      .points = 100},
 };
 
+/* clang-format off */
+static const situation games_of_2026[] = {
+    /* ---- WPA, the three-point rule */
+    {"WPA reg. 18 two points", N, {.opening = 1, .target = 3}, .first = 1, .after = 4,
+     .driven = 4, .head = B(2) | B(5), NO_CALL, PASS, .may = MAY},
+    {"WPA reg. 18 three points", N, {.opening = 1, .target = 3}, .first = 1, .down = B(7),
+     .head = B(2) | B(5) | B(7), NO_CALL, KEEP, .may = PUSH},
+    {"WPA reg. 18 a pot and one ball, ten-ball", TEN, {.opening = 1, .target = 3}, .first = 1,
+     .down = B(7), .head = B(2) | B(7), NO_CALL, PASS, .may = MAY},
+    {"WPA reg. 18 the nine with too few", N, {.opening = 1, .target = 3}, .first = 1,
+     .down = B(9), NO_CALL, PASS, .spot = B(9), .may = MAY},
+
+    /* ---- WPA, blackball */
+    {"blackball 4b two past the middle", BB, {.opening = 1}, .first = 1, .after = 1,
+     .past = B(3) | B(9), NO_CALL, PASS},
+    {"blackball 4b one past the middle", BB, {.opening = 1}, .first = 1, .after = 4,
+     .past = B(0) | B(3), .driven = 4, NO_CALL, PASS, BAULK, BREAK, .may = RACK | STAY, .free = 1},
+    {"blackball 4b a ball is potted", BB, {.opening = 1}, .first = 1, .down = B(3), NO_CALL, KEEP},
+    {"blackball 4d the black and the white", BB, {.opening = 1}, .first = 1, .down = B(8) | B(0),
+     NO_CALL, KEEP, BAULK, LEGAL, 0xfffe},
+    {"blackball 4b a new rack", BB, {.may = RACK | STAY, .free_ball = 1},
+     .call = {CAROM_CALL_RACK, -1}, KEEP, BAULK, LEGAL, 0xfffe},
+    {"blackball 4h played from where it lies", BB, {.may = STAY, .free_ball = 1},
+     .call = {CAROM_CALL_STAY, -1}, KEEP, .free = 1},
+    {"blackball 4e balls of both groups", BB, .first = 1, .down = B(1) | B(9), NO_CALL, KEEP},
+    {"blackball 4f a miss in a free shot", BB, {.group = 1, .free_ball = 1}, .first = 9,
+     .after = 1, NO_CALL, KEEP},
+    {"blackball 4f the other group in a free shot", BB, {.group = 1, .free_ball = 1}, .first = 9,
+     .down = B(9), NO_CALL, KEEP},
+    {"blackball 5a in-off", BB, {.group = 1}, .first = 1, .down = B(0), NO_CALL, PASS, BAULK,
+     CUE_BALL, .free = 1},
+    {"blackball 5c the other's ball", BB, {.group = 1}, .first = 1, .down = B(9), NO_CALL, PASS,
+     BAULK, POT, .may = STAY, .free = 1},
+    {"blackball 5c with one's own", BB, {.group = 1}, .first = 1, .down = B(9) | B(1), NO_CALL,
+     KEEP},
+    {"blackball 5d no cushion", BB, {.group = 1}, .first = 1, NO_CALL, PASS, BAULK, CUSHION,
+     .may = STAY, .free = 1},
+    {"blackball 4k off the table", BB, {.group = 1}, .first = 1, .after = 1, .off = B(8), NO_CALL,
+     PASS, BAULK, OFF, B(8), .may = STAY, .free = 1},
+    {"blackball 6 the black too early", BB, {.group = 1}, .first = 1, .down = B(8), NO_CALL, LOSE},
+    {"blackball 6 the black too early in a free shot", BB, {.group = 1, .free_ball = 1},
+     .first = 8, .down = B(8), NO_CALL, LOSE},
+    {"blackball 4s the black", BB, {.group = 1}, .in_play = B(0) | B(8) | B(9), .first = 8,
+     .down = B(8), NO_CALL, WIN},
+    {"blackball 4j the last ball and the black", BB, {.group = 1},
+     .in_play = B(0) | B(1) | B(8) | B(9), .first = 1, .down = B(1) | B(8), NO_CALL, WIN},
+
+    /* ---- Heyball */
+    {"heyball 6 an illegal break", HEY, {.opening = 1}, .first = 1, .after = 3, .driven = 3,
+     NO_CALL, PASS, AFTER, BREAK, .may = RACK | OTHER},
+    {"heyball 6 the eight on the break", HEY, {.opening = 1}, .first = 1, .down = B(8), NO_CALL,
+     KEEP, .spot = B(8), .may = RACK},
+    {"heyball 8 a scratch on the break", HEY, {.opening = 1}, .first = 1, .down = B(0) | B(2),
+     NO_CALL, PASS, KITCHEN, CUE_BALL},
+    {"heyball 10 the group", HEY, .first = 3, .down = B(3), NO_CALL, KEEP},
+    {"heyball 10 balls of both groups", HEY, .first = 3, .down = B(3) | B(12), NO_CALL, KEEP},
+    {"heyball 11 nothing is called", HEY, {.group = 2}, .first = 9, .down = B(12), NO_CALL, KEEP},
+    {"heyball 11 the other's ball", HEY, {.group = 2}, .first = 9, .down = B(2), NO_CALL, PASS},
+    {"heyball 13 both at one instant", HEY, {.group = 2}, .first = 1, .with = B(9), .after = 1,
+     NO_CALL, PASS},
+    {"heyball 9 the wrong ball", HEY, {.group = 2}, .first = 1, .after = 1, NO_CALL, PASS,
+     HAND_ANY, FIRST},
+    {"heyball three fouls", HEY, {.group = 2, .fouls = {2, 0}}, .first = 1, .after = 1, NO_CALL,
+     LOSE, HAND_ANY, FIRST},
+    {"heyball the eight", HEY, {.group = 2}, .in_play = B(0) | B(8), .first = 8, .down = B(8),
+     NO_CALL, WIN},
+    {"heyball the last ball and the eight", HEY, {.group = 2}, .in_play = B(0) | B(8) | B(9),
+     .first = 9, .down = B(8) | B(9), NO_CALL, LOSE},
+
+    /* ---- BCA, rotation */
+    {"BCA rotation: an open break", ROT, {.opening = 1}, .first = 1, .after = 4, .driven = 4,
+     NO_CALL, PASS},
+    {"BCA rotation: no open break", ROT, {.opening = 1}, .first = 1, .after = 3, .driven = 3,
+     NO_CALL, PASS, KITCHEN, BREAK, .may = RACK},
+    {"BCA rotation: a new rack", ROT, {.may = RACK}, .call = {CAROM_CALL_RACK, -1}, KEEP, KITCHEN,
+     LEGAL, 0xfffe},
+    {"BCA rotation: a ball counts its number", ROT, .first = 1, .down = B(15), NO_CALL, KEEP,
+     .points = 15},
+    {"BCA rotation: two balls", ROT, {.score = {10, 0}}, .first = 1, .down = B(1) | B(7), NO_CALL,
+     KEEP, .points = 18},
+    {"BCA rotation: not the lowest", ROT, .first = 2, .down = B(2), NO_CALL, PASS, AFTER, FIRST,
+     B(2)},
+    {"BCA rotation: scratch", ROT, .first = 1, .down = B(0) | B(5), NO_CALL, PASS, KITCHEN,
+     CUE_BALL, B(5)},
+    {"BCA rotation: off the table", ROT, .first = 1, .after = 1, .off = B(5), NO_CALL, PASS,
+     AFTER, OFF, B(5)},
+    {"BCA rotation: third foul", ROT, {.fouls = {2, 0}}, .first = 1, NO_CALL, LOSE, AFTER, CUSHION},
+    {"BCA rotation: 61 points", ROT, {.score = {50, 30}}, .in_play = B(0) | B(11) | B(13),
+     .first = 11, .down = B(11), NO_CALL, WIN, .points = 61},
+    {"BCA rotation: 60 to 60, the last ball", ROT, {.score = {45, 60}}, .in_play = B(0) | B(15),
+     .first = 15, .down = B(15), NO_CALL, WIN, .points = 60},
+
+    /* ---- Free pyramid */
+    {"pyramid 4 the opening: two to cushions", PYR, {.opening = 1}, .first = 1, .after = 2,
+     .driven = 2, NO_CALL, PASS},
+    {"pyramid 4 the opening: one", PYR, {.opening = 1}, .first = 1, .after = 1, .driven = 1,
+     NO_CALL, PASS, AFTER, BREAK, .may = RACK, .points = 1},
+    {"pyramid 4 a new rack", PYR, {.may = RACK, .score = {1, 0}}, .call = {CAROM_CALL_RACK, -1},
+     KEEP, KITCHEN, LEGAL, 0xfffe, .points = 1},
+    {"pyramid 5.2 a ball", PYR, .first = 4, .down = B(4), NO_CALL, KEEP, .points = 1},
+    {"pyramid 5.3 none", PYR, .first = 4, .after = 1, NO_CALL, PASS},
+    {"pyramid 5.4 the struck ball", PYR, .first = 4, .down = B(0), NO_CALL, KEEP, .points = 1},
+    {"pyramid 5.5 another one too", PYR, .first = 4, .down = B(0) | B(7), NO_CALL, KEEP,
+     .points = 2},
+    {"pyramid 6 a foul: no ball", PYR, .down = B(0), NO_CALL, PASS, AFTER, NO_BALL, B(0),
+     .points = 1},
+    {"pyramid 6 a foul: off the table", PYR, .first = 4, .down = B(6), .off = B(4), NO_CALL, PASS,
+     AFTER, OFF, B(4) | B(6), .points = 1},
+    {"pyramid 5.6 no cushion", PYR, .first = 4, NO_CALL, PASS, AFTER, CUSHION, .points = 1},
+    {"pyramid 1 eight points", PYR, {.score = {7, 7}}, .first = 4, .down = B(4), NO_CALL, WIN,
+     .points = 8},
+    {"pyramid 6 the last point by a foul", PYR, {.score = {5, 7}}, .first = 4, NO_CALL, LOSE,
+     AFTER, CUSHION, .points = 8},
+
+    /* ---- Four-ball */
+    {"four-ball: both reds", FOUR, .met = B(2) | B(3), .first = 2, .second = 3, NO_CALL, KEEP,
+     .points = 1},
+    {"four-ball: one red", FOUR, .met = B(2), .first = 2, .after = 3, NO_CALL, PASS},
+    {"four-ball: one red, no cushion", FOUR, .met = B(3), .first = 3, NO_CALL, PASS},
+    {"four-ball: no red", FOUR, NO_CALL, PASS, AFTER, NO_BALL},
+    {"four-ball: the other cue ball first", FOUR, .met = B(1) | B(2) | B(3), .first = 1,
+     .second = 2, NO_CALL, PASS, AFTER, FIRST},
+    {"four-ball: the other cue ball last", FOUR, .met = B(1) | B(2) | B(3), .first = 2,
+     .second = 3, NO_CALL, PASS, AFTER, OTHER_RULE},
+    {"four-ball: the opening meets the far red", FOUR, {.opening = 1}, .met = B(2) | B(3),
+     .first = 3, .second = 2, NO_CALL, KEEP, .points = 1},
+    {"four-ball: the opening meets the near red", FOUR, {.opening = 1}, .met = B(2) | B(3),
+     .first = 2, .second = 3, NO_CALL, PASS, AFTER, FIRST},
+    {"four-ball: off the table", FOUR, .met = B(2) | B(3), .first = 2, .second = 3, .off = B(3),
+     NO_CALL, PASS, AFTER, OFF, B(3)},
+    {"four-ball: a double hit", FOUR, .met = B(2) | B(3), .first = 2, .second = 3, .touches = 2,
+     NO_CALL, PASS, AFTER, DOUBLE_HIT},
+    {"four-ball: the last point", FOUR, {.target = 10, .score = {11, 3}, .lost = {2, 0}},
+     .met = B(2) | B(3), .first = 2, .second = 3, NO_CALL, WIN, .points = 12},
+    {"four-ball: a point less", FOUR, {.target = 10, .score = {11, 3}, .lost = {3, 0}},
+     .met = B(2) | B(3), .first = 2, .second = 3, NO_CALL, KEEP, .points = 12},
+
+    /* ---- BCA, cowboy */
+    {"BCA cowboy: the opening meets the 3", COW, {.opening = 1}, .first = 2, .after = 1, NO_CALL,
+     PASS},
+    {"BCA cowboy: the opening meets another", COW, {.opening = 1}, .first = 3, .after = 1,
+     NO_CALL, PASS, AFTER, FIRST, .may = RACK | OTHER},
+    {"BCA cowboy: he has it repeated", COW, {.may = RACK | OTHER}, .call = {CAROM_CALL_OTHER_RACK,
+     -1}, PASS, KITCHEN, LEGAL, 0xe},
+    {"BCA cowboy: two balls", COW, .first = 2, .met = B(1) | B(2), NO_CALL, KEEP, .points = 1},
+    {"BCA cowboy: three balls, and all potted", COW, .first = 2, .met = B(1) | B(2) | B(3),
+     .down = 0xe, NO_CALL, KEEP, .spot = 0xe, .points = 11},
+    {"BCA cowboy: one ball", COW, .first = 2, .met = B(2), .after = 1, NO_CALL, PASS},
+    {"BCA cowboy: ninety exactly", COW, {.score = {87, 0}}, .first = 2, .met = B(2), .down = B(2),
+     NO_CALL, KEEP, .spot = B(2), .points = 90},
+    {"BCA cowboy: past ninety", COW, {.score = {88, 0}, .lost = {5, 0}}, .first = 2, .met = B(2),
+     .down = B(2), NO_CALL, PASS, AFTER, OTHER_RULE, B(2), .points = 83},
+    {"BCA cowboy: from ninety a ball counts nothing", COW, {.score = {90, 0}}, .first = 2,
+     .met = B(2), .down = B(2), NO_CALL, PASS, .spot = B(2), .points = 90},
+    {"BCA cowboy: a scratch costs the visit", COW, {.score = {40, 0}, .lost = {9, 0}}, .first = 2,
+     .met = B(1) | B(2), .down = B(0), NO_CALL, PASS, KITCHEN, CUE_BALL, .points = 31},
+    {"BCA cowboy: the last point", COW, {.score = {100, 0}}, .first = 1, .met = B(1),
+     .down = B(0), .pocket = 4, .call = {1, 4}, WIN},
+    {"BCA cowboy: the last point, not called", COW, {.score = {100, 0}}, .first = 1, .met = B(1),
+     .down = B(0), .pocket = 4, .call = {1, 3}, PASS, KITCHEN, CUE_BALL, .points = 100},
+    {"BCA cowboy: the last point, another ball", COW, {.score = {100, 0}}, .first = 1,
+     .met = B(1) | B(2), .down = B(0), .pocket = 4, .call = {1, 4}, PASS, KITCHEN, CUE_BALL,
+     .points = 100},
+};
+/* clang-format on */
+
 static uint32_t balls_of(int game) {
-  if (game == N)
-    return nine9;
   if (game == SN)
     return frame;
-  return game == THREE || game == RAIL ? 7 : all15;
+  const int rack = carom_rules_about_of((carom_rules_kind)game)->rack;
+  return (UINT32_C(1) << carom_rack_size((carom_rack_kind)rack)) - 1;
 }
 
 static carom_facts facts_of_row(const situation *row) {
@@ -542,6 +712,20 @@ static carom_facts facts_of_row(const situation *row) {
   f.barred = row->barred;
   f.touches = row->touches;
   f.second_time = row->touches > 1 ? 0.01 : INFINITY;
+  f.past_middle = row->past;
+  f.at_head = row->head;
+
+  /* the balls that were met, the first two in their order */
+  int n = 0;
+  const uint32_t two = f.first[1] >= 0 ? B(row->first) | B(row->second) : f.first_set;
+  for (int i = 0; i < 2; i++)
+    if (f.first[i] >= 0)
+      f.order[n++] = f.first[i];
+  for (int k = 0; k < 4; k++)
+    if ((row->met & ~two) >> k & 1)
+      f.order[n++] = k;
+  while (n < CAROM_BALLS_MOST)
+    f.order[n++] = -1;
   for (int k = 0; k < CAROM_BALLS_MOST; k++) {
     f.pocket[k] = row->down >> k & 1 ? row->pocket : -1;
     f.cushions[k] = k >= 1 && k <= row->driven;
@@ -549,23 +733,44 @@ static carom_facts facts_of_row(const situation *row) {
   return f;
 }
 
+static void check_row(const situation *row) {
+  carom_plan_rules of = carom_plan_rules_of((carom_rules_kind)row->game);
+  of.state = row->state;
+  const carom_facts facts = facts_of_row(row);
+  const uint32_t in_play = row->in_play != 0 ? row->in_play : balls_of(row->game);
+  const carom_turn turn = of.judge(&of.state, in_play, 0, &facts, row->call);
+  ruled(row->section, &turn, row->is, row->leave, row->foul, row->spot);
+  ck_assert_msg(of.state.may == row->may, "%s: may %d", row->section, of.state.may);
+  ck_assert_msg(row->game == SN || of.state.free_ball == row->free, "%s: free %d", row->section,
+                of.state.free_ball);
+  const bool of_next = row->game == SN || row->game == PYR;
+  const int whose = of_next ? 0 : (int)turn.is == PASS;
+  if (row->points > 0)
+    ck_assert_msg(of.state.score[whose] == row->points, "%s: %d points", row->section,
+                  of.state.score[whose]);
+}
+
 TEST(situations) {
   const int count = sizeof rows / sizeof rows[0];
   ck_assert_int_ge(count, 60);
-  for (int k = 0; k < count; k++) {
-    const situation *row = &rows[k];
-    carom_plan_rules of = carom_plan_rules_of((carom_rules_kind)row->game);
-    of.state = row->state;
-    const carom_facts facts = facts_of_row(row);
-    const uint32_t in_play = row->in_play != 0 ? row->in_play : balls_of(row->game);
-    const carom_turn turn = of.judge(&of.state, in_play, 0, &facts, row->call);
-    ruled(row->section, &turn, row->is, row->leave, row->foul, row->spot);
-    ck_assert_msg(of.state.may == row->may, "%s: may %d", row->section, of.state.may);
-    const int passed = (int)turn.is == PASS;
-    const int whose = row->game == SN ? 0 : passed;
-    if (row->points > 0)
-      ck_assert_msg(of.state.score[whose] == row->points, "%s: %d points", row->section,
-                    of.state.score[whose]);
+  for (int k = 0; k < count; k++)
+    check_row(&rows[k]);
+  for (size_t k = 0; k < sizeof games_of_2026 / sizeof games_of_2026[0]; k++)
+    check_row(&games_of_2026[k]);
+}
+
+/* Blackball's groups: one that falls alone decides, of both none, and no free stroke does. */
+TEST(groups_of_blackball) {
+  static const struct {
+    uint32_t down;
+    int free, group;
+  } given[] = {{B(3), 0, 1}, {B(9) | B(10), 0, 2}, {B(3) | B(9), 0, 0}, {B(3), 1, 0}};
+  for (int k = 0; k < 4; k++) {
+    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_BLACKBALL);
+    of.state = (carom_rules_state){.free_ball = given[k].free};
+    const carom_facts facts = facts_of(3, 1, given[k].down, 0);
+    of.judge(&of.state, 0xffff, 0, &facts, (carom_call){-1, -1});
+    ck_assert_int_eq(of.state.group, given[k].group);
   }
 }
 

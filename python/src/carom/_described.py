@@ -17,10 +17,10 @@ Simultaneous = Literal["cluster", "pairs"]
 CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler", "smooth"]
 CushionConvention = Literal["paper", "pooltool"]
 CushionLaw = Literal["constant", "han"]
-Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"]
+Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard", "blackball", "pyramid", "fourball"]
 Solver = Literal["exact", "euler", "fast"]
 Slip = Literal["paper", "pooltool"]
-Rules = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket", "bank", "tenball", "straightrail"]
+Rules = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket", "bank", "tenball", "straightrail", "blackball", "heyball", "rotation", "pyramid", "fourball", "cowboy"]
 Condition = Literal["slow_cloth", "medium_cloth", "fast_cloth", "old_cushion", "new_cushion", "humid_cushion"]
 StopAt = Literal[
     "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",

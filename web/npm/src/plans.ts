@@ -46,7 +46,7 @@ const PART = layout.carom_part;
 
 const MAY = names.carom_may;
 /** Where the cue ball may be put, by its carom_leave. */
-export const HANDS = ["no", "no", "anywhere", "kitchen", "d"] as const;
+export const HANDS = ["no", "no", "anywhere", "kitchen", "d", "baulk"] as const;
 /** The members of a state that are numbers here, too. */
 const MEMBERS = ["fouls", "score", "lost", "pocket", "on", "freeBall", "target"] as const;
 const of = (state: object, keys: readonly string[]): object =>
@@ -79,11 +79,13 @@ type Method = (...numbers: Pointer[]) => number;
 
 /** Refuses what is no layout of a game, for a plan. */
 function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: string): void {
-  const pool = games[rules as C.RulesKind].balls !== "billiard";
+  const needed = { billiard: 3, fourball: 4 }[games[rules as C.RulesKind].balls as string];
+  const pool = needed === undefined;
   if (pool && pockets.length === 0)
     throw new TypeError(`table: it has no pockets, which ${rules} needs`);
   if (!pool && pockets.length > 0) throw new TypeError(`table: ${rules} needs one without pockets`);
-  if (!pool && balls.length < 3) throw new TypeError(`balls: ${rules} needs three`);
+  if (!pool && balls.length < needed)
+    throw new TypeError(`balls: ${rules} needs ${needed === 3 ? "three" : "four"}`);
   const last = LAST[rules as C.RulesKind] ?? balls.length;
   const beyond = balls.findIndex(
     ({ state }, k) => k > last && state.label !== "pocketed" && state.label !== "off",

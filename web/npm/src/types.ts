@@ -349,7 +349,7 @@ export interface Ruling {
   /** That rule in words: "the cue ball met no ball"; "" of a legal shot. */
   why: string;
   /** Where whoever plays next may put the cue ball. */
-  hand: "no" | "anywhere" | "kitchen" | "d";
+  hand: "no" | "anywhere" | "kitchen" | "d" | "baulk";
   /** Of the shot, in games of points; of three-cushion and of the drill too. */
   points: number;
   /**

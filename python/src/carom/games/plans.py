@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -317,8 +317,9 @@ def _one_player(given: dtypes.Records, name: str = "player") -> Any:
 def _corners(in_hand: bool | Hand | npt.ArrayLike, table: Table) -> dtypes.Doubles | None:
     """The corners between which the cue ball is put; None: anywhere."""
     if isinstance(in_hand, str):
-        choice({"no": 0, "anywhere": 1, "kitchen": 2, "d": 3}, in_hand, "in_hand")
-        in_hand = [[0.0, 0.0], [table.width, table.length / 4.0]] if in_hand == "kitchen" else True
+        choice(dict.fromkeys(get_args(Hand), 0), in_hand, "in_hand")
+        line = {"kitchen": table.length / 4.0, "baulk": table.length / 5.0}.get(in_hand)
+        in_hand = [[0.0, 0.0], [table.width, line]] if line else True
     if in_hand is True:
         return None
     corners: dtypes.Doubles = np.ascontiguousarray(as_array(in_hand, "in_hand", np.float64))
@@ -495,7 +496,7 @@ def plan(
     seconds : float
         At which the plan ends, if it has not played its shots by then; 0 is never. It then has one
         choice, the best so far.
-    in_hand : bool, {"no", "anywhere", "kitchen", "d"} or array_like, shape (2, 2)
+    in_hand : bool, {"no", "anywhere", "kitchen", "d", "baulk"} or array_like, shape (2, 2)
         Whether the cue ball is in hand, as `hand` of a ruling: `place` of the choices then says
         where to put it. Two corners (m) of a rectangle: there alone.
     best : int

@@ -34,11 +34,11 @@ Game = RulesWord
 Group = Literal["open", "solids", "stripes"]
 State = npt.NDArray[Any]
 GivenState = Mapping[str, Any] | npt.ArrayLike
-Hand = Literal["no", "anywhere", "kitchen", "d"]
+Hand = Literal["no", "anywhere", "kitchen", "d", "baulk"]
 GAMES = {word: k for k, word in enumerate(get_args(RulesWord))}
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
 _TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3}
-LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4}
+LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4, "baulk": 5}
 _RACES = {"own": 0, "shared": 1, "alone": 2, "points": 3}
 _WORDS = 8  # of the state of rules of one's own
 _USUAL = Options()
@@ -133,13 +133,13 @@ class Turn:
 
     `turn`: who plays, or how the game ends; "pass": the other plays. `leave`: his layout: as it is
     "after" the shot, as "before" it, or with the cue ball in hand, "anywhere", in the "kitchen"
-    behind the head string or in the "d" of a snooker table. `foul`: a `Foul`. `spot`: balls that
+    behind the head string, in the "d" of a snooker table or behind the "baulk" line. `foul`: a `Foul`. `spot`: balls that
     come back to the foot spot: any that are down or off the table, but the cue ball. `points`: of
     the shot; a plan reads them without an opponent only.
     """
 
     turn: Literal["keep", "pass", "win", "lose"]
-    leave: Literal["after", "before", "anywhere", "kitchen", "d"] = "after"
+    leave: Literal["after", "before", "anywhere", "kitchen", "d", "baulk"] = "after"
     foul: int = 0
     spot: Collection[int] = ()
     points: float = 0.0
@@ -336,12 +336,16 @@ class Made:
         """Refuses what is no layout of the game, for a plan."""
         pockets = len(table.pocket_names)
         is_named = isinstance(self.rules, str)
-        is_carom = is_named and self.c.rack == lib.CAROM_RACK_THREECUSHION
-        if is_carom and (pockets or len(layout) < 3):
+        is_carom = is_named and self.c.rack in (
+            lib.CAROM_RACK_THREECUSHION,
+            lib.CAROM_RACK_FOURBALL,
+        )
+        size = lib.carom_rack_size(self.c.rack)
+        if is_carom and (pockets or len(layout) < size):
             raise ValueError(
                 f"table: {self.rules} needs one without pockets"
                 if pockets
-                else f"balls: {self.rules} needs three"
+                else f"balls: {self.rules} needs {'three' if size == 3 else 'four'}"
             )
         if is_named and not is_carom and not pockets:
             raise ValueError(f"table: it has no pockets, which {self.rules} needs")

@@ -18,7 +18,7 @@ import {
   put,
   within,
 } from "../table/grip.js";
-import { mayLie } from "../table/head.js";
+import { mayLie, lineOf } from "../table/head.js";
 import type { Session } from "./parts.js";
 import {
   aimed,
@@ -88,8 +88,8 @@ export function drawMarks(s: Session, pen: Pen): void {
   if (hand === "no" || !onTable(balls[0]!.state)) return;
   circle(pen, balls[0]!.state.r, balls[0]!.kind.radius + 0.02, 2, MARK);
   pen.g.setLineDash([6, 6]);
-  if (hand === "kitchen")
-    stroke(pen, [0, table.length / 4], [table.width, table.length / 4], 1, MARK);
+  const line = lineOf(table, hand);
+  if (line !== undefined) stroke(pen, [0, line], [table.width, line], 1, MARK);
   pen.g.setLineDash([]);
 }
 /** Draws what is aimed, called and in hand over the table. */
@@ -152,13 +152,14 @@ export const movable = ({ play }: Session, ball: number): boolean =>
 export function move(s: Session, ball: number, to: Point): void {
   const { play } = s;
   const { table, balls } = play;
+  const line = lineOf(table, play.hand);
   const laid = put(
     s.carom,
     table,
     balls,
     ball,
     to,
-    play.hand === "kitchen" ? table.length / 4 + balls[0]!.kind.radius + 1e-4 : table.length,
+    line === undefined ? table.length : line + balls[0]!.kind.radius + 1e-4,
   );
   // it stays
   if (!laid || (!play.practice && !mayLie(table, play.hand, laid[ball]!.state.r))) return;

@@ -104,7 +104,7 @@ function wordsOfHint(s: Session, choice: Choice): string {
   const { play, first } = s;
   const stroke = wordsOfChoice(play.table, play.names, choice, first?.ball === -1);
   const cue = choice.kind === "pass" ? "" : wordsOfCue(choice.cue);
-  const chances = wordsOfChances(choice, play.played?.of === "threecushion");
+  const chances = wordsOfChances(choice, !play.hasPockets);
   const errors = play.practice ? "" : texts.thisStrokeErrsLike;
   return texts.hintOf(stroke, cue, wordsOfLevel(s), chances, errors);
 }
@@ -173,7 +173,7 @@ async function chances(s: Session): Promise<void> {
   try {
     const choice = await chancesOf(requestOf(s.play, levelOf(s)), cueOf(s));
     if (generation !== s.chancesGeneration || !free(s)) return;
-    const words = wordsOfChances(choice, play.played?.of === "threecushion");
+    const words = wordsOfChances(choice, !play.hasPockets);
     says(s, texts.thisStroke(wordsOfLevel(s), words));
   } catch (error) {
     if (generation === s.chancesGeneration) says(s, wrong(error));

@@ -126,9 +126,10 @@ export class Play {
     if (!of || (!this.practice && !this.played))
       throw new TypeError(texts.gameThereIsNo(setup.game));
     const chosen = POOL_TABLES[setup.table ?? "9ft"];
-    if (!chosen || (setup.table !== undefined && of.game !== "pool"))
+    const isPool = of.table === "9ft";
+    if (!chosen || (setup.table !== undefined && !isPool))
       throw new TypeError(texts.tableThereIsNo(setup.table!));
-    this.table = of.game === "pool" ? carom.table(chosen[1], chosen[2]) : carom.table(of.table);
+    this.table = isPool ? carom.table(chosen[1], chosen[2]) : carom.table(of.table);
     const kind = kindOf(carom, of.game, setup);
     this.balls = carom
       .rack(of.rack, this.table, { seed: setup.seed })

@@ -148,7 +148,7 @@ export function menu(
   numbers.input.checked = s.settings.numbers;
 
   const isPool = (): boolean =>
-    GAMES[PLAYED[game.select.value]?.of ?? game.select.value]!.game === "pool";
+    GAMES[PLAYED[game.select.value]?.of ?? game.select.value]!.table === "9ft";
   function describe(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
     own.root.hidden = against.select.value === "practice";

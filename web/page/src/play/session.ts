@@ -4,6 +4,7 @@
 import type { Call, Carom, Cue, PlanOptions, Player } from "carom";
 import { onTable } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
+import { lineOf } from "../table/head.js";
 import { cueWith, strokeOf } from "../table/stroke.js";
 import { OPTIONS, type Play } from "./game.js";
 import { guessOf, lookAlong } from "./look.js";
@@ -137,9 +138,10 @@ export const playerOf = (carom: Carom, rating: string): Player =>
   carom.player(rating === "0" ? { errors: 0 } : { fargo: Number(rating) });
 /** Where the cue ball may be put, for a plan. */
 export function placeOf({ hand, table }: Play): PlanOptions["inHand"] {
-  if (hand !== "kitchen") return hand !== "no";
+  const line = lineOf(table, hand);
+  if (line === undefined) return hand !== "no";
   return [
     [0, 0],
-    [table.width, table.length / 4],
+    [table.width, line],
   ];
 }

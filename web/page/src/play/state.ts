@@ -73,7 +73,11 @@ function aimOf(play: Play): string {
   if (game !== "eightball" || play.breaks) return "";
   return play.state.group === "open" ? texts.openTable : `, ${told(play.state.group)}`;
 }
-const PLACES: Record<string, string> = { kitchen: texts.behindTheLine, anywhere: "" };
+const PLACES: Record<string, string> = {
+  kitchen: texts.behindTheLine,
+  baulk: texts.behindTheLine,
+  anywhere: "",
+};
 function wordsOfHand({ hand }: Play): string {
   return hand === "no" ? "" : texts.cueBallInHand(PLACES[hand] ?? texts.inTheD);
 }

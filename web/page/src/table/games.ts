@@ -27,6 +27,9 @@ function snookerName(k: number): string {
   if (k === 0) return "white";
   return k < 16 ? `red ${k}` : COLOURS[k - 16]!;
 }
+/** The name of a game in its text: "Blackball" of "blackball by the WPA". */
+const titleOf = (text: string): string =>
+  text[0]!.toUpperCase() + text.slice(1).split(/ by |, /)[0]!;
 export const GAMES: Record<string, GameOf> = {
   nineball: { text: texts.nineBall, table: "9ft", rack: "nineball", game: "pool", names: pool },
   tenball: { text: texts.tenBall, table: "9ft", rack: "tenball", game: "pool", names: pool },
@@ -46,6 +49,17 @@ export const GAMES: Record<string, GameOf> = {
     names: (k) => ["white", "yellow", "red"][k] ?? String(k),
   },
 };
+for (const [name, text] of words.rules) {
+  const { balls, rack, table } = games[name];
+  if (GAMES[rack]?.table === table) continue;
+  const fourball = ["white", "yellow", "red 1", "red 2"];
+  const namesOf: Record<string, (k: number) => string> = {
+    fourball: (k) => fourball[k] ?? String(k),
+    cowboy: (k) => ["cue", "1", "3", "5"][k] ?? String(k),
+  };
+  const names = namesOf[rack] ?? pool;
+  GAMES[name] = { text: titleOf(text), table, rack, game: balls, names };
+}
 /** The tables of pool, by the key that a game keeps; without one it is that of nine feet. */
 export const POOL_TABLES: Record<
   string,
@@ -138,6 +152,8 @@ const OWN: Record<string, Partial<Played>> = {
     target: 10,
     begin: { speed: 4, phi: 62, a: 0, b: 0.2 },
   },
+  fourball: { text: "Four-ball, to 10 points", begin: { speed: 3, phi: 97, a: 0, b: 0.2 } },
+  cowboy: { begin: { ...BREAK, speed: 2 } },
   straightrail: {
     text: texts.straightRailTo25,
     state: { target: 25 },
@@ -152,14 +168,15 @@ export const PLAYED: Record<string, Played> = Object.fromEntries(
       (members as readonly string[]).includes(one),
     ) as [boolean, boolean];
     const begin = pockets ? { ...BREAK, speed: 2.5, phi: 79.5, b: -0.3 } : BREAK;
-    return name === "potting"
+    // The page strikes one cue ball, and in pyramid a player chooses it.
+    return name === "potting" || name === "pyramid"
       ? []
       : [
           [
             name,
             {
-              text: told(text[0]!.toUpperCase() + text.slice(1).split(" by ")[0]!),
-              of: rack,
+              text: told(titleOf(text)),
+              of: name in GAMES ? name : rack,
               rules: name,
               calls,
               points,

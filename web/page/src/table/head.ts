@@ -7,9 +7,13 @@ import type { Carom, ShotBall, Table } from "carom";
 const baulkOf = ({ length }: Table): number => (0.737 / 3.569) * length;
 const radiusOf = ({ width }: Table): number => (0.292 / 1.778) * width;
 
+/** The line behind which a cue ball in hand lies; undefined: there is none. */
+export const lineOf = ({ length }: Table, hand: string): number | undefined =>
+  ({ kitchen: length / 4, baulk: length / 5 })[hand];
+
 /**
- * Whether a cue ball in hand may lie at a place: "anywhere", behind the head string ("kitchen"), in
- * the D ("d").
+ * Whether a cue ball in hand may lie at a place: "anywhere", behind the head string ("kitchen") or
+ * the baulk line ("baulk"), in the D ("d").
  */
 export function mayLie(
   table: Table,
@@ -17,7 +21,8 @@ export function mayLie(
   [x, y]: readonly [number, number, ...number[]],
 ): boolean {
   const baulk = baulkOf(table);
-  if (hand === "kitchen") return y <= table.length / 4 + 1e-6;
+  const line = lineOf(table, hand);
+  if (line !== undefined) return y <= line + 1e-6;
   return (
     hand !== "d" ||
     (y <= baulk + 1e-6 && Math.hypot(x - table.width / 2, y - baulk) <= radiusOf(table) + 1e-6)
@@ -36,7 +41,9 @@ export function atHead(
 ): ShotBall[] {
   const { width, length } = table;
   const [line, half] =
-    hand === "d" ? [baulkOf(table), radiusOf(table)] : [length / 4, 0.45 * width];
+    hand === "d"
+      ? [baulkOf(table), radiusOf(table)]
+      : [lineOf(table, hand) ?? length / 4, 0.45 * width];
   for (let k = 0; ; k++) {
     const x = (k / 40) % 1;
     const at = [

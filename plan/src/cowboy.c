@@ -1,0 +1,105 @@
+/* Cowboy: the rules of the BCA, as the New Mexico Billiards Association prints them, by their
+ * titles.
+ *
+ * Scoring: up to 90 points, exactly, the balls 1, 3 and 5 that fall count their numbers, and two or
+ * three balls that the cue ball meets count 1 or 2; from 90 to 100, exactly, only the latter. The
+ * last point is the cue ball off the 1 alone into the pocket that is called with it. A stroke that
+ * would pass 90 or 100 is a foul. Penalties: a foul costs the points of the visit. Balls that fall
+ * or leave the table come back to their spots, or as near to them as there is room. After a scratch
+ * the cue ball is behind the head string. Opening break: it meets the 3 first; else the other
+ * breaks, or has it repeated. A stroke that scores needs no cushion: the texts differ. */
+#include "games.h"
+#include "rules.h"
+
+enum { ONE = 1, THREE = 2, CAROMS_ONLY = 90, LAST = 100, WINS = 101 };
+static const uint32_t all = 0xe;
+static const int32_t number_of[] = {0, 1, 3, 5};
+
+static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
+  if (game->opening != 0)
+    return in_play & UINT32_C(1) << THREE;
+  return in_play & (game->score[0] >= LAST ? UINT32_C(1) << ONE : all);
+}
+
+static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
+  (void)in_play;
+  for (int who = 0; who < 2; who++)
+    needed[who] = game->score[who] < WINS ? WINS - game->score[who] : 0;
+}
+
+static double points(const carom_rules_state *game, uint32_t in_play, int ball) {
+  (void)in_play;
+  if (ball < 0 || ball > 3)
+    return 1.0;
+  return game->score[0] + number_of[ball] <= CAROMS_ONLY ? number_of[ball] : 0.0;
+}
+
+/* The object balls that the cue ball met. */
+static int met(const carom_facts *facts) {
+  int count = 0;
+  while (count < 3 && facts->order[count] >= 0)
+    count++;
+  return facts->first[0] >= 0 ? count : 0;
+}
+
+/* The points of a stroke without a foul, of a player below LAST. */
+static int32_t made(const carom_rules_state *game, const carom_facts *facts) {
+  int32_t points = met(facts) > 1 ? met(facts) - 1 : 0;
+  for (int k = ONE; k <= 3 && game->score[0] < CAROMS_ONLY; k++)
+    points += facts->down >> k & 1 ? number_of[k] : 0;
+  return points;
+}
+
+/* The last stroke: off the 1 alone into the pocket that is called. */
+static bool is_last(const carom_facts *facts, int cue_ball, carom_call call) {
+  return facts->first[0] == ONE && met(facts) == 1 && facts->off == 0 &&
+         facts->down == UINT32_C(1) && call.ball == ONE && facts->pocket[cue_ball] == call.pocket &&
+         !carom_is_double_hit(facts);
+}
+
+static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
+                        const carom_facts *facts, carom_call call) {
+  carom_turn turn;
+  const bool opening = game->opening != 0;
+  if (carom_racks_again(game, call.ball, all, &turn))
+    return turn;
+  const uint32_t may_meet = on(game, in_play);
+  game->opening = game->may = 0;
+  if (game->score[0] >= LAST && is_last(facts, cue_ball, call))
+    return (carom_turn){CAROM_TURN_WIN, CAROM_LEAVE_AFTER, CAROM_FOUL_NONE, 0, 1.0};
+
+  /* fouls; a stroke that scores needs no cushion */
+  const int32_t gain = game->score[0] < LAST ? made(game, facts) : 0;
+  const int32_t most = game->score[0] < CAROMS_ONLY ? CAROMS_ONLY : LAST;
+  int32_t foul = (int32_t)carom_foul_of(facts, may_meet, cue_ball);
+  if (foul == CAROM_FOUL_CUSHION && gain > 0)
+    foul = CAROM_FOUL_NONE;
+  if (foul == CAROM_FOUL_NONE && game->score[0] + gain > most)
+    foul = CAROM_FOUL_OTHER;
+  turn = gain > 0 ? carom_keep : carom_pass;
+  turn.spot = (facts->down | facts->off) & all;
+  if (foul != CAROM_FOUL_NONE) {
+    turn.is = CAROM_TURN_PASS;
+    turn.foul = foul;
+    turn.leave = foul == CAROM_FOUL_CUE_BALL ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_AFTER;
+    turn.points = -game->lost[0];
+    game->score[0] -= game->lost[0] < game->score[0] ? game->lost[0] : game->score[0];
+    const bool again = opening && (carom_met_first(facts) & may_meet) == 0;
+    game->may = again ? CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK : 0;
+  } else {
+    turn.points = gain;
+    carom_add(&game->score[0], gain);
+    carom_add(&game->lost[0], gain);
+  }
+  if (turn.is == CAROM_TURN_KEEP)
+    return turn;
+  game->lost[0] = 0;
+  return carom_give(game, turn);
+}
+
+CAROM_RULES_OBJECT(carom_cowboy) = {.on = on,
+                                    .judge = judge,
+                                    .left = left,
+                                    .points = points,
+                                    .race = CAROM_RACE_POINTS,
+                                    .rack = CAROM_RACK_COWBOY};

@@ -1,0 +1,75 @@
+/* Free pyramid of Russian billiards: the rules of Free Pyramid, sections 1 to 7, with the General
+ * Rules of Pyramid.
+ *
+ * Any of the 16 balls may be struck, but for the opening, which strikes the yellow one from behind
+ * the head string. Each ball that falls without a foul counts one and keeps the turn, also the
+ * struck one after it met another (5.4, 5.5); eight win. A foul gives the other one point (6).
+ * Balls that fall on a foul or leave the table come back to the foot spot. An opening that pots
+ * none drives two balls to cushions, else the other may have the balls racked and break. A stroke
+ * pots a ball, or a ball meets a cushion behind the contact: the text of section 20, which says
+ * what is legal, was not at hand, and this is that of the WPA. */
+#include "games.h"
+#include "rules.h"
+
+enum { WINS = 8, DRIVEN = 2 };
+static const uint32_t all = 0xffff;
+
+static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
+  return in_play & (game->opening != 0 ? all & ~UINT32_C(1) : all);
+}
+
+static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
+  (void)in_play;
+  for (int who = 0; who < 2; who++)
+    needed[who] = game->score[who] < WINS ? WINS - game->score[who] : 1;
+}
+
+/* The foul of a stroke: that the cue ball falls is none. */
+static int32_t foul_of(const carom_facts *facts, uint32_t balls, int cue_ball) {
+  const uint32_t others = balls & ~(UINT32_C(1) << cue_ball);
+  carom_facts of_others = *facts;
+  of_others.down &= ~(UINT32_C(1) << cue_ball);
+  of_others.cushions_after += facts->down != of_others.down;
+  return (int32_t)carom_foul_of(&of_others, others, cue_ball);
+}
+
+static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
+                        const carom_facts *facts, carom_call call) {
+  const uint32_t balls = in_play & all, fell = facts->down & balls;
+  const bool opening = game->opening != 0;
+  carom_turn turn;
+  if (carom_racks_again(game, call.ball, all & ~UINT32_C(1), &turn))
+    return turn;
+  int32_t foul = foul_of(facts, balls, cue_ball);
+  game->opening = game->may = 0;
+  if (foul == CAROM_FOUL_NONE && opening && fell == 0 && carom_driven(facts, cue_ball) < DRIVEN)
+    foul = CAROM_FOUL_BREAK;
+
+  /* a foul gives the other a point */
+  if (foul != CAROM_FOUL_NONE) {
+    turn = carom_pass;
+    turn.foul = foul;
+    turn.spot = (facts->down | facts->off) & balls;
+    carom_add(&game->score[1], 1);
+    if (game->score[1] >= WINS)
+      turn.is = CAROM_TURN_LOSE;
+    game->may = foul == CAROM_FOUL_BREAK ? CAROM_MAY_RACK : 0;
+    return carom_give(game, turn);
+  }
+  if (fell == 0)
+    return carom_give(game, carom_pass);
+  turn = carom_keep;
+  turn.points = carom_count_of(fell);
+  carom_add(&game->score[0], carom_count_of(fell));
+  if (game->score[0] >= WINS)
+    turn.is = CAROM_TURN_WIN;
+  return turn;
+}
+
+CAROM_RULES_OBJECT(carom_pyramid) = {.on = on,
+                                     .judge = judge,
+                                     .left = left,
+                                     .race = CAROM_RACE_OWN,
+                                     .breaks = 1,
+                                     .rack = CAROM_RACK_PYRAMID,
+                                     .any_cue_ball = 1};

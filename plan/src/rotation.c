@@ -1,0 +1,77 @@
+/* Rotation, or 61: the rules of the BCA, under the general rules of pocket billiards.
+ *
+ * The cue ball meets the lowest ball first. Each ball that falls without a foul counts its number
+ * and keeps the turn; 61 points win, and at 60 to 60 who potted the last ball. Balls that fall on a
+ * foul or leave the table come back. A break pots a ball or drives four to cushions; else the other
+ * has the cue ball behind the head string, or a new rack. A foul ends the visit; after a scratch
+ * the cue ball is behind the head string. The third foul in a row loses: of the penalties the text
+ * at hand had only the summary. The two safeties in a row that it allows are not counted. */
+#include "games.h"
+#include "rules.h"
+
+enum { WINS = 61, ALL_POINTS = 120, FOULS_MOST = 3 };
+static const uint32_t all = 0xfffe;
+
+static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
+  (void)game;
+  return carom_lowest_of(in_play & all);
+}
+
+static int32_t points_of_set(uint32_t set) {
+  int32_t points = 0;
+  for (int k = 1; set >> k != 0; k++)
+    points += set >> k & 1 ? k : 0;
+  return points;
+}
+
+static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
+  (void)in_play;
+  for (int who = 0; who < 2; who++)
+    needed[who] = game->score[who] < WINS ? WINS - game->score[who] : 0;
+}
+
+static double points(const carom_rules_state *game, uint32_t in_play, int ball) {
+  (void)game;
+  const uint32_t balls = in_play & all;
+  if (ball >= 0)
+    return ball;
+  return balls != 0 ? (double)points_of_set(balls) / carom_count_of(balls) : 1.0;
+}
+
+static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
+                        const carom_facts *facts, carom_call call) {
+  const uint32_t balls = in_play & all, fell = facts->down & balls;
+  const bool opening = game->opening != 0;
+  carom_turn turn;
+  if (carom_racks_again(game, call.ball, all, &turn))
+    return turn;
+  const int32_t foul = carom_rotation_foul_of(facts, on(game, in_play), cue_ball, opening, false);
+  game->opening = game->may = 0;
+  if (foul != CAROM_FOUL_NONE) {
+    turn = carom_give_hand(game, foul, (facts->down | facts->off) & balls);
+    const bool hand = foul == CAROM_FOUL_CUE_BALL || foul == CAROM_FOUL_BREAK;
+    turn.leave = hand ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_AFTER;
+    game->may = foul == CAROM_FOUL_BREAK ? CAROM_MAY_RACK : 0;
+    return turn;
+  }
+  game->fouls[0] = 0;
+  if (fell == 0)
+    return carom_give(game, carom_pass);
+
+  /* points, and at 60 to 60 one more for the last ball */
+  turn = carom_keep;
+  turn.points = points_of_set(fell);
+  carom_add(&game->score[0], points_of_set(fell));
+  if (game->score[0] >= WINS || (balls & ~fell) == 0)
+    turn.is = game->score[0] >= ALL_POINTS / 2 ? CAROM_TURN_WIN : CAROM_TURN_LOSE;
+  return turn;
+}
+
+CAROM_RULES_OBJECT(carom_rotation) = {.on = on,
+                                      .judge = judge,
+                                      .left = left,
+                                      .points = points,
+                                      .race = CAROM_RACE_POINTS,
+                                      .first_decides = 1,
+                                      .breaks = 1,
+                                      .rack = CAROM_RACK_ROTATION};
