@@ -246,12 +246,7 @@ static int play_match(players *p) {
   const match_job *job = p->job;
   carom_table table;
   if (match.phase == CAROM_MATCH_NONE) {
-    const carom_game game = (carom_game)carom_rules_about_of(job->rules)->balls;
-    carom_table_kind kind = CAROM_TABLE_POOL_9FT;
-    if (game == CAROM_GAME_SNOOKER)
-      kind = CAROM_TABLE_SNOOKER;
-    if (game == CAROM_GAME_BILLIARD)
-      kind = CAROM_TABLE_THREECUSHION;
+    const carom_table_kind kind = (carom_table_kind)carom_rules_about_of(job->rules)->table;
     carom_table_make(job->table >= 0 ? (carom_table_kind)job->table : kind, &table);
     const carom_status status =
         carom_match_begin(&match, job->rules, &table, (uint64_t)job->seed, job->breaks);

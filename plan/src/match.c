@@ -277,7 +277,8 @@ carom_status carom_match_begin(carom_match *match, carom_rules_kind kind, const 
     return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin",
                               "the rules must be a carom_rules_kind");
   }
-  if ((about->balls == CAROM_GAME_BILLIARD) != (table->pockets == 0)) {
+  const bool is_carom = about->balls == CAROM_GAME_BILLIARD || about->balls == CAROM_GAME_FOURBALL;
+  if (is_carom != (table->pockets == 0)) {
     memset(match, 0, sizeof *match);
     return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin",
                               table->pockets == 0 ? "the table must have pockets for this game"
