@@ -58,7 +58,7 @@ for (const [name, text] of words.rules) {
     cowboy: (k) => ["cue", "1", "3", "5"][k] ?? String(k),
   };
   const names = namesOf[rack] ?? pool;
-  GAMES[name] = { text: titleOf(text), table, rack, game: balls, names };
+  GAMES[name] = { text: told(titleOf(text)), table, rack, game: balls, names };
 }
 /** The tables of pool, by the key that a game keeps; without one it is that of nine feet. */
 export const POOL_TABLES: Record<
@@ -152,7 +152,7 @@ const OWN: Record<string, Partial<Played>> = {
     target: 10,
     begin: { speed: 4, phi: 62, a: 0, b: 0.2 },
   },
-  fourball: { text: "Four-ball, to 10 points", begin: { speed: 3, phi: 97, a: 0, b: 0.2 } },
+  fourball: { text: texts.fourBallTo10, begin: { speed: 3, phi: 97, a: 0, b: 0.2 } },
   cowboy: { begin: { ...BREAK, speed: 2 } },
   straightrail: {
     text: texts.straightRailTo25,

@@ -425,6 +425,7 @@ export const GERMAN: typeof ENGLISH = {
   straightPoolTo25: "14/1 endlos, bis 25 Punkte",
   threeCushionTo10: "Dreiband, bis 10 Punkte",
   straightRailTo25: "Freie Partie, bis 25 Punkte",
+  fourBallTo10: "Vierball, bis 10 Punkte",
   atPlacesXY: (balls) =>
     `at: ${balls} Stellen x,y sind nötig, mit „in“ für eine Kugel in einer Tasche`,
   direction: "Richtung",

@@ -428,6 +428,7 @@ export const ENGLISH = {
   straightPoolTo25: "Straight pool, to 25 points",
   threeCushionTo10: "Three-cushion, to 10 points",
   straightRailTo25: "Straight rail, to 25 points",
+  fourBallTo10: "Four-ball, to 10 points",
   atPlacesXY: (balls: Part) =>
     `at: ${balls} places x,y are needed, with "in" for a ball in a pocket`,
   direction: "Direction",
