@@ -92,6 +92,10 @@ pool_9ft = _maker("pool_9ft")
 snooker = _maker("snooker")
 threecushion = _maker("threecushion")
 pooltool = _maker("pooltool")
+blackball = _maker("blackball")
+heyball = _maker("heyball")
+pyramid = _maker("pyramid")
+fourball = _maker("fourball")
 
 
 def polygon(
