@@ -17,7 +17,9 @@ from carom.games import potting
 
 TABLE, LONE = carom.tables.pool_9ft(), carom.tables.threecushion()
 RACK, CUE = carom.racks.nineball(TABLE), carom.cue(speed=8.0)
-TWO = carom.balls([[0.6, 0.8], [0.75, 1.6]])
+PLACES = [[0.6, 0.8], [0.75, 1.6]]
+TWO = carom.balls(PLACES)
+OF_STRONGE = carom.balls(PLACES, cushion_model="stronge")
 HIT, WALL = (
     carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0)),
     carom.cushion_impacts(v=(0.0, 1.0, 0.0)),
@@ -84,7 +86,10 @@ OBJECTS = {
             carom.Table(1.27, 2.54, rails=it[0], jaws=it[1], pockets=it[2]), TWO, STROKE
         ).final,
     ),
-    "options": (lambda: carom.Options(cushion_model="stronge"), lambda it: two(options=it).final),
+    "options": (
+        lambda: carom.Options(cushion_model="stronge"),
+        lambda it: carom.simulate(TABLE, OF_STRONGE, STROKE, options=it).final,
+    ),
     "shot": (
         lambda: two(t_final=1.0),
         lambda it: (

@@ -68,10 +68,7 @@ def test_points_of_three_cushion():
     table = carom.tables.threecushion()
     layout, cue = carom.racks.threecushion(table), carom.cue(game="billiard")
     best = carom.plan(table, layout, cue, rules="threecushion", shots=600)
-    assert (
-        abs(best["value"][0] - best["keep"][0] + 0.75 * best["error"][0]) < 1e-12
-        and best["keep"][0] > 0.2
-    )
+    assert abs(best["value"][0] - best["keep"][0]) < 1e-12 and best["keep"][0] > 0.2
     assert set(best["pocket"]) == {-1} and best["ball"][0] in (1, 2)
     for rules in ("threecushion", Points()):
         hit = [
@@ -285,8 +282,8 @@ def test_ball_in_hand():
     layout["state"]["label"][0] = carom.Label.POCKETED
     best = carom.plan(TABLE, layout, rules="nineball", shots=200, in_hand=True)
     assert (
-        np.ptp(best["place"], axis=0).max() == 0.0
-        and (best["place"][0] > 0.0).all()
+        (best["place"] > 0.0).all()
+        and (best["place"] < [TABLE.width, TABLE.length]).all()
         and best["ball"][0] >= 1
     )
 

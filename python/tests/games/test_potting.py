@@ -569,16 +569,16 @@ def test_the_greedy_agent_does_better_than_chance(gymnasium, tmp_path):
     "name", ["PotOne", "RunOutSix", "ThreeCushion", "Break", "NineBall", "EightBall"]
 )
 def test_games_with_fixed_rules(gymnasium, name):
-    """Each id is a game that both makers know, with the errors of a player of 600; one that is the
-    vector's first is its own, to its end.
+    """Each id is a game that both makers know, with the errors of `carom.player(2)`; one that is
+    the vector's first is its own, to its end.
     """
     from gymnasium.utils.env_checker import check_env
 
     name = f"carom/{name}-v1"
     rules = carom.gymnasium.GAMES[name]
-    player = carom.player(fargo=600)
+    player = carom.player(2)
     np.testing.assert_allclose(
-        rules["noise"], [float(player[field]) for field in ("phi", "speed", "a")], rtol=0.01
+        rules["noise"], [float(player[field]) for field in ("phi", "speed", "a")], rtol=1e-12
     )
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -343,7 +343,7 @@ test("points of three-cushion", () => {
   const table = carom.table("threecushion");
   const balls = carom.rack("threecushion", table);
   const best = carom.plan(table, balls, { rules: "threecushion", shots: 600 });
-  expect(best[0]!.value).toBeCloseTo(best[0]!.keep - 0.75 * best[0]!.error, 12);
+  expect(best[0]!.value).toBeCloseTo(best[0]!.keep, 12);
   expect(["carom", "kick"]).toContain(best[0]!.kind);
   const { turn, facts } = carom.referee(table, balls, best[0]!.cue, {
     rules: "threecushion",
@@ -533,9 +533,9 @@ test("a rating grows with what is won, by both builds; a score in error is named
       (won: number) =>
         carom.rating([{ against: 500, won, lost: 3 }]),
   );
-  expect(plain!(7).mean).toBeCloseTo(560.89336, 4);
+  expect(plain!(7).mean).toBeCloseTo(560.7221, 4);
   expect(plain!(7)).toEqual(simd!(7));
   expect(plain!(8).low).toBeGreaterThan(plain!(7).low);
-  expect(builds[0]!.carom.rating([]).high).toBeCloseTo(708.05045, 4);
+  expect(builds[0]!.carom.rating([]).high).toBeCloseTo(696.51005, 4);
   expect(() => plain!(-1)).toThrow("scores[0]: a rating must be 0 to 1000");
 });
