@@ -127,6 +127,14 @@ EVERY_BODY(rating_of) {
   STATUS(carom_rating_of(scores, 2, &rating));
   return HASH(rating);
 }
+EVERY_BODY(cue_ball_of) {
+  carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_FOURBALL);
+  for (rules.state.group = 0; rules.state.group < 3; rules.state.group++) {
+    const int ball = carom_cue_ball_of(&rules);
+    HASH(ball);
+  }
+  return h;
+}
 EVERY_OBJECT(plan_rules_of, carom_plan_rules, carom_plan_rules_of(CAROM_RULES_NINEBALL))
 
 /* ---- carom_match.h */
@@ -198,8 +206,8 @@ EVERY_BODY(match_plan) {
   F(match_clock) F(match_concede) F(match_continue) F(match_end) F(match_place) F(match_plan) \
   F(match_read) F(match_stroke) F(refusal_name) \
   F(aim) F(foul_of) F(foul_string) F(is_beside) F(plan) F(plan_continue) F(plan_hand) \
-  F(plan_kind_name) F(plan_memory) F(plan_rules_of) F(plan_try) F(plan_value) F(player_fargo) \
-  F(player_of) F(player_strike) F(pot_kind) \
+  F(cue_ball_of) F(plan_kind_name) F(plan_memory) F(plan_rules_of) F(plan_try) F(plan_value) \
+  F(player_fargo) F(player_of) F(player_strike) F(pot_kind) \
   F(rating_of) F(referee) F(rules_about_of) F(rules_fault) F(ruling_string) F(spot_ball) \
   F(spot_ball_of) F(stroke_marks) F(turn_settle)
 /* clang-format on */

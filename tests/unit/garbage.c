@@ -233,6 +233,7 @@ static const carom_options *no_options;
      ACCEPTED))                                                                                    \
   F(ball_kind_of, (carom_ball_kind_of(ANYENUM(carom_game, 0)), ACCEPTED))                          \
   F(check, carom_check(PTR(&impact), MAYBE(no_options), MAYBE(&where)))                            \
+  F(cue_ball_of, (carom_cue_ball_of(MAYBE(&rules)), ACCEPTED))                                     \
   F(cite, (carom_cite(NULL, MAYBE(text), 10), ACCEPTED))                                           \
   F(collide, carom_collide(PTR(&impact), MAYBE(no_options), PTR(&result)))                         \
   F(cluster, carom_cluster(PTR(balls), INT(BALLS), NULL, PTR(motion), PTR(contacts), ROOM(4),      \
