@@ -710,6 +710,35 @@ static uint32_t jumped_over(const carom_event *events, int64_t count, int cue,
   return set;
 }
 
+/* Notes that ball i was at the height y of the table. */
+static void was_at(carom_facts *f, int i, double y, const carom_shot_ball *lie) {
+  const double radius = lie[i].kind.radius;
+  if (y + radius < 0.5 * table.length)
+    f->past_middle |= 1U << i;
+  if (y - radius <= 0.25 * table.length)
+    f->at_head |= 1U << i;
+}
+
+/* Where the balls of a layout have been, at their events up to the last one of each, and at
+ * rest. */
+static void add_places(carom_facts *f, const carom_event *events, int64_t count,
+                       const carom_shot_ball *lie) {
+  double y[CAROM_BALLS_MOST];
+  for (int i = 0; i < 16; i++)
+    y[i] = lie[i].state.r[1];
+  for (int64_t k = 0; k < count; k++) {
+    const carom_event *e = &events[k];
+    was_at(f, e->a, y[e->a], lie);
+    y[e->a] = e->before[0].r[1];
+    if (e->type == CAROM_EVENT_ROLLING_STATIONARY)
+      was_at(f, e->a, y[e->a], lie);
+    if (e->type == CAROM_EVENT_BALL_BALL) {
+      was_at(f, e->b, y[e->b], lie);
+      y[e->b] = e->before[1].r[1];
+    }
+  }
+}
+
 /* The balls that a cue ball pushed meets in its push. */
 static uint32_t met_in_push(const carom_event *events, int cue) {
   uint32_t met = 0;
@@ -757,6 +786,7 @@ TEST(facts_of_shots) {
       if (i != cue.ball && hypot(a[0] - b[0], a[1] - b[1]) < reach)
         found.frozen |= 1U << i;
     }
+    add_places(&found, events, shot.count, lie);
     found.jumped = jumped_over(events, shot.count, (int)cue.ball, lie, 16);
     jumps += found.jumped != 0;
     for (int axis = 0; axis < 2; axis++) {
