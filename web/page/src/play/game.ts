@@ -144,6 +144,9 @@ export class Play {
     const own = isPotting ? {} : this.played!.state;
     this.state = { rules, group: "open", opening: opens, ...own };
     this.hand = this.practice || !this.hasPockets ? "no" : (this.played!.opening as Ruling["hand"]);
+    // Racks put the cue ball on the head spot, which is beyond a baulk line.
+    if (this.hand !== "no" && !mayLie(this.table, this.hand, this.balls[0]!.state.r))
+      this.balls = atHead(this.carom, this.table, this.balls, this.hand);
     this.#recording = carom.record(this.table, this.balls, OPTIONS);
   }
 
