@@ -162,7 +162,10 @@ static uint32_t in_play(const carom_record *record) {
 int carom_match_cue_ball(const carom_match *match) {
   const uint32_t balls = in_play(&match->record);
   int ball = carom_cue_ball_of(&match->rules);
-  while (match->rules.any_cue_ball != 0 && balls >> ball > 1 && !(balls >> ball & 1))
+
+  /* that of an opening is in hand, which is as if it had fallen */
+  const bool any = match->rules.any_cue_ball != 0 && match->rules.state.opening == 0;
+  while (any && balls >> ball > 1 && !(balls >> ball & 1))
     ball++;
   return ball;
 }

@@ -51,6 +51,7 @@ static int strokes_of_game(carom_rules_kind kind, uint64_t seed) {
   random_source r = {seed};
   carom_table_make((carom_table_kind)carom_rules_about_of(kind)->table, &table);
   ck_assert_int_eq(carom_match_begin(&match, kind, &table, seed, (int)(seed & 1)), CAROM_OK);
+  ck_assert_int_eq(match.cue_ball, carom_cue_ball_of(&match.rules));
   int strokes = 0;
   while (match.phase != CAROM_MATCH_OVER && strokes < STROKES_MOST) {
     const int64_t who = match.record.player;
