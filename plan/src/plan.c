@@ -67,7 +67,7 @@ static bool good_player(const carom_player *p) {
   bool good = p->tip_most <= 1.0 && (p->speed_most == 0.0 || p->speed_most >= p->speed_least);
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
     good &= numbers[k] >= 0.0 && numbers[k] <= player_most;
-  const bool has_shots = p->shots >= SHOTS_LEAST && p->shots <= SHOTS_USUAL;
+  const bool has_shots = p->shots >= (double)SHOTS_LEAST && p->shots <= (double)SHOTS_USUAL;
   return good && p->only_pots <= 1.0 && (p->shots == 0.0 || has_shots);
 }
 
