@@ -57,6 +57,27 @@ def test_every_format_gives_the_recordings_back(made, tmp_path, name):
         assert all(np.array_equal(a, b) for a, b in zip(one.tracks, other.tracks))
 
 
+@pytest.mark.parametrize("rate", [30.0, 120.0])
+def test_a_film_in_inches_from_an_origin_of_its_own_is_read_in_metres(made, tmp_path, rate):
+    lines = ["y,note,frame,ball,x,t,shot"]
+    for shot in made.recordings:
+        for ball, rows in zip(shot.balls, shot.tracks):
+            lines += [
+                f"{y / 0.0254 + 3.0},a,0,{ball},{x / 0.0254 + 4.5},{t * rate},{shot.id}"
+                for t, x, y in rows
+            ]
+    path = tmp_path / "film.csv"
+    path.write_text("\n".join(lines) + "\n")
+    film = {"unit": 0.0254, "origin": (4.5, 3.0), "rate": rate}
+    read = tracks.read(path, table=TABLE, radius=RADIUS, **film)
+    for one, other in zip(read, made.recordings):
+        assert all(np.allclose(a, b, atol=1e-12) for a, b in zip(one.tracks, other.tracks))
+    with pytest.raises(tracks.TrackError, match="all in metres"):
+        tracks.read(path, table=TABLE, radius=RADIUS, rate=rate)
+    with pytest.raises(ValueError, match="unit, rate"):
+        tracks.read(path, unit=0.0)
+
+
 @pytest.mark.parametrize(
     ("name", "text", "message"),
     [

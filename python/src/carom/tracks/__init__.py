@@ -151,7 +151,13 @@ def _json_rows(file: io.TextIOBase, path: Path) -> _Rows:
 
 
 def read(
-    path: str | Path, *, table: tuple[float, float] | None = None, radius: float | None = None
+    path: str | Path,
+    *,
+    table: tuple[float, float] | None = None,
+    radius: float | None = None,
+    unit: float = 1.0,
+    origin: tuple[float, float] = (0.0, 0.0),
+    rate: float = 1.0,
 ) -> list[Recording]:
     """Read recorded shots, in the order of the file.
 
@@ -164,10 +170,20 @@ def read(
     table, radius : optional
         The extents (W, L) of x and y, and the radius of the balls, m: with both, a centre that is
         more than 60 mm outside its bounds is an error.
+    unit : float
+        Length of the unit of x and y, m: 0.0254 for inches.
+    origin : (float, float)
+        Where the corner of the noses lies in the file, in its own unit.
+    rate : float
+        Frames a second, if t counts frames: 30 or 120.
 
     Raises TrackError: the message says where, and what would be right. Raises OSError: The file
         cannot be read.
     """
+    if not all(map(math.isfinite, (unit, rate, *origin))) or min(unit, rate) <= 0.0:
+        raise ValueError(
+            f"unit, rate: above 0, and origin: finite numbers are needed, not {unit}, {rate}, {origin}"
+        )
     path = Path(path)
     rows: Callable[[io.TextIOBase, Path], _Rows] = _csv_rows
     if any(suffix in (".jsonl", ".ndjson") for suffix in path.suffixes):
@@ -176,6 +192,7 @@ def read(
     try:
         with _open(path) as file:
             for where, shot, ball, t, x, y in rows(file, path):
+                t, x, y = t / rate, (x - origin[0]) * unit, (y - origin[1]) * unit
                 track = shots.setdefault(shot, {}).setdefault(ball, [])
                 # the times of a ball increase, and its places are on the table
                 if track and t <= track[-1][0]:

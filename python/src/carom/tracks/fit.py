@@ -486,6 +486,16 @@ def _extents(text: str) -> tuple[float, float]:
     return width, length
 
 
+def _place(text: str) -> tuple[float, float]:
+    try:
+        x, y = map(float, text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"{text!r} must be X,Y, a place in the unit of the file, such as 4.5,3"
+        ) from None
+    return x, y
+
+
 def _read_object(path: Path, such: str) -> dict[str, Any]:
     """An object of a JSON file: the constants of it, where it is what this command wrote."""
     try:
@@ -544,6 +554,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--table", type=_extents, required=True, metavar="W,L", help="extents of x and y, m"
     )
     parser.add_argument("--radius", type=float, required=True, metavar="R", help="of the balls, m")
+    parser.add_argument(
+        "--unit", type=float, default=1.0, metavar="M", help="unit of x and y, m: 0.0254 for inches"
+    )
+    parser.add_argument(
+        "--origin",
+        type=_place,
+        default=(0.0, 0.0),
+        metavar="X,Y",
+        help="where the corner of the noses lies in the file, in its unit",
+    )
+    parser.add_argument(
+        "--rate", type=float, default=1.0, metavar="HZ", help="frames a second, if t counts frames"
+    )
     parser.add_argument("--cushion-model", default="smooth", choices=list(_constants.STARTS))
     parser.add_argument(
         "--constants",
@@ -591,7 +614,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         constants = _read_object(given.constants, '{"mu_slide": 0.2}') if given.constants else {}
         _constants.complete(constants, given.cushion_model, str(given.constants))
-        recordings = read(given.tracks, table=given.table, radius=given.radius)
+        recordings = read(
+            given.tracks,
+            table=given.table,
+            radius=given.radius,
+            unit=given.unit,
+            origin=given.origin,
+            rate=given.rate,
+        )
         found = fit(
             recordings,
             given.table,
