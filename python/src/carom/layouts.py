@@ -248,13 +248,25 @@ _CUSHION = [
     "mu_log",
     "smooth_q",
 ]
-SIZES = {
-    (0.9906, 1.9812): 0.028575,
-    (1.1176, 2.2352): 0.028575,
-    (1.27, 2.54): 0.028575,
-    (1.778, 3.569): 0.02619375,
-    (1.42, 2.84): 0.03075,
-}
+
+
+def radius_on(table: str) -> float:
+    """The radius of the balls of a built-in table, m."""
+    game = table if table in GAMES else "billiard" if table == "threecushion" else "pool"
+    return float(lib.carom_ball_kind_of(GAMES[game]).radius)
+
+
+def _sizes() -> dict[tuple[float, float], list[float]]:
+    """The radii of the balls that are played on built-in tables of a size."""
+    found: dict[tuple[float, float], list[float]] = {}
+    measures = ffi.new("carom_measures *")
+    for table, kind in worded("TABLE").items():
+        lib.carom_table_measures(kind, measures)
+        found.setdefault((measures.width, measures.length), []).append(radius_on(table))
+    return found
+
+
+_SIZES = _sizes()
 
 
 @functools.lru_cache(maxsize=256)
@@ -282,12 +294,14 @@ def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
     """Warns of balls of another game than that whose balls the table is made for, and of those with
     a game's constants of another model of the cushion than that which is asked for by name.
     """
-    meant = table.record["ball_radius"].item() or SIZES.get((table.width, table.length))
+    own = table.record["ball_radius"].item()
+    radii = [own] if own else _SIZES.get((table.width, table.length), [])
     first: Any = (
         kinds[(0,) * kinds.ndim] if kinds.size else None
     )  # of one record: kinds.flat[:1] copies it field by field
-    radius = meant if first is None else first["radius"]
-    if radius != meant and meant in _RADII and radius in _RADII:
+    radius = None if first is None else first["radius"]
+    if radius in _RADII and radii and radius not in radii and radii[0] in _RADII:
+        meant = radii[0]
         warnings.warn(
             f"balls: they are of {_RADII[radius]}, radius {radius:g} m, but the table is made for those of {_RADII[meant]}, radius {meant:g} m: "
             f"game={_RADII[meant]!r} makes these",

@@ -21,7 +21,7 @@ from carom._rows import (
     pointer,
     several,
 )
-from carom.layouts import SIZES, Table, refuse_table
+from carom.layouts import Table, radius_on, refuse_table
 from carom.status import CaromError
 
 
@@ -47,7 +47,7 @@ def _measured(name: str, changes: dict[str, float], record: Array) -> None:
         ffi.new("char[]", 100),
         list(_KEYS),
     )
-    radius = SIZES[given["width"], given["length"]]
+    radius = radius_on(name)
     for key, value in changes.items():
         if key not in _KEYS:
             raise TypeError(f"{key}: it is no measure of a table; there are {', '.join(keys)}")

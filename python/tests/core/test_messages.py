@@ -591,11 +591,13 @@ def test_balls_of_another_game_than_the_table_are_doubted(play):
     tables = {
         "snooker": carom.tables.snooker(),
         "billiard": carom.tables.threecushion(),
+        "blackball": carom.tables.blackball(),
+        "pyramid": carom.tables.pyramid(corner=0.073),
         "pool": TABLE,
         "snooker, by its number": carom.tables.polygon(CORNERS, ball_radius=0.02619375),
     }
     for made_for, table in tables.items():
-        for game in ("pool", "snooker", "billiard"):
+        for game in ("pool", "snooker", "billiard", "blackball", "pyramid"):
             with warnings.catch_warnings(record=True) as told:
                 warnings.simplefilter("always")
                 play(table, carom.balls([[0.5, 0.5]], game=game))
@@ -603,6 +605,10 @@ def test_balls_of_another_game_than_the_table_are_doubted(play):
             assert len(told) == (not made_for.startswith(game)) and all(
                 re.match(of, str(one.message)) for one in told
             )
+    for game in ("pool", "fourball"):  # tables of one size
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            play(carom.tables.fourball(), carom.balls([[0.5, 0.5]], game=game))
 
 
 def test_a_model_of_the_cushion_has_its_own_constants_or_says_that_it_has_none():
