@@ -70,6 +70,7 @@ KINDS |= {
 ELSEWHERE = {
     "docs/using/examples.md": 1,
     "docs/using/building.md": 2,
+    "docs/using/calibrate.md": 1,
     "docs/using/python.md": 1,
     "docs/study/report.md": 1,
     "docs/understanding/reality.md": 1,

@@ -976,6 +976,51 @@ def test_one_number_of_friction_between_balls_is_a_law_without_slip():
     assert both["law_a"] == 0.05 and both["law_b"] > 0
 
 
+def test_a_kind_of_ball_without_a_law_keeps_its_friction_between_balls():
+    pool = _constants.complete(carom.balls([[0, 0]])["kind"][0], "smooth")
+    assert (pool["law_a"], pool["law_b"], pool["law_c"]) == (0.05, 0.0, 0.0)
+    assert pool == _constants.complete(_constants.of_game("pool"), "smooth")
+    assert _constants.complete(_constants.of_game("billiard"), "smooth") == _constants.usual(
+        "smooth"
+    )
+
+
+@pytest.mark.parametrize("rate", [30, 120])
+def test_ten_banks_on_film_give_the_cushion_of_a_pool_table(tmp_path, rate):
+    table = {
+        "restitution_cushion": 0.84,
+        "mu_cushion": 0.33,
+        "nose_height": 0.0355,
+        "mu_slide": 0.18,
+        "mu_roll": 0.0115,
+    }
+    size, radius, inch, random = (2.54, 1.27), 0.028575, 0.0254, np.random.default_rng(1)
+    balls = carom.balls([[[0.9 + 0.08 * k, 0.3]] for k in range(10)], **table)
+    cues = carom.cue(
+        speed=[1.2, 1.8, 2.5, 3.2, 4.0] * 2,
+        phi=[70.0, 60.0, 50.0, 40.0, 30.0] * 2,
+        a=[0.0] * 5 + [-0.25] * 5,
+        b=0.1,
+    )
+    lines = ["shot,ball,t,x,y"]
+    for k in range(10):
+        cushions = _constants.rectangle(size, table["nose_height"])
+        played = carom.simulate(cushions, balls[k], cues[k])
+        frames = np.arange(0.0, min(played.time, 4.0) * rate)
+        places = played.positions(frames / rate)[:, 0, :2]
+        places += random.normal(0.0, 1e-3, places.shape)  # m: a camera's noise
+        lines += [
+            f"{k},cue,{frame},{x / inch + 4.5},{y / inch + 3.0}"
+            for frame, (x, y) in zip(frames, places)
+        ]
+    film, out = tmp_path / "ten.csv", tmp_path / "my.json"
+    film.write_text("\n".join(lines) + "\n")
+    asked = f"{film} --unit {inch} --origin 4.5,3 --rate {rate} --table 2.54,1.27 --radius {radius}"
+    assert fit.main(f"{asked} --game pool --free table -o {out}".split()) == 0
+    found = json.loads(out.read_text())["constants"]
+    assert {name: found[name] for name in table} == pytest.approx(table, rel=0.02)
+
+
 IMPACT = [
     (name, float)
     for name in ("v_n", "v_t", "w_t", "w_n", "u_t", "u_n", "w_error", "u_error", "first")

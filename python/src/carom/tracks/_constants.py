@@ -14,6 +14,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
+from carom._described import Game
 from carom._rows import Array, numbered, numbers_of
 from carom._shot_options import ShotCushion
 from carom.cushions import NUMBERS
@@ -64,14 +65,29 @@ def _starts() -> dict[str, Constants]:
 STARTS = _starts()
 
 
+def of_kind(kind: Array | np.void) -> Constants:
+    """The constants of a kind of ball. Those that are left out stand for others: mu_ball where
+    there is a law, a law of zeros where there is none, and a nose height of 0.
+    """
+    law = any(kind[name] for name in _LAW)
+    left_out = {"mu_ball"} if law else set(_LAW)
+    if not kind["nose_height"]:
+        left_out.add("nose_height")
+    return {name: float(kind[name]) for name in KINDS if name not in left_out}
+
+
+def of_game(game: Game) -> Constants:
+    """The constants of a game's balls."""
+    return of_kind(balls(np.zeros((1, 2)), game=game)["kind"][0])
+
+
 def usual(cushion_model: ShotCushion) -> Constants:
     """The constants to begin with, for a model of the cushion."""
     if not isinstance(cushion_model, str) or cushion_model not in STARTS:
         raise ValueError(
             f"cushion_model: must be one of {', '.join(map(repr, STARTS))}, which a fit can begin with, not {cushion_model!r}"
         )
-    kind = balls(np.zeros((1, 2)), game="billiard")["kind"][0]
-    own = {name: float(kind[name]) for name in KINDS if name != "mu_ball"}
+    own = of_game("billiard")
     if cushion_model == "smooth":
         return {**own, **STARTS[cushion_model]}
     made = {**own, **dict.fromkeys(NUMBERS, 0.0), **_SINGLE, **_LAW, **STARTS[cushion_model]}
@@ -89,7 +105,7 @@ def complete(
         and given.dtype == dtypes.ball_kind
         and given.shape == ()
     ):
-        given = {name: float(given[name]) for name in KINDS if given[name] or name != "nose_height"}
+        given = of_kind(given)
     if not isinstance(given, Mapping):
         raise TypeError(
             f"{where}: numbers by the names of constants are needed, such as {{'mu_slide': 0.2}}, not {given!r}"

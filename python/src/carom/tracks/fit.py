@@ -25,6 +25,7 @@ import numpy as np
 from carom._rows import Seed, listing, seed_of
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
+from carom.layouts import GAMES
 from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
 from carom.tracks import _recordings, _strikes, _summary
 from carom.tracks import Recording, TrackError, events, read
@@ -352,7 +353,8 @@ def fit(
     cushion_model : str
         A model with which a fit can begin: `python -m carom.fit --help` lists them.
     constants : mapping or `carom.dtypes.ball_kind`, optional
-        Known constants; the usual ones stand for those that are not given.
+        Known constants. Those of game="billiard" stand for those that are not given: a film of
+        pool needs `carom.balls([[0, 0]])["kind"][0]`.
     free : "none", "events", "table", "default", or names of constants
         What is fitted besides each shot's strike. "none": nothing. "events": the constants that
         single events tell: mu_slide, mu_roll, drag, restitution, and those of the cushion. What too
@@ -569,10 +571,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--cushion-model", default="smooth", choices=list(_constants.STARTS))
     parser.add_argument(
+        "--game",
+        default="billiard",
+        choices=list(GAMES),
+        help="whose usual constants the fit begins with, such as pool",
+    )
+    parser.add_argument(
         "--constants",
         type=Path,
         metavar="IN.json",
-        help="known constants; the usual ones otherwise",
+        help="known constants; those of --game otherwise",
     )
     parser.add_argument(
         "--free",
@@ -614,6 +622,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         constants = _read_object(given.constants, '{"mu_slide": 0.2}') if given.constants else {}
         _constants.complete(constants, given.cushion_model, str(given.constants))
+        if given.game != "billiard":
+            constants = {**_constants.of_game(given.game), **constants}
         recordings = read(
             given.tracks,
             table=given.table,
