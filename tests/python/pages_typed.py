@@ -19,6 +19,7 @@ KNOWN = [
     ("docs_using_scale", '"from_array"', "Dask does not declare that chunks may be a tuple"),
     ("docs_using_tracks", 'parameter "game"', "a fit's constants are unpacked, and name no game"),
     ("docs_using_tracks", 'parameter "cushion_model"', "the same"),
+    ("docs_using_tracks", 'parameter "conditions"', "the same"),
     ("docs_using_python", '"backward"', "PyTorch is not installed"),
 ]
 source, work = Path(sys.argv[1]), Path(sys.argv[2])
