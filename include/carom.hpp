@@ -406,7 +406,9 @@ inline carom_plan_job job(const carom_table &on, span<const carom_shot_ball> bal
 /* A plan that is made in slices, for an opponent who thinks between the frames of a game.
  * Everything that the job points to must stay unchanged until the end. The memory of the job is
  * allocated here. `in_hand` says whether the cue ball is in hand: 0: no; 1 or true: within the
- * bounds that the game sets after a foul; or a carom_leave from CAROM_LEAVE_HAND on. */
+ * bounds that the game sets after a foul; or a carom_leave from CAROM_LEAVE_HAND on. The rules do
+ * not know of the stroke before, so after a scratch on the break of eight-ball, where the cue ball
+ * stays behind the head string, give the `leave` of its ruling. */
 class thinking {
 public:
   /* A slice has about `slice` events; 0: all at once. `most` is the largest number of strokes to

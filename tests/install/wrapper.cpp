@@ -48,6 +48,11 @@ static int plays_match(const carom_table &table, const carom_cue &cue, const car
   carom_plan_job hand = carom::job(table, lie, cue, player, pocket);
   hand.options = &wanted;
   CHECK(carom::plan(hand, 1, true)[0].place[1] <= 0.635);
+
+  // after a scratch on the break, within those of the ruling
+  pocket = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
+  pocket.state.opening = 0;
+  CHECK(carom::plan(hand, 1, CAROM_LEAVE_KITCHEN)[0].place[1] <= 0.635);
   return 0;
 }
 

@@ -212,7 +212,8 @@ namespace Carom {
     /// <summary>`opponent` and `stop` of it are not read.</summary>
     public PlanOptions Options;
     /// <summary>Where the cue ball may be put in hand, as in a match. Null: where the game lets it
-    /// be put after a foul, if a plan is made in hand.</summary>
+    /// be put after a foul, if a plan is made in hand. After a scratch on the break of eight-ball
+    /// give those of the ruling, because the rules do not know of the stroke before.</summary>
     public HandBounds? Bounds;
 
     /// <summary>Of two players of the same Fargo rating, 200 to 850. They play as rated where the

@@ -234,7 +234,8 @@ pub struct Position {
     /// `opponent` and `stop` of it are not read.
     pub options: PlanOptions,
     /// Where the cue ball may be put in hand, as in a match. None: where the game lets it be put
-    /// after a foul, if a plan is made in hand.
+    /// after a foul, if a plan is made in hand. After a scratch on the break of eight-ball give
+    /// those of the ruling, because the rules do not know of the stroke before.
     pub bounds: Option<Bounds>,
 }
 
