@@ -18,6 +18,28 @@ def plain(words):
     )
 
 
+MOST_COLUMNS = 88  # of a line of code on the site's pages
+
+
+def wrapped(declaration):
+    """A declaration with one argument a line, if it is too long for one line of a page."""
+    if len(declaration) <= MOST_COLUMNS or "(" not in declaration:
+        return declaration
+    begin = declaration.index("(") + 1
+    arguments, depth, start, end = [], 0, begin, len(declaration)
+    for at in range(begin, len(declaration)):
+        sign = declaration[at]
+        depth += (sign in "([{") - (sign in ")]}")
+        if depth < 0 or (sign == "," and depth == 0):
+            arguments.append(declaration[start:at].strip())
+            start = at + 1
+        if depth < 0:
+            end = at
+            break
+    lines = ",\n".join(f"    {argument}" for argument in arguments)
+    return f"{declaration[:begin]}\n{lines}\n{declaration[end:]}"
+
+
 def entry(name, code, kind, words, more=""):
     return f"### {name}\n\n```{kind}\n{code.rstrip()}\n```\n\n{plain(words)}\n\n{more}"
 
@@ -59,10 +81,10 @@ def of_c(source):
 
     text = f"# Reference: C\n\nEvery name of the headers of carom {api['version']}, which are the manual.\n\n## Functions\n\n"
     text += "".join(
-        entry(one["name"], called(one), "c", one["comment"]) for one in api["functions"]
+        entry(one["name"], wrapped(called(one)), "c", one["comment"]) for one in api["functions"]
     )
     text += "## Functions of the caller\n\n" + "".join(
-        entry(one["name"], called(one), "c", one["comment"]) for one in api["callbacks"]
+        entry(one["name"], wrapped(called(one)), "c", one["comment"]) for one in api["callbacks"]
     )
     text += "## Structs\n\n"
     for one in api["structs"]:
@@ -163,7 +185,7 @@ def of_python(source):
                     head = (
                         f"class {name}"
                         if one in (node,) and inside
-                        else f"{name}({ast.unparse(one.args)}){returns}"
+                        else wrapped(f"{name}({ast.unparse(one.args)}){returns}")
                     )
                     listed.add(name)
                     # A docstring is text with columns of its own.
