@@ -22,7 +22,7 @@ typedef struct break_job {
   shoot_flags from;
   const char *plot;
   int racks;
-  bool csv, nine_on_spot;
+  bool csv, falls, nine_on_spot;
 } break_job;
 
 static const option_row option_rules = {
@@ -34,7 +34,10 @@ static const option_row option_rules = {
 OPTION(break_job, option_racks, "racks", racks, 0, "N", set_count, 1,
        "breaks of each speed, tip and gap (default 500)");
 OPTION(break_job, option_break_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "write a row for each speed, tip and gap instead of words");
+       "write a row for each stroke and gap instead of words");
+OPTION(break_job, option_falls, "falls", falls, 0, NULL, set_flag, 0,
+       "report also which balls fall into which pockets, and how often. With --csv, each ball and "
+       "pocket has a row, instead of the other rows");
 OPTION(break_job, option_nine_on_spot, "nine-on-spot", nine_on_spot, 0, NULL, set_flag, 0,
        "nine-ball's rack, with the 9 on the foot spot");
 OPTION(break_job, option_break_plot, "plot", plot, 0, "OUT", set_picture, 0,
@@ -45,6 +48,7 @@ OPTION(break_job, option_break_plot, "plot", plot, 0, "OUT", set_picture, 0,
  * on the table. */
 typedef struct counts {
   int breaks, makes, plays_on, fouls, scratch, off, wing, balls, stay;
+  int fell[CAROM_BALLS_MOST][CAROM_POCKETS_MOST];
   double x, y, squares;
 } counts;
 
@@ -83,15 +87,10 @@ static bool rules_of(carom_rack_kind rack, carom_plan_rules *rules) {
   return rules->breaks == 1;
 }
 
-/* The ball nearest to the cue ball. */
-static int front_of(const carom_shot_ball *ball, int count) {
-  int front = 1;
-  for (int k = 2; k < count; k++)
-    if (hypot(ball[k].state.r[0] - ball[0].state.r[0], ball[k].state.r[1] - ball[0].state.r[1]) <
-        hypot(ball[front].state.r[0] - ball[0].state.r[0],
-              ball[front].state.r[1] - ball[0].state.r[1]))
-      front = k;
-  return front;
+/* The direction from the cue ball to the ball in front, degrees. */
+static double direction_of_front(const carom_shot_ball *ball, int count) {
+  const double *from = ball[0].state.r, *to = ball[ball_in_front(ball, count)].state.r;
+  return atan2(to[1] - from[1], to[0] - from[0]) / degree;
 }
 
 typedef struct breaker {
@@ -99,7 +98,8 @@ typedef struct breaker {
   carom_shot_options options;
   carom_player player;
   carom_rack_kind rack;
-  bool aimed; /* --aim was given; else the middle of the ball in front */
+  bool aimed; /* --aim was given, */
+  bool cut;   /* or --cut; else the middle of the ball in front */
 } breaker;
 
 /* Rack number k and its stroke; number -1 is the first one without errors. */
@@ -112,20 +112,24 @@ static void set_up(const breaker *b, const shot_line *line, double gap, int numb
     ball[n].kind = line->ball[n].kind;
   ball[0].state = line->ball[0].state;
   *cue = line->cue;
-  if (!b->aimed) {
-    const double *from = ball[0].state.r, *to = ball[front_of(ball, line->count)].state.r;
-    cue->phi = atan2(to[1] - from[1], to[0] - from[0]) / degree;
-  }
+
+  /* A cut is that in the line's own rack; others have the cue as far beside the ball in front. */
+  if (!b->aimed)
+    cue->phi = direction_of_front(ball, line->count);
+  if (b->cut)
+    cue->phi += line->cue.phi - direction_of_front(line->ball, line->count);
   if (number >= 0)
     carom_player_strike(&b->player, (uint64_t)seed, (uint64_t)k, cue);
 }
 
 static void count_break(const breaker *b, const carom_facts *f, const carom_ball_state *final,
                         uint32_t wings, counts *c) {
-  const uint32_t others = ~(uint32_t)1;
   int potted = 0;
-  for (uint32_t down = f->down & others; down != 0; down &= down - 1)
-    potted++;
+  for (int k = 0; f->down >> k != 0; k++)
+    if ((f->down >> k & 1) != 0) {
+      potted += k > 0;
+      c->fell[k][f->pocket[k]]++;
+    }
   c->breaks++;
   c->balls += potted;
   c->makes += potted > 0;
@@ -197,14 +201,37 @@ static double around(const counts *c, double *x, double *y) {
   return c->stay > 0 ? sqrt(fmax(c->squares / c->stay - *x * *x - *y * *y, 0.0)) : NAN;
 }
 
+/* The balls that fell in rows, pockets in columns: in how many of the breaks. */
+static void tell_falls(FILE *out, const shot_line *line, const counts *c) {
+  const carom_table *t = &line->table->table;
+  fprintf(out, "  %%         ");
+  for (int p = 0; p < t->pockets; p++)
+    fprintf(out, "%12s", carom_pocket_name(t, p));
+  fprintf(out, "%12s\n", "any");
+  for (int k = 0; k < line->count; k++) {
+    int all = 0;
+    for (int p = 0; p < t->pockets; p++)
+      all += c->fell[k][p];
+    if (all == 0)
+      continue;
+    fprintf(out, "  %-10s", line->name[k]);
+    for (int p = 0; p < t->pockets; p++)
+      fprintf(out, "%12.1f", 100.0 * share(c->fell[k][p], c));
+    fprintf(out, "%12.1f\n", 100.0 * share(all, c));
+  }
+}
+
 static void tell(FILE *out, const breaker *b, const shot_line *line, double gap, const counts *c) {
   carom_plan_rules rules;
   double x, y;
   const double far = around(c, &x, &y), p = share(c->makes, c);
-  fprintf(out,
-          "%s on the %s table, cue at %.3g m/s, tip %.2f right and %.2f above, gap %.3g mm: %d "
-          "breaks\n",
-          carom_rack_name(b->rack), line->table->id, line->cue.speed, 0.0 - line->cue.a,
+  fprintf(out, "%s on the %s table, cue at %.3g m/s, ", carom_rack_name(b->rack), line->table->id,
+          line->cue.speed);
+  if (b->aimed || b->cut)
+    fprintf(out, "aim %.2f degrees, ", line->cue.phi);
+  if (line->cue.theta != 0.0)
+    fprintf(out, "elevation %.3g degrees, ", line->cue.theta);
+  fprintf(out, "tip %.2f right and %.2f above, gap %.3g mm: %d breaks\n", 0.0 - line->cue.a,
           line->cue.b, 1e3 * gap, c->breaks);
   fprintf(out, "  make a ball   %5.1f %% (error %.1f); %.2f balls a break\n", 100.0 * p,
           100.0 * sqrt(p * (1.0 - p) / c->breaks), (double)c->balls / c->breaks);
@@ -216,16 +243,41 @@ static void tell(FILE *out, const breaker *b, const shot_line *line, double gap,
   fprintf(out, "  wing balls    one falls in %.1f %%\n", 100.0 * share(c->wing, c));
   if (c->stay > 0)
     fprintf(out, "  cue ball ends about x = %.2f, y = %.2f m, %.2f m around it\n", x, y, far);
+  if (b->job->falls)
+    tell_falls(out, line, c);
+}
+
+/* What a row begins with: the stroke and the gap. */
+static void begin_row(FILE *out, const breaker *b, const shot_line *line, double gap) {
+  const carom_cue *cue = &line->cue;
+  fprintf(out, "%s,%.17g,", carom_rack_name(b->rack), cue->speed);
+  if (b->aimed || b->cut)
+    fprintf(out, "%.17g", cue->phi);
+  fprintf(out, ",%.17g,%.17g,%.17g,%.6g,", cue->theta, 0.0 - cue->a, cue->b, 1e3 * gap);
+}
+
+static void write_falls(FILE *out, const breaker *b, const shot_line *line, double gap,
+                        const counts *c) {
+  for (int k = 0; k < line->count; k++)
+    for (int p = 0; p < line->table->table.pockets; p++) {
+      begin_row(out, b, line, gap);
+      fprintf(out, "%d,%s,%s,%.6f\n", c->breaks, line->name[k],
+              carom_pocket_name(&line->table->table, p), share(c->fell[k][p], c));
+    }
 }
 
 static void write_row(FILE *out, const breaker *b, const shot_line *line, double gap,
                       const counts *c) {
+  if (b->job->falls) {
+    write_falls(out, b, line, gap, c);
+    return;
+  }
   double x, y;
   const double far = around(c, &x, &y), p = share(c->makes, c);
   carom_plan_rules rules;
-  fprintf(out, "%s,%.17g,%.17g,%.17g,%.6g,%d,%.6f,%.6f,%.6f,", carom_rack_name(b->rack),
-          line->cue.speed, 0.0 - line->cue.a, line->cue.b, 1e3 * gap, c->breaks, p,
-          sqrt(p * (1.0 - p) / c->breaks), (double)c->balls / c->breaks);
+  begin_row(out, b, line, gap);
+  fprintf(out, "%d,%.6f,%.6f,%.6f,", c->breaks, p, sqrt(p * (1.0 - p) / c->breaks),
+          (double)c->balls / c->breaks);
   if (rules_of(b->rack, &rules))
     fprintf(out, "%.6f,%.6f,", share(c->plays_on, c), share(c->fouls, c));
   else
@@ -268,26 +320,42 @@ static const command_form form = {
     .usage = "[OPTIONS]",
     .about = "Plays many breaks of a rack, each with a rack of its own and a player's errors, and "
              "reports how often a ball falls, the player plays on, the cue ball falls and a wing "
-             "ball falls, and where the cue ball ends. Each speed, tip and gap has a row. The cue "
-             "aims at the middle of the ball in front.\n",
-    .options =
-        (const option_row *const[]){
-            &option_rules,         &option_nine_on_spot,  &option_racks,
-            &option_gap,           &option_one_seed,      &option_table,
-            &option_cue,           &option_aim,           &option_shot_speed,
-            &option_ball_speed,    &option_tip,           &option_elevation,
-            &option_player,        &option_player_errors, &options_of_motion,
-            &option_with_of_shots, &option_break_csv,     &option_break_plot,
-            &option_threads,       &option_output,        NULL},
+             "ball falls, where the cue ball ends, and which ball falls where. Each stroke and gap "
+             "has a row. The cue aims at the middle of the ball in front, or cuts it by --cut.\n",
+    .options = (const option_row *const[]){&option_rules,
+                                           &option_nine_on_spot,
+                                           &option_racks,
+                                           &option_gap,
+                                           &option_one_seed,
+                                           &option_table,
+                                           &option_cue,
+                                           &option_aim,
+                                           &option_shot_cut,
+                                           &option_shot_speed,
+                                           &option_ball_speed,
+                                           &option_tip,
+                                           &option_elevation,
+                                           &option_player,
+                                           &option_player_errors,
+                                           &options_of_motion,
+                                           &option_with_of_shots,
+                                           &option_falls,
+                                           &option_break_csv,
+                                           &option_break_plot,
+                                           &option_threads,
+                                           &option_output,
+                                           NULL},
     .details = "speed if none is given: 9 m/s\n"
                "columns of --csv: "
-               "rules,speed,right,above,gap_mm,racks,makes,makes_error,balls,plays_on,foul,scratch,"
-               "off,wing,x,y,spread\n"
+               "rules,speed,aim,elevation,right,above,gap_mm,racks,makes,makes_error,balls,plays_"
+               "on,foul,scratch,off,wing,x,y,spread\n"
+               "  aim                  degrees, by --aim or --cut; else empty\n"
                "  makes, plays_on, foul, scratch, off, wing  shares of the breaks; by the rules of "
                "eight-ball and nine-ball, empty for other racks\n"
                "  balls                balls made in a break\n"
                "  x y spread           mean place of the cue balls that stay, and their standard "
                "deviation, m\n"
+               "  with --falls, from makes on: ball,pocket,share\n"
                "\n"
                "exit code: 0; 2 for bad usage\n",
     .example = "carom break --rules nineball --speed 8,9,10m/s --gap 0.1mm --racks 500",
@@ -299,9 +367,9 @@ static const command_form form = {
 static bool tell_all(breaker *b, const shot_line *first, const carom_cue *stroke, int strokes,
                      const values *gaps, FILE *out, char **words) {
   if (b->job->csv)
-    fputs("rules,speed,right,above,gap_mm,racks,makes,makes_error,balls,plays_on,foul,scratch,off,"
-          "wing,x,y,spread\n",
-          out);
+    fprintf(out, "rules,speed,aim,elevation,right,above,gap_mm,racks,%s\n",
+            b->job->falls ? "ball,pocket,share"
+                          : "makes,makes_error,balls,plays_on,foul,scratch,off,wing,x,y,spread");
   for (int g = 0; g < gaps->count; g++)
     for (int k = 0; k < strokes; k++) {
       const double gap = gaps->at[g].x;
@@ -372,7 +440,8 @@ int command_break(int argc, char **argv) {
   breaker b = {.job = &job,
                .options = f->shared.shot,
                .rack = (carom_rack_kind)f->balls.rack,
-               .aimed = f->aim.count > 0};
+               .aimed = f->aim.count > 0,
+               .cut = f->cut.count > 0};
   b.options.threads = f->shared.options.threads;
   if (!player_of(&f->shared.player, &b.player) || !svg_possible(job.plot))
     return EXIT_USAGE;

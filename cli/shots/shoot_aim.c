@@ -64,6 +64,20 @@ const char *obstacle(const layout *l, int type, int other, char text[BALL_TEXT])
   }
 }
 
+int ball_in_front(const carom_shot_ball *ball, int count) {
+  const double *from = ball[0].state.r;
+  double nearest = INFINITY;
+  int front = 0;
+  for (int k = 1; k < count; k++) {
+    const double away = hypot(ball[k].state.r[0] - from[0], ball[k].state.r[1] - from[1]);
+    if (away < nearest) {
+      nearest = away;
+      front = k;
+    }
+  }
+  return front;
+}
+
 bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *options, double cut,
                  carom_cue *cue) {
   char text[BALL_TEXT], names[NAMES_TEXT], hint[HINT_TEXT];

@@ -37,6 +37,9 @@ const char *ball_words(const layout *l, int ball, char text[BALL_TEXT]);
 /* What stands in the way of a ball that met `other` or a part of the table. */
 const char *obstacle(const layout *l, int type, int other, char text[BALL_TEXT]);
 
+/* The ball nearest to ball 0: that in front of a rack. */
+int ball_in_front(const carom_shot_ball *ball, int count);
+
 /* Aims a cue at a ball, that of --at-ball, at a cut; false after a complaint. */
 bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *options, double cut,
                  carom_cue *cue);

@@ -93,7 +93,9 @@ ROW(option_via, "via", via, "BALL|RAIL,...", set_text, 0,
     "this rail; 2: a combination with ball 2; 2,left: both; head,1: a kick of the cue ball off "
     "this rail at ball 1, the ball of --pocket. Rails are head, foot, left and right");
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|thin|DEGREES", set_values,
-    MEASURE_CUT, "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
+    MEASURE_CUT,
+    "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0). Of a rack, "
+    "without --at-ball, the cue ball meets the ball in front");
 ROW(option_shot_speed, "speed", speed, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
     "speed of the cue just before the strike, m/s, or with a unit: mph, km/h, ft/s, in/s (default "
     "2). A word "
@@ -410,8 +412,12 @@ static bool aim_of(shoot_flags *f, const layout *l, const carom_shot_options *op
   }
   if (f->to.count > 0)
     return aim_to(&f->to.at[c->way], l, cue);
-  if (f->cut.count > 0)
-    return aim_at_ball(f->at_ball != NULL ? f->at_ball : "1", l, options, f->cut.at[c->way].x, cue);
+  if (f->cut.count > 0) {
+    const char *at_ball = f->balls.rack > 0 ? l->name[ball_in_front(l->ball, l->count)] : "1";
+    if (f->at_ball != NULL)
+      at_ball = f->at_ball;
+    return aim_at_ball(at_ball, l, options, f->cut.at[c->way].x, cue);
+  }
   cue->phi = f->aim.at[c->way].x;
   return true;
 }

@@ -3,6 +3,7 @@ CAROM_ISA=plain
 export CAROM_ISA
 carom break --rules nineball --speed 9 --racks 100
 carom break --speed 8 --tip 0,0 --racks 40 --gap 0,0.3mm --errors 0 --csv --threads 2 --plot break.svg -o rows.csv
+carom break --speed 8 --tip 0,0 --racks 40 --gap 0,0.3mm --errors 0 --csv --falls -o falls.csv
 carom break --speed 8 --tip 0,0 --racks 40 --gap 0,0.3mm --errors 0 --csv --threads 1 | cmp - rows.csv && echo "the same with any number of threads"
 grep -c '<g class="others"' break.svg
 # Without errors the stroke is along the table, as the ball in front lies straight ahead but for a quarter of the gap.
@@ -21,11 +22,16 @@ PYTHON
 done
 python - << 'PYTHON'
 import csv, json
+falls = list(csv.DictReader(open("falls.csv")))
+pocket = {"lb": "head-left", "lc": "side-left", "lt": "foot-left", "rb": "head-right", "rc": "side-right", "rt": "foot-right"}
 for row, gap in zip(csv.DictReader(open("rows.csv")), ("0", "0.3mm"), strict=True):
     makes = balls = scratch = wing = on = 0
-    ends = []
+    ends, fell = [], {}
     for shot in map(json.loads, open(f"played-{gap}.jsonl")):
         down = {ball for fallen in shot["final"]["pockets"].values() for ball in fallen}
+        for where, fallen in shot["final"]["pockets"].items():
+            for ball in fallen:
+                fell[ball, pocket[where]] = fell.get((ball, pocket[where]), 0) + 1
         x = {ball["id"]: abs(ball["state"][1] - 0.635) for ball in shot["balls"] if ball["id"] != "cue"}
         makes += bool(down - {"cue"})
         balls += len(down - {"cue"})
@@ -37,11 +43,20 @@ for row, gap in zip(csv.DictReader(open("rows.csv")), ("0", "0.3mm"), strict=Tru
     spread = (sum((x - mean[0]) ** 2 + (y - mean[1]) ** 2 for x, y in ends) / len(ends)) ** 0.5
     seen = {"makes": makes / 40, "balls": balls / 40, "scratch": scratch / 40, "wing": wing / 40, "x": mean[0], "y": mean[1], "spread": spread}
     print(gap, {name: abs(float(row[name]) - value) < 2e-6 for name, value in seen.items()})
+    shares = {(fall["ball"], fall["pocket"]): float(fall["share"]) for fall in falls if fall["gap_mm"] == row["gap_mm"]}
+    print(gap, len(shares), "shares by ball and pocket", all(abs(share - fell.get(fall, 0) / 40) < 2e-6 for fall, share in shares.items()), sum(fell.values()) > 0)
 PYTHON
+echo "--- a cut of the ball in front, and which ball falls where"
+for cut in -20 35; do
+  carom break --rules nineball --cue 0.3,0.6 --cut "$cut" --racks 1 --errors 0 --csv | sed -n 2p | cut -d , -f 3
+  carom shoot --balls nineball --cue 0.3,0.6 --cut "$cut" --speed 9 --json | python -c 'import json; print(json.loads(input())["cue"]["phi"])'
+done
+carom break --nine-on-spot --cue 0.3,0.6 --elevation 2 --cut 5 --racks 60 --falls
 echo "--- other racks, refused"
-carom break --rules tenball --racks 20 --csv | sed -n 2p | cut -d , -f 1,10,11
+carom break --rules tenball --racks 20 --csv | sed -n 2p | cut -d , -f 1,12,13
 try carom break --rules straightpool
 try carom break --racks 0
 try carom break --gap 3cm
+try carom break --cut 20 --aim 80
 try carom break --player 500 --errors 1
 try carom break file.jsonl
