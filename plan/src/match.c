@@ -323,12 +323,16 @@ static uint32_t barred(const carom_match *match) {
 }
 
 /* A cue ball that was in hand and was not placed, as when the clock ran out, stays in hand within
- * the same bounds. */
+ * the same bounds, and no player may leave it where it lies. */
 static void keep_in_hand(carom_match *match) {
   carom_ruling *ruling = &match->ruling;
   const int64_t label = match->record.balls[carom_match_cue_ball(match)].state.label;
   const bool down = label == CAROM_BALL_POCKETED || label == CAROM_BALL_OFF;
-  if (!down || ruling->turn.leave >= CAROM_LEAVE_HAND || ruling->next < 0)
+  if (!down)
+    return;
+  ruling->state.may &= ~CAROM_MAY_STAY;
+  match->rules.state.may = match->record.standing.may = ruling->state.may;
+  if (ruling->turn.leave >= CAROM_LEAVE_HAND || ruling->next < 0)
     return;
   const bool had = match->leave >= CAROM_LEAVE_HAND;
   ruling->turn.leave = had ? (carom_leave)match->leave : CAROM_LEAVE_HAND;
@@ -338,7 +342,11 @@ static void keep_in_hand(carom_match *match) {
 /* Takes the ruling over: the layout, who plays and how the game stands. */
 static void apply(carom_match *match) {
   carom_record *record = &match->record;
-  const carom_ruling *ruling = &match->ruling;
+  carom_ruling *ruling = &match->ruling;
+
+  /* where any ball may be struck, one that was in hand and was not placed comes back */
+  if (record->hand != 0 && match->rules.any_cue_ball != 0)
+    carom_spot_ball(&record->table, ruling->balls, (int)record->count, match->cue_ball);
 
   /* balls that lie elsewhere than the record has them */
   carom_record_settle(record);

@@ -91,6 +91,22 @@ TEST(acts_that_are_refused) {
   refused(carom_match_stroke(&match, 1, &cue, NULL, NULL), CAROM_REFUSED_OVER, "over");
 }
 
+/* Where the clock runs out before the cue ball is placed, it lies nowhere, so it cannot stay. */
+TEST(a_clock_before_the_place) {
+  for (int kind = 0; carom_rules_about_of((carom_rules_kind)kind) != NULL; kind++) {
+    begin((carom_rules_kind)kind, 1, 0);
+    if (match.phase != CAROM_MATCH_PLACE)
+      continue;
+    ck_assert_int_eq(carom_match_clock(&match, 0), CAROM_OK);
+    if (match.rules.any_cue_ball != 0)
+      ck_assert_int_eq(match.record.balls[0].state.label, CAROM_BALL_STATIONARY);
+    else
+      ck_assert_int_eq(match.phase, CAROM_MATCH_PLACE);
+    refused(carom_match_choose(&match, (int)match.record.player, CAROM_MAY_STAY),
+            CAROM_REFUSED_CHOICE, "the choices are");
+  }
+}
+
 /* ---- Recordings */
 
 /* Plays random strokes until some are ruled; the file has all lines. */
@@ -200,7 +216,7 @@ static carom_status act(random_source *r, carom_rules_kind kind) {
     const double y = random_between(r, b->low[1] - 0.1, b->high[1] + 0.1);
     return carom_match_place(&match, player, random_between(r, b->low[0], b->high[0]), y);
   }
-  if (match.rules.any_cue_ball != 0)
+  if (match.rules.any_cue_ball != 0 && what < 0.7)
     cue.ball = (int)random_between(r, -0.999, 16.999);
   cue.phi = random_between(r, 0.0, 360.0);
   cue.speed = random_between(r, 0.2, 9.0);
@@ -209,12 +225,11 @@ static carom_status act(random_source *r, carom_rules_kind kind) {
 }
 
 /* Over all games: no dead end, no standing that a game cannot have, every refusal with a name and
- * nothing changed, every file that is read again. CAROM_TEST_ACTS: how many acts. */
+ * nothing changed, every file that is read again. CAROM_TEST_DRAWS: how many acts. */
 TEST(random_matches) {
   const uint64_t seed = test_seed();
-  const char *given = getenv("CAROM_TEST_ACTS");
-  const long most = given != NULL ? atol(given) : 4000;
-  long acts = 0, taken = 0, over = 0, games = 0;
+  const long most = draws_of_each(4000);
+  long acts = 0, taken = 0, over = 0, games = 0, refusals[CAROM_REFUSED_LINE + 1] = {0};
   printf("random matches: seed %llu\n", (unsigned long long)seed);
   static carom_match before;
   int kinds = 0;
@@ -242,6 +257,9 @@ TEST(random_matches) {
       }
       ck_assert_int_eq(status, CAROM_ERROR_ACT);
       ck_assert(carom_refusal_name(match.refusal)[0] != '\0' && match.fault[0] != '\0');
+      refusals[match.refusal]++;
+      ck_assert_msg(match.refusal != CAROM_REFUSED_STROKE, "seed %llu: no stroke can be played: %s",
+                    (unsigned long long)(seed + game), match.fault);
       ck_assert(match.record.hash == before.record.hash && match.phase == before.phase &&
                 match.record.player == before.record.player && match.may == before.may);
       ck_assert_msg(++idle < 100, "seed %llu: a dead end: %s", (unsigned long long)(seed + game),
@@ -253,5 +271,7 @@ TEST(random_matches) {
     ck_assert_int_eq(reader.size, 0);
     ck_assert_uint_eq(reader.record.hash, match.record.hash);
   }
-  printf("%ld acts, %ld taken, %ld games, %ld of them over\n", acts, taken, games, over);
+  printf("%ld acts, %ld taken, %ld games, %ld of them over; refused:\n", acts, taken, games, over);
+  for (int why = 1; why <= CAROM_REFUSED_LINE; why++)
+    printf("%s %ld\n", carom_refusal_name(why), refusals[why]);
 }
