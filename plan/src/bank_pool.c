@@ -28,12 +28,14 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
 
   int32_t bad = (int32_t)carom_foul_of(facts, balls, cue_ball);
   if (bad == CAROM_FOUL_OFF)
-    bad = carom_is_double_hit(facts) ? CAROM_FOUL_DOUBLE_HIT : CAROM_FOUL_NONE;
+    bad = CAROM_FOUL_NONE;
+  if (bad == CAROM_FOUL_NONE && carom_is_double_hit(facts))
+    bad = CAROM_FOUL_DOUBLE_HIT;
   const bool foul = bad != CAROM_FOUL_NONE, pots = (facts->down & balls) != 0;
   const bool bad_break = opening && !pots && carom_driven(facts, cue_ball) < DRIVEN;
-  carom_turn turn = {.is = CAROM_TURN_PASS,
-                     .leave = bad == CAROM_FOUL_CUE_BALL ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_AFTER,
-                     .foul = bad_break && !foul ? CAROM_FOUL_BREAK : bad};
+  carom_turn turn = carom_pass_by(bad);
+  if (bad_break && !foul)
+    turn.foul = CAROM_FOUL_BREAK;
 
   /* the ball that counts, or the one that a foul costs */
   const bool made = !foul && !opening && is_banked(facts, call);
@@ -42,11 +44,12 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   else if (foul)
     carom_pay_ball(game);
   turn.points = made;
-  game->fouls[0] = foul ? game->fouls[0] : 0;
-  carom_add(&game->fouls[0], foul);
+  carom_count_fouls(game, foul);
 
   /* who plays, and what comes back: the ball that was made stays down */
-  const uint32_t its = made ? UINT32_C(1) << call.ball : 0;
+  uint32_t stays = 0;
+  if (made)
+    stays = carom_only(call.ball);
   if (game->score[0] >= CAROM_BALLS_THAT_WIN)
     turn.is = CAROM_TURN_WIN;
   else if (game->fouls[0] >= FOULS_MOST)
@@ -54,9 +57,10 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   else if (made || (opening && !foul && pots))
     turn.is = CAROM_TURN_KEEP;
   if (turn.is == CAROM_TURN_PASS || (turn.is == CAROM_TURN_KEEP && remain == 0))
-    turn.spot = carom_back_of(game, all & ~remain, balls & ~remain & ~its);
-  game->may = bad_break ? CAROM_MAY_PASS : 0;
-  return turn.is == CAROM_TURN_PASS ? carom_give(game, turn) : turn;
+    turn.spot = carom_back_of(game, all & ~remain, balls & ~remain & ~stays);
+  if (bad_break)
+    game->may = CAROM_MAY_PASS;
+  return carom_end_turn(game, turn);
 }
 
 CAROM_RULES_OBJECT(carom_bank_pool) = {.on = carom_on_any,

@@ -23,12 +23,16 @@ enum { WHITE = 0, YELLOW = 1, RED = 2, BALLS_OF_THREE = 3, BALLS_OF_FOUR = 4 };
 
 /* The cue ball of the player, by the group; of both ball 0 where there is none. */
 static int cue_ball_of(const carom_rules_state *game) {
-  return game->group == 2 ? YELLOW : WHITE;
+  if (game->group == 2)
+    return YELLOW;
+  return WHITE;
 }
 
 static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
   const uint32_t others = in_play & ~(UINT32_C(1) << cue_ball_of(game));
-  return game->opening != 0 ? others & UINT32_C(1) << RED : others;
+  if (game->opening != 0)
+    return others & UINT32_C(1) << RED;
+  return others;
 }
 
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
@@ -83,14 +87,15 @@ static carom_turn judge_any(carom_rules_state *game, uint32_t in_play, int cue_b
 /* ---- Four-ball */
 
 enum { NEAR_RED = 2, FAR_RED = 3 };
+static const uint32_t both_reds = UINT32_C(1) << NEAR_RED | UINT32_C(1) << FAR_RED;
 
 static uint32_t on_four(const carom_rules_state *game, uint32_t in_play) {
-  const uint32_t far_red = UINT32_C(1) << FAR_RED;
-  return in_play & (game->opening != 0 ? far_red : far_red | UINT32_C(1) << NEAR_RED);
+  if (game->opening != 0)
+    return in_play & UINT32_C(1) << FAR_RED;
+  return in_play & both_reds;
 }
 
 static int32_t foul_of_four(const carom_facts *facts, uint32_t on, uint32_t met) {
-  const uint32_t reds = UINT32_C(1) << NEAR_RED | UINT32_C(1) << FAR_RED;
   if (met == 0)
     return CAROM_FOUL_NO_BALL;
   if ((carom_met_first(facts) & on) == 0)
@@ -99,7 +104,9 @@ static int32_t foul_of_four(const carom_facts *facts, uint32_t on, uint32_t met)
     return CAROM_FOUL_OFF;
   if (facts->pushed != 0 || facts->touches > 1)
     return CAROM_FOUL_DOUBLE_HIT;
-  return (met & ~reds) != 0 ? CAROM_FOUL_OTHER : CAROM_FOUL_NONE;
+  if ((met & ~both_reds) != 0)
+    return CAROM_FOUL_OTHER;
+  return CAROM_FOUL_NONE;
 }
 
 static carom_turn judge_four(carom_rules_state *game, uint32_t in_play, int cue_ball,
@@ -109,7 +116,7 @@ static carom_turn judge_four(carom_rules_state *game, uint32_t in_play, int cue_
     return carom_keep; /* settle() spots, and takes the choice back */
   uint32_t met = 0;
   for (int k = 0; k < BALLS_OF_FOUR && facts->first[0] >= 0; k++)
-    met |= facts->order[k] >= 0 ? UINT32_C(1) << facts->order[k] : 0;
+    met |= carom_only(facts->order[k]);
   carom_turn turn = carom_pass;
   turn.foul = foul_of_four(facts, on_four(game, in_play), met);
   game->opening = game->may = 0;
@@ -158,6 +165,13 @@ static void put_on_spot(const carom_table *table, carom_shot_ball *balls, int co
   }
 }
 
+/* Where the cue ball touches another ball, the player may have balls spotted. */
+static int32_t may_spot(const carom_shot_ball *balls, int count, int cue_ball) {
+  if (carom_touching(balls, count, cue_ball) == 0)
+    return 0;
+  return CAROM_MAY_SPOT;
+}
+
 /* Balls that left the table come back; and where the player chose so, those that touch his cue
  * ball, with it. */
 static void settle_one(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
@@ -173,7 +187,7 @@ static void settle_one(carom_rules_state *game, const carom_table *table, carom_
   for (int k = 0; k < BALLS_OF_THREE; k++)
     if (turn->spot >> k & 1)
       put_on_spot(table, balls, count, cue_ball, k);
-  game->may = carom_touching(balls, count, cue_ball) != 0 ? CAROM_MAY_SPOT : 0;
+  game->may = may_spot(balls, count, cue_ball);
 }
 
 /* All balls go to the places of the opening of the player who comes to the table. */
@@ -189,13 +203,15 @@ static void settle_rack(carom_rack_kind rack, carom_rules_state *game, const car
       balls[k].state.label = CAROM_BALL_OFF;
     for (int k = 0; k < all; k++) {
       /* the rack has the white as the cue ball */
-      const int white = k == cue_ball ? WHITE : YELLOW;
       double at[2] = {0.0, 0.0};
-      carom_spot_of(rack, table, k >= RED ? k : white, at);
+      int spot = k;
+      if (k < RED)
+        spot = k != cue_ball;
+      carom_spot_of(rack, table, spot, at);
       carom_place_ball(table, balls, count, k, at[0], at[1], NULL);
     }
   }
-  game->may = carom_touching(balls, count, cue_ball) != 0 ? CAROM_MAY_SPOT : 0;
+  game->may = may_spot(balls, count, cue_ball);
 }
 
 static void settle_three(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,

@@ -18,35 +18,42 @@ static const int32_t number_of[] = {0, 1, 3, 5};
 static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
   if (game->opening != 0)
     return in_play & UINT32_C(1) << THREE;
-  return in_play & (game->score[0] >= LAST ? UINT32_C(1) << ONE : all);
+  if (game->score[0] >= LAST)
+    return in_play & UINT32_C(1) << ONE;
+  return in_play & all;
 }
 
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
   for (int who = 0; who < 2; who++)
-    needed[who] = game->score[who] < WINS ? WINS - game->score[who] : 0;
+    needed[who] = (int32_t)carom_max(WINS - game->score[who], 0);
 }
 
 static double points(const carom_rules_state *game, uint32_t in_play, int ball) {
   (void)in_play;
   if (ball < 0 || ball > 3)
     return 1.0;
-  return game->score[0] + number_of[ball] <= CAROMS_ONLY ? number_of[ball] : 0.0;
+  if (game->score[0] + number_of[ball] > CAROMS_ONLY)
+    return 0.0;
+  return number_of[ball];
 }
 
 /* The object balls that the cue ball met. */
 static int met(const carom_facts *facts) {
   int count = 0;
-  while (count < 3 && facts->order[count] >= 0)
+  while (count < 3 && facts->first[0] >= 0 && facts->order[count] >= 0)
     count++;
-  return facts->first[0] >= 0 ? count : 0;
+  return count;
 }
 
-/* The points of a stroke without a foul, of a player below LAST. */
+/* The points of a stroke without a foul. */
 static int32_t made(const carom_rules_state *game, const carom_facts *facts) {
-  int32_t points = met(facts) > 1 ? met(facts) - 1 : 0;
+  if (game->score[0] >= LAST)
+    return 0;
+  int32_t points = (int32_t)carom_max(met(facts) - 1, 0);
   for (int k = ONE; k <= 3 && game->score[0] < CAROMS_ONLY; k++)
-    points += facts->down >> k & 1 ? number_of[k] : 0;
+    if (facts->down >> k & 1)
+      points += number_of[k];
   return points;
 }
 
@@ -69,24 +76,25 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     return (carom_turn){CAROM_TURN_WIN, CAROM_LEAVE_AFTER, CAROM_FOUL_NONE, 0, 1.0};
 
   /* fouls; a stroke that scores needs no cushion */
-  const int32_t gain = game->score[0] < LAST ? made(game, facts) : 0;
-  const int32_t most = game->score[0] < CAROMS_ONLY ? CAROMS_ONLY : LAST;
+  const int32_t gain = made(game, facts);
+  int32_t most = LAST;
+  if (game->score[0] < CAROMS_ONLY)
+    most = CAROMS_ONLY;
   int32_t foul = (int32_t)carom_foul_of(facts, may_meet, cue_ball);
   if (foul == CAROM_FOUL_CUSHION && gain > 0)
     foul = CAROM_FOUL_NONE;
   if (foul == CAROM_FOUL_NONE && game->score[0] + gain > most)
     foul = CAROM_FOUL_OTHER;
-  turn = gain > 0 ? carom_keep : carom_pass;
+  turn = carom_pass_by(foul);
   turn.spot = (facts->down | facts->off) & all;
   if (foul != CAROM_FOUL_NONE) {
-    turn.is = CAROM_TURN_PASS;
-    turn.foul = foul;
-    turn.leave = foul == CAROM_FOUL_CUE_BALL ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_AFTER;
     turn.points = -game->lost[0];
-    game->score[0] -= game->lost[0] < game->score[0] ? game->lost[0] : game->score[0];
-    const bool again = opening && (carom_met_first(facts) & may_meet) == 0;
-    game->may = again ? CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK : 0;
+    game->score[0] -= (int32_t)carom_min(game->lost[0], game->score[0]);
+    if (opening && (carom_met_first(facts) & may_meet) == 0)
+      game->may = CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK;
   } else {
+    if (gain > 0)
+      turn.is = CAROM_TURN_KEEP;
     turn.points = gain;
     carom_add(&game->score[0], gain);
     carom_add(&game->lost[0], gain);

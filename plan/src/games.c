@@ -54,7 +54,9 @@ static bool is_game(carom_rules_kind kind) {
 }
 
 const carom_rules_about *carom_rules_about_of(carom_rules_kind kind) {
-  return is_game(kind) ? &games[kind].about : NULL;
+  if (!is_game(kind))
+    return NULL;
+  return &games[kind].about;
 }
 
 bool carom_has_opening(carom_rules_kind kind) {
@@ -62,10 +64,11 @@ bool carom_has_opening(carom_rules_kind kind) {
 }
 
 carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
-  const int k = is_game(kind) ? (int)kind : CAROM_RULES_EIGHTBALL;
-  carom_plan_rules rules = *games[k].rules;
-  rules.calls = games[k].calls;
-  rules.learned = k + 1;
+  if (!is_game(kind))
+    kind = CAROM_RULES_EIGHTBALL;
+  carom_plan_rules rules = *games[kind].rules;
+  rules.calls = games[kind].calls;
+  rules.learned = (int32_t)kind + 1;
   return rules;
 }
 
@@ -76,8 +79,9 @@ static bool may_be(carom_rules_kind kind, size_t member, int32_t value) {
       games[kind].rules->race == CAROM_RACE_ALONE || games[kind].rules->race == CAROM_RACE_SHARED;
   if (optional && member == PLACE_OF_TARGET && value == 0)
     return true;
-  const int32_t not_allowed = member == PLACE_OF_MAY ? value & ~games[kind].may : 0;
-  return value >= members[member].low && value <= members[member].high && not_allowed == 0;
+  if (member == PLACE_OF_MAY && (value & ~games[kind].may) != 0)
+    return false;
+  return value >= members[member].low && value <= members[member].high;
 }
 
 const char *carom_rules_fault(carom_rules_kind kind, const carom_rules_state *state,
@@ -88,10 +92,12 @@ const char *carom_rules_fault(carom_rules_kind kind, const carom_rules_state *st
   for (size_t k = 0; k < MEMBERS; k++)
     for (size_t i = 0; i < members[k].count; i++, value++) {
       const bool has = games[kind].members >> k & 1;
-      if (has ? !may_be(kind, k, *value) : *value != 0) {
-        *range = has ? members[k].range : "0, as the game has none";
-        return members[k].name;
-      }
+      if ((has && may_be(kind, k, *value)) || (!has && *value == 0))
+        continue;
+      *range = "0, as the game has none";
+      if (has)
+        *range = members[k].range;
+      return members[k].name;
     }
   return NULL;
 }

@@ -68,7 +68,9 @@ const char *carom_refusal_name(int refusal) {
       "",       "not begun", "over",   "turn", "moving",   "at rest", "in hand", "not in hand",
       "bounds", "occupied",  "choice", "call", "cue ball", "stroke",  "begin",   "line"};
   const int known = sizeof names / sizeof names[0];
-  return refusal > 0 && refusal < known ? names[refusal] : "";
+  if (refusal < 0 || refusal >= known)
+    return "";
+  return names[refusal];
 }
 
 carom_status carom_match_refuse(carom_match *match, carom_refusal why, const char *act,
@@ -82,10 +84,13 @@ carom_status carom_match_refuse(carom_match *match, carom_refusal why, const cha
 /* A set of balls as text, such as "1, 2, 9". */
 static const char *list_balls(uint32_t set, char text[128]) {
   size_t at = 0;
+  const char *comma = "";
   text[0] = '\0';
   for (int k = 0; k < CAROM_BALLS_MOST && at + 5 < 128; k++)
-    if (set >> k & 1)
-      at += (size_t)snprintf(text + at, 128 - at, "%s%d", at == 0 ? "" : ", ", k);
+    if (set >> k & 1) {
+      at += (size_t)snprintf(text + at, 128 - at, "%s%d", comma, k);
+      comma = ", ";
+    }
   return text;
 }
 
@@ -94,10 +99,13 @@ static const char *list_choices(int32_t may, char text[128]) {
   static const char *const names[] = {
       "pass", "push", "free ball", "place in the D", "rack", "rack for the other", "stay", "spot"};
   size_t at = 0;
+  const char *comma = "";
   snprintf(text, 128, "none");
   for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
-    if (may >> k & 1)
-      at += (size_t)snprintf(text + at, 128 - at, "%s%s", at == 0 ? "" : ", ", names[k]);
+    if (may >> k & 1) {
+      at += (size_t)snprintf(text + at, 128 - at, "%s%s", comma, names[k]);
+      comma = ", ";
+    }
   return text;
 }
 
@@ -109,9 +117,8 @@ static carom_status check_player(carom_match *match, int player, const char *act
     return carom_match_refuse(match, CAROM_REFUSED_OVER, act, "the match is over");
   if (player == match->record.player)
     return CAROM_OK;
-  return carom_match_refuse(match, CAROM_REFUSED_TURN, act,
-                            match->record.player == 0 ? "player 0 is at the table"
-                                                      : "player 1 is at the table");
+  static const char *const at_table[] = {"player 0 is at the table", "player 1 is at the table"};
+  return carom_match_refuse(match, CAROM_REFUSED_TURN, act, at_table[match->record.player != 0]);
 }
 
 /* The same, and no ball may move. */
@@ -151,12 +158,7 @@ static void put_act(carom_match *match, carom_act act, int player, int32_t choic
 /* ---- How a match stands */
 
 static uint32_t in_play(const carom_record *record) {
-  uint32_t set = 0;
-  for (int k = 0; k < record->count; k++)
-    set |= (uint32_t)(record->balls[k].state.label != CAROM_BALL_POCKETED &&
-                      record->balls[k].state.label != CAROM_BALL_OFF)
-           << k;
-  return set;
+  return carom_on_table(record->balls, (int)record->count);
 }
 
 int carom_match_cue_ball(const carom_match *match) {
@@ -187,9 +189,11 @@ void carom_match_look(carom_match *match) {
   match->on =
       match->rules.on(&match->rules.state, in_play(record)) & ~(UINT32_C(1) << match->cue_ball);
   match->touching = 0;
-  if (record->hand == 0)
+  match->phase = CAROM_MATCH_PLACE;
+  if (record->hand == 0) {
     match->touching = carom_touching(record->balls, (int)record->count, match->cue_ball);
-  match->phase = record->hand != 0 ? CAROM_MATCH_PLACE : CAROM_MATCH_STROKE;
+    match->phase = CAROM_MATCH_STROKE;
+  }
   if (record->winner != 0) {
     match->phase = CAROM_MATCH_OVER;
     match->may = 0;
@@ -226,12 +230,12 @@ carom_status carom_match_begin_at(carom_match *match, carom_rules_kind kind,
     return carom_match_refuse(
         match, CAROM_REFUSED_BEGIN, "begin",
         "the rules must be a carom_rules_kind, the player 0 or 1, leave a carom_leave");
-  match->rules = of != NULL ? *of : carom_plan_rules_of(kind);
+  match->rules = carom_plan_rules_of(kind);
+  if (of != NULL)
+    match->rules = *of;
   if (match->rules.on == NULL || match->rules.judge == NULL)
     return CAROM_ERROR_NULL;
-  const char *range = "", *wrong = of != NULL && carom_rules_about_of(kind) == NULL
-                                       ? NULL
-                                       : carom_rules_fault(kind, &match->rules.state, &range);
+  const char *range = "", *wrong = carom_rules_fault(kind, &match->rules.state, &range);
   if (wrong != NULL) {
     char right[128];
     snprintf(right, sizeof right, "%s must be %s", wrong, range);
@@ -282,10 +286,11 @@ carom_status carom_match_begin(carom_match *match, carom_rules_kind kind, const 
   }
   const bool is_carom = about->balls == CAROM_GAME_BILLIARD || about->balls == CAROM_GAME_FOURBALL;
   if (is_carom != (table->pockets == 0)) {
+    const char *right = "the table must have pockets for this game";
+    if (is_carom)
+      right = "the table must have no pockets for this game";
     memset(match, 0, sizeof *match);
-    return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin",
-                              table->pockets == 0 ? "the table must have pockets for this game"
-                                                  : "the table must have no pockets for this game");
+    return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin", right);
   }
 
   /* the rack, which a break opens in the games that have one */
@@ -334,8 +339,9 @@ static void keep_in_hand(carom_match *match) {
   match->rules.state.may = match->record.standing.may = ruling->state.may;
   if (ruling->turn.leave >= CAROM_LEAVE_HAND || ruling->next < 0)
     return;
-  const bool had = match->leave >= CAROM_LEAVE_HAND;
-  ruling->turn.leave = had ? (carom_leave)match->leave : CAROM_LEAVE_HAND;
+  ruling->turn.leave = CAROM_LEAVE_HAND;
+  if (match->leave >= CAROM_LEAVE_HAND)
+    ruling->turn.leave = (carom_leave)match->leave;
   ruling->hand = 1;
 }
 
@@ -381,9 +387,11 @@ static void rule(carom_match *match, bool none, carom_call call) {
   carom_record *record = &match->record;
   carom_facts facts = record->facts;
   facts.barred = barred(match);
-  const carom_shot shot = {.facts = &facts, .final = record->final};
+  const carom_shot shot = {.facts = &facts, .final = record->final}, *played = &shot;
+  if (none)
+    played = NULL;
   carom_referee(&match->rules, &record->table, record->balls, (int)record->count, match->cue_ball,
-                none ? NULL : &shot, call, &match->ruling);
+                played, call, &match->ruling);
 }
 
 /* ---- Strokes */
@@ -391,7 +399,8 @@ static void rule(carom_match *match, bool none, carom_call call) {
 /* When the next shot stops. */
 static void set_stops(carom_record *record, const carom_shot_options *stop) {
   static const carom_shot_options none = {0};
-  stop = stop != NULL ? stop : &none;
+  if (stop == NULL)
+    stop = &none;
   record->options.time_most = stop->time_most;
   record->options.stop_at = stop->stop_at;
   record->options.first_of = stop->first_of;
@@ -468,8 +477,11 @@ carom_status carom_match_place(carom_match *match, int player, double x, double 
   if (!carom_is_within(&match->bounds, x, y)) {
     const carom_bounds *b = &match->bounds;
     char right[160];
+    const char *in_d = "";
+    if (b->radius > 0.0)
+      in_d = " and in the D";
     snprintf(right, sizeof right, "the cue ball must be within %g <= x <= %g, %g <= y <= %g m%s",
-             b->low[0], b->high[0], b->low[1], b->high[1], b->radius > 0.0 ? " and in the D" : "");
+             b->low[0], b->high[0], b->low[1], b->high[1], in_d);
     return carom_match_refuse(match, CAROM_REFUSED_BOUNDS, "place", right);
   }
 
@@ -479,8 +491,10 @@ carom_status carom_match_place(carom_match *match, int player, double x, double 
   const carom_status status = carom_record_place(record, match->cue_ball, x, y, &there);
   if (status != CAROM_OK) {
     char right[128];
-    snprintf(right, sizeof right, "%s%s %d", carom_status_string(status),
-             there.kind == CAROM_PART_BALL ? ": ball" : ": part", there.index);
+    const char *part = "part";
+    if (there.kind == CAROM_PART_BALL)
+      part = "ball";
+    snprintf(right, sizeof right, "%s: %s %d", carom_status_string(status), part, there.index);
     return carom_match_refuse(match, CAROM_REFUSED_OCCUPIED, "place", right);
   }
   put_line(match, CAROM_RECORD_PLACE);
@@ -498,9 +512,9 @@ carom_status carom_match_call(carom_match *match, int player, carom_call call) {
     return bad;
   if (match->rules.calls == 0)
     return carom_match_refuse(match, CAROM_REFUSED_CALL, "call", "nothing is called in this game");
-  const uint32_t cue_ball = UINT32_C(1) << match->cue_ball;
-  const uint32_t may_call =
-      match->rules.calls == 1 ? match->on : in_play(&match->record) & ~cue_ball;
+  uint32_t may_call = in_play(&match->record) & ~(UINT32_C(1) << match->cue_ball);
+  if (match->rules.calls == 1)
+    may_call = match->on;
   const bool is_ball = call.ball >= 0 && call.ball < CAROM_BALLS_MOST;
   if (call.ball != -1 && !(is_ball && may_call >> call.ball & 1)) {
     char text[128], right[200];
@@ -522,9 +536,12 @@ carom_status carom_match_call(carom_match *match, int player, carom_call call) {
   return CAROM_OK;
 }
 
-/* The call of a choice that is taken instead of a stroke; 0 of another one. */
+/* The call of a choice: of a push-out, or of one that is taken instead of a stroke; 0 of another
+ * one. */
 static int32_t call_of(carom_may choice) {
   switch (choice) {
+  case CAROM_MAY_PUSH:
+    return CAROM_CALL_PUSH;
   case CAROM_MAY_PASS:
     return CAROM_CALL_PASS;
   case CAROM_MAY_RACK:
@@ -549,16 +566,15 @@ carom_status carom_match_choose(carom_match *match, int player, carom_may choice
     return bad;
   const int32_t bits = (int32_t)choice;
   const bool is_one = bits > 0 && (bits & (bits - 1)) == 0 && (match->may & bits) != 0;
-  const bool pushes = choice == CAROM_MAY_PUSH;
-  if (!is_one || (!pushes && call_of(choice) == 0)) {
+  if (!is_one || call_of(choice) == 0) {
     char text[128], right[200];
     snprintf(right, sizeof right, "the choices are: %s; a free ball is named by a call",
              list_choices(match->may, text));
     return carom_match_refuse(match, CAROM_REFUSED_CHOICE, "choose", right);
   }
-  const carom_call none = {-1, -1}, call = {pushes ? CAROM_CALL_PUSH : call_of(choice), -1};
+  const carom_call none = {-1, -1}, call = {call_of(choice), -1};
   put_act(match, CAROM_ACT_CHOOSE, player, (int32_t)choice, none);
-  if (pushes) {
+  if (choice == CAROM_MAY_PUSH) {
     match->call = call;
     return CAROM_OK;
   }

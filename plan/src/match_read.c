@@ -12,7 +12,9 @@
 /* What the next line must be, of those that the last act made. */
 static size_t line_due(const carom_match *match) {
   const char *end = memchr(match->text, '\n', (size_t)match->due);
-  return end != NULL ? (size_t)(end - match->text) + 1 : 0;
+  if (end == NULL)
+    return 0;
+  return (size_t)(end - match->text) + 1;
 }
 
 /* The line that was due has come. */
@@ -43,9 +45,9 @@ static bool is_kind(const char *line, size_t size, const char *kind) {
 /* A line that is not by the rules: what is due, and why. Nothing is read behind it. */
 static carom_status refuse_line(carom_match *match, int64_t line, const char *what) {
   char act[40], right[300], due[64] = "";
-  const size_t length = line_due(match);
+  const int length = (int)line_due(match);
   if (length > 0)
-    snprintf(due, sizeof due, "; due is %.*s...", length < 40 ? (int)length - 1 : 40, match->text);
+    snprintf(due, sizeof due, "; due is %.*s...", (int)carom_min(length - 1, 40), match->text);
   snprintf(act, sizeof act, "line %lld", (long long)line);
   snprintf(right, sizeof right, "%s%s", what, due);
   const int64_t size = match->size, awaited = match->due;
@@ -84,15 +86,18 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
     match->rules = carom_plan_rules_of((carom_rules_kind)record->rules);
     const char *wrong =
         carom_rules_fault((carom_rules_kind)record->rules, &record->standing, &range);
-    char what[128];
-    snprintf(what, sizeof what, "game.%s must be %s", wrong != NULL ? wrong : "", range);
-    if (wrong != NULL)
+    if (wrong != NULL) {
+      char what[128];
+      snprintf(what, sizeof what, "game.%s must be %s", wrong, range);
       return refuse_line(match, record->line, what);
+    }
   }
   match->rules.state = record->standing;
   match->leave = 0;
   if (record->hand != 0) {
-    match->leave = record->bounds != 0 ? (int32_t)record->bounds : CAROM_LEAVE_HAND;
+    match->leave = CAROM_LEAVE_HAND;
+    if (record->bounds != 0)
+      match->leave = (int32_t)record->bounds;
     carom_hand_bounds((carom_leave)match->leave, &record->table,
                       record->balls[carom_match_cue_ball(match)].kind.radius, &match->bounds);
   }
@@ -171,9 +176,9 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
     due = line_due(match);
   }
   if (due != size + 1 || memcmp(line, match->text, size) != 0) {
-    char words[200] = "";
+    char words[200] = "the line has other values";
     carom_ruling_string(&match->ruling, words, sizeof words);
-    return refuse_line(match, number, words[0] != '\0' ? words : "the line has other values");
+    return refuse_line(match, number, words);
   }
   take_line(match, due);
   return CAROM_OK;

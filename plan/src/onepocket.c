@@ -23,14 +23,13 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   const uint32_t balls = in_play & all, gone = (facts->down | facts->off) & balls;
   const int32_t bad = (int32_t)carom_foul_of(facts, balls, cue_ball);
   const bool foul = bad != CAROM_FOUL_NONE, scratch = bad == CAROM_FOUL_CUE_BALL;
-  carom_turn turn = {.is = CAROM_TURN_PASS,
-                     .leave = scratch ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_AFTER,
-                     .foul = bad};
+  carom_turn turn = carom_pass_by(bad);
 
   /* balls in the pockets of both, where these count; one that is owed is paid first */
+  const bool none_count[2] = {foul, scratch};
   uint32_t in[2] = {0, 0};
   for (int who = 0; who < 2; who++)
-    for (int k = 1; k <= BALLS && !(who == 0 ? foul : scratch); k++)
+    for (int k = 1; k <= BALLS && !none_count[who]; k++)
       if ((facts->down & balls) >> k & 1 && facts->pocket[k] == game->pocket[who]) {
         in[who] |= UINT32_C(1) << k;
         carom_count_ball(game, who);
@@ -38,8 +37,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   turn.points = carom_count_of(in[0]);
 
   /* a foul costs a ball */
-  game->fouls[0] = foul ? game->fouls[0] : 0;
-  carom_add(&game->fouls[0], foul);
+  carom_count_fouls(game, foul);
   if (foul)
     carom_pay_ball(game);
 
@@ -53,7 +51,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     turn.is = CAROM_TURN_KEEP;
   if (turn.is == CAROM_TURN_PASS || (turn.is == CAROM_TURN_KEEP && remain == 0))
     turn.spot = carom_back_of(game, all & ~remain, gone & ~(in[0] | in[1]));
-  return turn.is == CAROM_TURN_PASS ? carom_give(game, turn) : turn;
+  return carom_end_turn(game, turn);
 }
 
 /* To begin with, the pockets at the foot of a table of carom_table_make(): 5 and 2. */

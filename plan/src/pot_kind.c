@@ -64,12 +64,15 @@ static const carom_term terms[TERMS] = {
 };
 
 const carom_term *carom_term_of(int k) {
-  return k >= 0 && k < TERMS ? &terms[k] : NULL;
+  if (k < 0 || k >= TERMS)
+    return NULL;
+  return &terms[k];
 }
 
 const char *carom_plan_kind_name(carom_plan_kind kind) {
-  const bool known = (int)kind >= 0 && (int)kind <= CAROM_PLAN_KISS;
-  return known ? terms[kind].name : "";
+  if ((int)kind < 0 || (int)kind > CAROM_PLAN_KISS)
+    return "";
+  return terms[kind].name;
 }
 
 /* ---- What a shot tells beside its pots */
@@ -140,15 +143,17 @@ static int met_by(const carom_brief_event *e, int ball) {
     return -1;
   if (e->a == ball)
     return e->b;
-  return e->b == ball ? e->a : -1;
+  if (e->b == ball)
+    return e->a;
+  return -1;
 }
 
 /* The index of the event in which a ball falls into a pocket, or -1. */
 static int64_t fall_of(const carom_shot *shot, int ball, int pocket) {
   for (int64_t k = 0; k < shot->count && k < shot->room; k++) {
     const carom_brief_event e = event_of(shot, k);
-    if (e.type == CAROM_EVENT_POCKET && e.a == ball)
-      return e.b == pocket ? k : -1;
+    if (e.type == CAROM_EVENT_POCKET && e.a == ball && e.b == pocket)
+      return k;
   }
   return -1;
 }
@@ -204,5 +209,7 @@ int32_t carom_pot_kind(const carom_table *table, const carom_shot *shot, int cue
     return CAROM_PLAN_KISS;
   if (kicks)
     return CAROM_PLAN_KICK;
-  return banks ? CAROM_PLAN_BANK : CAROM_PLAN_POT;
+  if (banks)
+    return CAROM_PLAN_BANK;
+  return CAROM_PLAN_POT;
 }

@@ -15,13 +15,15 @@ enum { WINS = 8, DRIVEN = 2 };
 static const uint32_t all = 0xffff;
 
 static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
-  return in_play & (game->opening != 0 ? all & ~UINT32_C(1) : all);
+  if (game->opening != 0)
+    return in_play & all & ~UINT32_C(1);
+  return in_play & all;
 }
 
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
   for (int who = 0; who < 2; who++)
-    needed[who] = game->score[who] < WINS ? WINS - game->score[who] : 1;
+    needed[who] = (int32_t)carom_max(WINS - game->score[who], 1);
 }
 
 /* The foul of a stroke: that the cue ball falls is none. */
@@ -53,7 +55,8 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     carom_add(&game->score[1], 1);
     if (game->score[1] >= WINS)
       turn.is = CAROM_TURN_LOSE;
-    game->may = foul == CAROM_FOUL_BREAK ? CAROM_MAY_RACK : 0;
+    if (foul == CAROM_FOUL_BREAK)
+      game->may = CAROM_MAY_RACK;
     return carom_give(game, turn);
   }
   if (fell == 0)

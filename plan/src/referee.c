@@ -10,16 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Balls on the table, as a set. */
-static uint32_t in_play(const carom_shot_ball *balls, int count) {
-  uint32_t set = 0;
-  for (int k = 0; k < count; k++)
-    set |= (uint32_t)(balls[k].state.label != CAROM_BALL_POCKETED &&
-                      balls[k].state.label != CAROM_BALL_OFF)
-           << k;
-  return set;
-}
-
 /* Balls that fell, the first one first. */
 static int64_t list_falls(const carom_facts *facts, int count, carom_fall *fall) {
   int64_t falls = 0;
@@ -58,7 +48,9 @@ static uint32_t moved_by_referee(const carom_shot_ball *balls, int count, const 
                                  const carom_ruling *ruling) {
   uint32_t moved = 0;
   for (int k = 0; k < count; k++) {
-    const carom_ball_state *left = shot != NULL ? &shot->final[k] : &balls[k].state;
+    const carom_ball_state *left = &balls[k].state;
+    if (shot != NULL)
+      left = &shot->final[k];
     moved |= (uint32_t)(memcmp(&ruling->balls[k].state, left, sizeof *left) != 0) << k;
   }
   return moved;
@@ -103,7 +95,7 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
     ruling->facts = *shot->facts;
   ruling->falls = list_falls(&ruling->facts, count, ruling->fall);
   ruling->turn =
-      rules->judge(&ruling->state, in_play(balls, count), cue_ball, &ruling->facts, call);
+      rules->judge(&ruling->state, carom_on_table(balls, count), cue_ball, &ruling->facts, call);
 
   /* the layout, with balls that come back */
   lay_out(balls, count, shot, ruling);
@@ -112,13 +104,13 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
   ruling->put = moved_by_referee(balls, count, shot, ruling);
 
   /* who plays next, and how */
-  ruling->hand = ruling->turn.leave >= CAROM_LEAVE_HAND ? 1 : 0;
+  ruling->hand = ruling->turn.leave >= CAROM_LEAVE_HAND;
   name_players(ruling);
   if (ruling->hand == 0)
     ruling->touching = carom_touching(ruling->balls, count, cue_ball);
   if (ruling->next >= 0 && rules->on != NULL)
-    ruling->on =
-        rules->on(&ruling->state, in_play(ruling->balls, count) & ~(UINT32_C(1) << cue_ball));
+    ruling->on = rules->on(&ruling->state,
+                           carom_on_table(ruling->balls, count) & ~(UINT32_C(1) << cue_ball));
   return status;
 }
 
@@ -152,12 +144,16 @@ size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) 
   if (ruling == NULL || (uint32_t)ruling->turn.is > CAROM_TURN_LOSE ||
       (uint32_t)ruling->turn.leave > CAROM_LEAVE_BAULK)
     return 0;
-  const bool foul = ruling->turn.foul != CAROM_FOUL_NONE;
-  char choices[200];
-  write_choices(ruling->next >= 0 ? ruling->state.may : 0, choices, sizeof choices);
-  const int size =
-      snprintf(text, text != NULL ? room : 0, "%s%s%s%s%s%s", foul ? "foul: " : "",
-               carom_foul_string(ruling->turn.foul), foul ? "; " : "", turns[ruling->turn.is],
-               ruling->next >= 0 ? leaves[ruling->turn.leave] : "", choices);
-  return size > 0 ? (size_t)size : 0;
+  char foul[200] = "", choices[200] = "";
+  const char *leave = "";
+  if (ruling->turn.foul != CAROM_FOUL_NONE)
+    snprintf(foul, sizeof foul, "foul: %s; ", carom_foul_string(ruling->turn.foul));
+  if (ruling->next >= 0) {
+    leave = leaves[ruling->turn.leave];
+    write_choices(ruling->state.may, choices, sizeof choices);
+  }
+  if (text == NULL)
+    room = 0;
+  const int size = snprintf(text, room, "%s%s%s%s", foul, turns[ruling->turn.is], leave, choices);
+  return (size_t)carom_max(size, 0);
 }

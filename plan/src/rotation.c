@@ -20,14 +20,15 @@ static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
 static int32_t points_of_set(uint32_t set) {
   int32_t points = 0;
   for (int k = 1; set >> k != 0; k++)
-    points += set >> k & 1 ? k : 0;
+    if (set >> k & 1)
+      points += k;
   return points;
 }
 
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
   for (int who = 0; who < 2; who++)
-    needed[who] = game->score[who] < WINS ? WINS - game->score[who] : 0;
+    needed[who] = (int32_t)carom_max(WINS - game->score[who], 0);
 }
 
 static double points(const carom_rules_state *game, uint32_t in_play, int ball) {
@@ -35,7 +36,9 @@ static double points(const carom_rules_state *game, uint32_t in_play, int ball) 
   const uint32_t balls = in_play & all;
   if (ball >= 0)
     return ball;
-  return balls != 0 ? (double)points_of_set(balls) / carom_count_of(balls) : 1.0;
+  if (balls == 0)
+    return 1.0;
+  return (double)points_of_set(balls) / carom_count_of(balls);
 }
 
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
@@ -50,8 +53,11 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if (foul != CAROM_FOUL_NONE) {
     turn = carom_give_hand(game, foul, (facts->down | facts->off) & balls);
     const bool hand = foul == CAROM_FOUL_CUE_BALL || foul == CAROM_FOUL_BREAK;
-    turn.leave = hand ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_AFTER;
-    game->may = foul == CAROM_FOUL_BREAK ? CAROM_MAY_RACK : 0;
+    turn.leave = CAROM_LEAVE_AFTER;
+    if (hand)
+      turn.leave = CAROM_LEAVE_KITCHEN;
+    if (foul == CAROM_FOUL_BREAK)
+      game->may = CAROM_MAY_RACK;
     return turn;
   }
   game->fouls[0] = 0;
@@ -62,8 +68,11 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   turn = carom_keep;
   turn.points = points_of_set(fell);
   carom_add(&game->score[0], points_of_set(fell));
-  if (game->score[0] >= WINS || (balls & ~fell) == 0)
-    turn.is = game->score[0] >= ALL_POINTS / 2 ? CAROM_TURN_WIN : CAROM_TURN_LOSE;
+  const bool last = (balls & ~fell) == 0;
+  if (game->score[0] >= WINS || (last && game->score[0] >= ALL_POINTS / 2))
+    turn.is = CAROM_TURN_WIN;
+  else if (last)
+    turn.is = CAROM_TURN_LOSE;
   return turn;
 }
 

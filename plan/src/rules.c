@@ -18,30 +18,39 @@ static carom_turn foul_for(int32_t why) {
 
 /* ---- Eight-ball */
 
+/* The balls of the player, of a table that is open those of both. */
+static uint32_t own_of(const carom_rules_state *game) {
+  if ((uint32_t)game->group > STRIPES)
+    return balls_of[OPEN];
+  return balls_of[game->group];
+}
+
 /* Of a game that is not over. In blackball, free_ball says that the stroke is free. */
 static uint32_t eightball_targets(const carom_rules_state *game, uint32_t in_play) {
-  const uint32_t own = in_play & balls_of[(uint32_t)game->group <= STRIPES ? game->group : OPEN];
+  const uint32_t own = in_play & own_of(game);
   if (game->opening != 0 || game->free_ball != 0)
     return in_play & 0xfffe;
-  return own != 0 ? own : in_play & eight;
+  if (own == 0)
+    return in_play & eight;
+  return own;
 }
 
 static uint32_t eightball_on(const carom_rules_state *game, uint32_t in_play) {
-  return (in_play & eight) != 0 ? eightball_targets(game, in_play) : 0;
+  if ((in_play & eight) == 0)
+    return 0;
+  return eightball_targets(game, in_play);
 }
 
+/* On an open table the player takes the group of which fewer balls are left. */
 static void eightball_left(const carom_rules_state *game, uint32_t in_play, int32_t left[2]) {
   const int solids = carom_count_of(in_play & balls_of[SOLIDS]),
             stripes = carom_count_of(in_play & balls_of[STRIPES]);
   const bool open = game->group == OPEN;
-  const int fewer = solids < stripes ? solids : stripes;
-  const int more = solids < stripes ? stripes : solids;
-  const bool has_solids = game->group == SOLIDS;
-  left[0] = 1 + (has_solids ? solids : stripes);
-  left[1] = 1 + (has_solids ? stripes : solids);
-  if (open) {
-    left[0] = 1 + fewer;
-    left[1] = 1 + more;
+  left[0] = 1 + stripes;
+  left[1] = 1 + solids;
+  if (game->group == SOLIDS || (open && solids < stripes)) {
+    left[0] = 1 + solids;
+    left[1] = 1 + stripes;
   }
 }
 
@@ -56,13 +65,19 @@ static carom_turn give(carom_rules_state *game, carom_turn turn) {
   return carom_give(game, turn);
 }
 
+/* Whether the player may leave the cue ball where it lies: it is on the table. */
+static int32_t may_stay(const carom_facts *facts, int cue_ball) {
+  if ((facts->down | facts->off) >> cue_ball & 1)
+    return 0;
+  return CAROM_MAY_STAY;
+}
+
 /* The turn after a foul in blackball: the cue ball comes in baulk or stays, balls that left the
  * table come back, and the next stroke is free. */
 static carom_turn free_stroke_for(carom_rules_state *game, const carom_facts *facts, int cue_ball,
                                   int32_t foul, int32_t may) {
-  const bool cue_ball_gone = (facts->down | facts->off) >> cue_ball & 1;
   game->free_ball = 1;
-  game->may = may | (cue_ball_gone ? 0 : CAROM_MAY_STAY);
+  game->may = may | may_stay(facts, cue_ball);
   return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_BAULK, foul, facts->off & 0xfffe, 0.0};
 }
 
@@ -70,14 +85,14 @@ static carom_turn free_stroke_for(carom_rules_state *game, const carom_facts *fa
 static carom_turn eightball_break(carom_rules_state *game, const carom_facts *facts, int cue_ball,
                                   int32_t foul) {
   const uint32_t eight_gone = (facts->down | facts->off) & eight;
-  const bool cue_ball_gone = (facts->down | facts->off) >> cue_ball & 1;
   carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, eight_gone, 0.0};
-  game->may = eight_gone != 0 ? CAROM_MAY_RACK : 0;
+  if (eight_gone != 0)
+    game->may = CAROM_MAY_RACK;
 
   /* a foul: the other has the cue ball behind the head string, or leaves it where it lies */
   if (foul != CAROM_FOUL_NONE) {
     turn.leave = CAROM_LEAVE_KITCHEN;
-    game->may |= cue_ball_gone ? 0 : CAROM_MAY_STAY;
+    game->may |= may_stay(facts, cue_ball);
     return turn;
   }
 
@@ -87,7 +102,8 @@ static carom_turn eightball_break(carom_rules_state *game, const carom_facts *fa
     game->may = CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK;
     return turn;
   }
-  turn.is = (facts->down & 0xfffe) != 0 ? CAROM_TURN_KEEP : CAROM_TURN_PASS;
+  if ((facts->down & 0xfffe) != 0)
+    turn.is = CAROM_TURN_KEEP;
   return turn;
 }
 
@@ -101,12 +117,19 @@ static carom_turn blackball_break(carom_rules_state *game, const carom_facts *fa
     return (carom_turn){CAROM_TURN_KEEP, CAROM_LEAVE_BAULK, CAROM_FOUL_NONE, 0xfffe, 0.0};
   }
   const bool pots = (facts->down & 0xfffe) != 0;
-  const bool bad_break = !pots && carom_count_of(facts->past_middle & 0xfffe) < PAST_MIDDLE;
-  if (foul == CAROM_FOUL_NONE || foul == CAROM_FOUL_CUSHION)
-    foul = bad_break ? CAROM_FOUL_BREAK : CAROM_FOUL_NONE;
+  int32_t may = 0;
+  if (foul == CAROM_FOUL_CUSHION)
+    foul = CAROM_FOUL_NONE;
+  if (!pots && carom_count_of(facts->past_middle & 0xfffe) < PAST_MIDDLE) {
+    may = CAROM_MAY_RACK;
+    if (foul == CAROM_FOUL_NONE)
+      foul = CAROM_FOUL_BREAK;
+  }
   if (foul != CAROM_FOUL_NONE)
-    return free_stroke_for(game, facts, cue_ball, foul, bad_break ? CAROM_MAY_RACK : 0);
-  return pots ? carom_keep : carom_pass;
+    return free_stroke_for(game, facts, cue_ball, foul, may);
+  if (pots)
+    return carom_keep;
+  return carom_pass;
 }
 
 /* How the games with two groups differ. */
@@ -132,30 +155,29 @@ static carom_turn eight_foul(const eight_game *as, carom_rules_state *game,
 static uint32_t eight_made(const eight_game *as, const carom_facts *facts, carom_call call) {
   if (!as->calls)
     return facts->down & balls_of[OPEN];
-  return carom_is_called(facts, call) ? UINT32_C(1) << call.ball : 0;
-}
-
-/* The balls of the player, of a table that is open those of both. */
-static uint32_t own_of(const carom_rules_state *game) {
-  return balls_of[(uint32_t)game->group <= STRIPES ? game->group : OPEN];
+  if (!carom_is_called(facts, call))
+    return 0;
+  return carom_only(call.ball);
 }
 
 /* The foul of a stroke. In blackball a ball of the other group may fall with one's own alone, or in
  * a free stroke. */
 static int32_t eight_foul_of(const eight_game *as, const carom_rules_state *game, uint32_t on,
                              int cue_ball, const carom_facts *facts) {
-  const int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
+  int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
   const uint32_t fell = facts->down & balls_of[OPEN];
   const bool binds = as->free_strokes && game->opening == 0 && game->free_ball == 0;
-  const bool pots_wrong = binds && fell != 0 && (fell & own_of(game)) == 0;
-  return foul == CAROM_FOUL_NONE && pots_wrong ? CAROM_FOUL_POT : foul;
+  if (foul == CAROM_FOUL_NONE && binds && fell != 0 && (fell & own_of(game)) == 0)
+    foul = CAROM_FOUL_POT;
+  return foul;
 }
 
 /* The eight is gone: it wins as the last ball, without a foul, and where shots are called in its
  * pocket. In blackball it may fall with the last balls of the group. */
-static carom_turn eight_ends(const eight_game *as, uint32_t own_in_play, const carom_facts *facts,
+static carom_turn eight_ends(const eight_game *as, uint32_t remain, const carom_facts *facts,
                              carom_call call, int32_t foul) {
-  const uint32_t remain = own_in_play & ~(as->free_strokes ? facts->down : 0);
+  if (as->free_strokes)
+    remain &= ~facts->down;
   const bool called = !as->calls || (carom_is_called(facts, call) && call.ball == 8);
   if (remain == 0 && foul == CAROM_FOUL_NONE && called)
     return win;
@@ -174,12 +196,15 @@ static carom_turn judge_eight(const eight_game *as, carom_rules_state *game, uin
   const bool opening = game->opening != 0, is_free = game->free_ball != 0;
   const int32_t foul = eight_foul_of(as, game, on, cue_ball, facts);
   game->opening = game->may = game->free_ball = 0;
+  if (opening && as->free_strokes)
+    return blackball_break(game, facts, cue_ball, foul);
   if (opening)
-    return as->free_strokes ? blackball_break(game, facts, cue_ball, foul)
-                            : eightball_break(game, facts, cue_ball, foul);
+    return eightball_break(game, facts, cue_ball, foul);
 
   /* an eight that left the table comes back in blackball */
-  const uint32_t gone = as->free_strokes ? facts->down : facts->down | facts->off;
+  uint32_t gone = facts->down;
+  if (!as->free_strokes)
+    gone |= facts->off;
   if ((gone & eight) != 0)
     return eight_ends(as, in_play & own, facts, call, foul);
   if (foul != CAROM_FOUL_NONE)
@@ -187,12 +212,19 @@ static carom_turn judge_eight(const eight_game *as, carom_rules_state *game, uin
 
   /* the first balls that are made decide the groups, where they are of one */
   game->fouls[0] = 0;
-  const uint32_t made = eight_made(as, facts, call) & (as->calls ? on : own);
-  if (made == 0)
-    return is_free ? carom_keep : give(game, carom_pass);
-  const bool mixed = (made & balls_of[SOLIDS]) != 0 && (made & balls_of[STRIPES]) != 0;
-  if (game->group == OPEN && !mixed && !is_free)
-    game->group = made & balls_of[SOLIDS] ? SOLIDS : STRIPES;
+  uint32_t counts = own;
+  if (as->calls)
+    counts = on;
+  const uint32_t made = eight_made(as, facts, call) & counts;
+  if (made == 0 && !is_free)
+    return give(game, carom_pass);
+  if (game->group == OPEN && !is_free) {
+    const bool solids = (made & balls_of[SOLIDS]) != 0, stripes = (made & balls_of[STRIPES]) != 0;
+    if (solids && !stripes)
+      game->group = SOLIDS;
+    else if (!solids)
+      game->group = STRIPES;
+  }
   return carom_keep;
 }
 
@@ -265,7 +297,9 @@ static void nineball_left(const carom_rules_state *game, uint32_t in_play, int32
 static carom_foul push_out_foul_of(const carom_facts *facts) {
   if (facts->off != 0)
     return CAROM_FOUL_OFF;
-  return carom_is_double_hit(facts) ? CAROM_FOUL_DOUBLE_HIT : CAROM_FOUL_NONE;
+  if (carom_is_double_hit(facts))
+    return CAROM_FOUL_DOUBLE_HIT;
+  return CAROM_FOUL_NONE;
 }
 
 int32_t carom_rotation_foul_of(const carom_facts *facts, uint32_t on, int cue_ball, bool opening,
@@ -326,8 +360,11 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
   }
   if ((facts->down & wins) != 0)
     return win;
-  game->may = opening ? CAROM_MAY_PUSH : 0;
-  return facts->down != 0 ? carom_keep : carom_give(game, carom_pass);
+  if (opening)
+    game->may = CAROM_MAY_PUSH;
+  if (facts->down != 0)
+    return carom_keep;
+  return carom_give(game, carom_pass);
 }
 
 CAROM_RULES_OBJECT(carom_nineball) = {.on = nineball_on,
@@ -353,9 +390,8 @@ static carom_turn potting_judge(carom_rules_state *game, uint32_t in_play, int c
                                 const carom_facts *facts, carom_call call) {
   (void)call;
   const uint32_t on = potting_on(game, in_play);
-  int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
-  foul = foul == CAROM_FOUL_CUSHION ? CAROM_FOUL_NONE : foul;
-  if (foul != CAROM_FOUL_NONE) {
+  const int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
+  if (foul != CAROM_FOUL_NONE && foul != CAROM_FOUL_CUSHION) {
     carom_turn turn = foul_for(foul);
     if ((on & ~(facts->down | facts->off)) == 0) /* no ball is left to be played */
       turn.is = CAROM_TURN_LOSE;
@@ -363,7 +399,9 @@ static carom_turn potting_judge(carom_rules_state *game, uint32_t in_play, int c
   }
   carom_turn turn = carom_pass;
   if (facts->down != 0)
-    turn = (facts->down & on) == on ? win : carom_keep;
+    turn = carom_keep;
+  if (facts->down != 0 && (facts->down & on) == on)
+    turn = win;
   turn.points = carom_count_of(facts->down & on);
   return turn;
 }

@@ -15,6 +15,12 @@ static inline int carom_count_of(uint32_t set) {
     n++;
   return n;
 }
+/* The set of one ball; of none where its number is below 0. */
+static inline uint32_t carom_only(int ball) {
+  if (ball < 0)
+    return 0;
+  return UINT32_C(1) << ball;
+}
 /* The lowest ball of a set and the highest one, as sets. */
 static inline uint32_t carom_lowest_of(uint32_t set) {
   return set & (~set + 1);
@@ -34,10 +40,23 @@ static inline bool carom_is_called(const carom_facts *facts, carom_call call) {
 }
 /* The balls that were met first, at one instant, as a set; 0: none. */
 uint32_t carom_met_first(const carom_facts *facts);
+/* The balls that are neither down nor off the table, as a set. */
+uint32_t carom_on_table(const carom_shot_ball *balls, int count);
 /* The balls in play that touch a ball for the rules, as a set; 0 of one that is out of play. */
 uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball);
 /* The turn goes to the other: the pairs of the state become his. Any of 15 balls may be met. */
 carom_turn carom_give(carom_rules_state *game, carom_turn turn);
+/* The same of a turn that passes; another one stays as it is. */
+static inline carom_turn carom_end_turn(carom_rules_state *game, carom_turn turn) {
+  if (turn.is == CAROM_TURN_PASS)
+    carom_give(game, turn);
+  return turn;
+}
+/* A turn that passes with a foul, or none. After a scratch the cue ball is in hand behind the head
+ * string, else it is played from where it lies. */
+carom_turn carom_pass_by(int32_t foul);
+/* The foul of a stroke is one more in a row; a stroke without one ends the row. */
+void carom_count_fouls(carom_rules_state *game, bool foul);
 carom_rules_on carom_on_any;
 /* Whether a call is a choice after a break that the state allows: to have all balls of the set
  * racked and break from behind the head string, to have the other do so, or to leave the cue ball
@@ -46,7 +65,7 @@ bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t all, caro
 
 /* Adds points, or fouls; none of a state that no game has. */
 static inline void carom_add(int32_t *to, int more) {
-  *to = *to > INT32_MAX - more ? INT32_MAX : *to + more;
+  *to = (int32_t)carom_min((int64_t)*to + more, INT32_MAX);
 }
 
 /* Nine-ball and ten-ball: the foul of a break, of a push-out or of another stroke; and the turn

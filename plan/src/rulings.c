@@ -23,6 +23,14 @@ carom_turn carom_give(carom_rules_state *game, carom_turn turn) {
   return turn;
 }
 
+carom_turn carom_pass_by(int32_t foul) {
+  carom_turn turn = carom_pass;
+  turn.foul = foul;
+  if (foul == CAROM_FOUL_CUE_BALL)
+    turn.leave = CAROM_LEAVE_KITCHEN;
+  return turn;
+}
+
 bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t all, carom_turn *turn) {
   static const struct {
     int32_t call, may;
@@ -52,7 +60,7 @@ bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t all, caro
 int carom_cue_ball_of(const carom_plan_rules *rules) {
   const bool own = rules != NULL &&
                    (rules->rack == CAROM_RACK_THREECUSHION || rules->rack == CAROM_RACK_FOURBALL);
-  return own && rules->state.group == 2 ? 1 : 0;
+  return own && rules->state.group == 2;
 }
 
 uint32_t carom_met_first(const carom_facts *facts) {
@@ -63,6 +71,14 @@ uint32_t carom_met_first(const carom_facts *facts) {
 
 static bool is_out(const carom_shot_ball *ball) {
   return ball->state.label == CAROM_BALL_POCKETED || ball->state.label == CAROM_BALL_OFF;
+}
+
+uint32_t carom_on_table(const carom_shot_ball *balls, int count) {
+  uint32_t set = 0;
+  for (int k = 0; k < count; k++)
+    if (!is_out(&balls[k]))
+      set |= UINT32_C(1) << k;
+  return set;
 }
 
 uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball) {
@@ -111,7 +127,9 @@ const char *carom_foul_string(int foul) {
       "a ball fell that was not on",
       "the tip was still on the cue ball, or touched it again, as it met a ball",
       "the cue ball jumped over a ball"};
-  return foul > 0 && foul < (int)(sizeof words / sizeof words[0]) ? words[foul] : "";
+  if (foul < 0 || foul >= (int)(sizeof words / sizeof words[0]))
+    return "";
+  return words[foul];
 }
 
 /* ---- Balls that are put back */
@@ -120,8 +138,9 @@ const char *carom_foul_string(int foul) {
  * object ball (WPA 1.4); beside the cue ball, and in snooker (WPBSA, section 3, spotting colours),
  * it must not touch, so it stands as near as balls that clearly do not. */
 static double room_beside(carom_rack_kind kind, int other) {
-  const bool frozen = kind != CAROM_RACK_SNOOKER && other != 0;
-  return frozen ? 0.0 : 2.0 * CAROM_RULES_TOUCH;
+  if (kind != CAROM_RACK_SNOOKER && other != 0)
+    return 0.0;
+  return 2.0 * CAROM_RULES_TOUCH;
 }
 
 /* Where a ball at x on the long string stands behind another one on a side, y: their centres are
@@ -137,7 +156,7 @@ static double beside(const carom_shot_ball *ball, const carom_shot_ball *other, 
 /* As near to a place as there is room, towards y = length, else away from it. */
 static carom_status put_near(carom_rack_kind kind, const carom_table *table, carom_shot_ball *balls,
                              int count, int ball, const double at[2]) {
-  const double step = table->length > 10.0 ? 1e-4 * table->length : 1e-3;
+  const double step = fmax(1e-4 * table->length, 1e-3);
   carom_status status = CAROM_ERROR_OFF_TABLE;
   for (int side = 1; side >= -1; side -= 2) {
     double y = at[1];
@@ -148,11 +167,11 @@ static carom_status put_near(carom_rack_kind kind, const carom_table *table, car
         return status;
 
       /* to behind a ball that is there, or past a part of the table */
-      double next = y + side * step;
+      const double before = y;
       if (status == CAROM_ERROR_OVERLAP && there.kind == CAROM_PART_BALL)
-        next =
-            beside(&balls[ball], &balls[there.index], at[0], side, room_beside(kind, there.index));
-      y = (next - y) * side > 0.0 ? next : y + side * step;
+        y = beside(&balls[ball], &balls[there.index], at[0], side, room_beside(kind, there.index));
+      if (!((y - before) * side > 0.0))
+        y = before + side * step;
     }
   }
   return status;
@@ -176,8 +195,11 @@ carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
   /* a colour: its own spot, then the others, the highest first */
   enum { YELLOW = 16, BLACK = 21 };
   const bool colour = kind == CAROM_RACK_SNOOKER && ball >= YELLOW;
-  for (int k = BLACK + 1; k >= YELLOW && colour; k--) {
-    carom_spot_of(kind, table, k > BLACK ? ball : k, at);
+  for (int tried = BLACK + 1; tried >= YELLOW && colour; tried--) {
+    int spot = tried;
+    if (tried > BLACK)
+      spot = ball;
+    carom_spot_of(kind, table, spot, at);
     const carom_status status = carom_place_ball(table, balls, count, ball, at[0], at[1], NULL);
     if (status != CAROM_ERROR_OVERLAP)
       return status;
@@ -214,9 +236,11 @@ carom_status carom_turn_settle(const carom_plan_rules *rules, carom_rules_state 
     return rack_again(rack, table, balls, count);
   carom_status first = CAROM_OK;
   for (int k = 0; turn->spot >> k != 0; k++) {
-    const bool back = turn->spot >> k & 1;
-    const carom_status status = back ? carom_spot_ball_of(rack, table, balls, count, k) : CAROM_OK;
-    first = first == CAROM_OK ? status : first;
+    if (!(turn->spot >> k & 1))
+      continue;
+    const carom_status status = carom_spot_ball_of(rack, table, balls, count, k);
+    if (first == CAROM_OK)
+      first = status;
   }
   return first;
 }
@@ -237,11 +261,15 @@ void carom_pay_ball(carom_rules_state *game) {
     carom_add(&game->lost[0], 1);
 }
 
+void carom_count_fouls(carom_rules_state *game, bool foul) {
+  if (!foul)
+    game->fouls[0] = 0;
+  carom_add(&game->fouls[0], foul);
+}
+
 /* A number between 0 and the most. */
 static int32_t clamped(int32_t x, int32_t most) {
-  if (x < 0)
-    return 0;
-  return x < most ? x : most;
+  return (int32_t)carom_max(carom_min(x, most), 0);
 }
 
 /* With those that are owed; of states that no game has, at least one and at most 16. */
@@ -260,8 +288,10 @@ uint32_t carom_back_of(const carom_rules_state *game, uint32_t down, uint32_t fi
   const int64_t counted = (int64_t)game->score[0] + game->score[1];
   uint32_t back = 0;
   for (int64_t n = carom_count_of(down); n > counted && n > 0; n--) {
-    const uint32_t from = (first & ~back) != 0 ? first & ~back : down & ~back;
-    back |= from & (~from + 1);
+    uint32_t from = first & ~back;
+    if (from == 0)
+      from = down & ~back;
+    back |= carom_lowest_of(from);
   }
   return back;
 }

@@ -18,15 +18,17 @@ enum { YELLOW = 16, PINK = 20, BLACK = 21, COLOURS = 27, LEAST = 4, MOST = 7 };
 static const uint32_t reds = 0xfffe, colours = 0x3f0000, black = UINT32_C(1) << BLACK;
 
 static int worth(int ball) {
-  return ball < YELLOW ? 1 : ball - YELLOW + 2;
+  if (ball < YELLOW)
+    return 1;
+  return ball - YELLOW + 2;
 }
 
-/* Of a set; 0 of none. */
+/* The value of the highest ball of a set; 0 of none. */
 static int highest(uint32_t set) {
-  int most = 0;
-  for (int k = 1; k <= BLACK; k++)
-    most = set >> k & 1 && worth(k) > most ? worth(k) : most;
-  return most;
+  for (int k = BLACK; k >= 1; k--)
+    if (set >> k & 1)
+      return worth(k);
+  return 0;
 }
 
 /* The balls on, but for a free ball. */
@@ -34,11 +36,15 @@ static uint32_t due_of(const carom_rules_state *game, uint32_t in_play) {
   const uint32_t red = in_play & reds, colour = in_play & colours;
   if (game->on != 0)
     return colour;
-  return red != 0 ? red : colour & (~colour + 1);
+  if (red != 0)
+    return red;
+  return carom_lowest_of(colour);
 }
 
 static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
-  return game->may & CAROM_MAY_FREE_BALL ? in_play & (reds | colours) : due_of(game, in_play);
+  if (game->may & CAROM_MAY_FREE_BALL)
+    return in_play & (reds | colours);
+  return due_of(game, in_play);
 }
 
 /* Points that are on the table, and in how many pots. */
@@ -51,7 +57,8 @@ static int remaining(const carom_rules_state *game, uint32_t in_play, int *pots)
   }
   int sum = 0;
   for (int k = YELLOW; k <= BLACK; k++)
-    sum += in_play >> k & 1 ? worth(k) : 0;
+    if (in_play >> k & 1)
+      sum += worth(k);
   *pots = carom_count_of(in_play & colours);
   return sum;
 }
@@ -66,39 +73,46 @@ static bool is_claimed(int64_t lead, uint32_t balls) {
   return balls == black && lead > MOST;
 }
 
-/* The points after which a lead of less than `reach` cannot be drawn level: at least 1. */
-static int32_t points_beyond(int64_t reach) {
-  return reach < 2 ? 1 : (int32_t)(reach / 2 + 1);
+/* The points, at least 1, after which a player with this lead cannot be drawn level by the points
+ * on the table; 0 of a frame that is won. */
+static int32_t needed_by(int64_t lead, int64_t on_table, uint32_t balls) {
+  if (is_claimed(lead, balls))
+    return 0;
+  return (int32_t)carom_max((on_table - lead) / 2 + 1, 1);
 }
 
-/* Points after which the other cannot draw level; 0 of a frame that is won. */
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   int pots;
-  const int64_t rest = remaining(game, in_play, &pots), lead = lead_of(game);
+  const int64_t on_table = remaining(game, in_play, &pots), lead = lead_of(game);
   const uint32_t balls = in_play & (reds | colours);
-  needed[0] = is_claimed(lead, balls) ? 0 : points_beyond(rest - lead);
-  needed[1] = is_claimed(-lead, balls) ? 0 : points_beyond(rest + lead);
+  needed[0] = needed_by(lead, on_table, balls);
+  needed[1] = needed_by(-lead, on_table, balls);
 }
 
 static double points(const carom_rules_state *game, uint32_t in_play, int ball) {
+  if (ball >= 0 && game->on != 0)
+    return worth(ball);
+  if (ball >= 0)
+    return highest(due_of(game, in_play));
   int pots;
-  const int rest = remaining(game, in_play, &pots);
-  const uint32_t due = due_of(game, in_play);
-  if (ball < 0)
-    return pots > 0 ? (double)rest / pots : 1.0;
-  return game->on != 0 ? worth(ball) : highest(due);
+  const int on_table = remaining(game, in_play, &pots);
+  if (pots == 0)
+    return 1.0;
+  return (double)on_table / pots;
 }
 
 /* The last black is gone: who has more has won; else it comes back. */
-static carom_turn finish(carom_rules_state *game, carom_turn turn) {
+static carom_turn finish(const carom_rules_state *game, carom_turn turn) {
   turn.spot = 0;
   turn.leave = CAROM_LEAVE_AFTER;
-  turn.is = game->score[0] > game->score[1] ? CAROM_TURN_WIN : CAROM_TURN_LOSE;
-  if (game->score[0] != game->score[1])
-    return turn;
-  turn.is = CAROM_TURN_PASS;
-  turn.leave = CAROM_LEAVE_D;
-  turn.spot = black;
+  turn.is = CAROM_TURN_LOSE;
+  if (lead_of(game) > 0)
+    turn.is = CAROM_TURN_WIN;
+  if (lead_of(game) == 0) {
+    turn.is = CAROM_TURN_PASS;
+    turn.leave = CAROM_LEAVE_D;
+    turn.spot = black;
+  }
   return turn;
 }
 
@@ -109,104 +123,146 @@ static int first_of(const carom_facts *facts, uint32_t choice) {
   const int first = facts->first[0];
   if (touching == 0 || (first >= 0 && touching >> first & 1))
     return first;
-  return carom_count_of((touching & (~touching + 1)) - 1);
+  return carom_count_of(carom_lowest_of(touching) - 1);
+}
+
+/* The balls of a stroke, by what was on and what is called. */
+typedef struct nomination {
+  int first;          /* the ball that is met first, or -1 */
+  int named;          /* the ball that is called, else the first; -1: none */
+  uint32_t to_meet;   /* of which one must be met first */
+  uint32_t allowed;   /* that may be met with it, and may fall */
+  uint32_t free_ball; /* the free ball, as a set; 0: none is played */
+  int value;          /* of the ball on */
+} nomination;
+
+static nomination nominate(bool colour, uint32_t choice, uint32_t due, const carom_facts *facts,
+                           carom_call call) {
+  /* the balls that the stroke aims at: the one that is called, where it may be */
+  const bool calls = call.ball >= 0 && call.ball <= BLACK && choice >> call.ball & 1;
+  uint32_t aimed_at = choice;
+  if (calls)
+    aimed_at = carom_only(call.ball);
+  if (!colour && (aimed_at & due) != 0)
+    aimed_at = due;
+  nomination n = {.first = first_of(facts, aimed_at), .named = -1};
+  if (n.first >= 0 && choice >> n.first & 1)
+    n.named = n.first;
+  if (calls)
+    n.named = call.ball;
+
+  /* what may be met and may fall, and what it is worth */
+  const uint32_t named = carom_only(n.named);
+  n.to_meet = n.allowed = due;
+  n.value = highest(due);
+  if (colour) {
+    n.to_meet = n.allowed = named;
+    n.value = MOST;
+    if (n.named >= 0)
+      n.value = worth(n.named);
+  } else if ((named & ~due) != 0) {
+    n.free_ball = n.to_meet = named;
+    n.allowed = due | named;
+  }
+  return n;
+}
+
+/* The foul of a stroke. Two balls at one instant are a foul, but for two reds, and a free ball with
+ * a ball on. Reds stay down. *concerned gets the balls whose values a foul costs. */
+static int32_t foul_of(const nomination *n, uint32_t balls, int cue_ball, const carom_facts *facts,
+                       uint32_t *concerned) {
+  const uint32_t off = facts->off & balls;
+  const uint32_t wrong_pots = facts->down & balls & ~n->allowed;
+  uint32_t met_first = carom_only(n->first);
+  if (n->first == facts->first[0])
+    met_first |= carom_met_first(facts);
+  const bool wrong_first =
+      met_first != 0 && ((met_first & n->to_meet) == 0 || (met_first & ~n->allowed) != 0);
+  *concerned = (wrong_pots | off | facts->pushed | facts->jumped) & balls & ~n->free_ball;
+  if (wrong_first)
+    *concerned |= met_first;
+  if ((facts->down | facts->off) >> cue_ball & 1)
+    return CAROM_FOUL_CUE_BALL;
+  if (n->first < 0)
+    return CAROM_FOUL_NO_BALL;
+  if (wrong_first)
+    return CAROM_FOUL_FIRST;
+  if (off != 0)
+    return CAROM_FOUL_OFF;
+  if (facts->pushed != 0 || facts->touches > 1)
+    return CAROM_FOUL_DOUBLE_HIT;
+  if ((facts->jumped & balls) != 0)
+    return CAROM_FOUL_JUMP;
+  if (wrong_pots != 0)
+    return CAROM_FOUL_POT;
+  return CAROM_FOUL_NONE;
+}
+
+/* The turn after a foul, which costs the highest value of the balls that it concerns. */
+static carom_turn judge_foul(carom_rules_state *game, uint32_t balls, int cost, carom_turn turn) {
+  carom_add(&game->score[1], (int)carom_max(cost, LEAST));
+  const bool scratch = turn.foul == CAROM_FOUL_CUE_BALL;
+  if (scratch)
+    turn.leave = CAROM_LEAVE_D;
+
+  /* a black that comes back is a new beginning */
+  if (balls == black)
+    return carom_end_turn(game, finish(game, turn));
+  game->may = CAROM_MAY_PASS;
+  if (scratch)
+    game->may |= CAROM_MAY_PLACE;
+  return carom_give(game, turn);
 }
 
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
   const uint32_t balls = in_play & (reds | colours), due = due_of(game, in_play);
+  const uint32_t choice = on(game, in_play);
   const int32_t after_foul = game->may;
   const bool colour = game->on != 0;
   game->may = game->free_ball = 0;
   if ((after_foul & CAROM_MAY_PASS) && call.ball == CAROM_CALL_PASS) {
     carom_turn turn = carom_pass;
-    turn.leave = after_foul & CAROM_MAY_PLACE ? CAROM_LEAVE_D : turn.leave;
+    if (after_foul & CAROM_MAY_PLACE)
+      turn.leave = CAROM_LEAVE_D;
     return carom_give(game, turn);
   }
 
-  /* The ball that is named, where one may be: else it is the first. */
-  const uint32_t choice = after_foul & CAROM_MAY_FREE_BALL ? balls : due;
-  const bool calls = call.ball >= 0 && call.ball <= BLACK && choice >> call.ball & 1;
-  const uint32_t called = calls ? UINT32_C(1) << call.ball : choice;
-  const int first = first_of(facts, !colour && (called & due) != 0 ? due : called);
-  const int met = first >= 0 && choice >> first & 1 ? first : -1;
-  const int named = calls ? call.ball : met;
-  const uint32_t its = named < 0 ? 0 : UINT32_C(1) << named;
-  const bool free_ball = !colour && its != 0 && (its & due) == 0;
-  const uint32_t to_meet = colour || free_ball ? its : due;
-  const uint32_t free_set = free_ball ? its : 0;
-  const uint32_t to_fall = colour ? its : due | free_set;
-  const int of_colour = named >= 0 ? worth(named) : MOST;
-  const int value = colour ? of_colour : highest(due);
-
-  /* Fouls. Reds stay down. */
-  const uint32_t gone = (facts->down | facts->off) & balls;
-  const uint32_t wrong = (facts->down & balls & ~to_fall) | (facts->off & balls);
-  const bool off_cue = (facts->down | facts->off) >> cue_ball & 1;
-  /* two balls at one instant are a foul, but for two reds, and a free ball with a ball on */
-  const uint32_t together = first >= 0 && first == facts->first[0] ? carom_met_first(facts) : 0;
-  const uint32_t met_first = first >= 0 ? together | UINT32_C(1) << first : 0;
-  const uint32_t may_meet = free_ball ? to_meet | due : to_meet;
-  const bool wrong_first =
-      met_first != 0 && ((met_first & to_meet) == 0 || (met_first & ~may_meet) != 0);
-  const bool jumps = (facts->jumped & balls) != 0;
-  const bool pushes = facts->pushed != 0 || facts->touches > 1;
-  int32_t foul = CAROM_FOUL_NONE;
-  if (off_cue)
-    foul = CAROM_FOUL_CUE_BALL;
-  else if (first < 0)
-    foul = CAROM_FOUL_NO_BALL;
-  else if (wrong_first)
-    foul = CAROM_FOUL_FIRST;
-  else if ((facts->off & balls) != 0)
-    foul = CAROM_FOUL_OFF;
-  else if (pushes)
-    foul = CAROM_FOUL_DOUBLE_HIT;
-  else if (jumps)
-    foul = CAROM_FOUL_JUMP;
-  else if ((facts->down & wrong) != 0)
-    foul = CAROM_FOUL_POT;
-  carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, gone & colours, 0.0};
+  /* a foul */
+  const nomination n = nominate(colour, choice, due, facts, call);
+  uint32_t concerned;
+  carom_turn turn = carom_pass;
+  turn.foul = foul_of(&n, balls, cue_ball, facts, &concerned);
+  turn.spot = (facts->down | facts->off) & colours & balls;
   game->on = 0;
-  if (foul != CAROM_FOUL_NONE) {
-    int cost = value > LEAST ? value : LEAST;
-    const int by_first = wrong_first ? highest(met_first) : 0,
-              by_fall =
-                  highest((wrong | facts->pushed | facts->jumped) & balls & ~(free_ball ? its : 0));
-    cost = by_first > cost ? by_first : cost;
-    cost = by_fall > cost ? by_fall : cost;
-    carom_add(&game->score[1], cost);
-    turn.leave = off_cue ? CAROM_LEAVE_D : CAROM_LEAVE_AFTER;
-    if (balls == black)
-      turn = finish(game, turn);
-    if (turn.is != CAROM_TURN_PASS)
-      return turn;
-    /* a black that comes back is a new beginning */
-    if (balls != black)
-      game->may = off_cue ? CAROM_MAY_PASS | CAROM_MAY_PLACE : CAROM_MAY_PASS;
-    return carom_give(game, turn);
-  }
+  if (turn.foul != CAROM_FOUL_NONE)
+    return judge_foul(game, balls, (int)carom_max(n.value, highest(concerned)), turn);
 
   /* A stroke without a pot; the other must not be snookered behind a free ball. */
   const uint32_t fell = facts->down & balls;
   if (fell == 0) {
     if (is_claimed(-lead_of(game), balls))
       return finish(game, turn);
-    game->free_ball = free_ball ? named : 0;
+    if (n.free_ball != 0)
+      game->free_ball = n.named;
     return carom_give(game, turn);
   }
 
   /* Reds count one each, and a free ball beside them as one; of others the ball on counts alone. */
   const bool red = !colour && (due & reds) != 0;
-  const int made = red ? carom_count_of(fell) : value;
+  int made = n.value;
+  turn.spot = fell & colours;
+  if (red)
+    made = carom_count_of(fell);
+  else if (!colour)
+    turn.spot = fell & ~due;
   carom_add(&game->score[0], made);
   game->on = red;
   turn.is = CAROM_TURN_KEEP;
-  turn.spot = !colour && !red ? fell & ~due : fell & colours;
   if (balls == black || is_claimed(lead_of(game), (balls & ~fell) | turn.spot))
     turn = finish(game, turn);
   turn.points = made;
-  return turn.is == CAROM_TURN_PASS ? carom_give(game, turn) : turn;
+  return carom_end_turn(game, turn);
 }
 
 /* ---- Where balls lie */
@@ -284,17 +340,13 @@ static bool is_snookered(const carom_table *table, const carom_shot_ball *balls,
 
 static void settle(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
                    int count, carom_turn *turn) {
-  for (int k = count <= BLACK ? count - 1 : BLACK; k >= YELLOW; k--)
+  for (int k = (int)carom_min(count - 1, BLACK); k >= YELLOW; k--)
     if (turn->spot >> k & 1)
       carom_spot_ball_of(CAROM_RACK_SNOOKER, table, balls, count, k);
   if (turn->is != CAROM_TURN_PASS)
     return;
 
-  uint32_t in_play = 0;
-  for (int k = 1; k < count && k <= BLACK; k++)
-    in_play |= (uint32_t)(balls[k].state.label != CAROM_BALL_POCKETED &&
-                          balls[k].state.label != CAROM_BALL_OFF)
-               << k;
+  const uint32_t in_play = carom_on_table(balls, count) & (reds | colours);
   const uint32_t due = due_of(game, in_play);
   const bool hand = turn->leave == CAROM_LEAVE_D;
 
@@ -303,7 +355,7 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
     const int its = game->free_ball;
     game->free_ball = 0;
     if (in_play != (black | black >> 1) && is_behind(balls, due, in_play & ~due, its)) {
-      carom_add(&game->score[0], highest(due) > LEAST ? highest(due) : LEAST);
+      carom_add(&game->score[0], (int)carom_max(highest(due), LEAST));
       game->may = CAROM_MAY_PASS;
       turn->foul = CAROM_FOUL_OTHER;
     }

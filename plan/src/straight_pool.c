@@ -17,14 +17,8 @@ static int64_t score(const carom_rules_state *game, int who) {
 
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
-  for (int who = 0; who < 2; who++) {
-    int64_t points = game->target - score(game, who);
-    if (points < 1)
-      points = 1;
-    if (points > INT32_MAX)
-      points = INT32_MAX;
-    needed[who] = (int32_t)points;
-  }
+  for (int who = 0; who < 2; who++)
+    needed[who] = (int32_t)carom_min(carom_max(game->target - score(game, who), 1), INT32_MAX);
 }
 
 /* A break: all balls are racked, and the cue ball is in hand. */
@@ -53,11 +47,11 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   const bool called =
       foul == CAROM_FOUL_NONE && carom_is_called(facts, call) && (balls >> call.ball & 1);
   const bool bad_break = opening && !called && !is_open(facts, cue_ball);
-  carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, gone, 0.0};
-  if (foul == CAROM_FOUL_CUE_BALL)
-    turn.leave = CAROM_LEAVE_KITCHEN;
+  carom_turn turn = carom_pass_by(foul);
+  turn.spot = gone;
   if (bad_break) {
-    turn.foul = foul != CAROM_FOUL_NONE ? foul : CAROM_FOUL_BREAK;
+    if (foul == CAROM_FOUL_NONE)
+      turn.foul = CAROM_FOUL_BREAK;
     carom_add(&game->lost[0], BAD_BREAK);
     carom_give(game, turn);
     game->may = CAROM_MAY_PASS;
@@ -80,7 +74,8 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   turn = carom_keep;
   turn.points = carom_count_of(gone);
   carom_add(&game->score[0], carom_count_of(gone));
-  turn.is = score(game, 0) >= game->target ? CAROM_TURN_WIN : CAROM_TURN_KEEP;
+  if (score(game, 0) >= game->target)
+    turn.is = CAROM_TURN_WIN;
   if (carom_count_of(balls & ~gone) <= 1)
     turn.spot = all & ~(balls & ~gone);
   return turn;
@@ -137,9 +132,11 @@ static void take_up(carom_shot_ball *ball) {
 /* Puts a ball on the head spot, or on the centre where the head spot is taken. */
 static void place_at_head(const carom_table *table, carom_shot_ball *balls, int count, int ball,
                           const double head[2], bool taken) {
-  const double x = taken ? 0.5 * table->width : head[0];
-  const double y = taken ? 0.5 * table->length : head[1];
-  carom_place_ball(table, balls, count, ball, x, y, NULL);
+  const double centre[2] = {0.5 * table->width, 0.5 * table->length};
+  const double *at = head;
+  if (taken)
+    at = centre;
+  carom_place_ball(table, balls, count, ball, at[0], at[1], NULL);
 }
 
 /* Puts the balls of the set on the places of the triangle: all 15 as in eight-ball, with the eight
@@ -147,9 +144,11 @@ static void place_at_head(const carom_table *table, carom_shot_ball *balls, int 
 static void rack_up(const carom_table *table, carom_shot_ball *balls, int count, uint32_t spot,
                     double place[LAST_BALL][2]) {
   static const int of_place[LAST_BALL] = {1, 9, 2, 10, 8, 3, 11, 7, 14, 4, 5, 13, 15, 6, 12};
-  int n = spot == all ? 0 : 1;
+  int n = spot != all; /* with 14 balls the front place stays free */
   for (int k = 1; k <= LAST_BALL; k++) {
-    const int ball = spot == all ? of_place[n] : k;
+    int ball = k;
+    if (spot == all)
+      ball = of_place[n];
     if (spot >> ball & 1) {
       carom_place_ball(table, balls, count, ball, place[n][0], place[n][1], NULL);
       n++;

@@ -57,17 +57,22 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   }
   if (opening) {
     game->may = CAROM_MAY_PUSH;
-    turn.is = pots ? CAROM_TURN_KEEP : CAROM_TURN_PASS;
-    return pots ? turn : carom_give(game, turn);
+    if (pots)
+      turn.is = CAROM_TURN_KEEP;
+    return carom_end_turn(game, turn);
   }
 
   /* the ball that was called, or another one that fell */
   if (carom_is_called(facts, call) && (balls >> call.ball & 1)) {
-    turn.is = balls == ten ? CAROM_TURN_WIN : CAROM_TURN_KEEP;
-    turn.spot = balls == ten ? 0 : back;
+    turn.is = CAROM_TURN_KEEP;
+    if (balls == ten) {
+      turn.is = CAROM_TURN_WIN;
+      turn.spot = 0;
+    }
     return turn;
   }
-  game->may = pots ? CAROM_MAY_PASS : 0;
+  if (pots)
+    game->may = CAROM_MAY_PASS;
   return carom_give(game, turn);
 }
 
