@@ -72,7 +72,9 @@ typedef struct progress {
 static double wrapped(double angle) {
   if (angle > pi)
     return angle - 2.0 * pi;
-  return angle < -pi ? angle + 2.0 * pi : angle;
+  if (angle < -pi)
+    return angle + 2.0 * pi;
+  return angle;
 }
 
 /* Whether two rails are on one line. */
@@ -85,9 +87,9 @@ static bool in_line(const carom_rail *r, const carom_rail *s) {
 
 /* ---- A shot and its way */
 
-/* Whether a link, if there is one, is the line of this rail. */
+/* Whether a link is the line of this rail. */
 static bool is_on(const way *w, const carom_part *link, int rail) {
-  return link != NULL && link->kind == CAROM_PART_RAIL &&
+  return link->kind == CAROM_PART_RAIL &&
          in_line(&w->table->rail[link->index], &w->table->rail[rail]);
 }
 
@@ -109,6 +111,13 @@ static bool concerns(const carom_brief_event *e, int ball) {
   return e->a == ball || (e->type == CAROM_EVENT_BALL_BALL && e->b == ball);
 }
 
+/* The ball that a ball meets in an event of two balls. */
+static int other_of(const carom_brief_event *e, int ball) {
+  if (e->a == ball)
+    return e->b;
+  return e->a;
+}
+
 /* Whether an event is the next link: `ball` is on its way, and `target` the ball behind it. */
 static bool is_next_link(const way *w, const progress *p, const carom_brief_event *e, int ball,
                          int target) {
@@ -116,7 +125,7 @@ static bool is_next_link(const way *w, const progress *p, const carom_brief_even
     return false;
   const carom_part *next = &w->link[p->links];
   if (e->type == CAROM_EVENT_BALL_BALL)
-    return next->kind == CAROM_PART_BALL && (e->a == ball ? e->b : e->a) == target;
+    return next->kind == CAROM_PART_BALL && other_of(e, ball) == target;
   return e->type == CAROM_EVENT_RAIL && is_on(w, next, e->b);
 }
 
@@ -126,9 +135,8 @@ static bool meets_last_again(const progress *p, const int *ball, int at,
                              const carom_brief_event *e) {
   if (e->type != CAROM_EVENT_BALL_BALL || at == 0)
     return false;
-  const int other = e->a == ball[at] ? e->b : e->a;
   const bool touched = at == 1 && p->since == 0.0;
-  return other == ball[at - 1] && (e->time == p->since || touched);
+  return other_of(e, ball[at]) == ball[at - 1] && (e->time == p->since || touched);
 }
 
 /* Whether event k is a contact with a rail that may be: a hop along the rail of the last link; or,
@@ -138,8 +146,7 @@ static bool may_touch_rail(const way *w, const progress *p, const int *ball,
   const carom_brief_event *e = &events[k];
   if (e->type != CAROM_EVENT_RAIL)
     return false;
-  const carom_part *last = p->links > 0 ? &w->link[p->links - 1] : NULL;
-  if (is_on(w, last, e->b) && e->time - p->since < same_contact)
+  if (p->links > 0 && is_on(w, &w->link[p->links - 1], e->b) && e->time - p->since < same_contact)
     return true;
   return w->swept && p->links == 0 && meets_soon(ball, events, count, k);
 }
@@ -165,7 +172,9 @@ static progress follow(const way *w, const int *ball, const carom_brief_event *e
       k = next;
       continue;
     }
-    const int target = at + 1 < w->balls ? ball[at + 1] : -1;
+    int target = -1;
+    if (at + 1 < w->balls)
+      target = ball[at + 1];
     if (is_next_link(w, &p, e, ball[at], target)) {
       p.since = e->time;
       p.links++;
@@ -214,7 +223,9 @@ static double stick_of(const way *w, carom_cue cue) {
 
 /* The elevation with which a cue is played: as given, or the least. */
 static double elevation_of(const way *w, const carom_cue *cue) {
-  return isnan(cue->theta) ? stick_of(w, *cue) : cue->theta;
+  if (isnan(cue->theta))
+    return stick_of(w, *cue);
+  return cue->theta;
 }
 
 /* e, and half the range of directions that pass the jaws; both NaN where the way is not done or
@@ -235,8 +246,9 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
   const carom_ball_state *s = &states[w->balls - 1];
   states_at(w, &cue, p.since, states);
   const double x = c[0] - s->r[0], y = c[1] - s->r[1], far = sqrt(x * x + y * y);
-  const double until = p.end.type != 0 ? p.until : time;
-  states_at(w, &cue, fmax(p.since, until * (1.0 - just_before)), states);
+  if (p.end.type != 0)
+    time = p.until;
+  states_at(w, &cue, fmax(p.since, time * (1.0 - just_before)), states);
   const double speed = sqrt(s->v[0] * s->v[0] + s->v[1] * s->v[1]);
   if (!(speed > 0.0))
     return p;
@@ -253,18 +265,18 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
   return p;
 }
 
+/* Whether a place is so near to the pocket that what is there is beside it. */
+static bool is_near_pocket(const way *w, const double place[2]) {
+  const double x = place[0] - w->pocket->centre[0], y = place[1] - w->pocket->centre[1];
+  return x * x + y * y < beside_most * beside_most * w->pocket->radius * w->pocket->radius;
+}
+
 /* Whether a cushion that the ball met is beside the pocket. */
 static bool is_beside(const way *w, const carom_brief_event *e) {
+  if (e->type == CAROM_EVENT_JAW)
+    return is_near_pocket(w, w->table->jaw[e->b].centre);
   const carom_rail *r = &w->table->rail[e->b];
-  const double *jaw = w->table->jaw[e->b].centre, *c = w->pocket->centre;
-  const bool is_jaw = e->type == CAROM_EVENT_JAW;
-  const double *ends[2] = {is_jaw ? jaw : r->p, is_jaw ? jaw : r->q};
-  bool is_near = false;
-  for (int k = 0; k < 2; k++) {
-    const double x = ends[k][0] - c[0], y = ends[k][1] - c[1];
-    is_near |= x * x + y * y < beside_most * beside_most * w->pocket->radius * w->pocket->radius;
-  }
-  return is_near;
+  return is_near_pocket(w, r->p) || is_near_pocket(w, r->q);
 }
 
 /* What comes of a cue, of the whole layout. */
@@ -280,14 +292,15 @@ static carom_pot_is fate(const way *w, const carom_shot_ball *balls, int count,
 
   /* After the last link it may touch what is beside the pocket, and nothing else. */
   const int type = p.end.type;
-  const bool done = p.links == w->links;
-  if (done && (type == 0 || type == CAROM_EVENT_POCKET))
-    return falls ? CAROM_POT_FALLS : CAROM_POT_REJECTED;
-  if (done && (type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW))
-    return falls && is_beside(w, &p.end) ? CAROM_POT_FALLS : CAROM_POT_REJECTED;
-  const bool rests =
-      type == CAROM_EVENT_ROLLING_SPINNING || type == CAROM_EVENT_ROLLING_STATIONARY || type == 0;
-  return rests ? CAROM_POT_SHORT : CAROM_POT_BARRED;
+  const bool done = p.links == w->links, ends_free = type == 0 || type == CAROM_EVENT_POCKET;
+  const bool at_cushion = type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW;
+  if (done && falls && (ends_free || (at_cushion && is_beside(w, &p.end))))
+    return CAROM_POT_FALLS;
+  if (done && (ends_free || at_cushion))
+    return CAROM_POT_REJECTED;
+  if (type == CAROM_EVENT_ROLLING_SPINNING || type == CAROM_EVENT_ROLLING_STATIONARY || type == 0)
+    return CAROM_POT_SHORT;
+  return CAROM_POT_BARRED;
 }
 
 /* The last value of *field, of the cue, from its own on and up to `end`, with which the ball falls:
@@ -335,7 +348,7 @@ static bool root_of(const way *w, const carom_cue *cue, const double between[2],
   found->theta = elevation_of(w, found);
   for (int side = 0; side < 2 && fabs(e) >= root_most; side++) {
     carom_cue end = *cue;
-    end.phi = side == 0 ? low : high;
+    end.phi = (double[]){low, high}[side];
     *w->jump = fmax(*w->jump, elevation_of(w, &end));
   }
   return fabs(e) < root_most;
@@ -350,8 +363,11 @@ static double cut_of(const way *w, carom_cue cue) {
   const progress p = attempt(w, cue.phi, cue, &unused[0], &unused[1]);
   cue.ball = 0;
   states_at(w, &cue, p.first * (1.0 - just_before), s);
-  carom_strike(&cue, &w->alone[0].kind, &struck);
-  const double *v = p.first > 0.0 ? s[0].v : struck.v;
+  const double *v = s[0].v;
+  if (p.first == 0.0) { /* the balls touch from the start */
+    carom_strike(&cue, &w->alone[0].kind, &struck);
+    v = struck.v;
+  }
   return wrapped(carom_angle_of(s[1].r[0] - s[0].r[0], s[1].r[1] - s[0].r[1]) -
                  carom_angle_of(v[0], v[1])) /
          degree;
@@ -360,13 +376,11 @@ static double cut_of(const way *w, carom_cue cue) {
 /* What comes of a root; where the ball falls, with how much may be erred. */
 static void judge(const way *w, const carom_shot_ball *balls, int count, const carom_cue *root,
                   double half, carom_pot *pot, carom_cue *cue) {
-  cue->phi = root->phi;
-  if (root->phi < 0.0)
-    cue->phi = root->phi + 360.0;
-  else if (root->phi >= 360.0)
-    cue->phi = root->phi - 360.0;
+  cue->phi = carom_turned(root->phi);
   pot->elevation = stick_of(w, *cue);
-  cue->theta = w->raised ? fmax(root->theta, pot->elevation) : root->theta;
+  cue->theta = root->theta;
+  if (w->raised)
+    cue->theta = fmax(root->theta, pot->elevation);
   pot->is = (int32_t)fate(w, balls, count, cue, &pot->met);
   if (w->raised && pot->elevation > STICK_MOST)
     pot->is = CAROM_POT_STICK;
@@ -396,7 +410,7 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
   /* as long as links are gained, and once more for the roots */
   for (bool gains = true; gains;) {
     const bool roots = best == w->links;
-    double low = 0.0, high = 0.0, last = 0.0, before = (double)NAN;
+    double low = 0.0, high = 0.0, last = mid - wide, before = (double)NAN;
     int most = -1;
     bool short_of = true; /* whether all that do most come to rest */
     progress at_rest = {0};
@@ -413,7 +427,7 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
       /* The range of those that do most, with a neighbour on either side. */
       if (p.links > most) {
         most = p.links;
-        low = k > 0 ? last : phi;
+        low = last;
         short_of = true;
       }
       if (p.links == most) {
@@ -615,7 +629,7 @@ static directions directions_of(const way *w, carom_cue *along) {
   const double x = image[0] - own->state.r[0], y = image[1] - own->state.r[1];
   const double sine = (own->kind.radius + first->kind.radius) / sqrt(x * x + y * y);
   directions range;
-  range.half = (sine < 1.0 ? carom_asin(sine) : 0.5 * pi) / degree;
+  range.half = carom_asin(fmin(sine, 1.0)) / degree;
   for (int side = -1; side <= 1 && w->raised; side++) {
     along->phi = carom_angle_of(x, y) / degree + range.half * side;
     along->theta = fmax(along->theta, stick_of(w, *along));
@@ -626,7 +640,9 @@ static directions directions_of(const way *w, carom_cue *along) {
   along->phi = 0.0;
   carom_strike(along, &own->kind, &struck);
   range.mid = (carom_angle_of(x, y) - carom_angle_of(struck.v[0], struck.v[1])) / degree;
-  range.half += (along->theta > 0.0 ? 2.0 + along->theta : 0.0) + kick_wide * rails;
+  range.half += kick_wide * rails;
+  if (along->theta > 0.0)
+    range.half += 2.0 + along->theta;
   return range;
 }
 
@@ -650,10 +666,13 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
                        const carom_shot_options *shot, carom_pot *pot, carom_cue *cue) {
   if (table == NULL || balls == NULL || pot == NULL || cue == NULL)
     return CAROM_ERROR_NULL;
-  const carom_shot_options *options = shot != NULL ? shot : &no_options;
+  const carom_shot_options *options = &no_options;
+  if (shot != NULL)
+    options = shot;
   int where;
   carom_cue along = *cue;
-  along.theta = isnan(cue->theta) ? 0.0 : cue->theta;
+  if (isnan(cue->theta))
+    along.theta = 0.0;
   const carom_status status = carom_shot_check(table, balls, count, &along, options, &where);
   if (status != CAROM_OK)
     return status;
@@ -677,16 +696,20 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
 
   /* without one, the directions one by one */
   if (pot->is == CAROM_POT_NO_WAY || pot->is == CAROM_POT_BARRED || pot->is == CAROM_POT_REJECTED) {
-    const double wider = w.links == 1 && is_near_rail(&w) ? kick_wide : 0.0;
-    sweep(&w, balls, count, range.mid, range.half + wider, pot, cue);
+    double half = range.half;
+    if (w.links == 1 && is_near_rail(&w))
+      half += kick_wide;
+    sweep(&w, balls, count, range.mid, half, pot, cue);
   }
 
   /* whether the stick alone is in the way of all directions */
   along.phi = range.mid;
-  const double least = w.raised && pot->is == CAROM_POT_NO_WAY ? stick_of(&w, along) : 0.0;
-  if (least > STICK_MOST) {
-    pot->is = CAROM_POT_STICK;
-    pot->elevation = least;
+  if (w.raised && pot->is == CAROM_POT_NO_WAY) {
+    const double least = stick_of(&w, along);
+    if (least > STICK_MOST) {
+      pot->is = CAROM_POT_STICK;
+      pot->elevation = least;
+    }
   }
   return CAROM_OK;
 }

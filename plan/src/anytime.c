@@ -14,10 +14,11 @@ bool carom_search_doubles(const search *plan) {
 }
 
 static void next_plan(search *plan) {
-  const int64_t n = plan->first, rest = plan->rest;
+  const int64_t n = plan->first;
+  int64_t shots = n;
   /* what does not suffice for the plan after this one belongs to it */
-  const bool ends = !carom_search_doubles(plan) || rest < 3 * n;
-  const int64_t shots = ends ? rest : n;
+  if (!carom_search_doubles(plan) || plan->rest < 3 * n)
+    shots = plan->rest;
   plan->rest -= shots;
   plan->first = 2 * n;
   carom_search_begin(plan, shots);

@@ -27,8 +27,9 @@ static const double scan_tip[TIPS][2] = {
 /* Keeps a stroke within what the player can do. */
 static void bound(const search *plan, candidate *c) {
   const carom_player *player = &plan->player;
-  const bool is_calm = player->growth > 0.0 && !plan->breaks;
-  const double most = player->speed_most * (is_calm ? 0.5 : 1.0);
+  double most = player->speed_most;
+  if (player->growth > 0.0 && !plan->breaks) /* who errs more by speed strikes calmly */
+    most *= 0.5;
   c->speed = carom_within(c->speed, player->speed_least, fmax(most, player->speed_least));
   c->a = carom_within(c->a, -player->tip_most, player->tip_most);
   c->b = carom_within(c->b, -player->tip_most, player->tip_most);
@@ -116,7 +117,7 @@ static bool aim(const search *plan, candidate *c) {
     off += back;
     to += off;
   }
-  c->phi += c->phi < 0.0 ? 360.0 : 0.0;
+  c->phi = carom_turned(c->phi);
   return true;
 }
 
@@ -138,23 +139,26 @@ static void step_aside(candidate *c, int number, bool more) {
   enum { SPEED, SIDE, HEIGHT, DIRECTION };
   static const double faster = 1.2, farther = 0.15; /* radii */
   static const double turned[2] = {0.4, 0.13};      /* degrees */
-  const double sign = more ? 1.0 : -1.0;
-  if (number == SPEED)
-    c->speed = more ? c->speed * faster : c->speed / faster;
-  c->a += number == SIDE ? sign * farther : 0.0;
-  c->b += number == HEIGHT ? sign * farther : 0.0;
-  if (number >= DIRECTION)
-    c->phi += sign * turned[number - DIRECTION];
-  if (c->phi < 0.0)
-    c->phi += 360.0;
-  else if (c->phi >= 360.0)
-    c->phi -= 360.0;
+  double sign = -1.0;
+  if (more)
+    sign = 1.0;
+  if (number == SPEED && more)
+    c->speed *= faster;
+  else if (number == SPEED)
+    c->speed /= faster;
+  else if (number == SIDE)
+    c->a += sign * farther;
+  else if (number == HEIGHT)
+    c->b += sign * farther;
+  else
+    c->phi = carom_turned(c->phi + sign * turned[number - DIRECTION]);
 }
 
 /* Moves the cue ball in hand to one of four sides. */
 static void move_aside(candidate *c, int side) {
-  static const double far = 0.03; /* m */
-  c->r[side / 2] += side % 2 == 1 ? far : -far;
+  static const double to[4][2] = {{-0.03, 0.0}, {0.03, 0.0}, {0.0, -0.03}, {0.0, 0.03}}; /* m */
+  c->r[0] += to[side][0];
+  c->r[1] += to[side][1];
 }
 
 /* Strokes near the best `parents` ones, between those of the grid: one of speed, both places of the
@@ -163,12 +167,16 @@ static void move_aside(candidate *c, int side) {
  * and half as much again, could not be told from them. */
 void carom_search_near(search *plan, int64_t parents) {
   enum { POT_WAYS = 6, WAYS = 10, PLACE_WAYS = 4 };
-  const int places = plan->places > 0 && !plan->breaks ? PLACE_WAYS : 0;
+  int places = 0;
+  if (plan->places > 0 && !plan->breaks)
+    places = PLACE_WAYS;
   for (int64_t k = 0; k < parents; k++) {
     const bool pot = plan->found[k].kind == CAROM_PLAN_POT;
     if (!pot && plan->found[k].kind != CAROM_PLAN_SCAN)
       continue;
-    const int strokes = pot ? POT_WAYS : WAYS;
+    int strokes = WAYS;
+    if (pot)
+      strokes = POT_WAYS;
     for (int way = 0; way < strokes + places; way++) {
       candidate c = plan->found[k];
       c.round = 0;
@@ -224,7 +232,7 @@ void carom_search_pots(search *plan, int64_t most) {
   const int64_t first = plan->count;
   CAROM_PROMISE(ways <= CAROM_BALLS_MOST * CAROM_POCKETS_MOST);
   ways = (int)carom_min(ways, carom_max(most / STROKES, 4));
-  const int64_t share = ways > 0 ? most / ways : 0;
+  const int64_t share = most / carom_max(ways, 1);
   const int64_t strokes = carom_max(carom_min(share, STROKES), 3);
 
   for (int w = 0; w < ways; w++)
@@ -276,14 +284,20 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
     if (!(plan->targets >> k & 1))
       continue;
     const double to = carom_angle_of(x, y), far = sqrt(x * x + y * y);
-    const double key = thin ? -fabs(to - foot) : far;
-    int at = balls < TARGETS ? balls++ : TARGETS;
+    double key = far;
+    if (thin)
+      key = -fabs(to - foot);
+    int at = TARGETS;
+    if (balls < TARGETS)
+      at = balls++;
     for (; at > 0 && ball[at - 1].key > key; at--)
       ball[at] = ball[at - 1];
     ball[at].key = key;
     ball[at].to = to;
     ball[at].far = far / (plan->view.radius[plan->view.cue_ball] + plan->view.radius[k]);
-    ball[at].outer = thin && to < foot ? -1.0 : 1.0;
+    ball[at].outer = 1.0;
+    if (thin && to < foot)
+      ball[at].outer = -1.0;
   }
 
   /* strokes in an order that is drawn: a number stands for ball, side, speed and tip */
@@ -296,9 +310,7 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
     const double phi = (ball[target].to + carom_asin(carom_within(sine, -1.0, 1.0))) / degree;
     const double off = tip[thin][stroke / SIDES / SPEEDS];
     candidate strike = {.speed = share[thin][stroke / SIDES % SPEEDS] * plan->player.speed_most,
-                        .phi = phi};
-    if (phi < 0.0)
-      strike.phi += 360.0;
+                        .phi = carom_turned(phi)};
     if (thin) {
       strike.a = -ball[target].outer * off;
       strike.kind = CAROM_PLAN_SCAN;
@@ -323,8 +335,7 @@ static double towards(const search *plan, uint64_t row) {
   const double both = plan->view.radius[plan->view.cue_ball] + plan->view.radius[k];
   const double half = carom_asin(carom_within(both / sqrt(x * x + y * y), 0.0, 1.0));
   const double off = 2.0 * carom_uniform(plan->options.seed, DRAW_SCAN, row, 3) - 1.0;
-  const double phi = (carom_angle_of(x, y) + off * half) / degree;
-  return phi < 0.0 ? phi + 360.0 : phi;
+  return carom_turned((carom_angle_of(x, y) + off * half) / degree);
 }
 
 /* Strokes in all directions, of which those stay that meet a ball first that is on. The directions
@@ -335,7 +346,7 @@ static double towards(const search *plan, uint64_t row) {
 bool carom_search_scan(search *plan) {
   /* in blocks that are sooner made than a plan has to stop */
   enum { LEAST = 16, MOST = 4096 };
-  const double parts = plan->places > 2 ? plan->places : 2.0;
+  const double parts = (double)carom_max(plan->places, 2);
   const int64_t block = (int64_t)carom_within((double)plan->scan / parts, LEAST, MOST);
   if (plan->tried >= 4 * plan->scan || plan->count >= plan->scan_end || carom_is_stopped(plan))
     return false;
@@ -364,12 +375,14 @@ bool carom_search_scan(search *plan) {
     double phi = 360.0 * turn;
     if (plan->places > 0 && plan->tried % 2 == 1)
       phi = towards(plan, row);
-    const bool pushes = (plan->permissions & CAROM_MAY_PUSH) && plan->tried % 2 == 1;
+    int16_t kind = CAROM_PLAN_SCAN;
+    if ((plan->permissions & CAROM_MAY_PUSH) && plan->tried % 2 == 1)
+      kind = CAROM_PLAN_PUSH;
     carom_search_add(plan, (candidate){.speed = carom_tip_gain(plan->job.cue) * scan_speed[speed],
                                        .phi = phi,
                                        .a = tip[0],
                                        .b = tip[1],
-                                       .kind = pushes ? CAROM_PLAN_PUSH : CAROM_PLAN_SCAN});
+                                       .kind = kind});
   }
   plan->tried = end;
   carom_search_stage(plan, first, plan->count - first, 1, 0);

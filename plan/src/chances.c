@@ -6,6 +6,7 @@
 #include "platform/elementary.h"
 #include "view.h"
 
+#include <math.h>
 #include <string.h>
 
 static double chance(const double *w, const double *x, int n) {
@@ -26,8 +27,9 @@ static const learned *numbers_of(const carom_view *view) {
                                   [CAROM_RACE_SHARED] = CAROM_RULES_NINEBALL,
                                   [CAROM_RACE_ALONE] = CAROM_RULES_EIGHTBALL,
                                   [CAROM_RACE_POINTS] = CAROM_RULES_STRAIGHT};
-  return &learned_of[carom_is_learned(view) ? view->rules->learned - 1
-                                            : with_race[view->rules->race]];
+  if (carom_is_learned(view))
+    return &learned_of[view->rules->learned - 1];
+  return &learned_of[with_race[view->rules->race]];
 }
 
 double carom_chance_usual(const carom_view *view) {
@@ -43,17 +45,18 @@ static const double least_chance = 1e-3; /* between two who never pot the chain 
 /* a_n, of a layout with this mean over the balls. */
 double carom_chance_later(const carom_view *view, int who, double mean, int n) {
   const double x[LATER_NUMBERS] = {1.0, view->log_error[who], 1.0 / n, mean};
-  const double a =
-      view->given[who] > 0.0 ? view->given[who] : chance(numbers_of(view)->later, x, LATER_NUMBERS);
-  return a > least_chance ? a : least_chance;
+  double a = view->given[who];
+  if (!(a > 0.0))
+    a = chance(numbers_of(view)->later, x, LATER_NUMBERS);
+  return fmax(a, least_chance);
 }
 
 /* e_n; that of an opponent who makes every ball is 1. */
 double carom_chance_first(const carom_view *view, int who, int n) {
   const double x[FIRST_NUMBERS] = {1.0, view->log_error[who], 1.0 / n};
-  const double e =
-      who == 1 && view->given[1] == 1.0 ? 1.0 : chance(numbers_of(view)->first, x, FIRST_NUMBERS);
-  return e > least_chance ? e : least_chance;
+  if (who == 1 && view->given[1] == 1.0)
+    return 1.0;
+  return fmax(chance(numbers_of(view)->first, x, FIRST_NUMBERS), least_chance);
 }
 
 void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
@@ -89,13 +92,9 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
       each[k] = likeliest;
   }
 
-  const double numbers[NEXT_NUMBERS] = {1.0,
-                                        view->log_error[who],
-                                        count > 0 ? sum / count : 0.0,
-                                        best,
-                                        second,
-                                        count == 1 ? 1.0 : 0.0,
-                                        in_hand ? 1.0 : 0.0};
+  const double mean = sum / (double)carom_max(count, 1);
+  const double numbers[NEXT_NUMBERS] = {1.0,    view->log_error[who], mean,   best,
+                                        second, count == 1,           in_hand};
   memcpy(x, numbers, sizeof numbers);
 }
 

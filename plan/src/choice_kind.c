@@ -11,7 +11,9 @@ typedef carom_search search;
 static int32_t point_kind(const carom_facts *facts, int ball) {
   if (facts->first[0] != ball || facts->first[1] < 0)
     return -1;
-  return facts->cushions_before[0] > 0 ? CAROM_PLAN_KICK : CAROM_PLAN_CAROM;
+  if (facts->cushions_before[0] > 0)
+    return CAROM_PLAN_KICK;
+  return CAROM_PLAN_CAROM;
 }
 
 int32_t carom_search_kind(search *plan, const carom_candidate *c, const carom_choice *choice) {
@@ -26,7 +28,9 @@ int32_t carom_search_kind(search *plan, const carom_candidate *c, const carom_ch
   for (int64_t n = 0; n < TRIES; n++) {
     carom_facts facts;
     carom_shot shot = {.brief = plan->event, .room = EVENTS, .facts = &facts};
-    const uint32_t draws = n == 0 ? 0 : DRAW_ROUND;
+    uint32_t draws = DRAW_ROUND;
+    if (n == 0) /* without errors */
+      draws = 0;
     carom_cue cue = carom_search_stroke(plan, c, draws, n);
     carom_ball_state struck;
     const carom_prepared layout = carom_search_layout(plan, c, draws, n, &struck);

@@ -21,12 +21,9 @@
 enum { RESTITUTION, FRICTION, ROLLING, SLIDING, NUMBERS };
 static const double spread[NUMBERS] = {0.1155, 0.1681, 0.2887, 0.2624};
 
-/* At most 1: all are shares. */
+/* At most 1, as all are shares. */
 static double times(double number, double factor) {
-  const double product = number * factor;
-  if (product < 1.0)
-    return product;
-  return number < 1.0 ? 1.0 : number;
+  return carom_within(number * factor, 0.0, fmax(number, 1.0));
 }
 
 void carom_search_tables(carom_search *plan, carom_drawn_table *room) {
@@ -34,8 +31,9 @@ void carom_search_tables(carom_search *plan, carom_drawn_table *room) {
   for (int k = 0; k < TABLES; k++) {
     double z[6], factor[NUMBERS];
     carom_normals(plan->options.seed, DRAW_TABLES, (uint64_t)k / 2, z);
+    const double sign = 1.0 - 2.0 * (k % 2);
     for (int n = 0; n < NUMBERS; n++)
-      factor[n] = carom_exp(plan->options.unsure * spread[n] * (k % 2 == 0 ? z[n] : -z[n]));
+      factor[n] = carom_exp(plan->options.unsure * spread[n] * sign * z[n]);
 
     /* the numbers of the balls; and those that a rail or a jaw has of its own, which are 0 where it
      * has none */

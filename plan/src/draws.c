@@ -13,9 +13,11 @@ double carom_angle_of(double x, double y) {
     const double angle = carom_atan(y / x);
     if (x > 0.0)
       return angle;
-    return y >= 0.0 ? angle + pi : angle - pi;
+    if (y >= 0.0)
+      return angle + pi;
+    return angle - pi;
   }
-  return (y > 0.0 ? 0.5 : -0.5) * pi - carom_atan(x / y);
+  return copysign(0.5 * pi, y) - carom_atan(x / y);
 }
 
 double carom_asin(double x) {

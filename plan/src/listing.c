@@ -50,7 +50,9 @@ static told told_of(const candidate *c) {
   if (c->fresh.seen == 0)
     return chose;
   const told fresh = told_by(&c->fresh);
-  const double used = c->round > 0 ? fmin((double)c->chose.seen, shots) : 0.0;
+  double used = 0.0;
+  if (c->round > 0)
+    used = fmin((double)c->chose.seen, shots);
   const double part = used / ((double)c->fresh.seen + used), rest = 1.0 - part;
   return (told){part * chose.value + rest * fresh.value, rest * fresh.error,
                 part * chose.keep + rest * fresh.keep, part * chose.foul + rest * fresh.foul,
@@ -90,20 +92,26 @@ carom_choice carom_search_choice(const search *plan, const candidate *c) {
   /* by about so many standard errors a plan that was stopped overestimates what it has chosen */
   const bool strikes = c->kind != CAROM_PLAN_PASS;
   const bool lucky = c->fresh.seen == 0 && strikes && c->kind != CAROM_PLAN_GIVEN;
-  const double value = chances.value - (lucky ? 0.75 * chances.error : 0.0);
+  double value = chances.value;
+  if (lucky)
+    value -= 0.75 * chances.error;
+  if (value < 0.0)
+    value = 0.0;
   carom_choice choice = {.cue = *plan->job.cue,
                          .place = {c->r[0], c->r[1]},
                          .kind = kind_of(c, &pot),
                          .ball = pot.ball,
                          .pocket = pot.pocket,
                          .cushions = pot.cushions,
-                         .value = value < 0.0 ? 0.0 : value,
+                         .value = value,
                          .error = chances.error,
                          .keep = chances.keep,
                          .foul = chances.foul,
                          .lose = chances.lose};
-  if (strikes && (c->round > 0 || c->fresh.seen > 0))
-    choice.seen = c->fresh.seen + (c->round > 0 ? c->chose.seen : 0);
+  if (strikes)
+    choice.seen = c->fresh.seen;
+  if (strikes && c->round > 0)
+    choice.seen += c->chose.seen;
 
   /* its stroke, by the caller's cue */
   choice.cue.speed = c->speed;

@@ -76,7 +76,9 @@ static void keep_place(search *plan, const double r[2]) {
   const int cue_ball = plan->view.cue_ball;
   plan->state[cue_ball] = plan->hand[cue_ball].state;
   const double value = carom_value_of(&plan->view, &plan->job.rules->state, plan->state, 0, false);
-  int at = plan->places < PLACES_MOST ? plan->places++ : PLACES_MOST;
+  int at = PLACES_MOST;
+  if (plan->places < PLACES_MOST)
+    at = plan->places++;
   for (; at > 0 && plan->best_place[at - 1].value < value; at--)
     plan->best_place[at] = plan->best_place[at - 1];
   plan->best_place[at] = (carom_place_in_hand){{r[0], r[1]}, value};
@@ -86,7 +88,9 @@ bool carom_search_find_places(search *plan, const double low[2], const double hi
   plan->places = 0;
   if (!find_range(plan, low, high))
     return false;
-  const uint64_t draws = plan->breaks ? BREAK_PLACES : 50 * PLACES;
+  uint64_t draws = 50 * PLACES;
+  if (plan->breaks)
+    draws = BREAK_PLACES;
   int tried = 0;
   for (uint64_t k = 0; k < draws && tried < PLACES; k++) {
     double r[2];

@@ -56,8 +56,9 @@ static const double player_most = 1000.0; /* of each number of a player */
 
 static carom_status check_options(const carom_plan_options *o) {
   CAROM_PLAN_OPTIONS(CAROM_CHECK_OPTION)
-  const bool good = o->slice >= 0 && o->unused == 0 && CAROM_RESERVED_IS_ZERO(o);
-  return good ? CAROM_OK : CAROM_ERROR_OPTIONS;
+  if (o->slice < 0 || o->unused != 0 || !CAROM_RESERVED_IS_ZERO(o))
+    return CAROM_ERROR_OPTIONS;
+  return CAROM_OK;
 }
 
 static bool good_player(const carom_player *p) {
@@ -74,7 +75,9 @@ static bool good_player(const carom_player *p) {
 static int64_t shots_of(const carom_plan_options *o) {
   if (o->shots > 0)
     return o->shots;
-  return o->seconds > 0.0 ? SHOTS_IN_TIME : SHOTS_USUAL;
+  if (o->seconds > 0.0)
+    return SHOTS_IN_TIME;
+  return SHOTS_USUAL;
 }
 
 /* A quarter of the shots are strokes of pots, each of which is played once without errors; then
@@ -90,32 +93,40 @@ static int64_t most_rows(int64_t shots, double scan) {
   return shots + most_candidates(shots, scan);
 }
 
-static size_t bytes_of(int64_t shots, double scan, bool unsure) {
-  const size_t rows = (size_t)most_rows(shots, scan);
-  return sizeof(search) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
-         rows * sizeof(outcome) + (unsure ? TABLES * sizeof(carom_drawn_table) : 0);
+static const carom_plan_options *or_usual(const carom_plan_options *options) {
+  if (options == NULL)
+    return &no_options;
+  return options;
 }
 
 size_t carom_plan_memory(const carom_plan_options *options) {
-  const carom_plan_options *o = options != NULL ? options : &no_options;
+  const carom_plan_options *o = or_usual(options);
   if (check_options(o) != CAROM_OK)
     return 0;
-  return bytes_of(shots_of(o), carom_scan_of(o), o->unsure > 0.0);
+  const int64_t shots = shots_of(o);
+  const double scan = carom_scan_of(o);
+  size_t bytes = sizeof(search) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
+                 (size_t)most_rows(shots, scan) * sizeof(outcome);
+  if (o->unsure > 0.0)
+    bytes += TABLES * sizeof(carom_drawn_table);
+  return bytes;
 }
 
 /* Where a plan is in the caller's memory; NULL where there is too little of it, or nothing to
  * plan. */
 static search *place(const carom_plan_job *job) {
-  const bool room =
-      job != NULL && job->memory != NULL && job->memory_size >= carom_plan_memory(job->options);
-  return room ? job->memory : NULL;
+  if (job == NULL || job->memory_size < carom_plan_memory(job->options))
+    return NULL;
+  return job->memory;
 }
 
 /* Checks the cue of a plan with the stroke of another one. A speed of 0 is raised later by the
  * bounds of the player, so the rest of the cue counts. */
 static carom_status check_stroke(const search *plan, const carom_cue *stroke) {
   carom_cue cue = *plan->job.cue;
-  cue.speed = stroke->speed == 0.0 ? 1.0 : stroke->speed;
+  cue.speed = stroke->speed;
+  if (stroke->speed == 0.0)
+    cue.speed = 1.0;
   cue.phi = stroke->phi;
   cue.theta = stroke->theta;
   cue.a = stroke->a;
@@ -131,10 +142,6 @@ static carom_status prepare(search *plan, const carom_shot_ball *balls, bool wit
   if (status != CAROM_OK || !with_cue)
     return status;
   return check_stroke(plan, &(carom_cue){0});
-}
-
-static const carom_plan_options *options_of(const carom_plan_job *job) {
-  return job->options != NULL ? job->options : &no_options;
 }
 
 static bool is_whole(const carom_plan_job *job) {
@@ -170,23 +177,26 @@ static bool good_rules(const carom_plan_rules *rules) {
 static carom_status check_job(const carom_plan_job *job) {
   if (!is_whole(job))
     return CAROM_ERROR_NULL;
-  const carom_plan_options *options = options_of(job);
+  const carom_plan_options *options = or_usual(job->options);
   const bool good_players =
       good_player(job->player) && (options->opponent == NULL || good_player(options->opponent));
-  const bool good = check_options(options) == CAROM_OK && good_players && good_rules(job->rules) &&
-                    CAROM_RESERVED_IS_ZERO(job);
-  return good ? CAROM_OK : CAROM_ERROR_OPTIONS;
+  if (check_options(options) != CAROM_OK || !good_players || !good_rules(job->rules) ||
+      !CAROM_RESERVED_IS_ZERO(job))
+    return CAROM_ERROR_OPTIONS;
+  return CAROM_OK;
 }
 
 /* Takes a job, its options and its player. Shots have the caller's options but for when to stop,
  * which the plan says itself. */
 static void take_job(search *plan, const carom_plan_job *job) {
   plan->job = *job;
-  plan->options = *options_of(job);
+  plan->options = *or_usual(job->options);
   plan->player = carom_player_bounded(job->player, job->cue);
   if (plan->options.shots == 0 && plan->options.seconds == 0.0)
     plan->options.shots = (int64_t)job->player->shots;
-  plan->shot = job->shot != NULL ? *job->shot : no_shot;
+  plan->shot = no_shot;
+  if (job->shot != NULL)
+    plan->shot = *job->shot;
   plan->shot.threads = 0;
   plan->shot.stop_at = 0;
   plan->shot.first_of = 0;
@@ -202,8 +212,12 @@ static carom_status check_layout(search *plan, bool in_hand) {
     return status;
   if (job->cue->ball < 0 || job->cue->ball >= job->count)
     return CAROM_ERROR_CUE_BALL;
-  const bool at_rest = carom_is_at_rest(&plan->layout, in_hand ? (int)job->cue->ball : -1);
-  return at_rest ? CAROM_OK : CAROM_ERROR_IN_MOTION;
+  int moves = -1;
+  if (in_hand)
+    moves = (int)job->cue->ball;
+  if (!carom_is_at_rest(&plan->layout, moves))
+    return CAROM_ERROR_IN_MOTION;
+  return CAROM_OK;
 }
 
 /* Candidates, outcomes and tables stand behind the plan in the caller's memory. */
@@ -227,7 +241,9 @@ static carom_status ask_rules(search *plan, bool in_hand) {
     plan->state[k] = plan->job.balls[k].state;
 
   /* the balls */
-  plan->in_play = carom_in_play(plan->state, plan->view.count) | (in_hand ? cue_ball : 0);
+  plan->in_play = carom_in_play(plan->state, plan->view.count);
+  if (in_hand)
+    plan->in_play |= cue_ball;
   plan->targets = rules->on(&rules->state, plan->in_play) & plan->in_play & ~cue_ball;
   if (plan->targets == 0)
     return CAROM_ERROR_GAME_OVER;
@@ -299,7 +315,7 @@ static carom_status prepare_job(const carom_plan_job *job, bool in_hand, int wan
     return status;
   plan->late = plan->joins = false;
   plan->places = plan->place = 0;
-  plan->wanted = wanted < LISTED_MOST ? wanted : LISTED_MOST;
+  plan->wanted = (int)carom_min(wanted, LISTED_MOST);
   plan->seconds = plan->options.seconds;
   if (plan->options.unsure > 0.0)
     carom_search_tables(plan, (carom_drawn_table *)(plan->outcome + plan->room));
@@ -322,9 +338,13 @@ static void think(search *plan) {
 
 /* Does a part of a plan, `work`, with the threads that the options ask for. */
 static void with_crew(search *plan, carom_crew_caller *work) {
-  plan->end = plan->seconds > 0.0 ? carom_seconds() + plan->seconds : 0.0;
+  const bool timed = plan->seconds > 0.0;
+  plan->end = 0.0;
+  if (timed)
+    plan->end = carom_seconds() + plan->seconds;
   carom_with_crew(work, plan, plan->options.threads, (size_t)plan->room / ROWS_LEAST);
-  plan->seconds = plan->end > 0.0 ? fmax(plan->end - carom_seconds(), 1e-9) : 0.0;
+  if (timed)
+    plan->seconds = fmax(plan->end - carom_seconds(), 1e-9);
 }
 
 static void plan_here(void *context, carom_crew *crew) {
@@ -369,10 +389,14 @@ static void try_all(void *context, carom_crew *crew) {
 
 /* Plays a slice of a plan, or what is left of it; and gives what it found if that is the end. */
 static carom_status play_slice(search *plan, carom_choice *choices, int room, int *found) {
-  plan->slice = plan->options.slice > 0 ? plan->options.slice : INT64_MAX;
+  plan->slice = INT64_MAX;
+  if (plan->options.slice > 0)
+    plan->slice = plan->options.slice;
   if (!plan->ended)
     with_crew(plan, plan->go);
-  *found = plan->ended ? carom_search_give(plan, choices, room) : 0;
+  *found = 0;
+  if (plan->ended)
+    *found = carom_search_give(plan, choices, room);
   return CAROM_OK;
 }
 
@@ -397,9 +421,9 @@ carom_status carom_plan_continue(const carom_plan_job *job, carom_choice *choice
   search *plan = place(job);
   if (plan == NULL)
     return CAROM_ERROR_NULL;
-  const bool same =
-      job->count >= 2 && job->count <= CAROM_BALLS_MOST && plan->fingerprint == fingerprint_of(job);
-  return same ? play_slice(plan, choices, room, found) : CAROM_ERROR_STATE;
+  if (job->count < 2 || job->count > CAROM_BALLS_MOST || plan->fingerprint != fingerprint_of(job))
+    return CAROM_ERROR_STATE;
+  return play_slice(plan, choices, room, found);
 }
 
 carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], const double high[2],
@@ -456,8 +480,8 @@ carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *va
   const carom_status status = begin(&plan, job, in_hand != 0);
   if (status != CAROM_OK)
     return status;
-  const double found = carom_value_of(&plan.view, &job->rules->state, plan.state, 0, in_hand != 0);
-  const bool is_share = job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL;
-  *value = is_share ? carom_search_share(&plan, found) : found;
+  *value = carom_value_of(&plan.view, &job->rules->state, plan.state, 0, in_hand != 0);
+  if (job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL)
+    *value = carom_search_share(&plan, *value);
   return CAROM_OK;
 }

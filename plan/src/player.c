@@ -27,7 +27,7 @@ carom_player carom_player_fargo(double rating) {
       {0.159, 230.0, 0.57}, {0.101, 257.0, 0.31}, {0.05, 500.0, 0.0},   {0.025, 500.0, 0.0}};
   enum { STEPS = sizeof at_rating / sizeof at_rating[0] - 1 };
   static const double least = 200.0, most = 850.0, step = 100.0, growth = 0.25, speed = 2.0;
-  const double r = rating > least ? carom_within(rating, least, most) : least;
+  const double r = fmin(fmax(rating, least), most); /* the least of NaN too */
   const int k = (int)carom_min((int64_t)((r - least) / step), STEPS - 1);
   const double part = (r - least) / step - k, *low = at_rating[k], *high = at_rating[k + 1];
 
@@ -61,12 +61,13 @@ carom_player carom_player_bounded(const carom_player *player, const carom_cue *c
   bounded.speed = gain * player->speed;
   bounded.growth = player->growth / gain;
   const double least = player->speed_least, most = player->speed_most;
-  const bool is_slow = most > 0.0 && most < usual_least;
   if (!(least > 0.0))
-    bounded.speed_least = is_slow ? most : usual_least;
+    bounded.speed_least = usual_least;
+  if (!(least > 0.0) && most > 0.0)
+    bounded.speed_least = fmin(most, usual_least);
   if (!(most > 0.0))
-    bounded.speed_most = least > usual_most ? least : usual_most;
-  bounded.tip_most = player->tip_most > 0.0 ? player->tip_most : 0.5;
+    bounded.speed_most = fmax(least, usual_most);
+  bounded.tip_most = carom_or_usual(player->tip_most, 0.5);
   return bounded;
 }
 

@@ -32,8 +32,7 @@ typedef struct visits {
 
 static visits visits_of(const carom_view *view, int who, double mean, int balls, double each) {
   visits v;
-  v.later = carom_chance_later(view, who, mean, balls);
-  v.later = v.later < 0.999 ? v.later : 0.999;
+  v.later = fmin(carom_chance_later(view, who, mean, balls), 0.999);
   v.first = carom_chance_first(view, who, balls);
   v.made = each * v.first / (1.0 - v.later);
   return v;
@@ -45,8 +44,7 @@ static double power(double x, double n) {
 }
 
 static double normal(double x) {
-  const double e = 0.5 * carom_erf(fabs(x) / 1.4142135623730951);
-  return x < 0.0 ? 0.5 - e : 0.5 + e;
+  return 0.5 + copysign(0.5 * carom_erf(fabs(x) / 1.4142135623730951), x);
 }
 
 /* From where the cue ball lies, or as pots.c has a cue ball in hand. */
@@ -77,21 +75,22 @@ static double value_from(const carom_view *view, const carom_rules_state *game,
   }
   const double mean = x[2], best = x[3];
   const int objects = carom_count_of(in_play & ~(UINT32_C(1) << view->cue_ball));
-  const double p = carom_chance_next(view, x) * (best > 0.0 ? chosen / best : 1.0);
+  double p = carom_chance_next(view, x);
+  if (best > 0.0)
+    p *= chosen / best;
 
   /* this visit */
   const visits own = visits_of(view, who, mean, objects, each),
                other = visits_of(view, 1 - who, mean, objects, each);
-  const double pots = 1.0 + (n > w ? ceil((n - w) / each) : 0.0),
-               all = power(own.later, pots - 1.0);
+  const double later_pots = ceil(fmax(n - w, 0.0) / each), all = power(own.later, later_pots);
   const double later = own.later * (1.0 - all) / (1.0 - own.later);
   const double wins = p * all, made = p * (w + each * later);
-  const double needed = n - made > 0.5 ? n - made : 0.5;
+  const double needed = fmax(n - made, 0.5);
 
   /* what follows it */
   const double needs = needed / own.made, others = m / other.made;
   const double his = other.first * power(other.later, ceil(m / each) - 1.0);
-  const double rest = others > 2.0 ? others - 1.0 : 0.5 * others;
+  const double rest = fmax(others - 1.0, 0.5 * others);
   const double variance = 0.25 + needs * (1.0 + each / own.made) + rest * (1.0 + each / other.made);
   const double then = normal((rest - needs + 0.5) / sqrt(variance));
   const double value = wins + (1.0 - wins) * (1.0 - his) * then;
@@ -111,10 +110,10 @@ double carom_points_value(const carom_view *view, const carom_rules_state *game,
   double best = 0.0;
   for (int k = -1; k <= 1; k++) {
     placed[view->cue_ball].r[0] = d.x + 0.6 * k * d.radius;
-    placed[view->cue_ball].r[1] = d.y - (k == 0 ? 0.5 * d.radius : 0.0);
-    const double value = value_from(view, game, placed, in_play, who, false);
-    if (value > best)
-      best = value;
+    placed[view->cue_ball].r[1] = d.y;
+    if (k == 0)
+      placed[view->cue_ball].r[1] -= 0.5 * d.radius;
+    best = fmax(best, value_from(view, game, placed, in_play, who, false));
   }
   return best;
 }

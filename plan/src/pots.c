@@ -73,7 +73,8 @@ carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double
   carom_window window = {.psi = mid, .half = 0.5}; /* of a ball between the jaws */
   if (!mouth->jaws) {
     const double sine = mouth->jaw[0][2] / sqrt(x * x + y * y);
-    window.half = sine < 1.0 ? carom_asin(sine) : 0.5;
+    if (sine < 1.0)
+      window.half = carom_asin(sine);
   } else {
     /* Where the jaws are from the middle, and how far their tangents are turned. */
     double turn[2], tangent[2];
@@ -89,7 +90,7 @@ carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double
       else if (turn[side] < -pi)
         back = 2.0 * pi;
       turn[side] += back;
-      tangent[side] = between ? 0.0 : carom_asin(sine);
+      tangent[side] = carom_asin(fmin(sine, 1.0));
     }
 
     /* Between the left one and the right one; from the side both may be on one side of the
@@ -111,8 +112,11 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
   const double *o = balls[k].r, *c = balls[view->cue_ball].r;
   const double R = view->radius[view->cue_ball], both = R + view->radius[k];
   const bool there = o[0] == view->at[k][0] && o[1] == view->at[k][1];
-  const carom_window window =
-      there ? view->window[k][pocket] : carom_window_of(mouth, o, view->radius[k]);
+  carom_window window;
+  if (there)
+    window = view->window[k][pocket];
+  else
+    window = carom_window_of(mouth, o, view->radius[k]);
   carom_way way = {.psi = window.psi, .half = window.half};
   if (!(way.half > 0.0))
     return way;
@@ -125,7 +129,9 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
 
   /* Distance and cut; in hand they are those of an easy shot. */
   const double dx = g[0] - c[0], dy = g[1] - c[1];
-  double d = sqrt(dx * dx + dy * dy), cut = d < 0.01 ? 1.0 : (dx * cosine + dy * sine) / d;
+  double d = sqrt(dx * dx + dy * dy), cut = 1.0;
+  if (d >= 0.01)
+    cut = (dx * cosine + dy * sine) / d;
   if (in_hand) {
     d = 0.3;
     cut = 0.97;

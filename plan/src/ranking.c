@@ -66,12 +66,19 @@ void carom_search_take(search *plan, int64_t k, const outcome *o) {
   carom_search_lead(plan, k);
 }
 
+/* The gap that follows a gap of Shell's method; the last one is 1. */
+static int64_t next_gap(int64_t gap) {
+  if (gap == 2)
+    return 1;
+  return gap * 5 / 11;
+}
+
 /* Sorts the first n candidates, by Shell's method, without memory. The order is total, so that it
  * does not matter how it is found. To sort half a million takes longer than a plan has to stop; a
  * sort that is stopped leaves the first in its place if that is the best. */
 void carom_search_sort(const search *plan, int64_t n) {
   candidate *c = plan->found;
-  for (int64_t gap = n / 2; gap > 0; gap = gap == 2 ? 1 : (gap * 5) / 11)
+  for (int64_t gap = n / 2; gap > 0; gap = next_gap(gap))
     for (int64_t k = gap; k < n && !carom_is_stopped(plan); k++) {
       const candidate moved = c[k];
       int64_t at = k;
@@ -94,7 +101,9 @@ static void add(carom_tally *t, const outcome *o) {
 static int64_t played(const search *plan, int64_t *each) {
   const carom_stage *s = &plan->stage;
   const int64_t n = s->rows / s->each;
-  *each = n == 1 ? s->done : s->each;
+  *each = s->each;
+  if (n == 1)
+    *each = s->done;
   CAROM_PROMISE(n >= 1 && s->first + n <= plan->count && *each >= 1 && s->rows <= plan->room);
   return s->done / *each;
 }

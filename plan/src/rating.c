@@ -24,8 +24,13 @@ __attribute__((noinline)) static double likely(const carom_score *row, int64_t c
     const carom_score *s = &row[k];
     const double x = 0.01 * LN2 * (r - s->against), e = carom_exp(-fabs(x));
     const double worse = -fabs(x) - carom_log(1.0 + e), better = worse + fabs(x);
-    l += s->won * (x > 0.0 ? better : worse) + s->lost * (x > 0.0 ? worse : better);
-    const double sigma = (x > 0.0 ? 1.0 : e) / (1.0 + e);
+    double log_wins = worse, log_loses = better, sigma = e / (1.0 + e);
+    if (x > 0.0) {
+      log_wins = better;
+      log_loses = worse;
+      sigma = 1.0 / (1.0 + e);
+    }
+    l += s->won * log_wins + s->lost * log_loses;
     *slope += 0.01 * LN2 * (s->won * (1.0 - sigma) - s->lost * sigma);
   }
   return l;
@@ -38,8 +43,7 @@ __attribute__((noinline)) static double edge(const carom_score *row, int64_t cou
   double slope;
   for (int k = 0; k < 60; k++) {
     const double r = 0.5 * (inside + outside), l = likely(row, count, r, &slope);
-    const bool is_inside = of_slope ? slope > 0.0 : l > least;
-    if (is_inside)
+    if ((of_slope && slope > 0.0) || (!of_slope && l > least))
       inside = r;
     else
       outside = r;
@@ -81,7 +85,7 @@ carom_status carom_rating_of(const carom_score *rows, int64_t count, carom_ratin
   /* its mass and mean, in cells from low on */
   for (int k = 0; k <= 2 * CELLS; k++) {
     f[k] = carom_exp(likely(rows, count, low + 0.5 * k * cell, &slope) - top);
-    double simpson = k % 2 == 1 ? 4.0 : 2.0;
+    double simpson = (double[]){2.0, 4.0}[k % 2];
     if (k == 0 || k == 2 * CELLS)
       simpson = 1.0;
     const double weight = simpson / 6.0 * f[k];

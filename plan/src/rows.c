@@ -56,14 +56,17 @@ static carom_ball_state before(const search *plan, const candidate *c, int k) {
  * called, the candidate calls it; where only balls that are on may be called, it is one of them.
  * Without pockets it is the ball that was met first. */
 static carom_call call_of(const search *plan, const carom_facts *facts) {
-  carom_call call = {plan->view.pockets > 0 ? -1 : facts->first[0], -1};
-  const uint32_t all = ~(UINT32_C(1) << plan->view.cue_ball);
-  const uint32_t down = facts->down & (plan->job.rules->calls == 1 ? plan->targets : all);
+  if (plan->view.pockets == 0)
+    return (carom_call){facts->first[0], -1};
+  const int cue_ball = plan->view.cue_ball;
+  carom_call call = {-1, -1};
+  uint32_t down = facts->down & ~(UINT32_C(1) << cue_ball);
+  if (plan->job.rules->calls == 1)
+    down &= plan->targets;
   for (int k = 0; down >> k != 0; k++)
     if ((down >> k & 1) && (plan->pockets >> facts->pocket[k] & 1) &&
         (call.ball < 0 || facts->pocket_time[k] < facts->pocket_time[call.ball]))
       call = (carom_call){k, facts->pocket[k]};
-  const int cue_ball = plan->view.cue_ball;
   if (call.ball < 0 && (facts->down >> cue_ball & 1) != 0) /* off a ball: cowboy's last point */
     call = (carom_call){facts->first[0], facts->pocket[cue_ball]};
   return call;
@@ -83,7 +86,9 @@ __attribute__((noinline)) static void settle(const search *plan, carom_rules_sta
   carom_shot_ball balls[CAROM_BALLS_MOST];
   for (int k = 0; k < plan->view.count; k++) {
     balls[k] = plan->job.balls[k];
-    balls[k].state = taken_back ? before(plan, c, k) : final[k];
+    balls[k].state = final[k];
+    if (taken_back)
+      balls[k].state = before(plan, c, k);
   }
   carom_turn_settle(plan->job.rules, game, plan->job.table, balls, plan->view.count, turn);
   for (int k = 0; k < plan->view.count; k++)
@@ -95,10 +100,13 @@ __attribute__((noinline)) static void settle(const search *plan, carom_rules_sta
 static outcome judge(const search *plan, const carom_facts *facts, carom_ball_state *final,
                      carom_status status, const candidate *c, bool errors) {
   const carom_plan_rules *rules = plan->job.rules;
-  facts = status < 0 ? &carom_no_facts : facts; /* an error tells nothing: a foul */
-  const carom_call call = c->kind == CAROM_PLAN_PUSH ? (carom_call){CAROM_CALL_PUSH, -1}
-                          : errors && rules->calls   ? (carom_call){c->ball, c->pocket}
-                                                     : call_of(plan, facts);
+  if (status < 0) /* an error tells nothing: a foul */
+    facts = &carom_no_facts;
+  carom_call call = {CAROM_CALL_PUSH, -1};
+  if (c->kind != CAROM_PLAN_PUSH && errors && rules->calls)
+    call = (carom_call){c->ball, c->pocket};
+  else if (c->kind != CAROM_PLAN_PUSH)
+    call = call_of(plan, facts);
   carom_rules_state game = rules->state; /* rules change it as they judge */
   carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, facts, call);
   outcome o = {.turn = (int8_t)turn.is,
@@ -144,12 +152,13 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   /* any ball may be struck: about as good as the cue ball in hand */
   const bool in_hand = turn.leave >= CAROM_LEAVE_HAND || rules->any_cue_ball != 0;
   const bool passes = turn.is == CAROM_TURN_PASS;
-  const double value = carom_value_of(&plan->view, &game, final, passes, in_hand);
-  o.worth = value;
+  o.worth = carom_value_of(&plan->view, &game, final, passes, in_hand);
   if (passes)
-    o.worth = turn.foul != 0 ? carom_search_foul(1.0 - value) : 1.0 - value;
-  else if (alone)
-    o.worth = carom_search_share(plan, turn.points + value);
+    o.worth = 1.0 - o.worth;
+  if (passes && turn.foul != 0)
+    o.worth = carom_search_foul(o.worth);
+  if (alone && !passes)
+    o.worth = carom_search_share(plan, turn.points + o.worth);
   return o;
 }
 
@@ -175,6 +184,13 @@ void carom_search_lay_out(search *plan, const carom_shot_ball *balls) {
   }
 }
 
+/* The ball of the layout that is a ball of a shot; -1 stays. */
+static int32_t in_layout(const search *plan, int32_t ball) {
+  if (ball < 0)
+    return ball;
+  return plan->which[ball];
+}
+
 /* From the balls of a shot to those of the layout. */
 static void spread(const search *plan, shot_result *with) {
   carom_facts *f = &with->facts;
@@ -188,17 +204,23 @@ static void spread(const search *plan, shot_result *with) {
     *set[s] = all;
   }
   for (int n = 0; n < 2; n++)
-    f->first[n] = f->first[n] < 0 ? f->first[n] : plan->which[f->first[n]];
+    f->first[n] = in_layout(plan, f->first[n]);
   for (int m = 0; m < plan->plays; m++)
-    f->order[m] = f->order[m] < 0 ? f->order[m] : plan->which[f->order[m]];
+    f->order[m] = in_layout(plan, f->order[m]);
   int n = plan->plays - 1;
   for (int k = plan->view.count - 1; k >= 0; k--) {
-    const bool plays = n >= 0 && plan->which[n] == k;
-    with->final[k] = plays ? with->final[n] : plan->job.balls[k].state;
-    f->pocket[k] = plays ? of_shot.pocket[n] : -1;
-    f->pocket_time[k] = plays ? of_shot.pocket_time[n] : INFINITY;
-    f->cushions[k] = plays ? of_shot.cushions[n] : 0;
-    n -= plays;
+    if (n >= 0 && plan->which[n] == k) {
+      with->final[k] = with->final[n];
+      f->pocket[k] = of_shot.pocket[n];
+      f->pocket_time[k] = of_shot.pocket_time[n];
+      f->cushions[k] = of_shot.cushions[n];
+      n--;
+    } else {
+      with->final[k] = plan->job.balls[k].state;
+      f->pocket[k] = -1;
+      f->pocket_time[k] = INFINITY;
+      f->cushions[k] = 0;
+    }
   }
 }
 
@@ -219,12 +241,17 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
     if (plan->plays < plan->view.count)
       spread(plan, &result);
-    const int met = status < 0 ? -1 : result.facts.first[0];
-    const bool dropped =
-        s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(plan, met);
-    plan->outcome[row] = dropped ? (outcome){.first = (int8_t)met}
-                                 : judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
-    plan->outcome[row].events = (uint8_t)(shot.count < 255 ? shot.count : 255);
+    int met = -1;
+    if (status >= 0)
+      met = result.facts.first[0];
+
+    /* a stroke of the scan that begins with a foul is dropped: its layout is not judged */
+    outcome *o = &plan->outcome[row];
+    if (s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(plan, met))
+      *o = (outcome){.first = (int8_t)met};
+    else
+      *o = judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
+    o->events = (uint8_t)carom_min(shot.count, UINT8_MAX);
   }
   return end;
 }
@@ -240,12 +267,14 @@ bool carom_search_play(search *plan) {
   carom_stage *s = &plan->stage;
   do {
     /* in a slice a block of rows whose events are hardly more than what is left of it */
-    const int64_t left = s->rows - s->done, block = plan->slice / EVENTS_MOST + (plan->slice > 0);
-    const size_t rows = (size_t)(left > block && !carom_is_stopped(plan) ? block : left);
-    const int64_t played = (int64_t)carom_crew_work(plan->crew, s->work, plan, rows, ROWS_LEAST);
+    int64_t rows = s->rows - s->done;
+    if (!carom_is_stopped(plan))
+      rows = carom_min(rows, plan->slice / EVENTS_MOST + (plan->slice > 0));
+    const int64_t played =
+        (int64_t)carom_crew_work(plan->crew, s->work, plan, (size_t)rows, ROWS_LEAST);
     for (int64_t k = s->done; k < s->done + played && plan->slice > 0; k++) {
       const int64_t events = 1 + plan->outcome[k].events;
-      plan->slice -= events < plan->slice ? events : plan->slice;
+      plan->slice -= carom_min(events, plan->slice);
     }
     s->done += played;
     plan->late |= carom_is_late(plan);

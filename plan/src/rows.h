@@ -26,7 +26,7 @@ bool carom_search_begins_well(const carom_search *plan, int first);
  * legal stroke that is as good is to be chosen. */
 static inline double carom_search_foul(double worth) {
   const double less = 0.03;
-  return worth > less ? worth - less : 0.0;
+  return carom_within(worth - less, 0.0, 1.0);
 }
 /* Points as a share of the balls left before the shot. */
 double carom_search_share(const carom_search *plan, double points);

@@ -26,7 +26,10 @@ enum { ROUNDS = 4, NEAR_ROUND = 2, BLIND_PARENTS = 4 };
  * `keep` of the scan, or half; of tables without pockets the best. */
 static int64_t first_round(search *plan, int64_t keep) {
   const int64_t n = carom_min(plan->count, keep);
-  const int64_t share = carom_max(keep / (plan->blind ? 2 : 3), 3);
+  int64_t share = keep / 3;
+  if (plan->blind)
+    share = keep / 2;
+  share = carom_max(share, 3);
   int64_t scanned = 0, good = 0;
   for (int64_t k = 0; k < n; k++) {
     candidate *c = &plan->found[k];
@@ -56,10 +59,8 @@ static candidate gentle(const search *plan) {
       phi = carom_angle_of(x, y) / degree;
     }
   }
-  if (phi < 0.0)
-    phi += 360.0;
   return (candidate){.speed = plan->player.speed_least,
-                     .phi = phi,
+                     .phi = carom_turned(phi),
                      .kind = CAROM_PLAN_FOUL,
                      .ball = -1,
                      .pocket = -1};
@@ -76,7 +77,9 @@ double carom_scan_of(const carom_plan_options *o) {
 
 /* Shots of the rounds: at least a third of all. */
 static int64_t left_for_rounds(const search *plan) {
-  const int64_t left = plan->shots - plan->count - (plan->blind ? plan->shots / 4 : 0);
+  int64_t left = plan->shots - plan->count;
+  if (plan->blind)
+    left -= plan->shots / 4;
   return carom_max(left, plan->shots / 3);
 }
 
@@ -85,7 +88,8 @@ static bool loses(const search *plan) {
   enum { BEST = 4 };
   int64_t lost = 0;
   for (int64_t k = 0; k < plan->count && k < BEST; k++)
-    lost += plan->found[k].round > 0 ? plan->found[k].chose.lose : 0;
+    if (plan->found[k].round > 0)
+      lost += plan->found[k].chose.lose;
   return lost > 0;
 }
 
@@ -199,9 +203,11 @@ static int64_t in_round(search *plan) {
 /* Strokes near the best are played once without errors. False where there are none. */
 static bool add_near(search *plan) {
   const int64_t first = plan->count;
+  int64_t parents = 1;
+  if (plan->blind)
+    parents = BLIND_PARENTS;
   plan->near = 0;
   plan->entered = in_round(plan);
-  const int64_t parents = plan->blind ? BLIND_PARENTS : 1;
   carom_search_near(plan, carom_min(plan->entered, parents));
   if (plan->count == first)
     return false;
@@ -233,10 +239,14 @@ static void next_round(search *plan) {
       look_again(plan);
     return;
   }
-  const bool joined = plan->blind ? plan->round > 0 : plan->round == NEAR_ROUND;
+  const bool joined = plan->round == NEAR_ROUND || (plan->blind && plan->round > 0);
   if (joined && plan->near < 0 && add_near(plan))
     return;
-  const int64_t n = joined ? plan->entered + plan->near : in_round(plan);
+  int64_t n;
+  if (joined)
+    n = plan->entered + plan->near;
+  else
+    n = in_round(plan);
   const int64_t share = carom_max(left_for_rounds(plan) / ROUNDS / n, 2);
   const int64_t each = carom_min(share, plan->room / n);
   carom_search_stage(plan, 0, n, each, DRAW_ROUND + (uint32_t)plan->round);
@@ -274,10 +284,17 @@ static void scan(search *plan) {
   }
 }
 
+/* The share of the scan in the shots; a break has none. */
+static double scan_share(const search *plan) {
+  if (plan->breaks)
+    return 0.0;
+  return carom_scan_of(&plan->options);
+}
+
 /* The most pots, or strokes of a break, from a place. */
 static int64_t pots_of(const search *plan) {
-  const double share = plan->breaks ? 0.0 : carom_scan_of(&plan->options);
-  return (int64_t)((1.0 - share) * (double)plan->shots / 4.0) / carom_max(plan->raced, 1);
+  return (int64_t)((1.0 - scan_share(plan)) * (double)plan->shots / 4.0) /
+         carom_max(plan->raced, 1);
 }
 
 static void go_on(search *plan) {
@@ -342,9 +359,8 @@ static void go_on(search *plan) {
 
 void carom_search_begin(search *plan, int64_t shots) {
   enum { SHOTS_A_PLACE = 40, PLACES_LEAST = 6 };
-  const double share = plan->breaks ? 0.0 : carom_scan_of(&plan->options);
   plan->shots = shots;
-  plan->scan = (int64_t)(share * (double)shots);
+  plan->scan = (int64_t)(scan_share(plan) * (double)shots);
   plan->count = plan->tried = 0;
   plan->round = plan->look = plan->duels = 0;
   plan->near = -1;
@@ -353,7 +369,6 @@ void carom_search_begin(search *plan, int64_t shots) {
   /* the first place */
   const int64_t raced = carom_max(shots / SHOTS_A_PLACE, PLACES_LEAST);
   plan->raced = (int)carom_min(plan->places, raced);
-  plan->place = -1;
   plan->place = -1;
   carom_search_next_place(plan);
   if (!plan->breaks) {

@@ -42,14 +42,16 @@ static double raised(const stick *s, double L, double D, double h, double r) {
   const double up = s->R - h, sine = (sqrt(r * r - L * L) - s->b * s->R) / sqrt(D * D + up * up);
   if (sine >= 1.0)
     return 0.5 * pi;
-  return (sine <= -1.0 ? -0.5 * pi : carom_asin(sine)) - carom_angle_of(D, up);
+  return carom_asin(carom_greater(sine, -1.0)) - carom_angle_of(D, up);
 }
 
 /* The same of any point. One that is not below the stick gets less than any other, and the less,
  * the farther it is from there. */
 static double needed(const stick *s, double L, double D, double h, double r) {
   const double off = carom_greater(carom_greater(-D, D - stick_end - 1e-12), fabs(L) - r);
-  return off >= 0.0 ? -pi - off : raised(s, L, D, h, r);
+  if (off >= 0.0)
+    return -pi - off;
+  return raised(s, L, D, h, r);
 }
 
 static double radius_at(double D) {
@@ -79,17 +81,19 @@ static double most_between(const stick *axis, const nose *n, double low, double 
   for (int step = -2; step < STEPS; step++) {
     /* two places; then the worse one is an end, and a place comes on the other side */
     int next = step + 2;
-    if (step >= 0)
-      next = theta[0] < theta[1] ? 1 : 0;
     if (step >= 0) {
+      next = theta[0] < theta[1];
       if (next == 1)
-        low = at[1 - next];
+        low = at[0];
       else
-        high = at[1 - next];
+        high = at[1];
       at[1 - next] = at[next];
       theta[1 - next] = theta[next];
     }
-    at[next] = next == 1 ? low + golden * (high - low) : high - golden * (high - low);
+    if (next == 1)
+      at[1] = low + golden * (high - low);
+    else
+      at[0] = high - golden * (high - low);
     theta[next] = needed_at(axis, n, at[next]);
   }
   return carom_greater(theta[0], theta[1]);
@@ -119,7 +123,9 @@ static double over_rail(const stick *axis, const carom_rail *rail) {
   keep_positive(part, stick_end - n.D, -n.along);
   keep_positive(part, radius_at(n.D) - n.L, grows - n.across);
   keep_positive(part, radius_at(n.D) + n.L, grows + n.across);
-  return part[0] < part[1] ? most_between(axis, &n, part[0], part[1]) : 0.0;
+  if (!(part[0] < part[1]))
+    return 0.0;
+  return most_between(axis, &n, part[0], part[1]);
 }
 
 /* What a jaw needs, or `least` if that is more. Its back needs more than its front where the stick
@@ -133,7 +139,9 @@ static double over_jaw(const stick *axis, const carom_jaw *jaw, double least) {
   if (n.D + rho <= 0.0 || needed(axis, beside, front, n.h, radius_at(n.D + rho)) <= least)
     return least;
   least = carom_greater(most_between(axis, &n, -wide, wide), least);
-  return least > 0.05 ? least : carom_greater(most_between(axis, &n, pi - wide, pi + wide), least);
+  if (least > 0.05)
+    return least;
+  return carom_greater(most_between(axis, &n, pi - wide, pi + wide), least);
 }
 
 double carom_least_elevation(const carom_table *table, const carom_shot_ball *balls, int count,

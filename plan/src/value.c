@@ -43,7 +43,8 @@ static void chain(carom_view *view, double a[2][MOST_LEFT + 1], double e[2][MOST
       const int m = total - n;
       if (shared && n != m)
         continue;
-      const double s = u[0][n - 1][shared ? n - 1 : m], t = u[1][m - 1][shared ? m - 1 : n];
+      /* a ball of both is gone for both */
+      const double s = u[0][n - 1][m - shared], t = u[1][m - 1][n - shared];
       const double c = e[0][n], d = e[1][m], f = c * s + 1.0 - c, g = d * t + 1.0 - d;
       const double det = 1.0 - (1.0 - c) * (1.0 - d);
       const double w = (f - (1.0 - c) * g) / det, v = (g - (1.0 - d) * f) / det;
@@ -56,7 +57,10 @@ static void chain(carom_view *view, double a[2][MOST_LEFT + 1], double e[2][MOST
 
 void carom_view_make(carom_view *view, const carom_plan_job *job,
                      const carom_plan_options *options) {
-  const carom_player *other = options->opponent != NULL ? options->opponent : job->player;
+  const carom_player *players[2] = {job->player, job->player};
+  if (options->opponent != NULL)
+    players[1] = options->opponent;
+  const double given[2] = {options->chance_me, options->chance_opponent};
   view->rules = job->rules;
   view->pockets = (int)job->table->pockets;
   view->count = (int)job->count;
@@ -71,14 +75,13 @@ void carom_view_make(carom_view *view, const carom_plan_job *job,
       view->window[k][p] = carom_window_of(&view->mouth[p], job->balls[k].state.r, view->radius[k]);
     memcpy(view->at[k], job->balls[k].state.r, sizeof view->at[k]);
   }
-  const carom_player *players[2] = {job->player, other};
   for (int who = 0; who < 2; who++) {
     /* the error of a usual pot */
     static const double usual_speed = 2.0;
     const double phi = players[who]->phi * carom_player_growth(players[who], usual_speed);
     view->sigma[who] = phi * (pi / 180.0);
-    view->log_error[who] = carom_log(phi > 0.01 ? phi / 0.1 : 0.1);
-    view->given[who] = who == 0 ? options->chance_me : options->chance_opponent;
+    view->log_error[who] = carom_log(fmax(phi / 0.1, 0.1));
+    view->given[who] = given[who];
   }
   const double mean = carom_chance_usual(view);
   double a[2][MOST_LEFT + 1] = {{0.0}}, e[2][MOST_LEFT + 1] = {{0.0}};
@@ -97,13 +100,11 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
   if (!alone && who == 1 && view->given[1] == 1.0)
     return 1.0;
   const bool shared = view->rules->race == CAROM_RACE_SHARED;
-  const int32_t most = alone ? CAROM_BALLS_MOST : MOST_LEFT;
-  int32_t left[2];
+  int32_t most = MOST_LEFT, left[2];
+  if (alone)
+    most = CAROM_BALLS_MOST;
   for (int k = 0; k < 2; k++)
-    if (given[k] < 1)
-      left[k] = 1;
-    else
-      left[k] = (int32_t)carom_min(given[k], most);
+    left[k] = (int32_t)carom_max(carom_min(given[k], most), 1);
   CAROM_PROMISE(who == 0 || who == 1);
   double x[NEXT_NUMBERS];
   carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, NULL, x);
@@ -112,15 +113,21 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
   /* the visit, ball by ball: how likely it is to come so far, and what a miss there is worth */
   double worth = 0.0, so_far = 1.0, next = p;
   for (int n = left[0]; n > 0; n--) {
+    int others = left[1];
+    if (shared)
+      others = n;
     if (alone)
       worth += so_far * next;
     else
-      worth += so_far * (1.0 - next) * (1.0 - view->win[1 - who][shared ? n : left[1]][n]);
+      worth += so_far * (1.0 - next) * (1.0 - view->win[1 - who][others][n]);
     so_far *= next;
-    next = n > 1 ? carom_chance_later(view, who, x[2], n - 1) : 0.0;
+    if (n > 1)
+      next = carom_chance_later(view, who, x[2], n - 1);
   }
   CAROM_PROMISE(worth >= 0.0 && so_far >= 0.0 && so_far <= 1.0 && (alone || worth <= 1.0));
-  return alone ? worth : carom_stretched(view, worth + so_far);
+  if (alone)
+    return worth;
+  return carom_stretched(view, worth + so_far);
 }
 
 /* The value to one who plays. */
@@ -150,6 +157,5 @@ double carom_value_of(const carom_view *view, const carom_rules_state *game,
   carom_rules_state passed = *game;
   rules->judge(&passed, in_play, view->cue_ball, &carom_no_facts,
                (carom_call){CAROM_CALL_PASS, -1});
-  const double passes = 1.0 - value_of_playing(view, &passed, balls, in_play, 1 - who, in_hand);
-  return plays > passes ? plays : passes;
+  return fmax(plays, 1.0 - value_of_playing(view, &passed, balls, in_play, 1 - who, in_hand));
 }

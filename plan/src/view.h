@@ -13,7 +13,18 @@ static const double pi = 3.14159265358979323846, degree = 3.14159265358979323846
 static inline double carom_within(double x, double least, double most) {
   if (x < least)
     return least;
-  return x > most ? most : x;
+  if (x > most)
+    return most;
+  return x;
+}
+
+/* A direction, degrees, of -360 to below 720 as one of 0 to below 360. */
+static inline double carom_turned(double phi) {
+  if (phi < 0.0)
+    return phi + 360.0;
+  if (phi >= 360.0)
+    return phi - 360.0;
+  return phi;
 }
 
 static inline int64_t carom_min(int64_t a, int64_t b) {
