@@ -419,7 +419,7 @@ static int run(breaker *b, const shot_line *line, const carom_cue *stroke, int s
     output_abandon();
   else if (output_commit()) {
     const bool drawn = job->plot == NULL || plot(b, line, gaps->at[0].x, words);
-    code = drawn ? EXIT_GOOD : EXIT_SOME;
+    code = exit_of(drawn);
   }
   free(words);
   return code;

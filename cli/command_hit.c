@@ -134,7 +134,7 @@ static void make(const series *s, one_case *c) {
   memset(in.b.w, 0, sizeof in.b.w);
   in.b.r[0] = 2.0 * R * cos(angle);
   in.b.r[1] = 2.0 * R * sin(angle);
-  in.mu_ball = isnan(v[FRICTION]->x) ? carom_mu_ball(&in, s->asked.friction.law) : v[FRICTION]->x;
+  in.mu_ball = value_or(v[FRICTION], carom_mu_ball(&in, s->asked.friction.law));
   memcpy(c->row, &in, sizeof in);
 }
 

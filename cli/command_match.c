@@ -5,6 +5,7 @@
 #include "program/message.h"
 #include "program/options.h"
 #include "program/output.h"
+#include "program/words.h"
 #include "subcommands.h"
 
 #include "carom_match.h"
@@ -81,7 +82,7 @@ static bool is_line(const char *line, const char *kind) {
 
 static void add_words(const char *words) {
   const size_t length = strlen(decided);
-  snprintf(decided + length, sizeof decided - length, "%s%s", length > 0 ? ", " : "", words);
+  snprintf(decided + length, sizeof decided - length, "%s%s", text_if(length > 0, ", "), words);
 }
 
 /* Adds what the line of an act says. */
@@ -133,13 +134,14 @@ static void tell_act(FILE *out, const char *line, int64_t player, int64_t ruling
   carom_ruling_string(&match.ruling, ruling, sizeof ruling);
   const bool concedes = match.rulings == rulings;
   for (int64_t k = 0; !concedes && k < match.ruling.falls; k++) {
-    char words[40];
-    snprintf(words, sizeof words, "pots ball %" PRId32, match.ruling.fall[k].ball);
-    add_words(match.ruling.fall[k].ball == match.cue_ball ? "scratches" : words);
+    char words[40] = "scratches";
+    if (match.ruling.fall[k].ball != match.cue_ball)
+      snprintf(words, sizeof words, "pots ball %" PRId32, match.ruling.fall[k].ball);
+    add_words(words);
   }
   if (out != NULL && decided[0] != '\0')
-    fprintf(out, "player %" PRId64 " %s%s%s\n", player + 1, decided, concedes ? "" : ": ",
-            concedes ? "" : ruling);
+    fprintf(out, "player %" PRId64 " %s%s%s\n", player + 1, decided, text_if(!concedes, ": "),
+            text_if(!concedes, ruling));
   else if (out != NULL)
     fprintf(out, "player %" PRId64 ": %s\n", player + 1, ruling);
   decided[0] = '\0';
@@ -151,11 +153,9 @@ static void tell_act(FILE *out, const char *line, int64_t player, int64_t ruling
  * unless it is NULL. Returns an exit code. */
 static int read_match(const char *path, FILE *text, FILE *words) {
   static carom_record scratch;
-  FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
-  if (in == NULL) {
-    complain("cannot read %s: %s", path, strerror(errno));
+  FILE *in = input_open(path);
+  if (in == NULL)
     return EXIT_USAGE;
-  }
   char *line = NULL;
   size_t space = 0;
   ssize_t size;
@@ -220,7 +220,7 @@ static bool play_stroke(players *p) {
   carom_choice best;
   const carom_status status = carom_match_plan(&match, &job, &best, 1, &found);
   if (status != CAROM_OK) {
-    complain("%s", match.fault[0] != '\0' ? match.fault : carom_status_string(status));
+    complain("%s", text_or(match.fault, carom_status_string(status)));
     return false;
   }
   const int64_t rulings = match.rulings;
@@ -246,12 +246,14 @@ static int play_match(players *p) {
   const match_job *job = p->job;
   carom_table table;
   if (match.phase == CAROM_MATCH_NONE) {
-    const carom_table_kind kind = (carom_table_kind)carom_rules_about_of(job->rules)->table;
-    carom_table_make(job->table >= 0 ? (carom_table_kind)job->table : kind, &table);
+    carom_table_kind kind = (carom_table_kind)carom_rules_about_of(job->rules)->table;
+    if (job->table >= 0)
+      kind = (carom_table_kind)job->table;
+    carom_table_make(kind, &table);
     const carom_status status =
         carom_match_begin(&match, job->rules, &table, (uint64_t)job->seed, job->breaks);
     if (status != CAROM_OK) {
-      complain("%s", match.fault[0] != '\0' ? match.fault : carom_status_string(status));
+      complain("%s", text_or(match.fault, carom_status_string(status)));
       return EXIT_USAGE;
     }
     fwrite(match.text, 1, (size_t)match.size, p->text);
@@ -288,23 +290,31 @@ int command_match(int argc, char **argv) {
   }
   match = (carom_match){0};
   decided[0] = '\0';
-  FILE *out = job.shows ? output_open(job.shared.output) : NULL;
-  code = path != NULL ? read_match(path, text, out) : EXIT_GOOD;
+  FILE *out = NULL;
+  if (job.shows)
+    out = output_open(job.shared.output);
+  code = EXIT_GOOD;
+  if (path != NULL)
+    code = read_match(path, text, out);
   if (!job.shows && code == EXIT_GOOD) {
     players p = {.job = &job, .text = text};
     for (int k = 0; k < 2; k++)
       p.player[k] = carom_player_fargo(job.fargo[k]);
     p.options.shots = job.shots;
     p.memory = allocate(carom_plan_memory(&p.options), 1);
-    p.words = strcmp(job.shared.output, "-") == 0 ? NULL : stdout;
+    if (strcmp(job.shared.output, "-") != 0)
+      p.words = stdout;
     code = play_match(&p);
     free(p.memory);
-    out = code == EXIT_GOOD ? output_open(job.shared.output) : NULL;
+    if (code == EXIT_GOOD)
+      out = output_open(job.shared.output);
     if (out != NULL)
       output_copy(text, out);
   }
   fclose(text);
-  if (out == NULL)
-    return code != EXIT_GOOD ? code : EXIT_USAGE;
-  return output_commit() ? code : EXIT_USAGE;
+  if (out == NULL && code != EXIT_GOOD)
+    return code;
+  if (out == NULL || !output_commit())
+    return EXIT_USAGE;
+  return code;
 }

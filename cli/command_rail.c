@@ -120,11 +120,6 @@ static void give_cushion(const carom_ball_kind *kind, carom_cushion_options *opt
       memcpy((char *)options + n->cushion_offset, (const char *)kind + n->offset, sizeof(double));
 }
 
-/* A value that was given, or that of the game. */
-static double given_or(const value *v, double of_game) {
-  return isnan(v->x) ? of_game : v->x;
-}
-
 static void make(const series *s, one_case *c) {
   const value *const *v = c->given;
   carom_ball_kind kind;
@@ -133,24 +128,24 @@ static void make(const series *s, one_case *c) {
   give_cushion(&kind, &c->asked.rail);
 
   const double angle = v[ANGLE]->x * degree, speed = v[SPEED]->x;
-  const double R = given_or(v[RADIUS], kind.radius), x = sin(angle), y = cos(angle),
+  const double R = value_or(v[RADIUS], kind.radius), x = sin(angle), y = cos(angle),
                spin = spin_of(v[SPIN], speed, R, 0.0);
   const carom_cushion_impact in = {
       .v = {speed * x, speed * y, 0.0},
       .w = {-spin * y, spin * x, spin_of(v[SIDE], speed, R, speed * x / R)},
       .normal = {0.0, 1.0},
-      .height = given_or(v[HEIGHT], kind.nose_height),
+      .height = value_or(v[HEIGHT], kind.nose_height),
       .radius = R,
-      .mass = given_or(v[MASS], kind.mass),
-      .mu_cloth = given_or(v[CLOTH], kind.mu_slide),
-      .mu_cushion = given_or(v[FRICTION], kind.mu_cushion),
-      .restitution = given_or(v[RESTITUTION], kind.restitution_cushion)};
+      .mass = value_or(v[MASS], kind.mass),
+      .mu_cloth = value_or(v[CLOTH], kind.mu_slide),
+      .mu_cushion = value_or(v[FRICTION], kind.mu_cushion),
+      .restitution = value_or(v[RESTITUTION], kind.restitution_cushion)};
   memcpy(c->row, &in, sizeof in);
 }
 
 /* Whether an impact at another speed is another but for its scale. */
 static bool knows_speed(const carom_cushion_options *o) {
-  const bool slides = o->smooth_q > 0.0 ? o->smooth_g_log != 0.0 : true;
+  const bool slides = !(o->smooth_q > 0.0) || o->smooth_g_log != 0.0;
   return o->law == CAROM_CUSHION_LAW_HAN || o->restitution_log != 0.0 ||
          o->restitution_log2 != 0.0 || o->mu_log != 0.0 || o->roll_loss_log != 0.0 ||
          (o->model == CAROM_CUSHION_SMOOTH && slides);
@@ -216,13 +211,17 @@ static double measure(const series *s, const one_case *c, int which) {
 
 /* "45.00 degrees from the normal to the right" */
 static const char *rebound_text(double angle, const double v[2], char text[64]) {
+  const bool aside = fabs(angle) >= 0.005;
   if (isnan(angle))
     snprintf(text, 64, "at rest");
   else
     snprintf(text, 64, "%.3f m/s, %.2f degrees from the normal%s%s", hypot(v[0], v[1]), fabs(angle),
-             fabs(angle) < 0.005 ? "" : " to the ",
-             fabs(angle) < 0.005 ? "" : left_or_right(angle));
+             text_if(aside, " to the "), text_if(aside, left_or_right(angle)));
   return text;
+}
+
+static const char *longer_or_shorter(double by) {
+  return by > 0.0 ? "longer" : "shorter";
 }
 
 /* What the cloth makes of the spin while the ball slips: the ball rolls with 5/7 of its velocity
@@ -232,13 +231,15 @@ static void tell_cloth(FILE *out, const double v[2], const double d[MOST_DERIVED
   const double longer = fabs(d[2]) - fabs(d[1]);
   if (isnan(longer) || fmax(fabs(along), fabs(into)) < 0.0005)
     return;
+  const char *to = "off";
+  if (into > 0.0)
+    to = "into";
   fprintf(out, "              by spin:     of it %.3f m/s %s the cushion, %.3f m/s to the %s; ",
-          fabs(into), into > 0.0 ? "into" : "off", fabs(along), along < 0.0 ? "left" : "right");
+          fabs(into), to, fabs(along), left_or_right(-along));
   if (d[1] * d[2] < 0.0)
     fputs("across the normal\n", out);
   else
-    fprintf(out, "%.2f degrees %s than at once\n", fabs(longer),
-            longer > 0.0 ? "longer" : "shorter");
+    fprintf(out, "%.2f degrees %s than at once\n", fabs(longer), longer_or_shorter(longer));
 }
 
 /* How much longer or shorter the rebound is than that of the same ball without side spin. */
@@ -252,23 +253,31 @@ static void tell_english(FILE *out, const one_case *c, const double d[MOST_DERIV
     return;
   cushion_kind.solve(&c->asked, false, none.row, 1, none.result, &status);
   derive_case(&none, plain);
-  const double way = c->given[ANGLE]->x < 0.0 ? 1.0 : -1.0; /* angles are to the left */
+  double way = -1.0;
+  if (c->given[ANGLE]->x < 0.0) /* angles are to the left */
+    way = 1.0;
   const double once = way * (d[1] - plain[1]), rolling = way * (d[2] - plain[2]);
   if (status != CAROM_OK || isnan(once) || isnan(rolling))
     return;
+  const bool topspin =
+      rolling > 0.0 && d[4] - 5.0 / 7.0 * c->result[1] > plain[4] - 5.0 / 7.0 * none.result[1];
   fprintf(out,
           "              by english:  %.2f degrees %s than without at once, %.2f %s rolling%s\n",
-          fabs(once), once > 0.0 ? "longer" : "shorter", fabs(rolling),
-          rolling > 0.0 ? "longer" : "shorter",
-          rolling > 0.0 && d[4] - 5.0 / 7.0 * c->result[1] > plain[4] - 5.0 / 7.0 * none.result[1]
-              ? ", by more topspin that is left"
-              : "");
+          fabs(once), longer_or_shorter(once), fabs(rolling), longer_or_shorter(rolling),
+          text_if(topspin, ", by more topspin that is left"));
+}
+
+/* Whether the ball sticks to the nose, contact 0, or the cloth, contact 1. */
+static bool sticks_at(const carom_cushion_point *point, int contact) {
+  if (contact == 0)
+    return point->nose_sticks;
+  return point->cloth_sticks;
 }
 
 /* Where the ball sticks to nose and cloth, for models that follow the impact: the first point from
  * which it sticks to the end. */
 static void tell_sticking(FILE *out, const one_case *c) {
-  static const char *const what[2] = {"nose: ", "cloth:"};
+  static const char *const what[2] = {"contacts      nose: ", "              cloth:"};
   enum { POINTS = 401 };
   carom_cushion_point point[POINTS];
   const carom_cushion_options options = cushion_options_of(&c->asked);
@@ -276,9 +285,9 @@ static void tell_sticking(FILE *out, const one_case *c) {
     return;
   for (int contact = 0; contact < 2; contact++) {
     int k = POINTS;
-    while (k > 0 && (contact == 0 ? point[k - 1].nose_sticks : point[k - 1].cloth_sticks))
+    while (k > 0 && sticks_at(&point[k - 1], contact))
       k--;
-    fprintf(out, "%s%s       ", contact == 0 ? "contacts      " : "              ", what[contact]);
+    fprintf(out, "%s       ", what[contact]);
     if (k == POINTS)
       fputs("the ball slips on it throughout\n", out);
     else if (k == 0)
@@ -355,8 +364,10 @@ static const char *law(const series *s, char text[80]) {
     how = " with Han's restitution and friction";
   else if (models->count == 1 && !knows_speed(&first.asked.rail))
     how = ", whose law does not depend on the speed";
-  snprintf(text, 80, "%s%s%s", models->count == 1 ? "model " : "",
-           models->count == 1 ? models->at[0].name : "every model", how);
+  if (models->count == 1)
+    snprintf(text, 80, "model %s%s", models->at[0].name, how);
+  else
+    snprintf(text, 80, "every model%s", how);
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include "program/message.h"
 #include "program/options.h"
 #include "program/output.h"
+#include "program/words.h"
 #include "rows/number.h"
 #include "shots/shot_file.h"
 #include "subcommands.h"
@@ -40,7 +41,9 @@ typedef struct player {
 static carom_status play(player *p, carom_record_kind kind) {
   static carom_record before;
   before = p->game;
-  p->first = kind == CAROM_RECORD_CONTINUE ? p->game.played.events : 0;
+  p->first = 0;
+  if (kind == CAROM_RECORD_CONTINUE)
+    p->first = p->game.played.events;
   if (p->room == 0)
     p->shot.events = grow(p->shot.events, &p->room, FIRST_ROOM, sizeof *p->shot.events);
   for (;;) {
@@ -70,8 +73,9 @@ static void put(FILE *out, carom_record *game, carom_record_kind kind) {
 static void put_events(FILE *out, player *p, int events) {
   for (int64_t k = 0; events != EVENTS_NONE && k < p->shot.count; k++) {
     p->game.event = p->shot.events[k];
-    p->game.before = p->game.after =
-        events == EVENTS_FULL ? 1 + (p->game.event.type == CAROM_EVENT_BALL_BALL) : 0;
+    p->game.before = p->game.after = 0;
+    if (events == EVENTS_FULL)
+      p->game.before = p->game.after = 1 + (p->game.event.type == CAROM_EVENT_BALL_BALL);
     put(out, &p->game, CAROM_RECORD_EVENT);
   }
 }
@@ -134,7 +138,9 @@ int command_record(int argc, char **argv) {
   if (code >= 0)
     return code;
   shot_file *file = shot_file_open(path, CAROM_SHOT_CUSHION_DEFAULT);
-  FILE *out = file != NULL ? output_open(job.shared.output) : NULL;
+  FILE *out = NULL;
+  if (file != NULL)
+    out = output_open(job.shared.output);
   bool good = true;
   shot_read what = SHOT_FAILED;
   if (out != NULL) {
@@ -163,7 +169,7 @@ int command_record(int argc, char **argv) {
     what = SHOT_FAILED;
   if (what == SHOT_FAILED)
     return EXIT_USAGE;
-  return good ? EXIT_GOOD : EXIT_SOME;
+  return exit_of(good);
 }
 
 /* ---- Recordings, line by line ---------------------------------------------------------------- */
@@ -178,10 +184,7 @@ typedef struct recording {
 } recording;
 
 static bool recording_open(recording *r, const char *path) {
-  *r = (recording){.path = strcmp(path, "-") == 0 ? "standard input" : path,
-                   .in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb")};
-  if (r->in == NULL)
-    complain("cannot read %s: %s", path, strerror(errno));
+  *r = (recording){.path = input_name(path), .in = input_open(path)};
   return r->in != NULL;
 }
 
@@ -285,7 +288,7 @@ int command_replay(int argc, char **argv) {
     bad = true;
   if (bad)
     return EXIT_USAGE;
-  return good ? EXIT_GOOD : EXIT_SOME;
+  return exit_of(good);
 }
 
 /* ---- carom verify ---------------------------------------------------------------------------- */
@@ -294,7 +297,9 @@ int command_replay(int argc, char **argv) {
 static int64_t place_of(double x) {
   int64_t bits;
   memcpy(&bits, &x, sizeof bits);
-  return bits < 0 ? INT64_MIN - bits : bits;
+  if (bits < 0)
+    return INT64_MIN - bits;
+  return bits;
 }
 
 /* Tells where two numbers differ; false where they do not. */
@@ -303,7 +308,9 @@ static bool tell_number(const char *what, double played, double recorded, const 
   if (same_bits(played, recorded))
     return false;
   const int64_t a = place_of(played), b = place_of(recorded);
-  const uint64_t apart = a > b ? (uint64_t)a - (uint64_t)b : (uint64_t)b - (uint64_t)a;
+  uint64_t apart = (uint64_t)a - (uint64_t)b;
+  if (a < b)
+    apart = -apart;
   printf("%s is %s%s, recorded %s%s: they differ by %.3g%s, %" PRIu64
          " units in the last place, from bit %d on\n",
          what, number_text(played, one), unit, number_text(recorded, other), unit,
@@ -351,12 +358,13 @@ static void tell_event(const carom_event *played, const carom_record *game) {
       tell_whole("a", played->a, recorded->a) || tell_whole("b", played->b, recorded->b) ||
       tell_whole("cluster", played->cluster, recorded->cluster))
     return;
-  for (int side = 0; side < 2; side++)
-    for (int k = 0; k < game->before; k++)
-      if (tell_state(side == 0 ? "before it" : "after it", k == 0 ? played->a : played->b,
-                     side == 0 ? &played->before[k] : &played->after[k],
-                     side == 0 ? &recorded->before[k] : &recorded->after[k]))
-        return;
+  const int32_t ball[2] = {played->a, played->b};
+  for (int k = 0; k < game->before; k++)
+    if (tell_state("before it", ball[k], &played->before[k], &recorded->before[k]))
+      return;
+  for (int k = 0; k < game->before; k++)
+    if (tell_state("after it", ball[k], &played->after[k], &recorded->after[k]))
+      return;
 }
 
 /* The words before a difference. */
@@ -424,10 +432,10 @@ static int tell_good(const recording *r, const carom_record *game) {
   if (game->match != 1 && r->stands)
     snprintf(what, sizeof what, "its rulings are not judged, as it is no match (format 3)");
   printf("%s: %" PRId64 " shots, every bit agrees (revision %" PRId64 " of the physics)%s%s\n",
-         r->path, game->shots, game->revision, what[0] != '\0' ? "; " : "", what);
+         r->path, game->shots, game->revision, text_if(what[0] != '\0', "; "), what);
   if (!whole)
     printf("%s: cut off: lines of the last ruling are missing\n", r->path);
-  return whole ? EXIT_GOOD : EXIT_SOME;
+  return exit_of(whole);
 }
 
 /* Reads, compares and judges all lines; an exit code. */
@@ -466,7 +474,9 @@ static int verify(recording *r, player *p) {
     tell_end(r, p, line, compared);
     return EXIT_SOME;
   }
-  return bad ? EXIT_USAGE : tell_good(r, game);
+  if (bad)
+    return EXIT_USAGE;
+  return tell_good(r, game);
 }
 
 int command_verify(int argc, char **argv) {

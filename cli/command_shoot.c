@@ -362,7 +362,7 @@ static int shoot_all(shoot_job *job, shot_file *file, FILE *out) {
   good &= was_drawn(job);
   if (what == SHOT_FAILED)
     return EXIT_USAGE;
-  return good ? EXIT_GOOD : EXIT_SOME;
+  return exit_of(good);
 }
 
 static const command_form form = {

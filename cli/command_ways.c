@@ -63,12 +63,12 @@ enum { PARTS_TEXT = 160, WAY_TEXT = 400, CUT_TEXT = 24 };
 static const char *parts_text(const ways_search *s, const way *w, char text[PARTS_TEXT]) {
   text[0] = '\0';
   for (int k = 0; k < w->parts; k++) {
-    const bool rail = w->part[k].kind == CAROM_PART_RAIL;
-    const char *name = rail ? carom_rail_name(&s->line->table->table, w->part[k].index) : NULL;
-    if (name == NULL && rail)
-      name = s->line->table->rail[w->part[k].index];
-    else if (!rail)
-      name = s->line->name[w->part[k].index];
+    const int index = w->part[k].index;
+    const char *name;
+    if (w->part[k].kind == CAROM_PART_BALL)
+      name = s->line->name[index];
+    else
+      name = text_or(carom_rail_name(&s->line->table->table, index), s->line->table->rail[index]);
     snprintf(text + strlen(text), PARTS_TEXT - strlen(text), "%s%s", text_if(k > 0, ", "), name);
   }
   return text;
@@ -77,13 +77,13 @@ static const char *parts_text(const ways_search *s, const way *w, char text[PART
 /* "1 to foot-left, bank: left" */
 static const char *way_text(const ways_search *s, const way *w, char text[WAY_TEXT]) {
   char parts[PARTS_TEXT];
-  const char *pocket = w->pocket >= 0 ? carom_pocket_name(&s->line->table->table, w->pocket) : NULL;
+  const named_table *t = s->line->table;
   parts_text(s, w, parts);
   if (w->ball < 0)
-    snprintf(text, WAY_TEXT, "%s", w->parts > 0 ? parts : "straight");
+    snprintf(text, WAY_TEXT, "%s", text_or(parts, "straight"));
   else
     snprintf(text, WAY_TEXT, "%s to %s, %s%s%s", s->line->name[w->ball],
-             pocket != NULL ? pocket : s->line->table->pocket[w->pocket], way_name(s, w),
+             text_or(carom_pocket_name(&t->table, w->pocket), t->pocket[w->pocket]), way_name(s, w),
              text_if(w->parts > 0, ": "), parts);
   return text;
 }
@@ -92,7 +92,7 @@ static const char *way_text(const ways_search *s, const way *w, char text[WAY_TE
 static const char *cut_text(const way *w, char text[CUT_TEXT]) {
   text[0] = '\0';
   if (!isnan(w->cut))
-    snprintf(text, CUT_TEXT, "%.1f %s", fabs(w->cut), w->cut < 0.0 ? "right" : "left");
+    snprintf(text, CUT_TEXT, "%.1f %s", fabs(w->cut), left_or_right(w->cut));
   return text;
 }
 
@@ -128,12 +128,11 @@ static json_t *way_line(const ways_search *s, const way *w) {
 
 static int by_chance(const void *a, const void *b) {
   const way *first = a, *second = b;
-  if (first->chance != second->chance)
-    return first->chance < second->chance ? 1 : -1;
+  const double chances = first->chance - second->chance;
   const double wide = first->phi[1] - first->phi[0], others = second->phi[1] - second->phi[0];
-  if (wide == others)
-    return 0;
-  return wide < others ? 1 : -1;
+  if (chances != 0.0)
+    return (chances < 0.0) - (chances > 0.0);
+  return (wide < others) - (wide > others);
 }
 
 static void tell(FILE *out, const ways_search *s, int most) {
@@ -168,10 +167,14 @@ static void write_rows(FILE *out, const ways_search *s) {
         out);
   for (int k = 0; k < s->ways; k++) {
     const way *w = &s->way[k];
-    fprintf(out, "%d,%s,%s,%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g,", k + 1, way_name(s, w),
-            w->ball >= 0 ? s->line->name[w->ball] : "",
-            w->pocket >= 0 ? s->line->table->pocket[w->pocket] : "", parts_text(s, w, parts),
-            w->cue.speed, w->cue.phi, w->cue.theta, w->cue.a, w->cue.b);
+    const char *ball = "", *pocket = "";
+    if (w->ball >= 0)
+      ball = s->line->name[w->ball];
+    if (w->pocket >= 0)
+      pocket = s->line->table->pocket[w->pocket];
+    fprintf(out, "%d,%s,%s,%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g,", k + 1, way_name(s, w), ball,
+            pocket, parts_text(s, w, parts), w->cue.speed, w->cue.phi, w->cue.theta, w->cue.a,
+            w->cue.b);
     const double more[] = {w->cut, w->phi[0], w->phi[1], w->speed[0], w->speed[1]};
     for (size_t n = 0; n < sizeof more / sizeof more[0]; n++)
       fprintf(out, isnan(more[n]) ? "," : "%.10g,", more[n]);
@@ -270,14 +273,18 @@ static bool find(const ways_job *job, ways_search *s) {
   int where;
   if (!read_ball(s, job->ball, &s->ball) || !read_pocket(s, job->pocket, &s->pocket))
     return false;
+  s->aim = TO_POT;
   if (job->leave.given && s->line->count == 1)
     s->aim = TO_PLACE;
-  else
-    s->aim = t->pockets == 0 ? TO_SCORE : TO_POT;
+  else if (t->pockets == 0)
+    s->aim = TO_SCORE;
   leave_into(&job->leave, s);
-  if (s->aim != TO_PLACE && s->line->count < (t->pockets == 0 ? 3 : 2)) {
-    complain(t->pockets == 0 ? "to score, three balls are needed"
-                             : "the cue ball and one more are needed, or --leave");
+  if (s->aim == TO_SCORE && s->line->count < 3) {
+    complain("to score, three balls are needed");
+    return false;
+  }
+  if (s->aim == TO_POT && s->line->count < 2) {
+    complain("the cue ball and one more are needed, or --leave");
     return false;
   }
   const carom_status status =
@@ -350,7 +357,9 @@ static const char *usual_speeds(const ways_job *job, bool alone, bool points) {
     return "0.5:5:0.25";
   if (points)
     return "3,4.5,6";
-  return job->leave.given ? "1:4:0.5" : "1.5,2.5,4";
+  if (job->leave.given)
+    return "1:4:0.5";
+  return "1.5,2.5,4";
 }
 
 /* How many strokes in all directions are searched: as asked, or the default, at least one each. */
@@ -362,7 +371,9 @@ static int scan_of(const ways_job *job, const shot_line *line, int strokes) {
     scan = SCANNED_TO_SCORE;
   if (job->scanned > 0)
     scan = job->scanned;
-  return scan > strokes ? scan : strokes;
+  if (scan < strokes)
+    scan = strokes;
+  return scan;
 }
 
 /* Fills in the strokes that are usual in the game, where the options give none. */
@@ -408,7 +419,7 @@ static int write_ways(const ways_job *job, ways_search *s, FILE *out) {
     return EXIT_USAGE;
   if (job->plot != NULL && !plot(s, job->plot))
     return EXIT_SOME;
-  return s->ways > 0 ? EXIT_GOOD : EXIT_SOME;
+  return exit_of(s->ways > 0);
 }
 
 /* The ways of the layout and the strokes of a file; an exit code. */

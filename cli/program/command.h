@@ -2,6 +2,7 @@
 #ifndef CAROM_CLI_COMMAND_H
 #define CAROM_CLI_COMMAND_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 enum {
@@ -9,6 +10,11 @@ enum {
   EXIT_SOME = 1,  /* some rows in error, or a claim not met; the rest was done */
   EXIT_USAGE = 2, /* bad usage or unreadable input; nothing was written */
 };
+
+/* The exit code of what was done: all of it went well, or some is in error. */
+static inline int exit_of(bool good) {
+  return good ? EXIT_GOOD : EXIT_SOME;
+}
 
 typedef struct command {
   const char *name, *text;           /* one line of help */

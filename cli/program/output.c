@@ -86,7 +86,9 @@ static bool follow_links(const char *path) {
  * False with errno. */
 static bool make_beside(void) {
   const char *slash = strrchr(place, '/');
-  const int folder = slash != NULL ? (int)(slash + 1 - place) : 0;
+  int folder = 0;
+  if (slash != NULL)
+    folder = (int)(slash + 1 - place);
   if (snprintf(temporary, PATH_MAX, "%.*s.carom-%s", folder, place, random_name) >= PATH_MAX) {
     errno = ENAMETOOLONG;
     return false;
@@ -122,8 +124,10 @@ static FILE *open_beside(const char *path) {
   const bool exists = stat(place, &old) == 0;
   if (exists && access(place, W_OK) != 0)
     return NULL;
-  if (!make_beside())
-    return exists ? open_itself() : NULL;
+  if (!make_beside() && !exists)
+    return NULL;
+  if (file == NULL)
+    return open_itself();
   /* A file's owner and mode stay; a new one's are what the system and the umask leave. */
   const mode_t mask = umask(0);
   umask(mask);
@@ -133,6 +137,19 @@ static FILE *open_beside(const char *path) {
   }
   fchmod(fileno(file), exists ? old.st_mode & 07777 : 0666 & ~mask);
   return file;
+}
+
+FILE *input_open(const char *path) {
+  if (strcmp(path, "-") == 0)
+    return stdin;
+  FILE *in = fopen(path, "rb");
+  if (in == NULL)
+    complain("cannot read %s: %s", path, strerror(errno));
+  return in;
+}
+
+const char *input_name(const char *path) {
+  return strcmp(path, "-") == 0 ? "standard input" : path;
 }
 
 FILE *output_open(const char *path) {

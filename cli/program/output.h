@@ -1,5 +1,5 @@
-/* A file that appears whole or not at all: written beside its place, renamed when it is
- * complete.
+/* Files that are read; and a file that appears whole or not at all: written beside its place,
+ * renamed when it is complete.
  *
  * "-" is stdout, and what exists already but is no regular file (a terminal, a pipe, /dev/null)
  * is written in place: there the output streams. A symbolic link stays, and what it leads to is
@@ -15,6 +15,12 @@
 
 #include <stdbool.h>
 #include <stdio.h>
+
+/* Opens a file for reading, "-" as stdin. Complains and returns NULL if that fails. */
+FILE *input_open(const char *path);
+
+/* What messages call a file that is read. */
+const char *input_name(const char *path);
 
 /* Opens the output for writing. Complains and returns NULL if that fails. One at a time. */
 FILE *output_open(const char *path);

@@ -11,6 +11,10 @@ const char *text_if(bool given, const char *text) {
   return given ? text : "";
 }
 
+const char *text_or(const char *text, const char *other) {
+  return text != NULL && text[0] != '\0' ? text : other;
+}
+
 const char *left_or_right(double to_left) {
   return to_left > 0.0 ? "left" : "right";
 }
@@ -51,7 +55,9 @@ static int misspelt(const char *text, int n, const char *word, int m) {
       if (i > 1 && j > 1 && a[i] == b[j - 1] && a[i - 1] == b[j])
         cost[i][j] = lesser(cost[i][j], 1 + cost[i - 2][j - 2]);
     }
-  return n > 1 && n < m && cost[n][n] == 0 ? 1 : cost[n][m];
+  if (n > 1 && n < m && cost[n][n] == 0)
+    return 1;
+  return cost[n][m];
 }
 
 const char *did_you_mean(const char *text, const char *words, char hint[HINT_TEXT]) {

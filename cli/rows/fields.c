@@ -34,7 +34,7 @@ OPTION_SET(set_text) {
 static const char *one_hint(const char *text) {
   if (strchr(text, ':') != NULL || strstr(text, "..") != NULL)
     return "; it takes one value, no range";
-  return strchr(text, ',') != NULL ? "; it takes one value, in which decimals have a point" : "";
+  return text_if(strchr(text, ',') != NULL, "; it takes one value, in which decimals have a point");
 }
 
 OPTION_SET(set_count) {
@@ -84,15 +84,18 @@ bool set_place(const option_row *row, const char *text, const char *words, int *
   for (const char *at = words; *at != '\0';) {
     const size_t used = strlen(list), size = strcspn(at, "|");
     const bool last = at[size] == '\0';
-    const char *before = "";
-    if (at != words)
-      before = last ? " or " : ", ";
+    const char *before = ", ";
+    if (at == words)
+      before = "";
+    else if (last)
+      before = " or ";
     snprintf(list + used, sizeof list - used, "%s%.*s", before, (int)size, at);
     at += size + !last;
   }
-  const bool first_is_one = place_among(words, text, strcspn(text, ",:")) >= 0;
-  complain("--%s is %s, not '%s'%s", row->name, list, text,
-           first_is_one ? "; it takes one value" : did_you_mean(text, words, hint));
+  const char *advice = did_you_mean(text, words, hint);
+  if (place_among(words, text, strcspn(text, ",:")) >= 0)
+    advice = "; it takes one value";
+  complain("--%s is %s, not '%s'%s", row->name, list, text, advice);
   return false;
 }
 
@@ -119,11 +122,15 @@ OPTION_SET(set_named) {
 /* ---- Options of the library, as it tells them */
 
 static carom_part_kind part_of(const option_row *row) {
-  return row->part == CAROM_PART_NONE ? CAROM_PART_OPTIONS : (carom_part_kind)row->part;
+  if (row->part == CAROM_PART_NONE)
+    return CAROM_PART_OPTIONS;
+  return (carom_part_kind)row->part;
 }
 
 static const carom_number *option_of(const option_row *row) {
-  return row->set == set_option ? carom_number_of(part_of(row), row->least) : NULL;
+  if (row->set != set_option)
+    return NULL;
+  return carom_number_of(part_of(row), row->least);
 }
 
 OPTION_SET(set_option) {
@@ -133,7 +140,9 @@ OPTION_SET(set_option) {
   if (n->words >= 0)
     return set_place(row, text, words_of(n->words, true, all), field);
   const bool whole = n->type != CAROM_TYPE_DOUBLE;
-  const double most = n->type == CAROM_TYPE_UINT64 ? WHOLE_MOST : n->high;
+  double most = n->high;
+  if (n->type == CAROM_TYPE_UINT64)
+    most = WHOLE_MOST;
   const bool good = value_of(measure_of_unit(n->unit), text, &v);
   const double x = v.x;
   if (good && ((x >= n->low && x <= most) || x == n->other) && (!whole || x == floor(x))) {
@@ -149,8 +158,8 @@ OPTION_SET(set_option) {
     snprintf(must, sizeof must, "0 to %.0f", WHOLE_MOST);
   else
     carom_number_range(n, must, sizeof must);
-  complain("--%s is %s%s, not '%s'%s", row->name, whole ? "a whole number, " : "a number, ", must,
-           text, one_hint(text));
+  complain("--%s is a %snumber, %s, not '%s'%s", row->name, text_if(whole, "whole "), must, text,
+           one_hint(text));
   return false;
 }
 
@@ -171,10 +180,14 @@ int rows_of(const option_row *for_all, option_row rows[MOST_OF_LIBRARY]) {
 const char *argument_of(const option_row *row) {
   static char text[MOST_WORDS];
   const carom_number *n = option_of(row);
-  if (n != NULL && n->words < 0)
-    return n->type == CAROM_TYPE_DOUBLE ? "X" : "N";
-  if (n != NULL || row->set == set_named)
-    return words_of(n != NULL ? n->words : row->least, false, text);
+  if (n != NULL && n->words >= 0)
+    return words_of(n->words, false, text);
+  if (n != NULL && n->type == CAROM_TYPE_DOUBLE)
+    return "X";
+  if (n != NULL)
+    return "N";
+  if (row->set == set_named)
+    return words_of(row->least, false, text);
   if (row->words == 0)
     return row->argument;
   words_of(row->words, false, text);
@@ -210,9 +223,9 @@ static const char *refusal(const option_row *row, carom_part_kind part, const ca
     return "a file for `carom shoot` has it";
   if (part == CAROM_PART_CUE && n->offset <= (int32_t)offsetof(carom_cue, b))
     return "--speed, --aim, --elevation and --tip of `carom shoot`, or its file, say it";
-  return row->only == CUSHION_ONLY && n->cushion_offset < 0
-             ? "`carom shoot --with` takes it, here only those of the model are taken"
-             : NULL;
+  if (row->only == CUSHION_ONLY && n->cushion_offset < 0)
+    return "`carom shoot --with` takes it, here only those of the model are taken";
+  return NULL;
 }
 
 /* A number that the option takes, by its name or its key of files, with its place; NULL after a
@@ -284,9 +297,10 @@ static bool give_fit(const char *path, given_numbers *given) {
   json_object_set(constants, "radius", json_object_get(fit, "radius"));
   json_object_foreach(constants, name, x) good =
       good && give_named(given, name, json_is_number(x) ? json_number_value(x) : NAN);
-  if (!good)
-    complain("--with %.200s: %s", path,
-             fit == NULL ? error.text : "no fit, whose `constants` are numbers of balls");
+  if (fit == NULL)
+    complain("--with %.200s: %s", path, error.text);
+  else if (!good)
+    complain("--with %.200s: no fit, whose `constants` are numbers of balls", path);
   for (int k = 0; model != NULL && carom_word(CAROM_WORDS_CUSHION_MODEL, k) != NULL; k++)
     if (strcmp(carom_word(CAROM_WORDS_CUSHION_MODEL, k), model) == 0)
       given->fitted = (carom_shot_cushion)(k + 1);
@@ -301,12 +315,25 @@ static bool give_fit(const char *path, given_numbers *given) {
   return good;
 }
 
+/* Where a number of the cue or of balls stands. */
+static void *given_at(given_numbers *given, carom_part_kind part, int k) {
+  char *numbers = (char *)&given->kind;
+  if (part == CAROM_PART_CUE)
+    numbers = (char *)&given->cue;
+  return numbers + carom_number_of(part, k)->offset;
+}
+
+/* The set of the numbers of the cue or of balls that are given. */
+static uint64_t *given_set(given_numbers *given, carom_part_kind part) {
+  if (part == CAROM_PART_CUE)
+    return &given->of_cue;
+  return &given->which;
+}
+
 /* Sets one value of a number. */
 static void give_value(given_numbers *given, carom_part_kind part, int k, double x) {
-  const bool of_cue = part == CAROM_PART_CUE;
-  const size_t offset = (size_t)carom_number_of(part, k)->offset;
-  memcpy((of_cue ? (char *)&given->cue : (char *)&given->kind) + offset, &x, sizeof x);
-  *(of_cue ? &given->of_cue : &given->which) |= (uint64_t)1 << k;
+  memcpy(given_at(given, part, k), &x, sizeof x);
+  *given_set(given, part) |= (uint64_t)1 << k;
 }
 
 void give_of_list(const number_list *list, int k, given_numbers *given) {
@@ -317,13 +344,12 @@ void give_of_list(const number_list *list, int k, given_numbers *given) {
  * complaint. */
 static bool add_to_list(const option_row *row, given_numbers *given, carom_part_kind part, int k,
                         double x) {
-  const carom_number *n = carom_number_of(part, k);
-  const bool of_cue = part == CAROM_PART_CUE;
   number_list *list = given->list;
   while (list < given->list + given->lists && (list->part != (int)part || list->number != k))
     list++;
   if (row->only == CUSHION_ONLY) {
-    complain("--%s: %s takes one value here; `carom shoot` takes a list", row->name, n->name);
+    complain("--%s: %s takes one value here; `carom shoot` takes a list", row->name,
+             carom_number_of(part, k)->name);
     return false;
   }
   if (list == given->list + LISTS_MOST || list->count == LIST_MOST) {
@@ -333,12 +359,11 @@ static bool add_to_list(const option_row *row, given_numbers *given, carom_part_
   }
   if (list == given->list + given->lists) {
     *list = (number_list){.part = (int)part, .number = k, .count = 1};
-    memcpy(list->at, (of_cue ? (char *)&given->cue : (char *)&given->kind) + n->offset,
-           sizeof *list->at);
+    memcpy(list->at, given_at(given, part, k), sizeof *list->at);
     given->lists++;
   }
   list->at[list->count++] = x;
-  *(of_cue ? &given->of_cue : &given->which) &= ~((uint64_t)1 << k);
+  *given_set(given, part) &= ~((uint64_t)1 << k);
   return true;
 }
 
@@ -361,8 +386,8 @@ static bool read_numbers(const option_row *row, const carom_number *n, char *tex
   if (good)
     return true;
   carom_number_range(n, must, sizeof must);
-  complain("--%s: %s must be %s, not '%.40s'%s", row->name, n->name, must, text != NULL ? text : "",
-           one_hint(text != NULL ? text : ""));
+  const char *given = text_or(text, "");
+  complain("--%s: %s must be %s, not '%.40s'%s", row->name, n->name, must, given, one_hint(given));
   return false;
 }
 
@@ -409,9 +434,11 @@ OPTION_SET(set_numbers) {
     }
     if (number != NULL)
       *number++ = '\0';
-    if (!further)
+    if (further)
+      number = token;
+    else
       n = number_named(row, token, &part, &k);
-    if (n == NULL || !read_numbers(row, n, further ? token : number, &list))
+    if (n == NULL || !read_numbers(row, n, number, &list))
       return false;
     if (!further)
       give_value(given, part, k, list.at[0].x);
@@ -443,10 +470,13 @@ void give_cue(const given_numbers *given, carom_cue *cue) {
 
 static void give(const given_numbers *given, void *to, bool to_cushion) {
   const carom_number *n;
-  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
+    int32_t offset = n->offset;
+    if (to_cushion)
+      offset = n->cushion_offset;
     if ((given->which >> k & 1) != 0)
-      memcpy((char *)to + (to_cushion ? n->cushion_offset : n->offset),
-             (const char *)&given->kind + n->offset, sizeof(double));
+      memcpy((char *)to + offset, (const char *)&given->kind + n->offset, sizeof(double));
+  }
 }
 
 void give_ball(const given_numbers *given, carom_ball_kind *kind) {
@@ -455,14 +485,15 @@ void give_ball(const given_numbers *given, carom_ball_kind *kind) {
 
 const char *reader_of(const carom_number *n, const char *of_cushion, char text[160]) {
   static const carom_ball_kind any = {0};
-  const bool cushion = n->reader == CAROM_READ_BY_CUSHION;
-  size_t size = (size_t)snprintf(text, 160, "--%s", cushion ? of_cushion : "friction");
-  if (cushion)
-    snprintf(text + size, 160 - size, " %s", carom_word(CAROM_WORDS_CUSHION_MODEL, n->model));
+  if (n->reader == CAROM_READ_BY_CUSHION) {
+    snprintf(text, 160, "--%s %s", of_cushion, carom_word(CAROM_WORDS_CUSHION_MODEL, n->model));
+    return text;
+  }
 
   /* several laws may read the same numbers */
   const char *word, *before = " ";
-  for (int k = 0; !cushion && (word = carom_word(CAROM_WORDS_BALL_FRICTION, k)) != NULL; k++) {
+  size_t size = (size_t)snprintf(text, 160, "--friction");
+  for (int k = 0; (word = carom_word(CAROM_WORDS_BALL_FRICTION, k)) != NULL; k++) {
     const carom_shot_options options = {.friction = (carom_ball_friction)k};
     if (size < 160 && carom_number_is_read(n, &any, &options)) {
       size += (size_t)snprintf(text + size, 160 - size, "%s%s", before, word);
@@ -492,7 +523,9 @@ bool numbers_are_read(shared_options *shared) {
   for (int k = 0; k < with->lists; k++)
     if (with->list[k].part == CAROM_PART_BALL)
       which |= (uint64_t)1 << with->list[k].number;
-  const uint32_t models = shared->models != 0 ? shared->models : 1U << shared->rail.model;
+  uint32_t models = shared->models;
+  if (models == 0)
+    models = 1U << shared->rail.model;
   const carom_number *n;
   char reader[160];
   if (with->fitted != CAROM_SHOT_CUSHION_SMOOTH && shared->shot.cushion_model == 0)
@@ -500,15 +533,18 @@ bool numbers_are_read(shared_options *shared) {
   /* a fit has numbers of all models */
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
     if ((which >> k & 1) != 0 && !is_read(shared, models, n)) {
-      complain("--with: %s has no effect; %s reads it", n->name,
-               reader_of(n, shared->cushion ? "model" : "cushion", reader));
+      const char *by = "cushion";
+      if (shared->cushion)
+        by = "model";
+      complain("--with: %s has no effect; %s reads it", n->name, reader_of(n, by, reader));
       return false;
     }
   if (!shared->cushion)
     return true;
   give(with, &shared->rail, true);
-  carom_ball_kind kind =
-      carom_ball_kind_of(shared->of_game ? CAROM_GAME_POOL : CAROM_GAME_POOLTOOL_POOL);
+  carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
+  if (shared->of_game)
+    kind = carom_ball_kind_of(CAROM_GAME_POOL);
   char must[100];
   give_ball(with, &kind);
   if ((n = carom_ball_fault(&kind, must, sizeof must)) != NULL)
@@ -535,8 +571,10 @@ static OPTION_SET(set_law) {
   const char *advice;
   if (strpbrk(text, "=abc") == NULL)
     advice = one_hint(text);
+  else if (strchr(text, '=') == NULL)
+    advice = did_you_mean(text, name, hint);
   else
-    advice = did_you_mean(strchr(text, '=') == NULL ? text : name, name, hint);
+    advice = did_you_mean(name, name, hint);
   complain("--%s is alciatore, alciatore=a,b,c (mu = a + b exp(-c |u|)) or a number from 0 to 1, "
            "not '%s'%s",
            row->name, text, advice);

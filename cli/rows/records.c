@@ -7,6 +7,7 @@
 
 #include "program/memory.h"
 #include "program/message.h"
+#include "program/output.h"
 #include "rows/number.h"
 
 #include <csv.h>
@@ -57,18 +58,22 @@ static void on_record(int end, void *context) {
 
 record_reader *record_open(const char *path) {
   record_reader *r = allocate(1, sizeof *r);
-  const bool is_stdin = strcmp(path, "-") == 0;
   csv_init(&r->parser, 0);
-  r->name = is_stdin ? "standard input" : path;
-  r->file = is_stdin ? stdin : fopen(path, "rb");
-  struct stat status;
-  if (r->file == NULL || fstat(fileno(r->file), &status) != 0 ||
-      (S_ISDIR(status.st_mode) && (errno = EISDIR))) {
+  r->name = input_name(path);
+  r->file = input_open(path);
+  struct stat status = {0};
+  if (r->file == NULL) {
+    record_close(r);
+    return NULL;
+  }
+  if (fstat(fileno(r->file), &status) != 0 || (S_ISDIR(status.st_mode) && (errno = EISDIR))) {
     complain("cannot read %s: %s", r->name, strerror(errno));
     record_close(r);
     return NULL;
   }
-  r->bytes = S_ISREG(status.st_mode) ? (double)status.st_size : -1.0;
+  r->bytes = -1.0;
+  if (S_ISREG(status.st_mode))
+    r->bytes = (double)status.st_size;
   return r;
 }
 

@@ -52,14 +52,19 @@ static void *read_block(void *argument) {
 
 /* Writes row k of a block that has been solved, counts it, and says what is wrong with it. */
 static void finish_row(run *r, const source_block *block, size_t k) {
-  const row_note *note = block->note != NULL ? &block->note[k] : NULL;
+  const row_note *note = row_note_of(block, k);
   const carom_status status = r->status[k];
   const size_t results = (size_t)r->kind->results;
   const double *row = source_row(r->in, block, k);
   double *result = r->result + k * results;
   /* What --strict refuses has no results. */
-  const char *error = note != NULL ? note->error : NULL;
-  const char *doubt = error == NULL && status >= 0 ? doubts_about(&r->doubts, r->kind, row) : NULL;
+  const char *id = NULL, *error = NULL, *doubt = NULL;
+  if (note != NULL) {
+    id = note->id;
+    error = note->error;
+  }
+  if (error == NULL && status >= 0)
+    doubt = doubts_about(&r->doubts, r->kind, row);
   if (r->asked->strict && doubt != NULL) {
     error = doubt;
     memset(result, 0xff, results * sizeof *result); /* NaN throughout */
@@ -67,7 +72,7 @@ static void finish_row(run *r, const source_block *block, size_t k) {
   const bool in_error = error != NULL || status < 0;
   if (in_error && r->errors < MOST_NAMED)
     source_report(r->in, block, k, status, doubt);
-  sink_write(r->out, note != NULL ? note->id : NULL, row, result, status, error);
+  sink_write(r->out, id, row, result, status, error);
   r->ok += !in_error && status == CAROM_OK;
   r->separating += !in_error && status == CAROM_SEPARATING;
   r->errors += in_error;
@@ -77,8 +82,12 @@ static void solve_and_write(run *r, const source_block *block) {
   const size_t count = block->count, numbers = count * (size_t)r->kind->numbers,
                results = count * (size_t)r->kind->results;
   const bool narrow = r->single && r->kind->has_single;
-  const void *in = narrow ? (void *)r->narrow : block->numbers;
-  void *out = narrow ? (void *)r->narrow_result : r->result;
+  const void *in = block->numbers;
+  void *out = r->result;
+  if (narrow) {
+    in = r->narrow;
+    out = r->narrow_result;
+  }
   /* Single precision: rows and results are rounded to it, whoever solves. */
   if (r->single)
     to_single(block->numbers, r->narrow, numbers);
@@ -113,7 +122,10 @@ static bool resolve_all(run *r) {
     else
       read_block(next);
     const double share = source_share(r->in), rows = (double)(r->ok + r->separating + r->errors);
-    progress_show("rows", rows, share > 0.0 ? rows / share : -1.0);
+    double all = -1.0;
+    if (share > 0.0)
+      all = rows / share;
+    progress_show("rows", rows, all);
     reading *const done = now;
     now = next;
     next = done;
@@ -147,7 +159,8 @@ int resolve_file(const row_job *job, const char *file) {
   if (r.in == NULL)
     return code;
   const int precision = job->shared.precision;
-  r.single = precision == ANY_PRECISION ? source_is_single(r.in) : precision == SINGLE_PRECISION;
+  r.single =
+      precision == SINGLE_PRECISION || (precision == ANY_PRECISION && source_is_single(r.in));
   r.result = allocate(NPY_BLOCK, (size_t)r.kind->results * sizeof *r.result);
   r.narrow = allocate(NPY_BLOCK, (size_t)r.kind->numbers * sizeof *r.narrow);
   r.narrow_result = allocate(NPY_BLOCK, (size_t)r.kind->results * sizeof *r.narrow_result);
@@ -156,7 +169,7 @@ int resolve_file(const row_job *job, const char *file) {
    * written. */
   r.out = sink_open(&job->shared, r.single);
   if (r.out != NULL && sink_close(r.out, resolve_all(&r)))
-    code = r.errors > 0 ? EXIT_SOME : EXIT_GOOD;
+    code = exit_of(r.errors == 0);
   free(r.narrow);
   free(r.narrow_result);
   free(r.result);

@@ -3,6 +3,7 @@
 
 #include "program/memory.h"
 #include "program/message.h"
+#include "program/words.h"
 #include "rows/npy.h"
 #include "rows/number.h"
 
@@ -43,7 +44,9 @@ static bool find_once(const record *header, const char *file, const char *name, 
 /* Finds the column of a number; false after a complaint if it has two. */
 static bool find_column(row_source *s, const record *header, int number) {
   const column *c = &s->kind->columns[number];
-  const char *others = c->both != NULL ? s->kind->columns[c->partner].name : NULL;
+  const char *others = NULL;
+  if (c->both != NULL)
+    others = s->kind->columns[c->partner].name;
   size_t at_own, at_both, at_others;
   if (!find_once(header, s->name, c->name, &at_own) ||
       !find_once(header, s->name, c->both, &at_both) ||
@@ -55,12 +58,16 @@ static bool find_column(row_source *s, const record *header, int number) {
              c->both, c->name);
     return false;
   }
-  s->at[number] = at_own != SIZE_MAX ? at_own : at_both;
+  s->at[number] = at_own;
+  if (at_own == SIZE_MAX)
+    s->at[number] = at_both;
   /* What is missing should have been for both balls, unless the other one has a column of its
    * own. */
   const bool alone =
       c->both == NULL || at_own != SIZE_MAX || (at_both == SIZE_MAX && at_others != SIZE_MAX);
-  s->column[number] = alone ? c->name : c->both;
+  s->column[number] = c->both;
+  if (alone)
+    s->column[number] = c->name;
   return true;
 }
 
@@ -96,11 +103,11 @@ static bool find_columns(row_source *s, const record *header) {
   if (missing[1] == '\0')
     return true;
   const bool other = !find_once(header, s->name, s->kind->clue, &unused) || unused != SIZE_MAX;
+  const char *hint = "names are case-sensitive";
+  if (header->count == 1)
+    hint = "the header is a single field, without commas";
   complain("%s:%lld: missing columns:%s(%s%s; `%s resolve --help` lists them)", s->name,
-           header->line, missing, other ? s->kind->meant : "",
-           header->count > 1 ? "names are case-sensitive"
-                             : "the header is a single field, without commas",
-           program_name);
+           header->line, missing, text_if(other, s->kind->meant), hint, program_name);
   return false;
 }
 
@@ -123,7 +130,10 @@ static bool open_csv(row_source *s, const char *path) {
 row_source *source_open(const char *path, const shared_options *asked) {
   row_source *s = allocate(1, sizeof *s);
   *s = (row_source){.asked = asked, .kind = kind_of(asked), .name = path};
-  if (npy_is_name(path) ? npy_open(path, (size_t)s->kind->numbers, &s->array) : open_csv(s, path))
+  const bool is_array = npy_is_name(path);
+  if (is_array && npy_open(path, (size_t)s->kind->numbers, &s->array))
+    return s;
+  if (!is_array && open_csv(s, path))
     return s;
   source_close(s);
   return NULL;
@@ -138,7 +148,9 @@ bool source_is_single(const row_source *s) {
 static void set_id(const row_source *s, const record *in, size_t row, row_note *note) {
   char number[24];
   snprintf(number, sizeof number, "%zu", row);
-  const char *id = !in->malformed && s->id_at < in->count ? in->field[s->id_at] : number;
+  const char *id = number;
+  if (!in->malformed && s->id_at < in->count)
+    id = in->field[s->id_at];
   note->id = grow(note->id, &note->id_room, strlen(id) + 1, 1);
   strcpy(note->id, id);
 }
@@ -159,16 +171,18 @@ static const char *fill(const row_source *s, const record *in, row_note *note, d
     }
   /* Each number from its column. */
   for (int k = 0; k < s->kind->numbers; k++) {
-    const char *name = s->column[k], *text = s->at[k] < in->count ? in->field[s->at[k]] : "";
+    const char *name = s->column[k], *text = "";
     if (s->at[k] == SIZE_MAX) /* it may be missing */
       continue;
+    if (s->at[k] < in->count)
+      text = in->field[s->at[k]];
     if (text[0] == '\0') {
       snprintf(note->message, sizeof note->message, "%s is missing", name);
       return "missing_value";
     }
     if (!record_number(in, text, &number[k])) {
       snprintf(note->message, sizeof note->message, "%s = '%.60s' is not a number%s", name, text,
-               in->decimal_commas ? "" : comma_hint(text));
+               text_if(!in->decimal_commas, comma_hint(text)));
       return "not_a_number";
     }
   }
@@ -203,20 +217,30 @@ static read_result read_array(row_source *s, source_block *block) {
   const size_t left = s->array.rows - s->next;
   if (block->numbers == NULL)
     block->numbers = allocate(NPY_BLOCK, (size_t)s->kind->numbers * sizeof(double));
-  block->count = left < NPY_BLOCK ? left : NPY_BLOCK;
-  return npy_read(&s->array, block->count, block->numbers) ? READ_ONE : READ_FAILED;
+  block->count = NPY_BLOCK;
+  if (left < NPY_BLOCK)
+    block->count = left;
+  if (!npy_read(&s->array, block->count, block->numbers))
+    return READ_FAILED;
+  return READ_ONE;
 }
 
 read_result source_read(row_source *s, source_block *block) {
   block->first = s->next;
-  const read_result result = s->records != NULL ? read_csv(s, block) : read_array(s, block);
+  read_result result;
+  if (s->records != NULL)
+    result = read_csv(s, block);
+  else
+    result = read_array(s, block);
   s->next += block->count;
   /* what options say instead of columns */
   for (size_t k = 0; s->kind->prepare != NULL && k < block->count; k++)
     s->kind->prepare(s->asked, source_row(s, block, k));
   if (result == READ_ONE && block->count == 0)
     return READ_END;
-  return result == READ_END && block->count > 0 ? READ_ONE : result;
+  if (result == READ_END && block->count > 0)
+    return READ_ONE;
+  return result;
 }
 
 void source_free_block(source_block *block) {
@@ -235,7 +259,7 @@ double *source_row(const row_source *s, const source_block *block, size_t k) {
 
 void source_report(const row_source *s, const source_block *block, size_t k, carom_status status,
                    const char *doubt) {
-  const row_note *note = block->note != NULL ? &block->note[k] : NULL;
+  const row_note *note = row_note_of(block, k);
   const double *row = source_row(s, block, k);
   int field = -1;
   char where[256], what[64] = "", id[ID_TEXT], text[NUMBER_TEXT];
@@ -264,7 +288,9 @@ const char *source_name(const row_source *s) {
 }
 
 double source_share(const row_source *s) {
-  return s->records != NULL ? record_share(s->records) : (double)s->next / (double)s->array.rows;
+  if (s->records != NULL)
+    return record_share(s->records);
+  return (double)s->next / (double)s->array.rows;
 }
 
 void source_close(row_source *s) {

@@ -61,4 +61,9 @@ double source_share(const row_source *source);
 
 void source_close(row_source *source);
 
+/* The note of row k of a block; NULL where rows have none. */
+static inline const row_note *row_note_of(const source_block *block, size_t k) {
+  return block->note != NULL ? &block->note[k] : NULL;
+}
+
 #endif

@@ -125,10 +125,11 @@ enum {
 
 /* The unit of that name, "" for that of a bare number; NO_UNIT if there is none. */
 static int find_unit(int measure, const char *name) {
-  const bool plural = strcmp(name, "tips") == 0;
+  if (strcmp(name, "tips") == 0)
+    name = "tip";
   for (int k = 0; k < UNITS; k++)
-    if ((units[k].of & OF(measure)) != 0 && ((name[0] == '\0' && measure < MEASURE_SPIN) ||
-                                             strcmp(plural ? "tip" : name, units[k].name) == 0))
+    if ((units[k].of & OF(measure)) != 0 &&
+        ((name[0] == '\0' && measure < MEASURE_SPIN) || strcmp(name, units[k].name) == 0))
       return k;
   return NO_UNIT;
 }
@@ -137,10 +138,9 @@ static int find_unit(int measure, const char *name) {
 static bool set_value(value *v, double given, int unit) {
   v->given = given;
   v->times = units[unit].times;
-  if (isnan(units[unit].factor)) /* BALL_FRACTION */
-    v->x = given >= 0.0 && given <= 1.0 ? asin(1.0 - given) / degree : (double)NAN;
-  else
-    v->x = given * units[unit].factor;
+  v->x = given * units[unit].factor;
+  if (isnan(units[unit].factor) && given >= 0.0 && given <= 1.0) /* BALL_FRACTION */
+    v->x = asin(1.0 - given) / degree;
   const bool apart = units[unit].name[0] >= 'a' && units[unit].times != DIAMONDS; /* 2d, 2 m */
   snprintf(v->name, sizeof v->name, "%.6g%s%s", given, text_if(apart, " "), units[unit].name);
   return isfinite(v->x);
@@ -208,8 +208,10 @@ bool too_many(const option_row *row, double count, int most) {
 
 /* A word, of parts of a ball also as half-ball. */
 static bool set_word(const char *text, int measure, value *v) {
-  const char *end = measure == MEASURE_CUT ? strstr(text, "-ball") : NULL;
-  const size_t size = end != NULL && end[5] == '\0' ? (size_t)(end - text) : strlen(text);
+  const char *end = strstr(text, "-ball");
+  size_t size = strlen(text);
+  if (measure == MEASURE_CUT && end != NULL && end[5] == '\0')
+    size = (size_t)(end - text);
   for (int k = 0; k < WORDS; k++)
     if ((words[k].of & OF(measure)) != 0 && strlen(words[k].name) == size &&
         strncmp(words[k].name, text, size) == 0) {
@@ -245,14 +247,18 @@ static bool set_range(const option_row *row, const char *text, char *copy, value
   if (worded > 0 && unit[0] != '\0')
     return refuse(row, text);
   const int found = find_unit(row->least, unit);
-  const double steps = parts == 3 ? (end[1] - end[0]) / end[2] : POINTS - 1;
+  double steps = POINTS - 1;
+  if (parts == 3)
+    steps = (end[1] - end[0]) / end[2];
   if (parts < 2 || found == NO_UNIT || !(steps >= 1.0 - 1e-9) || isinf(steps))
     return refuse(row, text);
   if (steps > MOST_VALUES - 1)
     return too_many(row, floor(steps) + 1.0, MOST_VALUES);
   *list = (values){.count = (int)(steps + 1.0 + 1e-9), .range = true, .unit = units[found].axis};
   for (int k = 0; k < list->count; k++) {
-    const double x = parts == 3 ? end[0] + k * end[2] : end[0] + (end[1] - end[0]) * k / steps;
+    double x = end[0] + (end[1] - end[0]) * k / steps;
+    if (parts == 3)
+      x = end[0] + k * end[2];
     if (!set_value(&list->at[k], x, found))
       return refuse(row, text);
     if (worded > 0)
@@ -284,11 +290,15 @@ static bool set_one(const option_row *row, const char *text, int common, value *
   if (!split(text, &number, &unit))
     return refuse(row, text);
   const bool bare = unit[0] == '\0';
-  int found = bare ? common : find_unit(measure, unit);
+  int found = common;
+  if (!bare)
+    found = find_unit(measure, unit);
   if (found == NO_UNIT && bare && number == 0.0) /* 0 of any unit */
     found = find_unit(measure, "rad/s");
   if (found == NO_UNIT && bare && measure >= MEASURE_SPIN) {
-    const char *share = measure == MEASURE_SPIN ? " of rolling" : " of english";
+    const char *share = " of english";
+    if (measure == MEASURE_SPIN)
+      share = " of rolling";
     complain("--%s %s needs a unit: %srad/s, %s%%%s or %stip", row->name, text, text, text, share,
              text);
     return false;
@@ -302,7 +312,9 @@ static bool set_one(const option_row *row, const char *text, int common, value *
 static int unit_of_last(int measure, const char *text) {
   const char *last = strrchr(text, ','), *unit;
   double number;
-  if (!split(last != NULL ? last + 1 : text, &number, &unit))
+  if (last != NULL)
+    text = last + 1;
+  if (!split(text, &number, &unit))
     unit = "";
   return find_unit(measure, unit);
 }
@@ -310,9 +322,12 @@ static int unit_of_last(int measure, const char *text) {
 /* Copies a text with a colon for each "..". */
 static void copy_with_colons(const char *from, char *to) {
   for (; *from != '\0'; from++) {
-    const bool dots = strncmp(from, "..", 2) == 0;
-    *to++ = dots ? ':' : *from;
-    from += dots;
+    *to = *from;
+    if (strncmp(from, "..", 2) == 0) {
+      *to = ':';
+      from++;
+    }
+    to++;
   }
   *to = '\0';
 }
@@ -320,7 +335,9 @@ static void copy_with_colons(const char *from, char *to) {
 static bool read_values(const option_row *row, const char *text, values *list) {
   static char copy[LIST_TEXT];
   const int common = unit_of_last(row->least, text);
-  *list = (values){.unit = common != NO_UNIT ? units[common].axis : ""};
+  *list = (values){.unit = ""};
+  if (common != NO_UNIT)
+    list->unit = units[common].axis;
 
   /* how many there are */
   double several = 1.0;
@@ -406,7 +423,7 @@ double tip_offset(const value *const *given, int count, double radius) {
 }
 
 const char *share_of_rolling(const value *v) {
-  return v->times == ROLLING && !isnan(v->given) ? " of rolling" : "";
+  return text_if(v->times == ROLLING && !isnan(v->given), " of rolling");
 }
 
 double spin_of(const value *v, double speed, double radius, double gearing) {

@@ -5,6 +5,8 @@
 
 #include "program/options.h"
 
+#include <math.h>
+
 enum { MOST_VALUES = 1001, VALUE_NAME = 24 };
 
 /* What a number measures, which decides its units. */
@@ -80,5 +82,10 @@ const char *share_of_rolling(const value *v);
 
 /* A spin, rad/s, of a ball of that speed and radius. `gearing` is what GEARING stands for. */
 double spin_of(const value *v, double speed, double radius, double gearing);
+
+/* A value that was given, or the usual one where it is NaN. */
+static inline double value_or(const value *v, double usual) {
+  return isnan(v->x) ? usual : v->x;
+}
 
 #endif

@@ -5,6 +5,7 @@
 #include "program/memory.h"
 #include "program/message.h"
 #include "program/options.h"
+#include "program/output.h"
 #include "rows/records.h"
 #include "shots/json_values.h"
 #include "shots/shot_table.h"
@@ -185,15 +186,13 @@ static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json
 /* ---- The file */
 
 shot_file *shot_file_open(const char *path, carom_shot_cushion cushion) {
-  FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
-  if (in == NULL) {
-    complain("cannot read %s: %s", path, strerror(errno));
+  FILE *in = input_open(path);
+  if (in == NULL)
     return NULL;
-  }
   shot_file *file = allocate(1, sizeof *file);
   json_use_memory();
   file->in = in;
-  file->path = in == stdin ? "standard input" : path;
+  file->path = input_name(path);
   file->cushion = cushion;
   return file;
 }
