@@ -131,7 +131,7 @@ static void touch(bool flat, contact *x, double half) {
   }
 
   /* when |d + v time| was R, at most a step ago; the normal there */
-  const double R = p->radius + q->radius;
+  const double R = p->radius + q->radius + CAROM_TOUCHING;
   const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v),
                C = cluster_dot(flat, d, d) - R * R;
   const double D = carom_greater(B * B - A * C, 0.0);
@@ -158,7 +158,7 @@ static inline bool meet(bool flat, const contact *x, double time) {
     const double d = q->r[k] + q->s[k] + time * q->v[k] - (p->r[k] + p->s[k] + time * p->v[k]);
     square += d * d;
   }
-  const double R = p->radius + q->radius;
+  const double R = p->radius + q->radius + CAROM_TOUCHING;
   return square < R * R;
 }
 
@@ -192,8 +192,11 @@ static inline double find_pressed(bool flat, state *c, double h, pushes *now) {
       now->press[now->pressed++] = (uint8_t)k;
       continue;
     }
+    /* one that touched as all began, and has parted without an impulse, touches as any other */
+    if (x->touched && x->time < 0.0 && overlap_of(flat, x) < -open && !meet(flat, x, 0.0))
+      x->touched = false;
     const bool first = !x->touched;
-    if (first && (c->late || !meet(flat, x, 0.5 * h)))
+    if (first && !meet(flat, x, 0.5 * h))
       continue;
     const bool meets = first && meet(flat, x, 0.0);
     if (meets)
@@ -252,7 +255,7 @@ static bool touch_again(bool flat, state *c) {
   bool any = false;
   for (int k = 0; k < c->contacts; k++) {
     contact *x = &c->contact[k];
-    if (!x->touched || closing_of(flat, x) < c->slow)
+    if (x->time < 0.0 || closing_of(flat, x) < c->slow)
       continue;
     x->offset += 2.0 * open - overlap_of(flat, x);
     any = true;
@@ -526,6 +529,51 @@ static inline double first_step(bool flat, const state *c) {
   return step_of(norm, c->steps);
 }
 
+/* How long until two balls touch that have not. */
+static inline double wait_of_first(bool flat, const contact *x) {
+  const ball *p = x->p, *q = x->q;
+  double d[3], v[3];
+  for (int k = 0; k < 3; k++) {
+    d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
+    v[k] = q->v[k] - p->v[k];
+  }
+  const double R = p->radius + q->radius + CAROM_TOUCHING;
+  const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v),
+               C = cluster_dot(flat, d, d) - R * R, D = B * B - A * C;
+  return B < 0.0 && D > 0.0 ? carom_greater((-B - sqrt(D)) / A, 0.0) : (double)INFINITY;
+}
+
+/* How long until balls touch; infinite: none do. */
+static inline double wait_of_balls(bool flat, const state *c) {
+  double least = INFINITY;
+  for (int k = 0; k < c->contacts; k++) {
+    const contact *x = &c->contact[k];
+    double wait = INFINITY;
+    if (!x->touched) {
+      wait = wait_of_first(flat, x);
+    } else {
+      const double v = closing_of(flat, x);
+      if (v >= c->slow)
+        wait = carom_greater(-overlap_of(flat, x) / v, 0.0);
+    }
+    least = carom_lesser(least, wait);
+  }
+  return least;
+}
+
+/* Of a strike where nothing acts: on to the next touch. Contacts that are too slow to be waited for
+ * stay open. */
+static bool go_on(bool flat, state *c, double *tau) {
+  if (!go_to_touch(flat, c, wait_of_balls(flat, c), tau))
+    return false;
+  for (int k = 0; k < c->contacts; k++) {
+    contact *x = &c->contact[k];
+    if (x->touched)
+      x->offset -= carom_greater(overlap_of(flat, x), 0.0);
+  }
+  return true;
+}
+
 /* Step by step, until no contact acts. */
 static inline bool solve(bool flat, state *c) {
   const double before = energy_of(c);
@@ -534,7 +582,6 @@ static inline bool solve(bool flat, state *c) {
     h = strike_step(c);
   const int least = c->steps > (double)CAROM_CLUSTER_STEPS ? (int)c->steps : CAROM_CLUSTER_STEPS,
             most = CAROM_CLUSTER_STEPS_MOST * least;
-  c->late = false;
   for (c->taken = 0;; c->taken++) {
     if (c->taken == most)
       return false;
@@ -555,10 +602,11 @@ static inline bool solve(bool flat, state *c) {
     tau += 0.5 * h;
     const bool balls = find_acting(flat, c, h, tau, &now, &norm),
                cue = c->struck && tip_acts(c, h, tau), slate = c->on_slate && slate_acts(c, h);
-    c->late |= slate && !balls && !cue;
     if (!balls && !cue && !slate) {
-      if (!touch_again(flat, c) && !(c->struck && c->on_slate && go_to_touch(c, &tau)))
+      if (!touch_again(flat, c) && !(c->struck && go_on(flat, c, &tau)))
         break;
+      if (c->struck)
+        h = carom_lesser(h, push_step(c, c->tip.T, c->tip.e));
       continue;
     }
 

@@ -40,6 +40,9 @@
  * 1 mm is the convention of cushions (shot/resolve.c). 0.1 is one too: beyond a tilt of mu, some
  * 0.05, the normal impulse lifts or presses a ball more than friction can.
  *
+ * Balls touch where their gap falls below CAROM_TOUCHING. So one that is nearer at the start and one
+ * that comes as near do the same.
+ *
  * A contact that is open at the start takes its n where the balls touch, moved by s = int v
  * dtau. Compression and duration of a contact that closes at v: delta = (5 v^2 / (4 K B))^0.4, T
  * = 2.943 delta / v. docs/understanding/clusters.md has what the law explains, cluster.c the
@@ -142,12 +145,12 @@ typedef struct carom_cluster_state {
   bool in_space;
   bool struck;   /* by a cue: tip is read, */
   bool on_slate; /* and slate[], one for each of ball[] */
-  bool late;     /* of the integrator: only the slate has acted once, and balls meet later */
   int balls, contacts;
-  double steps;    /* of a contact's duration */
-  double slow;     /* m/s: contacts that close slower are none, and do not prolong a cluster */
-  double duration; /* of the integration, s */
-  int taken;       /* steps */
+  double steps;     /* of a contact's duration */
+  double steepness; /* of the cue, 0 to 1, push.c; read where it is on_slate */
+  double slow;      /* m/s: contacts that close slower are none, and do not prolong a cluster */
+  double duration;  /* of the integration, s */
+  int taken;        /* steps */
   carom_cluster_ball ball[CAROM_CLUSTER_BALLS];
   carom_cluster_contact_state contact[CAROM_CLUSTER_CONTACTS];
   carom_cluster_tip tip;

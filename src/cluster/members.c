@@ -8,6 +8,7 @@
  * cuts a step of 2e-4 of the speed. Members touch within the cluster if their gap is below 5 delta
  * + T max(0, closing speed). Positions stay, so a ball that came from farther would be seen where
  * it is not. */
+#include "carom_shot.h"
 #include "cluster/cluster.h"
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
@@ -209,9 +210,9 @@ int carom_cluster_members_of_tip(carom_cluster_state *c, double most) {
   bool in[CAROM_CLUSTER_BALLS] = {false};
   int queue[CAROM_CLUSTER_BALLS] = {c->tip.ball};
   const int which = c->ball[c->tip.ball].which;
-  /* as far as the ball gets in twice the duration of the tip, beside what a contact is deep */
+  /* as far as the ball gets in twice the duration of tip or slate, beside what a contact is deep */
   first_contact starts = first_of(&c->ball[c->tip.ball], &c->ball[c->tip.ball], most);
-  starts.delta += most * c->tip.T;
+  starts.delta += most * carom_greater(c->tip.T, CAROM_SLATE_TIME);
   follow(c, &starts, queue, 1, in);
   const int count = keep(c, &starts, in);
   for (int k = 0; k < c->balls; k++)

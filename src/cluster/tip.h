@@ -15,19 +15,21 @@
  *
  *     T = pi/2 (1 + e) sqrt(m_e / k),     1/m_e = 1/M + (1 + 5/2 |q|^2)/m.
  *
- * Under a raised cue, the set that is left where F reaches 0 recovers as delta falls: then
- * delta_max = delta/(1 - e^2), and a tip that closes again loads along the line of unloading. A tip
- * at delta < 0 is open, and touches anew. On the cloth the rest is forgotten where F reaches 0, so
- * that each further touch counts from 0; there the part of the push that goes down is lost, with
- * the speed that it would give.
+ * The set that is left where F reaches 0 recovers as delta falls: then delta_max = delta/(1 - e^2),
+ * and a tip that closes again loads along the line of unloading. A tip at delta < 0 is open, and
+ * touches anew. So no speed jumps where a force reaches 0. In flat play the part of the push that
+ * goes down is lost, with the speed that it would give.
  *
- * A cue goes on for a `reach` after it has parted. Without one it never touches anew. With one,
- * where nothing acts, a raised cue goes on to its next touch, and a ball above the slate down to
- * it. Contacts that close slower than 1e-9 of the speed of the cue are none.
+ * A cue goes on for a `reach` after it has parted. Without one it never touches anew. Where nothing
+ * acts, balls that touch before the set has recovered still do so within the push. A raised cue
+ * goes on to its next touch, and a ball above the slate down to it. Contacts that close slower than
+ * 1e-9 of the speed of the cue are none.
  *
  * SLATE. A linear contact of the slate and the foot of a ball, per unit of its mass, with the same
  * set and the restitution e of both; friction |g| <= mu F against the slip of the foot, as on the
- * cloth (cluster.h) with F for L. It lasts CAROM_SLATE_TIME alone. A ball that nothing else touches
+ * cloth (cluster.h) with F for L. It lasts CAROM_SLATE_TIME alone. Contacts of balls are the more
+ * those of space the steeper the push: phi grows by min(1, (c'_z / 0.1)^2), cluster.h. So a cue
+ * that is raised by a hair pushes as a level one. A ball that nothing else touches
  * has the same law in phases: shot/raised.c. */
 #ifndef CAROM_SRC_CLUSTER_TIP_H
 #define CAROM_SRC_CLUSTER_TIP_H
@@ -68,7 +70,7 @@ static inline double strike_step(const carom_cluster_state *c) {
   double h = far ? (double)INFINITY : push_step(c, T, x->e);
   for (int k = 0; c->on_slate && k < c->balls; k++)
     if (c->slate[k].e > 0.0 && (!far || c->slate[k].J > 0.0))
-      h = carom_lesser(h, push_step(c, (double)CAROM_SLATE_TIME, c->slate[k].e));
+      h = carom_lesser(h, push_step(c, (double)CAROM_SLATE_TIME, c->slate[k].e) / c->steepness);
   return h;
 }
 
@@ -99,8 +101,8 @@ static inline bool tip_acts(carom_cluster_state *c, double h, double tau) {
   x->J = h * carom_linear_force(x->k, x->e, x->d, &x->d_max);
   x->impulse += x->J;
 
-  /* a raised tip without a force acts where it closes */
-  const bool acts = !c->on_slate || x->J > 0.0 || x->closing > too_slow * x->first;
+  /* a tip without a force acts where it closes */
+  const bool acts = x->J > 0.0 || x->closing > too_slow * x->first;
   x->last = acts ? tau : x->last;
   return acts;
 }
@@ -123,13 +125,7 @@ static inline void tip_parts(carom_cluster_state *c, double h) {
   if (x->d_max == 0.0)
     return;
   x->d_max = carom_hertz_vertex(middle, x->d_max, h, x->closing, closing);
-  const double rest = (1.0 - x->e * x->e) * x->d_max;
-  if (c->on_slate) {
-    x->d_max = carom_set_left(x->e, x->d, x->d_max);
-  } else if (x->d <= rest) {
-    x->d -= rest;
-    x->d_max = 0.0;
-  }
+  x->d_max = carom_set_left(x->e, x->d, x->d_max);
   x->gone = x->d_max == 0.0 && !(x->reach > 0.0);
 }
 
@@ -153,25 +149,47 @@ static inline double wait_of_slate(const carom_cluster_state *c, int ball) {
   return comes ? -x->d / down : (double)INFINITY;
 }
 
-/* Nothing acts under a raised cue: all goes on to the next touch of tip or slate. Returns whether
- * there is one. */
-static inline bool go_to_touch(carom_cluster_state *c, double *tau) {
-  const double of_tip = wait_of_tip(c);
+/* How long a contact at d needs until its set has recovered. */
+static inline double recovery(double d, double closing) {
+  return d > 0.0 && closing < 0.0 ? -d / closing : (double)0.0;
+}
+
+/* The longest recovery of tip and slate. */
+static inline double longest_recovery(const carom_cluster_state *c) {
+  const carom_cluster_tip *x = &c->tip;
+  double longest = recovery(x->d, tip_closing(x, &c->ball[x->ball]));
+  for (int k = 0; c->on_slate && k < c->balls; k++)
+    longest = carom_greater(longest, recovery(c->slate[k].d, -c->ball[k].v[2]));
+  return longest;
+}
+
+/* Nothing acts: all goes on to the next touch of balls, which need `of_balls`, or under a raised
+ * cue of tip or slate. Balls that touch after the last recovery are met later, unless tip or slate
+ * touch behind them. Returns whether there is a touch. */
+static inline bool go_to_touch(bool flat, carom_cluster_state *c, double of_balls, double *tau) {
+  const double of_tip = c->on_slate ? wait_of_tip(c) : (double)INFINITY;
   double wait = of_tip;
-  for (int k = 0; k < c->balls; k++)
+  for (int k = 0; c->on_slate && k < c->balls; k++)
     wait = carom_lesser(wait, wait_of_slate(c, k));
+  if (of_balls < (wait < INFINITY ? wait : longest_recovery(c)))
+    wait = of_balls;
   if (!(wait < INFINITY))
     return false;
-  for (int k = 0; k < c->balls; k++) {
+
+  /* a set recovers meanwhile */
+  carom_cluster_tip *tip = &c->tip;
+  tip->d += wait * tip_closing(tip, &c->ball[tip->ball]);
+  tip->d = of_tip <= wait ? (double)CAROM_LEAST_OVERLAP : tip->d;
+  tip->d_max = carom_set_left(tip->e, tip->d, tip->d_max);
+  for (int k = 0; c->on_slate && k < c->balls; k++) {
     carom_cluster_slate *x = &c->slate[k];
     const bool touches = wait_of_slate(c, k) <= wait;
     x->d -= wait * c->ball[k].v[2];
     x->d = touches ? (double)CAROM_LEAST_OVERLAP : x->d;
+    x->d_max = carom_set_left(x->e, x->d, x->d_max);
   }
-  c->tip.d += wait * tip_closing(&c->tip, &c->ball[c->tip.ball]);
-  c->tip.d = of_tip <= wait ? (double)CAROM_LEAST_OVERLAP : c->tip.d;
   for (int k = 0; k < c->balls; k++)
-    cluster_add(false, c->ball[k].s, wait, c->ball[k].v);
+    cluster_add(flat, c->ball[k].s, wait, c->ball[k].v);
   *tau += wait;
   return true;
 }

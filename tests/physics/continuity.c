@@ -13,6 +13,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* What jumps, by law or still. A jump of `event` moves a speed by `most` m/s or less, R w too. */
@@ -26,9 +27,11 @@ static const jump_kind known[] = {
     {"ball_ball", 1e-6, "some in 100,000 moves; their law is not found yet"},
     {"ball_ball in space", 1e-6, "as ball_ball, where the cloth has a share"},
     {"ball_ball of a cluster", 5e-3,
-     "1 nm divides balls that touch from others, and the reach of members.c those that take part"},
-    {"ball_ball of a cluster in space", 5e-3, "as on the cloth"},
-    {"stick_ball of a cluster", 5e-3, "as between balls; and a level cue has another law"},
+     "of balls within some nm, which keep the line of centres of their start if they overlap, and "
+     "at the reach of members.c"},
+    {"ball_ball of a cluster in space", 7e-3, "as on the cloth"},
+    {"stick_ball", 1e-6, "an elevation below 1e-6 degrees is level"},
+    {"stick_ball of a cluster", 0.11, "as between balls, by the speed of the cue"},
     {"ball_linear_cushion", 1e-5, "of coincident events; its law is not found yet"},
 };
 enum { KNOWN = sizeof known / sizeof known[0] };
@@ -279,6 +282,9 @@ static void count_jump(const layout *l, const place *at, int n, double low, doub
   for (int i = 0; i < KNOWN; i++)
     if (strcmp(known[i].event, name) == 0 && size <= known[i].most) {
       found[i]++;
+      if (getenv("CAROM_SHOW") != NULL)
+        printf("known: layout %d, %s%s, %s.%s from %.17g: %s jumps by %.1e\n", n, l->s.kind, l->way,
+               at->of, at->number->name, low, name, size);
       return;
     }
   if (unknown++ < MOST_LINES)

@@ -18,7 +18,7 @@ enum { REF_BALLS = 6 };
  * of the work. Where F has reached 0 the rest is forgotten, or recovers as d falls. */
 typedef struct ref_press {
   num k, e, power, d, most;
-  bool met, recovers;
+  bool met, acted, recovers; /* acted: it has had a force */
 } ref_press;
 
 typedef struct ref_strike {
@@ -26,7 +26,8 @@ typedef struct ref_strike {
   num m, R, mu, mu_cloth, M, V, first; /* first: V before the strike */
   num axis[3], push[3], arm[3];
   num v[REF_BALLS][3], W[REF_BALLS][3], r[REF_BALLS][3]; /* W = R w */
-  bool slate, late;                                      /* late: only the slate acts */
+  bool slate;
+  num phi; /* how free of the cloth contacts of balls are */
   ref_press tip, under[REF_BALLS], pair[REF_BALLS][REF_BALLS];
   num n[REF_BALLS][REF_BALLS][3];
   num impulse; /* of the tip, N s */
@@ -50,6 +51,7 @@ static inline num ref_power(const ref_press *x, num y) {
 /* The force at d, and how it ends. */
 static inline num ref_force(ref_press *x) {
   x->met |= x->d > 0;
+  x->acted |= x->d > 0;
   if (x->d <= 0) {
     x->most = 0;
     return 0;
@@ -129,8 +131,9 @@ static inline void ref_begin(ref_strike *s, const carom_shot_ball *balls, int co
   ref_cross(p, c, s->arm);
   const num e = cue->tip_restitution, T = cue->tip_time;
   const num mass = 1 / (1 / s->M + (1 + 2.5L * (a * a + b * b)) / s->m);
-  s->tip = (ref_press){.k = mass * powl(pi / 2 * (1 + e) / T, 2), .e = e, .power = 1};
-  s->tip.recovers = s->slate;
+  s->tip =
+      (ref_press){.k = mass * powl(pi / 2 * (1 + e) / T, 2), .e = e, .power = 1, .recovers = true};
+  s->phi = fminl(powl(s->push[2] / 0.1L, 2), 1);
 
   /* the slate lasts 1 ms; balls by Hertz: delta = (5 v^2 / (4 K/m))^0.4 */
   const num E = 6.6e9L / 2, given = kind->restitution_table, e_s = given > 0 ? given : 0.5L;
@@ -148,7 +151,7 @@ static inline void ref_begin(ref_strike *s, const carom_shot_ball *balls, int co
 /* Positions and overlaps after h; those of balls that have touched go on along the normal that they
  * had then. */
 static inline void ref_move(ref_strike *s, num h, bool first) {
-  num u[3];
+  num u[3], w[3];
   s->tip.d += h * (s->V - ref_dot(s->v[0], s->push) - ref_dot(s->W[0], s->arm));
   for (int i = 0; i < s->count; i++) {
     s->under[i].d -= h * s->v[i][2];
@@ -160,6 +163,10 @@ static inline void ref_move(ref_strike *s, num h, bool first) {
       ref_press *x = &s->pair[i][j];
       for (int k = 0; k < 3; k++)
         u[k] = s->v[i][k] - s->v[j][k];
+      for (int k = 0; k < 3; k++)
+        w[k] = s->r[j][k] - s->r[i][k];
+      if (x->met && !x->acted && x->d < 0 && ref_dot(w, w) > powl(2 * s->R + 1e-9L, 2))
+        x->met = false; /* it has parted before a force */
       if (x->met) {
         x->d += h * ref_dot(u, s->n[i][j]);
         continue;
@@ -170,7 +177,7 @@ static inline void ref_move(ref_strike *s, num h, bool first) {
       for (int k = 0; k < 3; k++)
         s->n[i][j][k] = u[k] / far;
       x->met = first && gap < 1e-9L;
-      x->d = x->met || (s->late && gap < 0) ? 0 : -gap;
+      x->d = x->met ? 0 : -gap;
     }
 }
 
@@ -194,7 +201,7 @@ static inline bool ref_push(ref_strike *s, num h) {
     s->W[0][k] += 2.5L * F * s->arm[k] / s->m;
   }
   const num comes = gone ? 0 : s->V - ref_dot(s->v[0], s->push) - ref_dot(s->W[0], s->arm);
-  any |= s->slate ? F > 0 || (s->tip.d > 0 && comes > 0) : s->tip.most > 0;
+  any |= F > 0 || (s->tip.d > 0 && comes > 0);
   bool slate = false;
   for (int i = 0; i < s->count; i++) {
     if (s->slate) {
@@ -225,44 +232,73 @@ static inline bool ref_push(ref_strike *s, num h) {
         ref_surface(s, j, back, w);
         for (int k = 0; k < 3; k++)
           u[k] -= w[k];
+        u[2] -= (1 - s->phi) * (s->v[i][2] - s->v[j][2]);
         const num along = ref_dot(u, n);
         for (int k = 0; k < 3; k++)
           u[k] -= along * n[k];
         ref_rub(u, 7 / s->m, s->mu * J[i][j], g[i][j], f);
         ref_hit(s, i, n, f);
+        s->v[i][2] -= (1 - s->phi) * f[2] / s->m;
+        s->v[j][2] += (1 - s->phi) * f[2] / s->m;
         for (int k = 0; k < 3; k++)
           f[k] = -f[k];
         ref_hit(s, j, back, f);
       }
     for (int i = 0; i < s->count; i++) {
       num most = load[i];
-      if (!s->slate) { /* what friction presses on the cloth; v_z stays 0 */
-        num down = 0;
-        for (int j = 0; j < s->count; j++)
-          down += j > i ? -g[i][j][2] : g[j][i][2];
-        most = down > 0 ? down : 0;
+      for (int j = 0; j < s->count; j++) /* what friction presses on the cloth */
+        most += (1 - s->phi) * (j > i ? -g[i][j][2] : g[j][i][2]);
+      most = fmaxl(most, 0);
+      if (!s->slate)
         s->v[i][2] = 0;
-      }
       ref_surface(s, i, foot, u);
       u[2] = 0;
       ref_rub(u, 3.5L / s->m, s->mu_cloth * most, cloth[i], f);
       ref_hit(s, i, foot, f);
     }
   }
-  s->late |= slate && !any;
   return any || slate;
 }
 
-/* Under a raised cue where nothing acts: on to the next touch of tip or slate, if there is one. */
+/* How long until balls touch that have not. */
+static inline num ref_wait_of_balls(const ref_strike *s) {
+  num first = INFINITY, d[3], v[3];
+  for (int i = 0; i < s->count; i++)
+    for (int j = i + 1; j < s->count; j++) {
+      for (int k = 0; k < 3; k++) {
+        d[k] = s->r[j][k] - s->r[i][k];
+        v[k] = s->v[j][k] - s->v[i][k];
+      }
+      const num A = ref_dot(v, v), B = ref_dot(d, v),
+                D = B * B - A * (ref_dot(d, d) - 4 * s->R * s->R);
+      const ref_press *x = &s->pair[i][j];
+      const num closing = -ref_dot(v, s->n[i][j]);
+      if (x->met && closing > 1e-6L)
+        first = fminl(first, fmaxl(-x->d / closing, 0));
+      else if (!x->met && B < 0 && D > 0)
+        first = fminl(first, (-B - sqrtl(D)) / A);
+    }
+  return first;
+}
+
+/* Where nothing acts: on to the next touch of balls, of a tip whose set recovers, or under a raised
+ * cue to the next one of tip or slate, if there is one. */
 static inline bool ref_go_to_touch(ref_strike *s) {
   const num closing = s->V - ref_dot(s->v[0], s->push) - ref_dot(s->W[0], s->arm),
             least = 1e-9L * s->first;
-  const bool comes = s->tip.d <= 0 && closing > least && -s->tip.d / closing * s->V <= s->reach;
+  const bool comes =
+      s->slate && s->tip.d <= 0 && closing > least && -s->tip.d / closing * s->V <= s->reach;
   const num of_tip = comes ? -s->tip.d / closing : INFINITY;
-  num wait = of_tip;
-  for (int i = 0; i < s->count; i++)
+  num wait = of_tip, recovery = s->tip.d > 0 && closing < 0 ? -s->tip.d / closing : 0;
+  for (int i = 0; s->slate && i < s->count; i++) {
     if (s->under[i].d <= 0 && -s->v[i][2] > least)
       wait = fminl(wait, s->under[i].d / s->v[i][2]);
+    if (s->under[i].d > 0 && s->v[i][2] > 0)
+      recovery = fmaxl(recovery, s->under[i].d / s->v[i][2]);
+  }
+  const num balls = ref_wait_of_balls(s);
+  if (balls < (wait < INFINITY ? wait : recovery))
+    wait = balls;
   if (!(wait < INFINITY))
     return false;
   ref_move(s, wait, false);
@@ -281,12 +317,12 @@ static inline void ref_solve(ref_strike *s, num h) {
         num u[3];
         for (int k = 0; k < 3; k++)
           u[k] = s->v[i][k] - s->v[j][k];
-        if (s->pair[i][j].met && ref_dot(u, s->n[i][j]) > 1e-6L) {
+        if (s->pair[i][j].acted && ref_dot(u, s->n[i][j]) > 1e-6L) {
           s->pair[i][j].d = 0;
           go_on = true;
         }
       }
-    go_on |= !go_on && s->slate && ref_go_to_touch(s);
+    go_on |= !go_on && ref_go_to_touch(s);
   }
 }
 
