@@ -40,8 +40,7 @@
  * 1 mm is the convention of cushions (shot/resolve.c). 0.1 is one too: beyond a tilt of mu, some
  * 0.05, the normal impulse lifts or presses a ball more than friction can.
  *
- * Balls touch where their gap falls below CAROM_TOUCHING. So one that is nearer at the start and one
- * that comes as near do the same.
+ * Balls touch where their gap falls below CAROM_TOUCHING, at the start as later.
  *
  * A contact that is open at the start takes its n where the balls touch, moved by s = int v
  * dtau. Compression and duration of a contact that closes at v: delta = (5 v^2 / (4 K B))^0.4, T
