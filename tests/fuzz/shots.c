@@ -335,7 +335,9 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
     tangent.times_count = 2;
   }
   const carom_shot *const shot = &job->shots[0];
-  const size_t events = (size_t)shot->count * each, pairs = 2 * CAROM_STATE_NUMBERS * events;
+  /* a shot with more events than it had room for has no derivatives */
+  const size_t events = shot->count <= shot->room ? (size_t)shot->count * each : 0,
+               pairs = 2 * CAROM_STATE_NUMBERS * events;
   const struct {
     const char *what;
     double *at;
