@@ -216,8 +216,8 @@ TEST(golden_games) {
     int target, points; /* least ones of both together */
     uint64_t hash;
   } given[] = {{CAROM_RULES_STRAIGHT, 40, 40, UINT64_C(0x1e43669d776c02bf)},
-               {CAROM_RULES_SNOOKER, 0, 40, UINT64_C(0xd0439e34e633915b)},
-               {CAROM_RULES_ONEPOCKET, 0, 4, UINT64_C(0x38fdb492a705ef16)}};
+               {CAROM_RULES_SNOOKER, 0, 40, UINT64_C(0x6db1c3cb41ad46e8)},
+               {CAROM_RULES_ONEPOCKET, 0, 4, UINT64_C(0xd269bb302bc08fca)}};
   for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
     int strokes;
     int64_t made[2] = {0};
