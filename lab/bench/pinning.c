@@ -20,7 +20,9 @@ static int isolated_core(void) {
   const bool found = file != NULL && fscanf(file, "%d", &core) == 1;
   if (file != NULL)
     fclose(file);
-  return found && core >= 0 && core < CPU_SETSIZE ? core : -1;
+  if (!found || core < 0 || core >= CPU_SETSIZE)
+    return -1;
+  return core;
 }
 
 static bool pin_to(int core) {
@@ -33,7 +35,9 @@ const char *pinning_begin(void) {
   static char text[200];
   active = sched_getaffinity(0, sizeof all, &all) == 0;
   /* who was given one core only, keeps it */
-  const int isolated = active && CPU_COUNT(&all) > 1 ? isolated_core() : -1;
+  int isolated = -1;
+  if (active && CPU_COUNT(&all) > 1)
+    isolated = isolated_core();
   int core = isolated;
   if (active && (isolated < 0 || !pin_to(isolated))) {
     for (core = CPU_SETSIZE - 1; core > 0 && !CPU_ISSET((size_t)core, &all);)
@@ -46,9 +50,9 @@ const char *pinning_begin(void) {
   }
   const struct sched_param lowest = {.sched_priority = sched_get_priority_min(SCHED_FIFO)};
   real_time = sched_setscheduler(0, SCHED_FIFO, &lowest) == 0;
-  const char *priority = real_time ? "real-time priority" : "no real-time priority";
-  snprintf(text, sizeof text, "pinned to core %d (%sisolated), %s", core,
-           core == isolated ? "" : "not ", priority);
+  const char *no[] = {"no ", ""}, *not [] = {"not ", ""};
+  snprintf(text, sizeof text, "pinned to core %d (%sisolated), %sreal-time priority", core,
+           not [core == isolated], no[real_time]);
   return text;
 }
 

@@ -16,7 +16,9 @@ static const double *numbers(const carom_result *result) {
 
 /* v_a w_a v_b w_b: every second triple is an angular velocity. */
 static double weight(int component, double radius) {
-  return component / 3 % 2 == 1 ? radius : 1.0;
+  if (component / 3 % 2 == 1)
+    return radius;
+  return 1.0;
 }
 
 pair_accuracy accuracy_of(const carom_result *result, const carom_result *reference,
@@ -32,8 +34,12 @@ pair_accuracy accuracy_of(const carom_result *result, const carom_result *refere
       continue;
     const double of_scale = error / scale,
                  of_itself = error / fmax(weight(k, radius) * fabs(y[k]), 0.001 * scale);
-    a.pair = isnan(of_scale) ? INFINITY : fmax(a.pair, of_scale);
-    a.component = isnan(of_itself) ? INFINITY : fmax(a.component, of_itself);
+    a.pair = fmax(a.pair, of_scale);
+    a.component = fmax(a.component, of_itself);
+    if (isnan(of_scale))
+      a.pair = INFINITY;
+    if (isnan(of_itself))
+      a.component = INFINITY;
   }
   return a;
 }

@@ -11,6 +11,7 @@
 #include "program/memory.h"
 #include "program/message.h"
 #include "program/monotonic.h"
+#include "program/words.h"
 #include "sheet.h"
 #include "shots/shot_file.h"
 
@@ -62,7 +63,9 @@ static bool read_shots(bench_job *job) {
   if ((all.file = shot_file_open(job->shots, CAROM_SHOT_CUSHION_DEFAULT)) == NULL)
     return false;
   timed_shot t = {.options = job->shared.shot};
-  t.options.threads = job->threads.count > 0 ? atoi(job->threads.name[0]) : 1;
+  t.options.threads = 1;
+  if (job->threads.count > 0)
+    t.options.threads = atoi(job->threads.name[0]);
   shot_read what;
   while ((what = shot_file_next_shot(all.file, &t.line)) == SHOT_SHOT) {
     if (t.line.error != NULL)
@@ -74,8 +77,10 @@ static bool read_shots(bench_job *job) {
     }
     const char *family = json_string_value(json_object_get(t.line.json, "family"));
     const json_t *recorded = json_object_get(t.line.json, "cpu_ms");
-    t.family = family != NULL ? family : "-";
-    t.recorded_us = json_is_number(recorded) ? 1e3 * json_number_value(recorded) : NAN;
+    t.family = text_or(family, "-");
+    t.recorded_us = NAN;
+    if (json_is_number(recorded))
+      t.recorded_us = 1e3 * json_number_value(recorded);
     all.shot = grow(all.shot, &all.space, all.count + 1, sizeof *all.shot);
     all.shot[all.count++] = t;
   }
@@ -115,7 +120,9 @@ static bool choose(bench_job *job) {
   job->subject = allocate(all.count, sizeof *job->subject);
   for (size_t k = 0; k < all.count; k++) {
     timed_shot *t = &all.shot[k];
-    t->copies = t->options.threads == 1 ? 1 : COPIES * (size_t)t->options.threads;
+    t->copies = 1;
+    if (t->options.threads > 1)
+      t->copies = COPIES * (size_t)t->options.threads;
     t->room = allocate(t->copies, sizeof *t->room);
     play(t);
     job->subject[k] = (bench_subject){.name = t->family,
@@ -151,7 +158,7 @@ static void print_row(const bench_job *job, FILE *out, const char *family, doubl
     slowest = fmin(slowest, t->recorded_us / us[n++]);
   }
   const double count = (double)n;
-  fprintf(out, "%s,%.2f,%zu,%.1f,%.3f,%.0f", family != NULL ? family : "all", balls / count, n,
+  fprintf(out, "%s,%.2f,%zu,%.1f,%.3f,%.0f", text_or(family, "all"), balls / count, n,
           events / count, summarise(us, n).median, 1e6 * count / sum);
   if (isfinite(recorded))
     fprintf(out, ",%.1f,%.0f,%.0f\n", recorded / count, recorded / sum, slowest);
@@ -163,9 +170,11 @@ static void print(const bench_job *job, FILE *out) {
   const carom_shot_options *options = &all.shot[0].options;
   double *scratch = allocate(all.count, sizeof *scratch);
   sheet table;
-  machine_note(out, "shots", "%s, %d thread%s",
-               options->world == CAROM_WORLD_POOLTOOL ? "pooltool's models" : "carom's models",
-               options->threads, options->threads == 1 ? "" : "s");
+  const char *whose = "carom";
+  if (options->world == CAROM_WORLD_POOLTOOL)
+    whose = "pooltool";
+  machine_note(out, "shots", "%s's models, %d thread%s", whose, options->threads,
+               text_if(options->threads != 1, "s"));
   FILE *rows = sheet_begin(&table, out, job->csv);
   fputs("family,balls,shots,events_per_shot,us_median,shots_per_s,recorded_us,speedup,"
         "speedup_least\n",

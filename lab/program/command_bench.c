@@ -78,11 +78,11 @@ static carom_status by_ladder(const workload *w, size_t first) {
 }
 
 static carom_status by_batch(const workload *w, size_t first) {
-  return w->single
-             ? carom_collide_batch_f32((const carom_impact_f32 *)w->in + first, w->size,
-                                       &w->options, (carom_result_f32 *)w->result + first, NULL)
-             : carom_collide_batch((const carom_impact *)w->in + first, w->size, &w->options,
-                                   (carom_result *)w->result + first, NULL);
+  if (w->single)
+    return carom_collide_batch_f32((const carom_impact_f32 *)w->in + first, w->size, &w->options,
+                                   (carom_result_f32 *)w->result + first, NULL);
+  return carom_collide_batch((const carom_impact *)w->in + first, w->size, &w->options,
+                             (carom_result *)w->result + first, NULL);
 }
 
 /* Asking the processor what it can takes a virtual machine some 20 us, as long as 200 calls. */
@@ -96,38 +96,42 @@ static void resolve(void *context) {
     w->one(w, first);
     BENCH_CONSUME(w->result);
     first += w->stride;
-    first -= first >= w->cases->count ? w->cases->count : 0;
+    if (first >= w->cases->count)
+      first -= w->cases->count;
   }
+}
+
+static size_t result_size(bool single) {
+  return single ? sizeof(carom_result_f32) : sizeof(carom_result);
 }
 
 static uint64_t fingerprint(const void *context) {
   const workload *w = context;
-  return bench_fingerprint(w->result,
-                           w->rows * (w->single ? sizeof(carom_result_f32) : sizeof(carom_result)));
+  return bench_fingerprint(w->result, w->rows * result_size(w->single));
 }
 
 static bool takes_steps(const kernel *one) {
   return one->is_rung || one->solver == CAROM_SOLVER_EULER;
 }
 
-static const char *config_of(const workload *w) {
-  return w->module != NULL ? w->module->name : "library";
-}
-
 static const char *isa_of(const workload *w) {
-  return w->size == 0 ? "scalar" : carom_isa_name(w->isa);
+  if (w->size == 0)
+    return "scalar";
+  return carom_isa_name(w->isa);
 }
 
 static const char *precision_of(const workload *w) {
   if (w->size == 0)
     return w->kernel->precision;
-  return w->single ? "single" : "double";
+  return precision_name(w->single);
 }
 
 /* ---- Verification */
 
 static size_t case_of(const workload *w, size_t row) {
-  return w->case_of != NULL ? w->case_of[row] : row % w->cases->count;
+  if (w->case_of != NULL)
+    return w->case_of[row];
+  return row % w->cases->count;
 }
 
 /* `reference` has one result for each case. */
@@ -165,7 +169,9 @@ static double bound_of(const workload *w) {
   static const double of_batches[][2] = {[CAROM_SOLVER_EXACT] = {1e-6, 2e-5},
                                          [CAROM_SOLVER_EULER] = {0.0, 1e-2},
                                          [CAROM_SOLVER_FAST] = {1e-6, 2e-5}};
-  return w->size > 0 ? of_batches[w->kernel->solver][w->single] : w->kernel->claims[0].bound;
+  if (w->size == 0)
+    return w->kernel->claims[0].bound;
+  return of_batches[w->kernel->solver][w->single];
 }
 
 static bool within(const workload *w, double allowed, int steps) {
@@ -177,7 +183,7 @@ static bool within(const workload *w, double allowed, int steps) {
   if (w->size > 0)
     snprintf(lanes, sizeof lanes, ", %s, %s", isa_of(w), precision_of(w));
   complain("%s (%s%s)%s is %.2g off its reference, and %.2g is allowed: it is not timed",
-           w->kernel->name, config_of(w), lanes, with, w->own.max, allowed);
+           w->kernel->name, config_name(w->module), lanes, with, w->own.max, allowed);
   return false;
 }
 
@@ -214,8 +220,10 @@ static bool verify_other_steps(workload *w) {
     carom_collide(&w->cases->impact[k], &euler, &reference[k]);
   w->own = compare(w, reference);
   free(reference);
-  const double scaled = bound * fmax(1.0, steps / w->kernel->claims[0].steps);
-  return within(w, bound > 0.0 ? 2.0 / steps + scaled : 0.0, w->options.steps);
+  double reached = 0.0;
+  if (bound > 0.0)
+    reached = 2.0 / steps + bound * fmax(1.0, steps / w->kernel->claims[0].steps);
+  return within(w, reached, w->options.steps);
 }
 
 /* Resolves the cases and compares. *good: may it be timed? False if data could not be read. */
@@ -265,9 +273,12 @@ static workload *add(const kernel *one, int steps) {
   all.work = grow(all.work, &all.room, all.count + 1, sizeof *all.work);
   workload *w = &all.work[all.count++];
   *w = (workload){.kernel = one, .cases = &all.cases, .isa = carom_isa_in_force()};
-  w->options = (carom_options){.slip = one->claims[0].slip,
-                               .steps = takes_steps(one) ? steps : CAROM_DEFAULT_STEPS,
-                               .solver = one->is_rung ? CAROM_SOLVER_EXACT : one->solver};
+  w->options = (carom_options){
+      .slip = one->claims[0].slip, .steps = CAROM_DEFAULT_STEPS, .solver = CAROM_SOLVER_EXACT};
+  if (takes_steps(one))
+    w->options.steps = steps;
+  if (!one->is_rung)
+    w->options.solver = one->solver;
   return w;
 }
 
@@ -280,7 +291,9 @@ static void add_calls(const kernel *one, const ladder_module *module, int steps)
       return;
   workload *w = add(one, steps);
   w->module = module;
-  w->one = one->is_rung ? by_ladder : by_library;
+  w->one = by_library;
+  if (one->is_rung)
+    w->one = by_ladder;
   w->in = all.cases.impact;
   w->stride = 1;
   w->rows = w->calls = all.cases.count;
@@ -309,24 +322,31 @@ static bool add_configs(const bench_job *job, const kernel *one) {
 }
 
 /* Where nothing is named, what cannot run here is left out; where it is named, it is an error. */
+static bool is_wanted(const bench_job *job, const kernel *one) {
+  if (job->kernels.count > 0)
+    return names(&job->kernels, one->name);
+  if (one->is_rung)
+    return ladder_module_name(0) != NULL && ladder_rung_runs(ladder_rung_find(one->name));
+  return job->configs.count == 0;
+}
+
 static bool add_all_calls(const bench_job *job) {
   const kernel *one;
   const ladder_module *unused;
   if (job->configs.count > 0 && ladder_module_name(0) == NULL)
     return kernel_module(kernel_find(ladder_rung_at(0)->name), NULL, &unused);
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
-    const bool runs = one->is_rung ? ladder_module_name(0) != NULL &&
-                                         ladder_rung_runs(ladder_rung_find(one->name))
-                                   : job->configs.count == 0;
-    if ((job->kernels.count > 0 ? names(&job->kernels, one->name) : runs) &&
-        wants_precision(job, strcmp(one->precision, "single") == 0) && !add_configs(job, one))
+    if (is_wanted(job, one) && wants_precision(job, strcmp(one->precision, "single") == 0) &&
+        !add_configs(job, one))
       return false;
   }
   return true;
 }
 
 static size_t common_divisor(size_t a, size_t b) {
-  return b == 0 ? a : common_divisor(b, a % b);
+  if (b == 0)
+    return a;
+  return common_divisor(b, a % b);
 }
 
 /* Batches of `size` pairs by a solver in lanes of `isa`, from the cases over and over. */
@@ -334,16 +354,22 @@ static void add_batch(const kernel *one, carom_isa isa, bool single, int threads
                       size_t size) {
   const size_t n = all.cases.count, shared = common_divisor(size, n);
   workload *w = add(one, steps);
-  w->in = single ? (const void *)all.tiled_f32 : all.tiled;
+  w->in = all.tiled;
+  if (single)
+    w->in = all.tiled_f32;
   w->isa = isa;
   w->single = single;
   w->size = size;
-  w->calls = size < LARGE ? n / shared : 1;
+  w->calls = 1;
+  w->rows = size;
   w->stride = size % n;
   w->one = by_batch;
-  w->rows = w->calls > 1 ? size + n - shared : size;
+  if (size < LARGE) {
+    w->calls = n / shared;
+    w->rows = size + n - shared;
+  }
   w->options.threads = threads;
-  w->result = allocate(w->rows, single ? sizeof(carom_result_f32) : sizeof(carom_result));
+  w->result = allocate(w->rows, result_size(single));
 }
 
 /* Does this processor have it, and is it not above what CAROM_ISA allows? */
@@ -366,10 +392,13 @@ static bool wants_batches(const bench_job *job, const kernel *one) {
 /* Every size, precision, number of threads and, where a kernel takes any, of steps that is
  * wanted. */
 static void add_batches(const bench_job *job, const kernel *one, carom_isa isa) {
+  size_t steps = 1;
+  if (takes_steps(one))
+    steps = job->steps.count;
   for (size_t size = 0; size < job->pairs.count; size++)
     for (int single = 0; single < 2; single++)
       for (size_t t = 0; t < job->threads.count && wants_precision(job, single != 0); t++)
-        for (size_t k = 0; k < (takes_steps(one) ? job->steps.count : 1); k++)
+        for (size_t k = 0; k < steps; k++)
           add_batch(one, isa, single != 0, atoi(job->threads.name[t]), atoi(job->steps.name[k]),
                     (size_t)atoi(job->pairs.name[size]));
 }
@@ -385,7 +414,8 @@ static void add_all_batches(bench_job *job) {
   size_t rows = n;
   for (size_t k = 0; k < pairs->count; k++) {
     const size_t needed = n + (size_t)atoi(pairs->name[k]);
-    rows = needed > rows ? needed : rows;
+    if (needed > rows)
+      rows = needed;
   }
   all.tiled = allocate(rows, sizeof *all.tiled);
   all.tiled_f32 = allocate(rows, sizeof *all.tiled_f32);
@@ -408,8 +438,9 @@ static bool is_reference(const workload *w) {
 }
 
 static bool add_references(void) {
-  const char *name = ladder_module_name(0) != NULL ? ladder_rung_at(0)->name
-                                                   : carom_solver_name(CAROM_SOLVER_EULER);
+  const char *name = carom_solver_name(CAROM_SOLVER_EULER);
+  if (ladder_module_name(0) != NULL)
+    name = ladder_rung_at(0)->name;
   all.reference = kernel_find(name);
   if (all.reference->is_rung && !kernel_module(all.reference, NULL, &all.reference_module))
     return false;
@@ -431,7 +462,8 @@ static bool verify_all(bench_job *job, const char *folder) {
     all.work[k] = all.work[count]; /* those that are refused come to the end */
     all.work[count] = passed;
     count += good;
-    job->code = good ? job->code : EXIT_SOME;
+    if (!good)
+      job->code = EXIT_SOME;
   }
   job->subject_count = count;
   job->subject = allocate(count + 1, sizeof *job->subject);
@@ -443,9 +475,13 @@ static bool verify_all(bench_job *job, const char *folder) {
                          .prepare = choose_isa,
                          .resolve = resolve,
                          .fingerprint = fingerprint,
-                         .pairs = w->calls * (w->size > 0 ? w->size : 1),
-                         .threads = w->size > 0 ? w->options.threads : 1,
+                         .pairs = w->calls,
+                         .threads = 1,
                          .reference = SIZE_MAX};
+    if (w->size > 0) {
+      s->pairs = w->calls * w->size;
+      s->threads = w->options.threads;
+    }
     for (size_t j = 0; j < count; j++)
       if (is_reference(&all.work[j]) && all.work[j].options.steps == w->options.steps)
         s->reference = j;
@@ -482,10 +518,12 @@ static bool choose(bench_job *job) {
 static void note(const bench_job *job, FILE *out) {
   machine_note(out, "workload", "%zu reference cases, one call each, mean over the cases",
                all.cases.count);
-  machine_note(out, "batches", "the cases over and over, %s pairs in a call",
-               job->pairs.room > 0 ? "column" : job->pairs.name[0]);
+  const char *pairs = job->pairs.name[0];
+  if (job->pairs.room > 0)
+    pairs = "column";
+  machine_note(out, "batches", "the cases over and over, %s pairs in a call", pairs);
   machine_note(out, "reference kernel", "%s, %s, with as many steps", all.reference->name,
-               all.reference_module != NULL ? all.reference_module->name : "library");
+               config_name(all.reference_module));
   const char *name;
   for (size_t k = 0; (name = ladder_module_name(k)) != NULL; k++)
     for (size_t w = 0; w < job->subject_count; w++)
@@ -500,22 +538,31 @@ static void note(const bench_job *job, FILE *out) {
       machine_note(out, "left out",
                    "%s, %s, %d steps: %zu of %zu cases, whose approach its precision does not "
                    "resolve in as many steps",
-                   w->kernel->name, config_of(w), w->options.steps, all.cases.count - w->rows,
-                   all.cases.count);
+                   w->kernel->name, config_name(w->module), w->options.steps,
+                   all.cases.count - w->rows, all.cases.count);
 }
 
 /* The head of the table for w = NULL. */
 static void print_row(const bench_job *job, FILE *out, const workload *w, const bench_figure *f) {
   const workload none = {.kernel = all.reference};
-  const workload *of = w != NULL ? w : &none;
+  const workload *of = &none;
+  if (w != NULL)
+    of = w;
+  double threads = 1.0, pairs = (double)of->rows, steps = 0.0;
+  if (of->size > 0) {
+    threads = of->options.threads;
+    pairs = (double)of->size;
+  }
+  if (takes_steps(of->kernel))
+    steps = of->options.steps;
   const bool csv = job->csv, more = job->spread;
   const struct {
     bool shown;
     const char *name, *format;
     double x;
   } columns[] = {
-      {true, "threads", "%.0f", of->size > 0 ? of->options.threads : 1},
-      {true, "steps", "%.0f", takes_steps(of->kernel) ? of->options.steps : 0},
+      {true, "threads", "%.0f", threads},
+      {true, "steps", "%.0f", steps},
       {true, "ns_median", "%.6g", f->ns.median},
       {csv, "ns_min", "%.6g", f->ns.min},
       {csv, "ns_max", "%.6g", f->ns.max},
@@ -530,12 +577,13 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
       {job->errors, "slip", NULL, 0.0},
       {job->errors, "error_exact_median", "%.3g", of->exact.median},
       {job->errors, "error_exact_max", "%.3g", of->exact.max},
-      {job->pairs.room > 0, "pairs", "%.0f", (double)(of->size > 0 ? of->size : of->rows)},
+      {job->pairs.room > 0, "pairs", "%.0f", pairs},
   };
   if (w == NULL)
     fputs("kernel,config,isa,precision", out);
   else
-    fprintf(out, "%s,%s,%s,%s", w->kernel->name, config_of(w), isa_of(w), precision_of(w));
+    fprintf(out, "%s,%s,%s,%s", w->kernel->name, config_name(w->module), isa_of(w),
+            precision_of(w));
   for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
     if (!columns[k].shown)
       continue;
@@ -771,7 +819,9 @@ static int bench(bench_job *job) {
       job->table = &bench_of_shots;
     else if (job->cushions)
       job->table = &bench_of_cushions;
-    return bench_all(job) ? job->code : EXIT_USAGE;
+    if (!bench_all(job))
+      return EXIT_USAGE;
+    return job->code;
   }
   return usage_hint(&form);
 }
@@ -779,5 +829,7 @@ static int bench(bench_job *job) {
 int command_bench(int argc, char **argv) {
   static bench_job job = {.shared = {.precision = ANY_PRECISION, .output = "-"}};
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
-  return code >= 0 ? code : bench(&job);
+  if (code >= 0)
+    return code;
+  return bench(&job);
 }

@@ -62,7 +62,9 @@ static size_t read_shots(const char *folder, shot shots[MOST_SHOTS]) {
       complain("%s:%lld: not an experiment", path, row.line);
   }
   record_close(reader);
-  return good ? count : 0;
+  if (!good)
+    return 0;
+  return count;
 }
 
 /* The line of centres is y; the cue ball rolls at theta to it, towards +x. */
@@ -155,9 +157,13 @@ int command_experiments(int argc, char **argv) {
     return code;
   shot shots[MOST_SHOTS];
   const size_t count = read_shots(data_folder(job.shared.folder), shots);
-  FILE *out = count > 0 ? output_open(job.shared.output) : NULL;
+  if (count == 0)
+    return EXIT_USAGE;
+  FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
   print_all(out, job.csv, shots, count, job.shared.options.slip);
-  return output_commit() ? EXIT_GOOD : EXIT_USAGE;
+  if (!output_commit())
+    return EXIT_USAGE;
+  return EXIT_GOOD;
 }

@@ -2,6 +2,7 @@
 #include "kernel.h"
 #include "program/command.h"
 #include "program/output.h"
+#include "program/words.h"
 #include "sheet.h"
 #include "subcommands.h"
 
@@ -40,11 +41,16 @@ static void print_kernels(FILE *out, bool csv) {
   const kernel *one;
   fputs("kernel,precision,parent,needs,paper,idea\n", rows);
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
-    const ladder_rung *rung = one->is_rung ? ladder_rung_find(one->name) : NULL;
+    const ladder_rung *rung = NULL;
+    if (one->is_rung)
+      rung = ladder_rung_find(one->name);
     if (!csv && rung != NULL && !ladder_rung_runs(rung))
       continue;
-    fprintf(rows, "%s,%s,%s,%s,%s,", one->name, one->precision, rung != NULL ? rung->parent : "",
-            rung != NULL ? needs[rung->isa] : "", rung != NULL ? rung->paper : "");
+    fprintf(rows, "%s,%s,", one->name, one->precision);
+    if (rung != NULL)
+      fprintf(rows, "%s,%s,%s,", rung->parent, needs[rung->isa], rung->paper);
+    else
+      fputs(",,,", rows);
     csv_fwrite(rows, one->text, strlen(one->text));
     fputc('\n', rows);
   }
@@ -58,7 +64,7 @@ static void print_kernels(FILE *out, bool csv) {
   char why[LADDER_WHY_SIZE] = "";
   if (ladder_module_name(0) == NULL)
     ladder_module_find("default", why);
-  fprintf(out, "%s%s\n", why[0] != '\0' ? " none; " : "", why);
+  fprintf(out, "%s%s\n", text_if(why[0] != '\0', " none; "), why);
 }
 
 int command_kernels(int argc, char **argv) {
@@ -70,5 +76,7 @@ int command_kernels(int argc, char **argv) {
   if (out == NULL)
     return EXIT_USAGE;
   print_kernels(out, job.csv);
-  return output_commit() ? EXIT_GOOD : EXIT_USAGE;
+  if (!output_commit())
+    return EXIT_USAGE;
+  return EXIT_GOOD;
 }

@@ -8,6 +8,7 @@
 #include "program/memory.h"
 #include "program/message.h"
 #include "program/options.h"
+#include "program/words.h"
 #include "shots/shot_file.h"
 #include "subcommands.h"
 
@@ -60,15 +61,21 @@ static bool read_state(const json_t *v, carom_ball_state *s) {
   return true;
 }
 
+/* How many balls an event changes. */
+static size_t sides_of(const carom_event *e) {
+  return 1 + (e->type == CAROM_EVENT_BALL_BALL);
+}
+
 /* A recorded event as one of carom, but for the index of what a ball met. */
 static bool read_event(const shot_line *line, const json_t *json, carom_event *e) {
   *e = (carom_event){.time = json_number_value(json_array_get(json, 0)),
                      .type = type_of(json_string_value(json_array_get(json, 1)))};
   const json_t *ids = json_array_get(json, 2);
-  const size_t first = e->type == CAROM_EVENT_STRIKE ? 1 : 0,
-               sides = e->type == CAROM_EVENT_BALL_BALL ? 2 : 1;
-  e->a = ball_of(line, json_array_get(ids, first));
-  e->b = sides == 2 ? ball_of(line, json_array_get(ids, 1)) : -1;
+  const size_t sides = sides_of(e);
+  e->a = ball_of(line, json_array_get(ids, e->type == CAROM_EVENT_STRIKE)); /* behind the cue */
+  e->b = -1;
+  if (sides == 2)
+    e->b = ball_of(line, json_array_get(ids, 1));
   for (size_t k = 0; k < sides; k++)
     if (!read_state(json_array_get(json_array_get(json, 3), k), &e->before[k]) ||
         !read_state(json_array_get(json_array_get(json, 4), k), &e->after[k]))
@@ -125,7 +132,7 @@ static bool compare(const shot_line *line, const carom_shot *shot, row *f, char 
   const size_t same = (size_t)json_integer_value(json_object_get(sens, "same_events"));
   if (recorded == 0 || sens == NULL)
     return snprintf(why, 200, "it has no recorded events") < 0;
-  for (size_t k = 1; k < (same < recorded ? same : recorded - 1); k++) {
+  for (size_t k = 1; k < same && k + 1 < recorded; k++) {
     const json_t *json = json_array_get(events, k);
     const carom_event *own = &shot->events[k - 1];
     carom_event e;
@@ -137,10 +144,11 @@ static bool compare(const shot_line *line, const carom_shot *shot, row *f, char 
                       json_string_value(json_array_get(json, 1)), e.time) < 0;
     const double dt = fabs(own->time - e.time) / allowed(sens, "t", k);
     double worst = 0.0; /* of the states after the event, whose amplification is recorded */
-    for (int side = 0; side < (e.type == CAROM_EVENT_BALL_BALL ? 2 : 1); side++)
-      worst = own->after[side].label == e.after[side].label
-                  ? fmax(worst, states_apart(&own->after[side], &e.after[side], 0.03))
-                  : INFINITY;
+    for (size_t side = 0; side < sides_of(&e); side++) {
+      worst = fmax(worst, states_apart(&own->after[side], &e.after[side], 0.03));
+      if (own->after[side].label != e.after[side].label)
+        worst = INFINITY;
+    }
     worst /= allowed(sens, "state", k);
     f->time = fmax(f->time, dt);
     f->state = fmax(f->state, worst);
@@ -163,7 +171,7 @@ static void play_again(parity_job *job, const shot_line *line, const char *engin
     options.ball_model = CAROM_BALL_MODEL_EULER;
   if (strcmp(engine, "mathavan_all") == 0)
     options.cushion_model = CAROM_SHOT_CUSHION_EULER;
-  row *f = family_of(job, name != NULL ? name : "-");
+  row *f = family_of(job, text_or(name, "-"));
   f->shots++;
   char why[200] = "";
   bool good = false;
@@ -177,8 +185,8 @@ static void play_again(parity_job *job, const shot_line *line, const char *engin
   }
   f->agreed += good;
   if (!good && job->all)
-    complain("line %zu: shot %s: %s", line->number, line->id != NULL ? line->id : "-",
-             line->error != NULL ? line->error : why);
+    complain("line %zu: shot %s: %s", line->number, text_or(line->id, "-"),
+             text_or(line->error, why));
 }
 
 /* ---- The table */
@@ -244,5 +252,5 @@ int command_parity(int argc, char **argv) {
   }
   const bool good = print_families(&job);
   free(job.each);
-  return good ? EXIT_GOOD : EXIT_SOME;
+  return exit_of(good);
 }

@@ -5,6 +5,7 @@
 #include "program/options.h"
 #include "program/output.h"
 #include "program/place.h"
+#include "program/words.h"
 #include "subcommands.h"
 
 #include <limits.h>
@@ -35,18 +36,23 @@ static const command_form form = {
 int command_published(int argc, char **argv) {
   published_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}};
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
-  FILE *out = code < 0 ? output_open(job.shared.output) : NULL;
+  if (code >= 0)
+    return code;
+  FILE *out = output_open(job.shared.output);
   if (out == NULL)
-    return code < 0 ? EXIT_USAGE : code;
+    return EXIT_USAGE;
   char line[3 * PATH_MAX];
   snprintf(line, sizeof line,
            "CAROM_PYTHON_MODULES='jinja2 pycparser' '%s/tools/python' -m lab.published '%s' "
            "'%s/measured.csv' %s",
-           LAB_SOURCE, LAB_LIBRARY, data_folder(job.shared.folder), job.csv ? "csv" : "");
+           LAB_SOURCE, LAB_LIBRARY, data_folder(job.shared.folder), text_if(job.csv, "csv"));
   FILE *rows = popen(line, "r");
   for (int c; rows != NULL && (c = fgetc(rows)) != EOF;)
     fputc(c, out);
-  const int status = rows != NULL ? pclose(rows) : -1,
-            result = WIFEXITED(status) ? WEXITSTATUS(status) : EXIT_USAGE;
-  return result <= EXIT_SOME && output_commit() ? result : EXIT_USAGE;
+  int status = -1;
+  if (rows != NULL)
+    status = pclose(rows);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) > EXIT_SOME || !output_commit())
+    return EXIT_USAGE;
+  return WEXITSTATUS(status);
 }

@@ -6,11 +6,13 @@
  * most, is what they are compared with. The reference of lab/stress decides where it and a call
  * differ by more than REFERENCE_FROM, and for 1 row in 1000 of each group. */
 #include "draws.h"
+#include "kernel.h"
 #include "program/command.h"
 #include "program/memory.h"
 #include "program/message.h"
 #include "program/options.h"
 #include "program/output.h"
+#include "program/words.h"
 #include "reference.h"
 #include "rows/number.h"
 #include "rows/precision.h"
@@ -74,19 +76,22 @@ typedef union outcome {
 /* ---- Counting */
 
 static void count(tally *t, double error, bool of_play, uint64_t k) {
-  const double share = error / (of_play ? MOST_OF_PLAY : MOST);
+  double share = error / MOST;
   t->count[ROWS]++;
   t->count[OVER_1E6] += error > 1e-6;
   t->count[OVER_1E5] += error > 1e-5;
   t->count[OVER_2E5] += error > 2e-5;
   t->largest = fmax(t->largest, error);
-  if (of_play)
+  if (of_play) {
+    share = error / MOST_OF_PLAY;
     t->largest_of_play = fmax(t->largest_of_play, error);
-  if (share > t->worst_share)
-    t->worst_share = share, t->worst = k;
+  }
+  if (share > t->worst_share) {
+    t->worst_share = share;
+    t->worst = k;
+  }
   const double place = PER_DECADE * log10(fmax(error, LEAST_ERROR) / LEAST_ERROR);
-  const int last = DECADES * PER_DECADE - 1;
-  t->histogram[place < last ? (int)place : last]++;
+  t->histogram[(int)fmin(place, DECADES * PER_DECADE - 1)]++;
 }
 
 /* The error that so large a share of the rows do not exceed. */
@@ -130,25 +135,36 @@ static double apart(const drawn *c, const outcome *a, const outcome *b) {
   const double *x = (const double *)&a->balls, *y = (const double *)&b->balls,
                *before[] = {in->a.v, in->b.v};
   double most = 0, scale = 0;
+  const double weights[] = {1, in->a.radius}; /* of velocities, and of angular ones */
   for (int k = 0; k < 12; k++) {
-    const double weight = k / 3 % 2 == 1 ? in->a.radius : 1;
+    const double weight = weights[k / 3 % 2];
     if (isnan(x[k]))
       return INFINITY;
     most = fmax(most, weight * fabs(x[k] - y[k]));
     scale = fmax(scale, weight * fmax(fabs(y[k]), 1e-9 * fabs(before[k / 6][k % 6])));
   }
-  return most > 0 ? most / scale : 0;
+  if (most == 0)
+    return 0;
+  return most / scale;
 }
 
 static carom_status call(const drawn *c, outcome *out) {
   const carom_options options = {.slip = c->slip};
-  return c->cushion ? carom_cushion(&c->rail, NULL, &out->rail)
-                    : carom_collide(&c->balls, &options, &out->balls);
+  if (c->cushion)
+    return carom_cushion(&c->rail, NULL, &out->rail);
+  return carom_collide(&c->balls, &options, &out->balls);
 }
 
 static bool precisely(const drawn *c, outcome *out) {
-  return CAROM_OK == (c->cushion ? cushion_precisely(&c->rail, PRECISELY, &out->rail)
-                                 : collide_precisely(&c->balls, c->slip, PRECISELY, &out->balls));
+  if (c->cushion)
+    return cushion_precisely(&c->rail, PRECISELY, &out->rail) == CAROM_OK;
+  return collide_precisely(&c->balls, c->slip, PRECISELY, &out->balls) == CAROM_OK;
+}
+
+static bool by_reference(const drawn *c, outcome *out) {
+  if (c->cushion)
+    return reference_cushion(&c->rail, &out->rail) == REFERENCE_OK;
+  return reference_collide(&c->balls, c->slip, &out->balls, NULL) == REFERENCE_OK;
 }
 
 /* Whether a result is not there to be compared, which is counted. */
@@ -168,14 +184,18 @@ static void compare(stress *s, int group, uint64_t k, const drawn *c) {
   if (is_error(t, status))
     return;
   const bool known = precisely(c, &precise);
-  double error = known ? apart(c, &own, &precise) : INFINITY;
+  double error = INFINITY;
+  if (known)
+    error = apart(c, &own, &precise);
   if (error > REFERENCE_FROM || k % 1000 == 0) {
-    if (REFERENCE_OK == (c->cushion ? reference_cushion(&c->rail, &exact.rail)
-                                    : reference_collide(&c->balls, c->slip, &exact.balls, NULL))) {
-      const double precise_error = known ? apart(c, &precise, &exact) : 0;
+    if (by_reference(c, &exact)) {
+      static const double precise_most[] = {1e-9, 1e-8}; /* of balls, on a cushion */
+      double precise_error = 0;
+      if (known)
+        precise_error = apart(c, &precise, &exact);
       error = apart(c, &own, &exact);
       s->asked++;
-      s->precise_wrong += precise_error > (c->cushion ? 1e-8 : 1e-9);
+      s->precise_wrong += precise_error > precise_most[c->cushion];
       s->precise_largest = fmax(s->precise_largest, precise_error);
     } else if (error > REFERENCE_FROM) {
       t->count[LEFT_OUT]++;
@@ -281,10 +301,15 @@ static void print_row(FILE *out, const char *first, const char *second, const ta
 
 /* The numbers of an impact, in the order of its struct. */
 static void print_numbers(FILE *out, const drawn *c) {
-  const double *const number = c->cushion ? (const double *)&c->rail : (const double *)&c->balls;
+  const double *number = (const double *)&c->balls;
+  int count = 26;
   char text[NUMBER_TEXT];
-  for (int k = 0; k < (c->cushion ? 15 : 26); k++)
-    fprintf(out, "%s%s", k > 0 ? "," : "", number_text(number[k], text));
+  if (c->cushion) {
+    number = (const double *)&c->rail;
+    count = 15;
+  }
+  for (int k = 0; k < count; k++)
+    fprintf(out, "%s%s", text_if(k > 0, ","), number_text(number[k], text));
 }
 
 static void print_table(const stress *s, FILE *out) {
@@ -300,7 +325,7 @@ static void print_table(const stress *s, FILE *out) {
   for (int single = 0; single < 2; single++)
     for (int group = 0; group < draw_groups(s->kind); group++)
       if (single == 0 || !draw(s->kind, group, 0, 0).cushion)
-        print_row(out, single == 1 ? "single" : "double", draw_name(s->kind, group),
+        print_row(out, precision_name(single == 1), draw_name(s->kind, group),
                   &s->tally[group][single]);
   fprintf(out,
           "\nrows of batches whose bits or status differ from single calls: %ld\n"
@@ -313,9 +338,11 @@ static void print_table(const stress *s, FILE *out) {
     const tally *const t = &s->tally[group][0];
     if (t->count[ROWS] > 0) {
       const drawn c = draw(s->kind, group, s->seed, t->worst);
-      fprintf(out,
-              "%s, %s %llu, %.2g of its bound: ", c.cushion ? "cushion" : carom_slip_name(c.slip),
-              draw_name(s->kind, group), (unsigned long long)t->worst, t->worst_share);
+      const char *of = carom_slip_name(c.slip);
+      if (c.cushion)
+        of = "cushion";
+      fprintf(out, "%s, %s %llu, %.2g of its bound: ", of, draw_name(s->kind, group),
+              (unsigned long long)t->worst, t->worst_share);
       print_numbers(out, &c);
       fputc('\n', out);
     }
@@ -390,7 +417,9 @@ int command_stress(int argc, char **argv) {
   else if (job.coincidences > 0)
     all->kind = DRAW_COINCIDENCES;
   all->seed = (uint64_t)job.seed;
-  all->draws = counts > 0 ? (uint64_t)(job.draws + job.cushions + job.coincidences) : 100000;
+  all->draws = 100000;
+  if (counts > 0)
+    all->draws = (uint64_t)(job.draws + job.cushions + job.coincidences);
   carom_in_threads(run_blocks, &all,
                    (size_t)draw_groups(all->kind) * ((all->draws + BLOCK - 1) / BLOCK),
                    job.shared.options.threads, 1);
@@ -400,5 +429,5 @@ int command_stress(int argc, char **argv) {
   free(all);
   if (!output_commit())
     return EXIT_USAGE;
-  return good ? EXIT_GOOD : EXIT_SOME;
+  return exit_of(good);
 }

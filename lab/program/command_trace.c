@@ -6,6 +6,7 @@
 #include "program/message.h"
 #include "program/output.h"
 #include "program/place.h"
+#include "program/words.h"
 #include "rows/kind.h"
 #include "rows/number.h"
 #include "subcommands.h"
@@ -30,8 +31,10 @@ static void write_point(FILE *out, const carom_impact *in, const char *solver,
                         const carom_trace_point *p) {
   fputs(solver, out);
   write_numbers(out, (double[]){p->normal, p->work}, 2);
-  fprintf(out, ",%s,%d", p->phase == CAROM_PHASE_RESTITUTION ? "restitution" : "compression",
-          p->sticks != 0);
+  const char *phase = "compression";
+  if (p->phase == CAROM_PHASE_RESTITUTION)
+    phase = "restitution";
+  fprintf(out, ",%s,%d", phase, p->sticks != 0);
   write_numbers(out, (double[]){p->v_n, p->u_x, p->u_z, p->d_x, p->d_y, p->b_x, p->b_y}, 7);
   write_in_axes(out, in, p->state.a.v);
   write_in_axes(out, in, p->state.b.v);
@@ -70,8 +73,9 @@ static int write_traces(const trace_job *job, const carom_impact *in) {
   carom_trace_point *point = allocate(2 * n, sizeof *point);
   carom_options options = job->shared.options;
   int code = EXIT_GOOD;
+  static const carom_solver solvers[2] = {CAROM_SOLVER_EXACT, CAROM_SOLVER_EULER};
   for (int k = 0; k < 2 && code == EXIT_GOOD; k++) {
-    options.solver = k == 0 ? CAROM_SOLVER_EXACT : CAROM_SOLVER_EULER;
+    options.solver = solvers[k];
     const carom_status status = carom_trace(in, &options, n, &point[(size_t)k * n]);
     if (status == CAROM_OK)
       continue;
@@ -80,19 +84,21 @@ static int write_traces(const trace_job *job, const carom_impact *in) {
     code = EXIT_USAGE;
   }
 
-  const char *path = job->shared.output != NULL ? job->shared.output : "-";
-  FILE *out = code == EXIT_GOOD ? output_open(path) : NULL;
+  FILE *out = NULL;
+  if (code == EXIT_GOOD)
+    out = output_open(text_or(job->shared.output, "-"));
   if (out != NULL) {
     write_notes(out, job, in, point);
     fputs("solver,impulse_N_s,work_J,phase,sticks,v_n_m_s,u_x_m_s,u_z_m_s,d_x_m_s,d_y_m_s,b_x_m_s,"
           "b_y_m_s,v1_x_m_s,v1_y_m_s,v2_x_m_s,v2_y_m_s," RESULT_COLUMNS "\n",
           out);
     for (size_t k = 0; k < 2 * n; k++)
-      write_point(out, in, carom_solver_name(k < n ? CAROM_SOLVER_EXACT : CAROM_SOLVER_EULER),
-                  &point[k]);
+      write_point(out, in, carom_solver_name(solvers[k / n]), &point[k]);
   }
   free(point);
-  return out != NULL && output_commit() ? EXIT_GOOD : EXIT_USAGE;
+  if (out == NULL || !output_commit())
+    return EXIT_USAGE;
+  return EXIT_GOOD;
 }
 
 OPTION(trace_job, option_trace_id, "id", id, 0, "X", set_text, 0,

@@ -7,6 +7,7 @@
 #include "program/message.h"
 #include "program/output.h"
 #include "program/place.h"
+#include "program/words.h"
 #include "sheet.h"
 #include "subcommands.h"
 
@@ -39,24 +40,23 @@ typedef struct verification {
   ladder_summary ladder;
 } verification;
 
-/* The seed paper's count, or NA. */
-static const char *paper_count(int paper, char text[32]) {
-  snprintf(text, 32, paper >= 0 ? "%d" : "NA", paper);
-  return text;
-}
-
 static void print_claim(const verification *v, const kernel *one, const ladder_module *module,
                         const kernel_claim *claim, const accuracy_summary *s, bool pass) {
-  const ladder_rung *rung = one->is_rung ? ladder_rung_find(one->name) : NULL;
-  const char *lanes = v->way != SINGLE_CALLS ? carom_isa_name((carom_isa)v->way) : "";
-  char over_1e3[32], over_1e2[32];
-  fprintf(v->rows, "%s,%s%s%s,%s,%d,%s,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g,%zu,%s,%zu,%s,%s\n",
-          one->name, module != NULL ? module->name : "library",
-          module == NULL && lanes[0] != '\0' ? "-" : "", module == NULL ? lanes : "",
-          carom_slip_name(claim->slip), claim->steps, claim->reference, s->cases, s->identical,
-          s->mean, s->median, s->p99, s->max, claim->bound, s->component_1e3,
-          paper_count(rung != NULL ? rung->over_1e3 : -1, over_1e3), s->component_1e2,
-          paper_count(rung != NULL ? rung->over_1e2 : -1, over_1e2), pass ? "pass" : "fail");
+  char lanes[32] = "", over_1e3[32] = "NA", over_1e2[32] = "NA"; /* counts of the seed paper */
+  if (module == NULL && v->way != SINGLE_CALLS)
+    snprintf(lanes, sizeof lanes, "-%s", carom_isa_name((carom_isa)v->way));
+  if (one->is_rung) {
+    const ladder_rung *rung = ladder_rung_find(one->name);
+    if (rung->over_1e3 >= 0)
+      snprintf(over_1e3, sizeof over_1e3, "%d", rung->over_1e3);
+    if (rung->over_1e2 >= 0)
+      snprintf(over_1e2, sizeof over_1e2, "%d", rung->over_1e2);
+  }
+  fprintf(v->rows, "%s,%s%s,%s,%d,%s,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g,%zu,%s,%zu,%s,%s\n",
+          one->name, config_name(module), lanes, carom_slip_name(claim->slip), claim->steps,
+          claim->reference, s->cases, s->identical, s->mean, s->median, s->p99, s->max,
+          claim->bound, s->component_1e3, over_1e3, s->component_1e2, over_1e2,
+          (const char *[]){"fail", "pass"}[pass]);
 }
 
 static void tell_ladder(const verification *v) {
@@ -69,7 +69,7 @@ static void tell_ladder(const verification *v) {
           l->pass, l->comparisons);
   if (l->worst_double > 0.0)
     fprintf(v->out, " %.2g in double precision%s", l->worst_double,
-            l->worst_single > 0.0 ? "," : "");
+            text_if(l->worst_single > 0.0, ","));
   if (l->worst_single > 0.0)
     fprintf(v->out, " %.2g in single", l->worst_single);
   fputc('\n', v->out);
@@ -92,12 +92,15 @@ static bool verify_claim(verification *v, const kernel *one, const ladder_module
     for (size_t k = 0; k < v->cases.count; k++)
       v->each[k] = accuracy_of(&v->result[k], &reference.result[k], v->cases.impact[k].a.radius);
     const accuracy_summary s = accuracy_summarise(v->each, v->cases.count);
-    const bool pass = claim->bound > 0.0 ? s.max <= claim->bound : s.identical == s.cases;
+    bool pass = s.max <= claim->bound;
+    if (claim->bound == 0.0)
+      pass = s.identical == s.cases;
     v->all_pass &= pass;
     print_claim(v, one, module, claim, &s, pass);
     if (module != NULL) {
-      double *worst =
-          strcmp(one->precision, "single") == 0 ? &v->ladder.worst_single : &v->ladder.worst_double;
+      double *worst = &v->ladder.worst_double;
+      if (strcmp(one->precision, "single") == 0)
+        worst = &v->ladder.worst_single;
       *worst = fmax(*worst, s.max);
       v->ladder.comparisons++;
       v->ladder.pass += pass;
@@ -144,16 +147,21 @@ static bool verify_solver(verification *v, const kernel *one) {
 }
 
 /* In the one configuration given, or in all. */
+static bool verify_config(verification *v, const kernel *one, const char *name) {
+  const ladder_module *module;
+  return kernel_module(one, name, &module) && verify_module(v, one, module);
+}
+
 static bool verify_rung(verification *v, const kernel *one) {
   if (!ladder_rung_runs(ladder_rung_find(one->name)))
     return true;
-  const char *name = v->config;
-  for (size_t k = 0; v->config != NULL ? k == 0 : (name = ladder_module_name(k)) != NULL; k++) {
-    const ladder_module *module;
-    if (!kernel_module(one, name, &module) || !verify_module(v, one, module))
-      return false;
-  }
-  return true;
+  if (v->config != NULL)
+    return verify_config(v, one, v->config);
+  const char *name;
+  bool good = true;
+  for (size_t k = 0; good && (name = ladder_module_name(k)) != NULL; k++)
+    good = verify_config(v, one, name);
+  return good;
 }
 
 static bool verify_all(verification *v) {
@@ -166,9 +174,14 @@ static bool verify_all(verification *v) {
         v->rows);
   bool good = true;
   const kernel *one;
-  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
-    if (v->only == NULL || v->only == one)
-      good = good && (one->is_rung ? verify_rung(v, one) : verify_solver(v, one));
+  for (size_t k = 0; good && (one = kernel_at(k)) != NULL; k++) {
+    if (v->only != NULL && v->only != one)
+      continue;
+    if (one->is_rung)
+      good = verify_rung(v, one);
+    else
+      good = verify_solver(v, one);
+  }
   sheet_end(&table, v->rows);
   if (!v->csv) {
     fprintf(v->out, "\n%s", v->parity);
@@ -218,8 +231,10 @@ int command_verify(int argc, char **argv) {
   const ladder_module *unused;
   const bool wants_rung =
       v.config != NULL || (v.only != NULL && v.only->is_rung && ladder_module_name(0) == NULL);
-  if (wants_rung && !kernel_module(v.only != NULL ? v.only : kernel_find(ladder_rung_at(0)->name),
-                                   v.config, &unused))
+  const kernel *wanted = v.only;
+  if (wanted == NULL)
+    wanted = kernel_find(ladder_rung_at(0)->name);
+  if (wants_rung && !kernel_module(wanted, v.config, &unused))
     return EXIT_USAGE;
   v.folder = data_folder(v.shared.folder);
   code = EXIT_USAGE;
@@ -228,7 +243,7 @@ int command_verify(int argc, char **argv) {
     if (!verify_all(&v))
       output_abandon();
     else if (output_commit())
-      code = v.all_pass ? EXIT_GOOD : EXIT_SOME;
+      code = exit_of(v.all_pass);
   }
   free(v.result);
   free(v.each);

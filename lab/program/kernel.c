@@ -44,7 +44,17 @@ static const kernel kernels[] = {
 };
 
 const kernel *kernel_at(size_t k) {
-  return k < sizeof kernels / sizeof kernels[0] ? &kernels[k] : NULL;
+  if (k >= sizeof kernels / sizeof kernels[0])
+    return NULL;
+  return &kernels[k];
+}
+
+const char *config_name(const ladder_module *module) {
+  return module != NULL ? module->name : "library";
+}
+
+const char *precision_name(bool single) {
+  return single ? "single" : "double";
 }
 
 const kernel *kernel_find(const char *name) {

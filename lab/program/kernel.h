@@ -52,4 +52,9 @@ carom_status kernel_resolve_f32(const kernel *k, const carom_impact_f32 *in, siz
  * given a configuration. */
 bool kernel_module(const kernel *k, const char *config, const ladder_module **module);
 
+/* The build of the ladder, or the library where it is NULL. */
+const char *config_name(const ladder_module *module);
+
+const char *precision_name(bool single);
+
 #endif

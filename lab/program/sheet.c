@@ -2,6 +2,7 @@
 #include "sheet.h"
 
 #include "program/memory.h"
+#include "program/words.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +12,9 @@ enum { COLUMNS_MOST = 24, CELL_MOST = 160 };
 FILE *sheet_begin(sheet *s, FILE *out, bool csv) {
   static size_t unused;
   *s = (sheet){.out = out, .csv = csv};
-  return csv ? out : open_text(&s->text, &unused);
+  if (csv)
+    return out;
+  return open_text(&s->text, &unused);
 }
 
 /* Puts the next cell of a row into `cell` as it is shown; returns what follows it, NULL at the end
@@ -28,9 +31,14 @@ static const char *next_cell(const char *at, char cell[CELL_MOST], bool *number)
   char *end;
   const double x = strtod(cell, &end);
   *number = (*end == '\0' && end > cell) || strcmp(cell, "NA") == 0;
-  if (*number && strpbrk(cell, ".e") != NULL)
-    snprintf(cell, CELL_MOST, x < 1000.0 ? "%.4g" : "%.0f", x);
-  return *at == ',' ? at + 1 : NULL;
+  const bool rounds = *number && strpbrk(cell, ".e") != NULL;
+  if (rounds && x < 1000.0)
+    snprintf(cell, CELL_MOST, "%.4g", x);
+  else if (rounds)
+    snprintf(cell, CELL_MOST, "%.0f", x);
+  if (*at != ',')
+    return NULL;
+  return at + 1;
 }
 
 void sheet_end(sheet *s, FILE *rows) {
@@ -47,12 +55,13 @@ void sheet_end(sheet *s, FILE *rows) {
       for (int k = 0; at != NULL && k < COLUMNS_MOST; k++) {
         at = next_cell(at, cell, &number);
         numbers[k] |= number;
-        if (print == 0)
-          width[k] = (int)strlen(cell) > width[k] ? (int)strlen(cell) : width[k];
-        else {
-          const int left = at != NULL ? -width[k] : 0; /* nothing behind the last cell */
-          fprintf(s->out, "%s%*s", k > 0 ? "  " : "", numbers[k] ? width[k] : left, cell);
-        }
+        if (print == 0 && (int)strlen(cell) > width[k])
+          width[k] = (int)strlen(cell);
+        int wide = width[k];
+        if (!numbers[k]) /* to the left, with nothing behind the last cell */
+          wide = -width[k] * (at != NULL);
+        if (print == 1)
+          fprintf(s->out, "%s%*s", text_if(k > 0, "  "), wide, cell);
       }
       if (print == 1)
         fputc('\n', s->out);

@@ -96,22 +96,25 @@ carom_impact draw_collision(draw_kind kind, carom_slip slip, uint64_t seed, uint
 }
 
 carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k) {
+  /* ranges of impacts of play, and of any */
+  static const double friction[2][2] = {{0.1, 0.4}, {0, 1}}, restitution[2] = {0.6, 0},
+                      height[2][2] = {{1.2, 1.45}, {0.05, 1.95}}, spins[2] = {100, 300};
   lab_random state = {seed * 0x2545f4914f6cdd1du + k * 0x9e3779b97f4a7c15u};
   const bool any = kind == CUSHION_ANY;
   const double degree = 3.14159265358979323846 / 180, speed = lab_uniform(&state, 0.05, 5),
                turn = lab_uniform(&state, -180, 180) * degree;
   /* from square to grazing, on both sides */
-  const double angle = lab_uniform(&state, -89.5, 89.5) * degree, spin = any ? 300 : 100;
+  const double angle = lab_uniform(&state, -89.5, 89.5) * degree, spin = spins[any];
   carom_cushion_impact in = {
       .normal = {cos(turn), sin(turn)},
       .v = {speed * cos(turn + angle), speed * sin(turn + angle)},
       .radius = lab_uniform(&state, 0.025, 0.031),
       .mass = lab_uniform(&state, 0.13, 0.21),
-      .mu_cloth = any ? lab_uniform(&state, 0, 1) : lab_uniform(&state, 0.1, 0.4),
-      .mu_cushion = any ? lab_uniform(&state, 0, 1) : lab_uniform(&state, 0.1, 0.4),
-      .restitution = any ? lab_uniform(&state, 0, 1) : lab_uniform(&state, 0.6, 1),
+      .mu_cloth = lab_uniform(&state, friction[any][0], friction[any][1]),
+      .mu_cushion = lab_uniform(&state, friction[any][0], friction[any][1]),
+      .restitution = lab_uniform(&state, restitution[any], 1),
       .jaw_radius = lab_uniform(&state, 0, 1) < 0.5 ? 0 : lab_uniform(&state, 0.005, 0.03)};
-  in.height = in.radius * (any ? lab_uniform(&state, 0.05, 1.95) : lab_uniform(&state, 1.2, 1.45));
+  in.height = in.radius * lab_uniform(&state, height[any][0], height[any][1]);
   for (int c = 0; c < 3; c++)
     in.w[c] = lab_uniform(&state, -spin, spin);
   const double what = lab_uniform(&state, 0, 1);
