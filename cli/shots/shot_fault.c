@@ -41,16 +41,21 @@ static int say_where(const shot_line *line, carom_status status, const carom_par
   return 0;
 }
 
-/* Says of a ball that is not on the table where it is. */
-static void say_off_table(const carom_shot_ball *ball, char *text, size_t room) {
+/* Says of a ball that is not on the table where it is, and where balls are that touch the rails. */
+static void say_off_table(const carom_table *table, const carom_shot_ball *ball, char *text,
+                          size_t room) {
   const double *r = ball->state.r, R = ball->kind.radius;
   const char *wrong = carom_status_string(CAROM_ERROR_OFF_TABLE);
   if (fabs(r[2] - R) > 1e-6)
     snprintf(text, room, "%s: its centre must lie at z = R = %.6g m, not at z = %.6g", wrong, R,
              r[2]);
   else
-    snprintf(text, room, "%s: x = %.6g, y = %.6g m is in a cushion or a pocket, or outside%s",
-             wrong, r[0], r[1], text_if(fmax(r[0], r[1]) > 10.0, "; are places in m?"));
+    snprintf(
+        text, room,
+        "%s: x = %.6g, y = %.6g m is in a cushion or a pocket, or outside; from rail to rail x "
+        "is %.4g to %.4g m, and y %.4g to %.4g m%s",
+        wrong, r[0], r[1], R, table->width - R, R, table->length - R,
+        text_if(fmax(r[0], r[1]) > 10.0, "; are places in m?"));
 }
 
 /* What is wrong with the arguments of a shot, with the key. False if nothing is. */
@@ -75,7 +80,7 @@ bool shot_fault(const shot_line *line, const carom_shot_options *options, char t
              "cue: the tip is %.4g R from the centre; it slips off the ball from %.4g R on",
              tip_off_centre(&line->cue), line->cue.miscue > 0.0 ? line->cue.miscue : 1.0);
   else if (status == CAROM_ERROR_OFF_TABLE && at >= 0 && at < line->count)
-    say_off_table(&line->ball[at], rest, room);
+    say_off_table(&line->table->table, &line->ball[at], rest, room);
   else if (n == NULL || must[0] == '\0' || f.part.kind == CAROM_PART_STATE)
     snprintf(rest, room, "%s", carom_status_string(status));
   else if (f.part.kind <= CAROM_PART_POCKET)
