@@ -1,0 +1,209 @@
+/* random_matches GAMES SEED ACTS RULED: matches of all games by random acts. ACTS has the first
+ * lines of each match and its acts, RULED what came of each act, and the recording of each match.
+ * random_matches.py and random_matches.mjs read ACTS, and write the same RULED. */
+#include <carom_match.h>
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ACTS = 60, TRIES = 40 };
+
+static carom_match match, reader;
+static carom_record scratch;
+static FILE *acts, *ruled;
+static uint64_t random_state;
+static char recording[1 << 22];
+static size_t written;
+
+static double between(double low, double high) {
+  random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+  return low + (high - low) * (double)(random_state >> 11) * 0x1p-53;
+}
+
+static int one_of(int count) {
+  return (int)between(0.0, count - 1e-9);
+}
+
+/* A ball of a set, which is not empty. */
+static int member_of(uint32_t set) {
+  int ball = one_of(CAROM_BALLS_MOST);
+  while ((set >> ball & 1) == 0)
+    ball = (ball + 1) % CAROM_BALLS_MOST;
+  return ball;
+}
+
+/* Any state that the game can have. */
+static void shuffle_state(carom_rules_kind kind, carom_rules_state *state) {
+  const size_t members = offsetof(carom_rules_state, user) / sizeof(int32_t);
+  const char *range;
+  for (size_t k = 0; k < members; k++) {
+    int32_t values[sizeof *state / sizeof(int32_t)];
+    carom_rules_state other;
+    memcpy(values, state, sizeof *state);
+    values[k] = one_of(between(0.0, 1.0) < 0.5 ? 3 : 30);
+    memcpy(&other, values, sizeof other);
+    if (carom_rules_fault(kind, &other, &range) == NULL)
+      *state = other;
+  }
+}
+
+/* Begins with the rack, or with some of its balls anywhere in any state. */
+static void begin(carom_rules_kind kind, uint64_t seed) {
+  const carom_rules_about *about = carom_rules_about_of(kind);
+  carom_table table;
+  carom_shot_ball balls[CAROM_BALLS_MOST];
+  carom_table_make((carom_table_kind)about->table, &table);
+  const int count =
+      carom_rack((carom_rack_kind)about->rack, &table, 1e-4, seed, balls, CAROM_BALLS_MOST);
+  for (int tries = 0; (seed & 3) != 0 && tries < TRIES; tries++) {
+    carom_plan_rules rules = carom_plan_rules_of(kind);
+    shuffle_state(kind, &rules.state);
+    for (int k = 0; k < count; k++) {
+      carom_ball_state *s = &balls[k].state;
+      const double R = balls[k].kind.radius;
+      const int gone = k > 0 && count > 4 && between(0.0, 1.0) < 0.4;
+      *s = (carom_ball_state){.label = gone ? CAROM_BALL_POCKETED : CAROM_BALL_STATIONARY};
+      s->r[0] = between(R, table.width - R);
+      s->r[1] = between(R, table.length - R);
+      s->r[2] = gone ? -2.0 * R : R;
+    }
+    if (carom_match_begin_at(&match, kind, &rules, &table, balls, count, NULL, CAROM_LEAVE_AFTER,
+                             (int)(seed & 1)) == CAROM_OK &&
+        match.on != 0)
+      return;
+  }
+  carom_match_begin(&match, kind, &table, seed, (int)(seed & 1));
+}
+
+static carom_status choose(void) {
+  const int allowed = match.may != 0 && between(0.0, 1.0) < 0.8;
+  const int bit = allowed ? member_of((uint32_t)match.may) : one_of(8);
+  fprintf(acts, "choose %d\n", bit);
+  return carom_match_choose(&match, (int)match.record.player, (carom_may)(1 << bit));
+}
+
+static carom_status place(void) {
+  const carom_bounds *b = &match.bounds;
+  const double x = between(b->low[0], b->high[0]), y = between(b->low[1], b->high[1] + 0.05);
+  fprintf(acts, "place %.17g %.17g\n", x, y);
+  return carom_match_place(&match, (int)match.record.player, x, y);
+}
+
+static carom_status call(void) {
+  carom_call of = {member_of(match.on), one_of(7) - 1};
+  if (between(0.0, 1.0) < 0.2)
+    of = (carom_call){one_of(24) - 1, -1};
+  fprintf(acts, "call %d %d\n", of.ball, of.pocket);
+  return carom_match_call(&match, (int)match.record.player, of);
+}
+
+/* Half of the strokes go about towards a ball that is on. */
+static carom_status stroke(void) {
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  cue.ball = match.cue_ball;
+  if (match.rules.any_cue_ball != 0 && between(0.0, 1.0) < 0.7)
+    cue.ball = member_of(match.on);
+  const double *from = match.record.balls[cue.ball].state.r;
+  const double *to = match.record.balls[member_of(match.on)].state.r;
+  cue.phi = between(0.0, 360.0);
+  if (between(0.0, 1.0) < 0.8)
+    cue.phi = atan2(to[1] - from[1], to[0] - from[0]) * 57.29577951308232 + between(-1.0, 1.0);
+  cue.speed = between(0.3, 8.0);
+  cue.theta = between(0.0, 1.0) < 0.1 ? between(0.0, 40.0) : 0.0;
+  cue.a = between(-0.3, 0.3);
+  cue.b = between(-0.3, 0.3);
+  fprintf(acts, "stroke %d %.17g %.17g %.17g %.17g %.17g\n", (int)cue.ball, cue.speed, cue.phi,
+          cue.theta, cue.a, cue.b);
+  return carom_match_stroke(&match, (int)match.record.player, &cue, NULL, NULL);
+}
+
+static carom_status act(void) {
+  const double what = between(0.0, 1.0);
+  if (what < 0.01) {
+    fputs("clock\n", acts);
+    return carom_match_clock(&match, (int)match.record.player);
+  }
+  if (what < 0.012) {
+    fprintf(acts, "concede %d\n", (int)match.record.player);
+    return carom_match_concede(&match, (int)match.record.player);
+  }
+  if (what < (match.may != 0 ? 0.4 : 0.05))
+    return choose();
+  if (match.phase == CAROM_MATCH_PLACE && what < 0.9)
+    return place();
+  if (match.on != 0 && what < (match.rules.calls != 0 ? 0.6 : 0.1))
+    return call();
+  return stroke();
+}
+
+static void keep(void) {
+  fwrite(match.text, 1, (size_t)match.size, ruled);
+  memcpy(recording + written, match.text, (size_t)match.size);
+  written += (size_t)match.size;
+}
+
+/* What came of an act. */
+static void tell(carom_status status) {
+  char words[300] = "";
+  if (match.rulings > 0)
+    carom_ruling_string(&match.ruling, words, sizeof words);
+  if (status >= 0)
+    fprintf(ruled, "taken: phase %d, player %d, may %d, ball %d, on %u, touching %u: %s\n",
+            (int)match.phase, (int)match.record.player, (int)match.may, (int)match.cue_ball,
+            match.on, match.touching, words);
+  else
+    fprintf(ruled, "%s\n", match.fault);
+}
+
+/* Whether the recording is judged to the same end. */
+static int is_read_again(void) {
+  for (size_t at = 0; at < written;) {
+    const char *end = memchr(recording + at, '\n', written - at);
+    const size_t size = (size_t)(end - (recording + at)) + 1;
+    if (carom_match_read(&reader, &scratch, recording + at, size) < 0)
+      return 0;
+    at += size;
+  }
+  return reader.record.hash == match.record.hash && reader.rulings == match.rulings;
+}
+
+int main(int count, char **arguments) {
+  const int games = count == 5 ? atoi(arguments[1]) : 0;
+  const uint64_t seed = count == 5 ? strtoull(arguments[2], NULL, 10) : 0;
+  acts = count == 5 ? fopen(arguments[3], "wb") : NULL;
+  ruled = count == 5 ? fopen(arguments[4], "wb") : NULL;
+  if (acts == NULL || ruled == NULL)
+    return 2;
+  int kinds = 0, over = 0;
+  long taken = 0, refused = 0, rulings = 0;
+  while (carom_rules_about_of((carom_rules_kind)kinds) != NULL)
+    kinds++;
+  for (int game = 0; game < games; game++) {
+    random_state = seed + (uint64_t)game;
+    written = 0;
+    reader = (carom_match){0};
+    begin((carom_rules_kind)(game % kinds), seed + (uint64_t)(game / kinds));
+    fprintf(acts, "match\n%.*s", (int)match.size, match.text);
+    keep();
+    for (int n = 0; n < ACTS && match.phase != CAROM_MATCH_OVER; n++) {
+      const carom_status status = act();
+      taken += status >= 0;
+      refused += status < 0;
+      if (status >= 0)
+        keep();
+      tell(status);
+    }
+    over += match.phase == CAROM_MATCH_OVER;
+    rulings += match.rulings;
+    if (!is_read_again()) {
+      fprintf(stderr, "match %d is not judged again: %s\n", game, reader.fault);
+      return 1;
+    }
+  }
+  printf("%d matches of %d games: %ld acts taken, %ld refused, %ld rulings, %d matches over\n",
+         games, kinds, taken, refused, rulings, over);
+  return fclose(acts) != 0 || fclose(ruled) != 0;
+}
