@@ -1,12 +1,13 @@
 /* Cowboy: the rules of the BCA, as the New Mexico Billiards Association prints them, by their
- * titles.
+ * titles; other printings agree, but for balls whose spots are taken.
  *
  * Scoring: up to 90 points, exactly, the balls 1, 3 and 5 that fall count their numbers, and two or
  * three balls that the cue ball meets count 1 or 2; from 90 to 100, exactly, only the latter. The
  * last point is the cue ball off the 1 alone into the pocket that is called with it. A stroke that
  * would pass 90 or 100 is a foul. Penalties: a foul costs the points of the visit. Balls that fall
- * or leave the table come back to their spots, or as near to them as there is room. After a scratch
- * the cue ball is behind the head string. Opening break: it meets the 3 first; else the other
+ * or leave the table come back to their spots; a ball whose spot is taken stays off until the end of
+ * a stroke that frees it. Where that is the 1, and the player has 100, all stand as at first, with
+ * the cue ball in hand behind the head string. After a scratch it is there too. Opening break: it meets the 3 first; else the other
  * breaks, or has it repeated. A stroke that scores needs no cushion: the texts differ. */
 #include "games.h"
 #include "rules.h"
@@ -86,7 +87,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if (foul == CAROM_FOUL_NONE && game->score[0] + gain > most)
     foul = CAROM_FOUL_OTHER;
   turn = carom_pass_by(foul);
-  turn.spot = (facts->down | facts->off) & all;
+  turn.spot = (facts->down | facts->off | ~in_play) & all;
   if (foul != CAROM_FOUL_NONE) {
     turn.points = -game->lost[0];
     game->score[0] -= (int32_t)carom_min(game->lost[0], game->score[0]);
@@ -105,8 +106,35 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   return carom_give(game, turn);
 }
 
+/* Balls go to their spots, where these are free. */
+static void put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set) {
+  for (int k = ONE; k <= 3; k++)
+    if (set >> k & 1) {
+      double at[2] = {0.0, 0.0};
+      balls[k].state.label = CAROM_BALL_POCKETED;
+      carom_spot_of(CAROM_RACK_COWBOY, table, k, at);
+      carom_place_ball(table, balls, count, k, at[0], at[1], NULL);
+    }
+}
+
+static void settle(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
+                   int count, carom_turn *turn) {
+  if (count < carom_rack_size(CAROM_RACK_COWBOY))
+    return;
+  if (turn->leave >= CAROM_LEAVE_HAND) /* it takes no spot */
+    balls[0].state.label = CAROM_BALL_POCKETED;
+  put_back(table, balls, count, turn->spot);
+  if (game->score[0] < LAST || balls[ONE].state.label != CAROM_BALL_POCKETED)
+    return;
+  turn->spot = all;
+  turn->leave = CAROM_LEAVE_KITCHEN;
+  balls[0].state.label = CAROM_BALL_POCKETED;
+  put_back(table, balls, count, all);
+}
+
 CAROM_RULES_OBJECT(carom_cowboy) = {.on = on,
                                     .judge = judge,
+                                    .settle = settle,
                                     .left = left,
                                     .points = points,
                                     .race = CAROM_RACE_POINTS,

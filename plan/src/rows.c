@@ -73,9 +73,9 @@ static carom_call call_of(const search *plan, const carom_facts *facts) {
 }
 
 /* Of the balls left before the shot; rules that then have more left, or more points than balls,
- * give at most all. */
+ * give at most all. Points that a foul costs, as in four-ball, are below 0. */
 double carom_search_share(const search *plan, double points) {
-  return carom_within(points / plan->left, 0.0, 1.0);
+  return carom_within(points / plan->left, -1.0, 1.0);
 }
 
 /* The layout of the next stroke, by rules that ask where balls lie. Apart, as its balls would take
@@ -195,8 +195,8 @@ static int32_t in_layout(const search *plan, int32_t ball) {
 static void spread(const search *plan, shot_result *with) {
   carom_facts *f = &with->facts;
   const carom_facts of_shot = *f;
-  uint32_t *const set[] = {&f->down,   &f->off,       &f->moved,       &f->frozen, &f->pushed,
-                           &f->banked, &f->first_set, &f->past_middle, &f->at_head};
+  uint32_t *const set[] = {&f->down,   &f->off,       &f->moved,       &f->frozen,  &f->pushed,
+                           &f->banked, &f->first_set, &f->past_middle, &f->at_head, &f->jumped};
   for (int s = 0; s < (int)(sizeof set / sizeof set[0]); s++) {
     uint32_t all = 0;
     for (int n = 0; n < plan->plays; n++)

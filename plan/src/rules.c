@@ -160,16 +160,34 @@ static uint32_t eight_made(const eight_game *as, const carom_facts *facts, carom
   return carom_only(call.ball);
 }
 
-/* The foul of a stroke. In blackball a ball of the other group may fall with one's own alone, or in
- * a free stroke. */
+/* The foul of a stroke. In blackball a ball that touches is not played towards, none is jumped, and
+ * a ball of the other group may fall with one's own alone, or in a free stroke. */
 static int32_t eight_foul_of(const eight_game *as, const carom_rules_state *game, uint32_t on,
                              int cue_ball, const carom_facts *facts) {
-  int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
+  if (!as->free_strokes)
+    return (int32_t)carom_foul_of(facts, on, cue_ball);
+
+  /* a ball on that touches is met by playing away from it */
+  carom_facts played = *facts;
+  const int first = carom_first_of(facts, on);
+  if (first != facts->first[0]) {
+    played.first[0] = first;
+    played.first_set = carom_only(first);
+    played.cushions_after += facts->cushions[cue_ball];
+  }
+  const int32_t foul = (int32_t)carom_foul_of(&played, on, cue_ball);
+  if (foul != CAROM_FOUL_NONE)
+    return foul;
+  if (facts->pushed != 0)
+    return CAROM_FOUL_DOUBLE_HIT;
+  if ((facts->jumped & 0xfffe) != 0)
+    return CAROM_FOUL_JUMP;
+
   const uint32_t fell = facts->down & balls_of[OPEN];
-  const bool binds = as->free_strokes && game->opening == 0 && game->free_ball == 0;
-  if (foul == CAROM_FOUL_NONE && binds && fell != 0 && (fell & own_of(game)) == 0)
-    foul = CAROM_FOUL_POT;
-  return foul;
+  const bool binds = game->opening == 0 && game->free_ball == 0;
+  if (binds && fell != 0 && (fell & own_of(game)) == 0)
+    return CAROM_FOUL_POT;
+  return CAROM_FOUL_NONE;
 }
 
 /* The eight is gone: it wins as the last ball, without a foul, and where shots are called in its
@@ -255,10 +273,11 @@ CAROM_RULES_OBJECT(carom_eightball) = {.on = eightball_on,
                                        .settle = carom_settle_rack,
                                        .rack = CAROM_RACK_EIGHTBALL};
 
-/* Blackball: the rules of the WPA, by the titles of its sections 4 (play) and 5 (fouls). Its text
- * was at hand in an edited form, which does not settle these: who breaks after a new rack that the
- * other asked for (here he who asked), and the black with the last balls of the group in one stroke
- * (here it wins). A player who is snookered must reach a cushion too, unlike 5(g). */
+/* Blackball: the rules of the WPA, of 2005 by the titles of the sections 4 (play) and 5 (fouls), and
+ * section 8 of those of 2025: the break (8.5), balls that touch, the fouls (8.13), and the black,
+ * which loses on a foul or while a ball of the group remains after the stroke. A new rack after a
+ * break that is a foul is of 2005; who asks for it breaks. Two rules are left out: a player who is
+ * snookered needs no cushion (5g), and to jump a ball behind the first contact is a foul. */
 CAROM_RULES_OBJECT(carom_blackball) = {.on = eightball_on,
                                        .judge = blackball_judge,
                                        .left = eightball_left,

@@ -42,6 +42,9 @@ static inline bool carom_is_called(const carom_facts *facts, carom_call call) {
 uint32_t carom_met_first(const carom_facts *facts);
 /* The balls that are neither down nor off the table, as a set. */
 uint32_t carom_on_table(const carom_shot_ball *balls, int count);
+/* The ball that is met first by rules of touching balls: the lowest of `choice` that touches the
+ * cue ball, where it is played away from, else the one that it meets; -1: none. */
+int carom_first_of(const carom_facts *facts, uint32_t choice);
 /* The balls in play that touch a ball for the rules, as a set; 0 of one that is out of play. */
 uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball);
 /* The turn goes to the other: the pairs of the state become his. Any of 15 balls may be met. */

@@ -69,6 +69,14 @@ uint32_t carom_met_first(const carom_facts *facts) {
   return facts->first_set | UINT32_C(1) << facts->first[0];
 }
 
+int carom_first_of(const carom_facts *facts, uint32_t choice) {
+  const uint32_t touching = facts->frozen & ~facts->pushed & choice;
+  const int first = facts->first[0];
+  if (touching == 0 || (first >= 0 && touching >> first & 1))
+    return first;
+  return carom_count_of(carom_lowest_of(touching) - 1);
+}
+
 static bool is_out(const carom_shot_ball *ball) {
   return ball->state.label == CAROM_BALL_POCKETED || ball->state.label == CAROM_BALL_OFF;
 }

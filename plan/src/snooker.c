@@ -116,16 +116,6 @@ static carom_turn finish(const carom_rules_state *game, carom_turn turn) {
   return turn;
 }
 
-/* The ball that is met first: the lowest of `choice` that touches the cue ball, where it is played
- * away from, else the one that it meets. */
-static int first_of(const carom_facts *facts, uint32_t choice) {
-  const uint32_t touching = facts->frozen & ~facts->pushed & choice;
-  const int first = facts->first[0];
-  if (touching == 0 || (first >= 0 && touching >> first & 1))
-    return first;
-  return carom_count_of(carom_lowest_of(touching) - 1);
-}
-
 /* The balls of a stroke, by what was on and what is called. */
 typedef struct nomination {
   int first;          /* the ball that is met first, or -1 */
@@ -145,7 +135,7 @@ static nomination nominate(bool colour, uint32_t choice, uint32_t due, const car
     aimed_at = carom_only(call.ball);
   if (!colour && (aimed_at & due) != 0)
     aimed_at = due;
-  nomination n = {.first = first_of(facts, aimed_at), .named = -1};
+  nomination n = {.first = carom_first_of(facts, aimed_at), .named = -1};
   if (n.first >= 0 && choice >> n.first & 1)
     n.named = n.first;
   if (calls)

@@ -25,7 +25,7 @@ typedef struct situation {
   int first;        /* met; 0: none */
   uint32_t with;    /* balls met at the same instant */
   int after;        /* cushions after the first contact */
-  uint32_t down, off, pushed, frozen, barred;
+  uint32_t down, off, pushed, frozen, barred, jumped;
   int driven, pocket;    /* balls 1 to driven met a cushion; the pocket of all that fell */
   int touches, cushions; /* of the tip; of the cue ball before the second ball */
   int second;            /* the second ball that was met; 0: none */
@@ -568,6 +568,14 @@ static const situation games_of_2026[] = {
      .may = STAY, .free = 1},
     {"blackball 4k off the table", BB, {.group = 1}, .first = 1, .after = 1, .off = B(8), NO_CALL,
      PASS, BAULK, OFF, B(8), .may = STAY, .free = 1},
+    {"blackball 8 towards a ball that touches", BB, {.group = 1}, .first = 2, .after = 1,
+     .pushed = B(2), .frozen = B(2), NO_CALL, PASS, BAULK, DOUBLE_HIT, .may = STAY, .free = 1},
+    {"blackball 8 away from a ball on that touches", BB, {.group = 1}, .first = 9, .after = 1,
+     .frozen = B(2), NO_CALL, PASS},
+    {"blackball 8 away from another ball that touches", BB, {.group = 1}, .first = 9, .after = 1,
+     .frozen = B(10), NO_CALL, PASS, BAULK, FIRST, .may = STAY, .free = 1},
+    {"blackball 8.13 a ball is jumped", BB, {.group = 1}, .first = 2, .after = 1, .jumped = B(9),
+     NO_CALL, PASS, BAULK, JUMP, .may = STAY, .free = 1},
     {"blackball 6 the black too early", BB, {.group = 1}, .first = 1, .down = B(8), NO_CALL, LOSE},
     {"blackball 6 the black too early in a free shot", BB, {.group = 1, .free_ball = 1},
      .first = 8, .down = B(8), NO_CALL, LOSE},
@@ -710,6 +718,7 @@ static carom_facts facts_of_row(const situation *row) {
   f.pushed = row->pushed;
   f.frozen = row->frozen;
   f.barred = row->barred;
+  f.jumped = row->jumped;
   f.touches = row->touches;
   f.second_time = row->touches > 1 ? 0.01 : INFINITY;
   f.past_middle = row->past;
@@ -757,6 +766,52 @@ TEST(situations) {
     check_row(&rows[k]);
   for (size_t k = 0; k < sizeof games_of_2026 / sizeof games_of_2026[0]; k++)
     check_row(&games_of_2026[k]);
+}
+
+/* BCA, cowboy: a ball whose spot is taken stays off until it is free; and all balls come back where
+ * that is the 1 and the player needs the last point. */
+TEST(spots_of_cowboy) {
+  enum { ACE = 1, TREY = 2 };
+  carom_ball_state final[CAROM_BALLS_MOST];
+  carom_ruling ruling;
+  double foot[2], head[2];
+  const int count = lay_out(CAROM_RACK_COWBOY, CAROM_TABLE_POOL_9FT, 0xf);
+  carom_spot_of(CAROM_RACK_COWBOY, &table, TREY, foot);
+  carom_spot_of(CAROM_RACK_COWBOY, &table, ACE, head);
+  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_COWBOY);
+
+  /* the cue ball comes to lie on the foot spot */
+  carom_facts facts = facts_of(TREY, 1, B(TREY), 0);
+  const carom_shot shot = {.facts = &facts, .final = final};
+  put(0, foot[0] + 0.01, foot[1]);
+  for (int k = 0; k < count; k++)
+    final[k] = balls[k].state;
+  final[TREY].label = CAROM_BALL_POCKETED;
+  carom_referee(&of, &table, balls, count, 0, &shot, (carom_call){-1, -1}, &ruling);
+  ck_assert_int_eq(ruling.balls[TREY].state.label, CAROM_BALL_POCKETED);
+
+  /* and leaves it */
+  memcpy(balls, ruling.balls, sizeof balls);
+  put(0, foot[0] + 0.3, foot[1]);
+  for (int k = 0; k < count; k++)
+    final[k] = balls[k].state;
+  facts = facts_of(ACE, 1, 0, 0);
+  carom_referee(&of, &table, balls, count, 0, &shot, (carom_call){-1, -1}, &ruling);
+  ck_assert(ruling.balls[TREY].state.label == CAROM_BALL_STATIONARY &&
+            fabs(ruling.balls[TREY].state.r[1] - foot[1]) < 1e-9);
+
+  /* the spot of the 1 is taken, and the other has 100 points */
+  of.state.score[1] = 100;
+  lay_out(CAROM_RACK_COWBOY, CAROM_TABLE_POOL_9FT, 0xf);
+  put(0, head[0] + 0.01, head[1]);
+  put(TREY, 0.3, 0.3);
+  for (int k = 0; k < count; k++)
+    final[k] = balls[k].state;
+  final[ACE].label = CAROM_BALL_POCKETED;
+  facts = facts_of(TREY, 1, 0, B(ACE));
+  carom_referee(&of, &table, balls, count, 0, &shot, (carom_call){-1, -1}, &ruling);
+  ck_assert(ruling.turn.leave == CAROM_LEAVE_KITCHEN && ruling.on == B(ACE));
+  ck_assert(fabs(ruling.balls[TREY].state.r[1] - foot[1]) < 1e-9);
 }
 
 /* Blackball's groups: one that falls alone decides, of both none, and no free stroke does. */

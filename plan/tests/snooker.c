@@ -185,7 +185,7 @@ TEST(double_hits) {
         continue; /* ball 1 may not be met */
       carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)game);
       int foul = given[k].pool;
-      if (game == CAROM_RULES_SNOOKER)
+      if (game == CAROM_RULES_SNOOKER || game == CAROM_RULES_BLACKBALL)
         foul = given[k].snooker;
       else if (game == CAROM_RULES_THREECUSHION || game == CAROM_RULES_STRAIGHTRAIL)
         foul = given[k].three;
