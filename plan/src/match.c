@@ -612,12 +612,8 @@ carom_status carom_match_clock(carom_match *match, int player) {
   const carom_status bad = check_turn(match, player, "clock");
   if (bad != CAROM_OK)
     return bad;
-  /* a cue ball that is in hand, because it fell, lies nowhere where it could stay */
-  const bool lies = match->phase != CAROM_MATCH_PLACE || (match->may & CAROM_MAY_STAY) != 0;
   put_act(match, CAROM_ACT_CLOCK, player, 0, (carom_call){-1, -1});
   rule(match, true, (carom_call){-1, -1});
-  if (!lies)
-    match->ruling.state.may &= ~CAROM_MAY_STAY;
   apply(match);
   return CAROM_OK;
 }

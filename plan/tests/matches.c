@@ -180,32 +180,6 @@ TEST(recordings_are_judged) {
   ck_assert(lines > 20 && refused_lines > 2 * lines);
 }
 
-/* The clock runs out on a cue ball in hand: the next player may leave it where it lies only where
- * it lies, which is where the player before could. */
-TEST(clock_on_a_cue_ball_in_hand) {
-  static const carom_rules_kind kinds[] = {CAROM_RULES_EIGHTBALL, CAROM_RULES_BLACKBALL,
-                                           CAROM_RULES_HEYBALL};
-  for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-    begin(kinds[k], 3, 0);
-    ck_assert_int_eq(carom_match_clock(&match, 0), CAROM_OK);
-    ck_assert_int_eq(match.phase, CAROM_MATCH_PLACE);
-    ck_assert_int_eq(match.may & CAROM_MAY_STAY, 0);
-
-    /* behind a foul of a cue ball that stays on the table */
-    carom_match_place(&match, 1, match.bounds.low[0] + 0.3, match.bounds.low[1]);
-    carom_cue cue = cue_of(kinds[k]);
-    cue.phi = 90.0;
-    cue.speed = 0.1;
-    ck_assert_int_eq(carom_match_stroke(&match, 1, &cue, NULL, NULL), CAROM_OK);
-    const int may_stay = match.may & CAROM_MAY_STAY;
-    ck_assert(may_stay != 0 || kinds[k] != CAROM_RULES_BLACKBALL);
-    ck_assert_int_eq(carom_match_clock(&match, 0), CAROM_OK);
-    ck_assert_int_eq(match.may & CAROM_MAY_STAY, may_stay);
-    if (may_stay != 0)
-      ck_assert_int_eq(carom_match_choose(&match, 1, CAROM_MAY_STAY), CAROM_OK);
-  }
-}
-
 /* A file that was cut off behind a shot: the reader knows the ruling, has the lines that are
  * missing, and the other player goes on. */
 TEST(cut_off_behind_a_shot) {
