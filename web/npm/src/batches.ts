@@ -24,11 +24,12 @@ const owned = new FinalizationRegistry<{ memory: Memory; at: Pointer[] }>(({ mem
   at.forEach((one) => memory.free(one)),
 );
 
-class Owner {
+/** What holds memory of the module, and gives it back. */
+export class Owner<L extends { memory: Memory } = Library> {
   readonly #held: { memory: Memory; at: Pointer[] };
 
   constructor(
-    protected readonly library: Library,
+    protected readonly library: L,
     sizes: number[],
   ) {
     this.#held = {
@@ -40,7 +41,7 @@ class Owner {
   /** @internal */
   at(k: number): Pointer {
     const at = this.#held.at[k];
-    if (at === undefined) throw new Error("carom: this batch has been freed");
+    if (at === undefined) throw new Error("carom: its memory has been given back");
     return at;
   }
   /**

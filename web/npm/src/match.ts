@@ -1,4 +1,5 @@
 // Matches between two players: the calls of carom_match.h.
+import { Owner } from "./batches.js";
 import { CaromError } from "./error.js";
 import { layout, names, values } from "./generated/layout.js";
 import { HANDS, members } from "./plans.js";
@@ -78,9 +79,7 @@ export interface Host extends RecordingHost {
  * which takes one act after another: `carom.match("eightball", table)`. An act that the rules
  * forbid throws a CaromError, whose text says what would be right, and changes nothing.
  */
-export class Match {
-  readonly #host: Host;
-  readonly #at: Pointer;
+export class Match extends Owner<Host> {
   readonly #lines: string[] = [];
   /** The last stroke, for its film. */
   #struck: { balls: ShotBall[]; cue: Cue } | undefined;
@@ -88,8 +87,7 @@ export class Match {
 
   /** @internal */
   constructor(host: Host) {
-    this.#host = host;
-    this.#at = host.memory.allocate(layout.carom_match.size);
+    super(host, [layout.carom_match.size]);
   }
 
   /** @internal */
@@ -140,11 +138,6 @@ export class Match {
     }
     if (balls) this.#keep(balls);
     if (line.trim() !== "") this.#lines.push(`${line.trim()}\n`);
-  }
-
-  /** Gives the memory back; nothing follows. */
-  free(): void {
-    this.#host.memory.free(this.#at);
   }
 
   // ---- How the match stands
@@ -199,15 +192,23 @@ export class Match {
   get touching(): number[] {
     return members(this.#number("touching"));
   }
+  /** Where the rules let a cue ball in hand be put, until the stroke: `bounds` in a word. */
+  get hand(): Ruling["hand"] {
+    return this.phase === "over" ? "no" : HANDS[this.#number("leave")]!;
+  }
   /** Where a cue ball in hand may be put, until the stroke. */
   get bounds(): Bounds | undefined {
-    if (this.#number("leave") < values.CAROM_LEAVE_HAND) return undefined;
+    if (this.hand === "no") return undefined;
     return readStruct(this.#host.memory, this.#at + MATCH.bounds, "carom_bounds");
   }
   /** The last ruling. */
   get ruling(): Ruling | undefined {
     if (this.#number("rulings") === 0) return undefined;
     return this.#host.readRuling(this.#at + MATCH.ruling, this.game.rules, this.balls);
+  }
+  /** The cue of the last stroke. */
+  get cue(): Cue | undefined {
+    return this.#struck?.cue;
   }
   /** The last shot, or what was played of it, with its events. */
   get last(): Shot | undefined {
@@ -315,6 +316,12 @@ export class Match {
 
   // ---- Memory
 
+  get #host(): Host {
+    return this.library;
+  }
+  get #at(): Pointer {
+    return this.at(0);
+  }
   #number(of: keyof typeof MATCH): number {
     const at = this.#at + MATCH[of];
     const isLong = (layout.carom_match.type as Record<string, string>)[of] === "i64";

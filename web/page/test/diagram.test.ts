@@ -20,7 +20,6 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
     own: "0",
     seed: 1,
     at: "0.4,0.6 0.635,1.27 0.9,1.9 in in in in in 1.0,2.2 in in in in in in in",
-    entries: [],
   };
   const NOTES = "Stop the cue ball.\n<b>Aim</b> at the left half & wait.";
 
@@ -104,7 +103,6 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
         own: "0",
         seed: 7,
         at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9",
-        entries: [],
       },
       {},
     );

@@ -1,7 +1,8 @@
 // Games that the browser keeps: several at once, each of them through damaged links, new games,
 // drills and second tabs; and what happens where something that was kept is damaged.
 import { describe, expect, test } from "vitest";
-import { browserPath, keptGames, page, pages } from "./page.js";
+import { run, thereIsACommand } from "../../npm/test/support.js";
+import { browserPath, keptGames, linesOf, page, pages } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("kept games", () => {
   const { browser, open, set, text } = pages();
@@ -22,7 +23,7 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
     await expect
       .poll(async () => {
         const { open, games } = await keptGames(one);
-        return open === before && games[open]!.includes('"line"');
+        return open === before && linesOf(games[open]!, "shot").length > 0;
       })
       .toBe(true);
   }
@@ -119,7 +120,7 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
     await one.close();
   });
 
-  test("a file of a game is a recording with every stroke", async () => {
+  test("a file of a game is judged by the command, and another page goes on with it", async () => {
     const one = await open("");
     await begin(one, "nineball", "person");
     await shoot(one, 8);
@@ -129,9 +130,27 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
     const stream = await (await waiting).createReadStream();
     const chunks: Buffer[] = [];
     for await (const chunk of stream) chunks.push(chunk as Buffer);
-    const lines = Buffer.concat(chunks).toString().trim().split("\n");
-    expect(lines.filter((line) => line.includes('"shot"'))).toHaveLength(1);
-    expect(lines.at(-1)).toContain('"end"');
+    const file = Buffer.concat(chunks);
+    const lines = file.toString().trim().split("\n");
+    if (thereIsACommand)
+      expect(run(["verify", "-"], file.toString())).toMatch(
+        /1 shots, every bit agrees.*; 1 rulings by the rules/,
+      );
+
+    const give = (buffer: Buffer): Promise<void> =>
+      one
+        .locator("#open-game")
+        .setInputFiles({ name: "game.jsonl", mimeType: "application/jsonl", buffer });
+    const { open: before } = await keptGames(one);
+    await give(Buffer.from(file.toString().replace('"opening":1', '"opening":0')));
+    await expect.poll(() => text(one, "said")).toMatch(/The game was not opened: /);
+    expect((await keptGames(one)).open).toBe(before);
+    await give(file);
+    await expect.poll(async () => (await keptGames(one)).open).not.toBe(before);
+    const kept = await keptGames(one);
+    expect((JSON.parse(kept.games[kept.open]!) as { lines: string[] }).lines).toEqual(
+      lines.slice(0, -1).map((line) => `${line}\n`),
+    );
     await one.close();
   });
 

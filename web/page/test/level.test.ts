@@ -14,7 +14,6 @@ describe.runIf(browserPath !== undefined)("by level", () => {
         own: "800",
         seed: 7,
         at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9",
-        entries: [],
       });
       /**
        * Bright pixels of the way of the 1, after a cut by which it goes to the left, near it and
@@ -78,7 +77,6 @@ describe.runIf(browserPath !== undefined)("by level", () => {
         own: "800",
         seed: 7,
         at: "0.4,0.4 in in in in in in in in 0.06,0.06",
-        entries: [],
       },
     );
     await one.locator("#new-game").click();

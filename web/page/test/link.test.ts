@@ -6,7 +6,7 @@ import type { AddressInfo } from "node:net";
 import { deflateRawSync, inflateRawSync } from "node:zlib";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import type { BrowserContext, Page } from "playwright-core";
-import { browserPath, keptGame, page, pages, sizes } from "./page.js";
+import { browserPath, keptGame, linesOf, page, pages, sizes } from "./page.js";
 
 const packed = (text: string): string => deflateRawSync(text).toString("base64url");
 const unpacked = (url: string): string =>
@@ -135,7 +135,7 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     const there = await contextOf(sizes[0][1]);
     const one = await open(
       here,
-      `#view=play&seat=0&g=${packed(JSON.stringify({ game: "nineball", against: "link", own: "0", seed: 7, at: "0.3,0.3 0.1,0.1 in in in in in in in 0.9,1.9", entries: [] }))}`,
+      `#view=play&seat=0&g=${packed(JSON.stringify({ game: "nineball", against: "link", own: "0", seed: 7, at: "0.3,0.3 0.1,0.1 in in in in in in in 0.9,1.9" }))}`,
     );
     for (const [id, value] of [
       ["phi", "225"],
@@ -174,32 +174,32 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     const url = await link(one);
     const other = await open(there, new URL(url).hash);
     expect(await text(other, "said")).toBe("1 stroke was repeated; every bit agrees.");
-    const game = JSON.parse(unpacked(url)) as { entries: { line: string }[] };
-    expect(game.entries).toHaveLength(1);
-    // The speed; a hash; a stroke out of turn; a link that was cut off.
-    const forged = (change: (line: string) => string): string =>
-      packed(
-        JSON.stringify({
-          ...game,
-          entries: [{ ...game.entries[0], line: change(game.entries[0]!.line) }],
-        }),
+    const game = JSON.parse(unpacked(url)) as { lines: string[] };
+    expect(linesOf(unpacked(url), "shot")).toHaveLength(1);
+    // The speed; a hash; a missing line; a link that was cut off.
+    const forged = (change: (line: string) => string | []): string => {
+      const lines = game.lines.flatMap((line) =>
+        line.startsWith('{"shot"') ? change(line) : line,
       );
+      return packed(JSON.stringify({ ...game, lines }));
+    };
     for (const [g, why] of [
       [
         forged((line) => line.replace(/"speed":("[^"]*"|[\d.]+)/, '"speed":7.5')),
-        "stroke 1 ends otherwise than it was recorded",
+        "stroke 1 is not as it was played",
       ],
       [
         forged((line) =>
           line.replace(/"hash":"(.)/, (_, first: string) => `"hash":"${first === "a" ? "b" : "a"}`),
         ),
-        "stroke 1 ends otherwise than it was recorded",
+        "stroke 1 is not as it was played",
       ],
-      [
-        packed(JSON.stringify({ ...game, entries: [{ line: game.entries[0]!.line }] })),
-        "stroke 1: the place of the cue ball is missing",
-      ],
+      [forged(() => []), "stroke 1 is not as it was played"],
       [packed(JSON.stringify(game)).slice(0, -40), "the link is cut off or damaged"],
+      [
+        packed(JSON.stringify({ game: "eightball", against: "link", entries: [{ line: "" }] })),
+        "an older version of this page has kept it",
+      ],
     ] as const) {
       const bad = await open(there, `#view=play&seat=1&g=${g}`);
       expect(await text(bad, "said")).toContain(`The game was not opened: ${why}`);

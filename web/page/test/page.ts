@@ -202,15 +202,19 @@ const text = async (one: Page, id: string): Promise<string> =>
 const set = (one: Page, id: string, value: number): Promise<void> =>
   one.locator(`#${id}`).fill(String(value));
 
+/** What the lines of a kind hold, of a game that is kept. */
+export function linesOf<T = object>(game: string, kind: string): T[] {
+  const { lines } = JSON.parse(game) as { lines: string[] };
+  return lines.flatMap((line) => (JSON.parse(line) as Record<string, T>)[kind] ?? []);
+}
+
 /**
  * A number of the first stroke of the game that is kept, of which a line has some as hexadecimal
  * text.
  */
 async function struck(one: Page, key: string): Promise<number> {
-  const { entries } = JSON.parse(await keptGame(one)) as { entries: { line: string }[] };
-  const value = (JSON.parse(entries[0]!.line) as { shot: Record<string, number | string> }).shot[
-    key
-  ]!;
+  const [shot] = linesOf<Record<string, number | string>>(await keptGame(one), "shot");
+  const value = shot![key]!;
   const [, digits = "", power = "0"] = /^0x1\.?([0-9a-f]*)p([+-]\d+)/.exec(String(value)) ?? [];
   return typeof value === "number"
     ? value

@@ -2,7 +2,7 @@
 import { describe, expect, test } from "vitest";
 import { words } from "carom";
 import type { Page } from "playwright-core";
-import { browserPath, keptGame, pages, sizes, violations } from "./page.js";
+import { browserPath, keptGame, linesOf, pages, sizes, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("a game", () => {
   const { open, on, drag, click, pixel, bright, text, set, struck, frames, turnTo } = pages();
@@ -147,7 +147,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
   });
 
   test.each(sizes)("no button moves while words change: %s", async (_, how) => {
-    const one = await kept({ ...NINE, against: "300", entries: [] }, how);
+    const one = await kept({ ...NINE, against: "300" }, how);
     // All at one moment.
     const seen = (): Promise<Record<string, number[]>> =>
       one.evaluate(() => {
@@ -202,7 +202,6 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       ...NINE,
       against: "person",
       at: "0.635,0.635 0.3,1.9 0.6,0.9 in in in in in in 0.9,1.9",
-      entries: [],
     });
     await pace(one, "1000");
     await turnTo(one, 200);
@@ -279,10 +278,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       // The 1, the last of the solids, lies before a corner, the eight before another one, the 9 of
       // the other one beside.
       const at = "0.3,0.3 0.1,0.1 in in in in in in 1.226,2.424 0.3,1.9 in in in in in in";
-      const one = await kept(
-        { game: "eightball", own: "0", seed: 7, against: "person", at, entries: [] },
-        how,
-      );
+      const one = await kept({ game: "eightball", own: "0", seed: 7, against: "person", at }, how);
       await pace(one, "1000");
       await click(one, 0.1, 0.1, touch);
       await expect.poll(() => turn(one)).toContain("Call: the 1, head-left pocket.");
@@ -304,10 +300,8 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       await turnTo(one, await aims);
       await expect.poll(() => turn(one)).toMatch(/Call: the 8, foot-right pocket\.$/);
       await one.locator("#shoot").click();
-      const { entries } = JSON.parse(await keptGame(one)) as {
-        entries: { call: { ball: number } }[];
-      };
-      expect(entries.map(({ call }) => call.ball)).toEqual([1, 8]);
+      const calls = linesOf<{ call: [number, number] }>(await keptGame(one), "act");
+      expect(calls.map(({ call: [ball] }) => ball)).toEqual([1, 8]);
       await one.close();
     },
   );
@@ -319,7 +313,6 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       seed: 7,
       against: "person",
       at: "0.6,1.2 0.9,1.8 0.3,1.87 in in in in in 1.17,2.44 0.1,0.5 in in in in in in",
-      entries: [],
     });
     await turnTo(one, 63.2);
     await expect.poll(() => turn(one)).toContain("Call: the 1, foot-right pocket.");
@@ -351,10 +344,8 @@ describe.runIf(browserPath !== undefined)("a game", () => {
         .getElementById("table-scene")!
         .dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" }));
     });
-    const { entries } = JSON.parse(await keptGame(one)) as {
-      entries: { call: { ball: number } }[];
-    };
-    expect(entries[0]!.call.ball).toBe(1);
+    const [act] = linesOf<{ call: [number, number] }>(await keptGame(one), "act");
+    expect(act!.call[0]).toBe(1);
     await one.close();
     // A ball that is called a safety falls, and the turn passes; of a bank nothing is guessed.
     const other = await kept({
@@ -363,7 +354,6 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       seed: 7,
       against: "person",
       at: "0.3,0.3 0.1,0.1 0.9,1.8 in in in in in in in in in in in in in",
-      entries: [],
     });
     await pace(other, "1000");
     await click(other, 0.1, 0.1);
@@ -383,7 +373,6 @@ describe.runIf(browserPath !== undefined)("a game", () => {
           ...NINE,
           against: "person",
           at: "0.635,0.635 0.3,1.9 0.9,1.9 in in in in in in 0.6,1.4",
-          entries: [],
         },
         how,
       );
@@ -451,7 +440,6 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       ...NINE,
       against: "practice",
       at: "0.635,0.635 0.3,1.9 in in in in in in in in",
-      entries: [],
     });
     expect(await text(one, "score")).toBe("1 ball");
     expect(await text(one, "rack-up")).toBe("New rack");
@@ -474,7 +462,6 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       ...NINE,
       against: "person",
       at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9",
-      entries: [],
     });
     await begin(one, "nineball", "person");
     // The cue ball is put near a corner, and played into it.
@@ -493,7 +480,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
   test("a game hides the way of the balls, practice shows it; undo is of practice", async () => {
     const at = "0.635,0.6 in in in in in in in in 0.3,2.3";
     const seen = async (against: string): Promise<number> => {
-      const one = await kept({ ...NINE, against, at, entries: [] });
+      const one = await kept({ ...NINE, against, at });
       await turnTo(one, 45);
       await set(one, "power", 3);
       expect(await one.locator("#undo-stroke").isVisible()).toBe(against === "practice");
@@ -521,7 +508,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.locator("#shoot").click();
     await expect.poll(() => turn(one)).toMatch(/'s turn/);
     const game = await keptGame(one);
-    expect((JSON.parse(game) as { entries: unknown[] }).entries).toHaveLength(1);
+    expect(linesOf(game, "shot")).toHaveLength(1);
     const before = [await turn(one), await text(one, "score")];
     await one.reload();
     await one.waitForSelector("main[aria-busy=false]");
@@ -608,9 +595,8 @@ describe.runIf(browserPath !== undefined)("a game", () => {
           await one.locator("#shoot").click();
         }
         const saved = await keptGame(one);
-        const { entries, game: which } = JSON.parse(saved) as { entries: unknown[]; game: string };
-        expect(which).toBe(game);
-        expect(entries).toHaveLength(against === "practice" ? 0 : played);
+        expect((JSON.parse(saved) as { game: string }).game).toBe(game);
+        expect(linesOf(saved, "shot")).toHaveLength(against === "practice" ? 0 : played);
         expect(await one.locator("#said").textContent()).toMatch(/^$|Drag/);
         await one.reload();
         await one.waitForSelector("main[aria-busy=false]");

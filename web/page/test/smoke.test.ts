@@ -2,7 +2,7 @@
 // finds nothing. ./test runs this file alone of the page's; the others run before a release, or in
 // web/ by CAROM_PAGE=whole npm test.
 import { describe, expect, test } from "vitest";
-import { browserPath, keptGame, pages, sizes, violations } from "./page.js";
+import { browserPath, keptGame, linesOf, pages, sizes, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("smoke", () => {
   const { open, set, text } = pages();
@@ -16,11 +16,8 @@ describe.runIf(browserPath !== undefined)("smoke", () => {
     await one.locator("#skip").click();
     // The page's player or the one who sits here is next, and the game has the stroke.
     await expect.poll(() => text(one, "turn")).not.toContain("You break");
-    const kept = await keptGame(one);
-    const { entries } = JSON.parse(kept) as { entries: { line: string }[] };
-    expect(entries.length).toBeGreaterThan(0);
-    const { shot } = JSON.parse(entries[0]!.line) as { shot: object };
-    expect(shot).toHaveProperty("speed");
+    const shots = linesOf(await keptGame(one), "shot");
+    expect(shots[0]).toHaveProperty("speed");
     await one.close();
   });
 

@@ -18,7 +18,7 @@ import {
   put,
   within,
 } from "../table/grip.js";
-import { mayLie, lineOf } from "../table/head.js";
+import { isWithin } from "../table/head.js";
 import type { Session } from "./parts.js";
 import {
   aimed,
@@ -78,18 +78,19 @@ export function drawWays(s: Session, pen: Pen): void {
 const MARK = "#ffe28a";
 /** Marks what is called or the player's own pocket, and the cue ball in hand with its line. */
 export function drawMarks(s: Session, pen: Pen): void {
-  const { balls, hand, played, practice, state, table } = s.play;
+  const { balls, bounds, cueBall, played, practice, state, table } = s.play;
   if (!free(s)) return;
   const call = needsCall(s.play) ? called(s) : undefined;
   const pocket =
     table.pockets[call?.pocket ?? (played?.pockets && !practice ? (state.pocket?.[0] ?? 5) : -1)];
   if (pocket) circle(pen, pocket.centre, pocket.radius + 0.008, 3, MARK);
   if (call) circle(pen, balls[call.ball]!.state.r, balls[call.ball]!.kind.radius + 0.008, 3, MARK);
-  if (hand === "no" || !onTable(balls[0]!.state)) return;
-  circle(pen, balls[0]!.state.r, balls[0]!.kind.radius + 0.02, 2, MARK);
+  const { kind, state: inHand } = balls[cueBall]!;
+  if (!bounds || !onTable(inHand)) return;
+  circle(pen, inHand.r, kind.radius + 0.02, 2, MARK);
   pen.g.setLineDash([6, 6]);
-  const line = lineOf(table, hand);
-  if (line !== undefined) stroke(pen, [0, line], [table.width, line], 1, MARK);
+  const { low, high } = bounds;
+  if (high[1] < table.length / 2) stroke(pen, [low[0], high[1]], high, 1, MARK);
   pen.g.setLineDash([]);
 }
 /** Draws what is aimed, called and in hand over the table. */
@@ -109,7 +110,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
       play.names,
     );
   }
-  const [cueBall] = play.balls as [(typeof play.balls)[number]];
+  const cueBall = play.balls[play.cueBall]!;
   const cue = aimed(s);
   g.setLineDash([]);
   drawMarks(s, pen);
@@ -148,26 +149,18 @@ function set(s: Session, stroke: { phi: number } | { speed: number }): void {
 const turn = (s: Session, phi: number): void => set(s, { phi: direction(phi) });
 /** Whether a ball may be moved. */
 export const movable = ({ play }: Session, ball: number): boolean =>
-  play.practice || (ball === 0 && play.hand !== "no");
+  play.practice || (ball === play.cueBall && play.hand !== "no");
 export function move(s: Session, ball: number, to: Point): void {
   const { play } = s;
-  const { table, balls } = play;
-  const line = lineOf(table, play.hand);
-  const laid = put(
-    s.carom,
-    table,
-    balls,
-    ball,
-    to,
-    line === undefined ? table.length : line + balls[0]!.kind.radius + 1e-4,
-  );
+  const { balls, bounds, table } = play;
+  const laid = put(s.carom, table, balls, ball, to, bounds?.high[1]);
   // it stays
-  if (!laid || (!play.practice && !mayLie(table, play.hand, laid[ball]!.state.r))) return;
+  if (!laid || (bounds && !isWithin(bounds, laid[ball]!.state))) return;
   play.balls = laid;
   s.changed();
 }
 function drag(s: Session, { grip, from, phi, speed }: Held, at: Point): void {
-  const [cueBall] = s.play.balls as [(typeof s.play.balls)[number]];
+  const cueBall = s.play.balls[s.play.cueBall]!;
   if (grip.kind === "ball" && movable(s, grip.ball)) move(s, grip.ball, at);
   else if (grip.kind === "stick") set(s, { speed: drawnTo(cueBall, speed, from, at) });
   else turn(s, phi + angleFrom(cueBall, at) - angleFrom(cueBall, from));
@@ -187,9 +180,9 @@ function choose(s: Session, target: { ball: number } | { pocket: number }): void
   s.changed();
 }
 export function tap(s: Session, grip: Grip, at: Point): void {
-  const [cueBall] = s.play.balls as [(typeof s.play.balls)[number]];
+  const cueBall = s.play.balls[s.play.cueBall]!;
   if (grip.kind === "pocket") return choose(s, { pocket: grip.pocket });
-  if (grip.kind === "ball" && grip.ball > 0) {
+  if (grip.kind === "ball" && grip.ball !== s.play.cueBall) {
     const { r } = s.play.balls[grip.ball]!.state;
     turn(s, angleFrom(cueBall, [r[0], r[1]]));
     choose(s, { ball: grip.ball });
@@ -284,7 +277,11 @@ function arrowKey(s: Session, arrow: Point, { altKey, shiftKey }: KeyboardEvent)
   const { phi, speed } = cueOf(s);
   if (altKey) {
     if (!movable(s, 0)) return false;
-    move(s, 0, movedBy(film, play.balls[0]!, arrow, (shiftKey ? 0.05 : 0.005) * film.scale));
+    move(
+      s,
+      play.cueBall,
+      movedBy(film, play.balls[play.cueBall]!, arrow, (shiftKey ? 0.05 : 0.005) * film.scale),
+    );
   } else if (arrow[0] !== 0) turn(s, phi - arrow[0] * (shiftKey ? 1 : 0.1));
   else set(s, { speed: within(speed - arrow[1] * (shiftKey ? 0.5 : 0.1)) });
   return true;

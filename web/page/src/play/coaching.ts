@@ -14,10 +14,10 @@ import {
   free,
   levelOf,
   look,
-  placeOf,
   playerOf,
   SAFETY,
   says,
+  wantedOf,
   why,
   wordsOfLevel,
 } from "./session.js";
@@ -50,11 +50,10 @@ function requestOf(play: Play, level: number): Request {
     balls: play.balls,
     names: play.names,
     options: {
-      ...play.state,
+      ...wantedOf(play),
       player: { ...playerOf(play.carom, rating), onlyPots: 0 },
       opponent: playerOf(play.carom, isComputer(against) ? against : rating),
-      shot: OPTIONS,
-      seed: seed + play.entries.length,
+      seed: seed + play.strokes,
     },
   };
 }
@@ -111,7 +110,8 @@ function wordsOfHint(s: Session, choice: Choice): string {
 
 /** Puts the stroke of a hint on the table: the cue ball in hand, the aim and the call. */
 function setHint(s: Session, choice: Choice): void {
-  if (s.play.hand !== "no") s.play.put(0, ...(choice.place as [number, number]));
+  const { play } = s;
+  if (play.bounds) play.put(play.cueBall, ...(choice.place as [number, number]));
   aimAt(s, choice.cue);
   look(s);
   const isPotted = choice.ball > 0 && choice.pocket >= 0;
@@ -153,7 +153,7 @@ async function advise(s: Session): Promise<void> {
     const { drill } = s.play.setup;
     if (drill !== undefined) return await adviseDrill(s, drill, isWanted);
     drop("plan"); // a search for another stroke
-    const choice = await best(requestOf(s.play, levelOf(s)), { inHand: placeOf(s.play) });
+    const choice = await best(requestOf(s.play, levelOf(s)));
     if (!isWanted()) return;
     setHint(s, choice);
     says(s, wordsOfHint(s, choice));
@@ -167,7 +167,7 @@ async function chances(s: Session): Promise<void> {
   const generation = ++s.chancesGeneration;
   const { play } = s;
   const isGame = play.played && play.setup.drill === undefined;
-  if (!free(s) || !isGame || !onTable(play.balls[0]!.state)) return;
+  if (!free(s) || !isGame || !onTable(play.balls[play.cueBall]!.state)) return;
   await new Promise((later) => window.setTimeout(later, PAUSE));
   if (generation !== s.chancesGeneration || !free(s)) return;
   try {

@@ -139,7 +139,6 @@ function lay(d: Diagram, of: Drawn): void {
     seed: 1,
     at: of.at,
   });
-  next.end();
   d.play = next;
   d.drawn = of;
   d.shot = of.cue && d.carom.simulate(next.table, next.balls, cueOf(d, of.cue), OPTIONS);

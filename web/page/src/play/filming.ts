@@ -49,10 +49,10 @@ function pathsOfPractice(s: Session): Path[] {
  * contact.
  */
 function rest(s: Session): void {
-  const { table, balls, names } = s.play;
+  const { table, balls, cueBall, names } = s.play;
   s.first = undefined;
   let paths: Path[] = [];
-  if (aimed(s) && onTable(balls[0]!.state))
+  if (aimed(s) && onTable(balls[cueBall]!.state))
     try {
       paths = pathsOfPractice(s);
       look(s);
@@ -113,18 +113,18 @@ function showContact(s: Session): void {
 
 /** Shows the buttons that have a meaning now. */
 function showButtons(s: Session): void {
-  const { play, buttons, film, stroke } = s;
+  const { play, buttons, choices, film, stroke } = s;
   const mayAim = free(s);
-  const mayPush = play.state.may?.includes("push") === true;
+  const mayPush = play.may.includes("push");
   const isFreePractice = play.practice && !play.setup.drill;
   const isOver = play.winner !== undefined && s.then === undefined;
   const hasSafety = play.played?.calls === true && !play.practice;
-  const visible: [HTMLElement, boolean][] = [
+  const visible: (readonly [HTMLElement, boolean])[] = [
     [buttons.hint, play.played !== undefined],
     [buttons.undo, isFreePractice],
     [buttons.rack, isFreePractice || isOver],
     [buttons.push, (mayAim && mayPush) || hasSafety],
-    [buttons.pass, mayAim && play.mayPass],
+    ...choices.map(([may, one]) => [one, mayAim && play.may.includes(may)] as const),
     [buttons.skip, film.playing],
     [stroke.shoot, !film.playing],
     [buttons.link, play.setup.against === "link"],

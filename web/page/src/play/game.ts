@@ -1,8 +1,10 @@
-// A game on its way: who is at the table, the rulings of the library, and the strokes so far. Each
-// stroke is a line of a recording, which another page reads, plays and compares bit by bit. A game
-// is kept and sent as text: what it begins with, and its strokes.
+// A game on its way: a match of the library, and what the page shows beside it. The match rules,
+// says whose turn it is and what may be done, and writes the lines of a recording. Another page
+// reads these lines, plays their strokes and judges them again. A game is kept and sent as text:
+// what it begins with, and its lines. Practice has no match, because it has no rules.
 import {
   type BallKind,
+  type Bounds,
   type Call,
   type Carom,
   type Condition,
@@ -10,18 +12,19 @@ import {
   type Game,
   games,
   type GameState,
-  type Recording,
+  type Match,
+  type May,
   type Ruling,
   type Shot,
   type ShotBall,
   type ShotOptions,
   type Table,
-  type Vec2,
 } from "carom";
 import { onTable } from "../table/filmed.js";
-import { GAMES, PLAYED, type Played, POOL_TABLES } from "../table/games.js";
-import { atHead, mayLie } from "../table/head.js";
+import { GAMES, type GameOf, PLAYED, type Played, POOL_TABLES } from "../table/games.js";
+import { atHead, isWithin } from "../table/head.js";
 import { placesOf, placesText, pocketed } from "../table/places.js";
+import { wrong } from "../ui.js";
 import { texts } from "../texts/texts.js";
 
 /** Whom one plays against: a Fargo rating, a person at this page, one by link, or nobody. */
@@ -46,16 +49,7 @@ export interface Setup {
   /** The name of the drill that the layout is of. */
   drill?: string;
 }
-/**
- * A stroke: where the cue ball was put, what was called, and the line of the recording; of a pass
- * there is none.
- */
-export interface Entry {
-  place?: Vec2;
-  call?: Call;
-  line: string;
-}
-/** What was played, for its film. */
+/** A stroke that was played, for its film; or a choice instead of one, which has no shot. */
 export interface Stroke {
   who: 0 | 1;
   balls: ShotBall[];
@@ -64,6 +58,11 @@ export interface Stroke {
   state: GameState;
   shot: Shot | undefined;
   ruling: Ruling | undefined;
+}
+/** What a text has beside the setup: lines, or strokes without rulings of an older page. */
+interface Kept {
+  lines?: string[];
+  entries?: unknown[];
 }
 
 export const OPTIONS: ShotOptions = {};
@@ -92,100 +91,138 @@ function kindOf(carom: Carom, game: Game, { cloth, cushion }: Setup): BallKind {
     throw new TypeError(texts.twoNumbersAreNeeded(cushion!));
   return { ...kind, restitutionCushion, muCushion };
 }
-const same = (a: readonly ShotBall[], b: readonly ShotBall[]): boolean =>
-  a.every(
-    ({ state }, k) =>
-      state.label === b[k]!.state.label && state.r.every((x, c) => Object.is(x, b[k]!.state.r[c])),
-  );
+/** The table of a game. Throws where there is no such one. */
+function tableNamed(carom: Carom, of: GameOf, name: string | undefined): Table {
+  const isPool = of.table === "9ft";
+  const chosen = POOL_TABLES[name ?? "9ft"];
+  if (!chosen || (name !== undefined && !isPool)) throw new TypeError(texts.tableThereIsNo(name!));
+  return isPool ? carom.table(chosen[1], chosen[2]) : carom.table(of.table);
+}
+/** The match of a game that begins with these balls. */
+function matchOf(play: Play, { rules, opening, state }: Played): Match {
+  const { carom, setup, table, balls } = play;
+  const opens = (games[rules].members as readonly string[]).includes("opening");
+  // Who opens a game of carom strikes the white.
+  const group = play.hasPockets ? "open" : "solids";
+  const game = { rules, group, opening: opens && setup.at === undefined, ...state } as const;
+  // The cue ball of a layout lies where its text says.
+  const isLaid = setup.at !== undefined && onTable(balls[0]!.state);
+  const hand = play.hasPockets && !isLaid ? (opening as Ruling["hand"]) : "no";
+  return carom.match(game, table, { balls, hand, shot: OPTIONS });
+}
+/** The match whose lines have been kept or sent. */
+function matchRead(carom: Carom, lines: string[]): Match {
+  const match = carom.match();
+  while (match.phase === "none" && lines.length > 0) match.read(lines.shift()!);
+  return match;
+}
 
 export class Play {
   readonly played: Played | undefined;
   readonly table: Table;
   readonly names: string[];
-  readonly entries: Entry[] = [];
   readonly practice: boolean;
+  /** As they lie; a cue ball in hand where it is about to be put. */
   balls: ShotBall[];
-  state: GameState;
-  /** Who is at the table, and who has won. */
-  turn: 0 | 1 = 0;
-  winner: 0 | 1 | undefined;
-  hand: Ruling["hand"];
-  points: [number, number] = [0, 0];
   last: Stroke | undefined;
+  /** How many strokes were played, and choices taken instead of one. */
+  strokes = 0;
   /** Layouts of practice before each stroke and move, to undo. */
   readonly past: ShotBall[][] = [];
-  readonly #recording: Recording;
+  /** None in practice, which has no rules: every ball counts. */
+  readonly #match: Match | undefined;
+  #practised: GameState;
 
+  /** A game that begins, or that of lines, of which the first stroke and all behind it stay. */
   constructor(
     readonly carom: Carom,
     readonly setup: Setup,
+    lines: string[] = [],
   ) {
     this.practice = setup.against === "practice";
     this.played = PLAYED[setup.game];
     const of = GAMES[this.played?.of ?? setup.game];
     if (!of || (!this.practice && !this.played))
       throw new TypeError(texts.gameThereIsNo(setup.game));
-    const chosen = POOL_TABLES[setup.table ?? "9ft"];
-    const isPool = of.table === "9ft";
-    if (!chosen || (setup.table !== undefined && !isPool))
-      throw new TypeError(texts.tableThereIsNo(setup.table!));
-    this.table = isPool ? carom.table(chosen[1], chosen[2]) : carom.table(of.table);
-    const kind = kindOf(carom, of.game, setup);
-    this.balls = carom
-      .rack(of.rack, this.table, { seed: setup.seed })
-      .map(({ state }) => ({ kind, state }));
+    if (lines.length > 0 && !this.practice) this.#match = matchRead(carom, lines);
+    this.table = this.#match?.table ?? tableNamed(carom, of, setup.table);
+    this.balls = this.#match?.balls ?? this.#laid(of);
     this.names = this.balls.map((_, k) => of.names(k));
-    if (setup.at !== undefined) this.balls = placesOf(setup.at, this.table, this.balls).balls;
-    // Practice has no rules: every ball counts.
-    const isPotting = this.practice && this.hasPockets;
-    const rules = isPotting ? "potting" : this.played!.rules;
-    const opens =
-      (games[rules].members as readonly string[]).includes("opening") && setup.at === undefined;
-    const own = isPotting ? {} : this.played!.state;
-    this.state = { rules, group: "open", opening: opens, ...own };
-    this.hand = this.practice || !this.hasPockets ? "no" : (this.played!.opening as Ruling["hand"]);
-    // Racks put the cue ball on the head spot, which is beyond a baulk line.
-    if (this.hand !== "no" && !mayLie(this.table, this.hand, this.balls[0]!.state.r))
-      this.balls = atHead(this.carom, this.table, this.balls, this.hand);
-    this.#recording = carom.record(this.table, this.balls, OPTIONS);
+    const rules = this.practice && this.hasPockets ? "potting" : this.played!.rules;
+    this.#practised = { rules, group: "open", opening: setup.at === undefined };
+    if (!this.practice) this.#match ??= matchOf(this, this.played!);
+    if (!this.practice && this.state.rules !== rules)
+      throw new TypeError(texts.theLinesAreOf(setup.game));
+    this.#putInHand();
   }
 
+  // ---- How the game stands
+
+  get state(): GameState {
+    return this.#match?.game ?? this.#practised;
+  }
+  /** Who is at the table, and who has won. */
+  get turn(): 0 | 1 {
+    return (this.#match?.player ?? 0) as 0 | 1;
+  }
+  get winner(): 0 | 1 | undefined {
+    return this.#match?.winner as 0 | 1 | undefined;
+  }
+  /** The ball that is struck. */
+  get cueBall(): number {
+    return this.#match?.cueBall ?? 0;
+  }
+  /** Where a cue ball in hand may be put, in a word and in m. */
+  get hand(): Ruling["hand"] {
+    return this.#match?.hand ?? "no";
+  }
+  get bounds(): Bounds | undefined {
+    return this.#match?.bounds;
+  }
+  /** The choices besides a stroke. */
+  get may(): readonly May[] {
+    return this.#match?.may ?? [];
+  }
+  /** The points of each. */
+  get points(): [number, number] {
+    const { score = [0, 0], lost = [0, 0] } = this.state;
+    const own = score[0]! - lost[0]!;
+    const other = score[1]! - lost[1]!;
+    return this.turn === 0 ? [own, other] : [other, own];
+  }
   /**
    * Whether the next stroke is the first of a rack, whether or not the rules tell it from others.
    */
   get breaks(): boolean {
     return (
       this.state.opening === true ||
-      (this.setup.at === undefined && this.entries.length === 0 && this.last === undefined)
+      (this.setup.at === undefined && this.strokes === 0 && this.last === undefined)
     );
-  }
-  /** Whether the rules let the player pass. */
-  get mayPass(): boolean {
-    return this.state.may?.includes("pass") ?? false;
   }
   get hasPockets(): boolean {
     return this.table.pockets.length > 0;
   }
-  /**
-   * Gives the memory of the recording back; no stroke follows. The text is a recording by itself.
-   */
-  end(): string {
-    return this.#recording.end();
-  }
 
+  // ---- The game as text
+
+  /** The recording so far, a line each. */
+  get lines(): string[] {
+    return this.#match?.lines ?? [];
+  }
   /** The text of `at` for the layout. */
   at(): string {
     return placesText(this.balls, (x) => Number(x.toFixed(5)));
   }
-
   /** The game as text. */
   text(): string {
     return JSON.stringify({
       ...this.setup,
       ...(this.practice && !this.setup.drill ? { at: this.at() } : {}),
-      entries: this.entries,
+      lines: this.lines,
     });
   }
+
+  // ---- Strokes and choices
 
   /** The cue ball in hand, put down; or a ball of practice. Throws where it is not free. */
   put(ball: number, x: number, y: number): void {
@@ -207,45 +244,81 @@ export class Play {
     this.balls = balls;
   }
 
-  /** Plays a stroke. Of a game, it is ruled and becomes an entry. */
+  /** Plays a stroke. In a game, it is ruled. */
   stroke(cue: Cue, call?: Call): Stroke {
-    if (this.practice) return this.#practised(cue);
-    const entry: Entry = { line: "" };
-    if (call) entry.call = call;
-    if (this.hand !== "no") {
-      const [x, y] = this.balls[0]!.state.r;
-      entry.place = [x, y];
-      this.#recording.place(0, x, y);
+    const match = this.#match;
+    if (!match) return this.#practise(cue);
+    const before = this.#before(cue, call);
+    if (match.bounds) {
+      const [x, y] = this.balls[this.cueBall]!.state.r;
+      match.place(x, y);
     }
-    let shot: Shot | undefined;
-    if (call !== "pass") {
-      shot = this.carom.simulate(this.table, this.balls, cue, OPTIONS);
-      this.#recording.shoot(cue);
-      entry.line = this.#recording.lines.at(-1)!.trim();
-    }
-    return this.#ruled(entry, cue, shot);
+    if (call === "push") match.choose("push");
+    else if (typeof call === "object") match.call(call.ball!, call.pocket);
+    match.stroke(cue);
+    return this.#ruled(before, true);
+  }
+  /** Takes a choice instead of a stroke. */
+  choose(what: May): Stroke {
+    const before = this.#before(this.carom.cue(), what === "pass" ? what : undefined);
+    this.#match!.choose(what);
+    return this.#ruled(before, false);
   }
 
-  /** A stroke that another page played: every bit has to agree. */
-  read(entry: Entry): Stroke {
-    if (this.winner !== undefined) throw new TypeError(texts.aStrokeFollowsThe);
-    if (entry.place) {
-      if (this.hand === "no") throw new TypeError(texts.strokeTheCueBall(this.entries.length + 1));
-      const [x, y] = entry.place;
-      if (!mayLie(this.table, this.hand, [x, y]))
-        throw new TypeError(texts.strokeTheCueBallLies(this.entries.length + 1));
-      this.put(0, x, y);
-      this.#recording.place(0, x, y);
-    } else if (this.hand !== "no")
-      throw new TypeError(texts.strokeThePlaceOf(this.entries.length + 1));
-    if (entry.call === "pass") return this.#ruled(entry, this.carom.cue(), undefined);
-    const replayed = this.#recording.read(entry.line);
-    if (!replayed) throw new TypeError(texts.strokeItsLineHas(this.entries.length + 1));
-    if (!replayed.same) throw new TypeError(texts.strokeEndsOtherwiseThan(this.entries.length + 1));
-    return this.#ruled(entry, replayed.cue, replayed.film);
+  /**
+   * Reads lines that another page wrote, up to a stroke or a choice with its ruling, and takes them
+   * off the list. Undefined where there is none. Throws where a line is not by the rules, or has
+   * other bits.
+   */
+  read(lines: string[]): Stroke | undefined {
+    const match = this.#match!;
+    try {
+      while (lines.length > 0) {
+        const before = this.#before(this.carom.cue());
+        const known = match.lines.length;
+        const line = lines.shift()!;
+        match.read(line);
+        // The lines of the ruling follow, which the match has too.
+        const ruled = match.lines.length - known - 1;
+        for (const rest of lines.splice(0, ruled)) match.read(rest);
+        if (ruled > 0) return this.#ruled(before, line.startsWith('{"shot"'));
+      }
+    } catch (error) {
+      throw new TypeError(texts.strokeIsNotAs(this.strokes + 1, wrong(error)));
+    }
+    return undefined;
   }
 
-  #practised(cue: Cue): Stroke {
+  /** The balls of a new game on its cloth, with its cushions, or those of `at`. */
+  #laid(of: GameOf): ShotBall[] {
+    const { carom, setup, table } = this;
+    const kind = kindOf(carom, of.game, setup);
+    const rack = carom
+      .rack(of.rack, table, { seed: setup.seed })
+      .map(({ state }) => ({ kind, state }));
+    return setup.at === undefined ? rack : placesOf(setup.at, table, rack).balls;
+  }
+  /** A cue ball in hand lies near the head spot until it is put elsewhere. */
+  #putInHand(): void {
+    const { bounds, cueBall } = this;
+    const isPut = bounds && isWithin(bounds, this.balls[cueBall]!.state);
+    if (bounds && !isPut) this.balls = atHead(this.carom, this.table, this.balls, bounds, cueBall);
+  }
+  #before(cue: Cue, call?: Call): Omit<Stroke, "shot" | "ruling"> {
+    return { who: this.turn, balls: this.balls, cue, call, state: this.state };
+  }
+  #ruled(before: Omit<Stroke, "shot" | "ruling">, isPlayed: boolean): Stroke {
+    const match = this.#match!;
+    this.strokes++;
+    this.balls = match.balls;
+    this.#putInHand();
+    const { last: shot, cue, ruling } = match;
+    // Lines that were read have put a cue ball in hand, and have the cue.
+    const played = isPlayed && shot && cue ? { balls: [...shot.balls], cue, shot, ruling } : {};
+    this.last = { shot: undefined, ruling: undefined, ...before, ...played };
+    return this.last;
+  }
+  #practise(cue: Cue): Stroke {
     this.keep();
     const { balls, state } = this;
     const shot = this.carom.simulate(this.table, balls, cue, OPTIONS);
@@ -254,45 +327,36 @@ export class Play {
       return { kind, state: end.label === "off" ? pocketed(this.table, end) : end };
     });
     if (!onTable(this.balls[0]!.state)) this.balls = atHead(this.carom, this.table, this.balls);
-    this.state = { ...state, opening: false };
+    this.#practised = { ...state, opening: false };
     this.last = { who: 0, balls, cue, call: undefined, state, shot, ruling: undefined };
-    return this.last;
-  }
-
-  #ruled(entry: Entry, cue: Cue, shot: Shot | undefined): Stroke {
-    const { balls, state, turn: who } = this;
-    const ruling = this.carom.referee(this.table, balls, cue, state, entry.call, OPTIONS);
-    this.entries.push(entry);
-    this.state = ruling.game;
-    this.hand = ruling.hand;
-    // Of points, as whoever plays next sees them.
-    const { score } = ruling as { score?: readonly [number, number] };
-    const target = this.played!.target;
-    if (target !== undefined && ruling.turn === "keep" && ++this.points[who] >= target)
-      this.winner = who;
-    if (ruling.turn === "win") this.winner = who;
-    if (ruling.turn === "lose") this.winner = who === 0 ? 1 : 0;
-    if (ruling.turn === "pass") this.turn = who === 0 ? 1 : 0;
-    if (score && this.played!.points && target === undefined)
-      this.points = this.turn === 0 ? [score[0], score[1]] : [score[1], score[0]];
-    this.balls = ruling.balls;
-    // Balls that came back to a spot, or a cue ball that left the table, are another layout for the
-    // recording.
-    if (this.winner === undefined) {
-      const lie = this.#recording.balls;
-      if (!same(lie, this.balls)) this.#recording.setBalls(this.balls);
-      if (this.hand !== "no" && this.hasPockets)
-        this.balls = atHead(this.carom, this.table, this.balls, this.hand);
-    }
-    this.last = { who, balls, cue, call: entry.call, state, shot, ruling };
     return this.last;
   }
 }
 
-/** A game of a text, played to its last stroke. Throws where the text or a bit of it is wrong. */
+/** The parts of a text. Throws where an older page has kept it. */
+function parsed(text: string): { setup: Setup; lines: string[] } {
+  const { lines = [], entries = [], ...setup } = JSON.parse(text) as Setup & Kept;
+  if (entries.length > 0) throw new TypeError(texts.anOlderPageKept);
+  return { setup, lines };
+}
+/** A game of a text, played to its last stroke. Throws where the text or a line of it is wrong. */
 export function read(carom: Carom, text: string): Play {
-  const { entries, ...setup } = JSON.parse(text) as Setup & { entries: Entry[] };
-  const play = new Play(carom, setup);
-  for (const entry of entries) play.read(entry);
+  const { setup, lines } = parsed(text);
+  const play = new Play(carom, setup, lines);
+  while (play.read(lines));
   return play;
+}
+/** The game of a recording that `carom verify` takes, which two players at this page go on with. */
+export function imported(carom: Carom, recording: string): Play {
+  const lines = recording.split("\n").filter((line) => line !== "" && !line.startsWith('{"end"'));
+  const { rules } = matchRead(carom, [...lines]).game;
+  const play = new Play(carom, { game: rules, against: "person", own: "0", seed: 0 }, lines);
+  while (play.read(lines));
+  return play;
+}
+/** The whole recording of the game of a text, with its end. */
+export function recordingOf(carom: Carom, text: string): string {
+  const match = carom.match();
+  for (const line of parsed(text).lines) match.read(line);
+  return match.end();
 }

@@ -1,11 +1,10 @@
 // The list of the games that this browser keeps: one goes on with any of them, saves it as a file
-// that `carom verify` takes, or deletes it.
-import type { Carom } from "carom";
+// that `carom verify` takes, opens such a file, or deletes a game.
 import { GAMES, PLAYED } from "../table/games.js";
 import { button, el, wrong } from "../ui.js";
-import { read } from "./game.js";
+import { imported, recordingOf } from "./game.js";
 import { countGame, isRated } from "./ladder.js";
-import { openGame } from "./opening.js";
+import { goOnWith, openGame } from "./opening.js";
 import type { Session } from "./parts.js";
 import { deleteGame, type SavedGame, savedGames } from "./saved.js";
 import { says } from "./session.js";
@@ -29,8 +28,8 @@ function detailsOf({ when, strokes, score, isOver }: SavedGame): string {
 const isLostByLeaving = ({ setup, isOver, strokes }: SavedGame): boolean =>
   isRated(setup) && !isOver && strokes > 0;
 
-function download(carom: Carom, { setup, text, when }: SavedGame): void {
-  const recording = new Blob([read(carom, text).end()], { type: "application/jsonl" });
+function download(s: Session, { setup, text, when }: SavedGame): void {
+  const recording = new Blob([recordingOf(s.carom, text)], { type: "application/jsonl" });
   const url = URL.createObjectURL(recording);
   const date = new Date(when).toISOString().slice(0, 10);
   el("a", { href: url, download: `carom-${setup.game}-${date}.jsonl` }).click();
@@ -42,7 +41,10 @@ export function gamesList(
   close: () => void,
 ): { root: HTMLElement; refresh(): Promise<void> } {
   const list = el("ul", { class: "saved", id: "saved-games" });
-  const root = el("section", {}, el("h3", {}, texts.yourGames), list);
+  const file = el("input", { type: "file", id: "open-game", accept: ".jsonl", hidden: "" });
+  file.addEventListener("change", () => void openFile());
+  const open = button(texts.openFile, () => file.click());
+  const root = el("section", {}, el("h3", {}, texts.yourGames), list, open, file);
 
   async function goOn(game: SavedGame): Promise<void> {
     close();
@@ -51,6 +53,18 @@ export function gamesList(
     } catch (error) {
       says(s, texts.theGameWasNot(wrong(error)));
     }
+  }
+  /** A file that a page saved, or `carom match` wrote: two players at this page go on with it. */
+  async function openFile(): Promise<void> {
+    const [given] = file.files!;
+    if (!given) return;
+    close();
+    try {
+      goOnWith(s, imported(s.carom, await given.text()));
+    } catch (error) {
+      says(s, texts.theGameWasNot(wrong(error)));
+    }
+    file.value = "";
   }
   /** The first press says what the second one does. */
   function deleteButton(game: SavedGame): HTMLButtonElement {
@@ -68,7 +82,7 @@ export function gamesList(
   }
   function save(game: SavedGame): void {
     try {
-      download(s.carom, game);
+      download(s, game);
     } catch (error) {
       close();
       says(s, texts.theGameWasNotSaved(wrong(error)));
@@ -77,14 +91,14 @@ export function gamesList(
   function rowOf(game: SavedGame): HTMLElement {
     const isOpen = game.id === s.id;
     const title = titleOf(game);
-    // The game on the table is not deleted under the player's hands.
-    const buttons = isOpen
-      ? [button(texts.saveFile, () => save(game))]
-      : [
-          button(texts.goOn, () => void goOn(game), { "aria-label": texts.goOnWith(title) }),
-          button(texts.saveFile, () => save(game)),
-          deleteButton(game),
-        ];
+    // Practice has no recording, and the game on the table is not deleted under the player's hands.
+    const isPractice = game.setup.against === "practice";
+    const goes = button(texts.goOn, () => void goOn(game), { "aria-label": texts.goOnWith(title) });
+    const buttons = [
+      ...(isOpen ? [] : [goes]),
+      ...(isPractice ? [] : [button(texts.saveFile, () => save(game))]),
+      ...(isOpen ? [] : [deleteButton(game)]),
+    ];
     const mark = isOpen ? texts.onTheTable : "";
     return el(
       "li",
@@ -97,7 +111,6 @@ export function gamesList(
     try {
       const games = await savedGames();
       list.replaceChildren(...games.map(rowOf));
-      root.hidden = games.length === 0;
     } catch (error) {
       list.replaceChildren(el("li", {}, texts.thisBrowserShowsNo(wrong(error))));
     }

@@ -1,7 +1,7 @@
 // A game by link: it is in the address, goes to the other one as a link, and pages of one machine
 // hear of each stroke, which they compare bit by bit.
 import { wrong } from "../ui.js";
-import type { Entry, Setup } from "./game.js";
+import type { Setup } from "./game.js";
 import { pack, send } from "./keep.js";
 import type { Link, Session } from "./parts.js";
 import { says } from "./session.js";
@@ -9,29 +9,27 @@ import { keep, next } from "./turns.js";
 import { texts } from "../texts/texts.js";
 
 export function byLink(s: Session): Link {
-  let queue: Entry[] = [];
+  let queue: string[] = [];
   let writing = 0;
 
   /** Strokes of the same game, behind those that are known here. */
   function heard(text: string): void {
     const { play } = s;
     if (play.setup.against !== "link") return;
-    const { entries, ...setup } = JSON.parse(text) as Setup & { entries: Entry[] };
-    const known = play.entries.length + queue.length;
-    if (setup.game !== play.setup.game || setup.seed !== play.setup.seed || entries.length <= known)
-      return;
-    if (JSON.stringify(entries.slice(0, play.entries.length)) !== JSON.stringify(play.entries))
-      return says(s, texts.theOtherPageHas);
-    queue.push(...entries.slice(known));
+    const { lines, ...setup } = JSON.parse(text) as Setup & { lines: string[] };
+    const known = play.lines;
+    const isOther = setup.game !== play.setup.game || setup.seed !== play.setup.seed;
+    if (isOther || lines.length <= known.length + queue.length) return;
+    if (known.some((line, k) => line !== lines[k])) return says(s, texts.theOtherPageHas);
+    queue = lines.slice(known.length);
     // After a film the next stroke follows.
     if (!s.film.playing && s.then === undefined) onward();
   }
   function onward(): void {
-    const entry = queue.shift();
-    if (!entry) return next(s);
     try {
-      const stroke = s.play.read(entry);
-      says(s, texts.strokeWasRepeatedEvery(s.play.entries.length));
+      const stroke = s.play.read(queue);
+      if (!stroke) return next(s);
+      says(s, texts.strokeWasRepeatedEvery(s.play.strokes));
       keep(s);
       s.showing.perform(stroke, onward);
     } catch (error) {

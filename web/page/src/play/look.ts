@@ -52,11 +52,13 @@ export function lookAlong(
   full: boolean,
 ): Look | undefined {
   const shot = carom.simulate(table, balls, cue, full ? options : { ...options, stopAt: MEETS });
+  const cueBall = cue.ball;
   const event = shot.events.find(
-    ({ type, a, b }) => MEETS.includes(type) && (a === 0 || (type === "ball_ball" && b === 0)),
+    ({ type, a, b }) =>
+      MEETS.includes(type) && (a === cueBall || (type === "ball_ball" && b === cueBall)),
   );
   if (!event) return undefined;
-  const own = event.a === 0 ? 0 : 1;
+  const own = event.a === cueBall ? 0 : 1;
   const { r: at, v } = event.before[own]!;
   if (event.type !== "ball_ball")
     return { at, ball: -1, from: [], way: [], share: 0, side: 1, ways: [] };
@@ -73,7 +75,7 @@ export function lookAlong(
     way,
     share: 1 - Math.abs(left),
     side: Math.sign(left) || 1,
-    ways: full ? [ball, 0].map((one) => wayOf(shot, one, event.time)) : [],
+    ways: full ? [ball, cueBall].map((one) => wayOf(shot, one, event.time)) : [],
   };
 }
 

@@ -80,12 +80,18 @@ function goOn(s: Session, play: Play, id: string, seat: 0 | 1, isLink: boolean):
   });
   save(s);
   s.link.ask();
-  const { length } = play.entries;
-  says(s, isLink && length > 0 ? texts.strokesRepeated(length) : "");
+  const { strokes } = play;
+  says(s, isLink && strokes > 0 ? texts.strokesRepeated(strokes) : "");
   if (isLink && play.last?.shot && mine(s)) s.showing.perform(play.last, () => next(s));
   else next(s);
 }
 
+/** Goes on with a game that was read from a file, under an id of its own. */
+export function goOnWith(s: Session, play: Play): void {
+  const id = newId();
+  void holdGame(id);
+  goOn(s, play, id, 0, false);
+}
 /** Opens a game that is kept. Throws where it is damaged or open in another tab. */
 export async function openGame(s: Session, id: string): Promise<void> {
   const saved = await savedGame(id);

@@ -1,6 +1,6 @@
 // What a game at the page is played by, and how it stands: the types of the session, which the
 // files of its parts share.
-import type { Call, Carom, Cue } from "carom";
+import type { Call, Carom, Cue, May } from "carom";
 import type { player as filmPlayer } from "../../../player/player.js";
 import type { filmOf, Quaternion } from "../table/filmed.js";
 import type { Stroke as StrokeValues } from "../table/stroke.js";
@@ -110,19 +110,11 @@ interface Parts {
   readonly sound: Sound;
   readonly words: Record<"turn" | "score" | "said", HTMLElement>;
   readonly buttons: Record<
-    | "menu"
-    | "hint"
-    | "replay"
-    | "undo"
-    | "rack"
-    | "push"
-    | "pass"
-    | "skip"
-    | "link"
-    | "space"
-    | "sound",
+    "menu" | "hint" | "replay" | "undo" | "rack" | "push" | "skip" | "link" | "space" | "sound",
     HTMLButtonElement
   >;
+  /** The choices of the rules besides a stroke. */
+  readonly choices: readonly (readonly [May, HTMLButtonElement])[];
   readonly stroke: Controls;
   readonly film: ReturnType<typeof filmPlayer>;
   readonly space: SpaceView;

@@ -224,7 +224,7 @@ export class Scene {
       ball.quaternion.set(q[1]!, q[2]!, q[3]!, q[0]!);
     });
     const to = stick?.first;
-    const { r } = poses[0]!;
+    const { r } = poses[stick?.cue.ball ?? 0]!;
     this.#stick.visible = stick !== undefined;
     this.#aim.visible = to !== undefined;
     this.#ghost.visible = to !== undefined;

@@ -4,7 +4,6 @@
 import type { Call, Carom, Cue, PlanOptions, Player } from "carom";
 import { onTable } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
-import { lineOf } from "../table/head.js";
 import { cueWith, strokeOf } from "../table/stroke.js";
 import { OPTIONS, type Play } from "./game.js";
 import { guessOf, lookAlong } from "./look.js";
@@ -52,7 +51,7 @@ export const says = (s: Pick<Session, "words">, text: string): void =>
 /** The stroke that the controls set. */
 export function cueOf({ carom, play, stroke }: Pick<Session, "carom" | "play" | "stroke">): Cue {
   const { game } = GAMES[play.played?.of ?? play.setup.game]!;
-  return cueWith(carom.cue({}, game), stroke.value());
+  return cueWith(carom.cue({ ball: play.cueBall }, game), stroke.value());
 }
 export const aimAt = ({ stroke }: Pick<Session, "stroke">, cue: Cue): void =>
   stroke.set(strokeOf(cue));
@@ -99,7 +98,7 @@ export const callOf = (s: Session): Call | undefined =>
 export function look(s: Session): void {
   const { carom, play } = s;
   const cue = aimed(s);
-  if (!cue || !onTable(play.balls[0]!.state)) {
+  if (!cue || !onTable(play.balls[play.cueBall]!.state)) {
     s.first = undefined;
     return;
   }
@@ -136,12 +135,10 @@ export function why(s: Pick<Session, "play" | "seat" | "thinks">): string {
 
 export const playerOf = (carom: Carom, rating: string): Player =>
   carom.player(rating === "0" ? { errors: 0 } : { fargo: Number(rating) });
-/** Where the cue ball may be put, for a plan. */
-export function placeOf({ hand, table }: Play): PlanOptions["inHand"] {
-  const line = lineOf(table, hand);
-  if (line === undefined) return hand !== "no";
-  return [
-    [0, 0],
-    [table.width, line],
-  ];
-}
+/** What a plan knows of a game: how it stands, which ball is struck, and where it may be put. */
+export const wantedOf = ({ state, cueBall, bounds }: Play): PlanOptions => ({
+  ...state,
+  cue: { ball: cueBall },
+  shot: OPTIONS,
+  ...(bounds && { inHand: [bounds.low, bounds.high] }),
+});

@@ -112,8 +112,9 @@ export class Space implements SpaceView {
       } else if (free(s)) {
         taps &&= Math.hypot(now[0] - from[0], now[1] - from[1]) < 6;
         const to = at(now);
-        this.#moves = !taps && grip.kind === "ball" && grip.ball === 0 && movable(s, 0);
-        if (this.#moves && to) move(s, 0, to);
+        this.#moves =
+          !taps && grip.kind === "ball" && grip.ball === s.play.cueBall && movable(s, grip.ball);
+        if (this.#moves && to) move(s, s.play.cueBall, to);
         else if (!this.#moves && !taps) {
           s.stroke.set({ phi: (s.stroke.value().phi + (last[0] - now[0]) * 0.08 + 360) % 360 });
           s.changed();
@@ -159,7 +160,7 @@ export class Space implements SpaceView {
     const poses = this.s.filmed!.shots[0]!.at(this.s.film.time);
     const of = aimed(this.s);
     // The camera stays where it was while the balls roll, or the cue ball is moved.
-    if (of && !this.#moves) this.#scene.look(poses[0]!.r, of.phi);
+    if (of && !this.#moves) this.#scene.look(poses[of.ball]!.r, of.phi);
     this.#scene.draw(
       poses,
       of && {

@@ -1,11 +1,11 @@
 // The turns of a game: the person at the page or the page's player plays a stroke, the page saves
 // the game, and the next player comes to the table.
-import type { Call, Choice, Cue } from "carom";
+import type { Call, Choice, Cue, May } from "carom";
 import { far } from "../far.js";
 import { angleFrom, direction } from "../table/grip.js";
 import { wordsOfChoice } from "../table/words.js";
 import { parameters, wrong } from "../ui.js";
-import { isComputer, OPTIONS, Play, type Stroke } from "./game.js";
+import { isComputer, Play, type Stroke } from "./game.js";
 import { countRack, racksOf } from "./keep.js";
 import { countGame, isRated } from "./ladder.js";
 import type { Session } from "./parts.js";
@@ -21,10 +21,10 @@ import {
   mine,
   needsCall,
   NONE,
-  placeOf,
   playerOf,
   SAFETY,
   says,
+  wantedOf,
   why,
 } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfStroke } from "./state.js";
@@ -54,7 +54,7 @@ export function shoot(s: Session): void {
   const { coach, play, settings, sound } = s;
   s.searchGeneration++; // a search for a hint ends here
   sound.wake();
-  const strokes = play.entries.length + play.past.length;
+  const strokes = play.strokes + play.past.length;
   const cue = withErrors(play, cueOf(s), ratingOfErrors(s), strokes);
   const review = coach.review();
   try {
@@ -69,10 +69,19 @@ export function shoot(s: Session): void {
     says(s, wrong(error));
   }
 }
-/** Chooses a safety or a push-out, or takes the choice back; or passes. */
-export function choose(s: Session, what: "push" | "pass"): void {
+/** Takes a choice of the rules instead of a stroke, such as to pass. */
+export function choose(s: Session, what: May): void {
   if (!free(s)) return says(s, why(s));
-  if (what === "pass") return follow(s, s.play.stroke(cueOf(s), "pass"));
+  s.searchGeneration++; // a search for a hint ends here
+  try {
+    follow(s, s.play.choose(what));
+  } catch (error) {
+    says(s, wrong(error));
+  }
+}
+/** Chooses a safety or a push-out, or takes the choice back. */
+export function push(s: Session): void {
+  if (!free(s)) return says(s, why(s));
   if (needsCall(s.play)) {
     // A safety holds as long as the aim meets the same ball.
     const safety = { ball: -1, pocket: SAFETY, met: s.first?.ball ?? -1 };
@@ -82,8 +91,8 @@ export function choose(s: Session, what: "push" | "pass"): void {
   s.showing.rest();
 }
 /** Whether a stroke was the first of a rack. */
-function wasBreak({ setup, entries }: Play, stroke: Stroke): boolean {
-  const isFirst = setup.at === undefined && entries.length === 1;
+function wasBreak({ setup, strokes }: Play, stroke: Stroke): boolean {
+  const isFirst = setup.at === undefined && strokes === 1;
   return stroke.state.opening === true || isFirst;
 }
 /** Shows the film of a stroke that was played, then gives the turn to the next player. */
@@ -108,7 +117,7 @@ export function undo(s: Session): void {
  * nearest ball that is on.
  */
 function address({ play, stroke }: Pick<Session, "play" | "stroke">): void {
-  const [cueBall] = play.balls as [(typeof play.balls)[number]];
+  const cueBall = play.balls[play.cueBall]!;
   const placeOfBall = (ball: number): [number, number] => {
     const [x, y] = play.balls[ball]!.state.r;
     return [x, y];
@@ -156,12 +165,10 @@ export function next(s: Session): void {
 async function choiceOf(play: Play): Promise<Choice> {
   const { against, own, seed } = play.setup;
   const options = {
-    ...play.state,
+    ...wantedOf(play),
     player: playerOf(play.carom, against),
     opponent: playerOf(play.carom, own === "0" ? "700" : own),
-    shot: OPTIONS,
-    seed: seed + play.entries.length,
-    inHand: placeOf(play)!,
+    seed: seed + play.strokes,
     best: 1,
   };
   const [choice] = await far("plan", play.table, play.balls, options);
@@ -169,13 +176,13 @@ async function choiceOf(play: Play): Promise<Choice> {
 }
 /** What a choice calls. */
 function callOfChoice({ kind, ball, pocket }: Choice): Call | undefined {
-  if (kind === "push" || kind === "pass") return kind;
+  if (kind === "push") return kind;
   return ball > 0 && pocket >= 0 ? { ball, pocket } : undefined;
 }
 /** Shows a choice of the page's player for a moment: the cue ball, the stick, and words. */
 async function announce(s: Session, choice: Choice): Promise<void> {
   const { play, seat, film } = s;
-  if (play.hand !== "no") play.put(0, ...(choice.place as [number, number]));
+  if (play.bounds) play.put(play.cueBall, ...(choice.place as [number, number]));
   s.theirs = choice.cue;
   s.showing.rest();
   const stroke = wordsOfChoice(play.table, play.names, choice, s.first?.ball === -1);
@@ -196,8 +203,9 @@ async function reply(s: Session): Promise<void> {
     await announce(s, choice);
     if (isOver()) return;
     s.thinks = false;
+    if (choice.kind === "pass") return choose(s, "pass");
     const { against } = play.setup;
-    const cue = withErrors(play, choice.cue, against, play.entries.length);
+    const cue = withErrors(play, choice.cue, against, play.strokes);
     follow(s, play.stroke(cue, callOfChoice(choice)));
   } catch (error) {
     if (isOver()) return;
@@ -212,14 +220,13 @@ async function reply(s: Session): Promise<void> {
  * Whether a game is worth a line in the list of games: somebody has played or laid balls. Drills
  * have counts of their own.
  */
-export function isWorthKeeping({ setup, practice, entries, past }: Play): boolean {
+export function isWorthKeeping({ setup, practice, strokes, past }: Play): boolean {
   if (setup.drill !== undefined) return false;
-  return practice ? past.length > 0 || setup.at !== undefined : entries.length > 0;
+  return practice ? past.length > 0 || setup.at !== undefined : strokes > 0;
 }
 /** Saves the game in this browser; one by link also in the address and on other pages. */
 export function save({ play, link, seat, id, words }: Saved): void {
-  const { setup } = play;
-  const { length: strokes } = play.entries;
+  const { setup, strokes } = play;
   const game = {
     id,
     text: play.text(),

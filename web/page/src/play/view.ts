@@ -1,6 +1,6 @@
 // The view Play: a game on the table, one bar for all that a stroke needs, and its film where one
 // looks.
-import type { Carom } from "carom";
+import type { Carom, May } from "carom";
 import { player as filmPlayer } from "../../../player/player.js";
 import { drop } from "../far.js";
 import { button, eachFrame, el, parameters, wrong } from "../ui.js";
@@ -20,7 +20,7 @@ import { onTable } from "../table/filmed.js";
 import { Sound } from "./sound.js";
 import { Space } from "./space.js";
 import { begin, FIRST, resume, start } from "./opening.js";
-import { choose, undo } from "./turns.js";
+import { choose, push, undo } from "./turns.js";
 import { texts, told } from "../texts/texts.js";
 
 const wordsOf = (): Session["words"] => ({
@@ -62,8 +62,7 @@ function buttonsOf(session: () => Session): Session["buttons"] {
     replay: named("replay", texts.replay, (s) => s.showing.replay()),
     undo: named("undo-stroke", texts.undo, undo),
     rack: named("rack-up", texts.newRack, beginAgain),
-    push: named("push", texts.pushOut, (s) => choose(s, "push"), { "aria-pressed": "false" }),
-    pass: named("pass", texts.pass, (s) => choose(s, "pass")),
+    push: named("push", texts.pushOut, push, { "aria-pressed": "false" }),
     skip: named("skip", texts.skip, (s) => s.showing.skip()),
     link: named("send", texts.sendLink, (s) => s.link.send()),
     sound: named("sound", "♪", toggleSound, {
@@ -77,6 +76,15 @@ function buttonsOf(session: () => Session): Session["buttons"] {
     }),
   };
 }
+
+const CHOICES: readonly (readonly [May, string])[] = [
+  ["pass", texts.pass],
+  ["place", texts.takeTheCueBall],
+  ["stay", texts.leaveTheCueBall],
+  ["spot", texts.spotTheTouchingBalls],
+  ["rack", texts.rackAndBreak],
+  ["other_rack", texts.rackTheOtherBreaks],
+];
 
 /** The game before it begins, with all that it is played by. */
 function sessionOf(carom: Carom, felt: HTMLElement): Session {
@@ -104,6 +112,7 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
     sound: new Sound(settings.sound),
     words: wordsOf(),
     buttons: buttonsOf(() => s),
+    choices: CHOICES.map(([may, text]) => [may, button(text, () => choose(s, may), { id: may })]),
   });
   return Object.assign(s, {
     showing: showing(s),
@@ -198,7 +207,7 @@ export function playView(
       buttons.undo,
       buttons.rack,
       buttons.push,
-      buttons.pass,
+      ...s.choices.map(([, one]) => one),
       buttons.link,
     ),
     el(

@@ -131,8 +131,6 @@ export interface Played {
   points: boolean;
   pockets: boolean;
   opening: string;
-  /** Points that win, of games in which the rules count none. */
-  target?: number;
   /** The state that a game begins with where it is not that of the library. */
   state?: Partial<GameState>;
   /** The stroke that a game begins with, as one finds it. */
@@ -148,8 +146,7 @@ const OWN: Record<string, Partial<Played>> = {
   snooker: { calls: false, begin: { ...BREAK, speed: 4 } },
   threecushion: {
     text: texts.threeCushionTo10,
-    points: true,
-    target: 10,
+    state: { target: 10 },
     begin: { speed: 4, phi: 62, a: 0, b: 0.2 },
   },
   fourball: { text: texts.fourBallTo10, begin: { speed: 3, phi: 97, a: 0, b: 0.2 } },

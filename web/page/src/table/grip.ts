@@ -56,12 +56,13 @@ export function gripAt(
     ({ centre, radius }) => near(centre) < Math.max(radius + 0.01, ofPocket),
   );
   if (pocket >= 0) return { kind: "pocket", pocket };
-  const { r } = balls[0]!.state;
+  const cueBall = balls[cue.ball]!;
+  const { r } = cueBall.state;
   const dx = Math.cos(cue.phi / DEGREES);
   const dy = Math.sin(cue.phi / DEGREES);
   const along = (x - r[0]) * dx + (y - r[1]) * dy;
   if (Math.abs((y - r[1]) * dx - (x - r[0]) * dy) >= reach) return { kind: "cloth" };
-  const end = stickEnd(balls[0]!.kind.radius, cue.speed);
+  const end = stickEnd(cueBall.kind.radius, cue.speed);
   if (along < 0 && -along > end - reach && -along < end + 1.3) return { kind: "stick" };
   return { kind: along > 0 ? "line" : "cloth" };
 }
@@ -100,13 +101,13 @@ export function put(
   balls: readonly ShotBall[],
   ball: number,
   [x, y]: readonly [number, number],
-  highest = table.length,
+  highest = Infinity,
 ): ShotBall[] | undefined {
   const R = balls[ball]!.kind.radius;
   const inside = (v: number, most: number): number =>
     Math.min(Math.max(v, R + 1e-4), most - R - 1e-4);
   let px = inside(x, table.width);
-  let py = inside(y, highest);
+  let py = Math.min(inside(y, table.length), highest);
   const other = balls.find(
     ({ state }, k) =>
       k !== ball && onTable(state) && Math.hypot(state.r[0] - px, state.r[1] - py) < 2 * R + 1e-5,
