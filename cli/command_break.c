@@ -140,7 +140,7 @@ static void count_break(const breaker *b, const carom_facts *f, const carom_ball
   if (rules_of(b->rack, &rules)) {
     const uint32_t in_play = ((uint32_t)1 << carom_rack_size(b->rack)) - 1;
     const carom_turn turn = rules.judge(&rules.state, in_play, 0, f, (carom_call){-1, -1});
-    c->plays_on += turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+    c->plays_on += turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN;
     c->fouls += turn.foul != 0;
   }
   if (((f->down | f->off) & 1) == 0) {

@@ -53,28 +53,28 @@ static verdict judge(carom_record *game, const char *line, size_t size) {
 /* Judges a whole recording in memory; returns how many of its shots were good. */
 static int64_t judge_all(carom_record *game, const char *text) {
   memset(game, 0, sizeof *game);
-  verdict is = GOOD;
-  while (is == GOOD && *text != '\0') {
+  verdict found = GOOD;
+  while (found == GOOD && *text != '\0') {
     const char *end = strchr(text, '\n') + 1;
-    is = judge(game, text, (size_t)(end - text));
+    found = judge(game, text, (size_t)(end - text));
     text = end;
   }
-  return game->shots - (is == REJECTED);
+  return game->shots - (found == REJECTED);
 }
 
 static int judge_file(carom_record *game, FILE *in) {
   char *line = NULL;
   size_t room = 0;
   ssize_t size;
-  verdict is = GOOD;
-  while (is == GOOD && (size = getline(&line, &room, in)) >= 0)
-    is = judge(game, line, (size_t)size);
+  verdict found = GOOD;
+  while (found == GOOD && (size = getline(&line, &room, in)) >= 0)
+    found = judge(game, line, (size_t)size);
   free(line);
-  if (is == ENDED)
+  if (found == ENDED)
     printf("accepted: %" PRId64 " shots\n", game->shots);
-  else if (is == GOOD)
+  else if (found == GOOD)
     printf("rejected: cut off after %" PRId64 " shots\n", game->shots);
-  return is != ENDED;
+  return found != ENDED;
 }
 
 /* ---- A player, for the demonstration */

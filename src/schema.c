@@ -361,11 +361,11 @@ const carom_number *carom_ball_fault(const carom_ball_kind *k, char *text, size_
 int carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind) {
 #define START(NAME, name, impact, flight, rows, start, ...) {start},
   static const struct start {
-    bool is;
+    bool known;
     double e, mu, height;
   } starts[] = {CAROM_CUSHION_MODELS(START)};
 #undef START
-  if ((uint32_t)model >= CAROM_CUSHION_MODEL_COUNT || kind == NULL || !starts[model].is)
+  if ((uint32_t)model >= CAROM_CUSHION_MODEL_COUNT || kind == NULL || !starts[model].known)
     return 0;
   kind->restitution_cushion = starts[model].e;
   kind->mu_cushion = starts[model].mu;

@@ -78,21 +78,21 @@ static void complain_of(const char *pocket, const char *via, const layout *l, co
   bool twice = other == 0 || other == pot->ball;
   for (int k = 0; k < pot->vias; k++)
     twice |= pot->via[k].kind == CAROM_PART_BALL && pot->via[k].index == other;
-  if (pot->is == CAROM_POT_STICK)
+  if (pot->outcome == CAROM_POT_STICK)
     snprintf(why, sizeof why,
              "the stick would be raised by %.4g degrees over what is behind the cue ball, and "
              "nobody plays above 60; give a higher --tip",
              pot->elevation);
-  else if (pot->is == CAROM_POT_NO_WAY)
+  else if (pot->outcome == CAROM_POT_NO_WAY)
     snprintf(why, sizeof why, "no direction of the cue sends the ball %s", what);
-  else if (pot->is == CAROM_POT_SHORT)
+  else if (pot->outcome == CAROM_POT_SHORT)
     snprintf(why, sizeof why,
              "%s comes to rest on its way, with the cue at %.3g m/s; give a higher --speed",
              ball_words(l, met->a, text), speed);
-  else if (pot->is == CAROM_POT_BARRED && met->type == CAROM_EVENT_BALL_BALL && twice)
+  else if (pot->outcome == CAROM_POT_BARRED && met->type == CAROM_EVENT_BALL_BALL && twice)
     snprintf(why, sizeof why, "%s and %s meet twice", ball_words(l, own, text),
              ball_words(l, other, more));
-  else if (pot->is == CAROM_POT_BARRED)
+  else if (pot->outcome == CAROM_POT_BARRED)
     snprintf(why, sizeof why, "%s is in the way of %s", obstacle(l, met->type, other, text),
              ball_words(l, own, more));
   complain("--pocket %s%s%s: no such aim: %s", pocket, text_if(via != NULL, " --via "),
@@ -125,7 +125,7 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
   else if (carom_aim(&l->table, l->ball, l->count, options, &pot, cue) != CAROM_OK) {
     cue->theta = isnan(cue->theta) ? 0.0 : cue->theta;
     good = true; /* which is told when it is played */
-  } else if (pot.is != CAROM_POT_FALLS) {
+  } else if (pot.outcome != CAROM_POT_FALLS) {
     *l->missed = true;
     if (!l->quiet)
       complain_of(pocket, via, l, &pot, cue->speed);

@@ -27,7 +27,7 @@ enum { TRIED = 500, DRAWN = 40, FOULS = CAROM_FOUL_JUMP + 1, MISS = FOULS, LOSS,
 static int failure_of(const carom_turn *turn) {
   if (turn->foul != 0)
     return turn->foul;
-  return turn->is == CAROM_TURN_LOSE ? LOSS : MISS;
+  return turn->outcome == CAROM_TURN_LOSE ? LOSS : MISS;
 }
 
 /* Says how often a failure came. */
@@ -67,7 +67,7 @@ static void say_failures(const planned *p, const shot_line *line, uint64_t seed,
     carom_rules_state state = p->rules.state;
     const carom_turn turn =
         p->rules.judge(&state, in_play, 0, &facts, (carom_call){p->best.ball, p->best.pocket});
-    const bool keeps = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+    const bool keeps = turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN;
     good += keeps;
     if (!keeps)
       times[failure_of(&turn)]++;

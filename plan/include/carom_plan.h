@@ -104,12 +104,12 @@ CAROM_API carom_status carom_rating_of(const carom_score *scores, int64_t count,
 /* ---- Rules ----------------------------------------------------------------------------------- */
 
 /* What happens to the turn of the player who has just played. */
-typedef enum carom_turn_is {
+typedef enum carom_turn_outcome {
   CAROM_TURN_KEEP = 0, /* the player plays on */
   CAROM_TURN_PASS = 1, /* the opponent plays; without an opponent, the visit ends */
   CAROM_TURN_WIN = 2,  /* the player has won */
   CAROM_TURN_LOSE = 3  /* the player has lost */
-} carom_turn_is;
+} carom_turn_outcome;
 
 /* The layout of the next stroke. */
 typedef enum carom_leave {
@@ -155,7 +155,7 @@ CAROM_API const char *carom_foul_string(int foul);
 
 /* What a shot means by the rules: who plays next, the foul, the points. */
 typedef struct carom_turn {
-  carom_turn_is is;
+  carom_turn_outcome outcome;
   carom_leave leave;
   int32_t foul;  /* a carom_foul; 0 for a legal shot. */
   uint32_t spot; /* the set of the balls that carom_turn_settle() puts back. */
@@ -672,7 +672,7 @@ CAROM_API carom_status carom_plan_value(const carom_plan_job *job, int in_hand, 
 enum { CAROM_VIA_MOST = 4 };
 
 /* The result of an aim, in the shot of the whole layout. */
-typedef enum carom_pot_is {
+typedef enum carom_pot_outcome {
   CAROM_POT_FALLS = 0,    /* the ball falls into the pocket */
   CAROM_POT_NO_WAY = 1,   /* no direction of this cue sends the ball to the middle of the mouth on
                              this way; with some directions the ball may still fall, beside the
@@ -682,7 +682,7 @@ typedef enum carom_pot_is {
   CAROM_POT_REJECTED = 4, /* the jaws send the ball back, at this speed */
   CAROM_POT_STICK = 5     /* theta was NaN, and the stick would have to be raised by more than 60
                              degrees to clear cushions and balls, which nobody plays */
-} carom_pot_is;
+} carom_pot_outcome;
 
 /* A ball and the pocket into which it is to fall. The caller sets the first block, and carom_aim()
  * the second one. */
@@ -697,7 +697,7 @@ typedef struct carom_pot {
                                      last other ball. A rail stands for all rails on its line, such
                                      as both halves of a long one. */
 
-  int32_t is;            /* a carom_pot_is. */
+  int32_t outcome;       /* a carom_pot_outcome. */
   double elevation;      /* degrees: the least elevation in the direction cue->phi with which the
                             stick clears the cushions and balls behind the cue ball. A stroke with a
                             smaller cue->theta cannot be played. 0 if cue->phi stays. */
@@ -716,10 +716,10 @@ typedef struct carom_pot {
  * mouth on this way, for the cue's speed, tip and elevation. The call plays shots with the balls on
  * the way, so squirt, swerve, throw and the model of the cushion count. If cue->theta is NaN, it
  * becomes the least elevation with which the stick clears cushions and balls, and the aim is that
- * of the raised cue. The call may miss a cut above 80 degrees. pot->is says what the other balls
- * and the jaws make of the shot; if it is CAROM_POT_NO_WAY, cue->phi and cue->theta stay. Returns
- * CAROM_OK; CAROM_ERROR_BALLS for an invalid index or order of via[]; or an error of an argument,
- * with nothing written. It takes one to ten ms. */
+ * of the raised cue. The call may miss a cut above 80 degrees. pot->outcome says what the other
+ * balls and the jaws make of the shot; if it is CAROM_POT_NO_WAY, cue->phi and cue->theta stay.
+ * Returns CAROM_OK; CAROM_ERROR_BALLS for an invalid index or order of via[]; or an error of an
+ * argument, with nothing written. It takes one to ten ms. */
 CAROM_API carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, int count,
                                  const carom_shot_options *shot, carom_pot *pot, carom_cue *cue);
 

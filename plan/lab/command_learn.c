@@ -179,7 +179,7 @@ static void make_rack(lab_rack *rack, carom_rules_kind game, lab_random *draw) {
 }
 
 static bool keeps(const carom_turn *turn) {
-  return turn->is == CAROM_TURN_KEEP || turn->is == CAROM_TURN_WIN;
+  return turn->outcome == CAROM_TURN_KEEP || turn->outcome == CAROM_TURN_WIN;
 }
 
 /* Of each pair of strokes of a visit the later one, by the mean before the first one. */
@@ -206,10 +206,10 @@ static void play(const learn_job *job, int number, visit *to) {
   lab_rack_begin(&rack, game, scale);
   make_rack(&rack, game, &draw);
 
-  carom_turn turn = {.is = CAROM_TURN_KEEP};
+  carom_turn turn = {.outcome = CAROM_TURN_KEEP};
   carom_choice choice;
   to->count = 0;
-  while (turn.is == CAROM_TURN_KEEP && to->count < STROKES_MOST) {
+  while (turn.outcome == CAROM_TURN_KEEP && to->count < STROKES_MOST) {
     sample s = look(&rack);
     if (!lab_rack_stroke(&rack, &choice, &turn))
       break;
@@ -217,7 +217,7 @@ static void play(const learn_job *job, int number, visit *to) {
     to->samples[to->count++] = s;
   }
   add_pairs(to);
-  if (turn.is == CAROM_TURN_PASS) {
+  if (turn.outcome == CAROM_TURN_PASS) {
     sample s = look(&rack);
     s.what = FIRST;
     s.x[2] = 1.0 / s.left;

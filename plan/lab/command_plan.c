@@ -92,16 +92,16 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
     rack->rules.state.target = job->target;
   if (job->left > 0)
     lab_rack_end(rack, job->left);
-  carom_turn turn = {.is = CAROM_TURN_KEEP};
+  carom_turn turn = {.outcome = CAROM_TURN_KEEP};
   int who = 0, n = 0;
   static int by[STROKES_MOST];
   static double value[STROKES_MOST];
   double visit = 0.0;
   while (n < STROKES_MOST &&
-         (turn.is == CAROM_TURN_KEEP || (job->games && turn.is == CAROM_TURN_PASS))) {
+         (turn.outcome == CAROM_TURN_KEEP || (job->games && turn.outcome == CAROM_TURN_PASS))) {
     carom_choice best;
     const double begin = processor_ns();
-    who = turn.is == CAROM_TURN_PASS ? 1 - who : who;
+    who = turn.outcome == CAROM_TURN_PASS ? 1 - who : who;
     if (!lab_rack_stroke(rack, &best, &turn))
       return;
     to->seconds += 1e-9 * (processor_ns() - begin);
@@ -109,13 +109,13 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
 
     /* what was predicted beside what came */
     visit += turn.points;
-    if (turn.is != CAROM_TURN_KEEP) {
+    if (turn.outcome != CAROM_TURN_KEEP) {
       to->visits++;
       to->points += visit;
       to->best = fmax(to->best, visit);
       visit = 0.0;
     }
-    const bool kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+    const bool kept = turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN;
     count(&to->bins[bin_of(best.keep)], best.keep, kept);
     count(&to->kinds[best.kind], best.keep, kept);
     by[n] = who;
@@ -125,9 +125,9 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
     to->fouls += best.foul > 0.5;
   }
   int winner = -1;
-  if (turn.is == CAROM_TURN_WIN)
+  if (turn.outcome == CAROM_TURN_WIN)
     winner = who;
-  else if (turn.is == CAROM_TURN_LOSE)
+  else if (turn.outcome == CAROM_TURN_LOSE)
     winner = 1 - who;
   to->wins += winner == 0;
   for (int k = 0; k < n && winner >= 0; k++) {

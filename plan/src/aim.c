@@ -280,8 +280,8 @@ static bool is_beside(const way *w, const carom_brief_event *e) {
 }
 
 /* What comes of a cue, of the whole layout. */
-static carom_pot_is fate(const way *w, const carom_shot_ball *balls, int count,
-                         const carom_cue *cue, carom_brief_event *met) {
+static carom_pot_outcome fate(const way *w, const carom_shot_ball *balls, int count,
+                              const carom_cue *cue, carom_brief_event *met) {
   carom_facts facts;
   carom_shot shot = {.brief = w->events, .room = EVENTS, .facts = &facts};
   carom_shoot(w->table, balls, count, cue, &w->options, &shot);
@@ -381,12 +381,12 @@ static void judge(const way *w, const carom_shot_ball *balls, int count, const c
   cue->theta = root->theta;
   if (w->raised)
     cue->theta = fmax(root->theta, pot->elevation);
-  pot->is = (int32_t)fate(w, balls, count, cue, &pot->met);
+  pot->outcome = (int32_t)fate(w, balls, count, cue, &pot->met);
   if (w->raised && pot->elevation > STICK_MOST)
-    pot->is = CAROM_POT_STICK;
+    pot->outcome = CAROM_POT_STICK;
   pot->cut = cut_of(w, *cue);
   pot->margin = fmax(half, 0.0) / degree;
-  if (pot->is != CAROM_POT_FALLS)
+  if (pot->outcome != CAROM_POT_FALLS)
     return;
   pot->met = (carom_brief_event){0};
   carom_cue c = *cue;
@@ -405,7 +405,7 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
                    carom_pot *pot, carom_cue *cue) {
   const carom_cue given = *cue;
   int best = -1;
-  pot->is = CAROM_POT_NO_WAY;
+  pot->outcome = CAROM_POT_NO_WAY;
 
   /* as long as links are gained, and once more for the roots */
   for (bool gains = true; gains;) {
@@ -444,7 +444,7 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
       if (roots && (e > 0.0) != (before > 0.0) && fabs(e - before) < step_most &&
           root_of(w, &given, (double[]){last, phi}, before, &root, &width)) {
         judge(w, balls, count, &root, width, pot, cue);
-        if (pot->is == CAROM_POT_FALLS)
+        if (pot->outcome == CAROM_POT_FALLS)
           return;
       }
       before = e;
@@ -457,7 +457,7 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
     mid = 0.5 * (low + high);
     wide = 0.5 * (high - low);
     if (!gains && best < w->links && short_of) {
-      pot->is = CAROM_POT_SHORT;
+      pot->outcome = CAROM_POT_SHORT;
       pot->met = at_rest.end;
       pot->met.a = w->ball[pot->met.a];
     }
@@ -517,7 +517,7 @@ static void sweep(way *w, const carom_shot_ball *balls, int count, double mid, d
   attempt(w, c.phi, *cue, &unused, &half);
   carom_pot there = *pot;
   judge(w, balls, count, &c, half, &there, &c);
-  if (there.is != CAROM_POT_FALLS)
+  if (there.outcome != CAROM_POT_FALLS)
     return;
   *pot = there;
   *cue = c;
@@ -651,14 +651,14 @@ static directions directions_of(const way *w, carom_cue *along) {
 static void search_raised(const way *w, directions range, carom_pot *pot, carom_cue *cue) {
   search(w, w->layout, w->count, range.mid, range.half, pot, cue);
   const double jump = *w->jump;
-  if (!w->raised || pot->is != CAROM_POT_NO_WAY || !(jump > 0.0))
+  if (!w->raised || pot->outcome != CAROM_POT_NO_WAY || !(jump > 0.0))
     return;
   carom_cue high = *cue;
   high.theta = jump;
   search(w, w->layout, w->count, range.mid, range.half, pot, &high);
   if (pot->elevation > jump)
-    pot->is = CAROM_POT_NO_WAY;
-  else if (pot->is != CAROM_POT_NO_WAY)
+    pot->outcome = CAROM_POT_NO_WAY;
+  else if (pot->outcome != CAROM_POT_NO_WAY)
     *cue = high;
 }
 
@@ -695,7 +695,8 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
   search_raised(&w, range, pot, cue);
 
   /* without one, the directions one by one */
-  if (pot->is == CAROM_POT_NO_WAY || pot->is == CAROM_POT_BARRED || pot->is == CAROM_POT_REJECTED) {
+  if (pot->outcome == CAROM_POT_NO_WAY || pot->outcome == CAROM_POT_BARRED ||
+      pot->outcome == CAROM_POT_REJECTED) {
     double half = range.half;
     if (w.links == 1 && is_near_rail(&w))
       half += kick_wide;
@@ -704,10 +705,10 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
 
   /* whether the stick alone is in the way of all directions */
   along.phi = range.mid;
-  if (w.raised && pot->is == CAROM_POT_NO_WAY) {
+  if (w.raised && pot->outcome == CAROM_POT_NO_WAY) {
     const double least = stick_of(&w, along);
     if (least > STICK_MOST) {
-      pot->is = CAROM_POT_STICK;
+      pot->outcome = CAROM_POT_STICK;
       pot->elevation = least;
     }
   }

@@ -51,12 +51,12 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if (made)
     stays = carom_only(call.ball);
   if (game->score[0] >= CAROM_BALLS_THAT_WIN)
-    turn.is = CAROM_TURN_WIN;
+    turn.outcome = CAROM_TURN_WIN;
   else if (game->fouls[0] >= FOULS_MOST)
-    turn.is = CAROM_TURN_LOSE;
+    turn.outcome = CAROM_TURN_LOSE;
   else if (made || (opening && !foul && pots))
-    turn.is = CAROM_TURN_KEEP;
-  if (turn.is == CAROM_TURN_PASS || (turn.is == CAROM_TURN_KEEP && remain == 0))
+    turn.outcome = CAROM_TURN_KEEP;
+  if (turn.outcome == CAROM_TURN_PASS || (turn.outcome == CAROM_TURN_KEEP && remain == 0))
     turn.spot = carom_back_of(game, all & ~remain, balls & ~remain & ~stays);
   if (bad_break)
     game->may = CAROM_MAY_PASS;

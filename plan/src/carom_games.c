@@ -68,7 +68,7 @@ static carom_turn judge_point(carom_rules_state *game, uint32_t in_play, const c
   turn.points = 1.0;
   carom_add(&game->score[0], 1);
   if (game->target > 0 && game->score[0] >= game->target)
-    turn.is = CAROM_TURN_WIN;
+    turn.outcome = CAROM_TURN_WIN;
   return turn;
 }
 
@@ -132,7 +132,7 @@ static carom_turn judge_four(carom_rules_state *game, uint32_t in_play, int cue_
   turn.points = 1.0;
   carom_add(&game->score[0], 1);
   if (game->target > 0 && game->score[0] - game->lost[0] >= game->target)
-    turn.is = CAROM_TURN_WIN;
+    turn.outcome = CAROM_TURN_WIN;
   return turn;
 }
 
@@ -179,7 +179,7 @@ static void settle_one(carom_rules_state *game, const carom_table *table, carom_
   const int cue_ball = cue_ball_of(game);
   if (count < BALLS_OF_THREE)
     return;
-  if ((game->may & CAROM_MAY_SPOT) && turn->is == CAROM_TURN_KEEP)
+  if ((game->may & CAROM_MAY_SPOT) && turn->outcome == CAROM_TURN_KEEP)
     turn->spot = carom_touching(balls, count, cue_ball) | UINT32_C(1) << cue_ball;
   for (int k = 0; k < BALLS_OF_THREE; k++)
     if (turn->spot >> k & 1)
@@ -196,7 +196,7 @@ static void settle_rack(carom_rack_kind rack, carom_rules_state *game, const car
   const int cue_ball = cue_ball_of(game), all = carom_rack_size(rack);
   if (count < all)
     return;
-  const bool asked = (game->may & CAROM_MAY_SPOT) && turn->is == CAROM_TURN_KEEP;
+  const bool asked = (game->may & CAROM_MAY_SPOT) && turn->outcome == CAROM_TURN_KEEP;
   if (asked || turn->spot != 0) {
     turn->spot = (UINT32_C(1) << all) - 1;
     for (int k = 0; k < all; k++)

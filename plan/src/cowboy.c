@@ -95,12 +95,12 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
       game->may = CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK;
   } else {
     if (gain > 0)
-      turn.is = CAROM_TURN_KEEP;
+      turn.outcome = CAROM_TURN_KEEP;
     turn.points = gain;
     carom_add(&game->score[0], gain);
     carom_add(&game->lost[0], gain);
   }
-  if (turn.is == CAROM_TURN_KEEP)
+  if (turn.outcome == CAROM_TURN_KEEP)
     return turn;
   game->lost[0] = 0;
   return carom_give(game, turn);

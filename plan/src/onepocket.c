@@ -44,12 +44,12 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   /* the end of the game, or of the visit */
   const uint32_t remain = balls & ~gone;
   if (!foul && game->score[0] >= CAROM_BALLS_THAT_WIN)
-    turn.is = CAROM_TURN_WIN;
+    turn.outcome = CAROM_TURN_WIN;
   else if (game->score[1] >= CAROM_BALLS_THAT_WIN || game->fouls[0] >= FOULS_MOST)
-    turn.is = CAROM_TURN_LOSE;
+    turn.outcome = CAROM_TURN_LOSE;
   else if (in[0] != 0)
-    turn.is = CAROM_TURN_KEEP;
-  if (turn.is == CAROM_TURN_PASS || (turn.is == CAROM_TURN_KEEP && remain == 0))
+    turn.outcome = CAROM_TURN_KEEP;
+  if (turn.outcome == CAROM_TURN_PASS || (turn.outcome == CAROM_TURN_KEEP && remain == 0))
     turn.spot = carom_back_of(game, all & ~remain, gone & ~(in[0] | in[1]));
   return carom_end_turn(game, turn);
 }

@@ -268,10 +268,10 @@ static double foul_value_of(const search *plan) {
   carom_rules_state game = rules->state; /* rules change it as they judge */
   const carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts,
                                        (carom_call){-1, -1});
-  if (turn.is == CAROM_TURN_LOSE || rules->race == CAROM_RACE_ALONE)
+  if (turn.outcome == CAROM_TURN_LOSE || rules->race == CAROM_RACE_ALONE)
     return 0.0;
   const bool in_hand = turn.leave >= CAROM_LEAVE_HAND;
-  if (turn.is == CAROM_TURN_KEEP)
+  if (turn.outcome == CAROM_TURN_KEEP)
     return carom_value_of(&plan->view, &game, plan->state, 0, in_hand);
   return carom_search_foul(1.0 - carom_value_of(&plan->view, &game, plan->state, 1, in_hand));
 }

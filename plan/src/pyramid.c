@@ -54,7 +54,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     turn.spot = (facts->down | facts->off) & balls;
     carom_add(&game->score[1], 1);
     if (game->score[1] >= WINS)
-      turn.is = CAROM_TURN_LOSE;
+      turn.outcome = CAROM_TURN_LOSE;
     if (foul == CAROM_FOUL_BREAK)
       game->may = CAROM_MAY_RACK;
     return carom_give(game, turn);
@@ -65,7 +65,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   turn.points = carom_count_of(fell);
   carom_add(&game->score[0], carom_count_of(fell));
   if (game->score[0] >= WINS)
-    turn.is = CAROM_TURN_WIN;
+    turn.outcome = CAROM_TURN_WIN;
   return turn;
 }
 

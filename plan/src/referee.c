@@ -59,7 +59,7 @@ static uint32_t moved_by_referee(const carom_shot_ball *balls, int count, const 
 /* Who plays next, 0 the player and 1 the other, and who has won; -1: nobody. */
 static void name_players(carom_ruling *ruling) {
   ruling->next = ruling->winner = -1;
-  switch (ruling->turn.is) {
+  switch (ruling->turn.outcome) {
   case CAROM_TURN_KEEP:
     ruling->next = 0;
     break;
@@ -141,7 +141,7 @@ size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) 
                                        ", cue ball in hand behind the head string",
                                        ", cue ball in hand in the D",
                                        ", cue ball in hand behind the baulk line"};
-  if (ruling == NULL || (uint32_t)ruling->turn.is > CAROM_TURN_LOSE ||
+  if (ruling == NULL || (uint32_t)ruling->turn.outcome > CAROM_TURN_LOSE ||
       (uint32_t)ruling->turn.leave > CAROM_LEAVE_BAULK)
     return 0;
   char foul[200] = "", choices[200] = "";
@@ -154,6 +154,7 @@ size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) 
   }
   if (text == NULL)
     room = 0;
-  const int size = snprintf(text, room, "%s%s%s%s", foul, turns[ruling->turn.is], leave, choices);
+  const int size =
+      snprintf(text, room, "%s%s%s%s", foul, turns[ruling->turn.outcome], leave, choices);
   return (size_t)carom_max(size, 0);
 }

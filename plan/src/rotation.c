@@ -70,9 +70,9 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   carom_add(&game->score[0], points_of_set(fell));
   const bool last = (balls & ~fell) == 0;
   if (game->score[0] >= WINS || (last && game->score[0] >= ALL_POINTS / 2))
-    turn.is = CAROM_TURN_WIN;
+    turn.outcome = CAROM_TURN_WIN;
   else if (last)
-    turn.is = CAROM_TURN_LOSE;
+    turn.outcome = CAROM_TURN_LOSE;
   return turn;
 }
 

@@ -109,7 +109,7 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
     call = call_of(plan, facts);
   carom_rules_state game = rules->state; /* rules change it as they judge */
   carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, facts, call);
-  outcome o = {.turn = (int8_t)turn.is,
+  outcome o = {.turn = (int8_t)turn.outcome,
                .foul = turn.foul != 0,
                .ball = -1,
                .pocket = -1,
@@ -118,28 +118,28 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   /* its call */
   if (call.ball == CAROM_CALL_PUSH)
     o.ball = CAROM_CALL_PUSH;
-  if (call.ball >= 0 && (turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN)) {
+  if (call.ball >= 0 && (turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN)) {
     o.ball = (int8_t)call.ball;
     o.pocket = (int8_t)call.pocket;
     o.cushions = (int16_t)facts->cushions[call.ball];
   }
   const bool alone = rules->race == CAROM_RACE_ALONE;
-  if (turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE) {
-    o.worth = turn.is == CAROM_TURN_WIN;
+  if (turn.outcome == CAROM_TURN_WIN || turn.outcome == CAROM_TURN_LOSE) {
+    o.worth = turn.outcome == CAROM_TURN_WIN;
     return o;
   }
-  if (alone && turn.is == CAROM_TURN_PASS) {
+  if (alone && turn.outcome == CAROM_TURN_PASS) {
     o.worth = carom_search_share(plan, turn.points);
     return o;
   }
 
   /* A shot that was stopped at a wrong ball, and one in error, have left no layout. */
-  if (status != CAROM_OK && turn.is == CAROM_TURN_PASS) {
+  if (status != CAROM_OK && turn.outcome == CAROM_TURN_PASS) {
     o.worth = plan->foul_value;
     return o;
   }
   const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
-  if (rules->settle != NULL && (taken_back || turn.spot != 0 || turn.is == CAROM_TURN_PASS))
+  if (rules->settle != NULL && (taken_back || turn.spot != 0 || turn.outcome == CAROM_TURN_PASS))
     settle(plan, &game, c, final, taken_back, &turn);
   for (int k = 0; k < plan->view.count; k++) {
     if (taken_back && rules->settle == NULL)
@@ -151,7 +151,7 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   }
   /* any ball may be struck: about as good as the cue ball in hand */
   const bool in_hand = turn.leave >= CAROM_LEAVE_HAND || rules->any_cue_ball != 0;
-  const bool passes = turn.is == CAROM_TURN_PASS;
+  const bool passes = turn.outcome == CAROM_TURN_PASS;
   o.worth = carom_value_of(&plan->view, &game, final, passes, in_hand);
   if (passes)
     o.worth = 1.0 - o.worth;

@@ -103,7 +103,7 @@ static carom_turn eightball_break(carom_rules_state *game, const carom_facts *fa
     return turn;
   }
   if ((facts->down & 0xfffe) != 0)
-    turn.is = CAROM_TURN_KEEP;
+    turn.outcome = CAROM_TURN_KEEP;
   return turn;
 }
 
@@ -342,7 +342,7 @@ carom_turn carom_give_hand(carom_rules_state *game, int32_t foul, uint32_t spot)
   carom_add(&game->fouls[0], 1);
   if (game->fouls[0] >= FOULS_MOST) {
     game->fouls[0] = 0;
-    turn.is = CAROM_TURN_LOSE;
+    turn.outcome = CAROM_TURN_LOSE;
   }
   return carom_give(game, turn);
 }
@@ -413,7 +413,7 @@ static carom_turn potting_judge(carom_rules_state *game, uint32_t in_play, int c
   if (foul != CAROM_FOUL_NONE && foul != CAROM_FOUL_CUSHION) {
     carom_turn turn = foul_for(foul);
     if ((on & ~(facts->down | facts->off)) == 0) /* no ball is left to be played */
-      turn.is = CAROM_TURN_LOSE;
+      turn.outcome = CAROM_TURN_LOSE;
     return turn;
   }
   carom_turn turn = carom_pass;

@@ -51,7 +51,7 @@ uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball);
 carom_turn carom_give(carom_rules_state *game, carom_turn turn);
 /* The same of a turn that passes; another one stays as it is. */
 static inline carom_turn carom_end_turn(carom_rules_state *game, carom_turn turn) {
-  if (turn.is == CAROM_TURN_PASS)
+  if (turn.outcome == CAROM_TURN_PASS)
     carom_give(game, turn);
   return turn;
 }

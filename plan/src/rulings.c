@@ -51,7 +51,7 @@ bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t all, caro
   turn->leave = CAROM_LEAVE_KITCHEN;
   turn->spot = all;
   if (call == CAROM_CALL_OTHER_RACK) {
-    turn->is = CAROM_TURN_PASS;
+    turn->outcome = CAROM_TURN_PASS;
     carom_give(game, *turn);
   }
   return true;

@@ -105,11 +105,11 @@ static double points(const carom_rules_state *game, uint32_t in_play, int ball) 
 static carom_turn finish(const carom_rules_state *game, carom_turn turn) {
   turn.spot = 0;
   turn.leave = CAROM_LEAVE_AFTER;
-  turn.is = CAROM_TURN_LOSE;
+  turn.outcome = CAROM_TURN_LOSE;
   if (lead_of(game) > 0)
-    turn.is = CAROM_TURN_WIN;
+    turn.outcome = CAROM_TURN_WIN;
   if (lead_of(game) == 0) {
-    turn.is = CAROM_TURN_PASS;
+    turn.outcome = CAROM_TURN_PASS;
     turn.leave = CAROM_LEAVE_D;
     turn.spot = black;
   }
@@ -248,7 +248,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     turn.spot = fell & ~due;
   carom_add(&game->score[0], made);
   game->on = red;
-  turn.is = CAROM_TURN_KEEP;
+  turn.outcome = CAROM_TURN_KEEP;
   if (balls == black || is_claimed(lead_of(game), (balls & ~fell) | turn.spot))
     turn = finish(game, turn);
   turn.points = made;
@@ -333,7 +333,7 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
   for (int k = (int)carom_min(count - 1, BLACK); k >= YELLOW; k--)
     if (turn->spot >> k & 1)
       carom_spot_ball_of(CAROM_RACK_SNOOKER, table, balls, count, k);
-  if (turn->is != CAROM_TURN_PASS)
+  if (turn->outcome != CAROM_TURN_PASS)
     return;
 
   const uint32_t in_play = carom_on_table(balls, count) & (reds | colours);

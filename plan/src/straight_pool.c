@@ -22,9 +22,9 @@ static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed
 }
 
 /* A break: all balls are racked, and the cue ball is in hand. */
-static carom_turn racked(carom_rules_state *game, carom_turn_is is, int32_t foul) {
+static carom_turn racked(carom_rules_state *game, carom_turn_outcome outcome, int32_t foul) {
   game->opening = 1;
-  return (carom_turn){is, CAROM_LEAVE_KITCHEN, foul, all, 0.0};
+  return (carom_turn){outcome, CAROM_LEAVE_KITCHEN, foul, all, 0.0};
 }
 
 /* Whether an opening break drove the cue ball and two others to cushions. */
@@ -75,7 +75,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   turn.points = carom_count_of(gone);
   carom_add(&game->score[0], carom_count_of(gone));
   if (score(game, 0) >= game->target)
-    turn.is = CAROM_TURN_WIN;
+    turn.outcome = CAROM_TURN_WIN;
   if (carom_count_of(balls & ~gone) <= 1)
     turn.spot = all & ~(balls & ~gone);
   return turn;

@@ -58,15 +58,15 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if (opening) {
     game->may = CAROM_MAY_PUSH;
     if (pots)
-      turn.is = CAROM_TURN_KEEP;
+      turn.outcome = CAROM_TURN_KEEP;
     return carom_end_turn(game, turn);
   }
 
   /* the ball that was called, or another one that fell */
   if (carom_is_called(facts, call) && (balls >> call.ball & 1)) {
-    turn.is = CAROM_TURN_KEEP;
+    turn.outcome = CAROM_TURN_KEEP;
     if (balls == ten) {
-      turn.is = CAROM_TURN_WIN;
+      turn.outcome = CAROM_TURN_WIN;
       turn.spot = 0;
     }
     return turn;

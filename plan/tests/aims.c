@@ -99,8 +99,8 @@ TEST(aims) {
       continue;
     carom_cue aimed = cue;
     ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &aimed), CAROM_OK);
-    found[kind][pot.is]++;
-    if (pot.is != CAROM_POT_FALLS)
+    found[kind][pot.outcome]++;
+    if (pot.outcome != CAROM_POT_FALLS)
       continue;
 
     ck_assert(pot.margin >= 0.0 && fabs(pot.cut) < 90.0 && pot.phi[0] < pot.phi[1]);
@@ -144,12 +144,12 @@ TEST(rows_before_a_pocket) {
     one.speed = 4.0;
     one.follow = 0.0; /* the tip would touch the cue ball again */
     ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
-    ck_assert_msg(pot.is == CAROM_POT_FALLS, "%d others: %d", others, pot.is);
+    ck_assert_msg(pot.outcome == CAROM_POT_FALLS, "%d others: %d", others, pot.outcome);
     ck_assert_double_eq_tol(pot.margin, asin(pocket->radius / 0.3) / per_degree, 0.01);
 
     one.speed = 0.1;
     ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
-    ck_assert_msg(pot.is == CAROM_POT_SHORT, "%d others: %d", others, pot.is);
+    ck_assert_msg(pot.outcome == CAROM_POT_SHORT, "%d others: %d", others, pot.outcome);
     ck_assert(pot.met.type == CAROM_EVENT_ROLLING_STATIONARY ||
               pot.met.type == CAROM_EVENT_ROLLING_SPINNING);
     ck_assert(others > 0 || pot.met.a == 1);

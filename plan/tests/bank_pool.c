@@ -9,7 +9,7 @@ typedef struct bank_case {
   int call, cushions;     /* those of the ball that is called */
   int score, lost, fouls; /* of the player */
   bool opening;
-  int is, leave, foul;
+  int outcome, leave, foul;
   uint32_t spot;
   int score_after, lost_after;
 } bank_case;
@@ -52,8 +52,8 @@ TEST(bank_rulings) {
     of.state = (carom_rules_state){
         .opening = c->opening, .fouls = {c->fouls, 1}, .score = {c->score}, .lost = {c->lost, 2}};
     const carom_turn turn = of.judge(&of.state, c->in_play, 0, &facts, (carom_call){c->call, 2});
-    const bool gives = c->is == PASS;
-    ruled(c->what, &turn, c->is, c->leave, c->foul, c->spot);
+    const bool gives = c->outcome == PASS;
+    ruled(c->what, &turn, c->outcome, c->leave, c->foul, c->spot);
     const bool bad_break = c->opening && c->cushions < 2 && c->down == 0;
     ck_assert_msg(
         of.state.score[gives] == c->score_after && of.state.lost[gives] == c->lost_after &&

@@ -58,7 +58,7 @@ TEST(balls_are_spotted) {
       of.state.group = 1 + other;
     const carom_call call = {asks ? CAROM_CALL_SPOT : NONE, -1};
     carom_turn turn = of.judge(&of.state, 7, own, &facts, call);
-    ck_assert_int_eq(turn.is, asks ? KEEP : PASS);
+    ck_assert_int_eq(turn.outcome, asks ? KEEP : PASS);
     carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
     ck_assert_msg(lies_at(&balls[RED], 0.5, 0.75) && of.state.may == 0, "case %d: red", k);
     if (all) {

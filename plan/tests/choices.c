@@ -130,7 +130,7 @@ TEST(the_first_ball_that_falls) {
       const carom_call call = {first, first < 0 ? -1 : facts.pocket[first]};
       carom_plan_rules of = played_rules;
       const carom_turn turn = of.judge(&of.state, in_play, 0, &facts, call);
-      const bool keeps = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+      const bool keeps = turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN;
       const int ball = keeps ? first : -1;
       ck_assert_msg(told[k].ball == ball && told[k].pocket == (ball < 0 ? -1 : call.pocket),
                     "layout %d, stroke %d: ball %d is named, %d fell first", layout, k,
@@ -192,7 +192,7 @@ TEST(three_cushion) {
   static const struct {
     int second, before;
     uint32_t off;
-    int is;
+    int outcome;
   } given[] = {{2, 3, 0, CAROM_TURN_KEEP},
                {2, 7, 0, CAROM_TURN_KEEP},
                {2, 2, 0, CAROM_TURN_PASS},
@@ -204,7 +204,8 @@ TEST(three_cushion) {
                                .off = given[k].off};
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_THREECUSHION);
     const carom_turn turn = of.judge(&of.state, 7, 0, &facts, (carom_call){-1, -1});
-    ck_assert((int)turn.is == given[k].is && turn.points == (given[k].is == CAROM_TURN_KEEP));
+    ck_assert((int)turn.outcome == given[k].outcome &&
+              turn.points == (given[k].outcome == CAROM_TURN_KEEP));
     ck_assert_int_eq(turn.foul, given[k].off ? CAROM_FOUL_OFF : CAROM_FOUL_NONE);
   }
 

@@ -48,12 +48,12 @@ static inline carom_facts facts_of(int first, int cushions, uint32_t down, uint3
 }
 
 /* The one check of a ruling. */
-static inline void ruled(const char *what, const carom_turn *turn, int is, int leave, int foul,
+static inline void ruled(const char *what, const carom_turn *turn, int outcome, int leave, int foul,
                          uint32_t spot) {
-  ck_assert_msg((int)turn->is == is && (int)turn->leave == leave && turn->foul == foul &&
+  ck_assert_msg((int)turn->outcome == outcome && (int)turn->leave == leave && turn->foul == foul &&
                     turn->spot == spot,
-                "%s: turn %d, leave %d, foul %d, spot %x", what, (int)turn->is, (int)turn->leave,
-                turn->foul, turn->spot);
+                "%s: turn %d, leave %d, foul %d, spot %x", what, (int)turn->outcome,
+                (int)turn->leave, turn->foul, turn->spot);
 }
 
 CK_ATTRIBUTE_UNUSED static carom_table table;

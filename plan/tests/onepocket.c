@@ -7,7 +7,7 @@ typedef struct onepocket_case {
   int first, cushions;
   uint32_t mine, his, neutral, off; /* the cue ball is gone with bit 0 of neutral or off */
   int balls[2], owed[2], fouls;     /* before, of the one who plays and of the other; his fouls */
-  int is, leave, foul;
+  int outcome, leave, foul;
   uint32_t spot;
   int balls_after[2], owed_after[2], fouls_after; /* of the same two */
 } onepocket_case;
@@ -102,8 +102,8 @@ TEST(onepocket_rulings) {
     for (int who = 0; who < 2; who++)
       ck_assert_msg(needs[who] == 8 - c->balls[who] + c->owed[who], "%s: left", c->what);
     const carom_turn turn = of.judge(&of.state, c->in_play, 0, &facts, (carom_call){NONE, -1});
-    const int other = c->is == PASS ? 1 : 0;
-    ruled(c->what, &turn, c->is, c->leave, c->foul, c->spot);
+    const int other = c->outcome == PASS ? 1 : 0;
+    ruled(c->what, &turn, c->outcome, c->leave, c->foul, c->spot);
     for (int who = 0; who < 2; who++)
       ck_assert_msg(of.state.score[other ^ who] == c->balls_after[who] &&
                         of.state.lost[other ^ who] == c->owed_after[who],

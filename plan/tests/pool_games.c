@@ -8,7 +8,7 @@ typedef struct ruling {
   const char *what;
   int kind;
   uint32_t in_play, down;
-  int group, first, cushions_after, call, is, foul, leave, group_after;
+  int group, first, cushions_after, call, outcome, foul, leave, group_after;
 } ruling;
 
 /* All that falls goes into pocket 2, which is called. */
@@ -48,8 +48,8 @@ TEST(rulings) {
     const carom_turn turn =
         of.judge(&of.state, g->in_play, 0, &facts, (carom_call){g->call, g->call < 0 ? -1 : 2});
     /* a nine that does not win comes back */
-    const uint32_t spot = g->kind == N && g->is == PASS ? g->down & 0x200 : 0;
-    ruled(g->what, &turn, g->is, g->leave, g->foul, spot);
+    const uint32_t spot = g->kind == N && g->outcome == PASS ? g->down & 0x200 : 0;
+    ruled(g->what, &turn, g->outcome, g->leave, g->foul, spot);
     ck_assert_msg(of.state.group == g->group_after, "%s: group", g->what);
   }
   ck_assert_str_eq(carom_rules_about_of(CAROM_RULES_NINEBALL)->name, "nineball");
@@ -61,7 +61,7 @@ TEST(rulings) {
 TEST(breaks_of_eightball) {
   static const struct {
     uint32_t down;
-    int driven, is, leave, foul;
+    int driven, outcome, leave, foul;
     uint32_t spot;
     int may;
   } given[] = {{0, 4, PASS, AFTER, 0, 0, 0},
@@ -77,7 +77,7 @@ TEST(breaks_of_eightball) {
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
     of.state.opening = 1;
     const carom_turn turn = of.judge(&of.state, 0xffff, 0, &facts, (carom_call){-1, -1});
-    ruled("break", &turn, given[k].is, given[k].leave, given[k].foul, given[k].spot);
+    ruled("break", &turn, given[k].outcome, given[k].leave, given[k].foul, given[k].spot);
     ck_assert(of.state.group == 0 && of.state.opening == 0 && of.state.may == given[k].may);
   }
 }
@@ -95,12 +95,12 @@ static carom_turn nine(carom_plan_rules *of, int first, int driven, int down, in
 TEST(three_fouls) {
   carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_NINEBALL);
   for (int stroke = 0; stroke < 4; stroke++) { /* of each player two */
-    ck_assert_int_eq(nine(&of, -1, 0, -1, -1).is, CAROM_TURN_PASS);
+    ck_assert_int_eq(nine(&of, -1, 0, -1, -1).outcome, CAROM_TURN_PASS);
     ck_assert_int_eq(of.state.fouls[1], stroke / 2 + 1);
   }
   carom_plan_rules other = of;
   const carom_turn third = nine(&of, 2, 1, -1, -1);
-  ck_assert(third.is == CAROM_TURN_LOSE && third.foul == CAROM_FOUL_FIRST);
+  ck_assert(third.outcome == CAROM_TURN_LOSE && third.foul == CAROM_FOUL_FIRST);
   ck_assert(nine(&other, 1, 1, -1, -1).foul == CAROM_FOUL_NONE && other.state.fouls[1] == 0);
   ck_assert_int_eq(other.state.fouls[0], 2);
 }
@@ -111,17 +111,17 @@ TEST(push_outs) {
   of.state.opening = 1;
   again = of;
   ck_assert(nine(&again, 1, 3, -1, -1).foul == CAROM_FOUL_BREAK && again.state.may == 0);
-  ck_assert_int_eq(nine(&of, 1, 4, -1, -1).is, CAROM_TURN_PASS);
+  ck_assert_int_eq(nine(&of, 1, 4, -1, -1).outcome, CAROM_TURN_PASS);
   ck_assert_int_eq(of.state.may, CAROM_MAY_PUSH);
 
   /* a push-out meets what it likes; what falls stays down, but for the nine */
   again = of;
   carom_turn turn = nine(&again, -1, 0, -1, CAROM_CALL_PUSH);
-  ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.leave == CAROM_LEAVE_AFTER);
+  ck_assert(turn.outcome == CAROM_TURN_PASS && turn.foul == 0 && turn.leave == CAROM_LEAVE_AFTER);
   ck_assert_int_eq(again.state.may, CAROM_MAY_PASS);
   again = of;
   turn = nine(&again, 5, 0, 9, CAROM_CALL_PUSH);
-  ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.spot == 0x200);
+  ck_assert(turn.outcome == CAROM_TURN_PASS && turn.foul == 0 && turn.spot == 0x200);
   again = of;
   turn = nine(&again, 5, 0, 0, CAROM_CALL_PUSH);
   ck_assert(turn.foul == CAROM_FOUL_CUE_BALL && again.state.may == 0);
@@ -129,7 +129,7 @@ TEST(push_outs) {
   /* the other passes, and neither may do so again; without the right, a push-out is a stroke */
   nine(&of, -1, 0, -1, CAROM_CALL_PUSH);
   turn = nine(&of, -1, 0, -1, CAROM_CALL_PASS);
-  ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.leave == CAROM_LEAVE_AFTER);
+  ck_assert(turn.outcome == CAROM_TURN_PASS && turn.foul == 0 && turn.leave == CAROM_LEAVE_AFTER);
   ck_assert_int_eq(of.state.may, 0);
   ck_assert_int_eq(nine(&of, -1, 0, -1, CAROM_CALL_PUSH).foul, CAROM_FOUL_NO_BALL);
 }

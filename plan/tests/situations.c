@@ -30,7 +30,7 @@ typedef struct situation {
   int touches, cushions; /* of the tip; of the cue ball before the second ball */
   int second;            /* the second ball that was met; 0: none */
   carom_call call;
-  int is, leave, foul;
+  int outcome, leave, foul;
   uint32_t spot;
   int may, points; /* points: of who plays next in snooker and pyramid, else of the player */
   uint32_t met, past, head; /* all balls met; balls past the middle, and at the head string */
@@ -748,12 +748,12 @@ static void check_row(const situation *row) {
   const carom_facts facts = facts_of_row(row);
   const uint32_t in_play = row->in_play != 0 ? row->in_play : balls_of(row->game);
   const carom_turn turn = of.judge(&of.state, in_play, 0, &facts, row->call);
-  ruled(row->section, &turn, row->is, row->leave, row->foul, row->spot);
+  ruled(row->section, &turn, row->outcome, row->leave, row->foul, row->spot);
   ck_assert_msg(of.state.may == row->may, "%s: may %d", row->section, of.state.may);
   ck_assert_msg(row->game == SN || of.state.free_ball == row->free, "%s: free %d", row->section,
                 of.state.free_ball);
   const bool of_next = row->game == SN || row->game == PYR;
-  const int whose = of_next ? 0 : (int)turn.is == PASS;
+  const int whose = of_next ? 0 : (int)turn.outcome == PASS;
   if (row->points > 0)
     ck_assert_msg(of.state.score[whose] == row->points, "%s: %d points", row->section,
                   of.state.score[whose]);

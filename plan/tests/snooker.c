@@ -7,7 +7,7 @@ typedef struct snooker_case {
   int colour, after_foul, first;
   uint32_t down, off;
   int call;
-  int is, leave, foul, own, other; /* points made, by each */
+  int outcome, leave, foul, own, other; /* points made, by each */
   uint32_t spot;
   int colour_next, after_foul_next;
 } snooker_case;
@@ -84,8 +84,8 @@ TEST(snooker_rulings) {
     of.state.score[1] = 30;
     of.state.may = c->after_foul;
     const carom_turn turn = of.judge(&of.state, c->in_play, 0, &facts, (carom_call){c->call, -1});
-    ruled(c->what, &turn, c->is, c->leave, c->foul, c->spot);
-    const bool gives = c->is == PASS;
+    ruled(c->what, &turn, c->outcome, c->leave, c->foul, c->spot);
+    const bool gives = c->outcome == PASS;
     ck_assert_msg(of.state.score[gives] == 20 + c->own && of.state.score[!gives] == 30 + c->other,
                   "%s: scores %d, %d", c->what, of.state.score[0], of.state.score[1]);
     ck_assert_msg(of.state.on == c->colour_next && of.state.may == c->after_foul_next,
@@ -118,7 +118,7 @@ TEST(snooker_ends) {
     const char *what;
     int own, other, first;
     uint32_t down;
-    int is, leave;
+    int outcome, leave;
     uint32_t spot;
   } given[] = {{"wins", 50, 56, BLACK, BK, WIN, AFTER, 0},
                {"is not enough", 50, 58, BLACK, BK, LOSE, AFTER, 0},
@@ -136,10 +136,10 @@ TEST(snooker_ends) {
     of.state.score[0] = given[k].own;
     of.state.score[1] = given[k].other;
     const carom_turn turn = of.judge(&of.state, BK | 1, 0, &facts, (carom_call){BLACK, -1});
-    ck_assert_msg((int)turn.is == given[k].is && (int)turn.leave == given[k].leave &&
+    ck_assert_msg((int)turn.outcome == given[k].outcome && (int)turn.leave == given[k].leave &&
                       turn.spot == given[k].spot,
-                  "%s: turn %d, leave %d, spot %x", given[k].what, (int)turn.is, (int)turn.leave,
-                  turn.spot);
+                  "%s: turn %d, leave %d, spot %x", given[k].what, (int)turn.outcome,
+                  (int)turn.leave, turn.spot);
     /* a black that comes back begins anew: nobody may pass */
     ck_assert_int_eq(of.state.may, 0);
   }
@@ -153,7 +153,7 @@ TEST(snooker_claim) {
     of.state.score[0] = 44;
     of.state.score[1] = other;
     const carom_turn turn = of.judge(&of.state, PI | BK | 1, 0, &facts, (carom_call){PINK, -1});
-    ck_assert_int_eq((int)turn.is, 44 + 6 > other + 7 ? WIN : KEEP);
+    ck_assert_int_eq((int)turn.outcome, 44 + 6 > other + 7 ? WIN : KEEP);
     ck_assert(turn.points == 6.0 && turn.foul == 0 && turn.spot == 0 && of.state.score[0] == 50);
   }
 }
@@ -283,7 +283,7 @@ TEST(snooker_again) {
     of.state.may = (MAY | FREE | (hand ? HAND : 0));
     ck_assert_int_eq(of.state.may & CAROM_MAY_PASS, CAROM_MAY_PASS);
     const carom_turn turn = of.judge(&of.state, ALL, 0, &none, (carom_call){CAROM_CALL_PASS, -1});
-    ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.spot == 0);
+    ck_assert(turn.outcome == CAROM_TURN_PASS && turn.foul == 0 && turn.spot == 0);
     ck_assert_int_eq(turn.leave, hand ? CAROM_LEAVE_D : CAROM_LEAVE_AFTER);
     ck_assert(of.state.score[1] == 9 && of.state.may == 0 && of.on(&of.state, ALL) == 0xfffe);
     /* without the right it is a stroke that meets nothing */
@@ -337,7 +337,7 @@ TEST(snooker_spots) {
   lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, 1 | R1);
   put(1, spot[YELLOW][0], spot[YELLOW][1]);
   carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-  carom_turn turn = {.is = CAROM_TURN_PASS, .foul = CAROM_FOUL_POT, .spot = Y | BK};
+  carom_turn turn = {.outcome = CAROM_TURN_PASS, .foul = CAROM_FOUL_POT, .spot = Y | BK};
   ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
   ck_assert(is_at(BLACK, spot[BLACK][0], spot[BLACK][1]) &&
             is_at(YELLOW, spot[PINK][0], spot[PINK][1]));
@@ -375,7 +375,7 @@ TEST(free_balls) {
     for (int foul = 0; foul < 2; foul++) {
       carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
       of.state.may = foul ? MAY : 0;
-      carom_turn turn = {.is = CAROM_TURN_PASS,
+      carom_turn turn = {.outcome = CAROM_TURN_PASS,
                          .leave = given[k].hand ? CAROM_LEAVE_D : CAROM_LEAVE_AFTER,
                          .foul = foul ? CAROM_FOUL_NO_BALL : 0};
       carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
@@ -388,7 +388,8 @@ TEST(free_balls) {
   int count = lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, R1 | COLOURS);
   carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
   of.state.may = MAY | HAND;
-  carom_turn turn = {.is = CAROM_TURN_PASS, .leave = CAROM_LEAVE_D, .foul = CAROM_FOUL_CUE_BALL};
+  carom_turn turn = {
+      .outcome = CAROM_TURN_PASS, .leave = CAROM_LEAVE_D, .foul = CAROM_FOUL_CUE_BALL};
   put(1, 1.3, 3.4);
   carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
   ck_assert(!(of.state.may & FREE));
@@ -426,7 +427,7 @@ TEST(free_balls) {
       put(2, 0.3, 1.6);
     of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
     of.state.free_ball = behind[k].named;
-    turn = (carom_turn){.is = CAROM_TURN_PASS};
+    turn = (carom_turn){.outcome = CAROM_TURN_PASS};
     carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
     ck_assert_msg((turn.foul != 0) == (behind[k].points > 0) && of.state.free_ball == 0 &&
                       of.state.score[0] == behind[k].points &&

@@ -189,7 +189,7 @@ static bool aims_raised(int pocket, carom_cue *c) {
   carom_shot shot = {.facts = &facts};
   c->theta = (double)NAN;
   ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, c), CAROM_OK);
-  if (pot.is != CAROM_POT_FALLS)
+  if (pot.outcome != CAROM_POT_FALLS)
     return false;
   ck_assert(is_least(pot.elevation, *c));
   ck_assert(c->theta >= pot.elevation && c->theta <= 60.0);
@@ -200,10 +200,10 @@ static bool aims_raised(int pocket, carom_cue *c) {
     same.theta = level ? 0.0 : c->theta;
     ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &given, &same), CAROM_OK);
     ck_assert(same.theta == (level ? 0.0 : c->theta));
-    if (!level && given.is == CAROM_POT_NO_WAY && fabs(pot.cut) > 80.0)
+    if (!level && given.outcome == CAROM_POT_NO_WAY && fabs(pot.cut) > 80.0)
       continue;
-    ck_assert(level || (given.is == CAROM_POT_FALLS && fabs(same.phi - c->phi) < 1e-3));
-    if (given.is == CAROM_POT_FALLS)
+    ck_assert(level || (given.outcome == CAROM_POT_FALLS && fabs(same.phi - c->phi) < 1e-3));
+    if (given.outcome == CAROM_POT_FALLS)
       ck_assert(is_least(given.elevation, same));
   }
   return true;
@@ -262,7 +262,7 @@ TEST(where_the_stick_begins_to_touch) {
       carom_pot pot = {.ball = 8, .pocket = 2};
       one = level;
       ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
-      ck_assert(pot.is == CAROM_POT_FALLS && one.phi == level.phi);
+      ck_assert(pot.outcome == CAROM_POT_FALLS && one.phi == level.phi);
       ck_assert(inside == (pot.elevation > 0.0) || (inside && one.b > 0.0));
       jumps += pot.elevation > 0.5;
       ck_assert(aims_raised(2, &one));
@@ -292,7 +292,8 @@ TEST(no_stick_reaches) {
     one.theta = (double)NAN;
     ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
     const double least = asin((R + 0.0065 + 0.011 * R - one.b * R) / (2.0 * R)) / per_degree;
-    ck_assert_msg(pot.is == (k == 0 ? CAROM_POT_FALLS : CAROM_POT_STICK), "%d: %d", k, pot.is);
+    ck_assert_msg(pot.outcome == (k == 0 ? CAROM_POT_FALLS : CAROM_POT_STICK), "%d: %d", k,
+                  pot.outcome);
     ck_assert_double_eq_tol(pot.elevation, least, 1.0);
     carom_place_ball(&table, balls, BALLS, 2, 1.1, 0.2, NULL);
   }

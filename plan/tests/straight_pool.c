@@ -10,7 +10,7 @@ typedef struct straight_case {
   /* before: points of pots, points lost, fouls in a row */
   int pots, lost, fouls;
   /* after, of the one who played */
-  int is, leave, foul;
+  int outcome, leave, foul;
   uint32_t spot;
   int pots_after, lost_after, fouls_after;
 } straight_case;
@@ -53,8 +53,8 @@ TEST(straight_rulings) {
                                    .target = of.state.target};
     const carom_turn turn =
         of.judge(&of.state, c->in_play, 0, &facts, (carom_call){c->call, c->pocket});
-    const bool gives = c->is == PASS;
-    ruled(c->what, &turn, c->is, c->leave, c->foul, c->spot);
+    const bool gives = c->outcome == PASS;
+    ruled(c->what, &turn, c->outcome, c->leave, c->foul, c->spot);
     ck_assert_msg(of.state.score[gives] == c->pots_after && of.state.score[!gives] == 51 &&
                       of.state.lost[gives] == c->lost_after && of.state.lost[!gives] == 7,
                   "%s: points", c->what);
@@ -71,7 +71,7 @@ TEST(straight_breaks) {
     const char *what;
     int cue_cushions, cue_before, driven;
     uint32_t down;
-    int call, is, leave, foul, lost;
+    int call, outcome, leave, foul, lost;
     uint32_t spot;
     bool again;
   } given[] = {
@@ -96,7 +96,7 @@ TEST(straight_breaks) {
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_STRAIGHT);
     of.state.opening = 1;
     const carom_turn turn = of.judge(&of.state, 0xffff, 0, &facts, (carom_call){given[k].call, 2});
-    ruled(given[k].what, &turn, given[k].is, given[k].leave, given[k].foul, given[k].spot);
+    ruled(given[k].what, &turn, given[k].outcome, given[k].leave, given[k].foul, given[k].spot);
     ck_assert_msg(of.state.lost[1] == given[k].lost && of.state.opening == 0, "%s", given[k].what);
     ck_assert_int_eq(of.state.may, given[k].again ? CAROM_MAY_PASS : 0);
     /* a bad break is no foul in a row */
@@ -109,7 +109,8 @@ TEST(straight_breaks) {
     carom_plan_rules after = of;
     const carom_turn asked =
         after.judge(&after.state, 0xffff, 0, &none, (carom_call){CAROM_CALL_PASS, -1});
-    ck_assert(asked.is == CAROM_TURN_PASS && asked.foul == 0 && asked.leave == CAROM_LEAVE_KITCHEN);
+    ck_assert(asked.outcome == CAROM_TURN_PASS && asked.foul == 0 &&
+              asked.leave == CAROM_LEAVE_KITCHEN);
     ck_assert(asked.spot == 0xfffe && after.state.opening == 1 && after.state.lost[0] == 2);
     ck_assert_int_eq(after.state.may, 0);
   }
@@ -153,7 +154,7 @@ TEST(straight_racks) {
     put(0, given[k].cue[0], given[k].cue[1]);
     put(last, given[k].last[0], given[k].last[1]);
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_STRAIGHT);
-    carom_turn turn = {.is = CAROM_TURN_KEEP, .spot = 0xfffe & ~(1u << last)};
+    carom_turn turn = {.outcome = CAROM_TURN_KEEP, .spot = 0xfffe & ~(1u << last)};
     ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
     const double *at[2] = {given[k].cue, given[k].last};
     const int goes[2] = {given[k].cue_goes, given[k].last_goes}, who[2] = {0, last};
@@ -185,13 +186,13 @@ TEST(straight_racks) {
   const int count = lay_out(CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 1);
   put(0, 0.3, 1.0);
   carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_STRAIGHT);
-  carom_turn turn = {.is = CAROM_TURN_KEEP, .spot = 0xfffe};
+  carom_turn turn = {.outcome = CAROM_TURN_KEEP, .spot = 0xfffe};
   ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
   ck_assert(is_at(0, 0.3, 1.0) && turn.leave == CAROM_LEAVE_AFTER && is_at(1, x, 0.75 * l));
   /* a ball that comes back alone goes to the foot spot */
   lay_out(CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 3);
   put(1, 0.2, 0.3);
-  turn = (carom_turn){.is = CAROM_TURN_PASS, .spot = 0x20};
+  turn = (carom_turn){.outcome = CAROM_TURN_PASS, .spot = 0x20};
   ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
   ck_assert(is_at(5, x, 0.75 * l));
 }

@@ -12,7 +12,7 @@ typedef struct ten_case {
   uint32_t down, off; /* what falls into pocket 2, or leaves the table */
   int call, pocket;   /* what is called */
   int stroke, fouls;  /* BREAKS, PUSHES or 0; the fouls of the player */
-  int is, leave, foul;
+  int outcome, leave, foul;
   uint32_t spot;
   int may, fouls_after;
 } ten_case;
@@ -67,10 +67,10 @@ TEST(tenball_rulings) {
                                    .fouls = {c->fouls, 1}};
     const carom_call call = {c->stroke == PUSHES ? CAROM_CALL_PUSH : c->call, c->pocket};
     const carom_turn turn = of.judge(&of.state, c->in_play, 0, &facts, call);
-    ruled(c->what, &turn, c->is, c->leave, c->foul, c->spot);
+    ruled(c->what, &turn, c->outcome, c->leave, c->foul, c->spot);
 
     /* the state is that of the player who comes next; a game that is lost has been given too */
-    const bool gives = c->is == PASS || c->is == LOSE;
+    const bool gives = c->outcome == PASS || c->outcome == LOSE;
     ck_assert_msg(of.state.may == c->may && of.state.opening == 0 &&
                       of.state.fouls[gives] == c->fouls_after && of.state.fouls[!gives] == 1,
                   "%s: may %d, fouls %d", c->what, of.state.may, of.state.fouls[gives]);

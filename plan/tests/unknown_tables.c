@@ -19,7 +19,7 @@ static carom_cue put_pot(bool bank) {
   stroke.speed = bank ? 4.0 : 1.5;
   stroke.b = 0.25;
   ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke), CAROM_OK);
-  ck_assert_msg(pot.is == CAROM_POT_FALLS, "%s: %d", bank ? "bank" : "pot", pot.is);
+  ck_assert_msg(pot.outcome == CAROM_POT_FALLS, "%s: %d", bank ? "bank" : "pot", pot.outcome);
   options.shots = 600;
   return stroke;
 }

@@ -108,16 +108,16 @@ static void compare(const ways_search *s, int by, int ball, int *windows, int *l
     if (!ends || run < LEAST || pocket[k] < 0)
       continue;
     const double high = 360.0 / SWEPT * k, low = high - 360.0 / SWEPT * run;
-    bool is = false;
+    bool outcome = false;
     for (int n = 0; n < s->ways; n++) {
       const way *w = &s->way[n];
       for (double turn = -360.0; turn <= 360.0; turn += 360.0)
-        is |= w->ball == ball && w->pocket == pocket[k] && w->stroke == by && w->kind == kind[k] &&
-              w->phi[0] + turn <= high && w->phi[1] + turn >= low;
+        outcome |= w->ball == ball && w->pocket == pocket[k] && w->stroke == by &&
+                   w->kind == kind[k] && w->phi[0] + turn <= high && w->phi[1] + turn >= low;
     }
     ++*windows;
-    *listed += is;
-    if (!is)
+    *listed += outcome;
+    if (!outcome)
       printf("ball %d to pocket %d by %s, %.1f m/s, %.2f to %.2f degrees: not listed\n", ball,
              pocket[k], carom_plan_kind_name((carom_plan_kind)kind[k]), stroke[by].speed, low,
              high);
@@ -237,8 +237,8 @@ TEST(pots_at_rails) {
         continue;
       ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
       ways++;
-      found += pot.is == CAROM_POT_FALLS;
-      if (pot.is != CAROM_POT_FALLS)
+      found += pot.outcome == CAROM_POT_FALLS;
+      if (pot.outcome != CAROM_POT_FALLS)
         printf("layout %d: pocket %d at %.1f degrees is not aimed at\n", layout, w->pocket,
                w->cue.phi);
     }

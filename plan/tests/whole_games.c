@@ -130,7 +130,7 @@ static void check_ruling(const carom_ruling *r, const carom_ball_state *left, in
                       memcmp(r->balls[k].state.r, left[k].r, sizeof left[k].r) != 0)
            << k;
   ck_assert(down == r->facts.down && put == r->put);
-  ck_assert_int_eq(r->next, r->winner >= 0 ? -1 : r->turn.is == CAROM_TURN_PASS);
+  ck_assert_int_eq(r->next, r->winner >= 0 ? -1 : r->turn.outcome == CAROM_TURN_PASS);
   ck_assert_int_eq(r->hand, r->turn.leave >= CAROM_LEAVE_HAND);
   ck_assert((r->on & 1) == 0 && (r->on != 0) == (r->next >= 0));
   const size_t length = carom_ruling_string(r, words, sizeof words);
@@ -153,14 +153,16 @@ static uint64_t play(carom_rules_kind kind, int target, int *strokes, int64_t ma
   carom_plan_options options = {.shots = 100};
   carom_plan_job job = job_of(count, &cue, &player, &of, &options);
   uint64_t h = UINT64_C(0xcbf29ce484222325);
-  carom_turn turn = {.is = CAROM_TURN_PASS, .leave = in_d ? CAROM_LEAVE_D : CAROM_LEAVE_KITCHEN};
+  carom_turn turn = {.outcome = CAROM_TURN_PASS,
+                     .leave = in_d ? CAROM_LEAVE_D : CAROM_LEAVE_KITCHEN};
   const double high[2] = {table.width, 0.25 * table.length};
   int who = 1;
-  for (*strokes = 0; *strokes < 400 && turn.is != CAROM_TURN_WIN && turn.is != CAROM_TURN_LOSE;
+  for (*strokes = 0;
+       *strokes < 400 && turn.outcome != CAROM_TURN_WIN && turn.outcome != CAROM_TURN_LOSE;
        (*strokes)++) {
     carom_choice best;
     int found;
-    who = turn.is == CAROM_TURN_PASS ? 1 - who : who;
+    who = turn.outcome == CAROM_TURN_PASS ? 1 - who : who;
     options.seed = (uint64_t)*strokes;
     const bool hand = turn.leave == CAROM_LEAVE_KITCHEN || turn.leave == CAROM_LEAVE_D;
     if (hand) {
@@ -199,11 +201,11 @@ static uint64_t play(carom_rules_kind kind, int target, int *strokes, int64_t ma
       h = hash_of(h, balls[k].state.r, sizeof balls[k].state.r);
   }
   free(job.memory);
-  ck_assert(turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE);
+  ck_assert(turn.outcome == CAROM_TURN_WIN || turn.outcome == CAROM_TURN_LOSE);
   if (kind == CAROM_RULES_STRAIGHT)
     ck_assert(of.state.score[0] == made[who] && of.state.score[1] == made[1 - who]);
   else if (!in_d) /* fouls and debts take from them */
-    ck_assert(of.state.score[turn.is != CAROM_TURN_WIN] >= 8 &&
+    ck_assert(of.state.score[turn.outcome != CAROM_TURN_WIN] >= 8 &&
               of.state.score[0] + of.state.score[1] <= 15);
   else /* fouls come to the pots */
     ck_assert(of.state.score[0] >= made[who] && of.state.score[1] >= made[1 - who]);

@@ -130,7 +130,8 @@ static class Program {
     protected override Turn Judge(ulong[] user, uint inPlay, int cueBall, Facts facts, Call call) {
       bool potted = facts.down != 0 && (facts.down & 1) == 0;
       user[0] += potted ? 1u : 0u;
-      return new Turn { @is = potted ? TurnIs.Keep : TurnIs.Pass, points = potted ? 1 : 0 };
+      return new Turn { outcome = potted ? TurnOutcome.Keep : TurnOutcome.Pass,
+                        points = potted ? 1 : 0 };
     }
     protected override int[] Left(ulong[] user, uint inPlay) {
       return inPlay > 3 ? new[] { 2, 2 } : new[] { 1, 1 };
@@ -185,7 +186,7 @@ static class Program {
     var pot = new Pot { ball = 1, pocket = 0 };
     Billiards.Aim(table, balls, ref pot, ref cue);
     var whole = Billiards.Play(table, balls, cue);
-    Must(pot.@is == (int)PotIs.Falls && whole.Facts.down == 2, "the aimed ball stays up");
+    Must(pot.outcome == (int)PotOutcome.Falls && whole.Facts.down == 2, "the aimed ball stays up");
     Must(Billiards.Strike(Native.carom_player_fargo(400), 1, 0, cue).phi != cue.phi,
          "a 400 does not err");
 
@@ -222,7 +223,7 @@ static class Program {
     }
     protected override Turn Judge(ulong[] user, uint inPlay, int cueBall, Facts facts, Call call) {
       Ask("Judge");
-      return new Turn { @is = TurnIs.Pass, spot = facts.down & ~1u };
+      return new Turn { outcome = TurnOutcome.Pass, spot = facts.down & ~1u };
     }
     protected override int[] Left(ulong[] user, uint inPlay) {
       Ask("Left");

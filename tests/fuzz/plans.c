@@ -170,7 +170,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   }
   /* one of these, which may try ten thousand places on a table of many corners */
   const int put = choice(3), ball = choice(CAROM_BALLS_MOST);
-  carom_turn turn = {.is = (carom_turn_is)choice(4),
+  carom_turn turn = {.outcome = (carom_turn_outcome)choice(4),
                      .leave = (carom_leave)choice(5),
                      .foul = choice(9),
                      .spot = (uint32_t)byte() << 8 | (uint32_t)byte() << 16};

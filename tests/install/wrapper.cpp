@@ -134,7 +134,7 @@ int main() {
   pot.ball = 1;
   pot.pocket = 5;
   carom_cue aimed = carom_cue_of(CAROM_GAME_POOL);
-  CHECK(carom::aim(table, two, pot, aimed) == CAROM_OK && pot.is == CAROM_POT_FALLS);
+  CHECK(carom::aim(table, two, pot, aimed) == CAROM_OK && pot.outcome == CAROM_POT_FALLS);
 
   // a plan in slices, which is moved meanwhile
   const carom_player player = carom_player_of(1.0);

@@ -493,8 +493,8 @@ static void aims(void) {
     carom_place_ball(&table, balls, 1, 0, 0.1 + at[0], 0.03 + 0.25 * at[1], NULL);
     carom_place_ball(&table, balls, 2, 1, 0.1 + at[2], 0.4 + 2.0 * at[3], NULL);
     hash = add(hash, (uint64_t)(int64_t)carom_aim(&table, balls, 2, NULL, &pot, &cue));
-    hash = add_numbers(add(hash, (uint64_t)pot.is), &pot.elevation, 1);
-    if (pot.is == CAROM_POT_FALLS)
+    hash = add_numbers(add(hash, (uint64_t)pot.outcome), &pot.elevation, 1);
+    if (pot.outcome == CAROM_POT_FALLS)
       hash = add_numbers(add_numbers(hash, &cue.phi, 1), pot.phi, 2);
   }
   show("aims: least elevation", hash);

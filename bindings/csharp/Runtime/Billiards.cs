@@ -270,8 +270,8 @@ namespace Carom {
     }
 
     /// <summary>Aims a pot: `cue.phi` becomes the direction in which `pot.ball` goes to the middle
-    /// of `pot.pocket`, by way of `pot.via`. `pot.is` tells what the other balls and the jaws make
-    /// of it.</summary>
+    /// of `pot.pocket`, by way of `pot.via`. `pot.outcome` tells what the other balls and the jaws
+    /// make of it.</summary>
     public static void Aim(Table table, ShotBall[] balls, ref Pot pot, ref Cue cue,
                            ShotOptions options = default(ShotOptions)) {
       Pot of = pot;

@@ -320,26 +320,22 @@ export class Plans {
       "aim",
     );
 
-    const {
-      is: outcome,
-      elevation,
-      cut,
-      margin,
-      phi,
-      speed,
-      met,
-    } = readStruct<C.Pot>(memory, pot, "carom_pot");
-    const is = names.carom_pot_is[outcome]!;
+    const { outcome, elevation, cut, margin, phi, speed, met } = readStruct<C.Pot>(
+      memory,
+      pot,
+      "carom_pot",
+    );
+    const word = names.carom_pot_outcome[outcome]!;
     const { type, a, b } = met;
     return {
-      is,
+      outcome: word,
       cue: readStruct<Cue>(memory, at.cue, "carom_cue"),
       elevation,
       cut,
       margin,
       phi,
       speed,
-      ...(is === "barred" || is === "short"
+      ...(word === "barred" || word === "short"
         ? { met: { type: names.carom_event_type[type] as EventType, a, b } }
         : {}),
     };
@@ -416,7 +412,7 @@ export class Plans {
     const memory = this.#memory;
     const { text } = this.#at;
     memory.exports.carom_ruling_string(ruling, text, 256);
-    const turn = readStruct<Omit<C.Turn, "is" | "leave"> & { is: number; leave: number }>(
+    const turn = readStruct<Omit<C.Turn, "outcome" | "leave"> & { outcome: number; leave: number }>(
       memory,
       ruling + RULING.turn,
       "carom_turn",
@@ -429,7 +425,7 @@ export class Plans {
       "carom_rules_state",
     );
     return {
-      turn: names.carom_turn_is[turn.is]!,
+      turn: names.carom_turn_outcome[turn.outcome]!,
       foul: reason !== "none",
       reason,
       why: memory.text(memory.exports.carom_foul_string(turn.foul))!,

@@ -256,7 +256,7 @@ export interface Aim {
    * "no_way": no direction sends the ball there; "barred": something is met first; "short": a ball
    * comes to rest; "rejected": by the jaws;
    * "stick": a stick over what is behind the cue ball is raised by more than 60 degrees. */
-  is: "falls" | "no_way" | "barred" | "short" | "rejected" | "stick";
+  outcome: "falls" | "no_way" | "barred" | "short" | "rejected" | "stick";
   cue: Cue;
   /**
    * Degrees: the least elevation with which the stick is over the cushions and balls behind the cue
@@ -342,7 +342,7 @@ export interface Ruling {
   /** Of the shot; of one that was not played, or ended in an error, no ball was met. */
   facts: ShotFacts;
   /** Whether the player plays on, the other one plays, or the player has won or lost. */
-  turn: C.TurnIs;
+  turn: C.TurnOutcome;
   foul: boolean;
   /** By which rule it is a foul: "none" of a legal shot. */
   reason: C.Foul;

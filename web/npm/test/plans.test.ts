@@ -160,7 +160,7 @@ test.runIf(thereIsACommand)(
       for (const [places, ball, pocket, via] of asked) {
         const balls = [[0.6, 0.8], ...places].map(([x, y]) => carom.ball(x!, y!));
         const aimed = carom.aim(table, balls, { speed: 3 }, { ball, pocket, via });
-        expect(aimed.is).toBe("falls");
+        expect(aimed.outcome).toBe("falls");
         const words = [
           "shoot",
           "--cue",
@@ -195,7 +195,10 @@ test.runIf(thereIsACommand)(
       expect(raised!.elevation).toBeCloseTo(level!.elevation, 1);
       expect(level!.elevation).toBeGreaterThan(10);
       const none = carom.aim(table, balls, { speed: 0.5 }, { ball: 1, pocket: "foot-right" });
-      expect([none.is, none.met]).toEqual(["short", { type: "rolling_stationary", a: 1, b: -1 }]);
+      expect([none.outcome, none.met]).toEqual([
+        "short",
+        { type: "rolling_stationary", a: 1, b: -1 },
+      ]);
       expect(() => carom.aim(table, balls, {}, { ball: 1, pocket: "top-right" })).toThrow(
         /pocket: it must be one of head-left/,
       );

@@ -223,7 +223,7 @@ pub fn place(
 }
 
 /// Aims a pot: `cue.phi` becomes the direction in which `pot.ball` goes to the middle of
-/// `pot.pocket`, by way of `pot.via`. `pot.is` tells what the other balls and the jaws make of it.
+/// `pot.pocket`, by way of `pot.via`. `pot.outcome` tells what the other balls and the jaws make of it.
 pub fn aim(
     table: &Table,
     balls: &[ShotBall],

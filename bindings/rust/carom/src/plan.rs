@@ -415,7 +415,9 @@ impl Thinking {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{aim, cue, place, rack, shoot, table, Game, Pot, PotIs, Race, TableKind, TurnIs};
+    use crate::{
+        aim, cue, place, rack, shoot, table, Game, Pot, PotOutcome, Race, TableKind, TurnOutcome,
+    };
 
     /// A drill: any ball counts, until one misses.
     struct Drill;
@@ -428,7 +430,12 @@ mod tests {
             let potted = facts.down != 0 && facts.down & 1 == 0;
             user[0] += u64::from(potted);
             Turn {
-                is: if potted { TurnIs::Keep } else { TurnIs::Pass }.into(),
+                outcome: if potted {
+                    TurnOutcome::Keep
+                } else {
+                    TurnOutcome::Pass
+                }
+                .into(),
                 points: f64::from(facts.down.count_ones()),
                 ..Default::default()
             }
@@ -493,7 +500,7 @@ mod tests {
         fn judge(_: &mut [u64; 8], _: u32, _: usize, facts: &Facts, _: Call) -> Turn {
             ask("judge");
             Turn {
-                is: TurnIs::Pass.into(),
+                outcome: TurnOutcome::Pass.into(),
                 spot: facts.down & !1,
                 ..Default::default()
             }
@@ -573,7 +580,7 @@ mod tests {
         };
         cue.speed = 2.0;
         aim(&table, &balls, &mut pot, &mut cue, &options).unwrap();
-        assert_eq!(pot.is, PotIs::Falls.into());
+        assert_eq!(pot.outcome, PotOutcome::Falls.into());
         let whole = shoot(&table, &balls, &cue, &options).unwrap();
         assert_eq!(whole.facts().down & 2, 2);
         let mut parts = shoot(

@@ -276,7 +276,7 @@ def aim(
         raise argument_error(shot_arguments(table, layout, made, shot), layout, made) or CaromError(
             code, "balls"
         )
-    if reason := getattr(pot, "is"):
+    if reason := pot.outcome:
         part = (
             f"ball {pot.met.b}"
             if pot.met.type == lib.CAROM_EVENT_BALL_BALL

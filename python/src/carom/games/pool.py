@@ -338,8 +338,8 @@ class Pool:
     @staticmethod
     def worth(turns: Array) -> dtypes.Doubles:
         """What strokes are worth to the player, as `tried` has it, by `carom.dtypes.turn`."""
-        foul = (turns["foul"] != 0) & (turns["is"] != _LOSE)
-        return np.where(foul, -0.5, _WORTH[turns["is"]])
+        foul = (turns["foul"] != 0) & (turns["outcome"] != _LOSE)
+        return np.where(foul, -0.5, _WORTH[turns["outcome"]])
 
     # ---- Observations
     # ---------------------------------------------------------------------------------------------------

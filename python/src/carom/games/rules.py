@@ -297,7 +297,7 @@ class Made:
             made = ffi.new(
                 "carom_turn *",
                 {
-                    "is": choice(_TURNS, turn.turn, "Turn.turn"),
+                    "outcome": choice(_TURNS, turn.turn, "Turn.turn"),
                     "leave": choice(LEAVES, turn.leave, "Turn.leave"),
                 },
             )
@@ -323,7 +323,7 @@ class Made:
         def pockets(game: Any) -> int:
             return _set_of(rules.pockets(list(game.user)), "pockets", lib.CAROM_POCKETS_MOST - 1)
 
-        lost = ffi.new("carom_turn *", {"is": lib.CAROM_TURN_LOSE})[0]
+        lost = ffi.new("carom_turn *", {"outcome": lib.CAROM_TURN_LOSE})[0]
         self.kept = (
             guarded("carom_rules_judge *", judge, lost),
             guarded("carom_rules_left *", left, None),
@@ -573,7 +573,7 @@ def ruling_of(ruling: Any, count: int, is_own: bool, shot: Shot) -> Ruling:
     )
     hands = {value: word for word, value in LEAVES.items() if value > LEAVES["before"]}
     return Ruling(
-        tuple(_TURNS)[getattr(turn, "is")],
+        tuple(_TURNS)[turn.outcome],
         Foul(turn.foul),
         cast(Hand, hands.get(turn.leave, "no")),
         tuple(facts.potted),

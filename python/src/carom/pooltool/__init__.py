@@ -368,16 +368,13 @@ _told: set[object] = set()
 
 
 def _tell(reason: UnsupportedError | CaromError) -> None:
-    """Warns, once for each reason, whoever called simulate() from outside this module."""
+    """Warns, once for each reason, at the line that called the function that calls this one."""
     kind = reason.status if isinstance(reason, CaromError) else str(reason)
     if kind in _told:
         return
     _told.add(kind)
-    level, frame = 1, sys._getframe()
-    while frame.f_back is not None and frame.f_globals is globals():
-        level, frame = level + 1, frame.f_back
     warnings.warn(
-        f"pooltool plays this system instead of carom: {reason}", FallbackWarning, stacklevel=level
+        f"pooltool plays this system instead of carom: {reason}", FallbackWarning, stacklevel=3
     )
 
 
@@ -601,4 +598,13 @@ def uninstall() -> None:
 
 @functools.wraps(original)
 def _installed(*arguments: Any, **options: Any) -> Any:
-    return simulate(*arguments, **options, fallback=True)
+    try:
+        return simulate(*arguments, **options)
+    except (UnsupportedError, CaromError) as reason:
+        _tell(reason)
+        known_to_pooltool = {
+            name: value
+            for name, value in options.items()
+            if name not in ("models", "cushion_model")
+        }
+        return original(*arguments, **known_to_pooltool)

@@ -84,7 +84,7 @@ export function aimAt(d: Desk, pocket: number): void {
   const name = texts.ballIntoThe(names[ball], told(pocketName(table, pocket)));
   if (ball < 0) return says(d, texts.whichBallClickIt);
   const pot = d.carom.aim(table, balls, cueOf(d), { ball, pocket }, optionsOf(d));
-  const { is: outcome, met } = pot;
+  const { outcome, met } = pot;
   if (outcome === "no_way") return says(d, texts.noSuchAimNo(name));
   d.controls.set("phi", Math.round(pot.cue.phi * 1e4) / 1e4);
   d.aimed();

@@ -78,11 +78,11 @@ export function errors(
   target: AimOf,
 ): Pick<Row, "phi" | "speed"> {
   const aim = carom.aim(table, balls, cue, target, OPTIONS);
-  if (aim.is === "no_way") return {};
+  if (aim.outcome === "no_way") return {};
   const phi = ((cue.phi - aim.cue.phi + 540) % 360) - 180;
   if (Math.abs(phi) > FARTHEST) return {};
   const [low, high] = aim.speed;
-  if (aim.is !== "falls") return { phi };
+  if (aim.outcome !== "falls") return { phi };
   const nearest = Math.min(Math.max(cue.speed, low), high);
   return { phi, speed: cue.speed - nearest };
 }

@@ -63,8 +63,8 @@ export function* strokesFor(
       // A way that the first strokes do not find is closed to the others too: to find that out
       // takes longest.
       if (aim.failed >= GIVEN_UP) continue;
-      const { is, cue: aimed } = carom.aim(table, balls, cue, aim.target, options);
-      if (is === "no_way") aim.failed++;
+      const { outcome, cue: aimed } = carom.aim(table, balls, cue, aim.target, options);
+      if (outcome === "no_way") aim.failed++;
       else {
         aim.failed = -Infinity;
         yield aimed;
