@@ -1,6 +1,6 @@
 """The pages of the site that list every call: of C from the description of the headers
-(bindings/api.py), of Python, npm, C# and Rust from their sources. pages(SOURCE) gives names and
-texts.
+(bindings/api.py), of npm, C# and Rust from their sources, of Python by mkdocstrings. pages(SOURCE)
+gives names and texts.
 """
 
 import ast
@@ -118,90 +118,45 @@ def of_c(source):
     return text + "## Constants\n\n" + rows(["name", "value", ""], constants)
 
 
-def of_name(source, name):
-    """The entry of a name that the package gives and that is neither a function nor a class of a
-    public module.
-    """
-
-    def defined(name):
-        for path in sorted((source / "python/src/carom").rglob("*.py")):
-            text = path.read_text(encoding="utf-8")
-            for node in ast.walk(ast.parse(text)):
-                if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.Assign)) and name in (
-                    getattr(node, "name", ""),
-                    *(getattr(one, "id", "") for one in getattr(node, "targets", ())),
-                ):
-                    return text, node
-
-    text, node = defined(name) or ("", None)
-    if not node:  # a module
-        return ""
-    described = isinstance(node, (ast.ClassDef, ast.FunctionDef))
-    words = ast.get_docstring(node) if described else ""
-    if isinstance(node, ast.ClassDef) and not words:  # it has that of its base
-        text, node = defined(node.bases[0].id)
-        words = ast.get_docstring(node)
-    code = ast.get_source_segment(text, node)
-    code = code.replace('"""' + code.split('"""')[1] + '"""', "").rstrip() if described else code
-    code = (
-        re.sub(r"\n\s*\n", "\n", re.split(r"\n    (?:@|def )", code)[0])
-        if isinstance(node, ast.ClassDef)
-        else code.split("\n")[0]
-    )
-    return f"### {name}\n\n```python\n{code}\n```\n\n" + (
-        f"```text\n{words}\n```\n\n" if words else ""
-    )
+# Modules of the package whose names stand in `carom` itself.
+WITHIN_CAROM = set(
+    "collisions cushions derivatives layouts plans results rules shots status".split()
+)
 
 
 def of_python(source):
-    """A page: the names that the package gives, then the public functions and classes of each
-    module, with their docstrings.
+    """A page: the names that the package offers, then the modules that one imports. mkdocstrings
+    puts signatures and docstrings in place of the lines with colons.
     """
-    text = "# Reference: Python\n\nEvery public call of the package `carom`. [python.md](../docs/using/python.md) is the manual.\n\n"
-    listed = set()
-    folder = source / "python/src"
-    for path in sorted(folder.rglob("*.py")):
-        module, found = ".".join(path.relative_to(folder).with_suffix("").parts), ""
-        module = module.removesuffix(".__init__")
-        if module == "carom" or "._" in module:
-            continue
-        for node in ast.parse(path.read_text(encoding="utf-8")).body:
-            if not isinstance(node, (ast.FunctionDef, ast.ClassDef)) or node.name.startswith("_"):
-                continue
-            inside = node.body if isinstance(node, ast.ClassDef) else []
-            for one, name in (
-                (node, node.name),
-                *(
-                    (inner, f"{node.name}.{inner.name}")
-                    for inner in inside
-                    if isinstance(inner, ast.FunctionDef)
-                ),
-            ):
-                words = ast.get_docstring(one) or ""
-                if words and not name.rpartition(".")[2].startswith("_"):
-                    returns = (
-                        f" -> {ast.unparse(one.returns)}" if getattr(one, "returns", None) else ""
-                    )
-                    head = (
-                        f"class {name}"
-                        if one in (node,) and inside
-                        else wrapped(f"{name}({ast.unparse(one.args)}){returns}")
-                    )
-                    listed.add(name)
-                    # A docstring is text with columns of its own.
-                    found += f"### {name}\n\n```python\n{head}\n```\n\n```text\n{words.replace('```', '')}\n```\n\n"
-        text += f"## {module}\n\n{found}" if found else ""
-    package = ast.parse((source / "python/src/carom/__init__.py").read_text(encoding="utf-8")).body
-    given = next(
-        node.value
-        for node in package
+    folder = source / "python/src/carom"
+    offered = names_of_python(source)
+    modules = sorted(
+        {path.stem for path in folder.glob("[a-z]*.py")} - WITHIN_CAROM | {"pooltool", "tracks"}
+    )
+
+    def holder(module):
+        """The module that has the names: some are a line that takes those of another one."""
+        path = folder / f"{module}.py"
+        found = path.is_file() and re.search(r"from ([\w.]+) import \*", path.read_text("utf-8"))
+        return found[1] if found else f"carom.{module}"
+
+    text = (
+        "# Reference: Python\n\nEvery public call of the package `carom`. "
+        "[python.md](../docs/using/python.md) is the manual.\n\n"
+        f"## carom\n\n::: carom\n    options:\n      members: {offered}\n\n"
+    )
+    return text + "".join(f"## carom.{name}\n\n::: {holder(name)}\n\n" for name in modules)
+
+
+def names_of_python(source):
+    """What `carom` offers, without its modules."""
+    package = source / "python/src/carom"
+    offered = next(
+        ast.literal_eval(node.value)
+        for node in ast.parse((package / "__init__.py").read_text(encoding="utf-8")).body
         if isinstance(node, ast.Assign) and node.targets[0].id == "_OFFERED"
     )
-    return (
-        text
-        + "## Other names of carom\n\n"
-        + "".join(of_name(source, name) for name in ast.literal_eval(given) if name not in listed)
-    )
+    return [name for name in offered if not (package / f"{name}.py").is_file()]
 
 
 def documented(source, files, comment, kind, title, named):

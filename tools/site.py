@@ -18,7 +18,7 @@ import tomllib
 from importlib.metadata import distribution
 from pathlib import Path
 
-from reference import pages
+from reference import names_of_python, pages
 
 SOURCE, WORK = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 PAGES, LINK = WORK / "pages", re.compile(r"\[([^]]*)\]\(([^)\s]+)\)")
@@ -223,6 +223,7 @@ settings = {
     "docs_dir": str(PAGES),
     "site_dir": str(WORK / "site"),
     "nav": navigation,
+    "plugins": {"mkdocstrings": {"handlers": {"python": {"paths": [str(SOURCE / "python/src")]}}}},
 }
 # Not as repo_url, by which each page would ask that server for stars and versions.
 link = (
@@ -255,6 +256,9 @@ assert (
     and len(built) >= 30
     and (WORK / "site/search/search_index.json").is_file()
 ), (len(made), len(built))
+python_page = (WORK / "site/reference/python.html").read_text(encoding="utf-8")
+missing = [name for name in names_of_python(SOURCE) if f'id="carom.{name}"' not in python_page]
+assert not missing, f"the reference of Python lacks {missing}"
 # The licences of what the site contains; the explorer has the others in itself.
 (WORK / "site/licenses").mkdir()
 theme = next(file for file in distribution("mkdocs-material").files if file.name == "LICENSE")

@@ -10,6 +10,7 @@ import math
 import numbers
 import operator
 import os
+import re
 import reprlib
 import sys
 import time
@@ -360,18 +361,25 @@ def numbers_of(part: int) -> Iterator[Any]:
 
 
 def with_numbers(part: int) -> Callable[[_Made], _Made]:
-    """Writes the numbers of a part into a docstring, in place of {fields}."""
+    """Writes the numbers of a part into a docstring, in place of its parameter **kind."""
     text = ffi.new("char[]", 100)
 
-    def told(row: Any) -> str:
+    def told(row: Any, indent: str) -> str:
         lib.carom_number_range(row, text, 100)
         name, about = ffi.string(row.name).decode(), ffi.string(row.text).decode()
-        return f"{name} : array_like, shape (...)\n        {about[0].upper()}{about[1:]}; {ffi.string(text).decode()}."
+        allowed = ffi.string(text).decode()
+        return (
+            f"{indent}{name} : array_like, shape (...)\n"
+            f"{indent}    {about[0].upper()}{about[1:]}; {allowed}."
+        )
+
+    def every_one(place: re.Match[str]) -> str:
+        return "\n".join(told(row, place[1]) for row in numbers_of(part))
 
     def written(function: _Made) -> _Made:
         if function.__doc__:
-            function.__doc__ = function.__doc__.replace(
-                "{fields}", "\n    ".join(map(told, numbers_of(part)))
+            function.__doc__ = re.sub(
+                r"^( *)\*\*kind : .*\n.*$", every_one, function.__doc__, flags=re.MULTILINE
             )
         return function
 

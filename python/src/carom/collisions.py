@@ -87,8 +87,10 @@ def impacts(
     restitution : array_like, shape (...)
         0 to 1.
 
-    Returns an ndarray of `carom.dtypes.impact`, shape (...): `carom.dtypes.plain()` gives the
-        numbers, of shape (..., 26).
+    Returns
+    -------
+    ndarray of `carom.dtypes.impact`, shape (...)
+        `carom.dtypes.plain()` gives the numbers, of shape (..., 26).
     """
     other = {
         "b.mass": mass if mass_b is None else mass_b,
@@ -158,7 +160,10 @@ def collide(
         0: resolved; 1: the balls do not approach each other, and motion is that before; negative:
         an error, see `Status`.
 
-    Raises CaromError: One impact, of shape (26,) or (), that is in error.
+    Raises
+    ------
+    CaromError
+        One impact, of shape (26,) or (), that is in error.
     """
     options = _options(solver, slip, steps, threads, plain)
     return resolve(
@@ -215,11 +220,17 @@ def trace(
     """Follow one collision, of shape (26,) or (), at `points` equal steps of normal impulse from 0
     to its end.
 
-    Options are as for `collide`; Euler's method gives the nearest whole steps. Returns an ndarray
-    of `carom.dtypes.trace_point`, shape (points,): normal (N s), work (J), phase (0 compression, 1
-    restitution), sticks, v_n and slips (m/s) in the frame of the collision, state (both balls,
-    along the axes of the table).
+    Options are as for `collide`; Euler's method gives the nearest whole steps.
 
-    Raises CaromError: The impact is in error.
+    Returns
+    -------
+    ndarray of `carom.dtypes.trace_point`, shape (points,)
+        normal (N s), work (J), phase (0 compression, 1 restitution), sticks, v_n and slips (m/s) in
+        the frame of the collision, state (both balls, along the axes of the table).
+
+    Raises
+    ------
+    CaromError
+        The impact is in error.
     """
     return follow(BALLS, impact, points, _options(solver, slip, steps, 0, plain))

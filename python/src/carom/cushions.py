@@ -144,7 +144,9 @@ def cushion_impacts(
     model : str
         The model of the cushion for which the game's numbers are; give the same to `cushion`.
 
-    Returns an ndarray of `carom.dtypes.cushion_impact`, shape (...).
+    Returns
+    -------
+    ndarray of `carom.dtypes.cushion_impact`, shape (...)
     """
     of_game: dict[str, tuple[npt.ArrayLike | None, str]] = {
         "height": (height, "nose_height"),
@@ -207,7 +209,10 @@ def cushion(
     status : ndarray of int8, shape (...)
         0: resolved; 1: the ball does not move into the cushion; negative: an error, see `Status`.
 
-    Raises CaromError: One impact, of shape (15,) or (), that is in error.
+    Raises
+    ------
+    CaromError
+        One impact, of shape (15,) or (), that is in error.
     """
     own = dict(_own(numbers))
     if game is not None:
@@ -253,10 +258,16 @@ def calibrate(
     game : {"pool", "snooker", "billiard"}
         Whose ball and cushion are the most probable before.
 
-    Returns a Calibration: the constants and their standard deviations, where the banks come back
-    by them, and the misfit of the readings over 25 mm, which is above 2 where one is misread.
+    Returns
+    -------
+    Calibration
+        The constants and their standard deviations, where the banks come back by them, and the
+        misfit of the readings over 25 mm, which is above 2 where one is misread.
 
-    Raises CaromError: A reading is not above 0 and below 8, or a bank does not come back.
+    Raises
+    ------
+    CaromError
+        A reading is not above 0 and below 8, or a bank does not come back.
     """
     from carom import tables  # a table is made of layouts, which do not know of cushions
 
@@ -295,10 +306,16 @@ def cushion_trace(
     """Follow one impact, of shape (15,) or (), by the model mathavan or euler, at `points` equal
     steps of normal impulse from 0 to its end.
 
-    Options are as for `cushion`. Returns an ndarray of `carom.dtypes.cushion_point`, shape
-    (points,).
+    Options are as for `cushion`.
 
-    Raises CaromError: The impact is in error.
+    Returns
+    -------
+    ndarray of `carom.dtypes.cushion_point`, shape (points,)
+
+    Raises
+    ------
+    CaromError
+        The impact is in error.
     """
     if not isinstance(model, str) or model not in ("mathavan", "euler"):
         raise ValueError(

@@ -372,12 +372,19 @@ def tangents(
         Most threads to use for many shots; 0 is the calling one alone, -1 all processors. No bit
         depends on it.
 
-    Returns Tangents: Of many shots with the bits of each alone. One in error, or whose derivatives
-        are not known, costs itself:
-    see `status`.
-    Raises CaromError: Derivatives are not known for this shot: in the world pooltool, or by Euler's
-        model of balls.
-    Raises ValueError: Shots of a batch have more events than were kept.
+    Returns
+    -------
+    Tangents
+        Of many shots with the bits of each alone. One in error, or whose derivatives are not known,
+        costs itself: see `status`.
+
+    Raises
+    ------
+    CaromError
+        Derivatives are not known for this shot: in the world pooltool, or by Euler's model of
+        balls.
+    ValueError
+        Shots of a batch have more events than were kept.
     """
     if not isinstance(shot, (Shot, Shots)):
         raise TypeError(
@@ -472,8 +479,14 @@ def hessian(
         A vector for each shot, or one for all: only the Hessian's product with it is found, of
         shape (..., balls, 9, m).
 
-    Returns Hessian.
-    Raises CaromError: Derivatives are not known for this shot.
+    Returns
+    -------
+    Hessian
+
+    Raises
+    ------
+    CaromError
+        Derivatives are not known for this shot.
     """
     first, given = (
         tangents(shot, wrt, threads=threads),
@@ -618,9 +631,15 @@ def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi")
     by : str
         The one number that follows.
 
-    Returns an ndarray of float64, shape (m,): d by / d wrt, degrees per m/s, per R, per m and so
-        on, to first order.
-    Raises ValueError: The ball does not fall, or `by` does not turn its path.
+    Returns
+    -------
+    ndarray of float64, shape (m,)
+        d by / d wrt, degrees per m/s, per R, per m and so on, to first order.
+
+    Raises
+    ------
+    ValueError
+        The ball does not fall, or `by` does not turn its path.
     """
     if not isinstance(shot, Shot):
         raise TypeError(f"shot: what carom.simulate() gives is needed, not {type(shot).__name__}")
@@ -755,8 +774,11 @@ def jacobian(
     threads, options, **changes
         As for `carom.simulate_batch`.
 
-    Returns an ndarray of float64: (..., balls, 2, m) for "final.r"; nan for shots in error. Each
-        shot has the bits of `tangents`.
+    Returns
+    -------
+    ndarray of float64
+        (..., balls, 2, m) for "final.r"; nan for shots in error. Each shot has the bits of
+        `tangents`.
     """
     group, _, field = str(of).partition(".")
     if (group not in ("final", "at") or field not in PARTS) and str(of) not in ("time", "reach"):

@@ -145,13 +145,19 @@ def final(
     threads, options, **changes
         As for `carom.simulate_batch`. With t_final the states are those at that time.
 
-    Returns Final.
-    Raises ValueError: A name or a shape is wrong.
-    Raises TypeError: JAX has no 64-bit numbers: the error says what to set.
-    Raises jax.errors.JaxRuntimeError, or ValueError: A shot is refused, ends in an error or cannot
-        be differentiated: the last
-    line has its numbers, and what is wrong with it. JAX makes this exception of what a callback
-        raises.
+    Returns
+    -------
+    Final
+
+    Raises
+    ------
+    ValueError
+        A name or a shape is wrong.
+    TypeError
+        JAX has no 64-bit numbers: the error says what to set.
+    jax.errors.JaxRuntimeError or ValueError
+        A shot is refused, ends in an error or cannot be differentiated: the last line has its
+        numbers, and what is wrong with it. JAX makes this exception of what a callback raises.
     """
     if _jax.dtypes.canonicalize_dtype(np.float64) != np.float64:
         raise TypeError(

@@ -188,7 +188,10 @@ class Table:
         The built-in tables are right. This takes some milliseconds; `simulate` checks the numbers
         only.
 
-        Raises CaromError: Its `field` is the part at fault, its sentence says where the fault is.
+        Raises
+        ------
+        CaromError
+            Its `field` is the part at fault, its sentence says where the fault is.
         """
         fault = ffi.new("carom_table_fault *")
         refuse_table(
@@ -355,8 +358,10 @@ def place_ball(
     """Ball in hand: a copy of a layout, in which the ball of this index lies at rest at (x, y), m,
     also one that was pocketed.
 
-    Raises CaromError: The place is not free: `field` is the ball or the part of the table that is
-        in the way.
+    Raises
+    ------
+    CaromError
+        The place is not free: `field` is the ball or the part of the table that is in the way.
     """
     placed = of_record(balls, dtypes.shot_ball, "balls", "balls()").copy()
     if placed.ndim != 1:
@@ -409,8 +414,14 @@ def by_number(
     cue : int or str
         Which of the ids is the cue ball's.
 
-    Returns an ndarray of `carom.dtypes.shot_ball`, shape (16,), (10,) or (22,).
-    Raises ValueError: A ball is none of the game, or there twice, or there is no cue ball.
+    Returns
+    -------
+    ndarray of `carom.dtypes.shot_ball`, shape (16,), (10,) or (22,)
+
+    Raises
+    ------
+    ValueError
+        A ball is none of the game, or there twice, or there is no cue ball.
     """
     given = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     names = list(
@@ -477,9 +488,12 @@ def balls(
     conditions : sequence of str
         Conditions of a pool table, such as ("fast_cloth", "old_cushion"); docs/using/calibrate.md
         lists them. Numbers that are given besides replace theirs.
-    {fields}
+    **kind : array_like, shape (...)
+        Numbers of `carom.dtypes.ball_kind`, by their names.
 
-    Returns an ndarray of `carom.dtypes.shot_ball`, shape (..., balls).
+    Returns
+    -------
+    ndarray of `carom.dtypes.shot_ball`, shape (..., balls)
     """
     unknown = [name for name in kind if name not in (dtypes.ball_kind.names or ())]
     if unknown:
@@ -580,7 +594,9 @@ def cue(
         m, to 1: how far the cue goes on after it has touched the ball; 0: it stops. Default 0.03, a
         convention; 0 for pooltool's games.
 
-    Returns an ndarray of `carom.dtypes.cue`, shape (...).
+    Returns
+    -------
+    ndarray of `carom.dtypes.cue`, shape (...)
     """
     if speed is not None and ball_speed is not None:
         raise ValueError(

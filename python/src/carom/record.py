@@ -262,8 +262,11 @@ def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replay
     recording : path, or lines
         A file, or its lines, as they come.
 
-    Raises CaromError: A line is wrong, by a key or a value; the recording is of another revision of
-        the physics; it is cut off.
+    Raises
+    ------
+    CaromError
+        A line is wrong, by a key or a value; the recording is of another revision of the physics;
+        it is cut off.
     """
     game = ffi.new("carom_record *")
     yield from _replay(game, lines_of(recording, []))

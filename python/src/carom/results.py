@@ -130,9 +130,13 @@ class Shot:
         ball falls in its pocket until it lies at the depth or on others, and stays there; a shot of
         a batch then needs all its events: `simulate_batch(room=...)`.
 
-        Raises CaromError: A time is after the end of a shot that was stopped, or that ended in an
-            error, while balls moved.
-        Raises ValueError: A time is before 0, or not finite.
+        Raises
+        ------
+        CaromError
+            A time is after the end of a shot that was stopped, or that ended in an error, while
+            balls moved.
+        ValueError
+            A time is before 0, or not finite.
         """
         at = _moments(times)
         states: Array = np.zeros((*at.shape, len(self.balls)), dtypes.ball_state)
@@ -542,8 +546,11 @@ class Shots:
         and the label -1, where no state is known: of shots whose arguments were in error, and after
         shots were stopped, or ended in an error, while balls moved. No bit depends on `threads`.
 
-        Raises ValueError: A time is before 0, or not finite; or a shot has to be played again, and
-            its layout or cue has been changed since.
+        Raises
+        ------
+        ValueError
+            A time is before 0, or not finite; or a shot has to be played again, and its layout or
+            cue has been changed since.
         """
         return self._look_at(times, dtypes.ball_state, (), threads)[0]
 

@@ -83,10 +83,15 @@ def simulate(
         Single options, by their names: cushion_model="mathavan", t_final=1.5, stop_at="contact",
         space="flat", ...
 
-    Returns Shot.
-    Raises CaromError: An argument is in error; or the shot ended in one (a bound, a ball that left
-        the table, a collision):
-    then the error's `shot` has what had happened.
+    Returns
+    -------
+    Shot
+
+    Raises
+    ------
+    CaromError
+        An argument is in error; or the shot ended in one (a bound, a ball that left the table, a
+        collision): then the error's `shot` has what had happened.
     """
     layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     if layout.ndim != 1:
@@ -166,10 +171,13 @@ def resume(
     to stop again; t_final counts from the beginning of the shot. The result has all events from the
     beginning, and events and states have the bits of the unbroken shot.
 
-    Raises CaromError: The shot ends in an error.
-    Raises ValueError: The shot was played without `t_final` and `stop_at`, or as one of a batch; or
-        t_final is before the time
-    at which it stopped.
+    Raises
+    ------
+    CaromError
+        The shot ends in an error.
+    ValueError
+        The shot was played without `t_final` and `stop_at`, or as one of a batch; or t_final is
+        before the time at which it stopped.
     """
     if not isinstance(shot, Shot) or shot.state is None:
         raise ValueError(
@@ -235,9 +243,15 @@ def simulate_batch(
     options, **changes
         As for `simulate`.
 
-    Returns Shots: Each with the bits of `simulate`. One in error costs itself: see `status` and
-        `failures()`.
-    Raises CaromError: The table or an option is in error.
+    Returns
+    -------
+    Shots
+        Each with the bits of `simulate`. One in error costs itself: see `status` and `failures()`.
+
+    Raises
+    ------
+    CaromError
+        The table or an option is in error.
     """
     record, builder = (
         (dtypes.shot_ball, "balls(), or kinds= beside states,")
@@ -331,8 +345,11 @@ def simulate_arrow(
     at_once : int
         Shots of a part.
 
-    Returns a pyarrow RecordBatchReader: a row a shot, in C order, as of `Shots.to_arrow`.
-        `pyarrow.dataset.write_dataset` writes it as Parquet.
+    Returns
+    -------
+    pyarrow.RecordBatchReader
+        A row a shot, in C order, as of `Shots.to_arrow`. `pyarrow.dataset.write_dataset` writes it
+        as Parquet.
     """
     arrow, at_once = needed("pyarrow", "simulate_arrow()"), whole(at_once, "at_once", least=1)
     all_balls = of_record(

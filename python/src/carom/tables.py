@@ -116,8 +116,11 @@ def polygon(
     nose_height, jaw_radius, ball_radius : float
         Of all noses, of the rounded ends of rails at pockets, and of the balls, m.
 
-    Raises CaromError: The table is not closed, its middle has no room for a ball, or a number is
-        out of range; its `field` is the corner or the part, and the sentence says where.
+    Raises
+    ------
+    CaromError
+        The table is not closed, its middle has no room for a ball, or a number is out of range; its
+        `field` is the corner or the part, and the sentence says where.
     """
     rows = []
     for k, corner in enumerate(

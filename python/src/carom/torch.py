@@ -302,10 +302,18 @@ def final(
     threads, options, **changes
         As for `carom.simulate_batch`. With t_final the states are those at that time.
 
-    Returns Final: Tensors of float64 on the CPU.
-    Raises ValueError: A name or a shape is wrong.
-    Raises CaromError: A shot is refused, ends in an error or cannot be differentiated: its numbers,
-        and what is wrong with it.
+    Returns
+    -------
+    Final
+        Tensors of float64 on the CPU.
+
+    Raises
+    ------
+    ValueError
+        A name or a shape is wrong.
+    CaromError
+        A shot is refused, ends in an error or cannot be differentiated: its numbers, and what is
+        wrong with it.
     """
     play = _left_out if _compiling() or "torch._dynamo" in sys.modules else _play
     return play(table, balls, cue, numbers, room, errors, threads, options, changes, bool(reach))

@@ -132,7 +132,10 @@ class Match:
 
         `rules` are those of a game of your own.
 
-        Raises CaromError: A line is not by the rules, or has other bits.
+        Raises
+        ------
+        CaromError
+            A line is not by the rules, or has other bits.
         """
         match = cls.__new__(cls)
         match._make("eightball" if rules is None else rules)
@@ -300,7 +303,10 @@ class Match:
     ) -> bool:
         """Play a stroke of `cue_ball`, up to when `carom.simulate` would stop it.
 
-        Returns whether the shot has ended, and is ruled.
+        Returns
+        -------
+        bool
+            Whether the shot has ended, and is ruled.
         """
         balls, strike, stop = self.balls, copied(one_cue(cue)), _stop(t_final, stop_at)
         at = pointer("carom_cue[]", strike)

@@ -141,8 +141,10 @@ def with_errors(
     """The stroke that a player makes of the one that he means, with errors drawn from a seed and
     the number of the stroke.
 
-    Returns an array of `carom.dtypes.cue`, shape (): the same for the same arguments, on every
-        machine.
+    Returns
+    -------
+    array of `carom.dtypes.cue`, shape ()
+        The same for the same arguments, on every machine.
     """
     made = copied(one_cue(cue))
     lib.carom_player_strike(

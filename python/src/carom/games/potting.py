@@ -481,7 +481,10 @@ class Potting:
             Broadcast against the leading dimensions of the balls: many actions from one layout, or
             one for each of many.
 
-        Returns Strokes: Of the broadcast shape. Each stroke has the bits that it has alone.
+        Returns
+        -------
+        Strokes
+            Of the broadcast shape. Each stroke has the bits that it has alone.
         """
         laid = of_record(balls, dtypes.shot_ball, "balls", "balls()")
         return self._played(self.placed(laid, actions), self.cues(actions))

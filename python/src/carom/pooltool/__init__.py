@@ -325,12 +325,19 @@ def simulate(
         What carom cannot do is played by pooltool instead of an error. A `FallbackWarning` says
         why, once for each reason.
 
-    Returns a System as pooltool leaves it: events with their agents, states, histories, pockets
-        with their contents.
-    Raises UnsupportedError: An engine, a table or an `include` that is pooltool's alone.
-    Raises CaromError: A System that carom refuses (overlapping balls, a ball off the table, more
-        than 32 balls), or a shot that
-    ends in an error.
+    Returns
+    -------
+    pooltool.System
+        As pooltool leaves it: events with their agents, states, histories, pockets with their
+        contents.
+
+    Raises
+    ------
+    UnsupportedError
+        An engine, a table or an `include` that is pooltool's alone.
+    CaromError
+        A System that carom refuses (overlapping balls, a ball off the table, more than 32 balls),
+        or a shot that ends in an error.
     """
     try:
         if models not in ("pooltool", "carom"):
@@ -434,7 +441,10 @@ class Agent:
         pocket that are called. A safety calls a ball that does not fall, since pooltool's
         eight-ball asks for a call. `callback` is called with the stroke.
 
-        Raises UnsupportedError: Another game, or an engine or a table that is pooltool's alone.
+        Raises
+        ------
+        UnsupportedError
+            Another game, or an engine or a table that is pooltool's alone.
         """
         kind = next((its.__name__ for its in type(game).__mro__ if its.__name__ in _GAMES), None)
         if kind is None:
@@ -496,8 +506,15 @@ class Agent:
         hand : {"none", "anywhere", "behind_line"}
             Where the cue ball is in hand.
 
-        Returns a row of `carom.plan`, shape (): its cue errs as the player does, unless `exact`.
-        Raises UnsupportedError: Another word, or an engine or a table that is pooltool's alone.
+        Returns
+        -------
+        row of `carom.plan`, shape ()
+            Its cue errs as the player does, unless `exact`.
+
+        Raises
+        ------
+        UnsupportedError
+            Another word, or an engine or a table that is pooltool's alone.
         """
         if rules not in _GAMES.values():
             raise UnsupportedError(

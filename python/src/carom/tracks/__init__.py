@@ -177,8 +177,12 @@ def read(
     rate : float
         Frames a second, if t counts frames: 30 or 120.
 
-    Raises TrackError: the message says where, and what would be right. Raises OSError: The file
-        cannot be read.
+    Raises
+    ------
+    TrackError
+        The message says where, and what would be right.
+    OSError
+        The file cannot be read.
     """
     if not all(map(math.isfinite, (unit, rate, *origin))) or min(unit, rate) <= 0.0:
         raise ValueError(

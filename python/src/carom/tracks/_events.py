@@ -577,9 +577,11 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
     """Find what happened on recorded tracks; `table` has the extents of x and y and `radius` is
     that of the balls, m.
 
-    Returns the pieces of all tracks, and the impacts and hits that enough samples tell of. Nothing
-        is left out for being improbable:
-    select by chi2 and errors.
+    Returns
+    -------
+    Events
+        The pieces of all tracks, and the impacts and hits that enough samples tell of. Nothing is
+        left out for being improbable: select by chi2 and errors.
     """
     low, high = radius, np.array(table) - radius
     rows = [

@@ -166,7 +166,10 @@ class Plays:
         before kicks; and the places of the balls at ascending times of the plays' clock, (balls, n,
         2).
 
-        Raises CaromError: The play ends in an error.
+        Raises
+        ------
+        CaromError
+            The play ends in an error.
         """
         strike, when = (
             np.ascontiguousarray(strike),

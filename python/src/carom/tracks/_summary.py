@@ -118,7 +118,10 @@ class Fit:
     def shot(self, i: int) -> Shot:
         """Shot i played; its clock begins at the strike, `strikes[i, 5]`.
 
-        Raises ValueError: No strike was found.
+        Raises
+        ------
+        ValueError
+            No strike was found.
         """
         table, balls = self._struck(i, self.strikes[[i]], 0.0, {})
         return simulate(table, balls[0], cushion_model=self.cushion_model)
@@ -150,7 +153,10 @@ class Fit:
         It has the noise of the samples, by what they leave over, and that of the places of rest,
         which contacts magnify.
 
-        Raises ValueError: No strike was found.
+        Raises
+        ------
+        ValueError
+            No strike was found.
         """
         own, follow, rest = self._strike_off(i)
         follow = follow[:, len(self.fitted) :] * rest
@@ -170,7 +176,10 @@ class Fit:
         Constants are drawn by `covariance`, where there is one, places of rest by the noise, and
         strikes that follow both.
 
-        Raises ValueError: No strike was found.
+        Raises
+        ------
+        ValueError
+            No strike was found.
         """
         own, follow, rest = self._strike_off(i)
         random, by, names = (
@@ -205,8 +214,15 @@ class Fit:
             the regions of 200 were compared with recorded shots: docs/understanding/reality.md.
         seed : int or numpy.random.Generator
 
-        Returns Forecast: Its `positions` are the draws, its `regions` where balls will be.
-        Raises ValueError: No strike was found, or no row is known after the first.
+        Returns
+        -------
+        Forecast
+            Its `positions` are the draws, its `regions` where balls will be.
+
+        Raises
+        ------
+        ValueError
+            No strike was found, or no row is known after the first.
         """
         whole = self.recordings[shot] if isinstance(shot, int) else shot
         if not 0.0 < after < np.inf:

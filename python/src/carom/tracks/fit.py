@@ -383,7 +383,10 @@ def fit(
         Whether places are put right first where the table lies crooked in the tracks, is too large
         or small, or bent: by impacts on cushions.
 
-    Raises ValueError: An argument is wrong: which, and what would be right.
+    Raises
+    ------
+    ValueError
+        An argument is wrong: which, and what would be right.
     """
     recordings, seed = list(recordings), seed_of(seed, 2**64 - 1)
     if not recordings:
