@@ -273,11 +273,11 @@ CAROM_RULES_OBJECT(carom_eightball) = {.on = eightball_on,
                                        .settle = carom_settle_rack,
                                        .rack = CAROM_RACK_EIGHTBALL};
 
-/* Blackball: the rules of the WPA, of 2005 by the titles of the sections 4 (play) and 5 (fouls), and
- * section 8 of those of 2025: the break (8.5), balls that touch, the fouls (8.13), and the black,
- * which loses on a foul or while a ball of the group remains after the stroke. A new rack after a
- * break that is a foul is of 2005; who asks for it breaks. Two rules are left out: a player who is
- * snookered needs no cushion (5g), and to jump a ball behind the first contact is a foul. */
+/* Blackball: the rules of the WPA, of 2005 by the titles of the sections 4 (play) and 5 (fouls),
+ * and section 8 of those of 2025: the break (8.5), balls that touch, the fouls (8.13), and the
+ * black, which loses on a foul or while a ball of the group remains after the stroke. A new rack
+ * after a break that is a foul is of 2005; who asks for it breaks. Two rules are left out: a player
+ * who is snookered needs no cushion (5g), and to jump a ball behind the first contact is a foul. */
 CAROM_RULES_OBJECT(carom_blackball) = {.on = eightball_on,
                                        .judge = blackball_judge,
                                        .left = eightball_left,
