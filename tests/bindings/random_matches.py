@@ -27,7 +27,7 @@ def act(match, words):
         match.concede(int(words[1]))
     else:
         ball, speed, phi, theta, a, b = numbers
-        match.stroke(carom.cue(speed=speed, phi=phi, theta=theta, tip=(a, b), ball=int(ball)))
+        match.stroke(carom.cue(speed=speed, phi=phi, theta=theta, tip=(-a, b), ball=int(ball)))
 
 
 def outcome(match, words):
