@@ -16,7 +16,6 @@ enum {
   WIN = CAROM_TURN_WIN,
   LOSE = CAROM_TURN_LOSE
 };
-enum { AFTER = CAROM_LEAVE_AFTER, KITCHEN = CAROM_LEAVE_KITCHEN, D = CAROM_LEAVE_D };
 enum {
   LEGAL = CAROM_FOUL_NONE,
   CUE_BALL = CAROM_FOUL_CUE_BALL,
@@ -36,8 +35,8 @@ enum { PI = 1 << 20, BK = 1 << 21, COLOURS = Y | G | BR | BL | PI | BK, ALL = 0x
 enum { YELLOW = 16, GREEN, BROWN, BLUE, PINK, BLACK };
 enum { MAY = CAROM_MAY_PASS, FREE = CAROM_MAY_FREE_BALL, HAND = CAROM_MAY_PLACE };
 
-/* The pockets of the player, of the other and of none. */
-enum { MINE = 5, HIS = 2, NEUTRAL = 0 };
+/* The pockets of the player and of the other. */
+enum { MINE = 5, HIS = 2 };
 
 /* A shot whose cue ball met `first`; all that fell is in pocket 2. */
 static inline carom_facts facts_of(int first, int cushions, uint32_t down, uint32_t off) {
@@ -45,15 +44,6 @@ static inline carom_facts facts_of(int first, int cushions, uint32_t down, uint3
   for (int k = 0; k < CAROM_BALLS_MOST; k++)
     f.pocket[k] = down >> k & 1 ? 2 : -1;
   return f;
-}
-
-/* The one check of a ruling. */
-static inline void ruled(const char *what, const carom_turn *turn, int outcome, int leave, int foul,
-                         uint32_t spot) {
-  ck_assert_msg((int)turn->outcome == outcome && (int)turn->leave == leave && turn->foul == foul &&
-                    turn->spot == spot,
-                "%s: turn %d, leave %d, foul %d, spot %x", what, (int)turn->outcome,
-                (int)turn->leave, turn->foul, turn->spot);
 }
 
 CK_ATTRIBUTE_UNUSED static carom_table table;
