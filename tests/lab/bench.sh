@@ -49,7 +49,7 @@ try env CAROM_ISA=plain "$LAB" bench --isa avx512
 try env CAROM_ISA=AVX2 "$LAB" bench
 try lab bench --precision half
 try lab bench now
-for words in "--isa ," "--batch --kernel base" "--kernel exact --isa scalar --precision single" "--pairs 0" "--pairs ," "--threads 1,none" "--kernel euler,fast" "--steps 10,many" \
+for words in "--isa ," "--batch --kernel base" "--kernel exact --isa scalar --precision single" "--pairs 0" "--pairs ," "--threads 1,none" "--kernel euler,faster" "--steps 10,many" \
   "--budget never" "--budget 0" "--budget 1x" "--spread" "--shots $DATA/shots-mathavan.jsonl --pairs 8" "--cushions --shots nowhere.jsonl" "--cushions --threads 2" "--cushions --kernel exact" "--shots nowhere.jsonl" "--data nowhere"; do
   # shellcheck disable=SC2086
   try lab bench $words
