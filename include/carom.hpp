@@ -599,15 +599,6 @@ inline bool recording::load(std::string_view lines) {
 }
 
 #ifdef CAROM_PLAN_H
-/* The line with the state of a game and the player who is at the table. */
-inline std::string_view stand(recording &of, carom_rules_kind rules, const carom_rules_state &state,
-                              int player) {
-  of.game().rules = rules;
-  of.game().standing = state;
-  of.game().player = player;
-  return of.write(CAROM_RECORD_GAME);
-}
-
 /* A match, as carom_match.h has it. An act that the rules forbid is thrown as carom::error, whose
  * text says what would be right. */
 class match {
@@ -628,9 +619,9 @@ public:
   int player() const {
     return static_cast<int>(match_->record.player);
   }
-  /* The lines of the last act; after load() those that the text lacks. */
-  std::string_view lines() const {
-    return {match_->text, static_cast<std::size_t>(match_->size)};
+  /* The recording so far, with the lines that were missing in a text that was read and cut off. */
+  const std::string &lines() const {
+    return lines_;
   }
   /* The last ruling in words. */
   std::string words() const {
@@ -643,7 +634,17 @@ public:
 
   carom_status begin(carom_rules_kind rules, const carom_table &on, std::uint64_t seed,
                      int player = 0) {
+    lines_.clear();
     return told(carom_match_begin(match_.get(), rules, &on, seed, player));
+  }
+  /* The same from any layout, by the rules of this kind or by `of`. */
+  carom_status begin(carom_rules_kind rules, const carom_table &on,
+                     span<const carom_shot_ball> balls, carom_leave leave = CAROM_LEAVE_AFTER,
+                     int player = 0, const carom_plan_rules *of = nullptr,
+                     const carom_shot_options &options = {}) {
+    lines_.clear();
+    return told(carom_match_begin_at(match_.get(), rules, of, &on, balls.data(),
+                                     static_cast<int>(balls.size()), &options, leave, player));
   }
   carom_status choose(carom_may choice) {
     return told(carom_match_choose(match_.get(), player(), choice));
@@ -672,40 +673,49 @@ public:
     return told(carom_match_end(match_.get()));
   }
 
+  /* The best strokes of the player at the table, whose errors are those of `by`, with the usual cue
+   * of the game. */
+  std::vector<carom_choice> plan(const carom_player &by, const carom_plan_options &wanted = {},
+                                 int most = 1) {
+    const auto kind = static_cast<carom_rules_kind>(match_->record.rules);
+    const carom_rules_about *about = carom_rules_about_of(kind);
+    carom_cue cue =
+        carom_cue_of(about != nullptr ? static_cast<carom_game>(about->balls) : CAROM_GAME_POOL);
+    cue.ball = match_->cue_ball;
+    carom_plan_job job{};
+    job.cue = &cue;
+    job.player = &by;
+    job.options = &wanted;
+    thinking all(*match_, job, 0, most);
+    all.go_on();
+    return {all.choices().begin(), all.choices().end()};
+  }
   /* Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the stroke as
-   * the player makes it. Returns the lines of all these acts. */
-  std::string take(const carom_choice &best, const carom_cue &cue) {
-    std::string all;
-    if (match_->phase == CAROM_MATCH_PLACE && place(best.place[0], best.place[1]) >= 0)
-      all += lines();
-    if (best.kind == CAROM_PLAN_PASS) {
-      choose(CAROM_MAY_PASS);
-      return all.append(lines());
-    }
-    if (best.kind == CAROM_PLAN_PUSH && choose(CAROM_MAY_PUSH) >= 0)
-      all += lines();
-    if (match_->rules.calls != 0 && best.ball >= 0 && call(best.ball, best.pocket) >= 0)
-      all += lines();
-    if (stroke(cue) >= 0)
-      all += lines();
-    return all;
+   * the player makes it. */
+  carom_status take(const carom_choice &best, const carom_cue &cue) {
+    const carom_status code = told(carom_match_prepare(match_.get(), player(), &best));
+    return code < 0 || best.kind == CAROM_PLAN_PASS ? code : stroke(cue);
   }
 
   /* Reads and judges the lines of a match. */
   carom_status load(std::string_view text) {
     *match_ = {};
+    lines_ = text;
+    if (!text.empty() && text.back() != '\n')
+      lines_ += '\n';
     for (std::size_t size; !text.empty(); text.remove_prefix(size)) {
       size = std::min(text.find('\n'), text.size() - 1) + 1;
-      const carom_status code =
-          told(carom_match_read(match_.get(), scratch_.get(), text.data(), size));
+      const carom_status code = carom_match_read(match_.get(), scratch_.get(), text.data(), size);
       if (code < 0)
-        return code;
+        return checked(code, match_->fault);
     }
-    return CAROM_OK;
+    return told(CAROM_OK);
   }
 
 private:
-  carom_status told(carom_status code) const {
+  /* Keeps the lines of an act; throws what was refused. */
+  carom_status told(carom_status code) {
+    lines_.append(match_->text, static_cast<std::size_t>(match_->size));
     return checked(code, match_->fault);
   }
   /* Plays, with room for all events. */
@@ -717,32 +727,22 @@ private:
       last_.table_ = record.table;
       last_.balls_.assign(record.balls, record.balls + record.count);
     }
-    return last_.with_room([&] {
+    carom_status code = CAROM_OK;
+    last_.with_room([&] {
       *match_ = *before;
-      const carom_status code = once();
+      code = once();
       last_.facts_ = record.facts;
       last_.final_.assign(record.final, record.final + record.count);
-      return told(code);
+      return CAROM_OK;
     });
+    return told(code);
   }
 
+  std::string lines_;
   std::unique_ptr<carom_match> match_;
   std::unique_ptr<carom_record> scratch_;
   shot last_;
 };
-
-/* Puts the layout of the next stroke into a game. Returns the lines for balls that come back, and
- * for a cue ball in hand. */
-inline std::string settle(recording &of, const carom_ruling &by, int cue_ball = 0) {
-  std::string lines;
-  carom_record_settle(&of.game());
-  std::copy_n(by.balls, of.game().count, of.game().balls);
-  if (by.put != 0)
-    lines += of.write(CAROM_RECORD_BALLS);
-  if (by.hand == 1 && of.hand(cue_ball) == CAROM_OK)
-    lines += of.write(CAROM_RECORD_PLACE);
-  return lines;
-}
 #endif
 
 } // namespace carom

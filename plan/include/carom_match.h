@@ -156,6 +156,12 @@ CAROM_API carom_status carom_match_place(carom_match *match, int player, double 
  * the ball is the one that is met first. */
 CAROM_API carom_status carom_match_call(carom_match *match, int player, carom_call call);
 
+/* The acts that a choice of a plan asks for before its stroke: places a cue ball in hand, pushes
+ * out and calls. The choice PASS passes, and no stroke follows. match->text has the lines of all
+ * these acts; if one is refused, those of the acts before it, which stand. */
+CAROM_API carom_status carom_match_prepare(carom_match *match, int player,
+                                           const carom_choice *choice);
+
 /* Plays a stroke of match->cue_ball, and rules. `stop` says when to stop the shot, by time_most,
  * stop_at, first_of and events_most, and may be NULL: at its end. `shot` may be NULL; else events,
  * brief and room in it are the caller's, and the rest is set. A stopped shot is not ruled yet; it

@@ -76,7 +76,6 @@ const char *carom_refusal_name(int refusal) {
 carom_status carom_match_refuse(carom_match *match, carom_refusal why, const char *act,
                                 const char *right) {
   match->refusal = (int32_t)why;
-  match->size = match->due = 0;
   snprintf(match->fault, sizeof match->fault, "%.40s: %.200s", act, right);
   return CAROM_ERROR_ACT;
 }
@@ -465,10 +464,7 @@ carom_status carom_match_continue(carom_match *match, const carom_shot_options *
 
 /* ---- Places, calls and choices */
 
-carom_status carom_match_place(carom_match *match, int player, double x, double y) {
-  if (match == NULL)
-    return CAROM_ERROR_NULL;
-  begin_act(match);
+static carom_status place_cue_ball(carom_match *match, int player, double x, double y) {
   const carom_status bad = check_turn(match, player, "place");
   if (bad != CAROM_OK)
     return bad;
@@ -503,10 +499,14 @@ carom_status carom_match_place(carom_match *match, int player, double x, double 
   return CAROM_OK;
 }
 
-carom_status carom_match_call(carom_match *match, int player, carom_call call) {
+carom_status carom_match_place(carom_match *match, int player, double x, double y) {
   if (match == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
+  return place_cue_ball(match, player, x, y);
+}
+
+static carom_status call_pocket(carom_match *match, int player, carom_call call) {
   const carom_status bad = check_turn(match, player, "call");
   if (bad != CAROM_OK)
     return bad;
@@ -536,6 +536,13 @@ carom_status carom_match_call(carom_match *match, int player, carom_call call) {
   return CAROM_OK;
 }
 
+carom_status carom_match_call(carom_match *match, int player, carom_call call) {
+  if (match == NULL)
+    return CAROM_ERROR_NULL;
+  begin_act(match);
+  return call_pocket(match, player, call);
+}
+
 /* The call of a choice: of a push-out, or of one that is taken instead of a stroke; 0 of another
  * one. */
 static int32_t call_of(carom_may choice) {
@@ -557,10 +564,7 @@ static int32_t call_of(carom_may choice) {
   }
 }
 
-carom_status carom_match_choose(carom_match *match, int player, carom_may choice) {
-  if (match == NULL)
-    return CAROM_ERROR_NULL;
-  begin_act(match);
+static carom_status take_choice(carom_match *match, int player, carom_may choice) {
   const carom_status bad = check_turn(match, player, "choose");
   if (bad != CAROM_OK)
     return bad;
@@ -583,6 +587,35 @@ carom_status carom_match_choose(carom_match *match, int player, carom_may choice
     match->ruling.balls[match->cue_ball].state.label = CAROM_BALL_STATIONARY;
   apply(match);
   return CAROM_OK;
+}
+
+carom_status carom_match_choose(carom_match *match, int player, carom_may choice) {
+  if (match == NULL)
+    return CAROM_ERROR_NULL;
+  begin_act(match);
+  return take_choice(match, player, choice);
+}
+
+/* The acts before the stroke, up to one that is refused. */
+static carom_status prepare(carom_match *match, int player, const carom_choice *choice) {
+  if (choice->kind == CAROM_PLAN_PASS)
+    return take_choice(match, player, CAROM_MAY_PASS);
+  carom_status status = check_turn(match, player, "prepare");
+  if (status == CAROM_OK && match->phase == CAROM_MATCH_PLACE)
+    status = place_cue_ball(match, player, choice->place[0], choice->place[1]);
+  if (status == CAROM_OK && choice->kind == CAROM_PLAN_PUSH)
+    status = take_choice(match, player, CAROM_MAY_PUSH);
+  const bool calls = match->rules.calls != 0 && choice->ball >= 0;
+  if (status != CAROM_OK || !calls)
+    return status;
+  return call_pocket(match, player, (carom_call){choice->ball, choice->pocket});
+}
+
+carom_status carom_match_prepare(carom_match *match, int player, const carom_choice *choice) {
+  if (match == NULL || choice == NULL)
+    return CAROM_ERROR_NULL;
+  begin_act(match);
+  return prepare(match, player, choice);
 }
 
 /* ---- Concessions, clocks, the end */

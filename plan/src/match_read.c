@@ -50,12 +50,8 @@ static carom_status refuse_line(carom_match *match, int64_t line, const char *wh
     snprintf(due, sizeof due, "; due is %.*s...", (int)carom_min(length - 1, 40), match->text);
   snprintf(act, sizeof act, "line %lld", (long long)line);
   snprintf(right, sizeof right, "%s%s", what, due);
-  const int64_t size = match->size, awaited = match->due;
-  const carom_status status = carom_match_refuse(match, CAROM_REFUSED_LINE, act, right);
-  match->size = size;
-  match->due = awaited;
   match->record.kind = CAROM_RECORD_WRONG;
-  return status;
+  return carom_match_refuse(match, CAROM_REFUSED_LINE, act, right);
 }
 
 /* The first lines, up to the first "game", are read into the record itself. */

@@ -1,7 +1,7 @@
 /* The same game in each language: plays the recording that is named, a break, and the frames of
  * that. Prints a hash of the bits of each, which is the same in C, C++, C#, Rust, Python and
- * JavaScript. C, Python and JavaScript also write a match of eight-ball to a second file. */
-#include <carom_match.h>
+ * JavaScript. */
+#include <carom_record.h>
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -21,41 +21,8 @@ static uint64_t add(uint64_t hash, const double *number, int count) {
   return hash;
 }
 
-static carom_match match;
-
-static void keep(FILE *file, carom_status status) {
-  if (status < 0)
-    fprintf(stderr, "%s\n", match.fault);
-  fwrite(match.text, 1, (size_t)match.size, file);
-}
-
-/* A match of two players of a rating, as games.md has it. */
-static void play_match(FILE *file, const carom_table *table) {
-  static double memory[65536];
-  carom_player player = carom_player_fargo(600.0);
-  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
-  carom_plan_options few = {.shots = 100};
-  carom_plan_job job = {.player = &player, .cue = &cue, .options = &few};
-  job.memory = memory;
-  job.memory_size = sizeof memory;
-  keep(file, carom_match_begin(&match, CAROM_RULES_EIGHTBALL, table, 7, 0));
-  for (uint64_t number = 0; match.phase != CAROM_MATCH_OVER; number++) {
-    int who = (int)match.record.player, found;
-    carom_choice best;
-    carom_match_plan(&match, &job, &best, 1, &found);
-    if (match.phase == CAROM_MATCH_PLACE)
-      keep(file, carom_match_place(&match, who, best.place[0], best.place[1]));
-    if (best.ball >= 0)
-      keep(file, carom_match_call(&match, who, (carom_call){best.ball, best.pocket}));
-    carom_player_strike(&player, 1, number, &best.cue);
-    keep(file, carom_match_stroke(&match, who, &best.cue, NULL, NULL));
-  }
-  keep(file, carom_match_end(&match));
-  fclose(file);
-}
-
 int main(int count, char **arguments) {
-  FILE *file = count >= 2 ? fopen(arguments[1], "rb") : NULL;
+  FILE *file = count == 2 ? fopen(arguments[1], "rb") : NULL;
   if (!file)
     return 2;
   while (fgets(line, sizeof line, file)) {
@@ -110,9 +77,5 @@ int main(int count, char **arguments) {
     hash = add(hash, &slip, 1);
   }
   printf("film: %d frames, %016" PRIx64 "\n", frames, hash);
-
-  FILE *match_file = count == 3 ? fopen(arguments[2], "wb") : NULL;
-  if (match_file != NULL)
-    play_match(match_file, &table);
   return 0;
 }

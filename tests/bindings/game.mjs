@@ -1,6 +1,6 @@
 // As game.c, in JavaScript: the recording is read here, by its page (docs/using/games.md), and
 // played by the npm package.
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { load } from "../../web/npm/dist/index.js";
 
 const carom = await load();
@@ -221,12 +221,3 @@ for (; frames / 60 < shot.time; frames++) {
 }
 for (const { slip } of shot.events) hash = add(hash, [slip]);
 console.log(`film: ${frames} frames, ${hex(hash)}`);
-
-// A match of eight-ball, which C writes byte for byte.
-const player = carom.player({ fargo: 600 });
-const match = carom.match("eightball", table, { seed: 7 });
-for (let number = 0; match.phase !== "over"; number++) {
-  const [best] = match.plan({ player, shots: 100 });
-  match.take(best, carom.withErrors(best.cue, player, 1, number));
-}
-writeFileSync(process.argv[3], match.end());

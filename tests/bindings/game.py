@@ -1,7 +1,6 @@
 """As game.c, in Python."""
 
 import sys
-from pathlib import Path
 
 import numpy as np
 
@@ -41,12 +40,3 @@ for states, turned in zip(parts.states(times, drawn=True), parts.orientations(ti
         hash_ = add(add(hash_, state["r"]), turn)
 hash_ = add(hash_, shot.slips)
 print(f"film: {len(times)} frames, {hash_:016x}")
-
-# A match of eight-ball, which C writes byte for byte.
-player = carom.player(fargo=600)
-match, number = carom.Match("eightball", table, seed=7), 0
-while match.phase != "over":
-    best = match.plan(player=player, shots=100)[0]
-    match.take(best, carom.with_errors(best["cue"], player, 1, number))
-    number += 1
-Path(sys.argv[2]).write_text(match.end())

@@ -460,41 +460,6 @@ namespace Carom {
       return Line(RecordKind.Place);
     }
 
-    /// <summary>The layout of the next stroke as a ruling has it. Returns the lines of balls that
-    /// come back, and of a cue ball in hand.</summary>
-    public string Settle(ref Ruling by, int cueBall = 0) {
-      Billiards.Check(Native.carom_record_settle(Open));
-      for (int k = 0; k < record->count; k++)
-        ((ShotBall *)&record->balls)[k] = by.balls[k];
-      return (by.put != 0 ? Line(RecordKind.Balls) : "") + (by.hand == 1 ? Hand(cueBall) : "");
-    }
-
-    /// <summary>Whether the cue ball is in hand, and not placed yet.</summary>
-    public bool InHand {
-      get { return Open->hand == 1; }
-    }
-
-    /// <summary>How a game stands for the player at the table, 0 or 1. Returns the line.</summary>
-    public string Stand(RulesKind rules, RulesState state, int player) {
-      Open->rules = (long)rules;
-      record->standing = state;
-      record->player = player;
-      return Line(RecordKind.Game);
-    }
-
-    /// <summary>The state of the last line of Stand().</summary>
-    public RulesState Standing {
-      get { return Open->standing; }
-    }
-    /// <summary>Its rules.</summary>
-    public RulesKind StandingRules {
-      get { return (RulesKind)Open->rules; }
-    }
-    /// <summary>And who is at the table, 0 or 1.</summary>
-    public int AtTable {
-      get { return (int)Open->player; }
-    }
-
     /// <summary>Ends the game, and returns its last line.</summary>
     public string End() {
       return Line(RecordKind.End);

@@ -9,6 +9,7 @@ namespace Carom {
   public sealed unsafe class LiveMatch : IDisposable {
     Match *match;
     Record *scratch;
+    readonly StringBuilder lines = new StringBuilder();
 
     LiveMatch() {
       match = (Match *)Zeros(sizeof(Match));
@@ -25,7 +26,12 @@ namespace Carom {
       get { return match != null ? match : throw new ObjectDisposedException("LiveMatch"); }
     }
 
+    /// Keeps the lines of an act; throws what was refused.
     Status Told(Status status) {
+      lines.Append(Marshal.PtrToStringAnsi((IntPtr)match->text, (int)match->size));
+      return Refused(status);
+    }
+    Status Refused(Status status) {
       if (status < 0 && match->fault[0] != 0)
         throw new CaromException(status, Marshal.PtrToStringAnsi((IntPtr)match->fault));
       return Billiards.Check(status);
@@ -38,15 +44,26 @@ namespace Carom {
       return made;
     }
 
-    /// <summary>Reads and judges the lines of a match. Lines has those that the text
-    /// lacks.</summary>
+    /// <summary>The same from any layout, by the rules of this kind; the cue ball is in hand where
+    /// `leave` says so.</summary>
+    public static LiveMatch Begin(RulesKind rules, Table table, ShotBall[] balls,
+                                  Leave leave = Leave.After, int player = 0) {
+      var made = new LiveMatch();
+      fixed(ShotBall *at = balls) made.Told(Native.carom_match_begin_at(
+          made.match, rules, null, &table, at, balls.Length, null, leave, player));
+      return made;
+    }
+
+    /// <summary>Reads and judges the lines of a match.</summary>
     public static LiveMatch Load(string lines) {
       var made = new LiveMatch();
       foreach (var line in lines.Split(new[] { '\n' }, StringSplitOptions.RemoveEmptyEntries)) {
         var bytes = Encoding.ASCII.GetBytes(line);
-        fixed(byte *at = bytes)
-            made.Told(Native.carom_match_read(made.match, made.scratch, at, (UIntPtr)bytes.Length));
+        fixed(byte *at = bytes) made.Refused(
+            Native.carom_match_read(made.match, made.scratch, at, (UIntPtr)bytes.Length));
+        made.lines.Append(line).Append('\n');
       }
+      made.Told(Status.Ok);
       return made;
     }
 
@@ -62,13 +79,18 @@ namespace Carom {
     public int Winner {
       get { return Open->winner; }
     }
+    /// <summary>How many strokes were played.</summary>
+    public long Shots {
+      get { return Open->record.shots; }
+    }
     /// <summary>Whether the match is over.</summary>
     public bool Over {
       get { return Open->phase == (int)MatchPhase.Over; }
     }
-    /// <summary>The lines of the last act.</summary>
+    /// <summary>The recording so far, with the lines that were missing in a text that was read and
+    /// cut off.</summary>
     public string Lines {
-      get { return Marshal.PtrToStringAnsi((IntPtr)Open->text, (int)match->size); }
+      get { return lines.ToString(); }
     }
     /// <summary>The last ruling.</summary>
     public Ruling Ruling {
@@ -141,27 +163,11 @@ namespace Carom {
     }
 
     /// <summary>Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is
-    /// the stroke as the player makes it. Returns the lines of all these acts.</summary>
-    public string Take(Choice best, Cue cue) {
-      var all = new StringBuilder();
-      if (Open->phase == (int)MatchPhase.Place) {
-        Place(best.place[0], best.place[1]);
-        all.Append(Lines);
-      }
-      if (best.kind == (int)PlanKind.Pass) {
-        Choose(May.Pass);
-        return all.Append(Lines).ToString();
-      }
-      if (best.kind == (int)PlanKind.Push) {
-        Choose(May.Push);
-        all.Append(Lines);
-      }
-      if (match->rules.calls != 0 && best.ball >= 0) {
-        Call(best.ball, best.pocket);
-        all.Append(Lines);
-      }
-      Stroke(cue);
-      return all.Append(Lines).ToString();
+    /// the stroke as the player makes it.</summary>
+    public void Take(Choice best, Cue cue) {
+      Told(Native.carom_match_prepare(Open, Player, &best));
+      if (best.kind != (int)PlanKind.Pass)
+        Stroke(cue);
     }
 
     public void Dispose() {

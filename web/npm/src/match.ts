@@ -176,6 +176,10 @@ export class Match extends Owner<Host> {
     const winner = this.#number("winner");
     return winner < 0 ? undefined : winner;
   }
+  /** How many strokes were played. */
+  get shots(): number {
+    return this.#recorded("shots");
+  }
   /** The choices for `choose`; a "free_ball" is named by a call. */
   get may(): May[] {
     const may = this.#number("may");
@@ -330,7 +334,7 @@ export class Match extends Owner<Host> {
   #record(of: keyof typeof layout.carom_record.offset): Pointer {
     return this.#at + MATCH.record + layout.carom_record.offset[of];
   }
-  #recorded(of: "count" | "rules" | "player"): number {
+  #recorded(of: "count" | "rules" | "player" | "shots"): number {
     return Number(this.#host.memory.i64[this.#record(of) / 8]);
   }
   /** The lines of the last act. */

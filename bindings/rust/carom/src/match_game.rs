@@ -1,7 +1,7 @@
 //! Matches: one object that knows the rules, and writes its recording.
 use crate::{
-    check, status_of, sys, text, words, Choice, Cue, Error, MatchPhase, May, Options, Position,
-    RulesKind, Ruling, Shot, Table,
+    check, count_of, status_of, sys, text, words, Choice, Cue, Error, Leave, MatchPhase, May,
+    Options, Position, RulesKind, Ruling, Shot, ShotBall, Table,
 };
 use std::os::raw::c_char;
 
@@ -10,6 +10,7 @@ use std::os::raw::c_char;
 pub struct Match {
     of: Box<sys::carom_match>,
     scratch: Box<sys::carom_record>,
+    lines: String,
     last: Option<Shot>,
 }
 
@@ -29,15 +30,50 @@ impl Match {
         Ok(made)
     }
 
-    /// Reads and judges the lines of a match. `lines` has those that the text lacks.
+    /// The same from any layout, by the rules of this kind; the cue ball is in hand where `leave`
+    /// says so.
+    pub fn begin_at(
+        rules: RulesKind,
+        table: &Table,
+        balls: &[ShotBall],
+        leave: Leave,
+        player: usize,
+    ) -> Result<Match, Error> {
+        let mut made = Match::empty();
+        let (kind, of, options) = (rules.into(), std::ptr::null(), std::ptr::null());
+        let (at, count, player) = (balls.as_ptr(), count_of(balls), player.min(2) as i32);
+        let status = unsafe {
+            let to = &mut *made.of;
+            sys::carom_match_begin_at(
+                to,
+                kind,
+                of,
+                table,
+                at,
+                count,
+                options,
+                leave.into(),
+                player,
+            )
+        };
+        made.told(status)?;
+        Ok(made)
+    }
+
+    /// Reads and judges the lines of a match.
     pub fn load(lines: &str) -> Result<Match, Error> {
         let mut made = Match::empty();
         for line in lines.split_inclusive('\n') {
             let at = line.as_ptr() as *const c_char;
             let status =
                 unsafe { sys::carom_match_read(&mut *made.of, &mut *made.scratch, at, line.len()) };
-            made.told(status)?;
+            made.refused(status)?;
+            made.lines += line;
         }
+        if !lines.is_empty() && !lines.ends_with('\n') {
+            made.lines.push('\n');
+        }
+        made.told(sys::CAROM_OK)?;
         Ok(made)
     }
 
@@ -45,11 +81,20 @@ impl Match {
         Match {
             of: Box::default(),
             scratch: Box::default(),
+            lines: String::new(),
             last: None,
         }
     }
 
-    fn told(&self, status: sys::carom_status) -> Result<(), Error> {
+    /// Keeps the lines of an act; an error is what was refused.
+    fn told(&mut self, status: sys::carom_status) -> Result<(), Error> {
+        let bytes = &self.of.text[..self.of.size as usize];
+        self.lines
+            .extend(bytes.iter().map(|&one| char::from(one as u8)));
+        self.refused(status)
+    }
+
+    fn refused(&self, status: sys::carom_status) -> Result<(), Error> {
         if status < 0 && self.of.fault[0] != 0 {
             let (status, fault) = (status_of(status), text(self.of.fault.as_ptr()));
             return Err(Error { status, fault });
@@ -70,6 +115,11 @@ impl Match {
     /// The player who has won.
     pub fn winner(&self) -> Option<usize> {
         usize::try_from(self.of.winner).ok()
+    }
+
+    /// How many strokes were played.
+    pub fn shots(&self) -> u64 {
+        self.of.record.shots as u64
     }
 
     /// What the match waits for.
@@ -99,10 +149,9 @@ impl Match {
         made
     }
 
-    /// The lines of the last act.
-    pub fn lines(&self) -> String {
-        let bytes = &self.of.text[..self.of.size as usize];
-        bytes.iter().map(|&one| char::from(one as u8)).collect()
+    /// The recording so far, with the lines that were missing in a text that was read and cut off.
+    pub fn lines(&self) -> &str {
+        &self.lines
     }
 
     /// The last ruling.
@@ -182,27 +231,15 @@ impl Match {
     }
 
     /// Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the
-    /// stroke as the player makes it. Returns the lines of all these acts.
-    pub fn take(&mut self, best: &Choice, cue: &Cue) -> Result<String, Error> {
-        let mut all = String::new();
-        if self.phase() == MatchPhase::Place {
-            self.place(best.place[0], best.place[1])?;
-            all += &self.lines();
+    /// stroke as the player makes it.
+    pub fn take(&mut self, best: &Choice, cue: &Cue) -> Result<(), Error> {
+        let player = self.at_table();
+        let status = unsafe { sys::carom_match_prepare(&mut *self.of, player, best) };
+        self.told(status)?;
+        if best.kind != sys::CAROM_PLAN_PASS {
+            self.stroke(cue, &Options::default())?;
         }
-        if best.kind == sys::CAROM_PLAN_PASS {
-            self.choose(May::Pass)?;
-            return Ok(all + &self.lines());
-        }
-        if best.kind == sys::CAROM_PLAN_PUSH {
-            self.choose(May::Push)?;
-            all += &self.lines();
-        }
-        if self.of.rules.calls != 0 && best.ball >= 0 {
-            self.call(best.ball, best.pocket)?;
-            all += &self.lines();
-        }
-        self.stroke(cue, &Options::default())?;
-        Ok(all + &self.lines())
+        Ok(())
     }
 
     /// The last ruling in words.
@@ -228,12 +265,10 @@ mod tests {
         can_move::<crate::Thinking>();
         let table = crate::table(TableKind::Pool9ft)?;
         let mut game = Match::begin(RulesKind::Eightball, &table, 1, 0)?;
-        let mut file = game.lines();
         let beyond = game.place(0.6, 1.0).unwrap_err();
         assert_eq!(beyond.status, Status::ErrorAct);
         assert!(beyond.fault.contains("0.635"), "{}", beyond.fault);
         game.place(0.6, 0.6)?;
-        file += &game.lines();
         let cue = Cue {
             speed: 8.0,
             ..crate::cue(Game::Pool)
@@ -246,11 +281,10 @@ mod tests {
         };
         assert!(!game.stroke(&cue, &stop)?);
         assert_eq!(game.last().map(Shot::time), Some(0.2));
-        file += &game.lines();
         assert!(game.go_on(&Options::default())?);
         assert!(game.last().map_or(0, |shot| shot.events().len()) > 20);
-        file += &game.lines();
-        let again = Match::load(&file)?;
+        let file = game.lines();
+        let again = Match::load(file)?;
         assert_eq!(again.player(), game.player());
         assert_eq!(again.state().record.hash, game.state().record.hash);
         assert!(

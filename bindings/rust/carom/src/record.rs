@@ -1,7 +1,7 @@
 //! Recordings: games that verify themselves. docs/using/games.md has the format.
 use crate::{
-    check, count_of, status_of, sys, text, Cue, Error, Facts, Options, RulesKind, RulesState,
-    Ruling, Shot, ShotBall, Status, Table,
+    check, count_of, status_of, sys, text, Cue, Error, Facts, Options, Shot, ShotBall, Status,
+    Table,
 };
 use std::os::raw::c_char;
 
@@ -61,49 +61,9 @@ impl Recording {
         self.line(sys::CAROM_RECORD_PLACE)
     }
 
-    /// How a game stands for the player at the table, 0 or 1. Returns the line.
-    pub fn stand(
-        &mut self,
-        rules: RulesKind,
-        state: &RulesState,
-        player: i64,
-    ) -> Result<String, Error> {
-        (self.record.rules, self.record.player) = (rules as i64, player);
-        self.record.standing = *state;
-        self.line(sys::CAROM_RECORD_GAME)
-    }
-
-    /// The state of the last line of `stand`; with it the rules, and who is at the table.
-    pub fn standing(&self) -> (Option<RulesKind>, &RulesState, i64) {
-        let of = &self.record;
-        let rules = i32::try_from(of.rules).ok();
-        let rules = rules.and_then(|one| RulesKind::try_from(one).ok());
-        (rules, &of.standing, of.player)
-    }
-
     /// The last shot that was played or read, with its events; of one that went on, from its start.
     pub fn last(&self) -> Option<&Shot> {
         self.last.as_ref()
-    }
-
-    /// The layout of the next stroke as a ruling has it. Returns the lines of balls that come back,
-    /// and of a cue ball in hand.
-    pub fn settle(&mut self, by: &Ruling, cue_ball: usize) -> Result<String, Error> {
-        let mut lines = String::new();
-        check(unsafe { sys::carom_record_settle(&mut *self.record) })?;
-        self.record.balls = by.balls;
-        if by.put != 0 {
-            lines += &self.line(sys::CAROM_RECORD_BALLS)?;
-        }
-        if by.hand == 1 {
-            lines += &self.hand(cue_ball)?;
-        }
-        Ok(lines)
-    }
-
-    /// Whether the cue ball is in hand, and not placed yet.
-    pub fn in_hand(&self) -> bool {
-        self.record.hand == 1
     }
 
     /// Ends the game, and returns its last line.

@@ -200,6 +200,11 @@ class Match:
         return None if self._c.winner < 0 else int(self._c.winner)
 
     @property
+    def shots(self) -> int:
+        """How many strokes were played."""
+        return int(self._c.record.shots)
+
+    @property
     def may(self) -> tuple[str, ...]:
         """The choices for `choose`, of "pass", "push", "rack", "other_rack", "stay" and "spot"; a
         "free_ball" is named by a call, and with "place" the cue ball is in hand.
@@ -362,17 +367,10 @@ class Match:
 
         `cue` is the stroke as the player makes it; by default that of the choice.
         """
-        kind, ball, pocket = (int(best[name]) for name in ("kind", "ball", "pocket"))
-        if self.phase == "place":
-            self.place(*best["place"].tolist())
-        if kind == Kind.PASS:
-            self.choose("pass")
-            return
-        if kind == Kind.PUSH:
-            self.choose("push")
-        if self._c.rules.calls and ball >= 0:
-            self.call(ball, pocket)
-        self.stroke(best["cue"] if cue is None else cue)
+        choice = pointer("carom_choice *", copied(best))
+        self._act(lambda: lib.carom_match_prepare(self._c, self.player, choice), "best")
+        if best["kind"] != Kind.PASS:
+            self.stroke(best["cue"] if cue is None else cue)
 
 
 def _stop(t_final: float | None, stop_at: StopAt | Iterable[StopAt]) -> Any:
