@@ -173,6 +173,8 @@ EVERY_BODY(match_begin_at) {
 EVERY_ACT(match_place, carom_match_place(&room->match, 0, 0.7, 0.5))
 EVERY_ACT(match_call, carom_match_call(&room->match, 0, (carom_call){3, 1}))
 EVERY_ACT(match_choose, carom_match_choose(&room->match, 0, CAROM_MAY_PASS))
+EVERY_ACT(match_prepare,
+          carom_match_prepare(&room->match, 0, &(carom_choice){.ball = 3, .pocket = 1}))
 EVERY_ACT(match_stroke, carom_match_stroke(&room->match, 0, &in->cue[0], NULL, NULL))
 EVERY_ACT(match_continue, carom_match_continue(&room->match, NULL, NULL))
 EVERY_ACT(match_concede, carom_match_concede(&room->match, 1))
@@ -204,7 +206,7 @@ EVERY_BODY(match_plan) {
 #define EVERY_OF_PLANS(F) \
   F(hand_bounds) F(is_within) F(match_begin) F(match_begin_at) F(match_call) F(match_choose) \
   F(match_clock) F(match_concede) F(match_continue) F(match_end) F(match_place) F(match_plan) \
-  F(match_read) F(match_stroke) F(refusal_name) \
+  F(match_prepare) F(match_read) F(match_stroke) F(refusal_name) \
   F(aim) F(foul_of) F(foul_string) F(is_beside) F(plan) F(plan_continue) F(plan_hand) \
   F(cue_ball_of) F(plan_kind_name) F(plan_memory) F(plan_rules_of) F(plan_try) F(plan_value) \
   F(player_fargo) F(player_of) F(player_strike) F(pot_kind) \

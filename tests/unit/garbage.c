@@ -168,6 +168,7 @@ static carom_match *moving(void) {
   carom_match_stroke(ready(), 0, &cue, &half, NULL);
   return &match;
 }
+static const carom_choice safety = {.ball = -1};
 static const char *line_of_record(void) {
   carom_record_write(&record, CAROM_RECORD_HEAD, text, sizeof text);
   return text;
@@ -224,6 +225,7 @@ static const carom_options *no_options;
   F(match_end, carom_match_end(PTR(ready())))                                                      \
   F(match_place, carom_match_place(PTR(begun()), INT(0), NUM(0.6), NUM(0.5)))                      \
   F(match_plan, carom_match_plan(PTR(ready()), PTR(&plan), PTR(choices), ROOM(4), PTR(&found)))    \
+  F(match_prepare, carom_match_prepare(PTR(ready()), INT(0), PTR(&safety)))                        \
   F(match_read, (carom_match_read(MAYBE(&match), MAYBE(&record), MAYBE("{}"), 2), ACCEPTED))       \
   F(match_stroke, carom_match_stroke(PTR(ready()), INT(0), PTR(&cue), NULL, MAYBE(&other)))        \
   F(refusal_name, (carom_refusal_name(ANYINT(1)), ACCEPTED))                                       \
