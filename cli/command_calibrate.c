@@ -29,7 +29,7 @@ static OPTION_SET(set_readings) {
   char rest;
   job->read = sscanf(text, "%lf,%lf,%lf%c", &reading[0], &reading[1], &reading[2], &rest) == 3;
   if (!job->read)
-    complain("--%s is the three sights with commas between them, such as 4.8,5.0,6.9; not '%s'",
+    complain("--%s is the three sights with commas between them, such as 4.8,5.8,5.6; not '%s'",
              row->name, text);
   return job->read;
 }
@@ -57,7 +57,7 @@ static const command_form form = {
     .options = (const option_row *const[]){&calibrate_table, &calibrate_read, &calibrate_plot,
                                            &option_output, NULL},
     .details = "exit code: 0; 1 where the readings do not fit each other; 2 for bad usage\n",
-    .example = "carom calibrate --read 4.8,5.0,6.9 -o my.json",
+    .example = "carom calibrate --read 4.8,5.8,5.6 -o my.json",
     .files = NO_FILES,
 };
 

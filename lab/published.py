@@ -76,9 +76,15 @@ def table(kind):
     return made
 
 
+# What all balls have instead of the numbers of their game, and the model of the cushion that they
+# meet; 0 is the default. lab/cushions.py plays on other tables by these.
+PLAYED_ON = {}
+CUSHION_MODEL = [0]
+
+
 def shot_ball(r, v=(0, 0, 0), w=(0, 0, 0), game=0, **numbers):
     one = OF["carom_shot_ball"](ball(game), (Triple(*r), Triple(*v), Triple(*w)))
-    for name, value in numbers.items():
+    for name, value in (PLAYED_ON | numbers).items():
         setattr(one.kind, name, value)
     return one
 
@@ -97,12 +103,13 @@ def shoot(kind, balls, stroke=None, room=100):
     shot.events, shot.facts, shot.final = (
         ctypes.cast(one, ctypes.c_void_p) for one in (events, by(facts), final)
     )
+    options = OF["carom_shot_options"](cushion_model=CUSHION_MODEL[0])
     LIBRARY.carom_shoot(
         by(made),
         (OF["carom_shot_ball"] * len(balls))(*balls),
         len(balls),
         by(stroke) if stroke else None,
-        None,
+        by(options) if CUSHION_MODEL[0] else None,
         by(shot),
     )
     return events[: min(shot.count, room)], facts, final[0].r

@@ -14,11 +14,14 @@
 
 typedef struct published_job {
   shared_options shared;
-  bool csv;
+  bool csv, cushions;
 } published_job;
 
 OPTION(published_job, published_csv, "csv", csv, 0, NULL, set_flag, 0,
        "as CSV: quantity,published,low,high,unit,carom,error,verdict,conditions,source");
+OPTION(
+    published_job, published_cushions, "cushions", cushions, 0, NULL, set_flag, 0,
+    "instead: tables of the cushions of pool and snooker (lab/cushions.py), which take a minute");
 
 static const command_form form = {
     .name = "published",
@@ -27,7 +30,8 @@ static const command_form form = {
              "carom computes. The verdict is low or high if carom's value lies outside the bounds "
              "of the source. A share of breaks is counted in 1600 breaks, and its standard error "
              "stands beside it. docs/understanding/published.md explains the table.\n",
-    .options = (const option_row *const[]){&option_data, &published_csv, &option_output, NULL},
+    .options = (const option_row *const[]){&option_data, &published_csv, &published_cushions,
+                                           &option_output, NULL},
     .details = "exit code: 0; 1 if a value that measured.csv calls ok lies outside its bounds; 2 "
                "for bad usage or unreadable data\n",
     .example = "carom-lab published --csv -o published.csv",
@@ -41,11 +45,15 @@ int command_published(int argc, char **argv) {
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
+  const char *module = "published";
+  if (job.cushions)
+    module = "cushions";
   char line[3 * PATH_MAX];
   snprintf(line, sizeof line,
-           "CAROM_PYTHON_MODULES='jinja2 pycparser' '%s/tools/python' -m lab.published '%s' "
+           "CAROM_PYTHON_MODULES='jinja2 pycparser' '%s/tools/python' -m lab.%s '%s' "
            "'%s/measured.csv' %s",
-           LAB_SOURCE, LAB_LIBRARY, data_folder(job.shared.folder), text_if(job.csv, "csv"));
+           LAB_SOURCE, module, LAB_LIBRARY, data_folder(job.shared.folder),
+           text_if(job.csv, "csv"));
   FILE *rows = popen(line, "r");
   for (int c; rows != NULL && (c = fgetc(rows)) != EOF;)
     fputc(c, out);

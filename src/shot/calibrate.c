@@ -6,26 +6,30 @@
  *
  *     sum (r_i - y_i)^2 / s^2 + (e - e_0)^2 / s_e^2 + (mu - mu_0)^2 / s_mu^2
  *
- * by Gauss and Newton, with differences of whole shots. e_0 and mu_0 are those of the ball, s_e and
- * s_mu tell how much tables differ from them: public systems of players leave 0.74 to 0.89 and 0.18
- * to 0.42. s = 25 mm is the error of a reading, of which most is the speed of the stroke. The bands
- * are the roots of the diagonal of the inverse of the matrix. A hard bank tells e, because friction
- * has little to do with it; a soft and long one tells mu.
+ * by Gauss and Newton, with differences of whole shots. e_0 and mu_0 are those of the ball. s_e and
+ * s_mu say how much tables differ from them: public systems of players leave 0.74 to 0.89 and 0.18
+ * to 0.42. s = 50 mm is the error of a reading, 25 mm, of which most is the speed of the stroke,
+ * with what the law of the cushion leaves out. The bands are the roots of the diagonal of the
+ * inverse of the matrix. A hard bank determines e, because friction has little to do with it; soft
+ * ones determine mu.
  *
- * The three come back away from pockets, between the second and the third sight beyond the side
- * pocket. */
+ * The banks and s are those that help, or harm least, on drawn tables of three laws
+ * (lab/cushions.py). With 25 mm, or with a soft bank through 3.5, numbers fitted to a table of
+ * Han's cushion predict it less well than the usual numbers do. The three come back away from
+ * pockets, beyond the side pocket. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 #include "platform/ranges.h"
 
 #include <math.h>
 
-static const carom_bank banks[CAROM_BANKS] = {{2.5, 1.3, 1.0}, {3.0, 5.0, 0.0}, {3.5, 1.3, 1.0}};
+static const carom_bank banks[CAROM_BANKS] = {{2.5, 1.3, 1.0}, {3.0, 1.3, 1.0}, {3.5, 5.0, 0.0}};
 
 static const double sight = 0.094; /* m, behind the noses */
 static const double start = 0.35;  /* m, from the rail to the ball at first */
-static const double unsure_restitution = 0.05, unsure_friction = 0.06, unsure_reading = 0.025;
-static const double step = 1e-3; /* of differences */
+static const double unsure_restitution = 0.05, unsure_friction = 0.06, unsure_reading = 0.05;
+static const double reading_error = 0.025; /* m; the unit of the misfit */
+static const double step = 1e-3;           /* of differences */
 
 enum { EVENTS = 16, ROUNDS = 30 };
 
@@ -169,6 +173,6 @@ carom_status carom_calibrate(const carom_table *table, const carom_ball_kind *ba
   out->friction = number[1];
   out->restitution_error = sqrt(inverse[0][0]);
   out->friction_error = sqrt(inverse[1][1]);
-  out->misfit = sqrt(squares / (double)CAROM_BANKS) / unsure_reading;
+  out->misfit = sqrt(squares / (double)CAROM_BANKS) / reading_error;
   return CAROM_OK;
 }

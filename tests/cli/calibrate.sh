@@ -1,16 +1,16 @@
 # How to play the three banks, what readings tell, the file for --with, the picture, and bad input.
 try carom calibrate
 try carom calibrate --table 7ft
-try carom calibrate --read 4.7,4.8,6.5 -o my.json
+try carom calibrate --read 4.7,5.6,5.6 -o my.json
 cat my.json
-try carom calibrate --read 4.7,4.8,6.5 --plot banks.svg
+try carom calibrate --read 4.7,5.6,5.6 --plot banks.svg
 grep -c "<path" banks.svg
 carom shoot --cue 0.6,0.8 --aim 20 --speed 3 --with my.json --csv > mine.csv
 carom shoot --cue 0.6,0.8 --aim 20 --speed 3 --csv > usual.csv
 cmp -s mine.csv usual.csv || echo "another table"
-try carom calibrate --read 3,5,6.9
-try carom calibrate --read 4.7,4.8
-try carom calibrate --read 4.7,4.8,8
+try carom calibrate --read 3,6.5,5.6
+try carom calibrate --read 4.7,5.6
+try carom calibrate --read 4.7,5.6,8
 try carom calibrate -o my.json
 echo "--- conditions of a table"
 for with in slow_cloth medium_cloth fast_cloth old_cushion new_cushion humid_cushion fast_cloth,new_cushion; do

@@ -47,7 +47,7 @@ TEST(conditions) {
   }
   const double *before = told[CAROM_CONDITION_MEDIUM_CLOTH].comes_back;
   for (int k = 0; k < CAROM_BANKS; k++) {
-    const bool rolls = k != 1;
+    const bool rolls = k != 2;
     ck_assert(told[CAROM_CONDITION_HUMID_CUSHION].comes_back[k] < before[k]);
     ck_assert(!rolls || told[CAROM_CONDITION_OLD_CUSHION].comes_back[k] < before[k]);
     ck_assert(!rolls || told[CAROM_CONDITION_NEW_CUSHION].comes_back[k] > before[k]);
@@ -72,7 +72,7 @@ TEST(other_tables) {
     kind.mu_cushion = random_between(&random, 0.2, 0.36);
     const carom_status status = carom_calibrate(&table, &kind, NULL, &truth);
     ck_assert_int_eq(status, CAROM_OK);
-    if (truth.comes_back[2] > 7.5) /* in the corner pocket */
+    if (truth.comes_back[1] > 7.5) /* in the corner pocket */
       continue;
     ck_assert_int_eq(carom_calibrate(&table, &usual, truth.comes_back, &found), CAROM_OK);
     ck_assert(found.misfit < 1.0);
@@ -88,7 +88,7 @@ TEST(other_tables) {
     count++;
   }
   ck_assert_int_gt(count, 40);
-  ck_assert_msg(after < 0.4 * before, "%g after %g", after, before);
+  ck_assert_msg(after < 0.6 * before, "%g after %g", after, before);
   ck_assert(deviations < 2.0 * count);
 }
 
@@ -97,10 +97,10 @@ TEST(bad_readings) {
   carom_calibration found;
   carom_bank bank;
   set_up();
-  const double off[CAROM_BANKS] = {3.0, 5.0, 6.9};
+  const double off[CAROM_BANKS] = {3.0, 6.5, 5.6};
   ck_assert_int_eq(carom_calibrate(&table, &usual, off, &found), CAROM_OK);
   ck_assert(found.misfit > 2.0);
-  static const double bad[][CAROM_BANKS] = {{0.0, 5.0, 6.9}, {4.8, 8.0, 6.9}, {4.8, 5.0, NAN}};
+  static const double bad[][CAROM_BANKS] = {{0.0, 5.8, 5.6}, {4.8, 8.0, 5.6}, {4.8, 5.8, NAN}};
   for (int k = 0; k < 3; k++)
     ck_assert_int_eq(carom_calibrate(&table, &usual, bad[k], &found), CAROM_ERROR_POSITION);
   ck_assert_int_eq(carom_calibrate(NULL, &usual, off, &found), CAROM_ERROR_NULL);
@@ -109,6 +109,6 @@ TEST(bad_readings) {
   ck_assert_int_eq(carom_bank_of(CAROM_BANKS, &bank), CAROM_ERROR_POSITION);
   ck_assert_int_eq(carom_bank_of(-1, &bank), CAROM_ERROR_POSITION);
   ck_assert_int_eq(carom_bank_of(0, NULL), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_bank_of(1, &bank), CAROM_OK);
+  ck_assert_int_eq(carom_bank_of(2, &bank), CAROM_OK);
   ck_assert(bank.speed > 0.0 && bank.roll == 0.0);
 }

@@ -121,7 +121,7 @@ test("three banks find the cushions of a table, and conditions are named", () =>
   expect(found.misfit).toBeLessThan(1e-6);
   expect(carom.bank(0).aim).toBe(2.5);
   expect(() => carom.bank(3)).toThrow("bank 3");
-  expect(() => carom.calibrate([4.7, 4.8, 8.5], here)).toThrow("readings 4.7, 4.8, 8.5");
+  expect(() => carom.calibrate([4.7, 5.6, 8.5], here)).toThrow("readings 4.7, 5.6, 8.5");
   for (const [condition] of rows.words.CONDITION!)
     expect(carom.kind("pool", "default", [condition as "fast_cloth"]).radius).toBeGreaterThan(0);
   const slow = carom.kind("pool", "default", ["slow_cloth", "old_cushion"]);
