@@ -498,7 +498,8 @@ typedef struct carom_plan_options {
                                    were not played have `seen` 0 and the value NaN. */
   int64_t slice;                /* about how many events of shots to play before carom_plan() and
                                    carom_plan_hand() return with *found 0, for
-                                   carom_plan_continue(). 0: they return at the end.
+                                   carom_plan_continue(). An event among more than eight balls
+                                   counts more. 0: they return at the end.
                                    carom_plan_try() does not read it. */
   double unsure;                /* how little the player knows about the table, 0 to 1. Above 0,
                                    four numbers of the table are drawn at random together with the
@@ -639,10 +640,10 @@ CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double l
 
 /* Goes on with a plan in slices, for an opponent who thinks between the frames of a game: plays
  * options->slice more events. *found is 0 until the plan has ended. The choices then have the bits
- * of a plan in one call. 500 events take about 1 ms; a slice takes somewhat longer if candidates
- * are made or sorted in it. The job, its memory and everything that it points to are those of the
- * call before, unchanged. A plan that has ended stays as it is, and a plan whose options->stop was
- * set ends. Returns CAROM_OK; CAROM_ERROR_NULL as in carom_plan(); or CAROM_ERROR_STATE if the
+ * of a plan in one call. 500 events take at most about 1 ms; a slice takes longer by one shot, or
+ * if candidates are sorted in it. The job, its memory and everything that it points to are those of
+ * the call before, unchanged. A plan that has ended stays as it is, and a plan whose options->stop
+ * was set ends. Returns CAROM_OK; CAROM_ERROR_NULL as in carom_plan(); or CAROM_ERROR_STATE if the
  * memory has no plan of this job.
  *
  *     options.slice = 1000;  // 2 ms

@@ -20,14 +20,14 @@ typedef struct strength_job {
   shared_options shared;
   int rules, racks, shots, seed, left, target;
   bool games, run_out;
-  double errors, unsure;
+  double errors, against, unsure;
 } strength_job;
 
 OPTION(strength_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES,
        "the game (default eightball). If the break of a game is a stroke like others, two players "
        "play it from its rack");
 OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
-       "two players with the same errors play each rack to the end; report the chances to win");
+       "two players play each rack to the end; report the chances to win");
 
 OPTION(strength_job, option_run_out, "run-out", run_out, 0, NULL, set_flag, 0, "plan to run out");
 OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1,
@@ -36,6 +36,8 @@ OPTION(strength_job, option_shots, "shots", shots, 0, "N", set_count, 100,
        "shots of a plan (default 2000)");
 OPTION(strength_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
        "scale of the player's errors (default 1)");
+OPTION(strength_job, option_against, "against", against, 0, "SCALE", set_amount, 0,
+       "with --games: scale of the errors of the second player (default: as --errors)");
 OPTION(strength_job, option_unsure, "unsure", unsure, 0, "SHARE", set_amount, 0,
        "how little the player knows about the table, 0 to 1 (default 0)");
 OPTION(strength_job, option_seed, "seed", seed, 0, "N", set_count, 0,
@@ -84,6 +86,15 @@ static void end_rack(bin *bins, int count) {
   }
 }
 
+/* The players of a stroke: the one at the table, and the opponent. */
+static void seat(const strength_job *job, int who, lab_rack *rack) {
+  static carom_player opponent;
+  const double errors[2] = {job->errors, job->against > 0.0 ? job->against : job->errors};
+  rack->player = carom_player_of(errors[who]);
+  opponent = carom_player_of(errors[1 - who]);
+  rack->options.opponent = &opponent;
+}
+
 /* One rack: strokes until the turn is not kept, or until the game is won. */
 static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally *to) {
   const carom_rules_kind rules = (carom_rules_kind)job->rules;
@@ -102,6 +113,7 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
     carom_choice best;
     const double begin = processor_ns();
     who = turn.outcome == CAROM_TURN_PASS ? 1 - who : who;
+    seat(job, who, rack);
     if (!lab_rack_stroke(rack, &best, &turn))
       return;
     to->seconds += 1e-9 * (processor_ns() - begin);
@@ -206,10 +218,10 @@ static const command_form form = {
         "in hand after a break that potted nothing. Reports how many racks are run out, and how "
         "often shots keep the turn, beside the predicted chance. With --games each rack is played "
         "to the end, and the predicted chances to win stand beside the share of games won.\n",
-    .options =
-        (const option_row *const[]){&option_rules, &option_games, &option_run_out, &option_left,
-                                    &option_target, &option_racks, &option_shots, &option_errors,
-                                    &option_unsure, &option_seed, &option_threads, NULL},
+    .options = (const option_row *const[]){&option_rules, &option_games, &option_run_out,
+                                           &option_left, &option_target, &option_racks,
+                                           &option_shots, &option_errors, &option_against,
+                                           &option_unsure, &option_seed, &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
     .example = "carom-lab plan --racks 100 --shots 1000",
     .files = NO_FILES,

@@ -43,6 +43,9 @@ static double raised(const search *plan, const candidate *c) {
   return carom_least_elevation(plan->job.table, plan->played, (int)plan->plays, &cue);
 }
 
+/* To raise a stick and to aim take as long as so many events of a shot. */
+enum { RAISE_COST = 4, AIM_COST = 4 };
+
 /* The elevation is the least of the stick, but where the caller gave it, or an aim did. A gentle
  * stroke is added whatever that is. */
 void carom_search_add(search *plan, candidate c) {
@@ -52,8 +55,10 @@ void carom_search_add(search *plan, candidate c) {
   const bool given = c.kind == CAROM_PLAN_GIVEN || c.kind == CAROM_PLAN_PASS;
   if (!given)
     bound(plan, &c);
-  if (!given && c.kind != CAROM_PLAN_POT)
+  if (!given && c.kind != CAROM_PLAN_POT) {
     c.theta = raised(plan, &c);
+    carom_search_spend(plan, RAISE_COST);
+  }
   const bool played = given || c.kind == CAROM_PLAN_FOUL || c.theta <= STICK_MOST;
   if (plan->count < plan->most && played) {
     c.order = (int32_t)plan->count;
@@ -128,7 +133,8 @@ static size_t aim_rows(const void *context, size_t first, size_t end) {
     const int64_t row = plan->stage.done + (int64_t)k;
     if (row > 0 && carom_is_stopped(plan))
       return k;
-    plan->outcome[row] = (outcome){.turn = aim(plan, &plan->found[plan->stage.first + row])};
+    const int turn = aim(plan, &plan->found[plan->stage.first + row]);
+    plan->outcome[row] = (outcome){.turn = (int8_t)turn, .events = AIM_COST};
   }
   return end;
 }
@@ -345,14 +351,15 @@ static double towards(const search *plan, uint64_t row) {
  * 0.595 with it, 0.572 without. */
 bool carom_search_scan(search *plan) {
   /* in blocks that are sooner made than a plan has to stop */
-  enum { LEAST = 16, MOST = 4096 };
+  enum { LEAST = 16, MOST = 64 };
   const double parts = (double)carom_max(plan->places, 2);
   const int64_t block = (int64_t)carom_within((double)plan->scan / parts, LEAST, MOST);
   if (plan->tried >= 4 * plan->scan || plan->count >= plan->scan_end || carom_is_stopped(plan))
     return false;
   carom_search_next_place(plan);
   const double begin = carom_uniform(plan->options.seed, DRAW_SCAN, 0, 0);
-  const int64_t first = plan->count, end = plan->tried + block;
+  const int64_t first = plan->count;
+  const int64_t end = carom_min(plan->tried + block, 4 * plan->scan);
   for (; plan->tried < end && plan->count < plan->most; plan->tried++) {
     /* a direction, and a speed and a tip that are drawn */
     const uint64_t row = (uint64_t)plan->tried + 1;
@@ -397,7 +404,9 @@ void carom_search_scanned(search *plan) {
   for (int64_t k = 0; k < added && plan->count < plan->scan_end; k++)
     if (plan->found[first + k].kind == CAROM_PLAN_PUSH ||
         carom_search_begins_well(plan, plan->outcome[k].first)) {
-      carom_search_add(plan, plan->found[first + k]);
+      plan->found[plan->count] = plan->found[first + k];
+      plan->found[plan->count].order = (int32_t)plan->count;
+      plan->count++;
       carom_search_take(plan, plan->count - 1, &plan->outcome[k]);
     }
 }

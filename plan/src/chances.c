@@ -98,7 +98,19 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
   memcpy(x, numbers, sizeof numbers);
 }
 
-double carom_stretched(const carom_view *view, double value) {
-  const double least = 1e-9, v = carom_within(value, least, 1.0 - least);
-  return 1.0 / (1.0 + carom_exp(-numbers_of(view)->stretch * carom_log(v / (1.0 - v))));
+static double log_odds_of(double chance) {
+  const double least = 1e-9, p = carom_within(chance, least, 1.0 - least);
+  return carom_log(p / (1.0 - p));
+}
+
+void carom_find_edges(carom_view *view) {
+  for (int n = 1; n <= MOST_LEFT; n++)
+    view->edge[n] = 0.5 * (log_odds_of(view->win[0][n][n]) - log_odds_of(view->win[1][n][n]));
+}
+
+double carom_stretched(const carom_view *view, double value, int who, int n) {
+  const learned *numbers = numbers_of(view);
+  const double edge = who == 0 ? view->edge[n] : -view->edge[n];
+  const double odds = numbers->edge * edge + numbers->stretch * (log_odds_of(value) - edge);
+  return 1.0 / (1.0 + carom_exp(-odds));
 }

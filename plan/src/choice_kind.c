@@ -16,12 +16,9 @@ static int32_t point_kind(const carom_facts *facts, int ball) {
   return CAROM_PLAN_CAROM;
 }
 
-int32_t carom_search_kind(search *plan, const carom_candidate *c, const carom_choice *choice) {
+/* The kind by which a stroke of the scan pots the ball that a choice names. */
+static int32_t seen_kind(search *plan, const carom_candidate *c, const carom_choice *choice) {
   enum { TRIES = 8, EVENTS = sizeof plan->event / sizeof plan->event[0] };
-  if (choice->kind != CAROM_PLAN_SCAN)
-    return choice->kind;
-  if (choice->ball < 0)
-    return CAROM_PLAN_SAFETY;
   int ball = 0;
   while (plan->which[ball] != choice->ball)
     ball++;
@@ -36,6 +33,7 @@ int32_t carom_search_kind(search *plan, const carom_candidate *c, const carom_ch
     const carom_prepared layout = carom_search_layout(plan, c, draws, n, &struck);
     cue.ball = plan->cue_ball;
     carom_shoot_prepared(&layout, &cue, &shot);
+    carom_search_spend(plan, shot.count);
     int32_t kind;
     if (plan->view.pockets > 0)
       kind = carom_pot_kind(plan->job.table, &shot, plan->cue_ball, ball, choice->pocket);
@@ -45,4 +43,18 @@ int32_t carom_search_kind(search *plan, const carom_candidate *c, const carom_ch
       return kind;
   }
   return CAROM_PLAN_SCAN;
+}
+
+int32_t carom_search_kind(search *plan, carom_candidate *c, const carom_choice *choice) {
+  if (choice->kind != CAROM_PLAN_SCAN)
+    return choice->kind;
+  if (choice->ball < 0)
+    return CAROM_PLAN_SAFETY;
+  const bool is_seen = c->seen_kind > 0 && c->seen_ball == choice->ball;
+  if (!is_seen || c->seen_pocket != choice->pocket) {
+    c->seen_kind = (int16_t)(1 + seen_kind(plan, c, choice));
+    c->seen_ball = (int16_t)choice->ball;
+    c->seen_pocket = (int16_t)choice->pocket;
+  }
+  return c->seen_kind - 1;
 }

@@ -68,7 +68,8 @@ enum { CAROM_GAMES(CAROM_GAME_ROW) };
 typedef struct learned {
   double next[NEXT_NUMBERS], later[LATER_NUMBERS], first[FIRST_NUMBERS];
   double mean;    /* of x[2] */
-  double stretch; /* of the log-odds of a value: carom-lab plan --games tells it */
+  double stretch; /* of the log-odds of a value: carom-lab plan --games tells it. It is about the */
+  double edge;    /* difference of the players, of which this share counts: --against shows it */
 } learned;
 
 /* Of the games that were played for it; the others have those of one with the same race. */
@@ -82,7 +83,8 @@ static const learned learned_of[] = {
          /* log-likelihood of a stroke -0.5535; of one number for all, -0.6161 */
          .first = {2.520, -1.370, -1.846},
          .mean = 0.624,
-         .stretch = 0.9},
+         .stretch = 0.9,
+         .edge = 1.0},
     [CAROM_RULES_NINEBALL] =
         {/* of 19183 strokes: carom-lab learn --rules nineball --racks 6144 --shots 200 --seed 0 */
          /* log-likelihood of a stroke -0.2877; of one number for all, -0.4606 */
@@ -92,7 +94,8 @@ static const learned learned_of[] = {
          /* log-likelihood of a stroke -0.5699; of one number for all, -0.6717 */
          .first = {1.141, -1.421, 2.196},
          .mean = 0.738,
-         .stretch = 1.5},
+         .stretch = 1.5,
+         .edge = 0.8},
     [CAROM_RULES_ONEPOCKET] =
         {/* of 17534 strokes: carom-lab learn --rules onepocket --racks 6144 --shots 200 --seed 0 */
          /* log-likelihood of a stroke -0.3248; of one number for all, -0.5642 */
@@ -102,7 +105,8 @@ static const learned learned_of[] = {
          /* log-likelihood of a stroke -0.6616; of one number for all, -0.6888 */
          .first = {0.211, -0.555, -0.329},
          .mean = 0.155,
-         .stretch = 1.6},
+         .stretch = 1.6,
+         .edge = 1.0},
     [CAROM_RULES_STRAIGHT] =
         {/* of 19836 strokes: carom-lab learn --rules straight --racks 2048 --shots 200 --seed 0 */
          /* log-likelihood of a stroke -0.1891; of one number for all, -0.2654 */
@@ -112,7 +116,8 @@ static const learned learned_of[] = {
          /* log-likelihood of a stroke -0.4254; of one number for all, -0.4976 */
          .first = {3.305, -1.726, -2.164},
          .mean = 0.455,
-         .stretch = 1.0},
+         .stretch = 1.0,
+         .edge = 1.0},
     [CAROM_RULES_SNOOKER] =
         {/* of 5484 strokes: carom-lab learn --rules snooker --racks 1792 --shots 200 --seed 0 */
          /* log-likelihood of a stroke -0.3135; of one number for all, -0.6076 */
@@ -122,7 +127,8 @@ static const learned learned_of[] = {
          /* log-likelihood of a stroke -0.4624; of one number for all, -0.6190 */
          .first = {-0.530, -1.434, -0.500},
          .mean = 0.260,
-         .stretch = 1.0},
+         .stretch = 1.0,
+         .edge = 1.0},
 };
 
 #endif

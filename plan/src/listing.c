@@ -135,7 +135,7 @@ static bool has_same(const carom_choice *choices, int n, const carom_choice *cho
 }
 
 /* What a candidate tells, with its kind. */
-static carom_choice with_kind(search *plan, const candidate *c) {
+static carom_choice with_kind(search *plan, candidate *c) {
   carom_choice choice = carom_search_choice(plan, c);
   choice.kind = carom_search_kind(plan, c, &choice);
   return choice;
@@ -181,23 +181,28 @@ static void list_safeties(search *plan) {
   }
 }
 
-void carom_search_list(search *plan) {
+bool carom_search_list(search *plan) {
   carom_choice listed[LISTED_MOST];
-  listed[0] = with_kind(plan, &plan->found[0]);
-  plan->listed = 1;
-  bool safe = listed[0].kind == CAROM_PLAN_SAFETY;
-  for (int64_t k = 1; k < plan->count && plan->listed < plan->wanted; k++) {
-    if (!is_listed(plan, &plan->found[k]))
+  for (int k = 0; k < plan->listed; k++)
+    listed[k] = with_kind(plan, &plan->found[k]);
+  for (; plan->asked < plan->count && plan->listed < plan->wanted; plan->asked++) {
+    if (plan->slice == 0)
+      return false;
+    candidate *c = &plan->found[plan->asked];
+    if (!is_listed(plan, c))
       continue;
-    listed[plan->listed] = with_kind(plan, &plan->found[k]);
-    if (has_same(listed, plan->listed, &listed[plan->listed]))
-      continue;
-    safe |= listed[plan->listed].kind == CAROM_PLAN_SAFETY;
-    swap(&plan->found[plan->listed++], &plan->found[k]);
+    listed[plan->listed] = with_kind(plan, c);
+    if (!has_same(listed, plan->listed, &listed[plan->listed]))
+      swap(&plan->found[plan->listed++], c);
   }
+
+  bool safe = false;
+  for (int k = 0; k < plan->listed; k++)
+    safe |= listed[k].kind == CAROM_PLAN_SAFETY;
   const bool alone = plan->job.rules->race == CAROM_RACE_ALONE;
   if (plan->wanted > 1 && !safe && !alone && !plan->breaks && plan->view.pockets > 0)
     list_safeties(plan);
+  return true;
 }
 
 /* Sorts a choice in behind n choices, the best first; of two of one value the one that keeps the

@@ -34,6 +34,9 @@ static bool find_range(search *plan, const double low[2], const double high[2]) 
       range->high[x] = fmin(range->high[x], d_high[x]);
     }
   }
+  /* a game is opened from the head line, if the caller has no upper bound */
+  if (plan->breaks && high == NULL)
+    range->high[1] = fmin(range->high[1], 0.25 * size[1]);
   return range->low[0] <= range->high[0] && range->low[1] <= range->high[1];
 }
 
@@ -47,16 +50,12 @@ static void draw_place(const search *plan, uint64_t k, double r[2]) {
 }
 
 enum { BREAK_PLACES = 6 };
-/* The place number k of a break: one of six across, where the range ends, or at the head line, from
- * which a game is opened, if the caller has no upper bound. */
-static void break_place(const search *plan, bool bounded, uint64_t k, double r[2]) {
+/* The place number k of a break: one of six across, where the range ends. */
+static void break_place(const search *plan, uint64_t k, double r[2]) {
   static const double across[BREAK_PLACES] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
   const carom_hand_range *range = &plan->range;
-  const double head = 0.25 * plan->view.length;
   r[0] = range->low[0] + (range->high[0] - range->low[0]) * across[k % BREAK_PLACES];
   r[1] = range->high[1];
-  if (!bounded && r[1] > head)
-    r[1] = head;
 }
 
 /* Puts the cue ball in hand on a place. */
@@ -84,26 +83,41 @@ static void keep_place(search *plan, const double r[2]) {
   plan->best_place[at] = (carom_place_in_hand){{r[0], r[1]}, value};
 }
 
-bool carom_search_find_places(search *plan, const double low[2], const double high[2]) {
-  plan->places = 0;
+/* Tries the next place. False: there is none. */
+static bool try_place(search *plan) {
+  enum { COST = 30 }; /* events of a shot that take as long as a value */
+  const uint64_t draws = plan->breaks ? BREAK_PLACES : 50 * PLACES;
+  if (plan->drawn_places == draws || plan->tried_places == PLACES)
+    return false;
+  double r[2];
+  if (plan->breaks)
+    break_place(plan, plan->drawn_places, r);
+  else
+    draw_place(plan, plan->drawn_places, r);
+  plan->drawn_places++;
+  if (place_in_hand(plan, r)) {
+    plan->tried_places++;
+    keep_place(plan, r);
+    carom_search_spend(plan, COST);
+  }
+  return true;
+}
+
+bool carom_search_find_place(search *plan, const double low[2], const double high[2]) {
+  plan->places = plan->tried_places = 0;
+  plan->drawn_places = 0;
   if (!find_range(plan, low, high))
     return false;
-  uint64_t draws = 50 * PLACES;
-  if (plan->breaks)
-    draws = BREAK_PLACES;
-  int tried = 0;
-  for (uint64_t k = 0; k < draws && tried < PLACES; k++) {
-    double r[2];
-    if (plan->breaks)
-      break_place(plan, high != NULL, k, r);
-    else
-      draw_place(plan, k, r);
-    if (!place_in_hand(plan, r))
-      continue;
-    tried++;
-    keep_place(plan, r);
-  }
+  while (plan->places == 0 && try_place(plan))
+    continue;
   return plan->places > 0;
+}
+
+bool carom_search_find_places(search *plan) {
+  while (!carom_is_stopped(plan) && try_place(plan))
+    if (plan->slice == 0)
+      return false;
+  return true;
 }
 
 bool carom_search_put(search *plan, const double r[2]) {

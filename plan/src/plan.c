@@ -357,6 +357,17 @@ static void plan_here(void *context, carom_crew *crew) {
   plan->ended = true;
 }
 
+/* First of all finds the places of a cue ball in hand. */
+static void find_places(void *context, carom_crew *crew) {
+  search *plan = context;
+  plan->crew = crew;
+  if (!carom_search_find_places(plan))
+    return;
+  plan->go = plan_here;
+  carom_search_begin_doubling(plan, FIRST, carom_max(shots_of(&plan->options), IN_HAND_LEAST));
+  plan_here(context, crew);
+}
+
 /* Strokes that the caller gave, each with its share of the shots. */
 static void try_all(void *context, carom_crew *crew) {
   search *plan = context;
@@ -436,18 +447,17 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
     return status;
   think(plan);
   memcpy(plan->hand, job->balls, (size_t)job->count * sizeof *plan->hand);
-  if (!carom_search_find_places(plan, low, high))
+  if (!carom_search_find_place(plan, low, high))
     return CAROM_ERROR_OFF_TABLE;
 
-  /* with the cue ball on the best place the layout can be checked */
+  /* with the cue ball on a place the layout can be checked */
   plan->job.balls = plan->hand;
   carom_search_put(plan, plan->best_place[0].r);
   status = prepare(plan, plan->hand, true);
   if (status != CAROM_OK)
     return status;
   plan->fingerprint = fingerprint_of(job);
-  plan->go = plan_here;
-  carom_search_begin_doubling(plan, FIRST, carom_max(shots_of(&plan->options), IN_HAND_LEAST));
+  plan->go = find_places;
   return play_slice(plan, choices, room, found);
 }
 

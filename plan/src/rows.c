@@ -262,20 +262,22 @@ void carom_search_stage(search *plan, int64_t first, int64_t candidates, int64_t
       .work = play_rows, .first = first, .each = each, .rows = candidates * each, .draws = draws};
 }
 
+/* An event among many balls takes longer. */
+void carom_search_spend(search *plan, int64_t events) {
+  const int64_t cost = 1 + events * (8 + plan->plays) / 16;
+  plan->slice -= carom_min(cost, plan->slice);
+}
+
 bool carom_search_play(search *plan) {
-  enum { EVENTS_MOST = 64 }; /* of all but few shots */
+  enum { COST = 256 }; /* of all but few rows */
   carom_stage *s = &plan->stage;
   do {
-    /* in a slice a block of rows whose events are hardly more than what is left of it */
-    int64_t rows = s->rows - s->done;
-    if (!carom_is_stopped(plan))
-      rows = carom_min(rows, plan->slice / EVENTS_MOST + (plan->slice > 0));
-    const int64_t played =
-        (int64_t)carom_crew_work(plan->crew, s->work, plan, (size_t)rows, ROWS_LEAST);
-    for (int64_t k = s->done; k < s->done + played && plan->slice > 0; k++) {
-      const int64_t events = 1 + plan->outcome[k].events;
-      plan->slice -= carom_min(events, plan->slice);
-    }
+    /* in a slice a block of rows that cost hardly more than what is left of it */
+    const int64_t left = s->rows - s->done, block = plan->slice / COST + (plan->slice > 0);
+    const size_t rows = (size_t)(left > block && !carom_is_stopped(plan) ? block : left);
+    const int64_t played = (int64_t)carom_crew_work(plan->crew, s->work, plan, rows, ROWS_LEAST);
+    for (int64_t k = s->done; k < s->done + played; k++)
+      carom_search_spend(plan, plan->outcome[k].events);
     s->done += played;
     plan->late |= carom_is_late(plan);
   } while (s->done < s->rows && plan->slice > 0 && !carom_is_stopped(plan));

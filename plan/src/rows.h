@@ -14,6 +14,8 @@ void carom_search_stage(carom_search *plan, int64_t first, int64_t candidates, i
  * all rows are played, or those before the plan was stopped, at least one. It is not done where the
  * slice has ended. */
 bool carom_search_play(carom_search *plan);
+/* Takes the cost of a shot with so many events from the slice. */
+void carom_search_spend(carom_search *plan, int64_t events);
 /* The layout of a row of a candidate, whose cue ball, *struck, lies where it is put. */
 carom_prepared carom_search_layout(const carom_search *plan, const carom_candidate *c,
                                    uint32_t draws, int64_t row, carom_ball_state *struck);

@@ -120,16 +120,24 @@ static void replay(search *plan) {
   plan->next = NEXT_REPLAY;
 }
 
-/* So are the other choices of the list, by fewer shots. A plan that a greater one follows has no
- * list. */
-static void replay_list(search *plan) {
-  enum { SHARE = 40, LEAST = 20 };
+/* The other choices of the list are looked for. A plan that a greater one follows has no list. */
+static void begin_list(search *plan) {
   plan->next = NEXT_ENDED;
   if (carom_is_stopped(plan) || plan->wanted == 1 || plan->rest > 0)
     return;
   carom_search_sort(plan, plan->count);
-  carom_search_list(plan);
-  if (plan->listed == 1)
+  plan->asked = 1;
+  carom_search_stage(plan, 0, 0, 1, 0);
+  plan->next = NEXT_LIST;
+}
+
+/* They are played by shots that choose nothing, too, but by fewer. */
+static void replay_list(search *plan) {
+  enum { SHARE = 40, LEAST = 20 };
+  if (!carom_is_stopped(plan) && !carom_search_list(plan))
+    return;
+  plan->next = NEXT_ENDED;
+  if (carom_is_stopped(plan) || plan->listed == 1)
     return;
   carom_search_stage(plan, 1, plan->listed - 1, carom_max(plan->shots / SHARE, LEAST), DRAW_REPLAY);
   plan->next = NEXT_LISTED;
@@ -342,6 +350,9 @@ static void go_on(search *plan) {
   case NEXT_REPLAY:
     if (plan->found[0].kind != CAROM_PLAN_PASS)
       carom_search_replayed(plan);
+    begin_list(plan);
+    break;
+  case NEXT_LIST:
     replay_list(plan);
     break;
   case NEXT_LISTED:
@@ -386,7 +397,10 @@ void carom_search_begin(search *plan, int64_t shots) {
 }
 
 bool carom_search_run(search *plan) {
-  while (plan->next != NEXT_ENDED && carom_search_play(plan))
+  while (plan->next != NEXT_ENDED) {
+    if (plan->slice == 0 || !carom_search_play(plan))
+      return false;
     go_on(plan);
-  return plan->next == NEXT_ENDED;
+  }
+  return true;
 }

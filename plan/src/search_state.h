@@ -44,6 +44,8 @@ typedef struct carom_candidate {
   int16_t ball, pocket, cushions;             /* the pot that is named, */
   int16_t pots;                               /* 1: the shot without errors pots a ball: */
   int16_t own_ball, own_pocket, own_cushions; /* this one */
+  int16_t seen_kind, seen_ball, seen_pocket;  /* 1 + the kind by which it was seen to make a pot, */
+                                              /* 0: not yet; and that pot */
 } carom_candidate;
 
 /* What one shot tells. */
@@ -53,7 +55,7 @@ typedef struct carom_outcome {
   int8_t ball, pocket; /* the pot that keeps the turn, or -1 */
   int16_t cushions;    /* impacts of that ball on cushions */
   int8_t first;        /* the ball that was met first, or -1 */
-  uint8_t events;      /* of the shot, at most 255 */
+  uint16_t events;     /* of the shot */
 } carom_outcome;
 
 /* A stage plays each of some candidates several times. Row k is the shot of candidate
@@ -76,7 +78,8 @@ typedef enum carom_search_next {
   NEXT_DUEL,   /* it sorts the few best, which were played against each other */
   NEXT_LOOK,   /* it compares another pot, which was played again, with the best */
   NEXT_REPLAY, /* it takes the shots of the best that have chosen nothing, */
-  NEXT_LISTED, /* and those of the other choices */
+  NEXT_LIST,   /* it looks for other choices among the candidates, */
+  NEXT_LISTED, /* and takes their shots that have chosen nothing */
   NEXT_GENTLE  /* it takes a gentle stroke, the only one */
 } carom_search_next;
 
@@ -162,6 +165,9 @@ typedef struct carom_search {
   int round, look, duels;        /* that have begun */
   int place, raced;              /* from which candidates are made; how many places are tried */
   int wanted, listed;            /* choices that the caller has room for; that stand first */
+  int64_t asked;                 /* candidates that have been asked whether they are listed */
+  uint64_t drawn_places;         /* places of a cue ball in hand that have been drawn */
+  int tried_places;              /* and those of them that could be tried */
   carom_candidate best;          /* of the rounds of doubling before */
 } carom_search;
 

@@ -91,6 +91,7 @@ void carom_view_make(carom_view *view, const carom_plan_job *job,
       e[who][n] = carom_chance_first(view, who, n);
     }
   chain(view, a, e);
+  carom_find_edges(view);
 }
 
 static double with_targets(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
@@ -127,7 +128,7 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
   CAROM_PROMISE(worth >= 0.0 && so_far >= 0.0 && so_far <= 1.0 && (alone || worth <= 1.0));
   if (alone)
     return worth;
-  return carom_stretched(view, worth + so_far);
+  return carom_stretched(view, worth + so_far, who, left[0]);
 }
 
 /* The value to one who plays. */

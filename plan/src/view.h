@@ -92,6 +92,9 @@ typedef struct carom_view {
   /* chance to win at one's turn, by the balls left to oneself and to the other: of the player,
    * of his opponent */
   double win[2][MOST_LEFT + 1][MOST_LEFT + 1];
+  /* how much better the player is than the opponent, by the balls that each has left: half the
+   * difference of their log-odds to win at their turns */
+  double edge[MOST_LEFT + 1];
   /* of the balls where they are before the shot; most of them stay there */
   double at[CAROM_BALLS_MOST][2];
   carom_window window[CAROM_BALLS_MOST][CAROM_POCKETS_MOST];
@@ -134,8 +137,10 @@ double carom_chance_first(const carom_view *view, int who, int n);
 bool carom_is_learned(const carom_view *view);
 /* The mean over the balls of a usual layout. */
 double carom_chance_usual(const carom_view *view);
-/* A value with its log-odds stretched. */
-double carom_stretched(const carom_view *view, double value);
+void carom_find_edges(carom_view *view);
+/* A value to `who`, who has n balls left, with its log-odds stretched about the edge of that
+ * player. */
+double carom_stretched(const carom_view *view, double value, int who, int n);
 
 /* value.c */
 void carom_view_make(carom_view *view, const carom_plan_job *job,

@@ -109,6 +109,33 @@ TEST(plans_in_slices) {
   }
 }
 
+/* Values of layouts that were asked for. */
+static int64_t values;
+static double count_values(const carom_rules_state *state, const carom_ball_state *layout,
+                           int count, int in_hand) {
+  (void)state, (void)layout, (void)count, (void)in_hand;
+  values++;
+  return 0.5;
+}
+
+/* No slice tries all places of a cue ball in hand, which would take longer than its shots. */
+TEST(places_in_slices) {
+  carom_choice best;
+  int found;
+  make_layout(3, 6);
+  rules.value = count_values;
+  options.slice = 100;
+  make_memory();
+  values = 0;
+  ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
+  while (found == 0) {
+    ck_assert_int_le(values, options.slice / 5);
+    values = 0;
+    ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_OK);
+  }
+  edge_free(&memory);
+}
+
 /* A plan of many shots that is stopped is about as good as a whole one of half of those that it has
  * played, by fresh strokes; and one whose seconds are over is stopped. */
 TEST(stopped_plans_are_worth_their_shots) {

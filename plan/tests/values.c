@@ -40,3 +40,30 @@ TEST(values) {
   ck_assert_int_eq(carom_plan_value(&job, 0, &hand), CAROM_OK);
   ck_assert(hand >= 0.0 && hand < blocked && blocked <= 1.0);
 }
+
+/* The mean value of layouts of nine-ball with six balls, in hand, of a player and an opponent. */
+static double nineball(double errors, double against) {
+  enum { LAYOUTS = 40 };
+  const carom_player opponent = carom_player_of(against);
+  double sum = 0.0;
+  for (uint64_t seed = 1; seed <= LAYOUTS; seed++) {
+    double value;
+    make_layout(seed, 7);
+    rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+    player = carom_player_of(errors);
+    options.opponent = &opponent;
+    job.count = 10;
+    ck_assert_int_eq(carom_plan_value(&job, 1, &value), CAROM_OK);
+    sum += value / LAYOUTS;
+  }
+  return sum;
+}
+
+/* Values are steeper than the chain of turns has them, but not for a difference of the players: of
+ * 400 games of nine-ball the one with errors of 1 won 88 % of those in which it had a turn, against
+ * errors of 3. */
+TEST(values_of_unequal_players) {
+  const double better = nineball(1.0, 3.0), weaker = nineball(3.0, 1.0);
+  ck_assert(better > 0.82 && better < 0.92);
+  ck_assert(weaker > 0.25 && weaker < 0.45);
+}
