@@ -8,6 +8,7 @@
 #include "carom_plan.h"
 #include "carom_record.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -62,6 +63,10 @@ static bool go_on(void) { /* a sixtieth of a second of the break */
 }
 static bool next_frame(void) {
   at = at + 1.0 / 60.0 < shot.time ? at + 1.0 / 60.0 : 0.0;
+  return carom_shot_frames(rack, BALLS, &shot, &at, 1, &film, states, turned) == CAROM_OK;
+}
+static bool last_frame(void) {
+  at = at > 0.0 ? fmax(0.0, at - 1.0 / 60.0) : shot.time;
   return carom_shot_frames(rack, BALLS, &shot, &at, 1, &film, states, turned) == CAROM_OK;
 }
 static bool any_states(void) {
@@ -125,6 +130,7 @@ static const struct {
     {"the break up to the first contact", play_to_contact, 10},
     {"carom_shot_continue(): the break, for 1/60 s", go_on, 10},
     {"carom_shot_frames(): the next frame of the break", next_frame, 10},
+    {"the frame before it, of a film that runs back", last_frame, 10},
     {"carom_shot_at(): states in the middle of the break", any_states, 10},
     {"carom_shot_drawn(): the same, with balls that fall", any_drawn, 10},
     {"carom_shot_orientation(): turns in the middle of the break", any_turns, 1},

@@ -1132,16 +1132,16 @@ CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int 
 /* How far carom_shot_frames() has gone: the caller's memory, all zero before the first call. It is
  * valid in one process only, so do not keep it in files. */
 typedef struct carom_frames {
-  uint64_t opaque[2048];
+  uint64_t opaque[15400];
 } carom_frames;
 
 /* Frames: states and quaternions at `n` times, those of times[k] from states[k * count] and
  * turned[k * count] on, with the bits of carom_shot_at() and carom_shot_orientation(). With
  * `onward`, a call goes on from the last time of the call before, if the balls and the events until
- * then are the same, as they are after carom_shot_continue(). Otherwise, and for an earlier time,
- * it begins with the first event. The bits are the same. `onward` may be NULL. A frame of the 16
- * balls of a break takes 2 us. Errors are those of carom_shot_at_times() and
- * carom_shot_orientation().
+ * then are the same, as they are after carom_shot_continue(). For an earlier time it goes on from
+ * one of about 100 times of the shot that `onward` keeps, so that a film may run back; otherwise it
+ * begins with the first event. The bits are the same. `onward` may be NULL. A frame of the 16 balls
+ * of a break takes 2 us. Errors are those of carom_shot_at_times() and carom_shot_orientation().
  *
  *     static carom_frames film;
  *     double turned[10][4];

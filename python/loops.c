@@ -13,12 +13,12 @@ void carom_python_mu_ball(const carom_impact *in, size_t n, carom_speed_law law,
 carom_status carom_python_orientations(const carom_shot_ball *balls, int count,
                                        const carom_shot *shot, const double *times, size_t n,
                                        double *turned) {
-  carom_frames film = {{0}};
-  carom_ball_state states[CAROM_BALLS_MOST];
-  carom_status status = CAROM_OK;
-  for (size_t k = 0; k < n && status == CAROM_OK; k++)
-    status = carom_shot_frames(balls, count, shot, &times[k], 1, &film, states,
-                               (double(*)[4]) & turned[4 * k * (size_t)count]);
+  carom_ball_state *states = malloc((n * (size_t)count + 1) * sizeof *states);
+  if (states == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_status status =
+      carom_shot_frames(balls, count, shot, times, n, NULL, states, (double(*)[4])turned);
+  free(states);
   return status;
 }
 

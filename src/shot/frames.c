@@ -29,7 +29,36 @@ typedef struct replay {
   double time;
   replayed ball[CAROM_BALLS_MOST];
 } replay;
-_Static_assert(sizeof(replay) <= sizeof(carom_frames), "a replay fits in the words of callers");
+
+/* What a caller keeps: the replay at the last time, and before. */
+typedef struct film {
+  replay now;
+  uint64_t slots[14000];
+} film;
+_Static_assert(sizeof(film) <= sizeof(carom_frames), "a film fits in the words of callers");
+
+/* Keyframes: replays at some times, from which an earlier time is near.
+ *
+ * A shot has spans, and a span has cells, all of the same length. Each span has a slot for its
+ * begin. The further cells of all spans share slots, so that these have the cells of the span in
+ * which the film was last. So a film that runs back replays each span once, and then each frame
+ * from its cell. */
+typedef struct keyframes {
+  unsigned char *slots;
+  size_t size; /* bytes of a slot */
+  int64_t spans, cells;
+  double length; /* of a cell, s */
+} keyframes;
+
+/* Bytes of a replay of so many balls. */
+static size_t size_of(int64_t count) {
+  return offsetof(replay, ball) + (size_t)count * sizeof(replayed);
+}
+
+/* Of the last event that a replay has passed, 0 before the first. */
+static uint64_t last_of(const carom_shot *shot, int64_t next) {
+  return next > 0 ? carom_fingerprint(0, &shot->events[next - 1], sizeof *shot->events) : 0;
+}
 
 /* As the shot begins: nothing has turned. */
 static void begin(replay *at, const carom_shot_ball *balls, int count, bool turns) {
@@ -85,6 +114,79 @@ static bool go_to(replay *at, const carom_shot *shot, int64_t known, double time
   return true;
 }
 
+/* ---- Keyframes ------------------------------------------------------------------------------- */
+
+static keyframes keyframes_of(film *of, int count, const carom_shot *shot) {
+  keyframes made = {.slots = (unsigned char *)of->slots, .size = size_of(count)};
+  const int64_t slots = (int64_t)(sizeof of->slots / made.size);
+  made.spans = slots / 2;
+  made.cells = slots - made.spans + 1;
+  made.length = shot->time / (double)(made.spans * made.cells);
+  return made;
+}
+
+/* The slot of a cell, counted from the beginning of the shot. */
+static void *slot_of(const keyframes *keep, int64_t cell) {
+  const int64_t span = cell / keep->cells, place = cell % keep->cells;
+  return keep->slots + keep->size * (size_t)(place == 0 ? span : keep->spans + place - 1);
+}
+
+/* Takes the replay back, or further on, to the latest keyframe of this shot until a time; to the
+ * begin, where there is none. */
+static void seek(replay *at, const keyframes *keep, const carom_shot_ball *balls,
+                 const carom_shot *shot, int64_t known, double time) {
+  const int64_t slots = keep->spans + keep->cells - 1;
+  const int count = (int)at->count;
+  const uint64_t of = at->of;
+  double least = time < at->time ? 0.0 : at->time;
+  replay *best;
+  do {
+    best = NULL;
+    for (int64_t k = 0; k < slots; k++) {
+      replay *one = (replay *)(void *)(keep->slots + keep->size * (size_t)k);
+      if (one->count != count || one->of != of || one->time > time || one->time <= least)
+        continue;
+      best = one;
+      least = one->time;
+    }
+    if (best == NULL)
+      break;
+
+    /* a shot that was played again has other events */
+    if (best->next <= known && best->last_of == last_of(shot, best->next)) {
+      memcpy(at, best, keep->size);
+      return;
+    }
+    best->count = 0;
+    least = time < at->time ? 0.0 : at->time;
+  } while (best != NULL);
+  if (time < at->time)
+    begin(at, balls, count, true);
+}
+
+/* Goes forward to a time, and keeps the replay at the begin of each cell on the way. */
+static bool go_by_cells(replay *at, const keyframes *keep, const carom_shot *shot, int64_t known,
+                        double time, double *left) {
+  const int64_t cells = keep->spans * keep->cells;
+  for (int64_t cell = (int64_t)(at->time / keep->length) + 1; cell < cells; cell++) {
+    const double begins = (double)cell * keep->length;
+    if (begins > time)
+      break;
+    if (begins <= at->time)
+      continue;
+    if (!go_to(at, shot, known, begins, left))
+      return false;
+    for (int i = 0; i < at->count; i++)
+      if (!go_along(at, &at->ball[i], begins, left))
+        return false;
+    at->last_of = last_of(shot, at->next);
+    memcpy(slot_of(keep, cell), at, keep->size);
+  }
+  return go_to(at, shot, known, time, left);
+}
+
+/* ---- Frames ---------------------------------------------------------------------------------- */
+
 /* The states at a time to which the replay has gone, and the turns; false where they are not to be
  * found. */
 static bool find_states(replay *at, double *left, carom_ball_state *states, double (*turned)[4]) {
@@ -104,10 +206,10 @@ static bool find_states(replay *at, double *left, carom_ball_state *states, doub
   return true;
 }
 
-/* The frames of a shot, onward from those before where `at` is of the same shot; turned may be
- * NULL. */
+/* The frames of a shot, onward from those before where `at` is of the same shot; `keep` and turned
+ * may be NULL. */
 static carom_status replay_times(const carom_shot_ball *balls, int count, const carom_shot *shot,
-                                 const double *times, size_t n, replay *at,
+                                 const double *times, size_t n, replay *at, const keyframes *keep,
                                  carom_ball_state *states, double (*turned)[4]) {
   if (balls == NULL || shot == NULL || (n > 0 && (times == NULL || states == NULL)))
     return CAROM_ERROR_NULL;
@@ -125,10 +227,13 @@ static carom_status replay_times(const carom_shot_ball *balls, int count, const 
     const double time = carom_lesser(times[k], shot->time);
     if (shot->count > room && (room == 0 || time > shot->events[room - 1].time))
       return CAROM_ERROR_EVENTS_LOST;
-    /* an earlier time than the last begins anew */
-    if (at->count == 0 || time < at->time)
+    /* an earlier time than the last begins anew, or from a keyframe */
+    if (at->count == 0 || (keep == NULL && time < at->time))
       begin(at, balls, count, turned != NULL);
-    bool found = go_to(at, shot, known, time, &left);
+    if (keep != NULL && !(time >= at->time && time <= at->time + keep->length))
+      seek(at, keep, balls, shot, known, time);
+    bool found = keep != NULL ? go_by_cells(at, keep, shot, known, time, &left)
+                              : go_to(at, shot, known, time, &left);
     /* the motion after the end of the shot is unknown */
     for (int i = 0; i < count && times[k] > shot->time; i++)
       if (at->ball[i].path.from.label != CAROM_BALL_STATIONARY &&
@@ -148,17 +253,12 @@ carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const 
                                  const double *times, size_t n, carom_ball_state *states) {
   replay at;
   at.count = 0;
-  return replay_times(balls, count, shot, times, n, &at, states, NULL);
+  return replay_times(balls, count, shot, times, n, &at, NULL, states, NULL);
 }
 
 carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot,
                            double time, carom_ball_state *states) {
   return carom_shot_at_times(balls, count, shot, &time, 1, states);
-}
-
-/* Of the last event that a replay has passed, 0 before the first. */
-static uint64_t last_of(const carom_shot *shot, int64_t next) {
-  return next > 0 ? carom_fingerprint(0, &shot->events[next - 1], sizeof *shot->events) : 0;
 }
 
 carom_status carom_shot_frames(const carom_shot_ball *balls, int count, const carom_shot *shot,
@@ -170,23 +270,26 @@ carom_status carom_shot_frames(const carom_shot_ball *balls, int count, const ca
   at.count = 0;
   const bool sound = onward != NULL && balls != NULL && count > 0 && count <= CAROM_BALLS_MOST &&
                      shot != NULL && carom_check_room(shot) == CAROM_OK;
-  const size_t size = offsetof(replay, ball) + (size_t)(sound ? count : 0) * sizeof *at.ball;
-  uint64_t of = 0;
+  const size_t size = size_of(sound ? count : 0);
+  film *kept = (film *)(void *)onward;
+  keyframes keep = {0};
   if (sound) {
     /* frames of another shot begin anew */
     const int64_t room = shot->events != NULL ? shot->room : 0,
                   known = shot->count < room ? shot->count : room;
-    of = carom_fingerprint(0, balls, (size_t)count * sizeof *balls);
-    memcpy(&at, onward, size);
+    const uint64_t of = carom_fingerprint(0, balls, (size_t)count * sizeof *balls);
+    memcpy(&at, &kept->now, size);
     if (at.count != count || at.of != of || at.next < 0 || at.next > known || at.turns != 1 ||
         at.last_of != last_of(shot, at.next))
       at.count = 0;
-  }
-  const carom_status status = replay_times(balls, count, shot, times, n, &at, states, turned);
-  if (sound) {
     at.of = of;
+    keep = keyframes_of(kept, count, shot);
+  }
+  const carom_status status = replay_times(balls, count, shot, times, n, &at,
+                                           keep.length > 0.0 ? &keep : NULL, states, turned);
+  if (sound) {
     at.last_of = at.count > 0 ? last_of(shot, at.next) : 0;
-    memcpy(onward, &at, at.count > 0 ? size : offsetof(replay, ball));
+    memcpy(&kept->now, &at, at.count > 0 ? size : offsetof(replay, ball));
   }
   return status;
 }

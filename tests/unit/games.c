@@ -761,8 +761,20 @@ TEST(turns_in_closed_form) {
                    CAROM_ERROR_EVENTS_LOST);
 }
 
+/* A frame of a film has the bits of single calls. */
+static void same_frame(const carom_shot_ball *balls, const carom_shot *shot, double time,
+                       carom_frames *film) {
+  carom_ball_state one[16], other[16];
+  double q[16][4], turned[16][4];
+  ck_assert_int_eq(carom_shot_frames(balls, 16, shot, &time, 1, film, other, turned), CAROM_OK);
+  ck_assert_int_eq(carom_shot_at(balls, 16, shot, time, one), CAROM_OK);
+  ck_assert_int_eq(carom_shot_orientation(balls, 16, shot, time, q), CAROM_OK);
+  ck_assert(memcmp(one, other, sizeof one) == 0 && memcmp(q, turned, sizeof q) == 0);
+}
+
 /* Frames have the bits of single calls, however they are cut, also where a shot goes on, where time
- * goes back, and where the memory is that of another shot's film. */
+ * goes back, jumps or runs back to the beginning, and where the memory is that of another shot's
+ * film. */
 TEST(frames) {
   static carom_shot_state state;
   static carom_frames film;
@@ -807,6 +819,10 @@ TEST(frames) {
       }
     }
     ck_assert(options.time_most == 0.0);
+    for (int k = 0; k < 50; k++)
+      same_frame(balls, &shot, shot.time * random_between(&r, 0.0, 1.0), &film);
+    for (double time = shot.time; time > 0.0; time -= 0.04)
+      same_frame(balls, &shot, time, &film);
   }
   ck_assert_int_eq(carom_shot_frames(balls, 16, NULL, NULL, 0, &film, other, turned),
                    CAROM_ERROR_NULL);
