@@ -74,8 +74,10 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     return turn;
   const uint32_t may_meet = on(game, in_play);
   game->opening = game->may = 0;
-  if (game->score[0] >= LAST && is_last(facts, cue_ball, call))
+  if (game->score[0] >= LAST && is_last(facts, cue_ball, call)) {
+    carom_add(&game->score[0], 1);
     return (carom_turn){CAROM_TURN_WIN, CAROM_LEAVE_AFTER, CAROM_FOUL_NONE, 0, 1.0};
+  }
 
   /* fouls; a stroke that scores needs no cushion */
   const int32_t gain = made(game, facts);

@@ -313,19 +313,6 @@ carom_status carom_match_begin(carom_match *match, carom_rules_kind kind, const 
 
 /* ---- Rulings */
 
-/* Balls behind the head string may not be met first from there, before the cue ball has crossed it
- * (WPA 6.11). */
-static uint32_t barred(const carom_match *match) {
-  const carom_record *record = &match->record;
-  const double head = 0.25 * record->table.length;
-  uint32_t set = 0;
-  if (match->leave != CAROM_LEAVE_KITCHEN || record->facts.first_high[1] > head)
-    return set;
-  for (int k = 0; k < record->count; k++)
-    set |= (uint32_t)(record->balls[k].state.r[1] < head) << k;
-  return set;
-}
-
 /* A cue ball that was in hand and was not placed, as when the clock ran out, stays in hand within
  * the same bounds, and no player may leave it where it lies. */
 static void keep_in_hand(carom_match *match) {
@@ -385,7 +372,8 @@ static void apply(carom_match *match) {
 static void rule(carom_match *match, bool none, carom_call call) {
   carom_record *record = &match->record;
   carom_facts facts = record->facts;
-  facts.barred = barred(match);
+  if (match->leave == CAROM_LEAVE_KITCHEN)
+    facts.barred = carom_barred(&facts, record->table.length, record->balls, (int)record->count);
   const carom_shot shot = {.facts = &facts, .final = record->final}, *played = &shot;
   if (none)
     played = NULL;

@@ -4,6 +4,7 @@
 #include "rows.h"
 
 #include "drawn_tables.h"
+#include "rules.h"
 
 #include <math.h>
 #include <string.h>
@@ -224,6 +225,11 @@ static void spread(const search *plan, shot_result *with) {
   }
 }
 
+/* Whether the cue ball is in hand behind the head string, by where it may be put. */
+static bool is_in_kitchen(const search *plan) {
+  return plan->places > 0 && fabs(plan->range.high[1] - 0.25 * plan->view.length) < 1e-9;
+}
+
 static size_t play_rows(const void *context, size_t first, size_t end) {
   const search *plan = context;
   const carom_stage *s = &plan->stage;
@@ -241,6 +247,9 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
     if (plan->plays < plan->view.count)
       spread(plan, &result);
+    if (is_in_kitchen(plan))
+      result.facts.barred =
+          carom_barred(&result.facts, plan->view.length, plan->job.balls, plan->view.count);
     int met = -1;
     if (status >= 0)
       met = result.facts.first[0];

@@ -45,6 +45,10 @@ uint32_t carom_on_table(const carom_shot_ball *balls, int count);
 /* The ball that is met first by rules of touching balls: the lowest of `choice` that touches the
  * cue ball, where it is played away from, else the one that it meets; -1: none. */
 int carom_first_of(const carom_facts *facts, uint32_t choice);
+/* Balls behind the head string, which from there may not be met first before the cue ball has
+ * crossed it (WPA 6.11), as a set; 0 of a shot in which it has. */
+uint32_t carom_barred(const carom_facts *facts, double length, const carom_shot_ball *balls,
+                      int count);
 /* The balls in play that touch a ball for the rules, as a set; 0 of one that is out of play. */
 uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball);
 /* The turn goes to the other: the pairs of the state become his. Any of 15 balls may be met. */

@@ -69,6 +69,15 @@ uint32_t carom_met_first(const carom_facts *facts) {
   return facts->first_set | UINT32_C(1) << facts->first[0];
 }
 
+uint32_t carom_barred(const carom_facts *facts, double length, const carom_shot_ball *balls,
+                      int count) {
+  const double head = 0.25 * length;
+  uint32_t set = 0;
+  for (int k = 0; k < count && !(facts->first_high[1] > head); k++)
+    set |= (uint32_t)(balls[k].state.r[1] < head) << k;
+  return set;
+}
+
 int carom_first_of(const carom_facts *facts, uint32_t choice) {
   const uint32_t touching = facts->frozen & ~facts->pushed & choice;
   const int first = facts->first[0];

@@ -1,4 +1,5 @@
 /* What plans choose: the same on all machines, with the chances that are told, of what is named. */
+#include "carom_match.h"
 #include "plan_support.h"
 
 /* The choices of 20 layouts, by plain: the same hash on all machines, with one thread and with
@@ -284,6 +285,24 @@ TEST(breaks) {
     ck_assert_msg(best[0].foul < 0.5, "break %d: foul %g", k, best[0].foul);
     edge_free(&memory);
   }
+}
+
+/* Of a cue ball in hand behind the head string: a ball that lies there too is not met directly (WPA
+ * 6.11), however easy it is. */
+TEST(ball_behind_the_head_string) {
+  make_layout(1, 1);
+  rules = carom_plan_rules_of(CAROM_RULES_STRAIGHT);
+  make_memory();
+  carom_place_ball(&table, balls, BALLS, 1, 0.15, 0.15, NULL);
+  carom_place_ball(&table, balls, BALLS, 2, 0.635, 2.5, NULL);
+  carom_bounds bounds;
+  carom_choice best;
+  int found;
+  carom_hand_bounds(CAROM_LEAVE_KITCHEN, &table, balls[0].kind.radius, &bounds);
+  ck_assert_int_eq(carom_plan_hand(&job, bounds.low, bounds.high, &best, 1, &found), CAROM_OK);
+  ck_assert_msg(best.ball != 1 || best.cue.phi < 180.0, "ball %d, %g degrees", best.ball,
+                best.cue.phi);
+  edge_free(&memory);
 }
 
 /* Straight pool is opened thinly and softly, hardly ever by a foul, and much of the rack stays.

@@ -1,9 +1,26 @@
-/* Whole games of the planner against itself through matches: none has a dead end, and one of
- * each is read again. CAROM_TEST_GAMES: how many of each game; CAROM_TEST_GAME: of which alone. */
+/* Whole games of the planner against itself through matches: none has a dead end, and some are the
+ * same on all machines. CAROM_TEST_GAMES: how many of each game; CAROM_TEST_GAME: of which alone. */
 #include "carom_match.h"
 #include "game_support.h"
 
 static carom_match match;
+
+/* What a ruling says besides of the turn: falls in their order, who plays, words. */
+static void check_ruling(const carom_ruling *r) {
+  char words[300];
+  uint32_t down = 0;
+  for (int64_t k = 0; k < r->falls; k++) {
+    down |= UINT32_C(1) << r->fall[k].ball;
+    ck_assert(k == 0 || r->fall[k].time >= r->fall[k - 1].time);
+    ck_assert_int_eq(r->fall[k].pocket, r->facts.pocket[r->fall[k].ball]);
+  }
+  ck_assert(down == r->facts.down);
+  ck_assert_int_eq(r->next, r->winner >= 0 ? -1 : r->turn.outcome == CAROM_TURN_PASS);
+  ck_assert_int_eq(r->hand, r->turn.leave >= CAROM_LEAVE_HAND);
+  ck_assert((r->on != 0) == (r->next >= 0));
+  const size_t length = carom_ruling_string(r, words, sizeof words);
+  ck_assert(length == strlen(words) && carom_ruling_string(r, words, 5) == length && words[4] == 0);
+}
 
 /* Puts the cue ball in hand somewhere within its bounds, where a plan found no place. */
 static void place_anywhere(random_source *r) {
@@ -39,8 +56,8 @@ static carom_status play_planned(carom_plan_job *job, random_source *r, uint64_t
   return carom_match_stroke(&match, player, &best.cue, NULL, NULL);
 }
 
-/* The strokes of one game; 0 where it did not end. */
-static int strokes_of_game(carom_rules_kind kind, uint64_t seed) {
+/* The strokes of one game; 0 where it did not end. *all: a hash of its strokes, states and layouts. */
+static int strokes_of_game(carom_rules_kind kind, uint64_t seed, uint64_t *all) {
   enum { STROKES_MOST = 2000, SHOTS = 100 };
   const carom_player player = carom_player_of(0.5);
   const carom_plan_options options = {.shots = SHOTS, .seed = seed};
@@ -53,11 +70,18 @@ static int strokes_of_game(carom_rules_kind kind, uint64_t seed) {
   ck_assert_int_eq(carom_match_begin(&match, kind, &table, seed, (int)(seed & 1)), CAROM_OK);
   ck_assert_int_eq(match.cue_ball, carom_cue_ball_of(&match.rules));
   int strokes = 0;
+  uint64_t hash = UINT64_C(0xcbf29ce484222325);
   while (match.phase != CAROM_MATCH_OVER && strokes < STROKES_MOST) {
     const int64_t who = match.record.player;
     const carom_status status = play_planned(&job, &r, (uint64_t)strokes++);
     char text[300] = "";
     carom_ruling_string(&match.ruling, text, sizeof text);
+    if (match.rulings > 0)
+      check_ruling(&match.ruling);
+    hash = hash_of(hash, &match.record.cue, sizeof match.record.cue);
+    hash = hash_of(hash, &match.rules.state, sizeof match.rules.state);
+    for (int k = 0; k < match.record.count; k++)
+      hash = hash_of(hash, match.record.balls[k].state.r, sizeof match.record.balls[k].state.r);
     if (tells)
       printf("%d. player %d, ball %d, met %d, down %x: %s; score %d, %d, lost %d\n", strokes,
              (int)who, (int)match.record.cue.ball, match.ruling.facts.first[0],
@@ -68,23 +92,45 @@ static int strokes_of_game(carom_rules_kind kind, uint64_t seed) {
                   carom_status_name(status), match.fault);
   }
   free(job.memory);
+  *all = hash;
   return match.phase == CAROM_MATCH_OVER ? strokes : 0;
 }
 
 TEST(games_end) {
   const char *given = getenv("CAROM_TEST_GAMES"), *only = getenv("CAROM_TEST_GAME");
   const int games = given != NULL ? atoi(given) : 1;
-  for (int kind = CAROM_RULES_BLACKBALL; kind <= CAROM_RULES_COWBOY; kind++) {
+  for (int kind = CAROM_RULES_BLACKBALL; carom_rules_about_of((carom_rules_kind)kind) != NULL;
+       kind++) {
     const char *name = carom_rules_about_of((carom_rules_kind)kind)->name;
     if (only != NULL && strcmp(name, only) != 0)
       continue;
     int ended = 0, strokes = 0;
+    uint64_t hash;
     for (int k = 0; k < games; k++) {
-      const int played = strokes_of_game((carom_rules_kind)kind, test_seed() + (uint64_t)k);
+      const int played = strokes_of_game((carom_rules_kind)kind, test_seed() + (uint64_t)k, &hash);
       ended += played > 0;
       strokes += played;
     }
     printf("%s: %d of %d games ended, %d strokes\n", name, ended, games, strokes);
     ck_assert_int_eq(ended, games);
+  }
+}
+
+/* Where a change of the method or of the physics is meant to change them, the new hash is the one
+ * that this test prints. */
+TEST(golden_games) {
+  static const struct {
+    carom_rules_kind kind;
+    uint64_t hash;
+  } given[] = {{CAROM_RULES_SNOOKER, UINT64_C(0xd34269f929cdf0d5)},
+               {CAROM_RULES_ONEPOCKET, UINT64_C(0xe8a98da11c239ba6)},
+               {CAROM_RULES_COWBOY, UINT64_C(0x4f78f1c0b54cb807)}};
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+    uint64_t hash;
+    const int strokes = strokes_of_game(given[k].kind, 5, &hash);
+    printf("%s: 0x%016llx; %d strokes\n", carom_rules_about_of(given[k].kind)->name,
+           (unsigned long long)hash, strokes);
+    ck_assert(strokes >= 6);
+    ck_assert_uint_eq(hash, given[k].hash);
   }
 }
