@@ -56,7 +56,7 @@ static carom_status play_planned(carom_plan_job *job, random_source *r, uint64_t
   return carom_match_stroke(&match, player, &best.cue, NULL, NULL);
 }
 
-/* The strokes of one game; 0 where it did not end. *all: a hash of its strokes, states and layouts. */
+/* The strokes of one game; 0 where it did not end. *all: a hash of strokes, states and layouts. */
 static int strokes_of_game(carom_rules_kind kind, uint64_t seed, uint64_t *all) {
   enum { STROKES_MOST = 2000, SHOTS = 100 };
   const carom_player player = carom_player_of(0.5);
