@@ -579,9 +579,9 @@ typedef struct carom_choice {
   int32_t pocket;       /* and its pocket, or -1. */
   int32_t cushions;     /* impacts of that ball on cushions, in one such stroke. */
   double value;         /* chance to win; without an opponent, the share of the balls that are
-                           potted; 0 to 1. In four-ball a stroke that costs a point counts -1. A foul
-                           counts 0.03 less than the position that follows
-                           it, so that the plan chooses a legal stroke among equally good ones. The
+                           potted; 0 to 1. In four-ball a stroke that costs a point counts -1. A
+                           foul counts 0.03 less than the position that follows it, so that the plan
+                           chooses a legal stroke among equally good ones. The
                            shots by which a stroke was chosen were partly lucky for it. So all
                            chances of a choice are those of fresh shots, whose errors chose nothing,
                            and of 10 of the others: a tenth of the shots of the plan, at least 30,
