@@ -51,6 +51,10 @@ static inline double carom_or_usual(double given, double usual) {
 static inline bool carom_is_finite(const double x[3]) {
   return (x[0] - x[0]) + (x[1] - x[1]) + (x[2] - x[2]) == 0.0;
 }
+/* CAROM_OK, or an error where something is not good. */
+static inline carom_status carom_ok_if(bool good, carom_status error) {
+  return good ? CAROM_OK : error;
+}
 static inline bool carom_is_positive(double x) {
   return x > 0.0 && x < INFINITY;
 }

@@ -12,7 +12,10 @@
 #include <stddef.h>
 #include <string.h>
 
-static const carom_shot_options no_options = {0};
+const carom_shot_options *carom_options_or_usual(const carom_shot_options *opt) {
+  static const carom_shot_options usual = {0};
+  return opt != NULL ? opt : &usual;
+}
 
 static bool is_flat(const carom_shot_options *o) {
   return carom_rules_of(o->world)->flat || o->space == CAROM_SPACE_FLAT;
@@ -20,7 +23,7 @@ static bool is_flat(const carom_shot_options *o) {
 
 carom_status carom_check_shot_options(const carom_shot_options *o) {
   CAROM_SHOT_OPTIONS(CAROM_CHECK_OPTION)
-  return o->unused != 0 || !CAROM_RESERVED_IS_ZERO(o) ? CAROM_ERROR_SHOT_OPTIONS : CAROM_OK;
+  return carom_ok_if(o->unused == 0 && CAROM_RESERVED_IS_ZERO(o), CAROM_ERROR_SHOT_OPTIONS);
 }
 
 /* Prepares the table for the balls of a layout. In flat play all radii are to be that of the
@@ -28,15 +31,19 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
 static carom_status prepare_table(const carom_prepared *p, bool flat, carom_features *features,
                                   int *where) {
   double least = p->kind[0]->radius, greatest = least;
-  for (*where = 0; *where < (flat ? 1 : p->count); ++*where) {
+  int radii = p->count;
+  if (flat)
+    radii = 1;
+  for (*where = 0; *where < radii; ++*where) {
     const double R = p->kind[*where]->radius;
     if (!carom_is_positive(R))
       return CAROM_ERROR_RADIUS;
     least = carom_lesser(least, R);
     greatest = carom_greater(greatest, R);
   }
-  const double last = p->kind[p->count - 1]->radius;
-  const double reference = flat ? least : carom_reference_of(p->table, last);
+  double reference = least;
+  if (!flat)
+    reference = carom_reference_of(p->table, p->kind[p->count - 1]->radius);
   return carom_prepare_table(p->table, least, greatest, reference, features, where);
 }
 
@@ -51,7 +58,7 @@ static bool bounded(const double x[3], double most) {
 }
 
 static carom_status check_state(const carom_ball_state *s, double R, bool flat) {
-  if (s->label < CAROM_BALL_STATIONARY || s->label > (flat ? CAROM_BALL_POCKETED : CAROM_BALL_OFF))
+  if (s->label < CAROM_BALL_STATIONARY || s->label > carom_last_label(flat))
     return CAROM_ERROR_LABEL;
   if (!bounded(s->r, 1e6))
     return CAROM_ERROR_POSITION;
@@ -62,15 +69,17 @@ static carom_status check_state(const carom_ball_state *s, double R, bool flat) 
   if (carom_is_out(s->label))
     return CAROM_OK;
   if (!flat)
-    return s->r[2] - R >= -CAROM_MOST_OVERLAP ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
+    return carom_ok_if(s->r[2] - R >= -CAROM_MOST_OVERLAP, CAROM_ERROR_OFF_TABLE);
   if (s->v[2] != 0.0)
     return CAROM_ERROR_VERTICAL;
-  return fabs(s->r[2] - R) <= CAROM_MOST_OVERLAP ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
+  return carom_ok_if(fabs(s->r[2] - R) <= CAROM_MOST_OVERLAP, CAROM_ERROR_OFF_TABLE);
 }
 
 carom_status carom_check_ball(const carom_shot_ball *ball, bool flat) {
   const carom_status bad = check_kind(&ball->kind);
-  return bad != CAROM_OK ? bad : check_state(&ball->state, ball->kind.radius, flat);
+  if (bad != CAROM_OK)
+    return bad;
+  return check_state(&ball->state, ball->kind.radius, flat);
 }
 
 /* The height of a ball's centre above the cloth as the shot takes it: a ball on the cloth is at
@@ -96,8 +105,9 @@ carom_status carom_check_strike(const carom_prepared *p, const carom_cue *cue) {
     return CAROM_ERROR_CUE_BALL;
   if (p->opt->first_of >> p->count != 0)
     return CAROM_ERROR_SHOT_OPTIONS;
-  const bool out = carom_is_out(p->state[(int)cue->ball]->label);
-  return out ? CAROM_ERROR_CUE_BALL_OUT : carom_check_cue(cue);
+  if (carom_is_out(p->state[(int)cue->ball]->label))
+    return CAROM_ERROR_CUE_BALL_OUT;
+  return carom_check_cue(cue);
 }
 
 bool carom_is_at_rest(const carom_prepared *p, int but) {
@@ -116,14 +126,15 @@ carom_status carom_check_common(const carom_table *table, int64_t count,
   const carom_status bad = carom_check_shot_options(opt);
   if (bad != CAROM_OK)
     return bad;
-  return count < 1 || count > CAROM_BALLS_MOST ? CAROM_ERROR_BALLS
-                                               : carom_check_table(table, where);
+  if (count < 1 || count > CAROM_BALLS_MOST)
+    return CAROM_ERROR_BALLS;
+  return carom_check_table(table, where);
 }
 
 carom_status carom_check_room(const carom_shot *shot) {
   const bool good =
       shot->room == 0 || (shot->room > 0 && (shot->events != NULL || shot->brief != NULL));
-  return good ? CAROM_OK : CAROM_ERROR_ROOM;
+  return carom_ok_if(good, CAROM_ERROR_ROOM);
 }
 
 carom_status carom_check_job(const carom_shot_job *job) {
@@ -131,7 +142,7 @@ carom_status carom_check_job(const carom_shot_job *job) {
   if (job->table == NULL || job->shots == NULL || (job->balls == NULL && !by_reference))
     return CAROM_ERROR_NULL;
   const bool unused = job->balls != NULL && (job->kinds != NULL || job->states != NULL);
-  return unused || !CAROM_RESERVED_IS_ZERO(job) ? CAROM_ERROR_SHOT_OPTIONS : CAROM_OK;
+  return carom_ok_if(!unused && CAROM_RESERVED_IS_ZERO(job), CAROM_ERROR_SHOT_OPTIONS);
 }
 
 void carom_take_balls(carom_prepared *p, const carom_shot_ball *balls, int64_t count) {
@@ -190,8 +201,9 @@ carom_status carom_prepare_row(carom_prepared *p, carom_features *features, int 
     if (carom_is_out(state->label))
       continue;
     const bool flies = carom_flies_in_layout(state, kind->radius);
-    if (flies ? !carom_is_above_table(p->table, features, kind, state->r)
-              : !carom_stands_on_table(p->table, features, kind, state->r))
+    if (flies && !carom_is_above_table(p->table, features, kind, state->r))
+      return CAROM_ERROR_OFF_TABLE;
+    if (!flies && !carom_stands_on_table(p->table, features, kind, state->r))
       return CAROM_ERROR_OFF_TABLE;
     for (int k = 0; k < *where; k++)
       if (overlaps(r, kind->radius, p->state[k], p->kind[k]->radius, height[k]))
@@ -219,19 +231,23 @@ carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *b
   carom_features features;
   carom_prepared p;
   int unused;
-  where = where != NULL ? where : &unused;
+  if (where == NULL)
+    where = &unused;
   *where = -1;
   if (table == NULL || balls == NULL)
     return CAROM_ERROR_NULL;
-  opt = opt != NULL ? opt : &no_options;
-  const carom_status bad = carom_prepare(table, balls, count, opt, &features, &p, where);
-  return bad != CAROM_OK ? bad : carom_check_strike(&p, cue);
+  const carom_status bad =
+      carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &p, where);
+  if (bad != CAROM_OK)
+    return bad;
+  return carom_check_strike(&p, cue);
 }
 
 carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball,
                               double x, double y, carom_part *in_the_way) {
   carom_part unused;
-  in_the_way = in_the_way != NULL ? in_the_way : &unused;
+  if (in_the_way == NULL)
+    in_the_way = &unused;
   *in_the_way = (carom_part){CAROM_PART_NONE, 0};
   if (table == NULL || balls == NULL)
     return CAROM_ERROR_NULL;
@@ -272,7 +288,7 @@ static const int numbers_of_law[] = {
 
 int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind,
                          const carom_shot_options *opt) {
-  opt = opt != NULL ? opt : &no_options;
+  opt = carom_options_or_usual(opt);
   if (number == NULL || kind == NULL)
     return 0;
   if (number->reader == CAROM_READ_BY_CUSHION)

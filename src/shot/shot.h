@@ -58,6 +58,21 @@ static inline int64_t carom_others_of(const carom_table *table, int count, int t
   }
 }
 
+/* check.c: the options of a shot that its caller gave, or those that NULL stands for. */
+const carom_shot_options *carom_options_or_usual(const carom_shot_options *opt);
+
+/* The last label that a ball may have: in flat play no ball leaves the table. */
+static inline int64_t carom_last_label(bool flat) {
+  return flat ? CAROM_BALL_POCKETED : CAROM_BALL_OFF;
+}
+
+/* How many events of a shot its caller has in full: brief events have no states. */
+static inline int64_t carom_events_kept(const carom_shot *shot) {
+  if (shot->events == NULL)
+    return 0;
+  return shot->count < shot->room ? shot->count : shot->room;
+}
+
 /* The models of a shot, where 0 is that of its world. A cushion that was measured goes with the
  * balls that have its numbers. */
 static inline carom_ball_model carom_ball_model_of(const carom_shot_options *o) {

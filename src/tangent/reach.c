@@ -74,9 +74,13 @@ static void motion_at(const carom_tangent_ball *ball, double time, double r[3], 
   const double tau = time - ball->since;
   const bool moves = carom_translates(ball->from.label);
   for (int k = 0; k < 3; k++) {
-    r[k] = ball->from.r[k] + (moves ? tau * (ball->from.v[k] + tau * ball->a[k]) : 0.0);
-    v[k] = moves ? ball->from.v[k] + 2.0 * tau * ball->a[k] : 0.0;
-    a[k] = moves ? ball->a[k] : 0.0;
+    r[k] = ball->from.r[k];
+    v[k] = a[k] = 0.0;
+    if (moves) {
+      r[k] += tau * (ball->from.v[k] + tau * ball->a[k]);
+      v[k] = ball->from.v[k] + 2.0 * tau * ball->a[k];
+      a[k] = ball->a[k];
+    }
   }
   if (!carom_flies(&ball->from))
     r[2] = ball->kind->radius;
@@ -102,17 +106,27 @@ static miss miss_of(const carom_tangent_work *w, int i, int type, int b) {
     m.reach = table->pocket[b].radius;
   } else if (type != CAROM_EVENT_BALL_BALL) {
     const bool rail = type == CAROM_EVENT_RAIL, flies = carom_flies(&ball->from);
-    const double height = rail ? table->rail[b].height : table->jaw[b].height,
-                 nose = carom_nose_height(ball->kind, height);
-    memcpy(r[1], rail ? table->rail[b].p : table->jaw[b].centre, 2 * sizeof r[1][0]);
-    r[1][2] = flies ? nose : r[0][2];
-
-    /* the ring of a jaw; a nose in flight is inside its wall, where the ball touches it at R */
-    m.ring =
-        (rail ? 0.0 : table->jaw[b].radius) + (flies ? carom_nose_shift(nose, w->reference) : 0.0);
-    m.reach = flies ? ball->kind->radius : carom_reach_on_cloth(ball->kind, height, w->reference);
-    if (rail)
+    double height;
+    if (rail) {
+      height = table->rail[b].height;
+      memcpy(r[1], table->rail[b].p, 2 * sizeof r[1][0]);
       carom_rail_line(&table->rail[b], m.line);
+    } else { /* the ring of a jaw */
+      height = table->jaw[b].height;
+      memcpy(r[1], table->jaw[b].centre, 2 * sizeof r[1][0]);
+      m.ring = table->jaw[b].radius;
+    }
+
+    /* a nose in flight is inside its wall, where the ball touches it at R */
+    r[1][2] = r[0][2];
+    if (flies) {
+      const double nose = carom_nose_height(ball->kind, height);
+      r[1][2] = nose;
+      m.ring += carom_nose_shift(nose, w->reference);
+      m.reach = ball->kind->radius;
+    } else {
+      m.reach = carom_reach_on_cloth(ball->kind, height, w->reference);
+    }
   }
 
   for (int k = 0; k < 3; k++) {
@@ -134,11 +148,18 @@ static double distance_at(const miss *m, double t, double *opens) {
   /* the level part of the way, or that across the line of a rail */
   const bool rail = m->type == CAROM_EVENT_RAIL;
   const double q = sqrt(d[0] * d[0] + d[1] * d[1]);
-  const double level = (rail ? -(m->line[0] * d[0] + m->line[1] * d[1]) : q) - m->ring;
-  const double rate =
-      rail ? -(m->line[0] * v[0] + m->line[1] * v[1]) : (d[0] * v[0] + d[1] * v[1]) / q;
+  double away = q, rate;
+  if (rail) {
+    away = -(m->line[0] * d[0] + m->line[1] * d[1]);
+    rate = -(m->line[0] * v[0] + m->line[1] * v[1]);
+  } else {
+    rate = (d[0] * v[0] + d[1] * v[1]) / q;
+  }
+  const double level = away - m->ring;
   *opens = level * rate + d[2] * v[2];
-  return rail && d[2] == 0.0 ? level : sqrt(level * level + d[2] * d[2]);
+  if (rail && d[2] == 0.0)
+    return level;
+  return sqrt(level * level + d[2] * d[2]);
 }
 
 /* When the cue that goes on comes to the end of its way, s, and its tangents. */
@@ -205,7 +226,10 @@ static void search(carom_reach *reach, const miss *m, double until, bool stops) 
     for (int n = 0; n < BISECTIONS && least; n++) {
       const double middle = 0.5 * (low + high);
       distance_at(m, middle, &opens);
-      *(opens < 0.0 ? &low : &high) = middle;
+      if (opens < 0.0)
+        low = middle;
+      else
+        high = middle;
     }
     if ((least || (stops && k == PARTS_OF_WAY && before < 0.0)) &&
         (!rail || is_beside(m, &w->table->rail[m->other], high)))
@@ -242,7 +266,9 @@ static void misses_of(carom_reach *reach, int i, const carom_event *event) {
     for (int b = 0; b < counts[n]; b++) {
       const int type = types[n];
       const bool ball = type == CAROM_EVENT_BALL_BALL;
-      const int64_t other = ball ? w->ball[b].from.label : CAROM_BALL_STATIONARY;
+      int64_t other = CAROM_BALL_STATIONARY;
+      if (ball)
+        other = w->ball[b].from.label;
       const bool met = event->type == type && (b == event->b || (ball && b == event->a));
       if (met || (ball && b == i) || carom_is_out(other) || !(moves || carom_translates(other)) ||
           (type == CAROM_EVENT_RAIL && !flies && !stops) || (type == CAROM_EVENT_POCKET && flies))
@@ -278,12 +304,12 @@ static void misses_of_tip(carom_reach *reach, int i, const carom_event *event) {
 
 void carom_reach_misses(carom_reach *reach, const carom_event *event) {
   const bool two = event->type == CAROM_EVENT_BALL_BALL;
+  const int balls[2] = {event->a, event->b};
   for (int side = 0; side <= two; side++) {
-    const int i = side == 0 ? event->a : event->b;
-    misses_of(reach, i, event);
-    misses_of_tip(reach, i, event);
+    misses_of(reach, balls[side], event);
+    misses_of_tip(reach, balls[side], event);
     if (two || event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW)
-      spin_of(reach, i, event);
+      spin_of(reach, balls[side], event);
   }
 }
 
@@ -329,10 +355,15 @@ static void take_landing(carom_reach *reach, const carom_event *event, carom_tan
   const carom_ball_state *s = &event->before[0];
   const double e = carom_slate_restitution(w->ball[event->a].kind->restitution_table);
   /* the least fall after which the ball hops */
-  double low = 0.0, high = e > 0.0 ? 1.0 / e : 0.0;
+  double low = 0.0, high = 0.0;
+  if (e > 0.0)
+    high = 1.0 / e;
   for (int k = 0; k < BISECTIONS && e > 0.0; k++) {
     const double middle = 0.5 * (low + high);
-    *(carom_rebound(middle, e) > 0.0 ? &high : &low) = middle;
+    if (carom_rebound(middle, e) > 0.0)
+      high = middle;
+    else
+      low = middle;
   }
 
   /* the last hop more or less, and pockets that the ball would fall into */
@@ -384,8 +415,9 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) 
   carom_tangent_rows *d = w->before;
   const int m = w->pass.columns;
   const bool two = event->type == CAROM_EVENT_BALL_BALL;
+  const int balls[2] = {event->a, event->b};
   for (int side = 0; side <= two; side++)
-    take_order(reach, k, event, side == 0 ? event->a : event->b);
+    take_order(reach, k, event, balls[side]);
   if (event->type == CAROM_EVENT_SLATE)
     take_landing(reach, event, d[0]);
   const bool on_cloth = !carom_flies(&event->before[0]);
@@ -404,7 +436,7 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) 
   /* of a cluster the contact that starts it, and a ball that leaves it quite otherwise */
   if (w->note.flags & CAROM_TANGENT_CLUSTER)
     for (int side = 0; side <= two; side++)
-      take_turn(reach, side == 0 ? event->a : event->b);
+      take_turn(reach, balls[side]);
   for (int j = 0; j < m && !w->inner && w->margin < INFINITY; j++)
     take(reach, j, w->margin, w->margin_row[j]);
 }

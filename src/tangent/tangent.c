@@ -36,11 +36,18 @@ static carom_status check_event(const carom_table *table, int count, const carom
   return CAROM_OK;
 }
 
+/* How many contacts are resolved with an event: those of its cluster, or it alone. */
+static int contacts_of(const carom_event *event) {
+  if (event->cluster == 0)
+    return 1;
+  return event->cluster;
+}
+
 /* Whether the contacts of each cluster are all there, at one time. */
 static carom_status check_clusters(const carom_shot *shot) {
   for (int64_t k = 0; k < shot->count;) {
     const carom_event *first = &shot->events[k];
-    const int64_t contacts = first->cluster > 0 ? first->cluster : 1;
+    const int64_t contacts = contacts_of(first);
     if (contacts > shot->count - k)
       return CAROM_ERROR_STATE;
     for (const carom_event *e = first; first->cluster > 0 && e < first + contacts; e++)
@@ -83,13 +90,16 @@ static carom_status check(const carom_prepared *p, const carom_cue *cue, const c
       return CAROM_ERROR_TIME;
   if (opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_EULER)
     return CAROM_ERROR_TANGENT;
+  double last = 0.0;
   for (int64_t k = 0; k < shot->count; k++) {
-    const carom_status status = check_event(p->table, p->count, cue, &shot->events[k],
-                                            k > 0 ? shot->events[k - 1].time : 0.0);
+    const carom_status status = check_event(p->table, p->count, cue, &shot->events[k], last);
     if (status != CAROM_OK)
       return status;
+    last = shot->events[k].time;
   }
-  const carom_status played = is_played(p, cue, shot) ? check_clusters(shot) : CAROM_ERROR_STATE;
+  if (!is_played(p, cue, shot))
+    return CAROM_ERROR_STATE;
+  const carom_status played = check_clusters(shot);
   /* a further touch of the tip is of the ball that it struck first */
   const carom_event *e = shot->events;
   for (int64_t k = 1; played == CAROM_OK && k < shot->count; k++)
@@ -102,8 +112,10 @@ static carom_status check(const carom_prepared *p, const carom_cue *cue, const c
 /* ---- A pass ---- */
 
 static carom_tangent_pass pass_of(int m, int first) {
-  return (carom_tangent_pass){
-      m, first, m - first < CAROM_TANGENT_COLUMNS ? m - first : CAROM_TANGENT_COLUMNS};
+  carom_tangent_pass pass = {m, first, CAROM_TANGENT_COLUMNS};
+  if (m - first < CAROM_TANGENT_COLUMNS)
+    pass.columns = m - first;
+  return pass;
 }
 
 static const carom_tangent_row zeros;
@@ -117,10 +129,12 @@ static void put(const work *w, carom_tangent_row *d, double *rows, int64_t at) {
 
 /* Where all balls begin. */
 static void begin(work *w, const carom_prepared *p) {
-  const bool own = w->table->ball_radius > 0.0 && w->opt->space != CAROM_SPACE_FLAT;
-  w->reference = own ? w->table->ball_radius : p->kind[w->count - 1]->radius;
+  w->reference = p->kind[w->count - 1]->radius;
+  if (w->table->ball_radius > 0.0 && w->opt->space != CAROM_SPACE_FLAT)
+    w->reference = w->table->ball_radius;
   w->slow_instants = 0;
   w->slow_last = -1.0;
+  w->margin = INFINITY; /* until a ball has been met */
   memset(&w->tip, 0, sizeof w->tip);
   for (int i = 0; i < w->count; i++) {
     carom_tangent_ball *ball = &w->ball[i];
@@ -140,9 +154,10 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
     memcpy(carom_tangent_columns(&w->pass, t->time, k), w->time, columns);
   if (t->reach != NULL)
     carom_reach_event(reach, k, event);
+  const int balls[2] = {event->a, event->b};
   for (int side = 0; side < 2; side++) {
     const bool has = side == 0 || event->type == CAROM_EVENT_BALL_BALL;
-    const int i = side == 0 ? event->a : event->b;
+    const int i = balls[side];
     if (t->before != NULL && event->cluster == 0)
       put(w, has ? w->before[side] : NULL, t->before, 2 * k + side);
     for (int n = 0; n < CAROM_STATE_NUMBERS && t->after != NULL; n++) {
@@ -195,7 +210,9 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
   if (tangent->reach != NULL)
     carom_reach_begin(&reach, w);
   for (int64_t k = 0; k <= shot->count; k++) {
-    const carom_event *event = k < shot->count ? &shot->events[k] : NULL;
+    const carom_event *event = NULL;
+    if (k < shot->count)
+      event = &shot->events[k];
     /* the times before it; after the end nothing moves */
     for (; next < tangent->times_count && (event == NULL || tangent->times[next] < event->time);
          next++)
@@ -206,7 +223,7 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
     if (event == NULL)
       break;
     w->inner = k < end_of_cluster;
-    const int contacts = event->cluster > 0 ? event->cluster : 1;
+    const int contacts = contacts_of(event);
     for (int c = 0; c < contacts && !w->inner && tangent->reach != NULL; c++)
       carom_reach_misses(&reach, &event[c]);
     carom_status status = CAROM_OK;
@@ -222,8 +239,10 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
       return status;
     tell(w, k, event, &reach);
     w->tip.turned |= w->cue != NULL && turns_to_tip(event, (int)w->cue->ball);
+    if (tangent->flags != NULL && w->pass.first == 0)
+      tangent->flags[k] = 0;
     if (tangent->flags != NULL)
-      tangent->flags[k] = w->note.flags | (w->pass.first > 0 ? tangent->flags[k] : 0);
+      tangent->flags[k] |= w->note.flags;
     tangent->all_flags |= w->note.flags;
     tangent->error = fmax(tangent->error, w->note.error);
   }
@@ -242,8 +261,6 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
   return CAROM_OK;
 }
 
-static const carom_shot_options no_options = {0};
-
 static bool are_finite(const double *x, int64_t count) {
   for (int64_t k = 0; x != NULL && k < count; k++)
     if (!isfinite(x[k]))
@@ -259,7 +276,8 @@ static carom_status shot_tangent(const carom_prepared *p, const carom_cue *cue,
   carom_status status = check(p, cue, shot, seeds, tangent);
   if (status != CAROM_OK && status != CAROM_ERROR_TANGENT)
     return status;
-  status = status == CAROM_OK ? BUILT : status;
+  if (status == CAROM_OK)
+    status = BUILT;
   tangent->error = 0.0;
   tangent->all_flags = 0;
 
@@ -296,7 +314,7 @@ carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball 
     return CAROM_ERROR_NULL;
   carom_prepared p;
   p.table = table;
-  p.opt = opt != NULL ? opt : &no_options;
+  p.opt = carom_options_or_usual(opt);
   carom_take_balls(&p, balls, count);
   return shot_tangent(&p, cue, shot, seeds, tangent);
 }
@@ -305,15 +323,17 @@ carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball 
 
 static carom_status row(const carom_tangent_job *job, size_t k) {
   const carom_shot_job *played = job->played;
-  const carom_status status = played->status != NULL ? (carom_status)played->status[k] : CAROM_OK;
-  if (status < 0)
-    return status;
+  if (played->status != NULL && played->status[k] < 0)
+    return (carom_status)played->status[k];
+  const carom_cue *cue = NULL;
+  if (played->cues != NULL)
+    cue = played->cues + k * played->cue_stride;
   carom_prepared p;
   p.table = played->table;
-  p.opt = played->options != NULL ? played->options : &no_options;
+  p.opt = carom_options_or_usual(played->options);
   carom_take_row(&p, played, k);
-  return shot_tangent(&p, played->cues != NULL ? played->cues + k * played->cue_stride : NULL,
-                      &played->shots[k], job->seeds + k * job->seeds_stride, &job->tangents[k]);
+  return shot_tangent(&p, cue, &played->shots[k], job->seeds + k * job->seeds_stride,
+                      &job->tangents[k]);
 }
 
 static size_t rows(const void *context, size_t first, size_t end) {
@@ -340,14 +360,16 @@ carom_status carom_shot_tangent_batch(const carom_tangent_job *job) {
   if (!CAROM_RESERVED_IS_ZERO(job))
     return CAROM_ERROR_SHOT_OPTIONS;
   int where;
-  const carom_shot_options *opt = played->options != NULL ? played->options : &no_options;
+  const carom_shot_options *opt = carom_options_or_usual(played->options);
   carom_status bad = carom_check_job(played);
   if (bad == CAROM_OK)
     bad = carom_check_common(played->table, played->count, opt, &where);
   if (bad != CAROM_OK)
     return bad;
   const size_t first_bad = carom_in_threads(rows, job, (size_t)played->n, opt->threads, 4);
-  return first_bad == played->n ? CAROM_OK : row(job, first_bad);
+  if (first_bad == played->n)
+    return CAROM_OK;
+  return row(job, first_bad);
 }
 
 /* ---- Single contacts ---- */
@@ -355,7 +377,9 @@ carom_status carom_shot_tangent_batch(const carom_tangent_job *job) {
 /* What following a contact that the call has solved gives: rounding, or Euler's steps beside it,
  * may end in an error that the call has not. */
 static carom_status found(carom_status followed) {
-  return followed < 0 ? CAROM_ERROR_TANGENT : followed;
+  if (followed < 0)
+    return CAROM_ERROR_TANGENT;
+  return followed;
 }
 
 carom_status carom_collide_tangent(const carom_impact *in, const carom_options *opt,
@@ -372,11 +396,13 @@ carom_status carom_collide_tangent(const carom_impact *in, const carom_options *
 
   /* the impact itself, which checks the arguments; other models have no derivatives */
   carom_status status = carom_collide(in, opt, &out);
-  opt = opt != NULL ? opt : &defaults;
+  if (opt == NULL)
+    opt = &defaults;
   memset(tangent, 0, 12 * m * sizeof *tangent);
   if (status >= 0 && (opt->solver == CAROM_SOLVER_EULER || opt->slip != CAROM_SLIP_PAPER))
     status = CAROM_ERROR_TANGENT;
-  status = status >= 0 && BUILT < 0 ? BUILT : status;
+  if (status >= 0 && BUILT < 0)
+    status = BUILT;
 
   /* balls that part keep their motion: v and w of both among the numbers of an impact */
   if (status == CAROM_SEPARATING) {
@@ -407,10 +433,12 @@ carom_status carom_cushion_tangent(const carom_cushion_impact *in, const carom_c
   carom_motion out;
   carom_tangent_note note = {0, 0.0};
   carom_status status = carom_cushion(in, opt, &out);
-  opt = opt != NULL ? opt : &defaults;
+  if (opt == NULL)
+    opt = &defaults;
   if (status >= 0 && opt->convention != CAROM_CONVENTION_PAPER)
     status = CAROM_ERROR_TANGENT;
-  status = status >= 0 && BUILT < 0 ? BUILT : status;
+  if (status >= 0 && BUILT < 0)
+    status = BUILT;
   if (status == CAROM_SEPARATING)
     memcpy(tangent, seeds, 6 * m * sizeof *tangent);
   for (int first = 0; first < (int)m && status == CAROM_OK; first += CAROM_TANGENT_COLUMNS) {
