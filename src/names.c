@@ -205,7 +205,9 @@ int carom_serves(int header) {
   const int major = header / 10000, minor = header / 100 % 100;
   if (header < 0 || major != CAROM_VERSION_MAJOR)
     return 0;
-  return major == 0 ? minor == CAROM_VERSION_MINOR : minor <= CAROM_VERSION_MINOR;
+  if (major == 0)
+    return minor == CAROM_VERSION_MINOR;
+  return minor <= CAROM_VERSION_MINOR;
 }
 
 /* A status that is in carom.h but not in the list is a warning here (-Wswitch). */
@@ -264,5 +266,7 @@ const char *carom_field_name(int field) {
       #ball ".mu_cloth"
   static const char *const names[] = {BALL(a), BALL(b), "mu_ball", "restitution"};
 #undef BALL
-  return field >= 0 && field < (int)(sizeof names / sizeof names[0]) ? names[field] : NULL;
+  if (field < 0 || field >= (int)(sizeof names / sizeof names[0]))
+    return NULL;
+  return names[field];
 }

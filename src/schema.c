@@ -13,8 +13,10 @@
 #include "plan_options.h"
 #endif
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A row of any struct; behind its text stand the members of carom_number that it has besides. */
@@ -125,8 +127,9 @@ static const struct {
 };
 
 const carom_number *carom_number_of(carom_part_kind part, int k) {
-  const bool known = (uint32_t)part < sizeof parts / sizeof parts[0];
-  return known && k >= 0 && k < parts[part].count ? &parts[part].row[k] : NULL;
+  if ((uint32_t)part >= sizeof parts / sizeof parts[0] || k < 0 || k >= parts[part].count)
+    return NULL;
+  return &parts[part].row[k];
 }
 
 /* ---- Ranges in words */
@@ -144,8 +147,10 @@ static void add(words *w, const char *text) {
 }
 
 static size_t end_of(words *w) {
-  if (w->room > 0)
-    w->text[w->length < w->room ? w->length : w->room - 1] = '\0';
+  if (w->length < w->room)
+    w->text[w->length] = '\0';
+  else if (w->room > 0)
+    w->text[w->room - 1] = '\0';
   return w->length;
 }
 
@@ -172,19 +177,22 @@ static void add_decimal(words *w, int64_t m, int e) {
   for (int64_t part = unit / 10, rest = m % unit; rest > 0; rest %= part, part /= 10)
     add_whole(w, rest / part);
   if (e != 0 && unit == 1) {
-    add(w, e > 0 ? "e" : "e-");
-    add_whole(w, e > 0 ? e : -e);
+    add(w, "e");
+    if (e < 0)
+      add(w, "-");
+    add_whole(w, abs(e));
   }
 }
 
 /* Writes a number of at most four digits; writes nothing and returns false where it has more. */
 static bool add_short(words *w, double x) {
-  const double size = x < 0 ? -x : x;
+  const double size = fabs(x);
   double ten = 1e22;
   for (int e = 22; e >= -22 && x != 0; e--) {
     const double m = e > 0 ? size / ten : size * ten;
     if (m < 1e4 && m >= 1 && m == (double)(int)m && (e > 0 ? m * ten : m / ten) == size) {
-      add(w, x < 0 ? "-" : "");
+      if (x < 0)
+        add(w, "-");
       add_decimal(w, (int64_t)m, e);
       return true;
     }
@@ -298,7 +306,9 @@ static void add_measure(words *w, const carom_number *n) {
 
 /* Words that are to go into text[room], of which NULL takes none. */
 static words words_in(char *text, size_t room) {
-  return (words){text, text != NULL ? room : 0, 0};
+  if (text == NULL)
+    room = 0;
+  return (words){text, room, 0};
 }
 
 size_t carom_number_range(const carom_number *n, char *text, size_t room) {
@@ -403,10 +413,14 @@ static const struct word *find(carom_words of, int value) {
 
 const char *carom_word(carom_words of, int value) {
   const struct word *found = find(of, value);
-  return found != NULL ? found->word : NULL;
+  if (found == NULL)
+    return NULL;
+  return found->word;
 }
 
 const char *carom_word_text(carom_words of, int value) {
   const struct word *found = find(of, value);
-  return found != NULL ? found->text : NULL;
+  if (found == NULL)
+    return NULL;
+  return found->text;
 }

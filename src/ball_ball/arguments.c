@@ -32,7 +32,7 @@ static int field_at(size_t offset) {
 
 carom_status carom_check_options(const carom_options *o) {
   CAROM_IMPACT_OPTIONS(CAROM_CHECK_OPTION)
-  return o->unused != 0 || !CAROM_RESERVED_IS_ZERO(o) ? CAROM_ERROR_OPTIONS : CAROM_OK;
+  return carom_ok_if(o->unused == 0 && CAROM_RESERVED_IS_ZERO(o), CAROM_ERROR_OPTIONS);
 }
 
 static bool vertical(const carom_ball *ball) {
@@ -96,7 +96,9 @@ static carom_status blame(const carom_impact *in, int *field) {
     return CAROM_ERROR_HEIGHTS_DIFFER;
   }
   if (vertical(&in->a) || vertical(&in->b)) {
-    *field = vertical(&in->a) ? FIELD(a.v[2]) : FIELD(b.v[2]);
+    *field = FIELD(b.v[2]);
+    if (vertical(&in->a))
+      *field = FIELD(a.v[2]);
     return CAROM_ERROR_VERTICAL;
   }
   return CAROM_OK;
@@ -120,15 +122,22 @@ carom_status carom_check_impact(const carom_impact *in, int *field) {
   good &= !heights_differ(in);
   good &= !vertical(&in->a);
   good &= !vertical(&in->b);
-  return good ? CAROM_OK : blame(in, field);
+  if (good)
+    return CAROM_OK;
+  return blame(in, field);
 }
 
 carom_status carom_check(const carom_impact *in, const carom_options *opt, int *field) {
-  int unused;
-  int *where = field != NULL ? field : &unused;
+  int unused, *where = &unused;
+  if (field != NULL)
+    where = field;
   *where = -1;
   if (in == NULL)
     return CAROM_ERROR_NULL;
-  const carom_status status = opt != NULL ? carom_check_options(opt) : CAROM_OK;
-  return status != CAROM_OK ? status : carom_check_impact(in, where);
+  carom_status status = CAROM_OK;
+  if (opt != NULL)
+    status = carom_check_options(opt);
+  if (status != CAROM_OK)
+    return status;
+  return carom_check_impact(in, where);
 }

@@ -33,11 +33,15 @@ static void put_point(const carom_frame *frame, const carom_local *c, double P, 
 static carom_status trace_exact(const carom_frame *frame, const carom_local *start, double P,
                                 int plain, size_t n, carom_trace_point *points) {
   const carom_reduced c = carom_reduce(start);
-  const double M = c.j_pressed ? start->M_j : start->M_i;
+  double M = start->M_i;
+  if (c.j_pressed)
+    M = start->M_j;
   carom_trajectory path;
   carom_precise_begin(&c, CAROM_PRECISE_TOLERANCE, plain, &path);
   for (size_t k = 0; k < n; k++) {
-    const double p = k + 1 < n ? P / (M * -c.v_n) * ((double)k / (double)(n - 1)) : INFINITY;
+    double p = INFINITY; /* the last point is the end */
+    if (k + 1 < n)
+      p = P / (M * -c.v_n) * ((double)k / (double)(n - 1));
     const carom_status status =
         carom_impact_advance(&path, p, path.iterations + CAROM_IMPACT_ITERATIONS);
     if (status != CAROM_OK)
@@ -45,10 +49,11 @@ static carom_status trace_exact(const carom_frame *frame, const carom_local *sta
     const carom_integrals so_far = carom_precise_integrals(&c, &path);
     carom_local local = *start;
     carom_restore(&c, &so_far, &local);
-    const bool parting = path.restitution || k + 1 == n;
-    put_point(frame, &local, M * so_far.p, M * (c.v_n * c.v_n) * carom_impact_work(&path),
-              parting ? CAROM_PHASE_RESTITUTION : CAROM_PHASE_COMPRESSION, !isnan(path.p_stick),
-              &points[k]);
+    carom_phase phase = CAROM_PHASE_COMPRESSION;
+    if (path.restitution || k + 1 == n)
+      phase = CAROM_PHASE_RESTITUTION;
+    put_point(frame, &local, M * so_far.p, M * (c.v_n * c.v_n) * carom_impact_work(&path), phase,
+              !isnan(path.p_stick), &points[k]);
   }
   return CAROM_OK;
 }
@@ -59,14 +64,16 @@ static carom_status trace_euler(const carom_frame *frame, const carom_local *sta
   for (size_t k = 0; k < n; k++) {
     carom_local c = *start;
     carom_euler_run run;
-    const int64_t most =
-        k + 1 < n ? (int64_t)round((double)k * ((double)total / (double)(n - 1))) : INT64_MAX;
+    int64_t most = INT64_MAX;
+    if (k + 1 < n)
+      most = (int64_t)round((double)k * ((double)total / (double)(n - 1)));
     const carom_status status = carom_euler(&c, N, most, &run);
     if (status != CAROM_OK)
       return status;
-    put_point(frame, &c, (double)run.steps * run.step, run.work,
-              isnan(run.work_compression) ? CAROM_PHASE_COMPRESSION : CAROM_PHASE_RESTITUTION,
-              false, &points[k]);
+    carom_phase phase = CAROM_PHASE_RESTITUTION;
+    if (isnan(run.work_compression))
+      phase = CAROM_PHASE_COMPRESSION;
+    put_point(frame, &c, (double)run.steps * run.step, run.work, phase, false, &points[k]);
   }
   return CAROM_OK;
 }

@@ -68,20 +68,27 @@ carom_status carom_cushion_check_impact(const carom_cushion_impact *in, int *fie
 
 carom_status carom_cushion_check(const carom_cushion_impact *in, const carom_cushion_options *opt,
                                  int *field) {
-  int unused;
-  int *where = field != NULL ? field : &unused;
+  int unused, *where = &unused;
+  if (field != NULL)
+    where = field;
   *where = -1;
   if (in == NULL)
     return CAROM_ERROR_NULL;
-  const carom_status status = opt != NULL ? carom_cushion_check_options(opt) : CAROM_OK;
-  return status != CAROM_OK ? status : carom_cushion_check_impact(in, where);
+  carom_status status = CAROM_OK;
+  if (opt != NULL)
+    status = carom_cushion_check_options(opt);
+  if (status != CAROM_OK)
+    return status;
+  return carom_cushion_check_impact(in, where);
 }
 
 const char *carom_cushion_field_name(int field) {
   static const char *const names[FIELDS] = {
       "v[0]",   "v[1]",   "v[2]", "w[0]",     "w[1]",       "w[2]",        "normal[0]", "normal[1]",
       "height", "radius", "mass", "mu_cloth", "mu_cushion", "restitution", "jaw_radius"};
-  return field >= 0 && field < FIELDS ? names[field] : NULL;
+  if (field < 0 || field >= FIELDS)
+    return NULL;
+  return names[field];
 }
 
 const char *carom_cushion_model_name(carom_cushion_model model) {

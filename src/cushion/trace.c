@@ -37,8 +37,10 @@ static carom_status trace_exact(const subject *s, int plain, size_t n,
   const double p = path.at.p, energy = s->start.v_y * s->start.v_y * s->start.cosine;
   carom_mathavan_begin(&s->start, TOLERANCE, plain, &path);
   for (size_t k = 0; k < n && status == CAROM_OK; k++) {
-    status = carom_impact_advance(&path, k + 1 < n ? p * ((double)k / (double)(n - 1)) : INFINITY,
-                                  path.iterations + CAROM_IMPACT_ITERATIONS);
+    double until = INFINITY; /* the last point is the end */
+    if (k + 1 < n)
+      until = p * ((double)k / (double)(n - 1));
+    status = carom_impact_advance(&path, until, path.iterations + CAROM_IMPACT_ITERATIONS);
     carom_contact c = s->start;
     const carom_impulse so_far = carom_mathavan_impulse(&s->start, &path);
     carom_push(&c, &so_far);
@@ -60,8 +62,9 @@ static carom_status trace_euler(const subject *s, const carom_cushion_options *o
   for (size_t k = n; k-- > 0;) {
     carom_contact c = s->start;
     carom_cushion_run run;
-    const int64_t most =
-        k + 1 < n ? (int64_t)round((double)k * ((double)total / (double)(n - 1))) : INT64_MAX;
+    int64_t most = INT64_MAX;
+    if (k + 1 < n)
+      most = (int64_t)round((double)k * ((double)total / (double)(n - 1)));
     const carom_status status =
         carom_cushion_euler(&c, carom_cushion_steps(opt), opt->least_step / s->in->mass,
                             opt->convention == CAROM_CONVENTION_POOLTOOL, most, &run);
@@ -109,9 +112,10 @@ carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cus
       }
     else if (opt->model == CAROM_CUSHION_MATHAVAN)
       status = trace_exact(&s, opt->plain, n, points);
+    else if (opt->model == CAROM_CUSHION_EULER)
+      status = trace_euler(&s, opt, n, points);
     else
-      status = opt->model == CAROM_CUSHION_EULER ? trace_euler(&s, opt, n, points)
-                                                 : CAROM_ERROR_CUSHION_MODEL;
+      status = CAROM_ERROR_CUSHION_MODEL;
     /* the roll is lost behind the last point of the impact itself */
     if (status == CAROM_OK)
       carom_lose_roll(opt, in->radius, &s.frame, in->v, points[n - 1].state.w);

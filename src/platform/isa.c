@@ -133,7 +133,9 @@ const char *carom_isa_name(carom_isa isa) {
                                       [CAROM_ISA_NEON] = "neon",
                                       [CAROM_ISA_AVX2] = "avx2",
                                       [CAROM_ISA_AVX512] = "avx512"};
-  return (int)isa >= 0 && isa < CAROM_ISA_COUNT ? names[isa] : NULL;
+  if ((int)isa < 0 || isa >= CAROM_ISA_COUNT)
+    return NULL;
+  return names[isa];
 }
 
 /* The best set that is available and not above `limit`: sets of one processor family are listed
@@ -172,8 +174,11 @@ carom_isa carom_isa_in_force(void) {
 }
 
 carom_isa carom_isa_limit(carom_isa isa) {
-  const carom_isa now =
-      (int)isa >= 0 && isa < CAROM_ISA_COUNT ? best_up_to(isa) : from_environment();
+  carom_isa now;
+  if ((int)isa >= 0 && isa < CAROM_ISA_COUNT)
+    now = best_up_to(isa);
+  else
+    now = from_environment();
   atomic_store(&in_force, (int)now);
   return now;
 }

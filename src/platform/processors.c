@@ -49,14 +49,20 @@ static int processors_of(long quota, long period) {
   if (quota <= 0 || period <= 0)
     return INT_MAX;
   const long count = quota / period + (quota % period != 0);
-  return count < INT_MAX ? (int)count : INT_MAX;
+  if (count > INT_MAX)
+    return INT_MAX;
+  return (int)count;
+}
+
+static int lesser(int a, int b) {
+  return a < b ? a : b;
 }
 
 /* The limit of one group, whose folder is the first `length` characters of `folder`. */
 static int limit_of(const char *folder, int length, bool second_version) {
   char path[TEXT], text[TEXT], *rest;
-  const char *const name = second_version ? "cpu.max" : "cpu.cfs_quota_us";
-  if (snprintf(path, sizeof path, "%.*s/%s", length, folder, name) >= TEXT ||
+  static const char *const names[] = {"cpu.cfs_quota_us", "cpu.max"};
+  if (snprintf(path, sizeof path, "%.*s/%s", length, folder, names[second_version]) >= TEXT ||
       !read_text(path, text))
     return INT_MAX;
   const long quota = strtol(text, &rest, 10); /* "max" reads as 0, which is none */
@@ -77,8 +83,7 @@ static int least_on_the_way_up(const char *mount, const char *path, bool second_
   for (const int top = (int)strlen(mount); length >= top; length--)
     if (length == top || (folder[length] == '\0' && folder[length - 1] != '/') ||
         folder[length] == '/') {
-      const int own = limit_of(folder, length, second_version);
-      limit = own < limit ? own : limit;
+      limit = lesser(limit_of(folder, length, second_version), limit);
     }
   return limit;
 }
@@ -115,8 +120,7 @@ int carom_group_limit(const char *self, const char *root) {
     if (snprintf(mount, sizeof mount, "%s%s%s", root, second_version ? "" : "/", controllers) >=
         TEXT)
       continue;
-    const int own = least_on_the_way_up(mount, path, second_version);
-    limit = own < limit ? own : limit;
+    limit = lesser(least_on_the_way_up(mount, path, second_version), limit);
   }
   return limit;
 }
@@ -129,11 +133,15 @@ static int affinity(void) {
     return CPU_COUNT_S(sizeof sets, sets);
 #endif
   const long online = sysconf(_SC_NPROCESSORS_ONLN);
-  return online > 0 && online < INT_MAX ? (int)online : 1;
+  if (online <= 0 || online >= INT_MAX)
+    return 1;
+  return (int)online;
 }
 
 int carom_processors(void) {
   const int allowed = affinity(), limit = carom_group_limit("/proc/self/cgroup", "/sys/fs/cgroup");
-  const int count = allowed < limit ? allowed : limit;
-  return count > 1 ? count : 1;
+  const int count = lesser(allowed, limit);
+  if (count < 1)
+    return 1;
+  return count;
 }

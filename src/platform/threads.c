@@ -75,7 +75,9 @@ static size_t start_of(const carom_crew *crew, size_t number) {
   const size_t units = (crew->n + crew->unit - 1) / crew->unit,
                start = units * number / crew->count * crew->unit;
   CAROM_PROMISE(crew->count > 0 && crew->unit > 0 && (number < crew->count || start >= crew->n));
-  return start < crew->n ? start : crew->n;
+  if (start > crew->n)
+    return crew->n;
+  return start;
 }
 
 /* Takes parts until none is left. */
@@ -164,7 +166,9 @@ void carom_with_crew(carom_crew_caller *call, void *context, int threads, size_t
   /* How many are useful is asked first: counting the processors takes some system calls. */
   if (parts > 1 && threads == CAROM_ALL_THREADS)
     threads = carom_processors();
-  size_t most = threads < 1 ? 1 : (size_t)threads;
+  size_t most = 1;
+  if (threads > 1)
+    most = (size_t)threads;
   if (most > MOST_THREADS)
     most = MOST_THREADS;
   if (most > parts)
@@ -173,7 +177,9 @@ void carom_with_crew(carom_crew_caller *call, void *context, int threads, size_t
   atomic_init(&crew.begun, 0);
   atomic_init(&crew.over, false);
   thread_handle thread[MOST_THREADS];
-  const size_t started = most > 1 ? start_threads(&crew, thread, most - 1) : 0;
+  size_t started = 0;
+  if (most > 1)
+    started = start_threads(&crew, thread, most - 1);
   crew.threads = started;
   call(context, &crew);
   atomic_store(&crew.over, true);

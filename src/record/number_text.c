@@ -8,6 +8,7 @@
 
 #include "platform/arithmetic.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -48,18 +49,24 @@ static int write_decimal(double x, char *text) {
       return n;
     }
     int at = 0;
-    for (int k = 0; k < n - places || k == 0; k++)
-      text[at++] = n > places ? whole[k] : '0';
+    if (n <= places)
+      text[at++] = '0';
+    for (int k = 0; k < n - places; k++)
+      text[at++] = whole[k];
     text[at++] = '.';
+    for (int k = n - places; k < 0; k++)
+      text[at++] = '0';
     for (int k = n - places; k < n; k++)
-      text[at++] = k < 0 ? '0' : whole[k];
+      if (k >= 0)
+        text[at++] = whole[k];
     return at;
   }
   return 0;
 }
 
 static int write_hexadecimal(uint64_t bits, char *text) {
-  const int biased = (int)(bits >> MANTISSA & 0x7ff), e = biased == 0 ? 1 - BIAS : biased - BIAS;
+  const int biased = (int)(bits >> MANTISSA & 0x7ff), normal = biased != 0;
+  int e = biased - BIAS + !normal;
   uint64_t fraction = bits & ((UINT64_C(1) << MANTISSA) - 1);
   int at = 0;
   text[at++] = '"';
@@ -67,15 +74,20 @@ static int write_hexadecimal(uint64_t bits, char *text) {
     text[at++] = '-';
   text[at++] = '0';
   text[at++] = 'x';
-  text[at++] = biased == 0 ? '0' : '1';
+  text[at++] = (char)('0' + normal);
   /* the digits of the fraction without the zeros behind them */
   if (fraction != 0)
     text[at++] = '.';
   for (; fraction != 0; fraction = fraction << 4 & ((UINT64_C(1) << MANTISSA) - 1))
     text[at++] = digits[fraction >> (MANTISSA - 4)];
   text[at++] = 'p';
-  text[at++] = e < 0 ? '-' : '+';
-  at += write_whole((uint64_t)(e < 0 ? -e : e), text + at);
+  text[at] = '+';
+  if (e < 0) {
+    text[at] = '-';
+    e = -e;
+  }
+  at++;
+  at += write_whole((uint64_t)e, text + at);
   text[at++] = '"';
   return at;
 }
@@ -86,8 +98,10 @@ int carom_number_write(double x, char *text) {
   const int sign = (int)(bits >> 63);
   if (sign != 0)
     text[0] = '-';
-  const int size = write_decimal(sign != 0 ? -x : x, text + sign);
-  return size > 0 ? sign + size : write_hexadecimal(bits, text);
+  const int size = write_decimal(fabs(x), text + sign);
+  if (size == 0)
+    return write_hexadecimal(bits, text);
+  return sign + size;
 }
 
 /* ---- Reading */
@@ -103,7 +117,9 @@ static const char *read_exponent(const char *at, const char *end, int *e) {
     *e = 10 * *e + (*at - '0');
   if (negative)
     *e = -*e;
-  return n == 0 || n == 5 ? NULL : at;
+  if (n == 0 || n == 5)
+    return NULL;
+  return at;
 }
 
 static bool is_digit_at(const char *at, const char *end) {
@@ -123,7 +139,9 @@ static const char *read_fraction(const char *at, const char *end, uint64_t *frac
     *fraction |= (uint64_t)(digit - digits) << (MANTISSA - 4 - 4 * count);
     count++;
   }
-  return count == 0 ? NULL : at;
+  if (count == 0)
+    return NULL;
+  return at;
 }
 
 /* Whether 2^e (1 + fraction) with `normal`, else 2^e fraction, is in the one form that is written:
@@ -163,10 +181,14 @@ static const char *read_hexadecimal(const char *at, const char *end, double *x) 
     return NULL;
 
   /* A double is its sign, its exponent and its fraction, side by side. */
-  const uint64_t biased = normal ? (uint64_t)(e + BIAS) : 0;
+  uint64_t biased = 0;
+  if (normal)
+    biased = (uint64_t)(e + BIAS);
   const uint64_t bits = (uint64_t)negative << 63 | biased << MANTISSA | fraction;
   memcpy(x, &bits, sizeof *x);
-  return at < end && *at == '"' ? at + 1 : NULL;
+  if (at == end || *at != '"')
+    return NULL;
+  return at + 1;
 }
 
 /* A decimal number without its sign: m 10^e, or not exact where m has too many digits. */
@@ -235,7 +257,11 @@ const char *carom_number_read(const char *at, const char *end, double *x, const 
   }
 
   /* Both m and the power of ten are exact, so that one division or product rounds once. */
-  const double size = d.e < 0 ? (double)d.m / ten[-d.e] : (double)d.m * ten[d.e];
-  *x = negative ? -size : size;
+  if (d.e < 0)
+    *x = (double)d.m / ten[-d.e];
+  else
+    *x = (double)d.m * ten[d.e];
+  if (negative)
+    *x = -*x;
   return at;
 }

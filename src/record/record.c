@@ -141,7 +141,9 @@ enum { KINDS = sizeof lines / sizeof lines[0] };
 static size_t size_of(const field *f) {
   if (f->type == LIST)
     return f->size;
-  return f->type == INT32 ? sizeof(int32_t) : sizeof(int64_t);
+  if (f->type == INT32)
+    return sizeof(int32_t);
+  return sizeof(int64_t);
 }
 
 static const int64_t MOST_WHOLE = 9007199254740991; /* of a double, 2^53 - 1 */
@@ -198,7 +200,9 @@ static uint64_t stir_line(uint64_t hash, int kind, const carom_record *record) {
  * told once and not by every line that follows. */
 static uint64_t hash_behind(uint64_t hash, int kind, const carom_record *record) {
   const bool is_shot = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE;
-  return is_shot ? record->recorded.hash : stir_line(hash, kind, record);
+  if (is_shot)
+    return record->recorded.hash;
+  return stir_line(hash, kind, record);
 }
 
 /* ---- Faults ---------------------------------------------------------------------------------- */
@@ -221,7 +225,8 @@ static char *put(char *to, const char *limit, const char *text) {
 static bool wrong(reader *in, const char *what) {
   carom_record *record = in->record;
   char *to = record->fault, *limit = to + sizeof record->fault - 1;
-  to = put(to, limit, in->line != NULL ? in->line : "");
+  if (in->line != NULL)
+    to = put(to, limit, in->line);
   if (in->list != NULL) {
     char number[CAROM_NUMBER_TEXT];
     number[carom_number_write(in->index, number)] = '\0';
@@ -230,7 +235,8 @@ static bool wrong(reader *in, const char *what) {
   }
   if (in->key != NULL)
     to = put(put(to, limit, "."), limit, in->key);
-  to = put(to, limit, to > record->fault ? " " : "");
+  if (to > record->fault)
+    to = put(to, limit, " ");
   *put(to, limit, what) = '\0';
   return false;
 }
@@ -255,7 +261,9 @@ static bool next_is(reader *in, char c) {
 static bool expect(reader *in, char c, const char *what) {
   if (next_is(in, c))
     return true;
-  return wrong(in, in->at == in->end ? "is cut off: the line ends too soon" : what);
+  if (in->at == in->end)
+    what = "is cut off: the line ends too soon";
+  return wrong(in, what);
 }
 
 /* A key with its colon, into `key`, cut where it is longer than any. */
@@ -264,9 +272,13 @@ static bool read_key(reader *in, char key[KEY_TEXT]) {
   int n = 0;
   if (!expect(in, '"', "must be an object: a key in quotes comes here"))
     return false;
-  for (; in->at < in->end && *in->at != '"'; in->at++)
+  for (; in->at < in->end && *in->at != '"'; in->at++) {
+    char shown = *in->at;
+    if (shown < ' ' || shown > '~')
+      shown = '?';
     if (n < KEY_TEXT - 1)
-      key[n++] = *in->at >= ' ' && *in->at <= '~' ? *in->at : '?';
+      key[n++] = shown;
+  }
   key[n] = '\0';
   return expect(in, '"', "") && expect(in, ':', "has a key without ':' behind it");
 }
@@ -313,12 +325,15 @@ static bool read_value(reader *in, const field *f, unsigned char *to) {
     memcpy(to, &x, sizeof x);
     return true;
   }
-  const double most = f->type == INT32 ? 2147483647.0 : (double)MOST_WHOLE;
+  double most = (double)MOST_WHOLE;
+  if (f->type == INT32)
+    most = INT32_MAX;
   if (!(x >= -most && x <= most) || x != (double)(int64_t)x)
     return wrong(in, "must be a whole number");
-  const int64_t whole = (int64_t)x;
-  const int32_t half = f->type == INT32 ? (int32_t)x : 0;
-  memcpy(to, f->type == INT32 ? (const void *)&half : (const void *)&whole, size_of(f));
+  if (f->type == INT32)
+    memcpy(to, &(int32_t){(int32_t)x}, sizeof(int32_t));
+  else
+    memcpy(to, &(int64_t){(int64_t)x}, sizeof(int64_t));
   return true;
 }
 
@@ -350,7 +365,8 @@ static bool read_list(reader *in, const field *f, unsigned char *object) {
     n = -1; /* an empty list is closed already */
   if (n >= 0 && !expect(in, ']', "must be followed by ',' or ']'"))
     return false;
-  n = n < 0 ? 0 : n;
+  if (n < 0)
+    n = 0;
   memcpy(object + f->counted, &n, sizeof n);
   in->list = NULL;
   return true;
@@ -430,9 +446,10 @@ static const char *out_of_place(const carom_record *record, int kind) {
     return "stands behind the end of the recording";
   if (record->kind == CAROM_RECORD_WRONG)
     return "stands behind a line that is wrong";
-  if ((record->format == 0) != (kind == CAROM_RECORD_HEAD))
-    return record->format == 0 ? "stands where {\"recording\": ...} must: in the first line"
-                               : "comes twice";
+  if (record->format == 0 && kind != CAROM_RECORD_HEAD)
+    return "stands where {\"recording\": ...} must: in the first line";
+  if (record->format != 0 && kind == CAROM_RECORD_HEAD)
+    return "comes twice";
   if (kind == CAROM_RECORD_ACT && record->match != 1)
     return "is a line of matches, format 3, in a recording of format 2";
   if (kind == CAROM_RECORD_EVENT && !shot_before)
@@ -530,11 +547,13 @@ static bool check_act(reader *in) {
 static bool check_seal(reader *in, int kind, uint64_t seal) {
   const carom_record *record = in->record;
   in->key = "hash";
-  if (!is_sealed(kind) || seal == (record->match == 1 ? record->hash : 0))
+  if (!is_sealed(kind))
     return true;
   if (record->match != 1)
-    return wrong(in, "stands in lines of matches alone, format 3");
-  return wrong(in, seal == 0 ? "is missing" : "is not that of the lines up to here");
+    return seal == 0 || wrong(in, "stands in lines of matches alone, format 3");
+  if (seal == 0 && record->hash != 0)
+    return wrong(in, "is missing");
+  return seal == record->hash || wrong(in, "is not that of the lines up to here");
 }
 
 /* The format of the text. */
@@ -544,9 +563,11 @@ static bool check_head(reader *in) {
   record->match = record->format == FORMAT_OF_MATCH;
   if (record->format == FORMAT || record->match == 1)
     return true;
-  return wrong(in, record->format == 1 ? "is 1, whose hashes do not cover tables and strokes; this "
-                                         "carom reads 2 and 3. Record the shots again"
-                                       : "must be 2 or 3: a newer carom wrote this");
+  if (record->format == 1)
+    return wrong(in,
+                 "is 1, whose hashes do not cover tables and strokes; this carom reads 2 and 3. "
+                 "Record the shots again");
+  return wrong(in, "must be 2 or 3: a newer carom wrote this");
 }
 
 /* A ball comes in hand, or is placed by the rules of carom_place_ball(). */
@@ -555,11 +576,14 @@ static bool apply_place(reader *in) {
   if (!check_place(in))
     return false;
   in->key = NULL;
-  const bool exists = record->placed >= 0 && record->placed < record->count;
-  const int ball = exists ? (int)record->placed : -1;
-  const carom_status status = record->hand != 0 ? carom_record_hand(record, ball)
-                                                : carom_record_place(record, ball, record->place[0],
-                                                                     record->place[1], NULL);
+  int ball = -1;
+  if (record->placed >= 0 && record->placed < record->count)
+    ball = (int)record->placed;
+  carom_status status;
+  if (record->hand != 0)
+    status = carom_record_hand(record, ball);
+  else
+    status = carom_record_place(record, ball, record->place[0], record->place[1], NULL);
   return status == CAROM_OK || wrong(in, carom_status_string(status));
 }
 
@@ -601,7 +625,9 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
     const bool same_shots = record->shots == shots, same_hash = record->hash == hash;
     record->shots = shots;
     record->hash = hash;
-    in->key = same_shots ? "hash" : "shots";
+    in->key = "shots";
+    if (same_shots)
+      in->key = "hash";
     return (same_shots && same_hash) || wrong(in, "is not that of the lines above");
   }
   default:
@@ -658,12 +684,13 @@ carom_status carom_record_read(carom_record *record, const char *line, size_t si
   if (in.at == in.end)
     return CAROM_OK;
   const bool good = read_line(&in, &kind);
-  record->kind = good ? kind : CAROM_RECORD_WRONG; /* nothing is read behind a fault */
-  if (good && kind == CAROM_RECORD_HEAD && record->revision != carom_physics_revision()) {
-    record->kind = CAROM_RECORD_WRONG;
+  record->kind = CAROM_RECORD_WRONG; /* nothing is read behind a fault */
+  if (!good)
+    return CAROM_ERROR_RECORD;
+  if (kind == CAROM_RECORD_HEAD && record->revision != carom_physics_revision())
     return CAROM_ERROR_REVISION;
-  }
-  return good ? CAROM_OK : CAROM_ERROR_RECORD;
+  record->kind = kind;
+  return CAROM_OK;
 }
 
 /* ---- Playing --------------------------------------------------------------------------------- */
@@ -692,7 +719,9 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
   }
 
   /* recordings promise the bits that all machines share */
-  carom_shot local = none, *played = wanted != NULL ? wanted : &local;
+  carom_shot local = none, *played = &local;
+  if (wanted != NULL)
+    played = wanted;
   carom_shot_options options = record->options;
   options.fast = 0;
   options.threads = 0;
@@ -707,16 +736,20 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
   }
   played->final = record->final;
   played->facts = &record->facts;
-  played->state = goes || stops(&options) ? &record->state : NULL;
-  if (played->state == NULL)
+  played->state = NULL;
+  if (goes || stops(&options))
+    played->state = &record->state;
+  else
     record->state.opaque[0] = 0;
 
   /* whether anything is played shows in the states at the end */
   record->final[0].label = UNTOUCHED;
   const int count = (int)record->count;
-  const carom_status status =
-      goes ? carom_shot_continue(&record->table, record->balls, count, &options, played)
-           : carom_shoot(&record->table, record->balls, count, &record->cue, &options, played);
+  carom_status status;
+  if (goes)
+    status = carom_shot_continue(&record->table, record->balls, count, &options, played);
+  else
+    status = carom_shoot(&record->table, record->balls, count, &record->cue, &options, played);
   if (record->final[0].label == UNTOUCHED) { /* nothing was played */
     record->final[0] = first;
     return status;
@@ -724,7 +757,9 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
 
   /* the lines before, the stroke, and how it ended, as 3 words and 10 of each ball */
   const carom_record_end recorded = record->recorded;
-  uint64_t hash = record->pending == 1 ? record->played.hash : record->hash;
+  uint64_t hash = record->hash;
+  if (record->pending == 1)
+    hash = record->played.hash;
   memset(&record->recorded, 0, sizeof recorded);
   hash = stir_line(hash, (int)kind, record);
   record->recorded = recorded;
@@ -745,8 +780,10 @@ typedef struct writer {
 } writer;
 
 static void write_text(writer *out, const char *text) {
-  const size_t size = strlen(text), room = (size_t)(out->end - out->at),
-               n = size < room ? size : room;
+  const size_t room = (size_t)(out->end - out->at);
+  size_t n = strlen(text);
+  if (n > room)
+    n = room;
   CAROM_PROMISE(out->at <= out->end);
   memcpy(out->at, text, n);
   out->at += n;
@@ -789,11 +826,14 @@ static void write_object(writer *out, const field *fields, const unsigned char *
 
 static void write_list(writer *out, const field *f, const unsigned char *object, int64_t n) {
   static const unsigned char nothing[sizeof(carom_shot_ball)] = {0};
+  const unsigned char *before = nothing;
   write_text(out, "[");
   for (int64_t k = 0; k < n; k++) {
     const unsigned char *at = object + f->at + (size_t)k * f->size;
-    write_text(out, k == 0 ? "" : ",");
-    write_object(out, f->of, at, k == 0 ? nothing : at - f->size);
+    if (k > 0)
+      write_text(out, ",");
+    write_object(out, f->of, at, before);
+    before = at;
   }
   write_text(out, "]");
 }
@@ -816,12 +856,16 @@ static void write_object(writer *out, const field *fields, const unsigned char *
     /* an empty list, and a number as before, are left out */
     if (f->type == LIST && n == 0)
       continue;
-    const unsigned char *last = before != NULL ? before + f->at : zeros;
+    const unsigned char *last = zeros;
+    if (before != NULL)
+      last = before + f->at;
     if (f->type != LIST && !f->always && memcmp(object + f->at, last, (size_t)n * size_of(f)) == 0)
       continue;
 
     /* the key, then a list, a number, or numbers in brackets */
-    write_text(out, first ? "\"" : ",\"");
+    if (!first)
+      write_text(out, ",");
+    write_text(out, "\"");
     write_text(out, f->key);
     write_text(out, "\":");
     first = false;
@@ -836,7 +880,8 @@ static void write_object(writer *out, const field *fields, const unsigned char *
         write_text(out, ",");
       write_value(out, f, object + f->at + (size_t)k * size_of(f));
     }
-    write_text(out, n == 1 ? "" : "]");
+    if (n != 1)
+      write_text(out, "]");
   }
   write_text(out, "}");
 }
@@ -876,7 +921,9 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
 
   /* what the line says beside what is there */
   if (kind == CAROM_RECORD_HEAD) {
-    record->format = record->match == 1 ? FORMAT_OF_MATCH : FORMAT;
+    record->format = FORMAT;
+    if (record->match == 1)
+      record->format = FORMAT_OF_MATCH;
     record->revision = carom_physics_revision();
   }
   if (is_shot)
@@ -884,7 +931,8 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
 
   record->seal = 0;
   const uint64_t hash = hash_behind(record->hash, (int)kind, record);
-  record->seal = record->match == 1 && is_sealed((int)kind) ? hash : 0;
+  if (record->match == 1 && is_sealed((int)kind))
+    record->seal = hash;
 
   /* the text; where there is no room for it nothing has happened */
   writer out = {text, text + room};
@@ -894,7 +942,8 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
   write_object(&out, lines[kind].fields, (const unsigned char *)record, NULL);
   write_text(&out, "}\n");
   if (out.at == out.end) {
-    record->format = kind == CAROM_RECORD_HEAD ? 0 : record->format;
+    if (kind == CAROM_RECORD_HEAD)
+      record->format = 0;
     return 0;
   }
 

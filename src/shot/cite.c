@@ -133,7 +133,10 @@ static unsigned sources_of(const carom_shot_options *o) {
   const carom_rules *rules = carom_rules_of(o->world);
   const carom_ball_model balls = carom_ball_model_of(o);
   unsigned sources = CAROM_BY_CAROM | CAROM_BY_MARLOW1995 | CAROM_BY_ALCIATORE_SQUIRT;
-  sources |= o->world == CAROM_WORLD_POOLTOOL ? CAROM_BY_KIEFL2024 : CAROM_BY_BANNERMAN2014;
+  if (o->world == CAROM_WORLD_POOLTOOL)
+    sources |= CAROM_BY_KIEFL2024;
+  else
+    sources |= CAROM_BY_BANNERMAN2014;
   const carom_ball_kind plain = {0}, measured = {.smooth_q = 1};
   sources |= of_cushion[carom_cushion_model_of(o, &plain)] |
              of_cushion[carom_cushion_model_of(o, &measured)];
@@ -154,9 +157,9 @@ static unsigned sources_of(const carom_shot_options *o) {
 }
 
 size_t carom_cite(const carom_shot_options *options, char *text, size_t room) {
-  static const carom_shot_options usual;
-  const carom_shot_options *o = options != NULL ? options : &usual;
-  room = text != NULL ? room : 0;
+  const carom_shot_options *o = carom_options_or_usual(options);
+  if (text == NULL)
+    room = 0;
   if (room > 0)
     text[0] = '\0';
   if (carom_check_shot_options(o) != CAROM_OK)
@@ -165,8 +168,8 @@ size_t carom_cite(const carom_shot_options *options, char *text, size_t room) {
   size_t length = 0;
   for (size_t k = 0; k < sizeof entries / sizeof entries[0]; k++) {
     /* an empty line stands between entries; text that does not fit is only counted */
-    const char *parts[] = {length > 0 ? "\n" : "", entries[k].text};
-    for (size_t p = 0; p < 2 && (entries[k].source & sources) != 0; p++)
+    const char *parts[] = {"\n", entries[k].text};
+    for (size_t p = length == 0; p < 2 && (entries[k].source & sources) != 0; p++)
       for (const char *c = parts[p]; *c != '\0'; c++, length++)
         if (length + 1 < room)
           text[length] = *c;

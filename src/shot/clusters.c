@@ -13,6 +13,13 @@ static const double near = 0.01;           /* m; members.c looks closer */
 static const double simultaneous = 1e-9;   /* of a contact's duration: touches that are nearer in
                                               time count as one */
 
+/* The steps of a cluster in the duration of a contact, as asked or as usual. */
+static double steps_of(const carom_shot_options *opt) {
+  if (opt->cluster_steps > 0)
+    return (double)opt->cluster_steps;
+  return CAROM_CLUSTER_STEPS;
+}
+
 /* One of the balls of a cluster. On the cloth all centres are at the height of their radius. */
 static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_ball_state *s,
                                     const carom_shot_options *opt, bool flies, int which) {
@@ -103,7 +110,7 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
   /* all balls in play, as they are now; the two that meet, by their places in the list */
   c->balls = 0;
   c->struck = c->on_slate = false;
-  c->steps = sim->opt->cluster_steps > 0 ? sim->opt->cluster_steps : CAROM_CLUSTER_STEPS;
+  c->steps = steps_of(sim->opt);
   c->slow = carom_slow_speed(sim->slow_instants);
   int first = 0, second = 0;
   for (int k = 0; k < sim->count; k++) {
@@ -141,7 +148,9 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
   for (int k = 1; k < count; k++)
     CAROM_PROMISE(c->ball[c->contact[order[k]].i].which != i ||
                   c->ball[c->contact[order[k]].j].which != j);
-  return count > 1 ? count : 0;
+  if (count == 1)
+    return 0;
+  return count;
 }
 
 bool carom_may_push(const carom_sim *sim, const carom_motion *alone) {
@@ -187,7 +196,7 @@ static carom_cluster_ball member_now(const carom_sim *sim, int k) {
 int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
                          carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]) {
   c->balls = 0;
-  c->steps = sim->opt->cluster_steps > 0 ? sim->opt->cluster_steps : CAROM_CLUSTER_STEPS;
+  c->steps = steps_of(sim->opt);
   c->slow = carom_slow_speed(sim->slow_instants);
   c->struck = true;
   c->on_slate = false;
@@ -208,7 +217,9 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
     put_on_slate(sim, c);
   if ((slate || c->contacts > 0) && !carom_cluster_solve(c))
     return -1;
-  const int count = c->contacts > 0 ? in_order(c, order) : 0;
+  int count = 0;
+  if (c->contacts > 0)
+    count = in_order(c, order);
 
   /* none of those near was touched: all is as if it were alone */
   if (count == 0 && !slate) {
@@ -250,7 +261,7 @@ static void gather(const carom_shot_ball *balls, int count, const carom_shot_opt
                    const bool done[], carom_cluster_state *c) {
   c->balls = 0;
   c->struck = c->on_slate = false;
-  c->steps = opt->cluster_steps > 0 ? opt->cluster_steps : CAROM_CLUSTER_STEPS;
+  c->steps = steps_of(opt);
   c->slow = carom_slow_speed(0);
   for (int k = 0; k < count; k++) {
     if (done[k])
@@ -306,7 +317,7 @@ static carom_status solve(const carom_shot_ball *balls, int count, const carom_s
     gather(balls, count, opt, done, &c);
     const int size = carom_cluster_members(&c, -1, -1);
     if (size == 0)
-      return *found > 0 ? CAROM_OK : CAROM_SEPARATING;
+      return carom_ok_if(*found > 0, CAROM_SEPARATING);
     if (size < 0 || !carom_cluster_solve(&c))
       return CAROM_ERROR_UNRESOLVED;
 
@@ -331,19 +342,18 @@ static carom_status solve(const carom_shot_ball *balls, int count, const carom_s
 carom_status carom_cluster(const carom_shot_ball *balls, int count, const carom_shot_options *opt,
                            carom_motion *out, carom_cluster_contact *contacts, int room,
                            int *contacts_count) {
-  static const carom_shot_options no_options = {.steps = 0};
   int found = 0;
   if (balls == NULL || out == NULL || (contacts == NULL && room != 0) || room < 0)
     return CAROM_ERROR_NULL;
   if (count < 1 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
-  opt = opt != NULL ? opt : &no_options;
+  opt = carom_options_or_usual(opt);
   carom_status status = check(balls, count, opt);
   if (status == CAROM_OK)
     status = solve(balls, count, opt, out, contacts, room, &found);
   for (int k = 0; k < count && status < 0; k++)
     out[k] = (carom_motion){{NAN, NAN, NAN}, {NAN, NAN, NAN}};
   if (contacts_count != NULL)
-    *contacts_count = status < 0 ? 0 : found;
+    *contacts_count = found * (status >= 0);
   return status;
 }

@@ -35,8 +35,10 @@ static void widen_range(carom_facts *facts, const carom_sim *sim, bool begins) {
   const carom_ball_state now = state_now(sim, sim->struck);
   for (int axis = 0; axis < 2; axis++) {
     const double x = now.r[axis];
-    facts->first_low[axis] = begins ? x : fmin(facts->first_low[axis], x);
-    facts->first_high[axis] = begins ? x : fmax(facts->first_high[axis], x);
+    if (begins)
+      facts->first_low[axis] = facts->first_high[axis] = x;
+    facts->first_low[axis] = fmin(facts->first_low[axis], x);
+    facts->first_high[axis] = fmax(facts->first_high[axis], x);
   }
 }
 
@@ -106,7 +108,9 @@ static void meet_cushion(carom_facts *facts, const carom_sim *sim, const carom_d
 /* A ball has an event: where it has been. Its last event was at the start of its path; where it
  * comes to rest, it has no other one. */
 static void been_at(carom_facts *facts, const carom_sim *sim, int i, bool rests) {
-  const double y = rests ? state_now(sim, i).r[1] : sim->path[i].from.r[1];
+  double y = sim->path[i].from.r[1];
+  if (rests)
+    y = state_now(sim, i).r[1];
   const double length = sim->table->length, radius = sim->rates[i].radius;
   if (y + radius < 0.5 * length)
     facts->past_middle |= set_of(i);
@@ -182,7 +186,9 @@ void carom_facts_touches(const carom_sim *sim, int touches, double first, double
   facts->touches = before + touches;
   if (before < 2 && facts->touches >= 2) {
     facts->second_time = sim->now;
-    facts->second_speed = before == 1 ? first : second;
+    facts->second_speed = second;
+    if (before == 1)
+      facts->second_speed = first;
     memcpy(facts->second_place, sim->path[sim->struck].from.r, sizeof facts->second_place);
   }
 }

@@ -44,7 +44,9 @@ static carom_status status_of_numbers(carom_status status) {
  * with `within` is in it, so that it is at fault beside others. */
 static bool blame(carom_fault *f, carom_part_kind part, int index, const void *object,
                   bool within) {
-  const carom_status status = within ? status_of_numbers(f->status) : f->status;
+  carom_status status = f->status;
+  if (within)
+    status = status_of_numbers(f->status);
   const carom_number *n;
   for (int k = 0; (n = carom_number_of(part, k)) != NULL; k++)
     for (int j = 0; j < n->count && n->error == status; j++) {
@@ -125,7 +127,9 @@ carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls
   }
 
   /* A number outside its range has the range as its text. */
-  const carom_shot_ball *ball = at >= 0 && at < count ? &balls[at] : NULL;
+  const carom_shot_ball *ball = NULL;
+  if (at >= 0 && at < count)
+    ball = &balls[at];
   suspect suspects[SUSPECTS_MOST];
   const int suspect_count = list_suspects(t, ball, at, cue, opt, suspects);
   for (int k = 0; k < suspect_count; k++)
@@ -135,7 +139,9 @@ carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls
     }
 
   /* Of the numbers beside others, those of a ball have conditions with texts of their own. */
-  const carom_number *n = ball != NULL ? carom_ball_fault(&ball->kind, text, room) : NULL;
+  const carom_number *n = NULL;
+  if (ball != NULL)
+    n = carom_ball_fault(&ball->kind, text, room);
   if (n != NULL)
     *fault = (carom_fault){n->error, {CAROM_PART_BALL, at}, 0, n, value_of(n, &ball->kind, 0)};
   else

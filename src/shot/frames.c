@@ -275,8 +275,7 @@ carom_status carom_shot_frames(const carom_shot_ball *balls, int count, const ca
   keyframes keep = {0};
   if (sound) {
     /* frames of another shot begin anew */
-    const int64_t room = shot->events != NULL ? shot->room : 0,
-                  known = shot->count < room ? shot->count : room;
+    const int64_t known = carom_events_kept(shot);
     const uint64_t of = carom_fingerprint(0, balls, (size_t)count * sizeof *balls);
     memcpy(&at, &kept->now, size);
     if (at.count != count || at.of != of || at.next < 0 || at.next > known || at.turns != 1 ||

@@ -17,6 +17,7 @@
 #include "carom_shot.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
+#include "shot/shot.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -53,7 +54,9 @@ static void find_wall(fall *f) {
   const double x = f->from->r[0] - f->pocket->centre[0], y = f->from->r[1] - f->pocket->centre[1],
                vx = f->from->v[0], vy = f->from->v[1];
   const double speed2 = vx * vx + vy * vy, inward = -(x * vx + y * vy);
-  const double middle = speed2 > 0.0 ? inward / speed2 : 0.0;
+  double middle = 0.0;
+  if (speed2 > 0.0)
+    middle = inward / speed2;
   const double nearest2 = carom_greater(x * x + y * y - middle * inward, 0.0);
   f->wall = carom_greater(f->pocket->radius - f->kind->radius, sqrt(nearest2));
   f->hit = INFINITY;
@@ -111,8 +114,12 @@ static const lying *in_its_way(const fall *f, double t, const double p[2]) {
 static double to_middle(const fall *f, const lying *other, double e[2]) {
   const double x = f->pocket->centre[0] - other->r[0], y = f->pocket->centre[1] - other->r[1],
                far = sqrt(x * x + y * y);
-  e[0] = far > 0.0 ? x / far : 1.0;
-  e[1] = far > 0.0 ? y / far : 0.0;
+  e[0] = 1.0;
+  e[1] = 0.0;
+  if (far > 0.0) {
+    e[0] = x / far;
+    e[1] = y / far;
+  }
   return far;
 }
 
@@ -152,9 +159,14 @@ static double last_free(const fall *f, double from) {
       continue;
     for (int n = 0; n < BISECTIONS && k > 0; n++) {
       const double middle = 0.5 * (low + high);
-      *(place_at(f, middle, p, v) ? &low : &high) = middle;
+      if (place_at(f, middle, p, v))
+        low = middle;
+      else
+        high = middle;
     }
-    return k > 0 ? high : from;
+    if (k == 0)
+      return from;
+    return high;
   }
   return f->end;
 }
@@ -175,7 +187,9 @@ static void find_end(fall *f) {
   /* the direction, inward where the ball is right above the other one */
   const double far = to_middle(f, other, e), x = p[0] + far * e[0], y = p[1] + far * e[1],
                apart = sqrt(x * x + y * y);
-  f->inward = apart > 0.0 ? (x * e[0] + y * e[1]) / apart : 1.0;
+  f->inward = 1.0;
+  if (apart > 0.0)
+    f->inward = (x * e[0] + y * e[1]) / apart;
   f->aside = y * e[0] - x * e[1];
   f->most = carom_greater(f->wall, sqrt(p[0] * p[0] + p[1] * p[1]));
   f->touched = other;
@@ -207,18 +221,20 @@ static void state_at(const fall *f, double t, carom_ball_state *state) {
   }
   for (int k = 0; k < 2; k++) {
     state->r[k] = f->pocket->centre[k] + p[k];
-    state->v[k] = lies ? 0.0 : v[k];
+    state->v[k] = v[k];
   }
   state->r[2] = height_of(f, t);
-  state->v[2] = lies ? 0.0 : f->from->v[2] - f->kind->gravity * t;
+  state->v[2] = f->from->v[2] - f->kind->gravity * t;
+  if (lies)
+    memset(state->v, 0, sizeof state->v);
 }
 
 carom_status carom_shot_falls(const carom_table *table, const carom_shot_ball *balls, int count,
                               const carom_shot *shot, const double *times, size_t n,
                               carom_ball_state *states) {
-  const bool nothing = table == NULL || (n > 0 && (times == NULL || states == NULL));
-  const carom_status status =
-      nothing ? CAROM_ERROR_NULL : carom_shot_at_times(balls, count, shot, NULL, 0, NULL);
+  if (table == NULL || (n > 0 && (times == NULL || states == NULL)))
+    return CAROM_ERROR_NULL;
+  const carom_status status = carom_shot_at_times(balls, count, shot, NULL, 0, NULL);
   if (status < 0)
     return status;
   for (size_t k = 0; k < n; k++)
@@ -226,10 +242,10 @@ carom_status carom_shot_falls(const carom_table *table, const carom_shot_ball *b
       return CAROM_ERROR_TIME;
 
   /* balls that fall, in the order in which they do; those that lie in the pockets already */
-  const int64_t known = shot->count < shot->room ? shot->count : shot->room;
+  const int64_t known = carom_events_kept(shot);
   lying others[CAROM_BALLS_MOST];
   int down = 0;
-  for (int64_t e = 0; shot->events != NULL && e < known; e++) {
+  for (int64_t e = 0; e < known; e++) {
     const carom_event *event = &shot->events[e];
     if (event->type != CAROM_EVENT_POCKET || event->a < 0 || event->a >= count || event->b < 0 ||
         event->b >= table->pockets || !(balls[event->a].kind.gravity > 0.0))
@@ -259,7 +275,10 @@ carom_status carom_shot_falls(const carom_table *table, const carom_shot_ball *b
 carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *balls, int count,
                               const carom_shot *shot, const double *times, size_t n,
                               carom_ball_state *states) {
-  const carom_status status =
-      table == NULL ? CAROM_ERROR_NULL : carom_shot_at_times(balls, count, shot, times, n, states);
-  return status < 0 ? status : carom_shot_falls(table, balls, count, shot, times, n, states);
+  if (table == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_status status = carom_shot_at_times(balls, count, shot, times, n, states);
+  if (status < 0)
+    return status;
+  return carom_shot_falls(table, balls, count, shot, times, n, states);
 }

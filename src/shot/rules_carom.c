@@ -29,8 +29,11 @@ static double closing_speed(const carom_sim *sim, const carom_due *due) {
   const bool two = due->type == CAROM_EVENT_BALL_BALL;
   if (two)
     carom_path_at(&sim->path[due->b], &sim->rates[due->b], due->time, &b);
-  carom_contact_normal(sim, due, &a, two ? &b : NULL, n);
-  return carom_closing(&a, two ? &b : NULL, n);
+  const carom_ball_state *other = NULL;
+  if (two)
+    other = &b;
+  carom_contact_normal(sim, due, &a, other, n);
+  return carom_closing(&a, other, n);
 }
 
 static int rank(int type) {
@@ -56,7 +59,8 @@ static carom_due choose(const carom_sim *sim, const carom_due *due, int count) {
     if (order > 0 || (order == 0 && rank(due[k].type) < 2))
       continue;
     if (order == 0) {
-      speed = speed < 0.0 ? closing_speed(sim, &due[best]) : speed;
+      if (speed < 0.0)
+        speed = closing_speed(sim, &due[best]);
       const double other = closing_speed(sim, &due[k]);
       if (!(other > speed * (1.0 + equal_speeds)))
         continue;
@@ -75,7 +79,9 @@ static int touch_rail(const double g[3], double T, double times[2]) {
   if (g[0] < -CAROM_BEHIND) { /* coming out of the cushion's back and falling onto it is the only
                                  way */
     const double D = g[1] * g[1] - 4.0 * g[2] * g[0];
-    times[0] = g[2] < 0.0 && D > 0.0 && g[1] > 0.0 ? (-g[1] - sqrt(D)) / (2.0 * g[2]) : INFINITY;
+    times[0] = INFINITY;
+    if (g[2] < 0.0 && D > 0.0 && g[1] > 0.0)
+      times[0] = (-g[1] - sqrt(D)) / (2.0 * g[2]);
   } else {
     times[0] = carom_first_touch(g, CAROM_SLACK, T);
   }
@@ -85,9 +91,9 @@ static int touch_rail(const double g[3], double T, double times[2]) {
 /* A ball in a pocket's circle is there by rounding, at an event on the circle: a layout has none
  * in there. */
 static double enter_pocket(const carom_separation *d, double radius, double T) {
-  return d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] <= radius * radius
-             ? 0.0
-             : carom_first_crossing(d, radius, T);
+  if (d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] <= radius * radius)
+    return 0.0;
+  return carom_first_crossing(d, radius, T);
 }
 
 static const carom_rules rules = {

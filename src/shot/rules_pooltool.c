@@ -64,12 +64,16 @@ static int kind_of(int type) { /* in the order of pooltool's candidates */
   }
 }
 static int tier_of(int kind) {
-  return kind == 0 || kind == 3 ? 2 : 3;
+  if (kind == 0 || kind == 3)
+    return 2;
+  return 3;
 }
 static int round_of(const carom_sim *sim, const carom_due *due) {
   if (due->type == CAROM_EVENT_BALL_BALL)
     return sim->pair_round[due->a][due->b];
-  return due->type < CAROM_EVENT_SLIDING_ROLLING ? sim->meeting_round[due->a] : 0;
+  if (due->type < CAROM_EVENT_SLIDING_ROLLING)
+    return sim->meeting_round[due->a];
+  return 0;
 }
 
 static carom_due choose(const carom_sim *sim, const carom_due *due, int count) {
@@ -82,7 +86,9 @@ static carom_due choose(const carom_sim *sim, const carom_due *due, int count) {
   for (int k = 0; k < 5; k++) {
     if (of_kind[k] == NULL)
       continue;
-    const int tiers = best == NULL ? -1 : tier_of(k) - tier_of(kind_of(best->type));
+    int tiers = -1;
+    if (best != NULL)
+      tiers = tier_of(k) - tier_of(kind_of(best->type));
     if (tiers < 0 || (tiers == 0 && energy_of_event(sim, of_kind[k]) > energy_of_event(sim, best)))
       best = of_kind[k];
   }
@@ -102,9 +108,9 @@ static int touch_rail(const double g[3], double T, double times[2]) {
 }
 
 static double touch_ball(const carom_separation *d, double reach, double T) {
-  return d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] < reach * reach
-             ? 0.0
-             : carom_first_crossing(d, reach, T);
+  if (d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] < reach * reach)
+    return 0.0;
+  return carom_first_crossing(d, reach, T);
 }
 
 /* ---- CONTACTS */
@@ -116,9 +122,13 @@ static double nearest_zero(double a, double b, double c) {
   const int zeros = carom_quadratic_zeros(a, b, c, zero);
   if (zeros == 0) {
     const double real = -b / (2.0 * a), imaginary = sqrt(4.0 * a * c - b * b) / (2.0 * a);
-    return fabs(imaginary) < 1e-3 * fabs(real) ? real : NAN;
+    if (fabs(imaginary) < 1e-3 * fabs(real))
+      return real;
+    return NAN;
   }
-  return zeros == 2 && fabs(zero[1]) < fabs(zero[0]) ? zero[1] : zero[0];
+  if (zeros == 2 && fabs(zero[1]) < fabs(zero[0]))
+    return zero[1];
+  return zero[0];
 }
 
 /* Two balls, set apart; n becomes the direction from a to b. False where pooltool has no answer. */
@@ -133,10 +143,17 @@ static bool kiss_balls(double R, double n[2], carom_ball_state *a, carom_ball_st
   const double m_x = 0.5 * t * (a->v[0] + b->v[0]), m_y = 0.5 * t * (a->v[1] + b->v[1]);
   const double apart = sqrt(x * x + y * y), half = 0.5 * (reach - apart) / apart;
   const bool along = sqrt(m_x * m_x + m_y * m_y) <= longest;
-  a->r[0] += along ? t * a->v[0] : -half * x;
-  a->r[1] += along ? t * a->v[1] : -half * y;
-  b->r[0] += along ? t * b->v[0] : half * x;
-  b->r[1] += along ? t * b->v[1] : half * y;
+  if (along) {
+    a->r[0] += t * a->v[0];
+    a->r[1] += t * a->v[1];
+    b->r[0] += t * b->v[0];
+    b->r[1] += t * b->v[1];
+  } else {
+    a->r[0] -= half * x;
+    a->r[1] -= half * y;
+    b->r[0] += half * x;
+    b->r[1] += half * y;
+  }
   n[0] = b->r[0] - a->r[0];
   n[1] = b->r[1] - a->r[1];
   const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
@@ -155,7 +172,9 @@ static void keep_touching(const double n[2], carom_ball_state *a, carom_ball_sta
   if (!(fabs(q - p) < 0.01) ||
       !((a->v[0] * b->v[0] + a->v[1] * b->v[1]) / (speed_a * speed_b) > 0.9))
     return;
-  const double passed = p > q ? 0.1 * p : -0.1 * q;
+  double passed = -0.1 * q;
+  if (p > q)
+    passed = 0.1 * p;
   for (int k = 0; k < 2; k++) {
     a->v[k] -= passed * n[k];
     b->v[k] += passed * n[k];
@@ -166,18 +185,25 @@ static void keep_touching(const double n[2], carom_ball_state *a, carom_ball_sta
 static void kiss_rail(const carom_rail *rail, const double line[3], double R, double n[2],
                       carom_ball_state *s) {
   const double reach = R + spacer;
-  const double turn = line[0] * s->v[0] + line[1] * s->v[1] > 0.0 ? 1.0 : -1.0;
+  double turn = -1.0;
+  if (line[0] * s->v[0] + line[1] * s->v[1] > 0.0)
+    turn = 1.0;
   n[0] = turn * line[0];
   n[1] = turn * line[1];
   const double d = (s->r[0] - rail->p[0]) * n[0] + (s->r[1] - rail->p[1]) * n[1],
                v = s->v[0] * n[0] + s->v[1] * n[1];
-  const double t1 = (reach - d) / v, t2 = (-reach - d) / v, t = fabs(t1) < fabs(t2) ? t1 : t2;
+  const double t1 = (reach - d) / v;
+  double t = (-reach - d) / v;
+  if (fabs(t1) < fabs(t))
+    t = t1;
   const double speed = sqrt(s->v[0] * s->v[0] + s->v[1] * s->v[1]);
   if (fabs(t) * speed <= longest) {
     s->r[0] += t * s->v[0];
     s->r[1] += t * s->v[1];
   } else {
-    const double more = (d > 0.0 ? reach : -reach) - d;
+    double more = -reach - d;
+    if (d > 0.0)
+      more = reach - d;
     s->r[0] += more * n[0];
     s->r[1] += more * n[1];
   }
@@ -216,13 +242,23 @@ static bool kiss_cushion(const carom_sim *sim, const carom_due *due, double n[2]
 static carom_status resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a,
                             carom_ball_state *b) {
   double n[3] = {0.0};
-  if (!(b != NULL ? kiss_balls(sim->rates[due->a].radius, n, a, b) : kiss_cushion(sim, due, n, a)))
+  bool kissed;
+  if (b != NULL)
+    kissed = kiss_balls(sim->rates[due->a].radius, n, a, b);
+  else
+    kissed = kiss_cushion(sim, due, n, a);
+  if (!kissed)
     return CAROM_ERROR_UNRESOLVED;
-  const carom_status status =
-      b != NULL ? carom_model_balls(sim, due, n, false, a, b) : carom_model_cushion(sim, due, n, a);
+  carom_status status;
+  if (b != NULL)
+    status = carom_model_balls(sim, due, n, false, a, b);
+  else
+    status = carom_model_cushion(sim, due, n, a);
   a->label = CAROM_BALL_SLIDING;
-  if (b == NULL || status < 0)
-    return status < 0 ? status : CAROM_OK;
+  if (status < 0)
+    return status;
+  if (b == NULL)
+    return CAROM_OK;
   keep_touching(n, a, b);
   b->label = CAROM_BALL_SLIDING;
   return CAROM_OK;

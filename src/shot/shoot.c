@@ -11,17 +11,17 @@
 #include <stddef.h>
 #include <string.h>
 
-static const carom_shot_options no_options = {0};
-
-/* The next place for an event, or a spare one where there is no room for it. */
+/* Counts an event, and gives the place where its states go: in the caller's list, or a spare one
+ * where that has no room. */
 static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
   carom_shot *shot = sim->shot;
   CAROM_PROMISE(shot->count >= 0);
   const bool room = shot->count < shot->room;
+  carom_event *event = spare;
   if (room && shot->brief != NULL)
     shot->brief[shot->count] = (carom_brief_event){sim->now, due->type, due->a, due->b, 0};
-  const bool kept = room && shot->events != NULL;
-  carom_event *event = kept ? &shot->events[shot->count] : spare;
+  if (room && shot->events != NULL)
+    event = &shot->events[shot->count];
   if (shot->facts != NULL)
     carom_facts_event(sim, due);
   shot->count++;
@@ -102,12 +102,12 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
     const carom_cluster_ball *two[2] = {&c->ball[x->i], &c->ball[x->j]};
     const carom_due contact = {sim->now, CAROM_EVENT_BALL_BALL, two[0]->which, two[1]->which};
     CAROM_PROMISE(contact.a < contact.b);
-    /* the loop stops by the contact of the struck ball, wherever it stands */
+    /* whether the shot stops is asked for the first contact of the struck ball */
     if ((contact.a == struck || contact.b == struck) && due->a != struck && due->b != struck)
       *due = contact;
 
     carom_event spare, *event = note(sim, &spare, &contact);
-    event->cluster = count + (c->struck ? 1 : 0);
+    event->cluster = count + c->struck; /* the strike is one of them */
     event->impulse =
         sqrt(x->impulse * x->impulse + x->rubbed[0] * x->rubbed[0] + x->rubbed[1] * x->rubbed[1]);
     for (int side = 0; side < 2; side++) {
@@ -141,9 +141,9 @@ static carom_status unresolved(carom_sim *sim) {
   return CAROM_ERROR_UNRESOLVED;
 }
 
-/* The contact that is due with all that lasts at the same time. Returns false where there is
- * nothing else. *due becomes the first contact of the struck ball, where it has one. Apart, as a
- * cluster needs 20 KiB of stack. */
+/* Resolves the contact that is due together with the contacts that last at the same time. Returns
+ * false where there are no others. *due becomes the first contact of the struck ball, where it has
+ * one. This is a function of its own because a cluster needs 20 KiB of stack. */
 __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *due,
                                                           carom_status *status) {
   carom_cluster_state c;
@@ -161,14 +161,14 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
   return true;
 }
 
-/* Which strike a push is: the first, of a ball that has others near or of one that is alone, or a
- * further touch. */
+/* Which strike a push is: the first strike of a ball that has others near, the first strike of a
+ * ball that has none, or a further touch of the tip. */
 typedef enum push_kind { PUSH_OF_SEVERAL, PUSH_OF_ONE, PUSH_AGAIN } push_kind;
 
-/* The push of a cue, now, with the contacts of balls that last meanwhile, as events behind that of
- * the strike. Returns false where no other ball takes part in a push of several, and where a
- * further touch closes below CAROM_LEAST_TOUCH. *met becomes the first contact of the struck ball.
- */
+/* Resolves the push of a cue together with the contacts of balls that last meanwhile; their events
+ * stand behind that of the strike. Returns false, with nothing changed, where no other ball takes
+ * part in a PUSH_OF_SEVERAL, and where a PUSH_AGAIN closes below CAROM_LEAST_TOUCH. *met becomes
+ * the first contact of the struck ball. */
 __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_cue *cue, double most,
                                                  bool slate, push_kind kind, carom_due *met,
                                                  carom_status *status) {
@@ -195,8 +195,9 @@ __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_cue
   carom_cluster_rest(sim, &c, c.tip.ball, state);
   carom_label_after(c.in_space, sim->layout->kind[i], state);
   event->after[0] = *state;
-  event->cluster = count > 0 ? count + 1 : 0;
   event->impulse = c.tip.impulse;
+  if (count > 0)
+    event->cluster = count + 1;
   memset(&event->after[1], 0, sizeof event->after[1]);
   *status = CAROM_OK;
   if (!carom_is_finite(state->v) || !carom_is_finite(state->w)) {
@@ -207,7 +208,9 @@ __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_cue
 
   bool changed[CAROM_BALLS_MOST] = {false};
   changed[i] = true;
-  *met = (carom_due){sim->now, count > 0 ? CAROM_EVENT_BALL_BALL : CAROM_DUE_NOTHING, -1, -1};
+  *met = (carom_due){sim->now, CAROM_DUE_NOTHING, -1, -1};
+  if (count > 0)
+    met->type = CAROM_EVENT_BALL_BALL;
   const carom_status of_contacts = note_contacts(sim, &c, order, count, changed, met);
   if (*status == CAROM_OK)
     *status = of_contacts;
@@ -227,7 +230,10 @@ static carom_status step(carom_sim *sim, carom_due *due) {
   if (may_last(sim, due) && step_together(sim, due, &together))
     return together;
   carom_event spare, *event = note(sim, &spare, due);
-  const int i = due->a, j = due->type == CAROM_EVENT_BALL_BALL ? due->b : -1;
+  const int i = due->a;
+  int j = -1;
+  if (due->type == CAROM_EVENT_BALL_BALL)
+    j = due->b;
   CAROM_PROMISE(i >= 0 && i < sim->count && (j < 0 || (i < j && j < sim->count)));
 
   /* the states of its balls where it happens */
@@ -239,9 +245,9 @@ static carom_status step(carom_sim *sim, carom_due *due) {
   if (j >= 0)
     carom_path_at(&sim->path[j], &sim->rates[j], sim->now, &event->before[1]);
 
-  /* the states after it, on their paths; of an error nothing counts */
+  /* the states after it, on their paths; an error leaves those before it */
   const carom_status status = resolve(sim, due, event);
-  if (status < 0) { /* nothing of it counts */
+  if (status < 0) {
     sim->path[i].from = event->before[0];
     if (j >= 0)
       sim->path[j].from = event->before[1];
@@ -282,7 +288,9 @@ static bool may_strike(const carom_sim *sim) {
 static carom_blow_kind blow_kind_of(const carom_sim *sim) {
   if (sim->rules->flat)
     return CAROM_BLOW_TURNED;
-  return sim->opt->space == CAROM_SPACE_FLAT ? CAROM_BLOW_ON_CLOTH : CAROM_BLOW_IN_SPACE;
+  if (sim->opt->space == CAROM_SPACE_FLAT)
+    return CAROM_BLOW_ON_CLOTH;
+  return CAROM_BLOW_IN_SPACE;
 }
 
 /* The strike of a ball that meets no other meanwhile, which has the motion `alone` after it. */
@@ -300,7 +308,9 @@ static void note_strike(carom_sim *sim, const carom_ball_state *alone, const car
     state->label = CAROM_BALL_SLIDING;
   event->after[0] = *state;
   memset(&event->after[1], 0, sizeof event->after[1]);
-  event->impulse = presses ? raised->impulse : impulse_of(sim, event);
+  event->impulse = impulse_of(sim, event);
+  if (presses)
+    event->impulse = raised->impulse;
   carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
 }
 
@@ -319,23 +329,23 @@ static carom_status strike(carom_sim *sim, carom_due *met) {
   memcpy(sim->follow.from, sim->path[i].from.r, sizeof sim->follow.from);
   sim->follow.along = 0.0;
 
-  /* with the balls that it meets meanwhile */
+  /* together with the balls that the struck ball meets while the cue pushes */
   carom_status together;
   const double *v = motion.v, most = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   const bool down = v[2] != 0.0;
   if (carom_may_push(sim, &motion) && push(sim, cue, most, down, PUSH_OF_SEVERAL, met, &together))
     return together;
 
-  /* alone: level in closed form, raised with the slate. A blow that has no time lands at once */
+  /* alone: a level strike has a closed form, a raised one presses the ball on the slate, unless
+   * the blow takes no time */
   carom_ball_state alone = sim->path[i].from;
   carom_raised raised = {.touches = 1, .behind = 0.0};
   raised.V = cue->speed - kind->mass / cue->mass * carom_speed_of_blow(cue, kind);
   memcpy(alone.v, motion.v, sizeof alone.v);
   memcpy(alone.w, motion.w, sizeof alone.w);
   const bool presses = down && cue->tip_time >= 0.0;
-  const bool with_slate = true;
   if (presses && !carom_press_alone(kind, cue, &alone, &raised)) {
-    push(sim, cue, most, with_slate, PUSH_OF_ONE, met, &together);
+    push(sim, cue, most, down, PUSH_OF_ONE, met, &together);
     return together;
   }
   carom_follow_on(sim, raised.V, raised.behind);
@@ -353,19 +363,23 @@ static void begin(carom_sim *sim) {
   }
 }
 
-/* Whether the shot is to stop after an event of this kind: where the caller's set of events has
- * it, or where the first ball that the cue ball meets is not one of first_of. */
+/* Takes note of an event of the struck ball, and returns whether the shot stops after it: where the
+ * caller's set of events has its type, or where it is the first contact with another ball, and that
+ * is not one of first_of. */
 static bool stops_at(carom_sim *sim, int type, int a, int b) {
   const bool contact = type == CAROM_EVENT_BALL_BALL && (a == sim->struck || b == sim->struck);
   const bool cushion = (type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW) && a == sim->struck;
   const bool first = contact && !sim->met;
   sim->met |= contact;
   sim->turned |= contact || cushion;
-  const int other = a == sim->struck ? b : a;
+  int other = a;
+  if (a == sim->struck)
+    other = b;
   if (first && sim->opt->first_of != 0 && !(sim->opt->first_of >> other & 1))
     return true;
-  const uint64_t kinds = CAROM_STOP_AT(type) | (contact ? CAROM_STOP_AT_CONTACT : 0);
-  return (kinds & sim->opt->stop_at) != 0;
+  if (contact && (sim->opt->stop_at & CAROM_STOP_AT_CONTACT) != 0)
+    return true;
+  return (sim->opt->stop_at & CAROM_STOP_AT(type)) != 0;
 }
 
 /* The tip touches the struck ball again, or the follow-through ends. *due becomes what happens. */
@@ -384,7 +398,7 @@ __attribute__((noinline, cold)) static carom_status touch_again(carom_sim *sim, 
     if (status == CAROM_OK && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1))
       status = CAROM_STOPPED_AT_EVENT;
   }
-  /* the strike is told; of a contact beside it go_on() asks whether the shot stops there */
+  /* whether the shot stops at the strike is decided here; at a contact beside it, in go_on() */
   if (due->type == CAROM_DUE_NOTHING)
     due->type = CAROM_DUE_PIECE;
   return status;
@@ -393,8 +407,15 @@ __attribute__((noinline, cold)) static carom_status touch_again(carom_sim *sim, 
 /* From event to event, until nothing moves or the shot is to stop. Nothing is changed by
  * stopping, so the loop goes on later as if it had not. */
 static carom_status go_on(carom_sim *sim) {
-  const int64_t events_most = sim->opt->events_most > 0 ? sim->opt->events_most : 10000;
-  const double time_most = sim->opt->time_most > 0.0 ? sim->opt->time_most : 1000.0;
+  int64_t events_most = 10000;
+  if (sim->opt->events_most > 0)
+    events_most = sim->opt->events_most;
+  double time_most = 1000.0;
+  carom_status out_of_time = CAROM_ERROR_TOO_LONG;
+  if (sim->opt->time_most > 0.0) {
+    time_most = sim->opt->time_most;
+    out_of_time = CAROM_STOPPED_AT_TIME;
+  }
   carom_status status = CAROM_OK;
   while (status == CAROM_OK) {
     /* what is due: an event, or another touch of the tip, which goes first */
@@ -409,7 +430,7 @@ static carom_status go_on(carom_sim *sim) {
       break;
     if (due.time > time_most) {
       sim->shot->time = time_most;
-      return sim->opt->time_most > 0.0 ? CAROM_STOPPED_AT_TIME : CAROM_ERROR_TOO_LONG;
+      return out_of_time;
     }
 
     /* another piece of a path is no event: only what it meets is looked for */
@@ -430,10 +451,13 @@ static carom_status go_on(carom_sim *sim) {
       sim->shot->time = sim->now = carom_greater(sim->now, due.time);
       return CAROM_ERROR_LEFT_TABLE;
     }
-    /* of simultaneous events one may have been found a trace earlier */
+    /* the time of an event that is simultaneous with the last one may be a rounding error less */
     sim->now = carom_greater(sim->now, due.time);
     sim->round++;
-    status = again ? touch_again(sim, &due) : step(sim, &due);
+    if (again)
+      status = touch_again(sim, &due);
+    else
+      status = step(sim, &due);
     if (status == CAROM_OK && stops_at(sim, due.type, due.a, due.b))
       status = CAROM_STOPPED_AT_EVENT;
     if (sim->now < sim->follow.until)
@@ -469,7 +493,9 @@ static carom_status start(carom_sim *sim) {
   stops |= met.type != CAROM_DUE_NOTHING && stops_at(sim, met.type, met.a, met.b);
   if (sim->follow.until > 0.0)
     carom_follow_find(sim);
-  return stops ? CAROM_STOPPED_AT_EVENT : CAROM_OK;
+  if (stops)
+    return CAROM_STOPPED_AT_EVENT;
+  return CAROM_OK;
 }
 
 /* A shot from its strike, or on from shot->state. */
@@ -495,7 +521,9 @@ __attribute__((noinline)) static carom_status shoot(const carom_prepared *p, con
   if (anew) {
     sim.count = p->count;
     /* a cue of speed 0 is not read, and may name any ball */
-    sim.struck = cue != NULL && cue->ball >= 0 && cue->ball < p->count ? (int)cue->ball : 0;
+    sim.struck = 0;
+    if (cue != NULL && cue->ball >= 0 && cue->ball < p->count)
+      sim.struck = (int)cue->ball;
     sim.world = p->opt->world;
     sim.met = sim.turned = false;
     sim.now = 0.0;
@@ -514,11 +542,13 @@ __attribute__((noinline)) static carom_status shoot(const carom_prepared *p, con
     sim.cue = &sim.follow.cue;
   }
   CAROM_PROMISE(sim.count > 0 && sim.count <= CAROM_BALLS_MOST && sim.struck < sim.count);
-  return finish(&sim, status == CAROM_OK ? go_on(&sim) : status);
+  if (status == CAROM_OK)
+    status = go_on(&sim);
+  return finish(&sim, status);
 }
 
-/* The same for a caller who does not want the facts that belong to the state. Apart, for the stack
- * of the others. */
+/* The same for a caller who does not want the facts that belong to the state. This is a function of
+ * its own so that other shots do not need its stack. */
 __attribute__((noinline, cold)) static carom_status
 shoot_with_facts(const carom_prepared *p, const carom_cue *cue, carom_shot *shot, bool anew) {
   carom_facts facts;
@@ -559,8 +589,10 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
   if (bad != CAROM_OK)
     return bad;
   clear(shot);
-  bad = carom_prepare(table, balls, count, opt != NULL ? opt : &no_options, &features, &p, &where);
-  return bad != CAROM_OK ? bad : carom_shoot_prepared(&p, cue, shot);
+  bad = carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &p, &where);
+  if (bad != CAROM_OK)
+    return bad;
+  return carom_shoot_prepared(&p, cue, shot);
 }
 
 carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
@@ -570,10 +602,9 @@ carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball
   int where;
   if (table == NULL || balls == NULL || shot == NULL || shot->state == NULL)
     return CAROM_ERROR_NULL;
-  opt = opt != NULL ? opt : &no_options;
   carom_status bad = carom_check_room(shot);
   if (bad == CAROM_OK)
-    bad = carom_prepare(table, balls, count, opt, &features, &p, &where);
+    bad = carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &p, &where);
   if (bad != CAROM_OK)
     return bad;
   if (shot->count < 0 || !(shot->time >= 0.0 && shot->time < INFINITY))
@@ -593,16 +624,18 @@ typedef struct checked {
   carom_status status;
 } checked;
 
-/* Before the first row: features of no radius, and states at no address. */
+/* Before the first row no layout is checked: no radius and no address of states is this one. */
 static void no_layout(const carom_shot_job *job, checked *last) {
   last->features.radius = 0.0;
   last->layout.table = job->table;
-  last->layout.opt = job->options != NULL ? job->options : &no_options;
+  last->layout.opt = carom_options_or_usual(job->options);
   last->layout.state[0] = NULL;
 }
 
 static carom_status shoot_row(const carom_shot_job *job, size_t k, checked *last) {
-  const carom_cue *cue = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
+  const carom_cue *cue = NULL;
+  if (job->cues != NULL)
+    cue = job->cues + k * job->cue_stride;
   carom_shot *shot = &job->shots[k];
   const carom_status bad = carom_check_room(shot);
   if (bad != CAROM_OK)
@@ -639,7 +672,7 @@ carom_status carom_shoot_batch(const carom_shot_job *job) {
     return CAROM_ERROR_NULL;
   if (job->n == 0)
     return CAROM_OK;
-  const carom_shot_options *opt = job->options != NULL ? job->options : &no_options;
+  const carom_shot_options *opt = carom_options_or_usual(job->options);
   int where;
   carom_status bad = carom_check_job(job);
   if (bad == CAROM_OK)

@@ -74,9 +74,11 @@ void carom_state_begin(carom_sim *sim) {
 /* Of events, full or brief, with those `from` to `end`; 0 where there are none. */
 static uint64_t of_events(uint64_t before, const void *events, size_t size, size_t from,
                           size_t end) {
-  for (size_t k = from; events != NULL && k < end; k++)
+  if (events == NULL)
+    return 0;
+  for (size_t k = from; k < end; k++)
     before = carom_fingerprint(before, (const unsigned char *)events + k * size, size);
-  return events != NULL ? before : 0;
+  return before;
 }
 
 /* Adds the events of a shot up to so many, as far as its caller has them. */
@@ -147,9 +149,8 @@ static bool restore_path(carom_sim *sim, int i) {
   carom_path *path = &sim->path[i];
   const carom_ball_state *from = &path->from;
   const bool flat = sim->rules->flat || sim->opt->space == CAROM_SPACE_FLAT;
-  if (from->label < CAROM_BALL_STATIONARY ||
-      from->label > (flat ? CAROM_BALL_POCKETED : CAROM_BALL_OFF) || !carom_is_finite(from->r) ||
-      !carom_is_finite(from->v) || !carom_is_finite(from->w) ||
+  if (from->label < CAROM_BALL_STATIONARY || from->label > carom_last_label(flat) ||
+      !carom_is_finite(from->r) || !carom_is_finite(from->v) || !carom_is_finite(from->w) ||
       !(path->start >= 0.0 && path->start <= sim->now) || !is_bool(&path->ends_pair) ||
       !is_bool(&path->last_pair))
     return false;

@@ -147,8 +147,12 @@ void carom_features_of(const carom_table *table, double radius, double reference
 
   /* defaults of the table */
   f->nose_low = low;
-  f->width = table->rail_width > 0.0 ? table->rail_width : 0.12;
-  f->pocket_back = table->pocket_back > 0.0 ? table->pocket_back : high;
+  f->width = 0.12;
+  if (table->rail_width > 0.0)
+    f->width = table->rail_width;
+  f->pocket_back = high;
+  if (table->pocket_back > 0.0)
+    f->pocket_back = table->pocket_back;
 
   find_eye(table, f);
 }

@@ -171,7 +171,9 @@ static const struct model_numbers {
 static bool take_other(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind) {
   drop_smooth_law(kind);
   if (game == CAROM_GAME_BILLIARD) {
-    kind->roll_loss = cushion == CAROM_SHOT_CUSHION_MIRROR ? 0.0 : 0.087;
+    kind->roll_loss = 0.087;
+    if (cushion == CAROM_SHOT_CUSHION_MIRROR)
+      kind->roll_loss = 0.0;
     if (cushion == CAROM_SHOT_CUSHION_EULER)
       cushion = CAROM_SHOT_CUSHION_MATHAVAN;
     return carom_cushion_start((carom_cushion_model)((uint32_t)cushion - 1), kind);

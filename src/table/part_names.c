@@ -43,9 +43,9 @@ static bool is_rectangle(const carom_table *t) {
 }
 
 const char *carom_rail_name(const carom_table *t, int rail) {
-  return t != NULL && rail >= 0 && rail < t->rails && is_rectangle(t) && !carom_is_cut(t, rail)
-             ? side_of(t, rail)
-             : NULL;
+  if (t == NULL || rail < 0 || rail >= t->rails || !is_rectangle(t) || carom_is_cut(t, rail))
+    return NULL;
+  return side_of(t, rail);
 }
 
 const char *carom_pocket_name(const carom_table *t, int pocket) {
@@ -54,7 +54,6 @@ const char *carom_pocket_name(const carom_table *t, int pocket) {
   if (t == NULL || pocket < 0 || pocket >= t->pockets || !is_rectangle(t))
     return NULL;
   const double *centre = t->pocket[pocket].centre, along = centre[1] / t->length;
-  const int side = centre[0] > 0.5 * t->width ? 1 : 0;
-  const int third = (along < 0.3 ? 0 : 1) + (along < 0.7 ? 0 : 1);
+  const int side = centre[0] > 0.5 * t->width, third = (along >= 0.3) + (along >= 0.7);
   return names[side][third];
 }

@@ -112,9 +112,11 @@ carom_status carom_check_parts(const carom_table *table, double radius, double u
     const bool of_jaw = where < table->jaws &&
                         (bad == CAROM_ERROR_TABLE ? !good_jaw(&table->jaw[where])
                                                   : !good_height(table->jaw[where].height, lowest));
-    part->kind = of_jaw ? CAROM_PART_JAW : CAROM_PART_POCKET;
+    part->kind = CAROM_PART_POCKET;
     if (of_rail)
       part->kind = CAROM_PART_RAIL;
+    else if (of_jaw)
+      part->kind = CAROM_PART_JAW;
     part->index = where;
   }
   return bad;
@@ -126,7 +128,8 @@ static double off_line(const double line[3], const double r[2]) {
 
 carom_status carom_table_check(const carom_table *table, double radius, carom_table_fault *fault) {
   carom_table_fault unused;
-  fault = fault != NULL ? fault : &unused;
+  if (fault == NULL)
+    fault = &unused;
   *fault = (carom_table_fault){.part = {CAROM_PART_NONE, 0}};
   if (table == NULL)
     return CAROM_ERROR_NULL;

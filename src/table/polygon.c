@@ -50,11 +50,16 @@ static void add_pocket(carom_table *t, const joint *j, double nose, double r, do
 
   /* the bisector: into the table, also where the corner points into it */
   double b[2] = {j->next[0] + j->before[0], j->next[1] + j->before[1]};
-  const double size = sqrt(b[0] * b[0] + b[1] * b[1]), sign = j->turn < 0.0 ? -1.0 : 1.0;
-  const bool straight = size < 1e-9;
-  const double across[2] = {-j->next[1], j->next[0]};
+  double size = sqrt(b[0] * b[0] + b[1] * b[1]);
+  if (size < 1e-9) { /* a straight corner */
+    b[0] = -j->next[1];
+    b[1] = j->next[0];
+    size = 1.0;
+  } else if (j->turn < 0.0) {
+    size = -size;
+  }
   for (int k = 0; k < 2; k++)
-    b[k] = straight ? across[k] : sign * b[k] / size;
+    b[k] /= size;
 
   /* the jaws, outside of each rail's end */
   const double first[2] = {j->at[0] + j->cut * j->before[0] + r * -j->before[1],
@@ -121,8 +126,11 @@ static carom_status joints_of(const carom_corner *corner, int count, double r, d
 
   /* each corner with the directions to its neighbours */
   for (int k = 0; k < count; k++) {
-    const int step = area > 0.0 ? 1 : count - 1;
-    const int here = area > 0.0 ? k : count - 1 - k;
+    int step = 1, here = k;
+    if (!(area > 0.0)) {
+      step = count - 1;
+      here = count - 1 - k;
+    }
     const carom_corner *a = &corner[here], *n = &corner[(here + step) % count],
                        *o = &corner[(here + count - step) % count];
     j[k].at[0] = a->x;
@@ -136,8 +144,13 @@ static carom_status joints_of(const carom_corner *corner, int count, double r, d
     const double s = sqrt(carom_greater(0.5 - 0.5 * cosine, 0.0)),
                  c = copysign(sqrt(carom_greater(0.5 + 0.5 * cosine, 0.0)), j[k].turn);
     j[k].mouth = a->mouth;
-    j[k].cut = a->mouth > 0.0 ? (0.5 * a->mouth + r * (1.0 - c)) / s : 0.0;
-    jaws += a->mouth > 0.0 ? 2 : j[k].turn < CLEARLY;
+    j[k].cut = 0.0;
+    if (a->mouth > 0.0) {
+      j[k].cut = (0.5 * a->mouth + r * (1.0 - c)) / s;
+      jaws += 2;
+    } else {
+      jaws += j[k].turn < CLEARLY;
+    }
     if (jaws > CAROM_JAWS_MOST)
       return blame(fault, here, -1, CAROM_ERROR_JAWS);
   }
@@ -189,9 +202,11 @@ static carom_status add_sides(const joint *j, int count, double nose_height, dou
     const int next = (k + 1) % count;
     const joint *a = &j[k], *b = &j[next];
     double u[2], p[2], q[2];
-    if (direction(a->at, b->at, u) <= a->cut + b->cut)
-      return turned ? blame(fault, count - 1 - next, count - 1 - k, CAROM_ERROR_MOUTHS)
-                    : blame(fault, k, next, CAROM_ERROR_MOUTHS);
+    if (direction(a->at, b->at, u) <= a->cut + b->cut) {
+      if (turned)
+        return blame(fault, count - 1 - next, count - 1 - k, CAROM_ERROR_MOUTHS);
+      return blame(fault, k, next, CAROM_ERROR_MOUTHS);
+    }
     for (int i = 0; i < 2; i++) {
       p[i] = a->at[i] + a->cut * u[i];
       q[i] = b->at[i] - b->cut * u[i];
@@ -211,7 +226,8 @@ carom_status carom_table_polygon(const carom_corner *given, int count, double no
   carom_table_fault unused;
   if (given == NULL || table == NULL)
     return CAROM_ERROR_NULL;
-  fault = fault != NULL ? fault : &unused;
+  if (fault == NULL)
+    fault = &unused;
   memset(fault, 0, sizeof *fault);
   memset(table, 0, sizeof *table);
   if (!carom_is_positive(ball_radius))

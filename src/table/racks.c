@@ -62,12 +62,16 @@ static const rack_row racks[] = {
     [CAROM_RACK_COWBOY] = {.game = CAROM_GAME_POOL, .size = 4}};
 
 static const rack_row *row_of(carom_rack_kind kind) {
-  return (uint32_t)kind < sizeof racks / sizeof *racks ? &racks[kind] : NULL;
+  if ((uint32_t)kind >= sizeof racks / sizeof *racks)
+    return NULL;
+  return &racks[kind];
 }
 
 int carom_rack_size(carom_rack_kind kind) {
   const rack_row *row = row_of(kind);
-  return row != NULL ? row->size : 0;
+  if (row == NULL)
+    return 0;
+  return row->size;
 }
 
 /* splitmix64 */
@@ -134,19 +138,23 @@ static void fill(rack *k, int *number, int last) {
 /* Sets up the balls of a row that form a pack, whose front lies at y = front. */
 static void pack(rack *k, const rack_row *row, double front) {
   static const int widths[5] = {1, 2, 3, 2, 1}; /* of a diamond */
-  const int last = row->diamond ? 9 : row->rows * (row->rows + 1) / 2;
+  int last = row->rows * (row->rows + 1) / 2;
+  if (row->diamond)
+    last = 9;
   int number[15];
   memcpy(number, row->fixed, sizeof number);
   if (row->unlike) {
     const uint64_t drawn = random_bits(&k->state);
-    const int solid = 1 + (int)(drawn % 7), stripe = 9 + (int)(drawn / 7 % 7);
-    const bool left = drawn / 49 % 2 == 0;
-    number[10] = left ? solid : stripe;
-    number[14] = left ? stripe : solid;
+    const int right = (int)(drawn / 49 % 2); /* whether the solid is at the right corner */
+    static const int corners[2] = {10, 14};
+    number[corners[right]] = 1 + (int)(drawn % 7);
+    number[corners[1 - right]] = 9 + (int)(drawn / 7 % 7);
   }
   fill(k, number, last);
   for (int line = 0, p = 0; line < row->rows; line++) {
-    const int width = row->diamond ? widths[line] : line + 1;
+    int width = line + 1;
+    if (row->diamond)
+      width = widths[line];
     for (int place = 0; place < width; place++, p++)
       put_in_row(k, number[p], front, line, place + (line + 1 - width) / 2);
   }
@@ -172,16 +180,22 @@ carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int b
   /* pool has as many balls as there may be */
   const rack_row *row = row_of(kind);
   const bool pool = row != NULL && row->rows > 0 && kind != CAROM_RACK_SNOOKER;
-  if (row == NULL || ball < 0 || ball >= (pool ? CAROM_BALLS_MOST : row->size))
+  if (row == NULL || ball < 0 || ball >= CAROM_BALLS_MOST || (!pool && ball >= row->size))
     return CAROM_ERROR_RACK;
   const double w = table->width, l = table->length;
   const carom_d d = carom_d_of(table->width, table->length);
   /* the foot spot, or the head spot of the cue ball */
-  double x = 0.5 * w, y = ball == 0 ? 0.25 * l : 0.75 * l;
+  double x = 0.5 * w, y = 0.75 * l;
+  if (ball == 0)
+    y = 0.25 * l;
   if (kind == CAROM_RACK_THREECUSHION || kind == CAROM_RACK_FOURBALL) {
     static const double along[] = {0.25, 0.25, 0.75}, along_four[] = {0.25, 0.875, 0.25, 0.75};
-    x += ball == 0 ? 0.1825 / 1.42 * w : 0.0;
-    y = (kind == CAROM_RACK_FOURBALL ? along_four[ball] : along[ball]) * l;
+    if (ball == 0)
+      x += 0.1825 / 1.42 * w;
+    if (kind == CAROM_RACK_FOURBALL)
+      y = along_four[ball] * l;
+    else
+      y = along[ball] * l;
   } else if (kind == CAROM_RACK_COWBOY) {
     /* the cue ball, and the balls 1, 3 and 5 on the head spot, the foot spot and the centre */
     static const double along[] = {0.125, 0.25, 0.75, 0.5};

@@ -21,6 +21,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 static const double touching = 1e-6; /* m: parts so near to each other have no hole between them */
 
@@ -50,11 +51,15 @@ static void shapes_of(const carom_ground *ground, double overlap, bool round, ri
   g->count = 0;
   for (int k = 0; k < t->rails; k++) {
     const carom_rail *rail = &t->rail[k];
-    const double reach = ground->rail[k] - overlap, off = round ? 0.0 : reach,
-                 *n = ground->features->line[k];
+    const double reach = ground->rail[k] - overlap, *n = ground->features->line[k];
+    double off = reach, around = 0.0;
+    if (round) {
+      off = 0.0;
+      around = reach;
+    }
     const double p[2] = {rail->p[0] + off * n[0], rail->p[1] + off * n[1]},
                  q[2] = {rail->q[0] + off * n[0], rail->q[1] + off * n[1]};
-    add_shape(g, p, q, 0.0, round ? reach : 0.0, (carom_part){CAROM_PART_RAIL, k});
+    add_shape(g, p, q, 0.0, around, (carom_part){CAROM_PART_RAIL, k});
   }
   for (int k = 0; k < t->jaws; k++)
     add_shape(g, t->jaw[k].centre, t->jaw[k].centre, t->jaw[k].radius, ground->jaw[k] - overlap,
@@ -67,8 +72,9 @@ static void shapes_of(const carom_ground *ground, double overlap, bool round, ri
 /* The place of a segment that is nearest to r, and how far it is. */
 static double nearest(const shape *s, const double r[2], double there[2]) {
   const double e[2] = {s->q[0] - s->p[0], s->q[1] - s->p[1]}, size2 = e[0] * e[0] + e[1] * e[1];
-  const double along =
-      size2 > 0.0 ? ((r[0] - s->p[0]) * e[0] + (r[1] - s->p[1]) * e[1]) / size2 : 0.0;
+  double along = 0.0;
+  if (size2 > 0.0)
+    along = ((r[0] - s->p[0]) * e[0] + (r[1] - s->p[1]) * e[1]) / size2;
   const double t = carom_lesser(carom_greater(along, 0.0), 1.0);
   double d2 = 0.0;
   for (int k = 0; k < 2; k++) {
@@ -98,14 +104,18 @@ static double edge(const shape *a, const shape *b, int which, double in_a[2], do
     const bool they_do = cross_at(a, b, in_a);
     in_b[0] = in_a[0];
     in_b[1] = in_a[1];
-    return they_do ? 0.0 : INFINITY;
+    if (!they_do)
+      return INFINITY;
+    return 0.0;
   }
   const double *const ends[4] = {a->p, a->q, b->p, b->q};
   const double *end = ends[which - 1];
-  double *at_end = which <= 2 ? in_a : in_b;
-  at_end[0] = end[0];
-  at_end[1] = end[1];
-  return nearest(which <= 2 ? b : a, end, which <= 2 ? in_b : in_a);
+  if (which <= 2) {
+    memcpy(in_a, end, 2 * sizeof *end);
+    return nearest(b, end, in_b);
+  }
+  memcpy(in_b, end, 2 * sizeof *end);
+  return nearest(a, end, in_a);
 }
 
 /* Whether boxes around two parts are farther apart than `grown`. */
@@ -125,7 +135,9 @@ static int crossing(const double a[2], const double b[2], const double P[2]) {
   const double x = a[0] + (P[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
   if (x <= P[0])
     return 0;
-  return b[1] > a[1] ? 1 : -1;
+  if (b[1] > a[1])
+    return 1;
+  return -1;
 }
 
 /* The windings of an edge. */
@@ -318,7 +330,7 @@ carom_status carom_check_ring(const carom_ground *ground, carom_table_fault *fau
 
   /* and with rails as they are detected */
   shapes_of(ground, 0.0, false, &g);
-  return is_closed(&g, P, fault) ? CAROM_OK : CAROM_ERROR_TABLE_OPEN;
+  return carom_ok_if(is_closed(&g, P, fault), CAROM_ERROR_TABLE_OPEN);
 }
 
 __attribute__((noinline, cold)) bool carom_is_cut_off(const carom_ground *ground,
@@ -334,7 +346,8 @@ __attribute__((noinline, cold)) bool carom_is_cut_off(const carom_ground *ground
   /* a ring with a hole keeps no place apart; there, holes of up to the width of a ball are taken
    * to be closed */
   shapes_of(ground, CAROM_RING_OVERLAP, false, &g);
-  const double grown =
-      encloses(&g, closed, closed, P, NULL, &unused) ? closed : 2.0 * ground->kind->radius;
+  double grown = 2.0 * ground->kind->radius;
+  if (encloses(&g, closed, closed, P, NULL, &unused))
+    grown = closed;
   return encloses(&g, grown, grown, P, r, &unused);
 }

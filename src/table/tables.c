@@ -272,7 +272,8 @@ static carom_status check_room(const carom_measures *m, const openings *f,
 carom_status carom_table_measured(const carom_measures *measures, double ball_radius,
                                   carom_table *table, carom_table_fault *fault) {
   carom_table_fault unused;
-  fault = fault != NULL ? fault : &unused;
+  if (fault == NULL)
+    fault = &unused;
   memset(fault, 0, sizeof *fault);
   if (measures == NULL || table == NULL)
     return CAROM_ERROR_NULL;
@@ -288,7 +289,9 @@ carom_status carom_table_measured(const carom_measures *measures, double ball_ra
       return blame(fault, k, -1, 0.0);
   }
   const openings f = openings_of(measures);
-  const carom_status bad = pockets ? check_room(measures, &f, fault) : CAROM_OK;
+  carom_status bad = CAROM_OK;
+  if (pockets)
+    bad = check_room(measures, &f, fault);
   if (bad != CAROM_OK)
     return bad;
   make(measures, &f, table);
