@@ -46,7 +46,8 @@ void carom_follow_find(carom_sim *sim) {
   const carom_path *path = &sim->path[i];
   const bool out = carom_is_out(path->from.label);
   f->time = INFINITY;
-  f->until = out ? -1.0 : f->until;
+  if (out)
+    f->until = -1.0;
   if (out || !sim->turned)
     return;
 

@@ -57,7 +57,9 @@ static size_t size_of(int64_t count) {
 
 /* Of the last event that a replay has passed, 0 before the first. */
 static uint64_t last_of(const carom_shot *shot, int64_t next) {
-  return next > 0 ? carom_fingerprint(0, &shot->events[next - 1], sizeof *shot->events) : 0;
+  if (next == 0)
+    return 0;
+  return carom_fingerprint(0, &shot->events[next - 1], sizeof *shot->events);
 }
 
 /* As the shot begins: nothing has turned. */
@@ -95,8 +97,8 @@ static bool go_to(replay *at, const carom_shot *shot, int64_t known, double time
   const carom_event *events = shot->events;
   for (; at->next < known && events[at->next].time <= time; at->next++) {
     const carom_event *event = &events[at->next];
-    const int moved[2] = {event->a, event->type == CAROM_EVENT_BALL_BALL ? event->b : -1};
-    for (int side = 0; side < 2; side++) {
+    const int moved[2] = {event->a, event->b};
+    for (int side = 0; side < 1 + (event->type == CAROM_EVENT_BALL_BALL); side++) {
       if (moved[side] < 0 || moved[side] >= at->count)
         continue;
       replayed *ball = &at->ball[moved[side]];
@@ -127,8 +129,11 @@ static keyframes keyframes_of(film *of, int count, const carom_shot *shot) {
 
 /* The slot of a cell, counted from the beginning of the shot. */
 static void *slot_of(const keyframes *keep, int64_t cell) {
-  const int64_t span = cell / keep->cells, place = cell % keep->cells;
-  return keep->slots + keep->size * (size_t)(place == 0 ? span : keep->spans + place - 1);
+  const int64_t place = cell % keep->cells;
+  int64_t slot = cell / keep->cells;
+  if (place != 0)
+    slot = keep->spans + place - 1;
+  return keep->slots + keep->size * (size_t)slot;
 }
 
 /* Takes the replay back, or further on, to the latest keyframe of this shot until a time; to the
@@ -138,9 +143,10 @@ static void seek(replay *at, const keyframes *keep, const carom_shot_ball *balls
   const int64_t slots = keep->spans + keep->cells - 1;
   const int count = (int)at->count;
   const uint64_t of = at->of;
-  double least = time < at->time ? 0.0 : at->time;
+  const double since = time < at->time ? 0.0 : at->time;
   replay *best;
   do {
+    double least = since;
     best = NULL;
     for (int64_t k = 0; k < slots; k++) {
       replay *one = (replay *)(void *)(keep->slots + keep->size * (size_t)k);
@@ -158,7 +164,6 @@ static void seek(replay *at, const keyframes *keep, const carom_shot_ball *balls
       return;
     }
     best->count = 0;
-    least = time < at->time ? 0.0 : at->time;
   } while (best != NULL);
   if (time < at->time)
     begin(at, balls, count, true);
@@ -218,22 +223,24 @@ static carom_status replay_times(const carom_shot_ball *balls, int count, const 
     return bad;
   if (count < 1 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
-  const int64_t room = shot->events != NULL ? shot->room : 0; /* brief events have no states */
-  const int64_t known = shot->count < room ? shot->count : room;
+  const int64_t known = carom_events_kept(shot);
   double left = most_steps;
   for (size_t k = 0; k < n; k++) {
     if (!(times[k] >= 0.0))
       return CAROM_ERROR_TIME;
     const double time = carom_lesser(times[k], shot->time);
-    if (shot->count > room && (room == 0 || time > shot->events[room - 1].time))
+    if (shot->count > known && (known == 0 || time > shot->events[known - 1].time))
       return CAROM_ERROR_EVENTS_LOST;
     /* an earlier time than the last begins anew, or from a keyframe */
     if (at->count == 0 || (keep == NULL && time < at->time))
       begin(at, balls, count, turned != NULL);
     if (keep != NULL && !(time >= at->time && time <= at->time + keep->length))
       seek(at, keep, balls, shot, known, time);
-    bool found = keep != NULL ? go_by_cells(at, keep, shot, known, time, &left)
-                              : go_to(at, shot, known, time, &left);
+    bool found;
+    if (keep != NULL)
+      found = go_by_cells(at, keep, shot, known, time, &left);
+    else
+      found = go_to(at, shot, known, time, &left);
     /* the motion after the end of the shot is unknown */
     for (int i = 0; i < count && times[k] > shot->time; i++)
       if (at->ball[i].path.from.label != CAROM_BALL_STATIONARY &&
@@ -270,14 +277,13 @@ carom_status carom_shot_frames(const carom_shot_ball *balls, int count, const ca
   at.count = 0;
   const bool sound = onward != NULL && balls != NULL && count > 0 && count <= CAROM_BALLS_MOST &&
                      shot != NULL && carom_check_room(shot) == CAROM_OK;
-  const size_t size = size_of(sound ? count : 0);
   film *kept = (film *)(void *)onward;
   keyframes keep = {0};
   if (sound) {
     /* frames of another shot begin anew */
     const int64_t known = carom_events_kept(shot);
     const uint64_t of = carom_fingerprint(0, balls, (size_t)count * sizeof *balls);
-    memcpy(&at, &kept->now, size);
+    memcpy(&at, &kept->now, size_of(count));
     if (at.count != count || at.of != of || at.next < 0 || at.next > known || at.turns != 1 ||
         at.last_of != last_of(shot, at.next))
       at.count = 0;
@@ -287,8 +293,10 @@ carom_status carom_shot_frames(const carom_shot_ball *balls, int count, const ca
   const carom_status status = replay_times(balls, count, shot, times, n, &at,
                                            keep.length > 0.0 ? &keep : NULL, states, turned);
   if (sound) {
-    at.last_of = at.count > 0 ? last_of(shot, at.next) : 0;
-    memcpy(&kept->now, &at, at.count > 0 ? size : offsetof(replay, ball));
+    at.last_of = 0;
+    if (at.count > 0)
+      at.last_of = last_of(shot, at.next);
+    memcpy(&kept->now, &at, size_of(at.count));
   }
   return status;
 }

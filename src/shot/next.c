@@ -68,5 +68,7 @@ carom_due carom_next(const carom_sim *sim) {
   /* all that the world takes for simultaneous with it; its rules choose */
   carom_due due[MOST_DUE];
   const int count = list_due(sim, first + sim->rules->simultaneous, due);
-  return count == 1 ? due[0] : sim->rules->choose(sim, due, count);
+  if (count == 1)
+    return due[0];
+  return sim->rules->choose(sim, due, count);
 }

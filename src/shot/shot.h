@@ -78,7 +78,9 @@ static inline int64_t carom_events_kept(const carom_shot *shot) {
 static inline carom_ball_model carom_ball_model_of(const carom_shot_options *o) {
   if (o->ball_model != CAROM_BALL_MODEL_DEFAULT)
     return o->ball_model;
-  return o->world == CAROM_WORLD_POOLTOOL ? CAROM_BALL_MODEL_INELASTIC : CAROM_BALL_MODEL_EXACT;
+  if (o->world == CAROM_WORLD_POOLTOOL)
+    return CAROM_BALL_MODEL_INELASTIC;
+  return CAROM_BALL_MODEL_EXACT;
 }
 static inline carom_cushion_model carom_cushion_model_of(const carom_shot_options *o,
                                                          const carom_ball_kind *kind) {
