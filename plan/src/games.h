@@ -84,7 +84,7 @@ static const learned learned_of[] = {
          .first = {2.520, -1.370, -1.846},
          .mean = 0.624,
          .stretch = 0.9,
-         .edge = 1.0},
+         .edge = 0.85},
     [CAROM_RULES_NINEBALL] =
         {/* of 19183 strokes: carom-lab learn --rules nineball --racks 6144 --shots 200 --seed 0 */
          /* log-likelihood of a stroke -0.2877; of one number for all, -0.4606 */
