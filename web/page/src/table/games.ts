@@ -150,7 +150,8 @@ const OWN: Record<string, Partial<Played>> = {
     begin: { speed: 4, phi: 62, a: 0, b: 0.2 },
   },
   fourball: { text: texts.fourBallTo10, begin: { speed: 3, phi: 97, a: 0, b: 0.2 } },
-  cowboy: { begin: { ...BREAK, speed: 2 } },
+  // The 1 stands before the 3, which is met off a rail.
+  cowboy: { begin: { ...BREAK, speed: 3, phi: 53.8 } },
   straightrail: {
     text: texts.straightRailTo25,
     state: { target: 25 },
