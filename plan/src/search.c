@@ -22,8 +22,9 @@ typedef carom_search search;
  * it, and the best of 20,000 random strokes, played 200,000 times, 0.665. */
 enum { ROUNDS = 4, NEAR_ROUND = 2, BLIND_PARENTS = 4 };
 
-/* The candidates of the first round: the best `keep`, of which pots come first, and a third of
- * `keep` of the scan, or half; of tables without pockets the best. */
+/* Moves the candidates of the first round to the front, and returns how many they are. Of the best
+ * `keep` all pots stay, and of the scan up to a third of `keep`, or half where no pot is direct. All
+ * strokes of a break stay, and all on a table without pockets. */
 static int64_t first_round(search *plan, int64_t keep) {
   const int64_t n = carom_min(plan->count, keep);
   int64_t share = keep / 3;
@@ -93,7 +94,7 @@ static bool loses(const search *plan) {
   return lost > 0;
 }
 
-/* Not to play, as one more candidate: its worth is that of the layout to the other. */
+/* Adds passing as a candidate: it is worth 1 less the value of the layout to the other player. */
 static void pass(search *plan) {
   carom_rules_state game = plan->job.rules->state; /* rules change it as they judge */
   const carom_call call = {CAROM_CALL_PASS, -1};
@@ -108,7 +109,7 @@ static void pass(search *plan) {
   carom_search_lead(plan, plan->count - 1);
 }
 
-/* The best is played by shots that choose nothing, which tell its chances. */
+/* Plays the best again, by shots that choose nothing: its reported chances come from them. */
 static void replay(search *plan) {
   enum { SHARE = 10, LEAST = 30 };
   plan->next = NEXT_ENDED;
@@ -143,8 +144,8 @@ static void replay_list(search *plan) {
   plan->next = NEXT_LISTED;
 }
 
-/* Where many strokes have few shots each, or the best may lose the game at once, the few best are
- * played more: twice, by the same errors. Returns whether they are. */
+/* Plays the few best against each other, by the same errors, up to twice: where many strokes have
+ * few shots each, or one of the best may lose the game at once. Returns whether it does. */
 static bool duel(search *plan) {
   enum { DUELS = 2 };
   if (plan->duels == DUELS || !(plan->blind || loses(plan)))
@@ -198,7 +199,7 @@ static void look_again(search *plan) {
   plan->next = NEXT_LOOK;
 }
 
-/* The candidates of a round that were in the one before: a quarter of them stays. */
+/* How many candidates of the round before stay in this one: a quarter. */
 static int64_t in_round(search *plan) {
   enum { SHOTS_EACH = 25, FIRST_LEAST = 6, LEAST = 2 };
   const int64_t keep = carom_max(plan->shots / SHOTS_EACH, FIRST_LEAST);
