@@ -23,8 +23,8 @@ typedef carom_search search;
 enum { ROUNDS = 4, NEAR_ROUND = 2, BLIND_PARENTS = 4 };
 
 /* Moves the candidates of the first round to the front, and returns how many they are. Of the best
- * `keep` all pots stay, and of the scan up to a third of `keep`, or half where no pot is direct. All
- * strokes of a break stay, and all on a table without pockets. */
+ * `keep` all pots stay, and of the scan up to a third of `keep`, or half where no pot is direct.
+ * All strokes of a break stay, and all on a table without pockets. */
 static int64_t first_round(search *plan, int64_t keep) {
   const int64_t n = carom_min(plan->count, keep);
   int64_t share = keep / 3;
