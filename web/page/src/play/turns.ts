@@ -203,7 +203,7 @@ async function reply(s: Session): Promise<void> {
     await announce(s, choice);
     if (isOver()) return;
     s.thinks = false;
-    if (choice.kind === "pass") return choose(s, "pass");
+    if (choice.kind === "pass") return follow(s, play.choose("pass"));
     const { against } = play.setup;
     const cue = withErrors(play, choice.cue, against, play.strokes);
     follow(s, play.stroke(cue, callOfChoice(choice)));
