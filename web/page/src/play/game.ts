@@ -254,7 +254,7 @@ export class Play {
       match.place(x, y);
     }
     if (call === "push") match.choose("push");
-    else if (typeof call === "object") match.call(call.ball!, call.pocket);
+    else if (typeof call === "object" && this.played!.calls) match.call(call.ball!, call.pocket);
     match.stroke(cue);
     return this.#ruled(before, true);
   }
