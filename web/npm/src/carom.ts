@@ -7,7 +7,7 @@ import { KEYS, refuseUnknown } from "./keys.js";
 import { type Host as MatchHost, Match, type MatchOptions } from "./match.js";
 import type { Build, Memory, Pointer } from "./memory.js";
 import { Plans } from "./plans.js";
-import { Recording, type Replayed, replayed } from "./recording.js";
+import { type Replayed, replayed } from "./recording.js";
 import { type Kept, type Reader, Shot } from "./shot.js";
 import {
   readBalls,
@@ -1006,18 +1006,6 @@ export class Carom {
       drawn ? this.#call.carom_shot_drawn(table, ...rest) : this.#call.carom_shot_at_times(...rest),
       field,
     );
-  }
-
-  /**
-   * Begins a recording, of a game on this table with these models, that verifies itself; without
-   * them one whose lines are read at first.
-   */
-  record(): Recording;
-  record(table: Table, balls: readonly ShotBall[], options?: ShotOptions): Recording;
-  record(table?: Table, balls: readonly ShotBall[] = [], options: ShotOptions = {}): Recording {
-    const recording = new Recording(this.#recordings);
-    if (table) recording.begin(table, balls, options);
-    return recording;
   }
 
   /**

@@ -22,7 +22,7 @@ export { CaromError } from "./error.js";
 export { byNumber, fromLine, toLine } from "./lines.js";
 export { type Bounds, Match, type MatchOptions, type May, type Phase } from "./match.js";
 export type { Build } from "./memory.js";
-export { type Replayed, Recording, type ShotEnd } from "./recording.js";
+export { type Replayed, type ShotEnd } from "./recording.js";
 export { Shot } from "./shot.js";
 export type * from "./types.js";
 export { games } from "./generated/layout.js";

@@ -63,6 +63,10 @@ export interface MatchOptions {
 
 /** What the calls of this file need of the library. */
 export interface Host extends RecordingHost {
+  cue(fields: Partial<Cue>): Cue;
+  writeShotOptions(options: ShotOptions): Pointer;
+  readState(at: Pointer, rules: GameState["rules"]): GameState;
+  writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer;
   /** Plays a shot with its events, by options in the module's memory. */
   film(table: Table, balls: readonly ShotBall[], cue: Cue, options: Pointer): Shot;
   readRuling(at: Pointer, rules: GameState["rules"], balls: readonly ShotBall[]): Ruling;
@@ -295,12 +299,11 @@ export class Match extends Owner<Host> {
   }
   /** The same in slices, as `carom.think`. */
   think(options: PlanOptions = {}, slice = 1000): Generator<undefined, Choice[]> {
-    const { low, high } = this.bounds ?? { low: [0, 0], high: [0, 0] };
     const wanted: PlanOptions = {
       ...options,
       ...this.game,
       cue: { ball: this.cueBall },
-      inHand: this.phase === "place" && [low, high],
+      inHand: this.phase === "place" ? this.hand : "no",
     };
     return this.#host.think(this.table, this.balls, wanted, slice);
   }

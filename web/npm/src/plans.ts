@@ -133,7 +133,7 @@ export class Plans {
       ruling: room(layout.carom_ruling.size),
       text: room(256),
       call: room(8),
-      corners: room(32),
+      corners: room(layout.carom_bounds.size),
       found: room(8),
       pot: room(POT.size),
     };
@@ -205,7 +205,7 @@ export class Plans {
     slice: number,
   ): Generator<undefined, Choice[]> {
     refuseUnknown(options, KEYS.plan);
-    const { best = 5, inHand = false } = options;
+    const { best = 5, inHand = "no" } = options;
     const memory = this.#memory;
     const most = cues?.length ?? best;
     if (!Number.isInteger(most) || most < 1 || most > 1000)
@@ -239,10 +239,11 @@ export class Plans {
               `cues[${k}]`,
             );
           code = memory.exports.carom_plan_try(job, strokes, most, choices);
-        } else if (inHand === false) code = memory.exports.carom_plan(job, choices, best, found);
+        } else if (inHand === "no") code = memory.exports.carom_plan(job, choices, best, found);
         else {
-          if (typeof inHand !== "boolean") memory.f64.set(inHand.flat(), corners / 8);
-          const [low, high] = typeof inHand === "boolean" ? [0, 0] : [corners, corners + 16];
+          const radius = balls[options.cue?.ball ?? 0]!.kind.radius;
+          this.#writeBounds(inHand, corners, radius);
+          const [low, high] = inHand === "anywhere" ? [0, 0] : [corners, corners + 16];
           code = memory.exports.carom_plan_hand(job, low, high, choices, best, found);
         }
         this.#host.refuse(code, "plan");
@@ -256,6 +257,19 @@ export class Plans {
     } finally {
       for (const at of [room, choices, strokes]) memory.free(at);
     }
+  }
+
+  /** Where a cue ball in hand may be put on the table in the module's memory. */
+  #writeBounds(inHand: NonNullable<PlanOptions["inHand"]>, at: Pointer, radius: number): void {
+    const memory = this.#memory;
+    const { table } = this.#host.at;
+    if (typeof inHand === "object") return memory.f64.set(inHand.flat(), at / 8);
+    const leave = HANDS.lastIndexOf(inHand);
+    if (leave < 0)
+      throw new TypeError(
+        `inHand: it must be the hand of a ruling, ${[...new Set(HANDS)].map((one) => `"${one}"`).join(", ")}, or two corners [[x, y], [x, y]], not ${String(inHand)}`,
+      );
+    this.#host.refuse(memory.exports.carom_hand_bounds(leave, table, radius, at), "inHand");
   }
 
   /** The names of the rails or pockets of the table in the module's memory. */

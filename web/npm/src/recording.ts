@@ -1,31 +1,13 @@
-// Recordings of games that verify themselves: the calls of carom_record.h. docs/using/games.md has
-// the format.
+// Recordings that are played again: the calls of carom_record.h. docs/using/games.md has the format.
 import { CaromError } from "./error.js";
-import { layout, names, values } from "./generated/layout.js";
+import { layout, values } from "./generated/layout.js";
 import type { Memory, Pointer } from "./memory.js";
 import type { Shot } from "./shot.js";
-import {
-  readBalls,
-  readStruct,
-  readTable,
-  writeBalls,
-  writeStruct,
-  writeTable,
-} from "./structs.js";
-import type {
-  BallState,
-  Cue,
-  GameState,
-  Ruling,
-  ShotBall,
-  ShotOptions,
-  StopOptions,
-  Table,
-} from "./types.js";
+import { readBalls, readStruct, readTable } from "./structs.js";
+import type { BallState, Cue, ShotBall, Table } from "./types.js";
 
 const RECORD = layout.carom_record.offset;
 const END = layout.carom_record_end.offset;
-const OPTIONS = layout.carom_shot_options;
 const SHOT = layout.carom_shot;
 const EVENT_SIZE = layout.carom_event.size;
 
@@ -70,8 +52,6 @@ const hex = (hash: bigint): string => BigInt.asUintN(64, hash).toString(16).padS
 export interface Host {
   readonly memory: Memory;
   statusName(code: number): string;
-  cue(fields: Partial<Cue>): Cue;
-  writeShotOptions(options: ShotOptions): Pointer;
   played(
     table: Table,
     balls: readonly ShotBall[],
@@ -81,21 +61,17 @@ export interface Host {
     events: Pointer,
     facts: Pointer,
   ): Shot;
-  readState(at: Pointer, rules: GameState["rules"]): GameState;
-  writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer;
   refuse(code: number, field?: string): void;
 }
 
-/** A carom_record in memory, with room for a line. */
+/** A carom_record in memory. */
 class Game {
   readonly #host: Host;
   readonly at: Pointer;
-  readonly text: Pointer;
 
   constructor(host: Host) {
     this.#host = host;
     this.at = host.memory.allocate(layout.carom_record.size);
-    this.text = host.memory.allocate(values.CAROM_RECORD_TEXT);
   }
 
   number(offset: number): number {
@@ -221,203 +197,7 @@ class Game {
   }
 
   free(): void {
-    for (const at of [this.at, this.text, this.#shot, this.#events, this.#line])
-      this.#host.memory.free(at);
-  }
-}
-
-/** A game on its way, played, written and read: `carom.record(table, balls)`. */
-export class Recording {
-  /** The text so far, a line each, with its end of line. */
-  readonly lines: string[] = [];
-  readonly #host: Host;
-  readonly #game: Game;
-
-  /** @internal */
-  constructor(host: Host) {
-    this.#host = host;
-    this.#game = new Game(host);
-  }
-
-  /** @internal */
-  begin(table: Table, balls: readonly ShotBall[], options: ShotOptions): void {
-    const host = this.#host;
-    writeTable(host.memory, this.#game.at + RECORD.table, table);
-    const given = host.writeShotOptions(options);
-    host.memory.u8.copyWithin(this.#game.at + RECORD.options, given, given + OPTIONS.size);
-    this.#until({});
-    this.#write(values.CAROM_RECORD_HEAD);
-    this.#write(values.CAROM_RECORD_TABLE);
-    this.#write(values.CAROM_RECORD_OPTIONS);
-    this.setBalls(balls);
-  }
-
-  /**
-   * Reads a line that another program wrote, and plays its shot if it has one: `same` tells whether
-   * every bit agrees. Throws a CaromError where the
-   * line is wrong.
-   */
-  read(line: string): Replayed | undefined {
-    const shot = this.#game.read(line);
-    this.lines.push(`${line.trimEnd()}\n`);
-    return shot;
-  }
-
-  get table(): Table {
-    return readTable(this.#host.memory, this.#game.at + RECORD.table);
-  }
-
-  /** Whether the last line was the end. */
-  get ended(): boolean {
-    return this.#game.ended;
-  }
-
-  /** Of all lines so far: 16 hexadecimal digits. */
-  get hash(): string {
-    return hex(this.#host.memory.i64[(this.#game.at + RECORD.hash) / 8]!);
-  }
-
-  /** The layout after the last shot. */
-  get balls(): ShotBall[] {
-    this.#host.memory.exports.carom_record_settle(this.#game.at);
-    return readBalls(
-      this.#host.memory,
-      this.#game.at + RECORD.balls,
-      this.#game.number(RECORD.count),
-    );
-  }
-
-  /** Another layout, which is recorded. */
-  setBalls(balls: readonly ShotBall[]): void {
-    if (balls.length < 1 || balls.length > values.CAROM_BALLS_MOST)
-      throw new RangeError(
-        `balls: 1 to ${values.CAROM_BALLS_MOST} are needed, not ${balls.length}`,
-      );
-    this.#host.memory.exports.carom_record_settle(this.#game.at);
-    writeBalls(this.#host.memory, this.#game.at + RECORD.balls, balls);
-    this.#host.memory.i64[(this.#game.at + RECORD.count) / 8] = BigInt(balls.length);
-    this.#write(values.CAROM_RECORD_BALLS);
-  }
-
-  /** Ball in hand, at x, y (m). A place that is not free is refused, and nothing is recorded. */
-  place(ball: number, x: number, y: number): void {
-    this.#host.refuse(
-      this.#host.memory.exports.carom_record_place(this.#game.at, ball, x, y, 0),
-      `ball ${ball} at ${x}, ${y}`,
-    );
-    this.#write(values.CAROM_RECORD_PLACE);
-  }
-
-  /** A ball comes in hand, and is out of play until it is placed. */
-  hand(ball: number): void {
-    this.#host.refuse(
-      this.#host.memory.exports.carom_record_hand(this.#game.at, ball),
-      `ball ${ball}`,
-    );
-    this.#write(values.CAROM_RECORD_PLACE);
-  }
-
-  /** The layout of the next stroke as a ruling has it, and the cue ball in hand. */
-  settle({ balls, put, hand }: Ruling, cueBall = 0): void {
-    if (put.length > 0) this.setBalls(balls);
-    if (hand !== "no") this.hand(cueBall);
-  }
-
-  /** How a game stands for the player at the table, 0 or 1, which is recorded. */
-  stand(game: GameState, player = 0): void {
-    const { memory } = this.#host;
-    const from = this.#host.writeState(game, this.balls);
-    memory.u8.copyWithin(
-      this.#game.at + RECORD.standing,
-      from,
-      from + layout.carom_rules_state.size,
-    );
-    memory.i64[(this.#game.at + RECORD.rules) / 8] = BigInt(
-      names.carom_rules_kind.indexOf(game.rules),
-    );
-    memory.i64[(this.#game.at + RECORD.player) / 8] = BigInt(player);
-    this.#write(values.CAROM_RECORD_GAME);
-  }
-
-  /** What \`stand\` recorded last, or was read. */
-  get standing(): { game: GameState; player: number } {
-    const rules = names.carom_rules_kind[this.#game.number(RECORD.rules)] as GameState["rules"];
-    return {
-      game: this.#host.readState(this.#game.at + RECORD.standing, rules),
-      player: this.#game.number(RECORD.player),
-    };
-  }
-
-  /** Whether the cue ball is in hand, and not placed yet. */
-  get inHand(): boolean {
-    return this.#game.number(RECORD.hand) === 1;
-  }
-
-  /**
-   * The last shot that was played or read, with its events; of one that went on, from its start.
-   */
-  get last(): Shot | undefined {
-    return this.#game.film;
-  }
-
-  /** Plays a stroke, up to where the options stop it, and records it. */
-  shoot(cue: Partial<Cue>, options: StopOptions = {}): ShotEnd {
-    writeStruct(
-      this.#host.memory,
-      this.#game.at + RECORD.cue,
-      "carom_cue",
-      this.#host.cue(cue),
-      "cue",
-    );
-    this.#until(options);
-    return this.#play(values.CAROM_RECORD_SHOT);
-  }
-
-  /** Goes on with the shot that was stopped, and records it. */
-  continue(options: StopOptions = {}): ShotEnd {
-    this.#until(options);
-    return this.#play(values.CAROM_RECORD_CONTINUE);
-  }
-
-  /** The whole text, with its last line. Nothing follows, and its memory is given back. */
-  end(): string {
-    this.#write(values.CAROM_RECORD_END);
-    this.#game.free();
-    return this.lines.join("");
-  }
-
-  #until(options: StopOptions): void {
-    const { memory } = this.#host;
-    const at = this.#game.at + RECORD.options;
-    const { timeMost, stopAt, eventsMost } = OPTIONS.offset;
-    const given = this.#host.writeShotOptions(options);
-    for (const offset of [timeMost, stopAt])
-      memory.i64[(at + offset) / 8] = memory.i64[(given + offset) / 8]!;
-    memory.i32[(at + eventsMost) / 4] = memory.i32[(given + eventsMost) / 4]!;
-  }
-
-  #play(kind: number): ShotEnd {
-    const { memory } = this.#host;
-    memory.i64[(this.#game.at + RECORD.pending) / 8] = 0n;
-    const code = this.#game.play(kind);
-    this.#game.refuse(code);
-    if (this.#game.number(RECORD.pending) === 0) this.#host.refuse(code); // Nothing was played.
-    this.#write(kind);
-    return this.#game.end(RECORD.played);
-  }
-
-  #write(kind: number): void {
-    const { memory } = this.#host;
-    if (
-      memory.exports.carom_record_write(
-        this.#game.at,
-        kind,
-        this.#game.text,
-        values.CAROM_RECORD_TEXT,
-      ) === 0
-    )
-      throw new RangeError("the recording has ended, or a number in it is not finite");
-    this.lines.push(memory.text(this.#game.text)!);
+    for (const at of [this.at, this.#shot, this.#events, this.#line]) this.#host.memory.free(at);
   }
 }
 

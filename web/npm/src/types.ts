@@ -284,10 +284,10 @@ export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   /** Default: as the player. */
   opponent?: Player;
   /**
-   * Whether the cue ball is in hand: `place` says where to put it. Two corners of a rectangle, m:
-   * there alone.
+   * Where a cue ball in hand may be put, as a ruling says it: behind the head string ("kitchen"), in
+   * the D ("d"), ...; or between two corners, m. Then `place` says where to put it. Default "no".
    */
-  inHand?: boolean | readonly [Vec2, Vec2];
+  inHand?: Ruling["hand"] | readonly [Vec2, Vec2];
   /** Plan to run out: a turn that ends before the game is won is worth nothing. */
   runOut?: boolean;
   /** How many choices at most; default 5. */

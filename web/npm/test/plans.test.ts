@@ -65,7 +65,7 @@ test.runIf(thereIsACommand)("both builds choose the shots that the command choos
 test("a plan in slices has the choices of one call, whatever is computed between them", () => {
   const { carom } = builds[0]!;
   const { table, balls } = lay(carom, "nineball", PLACES);
-  for (const inHand of [false, true]) {
+  for (const inHand of ["no", "anywhere"] as const) {
     const options = { rules: "nineball", shots: 300, best: 3, inHand } as const;
     const thinking = carom.think(table, balls, options, 40);
     let slices = 1;
@@ -524,7 +524,7 @@ test("straight pool and snooker: points, colours on their own spots, a foul, the
   expect(() => carom.plan(pool, balls, { rules: "straight", score: 3 as never })).toThrow(
     "game.score: it must be a whole number",
   );
-  const [first] = carom.plan(table, rack, { rules: "snooker", inHand: true, shots: 300 });
+  const [first] = carom.plan(table, rack, { rules: "snooker", inHand: "d", shots: 300 });
   expect(Math.hypot(first!.place[0] - table.width / 2, first!.place[1] - 0.737)).toBeLessThan(
     0.2921,
   );

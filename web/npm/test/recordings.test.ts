@@ -1,21 +1,25 @@
 // Recordings: a game recorded, replayed and verified by the command, and what is refused.
 import { expect, test } from "vitest";
-import { type Carom, CaromError, type Recording } from "../dist/index.js";
+import { type Carom, CaromError, type Match } from "../dist/index.js";
 import { builds, root, run, thereIsACommand } from "./support.js";
 
-function aGame(carom: Carom): Recording {
+const STRONGE = { cushionModel: "stronge" } as const;
+function aGame(carom: Carom): Match {
   const table = carom.table("9ft");
-  const game = carom.record(table, carom.rack("nineball", table), { cushionModel: "stronge" });
-  expect(game.shoot({ speed: 8, phi: 90.2 }, { timeMost: 0.5 }).status).toBe("stopped_at_time");
-  expect(game.continue().status).toBe("ok");
-  game.place(0, 0.6, 0.5);
-  expect(game.shoot({ speed: 2.5, phi: 70 }).status).toBe("ok");
+  const game = carom.match("nineball", table, {
+    balls: carom.rack("nineball", table),
+    shot: STRONGE,
+  });
+  expect(game.stroke({ speed: 8, phi: 90.2 }, { timeMost: 0.5 })).toBe(false);
+  expect(game.continue()).toBe(true);
+  if (game.phase === "place") game.place(0.6, 0.5);
+  expect(game.stroke({ speed: 2.5, phi: 70 })).toBe(true);
   return game;
 }
 
 test.each(builds)("a game is replayed with the same bits, by $name", ({ carom }) => {
   const game = aGame(carom);
-  const { balls } = game;
+  const { final } = game.last!;
   const text = game.end();
   const shots = [...carom.replay(text)];
   expect(shots.map(({ shot, same, continues }) => [shot, same, continues])).toEqual([
@@ -23,18 +27,16 @@ test.each(builds)("a game is replayed with the same bits, by $name", ({ carom })
     [2, true, true],
     [3, true, false],
   ]);
-  expect(shots[2]!.final).toEqual(balls.map(({ state }) => state));
+  expect(shots[2]!.final).toEqual(final);
   // The film of each shot; that of the one that continues has the whole shot.
-  const whole = carom.simulate(shots[0]!.table, shots[0]!.balls, shots[0]!.cue, {
-    cushionModel: "stronge",
-  });
+  const whole = carom.simulate(shots[0]!.table, shots[0]!.balls, shots[0]!.cue, STRONGE);
   expect(shots.map(({ film }) => film.time)).toEqual([0.5, whole.time, shots[2]!.played.time]);
   expect(shots[1]!.film.events).toEqual(whole.events);
   expect(shots[0]!.film.events).toEqual(whole.events.filter(({ time }) => time <= 0.5));
   expect(shots[1]!.film.positions(0.7)).toEqual(whole.positions(0.7));
   // As simulate() plays them.
   const third = shots[2]!;
-  const again = carom.simulate(third.table, third.balls, third.cue, { cushionModel: "stronge" });
+  const again = carom.simulate(third.table, third.balls, third.cue, STRONGE);
   expect([again.time, again.count, again.final]).toEqual([
     third.played.time,
     third.played.events,
@@ -49,25 +51,6 @@ test.runIf(thereIsACommand)("what the command records is replayed here", () => {
     expect([...carom.replay(text)].filter(({ same }) => same).length).toBe(30);
 });
 
-test("two programs read each other's lines", () => {
-  const { carom: first } = builds[0]!;
-  const { carom: second } = builds[1]!;
-  const table = first.table("9ft");
-  const here = first.record(table, first.rack("nineball", table));
-  const there = second.record();
-  for (const line of here.lines) expect(there.read(line)).toBeUndefined();
-  here.shoot({ speed: 8, phi: 90 });
-  expect(there.read(here.lines.at(-1)!)).toMatchObject({ shot: 1, same: true });
-  expect([there.balls, there.table]).toEqual([here.balls, table]);
-  there.place(0, 0.9, 0.4);
-  expect(here.read(there.lines.at(-1)!)).toBeUndefined();
-  there.shoot({ speed: 2, phi: 70 });
-  expect(here.read(there.lines.at(-1)!)).toMatchObject({ shot: 2, same: true });
-  expect([here.hash, here.ended]).toEqual([there.hash, false]);
-  expect([...first.replay(here.end())].length).toBe(2);
-  expect(() => there.read('{"shot":{}}')).toThrow(/shot.status is missing/);
-});
-
 test("a forged stroke, damage and other revisions are told", () => {
   const { carom } = builds[0]!;
   const text = aGame(carom).end();
@@ -78,7 +61,7 @@ test("a forged stroke, damage and other revisions are told", () => {
     expect(() => [...carom.replay(damaged)]).toThrow(CaromError);
     expect(() => [...carom.replay(damaged)]).toThrow(said);
   };
-  refused(text.replace('"phi"', '"phy"'), /line 5: shot.phy is no key of the format/);
+  refused(text.replace('"phi"', '"phy"'), /line 6: shot.phy is no key of the format/);
   refused(text.replace('"revision":', '"revision":9'), /line 1: the recording is of revision 9/);
   refused(text.split("\n").slice(0, -2).join("\n"), /cut off/);
 });
@@ -129,6 +112,41 @@ test.each(builds)("a match refuses, rules and is judged again, by $name", ({ car
     lines.forEach((line) => forged.read(line.replace('"player":1', '"player":0'))),
   ).toThrow(CaromError);
   if (thereIsACommand) expect(run(["verify", "-"], match.end())).toContain("player 2 has won");
+});
+
+test("a match that is read again has the bounds of a scratch, and nothing behind its end", () => {
+  const [{ carom }] = builds as [(typeof builds)[number]];
+  const table = carom.table("9ft");
+  let match: Match;
+  let phi = 84;
+  do {
+    match = carom.match("straight", table, { balls: carom.rack("eightball", table, { seed: 5 }) });
+    match.stroke({ speed: 9, phi: (phi += 0.1) });
+  } while (match.hand !== "kitchen" && phi < 96);
+  const again = carom.match();
+  for (const line of match.lines) again.read(line);
+  expect([again.hand, again.phase, again.player]).toEqual(["kitchen", "place", match.player]);
+  expect(again.bounds).toEqual(match.bounds);
+  const beyond = table.length / 4 + 1e-3;
+  expect(() => again.place(0.6, beyond)).toThrow(/place: .*0\.635/);
+  expect(again.plan({ shots: 100, best: 1 })[0]!.place[1]).toBeLessThan(beyond);
+
+  const { lines } = match;
+  const text = match.end();
+  expect(() => match.stroke({ speed: 1 })).toThrow("given back");
+  again.read(text.trimEnd().split("\n").at(-1)!);
+  expect(() => again.stroke({ speed: 1 })).toThrow(/is over/);
+  expect(() => again.read(lines.at(-1)!)).toThrow(CaromError);
+});
+
+test("a plan is told where the cue ball in hand may be put", () => {
+  const [{ carom }] = builds as [(typeof builds)[number]];
+  const table = carom.table("9ft");
+  const balls = carom.rack("eightball", table);
+  const place = (inHand: "kitchen" | "anywhere"): number =>
+    carom.plan(table, balls, { rules: "straight", inHand, shots: 100, best: 1 })[0]!.place[1]!;
+  expect(place("kitchen")).toBeLessThanOrEqual(table.length / 4);
+  expect(() => place(true as never)).toThrow(/inHand: .*"anywhere", "kitchen", "d", "baulk"/);
 });
 
 test("a match of another layout and state", () => {

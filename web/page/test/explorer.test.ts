@@ -323,11 +323,13 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     async (_, how) => {
       const { carom } = builds[0]!;
       const table = carom.table("9ft");
-      const game = carom.record(table, carom.rack("nineball", table), { cushionModel: "stronge" });
-      const ends = [game.shoot({ speed: 8, phi: 90.2 }, { timeMost: 0.5 }), game.continue()];
-      game.place(0, 0.6, 0.5);
-      ends.push(game.shoot({ speed: 2.5, phi: 70 }));
+      const balls = carom.rack("nineball", table);
+      const game = carom.match("nineball", table, { balls, shot: { cushionModel: "stronge" } });
+      game.stroke({ speed: 8, phi: 90.2 }, { timeMost: 0.5 });
+      game.continue();
+      game.stroke({ speed: 2.5, phi: 70 });
       const whole = game.end();
+      const ends = [...carom.replay(whole)].map(({ played }) => played);
       const give = (name: string, of: string): Promise<void> =>
         one
           .locator("#recording")

@@ -194,8 +194,9 @@ async function lookBack(
   call: Call | undefined,
 ): Promise<string> {
   try {
-    // Both plans play as the same player.
-    const [own, other] = await Promise.all([chancesOf(request, cue), best(request)]);
+    // Both plans play as the same player, with the cue ball where it was put.
+    const other = best(request, { inHand: "no" });
+    const [own, found] = await Promise.all([chancesOf(request, cue), other]);
     const { game, table, balls, names } = request;
     const row: Row = {
       when: new Date().toISOString().slice(0, 16),
@@ -204,13 +205,13 @@ async function lookBack(
       ...(isPot(call) ? errors(carom, table, balls, cue, call) : {}),
       keep: own.keep,
       value: own.value,
-      best: wordsOfChoice(table, names, other),
-      bestValue: other.value,
+      best: wordsOfChoice(table, names, found),
+      bestValue: found.value,
     };
     keepRow(row);
     const cost = costOf(row)!;
     const verdict = cost < 0.02 ? texts.youChoseWell : texts.itCost(percent(cost));
-    return texts.thatStrokeWinsIn(percent(own.value), row.best, percent(other.value), verdict);
+    return texts.thatStrokeWinsIn(percent(own.value), row.best, percent(found.value), verdict);
   } catch (error) {
     return texts.theReviewOfThat(wrong(error));
   }

@@ -136,9 +136,9 @@ export function why(s: Pick<Session, "play" | "seat" | "thinks">): string {
 export const playerOf = (carom: Carom, rating: string): Player =>
   carom.player(rating === "0" ? { errors: 0 } : { fargo: Number(rating) });
 /** What a plan knows of a game: how it stands, which ball is struck, and where it may be put. */
-export const wantedOf = ({ state, cueBall, bounds }: Play): PlanOptions => ({
+export const wantedOf = ({ state, cueBall, hand }: Play): PlanOptions => ({
   ...state,
   cue: { ball: cueBall },
   shot: OPTIONS,
-  ...(bounds && { inHand: [bounds.low, bounds.high] }),
+  inHand: hand,
 });
