@@ -45,9 +45,9 @@ def two(**how):
     return carom.simulate(TABLE, TWO, STROKE, **how)
 
 
-def recorder():
-    made = carom.record.Recorder(TABLE, TWO)
-    made.shoot(STROKE)
+def match():
+    made = carom.Match("potting", TABLE, balls=TWO)
+    made.stroke(STROKE)
     return made
 
 
@@ -109,7 +109,7 @@ OBJECTS = {
         lambda it: carom.tangents(it, ["cue.phi"]).states,
     ),
     "tangents": (lambda: carom.tangents(two(), ["cue.phi"]), lambda it: it.states),
-    "recorder": (recorder, lambda it: (it.shoot(STROKE), it.end())),
+    "match": (match, lambda it: it.end()),
     "player": (
         carom.player,
         lambda it: (planned(player=it, opponent=it), carom.with_errors(CUE, it, 1)),

@@ -16,7 +16,6 @@ from conftest import refused_by_name
 import carom
 from carom._carom import ffi, lib
 from carom._described import ShotCushion
-from carom.record import Recorder
 
 TABLE = carom.tables.pool_9ft()
 RACK, CUE = carom.racks.nineball(TABLE), carom.cue()
@@ -541,7 +540,6 @@ CALLS = [
     (SHOT.animate, {}, "speed"),
     (BATCH.positions, {"times": 0.1}, "times threads"),
     *([(BATCH.to_dataframe, {}, "dims")] if importlib.util.find_spec("pandas") else []),
-    (Recorder, {"table": TABLE, "balls": PAIR}, "table balls options world"),
 ]
 
 

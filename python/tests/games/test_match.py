@@ -62,6 +62,20 @@ def test_a_file_that_was_cut_off_behind_a_shot_goes_on():
         carom.Match.load(forged)
 
 
+def test_a_game_that_was_saved_has_the_bounds_of_a_scratch():
+    for phi in np.arange(84.0, 96.0, 0.1):
+        match = carom.Match("straight", TABLE, balls=carom.racks.eightball(TABLE, seed=5))
+        match.stroke(carom.cue(speed=9.0, phi=phi))
+        if match.phase == "place":
+            break
+    again = carom.Match.load(match.lines)
+    assert again.bounds == match.bounds and again.bounds.high[1] == TABLE.length / 4
+    assert (again.phase, again.player) == ("place", match.player)
+    with pytest.raises(carom.CaromError, match="place: .*0.635"):
+        again.place(0.6, 0.64)
+    assert again.plan(shots=100, best=1)[0]["place"][1] <= TABLE.length / 4
+
+
 def test_choices_are_taken():
     match = begun()
     match.place(0.6, 0.6)

@@ -280,7 +280,7 @@ def test_values_of_layouts():
 def test_ball_in_hand():
     layout = LAYOUT.copy()
     layout["state"]["label"][0] = carom.Label.POCKETED
-    best = carom.plan(TABLE, layout, rules="nineball", shots=200, in_hand=True)
+    best = carom.plan(TABLE, layout, rules="nineball", shots=200, in_hand="anywhere")
     assert (
         (best["place"] > 0.0).all()
         and (best["place"] < [TABLE.width, TABLE.length]).all()

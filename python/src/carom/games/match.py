@@ -14,7 +14,7 @@ from carom._rows import Seed, choice, copied, listing, number, pointer, seed_of,
 from carom._shot_options import Options, StopAt, chosen, options_of, shot_options
 from carom.games.plans import Kind, plan
 from carom.games.rules import GivenState, Hand, Made, Rules, Ruling, of_set, ruling_of, words_of
-from carom.games.rules import GAMES, LEAVES, Game
+from carom.games.rules import GAMES, LEAVES, Game, hand_of
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
 from carom.record import lines_of
@@ -235,6 +235,11 @@ class Match:
         return Bounds((*of.low,), (*of.high,), (*of.centre,), of.radius)
 
     @property
+    def hand(self) -> Hand:
+        """Where the rules let a cue ball in hand be put, until the stroke: `bounds` in a word."""
+        return "no" if self.phase == "over" else hand_of(self._c.leave)
+
+    @property
     def text(self) -> str:
         """The last ruling in words; "" before it."""
         return words_of(ffi.addressof(self._c, "ruling")) if self._c.rulings else ""
@@ -349,7 +354,6 @@ class Match:
 
         `wanted` is as for `carom.plan`: player, opponent, shots, best, seed, ...
         """
-        bounds = self.bounds if self.phase == "place" else None
         state = self.state
         return plan(
             self.table,
@@ -357,7 +361,7 @@ class Match:
             usual_cue(ball=self.cue_ball),
             rules=self.rules,
             state=state["user"] if isinstance(self.rules, Rules) else state,
-            in_hand=False if bounds is None else [bounds.low, bounds.high],
+            in_hand=self.hand if self.phase == "place" else "no",
             options=self.options,
             **wanted,
         )

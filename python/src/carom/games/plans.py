@@ -18,7 +18,7 @@ from carom._faults import argument_error, shot_arguments
 from carom._rows import Array, Arrays, as_array, choice, copied, listing, number, pointer
 from carom._rows import Seed, seed_of, several, whole
 from carom._shot_options import Options, chosen, shot_options
-from carom.games.rules import Game, GivenState, Group, Hand, Made, Rules
+from carom.games.rules import LEAVES, Game, GivenState, Group, Hand, Made, Rules
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
 from carom.status import CaromError
@@ -316,20 +316,24 @@ def _one_player(given: dtypes.Records, name: str = "player") -> Any:
     return pointer("carom_player[]", record)
 
 
-def _corners(in_hand: bool | Hand | npt.ArrayLike, table: Table) -> dtypes.Doubles | None:
-    """The corners between which the cue ball is put; None: anywhere."""
+def _corners(in_hand: Hand | npt.ArrayLike, table: Table, radius: float) -> tuple[Any, Any] | None:
+    """The corners for C between which the cue ball is put; NULL: anywhere. None: not in hand."""
     if isinstance(in_hand, str):
-        choice(dict.fromkeys(get_args(Hand), 0), in_hand, "in_hand")
-        line = {"kitchen": table.length / 4.0, "baulk": table.length / 5.0}.get(in_hand)
-        in_hand = [[0.0, 0.0], [table.width, line]] if line else True
-    if in_hand is True:
-        return None
-    corners: dtypes.Doubles = np.ascontiguousarray(as_array(in_hand, "in_hand", np.float64))
+        leave = choice({word: LEAVES.get(word, 0) for word in get_args(Hand)}, in_hand, "in_hand")
+        if leave == 0:
+            return None
+        if leave == lib.CAROM_LEAVE_HAND:
+            return ffi.NULL, ffi.NULL
+        bounds = ffi.new("carom_bounds *")
+        lib.carom_hand_bounds(leave, pointer("carom_table *", table.record), radius, bounds)
+        in_hand = [[*bounds.low], [*bounds.high]]
+    corners = as_array(in_hand, "in_hand", np.float64)
     if corners.shape != (2, 2) or not (corners[0] <= corners[1]).all():
         raise ValueError(
-            f"in_hand: True, False, the hand of a ruling or the corners [[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}"
+            f"in_hand: the hand of a ruling, {', '.join(map(repr, get_args(Hand)))}, or the corners [[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}"
         )
-    return corners
+    low, high = np.ascontiguousarray(corners)
+    return pointer("double[]", low), pointer("double[]", high)
 
 
 def _stoppable(call: Callable[[], int], flag: Any, stop: threading.Event | None) -> int:
@@ -452,7 +456,7 @@ def plan(
     opponent: dtypes.Records | None = None,
     shots: int | None = None,
     seconds: float = 0.0,
-    in_hand: bool | Hand | npt.ArrayLike = False,
+    in_hand: Hand | npt.ArrayLike = "no",
     best: int = 5,
     seed: Seed = 0,
     threads: int = 0,
@@ -498,9 +502,9 @@ def plan(
     seconds : float
         At which the plan ends, if it has not played its shots by then; 0 is never. It then has one
         choice, the best so far.
-    in_hand : bool, {"no", "anywhere", "kitchen", "d", "baulk"} or array_like, shape (2, 2)
-        Whether the cue ball is in hand, as `hand` of a ruling: `place` of the choices then says
-        where to put it. Two corners (m) of a rectangle: there alone.
+    in_hand : {"no", "anywhere", "kitchen", "d", "baulk"} or array_like, shape (2, 2)
+        Where a cue ball in hand may be put, as `hand` of a ruling, or between two corners (m) of a
+        rectangle: `place` of the choices then says where to put it.
     best : int
         How many choices at most.
     seed : int or numpy.random.Generator
@@ -535,8 +539,9 @@ def plan(
         The layout, the cue or an option is in error.
     """
     check_table(table)
-    in_hand = False if isinstance(in_hand, str) and in_hand == "no" else in_hand
-    corners = None if in_hand is False else _corners(in_hand, table)
+    layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
+    radius = float(layout["kind"]["radius"].flat[0]) if layout.size else 0.0
+    corners = _corners(in_hand, table, radius)
     game = Made(rules, state, group, opening)
     job = _Job(
         table,
@@ -558,13 +563,8 @@ def plan(
     choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
     found = ffi.new("int *")
     rows = pointer("carom_choice[]", choices)
-    if in_hand is not False:
-        low, high = (
-            (ffi.NULL, ffi.NULL)
-            if corners is None
-            else (pointer("double[]", corners[0]), pointer("double[]", corners[1]))
-        )
-        job.call(lib.carom_plan_hand, low, high, rows, len(choices), found)
+    if corners is not None:
+        job.call(lib.carom_plan_hand, *corners, rows, len(choices), found)
     else:
         job.call(lib.carom_plan, rows, len(choices), found)
     return choices[: found[0]]

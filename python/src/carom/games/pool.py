@@ -193,7 +193,7 @@ class Pool:
             opponent=opponent,
             shots=shots,
             seed=seed,
-            in_hand=[*self.area(position.hand)] if position.hand else False,
+            in_hand=[*self.area(position.hand)] if position.hand else "no",
             best=1,
             level=level,
             cushion_model=self.base.cushion_model,

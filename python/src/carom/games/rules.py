@@ -127,6 +127,12 @@ def _facts(record: Any) -> Facts:
     )
 
 
+def hand_of(leave: int) -> Hand:
+    """Where a cue ball in hand may be put, by its `carom_leave`."""
+    word = list(LEAVES)[leave]
+    return cast("Hand", "no" if word in ("after", "before") else word)
+
+
 @dataclass(frozen=True)
 class Turn:
     """What a shot amounts to, from `Rules.judge`: the fields are its arguments.
@@ -571,11 +577,10 @@ def ruling_of(ruling: Any, count: int, is_own: bool, shot: Shot) -> Ruling:
         .copy()
         .reshape(())
     )
-    hands = {value: word for word, value in LEAVES.items() if value > LEAVES["before"]}
     return Ruling(
         tuple(_TURNS)[turn.outcome],
         Foul(turn.foul),
-        cast(Hand, hands.get(turn.leave, "no")),
+        hand_of(turn.leave),
         tuple(facts.potted),
         facts.first,
         turn.points,

@@ -520,7 +520,8 @@ class Agent:
             raise UnsupportedError(
                 f"rules: the agent plays {' and '.join(_GAMES.values())}, not {rules!r}"
             )
-        if hand not in ("none", "anywhere", "behind_line"):
+        hands = {"none": "no", "anywhere": "anywhere", "behind_line": "kitchen"}
+        if hand not in hands:
             raise UnsupportedError(
                 f"hand: the agent knows a cue ball in hand anywhere or behind_line, or none, not {hand!r}"
             )
@@ -539,9 +540,6 @@ class Agent:
         cue = cue_of(system)
         cue["ball"] = 0
 
-        where: Any = hand == "anywhere"
-        if hand == "behind_line":
-            where = [[0.0, 0.0], [table.width, table.length / 4.0]]
         best: dtypes.Records = plan(
             table,
             layout,
@@ -552,7 +550,7 @@ class Agent:
             player=self.player,
             opponent=self.opponent,
             shots=self.shots,
-            in_hand=where,
+            in_hand=hands[hand],
             best=1,
             seed=self.seed + self.strokes,
             threads=self.threads,
