@@ -5,7 +5,7 @@ import type { Setup } from "./game.js";
 import { pack, send } from "./keep.js";
 import type { Link, Session } from "./parts.js";
 import { says } from "./session.js";
-import { keep, next } from "./turns.js";
+import { next, saveAndCount } from "./turns.js";
 import { texts } from "../texts/texts.js";
 
 export function byLink(s: Session): Link {
@@ -30,7 +30,7 @@ export function byLink(s: Session): Link {
       const stroke = s.play.read(queue);
       if (!stroke) return next(s);
       says(s, texts.strokeWasRepeatedEvery(s.play.strokes));
-      keep(s);
+      saveAndCount(s);
       s.showing.perform(stroke, onward);
     } catch (error) {
       queue = [];

@@ -15,7 +15,7 @@ import {
   takeOver,
 } from "./saved.js";
 import { aimAt, cueOf, mine, NONE, says } from "./session.js";
-import { isWorthKeeping, next, save, SPEED } from "./turns.js";
+import { isWorthKeeping, next, save, SPEED_AFTER_BREAK } from "./turns.js";
 import { texts } from "../texts/texts.js";
 
 export const FIRST: Setup = { game: "eightball", against: "300", own: "800", seed: 1 };
@@ -76,7 +76,7 @@ function goOn(s: Session, play: Play, id: string, seat: 0 | 1, isLink: boolean):
   aimAt(s, {
     ...cueOf(s),
     theta: 0,
-    ...(begins ? play.played?.begin : { speed: SPEED }),
+    ...(begins ? play.played?.begin : { speed: SPEED_AFTER_BREAK }),
   });
   save(s);
   s.link.ask();

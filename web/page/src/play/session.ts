@@ -92,7 +92,7 @@ export function called(s: Session): { ball: number; pocket: number } | undefined
   const isThere = ball > 0 && onTable(play.balls[ball]!.state);
   return isThere && pocket >= 0 ? { ball, pocket } : undefined;
 }
-export const callOf = (s: Session): Call | undefined =>
+const callOf = (s: Session): Call | undefined =>
   s.special ?? (needsCall(s.play) ? called(s) : undefined);
 /** What the stroke that is shown meets first. */
 export function look(s: Session): void {
@@ -133,8 +133,31 @@ export function why(s: Pick<Session, "play" | "seat" | "thinks">): string {
   return texts.theOtherPlayerIsAt;
 }
 
+/** A player of a rating; "0" makes no errors. */
 export const playerOf = (carom: Carom, rating: string): Player =>
   carom.player(rating === "0" ? { errors: 0 } : { fargo: Number(rating) });
+/** A stroke with the errors of a rating; the number of the stroke chooses them. */
+export const withErrors = (
+  { carom, setup }: Play,
+  cue: Cue,
+  rating: string,
+  stroke: number,
+): Cue =>
+  rating === "0" ? cue : carom.withErrors(cue, playerOf(carom, rating), setup.seed, stroke);
+/** The rating whose errors the next stroke has. A stroke of a hint has those that the hint assumed. */
+function ratingOfErrors(s: Pick<Session, "play" | "hinted" | "training">): string {
+  const { own } = s.play.setup;
+  const isWithoutErrors = s.play.practice && own === "0";
+  return s.hinted && !isWithoutErrors ? String(levelOf(s)) : own;
+}
+/** The stroke of whoever sits here: the cue with its errors, and the call. */
+export function strokeToPlay(s: Session): { cue: Cue; call: Call | undefined } {
+  const { play } = s;
+  const number = play.strokes + play.past.length;
+  const cue = withErrors(play, cueOf(s), ratingOfErrors(s), number);
+  look(s); // the aim may have changed since the last frame
+  return { cue, call: callOf(s) };
+}
 /** What a plan knows of a game: how it stands, which ball is struck, and where it may be put. */
 export const wantedOf = ({ state, cueBall, hand }: Play): PlanOptions => ({
   ...state,

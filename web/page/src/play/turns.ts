@@ -1,6 +1,6 @@
-// The turns of a game: the person at the page or the page's player plays a stroke, the page saves
-// the game, and the next player comes to the table.
-import type { Call, Choice, Cue, May } from "carom";
+// The turns of a game. Either the person at the page or the page's player plays a stroke. The page
+// then saves the game, shows the film of the stroke, and the next player comes to the table.
+import type { Call, Choice, May } from "carom";
 import { far } from "../far.js";
 import { angleFrom, direction } from "../table/grip.js";
 import { wordsOfChoice } from "../table/words.js";
@@ -12,111 +12,102 @@ import type { Session } from "./parts.js";
 import { saveGame } from "./saved.js";
 import {
   ballsOn,
-  callOf,
-  cueOf,
   free,
   isSafety,
-  levelOf,
-  look,
   mine,
   needsCall,
   NONE,
   playerOf,
   SAFETY,
   says,
+  strokeToPlay,
   wantedOf,
   why,
+  withErrors,
 } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfStroke } from "./state.js";
 import { texts } from "../texts/texts.js";
 
-/** How long the stroke of the page's player is shown before it is played, ms. */
-const SHOWN = 700;
-/** The power after the break, m/s. */
-export const SPEED = 2.5;
+/** How long the page shows the stroke of its player before it plays the stroke, ms. */
+const ANNOUNCED_MS = 700;
+/** The speed of the cue that the page sets for the stroke after the break, m/s. */
+export const SPEED_AFTER_BREAK = 2.5;
+/** The rating that the page's player assumes for a person who plays without errors. */
+const RATING_OF_PERFECT = "700";
 
 // ---- Strokes ------------------------------------------------------------------------------------
 
-/** The rating by which a stroke errs: after a hint that of the player, even where none was chosen. */
-function ratingOfErrors(s: Pick<Session, "play" | "hinted" | "training">): string {
-  const { own } = s.play.setup;
-  const isWithoutErrors = s.play.practice && own === "0";
-  return s.hinted && !isWithoutErrors ? String(levelOf(s)) : own;
-}
-/** A stroke as a player of a rating plays it; "0" makes no errors. */
-function withErrors({ carom, setup }: Play, cue: Cue, rating: string, strokes: number): Cue {
-  if (rating === "0") return cue;
-  return carom.withErrors(cue, playerOf(carom, rating), setup.seed, strokes);
-}
-
+/** Plays the stroke that the controls set. */
 export function shoot(s: Session): void {
   if (!free(s)) return says(s, why(s));
-  const { coach, play, settings, sound } = s;
+  const { coach, play, settings } = s;
   s.searchGeneration++; // a search for a hint ends here
-  sound.wake();
-  const strokes = play.strokes + play.past.length;
-  const cue = withErrors(play, cueOf(s), ratingOfErrors(s), strokes);
+  s.sound.wake();
+  // The review needs the layout before the stroke.
   const review = coach.review();
   try {
-    look(s); // the aim may have changed since the last frame
-    const call = callOf(s);
+    const { cue, call } = strokeToPlay(s);
     const stroke = play.stroke(cue, call);
     says(s, "");
     const isReviewed = settings.coach && play.played && play.setup.drill === undefined;
     if (isReviewed) void review(cue, call);
-    follow(s, stroke);
+    finishTurn(s, stroke);
   } catch (error) {
     says(s, wrong(error));
   }
 }
-/** Takes a choice of the rules instead of a stroke, such as to pass. */
+/** Takes a choice that the rules offer instead of a stroke, such as to pass. */
 export function choose(s: Session, what: May): void {
   if (!free(s)) return says(s, why(s));
   s.searchGeneration++; // a search for a hint ends here
   try {
-    follow(s, s.play.choose(what));
+    finishTurn(s, s.play.choose(what));
   } catch (error) {
     says(s, wrong(error));
   }
 }
-/** Chooses a safety or a push-out, or takes the choice back. */
-export function push(s: Session): void {
+/**
+ * Calls a safety or a push-out, or takes this call back. Games whose strokes need a call have
+ * safeties; the others have push-outs.
+ */
+export function togglePush(s: Session): void {
   if (!free(s)) return says(s, why(s));
   if (needsCall(s.play)) {
     // A safety holds as long as the aim meets the same ball.
     const safety = { ball: -1, pocket: SAFETY, met: s.first?.ball ?? -1 };
     s.chosen = isSafety(s) ? NONE : safety;
-  } else if (s.play.breaks) says(s, texts.aBreakCallsNothing);
-  else s.special = s.special === "push" ? undefined : "push";
+  } else if (s.play.breaks) {
+    says(s, texts.aBreakCallsNothing);
+  } else {
+    s.special = s.special === "push" ? undefined : "push";
+  }
   s.showing.rest();
 }
-/** Whether a stroke was the first of a rack. */
+/** Whether a stroke that was just played was the first of a rack. */
 function wasBreak({ setup, strokes }: Play, stroke: Stroke): boolean {
   const isFirst = setup.at === undefined && strokes === 1;
   return stroke.state.opening === true || isFirst;
 }
-/** Shows the film of a stroke that was played, then gives the turn to the next player. */
-function follow(s: Session, stroke: Stroke): void {
-  // Nobody breaks twice: the next stroke begins as one of medium speed.
-  if (wasBreak(s.play, stroke) && !s.play.breaks) s.stroke.set({ speed: SPEED });
+/** Saves the game after a stroke and shows its film; then the next player comes to the table. */
+function finishTurn(s: Session, stroke: Stroke): void {
+  // The speed of a break does not suit the stroke after it.
+  if (wasBreak(s.play, stroke) && !s.play.breaks) s.stroke.set({ speed: SPEED_AFTER_BREAK });
   s.chosen = NONE;
   s.theirs = undefined;
   s.special = undefined;
   s.hinted = false;
-  keep(s);
+  saveAndCount(s);
   s.showing.perform(stroke, () => next(s));
 }
+/** Takes back the last stroke or move of practice. */
 export function undo(s: Session): void {
   if (!s.play.practice) return;
   if (!s.play.undo()) return says(s, texts.thereIsNothingTo);
   save(s);
   s.showing.rest();
 }
-/**
- * Whoever comes to the table finds the tip in the middle of the cue ball, and the aim at the
- * nearest ball that is on.
- */
-function address({ play, stroke }: Pick<Session, "play" | "stroke">): void {
+/** Aims a level cue at the nearest ball that is on, with the tip at the middle of the cue ball. */
+function aimAtNearest({ play, stroke }: Pick<Session, "play" | "stroke">): void {
   const cueBall = play.balls[play.cueBall]!;
   const placeOfBall = (ball: number): [number, number] => {
     const [x, y] = play.balls[ball]!.state.r;
@@ -131,7 +122,7 @@ function address({ play, stroke }: Pick<Session, "play" | "stroke">): void {
   if (nearest !== undefined)
     stroke.set({ phi: direction(angleFrom(cueBall, placeOfBall(nearest))) });
 }
-/** Judges a try of a drill, and lays the balls for the next one. */
+/** Says how a try of a drill went, and lays the balls for another try if the drill asks for it. */
 function judgeDrill({ play, training, words, carom }: Session): void {
   const { drill, at } = play.setup;
   if (drill === undefined || !play.last) return;
@@ -140,46 +131,49 @@ function judgeDrill({ play, training, words, carom }: Session): void {
   // The next try begins where this one began.
   if (again) play.lay(new Play(carom, { ...play.setup, at }).balls);
 }
-/** Whoever is at the table now plays. */
+/** Begins the turn of the player who is now at the table. */
 export function next(s: Session): void {
-  const { play } = s;
-  const isAgainstComputer = isComputer(play.setup.against);
+  const { link, play, seat, training } = s;
   judgeDrill(s);
-  if (s.link.waiting()) return s.link.onward();
-  const isTheirs = play.last !== undefined && play.last.who !== s.seat;
-  if (isTheirs && play.hasPockets && isAgainstComputer)
-    says(s, wordsOfStroke(play, play.last!, s.seat));
-  if (play.winner !== undefined && isRated(play.setup)) says(s, s.training.rating().words);
-  if (play.winner === undefined && !mine(s) && isAgainstComputer) void reply(s);
-  else {
-    if (!play.practice && !play.breaks && mine(s)) address(s);
+  if (link.waiting()) return link.onward();
+  // Words about the last stroke, and about a game that it ended.
+  const { last, setup, winner } = play;
+  const isAgainstComputer = isComputer(setup.against);
+  const wasTheirs = last !== undefined && last.who !== seat;
+  if (wasTheirs && play.hasPockets && isAgainstComputer) says(s, wordsOfStroke(play, last, seat));
+  if (winner !== undefined && isRated(setup)) says(s, training.rating().words);
+  // The page's player begins to plan, or the person at the page begins to aim.
+  if (winner === undefined && !mine(s) && isAgainstComputer) {
+    void reply(s);
+  } else {
+    if (!play.practice && !play.breaks && mine(s)) aimAtNearest(s);
     s.showing.rest();
   }
-  // After a stroke its review is read, until the aim changes.
-  if (s.settings.coach && !play.last) void s.coach.chances();
+  // After a stroke its review stays until the aim changes, so the chances are said before the first.
+  if (s.settings.coach && !last) void s.coach.chances();
 }
 
 // ---- The page's player --------------------------------------------------------------------------
 
-/** The stroke that the page's player chooses, by a plan in a worker. */
+/** Plans a stroke for the page's player. A worker computes the plan. */
 async function choiceOf(play: Play): Promise<Choice> {
   const { against, own, seed } = play.setup;
   const options = {
     ...wantedOf(play),
     player: playerOf(play.carom, against),
-    opponent: playerOf(play.carom, own === "0" ? "700" : own),
+    opponent: playerOf(play.carom, own === "0" ? RATING_OF_PERFECT : own),
     seed: seed + play.strokes,
     best: 1,
   };
   const [choice] = await far("plan", play.table, play.balls, options);
   return choice!;
 }
-/** What a choice calls. */
+/** The call of a planned stroke. */
 function callOfChoice({ kind, ball, pocket }: Choice): Call | undefined {
   if (kind === "push") return kind;
   return ball > 0 && pocket >= 0 ? { ball, pocket } : undefined;
 }
-/** Shows a choice of the page's player for a moment: the cue ball, the stick, and words. */
+/** Shows for a moment what the page's player will do: the cue ball, the stick, and words. */
 async function announce(s: Session, choice: Choice): Promise<void> {
   const { play, seat, film } = s;
   if (play.bounds) play.put(play.cueBall, ...(choice.place as [number, number]));
@@ -187,44 +181,44 @@ async function announce(s: Session, choice: Choice): Promise<void> {
   s.showing.rest();
   const stroke = wordsOfChoice(play.table, play.names, choice, s.first?.ball === -1);
   says(s, texts.playsStroke(nameOf(play, play.turn, seat), stroke));
-  const isInstant = film.pace.value === "1000";
-  await new Promise((later) => window.setTimeout(later, isInstant ? 0 : SHOWN));
+  const isInstant = film.pace.value === "1000"; // the pace "at once"
+  await new Promise((later) => window.setTimeout(later, isInstant ? 0 : ANNOUNCED_MS));
 }
-/** The page's player: he plans, puts the cue ball, and errs. */
+/** Lets the page's player plan a stroke, announce it, and play it with errors. */
 async function reply(s: Session): Promise<void> {
   const { play } = s;
   const generation = ++s.searchGeneration;
-  const isOver = (): boolean => generation !== s.searchGeneration;
+  // Opening another game or leaving the view raises the generation.
+  const isStale = (): boolean => generation !== s.searchGeneration;
   s.thinks = true;
   s.showing.rest();
   try {
     const choice = await choiceOf(play);
-    if (isOver()) return;
+    if (isStale()) return;
     await announce(s, choice);
-    if (isOver()) return;
+    if (isStale()) return;
     s.thinks = false;
-    if (choice.kind === "pass") return follow(s, play.choose("pass"));
+    if (choice.kind === "pass") return finishTurn(s, play.choose("pass"));
     const { against } = play.setup;
     const cue = withErrors(play, choice.cue, against, play.strokes);
-    follow(s, play.stroke(cue, callOfChoice(choice)));
+    finishTurn(s, play.stroke(cue, callOfChoice(choice)));
   } catch (error) {
-    if (isOver()) return;
+    if (isStale()) return;
     s.thinks = false;
     says(s, wrong(error));
   }
 }
 
-// ---- What is kept of a game ---------------------------------------------------------------------
+// ---- Saving a game ------------------------------------------------------------------------------
 
-/**
- * Whether a game is worth a line in the list of games: somebody has played or laid balls. Drills
- * have counts of their own.
- */
+type Saved = Pick<Session, "play" | "link" | "seat" | "id" | "words">;
+
+/** Whether a game belongs in the list of games: somebody has played, or laid balls in practice. */
 export function isWorthKeeping({ setup, practice, strokes, past }: Play): boolean {
-  if (setup.drill !== undefined) return false;
+  if (setup.drill !== undefined) return false; // tries of drills are counted in ladder.ts
   return practice ? past.length > 0 || setup.at !== undefined : strokes > 0;
 }
-/** Saves the game in this browser; one by link also in the address and on other pages. */
+/** Saves the game in this browser. A game by link is also saved in the address. */
 export function save({ play, link, seat, id, words }: Saved): void {
   const { setup, strokes } = play;
   const game = {
@@ -238,12 +232,12 @@ export function save({ play, link, seat, id, words }: Saved): void {
   };
   saveGame(game).catch((error: unknown) => says({ words }, texts.thisBrowserDoesNot(wrong(error))));
   if (setup.against === "link") return link.save();
+  // A reload shows this game again, unless the address has a diagram.
   if (location.hash !== "#view=play" && !parameters().has("d"))
     history.replaceState(null, "", "#view=play");
 }
-type Saved = Pick<Session, "play" | "link" | "seat" | "id" | "words">;
-/** Saves the game after a stroke, and counts who has won it. */
-export function keep(s: Saved): void {
+/** Saves the game after a stroke. A stroke that won the game also counts in the tallies. */
+export function saveAndCount(s: Saved): void {
   const { winner, setup } = s.play;
   if (winner !== undefined) {
     countRack(setup, winner);

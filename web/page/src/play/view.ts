@@ -20,7 +20,7 @@ import { onTable } from "../table/filmed.js";
 import { Sound } from "./sound.js";
 import { Space } from "./space.js";
 import { begin, FIRST, resume, start } from "./opening.js";
-import { choose, push, undo } from "./turns.js";
+import { choose, togglePush, undo } from "./turns.js";
 import { texts, told } from "../texts/texts.js";
 
 const wordsOf = (): Session["words"] => ({
@@ -62,7 +62,7 @@ function buttonsOf(session: () => Session): Session["buttons"] {
     replay: named("replay", texts.replay, (s) => s.showing.replay()),
     undo: named("undo-stroke", texts.undo, undo),
     rack: named("rack-up", texts.newRack, beginAgain),
-    push: named("push", texts.pushOut, push, { "aria-pressed": "false" }),
+    push: named("push", texts.pushOut, togglePush, { "aria-pressed": "false" }),
     skip: named("skip", texts.skip, (s) => s.showing.skip()),
     link: named("send", texts.sendLink, (s) => s.link.send()),
     sound: named("sound", "♪", toggleSound, {
