@@ -177,8 +177,8 @@ describe("what is refused", () => {
     expect(batch.get(50).a.v).toEqual([NaN, NaN, NaN]);
     expect(batch.get(51)).toEqual(carom.collide(good));
     batch.free();
-    expect(() => batch.in).toThrow("freed");
-    expect(() => carom.collideBatch(batch)).toThrow("freed");
+    expect(() => batch.in).toThrow("given back");
+    expect(() => carom.collideBatch(batch)).toThrow("given back");
   });
 
   test("words, shapes, fields and sizes that are not there", () => {
