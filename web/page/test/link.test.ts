@@ -175,7 +175,7 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     const other = await open(there, new URL(url).hash);
     expect(await text(other, "said")).toBe("1 stroke was repeated; every bit agrees.");
     // It shows the last stroke before it tells whose turn it is.
-    await expect.poll(() => turn(other)).toContain("Your turn");
+    await expect.poll(() => turn(other)).not.toContain("plays …");
     const game = JSON.parse(unpacked(url)) as { lines: string[] };
     expect(linesOf(unpacked(url), "shot")).toHaveLength(1);
     // The speed; a hash; a missing line; a link that was cut off.
