@@ -138,7 +138,13 @@ def declared(item):
             }
     # declarators: the names before ( = , ; [ at the top; what is not static begins with carom_
     static = tokens[0] in ("static", "typedef", "always")
+    in_value = False  # behind =, where names are those of others, such as UINT32_C(1)
     for k in range(1, len(tokens)):
+        was_in_value = in_value
+        if depths[k] == 0 and tokens[k] in ("=", ",", ";"):
+            in_value = tokens[k] == "="
+        if was_in_value:
+            continue
         outside = depths[k] == 0 or (depths[k] == 1 and tokens[k] in "([")
         if (
             outside
