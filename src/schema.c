@@ -178,9 +178,11 @@ static void add_decimal(words *w, int64_t m, int e) {
     add_whole(w, rest / part);
   if (e != 0 && unit == 1) {
     add(w, "e");
-    if (e < 0)
+    if (e < 0) {
       add(w, "-");
-    add_whole(w, abs(e));
+      e = -e;
+    }
+    add_whole(w, e);
   }
 }
 

@@ -12,11 +12,6 @@
 #include <stddef.h>
 #include <string.h>
 
-const carom_shot_options *carom_options_or_usual(const carom_shot_options *opt) {
-  static const carom_shot_options usual = {0};
-  return opt != NULL ? opt : &usual;
-}
-
 static bool is_flat(const carom_shot_options *o) {
   return carom_rules_of(o->world)->flat || o->space == CAROM_SPACE_FLAT;
 }

@@ -58,8 +58,11 @@ static inline int64_t carom_others_of(const carom_table *table, int count, int t
   }
 }
 
-/* check.c: the options of a shot that its caller gave, or those that NULL stands for. */
-const carom_shot_options *carom_options_or_usual(const carom_shot_options *opt);
+/* The options of a shot that its caller gave, or those that NULL stands for. */
+static inline const carom_shot_options *carom_options_or_usual(const carom_shot_options *opt) {
+  static carom_shot_options usual; /* all zero; never written: C++ wants no initializer here */
+  return opt != NULL ? opt : &usual;
+}
 
 /* The last label that a ball may have: in flat play no ball leaves the table. */
 static inline int64_t carom_last_label(bool flat) {
