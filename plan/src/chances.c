@@ -104,8 +104,12 @@ static double log_odds_of(double chance) {
 }
 
 void carom_find_edges(carom_view *view) {
-  for (int n = 1; n <= MOST_LEFT; n++)
-    view->edge[n] = 0.5 * (log_odds_of(view->win[0][n][n]) - log_odds_of(view->win[1][n][n]));
+  /* chances that the caller gives, as for a run-out, are no player's, and so make no edge */
+  const bool given = view->given[0] > 0.0 || view->given[1] > 0.0;
+  for (int n = 1; n <= MOST_LEFT; n++) {
+    const double win = log_odds_of(view->win[0][n][n]), lose = log_odds_of(view->win[1][n][n]);
+    view->edge[n] = given ? 0.0 : 0.5 * (win - lose);
+  }
 }
 
 double carom_stretched(const carom_view *view, double value, int who, int n) {
