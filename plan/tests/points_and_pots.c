@@ -70,12 +70,15 @@ TEST(pocket_of_ones_own) {
   const carom_plan_options options = {.shots = 1000};
   carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_ONEPOCKET);
   carom_plan_job job = job_of(count, &cue, &player, &of, &options);
+  const carom_rules_state states[] = {{.pocket = {MINE, HIS}, .score = {7, 6}},
+                                      {.pocket = {MINE, HIS}, .score = {6, 6}},
+                                      {.pocket = {MINE, HIS}, .score = {7, 7}},
+                                      {.pocket = {MINE, HIS}, .score = {7, 6}, .lost = {1}},
+                                      {.pocket = {HIS, MINE}, .score = {7, 6}}};
   double value[5];
   for (int k = 0; k < 5; k++) {
-    const bool mine = k < 4;
-    of.state = (carom_rules_state){.pocket = {mine ? MINE : HIS, mine ? HIS : MINE},
-                                   .score = {k == 1 ? 6 : 7, k == 2 ? 7 : 6},
-                                   .lost = {k == 3}};
+    const bool mine = states[k].pocket[0] == MINE;
+    of.state = states[k];
     carom_choice best;
     int found;
     ck_assert_int_eq(carom_plan_value(&job, 0, &value[k]), CAROM_OK);

@@ -120,24 +120,36 @@ static inline void rub(bool flat, const contact *x, const double f[2]) {
   }
 }
 
-/* Where two balls that were apart have come together within the last half step, all moved by s:
- * the normal of the contact from then on. */
-static void touch(bool flat, contact *x, double half) {
-  const ball *p = x->p, *q = x->q;
+/* Two balls that move past each other: they touch where |d + v time|^2 = R^2, which is
+ * A time^2 + 2 B time + C = 0, and D = B^2 - A C. */
+typedef struct passing {
   double d[3], v[3];
-  for (int k = 0; k < 3; k++) {
-    d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
-    v[k] = q->v[k] - p->v[k];
-  }
+  double R, A, B, D;
+} passing;
 
-  /* when |d + v time| was R, at most a step ago; the normal there */
-  const double R = p->radius + q->radius + CAROM_TOUCHING;
-  const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v),
-               C = cluster_dot(flat, d, d) - R * R;
-  const double D = carom_greater(B * B - A * C, 0.0);
-  const double back = A > 0.0 ? carom_greater((-B - sqrt(D)) / A, -2.0 * half) : 0.0;
+static inline passing passing_of(bool flat, const contact *x) {
+  const ball *p = x->p, *q = x->q;
+  passing m;
+  for (int k = 0; k < 3; k++) {
+    m.d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
+    m.v[k] = q->v[k] - p->v[k];
+  }
+  m.R = p->radius + q->radius + CAROM_TOUCHING;
+  const double C = cluster_dot(flat, m.d, m.d) - m.R * m.R;
+  m.A = cluster_dot(flat, m.v, m.v);
+  m.B = cluster_dot(flat, m.d, m.v);
+  m.D = m.B * m.B - m.A * C;
+  return m;
+}
+
+/* Where two balls that were apart have come together within the last half step, all moved by s:
+ * the normal of the contact from then on, which is that of the touch, at most a step ago. */
+static void touch(bool flat, contact *x, double half) {
+  const passing m = passing_of(flat, x);
+  const double D = carom_greater(m.D, 0.0);
+  const double back = m.A > 0.0 ? carom_greater((-m.B - sqrt(D)) / m.A, -2.0 * half) : 0.0;
   for (int k = 0; k < 3; k++)
-    x->n[k] = d[k] + back * v[k];
+    x->n[k] = m.d[k] + back * m.v[k];
   if (flat)
     x->n[2] = 0.0;
   const double size = sqrt(cluster_dot(flat, x->n, x->n));
@@ -146,8 +158,8 @@ static void touch(bool flat, contact *x, double half) {
 
   /* the offset with which the overlap is R less the distance along n, as s counts on */
   double s[3];
-  cluster_minus(flat, p->s, q->s, s);
-  x->offset = R - cluster_dot(flat, d, x->n) - cluster_dot(flat, s, x->n);
+  cluster_minus(flat, x->p->s, x->q->s, s);
+  x->offset = m.R - cluster_dot(flat, m.d, x->n) - cluster_dot(flat, s, x->n);
 }
 
 /* Whether two balls that have not touched overlap, some time from now. */
@@ -531,16 +543,10 @@ static inline double first_step(bool flat, const state *c) {
 
 /* How long until two balls touch that have not. */
 static inline double wait_of_first(bool flat, const contact *x) {
-  const ball *p = x->p, *q = x->q;
-  double d[3], v[3];
-  for (int k = 0; k < 3; k++) {
-    d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
-    v[k] = q->v[k] - p->v[k];
-  }
-  const double R = p->radius + q->radius + CAROM_TOUCHING;
-  const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v),
-               C = cluster_dot(flat, d, d) - R * R, D = B * B - A * C;
-  return B < 0.0 && D > 0.0 ? carom_greater((-B - sqrt(D)) / A, 0.0) : (double)INFINITY;
+  const passing m = passing_of(flat, x);
+  if (!(m.B < 0.0 && m.D > 0.0))
+    return (double)INFINITY;
+  return carom_greater((-m.B - sqrt(m.D)) / m.A, 0.0);
 }
 
 /* How long until balls touch; infinite: none do. */

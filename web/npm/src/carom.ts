@@ -4,7 +4,7 @@ import { CaromError } from "./error.js";
 import { layout, names, values } from "./generated/layout.js";
 import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
-import { type Host as MatchHost, Match, type MatchOptions } from "./match.js";
+import { type Host as MatchHost, Match } from "./match.js";
 import type { Build, Memory, Pointer } from "./memory.js";
 import { Plans } from "./plans.js";
 import { type Replayed, replayed } from "./recording.js";
@@ -50,6 +50,7 @@ import type {
 import type {
   GameState,
   Impact,
+  MatchOptions,
   Measures,
   Motion,
   PlanOptions,

@@ -2,8 +2,16 @@
 // was probably meant.
 import { numbers, options } from "./generated/layout.js";
 import type { PlanOptions as PlanRows } from "./generated/structs.js";
-import type { MatchOptions } from "./match.js";
-import type { AimOf, GameState, Impact, Line, Motion, PlanOptions, ShotBall } from "./types.js";
+import type {
+  AimOf,
+  GameState,
+  Impact,
+  Line,
+  MatchOptions,
+  Motion,
+  PlanOptions,
+  ShotBall,
+} from "./types.js";
 
 /** The keys of an interface; the compiler refuses a list that lacks one or has another. */
 const all = <T>(keys: Record<keyof T, 1>): readonly string[] => Object.keys(keys);

@@ -22,6 +22,7 @@ import type {
   Choice,
   Cue,
   GameState,
+  MatchOptions,
   PlanOptions,
   Ruling,
   ShotBall,
@@ -45,20 +46,6 @@ export interface Bounds {
   /** Of the D; `radius` is 0 where there is none. */
   centre: Vec2;
   radius: number;
-}
-
-/** How a match begins. */
-export interface MatchOptions {
-  /** Of the gaps of the rack, 0.1 mm at most. */
-  seed?: number;
-  /** Who plays first, 0 or 1. */
-  player?: number;
-  /** Another layout than the rack of the game. Only then the keys below are read. */
-  balls?: readonly ShotBall[];
-  /** Whether the cue ball is in hand. */
-  hand?: Ruling["hand"];
-  /** Models of all shots. */
-  shot?: ShotOptions;
 }
 
 /** What the calls of this file need of the library. */

@@ -380,3 +380,17 @@ export interface Line {
   balls: ShotBall[];
   cue: Cue;
 }
+
+/** How a match begins. */
+export interface MatchOptions {
+  /** Of the gaps of the rack, 0.1 mm at most. */
+  seed?: number;
+  /** Who plays first, 0 or 1. */
+  player?: number;
+  /** Another layout than the rack of the game. Only then the keys below are read. */
+  balls?: readonly ShotBall[];
+  /** Whether the cue ball is in hand. */
+  hand?: Ruling["hand"];
+  /** Models of all shots. */
+  shot?: ShotOptions;
+}

@@ -330,7 +330,8 @@ def _corners(in_hand: Hand | npt.ArrayLike, table: Table, radius: float) -> tupl
     corners = as_array(in_hand, "in_hand", np.float64)
     if corners.shape != (2, 2) or not (corners[0] <= corners[1]).all():
         raise ValueError(
-            f"in_hand: the hand of a ruling, {', '.join(map(repr, get_args(Hand)))}, or the corners [[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}"
+            f"in_hand: the hand of a ruling, {', '.join(map(repr, get_args(Hand)))}, or the corners "
+            f"[[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}"
         )
     low, high = np.ascontiguousarray(corners)
     return pointer("double[]", low), pointer("double[]", high)

@@ -481,24 +481,21 @@ def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
     )
 
 
-def _extents(text: str) -> tuple[float, float]:
-    try:
-        width, length = map(float, text.split(","))
-    except ValueError:
-        raise argparse.ArgumentTypeError(
-            f"{text!r} must be W,L, the extents of x and y in m, such as 2.84,1.42"
-        ) from None
-    return width, length
+def _two_numbers(form: str) -> Callable[[str], tuple[float, float]]:
+    """What reads an argument of two numbers, and says its form where it is wrong."""
+
+    def read(text: str) -> tuple[float, float]:
+        try:
+            first, second = map(float, text.split(","))
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{text!r} must be {form}") from None
+        return first, second
+
+    return read
 
 
-def _place(text: str) -> tuple[float, float]:
-    try:
-        x, y = map(float, text.split(","))
-    except ValueError:
-        raise argparse.ArgumentTypeError(
-            f"{text!r} must be X,Y, a place in the unit of the file, such as 4.5,3"
-        ) from None
-    return x, y
+_extents = _two_numbers("W,L, the extents of x and y in m, such as 2.84,1.42")
+_place = _two_numbers("X,Y, a place in the unit of the file, such as 4.5,3")
 
 
 def _read_object(path: Path, such: str) -> dict[str, Any]:
