@@ -194,8 +194,8 @@ CAROM_API carom_status carom_match_end(carom_match *match);
 CAROM_API carom_status carom_match_read(carom_match *match, carom_record *scratch, const char *line,
                                         size_t size);
 
-/* A plan for the player at the table: sets table, balls, count, rules and shot of the job, whose
- * player, cue, options and memory are the caller's, and plans, with a cue ball in hand within
+/* A plan for the player at the table: sets table, balls, count, rules, shot and leave of the job,
+ * whose player, cue, options and memory are the caller's, and plans, with a cue ball in hand within
  * its bounds. As carom_plan() and carom_plan_hand(); goes on by carom_plan_continue(), with the
  * match unchanged. CAROM_ERROR_ACT where no stroke may be played. */
 CAROM_API carom_status carom_match_plan(carom_match *match, carom_plan_job *job,

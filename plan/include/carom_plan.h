@@ -611,7 +611,11 @@ typedef struct carom_plan_job {
   const carom_plan_options *options; /* NULL: the defaults. */
   void *memory;                      /* room for the plan, aligned as by malloc(), */
   size_t memory_size;                /* of at least carom_plan_memory() bytes. */
-  uint64_t reserved[4];              /* must be 0. */
+  int64_t leave;                     /* a carom_leave: the bounds within which the cue ball was
+                                        placed for this stroke. Behind the head string, it may not
+                                        first meet balls that lie there too (WPA 6.11). 0: it was
+                                        not placed. carom_match_plan() sets it. */
+  uint64_t reserved[3];              /* must be 0. */
 } carom_plan_job;
 
 /* The number of bytes that a plan with these options needs: about 320,000 for the defaults, and

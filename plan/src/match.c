@@ -690,6 +690,7 @@ carom_status carom_match_plan(carom_match *match, carom_plan_job *job, carom_cho
   job->count = record->count;
   job->rules = &match->rules;
   job->shot = &record->options;
+  job->leave = match->leave;
   if (match->rules.any_cue_ball != 0 && match->rules.state.opening == 0)
     choose_ball(match, job);
   if (match->phase == CAROM_MATCH_PLACE)

@@ -181,7 +181,7 @@ static carom_status check_job(const carom_plan_job *job) {
   const bool good_players =
       good_player(job->player) && (options->opponent == NULL || good_player(options->opponent));
   if (check_options(options) != CAROM_OK || !good_players || !good_rules(job->rules) ||
-      !CAROM_RESERVED_IS_ZERO(job))
+      (uint64_t)job->leave > CAROM_LEAVE_BAULK || !CAROM_RESERVED_IS_ZERO(job))
     return CAROM_ERROR_OPTIONS;
   return CAROM_OK;
 }

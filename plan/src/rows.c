@@ -225,8 +225,11 @@ static void spread(const search *plan, shot_result *with) {
   }
 }
 
-/* Whether the cue ball is in hand behind the head string, by where it may be put. */
-static bool is_in_kitchen(const search *plan) {
+/* Whether the stroke is from behind the head string: the cue ball was placed there, or is in hand
+ * there, by where it may be put. */
+static bool is_from_kitchen(const search *plan) {
+  if (plan->job.leave == CAROM_LEAVE_KITCHEN)
+    return true;
   return plan->places > 0 && fabs(plan->range.high[1] - 0.25 * plan->view.length) < 1e-9;
 }
 
@@ -247,7 +250,7 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
     if (plan->plays < plan->view.count)
       spread(plan, &result);
-    if (is_in_kitchen(plan))
+    if (is_from_kitchen(plan))
       result.facts.barred =
           carom_barred(&result.facts, plan->view.length, plan->job.balls, plan->view.count);
     int met = -1;

@@ -302,6 +302,16 @@ TEST(ball_behind_the_head_string) {
   ck_assert_int_eq(carom_plan_hand(&job, bounds.low, bounds.high, &best, 1, &found), CAROM_OK);
   ck_assert_msg(best.ball != 1 || best.cue.phi < 180.0, "ball %d, %g degrees", best.ball,
                 best.cue.phi);
+
+  /* nor where it has been placed there, 0.3 m from that ball */
+  for (int64_t leave = 0; leave <= CAROM_LEAVE_KITCHEN; leave += CAROM_LEAVE_KITCHEN) {
+    carom_place_ball(&table, balls, BALLS, 0, 0.36, 0.36, NULL);
+    job.leave = leave;
+    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+    const bool direct = best.ball == 1 && best.cue.phi > 180.0;
+    ck_assert_msg(direct == (leave == 0), "ball %d, %g degrees", best.ball, best.cue.phi);
+  }
+  job.leave = 0;
   edge_free(&memory);
 }
 

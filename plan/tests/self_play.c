@@ -99,7 +99,7 @@ static int strokes_of_game(carom_rules_kind kind, uint64_t seed, uint64_t *all) 
 TEST(games_end) {
   const char *given = getenv("CAROM_TEST_GAMES"), *only = getenv("CAROM_TEST_GAME");
   const int games = given != NULL ? atoi(given) : 1;
-  for (int kind = CAROM_RULES_BLACKBALL; carom_rules_about_of((carom_rules_kind)kind) != NULL;
+  for (int kind = CAROM_RULES_TENBALL; carom_rules_about_of((carom_rules_kind)kind) != NULL;
        kind++) {
     const char *name = carom_rules_about_of((carom_rules_kind)kind)->name;
     if (only != NULL && strcmp(name, only) != 0)
