@@ -215,6 +215,11 @@ def copied(records: Array) -> Array:
     return np.frombuffer(bytearray(records.tobytes()), records.dtype).reshape(records.shape)
 
 
+def frozen(records: Array) -> Array:
+    """A copy of structured records, in C order, that cannot be written to."""
+    return np.frombuffer(records.tobytes(), records.dtype).reshape(records.shape)
+
+
 def sealed(array: Array) -> Array:
     """A view that cannot be written to."""
     view = array.view()

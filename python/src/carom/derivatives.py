@@ -8,6 +8,7 @@ A derivative is exact for small changes and says nothing about larger ones: see 
 from __future__ import annotations
 
 import enum
+import functools
 import math
 import re
 from collections.abc import Callable, Collection, Sequence
@@ -136,8 +137,7 @@ class Tangents:
 
 
 def _tangents(
-    names: tuple[str, ...],
-    units: tuple[str, ...],
+    directions: Sequence[Direction],
     shape: tuple[int, ...],
     found: dict[str, Array],
     status: Array,
@@ -145,6 +145,10 @@ def _tangents(
     parts = ("final", "at", "time", "flags", "reach", "error")
     given = {name: found[name].reshape((*shape, *found[name].shape[1:])) for name in parts}
     given["states"], given["states_at"] = given.pop("final"), given.pop("at")
+    names, units = (
+        tuple(direction.name for direction in directions),
+        tuple(direction.unit for direction in directions),
+    )
     return Tangents(names, units, **given, status=status.reshape(shape))
 
 
@@ -161,18 +165,20 @@ class Direction(NamedTuple):
     places: tuple[tuple[int, ...], ...]
 
 
+def _names(wrt: Sequence[str], argument: str = "wrt") -> tuple[str, ...]:
+    if isinstance(wrt, str):
+        return (wrt,)
+    return tuple(map(str, several(wrt, argument, "names of numbers are needed, such as 'cue.phi'")))
+
+
 def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[list[Direction]]:
     """Of each name: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both
     places, or balls[0].r[1].
     """
     found: list[list[Direction]] = []
-    for name in (
-        [wrt]
-        if isinstance(wrt, str)
-        else several(wrt, argument, "names of numbers are needed, such as 'cue.phi'")
-    ):
+    for name in _names(wrt, argument):
         match = re.fullmatch(
-            r"(cue|table|kind|balls\[(\d+)\])\.(?:(kind)\.)?(\w+)(?:\[(\d)\])?", str(name)
+            r"(cue|table|kind|balls\[(\d+)\])\.(?:(kind)\.)?(\w+)(?:\[(\d)\])?", name
         )
         group, ball, inner, field, index = match.groups() if match else ("", None, None, "", None)
         unit = _UNITS.get(field, "1")
@@ -238,12 +244,13 @@ def seeds_of(given: Sequence[Direction], balls: int) -> dict[str, dtypes.Doubles
     return seeds
 
 
+@functools.lru_cache(maxsize=256)
 def _seeds(
-    wrt: Sequence[str], balls: int
-) -> tuple[tuple[str, ...], tuple[str, ...], dict[str, dtypes.Doubles]]:
-    """Names, units and seeds of all directions of some names."""
-    given = [direction for several in directions(wrt, balls) for direction in several]
-    return tuple(d.name for d in given), tuple(d.unit for d in given), seeds_of(given, balls)
+    wrt: tuple[str, ...], balls: int
+) -> tuple[tuple[Direction, ...], dict[str, dtypes.Doubles]]:
+    """All directions of some names, and their seeds, which are only read."""
+    given = tuple(direction for several in directions(wrt, balls) for direction in several)
+    return given, seeds_of(given, balls)
 
 
 def _differentiate(
@@ -313,9 +320,9 @@ def _differentiate(
 
 
 def _sorted_times(times: npt.ArrayLike | None) -> Array:
-    at = (
-        np.zeros(0) if times is None else np.ascontiguousarray(as_array(times, "times", np.float64))
-    )
+    if times is None:
+        return np.zeros(0)
+    at = np.ascontiguousarray(as_array(times, "times", np.float64))
     if at.ndim != 1 or not (np.isfinite(at) & (at >= 0.0)).all() or (np.diff(at) < 0).any():
         raise ValueError(
             "times: finite numbers of seconds from the beginning of the shot, in ascending order, are needed, of shape (times,)"
@@ -391,7 +398,7 @@ def tangents(
             f"shot: what carom.simulate() or carom.simulate_batch() gives is needed, not {type(shot).__name__}"
         )
     balls = shot.final.shape[-1]
-    names, units, seeds = _seeds(wrt, balls)
+    given, seeds = _seeds(_names(wrt), balls)
     at = _sorted_times(times)
     whole(threads, "threads", least=-1)
     wanted = ("final", "at", "time", "flags", "reach")
@@ -407,12 +414,23 @@ def tangents(
     if isinstance(shot, Shots):
         job = shot._jobs(tangent_options(shot.options, threads))
         found, codes = _differentiate(job, count.size, balls, events, seeds, at, wanted, threads)
-        return _tangents(names, units, shot.shape, found, codes)
+        return _tangents(given, shot.shape, found, codes)
     job = _job_of_one(shot, tangent_options(shot.options, 0))
     found, codes = _differentiate(job, 1, balls, events, seeds, at, wanted, 0)
     if codes[0] < 0:
         raise CaromError(int(codes[0]))
-    return _tangents(names, units, (), found, codes)
+    return _tangents(given, (), found, codes)
+
+
+def _final_states(shots: Shots, given: Sequence[Direction], threads: int) -> dtypes.Doubles:
+    """Derivatives of the final states alone of shots with all of their events: (shots, balls,
+    STATE, m).
+    """
+    balls = shots.final.shape[-1]
+    job = shots._jobs(tangent_options(shots.options, threads))
+    return _differentiate(
+        job, shots.size, balls, 0, seeds_of(given, balls), np.zeros(0), ("final",), threads
+    )[0]["final"]
 
 
 @dataclass(eq=False, repr=False)
@@ -488,10 +506,8 @@ def hessian(
     CaromError
         Derivatives are not known for this shot.
     """
-    first, given = (
-        tangents(shot, wrt, threads=threads),
-        [d for several in directions(wrt, shot.final.shape[-1]) for d in several],
-    )
+    first = tangents(shot, wrt, threads=threads)
+    given = _seeds(_names(wrt), shot.final.shape[-1])[0]
     shape, m = first.error.shape, len(given)
     if isinstance(shot, Shot):
         shot = simulate_batch(
@@ -542,6 +558,8 @@ def _whole(shots: Shots) -> tuple[dtypes.Records, dtypes.Records | None]:
 def steps_of(given: Sequence[Direction], shots: Shots, reach: dtypes.Doubles) -> dtypes.Doubles:
     """The steps (..., m) of second derivatives."""
     steps: dtypes.Doubles = np.fmin(_STEP * reach, _STEP_MOST)
+    if all(direction.array != "kind" for direction in given):
+        return steps
     layouts = _whole(shots)[0]
     for j, direction in enumerate(given):
         if direction.array == "kind":
@@ -552,6 +570,12 @@ def steps_of(given: Sequence[Direction], shots: Shots, reach: dtypes.Doubles) ->
                 steps[..., j], _STEP_MOST * np.where(numbers > 0.0, numbers, 1.0)
             )
     return steps
+
+
+def _repeated(records: Array, p: int) -> Array:
+    """Records (n, ...) twice for each of p vectors: (n, 2, p, ...)."""
+    many = np.repeat(raw(np.ascontiguousarray(records))[:, np.newaxis], 2 * p, axis=1)
+    return many.view(records.dtype).reshape(-1, 2, p, *records.shape[1:])
 
 
 def by_steps(
@@ -581,8 +605,10 @@ def by_steps(
         # Of each shot one with more and one with less along each vector, (shots, 2, p).
         part = slice(begin, begin + at_once)
         changes = h[part, np.newaxis, :, np.newaxis] * np.stack([ways[part], -ways[part]], axis=1)
-        moved = np.repeat(layouts[part], 2 * p, axis=0).reshape(-1, 2, p, balls)
-        struck = None if cues is None else np.repeat(cues[part], 2 * p).reshape(-1, 2, p)
+        moved, struck = (
+            _repeated(layouts[part], p),
+            None if cues is None else _repeated(cues[part], p),
+        )
         for j, direction in enumerate(given):
             if direction.name == "kind.radius":
                 # a ball stays as high above the cloth as it is
@@ -605,9 +631,8 @@ def by_steps(
             ).all(axis=-1)
         slopes = np.full((*same.shape, balls, STATE, m), np.nan)
         if same.any():
-            slopes[same] = tangents(
-                others[same], [direction.name for direction in given], threads=threads
-            ).states
+            these = others if same.all() else others[same]
+            slopes[same] = _final_states(these, given, threads)
         with np.errstate(invalid="ignore"):
             change = (slopes[:, 0] - slopes[:, 1]) / (
                 2.0 * h[part, :, np.newaxis, np.newaxis, np.newaxis]
@@ -789,7 +814,7 @@ def jacobian(
     cues = None if cues is None else of_record(cues, dtypes.cue, "cues", "cue()")
     if layouts.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")
-    seeds = _seeds(wrt, layouts.shape[-1])[2]
+    seeds = _seeds(_names(wrt), layouts.shape[-1])[1]
     found = play(
         table,
         layouts,

@@ -19,7 +19,7 @@ from carom._rows import (
     Array,
     as_array,
     choice,
-    copied,
+    frozen,
     fill,
     number,
     pointer,
@@ -112,7 +112,7 @@ class Table:
     def from_record(cls, record: dtypes.Records) -> Table:
         """The table of a record of `carom.dtypes.table`, of shape (), which is copied."""
         table = cls.__new__(cls)
-        table.record = sealed(copied(np.asarray(record, dtypes.table)).reshape(()))
+        table.record = frozen(np.asarray(record, dtypes.table)).reshape(())
         return table
 
     def changed(self, **parts: Any) -> Table:
