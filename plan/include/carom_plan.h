@@ -353,10 +353,10 @@ typedef enum carom_rules_kind {
                                    drives two balls past the middle. After a foul the cue ball is in
                                    baulk or stays, and the first stroke is free: it may meet and pot
                                    any ball but the black, and does not end the visit. A ball of the
-                                   opponent may fall only with one's own. A player who cannot see a
-                                   ball on must reach a cushion too, unlike the rule. State:
-                                   opening, group; free_ball: 1 for a free stroke; may: to leave the
-                                   cue ball where it lies, and to have a new rack. */
+                                   opponent may fall only with one's own. State: opening, group;
+                                   free_ball: 1 for a free stroke; on: 1 where other balls hide all
+                                   that are on, so that no cushion is needed; may: to leave the cue
+                                   ball where it lies, and to have a new rack. */
   CAROM_RULES_HEYBALL = 11,   /* heyball: as EIGHTBALL without calls. State: as there, and fouls: a
                                    third one loses. */
   CAROM_RULES_ROTATION = 12,  /* rotation, BCA: 15 balls, of which the lowest must be met first.

@@ -37,7 +37,7 @@
        THREECUSHION, THREECUSHION, 0, AFTER, AFTER, 0, OPENING | GROUP | SCORE | TARGET | MAY,     \
        CAROM_MAY_SPOT)                                                                             \
   GAME(BLACKBALL, carom_blackball, "blackball", "blackball by the WPA", BLACKBALL, BLACKBALL,      \
-       BLACKBALL, 15, BAULK, BAULK, 0, OPENING | GROUP | MAY | FREE_BALL,                          \
+       BLACKBALL, 15, BAULK, BAULK, 0, OPENING | GROUP | MAY | ON | FREE_BALL,                     \
        CAROM_MAY_RACK | CAROM_MAY_STAY)                                                            \
   GAME(HEYBALL, carom_heyball, "heyball", "heyball, Chinese eight-ball", POOL, HEYBALL, EIGHTBALL, \
        15, KITCHEN, HAND, 0, OPENING | GROUP | FOULS | MAY,                                        \

@@ -176,7 +176,8 @@ static int32_t eight_foul_of(const eight_game *as, const carom_rules_state *game
     played.cushions_after += facts->cushions[cue_ball];
   }
   const int32_t foul = (int32_t)carom_foul_of(&played, on, cue_ball);
-  if (foul != CAROM_FOUL_NONE)
+  const bool excused = foul == CAROM_FOUL_CUSHION && game->on != 0; /* snookered, 5g */
+  if (foul != CAROM_FOUL_NONE && !excused)
     return foul;
   if (facts->pushed != 0)
     return CAROM_FOUL_DOUBLE_HIT;
@@ -213,7 +214,7 @@ static carom_turn judge_eight(const eight_game *as, carom_rules_state *game, uin
   const uint32_t on = eightball_targets(game, in_play), own = own_of(game);
   const bool opening = game->opening != 0, is_free = game->free_ball != 0;
   const int32_t foul = eight_foul_of(as, game, on, cue_ball, facts);
-  game->opening = game->may = game->free_ball = 0;
+  game->opening = game->may = game->free_ball = game->on = 0;
   if (opening && as->free_strokes)
     return blackball_break(game, facts, cue_ball, foul);
   if (opening)
@@ -273,17 +274,41 @@ CAROM_RULES_OBJECT(carom_eightball) = {.on = eightball_on,
                                        .settle = carom_settle_rack,
                                        .rack = CAROM_RACK_EIGHTBALL};
 
+/* Whether the next player is snookered: no part of a ball that is on can be hit in a straight line.
+ * A cue ball in hand is not. */
+static int32_t is_snookered(const carom_rules_state *game, const carom_shot_ball *balls, int count,
+                            const carom_turn *turn) {
+  if (turn->leave >= CAROM_LEAVE_HAND || turn->outcome >= CAROM_TURN_WIN)
+    return 0;
+  const uint32_t others = carom_on_table(balls, count) & 0xfffe;
+  const uint32_t on = eightball_on(game, others);
+  for (int k = 1; on >> k != 0; k++)
+    if ((on >> k & 1) && carom_is_seen(balls, others, balls[0].state.r, k))
+      return 0;
+  return on != 0;
+}
+
+static void blackball_settle(carom_rules_state *game, const carom_table *table,
+                             carom_shot_ball *balls, int count, carom_turn *turn) {
+  carom_plan_rules usual = carom_blackball;
+  usual.settle = NULL;
+  carom_turn_settle(&usual, game, table, balls, count, turn);
+  game->on = is_snookered(game, balls, count, turn);
+}
+
 /* Blackball: the rules of the WPA, of 2005 by the titles of the sections 4 (play) and 5 (fouls),
  * and section 8 of those of 2025: the break (8.5), balls that touch, the fouls (8.13), and the
  * black, which loses on a foul or while a ball of the group remains after the stroke. A new rack
- * after a break that is a foul is of 2005; who asks for it breaks. Two rules are left out: a player
- * who is snookered needs no cushion (5g), and to jump a ball behind the first contact is a foul. */
+ * after a break that is a foul is of 2005; who asks for it breaks. A player who is snookered needs
+ * no cushion (definition 11, 5g): balls alone hide others, the jaws of pockets do not. One rule is
+ * left out: to jump a ball behind the first contact is a foul. */
 CAROM_RULES_OBJECT(carom_blackball) = {.on = eightball_on,
                                        .judge = blackball_judge,
                                        .left = eightball_left,
                                        .race = CAROM_RACE_OWN,
                                        .first_decides = 1,
                                        .breaks = 1,
+                                       .settle = blackball_settle,
                                        .rack = CAROM_RACK_BLACKBALL};
 
 /* Heyball: Rules of Heyball of the World Heyball Masters (2017, 2019), sections 4 to 13, in which

@@ -51,6 +51,10 @@ uint32_t carom_barred(const carom_facts *facts, double length, const carom_shot_
                       int count);
 /* The balls in play that touch a ball for the rules, as a set; 0 of one that is out of play. */
 uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball);
+/* sight.c: whether others bar the way of the cue ball from c to an edge of ball k; and whether it
+ * can hit any part of ball k in a straight line. */
+bool carom_is_hidden(const carom_shot_ball *balls, uint32_t others, const double c[2], int k);
+bool carom_is_seen(const carom_shot_ball *balls, uint32_t others, const double c[2], int k);
 /* The turn goes to the other: the pairs of the state become his. Any of 15 balls may be met. */
 carom_turn carom_give(carom_rules_state *game, carom_turn turn);
 /* The same of a turn that passes; another one stays as it is. */

@@ -257,36 +257,11 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
 
 /* ---- Where balls lie */
 
-/* Whether a ball of `by` is in the way of the cue ball from c until it grazes ball k on a side, -1
- * or 1. */
-static bool is_barred(const carom_shot_ball *balls, uint32_t by, const double c[2], int k,
-                      int side) {
-  const double x = balls[k].state.r[0] - c[0], y = balls[k].state.r[1] - c[1];
-  const double both = balls[0].kind.radius + balls[k].kind.radius, d = sqrt(x * x + y * y);
-  if (d <= both)
-    return false;
-  /* the direction of the tangent, and how long it is */
-  const double length = sqrt(d * d - both * both), cosine = length / d, sine = side * both / d;
-  const double u[2] = {(x * cosine - y * sine) / d, (x * sine + y * cosine) / d};
-  for (int n = 1; by >> n != 0; n++) {
-    const double to[2] = {balls[n].state.r[0] - c[0], balls[n].state.r[1] - c[1]};
-    if ((by >> n & 1) && n != k &&
-        carom_is_near_way(to, u, length, balls[0].kind.radius + balls[n].kind.radius))
-      return true;
-  }
-  return false;
-}
-
-/* Whether others bar the way from c to an edge of ball k. */
-static bool is_hidden(const carom_shot_ball *balls, uint32_t others, const double c[2], int k) {
-  return is_barred(balls, others, c, k, -1) || is_barred(balls, others, c, k, 1);
-}
-
 /* Whether no ball of `due` can be hit at both of its edges from c: others bar the way. */
 static bool is_snookered_at(const carom_shot_ball *balls, uint32_t due, uint32_t others,
                             const double c[2]) {
   for (int k = 1; due >> k != 0; k++)
-    if ((due >> k & 1) && !is_hidden(balls, others, c, k))
+    if ((due >> k & 1) && !carom_is_hidden(balls, others, c, k))
       return false;
   return true;
 }
@@ -301,8 +276,8 @@ static bool is_behind(const carom_shot_ball *balls, uint32_t due, uint32_t other
                          carom_square(balls[n].state.r, c) < carom_square(balls[ball].state.r, c))
               << n;
   for (int k = 1; due >> k != 0; k++)
-    if ((due >> k & 1) &&
-        (!is_hidden(balls, UINT32_C(1) << ball, c, k) || is_hidden(balls, nearer, c, k)))
+    if ((due >> k & 1) && (!carom_is_hidden(balls, UINT32_C(1) << ball, c, k) ||
+                           carom_is_hidden(balls, nearer, c, k)))
       return false;
   return true;
 }

@@ -322,3 +322,77 @@ TEST(facts_of_a_split_hit) {
   ck_assert_double_eq_tol(facts.first_low[1], 0.8, 1e-9);
   ck_assert_double_eq_tol(facts.first_high[1], y, 1e-6);
 }
+
+/* Whether any of many directions from the cue ball meets ball k before the others in play. */
+static bool is_met_somewhere(int count, int k) {
+  enum { STEPS = 5000 };
+  const double reach = 2.0 * balls[0].kind.radius, *c = balls[0].state.r;
+  const double x = balls[k].state.r[0] - c[0], y = balls[k].state.r[1] - c[1];
+  const double half = asin(fmin(reach / hypot(x, y), 1.0));
+  for (int n = 1; n < STEPS; n++) {
+    const double phi = atan2(y, x) + half * (2.0 * n / STEPS - 1.0);
+    int nearest = 0;
+    double least = INFINITY;
+    for (int i = 1; i < count; i++) {
+      const double to[2] = {balls[i].state.r[0] - c[0], balls[i].state.r[1] - c[1]};
+      const double along = to[0] * cos(phi) + to[1] * sin(phi);
+      const double across = to[0] * sin(phi) - to[1] * cos(phi);
+      const double square = reach * reach - across * across;
+      if (balls[i].state.label != CAROM_BALL_STATIONARY || along <= 0.0 || square < 0.0)
+        continue;
+      const double length = along - sqrt(square);
+      if (length < least) {
+        least = length;
+        nearest = i;
+      }
+    }
+    if (nearest == k)
+      return true;
+  }
+  return false;
+}
+
+/* Puts a ball beyond the cue ball: so far along y, m, and up to as much and `wide` across. */
+static void put_somewhere(random_source *r, int count, int ball, double far, double wide) {
+  carom_status status = CAROM_ERROR_OVERLAP;
+  while (status != CAROM_OK) {
+    const double x = balls[0].state.r[0] + random_between(r, -wide, wide);
+    const double y = balls[0].state.r[1] + far + random_between(r, 0.0, wide);
+    status = carom_place_ball(&table, balls, count, ball, x, y, NULL);
+  }
+}
+
+/* Blackball, 5g: a player is snookered where no part of a ball that is on can be hit in a straight
+ * line. Two balls are on, and three others lie near the cue ball. */
+TEST(snookered_in_blackball) {
+  enum { DRAWS = 300 };
+  random_source r = {test_seed()};
+  int snookered = 0;
+  for (int n = 0; n < DRAWS; n++) {
+    const int count = lay_out(CAROM_RACK_BLACKBALL, CAROM_TABLE_BLACKBALL, 0);
+    put(0, 0.4 * table.width, 0.4 * table.length);
+    put(8, 0.1, 0.1);
+    put_somewhere(&r, count, 1, 0.5, 0.3);
+    put_somewhere(&r, count, 2, 0.5, 0.3);
+    for (int k = 9; k <= 11; k++)
+      put_somewhere(&r, count, k, 0.06, 0.15);
+
+    /* the other, who has the stripes, plays safe */
+    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_BLACKBALL);
+    of.state.group = 2;
+    carom_ball_state final[CAROM_BALLS_MOST];
+    for (int k = 0; k < count; k++)
+      final[k] = balls[k].state;
+    carom_facts facts = facts_of(9, 1, 0, 0);
+    const carom_shot shot = {.facts = &facts, .final = final};
+    carom_ruling ruling;
+    ck_assert_int_eq(
+        carom_referee(&of, &table, balls, count, 0, &shot, (carom_call){-1, -1}, &ruling),
+        CAROM_OK);
+    const bool seen = is_met_somewhere(count, 1) || is_met_somewhere(count, 2);
+    ck_assert_msg(ruling.next == 1 && ruling.state.on == !seen, "draw %d: on %d, seen %d", n,
+                  ruling.state.on, seen);
+    snookered += !seen;
+  }
+  ck_assert_msg(snookered > DRAWS / 10 && snookered < DRAWS * 9 / 10, "%d", snookered);
+}
