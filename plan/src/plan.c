@@ -324,9 +324,9 @@ static carom_status prepare_job(const carom_plan_job *job, bool in_hand, int wan
 }
 
 /* A player who thinks of nothing but potting believes in later pots, and that a turn which ends
- * before is lost. */
+ * before is lost. There is nothing to pot in a break. */
 static void think(search *plan) {
-  if (!carom_player_only_pots(&plan->player, plan->options.seed))
+  if (plan->breaks || !carom_player_only_pots(&plan->player, plan->options.seed))
     return;
   plan->options.chance_me = 0.9;
   plan->options.chance_opponent = 1.0;

@@ -5,10 +5,6 @@
 
 #include <math.h>
 
-/* The stages of draws of strokes outside plans, and of what a player thinks of; plan.c has the
- * others. */
-enum { DRAW_PLAYED = 4, DRAW_MIND = 7 };
-
 carom_player carom_player_of(double scale) {
   return (carom_player){.speed = 0.1 * scale,
                         .phi = 0.1 * scale,

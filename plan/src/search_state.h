@@ -10,16 +10,6 @@
 #include "shot/shot.h"
 #include "view.h"
 
-/* Stages of draws. */
-enum {
-  DRAW_STROKES = 1,
-  DRAW_SCAN,
-  DRAW_PLACES,
-  DRAW_BREAKS = 5,
-  DRAW_TABLES,
-  DRAW_REPLAY,
-  DRAW_ROUND = 16
-};
 enum { PLACES_MOST = 24 }; /* of a cue ball in hand, from which strokes are candidates */
 enum { ROWS_LEAST = 4 };   /* rows worth a thread */
 enum { LISTED_MOST = 16 }; /* choices behind the best that are played anew */

@@ -163,6 +163,18 @@ double carom_angle_of(double x, double y);
 double carom_asin(double x); /* |x| <= 1 */
 /* x >= 0; to 1.5e-7 */
 double carom_erf(double x);
+/* The stages of draws. Two that shared a number would have the same draws. */
+enum {
+  DRAW_STROKES = 1, /* the order of the strokes of pots, */
+  DRAW_SCAN,        /* those of the scan, */
+  DRAW_PLACES,      /* the places of a cue ball in hand, */
+  DRAW_PLAYED,      /* the errors of a stroke that is played, outside plans, */
+  DRAW_BREAKS,      /* the order of the strokes of a break, */
+  DRAW_TABLES,      /* tables that are not known, */
+  DRAW_REPLAY,      /* the errors of the shots that choose nothing, */
+  DRAW_MIND,        /* whether a player thinks of nothing but potting, */
+  DRAW_ROUND = 16   /* and the errors of the rounds, a stage each. */
+};
 /* between 0 and 1, without the ends */
 double carom_uniform(uint64_t seed, uint32_t stage, uint64_t row, uint32_t number);
 void carom_normals(uint64_t seed, uint32_t stage, uint64_t row, double z[6]);
