@@ -632,6 +632,31 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.close();
   });
 
+  test.each(sizes)("letters on the balls of snooker are drawn on demand: %s", async (_, how) => {
+    const one = await open("", how);
+    await begin(one, "snooker", "practice");
+    const picture = (id: string): Promise<string> =>
+      one.locator(id).evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+    const ask = async (): Promise<void> => {
+      await one.locator("#new-game").click();
+      await one.locator("#numbers").click();
+      await one.locator("#menu .close").click();
+      await frames(one, 4);
+    };
+    const without = await picture("#table-scene");
+    await ask();
+    expect(await picture("#table-scene")).not.toBe(without);
+    await one.locator("#space").click();
+    await one.locator("#scene").waitFor();
+    const behind = await picture(".over-scene");
+    await ask();
+    expect(await picture(".over-scene")).not.toBe(behind);
+    await one.locator("#space").click();
+    await frames(one, 4);
+    expect(await picture("#table-scene")).toBe(without);
+    await one.close();
+  });
+
   test("a frame of a break draws the balls and little else", async () => {
     const one = await open("");
     await one.evaluate(() => {

@@ -5,6 +5,9 @@ import ts from "typescript";
 import { words } from "carom";
 import { describe, expect, test } from "vitest";
 import { root } from "../../test/support.js";
+import { colourOf } from "../../player/words.js";
+import { labelsOf } from "../src/table/drawing.js";
+import { GAMES } from "../src/table/games.js";
 import { GERMAN } from "../src/texts/de.js";
 import { ENGLISH } from "../src/texts/en.js";
 
@@ -104,6 +107,25 @@ describe("the texts of the page", () => {
     for (const [game] of words.rules.filter(([one]) => one !== "potting"))
       for (const texts of [ENGLISH, GERMAN])
         expect(texts.rules[game]?.length, game).toBeGreaterThan(100);
+  });
+
+  test("labels tell balls of different colours apart in each game and language", () => {
+    for (const [game, { rack, names }] of Object.entries(GAMES))
+      for (const { letters } of [ENGLISH, GERMAN]) {
+        const all = Array.from({ length: 22 }, (_, k) => names(k));
+        const labels = labelsOf(all, letters);
+        const colours = new Map<string, string>();
+        labels.forEach((label, k) => {
+          const colour = colourOf(all[k]!, k);
+          const isNumber = Number(label) > 0;
+          if (label !== "" && !isNumber)
+            expect(colours.get(label) ?? colour, `${game} (${rack}): ${label}`).toBe(colour);
+          colours.set(label, colour);
+          // The cue ball of pool is the only one that is white.
+          if (label === "") expect(all[k]).toBe("cue");
+        });
+      }
+    expect(labelsOf(["red 3", "7"], {})).toEqual(["", "7"]);
   });
 
   test("German has words for all drills", () => {

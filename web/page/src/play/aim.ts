@@ -2,7 +2,16 @@
 // that may be moved; a tap aims at a place or a ball, or calls a pocket; two fingers, a double tap,
 // or the wheel show a part of the table larger.
 import type { Vec3 } from "carom";
-import { circle, drawNumbers, drawStick, path, type Pen, ring, stroke } from "../table/drawing.js";
+import {
+  circle,
+  drawLabels,
+  drawStick,
+  labelsOf,
+  path,
+  type Pen,
+  ring,
+  stroke,
+} from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 import {
   angleFrom,
@@ -97,17 +106,19 @@ export function drawMarks(s: Session, pen: Pen): void {
 export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   const { film, play } = s;
   const pen = { g, scale: film.scale, place: film.place };
+  const hasLetters = s.settings.numbers;
+  const labels = labelsOf(play.names, hasLetters ? texts.letters : {});
   if (film.time > 0 || film.playing) {
-    // Balls that are too small to be read while they roll have their numbers beside them.
-    const poses =
-      play.balls[0]!.kind.radius * film.scale < 8 ? s.filmed!.shots[0]!.at(film.time) : [];
-    return drawNumbers(
+    // Balls that are too small to be read while they roll have their labels beside them.
+    const isSmall = play.balls[0]!.kind.radius * film.scale < 8;
+    const poses = isSmall || hasLetters ? s.filmed!.shots[0]!.at(film.time) : [];
+    return drawLabels(
       pen,
       poses.map(({ r, seen }, k) => ({
         kind: play.balls[k]!.kind,
         state: { r: r as Vec3, label: seen ? "rolling" : "pocketed" },
       })),
-      play.names,
+      labels,
     );
   }
   const cueBall = play.balls[play.cueBall]!;
@@ -122,7 +133,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
     }
     drawStick(pen, cueBall, cue);
   }
-  drawNumbers(pen, play.balls, play.names);
+  drawLabels(pen, play.balls, labels);
 }
 
 // ---- One pointer --------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 // Its link has all of that, and needs no game.
 import { type Carom, CaromError, type Cue, type Shot, type ShotBall } from "carom";
 import { player } from "../../../player/player.js";
-import { drawNumbers, drawStick } from "../table/drawing.js";
+import { drawLabels, drawStick, labelsOf } from "../table/drawing.js";
 import { filmOf, onTable, pathsOf } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { placesText } from "../table/places.js";
@@ -112,7 +112,7 @@ function drawOver(d: Diagram, g: CanvasRenderingContext2D): void {
   const { film, play, drawn } = d;
   const pen = { g, scale: film.scale, place: film.place };
   const balls = ballsOf(d);
-  drawNumbers(pen, balls, play!.names);
+  drawLabels(pen, balls, labelsOf(play!.names, texts.letters)); // also on paper without colours
   if (drawn.cue && !drawn.after && onTable(balls[0]!.state))
     drawStick(pen, balls[0]!, cueOf(d, drawn.cue));
 }

@@ -138,7 +138,7 @@ export function menu(
     s.changed();
   }
   const coach = check("coach", texts.coachShowsTheChances, changeSettings);
-  const numbers = check("numbers", texts.numbersBesideTheBalls, changeSettings);
+  const numbers = check("numbers", texts.lettersOnTheBalls, changeSettings);
   const speech = choice("language", texts.language, LANGUAGE_NAMES, () =>
     chooseLanguage(speech.select.value),
   );

@@ -27,7 +27,7 @@ export interface Settings {
   lines: "level" | Lines;
   sound: boolean;
   coach: boolean;
-  /** Whether numbers stand beside balls in the view from behind the cue. */
+  /** Whether balls without numbers have letters, and balls in three dimensions their labels. */
   numbers: boolean;
 }
 

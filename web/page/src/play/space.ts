@@ -2,7 +2,7 @@
 // and starts when it is asked for.
 import { colourOf } from "../../../player/words.js";
 import type { Pose } from "../../../player/words.js";
-import { drawNumbers, stickEnd } from "../table/drawing.js";
+import { drawLabels, labelsOf, stickEnd } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 import { type Grip, pixelsOf, type Point } from "../table/grip.js";
 import { color, drags, el } from "../ui.js";
@@ -172,7 +172,7 @@ export class Space implements SpaceView {
     this.#label(poses, of !== undefined);
   }
   /**
-   * Draws the way of a ball that is aimed at; and, if the settings ask for it, the number of each
+   * Draws the way of a ball that is aimed at; and, if the settings ask for it, the label of each
    * ball where it lies over no other one.
    */
   #label(poses: readonly Pose[], aims: boolean): void {
@@ -205,7 +205,8 @@ export class Space implements SpaceView {
       };
     });
     if (!this.s.settings.numbers) return;
-    drawNumbers({ g, scale: 1, place: (x, y) => [x, y] }, seen, this.#of!.names);
+    const labels = labelsOf(this.#of!.names, texts.letters);
+    drawLabels({ g, scale: 1, place: (x, y) => [x, y] }, seen, labels);
   }
 
   #hide(): void {

@@ -109,21 +109,40 @@ export function drawStick(pen: Pen, cueBall: ShotBall, { phi, theta, speed }: Cu
 }
 
 /**
- * The number of each ball beside it, upright, so that one can name a ball however it has turned and
- * however small it is drawn; of a ball that has no room for
- * it between others there is none.
+ * What stands beside each ball or on it: its number, or else the letters of its colour, for which
+ * readers who confuse colours ask.
  */
-export function drawNumbers(
+export const labelsOf = (
+  names: readonly string[],
+  letters: Readonly<Record<string, string>>,
+): string[] =>
+  names.map((name) => (Number(name) > 0 ? name : (letters[name.split(" ")[0]!] ?? "")));
+/** Letters stand on a ball of this many pixels, and beside a smaller one. */
+const ROOM = 7;
+
+/**
+ * The label of each ball, upright, so that one can name a ball however it has turned and however
+ * small it is drawn. A number stands beside its ball, which bears it too; of a ball that has no
+ * room for it between others there is none.
+ */
+export function drawLabels(
   { g, scale, place }: Pen,
   balls: readonly { state: Pick<ShotBall["state"], "r" | "label">; kind: ShotBall["kind"] }[],
-  names: readonly string[],
+  labels: readonly string[],
 ): void {
   g.save();
   g.font = "bold 12px sans-serif";
   g.textAlign = "center";
   g.textBaseline = "middle";
   g.lineJoin = "round";
-  // What a number does not cover: the middle and half the size of each ball, and of the numbers
+  const write = (text: string, x: number, y: number): void => {
+    g.strokeStyle = "#000c";
+    g.lineWidth = 3;
+    g.strokeText(text, x, y);
+    g.fillStyle = "#fff";
+    g.fillText(text, x, y);
+  };
+  // What a label does not cover: the middle and half the size of each ball, and of the labels
   // that are drawn already.
   const taken = balls.flatMap(({ state, kind }) =>
     onTable(state)
@@ -131,11 +150,14 @@ export function drawNumbers(
       : [],
   );
   balls.forEach(({ state, kind }, k) => {
-    if (!(Number(names[k]) > 0) || !onTable(state)) return;
+    const label = labels[k] ?? "";
+    if (label === "" || !onTable(state)) return;
     const [x, y] = place(state.r[0], state.r[1]);
-    const half = g.measureText(names[k]!).width / 2;
+    const radius = kind.radius * scale;
+    if (!(Number(label) > 0) && radius >= ROOM) return write(label, x, y + 0.5);
+    const half = g.measureText(label).width / 2;
     const high = 5;
-    const away = kind.radius * scale + 2;
+    const away = radius + 2;
     const near = taken.filter(([bx, by]) => Math.abs(bx! - x) < 80 && Math.abs(by! - y) < 80);
     // Of twelve places around the ball the one that covers least; the first is at the upper right.
     const covers = ([px, py]: readonly [number, number]): number =>
@@ -151,12 +173,8 @@ export function drawNumbers(
     );
     const best = around.reduce((one, other) => (covers(other) < covers(one) - 0.5 ? other : one));
     if (covers(best) > 4) return;
-    taken.push([...best, half + 6, high]); // two numbers are not read as one
-    g.strokeStyle = "#000c";
-    g.lineWidth = 3;
-    g.strokeText(names[k]!, ...best);
-    g.fillStyle = "#fff";
-    g.fillText(names[k]!, ...best);
+    taken.push([...best, half + 6, high]); // two labels are not read as one
+    write(label, ...best);
   });
   g.restore();
 }

@@ -283,7 +283,7 @@ export const GERMAN: typeof ENGLISH = {
   errLikeA: (r) => `irren wie die eines ${r}ers`,
   lines: "Linien",
   coachShowsTheChances: "Trainer: zeigt die Chancen eines Stoßes und danach, was er kostete",
-  numbersBesideTheBalls: "Zahlen neben den Kugeln in 3D",
+  lettersOnTheBalls: "Buchstaben auf Kugeln ohne Nummern, Nummern auch in 3D",
   thereAreNoRules:
     "Es gibt keine Regeln. Du verlegst jede Kugel, siehst jeden Weg und nimmst Stöße zurück.",
   bothOfYouPlay: "Ihr spielt beide an dieser Seite, abwechselnd.",
@@ -563,6 +563,16 @@ export const GERMAN: typeof ENGLISH = {
       "Bis 90 Punkte zählen die Kugeln 1, 3 und 5 ihre Nummer, und der Spielball, der zwei oder drei Kugeln trifft, zählt 1 oder 2; von 90 bis 100 zählt nur Letzteres. Der letzte Punkt ist der Spielball über die 1 in die angesagte Tasche. Ein Foul kostet die Punkte der Aufnahme.",
   },
   theRules: "Die Regeln",
+  letters: {
+    white: "W",
+    yellow: "Ge",
+    green: "Gr",
+    brown: "Br",
+    blue: "Bl",
+    pink: "P",
+    black: "S",
+    red: "R",
+  },
   known: {
     "a napped or dirty cloth": "ein raues oder schmutziges Tuch",
     "a new cloth without nap": "ein neues Tuch ohne Strich",

@@ -286,7 +286,7 @@ export const ENGLISH = {
   errLikeA: (r: Part) => `err like a ${r}`,
   lines: "Lines",
   coachShowsTheChances: "Coach: shows the chances of a stroke, and then its cost",
-  numbersBesideTheBalls: "Numbers beside the balls in 3D",
+  lettersOnTheBalls: "Letters on balls without numbers, and numbers also in 3D",
   thereAreNoRules: "There are no rules. You move any ball, see every path, and undo strokes.",
   bothOfYouPlay: "Both of you play at this page, in turns.",
   youBreakSendThe:
@@ -566,6 +566,17 @@ export const ENGLISH = {
       "Up to 90 points the balls 1, 3 and 5 count their numbers, and the cue ball that meets two or three balls counts 1 or 2; from 90 to 100 only the latter counts. The last point is the cue ball off the 1 into the called pocket. A foul costs the points of the visit.",
   } as Record<string, string>,
   theRules: "The rules",
+  /** What tells the colours of balls apart without colours. */
+  letters: {
+    white: "W",
+    yellow: "Y",
+    green: "G",
+    brown: "Br",
+    blue: "Bl",
+    pink: "P",
+    black: "Bk",
+    red: "R",
+  } as Record<string, string>,
   /** What the library says, in words of this language; what is missing stays as it is. */
   known: {} as Record<string, string>,
 };
