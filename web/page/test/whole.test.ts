@@ -6,8 +6,43 @@ import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { gzipSync } from "node:zlib";
 import { describe, expect, test } from "vitest";
+import type { Page } from "playwright-core";
 import { browserPath, page, pages, violations } from "./page.js";
 import { root, run, thereIsACommand } from "../../test/support.js";
+
+/**
+ * An icon of a page that is served: its size, how many of its pixels differ from icon.svg, and how
+ * many beyond the circle that each shape of an icon keeps differ from its corner.
+ */
+const iconOf = (one: Page, name: string): Promise<object> =>
+  one.evaluate(async (name) => {
+    const load = async (source: string): Promise<HTMLImageElement> => {
+      const image = Object.assign(new Image(), { src: source });
+      await image.decode();
+      return image;
+    };
+    const icon = await load(name);
+    const size = name.endsWith(".svg") ? 512 : icon.naturalWidth;
+    const pixelsOf = (image: HTMLImageElement): Uint8ClampedArray => {
+      const canvas = Object.assign(document.createElement("canvas"), { width: size, height: size });
+      const g = canvas.getContext("2d")!;
+      g.drawImage(image, 0, 0, size, size);
+      return g.getImageData(0, 0, size, size).data;
+    };
+    const [shown, drawn] = [pixelsOf(icon), pixelsOf(await load("icon.svg"))];
+    const far = (a: number, b: number): boolean => Math.abs(a - b) > 40;
+    const isBeyond = (k: number): boolean => {
+      const [x, y] = [k % size, Math.floor(k / size)].map((c) => (c + 0.5) / size - 0.5);
+      return Math.hypot(x!, y!) > 0.4;
+    };
+    let [differs, beyond] = [0, 0];
+    for (let at = 0; at < shown.length; at++) {
+      if (far(shown[at]!, drawn[at]!)) differs++;
+      if (isBeyond(Math.floor(at / 4)) && far(shown[at]!, shown[at % 4]!)) beyond++;
+    }
+    const sizes = name.endsWith(".svg") ? "any" : `${icon.naturalWidth}x${icon.naturalHeight}`;
+    return { sizes, differs, beyond };
+  }, name);
 
 describe.runIf(browserPath !== undefined)("the page", () => {
   const { open, colour, text, set, said, browser } = pages();
@@ -65,6 +100,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     const types: Record<string, string> = {
       html: "text/html",
       js: "text/javascript",
+      png: "image/png",
       svg: "image/svg+xml",
       webmanifest: "application/manifest+json",
     };
@@ -96,6 +132,9 @@ describe.runIf(browserPath !== undefined)("the page", () => {
         ({ errorId }) => errorId !== "in-incognito",
       ),
     ).toEqual([]);
+    const { icons } = JSON.parse(manifest.data!) as { icons: { src: string; sizes: string }[] };
+    for (const { src, sizes } of icons)
+      expect(await iconOf(one, src), src).toEqual({ sizes, differs: 0, beyond: 0 });
     // No network, and no server either.
     await context.setOffline(true);
     await new Promise((closed) => {

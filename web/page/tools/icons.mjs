@@ -1,0 +1,23 @@
+// icons.mjs: the icons of the page as it is installed, public/icon-192.png and icon-512.png, drawn
+// from public/icon.svg by Chromium. All that the picture shows lies within the circle of 80 % that
+// every shape of an icon keeps, so the large one is also the maskable one.
+import { readFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+const here = (name) => fileURLToPath(new URL(`../public/${name}`, import.meta.url));
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox"],
+});
+const svg = readFileSync(here("icon.svg")).toString("base64");
+for (const size of [192, 512]) {
+  const page = await browser.newPage({ viewport: { width: size, height: size } });
+  await page.setContent(
+    `<style>body { margin: 0 } img { display: block; width: 100vw }</style>
+    <img src="data:image/svg+xml;base64,${svg}">`,
+  );
+  await page.locator("img").evaluate((image) => image.decode());
+  await page.screenshot({ path: here(`icon-${size}.png`) });
+}
+await browser.close();
