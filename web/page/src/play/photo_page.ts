@@ -199,8 +199,8 @@ function tap(p: Photo, at: Pixel): void {
 }
 /** Moves the corners to the edge of the cloth, and a mark to the disc that it is on. */
 function snap(p: Photo): void {
-  const to = snapCorners(p.pixels!, p.corners, 2 * OFF * scaleOf(p));
   try {
+    const to = snapCorners(p.pixels!, p.corners, 1.2 * OFF * scaleOf(p), sizeOf(p));
     cameraOf([p.picture!.width, p.picture!.height], to, sizeOf(p));
     p.corners = to;
   } catch {

@@ -1,13 +1,14 @@
 // Marks of a finger on a photo, moved to what they mean. A finger errs by some pixels of the page,
 // which are several of the photo.
-//   Corners: along each side of the table, the strongest edge across it within reach, weighed by
-// how near it is; of the lines through two of such places the
-//   one that has most of the others within two pixels. The side stays where less than a third are
-// on it, or where another edge is within reach, as on tables with cushions: the face of a cushion
-// has two edges, and the wood is behind it. Corners are where sides meet.
+//   Corners: where the sides of the table meet, and a side is a straight edge near its two marks.
+// An edge is judged by the mean change of colour across it, along the whole side, because noise and
+// balls do not reach this mean. On a side whose cushion shows its face, the nose is the outer edge of
+// the dark face, whose width the marks' camera predicts; its inner edge is the bed. On a side whose
+// face is hidden, the nose is the only edge within reach, because the wood is farther off. A side
+// without such an edge, or with two that compete, stays where the finger put it.
 //   Balls: the disc, of a ball's radius there, that differs most from the cloth within it and least
 // around it; where both are alike the mark stays.
-import type { Pixel } from "./photo.js";
+import { cameraOf, type Pixel } from "./photo.js";
 
 export type Picture = Pick<ImageData, "data" | "width" | "height">;
 
@@ -26,75 +27,183 @@ function at(
 const apart = (a: readonly number[], b: readonly number[]): number =>
   Math.abs(a[0]! - b[0]!) + Math.abs(a[1]! - b[1]!) + Math.abs(a[2]! - b[2]!);
 
-/** An edge that differs by more than this share of the strongest one competes with it. */
+/** How high the noses of the cushions are above the bed, m. */
+const NOSE = 0.0366;
+/** Places along a side, and the share of the side before the first and behind the last of them. */
+const PLACES = 160;
+const MARGIN = 0.08;
+/** The colours that an edge parts are so far from it, pixels. */
+const BESIDE = 2;
+/** A change of one place counts at most so much, of three channels of 255: a ball may lie there. */
+const MOST = 90;
+/** A weaker mean change than this is no edge. */
+const FAINT = 4;
+/** A face is darker than this on both sides, and its two edges differ by at most this share. */
+const DARK = 12;
+const BALANCED = 0.3;
+/** An edge that has more than this share of the strongest one competes with it. */
 const RIVAL = 0.5;
 /** Edges farther apart than this, pixels, are two. */
 const APART = 5;
+/** A face that is seen narrower than this, pixels, is taken for none that is seen. */
+const NARROW = 3;
 
-/** The side between two corners as a point and a direction, moved to an edge. */
-function sideOf(picture: Picture, from: Pixel, to: Pixel, reach: number): { p: Pixel; d: Pixel } {
-  const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
-  const d: Pixel = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
-  const place = (along: number, off: number): Pixel => [
-    from[0] + along * d[0] - off * d[1],
-    from[1] + along * d[1] + off * d[0],
-  ];
-  // The strongest edge at each of 60 places: the change of colour over four pixels.
-  const seen = Array.from({ length: 60 }, (_, k) => {
-    const along = length * (0.06 + (0.88 * k) / 59);
-    const edgeAt = (there: number, off: number): number =>
-      apart(at(picture, ...place(there, off - 2)), at(picture, ...place(there, off + 2)));
-    const edge = (off: number): number => edgeAt(along, off);
-    // The mean of three places, which noise does not reach.
-    const steady = (off: number): number =>
-      (edgeAt(along - 4, off) + edge(off) + edgeAt(along + 4, off)) / 3;
-    let best = 0;
-    let most = 0;
-    for (let off = -reach; off <= reach; off++) {
-      const here = edge(off) * Math.exp(-((off / reach) ** 2));
-      if (here > most) [best, most] = [off, here];
+/** A line across the strip of a side: how far it is off the marks at both ends, pixels. */
+type Line = readonly [number, number];
+
+/** The strip of a picture along a side, outwards from the table: colours by place and distance. */
+class Strip {
+  readonly #picture: Picture;
+  readonly #from: Pixel;
+  readonly #along: Pixel;
+  readonly #outward: Pixel;
+
+  constructor(picture: Picture, from: Pixel, to: Pixel, inside: Pixel) {
+    const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+    const [dx, dy] = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
+    const isInside = (inside[0] - from[0]) * -dy + (inside[1] - from[1]) * dx > 0;
+    this.#picture = picture;
+    this.#from = from;
+    this.#along = [to[0] - from[0], to[1] - from[1]];
+    this.#outward = isInside ? [dy, -dx] : [-dy, dx];
+  }
+  /** A place at a share of the side, and so far outwards. */
+  place(share: number, off: number): Pixel {
+    return [
+      this.#from[0] + share * this.#along[0] + off * this.#outward[0],
+      this.#from[1] + share * this.#along[1] + off * this.#outward[1],
+    ];
+  }
+  offOf([x, y]: Pixel): number {
+    return (x - this.#from[0]) * this.#outward[0] + (y - this.#from[1]) * this.#outward[1];
+  }
+  /**
+   * The mean change of colour outwards across a line: how much there is, and of the light, whose
+   * sign says whether it is brighter outside.
+   */
+  change([first, last]: Line): { much: number; light: number } {
+    const sum = [0, 0, 0];
+    for (let k = 0; k < PLACES; k++) {
+      const share = MARGIN + ((1 - 2 * MARGIN) * k) / (PLACES - 1);
+      const off = first + (last - first) * share;
+      const inner = at(this.#picture, ...this.place(share, off - BESIDE));
+      const outer = at(this.#picture, ...this.place(share, off + BESIDE));
+      const factor = Math.min(1, MOST / (apart(inner, outer) + 1));
+      for (let c = 0; c < 3; c++) sum[c]! += (factor * (outer[c]! - inner[c]!)) / PLACES;
     }
-    let rival = 0;
-    for (let off = -2 * reach; off <= 2 * reach; off++)
-      if (Math.abs(off - best) > APART) rival = Math.max(rival, steady(off));
-    // The middle of the edge, which is as wide as the pixels that are compared.
-    const offs = Array.from({ length: 17 }, (_, k) => best + (k - 8) / 2);
-    const edges = edge(best);
-    const on = offs.filter((off) => edge(off) > 0.7 * edges);
-    const middle = on.reduce((sum, off) => sum + off, 0) / on.length;
-    return [along, middle, rival > RIVAL * edges] as const;
-  });
-  let on = 0;
-  let line = [0, 0] as readonly [number, number];
-  for (const [i, a] of seen.entries())
-    for (const b of seen.slice(i + 10)) {
-      const slope = (b[1] - a[1]) / (b[0] - a[0]);
-      const count = seen.filter(
-        ([along, off]) => Math.abs(off - a[1] - slope * (along - a[0])) < 2,
-      ).length;
-      if (count > on) [on, line] = [count, [a[1] - slope * a[0], slope]];
-    }
-  const rivals = seen.filter(([, , hasRival]) => hasRival).length;
-  if (on < 20 || rivals > 20) return { p: from, d };
-  // Least squares of those that are on it.
-  const near = seen.filter(([along, off]) => Math.abs(off - line[0] - line[1] * along) < 2);
-  const mean = (of: (one: (typeof seen)[number]) => number): number =>
-    near.reduce((sum, one) => sum + of(one), 0) / near.length;
-  const u = mean(([along]) => along);
-  const v = mean(([, off]) => off);
-  const slope =
-    mean(([along, off]) => (along - u) * (off - v)) / mean(([along]) => (along - u) ** 2);
-  return { p: place(u, v), d: [d[0] - slope * d[1], d[1] + slope * d[0]] };
+    const much = sum.reduce((all, one) => all + Math.abs(one), 0);
+    return { much, light: sum[0]! + sum[1]! + sum[2]! };
+  }
 }
-export function snapCorners(picture: Picture, corners: readonly Pixel[], reach: number): Pixel[] {
-  const sides = corners.map((from, k) => sideOf(picture, from, corners[(k + 1) % 4]!, reach));
-  return sides.map(({ p, d }, k) => {
-    const { p: q, d: e } = sides[(k + 3) % 4]!;
-    const t = ((q[0] - p[0]) * e[1] - (q[1] - p[1]) * e[0]) / (d[0] * e[1] - d[1] * e[0]);
-    const to: Pixel = [p[0] + t * d[0], p[1] + t * d[1]];
-    return Math.hypot(to[0] - corners[k]![0], to[1] - corners[k]![1]) < 2 * reach
-      ? to
-      : corners[k]!;
+
+/** The line with the highest score around another one, within a reach, by ever smaller steps. */
+function bestLine(score: (line: Line) => number, reach: number): { line: Line; score: number } {
+  let best: Line = [0, 0];
+  let most = -Infinity;
+  let far = reach;
+  for (let step = 1; step > 0.2; step /= 2) {
+    const [a, b] = best;
+    for (let first = a - far; first <= a + far; first += step)
+      for (let last = b - far; last <= b + far; last += step) {
+        const found = score([first, last]);
+        if (found > most) [best, most] = [[first, last], found];
+      }
+    far = 1.5 * step;
+  }
+  return { line: best, score: most };
+}
+/** How far a line is from the marks, as the share of its score that remains. */
+const nearness = ([first, last]: Line, reach: number): number =>
+  Math.exp(-(first ** 2 + last ** 2) / (2 * reach ** 2));
+
+/** The middle of an edge, which is as wide as the pixels that are compared, at each end in turn. */
+function centred(strip: Strip, line: Line): Line {
+  const offs = Array.from({ length: 25 }, (_, k) => (k - 12) / 4);
+  let [first, last] = line;
+  for (let round = 0; round < 2; round++) {
+    const mean = (shifted: (off: number) => Line): number => {
+      const much = offs.map((off) => strip.change(shifted(off)).much);
+      const most = Math.max(...much);
+      const on = offs.filter((_, k) => much[k]! > 0.8 * most);
+      return on.reduce((sum, off) => sum + off, 0) / on.length;
+    };
+    const both = mean((off) => [first + off, last + off]);
+    [first, last] = [first + both, last + both];
+    const tilt = mean((off) => [first + off, last - off]);
+    [first, last] = [first + tilt, last - tilt];
+  }
+  return [first, last];
+}
+/** The nose of a side, or nothing where no edge is plainly the nose; `face`: its inner edge. */
+function noseOf(strip: Strip, face: Line, reach: number): Line | undefined {
+  const isSeen = Math.max(...face) < -NARROW;
+  const isHidden = Math.min(...face) > NARROW;
+  if (isSeen) {
+    // The face is dark between bed and top: darker at its inner edge, brighter at the nose.
+    const pair = bestLine((line) => {
+      const inner = Math.max(
+        ...[-1, 0, 1].map(
+          (more) => -strip.change([line[0] + face[0] + more, line[1] + face[1] + more]).light,
+        ),
+      );
+      const outer = strip.change(line).light;
+      const isFace = Math.min(inner, outer) > BALANCED * Math.max(inner, outer);
+      return isFace ? Math.min(inner, outer) * nearness(line, reach) : 0;
+    }, reach);
+    if (pair.score > DARK) return centred(strip, pair.line);
+  }
+  const found = bestLine((line) => strip.change(line).much * nearness(line, reach), reach);
+  if (found.score < FAINT) return undefined;
+  const [first, last] = found.line;
+  const strongest = strip.change(found.line).much;
+  const rival = bestLine((line) => {
+    const [more, others] = [line[0] - first, line[1] - last];
+    // A line that crosses the other one shares a part of its edge. Behind a hidden face is wood.
+    const isApart = Math.min(Math.abs(more), Math.abs(others)) > APART && more * others > 0;
+    const isOther = isApart && !(isHidden && more > 0);
+    return isOther ? strip.change(line).much : 0;
+  }, reach);
+  return rival.score > RIVAL * strongest ? undefined : centred(strip, found.line);
+}
+
+/** Where two lines meet, each through two points. */
+function meeting([p, q]: readonly Pixel[], [r, s]: readonly Pixel[]): Pixel {
+  const d: Pixel = [q![0] - p![0], q![1] - p![1]];
+  const e: Pixel = [s![0] - r![0], s![1] - r![1]];
+  const t = ((r![0] - p![0]) * e[1] - (r![1] - p![1]) * e[0]) / (d[0] * e[1] - d[1] * e[0]);
+  return [p![0] + t * d[0], p![1] + t * d[1]];
+}
+/**
+ * The corners of a table of a size, m, moved to where its noses meet. Throws a TypeError where the
+ * marks are no table.
+ */
+export function snapCorners(
+  picture: Picture,
+  corners: readonly Pixel[],
+  reach: number,
+  [width, length]: Pixel,
+): Pixel[] {
+  const camera = cameraOf([picture.width, picture.height], corners, [width, length], NOSE);
+  const bed = (
+    [
+      [0, 0],
+      [width, 0],
+      [width, length],
+      [0, length],
+    ] as const
+  ).map(camera.pixel);
+  const middle = camera.pixel([width / 2, length / 2]);
+  const sides = corners.map((from, k) => {
+    const to = corners[(k + 1) % 4]!;
+    const strip = new Strip(picture, from, to, middle);
+    const face: Line = [strip.offOf(bed[k]!), strip.offOf(bed[(k + 1) % 4]!)];
+    const [first, last] = noseOf(strip, face, reach) ?? [0, 0];
+    return [strip.place(0, first), strip.place(1, last)];
+  });
+  return sides.map((side, k) => {
+    const to = meeting(side, sides[(k + 3) % 4]!);
+    const isNear = Math.hypot(to[0] - corners[k]![0], to[1] - corners[k]![1]) < 2 * reach;
+    return isNear ? to : corners[k]!;
   });
 }
 
