@@ -1,7 +1,8 @@
 // What a level is: one's own rating by games and drills, the lines of the table, the part of a ball
 // that is met, and the price of a hint.
 import { describe, expect, test } from "vitest";
-import { browserPath, pages, sizes, violations } from "./page.js";
+import type { Page } from "playwright-core";
+import { browserPath, keptGame, pages, sizes, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("by level", () => {
   const { open, bright, frames, struck, text, turnTo } = pages();
@@ -97,6 +98,60 @@ describe.runIf(browserPath !== undefined)("by level", () => {
     expect(await text(one, "said")).toBe(
       "Your rating is about 487 (95 %: 250 to 741), by 1 : 0 against a 500.",
     );
+    expect(await one.locator("#end").innerText()).toMatch(
+      /You have won\s+The 9 fell\.[^]*Your best stroke: ball 9 into the head-left pocket; its aim had a room of \d+\.\d\d°\.\s+Your first rating is 487\.\s+Won at the level 500: 1 of 3\./,
+    );
+    expect(await violations(one)).toEqual([]);
+    await one.locator("#play-again").click();
+    expect(await one.locator("#end").isVisible()).toBe(false);
+    expect(await text(one, "turn")).toContain("You break");
+    await one.close();
+  });
+
+  test.each(sizes)("a race ends where one has won its racks: %s", async (_, how) => {
+    const HANGS = { game: "nineball", against: "person", own: "0", seed: 7 };
+    const win = async (racks: [number, number]): Promise<Page> => {
+      const at = "0.4,0.4 in in in in in in in in 0.06,0.06";
+      const one = await open("", how, { ...HANGS, at, race: 2, racks });
+      await turnTo(one, 225);
+      await one.locator("#shoot").click();
+      await one.locator("#skip").click();
+      await one.locator("#end").waitFor();
+      return one;
+    };
+    const racksOf = async (one: Page): Promise<number[]> =>
+      (JSON.parse(await keptGame(one)) as { racks: number[] }).racks;
+    const first = await win([0, 1]);
+    expect(await first.locator("#end").innerText()).toContain("Race to 2: 1 : 1");
+    expect(await text(first, "play-again")).toBe("Next rack");
+    await first.locator("#play-again").click();
+    expect(await racksOf(first)).toEqual([1, 1]);
+    expect(await text(first, "score")).toBe("lowest ball 1 · race to 2: 1 : 1");
+    await first.close();
+    const last = await win([1, 0]);
+    expect(await last.locator("#end").innerText()).toContain("The race is won by 2 : 0.");
+    await last.locator("#play-again").click();
+    expect(await racksOf(last)).toEqual([0, 0]);
+    await last.close();
+  });
+
+  test("the ladder and the stars show what was won and made, and a dash where nothing was", async () => {
+    const one = await open("");
+    await one.evaluate(() => {
+      localStorage.setItem("carom-ladder", '{"200":[3,1],"300":[1,2]}');
+      localStorage.setItem("carom-drills", '{"Draw":[0,3],"Side pocket":[9,10],"Follow":[1,9]}');
+    });
+    await one.reload();
+    await one.waitForSelector("main[aria-busy=false]");
+    await one.locator("#new-game").click();
+    const rungs = await one.locator("#ladder button").allTextContents();
+    expect(rungs.slice(0, 3)).toEqual(["200★", "3001 : 2", "400–"]);
+    await one.locator("#ladder button").nth(3).click();
+    expect(await one.locator("#new-against").inputValue()).toBe("500");
+    const drills = await one.locator("#drill option").allTextContents();
+    for (const drill of ["Draw ☆☆☆", "Side pocket ★★★", "Follow ★☆☆", "Stop shot –"])
+      expect(drills).toContain(drill);
+    expect(await violations(one)).toEqual([]);
     await one.close();
   });
 });

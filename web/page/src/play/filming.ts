@@ -100,7 +100,7 @@ function showWords(s: Session): void {
     : wordsOfTurn(play, seat, s.thinks, s.hinted) + wordsOfCall(s);
   // A screen reader reads each change aloud, also to the same words.
   if (words.turn.textContent !== turn) words.turn.textContent = turn;
-  if (!player) words.score.textContent = wordsOfScore(play, seat, racksOf(play.setup));
+  if (!player) words.score.textContent = wordsOfScore(play, seat, racksOf(play));
 }
 
 /** The part of the ball that the aim meets, where the lines of the game may show it. */
@@ -153,6 +153,7 @@ function showButtons(s: Session): void {
 
 /** Shows a stroke that was played, and what comes after it. */
 function perform(s: Session, stroke: Stroke, after: () => void): void {
+  s.end.hide();
   s.turnedBefore = s.turned;
   s.then = after;
   s.shown = stroke;

@@ -48,6 +48,9 @@ export interface Setup {
   at?: string;
   /** The name of the drill that the layout is of. */
   drill?: string;
+  /** Of a race: how many racks win it, and how many each has won before this one. */
+  race?: number;
+  racks?: readonly [number, number];
 }
 /** A stroke that was played, for its film; or a choice instead of one, which has no shot. */
 export interface Stroke {
@@ -58,6 +61,32 @@ export interface Stroke {
   state: GameState;
   shot: Shot | undefined;
   ruling: Ruling | undefined;
+}
+/** A stroke that kept the turn, as a look back at the game needs it. */
+export interface Deed {
+  who: 0 | 1;
+  balls: ShotBall[];
+  cue: Cue;
+  /** The ball that was met first, and those that fell, each with its pocket. */
+  met: number;
+  pots: { ball: number; pocket: number }[];
+  /** How many cushions the struck ball met. */
+  cushions: number;
+}
+function deedOf({ who, balls, cue, shot }: Stroke): Deed {
+  const { events = [], firstContact } = shot ?? {};
+  const { a = -1, b = -1 } = firstContact?.event ?? {};
+  return {
+    who,
+    balls,
+    cue,
+    met: a === cue.ball ? b : a,
+    pots: events.flatMap(({ type, a, b }) =>
+      type === "ball_pocket" && a !== cue.ball ? [{ ball: a, pocket: b }] : [],
+    ),
+    cushions: events.filter(({ type, a }) => type === "ball_linear_cushion" && a === cue.ball)
+      .length,
+  };
 }
 /** What a text has beside the setup: lines, or strokes without rulings of an older page. */
 interface Kept {
@@ -127,6 +156,8 @@ export class Play {
   last: Stroke | undefined;
   /** How many strokes were played, and choices taken instead of one. */
   strokes = 0;
+  /** The strokes that kept the turn or won. */
+  readonly deeds: Deed[] = [];
   /** Layouts of practice before each stroke and move, to undo. */
   readonly past: ShotBall[][] = [];
   /** None in practice, which has no rules: every ball counts. */
@@ -316,6 +347,9 @@ export class Play {
     // Lines that were read have put a cue ball in hand, and have the cue.
     const played = isPlayed && shot && cue ? { balls: [...shot.balls], cue, shot, ruling } : {};
     this.last = { shot: undefined, ruling: undefined, ...before, ...played };
+    const { who } = before;
+    const isKept = this.winner === undefined ? this.turn === who : this.winner === who;
+    if (isPlayed && isKept && !ruling?.foul) this.deeds.push(deedOf(this.last));
     return this.last;
   }
   #practise(cue: Cue): Stroke {

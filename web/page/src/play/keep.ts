@@ -1,7 +1,7 @@
 // What this browser keeps beside games: settings, counts and the log, as JSON under a key; and how a
 // text is packed into a link.
 
-import type { Setup } from "./game.js";
+import type { Play, Setup } from "./game.js";
 import { wrong } from "../ui.js";
 import { texts } from "../texts/texts.js";
 
@@ -69,9 +69,15 @@ export function count(
   keepText(JSON.stringify({ ...tally(key), [name]: now }), key);
   return now;
 }
-/** The racks that each has won of a game against the same one. */
-export const racksOf = ({ game, against }: Setup): readonly [number, number] =>
-  countsOf("carom-racks", `${game}/${against}`);
+/** The racks that each has won of a race, or of a game against the same one. */
+export function racksOf({ setup, winner }: Pick<Play, "setup" | "winner">): [number, number] {
+  const { game, against, racks } = setup;
+  if (!racks) return countsOf("carom-racks", `${game}/${against}`);
+  return [racks[0] + Number(winner === 0), racks[1] + Number(winner === 1)];
+}
+/** Whether a race is decided. */
+export const isRaceOver = (play: Pick<Play, "setup" | "winner">): boolean =>
+  Math.max(...racksOf(play)) >= (play.setup.race ?? 1);
 export const countRack = ({ game, against }: Setup, winner: 0 | 1): unknown =>
   count("carom-racks", `${game}/${against}`, winner === 0 ? [1, 0] : [0, 1]);
 

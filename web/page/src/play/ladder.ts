@@ -5,6 +5,7 @@ import type { Carom, Score } from "carom";
 import type { Drill } from "./drills.js";
 import { isComputer, type Setup } from "./game.js";
 import { count, tally } from "./keep.js";
+import { RATINGS } from "../table/words.js";
 import { texts } from "../texts/texts.js";
 
 /**
@@ -18,6 +19,29 @@ export const DRILLS_MADE = "carom-drills";
 export const isRated = ({ against, own }: Setup): boolean => isComputer(against) && own !== "0";
 export const countGame = (setup: Setup, winner: 0 | 1): unknown =>
   isRated(setup) && count(GAMES, setup.against, winner === 0 ? [1, 0] : [0, 1]);
+
+/** So many games won against a rating climb its level of the ladder. */
+const CLIMBED = 3;
+export interface Level {
+  rating: string;
+  won: number;
+  lost: number;
+  needed: number;
+}
+/** The levels of the ladder, the lowest first. */
+export function levels(): Level[] {
+  const games = tally(GAMES);
+  return RATINGS.map((rating) => {
+    const [won, lost] = games[rating] ?? [0, 0];
+    return { rating, won, lost, needed: Math.max(CLIMBED - won, 0) };
+  });
+}
+/** The stars of a drill: for one try that made it, for half of six, and for four fifths of ten. */
+export function starsOf(made: number, tries: number): number {
+  const share = made / Math.max(tries, 1);
+  const earned = [made >= 1, made >= 3 && share >= 0.5, made >= 8 && share >= 0.8];
+  return earned.filter(Boolean).length;
+}
 
 /** What is kept in this browser: games, and tries of drills. */
 function results(drills: readonly Drill[]): { games: Score[]; tries: Score[] } {

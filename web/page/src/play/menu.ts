@@ -8,6 +8,7 @@ import { type Against, isComputer, tableOf } from "./game.js";
 import { keepText, keptValue } from "./keep.js";
 import type { Session, Settings } from "./parts.js";
 import { gamesList } from "./games_list.js";
+import { levels } from "./ladder.js";
 import { begin } from "./opening.js";
 import { chooseLanguage, language, LANGUAGE_NAMES, texts, told } from "../texts/texts.js";
 
@@ -18,17 +19,18 @@ const LINES: readonly (readonly [Settings["lines"], string])[] = [
   ["short", texts.shortTheWayOf],
   ["full", texts.fullBothBalls],
 ];
-/** Conditions of a pool table, and what is usual, which a game does not keep. */
+/** Conditions of a pool table, each with what it does; the usual one, which a game does not keep. */
 const USUAL = "";
-function conditionsOf(part: string, usual: string): (readonly [string, string])[] {
-  const named = words.condition.filter(([word]) => word.endsWith(part) && word !== "medium_cloth");
-  return [
-    [USUAL, usual],
-    ...named.map(([word, text]) => [word, `${told(word.split("_")[0]!)}: ${told(text)}`] as const),
-  ];
-}
-const CLOTHS = conditionsOf("_cloth", texts.usual);
-const CUSHIONS = conditionsOf("_cushion", texts.usual);
+const conditionsOf = (part: string): (readonly [string, string])[] =>
+  words.condition.filter(([word]) => word.endsWith(part) && word !== "medium_cloth");
+const nameOfCondition = (word: string): string => told(word.split("_")[0]!);
+const choicesOf = (conditions: readonly (readonly [string, string])[]) => [
+  [USUAL, texts.usual] as const,
+  ...conditions.map(([word]) => [word, nameOfCondition(word)] as const),
+];
+const CONDITIONS = [...conditionsOf("_cloth"), ...conditionsOf("_cushion")];
+const CLOTHS = choicesOf(conditionsOf("_cloth"));
+const CUSHIONS = choicesOf(conditionsOf("_cushion"));
 function areSettings(value: unknown): boolean {
   if (typeof value !== "object" || value === null) return false;
   const {
@@ -51,6 +53,32 @@ export const settingsOf = (): Settings => ({
 
 export const keepSettings = ({ settings }: Pick<Session, "settings">): void =>
   keepText(JSON.stringify(settings), KEY);
+
+/** How many racks a race may go to; the first is no race. */
+const RACES = ["1", "2", "3", "5", "7"];
+
+/** The levels of the ladder, each of which chooses its opponent. */
+function ladderOf(choose: (rating: string) => void): {
+  root: HTMLElement;
+  mark(chosen: string): void;
+} {
+  const root = el("ol", { id: "ladder", "aria-label": texts.ladder });
+  /** Shows how far one has climbed, and which opponent is chosen. */
+  function mark(chosen: string): void {
+    const rungs = levels().map(({ rating, won, lost, needed }) => {
+      const games = won + lost > 0 ? `${won} : ${lost}` : "–";
+      const stands = needed === 0 ? "★" : games;
+      const rung = button(rating, () => choose(rating), {
+        "aria-pressed": String(rating === chosen),
+        title: texts.levelStands(rating, won, needed),
+      });
+      rung.append(el("small", {}, stands));
+      return el("li", {}, rung);
+    });
+    root.replaceChildren(...rungs);
+  }
+  return { root, mark };
+}
 
 export function menu(
   s: Session,
@@ -77,6 +105,16 @@ export function menu(
     ],
     chooseErrors,
   );
+  const race = choice(
+    "new-race",
+    texts.race,
+    RACES.map((racks) => [racks, racks === "1" ? texts.oneRack : texts.raceTo(racks)] as const),
+    () => undefined,
+  );
+  const ladder = ladderOf((rating) => {
+    against.select.value = rating;
+    chooseErrors();
+  });
   const own = choice(
     "new-own",
     texts.yourStrokes,
@@ -92,8 +130,9 @@ export function menu(
     Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const),
     () => undefined,
   );
-  const cloth = choice("new-cloth", texts.cloth, CLOTHS, () => undefined);
-  const cushion = choice("new-cushion", texts.cushions, [], () => undefined);
+  const cloth = choice("new-cloth", texts.cloth, CLOTHS, describe);
+  const cushion = choice("new-cushion", texts.cushions, [], describe);
+  const effect = el("p", { class: "note", id: "new-effect" });
   /** The cushions to choose from: those of the player's own table are calibrated. */
   function listCushions(chosen: string): void {
     const own = ownCushion();
@@ -118,7 +157,7 @@ export function menu(
     },
     { id: "open-calibration" },
   );
-  const ofPool = [table.root, cloth.root, cushion.root, calibrate];
+  const ofPool = [table.root, cloth.root, cushion.root, effect, calibrate];
   const lines = choice("lines", texts.lines, LINES, changeSettings);
   const note = el("p", { class: "note", id: "new-note" });
   const rules = el("p", { id: "new-rules" });
@@ -152,9 +191,16 @@ export function menu(
   function describe(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
     own.root.hidden = against.select.value === "practice";
+    race.root.hidden = ["practice", "link"].includes(against.select.value);
+    ladder.mark(against.select.value);
     rules.textContent = texts.rules[game.select.value] ?? "";
     rulesOf.hidden = rules.textContent === "";
     for (const one of ofPool) one.hidden = !isPool();
+    effect.textContent = CONDITIONS.filter(([word]) =>
+      [cloth.select.value, cushion.select.value].includes(word),
+    )
+      .map(([word, does]) => texts.conditionDoes(nameOfCondition(word), told(does)))
+      .join(" ");
     const notes: Record<string, string> = {
       practice: texts.thereAreNoRules,
       person: texts.bothOfYouPlay,
@@ -180,6 +226,9 @@ export function menu(
         own: against.select.value === "practice" ? "0" : own.select.value,
         seed: Math.floor(Math.random() * 2 ** 31),
         ...(isPool() ? chosenTable() : {}),
+        ...(race.root.hidden || race.select.value === RACES[0]
+          ? {}
+          : { race: Number(race.select.value), racks: [0, 0] as const }),
       });
     },
     { id: "start", class: "main" },
@@ -188,7 +237,9 @@ export function menu(
   const root: HTMLDialogElement = dialog(
     "menu",
     texts.newGame,
-    el("div", { class: "fields" }, game.root, ...ofPool, against.root, own.root),
+    el("div", { class: "fields" }, game.root, ...ofPool, against.root),
+    ladder.root,
+    el("div", { class: "fields" }, own.root, race.root),
     note,
     rulesOf,
     start,
@@ -209,6 +260,7 @@ export function menu(
       game.select.value = setup.game;
       against.select.value = setup.against;
       own.select.value = setup.own;
+      race.select.value = String(setup.race ?? RACES[0]);
       table.select.value = setup.table ?? "9ft";
       cloth.select.value = setup.cloth ?? USUAL;
       listCushions(setup.cushion ?? USUAL);

@@ -23,6 +23,8 @@ export const FIRST: Setup = { game: "eightball", against: "300", own: "800", see
 /** Puts a game on the table. */
 export function start(s: Session, play: Play, id: string, seat: 0 | 1 = 0): void {
   drop("plan");
+  s.end.hide();
+  s.end.rated = undefined;
   const turned = play.balls.map(() => [1, 0, 0, 0] as const);
   Object.assign(s, {
     searchGeneration: s.searchGeneration + 1,

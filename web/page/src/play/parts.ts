@@ -92,6 +92,15 @@ export interface Showing {
   replay(): void;
 }
 
+/** The last view of a game (end.ts). */
+export interface EndView {
+  readonly root: HTMLElement;
+  /** The rating before the game counted, of a game that counts. */
+  rated: OwnRating | undefined;
+  show(): void;
+  hide(): void;
+}
+
 /** The coach at the table (coaching.ts). */
 export interface Coach {
   /** Sets the best stroke that a search finds. */
@@ -122,6 +131,7 @@ interface Parts {
   readonly training: Training;
   readonly showing: Showing;
   readonly coach: Coach;
+  readonly end: EndView;
   /** The aim, the layout or a setting has changed. */
   changed(): void;
 }

@@ -6,7 +6,7 @@ import { atOf, drillsOf, judge } from "./drills.js";
 import { errors } from "./coaching.js";
 import type { Setup } from "./game.js";
 import { count, countsOf } from "./keep.js";
-import { DRILLS_MADE as KEY, ownRating } from "./ladder.js";
+import { DRILLS_MADE as KEY, ownRating, starsOf } from "./ladder.js";
 import { keepRow, type Row } from "./log.js";
 import type { Training } from "./parts.js";
 import { photoPage } from "./photo_page.js";
@@ -56,11 +56,21 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
     drills.map(({ name }) => [name, told(name)] as const),
     describe,
   );
+  /** Stars of each drill; one that nobody has tried has a dash. */
+  function listStars(): void {
+    for (const option of which.select.options) {
+      const [good, tries] = countsOf(KEY, option.value);
+      const stars = starsOf(good, tries);
+      const shown = tries === 0 ? "–" : "★".repeat(stars) + "☆".repeat(3 - stars);
+      option.textContent = `${told(option.value)} ${shown}`;
+    }
+  }
   function wordsOfTries(name: string): string {
     const [good, tries] = countsOf(KEY, name);
     return tries === 0 ? "" : texts.madeOf(good, tries);
   }
   function describe(): void {
+    listStars();
     note.textContent = `${told(drillOf(which.select.value).text)}${wordsOfTries(which.select.value)}`;
   }
   const close = (): void => start.closest("dialog")!.close();

@@ -38,7 +38,7 @@ function wordsOfEight({ state, ruling, balls, shot, call }: Stroke): string {
   return isCalled ? texts.the8FellInto : texts.the8WasNot;
 }
 /** Why the game has ended, as far as the stroke tells more than the score. */
-function wordsOfEnd(play: Play): string {
+export function wordsOfEnd(play: Play): string {
   const { last, setup, played, winner } = play;
   if (!last?.ruling) return "";
   const hasLost = winner !== last.who;
@@ -124,8 +124,11 @@ export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, n
   const names = ([0, 1] as const).map((who) => nameOf(play, who, seat));
   const wordsOfPoints = (parts: readonly (string | number)[]): string =>
     parts.map((part, k) => `${names[k]}: ${part}`.replace(": -", ": −")).join(" · ");
-  if (play.played?.points) return wordsOfPoints(play.points);
-  const won = racks[0] + racks[1] > 0 ? texts.racksWon(racks[0], racks[1]) : "";
+  const { race } = play.setup;
+  const wonAll = racks[0] + racks[1] > 0 ? texts.racksWon(racks[0], racks[1]) : "";
+  const won = race === undefined ? wonAll : texts.raceStands(race, racks[0], racks[1]);
+  if (play.played?.points)
+    return wordsOfPoints(play.points) + (race === undefined ? "" : ` · ${won}`);
   if (play.setup.game === "eightball") {
     if (play.state.group === "open") return won;
     const balls = ([0, 1] as const).map((who) =>

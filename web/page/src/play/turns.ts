@@ -142,6 +142,7 @@ export function next(s: Session): void {
   const wasTheirs = last !== undefined && last.who !== seat;
   if (wasTheirs && play.hasPockets && isAgainstComputer) says(s, wordsOfStroke(play, last, seat));
   if (winner !== undefined && isRated(setup)) says(s, training.rating().words);
+  if (winner !== undefined) s.end.show();
   // The page's player begins to plan, or the person at the page begins to aim.
   if (winner === undefined && !mine(s) && isAgainstComputer) {
     void reply(s);
@@ -225,7 +226,7 @@ export function save({ play, link, seat, id, words }: Saved): void {
     id,
     text: play.text(),
     setup,
-    score: wordsOfScore(play, seat, racksOf(setup)),
+    score: wordsOfScore(play, seat, racksOf(play)),
     strokes,
     isOver: play.winner !== undefined,
     when: Date.now(),
@@ -237,9 +238,10 @@ export function save({ play, link, seat, id, words }: Saved): void {
     history.replaceState(null, "", "#view=play");
 }
 /** Saves the game after a stroke. A stroke that won the game also counts in the tallies. */
-export function saveAndCount(s: Saved): void {
+export function saveAndCount(s: Saved & Pick<Session, "training" | "end">): void {
   const { winner, setup } = s.play;
   if (winner !== undefined) {
+    s.end.rated = isRated(setup) ? s.training.rating() : undefined;
     countRack(setup, winner);
     countGame(setup, winner);
   }

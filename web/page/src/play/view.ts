@@ -9,7 +9,9 @@ import { coaching } from "./coaching.js";
 import { controls } from "./controls.js";
 import { diagramPage, type Source } from "./diagram.js";
 import { finish, moved, showing } from "./filming.js";
+import { endView } from "./end.js";
 import { Play } from "./game.js";
+import { isRaceOver, racksOf } from "./keep.js";
 import { byLink } from "./link.js";
 import { logPage } from "./log.js";
 import { keepSettings, menu, settingsOf } from "./menu.js";
@@ -43,10 +45,13 @@ function listOfBalls(s: Session): HTMLDetailsElement {
   });
   return root;
 }
+/** Another rack: the next one of a race, or the first of a new one. */
 function beginAgain(s: Session): void {
-  const setup = { ...s.play.setup, seed: s.play.setup.seed + 1 };
-  delete setup.at; // the balls lie as in a rack
-  begin(s, setup);
+  const { setup } = s.play;
+  const racks = isRaceOver(s.play) ? ([0, 0] as const) : racksOf(s.play);
+  const again = { ...setup, seed: setup.seed + 1, ...(setup.race !== undefined && { racks }) };
+  delete again.at; // the balls lie as in a rack
+  begin(s, again);
 }
 /** The buttons of the bar; `session` is complete before the first of them is pressed. */
 function buttonsOf(session: () => Session): Session["buttons"] {
@@ -100,7 +105,6 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
     moved: () => moved(s),
     ended: () => finish(s),
   });
-  felt.append(film.canvas);
   // Its parts refer to the session, which is complete once all of them are made.
   const s = progressOf(new Play(carom, FIRST)) as Session;
   Object.assign(s, {
@@ -114,14 +118,21 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
     buttons: buttonsOf(() => s),
     choices: CHOICES.map(([may, text]) => [may, button(text, () => choose(s, may), { id: may })]),
   });
-  return Object.assign(s, {
+  const made = Object.assign(s, {
     showing: showing(s),
     coach: coaching(s),
+    end: endView(
+      s,
+      () => beginAgain(s),
+      () => s.buttons.menu.click(),
+    ),
     stroke: controls(s),
     link: byLink(s),
     training: practice(carom, (setup) => begin(s, setup)),
     space: new Space(s, felt),
   });
+  felt.append(film.canvas, made.end.root);
+  return made;
 }
 function toggleSound(s: Session): void {
   const isOn = !s.settings.sound;

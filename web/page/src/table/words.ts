@@ -38,6 +38,19 @@ export function wordsOfChances(
 
 export const isSafe = ({ kind, ball, keep }: Choice): boolean =>
   ball < 0 && (kind === "safety" || keep < 0.005);
+/** A pot in words: "ball 7 into the side-left pocket". */
+export function wordsOfPot(
+  table: Table,
+  names: readonly string[],
+  { ball, pocket }: Pick<Choice, "ball" | "pocket">,
+  how = "",
+): string {
+  const name = names[ball]!;
+  const into = told(pocketName(table, pocket));
+  return Number(name) > 0
+    ? texts.ballNumberInto(name, into, how)
+    : texts.intoThe(told(name), into, how);
+}
 /** What a choice is, by which the cue ball may be known to meet a cushion first. */
 export function wordsOfChoice(
   table: Table,
@@ -45,19 +58,14 @@ export function wordsOfChoice(
   choice: Choice,
   cushionFirst = false,
 ): string {
-  const { kind, ball, pocket } = choice;
+  const { kind, ball } = choice;
   const hasPockets = table.pockets.length > 0;
   if (ball < 0) {
     const named = WITHOUT[kind] ?? (isSafe(choice) ? WITHOUT.safety : undefined);
     if (named !== undefined) return named;
     return hasPockets ? texts.aStrokeWithoutA : texts.aStrokeAfterWhich;
   }
-  const name = names[ball]!;
-  if (!hasPockets) return texts.theBallFirst(told(name));
+  if (!hasPockets) return texts.theBallFirst(told(names[ball]!));
   const first = cushionFirst && kind !== "kick" ? texts.offACushionFirst : "";
-  const how = `${BY[kind] ?? ""}${first}`;
-  const into = told(pocketName(table, pocket));
-  return Number(name) > 0
-    ? texts.ballNumberInto(name, into, how)
-    : texts.intoThe(told(name), into, how);
+  return wordsOfPot(table, names, choice, `${BY[kind] ?? ""}${first}`);
 }

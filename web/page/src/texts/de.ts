@@ -10,7 +10,7 @@ export const GERMAN: typeof ENGLISH = {
   speedAtTheContact: "Geschwindigkeit beim Kontakt",
   cutAngle: "Schnittwinkel",
   tipToTheRight: "Treffpunkt rechts (+) oder links",
-  tipAboveRolls: "Treffpunkt oben (+) oder unten; 0.4 rollt",
+  tipAboveRolls: "Treffpunkt oben (+) oder unten; 0,4 rollt",
   frictionBetweenTheBalls: "Reibung zwischen den Kugeln",
   frictionWithTheCloth: "Reibung mit dem Tuch",
   restitution: "Stoßzahl",
@@ -19,7 +19,7 @@ export const GERMAN: typeof ENGLISH = {
   throwAgainstCutAngle: "Throw über dem Schnittwinkel",
   throwLeft: "Throw, ° (+ links)",
   orangeThisCollisionGrey:
-    "Orange: dieser Stoß. Grau: Throw bei 45° ohne Effet, wie ihn D. Alciatore für Kugeln angibt, die mit Aramith gereinigt (3.6°), gebraucht (4.9°), mit Alkohol gereinigt (11°) und am Kontakt gekreidet (11.6°) sind.",
+    "Orange: dieser Stoß. Grau: Throw bei 45° ohne Effet, wie ihn D. Alciatore für Kugeln angibt, die mit Aramith gereinigt (3,6°), gebraucht (4,9°), mit Alkohol gereinigt (11°) und am Kontakt gekreidet (11,6°) sind.",
   reportedAt45: "angegeben bei 45°",
   throwAgainstSideSpin: "Throw über dem Seiteneffet",
   tipToTheRightR: "Treffpunkt rechts, R",
@@ -31,7 +31,7 @@ export const GERMAN: typeof ENGLISH = {
   insideTheContact: "Im Kontakt",
   normalImpulseSoFar: "Normalimpuls bis dahin, N s",
   theBallsPressOn:
-    "Die Kugeln drücken etwa 0.2 ms lang aufeinander. Gleiten ist die Geschwindigkeit einer Oberfläche über der anderen; die Annäherung endet, wo die Stauchung in die Rückfederung übergeht.",
+    "Die Kugeln drücken etwa 0,2 ms lang aufeinander. Gleiten ist die Geschwindigkeit einer Oberfläche über der anderen; die Annäherung endet, wo die Stauchung in die Rückfederung übergeht.",
   slipOfTheBalls: "Gleiten der Kugeln",
   ofTheCueBall: "des Spielballs auf dem Tuch",
   ofTheObjectBall: "der Objektkugel auf dem Tuch",
@@ -42,7 +42,7 @@ export const GERMAN: typeof ENGLISH = {
   sideSpinTransferred: "Übertragenes Seiteneffet",
   rollTransferred: "Übertragenes Rollen",
   noThrowWithThe: "Kein Throw mit dem Treffpunkt bei",
-  beyond07R: "jenseits von 0.7 R",
+  beyond07R: "jenseits von 0,7 R",
   energyLost: "Verlorene Energie",
   normalImpulse: "Normalimpuls",
   impulseOfFriction: "Reibungsimpuls",
@@ -142,7 +142,7 @@ export const GERMAN: typeof ENGLISH = {
   andWord: " und ",
   withTip: (tip) => ` mit ${tip}`,
   atMS: (speed, more) => `, mit ${speed} m/s${more}`,
-  thisStrokeErrsLike: " Dieser Stoß gerät so ungenau wie seine.",
+  thisStrokeErrsLike: " Dieser Stoß streut wie seine.",
   hintOf: (stroke, cue, level, chances, errors) =>
     `Tipp: ${stroke}${cue}. ${level} ${chances}.${errors}`,
   theSearchFoundNo: "Die Suche fand keinen Stoß, mit dem diese Übung von hier gelingt.",
@@ -237,7 +237,7 @@ export const GERMAN: typeof ENGLISH = {
     `Der Browser lässt die Seite den Link nicht senden (${reason}).`,
   ofTriesOfDrills: (made, made2) => `${made} von ${made2} Versuchen an Übungen`,
   youAreUnratedUntil: (rating) =>
-    `Bis zu deinem ersten Spiel hast du keine Wertung. Tipps sind die für einen ${rating}er, das Mittel aller Spieler.`,
+    `Bis zu deinem ersten Spiel hast du keine Wertung. Bis dahin gelten Tipps für einen ${rating}er, das Mittel aller Spieler.`,
   yourRatingIsAbout: (rating, low, high, from) =>
     `Deine Wertung ist etwa ${rating} (95 %: ${low} bis ${high}), aus ${from}.`,
   theOtherPageHas: "Die andere Seite hat andere Stöße dieses Spiels: sende den Link noch einmal.",
@@ -276,11 +276,11 @@ export const GERMAN: typeof ENGLISH = {
   nobodyPractice: "niemand: Training",
   aPersonAtThis: "jemand an dieser Seite",
   aPersonByLink: "jemand per Link",
-  theComputerA: (r) => `der Computer, ein ${r}er`,
-  yourStrokes: "Deine Stöße",
-  goWhereYouAim: "gehen, wohin du zielst (ohne Wertung)",
-  errALittleLike: "irren ein wenig, wie die eines 800ers",
-  errLikeA: (r) => `irren wie die eines ${r}ers`,
+  theComputerA: (r) => `Computer, ein ${r}er`,
+  yourStrokes: "Streuung",
+  goWhereYouAim: "keine (ohne Wertung)",
+  errALittleLike: "gering, die eines 800ers",
+  errLikeA: (r) => `die eines ${r}ers`,
   lines: "Linien",
   coachShowsTheChances: "Trainer: zeigt die Chancen eines Stoßes und danach, was er kostete",
   lettersOnTheBalls: "Buchstaben auf Kugeln ohne Nummern, Nummern auch in 3D",
@@ -336,7 +336,7 @@ export const GERMAN: typeof ENGLISH = {
   startDrill: "Übung beginnen",
   practice: "Training",
   itCountsForYour: (drill, tries) =>
-    `${drill}${tries} Sie zählt für deine Wertung: Stöße irren ein wenig, wie die eines 800ers.`,
+    `${drill}${tries} Sie zählt für deine Wertung: deine Stöße streuen ein wenig, wie die eines 800ers.`,
   ofTries: (good, tries) => `${good} von ${tries}`,
   notTried: "nicht versucht",
   practiseNext: (map) => `Übe als Nächstes: ${map}.`,
@@ -383,8 +383,28 @@ export const GERMAN: typeof ENGLISH = {
   waitForTheLink: "warte auf den Link, der nach dieser Aufnahme kommt.",
   playsByLink: (before, name, aim, word) => `${before}${name} spielt${aim}: ${word}`,
   passed: (name) => `${name}: gepasst.`,
+  endOfTheGame: "Das Ende des Spiels",
+  playAgain: "Noch einmal",
+  nextRack: "Nächstes Rack",
+  race: "Racks",
+  oneRack: "eines",
+  raceTo: (racks) => `wer zuerst ${racks} gewinnt`,
+  raceStands: (race, won, lost) => `bis ${race} gewonnene Racks: ${won} : ${lost}`,
+  theRaceIsWon: (most, least) => `Das Match endet ${most} : ${least}.`,
+  bestStrokeOf: (name, isYou, stroke) =>
+    isYou ? `Dein bester Stoß: ${stroke}.` : `Bester Stoß von ${name}: ${stroke}.`,
+  aPotWithRoom: (pot, room) => `${pot}; die Stoßrichtung hatte ${room}° Spielraum`,
+  aPointOffCushions: (cushions) =>
+    `ein Punkt über ${cushions} ${cushions === 1 ? "Bande" : "Banden"}`,
+  firstRating: (rating) => `Deine erste Wertung ist ${rating}.`,
+  ratingChanged: (before, now) => `Deine Wertung war ${before} und ist jetzt ${now}.`,
+  ladder: "Die Leiter: drei gewonnene Spiele gegen eine Wertung ersteigen ihre Stufe",
+  levelStands: (rating, won, needed) =>
+    needed === 0
+      ? `Die Stufe ${rating} ist erstiegen: ${won} Spiele sind gewonnen.`
+      : `Auf der Stufe ${rating} gewonnen: ${won} von 3.`,
   theBallNamed: (name) => `die ${name}`,
-  whoPocketed: (name, fallen) => `${name}: versenkt ${fallen}.`,
+  whoPocketed: (name, fallen) => `${name}: ${fallen} versenkt.`,
   racksWon: (rack, rack2) => `gewonnene Spiele ${rack} : ${rack2}`,
   onThe8: "auf der 8",
   countLeft: (count) => `noch ${count}`,
@@ -394,7 +414,7 @@ export const GERMAN: typeof ENGLISH = {
   playsStroke: (name, stroke) => `${name}: ${stroke}.`,
   thisBrowserDoesNot: (reason) => `Dieser Browser speichert das Spiel nicht: ${reason}.`,
   hint: "Tipp",
-  replay: "Wiederholen",
+  replay: "Nochmal",
   pass: "Passen",
   takeTheCueBall: "Spielball legen",
   leaveTheCueBall: "Spielball liegen lassen",
@@ -423,13 +443,13 @@ export const GERMAN: typeof ENGLISH = {
   nineFeet: "neun Fuß",
   eightFeet: "acht Fuß",
   sevenFeet: "sieben Fuß",
-  nineFeetCornersOf: "neun Fuß, Ecken von 4 1/4 Zoll",
+  nineFeetCornersOf: "neun Fuß, enge Ecken",
   ballsTheyFitChoose: (map) =>
     `balls: sie passen zu ${map}; wähle eines dieser Spiele und importiere noch einmal`,
-  straightPoolTo25: "14/1 endlos, bis 25 Punkte",
-  threeCushionTo10: "Dreiband, bis 10 Punkte",
-  straightRailTo25: "Freie Partie, bis 25 Punkte",
-  fourBallTo10: "Vierball, bis 10 Punkte",
+  straightPoolTo25: "14/1 endlos, bis 25",
+  threeCushionTo10: "Dreiband, bis 10",
+  straightRailTo25: "Freie Partie, bis 25",
+  fourBallTo10: "Vierball, bis 10",
   atPlacesXY: (balls) =>
     `at: ${balls} Stellen x,y sind nötig, mit „in“ für eine Kugel in einer Tasche`,
   direction: "Richtung",
@@ -479,7 +499,7 @@ export const GERMAN: typeof ENGLISH = {
     `${count} ${count === 1 ? "endet" : "enden"} anders als aufgezeichnet, zuerst Stoß ${shot} (Zeile ${line})`,
   playing: (name, isYou) => `${name} ${isYou ? "spielst" : "spielt"} …`,
   fouls: (name, isYou, why) => `${name} ${isYou ? "begehst" : "begeht"} ein Foul: ${why}. `,
-  breaks: (name, isYou) => `${name} ${isYou ? "stößt an" : "stößt an"}`,
+  breaks: (name) => `${name} stößt an`,
   hasWon: (name, isYou, why) => `${name} ${isYou ? "hast" : "hat"} gewonnen${why}.`,
   fellWithoutCushion: (ball) => `Die ${ball} fiel ohne Bande.`,
   didNotFall: (ball) => `Die ${ball} fiel nicht.`,
@@ -495,7 +515,7 @@ export const GERMAN: typeof ENGLISH = {
   play: "Spielen",
   laboratory: "Labor",
   collision: "Zusammenstoß",
-  solver: "Löser",
+  solver: "Rechenverfahren",
   exact: "exakt",
   eulerSteps: "1000 Euler-Schritte",
   loading: "Die Bibliothek wird geladen …",
@@ -506,8 +526,9 @@ export const GERMAN: typeof ENGLISH = {
   language: "Sprache",
   usual: "üblich",
   cloth: "Tuch",
+  conditionDoes: (name, does) => `${name}: ${does}.`,
   mine: (cushion) => `meine: ${cushion}`,
-  calibrateByBanks: "Mit drei Banden eichen",
+  calibrateByBanks: "Mit drei Bandenstößen kalibrieren",
   restitutionFriction: (restitution, friction) => `Stoßzahl ${restitution}, Reibung ${friction}`,
   softSoThat: "sanft, so dass er rollt",
   hardAtItsMiddle: "hart, in seiner Mitte",
@@ -535,7 +556,7 @@ export const GERMAN: typeof ENGLISH = {
     blackball:
       "Rote und Gelbe sind die Gruppen, und die Schwarze kommt zuletzt; nichts wird angesagt. Triff zuerst eine Kugel deiner Gruppe, und lass eine Kugel fallen oder eine Bande treffen. Ein Foul gibt dem anderen einen freien Stoß, mit dem Spielball im Kopffeld oder wo er liegt: er darf jede Kugel treffen und versenken. Die Schwarze zu früh oder mit Foul verliert.",
     heyball:
-      "Wie im 8-Ball sind 1 bis 7 und 9 bis 15 die Gruppen, und die 8 kommt zuletzt, aber nichts wird angesagt. Triff zuerst eine Kugel deiner Gruppe. Nach einem Foul darf der andere den Spielball frei legen; das dritte Foul in Folge verliert, ebenso die 8 zu früh oder mit Foul.",
+      "Wie im 8-Ball sind 1 bis 7 und 9 bis 15 die Gruppen, und die 8 kommt zuletzt, aber nichts wird angesagt: jede Kugel deiner Gruppe, die fällt, lässt dich am Tisch. Fallen auf dem offenen Tisch Kugeln beider Gruppen, bleibt er offen. Triff zuerst eine Kugel deiner Gruppe; danach muss eine Kugel fallen oder eine Bande treffen. Nach einem Foul darf der andere den Spielball frei legen; das dritte Foul in Folge verliert, ebenso die 8 zu früh oder mit Foul.",
     fourball:
       "Dein Ball trifft beide Roten, mit oder ohne Banden, und nicht den Ball des anderen Spielers: das zählt einen Punkt und lässt dich am Tisch. Trifft er keine Rote oder den Ball des anderen, kostet das einen Punkt.",
     eightball:
@@ -547,7 +568,7 @@ export const GERMAN: typeof ENGLISH = {
     straight:
       "Jede Kugel darf angespielt werden; sage Kugel und Tasche an. Jede angesagte Kugel zählt einen Punkt, und jede andere, die mit ihr fällt. Ist eine Kugel übrig, werden die anderen neu aufgebaut. Ein Foul kostet einen Punkt, das dritte in Folge mehr.",
     snooker:
-      "Versenke eine Rote (1), dann eine Farbe deiner Wahl, die zurückkommt, und so weiter; ohne Rote fallen die Farben der Reihe nach: Gelb 2, Grün 3, Braun 4, Blau 5, Pink 6, Schwarz 7. Ein Foul gibt dem anderen mindestens 4 Punkte. Nach einem Foul, das dich snookert, kannst du einen Free Ball haben, oder du lässt den anderen noch einmal spielen. Fiel der Spielball, kommt er ins D.",
+      "Versenke eine Rote (1), dann eine Farbe deiner Wahl, die zurückkommt, und so weiter; ohne Rote fallen die Farben der Reihe nach: Gelb 2, Grün 3, Braun 4, Blau 5, Pink 6, Schwarz 7. Ein Foul gibt dem anderen mindestens 4 Punkte. Lässt dich ein Foul gesnookert zurück, darfst du einen Free Ball spielen oder den anderen noch einmal an den Tisch schicken. Fiel der Spielball, kommt er ins D.",
     onepocket:
       "Nur Kugeln in deiner Tasche zählen, einer der beiden am Fuß; acht gewinnen. Jede Kugel darf zuerst getroffen werden, und nichts wird angesagt. Eine Kugel in deiner Tasche lässt dich am Tisch, eine in der des anderen zählt für ihn. Ein Foul kostet eine Kugel.",
     bank: "Nur Bandenstöße zählen: die angesagte Kugel trifft eine Bande, bevor sie in die angesagte Tasche fällt. Jeder zählt einen Punkt und lässt dich am Tisch. Kugeln, die anders fallen, kommen zurück. Ein Foul kostet einen Punkt.",
@@ -688,7 +709,7 @@ export const GERMAN: typeof ENGLISH = {
       "Versenke die 1; der Spielball trifft zwei Banden oder mehr und fällt nicht.",
     "Bank to the side": "Über Bande zur Mitte",
     "Pot the 1 by a cushion.": "Versenke die 1 über eine Bande.",
-    "Bank up the table": "Über Bande den Tisch hinauf",
+    "Bank up the table": "Über Bande zum Kopf",
     "Bank the 1 off the foot cushion into a corner at the head.":
       "Spiele die 1 über die Fußbande in eine Ecke am Kopf.",
     "Kick by one cushion": "Vorbande",

@@ -281,7 +281,7 @@ export const ENGLISH = {
   aPersonByLink: "a person by link",
   theComputerA: (r: Part) => `the computer, a ${r}`,
   yourStrokes: "Your strokes",
-  goWhereYouAim: "go where you aim (no rating)",
+  goWhereYouAim: "without errors (unrated)",
   errALittleLike: "err a little, like an 800",
   errLikeA: (r: Part) => `err like a ${r}`,
   lines: "Lines",
@@ -385,6 +385,26 @@ export const ENGLISH = {
   playsByLink: (before: Part, name: Part, aim: Part, word: Part) =>
     `${before}${name} plays${aim}: ${word}`,
   passed: (name: Part) => `${name} passed.`,
+  endOfTheGame: "The end of the game",
+  playAgain: "Play again",
+  nextRack: "Next rack",
+  race: "Racks",
+  oneRack: "one",
+  raceTo: (racks: Part) => `a race to ${racks}`,
+  raceStands: (race: Part, won: Part, lost: Part) => `race to ${race}: ${won} : ${lost}`,
+  theRaceIsWon: (most: Part, least: Part) => `The race is won by ${most} : ${least}.`,
+  bestStrokeOf: (name: Part, isYou: boolean, stroke: Part) =>
+    `${isYou ? "Your" : `${name}'s`} best stroke: ${stroke}.`,
+  aPotWithRoom: (pot: Part, room: Part) => `${pot}; its aim had a room of ${room}°`,
+  aPointOffCushions: (cushions: number) =>
+    `a point off ${cushions} ${cushions === 1 ? "cushion" : "cushions"}`,
+  firstRating: (rating: Part) => `Your first rating is ${rating}.`,
+  ratingChanged: (before: Part, now: Part) => `Your rating was ${before}, and is now ${now}.`,
+  ladder: "The ladder: three games won against a rating climb its level",
+  levelStands: (rating: Part, won: Part, needed: number) =>
+    needed === 0
+      ? `The level ${rating} is climbed: you have won ${won} games.`
+      : `Won at the level ${rating}: ${won} of 3.`,
   theBallNamed: (name: Part) => `the ${name}`,
   whoPocketed: (name: Part, fallen: Part) => `${name} pocketed ${fallen}.`,
   racksWon: (rack: Part, rack2: Part) => `racks won ${rack} : ${rack2}`,
@@ -426,13 +446,13 @@ export const ENGLISH = {
   nineFeet: "nine feet",
   eightFeet: "eight feet",
   sevenFeet: "seven feet",
-  nineFeetCornersOf: "nine feet, corners of 4 1/4 in",
+  nineFeetCornersOf: "nine feet, tight corners",
   ballsTheyFitChoose: (map: Part) =>
     `balls: they fit ${map}; choose one of these games, then import again`,
-  straightPoolTo25: "Straight pool, to 25 points",
-  threeCushionTo10: "Three-cushion, to 10 points",
-  straightRailTo25: "Straight rail, to 25 points",
-  fourBallTo10: "Four-ball, to 10 points",
+  straightPoolTo25: "Straight pool, to 25",
+  threeCushionTo10: "Three-cushion, to 10",
+  straightRailTo25: "Straight rail, to 25",
+  fourBallTo10: "Four-ball, to 10",
   atPlacesXY: (balls: Part) =>
     `at: ${balls} places x,y are needed, with "in" for a ball in a pocket`,
   direction: "Direction",
@@ -508,6 +528,7 @@ export const ENGLISH = {
   language: "Language",
   usual: "usual",
   cloth: "Cloth",
+  conditionDoes: (name: Part, does: Part) => `${name}: ${does}.`,
   mine: (cushion: Part) => `mine: ${cushion}`,
   calibrateByBanks: "Calibrate by three banks",
   restitutionFriction: (restitution: Part, friction: Part) =>
@@ -538,7 +559,7 @@ export const ENGLISH = {
     blackball:
       "Reds and yellows are the groups, and the black comes last; nothing is called. Meet a ball of your group first, and let a ball fall or meet a cushion. A foul gives the other a free stroke, with the cue ball in baulk or where it lies: he may meet and pot any ball. The black too early or with a foul loses.",
     heyball:
-      "As in eight-ball the groups are 1 to 7 and 9 to 15, and the 8 comes last, but nothing is called. Meet a ball of your group first. After a foul the other has the cue ball in hand; the third foul in a row loses, and so does the 8 too early or with a foul.",
+      "As in eight-ball the groups are 1 to 7 and 9 to 15, and the 8 comes last, but nothing is called: each ball of your group that falls keeps the turn. If balls of both groups fall on the open table, it stays open. Meet a ball of your group first; then a ball must fall or meet a cushion. After a foul the other has the cue ball in hand; the third foul in a row loses, and so does the 8 too early or with a foul.",
     fourball:
       "Your ball meets both reds, with or without cushions, and does not meet the other player's ball: that counts a point and keeps the turn. A point is lost if it meets no red, or the other player's ball.",
     eightball:

@@ -1,0 +1,109 @@
+// The last view of a game, over the table: who won and why, the score, the best stroke, what the
+// game did to the rating, and what one does next.
+import { colourOf } from "../../../player/words.js";
+import { wordsOfPot } from "../table/words.js";
+import { button, el } from "../ui.js";
+import { type Deed, OPTIONS, type Play } from "./game.js";
+import { isRaceOver, racksOf } from "./keep.js";
+import { levels } from "./ladder.js";
+import type { EndView, Session } from "./parts.js";
+import { nameOf, wordsOfEnd, wordsOfScore } from "./state.js";
+import { texts } from "../texts/texts.js";
+
+/** By how many degrees the aim of a pot could have turned; none where the pot was no plain one. */
+function roomOf({ carom, table }: Play, { balls, cue, met, pots }: Deed): number | undefined {
+  const [pot] = pots;
+  if (!pot || pot.ball !== met) return undefined;
+  const { outcome, phi } = carom.aim(table, balls, cue, pot, OPTIONS);
+  const off = (angle: number): number => ((angle - cue.phi + 540) % 360) - 180;
+  const isInside = off(phi[0]) <= 0.01 && off(phi[1]) >= -0.01;
+  return outcome === "falls" && isInside ? phi[1] - phi[0] : undefined;
+}
+/** The best stroke of a player: the pot with the least room for its aim, or the most cushions. */
+function bestOf(play: Play, who: 0 | 1): string {
+  const own = play.deeds.filter((deed) => deed.who === who);
+  if (!play.hasPockets) {
+    const most = Math.max(0, ...own.map(({ cushions }) => cushions));
+    return most > 0 ? texts.aPointOffCushions(most) : "";
+  }
+  const rooms = own.flatMap((deed) => {
+    const room = roomOf(play, deed);
+    return room === undefined ? [] : [{ ...deed.pots[0]!, room }];
+  });
+  const [best] = rooms.sort((a, b) => a.room - b.room);
+  if (!best) return "";
+  return texts.aPotWithRoom(wordsOfPot(play.table, play.names, best), best.room.toFixed(2));
+}
+
+/** The ball that the game ended with, as an emblem; `isWon` puts a wreath of light around it. */
+function emblem({ last, names, winner }: Play, isWon: boolean): HTMLElement {
+  const fallen = last?.shot?.events.filter(({ type, a }) => type === "ball_pocket" && a > 0) ?? [];
+  const ball = winner === last?.who ? (fallen.at(-1)?.a ?? last?.cue.ball ?? 0) : 0;
+  const name = names[ball] ?? "";
+  const colour = colourOf(name, ball);
+  const root = el("div", { class: "emblem", "aria-hidden": "true" });
+  root.classList.toggle("won", isWon);
+  const number = Number(name) > 0 ? name : "";
+  const disc = number && '<circle r="17" fill="#fbfaf5"/>';
+  root.innerHTML = `<svg viewBox="-50 -50 100 100"><defs><radialGradient id="shade" cx="0.36" cy="0.3" r="0.8"><stop offset="0" stop-color="#fff" stop-opacity="0.75"/><stop offset="0.28" stop-color="#fff" stop-opacity="0.1"/><stop offset="1" stop-color="#000" stop-opacity="0.6"/></radialGradient></defs><circle r="40" fill="${colour}"/>${disc}<text y="7.5" text-anchor="middle" font-size="21" font-weight="bold" fill="#16181b">${number}</text><circle r="40" fill="url(#shade)"/></svg>`;
+  return root;
+}
+
+/** What a game against the computer did to one's rating, and to one's level. */
+function wordsOfRating(s: Session, before: EndView["rated"]): string[] {
+  if (!before) return [];
+  const now = s.training.rating();
+  const changed = before.isGuess
+    ? texts.firstRating(now.rating)
+    : texts.ratingChanged(before.rating, now.rating);
+  const { against } = s.play.setup;
+  const level = levels().find(({ rating }) => rating === against);
+  return level ? [changed, texts.levelStands(against, level.won, level.needed)] : [changed];
+}
+
+export function endView(s: Session, again: () => void, list: () => void): EndView {
+  const root = el("section", { id: "end", "aria-label": texts.endOfTheGame, hidden: "" });
+  const hide = (): void => void (root.hidden = true);
+  function show(): void {
+    const { play, seat } = s;
+    const winner = play.winner!;
+    const name = nameOf(play, winner, seat);
+    const isShared = play.setup.against === "person";
+    const isWon = isShared || winner === seat;
+    const title = texts.hasWon(name, name === texts.you, "").replace(/\.$/, "");
+    const racks = racksOf(play);
+    const race =
+      play.setup.race !== undefined && isRaceOver(play)
+        ? texts.theRaceIsWon(Math.max(...racks), Math.min(...racks))
+        : "";
+    const who = isShared ? winner : seat;
+    const best = bestOf(play, who);
+    const isRace = play.setup.race !== undefined;
+    const reasons = [race, wordsOfEnd(play) && `${wordsOfEnd(play)}.`];
+    const lines = [
+      race === "" ? wordsOfScore(play, seat, racks) : "",
+      best && texts.bestStrokeOf(nameOf(play, who, seat), !isShared, best),
+      ...wordsOfRating(s, s.end.rated),
+    ];
+    const told = (words: readonly string[], attributes = {}): HTMLElement[] =>
+      words
+        .filter((line) => line !== "")
+        .map((line) => el("p", attributes, `${line[0]!.toUpperCase()}${line.slice(1)}`));
+    const next = isRace && race === "" ? texts.nextRack : texts.playAgain;
+    root.replaceChildren(
+      button("×", hide, { class: "close", "aria-label": texts.close }),
+      emblem(play, isWon),
+      el("h2", {}, title),
+      ...told(reasons, { class: "why" }),
+      ...told(lines),
+      el(
+        "div",
+        { class: "row" },
+        button(next, again, { id: "play-again", class: "main" }),
+        button(texts.yourGames, list, { id: "end-games" }),
+      ),
+    );
+    root.hidden = false;
+  }
+  return { root, rated: undefined, show, hide };
+}
