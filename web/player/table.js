@@ -205,8 +205,9 @@ function drawLight(g, view, table) {
  * baulk line 29 in from the baulk cushion, a D of 11 1/2 in, the pyramid spot halfway from the
  * middle to the top cushion, the black one 12 3/4 in from it. Pool has a head and a foot spot.
  * @param {Table} table
+ * @returns {{ lines: Point[][], spots: Point[] }}
  */
-function markingsOf({ width, length, pockets }) {
+export function markingsOf({ width, length, pockets }) {
   const middle = width / 2;
   if (pockets.length === 0) return { lines: [], spots: [] };
   const at = (/** @type {number[]} */ ...heights) =>

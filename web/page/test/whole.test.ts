@@ -8,6 +8,7 @@ import { gzipSync } from "node:zlib";
 import { describe, expect, test } from "vitest";
 import type { Page } from "playwright-core";
 import { browserPath, page, pages, violations } from "./page.js";
+import { LANGUAGES } from "../src/texts/texts.js";
 import { root, run, thereIsACommand } from "../../test/support.js";
 
 /**
@@ -29,13 +30,15 @@ const iconOf = (one: Page, name: string): Promise<object> =>
       g.drawImage(image, 0, 0, size, size);
       return g.getImageData(0, 0, size, size).data;
     };
-    const [shown, drawn] = [pixelsOf(icon), pixelsOf(await load("icon.svg"))];
+    const shown = pixelsOf(icon);
+    const drawn = pixelsOf(await load("icon.svg"));
     const far = (a: number, b: number): boolean => Math.abs(a - b) > 40;
     const isBeyond = (k: number): boolean => {
       const [x, y] = [k % size, Math.floor(k / size)].map((c) => (c + 0.5) / size - 0.5);
       return Math.hypot(x!, y!) > 0.4;
     };
-    let [differs, beyond] = [0, 0];
+    let differs = 0;
+    let beyond = 0;
     for (let at = 0; at < shown.length; at++) {
       if (far(shown[at]!, drawn[at]!)) differs++;
       if (isBeyond(Math.floor(at / 4)) && far(shown[at]!, shown[at % 4]!)) beyond++;
@@ -93,6 +96,46 @@ describe.runIf(browserPath !== undefined)("the page", () => {
         press,
       ).toBeLessThanOrEqual(0);
     }
+    await one.close();
+  });
+
+  test.each(Object.keys(LANGUAGES))("on a phone nothing is cut: %s", async (language) => {
+    const one = await open("", { width: 390, height: 844, touch: true });
+    await one.evaluate((language) => {
+      localStorage.setItem("carom-language", language);
+      const row = { when: "2026-11-28T18:00", game: "eightball", meant: "ball 7", best: "ball 3" };
+      localStorage.setItem("carom-log", JSON.stringify([{ ...row, phi: 0.3, value: 0.5 }]));
+    }, language);
+    await one.reload();
+    await one.waitForSelector("main[aria-busy=false]");
+    // The tip grows under a finger.
+    const tip = (await one.locator("#tip-ball").boundingBox())!;
+    await one.mouse.move(tip.x + tip.width / 2, tip.y + tip.height / 2);
+    await one.mouse.down();
+    const grown = (await one.locator("#tip-ball").boundingBox())!;
+    expect(grown.width).toBeGreaterThan(1.5 * tip.width);
+    expect(grown.x + grown.width).toBeLessThanOrEqual(390);
+    await one.mouse.up();
+    await one.locator("#new-game").click();
+    const cut = await one.locator("select:visible").evaluateAll((selects) =>
+      selects.flatMap((select) => {
+        const { font, paddingLeft, paddingRight } = getComputedStyle(select);
+        const arrow = 18;
+        const room =
+          select.clientWidth - parseFloat(paddingLeft) - parseFloat(paddingRight) - arrow;
+        const g = document.createElement("canvas").getContext("2d")!;
+        g.font = font;
+        return Array.from((select as HTMLSelectElement).options).flatMap(({ text }) =>
+          g.measureText(text).width > room ? `${select.id}: ${text}` : [],
+        );
+      }),
+    );
+    expect(cut).toEqual([]);
+    await one.locator("#open-log").click();
+    const beyond = await one
+      .locator("#log, #log .scrolls")
+      .evaluateAll((all) => all.map((part) => part.scrollWidth - part.clientWidth));
+    expect(beyond).toEqual([0, 0]);
     await one.close();
   });
 

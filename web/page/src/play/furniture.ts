@@ -1,7 +1,7 @@
 // What never moves of the view in three dimensions: slate with cloth, cushions, wood, pockets with
 // leather, legs, a floor, and the lamp above the table. Lengths in m, z upwards from the cloth.
 import * as THREE from "three";
-import { arcOf, WOOD } from "../../../player/table.js";
+import { arcOf, markingsOf, WOOD } from "../../../player/table.js";
 import type { Table } from "../../../player/words.js";
 
 export interface Furnished {
@@ -233,12 +233,32 @@ export function furnish(scene: THREE.Scene, { table, cloth, wood }: Furnished): 
       ),
     );
   }
+  const marks = drawnOn(table);
+  if (marks.length > 0)
+    scene.add(joined(marks, new THREE.MeshLambertMaterial({ color: "#b9c9c0" })));
   const below = new THREE.MeshLambertMaterial({ color: wood });
   const legs = [0.12, 0.88].flatMap((x) =>
     [0.1, 0.5, 0.9].map((y) => box(x * width, y * length, 0.15, 0.15, FLOOR, -0.2)),
   );
   const apron = box(width / 2, length / 2, width + FRAME, length + FRAME, -0.22, -0.06);
   scene.add(joined([apron, ...legs], below), joined(sightsOf(table), ivory));
+}
+
+/** Lines and spots on the cloth. */
+function drawnOn(table: Table): THREE.BufferGeometry[] {
+  const { lines, spots } = markingsOf(table);
+  const high = 0.0006;
+  const parts = lines.flatMap((points) =>
+    points.slice(1).map((to, k) => {
+      const from = points[k]!;
+      const part = new THREE.PlaneGeometry(distance(from, to) + 0.002, 0.003);
+      return part
+        .rotateZ(angleFrom(from, to))
+        .translate((from[0] + to[0]) / 2, (from[1] + to[1]) / 2, high);
+    }),
+  );
+  const dots = spots.map(([x, y]) => new THREE.CircleGeometry(0.005, 12).translate(x, y, high));
+  return [...parts, ...dots];
 }
 
 /** Sights on the wood: long rails in eight parts, short ones in four; none on large tables. */

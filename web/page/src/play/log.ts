@@ -1,9 +1,10 @@
 // The log of strokes: what was meant and what it cost, kept by the browser, and a page of them to
 // print.
+import { GAMES, PLAYED } from "../table/games.js";
 import { percent } from "../table/words.js";
 import { button, dialog, el } from "../ui.js";
 import { keepText, keptValue } from "./keep.js";
-import { texts } from "../texts/texts.js";
+import { texts, told } from "../texts/texts.js";
 
 const LOG = "carom-log";
 const MOST = 500;
@@ -32,6 +33,9 @@ export interface Row {
  */
 export const costOf = ({ value, bestValue }: Row): number | undefined =>
   value === undefined ? undefined : Math.max(bestValue! - value, 0);
+
+/** The game or the drill of a row. */
+const nameOfGame = (game: string): string => (PLAYED[game] ?? GAMES[game])?.text ?? told(game);
 
 const rows = (): Row[] => keptValue<Row[]>(LOG, [], Array.isArray);
 export const keepRow = (row: Row): void =>
@@ -95,8 +99,8 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
             {},
             ...[
               row.when.replace("T", " "),
-              row.game,
-              row.meant,
+              nameOfGame(row.game),
+              told(row.meant),
               fixed(row.phi, 2),
               fixed(row.speed, 1),
               fixed(row.side, 2),
@@ -105,7 +109,7 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
               row.best,
               share(row.bestValue),
               share(costOf(row)),
-            ].map((text) => el("td", {}, text)),
+            ].map((text, k) => el("td", { "data-head": head[k]! }, text)),
           ),
         ),
     );

@@ -203,7 +203,7 @@ export class Scene {
     const half = this.#camera.fov / 2;
     const down =
       Math.min(
-        half - 4 + Math.atan2(high, back + far) * DEGREES,
+        half - 2.2 + Math.atan2(high, back + far) * DEGREES,
         0.5 * half + Math.atan2(high, back) * DEGREES,
       ) / DEGREES;
     const x = at[0]! - back * along[0];
