@@ -72,10 +72,11 @@ def pockets():
         for angle, size in sizes.items():
             cells = [f"{published.size(side, angle, v):.0f}" for v in speeds]
             row("side" if side else "corner", angle, size, *cells)
-    speeds = (1, 2.5, 5, 8)
+    speeds = (1, 2, 3, 5, 8)
     head("corner pocket of `9ft`, mm", *(f"{v:g} m/s" for v in speeds))
     for angle in (45, 30, 15, 8):
-        cells = [f"{published.size(False, angle, v, TABLE_POOL_9FT):.0f}" for v in speeds]
+        sizes = [published.size(False, angle, v, TABLE_POOL_9FT, 0.00025) for v in speeds]
+        cells = [f"{size:.1f}" for size in sizes]
         row(f"{angle} degrees to the rail", *cells)
 
 

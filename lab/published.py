@@ -356,9 +356,11 @@ def rows_of_systems():
 def flight(kind, place, direction, speed, roll, side, nth):
     """Place and velocity of a lone ball just before its contact number `nth` with a rail, a jaw or
     a pocket: it starts at a place in a direction, radians from +x, with side spin R w / v to the
-    left.
+    left. The speed is that of the 9 ft table. The texts say how hard a stroke is, not how fast, so
+    on another table the ball goes as many lengths of that one: the speed has the root of the ratio.
     """
     R, x, y = ball().radius, cos(direction), sin(direction)
+    speed *= sqrt(table(kind).length / table(TABLE_POOL_9FT).length)
     events, _, _ = shoot(
         kind,
         [
@@ -493,18 +495,19 @@ def pockets_of_tp():
     return made
 
 
-def size(side_pocket, angle, speed, kind=None):
+def size(side_pocket, angle, speed, kind=None, step=0.001):
     """The width, mm, of the paths of a rolling ball that end in a pocket without another cushion
     farther than half a meter: at an angle to the rail of a corner, or to the line across the table.
+    Paths lie `step` apart, m.
     """
     made = kind if kind is not None else pockets_of_tp()
     made = table(made) if isinstance(made, int) else made
-    R, step, away = ball().radius, 0.001, 0.45
+    R, away = ball().radius, 0.45
     middle = (0, 0.5 * made.length) if side_pocket else (0, 0)
     along, across = cos(radians(angle)), sin(radians(angle))
     way = (-along, -across) if side_pocket else (-across, -along)
     fall = 0
-    for k in range(-70, 71):
+    for k in range(-round(0.07 / step), round(0.07 / step) + 1):
         x = middle[0] - away * way[0] - k * step * way[1]
         y = middle[1] - away * way[1] + k * step * way[0]
         if min(x, y) <= R:
