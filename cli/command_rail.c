@@ -162,6 +162,8 @@ static void case_of_first(const series *s, one_case *c) {
 static bool check(const series *s) {
   carom_ball_kind kind;
   const values *models = &s->in[MODEL];
+  if (!condition_fits(&s->asked.with, (carom_game)s->game))
+    return false;
   for (int k = 0; k < models->count; k++)
     if (!ball_of_game(s, (int)models->at[k].x, &kind) &&
         (isnan(s->in[FRICTION].at[0].x) || isnan(s->in[RESTITUTION].at[0].x))) {

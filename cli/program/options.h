@@ -101,8 +101,12 @@ typedef struct given_numbers {
   carom_cue cue;
   int lists; /* numbers with several values, of which no bit is set */
   number_list list[LISTS_MOST];
-  bool in_lines; /* the lines of the shots have them already */
+  bool in_lines;         /* the lines of the shots have them already */
+  const char *condition; /* the last condition of a pool table that is given, or NULL */
 } given_numbers;
+
+/* Whether a game is played on the tables that the conditions describe; else a complaint. */
+bool condition_fits(const given_numbers *given, carom_game game);
 
 /* Gives value `k` of a list. */
 void give_of_list(const number_list *list, int k, given_numbers *given);

@@ -391,24 +391,53 @@ static bool read_numbers(const option_row *row, const carom_number *n, char *tex
   return false;
 }
 
-/* Gives the numbers of a condition of the table by its word; false where it is none. */
-static bool give_condition(const char *name, given_numbers *given) {
+/* What a condition of the table changes, by its name, with its word; NULL where it is none. */
+static const char *condition_named(const char *name, carom_ball_kind *kind) {
+  const char *word;
+  int k = 0;
+  while ((word = carom_word(CAROM_WORDS_CONDITION, k)) != NULL && strcmp(word, name) != 0)
+    k++;
+  memset(kind, 0, sizeof *kind);
+  carom_condition_give((carom_condition)k, kind);
+  return word;
+}
+
+/* Gives the numbers of a condition; false after a complaint: an impact has no rolling ball. */
+static bool give_condition(const option_row *row, const char *word, const carom_ball_kind *kind,
+                           given_numbers *given) {
   const carom_number *n;
-  carom_ball_kind kind;
-  int condition = 0;
-  while (carom_word(CAROM_WORDS_CONDITION, condition) != NULL &&
-         strcmp(carom_word(CAROM_WORDS_CONDITION, condition), name) != 0)
-    condition++;
-  memset(&kind, 0, sizeof kind);
-  if (carom_condition_give((carom_condition)condition, &kind) == 0)
+  given->condition = word;
+  if (row->only == CUSHION_ONLY && kind->restitution_cushion == 0.0) {
+    complain("--%s: %s has no effect on one impact; `carom shoot --with` takes it", row->name,
+             word);
     return false;
+  }
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
     double x;
-    memcpy(&x, (const char *)&kind + n->offset, sizeof x);
+    memcpy(&x, (const char *)kind + n->offset, sizeof x);
     if (x != 0.0)
       give_value(given, CAROM_PART_BALL, k, x);
   }
   return true;
+}
+
+bool condition_fits(const given_numbers *given, carom_game game) {
+  const carom_ball_kind pool = carom_ball_kind_of(CAROM_GAME_POOL), own = carom_ball_kind_of(game);
+  if (given->condition == NULL ||
+      (own.mu_roll == pool.mu_roll && own.restitution_cushion == pool.restitution_cushion))
+    return true;
+  complain("--with: %s is a condition of tables of pool, not of %s", given->condition,
+           carom_word(CAROM_WORDS_GAME, (int)game));
+  return false;
+}
+
+/* Whether the rows of a command have their own restitution and friction, which no condition
+ * changes: those of impacts that are not of a game. */
+static bool has_own_cushion(const option_row *row, const given_numbers *given) {
+  if (row->only != CUSHION_ONLY)
+    return false;
+  const shared_options *shared = (const void *)((const char *)given - row->field);
+  return !shared->of_game;
 }
 
 OPTION_SET(set_numbers) {
@@ -428,7 +457,13 @@ OPTION_SET(set_numbers) {
         return false;
       continue;
     }
-    if (number == NULL && row->only != CUSHION_ONLY && give_condition(token, given)) {
+    carom_ball_kind changed;
+    const char *condition = NULL;
+    if (number == NULL && !has_own_cushion(row, given))
+      condition = condition_named(token, &changed);
+    if (condition != NULL) {
+      if (!give_condition(row, condition, &changed, given))
+        return false;
       n = NULL;
       continue;
     }
@@ -474,7 +509,7 @@ static void give(const given_numbers *given, void *to, bool to_cushion) {
     int32_t offset = n->offset;
     if (to_cushion)
       offset = n->cushion_offset;
-    if ((given->which >> k & 1) != 0)
+    if ((given->which >> k & 1) != 0 && offset >= 0)
       memcpy((char *)to + offset, (const char *)&given->kind + n->offset, sizeof(double));
   }
 }
@@ -648,7 +683,8 @@ ROW(option_least_step, "least-step", rail.least_step, 0, "P", set_amount, 0, CUS
     "smallest step of euler, N s (default 0; pooltool: 0.001)");
 ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
     "numbers of the model, such as smooth_q=0.2,smooth_x=1,smooth_t=1: `carom models NAME` lists "
-    "them");
+    "them. Or the file of a fit, FIT.json; or, of `carom rail`, a condition of a pool table's "
+    "cushions, such as old_cushion");
 
 ROW(option_player, "player", player, 0, "RATING", set_player, 0, ANY_KIND,
     "a player with this Fargo rating, 200 to 850, such as 500");

@@ -22,6 +22,12 @@ static OPTION_SET(set_table) {
   struct chosen_table *table = field;
   char all[MOST_WORDS], name[MOST_WORDS];
   json_fault fault;
+  if (strstr(text, ".json") != NULL) {
+    complain("--%s is the name of a table, not a file: --with %.80s takes what `carom calibrate` "
+             "or a fit wrote",
+             row->name, text);
+    return false;
+  }
   text = table_spelt(text);
   snprintf(name, sizeof name, "%.*s", (int)strcspn(text, ","), text);
   if (!set_place(row, name, words_of(row->words, true, all), &table->kind))
@@ -233,6 +239,8 @@ static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion,
   l->table = t->table;
   free_table(t);
   l->game = game_of_table(kind);
+  if (!condition_fits(&numbers->all, l->game))
+    return false;
   carom_ball_kind ball;
   kind_of_game(l->game, cushion, &ball);
   give_ball(&numbers->all, &ball);

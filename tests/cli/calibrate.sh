@@ -19,5 +19,10 @@ done
 carom shoot --cue 0.6,0.8 --aim 62 --speed 2 --csv | cmp - medium_cloth.csv && echo "medium is the usual cloth"
 cat ./*_*.csv | grep '^1,' | sort -u | wc -l
 try carom shoot --cue 0.6,0.8 --with fast_felt
-try carom rail --with old_cushion
 carom models old_cushion
+try carom rail --angle 45 --with old_cushion
+try carom rail --angle 45 --with my.json
+try carom rail --with fast_cloth
+try carom rail --game snooker --with old_cushion
+try carom shoot --table threecushion --cue 0.6,0.8 --with fast_cloth
+try carom shoot --table my.json --cue 0.6,0.8
