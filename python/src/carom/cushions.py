@@ -266,8 +266,10 @@ def calibrate(
 
     Raises
     ------
+    ValueError
+        There are not three readings, or one is not above 0 and below 8.
     CaromError
-        A reading is not above 0 and below 8, or a bank does not come back.
+        A bank does not come back.
     """
     from carom import tables  # a table is made of layouts, which do not know of cushions
 
@@ -280,6 +282,8 @@ def calibrate(
         read = as_array(readings, "readings", np.float64)
         if read.shape != (3,):
             raise ValueError(f"readings: three are needed, of shape (3,), not {read.shape}")
+        if not ((read > 0) & (read < 8)).all():
+            raise ValueError(f"readings: each must be above 0 and below 8, not {read.tolist()}")
         given = ffi.new("double[3]", read.tolist())
     code = lib.carom_calibrate(pointer("carom_table[]", record), kind, given, found)
     if code < 0:

@@ -521,6 +521,12 @@ def balls(
             f"cushion_model: {game} has no constants for {cushion_model!r}; the balls have those for its default model",
             stacklevel=2,
         )
+    pool = lib.carom_ball_kind_of(GAMES["pool"])
+    if (
+        conditions
+        and lib.carom_ball_kind_of(number).restitution_cushion != pool.restitution_cushion
+    ):
+        raise ValueError(f"conditions: they are of tables of pool, not of {game}")
     for word in conditions:
         condition = choice(_CONDITIONS, word, "conditions")
         lib.carom_condition_give(condition, ffi.addressof(ball, "kind"))

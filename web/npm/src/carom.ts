@@ -631,13 +631,18 @@ export class Carom {
   /**
    * The constants of a game's balls for a model of the cushion, which has its own, under conditions
    * of a pool table, such as "fast_cloth". Throws a RangeError where the game has none for the
-   * model.
+   * model, or has conditions and is not played on tables of pool.
    */
   kind(
     game: Game,
     cushion: ShotOptions["cushionModel"] = "default",
     conditions: readonly Condition[] = [],
   ): BallKind {
+    if (
+      conditions.length > 0 &&
+      this.kind(game).restitutionCushion !== this.kind("pool").restitutionCushion
+    )
+      throw new RangeError(`conditions: they are of tables of pool, not of ${game}`);
     if (
       !this.#call.carom_ball_kind_for(
         value("carom_game", game, "game"),
@@ -663,8 +668,8 @@ export class Carom {
   /**
    * The restitution and friction of a table's cushions with their standard deviations, from where
    * the three banks came back, in sights from their corner. Without readings: where they come back
-   * on the usual table. Throws a CaromError where a reading is not above 0 and below 8, or a bank
-   * does not come back.
+   * on the usual table. Throws a RangeError where a reading is not above 0 and below 8, and a
+   * CaromError where a bank does not come back.
    */
   calibrate(
     readings: readonly [number, number, number] | undefined,
@@ -675,6 +680,10 @@ export class Carom {
     this.#resident = undefined;
     writeTable(this.#memory, of, table);
     this.kind(game); // which leaves it at `detail`
+    if (readings?.some((one) => !(one > 0 && one < 8)))
+      throw new RangeError(
+        `readings: each must be above 0 and below 8, not ${readings.join(", ")}`,
+      );
     if (readings) this.#memory.f64.set(readings, number / 8);
     this.#refuse(
       this.#call.carom_calibrate(of, detail, readings ? number : 0, text),

@@ -121,12 +121,13 @@ test("three banks find the cushions of a table, and conditions are named", () =>
   expect(found.misfit).toBeLessThan(1e-6);
   expect(carom.bank(0).aim).toBe(2.5);
   expect(() => carom.bank(3)).toThrow("bank 3");
-  expect(() => carom.calibrate([4.7, 5.6, 8.5], here)).toThrow("readings 4.7, 5.6, 8.5");
+  expect(() => carom.calibrate([4.7, 5.6, 8.5], here)).toThrow("below 8, not 4.7, 5.6, 8.5");
   for (const [condition] of rows.words.CONDITION!)
     expect(carom.kind("pool", "default", [condition as "fast_cloth"]).radius).toBeGreaterThan(0);
   const slow = carom.kind("pool", "default", ["slow_cloth", "old_cushion"]);
   expect([slow.muRoll, slow.restitutionCushion]).toEqual([0.015, 0.75]);
   expect(() => carom.kind("pool", "default", ["felt" as never])).toThrow("conditions: it must be");
+  expect(() => carom.kind("snooker", "default", ["fast_cloth"])).toThrow("pool, not of snooker");
 });
 
 test("words of games, tables and racks", () => {
