@@ -2,6 +2,7 @@
 arguments in error are named.
 """
 
+import dataclasses
 import os
 import runpy
 import signal
@@ -622,6 +623,107 @@ def test_the_bot_for_ten_ball(capsys):
     assert (
         len(told) > 5 and told[-1] == f"after {len(told)} strokes: player 0 has won"
     )  # the one with a rating of 750
+
+
+class Every(Corner):
+    """Rules with all methods that C may call, one of which raises."""
+
+    race = "points"
+    raises = ""
+
+    def __init__(self):
+        self.asked = set()
+
+    def ask(self, method):
+        self.asked.add(method)
+        if method == self.raises:
+            raise KeyError(f"in {method}")
+
+    def on(self, state, in_play):
+        self.ask("on")
+        return super().on(state, in_play)
+
+    def judge(self, state, in_play, facts, call):
+        self.ask("judge")
+        return carom.Turn("pass", spot={*facts.potted, *facts.off} - {0})
+
+    def left(self, state, in_play):
+        self.ask("left")
+        return 2, 2
+
+    def pockets(self, state):
+        self.ask("pockets")
+        return range(6)
+
+    def points(self, state, in_play, ball):
+        self.ask("points")
+        assert ball in in_play or ball == -1
+        return 1.0
+
+    def settle(self, state, table, balls, turn):
+        self.ask("settle")
+        state[0] = 7
+        turn = super().settle(state, table, balls, turn)
+        return dataclasses.replace(turn, points=table.length)
+
+
+class Valued(Every):
+    """With a value too, without which the library asks for points."""
+
+    def value(self, state, layout, in_hand):
+        self.ask("value")
+        return len(layout) / 16
+
+
+def test_every_method_of_rules():
+    best = carom.plan(TABLE, ORDER, rules="nineball", shots=300)[0]
+    every, valued = Every(), Valued()
+    ruling = carom.referee(TABLE, ORDER, best["cue"], rules=every)
+    # what settle() of the class does is what the library does without one
+    spots = type("Spots", (Every,), {"settle": carom.Rules.settle})()
+    without = carom.referee(TABLE, ORDER, best["cue"], rules=spots)
+    assert ruling.put == {1} and ruling.balls.tobytes() == without.balls.tobytes()
+    assert (ruling.state[0], ruling.points, without.points) == (7, TABLE.length, 0.0)
+    kinds = {"shots": 100}
+    carom.plan(TABLE, LAYOUT, rules=every, **kinds)
+    assert every.asked == {"on", "judge", "left", "pockets", "points", "settle"}
+    carom.plan(TABLE, LAYOUT, rules=valued, **kinds)
+    assert "value" in valued.asked and "points" not in valued.asked
+
+    match = carom.Match(valued, TABLE, balls=ORDER)
+    for method in every.asked | {"value"}:
+        every.raises = valued.raises = method
+        raised = 0
+        for call in (
+            lambda: carom.plan(TABLE, LAYOUT, rules=every, **kinds),
+            lambda: carom.plan(TABLE, LAYOUT, rules=valued, **kinds),
+            lambda: carom.referee(TABLE, ORDER, best["cue"], rules=every),
+            lambda: match.stroke(best["cue"]),
+        ):
+            try:
+                call()
+            except KeyError as wrong:
+                assert wrong.args == (f"in {method}",)
+                raised += 1
+        assert raised > 0, method
+    every.raises = valued.raises = ""
+    carom.plan(TABLE, LAYOUT, rules=valued, **kinds)  # what was raised once is over
+    match.stroke(best["cue"])
+
+
+@pytest.mark.parametrize(
+    ("method", "gives", "match"),
+    [
+        ("value", "half", "value: a chance of 0 to 1 is needed, .* not 'half'"),
+        ("points", None, "points: points are needed, not None"),
+        ("settle", None, "settle: it must return a carom.Turn, not None"),
+    ],
+)
+def test_what_other_methods_cannot_say(method, gives, match):
+    wrong = type("Wrong", (Every,), {method: lambda *_: gives})()
+    with pytest.raises(TypeError, match=match):
+        carom.plan(TABLE, LAYOUT, rules=wrong, shots=100)
+        carom.referee(TABLE, ORDER, carom.cue(speed=1.0), rules=wrong)
 
 
 def test_errors_of_rules():

@@ -15,7 +15,17 @@ import numpy.typing as npt
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._described import Rules as RulesWord
-from carom._rows import Array, Arrays, as_array, choice, copied, listing, pointer, whole
+from carom._rows import (
+    Array,
+    Arrays,
+    as_array,
+    choice,
+    copied,
+    listing,
+    number,
+    pointer,
+    whole,
+)
 from carom._shot_options import Options
 from carom.layouts import LAST, Table, of_record, one_cue
 from carom.results import Label, Shot, Shots
@@ -42,6 +52,7 @@ LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4, "baulk":
 _RACES = {"own": 0, "shared": 1, "alone": 2, "points": 3}
 _WORDS = 8  # of the state of rules of one's own
 _USUAL = Options()
+_NO_ROOM = "there is no room for a ball that comes back"
 _MEMBERS = tuple(name for name in dtypes.rules_state.names or () if name != "user")
 _POCKETED, _OFF = int(Label.POCKETED), int(Label.OFF)  # with which NumPy compares in half the time
 
@@ -197,6 +208,74 @@ class Rules:
         """
         return range(8)
 
+    def value(self, state: list[int], layout: dtypes.Records, in_hand: bool) -> float:
+        """The chance that the player at the table wins from a layout, 0 to 1: an array of
+        `carom.dtypes.ball_state`, shape (balls,). Without an opponent: how many balls the player is
+        still going to pot.
+
+        Default: an estimate from the two best pots and from `left`.
+        """
+        raise NotImplementedError
+
+    def points(self, state: list[int], in_play: frozenset[int], ball: int) -> float:
+        """In a race for points: the points of a ball that falls in the next stroke; for ball -1 the
+        mean points of a later pot.
+
+        Default: 1.
+        """
+        raise NotImplementedError
+
+    def settle(self, state: list[int], table: Table, balls: dtypes.Records, turn: Turn) -> Turn:
+        """Do what depends on the places of the balls after a stroke that was judged: return the
+        turn, changed or not. `balls` is an array of `carom.dtypes.shot_ball`, shape (balls,); what
+        is written to it and to `state` stays.
+
+        Default: puts the balls of `turn.spot` on the foot spot, or behind it. Rules of your own do
+        so by `super().settle(...)`.
+        """
+        for ball in sorted(turn.spot):
+            code = lib.carom_spot_ball(
+                pointer("carom_table *", table.record),
+                pointer("carom_shot_ball[]", balls),
+                len(balls),
+                ball,
+            )
+            if code < 0:
+                raise CaromError(code, "Turn.spot", text=_NO_ROOM)
+        return turn
+
+
+_OPTIONAL = ("pockets", "value", "points", "settle")
+_CHANCE = "a chance of 0 to 1 is needed, or without an opponent a number of balls"
+
+
+def _array_of(at: Any, count: int, of: np.dtype[Any]) -> Array:
+    """Records of C, which are written where they are."""
+    made: Array = np.frombuffer(ffi.buffer(at, count * of.itemsize), of)
+    return made
+
+
+def _turn_of(turn: Any) -> Turn:
+    """A turn of C."""
+    words = {number: word for word, number in _TURNS.items()}
+    leaves = {number: word for word, number in LEAVES.items()}
+    return Turn(
+        cast("Any", words[turn.outcome]),
+        cast("Any", leaves[turn.leave]),
+        Foul(turn.foul),
+        of_set(turn.spot),
+        turn.points,
+    )
+
+
+def _write_turn(to: Any, turn: Any, method: str) -> None:
+    """What a method of rules returned, to a turn of C."""
+    if not isinstance(turn, Turn):
+        raise TypeError(f"{method}: it must return a carom.Turn, not {turn!r}")
+    to.outcome = choice(_TURNS, turn.turn, "Turn.turn")
+    to.leave = choice(LEAVES, turn.leave, "Turn.leave")
+    to.foul, to.spot, to.points = int(turn.foul), _set_of(turn.spot, "Turn.spot"), turn.points
+
 
 class Made:
     """The rules for C, with what has to live as long; and the first exception of a method of Rules."""
@@ -209,6 +288,7 @@ class Made:
         opening: bool = False,
     ) -> None:
         self.raised: BaseException | None = None
+        self.kept: list[Any] = []
         self.rules = rules
         self.stop = ffi.new("int32_t *")
         """Of plans; set by an exception."""
@@ -292,26 +372,17 @@ class Made:
 
             return ffi.callback(kind, call, error=otherwise, onerror=failed)
 
+        def keep(game: Any, state: list[int], method: str) -> None:
+            game.user = [
+                whole(word, f"{method}: state[{k}]", most=2**64 - 1) for k, word in enumerate(state)
+            ]
+
         def judge(game: Any, in_play: int, cue_ball: int, facts: Any, call: Any) -> Any:
             state = list(game.user)
             turn = rules.judge(state, of_set(in_play), _facts(facts), (call.ball, call.pocket))
-            if not isinstance(turn, Turn):
-                raise TypeError(f"judge: it must return a carom.Turn, not {turn!r}")
-            game.user = [
-                whole(word, f"judge: state[{k}]", most=2**64 - 1) for k, word in enumerate(state)
-            ]
-            made = ffi.new(
-                "carom_turn *",
-                {
-                    "outcome": choice(_TURNS, turn.turn, "Turn.turn"),
-                    "leave": choice(LEAVES, turn.leave, "Turn.leave"),
-                },
-            )
-            made.foul, made.spot, made.points = (
-                int(turn.foul),
-                _set_of(turn.spot, "Turn.spot"),
-                turn.points,
-            )
+            keep(game, state, "judge")
+            made = ffi.new("carom_turn *")
+            _write_turn(made, turn, "judge")
             there = of_set(made.spot & (in_play & ~(facts.down | facts.off) | 1))
             if there:
                 raise ValueError(
@@ -329,14 +400,40 @@ class Made:
         def pockets(game: Any) -> int:
             return _set_of(rules.pockets(list(game.user)), "pockets", lib.CAROM_POCKETS_MOST - 1)
 
+        def value(game: Any, layout: Any, count: int, in_hand: int) -> float:
+            states = _array_of(layout, count, dtypes.ball_state).copy()
+            return number(rules.value(list(game.user), states, bool(in_hand)), "value", _CHANCE)
+
+        def points(game: Any, in_play: int, ball: int) -> float:
+            made = rules.points(list(game.user), of_set(in_play), ball)
+            return number(made, "points", "points are needed")
+
+        def settle(game: Any, table: Any, balls: Any, count: int, turn: Any) -> None:
+            if self.raised is not None:
+                return  # judge() has no turn that could be settled
+            state = list(game.user)
+            on_table = Table.from_record(_array_of(table, 1, dtypes.table)[0])
+            there = _array_of(balls, count, dtypes.shot_ball)
+            made = rules.settle(state, on_table, there, _turn_of(turn))
+            keep(game, state, "settle")
+            _write_turn(turn, made, "settle")
+
         lost = ffi.new("carom_turn *", {"outcome": lib.CAROM_TURN_LOSE})[0]
-        self.kept = (
-            guarded("carom_rules_judge *", judge, lost),
-            guarded("carom_rules_left *", left, None),
-            guarded("carom_rules_on *", on, 0),
-            guarded("carom_rules_pockets *", pockets, 0),
-        )
-        self.c.judge, self.c.left, self.c.on, self.c.pockets = self.kept
+        methods: dict[str, tuple[Callable[..., Any], Any]] = {
+            "judge": (judge, lost),
+            "left": (left, None),
+            "on": (on, 0),
+            "pockets": (pockets, 0),
+            "value": (value, 0.0),
+            "points": (points, 0.0),
+            "settle": (settle, None),
+        }
+        for name, (call, otherwise) in methods.items():
+            # The library has its own of those that a class may leave out.
+            if name in _OPTIONAL and getattr(type(rules), name) is getattr(Rules, name):
+                continue
+            self.kept.append(guarded(f"carom_rules_{name} *", call, otherwise))
+            setattr(self.c, name, self.kept[-1])
 
     def check_layout(self, table: Table, layout: dtypes.Records) -> None:
         """Refuses what is no layout of the game, for a plan."""
@@ -556,7 +653,7 @@ def referee(
     if beyond:
         raise ValueError(f"Turn.spot: there are {len(layout)} balls, none is {beyond[0]}")
     if code < 0:
-        raise CaromError(code, "Turn.spot", text="there is no room for a ball that comes back")
+        raise CaromError(code, "Turn.spot", text=_NO_ROOM)
     return ruling_of(ruling, len(layout), isinstance(rules, Rules), shots[0])
 
 
