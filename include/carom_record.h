@@ -118,8 +118,9 @@ CAROM_API carom_status carom_record_read(carom_record *record, const char *line,
  * stopped, with the bits that all machines share. The balls begin where the shot before left them.
  * `shot` may be NULL; otherwise the caller sets events, brief and room in it, and the call sets the
  * rest. Returns the status of carom_shoot(), or CAROM_ERROR_NULL, or CAROM_ERROR_RECORD if there is
- * nothing to play or the recording has ended. record->played says how the shot ended; after a line
- * that was read, compare it with record->recorded. A shot with a wrong argument changes nothing. */
+ * nothing to play, if a stroke would find a ball that moves, or if the recording has ended.
+ * record->played says how the shot ended; after a line that was read, compare it with
+ * record->recorded. A shot with a wrong argument changes nothing. */
 CAROM_API carom_status carom_record_play(carom_record *record, carom_record_kind kind,
                                          carom_shot *shot);
 

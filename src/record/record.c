@@ -699,6 +699,18 @@ static bool stops(const carom_shot_options *o) {
   return o->time_most > 0.0 || o->stop_at != 0 || o->first_of != 0 || o->events_most != 0;
 }
 
+/* Whether a ball moves where the last shot left them. */
+static bool is_moving(const carom_record *record) {
+  for (int64_t k = 0; k < record->count; k++) {
+    int64_t label = record->balls[k].state.label;
+    if (record->moved != 0)
+      label = record->final[k].label;
+    if (label != CAROM_BALL_STATIONARY && label != CAROM_BALL_POCKETED && label != CAROM_BALL_OFF)
+      return true;
+  }
+  return false;
+}
+
 carom_status carom_record_play(carom_record *record, carom_record_kind kind, carom_shot *wanted) {
   static const carom_shot none = {0};
   enum { UNTOUCHED = -1 }; /* a label that no ball has */
@@ -715,6 +727,11 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
       record->count > CAROM_BALLS_MOST || (goes && record->moved == 0)) {
     reader in = {.record = record};
     wrong(&in, "there is no shot to be played");
+    return CAROM_ERROR_RECORD;
+  }
+  if (!goes && record->cue.speed > 0.0 && is_moving(record)) {
+    reader in = {.record = record};
+    wrong(&in, "balls move, so that no ball is struck: the shot before is to be continued");
     return CAROM_ERROR_RECORD;
   }
 

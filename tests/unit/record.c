@@ -343,15 +343,37 @@ TEST(an_ended_shot_does_not_go_on) {
   memset(&game, 0, sizeof game);
   carom_table_make(CAROM_TABLE_POOL_9FT, &game.table);
   game.count = 2;
-  carom_rack(CAROM_RACK_THREECUSHION, &game.table, 1e-4, 5, game.balls, CAROM_BALLS_MOST);
   game.cue = carom_cue_of(CAROM_GAME_POOL);
   game.cue.speed = 1.5;
   for (int stopped = 1; stopped >= 0; stopped--) {
+    carom_rack(CAROM_RACK_THREECUSHION, &game.table, 1e-4, 5, game.balls, CAROM_BALLS_MOST);
+    game.moved = 0;
     game.options.time_most = stopped ? 0.5 : 0.0;
     ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_SHOT, NULL),
                      stopped ? CAROM_STOPPED_AT_TIME : CAROM_OK);
   }
   ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL), CAROM_ERROR_STATE);
+}
+
+/* A stroke while balls move would strike none, so it is refused and changes nothing; also once the
+ * balls were taken over, and of a recording that is read. */
+TEST(no_stroke_while_balls_move) {
+  write_game();
+  game.kind = CAROM_RECORD_EVENT;
+  game.options.time_most = 0.5;
+  ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_SHOT, NULL), CAROM_STOPPED_AT_TIME);
+  for (int settled = 0; settled < 2; settled++) {
+    again = game;
+    if (settled)
+      ck_assert_int_eq(carom_record_settle(&again), CAROM_OK);
+    ck_assert_int_eq(carom_record_play(&again, CAROM_RECORD_SHOT, NULL), CAROM_ERROR_RECORD);
+    ck_assert_ptr_nonnull(strstr(again.fault, "balls move"));
+    ck_assert_uint_eq(again.hash, game.hash);
+    ck_assert_int_eq(again.pending, game.pending);
+  }
+  game.options.time_most = 0.0;
+  ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL), CAROM_OK);
+  ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_SHOT, NULL), CAROM_OK);
 }
 
 /* A step of the hash of lines, as games.md has it. */
