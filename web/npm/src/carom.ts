@@ -49,6 +49,7 @@ import type {
 } from "./types.js";
 import type {
   GameState,
+  OwnGame,
   Impact,
   MatchOptions,
   Measures,
@@ -207,6 +208,7 @@ export class Carom {
       writeShotOptions: (options) => this.#writeShotOptions(options),
       played: (...of) => this.#played(...of),
       readState: (...of) => this.#plans.readState(...of),
+      checkOwn: () => this.#plans.own.check(),
       writeState: (...of) => this.#plans.writeState(...of),
       readRuling: (...of) => this.#plans.readRuling(...of),
       think: (table, balls, options, slice) =>
@@ -1122,14 +1124,24 @@ export class Carom {
   }
 
   /**
-   * Begins a match between two players by the rules of a game, or of a state of it; without them
-   * one whose lines are read at first.
+   * Begins a match between two players by the rules of a game, or of a state of it; without a table
+   * one whose lines are read at first, of a game of your own with its rules.
    */
-  match(): Match;
-  match(rules: GameState["rules"] | GameState, table: Table, options?: MatchOptions): Match;
-  match(rules?: GameState["rules"] | GameState, table?: Table, options: MatchOptions = {}): Match {
+  match(own?: OwnGame): Match;
+  match(
+    rules: GameState["rules"] | GameState | OwnGame,
+    table: Table,
+    options?: MatchOptions,
+  ): Match;
+  match(
+    rules?: GameState["rules"] | GameState | OwnGame,
+    table?: Table,
+    options: MatchOptions = {},
+  ): Match {
     const match = new Match(this.#recordings);
-    if (rules && table) match.begin(typeof rules === "string" ? { rules } : rules, table, options);
+    const game = typeof rules === "string" ? { rules } : rules;
+    if (game && table) match.begin(game, table, options);
+    else if (game) match.readBy(game);
     return match;
   }
 
@@ -1236,7 +1248,7 @@ export class Carom {
   }
 
   /** The balls that may be met first, and potted. */
-  ballsOn(game: GameState, balls: readonly ShotBall[]): number[] {
+  ballsOn(game: GameState | OwnGame, balls: readonly ShotBall[]): number[] {
     refuseUnknown(game, KEYS.game, "game");
     return this.#plans.on(game, balls);
   }
@@ -1249,7 +1261,7 @@ export class Carom {
     table: Table,
     balls: readonly ShotBall[],
     cue: Partial<Cue>,
-    game: GameState,
+    game: GameState | OwnGame,
     call?: Call,
     options: ShotOptions = {},
   ): Ruling {
@@ -1261,7 +1273,7 @@ export class Carom {
    * The same of a shot that was played, which is not played again; `cueBall` is the index of the
    * cue ball.
    */
-  rule(shot: Shot, game: GameState, call?: Call, cueBall = 0): Ruling {
+  rule(shot: Shot, game: GameState | OwnGame, call?: Call, cueBall = 0): Ruling {
     refuseUnknown(game, KEYS.game, "game");
     if (shot.facts === undefined) throw new TypeError("shot: one of a batch has no facts");
     this.#reside(shot);

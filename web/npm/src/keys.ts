@@ -9,6 +9,7 @@ import type {
   Line,
   MatchOptions,
   Motion,
+  OwnTurn,
   PlanOptions,
   ShotBall,
 } from "./types.js";
@@ -28,6 +29,8 @@ const GAME: Record<keyof GameState, 1> = {
   on: 1,
   freeBall: 1,
   target: 1,
+  own: 1,
+  user: 1,
 };
 const keysOf = (struct: keyof typeof options): string[] => options[struct].map(({ key }) => key);
 
@@ -43,6 +46,7 @@ export const KEYS = {
   shot: keysOf("carom_shot_options"),
   line: all<Line>({ id: 1, tableName: 1, table: 1, names: 1, balls: 1, cue: 1 }),
   game: all<GameState>(GAME),
+  turn: all<OwnTurn>({ turn: 1, leave: 1, reason: 1, spot: 1, points: 1 }),
   match: all<MatchOptions>({ seed: 1, player: 1, balls: 1, hand: 1, shot: 1 }),
   aim: all<AimOf>({ ball: 1, pocket: 1, via: 1 }),
   plan: [

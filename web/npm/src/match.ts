@@ -2,13 +2,14 @@
 import { Owner } from "./batches.js";
 import { CaromError } from "./error.js";
 import { layout, names, values } from "./generated/layout.js";
-import { HANDS, members } from "./plans.js";
+import { HANDS, type Rules } from "./plans.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { Exports, Pointer } from "./memory.js";
 import type { Host as RecordingHost } from "./recording.js";
 import type { Shot } from "./shot.js";
 import {
   indexOf,
+  members,
   readBalls,
   readStruct,
   readTable,
@@ -33,6 +34,8 @@ import type {
 } from "./types.js";
 
 const MATCH = layout.carom_match.offset;
+/** The number of a game of the caller's in recordings. */
+const OWN = 1000;
 
 /** What a match waits for; "over": nothing. */
 export type Phase = "none" | "stroke" | "place" | "moving" | "over";
@@ -52,11 +55,13 @@ export interface Bounds {
 export interface Host extends RecordingHost {
   cue(fields: Partial<Cue>): Cue;
   writeShotOptions(options: ShotOptions): Pointer;
-  readState(at: Pointer, rules: GameState["rules"]): GameState;
+  readState(at: Pointer, game: Rules): GameState;
+  /** Throws what rules of the caller's threw in the last call. */
+  checkOwn(): void;
   writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer;
   /** Plays a shot with its events, by options in the module's memory. */
   film(table: Table, balls: readonly ShotBall[], cue: Cue, options: Pointer): Shot;
-  readRuling(at: Pointer, rules: GameState["rules"], balls: readonly ShotBall[]): Ruling;
+  readRuling(at: Pointer, game: Rules, balls: readonly ShotBall[]): Ruling;
   think(
     table: Table,
     balls: readonly ShotBall[],
@@ -75,10 +80,22 @@ export class Match extends Owner<Host> {
   /** The last stroke, for its film. */
   #struck: { balls: ShotBall[]; cue: Cue } | undefined;
   #film: Shot | undefined;
+  #own: GameState["own"];
 
   /** @internal */
   constructor(host: Host) {
     super(host, [layout.carom_match.size]);
+  }
+
+  /** @internal The rules of the caller's for lines that are read. */
+  readBy(game: Partial<GameState>): void {
+    this.#own = game.own;
+    const rules = this.#host.writeState(game, []) - layout.carom_plan_rules.offset.state;
+    this.#host.memory.u8.copyWithin(
+      this.#at + MATCH.rules,
+      rules,
+      rules + layout.carom_plan_rules.size,
+    );
   }
 
   /** @internal */
@@ -86,7 +103,10 @@ export class Match extends Owner<Host> {
     refuseUnknown(options, KEYS.match, "options");
     const { memory } = this.#host;
     const { seed, player, balls, hand = "no", shot = {} } = options;
-    const rules = value("carom_rules_kind", game.rules ?? "eightball", "rules");
+    this.#own = game.own;
+    const rules = game.own ? OWN : value("carom_rules_kind", game.rules ?? "eightball", "rules");
+    if (game.own && balls === undefined)
+      throw new TypeError("balls: rules of your own have no rack; a layout is needed");
     const who = whole(player, "player", 1);
     const tableAt = memory.allocate(layout.carom_table.size);
     const ballsAt = memory.allocate(values.CAROM_BALLS_MOST * layout.carom_shot_ball.size);
@@ -122,7 +142,9 @@ export class Match extends Owner<Host> {
     const balls = line.startsWith('{"shot"') ? this.balls : undefined;
     try {
       memory.u8.set(bytes, text);
-      this.#told(memory.exports.carom_match_read(this.#at, scratch, text, bytes.length));
+      const code = memory.exports.carom_match_read(this.#at, scratch, text, bytes.length);
+      this.#host.checkOwn();
+      this.#told(code);
     } finally {
       memory.free(text);
       memory.free(scratch);
@@ -150,9 +172,8 @@ export class Match extends Owner<Host> {
   }
   /** How the game stands for the player at the table. */
   get game(): GameState {
-    const rules = names.carom_rules_kind[this.#recorded("rules")]!;
     const state = this.#at + MATCH.rules + layout.carom_plan_rules.offset.state;
-    return this.#host.readState(state, rules as GameState["rules"]);
+    return this.#host.readState(state, this.#rules);
   }
   /** A stroke, a place of the cue ball in hand, the rest of a shot that was stopped, or nothing. */
   get phase(): Phase {
@@ -199,7 +220,7 @@ export class Match extends Owner<Host> {
   /** The last ruling. */
   get ruling(): Ruling | undefined {
     if (this.#number("rulings") === 0) return undefined;
-    return this.#host.readRuling(this.#at + MATCH.ruling, this.game.rules, this.balls);
+    return this.#host.readRuling(this.#at + MATCH.ruling, this.#rules, this.balls);
   }
   /** The cue of the last stroke. */
   get cue(): Cue | undefined {
@@ -324,6 +345,10 @@ export class Match extends Owner<Host> {
   #record(of: keyof typeof layout.carom_record.offset): Pointer {
     return this.#at + MATCH.record + layout.carom_record.offset[of];
   }
+  get #rules(): Rules {
+    const rules = names.carom_rules_kind[this.#recorded("rules")] ?? "eightball";
+    return { rules, own: this.#own };
+  }
   #recorded(of: "count" | "rules" | "player" | "shots"): number {
     return Number(this.#host.memory.i64[this.#record(of) / 8]);
   }
@@ -334,8 +359,19 @@ export class Match extends Owner<Host> {
     return new TextDecoder().decode(bytes).match(/.*\n/g) ?? [];
   }
   #act(act: (at: Pointer, call: Exports) => number): boolean {
+    const { memory } = this.#host;
     this.#lines.push(...this.#written);
-    return this.#told(act(this.#at, this.#host.memory.exports));
+    const [at, size] = [this.#at, layout.carom_match.size];
+    const before = this.#own && memory.u8.slice(at, at + size);
+    const code = act(at, memory.exports);
+    try {
+      this.#host.checkOwn();
+    } catch (error) {
+      memory.u8.set(before!, at); // an act whose rules threw has not been
+      memory.i64[(at + MATCH.size) / 8] = 0n;
+      throw error;
+    }
+    return this.#told(code);
   }
   /** Throws what was refused; else whether a shot has ended. */
   #told(code: number): boolean {

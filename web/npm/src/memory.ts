@@ -47,14 +47,33 @@ export class Memory {
   #u8 = new Uint8Array();
   #i64 = new BigInt64Array();
   readonly #text = new TextDecoder();
+  #isPaused = false;
 
-  constructor(readonly exports: Exports) {}
+  /** `own` has the functions of own.c, which the module imports. */
+  constructor(
+    readonly exports: Exports,
+    readonly own: Record<string, (...numbers: number[]) => number> = {},
+  ) {}
+
+  /**
+   * Runs functions of the caller's, which the library has called: meanwhile nothing else may use
+   * the memory, because the call of the library still reads it. With `isPaused` false the opposite.
+   */
+  paused<T>(run: () => T, isPaused = true): T {
+    this.#isPaused = isPaused;
+    try {
+      return run();
+    } finally {
+      this.#isPaused = !isPaused;
+    }
+  }
 
   get buffer(): ArrayBuffer {
     return this.exports.memory.buffer;
   }
 
   #renew(): void {
+    if (this.#isPaused) throw new Error("carom: rules cannot call the library that calls them");
     const buffer = this.buffer;
     if (this.#f64.buffer === buffer) return;
     this.#f64 = new Float64Array(buffer);
@@ -137,17 +156,20 @@ export async function start(build: Build): Promise<Memory> {
     clock_time_get: now as (...numbers: number[]) => number,
     emscripten_notify_memory_growth: () => undefined,
   };
+  const own: Memory["own"] = {};
   const imports: WebAssembly.Imports = {};
   for (const wanted of WebAssembly.Module.imports(module)) {
-    (imports[wanted.module] ??= {})[wanted.name] =
-      known[wanted.name] ??
+    const { name } = wanted;
+    if (wanted.module === "carom_own") known[name] = (...numbers) => own[name]!(...numbers);
+    (imports[wanted.module] ??= {})[name] =
+      known[name] ??
       (() => {
-        throw new Error(`carom: the library called ${wanted.name}(), which has no meaning here`);
+        throw new Error(`carom: the library called ${name}(), which has no meaning here`);
       });
   }
   const instance = await WebAssembly.instantiate(module, imports);
   const exports = instance.exports as unknown as Exports & { _initialize?: () => void };
   buffer = () => exports.memory.buffer;
   exports._initialize?.();
-  return new Memory(exports);
+  return new Memory(exports, own);
 }

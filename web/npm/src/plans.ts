@@ -4,9 +4,12 @@ import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import { LAST, refuseOrder } from "./lines.js";
 import type { Memory, Pointer } from "./memory.js";
+import { OwnRules } from "./own.js";
 import {
   indexOf,
+  members,
   readBalls,
+  readFacts,
   readStruct,
   refuseName,
   setStruct,
@@ -29,7 +32,6 @@ import type {
   Ruling,
   Score,
   ShotBall,
-  ShotFacts,
   ShotOptions,
   Table,
 } from "./types.js";
@@ -39,7 +41,6 @@ const RULES = layout.carom_plan_rules;
 const OPTIONS = layout.carom_plan_options;
 const JOB = layout.carom_plan_job;
 const CHOICE = layout.carom_choice;
-const FACTS = layout.carom_facts;
 const RULING = layout.carom_ruling.offset;
 const POT = layout.carom_pot;
 const PART = layout.carom_part;
@@ -75,6 +76,8 @@ export interface Host {
   refuse(code: number, field?: string): void;
 }
 
+/** The game of a state. */
+export type Rules = Partial<Pick<GameState, "rules" | "own">>;
 type Method = (...numbers: Pointer[]) => number;
 
 /** Refuses what is no layout of a game, for a plan. */
@@ -106,6 +109,7 @@ function numbersOf(call: Call | undefined): { ball: number; pocket: number } {
 
 export class Plans {
   readonly #host: Host;
+  readonly own: OwnRules;
   readonly #at: Record<
     | "player"
     | "opponent"
@@ -123,6 +127,7 @@ export class Plans {
 
   constructor(host: Host) {
     this.#host = host;
+    this.own = new OwnRules(host.memory);
     const room = (bytes: number): Pointer => host.memory.allocate(bytes);
     this.#at = {
       player: room(PLAYER.size),
@@ -141,6 +146,11 @@ export class Plans {
 
   get #memory(): Memory {
     return this.#host.memory;
+  }
+
+  #refuse(code: number, field?: string): void {
+    this.own.check();
+    this.#host.refuse(code, field);
   }
 
   player({ errors: given, fargo }: { errors?: number; fargo?: number }): Player {
@@ -165,7 +175,7 @@ export class Plans {
         writeStruct(memory, rows + k * SCORE.size, "carom_score", one, `scores[${k}]`);
       const code = memory.exports.carom_rating_of(rows, BigInt(scores.length), made);
       const { row, ...rating } = readStruct<Rating & { row: number }>(memory, made, "carom_rating");
-      this.#host.refuse(code, `scores[${row}]`);
+      this.#refuse(code, `scores[${row}]`);
       return rating;
     } finally {
       memory.free(rows);
@@ -246,7 +256,7 @@ export class Plans {
           const [low, high] = inHand === "anywhere" ? [0, 0] : [corners, corners + 16];
           code = memory.exports.carom_plan_hand(job, low, high, choices, best, found);
         }
-        this.#host.refuse(code, "plan");
+        this.#refuse(code, "plan");
         const many = memory.i32[found / 4]!;
         if (many > 0)
           return Array.from({ length: many }, (_, k) =>
@@ -269,7 +279,7 @@ export class Plans {
       throw new TypeError(
         `inHand: it must be the hand of a ruling, ${[...new Set(HANDS)].map((one) => `"${one}"`).join(", ")}, or two corners [[x, y], [x, y]], not ${String(inHand)}`,
       );
-    this.#host.refuse(memory.exports.carom_hand_bounds(leave, table, radius, at), "inHand");
+    this.#refuse(memory.exports.carom_hand_bounds(leave, table, radius, at), "inHand");
   }
 
   /** The names of the rails or pockets of the table in the module's memory. */
@@ -329,7 +339,7 @@ export class Plans {
       );
       write(part + PART.offset.index, typeof one === "string" ? index(one, "via", rails) : one);
     }
-    this.#host.refuse(
+    this.#refuse(
       memory.exports.carom_aim(at.table, at.balls, balls.length, shot, pot, at.cue),
       "aim",
     );
@@ -355,20 +365,22 @@ export class Plans {
     };
   }
 
-  on(game: GameState, balls: readonly ShotBall[]): number[] {
+  on(game: Partial<GameState>, balls: readonly ShotBall[]): number[] {
     this.#writeRules(game, balls);
     // A function of the rules, by the module's table of functions.
     const on = this.#memory.exports.__indirect_function_table.get(
       this.#memory.u32[(this.#at.rules + RULES.offset.on) / 4]!,
     ) as Method;
-    return members(on(this.#at.rules + RULES.offset.state, inPlay(balls)), balls.length);
+    const set = on(this.#at.rules + RULES.offset.state, inPlay(balls));
+    this.own.check();
+    return members(set, balls.length);
   }
 
   referee(
     table: Table,
     balls: readonly ShotBall[],
     cue: Partial<Cue>,
-    game: GameState,
+    game: Partial<GameState>,
     call: Call | undefined,
     options: ShotOptions,
   ): Ruling {
@@ -394,7 +406,7 @@ export class Plans {
   rule(
     balls: readonly ShotBall[],
     shot: Pointer,
-    game: GameState,
+    game: Partial<GameState>,
     call: Call | undefined,
     cueBall: number,
   ): Ruling {
@@ -405,7 +417,7 @@ export class Plans {
     const { ball, pocket } = numbersOf(call);
     memory.i32[callAt / 4] = ball;
     memory.i32[callAt / 4 + 1] = pocket;
-    this.#host.refuse(
+    this.#refuse(
       memory.exports.carom_referee(
         rules,
         at.table,
@@ -418,11 +430,11 @@ export class Plans {
       ),
       "balls",
     );
-    return this.readRuling(ruling, game.rules, balls);
+    return this.readRuling(ruling, game, balls);
   }
 
   /** A carom_ruling in the module's memory; `balls` have what it leaves as it was. */
-  readRuling(ruling: Pointer, rules: GameState["rules"], balls: readonly ShotBall[]): Ruling {
+  readRuling(ruling: Pointer, game: Rules, balls: readonly ShotBall[]): Ruling {
     const memory = this.#memory;
     const { text } = this.#at;
     memory.exports.carom_ruling_string(ruling, text, 256);
@@ -432,7 +444,7 @@ export class Plans {
       "carom_turn",
     );
     const reason = names.carom_foul[turn.foul]!;
-    const state = this.readState(ruling + RULING.state, rules);
+    const state = this.readState(ruling + RULING.state, game);
     const { score, lost } = readStruct<C.RulesState>(
       memory,
       ruling + RULING.state,
@@ -447,7 +459,7 @@ export class Plans {
       points: turn.points,
       text: memory.text(text)!,
       score: [score[0] - lost[0], score[1] - lost[1]],
-      facts: this.#readFacts(ruling + RULING.facts, balls.length),
+      facts: readFacts(memory, ruling + RULING.facts, balls.length),
       balls: readBalls(memory, ruling + RULING.balls, balls.length).map((ball, k) => ({
         ...balls[k],
         ...ball,
@@ -460,7 +472,7 @@ export class Plans {
   /**
    * A carom_rules_state in the module's memory; and one that is written there, once it is checked.
    */
-  readState(at: Pointer, rules: GameState["rules"]): GameState {
+  readState(at: Pointer, { rules = "eightball", own }: Rules): GameState {
     const { group, opening, may, ...state } = readStruct<C.RulesState & { group: number }>(
       this.#memory,
       at,
@@ -471,7 +483,7 @@ export class Plans {
       group: names.carom_group[group]!,
       opening: opening !== 0,
       may: MAY.filter((_, k) => (may >> k) & 1),
-      ...of(state, MEMBERS),
+      ...(own ? { own, user: this.own.user(at) } : of(state, MEMBERS)),
     };
   }
 
@@ -497,9 +509,10 @@ export class Plans {
 
   #writeRules(game: Partial<GameState>, balls: readonly ShotBall[]): void {
     const { rules = "eightball", group = "open", opening = false, may = [] } = game;
-    refuseOrder(balls, rules);
     const { rules: at } = this.#at;
     const memory = this.#memory;
+    if (game.own) return this.own.write(at, game.own, game.user ?? []);
+    refuseOrder(balls, rules);
     const kind = value("carom_rules_kind", rules, "rules");
     memory.exports.carom_plan_rules_of(at, kind);
     const last = LAST[rules];
@@ -541,7 +554,7 @@ export class Plans {
     this.#writePlayer(player, options.player ?? this.player({}), "player");
     const shot = this.#host.writeShotOptions(options.shot ?? {});
     this.#writeRules(options, balls);
-    refuseLayout(table, balls, options.rules ?? "eightball");
+    if (!options.own) refuseLayout(table, balls, options.rules ?? "eightball");
     writeOptions(memory, optionsAt, "carom_plan_options", options);
     if (options.runOut)
       setStruct(memory, optionsAt, "carom_plan_options", { chanceOpponent: 1 }, false);
@@ -565,35 +578,10 @@ export class Plans {
     });
   }
 
-  #readFacts(at: Pointer, count: number): ShotFacts {
-    const { first, cushionsBefore, cushionsAfter, cushions, pocket, pocketTime, touches } =
-      readStruct<C.Facts>(this.#memory, at, "carom_facts");
-    const all = (field: "down" | "off" | "frozen" | "pushed" | "jumped"): number[] =>
-      members(this.#memory.u32[(at + FACTS.offset[field]) / 4]!, count);
-    const potted = all("down").sort((a, b) => pocketTime[a]! - pocketTime[b]!);
-    return {
-      first,
-      cushionsBefore,
-      cushionsAfter,
-      cushions: cushions.slice(0, count),
-      potted: potted.map((ball) => ({ ball, pocket: pocket[ball]!, time: pocketTime[ball]! })),
-      off: all("off"),
-      frozen: all("frozen"),
-      pushed: all("pushed"),
-      jumped: all("jumped"),
-      touches,
-    };
-  }
-
   #readChoice(at: Pointer): Choice {
     const { kind, ...choice } = readStruct<C.Choice>(this.#memory, at, "carom_choice");
     return { ...choice, kind: names.carom_plan_kind[kind]! };
   }
-}
-
-/** The balls of a set. */
-export function members(set: number, count = 32): number[] {
-  return Array.from({ length: count }, (_, k) => k).filter((k) => (set >>> k) & 1);
 }
 
 function inPlay(balls: readonly ShotBall[]): number {

@@ -8,7 +8,17 @@ import {
 } from "./generated/layout.js";
 import { KEYS, meant, refuseUnknown } from "./keys.js";
 import type { Memory, Pointer } from "./memory.js";
-import type { BallState, EventType, Motion, ShotBall, ShotEvent, Table, Vec3 } from "./types.js";
+import type * as C from "./generated/structs.js";
+import type {
+  BallState,
+  EventType,
+  Motion,
+  ShotBall,
+  ShotEvent,
+  ShotFacts,
+  Table,
+  Vec3,
+} from "./types.js";
 
 export type StructName = keyof typeof layout;
 
@@ -326,5 +336,42 @@ export function readEvent(memory: Memory, at: Pointer): Omit<ShotEvent, "slip"> 
     after: states(EVENT.after),
     cluster: i32[(at + EVENT.cluster) / 4]!,
     impulse: memory.f64[(at + EVENT.impulse) / 8]!,
+  };
+}
+
+/** The balls of a set. */
+export function members(set: number, count = 32): number[] {
+  return Array.from({ length: count }, (_, k) => k).filter((k) => (set >>> k) & 1);
+}
+
+/** The set of balls, or of others that are fewer than `count`. */
+export function setOf(of: readonly number[], name: string, count = 32): number {
+  return of.reduce((set, one) => set | (1 << whole(one, name, count - 1)), 0) >>> 0;
+}
+
+const FACTS = layout.carom_facts.offset;
+
+/** The facts of a shot with so many balls. */
+export function readFacts(
+  memory: Memory,
+  at: Pointer,
+  count: number = values.CAROM_BALLS_MOST,
+): ShotFacts {
+  const { first, cushionsBefore, cushionsAfter, cushions, pocket, pocketTime, touches } =
+    readStruct<C.Facts>(memory, at, "carom_facts");
+  const all = (field: "down" | "off" | "frozen" | "pushed" | "jumped"): number[] =>
+    members(memory.u32[(at + FACTS[field]) / 4]!, count);
+  const potted = all("down").sort((a, b) => pocketTime[a]! - pocketTime[b]!);
+  return {
+    first,
+    cushionsBefore,
+    cushionsAfter,
+    cushions: cushions.slice(0, count),
+    potted: potted.map((ball) => ({ ball, pocket: pocket[ball]!, time: pocketTime[ball]! })),
+    off: all("off"),
+    frozen: all("frozen"),
+    pushed: all("pushed"),
+    jumped: all("jumped"),
+    touches,
   };
 }

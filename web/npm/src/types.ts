@@ -235,6 +235,85 @@ export interface GameState
   opening: boolean;
   /** What the player may do besides a stroke. Default: nothing. */
   may?: readonly C.May[];
+  /** Rules of your own; then nothing else but `user` is read. */
+  own?: GameRules;
+  /** Up to seven words of the state of your own rules, whole numbers, at least 0. */
+  user?: readonly number[];
+}
+
+/** A game of your own: `carom.plan(table, balls, { own: rules, user })`. */
+export interface OwnGame extends Required<Pick<GameState, "own">>, Pick<GameState, "user"> {}
+
+/** What a stroke amounts to by rules of your own. */
+export interface OwnTurn {
+  /** Who plays next, or how the game ends. */
+  turn: C.TurnOutcome;
+  /** The layout of the next stroke. Default "after": as the balls lie. */
+  leave?: C.Leave;
+  /** Why it is a foul. Default "none". */
+  reason?: C.Foul;
+  /** Balls that come back to the foot spot: any that are down or off the table. */
+  spot?: readonly number[];
+  /** Default 0. Plans read them where there is no opponent. */
+  points?: number;
+}
+
+/**
+ * Rules of a game of your own. Lists of balls have their indices. The results depend on the
+ * arguments alone; `user` are seven numbers that are the rules', as the player at the table has
+ * them. What a method throws ends the call that needed it. The methods cannot call the library,
+ * which waits for them.
+ */
+export interface GameRules {
+  /** Whose balls are to be potted. Default "own"; "points": `left` says how many each needs. */
+  race?: C.Race;
+  /** Whether ball and pocket are called. */
+  calls?: boolean;
+  /** Whether a shot that first meets a ball that is not on is a foul, whatever else happens. */
+  firstDecides?: boolean;
+  /** The balls that may be met first, and potted. */
+  on(user: readonly number[], inPlay: number[]): readonly number[];
+  /**
+   * The outcome of a shot; `inPlay` were the balls before it. `user` may be changed, and is left as
+   * the next player has it. `foul` finds the foul that it is in any game with these balls on.
+   */
+  judge(
+    user: number[],
+    inPlay: number[],
+    cueBall: number,
+    facts: ShotFacts,
+    call: C.Call,
+    foul: (on: readonly number[]) => C.Foul,
+  ): OwnTurn;
+  /** How many balls, or points, the player at the table and the other need to win. */
+  left(user: readonly number[], inPlay: number[]): readonly [number, number];
+
+  // The library has its own of those that are missing.
+
+  /** The pockets in which balls count, by index. */
+  pockets?(user: readonly number[]): readonly number[];
+  /**
+   * The chance that the player at the table wins, 0 to 1; without an opponent, how many balls this
+   * player is still going to pot.
+   */
+  value?(user: readonly number[], layout: BallState[], inHand: boolean): number;
+  /**
+   * In a race for points, those of a ball that falls in the next stroke; of ball -1, the mean of a
+   * later pot.
+   */
+  points?(user: readonly number[], inPlay: number[], ball: number): number;
+  /**
+   * Does what depends on the places of the balls after a stroke that was judged, and returns the
+   * turn, changed or not. `balls` and `user` may be changed. `spot` puts a ball on the foot spot, or
+   * behind it: those of `turn.spot` come back by it alone.
+   */
+  settle?(
+    user: number[],
+    table: Table,
+    balls: ShotBall[],
+    turn: Required<OwnTurn>,
+    spot: (ball: number) => void,
+  ): OwnTurn;
 }
 
 /** What an aim is asked for: a ball, and its pocket by index or name, such as "foot-left". */

@@ -1,0 +1,121 @@
+// Rules of the caller's: every method is called, and what one throws ends the call, never more.
+import { expect, test } from "vitest";
+import type { GameRules } from "../dist/index.js";
+import { builds } from "./support.js";
+
+/** Rules with all methods, which write down that they were asked, and throw where they are told to. */
+function every(asked: Set<string>, throws: { in: string }, withValue: boolean): GameRules {
+  const ask = (method: string): void => {
+    asked.add(method);
+    if (method === throws.in) throw new RangeError(`in ${method}`);
+  };
+  const rules: GameRules = {
+    race: "points",
+    on: (_user, inPlay) => (ask("on"), inPlay.filter((ball) => ball > 0)),
+    judge(_user, _inPlay, cueBall, facts, _call, foul) {
+      ask("judge");
+      const down = facts.potted.map(({ ball }) => ball).filter((ball) => ball !== cueBall);
+      return { turn: "pass", spot: down, reason: foul([1, 2, 3]) };
+    },
+    left: () => (ask("left"), [2, 2]),
+    pockets: () => (ask("pockets"), [0, 1, 2, 3, 4, 5]),
+    points: () => (ask("points"), 1),
+    settle(user, table, balls, turn, spot) {
+      ask("settle");
+      user[0] = 7;
+      turn.spot.forEach(spot);
+      for (const ball of turn.spot) expect(balls[ball]!.state.label).toBe("stationary");
+      return { ...turn, points: table.length };
+    },
+  };
+  if (withValue) rules.value = (_user, layout) => (ask("value"), layout.length / 16);
+  return rules;
+}
+
+for (const { carom, name } of builds)
+  test(`${name}: all methods of rules, and what they throw`, () => {
+    const table = carom.table("9ft");
+    let balls = carom.rack("nineball", table).slice(0, 4);
+    for (const [k, [x, y]] of [
+      [0.4, 0.4],
+      [0.15, 0.15],
+      [0.9, 1.7],
+      [0.7, 2.2],
+    ].entries())
+      balls = carom.placeBall(table, balls, k, x!, y!);
+    const shot = carom.simulate(
+      table,
+      balls,
+      carom.aim(table, balls, { speed: 1, b: -0.3 }, { ball: 1, pocket: 0 }).cue,
+    );
+    expect(shot.facts).toBeDefined();
+    const asked = new Set<string>();
+    const throws = { in: "" };
+    const own = every(asked, throws, false);
+    const valued = every(asked, throws, true);
+
+    // a ruling: the ball that fell comes back, the state and the points are those of settle()
+    const ruling = carom.rule(shot, { own, user: [3] });
+    expect([ruling.put, ruling.turn, ruling.points]).toEqual([[1], "pass", table.length]);
+    expect(ruling.game.user).toEqual([7, 0, 0, 0, 0, 0, 0]);
+    expect(ruling.reason).toBe("none");
+    const settled = every(new Set(), throws, false);
+    delete settled.settle; // the library puts it back in the same place
+    expect(carom.rule(shot, { own: settled }).balls).toEqual(ruling.balls);
+    expect(carom.ballsOn({ own }, balls)).toEqual([1, 2, 3]);
+
+    const plan = (rules: GameRules): unknown =>
+      carom.plan(table, balls, { own: rules, shots: 100 });
+    plan(own);
+    expect(asked).toEqual(new Set(["on", "judge", "left", "pockets", "points", "settle"]));
+    const first = plan(valued);
+    expect(asked).toContain("value");
+
+    const match = carom.match({ own: valued }, table, { balls });
+    const played = [...match.lines];
+    for (const method of asked) {
+      throws.in = method;
+      let thrown = 0;
+      for (const call of [
+        () => plan(own),
+        () => plan(valued),
+        () => carom.rule(shot, { own }),
+        () => match.stroke({ speed: 1, phi: 90 }),
+        () => carom.match({ own: valued }, table, { balls }),
+      ])
+        try {
+          call();
+        } catch (error) {
+          expect(error).toEqual(new RangeError(`in ${method}`));
+          thrown++;
+        }
+      expect(thrown, method).toBeGreaterThan(0);
+      if (match.lines.length > played.length) played.push(...match.lines.slice(played.length));
+    }
+    throws.in = "";
+    expect(plan(valued)).toEqual(first); // what was thrown once is over
+    match.stroke({ speed: 1, phi: 90 });
+    const again = carom.match({ own: valued });
+    match.lines.forEach((line) => again.read(line));
+    expect(again.balls).toEqual(match.balls);
+    expect(again.game).toEqual(match.game);
+  });
+
+test("what rules cannot say, and that they cannot call the library", () => {
+  const { carom } = builds[0]!;
+  const table = carom.table("9ft");
+  const balls = carom.rack("nineball", table);
+  const shot = carom.simulate(table, balls, { speed: 8 });
+  const good = every(new Set(), { in: "" }, true);
+  const rule = (of: object): unknown => carom.rule(shot, { own: { ...good, ...of } });
+  expect(() => rule({ judge: () => undefined })).toThrow("judge: an object is needed");
+  expect(() => rule({ judge: () => ({ turn: "stop" }) })).toThrow("judge: turn: it must be one of");
+  expect(() => rule({ judge: () => ({ turn: "pass", spot: [40] }) })).toThrow("judge: spot");
+  expect(() => rule({ on: () => [-1] })).toThrow("on: it must be a whole number");
+  expect(() => rule({ judge: () => carom.simulate(table, balls) })).toThrow(
+    "rules cannot call the library that calls them",
+  );
+  expect(() => rule({ left: undefined })).toThrow("own: left() is missing");
+  expect(() => carom.match({ own: good }, table)).toThrow("rules of your own have no rack");
+  expect(carom.rule(shot, { own: good }).turn).toBe("pass");
+});
