@@ -175,7 +175,7 @@ static void tell_misses(FILE *out, const carom_plan_job *job, const carom_choice
   fprintf(out, "   %s       %s", plan_names_ball(choice) ? "misses" : "passes",
           percent((double)all.misses / WHY_STROKES, text));
   if (all.misses > 0 && job->rules->race != CAROM_RACE_ALONE)
-    fprintf(out, ", which leave the other %.0f %%", 100.0 * all.other / all.misses);
+    fprintf(out, ", and the other then wins %.0f %%", 100.0 * all.other / all.misses);
   if (all.lost > 0)
     fprintf(out, "; loses the game %s", percent((double)all.lost / WHY_STROKES, text));
   fputc('\n', out);
@@ -201,7 +201,8 @@ static const char *speed_words(double v) {
                 {0.89, "slow"},
                 {1.9, "medium"},
                 {3.2, "fast"},
-                {4.5, "a power stroke"}};
+                {4.5, "a power stroke"},
+                {8.0, "a very hard stroke"}};
   for (size_t k = 0; k < sizeof speeds / sizeof speeds[0]; k++)
     if (v < speeds[k].most)
       return speeds[k].words;

@@ -44,7 +44,7 @@ carom plan --rules nineball --why --cue 0.4,0.4 --balls 9=0.25,0.25 --shots 300 
 carom plan --rules nineball --why --cue 0.4,0.4 --balls 1=0.9,2.4:2=0.45,0.47:3=0.5,0.43:9=0.37,0.5 --shots 300 | grep -c "aim          off the"
 # a cue ball in the D is in hand; a push-out is played as often as the others; a straight ball is no cut of 0 degrees
 carom shoot --table snooker --balls snooker --aim 90 --json | carom plan --rules snooker --in-hand --why --shots 100 - > hand.txt
-sed -n 's/.*which leave the other \([0-9]*\) %.*/\1/p' hand.txt | awk '{ print ($1 > 40) }' | sort -u
+sed -n 's/.*and the other then wins \([0-9]*\) %.*/\1/p' hand.txt | awk '{ print ($1 > 40) }' | sort -u
 carom plan --rules nineball --may push-out --why --shots 300 hidden.jsonl | grep -A 2 "a push-out" | grep -o "played [0-9]* times"
 carom plan --rules nineball --why --cue 0.4,0.4 --balls 9=0.25,0.25 --shots 300 | grep "cut of [01] degrees" || echo straight
 echo "--- to run out, a turn that ends is worth nothing"
