@@ -60,7 +60,8 @@ class Strip {
 
   constructor(picture: Picture, from: Pixel, to: Pixel, inside: Pixel) {
     const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
-    const [dx, dy] = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
+    const dx = (to[0] - from[0]) / length;
+    const dy = (to[1] - from[1]) / length;
     const isInside = (inside[0] - from[0]) * -dy + (inside[1] - from[1]) * dx > 0;
     this.#picture = picture;
     this.#from = from;
@@ -157,7 +158,8 @@ function noseOf(strip: Strip, face: Line, reach: number): Line | undefined {
   const [first, last] = found.line;
   const strongest = strip.change(found.line).much;
   const rival = bestLine((line) => {
-    const [more, others] = [line[0] - first, line[1] - last];
+    const more = line[0] - first;
+    const others = line[1] - last;
     // A line that crosses the other one shares a part of its edge. Behind a hidden face is wood.
     const isApart = Math.min(Math.abs(more), Math.abs(others)) > APART && more * others > 0;
     const isOther = isApart && !(isHidden && more > 0);
