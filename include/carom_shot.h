@@ -847,7 +847,9 @@ typedef struct carom_facts {
                              A referee sets it; a shot leaves it 0. */
   uint32_t jumped;        /* the set of the balls that the cue ball flew over before it met a ball:
                              its centre passed theirs, and the balls overlap seen from above. */
-  uint32_t unused;        /* 0. */
+  uint32_t beyond_middle; /* the set of the balls that were wholly on the side of y = length of the
+                             line y = length/2, by their places at their events; see also
+                             past_middle. */
   int32_t order[CAROM_BALLS_MOST]; /* the different balls that the cue ball met, in their order; -1
                                       behind them. */
   double first_place[2]; /* m: the place of the cue ball when it met the first ball; 0 if it met

@@ -556,7 +556,7 @@ typedef enum carom_stroke_mark {
   CAROM_MARK_DOUBLE_HIT = 2, /* as CAROM_FOUL_DOUBLE_HIT */
   CAROM_MARK_SPLIT_HIT = 4,  /* the cue ball met its first two balls less than 1 ms apart. The games
                                 here count the first of them */
-  CAROM_MARK_LEGAL_BREAK = 8 /* a ball fell, or four object balls met cushions or left the table */
+  CAROM_MARK_LEGAL_BREAK = 8 /* an object ball fell, or four met cushions or left the table */
 } carom_stroke_mark;
 
 /* The marks of a shot, as a sum of carom_stroke_mark. */

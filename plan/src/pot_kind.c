@@ -93,7 +93,7 @@ int carom_driven(const carom_facts *facts, int cue_ball) {
 }
 
 bool carom_is_break(const carom_facts *facts, int cue_ball) {
-  return facts->down != 0 || carom_driven(facts, cue_ball) >= 4;
+  return (facts->down & ~(UINT32_C(1) << cue_ball)) != 0 || carom_driven(facts, cue_ball) >= 4;
 }
 
 uint32_t carom_stroke_marks(const carom_facts *facts, int cue_ball) {

@@ -5,13 +5,15 @@
  * the head string. Each ball that falls without a foul counts one and keeps the turn, also the
  * struck one after it met another (5.4, 5.5); eight win. A foul gives the other one point (6).
  * Balls that fall on a foul or leave the table come back to the foot spot. An opening that pots
- * none drives two balls to cushions, else the other may have the balls racked and break. A stroke
- * pots a ball, or a ball meets a cushion behind the contact: the text of section 20, which says
- * what is legal, was not at hand, and this is that of the WPA. */
+ * none drives two balls to cushions, else the other may have the balls racked and break.
+ *
+ * Another stroke that pots none is legal where, behind the contact, balls meet two cushions, or one
+ * and cross the middle of the table. This is the rule of two cushions, as clubs and magazines tell
+ * section 20 of the General Rules; its text was not at hand. */
 #include "games.h"
 #include "rules.h"
 
-enum { WINS = 8, DRIVEN = 2 };
+enum { WINS = 8, DRIVEN = 2, CUSHIONS = 2 };
 static const uint32_t all = 0xffff;
 
 static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
@@ -24,6 +26,16 @@ static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed
   (void)in_play;
   for (int who = 0; who < 2; who++)
     needed[who] = (int32_t)carom_max(WINS - game->score[who], 1);
+}
+
+/* Whether a stroke that pots none is legal: two cushions were met, or one by a ball that was on
+ * both sides of the middle, which may have been before the contact. */
+static bool is_played_out(const carom_facts *facts, uint32_t balls) {
+  const uint32_t crossed = facts->past_middle & facts->beyond_middle & balls;
+  bool legal = facts->cushions_after >= CUSHIONS;
+  for (int k = 0; crossed >> k != 0; k++)
+    legal |= (crossed >> k & 1) && facts->cushions[k] > 0;
+  return legal;
 }
 
 /* The foul of a stroke: that the cue ball falls is none. */
@@ -44,8 +56,11 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     return turn;
   int32_t foul = foul_of(facts, balls, cue_ball);
   game->opening = game->may = 0;
-  if (foul == CAROM_FOUL_NONE && opening && fell == 0 && carom_driven(facts, cue_ball) < DRIVEN)
+  const bool so_far = foul == CAROM_FOUL_NONE || foul == CAROM_FOUL_CUSHION;
+  if (so_far && fell == 0 && opening && carom_driven(facts, cue_ball) < DRIVEN)
     foul = CAROM_FOUL_BREAK;
+  if (foul == CAROM_FOUL_NONE && fell == 0 && !opening && !is_played_out(facts, balls))
+    foul = CAROM_FOUL_CUSHION;
 
   /* a foul gives the other a point */
   if (foul != CAROM_FOUL_NONE) {

@@ -2,10 +2,11 @@
  *
  * The cue ball meets the lowest ball first. Each ball that falls without a foul counts its number
  * and keeps the turn; 61 points win, and at 60 to 60 who potted the last ball. Balls that fall on a
- * foul or leave the table come back. A break pots a ball or drives four to cushions; else the other
- * has the cue ball behind the head string, or a new rack. A foul ends the visit; after a scratch
- * the cue ball is behind the head string. The third foul in a row loses: of the penalties the text
- * at hand had only the summary. The two safeties in a row that it allows are not counted. */
+ * foul or leave the table come back. A break pots a ball without a foul or drives four to cushions;
+ * else the other has the cue ball behind the head string, or a new rack. A foul ends the visit;
+ * after a scratch the cue ball is behind the head string. The third foul in a row loses: of the
+ * penalties the text at hand had only the summary. The two safeties in a row that it allows are not
+ * counted. */
 #include "games.h"
 #include "rules.h"
 
@@ -52,11 +53,10 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   game->opening = game->may = 0;
   if (foul != CAROM_FOUL_NONE) {
     turn = carom_give_hand(game, foul, (facts->down | facts->off) & balls);
-    const bool hand = foul == CAROM_FOUL_CUE_BALL || foul == CAROM_FOUL_BREAK;
     turn.leave = CAROM_LEAVE_AFTER;
-    if (hand)
+    if (foul == CAROM_FOUL_CUE_BALL || opening)
       turn.leave = CAROM_LEAVE_KITCHEN;
-    if (foul == CAROM_FOUL_BREAK)
+    if (opening && turn.outcome == CAROM_TURN_PASS)
       game->may = CAROM_MAY_RACK;
     return turn;
   }

@@ -196,8 +196,9 @@ static int32_t in_layout(const search *plan, int32_t ball) {
 static void spread(const search *plan, shot_result *with) {
   carom_facts *f = &with->facts;
   const carom_facts of_shot = *f;
-  uint32_t *const set[] = {&f->down,   &f->off,       &f->moved,       &f->frozen,  &f->pushed,
-                           &f->banked, &f->first_set, &f->past_middle, &f->at_head, &f->jumped};
+  uint32_t *const set[] = {&f->down,    &f->off,           &f->moved,     &f->frozen,
+                           &f->pushed,  &f->banked,        &f->first_set, &f->past_middle,
+                           &f->at_head, &f->beyond_middle, &f->jumped};
   for (int s = 0; s < (int)(sizeof set / sizeof set[0]); s++) {
     uint32_t all = 0;
     for (int n = 0; n < plan->plays; n++)

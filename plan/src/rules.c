@@ -85,21 +85,25 @@ static carom_turn free_stroke_for(carom_rules_state *game, const carom_facts *fa
 static carom_turn eightball_break(carom_rules_state *game, const carom_facts *facts, int cue_ball,
                                   int32_t foul) {
   const uint32_t eight_gone = (facts->down | facts->off) & eight;
+  const bool legal = carom_is_break(facts, cue_ball);
   carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, eight_gone, 0.0};
   if (eight_gone != 0)
     game->may = CAROM_MAY_RACK;
+  if (!legal)
+    game->may = CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK;
+
+  /* a break that is not legal: the other has the table as it is, or a new rack, 3.3(d); that it
+   * meets no cushion, or no ball, adds nothing to that */
+  if (!legal && foul != CAROM_FOUL_CUE_BALL && foul != CAROM_FOUL_DOUBLE_HIT) {
+    if (foul != CAROM_FOUL_NO_BALL)
+      turn.foul = CAROM_FOUL_BREAK;
+    return turn;
+  }
 
   /* a foul: the other has the cue ball behind the head string, or leaves it where it lies */
   if (foul != CAROM_FOUL_NONE) {
     turn.leave = CAROM_LEAVE_KITCHEN;
     game->may |= may_stay(facts, cue_ball);
-    return turn;
-  }
-
-  /* a break that is not legal is no foul: the other has the table as it is, or a new rack */
-  if (!carom_is_break(facts, cue_ball)) {
-    turn.foul = CAROM_FOUL_BREAK;
-    game->may = CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK;
     return turn;
   }
   if ((facts->down & 0xfffe) != 0)
@@ -351,7 +355,8 @@ int32_t carom_rotation_foul_of(const carom_facts *facts, uint32_t on, int cue_ba
   int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
   if (pushes && foul != CAROM_FOUL_CUE_BALL)
     foul = (int32_t)push_out_foul_of(facts);
-  if (foul == CAROM_FOUL_NONE && opening && !carom_is_break(facts, cue_ball))
+  const bool so_far = foul == CAROM_FOUL_NONE || foul == CAROM_FOUL_CUSHION;
+  if (so_far && opening && !carom_is_break(facts, cue_ball))
     foul = CAROM_FOUL_BREAK;
   return foul;
 }

@@ -107,6 +107,85 @@ TEST(a_clock_before_the_place) {
   }
 }
 
+/* ---- Breaks */
+
+/* A break so soft that it fails, in each game that has a rule for that: what the other may do. He
+ * breaks a new rack himself, or has the player do so. */
+TEST(breaks_that_fail) {
+  enum { RACK = CAROM_MAY_RACK, BOTH = CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK };
+  static const struct {
+    carom_rules_kind kind;
+    int32_t may, phase, leave;
+  } given[] = {
+      {CAROM_RULES_EIGHTBALL, BOTH, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
+      {CAROM_RULES_HEYBALL, BOTH, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
+      {CAROM_RULES_NINEBALL, 0, CAROM_MATCH_PLACE, CAROM_LEAVE_HAND},
+      {CAROM_RULES_TENBALL, 0, CAROM_MATCH_PLACE, CAROM_LEAVE_HAND},
+      {CAROM_RULES_STRAIGHT, CAROM_MAY_PASS, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
+      {CAROM_RULES_BANK, CAROM_MAY_PASS, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
+      {CAROM_RULES_BLACKBALL, RACK | CAROM_MAY_STAY, CAROM_MATCH_PLACE, CAROM_LEAVE_BAULK},
+      {CAROM_RULES_ROTATION, RACK, CAROM_MATCH_PLACE, CAROM_LEAVE_KITCHEN},
+      {CAROM_RULES_PYRAMID, RACK, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
+  };
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++)
+    for (int choice = 0; choice < 3; choice++) {
+      static const int32_t choices[] = {0, CAROM_MAY_RACK, CAROM_MAY_OTHER_RACK};
+      begin(given[k].kind, 1, 0);
+      const double y = match.bounds.high[1];
+      ck_assert_int_eq(carom_match_place(&match, 0, 0.5 * table.width, y), CAROM_OK);
+      carom_cue cue = cue_of(given[k].kind);
+      cue.phi = 90.0;
+      cue.speed = 0.24 * table.length;
+      ck_assert_int_eq(carom_match_stroke(&match, 0, &cue, NULL, NULL), CAROM_OK);
+      ck_assert_msg(match.record.player == 1 && match.may == given[k].may &&
+                        match.phase == given[k].phase && match.leave == given[k].leave,
+                    "%s: player %d, may %d, phase %d, leave %d, foul %d",
+                    carom_rules_about_of(given[k].kind)->name, (int)match.record.player, match.may,
+                    match.phase, match.leave, match.ruling.turn.foul);
+      if ((given[k].may & choices[choice]) == 0)
+        continue;
+      ck_assert_int_eq(carom_match_choose(&match, 1, (carom_may)choices[choice]), CAROM_OK);
+      ck_assert(match.phase == CAROM_MATCH_PLACE && match.rules.state.opening == 1 &&
+                match.record.player == (choices[choice] == CAROM_MAY_RACK));
+      ck_assert(fabs(match.record.balls[1].state.r[1] - 0.75 * table.length) < 0.3);
+    }
+}
+
+/* WPA 3.3(e) and (f): an eight that falls on the break comes back, and who has the table may have a
+ * new rack; with the cue ball in the pocket too, that is the other, from behind the head string. */
+TEST(the_eight_on_the_break) {
+  for (int falls = 0; falls < 2; falls++)
+    for (int racks = 0; racks < 2; racks++) {
+      const carom_rules_kind kind = CAROM_RULES_EIGHTBALL;
+      const int count = lay_out(CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 0xffff);
+      carom_plan_rules of = carom_plan_rules_of(kind);
+      of.state.opening = 1;
+      put(8, 0.04, 0.04);
+      put(0, 0.3, 0.3);
+      ck_assert_int_eq(
+          carom_match_begin_at(&match, kind, &of, &table, balls, count, NULL, CAROM_LEAVE_AFTER, 0),
+          CAROM_OK);
+      carom_cue cue = cue_of(kind);
+      cue.phi = 225.0;
+      cue.speed = 2.0;
+      cue.b = falls ? 0.4 : -0.3;
+      ck_assert_int_eq(carom_match_stroke(&match, 0, &cue, NULL, NULL), CAROM_OK);
+      const uint32_t down = match.ruling.facts.down;
+      ck_assert_msg(down == (falls ? 0x101U : 0x100U), "down %x", down);
+      ck_assert_int_eq(match.record.player, falls);
+      ck_assert_int_eq(match.phase, falls ? CAROM_MATCH_PLACE : CAROM_MATCH_STROKE);
+      ck_assert_int_eq(match.may, CAROM_MAY_RACK);
+      ck_assert_int_eq(match.record.balls[8].state.label, CAROM_BALL_STATIONARY);
+      if (falls)
+        ck_assert_double_eq(match.bounds.high[1], 0.25 * table.length);
+      if (racks == 0)
+        continue;
+      ck_assert_int_eq(carom_match_choose(&match, falls, CAROM_MAY_RACK), CAROM_OK);
+      ck_assert(match.rules.state.opening == 1 && match.record.player == falls &&
+                match.phase == CAROM_MATCH_PLACE);
+    }
+}
+
 /* ---- Recordings */
 
 /* Plays random strokes until some are ruled; the file has all lines. */

@@ -133,7 +133,7 @@ TEST(marks) {
   f.down = 2;
   ck_assert_uint_eq(carom_stroke_marks(&f, 0), CAROM_MARK_LEGAL_BREAK);
   f.down = 1;
-  ck_assert_uint_eq(carom_stroke_marks(&f, 0), CAROM_MARK_LEGAL_BREAK | CAROM_MARK_SCRATCH);
+  ck_assert_uint_eq(carom_stroke_marks(&f, 0), CAROM_MARK_SCRATCH);
   ck_assert_uint_eq(carom_stroke_marks(&f, 1), CAROM_MARK_LEGAL_BREAK);
   f.down = 0;
   f.touches = 2;

@@ -8,7 +8,9 @@
 typedef struct situation {
   carom_rules_state state;
   int32_t first[2], before[2], after, touches;
-  uint32_t in_play, together, met, driven, down[6], off, pushed, frozen, barred, jumped, past, head;
+  uint32_t in_play, together, met, driven, down[6], off, pushed, frozen, barred, jumped, past,
+      beyond;
+  uint32_t head;
   uint32_t banked;
   int32_t call[2], choice;
   int32_t turn, leave, foul, points;
@@ -65,6 +67,7 @@ static const member members[] = {
     {"barred", AT(barred), SET, NULL},
     {"jumped", AT(jumped), SET, NULL},
     {"past", AT(past), SET, NULL},
+    {"beyond", AT(beyond), SET, NULL},
     {"head", AT(head), SET, NULL},
     {"banked", AT(banked), SET, NULL},
     {"touches", AT(touches), NUMBER, NULL},
@@ -138,6 +141,7 @@ static carom_facts facts_in(const situation *s) {
                    .touches = s->touches,
                    .banked = s->banked,
                    .past_middle = s->past,
+                   .beyond_middle = s->beyond,
                    .at_head = s->head,
                    .second_time = s->touches > 1 ? 0.01 : INFINITY};
   f.first_set = s->first[0] >= 0 ? UINT32_C(1) << s->first[0] | s->together : 0;
@@ -184,11 +188,34 @@ static void check_row(const char *title, carom_plan_rules *of, const situation *
   }
 }
 
+/* How the section that a title names was read: 0 where it names none, 1 for its text, and so on, as
+ * the head of situations.txt says. Removes that column from the ruling. */
+static int take_source(const char *title, char *ruling) {
+  static const char *const names[] = {"WPA",       "WPBSA",   "BCA",     "UMB",       "one-pocket",
+                                      "blackball", "heyball", "pyramid", "four-ball", NULL};
+  static const char *const sources[] = {"", "text", "title", "club", "none", NULL};
+  bool names_text = false;
+  for (int k = 0; names[k] != NULL; k++)
+    names_text |= strncmp(title, names[k], strlen(names[k])) == 0;
+  char *column = strstr(ruling, " | ");
+  int source = 0;
+  if (column != NULL) {
+    *column = '\0';
+    column[3 + strcspn(column + 3, "\n")] = '\0';
+    for (source = 1; sources[source] != NULL && strcmp(sources[source], column + 3) != 0;)
+      source++;
+  }
+  ck_assert_msg(names_text == (source > 0) && sources[source] != NULL,
+                "a title that names a text has text, title, club or none in its fifth column: %s",
+                title);
+  return source;
+}
+
 TEST(situations) {
   FILE *file = fopen(CAROM_TEST_SITUATIONS, "r");
   ck_assert_ptr_nonnull(file);
   char line[512];
-  int rows = 0;
+  int rows = 0, of_source[5] = {0};
   while (fgets(line, sizeof line, file) != NULL) {
     if (line[0] == '#' || line[0] == '\n')
       continue;
@@ -199,6 +226,8 @@ TEST(situations) {
       *column[k] = '\0';
       column[k] += 3;
     }
+
+    of_source[take_source(column[1], column[3])]++;
 
     /* both sides begin with the state at the beginning of the game */
     int kind = 0;
@@ -219,7 +248,10 @@ TEST(situations) {
     rows++;
   }
   fclose(file);
+  printf("%d rows: %d by a text, %d by its titles, %d by clubs, %d from memory\n", rows,
+         of_source[1], of_source[2], of_source[3], of_source[4]);
   ck_assert_int_ge(rows, 380);
+  ck_assert_int_ge(of_source[1], 60);
 }
 
 #define B(k) (UINT32_C(1) << (k))

@@ -36,7 +36,7 @@ TEST(double_hits) {
                {"one of each", R2, R1 | R2, 1, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT},
                {"touched twice, with no ball", 0, 0, 2, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT}};
   for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
-    carom_facts f = facts_of(1, 1, 0, 0), other = f;
+    carom_facts f = facts_of(1, 2, 0, 0), other = f;
     f.frozen = given[k].frozen;
     f.pushed = given[k].pushed;
     f.touches = given[k].touches;

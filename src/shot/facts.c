@@ -114,6 +114,8 @@ static void been_at(carom_facts *facts, const carom_sim *sim, int i, bool rests)
   const double length = sim->table->length, radius = sim->rates[i].radius;
   if (y + radius < 0.5 * length)
     facts->past_middle |= set_of(i);
+  if (y - radius > 0.5 * length)
+    facts->beyond_middle |= set_of(i);
   if (y - radius <= 0.25 * length)
     facts->at_head |= set_of(i);
 }

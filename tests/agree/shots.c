@@ -715,6 +715,8 @@ static void was_at(carom_facts *f, int i, double y, const carom_shot_ball *lie) 
   const double radius = lie[i].kind.radius;
   if (y + radius < 0.5 * table.length)
     f->past_middle |= 1U << i;
+  if (y - radius > 0.5 * table.length)
+    f->beyond_middle |= 1U << i;
   if (y - radius <= 0.25 * table.length)
     f->at_head |= 1U << i;
 }
