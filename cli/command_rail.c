@@ -55,7 +55,7 @@ OPTION(
     "cushion: right at an angle above 0; reverse is the other. A number with a unit: rad/s, % of "
     "english (100%: 1.25 V/R) or tip; right, left, running, reverse: 100%; "
     "gearing: the ball rolls along the cushion; none (default)");
-OPTION(series, option_game, "game", game, 0, "pool|snooker|billiard", set_choice, 0,
+OPTION(series, option_game, "game", game, 0, NULL, set_named, CAROM_WORDS_GAME,
        "the game whose ball, cloth and cushion give the numbers that you leave out (default pool)");
 OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_LENGTH,
        "height of the nose above the cloth, m, or with a unit: mm, in (default: that of the game)");
@@ -100,8 +100,17 @@ OPTION(series, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
 /* The ball and the cushion of the game for a model, with the numbers of --with; false where the
  * game has none for the model. */
 static bool ball_of_game(const series *s, int model, carom_ball_kind *kind) {
-  static const carom_table_kind table[] = {CAROM_TABLE_POOL_9FT, CAROM_TABLE_SNOOKER,
-                                           CAROM_TABLE_THREECUSHION};
+  static const carom_table_kind table[] = {
+      [CAROM_GAME_POOL] = CAROM_TABLE_POOL_9FT,
+      [CAROM_GAME_SNOOKER] = CAROM_TABLE_SNOOKER,
+      [CAROM_GAME_BILLIARD] = CAROM_TABLE_THREECUSHION,
+      [CAROM_GAME_POOLTOOL_POOL] = CAROM_TABLE_POOLTOOL,
+      [CAROM_GAME_POOLTOOL_SNOOKER] = CAROM_TABLE_SNOOKER,
+      [CAROM_GAME_POOLTOOL_BILLIARD] = CAROM_TABLE_THREECUSHION,
+      [CAROM_GAME_BLACKBALL] = CAROM_TABLE_BLACKBALL,
+      [CAROM_GAME_PYRAMID] = CAROM_TABLE_PYRAMID,
+      [CAROM_GAME_FOURBALL] = CAROM_TABLE_FOURBALL,
+  };
   carom_measures measures;
   const bool own =
       carom_ball_kind_for((carom_game)s->game, (carom_shot_cushion)(model + 1), kind) != 0;

@@ -197,12 +197,8 @@ static const char *speed_words(double v) {
   static const struct {
     double most;
     const char *words;
-  } speeds[] = {{0.45, "a soft touch"},
-                {0.89, "slow"},
-                {1.9, "medium"},
-                {3.2, "fast"},
-                {4.5, "a power stroke"},
-                {8.0, "a very hard stroke"}};
+  } speeds[] = {{0.45, "a soft touch"}, {0.89, "slow"},          {1.9, "medium"},
+                {3.2, "fast"},          {4.5, "a power stroke"}, {8.0, "a very hard stroke"}};
   for (size_t k = 0; k < sizeof speeds / sizeof speeds[0]; k++)
     if (v < speeds[k].most)
       return speeds[k].words;

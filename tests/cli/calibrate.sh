@@ -24,5 +24,6 @@ try carom rail --angle 45 --with old_cushion
 try carom rail --angle 45 --with my.json
 try carom rail --with fast_cloth
 try carom rail --game snooker --with old_cushion
+carom rail --game fourball | sed -n 2p
 try carom shoot --table threecushion --cue 0.6,0.8 --with fast_cloth
 try carom shoot --table my.json --cue 0.6,0.8

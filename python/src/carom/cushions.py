@@ -88,6 +88,9 @@ _TABLES = {
     "pool": lib.CAROM_TABLE_POOL_9FT,
     "snooker": lib.CAROM_TABLE_SNOOKER,
     "billiard": lib.CAROM_TABLE_THREECUSHION,
+    "blackball": lib.CAROM_TABLE_BLACKBALL,
+    "pyramid": lib.CAROM_TABLE_PYRAMID,
+    "fourball": lib.CAROM_TABLE_FOURBALL,
 }
 
 
@@ -139,7 +142,7 @@ def cushion_impacts(
         0 to 1.
     jaw_radius : array_like, shape (...)
         m; 0 for a straight rail.
-    game : {"pool", "snooker", "billiard"}
+    game : {"pool", "snooker", "billiard", "blackball", "pyramid", "fourball"}
         Whose ball, cloth and cushion.
     model : str
         The model of the cushion for which the game's numbers are; give the same to `cushion`.
@@ -195,7 +198,7 @@ def cushion(
         Least impulse of a step of Euler's, N s; pooltool has 0.001.
     plain, threads, out
         As for `carom.collide`.
-    game : {"pool", "snooker", "billiard"}, optional
+    game : {"pool", "snooker", "billiard", "blackball", "pyramid", "fourball"}, optional
         Whose numbers of the model hold, such as the loss of roll, where none is given. None: the
         options of C, which are 0.
     **numbers : float

@@ -207,6 +207,8 @@ def test_impacts_broadcast_and_have_their_places_and_defaults():
     assert snooker["height"] == kind["nose_height"] and snooker["radius"] == kind["radius"]
     lossless = carom.cushion(snooker, model="smooth").motion
     assert (carom.cushion(snooker, model="smooth", game="snooker").motion != lossless).any()
+    small = carom.cushion_impacts(v=(1, 2, 0), game="blackball", model="smooth")
+    assert small["radius"] == carom.balls([[0, 0]], game="blackball")["kind"]["radius"][0]
     with pytest.raises(ValueError, match="snooker has no constants for 'stronge'"):
         carom.cushion_impacts(v=(1, 2, 0), game="snooker", model="stronge")
     names = ("height", "radius", "mass", "mu_cloth", "mu_cushion", "restitution", "jaw_radius")
