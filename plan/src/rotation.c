@@ -10,7 +10,7 @@
 #include "games.h"
 #include "rules.h"
 
-enum { WINS = 61, ALL_POINTS = 120, FOULS_MOST = 3 };
+enum { WINS = 61, ALL_POINTS = 120, OPEN_BREAK = 4 };
 static const uint32_t all = 0xfffe;
 
 static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
@@ -53,10 +53,11 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   game->opening = game->may = 0;
   if (foul != CAROM_FOUL_NONE) {
     turn = carom_give_hand(game, foul, (facts->down | facts->off) & balls);
+    const bool failed = opening && carom_driven(facts, cue_ball) < OPEN_BREAK;
     turn.leave = CAROM_LEAVE_AFTER;
-    if (foul == CAROM_FOUL_CUE_BALL || opening)
+    if (foul == CAROM_FOUL_CUE_BALL || failed)
       turn.leave = CAROM_LEAVE_KITCHEN;
-    if (opening && turn.outcome == CAROM_TURN_PASS)
+    if (failed)
       game->may = CAROM_MAY_RACK;
     return turn;
   }
