@@ -103,6 +103,7 @@ typedef struct given_numbers {
   number_list list[LISTS_MOST];
   bool in_lines;         /* the lines of the shots have them already */
   const char *condition; /* the last condition of a pool table that is given, or NULL */
+  uint64_t by_condition; /* of `which`, those that conditions gave */
 } given_numbers;
 
 /* Whether a game is played on the tables that the conditions describe; else a complaint. */

@@ -415,8 +415,15 @@ static bool give_condition(const option_row *row, const char *word, const carom_
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
     double x;
     memcpy(&x, (const char *)kind + n->offset, sizeof x);
-    if (x != 0.0)
-      give_value(given, CAROM_PART_BALL, k, x);
+    if (x == 0.0)
+      continue;
+    if ((given->by_condition >> k & 1) != 0) {
+      complain("--%s: %s and a condition before it both set %s: give one of them", row->name, word,
+               n->name);
+      return false;
+    }
+    given->by_condition |= UINT64_C(1) << k;
+    give_value(given, CAROM_PART_BALL, k, x);
   }
   return true;
 }

@@ -23,6 +23,7 @@ carom models old_cushion
 try carom rail --angle 45 --with old_cushion
 try carom rail --angle 45 --with my.json
 try carom rail --with fast_cloth
+try carom shoot --cue 0.6,0.8 --with slow_cloth,old_cushion,fast_cloth
 try carom rail --game snooker --with old_cushion
 carom rail --game fourball | sed -n 2p
 try carom shoot --table threecushion --cue 0.6,0.8 --with fast_cloth
