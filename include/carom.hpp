@@ -536,7 +536,7 @@ public:
   }
   carom_status read(std::string_view line) {
     const carom_status code = carom_record_read(game_.get(), line.data(), line.size());
-    return checked(code, code == CAROM_ERROR_RECORD ? game_->fault : "");
+    return with_fault(code);
   }
   /* Plays a stroke, or goes on. last() is then the shot, with all its events. */
   carom_status play(carom_record_kind kind = CAROM_RECORD_SHOT) {
@@ -550,6 +550,8 @@ public:
       last_.facts_ = game_->facts;
       last_.balls_.assign(game_->balls, game_->balls + game_->count);
       last_.final_.assign(game_->final, game_->final + game_->count);
+      if (code == CAROM_ERROR_RECORD)
+        with_fault(code);
       return code;
     });
   }
@@ -576,6 +578,9 @@ public:
   }
 
 private:
+  carom_status with_fault(carom_status code) {
+    return checked(code, code == CAROM_ERROR_RECORD ? game_->fault : "");
+  }
   std::unique_ptr<carom_record> game_;
   std::vector<char> text_;
   shot last_;

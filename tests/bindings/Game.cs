@@ -204,6 +204,16 @@ static class Program {
            "a shot that was read differs");
       Must(read.Facts.moved == game.Facts.moved, "facts differ");
     }
+    using (var game = new Recording()) {
+      game.Begin(table, balls, new ShotOptions { timeMost = 0.2 });
+      game.Shoot(cue);
+      try {
+        game.Shoot(cue);
+        Must(false, "a stroke while balls move");
+      } catch (CaromException wrong) {
+        Must(wrong.Message.Contains("balls move"), wrong.Message);
+      }
+    }
   }
 
   /// Rules with every callback, which are all asked, and each of which may throw.

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cinttypes>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -59,5 +60,16 @@ int main(int, char **arguments) {
     hash = add(hash, {&slip, 1});
   }
   std::printf("film: %d frames, %016" PRIx64 "\n", frames, hash);
-  return 0;
+
+  /* a stroke while balls move is refused with the reason */
+  options.time_most = 0.2;
+  carom::recording stopped;
+  stopped.begin(table, balls, options);
+  stopped.shoot(cue);
+  try {
+    stopped.shoot(cue);
+    return 1;
+  } catch (const carom::error &wrong) {
+    return std::strstr(wrong.what(), "balls move") == nullptr;
+  }
 }

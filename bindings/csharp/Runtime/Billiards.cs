@@ -429,7 +429,7 @@ namespace Carom {
     /// then.</summary>
     public string Shoot(Cue cue) {
       Open->cue = cue;
-      Billiards.Check(Play(RecordKind.Shot));
+      WithFault(Play(RecordKind.Shot));
       return Line(RecordKind.Shot);
     }
 
@@ -439,6 +439,12 @@ namespace Carom {
       get { return last; }
     }
     PlayedShot last;
+
+    void WithFault(Status status) {
+      if (status == Status.ErrorRecord)
+        throw new CaromException(status, Billiards.Text(record->fault));
+      Billiards.Check(status);
+    }
 
     Status Play(RecordKind kind) {
       var before = new[] { *Open };
@@ -498,6 +504,8 @@ namespace Carom {
       if (record->pending != 1)
         return true;
       status = Play((RecordKind)record->kind);
+      if (status == Status.ErrorRecord)
+        WithFault(status);
       // A shot in error is recorded with its status, so its bits count as well.
       RecordEnd played = record->played, recorded = record->recorded;
       return (long)status == played.status && played.status == recorded.status &&

@@ -42,7 +42,8 @@ impl Recording {
     /// Plays a stroke from where the balls are, and returns its line. The shot is `last` then.
     pub fn shoot(&mut self, cue: &Cue) -> Result<String, Error> {
         self.record.cue = *cue;
-        check(self.play(sys::CAROM_RECORD_SHOT))?;
+        let status = self.play(sys::CAROM_RECORD_SHOT);
+        self.with_fault(status)?;
         self.line(sys::CAROM_RECORD_SHOT)
     }
 
@@ -93,6 +94,17 @@ impl Recording {
         }
     }
 
+    fn with_fault(&self, status: sys::carom_status) -> Result<(), Error> {
+        if status == sys::CAROM_ERROR_RECORD {
+            let fault = text(self.record.fault.as_ptr());
+            return Err(Error {
+                status: status_of(status),
+                fault,
+            });
+        }
+        check(status).map(|_| ())
+    }
+
     fn line(&mut self, kind: sys::carom_record_kind) -> Result<String, Error> {
         let mut line = vec![0u8; sys::CAROM_RECORD_TEXT as usize];
         let to = line.as_mut_ptr() as *mut c_char;
@@ -114,9 +126,10 @@ impl Recording {
         let status =
             unsafe { sys::carom_record_read(record, line.as_ptr() as *const c_char, line.len()) };
         if status < 0 {
+            let fault = text(record.fault.as_ptr());
             return Err(Error {
                 status: status_of(status),
-                fault: text(record.fault.as_ptr()),
+                fault,
             });
         }
         if record.pending != 1 {
@@ -124,6 +137,9 @@ impl Recording {
         }
         let kind = record.kind as sys::carom_record_kind;
         let status = self.play(kind);
+        if status == sys::CAROM_ERROR_RECORD {
+            self.with_fault(status)?;
+        }
         // A shot in error is recorded with its status, so its bits count as well.
         let (is, was) = (&self.record.played, &self.record.recorded);
         Ok(i64::from(status) == is.status
@@ -158,6 +174,26 @@ impl Recording {
 mod tests {
     use super::*;
     use crate::{cue, rack, table, Game, RackKind, TableKind};
+
+    #[test]
+    fn no_stroke_while_balls_move() -> Result<(), Error> {
+        let table = table(TableKind::Pool9ft)?;
+        let balls = rack(RackKind::Nineball, &table, 1e-4, 1)?;
+        let stop = Options {
+            time_most: 0.5,
+            ..Options::default()
+        };
+        let stroke = Cue {
+            speed: 8.0,
+            ..cue(Game::Pool)
+        };
+        let mut game = Recording::default();
+        game.begin(&table, &balls, &stop)?;
+        game.shoot(&stroke)?;
+        let refused = game.shoot(&stroke).unwrap_err();
+        assert!(refused.fault.contains("balls move"), "{refused:?}");
+        Ok(())
+    }
 
     #[test]
     fn what_is_written_is_read_with_the_same_bits() {
