@@ -329,16 +329,21 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
       game.continue();
       game.stroke({ speed: 2.5, phi: 70 });
       const whole = game.end();
+      const lineOf = (part: string): number =>
+        whole.split("\n").findIndex((line) => line.includes(part)) + 1;
       const ends = [...carom.replay(whole)].map(({ played }) => played);
       const give = (name: string, of: string): Promise<void> =>
         one
           .locator("#recording")
           .setInputFiles({ name, mimeType: "application/jsonl", buffer: Buffer.from(of) });
       const one = await open("#view=lab", how);
+      // Waits for the name alone, so that other words fail at once.
+      const wordsOf = async (file: string, where = "reel-file"): Promise<string> => {
+        await expect.poll(() => text(one, where)).toContain(file);
+        return text(one, where);
+      };
       await give("game.jsonl", whole);
-      await expect
-        .poll(() => text(one, "reel-file"))
-        .toBe("game.jsonl: 3 shots, every bit agrees.");
+      expect(await wordsOf("game.jsonl")).toBe("game.jsonl: 3 shots, every bit agrees.");
       expect(await text(one, "reel-shot")).toBe("Shot 1 of 3: as recorded.");
       expect(await text(one, "s-time")).toBe(`${ends[0]!.time.toFixed(3)} s`);
       expect(await text(one, "s-status")).toBe("stopped_at_time");
@@ -370,21 +375,22 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
         whole.replace('"speed":2.5', '"speed":2.6'),
       );
       await one.dispatchEvent(".table-view", "drop", { dataTransfer: dropped });
-      await expect
-        .poll(() => text(one, "reel-file"))
-        .toContain("forged.jsonl: 3 shots, 1 ends otherwise than recorded, first shot 3 (line 8).");
+      const forged = lineOf('"speed":2.5');
+      expect(await wordsOf("forged.jsonl")).toContain(
+        `forged.jsonl: 3 shots, 1 ends otherwise than recorded, first shot 3 (line ${forged}).`,
+      );
       expect(await text(one, "reel-shot")).toContain(
-        `Shot 3 of 3, line 8: recorded ok, ${ends[2]!.events} events, ${ends[2]!.time.toFixed(6)} s, hash ${ends[2]!.hash}; played ok, `,
+        `Shot 3 of 3, line ${forged}: recorded ok, ${ends[2]!.events} events, ${ends[2]!.time.toFixed(6)} s, hash ${ends[2]!.hash}; played ok, `,
       );
       // Damage is refused by its line; without a shot before it, nothing changes.
       await give("damaged.jsonl", whole.replace('"place"', '"plaice"'));
-      await expect
-        .poll(() => text(one, "reel-file"))
-        .toContain("damaged.jsonl: 2 shots, every bit agrees. The rest is refused: line 7: ");
+      expect(await wordsOf("damaged.jsonl")).toContain(
+        `damaged.jsonl: 3 shots, every bit agrees. The rest is refused: line ${lineOf('"place"')}: `,
+      );
       await give("other.jsonl", whole.replace('"revision":', '"revision":9'));
-      await expect
-        .poll(() => text(one, "message"))
-        .toContain("other.jsonl: line 1: the recording is of revision 9");
+      expect(await wordsOf("other.jsonl", "message")).toContain(
+        "other.jsonl: line 1: the recording is of revision 9",
+      );
       expect(await text(one, "reel-file")).toContain("damaged.jsonl");
       await one.locator("#rack").click();
       expect(await one.locator("#reel").isVisible()).toBe(false);
