@@ -1,6 +1,7 @@
 // Diagrams in a browser: what they draw, what is printed, and links that keep all of it.
 import { readFileSync } from "node:fs";
 import { tmpdir } from "node:os";
+import { deflateRawSync, inflateRawSync } from "node:zlib";
 import { describe, expect, test } from "vitest";
 import type { Page } from "playwright-core";
 import { browserPath, keptGame, pages, sizes, violations } from "./page.js";
@@ -126,6 +127,46 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
     await one.close();
   });
 
+  test("it strikes the cue ball of the player, who in games of carom has an own one", async () => {
+    const one = await kept({ game: "threecushion", against: "person", own: "0", seed: 1 }, {});
+    await one.locator("#new-game").click();
+    await one.locator("#rate").selectOption("1000");
+    await one.locator("#menu .close").click();
+    const strokes = async (): Promise<string[]> =>
+      (JSON.parse(await keptGame(one)) as { lines: string[] }).lines.filter((line) =>
+        line.startsWith('{"shot"'),
+      );
+    // Soft strokes miss, so that the turn passes.
+    for (const [count, ball] of [
+      [1, undefined],
+      [2, 1],
+    ] as const) {
+      await set(one, "power", 0.5);
+      await one.locator("#shoot").click();
+      await expect.poll(async () => (await strokes()).length).toBe(count);
+      await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
+      const [shot] = (await strokes()).slice(-1);
+      expect((JSON.parse(shot!) as { shot: { ball?: number } }).shot.ball).toBe(ball);
+    }
+    await opened(one);
+    await one.locator("#link-diagram").click();
+    await expect.poll(() => text(one, "diagram-said")).toBe("The link to this diagram is copied.");
+    const drawn = await picture(one);
+    const link = new URL(await one.evaluate(() => navigator.clipboard.readText())).hash;
+    const other = await open(link);
+    await expect.poll(() => other.locator("#diagram").isVisible()).toBe(true);
+    await expect.poll(() => picture(other)).toBe(drawn);
+    // The same stroke of the white is drawn otherwise.
+    const packed = new URLSearchParams(link.slice(1)).get("d")!;
+    const of = JSON.parse(inflateRawSync(Buffer.from(packed, "base64url")).toString()) as object;
+    expect(of).toMatchObject({ ball: 1 });
+    const white = deflateRawSync(JSON.stringify({ ...of, ball: 0 })).toString("base64url");
+    await other.evaluate((d) => (location.hash = `#view=play&d=${d}`), white);
+    await expect.poll(() => picture(other)).not.toBe(drawn);
+    await one.close();
+    await other.close();
+  });
+
   test("a link that is damaged or changed is refused, and says why", async () => {
     const one = await open("");
     const packed = (text: string): Promise<string> =>
@@ -146,6 +187,8 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
       [await packed(JSON.stringify({ ...good, game: "chess" })), 'game: there is no game "chess"'],
       [await packed(JSON.stringify({ ...good, at: "0.5,0.5" })), "at: 16 places x,y are needed"],
       [await packed(JSON.stringify({ ...good, cue: [3, 70] })), "cue: 5 numbers are needed"],
+      [await packed(JSON.stringify({ ...good, ball: 0.5 })), "ball: a whole number is needed"],
+      [await packed(JSON.stringify({ ...good, ball: 99 })), "the stroke cannot be played: "],
       [
         await packed(JSON.stringify({ ...good, cue: [3, 70, 0, 0, 95] })),
         "the stroke cannot be played: ",

@@ -22,6 +22,8 @@ interface Drawn {
   at: string;
   /** The stroke in the order of SET, where there is one. */
   cue?: number[];
+  /** The ball that is struck, where it is not ball 0. */
+  ball?: number;
   after?: boolean;
   path?: boolean;
   notes: string;
@@ -98,8 +100,8 @@ function dialogOf({ film, parts }: Diagram, link: () => void): HTMLDialogElement
   return root;
 }
 
-const cueOf = ({ carom, play }: Diagram, numbers: readonly number[]): Cue => ({
-  ...carom.cue({}, GAMES[play!.played?.of ?? play!.setup.game]!.game),
+const cueOf = ({ carom, play, drawn }: Diagram, numbers: readonly number[]): Cue => ({
+  ...carom.cue({ ball: drawn.ball ?? 0 }, GAMES[play!.played?.of ?? play!.setup.game]!.game),
   ...Object.fromEntries(SET.map((key, k) => [key, numbers[k]])),
 });
 const ballsOf = ({ play, drawn, shot }: Diagram): ShotBall[] =>
@@ -113,8 +115,9 @@ function drawOver(d: Diagram, g: CanvasRenderingContext2D): void {
   const pen = { g, scale: film.scale, place: film.place };
   const balls = ballsOf(d);
   drawLabels(pen, balls, labelsOf(play!.names, texts.letters)); // also on paper without colours
-  if (drawn.cue && !drawn.after && onTable(balls[0]!.state))
-    drawStick(pen, balls[0]!, cueOf(d, drawn.cue));
+  const struck = balls[drawn.ball ?? 0];
+  if (drawn.cue && !drawn.after && struck && onTable(struck.state))
+    drawStick(pen, struck, cueOf(d, drawn.cue));
 }
 function draw(d: Diagram): void {
   const { play, film, drawn, shot } = d;
@@ -162,7 +165,8 @@ function take(d: Diagram, k: number): void {
     notes: d.parts.notes.value,
   };
   try {
-    lay(d, cue ? { ...still, cue: SET.map((key) => cue[key]), path: true } : still);
+    const stroke = cue && { cue: SET.map((key) => cue[key]), ball: cue.ball, path: true };
+    lay(d, { ...still, ...stroke });
   } catch (error) {
     if (!(error instanceof CaromError)) throw error;
     d.parts.said.textContent = texts.thisStrokeCannotBe(error.message);
@@ -188,6 +192,8 @@ async function unpacked(packed: string): Promise<Drawn> {
     !(Array.isArray(of.cue) && of.cue.length === SET.length && of.cue.every(Number.isFinite))
   )
     throw new TypeError(texts.cueNumbersAreNeeded(SET.length));
+  if (of.ball !== undefined && !Number.isInteger(of.ball))
+    throw new TypeError(texts.aBallIsAWholeNumber);
   if (typeof of.notes !== "string" || typeof of.at !== "string")
     throw new TypeError(texts.notesAndAtTexts);
   return of;
