@@ -61,6 +61,28 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
     await one.close();
   });
 
+  test("a game is conceded by a second press, and is over", async () => {
+    const one = await open("");
+    await begin(one, "nineball", "person");
+    await shoot(one, 8);
+    await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
+    const { open: id } = await keptGames(one);
+    await one.locator("#new-game").click();
+    await one.locator("#concede").click();
+    expect(await one.locator("#end").isVisible()).toBe(false);
+    await one.locator("#concede").click();
+    await expect.poll(() => one.locator("#end").isVisible()).toBe(true);
+    expect(await one.locator("#end").textContent()).toContain("The other player gave up.");
+    const { lines } = JSON.parse((await keptGames(one)).games[id]!) as { lines: string[] };
+    expect(lines.at(-2)).toContain('"act":3');
+    expect(lines.at(-1)).toContain('"winner"');
+    // It can be given up no more, nor can practice.
+    await one.locator("#new-game").click();
+    expect(await one.locator("#concede").isVisible()).toBe(false);
+    await one.locator("#menu .close").click();
+    await one.close();
+  });
+
   test("a second tab does not play the game that the first one has open", async () => {
     const context = await browser().newContext();
     const visit = async (): Promise<Page> => {

@@ -296,6 +296,13 @@ export class Play {
     return this.#ruled(before, false);
   }
 
+  /** A player gives the game to the other. */
+  concede(who: 0 | 1): Stroke {
+    const before = this.#before(this.carom.cue());
+    this.#match!.concede(who);
+    return this.#ruled({ ...before, who }, false);
+  }
+
   /**
    * Reads lines that another page wrote, up to a stroke or a choice with its ruling, and takes them
    * off the list. Undefined where there is none. Throws where a line is not by the rules, or has

@@ -40,6 +40,7 @@ function wordsOfEight({ state, ruling, balls, shot, call }: Stroke): string {
 /** Why the game has ended, as far as the stroke tells more than the score. */
 export function wordsOfEnd(play: Play): string {
   const { last, setup, played, winner } = play;
+  if (winner !== undefined && last && !last.shot) return texts.theOtherGaveUp;
   if (!last?.ruling) return "";
   const hasLost = winner !== last.who;
   const deciding = { eightball: 8, nineball: 9, tenball: 10 }[setup.game];

@@ -99,6 +99,16 @@ function finishTurn(s: Session, stroke: Stroke): void {
   saveAndCount(s);
   s.showing.perform(stroke, () => next(s));
 }
+/** Gives the game to the other player; of two at one page, whoever is at the table gives it. */
+export function concede(s: Session): void {
+  const { play, seat } = s;
+  if (!mayConcede(play)) return says(s, why(s));
+  s.showing.skip(); // a film ends here
+  s.searchGeneration++; // and so does the thought of the page's player
+  s.thinks = false;
+  finishTurn(s, play.concede(play.setup.against === "person" ? play.turn : seat));
+}
+export const mayConcede = (play: Play): boolean => !play.practice && play.winner === undefined;
 /** Takes back the last stroke or move of practice. */
 export function undo(s: Session): void {
   if (!s.play.practice) return;

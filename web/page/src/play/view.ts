@@ -22,7 +22,7 @@ import { onTable } from "../table/filmed.js";
 import { Sound } from "./sound.js";
 import { Space } from "./space.js";
 import { begin, FIRST, resume, start } from "./opening.js";
-import { choose, togglePush, undo } from "./turns.js";
+import { choose, concede, mayConcede, togglePush, undo } from "./turns.js";
 import { texts, told } from "../texts/texts.js";
 
 const wordsOf = (): Session["words"] => ({
@@ -172,10 +172,24 @@ function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof d
       sources.unshift([texts.theStrokeThatIs, play.balls, cueOf(s)]);
     diagram.open(play.setup, [...sources, [texts.theBallsAsThey, play.balls, undefined]]);
   };
+  // The first press says what the second one does.
+  const give = button(
+    texts.concede,
+    () => {
+      if (give.textContent === texts.concede) {
+        give.textContent = texts.giveTheGameTo;
+        return;
+      }
+      games.root.close();
+      concede(s);
+    },
+    { id: "concede" },
+  );
   const rows = [
     shut(texts.linkToThisGame, "copy-game", () => void s.link.send()),
     shut(texts.logOfYourStrokes, "open-log", log.open),
     shut(texts.diagramToPrint, "open-diagram", draw),
+    give,
   ];
   const games = menu(
     s,
@@ -183,7 +197,11 @@ function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof d
     el("h3", {}, texts.thisGame),
     el("div", { class: "row" }, ...rows),
   );
-  s.buttons.menu.addEventListener("click", games.open);
+  s.buttons.menu.addEventListener("click", () => {
+    give.textContent = texts.concede;
+    give.hidden = !mayConcede(s.play);
+    games.open();
+  });
   return {
     all: [games.root, games.calibration, log.root, diagram.root, s.training.photo],
     diagram,
