@@ -31,7 +31,19 @@ static const option_row option_rules = {
     .set = set_named,
     .field = offsetof(break_job, from.balls.rack),
     .least = CAROM_WORDS_RACK};
-OPTION(break_job, option_racks, "racks", racks, 0, "N", set_count, 1,
+
+/* --rack nineball is short for --racks. */
+static OPTION_SET(set_racks) {
+  const char *word;
+  for (int k = 0; (word = carom_word(CAROM_WORDS_RACK, k)) != NULL; k++)
+    if (strcmp(word, text) == 0) {
+      complain("--racks is how many breaks are played; --rules %s names the rack", word);
+      return false;
+    }
+  return set_count(row, text, field);
+}
+
+OPTION(break_job, option_racks, "racks", racks, 0, "N", set_racks, 1,
        "breaks of each speed, tip and gap (default 500)");
 OPTION(break_job, option_break_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write a row for each stroke and gap instead of words");
