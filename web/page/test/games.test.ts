@@ -204,4 +204,12 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
       .toMatch(/^Hint: the stroke that is aimed, at .* makes it in \d+ % of 200 tries\.$/);
     await one.close();
   });
+
+  test.each(["eightball", "snooker", "threecushion"])("Hint in practice: %s", async (game) => {
+    const one = await open("");
+    await begin(one, game, "practice");
+    await one.locator("#hint").click();
+    await expect.poll(() => text(one, "said")).toMatch(/^Hint: .* keeps the turn in \d+ %/);
+    await one.close();
+  });
 });

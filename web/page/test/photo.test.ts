@@ -115,6 +115,9 @@ test("a patch suggests its ball, or the balls that it may be", () => {
     });
   }
   expect(suggest(patch(0.28, COLOURS[1]!, 1), COLOURS)).toEqual([2, 10]);
+  // Red in shade is as dark as maroon, and a stripe may show the white of its end.
+  expect(suggest(patch(0, "#7d1620", 1), COLOURS)).toEqual(expect.arrayContaining([3, 7]));
+  expect(suggest(patch(0.88, COLOURS[3]!, 1), COLOURS)).toEqual(expect.arrayContaining([0, 12]));
 });
 
 /** The outline on the picture of a rectangle around the noses, at a height, m. */

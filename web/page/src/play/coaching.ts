@@ -224,7 +224,11 @@ export const coaching = (s: Session): Coach => ({
     const request = requestOf(s.play, levelOf(s));
     return async (cue, call) => {
       s.chancesGeneration++; // chances of this stroke that come later do not hide its review
-      says(s, await lookBack(s.carom, request, cue, call));
+      const { play } = s;
+      const verdict = await lookBack(s.carom, request, cue, call);
+      if (play !== s.play) return; // another game is on the table
+      s.verdict = verdict;
+      says(s, verdict);
     };
   },
 });

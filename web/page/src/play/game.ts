@@ -127,13 +127,15 @@ function tableNamed(carom: Carom, of: GameOf, name: string | undefined): Table {
   if (!chosen || (name !== undefined && !isPool)) throw new TypeError(texts.tableThereIsNo(name!));
   return isPool ? carom.table(chosen[1], chosen[2]) : carom.table(of.table);
 }
+/** Whether the next stroke of a new game is one that its rules tell from others. */
+const isOpening = (rules: GameState["rules"], { at }: Setup): boolean =>
+  (games[rules].members as readonly string[]).includes("opening") && at === undefined;
 /** The match of a game that begins with these balls. */
 function matchOf(play: Play, { rules, opening, state }: Played): Match {
   const { carom, setup, table, balls } = play;
-  const opens = (games[rules].members as readonly string[]).includes("opening");
   // Who opens a game of carom strikes the white.
   const group = play.hasPockets ? "open" : "solids";
-  const game = { rules, group, opening: opens && setup.at === undefined, ...state } as const;
+  const game = { rules, group, opening: isOpening(rules, setup), ...state } as const;
   // The cue ball of a layout lies where its text says.
   const isLaid = setup.at !== undefined && onTable(balls[0]!.state);
   const hand = play.hasPockets && !isLaid ? (opening as Ruling["hand"]) : "no";
@@ -180,7 +182,7 @@ export class Play {
     this.balls = this.#match?.balls ?? this.#laid(of);
     this.names = this.balls.map((_, k) => of.names(k));
     const rules = this.practice && this.hasPockets ? "potting" : this.played!.rules;
-    this.#practised = { rules, group: "open", opening: setup.at === undefined };
+    this.#practised = { rules, group: "open", opening: isOpening(rules, setup) };
     if (!this.practice) this.#match ??= matchOf(this, this.played!);
     if (!this.practice && this.state.rules !== rules)
       throw new TypeError(texts.theLinesAreOf(setup.game));

@@ -38,6 +38,7 @@ export function start(s: Session, play: Play, id: string, seat: 0 | 1 = 0): void
     turnedBefore: turned,
     chosen: NONE,
     special: undefined,
+    verdict: "",
     hinted: false,
   });
   s.film.stop();

@@ -145,6 +145,8 @@ export interface Progress {
   seat: 0 | 1;
   chosen: Chosen;
   special: "push" | "pass" | undefined;
+  /** What the coach said of the last stroke; "" where nothing. */
+  verdict: string;
   /** Whether a hint was asked for at this stroke. */
   hinted: boolean;
   /** What the aim meets first. */

@@ -162,6 +162,8 @@ export function radiusAt({ place, pixel }: Camera, [u, v]: Pixel): number {
   );
 }
 
+/** Hues that differ by less are one. */
+const SAME_HUE = 0.08;
 /**
  * Which balls a patch of a picture may be, the likeliest first, of those that are named: red,
  * green, blue and alpha of its pixels. There is one where its
@@ -183,23 +185,29 @@ export function suggest(patch: ArrayLike<number>, colours: readonly string[]): n
     else rgb.forEach((x, c) => (sum[c]! += x));
   }
   const share = white / Math.max(count, 1);
-  if (share > 0.8) return [0];
+  if (share > 0.93) return [0];
   const mean = sum.map((x) => x / Math.max(count - white, 1));
   const chroma = ([r, g, b]: number[]): number[] => {
     const light = r! + g! + b! + 60;
     return [r! / light, g! / light, b! / light, light / 1500];
   };
   const own = chroma(mean);
-  const far = colours.map((hex) => {
+  const apart = colours.map((hex) => {
     const other = chroma([1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16)));
-    return Math.hypot(...own.map((x, c) => x - other[c]!));
+    return own.map((x, c) => x - other[c]!);
   });
+  const far = apart.map((parts) => Math.hypot(...parts));
   const least = Math.min(...far);
+  // Red in shade is as dark as maroon: a ball of the same hue is offered too.
+  const hues = apart.map((parts) => Math.hypot(...parts.slice(0, 3)));
+  const hue = Math.min(...hues) + SAME_HUE;
   // Ball k + 1 and ball k + 9 have one colour; ball 8 has no stripe.
   const near = [...far.keys()]
-    .filter((k) => far[k]! < 1.3 * least + 0.01)
+    .filter((k) => far[k]! < 1.3 * least + 0.01 || hues[k]! < hue)
     .sort((a, b) => far[a]! - far[b]!);
-  return near.flatMap((k) => {
+  // A stripe whose white end is up is nearly as white as the cue ball.
+  if (share > 0.8) return [0, ...near.filter((k) => k < 7).map((k) => k + 9)];
+  const balls = near.flatMap((k) => {
     const solid = k + 1;
     const stripe = k + 9;
     if (solid === 8) return [8];
@@ -208,4 +216,6 @@ export function suggest(patch: ArrayLike<number>, colours: readonly string[]): n
     if (share > 0.22) return [solid, stripe];
     return [solid];
   });
+  // The cue ball in the shade of a cushion is half white.
+  return share > 0.5 ? [...balls, 0] : balls;
 }

@@ -20,6 +20,7 @@ export const progressOf = (play: Play): Progress => ({
   seat: 0,
   chosen: NONE,
   special: undefined,
+  verdict: "",
   hinted: false,
   first: undefined,
   turned: [],

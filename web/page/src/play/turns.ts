@@ -48,6 +48,7 @@ export function shoot(s: Session): void {
   try {
     const { cue, call } = strokeToPlay(s);
     const stroke = play.stroke(cue, call);
+    s.verdict = "";
     says(s, "");
     const isReviewed = settings.coach && play.played && play.setup.drill === undefined;
     if (isReviewed) void review(cue, call);
@@ -150,7 +151,8 @@ export function next(s: Session): void {
   const { last, setup, winner } = play;
   const isAgainstComputer = isComputer(setup.against);
   const wasTheirs = last !== undefined && last.who !== seat;
-  if (wasTheirs && play.hasPockets && isAgainstComputer) says(s, wordsOfStroke(play, last, seat));
+  if (wasTheirs && play.hasPockets && isAgainstComputer)
+    says(s, `${wordsOfStroke(play, last, seat)} ${s.verdict}`.trim());
   if (winner !== undefined && isRated(setup)) says(s, training.rating().words);
   if (winner !== undefined) s.end.show();
   // The page's player begins to plan, or the person at the page begins to aim.
