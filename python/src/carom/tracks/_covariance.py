@@ -44,6 +44,12 @@ from carom.tracks._strikes import Plays, derivatives
 _SPEED, _SPIN, _TIME = 8.0, 2.0, 0.1
 
 
+def bounds(strike: Doubles) -> Doubles:
+    """How far off each number of a strike may be where no sample tells it, (6,)."""
+    speed = float(np.hypot(strike[0], strike[1]))
+    return np.array([_SPEED, _SPEED, *3 * [_SPIN * speed + 0.2], _TIME])
+
+
 def of_strike(
     plays: Plays, row: int, strike: Doubles, names: Sequence[str] = ()
 ) -> tuple[Doubles, Doubles, Doubles]:
@@ -53,11 +59,9 @@ def of_strike(
     """
     d, J_p, J_c, J_r = derivatives(plays, row, strike, list(names))
     variance = float(d @ d) / max(len(d) - 6, 1)
-    speed = float(np.hypot(strike[0], strike[1]))
-    bounds = np.array([_SPEED, _SPEED, *3 * [_SPIN * speed + 0.2], _TIME])
     # by R of the factorisation Q R, as the product J^T J has the square of its condition number
     root = np.linalg.inv(
-        np.linalg.qr(np.vstack([J_p / np.sqrt(variance), np.diag(1.0 / bounds)]), mode="r")
+        np.linalg.qr(np.vstack([J_p / np.sqrt(variance), np.diag(1.0 / bounds(strike))]), mode="r")
     )
     P = root @ root.T
     return (

@@ -61,13 +61,18 @@ def contacts(plays: Plays, row: int, numbers: Doubles) -> Records:
     return met[:CONTACTS]
 
 
+def deviations(met: Records) -> Doubles:
+    """s of the kicks of contacts, (CONTACTS, KICKS): beyond the last those of a cushion."""
+    found = np.tile(CUSHION, (CONTACTS, 1))
+    found[: len(met)][met["type"] == lib.CAROM_EVENT_BALL_BALL] = BALLS
+    return found
+
+
 def _held(met: Sequence[Records]) -> Doubles:
     """What the square of each number costs, (shots, numbers)."""
     price = np.zeros((len(met), 6 + KICKS * CONTACTS))
-    price[:, 6:] = np.tile(PRICE / CUSHION**2, CONTACTS)
     for k, events in enumerate(met):
-        for j in np.flatnonzero(events["type"] == lib.CAROM_EVENT_BALL_BALL):
-            price[k, 6 + KICKS * j : 6 + KICKS * (j + 1)] = PRICE / BALLS**2
+        price[k, 6:] = PRICE / deviations(events).ravel() ** 2
     return price
 
 
