@@ -27,6 +27,10 @@ function wordsOfFoul(play: Play, { who, ruling }: Stroke, seat: 0 | 1): string {
 
 const fell = ({ shot }: Stroke, ball: number): boolean =>
   shot?.events.some(({ type, a }) => type === "ball_pocket" && a === ball) === true;
+/** The games of two groups, in which the eight comes last. */
+const isEight = ({ setup }: Play): boolean =>
+  ["eightball", "blackball", "heyball"].includes(setup.game);
+
 /** Why the eight lost the game. */
 function wordsOfEight({ state, ruling, balls, shot, call }: Stroke): string {
   if (shot?.final[8]?.label === "off") return texts.the8LeftThe;
@@ -43,13 +47,14 @@ export function wordsOfEnd(play: Play): string {
   if (winner !== undefined && last && !last.shot) return texts.theOtherGaveUp;
   if (!last?.ruling) return "";
   const hasLost = winner !== last.who;
-  const deciding = { eightball: 8, nineball: 9, tenball: 10 }[setup.game];
+  const deciding = isEight(play) ? 8 : { nineball: 9, tenball: 10 }[setup.game];
   if (deciding === undefined) {
     const score = play.points.join(" : ").replaceAll("-", "−");
     return played?.points ? texts.theScoreIs(score) : "";
   }
   if (!hasLost) return fell(last, deciding) ? texts.theFell(deciding) : "";
-  if (deciding === 8) return wordsOfEight(last);
+  const isEightGone = fell(last, 8) || last.shot?.final[8]?.label === "off";
+  if (deciding === 8 && isEightGone) return wordsOfEight(last);
   return last.ruling.foul ? texts.theThirdFoulIn(told(last.ruling.why)) : "";
 }
 
@@ -71,7 +76,7 @@ function aimOf(play: Play): string {
   const { game } = play.setup;
   if (game === "snooker") return texts.onBall(onOf(play));
   if (play.played?.pockets) return texts.intoPocket(pocketOf(play));
-  if (game !== "eightball" || play.breaks) return "";
+  if (!isEight(play) || play.breaks) return "";
   return play.state.group === "open" ? texts.openTable : `, ${told(play.state.group)}`;
 }
 const PLACES: Record<string, string> = {
@@ -130,7 +135,7 @@ export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, n
   const won = race === undefined ? wonAll : texts.raceStands(race, racks[0], racks[1]);
   if (play.played?.points)
     return wordsOfPoints(play.points) + (race === undefined ? "" : ` · ${won}`);
-  if (play.setup.game === "eightball") {
+  if (isEight(play)) {
     if (play.state.group === "open") return won;
     const balls = ([0, 1] as const).map((who) =>
       groupOf(play, who) === "solids" ? ballsLeft(play, 1, 7) : ballsLeft(play, 9, 15),
