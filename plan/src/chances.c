@@ -29,6 +29,8 @@ static const learned *numbers_of(const carom_view *view) {
                                   [CAROM_RACE_POINTS] = CAROM_RULES_STRAIGHT};
   if (carom_is_learned(view))
     return &learned_of[view->rules->learned - 1];
+  if (view->rules->learned == CAROM_RULES_ROTATION + 1) /* one ball is on, as in nine-ball */
+    return &learned_of[CAROM_RULES_NINEBALL];
   return &learned_of[with_race[view->rules->race]];
 }
 
