@@ -41,9 +41,9 @@ static bool find_range(search *plan, const double low[2], const double high[2]) 
   return range->low[0] <= range->high[0] && range->low[1] <= range->high[1];
 }
 
-/* The place number k from which a ball that is on could be potted: 0.12 to 0.72 m from the ball, and
- * a cut of at most 50 degrees. Ball, pocket, cut and distance are drawn. False: the ball does not
- * get into that pocket. */
+/* The place number k from which a ball that is on could be potted: 0.12 to 0.72 m from the ball,
+ * and a cut of at most 50 degrees. Ball, pocket, cut and distance are drawn. False: the ball does
+ * not get into that pocket. */
 static bool draw_place_of_pot(const search *plan, uint64_t k, double r[2]) {
   static const double cut_most = 50.0 * degree, near = 0.12, farther = 0.6; /* rad, m */
   double u[4];
