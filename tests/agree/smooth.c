@@ -193,9 +193,9 @@ static double off_parabola(const double *y, int count) {
 
 TEST(final_places_lie_on_a_parabola) {
   enum { MOVES = 201, PLACES = 6 };
-  static const carom_shot_cushion cushions[] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_SMOOTH,
-                                                CAROM_SHOT_CUSHION_STRONGE,
-                                                CAROM_SHOT_CUSHION_MIRROR};
+  static const carom_shot_cushion cushions[] = {
+      CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_SMOOTH, CAROM_SHOT_CUSHION_MATHAVAN,
+      CAROM_SHOT_CUSHION_STRONGE, CAROM_SHOT_CUSHION_MIRROR};
   static const direction by[] = {
       {OF_CUE, 0, 0, 2}, {OF_CUE, 0, 1, 57}, {OF_CUE, 0, 3, 1}, {OF_CUE, 0, 4, 1}};
   carom_table table;

@@ -1344,14 +1344,16 @@ TEST(piles_by_pairs) {
 
 /* ---- The reach where a ball is frozen to the cue ball */
 
-/* Of changes by a thirtieth of the reach, at most 1 in 100 lets a ball meet something else. */
+/* Of changes by a thirtieth of the reach, at most 1 in 100 lets a ball meet something else without
+ * a flag: of the cue's numbers, and of the places of both balls. */
 TEST(reach_at_frozen_balls) {
-  enum { SHOTS = 400, OF_REACH = 30 };
-  static const direction by[] = {
-      {OF_CUE, 0, 0, 2}, {OF_CUE, 0, 1, 57}, {OF_CUE, 0, 3, 1}, {OF_CUE, 0, 4, 1}};
+  enum { SHOTS = 400, OF_REACH = 30, BY = 8, OF_CUES = 4 };
+  static const direction by[BY] = {{OF_CUE, 0, 0, 2},   {OF_CUE, 0, 1, 57},  {OF_CUE, 0, 3, 1},
+                                   {OF_CUE, 0, 4, 1},   {OF_STATE, 0, 0, 1}, {OF_STATE, 0, 1, 1},
+                                   {OF_STATE, 1, 0, 1}, {OF_STATE, 1, 1, 1}};
   static carom_event other[ROOM];
   random_source random = {test_seed()};
-  int changes = 0, others = 0;
+  int changes[2] = {0}, others[2] = {0}, flagged = 0;
   for (int n = 0; n < SHOTS; n++) {
     layout l = draw(&random, 9);
     const double aside = random_between(&random, -0.7, 0.7),
@@ -1360,23 +1362,34 @@ TEST(reach_at_frozen_balls) {
     l.ball[1].state.r[1] = l.ball[0].state.r[1] + 2.0 * R * sin(angle);
     l.options.time_most = exp(random_between(&random, log(0.02), log(0.5)));
     shot = (carom_shot){.events = events, .room = ROOM, .final = final};
-    int64_t flags;
-    if (shoot(&l, &shot) < CAROM_OK || tangent_of(&l, by, 4, &flags) != CAROM_OK)
-      continue; /* the ball has no place there */
-    for (int j = 0; j < 4; j++)
-      for (int side = -1; side <= 1 && reach[j] < INFINITY; side += 2) {
-        layout changed = l;
-        change(&changed, &by[j], side * reach[j] / OF_REACH);
-        carom_shot s = {.events = other, .room = ROOM};
-        if (shoot(&changed, &s) < CAROM_OK)
-          continue;
-        changes++;
-        /* near the time at which both are stopped an event may come or go */
-        others += !each_alike_until(&s, l.count, 0.9 * l.options.time_most);
-      }
+    for (int part = 0; part < BY; part += OF_CUES) {
+      int64_t flags;
+      if (shoot(&l, &shot) < CAROM_OK || tangent_of(&l, &by[part], OF_CUES, &flags) != CAROM_OK)
+        continue; /* the ball has no place there */
+      const int of_place = part > 0;
+      for (int j = 0; j < OF_CUES; j++)
+        for (int side = -1; side <= 1 && reach[j] < INFINITY; side += 2) {
+          layout changed = l;
+          change(&changed, &by[part + j], side * reach[j] / OF_REACH);
+          carom_shot s = {.events = other, .room = ROOM};
+          if (shoot(&changed, &s) < CAROM_OK)
+            continue;
+          changes[of_place]++;
+          /* near the time at which both are stopped an event may come or go */
+          if (each_alike_until(&s, l.count, 0.9 * l.options.time_most))
+            continue;
+          const bool told = of_place && (flags & CAROM_TANGENT_SIMULTANEOUS) != 0;
+          flagged += told;
+          others[of_place] += !told;
+        }
+    }
   }
-  printf("a thirtieth of the reach: %d of %d changes let a ball meet something else\n", others,
-         changes);
-  ck_assert_int_gt(changes, SHOTS);
-  ck_assert_int_le(100 * others, changes);
+  printf("a thirtieth of the reach: %d of %d changes of the cue let a ball meet something else, %d "
+         "of %d changes of places, and %d of these with a flag\n",
+         others[0], changes[0], others[1], changes[1], flagged);
+  ck_assert_int_gt(flagged, 0);
+  for (int k = 0; k < 2; k++) {
+    ck_assert_int_gt(changes[k], SHOTS);
+    ck_assert_int_le(100 * others[k], changes[k]);
+  }
 }

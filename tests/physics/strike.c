@@ -709,6 +709,7 @@ TEST(numbering_does_not_count) {
       carom_shot shot = {.events = events, .room = ROOM, .final = end[turn]};
       ck_assert_int_eq(carom_shoot(&table, other, count, &cue, &options, &shot),
                        CAROM_STOPPED_AT_TIME);
+      ck_assert_int_gt(events[0].cluster, 1); /* one push, never two blows */
     }
     for (int k = 0; k < count; k++)
       for (int axis = 0; axis < 3; axis++)
