@@ -238,7 +238,8 @@ class _Before:
         """- 2 V log P, of a row for each draw; infinite where a play ends in an error."""
         rows = np.arange(len(numbers), dtype=np.int32)
         found = self.plays.misfit(rows, numbers, self.plays.ends, -np.inf)
-        return np.where(np.isfinite(found[:, 0]), found[:, 0], np.inf) + numbers**2 @ self.held
+        misfit = np.where(np.isfinite(found[:, 0]), found[:, 0], np.inf)
+        return np.asarray(misfit + numbers**2 @ self.held)
 
     def drawn(self, random: np.random.Generator) -> tuple[_strikes.Plays, Doubles]:
         """Draws of P, and their plays."""
