@@ -181,6 +181,8 @@ static inline bool go_to_touch(bool flat, carom_cluster_state *c, double of_ball
   tip->d += wait * tip_closing(tip, &c->ball[tip->ball]);
   tip->d = of_tip <= wait ? (double)CAROM_LEAST_OVERLAP : tip->d;
   tip->d_max = carom_set_left(tip->e, tip->d, tip->d_max);
+  /* without follow-through it is over once it is not pressed any more */
+  tip->gone |= tip->d_max == 0.0 && !(tip->reach > 0.0);
   for (int k = 0; c->on_slate && k < c->balls; k++) {
     carom_cluster_slate *x = &c->slate[k];
     const bool touches = wait_of_slate(c, k) <= wait;

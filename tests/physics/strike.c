@@ -776,6 +776,17 @@ TEST(no_follow_through) {
     strike(&cue, count);
     ck_assert_int_eq(facts.touches, 1);
   }
+
+  /* a ball straight ahead that is met once the tip has parted, while its set recovers */
+  for (int n = 0; n < draws_of_each(300); n++) {
+    begin(2);
+    beside(1, 0, random_between(&r, 0.0, 0.006), 90.0);
+    carom_cue cue = cue_at(2.0, 90.0);
+    cue.theta = random_between(&r, 0.0, 50.0);
+    cue.follow = 0.0;
+    strike(&cue, 2);
+    ck_assert_int_eq(facts.touches, 1);
+  }
 }
 
 /* ---- Hops */

@@ -429,28 +429,49 @@ static void shots(void) {
   }
 }
 
+/* Goes on with the hash of a shot of a cue ball at (x, 0.6) at another at (0.5, y). */
+static uint64_t add_near_ball(uint64_t hash, const carom_cue *cue, double x, double y) {
+  static carom_table table;
+  static carom_event events[ROOM];
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  carom_shot_ball balls[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_POOL)},
+                              {.kind = carom_ball_kind_of(CAROM_GAME_POOL)}};
+  carom_place_ball(&table, balls, 1, 0, x, 0.6, NULL);
+  carom_place_ball(&table, balls, 2, 1, 0.5, y, NULL);
+  carom_ball_state final[2];
+  carom_shot shot = {.events = events, .room = ROOM, .final = final};
+  const carom_status status = carom_shoot(&table, balls, 2, cue, NULL, &shot);
+  return add_shot(hash, &shot, 2, status);
+}
+
 /* Straight shots at a near ball, which the tip of a cue that follows through touches twice; some
  * with the butt raised. */
 static void follow_through(void) {
-  static carom_table table;
-  static carom_event events[ROOM];
-  carom_ball_state final[2];
   uint64_t hash = START;
   state = 7;
-  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
   for (int k = 0; k < 40; k++) {
-    carom_shot_ball balls[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_POOL)},
-                                {.kind = carom_ball_kind_of(CAROM_GAME_POOL)}};
     carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
     cue.speed = between(0.5, 8.0);
     cue.theta = k % 4 == 3 ? between(0.0, 40.0) : 0.0;
-    carom_place_ball(&table, balls, 1, 0, between(0.4, 0.6), 0.6, NULL);
-    carom_place_ball(&table, balls, 2, 1, 0.5, 0.66 + between(0.0, 0.03), NULL);
-    carom_shot shot = {.events = events, .room = ROOM, .final = final};
-    const carom_status status = carom_shoot(&table, balls, 2, &cue, NULL, &shot);
-    hash = add_shot(hash, &shot, 2, status);
+    const double x = between(0.4, 0.6), y = 0.66 + between(0.0, 0.03);
+    hash = add_near_ball(hash, &cue, x, y);
   }
   show("shots: follow-through", hash);
+}
+
+/* The same with a cue that touches once: it does not follow through. */
+static void no_follow_through(void) {
+  uint64_t hash = START;
+  state = 8;
+  for (int k = 0; k < 40; k++) {
+    carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+    cue.speed = between(0.5, 8.0);
+    cue.theta = between(0.0, 50.0);
+    cue.a = cue.b = 0.0;
+    cue.follow = 0.0;
+    hash = add_near_ball(hash, &cue, 0.5, 0.66 + between(0.0, 0.004));
+  }
+  show("shots: no follow-through", hash);
 }
 
 /* ---- Places and aims ------------------------------------------------------------------------- */
@@ -532,6 +553,7 @@ int main(int argc, char **argv) {
   cushion_traces();
   shots();
   follow_through();
+  no_follow_through();
   places();
 #ifndef CAROM_WITHOUT_PLAN
   aims();
