@@ -4,6 +4,7 @@ would be right, as C tells them.
 
 from __future__ import annotations
 
+import functools
 from typing import Any
 
 from carom import dtypes
@@ -38,6 +39,25 @@ def _fault(
         values[0] if len(values) == 1 else ", ".join(map(str, values)),
         text=text,
     )
+
+
+@functools.cache
+def _ranges(part: int) -> list[tuple[str, float, float, float, Any]]:
+    """The name, the range and the other value of each number of a part, and its row."""
+    return [
+        (ffi.string(row.name).decode(), row.low, row.high, row.other, row)
+        for row in numbers_of(part)
+    ]
+
+
+def refuse_numbers(part: int, name: str, record: dtypes.Records) -> None:
+    """Refuses one record, called `name`, with a number outside its range."""
+    values = dict(zip(record.dtype.names or (), record.item(), strict=True))
+    for field, low, high, other, row in _ranges(part):
+        if not low <= values[field] <= high and values[field] != other:
+            must = ffi.new("char[]", 100)
+            lib.carom_number_range(row, must, 100)
+            raise _fault(row.error, name, [field], record, ffi.string(must).decode())
 
 
 def strike_error(status: int, cue: dtypes.Records, kind: dtypes.Records) -> CaromError:

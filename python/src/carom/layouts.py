@@ -14,7 +14,7 @@ from carom import dtypes, pictures
 from carom._carom import ffi, lib
 from carom._described import BallNumbers, Condition, ShotCushion
 from carom._described import Game as Game
-from carom._faults import strike_error
+from carom._faults import refuse_numbers, strike_error
 from carom._rows import (
     Array,
     as_array,
@@ -563,14 +563,16 @@ def cue(
 ) -> dtypes.Records:
     """Build a cue with its strike, or many.
 
-    The fields are broadcast against each other.
+    The fields are broadcast against each other. One cue with a number outside its range is refused.
+    Of many, a wrong one costs its own shot.
 
     Parameters
     ----------
     speed : array_like, shape (...)
         Speed of the cue before the strike, m/s; 0: no strike. Default 2.
     phi, theta : array_like, shape (...)
-        Direction in the plane from +x towards +y, and elevation of the butt, degrees.
+        Direction in the plane from +x towards +y, and elevation of the butt, degrees. With a theta
+        of nan `carom.aim` finds the least elevation; shots refuse it.
     a, b : array_like, shape (...)
         Where the tip touches the ball, in units of its radius, with pooltool's sign: a > 0 left, b
         > 0 above the centre; a^2 + b^2 < miscue^2. Default 0 and 0.25.
@@ -642,6 +644,11 @@ def cue(
     made = fill(dtypes.cue, {}, {**given, **more}, usual)
     if ball_speed is not None:
         _strike_to(made, game)
+    if made.shape == ():
+        checked = made.copy()
+        if np.isnan(made["theta"]):
+            checked["theta"] = 0.0  # nan is right: carom.aim() then finds the elevation
+        refuse_numbers(lib.CAROM_PART_CUE, "cue", checked)
     return made
 
 

@@ -14,6 +14,7 @@ import pytest
 from conftest import refused_by_name
 
 import carom
+import carom.record
 from carom._carom import ffi, lib
 from carom._described import ShotCushion
 
@@ -27,8 +28,16 @@ POCKETED["state"]["label"][3] = carom.Label.POCKETED
 MASKED = np.ma.masked_array(ROWS, mask=np.zeros_like(ROWS, bool))
 
 
-def shot(**cue):
-    return carom.simulate(TABLE, POCKETED, carom.cue(**cue))
+def changed_cue(**fields):
+    """A cue whose numbers were changed after it was made."""
+    cue = carom.cue()
+    for name, value in fields.items():
+        cue[name] = value
+    return cue
+
+
+def shot(**fields):
+    return carom.simulate(TABLE, POCKETED, changed_cue(**fields))
 
 
 def balls(**fields):
@@ -363,16 +372,27 @@ FIELDS = [
         if row.error not in (0, lib.CAROM_ERROR_MISCUE)
         for value in ([99, -1] if row.name == "ball" else [np.nan])
     ),
+    *(
+        (
+            rf"cue\.{row.name} = {value}: it must be {re.escape(row.range)}$",
+            lambda row=row, value=value: carom.cue(**{row.name: value}),
+        )
+        for row in ROWS_OF_CUE
+        for value in ([99, -1] if row.name == "ball" else [np.nan, np.inf, -2e9])
+        if row.name != "theta" or value == value
+    ),
+    (r"cue\.speed = nan", lambda: carom.cue(speed=np.array(np.nan))),
+    (r"cue\.speed = -", lambda: carom.cue(ball_speed=-1.0)),
     (r"cue\.ball = 3: it must be in play", lambda: shot(ball=3)),
     (
         r"cue\.a, cue\.b = 0\.8, 0\.8: the tip misses the ball: .* must be below",
         lambda: shot(a=0.8, b=0.8),
     ),
     (r"cue\.a, cue\.b = 0\.3, 0\.4: .*miscue", lambda: shot(a=0.3, b=0.4, miscue=0.5)),
-    (r"cue\.phi = 1e\+308: ", lambda: carom.struck(carom.cue(phi=1e308), RACK[0]["kind"])),
+    (r"cue\.phi = 1e\+308: ", lambda: carom.struck(changed_cue(phi=1e308), RACK[0]["kind"])),
     (
         r"cue\.speed = nan: it must be 0",
-        lambda: carom.struck(carom.cue(speed=np.nan), RACK[0]["kind"]),
+        lambda: carom.struck(changed_cue(speed=np.nan), RACK[0]["kind"]),
     ),
     (
         r"cue\.a, cue\.b = 0\.8, 0\.8: ",
@@ -714,8 +734,8 @@ def test_degrees_are_not_doubted():
             1.5,
             np.linspace(0.0, 360.0, 100),
             np.zeros(0),
-            np.nan,
-            np.inf,
+            [np.nan],
+            [np.inf],
             360.0 * np.pi,
         ):
             carom.cue(phi=phi)

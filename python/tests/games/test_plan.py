@@ -758,8 +758,10 @@ def test_errors_of_rules():
     ):
         with pytest.raises((TypeError, ValueError), match=match):
             carom.plan(TABLE, LAYOUT, state=state)
+    wrong = carom.cue()
+    wrong["speed"] = -1.0
     with pytest.raises(carom.CaromError):
-        carom.referee(TABLE, LAYOUT, carom.cue(speed=-1.0))
+        carom.referee(TABLE, LAYOUT, wrong)
 
 
 def test_one_pocket():
