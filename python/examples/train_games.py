@@ -194,7 +194,7 @@ class Sight:
         place = np.where(
             straight[:, np.newaxis],
             given[:, 4:6],
-            2.0 * (cue - self.low) / (self.high - self.low) - 1.0,
+            np.clip(2.0 * (cue - self.low) / (self.high - self.low) - 1.0, -1.0, 1.0),
         )
         return np.column_stack([self.base.actions(phi, speed, *(0.35 * given[:, 2:4].T)), place])[
             :, : self.rules.acts
