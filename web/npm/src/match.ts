@@ -361,7 +361,8 @@ export class Match extends Owner<Host> {
   #act(act: (at: Pointer, call: Exports) => number): boolean {
     const { memory } = this.#host;
     this.#lines.push(...this.#written);
-    const [at, size] = [this.#at, layout.carom_match.size];
+    const at = this.#at;
+    const size = layout.carom_match.size;
     const before = this.#own && memory.u8.slice(at, at + size);
     const code = act(at, memory.exports);
     try {

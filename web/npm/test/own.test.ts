@@ -5,30 +5,35 @@ import { builds } from "./support.js";
 
 /** Rules with all methods, which write down that they were asked, and throw where they are told to. */
 function every(asked: Set<string>, throws: { in: string }, withValue: boolean): GameRules {
-  const ask = (method: string): void => {
+  const ask = <Told>(method: string, told: Told): Told => {
     asked.add(method);
     if (method === throws.in) throw new RangeError(`in ${method}`);
+    return told;
   };
   const rules: GameRules = {
     race: "points",
-    on: (_user, inPlay) => (ask("on"), inPlay.filter((ball) => ball > 0)),
+    on: (_user, inPlay) =>
+      ask(
+        "on",
+        inPlay.filter((ball) => ball > 0),
+      ),
     judge(_user, _inPlay, cueBall, facts, _call, foul) {
-      ask("judge");
+      ask("judge", null);
       const down = facts.potted.map(({ ball }) => ball).filter((ball) => ball !== cueBall);
       return { turn: "pass", spot: down, reason: foul([1, 2, 3]) };
     },
-    left: () => (ask("left"), [2, 2]),
-    pockets: () => (ask("pockets"), [0, 1, 2, 3, 4, 5]),
-    points: () => (ask("points"), 1),
+    left: () => ask("left", [2, 2]),
+    pockets: () => ask("pockets", [0, 1, 2, 3, 4, 5]),
+    points: () => ask("points", 1),
     settle(user, table, balls, turn, spot) {
-      ask("settle");
+      ask("settle", null);
       user[0] = 7;
       turn.spot.forEach(spot);
       for (const ball of turn.spot) expect(balls[ball]!.state.label).toBe("stationary");
       return { ...turn, points: table.length };
     },
   };
-  if (withValue) rules.value = (_user, layout) => (ask("value"), layout.length / 16);
+  if (withValue) rules.value = (_user, layout) => ask("value", layout.length / 16);
   return rules;
 }
 

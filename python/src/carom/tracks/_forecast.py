@@ -34,7 +34,6 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import pictures
-from carom._carom import lib
 from carom._rows import Arrays
 from carom.dtypes import Doubles
 from carom.status import CaromError
