@@ -727,6 +727,10 @@ class Shots:
         fields_with_units = [field.with_metadata(_units(field.name)) for field in table.schema]
         return table.cast(arrow.schema(fields_with_units))
 
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
+        """What libraries read that know Arrow, such as Polars: the table of `to_arrow`."""
+        return self.to_arrow().__arrow_c_stream__(requested_schema)
+
     def to_xarray(self, dims: Sequence[str] | None = None) -> Any:
         """The shots as an xarray Dataset: status, time, count, cue_speed and what else the cue has;
         r, v, w and label of each ball at the end; and the features where they were asked for.

@@ -127,6 +127,7 @@ def test_tables_of_a_part(batches, shape):
         )
         table = part.to_arrow()
         assert isinstance(table, arrow.Table) and table.num_rows == rows.size
+        assert arrow.table(part).equals(table, check_metadata=True)
         assert table["ball_1_r_y"].to_pylist() == whole["ball_1_r_y"][rows.ravel()].tolist()
         data = part.to_xarray()
         assert isinstance(data, xarray.Dataset) and data["r"].shape == (*rows.shape, 2, 3)
