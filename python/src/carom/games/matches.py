@@ -72,6 +72,11 @@ class Match:
         opponent_shots: int = 12,
         **rules: Any,
     ) -> None:
+        if "threads" in rules:
+            raise TypeError(
+                "threads: matches are played one after another, and take none; "
+                'gymnasium.make_vec(id, games, vectorization_mode="async") plays them in processes'
+            )
         self.pool = Pool(game, **rules)
         self.strokes = whole(strokes, "strokes", least=1)
         self.opponent = player(fargo=500) if opponent is None else opponent
