@@ -3,6 +3,8 @@ and against each other.
 """
 
 import importlib.util
+import subprocess
+import sys
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -361,6 +363,9 @@ def test_what_a_vector_of_games_refuses(gymnasium):
 
     with pytest.raises(ValueError, match="^autoreset_mode: must be one of 'NextStep', 'SameStep'"):
         carom.gymnasium.GameVectorEnv(2, autoreset_mode="later")
+    for match in ("nineball", "eightball"):
+        with pytest.raises(TypeError, match="^threads: matches are played one after another"):
+            carom.gymnasium.GameVectorEnv(2, match, threads=2)
     games = carom.gymnasium.GameVectorEnv(2)
     with pytest.raises(gymnasium.error.ResetNeeded, match="the first reset"):
         games.reset(options={"reset_mask": np.array([True, False])})
@@ -441,6 +446,13 @@ def test_a_step_of_one_game_makes_few_calls(gymnasium, calls):
     action = env.rules.actions(10.0, 1.0)
     env.step(action)
     assert calls(lambda: env.step(action)) <= 170
+
+
+def test_what_a_step_costs(gymnasium):
+    """The example prints a row for each environment, and for threads where they are taken."""
+    script = EXAMPLE.with_name("games_speed.py")
+    ran = subprocess.run([sys.executable, str(script), "1"], capture_output=True, text=True)
+    assert ran.returncode == 0 and ran.stdout.count(" steps/s ") == 12, ran.stderr + ran.stdout
 
 
 def test_many_games_are_one_batch(gymnasium, calls):
