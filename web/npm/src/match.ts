@@ -201,6 +201,15 @@ export class Match extends Owner<Host> {
   get cueBall(): number {
     return this.#number("cueBall");
   }
+  /** The balls that the player at the table may strike: `cueBall`, or where the rules say so any. */
+  get strikable(): number[] {
+    const { anyCueBall } = layout.carom_plan_rules.offset;
+    const isAny = this.#host.memory.i32[(this.#at + MATCH.rules + anyCueBall) / 4] !== 0;
+    if (!isAny || this.game.opening) return [this.cueBall];
+    return [...this.balls.entries()].flatMap(([ball, { state }]) =>
+      state.label === "pocketed" || state.label === "off" ? [] : [ball],
+    );
+  }
   /** The balls that may be met first, and those that touch the cue ball. */
   get on(): number[] {
     return members(this.#number("on"));
@@ -256,7 +265,7 @@ export class Match extends Owner<Host> {
     }
   }
   /**
-   * Plays a stroke of `cueBall`, up to where the options stop it. Returns whether the shot has
+   * Plays a stroke of `cueBall`, or of another `strikable` one that the cue names, up to where the options stop it. Returns whether the shot has
    * ended, and is ruled.
    */
   stroke(cue: Partial<Cue>, stop: StopOptions = {}): boolean {
@@ -310,7 +319,7 @@ export class Match extends Owner<Host> {
     const wanted: PlanOptions = {
       ...options,
       ...this.game,
-      cue: { ball: this.cueBall },
+      cue: this.strikable.length > 1 ? {} : { ball: this.cueBall },
       inHand: this.phase === "place" ? this.hand : "no",
     };
     return this.#host.think(this.table, this.balls, wanted, slice);

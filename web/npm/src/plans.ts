@@ -211,11 +211,12 @@ export class Plans {
     table: Table,
     balls: readonly ShotBall[],
     cues: readonly Partial<Cue>[] | undefined,
-    options: PlanOptions,
+    given: PlanOptions,
     slice: number,
   ): Generator<undefined, Choice[]> {
-    refuseUnknown(options, KEYS.plan);
-    const { best = 5, inHand = "no" } = options;
+    refuseUnknown(given, KEYS.plan);
+    const { best = 5, inHand = "no" } = given;
+    const options = this.#withCueBall(table, balls, cues, given);
     const memory = this.#memory;
     const most = cues?.length ?? best;
     if (!Number.isInteger(most) || most < 1 || most > 1000)
@@ -267,6 +268,37 @@ export class Plans {
     } finally {
       for (const at of [room, choices, strokes]) memory.free(at);
     }
+  }
+
+  /**
+   * The options with the ball to strike. Where the rules let a player strike any ball, and neither
+   * the options nor strokes that are given name one, it is the ball from which the player wins most
+   * often, as in carom_match_plan().
+   */
+  #withCueBall(
+    table: Table,
+    balls: readonly ShotBall[],
+    cues: readonly Partial<Cue>[] | undefined,
+    options: PlanOptions,
+  ): PlanOptions {
+    if (cues !== undefined) return options;
+    const memory = this.#memory;
+    const job = this.#writeJob(table, balls, options);
+    const isAny = memory.i32[(this.#at.rules + RULES.offset.anyCueBall) / 4] !== 0;
+    if (!isAny || options.opening || options.cue?.ball !== undefined) return options;
+    const { found } = this.#at;
+    let most = -1;
+    let cue: Partial<Cue> = { ...options.cue };
+    for (const ball of members(inPlay(balls), balls.length)) {
+      const struck = { ...options.cue, ball };
+      writeStruct(memory, this.#host.at.cue, "carom_cue", this.#host.cue(struck), "cue");
+      const code = memory.exports.carom_plan_value(job, 0, found);
+      const value = memory.f64[found / 8]!;
+      if (code < 0 || value <= most) continue;
+      most = value;
+      cue = struck;
+    }
+    return { ...options, cue };
   }
 
   /** Where a cue ball in hand may be put on the table in the module's memory. */

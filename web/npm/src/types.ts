@@ -371,7 +371,10 @@ export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   runOut?: boolean;
   /** How many choices at most; default 5. */
   best?: number;
-  /** Masses and the like of the cue; the stroke is not read. */
+  /**
+   * Masses and the like of the cue; the stroke is not read. Where the rules let a player strike any
+   * ball, a plan chooses `ball` unless it is given.
+   */
   cue?: Partial<Cue>;
   /** Models; when to stop is not read. */
   shot?: ShotOptions;

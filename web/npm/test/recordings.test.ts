@@ -114,6 +114,37 @@ test.each(builds)("a match refuses, rules and is judged again, by $name", ({ car
   if (thereIsACommand) expect(run(["verify", "-"], match.end())).toContain("player 2 has won");
 });
 
+test.each(builds)("in pyramid a plan strikes the ball that wins most, by $name", ({ carom }) => {
+  const table = carom.table("pyramid");
+  const rack = carom.rack("pyramid", table);
+  const begun = carom.match("pyramid", table, { seed: 1 });
+  expect(begun.strikable).toEqual([0]);
+  // The 2 lies before a corner, and the 1 behind it in line; the yellow is far from both.
+  const balls = rack.map(({ kind, state }, k) => {
+    const places = [
+      [0.9, 3.3],
+      [0.4, 0.4],
+      [0.12, 0.12],
+    ];
+    const [x = 0, y = 0] = places[k] ?? [];
+    if (k > 2) return { kind, state: { ...state, label: "pocketed" as const } };
+    return { kind, state: { ...state, r: [x, y, kind.radius] as const } };
+  });
+  const match = carom.match({ rules: "pyramid", group: "open", opening: false }, table, { balls });
+  expect(match.strikable).toEqual([0, 1, 2]);
+  const [best] = match.plan({ shots: 1000, best: 1 });
+  expect([best!.cue.ball, best!.ball]).toEqual([1, 2]);
+  const [given] = carom.plan(table, balls, {
+    ...match.game,
+    cue: { ball: 0 },
+    shots: 100,
+    best: 1,
+  });
+  expect(given!.cue.ball).toBe(0);
+  match.take(best!);
+  expect([match.player, match.strikable]).toEqual([0, [0, 1]]);
+});
+
 test("a match that is read again has the bounds of a scratch, and nothing behind its end", () => {
   const [{ carom }] = builds as [(typeof builds)[number]];
   const table = carom.table("9ft");

@@ -76,11 +76,15 @@ function seeded(seed: number): void {
   };
 }
 
-/** Where a place of a 9-ft table, m, is on the page. */
-async function on(one: Page, x: number, y: number): Promise<[number, number]> {
+const NINE_FEET = [1.27, 2.54] as const;
+/** Where a place of a table, m, is on the page. */
+async function on(
+  one: Page,
+  x: number,
+  y: number,
+  [w, l]: readonly [number, number] = NINE_FEET,
+): Promise<[number, number]> {
   const box = (await one.locator("#table-scene").boundingBox())!;
-  const w = 1.27;
-  const l = 2.54;
   const upright = box.height > box.width;
   const scale = box.width / ((upright ? w : l) + 0.2);
   return upright

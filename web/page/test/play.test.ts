@@ -306,6 +306,48 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     },
   );
 
+  test.each(sizes)(
+    "in pyramid a tap or a key chooses the ball that is struck: %s",
+    async (_, how) => {
+      const at = `0.4,0.9 0.9,1.2 0.5,2.2 1.3,2.2${" in".repeat(12)}`;
+      const one = await kept({ game: "pyramid", own: "0", seed: 7, against: "person", at }, how);
+      await pace(one, "1000");
+      const scene = one.locator("#table-scene");
+      const struckBall = (ball: string): Promise<void> =>
+        expect.poll(() => turn(one)).toContain(`Player 1's turn. You strike ${ball}; tap another`);
+      await struckBall("the yellow");
+      // The table is one of 12 feet.
+      const [x, y] = await on(one, 0.5, 2.2, [1.775, 3.55]);
+      await ("touch" in how ? one.touchscreen.tap(x, y) : one.mouse.click(x, y));
+      await struckBall("ball 2");
+      // The aim is at the nearest ball, the 3.
+      expect(await phi(one)).toBeCloseTo(0, 6);
+      for (const ball of ["ball 3", "the yellow", "ball 1", "ball 2"]) {
+        await scene.press("b");
+        await struckBall(ball);
+      }
+      // The shot is one of the ball that a hint names, and one of the ball that a key chose.
+      await one.locator("#hint").click();
+      await expect.poll(() => text(one, "said")).toMatch(/^Hint: with (the yellow|ball [123]): /);
+      const numberOf = (words: string): number =>
+        ["yellow", "1", "2", "3"].indexOf(/(?:with|strike) (?:the|ball) (\w+)/.exec(words)![1]!);
+      const hinted = numberOf(await text(one, "said"));
+      const struckBalls = async (): Promise<number[]> =>
+        linesOf<{ ball?: number }>(await keptGame(one), "shot").map(({ ball = 0 }) => ball);
+      await one.locator("#shoot").click();
+      await expect.poll(struckBalls).toEqual([hinted]);
+      await expect.poll(() => turn(one)).toContain("You strike");
+      const before = numberOf(await turn(one));
+      await scene.press("b");
+      await expect.poll(async () => numberOf(await turn(one))).not.toBe(before);
+      const chosen = numberOf(await turn(one));
+      await set(one, "power", 1);
+      await one.locator("#shoot").click();
+      await expect.poll(struckBalls).toEqual([hinted, chosen]);
+      await one.close();
+    },
+  );
+
   test("a pocket that was tapped is called as long as the aim is at its ball; the call is that of the aim at the stroke", async () => {
     const one = await kept({
       game: "eightball",
@@ -522,8 +564,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
   // with pictures in it.
   const folder = process.env.CAROM_GAMES;
   const whole: (readonly [string, object])[] = words.rules.flatMap(([game]) =>
-    // The page strikes one cue ball, and in pyramid a player chooses it.
-    ["potting", "pyramid"].includes(game)
+    game === "potting"
       ? []
       : [{ width: 1440, height: 900 }, sizes[1][1]].map((how) => [game, how] as const),
   );

@@ -1,6 +1,6 @@
 // The table of a game by pointer and keys: a drag turns the aim, draws the stick or moves a ball
-// that may be moved; a tap aims at a place or a ball, or calls a pocket; two fingers, a double tap,
-// or the wheel show a part of the table larger.
+// that may be moved; a tap aims at a place or a ball, calls a pocket, or where any ball may be struck
+// chooses it; two fingers, a double tap, or the wheel show a part of the table larger.
 import type { Vec3 } from "carom";
 import {
   circle,
@@ -42,7 +42,7 @@ import {
   says,
   valid,
 } from "./session.js";
-import { shoot, undo } from "./turns.js";
+import { aimAtNearest, shoot, undo } from "./turns.js";
 import { texts } from "../texts/texts.js";
 
 /**
@@ -61,7 +61,7 @@ interface Hand {
   held: Held | undefined;
   readonly pointers: Map<number, Point>;
   pinch: { apart: number; zoom: number; middle: Point } | undefined;
-  tapped: { when: number; at: Point; phi: number } | undefined;
+  tapped: { when: number; at: Point; phi: number; struck: number } | undefined;
 }
 
 /**
@@ -190,10 +190,19 @@ function choose(s: Session, target: { ball: number } | { pocket: number }): void
   }
   s.changed();
 }
+/** Chooses the ball that is struck, and aims it at the nearest one; a hint of before has ended. */
+function strike(s: Session, ball: number): void {
+  s.play.strike(ball);
+  s.hinted = false;
+  says(s, "");
+  aimAtNearest(s);
+  s.changed();
+}
 export function tap(s: Session, grip: Grip, at: Point): void {
   const cueBall = s.play.balls[s.play.cueBall]!;
   if (grip.kind === "pocket") return choose(s, { pocket: grip.pocket });
   if (grip.kind === "ball" && grip.ball !== s.play.cueBall) {
+    if (s.play.strikable.includes(grip.ball)) return strike(s, grip.ball);
     const { r } = s.play.balls[grip.ball]!.state;
     turn(s, angleFrom(cueBall, [r[0], r[1]]));
     choose(s, { ball: grip.ball });
@@ -269,7 +278,7 @@ function up(s: Session, hand: Hand, event: PointerEvent): void {
   // nothing.
   const at = pixelsOf(s.film.canvas, event);
   const before = hand.tapped;
-  hand.tapped = { when: event.timeStamp, at, phi: was.phi };
+  hand.tapped = { when: event.timeStamp, at, phi: was.phi, struck: s.play.cueBall };
   if (
     event.pointerType !== "touch" ||
     !before ||
@@ -278,6 +287,7 @@ function up(s: Session, hand: Hand, event: PointerEvent): void {
   )
     return tap(s, was.grip, was.at);
   hand.tapped = undefined;
+  s.play.strike(before.struck);
   turn(s, before.phi);
   if (s.film.zoom > 1) s.film.look(1);
   else enlarge(s.film, 3, was.at, at);
@@ -287,7 +297,7 @@ function arrowKey(s: Session, arrow: Point, { altKey, shiftKey }: KeyboardEvent)
   const { film, play } = s;
   const { phi, speed } = cueOf(s);
   if (altKey) {
-    if (!movable(s, 0)) return false;
+    if (!movable(s, play.cueBall)) return false;
     move(
       s,
       play.cueBall,
@@ -302,6 +312,11 @@ function callNext(s: Session): void {
   const before = (needsCall(s.play) ? called(s) : undefined)?.pocket ?? -1;
   choose(s, { pocket: (before + 1) % s.play.table.pockets.length });
 }
+/** Chooses the next ball to be struck, which B does. */
+function strikeNext(s: Session): void {
+  const { cueBall, strikable } = s.play;
+  strike(s, strikable[(strikable.indexOf(cueBall) + 1) % strikable.length]!);
+}
 /** Does what a key means now, and returns whether it means anything. */
 function pressed(s: Session, event: KeyboardEvent): boolean {
   const ends = event.key === "Enter" || event.key === "Escape";
@@ -310,6 +325,7 @@ function pressed(s: Session, event: KeyboardEvent): boolean {
   else if (!free(s)) return false;
   else if ((event.ctrlKey || event.metaKey) && event.key === "z") undo(s);
   else if (event.key === "c" && s.play.hasPockets) callNext(s);
+  else if (event.key === "b" && s.play.strikable.length > 1) strikeNext(s);
   else {
     const arrow = ARROWS[event.key];
     return arrow !== undefined && arrowKey(s, arrow, event);

@@ -3,7 +3,7 @@
 import type { AimOf, Call, Carom, Choice, Cue, PlanOptions, ShotBall, Table } from "carom";
 import { drop, far } from "../far.js";
 import { onTable } from "../table/filmed.js";
-import { isSafe, percent, wordsOfChances, wordsOfChoice } from "../table/words.js";
+import { isSafe, percent, wordsOfChances, wordsOfPlan } from "../table/words.js";
 import { wrong } from "../ui.js";
 import { isComputer, OPTIONS, type Play } from "./game.js";
 import { costOf, keepRow, type Row } from "./log.js";
@@ -37,6 +37,7 @@ interface Request {
   table: Table;
   balls: readonly ShotBall[];
   names: readonly string[];
+  strikable: readonly number[];
   options: PlanOptions;
 }
 
@@ -49,6 +50,7 @@ function requestOf(play: Play, level: number): Request {
     table: play.table,
     balls: play.balls,
     names: play.names,
+    strikable: play.strikable,
     options: {
       ...wantedOf(play),
       player: { ...playerOf(play.carom, rating), onlyPots: 0 },
@@ -63,7 +65,8 @@ async function best({ table, balls, options }: Request, more: PlanOptions = {}):
   return choice!;
 }
 async function chancesOf({ table, balls, options }: Request, cue: Cue): Promise<Choice> {
-  const [choice] = await far("chances", table, balls, [cue], { ...options, shots: TRY });
+  const struck = { ...options, cue: { ball: cue.ball }, shots: TRY };
+  const [choice] = await far("chances", table, balls, [cue], struck);
   return choice!;
 }
 const isPot = (call: Call | undefined): call is { ball: number; pocket: number } =>
@@ -101,7 +104,7 @@ function wordsOfCue({ a, b, speed }: Cue): string {
 }
 function wordsOfHint(s: Session, choice: Choice): string {
   const { play, first } = s;
-  const stroke = wordsOfChoice(play.table, play.names, choice, first?.ball === -1);
+  const stroke = wordsOfPlan(play, choice, first?.ball === -1);
   const cue = choice.kind === "pass" ? "" : wordsOfCue(choice.cue);
   const chances = wordsOfChances(choice, !play.hasPockets);
   const errors = play.practice ? "" : texts.thisStrokeErrsLike;
@@ -112,6 +115,7 @@ function wordsOfHint(s: Session, choice: Choice): string {
 function setHint(s: Session, choice: Choice): void {
   const { play } = s;
   if (play.bounds) play.put(play.cueBall, ...(choice.place as [number, number]));
+  play.strike(choice.cue.ball);
   aimAt(s, choice.cue);
   look(s);
   const isPotted = choice.ball > 0 && choice.pocket >= 0;
@@ -184,7 +188,7 @@ async function chances(s: Session): Promise<void> {
 function intentionOf(request: Request, choice: Choice, call: Call | undefined): string {
   const kind = choice.ball < 0 ? "safety" : choice.kind;
   const meant = isPot(call) ? { ...choice, ...call } : { ...choice, kind };
-  return wordsOfChoice(request.table, request.names, meant);
+  return wordsOfPlan(request, meant);
 }
 /** Looks back at a stroke: its chances beside those of the best one, for the log and in words. */
 async function lookBack(
@@ -197,7 +201,7 @@ async function lookBack(
     // Both plans play as the same player, with the cue ball where it was put.
     const other = best(request, { inHand: "no" });
     const [own, found] = await Promise.all([chancesOf(request, cue), other]);
-    const { game, table, balls, names } = request;
+    const { game, table, balls } = request;
     const row: Row = {
       when: new Date().toISOString().slice(0, 16),
       game,
@@ -205,7 +209,7 @@ async function lookBack(
       ...(isPot(call) ? errors(carom, table, balls, cue, call) : {}),
       keep: own.keep,
       value: own.value,
-      best: wordsOfChoice(table, names, found),
+      best: wordsOfPlan(request, found),
       bestValue: found.value,
     };
     keepRow(row);

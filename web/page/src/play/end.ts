@@ -37,7 +37,7 @@ function bestOf(play: Play, who: 0 | 1): string {
 
 /** The ball that the game ended with, as an emblem; `isWon` puts a wreath of light around it. */
 function emblem({ last, names, winner }: Play, isWon: boolean): HTMLElement {
-  const fallen = last?.shot?.events.filter(({ type, a }) => type === "ball_pocket" && a > 0) ?? [];
+  const fallen = last?.shot?.events.filter(({ type }) => type === "ball_pocket") ?? [];
   const ball = winner === last?.who ? (fallen.at(-1)?.a ?? last?.cue.ball ?? 0) : 0;
   const name = names[ball] ?? "";
   const colour = colourOf(name, ball);

@@ -106,7 +106,7 @@ function showWords(s: Session): void {
 /** The part of the ball that the aim meets, where the lines of the game may show it. */
 function showContact(s: Session): void {
   const { play, first, stroke } = s;
-  const meetsBall = free(s) && first !== undefined && first.ball > 0;
+  const meetsBall = free(s) && first !== undefined && first.ball >= 0;
   const isShown = meetsBall && (play.practice || linesOf(s) !== "none");
   stroke.met(isShown ? first : undefined, told(play.names[first?.ball ?? 0]!));
 }

@@ -165,6 +165,8 @@ export class Play {
   /** None in practice, which has no rules: every ball counts. */
   readonly #match: Match | undefined;
   #practised: GameState;
+  /** The ball that the player has chosen to strike. */
+  #struck: number | undefined;
 
   /** A game that begins, or that of lines, of which the first stroke and all behind it stay. */
   constructor(
@@ -203,7 +205,11 @@ export class Play {
   }
   /** The ball that is struck. */
   get cueBall(): number {
-    return this.#match?.cueBall ?? 0;
+    return this.#struck ?? this.#match?.cueBall ?? 0;
+  }
+  /** The balls of which the player may choose the one that is struck. */
+  get strikable(): readonly number[] {
+    return this.#match?.strikable ?? [0];
   }
   /** Where a cue ball in hand may be put, in a word and in m. */
   get hand(): Ruling["hand"] {
@@ -257,6 +263,10 @@ export class Play {
 
   // ---- Strokes and choices
 
+  /** Chooses the ball that is struck; one that may not be struck changes nothing. */
+  strike(ball: number): void {
+    if (this.strikable.includes(ball)) this.#struck = ball;
+  }
   /** The cue ball in hand, put down; or a ball of practice. Throws where it is not free. */
   put(ball: number, x: number, y: number): void {
     this.balls = this.carom.placeBall(this.table, this.balls, ball, x, y);
@@ -349,6 +359,7 @@ export class Play {
   }
   #ruled(before: Omit<Stroke, "shot" | "ruling">, isPlayed: boolean): Stroke {
     const match = this.#match!;
+    this.#struck = undefined;
     this.strokes++;
     this.balls = match.balls;
     this.#putInHand();

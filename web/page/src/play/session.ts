@@ -62,7 +62,8 @@ export const aimed = (s: Session): Cue | undefined => (free(s) ? cueOf(s) : s.th
 /** Whether a stroke needs a call. */
 export const needsCall = (play: Play): boolean =>
   play.played?.calls === true && !play.breaks && !play.practice;
-export const ballsOn = ({ carom, state, balls }: Play): number[] => carom.ballsOn(state, balls);
+export const ballsOn = ({ carom, state, balls, cueBall }: Play): number[] =>
+  carom.ballsOn(state, balls).filter((ball) => ball !== cueBall);
 /** What was chosen, as far as it holds for the aim. */
 export function valid({
   first,
@@ -159,10 +160,13 @@ export function strokeToPlay(s: Session): { cue: Cue; call: Call | undefined } {
   look(s); // the aim may have changed since the last frame
   return { cue, call: callOf(s) };
 }
-/** What a plan knows of a game: how it stands, which ball is struck, and where it may be put. */
-export const wantedOf = ({ state, cueBall, hand }: Play): PlanOptions => ({
+/**
+ * What a plan knows of a game: how it stands, which ball is struck, and where it may be put. Of
+ * several balls the plan chooses the one to strike.
+ */
+export const wantedOf = ({ state, cueBall, strikable, hand }: Play): PlanOptions => ({
   ...state,
-  cue: { ball: cueBall },
+  cue: strikable.length > 1 ? {} : { ball: cueBall },
   shot: OPTIONS,
   inHand: hand,
 });

@@ -1,5 +1,6 @@
 // How a game stands, in words: whose turn it is, on which balls, and the score.
 import { onTable } from "../table/filmed.js";
+import { ballOf } from "../table/words.js";
 import type { Play, Stroke } from "./game.js";
 import { texts, told } from "../texts/texts.js";
 
@@ -87,6 +88,10 @@ const PLACES: Record<string, string> = {
 function wordsOfHand({ hand }: Play): string {
   return hand === "no" ? "" : texts.cueBallInHand(PLACES[hand] ?? texts.inTheD);
 }
+/** Which ball is struck, and how another one is chosen. */
+function wordsOfStruck({ cueBall, names, strikable }: Play): string {
+  return strikable.length > 1 ? texts.youStrike(ballOf(names, cueBall)) : "";
+}
 function wordsOfTable(play: Play, name: string): string {
   if (play.hasPockets && play.breaks) return texts.breaks(name, name === texts.you);
   return name === texts.you ? texts.yourTurn : texts.sTurn(name);
@@ -108,15 +113,18 @@ export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = fa
     const sends = play.last?.who === seat;
     return texts.playsByLink(before, name, aim, sends ? texts.sendTheLink : texts.waitForTheLink);
   }
-  return `${before}${wordsOfTable(play, name)}${aim}.${wordsOfHand(play)}`;
+  const struck = short ? "" : wordsOfStruck(play);
+  return `${before}${wordsOfTable(play, name)}${aim}.${wordsOfHand(play)}${struck}`;
 }
 
 /** What fell in a stroke. */
-export function wordsOfStroke(play: Play, { who, shot }: Stroke, seat: 0 | 1): string {
+export function wordsOfStroke(play: Play, { who, shot, cue, ruling }: Stroke, seat: 0 | 1): string {
   const name = nameOf(play, who, seat);
   if (!shot) return texts.passed(name);
   const fallen = shot.events.flatMap(({ type, a }) =>
-    type === "ball_pocket" && a > 0 ? texts.theBallNamed(told(play.names[a]!)) : [],
+    type === "ball_pocket" && (a !== cue.ball || !ruling?.foul)
+      ? texts.theBallNamed(told(play.names[a]!))
+      : [],
   );
   return texts.whoPocketed(name, fallen.length > 0 ? fallen.join(texts.andWord) : texts.noBall);
 }

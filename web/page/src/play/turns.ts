@@ -3,7 +3,7 @@
 import type { Call, Choice, May } from "carom";
 import { far } from "../far.js";
 import { angleFrom, direction } from "../table/grip.js";
-import { wordsOfChoice } from "../table/words.js";
+import { wordsOfPlan } from "../table/words.js";
 import { parameters, wrong } from "../ui.js";
 import { isComputer, Play, type Stroke } from "./game.js";
 import { countRack, racksOf } from "./keep.js";
@@ -118,7 +118,7 @@ export function undo(s: Session): void {
   s.showing.rest();
 }
 /** Aims a level cue at the nearest ball that is on, with the tip at the middle of the cue ball. */
-function aimAtNearest({ play, stroke }: Pick<Session, "play" | "stroke">): void {
+export function aimAtNearest({ play, stroke }: Pick<Session, "play" | "stroke">): void {
   const cueBall = play.balls[play.cueBall]!;
   const placeOfBall = (ball: number): [number, number] => {
     const [x, y] = play.balls[ball]!.state.r;
@@ -190,9 +190,10 @@ function callOfChoice({ kind, ball, pocket }: Choice): Call | undefined {
 async function announce(s: Session, choice: Choice): Promise<void> {
   const { play, seat, film } = s;
   if (play.bounds) play.put(play.cueBall, ...(choice.place as [number, number]));
+  play.strike(choice.cue.ball);
   s.theirs = choice.cue;
   s.showing.rest();
-  const stroke = wordsOfChoice(play.table, play.names, choice, s.first?.ball === -1);
+  const stroke = wordsOfPlan(play, choice, s.first?.ball === -1);
   says(s, texts.playsStroke(nameOf(play, play.turn, seat), stroke));
   const isInstant = film.pace.value === "1000"; // the pace "at once"
   await new Promise((later) => window.setTimeout(later, isInstant ? 0 : ANNOUNCED_MS));

@@ -55,6 +55,7 @@ for (const [name, text] of words.rules) {
   const fourball = ["white", "yellow", "red 1", "red 2"];
   const namesOf: Record<string, (k: number) => string> = {
     fourball: (k) => fourball[k] ?? String(k),
+    pyramid: (k) => (k === 0 ? "yellow" : String(k)),
     cowboy: (k) => ["cue", "1", "3", "5"][k] ?? String(k),
   };
   const names = namesOf[rack] ?? pool;
@@ -166,8 +167,7 @@ export const PLAYED: Record<string, Played> = Object.fromEntries(
       (members as readonly string[]).includes(one),
     ) as [boolean, boolean];
     const begin = pockets ? { ...BREAK, speed: 2.5, phi: 79.5, b: -0.3 } : BREAK;
-    // The page strikes one cue ball, and in pyramid a player chooses it.
-    return name === "potting" || name === "pyramid"
+    return name === "potting"
       ? []
       : [
           [

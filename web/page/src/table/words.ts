@@ -51,6 +51,26 @@ export function wordsOfPot(
     ? texts.ballNumberInto(name, into, how)
     : texts.intoThe(told(name), into, how);
 }
+interface WhatMayBeStruck {
+  table: Table;
+  names: readonly string[];
+  strikable: readonly number[];
+}
+/** What a choice is, with the ball that it strikes where the player has chosen it. */
+export function wordsOfPlan(
+  { table, names, strikable }: WhatMayBeStruck,
+  choice: Choice,
+  cushionFirst = false,
+): string {
+  const words = wordsOfChoice(table, names, choice, cushionFirst);
+  if (strikable.length < 2) return words;
+  return texts.withTheBall(ballOf(names, choice.cue.ball), words);
+}
+/** A ball in words: "ball 7", "the yellow". */
+export function ballOf(names: readonly string[], ball: number): string {
+  const name = names[ball]!;
+  return Number(name) > 0 ? texts.ballNumber(name) : texts.theBallNamed(told(name));
+}
 /** What a choice is, by which the cue ball may be known to meet a cushion first. */
 export function wordsOfChoice(
   table: Table,

@@ -408,6 +408,9 @@ export const GERMAN: typeof ENGLISH = {
       ? `Die Stufe ${rating} ist erstiegen: ${won} Spiele sind gewonnen.`
       : `Auf der Stufe ${rating} gewonnen: ${won} von 3.`,
   theBallNamed: (name) => `die ${name}`,
+  ballNumber: (name) => `Kugel ${name}`,
+  withTheBall: (ball, stroke) => `gestoßen wird ${ball}: ${stroke}`,
+  youStrike: (ball) => ` Gestoßen wird ${ball}; tippe eine andere an oder drücke B.`,
   whoPocketed: (name, fallen) => `${name}: ${fallen} versenkt.`,
   racksWon: (rack, rack2) => `gewonnene Spiele ${rack} : ${rack2}`,
   onThe8: "auf der 8",
@@ -616,7 +619,7 @@ export const GERMAN: typeof ENGLISH = {
     "Bank pool": "Bank-Pool",
     "Straight rail": "Freie Partie",
     "Four-ball": "Vierball",
-    "Russian pyramid": "Russische Pyramide",
+    "Free pyramid": "Freie Pyramide",
     Blackball: "Blackball",
     Heyball: "Heyball",
     Rotation: "Rotation",

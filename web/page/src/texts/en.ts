@@ -410,6 +410,9 @@ export const ENGLISH = {
       ? `The level ${rating} is climbed: you have won ${won} games.`
       : `Won at the level ${rating}: ${won} of 3.`,
   theBallNamed: (name: Part) => `the ${name}`,
+  ballNumber: (name: Part) => `ball ${name}`,
+  withTheBall: (ball: Part, stroke: Part) => `with ${ball}: ${stroke}`,
+  youStrike: (ball: Part) => ` You strike ${ball}; tap another one, or press B.`,
   whoPocketed: (name: Part, fallen: Part) => `${name} pocketed ${fallen}.`,
   racksWon: (rack: Part, rack2: Part) => `racks won ${rack} : ${rack2}`,
   onThe8: "on the 8",
