@@ -265,8 +265,8 @@ export class Match extends Owner<Host> {
     }
   }
   /**
-   * Plays a stroke of `cueBall`, or of another `strikable` one that the cue names, up to where the options stop it. Returns whether the shot has
-   * ended, and is ruled.
+   * Plays a stroke of `cueBall`, or of another `strikable` ball that the cue names, up to where
+   * the options stop it. Returns whether the shot has ended, and is ruled.
    */
   stroke(cue: Partial<Cue>, stop: StopOptions = {}): boolean {
     const { memory } = this.#host;

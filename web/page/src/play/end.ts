@@ -45,7 +45,19 @@ function emblem({ last, names, winner }: Play, isWon: boolean): HTMLElement {
   root.classList.toggle("won", isWon);
   const number = Number(name) > 0 ? name : "";
   const disc = number && '<circle r="17" fill="#fbfaf5"/>';
-  root.innerHTML = `<svg viewBox="-50 -50 100 100"><defs><radialGradient id="shade" cx="0.36" cy="0.3" r="0.8"><stop offset="0" stop-color="#fff" stop-opacity="0.75"/><stop offset="0.28" stop-color="#fff" stop-opacity="0.1"/><stop offset="1" stop-color="#000" stop-opacity="0.6"/></radialGradient></defs><circle r="40" fill="${colour}"/>${disc}<text y="7.5" text-anchor="middle" font-size="21" font-weight="bold" fill="#16181b">${number}</text><circle r="40" fill="url(#shade)"/></svg>`;
+  root.innerHTML = `<svg viewBox="-50 -50 100 100">
+    <defs>
+      <radialGradient id="shade" cx="0.36" cy="0.3" r="0.8">
+        <stop offset="0" stop-color="#fff" stop-opacity="0.75"/>
+        <stop offset="0.28" stop-color="#fff" stop-opacity="0.1"/>
+        <stop offset="1" stop-color="#000" stop-opacity="0.6"/>
+      </radialGradient>
+    </defs>
+    <circle r="40" fill="${colour}"/>
+    ${disc}
+    <text y="7.5" text-anchor="middle" font-size="21" font-weight="bold" fill="#16181b">${number}</text>
+    <circle r="40" fill="url(#shade)"/>
+  </svg>`;
   return root;
 }
 
