@@ -49,14 +49,13 @@ static bool draw_place_of_pot(const search *plan, uint64_t k, double r[2]) {
   double u[4];
   for (uint32_t n = 0; n < 4; n++)
     u[n] = carom_uniform(plan->options.seed, DRAW_PLACES, k, n);
-  if (plan->view.pockets == 0)
-    return false;
-
   /* the ball and the pocket */
   int on[CAROM_BALLS_MOST], count = 0;
   for (int n = 0; n < plan->view.count; n++)
     if (plan->targets >> n & 1)
       on[count++] = n;
+  if (count == 0 || plan->view.pockets == 0)
+    return false;
   const int ball = on[(int)(count * u[0])], pocket = (int)(plan->view.pockets * u[1]);
   const carom_window *window = &plan->view.window[ball][pocket];
   if (!(window->half > 0.0))
