@@ -148,7 +148,8 @@ CAROM_API carom_status carom_match_begin_at(carom_match *match, carom_rules_kind
  * carom_match_choose: one of match->may: PUSH for the next stroke, the others instead of it. */
 CAROM_API carom_status carom_match_choose(carom_match *match, int player, carom_may choice);
 
-/* Puts the cue ball in hand, m; until the stroke it may be put elsewhere. */
+/* Puts the cue ball in hand, m; until the stroke it may be put elsewhere. The choice to leave it
+ * where it lies is then gone. */
 CAROM_API carom_status carom_match_place(carom_match *match, int player, double x, double y);
 
 /* Calls the ball and the pocket of the next stroke; ball -1: a safety. In snooker it names a colour

@@ -394,18 +394,26 @@ static void set_stops(carom_record *record, const carom_shot_options *stop) {
   record->options.events_most = stop->events_most;
 }
 
-/* Plays a shot or a part of one, and rules where it has ended. */
-static carom_status play(carom_match *match, carom_record_kind kind, const carom_shot_options *stop,
-                         carom_shot *shot, const char *act) {
+/* Plays a shot or a part of one, of this cue, and rules where it has ended. */
+static carom_status play(carom_match *match, carom_record_kind kind, const carom_cue *cue,
+                         const carom_shot_options *stop, carom_shot *shot, const char *act) {
   carom_record *record = &match->record;
+  const carom_facts facts = record->facts;
+  const carom_shot_options options = record->options;
+  const carom_cue last = record->cue;
   const int64_t pending = record->pending;
+  record->cue = *cue;
   set_stops(record, stop);
   record->pending = 0;
   const carom_status status = carom_record_play(record, kind, shot);
   if (record->pending != 2) {
+    record->facts = facts;
+    record->options = options;
+    record->cue = last;
     record->pending = pending;
     return carom_match_refuse(match, CAROM_REFUSED_STROKE, act, carom_status_string(status));
   }
+  match->cue_ball = (int32_t)cue->ball;
   put_line(match, kind);
   match->phase = CAROM_MATCH_MOVING;
   if (status > 0)
@@ -434,9 +442,7 @@ carom_status carom_match_stroke(carom_match *match, int player, const carom_cue 
   if (!(cue->speed > 0.0))
     return carom_match_refuse(match, CAROM_REFUSED_STROKE, "stroke",
                               "cue.speed must be above 0 m/s");
-  match->record.cue = *cue;
-  match->cue_ball = (int32_t)cue->ball;
-  return play(match, CAROM_RECORD_SHOT, stop, shot, "stroke");
+  return play(match, CAROM_RECORD_SHOT, cue, stop, shot, "stroke");
 }
 
 carom_status carom_match_continue(carom_match *match, const carom_shot_options *stop,
@@ -447,7 +453,8 @@ carom_status carom_match_continue(carom_match *match, const carom_shot_options *
   if (match->phase != CAROM_MATCH_MOVING)
     return carom_match_refuse(match, CAROM_REFUSED_AT_REST, "continue",
                               "no ball moves: play a stroke");
-  return play(match, CAROM_RECORD_CONTINUE, stop, shot, "continue");
+  const carom_cue cue = match->record.cue;
+  return play(match, CAROM_RECORD_CONTINUE, &cue, stop, shot, "continue");
 }
 
 /* ---- Places, calls and choices */
@@ -483,6 +490,7 @@ static carom_status place_cue_ball(carom_match *match, int player, double x, dou
   }
   put_line(match, CAROM_RECORD_PLACE);
   match->phase = CAROM_MATCH_STROKE;
+  match->may &= ~CAROM_MAY_STAY; /* it lies elsewhere now */
   match->touching = carom_touching(record->balls, (int)record->count, match->cue_ball);
   return CAROM_OK;
 }

@@ -3,7 +3,7 @@
 #include "carom_match.h"
 #include "game_support.h"
 
-static carom_match match, reader;
+static carom_match match, reader, stood;
 static carom_record scratch;
 static char file[1 << 22];
 static size_t length;
@@ -44,12 +44,26 @@ static carom_status read_all(const char *from, size_t size) {
 
 /* ---- Refusals */
 
-static void refused(carom_status status, carom_refusal why, const char *said) {
+/* What an act that is refused may change. */
+static void forget_refusal(carom_match *of) {
+  of->refusal = 0;
+  of->size = of->due = 0;
+  memset(of->fault, 0, sizeof of->fault);
+  memset(of->text, 0, sizeof of->text);
+}
+
+static void check_refusal(carom_status status, carom_refusal why, const char *said) {
   ck_assert_int_eq(status, CAROM_ERROR_ACT);
   ck_assert_msg(match.refusal == (int32_t)why && strstr(match.fault, said) != NULL, "%s: %s",
                 carom_refusal_name(match.refusal), match.fault);
   ck_assert_int_eq(match.size, 0);
+  reader = match;
+  forget_refusal(&stood);
+  forget_refusal(&reader);
+  ck_assert_msg(memcmp(&reader, &stood, sizeof reader) == 0, "%s: changed the match", match.fault);
 }
+
+#define refused(act, why, said) (stood = match, check_refusal(act, why, said))
 
 TEST(acts_that_are_refused) {
   carom_shot_options stop = {.time_most = 0.1};
@@ -75,6 +89,9 @@ TEST(acts_that_are_refused) {
   cue.theta = -1.0;
   refused(carom_match_stroke(&match, 1, &cue, NULL, NULL), CAROM_REFUSED_STROKE, "theta");
   cue.theta = 0.0;
+  stop.first_of = UINT64_C(1) << 40;
+  refused(carom_match_stroke(&match, 1, &cue, &stop, NULL), CAROM_REFUSED_STROKE, "first_of");
+  stop.first_of = 0;
 
   /* while balls move */
   ck_assert_int_eq(carom_match_stroke(&match, 1, &cue, &stop, NULL), CAROM_STOPPED_AT_TIME);
@@ -89,6 +106,27 @@ TEST(acts_that_are_refused) {
   ck_assert_int_eq(carom_match_concede(&match, 0), CAROM_OK);
   ck_assert(match.phase == CAROM_MATCH_OVER && match.winner == 1);
   refused(carom_match_stroke(&match, 1, &cue, NULL, NULL), CAROM_REFUSED_OVER, "over");
+}
+
+/* A cue ball that was placed lies no longer where it lay, so it cannot stay there. */
+TEST(a_place_before_the_choice_to_stay) {
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  ck_assert_int_eq(carom_rack(CAROM_RACK_EIGHTBALL, &table, 1e-4, 1, balls, 16), CAROM_OK);
+  balls[0].state.r[1] = 1.2;
+  carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
+  rules.state.may = CAROM_MAY_RACK | CAROM_MAY_STAY;
+  ck_assert_int_eq(carom_match_begin_at(&match, CAROM_RULES_EIGHTBALL, &rules, &table, balls, 16,
+                                        NULL, CAROM_LEAVE_KITCHEN, 0),
+                   CAROM_OK);
+  const carom_match begun = match;
+  ck_assert_int_eq(carom_match_place(&match, 0, 0.9, 0.2), CAROM_OK);
+  ck_assert_int_eq(match.may, CAROM_MAY_RACK);
+  refused(carom_match_choose(&match, 0, CAROM_MAY_STAY), CAROM_REFUSED_CHOICE,
+          "choices are: rack;");
+
+  match = begun;
+  ck_assert_int_eq(carom_match_choose(&match, 0, CAROM_MAY_STAY), CAROM_OK);
+  ck_assert(match.phase == CAROM_MATCH_STROKE && match.record.balls[0].state.r[1] == 1.2);
 }
 
 /* Where the clock runs out before the cue ball is placed, it lies nowhere, so it cannot stay. */
