@@ -9,7 +9,7 @@
 #include "games.h"
 #include "rules.h"
 
-enum { FOULS_MOST = 3, DRIVEN = 2 };
+enum { DRIVEN = 2 };
 static const uint32_t all = 0xfffe;
 
 static bool is_banked(const carom_facts *facts, carom_call call) {
@@ -44,7 +44,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   else if (foul)
     carom_pay_ball(game);
   turn.points = made;
-  carom_count_fouls(game, foul);
+  const bool third = carom_is_third_foul(game, foul);
 
   /* who plays, and what comes back: the ball that was made stays down */
   uint32_t stays = 0;
@@ -52,7 +52,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     stays = carom_only(call.ball);
   if (game->score[0] >= CAROM_BALLS_THAT_WIN)
     turn.outcome = CAROM_TURN_WIN;
-  else if (game->fouls[0] >= FOULS_MOST)
+  else if (third)
     turn.outcome = CAROM_TURN_LOSE;
   else if (made || (opening && !foul && pots))
     turn.outcome = CAROM_TURN_KEEP;

@@ -10,7 +10,7 @@
 #include "games.h"
 #include "rules.h"
 
-enum { BALLS = 15, FOULS_MOST = 3 };
+enum { BALLS = 15 };
 static const uint32_t all = 0xfffe;
 
 static uint32_t pockets(const carom_rules_state *game) {
@@ -37,7 +37,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   turn.points = carom_count_of(in[0]);
 
   /* a foul costs a ball */
-  carom_count_fouls(game, foul);
+  const bool third = carom_is_third_foul(game, foul);
   if (foul)
     carom_pay_ball(game);
 
@@ -45,7 +45,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   const uint32_t remain = balls & ~gone;
   if (!foul && game->score[0] >= CAROM_BALLS_THAT_WIN)
     turn.outcome = CAROM_TURN_WIN;
-  else if (game->score[1] >= CAROM_BALLS_THAT_WIN || game->fouls[0] >= FOULS_MOST)
+  else if (game->score[1] >= CAROM_BALLS_THAT_WIN || third)
     turn.outcome = CAROM_TURN_LOSE;
   else if (in[0] != 0)
     turn.outcome = CAROM_TURN_KEEP;

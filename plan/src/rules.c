@@ -6,7 +6,6 @@
 
 #include <stddef.h>
 
-enum { FOULS_MOST = 3 };
 enum { OPEN = CAROM_GROUP_OPEN, SOLIDS = CAROM_GROUP_SOLIDS, STRIPES = CAROM_GROUP_STRIPES };
 static const uint32_t balls_of[] = {0xfefe, 0xfe, 0xfe00}, eight = 0x100;
 
@@ -369,11 +368,8 @@ bool carom_is_below_target(const carom_rules_state *game, const carom_facts *fac
 carom_turn carom_give_hand(carom_rules_state *game, int32_t foul, uint32_t spot) {
   carom_turn turn = foul_for(foul);
   turn.spot = spot;
-  carom_add(&game->fouls[0], 1);
-  if (game->fouls[0] >= FOULS_MOST) {
-    game->fouls[0] = 0;
+  if (carom_is_third_foul(game, true))
     turn.outcome = CAROM_TURN_LOSE;
-  }
   return carom_give(game, turn);
 }
 

@@ -66,8 +66,9 @@ static inline carom_turn carom_end_turn(carom_rules_state *game, carom_turn turn
 /* A turn that passes with a foul, or none. After a scratch the cue ball is in hand behind the head
  * string, else it is played from where it lies. */
 carom_turn carom_pass_by(int32_t foul);
-/* The foul of a stroke is one more in a row; a stroke without one ends the row. */
-void carom_count_fouls(carom_rules_state *game, bool foul);
+/* The foul of a stroke is one more in a row; a stroke without one ends the row. Whether it is the
+ * third, behind which a new row begins. */
+bool carom_is_third_foul(carom_rules_state *game, bool foul);
 carom_rules_on carom_on_any;
 /* Whether a call is a choice after a break that the state allows: to have all balls of the set
  * racked and break from behind the head string, to have the other do so, or to leave the cue ball

@@ -278,10 +278,15 @@ void carom_pay_ball(carom_rules_state *game) {
     carom_add(&game->lost[0], 1);
 }
 
-void carom_count_fouls(carom_rules_state *game, bool foul) {
+bool carom_is_third_foul(carom_rules_state *game, bool foul) {
+  enum { FOULS_MOST = 3 };
   if (!foul)
     game->fouls[0] = 0;
   carom_add(&game->fouls[0], foul);
+  const bool third = game->fouls[0] >= FOULS_MOST;
+  if (third)
+    game->fouls[0] = 0;
+  return third;
 }
 
 /* A number between 0 and the most. */

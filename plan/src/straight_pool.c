@@ -8,7 +8,7 @@
 #include "games.h"
 #include "rules.h"
 
-enum { FOULS_MOST = 3, MANY_FOULS = 15, BAD_BREAK = 2, RACKED = 14, LAST_BALL = 15 };
+enum { MANY_FOULS = 15, BAD_BREAK = 2, RACKED = 14, LAST_BALL = 15 };
 static const uint32_t all = 0xfffe;
 
 static int64_t score(const carom_rules_state *game, int who) {
@@ -59,11 +59,9 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   }
   if (foul != CAROM_FOUL_NONE) {
     carom_add(&game->lost[0], 1);
-    carom_add(&game->fouls[0], 1);
-    if (game->fouls[0] < FOULS_MOST)
+    if (!carom_is_third_foul(game, true))
       return carom_give(game, turn);
     carom_add(&game->lost[0], MANY_FOULS);
-    game->fouls[0] = 0;
     return racked(game, CAROM_TURN_KEEP, foul);
   }
 
