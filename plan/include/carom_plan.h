@@ -174,7 +174,9 @@ enum {
   CAROM_CALL_RACK = -4, /* the other choices of carom_may, likewise: the player breaks again, */
   CAROM_CALL_OTHER_RACK = -5, /* the opponent breaks again, */
   CAROM_CALL_STAY = -6,       /* the cue ball stays where it lies, */
-  CAROM_CALL_SPOT = -7        /* touching balls go to their spots */
+  CAROM_CALL_SPOT = -7        /* touching balls go to their spots; or a ball to the foot spot, the
+                                 nearest to the head string, or the one that `pocket` names among
+                                 those equally near */
 };
 
 /* What the rules let a player do besides a stroke; a sum. */
@@ -189,7 +191,9 @@ typedef enum carom_may {
                                 CAROM_CALL_OTHER_RACK */
   CAROM_MAY_STAY = 64,       /* leave the cue ball, which is in hand, where it lies, with the call
                                 CAROM_CALL_STAY */
-  CAROM_MAY_SPOT = 128       /* have the balls that touch put on their spots, with the call
+  CAROM_MAY_SPOT = 128       /* have the balls that touch put on their spots; or, with the cue ball
+                                in hand behind the head string and all balls that are on behind it
+                                too, the nearest one on the foot spot (WPA 1.5). The call is
                                 CAROM_CALL_SPOT */
 } carom_may;
 

@@ -20,7 +20,8 @@ static bool is_banked(const carom_facts *facts, carom_call call) {
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
   const uint32_t balls = in_play & all, remain = balls & ~(facts->down | facts->off);
-  const bool opening = game->opening != 0, passes = game->may != 0 && call.ball == CAROM_CALL_PASS;
+  const bool opening = game->opening != 0,
+             passes = (game->may & CAROM_MAY_PASS) != 0 && call.ball == CAROM_CALL_PASS;
   game->opening = passes;
   game->may = 0;
   if (passes)

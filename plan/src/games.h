@@ -14,7 +14,7 @@
 #define CAROM_GAMES(GAME)                                                                          \
   GAME(EIGHTBALL, carom_eightball, "eightball", "eight-ball by the WPA", POOL, POOL_9FT,           \
        EIGHTBALL, 15, KITCHEN, HAND, 1, OPENING | GROUP | MAY,                                     \
-       CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK | CAROM_MAY_STAY)                                     \
+       CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK | CAROM_MAY_STAY | CAROM_MAY_SPOT)                    \
   GAME(NINEBALL, carom_nineball, "nineball", "nine-ball by the WPA", POOL, POOL_9FT, NINEBALL, 9,  \
        KITCHEN, HAND, 0, OPENING | FOULS | MAY | TARGET, CAROM_MAY_PASS | CAROM_MAY_PUSH)          \
   GAME(POTTING, carom_potting, "potting", "a drill: all balls count", POOL, POOL_9FT, EIGHTBALL,   \
@@ -23,14 +23,14 @@
        THREECUSHION, 0, AFTER, AFTER, 0, OPENING | GROUP | SCORE | TARGET | MAY, CAROM_MAY_SPOT)   \
   GAME(STRAIGHT, carom_straight, "straight", "straight pool by the WPA", POOL, POOL_9FT,           \
        EIGHTBALL, 15, KITCHEN, KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY | TARGET,          \
-       CAROM_MAY_PASS)                                                                             \
+       CAROM_MAY_PASS | CAROM_MAY_SPOT)                                                            \
   GAME(SNOOKER, carom_snooker, "snooker", "snooker by the WPBSA", SNOOKER, SNOOKER, SNOOKER, 21,   \
        D, D, 1, SCORE | MAY | ON | FREE_BALL,                                                      \
        CAROM_MAY_PASS | CAROM_MAY_FREE_BALL | CAROM_MAY_PLACE)                                     \
   GAME(ONEPOCKET, carom_onepocket, "onepocket", "one-pocket by the BCA", POOL, POOL_9FT,           \
-       EIGHTBALL, 15, KITCHEN, KITCHEN, 0, FOULS | SCORE | LOST | POCKET, 0)                       \
+       EIGHTBALL, 15, KITCHEN, KITCHEN, 0, FOULS | SCORE | LOST | POCKET | MAY, CAROM_MAY_SPOT)    \
   GAME(BANK, carom_bank_pool, "bank", "bank pool by the BCA", POOL, POOL_9FT, EIGHTBALL, 15,       \
-       KITCHEN, KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY, CAROM_MAY_PASS)                  \
+       KITCHEN, KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY, CAROM_MAY_PASS | CAROM_MAY_SPOT) \
   GAME(TENBALL, carom_ten_ball, "tenball", "ten-ball by the WPA", POOL, POOL_9FT, TENBALL, 10,     \
        KITCHEN, HAND, 2, OPENING | FOULS | MAY | TARGET, CAROM_MAY_PASS | CAROM_MAY_PUSH)          \
   GAME(STRAIGHTRAIL, carom_straight_rail, "straightrail", "straight rail by the UMB", BILLIARD,    \
@@ -41,16 +41,17 @@
        CAROM_MAY_RACK | CAROM_MAY_STAY)                                                            \
   GAME(HEYBALL, carom_heyball, "heyball", "heyball, Chinese eight-ball", POOL, HEYBALL, EIGHTBALL, \
        15, KITCHEN, HAND, 0, OPENING | GROUP | FOULS | MAY,                                        \
-       CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK | CAROM_MAY_STAY)                                     \
+       CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK | CAROM_MAY_STAY | CAROM_MAY_SPOT)                    \
   GAME(ROTATION, carom_rotation, "rotation", "rotation by the BCA", POOL, POOL_9FT, ROTATION, 15,  \
-       KITCHEN, KITCHEN, 0, OPENING | FOULS | SCORE | MAY, CAROM_MAY_RACK)                         \
+       KITCHEN, KITCHEN, 0, OPENING | FOULS | SCORE | MAY, CAROM_MAY_RACK | CAROM_MAY_SPOT)        \
   GAME(PYRAMID, carom_pyramid, "pyramid", "free pyramid, Russian billiards", PYRAMID, PYRAMID,     \
        PYRAMID, 15, KITCHEN, AFTER, 0, OPENING | SCORE | MAY, CAROM_MAY_RACK)                      \
   GAME(FOURBALL, carom_four_ball, "fourball", "four-ball, as in Korea", FOURBALL, FOURBALL,        \
        FOURBALL, 0, AFTER, AFTER, 0, OPENING | GROUP | SCORE | LOST | TARGET | MAY,                \
        CAROM_MAY_SPOT)                                                                             \
   GAME(COWBOY, carom_cowboy, "cowboy", "cowboy by the BCA", POOL, POOL_9FT, COWBOY, 0, KITCHEN,    \
-       KITCHEN, 1, OPENING | SCORE | LOST | MAY, CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK)
+       KITCHEN, 1, OPENING | SCORE | LOST | MAY,                                                   \
+       CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK | CAROM_MAY_SPOT)
 
 #define CAROM_GAME_RULES(NAME, rules, ...) extern const carom_plan_rules rules;
 CAROM_GAMES(CAROM_GAME_RULES)

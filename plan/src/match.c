@@ -506,7 +506,8 @@ static carom_status call_pocket(carom_match *match, int player, carom_call call)
   const carom_status bad = check_turn(match, player, "call");
   if (bad != CAROM_OK)
     return bad;
-  if (match->rules.calls == 0)
+  const bool calls = match->rules.calls != 0;
+  if (!calls && (match->may & CAROM_MAY_SPOT) == 0) /* a call names the ball that is spotted */
     return carom_match_refuse(match, CAROM_REFUSED_CALL, "call", "nothing is called in this game");
   uint32_t may_call = in_play(&match->record) & ~(UINT32_C(1) << match->cue_ball);
   if (match->rules.calls == 1)
@@ -518,7 +519,7 @@ static carom_status call_pocket(carom_match *match, int player, carom_call call)
              (int)call.ball, list_balls(may_call, text));
     return carom_match_refuse(match, CAROM_REFUSED_CALL, "call", right);
   }
-  const bool names_pocket = call.ball >= 0 && match->rules.rack != CAROM_RACK_SNOOKER;
+  const bool names_pocket = calls && call.ball >= 0 && match->rules.rack != CAROM_RACK_SNOOKER;
   if (!names_pocket)
     call.pocket = -1;
   if (names_pocket && (call.pocket < 0 || call.pocket >= match->record.table.pockets)) {
@@ -572,7 +573,10 @@ static carom_status take_choice(carom_match *match, int player, carom_may choice
              list_choices(match->may, text));
     return carom_match_refuse(match, CAROM_REFUSED_CHOICE, "choose", right);
   }
-  const carom_call none = {-1, -1}, call = {call_of(choice), -1};
+  const carom_call none = {-1, -1};
+  carom_call call = {call_of(choice), -1};
+  if (choice == CAROM_MAY_SPOT)
+    call.pocket = match->call.ball;
   put_act(match, CAROM_ACT_CHOOSE, player, (int32_t)choice, none);
   if (choice == CAROM_MAY_PUSH) {
     match->call = call;

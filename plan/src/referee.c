@@ -75,6 +75,34 @@ static void name_players(carom_ruling *ruling) {
   }
 }
 
+/* The balls that the next player may hit first. */
+static uint32_t balls_on(const carom_plan_rules *rules, const carom_ruling *ruling, int count,
+                         int cue_ball) {
+  if (rules->on == NULL)
+    return 0;
+  return rules->on(&ruling->state, carom_on_table(ruling->balls, count) & ~carom_only(cue_ball));
+}
+
+/* WPA 1.5: with the cue ball in hand behind the head string, and all balls that are on behind it
+ * too, the player may have the nearest one spotted. On a table without pockets CAROM_MAY_SPOT is
+ * another rule. The call's pocket is the ball, where several are equally near. */
+static bool spots_nearest(const carom_plan_rules *rules, const carom_table *table, carom_call call,
+                          int count, int cue_ball, carom_ruling *ruling) {
+  if (table->pockets == 0)
+    return false;
+  const bool may = (ruling->state.may & CAROM_MAY_SPOT) != 0;
+  ruling->state.may &= ~CAROM_MAY_SPOT;
+  if (!may || call.ball != CAROM_CALL_SPOT)
+    return false;
+  const uint32_t near =
+      carom_nearest_behind(table, ruling->balls, count, balls_on(rules, ruling, count, cue_ball));
+  uint32_t ball = carom_lowest_of(near);
+  if (call.pocket >= 0 && call.pocket < count && (near >> call.pocket & 1))
+    ball = carom_only(call.pocket);
+  ruling->turn = (carom_turn){CAROM_TURN_KEEP, CAROM_LEAVE_KITCHEN, CAROM_FOUL_NONE, ball, 0.0};
+  return true;
+}
+
 carom_status carom_referee(const carom_plan_rules *rules, const carom_table *table,
                            const carom_shot_ball *balls, int count, int cue_ball,
                            const carom_shot *shot, carom_call call, carom_ruling *ruling) {
@@ -94,13 +122,20 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
   if (shot != NULL)
     ruling->facts = *shot->facts;
   ruling->falls = list_falls(&ruling->facts, count, ruling->fall);
-  ruling->turn =
-      rules->judge(&ruling->state, carom_on_table(balls, count), cue_ball, &ruling->facts, call);
+  memcpy(ruling->balls, balls, (size_t)count * sizeof *balls);
+  const bool spots = spots_nearest(rules, table, call, count, cue_ball, ruling);
+  if (!spots)
+    ruling->turn =
+        rules->judge(&ruling->state, carom_on_table(balls, count), cue_ball, &ruling->facts, call);
 
   /* the layout, with balls that come back */
   lay_out(balls, count, shot, ruling);
-  const carom_status status =
-      carom_turn_settle(rules, &ruling->state, table, ruling->balls, count, &ruling->turn);
+  carom_status status;
+  if (spots)
+    status = carom_spot_ball(table, ruling->balls, count,
+                             carom_count_of(carom_lowest_of(ruling->turn.spot) - 1));
+  else
+    status = carom_turn_settle(rules, &ruling->state, table, ruling->balls, count, &ruling->turn);
   ruling->put = moved_by_referee(balls, count, shot, ruling);
 
   /* who plays next, and how */
@@ -108,15 +143,20 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
   name_players(ruling);
   if (ruling->hand == 0)
     ruling->touching = carom_touching(ruling->balls, count, cue_ball);
-  if (ruling->next >= 0 && rules->on != NULL)
-    ruling->on = rules->on(&ruling->state,
-                           carom_on_table(ruling->balls, count) & ~(UINT32_C(1) << cue_ball));
+  if (ruling->next >= 0)
+    ruling->on = balls_on(rules, ruling, count, cue_ball);
+  const bool behind = ruling->turn.leave == CAROM_LEAVE_KITCHEN && table->pockets > 0;
+  if (behind && carom_nearest_behind(table, ruling->balls, count, ruling->on) != 0)
+    ruling->state.may |= CAROM_MAY_SPOT;
   return status;
 }
 
 /* What the next player may do besides a stroke, in words, each behind "; ". */
-static void write_choices(int32_t may, char *text, size_t room) {
-  static const struct {
+static void write_choices(int32_t may, carom_leave leave, char *text, size_t room) {
+  const char *spots = "may have the touching balls spotted";
+  if (leave == CAROM_LEAVE_KITCHEN)
+    spots = "may have the ball nearest to the head string spotted";
+  const struct {
     int32_t may;
     const char *words;
   } choices[] = {{CAROM_MAY_PASS, "may pass"},
@@ -125,7 +165,7 @@ static void write_choices(int32_t may, char *text, size_t room) {
                  {CAROM_MAY_RACK, "may have the balls racked and break"},
                  {CAROM_MAY_OTHER_RACK, "may have the balls racked for the other"},
                  {CAROM_MAY_STAY, "may leave the cue ball where it lies"},
-                 {CAROM_MAY_SPOT, "may have the touching balls spotted"}};
+                 {CAROM_MAY_SPOT, spots}};
   size_t at = 0;
   text[0] = '\0';
   for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
@@ -150,7 +190,7 @@ size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) 
     snprintf(foul, sizeof foul, "foul: %s; ", carom_foul_string(ruling->turn.foul));
   if (ruling->next >= 0) {
     leave = leaves[ruling->turn.leave];
-    write_choices(ruling->state.may, choices, sizeof choices);
+    write_choices(ruling->state.may, ruling->turn.leave, choices, sizeof choices);
   }
   if (text == NULL)
     room = 0;

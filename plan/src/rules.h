@@ -49,6 +49,11 @@ int carom_first_of(const carom_facts *facts, uint32_t choice);
  * crossed it (WPA 6.11), as a set; 0 of a shot in which it has. */
 uint32_t carom_barred(const carom_facts *facts, double length, const carom_shot_ball *balls,
                       int count);
+/* Of the balls that are on, those nearest to the head string, where all of them lie behind it (WPA
+ * 1.5); 0 where one does not. Balls whose distances differ by less than CAROM_RULES_TOUCH are
+ * equally near. */
+uint32_t carom_nearest_behind(const carom_table *table, const carom_shot_ball *balls, int count,
+                              uint32_t on);
 /* The balls in play that touch a ball for the rules, as a set; 0 of one that is out of play. */
 uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball);
 /* sight.c: whether others bar the way of the cue ball from c to an edge of ball k; and whether it

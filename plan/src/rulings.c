@@ -78,6 +78,20 @@ uint32_t carom_barred(const carom_facts *facts, double length, const carom_shot_
   return set;
 }
 
+uint32_t carom_nearest_behind(const carom_table *table, const carom_shot_ball *balls, int count,
+                              uint32_t on) {
+  const double head = 0.25 * table->length;
+  double nearest = -INFINITY;
+  for (int k = 0; k < count; k++)
+    if (on >> k & 1)
+      nearest = fmax(nearest, balls[k].state.r[1]);
+  uint32_t set = 0;
+  for (int k = 0; k < count && nearest < head; k++)
+    if (balls[k].state.r[1] > nearest - CAROM_RULES_TOUCH)
+      set |= on & carom_only(k);
+  return set;
+}
+
 int carom_first_of(const carom_facts *facts, uint32_t choice) {
   const uint32_t touching = facts->frozen & ~facts->pushed & choice;
   const int first = facts->first[0];

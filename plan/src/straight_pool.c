@@ -37,7 +37,8 @@ static bool is_open(const carom_facts *facts, int cue_ball) {
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
   const uint32_t balls = in_play & all, gone = (facts->down | facts->off) & balls;
-  const bool opening = game->opening != 0, passes = game->may != 0 && call.ball == CAROM_CALL_PASS;
+  const bool opening = game->opening != 0,
+             passes = (game->may & CAROM_MAY_PASS) != 0 && call.ball == CAROM_CALL_PASS;
   game->opening = game->may = 0;
   if (passes)
     return carom_give(game, racked(game, CAROM_TURN_PASS, 0));

@@ -224,6 +224,74 @@ TEST(the_eight_on_the_break) {
     }
 }
 
+/* WPA 1.5: the cue ball falls, and comes in hand behind the head string, at y = 0.635 m. Where all
+ * balls that are on lie behind it too, the player may have the nearest one spotted, and of those
+ * that are equally near the one that was named, else the lowest. */
+TEST(balls_behind_the_head_string) {
+  enum { SPOT = CAROM_MAY_SPOT };
+  static const struct {
+    carom_rules_kind kind;
+    double y[3]; /* of the balls 1 to 3 */
+    int32_t may, named, spotted;
+  } given[] = {
+      {CAROM_RULES_STRAIGHT, {0.2, 0.4, 0.6}, SPOT, NONE, 3},
+      {CAROM_RULES_STRAIGHT, {0.2, 0.4, 0.635}, 0, NONE, NONE}, /* on the head string */
+      {CAROM_RULES_STRAIGHT, {0.2, 0.4, 1.6}, 0, NONE, NONE},
+      {CAROM_RULES_ONEPOCKET, {0.5, 0.5, 0.3}, SPOT, NONE, 1},
+      {CAROM_RULES_ONEPOCKET, {0.5, 0.5, 0.3}, SPOT, 2, 2},
+      {CAROM_RULES_ONEPOCKET, {0.5, 0.5, 0.3}, SPOT, 3, 1}, /* it is not among the nearest */
+      {CAROM_RULES_BANK, {0.3, 0.5, 0.5}, SPOT, 3, 3},
+      {CAROM_RULES_ROTATION, {0.3, 0.5, 1.6}, SPOT, NONE, 1}, /* the 1 alone is on */
+      {CAROM_RULES_ROTATION, {0.7, 0.5, 0.3}, 0, NONE, NONE},
+      {CAROM_RULES_EIGHTBALL, {0.2, 0.4, 0.6}, 0, NONE, NONE}, /* in hand anywhere */
+  };
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+    const carom_rules_about *about = carom_rules_about_of(given[k].kind);
+    const int count = lay_out((carom_rack_kind)about->rack, CAROM_TABLE_POOL_9FT, 0);
+    carom_plan_rules of = carom_plan_rules_of(given[k].kind);
+    if (given[k].kind == CAROM_RULES_ONEPOCKET || given[k].kind == CAROM_RULES_BANK)
+      of.state.score[1] = 7; /* the balls that are down */
+    put(0, 1.1, 0.17);
+    for (int i = 0; i < 3; i++)
+      put(i + 1, 0.3 + 0.2 * i, given[k].y[i]);
+    for (int i = 4; i <= 8; i++)
+      put(i, 0.1 * i, 0.1);
+    ck_assert_int_eq(carom_match_begin_at(&match, given[k].kind, &of, &table, balls, count, NULL,
+                                          CAROM_LEAVE_AFTER, 0),
+                     CAROM_OK);
+    length = 0;
+    keep();
+    carom_cue cue = cue_of(given[k].kind);
+    cue.phi = 315.0;
+    cue.speed = 1.0;
+    ck_assert_int_eq(carom_match_stroke(&match, 0, &cue, NULL, NULL), CAROM_OK);
+    keep();
+    ck_assert_int_eq(match.ruling.turn.foul, CAROM_FOUL_CUE_BALL);
+    ck_assert_msg(match.may == given[k].may, "row %d: may %d", (int)k, match.may);
+    if (given[k].may == 0) {
+      refused(carom_match_choose(&match, 1, CAROM_MAY_SPOT), CAROM_REFUSED_CHOICE, "the choices");
+      continue;
+    }
+
+    /* the choice; then the ball is in the way of nobody, and the cue ball is still in hand */
+    if (given[k].named > 0) {
+      ck_assert_int_eq(carom_match_call(&match, 1, (carom_call){given[k].named, 1}), CAROM_OK);
+      keep();
+    }
+    ck_assert_int_eq(carom_match_choose(&match, 1, CAROM_MAY_SPOT), CAROM_OK);
+    keep();
+    const int ball = given[k].spotted;
+    memcpy(balls, match.record.balls, sizeof balls);
+    ck_assert_msg(is_at(ball, 0.5 * table.width, 0.75 * table.length), "row %d: ball %d", (int)k,
+                  ball);
+    ck_assert_uint_eq(match.ruling.put, 1U << ball);
+    ck_assert(match.phase == CAROM_MATCH_PLACE && match.leave == CAROM_LEAVE_KITCHEN &&
+              match.record.player == 1 && match.may == 0);
+    ck_assert_msg(read_all(file, length) == CAROM_OK, "row %d: %s", (int)k, reader.fault);
+    ck_assert_mem_eq(reader.record.balls, match.record.balls, sizeof match.record.balls);
+  }
+}
+
 /* ---- Recordings */
 
 /* Plays random strokes until some are ruled; the file has all lines. */

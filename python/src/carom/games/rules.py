@@ -598,7 +598,8 @@ def referee(
         The ball and the pocket that are called: `ball` and `pocket` of a choice of `plan`, which
         say a push-out and a pass, too. The other choices that `state["may"]` allows are the balls
         -4 (racked again, the player breaks), -5 (racked again, the other breaks), -6 (the cue ball
-        stays) and -7 (touching balls go to their spots).
+        stays) and -7 (touching balls go to their spots; or, on a table with pockets, the ball
+        nearest to the head string goes to the foot spot).
     options, **changes
         As for `simulate`.
 

@@ -119,6 +119,9 @@ function showButtons(s: Session): void {
   const isFreePractice = play.practice && !play.setup.drill;
   const isOver = play.winner !== undefined && s.then === undefined;
   const hasSafety = play.played?.calls === true && !play.practice;
+  const hasPockets = play.table.pockets.length > 0;
+  const spotText = hasPockets ? texts.spotTheNearestBall : texts.spotTheTouchingBalls;
+  for (const [may, one] of choices) if (may === "spot") one.textContent = spotText;
   const visible: (readonly [HTMLElement, boolean])[] = [
     [buttons.hint, play.played !== undefined],
     [buttons.undo, isFreePractice],

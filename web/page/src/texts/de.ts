@@ -426,6 +426,7 @@ export const GERMAN: typeof ENGLISH = {
   takeTheCueBall: "Spielball legen",
   leaveTheCueBall: "Spielball liegen lassen",
   spotTheTouchingBalls: "Berührende Kugeln aufsetzen",
+  spotTheNearestBall: "Nächste Kugel aufsetzen",
   rackAndBreak: "Neu aufbauen und anstoßen",
   rackTheOtherBreaks: "Neu aufbauen, Gegner stößt an",
   skip: "Überspringen",

@@ -428,6 +428,7 @@ export const ENGLISH = {
   takeTheCueBall: "Place the cue ball",
   leaveTheCueBall: "Leave the cue ball",
   spotTheTouchingBalls: "Spot the touching balls",
+  spotTheNearestBall: "Spot the nearest ball",
   rackAndBreak: "Rack again and break",
   rackTheOtherBreaks: "Rack again, the other breaks",
   skip: "Skip",
