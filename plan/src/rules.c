@@ -303,8 +303,9 @@ static void blackball_settle(carom_rules_state *game, const carom_table *table,
  * and section 8 of those of 2025: the break (8.5), balls that touch, the fouls (8.13), and the
  * black, which loses on a foul or while a ball of the group remains after the stroke. A new rack
  * after a break that is a foul is of 2005; who asks for it breaks. A player who is snookered needs
- * no cushion (definition 11, 5g): balls alone hide others, the jaws of pockets do not. One rule is
- * left out: to jump a ball behind the first contact is a foul. */
+ * no cushion (definition 11, 5g): balls alone hide others, the jaws of pockets do not. A ball is
+ * jumped where the cue ball passes over a part of it before it meets any ball: so clubs that print
+ * the English rules of eight-ball define the foul, and the WPA's words for it were not at hand. */
 CAROM_RULES_OBJECT(carom_blackball) = {.on = eightball_on,
                                        .judge = blackball_judge,
                                        .left = eightball_left,
