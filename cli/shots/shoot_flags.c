@@ -472,13 +472,13 @@ static json_t *cue_json(const layout *l, const chosen_numbers *numbers, const ca
 
 /* A ball at rest, with the numbers that are given. */
 static json_t *ball_json(const layout *l, const chosen_numbers *chosen, int ball) {
-  static const char *const games[] = {"pool", "snooker", "billiard"};
   enum { LABEL, X, Y, Z, NUMBERS = 10 };
   const double *r = l->ball[ball].state.r;
   const double state[NUMBERS] = {[X] = r[0], [Y] = r[1], [Z] = r[2]};
   const uint64_t given = chosen->all.which | (ball == 0 ? chosen->own.which : 0);
   const carom_number *n;
-  json_t *params = json_pack("{s: s}", "game", games[l->game]), *numbers = json_array();
+  json_t *params = json_pack("{s: s}", "game", carom_word(CAROM_WORDS_GAME, (int)l->game)),
+         *numbers = json_array();
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
     double x;
     memcpy(&x, (const char *)&l->ball[ball].kind + n->offset, sizeof x);
