@@ -10,7 +10,7 @@
 #include "games.h"
 #include "rules.h"
 
-enum { WINS = 61, ALL_POINTS = 120, OPEN_BREAK = 4 };
+enum { WINS = 61, OPEN_BREAK = 4 };
 static const uint32_t all = 0xfffe;
 
 static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
@@ -65,12 +65,13 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if (fell == 0)
     return carom_give(game, carom_pass);
 
-  /* points, and at 60 to 60 one more for the last ball */
+  /* points; of scores that were not given neither may have enough with the last ball, and then who
+   * has more wins, as at 60 to 60 who potted it */
   turn = carom_keep;
   turn.points = points_of_set(fell);
   carom_add(&game->score[0], points_of_set(fell));
   const bool last = (balls & ~fell) == 0;
-  if (game->score[0] >= WINS || (last && game->score[0] >= ALL_POINTS / 2))
+  if (game->score[0] >= WINS || (last && game->score[0] >= game->score[1]))
     turn.outcome = CAROM_TURN_WIN;
   else if (last)
     turn.outcome = CAROM_TURN_LOSE;
