@@ -338,7 +338,8 @@ static void apply(carom_match *match) {
 
   /* where any ball may be struck, one that was in hand and was not placed comes back */
   if (record->hand != 0 && match->rules.any_cue_ball != 0)
-    carom_spot_ball(&record->table, ruling->balls, (int)record->count, match->cue_ball);
+    carom_spot_ball_of((carom_rack_kind)match->rules.rack, &record->table, ruling->balls,
+                       (int)record->count, match->cue_ball);
 
   /* balls that lie elsewhere than the record has them */
   carom_record_settle(record);

@@ -166,10 +166,10 @@ const char *carom_foul_string(int foul) {
 /* ---- Balls that are put back */
 
 /* How far from a ball another one is put that comes beside it, m: a ball of pool is frozen to an
- * object ball (WPA 1.4); beside the cue ball, and in snooker (WPBSA, section 3, spotting colours),
- * it must not touch, so it stands as near as balls that clearly do not. */
+ * object ball (WPA 1.4); beside the cue ball, in snooker (WPBSA, section 3, spotting colours) and
+ * in pyramid it must not touch, so it stands as near as balls that clearly do not. */
 static double room_beside(carom_rack_kind kind, int other) {
-  if (kind != CAROM_RACK_SNOOKER && other != 0)
+  if (kind != CAROM_RACK_SNOOKER && kind != CAROM_RACK_PYRAMID && other != 0)
     return 0.0;
   return 2.0 * CAROM_RULES_TOUCH;
 }
@@ -218,8 +218,12 @@ carom_status carom_spot_ball(const carom_table *table, carom_shot_ball *balls, i
 
 carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
                                 carom_shot_ball *balls, int count, int ball) {
+  /* in pyramid the ball that opens comes back as the others do */
+  int of = ball;
+  if (kind == CAROM_RACK_PYRAMID && ball == 0)
+    of = 1;
   double own[2], at[2];
-  const carom_status bad = carom_spot_of(kind, table, ball, own);
+  const carom_status bad = carom_spot_of(kind, table, of, own);
   if (bad != CAROM_OK)
     return bad;
 

@@ -36,6 +36,21 @@ TEST(spots) {
   ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, BALLS), CAROM_ERROR_BALLS);
 }
 
+/* In pyramid the struck ball comes back to the foot spot as others do, and touches none there. */
+TEST(spots_of_pyramid) {
+  const int count = lay_out(CAROM_RACK_PYRAMID, CAROM_TABLE_PYRAMID, 4);
+  const double foot[2] = {0.5 * table.width, 0.75 * table.length}, R = balls[0].kind.radius;
+  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_PYRAMID);
+  put(0, 0.4, 0.4);
+  for (int k = 1; k <= 3; k++)
+    put(k, 0.3 * k, 1.5);
+  carom_turn turn = {.spot = 0x3};
+  ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
+  ck_assert(is_at(0, foot[0], foot[1]) && balls[1].state.r[0] == foot[0]);
+  const double gap = balls[1].state.r[1] - foot[1] - 2.0 * R;
+  ck_assert_msg(gap > CAROM_RULES_TOUCH && gap < 3.0 * CAROM_RULES_TOUCH, "gap %g m", gap);
+}
+
 /* A ball that was frozen to a cushion, and is pressed into it, is not driven to it: a foul where no
  * other cushion is met. One that lay 1 mm off is driven. */
 TEST(a_ball_frozen_to_a_cushion) {
