@@ -22,7 +22,8 @@ typedef struct match_job {
   int table; /* a carom_table_kind; -1: that of the game */
   bool shows;
   double fargo[2];
-  int breaks, seed, shots, strokes;
+  int breaks, seed, shots, strokes, target;
+  bool equal;
 } match_job;
 
 static bool set_ratings(const option_row *row, char *text, void *field) {
@@ -50,6 +51,12 @@ OPTION(match_job, option_shots, "shots", shots, 0, "N", set_count, 100,
        "shots by which a player plans each stroke (default 300)");
 OPTION(match_job, option_strokes, "strokes", strokes, 0, "N", set_count, 1,
        "stop after so many strokes: the recording has no end, and can be gone on with");
+OPTION(match_job, option_target, "target", target, 0, "N", set_count, 1,
+       "the points that win, in games of points (default: those of the game)");
+OPTION(match_job, option_equal, "equal-innings", equal, 0, NULL, set_flag, 0,
+       "in three-cushion and straight rail: if the player who broke reaches the target first, the "
+       "other "
+       "has one more inning, and the match may be drawn");
 OPTION(match_job, option_show, "show", shows, 0, NULL, set_flag, 0,
        "instead of playing: judge GAME, and tell each stroke in words");
 
@@ -60,9 +67,10 @@ static const command_form match_form = {
              "game, and writes its recording, which `carom verify` judges. With GAME it goes on "
              "with a match that was saved: give the ratings, the seed and the shots again, and the "
              "match ends as if it had not been interrupted. GAME may be -.\n",
-    .options = (const option_row *const[]){&option_rules, &option_table, &option_fargo,
-                                           &option_breaks, &option_seed, &option_shots,
-                                           &option_strokes, &option_show, &option_output, NULL},
+    .options =
+        (const option_row *const[]){&option_rules, &option_table, &option_fargo, &option_breaks,
+                                    &option_target, &option_equal, &option_seed, &option_shots,
+                                    &option_strokes, &option_show, &option_output, NULL},
     .details = "exit code: 0 for success; 1 if a line of GAME is not by the rules, which carom "
                "names; 2 for bad usage or unreadable input\n",
     .example = "carom match --fargo 650,500 -o game.jsonl",
@@ -250,8 +258,8 @@ static int play_match(players *p) {
     if (job->table >= 0)
       kind = (carom_table_kind)job->table;
     carom_table_make(kind, &table);
-    const carom_status status =
-        carom_match_begin(&match, job->rules, &table, (uint64_t)job->seed, job->breaks);
+    const carom_status status = carom_match_begin_to(&match, job->rules, job->target, job->equal,
+                                                     &table, (uint64_t)job->seed, job->breaks);
     if (status != CAROM_OK) {
       complain("%s", text_or(match.fault, carom_status_string(status)));
       return EXIT_USAGE;

@@ -52,6 +52,8 @@ OPTION(plan_job, option_target, "target", game.target, 0, "N", set_count, 1,
        "points that win, where the rules leave it open");
 OPTION(plan_job, option_colour, "colour", game.colour, 0, NULL, set_flag, 0,
        "in snooker: a colour is on, after a red");
+OPTION(plan_job, option_last_inning, "last-inning", game.last_inning, 0, NULL, set_flag, 0,
+       "in three-cushion and straight rail: this is the equalizing inning, in which a miss loses");
 OPTION(plan_job, option_opening, "opening", game.opening, 0, NULL, set_flag, 0,
        "the stroke is the break. With --in-hand the cue ball is put on the head string, or behind "
        "it");
@@ -326,15 +328,35 @@ static const command_form form = {
         "is a file as for `carom shoot`. carom reads the table, the balls and the cue of its first "
         "shot, and the stroke only with --try. Balls that are missing count as potted. carom "
         "describes the five best shots in words: what they do, how to strike, and their chances.\n",
-    .options =
-        (const option_row *const[]){
-            &option_rules,     &option_table,         &option_cue,           &option_balls,
-            &option_one_gap,   &option_group,         &option_permission,    &option_score,
-            &option_target,    &option_own_pocket,    &option_colour,        &option_opening,
-            &option_hand,      &option_run_out,       &option_try,           &option_value,
-            &option_player,    &option_player_errors, &option_with_of_shots, &option_cue_ball,
-            &options_of_plan,  &options_of_motion,    &option_csv,           &option_why,
-            &option_plan_plot, &option_threads,       &option_output,        NULL},
+    .options = (const option_row *const[]){&option_rules,
+                                           &option_table,
+                                           &option_cue,
+                                           &option_balls,
+                                           &option_one_gap,
+                                           &option_group,
+                                           &option_permission,
+                                           &option_score,
+                                           &option_target,
+                                           &option_own_pocket,
+                                           &option_colour,
+                                           &option_opening,
+                                           &option_last_inning,
+                                           &option_hand,
+                                           &option_run_out,
+                                           &option_try,
+                                           &option_value,
+                                           &option_player,
+                                           &option_player_errors,
+                                           &option_with_of_shots,
+                                           &option_cue_ball,
+                                           &options_of_plan,
+                                           &options_of_motion,
+                                           &option_csv,
+                                           &option_why,
+                                           &option_plan_plot,
+                                           &option_threads,
+                                           &option_output,
+                                           NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"

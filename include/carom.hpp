@@ -637,10 +637,13 @@ public:
     return last_;
   }
 
+  /* With the rack of a game, to `target` points, 0: those of the game, and with equal innings or
+   * without. */
   carom_status begin(carom_rules_kind rules, const carom_table &on, std::uint64_t seed,
-                     int player = 0) {
+                     int player = 0, int target = 0, bool equal_innings = false) {
     lines_.clear();
-    return told(carom_match_begin(match_.get(), rules, &on, seed, player));
+    return told(carom_match_begin_to(match_.get(), rules, target, equal_innings ? 1 : 0, &on, seed,
+                                     player));
   }
   /* The same from any layout, by the rules of this kind or by `of`. */
   carom_status begin(carom_rules_kind rules, const carom_table &on,

@@ -891,7 +891,11 @@ typedef struct carom_rules_state {
                         otherwise 0: judge() sets it, and carom_turn_settle() reads it. In blackball
                         1: the stroke is free. */
   int32_t target;    /* points that win, 1 to 1,000,000; or those that a break must make. */
-  uint64_t user[8];  /* eight words for rules of the caller; no game here reads them. */
+  int32_t innings; /* equal innings, in three-cushion and straight rail: 1 if the player began, 2 if
+                        the opponent did, 3 in the equalizing inning of the player. 0: the first who
+                        has the target wins. */
+  int32_t unused;  /* must be 0. */
+  uint64_t user[8]; /* eight words for rules of the caller; no game here reads them. */
 } carom_rules_state;
 
 /* The result of a shot. The caller sets the members that it wants; with all zero, the shot returns

@@ -15,8 +15,9 @@ bool judge_line(const char *line, size_t size, char why[JUDGED_TEXT]) {
 }
 
 bool judge_end(char what[JUDGED_TEXT]) {
-  const char *ends = match.winner == 0 ? "player 1 has won" : "player 2 has won";
+  static const char *const ends[] = {"nobody has won", "player 1 has won", "player 2 has won",
+                                     "the match is drawn"};
   snprintf(what, JUDGED_TEXT, "%lld rulings by the rules; %s", (long long)match.rulings,
-           match.winner < 0 ? "nobody has won" : ends);
+           ends[1 + match.winner]);
   return match.size == 0;
 }

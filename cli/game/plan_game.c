@@ -122,6 +122,7 @@ bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
 }
 
 void plan_game_state(const plan_game *game, const shot_line *line, carom_plan_rules *rules) {
+  enum { LAST_INNING = 3 }; /* of carom_rules_state.innings */
   static const int32_t permissions[] = {0, CAROM_MAY_PUSH, CAROM_MAY_PASS,
                                         CAROM_MAY_PASS | CAROM_MAY_FREE_BALL};
   *rules = carom_plan_rules_of((carom_rules_kind)game->rules);
@@ -130,6 +131,7 @@ void plan_game_state(const plan_game *game, const shot_line *line, carom_plan_ru
   state->group = game->group;
   state->may = permissions[game->permission];
   state->on = game->colour;
+  state->innings = game->last_inning ? LAST_INNING : 0;
   if (game->target > 0)
     state->target = game->target;
   for (int who = 0; who < 2; who++) {
@@ -145,7 +147,8 @@ void plan_game_state(const plan_game *game, const shot_line *line, carom_plan_ru
 static const char *option_of(const char *number) {
   static const struct {
     const char *number, *option;
-  } named[] = {{"on", "colour"}, {"lost", "score"}, {"pocket", "own-pocket"}};
+  } named[] = {
+      {"on", "colour"}, {"lost", "score"}, {"pocket", "own-pocket"}, {"innings", "last-inning"}};
   for (size_t k = 0; k < sizeof named / sizeof named[0]; k++)
     if (strcmp(number, named[k].number) == 0)
       return named[k].option;

@@ -16,7 +16,7 @@ typedef struct plan_game {
   int group, permission; /* of their choices */
   int target, score[2];  /* 0: not given */
   int pocket;            /* the player's: 0 foot-right, 1 foot-left, or NOT_GIVEN */
-  bool opening, colour;
+  bool opening, colour, last_inning;
 } plan_game;
 
 OPTION_SET(set_score); /* int[2]: OWN,OTHER */

@@ -59,6 +59,10 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
     fputs("the game won\n", out);
     return;
   }
+  if (ruling->winner == CAROM_DRAWN) {
+    fputs("the game drawn\n", out);
+    return;
+  }
   if (ruling->hand)
     fputs("ball in hand; ", out);
   else if (ruling->balls[cue_ball].state.label == CAROM_BALL_STATIONARY)
@@ -104,7 +108,7 @@ static int left_of(const carom_plan_job *job, const carom_shot_ball *balls) {
 static double worth_of(const carom_plan_job *job, const carom_ruling *ruling, double *other) {
   const bool alone = job->rules->race == CAROM_RACE_ALONE, passes = ruling->next == 1;
   if (ruling->next < 0)
-    return ruling->winner == 0;
+    return ruling->winner != 1;
   carom_plan_rules rules;
   const carom_plan_job next = job_after(job, ruling, &rules);
   double chance = 0.0;
@@ -132,7 +136,7 @@ static strokes play_with(const carom_plan_job *job, const carom_player *player,
     s.worth += worth;
     s.squares += worth * worth;
     s.other += other;
-    s.keeps += ruling.next == 0 || ruling.winner == 0;
+    s.keeps += ruling.next == 0 || ruling.winner == 0 || ruling.winner == CAROM_DRAWN;
     s.misses += ruling.next == 1;
     s.fouls += ruling.turn.foul != CAROM_FOUL_NONE;
     s.lost += ruling.winner == 1;

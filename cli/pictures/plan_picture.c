@@ -67,7 +67,8 @@ static void say_failures(const planned *p, const shot_line *line, uint64_t seed,
     carom_rules_state state = p->rules.state;
     const carom_turn turn =
         p->rules.judge(&state, in_play, 0, &facts, (carom_call){p->best.ball, p->best.pocket});
-    const bool keeps = turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN;
+    const bool keeps = turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN ||
+                       turn.outcome == CAROM_TURN_DRAW;
     good += keeps;
     if (!keeps)
       times[failure_of(&turn)]++;

@@ -62,7 +62,7 @@ typedef enum carom_match_phase {
   CAROM_MATCH_STROKE = 1, /* a stroke, or one of the choices in match.may */
   CAROM_MATCH_PLACE = 2,  /* the cue ball is in hand: a place within match.bounds, or a choice */
   CAROM_MATCH_MOVING = 3, /* the shot was stopped while balls move: it goes on */
-  CAROM_MATCH_OVER = 4    /* nothing: match.winner has won */
+  CAROM_MATCH_OVER = 4    /* nothing: match.winner has won, or the match is drawn */
 } carom_match_phase;
 
 /* The acts of lines "act". */
@@ -107,7 +107,7 @@ typedef struct carom_match {
                           shot. */
   carom_plan_rules rules; /* their state is that of the player at the table. */
   int32_t phase;          /* a carom_match_phase. */
-  int32_t winner;         /* 0 or 1; -1: none yet. */
+  int32_t winner;         /* 0 or 1; CAROM_DRAWN; -1: none yet. */
   int32_t may;            /* the choices: the sum of the carom_may for carom_match_choose(). */
   int32_t cue_ball;       /* of the player at the table. */
   uint32_t on;            /* balls that may be met first in the next stroke, as a set. */
@@ -130,6 +130,13 @@ typedef struct carom_match {
  * another player; or an error of carom_rack(). */
 CAROM_API carom_status carom_match_begin(carom_match *match, carom_rules_kind rules,
                                          const carom_table *table, uint64_t seed, int player);
+
+/* The same to `target` points; 0: as many as the game has at its beginning. With `equal_innings` 1
+ * the player who does not break has an equalizing inning, and the match may be drawn; 0: not.
+ * CAROM_ERROR_ACT also for a game that has no target or no equal innings. */
+CAROM_API carom_status carom_match_begin_to(carom_match *match, carom_rules_kind rules,
+                                            int32_t target, int equal_innings,
+                                            const carom_table *table, uint64_t seed, int player);
 
 /* The same from any layout. `of` NULL: the rules of this kind, as they stand at the beginning; else
  * these, with their state: of a caller's own rules the reader needs the same in match->rules. With

@@ -109,8 +109,12 @@ typedef enum carom_turn_outcome {
   CAROM_TURN_KEEP = 0, /* the player plays on */
   CAROM_TURN_PASS = 1, /* the opponent plays; without an opponent, the visit ends */
   CAROM_TURN_WIN = 2,  /* the player has won */
-  CAROM_TURN_LOSE = 3  /* the player has lost */
+  CAROM_TURN_LOSE = 3, /* the player has lost */
+  CAROM_TURN_DRAW = 4  /* the game ends without a winner */
 } carom_turn_outcome;
+
+/* The winner of a drawn game. */
+enum { CAROM_DRAWN = 2 };
 
 /* The layout of the next stroke. */
 typedef enum carom_leave {
@@ -306,12 +310,15 @@ typedef enum carom_rules_kind {
   CAROM_RULES_THREECUSHION = 3, /* three-cushion, UMB: a player scores a point if the cue ball meets
                                    three cushions before the second ball. The opening must hit the
                                    red first. Balls that left the table come back to their spots.
-                                   There is no equalizing inning. The value of a shot is the chance
-                                   of its point; later strokes are not estimated. The table needs no
-                                   pockets. State: opening; group: 1 if ball 0 is the cue ball of
-                                   the player, 2 if ball 1 is, 0 if ball 0 is that of both; score;
-                                   target, 40 to begin with, 0: none; may: to have the balls that
-                                   touch the cue ball spotted. */
+                                   The value of a shot is the chance of its point, also in an
+                                   equalizing inning; later strokes are not estimated. The table
+                                   needs no pockets. State: opening; group: 1 if ball 0 is the cue
+                                   ball of the player, 2 if ball 1 is, 0 if ball 0 is that of both;
+                                   score; target, 40 to begin with, 0: none; innings: 0 to begin
+                                   with. With 1, equal innings: if the player who began reaches the
+                                   target, the balls are placed for an opening of the opponent, who
+                                   draws the game by reaching it too, and loses it by a miss. May:
+                                   to have the balls that touch the cue ball spotted. */
   CAROM_RULES_STRAIGHT = 4,     /* straight pool, 14.1, WPA: 15 balls, of which any may be played;
                                    ball and pocket are called. When one ball is left, the others are
                                    racked again. State: opening; target, 100 to begin with; score,
@@ -443,7 +450,7 @@ typedef struct carom_ruling {
   carom_rules_state state; /* for the player who plays next; `may` says what this player may do
                               besides a stroke. */
   int32_t next;   /* who plays next. 0: the same player; 1: the opponent; -1: the game is over. */
-  int32_t winner; /* 0: the player who has played; 1: the opponent; -1: none yet. */
+  int32_t winner; /* 0: the player who has played; 1: the opponent; CAROM_DRAWN; -1: none yet. */
   int32_t hand;   /* 1: the cue ball is in hand. */
   uint32_t on;    /* the set of the balls that the cue ball may hit first in the next stroke. */
   uint32_t put;   /* the set of the balls that are no longer where the shot left them. */
@@ -569,11 +576,11 @@ CAROM_API uint32_t carom_stroke_marks(const carom_facts *facts, int cue_ball);
 
 /* A stroke that a plan proposes, and its results. */
 typedef struct carom_choice {
-  carom_cue cue;        /* the cue, raised just enough for its stick to clear cushions and balls,
+  carom_cue cue;     /* the cue, raised just enough for its stick to clear cushions and balls,
                            unless `level` is set */
-  double place[2];      /* the place where the cue ball lies or is put, m. */
-  int32_t kind;         /* a carom_plan_kind. */
-  int32_t ball;         /* the ball that falls and keeps the turn. In rules with calls this is the
+  double place[2];   /* the place where the cue ball lies or is put, m. */
+  int32_t kind;      /* a carom_plan_kind. */
+  int32_t ball;      /* the ball that falls and keeps the turn. In rules with calls this is the
                            ball that falls first without errors. In other rules it is the ball that
                            does so most often with errors, if at least half of the strokes with
                            errors pot one, and otherwise the ball of the stroke without errors. -1
@@ -581,23 +588,24 @@ typedef struct carom_choice {
                            also -1 for a foul. CAROM_CALL_PUSH and CAROM_CALL_PASS for those kinds,
                            so that ball and pocket are the call. On a table without pockets it is
                            the ball that the cue ball hits first. */
-  int32_t pocket;       /* and its pocket, or -1. */
-  int32_t cushions;     /* impacts of that ball on cushions, in one such stroke. */
-  double value;         /* chance to win; without an opponent, the share of the balls that are
-                           potted; 0 to 1. In four-ball a stroke that costs a point counts -1. A
-                           foul counts 0.03 less than the position that follows it, so that the plan
-                           chooses a legal stroke among equally good ones. The
-                           shots by which a stroke was chosen were partly lucky for it. So all
-                           chances of a choice are those of fresh shots, whose errors chose nothing,
-                           and of 10 of the others: a tenth of the shots of the plan, at least 30,
-                           for the best choice, and a 40th, at least 20, for each of the others. A
-                           choice is worth at most as much as the best one. A plan that was stopped
-                           may have none; the value is then 0.75 standard errors less than the mean
-                           of the shots. */
-  double error;         /* the standard error of the mean of the shots. */
-  double keep;          /* chance that the player plays on or wins, */
-  double foul, lose;    /* chances that the shot is a foul, and that it loses. */
-  int64_t seen;         /* how often the shot was played with errors. 0 if the plan was stopped
+  int32_t pocket;    /* and its pocket, or -1. */
+  int32_t cushions;  /* impacts of that ball on cushions, in one such stroke. */
+  double value;      /* chance to win, and half the chance to draw; without an opponent, the
+                           share of the balls that are potted; 0 to 1. In four-ball a stroke that
+                           costs a point counts -1. A foul counts 0.03 less than the position that
+                           follows it, so that the plan chooses a legal stroke among equally good
+                           ones. The shots by which a stroke was chosen were partly lucky for it. So
+                           all chances of a choice are those of fresh shots, whose errors chose
+                           nothing, and of 10 of the others: a tenth of the shots of the plan, at
+                           least 30, for the best choice, and a 40th, at least 20, for each of the
+                           others. A choice is worth at most as much as the best one. A plan that
+                           was stopped may have none; the value is then 0.75 standard errors less
+                           than the mean of the shots. */
+  double error;      /* the standard error of the mean of the shots. */
+  double keep;       /* chance that the player plays on, wins or draws; also that of the point that
+                           lets the opponent have the equalizing inning, */
+  double foul, lose; /* chances that the shot is a foul, and that it loses. */
+  int64_t seen;      /* how often the shot was played with errors. 0 if the plan was stopped
                            before that; the value is then that of the shot without errors. */
   uint64_t reserved[4]; /* 0. */
 } carom_choice;

@@ -7,8 +7,15 @@
  * a player whose cue ball touches another ball may have balls spotted (27): in three-cushion each
  * of these balls on its spot, in straight rail all three as for the opening.
  *
- * Two rules are left out: the inning that draws level, and the barred corners of straight rail (52
- * to 54), in which the number of points in a row is limited.
+ * Where the state asks for equal innings (29, as clubs tell it), a player who began and reaches the
+ * target first gives the other one more inning, from the opening position of that player (23): who
+ * reaches the target in it draws, and who misses loses. Without them the first who has the target
+ * wins, as in all knock-out matches of the UMB (changes by its board, December 2019). So no match
+ * of the UMB needs further strokes after a draw. Those changes also give 30 s for a stroke: the
+ * clock is the caller's, who calls carom_match_clock().
+ *
+ * The barred corners of straight rail (52 to 54), in which the number of points in a row is
+ * limited, are left out.
  *
  * Four-ball has no rules of a federation; it is by custom (Korean and English descriptions, which
  * agree): white and yellow are cue balls, and the opening meets the farther red first. A point is a
@@ -44,7 +51,34 @@ static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed
 static carom_turn give(carom_rules_state *game, carom_turn turn) {
   if (game->group != 0)
     game->group = 3 - game->group;
+  if (game->innings != 0)
+    game->innings = CAROM_BEGAN + CAROM_FOLLOWS - game->innings;
   return carom_give(game, turn);
+}
+
+/* A miss or a foul: the turn goes to the other, who has won if this was the equalizing inning. */
+static carom_turn end_inning(carom_rules_state *game, carom_turn turn) {
+  if (game->innings != CAROM_LAST_INNING)
+    return give(game, turn);
+  turn.outcome = CAROM_TURN_LOSE;
+  return turn;
+}
+
+/* The turn of a player who has the target. */
+static carom_turn reach_target(carom_rules_state *game, uint32_t in_play, carom_turn turn) {
+  turn.outcome = CAROM_TURN_WIN;
+  if (game->innings == CAROM_LAST_INNING)
+    turn.outcome = CAROM_TURN_DRAW;
+  if (game->innings != CAROM_BEGAN)
+    return turn;
+
+  /* the other opens again: settle() places the balls */
+  turn.outcome = CAROM_TURN_PASS;
+  turn.spot = in_play;
+  give(game, turn);
+  game->innings = CAROM_LAST_INNING;
+  game->opening = 1;
+  return turn;
 }
 
 /* A point: before the cue ball meets the second ball, it meets so many cushions. */
@@ -63,12 +97,13 @@ static carom_turn judge_point(carom_rules_state *game, uint32_t in_play, const c
   else if (opening && first != 0 && (first & may_meet) == 0)
     foul = CAROM_FOUL_FIRST;
   if (foul != CAROM_FOUL_NONE || facts->first[1] < 0 || facts->cushions_before[1] < cushions)
-    return give(game, (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, facts->off, 0.0});
+    return end_inning(game,
+                      (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, facts->off, 0.0});
   carom_turn turn = carom_keep;
   turn.points = 1.0;
   carom_add(&game->score[0], 1);
   if (game->target > 0 && game->score[0] >= game->target)
-    turn.outcome = CAROM_TURN_WIN;
+    return reach_target(game, in_play, turn);
   return turn;
 }
 
@@ -172,24 +207,6 @@ static int32_t may_spot(const carom_shot_ball *balls, int count, int cue_ball) {
   return CAROM_MAY_SPOT;
 }
 
-/* Balls that left the table come back; and where the player chose so, those that touch his cue
- * ball, with it. */
-static void settle_one(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
-                       int count, carom_turn *turn) {
-  const int cue_ball = cue_ball_of(game);
-  if (count < BALLS_OF_THREE)
-    return;
-  if ((game->may & CAROM_MAY_SPOT) && turn->outcome == CAROM_TURN_KEEP)
-    turn->spot = carom_touching(balls, count, cue_ball) | UINT32_C(1) << cue_ball;
-  for (int k = 0; k < BALLS_OF_THREE; k++)
-    if (turn->spot >> k & 1)
-      balls[k].state.label = CAROM_BALL_OFF;
-  for (int k = 0; k < BALLS_OF_THREE; k++)
-    if (turn->spot >> k & 1)
-      put_on_spot(table, balls, count, cue_ball, k);
-  game->may = may_spot(balls, count, cue_ball);
-}
-
 /* All balls go to the places of the opening of the player who comes to the table. */
 static void settle_rack(carom_rack_kind rack, carom_rules_state *game, const carom_table *table,
                         carom_shot_ball *balls, int count, carom_turn *turn) {
@@ -211,6 +228,28 @@ static void settle_rack(carom_rack_kind rack, carom_rules_state *game, const car
       carom_place_ball(table, balls, count, k, at[0], at[1], NULL);
     }
   }
+  game->may = may_spot(balls, count, cue_ball);
+}
+
+/* Balls that left the table come back; and where the player chose so, those that touch his cue
+ * ball, with it. All come back for an equalizing inning, which alone is an opening here. */
+static void settle_one(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
+                       int count, carom_turn *turn) {
+  const int cue_ball = cue_ball_of(game);
+  if (count < BALLS_OF_THREE)
+    return;
+  if (game->opening != 0 && turn->spot != 0) {
+    settle_rack(CAROM_RACK_THREECUSHION, game, table, balls, count, turn);
+    return;
+  }
+  if ((game->may & CAROM_MAY_SPOT) && turn->outcome == CAROM_TURN_KEEP)
+    turn->spot = carom_touching(balls, count, cue_ball) | UINT32_C(1) << cue_ball;
+  for (int k = 0; k < BALLS_OF_THREE; k++)
+    if (turn->spot >> k & 1)
+      balls[k].state.label = CAROM_BALL_OFF;
+  for (int k = 0; k < BALLS_OF_THREE; k++)
+    if (turn->spot >> k & 1)
+      put_on_spot(table, balls, count, cue_ball, k);
   game->may = may_spot(balls, count, cue_ball);
 }
 

@@ -5,10 +5,10 @@
 
 /* Members of a state, and as bits. */
 #define MEMBER(NAME, ...) PLACE_OF_##NAME,
-enum { CAROM_STATE_MEMBERS(MEMBER) MEMBERS };
+enum { CAROM_ALL_MEMBERS(MEMBER) MEMBERS };
 #undef MEMBER
 #define MEMBER(NAME, ...) NAME = 1 << PLACE_OF_##NAME,
-enum { CAROM_STATE_MEMBERS(MEMBER) NO_MEMBER = 0 };
+enum { CAROM_ALL_MEMBERS(MEMBER) NO_MEMBER = 0 };
 #undef MEMBER
 #define MEMBER(NAME, member, low, high, range) \
   {#member, range, sizeof(((carom_rules_state *)NULL)->member) / sizeof(int32_t), low, high},
@@ -16,7 +16,7 @@ static const struct {
   const char *name, *range;
   size_t count;
   int32_t low, high;
-} members[] = {CAROM_STATE_MEMBERS(MEMBER)};
+} members[] = {CAROM_ALL_MEMBERS(MEMBER)};
 #undef MEMBER
 
 #define GAME(NAME, rules, word, text, BALLS, TABLE, RACK, last, OPENING, HAND, calls, members, \
@@ -99,5 +99,8 @@ const char *carom_rules_fault(carom_rules_kind kind, const carom_rules_state *st
         *range = members[k].range;
       return members[k].name;
     }
+  *range = "0";
+  if (state->unused != 0)
+    return "unused";
   return NULL;
 }

@@ -3,7 +3,7 @@
  *
  * GAME(NAME, rules, word, text, BALLS, TABLE, RACK, last, OPENING, HAND, calls, members, may):
  * `rules` is the object that its file defines by CAROM_RULES_OBJECT, `members` are those of its
- * state, by the names of CAROM_STATE_MEMBERS of schema/numbers.h, and carom_rules_about has the
+ * state, by the names of CAROM_ALL_MEMBERS of schema/numbers.h, and carom_rules_about has the
  * rest. */
 #ifndef CAROM_PLAN_GAMES_H
 #define CAROM_PLAN_GAMES_H
@@ -20,7 +20,8 @@
   GAME(POTTING, carom_potting, "potting", "a drill: all balls count", POOL, POOL_9FT, EIGHTBALL,   \
        0, HAND, HAND, 0, NO_MEMBER, 0)                                                             \
   GAME(THREECUSHION, carom_threecushion, "threecushion", "three-cushion", BILLIARD, THREECUSHION,  \
-       THREECUSHION, 0, AFTER, AFTER, 0, OPENING | GROUP | SCORE | TARGET | MAY, CAROM_MAY_SPOT)   \
+       THREECUSHION, 0, AFTER, AFTER, 0, OPENING | GROUP | SCORE | TARGET | MAY | INNINGS,         \
+       CAROM_MAY_SPOT)                                                                             \
   GAME(STRAIGHT, carom_straight, "straight", "straight pool by the WPA", POOL, POOL_9FT,           \
        EIGHTBALL, 15, KITCHEN, KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY | TARGET,          \
        CAROM_MAY_PASS | CAROM_MAY_SPOT)                                                            \
@@ -34,8 +35,8 @@
   GAME(TENBALL, carom_ten_ball, "tenball", "ten-ball by the WPA", POOL, POOL_9FT, TENBALL, 10,     \
        KITCHEN, HAND, 2, OPENING | FOULS | MAY | TARGET, CAROM_MAY_PASS | CAROM_MAY_PUSH)          \
   GAME(STRAIGHTRAIL, carom_straight_rail, "straightrail", "straight rail by the UMB", BILLIARD,    \
-       THREECUSHION, THREECUSHION, 0, AFTER, AFTER, 0, OPENING | GROUP | SCORE | TARGET | MAY,     \
-       CAROM_MAY_SPOT)                                                                             \
+       THREECUSHION, THREECUSHION, 0, AFTER, AFTER, 0,                                             \
+       OPENING | GROUP | SCORE | TARGET | MAY | INNINGS, CAROM_MAY_SPOT)                           \
   GAME(BLACKBALL, carom_blackball, "blackball", "blackball by the WPA", BLACKBALL, BLACKBALL,      \
        BLACKBALL, 15, BAULK, BAULK, 0, OPENING | GROUP | MAY | ON | FREE_BALL,                     \
        CAROM_MAY_RACK | CAROM_MAY_STAY)                                                            \

@@ -275,13 +275,19 @@ carom_status carom_match_begin_at(carom_match *match, carom_rules_kind kind,
 
 carom_status carom_match_begin(carom_match *match, carom_rules_kind kind, const carom_table *table,
                                uint64_t seed, int player) {
+  return carom_match_begin_to(match, kind, 0, 0, table, seed, player);
+}
+
+carom_status carom_match_begin_to(carom_match *match, carom_rules_kind kind, int32_t target,
+                                  int equal_innings, const carom_table *table, uint64_t seed,
+                                  int player) {
   if (match == NULL || table == NULL)
     return CAROM_ERROR_NULL;
   const carom_rules_about *about = carom_rules_about_of(kind);
-  if (about == NULL) {
+  if (about == NULL || (equal_innings >> 1) != 0) {
     memset(match, 0, sizeof *match);
     return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin",
-                              "the rules must be a carom_rules_kind");
+                              "the rules must be a carom_rules_kind, equal_innings 0 or 1");
   }
   const bool is_carom = about->balls == CAROM_GAME_BILLIARD || about->balls == CAROM_GAME_FOURBALL;
   if (is_carom != (table->pockets == 0)) {
@@ -300,6 +306,9 @@ carom_status carom_match_begin(carom_match *match, carom_rules_kind kind, const 
     return bad;
   carom_plan_rules rules = carom_plan_rules_of(kind);
   rules.state.opening = carom_has_opening(kind);
+  rules.state.innings = equal_innings;
+  if (target != 0)
+    rules.state.target = target;
   if (table->pockets == 0)
     rules.state.group = 1 + player;
   if (carom_cue_ball_of(&rules) == 1) { /* the white spot is that of who opens */
@@ -357,7 +366,9 @@ static void apply(carom_match *match) {
   match->rulings++;
   match->rules.state = record->standing = ruling->state;
   record->foul = ruling->turn.foul;
-  if (ruling->winner >= 0)
+  if (ruling->winner == CAROM_DRAWN)
+    record->winner = 1 + CAROM_DRAWN;
+  else if (ruling->winner >= 0)
     record->winner = 1 + (player ^ ruling->winner);
   else
     record->player = player ^ ruling->next;

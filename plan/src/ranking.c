@@ -91,7 +91,7 @@ void carom_search_sort(const search *plan, int64_t n) {
 static void add(carom_tally *t, const outcome *o) {
   t->sum += o->worth;
   t->squares += o->worth * o->worth;
-  t->keep += o->turn == CAROM_TURN_KEEP || o->turn == CAROM_TURN_WIN;
+  t->keep += o->turn == CAROM_TURN_KEEP;
   t->lose += o->turn == CAROM_TURN_LOSE;
   t->foul += o->foul;
   t->seen++;

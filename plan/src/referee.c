@@ -56,7 +56,7 @@ static uint32_t moved_by_referee(const carom_shot_ball *balls, int count, const 
   return moved;
 }
 
-/* Who plays next, 0 the player and 1 the other, and who has won; -1: nobody. */
+/* Who plays next, 0 the player and 1 the other, and who has won; -1: nobody yet. */
 static void name_players(carom_ruling *ruling) {
   ruling->next = ruling->winner = -1;
   switch (ruling->turn.outcome) {
@@ -71,6 +71,9 @@ static void name_players(carom_ruling *ruling) {
     break;
   case CAROM_TURN_LOSE:
     ruling->winner = 1;
+    break;
+  case CAROM_TURN_DRAW:
+    ruling->winner = CAROM_DRAWN;
     break;
   }
 }
@@ -174,18 +177,21 @@ static void write_choices(int32_t may, carom_leave leave, char *text, size_t roo
 }
 
 size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) {
-  static const char *const turns[] = {"plays on", "the other plays", "has won", "has lost"};
+  static const char *const turns[] = {"plays on", "the other plays", "has won", "has lost",
+                                      "has drawn"};
   static const char *const leaves[] = {"",
                                        ", with the balls as before",
                                        ", cue ball in hand",
                                        ", cue ball in hand behind the head string",
                                        ", cue ball in hand in the D",
                                        ", cue ball in hand behind the baulk line"};
-  if (ruling == NULL || (uint32_t)ruling->turn.outcome > CAROM_TURN_LOSE ||
+  if (ruling == NULL || (uint32_t)ruling->turn.outcome > CAROM_TURN_DRAW ||
       (uint32_t)ruling->turn.leave > CAROM_LEAVE_BAULK)
     return 0;
   char foul[200] = "", choices[200] = "";
-  const char *leave = "";
+  const char *leave = "", *turn = turns[ruling->turn.outcome];
+  if (ruling->next == 1 && ruling->state.innings == CAROM_LAST_INNING)
+    turn = "the other has the equalizing inning";
   if (ruling->turn.foul != CAROM_FOUL_NONE)
     snprintf(foul, sizeof foul, "foul: %s; ", carom_foul_string(ruling->turn.foul));
   if (ruling->next >= 0) {
@@ -194,7 +200,6 @@ size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) 
   }
   if (text == NULL)
     room = 0;
-  const int size =
-      snprintf(text, room, "%s%s%s%s", foul, turns[ruling->turn.outcome], leave, choices);
+  const int size = snprintf(text, room, "%s%s%s%s", foul, turn, leave, choices);
   return (size_t)carom_max(size, 0);
 }

@@ -96,6 +96,14 @@ __attribute__((noinline)) static void settle(const search *plan, carom_rules_sta
     final[k] = balls[k].state;
 }
 
+/* Whether the player plays on, wins or draws, or has made the last point before an equalizing
+ * inning. */
+static bool is_good(const carom_rules_state *after, const carom_turn *turn) {
+  if (turn->outcome == CAROM_TURN_PASS)
+    return after->innings == CAROM_LAST_INNING;
+  return turn->outcome != CAROM_TURN_LOSE;
+}
+
 /* The worth of a shot for the player: its turn, and the value of the layout that it leaves.
  * `final` is changed. */
 static outcome judge(const search *plan, const carom_facts *facts, carom_ball_state *final,
@@ -110,7 +118,8 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
     call = call_of(plan, facts);
   carom_rules_state game = rules->state; /* rules change it as they judge */
   carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, facts, call);
-  outcome o = {.turn = (int8_t)turn.outcome,
+  const bool alone = rules->race == CAROM_RACE_ALONE, good = is_good(&game, &turn);
+  outcome o = {.turn = (int8_t)(good ? CAROM_TURN_KEEP : turn.outcome),
                .foul = turn.foul != 0,
                .ball = -1,
                .pocket = -1,
@@ -119,17 +128,20 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   /* its call */
   if (call.ball == CAROM_CALL_PUSH)
     o.ball = CAROM_CALL_PUSH;
-  if (call.ball >= 0 && (turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN)) {
+  if (call.ball >= 0 && good) {
     o.ball = (int8_t)call.ball;
     o.pocket = (int8_t)call.pocket;
     o.cushions = (int16_t)facts->cushions[call.ball];
   }
-  const bool alone = rules->race == CAROM_RACE_ALONE;
   if (turn.outcome == CAROM_TURN_WIN || turn.outcome == CAROM_TURN_LOSE) {
     o.worth = turn.outcome == CAROM_TURN_WIN;
     return o;
   }
-  if (alone && turn.outcome == CAROM_TURN_PASS) {
+  if (turn.outcome == CAROM_TURN_DRAW && !alone) {
+    o.worth = 0.5;
+    return o;
+  }
+  if (alone && (turn.outcome == CAROM_TURN_PASS || turn.outcome == CAROM_TURN_DRAW)) {
     o.worth = carom_search_share(plan, turn.points);
     return o;
   }

@@ -9,6 +9,9 @@
 static const carom_turn carom_keep = {CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0, 0, 0.0};
 static const carom_turn carom_pass = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, 0, 0, 0.0};
 
+/* The values of carom_rules_state.innings but 0: who began, and the equalizing inning. */
+enum { CAROM_BEGAN = 1, CAROM_FOLLOWS = 2, CAROM_LAST_INNING = 3 };
+
 static inline int carom_count_of(uint32_t set) {
   int n = 0;
   for (; set != 0; set &= set - 1)

@@ -8,6 +8,7 @@
 #include "platform/promise.h"
 #include "ranking.h"
 #include "rows.h"
+#include "rules.h"
 
 #include <math.h>
 #include <string.h>
@@ -84,10 +85,12 @@ static int64_t left_for_rounds(const search *plan) {
   return carom_max(left, plan->shots / 3);
 }
 
-/* Whether one of the best has lost the game. */
+/* Whether one of the best has lost the game. In an equalizing inning each miss does. */
 static bool loses(const search *plan) {
   enum { BEST = 4 };
   int64_t lost = 0;
+  if (plan->job.rules->state.innings == CAROM_LAST_INNING)
+    return false;
   for (int64_t k = 0; k < plan->count && k < BEST; k++)
     if (plan->found[k].round > 0)
       lost += plan->found[k].chose.lose;

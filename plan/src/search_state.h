@@ -40,8 +40,9 @@ typedef struct carom_candidate {
 
 /* What one shot tells. */
 typedef struct carom_outcome {
-  double worth;        /* to the player, 0 to 1 */
-  int8_t turn, foul;   /* a carom_turn_outcome, or 1 of a pot that was aimed; 1: a foul */
+  double worth;      /* to the player, 0 to 1 */
+  int8_t turn, foul; /* a carom_turn_outcome, KEEP for each good one, or 1 of a pot that was aimed;
+                          1: a foul */
   int8_t ball, pocket; /* the pot that keeps the turn, or -1 */
   int16_t cushions;    /* impacts of that ball on cushions */
   int8_t first;        /* the ball that was met first, or -1 */

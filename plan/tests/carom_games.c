@@ -88,3 +88,113 @@ TEST(a_point_is_planned) {
   ck_assert_msg(best.keep > 0.9, "keeps %g", best.keep);
   free(job.memory);
 }
+
+/* ---- Equal innings */
+
+/* The stroke of the opening that makes a point of straight rail: found once, by trial. */
+static carom_cue point_of_opening(carom_match *match) {
+  static carom_match tried;
+  carom_cue cue = carom_cue_of(CAROM_GAME_BILLIARD);
+  cue.ball = match->cue_ball;
+  cue.speed = 3.0;
+  for (cue.phi = 85.0; cue.phi < 115.0; cue.phi += 0.1) {
+    tried = *match;
+    ck_assert_int_eq(carom_match_stroke(&tried, (int)match->record.player, &cue, NULL, NULL),
+                     CAROM_OK);
+    if (tried.ruling.turn.points > 0.0)
+      return cue;
+  }
+  ck_abort_msg("no point from the opening position");
+}
+
+/* Who began has the target: the other opens from his own opening position, and draws by a point or
+ * loses by a miss. The recording is read again. */
+TEST(equal_innings) {
+  static carom_match match, reader;
+  static carom_record scratch;
+  for (int k = 0; k < 4; k++) {
+    const int first = k % 2, level = k / 2;
+    begin_equal(&match, CAROM_RULES_STRAIGHTRAIL, 1, first, 1);
+    static char file[65536];
+    size_t length = (size_t)match.size;
+    memcpy(file, match.text, length);
+    carom_cue cue = point_of_opening(&match);
+    ck_assert_int_eq(carom_match_stroke(&match, first, &cue, NULL, NULL), CAROM_OK);
+    memcpy(file + length, match.text, (size_t)match.size);
+    length += (size_t)match.size;
+
+    /* the equalizing inning */
+    char words[200];
+    carom_ruling_string(&match.ruling, words, sizeof words);
+    ck_assert_str_eq(words, "the other has the equalizing inning");
+    const carom_shot_ball *lies = match.record.balls;
+    ck_assert(match.phase == CAROM_MATCH_STROKE && match.record.player == 1 - first);
+    ck_assert(match.cue_ball == 1 - first && match.on == 1 << RED && match.winner == -1);
+    ck_assert(lies_at(&lies[1 - first], 0.5 + 0.1825 / 1.42, 0.25));
+    ck_assert(lies_at(&lies[first], 0.5, 0.25) && lies_at(&lies[RED], 0.5, 0.75));
+    cue = point_of_opening(&match);
+    if (!level)
+      cue.phi = 0.0;
+    ck_assert_int_eq(carom_match_stroke(&match, 1 - first, &cue, NULL, NULL), CAROM_OK);
+    memcpy(file + length, match.text, (size_t)match.size);
+    length += (size_t)match.size;
+    ck_assert_int_eq(match.phase, CAROM_MATCH_OVER);
+    ck_assert_int_eq(match.winner, level ? CAROM_DRAWN : first);
+    ck_assert_int_eq(match.ruling.winner, level ? CAROM_DRAWN : 1);
+    ck_assert_int_eq(match.ruling.next, -1);
+
+    memset(&reader, 0, sizeof reader);
+    for (char *line = file, *end; line < file + length; line = end + 1) {
+      end = memchr(line, '\n', (size_t)(file + length - line));
+      ck_assert_msg(carom_match_read(&reader, &scratch, line, (size_t)(end - line)) == CAROM_OK,
+                    "%s", reader.fault);
+    }
+    ck_assert(reader.winner == match.winner && reader.record.hash == match.record.hash);
+  }
+}
+
+/* Other games have no equal innings, and some no target. */
+TEST(games_without_equal_innings) {
+  static carom_match match;
+  for (int kind = 0; carom_rules_about_of((carom_rules_kind)kind) != NULL; kind++) {
+    carom_table_make((carom_table_kind)carom_rules_about_of((carom_rules_kind)kind)->table, &table);
+    const carom_status status =
+        carom_match_begin_to(&match, (carom_rules_kind)kind, 0, 1, &table, 1, 0);
+    if (kind == CAROM_RULES_THREECUSHION || kind == CAROM_RULES_STRAIGHTRAIL) {
+      ck_assert_int_eq(status, CAROM_OK);
+      continue;
+    }
+    ck_assert_int_eq(status, CAROM_ERROR_ACT);
+    ck_assert_str_eq(match.fault, "begin: innings must be 0, as the game has none");
+  }
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  ck_assert_int_eq(carom_match_begin_to(&match, CAROM_RULES_EIGHTBALL, 5, 0, &table, 1, 0),
+                   CAROM_ERROR_ACT);
+  ck_assert_str_eq(match.fault, "begin: target must be 0, as the game has none");
+}
+
+/* Plans know the last points: the one of who began, who then plays no more, and those of the
+ * equalizing inning, whose misses lose the game. */
+TEST(plans_of_equal_innings) {
+  const carom_cue cue = carom_cue_of(CAROM_GAME_BILLIARD);
+  const carom_player player = carom_player_of(4.0);
+  const carom_plan_options options = {.shots = 1000};
+  carom_choice best[4];
+  for (int innings = 0; innings <= 3; innings++) {
+    const int count = lay_out(CAROM_RACK_THREECUSHION, CAROM_TABLE_THREECUSHION, 7);
+    put(0, 0.5, 0.8);
+    put(1, 0.7, 1.2);
+    put(2, 0.8, 1.25);
+    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_STRAIGHTRAIL);
+    of.state.score[0] = of.state.target - 1;
+    of.state.innings = innings;
+    carom_plan_job job = job_of(count, &cue, &player, &of, &options);
+    int found;
+    ck_assert_int_eq(carom_plan(&job, &best[innings], 1, &found), CAROM_OK);
+    free(job.memory);
+    const carom_choice *c = &best[innings];
+    ck_assert_msg(c->ball >= 0 && c->kind != CAROM_PLAN_SAFETY, "innings %d", innings);
+    ck_assert(c->value == best[0].value && c->keep == best[0].keep);
+  }
+  ck_assert_msg(best[0].keep > 0.3 && best[0].keep < 1.0, "keeps %g", best[0].keep);
+}

@@ -170,6 +170,10 @@ EVERY_BODY(match_begin_at) {
                               NULL, CAROM_LEAVE_AFTER, 1));
   return HASH(room->match.record.hash);
 }
+EVERY_BODY(match_begin_to) {
+  STATUS(carom_match_begin_to(&room->match, CAROM_RULES_STRAIGHT, 30, 0, &in->table, 3, 1));
+  return HASH(room->match.record.hash);
+}
 EVERY_ACT(match_place, carom_match_place(&room->match, 0, 0.7, 0.5))
 EVERY_ACT(match_call, carom_match_call(&room->match, 0, (carom_call){3, 1}))
 EVERY_ACT(match_choose, carom_match_choose(&room->match, 0, CAROM_MAY_PASS))
@@ -204,9 +208,9 @@ EVERY_BODY(match_plan) {
 
 /* clang-format off */
 #define EVERY_OF_PLANS(F) \
-  F(hand_bounds) F(is_within) F(match_begin) F(match_begin_at) F(match_call) F(match_choose) \
-  F(match_clock) F(match_concede) F(match_continue) F(match_end) F(match_place) F(match_plan) \
-  F(match_prepare) F(match_read) F(match_stroke) F(refusal_name) \
+  F(hand_bounds) F(is_within) F(match_begin) F(match_begin_at) F(match_begin_to) F(match_call) \
+  F(match_choose) F(match_clock) F(match_concede) F(match_continue) F(match_end) F(match_place) \
+  F(match_plan) F(match_prepare) F(match_read) F(match_stroke) F(refusal_name) \
   F(aim) F(foul_of) F(foul_string) F(is_beside) F(plan) F(plan_continue) F(plan_hand) \
   F(cue_ball_of) F(plan_kind_name) F(plan_memory) F(plan_rules_of) F(plan_try) F(plan_value) \
   F(player_fargo) F(player_of) F(player_strike) F(pot_kind) \

@@ -2,7 +2,7 @@
 #ifndef CAROM_TESTS_GAME_SUPPORT_H
 #define CAROM_TESTS_GAME_SUPPORT_H
 
-#include "carom_plan.h"
+#include "carom_match.h"
 #include "support.h"
 
 #include <math.h>
@@ -66,6 +66,19 @@ static inline void put(int ball, double x, double y) {
 static inline bool is_at(int ball, double x, double y) {
   return balls[ball].state.label == CAROM_BALL_STATIONARY &&
          hypot(balls[ball].state.r[0] - x, balls[ball].state.r[1] - y) < 1e-9;
+}
+
+/* Begins a match of a game that knows equal innings with them, to so many points. */
+static inline void begin_equal(carom_match *match, carom_rules_kind kind, uint64_t seed, int player,
+                               int target) {
+  carom_table_make((carom_table_kind)carom_rules_about_of(kind)->table, &table);
+  ck_assert_int_eq(carom_match_begin_to(match, kind, target, 1, &table, seed, player), CAROM_OK);
+}
+static inline bool knows_equal_innings(carom_rules_kind kind) {
+  const char *range;
+  carom_rules_state state = carom_plan_rules_of(kind).state;
+  state.innings = 1;
+  return carom_rules_fault(kind, &state, &range) == NULL;
 }
 
 /* A plan for the balls that lie here, with memory of its own. */

@@ -23,7 +23,7 @@ static const char *const choices[] = {"",           "",     "push", "pass", "rac
                                       "other_rack", "stay", "spot", NULL};
 static const char *const rights[] = {"pass",       "push", "free_ball", "place", "rack",
                                      "other_rack", "stay", "spot",      NULL};
-static const char *const turns[] = {"keep", "pass", "win", "lose", NULL};
+static const char *const turns[] = {"keep", "pass", "win", "lose", "draw", NULL};
 static const char *const leaves[] = {"after", "before", "hand", "kitchen", "d", "baulk", NULL};
 static const char *const fouls[] = {"none",  "cue_ball", "no_ball", "first",      "off",  "cushion",
                                     "break", "other",    "pot",     "double_hit", "jump", NULL};
@@ -48,6 +48,7 @@ static const member members[] = {
     {"on", AT(state.on), NUMBER, NULL},
     {"free", AT(state.free_ball), NUMBER, NULL},
     {"target", AT(state.target), NUMBER, NULL},
+    {"innings", AT(state.innings), NUMBER, NULL},
     {"in_play", AT(in_play), SET, NULL},
     {"first", AT(first), PAIR, NULL},
     {"together", AT(together), SET, NULL},

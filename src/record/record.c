@@ -95,7 +95,7 @@ static const field game_fields[] = {R("rules", INT64, true, 1, rules),
                                     R("winner", INT64, false, 1, winner),
                                     R("foul", INT64, false, 1, foul),
                                     SEAL,
-                                    END};
+                                    CAROM_LATER_MEMBERS(MEMBER_KEY) END};
 static const field place_fields[] = {R("ball", INT64, true, 1, placed),
                                      R("at", DOUBLE, false, 2, place),
                                      R("hand", INT64, false, 1, hand),
@@ -515,13 +515,13 @@ static bool check_standing(reader *in) {
       return wrong(in, "must be " range);
   const carom_rules_state *state = &in->record->standing;
   int32_t value[2];
-  CAROM_STATE_MEMBERS(CHECK_MEMBER)
+  CAROM_ALL_MEMBERS(CHECK_MEMBER)
   in->key = "rules";
   if (in->record->rules < 0 || in->record->rules > RULES_MOST)
     return wrong(in, "must be a carom_rules_kind");
   in->key = "winner";
-  if (in->record->winner < 0 || in->record->winner > 2)
-    return wrong(in, "must be 0, 1 or 2");
+  if (in->record->winner < 0 || in->record->winner > 3)
+    return wrong(in, "must be 0, 1, 2 or 3");
   in->key = "player";
   return (in->record->player >> 1) == 0 || wrong(in, "must be 0 or 1");
 }

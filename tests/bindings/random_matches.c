@@ -151,9 +151,10 @@ static void tell(carom_status status) {
   if (match.rulings > 0)
     carom_ruling_string(&match.ruling, words, sizeof words);
   if (status >= 0)
-    fprintf(ruled, "taken: phase %d, player %d, may %d, ball %d, on %u, touching %u: %s\n",
-            (int)match.phase, (int)match.record.player, (int)match.may, (int)match.cue_ball,
-            match.on, match.touching, words);
+    fprintf(ruled,
+            "taken: phase %d, player %d, winner %d, may %d, ball %d, on %u, touching %u: %s\n",
+            (int)match.phase, (int)match.record.player, (int)match.winner, (int)match.may,
+            (int)match.cue_ball, match.on, match.touching, words);
   else
     fprintf(ruled, "%s\n", match.fault);
 }
@@ -177,7 +178,7 @@ int main(int count, char **arguments) {
   ruled = count == 5 ? fopen(arguments[4], "wb") : NULL;
   if (acts == NULL || ruled == NULL)
     return 2;
-  int kinds = 0, over = 0;
+  int kinds = 0, over = 0, drawn = 0;
   long taken = 0, refused = 0, rulings = 0;
   while (carom_rules_about_of((carom_rules_kind)kinds) != NULL)
     kinds++;
@@ -197,13 +198,15 @@ int main(int count, char **arguments) {
       tell(status);
     }
     over += match.phase == CAROM_MATCH_OVER;
+    drawn += match.winner == CAROM_DRAWN;
     rulings += match.rulings;
     if (!is_read_again()) {
       fprintf(stderr, "match %d is not judged again: %s\n", game, reader.fault);
       return 1;
     }
   }
-  printf("%d matches of %d games: %ld acts taken, %ld refused, %ld rulings, %d matches over\n",
-         games, kinds, taken, refused, rulings, over);
+  printf("%d matches of %d games: %ld acts taken, %ld refused, %ld rulings, %d matches over, "
+         "%d of them drawn\n",
+         games, kinds, taken, refused, rulings, over, drawn);
   return fclose(acts) != 0 || fclose(ruled) != 0;
 }

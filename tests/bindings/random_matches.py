@@ -37,8 +37,10 @@ def outcome(match, words):
     except carom.CaromError as refused:
         return str(refused)
     may = bits(MAY.index(word) for word in match.may)
+    winner = -1 if match.winner is None else match.winner
     return (
-        f"taken: phase {PHASES.index(match.phase)}, player {match.player}, may {may}, "
+        f"taken: phase {PHASES.index(match.phase)}, player {match.player}, "
+        f"winner {2 if match.drawn else winner}, may {may}, "
         f"ball {match.cue_ball}, on {bits(match.on)}, touching {bits(match.touching)}: {match.text}"
     )
 

@@ -13,6 +13,11 @@ for rules in nineball snooker threecushion; do
   carom match --rules $rules --shots 100 --strokes 4 --breaks 2 -o $rules.jsonl
   carom match --show -o /dev/null $rules.jsonl
 done
+echo "--- equal innings"
+for seed in 1 3 6; do
+  carom match --rules straightrail --target 1 --equal-innings --fargo 800,800 --shots 100 --seed $seed -o rail.jsonl
+  try carom verify rail.jsonl
+done
 echo "--- a game whose rules do not agree"
 "${CAROM%/*}/tests/forge" > forged.jsonl
 try carom verify forged.jsonl
@@ -33,4 +38,6 @@ try carom match --show
 try carom match --rules snooker --table 9ft --strokes 1 -o small.jsonl
 try carom match --table threecushion
 try carom match --rules threecushion --table 9ft
+try carom match --equal-innings
+try carom match --target 5
 try carom match missing.jsonl

@@ -78,7 +78,7 @@ for pocket in foot-left foot-right; do carom plan --rules onepocket --own-pocket
 chance() { carom plan --rules onepocket --value --csv "$@" layout.jsonl | sed -n 2p; }
 awk -v ahead="$(chance --score 7,-1)" -v even="$(chance --score 7,0)" -v behind="$(chance --score -1,7)" 'BEGIN { print (ahead > even), (even > behind + 0.3) }'
 for options in "--score 7,6" "--own-pocket side-left" "--opening" "--score 3"; do try carom plan --rules onepocket $options layout.jsonl; done
-for options in "--rules snooker --score -1,0" "--rules nineball --own-pocket foot-left"; do try carom plan $options layout.jsonl; done
+for options in "--rules snooker --score -1,0" "--rules nineball --own-pocket foot-left" "--rules nineball --last-inning"; do try carom plan $options layout.jsonl; done
 try carom plan --rules onepocket --table threecushion --cue 0.4,0.9 --balls 1=0.3,1.9
 sed 's/"id": "red1"/"id": "rot"/' snooker.jsonl > rot.jsonl
 try carom plan --rules snooker rot.jsonl

@@ -211,6 +211,9 @@ static const carom_options *no_options;
   F(is_within, (carom_is_within(MAYBE(&bounds), ANY(0.5), ANY(0.5)), ACCEPTED))                    \
   F(match_begin, carom_match_begin(PTR(&match), ENUM(carom_rules_kind, CAROM_RULES_NINEBALL),      \
                                    PTR(&table), 1, INT(0)))                                        \
+  F(match_begin_to,                                                                                \
+    carom_match_begin_to(PTR(&match), ENUM(carom_rules_kind, CAROM_RULES_STRAIGHT), ANYINT(10),    \
+                         INT(0), PTR(&table), 1, INT(0)))                                          \
   F(match_begin_at,                                                                                \
     carom_match_begin_at(PTR(&match), ANYENUM(carom_rules_kind, CAROM_RULES_NINEBALL),             \
                          MAYBE(&rules), PTR(&table), PTR(balls), INT(BALLS), NULL,                 \

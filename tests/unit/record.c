@@ -325,14 +325,15 @@ TEST(a_refused_shot_changes_nothing) {
 
 /* What the reader refuses of how a game stands is not written. */
 TEST(standings_that_are_not_written) {
-  for (int k = 0; k < 6; k++) {
+  for (int k = 0; k < 7; k++) {
     write_game();
     game.kind = CAROM_RECORD_EVENT;
     game.rules = k == 1 ? -5 : 0;
     game.player = k == 2 ? 77 : 0;
     game.standing.group = k == 3 ? 9 : 0;
     game.standing.fouls[0] = k == 4 ? 50 : 0;
-    game.winner = k == 5 ? 3 : 0;
+    game.winner = k == 5 ? 4 : 0;
+    game.standing.innings = k == 6 ? 4 : 0;
     const size_t length = carom_record_write(&game, CAROM_RECORD_GAME, text, ROOM);
     ck_assert_msg((length > 0) == (k == 0), "%d: %zu", k, length);
   }

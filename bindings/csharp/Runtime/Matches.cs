@@ -37,10 +37,13 @@ namespace Carom {
       return Billiards.Check(status);
     }
 
-    /// <summary>Begins a match with the rack of a game; `player`, 0 or 1, breaks.</summary>
-    public static LiveMatch Begin(RulesKind rules, Table table, ulong seed, int player = 0) {
+    /// <summary>Begins a match with the rack of a game; `player`, 0 or 1, breaks. `target` points
+    /// win, 0: those of the game; with `equalInnings` the match may be drawn.</summary>
+    public static LiveMatch Begin(RulesKind rules, Table table, ulong seed, int player = 0,
+                                  int target = 0, bool equalInnings = false) {
       var made = new LiveMatch();
-      made.Told(Native.carom_match_begin(made.match, rules, &table, seed, player));
+      made.Told(Native.carom_match_begin_to(made.match, rules, target, equalInnings ? 1 : 0, &table,
+                                            seed, player));
       return made;
     }
 
@@ -75,9 +78,13 @@ namespace Carom {
     public int Player {
       get { return (int)Open->record.player; }
     }
-    /// <summary>0 or 1; -1: nobody has won yet.</summary>
+    /// <summary>0 or 1; -1: nobody has won.</summary>
     public int Winner {
-      get { return Open->winner; }
+      get { return Drawn ? -1 : Open->winner; }
+    }
+    /// <summary>Whether the match is over without a winner.</summary>
+    public bool Drawn {
+      get { return Open->winner == Native.CAROM_DRAWN; }
     }
     /// <summary>How many strokes were played.</summary>
     public long Shots {

@@ -111,7 +111,7 @@ player: Record = _record("carom_player")
 choice: Record = _record("carom_choice")  # A shot that `carom.plan` proposes.
 facts: Record = _record("carom_facts")  # What happened in a shot, which `carom.Features` shows.
 # How a game stands for the player at the table: opening, group, fouls, score, lost, pocket, may,
-# on, free_ball, target; user is of one's own rules.
+# on, free_ball, target, innings; user is of one's own rules.
 rules_state: Record = _record("carom_rules_state")
 turn: Record = _record("carom_turn")  # What a shot amounts to by rules.
 shot: Record = _record(

@@ -29,6 +29,7 @@ const GAME: Record<keyof GameState, 1> = {
   on: 1,
   freeBall: 1,
   target: 1,
+  innings: 1,
   own: 1,
   user: 1,
 };

@@ -114,7 +114,10 @@ export class Match extends Owner<Host> {
       writeTable(memory, tableAt, table);
       if (balls === undefined) {
         const from = BigInt(whole(seed, "seed", Number.MAX_SAFE_INTEGER));
-        this.#act((at, call) => call.carom_match_begin(at, rules, tableAt, from, who));
+        const { target = 0, innings = 0 } = game;
+        this.#act((at, call) =>
+          call.carom_match_begin_to(at, rules, target, innings, tableAt, from, who),
+        );
         return;
       }
       writeBalls(memory, ballsAt, balls);
@@ -186,7 +189,11 @@ export class Match extends Owner<Host> {
   /** Who has won, 0 or 1. */
   get winner(): number | undefined {
     const winner = this.#number("winner");
-    return winner < 0 ? undefined : winner;
+    return winner < 0 || this.drawn ? undefined : winner;
+  }
+  /** Whether the match is over without a winner. */
+  get drawn(): boolean {
+    return this.#number("winner") === values.CAROM_DRAWN;
   }
   /** How many strokes were played. */
   get shots(): number {

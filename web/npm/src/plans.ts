@@ -49,7 +49,16 @@ const MAY = names.carom_may;
 /** Where the cue ball may be put, by its carom_leave. */
 export const HANDS = ["no", "no", "anywhere", "kitchen", "d", "baulk"] as const;
 /** The members of a state that are numbers here, too. */
-const MEMBERS = ["fouls", "score", "lost", "pocket", "on", "freeBall", "target"] as const;
+const MEMBERS = [
+  "fouls",
+  "score",
+  "lost",
+  "pocket",
+  "on",
+  "freeBall",
+  "target",
+  "innings",
+] as const;
 const of = (state: object, keys: readonly string[]): object =>
   Object.fromEntries(
     Object.entries(state).filter(([key, value]) => keys.includes(key) && value !== undefined),

@@ -225,7 +225,10 @@ export type Rating = Omit<C.Rating, "row">;
  */
 export interface GameState
   extends Partial<
-    Pick<C.RulesState, "fouls" | "score" | "lost" | "pocket" | "on" | "freeBall" | "target">
+    Pick<
+      C.RulesState,
+      "fouls" | "score" | "lost" | "pocket" | "on" | "freeBall" | "target" | "innings"
+    >
   > {
   /** A game of `words.rules`, which says by whose rules. Default "eightball". */
   rules: C.RulesKind;

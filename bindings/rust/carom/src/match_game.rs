@@ -22,10 +22,23 @@ impl Match {
         seed: u64,
         player: usize,
     ) -> Result<Match, Error> {
+        Match::begin_to(rules, 0, false, table, seed, player)
+    }
+
+    /// The same to `target` points, 0: those of the game; with `equal_innings` the match may be drawn.
+    pub fn begin_to(
+        rules: RulesKind,
+        target: i32,
+        equal_innings: bool,
+        table: &Table,
+        seed: u64,
+        player: usize,
+    ) -> Result<Match, Error> {
         let mut made = Match::empty();
-        let player = player.min(2) as i32;
-        let status =
-            unsafe { sys::carom_match_begin(&mut *made.of, rules.into(), table, seed, player) };
+        let (kind, equal, player) = (rules.into(), equal_innings.into(), player.min(2) as i32);
+        let status = unsafe {
+            sys::carom_match_begin_to(&mut *made.of, kind, target, equal, table, seed, player)
+        };
         made.told(status)?;
         Ok(made)
     }
@@ -114,7 +127,12 @@ impl Match {
 
     /// The player who has won.
     pub fn winner(&self) -> Option<usize> {
-        usize::try_from(self.of.winner).ok()
+        usize::try_from(self.of.winner).ok().filter(|&who| who < 2)
+    }
+
+    /// Whether the match is over without a winner.
+    pub fn is_drawn(&self) -> bool {
+        self.of.winner == sys::CAROM_DRAWN as i32
     }
 
     /// How many strokes were played.

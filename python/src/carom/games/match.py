@@ -85,9 +85,10 @@ class Match:
         player : int
             Who plays first, 0 or 1.
         balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,), optional
-            Another layout than the rack. Only then `state`, `hand` and options are read.
+            Another layout than the rack. Only then `hand` and options are read.
         state : dict or ndarray of `carom.dtypes.rules_state`, optional
-            How the game stands, as for `carom.plan`.
+            How the game stands, as for `carom.plan`. With the rack `target` and `innings` are read:
+            `{"innings": 1}` gives equal innings, and the match may be drawn.
         hand : {"no", "anywhere", "kitchen", "d"}
             Whether the cue ball is in hand.
         options, **changes
@@ -99,8 +100,15 @@ class Match:
         if balls is None:
             if isinstance(rules, Rules):
                 raise ValueError("balls: rules of one's own have no rack: give a layout")
-            code = lib.carom_match_begin(
-                self._c, GAMES[rules], made, seed_of(seed), whole(player, "player", most=1)
+            begins = self._made.c.state
+            code = lib.carom_match_begin_to(
+                self._c,
+                GAMES[rules],
+                begins.target,
+                begins.innings,
+                made,
+                seed_of(seed),
+                whole(player, "player", most=1),
             )
         else:
             layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
@@ -197,7 +205,12 @@ class Match:
     @property
     def winner(self) -> int | None:
         """Who has won, 0 or 1."""
-        return None if self._c.winner < 0 else int(self._c.winner)
+        return int(self._c.winner) if self._c.winner in (0, 1) else None
+
+    @property
+    def drawn(self) -> bool:
+        """Whether the match is over without a winner."""
+        return bool(self._c.winner == lib.CAROM_DRAWN)
 
     @property
     def shots(self) -> int:

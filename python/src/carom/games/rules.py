@@ -47,13 +47,13 @@ GivenState = Mapping[str, Any] | npt.ArrayLike
 Hand = Literal["no", "anywhere", "kitchen", "d", "baulk"]
 GAMES = {word: k for k, word in enumerate(get_args(RulesWord))}
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
-_TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3}
+_TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3, "draw": 4}
 LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4, "baulk": 5}
 _RACES = {"own": 0, "shared": 1, "alone": 2, "points": 3}
 _WORDS = 8  # of the state of rules of one's own
 _USUAL = Options()
 _NO_ROOM = "there is no room for a ball that comes back"
-_MEMBERS = tuple(name for name in dtypes.rules_state.names or () if name != "user")
+_MEMBERS = tuple(name for name in dtypes.rules_state.names or () if name not in ("user", "unused"))
 _POCKETED, _OFF = int(Label.POCKETED), int(Label.OFF)  # with which NumPy compares in half the time
 
 
@@ -155,7 +155,7 @@ class Turn:
     the shot; a plan reads them without an opponent only.
     """
 
-    turn: Literal["keep", "pass", "win", "lose"]
+    turn: Literal["keep", "pass", "win", "lose", "draw"]
     leave: Literal["after", "before", "anywhere", "kitchen", "d", "baulk"] = "after"
     foul: int = 0
     spot: Collection[int] = ()
@@ -545,7 +545,8 @@ def calls_of(made: Made, layout: dtypes.Records, shots: Shots) -> Array:
 class Ruling(Arrays):
     """What a stroke was, and what comes next."""
 
-    # "keep": the player plays on; "pass": the other plays; "win", "lose": the game has ended
+    # "keep": the player plays on; "pass": the other plays; "win", "lose", "draw": the game
+    # has ended
     turn: str
     foul: Foul
     # Whether the next player has the cue ball in hand: anywhere, behind the head string, or in the
