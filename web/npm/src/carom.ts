@@ -211,8 +211,8 @@ export class Carom {
       checkOwn: () => this.#plans.own.check(),
       writeState: (...of) => this.#plans.writeState(...of),
       readRuling: (...of) => this.#plans.readRuling(...of),
-      think: (table, balls, options, slice) =>
-        this.#plans.think(table, balls, undefined, options, slice),
+      think: (table, balls, options, slice, leave) =>
+        this.#plans.think(table, balls, undefined, options, slice, leave),
       film: (table, balls, cue, options) => this.#shoot(table, balls, cue, options),
       refuse: (code, field) => this.#refuse(code, field),
     };
@@ -1231,7 +1231,7 @@ export class Carom {
     slice = 1000,
   ): Generator<undefined, Choice[]> {
     if (whole(slice, "slice") < 1) throw new RangeError("slice: at least 1 event is needed, not 0");
-    return this.#plans.think(table, balls, undefined, options, slice);
+    return this.#plans.think(table, balls, undefined, options, slice, 0);
   }
 
   /**

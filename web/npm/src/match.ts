@@ -67,6 +67,7 @@ export interface Host extends RecordingHost {
     balls: readonly ShotBall[],
     options: PlanOptions,
     slice: number,
+    leave: number,
   ): Generator<undefined, Choice[]>;
 }
 
@@ -262,6 +263,9 @@ export class Match extends Owner<Host> {
   }
   /** Calls the ball and the pocket of the next stroke; ball -1: a safety. */
   call(ball: number, pocket = -1): void {
+    for (const [name, given] of Object.entries({ ball, pocket }))
+      if ((given | 0) !== given)
+        throw new TypeError(`${name}: it must be a whole number, not ${JSON.stringify(given)}`);
     const { memory } = this.#host;
     const called = memory.allocate(8);
     memory.i32.set([ball, pocket], called / 4);
@@ -323,21 +327,23 @@ export class Match extends Owner<Host> {
   }
   /** The same in slices, as `carom.think`. */
   think(options: PlanOptions = {}, slice = 1000): Generator<undefined, Choice[]> {
+    if (this.phase === "over") throw new RangeError("plan: the match is over");
+    if (this.phase === "moving") throw new RangeError("plan: balls move: continue() the shot");
     const wanted: PlanOptions = {
       ...options,
       ...this.game,
-      cue: this.strikable.length > 1 ? {} : { ball: this.cueBall },
+      cue: { ...options.cue, ...(this.strikable.length === 1 && { ball: this.cueBall }) },
       inHand: this.phase === "place" ? this.hand : "no",
     };
-    return this.#host.think(this.table, this.balls, wanted, slice);
+    return this.#host.think(this.table, this.balls, wanted, slice, this.#number("leave"));
   }
   /**
    * Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the stroke as
    * the player makes it.
    */
   take({ kind, place, ball, pocket, ...best }: Choice, cue: Partial<Cue> = best.cue): void {
-    if (this.phase === "place") this.place(place[0]!, place[1]!);
     if (kind === "pass") return this.choose("pass");
+    if (this.phase === "place") this.place(place[0]!, place[1]!);
     if (kind === "push") this.choose("push");
     const { calls } = layout.carom_plan_rules.offset;
     if (ball >= 0 && this.#host.memory.i32[(this.#at + MATCH.rules + calls) / 4] !== 0)

@@ -210,18 +210,22 @@ export class Plans {
     cues: readonly Partial<Cue>[] | undefined,
     options: PlanOptions,
   ): Choice[] {
-    const { done, value } = this.think(table, balls, cues, options, 0).next();
+    const { done, value } = this.think(table, balls, cues, options, 0, 0).next();
     if (!done) throw new RangeError("carom: a plan at once has not ended");
     return value;
   }
 
-  /** A plan in slices of so many events; 0: at once. */
+  /**
+   * A plan in slices of so many events; 0: at once. `leave`: within which bounds the cue ball was
+   * placed for this stroke, a carom_leave.
+   */
   *think(
     table: Table,
     balls: readonly ShotBall[],
     cues: readonly Partial<Cue>[] | undefined,
     given: PlanOptions,
     slice: number,
+    leave: number,
   ): Generator<undefined, Choice[]> {
     refuseUnknown(given, KEYS.plan);
     const { best = 5, inHand = "no" } = given;
@@ -245,7 +249,8 @@ export class Plans {
         // Other calls since the last slice have used the memory of arguments.
         const job = this.#writeJob(table, balls, options);
         setStruct(memory, this.#at.options, "carom_plan_options", { slice }, false);
-        setStruct(memory, job, "carom_plan_job", { memory: room, memorySize: size }, false);
+        const more = { memory: room, memorySize: size, leave };
+        setStruct(memory, job, "carom_plan_job", more, false);
         memory.i32[found / 4] = most;
         let code: number;
         if (begun) code = memory.exports.carom_plan_continue(job, choices, best, found);

@@ -142,7 +142,9 @@ export function setStruct<S extends StructName>(
 export function whole(number: number | undefined, option: string, most = 0x7fffffff): number {
   if (number === undefined) return 0;
   if (!Number.isSafeInteger(number) || number < 0 || number > most)
-    throw new RangeError(`${option}: it must be a whole number, 0 or more, not ${number}`);
+    throw new RangeError(
+      `${option}: it must be a whole number, 0 ${most < 100 ? `to ${most}` : "or more"}, not ${number}`,
+    );
   return number;
 }
 

@@ -1,6 +1,6 @@
 // Recordings: a game recorded, replayed and verified by the command, and what is refused.
 import { expect, test } from "vitest";
-import { type Carom, CaromError, type Match } from "../dist/index.js";
+import { type Carom, CaromError, type Match, type ShotBall } from "../dist/index.js";
 import { builds, root, run, thereIsACommand } from "./support.js";
 
 const STRONGE = { cushionModel: "stronge" } as const;
@@ -143,6 +143,48 @@ test.each(builds)("in pyramid a plan strikes the ball that wins most, by $name",
   expect(given!.cue.ball).toBe(0);
   match.take(best!);
   expect([match.player, match.strikable]).toEqual([0, [0, 1]]);
+});
+
+test.each(builds)("plans of a match are by its rules, by $name", ({ carom }) => {
+  // The 1 hangs in a corner behind the head string, where the cue ball is placed too.
+  const table = carom.table("9ft");
+  const rack = carom.rack("eightball", table);
+  const balls = rack.map(({ kind, state }, k) => {
+    const places = [
+      [0.6, 0.3],
+      [0.06, 0.06],
+      [0.9, 2.0],
+    ];
+    const [x, y] = places[k] ?? [0, 0];
+    const label = k < places.length ? "stationary" : "pocketed";
+    return { kind, state: { ...state, label, r: [x!, y!, state.r[2]] } } as ShotBall;
+  });
+  const match = carom.match("straight", table, { balls, hand: "kitchen" });
+  match.place(0.6, 0.3);
+  const options = { shots: 300, best: 1 };
+  const [free] = carom.plan(table, match.balls, { ...match.game, ...options });
+  const [best] = match.plan(options);
+  expect([free!.ball, best!.ball]).toEqual([1, 2]);
+  match.take(best!);
+  expect([match.ruling!.foul, match.ruling!.turn]).toEqual([false, "keep"]);
+
+  // A player passes without placing the cue ball, and plans end with the match.
+  const snooker = carom.table("snooker");
+  const frame = carom.match(
+    { rules: "snooker", group: "open", opening: false, may: ["pass", "place"], score: [4, 0] },
+    snooker,
+    { balls: carom.rack("snooker", snooker), hand: "d" },
+  );
+  const { length } = frame.lines;
+  frame.take({ ...best!, kind: "pass", place: [NaN, NaN] });
+  expect([frame.player, frame.phase, frame.hand]).toEqual([1, "place", "d"]);
+  expect(frame.lines[length]).toMatch(/^{"act"/);
+  expect(() => frame.call("2" as unknown as number)).toThrow(
+    'ball: it must be a whole number, not "2"',
+  );
+  expect(() => frame.concede(2)).toThrow("player: it must be a whole number, 0 to 1, not 2");
+  frame.concede(0);
+  expect(() => frame.plan()).toThrow("the match is over");
 });
 
 test("a match that is read again has the bounds of a scratch, and nothing behind its end", () => {
