@@ -121,3 +121,30 @@ def test_rules_of_ones_own():
         carom.Match.load(match.lines)
     with pytest.raises(ValueError, match="no rack"):
         carom.Match(rules, TABLE)
+
+
+def test_plans_are_those_of_the_match():
+    # In pyramid the 1, which lies behind the 2 in line with a corner, promises more than the yellow.
+    table = carom.tables.pyramid()
+    rack = carom.racks.pyramid(table)
+    rack["state"]["label"][3:] = carom.Label.POCKETED
+    rack["state"]["r"][:3, :2] = [[0.9, 3.3], [0.4, 0.4], [0.12, 0.12]]
+    match = carom.Match("pyramid", table, balls=rack)
+    best = match.plan(shots=1000, best=1)[0]
+    assert (best["cue"]["ball"], best["ball"]) == (1, 2)
+    match.take(best)
+    assert match.player == 0
+
+    # A ball behind the head string may not be met first by a cue ball that was placed there.
+    balls = carom.racks.eightball(TABLE)
+    balls["state"]["label"][3:] = carom.Label.POCKETED
+    balls["state"]["r"][:3, :2] = [[0.6, 0.3], [0.06, 0.06], [0.9, 2.0]]
+    match = carom.Match("straight", TABLE, balls=balls, hand="kitchen")
+    match.place(0.6, 0.3)
+    free = carom.plan(TABLE, match.balls, rules="straight", state=match.state, shots=300)[0]
+    best = match.plan(shots=300)[0]
+    assert (free["ball"], best["ball"]) == (1, 2)
+
+    match.concede(0)
+    with pytest.raises(carom.CaromError, match="plan: the match is over"):
+        match.plan(shots=100)

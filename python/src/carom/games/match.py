@@ -12,7 +12,7 @@ from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import Seed, choice, copied, listing, number, pointer, seed_of, whole
 from carom._shot_options import Options, StopAt, chosen, options_of, shot_options
-from carom.games.plans import Kind, plan
+from carom.games.plans import ByMatch, Kind, plan
 from carom.games.rules import GivenState, Hand, Made, Rules, Ruling, of_set, ruling_of, words_of
 from carom.games.rules import GAMES, LEAVES, Game, hand_of
 from carom.layouts import Table, check_table, of_record, one_cue
@@ -20,7 +20,7 @@ from carom.layouts import cue as usual_cue
 from carom.record import lines_of
 from carom.results import Shot
 from carom.shots import simulate
-from carom.status import CaromError
+from carom.status import CaromError, Status
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -367,15 +367,22 @@ class Match:
 
         `wanted` is as for `carom.plan`: player, opponent, shots, best, seed, ...
         """
-        state = self.state
+
+        def call(*job: Any) -> int:
+            code: int = lib.carom_match_plan(self._c, *job)
+            if code == Status.ERROR_ACT:
+                self._told(code, "plan")
+            return code
+
+        is_own = isinstance(self.rules, Rules)
         return plan(
             self.table,
             self.balls,
             usual_cue(ball=self.cue_ball),
             rules=self.rules,
-            state=state["user"] if isinstance(self.rules, Rules) else state,
-            in_hand=self.hand if self.phase == "place" else "no",
+            state=None if is_own else self.state,
             options=self.options,
+            _by=ByMatch(self._made if is_own else None, call),
             **wanted,
         )
 

@@ -444,6 +444,13 @@ class _Job:
             raise wrong or CaromError(code, field)
 
 
+class ByMatch(NamedTuple):
+    """A plan that a match makes: its own rules of the caller's, and its call of C."""
+
+    made: Made | None
+    call: Callable[..., int]
+
+
 def plan(
     table: Table,
     balls: dtypes.Records,
@@ -466,6 +473,7 @@ def plan(
     run_out: bool = False,
     stop: threading.Event | None = None,
     options: Options = _USUAL,
+    _by: ByMatch | None = None,
     **changes: Unpack[Changes],
 ) -> dtypes.Records:
     """Find the best shots of a layout.
@@ -543,7 +551,8 @@ def plan(
     layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     radius = float(layout["kind"]["radius"].flat[0]) if layout.size else 0.0
     corners = _corners(in_hand, table, radius)
-    game = Made(rules, state, group, opening)
+    game = (_by and _by.made) or Made(rules, state, group, opening)
+    game.stop[0] = 0
     job = _Job(
         table,
         balls,
@@ -564,7 +573,9 @@ def plan(
     choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
     found = ffi.new("int *")
     rows = pointer("carom_choice[]", choices)
-    if corners is not None:
+    if _by is not None:
+        job.call(_by.call, rows, len(choices), found)
+    elif corners is not None:
         job.call(lib.carom_plan_hand, *corners, rows, len(choices), found)
     else:
         job.call(lib.carom_plan, rows, len(choices), found)
