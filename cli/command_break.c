@@ -233,6 +233,30 @@ static void tell_falls(FILE *out, const shot_line *line, const counts *c) {
   }
 }
 
+/* The balls and pockets that come together most often. */
+static void tell_most_falls(FILE *out, const shot_line *line, const counts *c) {
+  enum { TOLD = 3 };
+  const carom_table *t = &line->table->table;
+  bool told[CAROM_BALLS_MOST][CAROM_POCKETS_MOST] = {{false}};
+  for (int n = 0; n < TOLD; n++) {
+    int ball = 0, pocket = 0, most = 0;
+    for (int k = 0; k < line->count; k++)
+      for (int p = 0; p < t->pockets; p++)
+        if (!told[k][p] && c->fell[k][p] > most) {
+          most = c->fell[k][p];
+          ball = k;
+          pocket = p;
+        }
+    if (most == 0)
+      break;
+    told[ball][pocket] = true;
+    fprintf(out, "%s%s into %s in %.1f %%", n == 0 ? "  most often    " : ", ", line->name[ball],
+            carom_pocket_name(t, pocket), 100.0 * share(most, c));
+  }
+  if (c->balls + c->scratch > 0)
+    fputs("; --falls lists all\n", out);
+}
+
 static void tell(FILE *out, const breaker *b, const shot_line *line, double gap, const counts *c) {
   carom_plan_rules rules;
   double x, y;
@@ -257,6 +281,8 @@ static void tell(FILE *out, const breaker *b, const shot_line *line, double gap,
     fprintf(out, "  cue ball ends about x = %.2f, y = %.2f m, %.2f m around it\n", x, y, far);
   if (b->job->falls)
     tell_falls(out, line, c);
+  else
+    tell_most_falls(out, line, c);
 }
 
 /* What a row begins with: the stroke and the gap. */

@@ -32,10 +32,12 @@ typedef struct plan_job {
   const char *plot;
 } plan_job;
 
-OPTION(plan_job, option_rules, "rules", game.rules, 0, NULL, set_named, CAROM_WORDS_RULES,
-       "the game (default eightball; potting has no rules: all balls count). The cue ball is named "
-       "cue, and the others by their numbers, or in snooker as in its rack: red1, yellow; "
-       "potting, cowboy and games without pockets take any names, in the order of the rack");
+OPTION(
+    plan_job, option_rules, "rules", game.rules, 0, NULL, set_named, CAROM_WORDS_RULES,
+    "the game (default eightball, or potting where no ball is named 8; potting has no rules: all "
+    "balls count). The cue ball is named "
+    "cue, and the others by their numbers, or in snooker as in its rack: red1, yellow; "
+    "potting, cowboy and games without pockets take any names, in the order of the rack");
 OPTION(plan_job, option_group, "group", game.group, 0, "open|solids|stripes", set_choice, 0,
        "the balls of the player, where each has a group (default open: any but the eight)");
 OPTION(plan_job, option_permission, "may", game.permission, 0, "shoot|push-out|pass|free-ball",
@@ -272,6 +274,17 @@ static carom_status ask(const plan_job *job, const carom_plan_job *asked, const 
   return carom_plan_hand(asked, bounds.low, bounds.high, choices, BEST, n);
 }
 
+/* Of a layout without an eight there is no eight-ball: where no game was asked for, all balls count. */
+static void choose_rules(plan_job *job, const shot_line *line) {
+  if (job->game.group != 0 || line->table->table.pockets == 0)
+    return;
+  for (int k = 0; k < line->count; k++)
+    if (strcmp(line->name[k], "8") == 0)
+      return;
+  job->game.rules = CAROM_RULES_POTTING;
+  complain("no ball is named 8, so all balls count: --rules potting");
+}
+
 /* Plans for a layout, or judges `tried` strokes, writes the choices and keeps the best; an exit
  * code. */
 static int plan(const plan_job *job, shot_line *line, const char *file, FILE *out,
@@ -301,8 +314,11 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   const carom_status status = ask(job, &asked, strokes, tried, choices, &n, out);
   if (status != CAROM_OK) {
     free(asked.memory);
-    complain("%s:%zu: by --rules %s: %s", file, line->number,
-             carom_word(CAROM_WORDS_RULES, job->game.rules), carom_status_string(status));
+    const char *advice = "; a ball that is not given counts as potted: add it, such as 8=2d,6d, or "
+                         "give --rules potting, in which all balls count";
+    complain("%s:%zu: by --rules %s: %s%s", file, line->number,
+             carom_word(CAROM_WORDS_RULES, job->game.rules), carom_status_string(status),
+             text_if(status == CAROM_ERROR_GAME_OVER, advice));
     return EXIT_USAGE;
   }
 
@@ -376,10 +392,13 @@ int command_plan(int argc, char **argv) {
   static plan_job job;
   const char *path;
   job = (plan_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}},
-                   .game = {.pocket = NOT_GIVEN}};
+                   .game = {.rules = NOT_GIVEN, .pocket = NOT_GIVEN}};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
+  const bool any_rules = job.game.rules == NOT_GIVEN;
+  if (any_rules)
+    job.game.rules = CAROM_RULES_EIGHTBALL;
   if (!are_together(&job) || !svg_possible(job.plot))
     return EXIT_USAGE;
   shot_file *file = layout_open(&job.from, path, &job.from.shared.shot, 1);
@@ -392,6 +411,8 @@ int command_plan(int argc, char **argv) {
   const int strokes_of_file =
       strokes_read(file, &job.from.shared, &line, strokes, job.tries ? TRIED_MOST : 1);
   if (strokes_of_file > 0) {
+    if (any_rules)
+      choose_rules(&job, &line);
     const int tried = job.tries ? strokes_of_file : 0;
     FILE *out = output_open(job.from.shared.output);
     if (out != NULL) {

@@ -127,6 +127,7 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
     good = true; /* which is told when it is played */
   } else if (pot.outcome != CAROM_POT_FALLS) {
     *l->missed = true;
+    *l->fell_short = pot.outcome == CAROM_POT_SHORT;
     if (!l->quiet)
       complain_of(pocket, via, l, &pot, cue->speed);
   } else {

@@ -159,12 +159,38 @@ static bool quantity_word(const series *s, int quantity, char word[32]) {
   return at != NULL;
 }
 
+/* The quantities of which a text, or what stands behind its last hyphen, is a part between hyphens,
+ * such as "distance" or "roll-distance", as a set. */
+static uint32_t quantities_with(const char *words, const char *text) {
+  const char *hyphen = strrchr(text, '-');
+  if (hyphen != NULL)
+    text = hyphen + 1;
+  const size_t size = strlen(text);
+  uint32_t set = 0;
+  for (int place = 0; *words != '\0'; place++) {
+    const size_t length = strcspn(words, "|");
+    for (size_t from = 0, part; from < length; from += part + 1) {
+      part = strcspn(words + from, "|-");
+      if (same_word(text, size, words + from, part))
+        set |= 1U << place;
+    }
+    words += length + (words[length] != '\0');
+  }
+  return set;
+}
+
 OPTION_SET(set_quantities) {
   uint32_t *asked_for = field;
   char *rest = NULL;
   int place;
   *asked_for = 0;
   for (char *word = strtok_r(text, ",", &rest); word != NULL; word = strtok_r(NULL, ",", &rest)) {
+    const uint32_t parts = quantities_with(row->argument, word);
+    const bool whole = word_among(row->argument, word, strlen(word)) >= 0;
+    if (!whole && parts != 0) {
+      *asked_for |= parts;
+      continue;
+    }
     if (!set_place(row, word, row->argument, &place))
       return false;
     *asked_for |= 1U << place;
@@ -189,7 +215,14 @@ static int quantity_of_curves(const series *s) {
   return first;
 }
 
-/* The values that are several, as they were given, and the quantities. */
+/* " (degrees)" of a quantity, which ends its words. */
+static const char *unit_of(const series *s, int quantity) {
+  const char *unit = strrchr(s->scene->quantity[quantity], '(');
+  return unit != NULL ? unit - 1 : "";
+}
+
+/* The values that are several, as they were given, and the quantities: for readers with units and
+ * six digits, with --csv for programs. */
 static void write_table(FILE *out, const series *s, int count) {
   char word[32];
   one_case c;
@@ -199,7 +232,7 @@ static void write_table(FILE *out, const series *s, int count) {
               s->in[k].unit);
   const char *between = "";
   for (int q = 0; next_quantity(s, &q, word); q++) {
-    fprintf(out, "%s%s", between, word);
+    fprintf(out, "%s%s%s", between, word, text_if(!s->csv, unit_of(s, q)));
     between = ",";
   }
   fputc('\n', out);
@@ -213,7 +246,12 @@ static void write_table(FILE *out, const series *s, int count) {
       }
     between = "";
     for (int q = 0; next_quantity(s, &q, word); q++) {
-      fprintf(out, "%s%s", between, number_text(s->scene->measure(s, &c, q) + 0.0, text));
+      const double x = s->scene->measure(s, &c, q) + 0.0;
+      if (s->csv)
+        number_text(x, text);
+      else
+        snprintf(text, sizeof text, "%.6g", x);
+      fprintf(out, "%s%s", between, text);
       between = ",";
     }
     fputc('\n', out);

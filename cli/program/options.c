@@ -12,10 +12,44 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_ROWS = 48, FIRST_CODE = UCHAR_MAX + 1 };
+enum { MOST_ROWS = 48, MOST_LONGS = MOST_ROWS + 16, FIRST_CODE = UCHAR_MAX + 1 };
 enum { HELP_WIDTH = 80, OPTION_WIDTH = 23 }; /* columns of the help */
 
 static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};
+
+/* Other names of options: each is taken where a subcommand has no option of that name, as the first
+ * of these that it has. */
+static const struct {
+  const char *said, *name;
+} also[] = {{"english", "side"},  {"rack", "rules"},         {"rack", "balls"},
+            {"game", "rules"},    {"power", "speed"},        {"fargo", "player"},
+            {"rating", "player"}, {"object-balls", "balls"}, {"cloth-friction", "cloth"}};
+
+/* What players ask for by a name that no option has, and what says it. A subcommand without the
+ * option says nothing. */
+static const struct {
+  const char *said, *name, *advice;
+} advices[] = {
+    {"english", "tip", "--tip has it: --tip 50%,0 is half of the possible right english"},
+    {"side", "tip", "--tip has it: --tip 50%,0 is half of the possible right english"},
+    {"spin", "tip", "--tip has it: --tip low is the most draw, --tip 0,0.2 some follow"},
+    {"pivot", "tip",
+     "`carom shoot` reports the bridge for back-hand english of each --tip with "
+     "side: --tip 0.3,0 --with end_mass=7g"},
+    {"cloth", "with", "--with slow_cloth, medium_cloth or fast_cloth; or mu_slide, mu_roll"},
+    {"cushions", "with", "--with old_cushion, new_cushion or humid_cushion"},
+    {"pocket-size", "table", "a measure of --table has it: --table 9ft,corner=4.25in"},
+    {"pockets", "table", "a measure of --table has it: --table 9ft,corner=4.25in"},
+    {"with", "friction", "--friction, --restitution, --cloth, --roll, --mass and --radius say it"},
+    {"angle", "aim", "--aim is the direction of the cue, --cut the angle at the ball"},
+    {"from", "cue", "--cue is where the cue ball lies"}};
+
+static bool has_option(const command_form *form, const char *name) {
+  for (size_t k = 0; form->options[k] != NULL; k++)
+    if (strcmp(form->options[k]->name, name) == 0)
+      return true;
+  return false;
+}
 
 /* ---- Help */
 
@@ -142,7 +176,7 @@ static const option_row *row_of(const command_form *form, int code) {
 }
 
 /* What getopt wants to know of the table. */
-static void list_options(const command_form *form, struct option longs[MOST_ROWS],
+static void list_options(const command_form *form, struct option longs[MOST_LONGS],
                          char shorts[2 * MOST_ROWS]) {
   int k = 0;
   for (; form->options[k] != NULL && k < MOST_ROWS - 3; k++) {
@@ -154,6 +188,18 @@ static void list_options(const command_form *form, struct option longs[MOST_ROWS
       strcat(strncat(shorts, &row->letter, 1), argument_of(row) != NULL ? ":" : "");
   }
   longs[k] = (struct option){help_row.name, no_argument, NULL, help_row.letter};
+
+  /* the other names, of the first option that the form has */
+  const int own = k;
+  int count = k + 1;
+  const char *last = "";
+  for (size_t n = 0; n < sizeof also / sizeof also[0]; n++)
+    for (k = 0; k < own; k++)
+      if (strcmp(longs[k].name, also[n].name) == 0 && strcmp(last, also[n].said) != 0 &&
+          !has_option(form, also[n].said)) {
+        longs[count] = longs[k];
+        longs[count++].name = last = also[n].said;
+      }
 }
 
 /* What an option that there is not may have been; its value may stand behind it. Nothing of the
@@ -161,6 +207,11 @@ static void list_options(const command_form *form, struct option longs[MOST_ROWS
 static void hint_at_option(const command_form *form, char *text) {
   char words[32 * MOST_ROWS] = "--help", hint[HINT_TEXT];
   text[strcspn(text, "=")] = '\0';
+  for (size_t k = 0; k < sizeof advices / sizeof advices[0]; k++)
+    if (strcmp(text + 2, advices[k].said) == 0 && has_option(form, advices[k].name)) {
+      fprintf(stderr, "%s %s: %s\n", program_name, form->name, advices[k].advice);
+      return;
+    }
   for (int k = 0; form->options[k] != NULL; k++) {
     snprintf(words + strlen(words), sizeof words - strlen(words), "|--%s", form->options[k]->name);
     if (strncmp(text + 2, form->options[k]->name, strlen(text + 2)) == 0)
@@ -206,7 +257,7 @@ static void complete(const command_form *form, const char *before, const char *w
 
 /* Sets the fields; -1, or an exit code. */
 static int parse_options(const command_form *form, int argc, char **argv, void *job) {
-  struct option longs[MOST_ROWS] = {0};
+  struct option longs[MOST_LONGS] = {0};
   char shorts[2 * MOST_ROWS] = "h", name[80];
   bool given[MOST_ROWS] = {false};
   int option;

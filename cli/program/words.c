@@ -7,6 +7,102 @@
 
 enum { LONGEST_WORD = 24 };
 
+/* What players also say: each stands for the word where that is one of those that may be said. */
+static const struct {
+  const char *said, *word;
+} also[] = {{"8ball", "eightball"},
+            {"9ball", "nineball"},
+            {"10ball", "tenball"},
+            {"4ball", "fourball"},
+            {"3cushion", "threecushion"},
+            {"carom", "threecushion"},
+            {"billiards", "threecushion"},
+            {"10ft", "threecushion"},
+            {"12ft", "snooker"},
+            {"pool", "9ft"},
+            {"14.1", "straight"},
+            {"straightpool", "straight"},
+            {"bankpool", "bank"},
+            {"1pocket", "onepocket"},
+            {"englishpool", "blackball"},
+            {"chineseeightball", "heyball"},
+            {"chinese8ball", "heyball"},
+            {"freepyramid", "pyramid"},
+            {"russianpyramid", "pyramid"},
+            {"center", "centre"},
+            {"middle", "centre"},
+            {"head", "head-spot"},
+            {"foot", "foot-spot"},
+            {"top-left", "foot-left"},
+            {"top-right", "foot-right"},
+            {"middle-left", "side-left"},
+            {"middle-right", "side-right"},
+            {"bottom-left", "head-left"},
+            {"bottom-right", "head-right"},
+            {"rolling", "roll"},
+            {"topspin", "follow"},
+            {"backspin", "draw"},
+            {"screw", "draw"},
+            {"stop", "stun"},
+            {"gentle", "soft"},
+            {"firm", "fast"},
+            {"hard", "fast"},
+            {"check", "reverse"},
+            {"top", "high"},
+            {"follow", "high"},
+            {"bottom", "low"},
+            {"draw", "low"},
+            {"screw", "low"},
+            {"stun", "centre"}};
+
+/* The letters of a word in lower case, without hyphens, underscores and blanks. */
+static size_t plain(const char *text, size_t size, char to[LONGEST_WORD + 1]) {
+  size_t n = 0;
+  for (size_t k = 0; k < size; k++)
+    if (strchr("-_ ", text[k]) == NULL && n < LONGEST_WORD)
+      to[n++] = (char)tolower((unsigned char)text[k]);
+  to[n] = '\0';
+  return n;
+}
+
+/* Whether two words have the same letters, or the parts at a hyphen in the other order. */
+static bool same_letters(const char *a, size_t size, const char *b, size_t length) {
+  char one[LONGEST_WORD + 1], other[LONGEST_WORD + 1], turned[LONGEST_WORD + 1];
+  const size_t n = plain(a, size, one);
+  if (n == 0 || n != plain(b, length, other) || size > LONGEST_WORD || length > LONGEST_WORD)
+    return false;
+  if (strcmp(one, other) == 0)
+    return true;
+  const char *hyphen = memchr(b, '-', length);
+  if (hyphen == NULL)
+    return false;
+  const size_t first = (size_t)(hyphen - b);
+  const size_t second = plain(hyphen, length - first, turned);
+  plain(b, first, turned + second);
+  return strcmp(one, turned) == 0;
+}
+
+bool same_word(const char *text, size_t size, const char *word, size_t length) {
+  bool same = same_letters(text, size, word, length);
+  for (size_t k = 0; k < sizeof also / sizeof also[0] && !same; k++)
+    same = same_letters(also[k].word, strlen(also[k].word), word, length) &&
+           same_letters(text, size, also[k].said, strlen(also[k].said));
+  return same;
+}
+
+int word_among(const char *words, const char *text, size_t size) {
+  const int exact = place_among(words, text, size);
+  if (exact >= 0)
+    return exact;
+  for (int place = 0; *words != '\0'; place++) {
+    const size_t length = strcspn(words, "|");
+    if (same_word(text, size, words, length))
+      return place;
+    words += length + (words[length] != '\0');
+  }
+  return -1;
+}
+
 const char *text_if(bool given, const char *text) {
   return given ? text : "";
 }

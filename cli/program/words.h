@@ -19,6 +19,13 @@ const char *above_or_below(double above);
 /* The place of `text`, of `size` characters, among the words; -1 if it is none of them. */
 int place_among(const char *words, const char *text, size_t size);
 
+/* Whether a text is a word as players say it: with or without capitals and hyphens, "left-side" for
+ * "side-left", and other names such as "9-ball" for "nineball". */
+bool same_word(const char *text, size_t size, const char *word, size_t length);
+
+/* The place of such a text among words with bars between them; -1 if it is none of them. */
+int word_among(const char *words, const char *text, size_t size);
+
 /* "; did you mean 'follow'?" where `text` is nearly one of the words, or the beginning of one;
  * else "". Returns `hint`. */
 enum { HINT_TEXT = 64 };

@@ -75,7 +75,7 @@ OPTION_SET(set_amount) {
 }
 
 bool set_place(const option_row *row, const char *text, const char *words, int *place) {
-  const int found = place_among(words, text, strlen(text));
+  const int found = word_among(words, text, strlen(text));
   if (found >= 0) {
     *place = found;
     return true;
@@ -395,7 +395,8 @@ static bool read_numbers(const option_row *row, const carom_number *n, char *tex
 static const char *condition_named(const char *name, carom_ball_kind *kind) {
   const char *word;
   int k = 0;
-  while ((word = carom_word(CAROM_WORDS_CONDITION, k)) != NULL && strcmp(word, name) != 0)
+  while ((word = carom_word(CAROM_WORDS_CONDITION, k)) != NULL &&
+         !same_word(name, strlen(name), word, strlen(word)))
     k++;
   memset(kind, 0, sizeof *kind);
   carom_condition_give((carom_condition)k, kind);

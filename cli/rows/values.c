@@ -2,7 +2,7 @@
  *
  * Percent of english: 100 % is the spin of a ball that a level cue strikes half a radius off its
  * centre, without loss,
- * 5/2 (1/2) V/R. A tip is an offset of 13 mm, the width of a usual tip. Percent of follow and
+ * 5/2 (1/2) V/R; of a tip, half a radius. A tip is an offset of 13 mm, the width of a usual tip. Percent of follow and
  * draw are of the spin of a rolling ball, V/R.
  *
  * Words of speed are the middles of the ranges of a ball's speed at
@@ -72,6 +72,7 @@ static const struct {
     {OF(MEASURE_TIP), "mm", "mm", 1e-3, OFFSET},
     {OF(MEASURE_TIP), "cm", "cm", 1e-2, OFFSET},
     {OF(MEASURE_TIP), "in", "inches", inch, OFFSET},
+    {OF(MEASURE_TIP), "%", "% of english", 0.005, FIXED},
     {OF(MEASURE_SHARE), "%", "%", 0.01, FIXED},
     {OF(MEASURE_SPIN), "rad/s", "rad/s", 1.0, FIXED},
     {SIDES, "rad/s", "rad/s counterclockwise", 1.0, FIXED},
@@ -213,8 +214,8 @@ static bool set_word(const char *text, int measure, value *v) {
   if (measure == MEASURE_CUT && end != NULL && end[5] == '\0')
     size = (size_t)(end - text);
   for (int k = 0; k < WORDS; k++)
-    if ((words[k].of & OF(measure)) != 0 && strlen(words[k].name) == size &&
-        strncmp(words[k].name, text, size) == 0) {
+    if ((words[k].of & OF(measure)) != 0 &&
+        same_word(text, size, words[k].name, strlen(words[k].name))) {
       *v = (value){.x = words[k].x, .given = (double)NAN, .times = words[k].times};
       snprintf(v->name, sizeof v->name, "%s", text);
       return true;

@@ -10,6 +10,7 @@
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_TEXT = 4096, RANGE = 1 };
@@ -29,7 +30,7 @@ const char *const colours_of_snooker[COLOURS] = {"yellow", "green", "brown",
 static int colour_at(const char *text) {
   const size_t size = strcspn(text, ",");
   for (int k = 0; k < COLOURS; k++)
-    if (strlen(colours_of_snooker[k]) == size && strncmp(colours_of_snooker[k], text, size) == 0)
+    if (same_word(text, size, colours_of_snooker[k], strlen(colours_of_snooker[k])))
       return k;
   return -1;
 }
@@ -41,7 +42,7 @@ char *place_spelt(char *text, char to[PLACE_TEXT]) {
   char spot[PLACE_TEXT / 2];
   const char *place = NULL;
   for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
-    if (strlen(places[k].name) == size && strncmp(text, places[k].name, size) == 0)
+    if (same_word(text, size, places[k].name, strlen(places[k].name)))
       place = places[k].place;
 
   /* the spots of snooker, on a table on which a diamond is 1 m */
@@ -56,6 +57,50 @@ char *place_spelt(char *text, char to[PLACE_TEXT]) {
                                                                                             : text;
 }
 
+/* Whether a text begins with a rail and a comma, as in left,4d. */
+static bool begins_with_rail(const char *text) {
+  const size_t size = strcspn(text, ",");
+  return text[size] == ',' && word_among(RAILS, text, size) >= 0;
+}
+
+/* Where the tip touches by words, such as low, left-low or right,0, as a pair of numbers; other
+ * texts as they are. As far from the centre as a chalked tip holds. */
+static char *tip_spelt(char *text, char to[PLACE_TEXT]) {
+  static const struct {
+    const char *word;
+    double right, above;
+  } words[] = {{"centre", 0.0, 0.0},
+               {"right", 0.5, 0.0},
+               {"left", -0.5, 0.0},
+               {"high", 0.0, 0.5},
+               {"low", 0.0, -0.5}};
+  enum { TIP_WORDS = sizeof words / sizeof words[0] };
+  const char *rest = text;
+  double right = 0.0, above = 0.0;
+  do {
+    size_t size = strcspn(rest, "-,"), k = 0;
+    while (k < TIP_WORDS && !same_word(rest, size, words[k].word, strlen(words[k].word)))
+      k++;
+    double x = 0.0;
+    char *end = NULL;
+    if (k < TIP_WORDS) {
+      right += words[k].right;
+      above += words[k].above;
+    } else {
+      x = strtod(rest, &end);
+      size = (size_t)(end - rest);
+      if (rest == text || x != 0.0 || size == 0) /* a bare 0 beside a word adds nothing */
+        return text;
+    }
+    rest += size;
+    if (rest[0] != '\0' && rest[0] != '-' && rest[0] != ',')
+      return text;
+  } while (*rest++ != '\0');
+  const double far = hypot(right, above), scale = far > 0.5 ? 0.5 / far : 1.0;
+  snprintf(to, PLACE_TEXT, "%.4g,%.4g", right * scale, above * scale);
+  return to;
+}
+
 static bool refuse(const option_row *row, const char *text) {
   char hint[HINT_TEXT] = "", racks[MOST_WORDS] = "", known[2 * MOST_WORDS];
   const bool tip = row->least == MEASURE_TIP;
@@ -66,14 +111,16 @@ static bool refuse(const option_row *row, const char *text) {
     snprintf(known + strlen(known), sizeof known - strlen(known), "|%s", places[k].name);
   for (int k = 0; k < COLOURS; k++)
     snprintf(known + strlen(known), sizeof known - strlen(known), "|%s", colours_of_snooker[k]);
-  complain("--%s is %s%s%s; not '%.60s'%s", row->name,
-           tip ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
-                 "several with colons: 0,0:0.2,0, or a range of either: 0,-0.4:0.4:0.2"
-               : "X,Y in m, or with a unit: 2,3ft, or 2,3d in diamonds, or a place: " PLACES
-                 "; or frozen-left,4d, frozen-1,90, which touches a rail or a ball; several with "
-                 "colons: 0.6,1.5:foot-spot",
-           text_if(row->words != 0, "; or a rack: "), racks, text,
-           tip ? hint : did_you_mean(text, known, hint));
+  complain(
+      "--%s is %s%s%s; not '%.60s'%s", row->name,
+      tip ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
+            "or a word: centre, left, right, high, low, low-left; several with colons: "
+            "0,0:0.2,0, or a range of either: 0,-0.4:0.4:0.2"
+          : "X,Y in m, or with a unit: 2,3ft, or 2,3d in diamonds, or a place: " PLACES
+            "; or left,4d, which touches a rail, or frozen-1,90, which touches a ball; several "
+            "with colons: 0.6,1.5:foot-spot",
+      text_if(row->words != 0, "; or a rack: "), racks, text,
+      tip ? hint : did_you_mean(text, known, hint));
   return false;
 }
 
@@ -83,7 +130,8 @@ static void spell_ranges(const char *text, char *to) {
   for (bool comma = false; *text != '\0'; text++) {
     const bool dots = strncmp(text, "..", 2) == 0,
                next = memchr(text + 1, ',', strcspn(text + 1, ":")) != NULL,
-               range = dots || (*text == ':' && !(comma && next));
+               word = isalpha((unsigned char)text[1]) != 0,
+               range = dots || (*text == ':' && !(comma && next) && !word);
     comma = *text == ',' || (comma && (*text != ':' || range));
     *to++ = (char)(range ? RANGE : *text);
     text += dots;
@@ -117,15 +165,25 @@ static bool add_ranges(const option_row *row, char *text, place_list *list) {
   return true;
 }
 
-/* Reads "frozen-NAME,X"; false where it cannot be read. */
+/* Reads "RAIL,X", "frozen-NAME,X" or, of a ball, "frozen-NAME,ANGLE,GAP"; false where it cannot be
+ * read. */
 static bool read_touching(const char *text, given_place *to) {
-  const char *name = text + strlen(frozen), *comma = strchr(name, ',');
-  const size_t size = comma != NULL ? (size_t)(comma - name) : 0;
+  if (strncmp(text, frozen, strlen(frozen)) == 0)
+    text += strlen(frozen);
+  char number[PLACE_TEXT];
+  const char *comma = strchr(text, ',');
+  const size_t size = comma != NULL ? (size_t)(comma - text) : 0;
   if (size == 0 || size >= PLACE_NAME)
     return false;
-  snprintf(to->touches, PLACE_NAME, "%.*s", (int)size, name);
-  const bool rail = place_among(RAILS, to->touches, size) >= 0;
-  return value_of(rail ? MEASURE_PLACE : MEASURE_ANGLE, comma + 1, &to->x);
+  snprintf(to->touches, PLACE_NAME, "%.*s", (int)size, text);
+  if (word_among(RAILS, to->touches, size) >= 0)
+    return value_of(MEASURE_PLACE, comma + 1, &to->x);
+  const char *gap = strchr(comma + 1, ',');
+  if (gap == NULL)
+    return value_of(MEASURE_ANGLE, comma + 1, &to->x);
+  snprintf(number, sizeof number, "%.*s", (int)(gap - comma - 1), comma + 1);
+  return value_of(MEASURE_ANGLE, number, &to->x) && value_of(MEASURE_LENGTH, gap + 1, &to->y) &&
+         to->y.x >= 0.0;
 }
 
 /* One of the entries between colons: "NAME=NUMBERS" or "NUMBERS". */
@@ -134,7 +192,7 @@ typedef struct place_entry {
   size_t name_size; /* 0: no name stands there */
   int colour;       /* of a ball that is named after its spot of snooker; -1: none */
   char *numbers;
-  bool touches; /* frozen-NAME,X */
+  bool touches; /* frozen-NAME,X or RAIL,X */
   char spelt[PLACE_TEXT];
 } place_entry;
 
@@ -149,8 +207,11 @@ static void split_entry(const option_row *row, char *text, place_entry *entry) {
   entry->touches = false;
   if (row->least == MEASURE_PLACE) {
     entry->numbers = place_spelt(entry->numbers, entry->spelt);
-    entry->touches = strncmp(entry->numbers, frozen, strlen(frozen)) == 0;
+    entry->touches =
+        strncmp(entry->numbers, frozen, strlen(frozen)) == 0 || begins_with_rail(entry->numbers);
   }
+  if (row->least == MEASURE_TIP)
+    entry->numbers = tip_spelt(entry->numbers, entry->spelt);
 }
 
 /* Whether a name is allowed, and short and plain enough; no name always is. */
@@ -167,7 +228,7 @@ static bool name_is_valid(const option_row *row, const place_entry *entry) {
 
 /* Whether a text has two numbers' characters, units included, and a comma. */
 static bool looks_like_pair(const char *text) {
-  return strspn(text, "+-.,0123456789/ eEacdfhimnprstR\"\1") == strlen(text) &&
+  return strspn(text, "+-.,0123456789/ eEacdfhimnprstR%\"\1") == strlen(text) &&
          strchr(text, ',') != NULL;
 }
 
@@ -206,7 +267,7 @@ static int rack_named(const option_row *row, const char *text) {
   char racks[MOST_WORDS];
   if (row->words == 0)
     return 0;
-  return 1 + place_among(words_of(row->words, true, racks), text, strlen(text));
+  return 1 + word_among(words_of(row->words, true, racks), text, strlen(text));
 }
 
 OPTION_SET(set_places) {

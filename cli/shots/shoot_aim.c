@@ -120,7 +120,7 @@ int pocket_named(const carom_table *t, char *const id[], const char *name, char 
   for (int p = 0; p < t->pockets; p++) {
     const char *own = carom_pocket_name(t, p) != NULL ? carom_pocket_name(t, p) : id[p];
     snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s%s", text_if(p > 0, "|"), own);
-    if (strcmp(own, name) == 0 || strcmp(id[p], name) == 0)
+    if (same_word(name, strlen(name), own, strlen(own)) || strcmp(id[p], name) == 0)
       found = p;
   }
   return found;

@@ -19,8 +19,9 @@ typedef struct layout {
   carom_shot_ball ball[CAROM_BALLS_MOST];
   char name[CAROM_BALLS_MOST][PLACE_NAME];
   int count;
-  bool *missed; /* becomes true where there is no aim, */
-  bool quiet;   /* and nothing is told of it */
+  bool *missed;     /* becomes true where there is no aim, */
+  bool *fell_short; /* and this where the ball comes to rest on its way; */
+  bool quiet;       /* nothing is told of it */
 } layout;
 
 /* The ball other than that of the cue with this name, or -1; their names, with bars between. */

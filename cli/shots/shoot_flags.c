@@ -58,8 +58,9 @@ const option_row option_table = {
 ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_PLACE,
     "place of the cue ball, m, or with a unit: 2,3ft, or 2,3d in diamonds from the left and the "
     "head; or a place: " PLACES
-    ". Corners and sides lie at the noses. At frozen-left,4d the ball touches that rail, at "
-    "frozen-1,90 it touches ball 1 in that direction, degrees (default: head-spot, or the place in "
+    ". At left,4d, and at corners and sides, the ball touches the rail; at frozen-1,90 "
+    "it touches ball 1 in that direction, degrees, and at frozen-1,90,0.5in it lies that far from "
+    "it (default: head-spot, or the place in "
     "the rack)");
 const option_row option_balls = {
     .name = "balls",
@@ -104,14 +105,15 @@ ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|thin|DEGREES",
     "without --at-ball, the cue ball meets the ball in front");
 ROW(option_shot_speed, "speed", speed, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
     "speed of the cue just before the strike, m/s, or with a unit: mph, km/h, ft/s, in/s (default "
-    "2). A word "
+    "2; with --pocket the least of 2, 3, 4.5 and 6.5 with which the ball falls). A word "
     "is the speed of the ball after the strike: " SPEEDS);
 ROW(option_ball_speed, "ball-speed", ball_speed, "V", set_values, MEASURE_SPEED,
     "instead of --speed: speed of the cue ball just after the strike of a level cue; a raised cue "
     "strikes as fast as the level one would");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
-    "where the tip touches, from the centre, in radii of the ball, or with a unit: 1,0.5tip or "
-    "12mm,0; several with colons, or ranges: 0,-0.4:0.4:0.2. Right is positive, as it is for "
+    "where the tip touches, from the centre, in radii of the ball, or with a unit: 1,0.5tip, "
+    "12mm,0 or 50%,0 of english; or in words: centre, left, right, high, low, low-left, at 0.5 R; "
+    "several with colons, or ranges: 0,-0.4:0.4:0.2. Right is positive, as it is for "
     "english everywhere in "
     "this command (default 0,0.25). Beyond 0.5 R a chalked tip slips off the ball, and carom "
     "warns");
@@ -186,22 +188,41 @@ static void name_rack(layout *l, carom_rack_kind kind) {
 
 /* Of RAILS; -1: no rail. */
 static int rail_of(const char *name) {
-  return place_among(RAILS, name, strlen(name));
+  return word_among(RAILS, name, strlen(name));
+}
+
+/* The place of a ball of radius R that touches a rail, or with R = 0 of a point of its nose; false
+ * where the place is at none. */
+static bool place_at_rail(const layout *l, const given_place *at, double R, double place[2]) {
+  enum { HEAD, FOOT, LEFT, RIGHT };
+  const double width = l->table.width, length = l->table.length;
+  const int rail = rail_of(at->touches);
+  if (at->touches[0] == '\0' || rail < 0)
+    return false;
+  if (rail == HEAD || rail == FOOT) {
+    place[0] = place_along(&at->x, 0.25 * width);
+    place[1] = rail == HEAD ? R : length - R;
+    return true;
+  }
+  place[0] = rail == LEFT ? R : width - R;
+  place[1] = place_along(&at->x, 0.125 * length);
+  return true;
+}
+
+/* A ball that is put on the line of the noses touches the rail. */
+static double off_nose(double x, double room, double R) {
+  if (x == 0.0)
+    return R;
+  return x == room ? room - R : x;
 }
 
 /* Puts ball k at rest at a place, which may touch one of the first `laid` balls; false after a
  * complaint. */
 static bool lay(layout *l, int k, const given_place *at, int laid) {
-  enum { HEAD, FOOT, LEFT, RIGHT };
   const double width = l->table.width, length = l->table.length, R = l->ball[k].kind.radius;
-  const int rail = rail_of(at->touches);
-  double x = place_along(&at->x, 0.25 * width), y = place_along(&at->y, 0.125 * length);
-  if (rail == HEAD || rail == FOOT) {
-    y = rail == HEAD ? R : length - R;
-  } else if (rail == LEFT || rail == RIGHT) {
-    y = place_along(&at->x, 0.125 * length);
-    x = rail == LEFT ? R : width - R;
-  } else if (at->touches[0] != '\0') {
+  double place[2] = {off_nose(place_along(&at->x, 0.25 * width), width, R),
+                     off_nose(place_along(&at->y, 0.125 * length), length, R)};
+  if (!place_at_rail(l, at, R, place) && at->touches[0] != '\0') {
     int other = laid - 1;
     while (other >= 0 && strcmp(l->name[other], at->touches) != 0)
       other--;
@@ -215,11 +236,11 @@ static bool lay(layout *l, int k, const given_place *at, int laid) {
       return false;
     }
     const carom_shot_ball *ball = &l->ball[other];
-    const double apart = R + ball->kind.radius;
-    x = ball->state.r[0] + apart * cos(at->x.x * degree);
-    y = ball->state.r[1] + apart * sin(at->x.x * degree);
+    const double apart = R + ball->kind.radius + at->y.x;
+    place[0] = ball->state.r[0] + apart * cos(at->x.x * degree);
+    place[1] = ball->state.r[1] + apart * sin(at->x.x * degree);
   }
-  l->ball[k].state = (carom_ball_state){.r = {x, y, R}};
+  l->ball[k].state = (carom_ball_state){.r = {place[0], place[1], R}};
   return true;
 }
 
@@ -304,11 +325,15 @@ static void strike_to(double speed, const carom_ball_kind *kind, carom_cue *cue)
 /* Turns a cue so that its ball leaves towards a place; false after a complaint. */
 static bool aim_to(const given_place *to, const layout *l, carom_cue *cue) {
   const double *from = l->ball[0].state.r;
-  const double ahead[2] = {place_along(&to->x, 0.25 * l->table.width) - from[0],
-                           place_along(&to->y, 0.125 * l->table.length) - from[1]};
+  double place[2] = {place_along(&to->x, 0.25 * l->table.width),
+                     place_along(&to->y, 0.125 * l->table.length)};
+  const bool at_rail = place_at_rail(l, to, 0.0, place);
+  const double ahead[2] = {place[0] - from[0], place[1] - from[1]};
   carom_motion after;
-  if (to->touches[0] != '\0' || hypot(ahead[0], ahead[1]) < l->ball[0].kind.radius) {
-    complain("--to is a place away from the cue ball, X,Y or one that has a name");
+  if ((to->touches[0] != '\0' && !at_rail) || hypot(ahead[0], ahead[1]) < l->ball[0].kind.radius) {
+    complain(
+        "--to is a place away from the cue ball: X,Y, or of a rail right,3d, or one that has a "
+        "name");
     return false;
   }
   cue->phi = 0.0;
@@ -512,7 +537,13 @@ static json_t *make_shot(shoot_flags *f, const layout *l, const carom_shot_optio
 }
 
 /* Complains of options that exclude or need each other; returns whether there are none. */
-static bool options_agree(const shoot_flags *f) {
+static bool options_agree(shoot_flags *f) {
+  /* --at-ball may name the ball of --pocket once more */
+  const size_t named = f->at_ball != NULL ? strlen(f->at_ball) : 0;
+  const bool of_pocket = f->pocket != NULL && named > 0 && f->pocket[named] == ':' &&
+                         strncmp(f->pocket, f->at_ball, named) == 0;
+  if (of_pocket && f->via == NULL)
+    f->at_ball = NULL;
   const bool aim = f->aim.count > 0, at_ball = f->cut.count > 0 || f->at_ball != NULL;
   const struct {
     bool broken;
@@ -529,7 +560,9 @@ static bool options_agree(const shoot_flags *f) {
       {f->speed.count > 0 && f->ball_speed.count > 0,
        "--speed is that of the cue, --ball-speed that of the ball: give only one of them"},
       {(f->gap.count > 0 || f->seed.count > 0) && f->balls.rack == 0,
-       "--gap and --seed are of a rack: give --balls nineball or the like"},
+       "--gap and --seed are of a rack: give --balls nineball or the like; 1=frozen-cue,90,0.5in "
+       "is "
+       "a ball half an inch from the cue ball"},
       {f->cue.count > 1, "--cue is one place"}};
   for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
     if (rules[k].broken) {
@@ -595,7 +628,7 @@ static int combinations_of(const shoot_flags *f, int most) {
 
 /* Makes `count` combinations. Of several shots, those that cannot be aimed are left out, and only
  * the first of them is complained of. */
-static bool make_shots(shoot_flags *f, const carom_shot_options *options, int count,
+static bool make_shots(shoot_flags *f, const carom_shot_options *options, int count, bool quiet,
                        json_t *shots) {
   static layout l;
   static chosen_numbers numbers;
@@ -604,16 +637,17 @@ static bool make_shots(shoot_flags *f, const carom_shot_options *options, int co
       options != NULL ? options->cushion_model : CAROM_SHOT_CUSHION_DEFAULT;
   bool cannot_be_aimed = false;
   l.missed = &cannot_be_aimed;
+  l.fell_short = &f->fell_short;
   for (int k = 0; k < count; k++) {
-    cannot_be_aimed = false;
+    cannot_be_aimed = f->fell_short = false;
     const combination c = combination_at(f, k);
     numbers_of(f, &c, &numbers);
     if (!lay_out(f, &l, cushion, &numbers, c.rack))
       return false;
-    l.quiet = f->tries || k > f->written;
+    l.quiet = quiet || f->tries || k > f->written;
     json_t *shot = make_shot(f, &l, options, &numbers, &c);
     if (shot == NULL && (!cannot_be_aimed || !may_leave_out))
-      return false;
+      return quiet && cannot_be_aimed;
     if (shot != NULL) {
       json_array_append_new(shots, shot);
       f->written++;
@@ -622,7 +656,29 @@ static bool make_shots(shoot_flags *f, const carom_shot_options *options, int co
   return true;
 }
 
+/* The same without a speed that was given: a ball that does not reach its pocket at the default
+ * speed gets the least of some others at which it does. */
+static bool make_shots_fast_enough(shoot_flags *f, const carom_shot_options *options, int count,
+                                   json_t *shots) {
+  static const char *const speeds[] = {"2", "3", "4.5", "6.5"};
+  f->fell_short = true;
+  for (size_t k = 0; k < sizeof speeds / sizeof speeds[0] && f->fell_short; k++) {
+    values_default(&f->speed, MEASURE_SPEED, speeds[k]);
+    f->written = 0;
+    json_array_clear(shots);
+    if (!make_shots(f, options, count, true, shots))
+      return false;
+    if (f->written > 0)
+      return true;
+  }
+  values_default(&f->speed, MEASURE_SPEED, speeds[0]);
+  f->written = 0;
+  json_array_clear(shots);
+  return make_shots(f, options, count, false, shots);
+}
+
 json_t *flags_shots(shoot_flags *f, const carom_shot_options *options, int most) {
+  const bool any_speed = f->speed.count == 0 && f->ball_speed.count == 0;
   f->written = 0;
   f->left_out = 0;
   if (!options_agree(f))
@@ -639,7 +695,11 @@ json_t *flags_shots(shoot_flags *f, const carom_shot_options *options, int most)
 
   json_use_memory();
   json_t *shots = json_array();
-  bool good = make_shots(f, options, count, shots);
+  bool good;
+  if (any_speed && f->pocket != NULL && !f->tries)
+    good = make_shots_fast_enough(f, options, count, shots);
+  else
+    good = make_shots(f, options, count, false, shots);
   f->left_out = count - f->written;
   f->shared.with.in_lines = true;
   if (good && !f->tries) {

@@ -29,6 +29,7 @@ typedef struct shoot_flags {
   bool json;
   bool tries;            /* shots that cannot be aimed are left out, without a complaint */
   int written, left_out; /* of the shots that were asked for */
+  bool fell_short;       /* the last ball came to rest on its way to a pocket */
   char aimed[MOST_SHOTS][AIMED_TEXT]; /* what is told of the aim of each shot, or "" */
 } shoot_flags;
 

@@ -164,13 +164,13 @@ static bool tell_measures(carom_status status, const carom_table_fault *at, json
 }
 
 char *table_spelt(char *text) {
-  static const char *const other[][2] = {{"10ft", "threecushion"}, {"12ft", "snooker"}};
   const size_t size = strcspn(text, ",");
-  for (size_t k = 0; k < sizeof other / sizeof *other; k++)
-    if (strlen(other[k][0]) == size && strncmp(other[k][0], text, size) == 0) {
-      const size_t room = strlen(other[k][1]) + strlen(text + size) + 1;
+  const char *word;
+  for (int k = 0; (word = carom_word(CAROM_WORDS_TABLE, k)) != NULL; k++)
+    if (same_word(text, size, word, strlen(word))) {
+      const size_t room = strlen(word) + strlen(text + size) + 1;
       char *spelt = allocate(room, 1); /* kept, as arguments are */
-      snprintf(spelt, room, "%s%s", other[k][1], text + size);
+      snprintf(spelt, room, "%s%s", word, text + size);
       return spelt;
     }
   return text;

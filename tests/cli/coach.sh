@@ -66,7 +66,7 @@ grep -o '>red[0-9]*<' reds.svg
 carom plan --rules snooker --table snooker --cue 1.2,2.9 --balls black:red3=0.6,2.9 --shots 100 --plot down.svg > down.txt
 sed -n '/Down:/,$p' down.svg | grep -c 'fill="#ff8d80" stroke="#111"'
 echo "--- refused"
-try carom shoot --speed firm
+try carom shoot --speed brisk
 try carom shoot --speed slow:3mph
 try carom shoot --speed slow --elevation 5
 try carom hit --cut 1/0ball
@@ -81,7 +81,7 @@ try carom shoot --cue 2d,4d --balls foot-spot --pocket 1:foot-left --speed slow,
 try carom shoot --cue 2d,4d --balls foot-spot --pocket 1:foot-left --speed slow,soft
 echo "--- lengths in diamonds, a quantity of a list"
 carom shoot --cue 2d,2d --balls 3d,4d --pocket 1:foot-right --leave head-left,1d | grep leave
-carom hit --cut half --side inside,outside --quantity throw | awk -F, 'NR == 1 { print; next } { printf "%s %.9f\n", $1, $2 }'
+carom hit --cut half --side inside,outside --quantity throw --csv | awk -F, 'NR == 1 { print; next } { printf "%s %.9f\n", $1, $2 }'
 echo "--- the stick over a cushion and a ball"
 for elevation in 0 least 20; do
   carom shoot --cue 0.62,0.03 --balls 0.4,2.2 --pocket 1:foot-left --speed 3 --elevation $elevation | grep -E '^(9ft|stick)'

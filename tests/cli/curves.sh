@@ -9,7 +9,7 @@ def run(*words):
     return subprocess.run([carom, *map(str, words)], capture_output=True, text=True, check=True).stdout
 
 def table(*words):
-    return list(csv.reader(run(*words).splitlines()))[1:]
+    return list(csv.reader(run(*words, "--csv").splitlines()))[1:]
 
 def numbers(*words):
     return [[float(x) for x in row] for row in table(*words)]

@@ -168,7 +168,7 @@ done
 echo "every hit is drawn:"
 carom hit --spin stun,draw,follow --plot all.svg -o /dev/null && grep -c "^A cue ball\|>A cue ball" all.svg
 echo "refused:"
-for words in "--speed 1,,x" "--speed ," "--speed 1,2,3,4 --spin 1,2,3,4,5%" "--spin spinny" "--spin nan" "--spin ," "--spin 0.5" "--spin backspin" "--side 3" "--side much" "--cut 0:30 --speed 1:2" "--cut 30:0:1" "--cut 1.5ball" "--quantity throw --plot hit.svg" "--speed 3knots" "--cut 90" "--speed 0" "--speed -1" "--radius 0" "--cloth 2" "--friction 2" "--restitution -1" "--plot hit.txt" "--plot nowhere/hit.svg" "extra" "--strict --speed 60"; do
+for words in "--speed 1,,x" "--speed ," "--speed 1,2,3,4 --spin 1,2,3,4,5%" "--spin spinny" "--spin nan" "--spin ," "--spin 0.5" "--spin sidewards" "--side 3" "--side much" "--cut 0:30 --speed 1:2" "--cut 30:0:1" "--cut 1.5ball" "--quantity throw --plot hit.svg" "--speed 3knots" "--cut 90" "--speed 0" "--speed -1" "--radius 0" "--cloth 2" "--friction 2" "--restitution -1" "--plot hit.txt" "--plot nowhere/hit.svg" "extra" "--strict --speed 60"; do
   # shellcheck disable=SC2086
   try carom hit -o refused.txt $words
 done

@@ -99,14 +99,14 @@ echo "--- a player who is advised gets a plan of the usual shots"
 for shots in "" "--shots 2000"; do carom plan --rules potting --player 500 $shots --csv layout.jsonl | cksum; done | uniq | wc -l | tr -d ' '
 echo "--- refused"
 for options in "--player 500 --errors 2" "--rules potting --group solids" "--may pass" "--player 100"; do try carom plan $options layout.jsonl; done
-try carom plan layout.jsonl
+try carom plan --rules eightball layout.jsonl
 carom shoot --cue 0.4,0.9 --aim 90 --json > alone.jsonl
 for game in eightball nineball potting; do try carom plan --rules $game alone.jsonl; done
 carom shoot --table threecushion --cue 0.4,0.9 --balls 0.3,1.9 --aim 90 --json > carom.jsonl
 for game in nineball threecushion; do try carom plan --rules $game carom.jsonl; done
 try carom plan
 try carom plan --shots 99 layout.jsonl
-try carom plan --rules billiards layout.jsonl
+try carom plan --rules curling layout.jsonl
 try carom plan --shots 2000000 layout.jsonl
 sed 's/"id": "2"/"id": "red"/' layout.jsonl > names.jsonl
 try carom plan --rules eightball names.jsonl

@@ -43,7 +43,7 @@ try carom resolve --sovler exact x.csv
   sed -n 2p "$DATA/collisions-204.csv"
 } > row.csv
 cue='{"kind": "shot", "cue": {"V0": 2, "b": 0, "phii": 90}, "balls": [{"id": "cue", "state": [0, 0.6, 0.6, 0.03, 0, 0, 0, 0, 0, 0]}]}'
-for words in shot resolv re Hit --verison frobnicate "hit --sped 3" "hit --sped=3" "hit --sp 3" "hit --xyz" "hit --spin folow" "hit --spin 20rads" "hit --speed 7mhp" "hit --cut hlaf" "hit --quantity Throw" \
+for words in shot resolv re Hit --verison frobnicate "hit --sped 3" "hit --sped=3" "hit --sp 3" "hit --xyz" "hit --spin folow" "hit --spin 20rads" "hit --speed 7mhp" "hit --cut hlaf" "hit --quantity trow" \
   "hit --friction alciator" "rail --model strong" "shoot --balls ninebal" "shoot --balls pyramid" "shoot --table snoker" "shoot --balls target=0.5,1.6 --at-ball tarqet" "shoot --models pooltol -" "shoot --cushion math -" "resolve --solver exat row.csv" \
   "shoot --events none -"; do
   # shellcheck disable=SC2086

@@ -101,7 +101,7 @@ try carom ways --cue 0.6,0.8 a.jsonl
 carom ways --rails 0 a.jsonl | cut -c 1-30 | head -n 1
 echo "--- places in diamonds, ranges of tips"
 carom shoot --cue 1d,2d --balls 2,6d --table 8ft --aim 90 --json | grep -o '"state": \[0, [^,]*, [^,]*'
-for place in $(carom shoot --help | tr -s ' \n' ' ' | grep -o 'a place: [^(]*Corners' | grep -oE '[a-z]+-[a-z]+|centre|yellow|green|brown|blue|pink|black'); do
+for place in $(carom shoot --help | tr -s ' \n' ' ' | grep -o 'a place: [^(]*At left' | grep -oE '[a-z]+-[a-z]+|centre|yellow|green|brown|blue|pink|black'); do
   printf '%s ' $place
   carom shoot --cue $place --table 8ft --json | grep -o '"state": \[0, [^,]*, [^,]*'
 done

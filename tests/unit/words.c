@@ -1,8 +1,10 @@
 /* Words that the command has are those of the library. */
+#include "program/words.h"
 #include "program/options.h"
 #include "shots/shoot_flags.h"
 #include "support.h"
 
+#include <math.h>
 #include <string.h>
 
 TEST(words_of_an_option) {
@@ -40,6 +42,62 @@ TEST(every_table_and_rack_has_its_word) {
       ck_assert_int_eq(rack ? flags.balls.rack : flags.table.kind, 1 + k);
       ck_assert_ptr_nonnull(strstr(argument_of(row), word));
     }
+}
+
+/* Capitals, hyphens and the order of two parts do not matter, and some words have other names; a word
+ * that is there itself is that one. */
+TEST(words_as_players_say_them) {
+  static const struct {
+    const char *said, *words;
+    int place;
+  } given[] = {{"Eight-Ball", "nineball|eightball", 1},
+               {"9-ball", "eightball|nineball", 1},
+               {"left_side", "side-right|side-left", 1},
+               {"top-left", "head-left|foot-left", 1},
+               {"center", "head-spot|centre", 1},
+               {"head", "head-spot|centre", 0},
+               {"head", "head-spot|head", 1},
+               {"screw", "stun|draw", 1},
+               {"screw", "high|low", 1},
+               {"side", "side-left|side-right", -1},
+               {"lefts", "left|right", -1},
+               {"-", "left|right", -1},
+               {"", "left|right", -1}};
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++)
+    ck_assert_msg(word_among(given[k].words, given[k].said, strlen(given[k].said)) ==
+                      given[k].place,
+                  "%s among %s", given[k].said, given[k].words);
+}
+
+/* Places of the tip in words, at most half a radius from the centre, and with numbers. */
+TEST(tips_in_words) {
+  static const struct {
+    const char *text;
+    int count;
+    double x, y;
+  } given[] = {{"low", 1, 0.0, -0.5},
+               {"center", 1, 0.0, 0.0},
+               {"right,0", 1, 0.5, 0.0},
+               {"low-left", 1, -0.3536, -0.3536},
+               {"left,high", 1, -0.3536, 0.3536},
+               {"50%,-20%", 1, 0.25, -0.1},
+               {"draw:follow", 2, 0.0, -0.5},
+               {"0.1,0.2:low", 2, 0.1, 0.2}};
+  static place_list list;
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+    char text[40];
+    strcpy(text, given[k].text);
+    ck_assert_msg(option_tip.set(&option_tip, text, &list), "%s", given[k].text);
+    ck_assert_msg(list.count == given[k].count && fabs(list.at[0].x.x - given[k].x) < 1e-12 &&
+                      fabs(list.at[0].y.x - given[k].y) < 1e-12,
+                  "%s: %d, %g, %g", given[k].text, list.count, list.at[0].x.x, list.at[0].y.x);
+  }
+  static const char *const none[] = {"lower", "low-", "right,", "low,0.2,3", "left-frozen"};
+  for (size_t k = 0; k < sizeof none / sizeof none[0]; k++) {
+    char text[40];
+    strcpy(text, none[k]);
+    ck_assert_msg(!option_tip.set(&option_tip, text, &list), "%s", none[k]);
+  }
 }
 
 TEST(numbers_by_name_and_key) {
