@@ -726,6 +726,38 @@ def test_what_other_methods_cannot_say(method, gives, match):
         carom.referee(TABLE, ORDER, carom.cue(speed=1.0), rules=wrong)
 
 
+@pytest.mark.parametrize(
+    ("method", "gives", "error", "match"),
+    [
+        ("value", np.nan, ValueError, "value: a chance of 0 to 1 is needed, .* not nan"),
+        ("value", 1.5, ValueError, "value: a chance of 0 to 1 is needed, .* not 1.5"),
+        ("points", np.inf, ValueError, "points: points are needed, not inf"),
+        ("on", None, TypeError, "on: whole numbers are needed, not None"),
+        ("left", 3, TypeError, "left: whole numbers are needed, not 3"),
+        ("left", (1, 2, 3), ValueError, "left: two numbers are needed"),
+    ],
+)
+def test_nonsense_of_methods_is_named(method, gives, error, match):
+    wrong = type("Wrong", (Every,), {method: lambda *_: gives})()
+    with pytest.raises(error, match=match):
+        carom.plan(TABLE, LAYOUT, rules=wrong, shots=100)
+
+
+@pytest.mark.parametrize("place", [(np.nan, 0.5), (9.0, 0.5), (0.6, 1.6)])
+def test_balls_are_not_settled_where_none_can_lie(place):
+    class Wrong(Every):
+        def settle(self, state, table, balls, turn):
+            balls["state"]["r"][1, :2] = place
+            balls["state"]["r"][2, :2] = 0.6, 1.6
+            return turn
+
+    before = carom.Match(Wrong(), TABLE, balls=LAYOUT)
+    lines = before.lines[:]
+    with pytest.raises(carom.CaromError, match=r"settle: balls\[[12]\]"):
+        before.stroke(carom.cue(speed=1.0, phi=200.0))
+    assert before.lines == lines and before.phase == "stroke"
+
+
 def test_errors_of_rules():
     class Wrong(Corner):
         calls = 0

@@ -24,6 +24,7 @@ from carom._rows import (
     listing,
     number,
     pointer,
+    several,
     whole,
 )
 from carom._shot_options import Options
@@ -78,8 +79,11 @@ class Foul(enum.IntEnum):
         return str(ffi.string(lib.carom_foul_string(self)).decode())
 
 
+_A_LIST = "whole numbers are needed"
+
+
 def _set_of(balls: Collection[int], name: str = "on", most: int = 31) -> int:
-    return sum(1 << whole(ball, name, most=most) for ball in set(balls))
+    return sum(1 << whole(ball, name, most=most) for ball in {*several(balls, name, _A_LIST)})
 
 
 def of_set(bits: int) -> frozenset[int]:
@@ -274,7 +278,24 @@ def _write_turn(to: Any, turn: Any, method: str) -> None:
         raise TypeError(f"{method}: it must return a carom.Turn, not {turn!r}")
     to.outcome = choice(_TURNS, turn.turn, "Turn.turn")
     to.leave = choice(LEAVES, turn.leave, "Turn.leave")
-    to.foul, to.spot, to.points = int(turn.foul), _set_of(turn.spot, "Turn.spot"), turn.points
+    to.foul, to.spot = int(turn.foul), _set_of(turn.spot, "Turn.spot")
+    to.points = _finite(turn.points, "Turn.points", "points are needed")
+
+
+def _finite(value: object, name: str, needed: str) -> float:
+    made = number(value, name, needed)
+    if not np.isfinite(made):
+        raise ValueError(f"{name}: {needed}, not {made}")
+    return made
+
+
+def _check_settled(table: Any, balls: Any, count: int, turn: Any) -> None:
+    """Refuses balls that settle() laid where none can lie; a cue ball in hand may lie anywhere."""
+    where = ffi.new("int *")
+    code = lib.carom_shot_check(table, balls, count, ffi.NULL, ffi.NULL, where)
+    in_hand = turn.leave >= lib.CAROM_LEAVE_HAND and where[0] == 0
+    if code < 0 and not in_hand:
+        raise CaromError(code, f"settle: balls[{where[0]}]")
 
 
 class Made:
@@ -391,8 +412,10 @@ class Made:
             return made[0]
 
         def left(game: Any, in_play: int, out: Any) -> None:
-            own, other = rules.left(list(game.user), of_set(in_play))
-            out[0:2] = whole(own, "left"), whole(other, "left")
+            both = several(rules.left(list(game.user), of_set(in_play)), "left", _A_LIST)
+            if len(both) != 2:
+                raise ValueError(f"left: two numbers are needed, not {both}")
+            out[0:2] = whole(both[0], "left"), whole(both[1], "left")
 
         def on(game: Any, in_play: int) -> int:
             return _set_of(rules.on(list(game.user), of_set(in_play)))
@@ -402,11 +425,14 @@ class Made:
 
         def value(game: Any, layout: Any, count: int, in_hand: int) -> float:
             states = _array_of(layout, count, dtypes.ball_state).copy()
-            return number(rules.value(list(game.user), states, bool(in_hand)), "value", _CHANCE)
+            made = _finite(rules.value(list(game.user), states, bool(in_hand)), "value", _CHANCE)
+            if not 0.0 <= made <= (count if rules.race == "alone" else 1.0):
+                raise ValueError(f"value: {_CHANCE}, not {made}")
+            return made
 
         def points(game: Any, in_play: int, ball: int) -> float:
             made = rules.points(list(game.user), of_set(in_play), ball)
-            return number(made, "points", "points are needed")
+            return _finite(made, "points", "points are needed")
 
         def settle(game: Any, table: Any, balls: Any, count: int, turn: Any) -> None:
             if self.raised is not None:
@@ -417,6 +443,7 @@ class Made:
             made = rules.settle(state, on_table, there, _turn_of(turn))
             keep(game, state, "settle")
             _write_turn(turn, made, "settle")
+            _check_settled(table, balls, count, turn)
 
         lost = ffi.new("carom_turn *", {"outcome": lib.CAROM_TURN_LOSE})[0]
         methods: dict[str, tuple[Callable[..., Any], Any]] = {
