@@ -6,6 +6,7 @@
 #include "program/options.h"
 #include "program/output.h"
 #include "program/words.h"
+#include "shots/places.h"
 #include "subcommands.h"
 
 #include "carom_match.h"
@@ -30,9 +31,12 @@ static bool set_ratings(const option_row *row, char *text, void *field) {
   double *fargo = field;
   char end;
   const bool read = sscanf(text, "%lf,%lf%c", &fargo[0], &fargo[1], &end) == 2;
-  if (read && fmin(fargo[0], fargo[1]) >= 300.0 && fmax(fargo[0], fargo[1]) <= 850.0)
+  bool good = read;
+  for (int k = 0; k < 2; k++)
+    good = good && fargo[k] >= 200.0 && fargo[k] <= 850.0;
+  if (good)
     return true;
-  complain("--%s: two Fargo ratings from 300 to 850 are needed, such as 600,500, not %s", row->name,
+  complain("--%s: two Fargo ratings from 200 to 850 are needed, such as 600,500, not %s", row->name,
            text);
   return false;
 }
@@ -42,7 +46,7 @@ OPTION(match_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_
 OPTION(match_job, option_table, "table", table, 0, NULL, set_named, CAROM_WORDS_TABLE,
        "the table (default: that of the game)");
 OPTION(match_job, option_fargo, "fargo", fargo, 0, "A,B", set_ratings, 0,
-       "the Fargo ratings of both players, 300 to 850 (default 600,600)");
+       "the Fargo ratings of both players, 200 to 850 (default 600,600)");
 OPTION(match_job, option_breaks, "breaks", breaks, 0, "1|2", set_choice, 0,
        "the player who breaks (default 1)");
 OPTION(match_job, option_seed, "seed", seed, 0, "N", set_count, 0,
@@ -93,6 +97,18 @@ static void add_words(const char *words) {
   snprintf(decided + length, sizeof decided - length, "%s%s", text_if(length > 0, ", "), words);
 }
 
+enum { NAME_OF_BALL = 32, FIRST_COLOUR = 16 };
+
+/* A ball by its name, as layouts of its game have it. */
+static const char *name_ball(int64_t ball, char text[NAME_OF_BALL]) {
+  snprintf(text, NAME_OF_BALL, "ball %" PRId64, ball);
+  if (match.record.rules == CAROM_RULES_SNOOKER && ball >= FIRST_COLOUR)
+    snprintf(text, NAME_OF_BALL, "the %s", colours_of_snooker[ball - FIRST_COLOUR]);
+  else if (match.record.rules == CAROM_RULES_SNOOKER)
+    snprintf(text, NAME_OF_BALL, "red%" PRId64, ball);
+  return text;
+}
+
 /* Adds what the line of an act says. */
 static void add_act(const carom_record *record, const char *line) {
   static const char *const choices[] = {"passes",
@@ -103,7 +119,7 @@ static void add_act(const carom_record *record, const char *line) {
                                         "has the balls racked for the other",
                                         "leaves the cue ball",
                                         "has the balls that touch spotted"};
-  char words[80] = "";
+  char words[80] = "", ball[NAME_OF_BALL];
   if (is_line(line, "place") && record->hand == 0)
     snprintf(words, sizeof words, "puts the cue ball at %.3f, %.3f m", record->place[0],
              record->place[1]);
@@ -113,9 +129,9 @@ static void add_act(const carom_record *record, const char *line) {
       if (record->call[0] < 0)
         snprintf(words, sizeof words, "calls a safety");
       else if (record->call[1] < 0)
-        snprintf(words, sizeof words, "calls ball %" PRId64, record->call[0]);
+        snprintf(words, sizeof words, "calls %s", name_ball(record->call[0], ball));
       else
-        snprintf(words, sizeof words, "calls ball %" PRId64 ", %s", record->call[0],
+        snprintf(words, sizeof words, "calls %s, %s", name_ball(record->call[0], ball),
                  carom_pocket_name(&record->table, (int)record->call[1]));
       break;
     case CAROM_ACT_CHOOSE:
@@ -142,9 +158,9 @@ static void tell_act(FILE *out, const char *line, int64_t player, int64_t ruling
   carom_ruling_string(&match.ruling, ruling, sizeof ruling);
   const bool concedes = match.rulings == rulings;
   for (int64_t k = 0; !concedes && k < match.ruling.falls; k++) {
-    char words[40] = "scratches";
+    char words[40] = "scratches", ball[NAME_OF_BALL];
     if (match.ruling.fall[k].ball != match.cue_ball)
-      snprintf(words, sizeof words, "pots ball %" PRId32, match.ruling.fall[k].ball);
+      snprintf(words, sizeof words, "pots %s", name_ball(match.ruling.fall[k].ball, ball));
     add_words(words);
   }
   if (out != NULL && decided[0] != '\0')
@@ -232,11 +248,11 @@ static bool play_stroke(players *p) {
     return false;
   }
   const int64_t rulings = match.rulings;
+  if (best.kind == CAROM_PLAN_PASS)
+    return keep(p, carom_match_choose(&match, who, CAROM_MAY_PASS), who, rulings);
   if (match.phase == CAROM_MATCH_PLACE &&
       !keep(p, carom_match_place(&match, who, best.place[0], best.place[1]), who, rulings))
     return false;
-  if (best.kind == CAROM_PLAN_PASS)
-    return keep(p, carom_match_choose(&match, who, CAROM_MAY_PASS), who, rulings);
   if (best.kind == CAROM_PLAN_PUSH &&
       !keep(p, carom_match_choose(&match, who, CAROM_MAY_PUSH), who, rulings))
     return false;

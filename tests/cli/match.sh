@@ -34,6 +34,7 @@ carom record -o shots.jsonl "$DATA/break-nineball.jsonl"
 try carom match --show shots.jsonl
 echo "--- bad usage"
 try carom match --fargo 650
+try carom match --fargo nan,600
 try carom match --show
 try carom match --rules snooker --table 9ft --strokes 1 -o small.jsonl
 try carom match --table threecushion
