@@ -44,8 +44,8 @@ TEST(every_table_and_rack_has_its_word) {
     }
 }
 
-/* Capitals, hyphens and the order of two parts do not matter, and some words have other names; a word
- * that is there itself is that one. */
+/* Capitals, hyphens and the order of two parts do not matter, and some words have other names; a
+ * word that is there itself is that one. */
 TEST(words_as_players_say_them) {
   static const struct {
     const char *said, *words;
