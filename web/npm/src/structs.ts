@@ -54,10 +54,13 @@ const bytesOf = (type: Type): number =>
 const FIELDS = Object.fromEntries(
   Object.entries(layout).map(([struct, { offset, bytes, type }]) => [
     struct,
-    Object.entries(offset).map(([key, begin]): Field => {
-      const of = (type as Record<string, Type>)[key]!;
-      return { key, begin, type: of, size: (bytes as Record<string, number>)[key]! / bytesOf(of) };
-    }),
+    Object.entries(offset)
+      .filter(([key]) => key !== "unused")
+      .map(([key, begin]): Field => {
+        const of = (type as Record<string, Type>)[key]!;
+        const size = (bytes as Record<string, number>)[key]! / bytesOf(of);
+        return { key, begin, type: of, size };
+      }),
   ]),
 ) as Record<StructName, Field[]>;
 const KEYS_OF = Object.fromEntries(
