@@ -22,6 +22,7 @@ import type { GameRules, OwnTurn } from "./types.js";
 const RULES = layout.carom_plan_rules;
 const STATE = layout.carom_rules_state.offset;
 const TURN = layout.carom_turn.offset;
+const HAND = names.carom_leave.indexOf("hand");
 /** The words of a state that are the rules'; the one behind them is the number of the rules. */
 const WORDS = 7;
 /** The methods that rules may leave to the library, as own.c numbers them. */
@@ -69,17 +70,26 @@ export class OwnRules {
         return this.#guarded(
           state,
           "left",
-          (rules, user) => rules.left(user, members(inPlay)).map((one) => whole(one, "left")),
-          (left) => void memory.i32.set(left.slice(0, 2), to / 4),
+          (rules, user) => {
+            const left: unknown = rules.left(user, members(inPlay));
+            if (!Array.isArray(left) || left.length !== 2)
+              throw new TypeError(`left: two numbers are needed, not ${JSON.stringify(left)}`);
+            return left.map((one: number) => whole(one, "left"));
+          },
+          (left) => void memory.i32.set(left, to / 4),
         );
       },
       value: (state: Pointer, layoutAt: Pointer, count: number, inHand: number) => {
         const states = Array.from({ length: count }, (_, k) =>
           readState(memory, layoutAt + k * layout.carom_ball_state.size),
         );
-        return this.#guarded(state, "value", (rules, user) =>
-          numberOf(rules.value!(user, states, inHand !== 0), "value"),
-        );
+        return this.#guarded(state, "value", (rules, user) => {
+          const made = numberOf(rules.value!(user, states, inHand !== 0), "value");
+          const most = rules.race === "alone" ? count : 1;
+          if (made < 0 || made > most)
+            throw new RangeError(`value: it must be 0 to ${most}, not ${made}`);
+          return made;
+        });
       },
       pockets: (state: Pointer) =>
         this.#guarded(state, "pockets", (rules, user) =>
@@ -113,6 +123,7 @@ export class OwnRules {
           (changed) => {
             writeBalls(memory, balls, there);
             this.#writeTurn(turnAt, changed, "settle");
+            this.#checkSettled(table, balls, count, turnAt);
           },
         );
       },
@@ -191,6 +202,21 @@ export class OwnRules {
       );
   }
 
+  /** Refuses balls that lie where none can; a cue ball in hand may lie anywhere. */
+  #checkSettled(table: Pointer, balls: Pointer, count: number, turn: Pointer): void {
+    const memory = this.#memory;
+    const { size, offset } = layout.carom_fault;
+    const fault = memory.allocate(size + 8);
+    const code = memory.exports.carom_shot_fault(table, balls, count, 0, 0, fault, fault + size, 8);
+    const ball = memory.i32[(fault + offset.part + layout.carom_part.offset.index) / 4]!;
+    memory.free(fault);
+    const inHand = memory.i32[(turn + TURN.leave) / 4]! >= HAND && ball === 0;
+    if (code < 0 && !inHand)
+      throw new RangeError(
+        `settle: balls[${ball}]: ${memory.text(memory.exports.carom_status_string(code))}`,
+      );
+  }
+
   #readTurn(at: Pointer): Required<OwnTurn> {
     const { i32, u32, f64 } = this.#memory;
     return {
@@ -216,6 +242,6 @@ export class OwnRules {
 }
 
 function numberOf(given: unknown, name: string): number {
-  if (typeof given !== "number") throw new TypeError(`${name}: a number is needed, not ${given}`);
-  return given;
+  if (!Number.isFinite(given)) throw new TypeError(`${name}: a number is needed, not ${given}`);
+  return given as number;
 }

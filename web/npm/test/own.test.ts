@@ -121,6 +121,22 @@ test("what rules cannot say, and that they cannot call the library", () => {
     "rules cannot call the library that calls them",
   );
   expect(() => rule({ left: undefined })).toThrow("own: left() is missing");
+  const plan = (of: object): unknown =>
+    carom.plan(table, balls, { own: { ...good, ...of }, shots: 100 });
+  expect(() => plan({ left: () => 3 })).toThrow("left: two numbers are needed, not 3");
+  expect(() => plan({ left: () => [1, 2, 3] })).toThrow("left: two numbers are needed");
+  expect(() => plan({ value: () => NaN })).toThrow("value: a number is needed, not NaN");
+  expect(() => plan({ value: () => 1.5 })).toThrow("value: it must be 0 to 1, not 1.5");
+  const settle =
+    (x: number, y: number): GameRules["settle"] =>
+    (_user, _table, laid, turn) => {
+      laid[1]!.state.r = [x, y, laid[1]!.state.r[2]];
+      laid[2]!.state.r = [0.6, 1.6, laid[2]!.state.r[2]];
+      return turn;
+    };
+  expect(() => rule({ settle: settle(NaN, 1) })).toThrow("settle: balls[1]: a position must be");
+  expect(() => rule({ settle: settle(9, 1) })).toThrow("settle: balls[1]: a ball is not on");
+  expect(() => rule({ settle: settle(0.6, 1.6) })).toThrow(/settle: balls.*: two balls overlap/);
   expect(() => carom.match({ own: good }, table)).toThrow("rules of your own have no rack");
   expect(carom.rule(shot, { own: good }).turn).toBe("pass");
 });
