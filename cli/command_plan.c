@@ -274,7 +274,8 @@ static carom_status ask(const plan_job *job, const carom_plan_job *asked, const 
   return carom_plan_hand(asked, bounds.low, bounds.high, choices, BEST, n);
 }
 
-/* Of a layout without an eight there is no eight-ball: where no game was asked for, all balls count. */
+/* Of a layout without an eight there is no eight-ball: where no game was asked for, all balls
+ * count. */
 static void choose_rules(plan_job *job, const shot_line *line) {
   if (job->game.group != 0 || line->table->table.pockets == 0)
     return;

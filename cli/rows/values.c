@@ -1,9 +1,8 @@
 /* Lists and ranges of numbers with units.
  *
  * Percent of english: 100 % is the spin of a ball that a level cue strikes half a radius off its
- * centre, without loss,
- * 5/2 (1/2) V/R; of a tip, half a radius. A tip is an offset of 13 mm, the width of a usual tip. Percent of follow and
- * draw are of the spin of a rolling ball, V/R.
+ * centre, without loss, 5/2 (1/2) V/R; of a tip, half a radius. A tip is an offset of 13 mm, the
+ * width of a usual tip. Percent of follow and draw are of the spin of a rolling ball, V/R.
  *
  * Words of speed are the middles of the ranges of a ball's speed at
  * billiards.colostate.edu/faq/speed/typical.

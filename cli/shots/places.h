@@ -8,8 +8,8 @@
 enum { MOST_PLACES = 64 };
 
 /* A pair of numbers, with the name that stood before it. Of a ball that touches a rail or another
- * ball, x is how far along the rail, or the direction from that ball, degrees, and y the gap between
- * the balls, m. */
+ * ball, x is how far along the rail, or the direction from that ball, degrees, and y the gap
+ * between the balls, m. */
 typedef struct given_place {
   char name[PLACE_NAME], touches[PLACE_NAME];
   value x, y;
@@ -22,8 +22,8 @@ typedef struct place_list {
 } place_list;
 
 /* For a place_list: X,Y:X,Y:..., each perhaps behind NAME=, where balls are named, or the name of a
- * rack, by row->words. Of a ball on a spot of snooker that is its name. RAIL,X in place of X,Y touches
- * a rail, frozen-BALL,X a ball. */
+ * rack, by row->words. Of a ball on a spot of snooker that is its name. RAIL,X in place of X,Y
+ * touches a rail, frozen-BALL,X a ball. */
 OPTION_SET(set_places);
 
 /* Places that have a name, as help and complaints list them. */
