@@ -272,7 +272,8 @@ typedef struct carom_plan_rules {
   int32_t breaks;               /* 1: if state.opening is 1, the plan tries strokes of a break: it
                                    hits the nearest balls about full and hard. 2: it tries safe
                                    opening strokes: it hits the outer balls of the rack thin and
-                                   soft. A cue ball in hand is placed on the upper edge of its
+                                   soft; also with the cue ball in hand before a rack that is
+                                   whole. A cue ball in hand is placed on the upper edge of its
                                    bounds; NULL: on the head string. */
   carom_rules_points *points;   /* NULL: each ball is worth one. */
   carom_rules_settle *settle;   /* NULL: balls go back to their spots, and nothing else happens. */

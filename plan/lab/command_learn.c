@@ -332,7 +332,10 @@ static void print_row(const learn_job *job, const sample *s, size_t count) {
   print_numbers(s, count, NEXT, NEXT_NUMBERS, "next", hand == CAROM_LEAVE_HAND);
   print_numbers(s, count, LATER, LATER_NUMBERS, "later", false);
   print_numbers(s, count, FIRST, FIRST_NUMBERS, "first", false);
-  printf("     .mean = %.3f,\n     .stretch = 1.0,\n     .edge = 1.0},\n", mean);
+  carom_table table;
+  carom_table_make(lab_table_of((carom_rules_kind)job->rules), &table);
+  printf("     .mean = %.3f,\n     .width = %.4g,\n     .stretch = 1.0,\n     .edge = 1.0},\n",
+         mean, table.width);
 }
 
 static const command_form form = {

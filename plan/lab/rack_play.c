@@ -10,13 +10,15 @@ bool lab_game_is_played(int rules) {
   return known;
 }
 
+carom_table_kind lab_table_of(carom_rules_kind game) {
+  if (game == CAROM_RULES_EIGHTBALL || game == CAROM_RULES_NINEBALL)
+    return CAROM_TABLE_POOL_7FT; /* the table of run-outs */
+  return (carom_table_kind)carom_rules_about_of(game)->table;
+}
+
 void lab_rack_begin(lab_rack *rack, carom_rules_kind game, double errors) {
   const carom_rules_about *about = carom_rules_about_of(game);
-  const bool breaks = carom_plan_rules_of(game).breaks == 1;
-  carom_table_kind table = (carom_table_kind)about->table;
-  if (breaks && table == CAROM_TABLE_POOL_9FT)
-    table = CAROM_TABLE_POOL_7FT;
-  carom_table_make(table, &rack->table);
+  carom_table_make(lab_table_of(game), &rack->table);
   rack->cue = carom_cue_of((carom_game)about->balls);
   rack->player = carom_player_of(errors);
   rack->shot = (carom_shot_options){.space = CAROM_SPACE_FLAT};

@@ -12,6 +12,9 @@ enum { RACK_BALLS = 22 };
 /* Whether a game of the option --rules is played by two; complains where it is not. */
 bool lab_game_is_played(int rules);
 
+/* The table on which a game is played here. */
+carom_table_kind lab_table_of(carom_rules_kind game);
+
 typedef struct lab_rack {
   carom_plan_job plan; /* with memory; all that it points to is here */
   carom_table table;

@@ -38,6 +38,10 @@ double carom_chance_usual(const carom_view *view) {
   return numbers_of(view)->mean;
 }
 
+double carom_log_size(const carom_view *view) {
+  return carom_log(view->width / numbers_of(view)->width);
+}
+
 double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]) {
   return chance(numbers_of(view)->next, x, NEXT_NUMBERS);
 }
@@ -46,7 +50,7 @@ static const double least_chance = 1e-3; /* between two who never pot the chain 
 
 /* a_n, of a layout with this mean over the balls. */
 double carom_chance_later(const carom_view *view, int who, double mean, int n) {
-  const double x[LATER_NUMBERS] = {1.0, view->log_error[who], 1.0 / n, mean};
+  const double x[LATER_NUMBERS] = {1.0, view->log_miss[who], 1.0 / n, mean};
   double a = view->given[who];
   if (!(a > 0.0))
     a = chance(numbers_of(view)->later, x, LATER_NUMBERS);
@@ -55,7 +59,7 @@ double carom_chance_later(const carom_view *view, int who, double mean, int n) {
 
 /* e_n; that of an opponent who makes every ball is 1. */
 double carom_chance_first(const carom_view *view, int who, int n) {
-  const double x[FIRST_NUMBERS] = {1.0, view->log_error[who], 1.0 / n};
+  const double x[FIRST_NUMBERS] = {1.0, view->log_miss[who], 1.0 / n};
   if (who == 1 && view->given[1] == 1.0)
     return 1.0;
   return fmax(chance(numbers_of(view)->first, x, FIRST_NUMBERS), least_chance);
@@ -119,4 +123,11 @@ double carom_stretched(const carom_view *view, double value, int who, int n) {
   const double edge = who == 0 ? view->edge[n] : -view->edge[n];
   const double odds = numbers->edge * edge + numbers->stretch * (log_odds_of(value) - edge);
   return 1.0 / (1.0 + carom_exp(-odds));
+}
+
+double carom_even(const carom_view *view, int who, int n) {
+  double edge = numbers_of(view)->edge * view->edge[n];
+  if (who == 1)
+    edge = -edge;
+  return 1.0 / (1.0 + carom_exp(-edge));
 }

@@ -70,6 +70,7 @@ enum { CAROM_GAMES(CAROM_GAME_ROW) };
 typedef struct learned {
   double next[NEXT_NUMBERS], later[LATER_NUMBERS], first[FIRST_NUMBERS];
   double mean;    /* of x[2] */
+  double width;   /* of the table of these racks, m */
   double stretch; /* of the log-odds of a value: carom-lab plan --games tells it. It is about the */
   double edge;    /* difference of the players, of which this share counts: --against shows it */
 } learned;
@@ -85,6 +86,7 @@ static const learned learned_of[] = {
          /* log-likelihood of a stroke -0.5535; of one number for all, -0.6161 */
          .first = {2.520, -1.370, -1.846},
          .mean = 0.624,
+         .width = 0.9906,
          .stretch = 0.9,
          .edge = 0.85},
     [CAROM_RULES_NINEBALL] =
@@ -96,6 +98,7 @@ static const learned learned_of[] = {
          /* log-likelihood of a stroke -0.5699; of one number for all, -0.6717 */
          .first = {1.141, -1.421, 2.196},
          .mean = 0.738,
+         .width = 0.9906,
          .stretch = 1.5,
          .edge = 0.8},
     [CAROM_RULES_ONEPOCKET] =
@@ -107,6 +110,7 @@ static const learned learned_of[] = {
          /* log-likelihood of a stroke -0.6616; of one number for all, -0.6888 */
          .first = {0.211, -0.555, -0.329},
          .mean = 0.155,
+         .width = 1.27,
          .stretch = 1.6,
          .edge = 1.0},
     [CAROM_RULES_STRAIGHT] =
@@ -118,6 +122,7 @@ static const learned learned_of[] = {
          /* log-likelihood of a stroke -0.4254; of one number for all, -0.4976 */
          .first = {3.305, -1.726, -2.164},
          .mean = 0.455,
+         .width = 1.27,
          .stretch = 1.0,
          .edge = 1.0},
     [CAROM_RULES_SNOOKER] =
@@ -129,6 +134,7 @@ static const learned learned_of[] = {
          /* log-likelihood of a stroke -0.4624; of one number for all, -0.6190 */
          .first = {-0.530, -1.434, -0.500},
          .mean = 0.260,
+         .width = 1.778,
          .stretch = 1.0,
          .edge = 1.0},
 };

@@ -61,5 +61,6 @@ CAROM_RULES_OBJECT(carom_onepocket) = {.state = {.pocket = {5, 2}},
                                        .left = carom_left_of_eight,
                                        .pockets = pockets,
                                        .race = CAROM_RACE_OWN,
+                                       .breaks = 2,
                                        .settle = carom_settle_rack,
                                        .rack = CAROM_RACK_EIGHTBALL};

@@ -28,6 +28,7 @@
 #include "platform/ranges.h"
 #include "ranking.h"
 #include "rows.h"
+#include "rules.h"
 #include "schema/options.h"
 #include "search.h"
 
@@ -232,6 +233,23 @@ static void share_memory(search *plan) {
   plan->drawn = NULL;
 }
 
+/* Whether the rack of a soft break is whole: each ball that is on touches two others. */
+static bool is_packed(const search *plan) {
+  enum { BALLS_LEAST = 10, NEIGHBOURS = 2 };
+  static const double apart = 1e-3; /* m */
+  for (int k = 0; k < plan->view.count; k++) {
+    int near = 0;
+    for (int n = 0; n < plan->view.count && (plan->targets >> k & 1); n++) {
+      const double reach = plan->view.radius[k] + plan->view.radius[n] + apart;
+      const bool touches = carom_square(plan->state[k].r, plan->state[n].r) < reach * reach;
+      near += n != k && (plan->targets >> n & 1) && touches;
+    }
+    if ((plan->targets >> k & 1) && near < NEIGHBOURS)
+      return false;
+  }
+  return carom_count_of(plan->targets) >= BALLS_LEAST;
+}
+
 /* Reads the layout by the rules: which balls are in play, which of them may be met first, and what
  * the stroke may do. */
 static carom_status ask_rules(search *plan, bool in_hand) {
@@ -250,6 +268,8 @@ static carom_status ask_rules(search *plan, bool in_hand) {
 
   /* the stroke */
   plan->breaks = rules->breaks && rules->state.opening == 1;
+  if (rules->breaks == 2 && in_hand)
+    plan->breaks |= is_packed(plan);
   plan->permissions = (uint32_t)rules->state.may;
   plan->pockets = carom_pockets_of(rules, &rules->state);
   plan->first_decides = rules->first_decides && !(plan->permissions & CAROM_MAY_PUSH);

@@ -27,7 +27,7 @@ bool carom_search_begins_well(const carom_search *plan, int first);
 /* What a foul counts that is worth `worth`. Values of layouts are right to some hundredths, and a
  * legal stroke that is as good is to be chosen. */
 static inline double carom_search_foul(double worth) {
-  const double less = 0.03;
+  const double less = 0.018;
   return carom_within(worth - less, 0.0, 1.0);
 }
 /* Points as a share of the balls left before the shot. */

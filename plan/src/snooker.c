@@ -336,5 +336,6 @@ CAROM_RULES_OBJECT(carom_snooker) = {.on = on,
                                      .left = left,
                                      .race = CAROM_RACE_POINTS,
                                      .points = points,
+                                     .breaks = 2,
                                      .settle = settle,
                                      .rack = CAROM_RACK_SNOOKER};

@@ -81,6 +81,7 @@ void carom_view_make(carom_view *view, const carom_plan_job *job,
     const double phi = players[who]->phi * carom_player_growth(players[who], usual_speed);
     view->sigma[who] = phi * (pi / 180.0);
     view->log_error[who] = carom_log(fmax(phi / 0.1, 0.1));
+    view->log_miss[who] = view->log_error[who] + carom_log_size(view);
     view->given[who] = given[who];
   }
   const double mean = carom_chance_usual(view);
@@ -150,7 +151,12 @@ double carom_value_of(const carom_view *view, const carom_rules_state *game,
                       const carom_ball_state *balls, int who, bool in_hand) {
   const carom_plan_rules *rules = view->rules;
   const uint32_t in_play = carom_in_play(balls, view->count) | UINT32_C(1) << view->cue_ball;
-  const double plays = value_of_playing(view, game, balls, in_play, who, in_hand);
+  double plays = value_of_playing(view, game, balls, in_play, who, in_hand);
+  if (game->may & CAROM_MAY_PUSH && view->given[1] == 0.0) {
+    int32_t left[2];
+    rules->left(game, in_play, left);
+    plays = fmax(plays, carom_even(view, who, (int)carom_max(carom_min(left[0], MOST_LEFT), 1)));
+  }
   if (!(game->may & CAROM_MAY_PASS))
     return plays;
 

@@ -89,6 +89,8 @@ typedef struct carom_view {
   /* of the player and of his opponent: error of the direction, rad; the logarithm of that in 0.1
    * degrees, at least 0.01 degrees; the caller's chance of a pot, or 0 */
   double sigma[2], log_error[2], given[2];
+  double
+      log_miss[2]; /* log_error, larger on a table whose ways are longer than where racks taught */
   /* chance to win at one's turn, by the balls left to oneself and to the other: of the player,
    * of his opponent */
   double win[2][MOST_LEFT + 1][MOST_LEFT + 1];
@@ -122,7 +124,7 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
 /* What a chance to pot is made of, the numbers of games.h: 1; view->log_error; the mean
  * of the best pots of the balls of `targets`; the best pot; that of the next best ball; whether one
  * ball is left; whether the cue ball is in hand. For later pots of a visit they are 1,
- * view->log_error, 1 / the balls that are left then, and the mean; for the first after a turn of
+ * view->log_miss, 1 / the balls that are left then, and the mean; for the first after a turn of
  * the other those but the mean. each[k] becomes the best pot of ball k, where it is not NULL. */
 enum { NEXT_NUMBERS = 7, LATER_NUMBERS = 4, FIRST_NUMBERS = 3 };
 void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
@@ -135,12 +137,16 @@ double carom_chance_later(const carom_view *view, int who, double mean, int n);
 double carom_chance_first(const carom_view *view, int who, int n);
 /* Whether games of these rules taught their chances, not those of others. */
 bool carom_is_learned(const carom_view *view);
+/* The logarithm of the table's width in that of the racks that taught. */
+double carom_log_size(const carom_view *view);
 /* The mean over the balls of a usual layout. */
 double carom_chance_usual(const carom_view *view);
 void carom_find_edges(carom_view *view);
 /* A value to `who`, who has n balls left, with its log-odds stretched about the edge of that
  * player. */
 double carom_stretched(const carom_view *view, double value, int who, int n);
+/* The value to `who` of a layout that both would as soon play as leave, as after a push-out. */
+double carom_even(const carom_view *view, int who, int n);
 
 /* value.c */
 void carom_view_make(carom_view *view, const carom_plan_job *job,

@@ -64,6 +64,52 @@ static double nineball(double errors, double against) {
  * errors of 3. */
 TEST(values_of_unequal_players) {
   const double better = nineball(1.0, 3.0), weaker = nineball(3.0, 1.0);
-  ck_assert(better > 0.82 && better < 0.92);
+  ck_assert(better > 0.78 && better < 0.92);
   ck_assert(weaker > 0.25 && weaker < 0.45);
+}
+
+/* Who may push out has an even game at least, against one who is as good; but not if he plans to
+ * run out, where a turn that ends is worth nothing. */
+TEST(values_of_push_outs) {
+  for (uint64_t seed = 1; seed <= 20; seed++) {
+    double plays, pushes;
+    make_layout(seed, 9);
+    rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+    player = carom_player_of(3.0);
+    job.count = 10;
+    ck_assert_int_eq(carom_plan_value(&job, 0, &plays), CAROM_OK);
+    rules.state.may = CAROM_MAY_PUSH;
+    ck_assert_int_eq(carom_plan_value(&job, 0, &pushes), CAROM_OK);
+    ck_assert_double_eq_tol(pushes, fmax(plays, 0.5), 1e-12);
+    options.chance_opponent = 1.0;
+    ck_assert_int_eq(carom_plan_value(&job, 0, &pushes), CAROM_OK);
+    rules.state.may = 0;
+    ck_assert_int_eq(carom_plan_value(&job, 0, &plays), CAROM_OK);
+    ck_assert_double_eq_tol(pushes, plays, 1e-12);
+  }
+}
+
+/* Who has the cue ball in hand runs out less often on a larger table, with balls at the same shares
+ * of it. */
+TEST(values_on_larger_tables) {
+  enum { LAYOUTS = 20 };
+  double more = 0.0;
+  int layouts = 0;
+  for (uint64_t seed = 1; layouts < LAYOUTS; seed++) {
+    double large, small;
+    make_layout(seed, 8);
+    rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+    job.count = 10;
+    ck_assert_int_eq(carom_plan_value(&job, 1, &large), CAROM_OK);
+    const double width = table.width;
+    carom_table_make(CAROM_TABLE_POOL_7FT, &table);
+    for (int k = 0; k < BALLS; k++)
+      for (int x = 0; x < 2; x++)
+        balls[k].state.r[x] *= table.width / width;
+    if (carom_plan_value(&job, 1, &small) != CAROM_OK) /* balls that were near overlap */
+      continue;
+    more += (small - large) / LAYOUTS;
+    layouts++;
+  }
+  ck_assert_double_gt(more, 0.03);
 }
