@@ -27,7 +27,14 @@ static long number_of(const char *name) {
   return *end == '\0' && number >= 1 && number <= 15 ? number : 0;
 }
 
-const char *colour_of(const char *name, int index) {
+/* Whether it is a ball of pyramid, by its size: no other game's is as large. */
+static bool is_of_pyramid(double radius) {
+  return radius >= 0.0335;
+}
+
+const char *colour_of(const char *name, int index, double radius) {
+  if (is_of_pyramid(radius))
+    return ball_colours[index == 0];
   const char *named = named_colour(name);
   if (named != NULL)
     return named;
@@ -35,6 +42,6 @@ const char *colour_of(const char *name, int index) {
   return number > 0 ? ball_colours[number] : ball_colours[index % 16];
 }
 
-bool is_striped(const char *name) {
-  return number_of(name) >= 9;
+bool is_striped(const char *name, double radius) {
+  return !is_of_pyramid(radius) && number_of(name) >= 9;
 }

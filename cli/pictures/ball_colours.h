@@ -8,11 +8,12 @@
  * and others. */
 extern const char *const ball_colours[16];
 
-/* The colour that the name of a ball says, or NULL; and that of ball `index` of that name. */
+/* The colour that the name of a ball says, or NULL; and that of ball `index` of that name and
+ * radius, m: large balls are those of pyramid, white ones and a yellow cue ball. */
 const char *named_colour(const char *name);
-const char *colour_of(const char *name, int index);
+const char *colour_of(const char *name, int index, double radius);
 
 /* Whether it is one of the striped balls of pool. */
-bool is_striped(const char *name);
+bool is_striped(const char *name, double radius);
 
 #endif

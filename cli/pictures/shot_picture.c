@@ -133,10 +133,14 @@ static void draw_part(const view *v, FILE *out, const band_point *band, int from
   fputc('Z', out);
 }
 
+static const char *colour_in(const shot_line *line, int ball) {
+  return colour_of(line->name[ball], ball, line->ball[ball].kind.radius);
+}
+
 /* The band of a player's spread around a ball's path: where it is beyond reach, pale and dashed. */
 static void draw_band(const view *v, const shot_line *line, const spread *s, int ball) {
   const band_point *band = s->band[ball];
-  const char *colour = colour_of(line->name[ball], ball);
+  const char *colour = colour_in(line, ball);
   for (int beyond = 0; beyond < 2; beyond++) {
     char *parts;
     size_t size;
@@ -180,18 +184,18 @@ static void draw_ellipse(const view *v, const spread *s, const carom_ball_state 
 
 /* Where a ball lies before the shot. */
 static void draw_start(const view *v, const shot_line *line, int ball, double y) {
-  svg_circle(
-      v->out, across(v, line->ball[ball].state.r), y, v->scale * line->ball[ball].kind.radius,
-      "fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"", colour_of(line->name[ball], ball));
+  svg_circle(v->out, across(v, line->ball[ball].state.r), y,
+             v->scale * line->ball[ball].kind.radius,
+             "fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"", colour_in(line, ball));
 }
 
 /* A ball at a place of the picture. */
 static void draw_disc(const view *v, const shot_line *line, int ball, double x, double y,
                       const char *name) {
-  const char *colour = colour_of(line->name[ball], ball);
+  const char *colour = colour_in(line, ball);
   const double r = v->scale * line->ball[ball].kind.radius;
   svg_circle(v->out, x, y, r, "fill=\"%s\" stroke=\"#111\" stroke-width=\"0.8\"", colour);
-  if (is_striped(line->name[ball]))
+  if (is_striped(line->name[ball], line->ball[ball].kind.radius))
     svg_circle(v->out, x, y, r - 1.8, "fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\"");
   if (strlen(name) <= 2)
     svg_text(v->out, x, y + 0.36 * v->labels->size, name, 2,
@@ -280,7 +284,7 @@ static void draw_heights(const view *v, const shot_line *line, const carom_shot 
   carom_ball_state states[CAROM_BALLS_MOST];
   fprintf(v->out,
           "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"",
-          colour_of(line->name[ball], ball));
+          colour_in(line, ball));
   double last = 0.0;
   for (int64_t k = 0; k < shot_events_kept(shot); k++) {
     const carom_event *e = &shot->events[k];
@@ -384,15 +388,14 @@ static void draw_paths(const view *v, const played *shots, int count) {
     for (int n = 0; n < shots[shot].others_count; n++)
       for (int k = shots[shot].line->count - 1; k >= 0; k--)
         draw_path(&thin, shots[shot].line, &shots[shot].others[n], k,
-                  colour_of(shots[shot].line->name[k], k), "", true);
+                  colour_in(shots[shot].line, k), "", true);
     fputs(text_if(shots[shot].others_count > 0, "</g>\n"), v->out);
   }
   for (int shot = count - 1; shot >= 0; shot--)
     for (int k = shots[shot].line->count - 1; k >= 0; k--) {
       const shot_line *line = shots[shot].line;
       const bool is_dashed = count > 1 && k != line->cue.ball;
-      draw_path(v, line, shots[shot].shot, k,
-                count > 1 ? shot_colour(shot) : colour_of(line->name[k], k),
+      draw_path(v, line, shots[shot].shot, k, count > 1 ? shot_colour(shot) : colour_in(line, k),
                 text_if(is_dashed, DASHES), false);
     }
 }

@@ -113,7 +113,7 @@ export function drawBall(g, view, { name, radius: R }, k, { r, q }, alpha, ring)
   const at = view.place(r[0], r[1]);
   // One that flies looks larger, one that falls in a pocket smaller.
   const radius = Math.max(R * view.scale * (1 + (r[2] > R ? 1 : 3) * (r[2] - R)), 3);
-  const colour = colourOf(name, k);
+  const colour = colourOf(name, k, R);
   const number = Number(name);
   const axes = axesOf(q);
   g.globalAlpha = alpha;

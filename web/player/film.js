@@ -39,7 +39,7 @@ export function drawTrails(g, view, { balls, shots, apart = false }) {
   g.lineCap = "round";
   for (const [index, { paths }] of shots.entries())
     for (const { ball, xyz } of paths) {
-      const colour = colourOf(balls[ball].name, ball);
+      const colour = colourOf(balls[ball].name, ball, balls[ball].radius);
       g.strokeStyle = apart ? SHOTS[index % 8] : (BRIGHT[colour] ?? colour);
       g.setLineDash(apart && colour !== IVORY ? [7, 4] : []);
       g.globalAlpha = 0.8;

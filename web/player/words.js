@@ -64,8 +64,15 @@ const NAMED = {
   red: POOL[2],
 };
 
-/** The colour of a ball, by its name. @param {string} name @param {number} k */
-export function colourOf(name, k) {
+/** Balls of this radius, m, and larger are those of pyramid: white ones and a yellow cue ball. */
+const PYRAMID = 0.0335;
+
+/**
+ * The colour of a ball, by its name, and of pyramid's balls by their radius, m. @param {string} name
+ * @param {number} k @param {number} radius
+ */
+export function colourOf(name, k, radius) {
+  if (radius >= PYRAMID) return k === 0 ? POOL[0] : IVORY;
   return NAMED[name.split(" ")[0]] ?? (k === 0 ? IVORY : POOL[((Number(name) || k) - 1) % 8]);
 }
 

@@ -36,11 +36,11 @@ function bestOf(play: Play, who: 0 | 1): string {
 }
 
 /** The ball that the game ended with, as an emblem; `isWon` puts a wreath of light around it. */
-function emblem({ last, names, winner }: Play, isWon: boolean): HTMLElement {
+function emblem({ last, names, balls, winner }: Play, isWon: boolean): HTMLElement {
   const fallen = last?.shot?.events.filter(({ type }) => type === "ball_pocket") ?? [];
   const ball = winner === last?.who ? (fallen.at(-1)?.a ?? last?.cue.ball ?? 0) : 0;
   const name = names[ball] ?? "";
-  const colour = colourOf(name, ball);
+  const colour = colourOf(name, ball, balls[ball]?.kind.radius ?? 0);
   const root = el("div", { class: "emblem", "aria-hidden": "true" });
   root.classList.toggle("won", isWon);
   const number = Number(name) > 0 ? name : "";

@@ -16,6 +16,8 @@ const TAP = 8;
 /** How far a finger may be off, and the radius of the magnifier, CSS pixels. */
 const OFF = 3;
 const LENS = 50;
+/** The radius of the balls that may lie there, m. */
+const POOL_BALL = 0.028575;
 
 export interface Host {
   /** Names of the balls that may lie there, and the size of their table, m. */
@@ -171,7 +173,7 @@ function ballAt(p: Photo, at: Pixel): number[] {
   }
   const candidates = suggest(
     discOf(p.pixels!, at, radiusAt(cameraOn(p)!, at)),
-    names.slice(1, 9).map((name, k) => colourOf(name, k + 1)),
+    names.slice(1, 9).map((name, k) => colourOf(name, k + 1, POOL_BALL)),
   );
   const left = candidates.filter((one) => free.includes(one));
   // Stripe for solid, else the next that is free.

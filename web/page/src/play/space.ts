@@ -59,7 +59,7 @@ export class Space implements SpaceView {
     const balls = play.balls.map(({ kind }, k) => ({
       name: play.names[k]!,
       radius: kind.radius,
-      colour: colourOf(play.names[k]!, k),
+      colour: colourOf(play.names[k]!, k, kind.radius),
     }));
     const scene = new this.#module!.Scene({
       table: play.table,
