@@ -278,7 +278,8 @@ static void tell(FILE *out, const breaker *b, const shot_line *line, double gap,
           100.0 * share(c->scratch, c), 100.0 * share(c->off, c));
   fprintf(out, "  wing balls    one falls in %.1f %%\n", 100.0 * share(c->wing, c));
   if (c->stay > 0)
-    fprintf(out, "  cue ball ends about x = %.2f, y = %.2f m, %.2f m around it\n", x, y, far);
+    fprintf(out, "  cue ball      rests about x = %.2f, y = %.2f m, give or take %.2f m\n", x, y,
+            far);
   if (b->job->falls)
     tell_falls(out, line, c);
   else

@@ -212,9 +212,9 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   (void)s;
   fprintf(out,
           "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s%s (%.4g rad/s), "
-          "side spin %.4g rad/s.\n",
+          "%s.\n",
           scale, c->given[CUT]->x, c->given[SPIN]->name, share_of_rolling(c->given[SPIN]),
-          in->a.w[1], in->a.w[2]);
+          in->a.w[1], english_text(in->a.w[2], text));
   fprintf(out, "Friction between the balls %.4f, with the cloth %.4g, restitution %.4g.\n",
           in->mu_ball, in->a.mu_cloth, in->restitution);
   /* The object ball, the cue ball, both together. */
@@ -226,11 +226,11 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   else
     fprintf(out, "              throw:       %.2f degrees to the %s of the line of centres\n",
             fabs(d.throw_deg), left_or_right(d.throw_deg));
-  tell_spin(out, after->b.w);
+  tell_spin(out, after->b.v, after->b.w);
   fprintf(out, "cue ball      at once:     %s\n", velocity_text(after->a.v, scale, text));
   fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_1, scale, text));
   tell_distance(out, distance_of(&in->a, &after->a, c->given[ROLL]->x));
-  tell_spin(out, after->a.w);
+  tell_spin(out, after->a.v, after->a.w);
   if (isfinite(d.energy_lost))
     fprintf(out, "energy        lost:        %.2f %% of %.4g J\n", 100.0 * d.energy_lost, energy);
   else

@@ -242,15 +242,17 @@ static void tell_cloth(FILE *out, const double v[2], const double d[MOST_DERIVED
   const double longer = fabs(d[2]) - fabs(d[1]);
   if (isnan(longer) || fmax(fabs(along), fabs(into)) < 0.0005)
     return;
-  const char *to = "off";
-  if (into > 0.0)
-    to = "into";
-  fprintf(out, "              by spin:     of it %.3f m/s %s the cushion, %.3f m/s to the %s; ",
-          fabs(into), to, fabs(along), left_or_right(-along));
+  fputs("              by spin:     until it rolls the path ", out);
   if (d[1] * d[2] < 0.0)
-    fputs("across the normal\n", out);
+    fputs("bends across the normal", out);
+  else if (fabs(longer) < 0.005)
+    fputs("stays straight", out);
   else
-    fprintf(out, "%.2f degrees %s than at once\n", fabs(longer), longer_or_shorter(longer));
+    fprintf(out, "bends %.2f degrees %s", fabs(longer), longer_or_shorter(longer));
+  fprintf(out, ": %.3f m/s %s the cushion", fabs(into), into > 0.0 ? "towards" : "away from");
+  if (fabs(along) >= 0.0005)
+    fprintf(out, ", %.3f m/s to the %s", fabs(along), left_or_right(-along));
+  fputc('\n', out);
 }
 
 /* How much longer or shorter the rebound is than that of the same ball without side spin. */
@@ -273,9 +275,10 @@ static void tell_english(FILE *out, const one_case *c, const double d[MOST_DERIV
   const bool topspin =
       rolling > 0.0 && d[4] - 5.0 / 7.0 * c->result[1] > plain[4] - 5.0 / 7.0 * none.result[1];
   fprintf(out,
-          "              by english:  %.2f degrees %s than without at once, %.2f %s rolling%s\n",
+          "              by english:  %.2f degrees %s than without it at once, %.2f %s once "
+          "rolling%s\n",
           fabs(once), longer_or_shorter(once), fabs(rolling), longer_or_shorter(rolling),
-          text_if(topspin, ", by more topspin that is left"));
+          text_if(topspin, ", as it keeps more topspin"));
 }
 
 /* Whether the ball sticks to the nose, contact 0, or the cloth, contact 1. */
@@ -319,9 +322,10 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   fprintf(
       out,
       "A ball at %.4g m/s meets a cushion: %.4g degrees from its normal, spin %s%s (%.4g rad/s), "
-      "side spin %.4g rad/s.\n",
+      "%s.\n",
       hypot(in->v[0], in->v[1]), c->given[ANGLE]->x, c->given[SPIN]->name,
-      share_of_rolling(c->given[SPIN]), hypot(in->w[0], in->w[1]), in->w[2]);
+      share_of_rolling(c->given[SPIN]), copysign(hypot(in->w[0], in->w[1]), c->given[SPIN]->x),
+      english_text(in->w[2], text));
   fprintf(out, "Friction with the cushion %.4g, with the cloth %.4g, restitution %.4g; model %s.\n",
           in->mu_cushion, in->mu_cloth, in->restitution, cushion_kind.name(&c->asked));
   if (!knows_speed(&c->asked.rail))
@@ -331,7 +335,7 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   fprintf(out, "              rolling:     %s\n", rebound_text(d[2], d + 3, text));
   tell_cloth(out, v, d);
   tell_english(out, c, d);
-  tell_spin(out, v + 3);
+  tell_spin(out, v, v + 3);
   tell_sticking(out, c);
   fprintf(out, "energy        lost:        %.2f %%\n", 100.0 * d[5]);
 }

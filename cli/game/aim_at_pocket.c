@@ -134,12 +134,13 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
     char margin[80] = "the ball touches a jaw", raise[96] = "";
     say_way(l, &pot, by);
     if (pot.margin > 0.0)
-      snprintf(margin, sizeof margin, "the ball's way may turn by %.2f degrees to either jaw",
-               pot.margin);
+      snprintf(margin, sizeof margin, "the ball has %.2f degrees to either jaw", pot.margin);
     if (cue->theta < pot.elevation)
-      snprintf(raise, sizeof raise,
-               "stick  meets a cushion or a ball: this needs %.1f degrees, --elevation least\n",
-               pot.elevation);
+      snprintf(
+          raise, sizeof raise,
+          "butt   a level cue meets a cushion or a ball: raise it by %.1f degrees, or --elevation "
+          "least\n",
+          pot.elevation);
     good =
         snprintf(
             report, AIMED_TEXT,

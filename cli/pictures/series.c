@@ -128,14 +128,25 @@ const char *velocity_text(const double v[2], double scale, char text[64]) {
   return text;
 }
 
-void tell_spin(FILE *out, const double w[3]) {
-  const double level = hypot(w[0], w[1]), upright = fabs(w[2]) < 0.005 ? 0.0 : w[2]; /* not -0.00 */
-  const char *line = "              spin after:  %.2f rad/s about the vertical, %.2f rad/s about a "
-                     "horizontal axis\n";
-  if (fmax(fabs(w[2]), level) >= 1e9)
-    line = "              spin after:  %.4g rad/s about the vertical, %.4g rad/s about a "
-           "horizontal axis\n";
-  fprintf(out, line, upright, level);
+/* Spins below this are none in words, rad/s. */
+static const double least_told = 0.005;
+
+const char *english_text(double w_z, char text[64]) {
+  snprintf(text, 64, "no english");
+  if (fabs(w_z) >= least_told)
+    snprintf(text, 64, "%.4g rad/s of %s english", fabs(w_z), left_or_right(-w_z));
+  return text;
+}
+
+void tell_spin(FILE *out, const double v[2], const double w[3]) {
+  const double level = hypot(w[0], w[1]);
+  char side[64], roll[64] = "no follow or draw";
+
+  /* a ball that rolls along v turns about (-v_y, v_x) */
+  const double forward = v[0] * w[1] - v[1] * w[0];
+  if (level >= least_told)
+    snprintf(roll, sizeof roll, "%.4g rad/s of %s", level, forward < 0.0 ? "draw" : "follow");
+  fprintf(out, "              spin after:  %s, %s\n", english_text(w[2], side), roll);
 }
 
 /* ---- Tables */

@@ -71,7 +71,10 @@ int series_command(series *s, const command_form *form, int argc, char **argv, i
  * is at rest. */
 const char *velocity_text(const double v[2], double scale, char text[64]);
 
-/* A line about a ball's spin after an impact, rad/s. */
-void tell_spin(FILE *out, const double w[3]);
+/* "2.1 rad/s of right english", or "no english", of a spin about the vertical. */
+const char *english_text(double w_z, char text[64]);
+
+/* A line about a ball's spin after an impact, of a ball that moves along v. */
+void tell_spin(FILE *out, const double v[2], const double w[3]);
 
 #endif

@@ -10,6 +10,7 @@
 #include "rows/number.h"
 #include "rows/quantities.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -571,7 +572,7 @@ static void tell_ball(FILE *out, const shot_line *line, const carom_shot *shot, 
 static void tell_push(FILE *out, const shot_line *line, const carom_facts *facts) {
   for (int k = 0; k < line->count; k++)
     if ((facts->pushed & facts->frozen) >> k & 1)
-      fprintf(out, "frozen to ball %s: pushed, both go\n", line->name[k]);
+      fprintf(out, "the cue ball is frozen to ball %s and pushes it\n", line->name[k]);
     else if (facts->pushed >> k & 1)
       fprintf(out, "a double hit: ball %s is met while the tip is on the cue ball\n",
               line->name[k]);
@@ -601,8 +602,14 @@ void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const s
                bool shortly) {
   const carom_cue *cue = &line->cue;
   const double *v = shot->events[0].after[0].v;
-  fprintf(out, "%s table, cue at %.4g m/s, ball %s at %.4g m/s, aim %.2f degrees", line->table->id,
-          cue->speed, line->name[cue->ball], hypot(v[0], v[1]), cue->phi);
+  const char *struck = line->name[cue->ball], *number = "";
+  if (strcmp(struck, "cue") == 0) {
+    struck = "cue ball";
+  } else if (isdigit((unsigned char)struck[0])) {
+    number = "ball ";
+  }
+  fprintf(out, "%s table, cue at %.4g m/s, %s%s at %.4g m/s, aim %.2f degrees", line->table->id,
+          cue->speed, number, struck, hypot(v[0], v[1]), cue->phi);
   if (cue->theta != 0.0)
     fprintf(out, ", cue raised by %.4g degrees", cue->theta);
   if (cue->a == 0.0 && cue->b == 0.0)

@@ -13,7 +13,7 @@ def table(*words):
 speeds = {}
 for word in "soft slow medium fast power break".split():
     for tip in ("0,0", "0.3,-0.2"):
-        [said] = re.findall(r"ball cue at ([\d.]+) m/s", run("shoot", "--speed", word, "--tip", tip))
+        [said] = re.findall(r"cue ball at ([\d.]+) m/s", run("shoot", "--speed", word, "--tip", tip))
         assert speeds.setdefault(word, said) == said, (word, tip)
     # The page of the ranges has m/s of mph: soft to 1, slow to 2, medium to 4, fast to 7, power to 10, a break from 25 to 30.
 print({word: round(float(speed) / 0.44704, 2) for word, speed in speeds.items()})
@@ -30,7 +30,7 @@ print("at a rail:", rail(50, "running") == rail(50, "right") == -rail(-50, "runn
 # What the line of english says is the difference of two impacts.
 for model in ("han", "mathavan"):
     for angle, side in ((60, "reverse"), (-60, "reverse"), (30, "running"), (45, "20%")):
-        once, longer, rolling, more = re.search(r"by english:  ([\d.]+) degrees (\w+) than without at once, ([\d.]+) (\w+) rolling", run("rail", "--model", model, "--angle", angle, "--side", side)).groups()
+        once, longer, rolling, more = re.search(r"by english:  ([\d.]+) degrees (\w+) than without it at once, ([\d.]+) (\w+) once rolling", run("rail", "--model", model, "--angle", angle, "--side", side)).groups()
         for name, size, way in (("rebound", once, longer), ("rolling-rebound", rolling, more)):
             at = lambda side: abs(float(table("rail", "--model", model, "--angle", angle, "--side", side, "--quantity", name)[0][0]))
             assert abs(at(side) - at("none") - float(size) * (1 if way == "longer" else -1)) < 0.006, (model, angle, side, name)
@@ -82,9 +82,9 @@ try carom shoot --cue 2d,4d --balls foot-spot --pocket 1:foot-left --speed slow,
 echo "--- lengths in diamonds, a quantity of a list"
 carom shoot --cue 2d,2d --balls 3d,4d --pocket 1:foot-right --leave head-left,1d | grep leave
 carom hit --cut half --side inside,outside --quantity throw --csv | awk -F, 'NR == 1 { print; next } { printf "%s %.9f\n", $1, $2 }'
-echo "--- the stick over a cushion and a ball"
+echo "--- the cue over a cushion and a ball"
 for elevation in 0 least 20; do
-  carom shoot --cue 0.62,0.03 --balls 0.4,2.2 --pocket 1:foot-left --speed 3 --elevation $elevation | grep -E '^(9ft|stick)'
+  carom shoot --cue 0.62,0.03 --balls 0.4,2.2 --pocket 1:foot-left --speed 3 --elevation $elevation | grep -E '^(9ft|butt)'
 done
 try carom shoot --cue 0.62,1.6 --balls 0.4,2.2:0.6391,1.546 --pocket 1:foot-left --speed 3 --tip 0,-0.5 --elevation least
 try carom shoot --cue 0.62,1.6 --balls 0.4,2.2:0.63,1.56:0.63,1.56 --pocket 1:foot-left --speed 3 --elevation least

@@ -37,7 +37,7 @@ for tip in ("0,0", "0.4,0.1", "-0.3,-0.4", "-1tip,0.5tip"):
     [(given, played)] = shots(*balls, "--ball-speed", "7mph", "--tip", tip)
     assert abs(math.hypot(*next(event for event in played["events"] if event[1] == "stick_ball")[4][0][4:6]) - 7 * 0.44704) < 1e-12
 # A tip of phenolic resin gives the ball more speed than one of leather, the default, and one without loss more still: in proportion to 1 + e.
-speeds = [float(run("--cue", "0.6,0.8", "--speed", 3, *more).split("ball cue at ")[1].split()[0]) for more in ((), ("--tip-restitution", 0.85), ("--tip-restitution", 1))]
+speeds = [float(run("--cue", "0.6,0.8", "--speed", 3, *more).split("cue ball at ")[1].split()[0]) for more in ((), ("--tip-restitution", 0.85), ("--tip-restitution", 1))]
 print("tips:", [round(speed * 1.73 / speeds[0], 2) for speed in speeds])
 # What is not said is what carom_cue_of() says: docs/using/shots.md.
 [(given, _)] = shots("--cue", "0.6,0.8")
@@ -142,7 +142,7 @@ for places, ball, pocket, words in (
     assert by == (["cue"] if kick else ([] if via[:1] == ["1"] else ["cue"]) + via), (by, via)
     assert not kick or next(rail_names[event[2][1]] for event in played["events"] if event[1] == "ball_linear_cushion") == via[0]
     said = run(*asked)
-    cut, side, margin, low, high, least, most = re.search(r"cut ([\d.]+) degrees to the (\w+); the ball's way may turn by ([\d.]+) degrees.*?aims of ([\d.]+) to ([\d.]+) degrees.*?with ([\d.]+) to ([\d.]+) m/s", said, re.S).groups()
+    cut, side, margin, low, high, least, most = re.search(r"cut ([\d.]+) degrees to the (\w+); the ball has ([\d.]+) degrees.*?aims of ([\d.]+) to ([\d.]+) degrees.*?with ([\d.]+) to ([\d.]+) m/s", said, re.S).groups()
     a, b = next(event for event in played["events"] if event[1] == "ball_ball")[3]
     turn = a[4] * (b[2] - a[2]) - a[5] * (b[1] - a[1])
     assert 0.3 < float(margin) and any(abs(float(told) - float(cut)) < 0.11 for told in re.findall(r"at a cut of ([\d.]+)", said)) and (turn > 0) == (side == "left"), (said, turn)

@@ -87,10 +87,14 @@ def said(row, after, spin, cut):
     at_first = energy(f, *names(1))
     lost = 1 - energy(b, *names(1), *names(2)) / at_first
     throw = turned(degrees(f["r2x"], f["r2y"]), degrees(b["v2x"], b["v2y"]))
-    spins = lambda ball: f"{b[f'w{ball}z'] if abs(b[f'w{ball}z']) >= 0.005 else 0:.2f} rad/s about the vertical, {math.hypot(b[f'w{ball}x'], b[f'w{ball}y']):.2f} rad/s about a horizontal axis"
+    english = lambda w: f"{abs(w):.4g} rad/s of {'left' if w < 0 else 'right'} english" if abs(w) >= 0.005 else "no english"
+    level = lambda ball: math.hypot(b[f"w{ball}x"], b[f"w{ball}y"])
+    forward = lambda ball: b[f"v{ball}x"] * b[f"w{ball}y"] - b[f"v{ball}y"] * b[f"w{ball}x"]
+    roll = lambda ball: f"{level(ball):.4g} rad/s of {'draw' if forward(ball) < 0 else 'follow'}" if level(ball) >= 0.005 else "no follow or draw"
+    spins = lambda ball: f"{english(b[f'w{ball}z'])}, {roll(ball)}"
     side = "left" if throw > 0 else "right"
     return [
-        f"A cue ball at {v:.4g} m/s meets a ball at rest: cut {cut:.4g} degrees, spin {spin + ' of rolling' * ('%' in spin)} ({f['w1y']:.4g} rad/s), side spin {f['w1z']:.4g} rad/s.",
+        f"A cue ball at {v:.4g} m/s meets a ball at rest: cut {cut:.4g} degrees, spin {spin + ' of rolling' * ('%' in spin)} ({f['w1y']:.4g} rad/s), {english(f['w1z'])}.",
         f"Friction between the balls {f['u_b']:.4f}, with the cloth {f['u_s1']:.4g}, restitution {f['e_b']:.4g}.",
         "object ball   at once:     " + velocity(b["v2x"], b["v2y"], v),
         "              rolling:     " + velocity(b["roll2x"], b["roll2y"], v),

@@ -22,7 +22,7 @@ for cue in 1d,2d 2d,2d; do ask 14 'make a ball' break --rules nineball --cue $cu
 ask 15 'foot-right|^  1 ' break --rack 9-ball --speed 20mph --racks 100 --falls
 ask 16 'make|most' break --rules 9ball --nine-on-spot --speed 22mph --racks 100
 ask 17 'make|fouls' break --rules 9-ball --speed 12mph --cue 1d,2d --cut 10 --racks 100
-for table in 7ft 9ft; do ask 18 'may turn' shoot --table $table,corner=4.25in --cue 1d,2d --balls 2d,5d --pocket 1:foot-right; done
+for table in 7ft 9ft; do ask 18 'either jaw' shoot --table $table,corner=4.25in --cue 1d,2d --balls 2d,5d --pocket 1:foot-right; done
 ask 19 'foot-right, pot|side' ways --cue 2d,1d --balls 2d,6d:3.5d,5d --rails 0 --player 500
 ask 20 pot ways --cue 2d,2d --balls 1d,6d:3d,5d:2d,7d --rails 0 --player 600
 ask 21 '^1|chances|potting' plan --cue 2d,2d --balls 1=1d,6d:9=3d,5d --shots 300
