@@ -137,6 +137,18 @@ static const learned learned_of[] = {
          .width = 1.778,
          .stretch = 1.0,
          .edge = 1.0},
+    [CAROM_RULES_BANK] =
+        {/* of 16870 strokes: carom-lab learn --rules bank --racks 12288 --shots 200 --seed 0 */
+         /* log-likelihood of a stroke -0.5355; of one number for all, -0.6068 */
+         .next = {-2.034, -0.732, 0.211, 0.999, -0.070, -0.137, 0.889},
+         /* log-likelihood of a stroke -0.6286; of one number for all, -0.6621 */
+         .later = {-1.047, -0.721, 0.019, 0.005},
+         /* log-likelihood of a stroke -0.4736; of one number for all, -0.5398 */
+         .first = {-1.255, -0.903, 0.168},
+         .mean = 0.433,
+         .width = 1.27,
+         .stretch = 1.0,
+         .edge = 1.0},
 };
 
 #endif

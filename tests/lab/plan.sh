@@ -14,7 +14,7 @@ for rules in eightball nineball; do lab plan --rules $rules --left 2 --run-out -
 echo "--- games of points"
 lab plan --rules straight --target 8 --racks 1 --shots 100 | numbers | cut -d' ' -f1-33
 for game in $(sed -n 's/.*--rules \([a-z]*\) --racks.*/\1/p' "$DATA/../plan/src/games.h" | sort -u); do
-  case $game in *ball | straight) ;; *) lab plan --rules "$game" --racks 1 --shots 100 | grep -c "points in" ;; esac
+  case $game in *ball | straight) ;; *) lab plan --rules "$game" --games --racks 1 --shots 100 | grep -c "points in" ;; esac
 done
 echo "--- nor the rows that are fitted, whose form is that of the library's"
 lab learn --racks 40 --shots 100 > one.h
