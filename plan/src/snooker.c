@@ -303,11 +303,23 @@ static bool is_snookered(const carom_table *table, const carom_shot_ball *balls,
   return true;
 }
 
+/* Colours come back: first those whose own spots are free, then the others, the highest first. */
+static void put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set) {
+  for (int k = YELLOW; k <= BLACK; k++) {
+    double own[2];
+    carom_spot_of(CAROM_RACK_SNOOKER, table, k, own);
+    if ((set >> k & 1) &&
+        carom_place_ball(table, balls, count, k, own[0], own[1], NULL) == CAROM_OK)
+      set &= ~carom_only(k);
+  }
+  for (int k = BLACK; k >= YELLOW; k--)
+    if (set >> k & 1)
+      carom_spot_ball_of(CAROM_RACK_SNOOKER, table, balls, count, k);
+}
+
 static void settle(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
                    int count, carom_turn *turn) {
-  for (int k = (int)carom_min(count - 1, BLACK); k >= YELLOW; k--)
-    if (turn->spot >> k & 1)
-      carom_spot_ball_of(CAROM_RACK_SNOOKER, table, balls, count, k);
+  put_back(table, balls, count, turn->spot);
   if (turn->outcome != CAROM_TURN_PASS)
     return;
 

@@ -154,6 +154,15 @@ TEST(snooker_spots) {
   ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
   ck_assert(is_at(BLACK, spot[BLACK][0], spot[BLACK][1]) &&
             is_at(YELLOW, spot[PINK][0], spot[PINK][1]));
+
+  /* one whose own spot is free keeps it from a higher one whose own is taken */
+  lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, 1 | R1 | R2);
+  put(1, spot[BLACK][0], spot[BLACK][1]);
+  put(2, spot[PINK][0], spot[PINK][1]);
+  turn.spot = BL | BK;
+  ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
+  ck_assert(is_at(BLUE, spot[BLUE][0], spot[BLUE][1]) &&
+            is_at(BLACK, spot[BROWN][0], spot[BROWN][1]));
   ck_assert_int_eq(carom_spot_of(CAROM_RACK_SNOOKER, &table, 22, spot[0]), CAROM_ERROR_RACK);
   ck_assert_int_eq(carom_spot_of(CAROM_RACK_NINEBALL, &table, -1, spot[0]), CAROM_ERROR_RACK);
   ck_assert_int_eq(carom_spot_of(CAROM_RACK_NINEBALL, NULL, 1, spot[0]), CAROM_ERROR_NULL);
