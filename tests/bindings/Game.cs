@@ -309,6 +309,7 @@ static class Program {
         Must(wrong.Status == Status.ErrorAct && wrong.Message.Contains("0.635"), wrong.Message);
       }
       game.Place(best.place[0], best.place[1]);
+      Must(game.Position(of.Cue, 600).Leave == Leave.Kitchen, "where the cue ball was placed");
       bool ended = game.Stroke(best.cue, new ShotOptions { timeMost = 0.2 });
       Must(!ended && game.Last.Time == 0.2, "a shot that is stopped");
       Must(game.GoOn() && game.Last.Events.Length > 20 && game.Words != "", "a shot that goes on");

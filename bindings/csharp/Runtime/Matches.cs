@@ -121,6 +121,7 @@ namespace Carom {
       var balls = Billiards.Copy((ShotBall *)&match->record.balls, match->record.count);
       var of = new Position(match->record.table, balls, cue, match->rules, rating);
       of.Shot = match->record.options;
+      of.Leave = (Leave)match->leave;
       if (match->phase == (int)MatchPhase.Place)
         of.Bounds = match->bounds;
       return of;

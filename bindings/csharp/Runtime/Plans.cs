@@ -215,6 +215,9 @@ namespace Carom {
     /// be put after a foul, if a plan is made in hand. After a scratch on the break of eight-ball
     /// give those of the ruling, because the rules do not know of the stroke before.</summary>
     public HandBounds? Bounds;
+    /// <summary>Within which bounds the cue ball was placed for this stroke: from behind the head
+    /// string it may not first meet balls that lie there too.</summary>
+    public Leave Leave;
 
     /// <summary>Of two players of the same Fargo rating, 200 to 850. They play as rated where the
     /// shots of the options are 0.</summary>
@@ -300,6 +303,7 @@ namespace Carom {
         player = &parts->player,       rules = &parts->rules,
         shot = &parts->shot,           options = &parts->options,
         memory = (byte *)parts + room, memorySize = memory,
+        leave = (long)of.Leave,
       };
     }
 

@@ -163,6 +163,7 @@ impl Match {
         let cue = Cue { ball, ..*cue };
         let mut made = Position::new(&of.table, balls, &cue, &self.of.rules, rating);
         made.shot = of.options;
+        made.leave = self.of.leave.try_into().unwrap_or(Leave::After);
         made.bounds = (self.phase() == MatchPhase::Place).then_some(self.of.bounds);
         made
     }
@@ -293,6 +294,7 @@ mod tests {
         };
         let of = game.position(&cue, 600.0);
         assert!(of.plan(1, false)?[0].place[1] <= table.length / 4.0);
+        assert_eq!(of.leave, Leave::Kitchen);
         let stop = Options {
             time_most: 0.2,
             ..Options::default()
@@ -316,6 +318,17 @@ mod tests {
             of.options.shots = 100;
             assert!(of.plan(1, true)?[0].place[1] <= table.length / 4.0);
         }
+
+        // a ball in the jaws behind the head string, from where it may not be met
+        let mut balls = crate::rack(RackKind::Eightball, &table, 1e-4, 1)?;
+        balls[0].state.r[1] = 0.3;
+        balls[1].state.r[..2].copy_from_slice(&[0.06, 0.06]);
+        let rules = crate::built_in_rules(RulesKind::Straight);
+        let mut of = Position::new(&table, &balls, &cue, &rules, 600.0);
+        of.options.shots = 300;
+        assert_eq!(of.plan(1, false)?[0].ball, 1);
+        of.leave = Leave::Kitchen;
+        assert_ne!(of.plan(1, false)?[0].ball, 1);
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Plans: which stroke to play, by built-in rules or by those of the caller.
 use crate::{
-    check, count_of, sys, text, BallState, Bounds, Call, Choice, Cue, Error, Facts, Options,
+    check, count_of, sys, text, BallState, Bounds, Call, Choice, Cue, Error, Facts, Leave, Options,
     PlanOptions, Player, RackKind, Rules, RulesKind, RulesState, Ruling, ShotBall, Status, Table,
     Turn,
 };
@@ -237,6 +237,9 @@ pub struct Position {
     /// after a foul, if a plan is made in hand. After a scratch on the break of eight-ball give
     /// those of the ruling, because the rules do not know of the stroke before.
     pub bounds: Option<Bounds>,
+    /// Within which bounds the cue ball was placed for this stroke: from behind the head string it
+    /// may not first meet balls that lie there too.
+    pub leave: Leave,
 }
 
 impl Position {
@@ -252,6 +255,7 @@ impl Position {
             shot: Options::default(),
             options: PlanOptions::default(),
             bounds: None,
+            leave: Leave::After,
         }
     }
 
@@ -335,6 +339,7 @@ impl Position {
             options,
             memory: memory.as_mut_ptr().cast(),
             memory_size: memory.len() * 8,
+            leave: i64::from(i32::from(self.leave)),
             ..Default::default()
         }
     }
