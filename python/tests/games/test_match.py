@@ -49,6 +49,19 @@ def test_a_shot_in_parts_is_ruled_at_its_end():
     assert match.winner == 1 and carom.Match.load(match.end().splitlines()).winner == 1
 
 
+def test_a_match_with_equal_innings_is_drawn():
+    table, perfect = carom.tables.threecushion(), carom.player(0)
+    match = carom.Match("straightrail", table, seed=1, state={"target": 1, "innings": 1})
+    match.take(match.plan(shots=100, player=perfect)[0])
+    assert match.phase == "stroke" and match.player == 1 and match.state["innings"] == 3
+    assert not match.drawn and match.text == "the other has the equalizing inning"
+    match.take(match.plan(shots=100, player=perfect)[0])
+    assert match.phase == "over" and match.drawn and match.winner is None
+    assert match.ruling.turn == "draw" and carom.Match.load(match.end().splitlines()).drawn
+    with pytest.raises(ValueError, match="innings: by the rules fourball it must be 0"):
+        carom.Match("fourball", carom.tables.fourball(), state={"innings": 1})
+
+
 def test_a_file_that_was_cut_off_behind_a_shot_goes_on():
     match = begun(player=1)
     match.place(0.6, 0.6)

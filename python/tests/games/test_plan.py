@@ -584,7 +584,7 @@ def test_a_plan_is_stopped():
         (
             "judge",
             carom.Turn("passes"),
-            "Turn.turn: must be one of 'keep', 'pass', 'win', 'lose', not 'passes'",
+            "Turn.turn: must be one of 'keep', 'pass', 'win', 'lose', 'draw', not 'passes'",
         ),
         (
             "judge",

@@ -99,6 +99,7 @@ export function writeStruct(
   refuseUnknownOf(struct, from, name);
   const { f64, i64, i32 } = memory;
   for (const { key, begin, size, type } of FIELDS[struct]) {
+    if (key === "unused") continue; // it stays 0
     const given =
       (from as Record<string, unknown>)[key] ??
       (defaults as Record<string, unknown> | undefined)?.[key];

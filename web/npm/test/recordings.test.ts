@@ -114,6 +114,21 @@ test.each(builds)("a match refuses, rules and is judged again, by $name", ({ car
   if (thereIsACommand) expect(run(["verify", "-"], match.end())).toContain("player 2 has won");
 });
 
+test.each(builds)("a match with equal innings is drawn, by $name", ({ carom }) => {
+  const table = carom.table("threecushion");
+  const game = { rules: "straightrail", target: 1, innings: 1 } as const;
+  const match = carom.match(game, table, { seed: 1 });
+  const player = carom.player({ errors: 0 });
+  const play = (): void => match.take(match.plan({ shots: 100, player })[0]!);
+  play();
+  expect([match.phase, match.player, match.game.innings]).toEqual(["stroke", 1, 3]);
+  expect([match.drawn, match.winner]).toEqual([false, undefined]);
+  play();
+  expect([match.phase, match.drawn, match.winner]).toEqual(["over", true, undefined]);
+  expect(match.ruling?.turn).toBe("draw");
+  if (thereIsACommand) expect(run(["verify", "-"], match.end())).toContain("the match is drawn");
+});
+
 test.each(builds)("in pyramid a plan strikes the ball that wins most, by $name", ({ carom }) => {
   const table = carom.table("pyramid");
   const rack = carom.rack("pyramid", table);

@@ -176,6 +176,52 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
     await one.close();
   });
 
+  test("the menu begins a game with equal innings, where the game knows them", async () => {
+    const one = await open("");
+    await one.locator("#new-game").click();
+    await one.locator("#new-against").selectOption("person");
+    await one.locator("#new-which").selectOption("nineball");
+    expect(await one.locator("#new-equal").isVisible()).toBe(false);
+    await one.locator("#new-which").selectOption("straightrail");
+    await one.locator("#new-equal").check();
+    await one.locator("#rate").selectOption("1000");
+    await one.locator("#start").click();
+    await shoot(one, 3);
+    const { open: id, games } = await keptGames(one);
+    const { lines } = JSON.parse(games[id]!) as { lines: string[] };
+    expect(lines.filter((line) => line.startsWith('{"game"')).at(0)).toContain('"innings":1');
+    await one.close();
+  });
+
+  test.runIf(thereIsACommand)("an equalizing inning is told, and a drawn game", async () => {
+    const rules = "match --rules straightrail --target 1 --equal-innings".split(" ");
+    const players = "--fargo 800,800 --shots 100 --seed 6".split(" ");
+    const lines = run([...rules, ...players], "")
+      .trim()
+      .split("\n");
+    const isGame = (line: string): boolean => line.startsWith('{"game"');
+    expect(lines.filter(isGame).at(-1)).toContain('"winner":3');
+    const before = lines.slice(
+      0,
+      lines.findLastIndex((line) => line.startsWith('{"shot"')),
+    );
+    const one = await open("");
+    const give = (given: readonly string[]): Promise<void> =>
+      one.locator("#open-game").setInputFiles({
+        name: "game.jsonl",
+        mimeType: "application/jsonl",
+        buffer: Buffer.from(given.join("\n")),
+      });
+    await give(before);
+    await expect.poll(() => text(one, "turn")).toBe("Player 2's turn, equalizing inning.");
+    await give(lines);
+    await expect.poll(() => text(one, "turn")).toBe("The game is drawn: the score is 1 : 1.");
+    await expect.poll(() => one.locator("#end").isVisible()).toBe(true);
+    expect(await one.locator("#end h2").textContent()).toBe("The game is drawn");
+    expect(await one.locator("#rack-up").isVisible()).toBe(true);
+    await one.close();
+  });
+
   test("a log of drills alone states neither a cost nor an aim that nobody measured", async () => {
     const one = await open("");
     await one.locator("#new-game").click();

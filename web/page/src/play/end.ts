@@ -78,11 +78,13 @@ export function endView(s: Session, again: () => void, list: () => void): EndVie
   const hide = (): void => void (root.hidden = true);
   function show(): void {
     const { play, seat } = s;
-    const winner = play.winner!;
+    // Of a drawn game the last stroke drew level.
+    const winner = play.winner ?? play.last!.who;
     const name = nameOf(play, winner, seat);
     const isShared = play.setup.against === "person";
-    const isWon = isShared || winner === seat;
-    const title = texts.hasWon(name, name === texts.you, "").replace(/\.$/, "");
+    const isWon = !play.isDrawn && (isShared || winner === seat);
+    const ends = play.isDrawn ? texts.isDrawn("") : texts.hasWon(name, name === texts.you, "");
+    const title = ends.replace(/\.$/, "");
     const racks = racksOf(play);
     const race =
       play.setup.race !== undefined && isRaceOver(play)

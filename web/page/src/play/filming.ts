@@ -117,7 +117,7 @@ function showButtons(s: Session): void {
   const mayAim = free(s);
   const mayPush = play.may.includes("push");
   const isFreePractice = play.practice && !play.setup.drill;
-  const isOver = play.winner !== undefined && s.then === undefined;
+  const isOver = play.isOver && s.then === undefined;
   const hasSafety = play.played?.calls === true && !play.practice;
   const hasPockets = play.table.pockets.length > 0;
   const spotText = hasPockets ? texts.spotTheNearestBall : texts.spotTheTouchingBalls;

@@ -10,7 +10,6 @@ import {
   type Condition,
   type Cue,
   type Game,
-  games,
   type GameState,
   type Match,
   type May,
@@ -21,7 +20,7 @@ import {
   type Table,
 } from "carom";
 import { onTable } from "../table/filmed.js";
-import { GAMES, type GameOf, PLAYED, type Played, POOL_TABLES } from "../table/games.js";
+import { GAMES, type GameOf, hasMember, PLAYED, type Played, POOL_TABLES } from "../table/games.js";
 import { atHead, isWithin } from "../table/head.js";
 import { placesOf, placesText, pocketed } from "../table/places.js";
 import { wrong } from "../ui.js";
@@ -51,6 +50,8 @@ export interface Setup {
   /** Of a race: how many racks win it, and how many each has won before this one. */
   race?: number;
   racks?: readonly [number, number];
+  /** Whether the player who does not begin has an equalizing inning, so that games may be drawn. */
+  equalInnings?: boolean;
 }
 /** A stroke that was played, for its film; or a choice instead of one, which has no shot. */
 export interface Stroke {
@@ -129,13 +130,14 @@ function tableNamed(carom: Carom, of: GameOf, name: string | undefined): Table {
 }
 /** Whether the next stroke of a new game is one that its rules tell from others. */
 const isOpening = (rules: GameState["rules"], { at }: Setup): boolean =>
-  (games[rules].members as readonly string[]).includes("opening") && at === undefined;
+  hasMember(rules, "opening") && at === undefined;
 /** The match of a game that begins with these balls. */
 function matchOf(play: Play, { rules, opening, state }: Played): Match {
   const { carom, setup, table, balls } = play;
   // Who opens a game of carom strikes the white.
   const group = play.hasPockets ? "open" : "solids";
-  const game = { rules, group, opening: isOpening(rules, setup), ...state } as const;
+  const innings = setup.equalInnings ? { innings: 1 } : {};
+  const game = { rules, group, opening: isOpening(rules, setup), ...state, ...innings } as const;
   // The cue ball of a layout lies where its text says.
   const isLaid = setup.at !== undefined && onTable(balls[0]!.state);
   const hand = play.hasPockets && !isLaid ? (opening as Ruling["hand"]) : "no";
@@ -202,6 +204,13 @@ export class Play {
   }
   get winner(): 0 | 1 | undefined {
     return this.#match?.winner as 0 | 1 | undefined;
+  }
+  /** Whether the game is over, without a winner where it is drawn. */
+  get isOver(): boolean {
+    return this.winner !== undefined || this.isDrawn;
+  }
+  get isDrawn(): boolean {
+    return this.#match?.drawn ?? false;
   }
   /** The ball that is struck. */
   get cueBall(): number {
@@ -368,7 +377,7 @@ export class Play {
     const played = isPlayed && shot && cue ? { balls: [...shot.balls], cue, shot, ruling } : {};
     this.last = { shot: undefined, ruling: undefined, ...before, ...played };
     const { who } = before;
-    const isKept = this.winner === undefined ? this.turn === who : this.winner === who;
+    const isKept = this.isDrawn || (this.winner ?? this.turn) === who;
     if (isPlayed && isKept && !ruling?.foul) this.deeds.push(deedOf(this.last));
     return this.last;
   }

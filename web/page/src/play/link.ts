@@ -41,7 +41,7 @@ export function byLink(s: Session): Link {
   /** What a link does not bring that is sent before a stroke, or again after it. */
   function wordsOfTooEarly(): string {
     const { play, seat } = s;
-    if (play.winner !== undefined) return "";
+    if (play.isOver) return "";
     if (play.turn === seat) return texts.youAreStillAt;
     const hasPlayed = play.last?.who === seat;
     return hasPlayed ? "" : texts.itHasNothingNew;

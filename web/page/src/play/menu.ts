@@ -1,6 +1,6 @@
 // The dialog of a new game: which one, against whom, and how the page plays it.
 import { words } from "carom";
-import { GAMES, PLAYED, POOL_TABLES } from "../table/games.js";
+import { GAMES, hasMember, PLAYED, POOL_TABLES } from "../table/games.js";
 import { RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
 import { calibrationPage, ownCushion, wordsOfCushion } from "./calibration.js";
@@ -111,6 +111,7 @@ export function menu(
     RACES.map((racks) => [racks, racks === "1" ? texts.oneRack : texts.raceTo(racks)] as const),
     () => undefined,
   );
+  const equal = check("new-equal", texts.equalInnings, () => undefined);
   const ladder = ladderOf((rating) => {
     against.select.value = rating;
     chooseErrors();
@@ -186,12 +187,17 @@ export function menu(
   coach.input.checked = s.settings.coach;
   numbers.input.checked = s.settings.numbers;
 
+  const knowsInnings = (): boolean => {
+    const rules = PLAYED[game.select.value]?.rules;
+    return rules !== undefined && hasMember(rules, "innings");
+  };
   const isPool = (): boolean =>
     GAMES[PLAYED[game.select.value]?.of ?? game.select.value]!.table === "9ft";
   function describe(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
     own.root.hidden = against.select.value === "practice";
     race.root.hidden = ["practice", "link"].includes(against.select.value);
+    equal.root.hidden = against.select.value === "practice" || !knowsInnings();
     ladder.mark(against.select.value);
     rules.textContent = texts.rules[game.select.value] ?? "";
     rulesOf.hidden = rules.textContent === "";
@@ -229,6 +235,7 @@ export function menu(
         ...(race.root.hidden || race.select.value === RACES[0]
           ? {}
           : { race: Number(race.select.value), racks: [0, 0] as const }),
+        ...(!equal.root.hidden && equal.input.checked && { equalInnings: true }),
       });
     },
     { id: "start", class: "main" },
@@ -239,7 +246,7 @@ export function menu(
     texts.newGame,
     el("div", { class: "fields" }, game.root, ...ofPool, against.root),
     ladder.root,
-    el("div", { class: "fields" }, own.root, race.root),
+    el("div", { class: "fields" }, own.root, race.root, equal.root),
     note,
     rulesOf,
     start,
@@ -261,6 +268,7 @@ export function menu(
       against.select.value = setup.against;
       own.select.value = setup.own;
       race.select.value = String(setup.race ?? RACES[0]);
+      equal.input.checked = setup.equalInnings ?? false;
       table.select.value = setup.table ?? "9ft";
       cloth.select.value = setup.cloth ?? USUAL;
       listCushions(setup.cushion ?? USUAL);

@@ -65,7 +65,7 @@ export function begin(s: Session, setup: Setup): void {
     ...(play.played?.begin ?? { speed: 4, phi: 62, a: 0, b: 0 }),
     ...(setup.at === undefined ? {} : { speed: 2, phi: 90 }),
   });
-  const isUnfinished = isKept && left.play.winner === undefined;
+  const isUnfinished = isKept && !left.play.isOver;
   const note = isUnfinished ? texts.theGameBeforeIs : "";
   says(s, wordsOfStart(play, s.training) + note);
   save(s);

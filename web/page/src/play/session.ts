@@ -36,13 +36,12 @@ export const progressOf = (play: Play): Progress => ({
 });
 
 export const mine = ({ play, seat }: Session): boolean =>
-  play.winner === undefined &&
-  (play.practice || play.setup.against === "person" || play.turn === seat);
+  !play.isOver && (play.practice || play.setup.against === "person" || play.turn === seat);
 export function stateOf(s: Session): "aiming" | "thinking" | "film" | "waiting" | "over" {
   if (s.film.playing || s.then !== undefined) return "film";
   if (s.thinks) return "thinking";
   if (mine(s)) return "aiming";
-  return s.play.winner === undefined ? "waiting" : "over";
+  return s.play.isOver ? "over" : "waiting";
 }
 /** Whether whoever is at this page may aim now. */
 export const free = (s: Session): boolean => stateOf(s) === "aiming";
@@ -129,7 +128,7 @@ export function linesOf({ settings, training }: Pick<Session, "settings" | "trai
 export function why(s: Pick<Session, "play" | "seat" | "thinks">): string {
   const { play } = s;
   if (s.thinks) return texts.theOtherPlayerThinks;
-  if (play.winner !== undefined) return texts.thisGameIsOver;
+  if (play.isOver) return texts.thisGameIsOver;
   if (play.setup.against !== "link") return texts.notNowAStroke;
   if (play.last?.who === s.seat) return texts.theOtherPlayerIs;
   return texts.theOtherPlayerIsAt;

@@ -72,9 +72,13 @@ function onOf(play: Play): string {
   return on.length === 1 ? told(play.names[on[0]!]!) : texts.aColour;
 }
 
+/** Whether whoever is at the table has the equalizing inning. */
+const isLastInning = ({ state }: Play): boolean => state.innings === 3;
+
 /** The balls that count for whoever plays, or the pocket, behind the name: ", on a red". */
 function aimOf(play: Play): string {
   const { game } = play.setup;
+  if (isLastInning(play)) return texts.equalizingInning;
   if (game === "snooker") return texts.onBall(onOf(play));
   if (play.played?.pockets) return texts.intoPocket(pocketOf(play));
   if (!isEight(play) || play.breaks) return "";
@@ -100,10 +104,12 @@ function wordsOfTable(play: Play, name: string): string {
 export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = false): string {
   if (play.practice) return told(play.setup.drill ?? texts.practice);
   const before = play.last && !short ? wordsOfFoul(play, play.last, seat) : "";
+  const end = play.isOver ? wordsOfEnd(play) : "";
+  const why = end && `: ${end}`;
+  if (play.isDrawn) return texts.isDrawn(why);
   if (play.winner !== undefined) {
     const winner = nameOf(play, play.winner, seat);
-    const end = wordsOfEnd(play);
-    return texts.hasWon(winner, winner === texts.you, end && `: ${end}`);
+    return texts.hasWon(winner, winner === texts.you, why);
   }
   const name = nameOf(play, play.turn, seat);
   const aim = aimOf(play);

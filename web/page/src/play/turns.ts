@@ -109,7 +109,7 @@ export function concede(s: Session): void {
   s.thinks = false;
   finishTurn(s, play.concede(play.setup.against === "person" ? play.turn : seat));
 }
-export const mayConcede = (play: Play): boolean => !play.practice && play.winner === undefined;
+export const mayConcede = (play: Play): boolean => !play.practice && !play.isOver;
 /** Takes back the last stroke or move of practice. */
 export function undo(s: Session): void {
   if (!s.play.practice) return;
@@ -148,15 +148,15 @@ export function next(s: Session): void {
   judgeDrill(s);
   if (link.waiting()) return link.onward();
   // Words about the last stroke, and about a game that it ended.
-  const { last, setup, winner } = play;
+  const { last, setup, isOver } = play;
   const isAgainstComputer = isComputer(setup.against);
   const wasTheirs = last !== undefined && last.who !== seat;
   if (wasTheirs && play.hasPockets && isAgainstComputer)
     says(s, `${wordsOfStroke(play, last, seat)} ${s.verdict}`.trim());
-  if (winner !== undefined && isRated(setup)) says(s, training.rating().words);
-  if (winner !== undefined) s.end.show();
+  if (isOver && isRated(setup)) says(s, training.rating().words);
+  if (isOver) s.end.show();
   // The page's player begins to plan, or the person at the page begins to aim.
-  if (winner === undefined && !mine(s) && isAgainstComputer) {
+  if (!isOver && !mine(s) && isAgainstComputer) {
     void reply(s);
   } else {
     if (!play.practice && !play.breaks && mine(s)) aimAtNearest(s);
@@ -241,7 +241,7 @@ export function save({ play, link, seat, id, words }: Saved): void {
     setup,
     score: wordsOfScore(play, seat, racksOf(play)),
     strokes,
-    isOver: play.winner !== undefined,
+    isOver: play.isOver,
     when: Date.now(),
   };
   saveGame(game).catch((error: unknown) => says({ words }, texts.thisBrowserDoesNot(wrong(error))));
@@ -250,7 +250,7 @@ export function save({ play, link, seat, id, words }: Saved): void {
   if (location.hash !== "#view=play" && !parameters().has("d"))
     history.replaceState(null, "", "#view=play");
 }
-/** Saves the game after a stroke. A stroke that won the game also counts in the tallies. */
+/** Saves the game after a stroke. A stroke that won or lost the game also counts in the tallies. */
 export function saveAndCount(s: Saved & Pick<Session, "training" | "end">): void {
   const { winner, setup } = s.play;
   if (winner !== undefined) {

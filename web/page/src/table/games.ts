@@ -159,13 +159,15 @@ const OWN: Record<string, Partial<Played>> = {
     begin: { speed: 3, phi: 97, a: 0, b: 0.2 },
   },
 };
+/** Whether the state of a game has a member, such as "innings". */
+export const hasMember = (rules: GameState["rules"], member: string): boolean =>
+  (games[rules].members as readonly string[]).includes(member);
 /** The games whose rules the library has, but for its drill. */
 export const PLAYED: Record<string, Played> = Object.fromEntries(
   words.rules.flatMap(([name, text]) => {
-    const { rack, calls, opening, members } = games[name];
-    const [points, pockets] = ["score", "pocket"].map((one) =>
-      (members as readonly string[]).includes(one),
-    ) as [boolean, boolean];
+    const { rack, calls, opening } = games[name];
+    const points = hasMember(name, "score");
+    const pockets = hasMember(name, "pocket");
     const begin = pockets ? { ...BREAK, speed: 2.5, phi: 79.5, b: -0.3 } : BREAK;
     return name === "potting"
       ? []
