@@ -58,6 +58,33 @@ static void say_off_table(const carom_table *table, const carom_shot_ball *ball,
         text_if(fmax(r[0], r[1]) > 10.0, "; are places in m?"));
 }
 
+static bool is_gone(const carom_shot_ball *ball) {
+  return ball->state.label == CAROM_BALL_POCKETED || ball->state.label == CAROM_BALL_OFF;
+}
+
+/* Says of a ball that overlaps another one which that is, and how far apart they are. */
+static void say_overlap(const shot_line *line, int ball, char *text, size_t room) {
+  const carom_shot_ball *one = &line->ball[ball];
+  int with = ball;
+  double least = INFINITY, apart = 0.0, needed = 0.0;
+  for (int k = 0; k < line->count; k++) {
+    const carom_shot_ball *other = &line->ball[k];
+    const double both = one->kind.radius + other->kind.radius;
+    const double between =
+        hypot(one->state.r[0] - other->state.r[0], one->state.r[1] - other->state.r[1]);
+    if (k == ball || is_gone(other) || between - both >= least)
+      continue;
+    least = between - both;
+    with = k;
+    apart = between;
+    needed = both;
+  }
+  snprintf(text, room,
+           "%s: its centre is %.4g mm from that of '%s', and balls that touch are "
+           "%.4g mm apart",
+           carom_status_string(CAROM_ERROR_OVERLAP), 1e3 * apart, line->name[with], 1e3 * needed);
+}
+
 /* What is wrong with the arguments of a shot, with the key. False if nothing is. */
 bool shot_fault(const shot_line *line, const carom_shot_options *options, char text[FAULT_TEXT]) {
   static const char *const lists[] = {
@@ -81,6 +108,8 @@ bool shot_fault(const shot_line *line, const carom_shot_options *options, char t
              tip_off_centre(&line->cue), line->cue.miscue > 0.0 ? line->cue.miscue : 1.0);
   else if (status == CAROM_ERROR_OFF_TABLE && at >= 0 && at < line->count)
     say_off_table(&line->table->table, &line->ball[at], rest, room);
+  else if (status == CAROM_ERROR_OVERLAP && at >= 0 && at < line->count)
+    say_overlap(line, at, rest, room);
   else if (n == NULL || must[0] == '\0' || f.part.kind == CAROM_PART_STATE)
     snprintf(rest, room, "%s", carom_status_string(status));
   else if (f.part.kind <= CAROM_PART_POCKET)
