@@ -581,8 +581,11 @@ static carom_status take_choice(carom_match *match, int player, carom_may choice
   const bool is_one = bits > 0 && (bits & (bits - 1)) == 0 && (match->may & bits) != 0;
   if (!is_one || call_of(choice) == 0) {
     char text[128], right[200];
-    snprintf(right, sizeof right, "the choices are: %s; a free ball is named by a call",
-             list_choices(match->may, text));
+    const char *named = "";
+    if ((match->may & CAROM_MAY_FREE_BALL) != 0)
+      named = "; a free ball is named by a call";
+    const int32_t others = match->may & ~(CAROM_MAY_FREE_BALL | CAROM_MAY_PLACE);
+    snprintf(right, sizeof right, "the choices are: %s%s", list_choices(others, text), named);
     return carom_match_refuse(match, CAROM_REFUSED_CHOICE, "choose", right);
   }
   const carom_call none = {-1, -1};

@@ -119,6 +119,20 @@ TEST(acts_that_are_refused) {
   refused(carom_match_stroke(&match, 1, &cue, NULL, NULL), CAROM_REFUSED_OVER, "over");
 }
 
+/* A free ball is named by a call, and a cue ball in hand is placed: neither is a choice. */
+TEST(what_is_no_choice) {
+  const int count = lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, ALL);
+  carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
+  rules.state.may = CAROM_MAY_PASS | CAROM_MAY_FREE_BALL | CAROM_MAY_PLACE;
+  ck_assert_int_eq(carom_match_begin_at(&match, CAROM_RULES_SNOOKER, &rules, &table, balls, count,
+                                        NULL, CAROM_LEAVE_D, 0),
+                   CAROM_OK);
+  static const carom_may none[] = {CAROM_MAY_FREE_BALL, CAROM_MAY_PLACE, CAROM_MAY_RACK};
+  for (size_t k = 0; k < sizeof none / sizeof none[0]; k++)
+    refused(carom_match_choose(&match, 0, none[k]), CAROM_REFUSED_CHOICE,
+            "choices are: pass; a free ball is named by a call");
+}
+
 /* A cue ball that was placed lies no longer where it lay, so it cannot stay there. */
 TEST(a_place_before_the_choice_to_stay) {
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
@@ -132,8 +146,7 @@ TEST(a_place_before_the_choice_to_stay) {
   const carom_match begun = match;
   ck_assert_int_eq(carom_match_place(&match, 0, 0.9, 0.2), CAROM_OK);
   ck_assert_int_eq(match.may, CAROM_MAY_RACK);
-  refused(carom_match_choose(&match, 0, CAROM_MAY_STAY), CAROM_REFUSED_CHOICE,
-          "choices are: rack;");
+  refused(carom_match_choose(&match, 0, CAROM_MAY_STAY), CAROM_REFUSED_CHOICE, "choices are: rack");
 
   match = begun;
   ck_assert_int_eq(carom_match_choose(&match, 0, CAROM_MAY_STAY), CAROM_OK);

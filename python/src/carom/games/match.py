@@ -89,7 +89,7 @@ class Match:
         state : dict or ndarray of `carom.dtypes.rules_state`, optional
             How the game stands, as for `carom.plan`. With the rack `target` and `innings` are read:
             `{"innings": 1}` gives equal innings, and the match may be drawn.
-        hand : {"no", "anywhere", "kitchen", "d"}
+        hand : {"no", "anywhere", "kitchen", "d", "baulk"}
             Whether the cue ball is in hand.
         options, **changes
             Models of all shots, as for `carom.simulate`.
