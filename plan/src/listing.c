@@ -12,8 +12,8 @@ typedef carom_search search;
 
 /* A coach names no stroke that is much worse than the first one. */
 static const double points_most = 0.1;
-/* And no safety that fouls so often. */
-static const double foul_most = 0.25;
+/* And no safety that fouls so often, nor such a soft opening. */
+static const double foul_most = 0.25, opening_foul_most = 0.1;
 enum { SAFETIES = 3 }; /* that are played anew, of which the best is listed */
 /* A chance of fewer shots is none. */
 enum { TOLD_LEAST = 20 };
@@ -228,7 +228,9 @@ int carom_search_give(search *plan, carom_choice *choices, int room) {
   for (int k = 0; k < carom_max(plan->listed, 1) && !(n > 0 && carom_is_stopped(plan)); k++) {
     carom_choice choice = with_kind(plan, &plan->found[k]);
     if (n > 0) {
-      const bool risky = choice.kind == CAROM_PLAN_SAFETY && choice.foul > foul_most;
+      bool risky = choice.kind == CAROM_PLAN_SAFETY && choice.foul > foul_most;
+      if (plan->breaks && choice.kind != CAROM_PLAN_BREAK)
+        risky = choice.foul > opening_foul_most;
       if ((choice.seen < TOLD_LEAST && choice.kind != CAROM_PLAN_PASS) || risky)
         continue;
       choice.value = fmin(choice.value, all[0].value);
