@@ -35,8 +35,32 @@ static int colour_at(const char *text) {
   return -1;
 }
 
+/* "left,4d" as "0d,4d", the point of a rail's nose; what stands behind the number stays. False of a
+ * text that does not begin with a rail and a comma. */
+static bool rail_spelt(const char *text, char to[PLACE_TEXT]) {
+  enum { HEAD, FOOT, LEFT, RIGHT };
+  const size_t size = strcspn(text, ",");
+  const int rail = word_among(RAILS, text, size);
+  if (text[size] != ',' || rail < 0)
+    return false;
+  const char *number = text + size + 1;
+  const int digits = (int)strcspn(number, ",");
+  const bool bare = strspn(number, "+-.0123456789") == (size_t)digits;
+  const char *unit = bare ? "m" : "", *rest = number + digits;
+  int written;
+  if (rail == LEFT || rail == RIGHT)
+    written = snprintf(to, PLACE_TEXT, "%s,%.*s%s%s", rail == LEFT ? "0d" : "4d", digits, number,
+                       unit, rest);
+  else
+    written = snprintf(to, PLACE_TEXT, "%.*s%s,%s%s", digits, number, unit,
+                       rail == HEAD ? "0d" : "8d", rest);
+  return written < PLACE_TEXT;
+}
+
 char *place_spelt(char *text, char to[PLACE_TEXT]) {
   enum { YELLOW = 16 };
+  if (rail_spelt(text, to))
+    return to;
   const size_t size = strcspn(text, ",");
   const int colour = colour_at(text);
   char spot[PLACE_TEXT / 2];
@@ -55,12 +79,6 @@ char *place_spelt(char *text, char to[PLACE_TEXT]) {
   }
   return place != NULL && snprintf(to, PLACE_TEXT, "%s%s", place, text + size) < PLACE_TEXT ? to
                                                                                             : text;
-}
-
-/* Whether a text begins with a rail and a comma, as in left,4d. */
-static bool begins_with_rail(const char *text) {
-  const size_t size = strcspn(text, ",");
-  return text[size] == ',' && word_among(RAILS, text, size) >= 0;
 }
 
 /* Where the tip touches by words, such as low, left-low or right,0, as a pair of numbers; other
@@ -165,11 +183,9 @@ static bool add_ranges(const option_row *row, char *text, place_list *list) {
   return true;
 }
 
-/* Reads "RAIL,X", "frozen-NAME,X" or, of a ball, "frozen-NAME,ANGLE,GAP"; false where it cannot be
- * read. */
+/* Reads "frozen-NAME,X" or, of a ball, "frozen-NAME,ANGLE,GAP"; false where it cannot be read. */
 static bool read_touching(const char *text, given_place *to) {
-  if (strncmp(text, frozen, strlen(frozen)) == 0)
-    text += strlen(frozen);
+  text += strlen(frozen);
   char number[PLACE_TEXT];
   const char *comma = strchr(text, ',');
   const size_t size = comma != NULL ? (size_t)(comma - text) : 0;
@@ -192,7 +208,7 @@ typedef struct place_entry {
   size_t name_size; /* 0: no name stands there */
   int colour;       /* of a ball that is named after its spot of snooker; -1: none */
   char *numbers;
-  bool touches; /* frozen-NAME,X or RAIL,X */
+  bool touches; /* frozen-NAME,X */
   char spelt[PLACE_TEXT];
 } place_entry;
 
@@ -207,8 +223,7 @@ static void split_entry(const option_row *row, char *text, place_entry *entry) {
   entry->touches = false;
   if (row->least == MEASURE_PLACE) {
     entry->numbers = place_spelt(entry->numbers, entry->spelt);
-    entry->touches =
-        strncmp(entry->numbers, frozen, strlen(frozen)) == 0 || begins_with_rail(entry->numbers);
+    entry->touches = strncmp(entry->numbers, frozen, strlen(frozen)) == 0;
   }
   if (row->least == MEASURE_TIP)
     entry->numbers = tip_spelt(entry->numbers, entry->spelt);
