@@ -233,8 +233,10 @@ static bool is_playable(const plan_job *job, const shot_line *line, const char *
   if (!scores && !pockets)
     complain("%s:%zu: the table has no pockets, which this game needs", file, line->number);
   else if (scores && pockets)
-    complain("%s:%zu: the table has pockets; %s needs one without, such as --table threecushion",
-             file, line->number, game);
+    complain("%s:%zu: the table has pockets; %s needs one without, such as --table %s", file,
+             line->number, game,
+             carom_word(CAROM_WORDS_TABLE,
+                        carom_rules_about_of((carom_rules_kind)job->game.rules)->table));
   else if (scores && line->count < 3)
     complain("%s:%zu: %s needs three balls", file, line->number, game);
   else if (line->count < 2)

@@ -222,6 +222,16 @@ static void sort_in(carom_choice *choices, int n, const carom_choice *choice) {
   choices[at] = *choice;
 }
 
+/* A first choice that was worth nothing in its fresh shots gives its place to one that was worth
+ * something in its own: small plans of carom games chose strokes that make no point. */
+static void promote(carom_choice *first, carom_choice *other) {
+  if (first->value > 0.0 || other->value <= 0.0)
+    return;
+  const carom_choice kept = *first;
+  *first = *other;
+  *other = kept;
+}
+
 int carom_search_give(search *plan, carom_choice *choices, int room) {
   carom_choice all[LISTED_MOST + SAFETIES];
   int n = 0, given = 0;
@@ -233,6 +243,7 @@ int carom_search_give(search *plan, carom_choice *choices, int room) {
         risky = choice.foul > opening_foul_most;
       if ((choice.seen < TOLD_LEAST && choice.kind != CAROM_PLAN_PASS) || risky)
         continue;
+      promote(&all[0], &choice);
       choice.value = fmin(choice.value, all[0].value);
     }
     sort_in(all, n++, &choice);

@@ -427,3 +427,29 @@ TEST(soft_openings) {
     edge_free(&memory);
   }
 }
+
+/* A stroke that made no point in its fresh shots stands behind those that made one. */
+TEST(what_is_worth_nothing_is_not_first) {
+  enum { SEEDS = 12, ROOM = 5 };
+  int points = 0;
+  for (uint64_t seed = 0; seed < SEEDS; seed++) {
+    make_layout(1, 2);
+    carom_table_make(CAROM_TABLE_THREECUSHION, &table);
+    job.count = carom_rack_size(CAROM_RACK_THREECUSHION);
+    ck_assert_int_eq(carom_rack(CAROM_RACK_THREECUSHION, &table, 0.0, 1, balls, BALLS), CAROM_OK);
+    cue = carom_cue_of(CAROM_GAME_BILLIARD);
+    rules = carom_plan_rules_of(CAROM_RULES_THREECUSHION);
+    rules.state.opening = 1;
+    options = (carom_plan_options){.shots = 200, .seed = seed};
+    make_memory();
+    carom_choice choices[ROOM];
+    int found;
+    ck_assert_int_eq(carom_plan(&job, choices, ROOM, &found), CAROM_OK);
+    for (int k = 1; k < found; k++)
+      ck_assert_msg(choices[0].value > 0.0 || choices[k].keep == 0.0, "seed %d: choice %d keeps %g",
+                    (int)seed, k, choices[k].keep);
+    points += choices[0].value > 0.0;
+    edge_free(&memory);
+  }
+  ck_assert_int_gt(points, SEEDS / 2);
+}
