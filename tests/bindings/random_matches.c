@@ -48,6 +48,14 @@ static void shuffle_state(carom_rules_kind kind, carom_rules_state *state) {
     if (carom_rules_fault(kind, &other, &range) == NULL)
       *state = other;
   }
+
+  /* few points are made at random: games that know equal innings have them, to one point */
+  carom_rules_state equal = *state;
+  equal.innings = 1 + one_of(3);
+  equal.target = 1;
+  equal.score[0] = 0;
+  if (carom_rules_fault(kind, &equal, &range) == NULL)
+    *state = equal;
 }
 
 /* Begins with the rack, or with some of its balls anywhere in any state. */
@@ -56,8 +64,8 @@ static void begin(carom_rules_kind kind, uint64_t seed) {
   carom_table table;
   carom_shot_ball balls[CAROM_BALLS_MOST];
   carom_table_make((carom_table_kind)about->table, &table);
-  const int count =
-      carom_rack((carom_rack_kind)about->rack, &table, 1e-4, seed, balls, CAROM_BALLS_MOST);
+  const int count = carom_rack_size((carom_rack_kind)about->rack);
+  carom_rack((carom_rack_kind)about->rack, &table, 1e-4, seed, balls, CAROM_BALLS_MOST);
   for (int tries = 0; (seed & 3) != 0 && tries < TRIES; tries++) {
     carom_plan_rules rules = carom_plan_rules_of(kind);
     shuffle_state(kind, &rules.state);
