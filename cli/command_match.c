@@ -19,8 +19,8 @@
 
 typedef struct match_job {
   shared_options shared; /* --output */
-  carom_rules_kind rules;
-  int table; /* a carom_table_kind; -1: that of the game */
+  int rules;             /* a carom_rules_kind; -1: eight-ball, or the game of the file */
+  int table;             /* a carom_table_kind; -1: that of the game */
   bool shows;
   double fargo[2];
   int breaks, seed, shots, strokes, target;
@@ -270,12 +270,14 @@ static int play_match(players *p) {
   const match_job *job = p->job;
   carom_table table;
   if (match.phase == CAROM_MATCH_NONE) {
-    carom_table_kind kind = (carom_table_kind)carom_rules_about_of(job->rules)->table;
+    const carom_rules_kind rules =
+        job->rules < 0 ? CAROM_RULES_EIGHTBALL : (carom_rules_kind)job->rules;
+    carom_table_kind kind = (carom_table_kind)carom_rules_about_of(rules)->table;
     if (job->table >= 0)
       kind = (carom_table_kind)job->table;
     carom_table_make(kind, &table);
-    const carom_status status = carom_match_begin_to(&match, job->rules, job->target, job->equal,
-                                                     &table, (uint64_t)job->seed, job->breaks);
+    const carom_status status = carom_match_begin_to(&match, rules, job->target, job->equal, &table,
+                                                     (uint64_t)job->seed, job->breaks);
     if (status != CAROM_OK) {
       complain("%s", text_or(match.fault, carom_status_string(status)));
       return EXIT_USAGE;
@@ -293,11 +295,24 @@ static int play_match(players *p) {
   return EXIT_GOOD;
 }
 
+/* Whether the match that was read, if any, is of the game that was asked for; complains if not. */
+static bool is_of_rules(const match_job *job, const char *path) {
+  if (path == NULL || job->rules < 0 || job->rules == match.record.rules)
+    return true;
+  complain("--rules: %s is a match of %s: leave the option out", path,
+           carom_word(CAROM_WORDS_RULES, (int)match.record.rules));
+  return false;
+}
+
 int command_match(int argc, char **argv) {
   static match_job job;
   const char *path;
-  job = (match_job){
-      .shared = {.output = "-"}, .table = -1, .fargo = {600.0, 600.0}, .seed = 1, .shots = 300};
+  job = (match_job){.shared = {.output = "-"},
+                    .rules = -1,
+                    .table = -1,
+                    .fargo = {600.0, 600.0},
+                    .seed = 1,
+                    .shots = 300};
   int code = parse_arguments(&match_form, argc, argv, &job, &path);
   if (code >= 0)
     return code;
@@ -320,6 +335,8 @@ int command_match(int argc, char **argv) {
   code = EXIT_GOOD;
   if (path != NULL)
     code = read_match(path, text, out);
+  if (code == EXIT_GOOD && !is_of_rules(&job, path))
+    code = EXIT_USAGE;
   if (!job.shows && code == EXIT_GOOD) {
     players p = {.job = &job, .text = text};
     for (int k = 0; k < 2; k++)
