@@ -306,6 +306,29 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     },
   );
 
+  test("in practice on the table of pyramid any ball may be struck", async () => {
+    const [wide] = sizes;
+    const at = `0.4,0.9 0.9,1.2 0.5,2.2 1.3,2.2${" in".repeat(12)}`;
+    const one = await kept(
+      { game: "pyramid", own: "0", seed: 7, against: "practice", at },
+      wide[1],
+    );
+    await pace(one, "1000");
+    await expect.poll(() => turn(one)).toContain("You strike the yellow");
+    await one.locator("#table-scene").press("b");
+    await expect.poll(() => turn(one)).toContain("You strike ball 1");
+    await set(one, "power", 1);
+    await one.locator("#shoot").click();
+    const places = async (): Promise<string[]> =>
+      (JSON.parse(await keptGame(one)) as { at: string }).at.split(" ");
+    await expect.poll(async () => (await places())[1]).not.toBe("0.9,1.2");
+    expect((await places())[0]).toBe("0.4,0.9");
+    await expect.poll(() => turn(one)).toContain("You strike ball 1");
+    await one.locator("#hint").click();
+    await expect.poll(() => text(one, "said")).toMatch(/^Hint: with ball 1: /);
+    await one.close();
+  });
+
   test.each(sizes)(
     "in pyramid a tap or a key chooses the ball that is struck: %s",
     async (_, how) => {

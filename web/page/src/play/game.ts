@@ -214,11 +214,14 @@ export class Play {
   }
   /** The ball that is struck. */
   get cueBall(): number {
-    return this.#struck ?? this.#match?.cueBall ?? 0;
+    const isChosen = this.#struck !== undefined && this.strikable.includes(this.#struck);
+    return (isChosen ? this.#struck : this.#match?.cueBall) ?? this.strikable[0] ?? 0;
   }
   /** The balls of which the player may choose the one that is struck. */
   get strikable(): readonly number[] {
-    return this.#match?.strikable ?? [0];
+    if (this.#match) return this.#match.strikable;
+    if (this.played?.rules !== "pyramid") return [0];
+    return [...this.balls.keys()].filter((ball) => onTable(this.balls[ball]!.state));
   }
   /** Where a cue ball in hand may be put, in a word and in m. */
   get hand(): Ruling["hand"] {
@@ -389,7 +392,8 @@ export class Play {
       const end = shot.final[k]!;
       return { kind, state: end.label === "off" ? pocketed(this.table, end) : end };
     });
-    if (!onTable(this.balls[0]!.state)) this.balls = atHead(this.carom, this.table, this.balls);
+    if (!onTable(this.balls[this.cueBall]!.state))
+      this.balls = atHead(this.carom, this.table, this.balls);
     this.#practised = { ...state, opening: false };
     this.last = { who: 0, balls, cue, call: undefined, state, shot, ruling: undefined };
     return this.last;

@@ -161,11 +161,11 @@ export function strokeToPlay(s: Session): { cue: Cue; call: Call | undefined } {
 }
 /**
  * What a plan knows of a game: how it stands, which ball is struck, and where it may be put. Of
- * several balls the plan chooses the one to strike.
+ * several balls of a match the plan chooses the one to strike.
  */
-export const wantedOf = ({ state, cueBall, strikable, hand }: Play): PlanOptions => ({
+export const wantedOf = ({ state, cueBall, strikable, hand, practice }: Play): PlanOptions => ({
   ...state,
-  cue: strikable.length > 1 ? {} : { ball: cueBall },
+  cue: strikable.length > 1 && !practice ? {} : { ball: cueBall },
   shot: OPTIONS,
   inHand: hand,
 });

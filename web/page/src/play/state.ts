@@ -102,7 +102,8 @@ function wordsOfTable(play: Play, name: string): string {
 }
 
 export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = false): string {
-  if (play.practice) return told(play.setup.drill ?? texts.practice);
+  const struck = short ? "" : wordsOfStruck(play);
+  if (play.practice) return told(play.setup.drill ?? texts.practice) + (struck && `.${struck}`);
   const before = play.last && !short ? wordsOfFoul(play, play.last, seat) : "";
   const end = play.isOver ? wordsOfEnd(play) : "";
   const why = end && `: ${end}`;
@@ -119,7 +120,6 @@ export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = fa
     const sends = play.last?.who === seat;
     return texts.playsByLink(before, name, aim, sends ? texts.sendTheLink : texts.waitForTheLink);
   }
-  const struck = short ? "" : wordsOfStruck(play);
   return `${before}${wordsOfTable(play, name)}${aim}.${wordsOfHand(play)}${struck}`;
 }
 
