@@ -297,6 +297,11 @@ static int play_match(players *p) {
 
 /* Whether the match that was read, if any, is of the game that was asked for; complains if not. */
 static bool is_of_rules(const match_job *job, const char *path) {
+  if (path != NULL && (job->target > 0 || job->equal)) {
+    complain("--%s: %s has begun: leave the option out", job->equal ? "equal-innings" : "target",
+             path);
+    return false;
+  }
   if (path == NULL || job->rules < 0 || job->rules == match.record.rules)
     return true;
   complain("--rules: %s is a match of %s: leave the option out", path,

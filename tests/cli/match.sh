@@ -41,5 +41,6 @@ try carom match --table threecushion
 try carom match --rules threecushion --table 9ft
 try carom match --equal-innings
 try carom match --target 5
+try carom match --target 5 rail.jsonl
 try carom match missing.jsonl
 try carom match --rules snooker --strokes 1 -o small.jsonl nineball.jsonl
