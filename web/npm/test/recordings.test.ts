@@ -1,6 +1,12 @@
 // Recordings: a game recorded, replayed and verified by the command, and what is refused.
 import { expect, test } from "vitest";
-import { type Carom, CaromError, type Match, type ShotBall } from "../dist/index.js";
+import {
+  type Carom,
+  CaromError,
+  type GameState,
+  type Match,
+  type ShotBall,
+} from "../dist/index.js";
 import { builds, root, run, thereIsACommand } from "./support.js";
 
 const STRONGE = { cushionModel: "stronge" } as const;
@@ -116,7 +122,13 @@ test.each(builds)("a match refuses, rules and is judged again, by $name", ({ car
 
 test.each(builds)("a match with equal innings is drawn, by $name", ({ carom }) => {
   const table = carom.table("threecushion");
-  const game = { rules: "straightrail", target: 1, innings: 1 } as const;
+  const game: GameState = {
+    rules: "straightrail",
+    group: "open",
+    opening: false,
+    target: 1,
+    innings: 1,
+  };
   const match = carom.match(game, table, { seed: 1 });
   const player = carom.player({ errors: 0 });
   const play = (): void => match.take(match.plan({ shots: 100, player })[0]!);

@@ -203,7 +203,7 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
     expect(lines.filter(isGame).at(-1)).toContain('"winner":3');
     const before = lines.slice(
       0,
-      lines.findLastIndex((line) => line.startsWith('{"shot"')),
+      lines.map((line) => line.startsWith('{"shot"')).lastIndexOf(true),
     );
     const one = await open("");
     const give = (given: readonly string[]): Promise<void> =>
