@@ -8,8 +8,9 @@
  * Balls that fall or leave the table come back to their spots; a ball whose spot is taken stays
  * off until the end of a stroke that frees it. Where that is the 1, and the player has 100, all
  * stand as at first, with the cue ball in hand behind the head string. After a scratch it is
- * there too. Opening break: it meets the 3 first; else the other breaks, or has it repeated. A
- * stroke that scores needs no cushion: the texts differ. */
+ * there too. Opening break: it meets the 3 first; else the other breaks, or has it repeated, or
+ * plays on where the balls lie, as other printings have it. A stroke that scores needs no cushion:
+ * the texts differ. */
 #include "games.h"
 #include "rules.h"
 
