@@ -176,6 +176,43 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
     await one.close();
   });
 
+  test("the clock ends a turn by a foul, and stands in the recording", async () => {
+    const context = await browser().newContext();
+    const one = await context.newPage();
+    await one.clock.install();
+    await one.goto(`file://${page}`);
+    await one.waitForSelector("main[aria-busy=false]");
+    expect(await one.locator("#clock").isVisible()).toBe(false);
+    await one.locator("#new-game").click();
+    await one.locator("#new-which").selectOption("nineball");
+    await one.locator("#new-against").selectOption("practice");
+    expect(await one.locator("#new-clock").isVisible()).toBe(false);
+    await one.locator("#new-against").selectOption("person");
+    await one.locator("#new-clock").selectOption("30");
+    await one.locator("#start").click();
+    await one.clock.runFor(1000);
+    expect(await text(one, "clock")).toMatch(/^(2[89]|30) s left$/);
+    await one.clock.runFor(22_000);
+    expect(await one.locator("#clock.warned").count()).toBe(1);
+    // Each of both players has the whole time anew.
+    await one.clock.runFor(8_000);
+    expect(await text(one, "turn")).toMatch(
+      /^Player 1 fouls: the time for the stroke is over. Player 2/,
+    );
+    expect(await text(one, "clock")).toMatch(/^(2[6-9]|30) s left$/);
+    const { open: id, games } = await keptGames(one);
+    const { lines } = JSON.parse(games[id]!) as { lines: string[] };
+    expect(lines.filter((line) => line.startsWith('{"act":{"act":4,'))).toHaveLength(1);
+    await one.reload();
+    await one.waitForSelector("main[aria-busy=false]");
+    expect(await text(one, "turn")).toMatch(/^Player 1 fouls: the time/);
+    // Three fouls in a row lose nine-ball.
+    for (let turn = 0; turn < 4; turn++) await one.clock.runFor(31_000);
+    expect(await one.locator("#end").textContent()).toContain("The time for the stroke is over.");
+    expect(await one.locator("#clock").isVisible()).toBe(false);
+    await context.close();
+  });
+
   test("the menu begins a game with equal innings, where the game knows them", async () => {
     const one = await open("");
     await one.locator("#new-game").click();

@@ -52,10 +52,14 @@ export interface Setup {
   racks?: readonly [number, number];
   /** Whether the player who does not begin has an equalizing inning, so that games may be drawn. */
   equalInnings?: boolean;
+  /** How long a stroke may take, s. */
+  clock?: number;
 }
-/** A stroke that was played, for its film; or a choice instead of one, which has no shot. */
+/** A stroke that was played, for its film; or what was instead of one, which has no shot. */
 export interface Stroke {
   who: 0 | 1;
+  /** Whether the time for the stroke was over. */
+  isLate?: boolean;
   balls: ShotBall[];
   cue: Cue;
   call: Call | undefined;
@@ -96,6 +100,8 @@ interface Kept {
 }
 
 export const OPTIONS: ShotOptions = {};
+/** How the line of a clock that ran out begins. */
+const LATE = '{"act":{"act":4,';
 
 /** The table of a game: what of it is not usual. */
 export function tableOf({
@@ -320,6 +326,12 @@ export class Play {
     return this.#ruled(before, false);
   }
 
+  /** The time for a stroke is over, which is a foul. */
+  clock(): Stroke {
+    const before = this.#before(this.carom.cue());
+    this.#match!.clock();
+    return this.#ruled({ ...before, isLate: true }, false);
+  }
   /** A player gives the game to the other. */
   concede(who: 0 | 1): Stroke {
     const before = this.#before(this.carom.cue());
@@ -343,7 +355,11 @@ export class Play {
         // The lines of the ruling follow, which the match has too.
         const ruled = match.lines.length - known - 1;
         for (const rest of lines.splice(0, ruled)) match.read(rest);
-        if (ruled > 0) return this.#ruled(before, line.startsWith('{"shot"'));
+        if (ruled > 0)
+          return this.#ruled(
+            { ...before, isLate: line.startsWith(LATE) },
+            line.startsWith('{"shot"'),
+          );
       }
     } catch (error) {
       throw new TypeError(texts.strokeIsNotAs(this.strokes + 1, wrong(error)));

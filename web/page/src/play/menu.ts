@@ -3,6 +3,7 @@ import { words } from "carom";
 import { GAMES, hasMember, PLAYED, POOL_TABLES } from "../table/games.js";
 import { RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
+import { CLOCKS } from "./clock.js";
 import { calibrationPage, ownCushion, wordsOfCushion } from "./calibration.js";
 import { type Against, isComputer, tableOf } from "./game.js";
 import { keepText, keptValue } from "./keep.js";
@@ -112,6 +113,12 @@ export function menu(
     () => undefined,
   );
   const equal = check("new-equal", texts.equalInnings, () => undefined);
+  const clock = choice(
+    "new-clock",
+    texts.shotClock,
+    CLOCKS.map((time) => [time, time === "0" ? texts.none : texts.seconds(time)] as const),
+    () => undefined,
+  );
   const ladder = ladderOf((rating) => {
     against.select.value = rating;
     chooseErrors();
@@ -196,7 +203,8 @@ export function menu(
   function describe(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
     own.root.hidden = against.select.value === "practice";
-    race.root.hidden = ["practice", "link"].includes(against.select.value);
+    const isHere = !["practice", "link"].includes(against.select.value);
+    for (const one of [race, clock]) one.root.hidden = !isHere;
     equal.root.hidden = against.select.value === "practice" || !knowsInnings();
     ladder.mark(against.select.value);
     rules.textContent = texts.rules[game.select.value] ?? "";
@@ -236,6 +244,8 @@ export function menu(
           ? {}
           : { race: Number(race.select.value), racks: [0, 0] as const }),
         ...(!equal.root.hidden && equal.input.checked && { equalInnings: true }),
+        ...(!clock.root.hidden &&
+          clock.select.value !== CLOCKS[0] && { clock: Number(clock.select.value) }),
       });
     },
     { id: "start", class: "main" },
@@ -246,7 +256,7 @@ export function menu(
     texts.newGame,
     el("div", { class: "fields" }, game.root, ...ofPool, against.root),
     ladder.root,
-    el("div", { class: "fields" }, own.root, race.root, equal.root),
+    el("div", { class: "fields" }, own.root, race.root, clock.root, equal.root),
     note,
     rulesOf,
     start,
@@ -269,6 +279,7 @@ export function menu(
       own.select.value = setup.own;
       race.select.value = String(setup.race ?? RACES[0]);
       equal.input.checked = setup.equalInnings ?? false;
+      clock.select.value = String(setup.clock ?? CLOCKS[0]);
       table.select.value = setup.table ?? "9ft";
       cloth.select.value = setup.cloth ?? USUAL;
       listCushions(setup.cushion ?? USUAL);

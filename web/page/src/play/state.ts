@@ -20,9 +20,10 @@ const ballsLeft = (play: Play, from: number, to: number): number =>
   play.balls.filter(({ state }, k) => k >= from && k <= to && onTable(state)).length;
 
 /** What has just happened, as far as it is not a plain change of turns. */
-function wordsOfFoul(play: Play, { who, ruling }: Stroke, seat: 0 | 1): string {
-  if (!ruling?.foul) return "";
+function wordsOfFoul(play: Play, { who, ruling, isLate }: Stroke, seat: 0 | 1): string {
   const name = nameOf(play, who, seat);
+  if (isLate) return texts.fouls(name, name === texts.you, texts.theTimeIsOver);
+  if (!ruling?.foul) return "";
   return texts.fouls(name, name === texts.you, told(ruling.why));
 }
 
@@ -45,7 +46,8 @@ function wordsOfEight({ state, ruling, balls, shot, call }: Stroke): string {
 /** Why the game has ended, as far as the stroke tells more than the score. */
 export function wordsOfEnd(play: Play): string {
   const { last, setup, played, winner } = play;
-  if (winner !== undefined && last && !last.shot) return texts.theOtherGaveUp;
+  if (winner !== undefined && last && !last.shot)
+    return last.isLate ? texts.theTimeIsOver : texts.theOtherGaveUp;
   if (!last?.ruling) return "";
   const hasLost = winner !== last.who;
   const deciding = isEight(play) ? 8 : { nineball: 9, tenball: 10 }[setup.game];
@@ -124,8 +126,10 @@ export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = fa
 }
 
 /** What fell in a stroke. */
-export function wordsOfStroke(play: Play, { who, shot, cue, ruling }: Stroke, seat: 0 | 1): string {
+export function wordsOfStroke(play: Play, stroke: Stroke, seat: 0 | 1): string {
+  const { who, shot, cue, ruling, isLate } = stroke;
   const name = nameOf(play, who, seat);
+  if (isLate) return wordsOfFoul(play, stroke, seat).trim();
   if (!shot) return texts.passed(name);
   const fallen = shot.events.flatMap(({ type, a }) =>
     type === "ball_pocket" && (a !== cue.ball || !ruling?.foul)

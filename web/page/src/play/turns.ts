@@ -100,6 +100,11 @@ function finishTurn(s: Session, stroke: Stroke): void {
   saveAndCount(s);
   s.showing.perform(stroke, () => next(s));
 }
+/** Ends the turn of whoever is at the table, because the time for the stroke is over. */
+export function runOut(s: Session): void {
+  s.searchGeneration++; // a search for a hint ends here
+  finishTurn(s, s.play.clock());
+}
 /** Gives the game to the other player; of two at one page, whoever is at the table gives it. */
 export function concede(s: Session): void {
   const { play, seat } = s;

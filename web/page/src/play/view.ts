@@ -5,6 +5,7 @@ import { player as filmPlayer } from "../../../player/player.js";
 import { drop } from "../far.js";
 import { button, eachFrame, el, parameters, wrong } from "../ui.js";
 import { aiming, drawAim } from "./aim.js";
+import { shotClock } from "./clock.js";
 import { coaching } from "./coaching.js";
 import { controls } from "./controls.js";
 import { diagramPage, type Source } from "./diagram.js";
@@ -217,13 +218,14 @@ export function playView(
   const { words, buttons, stroke } = s;
   aiming(s);
   const { all, diagram } = dialogs(s);
+  const clock = shotClock(s);
   const bar = el(
     "section",
     { class: "play-bar", "aria-label": texts.game },
     el(
       "div",
       { class: "words" },
-      el("div", { class: "row state" }, words.turn, words.score),
+      el("div", { class: "row state" }, words.turn, words.score, clock.root),
       words.said,
     ),
     el(
@@ -271,6 +273,7 @@ export function playView(
     },
     close() {
       buttons.sound.remove();
+      clock.close();
       s.space.close();
       s.searchGeneration++;
       drop("plan");
