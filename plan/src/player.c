@@ -20,7 +20,7 @@ carom_player carom_player_fargo(double rating) {
   /* the error of aim of a stroke of 2 m/s, degrees; shots; the share of strokes that only pot */
   static const double at_rating[][3] = {
       {0.978, 146.0, 1.0},  {0.621, 163.0, 0.97}, {0.394, 183.0, 0.92}, {0.25, 205.0, 0.79},
-      {0.159, 230.0, 0.57}, {0.101, 257.0, 0.31}, {0.05, 500.0, 0.0},   {0.025, 500.0, 0.0}};
+      {0.159, 230.0, 0.57}, {0.101, 257.0, 0.31}, {0.05, 500.0, 0.0},   {0.012, 500.0, 0.0}};
   enum { STEPS = sizeof at_rating / sizeof at_rating[0] - 1 };
   static const double least = 200.0, most = 850.0, step = 100.0, growth = 0.25, speed = 2.0;
   const double r = fmin(fmax(rating, least), most); /* the least of NaN too */
