@@ -16,7 +16,11 @@
  *     q + (1 - q) (1 - q') Phi((M' - N + 1/2) / sqrt(1/4 + N (1 + w' / V) + M' (1 + w' / V'))),
  *
  * Phi being the normal distribution. All of it is an estimate: a, e and w' are those of a usual
- * layout, and the number of pots K supposes w' each. */
+ * layout, and the number of pots K supposes w' each.
+ *
+ * Where the other makes every ball, as in a plan to run out, the value is the share of the points
+ * on the table, or of those needed, that the visit makes. The chance q of all points of a game is
+ * too small to choose a stroke by. */
 #include "platform/elementary.h"
 #include "platform/promise.h"
 #include "rules.h"
@@ -58,6 +62,9 @@ static double value_from(const carom_view *view, const carom_rules_state *game,
   rules->left(game, in_play, left);
   if (left[0] < 1 || left[1] < 1)
     return left[0] < 1; /* one of them has won already */
+  const bool runs_out = view->given[1] == 1.0;
+  if (runs_out && who == 1)
+    return 1.0;
   const double n = left[0], m = left[1];
 
   /* the pot of each ball; the most is made by the one of `chosen` */
@@ -85,6 +92,8 @@ static double value_from(const carom_view *view, const carom_rules_state *game,
   const double later_pots = ceil(fmax(n - w, 0.0) / each), all = power(own.later, later_pots);
   const double later = own.later * (1.0 - all) / (1.0 - own.later);
   const double wins = p * all, made = p * (w + each * later);
+  if (runs_out)
+    return fmin(made / fmin(n, each * fmax(objects, 1)), 1.0);
   const double needed = fmax(n - made, 0.5);
 
   /* what follows it */

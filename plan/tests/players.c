@@ -119,6 +119,33 @@ TEST(players_choose) {
   ck_assert(differ > 0 && differ < 8);
 }
 
+/* In straight pool, whose points one visit never makes, a player who only pots takes the ball in
+ * the jaws: values that were the chance of all points were 0, and safeties were as good. */
+TEST(who_only_pots_takes_the_sure_ball) {
+  enum { SEEDS = 8 };
+  int taken = 0;
+  for (uint64_t seed = 0; seed < SEEDS; seed++) {
+    make_layout(1, 2);
+    carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+    job.count = carom_rack_size(CAROM_RACK_EIGHTBALL);
+    ck_assert_int_eq(carom_rack(CAROM_RACK_EIGHTBALL, &table, 1e-4, 1, balls, BALLS), CAROM_OK);
+    balls[0].state.r[1] = 0.3;
+    balls[1].state.r[0] = balls[1].state.r[1] = 0.06;
+    rules = carom_plan_rules_of(CAROM_RULES_STRAIGHT);
+    player = carom_player_fargo(600.0);
+    player.only_pots = 1.0;
+    options = (carom_plan_options){.shots = 500, .seed = seed};
+    make_memory();
+    carom_choice choice;
+    int found;
+    ck_assert_int_eq(carom_plan(&job, &choice, 1, &found), CAROM_OK);
+    ck_assert_int_ne(choice.kind, CAROM_PLAN_SAFETY);
+    taken += choice.ball == 1 && choice.keep > 0.9;
+    edge_free(&memory);
+  }
+  ck_assert_int_gt(taken, SEEDS / 4);
+}
+
 /* A player's strokes have his errors, and stay within his bounds. */
 TEST(strokes_err) {
   enum { STROKES = 4000 };
