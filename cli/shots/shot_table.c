@@ -166,13 +166,16 @@ static bool tell_measures(carom_status status, const carom_table_fault *at, json
 char *table_spelt(char *text) {
   const size_t size = strcspn(text, ",");
   const char *word;
-  for (int k = 0; (word = carom_word(CAROM_WORDS_TABLE, k)) != NULL; k++)
+  for (int k = 0; (word = carom_word(CAROM_WORDS_TABLE, k)) != NULL; k++) {
+    if (strlen(word) == size && strncmp(text, word, size) == 0)
+      return text;
     if (same_word(text, size, word, strlen(word))) {
       const size_t room = strlen(word) + strlen(text + size) + 1;
       char *spelt = allocate(room, 1); /* kept, as arguments are */
       snprintf(spelt, room, "%s%s", word, text + size);
       return spelt;
     }
+  }
   return text;
 }
 

@@ -179,7 +179,7 @@ test.runIf(thereIsACommand)(
           .events.find(({ type, a }) => type === "ball_pocket" && a === ball);
         expect(carom.pocketNames(table)[fall!.b]).toBe(pocket);
         const told = run(words, "");
-        expect(told).toContain(`turn by ${aimed.margin.toFixed(2)} degrees to either jaw`);
+        expect(told).toContain(`the ball has ${aimed.margin.toFixed(2)} degrees to either jaw`);
         expect(told).toContain(
           `aims of ${aimed.phi[0].toFixed(2)} to ${aimed.phi[1].toFixed(2)} degrees`,
         );
