@@ -59,8 +59,7 @@ OPTION(match_job, option_target, "target", target, 0, "N", set_count, 1,
        "the points that win, in games of points (default: those of the game)");
 OPTION(match_job, option_equal, "equal-innings", equal, 0, NULL, set_flag, 0,
        "in three-cushion and straight rail: if the player who broke reaches the target first, the "
-       "other "
-       "has one more inning, and the match may be drawn");
+       "other has one more inning, and the match may be drawn");
 OPTION(match_job, option_show, "show", shows, 0, NULL, set_flag, 0,
        "instead of playing: judge GAME, and tell each stroke in words");
 

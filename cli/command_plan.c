@@ -35,9 +35,9 @@ typedef struct plan_job {
 OPTION(
     plan_job, option_rules, "rules", game.rules, 0, NULL, set_named, CAROM_WORDS_RULES,
     "the game (default eightball, or potting where no ball is named 8; potting has no rules: all "
-    "balls count). The cue ball is named "
-    "cue, and the others by their numbers, or in snooker as in its rack: red1, yellow; "
-    "potting, cowboy and games without pockets take any names, in the order of the rack");
+    "balls count). The cue ball is named cue, and the others by their numbers, or in snooker as in "
+    "its rack: red1, yellow; potting, cowboy and games without pockets take any names, in the "
+    "order of the rack");
 OPTION(plan_job, option_group, "group", game.group, 0, "open|solids|stripes", set_choice, 0,
        "the balls of the player, where each has a group (default open: any but the eight)");
 OPTION(plan_job, option_permission, "may", game.permission, 0, "shoot|push-out|pass|free-ball",
