@@ -503,7 +503,9 @@ typedef struct carom_plan_options {
                                    Values of layouts depend on it. */
   double chance_opponent;       /* the same for the opponent, 0 to 1. 1: the opponent makes every
                                    ball, so the plan tries to run out, because a turn that ends
-                                   before is worth nothing. */
+                                   before is worth nothing. In games of points a layout is then
+                                   worth the share of the points on the table that the visit
+                                   makes. */
   const volatile int32_t *stop; /* not NULL: another thread may set *stop to end the plan early,
                                    within some ms. Unless `once` is set, the call plays plans of
                                    100, 200, 400 ... shots. A plan that was stopped returns one
