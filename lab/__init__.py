@@ -1,1 +1,1 @@
-"""The study's Python part, run from the root of the tree: `tools/python -m lab.report`."""
+"""What measures the product, in Python, run from the root of the tree: `tools/python -m lab.published`."""

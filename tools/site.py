@@ -33,7 +33,7 @@ OTHERS = [
     "CONTRIBUTING.md",
     *sorted(
         str(page.relative_to(SOURCE))
-        for room in ("cli", "data", "lab", "plan", "python", "src", "tests", "web")
+        for room in ("cli", "data", "lab", "plan", "python", "src", "study", "tests", "web")
         for page in (*SOURCE.glob(f"{room}/README.md"), *SOURCE.glob(f"{room}/*/README.md"))
     ),
 ]

@@ -11,7 +11,7 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 ROOT = Path(sys.argv[1]).resolve()
-ROOMS = ("include", "src", "plan", "cli", "lab", "python", "examples")
+ROOMS = ("include", "src", "plan", "cli", "study", "lab", "python", "examples")
 # What a room may include besides itself; a room not named here may include everything.
 ALLOWED = {
     "include": (),

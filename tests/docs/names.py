@@ -11,6 +11,7 @@ ROOMS = (
     "plan",
     "cli",
     "lab",
+    "study",
     "tests",
     "examples",
     "python",

@@ -50,10 +50,10 @@ def start(line, folder):
 run = started = 0
 with tempfile.TemporaryDirectory() as work:
     folder = Path(work)
-    for part in ("bindings", "data", "tools", "docs", "cli"):
+    for part in ("bindings", "data", "tools", "docs", "cli", "lab"):
         (folder / part).symlink_to(SOURCE / part)
     shutil.copytree(
-        SOURCE / "lab", folder / "lab"
+        SOURCE / "study", folder / "study"
     )  # whose report looks for the build from where it lies
     (folder / "build").symlink_to(BUILD)
     (folder / "DIR").mkdir()

@@ -16,12 +16,12 @@ ROOT = STORED.parent.parent
 BUILD = Path(os.environ.get("CAROM_BUILD", ROOT / "build"))
 DOCS = ROOT / "docs" / "figures"
 sys.path.insert(0, str(ROOT))
-from lab.report import __main__ as report  # noqa: E402
+from study.report import __main__ as report  # noqa: E402
 
 
 def make(folder, *words):
     done = subprocess.run(
-        [sys.executable, "-m", "lab.report", *map(str, words), str(folder)],
+        [sys.executable, "-m", "study.report", *map(str, words), str(folder)],
         capture_output=True,
         text=True,
         cwd=ROOT,
@@ -71,7 +71,7 @@ def test_stored(tmp_path):
     )
 
     bounds, base = (
-        report.Sheet(ROOT / "lab" / "report" / "bounds.csv").first(
+        report.Sheet(ROOT / "study" / "report" / "bounds.csv").first(
             kernel="base", config="clang-zen2"
         ),
         table(page, "operations")[0],

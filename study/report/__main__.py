@@ -1,4 +1,4 @@
-"""The report: `tools/python -m lab.report DIR` measures to CSV files, draws a figure of each by
+"""The report: `tools/python -m study.report DIR` measures to CSV files, draws a figure of each by
 gnuplot, and writes one page.
 
 A file that cannot be had leaves its figures and tables out; the page says so in their place, and
@@ -423,7 +423,7 @@ def draw(name, options):
     target.unlink(missing_ok=True)
     if not Sheet(options.folder / f"{source}.csv").rows:
         return
-    script = HERE.parent / "figures" / f"{name}.gp"
+    script = next(ROOT.glob(f"*/figures/{name}.gp"))
     done = subprocess.run(
         ["gnuplot", "-c", script, f"{source}.csv", target.name, title],
         cwd=options.folder,
