@@ -10,6 +10,8 @@
 
 enum { COMPONENTS = 12 };
 
+static const double ROUNDING = 1e-12; /* of the scale */
+
 static const double *numbers(const carom_result *result) {
   return (const double *)result;
 }
@@ -32,14 +34,16 @@ pair_accuracy accuracy_of(const carom_result *result, const carom_result *refere
     const double error = weight(k, radius) * fabs(x[k] - y[k]);
     if (error == 0.0)
       continue;
-    const double of_scale = error / scale,
-                 of_itself = error / fmax(weight(k, radius) * fabs(y[k]), 0.001 * scale);
+    const double size = weight(k, radius) * fabs(y[k]);
+    const double of_scale = error / scale, of_itself = error / fmax(size, 0.001 * scale);
     a.pair = fmax(a.pair, of_scale);
     a.component = fmax(a.component, of_itself);
+    if (of_scale > ROUNDING)
+      a.strict = fmax(a.strict, error / size);
     if (isnan(of_scale))
       a.pair = INFINITY;
     if (isnan(of_itself))
-      a.component = INFINITY;
+      a.component = a.strict = INFINITY;
   }
   return a;
 }
@@ -53,6 +57,8 @@ accuracy_summary accuracy_summarise(const pair_accuracy *each, size_t n) {
     s.identical += each[k].identical;
     s.component_1e3 += each[k].component > 1e-3;
     s.component_1e2 += each[k].component > 1e-2;
+    s.strict_1e3 += each[k].strict > 1e-3;
+    s.strict_1e2 += each[k].strict > 1e-2;
   }
   sort_samples(pair, n);
   s.median = median_of_sorted(pair, n);

@@ -110,10 +110,6 @@ static uint64_t fingerprint(const void *context) {
   return bench_fingerprint(w->result, w->rows * result_size(w->single));
 }
 
-static bool takes_steps(const kernel *one) {
-  return one->is_rung || one->solver == CAROM_SOLVER_EULER;
-}
-
 static const char *isa_of(const workload *w) {
   if (w->size == 0)
     return "scalar";
@@ -178,7 +174,7 @@ static bool within(const workload *w, double allowed, int steps) {
   if (w->own.max <= allowed)
     return true;
   char with[64] = "", lanes[64] = "";
-  if (takes_steps(w->kernel))
+  if (kernel_takes_steps(w->kernel))
     snprintf(with, sizeof with, " with %d steps", steps);
   if (w->size > 0)
     snprintf(lanes, sizeof lanes, ", %s, %s", isa_of(w), precision_of(w));
@@ -204,12 +200,8 @@ static void leave_out_too_slow(workload *w) {
 }
 
 /* At other steps than the claim's there is no file: the reference is the library's Euler with as
- * many steps, which has pooltool's bits. A rung that rounds differently may end one step sooner
- * or later. A step changes a velocity by
- * (1 + e)|v_n|/(2N), at most 2/N of the pair's scale, so allowed is 2/N + bound * max(1, N /
- * claim's N); but a bound of 0 stays 0. */
+ * many steps, which has pooltool's bits. */
 static bool verify_other_steps(workload *w) {
-  const double steps = w->options.steps, bound = bound_of(w);
   resolve(w);
   if (w->size == 0)
     leave_out_too_slow(w);
@@ -220,10 +212,8 @@ static bool verify_other_steps(workload *w) {
     carom_collide(&w->cases->impact[k], &euler, &reference[k]);
   w->own = compare(w, reference);
   free(reference);
-  double reached = 0.0;
-  if (bound > 0.0)
-    reached = 2.0 / steps + bound * fmax(1.0, steps / w->kernel->claims[0].steps);
-  return within(w, reached, w->options.steps);
+  const int steps = w->options.steps;
+  return within(w, kernel_bound(bound_of(w), &w->kernel->claims[0], steps), steps);
 }
 
 /* Resolves the cases and compares. *good: may it be timed? False if data could not be read. */
@@ -237,7 +227,7 @@ static bool verify(workload *w, const char *folder, bool *good) {
   if (!compare_file(w, folder, claim->reference, &w->own))
     return false;
   *good = within(w, bound_of(w), claim->steps);
-  if (*good && takes_steps(w->kernel) && steps != claim->steps)
+  if (*good && kernel_takes_steps(w->kernel) && steps != claim->steps)
     *good = verify_other_steps(w);
   char name[64];
   snprintf(name, sizeof name, "reference-exact-%s.csv", carom_slip_name(w->options.slip));
@@ -275,7 +265,7 @@ static workload *add(const kernel *one, int steps) {
   *w = (workload){.kernel = one, .cases = &all.cases, .isa = carom_isa_in_force()};
   w->options = (carom_options){
       .slip = one->claims[0].slip, .steps = CAROM_DEFAULT_STEPS, .solver = CAROM_SOLVER_EXACT};
-  if (takes_steps(one))
+  if (kernel_takes_steps(one))
     w->options.steps = steps;
   if (!one->is_rung)
     w->options.solver = one->solver;
@@ -287,7 +277,7 @@ static workload *add(const kernel *one, int steps) {
 static void add_calls(const kernel *one, const ladder_module *module, int steps) {
   for (const workload *w = all.work; w < all.work + all.count; w++)
     if (w->size == 0 && w->kernel == one && w->module == module &&
-        (w->options.steps == steps || !takes_steps(one)))
+        (w->options.steps == steps || !kernel_takes_steps(one)))
       return;
   workload *w = add(one, steps);
   w->module = module;
@@ -386,14 +376,14 @@ static bool wants_isa(const bench_job *job, carom_isa isa) {
  * for. */
 static bool wants_batches(const bench_job *job, const kernel *one) {
   return !one->is_rung && (job->kernels.count == 0 || names(&job->kernels, one->name)) &&
-         (job->batch || (job->configs.count == 0 && !takes_steps(one)));
+         (job->batch || (job->configs.count == 0 && !kernel_takes_steps(one)));
 }
 
 /* Every size, precision, number of threads and, where a kernel takes any, of steps that is
  * wanted. */
 static void add_batches(const bench_job *job, const kernel *one, carom_isa isa) {
   size_t steps = 1;
-  if (takes_steps(one))
+  if (kernel_takes_steps(one))
     steps = job->steps.count;
   for (size_t size = 0; size < job->pairs.count; size++)
     for (int single = 0; single < 2; single++)
@@ -553,7 +543,7 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
     threads = of->options.threads;
     pairs = (double)of->size;
   }
-  if (takes_steps(of->kernel))
+  if (kernel_takes_steps(of->kernel))
     steps = of->options.steps;
   const bool csv = job->csv, more = job->spread;
   const struct {

@@ -3,6 +3,7 @@
 
 #include "program/message.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Euler at N = 1000 errs by at most 1.3e-3 on the cases, with either slip. */
@@ -63,6 +64,16 @@ const kernel *kernel_find(const char *name) {
     if (strcmp(one->name, name) == 0)
       return one;
   return NULL;
+}
+
+bool kernel_takes_steps(const kernel *k) {
+  return k->is_rung || k->solver == CAROM_SOLVER_EULER;
+}
+
+double kernel_bound(double bound, const kernel_claim *claim, int steps) {
+  if (bound == 0.0 || steps == claim->steps)
+    return bound;
+  return 2.0 / steps + bound * fmax(1.0, (double)steps / claim->steps);
 }
 
 OPTION_SET(set_kernel) {
