@@ -18,6 +18,15 @@ if(processor_flags MATCHES " avx2 " AND processor_flags MATCHES " fma " AND proc
   set(ladder_flags_zen2 -O3 -march=znver2 -ffast-math -fno-finite-math-only)
 endif()
 
+if(NOT CAROM_LADDER_CONFIGS STREQUAL "all")
+  foreach(config ${CAROM_LADDER_CONFIGS})
+    if(NOT config IN_LIST ladder_configs)
+      message(FATAL_ERROR "CAROM_LADDER_CONFIGS: there is no configuration '${config}'; there are all, ${ladder_configs}")
+    endif()
+  endforeach()
+  set(ladder_configs ${CAROM_LADDER_CONFIGS})
+endif()
+
 # The compilers, the paper's first choice first; the newest clang that is installed, and gcc.
 set(clangs clang)
 set(gccs gcc)
