@@ -6,11 +6,11 @@
 #include "program/output.h"
 #include "program/place.h"
 #include "program/words.h"
+#include "python.h"
 #include "subcommands.h"
 
 #include <limits.h>
 #include <stdio.h>
-#include <sys/wait.h>
 
 typedef struct published_job {
   shared_options shared;
@@ -45,22 +45,14 @@ int command_published(int argc, char **argv) {
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
-  const char *module = "published";
+  const char *module = "lab.published";
   if (job.cushions)
-    module = "cushions";
-  char line[3 * PATH_MAX];
-  snprintf(line, sizeof line,
-           "CAROM_PYTHON_MODULES='jinja2 pycparser' '%s/tools/python' -m lab.%s '%s' "
-           "'%s/measured.csv' %s",
-           LAB_SOURCE, module, LAB_LIBRARY, data_folder(job.shared.folder),
-           text_if(job.csv, "csv"));
-  FILE *rows = popen(line, "r");
-  for (int c; rows != NULL && (c = fgetc(rows)) != EOF;)
-    fputc(c, out);
-  int status = -1;
-  if (rows != NULL)
-    status = pclose(rows);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) > EXIT_SOME || !output_commit())
+    module = "lab.cushions";
+  char measured[PATH_MAX];
+  snprintf(measured, sizeof measured, "%s/measured.csv", data_folder(job.shared.folder));
+  const char *const words[] = {LAB_LIBRARY, measured, text_if(job.csv, "csv"), NULL};
+  const int ended = python_run("jinja2 pycparser", module, words, out);
+  if (ended < 0 || ended > EXIT_SOME || !output_commit())
     return EXIT_USAGE;
-  return WEXITSTATUS(status);
+  return ended;
 }

@@ -5,6 +5,7 @@
 
 int main(int argc, char **argv) {
   static const command commands[] = {
+      {"paper", "judge every claim of the seed paper by a run", command_paper},
       {"kernels", "list the kernels: the library's solvers and the seed paper's ladder",
        command_kernels},
       {"resolve", "resolve the collisions of a CSV file by any kernel", command_resolve},

@@ -5,6 +5,7 @@
 int command_bench(int argc, char **argv);
 int command_experiments(int argc, char **argv);
 int command_kernels(int argc, char **argv);
+int command_paper(int argc, char **argv);
 int command_resolve(int argc, char **argv);
 int command_trace(int argc, char **argv);
 int command_verify(int argc, char **argv);

@@ -35,6 +35,10 @@ DATA = {
     "experiments": (0, "carom-lab experiments --csv"),
     "trace": (0, "carom-lab trace --id pooltool-135"),
     "verify": (0, "carom-lab verify --csv"),
+    "growth-5000": (
+        0,
+        "carom-lab verify --kernel float --config default --steps 5000 --csv",
+    ),
     "ladder": (20, "carom-lab bench --csv --spread"),
     "steps": (17, f"carom-lab bench --kernel {FIVE} --steps {STEPS} --csv --spread"),
     "accuracy": (
@@ -261,9 +265,10 @@ def worst_of_builds(rows):
         group = worst.setdefault((row["kernel"], row["reference"]), {**row, "builds": 0})
         group["builds"] += 1
         group["identical"] = min(group["identical"], row["identical"], key=number)
-        for name in ("max", "over_1e3", "over_1e2"):
+        for name in ("max", "over_1e3", "over_1e2", "strict_1e3", "strict_1e2"):
             group[name] = max(group[name], row[name], key=number)
-        group["verdict"] = min(group["verdict"], row["verdict"])  # fail before pass
+        for name in ("verdict", "paper_verdict"):
+            group[name] = min(group[name], row[name])  # fail before pass
     return list(worst.values())
 
 

@@ -1,0 +1,65 @@
+/* `carom-lab paper`: study/paper.py, which measures what the seed paper claims, or takes it from a
+ * report, and judges each claim. */
+#include "program/command.h"
+#include "program/options.h"
+#include "program/output.h"
+#include "python.h"
+#include "subcommands.h"
+
+#include <stdio.h>
+
+typedef struct paper_job {
+  shared_options shared;
+  const char *source;
+  double budget;
+  bool csv;
+} paper_job;
+
+OPTION(paper_job, paper_source, "from", source, 0, "DIR", set_text, 0,
+       "measure nothing: judge the CSV files of this report, such as build/results/report");
+OPTION(paper_job, paper_budget, "budget", budget, 0, "SECONDS", set_amount, 0,
+       "how long to time the kernels (default 60); counting their operations comes on top");
+OPTION(paper_job, paper_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "as CSV: section,claim,unit,paper,here,uncertainty,verdict,cause");
+
+static const command_form form = {
+    .name = "paper",
+    .usage = "[OPTIONS]",
+    .about =
+        "Judges the claims of the seed paper, in the order of its sections (study/claims.csv): the "
+        "paper's value, the value of this run, and whether the claim holds, is weaker, does not "
+        "hold here, or is not measurable here, with the cause where it does not hold. Sentences "
+        "that compare the paper's best kernel with this run's end the table.\n",
+    .options =
+        (const option_row *const[]){&paper_source, &paper_budget, &paper_csv, &option_output, NULL},
+    .details = "The rules by which a claim holds stand at the head of study/paper.py, and "
+               "docs/study/paper.md gives the causes.\n"
+               "\n"
+               "exit code: 0; 2 for bad usage, or if nothing could be measured\n",
+    .example = "carom-lab paper --from build/results/report",
+};
+
+int command_paper(int argc, char **argv) {
+  paper_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}, .budget = 60.0};
+  const int code = parse_arguments(&form, argc, argv, &job, NULL);
+  if (code >= 0)
+    return code;
+  FILE *out = output_open(job.shared.output);
+  if (out == NULL)
+    return EXIT_USAGE;
+  char budget[32];
+  snprintf(budget, sizeof budget, "%.17g", job.budget);
+  const char *words[10] = {"--build", STUDY_BUILD, "--budget", budget};
+  int count = 4;
+  if (job.csv)
+    words[count++] = "--csv";
+  if (job.source != NULL) {
+    words[count++] = "--from";
+    words[count++] = job.source;
+  }
+  if (python_run("jinja2", "study.paper", words, out) != 0) {
+    output_abandon();
+    return EXIT_USAGE;
+  }
+  return output_commit() ? 0 : EXIT_USAGE;
+}

@@ -1,0 +1,40 @@
+/* Subcommands that are programs in Python, run by the shell. */
+#include "python.h"
+
+#include <stdlib.h>
+#include <sys/wait.h>
+
+/* Adds a word in single quotes, in which only the quote itself is special to the shell. */
+static void add_quoted(FILE *line, const char *word) {
+  fputs(" '", line);
+  for (const char *c = word; *c != '\0'; c++)
+    if (*c == '\'')
+      fputs("'\\''", line);
+    else
+      fputc(*c, line);
+  fputc('\'', line);
+}
+
+int python_run(const char *needs, const char *module, const char *const words[], FILE *out) {
+  char *text = NULL;
+  size_t length = 0;
+  FILE *line = open_memstream(&text, &length);
+  if (line == NULL)
+    return -1;
+  fprintf(line, "CAROM_PYTHON_MODULES='%s'", needs);
+  add_quoted(line, STUDY_SOURCE "/tools/python");
+  fprintf(line, " -m %s", module);
+  for (size_t k = 0; words[k] != NULL; k++)
+    add_quoted(line, words[k]);
+  fclose(line);
+  FILE *said = popen(text, "r");
+  free(text);
+  if (said == NULL)
+    return -1;
+  for (int c; (c = fgetc(said)) != EOF;)
+    fputc(c, out);
+  const int status = pclose(said);
+  if (!WIFEXITED(status))
+    return -1;
+  return WEXITSTATUS(status);
+}
