@@ -111,7 +111,7 @@ class Run:
         return name, config
 
     def uncertainty(self, row, sheet):
-        rounds = float(self.sheet(sheet).notes.get("rounds", 1))
+        rounds = float(self.sheet(sheet).notes.get("rounds", "1").split(";")[0])
         scatter = report.number(row["speedup_spread"]) / report.number(row["speedup"])
         return math.hypot(2.0 * NORMAL * scatter / math.sqrt(rounds), REPEATS)
 
@@ -264,7 +264,9 @@ class Run:
         try:
             return self.number("configs", column, kernel=name, config=config)
         except Missing:
-            why = self.sheet("configs").notes.get("counters", "it needs the counters of a processor")
+            why = self.sheet("configs").notes.get(
+                "counters", "it needs the counters of a processor"
+            )
             raise Missing(why) from None
 
     # ---- pooltool's shots
@@ -393,7 +395,9 @@ def conclude(folder, rows):
     counts = Counter(row["verdict"] for row in rows)
     said = [
         f"claims of the paper: {len(rows)}; "
-        + ", ".join(f"{counts[verdict]} {verdict}" for verdict in (HOLDS, WEAKER, FAILS, UNMEASURED))
+        + ", ".join(
+            f"{counts[verdict]} {verdict}" for verdict in (HOLDS, WEAKER, FAILS, UNMEASURED)
+        )
     ]
     try:
         best = run.best_build(SCALAR)
@@ -448,7 +452,9 @@ def print_csv(rows, out):
 
 def arguments(words):
     parser = argparse.ArgumentParser(prog="study.paper", description=__doc__.partition("\n")[0])
-    parser.add_argument("--from", dest="source", type=Path, help="judge the CSV files of this folder")
+    parser.add_argument(
+        "--from", dest="source", type=Path, help="judge the CSV files of this folder"
+    )
     parser.add_argument("--budget", type=float, default=60.0, help="seconds to measure otherwise")
     parser.add_argument("--build", type=Path, default=report.ROOT / "build")
     parser.add_argument("--csv", action="store_true", help="write the claims as CSV")

@@ -37,8 +37,9 @@ const kernel *kernel_at(size_t k);
 bool kernel_takes_steps(const kernel *k);
 
 /* The claim's bound, for other numbers of steps than the claim's. A kernel that rounds differently
- * may end one step sooner or later, and a step changes a velocity by (1 + e)|v_n|/(2N), at most 2/N
- * of the pair's scale; so the bound is 2/N + bound * max(1, N / claim's N). A bound of 0 stays 0. */
+ * may end one step sooner or later, and a step changes a velocity by (1 + e)|v_n|/(2N), at most
+ * 2/N of the pair's scale; so the bound is 2/N + bound * max(1, N / claim's N). A bound of 0 stays
+ * 0. */
 double kernel_bound(double bound, const kernel_claim *claim, int steps);
 
 /* For a `const kernel *`: --kernel, a name in the table. */
