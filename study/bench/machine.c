@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 void machine_note(FILE *to, const char *what, const char *format, ...) {
-  char text[1000];
+  char text[2000];
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(text, sizeof text, format, arguments);

@@ -64,13 +64,27 @@ uint64_t bench_fingerprint(const void *results, size_t bytes) {
 
 /* ---- Samples in turns */
 
-static double sample(const bench_subject *s, size_t loops, double (*now)(void)) {
+/* The counters that run in a sample. */
+typedef struct counting {
+  const counter_set *set; /* NULL: none */
+  size_t group;
+  double *count; /* of each event */
+} counting;
+
+/* The counters start and stop just outside the clock, so that starting them is not timed. */
+static double sample(const bench_subject *s, size_t loops, double (*now)(void),
+                     const counting *counters) {
   if (s->prepare != NULL)
     s->prepare(s->context);
+  if (counters->set != NULL)
+    counters_start(counters->set, counters->group);
   const double start = now();
   for (size_t k = 0; k < loops; k++)
     s->resolve(s->context);
-  return now() - start;
+  const double elapsed = now() - start;
+  if (counters->set != NULL)
+    counters_stop(counters->set, counters->group, counters->count);
+  return elapsed;
 }
 
 /* Warm-up, and what one pass costs: the fastest of ever more loops until they take a
@@ -78,30 +92,59 @@ static double sample(const bench_subject *s, size_t loops, double (*now)(void)) 
 static double estimate(const bench_subject *s, double (*now)(void)) {
   double pass = INFINITY, elapsed = 0.0;
   for (size_t loops = 1; elapsed < short_sample && loops < SIZE_MAX / 2; loops *= 2) {
-    elapsed = sample(s, loops, now);
+    elapsed = sample(s, loops, now, &(counting){.set = NULL});
     pass = fmin(pass, elapsed / (double)loops);
   }
   return pass;
 }
 
-/* ns per pair. A sample of more than one loop begins with a pass that is not timed. */
-static double take_sample(const bench_subject *s, size_t loops, double (*now)(void)) {
-  if (s->threads > 1)
+/* ns per pair. A sample of more than one loop begins with a pass that is not timed. Counters
+ * belong to this thread, so they do not count a subject that has more of them. */
+static double take_sample(const bench_subject *s, size_t loops, double (*now)(void),
+                          counting counters) {
+  if (s->threads > 1) {
     pinning_suspend();
+    counters.set = NULL;
+  }
   if (loops > 1)
-    sample(s, 1, now);
-  const double full = sample(s, loops, now);
+    sample(s, 1, now, &(counting){.set = NULL});
+  const double full = sample(s, loops, now, &counters);
   if (s->threads > 1)
     pinning_resume();
   pinning_breathe(full);
   return full / (double)loops / (double)s->pairs;
 }
 
+/* The columns of subject k from its counts of each event in each round, of which those are NAN that
+ * were not counted; they are per sample of so many pairs. */
+static void summarise_counts(const counter_set *set, const double *count, size_t rounds,
+                             size_t stride, double pairs, bench_figure *figure) {
+  const size_t events = counters_events(set);
+  double *median = allocate(events + 1, sizeof *median);
+  double *counted = allocate(rounds, sizeof *counted);
+  for (size_t e = 0; e < events; e++) {
+    size_t n = 0;
+    for (size_t r = 0; r < rounds; r++)
+      if (!isnan(count[r * stride + e]))
+        counted[n++] = count[r * stride + e];
+    median[e] = summarise(counted, n).median / pairs;
+  }
+  counters_columns(set, median, figure->counted);
+  free(counted);
+  free(median);
+}
+
 void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *settings,
                   bench_figure *figure) {
   double (*const now)(void) = settings->now != NULL ? settings->now : clock_ns;
   const double start = now(), budget = 1e9 * settings->budget;
-  double *pass = allocate(n, sizeof *pass), *ns = NULL; /* round after round */
+  const counter_set *counters = settings->counters;
+  size_t groups = 0, events = 0;
+  if (counters != NULL) {
+    groups = counters_groups(counters);
+    events = counters_events(counters);
+  }
+  double *pass = allocate(n, sizeof *pass), *ns = NULL, *count = NULL; /* round after round */
   uint64_t *before = allocate(n, sizeof *before);
   double passes = 0.0;
   for (size_t k = 0; k < n; k++) {
@@ -116,14 +159,20 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
     figure[k].loops = (size_t)fmax(1.0, floor(length / pass[k]));
 
   /* rounds until the time is over, an odd number of them: that has a sample in the middle */
-  size_t rounds = 0, room = 0;
+  size_t rounds = 0, room = 0, count_room = 0;
   double spent = 0.0, longest = 0.0;
-  while (rounds < FEWEST_ROUNDS || rounds % 2 == 0 ||
+  while (rounds < FEWEST_ROUNDS || rounds < groups || rounds % 2 == 0 ||
          (rounds < MOST_ROUNDS && spent + 2.0 * longest < budget)) {
     const double begin = now();
     ns = grow(ns, &room, (rounds + 1) * n, sizeof *ns);
+    count = grow(count, &count_room, (rounds + 1) * n * events + 1, sizeof *count);
+    for (size_t e = 0; e < n * events; e++)
+      count[rounds * n * events + e] = NAN;
     for (size_t k = 0; k < n; k++) {
-      ns[rounds * n + k] = take_sample(&subject[k], figure[k].loops, now);
+      counting round = {.set = NULL};
+      if (groups > 0) /* they take turns */
+        round = (counting){counters, rounds % groups, count + (rounds * n + k) * events};
+      ns[rounds * n + k] = take_sample(&subject[k], figure[k].loops, now, round);
       if (settings->progress != NULL)
         settings->progress(fmin(now() - start, budget) * 1e-9, settings->budget);
     }
@@ -141,10 +190,16 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
     for (size_t r = 0; r < rounds; r++)
       scratch[r] = ns[r * n + k];
     figure[k].ns = summarise(scratch, rounds);
+    for (int column = 0; column < COUNTER_COLUMNS; column++)
+      figure[k].counted[column] = NAN;
+    if (counters != NULL)
+      summarise_counts(counters, count + k * events, rounds, n * events,
+                       (double)figure[k].loops * (double)subject[k].pairs, &figure[k]);
     figure[k].unchanged = subject[k].fingerprint(subject[k].context) == before[k];
   }
   free(scratch);
   free(before);
   free(pass);
+  free(count);
   free(ns);
 }

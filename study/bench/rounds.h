@@ -8,6 +8,8 @@
 #ifndef CAROM_BENCH_ROUNDS_H
 #define CAROM_BENCH_ROUNDS_H
 
+#include "counters.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -33,6 +35,7 @@ typedef struct bench_settings {
                                                   whatever it is */
   double (*now)(void);                         /* nanoseconds; NULL for the monotonic clock */
   void (*progress)(double done, double total); /* called after each sample; NULL for none */
+  const counter_set *counters;                 /* read around each sample; NULL for none */
 } bench_settings;
 
 typedef struct sample_summary {
@@ -42,10 +45,12 @@ typedef struct sample_summary {
 } sample_summary;
 
 typedef struct bench_figure {
-  sample_summary ns;      /* per pair */
-  sample_summary speedup; /* the reference's time over this one's */
-  size_t loops;           /* workloads in a sample */
-  bool unchanged;         /* the results after the last round are those before the first */
+  sample_summary ns;               /* per pair */
+  sample_summary speedup;          /* the reference's time over this one's */
+  size_t loops;                    /* workloads in a sample */
+  double counted[COUNTER_COLUMNS]; /* per pair: medians over the rounds in which they were counted;
+                                      NAN where they are not, as with several threads */
+  bool unchanged;                  /* the results after the last round are those before the first */
 } bench_figure;
 
 /* Times n subjects; figure[k] is that of subject[k]. */

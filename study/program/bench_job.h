@@ -30,7 +30,7 @@ struct bench_job {
   name_list steps, pairs, threads;  /* of Euler's method; in a batch; of a batch */
   bool batch;                       /* batches only */
   double budget;                    /* 0: the table's own */
-  bool csv, spread, errors;
+  bool csv, spread, errors, counters;
   const char *shots; /* time a file of shots instead */
   bool cushions;     /* time impacts on a cushion instead */
   const bench_table *table;

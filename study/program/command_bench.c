@@ -532,6 +532,19 @@ static void note(const bench_job *job, FILE *out) {
                    all.cases.count - w->rows, all.cases.count);
 }
 
+/* The columns of hardware counters, or their heads for w = NULL. */
+static void print_counts(const bench_job *job, FILE *out, const workload *w,
+                         const bench_figure *f) {
+  for (int column = 0; job->counters && column < COUNTER_COLUMNS; column++) {
+    if (w == NULL)
+      fprintf(out, ",%s", counter_column_name((counter_column)column));
+    else if (isnan(f->counted[column]))
+      fputs(",NA", out);
+    else
+      fprintf(out, ",%.6g", f->counted[column]);
+  }
+}
+
 /* The head of the table for w = NULL. */
 static void print_row(const bench_job *job, FILE *out, const workload *w, const bench_figure *f) {
   const workload none = {.kernel = all.reference};
@@ -587,6 +600,7 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
     else
       fprintf(out, columns[k].format, columns[k].x);
   }
+  print_counts(job, out, w, f);
   const char *paper = "-";
   if (w == NULL)
     paper = "paper";
@@ -617,6 +631,21 @@ static void show_time(double done, double total) {
   progress_show("seconds measured", done, total);
 }
 
+/* The hardware counters, if they are asked for, and a note on what they count. */
+static counter_set *open_counters(const bench_job *job, FILE *out) {
+  if (!job->counters)
+    return NULL;
+  counter_set *counters = counters_open_here();
+  size_t size;
+  char *text;
+  FILE *note = open_text(&text, &size);
+  counters_describe(counters, note);
+  close_text(note, &text);
+  machine_note(out, "counters", "%s", text);
+  free(text);
+  return counters;
+}
+
 static bool bench_all(bench_job *job) {
   const carom_isa isa = carom_isa_in_force();
   if (!job->table->choose(job))
@@ -630,8 +659,11 @@ static bool bench_all(bench_job *job) {
   job->figure = allocate(job->subject_count, sizeof *job->figure);
   machine_describe(out);
   job->pinning = pinning_begin();
-  const bench_settings settings = {.budget = job->budget, .now = job->now, .progress = show_time};
+  counter_set *counters = open_counters(job, out);
+  const bench_settings settings = {
+      .budget = job->budget, .now = job->now, .progress = show_time, .counters = counters};
   bench_rounds(job->subject, job->subject_count, &settings, job->figure);
+  counters_close(counters);
   pinning_end();
   progress_clear();
   carom_isa_limit(isa);
@@ -752,6 +784,9 @@ OPTION(bench_job, option_spread, "spread", spread, 0, NULL, set_flag, 0,
 OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
        "more columns in the CSV: slip, and the pair error against the exact reference, median and "
        "largest");
+OPTION(bench_job, option_counters, "counters", counters, 0, NULL, set_flag, 0,
+       "more columns: what the processor counts for each collision, such as cycles and operations; "
+       "NA where the kernel or the processor does not count it");
 OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
        "instead: time the whole shots of this file, beside pooltool's recorded times");
 OPTION(bench_job, option_cushions, "cushions", cushions, 0, NULL, set_flag, 0,
@@ -775,12 +810,12 @@ static const command_form form = {
     .name = "bench",
     .usage = "[OPTIONS]",
     .about = about,
-    .options =
-        (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch,
-                                    &option_isa, &option_one_precision, &option_thread_counts,
-                                    &option_pairs, &option_budget, &option_csv, &option_spread,
-                                    &option_errors, &option_shots, &option_cushions,
-                                    &options_of_motion, &option_data, &option_output, NULL},
+    .options = (const option_row *const[]){&option_kernel, &option_config, &option_counts,
+                                           &option_batch, &option_isa, &option_one_precision,
+                                           &option_thread_counts, &option_pairs, &option_budget,
+                                           &option_csv, &option_spread, &option_errors,
+                                           &option_counters, &option_shots, &option_cushions,
+                                           &options_of_motion, &option_data, &option_output, NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
 };
@@ -790,7 +825,7 @@ static bool is_plain(const bench_job *job) {
   return job->kernels.count + job->configs.count + job->isas.count + job->steps.count +
                  job->pairs.count ==
              0 &&
-         !job->batch && !job->errors && job->shared.precision == ANY_PRECISION;
+         !job->batch && !job->errors && !job->counters && job->shared.precision == ANY_PRECISION;
 }
 
 static int bench(bench_job *job) {
@@ -801,8 +836,8 @@ static int bench(bench_job *job) {
   else if (job->cushions && job->threads.count > 0)
     complain("--threads is for batches and shots, not for --cushions, which are single calls");
   else if ((job->shots != NULL || job->cushions) && !is_plain(job))
-    complain("--kernel, --config, --steps, --batch, --isa, --precision, --pairs and --errors are "
-             "for collisions of two balls");
+    complain("--kernel, --config, --steps, --batch, --isa, --precision, --pairs, --errors and "
+             "--counters are for collisions of two balls");
   else {
     job->table = &bench_of_collisions;
     if (job->shots != NULL)

@@ -39,14 +39,17 @@ DATA = {
         0,
         "carom-lab verify --kernel float --config default --steps 5000 --csv",
     ),
-    "ladder": (20, "carom-lab bench --csv --spread"),
+    "ladder": (20, "carom-lab bench --csv --spread --counters"),
     "steps": (17, f"carom-lab bench --kernel {FIVE} --steps {STEPS} --csv --spread"),
     "accuracy": (
         17,
         f"carom-lab bench --kernel exact,euler,double,float --isa scalar,best --steps {STEPS},20000,50000 --csv --errors",
     ),
-    "configs": (18, "carom-lab bench --config all --csv --spread"),
-    "cycles": (11, f"carom-lab bench --kernel {FIVE} --config zen2 --steps {STEPS} --csv --spread"),
+    "configs": (18, "carom-lab bench --config all --csv --spread --counters"),
+    "cycles": (
+        11,
+        f"carom-lab bench --kernel {FIVE} --config zen2 --steps {STEPS} --csv --spread --counters",
+    ),
     "isas": (9, "carom-lab bench --batch --threads 1 --pairs 4080 --csv --spread"),
     "batch": (
         8,
@@ -82,6 +85,7 @@ MACHINE = (
     "cores",
     "system",
     "core cycle",
+    "counters",
     "pinning",
     "load before",
     "commit",
@@ -208,10 +212,23 @@ def derive_speedup(options, data):
 def derive_performance(options, data):
     """Operations at N are those at N = 1000 and, for every step more or less, those of a step; the
     bound is a step's operations over the cycles of its longest chain. A cycle is a core cycle as
-    bench measures it.
+    bench measures it. Where the processor counted operations or cycles, its counts are used
+    instead; the notes say which.
     """
     cycles, rows = data["cycles"], []
     cycle = number(cycles.notes.get("core cycle", "").split(" ")[0])
+    counted = {
+        name: bool(cycles.rows) and all(number(row.get(name)) > 0 for row in cycles.rows)
+        for name in ("flops", "cycles")
+    }
+    notes = {
+        "operations": "counted by the processor"
+        if counted["flops"]
+        else "counted in the machine code, bounds.csv",
+        "cycles": "counted by the processor"
+        if counted["cycles"]
+        else "times of the clock over the core cycle, measured by a chain of additions",
+    }
     for row in cycles.rows:
         count = data["bounds"].first(kernel=row["kernel"], config=row["config"])
         steps, a_step = number(row["steps"]), number(count.get("per_step_flops_amd"))
@@ -220,6 +237,10 @@ def derive_performance(options, data):
             number(row["ns_median"]) / cycle,
         )
         bound = 1000 * a_step / number(count.get("chain_cycles_zen2"))
+        if counted["flops"]:
+            flops = number(row["flops"])
+        if counted["cycles"]:
+            taken = number(row["cycles"])
         named = {
             "flops": flops,
             "cycles": taken,
@@ -232,7 +253,7 @@ def derive_performance(options, data):
                 {name: row[name] for name in ("kernel", "config", "steps")}
                 | {name: f"{x:.5g}" for name, x in named.items()}
             )
-    return write(options, "performance", cycles.notes, rows)
+    return write(options, "performance", cycles.notes | notes, rows)
 
 
 def operations(data):

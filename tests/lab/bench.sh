@@ -21,6 +21,20 @@ timed --kernel euler
 sed -n 's/^# \([a-z ]*\): .*/\1/p' out.csv | grep -x -e processor -e pinning -e compiler -e flags -e commit -e date -e rounds | sort | tr '\n' ' '
 timed --kernel euler --steps 10,50 --steps 100
 timed --kernel euler --spread --errors
+timed --kernel exact --counters --precision double --isa plain --threads 1,2
+# a column is a number where the note says that it is counted, else NA; several threads are never counted
+python - << 'PYTHON'
+import csv, math
+lines = open("out.csv").read().splitlines()
+(note,) = [line for line in lines if line.startswith("# counters: ")]
+counted = note.partition(": ")[2].partition(" counted per collision")[0].split(", ") if " counted per collision" in note else []
+for row in csv.DictReader(line for line in lines if not line.startswith("#")):
+    for name in list(row)[11:]:
+        known = name in counted and row["threads"] == "1"
+        if name not in note or (not 0 <= float(row[name]) < math.inf if known else row[name] != "NA"):
+            print(f"{name}: {row[name]}, but the note is: {note}")
+PYTHON
+lab bench --kernel euler --counters --budget 0.1 | grep '^kernel' | tr -s ' '
 timed --kernel exact --steps 10,50 --isa scalar
 timed --kernel exact --threads 1,2
 sed -n 's/^# \(batches\): .*, \([0-9]* pairs\).*/\1: \2/p' out.csv
@@ -50,7 +64,7 @@ try env CAROM_ISA=AVX2 "$LAB" bench
 try lab bench --precision half
 try lab bench now
 for words in "--isa ," "--batch --kernel base" "--kernel exact --isa scalar --precision single" "--pairs 0" "--pairs ," "--threads 1,none" "--kernel euler,faster" "--steps 10,many" \
-  "--budget never" "--budget 0" "--budget 1x" "--spread" "--shots $DATA/shots-mathavan.jsonl --pairs 8" "--cushions --shots nowhere.jsonl" "--cushions --threads 2" "--cushions --kernel exact" "--shots nowhere.jsonl" "--data nowhere"; do
+  "--budget never" "--budget 0" "--budget 1x" "--spread" "--shots $DATA/shots-mathavan.jsonl --pairs 8" "--cushions --shots nowhere.jsonl" "--cushions --threads 2" "--cushions --kernel exact" "--cushions --counters" "--shots nowhere.jsonl" "--data nowhere"; do
   # shellcheck disable=SC2086
   try lab bench $words
 done
