@@ -224,10 +224,10 @@ def derive_performance(options, data):
     notes = {
         "operations": "counted by the processor"
         if counted["flops"]
-        else "counted in the machine code, bounds.csv",
+        else "of the machine code, study/report/bounds.csv",
         "cycles": "counted by the processor"
         if counted["cycles"]
-        else "times of the clock over the core cycle, measured by a chain of additions",
+        else f"time of the clock over {cycles.notes.get('core cycle', 'NA')}, the time of an addition",
     }
     for row in cycles.rows:
         count = data["bounds"].first(kernel=row["kernel"], config=row["config"])
@@ -248,7 +248,7 @@ def derive_performance(options, data):
             "bound_flops_per_cycle": bound,
             "share_of_bound": flops / taken / bound,
         }
-        if flops == flops:
+        if bound == bound and flops == flops:
             rows.append(
                 {name: row[name] for name in ("kernel", "config", "steps")}
                 | {name: f"{x:.5g}" for name, x in named.items()}

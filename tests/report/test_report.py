@@ -111,6 +111,31 @@ def test_stored(tmp_path):
         float(performance["flops"]) / float(performance["cycles"]), rel=1e-3
     )
 
+    # where the processor counted, its counts are taken; a column of NA changes nothing
+    lines = (stored / "cycles.csv").read_text(encoding="utf-8").splitlines()
+    counted = {"flops": "70000", "cycles": "140000"}
+    for name in (*counted, None):
+        cells = dict.fromkeys(counted, "NA") | ({name: counted[name]} if name else {})
+        heads = [",".join([line, *counted]) for line in lines if line.startswith("kernel,")]
+        rows = [
+            line if line.startswith("#") else ",".join([line, *cells.values()])
+            for line in lines
+            if not line.startswith("kernel,")
+        ]
+        first = next(k for k, line in enumerate(rows) if not line.startswith("#"))
+        (stored / "cycles.csv").write_text(
+            "\n".join([*rows[:first], *heads, *rows[first:], ""]), encoding="utf-8"
+        )
+        folder = tmp_path / f"counted-{name}"
+        make(folder, "--from", stored)
+        sheet = report.Sheet(folder / "performance.csv")
+        row = sheet.first(kernel="base", steps="1000")
+        for column, note in (("flops", "operations"), ("cycles", "cycles")):
+            is_counted = column == name
+            assert (sheet.notes[note] == "counted by the processor") == is_counted, (name, note)
+            wanted = counted[column] if is_counted else performance[column]
+            assert float(row[column]) == float(wanted), (name, column)
+
     for name in ("cycles.csv", "break.svg"):
         (stored / name).unlink()
     done, page = make(tmp_path / "three", "--from", stored)
