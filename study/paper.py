@@ -259,15 +259,17 @@ class Run:
 
     # ---- Counters of the processor
 
-    def counter(self, kernel, column):
+    def stalls(self, kernel):
+        """Cycles in which nothing could be dispatched for want of a place in a floating-point
+        scheduler (AMD, as in the paper), or in which nothing was executed (Intel).
+        """
         name, config = self.build(kernel)
-        try:
-            return self.number("configs", column, kernel=name, config=config)
-        except Missing:
-            why = self.sheet("configs").notes.get(
-                "counters", "it needs the counters of a processor"
-            )
-            raise Missing(why) from None
+        row = self.row("configs", kernel=name, config=config)
+        for column in ("stalls_fp_scheduler", "stalls_execution"):
+            counted = report.number(row.get(column))
+            if not math.isnan(counted):
+                return counted
+        raise Missing(self.sheet("configs").notes.get("counters", "it needs hardware counters"))
 
     # ---- pooltool's shots
 
