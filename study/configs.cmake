@@ -7,7 +7,7 @@ set(ladder_flags_novec -O3 -fno-tree-vectorize) # and, spelt differently, no vec
 set(ladder_flags_novec_clang -fno-slp-vectorize)
 set(ladder_flags_novec_gcc -fno-tree-slp-vectorize)
 
-# One more where it can run: the default for the paper's processor by name. study/report/bounds.csv counts the operations of this
+# One more where it can run: the default for the paper's processor by name. study/bounds counts the operations of this
 # code, so its time is the one to compare with the counts and their bounds.
 set(processor_flags "")
 if(EXISTS /proc/cpuinfo)

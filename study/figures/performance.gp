@@ -23,4 +23,7 @@ plot for [k=1:words(kernels)] data using "steps":(of(word(kernels, k), column("f
        with linespoints lt line_of(word(kernels, k), k) dt 1 title entry(word(kernels, k)), \
      for [k=1:words(kernels)] data using "steps":(of(word(kernels, k), column("bound_flops_per_cycle"))) \
        with lines lc rgb colour_of(word(kernels, k), k) lw 2 dt (8,5) notitle, \
-     keyentry with lines lc rgb grey lw 2 dt (8,5) title "bounds of Zen 2"
+     for [k=1:words(kernels)] data using "steps":(of(word(kernels, k), column("bound_here_flops_per_cycle"))) \
+       with lines lc rgb colour_of(word(kernels, k), k) lw 2 dt (2,4) notitle, \
+     keyentry with lines lc rgb grey lw 2 dt (8,5) title "bounds of Zen 2", \
+     keyentry with lines lc rgb grey lw 2 dt (2,4) title "bounds of this processor"

@@ -37,12 +37,13 @@ bool ladder_rung_runs(const ladder_rung *rung);
 
 /* One compiler's build of all rungs with one configuration. */
 typedef struct ladder_module {
-  const char *name;       /* "clang-default" */
-  const char *compiler;   /* "clang" */
-  const char *version;    /* of the compiler */
-  const char *config;     /* "default" */
-  const char *flags;      /* "-O3 ..." */
-  carom_rung *const *run; /* by number of the rung */
+  const char *name;        /* "clang-default" */
+  const char *compiler;    /* "clang" */
+  const char *version;     /* of the compiler */
+  const char *config;      /* "default" */
+  const char *flags;       /* "-O3 ..." */
+  const char *fingerprint; /* of its file, as fingerprint.h writes it */
+  carom_rung *const *run;  /* by number of the rung */
 } ladder_module;
 
 /* The name of the k-th module that the build made ("clang-default"), or NULL behind the last. */

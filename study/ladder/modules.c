@@ -1,5 +1,6 @@
 /* Loads the modules of the ladder, and refuses those that may not run here. */
 #include "cpu.h"
+#include "fingerprint.h"
 #include "ladder.h"
 #include "module.h"
 
@@ -15,6 +16,7 @@ enum {
 typedef struct slot {
   const char *compiler, *config, *name;
   bool loaded;
+  char fingerprint[FINGERPRINT_SIZE];
   ladder_module module;
   carom_rung *run[RUNGS];
 } slot;
@@ -50,6 +52,8 @@ static bool may_run(const ladder_contents *contents, const char *path, char why[
 static bool load(slot *one, char why[LADDER_WHY_SIZE]) {
   char path[sizeof LADDER_MODULE_DIR + 64];
   snprintf(path, sizeof path, "%s/ladder-%s.so", LADDER_MODULE_DIR, one->name);
+  if (!file_fingerprint(path, one->fingerprint))
+    strcpy(one->fingerprint, "unknown");
   void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
   ladder_contents_of *contents_of = NULL;
   if (library != NULL)
@@ -71,6 +75,7 @@ static bool load(slot *one, char why[LADDER_WHY_SIZE]) {
       .version = contents->version,
       .config = contents->config,
       .flags = contents->flags,
+      .fingerprint = one->fingerprint,
       .run = one->run,
   };
   one->loaded = true;

@@ -521,6 +521,9 @@ static void note(const bench_job *job, FILE *out) {
         const ladder_module *module = all.work[w].module;
         machine_note(out, module->name, "%s, %s, %s", module->compiler, module->version,
                      module->flags);
+        char what[64];
+        snprintf(what, sizeof what, "module %s", module->name);
+        machine_note(out, what, "%s", module->fingerprint);
         break;
       }
   for (const workload *w = all.work; w < all.work + job->subject_count; w++)

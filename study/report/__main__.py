@@ -50,6 +50,7 @@ DATA = {
         11,
         f"carom-lab bench --kernel {FIVE} --config zen2 --steps {STEPS} --csv --spread --counters",
     ),
+    "bounds": (0, "tools/python -m study.bounds"),
     "isas": (9, "carom-lab bench --batch --threads 1 --pairs 4080 --csv --spread"),
     "batch": (
         8,
@@ -150,10 +151,14 @@ def shown(text):
 
 
 def run(command, options, *more, environment=None):
-    """Runs a program of the build."""
+    """Runs a program of the build, or a Python module of the tree on that build."""
     program, *words = shlex.split(command)
+    start = [options.build / program]
+    if program == "tools/python":
+        start = [sys.executable]
+        words += ["--build", options.build]
     return subprocess.run(
-        [options.build / program, *words, *more],
+        [*start, *words, *more],
         cwd=ROOT,
         stdout=subprocess.DEVNULL,
         env=environment,
@@ -209,6 +214,21 @@ def derive_speedup(options, data):
     return write(options, "speedup", ladder.notes, rows)
 
 
+def same_module(data, config):
+    """Whether the counts are of the file that was timed; if not, the report says why it prints no
+    share of the bound.
+    """
+    what = f"module {config}"
+    timed, counted = (data[name].notes.get(what) for name in ("cycles", "bounds"))
+    if timed is not None and timed == counted:
+        return True
+    complain(
+        f"no share of the bound of {config}: bench timed the module "
+        f"{timed or 'unknown'}, and the bounds are of {counted or 'unknown'}"
+    )
+    return False
+
+
 def derive_performance(options, data):
     """Operations at N are those at N = 1000 and, for every step more or less, those of a step; the
     bound is a step's operations over the cycles of its longest chain. A cycle is a core cycle as
@@ -216,6 +236,10 @@ def derive_performance(options, data):
     instead; the notes say which.
     """
     cycles, rows = data["cycles"], []
+    same = {
+        config: same_module(data, config)
+        for config in sorted({row["config"] for row in cycles.rows})
+    }
     cycle = number(cycles.notes.get("core cycle", "").split(" ")[0])
     counted = {
         name: bool(cycles.rows) and all(number(row.get(name)) > 0 for row in cycles.rows)
@@ -224,19 +248,24 @@ def derive_performance(options, data):
     notes = {
         "operations": "counted by the processor"
         if counted["flops"]
-        else "of the machine code, study/report/bounds.csv",
+        else "of the machine code that was timed",
         "cycles": "counted by the processor"
         if counted["cycles"]
         else f"time of the clock over {cycles.notes.get('core cycle', 'NA')}, the time of an addition",
     }
     for row in cycles.rows:
         count = data["bounds"].first(kernel=row["kernel"], config=row["config"])
+        if not same.get(row["config"], False):
+            continue
         steps, a_step = number(row["steps"]), number(count.get("per_step_flops_amd"))
         flops, taken = (
             number(count.get("flops_amd")) + (steps - 1000) * a_step,
             number(row["ns_median"]) / cycle,
         )
-        bound = 1000 * a_step / number(count.get("chain_cycles_zen2"))
+        bound, here = (
+            1000 * a_step / number(count.get(f"chain_cycles_{machine}"))
+            for machine in ("zen2", "native")
+        )
         if counted["flops"]:
             flops = number(row["flops"])
         if counted["cycles"]:
@@ -247,6 +276,8 @@ def derive_performance(options, data):
             "flops_per_cycle": flops / taken,
             "bound_flops_per_cycle": bound,
             "share_of_bound": flops / taken / bound,
+            "bound_here_flops_per_cycle": here,
+            "share_of_bound_here": flops / taken / here,
         }
         if bound == bound and flops == flops:
             rows.append(
@@ -269,14 +300,12 @@ def operations(data):
                 **row,
                 "paper_flops": flops,
                 "paper_bound": bound,
-                "share": 100 * number(timed.get("share_of_bound")),
+                "share": 100 * number(timed.get("share_of_bound")) if timed else "NA",
                 "paper_share": 100 * bound / taken,
             }
         )
     return [
-        row
-        for row in rows
-        if row["config"] in {timed["config"] for timed in data["performance"].rows}
+        row for row in rows if row["config"] in {timed["config"] for timed in data["cycles"].rows}
     ]
 
 
@@ -617,9 +646,7 @@ def main(words):
                 options,
                 environment=PLAIN,
             )
-    data = {name: Sheet(options.folder / f"{name}.csv") for name in DATA} | {
-        "bounds": Sheet(HERE / "bounds.csv")
-    }
+    data = {name: Sheet(options.folder / f"{name}.csv") for name in DATA}
     data["speedup"], data["performance"] = (
         derive_speedup(options, data),
         derive_performance(options, data),

@@ -47,6 +47,28 @@ def table(page, name):
     return [dict(zip(heads, row)) for row in rows]
 
 
+def note_module(path, fingerprint):
+    """Says of which module the stored rows are."""
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    kept = [line for line in lines if not line.startswith("# module ")]
+    path.write_text(f"# module clang-zen2: {fingerprint}\n" + "".join(kept), encoding="utf-8")
+
+
+def test_share_of_another_module(tmp_path):
+    """Counts of one file and times of another give no share of the bound; the report says why."""
+    for path in STORED.glob("*.csv"):
+        shutil.copy(path, tmp_path)
+    options = report.arguments([str(tmp_path)])
+    for timed, counted, rows in (("1111", "1111", True), ("1111", "2222", False)):
+        note_module(tmp_path / "cycles.csv", timed)
+        note_module(tmp_path / "bounds.csv", counted)
+        (tmp_path / "performance.csv").unlink(missing_ok=True)
+        data = {name: report.Sheet(tmp_path / f"{name}.csv") for name in ("cycles", "bounds")}
+        data["performance"] = report.derive_performance(options, data)
+        assert bool(data["performance"].rows) == rows
+        assert all((row["share"] != "NA") == rows for row in report.operations(data))
+
+
 def test_stored(tmp_path):
     """From stored rows: whole, well-formed, without names that occur twice, of the same bytes each
     time, and with the cells of the rows; what is not there is named.
@@ -55,6 +77,8 @@ def test_stored(tmp_path):
     stored.mkdir()
     for path in [*(DOCS / "data").glob("*.csv"), *STORED.glob("*.csv"), DOCS / "break.svg"]:
         shutil.copy(path, stored)
+    for name in ("cycles", "bounds"):
+        note_module(stored / f"{name}.csv", "1111")
     (one, page), (two, _) = (
         make(tmp_path / "one", "--from", stored),
         make(tmp_path / "two", "--from", stored),
@@ -71,9 +95,7 @@ def test_stored(tmp_path):
     )
 
     bounds, base = (
-        report.Sheet(ROOT / "study" / "report" / "bounds.csv").first(
-            kernel="base", config="clang-zen2"
-        ),
+        report.Sheet(stored / "bounds.csv").first(kernel="base", config="clang-zen2"),
         table(page, "operations")[0],
     )
     assert [
