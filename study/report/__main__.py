@@ -238,7 +238,9 @@ def derive_performance(options, data):
     cycles, rows = data["cycles"], []
     same = {
         config: same_module(data, config)
-        for config in sorted({row["config"] for row in cycles.rows})
+        for config in sorted(
+            {row["config"] for row in cycles.rows} & {row["config"] for row in data["bounds"].rows}
+        )
     }
     cycle = number(cycles.notes.get("core cycle", "").split(" ")[0])
     counted = {

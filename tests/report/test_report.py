@@ -8,6 +8,7 @@ import subprocess
 import sys
 import xml.etree.ElementTree as tree
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -58,7 +59,7 @@ def test_share_of_another_module(tmp_path):
     """Counts of one file and times of another give no share of the bound; the report says why."""
     for path in STORED.glob("*.csv"):
         shutil.copy(path, tmp_path)
-    options = report.arguments([str(tmp_path)])
+    options = SimpleNamespace(folder=tmp_path)
     for timed, counted, rows in (("1111", "1111", True), ("1111", "2222", False)):
         note_module(tmp_path / "cycles.csv", timed)
         note_module(tmp_path / "bounds.csv", counted)
