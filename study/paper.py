@@ -17,6 +17,7 @@ measurable here, and the reason stands in place of the cause.
 """
 
 import argparse
+import contextlib
 import csv
 import math
 import re
@@ -35,14 +36,14 @@ HOLDS, WEAKER, FAILS, UNMEASURED = (
     "does not hold here",
     "not measurable here",
 )
-SCALAR = "base rsqrt recmass cse reorder sepwhile double float"
+SCALAR = report.SCALAR.replace(",", " ")
 REPEATS = 0.005  # by which speedups differ between runs, relative
 CLAIM_WIDTH = 58
 NORMAL = 1.4826 * 1.2533  # standard error of a median, in median absolute deviations over sqrt(n)
 
 
 NEEDED = (
-    "kernels experiments verify growth-5000 ladder steps configs cycles bounds operations latencies"
+    "kernels experiments verify growth-5000 ladder steps configs cycles bounds operations"
 ).split()
 
 
@@ -231,11 +232,19 @@ class Run:
         return self.number("bounds", column, kernel=kernel)
 
     def a_step(self, kernel, column):
-        """Counts of a step, of the rungs that the bounds leave out too."""
-        return self.number("operations", column, kernel=kernel)
+        """Counts over N, of the rungs that the bounds leave out too, with fewer steps."""
+        steps = re.search(r"N = (\d+)", self.sheet("operations").notes.get("cases", ""))
+        if not steps:
+            raise Missing("operations.csv does not say for how many steps it counts")
+        return self.number("operations", column, kernel=kernel) / float(steps[1])
 
     def latency(self, row):
-        return self.number("latencies", "cycles", row=row)
+        """Cycles of this processor, measured by a chain of such instructions."""
+        said = self.sheet("bounds").notes.get(f"latency {row}", "")
+        cycles = report.number(said.split(" ")[0])
+        if math.isnan(cycles):
+            raise Missing(f"the latency {row} of this processor was not measured")
+        return cycles
 
     def cycles(self, kernel):
         """Of a collision of 1000 steps, in the module whose operations are counted."""
@@ -468,10 +477,11 @@ def arguments(words):
 
 def measure(folder, options):
     """The files that the claims are judged by."""
-    report.measure(
-        argparse.Namespace(folder=folder, build=options.build.resolve(), budget=options.budget),
-        [name for name in report.DATA if name in NEEDED],
+    of_report = argparse.Namespace(
+        folder=folder, build=options.build.resolve(), budget=options.budget
     )
+    with contextlib.redirect_stdout(sys.stderr):
+        report.measure(of_report, [name for name in report.DATA if name in NEEDED])
 
 
 def main(words):

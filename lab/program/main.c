@@ -11,6 +11,7 @@ int main(int argc, char **argv) {
       {"resolve", "resolve the collisions of a CSV file by any kernel", command_resolve},
       {"verify", "compare every kernel with the references", command_verify},
       {"bench", "time every kernel, once it is verified", command_bench},
+      {"bounds", "count the kernels' operations and bound their cycles", command_bounds},
       {"stress", "test the exact solver on random collisions", command_stress},
       {"parity", "compare whole shots with those that pooltool recorded", command_parity},
       {"plan", "play racks of eight-ball by plans", command_plan},

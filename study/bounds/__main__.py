@@ -346,6 +346,8 @@ def table(options, out):
     print(f"# date: {datetime.date.today().isoformat()}", file=out)
     for line in output_of([driver, module]).splitlines():
         print(f"# {line}", file=out)
+    for row, cycles in native.items():
+        print(f"# latency {row}: {cycles:g} cycles", file=out)
     print(f"# counts: {output_of(['valgrind', '--version']).strip()}", file=out)
     print(f"# model: {Path(mca()).name if mca() else 'NA (no llvm-mca: package llvm)'}", file=out)
     print(

@@ -3,6 +3,7 @@
 #define CAROM_STUDY_SUBCOMMANDS_H
 
 int command_bench(int argc, char **argv);
+int command_bounds(int argc, char **argv);
 int command_experiments(int argc, char **argv);
 int command_kernels(int argc, char **argv);
 int command_paper(int argc, char **argv);

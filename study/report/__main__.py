@@ -25,6 +25,7 @@ import markupsafe
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 STEPS = "10,20,50,100,200,500,1000,2000,5000,10000"
+SCALAR = "base,rsqrt,recmass,cse,reorder,sepwhile,double,float"
 FIVE = "base,double,float,double_vec,float_vec"
 SIZES = "1,2,4,8,16,32,64,256,1024,4096,16384,65536,262144"
 
@@ -51,6 +52,7 @@ DATA = {
         f"carom-lab bench --kernel {FIVE} --config zen2 --steps {STEPS} --csv --spread --counters",
     ),
     "bounds": (0, "tools/python -m study.bounds"),
+    "operations": (0, f"tools/python -m study.bounds --kernel {SCALAR} --steps 100"),
     "isas": (9, "carom-lab bench --batch --threads 1 --pairs 4080 --csv --spread"),
     "batch": (
         8,

@@ -118,10 +118,10 @@ def machine(folder, **changed):
         | dict(zip(names.split(), values))
         for (kernel, values), loads in zip(COUNTS.items(), (9, 8, 8, 8, 8, 8, 8, 8, 1))
     ]
-    write(folder / "bounds.csv", counts, **{"module clang-zen2": MODULE})
-    write(folder / "operations.csv", counts)
-    cycles = {"div.d": 13, "sqrt.d": 20, "mul": 3, "rsqrt": 5, "convert": 3}
-    write(folder / "latencies.csv", [{"row": row, "cycles": x} for row, x in cycles.items()])
+    latencies = {"div.d": 13, "sqrt.d": 20, "mul": 3, "rsqrt": 5, "convert": 3}
+    said = {f"latency {row}": f"{cycles} cycles" for row, cycles in latencies.items()}
+    write(folder / "bounds.csv", counts, **{"module clang-zen2": MODULE}, **said)
+    write(folder / "operations.csv", counts, cases="204, N = 1000")
     return folder
 
 
