@@ -5,8 +5,8 @@
  * end of a step. The arithmetic is that of src/ball_ball/euler.c, operation by operation, so
  * where the compiler may not rearrange it (o3, novec) the result is pooltool's to the last bit.
  *
- * Paper: 1.00, 85.3 cycles a step on Zen 2. Here: 1.00, 72 cycles a step on Zen 5; a square root
- * and a division stand in the chain that leads from one step to the next.
+ * Paper: 1.00, 85.3 cycles a step on Zen 2. A square root and a division stand in the chain that
+ * leads from one step to the next.
  */
 #include "rung.h"
 

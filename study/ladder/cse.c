@@ -3,7 +3,7 @@
  * At four places: the factor of both impulses between the balls, that of both impulses of the
  * cloth, the change of spin about z, which is the same for both balls, and half of DP.
  *
- * Paper: a little more. Here: 1.53, nothing more; the compiler had found them all.
+ * Paper: a little more than recmass. The compiler may have found them all already.
  */
 #include "rung.h"
 

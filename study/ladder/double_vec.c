@@ -5,8 +5,8 @@
  * pressed is taken from u_z and multiplied into the coefficient of friction while the estimate
  * is still under way. The step of DP is added to v before the rest, which comes late.
  *
- * Paper: slower. Here: 1.17 in default, where clang's fast-math regroups the products, 1.33 to
- * 1.37 in all other configurations.
+ * Paper: slower than double. Under fast-math clang regroups the products, which makes this
+ * kernel slower than in the other configurations.
  */
 #include "rung.h"
 

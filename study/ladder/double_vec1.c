@@ -4,8 +4,8 @@
  * An impulse enters by a multiply-add with a constant vector that says which components it acts
  * on, and with what sign.
  *
- * Paper: much slower than double. Here: 1.27; there are as many instructions as in double, 17 of
- * them only move numbers between lanes, with 1 to 4 cycles each in the chain.
+ * Paper: slower than double. There are as many instructions as in double, and many of them only
+ * move numbers between lanes, with 1 to 4 cycles each in the chain.
  */
 #include "rung.h"
 

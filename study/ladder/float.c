@@ -1,9 +1,8 @@
 /* float: double in single precision, without conversions.
  *
- * Paper: 1.87, and 1.93 with archnative, its best. Here: 1.92, and 1.95 with archnative, our
- * best too: the two conversions stood in the chain, with 3 cycles each. The price: rounding of
- * 6e-8 a step, the larger a share of what a step adds the more steps there are; the worst pair
- * error is 1e-3 at N = 1000.
+ * Paper: 1.87, and 1.93 with archnative, its best. The two conversions stood in the chain, with 3
+ * cycles each. The price: rounding of 6e-8 a step, the larger a share of what a step adds the
+ * more steps there are.
  */
 #include "rung.h"
 

@@ -3,8 +3,7 @@
  * Laid out as double_vec, with four floats in a register: (x, y) of ball i and of ball j. One
  * estimate serves all three magnitudes.
  *
- * Paper: slower. Here: 1.52 against 1.92 for float; 15 of 43 instructions move numbers between
- * lanes.
+ * Paper: slower than float. A third of the instructions move numbers between lanes.
  */
 #include "rung.h"
 

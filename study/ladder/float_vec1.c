@@ -4,7 +4,7 @@
  * 128-bit vectors that are packed from scalars and taken apart again. (In the paper the helpers
  * served the change of frame as well; here that is outside the rungs.)
  *
- * Paper: slower. Here: 1.20; the general vector product also multiplies by the zeros in r, and
+ * Paper: slower than float. The general vector product also multiplies by the zeros in r, and
  * packing is in the chain.
  */
 #include "rung.h"

@@ -22,6 +22,7 @@ typedef struct ladder_rung {
   const char *name, *parent;
   ladder_precision precision;
   ladder_isa isa;
+  size_t width;
   double bound;
   const char *paper;
   int over_1e3, over_1e2;
@@ -34,6 +35,9 @@ const ladder_rung *ladder_rung_find(const char *name);
 
 /* Whether this processor can run it. */
 bool ladder_rung_runs(const ladder_rung *rung);
+
+/* "scalar", "avx2" or "avx512". */
+const char *ladder_isa_name(ladder_isa isa);
 
 /* One compiler's build of all rungs with one configuration. */
 typedef struct ladder_module {
@@ -62,5 +66,11 @@ const ladder_module *ladder_module_find(const char *name, char why[LADDER_WHY_SI
  * and sizes and speeds beyond all billiards (CAROM_ERROR_OVERFLOW); resolve.c says where. */
 carom_status ladder_resolve(const ladder_module *module, const ladder_rung *rung,
                             const carom_impact *in, const carom_options *opt, carom_result *out);
+
+/* Resolves n collisions as carom_collide_batch() does; each pair as ladder_resolve() does. A rung
+ * across collisions takes rung->width of them at once, and as long for one as for all of these. */
+carom_status ladder_resolve_batch(const ladder_module *module, const ladder_rung *rung,
+                                  const carom_impact *in, size_t n, const carom_options *opt,
+                                  carom_result *out, int8_t *status);
 
 #endif

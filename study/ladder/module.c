@@ -6,7 +6,7 @@
 
 const ladder_contents *carom_ladder_contents(void) {
   static const struct ladder_entry entries[] = {
-#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea) \
+#define RUNG(name, parent, precision, isa, width, bound, paper, over_1e3, over_1e2, idea) \
   {#name, carom_rung_##name},
 #include "kernels.def"
 #undef RUNG

@@ -8,7 +8,7 @@
 
 enum {
   RUNGS = 0
-#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea) +1
+#define RUNG(name, parent, precision, isa, width, bound, paper, over_1e3, over_1e2, idea) +1
 #include "kernels.def"
 #undef RUNG
 };

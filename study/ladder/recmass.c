@@ -1,8 +1,7 @@
 /* recmass: 1/M once, and multiplied by.
  *
- * Paper: 1.38. Here: 1.53; under fast-math the compiler had done it already, and only orders the
- * code differently. Without fast-math it may not, and four divisions a step go away: from 1.37
- * to 1.59 in novec.
+ * Paper: 1.38. Under fast-math the compiler has done it already, and only orders the code
+ * differently. Without fast-math it may not, and four divisions a step go away.
  */
 #include "rung.h"
 

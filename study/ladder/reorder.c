@@ -5,8 +5,7 @@
  * while they slip. Which ball is pressed is asked of u_z, which is known before DP2; and what
  * acts on both balls comes first, so that the cloth, last in the chain, waits for nothing else.
  *
- * Paper: 1.63. Here: 1.69; 73 instructions a step in place of 95, two estimates in place of
- * three.
+ * Paper: 1.63. A step has fewer instructions, and two estimates in place of three.
  */
 #include "rung.h"
 

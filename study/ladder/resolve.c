@@ -1,5 +1,6 @@
 /* Around a rung: what is common to all, so that the rungs hold their ideas only. Checks, table
- * frame to collision frame, the rung, and back.
+ * frame to collision frame, the rung, and back. A rung across collisions gets as many pairs at
+ * once as it has lanes; a pair that is refused takes no lane.
  *
  * The rungs are the paper's: no bound on the steps, no check of anything. So nothing is handed
  * to them that they could not end or could not represent. This file is compiled without
@@ -14,7 +15,8 @@
  * the work it gives back is k² dv/4 or more, and reaches W_f within 6 |v_n|/dv steps; rounding
  * of the work delays this by less than |v_n|/dv steps more. A step changes a |v_y| by
  * 5/2 dv at the most, so V = max(|v_iy|, |v_jy|) + 32 |v_n| is a bound indeed. (All this is the
- * worst that rounding could do; in exact arithmetic the steps are about N.)
+ * worst that rounding could do; in exact arithmetic the steps are about N.) Across collisions
+ * this holds in each lane, because a lane's steps depend on no other lane.
  *
  * All is representable, in single precision too. Slips enter rsqrt as squares in single
  * precision, between 1e-38 and 3e38. A slip below 1e-16 counts as none; the velocity step must
@@ -48,43 +50,133 @@ static bool resolved(const carom_local *c, int N, ladder_precision precision) {
   return dv >= 2.0 * eps * (fmax(fabs(c->v_iy), fabs(c->v_jy)) + 32.0 * v_n) && dv >= least_step;
 }
 
+/* The collisions of the widest rung's call. */
+enum { WIDEST = 32 };
+#define RUNG(name, ...) \
+  _Static_assert((int)CAROM_WIDTH_##name <= (int)WIDEST, "WIDEST is below the width of " #name);
+#include "kernels.def"
+#undef RUNG
+
+/* A batch under way: the caller's arguments, and the pairs that wait until the lanes of the rung
+ * are full. */
+typedef struct batch {
+  const ladder_module *module;
+  const ladder_rung *rung;
+  const carom_impact *in;
+  const carom_options *options;
+  carom_result *out;
+  int8_t *status;
+  size_t first_bad; /* the first pair in error, or SIZE_MAX */
+  carom_status first_error;
+  size_t waiting;
+  size_t pair[WIDEST];
+  carom_frame frame[WIDEST];
+  carom_local local[WIDEST];
+} batch;
+
 static size_t number_of(const ladder_rung *rung) {
   return (size_t)(rung - ladder_rung_at(0));
 }
 
-static carom_status solve(const ladder_module *module, const ladder_rung *rung,
-                          const carom_impact *in, const carom_options *opt, carom_result *out) {
-  const carom_status bad = carom_check(in, opt, NULL);
+static void note_status(batch *b, size_t pair, carom_status status) {
+  if (b->status != NULL)
+    b->status[pair] = (int8_t)status;
+  if (status >= 0)
+    return;
+  carom_fill_nan(&b->out[pair]);
+  if (pair < b->first_bad) {
+    b->first_bad = pair;
+    b->first_error = status;
+  }
+}
+
+/* Writes a collision in its frame for the rung to solve, and returns CAROM_OK; or returns the
+ * status of a pair that is not handed to it. */
+static carom_status prepare(const batch *b, const carom_impact *in, carom_frame *frame,
+                            carom_local *local) {
+  const carom_status bad = carom_check(in, b->options, NULL);
   if (bad != CAROM_OK)
     return bad;
   if (in->a.mass != in->b.mass)
     return CAROM_ERROR_MASSES_DIFFER;
-  const carom_frame frame = carom_frame_of(in);
-  if (frame.distance == 0.0)
+  *frame = carom_frame_of(in);
+  if (frame->distance == 0.0)
     return CAROM_ERROR_COINCIDENT;
-  if (isinf(frame.distance))
+  if (isinf(frame->distance))
     return CAROM_ERROR_OVERFLOW;
-  carom_local local = carom_to_frame(&frame, in, opt->slip);
-  if (local.v_jy - local.v_iy >= 0.0) {
-    carom_copy_state(in, out);
+  *local = carom_to_frame(frame, in, b->options->slip);
+  if (local->v_jy - local->v_iy >= 0.0)
     return CAROM_SEPARATING;
-  }
-  if (!representable(&local))
+  if (!representable(local))
     return CAROM_ERROR_OVERFLOW;
-  if (!resolved(&local, carom_steps(opt), rung->precision))
+  if (!resolved(local, carom_steps(b->options), b->rung->precision))
     return CAROM_ERROR_TOO_SLOW;
-  module->run[number_of(rung)](&local, carom_steps(opt));
-  carom_from_frame(&frame, &local, out);
-  return carom_result_is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+  return CAROM_OK;
+}
+
+/* Solves the pairs that wait. Lanes that are left over solve the first of them once more. */
+static void solve_waiting(batch *b) {
+  if (b->waiting == 0)
+    return;
+  for (size_t lane = b->waiting; lane < b->rung->width; lane++)
+    b->local[lane] = b->local[0];
+  b->module->run[number_of(b->rung)](b->local, carom_steps(b->options));
+  for (size_t lane = 0; lane < b->waiting; lane++) {
+    carom_result *out = &b->out[b->pair[lane]];
+    carom_from_frame(&b->frame[lane], &b->local[lane], out);
+    carom_status status = CAROM_OK;
+    if (!carom_result_is_finite(out))
+      status = CAROM_ERROR_OVERFLOW;
+    note_status(b, b->pair[lane], status);
+  }
+  b->waiting = 0;
+}
+
+static void add_pair(batch *b, size_t pair) {
+  const size_t lane = b->waiting;
+  const carom_status status = prepare(b, &b->in[pair], &b->frame[lane], &b->local[lane]);
+  if (status == CAROM_OK) {
+    b->pair[lane] = pair;
+    b->waiting++;
+  } else {
+    if (status == CAROM_SEPARATING)
+      carom_copy_state(&b->in[pair], &b->out[pair]);
+    note_status(b, pair, status);
+  }
+  if (b->waiting == b->rung->width)
+    solve_waiting(b);
+}
+
+carom_status ladder_resolve_batch(const ladder_module *module, const ladder_rung *rung,
+                                  const carom_impact *in, size_t n, const carom_options *opt,
+                                  carom_result *out, int8_t *status) {
+  const carom_options defaults = {0};
+  if (n > 0 && (in == NULL || out == NULL))
+    return CAROM_ERROR_NULL;
+  if (opt == NULL)
+    opt = &defaults;
+  /* Not an initialiser, which would clear all the lanes in each single call. */
+  batch b;
+  b.module = module;
+  b.rung = rung;
+  b.in = in;
+  b.options = opt;
+  b.out = out;
+  b.status = status;
+  b.first_bad = SIZE_MAX;
+  b.first_error = CAROM_OK;
+  b.waiting = 0;
+  for (size_t pair = 0; pair < n; pair++)
+    add_pair(&b, pair);
+  solve_waiting(&b);
+  return b.first_error;
 }
 
 carom_status ladder_resolve(const ladder_module *module, const ladder_rung *rung,
                             const carom_impact *in, const carom_options *opt, carom_result *out) {
-  const carom_options defaults = {0};
+  int8_t status;
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;
-  const carom_status status = solve(module, rung, in, opt != NULL ? opt : &defaults, out);
-  if (status < 0)
-    carom_fill_nan(out);
-  return status;
+  ladder_resolve_batch(module, rung, in, 1, opt, out, &status);
+  return (carom_status)status;
 }

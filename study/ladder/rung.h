@@ -15,19 +15,22 @@
 
 #include "ball_ball/frame.h"
 
-/* Advances `state` from contact to the end of the collision. Needs v_jy < v_iy, M_i = M_j, and N
- * steps that are resolved in the rung's precision: see carom_ladder_resolve() for what exactly. */
+/* Advances `state` from contact to the end of the collision; a rung across collisions, as many
+ * states in a row as its width. Needs v_jy < v_iy, M_i = M_j, and N steps that are resolved in
+ * the rung's precision: resolve.c says what exactly. */
 typedef void carom_rung(carom_local *state, int N);
 
-#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea) \
-  carom_rung carom_rung_##name;
+/* The collisions that a call of a rung takes are CAROM_WIDTH_<name>. */
+#define RUNG(name, parent, precision, isa, width, bound, paper, over_1e3, over_1e2, idea) \
+  carom_rung carom_rung_##name;                                                           \
+  enum { CAROM_WIDTH_##name = width };
 #include "kernels.def"
 #undef RUNG
 
 /* Rungs that need more than x86-64's baseline say so function by function, because the
  * configurations o3 and novec do not. */
 #define CAROM_TARGET_AVX2 __attribute__((target("avx2,fma")))
-#define CAROM_TARGET_AVX512 __attribute__((target("avx512f")))
+#define CAROM_TARGET_AVX512 __attribute__((target("avx512f,avx512vl,fma")))
 
 /* carom_local in single precision. */
 #define CAROM_LOCAL_FIELDS(X) \

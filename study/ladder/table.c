@@ -4,8 +4,8 @@
 #include <string.h>
 
 static const ladder_rung rungs[] = {
-#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea) \
-  {#name, #parent, LADDER_##precision, LADDER_##isa, bound, paper, over_1e3, over_1e2, idea},
+#define RUNG(name, parent, precision, isa, width, bound, paper, over_1e3, over_1e2, idea) \
+  {#name, #parent, LADDER_##precision, LADDER_##isa, width, bound, paper, over_1e3, over_1e2, idea},
 #include "kernels.def"
 #undef RUNG
 };
@@ -30,9 +30,16 @@ bool ladder_rung_runs(const ladder_rung *rung) {
   case LADDER_AVX2:
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   case LADDER_AVX512:
-    return __builtin_cpu_supports("avx512f");
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("fma");
   }
 #endif
   (void)rung;
   return false;
+}
+
+const char *ladder_isa_name(ladder_isa isa) {
+  static const char *const names[] = {
+      [LADDER_BASELINE] = "scalar", [LADDER_AVX2] = "avx2", [LADDER_AVX512] = "avx512"};
+  return names[isa];
 }

@@ -1,8 +1,8 @@
 /* `carom-lab bench`: collisions by the paths that a user has, timed once they are verified:
  *
  *     calls   the cases, one call each                               any kernel       isa "scalar"
- *     batch   the cases over and over, many in a call                solvers only
- *     isa "avx512", ...
+ *     batch   the cases over and over, many in a call                solvers, and rungs across
+ *                                                                    collisions: isa "avx512", ...
  *
  * Calls go through a pointer, as those of a program that chooses its kernel at run time would.
  * Small batches move on: call j begins at case j * size, modulo the number of cases, until every
@@ -31,7 +31,7 @@
 enum {
   LARGE = 4096, /* so many pairs hold all cases about equally often: one call is enough; fewer
                    are not worth a thread */
-  DEFAULT_SIZE = 65536
+  DEFAULT_SIZE = 65536 /* of solvers; rungs across collisions, with their steps, take LARGE */
 };
 
 typedef struct workload workload;
@@ -50,6 +50,8 @@ struct workload {
   const void *in;  /* the rows, of doubles or floats */
   size_t *case_of; /* their cases; NULL: row k is case k modulo their number */
   size_t rows;
+  size_t period;   /* rows after which the cases come again */
+  size_t left_out; /* cases that the kernel's precision does not resolve in so many steps */
   void *result;
   accuracy_summary own, exact; /* against the kernel's own reference, and the exact limit */
 };
@@ -77,6 +79,12 @@ static carom_status by_ladder(const workload *w, size_t first) {
                         (carom_result *)w->result + first);
 }
 
+static carom_status by_lanes_of_ladder(const workload *w, size_t first) {
+  return ladder_resolve_batch(w->module, ladder_rung_find(w->kernel->name),
+                              (const carom_impact *)w->in + first, w->size, &w->options,
+                              (carom_result *)w->result + first, NULL);
+}
+
 static carom_status by_batch(const workload *w, size_t first) {
   if (w->single)
     return carom_collide_batch_f32((const carom_impact_f32 *)w->in + first, w->size, &w->options,
@@ -96,8 +104,8 @@ static void resolve(void *context) {
     w->one(w, first);
     BENCH_CONSUME(w->result);
     first += w->stride;
-    if (first >= w->cases->count)
-      first -= w->cases->count;
+    if (first >= w->period)
+      first -= w->period;
   }
 }
 
@@ -110,14 +118,20 @@ static uint64_t fingerprint(const void *context) {
   return bench_fingerprint(w->result, w->rows * result_size(w->single));
 }
 
+static bool is_rung_of_lanes(const kernel *one) {
+  return one->is_rung && ladder_rung_find(one->name)->width > 1;
+}
+
 static const char *isa_of(const workload *w) {
   if (w->size == 0)
     return "scalar";
+  if (w->kernel->is_rung)
+    return ladder_isa_name(ladder_rung_find(w->kernel->name)->isa);
   return carom_isa_name(w->isa);
 }
 
 static const char *precision_of(const workload *w) {
-  if (w->size == 0)
+  if (w->size == 0 || w->kernel->is_rung)
     return w->kernel->precision;
   return precision_name(w->single);
 }
@@ -165,7 +179,7 @@ static double bound_of(const workload *w) {
   static const double of_batches[][2] = {[CAROM_SOLVER_EXACT] = {1e-6, 2e-5},
                                          [CAROM_SOLVER_EULER] = {0.0, 1e-2},
                                          [CAROM_SOLVER_FAST] = {1e-6, 2e-5}};
-  if (w->size == 0)
+  if (w->size == 0 || w->kernel->is_rung)
     return w->kernel->claims[0].bound;
   return of_batches[w->kernel->solver][w->single];
 }
@@ -195,6 +209,7 @@ static void leave_out_too_slow(workload *w) {
       w->case_of[count++] = k;
     }
   w->in = kept;
+  w->left_out = w->rows - count;
   w->rows = w->calls = count;
   resolve(w);
 }
@@ -286,8 +301,77 @@ static void add_calls(const kernel *one, const ladder_module *module, int steps)
     w->one = by_ladder;
   w->in = all.cases.impact;
   w->stride = 1;
-  w->rows = w->calls = all.cases.count;
+  w->period = w->rows = w->calls = all.cases.count;
   w->result = allocate(w->rows, sizeof(carom_result));
+}
+
+static size_t common_divisor(size_t a, size_t b) {
+  if (b == 0)
+    return a;
+  return common_divisor(b, a % b);
+}
+
+/* So many calls of `size` pairs that every case is in as many of them as any other; the cases
+ * come again after `period` rows. */
+static void lay_out_calls(workload *w, size_t size, size_t period) {
+  const size_t shared = common_divisor(size, period);
+  w->size = size;
+  w->period = period;
+  w->stride = size % period;
+  w->calls = 1;
+  w->rows = size;
+  if (size < LARGE) {
+    w->calls = period / shared;
+    w->rows = size + period - shared;
+  }
+}
+
+static size_t whole_turns(size_t size, size_t period) {
+  return (size + period - 1) / period * period;
+}
+
+/* A rung across collisions, on batches of the cases that its precision resolves in so many
+ * steps. */
+static void add_lanes(const kernel *one, const ladder_module *module, int steps, size_t size) {
+  workload *w = add(one, steps);
+  const size_t n = all.cases.count;
+  int8_t *status = allocate(n, sizeof *status);
+  carom_result *unused = allocate(n, sizeof *unused);
+  size_t *kept = allocate(n, sizeof *kept), count = 0;
+  kernel_resolve(one, module, all.cases.impact, n, &w->options, unused, status);
+  for (size_t k = 0; k < n; k++)
+    if (status[k] != CAROM_ERROR_TOO_SLOW)
+      kept[count++] = k;
+  w->module = module;
+  w->one = by_lanes_of_ladder;
+  w->left_out = n - count;
+  if (count > 0) {
+    if (size == 0)
+      size = whole_turns(LARGE, count);
+    lay_out_calls(w, size, count);
+  }
+
+  carom_impact *in = allocate(w->rows + 1, sizeof *in);
+  w->case_of = allocate(w->rows + 1, sizeof *w->case_of);
+  for (size_t k = 0; k < w->rows; k++) {
+    w->case_of[k] = kept[k % count];
+    in[k] = all.cases.impact[w->case_of[k]];
+  }
+  w->in = in;
+  w->result = allocate(w->rows + 1, sizeof(carom_result));
+  free(status);
+  free(unused);
+  free(kept);
+}
+
+/* By the sizes of batches that are asked for, or the rung's own. */
+static void add_all_lanes(const bench_job *job, const kernel *one, const ladder_module *module,
+                          int steps) {
+  const bool asked = job->pairs.room > 0;
+  for (size_t k = 0; asked && k < job->pairs.count; k++)
+    add_lanes(one, module, steps, (size_t)atoi(job->pairs.name[k]));
+  if (!asked)
+    add_lanes(one, module, steps, 0);
 }
 
 static bool add_config(const bench_job *job, const kernel *one, const char *config) {
@@ -295,7 +379,10 @@ static bool add_config(const bench_job *job, const kernel *one, const char *conf
   if (!kernel_module(one, config, &module))
     return false;
   for (size_t k = 0; k < job->steps.count; k++)
-    add_calls(one, module, atoi(job->steps.name[k]));
+    if (is_rung_of_lanes(one))
+      add_all_lanes(job, one, module, atoi(job->steps.name[k]));
+    else
+      add_calls(one, module, atoi(job->steps.name[k]));
   return true;
 }
 
@@ -320,44 +407,41 @@ static bool is_wanted(const bench_job *job, const kernel *one) {
   return job->configs.count == 0;
 }
 
+/* Single calls, or the lanes of a rung's own instruction set. */
+static bool wants_form(const bench_job *job, const kernel *one) {
+  if (!is_rung_of_lanes(one))
+    return !job->batch && (job->isas.count == 0 || names(&job->isas, "scalar"));
+  const char *isa = ladder_isa_name(ladder_rung_find(one->name)->isa);
+  const char *best = carom_isa_name(carom_isa_in_force());
+  return job->isas.count == 0 || names(&job->isas, isa) ||
+         (names(&job->isas, "best") && strcmp(best, isa) == 0);
+}
+
+/* All that does not come in batches of the library. */
 static bool add_all_calls(const bench_job *job) {
   const kernel *one;
   const ladder_module *unused;
   if (job->configs.count > 0 && ladder_module_name(0) == NULL)
     return kernel_module(kernel_find(ladder_rung_at(0)->name), NULL, &unused);
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
-    if (is_wanted(job, one) && wants_precision(job, strcmp(one->precision, "single") == 0) &&
-        !add_configs(job, one))
+    if (is_wanted(job, one) && wants_form(job, one) &&
+        wants_precision(job, strcmp(one->precision, "single") == 0) && !add_configs(job, one))
       return false;
   }
   return true;
 }
 
-static size_t common_divisor(size_t a, size_t b) {
-  if (b == 0)
-    return a;
-  return common_divisor(b, a % b);
-}
-
 /* Batches of `size` pairs by a solver in lanes of `isa`, from the cases over and over. */
 static void add_batch(const kernel *one, carom_isa isa, bool single, int threads, int steps,
                       size_t size) {
-  const size_t n = all.cases.count, shared = common_divisor(size, n);
   workload *w = add(one, steps);
   w->in = all.tiled;
   if (single)
     w->in = all.tiled_f32;
   w->isa = isa;
   w->single = single;
-  w->size = size;
-  w->calls = 1;
-  w->rows = size;
-  w->stride = size % n;
   w->one = by_batch;
-  if (size < LARGE) {
-    w->calls = n / shared;
-    w->rows = size + n - shared;
-  }
+  lay_out_calls(w, size, all.cases.count);
   w->options.threads = threads;
   w->result = allocate(w->rows, result_size(single));
 }
@@ -488,16 +572,15 @@ static bool choose(bench_job *job) {
   if (!cases_load(folder, "collisions-204.csv", &all.cases))
     return false;
   if (job->pairs.count == 0) { /* whole turns of the cases */
-    const size_t n = all.cases.count;
-    add_count(&job->pairs, (int)((DEFAULT_SIZE + n - 1) / n * n));
+    add_count(&job->pairs, (int)whole_turns(DEFAULT_SIZE, all.cases.count));
     job->pairs.room = 0; /* no column for them */
   }
-  if (!job->batch && (job->isas.count == 0 || names(&job->isas, "scalar")) && !add_all_calls(job))
+  if (!add_all_calls(job))
     return false;
   add_all_batches(job);
   if (all.count == 0) {
     complain("nothing to time: no kernel is all that is asked for (see `carom-lab kernels`; only "
-             "the library's come in batches)");
+             "the library's and those across collisions come in batches)");
     return false;
   }
   return add_references() && verify_all(job, folder);
@@ -512,6 +595,12 @@ static void note(const bench_job *job, FILE *out) {
   if (job->pairs.room > 0)
     pairs = "column";
   machine_note(out, "batches", "the cases over and over, %s pairs in a call", pairs);
+  for (const workload *w = all.work; w < all.work + job->subject_count; w++)
+    if (is_rung_of_lanes(w->kernel) && job->pairs.room == 0) {
+      machine_note(out, "lanes of the ladder", "the cases over and over, %zu pairs in a call",
+                   whole_turns(LARGE, all.cases.count));
+      break;
+    }
   machine_note(out, "reference kernel", "%s, %s, with as many steps", all.reference->name,
                config_name(all.reference_module));
   const char *name;
@@ -527,12 +616,12 @@ static void note(const bench_job *job, FILE *out) {
         break;
       }
   for (const workload *w = all.work; w < all.work + job->subject_count; w++)
-    if (w->case_of != NULL && w->rows < all.cases.count)
+    if (w->left_out > 0)
       machine_note(out, "left out",
                    "%s, %s, %d steps: %zu of %zu cases, whose approach its precision does not "
                    "resolve in as many steps",
-                   w->kernel->name, config_name(w->module), w->options.steps,
-                   all.cases.count - w->rows, all.cases.count);
+                   w->kernel->name, config_name(w->module), w->options.steps, w->left_out,
+                   all.cases.count);
 }
 
 /* The columns of hardware counters, or their heads for w = NULL. */
@@ -582,7 +671,7 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
       {more, "speedup_spread", "%.3g", f->speedup.spread},
       {job->errors, "slip", NULL, 0.0},
       {job->errors, "error_exact_median", "%.3g", of->exact.median},
-      {job->errors, "error_exact_max", "%.3g", of->exact.max},
+      {job->errors || !csv, "error_exact_max", "%.3g", of->exact.max},
       {job->pairs.room > 0, "pairs", "%.0f", pairs},
   };
   if (w == NULL)
@@ -614,14 +703,34 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
   fputc('\n', out);
 }
 
+/* From what speedup is relative to, by the ladder and its rungs across collisions, to the
+ * library's solvers, the exact one last. */
+enum { PLACE_OF_REFERENCE, PLACE_OF_RUNGS, PLACE_OF_LANES, PLACE_OF_SOLVERS };
+
+static size_t place_of(const workload *w) {
+  if (is_reference(w))
+    return PLACE_OF_REFERENCE;
+  if (w->kernel->is_rung)
+    return is_rung_of_lanes(w->kernel) ? PLACE_OF_LANES : PLACE_OF_RUNGS;
+  /* The table of kernels has the exact solver first. */
+  size_t behind = 0;
+  for (const kernel *one = w->kernel + 1; one != kernel_find(ladder_rung_at(0)->name); one++)
+    behind++;
+  return PLACE_OF_SOLVERS + behind;
+}
+
 static void print(const bench_job *job, FILE *out) {
   sheet table;
   note(job, out);
   FILE *rows = sheet_begin(&table, out, job->csv);
   print_row(job, rows, NULL, &(bench_figure){.loops = 0});
-  for (int others = 0; others < 2; others++) /* what speedup is relative to stands first */
+  size_t last = 0;
+  for (size_t k = 0; k < job->subject_count; k++)
+    if (place_of(&all.work[k]) > last)
+      last = place_of(&all.work[k]);
+  for (size_t place = 0; place <= last; place++)
     for (size_t k = 0; k < job->subject_count; k++)
-      if (is_reference(&all.work[k]) == (others == 0) && job->figure[k].unchanged)
+      if (place_of(&all.work[k]) == place && job->figure[k].unchanged)
         print_row(job, rows, &all.work[k], &job->figure[k]);
   sheet_end(&table, rows);
 }
@@ -765,8 +874,10 @@ OPTION(bench_job, option_config, "config", configs, 0, "NAME,...", set_names, 0,
        "kernels of the ladder");
 OPTION(bench_job, option_counts, "steps", steps, 0, "N,...", set_counts, 1,
        "steps of Euler's method (default 1000); several make a sweep");
-OPTION(bench_job, option_batch, "batch", batch, 0, NULL, set_flag, 0,
-       "only batches, with every solver of the library (with euler about a minute)");
+OPTION(
+    bench_job, option_batch, "batch", batch, 0, NULL, set_flag, 0,
+    "only batches: every solver of the library (with euler about a minute), and the ladder across "
+    "collisions");
 OPTION(
     bench_job, option_isa, "isa", isas, 0, "NAME,...", set_isas, 0,
     "only these instruction sets: scalar (single calls), plain, sse2, avx2, avx512, neon, or best");

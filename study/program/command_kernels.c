@@ -34,8 +34,6 @@ static const command_form form = {
 
 /* People are told of the kernels that run here, and of the builds of the ladder. */
 static void print_kernels(FILE *out, bool csv) {
-  static const char *const needs[] = {
-      [LADDER_BASELINE] = "scalar", [LADDER_AVX2] = "avx2", [LADDER_AVX512] = "avx512"};
   sheet table;
   FILE *rows = sheet_begin(&table, out, csv);
   const kernel *one;
@@ -48,7 +46,7 @@ static void print_kernels(FILE *out, bool csv) {
       continue;
     fprintf(rows, "%s,%s,", one->name, one->precision);
     if (rung != NULL)
-      fprintf(rows, "%s,%s,%s,", rung->parent, needs[rung->isa], rung->paper);
+      fprintf(rows, "%s,%s,%s,", rung->parent, ladder_isa_name(rung->isa), rung->paper);
     else
       fputs(",,,", rows);
     csv_fwrite(rows, one->text, strlen(one->text));

@@ -32,7 +32,7 @@ static const kernel kernels[] = {
 /* Rungs are compared with what the paper compared with. */
 #define PRECISION_DOUBLE "double"
 #define PRECISION_SINGLE "single"
-#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea)            \
+#define RUNG(name, parent, precision, isa, width, bound, paper, over_1e3, over_1e2, idea)     \
   {#name,                                                                                     \
    PRECISION_##precision,                                                                     \
    idea,                                                                                      \
@@ -88,21 +88,11 @@ OPTION_SET(set_kernel) {
 carom_status kernel_resolve(const kernel *k, const ladder_module *module, const carom_impact *in,
                             size_t n, const carom_options *options, carom_result *out,
                             int8_t *status) {
+  if (k->is_rung)
+    return ladder_resolve_batch(module, ladder_rung_find(k->name), in, n, options, out, status);
   carom_options own = *options;
-  if (!k->is_rung) {
-    own.solver = k->solver;
-    return carom_collide_batch(in, n, &own, out, status);
-  }
-  const ladder_rung *rung = ladder_rung_find(k->name);
-  carom_status first_error = CAROM_OK;
-  for (size_t pair = 0; pair < n; pair++) {
-    const carom_status one = ladder_resolve(module, rung, &in[pair], &own, &out[pair]);
-    if (status != NULL)
-      status[pair] = (int8_t)one;
-    if (one < 0 && first_error == CAROM_OK)
-      first_error = one;
-  }
-  return first_error;
+  own.solver = k->solver;
+  return carom_collide_batch(in, n, &own, out, status);
 }
 
 carom_status kernel_resolve_f32(const kernel *k, const carom_impact_f32 *in, size_t n,

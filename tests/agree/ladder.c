@@ -199,6 +199,110 @@ TEST(single_precision_takes_fewer_steps) {
   }
 }
 
+#define FOR_EACH_RUNG_OF_LANES(rung) \
+  FOR_EACH_RUNG(rung)                \
+  if (rung->width > 1)
+
+enum { MOST_PAIRS = 100 };
+
+/* Pairs of equal mass. Every fifth approaches and is refused (masses differ), and every seventh
+ * separates, if `mixed`. */
+static void draw_pairs(carom_impact pair[MOST_PAIRS], random_source *source, bool mixed) {
+  for (int k = 0; k < MOST_PAIRS; k++) {
+    pair[k] = random_impact(source);
+    pair[k].b.mass = pair[k].a.mass;
+    if (mixed && k % 5 == 3)
+      pair[k].b.mass *= 2.0;
+    if (mixed && k % 7 == 2)
+      for (int c = 0; c < 3; c++) {
+        pair[k].a.v[c] = -pair[k].a.v[c];
+        pair[k].b.v[c] = -pair[k].b.v[c];
+      }
+  }
+}
+
+/* A lane has the same bits whatever the other lanes hold: a batch of any size and any mixture has
+ * those of the pair alone, whose other lanes are copies of it. So a lane that has ended keeps its
+ * final state while slower ones run. */
+TEST(a_lane_depends_on_no_other) {
+  random_source source = {test_seed()};
+  carom_impact pair[MOST_PAIRS];
+  carom_options options = pooltool(300);
+  for (int mixed = 0; mixed < 2; mixed++) {
+    draw_pairs(pair, &source, mixed != 0);
+    FOR_EACH_MODULE(module)
+    FOR_EACH_RUNG_OF_LANES(rung) {
+      const size_t sizes[] = {
+          0, 1, rung->width - 1, rung->width, rung->width + 1, 2 * rung->width + 3, MOST_PAIRS};
+      carom_result alone[MOST_PAIRS];
+      int8_t status_alone[MOST_PAIRS];
+      for (int k = 0; k < MOST_PAIRS; k++)
+        status_alone[k] = (int8_t)ladder_resolve(module, rung, &pair[k], &options, &alone[k]);
+      for (size_t size = 0; size < sizeof sizes / sizeof sizes[0]; size++) {
+        const size_t n = sizes[size];
+        carom_result out[MOST_PAIRS];
+        int8_t status[MOST_PAIRS];
+        memset(out, 0x55, sizeof out);
+        memset(status, 0x55, sizeof status);
+        const carom_status first =
+            ladder_resolve_batch(module, rung, pair, n, &options, out, status);
+        carom_status expected = CAROM_OK;
+        for (size_t k = 0; k < n; k++) {
+          if (expected == CAROM_OK && status_alone[k] < 0)
+            expected = (carom_status)status_alone[k];
+          ck_assert_msg(status[k] == status_alone[k], "%s in %s, pair %zu of %zu: %d, not %d",
+                        rung->name, module->name, k, n, status[k], status_alone[k]);
+          ck_assert_msg(memcmp(&out[k], &alone[k], sizeof out[k]) == 0,
+                        "%s in %s, pair %zu of %zu: other bits than alone", rung->name,
+                        module->name, k, n);
+        }
+        ck_assert_int_eq(first, expected);
+        for (size_t k = n; k < MOST_PAIRS; k++)
+          ck_assert_int_eq(status[k], 0x55);
+      }
+    }
+  }
+}
+
+/* Grazing and slow pairs beside fast ones: single precision refuses them row by row, and the rest
+ * agree with the parent. */
+TEST(lanes_beside_refused_ones_agree_with_the_parent) {
+  random_source source = {test_seed()};
+  carom_impact pair[MOST_PAIRS];
+  draw_pairs(pair, &source, true);
+  for (int k = 0; k < MOST_PAIRS; k += 4)
+    for (int c = 0; c < 3; c++) { /* approaches that single precision cannot resolve */
+      pair[k].a.v[c] *= 1e-14;
+      pair[k].b.v[c] *= 1e-14;
+    }
+  carom_options options = pooltool(1000);
+  FOR_EACH_MODULE(module)
+  FOR_EACH_RUNG_OF_LANES(rung) {
+    carom_result out[MOST_PAIRS];
+    int8_t status[MOST_PAIRS];
+    int solved = 0, refused = 0;
+    ladder_resolve_batch(module, rung, pair, MOST_PAIRS, &options, out, status);
+    for (int k = 0; k < MOST_PAIRS; k++) {
+      carom_result parent;
+      const carom_status of_parent =
+          ladder_resolve(module, ladder_rung_find(rung->parent), &pair[k], &options, &parent);
+      ck_assert_int_eq(status[k], of_parent);
+      refused += status[k] < 0;
+      solved += status[k] == CAROM_OK;
+      if (status[k] < 0)
+        ck_assert(isnan(out[k].a.v[0]) && isnan(out[k].b.w[2]));
+      if (status[k] != CAROM_OK)
+        continue;
+      const double off = result_distance(&out[k], &parent, pair[k].a.radius);
+      const double bound = rung->bound + allowance(&pair[k], &options, &parent);
+      ck_assert_msg(off <= bound, "%s in %s, pair %d: %g from %s", rung->name, module->name, k, off,
+                    rung->parent);
+    }
+    ck_assert_int_gt(solved, 0);
+    ck_assert_int_gt(refused, 0);
+  }
+}
+
 /* Linking with -ffast-math makes a library switch the whole process to flushing subnormal
  * numbers when it is loaded. */
 TEST(loading_leaves_arithmetic_alone) {
