@@ -345,6 +345,7 @@ static void add_lanes(const kernel *one, const ladder_module *module, int steps,
   w->module = module;
   w->one = by_lanes_of_ladder;
   w->left_out = n - count;
+  w->options.threads = 1;
   if (count > 0) {
     if (size == 0)
       size = whole_turns(LARGE, count);

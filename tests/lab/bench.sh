@@ -43,6 +43,12 @@ timed --batch --kernel euler --isa plain,best --precision single --steps 20 --th
 CAROM_ISA=plain timed --batch --kernel exact --precision single --threads 1 --pairs 64
 timed --kernel float --isa scalar --steps 50000 # more than its precision resolves: cases are left out
 grep -c "^# left out: float" out.csv
+timed --batch --kernel float_lanes_avx2,double_lanes_avx2 --steps 20 --pairs 1,17,4100 # a batch that is no multiple of the lanes
+timed --kernel float_lanes_avx2,exact --isa avx2 --precision single --threads 1
+sed -n 's/^# \(lanes of the ladder\): .*, \([0-9]* pairs\).*/\1: \2/p' out.csv
+timed --kernel float_lanes_avx2 --steps 20000
+grep "^# left out: float_lanes" out.csv | sed 's/: [0-9]* of/: N of/'
+lab bench --kernel double,double_lanes_avx2,fast,exact,euler --isa scalar,avx2 --precision double --budget 0.3 | grep -v '^#' | awk 'NR > 1 { print $1, $3 }' # the ladder first
 lab bench --kernel euler --budget 0.3 | grep -v '^#' | awk '{ print $1, $4, $5, $6 }'
 echo "--- cushions"
 lab bench --cushions --budget 0.2 --csv | grep -v '^#' | awk -F, 'NR == 1 { print } NR > 1 { print $1, ($2 > 0 && $3 >= 0 && $4 > 0 && ($4 == 1) == ($1 == "han") ? "" : $0) }'
