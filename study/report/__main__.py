@@ -53,7 +53,10 @@ DATA = {
     ),
     "bounds": (0, "tools/python -m study.bounds"),
     "operations": (0, f"tools/python -m study.bounds --kernel {SCALAR} --steps 100"),
-    "isas": (9, "carom-lab bench --kernel exact,fast,euler --batch --threads 1 --pairs 4080 --csv --spread"),
+    "isas": (
+        9,
+        "carom-lab bench --kernel exact,fast,euler --batch --threads 1 --pairs 4080 --csv --spread",
+    ),
     "batch": (
         8,
         f"carom-lab bench --kernel exact --isa scalar,best --threads all --pairs {SIZES} --csv --spread",
