@@ -248,9 +248,10 @@ class Run:
 
     def cycles(self, kernel):
         """Of a collision of 1000 steps, in the module whose operations are counted."""
-        row = self.row("cycles", kernel=kernel, steps="1000")
+        config = self.row("bounds", kernel=kernel)["config"]
+        row = self.row("cycles", kernel=kernel, config=config, steps="1000")
         cycle = report.number(self.sheet("cycles").notes["core cycle"].split(" ")[0])
-        self.compare_modules(row["config"])
+        self.compare_modules(config)
         return Value(
             report.number(row["ns_median"]) / cycle,
             report.number(row["ns_spread"]) / report.number(row["ns_median"]),
@@ -471,7 +472,8 @@ def arguments(words):
     parser.add_argument("--csv", action="store_true", help="write the claims as CSV")
     options = parser.parse_args(words)
     if options.source and not options.source.is_dir():
-        sys.exit(f"carom-lab paper: --from: there is no folder {options.source}")
+        print(f"carom-lab paper: --from: there is no folder {options.source}", file=sys.stderr)
+        sys.exit(2)
     return options
 
 
@@ -482,19 +484,22 @@ def measure(folder, options):
     )
     with contextlib.redirect_stdout(sys.stderr):
         report.measure(of_report, [name for name in report.DATA if name in NEEDED])
+    return [name for name in NEEDED if not (folder / f"{name}.csv").is_file()]
 
 
 def main(words):
-    options = arguments(words)
+    options, missing = arguments(words), []
     with tempfile.TemporaryDirectory() as work:
         folder = options.source or Path(work)
         if not options.source:
-            measure(folder, options)
+            missing = measure(folder, options)
         rows = judge(folder)
         (print_csv if options.csv else print_table)(rows, sys.stdout)
         if not options.csv:
             print("", *conclude(folder, rows), sep="\n")
-    return 0
+    if missing:
+        print(f"carom-lab paper: not measured: {', '.join(missing)}", file=sys.stderr)
+    return 1 if missing else 0
 
 
 if __name__ == "__main__":

@@ -35,7 +35,7 @@ static const command_form form = {
     .details = "The rules by which a claim holds stand at the head of study/paper.py, and "
                "docs/study/paper.md gives the causes.\n"
                "\n"
-               "exit code: 0; 2 for bad usage, or if nothing could be measured\n",
+               "exit code: 0; 1 if a file of the run could not be measured; 2 for bad usage\n",
     .example = "carom-lab paper --from build/results/report",
 };
 
@@ -57,9 +57,10 @@ int command_paper(int argc, char **argv) {
     words[count++] = "--from";
     words[count++] = job.source;
   }
-  if (python_run("jinja2", "study.paper", words, out) != 0) {
+  const int ended = python_run("jinja2", "study.paper", words, out);
+  if (ended < 0 || ended > EXIT_SOME) {
     output_abandon();
     return EXIT_USAGE;
   }
-  return output_commit() ? 0 : EXIT_USAGE;
+  return output_commit() ? ended : EXIT_USAGE;
 }

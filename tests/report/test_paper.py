@@ -101,7 +101,9 @@ def machine(folder, **changed):
     ladder = [timed(kernel, "clang-default", speed) for kernel, speed in speedups.items()]
     write(folder / "ladder.csv", [*ladder, timed("exact", "library", 50.0)], **notes)
     steps = [
-        timed(kernel, "clang-default", 1.0, n) for kernel in ("base", "float") for n in (500, 10000)
+        timed(kernel, "clang-default", 1.0, n)
+        for kernel in ("base", "float")
+        for n in (1000, 10000)
     ]
     write(folder / "steps.csv", steps, **notes)
     cycles = [timed(kernel, "clang-zen2", speed) for kernel, speed in speedups.items()]
