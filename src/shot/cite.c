@@ -67,6 +67,12 @@ static const struct {
      "  year = {2014},\n"
      "  doi = {10.1007/s12283-014-0158-y}\n"
      "}\n"},
+    {CAROM_BY_JORIS_ACCELERATING,
+     "@misc{joris-accelerating,\n"
+     "  author = {Joris and G{\\\"u}l and Wilton},\n"
+     "  title = {Accelerating {M}athavan's billiard ball collision algorithm},\n"
+     "  note = {the text at hand gives neither surnames nor year nor venue}\n"
+     "}\n"},
     {CAROM_BY_MATHAVAN2010,
      "@article{mathavan2010,\n"
      "  author = {Mathavan, S. and Jackson, M. R. and Parkin, R. M.},\n"
@@ -141,9 +147,10 @@ static unsigned sources_of(const carom_shot_options *o) {
   sources |= of_cushion[carom_cushion_model_of(o, &plain)] |
              of_cushion[carom_cushion_model_of(o, &measured)];
 
-  /* two balls: the restitution of the 2014 model is energetic, as Stronge's */
+  /* two balls: the restitution of the 2014 model is energetic, as Stronge's; both solvers began as
+   * answers to the question how fast its steps can become */
   if (balls == CAROM_BALL_MODEL_EXACT || balls == CAROM_BALL_MODEL_EULER)
-    sources |= CAROM_BY_MATHAVAN2014 | CAROM_BY_STRONGE2000;
+    sources |= CAROM_BY_MATHAVAN2014 | CAROM_BY_JORIS_ACCELERATING | CAROM_BY_STRONGE2000;
   if (balls == CAROM_BALL_MODEL_INELASTIC)
     sources |= CAROM_BY_KIEFL2024;
   if (balls != CAROM_BALL_MODEL_MIRROR)

@@ -73,6 +73,7 @@ for kind, fields in found.values():
         ("year", "year"),
         ("doi", "doi"),
         ("url", "url"),
+        ("note", "notes"),
     ):
         text += f"    {cff}: {fields[name]}\n" if name in fields else ""
     for end, number in zip(("start", "end"), fields.get("pages", "").split("--")):
@@ -80,7 +81,7 @@ for kind, fields in found.values():
 page = SOURCE / "CITATION.cff"
 if os.environ.get("UPDATE") == "1":
     page.write_text(text, encoding="utf-8")
-assert len(found) >= 11, sorted(found)
+assert len(found) >= 12, sorted(found)
 if not page.is_file() or page.read_text(encoding="utf-8") != text:
     sys.exit("CITATION.cff is not what carom --cite tells; UPDATE=1 writes it")
 print(f"{len(found)} sources")

@@ -841,6 +841,7 @@ static bool cites(const carom_shot_options *options, const char *key) {
 
 TEST(sources) {
   ck_assert(cites(NULL, "carom") && cites(NULL, "mathavan2014") && cites(NULL, "han2005"));
+  ck_assert(cites(NULL, "joris-accelerating"));
   ck_assert(cites(NULL, "hertz1882") && !cites(NULL, "mathavan2010") && !cites(NULL, "kiefl2024"));
   carom_shot_options o = {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN};
   ck_assert(cites(&o, "mathavan2010") && !cites(&o, "han2005"));
@@ -856,6 +857,7 @@ TEST(sources) {
                            .cushion_model = CAROM_SHOT_CUSHION_MIRROR,
                            .simultaneous = CAROM_SIMULTANEOUS_PAIRS};
   ck_assert(!cites(&o, "stronge2000") && !cites(&o, "alciatore-throw"));
+  ck_assert(!cites(&o, "joris-accelerating"));
 
   char all[10000], few[100];
   const size_t length = carom_cite(NULL, all, sizeof all);
