@@ -27,6 +27,7 @@ import textwrap
 from collections import Counter
 from pathlib import Path
 
+from study import machines
 from study.report import __main__ as report
 
 HERE = Path(__file__).resolve().parent
@@ -470,6 +471,9 @@ def arguments(words):
     parser.add_argument("--budget", type=float, default=60.0, help="seconds to measure otherwise")
     parser.add_argument("--build", type=Path, default=report.ROOT / "build")
     parser.add_argument("--csv", action="store_true", help="write the claims as CSV")
+    parser.add_argument(
+        "--record", metavar="NAME", help="add this machine to machines.csv under that name"
+    )
     options = parser.parse_args(words)
     if options.source and not options.source.is_dir():
         print(f"carom-lab paper: --from: there is no folder {options.source}", file=sys.stderr)
@@ -494,6 +498,12 @@ def main(words):
         if not options.source:
             missing = measure(folder, options)
         rows = judge(folder)
+        if options.record:
+            try:
+                print(machines.record_and_show(folder, options.record), file=sys.stderr)
+            except machines.Refusal as why:
+                print(f"carom-lab paper: --record: {why}", file=sys.stderr)
+                return 2
         (print_csv if options.csv else print_table)(rows, sys.stdout)
         if not options.csv:
             print("", *conclude(folder, rows), sep="\n")

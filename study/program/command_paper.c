@@ -13,6 +13,7 @@ typedef struct paper_job {
   const char *source;
   double budget;
   bool csv;
+  const char *record;
 } paper_job;
 
 OPTION(paper_job, paper_source, "from", source, 0, "DIR", set_text, 0,
@@ -21,6 +22,10 @@ OPTION(paper_job, paper_budget, "budget", budget, 0, "SECONDS", set_amount, 0,
        "how long to time the kernels (default 60); counting their operations comes on top");
 OPTION(paper_job, paper_csv, "csv", csv, 0, NULL, set_flag, 0,
        "as CSV: section,claim,unit,paper,here,uncertainty,verdict,cause");
+
+OPTION(paper_job, paper_record, "record", record, 0, "NAME", set_text, 0,
+       "add this machine to study/machines.csv under that name, and to the table of "
+       "docs/study/paper.md");
 
 static const command_form form = {
     .name = "paper",
@@ -31,7 +36,8 @@ static const command_form form = {
         "hold here, or is not measurable here, with the cause where it does not hold. Sentences "
         "that compare the paper's best kernel with this run's end the table.\n",
     .options =
-        (const option_row *const[]){&paper_source, &paper_budget, &paper_csv, &option_output, NULL},
+        (const option_row *const[]){&paper_source, &paper_budget, &paper_csv, &paper_record,
+                                     &option_output, NULL},
     .details = "The rules by which a claim holds stand at the head of study/paper.py, and "
                "docs/study/paper.md gives the causes.\n"
                "\n"
@@ -56,6 +62,10 @@ int command_paper(int argc, char **argv) {
   if (job.source != NULL) {
     words[count++] = "--from";
     words[count++] = job.source;
+  }
+  if (job.record != NULL) {
+    words[count++] = "--record";
+    words[count++] = job.record;
   }
   const int ended = python_run("jinja2", "study.paper", words, out);
   if (ended < 0 || ended > EXIT_SOME) {
