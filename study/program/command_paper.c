@@ -35,9 +35,8 @@ static const command_form form = {
         "paper's value, the value of this run, and whether the claim holds, is weaker, does not "
         "hold here, or is not measurable here, with the cause where it does not hold. Sentences "
         "that compare the paper's best kernel with this run's end the table.\n",
-    .options =
-        (const option_row *const[]){&paper_source, &paper_budget, &paper_csv, &paper_record,
-                                     &option_output, NULL},
+    .options = (const option_row *const[]){&paper_source, &paper_budget, &paper_csv, &paper_record,
+                                           &option_output, NULL},
     .details = "The rules by which a claim holds stand at the head of study/paper.py, and "
                "docs/study/paper.md gives the causes.\n"
                "\n"

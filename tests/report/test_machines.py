@@ -108,3 +108,17 @@ def test_the_same_run_twice(tmp_path):
     machines.record(STORED, "Stored", path)
     with pytest.raises(machines.Refusal, match="already"):
         machines.record(STORED, "Stored", path)
+
+
+def test_refusal_of_carom_lab_paper(tmp_path):
+    """`carom-lab paper --record` ends with the reason where the run has no times."""
+    before = machines.MACHINES.read_bytes()
+    done = subprocess.run(
+        [sys.executable, "-m", "study.paper", "--from", tmp_path, "--record", "Another"],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )
+    assert done.returncode == 1 and "carom-lab paper: --record: " in done.stderr, done.stderr
+    assert machines.MACHINES.read_bytes() == before
