@@ -120,5 +120,5 @@ def test_refusal_of_carom_lab_paper(tmp_path):
         cwd=ROOT,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
     )
-    assert done.returncode == 1 and "carom-lab paper: --record: " in done.stderr, done.stderr
+    assert done.returncode == 2 and "carom-lab paper: --record: " in done.stderr, done.stderr
     assert machines.MACHINES.read_bytes() == before
