@@ -4,6 +4,7 @@ and the exception for one in error.
 
 from __future__ import annotations
 
+import functools
 import reprlib
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -118,6 +119,34 @@ def resolve(
     if code < 0 and shape == ():
         raise _error(kind, code, array, options)
     return Outcome(motion, status)
+
+
+_NUMBERS = ffi.typeof("double[]")
+
+
+@functools.cache
+def _types(given: str, gives: str) -> tuple[Any, Any, int]:
+    """Pointers to an impact and to its motion, and how many numbers the motion has."""
+    return ffi.typeof(f"{given} *"), ffi.typeof(f"{gives} *"), ffi.sizeof(gives) // 8
+
+
+def resolve_one(kind: Kind, numbers: list[float], options: Any) -> list[float]:
+    """The motion after one impact, whose numbers are in the order of its record.
+
+    Lists cross to C in a tenth of the time that arrays need, which counts where an engine resolves
+    one impact after another.
+    """
+    given, gives, size = _types(kind.names[0], kind.names[1])
+    impact = ffi.new(_NUMBERS, numbers)
+    motion = ffi.new(_NUMBERS, size)
+    source, target = ffi.cast(given, impact), ffi.cast(gives, motion)
+    if kind.one is not None:
+        code = kind.one(source, options, target)
+    else:
+        code = kind.batch(source, 1, options, target, ffi.NULL)
+    if code < 0:
+        raise _error(kind, code, np.array(numbers), options)
+    return ffi.unpack(motion, size)  # type: ignore[no-any-return]
 
 
 def trace(kind: Kind, impact: npt.ArrayLike, points: int, options: Any) -> dtypes.Records:

@@ -7,10 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from carom._rows import Array
-from carom.collisions import collide
-from carom.cushions import cushion as resolve_cushion
+from carom._impacts import BALLS, CUSHION, resolve_one
+from carom.collisions import _options as collision_options
+from carom.cushions import _options as cushion_options
 from carom.results import Label
+
+# With the instruction set plain, whose bits all machines share; the cushion without a least step.
+_EXACT = collision_options("exact", "paper", 0, 0, True)
+_EXACT_CUSHION = cushion_options("mathavan", "paper", "constant", 0, 0, 0.0, True, ())
 
 _balls: Any = importlib.import_module("pooltool.objects.ball.datatypes")
 _friction: Any = importlib.import_module("pooltool.physics.resolve.ball_ball.friction")
@@ -36,24 +40,28 @@ class ExactBallBall(_ball_ball_core.CoreBallBallCollision):  # type: ignore[misc
 
     def solve(self, ball1: Any, ball2: Any) -> tuple[Any, Any]:
         """The balls, with the motion after the collision, in place."""
-        rows = np.empty(26)
-        for ball, row in ((ball1, rows[:12]), (ball2, rows[12:24])):
-            row[:9] = ball.state.rvw.ravel()
-            row[9:] = ball.params.R, ball.params.m, ball.params.u_s
+        numbers = [*_numbers(ball1), *_numbers(ball2)]
         # The frame is that of two balls at one height.
-        rows[14] = rows[2]
-        rows[24] = self.friction.calculate_friction(ball1, ball2)
-        rows[25] = (ball1.params.e_b + ball2.params.e_b) / 2
-        motion, _ = collide(rows, plain=True)
-        for ball, after in ((ball1, motion[:6]), (ball2, motion[6:])):
-            _set_motion(ball, after)
+        numbers[14] = numbers[2]
+        numbers.append(self.friction.calculate_friction(ball1, ball2))
+        numbers.append((ball1.params.e_b + ball2.params.e_b) / 2)
+        motion = resolve_one(BALLS, numbers, _EXACT)
+        _set_motion(ball1, motion[:6])
+        _set_motion(ball2, motion[6:])
         return ball1, ball2
 
 
-def _set_motion(ball: Any, motion: Array) -> None:
+def _numbers(ball: Any) -> list[float]:
+    """A ball as an impact has it: place, velocity, spin, radius, mass, friction of the cloth."""
+    p = ball.params
+    return [*ball.state.rvw.ravel().tolist(), p.R, p.m, p.u_s]
+
+
+def _set_motion(ball: Any, motion: list[float]) -> None:
     """Gives a ball the motion after an impact; it slides, until pooltool finds it rolling."""
     rvw = ball.state.rvw.copy()
-    rvw[1:] = motion.reshape(2, 3)
+    rvw[1] = motion[:3]
+    rvw[2] = motion[3:]
     ball.state = _balls.BallState(rvw, Label.SLIDING)
 
 
@@ -63,10 +71,11 @@ def _resolve_cushion(ball: Any, cushion: Any, jaw_radius: float) -> tuple[Any, A
     if jaw_radius > 0.0 or np.dot(normal, ball.state.rvw[1][:2]) < 0.0:
         normal = -normal
     p = ball.params
-    numbers = (
-        *ball.state.rvw[1],
-        *ball.state.rvw[2],
-        *normal,
+    _, v, w = ball.state.rvw.tolist()
+    numbers = [
+        *v,
+        *w,
+        *normal.tolist(),
         cushion.height,
         p.R,
         p.m,
@@ -74,9 +83,8 @@ def _resolve_cushion(ball: Any, cushion: Any, jaw_radius: float) -> tuple[Any, A
         p.f_c,
         p.e_c,
         jaw_radius,
-    )
-    motion, _ = resolve_cushion(np.array(numbers), plain=True)
-    _set_motion(ball, motion)
+    ]
+    _set_motion(ball, resolve_one(CUSHION, numbers, _EXACT_CUSHION))
     return ball, cushion
 
 
