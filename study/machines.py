@@ -13,10 +13,10 @@ import re
 import sys
 from pathlib import Path
 
-from study.report import __main__ as report
+from study.report.sheets import ROOT, Sheet
 
-MACHINES = report.HERE.parent / "machines.csv"
-PAGE = report.ROOT / "docs" / "study" / "paper.md"
+MACHINES = ROOT / "study" / "machines.csv"
+PAGE = ROOT / "docs" / "study" / "paper.md"
 BEGIN, END = "<!-- machines.csv, as a table -->\n", "<!-- end of the table -->\n"
 ABOUT = ("machine", "processor", "compiler", "date", "commit", "source")
 CONFIG = "clang-default"
@@ -51,7 +51,7 @@ def speedups_of(sheet):
 def row_of_run(folder, name):
     """The row of a run, from its configs.csv."""
     path = Path(folder) / "configs.csv"
-    sheet = report.Sheet(path)
+    sheet = Sheet(path)
     if not sheet.rows:
         raise Refusal(f"{path} is not there or has no rows; `carom-lab paper` measures it")
     reference = sheet.notes.get("reference kernel", "none")
@@ -121,7 +121,7 @@ def record_and_show(folder, name, path=MACHINES):
         return said
     page = page_with(read_machines()[1], PAGE.read_text(encoding="utf-8"))
     PAGE.write_text(page, encoding="utf-8")
-    return f"{said}, and {PAGE.relative_to(report.ROOT)} the new table"
+    return f"{said}, and {PAGE.relative_to(ROOT)} the new table"
 
 
 def main(words):

@@ -28,7 +28,8 @@ from collections import Counter
 from pathlib import Path
 
 from study import machines
-from study.report import __main__ as report
+from study.report.data import DATA, SCALAR as SCALAR_NAMES, measure
+from study.report.sheets import ROOT, Sheet, number
 
 HERE = Path(__file__).resolve().parent
 HOLDS, WEAKER, FAILS, UNMEASURED = (
@@ -37,7 +38,7 @@ HOLDS, WEAKER, FAILS, UNMEASURED = (
     "does not hold here",
     "not measurable here",
 )
-SCALAR = report.SCALAR.replace(",", " ")
+SCALAR = SCALAR_NAMES.replace(",", " ")
 REPEATS = 0.005  # by which speedups differ between runs, relative
 CLAIM_WIDTH = 58
 NORMAL = 1.4826 * 1.2533  # standard error of a median, in median absolute deviations over sqrt(n)
@@ -74,7 +75,7 @@ class Run:
 
     def sheet(self, name):
         if name not in self.sheets:
-            self.sheets[name] = report.Sheet(self.folder / f"{name}.csv")
+            self.sheets[name] = Sheet(self.folder / f"{name}.csv")
         if not self.sheets[name].rows:
             raise Missing(f"there is no {name}.csv in this run")
         return self.sheets[name]
@@ -88,10 +89,10 @@ class Run:
 
     def number(self, sheet, column, **wanted):
         text = self.row(sheet, **wanted).get(column)
-        number = report.number(text)
-        if math.isnan(number):
+        value = number(text)
+        if math.isnan(value):
             raise Missing(f"{column} of {sheet}.csv is {text}")
-        return number
+        return value
 
     # ---- Times
 
@@ -114,14 +115,14 @@ class Run:
 
     def uncertainty(self, row, sheet):
         rounds = float(self.sheet(sheet).notes.get("rounds", "1").split(";")[0])
-        scatter = report.number(row["speedup_spread"]) / report.number(row["speedup"])
+        scatter = number(row["speedup_spread"]) / number(row["speedup"])
         return math.hypot(2.0 * NORMAL * scatter / math.sqrt(rounds), REPEATS)
 
     def speedup(self, kernel):
         """Over base in the first compiler's default configuration, as in the paper."""
         name, config = self.build(kernel)
         row = self.row("configs", kernel=name, config=config)
-        return Value(report.number(row["speedup"]), self.uncertainty(row, "configs"))
+        return Value(number(row["speedup"]), self.uncertainty(row, "configs"))
 
     def faster(self, kernel, other):
         """How many times as fast as the other kernel."""
@@ -141,7 +142,7 @@ class Run:
             and row["config"].startswith(f"{compiler}-")
             and not row["config"].endswith("-zen2")
         ]
-        return sorted(rows, key=lambda row: -report.number(row["speedup"]))
+        return sorted(rows, key=lambda row: -number(row["speedup"]))
 
     def best_build(self, rungs):
         """The fastest build, "kernel@config"."""
@@ -163,7 +164,7 @@ class Run:
             mine, config = row["config"].split("-", 1)
             if row["kernel"] in rungs.split() and mine == "clang" and config != "zen2":
                 other = self.row("configs", kernel=row["kernel"], config=f"{compiler}-{config}")
-                pairs.append(report.number(row["speedup"]) > report.number(other["speedup"]))
+                pairs.append(number(row["speedup"]) > number(other["speedup"]))
         if not pairs:
             raise Missing("it needs clang and gcc")
         return sum(pairs) / len(pairs)
@@ -171,14 +172,14 @@ class Run:
     def speed(self, kernel):
         """Over base, from the table of the default configuration, which has the solvers too."""
         row = self.row("ladder", kernel=kernel)
-        return Value(report.number(row["speedup"]), self.uncertainty(row, "ladder"))
+        return Value(number(row["speedup"]), self.uncertainty(row, "ladder"))
 
     def best_lanes(self):
         """The fastest rung in lanes across collisions."""
         rows = [row for row in self.sheet("ladder").rows if "_lanes" in row["kernel"]]
         if not rows:
             raise Missing("this build has no rungs in lanes, or the processor no AVX2")
-        return max(rows, key=lambda row: report.number(row["speedup"]))["kernel"]
+        return max(rows, key=lambda row: number(row["speedup"]))["kernel"]
 
     def over_steps(self, kernel, column, least, most):
         """The largest and the least of a column divided by the steps, over N from least to most."""
@@ -189,7 +190,7 @@ class Run:
         ]
         if not rows:
             raise Missing(f"{kernel} was not timed with several numbers of steps")
-        values = [report.number(row[column]) / float(row["steps"]) for row in rows]
+        values = [number(row[column]) / float(row["steps"]) for row in rows]
         return max(values) / min(values)
 
     # ---- Accuracy
@@ -209,7 +210,7 @@ class Run:
     def most_over(self, rungs, column):
         """The same for the worst of several kernels, in all their builds."""
         rows = [row for row in self.sheet("verify").rows if row["kernel"] in rungs.split()]
-        return max(report.number(row[column]) for row in rows)
+        return max(number(row[column]) for row in rows)
 
     def over_at(self, steps, column):
         """The cases of `float` with so many steps."""
@@ -242,7 +243,7 @@ class Run:
     def latency(self, row):
         """Cycles of this processor, measured by a chain of such instructions."""
         said = self.sheet("bounds").notes.get(f"latency {row}", "")
-        cycles = report.number(said.split(" ")[0])
+        cycles = number(said.split(" ")[0])
         if math.isnan(cycles):
             raise Missing(f"the latency {row} of this processor was not measured")
         return cycles
@@ -251,11 +252,11 @@ class Run:
         """Of a collision of 1000 steps, in the module whose operations are counted."""
         config = self.row("bounds", kernel=kernel)["config"]
         row = self.row("cycles", kernel=kernel, config=config, steps="1000")
-        cycle = report.number(self.sheet("cycles").notes["core cycle"].split(" ")[0])
+        cycle = number(self.sheet("cycles").notes["core cycle"].split(" ")[0])
         self.compare_modules(config)
         return Value(
-            report.number(row["ns_median"]) / cycle,
-            report.number(row["ns_spread"]) / report.number(row["ns_median"]),
+            number(row["ns_median"]) / cycle,
+            number(row["ns_spread"]) / number(row["ns_median"]),
         )
 
     def compare_modules(self, config):
@@ -277,7 +278,7 @@ class Run:
         name, config = self.build(kernel)
         row = self.row("configs", kernel=name, config=config)
         for column in ("stalls_fp_scheduler", "stalls_execution"):
-            counted = report.number(row.get(column))
+            counted = number(row.get(column))
             if not math.isnan(counted):
                 return counted
         raise Missing(self.sheet("configs").notes.get("counters", "it needs hardware counters"))
@@ -423,9 +424,9 @@ def conclude(folder, rows):
         exact = run.row("ladder", kernel="exact", isa="scalar")
         single = run.row("ladder", kernel="float", config=run.reference())
         said.append(
-            f"exact, the solver without steps: {report.number(exact['speedup']):.0f} x at an error of "
-            f"{report.number(exact['pair_error_max']):.1e} from the limit of infinitely many steps; "
-            f"float is {report.number(single['pair_error_max']):.1e} from pooltool's 1000 steps"
+            f"exact, the solver without steps: {number(exact['speedup']):.0f} x at an error of "
+            f"{number(exact['pair_error_max']):.1e} from the limit of infinitely many steps; "
+            f"float is {number(single['pair_error_max']):.1e} from pooltool's 1000 steps"
         )
     except Missing as why:
         said.append(f"no speedup to conclude from: {why}")
@@ -469,7 +470,7 @@ def arguments(words):
         "--from", dest="source", type=Path, help="judge the CSV files of this folder"
     )
     parser.add_argument("--budget", type=float, default=60.0, help="seconds to measure otherwise")
-    parser.add_argument("--build", type=Path, default=report.ROOT / "build")
+    parser.add_argument("--build", type=Path, default=ROOT / "build")
     parser.add_argument("--csv", action="store_true", help="write the claims as CSV")
     parser.add_argument(
         "--record", metavar="NAME", help="add this machine to machines.csv under that name"
@@ -481,13 +482,13 @@ def arguments(words):
     return options
 
 
-def measure(folder, options):
+def measure_needed(folder, options):
     """The files that the claims are judged by."""
     of_report = argparse.Namespace(
         folder=folder, build=options.build.resolve(), budget=options.budget
     )
     with contextlib.redirect_stdout(sys.stderr):
-        report.measure(of_report, [name for name in report.DATA if name in NEEDED])
+        measure(of_report, [name for name in DATA if name in NEEDED])
     return [name for name in NEEDED if not (folder / f"{name}.csv").is_file()]
 
 
@@ -496,7 +497,7 @@ def main(words):
     with tempfile.TemporaryDirectory() as work:
         folder = options.source or Path(work)
         if not options.source:
-            missing = measure(folder, options)
+            missing = measure_needed(folder, options)
         rows = judge(folder)
         if options.record:
             try:

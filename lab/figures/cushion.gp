@@ -1,6 +1,6 @@
 # A ball and a cushion: rebound beside what was measured, a fine sweep of the side spin, its jumps. Three panels, one key below them.
 width = 1080; height = 470
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../study/figures/study.gp" ARG1 ARG2 ARG3
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../cli/figures/style.gp" ARG1 ARG2 ARG3
 unset title
 of(name, x) = strcol("what") eq name ? x : NaN
 left(k) = 0.065 + 0.34 * (k - 1)

@@ -18,6 +18,8 @@ BUILD = Path(os.environ.get("CAROM_BUILD", ROOT / "build"))
 DOCS = ROOT / "docs" / "figures"
 sys.path.insert(0, str(ROOT))
 from study.report import __main__ as report  # noqa: E402
+from study.report import data, fingerprints  # noqa: E402
+from study.report.sheets import Sheet  # noqa: E402
 
 
 def make(folder, *words):
@@ -64,7 +66,7 @@ def test_share_of_another_module(tmp_path):
         note_module(tmp_path / "cycles.csv", timed)
         note_module(tmp_path / "bounds.csv", counted)
         (tmp_path / "performance.csv").unlink(missing_ok=True)
-        data = {name: report.Sheet(tmp_path / f"{name}.csv") for name in ("cycles", "bounds")}
+        data = {name: Sheet(tmp_path / f"{name}.csv") for name in ("cycles", "bounds")}
         data["performance"] = report.derive_performance(options, data)
         assert bool(data["performance"].rows) == rows
         assert all((row["share"] != "NA") == rows for row in report.operations(data))
@@ -76,7 +78,7 @@ def test_stored(tmp_path):
     """
     stored = tmp_path / "stored"
     stored.mkdir()
-    for path in [*(DOCS / "data").glob("*.csv"), *STORED.glob("*.csv"), DOCS / "break.svg"]:
+    for path in [*(DOCS / "data").glob("*.csv"), *STORED.glob("*.csv")]:
         shutil.copy(path, stored)
     for name in ("cycles", "bounds"):
         note_module(stored / f"{name}.csv", "1111")
@@ -86,9 +88,7 @@ def test_stored(tmp_path):
     )
     assert (one.returncode, one.stderr) == (0, "") and missing(page) == []
     ids = [e.get("id") for e in page.iter() if e.get("id")]
-    assert len(ids) == len(set(ids)) and {
-        f"figure-{name}" for name in (*report.FIGURES, "break")
-    } <= set(ids)
+    assert len(ids) == len(set(ids)) and {f"figure-{name}" for name in report.FIGURES} <= set(ids)
     for path in sorted((tmp_path / "one").iterdir()):
         assert path.read_bytes() == (tmp_path / "two" / path.name).read_bytes(), path.name
     assert one.stdout.replace(str(tmp_path / "one"), "") == two.stdout.replace(
@@ -96,7 +96,7 @@ def test_stored(tmp_path):
     )
 
     bounds, base = (
-        report.Sheet(stored / "bounds.csv").first(kernel="base", config="clang-zen2"),
+        Sheet(stored / "bounds.csv").first(kernel="base", config="clang-zen2"),
         table(page, "operations")[0],
     )
     assert [
@@ -118,18 +118,16 @@ def test_stored(tmp_path):
         )
         for line in page_of_study.splitlines()
     ), bounds
-    configs = report.Sheet(stored / "configs.csv")
+    configs = Sheet(stored / "configs.csv")
     for row in table(page, "configurations"):
         for config in list(row)[1:]:
             assert row[config] == report.shown(
                 configs.first(kernel=row["kernel"], config=config).get("speedup")
             ), (row, config)
     errors = {(row["kernel"], row["reference"]): row for row in table(page, "errors")}
-    for row in report.Sheet(stored / "verify.csv").rows:
+    for row in Sheet(stored / "verify.csv").rows:
         assert float(errors[row["kernel"], row["reference"]]["max"]) >= 0.999 * float(row["max"])
-    performance = report.Sheet(tmp_path / "one" / "performance.csv").first(
-        kernel="base", steps="1000"
-    )
+    performance = Sheet(tmp_path / "one" / "performance.csv").first(kernel="base", steps="1000")
     assert float(performance["flops_per_cycle"]) == pytest.approx(
         float(performance["flops"]) / float(performance["cycles"]), rel=1e-3
     )
@@ -151,7 +149,7 @@ def test_stored(tmp_path):
         )
         folder = tmp_path / f"counted-{name}"
         make(folder, "--from", stored)
-        sheet = report.Sheet(folder / "performance.csv")
+        sheet = Sheet(folder / "performance.csv")
         row = sheet.first(kernel="base", steps="1000")
         for column, note in (("flops", "operations"), ("cycles", "cycles")):
             is_counted = column == name
@@ -159,62 +157,88 @@ def test_stored(tmp_path):
             wanted = counted[column] if is_counted else performance[column]
             assert float(row[column]) == float(wanted), (name, column)
 
-    for name in ("cycles.csv", "break.svg"):
-        (stored / name).unlink()
+    for name in ("cycles.csv", "performance.csv"):
+        (stored / name).unlink(missing_ok=True)
     done, page = make(tmp_path / "three", "--from", stored)
-    assert done.returncode == 1 and len(missing(page)) == 3
-    assert "not there: break, performance, operations" in done.stderr
+    assert done.returncode == 1 and len(missing(page)) == 2
+    assert "not there: performance, operations" in done.stderr
     assert make(tmp_path / "four", "--from", tmp_path / "nowhere")[0].returncode == 2
     assert "--budget" in make(tmp_path / "four", "--budget", "0")[0].stderr
-
-
-def test_figures_of_the_docs(tmp_path):
-    """Each figure is what gnuplot draws from the CSV beside it, all were measured by one build on
-    one machine, and the solver that they show computes the same bits as this one.
-    """
-    make(tmp_path / "one", "--from", DOCS / "data")
-    sheets = {
-        name: report.Sheet(DOCS / "data" / f"{report.FIGURES[name][0]}.csv")
-        for name in report.OF_DOCS
-    }
-    for name in report.OF_DOCS:
-        assert (tmp_path / "one" / f"{name}.svg").read_bytes() == (
-            DOCS / f"{name}.svg"
-        ).read_bytes(), f"{name}.svg: {AGAIN}"
-    for what in ("processor", "compiler", "commit"):
-        assert len({sheet.notes[what] for sheet in sheets.values()}) == 1, f"{what}: {AGAIN}"
-    options = report.arguments([str(tmp_path / "two"), "--build", str(BUILD)])
-    options.folder.mkdir()
-    assert sheets["cushion"].notes["solver"] == report.solver_bits(options), (
-        f"the solver has changed: {AGAIN}"
-    )
-    for name in ("cushion", "hops"):
-        getattr(report, f"derive_{name}")(options, sheets["accuracy"].notes)
-        assert (options.folder / f"{name}.csv").read_bytes() == (
-            DOCS / "data" / f"{name}.csv"
-        ).read_bytes(), AGAIN
-    for name, command in report.DRAWN.items():
-        report.run(
-            command.format(options.folder / f"{name}.svg"), options, environment=report.PLAIN
-        )
-        assert (options.folder / f"{name}.svg").read_bytes() == (
-            DOCS / f"{name}.svg"
-        ).read_bytes(), f"{name}.svg: {AGAIN}"
 
 
 AGAIN = "make the figures anew: cmake --build build --target figures"
 
 
+def test_figures_of_the_docs(tmp_path):
+    """Each figure of the study is what gnuplot draws from the CSV beside it, all were measured in
+    one run, and the code of every series is today's.
+    """
+    make(tmp_path / "one", "--from", DOCS / "data")
+    sheets = {}
+    for name in report.OF_DOCS:
+        source = DOCS / "data" / f"{report.FIGURES[name][0]}.csv"
+        sheets[name] = Sheet(source)
+        drawn, kept = (folder / f"{name}.svg" for folder in (tmp_path / "one", DOCS))
+        assert drawn.read_bytes() == kept.read_bytes(), f"{name}.svg: {AGAIN}"
+        stale = fingerprints.stale(source)
+        assert not stale, f"{name}.svg shows code that has changed: {'; '.join(stale)}. {AGAIN}"
+    for what in ("processor", "compiler", "commit"):
+        assert len({sheet.notes[what] for sheet in sheets.values()}) == 1, f"{what}: {AGAIN}"
+
+
+def test_figures_computed(tmp_path):
+    """The figures that do not depend on the machine are those of this build."""
+    done = subprocess.run(
+        [sys.executable, "-m", "lab.figures", "--build", str(BUILD), str(tmp_path)], cwd=ROOT
+    )
+    assert done.returncode == 0
+    for path in sorted(tmp_path.rglob("*.*")):
+        kept = DOCS / path.relative_to(tmp_path)
+        assert path.read_bytes() == kept.read_bytes(), f"{kept.name}: {AGAIN}"
+
+
+def test_stale_series(tmp_path, monkeypatch):
+    """A changed line of a solver makes its own series stale and no other; a comment none; what is
+    gone or was never noted is named.
+    """
+    rows = "kernel,isa,precision\nexact,avx2,double\neuler,scalar,double\nfloat,scalar,single\n"
+    file = tmp_path / "series.csv"
+    file.write_text(rows)
+    assert fingerprints.stale(file) == ["euler", "exact", "float"]
+    fingerprints.stamp(file)
+    assert fingerprints.stale(file) == []
+    texts = fingerprints.text_of
+    for path, change, found in (
+        ("src/ball_ball/euler.c", " + 1", ["euler, scalar, double"]),
+        ("src/ball_ball/collocate.c", " + 1", ["exact, avx2, double"]),
+        ("study/ladder/float.c", " + 1", ["float, scalar, single"]),
+    ):
+        changed = ROOT / path
+        monkeypatch.setattr(
+            fingerprints,
+            "text_of",
+            lambda path, changed=changed, change=change: texts(path)
+            + (change if path == changed else ""),
+        )
+        assert fingerprints.stale(file) == found
+    monkeypatch.undo()
+    one = tmp_path / "one.c"
+    one.write_text("int a; /* a comment\n of two lines */\n// another\nint  b;\n")
+    assert fingerprints.text_of(one) == "int a; int b;"
+    file.write_text(file.read_text().replace("float", "no_such_kernel"))
+    assert fingerprints.stale(file) == ["no_such_kernel, scalar, single"]
+
+
 def test_measured(tmp_path, monkeypatch, capsys):
     """Nothing is missing. Few numbers of steps are timed."""
-    for name, (share, command) in report.DATA.items():
+    for name, (share, command) in data.DATA.items():
         monkeypatch.setitem(
-            report.DATA,
+            data.DATA,
             name,
-            (share, command.replace(report.STEPS, "100,1000").replace(",20000,50000", "")),
+            (share, command.replace(data.STEPS, "100,1000").replace(",20000,50000", "")),
         )
     assert report.main([str(tmp_path / "one"), "--build", str(BUILD), "--budget", "1"]) == 0
-    for name in report.DATA:
-        assert report.Sheet(tmp_path / "one" / f"{name}.csv").rows, name
+    for name in data.DATA:
+        assert Sheet(tmp_path / "one" / f"{name}.csv").rows, name
     assert missing(page_of(tmp_path / "one")) == []
     assert "speedup over base" in capsys.readouterr().out
