@@ -1,4 +1,4 @@
-# Operations per cycle over N, and for each kernel the bound by its longest chain with the latencies of Zen 2.
+# Operations per cycle over N, and for each kernel the bounds by its longest chain, with the latencies of Zen 2 and of this processor.
 width = 1000; height = 560
 build = system("awk -F, '/^#/ { next } n++ { print $2; exit }' '".ARG1."'")
 call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3
@@ -16,8 +16,8 @@ set key at screen 0.735, graph 1 left top vertical maxrows 12 noenhanced Left re
 set label 1003 "operations: ".note("operations")."; cycles: ".note("cycles") at screen 0.012, screen 0.022 font ",10" textcolor rgb grey
 set label 1002 at screen 0.012, screen 0.050
 set label 1001 at screen 0.012, screen 0.078
-share(name) = system("awk -F, '/^#/ { next } $1 == \"".name."\" { s = $8 } END { print s }' '".data."'")
-entry(name) = sprintf("%s, %.0f %% of bound", name, 100 * real(share(name)))
+share(name) = system("awk -F, '/^#/ { next } $1 == \"".name."\" { s = $10 } END { print s }' '".data."'")
+entry(name) = sprintf("%s, %.0f %% of its bound here", name, 100 * real(share(name)))
 set offsets 0, 0, graph 0.08, 0
 plot for [k=1:words(kernels)] data using "steps":(of(word(kernels, k), column("flops_per_cycle"))) \
        with linespoints lt line_of(word(kernels, k), k) dt 1 title entry(word(kernels, k)), \
