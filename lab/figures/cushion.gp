@@ -32,7 +32,7 @@ plot [-60:60] [1e-12:1e-1] data using "x":(of("jump-euler", column("y"))) with p
 
 # The key, below all three.
 unset label 2; unset xlabel; unset ylabel; unset tics; unset border; unset logscale y; unset grid
-set lmargin at screen 0.05; set rmargin at screen 0.98; set tmargin at screen 0.16; set bmargin at screen 0.10
+set lmargin at screen 0.05; set rmargin at screen 0.98; set tmargin at screen 0.11; set bmargin at screen 0.05
 set key center center horizontal maxrows 1 Left reverse noenhanced samplen 3
 plot [0:1] [0:1] NaN notitle, keyentry with lines lw 2 dt (12,4) lc rgb ink title "measured (2010 paper's fit)", \
   keyentry with lines lw 2 dt 1 lc rgb blue title "exact limit (left: e = 0.98)", \

@@ -32,7 +32,7 @@ void machine_note(FILE *to, const char *what, const char *format, ...) {
 
 double clock_core_cycle(void) {
 #ifdef CHAIN
-  enum { TURNS = 1000, LINKS = 100, ROUNDS = 300 };
+  enum { TURNS = 500, LINKS = 100, ROUNDS = 20 };
   double least = INFINITY;
   unsigned long long value = 1;
   for (int round = 0; round < ROUNDS; round++) {

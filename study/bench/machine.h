@@ -13,8 +13,8 @@ __attribute__((format(printf, 3, 4))) void machine_note(FILE *to, const char *wh
                                                         const char *format, ...);
 
 /* The length of a core cycle just now, in ns: that of an addition in a chain of them, which
- * advances by one cycle each on every processor of interest, whatever its clock. Measured in
- * some 10 ms. NAN where no chain is written for the processor. */
+ * advances by one cycle each on every processor of interest, whatever its clock. Measured in less
+ * than a millisecond. NAN where no chain is written for the processor. */
 double clock_core_cycle(void);
 
 #endif

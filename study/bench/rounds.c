@@ -134,6 +134,21 @@ static void summarise_counts(const counter_set *set, const double *count, size_t
   free(median);
 }
 
+/* Time, cycles and speedup of subject k of n over the rounds; `scratch` has room for a number a
+ * round. */
+static void summarise_times(const double *ns, const double *cycles, size_t rounds, size_t n,
+                            size_t reference, size_t k, double *scratch, bench_figure *figure) {
+  for (size_t r = 0; r < rounds; r++)
+    scratch[r] = reference < n ? ns[r * n + reference] / ns[r * n + k] : NAN;
+  figure->speedup = summarise(scratch, rounds);
+  for (size_t r = 0; r < rounds; r++)
+    scratch[r] = ns[r * n + k];
+  figure->ns = summarise(scratch, rounds);
+  for (size_t r = 0; r < rounds; r++)
+    scratch[r] = cycles[r * n + k];
+  figure->core_cycles = summarise(scratch, rounds).median;
+}
+
 void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *settings,
                   bench_figure *figure) {
   double (*const now)(void) = settings->now != NULL ? settings->now : clock_ns;
@@ -144,7 +159,8 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
     groups = counters_groups(counters);
     events = counters_events(counters);
   }
-  double *pass = allocate(n, sizeof *pass), *ns = NULL, *count = NULL; /* round after round */
+  double *pass = allocate(n, sizeof *pass);
+  double *ns = NULL, *cycles = NULL, *count = NULL; /* round after round */
   uint64_t *before = allocate(n, sizeof *before);
   double passes = 0.0;
   for (size_t k = 0; k < n; k++) {
@@ -159,12 +175,13 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
     figure[k].loops = (size_t)fmax(1.0, floor(length / pass[k]));
 
   /* rounds until the time is over, an odd number of them: that has a sample in the middle */
-  size_t rounds = 0, room = 0, count_room = 0;
+  size_t rounds = 0, room = 0, cycles_room = 0, count_room = 0;
   double spent = 0.0, longest = 0.0;
   while (rounds < FEWEST_ROUNDS || rounds < groups || rounds % 2 == 0 ||
          (rounds < MOST_ROUNDS && spent + 2.0 * longest < budget)) {
     const double begin = now();
     ns = grow(ns, &room, (rounds + 1) * n, sizeof *ns);
+    cycles = grow(cycles, &cycles_room, (rounds + 1) * n, sizeof *cycles);
     count = grow(count, &count_room, (rounds + 1) * n * events + 1, sizeof *count);
     for (size_t e = 0; e < n * events; e++)
       count[rounds * n * events + e] = NAN;
@@ -172,7 +189,12 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
       counting round = {.set = NULL};
       if (groups > 0) /* they take turns */
         round = (counting){counters, rounds % groups, count + (rounds * n + k) * events};
+      /* a shared core changes its pace within seconds, so a cycle is measured for each sample */
+      double cycle = NAN;
+      if (settings->cycle != NULL)
+        cycle = settings->cycle();
       ns[rounds * n + k] = take_sample(&subject[k], figure[k].loops, now, round);
+      cycles[rounds * n + k] = ns[rounds * n + k] / cycle;
       if (settings->progress != NULL)
         settings->progress(fmin(now() - start, budget) * 1e-9, settings->budget);
     }
@@ -183,13 +205,7 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
 
   double *scratch = allocate(rounds, sizeof *scratch);
   for (size_t k = 0; k < n; k++) {
-    const size_t reference = subject[k].reference;
-    for (size_t r = 0; r < rounds; r++)
-      scratch[r] = reference < n ? ns[r * n + reference] / ns[r * n + k] : NAN;
-    figure[k].speedup = summarise(scratch, rounds);
-    for (size_t r = 0; r < rounds; r++)
-      scratch[r] = ns[r * n + k];
-    figure[k].ns = summarise(scratch, rounds);
+    summarise_times(ns, cycles, rounds, n, subject[k].reference, k, scratch, &figure[k]);
     for (int column = 0; column < COUNTER_COLUMNS; column++)
       figure[k].counted[column] = NAN;
     if (counters != NULL)
@@ -201,5 +217,6 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
   free(before);
   free(pass);
   free(count);
+  free(cycles);
   free(ns);
 }

@@ -34,6 +34,7 @@ typedef struct bench_settings {
   double budget;                               /* seconds for all; at least 5 rounds are run
                                                   whatever it is */
   double (*now)(void);                         /* nanoseconds; NULL for the monotonic clock */
+  double (*cycle)(void);                       /* a core cycle just now, ns; NULL: not wanted */
   void (*progress)(double done, double total); /* called after each sample; NULL for none */
   const counter_set *counters;                 /* read around each sample; NULL for none */
 } bench_settings;
@@ -45,9 +46,11 @@ typedef struct sample_summary {
 } sample_summary;
 
 typedef struct bench_figure {
-  sample_summary ns;               /* per pair */
-  sample_summary speedup;          /* the reference's time over this one's */
-  size_t loops;                    /* workloads in a sample */
+  sample_summary ns;      /* per pair */
+  sample_summary speedup; /* the reference's time over this one's */
+  double core_cycles; /* per pair: each sample over the core cycle just before it, the median; NAN
+                         where that is not wanted or not known */
+  size_t loops;       /* workloads in a sample */
   double counted[COUNTER_COLUMNS]; /* per pair: medians over the rounds in which they were counted;
                                       NAN where they are not, as with several threads */
   bool unchanged;                  /* the results after the last round are those before the first */

@@ -20,8 +20,10 @@ down(dummy) = column("error_exact_median") - column("error_exact_max")
 labelled(name) = strcol("isa") eq "scalar" && strcol("kernel") eq name && \
   abs(log10(column("steps")) - floor(log10(column("steps")) + 0.5)) < 1e-9 ? 1.0 : NaN
 
+stats data using (strcol("kernel") ne "copy" ? us(0) : NaN) name "s" nooutput
 set logscale xy
 set yrange [*:1]
+set xrange [0.6 * s_min:1.6 * s_max]
 set xlabel "time of a collision"
 set ylabel "pair error against the exact solution" offset -0.5,0
 set xtics ("1 ns" 0.001, "10 ns" 0.01, "100 ns" 0.1, "1 µs" 1, "10 µs" 10, "100 µs" 100, "1 ms" 1000, "10 ms" 10000)
@@ -35,7 +37,7 @@ set key at screen 0.76, graph 1 left top vertical maxrows 20 noenhanced Left rev
 set label 1003 "Marks: the largest error.\nDotted: down to the median.\nDigits: threads of a batch.\nN: steps of Euler's method." \
   at screen 0.768, screen 0.5 font ",11" textcolor rgb grey
 mark(k) = 7 + 2 * ((k - 1) / 2) % 8 + (k % 2 ? 2 : 1)
-plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_exact_max" \
+plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_exact_max" smooth unique \
        with linespoints lt line_of(word(kernels, k), k) title word(kernels, k), \
      for [k=1:words(swept)] data using (of(word(swept, k), us(0))):"error_exact_median" \
        with linespoints lc rgb colour(word(swept, k)) lw 2 dt (1,4) pt 7 ps 0.3 title word(swept, k).", median", \

@@ -10,9 +10,9 @@ set format x "%.0f"
 set xlabel "steps N"
 set yrange [0:*]
 set ylabel "floating point operations per core cycle" offset 0.5,0
-set lmargin at screen 0.085; set rmargin at screen 0.715
+set lmargin at screen 0.085; set rmargin at screen 0.665
 set bmargin at screen 0.24
-set key at screen 0.735, graph 1 left top vertical maxrows 12 noenhanced Left reverse
+set key at screen 0.68, graph 1 left top vertical maxrows 12 noenhanced Left reverse
 set label 1003 "operations: ".note("operations")."; cycles: ".note("cycles") at screen 0.012, screen 0.022 font ",10" textcolor rgb grey
 set label 1002 at screen 0.012, screen 0.050
 set label 1001 at screen 0.012, screen 0.078

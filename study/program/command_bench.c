@@ -670,6 +670,7 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
       {more, "speedup_min", "%.5g", f->speedup.min},
       {more, "speedup_max", "%.5g", f->speedup.max},
       {more, "speedup_spread", "%.3g", f->speedup.spread},
+      {more, "core_cycles", "%.6g", f->core_cycles},
       {job->errors, "slip", NULL, 0.0},
       {job->errors, "error_exact_median", "%.3g", of->exact.median},
       {job->errors || !csv, "error_exact_max", "%.3g", of->exact.max},
@@ -774,7 +775,12 @@ static bool bench_all(bench_job *job) {
   job->pinning = pinning_begin();
   counter_set *counters = open_counters(job, out);
   const bench_settings settings = {
-      .budget = job->budget, .now = job->now, .progress = show_time, .counters = counters};
+      .budget = job->budget,
+      .now = job->now,
+      .cycle = clock_core_cycle,
+      .progress = show_time,
+      .counters = counters,
+  };
   bench_rounds(job->subject, job->subject_count, &settings, job->figure);
   counters_close(counters);
   pinning_end();
@@ -894,8 +900,10 @@ OPTION(bench_job, option_budget, "budget", budget, 0, "SECONDS", set_budget, 0,
        "how long to measure (default 20; shots 0.06 each)");
 OPTION(bench_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "as CSV, with lines about the machine that begin with #");
-OPTION(bench_job, option_spread, "spread", spread, 0, NULL, set_flag, 0,
-       "more columns in the CSV: spread of the time; least, greatest and spread of the speedup");
+OPTION(
+    bench_job, option_spread, "spread", spread, 0, NULL, set_flag, 0,
+    "more columns in the CSV: spread of the time; least, greatest and spread of the speedup; core "
+    "cycles of a collision, by an addition timed before each sample");
 OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
        "more columns in the CSV: slip, and the pair error against the exact reference, median and "
        "largest");

@@ -7,7 +7,6 @@ the exit code is 1.
 
 import argparse
 import math
-import re
 import shutil
 import sys
 from pathlib import Path
@@ -109,7 +108,6 @@ def derive_performance(options, data):
             {row["config"] for row in cycles.rows} & {row["config"] for row in data["bounds"].rows}
         )
     }
-    cycle = number(cycles.notes.get("core cycle", "").split(" ")[0])
     counted = {
         name: bool(cycles.rows) and all(number(row.get(name)) > 0 for row in cycles.rows)
         for name in ("flops", "cycles")
@@ -120,7 +118,7 @@ def derive_performance(options, data):
         else "of the machine code that was timed",
         "cycles": "counted by the processor"
         if counted["cycles"]
-        else f"time of the clock over {cycles.notes.get('core cycle', 'NA')}, the time of an addition",
+        else "time of the clock over that of an addition just before each sample",
     }
     for row in cycles.rows:
         count = data["bounds"].first(kernel=row["kernel"], config=row["config"])
@@ -129,7 +127,7 @@ def derive_performance(options, data):
         steps, a_step = number(row["steps"]), number(count.get("per_step_flops_amd"))
         flops, taken = (
             number(count.get("flops_amd")) + (steps - 1000) * a_step,
-            number(row["ns_median"]) / cycle,
+            number(row.get("core_cycles")),
         )
         bound, here = (
             1000 * a_step / number(count.get(f"chain_cycles_{machine}"))

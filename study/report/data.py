@@ -23,9 +23,12 @@ DATA = {
     "steps": (17, f"carom-lab bench --kernel {FIVE} --steps {STEPS} --csv --spread"),
     "accuracy": (
         17,
-        f"carom-lab bench --kernel exact,euler,double,float --isa scalar,best --steps {STEPS},20000,50000 --csv --errors",
+        f"carom-lab bench --kernel exact,fast,euler,double,float --isa scalar,best --steps {STEPS},20000,50000 --csv --errors",
     ),
-    "configs": (18, "carom-lab bench --config all --csv --spread --counters"),
+    "configs": (
+        18,
+        f"carom-lab bench --kernel {SCALAR},double_vec,float_vec --config all --csv --spread --counters",
+    ),
     "cycles": (
         11,
         f"carom-lab bench --kernel {FIVE} --config zen2 --steps {STEPS} --csv --spread --counters",
@@ -34,7 +37,7 @@ DATA = {
     "operations": (0, f"tools/python -m study.bounds --kernel {SCALAR} --steps 100"),
     "isas": (
         9,
-        "carom-lab bench --kernel exact,fast,euler --batch --threads 1 --pairs 4080 --csv --spread",
+        "carom-lab bench --kernel exact,fast --batch --threads 1 --pairs 4080 --csv --spread",
     ),
     "batch": (
         8,

@@ -92,13 +92,24 @@ static void work_slower(void *context) {
   made_up_now += ((made_up *)context)->cost * (1.0 + fmod(made_up_now, 4e9) / 4e9);
 }
 
+/* A core cycle of that clock, 0.25 ns at its fastest. */
+static double cycle_made_up(void) {
+  return 0.25 * (1.0 + fmod(made_up_now, 4e9) / 4e9);
+}
+
 TEST(ratios_cancel_what_slows_both) {
   made_up slow = {.cost = 4e6}, fast = {.cost = 2e6};
   bench_subject subjects[] = {subject_of(&slow, 0), subject_of(&fast, 0)};
   subjects[0].resolve = subjects[1].resolve = work_slower;
   bench_figure figure[2];
-  const bench_settings settings = {.budget = 8.0, .now = now_made_up};
+  bench_settings settings = {.budget = 8.0, .now = now_made_up};
   bench_rounds(subjects, 2, &settings, figure);
+  ck_assert(isnan(figure[0].core_cycles));
+  settings.cycle = cycle_made_up;
+  bench_rounds(subjects, 2, &settings, figure);
+  const double cycles = 4e6 / 0.25 / (double)subjects[0].pairs;
+  ck_assert_double_eq_tol(figure[0].core_cycles / cycles, 1.0, 0.04);
+  ck_assert_double_eq_tol(figure[1].core_cycles / cycles, 0.5, 0.02);
   ck_assert_double_gt(figure[1].ns.spread, 0.1 * figure[1].ns.median);
   ck_assert_double_eq_tol(figure[1].speedup.median, 2.0, 0.04);
   ck_assert_double_lt(figure[1].speedup.spread, 0.01);
