@@ -35,7 +35,7 @@ set lmargin at screen 0.10; set rmargin at screen 0.745
 set bmargin at screen 0.19
 set key at screen 0.76, graph 1 left top vertical maxrows 20 noenhanced Left reverse samplen 2.5
 set label 1003 "Marks: the largest error.\nDotted: down to the median.\nDigits: threads of a batch.\nN: steps of Euler's method." \
-  at screen 0.768, screen 0.5 font ",11" textcolor rgb grey
+  at screen 0.768, screen 0.40 font ",11" textcolor rgb grey
 mark(k) = 7 + 2 * ((k - 1) / 2) % 8 + (k % 2 ? 2 : 1)
 plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_exact_max" smooth unique \
        with linespoints lt line_of(word(kernels, k), k) title word(kernels, k), \
@@ -48,9 +48,9 @@ plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_ex
      for [k=1:words(lanes)] data using (in(word(lanes, k), us(0))):"error_exact_max":(0):(down(0)) \
        with vectors nohead lc rgb colour(part(word(lanes, k), 1)) lw 2 dt (1,4) notitle, \
      for [k=1:words(single)] data using (of(word(single, k), us(0))):"error_exact_max" \
-       with points lc rgb colour(word(single, k)) lw 2 pt 7 ps 1.2 title word(single, k).", single calls", \
+       with points lc rgb colour(word(single, k)) lw 2 pt (k == 1 ? 7 : 5) ps 1.2 title word(single, k).", single calls", \
      for [k=1:words(lanes)] data using (in(word(lanes, k), us(0))):"error_exact_max" \
        with linespoints lc rgb colour(part(word(lanes, k), 1)) lw 2 dt 1 pt mark(k) ps 1.3 \
        title part(word(lanes, k), 1).", ".part(word(lanes, k), 3).", ".part(word(lanes, k), 2), \
      for [k=1:words(lanes)] data using (in(word(lanes, k), us(0))):"error_exact_max":(sprintf("%d", column("threads"))) \
-       with labels center offset -0.9,0.8 font ",12" textcolor rgb grey notitle
+       with labels center offset -0.9,(part(word(lanes, k), 1) eq "fast" ? -0.8 : 0.8) font ",12" textcolor rgb grey notitle

@@ -16,6 +16,6 @@ set label 1001 machine."; ".date[1:10]."; carom at commit ".note("commit") at sc
 set label 1002 compiler at screen 0.012, screen 0.022 font ",10" textcolor rgb grey noenhanced
 
 # A kernel looks the same in every figure: these have their line types, others take what is left.
-known = "base double float double_vec float_vec euler exact"
+known = "base double float double_vec float_vec euler exact fast"
 line_of(name, k) = place_in(known, name) > 0 ? place_in(known, name) : words(known) + k
 colour_of(name, k) = word(colours, (line_of(name, k) - 1) % 8 + 1)
