@@ -130,23 +130,23 @@ def _types(given: str, gives: str) -> tuple[Any, Any, int]:
     return ffi.typeof(f"{given} *"), ffi.typeof(f"{gives} *"), ffi.sizeof(gives) // 8
 
 
-def resolve_one(kind: Kind, numbers: list[float], options: Any) -> list[float]:
+def resolve_one(kind: Kind, numbers: list[float], options: Any) -> Array:
     """The motion after one impact, whose numbers are in the order of its record.
 
-    Lists cross to C in a tenth of the time that arrays need, which counts where an engine resolves
-    one impact after another.
+    It takes less time than `resolve`, which looks at the layout of arrays; that counts where an
+    engine resolves one impact after another.
     """
     given, gives, size = _types(kind.names[0], kind.names[1])
     impact = ffi.new(_NUMBERS, numbers)
-    motion = ffi.new(_NUMBERS, size)
-    source, target = ffi.cast(given, impact), ffi.cast(gives, motion)
+    motion = np.empty(size)
+    source, target = ffi.cast(given, impact), ffi.cast(gives, ffi.from_buffer(motion))
     if kind.one is not None:
         code = kind.one(source, options, target)
     else:
         code = kind.batch(source, 1, options, target, ffi.NULL)
     if code < 0:
         raise _error(kind, code, np.array(numbers), options)
-    return ffi.unpack(motion, size)  # type: ignore[no-any-return]
+    return motion
 
 
 def trace(kind: Kind, impact: npt.ArrayLike, points: int, options: Any) -> dtypes.Records:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from carom._impacts import BALLS, CUSHION, resolve_one
+from carom._rows import Array
 from carom.collisions import _options as collision_options
 from carom.cushions import _options as cushion_options
 from carom.results import Label
@@ -57,11 +58,10 @@ def _numbers(ball: Any) -> list[float]:
     return [*ball.state.rvw.ravel().tolist(), p.R, p.m, p.u_s]
 
 
-def _set_motion(ball: Any, motion: list[float]) -> None:
+def _set_motion(ball: Any, motion: Array) -> None:
     """Gives a ball the motion after an impact; it slides, until pooltool finds it rolling."""
     rvw = ball.state.rvw.copy()
-    rvw[1] = motion[:3]
-    rvw[2] = motion[3:]
+    rvw[1:] = motion.reshape(2, 3)
     ball.state = _balls.BallState(rvw, Label.SLIDING)
 
 
