@@ -2,7 +2,7 @@
 
 A series is a kernel in one instruction set and precision. Its fingerprint is a hash of its name and
 of the text of the files that compute it, without comments and white space: the files that SOLVERS or
-the ladder name, and all of ours that they include. So it is the same on every machine, and changes
+the ladder name, all of ours that they include, and for the ladder the flags of its configurations. So it is the same on every machine, and changes
 where the code changes. A measured CSV file notes the fingerprints of its series; a figure whose
 notes differ from the tree is stale.
 """
@@ -13,9 +13,23 @@ from functools import cache
 
 from study.report.sheets import ROOT, Sheet
 
-# Where each solver of the library begins; what these files include belongs to it too.
-SHARED = ("src/ball_ball/collide.c", "src/ball_ball/batch.c", "src/ball_ball/kernels.c")
-COLLOCATION = (*SHARED, "src/ball_ball/rows.c", "src/ball_ball/collocate.c")
+# The sources of each solver of the library, those that its calls are linked with; what these files
+# include belongs to it too.
+SHARED = (
+    "src/ball_ball/arguments.c",
+    "src/ball_ball/batch.c",
+    "src/ball_ball/collide.c",
+    "src/ball_ball/kernels.c",
+    "src/platform/elementary.c",
+    "src/platform/threads.c",
+)
+COLLOCATION = (
+    *SHARED,
+    "src/ball_ball/collocate.c",
+    "src/ball_ball/rows.c",
+    "src/contact_law/advance.c",
+    "src/contact_law/impact.c",
+)
 SOLVERS = {
     "exact": COLLOCATION,
     "fast": COLLOCATION,
@@ -25,14 +39,15 @@ FOLDERS = [ROOT / folder for folder in ("src", "study/ladder")]
 # Tables of names and of citations, which decide nothing that is measured. Neither do the public
 # headers, which change with every new function.
 TABLES = {ROOT / "study/ladder/kernels.def", ROOT / "src/schema/sources.h"}
-COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
+COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*|^# [^\n]*", re.S | re.M)
 
 
 def roots(kernel):
     """The files in which the kernel begins."""
     if kernel in SOLVERS:
         return [ROOT / name for name in SOLVERS[kernel]]
-    return [ROOT / "study/ladder" / f"{kernel}.c", ROOT / "study/ladder/resolve.c"]
+    ladder = ROOT / "study/ladder"
+    return [ladder / f"{kernel}.c", ladder / "resolve.c", ROOT / "study/configs.cmake"]
 
 
 @cache

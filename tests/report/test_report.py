@@ -211,6 +211,8 @@ def test_stale_series(tmp_path, monkeypatch):
     for path, change, found in (
         ("src/ball_ball/euler.c", " + 1", ["euler, scalar, double"]),
         ("src/ball_ball/collocate.c", " + 1", ["exact, avx2, double"]),
+        ("src/contact_law/impact.c", " + 1", ["exact, avx2, double"]),
+        ("study/configs.cmake", " -Os", ["float, scalar, single"]),
         ("study/ladder/float.c", " + 1", ["float, scalar, single"]),
     ):
         changed = ROOT / path
