@@ -1,18 +1,28 @@
 """Makes the outputs in the docs anew: tools/python tools/outputs.py [PAGE...], in a tree that ./run
 has built, on a quiet machine.
 
-Where a page has a line <!-- output of: COMMAND -->, the indented lines below it become what the
-command prints now, without its notes. The commands take some minutes together. The figures of
+Where a page has a line <!-- output of: COMMAND -->, the block `measured on MACHINE, DATE` below it
+becomes what the command prints now, without its notes. The commands take some minutes together. The figures of
 docs/figures are made by `cmake --build build --target figures`.
 """
 
+import platform
 import re
 import subprocess
 import sys
+from datetime import date
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-MARK = re.compile(r"(<!-- output of: (?P<command>.*) -->\n\n?)(?:(?: {4}.*)?\n)+?(?=\S)")
+MARK = re.compile(
+    r"(<!-- output of: (?P<command>.*) -->\n\n?)```measured on .*?\n.*?^```\n", re.M | re.S
+)
+
+
+def processor() -> str:
+    """The name of the processor, as the kernel tells it."""
+    names = re.findall(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(), flags=re.M)
+    return names[0] if names else platform.machine()
 
 
 def made(match: re.Match[str]) -> str:
@@ -24,8 +34,9 @@ def made(match: re.Match[str]) -> str:
     shown = run.stdout.split("\nlargest errors:")[0].rstrip(
         "\n"
     )  # those are rows for `carom resolve`
-    lines = (f"    {line}".rstrip() for line in shown.split("\n") if not line.startswith("#"))
-    return match[1] + "\n".join(lines) + "\n\n"
+    lines = (line.rstrip() for line in shown.split("\n") if not line.startswith("#"))
+    head = f"measured on {processor()}, {date.today()}"
+    return f"{match[1]}```{head}\n" + "\n".join(lines) + "\n```\n"
 
 
 for page in map(Path, sys.argv[1:]) if sys.argv[1:] else sorted(ROOT.glob("docs/*/*.md")):

@@ -1,14 +1,14 @@
 """The figures of the docs beyond the study: `tools/python -m lab.figures DIR` computes their CSV
 files in DIR/data and draws them in DIR. What is computed does not depend on the machine.
 
-Cushions and hops have gnuplot scripts here; the others are drawn by `carom` itself.
+Cushions and hops have gnuplot scripts here; what `carom` draws itself stands in
+docs/figures/made.csv.
 """
 
 import argparse
 import csv
 import json
 import math
-import shlex
 import shutil
 import subprocess
 import sys
@@ -23,17 +23,6 @@ FIGURES = {
     "cushion": "A ball and a cushion: rebound, a fine sweep, jumps",
     "hops": "How high the cue ball hops, by the elevation of the butt",
 }
-# Pictures that `carom` draws by itself.
-DRAWN = {
-    "break": "carom shoot --plot {} -o /dev/null data/break-nineball.jsonl",
-    "rule-30": "carom hit --cut 1:0.02ball --spin follow,stun --quantity rolling-deflection --plot {}",
-    "throw": "carom hit --cut 0:80 --speed 1,3,7mph --plot {}",
-    "rebound": "carom rail --model mathavan --angle 0:75 --side -50,0,50% --friction 0.3 --plot {}",
-    "corner-five": "carom shoot --table threecushion --cue 0.1,0.1 --to 4d,7d:4d,6d:4d,5d:4d,4d --tip=-0.3,0.2 --speed 3.5 --time-most 2.2 --plot {} -o /dev/null",
-    "english": "carom rail --model mathavan --angle 30,45,60 --side -100:100% --quantity rolling-rebound --plot {}",
-    "cuts": "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 10,25,40 --tip 0.2,-0.3 --plot {} -o /dev/null",
-}
-
 
 def derive_cushion(options):
     """Rolling balls straight into a cushion, the ball and the fitted numbers of the 2010 paper; and
@@ -161,10 +150,6 @@ def main(words):
         if not picture.is_file():
             return 1
         picture.replace(options.docs / picture.name)
-    for name, command in DRAWN.items():
-        target = shlex.quote(str(options.docs / f"{name}.svg"))
-        if not run(command.format(target), options, environment=PLAIN):
-            return 1
     return 0
 
 

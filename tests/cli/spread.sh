@@ -88,8 +88,6 @@ for later in (-1e-9, 1e-9):
     part = json.loads(subprocess.run(words, text=True, stdout=subprocess.PIPE, check=True).stdout)["spread"]
     print("within" if part["until"] is None else part["until"] == whole["until"], part["together"] < 1)
 PYTHON
-carom shoot --cue 0.6,0.8 --balls 0.5,1.6:0.9,2.1 --at-ball 1 --cut 30 --ball-speed 3 --tip 0,0 --spread 1%,0.05,0.01,0.01 --plot figure.svg > /dev/null
-cmp figure.svg "$DATA/../docs/figures/spread.svg" && echo "as in the docs"
 echo "--- a file"
 carom shoot --spread 1%,0.05,0.01 --events none --plot file.svg bank.jsonl | grep -o '"spread".*' | sed 's/\(\.[0-9]\{5\}\)[0-9]*/\1/g'
 grep -c '<path class="band"' file.svg

@@ -9,6 +9,10 @@ sh started    takes minutes: pages.py starts each line, sees that it is not refu
 sh conan, sh wheel   docs/using/building.md's and python.md's: run by the tests install/conan and
                      python/sdist
 console       commands and what they print: run and compared by shown.py
+output        what the program in the last block before it prints; `output within 1e-3` lets its
+              numbers differ by that share. samples.py compares it for C and C++, sessions.py for
+              Python
+measured on MACHINE, DATE   times of a machine, which tools/outputs.py writes anew
 sh elsewhere, python elsewhere   not run here but by others: ./test by who reads this, pip by the
                                  test python/installed, cmake by every build, the scripts of
                                  python/examples by the test of that name; a cluster of many
@@ -39,6 +43,8 @@ KINDS = {
     "sh conan",
     "sh wheel",
     "console",
+    "output",
+    "measured",
     "sh elsewhere",
     "c",
     "c piece",
@@ -84,10 +90,12 @@ ELSEWHERE = {
     "docs/start/python.md": 1,
 }
 
-# What may be indented instead: formulas and what programs print, but no line that one would paste.
-PASTED = re.compile(
-    r" {4}(\./|build/|tools/|pip3? |cmake |ctest |gnuplot |carom(-lab)? |python3? |git |sudo |import |from \w+ import|#include)"
-)
+# The programs whose output a test compares.
+PRINTING = re.compile(r"c|c piece|cpp|python( \w+)?")
+MEASURED = re.compile(r"measured on \S.*, \d{4}-\d\d-\d\d")
+WITHIN = re.compile(r"output within (\d\S*)")
+ROUNDING = 1e-6  # by this share numbers differ between instruction sets
+NUMBER = re.compile(r"-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?")
 
 
 def pages(source):
@@ -103,6 +111,59 @@ def pages(source):
     ]
 
 
+def indented(text):
+    """The first paragraph of a text that is indented without being part of a list, or None."""
+    in_list = False
+    for paragraph in re.split(r"\n\n+", text):
+        in_list = re.match(r" *([-*]|\d+\.) ", paragraph) or (in_list and paragraph.startswith("  "))
+        if paragraph.startswith("    ") and not in_list:
+            return paragraph.strip()
+    return None
+
+
+def equal(shown, printed, within=ROUNDING):
+    """Whether two lines have the same words, and the same numbers but for rounding."""
+    words = [NUMBER.sub("#", line).split() for line in (shown, printed)]
+    numbers = [[float(number) for number in NUMBER.findall(line)] for line in (shown, printed)]
+    close = all(abs(a - b) <= within * max(1, abs(a)) for a, b in zip(*numbers))
+    return words[0] == words[1] and len(numbers[0]) == len(numbers[1]) and close
+
+
+def matches(shown, printed, within=ROUNDING):
+    """Whether lines match, where a line `...` stands for any number of lines."""
+    if not shown:
+        return not printed
+    if shown[0] == "...":
+        return any(matches(shown[1:], printed[skip:], within) for skip in range(len(printed) + 1))
+    return (
+        bool(printed)
+        and equal(shown[0], printed[0], within)
+        and matches(shown[1:], printed[1:], within)
+    )
+
+
+def difference(where, shown, printed):
+    return "\n".join([where, "shown:", *shown, "printed:", *printed])
+
+
+def within(kind):
+    """By which share of themselves the numbers of a block of output may differ."""
+    named = WITHIN.fullmatch(kind)
+    return float(named[1]) if named else ROUNDING
+
+
+def outputs(found):
+    """The output that a page shows of its programs: number of the program's block, lines, and by
+    which share numbers may differ.
+    """
+    program = None
+    for number, (kind, text) in enumerate(found):
+        if PRINTING.fullmatch(kind):
+            program = number
+        elif kind.startswith("output"):
+            yield program, text.splitlines(), within(kind)
+
+
 def blocks(source, page):
     """Kind and text of each block of a page."""
     text = Path(source, page).read_text(encoding="utf-8")
@@ -111,12 +172,19 @@ def blocks(source, page):
     assert "```" not in rest, (
         f"{page}: a fence that is not closed, or not at the beginning of its line"
     )
-    for line in rest.splitlines():
-        assert not PASTED.match(line), (
-            f"{page}: '{line.strip()}' is code: it belongs between fences, with one of the kinds of tests/docs/blocks.py"
-        )
+    assert not indented(rest), (
+        f"{page}: '{indented(rest)}' is indented: code and output belong between fences, with one of the kinds of tests/docs/blocks.py, and formulas between $$"
+    )
+    program = ""
     for kind, _ in found:
-        assert kind in KINDS, f"{page}: no test runs blocks of the kind '{kind}'"
+        base = "output" if WITHIN.fullmatch(kind) else "measured" if MEASURED.fullmatch(kind) else kind
+        assert base in KINDS, f"{page}: no test runs blocks of the kind '{kind}'"
+        if base != "output":
+            program = program if kind == "sh elsewhere" else kind
+        else:
+            assert PRINTING.fullmatch(program), (
+                f"{page}: no test compares the output of a block '{program}'"
+            )
     elsewhere = sum(kind.endswith(" elsewhere") for kind, _ in found)
     assert elsewhere == ELSEWHERE.get(page, 0), (
         f"{page}: {elsewhere} blocks are run elsewhere, not {ELSEWHERE.get(page, 0)}"

@@ -9,13 +9,12 @@ writes the outputs into the pages; commands whose output has a `...` are left as
 """
 
 import os
-import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from blocks import blocks, pages
+from blocks import blocks, difference, matches, pages
 
 SOURCE, BUILD = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 ENVIRONMENT = {
@@ -23,25 +22,6 @@ ENVIRONMENT = {
     "PATH": f"{BUILD}:{os.environ['PATH']}",
     "CAROM_DATA": str(SOURCE / "data"),
 }
-NUMBER = re.compile(r"-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?")
-
-
-def equal(shown, printed):
-    """Whether two lines have the same words, and the same numbers but for rounding."""
-    words = [NUMBER.sub("#", line).split() for line in (shown, printed)]
-    numbers = [[float(number) for number in NUMBER.findall(line)] for line in (shown, printed)]
-    close = all(abs(a - b) <= 1e-6 * max(1, abs(a)) for a, b in zip(*numbers))
-    return words[0] == words[1] and len(numbers[0]) == len(numbers[1]) and close
-
-
-def matches(shown, printed):
-    """Whether lines match, where a line `...` stands for any number of lines."""
-    if not shown:
-        return not printed
-    if shown[0] == "...":
-        return any(matches(shown[1:], printed[skipped:]) for skipped in range(len(printed) + 1))
-    return bool(printed) and equal(shown[0], printed[0]) and matches(shown[1:], printed[1:])
-
 
 def commands(text):
     """The commands of a block, each with the lines that it is shown to print."""
@@ -85,9 +65,7 @@ with tempfile.TemporaryDirectory() as work:
                 if code == 127:
                     sys.exit(f"{page}: $ {command}\n{done.stdout}")
                 if not matches(shown, printed):
-                    wrong.append(
-                        "\n".join([f"{page}: $ {command}", "shown:", *shown, "printed:", *printed])
-                    )
+                    wrong.append(difference(f"{page}: $ {command}", shown, printed))
                 new += [
                     "$ " + command.replace("\n", "\n> "),
                     *(shown if "..." in shown or matches(shown, printed) else printed),
