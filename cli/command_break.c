@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_STROKES = 64, RACKS = 500, BLOCK = 64, DRAWN = 40 };
+enum { MOST_STROKES = 64, BLOCK = 64, DRAWN = 40 };
 
 typedef struct break_job {
   shoot_flags from;
@@ -27,7 +27,8 @@ typedef struct break_job {
 
 static const option_row option_rules = {
     .name = "rules",
-    .help = "the rack, on the table of its game (default eightball)",
+    .help = "the rack, on the table of its game",
+    .else_usual = "eightball",
     .set = set_named,
     .field = offsetof(break_job, from.balls.rack),
     .least = CAROM_WORDS_RACK};
@@ -44,7 +45,7 @@ static OPTION_SET(set_racks) {
 }
 
 OPTION(break_job, option_racks, "racks", racks, 0, "N", set_racks, 1,
-       "breaks of each speed, tip and gap (default 500)");
+       "breaks of each speed, tip and gap", .usual = "500");
 OPTION(break_job, option_break_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write a row for each stroke and gap instead of words");
 OPTION(break_job, option_falls, "falls", falls, 0, NULL, set_flag, 0,
@@ -356,6 +357,11 @@ static bool plot(const breaker *b, const shot_line *line, double gap, const char
 
 static const command_form form = {
     .name = "break",
+    .usual = (const option_usual[]){{"speed", "9", "unless --ball-speed is given"},
+                                    {"aim", NULL, "at the middle of the ball in front"},
+                                    {"cut", NULL, "none"},
+                                    {"table", NULL, "that of the game"},
+                                    {0}},
     .usage = "[OPTIONS]",
     .about = "Plays many breaks of a rack, each with a rack of its own and a player's errors, and "
              "reports how often a ball falls, the player plays on, the cue ball falls and a wing "
@@ -433,9 +439,9 @@ static bool tell_all(breaker *b, const shot_line *first, const carom_cue *stroke
 
 /* Takes the gaps from the flags, of which each is a row of its own; false after a complaint. */
 static bool take_gaps(shoot_flags *f, values *gaps) {
+  if (f->gap.count == 0)
+    fill_usual(f, &option_gap);
   *gaps = f->gap;
-  if (gaps->count == 0)
-    values_default(gaps, MEASURE_LENGTH, "0.0001");
   f->gap.count = 0;
   for (int g = 0; g < gaps->count; g++)
     if (!(gaps->at[g].x >= 0.0 && gaps->at[g].x <= GAP_MOST)) {
@@ -470,8 +476,7 @@ int command_break(int argc, char **argv) {
   static shot_line line;
   static values gaps;
   job = (break_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"},
-                             .balls = {.rack = CAROM_RACK_EIGHTBALL}},
-                    .racks = RACKS};
+                             .balls = {.rack = CAROM_RACK_EIGHTBALL}}};
   const int parsed = parse_arguments(&form, argc, argv, &job, NULL);
   if (parsed >= 0)
     return parsed;
@@ -494,7 +499,9 @@ int command_break(int argc, char **argv) {
   if (f->table.kind == 0)
     f->table.kind = 1 + (int)game_of(b.rack, &game)->table;
   if (f->speed.count == 0 && f->ball_speed.count == 0)
-    values_default(&f->speed, MEASURE_SPEED, "9");
+    fill_usual(f, &option_shot_speed);
+  if (f->aim.count == 0 && f->cut.count == 0)
+    values_default(&f->aim, MEASURE_ANGLE, "90"); /* until the ball in front is known */
   if (!take_gaps(f, &gaps))
     return EXIT_USAGE;
   shot_file *file = flags_open(f, &b.options, MOST_STROKES);

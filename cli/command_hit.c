@@ -19,18 +19,18 @@
 
 enum { SPIN, SPEED, CUT, SIDE, RESTITUTION, CLOTH, ROLL, RADIUS, MASS, OBJECT_MASS, FRICTION };
 static const scene_input inputs[] = {
-    [SPIN] = {"spin", MEASURE_SPIN, "stun"},
-    [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
-    [CUT] = {"cut angle", MEASURE_CUT, "30"},
-    [SIDE] = {"side spin", MEASURE_SIDE, "none"},
-    [RESTITUTION] = {"restitution", MEASURE_NUMBER, "0.95"},
-    [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
-    [ROLL] = {"rolling resistance", MEASURE_NUMBER, "0.01"},
-    [RADIUS] = {"radius of the balls", MEASURE_LENGTH, "0.028575"},
-    [MASS] = {"mass of the balls", MEASURE_MASS, "0.170097"},
-    [OBJECT_MASS] = {"mass of the object ball", MEASURE_OBJECT_MASS, "same"},
-    [FRICTION] = {"friction between the balls", MEASURE_FRICTION, "alciatore"},
-    [FRICTION + 1] = {NULL, 0, NULL}};
+    [SPIN] = {"spin", MEASURE_SPIN},
+    [SPEED] = {"speed", MEASURE_SPEED},
+    [CUT] = {"cut angle", MEASURE_CUT},
+    [SIDE] = {"side spin", MEASURE_SIDE},
+    [RESTITUTION] = {"restitution", MEASURE_NUMBER},
+    [CLOTH] = {"friction of the cloth", MEASURE_NUMBER},
+    [ROLL] = {"rolling resistance", MEASURE_NUMBER},
+    [RADIUS] = {"radius of the balls", MEASURE_LENGTH},
+    [MASS] = {"mass of the balls", MEASURE_MASS},
+    [OBJECT_MASS] = {"mass of the object ball", MEASURE_OBJECT_MASS},
+    [FRICTION] = {"friction between the balls", MEASURE_FRICTION},
+    [FRICTION + 1] = {NULL, 0}};
 
 /* How the names of quantities stand on axes. */
 enum {
@@ -58,18 +58,20 @@ static const char *const quantity[] = {"throw of the object ball (degrees)",
                                        "distance at which the object ball rests (m)"};
 
 OPTION(series, option_speed, "speed", in[SPEED], 0, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
-       "speed of the cue ball at contact, m/s, or with a unit: mph, km/h (default 1.5); or a "
-       "word: " SPEEDS);
+       "speed of the cue ball at contact, m/s, or with a unit: mph, km/h; or a word: " SPEEDS,
+       .usual = "1.5");
 OPTION(
     series, option_cut, "cut", in[CUT], 0, "full|three-quarter|half|quarter|thin|DEGREES",
     set_values, MEASURE_CUT,
     "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object "
-    "ball goes to the left (default 30). Or the fullness of the hit: full, three-quarter, half or "
-    "half-ball, quarter, thin (an eighth), 2/5ball, 0.4ball");
+    "ball goes to the left. Or the fullness of the hit: full, three-quarter, half or "
+    "half-ball, quarter, thin (an eighth), 2/5ball, 0.4ball",
+    .usual = "30");
 OPTION(series, option_spin, "spin", in[SPIN], 0, "stun|follow|draw|SPIN", set_values, MEASURE_SPIN,
-       "stun: no spin (default); follow or roll: the ball rolls; draw: the same spin backwards. Or "
+       "stun: no spin; follow or roll: the ball rolls; draw: the same spin backwards. Or "
        "a number with a unit, above 0 for follow: rad/s, % of rolling, tip (height of the cue's "
-       "tip above the centre; 1 tip is 13 mm)");
+       "tip above the centre; 1 tip is 13 mm)",
+       .usual = "stun");
 OPTION(
     series, option_side, "side", in[SIDE], 0, "right|left|outside|inside|gearing|none|SPIN",
     set_values, MEASURE_SIDE,
@@ -77,13 +79,16 @@ OPTION(
     "unit: rad/s, % of english (100%: the tip half a radius off centre, 1.25 V/R) or tip; "
     "right, left: 100%; outside: 100% on the side away from the way of the object ball, right of "
     "a cut to the left; inside: on the other; gearing: the balls roll on each other without slip; "
-    "none (default)");
+    "none",
+    .usual = "none");
 OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
-       "radius of the balls, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
+       "radius of the balls, m, or with a unit: mm, cm, in; a pool ball has 0.028575",
+       .usual = "0.028575");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
-       "mass of the balls, kg, or with a unit: g, oz (default 0.170097, 6 oz)");
+       "mass of the balls, kg, or with a unit: g, oz; 0.170097 is 6 oz",
+       .usual = "0.170097");
 OPTION(series, option_object_mass, "object-mass", in[OBJECT_MASS], 0, "same|M", set_values,
-       MEASURE_OBJECT_MASS, "mass of the object ball, if it is another one");
+       MEASURE_OBJECT_MASS, "mass of the object ball", .usual = "same");
 
 /* alciatore=a,b,c is a law, and all else values. */
 static OPTION_SET(set_frictions) {
@@ -96,17 +101,18 @@ static OPTION_SET(set_frictions) {
 
 OPTION(series, option_frictions, "friction", in[FRICTION], 0, "alciatore|MU", set_frictions,
        MEASURE_FRICTION,
-       "friction between the balls: numbers; or alciatore (default), which falls with the slip "
-       "speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants");
+       "friction between the balls: numbers; or alciatore, which falls with the slip "
+       "speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants",
+       .usual = "alciatore");
 OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
-       "friction with the cloth (default 0.2)");
+       "friction with the cloth", .usual = "0.2");
 OPTION(series, option_roll, "roll", in[ROLL], 0, "MU", set_values, MEASURE_NUMBER,
-       "rolling resistance of the cloth, for distances (default 0.01)");
+       "rolling resistance of the cloth, for distances", .usual = "0.01");
 OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
-       MEASURE_NUMBER, "restitution of the balls (default 0.95)");
+       MEASURE_NUMBER, "restitution of the balls", .usual = "0.95");
 OPTION(series, option_quantity, "quantity", asked_for, 0, QUANTITIES, set_quantities, 0,
-       "the quantity that curves show (default: throw), or those of tables, with commas (default: "
-       "all)");
+       "the quantity that curves show, or those of tables, with commas",
+       .else_usual = "throw; of tables all");
 OPTION(series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write the collisions as rows for `carom resolve`. An id is the spin and the values of "
        "other lists, such as draw-1.5m/s. With --quantity: write a table of it");

@@ -22,18 +22,18 @@ typedef struct match_job {
   int rules;             /* a carom_rules_kind; -1: eight-ball, or the game of the file */
   int table;             /* a carom_table_kind; -1: that of the game */
   bool shows;
-  double fargo[2];
+  double rating[2];
   int breaks, seed, shots, strokes, target;
   bool equal;
 } match_job;
 
 static bool set_ratings(const option_row *row, char *text, void *field) {
-  double *fargo = field;
+  double *rating = field;
   char end;
-  const bool read = sscanf(text, "%lf,%lf%c", &fargo[0], &fargo[1], &end) == 2;
+  const bool read = sscanf(text, "%lf,%lf%c", &rating[0], &rating[1], &end) == 2;
   bool good = read;
   for (int k = 0; k < 2; k++)
-    good = good && fargo[k] >= 200.0 && fargo[k] <= 850.0;
+    good = good && rating[k] >= 200.0 && rating[k] <= 850.0;
   if (good)
     return true;
   complain("--%s: two Fargo ratings from 200 to 850 are needed, such as 600,500, not %s", row->name,
@@ -42,21 +42,21 @@ static bool set_ratings(const option_row *row, char *text, void *field) {
 }
 
 OPTION(match_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES,
-       "the game (default eightball)");
+       "the game", .else_usual = "eightball, or the game of the file");
 OPTION(match_job, option_table, "table", table, 0, NULL, set_named, CAROM_WORDS_TABLE,
-       "the table (default: that of the game)");
-OPTION(match_job, option_fargo, "fargo", fargo, 0, "A,B", set_ratings, 0,
-       "the Fargo ratings of both players, 200 to 850 (default 600,600)");
+       "the table", .else_usual = "that of the game");
+OPTION(match_job, option_players, "players", rating, 0, "A,B", set_ratings, 0,
+       "the Fargo ratings of both players, 200 to 850", .usual = "600,600");
 OPTION(match_job, option_breaks, "breaks", breaks, 0, "1|2", set_choice, 0,
-       "the player who breaks (default 1)");
+       "the player who breaks", .usual = "1");
 OPTION(match_job, option_seed, "seed", seed, 0, "N", set_count, 0,
-       "from which the gaps of the rack and the errors are drawn (default 1)");
+       "from which the gaps of the rack and the errors are drawn", .usual = "1");
 OPTION(match_job, option_shots, "shots", shots, 0, "N", set_count, 100,
-       "shots by which a player plans each stroke (default 300)");
+       "shots by which a player plans each stroke", .usual = "300");
 OPTION(match_job, option_strokes, "strokes", strokes, 0, "N", set_count, 1,
        "stop after so many strokes: the recording has no end, and can be gone on with");
 OPTION(match_job, option_target, "target", target, 0, "N", set_count, 1,
-       "the points that win, in games of points (default: those of the game)");
+       "the points that win, in games of points", .else_usual = "those of the game");
 OPTION(match_job, option_equal, "equal-innings", equal, 0, NULL, set_flag, 0,
        "in three-cushion and straight rail: if the player who broke reaches the target first, the "
        "other has one more inning, and the match may be drawn");
@@ -71,12 +71,12 @@ static const command_form match_form = {
              "with a match that was saved: give the ratings, the seed and the shots again, and the "
              "match ends as if it had not been interrupted. GAME may be -.\n",
     .options =
-        (const option_row *const[]){&option_rules, &option_table, &option_fargo, &option_breaks,
+        (const option_row *const[]){&option_rules, &option_table, &option_players, &option_breaks,
                                     &option_target, &option_equal, &option_seed, &option_shots,
                                     &option_strokes, &option_show, &option_output, NULL},
     .details = "exit code: 0 for success; 1 if a line of GAME is not by the rules, which carom "
                "names; 2 for bad usage or unreadable input\n",
-    .example = "carom match --fargo 650,500 -o game.jsonl",
+    .example = "carom match --players 650,500 -o game.jsonl",
     .files = FILE_OR_NONE,
 };
 
@@ -313,10 +313,7 @@ int command_match(int argc, char **argv) {
   const char *path;
   job = (match_job){.shared = {.output = "-"},
                     .rules = -1,
-                    .table = -1,
-                    .fargo = {600.0, 600.0},
-                    .seed = 1,
-                    .shots = 300};
+                    .table = -1};
   int code = parse_arguments(&match_form, argc, argv, &job, &path);
   if (code >= 0)
     return code;
@@ -344,7 +341,7 @@ int command_match(int argc, char **argv) {
   if (!job.shows && code == EXIT_GOOD) {
     players p = {.job = &job, .text = text};
     for (int k = 0; k < 2; k++)
-      p.player[k] = carom_player_fargo(job.fargo[k]);
+      p.player[k] = carom_player_fargo(job.rating[k]);
     p.options.shots = job.shots;
     p.memory = allocate(carom_plan_memory(&p.options), 1);
     if (strcmp(job.shared.output, "-") != 0)

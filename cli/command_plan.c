@@ -34,22 +34,24 @@ typedef struct plan_job {
 
 OPTION(
     plan_job, option_rules, "rules", game.rules, 0, NULL, set_named, CAROM_WORDS_RULES,
-    "the game (default eightball, or potting where no ball is named 8; potting has no rules: all "
-    "balls count). The cue ball is named cue, and the others by their numbers, or in snooker as in "
+    "the game; potting has no rules: all balls count. The cue ball is named cue, and the others by their numbers, or in snooker as in "
     "its rack: red1, yellow; potting, cowboy and games without pockets take any names, in the "
-    "order of the rack");
+    "order of the rack",
+    .else_usual = "eightball, or potting where no ball is named 8");
 OPTION(plan_job, option_group, "group", game.group, 0, "open|solids|stripes", set_choice, 0,
-       "the balls of the player, where each has a group (default open: any but the eight)");
+       "the balls of the player, where each has a group; open: any but the eight", .usual = "open");
 OPTION(plan_job, option_permission, "may", game.permission, 0, "shoot|push-out|pass|free-ball",
        set_choice, 0,
-       "what the player may do besides a shot (default shoot: nothing); free-ball: pass, or play "
-       "any ball");
+       "what the player may do; shoot: nothing but a shot; free-ball: pass, or play any ball",
+       .usual = "shoot");
 OPTION(plan_job, option_score, "score", game.score, 0, "OWN,OTHER", set_score, 0,
        "points, or balls, of the player and of the opponent; below 0 if the player lost or owes "
-       "them (default 0,0)");
+       "them",
+       .usual = "0,0");
 OPTION(plan_job, option_own_pocket, "own-pocket", game.pocket, 0, "foot-right|foot-left",
        set_choice, 0,
-       "the player's pocket, in games where each player has one (default foot-right)");
+       "the player's pocket, in games where each player has one",
+       .else_usual = "foot-right");
 OPTION(plan_job, option_target, "target", game.target, 0, "N", set_count, 1,
        "points that win, where the rules leave it open");
 OPTION(plan_job, option_colour, "colour", game.colour, 0, NULL, set_flag, 0,

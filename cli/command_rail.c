@@ -18,19 +18,19 @@
 
 enum { SPIN, SPEED, ANGLE, SIDE, HEIGHT, RESTITUTION, FRICTION, CLOTH, RADIUS, MASS, MODEL };
 static const scene_input inputs[] = {
-    [SPIN] = {"spin", MEASURE_SPIN, "roll"},
-    [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
-    [ANGLE] = {"angle of incidence", MEASURE_ANGLE, "45"},
-    [SIDE] = {"side spin", MEASURE_SIDE_RAIL, "none"},
+    [SPIN] = {"spin", MEASURE_SPIN},
+    [SPEED] = {"speed", MEASURE_SPEED},
+    [ANGLE] = {"angle of incidence", MEASURE_ANGLE},
+    [SIDE] = {"side spin", MEASURE_SIDE_RAIL},
     /* without a usual value: those of the game for the model */
-    [HEIGHT] = {"height of the nose", MEASURE_LENGTH, NULL},
-    [RESTITUTION] = {"restitution", MEASURE_NUMBER, NULL},
-    [FRICTION] = {"friction of the cushion", MEASURE_NUMBER, NULL},
-    [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, NULL},
-    [RADIUS] = {"radius of the ball", MEASURE_LENGTH, NULL},
-    [MASS] = {"mass of the ball", MEASURE_MASS, NULL},
-    [MODEL] = {"model", MEASURE_MODEL, "smooth"}, /* that of shots */
-    [MODEL + 1] = {NULL, 0, NULL}};
+    [HEIGHT] = {"height of the nose", MEASURE_LENGTH},
+    [RESTITUTION] = {"restitution", MEASURE_NUMBER},
+    [FRICTION] = {"friction of the cushion", MEASURE_NUMBER},
+    [CLOTH] = {"friction of the cloth", MEASURE_NUMBER},
+    [RADIUS] = {"radius of the ball", MEASURE_LENGTH},
+    [MASS] = {"mass of the ball", MEASURE_MASS},
+    [MODEL] = {"model", MEASURE_MODEL}, /* that of shots */
+    [MODEL + 1] = {NULL, 0}};
 _Static_assert(sizeof inputs / sizeof inputs[0] <= MOST_INPUTS + 1, "room for all");
 
 enum { ROLLING_REBOUND, REBOUND, SPEED_AFTER, SIDE_AFTER, ENERGY };
@@ -40,13 +40,15 @@ static const char *const quantity[] = {
     "speed at once (m/s)", "side spin after (rad/s)", "kinetic energy that is lost (%)"};
 
 OPTION(series, option_speed, "speed", in[SPEED], 0, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
-       "speed of the ball, m/s, or with a unit: mph, km/h (default 1.5); or a word: " SPEEDS);
+       "speed of the ball, m/s, or with a unit: mph, km/h; or a word: " SPEEDS, .usual = "1.5");
 OPTION(series, option_angle, "angle", in[ANGLE], 0, "DEGREES", set_values, MEASURE_ANGLE,
        "angle of incidence, from the normal of the cushion, -90 to 90; above 0 the ball moves to "
-       "the right (default 45)");
+       "the right",
+       .usual = "45");
 OPTION(series, option_spin, "spin", in[SPIN], 0, "roll|stun|draw|SPIN", set_values, MEASURE_SPIN,
-       "roll or follow: the ball rolls (default); stun: no spin; draw: the same spin backwards. Or "
-       "a number with a unit: rad/s, % of rolling, tip");
+       "roll or follow: the ball rolls; stun: no spin; draw: the same spin backwards. Or "
+       "a number with a unit: rad/s, % of rolling, tip",
+       .usual = "roll");
 OPTION(
     series, option_side, "side", in[SIDE], 0, "right|left|running|reverse|gearing|none|SPIN",
     set_values, MEASURE_SIDE_RAIL,
@@ -54,21 +56,24 @@ OPTION(
     "the "
     "cushion: right at an angle above 0; reverse is the other. A number with a unit: rad/s, % of "
     "english (100%: 1.25 V/R) or tip; right, left, running, reverse: 100%; "
-    "gearing: the ball rolls along the cushion; none (default)");
+    "gearing: the ball rolls along the cushion; none",
+    .usual = "none");
 OPTION(series, option_game, "game", game, 0, NULL, set_named, CAROM_WORDS_GAME,
-       "the game whose ball, cloth and cushion give the numbers that you leave out (default pool)");
+       "the game whose ball, cloth and cushion give the numbers that you leave out",
+       .usual = "pool");
 OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_LENGTH,
-       "height of the nose above the cloth, m, or with a unit: mm, in (default: that of the game)");
+       "height of the nose above the cloth, m, or with a unit: mm, in",
+       .else_usual = "that of the game");
 OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
-       MEASURE_NUMBER, "restitution of the cushion (default: that of the game for the model)");
+       MEASURE_NUMBER, "restitution of the cushion", .else_usual = "that of the game for the model");
 OPTION(series, option_friction_rail, "friction", in[FRICTION], 0, "MU", set_values, MEASURE_NUMBER,
-       "friction of the cushion (default: that of the game for the model)");
+       "friction of the cushion", .else_usual = "that of the game for the model");
 OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
-       "friction with the cloth (default: that of the game)");
+       "friction with the cloth", .else_usual = "that of the game");
 OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
-       "radius of the ball, m, or with a unit: mm, cm, in (default: that of the game)");
+       "radius of the ball, m, or with a unit: mm, cm, in", .else_usual = "that of the game");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
-       "mass of the ball, kg, or with a unit: g, oz (default: that of the game)");
+       "mass of the ball, kg, or with a unit: g, oz", .else_usual = "that of the game");
 
 static OPTION_SET(set_models) {
   series *s = (series *)(void *)((char *)field - row->field);
@@ -82,14 +87,15 @@ static OPTION_SET(set_models) {
 
 static const option_row option_models = {
     .name = "model",
-    .help = "model of the impact; `carom models NAME` describes it (default: smooth, as in shots)",
+    .help = "model of the impact; `carom models NAME` describes it; smooth is that of shots",
+    .usual = "smooth",
     .set = set_models,
     .field = offsetof(series, in[MODEL]),
     .least = MEASURE_MODEL,
     .words = CAROM_WORDS_CUSHION_MODEL};
 OPTION(series, option_quantity, "quantity", asked_for, 0, QUANTITIES, set_quantities, 0,
-       "the quantity that curves show (default: rolling-rebound), or those of tables, with commas "
-       "(default: all)");
+       "the quantity that curves show, or those of tables, with commas",
+       .else_usual = "rolling-rebound; of tables all");
 OPTION(series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write the impacts as rows for `carom resolve --cushion`. With --quantity: write a table of "
        "it");

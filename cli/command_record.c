@@ -26,8 +26,9 @@ typedef struct record_job {
 } record_job;
 
 OPTION(record_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
-       "what to record about events: nothing; time, type and balls (the default is none); or the "
-       "states too. `carom verify` then reports the first event whose bits differ");
+       "what to record about events: nothing; time, type and balls; or the states "
+       "too. `carom verify` then reports the first event whose bits differ",
+       .usual = "none");
 
 /* ---- Playing, with room for all events ------------------------------------------------------- */
 

@@ -57,8 +57,8 @@ typedef struct block {
 
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
        "what to write about events: nothing; time, type and ids; or the states before and after "
-       "too (default full). With a shot by options: write it as a line like those of a file, "
-       "instead of words");
+       "too. With a shot by options: write it as a line like those of a file, instead of words",
+       .else_usual = "full; of a shot by options words");
 OPTION(shoot_job, option_story, "csv", csv, 0, NULL, set_flag, 0,
        "with a shot by options: write what the balls do as rows, instead of words: where each ball "
        "leaves, begins to roll, meets a rail, passes another ball and rests");
@@ -72,7 +72,7 @@ OPTION(shoot_job, option_spread, "spread", error, 0, "SPEED,AIM,RIGHT,ABOVE", se
        "shows how far they hold");
 OPTION(
     shoot_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
-    "with a shot by options: the cue ball is to end within R (default 0.15 m) of this place, as in "
+    "with a shot by options: the cue ball is to end within R, else 0.15 m, of this place, as in "
     "`carom ways`. carom tries the speeds and tips that are given, or 0.5 to 4 m/s and five tips "
     "from draw to follow. It plays the stroke with which most strokes of a player do this, and pot "
     "the ball of --pocket. It reports how many do, and with which speeds the cue ball ends there");

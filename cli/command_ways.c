@@ -33,19 +33,20 @@ typedef struct ways_job {
 } ways_job;
 
 OPTION(ways_job, option_ball, "ball", ball, 0, "NAME|any", set_text, 0,
-       "the ball to be potted (default any)");
+       "the ball to be potted", .else_usual = "any");
 OPTION(ways_job, option_to_pocket, "pocket", pocket, 0, "NAME|any", set_text, 0,
-       "the pocket into which it is to fall, such as foot-left (default any)");
+       "the pocket into which it is to fall, such as foot-left", .else_usual = "any");
 OPTION(ways_job, option_rails, "rails", rails, 0, "0|1|2", set_choice, 0,
-       "largest number of rails in banks, kicks and caroms (default 2)");
+       "largest number of rails in banks, kicks and caroms", .usual = "2");
 OPTION(ways_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
-       "the cue ball is to end within R (default 0.15 m) of this place, m, or with units, "
+       "the cue ball is to end within R, else 0.15 m, of this place, m, or with units, "
        "2d,4d,20cm, or named as in --cue, foot-spot,20cm. This counts for the chance, so carom "
        "reports which of several speeds and tips brings the cue ball there. Without other balls, "
        "the cue ball is sent there alone");
-OPTION(ways_job, option_scan, "scan", scanned, 0, "N", set_count, 0,
-       "how many strokes in all directions to try (default 20000, or 1800 for each speed and tip "
-       "if that is more; for points and places 100000); 0: the default");
+OPTION(ways_job, option_scan, "scan", scanned, 0, "N", set_count, 1,
+       "how many strokes in all directions to try",
+       .else_usual = "20000, or 1800 for each speed and tip if that is more; for points and places "
+                     "100000");
 OPTION(ways_job, option_each, "each", each, 0, NULL, set_flag, 0,
        "report each stroke with which a way succeeds, in the order of the strokes, instead of the "
        "best one. This shows how wide the way is over speeds and tips");
@@ -300,8 +301,24 @@ static bool find(const ways_job *job, ways_search *s) {
   return true;
 }
 
+#define SPEEDS_TO_POT "1.5,2.5,4"
+#define SPEEDS_TO_LEAVE "1:4:0.5"
+#define SPEEDS_TO_SCORE "3,4.5,6"
+#define SPEEDS_ALONE "0.5:5:0.25"
+#define TIPS_TO_LEAVE "0,-0.4:0.4:0.2"
+#define TIPS_TO_SCORE "0,0.25:0.3,0.2:-0.3,0.2"
+
 static const command_form form = {
     .name = "ways",
+    .usual = (const option_usual[]){{"speed", SPEEDS_TO_POT,
+                                     SPEEDS_TO_LEAVE
+                                                   " with --leave, " SPEEDS_ALONE
+                                                   " of the cue ball alone, " SPEEDS_TO_SCORE
+                                                   " to score"},
+                                    {"tip", "0,0.25",
+                                     TIPS_TO_LEAVE " with --leave, " TIPS_TO_SCORE
+                                     " to score"},
+                                    {0}},
     .usage = "[OPTIONS] LAYOUT.jsonl | --balls X,Y:... [OPTIONS]",
     .about = "Finds the ways to pot a ball: directly, or with a bank, a kick, a kiss, a carom or a "
              "combination. On a table without pockets it finds the ways to score in three-cushion: "
@@ -323,13 +340,6 @@ static const command_form form = {
                                            &option_ways_plot,     &option_threads,
                                            &option_output,        NULL},
     .details =
-        "strokes if none are given:\n"
-        "  to pot               1.5, 2.5 and 4 m/s; with --leave 1 to 4 m/s, each with five tips "
-        "from draw to follow\n"
-        "  to score             3, 4.5 and 6 m/s, each with the tip on either side and in the "
-        "middle\n"
-        "  cue ball alone       0.5 to 5 m/s\n"
-        "\n"
         "columns:\n"
         "  chance               share of 400 strokes with errors that succeed: the ball falls and "
         "the cue ball does not, or the stroke scores; and the cue ball ends where --leave says\n"
@@ -354,12 +364,12 @@ static const command_form form = {
 /* The speeds where none are given, m/s. */
 static const char *usual_speeds(const ways_job *job, bool alone, bool points) {
   if (alone)
-    return "0.5:5:0.25";
+    return SPEEDS_ALONE;
   if (points)
-    return "3,4.5,6";
+    return SPEEDS_TO_SCORE;
   if (job->leave.given)
-    return "1:4:0.5";
-  return "1.5,2.5,4";
+    return SPEEDS_TO_LEAVE;
+  return SPEEDS_TO_POT;
 }
 
 /* How many strokes in all directions are searched: as asked, or the default, at least one each. */
@@ -387,12 +397,10 @@ static void fill_strokes(ways_job *job) {
   if (from->tip.count > 0)
     return;
   if (points) {
-    from->tip = (place_list){.count = 3,
-                             .at = {{.y = {.x = 0.25}},
-                                    {.x = {.x = 0.3}, .y = {.x = 0.2}},
-                                    {.x = {.x = -0.3}, .y = {.x = 0.2}}}};
+    char tips[] = TIPS_TO_SCORE;
+    option_tip.set(&option_tip, tips, &from->tip);
   } else if (by_options && job->leave.given && !alone) {
-    char tips[] = "0,-0.4:0.4:0.2";
+    char tips[] = TIPS_TO_LEAVE;
     option_tip.set(&option_tip, tips, &from->tip);
   }
 }
@@ -446,7 +454,7 @@ static int ways_of_file(const ways_job *job, ways_search *s, shot_file *file) {
 int command_ways(int argc, char **argv) {
   static ways_job job;
   const char *path;
-  job = (ways_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}}, .rails = 2};
+  job = (ways_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}}};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;

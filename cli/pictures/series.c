@@ -425,13 +425,8 @@ static bool write_all(const series *s, int count) {
 
 int series_command(series *s, const command_form *form, int argc, char **argv, int angle,
                    const char *complaint) {
-  for (int k = 0; k < inputs_of(s); k++) {
-    const scene_input *input = &s->scene->inputs[k];
-    if (input->usual != NULL)
-      values_default(&s->in[k], input->measure, input->usual);
-    else
-      s->in[k] = (values){.count = 1, .unit = "", .at = {{.x = NAN, .given = NAN}}};
-  }
+  for (int k = 0; k < inputs_of(s); k++)
+    s->in[k] = (values){.count = 1, .unit = "", .at = {{.x = NAN, .given = NAN}}};
   const int code = parse_arguments(form, argc, argv, s, NULL), count = count_of(s);
   if (code >= 0)
     return code;

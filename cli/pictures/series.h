@@ -20,12 +20,11 @@ typedef struct one_case {
   char id[MOST_INPUTS * VALUE_NAME];
 } one_case;
 
-/* What an input is, on an axis: "cut angle", its measure, and its usual value; NULL: NaN, for
- * which the scene knows what stands. */
+/* What an input is, on an axis: "cut angle", and its measure. An option without a default leaves
+ * NaN, for which the scene knows what stands. */
 typedef struct scene_input {
   const char *name;
   int measure;
-  const char *usual;
 } scene_input;
 
 typedef struct scene {

@@ -10,6 +10,7 @@
 #include <getopt.h>
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_ROWS = 48, MOST_LONGS = MOST_ROWS + 16, FIRST_CODE = UCHAR_MAX + 1 };
@@ -23,7 +24,7 @@ static const struct {
   const char *said, *name;
 } also[] = {{"english", "side"},  {"rack", "rules"},         {"rack", "balls"},
             {"game", "rules"},    {"power", "speed"},        {"fargo", "player"},
-            {"rating", "player"}, {"object-balls", "balls"}, {"cloth-friction", "cloth"}};
+            {"fargo", "players"}, {"player", "players"}, {"rating", "player"}, {"rating", "players"}, {"object-balls", "balls"}, {"cloth-friction", "cloth"}};
 
 /* What players ask for by a name that no option has, and what says it. A subcommand without the
  * option says nothing. */
@@ -51,6 +52,45 @@ static bool has_option(const command_form *form, const char *name) {
   return false;
 }
 
+/* ---- Defaults */
+
+/* The default of a row in a form. */
+static option_usual usual_of(const command_form *form, const option_row *row) {
+  for (const option_usual *own = form->usual; own != NULL && own->name != NULL; own++)
+    if (strcmp(own->name, row->name) == 0)
+      return *own;
+  return (option_usual){row->name, row->usual, row->else_usual};
+}
+
+/* Reads the default of a row into its field. */
+static void set_usual(const command_form *form, const option_row *row, void *job) {
+  static char texts[MOST_ROWS][80]; /* which fields may keep */
+  static int used;
+  const char *usual = usual_of(form, row).usual;
+  if (usual == NULL)
+    return;
+  char *text = texts[used++ % MOST_ROWS];
+  snprintf(text, sizeof texts[0], "%s", usual);
+  if (!row->set(row, text, (char *)job + row->field))
+    abort(); /* a default that its own option refuses */
+}
+
+void fill_usual(void *job, const option_row *row) {
+  set_usual(((const shared_options *)job)->form, row, job);
+}
+
+/* The help with the default behind it: "the table (default 9ft)". */
+static const char *help_of(const command_form *form, const option_row *row, char text[1024]) {
+  const option_usual own = usual_of(form, row);
+  const char *value = text_if(own.usual != NULL, own.usual),
+             *more = text_if(own.else_usual != NULL, own.else_usual);
+  if (own.usual == NULL && own.else_usual == NULL)
+    return row->help;
+  snprintf(text, 1024, "%s (default%s %s%s%s)", row->help, text_if(own.usual == NULL, ":"), value,
+           text_if(own.usual != NULL && own.else_usual != NULL, "; "), more);
+  return text;
+}
+
 /* ---- Help */
 
 /* "  -o, --output OUT"; choices that do not fit into a line are listed in the details. */
@@ -64,29 +104,31 @@ static int write_head(const option_row *row, char text[80]) {
 }
 
 /* The help beside the head, or below it where that is long. */
-static void print_row(FILE *out, const option_row *row) {
-  char head[80], text[1024];
+static void print_row(FILE *out, const command_form *form, const option_row *row) {
+  char head[80], help[1024], text[1200];
   const int width = write_head(row, head);
   if (width + 2 > OPTION_WIDTH)
     fprintf(out, "%s\n", head);
   snprintf(text, sizeof text, "%-*s%s", OPTION_WIDTH, width + 2 > OPTION_WIDTH ? " " : head,
-           row->help);
+           help_of(form, row, help));
   print_wrapped(out, text, HELP_WIDTH);
 }
 
-static void print_item(FILE *out, const option_row *row) {
-  char head[80];
+static void print_item(FILE *out, const command_form *form, const option_row *row) {
+  char head[80], help[1024];
   snprintf(head, sizeof head, "-%c, --%s", row->letter, row->name);
-  manual_item(out, row->letter != 0 ? head : head + 4, argument_of(row), row->help);
+  manual_item(out, row->letter != 0 ? head : head + 4, argument_of(row),
+              help_of(form, row, help));
 }
 
 /* Prints the options that are for one kind of rows, or all, by one of these. */
 enum { EVERY_ROW = -1 };
+typedef void print_option(FILE *out, const command_form *form, const option_row *row);
 static void print_options(FILE *out, const command_form *form, int only,
-                          void (*print)(FILE *out, const option_row *row)) {
+                          print_option *print) {
   for (size_t k = 0; form->options[k] != NULL; k++)
     if (only == EVERY_ROW || form->options[k]->only == only)
-      print(out, form->options[k]);
+      print(out, form, form->options[k]);
 }
 
 /* Whether the subcommand works on both kinds of rows. */
@@ -99,9 +141,9 @@ static bool has_kinds(const command_form *form) {
 
 /* All options; `title` stands before those for a kind of rows. */
 static void print_all_options(FILE *out, const command_form *form, const char *title,
-                              void (*print)(FILE *out, const option_row *row)) {
+                              print_option *print) {
   print_options(out, form, has_kinds(form) ? ANY_KIND : EVERY_ROW, print);
-  print(out, &help_row);
+  print(out, form, &help_row);
   for (int kind = BALLS_ONLY; kind <= CUSHION_ONLY && has_kinds(form); kind++) {
     fprintf(out, title,
             kind == BALLS_ONLY ? "for collisions of two balls"
@@ -272,6 +314,10 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
     print_manual(stdout, form);
     return EXIT_GOOD;
   }
+  ((shared_options *)job)->form = form;
+  for (int k = 0; form->options[k] != NULL; k++)
+    if (!form->options[k]->is_list)
+      set_usual(form, form->options[k], job);
   list_options(form, longs, shorts);
   while ((option = getopt_long(argc, argv, shorts, longs, NULL)) != -1) {
     const option_row *row = row_of(form, option);

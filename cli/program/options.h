@@ -25,7 +25,17 @@ typedef struct option_row {
   int only;     /* ANY_KIND, or the kind of rows that the option is for */
   int part;     /* of set_option: whose rows they are, a carom_part_kind; 0: CAROM_PART_OPTIONS */
   int words;    /* a carom_words whose words it takes besides `argument`; 0: none */
+  /* The default: what set() reads where the option is not given, and what else the help says of
+   * it ("that of the game"). NULL: none. A list is filled by fill_usual(), so that a command sees
+   * whether it was given. */
+  const char *usual, *else_usual;
+  bool is_list;
 } option_row;
+
+/* The default of an option in one subcommand, instead of that of its row. */
+typedef struct option_usual {
+  const char *name, *usual, *else_usual;
+} option_usual;
 
 /* Kinds of rows that an option is for: all, collisions of two balls, or impacts on a cushion,
  * which --cushion asks for. */
@@ -38,6 +48,7 @@ typedef struct command_form {
   const char *usage;                /* what stands behind it: "[OPTIONS] IN" */
   const char *about;                /* what it does, a paragraph a line */
   const option_row *const *options; /* ends with NULL */
+  const option_usual *usual;        /* ends with a name NULL; or NULL */
   const char *details;              /* columns, exit codes: what stands behind the options */
   const char *example;              /* a line that begins with the program's name */
   int files;                        /* NO_FILES, ... */
@@ -47,6 +58,10 @@ typedef struct command_form {
  * Returns -1 where the subcommand should go on, else the exit code to end with: the help has
  * been printed, or a complaint. */
 int parse_arguments(const command_form *form, int argc, char **argv, void *job, const char **file);
+
+/* Fills a list that was not given with the option's default in this subcommand, or with that of its
+ * row where the subcommand has no such option; the job is one that parse_arguments() has read. */
+void fill_usual(void *job, const option_row *row);
 
 /* Says where help is; returns EXIT_USAGE. */
 int usage_hint(const command_form *form);
@@ -134,6 +149,7 @@ typedef struct given_player {
 enum precision { ANY_PRECISION = -1, DOUBLE_PRECISION, SINGLE_PRECISION };
 
 typedef struct shared_options {
+  const command_form *form;   /* of the subcommand, with all rows */
   bool cushion;               /* --cushion: impacts of a ball on a cushion, instead of collisions
                                  of two balls */
   carom_cushion_options rail; /* --model, --convention, --law, --least-step */
@@ -169,12 +185,19 @@ OPTION_SET(
 OPTION_SET(set_cue_number); /* given_numbers: values of the number of a cue that has the option's
                                name, with _ for - */
 
-/* A row of a job: the kind of rows that it is for, its own name, and what stands in an option_row.
- * OPTION() is one of a single table, for every kind. */
-#define OPTION_ROW(job, only, row, name, member, letter, argument, set, least, help) \
-  const option_row row = {name,  letter, argument, help, set, offsetof(job, member), \
-                          least, only,   0,        0}
-#define OPTION(job, row, name, member, letter, argument, set, least, help) \
-  static OPTION_ROW(job, ANY_KIND, row, name, member, letter, argument, set, least, help)
+/* A row of a job: the kind of rows that it is for, its own name, and what stands in an option_row;
+ * behind the help may stand .usual = "2" and the like. OPTION() is one of a single table, for every
+ * kind. */
+#define OPTION_ROW(job, only_for, row, option, member, short_form, value, setter, minimum, ...) \
+  const option_row row = {.name = option,                                                       \
+                          .letter = short_form,                                                 \
+                          .argument = value,                                                    \
+                          .set = setter,                                                        \
+                          .field = offsetof(job, member),                                       \
+                          .least = minimum,                                                     \
+                          .only = only_for,                                                     \
+                          .help = __VA_ARGS__}
+#define OPTION(job, row, option, member, letter, argument, set, least, ...) \
+  static OPTION_ROW(job, ANY_KIND, row, option, member, letter, argument, set, least, __VA_ARGS__)
 
 #endif

@@ -50,14 +50,16 @@ OPTION_SET(set_count) {
   return true;
 }
 
-/* 0 stands for all, as in other commands. */
 static OPTION_SET(set_threads) {
   int *threads = field;
-  if (!set_count(row, text, threads))
-    return false;
-  if (*threads == 0)
+  if (strcmp(text, "all") == 0) {
     *threads = CAROM_ALL_THREADS;
-  return true;
+    return true;
+  }
+  if (strcmp(text, "0") != 0)
+    return set_count(row, text, threads);
+  complain("--threads 0 is no number of threads: all is one for each processor, 1 is one alone");
+  return false;
 }
 
 OPTION_SET(set_number) {
@@ -643,31 +645,33 @@ static OPTION_SET(set_errors) {
 
 /* ---- The rows */
 
-#define ROW(row, name, member, letter, argument, set, least, only, help) \
-  OPTION_ROW(shared_options, only, row, name, member, letter, argument, set, least, help)
+#define ROW(row, name, member, letter, argument, set, least, only, ...) \
+  OPTION_ROW(shared_options, only, row, name, member, letter, argument, set, least, __VA_ARGS__)
 
 ROW(option_solver, "solver", options.solver, 0, NULL, set_named, CAROM_WORDS_SOLVER, BALLS_ONLY,
-    "exact: the limit of infinitely many steps (default); fast: the same in less time, but not "
-    "smooth; euler: N steps of equal impulse, as in the 2014 paper");
+    "exact: the limit of infinitely many steps; fast: the same in less time, but not smooth; euler: N "
+    "steps of equal impulse, as in the 2014 paper",
+    .usual = "exact");
 ROW(option_slip, "slip", options.slip, 0, NULL, set_named, CAROM_WORDS_SLIP, BALLS_ONLY,
-    "sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's");
+    "sign of the spin in the slip over the cloth: the 2014 paper's, or pooltool's", .usual = "paper");
 ROW(option_friction, "friction", friction, 0, "alciatore|LAW", set_law, 0, BALLS_ONLY,
     "friction between the balls, instead of the column u_b: a number; or alciatore, which falls "
     "with the slip speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other "
     "constants");
 ROW(option_data, "data", folder, 0, "DIR", set_text, 0, BALLS_ONLY,
-    "folder of the reference collisions (default: $CAROM_DATA, else what came with carom)");
+    "folder of the reference collisions", .else_usual = "$CAROM_DATA, else what came with carom");
 ROW(option_steps, "steps", options.steps, 0, "N", set_count, 1, ANY_KIND,
-    "steps of Euler's method, 1 or more (default 1000)");
-ROW(option_threads, "threads", options.threads, 0, "N", set_threads, 0, ANY_KIND,
-    "largest number of threads; 0: one for each processor (default)");
+    "steps of Euler's method, 1 or more", .usual = "1000");
+ROW(option_threads, "threads", options.threads, 0, "all|N", set_threads, 1, ANY_KIND,
+    "largest number of threads; all: one for each processor", .usual = "all");
 ROW(option_precision, "precision", precision, 0, "double|single", set_choice, 0, ANY_KIND,
-    "precision of the results, and of the solver for two balls (default: single for a float32 "
-    "array, else double)");
+    "precision of the results, and of the solver for two balls",
+    .else_usual = "single for a float32 array, otherwise double");
 ROW(option_output, "output", output, 'o', "OUT", set_text, 0, ANY_KIND,
-    "file to write; - is standard output (default). OUT is never incomplete: carom writes a file "
+    "file to write; - is standard output. OUT is never incomplete: carom writes a file "
     "beside it, and renames it at the end. If the folder cannot be written, carom overwrites OUT "
-    "at the end");
+    "at the end",
+    .usual = "-");
 ROW(option_derived, "derived", derived, 0, NULL, set_flag, 0, ANY_KIND,
     "more columns after the status: angles, rolling velocities, energy");
 ROW(option_strict, "strict", strict, 0, NULL, set_flag, 0, ANY_KIND,
@@ -679,16 +683,17 @@ ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
 ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
     "impacts of a ball on a cushion, instead of collisions of two balls");
 ROW(option_model, "model", rail.model, 0, NULL, set_named, CAROM_WORDS_CUSHION_MODEL, CUSHION_ONLY,
-    "model of the impact; `carom models NAME` describes it (default: mathavan; `carom rail` uses "
-    "smooth, as in shots)");
+    "model of the impact; `carom models NAME` describes it", .usual = "mathavan",
+    .else_usual = "`carom rail` uses smooth, as in shots");
 ROW(option_convention, "convention", rail.convention, 0, NULL, set_named,
     CAROM_WORDS_CUSHION_CONVENTION, CUSHION_ONLY,
-    "the conventions to follow where pooltool differs from the papers (default: paper)");
+    "the conventions to follow where pooltool differs from the papers", .usual = "paper");
 ROW(option_law, "law", rail.law, 0, NULL, set_named, CAROM_WORDS_CUSHION_LAW, CUSHION_ONLY,
-    "restitution and friction of the cushion: from the columns (default), or by Han's fits over "
-    "speed and angle");
+    "restitution and friction of the cushion: from the columns, or by Han's fits over speed and "
+    "angle",
+    .usual = "constant");
 ROW(option_least_step, "least-step", rail.least_step, 0, "P", set_amount, 0, CUSHION_ONLY,
-    "smallest step of euler, N s (default 0; pooltool: 0.001)");
+    "smallest step of euler, N s", .usual = "0", .else_usual = "pooltool uses 0.001");
 ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
     "numbers of the model, such as smooth_q=0.2,smooth_x=1,smooth_t=1: `carom models NAME` lists "
     "them. Or the file of a fit, FIT.json; or, of `carom rail`, a condition of a pool table's "
@@ -697,7 +702,8 @@ ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
 ROW(option_player, "player", player, 0, "RATING", set_player, 0, ANY_KIND,
     "a player with this Fargo rating, 200 to 850, such as 500");
 ROW(option_player_errors, "errors", player, 0, "SCALE", set_errors, 0, ANY_KIND,
-    "a player with these errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE (default 1)");
+    "a player with these errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE",
+    .else_usual = "1, if there is no --player");
 
 /* Of whole shots: rows without a name stand for those of rows_of(). */
 ROW(options_of_shots, NULL, shot, 0, NULL, set_option, CAROM_READ_TO_STOP, ANY_KIND, NULL);

@@ -42,16 +42,17 @@ static OPTION_SET(set_table) {
   return built_in != NULL;
 }
 
-#define ROW(row, name, member, argument, set, least, help) \
-  OPTION_ROW(shoot_flags, ANY_KIND, row, name, member, 0, argument, set, least, help)
+#define ROW(row, name, member, argument, set, least, ...) \
+  OPTION_ROW(shoot_flags, ANY_KIND, row, name, member, 0, argument, set, least, __VA_ARGS__)
 
 const option_row option_table = {
     .name = "table",
     .help =
-        "play one shot on this table, instead of those of a file (default 9ft). x runs across "
-        "the table, y along it. Measures change it: 9ft,corner=4.25in,side_cut=104; `carom "
+        "play one shot on this table, instead of those of a file. x runs across the "
+        "table, y along it. Measures change it: 9ft,corner=4.25in,side_cut=104; `carom "
         "models` lists them. 10ft is threecushion, 12ft is snooker. To use a table of your own, "
         "give a file",
+    .else_usual = "9ft",
     .set = set_table,
     .field = offsetof(shoot_flags, table),
     .words = CAROM_WORDS_TABLE};
@@ -60,8 +61,8 @@ ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_PLACE,
     "head; or a place: " PLACES
     ". At left,4d, and at corners and sides, the ball touches the rail; at frozen-1,90 "
     "it touches ball 1 in that direction, degrees, and at frozen-1,90,0.5in it lies that far from "
-    "it (default: head-spot, or the place in "
-    "the rack)");
+    "it",
+    .else_usual = "head-spot, or the place in the rack", .is_list = true);
 const option_row option_balls = {
     .name = "balls",
     .argument = "X,Y:...",
@@ -81,8 +82,9 @@ const option_row option_cue_ball = {
     .field = offsetof(shoot_flags, own),
     .part = CAROM_PART_BALL};
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
-    "direction of the cue, counterclockwise from +x; 90 (default) is along the table. With side "
-    "spin the ball leaves a little beside it, because of squirt");
+    "direction of the cue, counterclockwise from +x; 90 is along the table. With side spin the "
+    "ball leaves a little beside it, because of squirt",
+    .usual = "90", .is_list = true);
 ROW(option_to, "to", to, "X,Y", set_places, MEASURE_PLACE,
     "instead of --aim: the cue ball leaves towards this place, because carom corrects for squirt. "
     "The place is written as in --cue, 4d,6d or foot-right; several with colons, 4d,6d:4d,7d. Spin "
@@ -101,12 +103,15 @@ ROW(option_via, "via", via, "BALL|RAIL,...", set_text, 0,
     "this rail at ball 1, the ball of --pocket. Rails are head, foot, left and right");
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|thin|DEGREES", set_values,
     MEASURE_CUT,
-    "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0). Of a rack, "
-    "without --at-ball, the cue ball meets the ball in front");
+    "cut angle, as in `carom hit`: above 0 the ball goes to the left. Of a rack, without --at-ball, the "
+    "cue ball meets the ball in front",
+    .usual = "0", .is_list = true);
 ROW(option_shot_speed, "speed", speed, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
-    "speed of the cue just before the strike, m/s, or with a unit: mph, km/h, ft/s, in/s (default "
-    "2; with --pocket the least of 2, 3, 4.5 and 6.5 with which the ball falls). A word "
-    "is the speed of the ball after the strike: " SPEEDS);
+    "speed of the cue just before the strike, m/s, or with a unit: mph, km/h, ft/s, in/s. A "
+    "word is the speed of the ball after the strike: " SPEEDS,
+    .usual = "2",
+    .else_usual = "with --pocket the least of 2, 3, 4.5 and 6.5 with which the ball falls",
+    .is_list = true);
 ROW(option_ball_speed, "ball-speed", ball_speed, "V", set_values, MEASURE_SPEED,
     "instead of --speed: speed of the cue ball just after the strike of a level cue; a raised cue "
     "strikes as fast as the level one would");
@@ -115,24 +120,29 @@ ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "12mm,0 or 50%,0 of english; or in words: centre, left, right, high, low, low-left, at 0.5 R; "
     "several with colons, or ranges: 0,-0.4:0.4:0.2. Right is positive, as it is for "
     "english everywhere in "
-    "this command (default 0,0.25). Beyond 0.5 R a chalked tip slips off the ball, and carom "
-    "warns");
+    "this command. Beyond 0.5 R a chalked tip slips off the ball, and carom warns",
+    .usual = "0,0.25", .is_list = true);
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELEVATION,
-    "elevation of the butt of the cue (default 0). With a --pocket it may be least: as little as "
-    "the stick needs to clear the cushions and balls behind the cue ball");
+    "elevation of the butt of the cue. With a --pocket it may be least: as little as the stick needs "
+    "to clear the cushions and balls behind the cue ball",
+    .usual = "0", .is_list = true);
 ROW(option_tip_time, "tip-time", own, "SECONDS", set_cue_number, 0,
-    "how long the tip of a raised cue presses the ball on the slate, at most 0.01 (default 0.001, "
-    "for leather; 0.0008 for hard resin, with which balls jump). -1: no time");
+    "how long the tip of a raised cue presses the ball on the slate, at most 0.01: 0.001 for "
+    "leather, 0.0008 for hard resin, with which balls jump. -1: no time",
+    .else_usual = "0.001");
 ROW(option_tip_restitution, "tip-restitution", own, "E", set_cue_number, 0,
     "restitution of the tip and the ball, above 0 to 1: the speed of the ball is proportional to 1 "
-    "+ E (default 0.73, for leather; 0.85 for phenolic resin; 1 in pooltool)");
+    "+ E: 0.73 for leather, 0.85 for phenolic resin, 1 in pooltool",
+    .else_usual = "0.73");
 ROW(option_json, "json", json, NULL, set_flag, 0,
     "print the shot as a line of JSON for a file, instead of playing it. The line has pooltool's "
     "sign: a > 0 is left");
 
 #define GAP_HELP \
-  "gap between neighbours of a rack, m, or with a unit: 0.1mm (the default); 0 is a frozen rack"
-#define SEED_HELP "seed of the random numbers that move and place the balls of a rack (default 1)"
+  "gap between neighbours of a rack, m, or with a unit; 0 is a frozen rack", .usual = "0.1mm", \
+      .is_list = true
+#define SEED_HELP "seed of the random numbers that move and place the balls of a rack", .usual = "1", \
+                  .is_list = true
 ROW(option_gap, "gap", gap, "G", set_values, MEASURE_LENGTH, GAP_HELP);
 ROW(option_seed, "seed", seed, "N", set_values, MEASURE_NUMBER, SEED_HELP);
 /* Where the balls lie once, or a seed is that of the first rack of many. */
@@ -575,19 +585,19 @@ static bool options_agree(shoot_flags *f) {
 /* Fills in what is not given: carom_cue_of() says the same. */
 static void fill_defaults(shoot_flags *f) {
   if (f->at_ball != NULL && f->cut.count == 0)
-    values_default(&f->cut, MEASURE_CUT, "0");
+    fill_usual(f, &option_shot_cut);
   if (f->aim.count == 0 && f->cut.count == 0)
-    values_default(&f->aim, MEASURE_ANGLE, "90");
+    fill_usual(f, &option_aim);
   if (f->speed.count == 0)
-    values_default(&f->speed, MEASURE_SPEED, "2");
+    fill_usual(f, &option_shot_speed);
   if (f->gap.count == 0)
-    values_default(&f->gap, MEASURE_LENGTH, "0.0001");
+    fill_usual(f, &option_gap);
   if (f->seed.count == 0)
-    values_default(&f->seed, MEASURE_NUMBER, "1");
+    fill_usual(f, &option_seed);
   if (f->elevation.count == 0)
-    values_default(&f->elevation, MEASURE_ELEVATION, "0");
+    fill_usual(f, &option_elevation);
   if (f->tip.count == 0)
-    f->tip = (place_list){.count = 1, .at = {{.y = {.x = 0.25}}}};
+    fill_usual(f, &option_tip);
 }
 
 static bool gap_is_valid(double gap) {
