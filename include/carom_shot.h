@@ -311,7 +311,7 @@ typedef struct carom_shot_ball {
   carom_ball_state state;
 } carom_shot_ball;
 
-/* Games, for their balls and cues. docs/understanding/constants.md has the source of each number.
+/* Games, for their balls and cues. docs/reference/constants.md has the source of each number.
  * The numbers of the cushion belong to the default model of the world carom: the smooth model for
  * the first three games, Han's model for those of pooltool. carom_ball_kind_for() has the numbers
  * for other models. */
@@ -688,7 +688,7 @@ CAROM_API int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion,
                                   carom_ball_kind *kind);
 
 /* Conditions of a pool table, for players who do not measure theirs: carom_calibrate() does.
- * docs/understanding/constants.md has the sources. */
+ * docs/reference/constants.md has the sources. */
 typedef enum carom_condition {
   CAROM_CONDITION_SLOW_CLOTH = 0,
   CAROM_CONDITION_MEDIUM_CLOTH = 1, /* that of CAROM_GAME_POOL */

@@ -1,5 +1,5 @@
 """cushions.py LIBRARY MEASURED.csv, which `carom-lab published --cushions` runs: the
-cushions of pool and snooker in tables of Markdown, for docs/understanding.
+cushions of pool and snooker in tables of Markdown, for docs/.
 
 1. The errors of the sets of data/pool_systems.csv on the three tables of pool.
 2. The sizes of pockets by speed, beside those of Alciatore's TP 3.5 and TP 3.6.

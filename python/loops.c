@@ -372,7 +372,7 @@ void carom_python_cuts(const double *samples, const double *weight, int n, int l
  * friction the motion is quadratic and the cubic exact. A ball that rolls against drag, whose
  * deceleration is A + k v^2, is off by |d^4 r/dt^4| T^4 / 384 = 2 k (A + 3 k v^2)(A + k v^2) T^4
  * / 384 at most. Its pieces last at most 1 s, so that is 1.2e-6 m at 2 m/s with the k and A of
- * docs/understanding/constants.md, and 2e-5 m at 5 m/s. */
+ * docs/reference/constants.md, and 2e-5 m at 5 m/s. */
 
 enum {
   EVENTS_MOST = 400,

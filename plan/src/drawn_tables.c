@@ -10,7 +10,7 @@
  * Alciatore gives for pool tables, "physical properties" at billiards.colostate.edu
  * (data/measured.csv): restitution 0.6 to 0.9, rolling 0.005 to 0.015, sliding 0.15 to 0.4. The
  * friction of cushions was measured as 0.14 (Mathavan 2010) and 0.255
- * (docs/understanding/constants.md), of one table each. So `unsure` 1 is a player who knows nothing
+ * (docs/reference/constants.md), of one table each. So `unsure` 1 is a player who knows nothing
  * of this table but that it is one. */
 #include "drawn_tables.h"
 

@@ -24,7 +24,7 @@
  * the inverse masses are 1, 7/2 and 7/2, so the energy changes by P'^2/2 - c P' - D, which is
  * not above 0 for 0 <= P' <= c + sqrt(c^2 + 2 D), and D >= 0 for 0 < sigma C <= 2; sigma is at
  * most 1. Dropping the vertical velocity takes energy. The constants were read off one table:
- * docs/understanding/constants.md.
+ * docs/reference/constants.md.
  *
  * MIRROR. v_y becomes -e v_y. */
 #include "cushion/models.h"

@@ -1,4 +1,4 @@
-/* Balls and cues of the games. docs/understanding/constants.md has the source of each number. */
+/* Balls and cues of the games. docs/reference/constants.md has the source of each number. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
@@ -213,7 +213,7 @@ int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion, carom_ball_
   return own;
 }
 
-/* Conditions of a pool table; 0: the number stays. docs/understanding/constants.md has the sources
+/* Conditions of a pool table; 0: the number stays. docs/reference/constants.md has the sources
  * of the signs and of the range of mu_roll. The changes of the cushion are one standard deviation
  * of the tables that public systems of players describe, as in calibrate.c. The friction of old
  * ones has two, because with less the banks of a slower rebound come back longer, not shorter. */

@@ -152,7 +152,7 @@ static void give_facings(carom_table *t, const carom_measures *m) {
 /* Pool: the WPA's equipment specification: the middles of its ranges, mouths 4.5 to 4.625 and 5 to
  * 5.125 in, cuts 142 and 104 degrees, shelves 1 to 2.25 and 0 to 0.375 in, noses at 62.5 to 64.5 %
  * of the ball, cushions 1.875 to 2 in deep; 8 ft are those of homes, 7 ft those of bars. What it
- * leaves open, points and holes, is pooltool's. Facings and jaws: docs/understanding/constants.md.
+ * leaves open, points and holes, is pooltool's. Facings and jaws: docs/reference/constants.md.
  */
 #define WPA \
   0.03629025, 0.0492125, \

@@ -64,14 +64,14 @@ of, programs = (
 )
 assert len(programs) == 2, programs
 
-# The times of README are those of speed.md, rounded.
+# The times of README are those of accuracy.md, rounded.
 rows = re.findall(
     r"^\|.*\| ([\d,]+) \| \d+ \| ", (SOURCE / "README.md").read_text(encoding="utf-8"), flags=re.M
 )
 measured = {
     round(float(number))
     for number in re.findall(
-        r"\b\d+\.\d+\b", (SOURCE / "docs/understanding/speed.md").read_text(encoding="utf-8")
+        r"\b\d+\.\d+\b", (SOURCE / "docs/understanding/accuracy.md").read_text(encoding="utf-8")
     )
 }
 assert len(rows) == 4 and all(int(row.replace(",", "")) in measured for row in rows), rows

@@ -255,37 +255,41 @@ static double *field_of(carom_ball_kind *kind, const char *name) {
   ck_abort_msg("there is no field %s", name);
 }
 
-/* Those of a game for another model of the cushion are the second table of that page, which no
- * other number of the ball differs from. */
+/* Those of a game for another model of the cushion are the table of that page whose rows name a
+ * game and its models; no other number of the ball differs. */
 TEST(constants_of_cushions) {
   static const char *const games[] = {"pool", "snooker", "billiard"};
-  FILE *file = fopen(CAROM_TEST_DATA "/../docs/understanding/constants.md", "r");
+  FILE *file = fopen(CAROM_TEST_DATA "/../docs/reference/constants.md", "r");
   ck_assert_ptr_nonnull(file);
-  char line[500], game[40], model[40];
+  char line[500], game[40], models[40];
   double mu, e, nose, loss;
   bool told[3][7] = {{0}};
   while (fgets(line, sizeof line, file) != NULL) {
-    if (sscanf(line, "| %39[a-z] | %39[a-z] | %lf | %lf | %lf%*[^|]| %lf |", game, model, &mu, &e,
-               &nose, &loss) != 6)
+    if (sscanf(line, "| %39[a-z] | %39[a-z, ] | %lf | %lf | %lf%*[^|]| %lf |", game, models, &mu,
+               &e, &nose, &loss) != 6)
       continue;
-    int g = 0, m = 0;
+    int g = 0;
     while (g < 3 && strcmp(games[g], game) != 0)
       g++;
-    while (m < 7 && strcmp(carom_word(CAROM_WORDS_SHOT_CUSHION, m), model) != 0)
-      m++;
-    ck_assert_msg(g < 3 && m < 7, "%s", line);
-    carom_ball_kind kind, usual = carom_ball_kind_of((carom_game)g);
-    ck_assert_int_eq(carom_ball_kind_for((carom_game)g, (carom_shot_cushion)m, &kind), 1);
-    const bool logs = g == CAROM_GAME_SNOOKER && m == CAROM_SHOT_CUSHION_HAN,
-               ratio = g == CAROM_GAME_POOL && m == CAROM_SHOT_CUSHION_STRONGE;
-    ck_assert_msg(kind.mu_cushion == mu && kind.restitution_cushion == e &&
-                      kind.nose_height == nose && kind.roll_loss == loss && kind.smooth_q == 0 &&
-                      kind.roll_loss_log == 0 && kind.restitution_log == (logs ? 0.0079 : 0.0) &&
-                      kind.restitution_log2 == (logs ? -0.0948 : 0.0) &&
-                      kind.omega_ratio == (ratio ? 1.96 : 0.0) && kind.mass == usual.mass &&
-                      kind.mu_slide == usual.mu_slide && kind.law_b == usual.law_b,
-                  "%s", line);
-    told[g][m] = true;
+    ck_assert_msg(g < 3, "%s", line);
+    for (char *model = strtok(models, ", "); model != NULL; model = strtok(NULL, ", ")) {
+      int m = 0;
+      while (m < 7 && strcmp(carom_word(CAROM_WORDS_SHOT_CUSHION, m), model) != 0)
+        m++;
+      ck_assert_msg(m < 7, "%s", line);
+      carom_ball_kind kind, usual = carom_ball_kind_of((carom_game)g);
+      ck_assert_int_eq(carom_ball_kind_for((carom_game)g, (carom_shot_cushion)m, &kind), 1);
+      const bool logs = g == CAROM_GAME_SNOOKER && m == CAROM_SHOT_CUSHION_HAN,
+                 ratio = g == CAROM_GAME_POOL && m == CAROM_SHOT_CUSHION_STRONGE;
+      ck_assert_msg(kind.mu_cushion == mu && kind.restitution_cushion == e &&
+                        kind.nose_height == nose && kind.roll_loss == loss && kind.smooth_q == 0 &&
+                        kind.roll_loss_log == 0 && kind.restitution_log == (logs ? 0.0079 : 0.0) &&
+                        kind.restitution_log2 == (logs ? -0.0948 : 0.0) &&
+                        kind.omega_ratio == (ratio ? 1.96 : 0.0) && kind.mass == usual.mass &&
+                        kind.mu_slide == usual.mu_slide && kind.law_b == usual.law_b,
+                    "%s", line);
+      told[g][m] = true;
+    }
   }
   fclose(file);
 
@@ -303,40 +307,54 @@ TEST(constants_of_cushions) {
   ck_assert_int_eq(carom_ball_kind_for(CAROM_GAME_BILLIARD, (carom_shot_cushion)99, NULL), 0);
 }
 
+/* Whether the head of a table names a game, alone in its column or with others. */
+static bool head_names(const char *head, const char *game) {
+  const size_t length = strlen(game);
+  for (const char *found = strstr(head, game); found != NULL; found = strstr(found + 1, game))
+    if (found[-1] == ' ' && (found[length] == ' ' || found[length] == ','))
+      return true;
+  return false;
+}
+
 /* Every number of every game stands, with its source, in the tables of
- * docs/understanding/constants.md, and is that number; what does not stand there is 0. */
+ * docs/reference/constants.md, and is that number; what does not stand there is 0. */
 TEST(constants) {
   static const char *const games[] = {"pool",          "snooker",          "billiard",
                                       "pooltool_pool", "pooltool_snooker", "pooltool_billiard"};
-  FILE *file = fopen(CAROM_TEST_DATA "/../docs/understanding/constants.md", "r");
+  FILE *file = fopen(CAROM_TEST_DATA "/../docs/reference/constants.md", "r");
   ck_assert_ptr_nonnull(file);
-  char line[500], game[40], field[40], kind[40];
+  char line[500], field[40], kind[40];
   carom_ball_kind told[6] = {{0}};
-  int lines = 0;
+  int lines = 0, of[6], count = 0; /* the games of this table */
   while (fgets(line, sizeof line, file) != NULL) {
-    /* one number of a game, or a field of the three games of pooltool */
-    double numbers[3], over = 1.0;
-    int first = 0, count = 1;
-    if (sscanf(line, "| %39[a-z_] | %39[a-z_0-9] | %lf / %lf | %39[a-z] |", game, field, numbers,
-               &over, kind) == 5 ||
-        (over = 1.0, sscanf(line, "| %39[a-z_] | %39[a-z_0-9] | %lf | %39[a-z] |", game, field,
-                            numbers, kind) == 4)) {
-      while (first < 6 && strcmp(games[first], game) != 0)
-        first++;
-    } else if (sscanf(line, "| %39[a-z_] | %lf | %lf | %lf | %39[a-z] |", field, numbers,
-                      numbers + 1, numbers + 2, kind) == 5) {
-      first = 3;
-      count = 3;
-    } else
+    if (strncmp(line, "| field |", 9) == 0)
+      for (int g = 0; g < 6; g++)
+        if (head_names(line, games[g]))
+          of[count++] = g;
+    if (line[0] != '|')
+      count = 0;
+    if (count == 0)
       continue;
-    ck_assert_msg(strcmp(kind, "measured") == 0 || strcmp(kind, "range") == 0 ||
-                      strcmp(kind, "rules") == 0 || strcmp(kind, "convention") == 0,
-                  "%s", line);
-    ck_assert_msg(first < 6, "%s", line);
+
+    /* one number for all games of the table, or one for each of three */
+    double numbers[3], over = 1.0;
+    const bool each = sscanf(line, "| %39[a-z_0-9] | %lf | %lf | %lf |", field, numbers,
+                             numbers + 1, numbers + 2) == 4;
+    if (!each &&
+        sscanf(line, "| %39[a-z_0-9] | %lf / %lf | %39[a-z] |", field, numbers, &over, kind) != 4 &&
+        sscanf(line, "| %39[a-z_0-9] | %lf | %39[a-z] |", field, numbers, kind) != 3)
+      continue;
+    if (each)
+      ck_assert_msg(count == 3, "%s", line);
+    else
+      ck_assert_msg(strcmp(kind, "measured") == 0 || strcmp(kind, "fitted") == 0 ||
+                        strcmp(kind, "range") == 0 || strcmp(kind, "rules") == 0 ||
+                        strcmp(kind, "convention") == 0,
+                    "%s", line);
     for (int k = 0; k < count; k++) {
-      double *place = field_of(&told[first + k], field);
+      double *place = field_of(&told[of[k]], field);
       ck_assert_msg(*place == 0.0, "told twice: %s", line);
-      *place = numbers[k] / over;
+      *place = numbers[each ? k : 0] / over;
       lines++;
     }
   }

@@ -480,7 +480,7 @@ def balls(
         Velocities, m/s, and angular velocities, rad/s.
     game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
         Whose balls they are: the defaults of the fields of `carom.dtypes.ball_kind`, which follow.
-        docs/understanding/constants.md has the source of each number: those of billiard are
+        docs/reference/constants.md has the source of each number: those of billiard are
         measured, with drag and loss of roll; pooltool_... are pooltool's figures.
     cushion_model
         The model of the cushion whose constants they have, as of `simulate`. A warning tells where

@@ -88,7 +88,7 @@ export type Bank = C.Bank;
 export type Calibration = C.Calibration;
 
 /**
- * A game: whose balls, cloth and cue. docs/understanding/constants.md has the source of each
+ * A game: whose balls, cloth and cue. docs/reference/constants.md has the source of each
  * number.
  */
 export type Game = C.Game;

@@ -52,7 +52,7 @@ def _own(model: int) -> Constants:
 
 def _starts() -> dict[str, Constants]:
     """What a fit begins with, by the models of the cushion: single impacts on the table of
-    CAROM_GAME_BILLIARD told it (docs/understanding/constants.md), whose other constants stand in
+    CAROM_GAME_BILLIARD told it (docs/reference/constants.md), whose other constants stand in
     for what a recording does not tell.
     """
     found, kind = {}, ffi.new("carom_ball_kind *")
