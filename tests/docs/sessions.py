@@ -22,7 +22,6 @@ NEEDS = {
     "python pettingzoo": ["pettingzoo"],
     "python scale": ["dask", "xarray", "pyarrow"],
     "python sb3": ["stable_baselines3"],
-    "python sampling": ["emcee", "jax", "numpyro"],
 }
 source = os.path.abspath(sys.argv[1])
 run, left_out, shown = 0, 0, 0
