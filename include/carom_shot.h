@@ -1270,7 +1270,7 @@ typedef struct carom_calibration {
  * played. `reading` are CAROM_BANKS sights, above 0 and below 8; NULL: nothing is found, and
  * comes_back is that of the ball. CAROM_OK, CAROM_ERROR_NULL, CAROM_ERROR_POSITION for another
  * reading or where a bank does not come back, or what carom_shoot() returns. It takes some 450
- * shots of one ball. docs/using/calibrate.md shows how to play the banks. */
+ * shots of one ball. docs/using/fit.md shows how to play the banks. */
 CAROM_API carom_status carom_calibrate(const carom_table *table, const carom_ball_kind *ball,
                                        const double *reading, carom_calibration *out);
 

@@ -28,8 +28,7 @@ cmake windows    docs/using/building.md's: built and run by the test platforms/w
 js            a page is a session, run in Node by the test web/package
 csharp, rust  docs/using/languages.md's: built and run by tests/bindings/game
 python        a page is a session, in the environment of the test python/installed; its kinds
-              pooltool, jax, torch, gymnasium, pettingzoo, scale, sb3 and sampling need those
-              packages
+              pooltool, jax, torch, gymnasium, pettingzoo, scale and sb3 need those packages
 """
 
 import re
@@ -67,7 +66,6 @@ KINDS |= {
         "pettingzoo",
         "scale",
         "sb3",
-        "sampling",
         "elsewhere",
     )
 }
@@ -76,10 +74,9 @@ KINDS |= {
 ELSEWHERE = {
     "docs/using/examples.md": 1,
     "docs/using/building.md": 2,
-    "docs/using/calibrate.md": 1,
+    "docs/using/fit.md": 2,
     "docs/using/python.md": 1,
     "docs/understanding/reality.md": 1,
-    "docs/using/tracks.md": 1,
     "docs/using/web.md": 1,
     "python/README.md": 1,
     "study/README.md": 1,

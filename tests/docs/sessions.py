@@ -32,7 +32,6 @@ NEEDS = {
     "python pettingzoo": ["pettingzoo"],
     "python scale": ["dask", "xarray", "pyarrow"],
     "python sb3": ["stable_baselines3"],
-    "python sampling": ["emcee", "jax", "numpyro"],
 }
 VALUE = re.compile(r"#\s+(?=[-\d('\"\[<]|(?:True|False|None)\b)(.+?)(?:: .*)?$")
 LARGE = 10  # elements of an array

@@ -17,11 +17,10 @@ VERSION = "1.1.414"
 KNOWN = [
     ("docs_using_plan", "overrides class", "methods with ... stand for those of the reader"),
     ("docs_using_scale", '"from_array"', "Dask does not declare that chunks may be a tuple"),
-    ("docs_using_tracks", 'parameter "game"', "a fit's constants are unpacked, and name no game"),
-    ("docs_using_tracks", 'parameter "cushion_model"', "the same"),
-    ("docs_using_tracks", 'parameter "conditions"', "the same"),
+    ("docs_using_fit", 'parameter "game"', "a fit's constants are unpacked, and name no game"),
+    ("docs_using_fit", 'parameter "cushion_model"', "the same"),
+    ("docs_using_fit", 'parameter "conditions"', "the same"),
     ("docs_using_python", '"backward"', "PyTorch is not installed"),
-    ("docs_using_posteriors", 'attribute of "None"', "emcee declares that a chain may be None"),
 ]
 source, work = Path(sys.argv[1]), Path(sys.argv[2])
 sys.path.insert(0, str(source / "tests/docs"))

@@ -486,7 +486,7 @@ def balls(
         The model of the cushion whose constants they have, as of `simulate`. A warning tells where
         the game has none for it.
     conditions : sequence of str
-        Conditions of a pool table, such as ("fast_cloth", "old_cushion"); docs/using/calibrate.md
+        Conditions of a pool table, such as ("fast_cloth", "old_cushion"); docs/using/fit.md
         lists them. Numbers that are given besides replace theirs.
     **kind : array_like, shape (...)
         Numbers of `carom.dtypes.ball_kind`, by their names.

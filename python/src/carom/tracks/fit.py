@@ -3,7 +3,7 @@
     python -m carom.fit TRACKS.csv --table 2.84,1.42 --radius 0.03075 -o fit.json
 
 or, in Python, `carom.fit.fit(carom.tracks.read("TRACKS.csv"), (2.84, 1.42), 0.03075)`.
-docs/using/tracks.md explains the method and what the numbers mean.
+docs/using/fit.md explains the method and what the numbers mean.
 """
 
 from __future__ import annotations
