@@ -82,6 +82,7 @@ ELSEWHERE = {
     "docs/start/javascript.md": 3,
     "docs/start/player.md": 2,
     "docs/start/python.md": 1,
+    "docs/contributing/extending.md": 1,
 }
 
 # What may be indented instead: formulas and what programs print, but no line that one would paste.
