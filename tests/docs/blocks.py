@@ -10,7 +10,7 @@ sh conan, sh wheel   docs/using/building.md's and python.md's: run by the tests 
                      python/sdist
 console       commands and what they print: run and compared by shown.py
 sh elsewhere, python elsewhere   not run here but by others: ./test by who reads this, pip by the
-                                 test python/installed, cmake by every build, the scripts of
+                                 test python/installed, cmake and ctest by every build, the scripts of
                                  python/examples by the test of that name; a cluster of many
                                  machines by who has one
 sh program    README's and docs/using/building.md's: compile README's block of C in readme.py,
