@@ -27,6 +27,7 @@ FOLDERS = {
     "Using": "docs/using",
     "Understanding": "docs/understanding",
     "Study": "docs/study",
+    "Contributing": "docs/contributing",
 }
 OTHERS = [
     "CHANGELOG.md",

@@ -14,7 +14,7 @@ output        what the program in the last block before it prints; `output withi
               Python
 measured on MACHINE, DATE   times of a machine, which tools/outputs.py writes anew
 sh elsewhere, python elsewhere   not run here but by others: ./test by who reads this, pip by the
-                                 test python/installed, cmake by every build, the scripts of
+                                 test python/installed, cmake and ctest by every build, the scripts of
                                  python/examples by the test of that name; a cluster of many
                                  machines by who has one
 sh program    README's and docs/using/building.md's: compile README's block of C in readme.py,
@@ -85,6 +85,7 @@ ELSEWHERE = {
     "docs/start/javascript.md": 3,
     "docs/start/player.md": 2,
     "docs/start/python.md": 1,
+    "docs/contributing/extending.md": 1,
 }
 
 # The programs whose output a test compares.
