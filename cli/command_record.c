@@ -1,5 +1,5 @@
 /* `carom record`, `replay` and `verify`: recordings of shots that verify themselves, by
- * carom_record.h. docs/using/games.md has the format. */
+ * carom_record.h. docs/reference/files.md has the format. */
 #include "carom_record.h"
 
 #include "game/judge_match.h"

@@ -370,8 +370,9 @@ static const command_form form = {
     .usage = "[OPTIONS] IN.jsonl | --cue X,Y --aim DEGREES [OPTIONS]",
     .about =
         "Plays whole shots, from the strike of the cue until nothing moves. With a file, carom "
-        "reads tables and shots as JSON Lines (docs/using/shots.md has the format; carom ignores "
-        "recorded results) and writes each table and each shot with its events and final states. "
+        "reads tables and shots as JSON Lines (docs/reference/files.md has the format; carom "
+        "ignores recorded results) and writes each table and each shot with its events and final "
+        "states. "
         "IN may be -. With options that describe a shot, carom plays this shot and describes it in "
         "words; several values with commas give several shots, drawn over each other.\n",
     .options = (const option_row *const[]){&option_table,

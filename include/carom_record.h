@@ -2,8 +2,8 @@
  *
  * A recording is text in lines of JSON: the table, the balls, the options, and each stroke of the
  * cue with a hash of all lines up to it and of the bits in which its shot ended.
- * docs/using/games.md has the format. If you play a recording again with this library, you get the
- * same bits, or the library reports where they differ.
+ * docs/reference/files.md has the format. If you play a recording again with this library, you get
+ * the same bits, or the library reports where they differ.
  *
  *     static carom_record game;                                         // all zero
  *     static char text[CAROM_RECORD_TEXT];

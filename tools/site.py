@@ -29,6 +29,8 @@ FOLDERS = {
     "Study": "docs/study",
     "Contributing": "docs/contributing",
 }
+REFERENCE = "docs/reference"
+
 OTHERS = [
     "CHANGELOG.md",
     "CONTRIBUTING.md",
@@ -95,11 +97,8 @@ def add(page, text=None):
         return match[0]
 
     # Manuals come before what mentions them in passing.
-    put(
-        page,
-        ("---\nsearch: {boost: 2}\n---\n\n" if page.startswith("docs/using/") else "")
-        + LINK.sub(target, text),
-    )
+    manual = page.startswith(("docs/using/", f"{REFERENCE}/"))
+    put(page, ("---\nsearch: {boost: 2}\n---\n\n" if manual else "") + LINK.sub(target, text))
 
 
 def example(path):
@@ -212,8 +211,18 @@ navigation.append(
 for page in OTHERS:
     add(page)
 navigation.append({"In the repository": [{title(page): page} for page in OTHERS]})
-reference = [(name, page, put(page, text)) for name, page, text in pages(SOURCE)]
-navigation.append({"Reference": [{name: page} for name, page, _ in reference]})
+written = [str(page.relative_to(SOURCE)) for page in sorted((SOURCE / REFERENCE).glob("*.md"))]
+for page in written:
+    add(page)
+generated = [(name, page, put(page, text)) for name, page, text in pages(SOURCE)]
+navigation.append(
+    {
+        "Reference": [
+            *({title(page): page} for page in written),
+            *({name: page} for name, page, _ in generated),
+        ]
+    }
+)
 if EXPLORER.is_file():
     shutil.copytree(EXPLORER.parent, PAGES / "explorer")
     navigation.append({"Explorer": "explorer/index.html"})

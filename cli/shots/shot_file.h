@@ -1,4 +1,4 @@
-/* Shots in JSON Lines: tables and shots read, tables and results written. docs/using/shots.md
+/* Shots in JSON Lines: tables and shots read, tables and results written. docs/reference/files.md
  * has the format. */
 #ifndef CAROM_CLI_SHOT_FILE_H
 #define CAROM_CLI_SHOT_FILE_H

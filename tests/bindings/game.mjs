@@ -1,4 +1,4 @@
-// As game.c, in JavaScript: the recording is read here, by its page (docs/using/games.md), and
+// As game.c, in JavaScript: the recording is read here, by its page (docs/reference/files.md), and
 // played by the npm package.
 import { readFileSync } from "node:fs";
 import { load } from "../../web/npm/dist/index.js";

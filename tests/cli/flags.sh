@@ -39,7 +39,7 @@ for tip in ("0,0", "0.4,0.1", "-0.3,-0.4", "-1tip,0.5tip"):
 # A tip of phenolic resin gives the ball more speed than one of leather, the default, and one without loss more still: in proportion to 1 + e.
 speeds = [float(run("--cue", "0.6,0.8", "--speed", 3, *more).split("cue ball at ")[1].split()[0]) for more in ((), ("--tip-restitution", 0.85), ("--tip-restitution", 1))]
 print("tips:", [round(speed * 1.73 / speeds[0], 2) for speed in speeds])
-# What is not said is what carom_cue_of() says: docs/using/shots.md.
+# What is not said is what carom_cue_of() says: docs/reference/files.md.
 [(given, _)] = shots("--cue", "0.6,0.8")
 assert {key: given["cue"][key] for key in ("V0", "phi", "theta", "a", "b")} == {"V0": 2, "phi": 90, "theta": 0, "a": 0, "b": 0.25}
 print("cuts are what was asked for:", worst < 1e-6)

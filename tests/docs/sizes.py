@@ -82,7 +82,7 @@ FIGURES = [
     ("docs/using/games.md", r"`shot\.brief`, (\d+) bytes each", 1, "carom_brief_event", EXACT),
     ("docs/using/games.md", r"bytes each instead of (\d+)\)", 1, "carom_event", EXACT),
     ("docs/using/games.md", r"of `states` takes (\d+) bytes", 1, "carom_ball_state", EXACT),
-    ("docs/using/games.md", r"bytes for each ball, not (\d+)\. A", 1, "carom_shot_ball", EXACT),
+    ("docs/using/games.md", r"bytes for each ball, not (\d+)\.", 1, "carom_shot_ball", EXACT),
     ("docs/using/games.md", r"(\d+) KiB: all that the shot needs", KIB, "carom_shot_state", EXACT),
     ("docs/using/python.md", r"an event is (\d+) bytes", 1, "carom_brief_event", EXACT),
     ("docs/using/python.md", r"only states: (\d+) bytes a ball", 1, "carom_ball_state", EXACT),

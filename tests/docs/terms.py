@@ -10,7 +10,7 @@ from pathlib import Path
 
 SOURCE = Path(sys.argv[1])
 PAGE = SOURCE / "docs/using/glossary.md"
-WIDTH = 150
+WIDTH = 118
 STRING = r'"(?:[^"\\]|\\.)*"'
 
 

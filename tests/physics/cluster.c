@@ -1,6 +1,6 @@
 /* Contacts that last: carom_cluster() against closed forms, against an integration of its own by
- * the method of Runge and Kutta, against one collision, and by its symmetries. The numbers are
- * those of docs/understanding/clusters.md. */
+ * the method of Runge and Kutta, against one collision, and by its symmetries. The law is
+ * that of docs/understanding/clusters.md. */
 #include "cluster/cluster.h"
 #include "shot_support.h"
 
@@ -522,7 +522,7 @@ TEST(frozen_kiss) {
 }
 
 /* The throw of a frozen combination whose first ball a rolling one hits 30 degrees off its line:
- * "the softer you hit, the more throw", as clusters.md has it. */
+ * "the softer you hit, the more throw" (cuesportsaustralia.com.au). */
 TEST(frozen_throw) {
   static const double speed[4] = {0.5, 1.0, 2.0, 5.0}, known[4] = {5.12, 4.62, 3.22, 1.18};
   for (int k = 0; k < 4; k++) {
@@ -553,7 +553,7 @@ TEST(wing_ball_from_the_side) {
 
 /* Breaks as players make them, by clusters and pair by pair: 6 and 7 m/s of the cue, gaps of 0,
  * 0.05 and 0.1 mm, an aim that errs by up to 0.35 degrees, 0.2 in the mean square.
- * CAROM_TEST_DRAWS=300 gives the counts of clusters.md. */
+ * CAROM_TEST_DRAWS=300 gives the count of clusters.md. */
 TEST(breaks) {
   static const struct {
     const char *name;

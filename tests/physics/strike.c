@@ -1,6 +1,6 @@
 /* Strikes: pushes of balls that touch or nearly touch the cue ball against an integrator of its own
  * (strike_reference.h), limits in closed form and symmetries; a raised cue at a ball alone against
- * the same integrator; hops. docs/understanding/clusters.md has the numbers. */
+ * the same integrator; hops. docs/understanding/clusters.md has the law. */
 #include "shot/shot.h"
 #include "shot_support.h"
 #include "strike_reference.h"

@@ -377,7 +377,7 @@ TEST(no_stroke_while_balls_move) {
   ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_SHOT, NULL), CAROM_OK);
 }
 
-/* A step of the hash of lines, as games.md has it. */
+/* A step of the hash of lines, as files.md has it. */
 static uint64_t step(uint64_t h, uint64_t x) {
   h ^= x;
   return (h << 27 | h >> 37) * UINT64_C(0x9e3779b97f4a7c15);

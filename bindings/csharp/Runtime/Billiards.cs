@@ -396,7 +396,7 @@ namespace Carom {
     }
   }
 
-  /// <summary>A recording, read line by line and played: docs/using/games.md has the
+  /// <summary>A recording, read line by line and played: docs/reference/files.md has the
   /// format.</summary>
   public sealed unsafe class Recording : IDisposable {
     Record *record;

@@ -1,6 +1,6 @@
 """Recordings of games that verify themselves: `replay` plays one again and compares every bit.
 
-A recording is text, a line of JSON after the other; docs/using/games.md has the format.
+A recording is text, a line of JSON after the other; docs/reference/files.md has the format.
 `carom.Match` and the command write recordings. Shots are played with the instruction set plain,
 whose bits all machines share.
 """

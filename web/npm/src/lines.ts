@@ -1,4 +1,4 @@
-// Shots as the JSON lines that `carom shoot` reads and writes (docs/using/shots.md has the format).
+// Shots as the JSON lines that `carom shoot` reads and writes: docs/reference/files.md.
 import { games, names as NAMES, numbers as NUMBERS } from "./generated/layout.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { RulesKind } from "./generated/structs.js";

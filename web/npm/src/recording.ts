@@ -1,4 +1,5 @@
-// Recordings that are played again: the calls of carom_record.h. docs/using/games.md has the format.
+// Recordings that are played again: the calls of carom_record.h. The format is that of
+// docs/reference/files.md.
 import { CaromError } from "./error.js";
 import { layout, values } from "./generated/layout.js";
 import type { Memory, Pointer } from "./memory.js";

@@ -1,4 +1,4 @@
-//! Recordings: games that verify themselves. docs/using/games.md has the format.
+//! Recordings: games that verify themselves. docs/reference/files.md has the format.
 use crate::{
     check, count_of, status_of, sys, text, Cue, Error, Facts, Options, Shot, ShotBall, Status,
     Table,
