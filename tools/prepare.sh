@@ -1,6 +1,11 @@
 # shellcheck shell=sh
 # Sourced by run and test: what the machine needs, and how a preset is built. Expects the repository root as working folder.
 
+# print_usage SCRIPT: the comment at the head of a script.
+print_usage() {
+  sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$1"
+}
+
 say() { printf '%s\n' "$*" >&2; }
 fail() {
   say "carom: $*"

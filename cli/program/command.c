@@ -16,9 +16,12 @@
 #include <unistd.h>
 
 static void print_help(FILE *to, const program *p) {
-  fprintf(to, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n\ncommands:\n", p->name, p->about);
-  for (size_t k = 0; k < p->count; k++)
+  fprintf(to, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n", p->name, p->about);
+  for (size_t k = 0; k < p->count; k++) {
+    if (k == 0 || strcmp(p->commands[k].group, p->commands[k - 1].group) != 0)
+      fprintf(to, "\n%s:\n", p->commands[k].group);
     fprintf(to, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
+  }
   fprintf(to, "\n`%s COMMAND --help` lists its arguments,\n`%s --version` the version.\n", p->name,
           p->name);
   if (p->cites != NULL)

@@ -17,7 +17,7 @@ static inline int exit_of(bool good) {
 }
 
 typedef struct command {
-  const char *name, *text;           /* one line of help */
+  const char *group, *name, *text;   /* of the help: a heading, and one line */
   int (*run)(int argc, char **argv); /* gets its own arguments, argv[0] being its name; returns
                                         an exit code */
 } command;

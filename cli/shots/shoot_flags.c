@@ -105,7 +105,7 @@ ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|thin|DEGREES",
     MEASURE_CUT,
     "cut angle, as in `carom hit`: above 0 the ball goes to the left. Of a rack, without --at-ball, the "
     "cue ball meets the ball in front",
-    .usual = "0", .is_list = true);
+    .usual = "0", .else_usual = "only with --at-ball", .is_list = true);
 ROW(option_shot_speed, "speed", speed, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
     "speed of the cue just before the strike, m/s, or with a unit: mph, km/h, ft/s, in/s. A "
     "word is the speed of the ball after the strike: " SPEEDS,
