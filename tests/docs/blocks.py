@@ -26,6 +26,7 @@ csharp, rust  docs/using/languages.md's: built and run by tests/bindings/game
 python        a page is a session, in the environment of the test python/installed; its kinds
               pooltool, jax, torch, gymnasium, pettingzoo, scale, sb3 and sampling need those
               packages
+output        what the program of the block before prints
 """
 
 import re
@@ -50,6 +51,7 @@ KINDS = {
     "csharp",
     "rust",
     "python",
+    "output",
 }
 KINDS |= {
     f"python {need}"
@@ -71,6 +73,7 @@ ELSEWHERE = {
     "docs/using/examples.md": 1,
     "docs/using/building.md": 2,
     "docs/using/calibrate.md": 1,
+    "docs/using/pooltool.md": 1,
     "docs/using/python.md": 1,
     "docs/understanding/reality.md": 1,
     "docs/using/tracks.md": 1,
