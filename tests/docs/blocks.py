@@ -77,7 +77,6 @@ ELSEWHERE = {
     "docs/using/python.md": 1,
     "docs/understanding/reality.md": 1,
     "docs/using/tracks.md": 1,
-    "docs/using/web.md": 1,
     "python/README.md": 1,
     "study/README.md": 1,
     "docs/understanding/gradients.md": 1,
