@@ -24,8 +24,8 @@
  *     // change[i][0][1]: by how many metres the place x of ball i moves per degree of phi,
  *     // for less than reach[1] degrees
  *
- * docs/using/derivatives.md explains the meaning and the limits of tangents;
- * docs/understanding/gradients.md has the equations and the measured errors.
+ * docs/using/derivatives.md explains the meaning and the limits of tangents, and has the equations
+ * and the measured errors.
  *
  * Units are those of carom_shot.h; the angles phi and theta are in degrees. Arrays are in row
  * order, with the directions last. */
@@ -123,7 +123,7 @@ typedef struct carom_tangent {
  * event, on the cloth and in flight. Only clusters are played again, once for each direction. All
  * events of a cluster have the flags and the tangent of the time of its first one, and
  * CAROM_TANGENT_CLUSTER. A touch inside it that begins to stick has no flag. Nothing is allocated.
- * Stack: 59 KiB; a batch 60. Cost: docs/understanding/gradients.md.
+ * Stack: 59 KiB; a batch 60. Cost: docs/using/derivatives.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS;
  * CAROM_ERROR_DIRECTIONS if there are not 1 to 64; CAROM_ERROR_EVENTS_LOST if shot->room was too

@@ -145,7 +145,7 @@ def places(p):
     yield "web/package-lock.json", r'("name": "carom",\s+"version": ")[^"]*(")', p["version"]
     yield "docs/using/building.md", r"(`carom/)[\d.]+(`)", p["version"]
     yield "docs/using/building.md", r"(find_package\(carom |`libcarom)[\d.]+( REQUIRED|`)", minor
-    yield "docs/using/abi.md", r"(`libcarom\.so\.)[\d.]+(`)", minor
+    yield "docs/reference/compatibility.md", r"(`libcarom\.so\.)[\d.]+(`)", minor
     for test in ("tests/install/plain", "tests/install/consumer-cmake/CMakeLists.txt"):
         yield test, r"(find_package\(carom )[\d.]+( REQUIRED)", minor
 

@@ -42,10 +42,11 @@ OTHERS = [
 ]
 FIRST = [
     "player",
+    "play",
     "command",
     "questions",
     "python",
-    "web",
+    "javascript",
     "games",
     "examples",
     "shots",

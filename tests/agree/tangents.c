@@ -1,5 +1,5 @@
 /* Derivatives against differences (tangent_support.h). With CAROM_TEST_DRAWS=100 the program prints
- * the tables of docs/understanding/gradients.md: errors and costs.
+ * the tables of docs/using/derivatives.md: errors and costs.
  *
  * carom_collide() is single precision in parts, whose noise makes false plateaus; so the shots
  * of the exact model call the precise solver here, by carom_trace() (the linker wraps

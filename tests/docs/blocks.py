@@ -42,7 +42,6 @@ KINDS = {
     "sh conan",
     "sh wheel",
     "console",
-    "output",
     "measured",
     "sh elsewhere",
     "c",
@@ -55,6 +54,7 @@ KINDS = {
     "csharp",
     "rust",
     "python",
+    "output",
 }
 KINDS |= {
     f"python {need}"
@@ -75,12 +75,12 @@ ELSEWHERE = {
     "docs/using/examples.md": 1,
     "docs/using/building.md": 2,
     "docs/using/fit.md": 2,
+    "docs/using/derivatives.md": 1,
+    "docs/using/pooltool.md": 1,
     "docs/using/python.md": 1,
     "docs/understanding/reality.md": 1,
-    "docs/using/web.md": 1,
     "python/README.md": 1,
     "study/README.md": 1,
-    "docs/understanding/gradients.md": 1,
     "docs/start/c.md": 3,
     "docs/start/javascript.md": 3,
     "docs/start/player.md": 2,

@@ -68,7 +68,7 @@ with tempfile.TemporaryDirectory() as work:
         "web/page/package.json",
         "web/package-lock.json",
         "docs/using/building.md",
-        "docs/using/abi.md",
+        "docs/reference/compatibility.md",
         "tests/install/plain",
         "tests/install/consumer-cmake/CMakeLists.txt",
         "tests/install/consumer-cmake/consumer.c",
@@ -234,7 +234,7 @@ with tempfile.TemporaryDirectory() as work:
         ("web/package-lock.json", '"0.77.0"'),
         ("docs/using/building.md", "carom/0.77.0`"),
         ("docs/using/building.md", "`libcarom0.77`"),
-        ("docs/using/abi.md", "libcarom.so.0.77`"),
+        ("docs/reference/compatibility.md", "libcarom.so.0.77`"),
         ("tests/install/plain", "(carom 0.77 "),
     ):
         assert text in (work / part).read_text(encoding="utf-8"), part

@@ -2,12 +2,11 @@
 headers tell is that of what has been built.
 
 native: structs, the stack and the shared library of an optimised build by gcc. installed: the
-library that tests/docs/readme.py has installed. web: the package and the page. A figure in bytes
+library that tests/docs/readme.py has installed. web: the package. A figure in bytes
 that stands in no row below fails. UPDATE=1 writes the measured figures.
 """
 
 import gzip
-import json
 import math
 import os
 import re
@@ -97,11 +96,8 @@ FIGURES = [
     ("docs/using/scale.md", r"its final states ([\d.]+) kB", KB / 10, "carom_ball_state", 0.02),
     ("docs/using/building.md", r"library takes ([\d.]+) MB with all", MB, "library", 0.15),
     ("docs/using/building.md", r"([\d.]+) MB with `none`", MB, "library with none", 0.15),
-    ("docs/using/web.md", r"loads one of them: (\d+) kB", KB, "package simd", 0.05),
-    ("docs/using/web.md", r"with vectors, (\d+) kB", KB, "package plain", 0.05),
-    ("docs/using/web.md", r"tarball with both has at most (\d+) kB", KB, "tarball", MOST),
-    ("docs/using/web.md", r"three.js, is ([\d.]+) MB", MB, "page", 0.05),
-    ("docs/using/web.md", r"three.js, is [\d.]+ MB, (\d+) kB", KB, "page compressed", 0.05),
+    ("docs/using/javascript.md", r"loads one of them: (\d+) kB", KB, "package simd", 0.05),
+    ("docs/using/javascript.md", r"with vectors, (\d+) kB", KB, "package plain", 0.05),
 ]
 # Figures in bytes that are no size of anything that is built: the promise of unit/stack, a double,
 # and what follows from other figures.
@@ -136,21 +132,12 @@ def web(source):
     def compressed(*files):
         return len(gzip.compress(b"".join(file.read_bytes() for file in files), 9))
 
-    dist, page = Path(source, "web/npm/dist"), Path(source, "web/page/dist/index.html")
+    dist = Path(source, "web/npm/dist")
     common = [*sorted(dist.glob("*.js")), dist / "generated/layout.js"]
-    packages = {
+    return {
         f"package {build}": compressed(*common, dist / f"generated/{build}.js")
         for build in ("simd", "plain")
     }
-    packed = subprocess.run(
-        ["npm", "pack", "--dry-run", "--json"],
-        cwd=Path(source, "web/npm"),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        check=True,
-    ).stdout
-    packages["tarball"] = json.loads(packed)[0]["size"]
-    return {**packages, "page": page.stat().st_size, "page compressed": compressed(page)}
 
 
 def check(source, mode, *where):
@@ -192,7 +179,7 @@ def check(source, mode, *where):
                 text.startswith(other, size.start()) for other in OTHERS
             ):
                 wrong.append(f"{name}: '{size[0]}' stands in no row of tests/docs/sizes.py")
-    assert count >= {"native": 21, "installed": 1, "web": 5}[mode], count
+    assert count >= {"native": 21, "installed": 1, "web": 2}[mode], count
     if wrong and os.environ.get("UPDATE") != "1":
         sys.exit("\n".join(wrong) + "\nUPDATE=1 writes the measured figures")
     print(f"{count} sizes")

@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { expect, test, vi } from "vitest";
 import { root } from "./support.js";
 
-test.each(["README.md", "docs/start/javascript.md", "docs/using/web.md", "web/npm/README.md"])(
+test.each(["README.md", "docs/start/javascript.md", "docs/using/javascript.md", "web/npm/README.md"])(
   "JavaScript of %s",
   async (page) => {
     const blocks = [
