@@ -475,7 +475,7 @@ int command_break(int argc, char **argv) {
   static carom_cue stroke[MOST_STROKES];
   static shot_line line;
   static values gaps;
-  job = (break_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"},
+  job = (break_job){.from = {.shared = {.options = COMMAND_OPTIONS},
                              .balls = {.rack = CAROM_RACK_EIGHTBALL}}};
   const int parsed = parse_arguments(&form, argc, argv, &job, NULL);
   if (parsed >= 0)

@@ -44,6 +44,7 @@ OPTION(calibrate_job, calibrate_plot, "plot", picture, 0, "OUT", set_picture, 0,
 
 static const command_form form = {
     .name = "calibrate",
+    .usual = (const option_usual[]){{"output", NULL, "none"}, {0}},
     .usage = "[OPTIONS]",
     .about =
         "Finds the restitution and the friction of a pool table's cushions from three banks that "

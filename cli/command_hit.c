@@ -289,6 +289,7 @@ static const char *law(const series *s, char text[80]) {
 
 static const command_form form = {
     .name = "hit",
+    .usual = (const option_usual[]){{"output", NULL, "- unless --plot draws curves"}, {0}},
     .usage = "[OPTIONS]",
     .about = "Computes the collision of the cue ball with a ball at rest, and describes it in "
              "words: throw, deflection, spin, and the speeds just after the collision and once the "

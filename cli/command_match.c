@@ -311,8 +311,7 @@ static bool is_of_rules(const match_job *job, const char *path) {
 int command_match(int argc, char **argv) {
   static match_job job;
   const char *path;
-  job = (match_job){.shared = {.output = "-"},
-                    .rules = -1,
+  job = (match_job){.rules = -1,
                     .table = -1};
   int code = parse_arguments(&match_form, argc, argv, &job, &path);
   if (code >= 0)

@@ -138,7 +138,7 @@ static const command_form form = {
 };
 
 int command_models(int argc, char **argv) {
-  shared_options job = {.output = "-"};
+  shared_options job = {0};
   const char *name;
   const int code = parse_arguments(&form, argc, argv, &job, &name);
   if (code >= 0)

@@ -396,7 +396,7 @@ static const command_form form = {
 int command_plan(int argc, char **argv) {
   static plan_job job;
   const char *path;
-  job = (plan_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}},
+  job = (plan_job){.from = {.shared = {.options = COMMAND_OPTIONS}},
                    .game = {.rules = NOT_GIVEN, .pocket = NOT_GIVEN}};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)

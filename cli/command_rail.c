@@ -85,10 +85,11 @@ static OPTION_SET(set_models) {
   return good;
 }
 
+#define MODEL_OF_SHOTS "smooth"
 static const option_row option_models = {
     .name = "model",
     .help = "model of the impact; `carom models NAME` describes it; smooth is that of shots",
-    .usual = "smooth",
+    .else_usual = MODEL_OF_SHOTS,
     .set = set_models,
     .field = offsetof(series, in[MODEL]),
     .least = MEASURE_MODEL,
@@ -394,6 +395,7 @@ static const char *law(const series *s, char text[80]) {
 
 static const command_form form = {
     .name = "rail",
+    .usual = (const option_usual[]){{"output", NULL, "- unless --plot draws curves"}, {0}},
     .usage = "[OPTIONS]",
     .about = "Computes the impact of a ball on a cushion, and describes it in words: the rebound "
              "angle just after and once the ball rolls, speeds, spin, and which contacts stuck or "
@@ -435,6 +437,7 @@ int command_rail(int argc, char **argv) {
                          .rail = {.model = CAROM_CUSHION_SMOOTH},
                          .options = COMMAND_OPTIONS},
                .scene = &rail};
+  values_default(&s.in[MODEL], MEASURE_MODEL, MODEL_OF_SHOTS);
   return series_command(
       &s, &form, argc, argv, ANGLE,
       "--angle is between -90 and 90 degrees; at 90 the ball moves along the cushion");

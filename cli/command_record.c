@@ -134,7 +134,7 @@ static const command_form record_form = {
 int command_record(int argc, char **argv) {
   static record_job job;
   const char *path;
-  job = (record_job){.shared = {.output = "-"}};
+  job = (record_job){0};
   int code = parse_arguments(&record_form, argc, argv, &job, &path);
   if (code >= 0)
     return code;
@@ -253,7 +253,7 @@ int command_replay(int argc, char **argv) {
   static record_job job;
   const char *path;
   recording r;
-  job = (record_job){.shared = {.output = "-"}};
+  job = (record_job){0};
   int code = parse_arguments(&replay_form, argc, argv, &job, &path);
   if (code >= 0)
     return code;

@@ -508,7 +508,7 @@ static int shoot_file(shoot_job *job, shot_file *file) {
 int command_shoot(int argc, char **argv) {
   static shoot_job job;
   const char *path;
-  job = (shoot_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}},
+  job = (shoot_job){.from = {.shared = {.options = COMMAND_OPTIONS}},
                     .events = EVENTS_USUAL};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)

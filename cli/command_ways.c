@@ -454,7 +454,7 @@ static int ways_of_file(const ways_job *job, ways_search *s, shot_file *file) {
 int command_ways(int argc, char **argv) {
   static ways_job job;
   const char *path;
-  job = (ways_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}}};
+  job = (ways_job){.from = {.shared = {.options = COMMAND_OPTIONS}}};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;

@@ -426,7 +426,8 @@ static bool write_all(const series *s, int count) {
 int series_command(series *s, const command_form *form, int argc, char **argv, int angle,
                    const char *complaint) {
   for (int k = 0; k < inputs_of(s); k++)
-    s->in[k] = (values){.count = 1, .unit = "", .at = {{.x = NAN, .given = NAN}}};
+    if (s->in[k].count == 0)
+      s->in[k] = (values){.count = 1, .unit = "", .at = {{.x = NAN, .given = NAN}}};
   const int code = parse_arguments(form, argc, argv, s, NULL), count = count_of(s);
   if (code >= 0)
     return code;

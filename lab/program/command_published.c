@@ -38,7 +38,7 @@ static const command_form form = {
 };
 
 int command_published(int argc, char **argv) {
-  published_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}};
+  published_job job = {.shared = {.options = COMMAND_OPTIONS}};
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;

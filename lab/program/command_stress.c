@@ -394,7 +394,7 @@ static const command_form form = {
 };
 
 int command_stress(int argc, char **argv) {
-  stress_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}, .seed = 1};
+  stress_job job = {.shared = {.options = COMMAND_OPTIONS}, .seed = 1};
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;

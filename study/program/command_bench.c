@@ -975,7 +975,7 @@ static int bench(bench_job *job) {
 }
 
 int command_bench(int argc, char **argv) {
-  static bench_job job = {.shared = {.precision = ANY_PRECISION, .output = "-"}};
+  static bench_job job = {.shared = {.precision = ANY_PRECISION}};
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;

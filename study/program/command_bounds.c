@@ -42,7 +42,7 @@ static const command_form form = {
 };
 
 int command_bounds(int argc, char **argv) {
-  bounds_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}, .steps = 1000};
+  bounds_job job = {.shared = {.options = COMMAND_OPTIONS}, .steps = 1000};
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;

@@ -151,7 +151,7 @@ static const command_form form = {
 };
 
 int command_experiments(int argc, char **argv) {
-  experiments_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}};
+  experiments_job job = {.shared = {.options = COMMAND_OPTIONS}};
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;

@@ -66,7 +66,7 @@ static void print_kernels(FILE *out, bool csv) {
 }
 
 int command_kernels(int argc, char **argv) {
-  kernels_job job = {.shared.output = "-"};
+  kernels_job job = {0};
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;

@@ -45,7 +45,7 @@ static const command_form form = {
 };
 
 int command_paper(int argc, char **argv) {
-  paper_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}, .budget = 60.0};
+  paper_job job = {.shared = {.options = COMMAND_OPTIONS}, .budget = 60.0};
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;

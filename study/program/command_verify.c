@@ -320,7 +320,7 @@ static const command_form form = {
 };
 
 int command_verify(int argc, char **argv) {
-  verification v = {.shared.output = "-", .way = SINGLE_CALLS, .all_pass = true};
+  verification v = {.way = SINGLE_CALLS, .all_pass = true};
   int code = parse_arguments(&form, argc, argv, &v, NULL);
   if (code >= 0)
     return code;

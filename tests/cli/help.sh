@@ -1,5 +1,5 @@
 # Help, version and the lists, as a user sees them: one sample whole, and of the others how they are wrapped.
-commands="resolve hit rail shoot plan ways break models record replay verify"
+commands=$(carom --complete | tr "\n" " ")
 try carom --help
 carom --version | sed 's/[0-9][0-9]*/N/g'
 try carom resolve --help
