@@ -77,23 +77,23 @@ static uint32_t wings_of(const carom_table *t, const carom_shot_ball *ball, int 
   return wings;
 }
 
-/* The game of a rack, the first of those that have it; NULL where carom has none. */
-static const carom_rules_about *game_of(carom_rack_kind rack, carom_rules_kind *kind) {
+/* The game of a rack, the first of those that have it; false where carom has none. */
+static bool game_of(carom_rack_kind rack, carom_rules_kind *kind) {
   const carom_rules_about *about;
   if (rack == CAROM_RACK_NINEONSPOT)
     rack = CAROM_RACK_NINEBALL;
   for (int k = 0; (about = carom_rules_about_of((carom_rules_kind)k)) != NULL; k++)
     if (about->rack == (int32_t)rack) {
       *kind = (carom_rules_kind)k;
-      return about;
+      return true;
     }
-  return NULL;
+  return false;
 }
 
 /* The rules of a rack's game, at a break; false where carom has none. */
 static bool rules_of(carom_rack_kind rack, carom_plan_rules *rules) {
   carom_rules_kind kind;
-  if (game_of(rack, &kind) == NULL)
+  if (!game_of(rack, &kind))
     return false;
   *rules = carom_plan_rules_of(kind);
   rules->state.opening = 1;
@@ -492,12 +492,11 @@ int command_break(int argc, char **argv) {
   without_bounds(&b.player);
 
   /* the rack stands on the table of its game, and breaks have a speed of their own */
-  carom_rules_kind game;
   if (job.nine_on_spot)
     b.rack = CAROM_RACK_NINEONSPOT;
   f->balls.rack = 1 + (int)b.rack;
   if (f->table.kind == 0)
-    f->table.kind = 1 + (int)game_of(b.rack, &game)->table;
+    f->table.kind = 1 + (int)table_of_rack(b.rack);
   if (f->speed.count == 0 && f->ball_speed.count == 0)
     fill_usual(f, &option_shot_speed);
   if (f->aim.count == 0 && f->cut.count == 0)

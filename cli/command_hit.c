@@ -319,7 +319,7 @@ static const command_form form = {
         "  cue-distance         how far from the contact the cue ball rests on an endless cloth, "
         "m\n"
         "  object-distance      the same of the object ball\n\n"
-        "exit code: 0; 2 for bad usage or an impossible collision\n",
+        "exit code: 0; 1 if some values are left out; 2 for bad usage or an impossible collision\n",
     .example = "carom hit --speed 1.5 --cut 30 --spin draw --plot hit.svg",
     .files = NO_FILES,
 };

@@ -10,6 +10,7 @@
 #include "program/options.h"
 #include "program/output.h"
 #include "program/words.h"
+#include "shots/shot_fault.h"
 #include "shots/shoot_aim.h"
 #include "shots/shoot_flags.h"
 #include "shots/shot_file.h"
@@ -317,6 +318,12 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   static carom_choice choices[TRIED_MOST];
   int n;
   const carom_status status = ask(job, &asked, strokes, tried, choices, &n, out);
+  char fault[FAULT_TEXT];
+  if (status != CAROM_OK && shot_fault(line, &job->from.shared.shot, fault)) {
+    free(asked.memory);
+    complain("%s:%zu: %s", file, line->number, fault);
+    return EXIT_USAGE;
+  }
   if (status != CAROM_OK) {
     free(asked.memory);
     const char *advice = "; a ball that is not given counts as potted: add it, such as 8=2d,6d, or "
@@ -404,6 +411,8 @@ int command_plan(int argc, char **argv) {
   const bool any_rules = job.game.rules == NOT_GIVEN;
   if (any_rules)
     job.game.rules = CAROM_RULES_EIGHTBALL;
+  else if (path == NULL && job.from.table.kind == 0)
+    job.from.table.kind = 1 + (int)carom_rules_about_of((carom_rules_kind)job.game.rules)->table;
   if (!are_together(&job) || !svg_possible(job.plot))
     return EXIT_USAGE;
   shot_file *file = layout_open(&job.from, path, &job.from.shared.shot, 1);

@@ -423,7 +423,7 @@ static const command_form form = {
         "  speed                just after, m/s\n"
         "  side                 side spin after, rad/s; above 0 for right\n"
         "  energy               share of the kinetic energy that is lost, %\n\n"
-        "exit code: 0; 2 for bad usage or an impossible impact\n",
+        "exit code: 0; 1 if some values are left out; 2 for bad usage or an impossible impact\n",
     .example = "carom rail --angle 0:75 --side -50,0,50% --plot rail.svg",
     .files = NO_FILES,
 };

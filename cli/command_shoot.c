@@ -77,8 +77,10 @@ OPTION(
     "from draw to follow. It plays the stroke with which most strokes of a player do this, and pot "
     "the ball of --pocket. It reports how many do, and with which speeds the cue ball ends there");
 OPTION(
-    shoot_job, option_animate, "animate", drawn.path[FILM], 0, "OUT.html", set_animation, 0,
-    "write a page that plays the shots which --plot draws; it is one file and needs nothing else");
+    shoot_job, option_animate, "animate", drawn.path[FILM], 0, "OUT.html|OUT.svg", set_animation,
+    0,
+    "write a page that plays the shots which --plot draws; it is one file and needs nothing else. "
+    "OUT.svg: a picture in which the balls of the first shot move, for pages without scripts");
 OPTION(shoot_job, option_cite, "cite", cite, 0, NULL, set_flag, 0,
        "write the sources of these models as BibTeX, and play nothing; needs no IN");
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot with this id");

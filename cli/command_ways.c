@@ -10,6 +10,7 @@
 #include "program/options.h"
 #include "program/output.h"
 #include "program/words.h"
+#include "shots/shot_fault.h"
 #include "shots/shoot_aim.h"
 #include "shots/shoot_flags.h"
 #include "shots/shot_file.h"
@@ -271,7 +272,7 @@ static bool read_pocket(const ways_search *s, const char *name, int *pocket) {
 /* Asks for the ways of a job, and sorts them; false after a complaint. */
 static bool find(const ways_job *job, ways_search *s) {
   const carom_table *t = &s->line->table->table;
-  int where;
+  char fault[FAULT_TEXT];
   if (!read_ball(s, job->ball, &s->ball) || !read_pocket(s, job->pocket, &s->pocket))
     return false;
   s->aim = TO_POT;
@@ -288,10 +289,8 @@ static bool find(const ways_job *job, ways_search *s) {
     complain("the cue ball and one more are needed, or --leave");
     return false;
   }
-  const carom_status status =
-      carom_shot_check(t, s->line->ball, s->line->count, &s->stroke[0], &s->options, &where);
-  if (status != CAROM_OK) {
-    complain("the layout cannot be played: %s", carom_status_string(status));
+  if (shot_fault(s->line, &s->options, fault)) {
+    complain("the layout cannot be played: %s", fault);
     return false;
   }
   if (!ways_find(s))
@@ -468,6 +467,8 @@ int command_ways(int argc, char **argv) {
     return EXIT_USAGE;
   }
 
+  if (job.from.table.kind == 0 && job.from.balls.rack > 0)
+    job.from.table.kind = 1 + (int)table_of_rack((carom_rack_kind)(job.from.balls.rack - 1));
   fill_strokes(&job);
   shot_file *file = layout_open(&job.from, path, &s.options, MOST_STROKES);
   if (file == NULL)

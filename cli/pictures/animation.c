@@ -16,12 +16,20 @@
 
 static const double step = 1.0 / 40.0; /* s */
 
+bool is_moving_picture(const char *path) {
+  const size_t size = strlen(path);
+  return size > 4 && strcmp(path + size - 4, ".svg") == 0;
+}
+
 OPTION_SET(set_animation) {
   const size_t size = strlen(text);
   *(const char **)field = text;
   if (size > 5 && strcmp(text + size - 5, ".html") == 0)
     return true;
-  complain("--%s writes a page whose name ends in .html, not '%s'", row->name, text);
+  if (is_moving_picture(text))
+    return true;
+  complain("--%s writes a page whose name ends in .html, or a picture in .svg, not '%s'",
+           row->name, text);
   return false;
 }
 

@@ -5,8 +5,9 @@
 
 #include "pictures/shot_picture.h"
 
-/* For a `const char *`: a name that ends in .html. */
+/* For a `const char *`: a name that ends in .html, or in .svg for a picture that moves. */
 OPTION_SET(set_animation);
+bool is_moving_picture(const char *path);
 
 /* Writes the page, which loads nothing. */
 void shots_animate(FILE *out, const played *shots, int count, const char *footer);

@@ -392,20 +392,31 @@ static bool is_possible(const series *s, int count) {
   return false;
 }
 
-/* Whether all angles are below 90 degrees, and all speeds above 0; else a complaint. */
-static bool are_in_range(const series *s, int angle, const char *complaint) {
-  const values *angles = &s->in[angle], *speeds = &s->in[SPEED_INPUT];
-  for (int k = 0; k < angles->count; k++)
-    if (!(fabs(angles->at[k].x) < 90.0)) {
-      complain("%s", complaint);
-      return false;
-    }
-  for (int k = 0; k < speeds->count; k++)
-    if (!(speeds->at[k].x > 0.0)) {
-      complain("--speed is above 0");
-      return false;
-    }
-  return true;
+static bool is_below_90(double angle) {
+  return fabs(angle) < 90.0;
+}
+static bool is_above_0(double speed) {
+  return speed > 0.0;
+}
+
+/* Takes those values out of a list that are out of range, with a complaint; returns whether any is
+ * left, and notes in `*some` that some are not. */
+static bool take_out(values *list, bool (*is_right)(double), const char *complaint, bool *some) {
+  const int all = list->count;
+  double first = 0.0;
+  list->count = 0;
+  for (int k = 0; k < all; k++)
+    if (is_right(list->at[k].x))
+      list->at[list->count++] = list->at[k];
+    else if (list->count == k)
+      first = list->at[k].given;
+  const int out = all - list->count;
+  if (out == 1)
+    complain("%s; %g is left out", complaint, first);
+  else if (out > 1)
+    complain("%s; %d values are left out, from %g on", complaint, out, first);
+  *some |= out > 0;
+  return list->count > 0;
 }
 
 /* Writes the words, the table or the rows; false after a complaint. */
@@ -428,11 +439,14 @@ int series_command(series *s, const command_form *form, int argc, char **argv, i
   for (int k = 0; k < inputs_of(s); k++)
     if (s->in[k].count == 0)
       s->in[k] = (values){.count = 1, .unit = "", .at = {{.x = NAN, .given = NAN}}};
-  const int code = parse_arguments(form, argc, argv, s, NULL), count = count_of(s);
+  const int code = parse_arguments(form, argc, argv, s, NULL);
+  bool left_out = false;
   if (code >= 0)
     return code;
-  if (!are_in_range(s, angle, complaint))
+  if (!take_out(&s->in[angle], is_below_90, complaint, &left_out) ||
+      !take_out(&s->in[SPEED_INPUT], is_above_0, "--speed is above 0", &left_out))
     return EXIT_USAGE;
+  const int count = count_of(s);
   if (s->scene->check != NULL && !s->scene->check(s))
     return EXIT_USAGE;
   if (!is_possible(s, count) || !output_possible(s->picture) || !check_all(s, count))
@@ -441,5 +455,7 @@ int series_command(series *s, const command_form *form, int argc, char **argv, i
   const bool writes = range_of(s) < 0 || s->picture == NULL || s->csv || s->asked.output != NULL;
   if (writes && !write_all(s, count))
     return EXIT_USAGE;
-  return s->picture == NULL || draw(s) ? EXIT_GOOD : EXIT_USAGE;
+  if (s->picture != NULL && !draw(s))
+    return EXIT_USAGE;
+  return left_out ? EXIT_SOME : EXIT_GOOD;
 }

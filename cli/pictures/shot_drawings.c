@@ -2,6 +2,7 @@
 #include "pictures/shot_drawings.h"
 
 #include "pictures/animation.h"
+#include "pictures/moving_picture.h"
 #include "pictures/picture.h"
 #include "program/memory.h"
 #include "program/output.h"
@@ -27,7 +28,10 @@ void drawings_draw(drawings *d, const played *shots, int count, const char *foot
     if (d->text[k] != NULL || d->path[k] == NULL)
       continue;
     FILE *out = open_text(&d->text[k], &d->size[k]);
-    how[k](out, shots, count, footer);
+    if (k == FILM && is_moving_picture(d->path[k]))
+      shot_move(out, shots, count, footer);
+    else
+      how[k](out, shots, count, footer);
     close_text(out, &d->text[k]);
   }
 }

@@ -189,9 +189,8 @@ static void draw_start(const view *v, const shot_line *line, int ball, double y)
              "fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"", colour_in(line, ball));
 }
 
-/* A ball at a place of the picture. */
-static void draw_disc(const view *v, const shot_line *line, int ball, double x, double y,
-                      const char *name) {
+void draw_disc(const view *v, const shot_line *line, int ball, double x, double y,
+               const char *name) {
   const char *colour = colour_in(line, ball);
   const double r = v->scale * line->ball[ball].kind.radius;
   svg_circle(v->out, x, y, r, "fill=\"%s\" stroke=\"#111\" stroke-width=\"0.8\"", colour);
@@ -429,11 +428,20 @@ static void draw_ends(const view *v, const played *shots, int count) {
     }
 }
 
+/* The size of the table, pixels. */
+static double width_of(const view *v) {
+  return v->scale * (fmax(v->high[0] - v->low[0], v->high[1] - v->low[1]) + 2.0 * v->margin);
+}
+
+double picture_letters(const view *v) {
+  return svg_letters(width_of(v));
+}
+
 void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   const carom_table *t = &shots[0].line->table->table;
   view v = view_of(out, t);
   static labels l;
-  const double wide = v.scale * (fmax(v.high[0] - v.low[0], v.high[1] - v.low[1]) + 2.0 * v.margin);
+  const double wide = width_of(&v);
   const double high = v.scale * (fmin(v.high[0] - v.low[0], v.high[1] - v.low[1]) + 2.0 * v.margin);
   const double letters = svg_letters(wide), left = 24.0;
   const int columns = (int)((wide - 2.0 * left) / (letter_width * letters));

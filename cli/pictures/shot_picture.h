@@ -2,6 +2,7 @@
 #ifndef CAROM_CLI_SHOT_PICTURE_H
 #define CAROM_CLI_SHOT_PICTURE_H
 
+#include "pictures/table_picture.h"
 #include "program/options.h"
 #include "shots/shot_file.h"
 #include "shots/spread.h"
@@ -17,6 +18,13 @@ typedef struct played {
 
 /* Whether the shot has this id; any has NULL. */
 bool shot_has_id(const shot_line *line, const char *id);
+
+/* Draws a ball at a place of the picture, pixels, with its name where that is a number. */
+void draw_disc(const view *v, const shot_line *line, int ball, double x, double y,
+               const char *name);
+
+/* The size of letters on a picture of a table, pixels. */
+double picture_letters(const view *v);
 
 /* Draws shots of one table and layout over each other as SVG, each up to shot->time, when the
  * balls are as in shot->final. `footer` has lines to stand below. Each ball at its end is a

@@ -52,7 +52,7 @@ const option_row option_table = {
         "table, y along it. Measures change it: 9ft,corner=4.25in,side_cut=104; `carom "
         "models` lists them. 10ft is threecushion, 12ft is snooker. To use a table of your own, "
         "give a file",
-    .else_usual = "9ft",
+    .else_usual = "that of the rack, or 9ft",
     .set = set_table,
     .field = offsetof(shoot_flags, table),
     .words = CAROM_WORDS_TABLE};
@@ -263,8 +263,11 @@ typedef struct chosen_numbers {
  * complaint. */
 static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion,
                     const chosen_numbers *numbers, int which) {
-  const carom_table_kind kind =
-      f->table.kind != 0 ? (carom_table_kind)(f->table.kind - 1) : CAROM_TABLE_POOL_9FT;
+  carom_table_kind kind = CAROM_TABLE_POOL_9FT;
+  if (f->table.kind != 0)
+    kind = (carom_table_kind)(f->table.kind - 1);
+  else if (f->balls.rack > 0)
+    kind = table_of_rack((carom_rack_kind)(f->balls.rack - 1));
   l->table_name = f->table.text != NULL ? f->table.text : carom_table_name(kind);
   named_table *t = built_in_table(l->table_name, &(json_fault){{0}});
   l->table = t->table;
@@ -631,8 +634,13 @@ static int combinations_of(const shoot_flags *f, int most) {
     all *= list->count;
   if (all <= most)
     return (int)all;
-  complain("these are %.0f shots; at most %d are described and drawn at once, and %d with --csv",
-           all, MOST_SHOTS, MOST_ROWS);
+  if (most == 1)
+    complain("these are %.0f layouts, and a plan takes one; `carom shoot --json` writes them as a "
+             "file of shots",
+             all);
+  else
+    complain("these are %.0f shots; at most %d are described and drawn at once, and %d with --csv",
+             all, MOST_SHOTS, MOST_ROWS);
   return 0;
 }
 

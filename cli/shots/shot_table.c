@@ -103,6 +103,14 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
   return true;
 }
 
+carom_table_kind table_of_rack(carom_rack_kind rack) {
+  const char *game = carom_word(CAROM_WORDS_RACK, (int)rack), *name;
+  for (int kind = 0; (name = carom_table_name((carom_table_kind)kind)) != NULL; kind++)
+    if (strcmp(name, game) == 0)
+      return (carom_table_kind)kind;
+  return CAROM_TABLE_POOL_9FT;
+}
+
 carom_game game_of_table(carom_table_kind kind) {
   switch (kind) {
   case CAROM_TABLE_SNOOKER:

@@ -26,6 +26,9 @@ char *table_spelt(char *text);
  * cannot be, with the reason in *f, or "" if none of that name is built in. */
 named_table *built_in_table(const char *id, json_fault *f);
 
+/* The table on which a rack stands where none is given: that of its name, or the 9ft table. */
+carom_table_kind table_of_rack(carom_rack_kind rack);
+
 /* The game whose balls a table is for. */
 carom_game game_of_table(carom_table_kind kind);
 
