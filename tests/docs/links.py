@@ -3,7 +3,7 @@ if it names one.
 
 Checked are the Markdown files, links and pictures alike, and the paths of pages (docs/.../page.md)
 that sources and tests name. Links to other sites are not followed. A page of docs/ begins with a
-sentence, and says at its end where to go next. README has 156 lines at most.
+sentence, and says at its end where to go next. README has 170 lines at most.
 """
 
 import re
@@ -61,8 +61,8 @@ for file in files:
             if not (SOURCE / page).exists():
                 wrong.append(f"{name}: no page {page}")
 lines = (SOURCE / "README.md").read_text(encoding="utf-8").count("\n")
-if lines > 156:
-    wrong.append(f"README.md: {lines} lines; a newcomer reads 156 at most")
+if lines > 170:
+    wrong.append(f"README.md: {lines} lines; a newcomer reads 170 at most")
 if wrong:
     sys.exit("\n".join(wrong))
 assert links >= 50, links

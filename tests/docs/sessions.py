@@ -33,7 +33,8 @@ NEEDS = {
     "python scale": ["dask", "xarray", "pyarrow"],
     "python sb3": ["stable_baselines3"],
 }
-VALUE = re.compile(r"#\s+(?=[-\d('\"\[<]|(?:True|False|None)\b)(.+?)(?:: .*)?$")
+VALUE = re.compile(r"#\s+(?=[-\d('\"\[<]|array\(|(?:True|False|None)\b)(<.*>|.+?)(?:: .*)?$")
+WRAPPED = re.compile(r"\b(?:np\.)?(?:array|str_|bool|u?int\d+|float\d+)\(([^()]*?)\)")
 LARGE = 10  # elements of an array
 
 
@@ -49,9 +50,9 @@ def value_fits(shown, value):
     """Whether a comment shows the value of an expression."""
     if isinstance(value, np.ndarray) and value.size > LARGE:
         return shape_fits(shown, value.shape)
-    came = re.sub(r"\b(?:np\.)?(?:array|str_|bool|u?int\d+|float\d+)\(([^()]*?)\)", r"\1", repr(value))
-    words = [re.sub(r"\s", "", NUMBER.sub("#", text)) for text in (shown, came)]
-    numbers = [NUMBER.findall(text) for text in (shown, came)]
+    bare = [WRAPPED.sub(r"\1", text) for text in (shown, repr(value))]
+    words = [re.sub(r"\s", "", NUMBER.sub("#", text)) for text in bare]
+    numbers = [NUMBER.findall(text) for text in bare]
     return words[0] == words[1] and all(
         abs(float(a) - float(b)) <= (0.5 + 1e-6) * 10.0 ** -len(a.partition(".")[2])
         for a, b in zip(*numbers)
