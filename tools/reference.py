@@ -1,10 +1,11 @@
 """The pages of the site that list every call: of C from the description of the headers
 (bindings/api.py), of npm, C# and Rust from their sources, of Python by mkdocstrings. pages(SOURCE)
-gives names and texts.
+gives names and texts; options_of_command(PROGRAM) the options of `carom`, as its help has them.
 """
 
 import ast
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -264,3 +265,34 @@ def pages(source):
         "reference/rust.md",
         documented(source, files("bindings/rust/carom/src/*.rs"), slashes, "rust", "Rust", of_rust),
     )
+
+
+def options_of_command(program):
+    """A page with the help of every subcommand of a built `carom`; none without one."""
+    if not program.is_file():
+        return []
+
+    def said(*words):
+        return subprocess.run([program, *words], check=True, stdout=subprocess.PIPE, text=True).stdout
+
+    page = ["# Options of the command\n\nThese are the texts of `carom COMMAND --help`.\n"]
+    for name in said("--complete").split():
+        usage, about, *rest = said(name, "--help").split("\n\n")
+        page.append(f"## carom {name}\n\n`{usage.removeprefix('usage: ')}`\n\n{plain(about)}\n")
+        page += [option_list(part) if part.startswith("options") else details(part) for part in rest]
+    return [("Options of the command", "reference/options.md", "\n".join(page))]
+
+
+def option_list(part):
+    """Options of the help, "  -o, --output OUT  text", as a list."""
+    head, *rows = re.split(r"^  (?=-)", part, flags=re.M)
+    text = f"**{head.strip().capitalize()}**\n\n"
+    for row in rows:
+        option, _, words = re.sub(r"\s*\n\s+", "  ", row.strip()).partition("  ")
+        text += f"`{option}`\n:   {plain(words)}\n\n"
+    return text
+
+
+def details(part):
+    """A paragraph of the help: a list where its lines are indented under a head."""
+    return f"```text\n{part.rstrip()}\n```\n" if "\n  " in part else f"{plain(part)}\n"

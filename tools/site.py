@@ -18,41 +18,66 @@ import tomllib
 from importlib.metadata import distribution
 from pathlib import Path
 
-from reference import names_of_python, pages
+from reference import names_of_python, options_of_command, pages
 
 SOURCE, WORK = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 PAGES, LINK = WORK / "pages", re.compile(r"\[([^]]*)\]\(([^)\s]+)\)")
-FOLDERS = {
-    "First steps": "docs/start",
-    "Using": "docs/using",
-    "Understanding": "docs/understanding",
-    "Study": "docs/study",
-    "Contributing": "docs/contributing",
+# The navigation: what a reader wants to do, and the pages for it. A page of docs/ that no group names
+# ends the making of the site.
+GROUPS = {
+    "Play and ask": [
+        "docs/start/player.md",
+        "docs/using/play.md",
+        "docs/using/command.md",
+        "docs/using/questions.md",
+        "docs/using/diamonds.md",
+        "docs/using/glossary.md",
+    ],
+    "Write programs": [
+        "docs/start/python.md",
+        "docs/using/python.md",
+        "docs/using/pooltool.md",
+        "docs/using/scale.md",
+        "docs/start/javascript.md",
+        "docs/using/javascript.md",
+        "docs/start/c.md",
+        "docs/using/games.md",
+        "docs/using/building.md",
+        "docs/using/languages.md",
+        "docs/using/examples.md",
+    ],
+    "Plan, fit, differentiate": [
+        "docs/using/plan.md",
+        "docs/using/fit.md",
+        "docs/using/derivatives.md",
+    ],
+    "How it works": [
+        "docs/understanding/physics.md",
+        "docs/understanding/cushion.md",
+        "docs/using/shots.md",
+        "docs/understanding/clusters.md",
+        "docs/understanding/method.md",
+        "docs/understanding/accuracy.md",
+        "docs/understanding/plan.md",
+        "docs/understanding/reality.md",
+        "docs/understanding/published.md",
+    ],
+    "Study": ["docs/study/paper.md", "docs/study/measuring.md", "study/README.md"],
+    "Reference": [
+        "docs/reference/files.md",
+        "docs/reference/constants.md",
+        "docs/reference/compatibility.md",
+    ],
 }
-REFERENCE = "docs/reference"
-
-OTHERS = [
-    "CHANGELOG.md",
-    "CONTRIBUTING.md",
-    *sorted(
-        str(page.relative_to(SOURCE))
-        for room in ("cli", "data", "lab", "plan", "python", "src", "study", "tests", "web")
-        for page in (*SOURCE.glob(f"{room}/README.md"), *SOURCE.glob(f"{room}/*/README.md"))
-    ),
-]
-FIRST = [
-    "player",
-    "play",
-    "command",
-    "questions",
-    "python",
-    "javascript",
-    "games",
-    "examples",
-    "shots",
-    "physics",
-    "accuracy",
-]  # what a newcomer asks for, before the other pages
+CONTRIBUTE = ["CONTRIBUTING.md", "docs/contributing/extending.md", "CHANGELOG.md"]
+ROOMS = sorted(
+    str(page.relative_to(SOURCE))
+    for room in ("cli", "data", "lab", "plan", "python", "src", "tests", "web")
+    for page in (*SOURCE.glob(f"{room}/README.md"), *SOURCE.glob(f"{room}/*/README.md"))
+)
+# Pages that a search shows before others: manuals before mentions, and the study for its words.
+BOOSTS = {"docs/study/": 6, "docs/start/": 3, "docs/using/": 2, "docs/reference/": 2}
+PROGRAM = WORK.parent / "carom"
 EXPLORER = SOURCE / "web/page/dist/index.html"
 PACKAGE, ESBUILD = SOURCE / "web/npm/dist/index.js", SOURCE / "web/node_modules/.bin/esbuild"
 LIVE = PACKAGE.is_file() and ESBUILD.is_file()
@@ -97,9 +122,8 @@ def add(page, text=None):
             shutil.copy(to, PAGES / name)
         return match[0]
 
-    # Manuals come before what mentions them in passing.
-    manual = page.startswith(("docs/using/", f"{REFERENCE}/"))
-    put(page, ("---\nsearch: {boost: 2}\n---\n\n" if manual else "") + LINK.sub(target, text))
+    boost = next((boost for place, boost in BOOSTS.items() if page.startswith(place)), 1)
+    put(page, f"---\nsearch: {{boost: {boost}}}\n---\n\n" + LINK.sub(target, text))
 
 
 def example(path):
@@ -167,6 +191,12 @@ shutil.copytree(
 )
 (PAGES / "live").mkdir()
 shutil.copy(SOURCE / "tools/site.css", PAGES / "live")
+KATEX = WORK / "node_modules/katex/dist"
+if KATEX.is_dir():
+    shutil.copy(SOURCE / "tools/site_math.js", PAGES / "live")
+    for part in ("katex.min.css", "katex.min.js", "contrib/auto-render.min.js"):
+        shutil.copy(KATEX / part, PAGES / "live")
+    shutil.copytree(KATEX / "fonts", PAGES / "live/fonts", ignore=shutil.ignore_patterns("*.ttf", "*.woff"))
 if LIVE:
     shutil.copy(SOURCE / "tools/site_live.js", PAGES / "live")
     subprocess.run(
@@ -182,22 +212,19 @@ if LIVE:
         ],
         check=True,
     )
-navigation = [{"carom": "README.md"}]
 add("README.md")
-for name, folder in FOLDERS.items():
-    sheets = [
-        str(page.relative_to(SOURCE))
-        for page in sorted(
-            (SOURCE / folder).glob("*.md"),
-            key=lambda page: (
-                FIRST.index(page.stem) if page.stem in FIRST else len(FIRST),
-                page.stem,
-            ),
-        )
-    ]
-    for page in sheets:
-        add(page)
-    navigation.append({name: [{title(page): page} for page in sheets]})
+for page in [*sum(GROUPS.values(), []), *CONTRIBUTE, *ROOMS]:
+    add(page)
+unnamed = {str(page.relative_to(SOURCE)) for page in SOURCE.glob("docs/*/*.md")}
+unnamed -= {*sum(GROUPS.values(), []), *CONTRIBUTE}
+assert not unnamed, f"no group of tools/site.py has {unnamed}"
+navigation = {"carom": ["README.md"]}
+navigation |= {
+    name: [{title(page): page} for page in sheets] for name, sheets in GROUPS.items()
+}
+if EXPLORER.is_file():
+    shutil.copytree(EXPLORER.parent, PAGES / "explorer")
+    navigation["carom"].append({"Play now": "explorer/index.html"})
 programs = [
     *sorted((SOURCE / "examples").glob("*.c*")),
     *sorted((SOURCE / "python/examples").glob("*.py")),
@@ -206,36 +233,30 @@ programs = [
 add("examples/README.md")
 notebooks = [*map(notebook, sorted((SOURCE / "python/examples").glob("*.ipynb")))]
 made = [*notebooks, *filter(None, map(example, programs))]
-navigation.append(
-    {"Examples": [{"Programs": "examples/README.md"}, *({Path(page).stem: page} for page in made)]}
+navigation["Write programs"].append(
+    {"All programs": ["examples/README.md", *({Path(page).stem: page} for page in made)]}
 )
-for page in OTHERS:
-    add(page)
-navigation.append({"In the repository": [{title(page): page} for page in OTHERS]})
-written = [str(page.relative_to(SOURCE)) for page in sorted((SOURCE / REFERENCE).glob("*.md"))]
-for page in written:
-    add(page)
-generated = [(name, page, put(page, text)) for name, page, text in pages(SOURCE)]
-navigation.append(
-    {
-        "Reference": [
-            *({title(page): page} for page in written),
-            *({name: page} for name, page, _ in generated),
-        ]
-    }
-)
-if EXPLORER.is_file():
-    shutil.copytree(EXPLORER.parent, PAGES / "explorer")
-    navigation.append({"Explorer": "explorer/index.html"})
+generated = [*pages(SOURCE), *options_of_command(PROGRAM)]
+for _, page, text in generated:
+    put(page, text)
+navigation["Reference"] += [{name: page} for name, page, _ in generated]
+navigation["Contribute"] = [
+    *({title(page): page} for page in CONTRIBUTE),
+    {"Folders of the repository": [{f"{page.removesuffix('/README.md')}/": page} for page in ROOMS]},
+]
 
 project = tomllib.loads((SOURCE / "packaging/project.toml").read_text(encoding="utf-8"))
 settings = {
     "INHERIT": str(SOURCE / "tools/site.yml"),
     "docs_dir": str(PAGES),
     "site_dir": str(WORK / "site"),
-    "nav": navigation,
+    "nav": [{name: pages_of} for name, pages_of in navigation.items()],
     "plugins": {"mkdocstrings": {"handlers": {"python": {"paths": [str(SOURCE / "python/src")]}}}},
 }
+if KATEX.is_dir():
+    scripts = ("katex.min.js", "auto-render.min.js", "site_math.js")
+    settings["extra_javascript"] = [f"live/{script}" for script in scripts]
+    settings["extra_css"] = ["live/katex.min.css", "live/site.css"]
 # Not as repo_url, by which each page would ask that server for stars and versions.
 link = (
     f'<a href="{project["address"].removesuffix(".git")}">Sources</a>' if project["address"] else ""
@@ -278,6 +299,7 @@ for name, file in {
     "carom-NOTICE": "NOTICE",
     "webassembly": "web/npm/NOTICES",
     "mkdocs-material": theme.locate(),
+    **({"katex": KATEX.parent / "LICENSE"} if KATEX.is_dir() else {}),
 }.items():
     shutil.copy(SOURCE / file, WORK / f"site/licenses/{name}.txt")
 # A page asks no other server for a part of itself: mkdocs-material would get the search of a page
@@ -300,9 +322,11 @@ without = [
     for what, there in (
         ("programs that run in their pages", LIVE),
         ("the explorer", EXPLORER.is_file()),
+        ("the options of the command", PROGRAM.is_file()),
+        ("typeset formulas", KATEX.is_dir()),
     )
     if not there
 ]
 print(f"{len(built)} pages, {len(made)} examples: {WORK / 'site/index.html'}")
 if without:
-    print(f"without {' and '.join(without)}: ./run --web builds them, then make the site again")
+    print(f"without {' and '.join(without)}: ./run builds the command, ./run --web the page and npm; then make the site again")

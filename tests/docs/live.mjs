@@ -35,6 +35,8 @@ const PAGES = [
   "docs/using/shots.html",
   "docs/understanding/method.html",
   "docs/using/command.html",
+  "reference/options.html",
+  "docs/understanding/physics.html",
   "web/npm/examples/break_paths.mjs.html",
 ];
 const programs = readdirSync(`${site}/web/npm/examples`).filter((name) =>
@@ -115,11 +117,27 @@ const server = createServer((request, answer) => {
 });
 await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
 await page.goto(`http://127.0.0.1:${server.address().port}/index.html`);
-await page.locator("input.md-search__input").fill("squirt");
-await page.locator(".md-search-result__link").first().waitFor({ timeout: 30000 });
+const search = async (words) => {
+  await page.locator("input.md-search__input").fill(words);
+  await page.waitForTimeout(500); // in which results of the words before go
+  await page.locator(".md-search-result__link").first().waitFor({ timeout: 30000 });
+  return page
+    .locator(".md-search-result__link")
+    .evaluateAll((links) => links.map((link) => link.getAttribute("href")));
+};
+check((await search("squirt")).length >= 3, "the search for 'squirt' finds less than three pages");
+for (const words of ["ten kernels", "seed paper", "Mathavan"]) {
+  const [first] = await search(words);
+  check(/docs\/study\/paper/.test(first), `the search for '${words}' finds ${first} first`);
+}
+
+// Formulas are typeset.
+await page.goto(`http://127.0.0.1:${server.address().port}/docs/understanding/physics.html`);
+await page.waitForSelector(".katex", { timeout: 30000 });
 check(
-  (await page.locator(".md-search-result__item").count()) >= 3,
-  "the search for 'squirt' finds less than three pages",
+  (await page.locator(".arithmatex:not(:has(.katex))").count()) === 0 &&
+    (await page.locator(".katex-error").count()) === 0,
+  "a formula is not typeset",
 );
 
 // On paper: the text only, with lines that fit.

@@ -1,7 +1,11 @@
 // One look at each view in a browser: it opens without complaint, does what it is for once, and axe
 // finds nothing. ./test runs this file alone of the page's; the others run before a release, or in
 // web/ by CAROM_PAGE=whole npm test.
+import { readFileSync } from "node:fs";
+import { chromium } from "playwright-core";
 import { describe, expect, test } from "vitest";
+import { root } from "../../test/support.js";
+import { scene } from "../tools/picture.mjs";
 import { browserPath, keptGame, linesOf, pages, sizes, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("smoke", () => {
@@ -19,6 +23,13 @@ describe.runIf(browserPath !== undefined)("smoke", () => {
     const shots = linesOf(await keptGame(one), "shot");
     expect(shots[0]).toHaveProperty("speed");
     await one.close();
+  });
+
+  test("the pictures of the docs show the words of today", async () => {
+    const browser = await chromium.launch({ executablePath: browserPath!, args: ["--no-sandbox"] });
+    const { words } = await scene(browser, 1300, 800);
+    await browser.close();
+    expect(words).toBe(readFileSync(`${root}docs/figures/explorer.txt`, "utf8"));
   });
 
   test("a hint aims the stroke that it names", async () => {

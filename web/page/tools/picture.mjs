@@ -1,37 +1,47 @@
-// picture.mjs OUT.png [WIDTH HEIGHT]: a picture of the page for docs/figures/, 1300 by 800 or as
-// large as a phone; after `npm run page`.
+// picture.mjs OUT.png [WIDTH HEIGHT]: a picture of the page for docs/figures/, 1300 by 800 or as large
+// as a phone; after `npm run page`. The first of these sizes also writes the words that are seen to
+// OUT.txt, by which page/test/smoke.test.ts finds pictures that are old.
+import { writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox"],
-});
-const [out, width = 1300, height = 800] = process.argv.slice(2);
-const page = await browser.newPage({ viewport: { width: Number(width), height: Number(height) } });
-// A break of eight-ball, some time after it.
-await page.addInitScript(() =>
-  localStorage.setItem(
-    "carom-game",
-    JSON.stringify({ game: "eightball", against: "500", own: "0", seed: 4, entries: [] }),
-  ),
-);
-await page.goto(`file://${fileURLToPath(new URL("../dist/index.html", import.meta.url))}`);
-await page.waitForSelector("main[aria-busy=false]");
-await page.locator("#shoot").click();
-await page.locator("#skip").click();
-await page.waitForFunction(
-  () => /Your turn/.test(document.querySelector("#turn").textContent),
-  undefined,
-  { timeout: 60000 },
-);
-await page.locator("#hint").click();
-await page.waitForFunction(
-  () => document.querySelector("#said").textContent.startsWith("Hint: "),
-  undefined,
-  { timeout: 60000 },
-);
-await page.evaluate(() => document.activeElement?.blur());
-await page.waitForTimeout(300);
-await page.screenshot({ path: out });
-await browser.close();
+/** The page with a game of eight-ball after the break, with a hint; its words, line by line. */
+export async function scene(browser, width, height) {
+  const page = await browser.newPage({ viewport: { width, height } });
+  await page.addInitScript(() =>
+    localStorage.setItem(
+      "carom-game",
+      JSON.stringify({ game: "eightball", against: "500", own: "0", seed: 4, entries: [] }),
+    ),
+  );
+  await page.goto(`file://${fileURLToPath(new URL("../dist/index.html", import.meta.url))}`);
+  await page.waitForSelector("main[aria-busy=false]");
+  await page.locator("#shoot").click();
+  await page.locator("#skip").click();
+  const says = (id, start) =>
+    page.waitForFunction(
+      ([selector, text]) => document.querySelector(selector).textContent.includes(text),
+      [id, start],
+      { timeout: 60000 },
+    );
+  await says("#turn", "Your turn");
+  await page.locator("#hint").click();
+  await says("#said", "Hint: ");
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.waitForTimeout(300);
+  const words = await page.evaluate(() => document.body.innerText);
+  // not the version, which is no matter of a picture
+  return { page, words: `${words.replace(/carom \d+\.\d+\.\d+/, "carom").replace(/\s*\n\s*/g, "\n").trim()}\n` };
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const [out, width = 1300, height = 800] = process.argv.slice(2);
+  const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox"],
+  });
+  const { page, words } = await scene(browser, Number(width), Number(height));
+  await page.screenshot({ path: out });
+  if (Number(width) === 1300) writeFileSync(out.replace(/\.png$/, ".txt"), words);
+  await browser.close();
+}
