@@ -3,7 +3,9 @@ if it names one.
 
 Checked are the Markdown files, links and pictures alike, and the paths of pages (docs/.../page.md)
 that sources and tests name. Links to other sites are not followed. A page of docs/ begins with a
-sentence, and says at its end where to go next. README has 170 lines at most.
+sentence, and says at its end where to go next. Links read as a part of the sentence, not as the name
+of a file. README has 170 lines at most, and all pages together 45,000 words, which a reader can read
+in an evening.
 """
 
 import re
@@ -50,7 +52,9 @@ for file in files:
                 wrong.append(f"{name}: {path or name} has no heading #{anchor}")
     if file.suffix == ".md" and name.parts[0] == "docs":
         paragraphs = file.read_text(encoding="utf-8").strip().split("\n\n")
-        if not re.match(r"[A-Z]\w* .*[.:]", paragraphs[1], flags=re.S):
+        first = paragraphs[1]
+        about_itself = re.match(r"(With|On|From|In) this (page|guide)|This page", first)
+        if about_itself or not re.match(r"[A-Z]\w* .*[.:]", first, flags=re.S):
             wrong.append(
                 f"{name}: the first paragraph is no sentence that says what the reader can do"
             )
@@ -60,10 +64,21 @@ for file in files:
         for page in PAGE.findall(file.read_text(encoding="utf-8", errors="replace")):
             if not (SOURCE / page).exists():
                 wrong.append(f"{name}: no page {page}")
+manuals = [SOURCE / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")]
+manuals += sorted(SOURCE.glob("docs/*/*.md"))
+texts = {page: page.read_text(encoding="utf-8") for page in manuals}
+words = sum(len(text.split()) for text in texts.values())
+if words > 45000:
+    wrong.append(f"the pages have {words} words; 45,000 at most: who adds a page shortens others")
+wrong += [
+    f"{page.relative_to(SOURCE)}: the link {name} reads as a file name"
+    for page, text in texts.items()
+    for name in re.findall(r"\[\w+\.md\]\(", text)
+]
 lines = (SOURCE / "README.md").read_text(encoding="utf-8").count("\n")
 if lines > 170:
     wrong.append(f"README.md: {lines} lines; a newcomer reads 170 at most")
 if wrong:
     sys.exit("\n".join(wrong))
 assert links >= 50, links
-print(f"{links} links in {len(files)} files")
+print(f"{links} links in {len(files)} files, {words} words")

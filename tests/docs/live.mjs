@@ -116,11 +116,12 @@ const server = createServer((request, answer) => {
   else answer.end();
 });
 await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
-await page.goto(`http://127.0.0.1:${server.address().port}/index.html`);
 const search = async (words) => {
-  await page.locator("input.md-search__input").fill(words);
-  await page.waitForTimeout(500); // in which results of the words before go
-  await page.locator(".md-search-result__link").first().waitFor({ timeout: 30000 });
+  const [word] = words.split(" ");
+  await page.goto(`http://127.0.0.1:${server.address().port}/index.html`);
+  await page.locator("input.md-search__input").pressSequentially(words);
+  const found = page.locator(`.md-search-result__link[href*="${word}" i]`);
+  await found.first().waitFor({ timeout: 30000, state: "attached" });
   return page
     .locator(".md-search-result__link")
     .evaluateAll((links) => links.map((link) => link.getAttribute("href")));
