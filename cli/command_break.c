@@ -25,13 +25,12 @@ typedef struct break_job {
   bool csv, falls, nine_on_spot;
 } break_job;
 
-static const option_row option_rules = {
-    .name = "rules",
-    .help = "the rack, on the table of its game",
-    .else_usual = "eightball",
-    .set = set_named,
-    .field = offsetof(break_job, from.balls.rack),
-    .least = CAROM_WORDS_RACK};
+static const option_row option_rules = {.name = "rules",
+                                        .help = "the rack, on the table of its game",
+                                        .else_usual = "eightball",
+                                        .set = set_named,
+                                        .field = offsetof(break_job, from.balls.rack),
+                                        .least = CAROM_WORDS_RACK};
 
 /* --rack nineball is short for --racks. */
 static OPTION_SET(set_racks) {
@@ -475,8 +474,8 @@ int command_break(int argc, char **argv) {
   static carom_cue stroke[MOST_STROKES];
   static shot_line line;
   static values gaps;
-  job = (break_job){.from = {.shared = {.options = COMMAND_OPTIONS},
-                             .balls = {.rack = CAROM_RACK_EIGHTBALL}}};
+  job = (break_job){
+      .from = {.shared = {.options = COMMAND_OPTIONS}, .balls = {.rack = CAROM_RACK_EIGHTBALL}}};
   const int parsed = parse_arguments(&form, argc, argv, &job, NULL);
   if (parsed >= 0)
     return parsed;

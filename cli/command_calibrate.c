@@ -34,8 +34,8 @@ static OPTION_SET(set_readings) {
   return job->read;
 }
 
-OPTION(calibrate_job, calibrate_table, "table", table, 0, "9ft|8ft|7ft", set_choice, 0,
-       "the table", .usual = "9ft");
+OPTION(calibrate_job, calibrate_table, "table", table, 0, "9ft|8ft|7ft", set_choice, 0, "the table",
+       .usual = "9ft");
 OPTION(calibrate_job, calibrate_read, "read", reading, 0, "A,B,C", set_readings, 0,
        "where the three banks came back, in sights from the corner where they began; tenths are "
        "wanted: 4.8 lies before the fifth sight");

@@ -60,13 +60,12 @@ static const char *const quantity[] = {"throw of the object ball (degrees)",
 OPTION(series, option_speed, "speed", in[SPEED], 0, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
        "speed of the cue ball at contact, m/s, or with a unit: mph, km/h; or a word: " SPEEDS,
        .usual = "1.5");
-OPTION(
-    series, option_cut, "cut", in[CUT], 0, "full|three-quarter|half|quarter|thin|DEGREES",
-    set_values, MEASURE_CUT,
-    "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object "
-    "ball goes to the left. Or the fullness of the hit: full, three-quarter, half or "
-    "half-ball, quarter, thin (an eighth), 2/5ball, 0.4ball",
-    .usual = "30");
+OPTION(series, option_cut, "cut", in[CUT], 0, "full|three-quarter|half|quarter|thin|DEGREES",
+       set_values, MEASURE_CUT,
+       "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object "
+       "ball goes to the left. Or the fullness of the hit: full, three-quarter, half or "
+       "half-ball, quarter, thin (an eighth), 2/5ball, 0.4ball",
+       .usual = "30");
 OPTION(series, option_spin, "spin", in[SPIN], 0, "stun|follow|draw|SPIN", set_values, MEASURE_SPIN,
        "stun: no spin; follow or roll: the ball rolls; draw: the same spin backwards. Or "
        "a number with a unit, above 0 for follow: rad/s, % of rolling, tip (height of the cue's "
@@ -85,8 +84,7 @@ OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_
        "radius of the balls, m, or with a unit: mm, cm, in; a pool ball has 0.028575",
        .usual = "0.028575");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
-       "mass of the balls, kg, or with a unit: g, oz; 0.170097 is 6 oz",
-       .usual = "0.170097");
+       "mass of the balls, kg, or with a unit: g, oz; 0.170097 is 6 oz", .usual = "0.170097");
 OPTION(series, option_object_mass, "object-mass", in[OBJECT_MASS], 0, "same|M", set_values,
        MEASURE_OBJECT_MASS, "mass of the object ball", .usual = "same");
 

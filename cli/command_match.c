@@ -41,14 +41,14 @@ static bool set_ratings(const option_row *row, char *text, void *field) {
   return false;
 }
 
-OPTION(match_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES,
-       "the game", .else_usual = "eightball, or the game of the file");
-OPTION(match_job, option_table, "table", table, 0, NULL, set_named, CAROM_WORDS_TABLE,
-       "the table", .else_usual = "that of the game");
+OPTION(match_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES, "the game",
+       .else_usual = "eightball, or the game of the file");
+OPTION(match_job, option_table, "table", table, 0, NULL, set_named, CAROM_WORDS_TABLE, "the table",
+       .else_usual = "that of the game");
 OPTION(match_job, option_players, "players", rating, 0, "A,B", set_ratings, 0,
        "the Fargo ratings of both players, 200 to 850", .usual = "600,600");
-OPTION(match_job, option_breaks, "breaks", breaks, 0, "1|2", set_choice, 0,
-       "the player who breaks", .usual = "1");
+OPTION(match_job, option_breaks, "breaks", breaks, 0, "1|2", set_choice, 0, "the player who breaks",
+       .usual = "1");
 OPTION(match_job, option_seed, "seed", seed, 0, "N", set_count, 0,
        "from which the gaps of the rack and the errors are drawn", .usual = "1");
 OPTION(match_job, option_shots, "shots", shots, 0, "N", set_count, 100,
@@ -311,8 +311,7 @@ static bool is_of_rules(const match_job *job, const char *path) {
 int command_match(int argc, char **argv) {
   static match_job job;
   const char *path;
-  job = (match_job){.rules = -1,
-                    .table = -1};
+  job = (match_job){.rules = -1, .table = -1};
   int code = parse_arguments(&match_form, argc, argv, &job, &path);
   if (code >= 0)
     return code;

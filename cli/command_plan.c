@@ -10,9 +10,9 @@
 #include "program/options.h"
 #include "program/output.h"
 #include "program/words.h"
-#include "shots/shot_fault.h"
 #include "shots/shoot_aim.h"
 #include "shots/shoot_flags.h"
+#include "shots/shot_fault.h"
 #include "shots/shot_file.h"
 #include "shots/shot_story.h"
 #include "subcommands.h"
@@ -33,12 +33,12 @@ typedef struct plan_job {
   const char *plot;
 } plan_job;
 
-OPTION(
-    plan_job, option_rules, "rules", game.rules, 0, NULL, set_named, CAROM_WORDS_RULES,
-    "the game; potting has no rules: all balls count. The cue ball is named cue, and the others by their numbers, or in snooker as in "
-    "its rack: red1, yellow; potting, cowboy and games without pockets take any names, in the "
-    "order of the rack",
-    .else_usual = "eightball, or potting where no ball is named 8");
+OPTION(plan_job, option_rules, "rules", game.rules, 0, NULL, set_named, CAROM_WORDS_RULES,
+       "the game; potting has no rules: all balls count. The cue ball is named cue, and the others "
+       "by their numbers, or in snooker as in "
+       "its rack: red1, yellow; potting, cowboy and games without pockets take any names, in the "
+       "order of the rack",
+       .else_usual = "eightball, or potting where no ball is named 8");
 OPTION(plan_job, option_group, "group", game.group, 0, "open|solids|stripes", set_choice, 0,
        "the balls of the player, where each has a group; open: any but the eight", .usual = "open");
 OPTION(plan_job, option_permission, "may", game.permission, 0, "shoot|push-out|pass|free-ball",
@@ -50,8 +50,7 @@ OPTION(plan_job, option_score, "score", game.score, 0, "OWN,OTHER", set_score, 0
        "them",
        .usual = "0,0");
 OPTION(plan_job, option_own_pocket, "own-pocket", game.pocket, 0, "foot-right|foot-left",
-       set_choice, 0,
-       "the player's pocket, in games where each player has one",
+       set_choice, 0, "the player's pocket, in games where each player has one",
        .else_usual = "foot-right");
 OPTION(plan_job, option_target, "target", game.target, 0, "N", set_count, 1,
        "points that win, where the rules leave it open");

@@ -17,20 +17,19 @@
 #include <string.h>
 
 enum { SPIN, SPEED, ANGLE, SIDE, HEIGHT, RESTITUTION, FRICTION, CLOTH, RADIUS, MASS, MODEL };
-static const scene_input inputs[] = {
-    [SPIN] = {"spin", MEASURE_SPIN},
-    [SPEED] = {"speed", MEASURE_SPEED},
-    [ANGLE] = {"angle of incidence", MEASURE_ANGLE},
-    [SIDE] = {"side spin", MEASURE_SIDE_RAIL},
-    /* without a usual value: those of the game for the model */
-    [HEIGHT] = {"height of the nose", MEASURE_LENGTH},
-    [RESTITUTION] = {"restitution", MEASURE_NUMBER},
-    [FRICTION] = {"friction of the cushion", MEASURE_NUMBER},
-    [CLOTH] = {"friction of the cloth", MEASURE_NUMBER},
-    [RADIUS] = {"radius of the ball", MEASURE_LENGTH},
-    [MASS] = {"mass of the ball", MEASURE_MASS},
-    [MODEL] = {"model", MEASURE_MODEL}, /* that of shots */
-    [MODEL + 1] = {NULL, 0}};
+static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN},
+                                     [SPEED] = {"speed", MEASURE_SPEED},
+                                     [ANGLE] = {"angle of incidence", MEASURE_ANGLE},
+                                     [SIDE] = {"side spin", MEASURE_SIDE_RAIL},
+                                     /* without a usual value: those of the game for the model */
+                                     [HEIGHT] = {"height of the nose", MEASURE_LENGTH},
+                                     [RESTITUTION] = {"restitution", MEASURE_NUMBER},
+                                     [FRICTION] = {"friction of the cushion", MEASURE_NUMBER},
+                                     [CLOTH] = {"friction of the cloth", MEASURE_NUMBER},
+                                     [RADIUS] = {"radius of the ball", MEASURE_LENGTH},
+                                     [MASS] = {"mass of the ball", MEASURE_MASS},
+                                     [MODEL] = {"model", MEASURE_MODEL}, /* that of shots */
+                                     [MODEL + 1] = {NULL, 0}};
 _Static_assert(sizeof inputs / sizeof inputs[0] <= MOST_INPUTS + 1, "room for all");
 
 enum { ROLLING_REBOUND, REBOUND, SPEED_AFTER, SIDE_AFTER, ENERGY };
@@ -65,7 +64,8 @@ OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_
        "height of the nose above the cloth, m, or with a unit: mm, in",
        .else_usual = "that of the game");
 OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
-       MEASURE_NUMBER, "restitution of the cushion", .else_usual = "that of the game for the model");
+       MEASURE_NUMBER, "restitution of the cushion",
+       .else_usual = "that of the game for the model");
 OPTION(series, option_friction_rail, "friction", in[FRICTION], 0, "MU", set_values, MEASURE_NUMBER,
        "friction of the cushion", .else_usual = "that of the game for the model");
 OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,

@@ -77,8 +77,7 @@ OPTION(
     "from draw to follow. It plays the stroke with which most strokes of a player do this, and pot "
     "the ball of --pocket. It reports how many do, and with which speeds the cue ball ends there");
 OPTION(
-    shoot_job, option_animate, "animate", drawn.path[FILM], 0, "OUT.html|OUT.svg", set_animation,
-    0,
+    shoot_job, option_animate, "animate", drawn.path[FILM], 0, "OUT.html|OUT.svg", set_animation, 0,
     "write a page that plays the shots which --plot draws; it is one file and needs nothing else. "
     "OUT.svg: a picture in which the balls of the first shot move, for pages without scripts");
 OPTION(shoot_job, option_cite, "cite", cite, 0, NULL, set_flag, 0,
@@ -510,8 +509,7 @@ static int shoot_file(shoot_job *job, shot_file *file) {
 int command_shoot(int argc, char **argv) {
   static shoot_job job;
   const char *path;
-  job = (shoot_job){.from = {.shared = {.options = COMMAND_OPTIONS}},
-                    .events = EVENTS_USUAL};
+  job = (shoot_job){.from = {.shared = {.options = COMMAND_OPTIONS}}, .events = EVENTS_USUAL};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;

@@ -10,9 +10,9 @@
 #include "program/options.h"
 #include "program/output.h"
 #include "program/words.h"
-#include "shots/shot_fault.h"
 #include "shots/shoot_aim.h"
 #include "shots/shoot_flags.h"
+#include "shots/shot_fault.h"
 #include "shots/shot_file.h"
 #include "subcommands.h"
 
@@ -33,8 +33,8 @@ typedef struct ways_job {
   bool csv, json, each;
 } ways_job;
 
-OPTION(ways_job, option_ball, "ball", ball, 0, "NAME|any", set_text, 0,
-       "the ball to be potted", .else_usual = "any");
+OPTION(ways_job, option_ball, "ball", ball, 0, "NAME|any", set_text, 0, "the ball to be potted",
+       .else_usual = "any");
 OPTION(ways_job, option_to_pocket, "pocket", pocket, 0, "NAME|any", set_text, 0,
        "the pocket into which it is to fall, such as foot-left", .else_usual = "any");
 OPTION(ways_job, option_rails, "rails", rails, 0, "0|1|2", set_choice, 0,
@@ -309,15 +309,13 @@ static bool find(const ways_job *job, ways_search *s) {
 
 static const command_form form = {
     .name = "ways",
-    .usual = (const option_usual[]){{"speed", SPEEDS_TO_POT,
-                                     SPEEDS_TO_LEAVE
-                                                   " with --leave, " SPEEDS_ALONE
-                                                   " of the cue ball alone, " SPEEDS_TO_SCORE
-                                                   " to score"},
-                                    {"tip", "0,0.25",
-                                     TIPS_TO_LEAVE " with --leave, " TIPS_TO_SCORE
-                                     " to score"},
-                                    {0}},
+    .usual =
+        (const option_usual[]){
+            {"speed", SPEEDS_TO_POT,
+             SPEEDS_TO_LEAVE " with --leave, " SPEEDS_ALONE
+                             " of the cue ball alone, " SPEEDS_TO_SCORE " to score"},
+            {"tip", "0,0.25", TIPS_TO_LEAVE " with --leave, " TIPS_TO_SCORE " to score"},
+            {0}},
     .usage = "[OPTIONS] LAYOUT.jsonl | --balls X,Y:... [OPTIONS]",
     .about = "Finds the ways to pot a ball: directly, or with a bank, a kick, a kiss, a carom or a "
              "combination. On a table without pockets it finds the ways to score in three-cushion: "

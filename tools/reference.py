@@ -273,13 +273,17 @@ def options_of_command(program):
         return []
 
     def said(*words):
-        return subprocess.run([program, *words], check=True, stdout=subprocess.PIPE, text=True).stdout
+        return subprocess.run(
+            [program, *words], check=True, stdout=subprocess.PIPE, text=True
+        ).stdout
 
     page = ["# Options of the command\n\nThese are the texts of `carom COMMAND --help`.\n"]
     for name in said("--complete").split():
         usage, about, *rest = said(name, "--help").split("\n\n")
         page.append(f"## carom {name}\n\n`{usage.removeprefix('usage: ')}`\n\n{plain(about)}\n")
-        page += [option_list(part) if part.startswith("options") else details(part) for part in rest]
+        page += [
+            option_list(part) if part.startswith("options") else details(part) for part in rest
+        ]
     return [("Options of the command", "reference/options.md", "\n".join(page))]
 
 

@@ -196,7 +196,9 @@ if KATEX.is_dir():
     shutil.copy(SOURCE / "tools/site_math.js", PAGES / "live")
     for part in ("katex.min.css", "katex.min.js", "contrib/auto-render.min.js"):
         shutil.copy(KATEX / part, PAGES / "live")
-    shutil.copytree(KATEX / "fonts", PAGES / "live/fonts", ignore=shutil.ignore_patterns("*.ttf", "*.woff"))
+    shutil.copytree(
+        KATEX / "fonts", PAGES / "live/fonts", ignore=shutil.ignore_patterns("*.ttf", "*.woff")
+    )
 if LIVE:
     shutil.copy(SOURCE / "tools/site_live.js", PAGES / "live")
     subprocess.run(
@@ -219,9 +221,7 @@ unnamed = {str(page.relative_to(SOURCE)) for page in SOURCE.glob("docs/*/*.md")}
 unnamed -= {*sum(GROUPS.values(), []), *CONTRIBUTE}
 assert not unnamed, f"no group of tools/site.py has {unnamed}"
 navigation = {"carom": ["README.md"]}
-navigation |= {
-    name: [{title(page): page} for page in sheets] for name, sheets in GROUPS.items()
-}
+navigation |= {name: [{title(page): page} for page in sheets] for name, sheets in GROUPS.items()}
 if EXPLORER.is_file():
     shutil.copytree(EXPLORER.parent, PAGES / "explorer")
     navigation["carom"].append({"Play now": "explorer/index.html"})
@@ -242,7 +242,11 @@ for _, page, text in generated:
 navigation["Reference"] += [{name: page} for name, page, _ in generated]
 navigation["Contribute"] = [
     *({title(page): page} for page in CONTRIBUTE),
-    {"Folders of the repository": [{f"{page.removesuffix('/README.md')}/": page} for page in ROOMS]},
+    {
+        "Folders of the repository": [
+            {f"{page.removesuffix('/README.md')}/": page} for page in ROOMS
+        ]
+    },
 ]
 
 project = tomllib.loads((SOURCE / "packaging/project.toml").read_text(encoding="utf-8"))
@@ -329,4 +333,6 @@ without = [
 ]
 print(f"{len(built)} pages, {len(made)} examples: {WORK / 'site/index.html'}")
 if without:
-    print(f"without {' and '.join(without)}: ./run builds the command, ./run --web the page and npm; then make the site again")
+    print(
+        f"without {' and '.join(without)}: ./run builds the command, ./run --web the page and npm; then make the site again"
+    )

@@ -28,8 +28,8 @@ OPTION_SET(set_animation) {
     return true;
   if (is_moving_picture(text))
     return true;
-  complain("--%s writes a page whose name ends in .html, or a picture in .svg, not '%s'",
-           row->name, text);
+  complain("--%s writes a page whose name ends in .html, or a picture in .svg, not '%s'", row->name,
+           text);
   return false;
 }
 

@@ -1,6 +1,6 @@
-/* A shot that plays in a picture: one SVG whose balls move, for pages that take no script. Each ball
- * is a group that an animation carries from pose to pose at equal steps of time; at the end the balls
- * rest for a while, and the shot begins again. */
+/* A shot that plays in a picture: one SVG whose balls move, for pages that take no script. Each
+ * ball is a group that an animation carries from place to place at equal steps of time; at the end
+ * the balls rest for a while, and the shot begins again. */
 #include "pictures/moving_picture.h"
 
 #include "pictures/labels.h"

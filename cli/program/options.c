@@ -22,9 +22,10 @@ static const option_row help_row = {.name = "help", .letter = 'h', .help = "this
  * of these that it has. */
 static const struct {
   const char *said, *name;
-} also[] = {{"english", "side"},  {"rack", "rules"},         {"rack", "balls"},
-            {"game", "rules"},    {"power", "speed"},        {"fargo", "player"},
-            {"fargo", "players"}, {"player", "players"}, {"rating", "player"}, {"rating", "players"}, {"object-balls", "balls"}, {"cloth-friction", "cloth"}};
+} also[] = {{"english", "side"},   {"rack", "rules"},         {"rack", "balls"},
+            {"game", "rules"},     {"power", "speed"},        {"fargo", "player"},
+            {"fargo", "players"},  {"player", "players"},     {"rating", "player"},
+            {"rating", "players"}, {"object-balls", "balls"}, {"cloth-friction", "cloth"}};
 
 /* What players ask for by a name that no option has, and what says it. A subcommand without the
  * option says nothing. */
@@ -117,15 +118,13 @@ static void print_row(FILE *out, const command_form *form, const option_row *row
 static void print_item(FILE *out, const command_form *form, const option_row *row) {
   char head[80], help[1024];
   snprintf(head, sizeof head, "-%c, --%s", row->letter, row->name);
-  manual_item(out, row->letter != 0 ? head : head + 4, argument_of(row),
-              help_of(form, row, help));
+  manual_item(out, row->letter != 0 ? head : head + 4, argument_of(row), help_of(form, row, help));
 }
 
 /* Prints the options that are for one kind of rows, or all, by one of these. */
 enum { EVERY_ROW = -1 };
 typedef void print_option(FILE *out, const command_form *form, const option_row *row);
-static void print_options(FILE *out, const command_form *form, int only,
-                          print_option *print) {
+static void print_options(FILE *out, const command_form *form, int only, print_option *print) {
   for (size_t k = 0; form->options[k] != NULL; k++)
     if (only == EVERY_ROW || form->options[k]->only == only)
       print(out, form, form->options[k]);

@@ -649,11 +649,13 @@ static OPTION_SET(set_errors) {
   OPTION_ROW(shared_options, only, row, name, member, letter, argument, set, least, __VA_ARGS__)
 
 ROW(option_solver, "solver", options.solver, 0, NULL, set_named, CAROM_WORDS_SOLVER, BALLS_ONLY,
-    "exact: the limit of infinitely many steps; fast: the same in less time, but not smooth; euler: N "
+    "exact: the limit of infinitely many steps; fast: the same in less time, but not smooth; "
+    "euler: N "
     "steps of equal impulse, as in the 2014 paper",
     .usual = "exact");
 ROW(option_slip, "slip", options.slip, 0, NULL, set_named, CAROM_WORDS_SLIP, BALLS_ONLY,
-    "sign of the spin in the slip over the cloth: the 2014 paper's, or pooltool's", .usual = "paper");
+    "sign of the spin in the slip over the cloth: the 2014 paper's, or pooltool's",
+    .usual = "paper");
 ROW(option_friction, "friction", friction, 0, "alciatore|LAW", set_law, 0, BALLS_ONLY,
     "friction between the balls, instead of the column u_b: a number; or alciatore, which falls "
     "with the slip speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other "

@@ -103,7 +103,8 @@ ROW(option_via, "via", via, "BALL|RAIL,...", set_text, 0,
     "this rail at ball 1, the ball of --pocket. Rails are head, foot, left and right");
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|thin|DEGREES", set_values,
     MEASURE_CUT,
-    "cut angle, as in `carom hit`: above 0 the ball goes to the left. Of a rack, without --at-ball, the "
+    "cut angle, as in `carom hit`: above 0 the ball goes to the left. Of a rack, without "
+    "--at-ball, the "
     "cue ball meets the ball in front",
     .usual = "0", .else_usual = "only with --at-ball", .is_list = true);
 ROW(option_shot_speed, "speed", speed, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
@@ -123,7 +124,8 @@ ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "this command. Beyond 0.5 R a chalked tip slips off the ball, and carom warns",
     .usual = "0,0.25", .is_list = true);
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELEVATION,
-    "elevation of the butt of the cue. With a --pocket it may be least: as little as the stick needs "
+    "elevation of the butt of the cue. With a --pocket it may be least: as little as the stick "
+    "needs "
     "to clear the cushions and balls behind the cue ball",
     .usual = "0", .is_list = true);
 ROW(option_tip_time, "tip-time", own, "SECONDS", set_cue_number, 0,
@@ -138,11 +140,12 @@ ROW(option_json, "json", json, NULL, set_flag, 0,
     "print the shot as a line of JSON for a file, instead of playing it. The line has pooltool's "
     "sign: a > 0 is left");
 
-#define GAP_HELP \
+#define GAP_HELP                                                                               \
   "gap between neighbours of a rack, m, or with a unit; 0 is a frozen rack", .usual = "0.1mm", \
-      .is_list = true
-#define SEED_HELP "seed of the random numbers that move and place the balls of a rack", .usual = "1", \
-                  .is_list = true
+                                                                             .is_list = true
+#define SEED_HELP                                                                     \
+  "seed of the random numbers that move and place the balls of a rack", .usual = "1", \
+                                                                        .is_list = true
 ROW(option_gap, "gap", gap, "G", set_values, MEASURE_LENGTH, GAP_HELP);
 ROW(option_seed, "seed", seed, "N", set_values, MEASURE_NUMBER, SEED_HELP);
 /* Where the balls lie once, or a seed is that of the first rack of many. */

@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 from study.report.pictures import draw
-from study.report.sheets import PLAIN, ROOT, run, write
+from study.report.sheets import PLAIN, ROOT, write
 
 HERE = Path(__file__).resolve().parent
 # NAME.svg by NAME.gp: its title.
@@ -23,6 +23,7 @@ FIGURES = {
     "cushion": "A ball and a cushion: rebound, a fine sweep, jumps",
     "hops": "How high the cue ball hops, by the elevation of the butt",
 }
+
 
 def derive_cushion(options):
     """Rolling balls straight into a cushion, the ball and the fitted numbers of the 2010 paper; and

@@ -13,7 +13,11 @@ CAROM = sys.argv[1]
 POT = "--cue 0.6,0.8 --balls 0.8,1.9"
 LINES = {
     "shoot": [f"{POT} --at-ball 1", POT, "--balls nineball"],
-    "ways": [f"{POT} --rails 1 --scan 2000", POT, "--balls nineball --ball 1 --rails 0 --scan 2000"],
+    "ways": [
+        f"{POT} --rails 1 --scan 2000",
+        POT,
+        "--balls nineball --ball 1 --rails 0 --scan 2000",
+    ],
     "plan": [f"{POT} --rules potting --shots 100", "--balls 8=0.8,1.9:1=0.4,0.6 --shots 100"]
     + ["--rules nineball --balls nineball --shots 100", f"{POT} --rules nineball --shots 100"],
     "break": ["--racks 20", ""],

@@ -114,7 +114,9 @@ def indented(text):
     """The first paragraph of a text that is indented without being part of a list, or None."""
     in_list = False
     for paragraph in re.split(r"\n\n+", text):
-        in_list = re.match(r" *([-*]|\d+\.) ", paragraph) or (in_list and paragraph.startswith("  "))
+        in_list = re.match(r" *([-*]|\d+\.) ", paragraph) or (
+            in_list and paragraph.startswith("  ")
+        )
         if paragraph.startswith("    ") and not in_list:
             return paragraph.strip()
     return None
@@ -176,7 +178,9 @@ def blocks(source, page):
     )
     program = ""
     for kind, _ in found:
-        base = "output" if WITHIN.fullmatch(kind) else "measured" if MEASURED.fullmatch(kind) else kind
+        base = (
+            "output" if WITHIN.fullmatch(kind) else "measured" if MEASURED.fullmatch(kind) else kind
+        )
         assert base in KINDS, f"{page}: no test runs blocks of the kind '{kind}'"
         if base != "output":
             program = program if kind == "sh elsewhere" else kind

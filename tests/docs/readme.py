@@ -71,7 +71,8 @@ rows = re.findall(
 measured = {
     round(float(number))
     for number in re.findall(
-        r"\b\d+(?:\.\d+)?\b", (SOURCE / "docs/understanding/accuracy.md").read_text(encoding="utf-8")
+        r"\b\d+(?:\.\d+)?\b",
+        (SOURCE / "docs/understanding/accuracy.md").read_text(encoding="utf-8"),
     )
 }
 assert len(rows) >= 6 and all(int(row.replace(",", "")) in measured for row in rows), rows

@@ -23,6 +23,7 @@ ENVIRONMENT = {
     "CAROM_DATA": str(SOURCE / "data"),
 }
 
+
 def commands(text):
     """The commands of a block, each with the lines that it is shown to print."""
     lines, all_of_them = text.splitlines(), []

@@ -6,33 +6,35 @@ import { tmpdir } from "node:os";
 import { expect, test, vi } from "vitest";
 import { root } from "./support.js";
 
-test.each(["README.md", "docs/start/javascript.md", "docs/using/javascript.md", "web/npm/README.md"])(
-  "JavaScript of %s",
-  async (page) => {
-    const blocks = [
-      ...readFileSync(`${root}${page}`, "utf8").matchAll(/^```js\n(.*?)^```$/gms),
-    ].map((match) => match[1]!);
-    if (page !== "README.md") expect(blocks.length).toBeGreaterThan(0);
-    if (blocks.length === 0) return;
-    const text = blocks.join("\n");
-    const expected = [...text.matchAll(/^\s*console\.log\(.*\);\s*\/\/ (.*)$/gm)].map(
-      (match) => match[1]!,
-    );
-    const printed: string[] = [];
-    const spy = vi
-      .spyOn(console, "log")
-      .mockImplementation((...all: unknown[]) => void printed.push(all.join(" ")));
-    const session = text.replaceAll(
-      'from "carom"',
-      `from ${JSON.stringify(`file://${root}web/npm/dist/index.js`)}`,
-    );
-    await import(
-      /* @vite-ignore */ `data:text/javascript,${encodeURIComponent(`${session}// ${page}`)}`
-    );
-    spy.mockRestore();
-    expect(printed).toEqual(expected);
-  },
-);
+test.each([
+  "README.md",
+  "docs/start/javascript.md",
+  "docs/using/javascript.md",
+  "web/npm/README.md",
+])("JavaScript of %s", async (page) => {
+  const blocks = [...readFileSync(`${root}${page}`, "utf8").matchAll(/^```js\n(.*?)^```$/gms)].map(
+    (match) => match[1]!,
+  );
+  if (page !== "README.md") expect(blocks.length).toBeGreaterThan(0);
+  if (blocks.length === 0) return;
+  const text = blocks.join("\n");
+  const expected = [...text.matchAll(/^\s*console\.log\(.*\);\s*\/\/ (.*)$/gm)].map(
+    (match) => match[1]!,
+  );
+  const printed: string[] = [];
+  const spy = vi
+    .spyOn(console, "log")
+    .mockImplementation((...all: unknown[]) => void printed.push(all.join(" ")));
+  const session = text.replaceAll(
+    'from "carom"',
+    `from ${JSON.stringify(`file://${root}web/npm/dist/index.js`)}`,
+  );
+  await import(
+    /* @vite-ignore */ `data:text/javascript,${encodeURIComponent(`${session}// ${page}`)}`
+  );
+  spy.mockRestore();
+  expect(printed).toEqual(expected);
+});
 
 test("the tarball has its licences, and the WebAssembly once", () => {
   const [packed] = JSON.parse(

@@ -31,7 +31,13 @@ export async function scene(browser, width, height) {
   await page.waitForTimeout(300);
   const words = await page.evaluate(() => document.body.innerText);
   // not the version, which is no matter of a picture
-  return { page, words: `${words.replace(/carom \d+\.\d+\.\d+/, "carom").replace(/\s*\n\s*/g, "\n").trim()}\n` };
+  return {
+    page,
+    words: `${words
+      .replace(/carom \d+\.\d+\.\d+/, "carom")
+      .replace(/\s*\n\s*/g, "\n")
+      .trim()}\n`,
+  };
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
