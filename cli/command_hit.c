@@ -102,7 +102,7 @@ OPTION(series, option_frictions, "friction", in[FRICTION], 0, "alciatore|MU", se
        "friction between the balls: numbers; or alciatore, which falls with the slip "
        "speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants",
        .usual = "alciatore");
-OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
+OPTION(series, option_cloth, "mu-slide", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
        "friction with the cloth", .usual = "0.2");
 OPTION(series, option_roll, "roll", in[ROLL], 0, "MU", set_values, MEASURE_NUMBER,
        "rolling resistance of the cloth, for distances", .usual = "0.01");
@@ -130,7 +130,7 @@ static void make(const series *s, one_case *c) {
                       .w = {0.0, spin_of(v[SPIN], speed, R, 0.0), side},
                       .radius = R,
                       .mass = v[MASS]->x,
-                      .mu_cloth = v[CLOTH]->x};
+                      .mu_slide = v[CLOTH]->x};
   in.b = in.a;
   if (!isnan(v[OBJECT_MASS]->x))
     in.b.mass = v[OBJECT_MASS]->x;
@@ -161,7 +161,7 @@ static double distance_of(const carom_ball *ball, const carom_motion *after, dou
   carom_shot shot = {.final = &rests};
   one.kind.radius = ball->radius;
   one.kind.mass = ball->mass;
-  one.kind.mu_slide = ball->mu_cloth;
+  one.kind.mu_slide = ball->mu_slide;
   one.kind.mu_roll = mu_roll;
   one.state = (carom_ball_state){.r = {0.0, 0.0, ball->radius},
                                  .v = {after->v[0], after->v[1], 0.0},
@@ -220,7 +220,7 @@ static void tell(FILE *out, const series *s, const one_case *c) {
           scale, c->given[CUT]->x, c->given[SPIN]->name, share_of_rolling(c->given[SPIN]),
           in->a.w[1], english_text(in->a.w[2], text));
   fprintf(out, "Friction between the balls %.4f, with the cloth %.4g, restitution %.4g.\n",
-          in->mu_ball, in->a.mu_cloth, in->restitution);
+          in->mu_ball, in->a.mu_slide, in->restitution);
   /* The object ball, the cue ball, both together. */
   fprintf(out, "object ball   at once:     %s\n", velocity_text(after->b.v, scale, text));
   fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_2, scale, text));

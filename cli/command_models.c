@@ -15,8 +15,8 @@ static const struct kind {
   const char *what, *option;
 } kinds[] = {{CAROM_WORDS_SHOT_CUSHION, "impact on a cushion", "--cushion, --model"},
              {CAROM_WORDS_BALL_FRICTION, "friction between balls", "--friction"},
-             {CAROM_WORDS_BALL_MODEL, "collision of two balls", "--ball-ball"},
-             {CAROM_WORDS_WORLD, "rules of contact", "--models"},
+             {CAROM_WORDS_BALL_MODEL, "collision of two balls", "--ball-model"},
+             {CAROM_WORDS_WORLD, "rules of contact", "--world"},
              {CAROM_WORDS_SPACE, "space", "--space"},
              {CAROM_WORDS_SIMULTANEOUS, "several contacts at one instant", "--simultaneous"},
              {CAROM_WORDS_GAME, "game of a file", "params.game"},

@@ -68,7 +68,7 @@ OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_v
        .else_usual = "that of the game for the model");
 OPTION(series, option_friction_rail, "friction", in[FRICTION], 0, "MU", set_values, MEASURE_NUMBER,
        "friction of the cushion", .else_usual = "that of the game for the model");
-OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
+OPTION(series, option_cloth, "mu-slide", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
        "friction with the cloth", .else_usual = "that of the game");
 OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
        "radius of the ball, m, or with a unit: mm, cm, in", .else_usual = "that of the game");
@@ -153,7 +153,7 @@ static void make(const series *s, one_case *c) {
       .height = value_or(v[HEIGHT], kind.nose_height),
       .radius = R,
       .mass = value_or(v[MASS], kind.mass),
-      .mu_cloth = value_or(v[CLOTH], kind.mu_slide),
+      .mu_slide = value_or(v[CLOTH], kind.mu_slide),
       .mu_cushion = value_or(v[FRICTION], kind.mu_cushion),
       .restitution = value_or(v[RESTITUTION], kind.restitution_cushion)};
   memcpy(c->row, &in, sizeof in);
@@ -334,7 +334,7 @@ static void tell(FILE *out, const series *s, const one_case *c) {
       share_of_rolling(c->given[SPIN]), copysign(hypot(in->w[0], in->w[1]), c->given[SPIN]->x),
       english_text(in->w[2], text));
   fprintf(out, "Friction with the cushion %.4g, with the cloth %.4g, restitution %.4g; model %s.\n",
-          in->mu_cushion, in->mu_cloth, in->restitution, cushion_kind.name(&c->asked));
+          in->mu_cushion, in->mu_slide, in->restitution, cushion_kind.name(&c->asked));
   if (!knows_speed(&c->asked.rail))
     fprintf(out, "At another speed the angles are the same, because the law does not depend on the "
                  "speed.\n");
@@ -353,7 +353,7 @@ static double draw(FILE *out, double top, const series *s, const one_case *c, co
                y = in->v[1] / speed;
   double d[MOST_DERIVED];
   char way[64], lines[2048];
-  carom_ball ball = {.r = {0.0, 0.0, R}, .radius = R, .mass = in->mass, .mu_cloth = in->mu_cloth};
+  carom_ball ball = {.r = {0.0, 0.0, R}, .radius = R, .mass = in->mass, .mu_slide = in->mu_slide};
   carom_motion after;
   memcpy(&after, c->result, sizeof after);
   derive_case(c, d);

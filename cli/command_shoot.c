@@ -475,10 +475,10 @@ static bool can_play(const shoot_job *job) {
     complain("--csv writes a shot by options, without --events; a file's shots are written as "
              "lines of JSON");
   else if (job->error.given && shot->world == CAROM_WORLD_POOLTOOL)
-    complain("--spread needs derivatives, which shots by --models pooltool do not have; --models "
+    complain("--spread needs derivatives, which shots by --world pooltool do not have; --world "
              "carom has them");
   else if (job->error.given && shot->ball_model == CAROM_BALL_MODEL_EULER)
-    complain("--spread needs derivatives, which --ball-ball euler does not have; exact, its limit, "
+    complain("--spread needs derivatives, which --ball-model euler does not have; exact, its limit, "
              "has them");
   else
     return drawings_possible(&job->drawn);

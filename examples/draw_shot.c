@@ -15,11 +15,11 @@ int main(void) {
             .w = {speed / radius, 0.0, 0.0},
             .radius = radius,
             .mass = 0.17,
-            .mu_cloth = 0.2},
+            .mu_slide = 0.2},
       .restitution = 0.95,
   };
   in.b =
-      (carom_ball){.r = {0.0, 2.0 * radius, 0.0}, .radius = radius, .mass = 0.17, .mu_cloth = 0.2};
+      (carom_ball){.r = {0.0, 2.0 * radius, 0.0}, .radius = radius, .mass = 0.17, .mu_slide = 0.2};
   in.mu_ball = carom_mu_ball(&in, carom_alciatore());
 
   carom_options options = {0};

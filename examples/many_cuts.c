@@ -19,9 +19,9 @@ int main(void) {
   const double speed = 1.5, radius = 0.02625, degree = 3.14159265358979323846 / 180.0;
   for (int k = 0; k < CUTS; k++) {
     const double cut = 0.1 * k * degree, v_x = speed * sin(cut), v_y = speed * cos(cut);
-    in[k].a = (carom_ball){.v = {v_x, v_y, 0.0}, .radius = radius, .mass = 0.14, .mu_cloth = 0.2};
+    in[k].a = (carom_ball){.v = {v_x, v_y, 0.0}, .radius = radius, .mass = 0.14, .mu_slide = 0.2};
     in[k].b = (carom_ball){
-        .r = {0.0, 2.0 * radius, 0.0}, .radius = radius, .mass = 0.14, .mu_cloth = 0.2};
+        .r = {0.0, 2.0 * radius, 0.0}, .radius = radius, .mass = 0.14, .mu_slide = 0.2};
     in[k].mu_ball = carom_mu_ball(&in[k], carom_alciatore()); /* falls with the speed of the slip */
     in[k].restitution = 0.89;
   }

@@ -22,7 +22,7 @@ static double leaves_at(carom_cushion_model model, double angle) {
                                    .height = 1.28 * R,
                                    .radius = R,
                                    .mass = ball.mass,
-                                   .mu_cloth = ball.mu_slide,
+                                   .mu_slide = ball.mu_slide,
                                    .mu_cushion = ball.mu_cushion,
                                    .restitution = ball.restitution_cushion};
   carom_motion out;

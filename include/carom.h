@@ -3,7 +3,7 @@
  * This header is the manual of collisions, from simple to advanced. Cushions and whole shots are in
  * carom_shot.h. The samples in the headers are valid in C and in C++.
  *
- *     // r, v, w, radius, mass, mu_cloth; then a, b, mu_ball, restitution
+ *     // r, v, w, radius, mass, mu_slide; then a, b, mu_ball, restitution
  *     carom_ball ball = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0.028575, 0.17, 0.2};
  *     carom_impact in = {ball, ball, 0.05, 0.95};
  *     in.a.v[0] = 1.5;                                                            // m/s, along x
@@ -30,7 +30,7 @@
  *
  * Accuracy of the exact solver, the default. Errors are differences from the limit of Mathavan's
  * equations, divided by the fastest of the twelve numbers (spins times the radius).
- *   - Double precision, collisions of play (mu_ball up to 0.2, mu_cloth up to 0.5, e from 0.5,
+ *   - Double precision, collisions of play (mu_ball up to 0.2, mu_slide up to 0.5, e from 0.5,
  *     masses within 1 : 2, any speeds and spins): within 1e-6, median 2e-9.
  *   - Double precision, anything else that is accepted: within 1e-5, or the status is
  *     CAROM_ERROR_UNRESOLVED.
@@ -126,7 +126,7 @@ typedef struct carom_ball {
                       uses that of ball a. */
   double mass;     /* kg, > 0, may differ between the balls. The moment of inertia is that of a
                       solid ball, 2/5 M R^2. */
-  double mu_cloth; /* coefficient of sliding friction between this ball and the cloth, 0 to 1. */
+  double mu_slide; /* coefficient of sliding friction between this ball and the cloth, 0 to 1. */
 } carom_ball;
 
 /* Two balls at the instant of contact. The distance of the centres is not checked: the caller
@@ -172,7 +172,7 @@ typedef enum carom_status {
   CAROM_ERROR_SPIN = -7,             /* an angular velocity is not finite. */
   CAROM_ERROR_RADIUS = -8,           /* a radius is not positive and finite. */
   CAROM_ERROR_MASS = -9,             /* a mass is not positive and finite. */
-  CAROM_ERROR_MU_CLOTH = -10,        /* the friction of ball and cloth is not in [0, 1]. */
+  CAROM_ERROR_MU_SLIDE = -10,        /* the friction of ball and cloth is not in [0, 1]. */
   CAROM_ERROR_MU_BALL = -11,         /* the friction of ball and ball is not in [0, 1]. */
   CAROM_ERROR_RESTITUTION = -12,     /* the restitution is not in [0, 1]. */
   CAROM_ERROR_RADII_DIFFER = -13,    /* the radii of the balls differ by more than 1e-9 of them. */
@@ -417,7 +417,7 @@ CAROM_API void carom_rolling_velocity(const double v[3], const double w[3], doub
  * numbers. */
 typedef struct carom_ball_f32 {
   float r[3], v[3], w[3];
-  float radius, mass, mu_cloth;
+  float radius, mass, mu_slide;
 } carom_ball_f32;
 
 /* Two balls that touch, in single precision. */

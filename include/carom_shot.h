@@ -3,7 +3,7 @@
  *
  *     carom_cushion_impact in = {{0.5, 1.2, 0}, {0, 0, 0}, {0, 1},   // v, w, normal
  *                                0.0365, 0.028575, 0.17,             // height, radius, mass
- *                                // mu_cloth, mu_cushion, restitution, jaw_radius
+ *                                // mu_slide, mu_cushion, restitution, jaw_radius
  *                                0.2, 0.2, 0.85, 0};
  *     carom_motion out;
  *     carom_status status = carom_cushion(&in, NULL, &out);
@@ -30,7 +30,7 @@ typedef struct carom_cushion_impact {
   double height;      /* of the cushion's nose above the cloth, m, between 0 and 2 radius. */
   double radius;      /* of the ball, m, > 0. */
   double mass;        /* kg, > 0. The moment of inertia is that of a solid ball, 2/5 M R^2. */
-  double mu_cloth;    /* coefficient of sliding friction between ball and cloth, 0 to 1, */
+  double mu_slide;    /* coefficient of sliding friction between ball and cloth, 0 to 1, */
   double mu_cushion;  /* and between ball and cushion, 0 to 1. */
   double restitution; /* e, 0 to 1: the impact ends once e^2 of the work of compression has been
                          given back. */
@@ -141,7 +141,7 @@ CAROM_API const char *carom_cushion_model_name(carom_cushion_model model);
  * the cushion, and `*out` is its motion before. An error: every number of `*out` is NaN (but
  * `*out` is untouched when a pointer is NULL).
  *
- * MATHAVAN: impacts of play (mu_cloth and mu_cushion 0.1 to 0.4, e from 0.6, the nose 1.2 to 1.45
+ * MATHAVAN: impacts of play (mu_slide and mu_cushion 0.1 to 0.4, e from 0.6, the nose 1.2 to 1.45
  * radii high) have errors within 1e-6 of the fastest of the numbers (spins times the radius). All
  * other accepted impacts have errors within 1e-5, or the status CAROM_ERROR_UNRESOLVED; 3 of 2
  * million random impacts of play had this status. There is one exception: with both frictions near
@@ -921,7 +921,7 @@ typedef struct carom_shot {
 
 /* The collision of two spheres in space along any line of centres: one impulse in closed form, for
  * any radii and masses, with restitution e and Coulomb's friction mu_ball, which either stops the
- * slip or slips to the end. The cloth takes no part, so mu_cloth is not read. Only the direction of
+ * slip or slips to the end. The cloth takes no part, so mu_slide is not read. Only the direction of
  * b.r - a.r matters. Returns CAROM_OK; CAROM_SEPARATING, with the motion before, if the balls do
  * not close; an error of a field; or CAROM_ERROR_OVERFLOW if speeds are above 1e300 m/s or impulses
  * are not within 1e-290 to 1e300 kg m/s. With an error *out is all NaN (untouched when a pointer is

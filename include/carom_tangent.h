@@ -160,7 +160,7 @@ CAROM_API carom_status carom_shot_tangent_batch(const carom_tangent_job *job);
 
 /* Derivatives of carom_collide() with the exact solver: tangent[12][m] = J seeds[26][m], in the
  * order of the doubles of carom_result and carom_impact. Only the seeds of r[0] and r[1], v[0] and
- * v[1], w, radius of a, mass, mu_cloth, mu_ball and restitution are read. There is no derivative
+ * v[1], w, radius of a, mass, mu_slide, mu_ball and restitution are read. There is no derivative
  * with respect to the slip of a ball that rolls and is pressed into the cloth. The call assumes
  * that this ball goes on rolling in every direction, and directions in which it would slide set
  * CAROM_TANGENT_KINK. A ball rolls if its slip is at most 1e-12 of its speeds. *flags (may be NULL)

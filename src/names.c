@@ -26,7 +26,7 @@
   X(ERROR_SPIN, -7, "bad_spin", "an angular velocity must be finite")                              \
   X(ERROR_RADIUS, -8, "bad_radius", "a radius must be positive and finite")                        \
   X(ERROR_MASS, -9, "bad_mass", "a mass must be positive and finite")                              \
-  X(ERROR_MU_CLOTH, -10, "bad_mu_cloth", "the friction of ball and cloth must be in [0, 1]")       \
+  X(ERROR_MU_SLIDE, -10, "bad_mu_slide", "the friction of ball and cloth must be in [0, 1]")       \
   X(ERROR_MU_BALL, -11, "bad_mu_ball", "the friction of ball and ball must be in [0, 1]")          \
   X(ERROR_RESTITUTION, -12, "bad_restitution", "the restitution must be in [0, 1]")                \
   X(ERROR_RADII_DIFFER, -13, "radii_differ", "both balls must have the same radius")               \
@@ -263,7 +263,7 @@ const char *carom_field_name(int field) {
 #define BALL(ball)                                                                          \
 #ball ".r[0]", #ball ".r[1]", #ball ".r[2]", #ball ".v[0]", #ball ".v[1]", #ball ".v[2]", \
       #ball ".w[0]", #ball ".w[1]", #ball ".w[2]", #ball ".radius", #ball ".mass",          \
-      #ball ".mu_cloth"
+      #ball ".mu_slide"
   static const char *const names[] = {BALL(a), BALL(b), "mu_ball", "restitution"};
 #undef BALL
   if (field < 0 || field >= (int)(sizeof names / sizeof names[0]))

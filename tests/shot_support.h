@@ -55,7 +55,7 @@ static inline carom_cushion_impact at_cushion(const carom_ball_kind *k, const do
                                 .height = k->nose_height > 0.0 ? k->nose_height : 0.036576,
                                 .radius = k->radius,
                                 .mass = k->mass,
-                                .mu_cloth = k->mu_slide,
+                                .mu_slide = k->mu_slide,
                                 .mu_cushion = k->mu_cushion,
                                 .restitution = k->restitution_cushion};
 }

@@ -49,7 +49,7 @@ static carom_ball random_ball(random_source *source) {
       .v = {speed * cos(way), speed * sin(way), 0.0},
       .radius = 0.028575,
       .mass = 0.17,
-      .mu_cloth = random_between(source, 0.0, 0.5)};
+      .mu_slide = random_between(source, 0.0, 0.5)};
   for (int k = 0; k < 3; k++)
     ball.w[k] = random_between(source, -1.0, 1.0) * speed / ball.radius;
   return ball;
@@ -78,7 +78,7 @@ carom_cushion_impact random_cushion(random_source *source) {
                              .height = 0.0365,
                              .radius = 0.028575,
                              .mass = 0.17,
-                             .mu_cloth = 0.2,
+                             .mu_slide = 0.2,
                              .mu_cushion = 0.2,
                              .restitution = 0.85};
   in.v[0] = random_between(source, -3.0, 3.0);

@@ -98,7 +98,7 @@ static void move(const contact_picture *p, motion *m) {
     *b = (carom_shot_ball){.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
     b->kind.mass = p->ball[k]->mass;
     b->kind.radius = R;
-    b->kind.mu_slide = fmax(p->ball[k]->mu_cloth, least_friction);
+    b->kind.mu_slide = fmax(p->ball[k]->mu_slide, least_friction);
     memcpy(b->state.r, p->ball[k]->r, sizeof b->state.r);
     memcpy(b->state.v, p->after[k]->v, sizeof b->state.v);
     memcpy(b->state.w, p->after[k]->w, sizeof b->state.w);
@@ -113,7 +113,7 @@ static void move(const contact_picture *p, motion *m) {
   for (int64_t k = 0; k < m->shot.count && k < MOST_EVENTS; k++)
     if (m->events[k].type == CAROM_EVENT_SLIDING_ROLLING && m->rolls[m->events[k].a] == 0.0) {
       m->rolls[m->events[k].a] = m->events[k].time;
-      if (p->ball[0]->mu_cloth > least_friction)
+      if (p->ball[0]->mu_slide > least_friction)
         m->end = fmax(m->end, 1.25 * m->events[k].time);
     }
   m->end = fmin(m->end, m->shot.time);

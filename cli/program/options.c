@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ROWS = 48, MOST_LONGS = MOST_ROWS + 16, FIRST_CODE = UCHAR_MAX + 1 };
+enum { MOST_ROWS = 48, MOST_LONGS = MOST_ROWS + 24, FIRST_CODE = UCHAR_MAX + 1 };
 enum { HELP_WIDTH = 80, OPTION_WIDTH = 23 }; /* columns of the help */
 
 static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};
@@ -25,7 +25,7 @@ static const struct {
 } also[] = {{"english", "side"},   {"rack", "rules"},         {"rack", "balls"},
             {"game", "rules"},     {"power", "speed"},        {"fargo", "player"},
             {"fargo", "players"},  {"player", "players"},     {"rating", "player"},
-            {"rating", "players"}, {"object-balls", "balls"}, {"cloth-friction", "cloth"}};
+            {"rating", "players"}, {"object-balls", "balls"}, {"cloth", "mu-slide"}, {"cloth-friction", "mu-slide"}, {"models", "world"}, {"ball-ball", "ball-model"}, {"solver", "ball-model"}, {"cushion-model", "model"}, {"cushion-model", "cushion"}};
 
 /* What players ask for by a name that no option has, and what says it. A subcommand without the
  * option says nothing. */
@@ -42,7 +42,7 @@ static const struct {
     {"cushions", "with", "--with old_cushion, new_cushion or humid_cushion"},
     {"pocket-size", "table", "a measure of --table has it: --table 9ft,corner=4.25in"},
     {"pockets", "table", "a measure of --table has it: --table 9ft,corner=4.25in"},
-    {"with", "friction", "--friction, --restitution, --cloth, --roll, --mass and --radius say it"},
+    {"with", "friction", "--friction, --restitution, --mu-slide, --roll, --mass and --radius say it"},
     {"angle", "aim", "--aim is the direction of the cue, --cut the angle at the ball"},
     {"from", "cue", "--cue is where the cue ball lies"}};
 

@@ -154,7 +154,7 @@ typedef struct shared_options {
                                  of two balls */
   carom_cushion_options rail; /* --model, --convention, --law, --least-step */
   uint32_t models;            /* a bit for each of several models; 0: that of rail */
-  carom_shot_options shot;    /* of whole shots: --models, --ball-ball, ... */
+  carom_shot_options shot;    /* of whole shots: --world, --ball-model, ... */
   given_numbers with;         /* --with */
   bool of_game;               /* of impacts: --with changes the numbers of a game, not 0s */
   carom_options options;      /* --solver of one, --slip, --steps, --threads */

@@ -245,7 +245,7 @@ static carom_cushion_impact at_rail(const carom_local *c, double sine, lab_rando
       .height = c->R * (1 + sine),
       .radius = c->R,
       .mass = c->M_i,
-      .mu_cloth = c->mu_i,
+      .mu_slide = c->mu_i,
       .mu_cushion = c->mu_b,
       .restitution = c->e};
 }

@@ -110,7 +110,7 @@ carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k) 
       .v = {speed * cos(turn + angle), speed * sin(turn + angle)},
       .radius = lab_uniform(&state, 0.025, 0.031),
       .mass = lab_uniform(&state, 0.13, 0.21),
-      .mu_cloth = lab_uniform(&state, friction[any][0], friction[any][1]),
+      .mu_slide = lab_uniform(&state, friction[any][0], friction[any][1]),
       .mu_cushion = lab_uniform(&state, friction[any][0], friction[any][1]),
       .restitution = lab_uniform(&state, restitution[any], 1),
       .jaw_radius = lab_uniform(&state, 0, 1) < 0.5 ? 0 : lab_uniform(&state, 0.005, 0.03)};
@@ -129,7 +129,7 @@ carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k) 
                                 .height = in.height,
                                 .radius = in.radius,
                                 .mass = in.mass,
-                                .mu_cloth = in.mu_cloth,
+                                .mu_slide = in.mu_slide,
                                 .mu_cushion = in.mu_cushion,
                                 .restitution = in.restitution};
   } else if (what < 0.5) /* a ball that slides without spin */
@@ -153,7 +153,7 @@ const char *draw_name(draw_kind kind, int group) {
 
 bool is_of_play(const carom_impact *in) {
   const double ratio = in->a.mass / in->b.mass;
-  return in->mu_ball <= 0.2 && fmax(in->a.mu_cloth, in->b.mu_cloth) <= 0.5 &&
+  return in->mu_ball <= 0.2 && fmax(in->a.mu_slide, in->b.mu_slide) <= 0.5 &&
          in->restitution >= 0.5 && ratio >= 0.5 && ratio <= 2;
 }
 

@@ -139,7 +139,7 @@ static real slips_of(const meeting *k, real s[SLIPS]) {
 typedef struct equations {
   real s[SLIPS], v; /* at the start */
   real S_p[SLIPS], S_f[SLIPS][SLIPS], v_p, v_f[SLIPS];
-  real mu, mu_cloth, e, g_0, g_1;
+  real mu, mu_slide, e, g_0, g_1;
 } equations;
 
 static void derive(const meeting *start, equations *q) {
@@ -186,7 +186,7 @@ static real frictions(const equations *q, const real s[SLIPS], real eps, bool lo
   f[2] = f[3] = 0;
   if (!loaded)
     return load;
-  coulomb(q->mu_cloth, s + 2, eps, t, d);
+  coulomb(q->mu_slide, s + 2, eps, t, d);
   for (int i = 0; i < 2; i++) {
     f[2 + i] = load * t[i];
     for (int j = 0; j < 2; j++) {
@@ -462,7 +462,7 @@ static bool integrate(const rule *r, const equations *q, const tolerances *t, im
   state at = {.v = 1};
   memcpy(at.s, q->s, sizeof at.s);
   real h = -0.05L / q->v_p, f[SLIPS], by_s[SLIPS][SLIPS];
-  g.loaded = frictions(q, at.s, t->eps, false, f, by_s) > 0 && q->mu_cloth > 0;
+  g.loaded = frictions(q, at.s, t->eps, false, f, by_s) > 0 && q->mu_slide > 0;
   const real small = 1e4L * t->eps;
   for (int n = 0; n < STEPS_MOST; n++) {
     state next;
@@ -478,7 +478,7 @@ static bool integrate(const rule *r, const equations *q, const tolerances *t, im
     int first = -1;
     real length = h;
     for (int which = 0; which < EVENTS; which++)
-      if ((which != LOAD || q->mu_cloth > 0) && event(&g, which, &next) > 0 &&
+      if ((which != LOAD || q->mu_slide > 0) && event(&g, which, &next) > 0 &&
           event(&g, which, &at) <= 0) {
         length = locate(&g, which, &at, length, &next);
         first = which;
@@ -639,9 +639,9 @@ static bool set_up_balls(const void *subject, int slip, int n, meeting *k, equat
   real s[SLIPS];
   const real v = slips_of(k, s);
   k->pressed = s[1] < 0;
-  const double mu_pressed = k->pressed == 1 ? in->b.mu_cloth : in->a.mu_cloth;
+  const double mu_pressed = k->pressed == 1 ? in->b.mu_slide : in->a.mu_slide;
   *q = (equations){.mu = nudged(in->mu_ball, n, 10),
-                   .mu_cloth = s[1] == 0 ? 0 : nudged(mu_pressed, n, 11),
+                   .mu_slide = s[1] == 0 ? 0 : nudged(mu_pressed, n, 11),
                    .e = in->restitution,
                    .g_1 = k->pressed == 1 ? 1 : -1};
   return v > 0;
@@ -660,7 +660,7 @@ static bool set_up_cushion(const void *subject, int slip, int n, meeting *k, equ
   /* the cloth bears what pushes the ball down: p along the nose, less the friction that pulls it
    * up */
   *q = (equations){.mu = nudged(in->mu_cushion, n, 10),
-                   .mu_cloth = nudged(in->mu_cloth, n, 11),
+                   .mu_slide = nudged(in->mu_slide, n, 11),
                    .e = in->restitution,
                    .g_0 = sine,
                    .g_1 = -cosine};

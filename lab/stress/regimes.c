@@ -33,8 +33,8 @@ static double sign(lab_random *r) {
 carom_impact draw_turned(const carom_local *c, double angle) {
   const double y[2] = {sin(angle), cos(angle)}, x[2] = {y[1], -y[0]};
   carom_impact in = {
-      .a = {.w = {0, 0, c->w_iz}, .radius = c->R, .mass = c->M_i, .mu_cloth = c->mu_i},
-      .b = {.w = {0, 0, c->w_jz}, .radius = c->R, .mass = c->M_j, .mu_cloth = c->mu_j},
+      .a = {.w = {0, 0, c->w_iz}, .radius = c->R, .mass = c->M_i, .mu_slide = c->mu_i},
+      .b = {.w = {0, 0, c->w_jz}, .radius = c->R, .mass = c->M_j, .mu_slide = c->mu_j},
       .mu_ball = c->mu_b,
       .restitution = c->e};
   for (int k = 0; k < 2; k++) {

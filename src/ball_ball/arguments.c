@@ -68,7 +68,7 @@ static const carom_range of_ball[BALL_FIELDS] = {
     {CAROM_FINITE, CAROM_ERROR_VELOCITY}, {CAROM_FINITE, CAROM_ERROR_VELOCITY},
     {CAROM_FINITE, CAROM_ERROR_SPIN},     {CAROM_FINITE, CAROM_ERROR_SPIN},
     {CAROM_FINITE, CAROM_ERROR_SPIN},     {CAROM_POSITIVE, CAROM_ERROR_RADIUS},
-    {CAROM_POSITIVE, CAROM_ERROR_MASS},   {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_CLOTH},
+    {CAROM_POSITIVE, CAROM_ERROR_MASS},   {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_SLIDE},
 };
 static const carom_range of_pair[] = {
     {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_BALL},
@@ -113,8 +113,8 @@ carom_status carom_check_impact(const carom_impact *in, int *field) {
   good &= carom_is_positive(in->a.radius);
   good &= carom_is_positive(in->a.mass);
   good &= carom_is_positive(in->b.mass);
-  good &= carom_in_unit_interval(in->a.mu_cloth);
-  good &= carom_in_unit_interval(in->b.mu_cloth);
+  good &= carom_in_unit_interval(in->a.mu_slide);
+  good &= carom_in_unit_interval(in->b.mu_slide);
   good &= carom_in_unit_interval(in->mu_ball);
   good &= carom_in_unit_interval(in->restitution);
   good &= !radii_differ(in);

@@ -278,7 +278,7 @@ static bool touch_again(bool flat, state *c) {
 /* The friction of the cloth in a step, in closed form: it stops the slip on the cloth, or acts
  * against its mean. */
 static inline void rub_on_cloth(ball *p) {
-  const double most = p->mu_cloth * p->load, m = 3.5 * p->inverse_mass;
+  const double most = p->mu_slide * p->load, m = 3.5 * p->inverse_mass;
   double g[2] = {0.0, 0.0};
   if (most > 0.0) {
     /* the slip at the end without this friction */

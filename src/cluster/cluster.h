@@ -21,7 +21,7 @@
  * ON THE CLOTH v_z = 0 and u has no part of v_z. The friction's vertical part presses one ball
  * of a contact on the cloth:
  *
- *     L = max(0, -sum f_z)     |g| <= mu_cloth L,  g against v + z x W
+ *     L = max(0, -sum f_z)     |g| <= mu_slide L,  g against v + z x W
  *     m v' += g,  (2/5) m W' -= z x g
  *
  * IN SPACE v_z is free and the cloth takes no part: a ball that is pressed down lands
@@ -82,7 +82,7 @@ enum {
 typedef struct carom_cluster_ball {
   double r[3], v[3], W[3];     /* W = R w, m/s */
   double radius, inverse_mass; /* m, 1/kg */
-  double mu_cloth;
+  double mu_slide;
   double restitution, modulus; /* e; E, N/m^2 */
   double law[3];               /* numbers of its friction with other balls, friction/laws.h; a
                                   pair has the mean of each */

@@ -42,7 +42,7 @@ static const carom_range of_field[FIELDS] = {
     {CAROM_POSITIVE, CAROM_ERROR_NOSE_HEIGHT},
     {CAROM_POSITIVE, CAROM_ERROR_RADIUS},
     {CAROM_POSITIVE, CAROM_ERROR_MASS},
-    {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_CLOTH},
+    {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_SLIDE},
     {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_CUSHION},
     {CAROM_UNIT_INTERVAL, CAROM_ERROR_RESTITUTION},
     {CAROM_NOT_NEGATIVE, CAROM_ERROR_JAW_RADIUS},
@@ -85,7 +85,7 @@ carom_status carom_cushion_check(const carom_cushion_impact *in, const carom_cus
 const char *carom_cushion_field_name(int field) {
   static const char *const names[FIELDS] = {
       "v[0]",   "v[1]",   "v[2]", "w[0]",     "w[1]",       "w[2]",        "normal[0]", "normal[1]",
-      "height", "radius", "mass", "mu_cloth", "mu_cushion", "restitution", "jaw_radius"};
+      "height", "radius", "mass", "mu_slide", "mu_cushion", "restitution", "jaw_radius"};
   if (field < 0 || field >= FIELDS)
     return NULL;
   return names[field];

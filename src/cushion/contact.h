@@ -91,7 +91,7 @@ static inline carom_contact carom_to_cushion(const carom_cushion_frame *frame,
                      .W_y = R * (in->w[0] * Y + in->w[1] * X),
                      .W_z = R * in->w[2],
                      .sine = (in->height - R) / R,
-                     .mu_s = in->mu_cloth,
+                     .mu_s = in->mu_slide,
                      .mu_w = in->mu_cushion,
                      .e = in->restitution};
   c.cosine = sqrt((1 - c.sine) * (1 + c.sine));

@@ -40,7 +40,7 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
   b.which = (int8_t)which;
   b.radius = kind->radius;
   b.inverse_mass = 1.0 / kind->mass;
-  b.mu_cloth = kind->mu_slide;
+  b.mu_slide = kind->mu_slide;
   b.restitution = kind->restitution;
   b.modulus = carom_or_usual(kind->modulus, usual_modulus);
   b.friction = (int8_t)opt->friction;

@@ -95,7 +95,7 @@ static carom_ball impact_ball(const carom_ball_kind *kind, const carom_ball_stat
                       .w = {s->w[0], s->w[1], s->w[2]},
                       .radius = kind->radius,
                       .mass = kind->mass,
-                      .mu_cloth = kind->mu_slide};
+                      .mu_slide = kind->mu_slide};
 }
 
 static void take_motion(const carom_motion *motion, carom_ball_state *s) {
@@ -318,7 +318,7 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
                                    .height = carom_nose_height(kind, nose->height),
                                    .radius = kind->radius,
                                    .mass = kind->mass,
-                                   .mu_cloth = kind->mu_slide,
+                                   .mu_slide = kind->mu_slide,
                                    .mu_cushion = carom_or_usual(nose->mu_cushion, kind->mu_cushion),
                                    .restitution =
                                        carom_or_usual(nose->restitution, kind->restitution_cushion),

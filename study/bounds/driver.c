@@ -20,7 +20,7 @@
 static bool read_ball(carom_ball *ball) {
   double *field[] = {&ball->r[0], &ball->r[1],   &ball->r[2], &ball->v[0],
                      &ball->v[1], &ball->v[2],   &ball->w[0], &ball->w[1],
-                     &ball->w[2], &ball->radius, &ball->mass, &ball->mu_cloth};
+                     &ball->w[2], &ball->radius, &ball->mass, &ball->mu_slide};
   for (size_t k = 0; k < sizeof field / sizeof *field; k++)
     if (scanf("%lf", field[k]) != 1)
       return false;

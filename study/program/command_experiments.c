@@ -73,13 +73,13 @@ static carom_impact impact_of(const shot *s) {
                            .w = {-s->omega_T * cos(s->theta), s->omega_T * sin(s->theta), 0.0},
                            .radius = 0.02625,
                            .mass = 0.1406,
-                           .mu_cloth = 0.21},
+                           .mu_slide = 0.21},
                      .mu_ball = 0.05,
                      .restitution = 0.89};
   in.b = (carom_ball){.r = {0.0, 2.0 * in.a.radius, 0.0},
                       .radius = in.a.radius,
                       .mass = in.a.mass,
-                      .mu_cloth = in.a.mu_cloth};
+                      .mu_slide = in.a.mu_slide};
   return in;
 }
 

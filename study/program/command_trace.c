@@ -63,7 +63,7 @@ static void write_notes(FILE *out, const trace_job *job, const carom_impact *in,
           "# friction of the cloth: %.3g and %.3g\n# restitution: %.3g\n"
           "# compression ends: %.6g\n# the balls stick: %.6g\n",
           job->id, carom_slip_name(job->shared.options.slip), job->shared.options.steps,
-          in->mu_ball, in->a.mu_cloth, in->b.mu_cloth, in->restitution,
+          in->mu_ball, in->a.mu_slide, in->b.mu_slide, in->restitution,
           end_of_compression(exact, job->points), detail.stick_normal);
 }
 

@@ -64,7 +64,7 @@ static carom_impact mixed_row(random_source *source, size_t k) {
       in.b.v[c] = -in.b.v[c];
     }
   if (k % 11 == 5)
-    in.a.mu_cloth = in.b.mu_cloth = in.mu_ball = 0.0;
+    in.a.mu_slide = in.b.mu_slide = in.mu_ball = 0.0;
   if (k % 13 == 6)
     memset(in.a.w, 0, sizeof in.a.w), memset(in.b.w, 0, sizeof in.b.w);
   if (k % 17 == 7)

@@ -22,7 +22,7 @@ TEST(from_both_contacts_at_rest) {
                                      .height = random_between(&r, 0.03, 0.04),
                                      .radius = 0.028575,
                                      .mass = 0.17,
-                                     .mu_cloth = random_between(&r, 0.15, 0.4),
+                                     .mu_slide = random_between(&r, 0.15, 0.4),
                                      .mu_cushion = random_between(&r, 0.05, 0.4),
                                      .restitution = 0.8};
     carom_motion out, exact;
@@ -47,7 +47,7 @@ TEST(a_heavy_ball_is_a_wall) {
                                  .height = in.a.radius,
                                  .radius = in.a.radius,
                                  .mass = in.a.mass,
-                                 .mu_cloth = in.a.mu_cloth,
+                                 .mu_slide = in.a.mu_slide,
                                  .mu_cushion = in.mu_ball,
                                  .restitution = in.restitution};
     for (int c = 0; c < 3; c++) {
@@ -180,7 +180,7 @@ TEST(measured_rebounds) {
                                      .height = 1.4 * R,
                                      .radius = R,
                                      .mass = 0.1406,
-                                     .mu_cloth = 0.212,
+                                     .mu_slide = 0.212,
                                      .mu_cushion = 0.14,
                                      .restitution = 0.98};
     carom_motion out;

@@ -325,7 +325,7 @@ TEST(euler_is_bounded) {
   for (int k = 0; k < 3000; k++) {
     carom_impact in = random_impact(&source);
     in.mu_ball = random_between(&source, 0, 1);
-    in.a.mu_cloth = in.b.mu_cloth = random_between(&source, 0, 1);
+    in.a.mu_slide = in.b.mu_slide = random_between(&source, 0, 1);
     in.a.mass = in.b.mass * exp(random_between(&source, -20, 20));
     if (carom_collide_detail(&in, &options, &out, &detail) == CAROM_OK)
       ck_assert_int_le(detail.steps, 16 * options.steps);

@@ -55,7 +55,7 @@ static double allowance(const carom_impact *in, const carom_options *options,
   double scale = 0.0;
   for (int k = 0; k < 12; k++)
     scale = fmax(scale, fabs(((const double *)parent)[k]) * (k / 3 % 2 == 1 ? R : 1.0));
-  return (dv + (slip_ended ? 2.5 * fmax(in->a.mu_cloth, in->b.mu_cloth) * in->mu_ball * P : 0.0)) /
+  return (dv + (slip_ended ? 2.5 * fmax(in->a.mu_slide, in->b.mu_slide) * in->mu_ball * P : 0.0)) /
          scale;
 }
 
@@ -108,8 +108,8 @@ TEST(base_is_euler) {
 
 static carom_impact head_on(void) {
   return (carom_impact){
-      .a = {.v = {0.0, 1.0, 0.0}, .radius = 0.028, .mass = 0.17, .mu_cloth = 0.2},
-      .b = {.r = {0.0, 0.056, 0.0}, .radius = 0.028, .mass = 0.17, .mu_cloth = 0.2},
+      .a = {.v = {0.0, 1.0, 0.0}, .radius = 0.028, .mass = 0.17, .mu_slide = 0.2},
+      .b = {.r = {0.0, 0.056, 0.0}, .radius = 0.028, .mass = 0.17, .mu_slide = 0.2},
       .mu_ball = 0.05,
       .restitution = 0.95,
   };
@@ -136,12 +136,12 @@ static void expect(carom_impact impact, int steps, carom_status expected) {
 
 #define HEAD_ON .mu_ball = 0.05, .restitution = 0.95
 #define BALLS(V_A, V_B, M_A, M_B, RADIUS)                                      \
-  .a = {.v = {0.0, V_A, 0.0}, .radius = RADIUS, .mass = M_A, .mu_cloth = 0.2}, \
+  .a = {.v = {0.0, V_A, 0.0}, .radius = RADIUS, .mass = M_A, .mu_slide = 0.2}, \
   .b = {.r = {0.0, 2 * (RADIUS), 0.0},                                         \
         .v = {0.0, V_B, 0.0},                                                  \
         .radius = RADIUS,                                                      \
         .mass = M_B,                                                           \
-        .mu_cloth = 0.2}
+        .mu_slide = 0.2}
 
 /* Head-on collisions that are refused or solved, whose speeds and sizes are extreme. */
 TEST(what_cannot_be_solved_is_refused_and_the_rest_ends) {
@@ -181,7 +181,7 @@ TEST(what_cannot_be_solved_is_refused_and_the_rest_ends) {
   impact = head_on(), impact.b.r[1] = 0.0;
   expect(impact, 1000, CAROM_ERROR_COINCIDENT);
   impact = head_on();
-  impact.mu_ball = impact.a.mu_cloth = impact.b.mu_cloth = impact.restitution = 1.0;
+  impact.mu_ball = impact.a.mu_slide = impact.b.mu_slide = impact.restitution = 1.0;
   impact.a.w[0] = 300.0, impact.a.w[1] = -200.0, impact.a.w[2] = 100.0;
   expect(impact, 1000, CAROM_OK);
 }

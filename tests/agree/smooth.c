@@ -16,7 +16,7 @@ static carom_impact play_of(random_source *random, int spin) {
   const carom_ball ball = {.r = {0, 0, kind.radius},
                            .radius = kind.radius,
                            .mass = kind.mass,
-                           .mu_cloth = kind.mu_slide};
+                           .mu_slide = kind.mu_slide};
   carom_impact in = {.a = ball, .b = ball, .mu_ball = 0.06, .restitution = 0.95};
   const double angle = random_between(random, 0.0, 6.28), cut = random_between(random, -1.2, 1.2),
                speed = random_between(random, 0.5, 5.0);

@@ -335,8 +335,8 @@ START_TEST(collisions_agree_with_differences) {
         .v = {random_between(&random, 0.2, 3.0), random_between(&random, -1.0, 1.0), 0.0},
         .radius = R,
         .mass = random_between(&random, 0.15, 0.2),
-        .mu_cloth = random_between(&random, 0.15, 0.25)};
-    in.b = (carom_ball){.r = {2.0 * R, 0.01, 0.0}, .radius = R, .mass = 0.17, .mu_cloth = 0.2};
+        .mu_slide = random_between(&random, 0.15, 0.25)};
+    in.b = (carom_ball){.r = {2.0 * R, 0.01, 0.0}, .radius = R, .mass = 0.17, .mu_slide = 0.2};
     for (int i = 0; i < 3; i++)
       in.a.w[i] = random_between(&random, -60.0, 60.0);
     const bool rolls = k % 2 == 1;
@@ -383,8 +383,8 @@ START_TEST(directions_that_leave_a_roll) {
                         .w = {0, 0, 20 * units[k]},
                         .radius = R,
                         .mass = 0.17,
-                        .mu_cloth = 0.2};
-    in.b = (carom_ball){.r = {0, 2 * R, 0}, .radius = R, .mass = 0.17, .mu_cloth = 0.2};
+                        .mu_slide = 0.2};
+    in.b = (carom_ball){.r = {0, 2 * R, 0}, .radius = R, .mass = 0.17, .mu_slide = 0.2};
     /* backwards, so that a is pressed */
     in.a.w[0] = -in.a.v[1] / R;
     in.a.w[1] = in.a.v[0] / R;
@@ -424,7 +424,7 @@ START_TEST(directions_that_leave_a_roll) {
                                  .height = 1.28 * R,
                                  .radius = R,
                                  .mass = 0.17,
-                                 .mu_cloth = 0.2,
+                                 .mu_slide = 0.2,
                                  .mu_cushion = 0.2,
                                  .restitution = 0.85};
     memcpy(rail.v, in.a.v, sizeof rail.v);
@@ -468,7 +468,7 @@ START_TEST(cushions_agree_with_differences) {
         .height = random_between(&random, 1.2, 1.4) * R,
         .radius = R,
         .mass = 0.17,
-        .mu_cloth = random_between(&random, 0.15, 0.25),
+        .mu_slide = random_between(&random, 0.15, 0.25),
         .mu_cushion = random_between(&random, 0.1, 0.3),
         .restitution = random_between(&random, 0.7, 0.95)};
     for (int i = 0; i < 3; i++)
@@ -505,8 +505,8 @@ START_TEST(stop_shots) {
   const double R = 0.028575, across[] = {0.0, 1e-17, 1e-12, 1e-9, 2e-9, 1e-6};
   for (size_t k = 0; k < sizeof across / sizeof across[0]; k++) {
     const carom_impact in = {
-        .a = {.v = {2.0 * across[k], 2.0, 0.0}, .radius = R, .mass = 0.17, .mu_cloth = 0.2},
-        .b = {.r = {0.0, 2.0 * R, 0.0}, .radius = R, .mass = 0.17, .mu_cloth = 0.2},
+        .a = {.v = {2.0 * across[k], 2.0, 0.0}, .radius = R, .mass = 0.17, .mu_slide = 0.2},
+        .b = {.r = {0.0, 2.0 * R, 0.0}, .radius = R, .mass = 0.17, .mu_slide = 0.2},
         .mu_ball = 0.06,
         .restitution = 0.95,
     };
@@ -563,7 +563,7 @@ START_TEST(cushions_without_slip_at_the_nose) {
         .height = heights[k % 5] * R,
         .radius = R,
         .mass = 0.17,
-        .mu_cloth = random_between(&random, 0.1, 0.3),
+        .mu_slide = random_between(&random, 0.1, 0.3),
         .mu_cushion = random_between(&random, 0.05, 0.3),
         .restitution = random_between(&random, 0.7, 0.95)};
     /* one direction a call, since a flag is that of all directions */
@@ -718,8 +718,8 @@ START_TEST(what_is_not_known_is_refused) {
 #undef IS
   /* single contacts by other solvers and conventions */
   const carom_impact in = {
-      .a = {.v = {1.0, 0.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_cloth = 0.2},
-      .b = {.r = {0.06, 0.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_cloth = 0.2},
+      .a = {.v = {1.0, 0.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_slide = 0.2},
+      .b = {.r = {0.06, 0.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_slide = 0.2},
       .mu_ball = 0.05,
       .restitution = 0.9};
   const carom_options steps = {.solver = CAROM_SOLVER_EULER};

@@ -9,7 +9,7 @@ carom replay game.jsonl | sed 's/,[0-9a-f]\{16\},/,HASH,/'
 carom replay full.jsonl > one.csv
 CAROM_ISA=plain carom replay full.jsonl | cmp - one.csv && tail -n +2 one.csv | cut -d , -f 7 | sort | uniq -c | tr -s ' '
 echo "--- the models are recorded"
-carom record --models pooltool "$DATA/shots-pooltool.jsonl" > pooltool.jsonl
+carom record --world pooltool "$DATA/shots-pooltool.jsonl" > pooltool.jsonl
 grep -o '"options":.*' pooltool.jsonl
 carom verify pooltool.jsonl | sed 's/(.*//'
 echo "--- forged"

@@ -9,11 +9,11 @@ carom shoot --threads 1 -o one.jsonl recorded.jsonl
 carom shoot --threads 4 -o four.jsonl recorded.jsonl
 cmp one.jsonl four.jsonl && echo "the same with any number of threads"
 grep -o '"kind": "[a-z]*"' one.jsonl | sort | uniq -c | tr -s ' '
-carom shoot --models pooltool --events brief recorded.jsonl | grep -o '"n_events": [0-9]*' | tr -d ' ' > ours
+carom shoot --world pooltool --events brief recorded.jsonl | grep -o '"n_events": [0-9]*' | tr -d ' ' > ours
 tr -d ' ' < recorded.jsonl | grep -o '"n_events":[0-9]*' | cmp - ours && echo "as many events as recorded"
-carom shoot --models pooltool --events brief recorded.jsonl | grep public-017 | sed 's/\[\([0-9.]*\), "/["/g; s/"final".*//; s/.*"events"/"events"/'
+carom shoot --world pooltool --events brief recorded.jsonl | grep public-017 | sed 's/\[\([0-9.]*\), "/["/g; s/"final".*//; s/.*"events"/"events"/'
 echo "--- what is written of shots that pooltool recorded"
-carom shoot --models pooltool recorded.jsonl > written.jsonl
+carom shoot --world pooltool recorded.jsonl > written.jsonl
 python - << 'PYTHON'
 import json, os
 
@@ -70,7 +70,7 @@ rail() { printf '{"id": "%s", "p1": [%s, 0.036], "p2": [%s, 0.036], "direction":
 } > odd.jsonl
 carom shoot -o odd.out --plot odd.svg odd.jsonl
 grep -o '"status": "[a-z]*"' odd.out
-carom shoot -o pool.out --models pooltool --plot pool.svg --id public-000 recorded.jsonl
+carom shoot -o pool.out --world pooltool --plot pool.svg --id public-000 recorded.jsonl
 python - << 'PYTHON'
 from drawn import check_shots
 print(check_shots("odd.out", "odd.svg", 7), check_shots("pool.out", "pool.svg", "public-000"))
@@ -151,7 +151,7 @@ grep -o '"status": "[a-z_]*"' bounds.out
 echo "--- usage"
 try carom shoot
 try carom shoot nosuch.jsonl
-try carom shoot --models other "$DATA/break-nineball.jsonl"
+try carom shoot --world other "$DATA/break-nineball.jsonl"
 try carom shoot --plot break.txt "$DATA/break-nineball.jsonl"
 echo "--- balls of a game, and what cushions and balls have of their own"
 state='"state": [3, 0.7, 1.0, 0.03075, 0.6, 1.2, 0, -39.024390243902438, 19.512195121951219, 0]'

@@ -99,8 +99,8 @@ echo "--- what is refused"
 for wrong in "" 1% 1%,0.05 1%,0.05,0.01,0.01,0.01 -1%,0.05,0.01 1%,x,0.01 1m/s,0.05,0.01 1%,0.05,1kg 0,0,0 nan,0,0; do
   try carom shoot --spread "$wrong" bank.jsonl
 done
-try carom shoot --spread 1%,0.05,0.01 --models pooltool -o refused.out bank.jsonl
-try carom shoot --spread 1%,0.05,0.01 --ball-ball euler -o refused.out bank.jsonl
+try carom shoot --spread 1%,0.05,0.01 --world pooltool -o refused.out bank.jsonl
+try carom shoot --spread 1%,0.05,0.01 --ball-model euler -o refused.out bank.jsonl
 ls refused.out 2> /dev/null || echo "nothing written"
 echo "--- a shot that is stopped by an error has no spread"
 try carom shoot --ball-speed 2 --tip 0,0 --spread 1%,0.05,0.01 --events-most 3 --plot stopped.svg

@@ -14,7 +14,7 @@ CUSHIONS = re.findall(
     r'^  X\(\w+, "(\w+)"', (SOURCE / "src/cushion/list.h").read_text(encoding="utf-8"), flags=re.M
 )
 assert len(CUSHIONS) >= 6, CUSHIONS
-MODELS = [[], *(["--cushion", model] for model in CUSHIONS), ["--models", "pooltool"]]
+MODELS = [[], *(["--cushion", model] for model in CUSHIONS), ["--world", "pooltool"]]
 KINDS = {"article": "article", "book": "book", "misc": "generic", "software": "software"}
 ACCENT = re.compile(r'\{?\\"([A-Za-z])\}?')
 

@@ -37,7 +37,7 @@ wrong += [f"{key} is cited and not defined" for key in cited - entries.keys()] +
 models = [["--cushion", model] for model in ("mathavan", "han", "smooth", "stronge")]
 said = "".join(
     subprocess.run([CAROM, "--cite", *more], stdout=subprocess.PIPE, text=True, check=True).stdout
-    for more in ([], *models, ["--models", "pooltool"])
+    for more in ([], *models, ["--world", "pooltool"])
 )
 own = {key: entry for key, entry in entries.items() if f"{{{key},\n" in said}
 wrong += [f"{key} is not as carom --cite tells" for key, entry in own.items() if entry not in said]

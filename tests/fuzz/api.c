@@ -14,7 +14,7 @@ static carom_ball make_ball(void) {
   vector(b.v, 10, 0);
   vector(b.w, 300, number(-300, 300));
   b.mass = number(0.1, 0.25);
-  b.mu_cloth = number(0, 0.5);
+  b.mu_slide = number(0, 0.5);
   return b;
 }
 
@@ -190,7 +190,7 @@ static void cushion(void) {
   in.normal[1] = number(-1, 1);
   in.height = choice(4) == 0 ? in.radius : in.radius * number(1.2, 1.45);
   in.mass = number(0.1, 0.25);
-  in.mu_cloth = number(0, 0.5);
+  in.mu_slide = number(0, 0.5);
   in.mu_cushion = number(0, 0.5);
   in.restitution = number(0.5, 1);
   if (choice(30) == 0)

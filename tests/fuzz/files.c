@@ -31,7 +31,7 @@ static const struct {
     {command_shoot, "jsonl", {"shoot", "--events-most", "60", "--cushion", "han"}},
     {command_shoot,
      "jsonl",
-     {"shoot", "--events-most", "20", "--models", "pooltool", "--events", "brief"}},
+     {"shoot", "--events-most", "20", "--world", "pooltool", "--events", "brief"}},
 };
 
 static char folder[20];                  /* in the working folder */

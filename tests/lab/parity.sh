@@ -10,6 +10,6 @@ lab parity changed.jsonl > table || echo "exit $?"
 printf '{"kind": "meta"}\n' > empty.jsonl
 lab parity empty.jsonl > /dev/null || echo "exit $?"
 echo "--- timing"
-lab bench --shots "$DATA/shots-pooltool.jsonl" --models pooltool | grep -v '^#' | cut -c1-30
+lab bench --shots "$DATA/shots-pooltool.jsonl" --world pooltool | grep -v '^#' | cut -c1-30
 lab bench --shots "$DATA/shots-mathavan.jsonl" --threads 2 --budget 0.2 --csv -o shots.csv
 grep -v '^#' shots.csv | awk -F, 'NR > 1 { print $1, NF, ($5 > 0 && $6 > 0 && $8 > 1 ? "timed" : "not timed: " $0) }' | tail -n 1

@@ -524,7 +524,7 @@ TEST(unlike_radii) {
 
   memcpy(&balls[0].state, &hit->before[0], sizeof balls[0].state);
   carom_impact in = impact_of(&balls[0], &balls[1], 0.05);
-  in.a.mu_cloth = in.b.mu_cloth = 0.2;
+  in.a.mu_slide = in.b.mu_slide = 0.2;
   const carom_result expected = between_the_laws(&in);
   for (int axis = 0; axis < 3; axis++) {
     NEAR(hit->after[0].v[axis], expected.a.v[axis], 1e-6);
@@ -618,7 +618,7 @@ TEST(jump_at_the_cloth) {
         a.state.v[0] = V;
         a.state.w[1] = spin * V / R;
         carom_impact in = impact_of(&a, &b, 0.0);
-        in.a.mu_cloth = in.b.mu_cloth = 0.2;
+        in.a.mu_slide = in.b.mu_slide = 0.2;
         in.mu_ball = carom_mu_ball(&in, carom_alciatore());
         carom_result flat, space;
         ck_assert_int_eq(carom_collide(&in, NULL, &flat), CAROM_OK);

@@ -142,7 +142,7 @@ static carom_impact impact_of(const layout *l, bool space, double *closing) {
   for (int i = 0; i < 2; i++) {
     const carom_shot_ball *from = &l->ball[i];
     *b[i] = (carom_ball){
-        .radius = from->kind.radius, .mass = from->kind.mass, .mu_cloth = from->kind.mu_slide};
+        .radius = from->kind.radius, .mass = from->kind.mass, .mu_slide = from->kind.mu_slide};
     memcpy(b[i]->r, from->state.r, 9 * sizeof(double)); /* r, v and w */
   }
   for (int k = 0; k < 3; k++) {

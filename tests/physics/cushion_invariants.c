@@ -79,7 +79,7 @@ static carom_cushion_impact usual(void) {
                                 .height = 1.4 * R,
                                 .radius = R,
                                 .mass = 0.1406,
-                                .mu_cloth = 0.212,
+                                .mu_slide = 0.212,
                                 .mu_cushion = 0.14,
                                 .restitution = 0.98};
 }
@@ -91,7 +91,7 @@ TEST(closed_forms) {
     carom_cushion_impact in = usual();
     const double sine = in.height / in.radius - 1, cosine_2 = 1 - sine * sine;
     carom_motion out;
-    in.mu_cloth = in.mu_cushion = 0;
+    in.mu_slide = in.mu_cushion = 0;
     in.restitution = k / 10.0;
     const carom_cushion_options han = {.model = CAROM_CUSHION_HAN},
                                 mirror = {.model = CAROM_CUSHION_MIRROR};
@@ -205,7 +205,7 @@ TEST(smooth_rebounds_as_measured) {
                                      .height = 0.0364,
                                      .radius = R,
                                      .mass = 0.21,
-                                     .mu_cloth = 0.196,
+                                     .mu_slide = 0.196,
                                      .mu_cushion = 0.255,
                                      .restitution = 0.799};
     const carom_cushion_options options = {.model = CAROM_CUSHION_SMOOTH, .mu_log = -0.010};
@@ -397,7 +397,7 @@ TEST(traces_tell_every_point) {
     for (int m = 0; m < 2; m++) {
       carom_cushion_impact in = usual();
       in.mu_cushion = (const double[]){0.14, 0.5, 0.9}[k % 3];
-      in.mu_cloth = k / 3 % 2 == 0 ? 0.2 : 1.0;
+      in.mu_slide = k / 3 % 2 == 0 ? 0.2 : 1.0;
       in.w[2] = (const double[]){-40, 0, 40}[k / 6 % 3];
       if (k >= 18) { /* rolls, slowly along the cushion */
         in.v[0] = 0.1;

@@ -69,9 +69,9 @@ static void expect_balance(const carom_impact *in, carom_slip slip) {
   const double about_z = (e.w_iz - b.w_iz) / C_i - (e.w_jz - b.w_jz) / C_j;
   ck_assert_double_le(fabs(along_x), 1e-11 * scale);
   ck_assert_double_le(fabs(about_z), 1e-11 * scale);
-  if (in->a.mu_cloth == 0.0)
+  if (in->a.mu_slide == 0.0)
     ck_assert_double_le(fabs(along_y + about_x), 1e-11 * scale);
-  if (in->b.mu_cloth == 0.0)
+  if (in->b.mu_slide == 0.0)
     ck_assert_double_le(fabs(along_y - about_x), 1e-11 * scale);
 }
 
@@ -83,9 +83,9 @@ TEST(momentum_balances) {
       if (k % 8 >= 4)
         unequal_masses(&source, &in);
       if (k % 4 == 0 || k % 4 == 1)
-        in.a.mu_cloth = 0.0;
+        in.a.mu_slide = 0.0;
       if (k % 4 == 0 || k % 4 == 2)
-        in.b.mu_cloth = 0.0;
+        in.b.mu_slide = 0.0;
       expect_balance(&in, CAROM_SLIP_PAPER);
       expect_balance(&in, CAROM_SLIP_POOLTOOL);
     }

@@ -23,7 +23,7 @@ typedef struct ref_press {
 
 typedef struct ref_strike {
   int count;
-  num m, R, mu, mu_cloth, M, V, first; /* first: V before the strike */
+  num m, R, mu, mu_slide, M, V, first; /* first: V before the strike */
   num axis[3], push[3], arm[3];
   num v[REF_BALLS][3], W[REF_BALLS][3], r[REF_BALLS][3]; /* W = R w */
   bool slate;
@@ -110,7 +110,7 @@ static inline void ref_begin(ref_strike *s, const carom_shot_ball *balls, int co
   s->m = kind->mass;
   s->R = kind->radius;
   s->mu = kind->mu_ball;
-  s->mu_cloth = kind->mu_slide;
+  s->mu_slide = kind->mu_slide;
   s->M = cue->mass;
   s->V = s->first = cue->speed;
   s->slate = cue->theta > 0.0;
@@ -253,7 +253,7 @@ static inline bool ref_push(ref_strike *s, num h) {
         s->v[i][2] = 0;
       ref_surface(s, i, foot, u);
       u[2] = 0;
-      ref_rub(u, 3.5L / s->m, s->mu_cloth * most, cloth[i], f);
+      ref_rub(u, 3.5L / s->m, s->mu_slide * most, cloth[i], f);
       ref_hit(s, i, foot, f);
     }
   }

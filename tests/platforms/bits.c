@@ -106,9 +106,9 @@ static carom_impact draw_collision(size_t k) {
   const int wild = k % 2 == 1;
   const double radius = 0.028575, x = between(-1.0, 1.0), y = between(-1.0, 1.0);
   const double length = sqrt(x * x + y * y) + 0x1p-60;
-  carom_ball a = {.radius = radius, .mass = 0.17, .mu_cloth = between(0.0, wild ? 1.0 : 0.4)},
+  carom_ball a = {.radius = radius, .mass = 0.17, .mu_slide = between(0.0, wild ? 1.0 : 0.4)},
              b = a;
-  b.mu_cloth = between(0.0, wild ? 1.0 : 0.4);
+  b.mu_slide = between(0.0, wild ? 1.0 : 0.4);
   b.mass = wild ? 0.17 * power_of_two(-3.0, 3.0) : 0.17;
   b.r[0] = 2.0 * radius * x / length;
   b.r[1] = 2.0 * radius * y / length;
@@ -138,7 +138,7 @@ static carom_impact draw_edge(size_t k) {
   static const double frictions[] = {0.0, 0.05, 0.2, 0.4, 1.0}, cuts[] = {0.0, 0.25, 0.5, 0.75};
   const double R = 0.028575, side = cuts[k % 4], speed = 0.5 * (double)(1 + k % 3);
   carom_impact in = {
-      .a = {.v = {speed, 0.0, 0.0}, .radius = R, .mass = 0.17, .mu_cloth = frictions[k / 4 % 5]},
+      .a = {.v = {speed, 0.0, 0.0}, .radius = R, .mass = 0.17, .mu_slide = frictions[k / 4 % 5]},
       .mu_ball = frictions[k / 20 % 5],
       .restitution = k / 100 % 2 == 0 ? 1.0 : 0.9};
   in.a.w[1] = k / 200 % 2 == 0 ? speed / R : 0.0;
@@ -234,7 +234,7 @@ static carom_cushion_impact draw_cushion(size_t k) {
   rail.v[1] = between(0.05, 4.0);
   for (int c = 0; c < 3; c++)
     rail.w[c] = between(-120.0, 120.0);
-  rail.mu_cloth = between(0.0, 0.4);
+  rail.mu_slide = between(0.0, 0.4);
   rail.mu_cushion = between(0.0, 0.6);
   rail.restitution = between(0.4, 1.0);
   rail.jaw_radius = k % 3 == 0 ? 0.02 : 0.0;
@@ -294,7 +294,7 @@ static void slips_that_begin(void) {
                                        .height = (1.0 + sine) * R,
                                        .radius = R,
                                        .mass = 0.17,
-                                       .mu_cloth = between(0.0, 0.6),
+                                       .mu_slide = between(0.0, 0.6),
                                        .mu_cushion = between(0.0, 0.3),
                                        .restitution = 0.8};
     carom_motion out;

@@ -25,8 +25,8 @@ static const bad_case bad_cases[] = {
     ALONE(b.radius, 0.026, CAROM_ERROR_RADII_DIFFER),
     ALONE(a.mass, 0.0, CAROM_ERROR_MASS),
     ALONE(b.mass, -0.17, CAROM_ERROR_MASS),
-    ALONE(a.mu_cloth, -1e-9, CAROM_ERROR_MU_CLOTH),
-    ALONE(b.mu_cloth, 1.5, CAROM_ERROR_MU_CLOTH),
+    ALONE(a.mu_slide, -1e-9, CAROM_ERROR_MU_SLIDE),
+    ALONE(b.mu_slide, 1.5, CAROM_ERROR_MU_SLIDE),
     ALONE(mu_ball, -0.1, CAROM_ERROR_MU_BALL),
     ALONE(mu_ball, 1.0000001, CAROM_ERROR_MU_BALL),
     ALONE(restitution, -1.0, CAROM_ERROR_RESTITUTION),
@@ -44,7 +44,7 @@ static carom_impact good_impact(void) {
                            .v = {0.3, 1.0, 0.0},
                            .radius = 0.03,
                            .mass = 0.17,
-                           .mu_cloth = 0.2},
+                           .mu_slide = 0.2},
                      .mu_ball = 0.05,
                      .restitution = 0.95};
   in.b = in.a;
@@ -84,7 +84,7 @@ TEST(each_field_is_named) {
   static const carom_status of_ball[12] = {
       CAROM_ERROR_POSITION, CAROM_ERROR_POSITION, CAROM_ERROR_POSITION, CAROM_ERROR_VELOCITY,
       CAROM_ERROR_VELOCITY, CAROM_ERROR_VELOCITY, CAROM_ERROR_SPIN,     CAROM_ERROR_SPIN,
-      CAROM_ERROR_SPIN,     CAROM_ERROR_RADIUS,   CAROM_ERROR_MASS,     CAROM_ERROR_MU_CLOTH};
+      CAROM_ERROR_SPIN,     CAROM_ERROR_RADIUS,   CAROM_ERROR_MASS,     CAROM_ERROR_MU_SLIDE};
   for (int k = 0; k < 26 * 3; k++) {
     static const double not_finite[3] = {NAN, INFINITY, -INFINITY};
     const carom_impact in = with(k / 3, not_finite[k % 3]);

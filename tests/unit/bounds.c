@@ -79,7 +79,7 @@ static void expect_bounded_balls(const carom_impact *in, carom_slip slip, const 
   }
 }
 
-/* v, w, normal, height, radius, mass, mu_cloth, mu_cushion, restitution, jaw: traces of these
+/* v, w, normal, height, radius, mass, mu_slide, mu_cushion, restitution, jaw: traces of these
  * took up to 64 s. */
 /* clang-format off */
 static const carom_cushion_impact found[] = {

@@ -14,7 +14,7 @@ static carom_cushion_impact good(void) {
                                 .height = 0.036,
                                 .radius = 0.028575,
                                 .mass = 0.17,
-                                .mu_cloth = 0.2,
+                                .mu_slide = 0.2,
                                 .mu_cushion = 0.2,
                                 .restitution = 0.85,
                                 .jaw_radius = 0.02};
@@ -37,7 +37,7 @@ TEST(each_field_is_named) {
   static const carom_status not_finite[15] = {
       CAROM_ERROR_VELOCITY,    CAROM_ERROR_VELOCITY,    CAROM_ERROR_VELOCITY,  CAROM_ERROR_SPIN,
       CAROM_ERROR_SPIN,        CAROM_ERROR_SPIN,        CAROM_ERROR_NORMAL,    CAROM_ERROR_NORMAL,
-      CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RADIUS,      CAROM_ERROR_MASS,      CAROM_ERROR_MU_CLOTH,
+      CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RADIUS,      CAROM_ERROR_MASS,      CAROM_ERROR_MU_SLIDE,
       CAROM_ERROR_MU_CUSHION,  CAROM_ERROR_RESTITUTION, CAROM_ERROR_JAW_RADIUS};
   for (int field = 0; field < 15; field++)
     for (int k = 0; k < 3; k++) {
@@ -54,7 +54,7 @@ TEST(each_field_is_named) {
                {8, -0.01, CAROM_ERROR_NOSE_HEIGHT}, {8, 0.05715, CAROM_ERROR_NOSE_HEIGHT},
                {9, 0, CAROM_ERROR_RADIUS},          {9, -1, CAROM_ERROR_RADIUS},
                {10, 0, CAROM_ERROR_MASS},           {10, -1, CAROM_ERROR_MASS},
-               {11, -1e-9, CAROM_ERROR_MU_CLOTH},   {11, 1.1, CAROM_ERROR_MU_CLOTH},
+               {11, -1e-9, CAROM_ERROR_MU_SLIDE},   {11, 1.1, CAROM_ERROR_MU_SLIDE},
                {12, -0.1, CAROM_ERROR_MU_CUSHION},  {12, 1.00001, CAROM_ERROR_MU_CUSHION},
                {13, -1, CAROM_ERROR_RESTITUTION},   {13, 1.01, CAROM_ERROR_RESTITUTION},
                {14, -0.1, CAROM_ERROR_JAW_RADIUS}};

@@ -101,7 +101,7 @@ static void set_up(void) {
       .events = events, .room = EVENTS, .final = final, .facts = &facts, .state = &state};
   const carom_shot_options half = {.time_most = 0.5};
   carom_shoot(&table, balls, BALLS, &cue, &half, &shot);
-  const carom_ball ball = {.radius = 0.028, .mass = 0.17, .mu_cloth = 0.2};
+  const carom_ball ball = {.radius = 0.028, .mass = 0.17, .mu_slide = 0.2};
   impact = (carom_impact){.a = ball, .b = ball, .mu_ball = 0.05, .restitution = 0.9};
   impact.a.v[0] = 1.0;
   impact.b.r[0] = 0.056;

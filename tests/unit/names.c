@@ -41,7 +41,7 @@ TEST(enumerations_have_names) {
 
 TEST(fields_have_names) {
   ck_assert_str_eq(carom_field_name(0), "a.r[0]");
-  ck_assert_str_eq(carom_field_name(11), "a.mu_cloth");
+  ck_assert_str_eq(carom_field_name(11), "a.mu_slide");
   ck_assert_str_eq(carom_field_name(12), "b.r[0]");
   ck_assert_str_eq(carom_field_name(20), "b.w[2]");
   ck_assert_str_eq(carom_field_name(25), "restitution");

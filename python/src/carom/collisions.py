@@ -58,8 +58,8 @@ def impacts(
     radius: npt.ArrayLike = 0.028575,
     mass: npt.ArrayLike = 0.170097,
     mass_b: npt.ArrayLike | None = None,
-    mu_cloth: npt.ArrayLike = 0.2,
-    mu_cloth_b: npt.ArrayLike | None = None,
+    mu_slide: npt.ArrayLike = 0.2,
+    mu_slide_b: npt.ArrayLike | None = None,
     mu_ball: npt.ArrayLike = 0.05,
     restitution: npt.ArrayLike = 0.95,
 ) -> dtypes.Records:
@@ -80,7 +80,7 @@ def impacts(
         balls.
     mass, mass_b : array_like, shape (...)
         Masses, kg; `mass_b` is `mass` if it is not given.
-    mu_cloth, mu_cloth_b : array_like, shape (...)
+    mu_slide, mu_slide_b : array_like, shape (...)
         Friction of each ball and the cloth, 0 to 1.
     mu_ball : array_like, shape (...)
         Friction between the balls, 0 to 1. `mu_ball()` computes it from the speed of slip.
@@ -94,7 +94,7 @@ def impacts(
     """
     other = {
         "b.mass": mass if mass_b is None else mass_b,
-        "b.mu_cloth": mu_cloth if mu_cloth_b is None else mu_cloth_b,
+        "b.mu_slide": mu_slide if mu_slide_b is None else mu_slide_b,
     }
     return fill(
         dtypes.impact,
@@ -105,7 +105,7 @@ def impacts(
             "a.w": w_a,
             "a.radius": radius,
             "a.mass": mass,
-            "a.mu_cloth": mu_cloth,
+            "a.mu_slide": mu_slide,
             "b.r": r_b,
             "b.v": v_b,
             "b.w": w_b,

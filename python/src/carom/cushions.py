@@ -118,7 +118,7 @@ def cushion_impacts(
     height: npt.ArrayLike | None = None,
     radius: npt.ArrayLike | None = None,
     mass: npt.ArrayLike | None = None,
-    mu_cloth: npt.ArrayLike | None = None,
+    mu_slide: npt.ArrayLike | None = None,
     mu_cushion: npt.ArrayLike | None = None,
     restitution: npt.ArrayLike | None = None,
     jaw_radius: npt.ArrayLike = 0.0,
@@ -138,7 +138,7 @@ def cushion_impacts(
         Of the nose above the cloth, m, between 0 and 2 radius.
     radius, mass : array_like, shape (...)
         Of the ball, m and kg.
-    mu_cloth, mu_cushion, restitution : array_like, shape (...)
+    mu_slide, mu_cushion, restitution : array_like, shape (...)
         0 to 1.
     jaw_radius : array_like, shape (...)
         m; 0 for a straight rail.
@@ -155,7 +155,7 @@ def cushion_impacts(
         "height": (height, "nose_height"),
         "radius": (radius, "radius"),
         "mass": (mass, "mass"),
-        "mu_cloth": (mu_cloth, "mu_slide"),
+        "mu_slide": (mu_slide, "mu_slide"),
         "mu_cushion": (mu_cushion, "mu_cushion"),
         "restitution": (restitution, "restitution_cushion"),
     }

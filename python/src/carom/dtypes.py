@@ -82,12 +82,12 @@ def _record(name: str) -> Record:
 
 
 # The headers in include/ have the fields of each, with their units.
-# Two balls at the instant of contact: a, b (r, v, w, radius, mass, mu_cloth), mu_ball, restitution.
+# Two balls at the instant of contact: a, b (r, v, w, radius, mass, mu_slide), mu_ball, restitution.
 # 26 doubles.
 impact: Record = _record("carom_impact")
 result: Record = _record("carom_result")  # Two balls after the collision: a, b (v, w). 12 doubles.
 motion: Record = _record("carom_motion")  # A ball's v (m/s) and w (rad/s). 6 doubles.
-# A ball at a cushion: v, w, normal, height, radius, mass, mu_cloth, mu_cushion, restitution,
+# A ball at a cushion: v, w, normal, height, radius, mass, mu_slide, mu_cushion, restitution,
 # jaw_radius. 15 doubles.
 cushion_impact: Record = _record("carom_cushion_impact")
 trace_point: Record = _record("carom_trace_point")  # A point of `carom.trace`.

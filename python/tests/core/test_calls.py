@@ -331,7 +331,7 @@ def hard():
         v_a=rng.uniform(0.1, 3, (n, 1)) * [1, 0, 0],
         w_a=rng.uniform(-80, 80, (n, 3)),
         mass_b=2.0,
-        mu_cloth=1.0,
+        mu_slide=1.0,
         mu_ball=1.0,
         r_b=np.stack([np.cos(angle), np.sin(angle), np.zeros(n)], axis=-1),
         restitution=0.1,

@@ -165,9 +165,9 @@ def test_impacts_broadcast_and_have_their_places_and_defaults():
         **vectors,
         radius=20,
         mass=21,
-        mu_cloth=22,
+        mu_slide=22,
         mass_b=23,
-        mu_cloth_b=24,
+        mu_slide_b=24,
         mu_ball=25,
         restitution=26,
     )
@@ -211,7 +211,7 @@ def test_impacts_broadcast_and_have_their_places_and_defaults():
     assert small["radius"] == carom.balls([[0, 0]], game="blackball")["kind"]["radius"][0]
     with pytest.raises(ValueError, match="snooker has no constants for 'stronge'"):
         carom.cushion_impacts(v=(1, 2, 0), game="snooker", model="stronge")
-    names = ("height", "radius", "mass", "mu_cloth", "mu_cushion", "restitution", "jaw_radius")
+    names = ("height", "radius", "mass", "mu_slide", "mu_cushion", "restitution", "jaw_radius")
     built = carom.cushion_impacts(
         v=(0, 1, 2), w=(3, 4, 5), normal=(6, 7), **{name: 8 + k for k, name in enumerate(names)}
     )

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 int main(void) {
-  carom_impact in = {.a = {.v = {0.0, 1.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_cloth = 0.2},
+  carom_impact in = {.a = {.v = {0.0, 1.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_slide = 0.2},
                      .mu_ball = 0.05,
                      .restitution = 1.0};
   carom_result out;

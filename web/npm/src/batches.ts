@@ -75,7 +75,7 @@ export class Collisions extends Owner {
     this.n = n;
   }
   /**
-   * 26 doubles for each collision, those of carom_impact: r, v, w, radius, mass, mu_cloth of both
+   * 26 doubles for each collision, those of carom_impact: r, v, w, radius, mass, mu_slide of both
    * balls; mu_ball, restitution.
    */
   get in(): Float64Array {

@@ -122,7 +122,7 @@ def rebound(
     for field, name in (
         ("height", "nose_height"),
         ("mass", "mass"),
-        ("mu_cloth", "mu_slide"),
+        ("mu_slide", "mu_slide"),
         ("mu_cushion", "mu_cushion"),
         ("restitution", "restitution_cushion"),
     ):
