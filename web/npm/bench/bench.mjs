@@ -43,7 +43,7 @@ for (const build of ["simd", "plain"]) {
       w: at(k + 6),
       radius: one[k + 9],
       mass: one[k + 10],
-      muCloth: one[k + 11],
+      muSlide: one[k + 11],
     });
     const impacts = lines.map((_, k) => ({
       a: ball(26 * k),

@@ -89,7 +89,7 @@ const BALL = {
   w: [0, 0, 0],
   radius: 0.028575,
   mass: 0.17,
-  muCloth: 0.2,
+  muSlide: 0.2,
 } as const;
 
 /** How continue() refuses arguments, with nothing played. */
@@ -490,7 +490,7 @@ export class Carom {
       height: kind.noseHeight || 0.03629025,
       radius: kind.radius,
       mass: kind.mass,
-      muCloth: kind.muSlide,
+      muSlide: kind.muSlide,
       muCushion: kind.muCushion,
       restitution: kind.restitutionCushion,
       jawRadius: 0,

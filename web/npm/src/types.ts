@@ -14,7 +14,7 @@ export type Vec2 = readonly [number, number];
 
 /**
  * One ball just before a collision. What is missing is at rest in the origin, of radius 0.028575 m
- * and mass 0.17 kg, with muCloth 0.2.
+ * and mass 0.17 kg, with muSlide 0.2.
  */
 export type Ball = Partial<C.Ball>;
 

@@ -33,7 +33,7 @@ function impactOf(row: Float64Array): Impact {
     w: at(k + 6),
     radius: row[k + 9]!,
     mass: row[k + 10]!,
-    muCloth: row[k + 11]!,
+    muSlide: row[k + 11]!,
   });
   return { a: ball(0), b: ball(12), muBall: row[24]!, restitution: row[25]! };
 }
@@ -127,7 +127,7 @@ describe.each(builds)("collisions by $name", ({ carom }) => {
           height: number(row, "h"),
           radius: number(row, "R"),
           mass: number(row, "M"),
-          muCloth: number(row, "mu_s"),
+          muSlide: number(row, "mu_s"),
           muCushion: number(row, "mu_w"),
           restitution: number(row, "e"),
           jawRadius: number(row, "rho"),

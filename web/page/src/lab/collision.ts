@@ -46,7 +46,7 @@ type Setting = Record<"speed" | "cut" | "side" | "tip" | "mu" | "cloth" | "e", n
 function impactOf(s: Setting, over: Partial<Setting> = {}): Impact {
   const { speed, cut, side, tip, mu, cloth, e, law } = { ...s, ...over };
   const angle = cut / DEGREES;
-  const kind = { radius: R, mass: MASS, muCloth: cloth };
+  const kind = { radius: R, mass: MASS, muSlide: cloth };
   return {
     a: { v: [speed, 0, 0], w: [0, (2.5 * speed * tip) / R, (2.5 * speed * side) / R], ...kind },
     b: { r: [2 * R * Math.cos(angle), 2 * R * Math.sin(angle), 0], ...kind },
