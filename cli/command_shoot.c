@@ -478,8 +478,9 @@ static bool can_play(const shoot_job *job) {
     complain("--spread needs derivatives, which shots by --world pooltool do not have; --world "
              "carom has them");
   else if (job->error.given && shot->ball_model == CAROM_BALL_MODEL_EULER)
-    complain("--spread needs derivatives, which --ball-model euler does not have; exact, its limit, "
-             "has them");
+    complain(
+        "--spread needs derivatives, which --ball-model euler does not have; exact, its limit, "
+        "has them");
   else
     return drawings_possible(&job->drawn);
   return false;

@@ -46,8 +46,9 @@ OPTION(ways_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
        "the cue ball is sent there alone");
 OPTION(ways_job, option_scan, "scan", scanned, 0, "N", set_count, 1,
        "how many strokes in all directions to try",
-       .else_usual = "20000, or 1800 for each speed and tip if that is more; for points and places "
-                     "100000");
+       .else_usual =
+           "20000, or 1800 for each speed and tip if that is more; for points and the cue "
+           "ball alone 100000");
 OPTION(ways_job, option_each, "each", each, 0, NULL, set_flag, 0,
        "report each stroke with which a way succeeds, in the order of the strokes, instead of the "
        "best one. This shows how wide the way is over speeds and tips");
@@ -314,7 +315,8 @@ static const command_form form = {
             {"speed", SPEEDS_TO_POT,
              SPEEDS_TO_LEAVE " with --leave, " SPEEDS_ALONE
                              " of the cue ball alone, " SPEEDS_TO_SCORE " to score"},
-            {"tip", "0,0.25", TIPS_TO_LEAVE " with --leave, " TIPS_TO_SCORE " to score"},
+            {"tip", "0,0.25",
+             TIPS_TO_LEAVE " with --leave and other balls, " TIPS_TO_SCORE " to score"},
             {0}},
     .usage = "[OPTIONS] LAYOUT.jsonl | --balls X,Y:... [OPTIONS]",
     .about = "Finds the ways to pot a ball: directly, or with a bank, a kick, a kiss, a carom or a "

@@ -31,7 +31,7 @@
  * Accuracy of the exact solver, the default. Errors are differences from the limit of Mathavan's
  * equations, divided by the fastest of the twelve numbers (spins times the radius).
  *   - Double precision, collisions of play (mu_ball up to 0.2, mu_slide up to 0.5, e from 0.5,
- *     masses within 1 : 2, any speeds and spins): within 1e-6, median 2e-9.
+ *     masses within 1 : 2, any speeds and spins): within 1e-6, median 1e-9.
  *   - Double precision, anything else that is accepted: within 1e-5, or the status is
  *     CAROM_ERROR_UNRESOLVED.
  *   - Single precision, collisions of play: within 2e-5, median 1e-7.

@@ -146,8 +146,8 @@ CAROM_API const char *carom_cushion_model_name(carom_cushion_model model);
  * other accepted impacts have errors within 1e-5, or the status CAROM_ERROR_UNRESOLVED; 3 of 2
  * million random impacts of play had this status. There is one exception: with both frictions near
  * those at which the ball jams (docs/understanding/cushion.md), 1 of 2 million random impacts
- * beyond play had an error of 6e-4. The bounds hold down to an approach of 1e-9 of the speed. An
- * impact of play takes 2.4 us in the mean with AVX2, and 3.7 us in plain C. The solver ends after
+ * beyond play had an error of 6e-4. The bounds hold down to an approach of 1e-9 of the speed. The
+ * solver ends after
  * 400 iterations, at most 3,300 evaluations of the equations and 200 us. */
 CAROM_API carom_status carom_cushion(const carom_cushion_impact *in,
                                      const carom_cushion_options *opt, carom_motion *out);
@@ -228,9 +228,8 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
  *
  * Bits: a shot has the same bits on every machine, with every model and in both worlds, unless
  * options.fast asks for the instruction set in use. A batch has the bits of single calls, for any
- * number of threads and any split. Cost: an event takes about 0.4 us with Han's cushions. A shot
- * with two balls takes 3 us, and a nine-ball break 40 us. The exact limit of a cushion adds 7 to 10
- * us for each impact, of which options.fast saves two fifths. Stack: 53 KiB; a batch 58, with
+ * number of threads and any split. Cost: docs/using/shots.md has the times of shots, and
+ * docs/understanding/cushion.md those of impacts on cushions. Stack: 53 KiB; a batch 58, with
  * threads 60. Nothing is allocated, except for the threads of a batch. */
 
 /* ---- Balls ----------------------------------------------------------------------------------- */
@@ -316,15 +315,16 @@ typedef struct carom_shot_ball {
  * the first three games, Han's model for those of pooltool. carom_ball_kind_for() has the numbers
  * for other models. */
 typedef enum carom_game {
-  CAROM_GAME_POOL = 0,             /* typical numbers, each within the published range. Those of
+  CAROM_GAME_POOL = 0,              /* typical numbers, each within the published range. Those of
                                       the cushion are fitted to public systems of players; no table
                                       was measured */
-  CAROM_GAME_SNOOKER = 1,          /* measured by Mathavan and others, 2009 to 2014, on one table */
-  CAROM_GAME_BILLIARD = 2,         /* three-cushion: measured on one table, from 182 recorded
+  CAROM_GAME_SNOOKER = 1,           /* cloth and straight rebounds measured on one table (Mathavan
+                                      and others, 2009 to 2014); the rest fitted or conventions */
+  CAROM_GAME_BILLIARD = 2,          /* three-cushion: measured on one table, from 182 recorded
                                       shots, with drag, loss of roll and the numbers of
                                       CAROM_CUSHION_SMOOTH */
-  CAROM_GAME_POOLTOOL_POOL = 3,    /* the numbers of pooltool's balls, for parity with it: pool, */
-  CAROM_GAME_POOLTOOL_SNOOKER = 4, /* snooker, */
+  CAROM_GAME_POOLTOOL_POOL = 3,     /* the numbers of pooltool's balls, for parity with it: pool, */
+  CAROM_GAME_POOLTOOL_SNOOKER = 4,  /* snooker, */
   CAROM_GAME_POOLTOOL_BILLIARD = 5, /* and carom */
   CAROM_GAME_BLACKBALL = 6,         /* POOL with balls of 50.8 mm and 116 g, */
   CAROM_GAME_PYRAMID = 7,           /* with balls of 68 mm and 285 g; */

@@ -22,10 +22,24 @@ static const option_row help_row = {.name = "help", .letter = 'h', .help = "this
  * of these that it has. */
 static const struct {
   const char *said, *name;
-} also[] = {{"english", "side"},   {"rack", "rules"},         {"rack", "balls"},
-            {"game", "rules"},     {"power", "speed"},        {"fargo", "player"},
-            {"fargo", "players"},  {"player", "players"},     {"rating", "player"},
-            {"rating", "players"}, {"object-balls", "balls"}, {"cloth", "mu-slide"}, {"cloth-friction", "mu-slide"}, {"models", "world"}, {"ball-ball", "ball-model"}, {"solver", "ball-model"}, {"cushion-model", "model"}, {"cushion-model", "cushion"}};
+} also[] = {{"english", "side"},
+            {"rack", "rules"},
+            {"rack", "balls"},
+            {"game", "rules"},
+            {"power", "speed"},
+            {"fargo", "player"},
+            {"fargo", "players"},
+            {"player", "players"},
+            {"rating", "player"},
+            {"rating", "players"},
+            {"object-balls", "balls"},
+            {"cloth", "mu-slide"},
+            {"cloth-friction", "mu-slide"},
+            {"models", "world"},
+            {"ball-ball", "ball-model"},
+            {"solver", "ball-model"},
+            {"cushion-model", "model"},
+            {"cushion-model", "cushion"}};
 
 /* What players ask for by a name that no option has, and what says it. A subcommand without the
  * option says nothing. */
@@ -42,7 +56,8 @@ static const struct {
     {"cushions", "with", "--with old_cushion, new_cushion or humid_cushion"},
     {"pocket-size", "table", "a measure of --table has it: --table 9ft,corner=4.25in"},
     {"pockets", "table", "a measure of --table has it: --table 9ft,corner=4.25in"},
-    {"with", "friction", "--friction, --restitution, --mu-slide, --roll, --mass and --radius say it"},
+    {"with", "friction",
+     "--friction, --restitution, --mu-slide, --roll, --mass and --radius say it"},
     {"angle", "aim", "--aim is the direction of the cue, --cut the angle at the ball"},
     {"from", "cue", "--cue is where the cue ball lies"}};
 

@@ -713,5 +713,5 @@ ROW(options_of_motion, NULL, shot, 0, NULL, set_option, CAROM_READ_ALWAYS, ANY_K
 ROW(option_with_of_shots, "with", with, 0, "NAME=X,...", set_numbers, 0, ANY_KIND,
     "numbers of all balls, their cushions and the cue, instead of those of IN, such as "
     "mu_slide=0.15,mass=6oz,end_mass=0.01: `carom models` lists them. M is the cue's mass. Several "
-    "values, end_mass=0.003,0.007, give several shots where options describe the shot. Or the file "
+    "values, end_mass=0.003,0.007, give several shots of `carom shoot` by options. Or the file "
     "of a fit, FIT.json; or conditions of a pool table, such as fast_cloth,old_cushion");

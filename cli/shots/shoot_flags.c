@@ -77,7 +77,7 @@ const option_row option_cue_ball = {
     .name = "cue-ball",
     .argument = "NAME=X,...",
     .help = "numbers of the cue ball alone, as in --with: mass=6.5oz,radius=30mm. Several values "
-            "give several shots",
+            "give several shots of `carom shoot`",
     .set = set_numbers,
     .field = offsetof(shoot_flags, own),
     .part = CAROM_PART_BALL};
@@ -124,9 +124,9 @@ ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "this command. Beyond 0.5 R a chalked tip slips off the ball, and carom warns",
     .usual = "0,0.25", .is_list = true);
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELEVATION,
-    "elevation of the butt of the cue. With a --pocket it may be least: as little as the stick "
-    "needs "
-    "to clear the cushions and balls behind the cue ball",
+    "elevation of the butt of the cue. `carom shoot --pocket` also takes least: as little as the "
+    "stick "
+    "needs to clear the cushions and balls behind the cue ball",
     .usual = "0", .is_list = true);
 ROW(option_tip_time, "tip-time", own, "SECONDS", set_cue_number, 0,
     "how long the tip of a raised cue presses the ball on the slate, at most 0.01: 0.001 for "

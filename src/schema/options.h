@@ -17,9 +17,9 @@
 /* Options of carom_shot_options that decide the motion, in the order of recordings. The number
  * behind the text is the place of the option's 32 bits in the fingerprint of a stopped shot. */
 #define CAROM_MOTION_OPTIONS(OPTION)                                                               \
-  OPTION(world, "world", WORDS(WORLD), 0, CAROM_WORLD_POOLTOOL, WORLD,                            \
+  OPTION(world, "world", WORDS(WORLD), 0, CAROM_WORLD_POOLTOOL, WORLD,                             \
          "rules of contact, and the default models", 0)                                            \
-  OPTION(ball_model, "ball-model", WORDS(BALL_MODEL), 0, CAROM_BALL_MODEL_MIRROR, BALL_MODEL,       \
+  OPTION(ball_model, "ball-model", WORDS(BALL_MODEL), 0, CAROM_BALL_MODEL_MIRROR, BALL_MODEL,      \
          "model of the collision of two balls (default: exact; in the world pooltool inelastic)",  \
          1)                                                                                        \
   OPTION(cushion_model, "cushion", WORDS(SHOT_CUSHION), 0, CAROM_CUSHION_MODEL_COUNT,              \

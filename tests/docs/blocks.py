@@ -85,7 +85,7 @@ ELSEWHERE = {
     "docs/start/c.md": 3,
     "docs/start/javascript.md": 3,
     "docs/start/player.md": 2,
-    "docs/start/python.md": 1,
+    "docs/start/python.md": 2,
     "docs/contributing/extending.md": 1,
 }
 
