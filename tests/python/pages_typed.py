@@ -15,7 +15,11 @@ from pathlib import Path
 VERSION = "1.1.414"
 # What pyright says that is not carom's to mend: page, part of the message, and why.
 KNOWN = [
-    ("docs_using_plan", "overrides class", "methods with ... stand for those of the reader"),
+    (
+        "docs_contributing_extending",
+        "overrides class",
+        "methods with ... stand for those of the reader",
+    ),
     ("docs_using_scale", '"from_array"', "Dask does not declare that chunks may be a tuple"),
     ("docs_using_fit", 'parameter "game"', "a fit's constants are unpacked, and name no game"),
     ("docs_using_fit", 'parameter "cushion_model"', "the same"),
