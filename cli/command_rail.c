@@ -21,14 +21,14 @@ static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN},
                                      [SPEED] = {"speed", MEASURE_SPEED},
                                      [ANGLE] = {"angle of incidence", MEASURE_ANGLE},
                                      [SIDE] = {"side spin", MEASURE_SIDE_RAIL},
-                                     /* without a usual value: those of the game for the model */
+                                     /* without a default: those of the game for the model */
                                      [HEIGHT] = {"height of the nose", MEASURE_LENGTH},
                                      [RESTITUTION] = {"restitution", MEASURE_NUMBER},
                                      [FRICTION] = {"friction of the cushion", MEASURE_NUMBER},
                                      [CLOTH] = {"friction of the cloth", MEASURE_NUMBER},
                                      [RADIUS] = {"radius of the ball", MEASURE_LENGTH},
                                      [MASS] = {"mass of the ball", MEASURE_MASS},
-                                     [MODEL] = {"model", MEASURE_MODEL}, /* that of shots */
+                                     [MODEL] = {"model", MEASURE_MODEL},
                                      [MODEL + 1] = {NULL, 0}};
 _Static_assert(sizeof inputs / sizeof inputs[0] <= MOST_INPUTS + 1, "room for all");
 

@@ -243,7 +243,7 @@ static bool read_ball(const ways_search *s, const char *name, int *ball) {
   if (name == NULL || strcmp(name, "any") == 0)
     return true;
   for (int k = 0; k < s->line->count; k++) {
-    if (k == s->line->cue.ball || is_out_of_play(s->line, k))
+    if (k == s->line->cue.ball || is_out_of_play(&s->line->ball[k].state))
       continue;
     if (strcmp(s->line->name[k], name) == 0) {
       *ball = k;
@@ -305,7 +305,6 @@ static bool find(const ways_job *job, ways_search *s) {
 #define SPEEDS_TO_LEAVE "1:4:0.5"
 #define SPEEDS_TO_SCORE "3,4.5,6"
 #define SPEEDS_ALONE "0.5:5:0.25"
-#define TIPS_TO_LEAVE "0,-0.4:0.4:0.2"
 #define TIPS_TO_SCORE "0,0.25:0.3,0.2:-0.3,0.2"
 
 static const command_form form = {

@@ -45,7 +45,7 @@ static shot_file *strokes_of(const shoot_flags *f, const carom_shot_options *opt
   if (f->speed.count == 0 && f->ball_speed.count == 0)
     values_default(&all.speed, MEASURE_SPEED, "0.5:4:0.1");
   if (f->tip.count == 0)
-    option_tip.set(&option_tip, (char[]){"0,-0.4:0.4:0.2"}, &all.tip);
+    option_tip.set(&option_tip, (char[]){TIPS_TO_LEAVE}, &all.tip);
   json_t *shots = flags_shots(&all, options, MOST_ROWS);
   if (shots == NULL)
     return NULL;

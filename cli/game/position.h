@@ -13,6 +13,9 @@ typedef struct leave {
 } leave;
 
 /* For a `leave`: X,Y or X,Y,R, or a place that has a name. */
+/* The tips that are tried to bring the cue ball to a place, where none are given. */
+#define TIPS_TO_LEAVE "0,-0.4:0.4:0.2"
+
 #define LEAVE_ARGUMENT "X,Y[,R]|PLACE[,R]"
 OPTION_SET(set_leave);
 

@@ -42,11 +42,6 @@ void without_bounds(carom_player *player) {
   player->tip_most = 1.0;
 }
 
-bool is_out_of_play(const shot_line *line, int ball) {
-  const int64_t label = line->ball[ball].state.label;
-  return label == CAROM_BALL_POCKETED || label == CAROM_BALL_OFF;
-}
-
 /* Plays strokes of the layout; false after a complaint. */
 static bool play(const ways_search *s, const carom_cue *cues, int n, carom_shot *shots) {
   const carom_shot_job job = {.table = &s->line->table->table,

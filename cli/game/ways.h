@@ -60,8 +60,6 @@ bool player_of(const given_player *given, carom_player *player);
 /* Lets a player strike as slowly, as hard and as far from the centre as he is asked to. */
 void without_bounds(carom_player *player);
 
-bool is_out_of_play(const shot_line *line, int ball);
-
 /* Whether a shot pots the ball of a way without losing the cue ball, or scores: both balls met, the
  * second one after three cushions; and whether the cue ball ends where it shall. */
 bool way_is_good(const ways_search *s, const carom_facts *f, const carom_ball_state *final,

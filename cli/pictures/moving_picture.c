@@ -21,10 +21,6 @@ static void write_gone(FILE *out, double when, double whole) {
           when / whole, whole);
 }
 
-static bool is_gone(const carom_ball_state *s) {
-  return s->label == CAROM_BALL_POCKETED || s->label == CAROM_BALL_OFF;
-}
-
 /* Carries a ball through its states at all steps; `count` states lie between two of one ball. */
 static void write_way(const view *v, const carom_ball_state *states, size_t steps, size_t count,
                       double whole) {
@@ -32,7 +28,7 @@ static void write_way(const view *v, const carom_ball_state *states, size_t step
   fputs("<animateTransform attributeName=\"transform\" type=\"translate\" values=\"", v->out);
   for (size_t k = 0; k < steps; k++) {
     const carom_ball_state *s = &states[k * count];
-    if (gone == 0 && is_gone(s))
+    if (gone == 0 && is_out_of_play(s))
       gone = k;
     fprintf(v->out, "%s%.1f %.1f", k > 0 ? ";" : "", across(v, s->r), down(v, s->r));
   }
@@ -41,16 +37,13 @@ static void write_way(const view *v, const carom_ball_state *states, size_t step
     write_gone(v->out, (double)gone * step, whole);
 }
 
-void shot_move(FILE *out, const played *shots, int count, const char *footer) {
-  const played *p = &shots[0];
+void shot_move(FILE *out, const played *p) {
   const shot_line *line = p->line;
   const size_t balls = (size_t)line->count;
   const size_t steps = (size_t)ceil((p->shot->time + rest) / step) + 1;
   const double whole = (double)(steps - 1) * step;
   static labels none;
   view v = view_of(out, &line->table->table);
-  (void)count;
-  (void)footer;
   v.labels = &none;
   none = (labels){.out = out, .size = picture_letters(&v)};
   draw_table(&v, &line->table->table, 0.0);
@@ -63,7 +56,7 @@ void shot_move(FILE *out, const played *shots, int count, const char *footer) {
   carom_shot_frames(line->ball, line->count, p->shot, times, steps, NULL, states, turned);
   free(turned);
   for (int ball = 0; ball < line->count; ball++) {
-    if (is_gone(&line->ball[ball].state))
+    if (is_out_of_play(&line->ball[ball].state))
       continue;
     const double *r = line->ball[ball].state.r;
     fprintf(out, "<g class=\"ball\" transform=\"translate(%.1f %.1f)\">\n", across(&v, r),

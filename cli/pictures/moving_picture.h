@@ -4,7 +4,7 @@
 
 #include "pictures/shot_picture.h"
 
-/* Writes the first of the shots as an SVG whose balls move, over and over. */
-void shot_move(FILE *out, const played *shots, int count, const char *footer);
+/* Writes a shot as an SVG whose balls move, over and over. */
+void shot_move(FILE *out, const played *p);
 
 #endif

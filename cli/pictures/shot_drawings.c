@@ -29,7 +29,7 @@ void drawings_draw(drawings *d, const played *shots, int count, const char *foot
       continue;
     FILE *out = open_text(&d->text[k], &d->size[k]);
     if (k == FILM && is_moving_picture(d->path[k]))
-      shot_move(out, shots, count, footer);
+      shot_move(out, &shots[0]);
     else
       how[k](out, shots, count, footer);
     close_text(out, &d->text[k]);

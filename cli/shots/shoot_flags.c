@@ -47,11 +47,10 @@ static OPTION_SET(set_table) {
 
 const option_row option_table = {
     .name = "table",
-    .help =
-        "play one shot on this table, instead of those of a file. x runs across the "
-        "table, y along it. Measures change it: 9ft,corner=4.25in,side_cut=104; `carom "
-        "models` lists them. 10ft is threecushion, 12ft is snooker. To use a table of your own, "
-        "give a file",
+    .help = "play one shot on this table, instead of those of a file. x runs across the "
+            "table, y along it. Measures change it: 9ft,corner=4.25in,side_cut=104; `carom "
+            "models` lists them. 10ft is threecushion, 12ft is snooker. A table of your own "
+            "stands in a file of shots",
     .else_usual = "that of the rack, or 9ft",
     .set = set_table,
     .field = offsetof(shoot_flags, table),

@@ -58,10 +58,6 @@ static void say_off_table(const carom_table *table, const carom_shot_ball *ball,
         text_if(fmax(r[0], r[1]) > 10.0, "; are places in m?"));
 }
 
-static bool is_gone(const carom_shot_ball *ball) {
-  return ball->state.label == CAROM_BALL_POCKETED || ball->state.label == CAROM_BALL_OFF;
-}
-
 /* Says of a ball that overlaps another one which that is, and how far apart they are. */
 static void say_overlap(const shot_line *line, int ball, char *text, size_t room) {
   const carom_shot_ball *one = &line->ball[ball];
@@ -72,7 +68,7 @@ static void say_overlap(const shot_line *line, int ball, char *text, size_t room
     const double both = one->kind.radius + other->kind.radius;
     const double between =
         hypot(one->state.r[0] - other->state.r[0], one->state.r[1] - other->state.r[1]);
-    if (k == ball || is_gone(other) || between - both >= least)
+    if (k == ball || is_out_of_play(&other->state) || between - both >= least)
       continue;
     least = between - both;
     with = k;

@@ -12,6 +12,11 @@
 #include <stddef.h>
 #include <stdio.h>
 
+/* Whether a ball is down or has left the table. */
+static inline bool is_out_of_play(const carom_ball_state *state) {
+  return state->label == CAROM_BALL_POCKETED || state->label == CAROM_BALL_OFF;
+}
+
 /* A shot as it was read. */
 typedef struct shot_line {
   size_t number;            /* of the line, from 1 */
