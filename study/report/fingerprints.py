@@ -1,9 +1,10 @@
 """Fingerprints of the code that made the series of a figure.
 
 A series is a kernel in one instruction set and precision. Its fingerprint is a hash of its name and
-of the text of the files that compute it, without comments and white space: the files that SOLVERS or
-the ladder name, all of ours that they include, and for the ladder the flags of its configurations. So it is the same on every machine, and changes
-where the code changes. A measured CSV file notes the fingerprints of its series; a figure whose
+of the text of the files that compute it, without comments and white space. These are the files that
+SOLVERS or the ladder name, and all of ours that they include; for the ladder also the flags of its
+configurations. So the fingerprint is the same on every machine, and changes where the code changes.
+A measured CSV file notes the fingerprints of its series; a figure whose
 notes differ from the tree is stale.
 """
 

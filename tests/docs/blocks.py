@@ -174,7 +174,8 @@ def blocks(source, page):
         f"{page}: a fence that is not closed, or not at the beginning of its line"
     )
     assert not indented(rest), (
-        f"{page}: '{indented(rest)}' is indented: code and output belong between fences, with one of the kinds of tests/docs/blocks.py, and formulas between $$"
+        f"{page}: '{indented(rest)}' is indented: code and output belong between fences, with one of "
+        "the kinds of tests/docs/blocks.py, and formulas between $$"
     )
     program = ""
     for kind, _ in found:
