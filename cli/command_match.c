@@ -152,7 +152,7 @@ static void add_act(const carom_record *record, const char *line) {
 static void tell_act(FILE *out, const char *line, int64_t player, int64_t rulings) {
   char ruling[160];
   add_act(&match.record, line);
-  if (match.rulings == rulings && match.winner < 0)
+  if (match.rulings == rulings && match.winner == 0)
     return;
   carom_ruling_string(&match.ruling, ruling, sizeof ruling);
   const bool concedes = match.rulings == rulings;
@@ -191,7 +191,7 @@ static int read_match(const char *path, FILE *text, FILE *words) {
       code = EXIT_SOME;
       break;
     }
-    if (goes_on && (match.phase != CAROM_MATCH_OVER || match.winner >= 0))
+    if (goes_on && (match.phase != CAROM_MATCH_OVER || match.winner != 0))
       tell_act(words, line, player, rulings);
     fwrite(line, 1, (size_t)size, text);
   }

@@ -83,7 +83,7 @@ typedef struct carom_record {
   int64_t bounds;  /* where it may be placed: a carom_leave of carom_plan.h; 0: anywhere. */
   int64_t rules;   /* the rules of the game, a carom_rules_kind of carom_plan.h. */
   int64_t player;  /* who is at the table, 0 or 1. */
-  int64_t winner;  /* 1 + the player who has won; 3: the game is drawn; 0: it goes on. */
+  int64_t winner;  /* 1 + the player who has won; CAROM_DRAWN of carom_plan.h; 0: none yet. */
   int64_t foul;    /* the foul of the last stroke, a carom_foul of carom_plan.h. */
   int64_t act;     /* the last act that was decided, a carom_act of carom_match.h, */
   int64_t actor;   /* the player who decided it, 0 or 1, */

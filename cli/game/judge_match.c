@@ -18,6 +18,6 @@ bool judge_end(char what[JUDGED_TEXT]) {
   static const char *const ends[] = {"nobody has won", "player 1 has won", "player 2 has won",
                                      "the match is drawn"};
   snprintf(what, JUDGED_TEXT, "%lld rulings by the rules; %s", (long long)match.rulings,
-           ends[1 + match.winner]);
+           ends[match.winner]);
   return match.size == 0;
 }

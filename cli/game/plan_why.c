@@ -55,11 +55,11 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
                       const carom_ruling *ruling, int cue_ball) {
   const double *r = ruling->balls[cue_ball].state.r;
   fputs("   leaves       ", out);
-  if (ruling->winner == 0) {
+  if (ruling->turn.outcome == CAROM_TURN_WIN) {
     fputs("the game won\n", out);
     return;
   }
-  if (ruling->winner == CAROM_DRAWN) {
+  if (ruling->turn.outcome == CAROM_TURN_DRAW) {
     fputs("the game drawn\n", out);
     return;
   }
@@ -67,8 +67,8 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
     fputs("ball in hand; ", out);
   else if (ruling->balls[cue_ball].state.label == CAROM_BALL_STATIONARY)
     fprintf(out, "the cue ball at %.2f, %.2f m; ", r[0], r[1]);
-  const bool passes = ruling->next == 1;
-  if ((passes && job->rules->race == CAROM_RACE_ALONE) || ruling->next < 0) {
+  const bool passes = ruling->turn.outcome == CAROM_TURN_PASS;
+  if ((passes && job->rules->race == CAROM_RACE_ALONE) || ruling->turn.outcome == CAROM_TURN_LOSE) {
     fputs("the visit ends\n", out);
     return;
   }
@@ -106,9 +106,9 @@ static int left_of(const carom_plan_job *job, const carom_shot_ball *balls) {
 /* What a stroke is worth to the player, by the value of what it leaves: the chance to win, or the
  * share of the balls before it. */
 static double worth_of(const carom_plan_job *job, const carom_ruling *ruling, double *other) {
-  const bool alone = job->rules->race == CAROM_RACE_ALONE, passes = ruling->next == 1;
-  if (ruling->next < 0)
-    return ruling->winner != 1;
+  const bool alone = job->rules->race == CAROM_RACE_ALONE, passes = ruling->turn.outcome == CAROM_TURN_PASS;
+  if (ruling->turn.outcome >= CAROM_TURN_WIN)
+    return ruling->turn.outcome != CAROM_TURN_LOSE;
   carom_plan_rules rules;
   const carom_plan_job next = job_after(job, ruling, &rules);
   double chance = 0.0;
@@ -136,10 +136,10 @@ static strokes play_with(const carom_plan_job *job, const carom_player *player,
     s.worth += worth;
     s.squares += worth * worth;
     s.other += other;
-    s.keeps += ruling.next == 0 || ruling.winner == 0 || ruling.winner == CAROM_DRAWN;
-    s.misses += ruling.next == 1;
+    s.keeps += ruling.turn.outcome != CAROM_TURN_PASS && ruling.turn.outcome != CAROM_TURN_LOSE;
+    s.misses += ruling.turn.outcome == CAROM_TURN_PASS;
     s.fouls += ruling.turn.foul != CAROM_FOUL_NONE;
-    s.lost += ruling.winner == 1;
+    s.lost += ruling.turn.outcome == CAROM_TURN_LOSE;
   }
   return s;
 }
@@ -300,7 +300,7 @@ void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
   fputc('\n', out);
 
   /* a stroke that is not meant to pot leaves what it mostly does, even if it pots without errors */
-  for (int n = 0; !plan_names_ball(choice) && ruling.next != 1 && n < WHY_STROKES; n++) {
+  for (int n = 0; !plan_names_ball(choice) && ruling.turn.outcome != CAROM_TURN_PASS && n < WHY_STROKES; n++) {
     carom_cue stroke = choice->cue;
     carom_player_strike(own.player, own.options->seed, (uint64_t)n, &stroke);
     play(&own, &stroke, call, &(carom_shot){.events = NULL}, &ruling);

@@ -107,7 +107,7 @@ typedef struct carom_match {
                           shot. */
   carom_plan_rules rules; /* their state is that of the player at the table. */
   int32_t phase;          /* a carom_match_phase. */
-  int32_t winner;         /* 0 or 1; CAROM_DRAWN; -1: none yet. */
+  int32_t winner;         /* 1 + the player who has won; CAROM_DRAWN; 0: none yet. */
   int32_t may;            /* the choices: the sum of the carom_choice for carom_match_choose(). */
   int32_t cue_ball;       /* of the player at the table. */
   uint32_t on;            /* balls that may be met first in the next stroke, as a set. */

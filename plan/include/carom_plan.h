@@ -104,7 +104,8 @@ CAROM_API carom_status carom_rating_of(const carom_score *scores, int64_t count,
 
 /* ---- Rules ----------------------------------------------------------------------------------- */
 
-/* What happens to the turn of the player who has just played. */
+/* What happens to the turn of the player who has just played. WIN and the values behind it end the
+ * game. */
 typedef enum carom_turn_outcome {
   CAROM_TURN_KEEP = 0, /* the player plays on */
   CAROM_TURN_PASS = 1, /* the opponent plays; without an opponent, the visit ends */
@@ -113,8 +114,8 @@ typedef enum carom_turn_outcome {
   CAROM_TURN_DRAW = 4  /* the game ends without a winner */
 } carom_turn_outcome;
 
-/* The winner of a drawn game. */
-enum { CAROM_DRAWN = 2 };
+/* The winner of a drawn game. A winner is 1 + a player, CAROM_DRAWN, or 0: none yet. */
+enum { CAROM_DRAWN = 3 };
 
 /* The layout of the next stroke. */
 typedef enum carom_leave {
@@ -450,8 +451,6 @@ typedef struct carom_ruling {
   carom_turn turn;         /* as carom_turn_settle() left it. */
   carom_rules_state state; /* for the player who plays next; `may` says what this player may do
                               besides a stroke. */
-  int32_t next;   /* who plays next. 0: the same player; 1: the opponent; -1: the game is over. */
-  int32_t winner; /* 0: the player who has played; 1: the opponent; CAROM_DRAWN; -1: none yet. */
   int32_t hand;   /* 1: the cue ball is in hand. */
   uint32_t on;    /* the set of the balls that the cue ball may hit first in the next stroke. */
   uint32_t put;   /* the set of the balls that are no longer where the shot left them. */

@@ -184,7 +184,7 @@ void carom_match_look(carom_match *match) {
   match->cue_ball = carom_match_cue_ball(match);
   match->call = (carom_call){-1, -1};
   match->may = match->rules.state.may;
-  match->winner = (int32_t)record->winner - 1;
+  match->winner = (int32_t)record->winner;
   match->on =
       match->rules.on(&match->rules.state, in_play(record)) & ~(UINT32_C(1) << match->cue_ball);
   match->touching = 0;
@@ -223,7 +223,6 @@ carom_status carom_match_begin_at(carom_match *match, carom_rules_kind kind,
   if (match == NULL || table == NULL || balls == NULL)
     return CAROM_ERROR_NULL;
   memset(match, 0, sizeof *match);
-  match->winner = -1;
   const bool known = of != NULL || carom_rules_about_of(kind) != NULL;
   if (!known || (player >> 1) != 0 || (uint32_t)leave > CAROM_LEAVE_BAULK)
     return carom_match_refuse(
@@ -332,7 +331,7 @@ static void keep_in_hand(carom_match *match) {
     return;
   ruling->state.may &= ~CAROM_CHOICE_STAY;
   match->rules.state.may = match->record.standing.may = ruling->state.may;
-  if (ruling->turn.leave >= CAROM_LEAVE_ANYWHERE || ruling->next < 0)
+  if (ruling->turn.leave >= CAROM_LEAVE_ANYWHERE || match->record.winner != 0)
     return;
   ruling->turn.leave = CAROM_LEAVE_ANYWHERE;
   if (match->leave >= CAROM_LEAVE_ANYWHERE)
@@ -366,12 +365,22 @@ static void apply(carom_match *match) {
   match->rulings++;
   match->rules.state = record->standing = ruling->state;
   record->foul = ruling->turn.foul;
-  if (ruling->winner == CAROM_DRAWN)
-    record->winner = 1 + CAROM_DRAWN;
-  else if (ruling->winner >= 0)
-    record->winner = 1 + (player ^ ruling->winner);
-  else
-    record->player = player ^ ruling->next;
+  switch (ruling->turn.outcome) {
+  case CAROM_TURN_KEEP:
+    break;
+  case CAROM_TURN_PASS:
+    record->player = 1 - player;
+    break;
+  case CAROM_TURN_WIN:
+    record->winner = 1 + player;
+    break;
+  case CAROM_TURN_LOSE:
+    record->winner = 1 + (1 - player);
+    break;
+  case CAROM_TURN_DRAW:
+    record->winner = CAROM_DRAWN;
+    break;
+  }
   record->hand = 0;
   keep_in_hand(match);
   give_hand(match, (int32_t)ruling->turn.leave);

@@ -56,26 +56,9 @@ static uint32_t moved_by_referee(const carom_shot_ball *balls, int count, const 
   return moved;
 }
 
-/* Who plays next, 0 the player and 1 the other, and who has won; -1: nobody yet. */
-static void name_players(carom_ruling *ruling) {
-  ruling->next = ruling->winner = -1;
-  switch (ruling->turn.outcome) {
-  case CAROM_TURN_KEEP:
-    ruling->next = 0;
-    break;
-  case CAROM_TURN_PASS:
-    ruling->next = 1;
-    break;
-  case CAROM_TURN_WIN:
-    ruling->winner = 0;
-    break;
-  case CAROM_TURN_LOSE:
-    ruling->winner = 1;
-    break;
-  case CAROM_TURN_DRAW:
-    ruling->winner = CAROM_DRAWN;
-    break;
-  }
+/* Whether the game goes on after a turn. */
+static bool goes_on(const carom_turn *turn) {
+  return turn->outcome < CAROM_TURN_WIN;
 }
 
 /* The balls that the next player may hit first. */
@@ -143,10 +126,9 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
 
   /* who plays next, and how */
   ruling->hand = ruling->turn.leave >= CAROM_LEAVE_ANYWHERE;
-  name_players(ruling);
   if (ruling->hand == 0)
     ruling->touching = carom_touching(ruling->balls, count, cue_ball);
-  if (ruling->next >= 0)
+  if (goes_on(&ruling->turn))
     ruling->on = balls_on(rules, ruling, count, cue_ball);
   const bool behind = ruling->turn.leave == CAROM_LEAVE_KITCHEN && table->pockets > 0;
   if (behind && carom_nearest_behind(table, ruling->balls, count, ruling->on) != 0)
@@ -190,11 +172,11 @@ size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) 
     return 0;
   char foul[200] = "", choices[200] = "";
   const char *leave = "", *turn = turns[ruling->turn.outcome];
-  if (ruling->next == 1 && ruling->state.innings == CAROM_LAST_INNING)
+  if (ruling->turn.outcome == CAROM_TURN_PASS && ruling->state.innings == CAROM_LAST_INNING)
     turn = "the other has the equalizing inning";
   if (ruling->turn.foul != CAROM_FOUL_NONE)
     snprintf(foul, sizeof foul, "foul: %s; ", carom_foul_string(ruling->turn.foul));
-  if (ruling->next >= 0) {
+  if (goes_on(&ruling->turn)) {
     leave = leaves[ruling->turn.leave];
     write_choices(ruling->state.may, ruling->turn.leave, choices, sizeof choices);
   }

@@ -129,7 +129,7 @@ TEST(equal_innings) {
     ck_assert_str_eq(words, "the other has the equalizing inning");
     const carom_shot_ball *lies = match.record.balls;
     ck_assert(match.phase == CAROM_MATCH_STROKE && match.record.player == 1 - first);
-    ck_assert(match.cue_ball == 1 - first && match.on == 1 << RED && match.winner == -1);
+    ck_assert(match.cue_ball == 1 - first && match.on == 1 << RED && match.winner == 0);
     ck_assert(lies_at(&lies[1 - first], 0.5 + 0.1825 / 1.42, 0.25));
     ck_assert(lies_at(&lies[first], 0.5, 0.25) && lies_at(&lies[RED], 0.5, 0.75));
     cue = point_of_opening(&match);
@@ -139,9 +139,8 @@ TEST(equal_innings) {
     memcpy(file + length, match.text, (size_t)match.size);
     length += (size_t)match.size;
     ck_assert_int_eq(match.phase, CAROM_MATCH_OVER);
-    ck_assert_int_eq(match.winner, level ? CAROM_DRAWN : first);
-    ck_assert_int_eq(match.ruling.winner, level ? CAROM_DRAWN : 1);
-    ck_assert_int_eq(match.ruling.next, -1);
+    ck_assert_int_eq(match.winner, level ? CAROM_DRAWN : 1 + first);
+    ck_assert_int_eq(match.ruling.turn.outcome, level ? CAROM_TURN_DRAW : CAROM_TURN_LOSE);
 
     memset(&reader, 0, sizeof reader);
     for (char *line = file, *end; line < file + length; line = end + 1) {

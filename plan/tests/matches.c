@@ -115,7 +115,7 @@ TEST(acts_that_are_refused) {
 
   /* the end */
   ck_assert_int_eq(carom_match_concede(&match, 0), CAROM_OK);
-  ck_assert(match.phase == CAROM_MATCH_OVER && match.winner == 1);
+  ck_assert(match.phase == CAROM_MATCH_OVER && match.winner == 2);
   refused(carom_match_stroke(&match, 1, &cue, NULL, NULL), CAROM_REFUSED_OVER, "over");
 }
 

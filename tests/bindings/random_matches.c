@@ -161,7 +161,7 @@ static void tell(carom_status status) {
   if (status >= 0)
     fprintf(ruled,
             "taken: phase %d, player %d, winner %d, may %d, ball %d, on %u, touching %u: %s\n",
-            (int)match.phase, (int)match.record.player, (int)match.winner, (int)match.may,
+            (int)match.phase, (int)match.record.player, (int)match.winner - 1, (int)match.may,
             (int)match.cue_ball, match.on, match.touching, words);
   else
     fprintf(ruled, "%s\n", match.fault);

@@ -80,7 +80,7 @@ namespace Carom {
     }
     /// <summary>0 or 1; -1: nobody has won.</summary>
     public int Winner {
-      get { return Drawn ? -1 : Open->winner; }
+      get { return Drawn ? -1 : Open->winner - 1; }
     }
     /// <summary>Whether the match is over without a winner.</summary>
     public bool Drawn {

@@ -190,7 +190,7 @@ export class Match extends Owner<Host> {
   /** Who has won, 0 or 1. */
   get winner(): number | undefined {
     const winner = this.#number("winner");
-    return winner < 0 || this.drawn ? undefined : winner;
+    return winner === 0 || this.drawn ? undefined : winner - 1;
   }
   /** Whether the match is over without a winner. */
   get drawn(): boolean {

@@ -205,7 +205,7 @@ class Match:
     @property
     def winner(self) -> int | None:
         """Who has won, 0 or 1."""
-        return int(self._c.winner) if self._c.winner in (0, 1) else None
+        return int(self._c.winner) - 1 if self._c.winner in (1, 2) else None
 
     @property
     def drawn(self) -> bool:
