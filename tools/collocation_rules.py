@@ -91,14 +91,16 @@ def text(row):
 
 
 def print_rule(name, n, w):
-    zero, one, span = mpf(0), mpf(1), range(n)
+    zero, unit, span = mpf(0), mpf(1), range(n)
     y = gauss_nodes(n, w)  # with a weight: 1 - x
     if w:
         y.reverse()
     L = lagrange_basis(y)
     part = [centred([v / (m + w + 1) for m, v in enumerate(c)]) for c in L]
-    between = (
-        (lambda c, at: integral(c, w, at, one)) if w else (lambda c, at: integral(c, 0, zero, at))
+    weighted_integral = (
+        (lambda c, node: integral(c, w, node, unit))
+        if w
+        else (lambda c, node: integral(c, 0, zero, node))
     )
     print("static const %s_rule %s_%d = {" % ("stick" if w else "gauss", name, n))
     if not w:
@@ -111,8 +113,10 @@ def print_rule(name, n, w):
             "    .third = %s,"
             % text([sum(m * (m - 1) * v for m, v in enumerate(c)) / 6 for c in L])
         )
-    print("    .all = %s," % text([integral(c, w, zero, one) for c in L]))
-    print("    .sum = {%s}," % ",\n".join(text([between(c, at) for at in y]) for c in L))
+    print("    .whole = %s," % text([integral(c, w, zero, unit) for c in L]))
+    print(
+        "    .sum = {%s}," % ",\n".join(text([weighted_integral(c, node) for node in y]) for c in L)
+    )
 
     def by_node(rows):
         return ",\n".join(text([row[m] for m in span]) for row in rows)
@@ -125,25 +129,25 @@ def print_rule(name, n, w):
         print("    .powers = {%s}," % by_node(part))
     if w:
 
-        def turn(c, at):
+        def turn(c, node):
             return (
                 2
-                * at**2
+                * node**2
                 * sum(
-                    v * (-mp.log(at) if m == 2 else (1 - at ** (m - 2)) / (m - 2))
+                    v * (-mp.log(node) if m == 2 else (1 - node ** (m - 2)) / (m - 2))
                     for m, v in enumerate(c)
                 )
             )
 
-        mean = [2 * at / (1 + at) for at in y]
+        mean = [2 * node / (1 + node) for node in y]
         print("    .basis = {%s}," % by_node([centred(c) for c in L]))
-        print("    .turn = {%s}," % ",\n".join(text([turn(c, at) for at in y]) for c in L))
+        print("    .turn = {%s}," % ",\n".join(text([turn(c, node) for node in y]) for c in L))
         print("    .lambda = %s," % text(y))
-        print("    .lambda_2 = %s," % text([at**2 for at in y]))
-        print("    .lambda_5 = %s," % text([at**5 for at in y]))
-        print("    .log = %s," % text([mp.log(at) for at in y]))
-        print("    .gone = %s," % text([1 - at**6 for at in y]))
-        print("    .gone_mean = %s," % text([1 - at**6 for at in mean]))
+        print("    .lambda_2 = %s," % text([node**2 for node in y]))
+        print("    .lambda_5 = %s," % text([node**5 for node in y]))
+        print("    .log = %s," % text([mp.log(node) for node in y]))
+        print("    .gone = %s," % text([1 - node**6 for node in y]))
+        print("    .gone_mean = %s," % text([1 - node**6 for node in mean]))
     print("};")
 
 
@@ -163,10 +167,10 @@ def print_ball_ball():
 
 
 def print_impact():
-    zero, one, x = mpf(0), mpf(1), gauss_nodes(8, 0)
+    zero, unit, x = mpf(0), mpf(1), gauss_nodes(8, 0)
     L = lagrange_basis(x)
-    weight = [integral(c, 0, zero, one) for c in L]
-    highest = [15 * w * mp.legendre(7, 2 * at - 1) for w, at in zip(weight, x)]
+    weight = [integral(c, 0, zero, unit) for c in L]
+    highest = [15 * w * mp.legendre(7, 2 * node - 1) for w, node in zip(weight, x)]
 
     def text(row):
         return "{" + ", ".join(repr(float(v)) for v in row) + "}"
@@ -187,7 +191,7 @@ def print_impact():
     print(
         row % ("Sum with the values at the nodes: the value at 1.", "AT_END[NODES]", text(at_end))
     )
-    sums = ",\n".join(text([integral(c, 0, zero, at) for at in x]) for c in L)
+    sums = ",\n".join(text([integral(c, 0, zero, node) for node in x]) for c in L)
     print(
         row
         % (

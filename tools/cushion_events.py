@@ -60,10 +60,10 @@ def rows(lines):
             continue
         params = {ball["id"]: ball["params"] for ball in entry["balls"]}
         for number, event in enumerate(entry["events"]):
-            kind, ids, before, after = event[1:5]
+            kind, ids, initial, final = event[1:5]
             if not kind.endswith("_cushion"):
                 continue
-            segment, p, state = tables[entry["table"]][kind][ids[1]], params[ids[0]], before[0]
+            segment, p, state = tables[entry["table"]][kind][ids[1]], params[ids[0]], initial[0]
             r, v, w = state[1:4], state[4:7], state[7:10]
             if kind == "ball_linear_cushion":
                 normal, height, jaw = linear_normal(segment, v), segment["p1"][2], 0
@@ -82,8 +82,8 @@ def rows(lines):
                 p["f_c"],
                 p["e_c"],
                 jaw,
-                *after[0][4:7],
-                *after[0][7:10],
+                *final[0][4:7],
+                *final[0][7:10],
             ]
 
 

@@ -83,10 +83,10 @@ def own_names(text):
         for name, rest in re.findall(r"#define (\w+)\(name,((?:[^\n]*\\\n)*[^\n]*)", text)
         if re.search(r"static\b.* name\(", rest)
     ]
-    made = set(re.findall(rf"^(?:{'|'.join(makers) or '(?!)'})\((\w+),", text, re.M))
+    defined_names = set(re.findall(rf"^(?:{'|'.join(makers) or '(?!)'})\((\w+),", text, re.M))
     text = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*\n", "\n", COMMENT.sub(" ", text), flags=re.M)
     tokens = re.findall(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])*\'|\w+|\S', text)
-    names, item, depth = made, [], 0
+    names, item, depth = defined_names, [], 0
     for token in tokens:
         depth += (token in "{([") - (token in "})]")
         item.append((token, depth))
@@ -125,16 +125,16 @@ def declared(item):
             ):
                 names.add(tokens[k + 1])
         if token == "enum" and depths[k] == 0 and "{" in tokens[k : k + 3]:
-            at = tokens.index("{", k)
+            opening = tokens.index("{", k)
             end = next(
                 n
-                for n in range(at, len(tokens))
-                if tokens[n] == "}" and depths[n] == depths[at] - 1
+                for n in range(opening, len(tokens))
+                if tokens[n] == "}" and depths[n] == depths[opening] - 1
             )
             names |= {
                 tokens[n + 1]
-                for n in range(at, end)
-                if tokens[n] in "{," and depths[n] == depths[at] and n + 1 < end
+                for n in range(opening, end)
+                if tokens[n] in "{," and depths[n] == depths[opening] and n + 1 < end
             }
     # declarators: the names before ( = , ; [ at the top; what is not static begins with carom_
     static = tokens[0] in ("static", "typedef", "always")
@@ -171,14 +171,14 @@ def bare(text):
     return SYSTEM.sub("", LOCAL.sub("", text))
 
 
-def expanded(name, wanted):
+def expanded(name, remaining):
     """A source with the headers that are wanted in their places, each once."""
 
     def header(found):
-        if found[1] not in wanted:
+        if found[1] not in remaining:
             return ""
-        wanted.remove(found[1])
-        return expanded(found[1], wanted)
+        remaining.remove(found[1])
+        return expanded(found[1], remaining)
 
     return f"\n/* ==== src/{name} ==== */\n" + SYSTEM.sub("", LOCAL.sub(header, text_of(name)))
 
@@ -190,8 +190,8 @@ def guarded(name, text, others):
     skipped = COMMENT.pattern + r'|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|(?:\.|->)\w+'
     pattern = re.compile(f"({skipped})|\\b({'|'.join(sorted(renamed)) or '(?!)'})\\b", re.S)
     text = pattern.sub(lambda found: found[1] or f"{found[2]}_of_{tag}", bare(text))
-    after = "".join(f"#undef {own}\n" for own in sorted(macros(text) - {"_GNU_SOURCE"}))
-    return f"\n/* ==== src/{name} ==== */\n{text}{after}"
+    endings = "".join(f"#undef {private}\n" for private in sorted(macros(text) - {"_GNU_SOURCE"}))
+    return f"\n/* ==== src/{name} ==== */\n{text}{endings}"
 
 
 def listed(folder, target):
@@ -329,14 +329,14 @@ def main():
         out.append(
             f"#if {numbers}\n"
             + "".join(
-                f"#define {own} CAROM_PASS_NAME({own})\n"
-                for own in sorted(names - defined - macro - KERNEL_MACROS)
+                f"#define {private} CAROM_PASS_NAME({private})\n"
+                for private in sorted(names - defined - macro - KERNEL_MACROS)
             )
         )
         out.append(names_of_pass(name))
         out.append(expanded(path, set(inner)))
         out.append(
-            "".join(f"#undef {own}\n" for own in sorted(names | defined | KERNEL_MACROS))
+            "".join(f"#undef {private}\n" for private in sorted(names | defined | KERNEL_MACROS))
             + "#endif\n"
         )
     out.append("#endif\n")

@@ -25,7 +25,7 @@ def processor() -> str:
     return names[0] if names else platform.machine()
 
 
-def made(match: re.Match[str]) -> str:
+def measured_block(match: re.Match[str]) -> str:
     command = match["command"]
     print(command, flush=True)
     run = subprocess.run(["sh", "-c", command], cwd=ROOT, stdout=subprocess.PIPE, text=True)
@@ -42,4 +42,4 @@ def made(match: re.Match[str]) -> str:
 for page in map(Path, sys.argv[1:]) if sys.argv[1:] else sorted(ROOT.glob("docs/*/*.md")):
     text = page.read_text(encoding="utf-8")
     if MARK.search(text):
-        page.write_text(MARK.sub(made, text), encoding="utf-8")
+        page.write_text(MARK.sub(measured_block, text), encoding="utf-8")

@@ -47,9 +47,9 @@ def lines(project):
     named = p["people"] or [NOBODY]
     people = ", ".join(f"{{ name = {text(each, ensure_ascii=False)} }}" for each in named)
     urls = ", ".join(
-        f"{what} = {text(to)}"
-        for what, to in (("Repository", p["address"]), ("Issues", p["tracker"]))
-        if to
+        f"{what} = {text(link)}"
+        for what, link in (("Repository", p["address"]), ("Issues", p["tracker"]))
+        if link
     )
     yield (
         "python/pyproject.toml",
@@ -116,14 +116,20 @@ def lines(project):
     )
 
 
-def with_lines(text, anchor, wanted):
-    kept = [
+def with_lines(text, anchor, new_lines):
+    other_lines = [
         line
         for line in text.splitlines(keepends=True)
-        if not line.startswith(tuple(key for key, _ in wanted))
+        if not line.startswith(tuple(key for key, _ in new_lines))
     ]
-    at = next(k for k, line in enumerate(kept) if line.startswith(anchor)) + 1
-    return "".join([*kept[:at], *(f"{key}{value}\n" for key, value in wanted if value), *kept[at:]])
+    place = next(k for k, line in enumerate(other_lines) if line.startswith(anchor)) + 1
+    return "".join(
+        [
+            *other_lines[:place],
+            *(f"{key}{value}\n" for key, value in new_lines if value),
+            *other_lines[place:],
+        ]
+    )
 
 
 def places(p):
@@ -157,11 +163,13 @@ def written(root, p):
     def text_of(name):
         return texts.get(name) or (root / name).read_text(encoding="utf-8")
 
-    for name, anchor, wanted in lines(p):
-        texts[name] = with_lines(text_of(name), anchor, wanted)
-    for name, pattern, between in places(p):
+    for name, anchor, new_lines in lines(p):
+        texts[name] = with_lines(text_of(name), anchor, new_lines)
+    for name, pattern, value_text in places(p):
         texts[name] = re.sub(
-            pattern, lambda match, between=between: match[1] + between + match[2], text_of(name)
+            pattern,
+            lambda match, value_text=value_text: match[1] + value_text + match[2],
+            text_of(name),
         )
     holder = (
         f"Copyright {p['year']} {p['copyright']}\n".replace("  ", " ") if p["copyright"] else ""

@@ -49,7 +49,7 @@ shutil.copytree(
 for path in OUT.rglob("*"):
     if path.is_file():
         safe = escape if path.suffix == ".nuspec" else str
-        kept = [
+        filled = [
             line
             for line in path.read_text(encoding="utf-8").splitlines(keepends=True)
             if path.suffix == ".rb"
@@ -59,7 +59,7 @@ for path in OUT.rglob("*"):
             re.sub(
                 r"@([A-Z0-9]+)@",
                 lambda match: safe(known[match[1]] or "https://carom.invalid"),
-                "".join(kept),
+                "".join(filled),
             ),
             encoding="utf-8",
         )

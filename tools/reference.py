@@ -28,14 +28,14 @@ def wrapped(declaration):
         return declaration
     begin = declaration.index("(") + 1
     arguments, depth, start, end = [], 0, begin, len(declaration)
-    for at in range(begin, len(declaration)):
-        sign = declaration[at]
+    for place in range(begin, len(declaration)):
+        sign = declaration[place]
         depth += (sign in "([{") - (sign in ")]}")
         if depth < 0 or (sign == "," and depth == 0):
-            arguments.append(declaration[start:at].strip())
-            start = at + 1
+            arguments.append(declaration[start:place].strip())
+            start = place + 1
         if depth < 0:
-            end = at
+            end = place
             break
     lines = ",\n".join(f"    {argument}" for argument in arguments)
     return f"{declaration[:begin]}\n{lines}\n{declaration[end:]}"
@@ -77,44 +77,47 @@ def of_c(source):
         )
         return f"{'const ' if about.get('const') else ''}{about['type']} {stars}{about.get('name', '')}{lengths}".rstrip()
 
-    def called(one):
-        return f"{typed({**one['returns'], 'name': one['name']})}({', '.join(map(typed, one['arguments'])) or 'void'});"
+    def signature(entity):
+        return f"{typed({**entity['returns'], 'name': entity['name']})}({', '.join(map(typed, entity['arguments'])) or 'void'});"
 
     text = f"# Reference: C\n\nEvery name of the headers of carom {api['version']}, which are the manual.\n\n## Functions\n\n"
     text += "".join(
-        entry(one["name"], wrapped(called(one)), "c", one["comment"]) for one in api["functions"]
+        entry(entity["name"], wrapped(signature(entity)), "c", entity["comment"])
+        for entity in api["functions"]
     )
     text += "## Functions of the caller\n\n" + "".join(
-        entry(one["name"], wrapped(called(one)), "c", one["comment"]) for one in api["callbacks"]
+        entry(entity["name"], wrapped(signature(entity)), "c", entity["comment"])
+        for entity in api["callbacks"]
     )
     text += "## Structs\n\n"
-    for one in api["structs"]:
+    for entity in api["structs"]:
         fields = [
             [f"`{typed(field)}`", field.get("unit", ""), plain(field["comment"])]
-            for field in one["fields"]
+            for field in entity["fields"]
         ]
         text += entry(
-            one["name"],
-            f"{one['name']} /* {one['size']} bytes */",
+            entity["name"],
+            f"{entity['name']} /* {entity['size']} bytes */",
             "c",
-            one["comment"],
+            entity["comment"],
             rows(["field", "unit", ""], fields),
         )
     text += "## Enumerations\n\n"
-    for one in api["enums"]:
+    for entity in api["enums"]:
         values = [
             [f"`{value['name']}`", str(value["value"]), plain(value["comment"])]
-            for value in one["values"]
+            for value in entity["values"]
         ]
         text += entry(
-            one["name"],
-            f"enum {one['name']}",
+            entity["name"],
+            f"enum {entity['name']}",
             "c",
-            one["comment"],
+            entity["comment"],
             rows(["name", "value", ""], values),
         )
     constants = [
-        [f"`{one['name']}`", str(one["value"]), plain(one["comment"])] for one in api["constants"]
+        [f"`{entity['name']}`", str(entity["value"]), plain(entity["comment"])]
+        for entity in api["constants"]
     ]
     return text + "## Constants\n\n" + rows(["name", "value", ""], constants)
 
@@ -198,9 +201,12 @@ def documented(source, files, comment, kind, title, named):
                     f"\n{field}"
                     for field in re.findall(r"^ *pub(?:lic)? [^({\n]*[;,]$", body, flags=re.M)
                 )
-                called = f"{inside}::{name}" if inside else name if outer else f"{holder}.{name}"
+                signature = f"{inside}::{name}" if inside else name if outer else f"{holder}.{name}"
                 text += entry(
-                    called, re.sub(r"\s*\{.*$", "", line.strip(), flags=re.S) + fields, kind, words
+                    signature,
+                    re.sub(r"\s*\{.*$", "", line.strip(), flags=re.S) + fields,
+                    kind,
+                    words,
                 )
     return text
 
@@ -272,14 +278,14 @@ def options_of_command(program):
     if not program.is_file():
         return []
 
-    def said(*words):
+    def printed(*words):
         return subprocess.run(
             [program, *words], check=True, stdout=subprocess.PIPE, text=True
         ).stdout
 
     page = ["# Options of the command\n\nThese are the texts of `carom COMMAND --help`.\n"]
-    for name in said("--complete").split():
-        usage, about, *rest = said(name, "--help").split("\n\n")
+    for name in printed("--complete").split():
+        usage, about, *rest = printed(name, "--help").split("\n\n")
         page.append(f"## carom {name}\n\n`{usage.removeprefix('usage: ')}`\n\n{plain(about)}\n")
         page += [
             option_list(part) if part.startswith("options") else details(part) for part in rest

@@ -105,21 +105,21 @@ def add(page, text=None):
 
     def target(match):
         words, link = match.groups()
-        to = (SOURCE / page).parent / link.partition("#")[0]
+        linked = (SOURCE / page).parent / link.partition("#")[0]
         if re.match(r"[a-z]+:|#", link):
             return match[0]
-        if to.is_dir():  # the site has pages of files only
+        if linked.is_dir():  # the site has pages of files only
             return (
                 f"[{words}]({link.rstrip('/')}/README.md)"
-                if (to / "README.md").is_file()
+                if (linked / "README.md").is_file()
                 else words
             )
-        if to.suffix == ".ipynb":
+        if linked.suffix == ".ipynb":
             return f"[{words}]({link}.md)"
-        if to.is_file() and to.suffix != ".md":
-            name = to.resolve().relative_to(SOURCE)
+        if linked.is_file() and linked.suffix != ".md":
+            name = linked.resolve().relative_to(SOURCE)
             (PAGES / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(to, PAGES / name)
+            shutil.copy(linked, PAGES / name)
         return match[0]
 
     boost = next((boost for place, boost in BOOSTS.items() if page.startswith(place)), 1)
@@ -232,9 +232,9 @@ programs = [
 ]
 add("examples/README.md")
 notebooks = [*map(notebook, sorted((SOURCE / "python/examples").glob("*.ipynb")))]
-made = [*notebooks, *filter(None, map(example, programs))]
+example_pages = [*notebooks, *filter(None, map(example, programs))]
 navigation["Write programs"].append(
-    {"All programs": ["examples/README.md", *({Path(page).stem: page} for page in made)]}
+    {"All programs": ["examples/README.md", *({Path(page).stem: page} for page in example_pages)]}
 )
 generated = [*pages(SOURCE), *options_of_command(PROGRAM)]
 for _, page, text in generated:
@@ -287,11 +287,11 @@ assert all(
     for page in notebooks
 ), notebooks
 assert (
-    len(made) >= 4
+    len(example_pages) >= 4
     and len(notebooks) >= 2
     and len(built) >= 30
     and (WORK / "site/search/search_index.json").is_file()
-), (len(made), len(built))
+), (len(example_pages), len(built))
 python_page = (WORK / "site/reference/python.html").read_text(encoding="utf-8")
 missing = [name for name in names_of_python(SOURCE) if f'id="carom.{name}"' not in python_page]
 assert not missing, f"the reference of Python lacks {missing}"
@@ -323,15 +323,15 @@ for page in built:
 assert not asks, asks
 without = [
     what
-    for what, there in (
+    for what, exists in (
         ("programs that run in their pages", LIVE),
         ("the explorer", EXPLORER.is_file()),
         ("the options of the command", PROGRAM.is_file()),
         ("typeset formulas", KATEX.is_dir()),
     )
-    if not there
+    if not exists
 ]
-print(f"{len(built)} pages, {len(made)} examples: {WORK / 'site/index.html'}")
+print(f"{len(built)} pages, {len(example_pages)} examples: {WORK / 'site/index.html'}")
 if without:
     print(
         f"without {' and '.join(without)}: ./run builds the command, ./run --web the page and npm; then make the site again"

@@ -32,7 +32,7 @@ def nested_conditionals(path):
     line, depth = 1, 0
     open_at = []  # the depth of brackets at each conditional that has not ended
     for token in get_reader_for(path).generate_tokens(Path(path).read_text()):
-        here = line
+        start = line
         line += token.count("\n")
         if token.isspace() or token.startswith(("//", "/*", "#")):
             continue
@@ -47,7 +47,7 @@ def nested_conditionals(path):
             open_at, depth = [], 0
         elif token == "?":
             if open_at:
-                yield here
+                yield start
             open_at.append(depth)
 
 

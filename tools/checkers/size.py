@@ -81,8 +81,8 @@ def main():
     for product in dict.fromkeys(row[0] for row in rows):
         print(f"{product:12} {sizes[product, 'code']:9,} {sizes[product, 'tests']:9,}")
     code, tests = (
-        sum(count for (_, kind), count in sizes.items() if kind == wanted)
-        for wanted in ("code", "tests")
+        sum(count for (_, kind), count in sizes.items() if kind == sort)
+        for sort in ("code", "tests")
     )
     print(f"{'all':12} {code:9,} {tests:9,}   together {code + tests:,}")
 
