@@ -96,7 +96,7 @@
 
 /* The version of this header. */
 #define CAROM_VERSION_MAJOR 0
-#define CAROM_VERSION_MINOR 3
+#define CAROM_VERSION_MINOR 4
 #define CAROM_VERSION_PATCH 0
 
 /* Marks an exported function. On Windows define CAROM_DLL to use it as a DLL; CAROM_BUILD is
@@ -554,7 +554,7 @@ CAROM_API const char *carom_field_name(int field);
 
 /* ---- Version --------------------------------------------------------------------------------- */
 
-/* The version of this header as a number, 300 for 0.3.0. */
+/* The version of this header as a number, 400 for 0.4.0. */
 #define CAROM_VERSION_NUMBER \
   (CAROM_VERSION_MAJOR * 10000 + CAROM_VERSION_MINOR * 100 + CAROM_VERSION_PATCH)
 

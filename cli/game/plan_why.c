@@ -106,7 +106,8 @@ static int left_of(const carom_plan_job *job, const carom_shot_ball *balls) {
 /* What a stroke is worth to the player, by the value of what it leaves: the chance to win, or the
  * share of the balls before it. */
 static double worth_of(const carom_plan_job *job, const carom_ruling *ruling, double *other) {
-  const bool alone = job->rules->race == CAROM_RACE_ALONE, passes = ruling->turn.outcome == CAROM_TURN_PASS;
+  const bool alone = job->rules->race == CAROM_RACE_ALONE,
+             passes = ruling->turn.outcome == CAROM_TURN_PASS;
   if (ruling->turn.outcome >= CAROM_TURN_WIN)
     return ruling->turn.outcome != CAROM_TURN_LOSE;
   carom_plan_rules rules;
@@ -300,7 +301,8 @@ void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
   fputc('\n', out);
 
   /* a stroke that is not meant to pot leaves what it mostly does, even if it pots without errors */
-  for (int n = 0; !plan_names_ball(choice) && ruling.turn.outcome != CAROM_TURN_PASS && n < WHY_STROKES; n++) {
+  for (int n = 0;
+       !plan_names_ball(choice) && ruling.turn.outcome != CAROM_TURN_PASS && n < WHY_STROKES; n++) {
     carom_cue stroke = choice->cue;
     carom_player_strike(own.player, own.options->seed, (uint64_t)n, &stroke);
     play(&own, &stroke, call, &(carom_shot){.events = NULL}, &ruling);

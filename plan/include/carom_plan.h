@@ -451,9 +451,9 @@ typedef struct carom_ruling {
   carom_turn turn;         /* as carom_turn_settle() left it. */
   carom_rules_state state; /* for the player who plays next; `may` says what this player may do
                               besides a stroke. */
-  int32_t hand;   /* 1: the cue ball is in hand. */
-  uint32_t on;    /* the set of the balls that the cue ball may hit first in the next stroke. */
-  uint32_t put;   /* the set of the balls that are no longer where the shot left them. */
+  int32_t hand;            /* 1: the cue ball is in hand. */
+  uint32_t on;       /* the set of the balls that the cue ball may hit first in the next stroke. */
+  uint32_t put;      /* the set of the balls that are no longer where the shot left them. */
   uint32_t touching; /* the set of the balls that touch the cue ball, within CAROM_RULES_TOUCH;
                         empty if it is in hand. */
   int64_t falls;     /* how many balls fell. */

@@ -423,8 +423,8 @@ TEST(snookered_in_blackball) {
         carom_referee(&of, &table, balls, count, 0, &shot, (carom_call){-1, -1}, &ruling),
         CAROM_OK);
     const bool seen = is_met_somewhere(count, 1) || is_met_somewhere(count, 2);
-    ck_assert_msg(ruling.turn.outcome == CAROM_TURN_PASS && ruling.state.on == !seen, "draw %d: on %d, seen %d", n,
-                  ruling.state.on, seen);
+    ck_assert_msg(ruling.turn.outcome == CAROM_TURN_PASS && ruling.state.on == !seen,
+                  "draw %d: on %d, seen %d", n, ruling.state.on, seen);
     snookered += !seen;
   }
   ck_assert_msg(snookered > DRAWS / 10 && snookered < DRAWS * 9 / 10, "%d", snookered);

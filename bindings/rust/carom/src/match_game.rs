@@ -127,7 +127,9 @@ impl Match {
 
     /// The player who has won.
     pub fn winner(&self) -> Option<usize> {
-        usize::try_from(self.of.winner - 1).ok().filter(|&who| who < 2)
+        usize::try_from(self.of.winner - 1)
+            .ok()
+            .filter(|&who| who < 2)
     }
 
     /// Whether the match is over without a winner.
