@@ -1,4 +1,5 @@
-"""tools/size [DIR]: how large each product is, in tokens of code and of tests; nothing is red by size.
+"""tools/size [DIR]: how large each product is, in tokens of code and of tests. One number for the
+whole is red above `most` of tools/products: whoever adds, cuts.
 
 A token is a word, a number or one sign of punctuation. A comment counts nothing, a string of
 characters two. Pygments finds comments and strings, in all languages. The files are those of git in
@@ -20,14 +21,16 @@ TOKEN = re.compile(r"\w+|[^\w\s]")
 
 
 def products():
-    """(product, kind, pattern) of each row of tools/products."""
-    rows = []
+    """(product, kind, pattern) of each row of tools/products; and the most tokens of all."""
+    rows, most = [], 0
     for line in (Path(__file__).parent.parent / "products").read_text().splitlines():
         words = line.partition("#")[0].split()
-        if words:
+        if words[:1] == ["most"]:
+            most = int(words[1])
+        elif words:
             kind, product, pattern = words
             rows.append((product, kind, re.compile(pattern)))
-    return rows
+    return rows, most
 
 
 def lexer_of(path, text):
@@ -67,7 +70,7 @@ def main():
     listing = subprocess.run(
         ["git", "-C", root, "ls-files"], check=True, capture_output=True, text=True
     )
-    rows, sizes = products(), Counter()
+    (rows, most), sizes = products(), Counter()
     for name in listing.stdout.splitlines():
         path = root / name
         if path.suffix[1:] in NOT_CODE or not path.is_file():
@@ -84,7 +87,9 @@ def main():
         sum(count for (_, kind), count in sizes.items() if kind == sort)
         for sort in ("code", "tests")
     )
-    print(f"{'all':12} {code:9,} {tests:9,}   together {code + tests:,}")
+    print(f"{'all':12} {code:9,} {tests:9,}   together {code + tests:,}, of at most {most:,}")
+    if code + tests > most:
+        sys.exit("too many tokens: cut as many as you add (tools/products has the number)")
 
 
 if __name__ == "__main__":
