@@ -53,7 +53,8 @@ typedef struct pushes {
   uint8_t press[CAROM_CLUSTER_CONTACTS], push[CAROM_CLUSTER_CONTACTS], pushed[CAROM_CLUSTER_BALLS];
 } pushes;
 
-static const double open = 1e-12; /* m: overlaps below it are none; their forces could underflow */
+static const double open_overlap =
+    1e-12; /* m: overlaps below it are none; their forces could underflow */
 
 /* ---- A contact's geometry and motion */
 
@@ -205,7 +206,7 @@ static inline double find_pressed(bool flat, state *c, double h, pushes *now) {
       continue;
     }
     /* one that touched as all began, and has parted without an impulse, touches as any other */
-    if (x->touched && x->time < 0.0 && overlap_of(flat, x) < -open && !meet(flat, x, 0.0))
+    if (x->touched && x->time < 0.0 && overlap_of(flat, x) < -open_overlap && !meet(flat, x, 0.0))
       x->touched = false;
     const bool first = !x->touched;
     if (first && !meet(flat, x, 0.5 * h))
@@ -218,9 +219,9 @@ static inline double find_pressed(bool flat, state *c, double h, pushes *now) {
     if (!first && v <= 0.0)
       continue;
     const double d = overlap_of(flat, x);
-    if (d + 0.5 * h * v <= open)
+    if (d + 0.5 * h * v <= open_overlap)
       continue;
-    if (d > open && (meets || !first))
+    if (d > open_overlap && (meets || !first))
       now->press[now->pressed++] = (uint8_t)k;
     x->size = v > 0.0 ? carom_cluster_compression(x->K, mobility(x), v) : 0.0;
     norm += quickness(x, x->size);
@@ -238,7 +239,7 @@ static inline bool find_acting(bool flat, state *c, double h, double tau, pushes
   for (int k = 0; k < now->pressed; k++) {
     contact *x = &c->contact[now->press[k]];
     const double d = overlap_of(flat, x);
-    if (d <= open)
+    if (d <= open_overlap)
       continue;
     x->touched = overlap = true;
     if (x->d_max == 0.0) { /* it touches now */
@@ -269,7 +270,7 @@ static bool touch_again(bool flat, state *c) {
     contact *x = &c->contact[k];
     if (x->time < 0.0 || closing_of(flat, x) < c->slow)
       continue;
-    x->offset += 2.0 * open - overlap_of(flat, x);
+    x->offset += 2.0 * open_overlap - overlap_of(flat, x);
     any = true;
   }
   return any;

@@ -69,12 +69,9 @@ static inline double carom_freedom_of_balls(double height, double n_z) {
   return freedom < 1.0 ? freedom : (double)1.0;
 }
 
-/* As many as 32 balls of one radius have on the cloth at most. */
-#ifndef CAROM_CLUSTER_CONTACTS
-#define CAROM_CLUSTER_CONTACTS 76
-#endif
 enum {
   CAROM_CLUSTER_BALLS = 32,
+  CAROM_CLUSTER_CONTACTS = 76,    /* that 32 balls of one radius have on the cloth at most */
   CAROM_CLUSTER_STEPS = 25,       /* of a contact's duration, where the caller does not say */
   CAROM_CLUSTER_STEPS_MOST = 4000 /* of a cluster, for each of a contact's duration */
 };

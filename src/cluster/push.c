@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double least_restitution = 0.05; /* a tip that gives nothing back parts at once */
+static const double least_tip_restitution = 0.05; /* a tip that gives nothing back parts at once */
 
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T) {
   carom_cluster_tip *x = &c->tip;
@@ -30,8 +30,8 @@ void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8
   x->V = cue[0];
   x->T = T;
   /* a restitution of 0 stands for 1, and keeps its derivatives */
-  x->e = least_restitution;
-  if (cue[7] > least_restitution)
+  x->e = least_tip_restitution;
+  if (cue[7] > least_tip_restitution)
     x->e = cue[7];
   else if (cue[7] == 0.0)
     x->e = 1.0 + cue[7];

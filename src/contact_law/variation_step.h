@@ -140,142 +140,143 @@ always void right_sides(nodes *d, table *by, int first, bool parameters, const p
   }
 }
 
-/* After a step from `before`: see variation.h. Vectors over the nodes, and those over the
- * variables, have eight numbers. */
-static double variation_step(carom_trajectory *path, const carom_point *before, bool driving_slips,
-                             bool stiff, int vanishes) {
-  carom_variation *g = path->variation;
+/* A step that was taken, at its nodes, and the derivatives of its rates there. */
+typedef struct step_rates {
+  nodes z, u_x, u_y, t_x, t_y, w, per; /* per: 1 over 1 - w_t t_y, of which w is a part */
+  node_rates by_u, by_t;               /* by the angles */
+  table by[5];                         /* by the parameters, where there are any */
+  bool driving_slips, loaded, parameters;
+} step_rates;
+
+/* The slip whose motion is split off, by its first row: one that is about to end, or is so small
+ * that its direction may turn fast; -1: none. */
+always int split_slip(const carom_point *start, bool driving_slips, bool loaded, int vanishes) {
+  const double size_a = start->a_x * start->a_x + start->a_y * start->a_y,
+               size_b = start->b_x * start->b_x + start->b_y * start->b_y;
+  if (vanishes >= 0)
+    return vanishes;
+  if (driving_slips && size_a > 0 && size_a < SMALL * SMALL)
+    return OF_A_X;
+  if (loaded && size_b > 0 && size_b < SMALL * SMALL)
+    return OF_B_X;
+  return -1;
+}
+
+/* A shift along the motion, by alpha in p, is a solution. Takes its part from the derivatives d,
+ * by the rates of the slip `split` at the start of the step. */
+always void split_shift(const carom_trajectory *path, const carom_point *start, int split, nodes *d,
+                        part *alpha) {
+  const double begins[4] = {path->regime.u_x, path->regime.u_y, path->regime.t_x, path->regime.t_y};
+  double lead[4], rate[CAROM_VARIED];
+  carom_variation_leads(start, begins, lead);
+  carom_variation_rates(&path->terms, lead, start->v, rate);
+  const double x = rate[split], y = rate[split + 1], square = x * x + y * y;
+  if (!(square > 0))
+    return;
+  EACH alpha[i] = (x * d[split][i] + y * d[split + 1][i]) / square;
+  for (int r = 0; r < CAROM_VARIED; r++)
+    EACH d[r][i] -= alpha[i] * rate[r];
+}
+
+always void take_rates(const carom_trajectory *path, bool driving_slips, step_rates *n) {
+  const carom_variation *g = path->variation;
   const carom_kept_step *s = &g->kept;
   const carom_terms *k = &path->terms;
-  const bool loaded = path->regime.loaded;
-  const double length = path->at.p - before->p;
-  carom_variation_begin_regime(path);
-
-  /* a shift along the motion, by alpha in p, is a solution; its part of da is split off
-   * where the slip is about to end or is so small that its direction may turn fast */
-  nodes alpha, d[CAROM_VARIED];
-  for (int r = 0; r < CAROM_VARIED; r++)
-    EACH d[r][i] = PART(g->d[r], i);
-  EACH alpha[i] = splat(0);
-
-  /* which slip that is, or none */
-  int split = vanishes;
-  const double size_a = before->a_x * before->a_x + before->a_y * before->a_y,
-               size_b = before->b_x * before->b_x + before->b_y * before->b_y;
-  if (split < 0 && driving_slips && size_a > 0 && size_a < SMALL * SMALL)
-    split = OF_A_X;
-  else if (split < 0 && loaded && size_b > 0 && size_b < SMALL * SMALL)
-    split = OF_B_X;
-
-  /* alpha by the rates of that slip at the start of the step */
-  if (split >= 0) {
-    const double begins[4] = {path->regime.u_x, path->regime.u_y, path->regime.t_x,
-                              path->regime.t_y};
-    double lead[4], rate[CAROM_VARIED];
-    carom_variation_leads(before, begins, lead);
-    carom_variation_rates(k, lead, before->v, rate);
-    const double x = rate[split], y = rate[split + 1], square = x * x + y * y;
-    if (square > 0) {
-      EACH alpha[i] = (x * d[split][i] + y * d[split + 1][i]) / square;
-      for (int r = 0; r < CAROM_VARIED; r++)
-        EACH d[r][i] -= alpha[i] * rate[r];
-    }
-  }
-
-  /* the step at the nodes, and the derivatives of the rates */
-  nodes z, u_x, u_y, t_x, t_y, w, per;
-  double to_end[NODES];
   EACH {
-    z[i] = PART(s->z, i);
-    u_x[i] = PART(s->u_x, i);
-    u_y[i] = PART(s->u_y, i);
-    t_x[i] = PART(s->t_x, i);
-    t_y[i] = PART(s->t_y, i);
-    per[i] = 1 / (1 - k->w_t * t_y[i]);
-    w[i] = (k->w_0 + k->w_u * u_y[i]) * per[i];
+    n->z[i] = PART(s->z, i);
+    n->u_x[i] = PART(s->u_x, i);
+    n->u_y[i] = PART(s->u_y, i);
+    n->t_x[i] = PART(s->t_x, i);
+    n->t_y[i] = PART(s->t_y, i);
+    n->per[i] = 1 / (1 - k->w_t * n->t_y[i]);
+    n->w[i] = (k->w_0 + k->w_u * n->u_y[i]) * n->per[i];
   }
+  n->driving_slips = driving_slips;
+  n->loaded = path->regime.loaded;
+  n->parameters = (g->asked & CAROM_PARAMETERS) != 0;
+  node_derivatives(k, n->z, n->u_x, n->u_y, n->t_x, n->t_y, n->w, n->per, n->by_u, n->by_t);
+  if (n->parameters)
+    parameter_derivatives(k, g, n->z, n->u_x, n->u_y, n->t_x, n->t_y, n->w, n->per, n->by);
+}
 
-  /* weights of the integral of an integral */
-  for (int j = 0; j < NODES; j++)
-    to_end[j] = WEIGHT[j] * (length - s->p[j]);
-
-  node_rates by_u, by_t;
-  table by[5];
-  const bool parameters = (g->asked & CAROM_PARAMETERS) != 0;
-  node_derivatives(k, z, u_x, u_y, t_x, t_y, w, per, by_u, by_t);
-  if (parameters)
-    parameter_derivatives(k, g, z, u_x, u_y, t_x, t_y, w, per, by);
-
-  /* the angles: of u as if t did not change, of t by the Schur complement, and the change of u
-   * by t */
-  matrix of_u, of_t, of_tu;
-  table phi, psi, right;
+/* The inverse of the block of u, and phi as far as it does not depend on psi. */
+always void solve_u(const carom_terms *k, const carom_point *start, step_rates *n, nodes *d,
+                    matrix of_u, table phi) {
+  table right;
   nodes rate_x, rate_y, along;
-  if (driving_slips) {
-    EACH { /* the rates of the slip, z a' */
-      rate_x[i] = z[i] * (k->S_x * u_x[i] - k->C_x * w[i] * t_x[i]);
-      rate_y[i] = z[i] * (k->A_0 + k->S_y * u_y[i] - k->C_y * w[i] * t_y[i]);
-    }
-    lengths(before->a_x, before->a_y, rate_x, rate_y, u_x, u_y, along);
-    block(u_x, u_y, by_u[OF_A_X], by_u[OF_A_Y], along, of_u);
-    invert(of_u);
-    /* phi, as far as it does not depend on psi */
-    right_sides(d, by, OF_A_X, parameters, u_x, u_y, right);
-    multiply(of_u, right, phi);
+  EACH { /* the rates of the slip, z a' */
+    rate_x[i] = n->z[i] * (k->S_x * n->u_x[i] - k->C_x * n->w[i] * n->t_x[i]);
+    rate_y[i] = n->z[i] * (k->A_0 + k->S_y * n->u_y[i] - k->C_y * n->w[i] * n->t_y[i]);
+  }
+  lengths(start->a_x, start->a_y, rate_x, rate_y, n->u_x, n->u_y, along);
+  block(n->u_x, n->u_y, n->by_u[OF_A_X], n->by_u[OF_A_Y], along, of_u);
+  invert(of_u);
+  right_sides(d, n->by, OF_A_X, n->parameters, n->u_x, n->u_y, right);
+  multiply(of_u, right, phi);
+}
+
+/* Takes from the block and the right sides of t what phi takes from them: the Schur complement is
+ * what remains of the block. of_ut becomes the product of the inverse and its block. */
+always void eliminate_u(step_rates *n, matrix of_u, table phi, matrix of_ut, matrix of_t,
+                        table right) {
+  matrix of_tu;
+  table taken;
+  block(n->u_x, n->u_y, n->by_t[OF_A_X], n->by_t[OF_A_Y], NULL, of_ut);
+  block(n->t_x, n->t_y, n->by_u[OF_B_X], n->by_u[OF_B_Y], NULL, of_tu);
+
+  /* column by column */
+  for (int j = 0; j < NODES; j++) {
+    nodes column, product;
+    EACH column[i] = PART(of_ut[j], i);
+    apply((const double(*)[NODES])of_u, column, product);
+    EACH((part_of_row *)of_ut[j])[i] = (part_of_row)product[i];
+    apply((const double(*)[NODES])of_tu, product, column);
+    EACH((part_of_row *)of_t[j])[i] -= (part_of_row)column[i];
   }
 
-  /* likewise t, where the cloth bears a load */
-  if (loaded) {
-    EACH { /* the rates of the slip, z b' */
-      rate_x[i] = z[i] * (k->R_x * u_x[i] - k->H_x * w[i] * t_x[i]);
-      rate_y[i] = z[i] * (k->B_0 + k->R_y * u_y[i] - k->H_y * w[i] * t_y[i]);
-    }
-    lengths(before->b_x, before->b_y, rate_x, rate_y, t_x, t_y, along);
-    block(t_x, t_y, by_t[OF_B_X], by_t[OF_B_Y], along, of_t);
+  /* likewise of the right sides */
+  multiply(of_tu, phi, taken);
+  for (int j = 0; j < NODES; j++)
+    EACH right[j][i] -= taken[j][i];
+}
 
-    /* its own block and right sides; then what phi takes from them */
-    right_sides(d, by, OF_B_X, parameters, t_x, t_y, right);
-    matrix of_ut;
-    if (driving_slips) {
-      /* of_ut becomes the product of the inverse and its block */
-      block(u_x, u_y, by_t[OF_A_X], by_t[OF_A_Y], NULL, of_ut);
-      block(t_x, t_y, by_u[OF_B_X], by_u[OF_B_Y], NULL, of_tu);
-
-      /* column by column; the Schur complement is what remains of its own block */
-      for (int j = 0; j < NODES; j++) {
-        nodes column, product;
-        EACH column[i] = PART(of_ut[j], i);
-        apply((const double(*)[NODES])of_u, column, product);
-        EACH((part_of_row *)of_ut[j])[i] = (part_of_row)product[i];
-        apply((const double(*)[NODES])of_tu, product, column);
-        EACH((part_of_row *)of_t[j])[i] -= (part_of_row)column[i];
-      }
-
-      /* likewise of the right sides */
-      multiply(of_tu, phi, psi);
-      for (int j = 0; j < NODES; j++)
-        EACH right[j][i] -= psi[j][i];
-    }
-
-    /* psi, of what phi has left */
-    invert(of_t);
-    multiply(of_t, right, psi);
-
-    /* what psi takes from phi */
-    if (driving_slips) {
-      multiply(of_ut, psi, right);
-      for (int j = 0; j < NODES; j++)
-        EACH phi[j][i] -= right[j][i];
-    }
+/* psi by the Schur complement, and what psi takes from phi. */
+always void solve_t(const carom_terms *k, const carom_point *start, step_rates *n, nodes *d,
+                    matrix of_u, table phi, table psi) {
+  matrix of_t, of_ut;
+  table right;
+  nodes rate_x, rate_y, along;
+  EACH { /* the rates of the slip, z b' */
+    rate_x[i] = n->z[i] * (k->R_x * n->u_x[i] - k->H_x * n->w[i] * n->t_x[i]);
+    rate_y[i] = n->z[i] * (k->B_0 + k->R_y * n->u_y[i] - k->H_y * n->w[i] * n->t_y[i]);
   }
+  lengths(start->b_x, start->b_y, rate_x, rate_y, n->t_x, n->t_y, along);
+  block(n->t_x, n->t_y, n->by_t[OF_B_X], n->by_t[OF_B_Y], along, of_t);
+  right_sides(d, n->by, OF_B_X, n->parameters, n->t_x, n->t_y, right);
+  if (n->driving_slips)
+    eliminate_u(n, of_u, phi, of_ut, of_t, right);
+  invert(of_t);
+  multiply(of_t, right, psi);
+  if (!n->driving_slips)
+    return;
+  multiply(of_ut, psi, right);
+  for (int j = 0; j < NODES; j++)
+    EACH phi[j][i] -= right[j][i];
+}
 
-  /* the end, by quadrature; W is the integral of an integral. The estimate of the error is that
-   * of the solver: the coefficient of the highest Legendre polynomial of the rates */
-  nodes end[CAROM_VARIED], size, error;
+/* The changes of all rows over the step, by quadrature, where `end` of W begins as the change that
+ * v brings about. Returns the estimate of the error, relative: that of the solver, the coefficient
+ * of the highest Legendre polynomial of the rates. */
+always double integrate_rates(const carom_variation *g, step_rates *n, double length, table phi,
+                              table psi, nodes *end) {
+  /* weights of the integral of an integral, which W is */
+  double to_end[NODES];
+  for (int j = 0; j < NODES; j++)
+    to_end[j] = WEIGHT[j] * (length - g->kept.p[j]);
+  nodes size, error;
   EACH {
     size[i] = splat(1e-300);
     error[i] = splat(0);
-    end[OF_W][i] = length * d[OF_V][i];
   }
 
   /* each rate at the nodes, by all that it depends on: its sum, and its highest coefficient */
@@ -285,12 +286,12 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
     for (int j = 0; j < NODES; j++) {
       nodes x;
       EACH x[i] = splat(0);
-      if (parameters)
-        EACH_PARAMETER x[i] = by[r][j][i];
-      if (driving_slips)
-        EACH x[i] = madd(splat(AT(by_u[r], j)), phi[j][i], x[i]);
-      if (loaded)
-        EACH x[i] = madd(splat(AT(by_t[r], j)), psi[j][i], x[i]);
+      if (n->parameters)
+        EACH_PARAMETER x[i] = n->by[r][j][i];
+      if (n->driving_slips)
+        EACH x[i] = madd(splat(AT(n->by_u[r], j)), phi[j][i], x[i]);
+      if (n->loaded)
+        EACH x[i] = madd(splat(AT(n->by_t[r], j)), psi[j][i], x[i]);
 
       /* the sums, and for W that of v once more */
       EACH {
@@ -308,31 +309,73 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
     }
   }
   EACH error[i] /= size[i];
+  return largest(error);
+}
+
+/* The largest square of the estimate of an error with which a step is accepted. */
+always double limit_of_step(bool stiff, int vanishes) {
+  if (vanishes >= 0)
+    return ESTIMATE_AT_STICK;
+  return stiff ? ESTIMATE_STIFF : ESTIMATE;
+}
+
+/* The rates at the end, which the next step needs. The direction of a slip that is zero there is
+ * that of the polynomial. */
+always void take_end_rates(carom_trajectory *path, const step_rates *n) {
+  carom_variation *g = path->variation;
+  const double last[4] = {dot(AT_END, n->u_x), dot(AT_END, n->u_y), dot(AT_END, n->t_x),
+                          dot(AT_END, n->t_y)};
+  carom_variation_leads(&path->at, last, g->lead);
+  carom_variation_rates(&path->terms, g->lead, path->at.v, g->rate);
+}
+
+/* After a step from `start`: see variation.h. Vectors over the nodes, and those over the
+ * variables, have eight numbers. */
+static double variation_step(carom_trajectory *path, const carom_point *start, bool driving_slips,
+                             bool stiff, int vanishes) {
+  carom_variation *g = path->variation;
+  const double length = path->at.p - start->p;
+  carom_variation_begin_regime(path);
+
+  /* the derivatives at the start, without a shift along the motion */
+  nodes alpha, d[CAROM_VARIED];
+  for (int r = 0; r < CAROM_VARIED; r++)
+    EACH d[r][i] = PART(g->d[r], i);
+  EACH alpha[i] = splat(0);
+  const int split = split_slip(start, driving_slips, path->regime.loaded, vanishes);
+  if (split >= 0)
+    split_shift(path, start, split, d, alpha);
+
+  /* the angles: of u as if t did not change, of t by the Schur complement, and the change of u
+   * by t */
+  step_rates n;
+  matrix of_u;
+  table phi, psi;
+  take_rates(path, driving_slips, &n);
+  if (n.driving_slips)
+    solve_u(&path->terms, start, &n, d, of_u, phi);
+  if (n.loaded)
+    solve_t(&path->terms, start, &n, d, of_u, phi, psi);
 
   /* refused where the estimate is too large, and the step can be shorter */
-  double estimate = stiff ? ESTIMATE_STIFF : ESTIMATE;
-  if (vanishes >= 0)
-    estimate = ESTIMATE_AT_STICK;
-  const double worst = largest(error) * largest(error) / estimate;
+  nodes end[CAROM_VARIED];
+  EACH end[OF_W][i] = length * d[OF_V][i];
+  const double error = integrate_rates(g, &n, length, phi, psi, end);
+  const double worst = error * error / limit_of_step(stiff, vanishes);
   if (worst > 1 && length > SHORTEST)
     return worst;
 
-  /* the next step needs the rates at the end; the direction of a slip that is zero there is that
-   * of the polynomial */
-  const double last[4] = {dot(AT_END, u_x), dot(AT_END, u_y), dot(AT_END, t_x), dot(AT_END, t_y)};
-  carom_variation_leads(&path->at, last, g->lead);
-  carom_variation_rates(k, g->lead, path->at.v, g->rate);
-
   /* the derivatives at the end, with the shift along the motion there */
-  double all = 0;
+  take_end_rates(path, &n);
+  double sum = 0;
   for (int r = 0; r < CAROM_VARIED; r++) {
     EACH {
       d[r][i] += end[r][i] + alpha[i] * g->rate[r];
       *(part_of_row *)&g->d[r][NODES / PARTS * i] = (part_of_row)d[r][i];
     }
-    all += dot(WEIGHT, d[r]);
+    sum += dot(WEIGHT, d[r]);
   }
-  g->lost |= !(fabs(all) < INFINITY);
+  g->lost |= !(fabs(sum) < INFINITY);
   return 0;
 }
 

@@ -3,6 +3,7 @@
 #define CAROM_SRC_PLATFORM_RANGES_H
 
 #include "carom.h"
+#include "platform/dependence.h"
 
 #include <float.h>
 #include <math.h>
@@ -15,31 +16,6 @@ static inline double carom_lesser(double a, double b) {
 static inline double carom_greater(double a, double b) {
   return a > b ? a : b;
 }
-
-/* Whether a number is 0, so that what it changes may be left out. A number with derivatives is
- * absent only where nothing depends on it: tangent/dual.h has its own. */
-#ifndef CAROM_SRC_TANGENT_DUAL_H
-static inline bool carom_absent(double x) {
-  return x == 0;
-}
-/* Whether a number has derivatives, so that what it changes counts however small it is. */
-static inline bool carom_varies(double x) {
-  (void)x;
-  return false;
-}
-/* A number that is 0 below some least value, where it keeps its derivatives. */
-static inline double carom_above(double x, double least) {
-  return x < least ? 0.0 : x;
-}
-/* A sum that begins with `from`, within 0 and 1. At either end it has the derivatives of the sum;
- * there it has a kink by all numbers but `from`, whose range ends there. */
-static inline double carom_limited(double from, double sum) {
-  (void)from;
-  if (sum < 0)
-    return 0;
-  return sum > 1 ? (double)1 : sum;
-}
-#endif
 
 /* A number of the caller's, or the usual one that 0 stands for. It has the derivatives of the
  * number in both cases. */

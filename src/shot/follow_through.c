@@ -19,9 +19,10 @@
 
 #include <math.h>
 
-void carom_follow_on(carom_sim *sim, double V, double behind) {
+void carom_follow_on(carom_play *play, double V, double behind) {
+  const carom_sim *sim = &play->sim;
   const carom_cue *cue = sim->cue;
-  carom_follow *f = &sim->follow;
+  carom_follow *f = &play->follow;
   const double left = cue->follow - f->along;
   f->until = -1.0;
   if (!(left > 0.0 && V > 0.0) || cue->tip_time < 0.0 || !sim->rules->clusters ||
@@ -34,14 +35,16 @@ void carom_follow_on(carom_sim *sim, double V, double behind) {
 }
 
 /* p, now, and the directions of the cue. */
-static void tip_of(const carom_sim *sim, const double r[3], double axes[3][3], double p[3]) {
-  const carom_follow *f = &sim->follow;
+static void tip_of(const carom_play *play, const double r[3], double axes[3][3], double p[3]) {
+  const carom_sim *sim = &play->sim;
+  const carom_follow *f = &play->follow;
   carom_tip_from(sim->cue, sim->rates[sim->struck].radius, f->from,
                  f->along + f->V * (sim->now - f->since), r, axes, p);
 }
 
-void carom_follow_find(carom_sim *sim) {
-  carom_follow *f = &sim->follow;
+void carom_follow_find(carom_play *play) {
+  const carom_sim *sim = &play->sim;
+  carom_follow *f = &play->follow;
   const int i = sim->struck;
   const carom_path *path = &sim->path[i];
   const bool out = carom_is_out(path->from.label);
@@ -56,7 +59,7 @@ void carom_follow_find(carom_sim *sim) {
   carom_separation d;
   double axes[3][3];
   carom_path_at(path, &sim->rates[i], sim->now, &s);
-  tip_of(sim, s.r, axes, d.d0);
+  tip_of(play, s.r, axes, d.d0);
   for (int k = 0; k < 3; k++) {
     d.d1[k] = f->V * axes[0][k] - s.v[k];
     d.d2[k] = -path->a[k];
@@ -66,17 +69,18 @@ void carom_follow_find(carom_sim *sim) {
     f->time = sim->now + carom_first_contact_in_space(&d, sim->rates[i].radius, horizon);
 }
 
-bool carom_follow_cue(const carom_sim *sim, carom_cue *now) {
+bool carom_follow_cue(const carom_play *play, carom_cue *now) {
+  const carom_sim *sim = &play->sim;
   const int i = sim->struck;
   const double R = sim->rates[i].radius;
   carom_ball_state s;
   double axes[3][3], p[3], on[3];
   carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &s);
-  tip_of(sim, s.r, axes, p);
+  tip_of(play, s.r, axes, p);
   const double p2 = carom_tip_on(axes, p, on);
   *now = *sim->cue;
-  now->speed = sim->follow.V;
-  now->follow -= sim->follow.along + sim->follow.V * (sim->now - sim->follow.since);
+  now->speed = play->follow.V;
+  now->follow -= play->follow.along + play->follow.V * (sim->now - play->follow.since);
   now->a = on[1];
   now->b = on[2];
   return p2 > 0.25 * R * R && on[0] < -0.1;

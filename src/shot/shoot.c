@@ -169,9 +169,10 @@ typedef enum push_kind { PUSH_OF_SEVERAL, PUSH_OF_ONE, PUSH_AGAIN } push_kind;
  * stand behind that of the strike. Returns false, with nothing changed, where no other ball takes
  * part in a PUSH_OF_SEVERAL, and where a PUSH_AGAIN closes below CAROM_LEAST_TOUCH. *met becomes
  * the first contact of the struck ball. */
-__attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_cue *cue, double most,
-                                                 bool slate, push_kind kind, carom_due *met,
-                                                 carom_status *status) {
+__attribute__((noinline, cold)) static bool push(carom_play *play, const carom_cue *cue,
+                                                 double most, bool slate, push_kind kind,
+                                                 carom_due *met, carom_status *status) {
+  carom_sim *sim = &play->sim;
   carom_cluster_state c;
   carom_cluster_slate slates[CAROM_CLUSTER_BALLS];
   uint8_t order[CAROM_CLUSTER_CONTACTS];
@@ -214,7 +215,7 @@ __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_cue
   const carom_status of_contacts = note_contacts(sim, &c, order, count, changed, met);
   if (*status == CAROM_OK)
     *status = of_contacts;
-  carom_follow_on(sim, c.tip.V, carom_greater(-c.tip.d, 0.0));
+  carom_follow_on(play, c.tip.V, carom_greater(-c.tip.d, 0.0));
   return true;
 }
 
@@ -315,7 +316,8 @@ static void note_strike(carom_sim *sim, const carom_ball_state *alone, const car
 }
 
 /* The strike, if the cue strikes. *met becomes a contact of its push. */
-static carom_status strike(carom_sim *sim, carom_due *met) {
+static carom_status strike(carom_play *play, carom_due *met) {
+  carom_sim *sim = &play->sim;
   if (!may_strike(sim))
     return CAROM_OK;
   const carom_cue *cue = sim->cue;
@@ -326,14 +328,14 @@ static carom_status strike(carom_sim *sim, carom_due *met) {
   if (status < 0)
     return status;
   carom_facts_frozen(sim);
-  memcpy(sim->follow.from, sim->path[i].from.r, sizeof sim->follow.from);
-  sim->follow.along = 0.0;
+  memcpy(play->follow.from, sim->path[i].from.r, sizeof play->follow.from);
+  play->follow.along = 0.0;
 
   /* together with the balls that the struck ball meets while the cue pushes */
   carom_status together;
   const double *v = motion.v, most = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   const bool down = v[2] != 0.0;
-  if (carom_may_push(sim, &motion) && push(sim, cue, most, down, PUSH_OF_SEVERAL, met, &together))
+  if (carom_may_push(sim, &motion) && push(play, cue, most, down, PUSH_OF_SEVERAL, met, &together))
     return together;
 
   /* alone: a level strike has a closed form, a raised one presses the ball on the slate, unless
@@ -345,10 +347,10 @@ static carom_status strike(carom_sim *sim, carom_due *met) {
   memcpy(alone.w, motion.w, sizeof alone.w);
   const bool presses = down && cue->tip_time >= 0.0;
   if (presses && !carom_press_alone(kind, cue, &alone, &raised)) {
-    push(sim, cue, most, down, PUSH_OF_ONE, met, &together);
+    push(play, cue, most, down, PUSH_OF_ONE, met, &together);
     return together;
   }
-  carom_follow_on(sim, raised.V, raised.behind);
+  carom_follow_on(play, raised.V, raised.behind);
   note_strike(sim, &alone, &raised, down, presses);
   return CAROM_OK;
 }
@@ -383,17 +385,18 @@ static bool stops_at(carom_sim *sim, int type, int a, int b) {
 }
 
 /* The tip touches the struck ball again, or the follow-through ends. *due becomes what happens. */
-__attribute__((noinline, cold)) static carom_status touch_again(carom_sim *sim, carom_due *due) {
-  carom_follow *f = &sim->follow;
+__attribute__((noinline, cold)) static carom_status touch_again(carom_play *play, carom_due *due) {
+  carom_sim *sim = &play->sim;
+  carom_follow *f = &play->follow;
   carom_cue cue;
   carom_status status = CAROM_OK;
-  const bool touches = carom_follow_cue(sim, &cue);
+  const bool touches = carom_follow_cue(play, &cue);
   const bool raised = carom_is_raised(&cue) && sim->opt->space != CAROM_SPACE_FLAT;
   f->along += f->V * (sim->now - f->since);
   f->until = -1.0;
   f->time = INFINITY;
   due->type = CAROM_DUE_NOTHING;
-  if (touches && push(sim, &cue, 2.0 * cue.speed, raised, PUSH_AGAIN, due, &status)) {
+  if (touches && push(play, &cue, 2.0 * cue.speed, raised, PUSH_AGAIN, due, &status)) {
     carom_detect_all(sim);
     if (status == CAROM_OK && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1))
       status = CAROM_STOPPED_AT_EVENT;
@@ -406,7 +409,8 @@ __attribute__((noinline, cold)) static carom_status touch_again(carom_sim *sim, 
 
 /* From event to event, until nothing moves or the shot is to stop. Nothing is changed by
  * stopping, so the loop goes on later as if it had not. */
-static carom_status go_on(carom_sim *sim) {
+static carom_status go_on(carom_play *play) {
+  carom_sim *sim = &play->sim;
   int64_t events_most = 10000;
   if (sim->opt->events_most > 0)
     events_most = sim->opt->events_most;
@@ -420,10 +424,10 @@ static carom_status go_on(carom_sim *sim) {
   while (status == CAROM_OK) {
     /* what is due: an event, or another touch of the tip, which goes first */
     carom_due due = carom_next(sim);
-    const bool follows = sim->follow.until >= 0.0 && sim->follow.time < INFINITY;
-    const bool again = follows && sim->follow.time <= due.time;
+    const bool follows = play->follow.until >= 0.0 && play->follow.time < INFINITY;
+    const bool again = follows && play->follow.time <= due.time;
     if (again)
-      due = (carom_due){sim->follow.time, CAROM_EVENT_STRIKE, sim->struck, -1};
+      due = (carom_due){play->follow.time, CAROM_EVENT_STRIKE, sim->struck, -1};
 
     /* what ends the shot: rest, or the time that the caller allows */
     if (due.type == CAROM_DUE_REST)
@@ -439,8 +443,8 @@ static carom_status go_on(carom_sim *sim) {
       sim->round++;
       carom_path_go_on(&sim->path[due.a], &sim->rates[due.a]);
       carom_detect(sim, due.a, -1);
-      if (sim->now < sim->follow.until)
-        carom_follow_find(sim);
+      if (sim->now < play->follow.until)
+        carom_follow_find(play);
       continue;
     }
 
@@ -455,19 +459,20 @@ static carom_status go_on(carom_sim *sim) {
     sim->now = carom_greater(sim->now, due.time);
     sim->round++;
     if (again)
-      status = touch_again(sim, &due);
+      status = touch_again(play, &due);
     else
       status = step(sim, &due);
     if (status == CAROM_OK && stops_at(sim, due.type, due.a, due.b))
       status = CAROM_STOPPED_AT_EVENT;
-    if (sim->now < sim->follow.until)
-      carom_follow_find(sim);
+    if (sim->now < play->follow.until)
+      carom_follow_find(play);
   }
   return status;
 }
 
 /* The states at the end; and all of the shot, where the caller keeps it. */
-static carom_status finish(carom_sim *sim, carom_status status) {
+static carom_status finish(carom_play *play, carom_status status) {
+  carom_sim *sim = &play->sim;
   carom_shot *shot = sim->shot;
   for (int i = 0; shot->final != NULL && i < sim->count; i++)
     carom_path_at(&sim->path[i], &sim->rates[i], shot->time, &shot->final[i]);
@@ -476,23 +481,24 @@ static carom_status finish(carom_sim *sim, carom_status status) {
   const bool goes_on =
       status >= 0 || status == CAROM_ERROR_TOO_LONG || status == CAROM_ERROR_TOO_MANY_EVENTS;
   if (shot->state != NULL && goes_on)
-    carom_state_save(sim, shot->state);
+    carom_state_save(play, shot->state);
   else if (shot->state != NULL)
     memset(shot->state, 0, sizeof *shot->state);
   return status;
 }
 
 /* The strike, and whether the shot is to go on after it. */
-static carom_status start(carom_sim *sim) {
+static carom_status start(carom_play *play) {
+  carom_sim *sim = &play->sim;
   carom_due met = {0.0, CAROM_DUE_NOTHING, -1, -1};
-  const carom_status status = strike(sim, &met);
+  const carom_status status = strike(play, &met);
   if (status != CAROM_OK)
     return status;
   carom_detect_all(sim);
   bool stops = sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1);
   stops |= met.type != CAROM_DUE_NOTHING && stops_at(sim, met.type, met.a, met.b);
-  if (sim->follow.until > 0.0)
-    carom_follow_find(sim);
+  if (play->follow.until > 0.0)
+    carom_follow_find(play);
   if (stops)
     return CAROM_STOPPED_AT_EVENT;
   return CAROM_OK;
@@ -501,50 +507,51 @@ static carom_status start(carom_sim *sim) {
 /* A shot from its strike, or on from shot->state. */
 __attribute__((noinline)) static carom_status shoot(const carom_prepared *p, const carom_cue *cue,
                                                     carom_shot *shot, bool anew) {
-  carom_sim sim;
+  carom_play play;
+  carom_sim *sim = &play.sim;
   if (!anew)
-    memcpy(&sim, shot->state, sizeof sim);
+    memcpy(&play, shot->state, sizeof play);
   else if (shot->state != NULL) /* the bytes that are not written below are kept too */
-    memset(&sim, 0, sizeof sim);
+    memset(&play, 0, sizeof play);
 
   /* what belongs to this call */
-  sim.rules = carom_rules_of(p->opt->world);
-  sim.table = p->table;
-  sim.features = p->features;
-  sim.layout = p;
-  sim.opt = p->opt;
-  sim.cue = cue;
-  sim.shot = shot;
+  sim->rules = carom_rules_of(p->opt->world);
+  sim->table = p->table;
+  sim->features = p->features;
+  sim->layout = p;
+  sim->opt = p->opt;
+  sim->cue = cue;
+  sim->shot = shot;
 
   /* what belongs to the shot: as it begins, or as it was kept */
   carom_status status = CAROM_OK;
   if (anew) {
-    sim.count = p->count;
+    sim->count = p->count;
     /* a cue of speed 0 is not read, and may name any ball */
-    sim.struck = 0;
+    sim->struck = 0;
     if (cue != NULL && cue->ball >= 0 && cue->ball < p->count)
-      sim.struck = (int)cue->ball;
-    sim.world = p->opt->world;
-    sim.met = sim.turned = false;
-    sim.now = 0.0;
-    sim.round = 0;
-    sim.slow_instants = 0;
-    sim.slow_last = sim.follow.until = -1.0;
-    sim.follow.time = INFINITY;
+      sim->struck = (int)cue->ball;
+    sim->world = p->opt->world;
+    sim->met = sim->turned = false;
+    sim->now = 0.0;
+    sim->round = 0;
+    sim->slow_instants = 0;
+    sim->slow_last = play.follow.until = -1.0;
+    play.follow.time = INFINITY;
     if (shot->state != NULL)
-      carom_state_begin(&sim);
-    begin(&sim);
-    status = start(&sim);
+      carom_state_begin(sim);
+    begin(sim);
+    status = start(&play);
   } else {
-    status = carom_state_check(&sim, shot->state, p->count);
+    status = carom_state_check(&play, shot->state, p->count);
     if (status != CAROM_OK)
       return status;
-    sim.cue = &sim.follow.cue;
+    sim->cue = &play.follow.cue;
   }
-  CAROM_PROMISE(sim.count > 0 && sim.count <= CAROM_BALLS_MOST && sim.struck < sim.count);
+  CAROM_PROMISE(sim->count > 0 && sim->count <= CAROM_BALLS_MOST && sim->struck < sim->count);
   if (status == CAROM_OK)
-    status = go_on(&sim);
-  return finish(&sim, status);
+    status = go_on(&play);
+  return finish(&play, status);
 }
 
 /* The same for a caller who does not want the facts that belong to the state. This is a function of

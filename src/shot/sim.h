@@ -1,4 +1,4 @@
-/* A shot on its way, which the parts of this room share. One of these stands on the stack of
+/* A shot on its way, which the parts of this room share. One carom_play stands on the stack of
  * carom_shoot(), nothing is allocated. */
 #ifndef CAROM_SRC_SHOT_SIM_H
 #define CAROM_SRC_SHOT_SIM_H
@@ -63,10 +63,13 @@ typedef struct carom_sim {
                                      earlier */
   double first[CAROM_BALLS_MOST]; /* of row i of pair[] */
   int8_t first_with[CAROM_BALLS_MOST];
-#ifndef CAROM_SRC_TANGENT_TEXT_H /* none of the text with derivatives, whose stack is short */
-  carom_follow follow;
-#endif
 } carom_sim;
+
+/* A shot on its way, with the cue that goes on. Only the loop of the shot needs the cue. */
+typedef struct carom_play {
+  carom_sim sim;
+  carom_follow follow;
+} carom_play;
 
 /* An event that is due. */
 typedef struct carom_due {
@@ -108,12 +111,12 @@ void carom_detect_columns(carom_sim *sim);
 /* state.c: takes fingerprints of table, balls and options, where a state will be kept. */
 void carom_state_begin(carom_sim *sim);
 /* Leaves the shot, of which the state is the copy, without the caller's pointers. The facts so far
- * are those of sim->shot. */
-void carom_state_save(carom_sim *sim, carom_shot_state *state);
-/* Whether sim, the copy of a state with the caller's pointers, can go on: CAROM_OK or why not.
+ * are those of play->sim.shot. */
+void carom_state_save(carom_play *play, carom_shot_state *state);
+/* Whether play, the copy of a state with the caller's pointers, can go on: CAROM_OK or why not.
  * Numbers that follow from others are computed again; count, time and facts so far go into
- * sim->shot. */
-carom_status carom_state_check(carom_sim *sim, const carom_shot_state *state, int count);
+ * play->sim.shot. */
+carom_status carom_state_check(carom_play *play, const carom_shot_state *state, int count);
 /* Gives a state the seal that its bits must have. */
 void carom_state_seal(carom_shot_state *state);
 

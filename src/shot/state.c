@@ -23,7 +23,7 @@ typedef struct result {
   carom_facts facts;
 } result;
 
-enum { SIZE = sizeof(carom_sim) + sizeof(result) };
+enum { SIZE = sizeof(carom_play) + sizeof(result) };
 
 /* The first number of a state: another version, another revision of the physics, and another size
  * are refused. */
@@ -106,16 +106,17 @@ static bool ends_empty(const carom_shot_state *state) {
     any |= state->opaque[k];
   return any == 0;
 }
-_Static_assert(sizeof(carom_sim) % 8 == 0 && SIZE % 8 == 0, "its parts end with a word");
+_Static_assert(sizeof(carom_play) % 8 == 0 && SIZE % 8 == 0, "its parts end with a word");
 
 void carom_state_seal(carom_shot_state *state) {
   state->opaque[SEAL] = seal_of(state);
 }
 
-void carom_state_save(carom_sim *sim, carom_shot_state *state) {
+void carom_state_save(carom_play *play, carom_shot_state *state) {
+  carom_sim *sim = &play->sim;
   const carom_shot *shot = sim->shot;
   result so_far; /* that of the state until now, of which the events stay */
-  memcpy(&so_far, state->opaque + sizeof *sim / sizeof *state->opaque, sizeof so_far);
+  memcpy(&so_far, state->opaque + sizeof *play / sizeof *state->opaque, sizeof so_far);
   add_events(&so_far, shot, shot->count);
   so_far.time = shot->time;
   so_far.facts = *shot->facts;
@@ -125,12 +126,12 @@ void carom_state_save(carom_sim *sim, carom_shot_state *state) {
   sim->features = NULL;
   sim->layout = NULL;
   sim->opt = NULL;
-  if (sim->follow.until >= 0.0 && sim->cue != &sim->follow.cue)
-    sim->follow.cue = *sim->cue;
+  if (play->follow.until >= 0.0 && sim->cue != &play->follow.cue)
+    play->follow.cue = *sim->cue;
   sim->cue = NULL;
   sim->shot = NULL;
-  memcpy(state, sim, sizeof *sim);
-  memcpy(state->opaque + sizeof *sim / sizeof *state->opaque, &so_far, sizeof so_far);
+  memcpy(state, play, sizeof *play);
+  memcpy(state->opaque + sizeof *play / sizeof *state->opaque, &so_far, sizeof so_far);
   carom_state_seal(state);
 }
 
@@ -211,8 +212,9 @@ static bool good_result(const carom_sim *sim, const result *so_far) {
 }
 
 /* Whether a cue that goes on can do so. */
-static bool good_follow(const carom_sim *sim) {
-  const carom_follow *f = &sim->follow;
+static bool good_follow(const carom_play *play) {
+  const carom_follow *f = &play->follow;
+  const carom_sim *sim = &play->sim;
   return f->until < 0.0 ||
          (f->until < INFINITY && f->since >= 0.0 && f->since <= sim->now && f->V > 0.0 &&
           f->V < INFINITY && fabs(f->along) < INFINITY && carom_is_finite(f->from) &&
@@ -221,11 +223,12 @@ static bool good_follow(const carom_sim *sim) {
 
 /* Whether all indices and numbers are those of a shot of sim->layout on sim->table; those that
  * follow from others are computed again. */
-static bool restore(carom_sim *sim) {
+static bool restore(carom_play *play) {
+  carom_sim *sim = &play->sim;
   static const int64_t many = INT64_C(1) << 62;
   if (!(sim->now >= 0.0 && sim->now < INFINITY) || !in(sim->round, 0, many) ||
       !in(sim->slow_instants, 0, many) || isnan(sim->slow_last) || !is_bool(&sim->met) ||
-      !is_bool(&sim->turned) || !good_follow(sim) || !in(sim->struck, 0, sim->count - 1))
+      !is_bool(&sim->turned) || !good_follow(play) || !in(sim->struck, 0, sim->count - 1))
     return false;
   carom_take_rates(sim);
   for (int i = 0; i < sim->count; i++)
@@ -238,7 +241,8 @@ static bool restore(carom_sim *sim) {
   return true;
 }
 
-carom_status carom_state_check(carom_sim *sim, const carom_shot_state *state, int count) {
+carom_status carom_state_check(carom_play *play, const carom_shot_state *state, int count) {
+  carom_sim *sim = &play->sim;
   if (sim->can_go_on != resumable() || state->opaque[SEAL] != seal_of(state) || !ends_empty(state))
     return CAROM_ERROR_STATE;
   /* the table, the balls and the options */
@@ -249,8 +253,8 @@ carom_status carom_state_check(carom_sim *sim, const carom_shot_state *state, in
   if (sim->count != count || sim->of_balls != of_balls(sim))
     return CAROM_ERROR_STATE_BALLS;
   result then, now = {.events = 0};
-  memcpy(&then, state->opaque + sizeof *sim / sizeof *state->opaque, sizeof then);
-  if (!restore(sim) || !good_result(sim, &then))
+  memcpy(&then, state->opaque + sizeof *play / sizeof *state->opaque, sizeof then);
+  if (!restore(play) || !good_result(sim, &then))
     return CAROM_ERROR_STATE;
 
   /* the result so far, in which the events are the caller's */

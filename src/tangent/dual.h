@@ -1,5 +1,5 @@
-/* A number with its derivatives in several directions, for the sources of motion and contacts as
- * C++ (text.h).
+/* A number with its derivatives in CAROM_DUAL_WIDTH directions, which the includer chooses: what
+ * stands for `double` in the copies of the sources of motion and contacts (text.h).
  *
  * x is the value and d has the derivatives, one for each direction. Arithmetic follows the rules
  * of differentiation:
@@ -33,14 +33,11 @@ extern "C" {
 namespace {
 
 typedef double real;
-#ifndef LANE_BYTES
-#define LANE_BYTES 16
-#endif
-enum { WIDTH = CAROM_TANGENT_WIDTH, CLOCK = WIDTH - 1 }; /* the last direction is that of time */
+enum { WIDTH = CAROM_DUAL_WIDTH, CLOCK = WIDTH - 1 }; /* the last direction is that of time */
 
 /* Derivatives in all directions: a few vectors that fit registers, since compilers keep longer
  * ones in memory. */
-typedef real lane __attribute__((vector_size(LANE_BYTES)));
+typedef real lane __attribute__((vector_size(WIDTH > 1 ? 16 : 8)));
 enum { LANE = sizeof(lane) / sizeof(real), LANES = WIDTH / LANE };
 struct row {
   lane q[LANES];
@@ -229,7 +226,7 @@ CAROM_RULE number copysign(const number &a, const number &b) {
 CAROM_RULE number ldexp(const number &a, int n) {
   return {__builtin_ldexp(a.x, n), a.d * __builtin_ldexp(1.0, n)};
 }
-/* See platform/ranges.h. */
+/* See platform/dependence.h. */
 CAROM_RULE bool carom_absent(const number &a) {
   bool none = a.x == 0;
   for (int k = 0; k < WIDTH; k++)

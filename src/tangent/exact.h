@@ -214,7 +214,7 @@ static ::carom_status euler_at(const real in[EULER_INS], int steps, real least, 
 
 /* Central differences of order 2 by each number that changes; by a constant that is 0, forward
  * ones. */
-carom_status carom_cushion_euler(carom_contact *c, int steps, double least, int, int64_t most,
+carom_status carom_cushion_euler(carom_contact *c, int steps, number least, int, int64_t most,
                                  carom_cushion_run *) {
   keep_rolling(c->v_x, c->v_y, &c->W_x, &c->W_y);
   const number in[EULER_INS] = {

@@ -10,10 +10,7 @@
 #include <stdbool.h>
 
 /* Derivatives that a number carries, of which the last is that by time. */
-#ifndef CAROM_TANGENT_WIDTH
-#define CAROM_TANGENT_WIDTH 8
-#endif
-enum { CAROM_TANGENT_COLUMNS = CAROM_TANGENT_WIDTH - 1 };
+enum { CAROM_TANGENT_WIDTH = 8, CAROM_TANGENT_COLUMNS = CAROM_TANGENT_WIDTH - 1 };
 
 /* In the order of the numbers of a state. */
 enum { S_X, S_Y, S_V_X, S_V_Y, S_W_X, S_W_Y, S_W_Z, S_Z, S_V_Z };

@@ -71,8 +71,8 @@ ALLOWED = {
     ),
     "examples": ("include", "plan/include"),
 }
-# Of a room that has a header for the others, they may include that alone; but for the text that
-# derivatives are made of.
+# Of a room that has a header for the others, they may include that alone; except the text of
+# derivatives, which includes copies of sources in dual/.
 HEADER, TEXT = {"src/shot": "shot.h"}, "src/tangent/text.h"
 faults = []
 
@@ -108,7 +108,9 @@ named = {
 }  # of two with one name that of the earlier room
 includes, units, rooms = defaultdict(set), defaultdict(set), defaultdict(set)
 for file in files:
-    for name in re.findall(r'^\s*#\s*include\s+"([^"]+)"', file.read_text(encoding="utf-8"), re.M):
+    for name in re.findall(
+        r'^\s*#\s*include\s+"(?:dual/)?([^"]+)"', file.read_text(encoding="utf-8"), re.M
+    ):
         beside = [
             folder / name
             for folder in (file.parent, ROOT / "src", ROOT / "include", ROOT / "plan/include")
