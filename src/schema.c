@@ -23,13 +23,13 @@
 #define TYPE_OF(x) \
   _Generic(x, double *: CAROM_TYPE_DOUBLE, double: CAROM_TYPE_DOUBLE,          \
            int64_t: CAROM_TYPE_INT64, uint64_t: CAROM_TYPE_UINT64, default: CAROM_TYPE_INT32)
-#define ROW(STRUCT, member, named, least, most, beside, ERROR, about, ...)                         \
+#define ROW(STRUCT, member, named, least, most, extra, ERROR, about, ...)                          \
   {.name = #member,                                                                                \
    .key = named,                                                                                   \
    .text = about,                                                                                  \
    .low = (double)(least),                                                                         \
    .high = (double)(most),                                                                         \
-   .other = beside,                                                                                \
+   .other = extra,                                                                                 \
    .offset = offsetof(STRUCT, member),                                                             \
    .error = CAROM_ERROR_##ERROR,                                                                   \
    .type = TYPE_OF(((STRUCT *)NULL)->member),                                                      \
@@ -42,8 +42,8 @@
 #define READ_BY_CUSHION(MODEL) .reader = CAROM_READ_BY_CUSHION, .model = CAROM_CUSHION_##MODEL
 #define READ_BY_FRICTION(LAW) .reader = CAROM_READ_BY_FRICTION, .model = CAROM_FRICTION_##LAW
 #define READ_WITH(MODEL, number) READ_BY_CUSHION(MODEL)
-#define BALL_ROW(member, key, measure, low, high, other, ERROR, reads, about, in_cushion)          \
-  ROW(carom_ball_kind, member, key, low, high, other, ERROR, about, .unit = measure, READ_##reads, \
+#define BALL_ROW(member, key, measure, low, high, extra, ERROR, reads, about, in_cushion)          \
+  ROW(carom_ball_kind, member, key, low, high, extra, ERROR, about, .unit = measure, READ_##reads, \
       .cushion_offset = in_cushion, .words = -1)
 #define BALL(...) BALL_ROW(__VA_ARGS__, -1)
 #define CUSHION(member, ...) \
@@ -55,8 +55,8 @@ enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 _Static_assert(sizeof(carom_ball_kind) == NUMBERS * sizeof(double), "a row for each number");
 
 /* Of the cue, the table and its parts, and the state of a ball. */
-#define PART(STRUCT, member, key, measure, low, high, other, ERROR, about)                        \
-  ROW(STRUCT, member, key, low, high, other, ERROR, about, .unit = measure, .cushion_offset = -1, \
+#define PART(STRUCT, member, key, measure, low, high, extra, ERROR, about)                        \
+  ROW(STRUCT, member, key, low, high, extra, ERROR, about, .unit = measure, .cushion_offset = -1, \
       .words = -1)
 #define CUE(...) PART(carom_cue, __VA_ARGS__)
 #define TABLE(...) PART(carom_table, __VA_ARGS__)
@@ -75,9 +75,9 @@ static const carom_number cue_numbers[] = {CAROM_CUE_NUMBERS(CUE, CUE)},
 #undef RAIL
 
 /* Options, of which 0 is always right. */
-#define FORM_WORDS(of) .unit = "", .words = CAROM_WORDS_##of
-#define FORM_SET(of) FORM_WORDS(of)
-#define FORM_NUMBER(of) .unit = of, .words = -1
+#define FORM_WORDS(KIND) .unit = "", .words = CAROM_WORDS_##KIND
+#define FORM_SET(KIND) FORM_WORDS(KIND)
+#define FORM_NUMBER(measure) .unit = measure, .words = -1
 #define FORM_COUNT FORM_NUMBER("")
 #define FORM_FLAG FORM_COUNT
 #define FORM_SEED FORM_COUNT
@@ -108,8 +108,8 @@ static const struct {
   const carom_number *row;
   int count;
 } parts[] = {
-#define ROWS(of) \
-  { of, sizeof of / sizeof of[0] }
+#define ROWS(table) \
+  { table, sizeof table / sizeof table[0] }
     [CAROM_PART_RAIL] = ROWS(rail_numbers),
     [CAROM_PART_JAW] = ROWS(jaw_numbers),
     [CAROM_PART_POCKET] = ROWS(pocket_numbers),
@@ -281,10 +281,10 @@ static void add_bits(words *w, const carom_number *n) {
 }
 
 /* "a", "a or b", "a, b or c" */
-static void add_choices(words *w, carom_words of) {
-  const char *word = carom_word(of, 0);
+static void add_choices(words *w, carom_words kind) {
+  const char *word = carom_word(kind, 0);
   for (int k = 0; word != NULL; k++) {
-    const char *next = carom_word(of, k + 1);
+    const char *next = carom_word(kind, k + 1);
     if (k > 0 && next == NULL)
       add(w, " or ");
     else if (k > 0)
@@ -341,13 +341,13 @@ const carom_number *carom_ball_fault(const carom_ball_kind *k, char *text, size_
   words w = words_in(text, room);
   if (k == NULL)
     return NULL;
-#define RANGE(member, key, unit, low, high, other, error, reader, about)  \
-  if (!CAROM_IS_RIGHT(member, low, high, other, ALWAYS)) {                \
+#define RANGE(member, key, unit, low, high, extra, error, reader, about)  \
+  if (!CAROM_IS_RIGHT(member, low, high, extra, ALWAYS)) {                \
     const carom_number *n = number_at(offsetof(carom_ball_kind, member)); \
     carom_number_range(n, text, room);                                    \
     return n;                                                             \
   }
-#define ALONE(member, key, unit, low, high, other, error, reader, about) \
+#define ALONE(member, key, unit, low, high, extra, error, reader, about) \
   if (!(CAROM_GIVEN_##reader || k->member == 0)) {                       \
     add(&w, WITHOUT_##reader);                                           \
     end_of(&w);                                                          \
@@ -388,7 +388,7 @@ int carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind) {
 /* ---- Words */
 
 static const struct word {
-  int of, value;
+  int kind, value;
   const char *word, *text;
 } words_of[] = {
 #define WORD(OF, VALUE, word, text) {CAROM_WORDS_##OF, CAROM_##VALUE, word, text},
@@ -406,22 +406,22 @@ static const struct word {
 #undef LAW
 };
 
-static const struct word *find(carom_words of, int value) {
+static const struct word *find(carom_words kind, int value) {
   for (size_t k = 0; k < sizeof words_of / sizeof words_of[0]; k++)
-    if (words_of[k].of == (int)of && words_of[k].value == value)
+    if (words_of[k].kind == (int)kind && words_of[k].value == value)
       return &words_of[k];
   return NULL;
 }
 
-const char *carom_word(carom_words of, int value) {
-  const struct word *found = find(of, value);
+const char *carom_word(carom_words kind, int value) {
+  const struct word *found = find(kind, value);
   if (found == NULL)
     return NULL;
   return found->word;
 }
 
-const char *carom_word_text(carom_words of, int value) {
-  const struct word *found = find(of, value);
+const char *carom_word_text(carom_words kind, int value) {
+  const struct word *found = find(kind, value);
   if (found == NULL)
     return NULL;
   return found->text;

@@ -33,8 +33,8 @@ static inline double carom_above(double x, double least) {
 }
 /* A sum that begins with `from`, within 0 and 1. At either end it has the derivatives of the sum;
  * there it has a kink by all numbers but `from`, whose range ends there. */
-static inline double carom_limited(double from, double sum) {
-  (void)from;
+static inline double carom_limited(double limit, double sum) {
+  (void)limit;
   if (sum < 0)
     return 0;
   return sum > 1 ? (double)1 : sum;
@@ -43,8 +43,8 @@ static inline double carom_limited(double from, double sum) {
 
 /* A number of the caller's, or the usual one that 0 stands for. It has the derivatives of the
  * number in both cases. */
-static inline double carom_or_usual(double given, double usual) {
-  return given > 0.0 ? given : usual + given;
+static inline double carom_or_usual(double value, double usual) {
+  return value > 0.0 ? value : usual + value;
 }
 
 /* x - x is 0 unless x is infinite or no number. C++ has isfinite() in std alone. */

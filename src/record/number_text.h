@@ -13,6 +13,6 @@ int carom_number_write(double x, char *text);
 
 /* Reads a number that begins at `at` and ends before `end`; returns where it stops, or NULL where
  * there is no number that can be read exactly: then *why says so. */
-const char *carom_number_read(const char *at, const char *end, double *x, const char **why);
+const char *carom_number_read(const char *position, const char *end, double *x, const char **why);
 
 #endif

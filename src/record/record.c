@@ -23,11 +23,11 @@ typedef enum type { DOUBLE, INT32, INT64, HASH, LIST } type;
 typedef struct field {
   const char *key;
   type type;
-  bool always;            /* written whatever it is, and required */
-  int count;              /* of its values: [x, y] of 2; the most objects of a list */
-  size_t at;              /* its offset in the object, */
-  size_t size, counted;   /* of a list: bytes of an object, offset of their number (int64_t), */
-  const struct field *of; /* and its fields. Tables of fields end with a key of NULL. */
+  bool always;                /* written whatever it is, and required */
+  int count;                  /* of its values: [x, y] of 2; the most objects of a list */
+  size_t offset;              /* its offset in the object, */
+  size_t size, counted;       /* of a list: bytes of an object, offset of their number (int64_t), */
+  const struct field *fields; /* and its fields. Tables of fields end with a key of NULL. */
 } field;
 
 #define END \
@@ -36,14 +36,14 @@ typedef struct field {
 /* The type of a member and how many it has; and of members of structs that have rows. */
 #define KEY_TYPE(x) \
   _Generic(x, double *: DOUBLE, double: DOUBLE, int64_t: INT64, uint64_t: INT64, default: INT32)
-#define MEMBER(name, of, member)                                                     \
-  {name,                                                                             \
-   KEY_TYPE(((of *)NULL)->member),                                                   \
-   false,                                                                            \
-   sizeof(((of *)NULL)->member) / (KEY_TYPE(((of *)NULL)->member) == INT32 ? 4 : 8), \
-   offsetof(of, member),                                                             \
-   0,                                                                                \
-   0,                                                                                \
+#define MEMBER(name, STRUCT, member)                                                         \
+  {name,                                                                                     \
+   KEY_TYPE(((STRUCT *)NULL)->member),                                                       \
+   false,                                                                                    \
+   sizeof(((STRUCT *)NULL)->member) / (KEY_TYPE(((STRUCT *)NULL)->member) == INT32 ? 4 : 8), \
+   offsetof(STRUCT, member),                                                                 \
+   0,                                                                                        \
+   0,                                                                                        \
    NULL},
 #define RAIL_KEY(member, ...) MEMBER(#member, carom_rail, member)
 #define JAW_KEY(member, ...) MEMBER(#member, carom_jaw, member)
@@ -64,10 +64,10 @@ static const field ball_fields[] = {CAROM_NUMBERS(BALL_KEY, BALL_KEY)
 /* Of the record itself: a key and the member of carom_record that it is. */
 #define R(key, type, always, n, member) \
   { key, type, always, n, offsetof(carom_record, member), 0, 0, NULL }
-#define LISTED(key, most, member, counted, of)                                      \
-  {                                                                                 \
-    key, LIST, false, most, offsetof(carom_record, member),                         \
-        sizeof(((carom_record *)0)->member[0]), offsetof(carom_record, counted), of \
+#define LISTED(key, most, member, counted, fields)                                      \
+  {                                                                                     \
+    key, LIST, false, most, offsetof(carom_record, member),                             \
+        sizeof(((carom_record *)0)->member[0]), offsetof(carom_record, counted), fields \
   }
 
 static const field head[] = {R("format", INT64, true, 1, format),
@@ -165,7 +165,7 @@ static bool is_sealed(int kind) {
 static uint64_t stir_object(uint64_t hash, const field *fields, const unsigned char *object) {
   uint64_t place = 0;
   for (const field *f = fields; f->key != NULL; f++) {
-    const unsigned char *at = object + f->at;
+    const unsigned char *element = object + f->offset;
     int64_t n = f->count;
     if (f->type == LIST) {
       memcpy(&n, object + f->counted, sizeof n);
@@ -173,14 +173,14 @@ static uint64_t stir_object(uint64_t hash, const field *fields, const unsigned c
       if (n != 0)
         hash = carom_stir(carom_stir(hash, place), (uint64_t)n);
     }
-    for (int64_t k = 0; k < n; k++, at += size_of(f)) {
+    for (int64_t k = 0; k < n; k++, element += size_of(f)) {
       int64_t word = 0;
       int32_t half = 0;
       if (f->type == LIST) {
-        hash = stir_object(hash, f->of, at);
+        hash = stir_object(hash, f->fields, element);
         continue;
       }
-      memcpy(f->type == INT32 ? (void *)&half : (void *)&word, at, size_of(f));
+      memcpy(f->type == INT32 ? (void *)&half : (void *)&word, element, size_of(f));
       word += half;
       place++;
       if (word != 0)
@@ -210,58 +210,58 @@ static uint64_t hash_behind(uint64_t hash, int kind, const carom_record *record)
 /* A line on its way in, with the keys that led to the value that is read. */
 typedef struct reader {
   carom_record *record;
-  const char *at, *end;
+  const char *position, *end;
   const char *line, *list, *key; /* "balls", "list", "mass"; NULL where there is none */
   int index;                     /* in the list */
 } reader;
 
-static char *put(char *to, const char *limit, const char *text) {
-  while (*text != '\0' && to < limit)
-    *to++ = *text++;
-  return to;
+static char *put(char *tail, const char *limit, const char *text) {
+  while (*text != '\0' && tail < limit)
+    *tail++ = *text++;
+  return tail;
 }
 
 /* Writes the fault of the value of a key, by its whole path; returns false. */
 static bool wrong(reader *in, const char *what) {
   carom_record *record = in->record;
-  char *to = record->fault, *limit = to + sizeof record->fault - 1;
+  char *tail = record->fault, *limit = tail + sizeof record->fault - 1;
   if (in->line != NULL)
-    to = put(to, limit, in->line);
+    tail = put(tail, limit, in->line);
   if (in->list != NULL) {
     char number[CAROM_NUMBER_TEXT];
     number[carom_number_write(in->index, number)] = '\0';
-    to = put(put(put(put(put(to, limit, "."), limit, in->list), limit, "["), limit, number), limit,
-             "]");
+    tail = put(put(put(put(put(tail, limit, "."), limit, in->list), limit, "["), limit, number),
+               limit, "]");
   }
   if (in->key != NULL)
-    to = put(put(to, limit, "."), limit, in->key);
-  if (to > record->fault)
-    to = put(to, limit, " ");
-  *put(to, limit, what) = '\0';
+    tail = put(put(tail, limit, "."), limit, in->key);
+  if (tail > record->fault)
+    tail = put(tail, limit, " ");
+  *put(tail, limit, what) = '\0';
   return false;
 }
 
 /* ---- Reading --------------------------------------------------------------------------------- */
 
 static void skip_blanks(reader *in) {
-  while (in->at < in->end &&
-         (*in->at == ' ' || *in->at == '\t' || *in->at == '\r' || *in->at == '\n'))
-    in->at++;
+  while (in->position < in->end && (*in->position == ' ' || *in->position == '\t' ||
+                                    *in->position == '\r' || *in->position == '\n'))
+    in->position++;
 }
 
 /* Whether the next character, behind blanks, is c; then it is passed. */
 static bool next_is(reader *in, char c) {
   skip_blanks(in);
-  if (in->at == in->end || *in->at != c)
+  if (in->position == in->end || *in->position != c)
     return false;
-  in->at++;
+  in->position++;
   return true;
 }
 
 static bool expect(reader *in, char c, const char *what) {
   if (next_is(in, c))
     return true;
-  if (in->at == in->end)
+  if (in->position == in->end)
     what = "is cut off: the line ends too soon";
   return wrong(in, what);
 }
@@ -272,8 +272,8 @@ static bool read_key(reader *in, char key[KEY_TEXT]) {
   int n = 0;
   if (!expect(in, '"', "must be an object: a key in quotes comes here"))
     return false;
-  for (; in->at < in->end && *in->at != '"'; in->at++) {
-    char shown = *in->at;
+  for (; in->position < in->end && *in->position != '"'; in->position++) {
+    char shown = *in->position;
     if (shown < ' ' || shown > '~')
       shown = '?';
     if (n < KEY_TEXT - 1)
@@ -286,12 +286,12 @@ static bool read_key(reader *in, char key[KEY_TEXT]) {
 static bool read_number(reader *in, double *x) {
   const char *why;
   skip_blanks(in);
-  if (in->at == in->end)
+  if (in->position == in->end)
     return wrong(in, "is cut off: the line ends too soon");
-  const char *after = carom_number_read(in->at, in->end, x, &why);
-  if (after == NULL)
+  const char *following = carom_number_read(in->position, in->end, x, &why);
+  if (following == NULL)
     return wrong(in, why);
-  in->at = after;
+  in->position = following;
   return true;
 }
 
@@ -300,9 +300,9 @@ static bool read_hash(reader *in, uint64_t *hash) {
   static const char digits[] = "0123456789abcdef";
   const char *digit;
   *hash = 0;
-  bool good = next_is(in, '"') && in->end - in->at > 16;
-  for (int k = 0; good && k < 16; k++, in->at++) {
-    good = *in->at != '\0' && (digit = strchr(digits, *in->at)) != NULL;
+  bool good = next_is(in, '"') && in->end - in->position > 16;
+  for (int k = 0; good && k < 16; k++, in->position++) {
+    good = *in->position != '\0' && (digit = strchr(digits, *in->position)) != NULL;
     if (good)
       *hash = *hash << 4 | (uint64_t)(digit - digits);
   }
@@ -310,19 +310,19 @@ static bool read_hash(reader *in, uint64_t *hash) {
 }
 
 /* One value of a field that is no list. */
-static bool read_value(reader *in, const field *f, unsigned char *to) {
+static bool read_value(reader *in, const field *f, unsigned char *value) {
   double x;
   if (f->type == HASH) {
     uint64_t hash;
     if (!read_hash(in, &hash))
       return false;
-    memcpy(to, &hash, sizeof hash);
+    memcpy(value, &hash, sizeof hash);
     return true;
   }
   if (!read_number(in, &x))
     return false;
   if (f->type == DOUBLE) {
-    memcpy(to, &x, sizeof x);
+    memcpy(value, &x, sizeof x);
     return true;
   }
   double most = (double)MOST_WHOLE;
@@ -331,9 +331,9 @@ static bool read_value(reader *in, const field *f, unsigned char *to) {
   if (!(x >= -most && x <= most) || x != (double)(int64_t)x)
     return wrong(in, "must be a whole number");
   if (f->type == INT32)
-    memcpy(to, &(int32_t){(int32_t)x}, sizeof(int32_t));
+    memcpy(value, &(int32_t){(int32_t)x}, sizeof(int32_t));
   else
-    memcpy(to, &(int64_t){(int64_t)x}, sizeof(int64_t));
+    memcpy(value, &(int64_t){(int64_t)x}, sizeof(int64_t));
   return true;
 }
 
@@ -348,15 +348,15 @@ static bool read_list(reader *in, const field *f, unsigned char *object) {
     return false;
   if (!next_is(in, ']'))
     do {
-      unsigned char *to = object + f->at + (size_t)n * f->size;
+      unsigned char *element = object + f->offset + (size_t)n * f->size;
       in->index = (int)n;
       if (n == f->count)
         return wrong(in, "is one object too many");
       if (n > 0)
-        memcpy(to, to - f->size, f->size);
+        memcpy(element, element - f->size, f->size);
       else
-        memset(to, 0, f->size);
-      if (!read_object(in, f->of, to))
+        memset(element, 0, f->size);
+      if (!read_object(in, f->fields, element))
         return false;
       in->key = NULL;
       n++;
@@ -379,7 +379,7 @@ static bool read_field(reader *in, const field *f, unsigned char *object) {
     return false;
   for (int k = 0; k < f->count; k++)
     if ((k > 0 && !expect(in, ',', "has too few numbers")) ||
-        !read_value(in, f, object + f->at + (size_t)k * size_of(f)))
+        !read_value(in, f, object + f->offset + (size_t)k * size_of(f)))
       return false;
   return f->count == 1 || expect(in, ']', "has too many numbers");
 }
@@ -429,7 +429,7 @@ static bool read_object(reader *in, const field *fields, unsigned char *object) 
 static void clear(carom_record *record, const field *fields) {
   unsigned char *object = (unsigned char *)record;
   for (const field *f = fields; f->key != NULL; f++) {
-    memset(object + f->at, 0, (size_t)f->count * size_of(f));
+    memset(object + f->offset, 0, (size_t)f->count * size_of(f));
     if (f->type == LIST)
       memset(object + f->counted, 0, sizeof(int64_t));
   }
@@ -474,9 +474,9 @@ carom_status carom_record_settle(carom_record *record) {
 
 carom_status carom_record_place(carom_record *record, int ball, double x, double y,
                                 carom_part *in_the_way) {
-  const carom_status bad = carom_record_settle(record);
-  if (bad < 0)
-    return bad;
+  const carom_status settled = carom_record_settle(record);
+  if (settled < 0)
+    return settled;
   const carom_status status =
       carom_place_ball(&record->table, record->balls, (int)record->count, ball, x, y, in_the_way);
   if (status != CAROM_OK)
@@ -490,9 +490,9 @@ carom_status carom_record_place(carom_record *record, int ball, double x, double
 }
 
 carom_status carom_record_hand(carom_record *record, int ball) {
-  const carom_status bad = carom_record_settle(record);
-  if (bad < 0)
-    return bad;
+  const carom_status settled = carom_record_settle(record);
+  if (settled < 0)
+    return settled;
   if (ball < 0 || ball >= record->count)
     return CAROM_ERROR_BALLS;
   record->placed = ball;
@@ -661,7 +661,7 @@ static bool read_line(reader *in, int *kind) {
       !expect(in, '}', "must be the only key of its line"))
     return false;
   skip_blanks(in);
-  if (in->at != in->end)
+  if (in->position != in->end)
     return wrong(in, "has more text behind its object");
   if (!apply(in, *kind, shots, hash))
     return false;
@@ -677,11 +677,11 @@ static bool read_line(reader *in, int *kind) {
 carom_status carom_record_read(carom_record *record, const char *line, size_t size) {
   if (record == NULL || line == NULL)
     return CAROM_ERROR_NULL;
-  reader in = {.record = record, .at = line, .end = line + size};
+  reader in = {.record = record, .position = line, .end = line + size};
   int kind = CAROM_RECORD_BLANK;
   record->line++;
   skip_blanks(&in);
-  if (in.at == in.end)
+  if (in.position == in.end)
     return CAROM_OK;
   const bool good = read_line(&in, &kind);
   record->kind = CAROM_RECORD_WRONG; /* nothing is read behind a fault */
@@ -711,7 +711,8 @@ static bool is_moving(const carom_record *record) {
   return false;
 }
 
-carom_status carom_record_play(carom_record *record, carom_record_kind kind, carom_shot *wanted) {
+carom_status carom_record_play(carom_record *record, carom_record_kind kind,
+                               carom_shot *caller_shot) {
   static const carom_shot none = {0};
   enum { UNTOUCHED = -1 }; /* a label that no ball has */
   if (record == NULL)
@@ -737,8 +738,8 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
 
   /* recordings promise the bits that all machines share */
   carom_shot local = none, *played = &local;
-  if (wanted != NULL)
-    played = wanted;
+  if (caller_shot != NULL)
+    played = caller_shot;
   carom_shot_options options = record->options;
   options.fast = 0;
   options.threads = 0;
@@ -793,24 +794,24 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
 /* ---- Writing --------------------------------------------------------------------------------- */
 
 typedef struct writer {
-  char *at, *end; /* equal where the room is too small, or something cannot be written */
+  char *position, *end; /* equal where the room is too small, or something cannot be written */
 } writer;
 
 static void write_text(writer *out, const char *text) {
-  const size_t room = (size_t)(out->end - out->at);
+  const size_t room = (size_t)(out->end - out->position);
   size_t n = strlen(text);
   if (n > room)
     n = room;
-  CAROM_PROMISE(out->at <= out->end);
-  memcpy(out->at, text, n);
-  out->at += n;
+  CAROM_PROMISE(out->position <= out->end);
+  memcpy(out->position, text, n);
+  out->position += n;
 }
 
-static void write_value(writer *out, const field *f, const unsigned char *from) {
+static void write_value(writer *out, const field *f, const unsigned char *value) {
   char text[CAROM_NUMBER_TEXT];
   if (f->type == HASH) {
     uint64_t hash;
-    memcpy(&hash, from, sizeof hash);
+    memcpy(&hash, value, sizeof hash);
     text[0] = text[17] = '"';
     for (int k = 0; k < 16; k++)
       text[1 + k] = "0123456789abcdef"[hash >> (60 - 4 * k) & 15];
@@ -820,17 +821,17 @@ static void write_value(writer *out, const field *f, const unsigned char *from) 
     int64_t whole = 0;
     int32_t half = 0;
     if (f->type == DOUBLE)
-      memcpy(&x, from, sizeof x);
+      memcpy(&x, value, sizeof x);
     else if (f->type == INT64)
-      memcpy(&whole, from, sizeof whole);
+      memcpy(&whole, value, sizeof whole);
     else
-      memcpy(&half, from, sizeof half);
+      memcpy(&half, value, sizeof half);
     if (f->type != DOUBLE) /* -0 stays */
       x = (double)(whole + half);
     if (f->type == INT64 && (whole > MOST_WHOLE || whole < -MOST_WHOLE)) /* nor such a whole one */
-      out->at = out->end;
+      out->position = out->end;
     if (!(x - x == 0.0)) /* JSON has no such number */
-      out->at = out->end;
+      out->position = out->end;
     const int size = carom_number_write(x, text);
     CAROM_PROMISE(size > 0 && size < CAROM_NUMBER_TEXT);
     text[size] = '\0';
@@ -839,25 +840,25 @@ static void write_value(writer *out, const field *f, const unsigned char *from) 
 }
 
 static void write_object(writer *out, const field *fields, const unsigned char *object,
-                         const unsigned char *before);
+                         const unsigned char *previous);
 
 static void write_list(writer *out, const field *f, const unsigned char *object, int64_t n) {
   static const unsigned char nothing[sizeof(carom_shot_ball)] = {0};
-  const unsigned char *before = nothing;
+  const unsigned char *previous = nothing;
   write_text(out, "[");
   for (int64_t k = 0; k < n; k++) {
-    const unsigned char *at = object + f->at + (size_t)k * f->size;
+    const unsigned char *element = object + f->offset + (size_t)k * f->size;
     if (k > 0)
       write_text(out, ",");
-    write_object(out, f->of, at, before);
-    before = at;
+    write_object(out, f->fields, element, previous);
+    previous = element;
   }
   write_text(out, "]");
 }
 
 /* The fields that are not as in `before`, or where that is NULL not all 0. */
 static void write_object(writer *out, const field *fields, const unsigned char *object,
-                         const unsigned char *before) {
+                         const unsigned char *previous) {
   static const unsigned char zeros[8 * sizeof(double)] = {0};
   bool first = true;
   write_text(out, "{");
@@ -867,16 +868,17 @@ static void write_object(writer *out, const field *fields, const unsigned char *
     if (f->type == LIST)
       memcpy(&n, object + f->counted, sizeof n);
     if (n < 0 || n > f->count) {
-      out->at = out->end;
+      out->position = out->end;
       return;
     }
     /* an empty list, and a number as before, are left out */
     if (f->type == LIST && n == 0)
       continue;
     const unsigned char *last = zeros;
-    if (before != NULL)
-      last = before + f->at;
-    if (f->type != LIST && !f->always && memcmp(object + f->at, last, (size_t)n * size_of(f)) == 0)
+    if (previous != NULL)
+      last = previous + f->offset;
+    if (f->type != LIST && !f->always &&
+        memcmp(object + f->offset, last, (size_t)n * size_of(f)) == 0)
       continue;
 
     /* the key, then a list, a number, or numbers in brackets */
@@ -895,7 +897,7 @@ static void write_object(writer *out, const field *fields, const unsigned char *
     for (int k = 0; k < n; k++) {
       if (k > 0)
         write_text(out, ",");
-      write_value(out, f, object + f->at + (size_t)k * size_of(f));
+      write_value(out, f, object + f->offset + (size_t)k * size_of(f));
     }
     if (n != 1)
       write_text(out, "]");
@@ -958,14 +960,14 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
   write_text(&out, "\":");
   write_object(&out, lines[kind].fields, (const unsigned char *)record, NULL);
   write_text(&out, "}\n");
-  if (out.at == out.end) {
+  if (out.position == out.end) {
     if (kind == CAROM_RECORD_HEAD)
       record->format = 0;
     return 0;
   }
 
   /* what the line means for those behind it */
-  *out.at = '\0';
+  *out.position = '\0';
   if (is_shot) {
     record->pending = 0;
     record->shots++;
@@ -974,5 +976,5 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
     record->hash = hash;
   record->kind = kind;
   record->line++;
-  return (size_t)(out.at - text);
+  return (size_t)(out.position - text);
 }

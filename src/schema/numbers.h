@@ -200,8 +200,8 @@
 #define CAROM_NO_ROW(...)
 
 /* Whether a member of `k` is right by its row, without the conditions. */
-#define CAROM_IS_RIGHT(member, low, high, other, reader)                    \
-  (((k->member >= (low) && k->member <= (high)) || k->member == (other)) && \
+#define CAROM_IS_RIGHT(member, low, high, extra, reader)                    \
+  (((k->member >= (low) && k->member <= (high)) || k->member == (extra)) && \
    (CAROM_GIVEN_##reader || k->member == 0))
 #define CAROM_GIVEN_ALWAYS true
 #define CAROM_GIVEN_BY_CUSHION(model) true
@@ -209,11 +209,11 @@
 #define CAROM_GIVEN_WITH(model, number) k->number > 0
 
 /* Returns the error of the first number of `k` at fault. */
-#define CAROM_CHECK_NUMBER(member, key, unit, low, high, other, error, reader, text) \
-  if (!CAROM_IS_RIGHT(member, low, high, other, reader))                             \
+#define CAROM_CHECK_NUMBER(member, key, unit, low, high, extra, error, reader, text) \
+  if (!CAROM_IS_RIGHT(member, low, high, extra, reader))                             \
     return CAROM_ERROR_##error;
-#define CAROM_CHECK_ROW(member, key, unit, low, high, other, error, text) \
-  if (!CAROM_IS_RIGHT(member, low, high, other, ALWAYS))                  \
+#define CAROM_CHECK_ROW(member, key, unit, low, high, extra, error, text) \
+  if (!CAROM_IS_RIGHT(member, low, high, extra, ALWAYS))                  \
     return CAROM_ERROR_##error;
 #define CAROM_CHECK_CONDITION(member, holds, error, text) \
   if (!(holds))                                           \

@@ -40,7 +40,7 @@ void carom_follow_on(carom_sim *sim, double V, double behind);
 /* Sets sim->follow.time: when its tip touches the struck ball again. */
 void carom_follow_find(carom_sim *sim);
 /* *now becomes the cue with the place of its tip and its speed. Returns whether that is a touch. */
-bool carom_follow_cue(const carom_sim *sim, carom_cue *now);
+bool carom_follow_cue(const carom_sim *sim, carom_cue *moved_cue);
 
 /* raised.c: e of the contact of a ball with the slate; and what an impulse J of it, over the mass,
  * takes from the turn about the vertical and the end of hops from v[2]. */

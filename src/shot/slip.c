@@ -27,17 +27,17 @@ double carom_event_slip(const carom_table *table, const carom_shot_ball *balls, 
   const carom_ball_state *s = &event->before[0];
   double n[3] = {0.0, 0.0, -1.0}, line[3] = {0.0};
   if (event->type == CAROM_EVENT_BALL_BALL) {
-    const carom_ball_kind *other = &balls[event->b].kind;
-    carom_line_of_centres(kind, s, other, &event->before[1], n);
-    const carom_impact in = {.a = moving(kind, s), .b = moving(other, &event->before[1])};
+    const carom_ball_kind *partner = &balls[event->b].kind;
+    carom_line_of_centres(kind, s, partner, &event->before[1], n);
+    const carom_impact in = {.a = moving(kind, s), .b = moving(partner, &event->before[1])};
     return carom_spheres_slip(&in, n);
   }
   if (event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW) {
-    const carom_due due = {.type = event->type, .a = event->a, .b = event->b};
+    const carom_due contact = {.type = event->type, .a = event->a, .b = event->b};
     if (event->type == CAROM_EVENT_RAIL)
       carom_rail_line(&table->rail[event->b], line);
     carom_into_nose(table, line, carom_reference_of(table, balls[count - 1].kind.radius), kind,
-                    &due, s, n);
+                    &contact, s, n);
   }
   return carom_touch_of(n, kind->radius, s).slip;
 }

@@ -113,9 +113,9 @@ static void put_in_row(rack *k, int ball, double front, int row, int place) {
 /* The numbers from first to last, in an order drawn from the seed. */
 static void shuffle(rack *k, int *number, int count) {
   for (int n = count - 1; n > 0; n--) {
-    const int other = (int)(random_bits(&k->state) % (uint64_t)(n + 1)), kept = number[n];
-    number[n] = number[other];
-    number[other] = kept;
+    const int place = (int)(random_bits(&k->state) % (uint64_t)(n + 1)), drawn = number[n];
+    number[n] = number[place];
+    number[place] = drawn;
   }
 }
 
@@ -215,9 +215,9 @@ carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int b
 }
 
 static void put_on_spot(rack *k, carom_rack_kind kind, int ball) {
-  double at[2] = {0.0, 0.0};
-  carom_spot_of(kind, k->table, ball, at);
-  put(k, ball, at[0], at[1]);
+  double place[2] = {0.0, 0.0};
+  carom_spot_of(kind, k->table, ball, place);
+  put(k, ball, place[0], place[1]);
 }
 
 /* The gap before the pink that a rack of reds has at least, m. */

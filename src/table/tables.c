@@ -219,9 +219,9 @@ carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
   if (table == NULL)
     return CAROM_ERROR_NULL;
   carom_measures m;
-  const carom_status bad = carom_table_measures(kind, &m);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status status = carom_table_measures(kind, &m);
+  if (status != CAROM_OK)
+    return status;
   const openings f = openings_of(&m);
   if (kind == CAROM_TABLE_POOLTOOL)
     *table = carom_table_pooltool;
@@ -236,10 +236,10 @@ carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
 #define AT(member) ((int32_t)(offsetof(carom_measures, member) / sizeof(double)))
 
 /* Tells which measure is at fault beside which other, and its bound by the others. */
-static carom_status blame(carom_table_fault *fault, int32_t measure, int32_t other, double bound) {
+static carom_status blame(carom_table_fault *fault, int32_t measure, int32_t second, double bound) {
   fault->part = (carom_part){CAROM_PART_MEASURES, measure};
-  if (other >= 0)
-    fault->other = (carom_part){CAROM_PART_MEASURES, other};
+  if (second >= 0)
+    fault->other = (carom_part){CAROM_PART_MEASURES, second};
   fault->gap = bound;
   return CAROM_ERROR_TABLE;
 }
@@ -249,7 +249,7 @@ static carom_status check_room(const carom_measures *m, const openings *f,
                                carom_table_fault *fault) {
   const double cw = m->cushion_depth, root = m->corner_mouth / f->q;
   const struct {
-    int32_t measure, other;
+    int32_t measure, second;
     double value, bound;
   } rules[] = {
       /* something is left of the short and the long rails */
@@ -265,7 +265,7 @@ static carom_status check_room(const carom_measures *m, const openings *f,
        f->side_back > 0.0 ? 0.5 * m->side_mouth / f->side_back : INFINITY}};
   for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
     if (rules[k].value >= rules[k].bound)
-      return blame(fault, rules[k].measure, rules[k].other, rules[k].bound);
+      return blame(fault, rules[k].measure, rules[k].second, rules[k].bound);
   return CAROM_OK;
 }
 
@@ -289,11 +289,11 @@ carom_status carom_table_measured(const carom_measures *measures, double ball_ra
       return blame(fault, k, -1, 0.0);
   }
   const openings f = openings_of(measures);
-  carom_status bad = CAROM_OK;
+  carom_status status = CAROM_OK;
   if (pockets)
-    bad = check_room(measures, &f, fault);
-  if (bad != CAROM_OK)
-    return bad;
+    status = check_room(measures, &f, fault);
+  if (status != CAROM_OK)
+    return status;
   make(measures, &f, table);
   return carom_table_check(table, ball_radius, fault);
 }

@@ -1043,8 +1043,8 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
     w->note.flags |= CAROM_TANGENT_KINK;
 
   /* the contact, which marks the instant of a slow one by the time that it leaves */
-  s.sim.now = e->time;
-  s.sim.now.d[CLOCK] = 1;
+  s.sim.time = e->time;
+  s.sim.time.d[CLOCK] = 1;
   s.sim.slow_instants = w->slow_instants;
   s.sim.slow_last = w->slow_last;
 
