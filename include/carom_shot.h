@@ -563,6 +563,22 @@ CAROM_API carom_status carom_rack(carom_rack_kind kind, const carom_table *table
 CAROM_API carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int ball,
                                      double place[2]);
 
+/* The marks of a table, m: places and lines of the rules of all games. The head of a table is at
+ * y = 0. */
+typedef struct carom_marks {
+  double head_spot[2];   /* middle of the head string, which is the line y = head_spot[1]. */
+  double centre_spot[2]; /* middle of the table. */
+  double foot_spot[2];   /* where racks begin. */
+  double d_centre[2];    /* middle of the baulk line of snooker; the D is the half circle around it
+                            towards y = 0, */
+  double d_radius;       /* of this radius. */
+  double baulk_line;     /* y of the baulk line of blackball. */
+} carom_marks;
+
+/* Writes the marks of a table, which follow from its width and its length. Returns CAROM_OK or
+ * CAROM_ERROR_NULL. */
+CAROM_API carom_status carom_table_marks(const carom_table *table, carom_marks *marks);
+
 /* ---- The cue --------------------------------------------------------------------------------- */
 
 /* A stroke, and the cue with which it is played. */

@@ -1,5 +1,6 @@
 /* What the rules of games ask of a shot (carom_facts), noted event by event. */
 #include "shot/facts.h"
+#include "table/marks.h"
 
 #include <math.h>
 #include <string.h>
@@ -113,12 +114,13 @@ static void been_at(carom_facts *facts, const carom_sim *sim, int i, bool rests)
   double y = sim->path[i].from.r[1];
   if (rests)
     y = state_now(sim, i).r[1];
-  const double length = sim->table->length, radius = sim->rates[i].radius;
-  if (y + radius < 0.5 * length)
+  const double radius = sim->rates[i].radius;
+  const carom_marks marks = carom_marks_of(sim->table->width, sim->table->length);
+  if (y + radius < marks.centre_spot[1])
     facts->past_middle |= set_of(i);
-  if (y - radius > 0.5 * length)
+  if (y - radius > marks.centre_spot[1])
     facts->beyond_middle |= set_of(i);
-  if (y - radius <= 0.25 * length)
+  if (y - radius <= marks.head_spot[1])
     facts->at_head |= set_of(i);
 }
 

@@ -8,9 +8,11 @@
  * eye. Each part limits its half width or its half length: that of which it leaves the larger
  * share. */
 #include "platform/promise.h"
+#include "table/marks.h"
 #include "table/table.h"
 
 #include <math.h>
+#include <string.h>
 
 static inline float lesser(float a, float b) {
   return a < b ? a : b;
@@ -87,8 +89,8 @@ static void clear_around_eye(carom_features *f) {
 static void find_eye(const carom_table *table, carom_features *f) {
   const carom_ball_kind ball = {.radius = f->radius};
   double place[2];
-  f->eye[0] = 0.5 * table->width;
-  f->eye[1] = 0.5 * table->length;
+  const carom_marks marks = carom_marks_of(table->width, table->length);
+  memcpy(f->eye, marks.centre_spot, sizeof f->eye);
   clear_around_eye(f);
   const bool is_found = carom_beside_longest(table, f, f->radius, place);
   carom_ground ground;
