@@ -588,7 +588,7 @@ typedef struct carom_cue {
   double theta;    /* elevation of the butt, degrees, 0 to 90; below CAROM_LEAST_ELEVATION the cue
                       is level. The tip of a raised cue presses the ball on the slate, and the
                       slate throws the ball up: both are contacts that last. With CAROM_SPACE_FLAT
-                      the downward part of the blow is lost. */
+                      the downward part of the strike is lost. */
   double a, b;     /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre. a^2
                       + b^2 < miscue^2. */
   double mass;     /* M, kg, > 0. */
@@ -603,7 +603,7 @@ typedef struct carom_cue {
   double miscue;          /* R, 0 to 1: the offset at which the tip slips off the ball; 0: 1, the
                              edge of the ball. Chalked tips reach 0.5. */
   double tip_time;        /* s, at most 0.01: how long the tip touches a single, free ball. 0:
-                             CAROM_TIP_TIME; tips of hard resin have 0.0008. -1: no time; blow and
+                             CAROM_TIP_TIME; tips of hard resin have 0.0008. -1: no time; strike and
                              landing are then two events, as before revision 8. */
   double follow; /* m, 0 to 1: how far the cue goes on after it has touched the ball, with the speed
                     that it has left. If it touches a ball then, this is another event STRIKE. 0: it

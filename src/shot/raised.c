@@ -54,26 +54,26 @@ static const double least_tip = 0.05; /* e of a tip, as in cluster/push.c */
 enum { TIP, SLATE, FOOT, ENDS };
 enum { OPEN, LOADS, UNLOADS, LEAVES, GONE }; /* GONE: a cue that does not follow through */
 
-typedef struct press_spring {
+typedef struct push_spring {
   int branch;
   bool returns;       /* touches anew once it is open */
   double k, e;        /* over the mass of the ball, 1/s^2; restitution */
   double d, v;        /* compression, m, and its rate, m/s */
   double top;         /* d_max */
   double rest, stiff; /* of the branch: d without a force, and the rate of the force, 1/s^2 */
-} press_spring;
+} push_spring;
 
-typedef struct pressed {
-  double B, S, D, mu;     /* the numbers of the equations */
-  double V, mass_ratio;   /* of the cue: speed before the strike, m/s; m/M */
-  double follow;          /* m: how far the cue goes on */
-  press_spring spring[2]; /* of tip and slate */
-  double slip;            /* s, m/s */
-  bool slips;             /* else the foot holds */
-  bool lets_go;           /* it has just begun to slip */
-  int stuck;              /* phases in a row that took no time */
+typedef struct push_state {
+  double B, S, D, mu;    /* the numbers of the equations */
+  double V, mass_ratio;  /* of the cue: speed before the strike, m/s; m/M */
+  double follow;         /* m: how far the cue goes on */
+  push_spring spring[2]; /* of tip and slate */
+  double slip;           /* s, m/s */
+  bool slips;            /* else the foot holds */
+  bool lets_go;          /* it has just begun to slip */
+  int stuck;             /* phases in a row that took no time */
   carom_raised *out;
-} pressed;
+} push_state;
 
 /* C and U of both modes, at one time. */
 typedef struct swing {
@@ -81,11 +81,11 @@ typedef struct swing {
 } swing;
 
 /* One phase: A, its eigenvalues, and what each mode has of compressions and speeds at its start. */
-typedef struct press_phase {
+typedef struct push_phase {
   double A[2][2], lambda[2], quick; /* quick: sqrt(lambda[0]), the faster one */
   double z[2][2], v[2][2];          /* [mode][contact] */
   double of_tip, of_slate;          /* the slip by the changes of both speeds */
-} press_phase;
+} push_phase;
 
 /* Values at one time of a phase. `foot` ends its state as it passes 0: the slip, or the friction
  * that it needs to hold less what it has. */
@@ -107,7 +107,7 @@ double carom_slate_under(const carom_ball_kind *kind) {
 /* ---- Contacts */
 
 /* Begins a branch where the last one has ended. */
-static void turn_to(press_spring *x, int next) {
+static void turn_to(push_spring *x, int next) {
   const double lost = 1.0 - x->e * x->e;
   const bool comes_back = x->branch == LEAVES;
   x->stiff = x->rest = 0.0;
@@ -167,7 +167,7 @@ static bool turns(bool unloads, int i, const instant *start, const instant *end,
 }
 
 /* Whether the branch of contact i ends within a step of h. */
-static bool branch_ends(const press_spring *x, int i, const instant *start, const instant *end,
+static bool branch_ends(const push_spring *x, int i, const instant *start, const instant *end,
                         double h, bool *is_unclear, ending *e) {
   switch (x->branch) {
   case LOADS:
@@ -187,7 +187,7 @@ static bool branch_ends(const press_spring *x, int i, const instant *start, cons
 }
 
 /* Whether the foot begins to hold, or to slip, within a step of h. */
-static bool foot_ends(const pressed *p, const instant *start, const instant *end, double h,
+static bool foot_ends(const push_state *p, const instant *start, const instant *end, double h,
                       bool *is_unclear, ending *e) {
   const bool passed = p->slips ? end->foot < 0.0 : end->foot > 0.0,
              inside = p->slips ? start->foot > 0.0 : start->foot < 0.0;
@@ -240,7 +240,7 @@ static void swing_of(double lambda, double t, double *C, double *U) {
   *U = t * u;
 }
 
-static swing swing_by(const press_phase *f, double t) {
+static swing swing_by(const push_phase *f, double t) {
   swing change;
   for (int n = 0; n < 2; n++)
     swing_of(f->lambda[n], t, &change.C[n], &change.U[n]);
@@ -248,7 +248,7 @@ static swing swing_by(const press_phase *f, double t) {
 }
 
 /* At the sum of two times. */
-static swing swing_on(const press_phase *f, const swing *a, const swing *b) {
+static swing swing_on(const push_phase *f, const swing *a, const swing *b) {
   swing sum;
   for (int n = 0; n < 2; n++) {
     sum.C[n] = a->C[n] * b->C[n] - f->lambda[n] * a->U[n] * b->U[n];
@@ -258,8 +258,8 @@ static swing swing_on(const press_phase *f, const swing *a, const swing *b) {
 }
 
 /* The two modes of the phase that begins. */
-static void begin_phase(const pressed *p, press_phase *f) {
-  const press_spring *tip = &p->spring[TIP], *slate = &p->spring[SLATE];
+static void begin_phase(const push_state *p, push_phase *f) {
+  const push_spring *tip = &p->spring[TIP], *slate = &p->spring[SLATE];
   const double held = p->D * p->D / 3.5;
   const double B = p->slips ? p->B : p->B - held,
                S = p->slips ? p->S + p->mu * p->D : p->S; /* of N in x'' */
@@ -296,7 +296,7 @@ static void begin_phase(const pressed *p, press_phase *f) {
   f->of_slate = p->slips ? f->of_tip * S + 3.5 * p->mu : (double)0.0;
 }
 
-static void instant_at(const pressed *p, const press_phase *f, const swing *q, instant *values) {
+static void instant_at(const push_state *p, const push_phase *f, const swing *q, instant *values) {
   double force[2], rate[2], y[2];
   for (int i = 0; i < 2; i++) {
     y[i] = values->v[i] = 0.0;
@@ -324,7 +324,7 @@ static void instant_at(const pressed *p, const press_phase *f, const swing *q, i
 }
 
 /* Which of the endings comes first within a step, or -1, and at which part of it. */
-static int first_ending(const pressed *p, const instant *start, const instant *end, double h,
+static int first_ending(const push_state *p, const instant *start, const instant *end, double h,
                         bool *is_unclear, double *part, ending *first) {
   int contact = -1;
   *part = 2.0;
@@ -344,13 +344,13 @@ static int first_ending(const pressed *p, const instant *start, const instant *e
 }
 
 /* The value of an ending, and its rate. */
-static double value_of(const pressed *p, int contact, int next, const instant *values,
+static double value_of(const push_state *p, int contact, int next, const instant *values,
                        double *rate) {
   if (contact == FOOT) {
     *rate = values->foot_rate;
     return values->foot;
   }
-  const press_spring *x = &p->spring[contact];
+  const push_spring *x = &p->spring[contact];
   if (next == UNLOADS) {
     *rate = values->a[contact];
     return values->v[contact];
@@ -364,21 +364,21 @@ static double value_of(const pressed *p, int contact, int next, const instant *v
   return values->d[contact] - level;
 }
 
-static bool held(const pressed *p) {
-  const press_spring *tip = &p->spring[TIP], *slate = &p->spring[SLATE];
+static bool held(const push_state *p) {
+  const push_spring *tip = &p->spring[TIP], *slate = &p->spring[SLATE];
   return p->D / 3.5 * tip->stiff * (tip->d - tip->rest) <=
          p->mu * slate->stiff * (slate->d - slate->rest);
 }
 
 /* The tip touches anew. */
-static void count_touch(pressed *p) {
+static void count_touch(push_state *p) {
   p->out->touches++;
   if (p->out->touches == 2)
     p->out->second = p->spring[TIP].v;
 }
 
 /* Ends the phase where an ending is 0, near the time of q. */
-static void end_phase(pressed *p, const press_phase *f, swing q, double elapsed, double h,
+static void end_phase(push_state *p, const push_phase *f, swing q, double elapsed, double h,
                       int contact, int next) {
   instant values;
   double rate;
@@ -414,8 +414,8 @@ static void end_phase(pressed *p, const press_phase *f, swing q, double elapsed,
 }
 
 /* One phase, to its end. False: it takes too many steps. */
-static bool run_phase(pressed *p) {
-  press_phase f;
+static bool run_phase(push_state *p) {
+  push_phase f;
   begin_phase(p, &f);
   const double whole = STEP / f.quick;
   double h = whole, short_steps = 1.0, done = 0.0;
@@ -468,15 +468,15 @@ static bool run_phase(pressed *p) {
 /* ---- All of it */
 
 /* The impulse of the tip so far. */
-static double impulse_of_tip(const pressed *p) {
+static double impulse_of_tip(const push_state *p) {
   const double both = p->B - p->S * p->S - p->D * p->D / 3.5;
   return (p->V - p->spring[TIP].v - p->S * p->spring[SLATE].v - p->D / 3.5 * p->slip) / both;
 }
 
 /* How long contact i, which has no force, needs until it has one again; infinite: it has none any
  * more. */
-static double wait_of(const pressed *p, int i) {
-  const press_spring *x = &p->spring[i];
+static double wait_of(const push_state *p, int i) {
+  const push_spring *x = &p->spring[i];
   if (x->branch == LEAVES)
     return x->v > 0.0 ? (double)0.0 : (double)INFINITY;
   if (x->branch == GONE || !(x->v > too_slow * p->V))
@@ -487,19 +487,19 @@ static double wait_of(const pressed *p, int i) {
 }
 
 /* Nothing acts: on to where a contact does. False: none will. */
-static bool fly(pressed *p) {
+static bool fly(push_state *p) {
   const double wait[2] = {wait_of(p, TIP), wait_of(p, SLATE)},
                first = carom_lesser(wait[TIP], wait[SLATE]);
   if (!(first < INFINITY))
     return false;
   for (int i = 0; i < 2; i++) {
-    press_spring *x = &p->spring[i];
+    push_spring *x = &p->spring[i];
     x->d += first * x->v;
     if (x->branch == LEAVES && x->d < 0.0)
       turn_to(x, OPEN);
   }
   for (int i = 0; i < 2; i++) {
-    press_spring *x = &p->spring[i];
+    push_spring *x = &p->spring[i];
     if (wait[i] > first)
       continue;
     if (x->branch == OPEN) {
@@ -517,11 +517,11 @@ static bool fly(pressed *p) {
 }
 
 /* From the touch of the tip until nothing acts. False: that takes too long. */
-static bool press_on(pressed *p) {
+static bool push_on(push_state *p) {
   for (int n = 0; n < PHASES_MOST; n++) {
     /* a contact without a force at which nothing moves any more has parted */
     for (int i = 0; i < 2; i++) {
-      press_spring *x = &p->spring[i];
+      push_spring *x = &p->spring[i];
       if (x->branch == UNLOADS && p->spring[1 - i].stiff == 0.0 && x->d <= x->rest && x->v <= 0.0)
         turn_to(x, LEAVES);
     }
@@ -532,11 +532,11 @@ static bool press_on(pressed *p) {
   return false;
 }
 
-bool carom_press_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *s,
-                       carom_raised *out) {
+bool carom_push_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *s,
+                      carom_raised *out) {
   const carom_touch touch = carom_touch_slate(kind, s);
-  const double blow = carom_speed_of_blow(cue, kind), over = 1.0 / blow;
-  pressed p;
+  const double speed = carom_strike_speed(cue, kind), over = 1.0 / speed;
+  push_state p;
   memset(&p, 0, sizeof p);
   memset(out, 0, sizeof *out);
   p.out = out;
@@ -550,7 +550,7 @@ bool carom_press_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_
   p.slips = true;
 
   /* both contacts at their touch */
-  press_spring *tip = &p.spring[TIP], *slate = &p.spring[SLATE];
+  push_spring *tip = &p.spring[TIP], *slate = &p.spring[SLATE];
   tip->e = carom_greater(carom_tip_of(cue), least_tip);
   tip->k = carom_linear_stiffness(carom_tip_time(cue), tip->e) / p.B;
   tip->v = p.V;
@@ -561,7 +561,7 @@ bool carom_press_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_
   turn_to(tip, LOADS);
   turn_to(slate, LOADS);
   out->touches = 1;
-  if (!press_on(&p))
+  if (!push_on(&p))
     return false;
 
   /* the impulses of tip, slate and cloth */

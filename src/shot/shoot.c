@@ -288,18 +288,18 @@ static bool may_strike(const carom_sim *sim) {
   return true;
 }
 
-/* How the rules of the world take a blow. */
-static carom_blow_kind blow_kind_of(const carom_sim *sim) {
+/* How the rules of the world take a strike. */
+static carom_strike_kind strike_kind_of(const carom_sim *sim) {
   if (sim->rules->flat)
-    return CAROM_BLOW_TURNED;
+    return CAROM_STRIKE_TURNED;
   if (sim->opt->space == CAROM_SPACE_FLAT)
-    return CAROM_BLOW_ON_CLOTH;
-  return CAROM_BLOW_IN_SPACE;
+    return CAROM_STRIKE_ON_CLOTH;
+  return CAROM_STRIKE_IN_SPACE;
 }
 
 /* The strike of a ball that meets no other meanwhile, which has the motion `alone` after it. */
 static void note_strike(carom_sim *sim, const carom_ball_state *alone, const carom_raised *raised,
-                        bool in_space, bool presses) {
+                        bool in_space, bool is_push) {
   const int i = sim->struck;
   const carom_due strike_event = {0.0, CAROM_EVENT_STRIKE, i, -1};
   carom_event spare, *event = note(sim, &spare, &strike_event);
@@ -313,7 +313,7 @@ static void note_strike(carom_sim *sim, const carom_ball_state *alone, const car
   event->after[0] = *state;
   memset(&event->after[1], 0, sizeof event->after[1]);
   event->impulse = impulse_of(sim, event);
-  if (presses)
+  if (is_push)
     event->impulse = raised->impulse;
   carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
 }
@@ -326,7 +326,7 @@ static carom_status strike(carom_sim *sim, carom_due *contact) {
   const int i = (int)cue->ball;
   const carom_ball_kind *kind = sim->layout->kind[i];
   carom_motion motion;
-  const carom_status status = carom_blow(cue, kind, blow_kind_of(sim), &motion);
+  const carom_status status = carom_strike_motion(cue, kind, strike_kind_of(sim), &motion);
   if (status < 0)
     return status;
   carom_facts_frozen(sim);
@@ -342,19 +342,19 @@ static carom_status strike(carom_sim *sim, carom_due *contact) {
     return together;
 
   /* alone: a level strike has a closed form, a raised one presses the ball on the slate, unless
-   * the blow takes no time */
+   * the strike takes no time */
   carom_ball_state alone = sim->path[i].from;
   carom_raised raised = {.touches = 1, .behind = 0.0};
-  raised.V = cue->speed - kind->mass / cue->mass * carom_speed_of_blow(cue, kind);
+  raised.V = cue->speed - kind->mass / cue->mass * carom_strike_speed(cue, kind);
   memcpy(alone.v, motion.v, sizeof alone.v);
   memcpy(alone.w, motion.w, sizeof alone.w);
-  const bool presses = down && cue->tip_time >= 0.0;
-  if (presses && !carom_press_alone(kind, cue, &alone, &raised)) {
+  const bool is_push = down && cue->tip_time >= 0.0;
+  if (is_push && !carom_push_alone(kind, cue, &alone, &raised)) {
     push(sim, cue, most, down, PUSH_OF_ONE, contact, &together);
     return together;
   }
   carom_follow_on(sim, raised.V, raised.behind);
-  note_strike(sim, &alone, &raised, down, presses);
+  note_strike(sim, &alone, &raised, down, is_push);
   return CAROM_OK;
 }
 

@@ -116,9 +116,9 @@ typedef struct carom_raised {
 } carom_raised;
 
 /* raised.c: a raised cue, cue->tip_time >= 0, strikes a ball at rest on the slate that nothing else
- * touches. *state has the motion by the blow alone, carom_blow() in space, and gets that behind the
+ * touches. *state has the motion by the strike alone, carom_strike_motion() in space, and gets that behind the
  * strike. Returns false where that takes too many steps; *state is as it was then. */
-bool carom_press_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *state,
-                       carom_raised *out);
+bool carom_push_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *state,
+                      carom_raised *out);
 
 #endif
