@@ -31,8 +31,8 @@ static inline bool carom_varies(double x) {
 static inline double carom_above(double x, double least) {
   return x < least ? 0.0 : x;
 }
-/* A sum that begins with `from`, within 0 and 1. At either end it has the derivatives of the sum;
- * there it has a kink by all numbers but `from`, whose range ends there. */
+/* A sum that begins with `limit`, within 0 and 1. At either end it has the derivatives of the sum;
+ * there it has a kink by all numbers but `limit`, whose range ends there. */
 static inline double carom_limited(double limit, double sum) {
   (void)limit;
   if (sum < 0)

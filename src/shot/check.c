@@ -159,50 +159,65 @@ void carom_take_row(carom_prepared *p, const carom_shot_job *job, size_t k) {
   }
 }
 
+/* What a world and its options ask of the balls of a row. */
+typedef struct row_rules {
+  bool flat, one_mass;
+} row_rules;
+
+/* Ball k by itself, beside the first one, and for the table. */
+static carom_status check_alone(const carom_prepared *p, const row_rules *rules, int k) {
+  const carom_ball_kind *kind = p->kind[k], *first = p->kind[0];
+  /* most balls are of the kind of the one before, which is good */
+  const bool known = k > 0 && memcmp(kind, p->kind[k - 1], sizeof *kind) == 0;
+  if (!known) {
+    const carom_status status = check_kind(kind);
+    if (status != CAROM_OK)
+      return status;
+  }
+  if (rules->flat && kind->radius != first->radius)
+    return CAROM_ERROR_RADII_DIFFER;
+  if (kind->nose_height >= 2.0 * p->features->reference)
+    return CAROM_ERROR_BALL_CUSHION;
+  if (rules->one_mass && kind->mass != first->mass)
+    return CAROM_ERROR_MASSES_DIFFER;
+  return check_state(p->state[k], kind->radius, rules->flat);
+}
+
+/* Where ball k is: on the table or above it, and beside the balls before it, whose centres have
+ * these heights. */
+static carom_status check_position(const carom_prepared *p, int k, const double *height) {
+  const carom_ball_kind *kind = p->kind[k];
+  const carom_ball_state *state = p->state[k];
+  const bool flies = carom_flies_in_layout(state, kind->radius);
+  if (flies && !carom_is_above_table(p->table, p->features, kind, state->r))
+    return CAROM_ERROR_OFF_TABLE;
+  if (!flies && !carom_stands_on_table(p->table, p->features, kind, state->r))
+    return CAROM_ERROR_OFF_TABLE;
+  const double r[3] = {state->r[0], state->r[1], height[k]};
+  for (int j = 0; j < k; j++)
+    if (overlaps(r, kind->radius, p->state[j], p->kind[j]->radius, height[j]))
+      return CAROM_ERROR_OVERLAP;
+  return CAROM_OK;
+}
+
 carom_status carom_prepare_row(carom_prepared *p, carom_features *features, int *where) {
-  const bool one_mass =
-      carom_rules_of(p->opt->world)->one_mass || p->opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
-  const bool flat = is_flat(p->opt);
+  const row_rules rules = {.flat = is_flat(p->opt),
+                           .one_mass = carom_rules_of(p->opt->world)->one_mass ||
+                                       p->opt->ball_model == CAROM_BALL_MODEL_INELASTIC};
   p->features = features;
-  carom_status status = prepare_table(p, flat, features, where);
+  carom_status status = prepare_table(p, rules.flat, features, where);
   if (status != CAROM_OK)
     return status;
 
-  /* each ball by itself, on the table, and beside those before it */
   double height[CAROM_BALLS_MOST];
-  for (*where = 0; *where < p->count; ++*where) {
-    const carom_ball_kind *kind = p->kind[*where];
-    const carom_ball_state *state = p->state[*where];
-    /* most balls are of the kind of the one before, which is good */
-    const bool known = *where > 0 && memcmp(kind, p->kind[*where - 1], sizeof *kind) == 0;
-    if (!known)
-      status = check_kind(kind);
-
-    /* beside the first one, and for the table */
-    if (status == CAROM_OK && flat && kind->radius != p->kind[0]->radius)
-      status = CAROM_ERROR_RADII_DIFFER;
-    if (status == CAROM_OK && kind->nose_height >= 2.0 * features->reference)
-      status = CAROM_ERROR_BALL_CUSHION;
-    if (status == CAROM_OK && one_mass && kind->mass != p->kind[0]->mass)
-      status = CAROM_ERROR_MASSES_DIFFER;
-    if (status == CAROM_OK)
-      status = check_state(state, kind->radius, flat);
+  for (int k = 0; k < p->count; k++) {
+    *where = k;
+    status = check_alone(p, &rules, k);
+    height[k] = height_of(p->state[k], p->kind[k]->radius);
+    if (status == CAROM_OK && !carom_is_out(p->state[k]->label))
+      status = check_position(p, k, height);
     if (status != CAROM_OK)
       return status;
-
-    /* where it is, unless it is out of play */
-    const double r[3] = {state->r[0], state->r[1], height_of(state, kind->radius)};
-    height[*where] = r[2];
-    if (carom_is_out(state->label))
-      continue;
-    const bool flies = carom_flies_in_layout(state, kind->radius);
-    if (flies && !carom_is_above_table(p->table, features, kind, state->r))
-      return CAROM_ERROR_OFF_TABLE;
-    if (!flies && !carom_stands_on_table(p->table, features, kind, state->r))
-      return CAROM_ERROR_OFF_TABLE;
-    for (int k = 0; k < *where; k++)
-      if (overlaps(r, kind->radius, p->state[k], p->kind[k]->radius, height[k]))
-        return CAROM_ERROR_OVERLAP;
   }
   *where = -1;
   return CAROM_OK;

@@ -68,7 +68,7 @@ typedef struct suspect {
 
 enum { SUSPECTS_MOST = 8 };
 
-/* Lists what comes once in a shot, and the parts and the ball at the place `at` of the fault, in
+/* Lists what comes once in a shot, and the parts and the ball at the place `index` of the fault, in
  * the order of blame; returns how many there are. */
 static int list_suspects(const carom_table *t, const carom_shot_ball *ball, int index,
                          const carom_cue *cue, const carom_shot_options *opt,

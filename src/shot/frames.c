@@ -213,50 +213,86 @@ static bool find_states(replay *state, double *left, carom_ball_state *states,
   return true;
 }
 
-/* The frames of a shot, onward from those before where `at` is of the same shot; `keep` and turned
- * may be NULL. */
+/* The shot whose frames are asked for. */
+typedef struct shown_shot {
+  const carom_shot_ball *balls;
+  int count;
+  const carom_shot *shot;
+  int64_t known;         /* events that the caller has */
+  const keyframes *keep; /* NULL: none */
+} shown_shot;
+
+/* Whether the states at a time follow from the events that the caller has. */
+static carom_status check_time(const shown_shot *shown, double time) {
+  const carom_shot *shot = shown->shot;
+  if (!(time >= 0.0))
+    return CAROM_ERROR_TIME;
+  const double last = shown->known > 0 ? shot->events[shown->known - 1].time : -INFINITY;
+  if (shot->count > shown->known && carom_lesser(time, shot->time) > last)
+    return CAROM_ERROR_EVENTS_LOST;
+  return CAROM_OK;
+}
+
+/* Takes the replay to a time. An earlier time than the last begins anew, or from a keyframe. */
+static bool show(replay *state, const shown_shot *shown, bool turns, double time, double *left) {
+  const keyframes *keep = shown->keep;
+  if (state->count == 0 || (keep == NULL && time < state->time))
+    begin(state, shown->balls, shown->count, turns);
+  if (keep == NULL)
+    return go_to(state, shown->shot, shown->known, time, left);
+  if (!(time >= state->time && time <= state->time + keep->length))
+    seek(state, keep, shown->balls, shown->shot, shown->known, time);
+  return go_by_cells(state, keep, shown->shot, shown->known, time, left);
+}
+
+/* Whether a ball moves when the replay has come to the end: its motion after it is unknown. */
+static bool has_moving_ball(const replay *state) {
+  for (int i = 0; i < state->count; i++) {
+    const int64_t label = state->ball[i].path.from.label;
+    if (label != CAROM_BALL_STATIONARY && !carom_is_out(label))
+      return true;
+  }
+  return false;
+}
+
+/* One frame, whose states and turns go to the places given; turned may be NULL. */
+static carom_status show_frame(replay *state, const shown_shot *shown, double time, double *left,
+                               carom_ball_state *states, double (*turned)[4]) {
+  const double end = shown->shot->time;
+  const carom_status status = check_time(shown, time);
+  if (status != CAROM_OK)
+    return status;
+  const bool found = show(state, shown, turned != NULL, carom_lesser(time, end), left);
+  if (time > end && has_moving_ball(state))
+    return CAROM_ERROR_TIME;
+  if (found && find_states(state, left, states, turned))
+    return CAROM_OK;
+  state->count = 0;
+  return CAROM_ERROR_UNRESOLVED;
+}
+
+/* The frames of a shot, onward from those before where `state` is of the same shot; `keep` and
+ * turned may be NULL. */
 static carom_status replay_times(const carom_shot_ball *balls, int count, const carom_shot *shot,
                                  const double *times, size_t n, replay *state,
                                  const keyframes *keep, carom_ball_state *states,
                                  double (*turned)[4]) {
   if (balls == NULL || shot == NULL || (n > 0 && (times == NULL || states == NULL)))
     return CAROM_ERROR_NULL;
-  const carom_status status = carom_check_room(shot);
+  carom_status status = carom_check_room(shot);
+  if (status == CAROM_OK && (count < 1 || count > CAROM_BALLS_MOST))
+    status = CAROM_ERROR_BALLS;
   if (status != CAROM_OK)
     return status;
-  if (count < 1 || count > CAROM_BALLS_MOST)
-    return CAROM_ERROR_BALLS;
-  const int64_t known = carom_events_kept(shot);
+
+  const shown_shot shown = {balls, count, shot, carom_events_kept(shot), keep};
   double left = most_steps;
-  for (size_t k = 0; k < n; k++) {
-    if (!(times[k] >= 0.0))
-      return CAROM_ERROR_TIME;
-    const double time = carom_lesser(times[k], shot->time);
-    if (shot->count > known && (known == 0 || time > shot->events[known - 1].time))
-      return CAROM_ERROR_EVENTS_LOST;
-    /* an earlier time than the last begins anew, or from a keyframe */
-    if (state->count == 0 || (keep == NULL && time < state->time))
-      begin(state, balls, count, turned != NULL);
-    if (keep != NULL && !(time >= state->time && time <= state->time + keep->length))
-      seek(state, keep, balls, shot, known, time);
-    bool found;
-    if (keep != NULL)
-      found = go_by_cells(state, keep, shot, known, time, &left);
-    else
-      found = go_to(state, shot, known, time, &left);
-    /* the motion after the end of the shot is unknown */
-    for (int i = 0; i < count && times[k] > shot->time; i++)
-      if (state->ball[i].path.from.label != CAROM_BALL_STATIONARY &&
-          !carom_is_out(state->ball[i].path.from.label))
-        return CAROM_ERROR_TIME;
+  for (size_t k = 0; k < n && status == CAROM_OK; k++) {
     const size_t first = k * (size_t)count;
-    found = found && find_states(state, &left, &states[first], turned ? &turned[first] : NULL);
-    if (!found) {
-      state->count = 0;
-      return CAROM_ERROR_UNRESOLVED;
-    }
+    status = show_frame(state, &shown, times[k], &left, &states[first],
+                        turned != NULL ? &turned[first] : NULL);
   }
-  return CAROM_OK;
+  return status;
 }
 
 carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const carom_shot *shot,

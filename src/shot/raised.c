@@ -127,8 +127,8 @@ static void turn_to(push_spring *x, int next) {
   }
 }
 
-/* Whether a value that is not beyond 0 at either end of a step is so at its vertex within it. *near
- * becomes true where that is too close to tell. */
+/* Whether a value that is not beyond 0 at either end of a step is so at its vertex within it.
+ * *is_unclear becomes true where that is too close to tell. */
 static bool dips(double value, double from_rate, double to_rate, double h, int next,
                  bool *is_unclear, ending *e) {
   const bool falls_first =

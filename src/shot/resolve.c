@@ -286,37 +286,57 @@ double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const
   return closing;
 }
 
-carom_status carom_resolve(carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
-                           carom_ball_state *b) {
-  /* which things touch, along which line, and what the cloth holds */
+/* Which things touch, along which line, and what the cloth holds. */
+static contact contact_of(const carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
+                          carom_ball_state *b) {
   contact c = {.kind_a = sim->layout->kind[pending_event->a], .a = a, .b = b};
   c.in_space = carom_flies(a);
   carom_contact_normal(sim, pending_event, a, b, c.n);
-  c.freedom = c.in_space ? carom_lesser(carom_freedom_of_height(a->r[2] - c.kind_a->radius), 1.0)
-                         : (double)0.0;
   CAROM_PROMISE(!(fabs(c.n[0] * c.n[0] + c.n[1] * c.n[1] + c.n[2] * c.n[2] - 1.0) > 1e-9));
-
-  if (b != NULL) {
-    c.kind_b = sim->layout->kind[pending_event->b];
-    c.in_space = c.in_space || carom_flies(b) || c.kind_a->radius != c.kind_b->radius;
-    c.freedom = carom_freedom_of_pair(sim, pending_event, c.n, a, b);
-    c.held_a = c.in_space && !carom_flies(a) && c.n[2] > 0.0;
-    c.held_b = c.in_space && !carom_flies(b) && c.n[2] < 0.0;
+  if (b == NULL) {
+    c.freedom = c.in_space ? carom_lesser(carom_freedom_of_height(a->r[2] - c.kind_a->radius), 1.0)
+                           : (double)0.0;
+    return c;
   }
+  c.kind_b = sim->layout->kind[pending_event->b];
+  c.in_space = c.in_space || carom_flies(b) || c.kind_a->radius != c.kind_b->radius;
+  c.freedom = carom_freedom_of_pair(sim, pending_event, c.n, a, b);
+  c.held_a = c.in_space && !carom_flies(a) && c.n[2] > 0.0;
+  c.held_b = c.in_space && !carom_flies(b) && c.n[2] < 0.0;
+  return c;
+}
 
-  /* by the model, or slowly; a ball that the model leaves moving into a cushion parts slowly, as
-   * the head says */
+/* The motion by the model, which leaves what the cloth holds to the slate. *closing becomes how fast
+ * a ball still moves into a cushion. */
+static carom_status take_model(const carom_sim *sim, const carom_due *pending_event, contact *c,
+                               double *closing) {
+  c->held_a = c->held_b = false;
+  if (c->b != NULL) {
+    *closing = 0.0;
+    return carom_model_balls(sim, pending_event, c->n, c->in_space, c->a, c->b);
+  }
+  const carom_status status = carom_model_cushion(sim, pending_event, c->n, c->a);
+  *closing = carom_closing(c->a, NULL, c->n);
+  return status;
+}
+
+static bool has_finite_motion(const carom_ball_state *s) {
+  return carom_is_finite(s->v) && carom_is_finite(s->w);
+}
+
+carom_status carom_resolve(carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
+                           carom_ball_state *b) {
+  contact c = contact_of(sim, pending_event, a, b);
   const bool above = b != NULL && fabs(c.n[2]) > steep;
   const double usual = carom_slow_speed(sim->slow_instants), speed = carom_closing(a, b, c.n),
                slow = above ? carom_greater(usual, slow_steep) : usual;
+
+  /* by the model, or slowly; a ball that the model leaves moving into a cushion parts slowly, as
+   * the head says */
   carom_status status = CAROM_OK;
   double closing = speed;
-  if (speed >= slow) {
-    status = b != NULL ? carom_model_balls(sim, pending_event, c.n, c.in_space, a, b)
-                       : carom_model_cushion(sim, pending_event, c.n, a);
-    closing = b != NULL ? 0.0 : carom_closing(a, NULL, c.n);
-    c.held_a = c.held_b = false; /* the model leaves them to the slate */
-  }
+  if (speed >= slow)
+    status = take_model(sim, pending_event, &c, &closing);
   if (speed < slow || closing > 0.0) {
     count_slow(sim);
     resolve_slowly(&c, slow, closing);
@@ -330,7 +350,6 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *pending_event, carom
     carom_label_after(c.in_space, c.kind_b, b);
   if (status < 0)
     return status;
-  const bool good = carom_is_finite(a->v) && carom_is_finite(a->w) &&
-                    (b == NULL || (carom_is_finite(b->v) && carom_is_finite(b->w)));
+  const bool good = has_finite_motion(a) && (b == NULL || has_finite_motion(b));
   return good ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }

@@ -92,7 +92,7 @@ static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
 }
 
 /* Each contact of a cluster is an event. A ball changes at its first one, unless it is among
- * changed[], and has the same state before and after the others. *due becomes the first contact of
+ * changed[], and has the same state before and after the others. *pending_event becomes the first contact of
  * the struck ball, where it has one. */
 static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
                                   const uint8_t order[], int count, bool changed[],
@@ -146,7 +146,7 @@ static carom_status unresolved(carom_sim *sim) {
 }
 
 /* Resolves the contact that is due together with the contacts that last at the same time. Returns
- * false where there are no others. *due becomes the first contact of the struck ball, where it has
+ * false where there are no others. *pending_event becomes the first contact of the struck ball, where it has
  * one. This is a function of its own because a cluster needs 20 KiB of stack. */
 __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *pending_event,
                                                           carom_status *status) {
@@ -171,7 +171,7 @@ typedef enum push_kind { PUSH_OF_SEVERAL, PUSH_OF_ONE, PUSH_AGAIN } push_kind;
 
 /* Resolves the push of a cue together with the contacts of balls that last meanwhile; their events
  * stand behind that of the strike. Returns false, with nothing changed, where no other ball takes
- * part in a PUSH_OF_SEVERAL, and where a PUSH_AGAIN closes below CAROM_LEAST_TOUCH. *met becomes
+ * part in a PUSH_OF_SEVERAL, and where a PUSH_AGAIN closes below CAROM_LEAST_TOUCH. *contact becomes
  * the first contact of the struck ball. */
 __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_cue *cue, double most,
                                                  bool slate, push_kind kind, carom_due *contact,
@@ -318,7 +318,7 @@ static void note_strike(carom_sim *sim, const carom_ball_state *alone, const car
   carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
 }
 
-/* The strike, if the cue strikes. *met becomes a contact of its push. */
+/* The strike, if the cue strikes. *contact becomes a contact of its push. */
 static carom_status strike(carom_sim *sim, carom_due *contact) {
   if (!may_strike(sim))
     return CAROM_OK;
@@ -387,7 +387,7 @@ static bool stops_at(carom_sim *sim, int type, int a, int b) {
   return (sim->opt->stop_at & CAROM_STOP_AT(type)) != 0;
 }
 
-/* The tip touches the struck ball again, or the follow-through ends. *due becomes what happens. */
+/* The tip touches the struck ball again, or the follow-through ends. *pending_event becomes what happens. */
 __attribute__((noinline, cold)) static carom_status touch_again(carom_sim *sim,
                                                                 carom_due *pending_event) {
   carom_follow *f = &sim->follow;

@@ -71,7 +71,7 @@ void carom_state_begin(carom_sim *sim) {
   sim->of_options = of_options(sim->opt);
 }
 
-/* Of events, full or brief, with those `from` to `end`; 0 where there are none. */
+/* Of events, full or brief, with those `first` to `end`; 0 where there are none. */
 static uint64_t of_events(uint64_t hash, const void *events, size_t size, size_t first,
                           size_t end) {
   if (events == NULL)

@@ -95,7 +95,7 @@ static bool cross_at(const shape *a, const shape *b, double place[2]) {
   return s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0;
 }
 
-/* Edge `which` of the five between two parts, its places in them, and its length: where they
+/* Edge `edge_index` of the five between two parts, its places in them, and its length: where they
  * cross, or from an end of one to the other. More than the shortest are wanted only to find
  * holes: between parallel rails there is one at each end. */
 enum { EDGES = 5 };
