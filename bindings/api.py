@@ -22,8 +22,8 @@ HEADERS = (
     "carom.h",
     "carom_shot.h",
     "carom_tangent.h",
-    "carom_plan.h",
     "carom_record.h",
+    "carom_plan.h",
     "carom_match.h",
 )
 SIZES = {

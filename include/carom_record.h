@@ -59,6 +59,33 @@ typedef struct carom_record_end {
                      2^64. It is no signature. */
 } carom_record_end;
 
+/* The state of a game for the player at the table. The first number of a pair belongs to this
+ * player, the second to the opponent. A game of carom_plan.h reads the members that
+ * carom_rules_kind names; the others are 0. */
+typedef struct carom_rules_state {
+  int32_t opening;   /* 1: the stroke is a break, else 0. */
+  int32_t group;     /* a carom_group of carom_plan.h, the player's; in three-cushion 1 + the index
+                        of the player's cue ball. */
+  int32_t fouls[2];  /* successive fouls in their last strokes, 0 to 2. */
+  int32_t score[2];  /* points, or balls that count, 0 to 1,000,000. The score of a player is score
+                        less lost. */
+  int32_t lost[2];   /* points that fouls cost, or balls that are owed, 0 to 1,000,000. */
+  int32_t pocket[2]; /* indices of the pockets in which balls count for each of them, 0 to
+                        CAROM_POCKETS_MOST - 1. */
+  int32_t may;       /* the sum of the carom_choice of the player. */
+  int32_t on;        /* 1: a colour is on after a red; in blackball the player is snookered. Else
+                        0. */
+  int32_t free_ball; /* in snooker the ball that the opponent has just named as a free ball,
+                        otherwise 0: judge() sets it, and carom_turn_settle() reads it. In blackball
+                        1: the stroke is free. */
+  int32_t target;    /* points that win, 1 to 1,000,000; or those that a break must make. */
+  int32_t innings; /* equal innings, in three-cushion and straight rail: 1 if the player began, 2 if
+                        the opponent did, 3 in the equalizing inning of the player. 0: the first who
+                        has the target wins. */
+  int32_t unused;  /* must be 0. */
+  uint64_t user[8]; /* eight words for rules of the caller; no game here reads them. */
+} carom_rules_state;
+
 /* A game in progress: its state after the lines so far. All zero before the first line. */
 typedef struct carom_record {
   int64_t kind;     /* kind of the last line, a carom_record_kind. */

@@ -563,6 +563,22 @@ CAROM_API carom_status carom_rack(carom_rack_kind kind, const carom_table *table
 CAROM_API carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int ball,
                                      double place[2]);
 
+/* The marks of a table, m: places and lines of the rules of all games. The head of a table is at
+ * y = 0. */
+typedef struct carom_marks {
+  double head_spot[2];   /* middle of the head string, which is the line y = head_spot[1]. */
+  double centre_spot[2]; /* middle of the table. */
+  double foot_spot[2];   /* where racks begin. */
+  double d_centre[2];    /* middle of the baulk line of snooker; the D is the half circle around it
+                            towards y = 0, */
+  double d_radius;       /* of this radius. */
+  double baulk_line;     /* y of the baulk line of blackball. */
+} carom_marks;
+
+/* Writes the marks of a table, which follow from its width and its length. Returns CAROM_OK or
+ * CAROM_ERROR_NULL. */
+CAROM_API carom_status carom_table_marks(const carom_table *table, carom_marks *marks);
+
 /* ---- The cue --------------------------------------------------------------------------------- */
 
 /* A stroke, and the cue with which it is played. */
@@ -572,7 +588,7 @@ typedef struct carom_cue {
   double theta;    /* elevation of the butt, degrees, 0 to 90; below CAROM_LEAST_ELEVATION the cue
                       is level. The tip of a raised cue presses the ball on the slate, and the
                       slate throws the ball up: both are contacts that last. With CAROM_SPACE_FLAT
-                      the downward part of the blow is lost. */
+                      the downward part of the strike is lost. */
   double a, b;     /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre. a^2
                       + b^2 < miscue^2. */
   double mass;     /* M, kg, > 0. */
@@ -587,7 +603,7 @@ typedef struct carom_cue {
   double miscue;          /* R, 0 to 1: the offset at which the tip slips off the ball; 0: 1, the
                              edge of the ball. Chalked tips reach 0.5. */
   double tip_time;        /* s, at most 0.01: how long the tip touches a single, free ball. 0:
-                             CAROM_TIP_TIME; tips of hard resin have 0.0008. -1: no time; blow and
+                             CAROM_TIP_TIME; tips of hard resin have 0.0008. -1: no time; strike and
                              landing are then two events, as before revision 8. */
   double follow; /* m, 0 to 1: how far the cue goes on after it has touched the ball, with the speed
                     that it has left. If it touches a ball then, this is another event STRIKE. 0: it
@@ -870,33 +886,6 @@ typedef struct carom_facts {
 /* s: for the rules, contacts of the cue ball that are not further apart happen at one instant. This
  * is a convention: a ball of 10 m/s moves by 0.01 mm in this time. */
 #define CAROM_RULES_INSTANT 0.000001
-
-/* The state of a game for the player at the table. The first number of a pair belongs to this
- * player, the second to the opponent. A game of carom_plan.h reads the members that
- * carom_rules_kind names; the others are 0. */
-typedef struct carom_rules_state {
-  int32_t opening;   /* 1: the stroke is a break, else 0. */
-  int32_t group;     /* a carom_group of carom_plan.h, the player's; in three-cushion 1 + the index
-                        of the player's cue ball. */
-  int32_t fouls[2];  /* successive fouls in their last strokes, 0 to 2. */
-  int32_t score[2];  /* points, or balls that count, 0 to 1,000,000. The score of a player is score
-                        less lost. */
-  int32_t lost[2];   /* points that fouls cost, or balls that are owed, 0 to 1,000,000. */
-  int32_t pocket[2]; /* indices of the pockets in which balls count for each of them, 0 to
-                        CAROM_POCKETS_MOST - 1. */
-  int32_t may;       /* the sum of the carom_choice of the player. */
-  int32_t on;        /* 1: a colour is on after a red; in blackball the player is snookered. Else
-                        0. */
-  int32_t free_ball; /* in snooker the ball that the opponent has just named as a free ball,
-                        otherwise 0: judge() sets it, and carom_turn_settle() reads it. In blackball
-                        1: the stroke is free. */
-  int32_t target;    /* points that win, 1 to 1,000,000; or those that a break must make. */
-  int32_t innings; /* equal innings, in three-cushion and straight rail: 1 if the player began, 2 if
-                        the opponent did, 3 in the equalizing inning of the player. 0: the first who
-                        has the target wins. */
-  int32_t unused;  /* must be 0. */
-  uint64_t user[8]; /* eight words for rules of the caller; no game here reads them. */
-} carom_rules_state;
 
 /* The result of a shot. The caller sets the members that it wants; with all zero, the shot returns
  * only count and time. */

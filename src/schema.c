@@ -6,12 +6,8 @@
 #include "cushion/list.h"
 #include "friction/laws.h"
 #include "schema/options.h"
+#include "schema/rows.h"
 #include "schema/words.h"
-#ifndef CAROM_WITHOUT_PLAN
-#include "carom_plan.h"
-#include "games.h"
-#include "plan_options.h"
-#endif
 
 #include <math.h>
 #include <stddef.h>
@@ -19,32 +15,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A row of any struct; behind its text stand the members of carom_number that it has besides. */
-#define TYPE_OF(x) \
-  _Generic(x, double *: CAROM_TYPE_DOUBLE, double: CAROM_TYPE_DOUBLE,          \
-           int64_t: CAROM_TYPE_INT64, uint64_t: CAROM_TYPE_UINT64, default: CAROM_TYPE_INT32)
-#define ROW(STRUCT, member, named, least, most, beside, ERROR, about, ...)                         \
-  {.name = #member,                                                                                \
-   .key = named,                                                                                   \
-   .text = about,                                                                                  \
-   .low = (double)(least),                                                                         \
-   .high = (double)(most),                                                                         \
-   .other = beside,                                                                                \
-   .offset = offsetof(STRUCT, member),                                                             \
-   .error = CAROM_ERROR_##ERROR,                                                                   \
-   .type = TYPE_OF(((STRUCT *)NULL)->member),                                                      \
-   .count =                                                                                        \
-       sizeof(((STRUCT *)NULL)->member) > 8 ? (int32_t)(sizeof(((STRUCT *)NULL)->member) / 8) : 1, \
-   __VA_ARGS__},
-
 /* Numbers of a ball. */
 #define READ_ALWAYS .reader = CAROM_READ_ALWAYS
 #define READ_BY_CUSHION(MODEL) .reader = CAROM_READ_BY_CUSHION, .model = CAROM_CUSHION_##MODEL
 #define READ_BY_FRICTION(LAW) .reader = CAROM_READ_BY_FRICTION, .model = CAROM_FRICTION_##LAW
 #define READ_WITH(MODEL, number) READ_BY_CUSHION(MODEL)
-#define BALL_ROW(member, key, measure, low, high, other, ERROR, reads, about, in_cushion)          \
-  ROW(carom_ball_kind, member, key, low, high, other, ERROR, about, .unit = measure, READ_##reads, \
-      .cushion_offset = in_cushion, .words = -1)
+#define BALL_ROW(member, key, measure, low, high, extra, ERROR, reads, about, in_cushion)  \
+  CAROM_ROW(carom_ball_kind, member, key, low, high, extra, ERROR, about, .unit = measure, \
+            READ_##reads, .cushion_offset = in_cushion, .words = -1)
 #define BALL(...) BALL_ROW(__VA_ARGS__, -1)
 #define CUSHION(member, ...) \
   BALL_ROW(member, __VA_ARGS__, (int32_t)offsetof(carom_cushion_options, member))
@@ -55,9 +33,9 @@ enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 _Static_assert(sizeof(carom_ball_kind) == NUMBERS * sizeof(double), "a row for each number");
 
 /* Of the cue, the table and its parts, and the state of a ball. */
-#define PART(STRUCT, member, key, measure, low, high, other, ERROR, about)                        \
-  ROW(STRUCT, member, key, low, high, other, ERROR, about, .unit = measure, .cushion_offset = -1, \
-      .words = -1)
+#define PART(STRUCT, member, key, measure, low, high, extra, ERROR, about)        \
+  CAROM_ROW(STRUCT, member, key, low, high, extra, ERROR, about, .unit = measure, \
+            .cushion_offset = -1, .words = -1)
 #define CUE(...) PART(carom_cue, __VA_ARGS__)
 #define TABLE(...) PART(carom_table, __VA_ARGS__)
 #define RAIL(...) PART(carom_rail, __VA_ARGS__)
@@ -75,41 +53,28 @@ static const carom_number cue_numbers[] = {CAROM_CUE_NUMBERS(CUE, CUE)},
 #undef RAIL
 
 /* Options, of which 0 is always right. */
-#define FORM_WORDS(of) .unit = "", .words = CAROM_WORDS_##of
-#define FORM_SET(of) FORM_WORDS(of)
-#define FORM_NUMBER(of) .unit = of, .words = -1
-#define FORM_COUNT FORM_NUMBER("")
-#define FORM_FLAG FORM_COUNT
-#define FORM_SEED FORM_COUNT
-#define CAROM_WORDS_BALLS -1
-#define OPTION(STRUCT, READER, member, key, FORM, low, high, ERROR, about, ...)       \
-  ROW(STRUCT, member, key, low, high, (low) > 0 ? 0 : NAN, ERROR, about, FORM_##FORM, \
-      .cushion_offset = -1, .reader = CAROM_READ_##READER)
-#define MOTION(...) OPTION(carom_shot_options, ALWAYS, __VA_ARGS__)
-#define STOP(...) OPTION(carom_shot_options, TO_STOP, __VA_ARGS__, 0)
-#define COMPUTE(...) OPTION(carom_shot_options, TO_COMPUTE, __VA_ARGS__, 0)
-#define IMPACT(...) OPTION(carom_options, ALWAYS, __VA_ARGS__, 0)
-#define RAIL(...) OPTION(carom_cushion_options, ALWAYS, __VA_ARGS__, 0)
+#define MOTION(...) CAROM_OPTION_ROW(carom_shot_options, ALWAYS, __VA_ARGS__)
+#define STOP(...) CAROM_OPTION_ROW(carom_shot_options, TO_STOP, __VA_ARGS__, 0)
+#define COMPUTE(...) CAROM_OPTION_ROW(carom_shot_options, TO_COMPUTE, __VA_ARGS__, 0)
+#define IMPACT(...) CAROM_OPTION_ROW(carom_options, ALWAYS, __VA_ARGS__, 0)
+#define RAIL(...) CAROM_OPTION_ROW(carom_cushion_options, ALWAYS, __VA_ARGS__, 0)
 static const carom_number shot_options[] = {CAROM_MOTION_OPTIONS(MOTION) CAROM_STOP_OPTIONS(STOP)
                                                 CAROM_COMPUTE_OPTIONS(COMPUTE)},
                           impact_options[] = {CAROM_IMPACT_OPTIONS(IMPACT)},
                           rail_options[] = {CAROM_RAIL_OPTIONS(RAIL)};
-#ifndef CAROM_WITHOUT_PLAN
-#define PLAN(...) OPTION(carom_plan_options, ALWAYS, __VA_ARGS__, 0)
-static const carom_number plan_options[] = {CAROM_PLAN_OPTIONS(PLAN)};
-#undef PLAN
-#endif
-#undef ROW
 #undef PART
-#undef OPTION
 #undef RAIL
+
+#ifdef CAROM_WITHOUT_PLAN
+const carom_upper_rows carom_upper_schema = {.numbers_count = 0};
+#endif
 
 static const struct {
   const carom_number *row;
   int count;
 } parts[] = {
-#define ROWS(of) \
-  { of, sizeof of / sizeof of[0] }
+#define ROWS(table) \
+  { table, sizeof table / sizeof table[0] }
     [CAROM_PART_RAIL] = ROWS(rail_numbers),
     [CAROM_PART_JAW] = ROWS(jaw_numbers),
     [CAROM_PART_POCKET] = ROWS(pocket_numbers),
@@ -117,9 +82,6 @@ static const struct {
     [CAROM_PART_OPTIONS] = ROWS(shot_options),
     [CAROM_PART_IMPACT_OPTIONS] = ROWS(impact_options),
     [CAROM_PART_CUSHION_OPTIONS] = ROWS(rail_options),
-#ifndef CAROM_WITHOUT_PLAN
-    [CAROM_PART_PLAN_OPTIONS] = ROWS(plan_options),
-#endif
     [CAROM_PART_CUE] = ROWS(cue_numbers),
     [CAROM_PART_TABLE] = ROWS(table_numbers),
     [CAROM_PART_STATE] = ROWS(state_numbers),
@@ -127,7 +89,11 @@ static const struct {
 };
 
 const carom_number *carom_number_of(carom_part_kind part, int k) {
-  if ((uint32_t)part >= sizeof parts / sizeof parts[0] || k < 0 || k >= parts[part].count)
+  if (k < 0)
+    return NULL;
+  if (part == carom_upper_schema.part && k < carom_upper_schema.numbers_count)
+    return &carom_upper_schema.numbers[k];
+  if ((uint32_t)part >= sizeof parts / sizeof parts[0] || k >= parts[part].count)
     return NULL;
   return &parts[part].row[k];
 }
@@ -281,10 +247,10 @@ static void add_bits(words *w, const carom_number *n) {
 }
 
 /* "a", "a or b", "a, b or c" */
-static void add_choices(words *w, carom_words of) {
-  const char *word = carom_word(of, 0);
+static void add_choices(words *w, carom_words kind) {
+  const char *word = carom_word(kind, 0);
   for (int k = 0; word != NULL; k++) {
-    const char *next = carom_word(of, k + 1);
+    const char *next = carom_word(kind, k + 1);
     if (k > 0 && next == NULL)
       add(w, " or ");
     else if (k > 0)
@@ -341,13 +307,13 @@ const carom_number *carom_ball_fault(const carom_ball_kind *k, char *text, size_
   words w = words_in(text, room);
   if (k == NULL)
     return NULL;
-#define RANGE(member, key, unit, low, high, other, error, reader, about)  \
-  if (!CAROM_IS_RIGHT(member, low, high, other, ALWAYS)) {                \
+#define RANGE(member, key, unit, low, high, extra, error, reader, about)  \
+  if (!CAROM_IS_RIGHT(member, low, high, extra, ALWAYS)) {                \
     const carom_number *n = number_at(offsetof(carom_ball_kind, member)); \
     carom_number_range(n, text, room);                                    \
     return n;                                                             \
   }
-#define ALONE(member, key, unit, low, high, other, error, reader, about) \
+#define ALONE(member, key, unit, low, high, extra, error, reader, about) \
   if (!(CAROM_GIVEN_##reader || k->member == 0)) {                       \
     add(&w, WITHOUT_##reader);                                           \
     end_of(&w);                                                          \
@@ -387,10 +353,7 @@ int carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind) {
 
 /* ---- Words */
 
-static const struct word {
-  int of, value;
-  const char *word, *text;
-} words_of[] = {
+static const carom_word_row words_of[] = {
 #define WORD(OF, VALUE, word, text) {CAROM_WORDS_##OF, CAROM_##VALUE, word, text},
 #define CUSHION(NAME, word, impact, flight, rows, start, sources, text) \
   {CAROM_WORDS_CUSHION_MODEL, CAROM_CUSHION_##NAME, word, text},        \
@@ -398,30 +361,35 @@ static const struct word {
 #define LAW(NAME, word, of, numbers, at, ahead, sources, text) \
   {CAROM_WORDS_BALL_FRICTION, CAROM_FRICTION_##NAME, word, text},
     CAROM_WORD_ROWS(WORD) CAROM_CUSHION_MODELS(CUSHION) CAROM_FRICTION_LAWS(LAW)
-#ifndef CAROM_WITHOUT_PLAN
-        CAROM_GAMES(CAROM_GAME_WORD)
-#endif
 #undef WORD
 #undef CUSHION
 #undef LAW
 };
 
-static const struct word *find(carom_words of, int value) {
-  for (size_t k = 0; k < sizeof words_of / sizeof words_of[0]; k++)
-    if (words_of[k].of == (int)of && words_of[k].value == value)
-      return &words_of[k];
+static const carom_word_row *find_in(const carom_word_row *rows, int count, carom_words kind,
+                                     int value) {
+  for (int k = 0; k < count; k++)
+    if (rows[k].kind == (int)kind && rows[k].value == value)
+      return &rows[k];
   return NULL;
 }
 
-const char *carom_word(carom_words of, int value) {
-  const struct word *found = find(of, value);
+static const carom_word_row *find(carom_words kind, int value) {
+  const carom_word_row *found = find_in(words_of, sizeof words_of / sizeof *words_of, kind, value);
+  if (found == NULL)
+    found = find_in(carom_upper_schema.words, carom_upper_schema.words_count, kind, value);
+  return found;
+}
+
+const char *carom_word(carom_words kind, int value) {
+  const carom_word_row *found = find(kind, value);
   if (found == NULL)
     return NULL;
   return found->word;
 }
 
-const char *carom_word_text(carom_words of, int value) {
-  const struct word *found = find(of, value);
+const char *carom_word_text(carom_words kind, int value) {
+  const carom_word_row *found = find(kind, value);
   if (found == NULL)
     return NULL;
   return found->text;

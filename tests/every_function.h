@@ -474,6 +474,12 @@ EVERY_BODY(spot_of) {
   }
   return h;
 }
+EVERY_BODY(table_marks) {
+  carom_marks marks;
+  STATUS(carom_table_marks(&in->table, &marks));
+  HASH(marks);
+  return h;
+}
 EVERY_BODY(impact3) {
   for (int k = 0; k < EVERY_FEW; k++)
     STATUS(carom_impact3(&in->impact[k], &room->result[k]));
@@ -658,7 +664,7 @@ EVERY_BODY(record_settle) {
   F(shot_orientation) \
   F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) \
   F(spot_of) F(status_name) \
-  F(status_string) F(strike) F(table_check) F(table_make) F(table_measured) F(table_measures) \
+  F(status_string) F(strike) F(table_check) F(table_make) F(table_marks) F(table_measured) F(table_measures) \
   F(table_name) F(table_polygon) F(trace) \
   F(version) F(version_number) F(word) F(word_text) EVERY_OF_PLANS(F)
 /* clang-format on */

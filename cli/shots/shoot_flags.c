@@ -281,7 +281,9 @@ static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion,
   kind_of_game(l->game, cushion, &ball);
   give_ball(&numbers->all, &ball);
   snprintf(l->name[0], PLACE_NAME, "cue");
-  l->ball[0].state = (carom_ball_state){.r = {0.5 * l->table.width, 0.25 * l->table.length}};
+  carom_marks marks;
+  carom_table_marks(&l->table, &marks);
+  l->ball[0].state = (carom_ball_state){.r = {marks.head_spot[0], marks.head_spot[1]}};
   l->count = 1 + f->balls.count;
   const carom_rack_kind rack = (carom_rack_kind)(f->balls.rack - 1);
   if (f->balls.rack > 0) {

@@ -23,7 +23,7 @@
 #ifndef CAROM_PLAN_H
 #define CAROM_PLAN_H
 
-#include "carom_shot.h"
+#include "carom_record.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -92,7 +92,9 @@ bool lab_rack_stroke(lab_rack *rack, carom_plan_stroke *choice, carom_turn *turn
   const int count = (int)job->count;
   int found;
   rack->options.seed = rack->state.state;
-  const double high[2] = {job->table->width, 0.25 * job->table->length};
+  carom_marks marks;
+  carom_table_marks(job->table, &marks);
+  const double high[2] = {job->table->width, marks.head_spot[1]};
   const double *bound = rack->kitchen ? high : NULL;
   const carom_status status = rack->hand ? carom_plan_hand(job, NULL, bound, choice, 1, &found)
                                          : carom_plan(job, choice, 1, &found);

@@ -8,6 +8,7 @@
 #include "platform/promise.h"
 #include "ranking.h"
 #include "rows.h"
+#include "table/marks.h"
 
 #include <math.h>
 
@@ -277,8 +278,8 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
                       tip[2][PLACES] = {{0.0, 0.2, -0.2}, {0.0, 0.25, 0.5}};
   const bool thin = plan->job.rules->breaks == 2;
   const double *c = plan->played[plan->cue_ball].state.r;
-  const double foot =
-      carom_angle_of(0.5 * plan->view.width - c[0], 0.75 * plan->view.length - c[1]);
+  const carom_marks marks = carom_marks_of(plan->view.width, plan->view.length);
+  const double foot = carom_angle_of(marks.foot_spot[0] - c[0], marks.foot_spot[1] - c[1]);
 
   /* the nearest balls, or the outermost as seen from the cue ball, sorted in */
   struct {

@@ -25,6 +25,7 @@
  * touch or come back, is as in straight rail. */
 #include "games.h"
 #include "rules.h"
+#include "table/marks.h"
 
 enum { WHITE = 0, YELLOW = 1, RED = 2, BALLS_OF_THREE = 3, BALLS_OF_FOUR = 4 };
 
@@ -176,12 +177,14 @@ static carom_turn judge_four(carom_rules_state *game, uint32_t in_play, int cue_
 /* The spots of three-cushion: of the red the foot spot, of the cue ball of the player who comes to
  * the table the head spot, of the other one the centre. */
 static void spot_of(const carom_table *table, int cue_ball, int ball, double at[2]) {
-  at[0] = 0.5 * table->width;
-  at[1] = 0.5 * table->length;
+  const carom_marks marks = carom_marks_of(table->width, table->length);
+  const double *spot = marks.centre_spot;
   if (ball == RED)
-    at[1] = 0.75 * table->length;
+    spot = marks.foot_spot;
   if (ball == cue_ball)
-    at[1] = 0.25 * table->length;
+    spot = marks.head_spot;
+  at[0] = spot[0];
+  at[1] = spot[1];
 }
 
 /* Puts a ball on its spot, or where that is taken on the spot of the ball that is in the way. */

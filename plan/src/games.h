@@ -3,12 +3,12 @@
  *
  * GAME(NAME, rules, word, text, BALLS, TABLE, RACK, last, OPENING, ANYWHERE, calls, members, may):
  * `rules` is the object that its file defines by CAROM_RULES_OBJECT, `members` are those of its
- * state, by the names of CAROM_ALL_MEMBERS of schema/numbers.h, and carom_rules_about has the
+ * state, by the names of CAROM_ALL_MEMBERS of state_members.h, and carom_rules_about has the
  * rest. */
 #ifndef CAROM_PLAN_GAMES_H
 #define CAROM_PLAN_GAMES_H
 
-#include "schema/numbers.h"
+#include "state_members.h"
 #include "view.h"
 
 #define CAROM_GAMES(GAME)                                                                          \
@@ -66,9 +66,6 @@ enum { CAROM_GAMES(CAROM_GAME_ROW) };
 #define CAROM_RULES_OBJECT(rules)                                               \
   _Static_assert((int)CAROM_ROW_OF_##rules >= 0, "rules have a row of a game"); \
   const carom_plan_rules rules
-
-#define CAROM_GAME_WORD(NAME, rules, word, text, ...) \
-  {CAROM_WORDS_RULES, CAROM_RULES_##NAME, word, text},
 
 typedef struct learned {
   double next[NEXT_NUMBERS], later[LATER_NUMBERS], first[FIRST_NUMBERS];

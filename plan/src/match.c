@@ -8,7 +8,7 @@
  * reads them back. */
 #include "match.h"
 #include "rules.h"
-#include "table/spots.h"
+#include "table/marks.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -30,21 +30,20 @@ carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, doub
   bounds->low[0] = bounds->low[1] = radius;
   bounds->high[0] = table->width - radius;
   bounds->high[1] = table->length - radius;
+  const carom_marks marks = carom_marks_of(table->width, table->length);
   if (leave == CAROM_LEAVE_KITCHEN)
-    bounds->high[1] = 0.25 * table->length;
+    bounds->high[1] = marks.head_spot[1];
   if (leave == CAROM_LEAVE_BAULK)
-    bounds->high[1] = 0.2 * table->length;
+    bounds->high[1] = marks.baulk_line;
 
   /* the box around the D */
   if (leave == CAROM_LEAVE_D) {
-    const carom_d d = carom_d_of(table->width, table->length);
-    bounds->centre[0] = d.x;
-    bounds->centre[1] = d.y;
-    bounds->radius = d.radius;
-    bounds->low[0] = d.x - d.radius;
-    bounds->low[1] = d.y - d.radius;
-    bounds->high[0] = d.x + d.radius;
-    bounds->high[1] = d.y;
+    memcpy(bounds->centre, marks.d_centre, sizeof bounds->centre);
+    bounds->radius = marks.d_radius;
+    bounds->low[0] = marks.d_centre[0] - marks.d_radius;
+    bounds->low[1] = marks.d_centre[1] - marks.d_radius;
+    bounds->high[0] = marks.d_centre[0] + marks.d_radius;
+    bounds->high[1] = marks.d_centre[1];
   }
   return CAROM_OK;
 }

@@ -3,7 +3,7 @@
 
 #include "platform/elementary.h"
 #include "rows.h"
-#include "table/spots.h"
+#include "table/marks.h"
 
 #include <math.h>
 
@@ -27,9 +27,10 @@ static bool find_range(search *plan, const double low[2], const double high[2]) 
   }
 
   /* in snooker the box around the D */
+  const carom_marks marks = carom_marks_of(size[0], size[1]);
   if (plan->job.rules->rack == CAROM_RACK_SNOOKER) {
-    const carom_d d = carom_d_of(size[0], size[1]);
-    const double d_low[2] = {d.x - d.radius, d.y - d.radius}, d_high[2] = {d.x + d.radius, d.y};
+    const double *d = marks.d_centre, radius = marks.d_radius;
+    const double d_low[2] = {d[0] - radius, d[1] - radius}, d_high[2] = {d[0] + radius, d[1]};
     for (int x = 0; x < 2; x++) {
       range->low[x] = fmax(range->low[x], d_low[x]);
       range->high[x] = fmin(range->high[x], d_high[x]);
@@ -37,7 +38,7 @@ static bool find_range(search *plan, const double low[2], const double high[2]) 
   }
   /* a game is opened from the head line, if the caller has no upper bound */
   if (plan->breaks && high == NULL)
-    range->high[1] = fmin(range->high[1], 0.25 * size[1]);
+    range->high[1] = fmin(range->high[1], marks.head_spot[1]);
   return range->low[0] <= range->high[0] && range->low[1] <= range->high[1];
 }
 
@@ -99,7 +100,8 @@ static bool place_in_hand(search *plan, const double r[2]) {
   for (int x = 0; x < 2; x++)
     if (!(r[x] >= plan->range.low[x] && r[x] <= plan->range.high[x]))
       return false;
-  if (job->rules->rack == CAROM_RACK_SNOOKER && !carom_is_in_d(job->table, r[0], r[1]))
+  const carom_marks marks = carom_marks_of(job->table->width, job->table->length);
+  if (job->rules->rack == CAROM_RACK_SNOOKER && !carom_is_in_d(&marks, r[0], r[1]))
     return false;
   return carom_place_ball(job->table, plan->hand, (int)job->count, plan->view.cue_ball, r[0], r[1],
                           NULL) == CAROM_OK;

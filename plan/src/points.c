@@ -24,7 +24,7 @@
 #include "platform/elementary.h"
 #include "platform/promise.h"
 #include "rules.h"
-#include "table/spots.h"
+#include "table/marks.h"
 
 #include <math.h>
 #include <string.h>
@@ -115,13 +115,13 @@ double carom_points_value(const carom_view *view, const carom_rules_state *game,
   /* in the D: the best of some places on its line */
   carom_ball_state placed[CAROM_BALLS_MOST];
   memcpy(placed, balls, (size_t)view->count * sizeof *placed);
-  const carom_d d = carom_d_of(view->width, view->length);
+  const carom_marks marks = carom_marks_of(view->width, view->length);
   double best = 0.0;
   for (int k = -1; k <= 1; k++) {
-    placed[view->cue_ball].r[0] = d.x + 0.6 * k * d.radius;
-    placed[view->cue_ball].r[1] = d.y;
+    placed[view->cue_ball].r[0] = marks.d_centre[0] + 0.6 * k * marks.d_radius;
+    placed[view->cue_ball].r[1] = marks.d_centre[1];
     if (k == 0)
-      placed[view->cue_ball].r[1] -= 0.5 * d.radius;
+      placed[view->cue_ball].r[1] -= 0.5 * marks.d_radius;
     best = fmax(best, value_from(view, game, placed, in_play, who, false));
   }
   return best;

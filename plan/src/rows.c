@@ -5,6 +5,7 @@
 
 #include "drawn_tables.h"
 #include "rules.h"
+#include "table/marks.h"
 
 #include <math.h>
 #include <string.h>
@@ -154,13 +155,14 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
   if (rules->settle != NULL && (taken_back || turn.spot != 0 || turn.outcome == CAROM_TURN_PASS))
     settle(plan, &game, c, final, taken_back, &turn);
+  const carom_marks marks = carom_marks_of(plan->view.width, plan->view.length);
   for (int k = 0; k < plan->view.count; k++) {
     if (taken_back && rules->settle == NULL)
       final[k] = before(plan, c, k);
     if (rules->settle == NULL && (turn.spot >> k & 1))
-      final[k] = (carom_ball_state){
-          .r = {0.5 * plan->view.width, 0.75 * plan->view.length, plan->view.radius[k]},
-          .label = CAROM_BALL_STATIONARY};
+      final[k] =
+          (carom_ball_state){.r = {marks.foot_spot[0], marks.foot_spot[1], plan->view.radius[k]},
+                             .label = CAROM_BALL_STATIONARY};
   }
   /* any ball may be struck: about as good as the cue ball in hand */
   const bool in_hand = turn.leave >= CAROM_LEAVE_ANYWHERE || rules->any_cue_ball != 0;
@@ -243,7 +245,8 @@ static void spread(const search *plan, shot_result *with) {
 static bool is_from_kitchen(const search *plan) {
   if (plan->job.leave == CAROM_LEAVE_KITCHEN)
     return true;
-  return plan->places > 0 && fabs(plan->range.high[1] - 0.25 * plan->view.length) < 1e-9;
+  return plan->places > 0 &&
+         fabs(plan->range.high[1] - carom_marks_of(0.0, plan->view.length).head_spot[1]) < 1e-9;
 }
 
 static size_t play_rows(const void *context, size_t first, size_t end) {

@@ -1,5 +1,6 @@
 /* What the rulings of all games share: fouls, and balls that are put back. */
 #include "rules.h"
+#include "table/marks.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -71,7 +72,7 @@ uint32_t carom_met_first(const carom_facts *facts) {
 
 uint32_t carom_barred(const carom_facts *facts, double length, const carom_shot_ball *balls,
                       int count) {
-  const double head = 0.25 * length;
+  const double head = carom_marks_of(0.0, length).head_spot[1];
   uint32_t set = 0;
   for (int k = 0; k < count && !(facts->first_high[1] > head); k++)
     set |= (uint32_t)(balls[k].state.r[1] < head) << k;
@@ -80,7 +81,7 @@ uint32_t carom_barred(const carom_facts *facts, double length, const carom_shot_
 
 uint32_t carom_nearest_behind(const carom_table *table, const carom_shot_ball *balls, int count,
                               uint32_t on) {
-  const double head = 0.25 * table->length;
+  const double head = carom_marks_of(table->width, table->length).head_spot[1];
   double nearest = -INFINITY;
   for (int k = 0; k < count; k++)
     if (on >> k & 1)
@@ -212,8 +213,8 @@ carom_status carom_spot_ball(const carom_table *table, carom_shot_ball *balls, i
                              int ball) {
   if (table == NULL)
     return CAROM_ERROR_NULL;
-  const double foot[2] = {0.5 * table->width, 0.75 * table->length};
-  return put_near(CAROM_RACK_EIGHTBALL, table, balls, count, ball, foot);
+  const carom_marks marks = carom_marks_of(table->width, table->length);
+  return put_near(CAROM_RACK_EIGHTBALL, table, balls, count, ball, marks.foot_spot);
 }
 
 carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,

@@ -10,7 +10,7 @@
  * at the very edge of one that nearly touches, which the rules allow: facts do not tell it. */
 #include "games.h"
 #include "rules.h"
-#include "table/spots.h"
+#include "table/marks.h"
 
 #include <math.h>
 
@@ -288,11 +288,12 @@ static bool is_snookered(const carom_table *table, const carom_shot_ball *balls,
   enum { STEPS = 6 };
   if (!hand)
     return is_snookered_at(balls, due, others, balls[0].state.r);
-  const carom_d d = carom_d_of(table->width, table->length);
+  const carom_marks marks = carom_marks_of(table->width, table->length);
+  const double *d = marks.d_centre, radius = marks.d_radius;
   for (int i = -STEPS; i <= STEPS; i++)
     for (int j = 0; j <= STEPS; j++) {
-      const double c[2] = {d.x + d.radius * i / (double)STEPS, d.y - d.radius * j / (double)STEPS};
-      bool is_free = carom_is_in_d(table, c[0], c[1]);
+      const double c[2] = {d[0] + radius * i / (double)STEPS, d[1] - radius * j / (double)STEPS};
+      bool is_free = carom_is_in_d(&marks, c[0], c[1]);
       for (int k = 1; in_play >> k != 0 && is_free; k++) {
         const double least = balls[0].kind.radius + balls[k].kind.radius;
         is_free = !(in_play >> k & 1) || carom_square(balls[k].state.r, c) > least * least;

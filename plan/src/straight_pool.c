@@ -7,6 +7,7 @@
  * again. */
 #include "games.h"
 #include "rules.h"
+#include "table/marks.h"
 
 enum { MANY_FOULS = 15, BAD_BREAK = 2, RACKED = 14, LAST_BALL = 15 };
 static const uint32_t all = 0xfffe;
@@ -131,10 +132,10 @@ static void take_up(carom_shot_ball *ball) {
 /* Puts a ball on the head spot, or on the centre where the head spot is taken. */
 static void place_at_head(const carom_table *table, carom_shot_ball *balls, int count, int ball,
                           const double head[2], bool taken) {
-  const double centre[2] = {0.5 * table->width, 0.5 * table->length};
+  const carom_marks marks = carom_marks_of(table->width, table->length);
   const double *at = head;
   if (taken)
-    at = centre;
+    at = marks.centre_spot;
   carom_place_ball(table, balls, count, ball, at[0], at[1], NULL);
 }
 

@@ -8,9 +8,9 @@
  *   tan(alpha) = -(5/2) a sqrt(1 - a^2) / (1 + m/m_e + 5/2 (1 - a^2))
  *   w = 5 V/(2R) (b, a sin(theta), -a cos(theta))     turned about z by phi + 90 degrees
  *
- * d is the horizontal direction of phi and l the horizontal to its left. In space this is the blow
+ * d is the horizontal direction of phi and l the horizontal to its left. In space this is the strike
  * alone, which drives the ball into the slate; shot/raised.c has what the slate does meanwhile. In
- * flat play the part of the blow that goes down is lost. pooltool turns what is left of it: v = V
+ * flat play the part of the strike that goes down is lost. pooltool turns what is left of it: v = V
  * cos(theta) in the direction phi + alpha. With theta = 0 all three are the same, to the last bit.
  * Sources: D. Alciatore, TP A-30 and TP A-31; pooltool's. */
 #include "motion/strike.h"
@@ -28,16 +28,16 @@ carom_status carom_check_cue(const carom_cue *cue) {
   return cue->a * cue->a + cue->b * cue->b < limit * limit ? CAROM_OK : CAROM_ERROR_MISCUE;
 }
 
-double carom_speed_of_blow(const carom_cue *cue, const carom_ball_kind *kind) {
+double carom_strike_speed(const carom_cue *cue, const carom_ball_kind *kind) {
   const double a = cue->a, b = cue->b;
   return (1.0 + carom_tip_of(cue)) * cue->speed /
          (1.0 + kind->mass / cue->mass + 2.5 * (a * a + b * b));
 }
 
-carom_status carom_blow(const carom_cue *cue, const carom_ball_kind *kind, carom_blow_kind how,
-                        carom_motion *out) {
+carom_status carom_strike_motion(const carom_cue *cue, const carom_ball_kind *kind,
+                                 carom_strike_kind how, carom_motion *out) {
   /* the directions of the cue, and the speed of the ball along it */
-  const double a = cue->a, b = cue->b, inside = 1.0 - a * a, V = carom_speed_of_blow(cue, kind);
+  const double a = cue->a, b = cue->b, inside = 1.0 - a * a, V = carom_strike_speed(cue, kind);
   double sin_phi, cos_phi, sin_theta, cos_theta;
   carom_sincos_degrees(cue->phi, &sin_phi, &cos_phi);
   carom_sincos_degrees(carom_above(cue->theta, CAROM_LEAST_ELEVATION), &sin_theta, &cos_theta);
@@ -56,9 +56,9 @@ carom_status carom_blow(const carom_cue *cue, const carom_ball_kind *kind, carom
       .v = {V * (c * cos_theta * cos_phi - s * sin_phi),
             V * (c * cos_theta * sin_phi + s * cos_phi), 0.0},
       .w = {-x * sin_phi - y * cos_phi, x * cos_phi - y * sin_phi, -turn * a * cos_theta}};
-  if (how == CAROM_BLOW_IN_SPACE && carom_is_raised(cue))
+  if (how == CAROM_STRIKE_IN_SPACE && carom_is_raised(cue))
     out->v[2] = -V * c * sin_theta;
-  if (how == CAROM_BLOW_TURNED) {
+  if (how == CAROM_STRIKE_TURNED) {
     out->v[0] = V * cos_theta * (cos_phi * c - sin_phi * s);
     out->v[1] = V * cos_theta * (sin_phi * c + cos_phi * s);
   }
@@ -73,6 +73,7 @@ carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, car
     return bad;
   if (!carom_is_positive(kind->mass))
     return CAROM_ERROR_MASS;
-  return carom_is_positive(kind->radius) ? carom_blow(cue, kind, CAROM_BLOW_ON_CLOTH, out)
-                                         : CAROM_ERROR_RADIUS;
+  return carom_is_positive(kind->radius)
+             ? carom_strike_motion(cue, kind, CAROM_STRIKE_ON_CLOTH, out)
+             : CAROM_ERROR_RADIUS;
 }

@@ -27,19 +27,19 @@ static inline bool carom_is_raised(const carom_cue *cue) {
   return cue->theta >= CAROM_LEAST_ELEVATION;
 }
 
-/* Where the part of the blow goes that goes down: the slate takes it in space, on the cloth it is
- * lost, or squirt turns what is left of the blow, as pooltool does. */
-typedef enum carom_blow_kind {
-  CAROM_BLOW_IN_SPACE,
-  CAROM_BLOW_ON_CLOTH,
-  CAROM_BLOW_TURNED
-} carom_blow_kind;
+/* Where the part of the strike goes that goes down: the slate takes it in space, on the cloth it is
+ * lost, or squirt turns what is left of the strike, as pooltool does. */
+typedef enum carom_strike_kind {
+  CAROM_STRIKE_IN_SPACE,
+  CAROM_STRIKE_ON_CLOTH,
+  CAROM_STRIKE_TURNED
+} carom_strike_kind;
 
 /* The numbers of a cue, apart from its ball; the speed V that it gives a ball; and carom_strike()
  * of a cue and a ball that have been checked. */
 carom_status carom_check_cue(const carom_cue *cue);
-double carom_speed_of_blow(const carom_cue *cue, const carom_ball_kind *kind);
-carom_status carom_blow(const carom_cue *cue, const carom_ball_kind *kind, carom_blow_kind how,
-                        carom_motion *out);
+double carom_strike_speed(const carom_cue *cue, const carom_ball_kind *kind);
+carom_status carom_strike_motion(const carom_cue *cue, const carom_ball_kind *kind,
+                                 carom_strike_kind how, carom_motion *out);
 
 #endif

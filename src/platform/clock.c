@@ -10,19 +10,19 @@
 #include "platform/win32.h"
 
 double carom_seconds(void) {
-  int64_t now, each_second;
-  QueryPerformanceCounter(&now);
+  int64_t current, each_second;
+  QueryPerformanceCounter(&current);
   QueryPerformanceFrequency(&each_second);
-  return (double)now / (double)each_second;
+  return (double)current / (double)each_second;
 }
 
 #else
 #include <time.h>
 
 double carom_seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+  struct timespec current;
+  clock_gettime(CLOCK_MONOTONIC, &current);
+  return (double)current.tv_sec + 1e-9 * (double)current.tv_nsec;
 }
 
 #endif

@@ -112,10 +112,10 @@ static inline double binary_log(double x) {
               0x1.a61762a7aded9p-3}; /* (-1)^(n+1)/(n ln 2); the remainder is below 3e-18 */
   int64_t bits = 0;
   memcpy(&bits, &x, sizeof bits);
-  const int64_t part = bits >> 46 & 63, one = INT64_C(1023) << 52;
+  const int64_t part = bits >> 46 & 63, exponent_of_one = INT64_C(1023) << 52;
   /* x = 2^power m, 1 <= m < 2 */
-  const int64_t of_m = (bits & ((INT64_C(1) << 52) - 1)) | one,
-                of_c = one | part << 46 | INT64_C(1) << 45;
+  const int64_t of_m = (bits & ((INT64_C(1) << 52) - 1)) | exponent_of_one,
+                of_c = exponent_of_one | part << 46 | INT64_C(1) << 45;
   double m = 0.0, c = 0.0;
   memcpy(&m, &of_m, sizeof m);
   memcpy(&c, &of_c, sizeof c);

@@ -17,18 +17,18 @@ static inline uint64_t carom_stir(uint64_t h, uint64_t word) {
 
 /* The fingerprint of some words of 8 bytes, and of those before. Four chains, as each step waits
  * for the one before. */
-static inline uint64_t carom_fingerprint(uint64_t before, const void *bytes, size_t size) {
+static inline uint64_t carom_fingerprint(uint64_t hash, const void *bytes, size_t size) {
   enum { CHAINS = 4 };
-  const unsigned char *at = (const unsigned char *)bytes;
-  uint64_t h[CHAINS] = {before, 1, 2, 3}, word[CHAINS];
+  const unsigned char *byte = (const unsigned char *)bytes;
+  uint64_t h[CHAINS] = {hash, 1, 2, 3}, word[CHAINS];
   const size_t words = size / sizeof *word, whole = words - words % CHAINS;
   for (size_t k = 0; k < whole; k += CHAINS) {
-    memcpy(word, at + k * sizeof *word, sizeof word);
+    memcpy(word, byte + k * sizeof *word, sizeof word);
     for (int c = 0; c < CHAINS; c++)
       h[c] = carom_stir(h[c], word[c]);
   }
   for (size_t k = whole; k < words; k++) {
-    memcpy(word, at + k * sizeof *word, sizeof *word);
+    memcpy(word, byte + k * sizeof *word, sizeof *word);
     h[0] = carom_stir(h[0], word[0]);
   }
   for (int c = 1; c < CHAINS; c++)

@@ -84,14 +84,14 @@ static const bool built[CAROM_ISA_COUNT] = {
  * which knows no processor. Source: Intel's Software Developer's Manual, volume 1, sections
  * "Detection of AVX Instructions" and "Detection of AVX-512 Foundation Instructions". */
 static bool processor_has_avx(bool wide) {
-  unsigned a, b, c, d, kept, high;
+  unsigned a, b, c, d, saved_registers, high;
   /* Leaf 1: AVX, fused multiply-add, and whether xgetbv may be used. */
   const unsigned first = bit_AVX | bit_FMA | bit_OSXSAVE;
   if (!__get_cpuid(1, &a, &b, &c, &d) || (c & first) != first)
     return false;
   /* Registers that the system keeps: bits 1 and 2 for SSE and AVX, 5 to 7 for AVX-512. macOS
    * sets these at the first use. */
-  __asm__ volatile("xgetbv" : "=a"(kept), "=d"(high) : "c"(0));
+  __asm__ volatile("xgetbv" : "=a"(saved_registers), "=d"(high) : "c"(0));
 #if defined(__APPLE__)
   const unsigned needed = 0x06;
 #else
@@ -99,7 +99,8 @@ static bool processor_has_avx(bool wide) {
 #endif
   /* Leaf 7: the sets themselves. */
   const unsigned sets = wide ? bit_AVX512F | bit_AVX512DQ | bit_AVX512VL : bit_AVX2;
-  return (kept & needed) == needed && __get_cpuid_count(7, 0, &a, &b, &c, &d) && (b & sets) == sets;
+  return (saved_registers & needed) == needed && __get_cpuid_count(7, 0, &a, &b, &c, &d) &&
+         (b & sets) == sets;
 }
 #endif
 
@@ -149,12 +150,12 @@ static carom_isa best_up_to(carom_isa limit) {
 
 static carom_isa from_environment(void) {
 #if defined(__linux__)
-  const char *wanted = secure_getenv("CAROM_ISA");
+  const char *name = secure_getenv("CAROM_ISA");
 #else
-  const char *wanted = getenv("CAROM_ISA");
+  const char *name = getenv("CAROM_ISA");
 #endif
-  for (int isa = 0; wanted != NULL && isa < CAROM_ISA_COUNT; isa++)
-    if (strcmp(wanted, carom_isa_name((carom_isa)isa)) == 0)
+  for (int isa = 0; name != NULL && isa < CAROM_ISA_COUNT; isa++)
+    if (strcmp(name, carom_isa_name((carom_isa)isa)) == 0)
       return best_up_to((carom_isa)isa);
   return best_up_to((carom_isa)(CAROM_ISA_COUNT - 1));
 }
@@ -174,11 +175,11 @@ carom_isa carom_isa_in_force(void) {
 }
 
 carom_isa carom_isa_limit(carom_isa isa) {
-  carom_isa now;
+  carom_isa current;
   if ((int)isa >= 0 && isa < CAROM_ISA_COUNT)
-    now = best_up_to(isa);
+    current = best_up_to(isa);
   else
-    now = from_environment();
-  atomic_store(&in_force, (int)now);
-  return now;
+    current = from_environment();
+  atomic_store(&in_force, (int)current);
+  return current;
 }

@@ -91,9 +91,9 @@ static int least_on_the_way_up(const char *mount, const char *path, bool second_
 /* Whether `word` is among names with commas between them. */
 static bool is_among(const char *names, const char *word) {
   const size_t size = strlen(word);
-  for (const char *at = names; at != NULL; at = strchr(at, ',')) {
-    at += *at == ',';
-    if (strncmp(at, word, size) == 0 && (at[size] == ',' || at[size] == '\0'))
+  for (const char *name = names; name != NULL; name = strchr(name, ',')) {
+    name += *name == ',';
+    if (strncmp(name, word, size) == 0 && (name[size] == ',' || name[size] == '\0'))
       return true;
   }
   return false;

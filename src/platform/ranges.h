@@ -19,8 +19,8 @@ static inline double carom_greater(double a, double b) {
 
 /* A number of the caller's, or the usual one that 0 stands for. It has the derivatives of the
  * number in both cases. */
-static inline double carom_or_usual(double given, double usual) {
-  return given > 0.0 ? given : usual + given;
+static inline double carom_or_usual(double value, double usual) {
+  return value > 0.0 ? value : usual + value;
 }
 
 /* x - x is 0 unless x is infinite or no number. C++ has isfinite() in std alone. */

@@ -65,9 +65,9 @@ struct carom_crew {
   /* the last one */
   carom_part_worker *worker;
   const void *job;
-  size_t n, count, unit; /* rows; parts; rows of which a part is a multiple */
-  atomic_size_t next;    /* the first part that nobody took */
-  atomic_size_t bad;     /* the first row in error so far, or n */
+  size_t n, count, unit;     /* rows; parts; rows of which a part is a multiple */
+  atomic_size_t next;        /* the first part that nobody took */
+  atomic_size_t first_error; /* the first row in error so far, or n */
 };
 
 /* Where a part begins; that of one beyond the last is n. */
@@ -87,8 +87,9 @@ static void work(carom_crew *crew) {
     const size_t end = start_of(crew, number + 1),
                  first = crew->worker(crew->job, start_of(crew, number), end);
     CAROM_PROMISE(first <= end);
-    size_t least = atomic_load(&crew->bad);
-    while (first < end && first < least && !atomic_compare_exchange_weak(&crew->bad, &least, first))
+    size_t least = atomic_load(&crew->first_error);
+    while (first < end && first < least &&
+           !atomic_compare_exchange_weak(&crew->first_error, &least, first))
       continue;
   }
 }
@@ -145,14 +146,14 @@ static void *work_on_thread(void *argument) {
 /* Starts threads; returns how many there are. A thread inherits the signals that are blocked
  * where it is made. */
 static size_t start_threads(carom_crew *crew, thread_handle *thread, size_t most) {
-  sigset_t all, before;
-  sigfillset(&all);
-  const bool blocked = pthread_sigmask(SIG_SETMASK, &all, &before) == 0;
+  sigset_t every_signal, previous_mask;
+  sigfillset(&every_signal);
+  const bool blocked = pthread_sigmask(SIG_SETMASK, &every_signal, &previous_mask) == 0;
   size_t count = 0;
   while (count < most && pthread_create(&thread[count], NULL, work_on_thread, crew) == 0)
     count++;
   if (blocked)
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    pthread_sigmask(SIG_SETMASK, &previous_mask, NULL);
   return count;
 }
 
@@ -198,13 +199,13 @@ size_t carom_crew_work(carom_crew *crew, carom_part_worker *worker, const void *
   crew->count = parts < most ? parts : most;
   crew->unit = least < UNIT ? least : UNIT;
   atomic_store(&crew->next, 0);
-  atomic_store(&crew->bad, n);
+  atomic_store(&crew->first_error, n);
   atomic_store(&crew->working, crew->threads);
   atomic_fetch_add(&crew->begun, 1);
   work(crew);
   for (int looks = 0; atomic_load(&crew->working) > 0; wait_a_little(&looks))
     continue;
-  return atomic_load(&crew->bad);
+  return atomic_load(&crew->first_error);
 }
 
 #endif
@@ -213,17 +214,17 @@ size_t carom_crew_work(carom_crew *crew, carom_part_worker *worker, const void *
 typedef struct only_job {
   carom_part_worker *worker;
   const void *job;
-  size_t n, least, bad;
+  size_t n, least, first_error;
 } only_job;
 
 static void do_only_job(void *context, carom_crew *crew) {
   only_job *only = context;
-  only->bad = carom_crew_work(crew, only->worker, only->job, only->n, only->least);
+  only->first_error = carom_crew_work(crew, only->worker, only->job, only->n, only->least);
 }
 
 size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads,
                         size_t least) {
   only_job only = {worker, job, n, least, n};
   carom_with_crew(do_only_job, &only, threads, n / least);
-  return only.bad;
+  return only.first_error;
 }

@@ -48,18 +48,18 @@ static int write_decimal(double x, char *text) {
       memcpy(text, whole, (size_t)n);
       return n;
     }
-    int at = 0;
+    int length = 0;
     if (n <= places)
-      text[at++] = '0';
+      text[length++] = '0';
     for (int k = 0; k < n - places; k++)
-      text[at++] = whole[k];
-    text[at++] = '.';
+      text[length++] = whole[k];
+    text[length++] = '.';
     for (int k = n - places; k < 0; k++)
-      text[at++] = '0';
+      text[length++] = '0';
     for (int k = n - places; k < n; k++)
       if (k >= 0)
-        text[at++] = whole[k];
-    return at;
+        text[length++] = whole[k];
+    return length;
   }
   return 0;
 }
@@ -68,28 +68,28 @@ static int write_hexadecimal(uint64_t bits, char *text) {
   const int biased = (int)(bits >> MANTISSA & 0x7ff), normal = biased != 0;
   int e = biased - BIAS + !normal;
   uint64_t fraction = bits & ((UINT64_C(1) << MANTISSA) - 1);
-  int at = 0;
-  text[at++] = '"';
+  int length = 0;
+  text[length++] = '"';
   if (bits >> 63 != 0)
-    text[at++] = '-';
-  text[at++] = '0';
-  text[at++] = 'x';
-  text[at++] = (char)('0' + normal);
+    text[length++] = '-';
+  text[length++] = '0';
+  text[length++] = 'x';
+  text[length++] = (char)('0' + normal);
   /* the digits of the fraction without the zeros behind them */
   if (fraction != 0)
-    text[at++] = '.';
+    text[length++] = '.';
   for (; fraction != 0; fraction = fraction << 4 & ((UINT64_C(1) << MANTISSA) - 1))
-    text[at++] = digits[fraction >> (MANTISSA - 4)];
-  text[at++] = 'p';
-  text[at] = '+';
+    text[length++] = digits[fraction >> (MANTISSA - 4)];
+  text[length++] = 'p';
+  text[length] = '+';
   if (e < 0) {
-    text[at] = '-';
+    text[length] = '-';
     e = -e;
   }
-  at++;
-  at += write_whole((uint64_t)e, text + at);
-  text[at++] = '"';
-  return at;
+  length++;
+  length += write_whole((uint64_t)e, text + length);
+  text[length++] = '"';
+  return length;
 }
 
 int carom_number_write(double x, char *text) {
@@ -107,31 +107,31 @@ int carom_number_write(double x, char *text) {
 /* ---- Reading */
 
 /* A whole number of up to 4 digits with a sign that may be missing; NULL where there is none. */
-static const char *read_exponent(const char *at, const char *end, int *e) {
+static const char *read_exponent(const char *text, const char *end, int *e) {
   bool negative = false;
   int n = 0;
-  if (at < end && (*at == '-' || *at == '+'))
-    negative = *at++ == '-';
+  if (text < end && (*text == '-' || *text == '+'))
+    negative = *text++ == '-';
   *e = 0;
-  for (; at < end && *at >= '0' && *at <= '9' && n < 5; at++, n++)
-    *e = 10 * *e + (*at - '0');
+  for (; text < end && *text >= '0' && *text <= '9' && n < 5; text++, n++)
+    *e = 10 * *e + (*text - '0');
   if (negative)
     *e = -*e;
   if (n == 0 || n == 5)
     return NULL;
-  return at;
+  return text;
 }
 
-static bool is_digit_at(const char *at, const char *end) {
-  return at < end && *at >= '0' && *at <= '9';
+static bool is_digit_at(const char *text, const char *end) {
+  return text < end && *text >= '0' && *text <= '9';
 }
 
 /* The digits behind the point, at most as many as the fraction of a double has; NULL where there is
  * no digit, or one too many. */
-static const char *read_fraction(const char *at, const char *end, uint64_t *fraction) {
+static const char *read_fraction(const char *text, const char *end, uint64_t *fraction) {
   int count = 0;
-  for (; at < end && *at != '\0'; at++) {
-    const char *digit = strchr(digits, *at);
+  for (; text < end && *text != '\0'; text++) {
+    const char *digit = strchr(digits, *text);
     if (digit == NULL)
       break;
     if (count == MANTISSA / 4)
@@ -141,7 +141,7 @@ static const char *read_fraction(const char *at, const char *end, uint64_t *frac
   }
   if (count == 0)
     return NULL;
-  return at;
+  return text;
 }
 
 /* Whether 2^e (1 + fraction) with `normal`, else 2^e fraction, is in the one form that is written:
@@ -153,31 +153,31 @@ static bool is_written_form(bool normal, int e, uint64_t fraction) {
 }
 
 /* What stands behind the first quote, to the second one. */
-static const char *read_hexadecimal(const char *at, const char *end, double *x) {
+static const char *read_hexadecimal(const char *text, const char *end, double *x) {
   /* The sign, and 0x0 or 0x1. */
-  const bool negative = at < end && *at == '-';
-  at += negative;
-  if (end - at < 3 || at[0] != '0' || at[1] != 'x')
+  const bool negative = text < end && *text == '-';
+  text += negative;
+  if (end - text < 3 || text[0] != '0' || text[1] != 'x')
     return NULL;
-  if (at[2] != '0' && at[2] != '1')
+  if (text[2] != '0' && text[2] != '1')
     return NULL;
-  const bool normal = at[2] == '1';
-  at += 3;
+  const bool normal = text[2] == '1';
+  text += 3;
 
   /* The fraction, which may be missing with its point. */
   uint64_t fraction = 0;
-  if (at < end && *at == '.') {
-    at = read_fraction(at + 1, end, &fraction);
-    if (at == NULL)
+  if (text < end && *text == '.') {
+    text = read_fraction(text + 1, end, &fraction);
+    if (text == NULL)
       return NULL;
   }
 
   /* The exponent of two, which may not be missing. */
   int e;
-  if (at == end || *at != 'p')
+  if (text == end || *text != 'p')
     return NULL;
-  at = read_exponent(at + 1, end, &e);
-  if (at == NULL || !is_written_form(normal, e, fraction))
+  text = read_exponent(text + 1, end, &e);
+  if (text == NULL || !is_written_form(normal, e, fraction))
     return NULL;
 
   /* A double is its sign, its exponent and its fraction, side by side. */
@@ -186,9 +186,9 @@ static const char *read_hexadecimal(const char *at, const char *end, double *x) 
     biased = (uint64_t)(e + BIAS);
   const uint64_t bits = (uint64_t)negative << 63 | biased << MANTISSA | fraction;
   memcpy(x, &bits, sizeof *x);
-  if (at == end || *at != '"')
+  if (text == end || *text != '"')
     return NULL;
-  return at + 1;
+  return text + 1;
 }
 
 /* A decimal number without its sign: m 10^e, or not exact where m has too many digits. */
@@ -199,57 +199,57 @@ typedef struct decimal {
 } decimal;
 
 /* The digits, of which at least one stands before the point, and at least one behind it. */
-static const char *read_digits(const char *at, const char *end, decimal *d) {
+static const char *read_digits(const char *text, const char *end, decimal *d) {
   const uint64_t most = UINT64_C(1) << (MANTISSA + 1);
   bool behind_point = false;
   *d = (decimal){.exact = true};
-  for (; at < end; at++) {
-    if (*at == '.' && !behind_point && is_digit_at(at + 1, end)) {
+  for (; text < end; text++) {
+    if (*text == '.' && !behind_point && is_digit_at(text + 1, end)) {
       behind_point = true;
       continue;
     }
-    if (!is_digit_at(at, end))
+    if (!is_digit_at(text, end))
       break;
 
     /* m keeps the digits for as long as it is exact; e counts those behind the point. */
     d->exact = d->exact && d->m <= most / 10 - 1;
     if (d->exact)
-      d->m = 10 * d->m + (uint64_t)(*at - '0');
+      d->m = 10 * d->m + (uint64_t)(*text - '0');
     if (behind_point)
       d->e--;
   }
-  return at;
+  return text;
 }
 
-static const char *read_decimal(const char *at, const char *end, decimal *d) {
+static const char *read_decimal(const char *text, const char *end, decimal *d) {
   /* A zero is the only digit before the point. */
-  if (!is_digit_at(at, end))
+  if (!is_digit_at(text, end))
     return NULL;
-  if (*at == '0' && is_digit_at(at + 1, end))
+  if (*text == '0' && is_digit_at(text + 1, end))
     return NULL;
-  at = read_digits(at, end, d);
+  text = read_digits(text, end, d);
 
-  if (at < end && (*at == 'e' || *at == 'E')) {
+  if (text < end && (*text == 'e' || *text == 'E')) {
     int tens;
-    at = read_exponent(at + 1, end, &tens);
+    text = read_exponent(text + 1, end, &tens);
     d->e += tens;
   }
   if (d->m == 0)
     d->e = 0;
-  return at;
+  return text;
 }
 
-const char *carom_number_read(const char *at, const char *end, double *x, const char **why) {
-  if (at < end && *at == '"') {
+const char *carom_number_read(const char *position, const char *end, double *x, const char **why) {
+  if (position < end && *position == '"') {
     *why = "is no hexadecimal number such as \"0x1.8p+1\"";
-    return read_hexadecimal(at + 1, end, x);
+    return read_hexadecimal(position + 1, end, x);
   }
 
   *why = "must be a number";
-  const bool negative = at < end && *at == '-';
+  const bool negative = position < end && *position == '-';
   decimal d;
-  at = read_decimal(at + negative, end, &d);
-  if (at == NULL)
+  position = read_decimal(position + negative, end, &d);
+  if (position == NULL)
     return NULL;
   if (!d.exact || d.e <= -TENS || d.e >= TENS) {
     *why = "has more digits than can be read exactly: 15, and 22 places; write it as \"0x1.8p+1\"";
@@ -263,5 +263,5 @@ const char *carom_number_read(const char *at, const char *end, double *x, const 
     *x = (double)d.m * ten[d.e];
   if (negative)
     *x = -*x;
-  return at;
+  return position;
 }

@@ -5,10 +5,10 @@
  * list, the value of the object before it. So a writer leaves out the fields that have the bytes of
  * that default, and a reader begins with it. Every other key is refused, and every one that comes
  * twice. */
-#include "carom_record.h"
 #include "platform/arithmetic.h"
 #include "platform/fingerprint.h"
 #include "platform/promise.h"
+#include "record/lines.h"
 #include "record/number_text.h"
 #include "schema/options.h"
 
@@ -18,130 +18,119 @@
 
 /* ---- The format ------------------------------------------------------------------------------ */
 
-typedef enum type { DOUBLE, INT32, INT64, HASH, LIST } type;
+#define RAIL_KEY(member, ...) CAROM_MEMBER_FIELD(#member, carom_rail, member)
+#define JAW_KEY(member, ...) CAROM_MEMBER_FIELD(#member, carom_jaw, member)
+#define POCKET_KEY(member, ...) CAROM_MEMBER_FIELD(#member, carom_pocket, member)
+#define STATE_KEY(member, ...) CAROM_MEMBER_FIELD(#member, carom_ball_state, member)
+#define BALL_KEY(member, ...) CAROM_MEMBER_FIELD(#member, carom_shot_ball, kind.member)
+#define PLACE_KEY(member, ...) CAROM_MEMBER_FIELD(#member, carom_shot_ball, state.member)
+#define CUE_KEY(member, ...) CAROM_MEMBER_FIELD(#member, carom_record, cue.member)
+#define OPTION_KEY(member, ...) CAROM_MEMBER_FIELD(#member, carom_record, options.member)
 
-typedef struct field {
-  const char *key;
-  type type;
-  bool always;            /* written whatever it is, and required */
-  int count;              /* of its values: [x, y] of 2; the most objects of a list */
-  size_t at;              /* its offset in the object, */
-  size_t size, counted;   /* of a list: bytes of an object, offset of their number (int64_t), */
-  const struct field *of; /* and its fields. Tables of fields end with a key of NULL. */
-} field;
+static const carom_field rail_fields[] = {CAROM_RAIL_NUMBERS(RAIL_KEY, RAIL_KEY) CAROM_NO_FIELD};
+static const carom_field jaw_fields[] = {CAROM_JAW_NUMBERS(JAW_KEY, JAW_KEY) CAROM_NO_FIELD};
+static const carom_field pocket_fields[] = {CAROM_POCKET_NUMBERS(POCKET_KEY, POCKET_KEY)
+                                                CAROM_NO_FIELD};
+static const carom_field state_fields[] = {CAROM_STATE_NUMBERS(STATE_KEY, STATE_KEY)
+                                               CAROM_NO_FIELD};
+static const carom_field ball_fields[] = {
+    CAROM_NUMBERS(BALL_KEY, BALL_KEY) CAROM_STATE_NUMBERS(PLACE_KEY, PLACE_KEY) CAROM_NO_FIELD};
 
-#define END \
-  { NULL, DOUBLE, false, 0, 0, 0, 0, NULL }
-
-/* The type of a member and how many it has; and of members of structs that have rows. */
-#define KEY_TYPE(x) \
-  _Generic(x, double *: DOUBLE, double: DOUBLE, int64_t: INT64, uint64_t: INT64, default: INT32)
-#define MEMBER(name, of, member)                                                     \
-  {name,                                                                             \
-   KEY_TYPE(((of *)NULL)->member),                                                   \
-   false,                                                                            \
-   sizeof(((of *)NULL)->member) / (KEY_TYPE(((of *)NULL)->member) == INT32 ? 4 : 8), \
-   offsetof(of, member),                                                             \
-   0,                                                                                \
-   0,                                                                                \
-   NULL},
-#define RAIL_KEY(member, ...) MEMBER(#member, carom_rail, member)
-#define JAW_KEY(member, ...) MEMBER(#member, carom_jaw, member)
-#define POCKET_KEY(member, ...) MEMBER(#member, carom_pocket, member)
-#define STATE_KEY(member, ...) MEMBER(#member, carom_ball_state, member)
-#define BALL_KEY(member, ...) MEMBER(#member, carom_shot_ball, kind.member)
-#define PLACE_KEY(member, ...) MEMBER(#member, carom_shot_ball, state.member)
-#define CUE_KEY(member, ...) MEMBER(#member, carom_record, cue.member)
-#define OPTION_KEY(member, ...) MEMBER(#member, carom_record, options.member)
-
-static const field rail_fields[] = {CAROM_RAIL_NUMBERS(RAIL_KEY, RAIL_KEY) END};
-static const field jaw_fields[] = {CAROM_JAW_NUMBERS(JAW_KEY, JAW_KEY) END};
-static const field pocket_fields[] = {CAROM_POCKET_NUMBERS(POCKET_KEY, POCKET_KEY) END};
-static const field state_fields[] = {CAROM_STATE_NUMBERS(STATE_KEY, STATE_KEY) END};
-static const field ball_fields[] = {CAROM_NUMBERS(BALL_KEY, BALL_KEY)
-                                        CAROM_STATE_NUMBERS(PLACE_KEY, PLACE_KEY) END};
-
-/* Of the record itself: a key and the member of carom_record that it is. */
-#define R(key, type, always, n, member) \
-  { key, type, always, n, offsetof(carom_record, member), 0, 0, NULL }
-#define LISTED(key, most, member, counted, of)                                      \
-  {                                                                                 \
-    key, LIST, false, most, offsetof(carom_record, member),                         \
-        sizeof(((carom_record *)0)->member[0]), offsetof(carom_record, counted), of \
+/* A list of objects of the record or of one of its members. */
+#define LISTED(key, most, member, counted, fields)                                      \
+  {                                                                                     \
+    key, CAROM_VALUE_LIST, false, most, offsetof(carom_record, member),                 \
+        sizeof(((carom_record *)0)->member[0]), offsetof(carom_record, counted), fields \
   }
 
-static const field head[] = {R("format", INT64, true, 1, format),
-                             R("revision", INT64, true, 1, revision), END};
-static const field table[] = {
-    R("width", DOUBLE, true, 1, table.width),
-    R("length", DOUBLE, true, 1, table.length),
-    R("ball_radius", DOUBLE, false, 1, table.ball_radius),
-    R("rail_width", DOUBLE, false, 1, table.rail_width),
-    R("pocket_back", DOUBLE, false, 1, table.pocket_back),
+static const carom_field head[] = {CAROM_RECORD_FIELD("format", INT64, true, 1, format),
+                                   CAROM_RECORD_FIELD("revision", INT64, true, 1, revision),
+                                   CAROM_NO_FIELD};
+static const carom_field table[] = {
+    CAROM_RECORD_FIELD("width", DOUBLE, true, 1, table.width),
+    CAROM_RECORD_FIELD("length", DOUBLE, true, 1, table.length),
+    CAROM_RECORD_FIELD("ball_radius", DOUBLE, false, 1, table.ball_radius),
+    CAROM_RECORD_FIELD("rail_width", DOUBLE, false, 1, table.rail_width),
+    CAROM_RECORD_FIELD("pocket_back", DOUBLE, false, 1, table.pocket_back),
     LISTED("rails", CAROM_RAILS_MOST, table.rail, table.rails, rail_fields),
     LISTED("jaws", CAROM_JAWS_MOST, table.jaw, table.jaws, jaw_fields),
     LISTED("pockets", CAROM_POCKETS_MOST, table.pocket, table.pockets, pocket_fields),
-    END};
-static const field models[] = {CAROM_MOTION_OPTIONS(OPTION_KEY) END};
-/* The hash so far, with which a line of a match ends. */
-#define SEAL R("hash", HASH, false, 1, seal)
-static const field layout[] = {LISTED("list", CAROM_BALLS_MOST, balls, count, ball_fields), SEAL,
-                               END};
-#define MEMBER_KEY(NAME, member, ...) MEMBER(#member, carom_record, standing.member)
-static const field game_fields[] = {R("rules", INT64, true, 1, rules),
-                                    R("player", INT64, false, 1, player),
-                                    CAROM_STATE_MEMBERS(MEMBER_KEY)
-                                        R("user", INT64, false, 8, standing.user),
-                                    R("winner", INT64, false, 1, winner),
-                                    R("foul", INT64, false, 1, foul),
-                                    SEAL,
-                                    CAROM_LATER_MEMBERS(MEMBER_KEY) END};
-static const field place_fields[] = {R("ball", INT64, true, 1, placed),
-                                     R("at", DOUBLE, false, 2, place),
-                                     R("hand", INT64, false, 1, hand),
-                                     R("bounds", INT64, false, 1, bounds),
-                                     SEAL,
-                                     END};
-static const field act_fields[] = {R("act", INT64, true, 1, act),
-                                   R("player", INT64, false, 1, actor),
-                                   R("choice", INT64, false, 1, choice),
-                                   R("call", INT64, false, 2, call),
-                                   SEAL,
-                                   END};
-
+    CAROM_NO_FIELD};
+static const carom_field models[] = {CAROM_MOTION_OPTIONS(OPTION_KEY) CAROM_NO_FIELD};
+static const carom_field layout[] = {LISTED("list", CAROM_BALLS_MOST, balls, count, ball_fields),
+                                     CAROM_SEAL_FIELD, CAROM_NO_FIELD};
+static const carom_field place_fields[] = {CAROM_RECORD_FIELD("ball", INT64, true, 1, placed),
+                                           CAROM_RECORD_FIELD("at", DOUBLE, false, 2, place),
+                                           CAROM_RECORD_FIELD("hand", INT64, false, 1, hand),
+                                           CAROM_RECORD_FIELD("bounds", INT64, false, 1, bounds),
+                                           CAROM_SEAL_FIELD,
+                                           CAROM_NO_FIELD};
 /* How a shot ended. */
-#define ENDS                                                                                  \
-  R("status", INT64, true, 1, recorded.status), R("events", INT64, true, 1, recorded.events), \
-      R("time", DOUBLE, true, 1, recorded.time), R("hash", HASH, true, 1, recorded.hash)
-static const field shot[] = {
-    CAROM_CUE_NUMBERS(CUE_KEY, CUE_KEY) CAROM_STOP_OPTIONS(OPTION_KEY) ENDS, END};
-static const field goes_on[] = {CAROM_STOP_OPTIONS(OPTION_KEY) ENDS, END};
-static const field event[] = {R("time", DOUBLE, true, 1, event.time),
-                              R("type", INT32, true, 1, event.type),
-                              R("a", INT32, true, 1, event.a),
-                              R("b", INT32, false, 1, event.b),
-                              R("cluster", INT32, false, 1, event.cluster),
-                              R("impulse", DOUBLE, false, 1, event.impulse),
-                              LISTED("before", 2, event.before, before, state_fields),
-                              LISTED("after", 2, event.after, after, state_fields),
-                              END};
-static const field end[] = {R("shots", INT64, true, 1, shots), R("hash", HASH, true, 1, hash), END};
+#define ENDS                                                         \
+  CAROM_RECORD_FIELD("status", INT64, true, 1, recorded.status),     \
+      CAROM_RECORD_FIELD("events", INT64, true, 1, recorded.events), \
+      CAROM_RECORD_FIELD("time", DOUBLE, true, 1, recorded.time),    \
+      CAROM_RECORD_FIELD("hash", HASH, true, 1, recorded.hash)
+static const carom_field shot[] = {
+    CAROM_CUE_NUMBERS(CUE_KEY, CUE_KEY) CAROM_STOP_OPTIONS(OPTION_KEY) ENDS, CAROM_NO_FIELD};
+static const carom_field continued[] = {CAROM_STOP_OPTIONS(OPTION_KEY) ENDS, CAROM_NO_FIELD};
+static const carom_field event[] = {CAROM_RECORD_FIELD("time", DOUBLE, true, 1, event.time),
+                                    CAROM_RECORD_FIELD("type", INT32, true, 1, event.type),
+                                    CAROM_RECORD_FIELD("a", INT32, true, 1, event.a),
+                                    CAROM_RECORD_FIELD("b", INT32, false, 1, event.b),
+                                    CAROM_RECORD_FIELD("cluster", INT32, false, 1, event.cluster),
+                                    CAROM_RECORD_FIELD("impulse", DOUBLE, false, 1, event.impulse),
+                                    LISTED("before", 2, event.before, before, state_fields),
+                                    LISTED("after", 2, event.after, after, state_fields),
+                                    CAROM_NO_FIELD};
+static const carom_field end[] = {CAROM_RECORD_FIELD("shots", INT64, true, 1, shots),
+                                  CAROM_RECORD_FIELD("hash", HASH, true, 1, hash), CAROM_NO_FIELD};
 
-/* The lines, by carom_record_kind. */
-static const struct {
-  const char *key;
-  const field *fields;
-} lines[] = {{"", NULL},          {"recording", head},   {"table", table},
-             {"options", models}, {"balls", layout},     {"place", place_fields},
-             {"shot", shot},      {"continue", goes_on}, {"event", event},
-             {"end", end},        {"game", game_fields}, {"", NULL},
-             {"act", act_fields}};
-enum { KINDS = sizeof lines / sizeof lines[0] };
+static const char *find_fault_of_place(const carom_record *record, const char **key) {
+  *key = "hand";
+  if (record->hand < 0 || record->hand > 1)
+    return "must be 0 or 1";
+  return NULL;
+}
 
-static size_t size_of(const field *f) {
-  if (f->type == LIST)
+/* The lines of shots, by carom_record_kind. */
+static const carom_line lines[CAROM_LINE_KINDS] = {
+    [CAROM_RECORD_HEAD] = {.key = "recording", .fields = head},
+    [CAROM_RECORD_TABLE] = {.key = "table", .fields = table},
+    [CAROM_RECORD_OPTIONS] = {.key = "options", .fields = models},
+    [CAROM_RECORD_BALLS] = {.key = "balls", .fields = layout, .is_sealed = true},
+    [CAROM_RECORD_PLACE] = {.key = "place",
+                            .fields = place_fields,
+                            .is_sealed = true,
+                            .find_fault = find_fault_of_place},
+    [CAROM_RECORD_SHOT] = {.key = "shot", .fields = shot},
+    [CAROM_RECORD_CONTINUE] = {.key = "continue", .fields = continued},
+    [CAROM_RECORD_EVENT] = {.key = "event", .fields = event},
+    [CAROM_RECORD_END] = {.key = "end", .fields = end}};
+
+#ifdef CAROM_WITHOUT_PLAN
+const carom_line carom_upper_lines[CAROM_LINE_KINDS] = {{.key = NULL}};
+#endif
+
+/* The row of a kind; NULL: there is no such line. */
+static const carom_line *line_of(int kind) {
+  if (kind < 0 || kind >= CAROM_LINE_KINDS)
+    return NULL;
+  if (lines[kind].key != NULL)
+    return &lines[kind];
+  if (carom_upper_lines[kind].key != NULL)
+    return &carom_upper_lines[kind];
+  return NULL;
+}
+
+static bool is_shot(int kind) {
+  return kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE;
+}
+
+static size_t size_of(const carom_field *f) {
+  if (f->type == CAROM_VALUE_LIST)
     return f->size;
-  if (f->type == INT32)
+  if (f->type == CAROM_VALUE_INT32)
     return sizeof(int32_t);
   return sizeof(int64_t);
 }
@@ -153,34 +142,28 @@ static const int64_t MOST_WHOLE = 9007199254740991; /* of a double, 2^53 - 1 */
 /* Of recordings of shots, and of matches. */
 enum { FORMAT = 2, FORMAT_OF_MATCH = 3 };
 
-/* Whether lines of a kind end with the hash so far in a match. */
-static bool is_sealed(int kind) {
-  return kind == CAROM_RECORD_BALLS || kind == CAROM_RECORD_PLACE || kind == CAROM_RECORD_GAME ||
-         kind == CAROM_RECORD_ACT;
-}
-
 /* Adds an object to a hash: each of its numbers that is not 0, behind its place among them, counted
  * from 1; of a list the number of its objects and these; and 0 as its end. So a key that a later
  * version adds behind the others changes no hash where it is missing. */
-static uint64_t stir_object(uint64_t hash, const field *fields, const unsigned char *object) {
+static uint64_t stir_object(uint64_t hash, const carom_field *fields, const unsigned char *object) {
   uint64_t place = 0;
-  for (const field *f = fields; f->key != NULL; f++) {
-    const unsigned char *at = object + f->at;
+  for (const carom_field *f = fields; f->key != NULL; f++) {
+    const unsigned char *element = object + f->offset;
     int64_t n = f->count;
-    if (f->type == LIST) {
+    if (f->type == CAROM_VALUE_LIST) {
       memcpy(&n, object + f->counted, sizeof n);
       place++;
       if (n != 0)
         hash = carom_stir(carom_stir(hash, place), (uint64_t)n);
     }
-    for (int64_t k = 0; k < n; k++, at += size_of(f)) {
+    for (int64_t k = 0; k < n; k++, element += size_of(f)) {
       int64_t word = 0;
       int32_t half = 0;
-      if (f->type == LIST) {
-        hash = stir_object(hash, f->of, at);
+      if (f->type == CAROM_VALUE_LIST) {
+        hash = stir_object(hash, f->fields, element);
         continue;
       }
-      memcpy(f->type == INT32 ? (void *)&half : (void *)&word, at, size_of(f));
+      memcpy(f->type == CAROM_VALUE_INT32 ? (void *)&half : (void *)&word, element, size_of(f));
       word += half;
       place++;
       if (word != 0)
@@ -192,15 +175,14 @@ static uint64_t stir_object(uint64_t hash, const field *fields, const unsigned c
 
 /* The hash of the lines up to one of a kind whose values the record has. */
 static uint64_t stir_line(uint64_t hash, int kind, const carom_record *record) {
-  return stir_object(carom_stir(hash, (uint64_t)kind), lines[kind].fields,
+  return stir_object(carom_stir(hash, (uint64_t)kind), line_of(kind)->fields,
                      (const unsigned char *)record);
 }
 
 /* The hash behind a line: that of a shot covers the lines before it, so that a forged stroke is
  * told once and not by every line that follows. */
 static uint64_t hash_behind(uint64_t hash, int kind, const carom_record *record) {
-  const bool is_shot = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE;
-  if (is_shot)
+  if (is_shot(kind))
     return record->recorded.hash;
   return stir_line(hash, kind, record);
 }
@@ -210,58 +192,58 @@ static uint64_t hash_behind(uint64_t hash, int kind, const carom_record *record)
 /* A line on its way in, with the keys that led to the value that is read. */
 typedef struct reader {
   carom_record *record;
-  const char *at, *end;
+  const char *position, *end;
   const char *line, *list, *key; /* "balls", "list", "mass"; NULL where there is none */
   int index;                     /* in the list */
 } reader;
 
-static char *put(char *to, const char *limit, const char *text) {
-  while (*text != '\0' && to < limit)
-    *to++ = *text++;
-  return to;
+static char *put(char *tail, const char *limit, const char *text) {
+  while (*text != '\0' && tail < limit)
+    *tail++ = *text++;
+  return tail;
 }
 
 /* Writes the fault of the value of a key, by its whole path; returns false. */
 static bool wrong(reader *in, const char *what) {
   carom_record *record = in->record;
-  char *to = record->fault, *limit = to + sizeof record->fault - 1;
+  char *tail = record->fault, *limit = tail + sizeof record->fault - 1;
   if (in->line != NULL)
-    to = put(to, limit, in->line);
+    tail = put(tail, limit, in->line);
   if (in->list != NULL) {
     char number[CAROM_NUMBER_TEXT];
     number[carom_number_write(in->index, number)] = '\0';
-    to = put(put(put(put(put(to, limit, "."), limit, in->list), limit, "["), limit, number), limit,
-             "]");
+    tail = put(put(put(put(put(tail, limit, "."), limit, in->list), limit, "["), limit, number),
+               limit, "]");
   }
   if (in->key != NULL)
-    to = put(put(to, limit, "."), limit, in->key);
-  if (to > record->fault)
-    to = put(to, limit, " ");
-  *put(to, limit, what) = '\0';
+    tail = put(put(tail, limit, "."), limit, in->key);
+  if (tail > record->fault)
+    tail = put(tail, limit, " ");
+  *put(tail, limit, what) = '\0';
   return false;
 }
 
 /* ---- Reading --------------------------------------------------------------------------------- */
 
 static void skip_blanks(reader *in) {
-  while (in->at < in->end &&
-         (*in->at == ' ' || *in->at == '\t' || *in->at == '\r' || *in->at == '\n'))
-    in->at++;
+  while (in->position < in->end && (*in->position == ' ' || *in->position == '\t' ||
+                                    *in->position == '\r' || *in->position == '\n'))
+    in->position++;
 }
 
 /* Whether the next character, behind blanks, is c; then it is passed. */
 static bool next_is(reader *in, char c) {
   skip_blanks(in);
-  if (in->at == in->end || *in->at != c)
+  if (in->position == in->end || *in->position != c)
     return false;
-  in->at++;
+  in->position++;
   return true;
 }
 
 static bool expect(reader *in, char c, const char *what) {
   if (next_is(in, c))
     return true;
-  if (in->at == in->end)
+  if (in->position == in->end)
     what = "is cut off: the line ends too soon";
   return wrong(in, what);
 }
@@ -272,8 +254,8 @@ static bool read_key(reader *in, char key[KEY_TEXT]) {
   int n = 0;
   if (!expect(in, '"', "must be an object: a key in quotes comes here"))
     return false;
-  for (; in->at < in->end && *in->at != '"'; in->at++) {
-    char shown = *in->at;
+  for (; in->position < in->end && *in->position != '"'; in->position++) {
+    char shown = *in->position;
     if (shown < ' ' || shown > '~')
       shown = '?';
     if (n < KEY_TEXT - 1)
@@ -286,12 +268,12 @@ static bool read_key(reader *in, char key[KEY_TEXT]) {
 static bool read_number(reader *in, double *x) {
   const char *why;
   skip_blanks(in);
-  if (in->at == in->end)
+  if (in->position == in->end)
     return wrong(in, "is cut off: the line ends too soon");
-  const char *after = carom_number_read(in->at, in->end, x, &why);
-  if (after == NULL)
+  const char *following = carom_number_read(in->position, in->end, x, &why);
+  if (following == NULL)
     return wrong(in, why);
-  in->at = after;
+  in->position = following;
   return true;
 }
 
@@ -300,9 +282,9 @@ static bool read_hash(reader *in, uint64_t *hash) {
   static const char digits[] = "0123456789abcdef";
   const char *digit;
   *hash = 0;
-  bool good = next_is(in, '"') && in->end - in->at > 16;
-  for (int k = 0; good && k < 16; k++, in->at++) {
-    good = *in->at != '\0' && (digit = strchr(digits, *in->at)) != NULL;
+  bool good = next_is(in, '"') && in->end - in->position > 16;
+  for (int k = 0; good && k < 16; k++, in->position++) {
+    good = *in->position != '\0' && (digit = strchr(digits, *in->position)) != NULL;
     if (good)
       *hash = *hash << 4 | (uint64_t)(digit - digits);
   }
@@ -310,127 +292,145 @@ static bool read_hash(reader *in, uint64_t *hash) {
 }
 
 /* One value of a field that is no list. */
-static bool read_value(reader *in, const field *f, unsigned char *to) {
+static bool read_value(reader *in, const carom_field *f, unsigned char *value) {
   double x;
-  if (f->type == HASH) {
+  if (f->type == CAROM_VALUE_HASH) {
     uint64_t hash;
     if (!read_hash(in, &hash))
       return false;
-    memcpy(to, &hash, sizeof hash);
+    memcpy(value, &hash, sizeof hash);
     return true;
   }
   if (!read_number(in, &x))
     return false;
-  if (f->type == DOUBLE) {
-    memcpy(to, &x, sizeof x);
+  if (f->type == CAROM_VALUE_DOUBLE) {
+    memcpy(value, &x, sizeof x);
     return true;
   }
   double most = (double)MOST_WHOLE;
-  if (f->type == INT32)
+  if (f->type == CAROM_VALUE_INT32)
     most = INT32_MAX;
   if (!(x >= -most && x <= most) || x != (double)(int64_t)x)
     return wrong(in, "must be a whole number");
-  if (f->type == INT32)
-    memcpy(to, &(int32_t){(int32_t)x}, sizeof(int32_t));
+  if (f->type == CAROM_VALUE_INT32)
+    memcpy(value, &(int32_t){(int32_t)x}, sizeof(int32_t));
   else
-    memcpy(to, &(int64_t){(int64_t)x}, sizeof(int64_t));
+    memcpy(value, &(int64_t){(int64_t)x}, sizeof(int64_t));
   return true;
 }
 
-static bool read_object(reader *in, const field *fields, unsigned char *object);
+static bool read_object(reader *in, const carom_field *fields, unsigned char *object);
 
-/* [object, object, ...], each of which begins as a copy of the one before. */
-static bool read_list(reader *in, const field *f, unsigned char *object) {
+/* Element k of a list. It begins as a copy of the one before. */
+static unsigned char *begin_element(const carom_field *f, unsigned char *object, int64_t k) {
+  unsigned char *element = object + f->offset + (size_t)k * f->size;
+  if (k > 0)
+    memcpy(element, element - f->size, f->size);
+  else
+    memset(element, 0, f->size);
+  return element;
+}
+
+/* The elements of a list up to its bracket, and how many there are. */
+static bool read_elements(reader *in, const carom_field *f, unsigned char *object, int64_t *n) {
+  if (next_is(in, ']'))
+    return true;
+  do {
+    in->index = (int)*n;
+    if (*n == f->count)
+      return wrong(in, "is one object too many");
+    if (!read_object(in, f->fields, begin_element(f, object, *n)))
+      return false;
+    in->key = NULL;
+    ++*n;
+  } while (next_is(in, ','));
+  return expect(in, ']', "must be followed by ',' or ']'");
+}
+
+/* [object, object, ...] */
+static bool read_list(reader *in, const carom_field *f, unsigned char *object) {
   int64_t n = 0;
   in->list = f->key;
   in->key = NULL;
   if (!expect(in, '[', "must be a list of objects"))
     return false;
-  if (!next_is(in, ']'))
-    do {
-      unsigned char *to = object + f->at + (size_t)n * f->size;
-      in->index = (int)n;
-      if (n == f->count)
-        return wrong(in, "is one object too many");
-      if (n > 0)
-        memcpy(to, to - f->size, f->size);
-      else
-        memset(to, 0, f->size);
-      if (!read_object(in, f->of, to))
-        return false;
-      in->key = NULL;
-      n++;
-    } while (next_is(in, ','));
-  else
-    n = -1; /* an empty list is closed already */
-  if (n >= 0 && !expect(in, ']', "must be followed by ',' or ']'"))
+  if (!read_elements(in, f, object, &n))
     return false;
-  if (n < 0)
-    n = 0;
   memcpy(object + f->counted, &n, sizeof n);
   in->list = NULL;
   return true;
 }
 
-static bool read_field(reader *in, const field *f, unsigned char *object) {
-  if (f->type == LIST)
+static bool read_field(reader *in, const carom_field *f, unsigned char *object) {
+  if (f->type == CAROM_VALUE_LIST)
     return read_list(in, f, object);
   if (f->count > 1 && !expect(in, '[', "must be a list of numbers"))
     return false;
   for (int k = 0; k < f->count; k++)
     if ((k > 0 && !expect(in, ',', "has too few numbers")) ||
-        !read_value(in, f, object + f->at + (size_t)k * size_of(f)))
+        !read_value(in, f, object + f->offset + (size_t)k * size_of(f)))
       return false;
   return f->count == 1 || expect(in, ']', "has too many numbers");
 }
 
-static bool read_object(reader *in, const field *fields, unsigned char *object) {
+/* A key with its value. `seen` has a bit for each field that has come. */
+static bool read_entry(reader *in, const carom_field *fields, unsigned char *object,
+                       uint64_t *seen) {
+  char key[KEY_TEXT];
+  if (!read_key(in, key))
+    return false;
+  int k = 0;
+  while (fields[k].key != NULL && strcmp(fields[k].key, key) != 0)
+    k++;
+
+  /* keys are known, and come once */
+  in->key = key;
+  if (fields[k].key == NULL)
+    return wrong(in, "is no key of the format");
+  CAROM_PROMISE(k < 64);
+  if (*seen >> k & 1)
+    return wrong(in, "comes twice");
+  *seen |= UINT64_C(1) << k;
+
+  in->key = fields[k].key;
+  if (!read_field(in, &fields[k], object))
+    return false;
+  in->key = NULL;
+  return true;
+}
+
+static bool read_entries(reader *in, const carom_field *fields, unsigned char *object,
+                         uint64_t *seen) {
+  if (next_is(in, '}'))
+    return true;
+  do {
+    if (!read_entry(in, fields, object, seen))
+      return false;
+  } while (next_is(in, ','));
+  return expect(in, '}', "must be followed by ',' or '}'");
+}
+
+static bool read_object(reader *in, const carom_field *fields, unsigned char *object) {
   uint64_t seen = 0;
   if (!expect(in, '{', "must be an object"))
     return false;
-  if (!next_is(in, '}')) {
-    do {
-      /* the field of that key */
-      char key[KEY_TEXT];
-      int k = 0;
-      if (!read_key(in, key))
-        return false;
-      while (fields[k].key != NULL && strcmp(fields[k].key, key) != 0)
-        k++;
-
-      /* keys are known, and come once */
-      in->key = key;
-      if (fields[k].key == NULL)
-        return wrong(in, "is no key of the format");
-      CAROM_PROMISE(k < 64);
-      if (seen >> k & 1)
-        return wrong(in, "comes twice");
-      seen |= UINT64_C(1) << k;
-      /* its value */
-      in->key = fields[k].key;
-      if (!read_field(in, &fields[k], object))
-        return false;
-      in->key = NULL;
-    } while (next_is(in, ','));
-    if (!expect(in, '}', "must be followed by ',' or '}'"))
-      return false;
+  if (!read_entries(in, fields, object, &seen))
+    return false;
+  for (int k = 0; fields[k].key != NULL; k++) {
+    if (!fields[k].is_required || (seen >> k & 1))
+      continue;
+    in->key = fields[k].key;
+    return wrong(in, "is missing");
   }
-
-  /* those that must be there */
-  for (int k = 0; fields[k].key != NULL; k++)
-    if (fields[k].always && !(seen >> k & 1)) {
-      in->key = fields[k].key;
-      return wrong(in, "is missing");
-    }
   return true;
 }
 
 /* All fields of a line as they are where their keys are missing. */
-static void clear(carom_record *record, const field *fields) {
+static void clear(carom_record *record, const carom_field *fields) {
   unsigned char *object = (unsigned char *)record;
-  for (const field *f = fields; f->key != NULL; f++) {
-    memset(object + f->at, 0, (size_t)f->count * size_of(f));
-    if (f->type == LIST)
+  for (const carom_field *f = fields; f->key != NULL; f++) {
+    memset(object + f->offset, 0, (size_t)f->count * size_of(f));
+    if (f->type == CAROM_VALUE_LIST)
       memset(object + f->counted, 0, sizeof(int64_t));
   }
 }
@@ -439,9 +439,9 @@ static void clear(carom_record *record, const field *fields) {
 
 /* Whether a line of a kind may follow those before it; else why not. */
 static const char *out_of_place(const carom_record *record, int kind) {
-  const bool shot_before = record->kind == CAROM_RECORD_SHOT ||
-                           record->kind == CAROM_RECORD_CONTINUE ||
-                           record->kind == CAROM_RECORD_EVENT;
+  const bool follows_shot = is_shot((int)record->kind) || (int)record->kind == CAROM_RECORD_EVENT;
+  const bool needs_layout = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_PLACE;
+  const carom_line *line = line_of(kind);
   if (record->kind == CAROM_RECORD_END)
     return "stands behind the end of the recording";
   if (record->kind == CAROM_RECORD_WRONG)
@@ -450,13 +450,13 @@ static const char *out_of_place(const carom_record *record, int kind) {
     return "stands where {\"recording\": ...} must: in the first line";
   if (record->format != 0 && kind == CAROM_RECORD_HEAD)
     return "comes twice";
-  if (kind == CAROM_RECORD_ACT && record->match != 1)
+  if (line != NULL && line->is_of_match && record->match != 1)
     return "is a line of matches, format 3, in a recording of format 2";
-  if (kind == CAROM_RECORD_EVENT && !shot_before)
+  if (kind == CAROM_RECORD_EVENT && !follows_shot)
     return "must follow a shot, its continuation, or another event";
-  if ((kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_PLACE) && record->count == 0)
+  if (needs_layout && record->count == 0)
     return "has no balls: a line {\"balls\": ...} must come before";
-  if ((kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_PLACE) && record->table.rails == 0)
+  if (needs_layout && record->table.rails == 0)
     return "has no table: a line {\"table\": ...} must come before";
   return NULL;
 }
@@ -474,9 +474,9 @@ carom_status carom_record_settle(carom_record *record) {
 
 carom_status carom_record_place(carom_record *record, int ball, double x, double y,
                                 carom_part *in_the_way) {
-  const carom_status bad = carom_record_settle(record);
-  if (bad < 0)
-    return bad;
+  const carom_status settled = carom_record_settle(record);
+  if (settled < 0)
+    return settled;
   const carom_status status =
       carom_place_ball(&record->table, record->balls, (int)record->count, ball, x, y, in_the_way);
   if (status != CAROM_OK)
@@ -490,9 +490,9 @@ carom_status carom_record_place(carom_record *record, int ball, double x, double
 }
 
 carom_status carom_record_hand(carom_record *record, int ball) {
-  const carom_status bad = carom_record_settle(record);
-  if (bad < 0)
-    return bad;
+  const carom_status settled = carom_record_settle(record);
+  if (settled < 0)
+    return settled;
   if (ball < 0 || ball >= record->count)
     return CAROM_ERROR_BALLS;
   record->placed = ball;
@@ -502,52 +502,25 @@ carom_status carom_record_hand(carom_record *record, int ball) {
   return CAROM_OK;
 }
 
-enum { RULES_MOST = 1000 }; /* more kinds of rules than there will be */
-
-/* How the game stands: each member within its row, or 0 of a game without it. Lines that are
- * written are checked too. */
-static bool check_standing(reader *in) {
-#define CHECK_MEMBER(NAME, member, low, high, range)                \
-  in->key = #member;                                                \
-  memcpy(value, &state->member, sizeof state->member);              \
-  for (size_t k = 0; k < sizeof state->member / sizeof *value; k++) \
-    if (value[k] != 0 && (value[k] < (low) || value[k] > (high)))   \
-      return wrong(in, "must be " range);
-  const carom_rules_state *state = &in->record->standing;
-  int32_t value[2];
-  CAROM_ALL_MEMBERS(CHECK_MEMBER)
-  in->key = "rules";
-  if (in->record->rules < 0 || in->record->rules > RULES_MOST)
-    return wrong(in, "must be a carom_rules_kind");
-  in->key = "winner";
-  if (in->record->winner < 0 || in->record->winner > 3)
-    return wrong(in, "must be 0, 1, 2 or 3");
-  in->key = "player";
-  return (in->record->player >> 1) == 0 || wrong(in, "must be 0 or 1");
-}
-
-/* Whether the place of a ball in hand can be one. */
-static bool check_place(reader *in) {
-  enum { LEAVES = 6 };
-  in->key = "hand";
-  if ((in->record->hand >> 1) != 0)
-    return wrong(in, "must be 0 or 1");
-  in->key = "bounds";
-  return (in->record->bounds >= 0 && in->record->bounds < LEAVES) ||
-         wrong(in, "must be a carom_leave");
-}
-
-/* What a player decided. */
-static bool check_act(reader *in) {
-  in->key = "player";
-  return (in->record->actor >> 1) == 0 || wrong(in, "must be 0 or 1");
+/* What is wrong with the values of a line, and its key; NULL: nothing. Lines that are written are
+ * checked too. */
+static const char *find_fault(const carom_record *record, int kind, const char **key) {
+  const carom_line *const rows[2] = {&lines[kind], &carom_upper_lines[kind]};
+  for (int k = 0; k < 2; k++) {
+    const char *fault = NULL;
+    if (rows[k]->find_fault != NULL)
+      fault = rows[k]->find_fault(record, key);
+    if (fault != NULL)
+      return fault;
+  }
+  return NULL;
 }
 
 /* Whether the seal of a line that was read is the hash so far, which the line becomes a part of. */
 static bool check_seal(reader *in, int kind, uint64_t seal) {
   const carom_record *record = in->record;
   in->key = "hash";
-  if (!is_sealed(kind))
+  if (!line_of(kind)->is_sealed)
     return true;
   if (record->match != 1)
     return seal == 0 || wrong(in, "stands in lines of matches alone, format 3");
@@ -573,9 +546,6 @@ static bool check_head(reader *in) {
 /* A ball comes in hand, or is placed by the rules of carom_place_ball(). */
 static bool apply_place(reader *in) {
   carom_record *record = in->record;
-  if (!check_place(in))
-    return false;
-  in->key = NULL;
   int ball = -1;
   if (record->placed >= 0 && record->placed < record->count)
     ball = (int)record->placed;
@@ -587,26 +557,39 @@ static bool apply_place(reader *in) {
   return status == CAROM_OK || wrong(in, carom_status_string(status));
 }
 
-/* A line that was read is applied to the game. */
+/* The end has the numbers of the lines above it: `shots` and `hash`. */
+static bool apply_end(reader *in, int64_t shots, uint64_t hash) {
+  carom_record *record = in->record;
+  const bool same_shots = record->shots == shots;
+  const bool same_hash = record->hash == hash;
+  record->shots = shots;
+  record->hash = hash;
+  in->key = "shots";
+  if (same_shots)
+    in->key = "hash";
+  return (same_shots && same_hash) || wrong(in, "is not that of the lines above");
+}
+
+/* A line that was read is applied to the game, in which `shots` and `hash` were those before. */
 static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
   carom_record *record = in->record;
   in->key = NULL;
+  const char *fault = find_fault(record, kind, &in->key);
+  if (fault != NULL)
+    return wrong(in, fault);
+  in->key = NULL;
   switch (kind) {
-  /* what the game begins with */
   case CAROM_RECORD_HEAD:
     return check_head(in);
   case CAROM_RECORD_BALLS:
     record->moved = 0;
     in->key = "list";
     return record->count > 0 || wrong(in, "must have 1 to 32 balls");
-
-  /* a ball is placed by the rules of carom_place_ball() */
   case CAROM_RECORD_PLACE:
     return apply_place(in);
-
-  /* the caller is to play it before the next line */
   case CAROM_RECORD_SHOT:
   case CAROM_RECORD_CONTINUE:
+    /* the caller is to play it before the next line */
     record->pending = 1;
     record->played.hash = hash; /* for carom_record_play() */
     record->shots++;
@@ -614,59 +597,69 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
   case CAROM_RECORD_EVENT:
     return record->before == record->after ||
            wrong(in, "has states of other balls before and after");
-
-  case CAROM_RECORD_GAME:
-    return check_standing(in);
-  case CAROM_RECORD_ACT:
-    return check_act(in);
-
-  /* of what was read up to here */
-  case CAROM_RECORD_END: {
-    const bool same_shots = record->shots == shots, same_hash = record->hash == hash;
-    record->shots = shots;
-    record->hash = hash;
-    in->key = "shots";
-    if (same_shots)
-      in->key = "hash";
-    return (same_shots && same_hash) || wrong(in, "is not that of the lines above");
-  }
+  case CAROM_RECORD_END:
+    return apply_end(in, shots, hash);
   default:
     return true;
   }
 }
 
-/* The line, which is not blank, up to its kind. */
+/* The kind of lines that has a key; -1: none has. */
+static int kind_of(const char *key) {
+  for (int kind = 0; kind < CAROM_LINE_KINDS; kind++) {
+    const carom_line *line = line_of(kind);
+    if (line != NULL && strcmp(line->key, key) == 0)
+      return kind;
+  }
+  return -1;
+}
+
+/* Whether a line of a kind may come here. */
+static bool may_come(reader *in, int kind) {
+  const carom_record *record = in->record;
+  const char *why = out_of_place(record, kind);
+  const bool waits = kind != CAROM_RECORD_EVENT && kind != CAROM_RECORD_END;
+  if (why == NULL && record->pending == 1 && waits)
+    why = "comes before the shot above was played";
+  return why == NULL || wrong(in, why);
+}
+
+/* The object of a line, into the record, and the end of the line. */
+static bool read_fields(reader *in, const carom_field *fields) {
+  carom_record *record = in->record;
+  clear(record, fields);
+  record->seal = 0;
+  if (!read_object(in, fields, (unsigned char *)record))
+    return false;
+  if (!expect(in, '}', "must be the only key of its line"))
+    return false;
+  skip_blanks(in);
+  return in->position == in->end || wrong(in, "has more text behind its object");
+}
+
+/* The line, which is not blank, and its kind. */
 static bool read_line(reader *in, int *kind) {
   carom_record *record = in->record;
   char key[KEY_TEXT];
   if (!expect(in, '{', "is no line of a recording: it must be an object") || !read_key(in, key))
     return false;
   in->line = key;
-  for (*kind = 1; *kind < KINDS && strcmp(lines[*kind].key, key) != 0; ++*kind)
-    continue;
-  if (*kind == KINDS || lines[*kind].fields == NULL)
+  *kind = kind_of(key);
+  if (*kind < 0)
     return wrong(in, "is no line of a recording");
-  const char *why = out_of_place(record, *kind);
-  if (why == NULL && record->pending == 1 && *kind != CAROM_RECORD_EVENT &&
-      *kind != CAROM_RECORD_END)
-    why = "comes before the shot above was played";
-  if (why != NULL)
-    return wrong(in, why);
-  in->line = lines[*kind].key;
+  if (!may_come(in, *kind))
+    return false;
+
+  const carom_line *line = line_of(*kind);
   const int64_t shots = record->shots;
   const uint64_t hash = record->hash;
-  clear(record, lines[*kind].fields);
-  record->seal = 0;
-  if (!read_object(in, lines[*kind].fields, (unsigned char *)record) ||
-      !expect(in, '}', "must be the only key of its line"))
-    return false;
-  skip_blanks(in);
-  if (in->at != in->end)
-    return wrong(in, "has more text behind its object");
-  if (!apply(in, *kind, shots, hash))
+  in->line = line->key;
+  if (!read_fields(in, line->fields) || !apply(in, *kind, shots, hash))
     return false;
   if (*kind == CAROM_RECORD_END)
     return true;
+
+  /* the hash behind the line covers its seal by the lines before it alone */
   const uint64_t seal = record->seal;
   record->seal = 0;
   record->hash = hash_behind(hash, *kind, record);
@@ -677,11 +670,11 @@ static bool read_line(reader *in, int *kind) {
 carom_status carom_record_read(carom_record *record, const char *line, size_t size) {
   if (record == NULL || line == NULL)
     return CAROM_ERROR_NULL;
-  reader in = {.record = record, .at = line, .end = line + size};
+  reader in = {.record = record, .position = line, .end = line + size};
   int kind = CAROM_RECORD_BLANK;
   record->line++;
   skip_blanks(&in);
-  if (in.at == in.end)
+  if (in.position == in.end)
     return CAROM_OK;
   const bool good = read_line(&in, &kind);
   record->kind = CAROM_RECORD_WRONG; /* nothing is read behind a fault */
@@ -711,68 +704,42 @@ static bool is_moving(const carom_record *record) {
   return false;
 }
 
-carom_status carom_record_play(carom_record *record, carom_record_kind kind, carom_shot *wanted) {
-  static const carom_shot none = {0};
-  enum { UNTOUCHED = -1 }; /* a label that no ball has */
-  if (record == NULL)
-    return CAROM_ERROR_NULL;
-  const bool goes = kind == CAROM_RECORD_CONTINUE;
-  const bool ended = record->kind == CAROM_RECORD_END || record->kind == CAROM_RECORD_WRONG;
-  if (ended) {
-    reader in = {.record = record};
-    wrong(&in, out_of_place(record, (int)kind));
-    return CAROM_ERROR_RECORD;
-  }
-  if ((!goes && kind != CAROM_RECORD_SHOT) || record->count < 1 ||
-      record->count > CAROM_BALLS_MOST || (goes && record->moved == 0)) {
-    reader in = {.record = record};
-    wrong(&in, "there is no shot to be played");
-    return CAROM_ERROR_RECORD;
-  }
-  if (!goes && record->cue.speed > 0.0 && is_moving(record)) {
-    reader in = {.record = record};
-    wrong(&in, "balls move, so that no ball is struck: the shot before is to be continued");
-    return CAROM_ERROR_RECORD;
-  }
+/* Whether the shot that the record has can be played; else why not. */
+static const char *not_to_be_played(const carom_record *record, carom_record_kind kind) {
+  const bool goes_on = kind == CAROM_RECORD_CONTINUE;
+  if (record->kind == CAROM_RECORD_END || record->kind == CAROM_RECORD_WRONG)
+    return out_of_place(record, (int)kind);
+  if (!is_shot((int)kind) || record->count < 1 || record->count > CAROM_BALLS_MOST)
+    return "there is no shot to be played";
+  if (goes_on && record->moved == 0)
+    return "there is no shot to be played";
+  if (!goes_on && record->cue.speed > 0.0 && is_moving(record))
+    return "balls move, so that no ball is struck: the shot before is to be continued";
+  return NULL;
+}
 
-  /* recordings promise the bits that all machines share */
-  carom_shot local = none, *played = &local;
-  if (wanted != NULL)
-    played = wanted;
-  carom_shot_options options = record->options;
-  options.fast = 0;
-  options.threads = 0;
-
-  /* the end that the shot before left; a copy of the state costs as much as a short shot */
-  const carom_ball_state first = record->final[0];
-  if (!goes)
-    carom_record_settle(record);
-  else {
+/* Prepares a shot whose results go into the record. */
+static void prepare_shot(carom_record *record, bool goes_on, bool may_stop, carom_shot *played) {
+  if (goes_on) {
     played->count = record->played.events;
     played->time = record->played.time;
+  } else {
+    carom_record_settle(record);
   }
   played->final = record->final;
   played->facts = &record->facts;
+  /* a copy of the state costs as much as a short shot */
   played->state = NULL;
-  if (goes || stops(&options))
+  if (goes_on || may_stop)
     played->state = &record->state;
   else
     record->state.opaque[0] = 0;
+}
 
-  /* whether anything is played shows in the states at the end */
-  record->final[0].label = UNTOUCHED;
-  const int count = (int)record->count;
-  carom_status status;
-  if (goes)
-    status = carom_shot_continue(&record->table, record->balls, count, &options, played);
-  else
-    status = carom_shoot(&record->table, record->balls, count, &record->cue, &options, played);
-  if (record->final[0].label == UNTOUCHED) { /* nothing was played */
-    record->final[0] = first;
-    return status;
-  }
-
-  /* the lines before, the stroke, and how it ended, as 3 words and 10 of each ball */
+/* How the shot ended, with the hash of the lines before it, of the stroke, and of its end as 3
+ * words and 10 of each ball. */
+static void note_end(carom_record *record, carom_record_kind kind, carom_status status,
+                     const carom_shot *played) {
   const carom_record_end recorded = record->recorded;
   uint64_t hash = record->hash;
   if (record->pending == 1)
@@ -782,191 +749,224 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
   record->recorded = recorded;
   record->played = (carom_record_end){status, played->count, played->time, 0};
   hash = carom_fingerprint(hash, &record->played, 3 * sizeof(uint64_t));
-  hash = carom_fingerprint(hash, record->final, (size_t)count * sizeof *record->final);
+  hash = carom_fingerprint(hash, record->final, (size_t)record->count * sizeof *record->final);
   record->played.hash = hash;
   record->moved = 1;
   record->pending = 2;
   record->kind = kind;
+}
+
+carom_status carom_record_play(carom_record *record, carom_record_kind kind,
+                               carom_shot *caller_shot) {
+  static const carom_shot none = {0};
+  enum { UNTOUCHED = -1 }; /* a label that no ball has */
+  if (record == NULL)
+    return CAROM_ERROR_NULL;
+  const char *why = not_to_be_played(record, kind);
+  if (why != NULL) {
+    wrong(&(reader){.record = record}, why);
+    return CAROM_ERROR_RECORD;
+  }
+
+  /* recordings promise the bits that all machines share */
+  carom_shot_options options = record->options;
+  options.fast = 0;
+  options.threads = 0;
+  carom_shot local = none, *played = &local;
+  if (caller_shot != NULL)
+    played = caller_shot;
+  const carom_ball_state first = record->final[0];
+  const bool goes_on = kind == CAROM_RECORD_CONTINUE;
+  prepare_shot(record, goes_on, stops(&options), played);
+
+  /* whether anything is played shows in the states at the end */
+  record->final[0].label = UNTOUCHED;
+  const int count = (int)record->count;
+  carom_status status;
+  if (goes_on)
+    status = carom_shot_continue(&record->table, record->balls, count, &options, played);
+  else
+    status = carom_shoot(&record->table, record->balls, count, &record->cue, &options, played);
+  if (record->final[0].label == UNTOUCHED)
+    record->final[0] = first;
+  else
+    note_end(record, kind, status, played);
   return status;
 }
 
 /* ---- Writing --------------------------------------------------------------------------------- */
 
 typedef struct writer {
-  char *at, *end; /* equal where the room is too small, or something cannot be written */
+  char *position, *end; /* equal where the room is too small, or something cannot be written */
 } writer;
 
 static void write_text(writer *out, const char *text) {
-  const size_t room = (size_t)(out->end - out->at);
+  const size_t room = (size_t)(out->end - out->position);
   size_t n = strlen(text);
   if (n > room)
     n = room;
-  CAROM_PROMISE(out->at <= out->end);
-  memcpy(out->at, text, n);
-  out->at += n;
+  CAROM_PROMISE(out->position <= out->end);
+  memcpy(out->position, text, n);
+  out->position += n;
 }
 
-static void write_value(writer *out, const field *f, const unsigned char *from) {
+/* 16 digits in quotes. */
+static void write_hash(writer *out, uint64_t hash) {
   char text[CAROM_NUMBER_TEXT];
-  if (f->type == HASH) {
-    uint64_t hash;
-    memcpy(&hash, from, sizeof hash);
-    text[0] = text[17] = '"';
-    for (int k = 0; k < 16; k++)
-      text[1 + k] = "0123456789abcdef"[hash >> (60 - 4 * k) & 15];
-    text[18] = '\0';
-  } else {
-    double x = 0.0;
-    int64_t whole = 0;
-    int32_t half = 0;
-    if (f->type == DOUBLE)
-      memcpy(&x, from, sizeof x);
-    else if (f->type == INT64)
-      memcpy(&whole, from, sizeof whole);
-    else
-      memcpy(&half, from, sizeof half);
-    if (f->type != DOUBLE) /* -0 stays */
-      x = (double)(whole + half);
-    if (f->type == INT64 && (whole > MOST_WHOLE || whole < -MOST_WHOLE)) /* nor such a whole one */
-      out->at = out->end;
-    if (!(x - x == 0.0)) /* JSON has no such number */
-      out->at = out->end;
-    const int size = carom_number_write(x, text);
-    CAROM_PROMISE(size > 0 && size < CAROM_NUMBER_TEXT);
-    text[size] = '\0';
-  }
+  text[0] = text[17] = '"';
+  for (int k = 0; k < 16; k++)
+    text[1 + k] = "0123456789abcdef"[hash >> (60 - 4 * k) & 15];
+  text[18] = '\0';
   write_text(out, text);
 }
 
-static void write_object(writer *out, const field *fields, const unsigned char *object,
-                         const unsigned char *before);
+/* A number; JSON has none that is not finite, and not all whole ones beyond 2^53. */
+static void write_number(writer *out, const carom_field *f, const unsigned char *value) {
+  double x = 0.0;
+  int64_t whole = 0;
+  int32_t half = 0;
+  if (f->type == CAROM_VALUE_DOUBLE)
+    memcpy(&x, value, sizeof x);
+  else if (f->type == CAROM_VALUE_INT64)
+    memcpy(&whole, value, sizeof whole);
+  else
+    memcpy(&half, value, sizeof half);
+  if (f->type != CAROM_VALUE_DOUBLE) /* -0 stays */
+    x = (double)(whole + half);
+  if (whole > MOST_WHOLE || whole < -MOST_WHOLE || !(x - x == 0.0))
+    out->position = out->end;
 
-static void write_list(writer *out, const field *f, const unsigned char *object, int64_t n) {
+  char text[CAROM_NUMBER_TEXT];
+  const int size = carom_number_write(x, text);
+  CAROM_PROMISE(size > 0 && size < CAROM_NUMBER_TEXT);
+  text[size] = '\0';
+  write_text(out, text);
+}
+
+static void write_value(writer *out, const carom_field *f, const unsigned char *value) {
+  if (f->type != CAROM_VALUE_HASH) {
+    write_number(out, f, value);
+    return;
+  }
+  uint64_t hash;
+  memcpy(&hash, value, sizeof hash);
+  write_hash(out, hash);
+}
+
+static void write_object(writer *out, const carom_field *fields, const unsigned char *object,
+                         const unsigned char *previous);
+
+static void write_list(writer *out, const carom_field *f, const unsigned char *object, int64_t n) {
   static const unsigned char nothing[sizeof(carom_shot_ball)] = {0};
-  const unsigned char *before = nothing;
+  const unsigned char *previous = nothing;
   write_text(out, "[");
   for (int64_t k = 0; k < n; k++) {
-    const unsigned char *at = object + f->at + (size_t)k * f->size;
+    const unsigned char *element = object + f->offset + (size_t)k * f->size;
     if (k > 0)
       write_text(out, ",");
-    write_object(out, f->of, at, before);
-    before = at;
+    write_object(out, f->fields, element, previous);
+    previous = element;
   }
   write_text(out, "]");
 }
 
-/* The fields that are not as in `before`, or where that is NULL not all 0. */
-static void write_object(writer *out, const field *fields, const unsigned char *object,
-                         const unsigned char *before) {
+/* How many numbers or elements a field has; -1: a count that was damaged. */
+static int64_t count_of(const carom_field *f, const unsigned char *object) {
+  int64_t n = f->count;
+  if (f->type == CAROM_VALUE_LIST)
+    memcpy(&n, object + f->counted, sizeof n);
+  if (n < 0 || n > f->count)
+    return -1;
+  return n;
+}
+
+/* Whether a field is left out: an empty list, or a number as in the object before, or 0 where that
+ * is NULL. */
+static bool is_left_out(const carom_field *f, const unsigned char *object,
+                        const unsigned char *previous, int64_t n) {
   static const unsigned char zeros[8 * sizeof(double)] = {0};
+  if (f->type == CAROM_VALUE_LIST)
+    return n == 0;
+  if (f->is_required)
+    return false;
+  const unsigned char *usual = zeros;
+  if (previous != NULL)
+    usual = previous + f->offset;
+  return memcmp(object + f->offset, usual, (size_t)n * size_of(f)) == 0;
+}
+
+/* A list, a number, or numbers in brackets. */
+static void write_field(writer *out, const carom_field *f, const unsigned char *object, int64_t n) {
+  if (f->type == CAROM_VALUE_LIST) {
+    write_list(out, f, object, n);
+    return;
+  }
+  if (n != 1)
+    write_text(out, "[");
+  for (int64_t k = 0; k < n; k++) {
+    if (k > 0)
+      write_text(out, ",");
+    write_value(out, f, object + f->offset + (size_t)k * size_of(f));
+  }
+  if (n != 1)
+    write_text(out, "]");
+}
+
+static void write_object(writer *out, const carom_field *fields, const unsigned char *object,
+                         const unsigned char *previous) {
   bool first = true;
   write_text(out, "{");
-  for (const field *f = fields; f->key != NULL; f++) {
-    /* how many numbers or elements; a count that was damaged writes nothing */
-    int64_t n = f->count;
-    if (f->type == LIST)
-      memcpy(&n, object + f->counted, sizeof n);
-    if (n < 0 || n > f->count) {
-      out->at = out->end;
+  for (const carom_field *f = fields; f->key != NULL; f++) {
+    const int64_t n = count_of(f, object);
+    if (n < 0) {
+      out->position = out->end;
       return;
     }
-    /* an empty list, and a number as before, are left out */
-    if (f->type == LIST && n == 0)
+    if (is_left_out(f, object, previous, n))
       continue;
-    const unsigned char *last = zeros;
-    if (before != NULL)
-      last = before + f->at;
-    if (f->type != LIST && !f->always && memcmp(object + f->at, last, (size_t)n * size_of(f)) == 0)
-      continue;
-
-    /* the key, then a list, a number, or numbers in brackets */
     if (!first)
       write_text(out, ",");
+    first = false;
     write_text(out, "\"");
     write_text(out, f->key);
     write_text(out, "\":");
-    first = false;
-    if (f->type == LIST) {
-      write_list(out, f, object, n);
-      continue;
-    }
-    if (n != 1)
-      write_text(out, "[");
-    for (int k = 0; k < n; k++) {
-      if (k > 0)
-        write_text(out, ",");
-      write_value(out, f, object + f->at + (size_t)k * size_of(f));
-    }
-    if (n != 1)
-      write_text(out, "]");
+    write_field(out, f, object, n);
   }
   write_text(out, "}");
 }
 
-/* Whether the reader takes the values of a line by the same ranges. */
-static bool can_be_read(carom_record *record, int kind) {
-  reader in = {.record = record};
-  switch (kind) {
-  case CAROM_RECORD_BALLS:
-    return record->count > 0;
-  case CAROM_RECORD_GAME:
-    return check_standing(&in);
-  case CAROM_RECORD_PLACE:
-    return check_place(&in);
-  case CAROM_RECORD_ACT:
-    return check_act(&in);
-  default:
-    return true;
-  }
-}
-
 /* Whether a line of a kind can be written here: the reader would take it. */
-static bool can_be_written(carom_record *record, int kind) {
-  const bool is_shot = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE;
-  if (out_of_place(record, kind) != NULL || !can_be_read(record, kind))
+static bool can_be_written(const carom_record *record, int kind) {
+  const char *key;
+  if (out_of_place(record, kind) != NULL || find_fault(record, kind, &key) != NULL)
     return false;
-  return !is_shot || (record->pending == 2 && record->kind == kind);
+  if (kind == CAROM_RECORD_BALLS)
+    return record->count > 0;
+  if (is_shot(kind))
+    return record->pending == 2 && (int)record->kind == kind;
+  return true;
 }
 
-size_t carom_record_write(carom_record *record, carom_record_kind kind, char *text, size_t room) {
-  if (record == NULL || text == NULL || room == 0 || kind == CAROM_RECORD_BLANK ||
-      (uint32_t)kind >= KINDS || lines[kind].fields == NULL) /* enumerations may be signed or not */
-    return 0;
-  const bool is_shot = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE;
-  if (!can_be_written(record, (int)kind))
-    return 0;
-
-  /* what the line says beside what is there */
+/* Numbers that a line says beside what the record has. Returns the hash behind the line. */
+static uint64_t complete_line(carom_record *record, int kind) {
   if (kind == CAROM_RECORD_HEAD) {
     record->format = FORMAT;
     if (record->match == 1)
       record->format = FORMAT_OF_MATCH;
     record->revision = carom_physics_revision();
   }
-  if (is_shot)
+  if (is_shot(kind))
     record->recorded = record->played;
-
   record->seal = 0;
-  const uint64_t hash = hash_behind(record->hash, (int)kind, record);
-  if (record->match == 1 && is_sealed((int)kind))
+  const uint64_t hash = hash_behind(record->hash, kind, record);
+  if (record->match == 1 && line_of(kind)->is_sealed)
     record->seal = hash;
+  return hash;
+}
 
-  /* the text; where there is no room for it nothing has happened */
-  writer out = {text, text + room};
-  write_text(&out, "{\"");
-  write_text(&out, lines[kind].key);
-  write_text(&out, "\":");
-  write_object(&out, lines[kind].fields, (const unsigned char *)record, NULL);
-  write_text(&out, "}\n");
-  if (out.at == out.end) {
-    if (kind == CAROM_RECORD_HEAD)
-      record->format = 0;
-    return 0;
-  }
-
-  /* what the line means for those behind it */
-  *out.at = '\0';
-  if (is_shot) {
+/* What a line that was written means for those behind it. */
+static void pass_line(carom_record *record, int kind, uint64_t hash) {
+  if (is_shot(kind)) {
     record->pending = 0;
     record->shots++;
   }
@@ -974,5 +974,29 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
     record->hash = hash;
   record->kind = kind;
   record->line++;
-  return (size_t)(out.at - text);
+}
+
+size_t carom_record_write(carom_record *record, carom_record_kind kind, char *text, size_t room) {
+  if (record == NULL || text == NULL || room == 0)
+    return 0;
+  const carom_line *line = line_of((int)kind);
+  if (line == NULL || !can_be_written(record, (int)kind))
+    return 0;
+  const uint64_t hash = complete_line(record, (int)kind);
+
+  /* the text; where there is no room for it nothing has happened */
+  writer out = {text, text + room};
+  write_text(&out, "{\"");
+  write_text(&out, line->key);
+  write_text(&out, "\":");
+  write_object(&out, line->fields, (const unsigned char *)record, NULL);
+  write_text(&out, "}\n");
+  if (out.position == out.end) {
+    if (kind == CAROM_RECORD_HEAD)
+      record->format = 0;
+    return 0;
+  }
+  *out.position = '\0';
+  pass_line(record, (int)kind, hash);
+  return (size_t)(out.position - text);
 }

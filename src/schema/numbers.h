@@ -178,30 +178,12 @@
   LATER(w, "", "rad/s", -1e6, 1e6, NAN, SPIN, "angular velocity") \
   LATER(label, "", "", 0, 6, NAN, LABEL, "how it moves, a carom_label")
 
-/* MEMBER(NAME, member, low, high, range), of carom_rules_state, in its order. */
-#define CAROM_STATE_MEMBERS(MEMBER)                      \
-  MEMBER(OPENING, opening, 0, 1, "0 or 1")               \
-  MEMBER(GROUP, group, 0, 2, "0, 1 or 2")                \
-  MEMBER(FOULS, fouls, 0, 2, "0, 1 or 2")                \
-  MEMBER(SCORE, score, 0, 1000000, "0 to 1000000")       \
-  MEMBER(LOST, lost, 0, 1000000, "0 to 1000000")         \
-  MEMBER(POCKET, pocket, 0, 7, "0 to 7")                 \
-  MEMBER(MAY, may, 0, 255, "a sum that the game allows") \
-  MEMBER(ON, on, 0, 1, "0 or 1")                         \
-  MEMBER(FREE_BALL, free_ball, 0, 21, "0 to 21")         \
-  MEMBER(TARGET, target, 1, 1000000, "1 to 1000000")
-
-/* Members that came later. Their keys stand behind the others of a line, so that the hashes of
- * older recordings stay. */
-#define CAROM_LATER_MEMBERS(MEMBER) MEMBER(INNINGS, innings, 0, 3, "0 to 3")
-#define CAROM_ALL_MEMBERS(MEMBER) CAROM_STATE_MEMBERS(MEMBER) CAROM_LATER_MEMBERS(MEMBER)
-
 /* For the rows that are not wanted. */
 #define CAROM_NO_ROW(...)
 
 /* Whether a member of `k` is right by its row, without the conditions. */
-#define CAROM_IS_RIGHT(member, low, high, other, reader)                    \
-  (((k->member >= (low) && k->member <= (high)) || k->member == (other)) && \
+#define CAROM_IS_RIGHT(member, low, high, extra, reader)                    \
+  (((k->member >= (low) && k->member <= (high)) || k->member == (extra)) && \
    (CAROM_GIVEN_##reader || k->member == 0))
 #define CAROM_GIVEN_ALWAYS true
 #define CAROM_GIVEN_BY_CUSHION(model) true
@@ -209,11 +191,11 @@
 #define CAROM_GIVEN_WITH(model, number) k->number > 0
 
 /* Returns the error of the first number of `k` at fault. */
-#define CAROM_CHECK_NUMBER(member, key, unit, low, high, other, error, reader, text) \
-  if (!CAROM_IS_RIGHT(member, low, high, other, reader))                             \
+#define CAROM_CHECK_NUMBER(member, key, unit, low, high, extra, error, reader, text) \
+  if (!CAROM_IS_RIGHT(member, low, high, extra, reader))                             \
     return CAROM_ERROR_##error;
-#define CAROM_CHECK_ROW(member, key, unit, low, high, other, error, text) \
-  if (!CAROM_IS_RIGHT(member, low, high, other, ALWAYS))                  \
+#define CAROM_CHECK_ROW(member, key, unit, low, high, extra, error, text) \
+  if (!CAROM_IS_RIGHT(member, low, high, extra, ALWAYS))                  \
     return CAROM_ERROR_##error;
 #define CAROM_CHECK_CONDITION(member, holds, error, text) \
   if (!(holds))                                           \

@@ -102,9 +102,9 @@
 #define CAROM_IN_COUNT(x, low, high) (((x) >= (low) && (x) <= (high)) || (x) == 0)
 #define CAROM_IN_BITS(x, low, high) (((x) & ~(uint64_t)(high)) == 0)
 #define CAROM_IN_SEED(x, low, high) true
-#define CAROM_IN_WORDS(of) CAROM_IN_FLAG
+#define CAROM_IN_WORDS(KIND) CAROM_IN_FLAG
 #define CAROM_IN_NUMBER(unit) CAROM_IN_COUNT
-#define CAROM_IN_SET(of) CAROM_IN_BITS
+#define CAROM_IN_SET(KIND) CAROM_IN_BITS
 
 /* Returns the error of the first option of `o` at fault. */
 #define CAROM_CHECK_OPTION(member, key, FORM, low, high, error, ...) \

@@ -60,12 +60,12 @@ static carom_status comes_back(const carom_table *table, const carom_ball_kind *
   const carom_status status = carom_shoot(table, &ball, 1, NULL, NULL, &shot);
   if (status != CAROM_OK)
     return status;
-  int met = 0;
+  int contacts = 0;
   for (int k = 0; k < EVENTS && k < shot.count; k++) {
     if (events[k].type != CAROM_EVENT_RAIL && events[k].type != CAROM_EVENT_JAW)
       continue;
-    met++;
-    if (met == 2) {
+    contacts++;
+    if (contacts == 2) {
       *place = events[k].before[0].r[1];
       return CAROM_OK;
     }
@@ -91,8 +91,8 @@ static carom_status improve(const carom_table *table, const carom_ball_kind *bal
                             double inverse[2][2]) {
   const double usual[2] = {ball->restitution_cushion, ball->mu_cushion},
                unsure[2] = {unsure_restitution, unsure_friction};
-  double told[CAROM_BANKS], slope[2][CAROM_BANKS];
-  carom_status status = all_come_back(table, ball, number, told);
+  double calculated[CAROM_BANKS], slope[2][CAROM_BANKS];
+  carom_status status = all_come_back(table, ball, number, calculated);
 
   /* differences to both sides */
   for (int n = 0; n < 2 && status == CAROM_OK; n++) {
@@ -117,7 +117,7 @@ static carom_status improve(const carom_table *table, const carom_ball_kind *bal
     matrix[n][n] = prior;
     right[n] = prior * (usual[n] - number[n]);
     for (int k = 0; k < CAROM_BANKS; k++) {
-      right[n] += weight * slope[n][k] * (reading[k] - told[k]);
+      right[n] += weight * slope[n][k] * (reading[k] - calculated[k]);
       for (int m = 0; m < 2; m++)
         matrix[n][m] += weight * slope[n][k] * slope[m][k];
     }

@@ -71,9 +71,9 @@ static carom_status check_state(const carom_ball_state *s, double R, bool flat) 
 }
 
 carom_status carom_check_ball(const carom_shot_ball *ball, bool flat) {
-  const carom_status bad = check_kind(&ball->kind);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status status = check_kind(&ball->kind);
+  if (status != CAROM_OK)
+    return status;
   return check_state(&ball->state, ball->kind.radius, flat);
 }
 
@@ -85,11 +85,11 @@ static inline double height_of(const carom_ball_state *state, double R) {
 
 /* Whether a ball at r, of radius R, overlaps another in play of radius R_other, which is at height
  * z. */
-static inline bool overlaps(const double r[3], double R, const carom_ball_state *other,
+static inline bool overlaps(const double r[3], double R, const carom_ball_state *neighbor,
                             double R_other, double z) {
-  const double along[3] = {r[0] - other->r[0], r[1] - other->r[1], r[2] - z};
+  const double along[3] = {r[0] - neighbor->r[0], r[1] - neighbor->r[1], r[2] - z};
   const double reach = R + R_other - CAROM_MOST_OVERLAP;
-  return !carom_is_out(other->label) &&
+  return !carom_is_out(neighbor->label) &&
          along[0] * along[0] + along[1] * along[1] + along[2] * along[2] < reach * reach;
 }
 
@@ -118,9 +118,9 @@ bool carom_is_at_rest(const carom_prepared *p, int but) {
 carom_status carom_check_common(const carom_table *table, int64_t count,
                                 const carom_shot_options *opt, int *where) {
   *where = -1;
-  const carom_status bad = carom_check_shot_options(opt);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status status = carom_check_shot_options(opt);
+  if (status != CAROM_OK)
+    return status;
   if (count < 1 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
   return carom_check_table(table, where);
@@ -159,50 +159,65 @@ void carom_take_row(carom_prepared *p, const carom_shot_job *job, size_t k) {
   }
 }
 
+/* What a world and its options ask of the balls of a row. */
+typedef struct row_rules {
+  bool flat, one_mass;
+} row_rules;
+
+/* Ball k by itself, beside the first one, and for the table. */
+static carom_status check_alone(const carom_prepared *p, const row_rules *rules, int k) {
+  const carom_ball_kind *kind = p->kind[k], *first = p->kind[0];
+  /* most balls are of the kind of the one before, which is good */
+  const bool known = k > 0 && memcmp(kind, p->kind[k - 1], sizeof *kind) == 0;
+  if (!known) {
+    const carom_status status = check_kind(kind);
+    if (status != CAROM_OK)
+      return status;
+  }
+  if (rules->flat && kind->radius != first->radius)
+    return CAROM_ERROR_RADII_DIFFER;
+  if (kind->nose_height >= 2.0 * p->features->reference)
+    return CAROM_ERROR_BALL_CUSHION;
+  if (rules->one_mass && kind->mass != first->mass)
+    return CAROM_ERROR_MASSES_DIFFER;
+  return check_state(p->state[k], kind->radius, rules->flat);
+}
+
+/* Where ball k is: on the table or above it, and beside the balls before it, whose centres have
+ * these heights. */
+static carom_status check_position(const carom_prepared *p, int k, const double *height) {
+  const carom_ball_kind *kind = p->kind[k];
+  const carom_ball_state *state = p->state[k];
+  const bool flies = carom_flies_in_layout(state, kind->radius);
+  if (flies && !carom_is_above_table(p->table, p->features, kind, state->r))
+    return CAROM_ERROR_OFF_TABLE;
+  if (!flies && !carom_stands_on_table(p->table, p->features, kind, state->r))
+    return CAROM_ERROR_OFF_TABLE;
+  const double r[3] = {state->r[0], state->r[1], height[k]};
+  for (int j = 0; j < k; j++)
+    if (overlaps(r, kind->radius, p->state[j], p->kind[j]->radius, height[j]))
+      return CAROM_ERROR_OVERLAP;
+  return CAROM_OK;
+}
+
 carom_status carom_prepare_row(carom_prepared *p, carom_features *features, int *where) {
-  const bool one_mass =
-      carom_rules_of(p->opt->world)->one_mass || p->opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
-  const bool flat = is_flat(p->opt);
+  const row_rules rules = {.flat = is_flat(p->opt),
+                           .one_mass = carom_rules_of(p->opt->world)->one_mass ||
+                                       p->opt->ball_model == CAROM_BALL_MODEL_INELASTIC};
   p->features = features;
-  carom_status bad = prepare_table(p, flat, features, where);
-  if (bad != CAROM_OK)
-    return bad;
+  carom_status status = prepare_table(p, rules.flat, features, where);
+  if (status != CAROM_OK)
+    return status;
 
-  /* each ball by itself, on the table, and beside those before it */
   double height[CAROM_BALLS_MOST];
-  for (*where = 0; *where < p->count; ++*where) {
-    const carom_ball_kind *kind = p->kind[*where];
-    const carom_ball_state *state = p->state[*where];
-    /* most balls are of the kind of the one before, which is good */
-    const bool known = *where > 0 && memcmp(kind, p->kind[*where - 1], sizeof *kind) == 0;
-    if (!known)
-      bad = check_kind(kind);
-
-    /* beside the first one, and for the table */
-    if (bad == CAROM_OK && flat && kind->radius != p->kind[0]->radius)
-      bad = CAROM_ERROR_RADII_DIFFER;
-    if (bad == CAROM_OK && kind->nose_height >= 2.0 * features->reference)
-      bad = CAROM_ERROR_BALL_CUSHION;
-    if (bad == CAROM_OK && one_mass && kind->mass != p->kind[0]->mass)
-      bad = CAROM_ERROR_MASSES_DIFFER;
-    if (bad == CAROM_OK)
-      bad = check_state(state, kind->radius, flat);
-    if (bad != CAROM_OK)
-      return bad;
-
-    /* where it is, unless it is out of play */
-    const double r[3] = {state->r[0], state->r[1], height_of(state, kind->radius)};
-    height[*where] = r[2];
-    if (carom_is_out(state->label))
-      continue;
-    const bool flies = carom_flies_in_layout(state, kind->radius);
-    if (flies && !carom_is_above_table(p->table, features, kind, state->r))
-      return CAROM_ERROR_OFF_TABLE;
-    if (!flies && !carom_stands_on_table(p->table, features, kind, state->r))
-      return CAROM_ERROR_OFF_TABLE;
-    for (int k = 0; k < *where; k++)
-      if (overlaps(r, kind->radius, p->state[k], p->kind[k]->radius, height[k]))
-        return CAROM_ERROR_OVERLAP;
+  for (int k = 0; k < p->count; k++) {
+    *where = k;
+    status = check_alone(p, &rules, k);
+    height[k] = height_of(p->state[k], p->kind[k]->radius);
+    if (status == CAROM_OK && !carom_is_out(p->state[k]->label))
+      status = check_position(p, k, height);
+    if (status != CAROM_OK)
+      return status;
   }
   *where = -1;
   return CAROM_OK;
@@ -211,9 +226,9 @@ carom_status carom_prepare_row(carom_prepared *p, carom_features *features, int 
 carom_status carom_prepare(const carom_table *table, const carom_shot_ball *balls, int64_t count,
                            const carom_shot_options *opt, carom_features *features,
                            carom_prepared *p, int *where) {
-  const carom_status bad = carom_check_common(table, count, opt, where);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status status = carom_check_common(table, count, opt, where);
+  if (status != CAROM_OK)
+    return status;
   p->table = table;
   p->opt = opt;
   carom_take_balls(p, balls, count);
@@ -231,10 +246,10 @@ carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *b
   *where = -1;
   if (table == NULL || balls == NULL)
     return CAROM_ERROR_NULL;
-  const carom_status bad =
+  const carom_status status =
       carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &p, where);
-  if (bad != CAROM_OK)
-    return bad;
+  if (status != CAROM_OK)
+    return status;
   return carom_check_strike(&p, cue);
 }
 
@@ -251,10 +266,10 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
   carom_features features;
   const carom_ball_kind *kind = &balls[ball].kind;
   const double R = kind->radius, r[3] = {x, y, R};
-  const carom_status bad =
+  const carom_status checked =
       carom_check_parts(table, R, balls[count - 1].kind.radius, &features, in_the_way);
-  if (bad != CAROM_OK)
-    return bad;
+  if (checked != CAROM_OK)
+    return checked;
   if (!bounded(r, 1e6))
     return CAROM_ERROR_POSITION;
   if (!carom_stands_on_table(table, &features, kind, r)) {
@@ -264,8 +279,8 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
     return CAROM_ERROR_OFF_TABLE;
   }
   for (int k = 0; k < count; k++) {
-    const double other = balls[k].kind.radius, z = height_of(&balls[k].state, other);
-    if (k != ball && overlaps(r, R, &balls[k].state, other, z)) {
+    const double radius = balls[k].kind.radius, z = height_of(&balls[k].state, radius);
+    if (k != ball && overlaps(r, R, &balls[k].state, radius, z)) {
       *in_the_way = (carom_part){CAROM_PART_BALL, k};
       return CAROM_ERROR_OVERLAP;
     }

@@ -131,7 +131,8 @@ static const struct {
 
 #define OF_CUSHION(NAME, name, impact, flight, rows, start, sources, ...) \
   [CAROM_CUSHION_##NAME] = (sources),
-#define OF_LAW(NAME, name, of, numbers, at, ahead, sources, ...) [CAROM_LAW_##NAME] = (sources),
+#define OF_LAW(NAME, name, pair, numbers, one_speed, ahead, sources, ...) \
+  [CAROM_LAW_##NAME] = (sources),
 static const unsigned of_cushion[] = {CAROM_CUSHION_MODELS(OF_CUSHION)};
 static const unsigned of_law[] = {CAROM_FRICTION_LAWS(OF_LAW)};
 

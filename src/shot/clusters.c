@@ -9,7 +9,7 @@
 
 static const double usual_modulus = 6.6e9; /* N/m^2: phenolic resin,
                                               docs/understanding/clusters.md */
-static const double near = 0.01;           /* m; members.c looks closer */
+static const double neighborhood = 0.01;   /* m; members.c looks closer */
 static const double simultaneous = 1e-9;   /* of a contact's duration: touches that are nearer in
                                               time count as one */
 
@@ -22,7 +22,7 @@ static double steps_of(const carom_shot_options *opt) {
 
 /* One of the balls of a cluster. On the cloth all centres are at the height of their radius. */
 static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_ball_state *s,
-                                    const carom_shot_options *opt, bool flies, int which) {
+                                    const carom_shot_options *opt, bool flies, int ball) {
   carom_cluster_ball b;
   memset(&b, 0, sizeof b);
   for (int k = 0; k < 3; k++) {
@@ -37,7 +37,7 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
 
   /* what it is made of, where 0 stands for usual */
   b.flies = flies;
-  b.which = (int8_t)which;
+  b.which = (int8_t)ball;
   b.radius = kind->radius;
   b.inverse_mass = 1.0 / kind->mass;
   b.mu_slide = kind->mu_slide;
@@ -85,15 +85,15 @@ bool carom_lasts(const carom_shot_options *opt) {
 }
 
 bool carom_third_is_near(const carom_sim *sim, int i, int j) {
-  const double reach = 2.0 * sim->features->radius + near, most = reach * reach;
-  const double ti = sim->now - sim->start[i], tj = sim->now - sim->start[j];
+  const double reach = 2.0 * sim->features->radius + neighborhood, most = reach * reach;
+  const double ti = sim->time - sim->start[i], tj = sim->time - sim->start[j];
   const double xi = sim->x[i] + ti * (sim->v_x[i] + ti * sim->a_x[i]),
                yi = sim->y[i] + ti * (sim->v_y[i] + ti * sim->a_y[i]);
   const double xj = sim->x[j] + tj * (sim->v_x[j] + tj * sim->a_x[j]),
                yj = sim->y[j] + tj * (sim->v_y[j] + tj * sim->a_y[j]);
   int near_them = 0; /* i and j are near themselves */
   for (int k = 0; k < sim->count; k++) {
-    const double t = sim->now - sim->start[k];
+    const double t = sim->time - sim->start[k];
     const double x = sim->x[k] + t * (sim->v_x[k] + t * sim->a_x[k]),
                  y = sim->y[k] + t * (sim->v_y[k] + t * sim->a_y[k]);
     const double to_i = (x - xi) * (x - xi) + (y - yi) * (y - yi),
@@ -117,13 +117,14 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
     const carom_path *path = &sim->path[k];
     if (carom_is_out(path->from.label))
       continue;
-    carom_ball_state now;
-    carom_path_at(path, &sim->rates[k], sim->now, &now);
+    carom_ball_state current;
+    carom_path_at(path, &sim->rates[k], sim->time, &current);
     if (k == i)
       first = c->balls;
     if (k == j)
       second = c->balls;
-    c->ball[c->balls++] = member_of(sim->layout->kind[k], &now, sim->opt, carom_flies(&now), k);
+    c->ball[c->balls++] =
+        member_of(sim->layout->kind[k], &current, sim->opt, carom_flies(&current), k);
   }
 
   /* those that the contact can reach; with none of them it is a contact like any other */
@@ -141,9 +142,9 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
     const carom_cluster_contact_state *x = &c->contact[order[k]];
     if (c->ball[x->i].which != i || c->ball[x->j].which != j)
       continue;
-    const uint8_t due = order[k];
+    const uint8_t contact = order[k];
     memmove(&order[1], &order[0], (size_t)k);
-    order[0] = due;
+    order[0] = contact;
   }
   for (int k = 1; k < count; k++)
     CAROM_PROMISE(c->ball[c->contact[order[k]].i].which != i ||
@@ -163,7 +164,7 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone) {
   for (int k = 0; k < sim->count; k++) {
     const double *q = sim->path[k].from.r;
     const double x = q[0] - r[0], y = q[1] - r[1];
-    const double reach = sim->rates[i].radius + sim->rates[k].radius + most + near;
+    const double reach = sim->rates[i].radius + sim->rates[k].radius + most + neighborhood;
     if (k != i && !carom_is_out(sim->path[k].from.label) && x * x + y * y < reach * reach)
       return true;
   }
@@ -188,9 +189,9 @@ static void put_tip(const carom_cue *cue, int struck, carom_cluster_state *c) {
 
 /* A ball as it is now, as one of a cluster. */
 static carom_cluster_ball member_now(const carom_sim *sim, int k) {
-  carom_ball_state now;
-  carom_path_at(&sim->path[k], &sim->rates[k], sim->now, &now);
-  return member_of(sim->layout->kind[k], &now, sim->opt, carom_flies(&now), k);
+  carom_ball_state current;
+  carom_path_at(&sim->path[k], &sim->rates[k], sim->time, &current);
+  return member_of(sim->layout->kind[k], &current, sim->opt, carom_flies(&current), k);
 }
 
 int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
@@ -274,9 +275,9 @@ static void gather(const carom_shot_ball *balls, int count, const carom_shot_opt
 }
 
 static carom_status check(const carom_shot_ball *balls, int count, const carom_shot_options *opt) {
-  const carom_status bad = carom_check_shot_options(opt);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status checked = carom_check_shot_options(opt);
+  if (checked != CAROM_OK)
+    return checked;
   const bool solves =
       opt->ball_model <= CAROM_BALL_MODEL_EXACT || opt->ball_model == CAROM_BALL_MODEL_MIRROR;
   if (opt->world != CAROM_WORLD_CAROM)

@@ -39,8 +39,9 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
 void carom_follow_on(carom_play *play, double V, double behind);
 /* Sets play->follow.time: when its tip touches the struck ball again. */
 void carom_follow_find(carom_play *play);
-/* *now becomes the cue with the place of its tip and its speed. Returns whether that is a touch. */
-bool carom_follow_cue(const carom_play *play, carom_cue *now);
+/* *moved_cue becomes the cue with the place of its tip and its speed. Returns whether that is a
+ * touch. */
+bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue);
 
 /* raised.c: e of the contact of a ball with the slate; and what an impulse J of it, over the mass,
  * takes from the turn about the vertical and the end of hops from v[2]. */

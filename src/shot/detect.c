@@ -23,7 +23,7 @@ typedef struct line_of_motion {
 } motion;
 
 static motion motion_now(const carom_sim *sim, int i) {
-  const double t = sim->now - sim->start[i];
+  const double t = sim->time - sim->start[i];
   return (motion){{sim->x[i] + t * (sim->v_x[i] + t * sim->a_x[i]),
                    sim->y[i] + t * (sim->v_y[i] + t * sim->a_y[i])},
                   {sim->v_x[i] + 2.0 * t * sim->a_x[i], sim->v_y[i] + 2.0 * t * sim->a_y[i]},
@@ -37,9 +37,9 @@ static void range_of(double r, double v, double a, double T, double *low, double
   *high = carom_greater(r, end);
   const double turn = -v / (2.0 * a);
   if (turn > 0.0 && turn < T) {
-    const double there = r + 0.5 * turn * v;
-    *low = carom_lesser(*low, there);
-    *high = carom_greater(*high, there);
+    const double vertex = r + 0.5 * turn * v;
+    *low = carom_lesser(*low, vertex);
+    *high = carom_greater(*high, vertex);
   }
 }
 
@@ -77,9 +77,9 @@ static inline double clearance(const double p[2], const double e[2], const doubl
   const double c_x = e[0] + T * a[0], c_y = e[1] + T * a[1], square = c_x * c_x + c_y * c_y;
   const double quarter = 0.25 * T * T, along = p[0] * c_x + p[1] * c_y;
   const double bulge = quarter * fabs(a[0] * c_x + a[1] * c_y);
-  const double before = -along - T * square;
+  const double ahead = -along - T * square;
   const double off = fabs(p[0] * c_y - p[1] * c_x) - quarter * fabs(a[0] * e[1] - a[1] * e[0]);
-  const double gap = (along > before ? along : before) - bulge, most = off > gap ? off : gap;
+  const double gap = (along > ahead ? along : ahead) - bulge, most = off > gap ? off : gap;
   return most * fabs(most) - (1.0 + 1e-9) * reach * reach * square;
 }
 
@@ -120,7 +120,7 @@ static inline void box_of(const motion *m, double T, double box[4]) {
 /* Lists the features of the table whose boxes meet that of a path. Without branches, since which
  * ones they are cannot be predicted. */
 static inline int list_near(const carom_features *f, const double box[4],
-                            uint8_t near[MOST_FEATURES]) {
+                            uint8_t neighbors[MOST_FEATURES]) {
   CAROM_PROMISE(f->count == f->rails + f->jaws + f->pockets && f->count <= MOST_FEATURES);
   const float low_x = (float)box[0], high_x = (float)box[1];
   const float low_y = (float)box[2], high_y = (float)box[3];
@@ -130,7 +130,7 @@ static inline int list_near(const carom_features *f, const double box[4],
                  (f->high_y[k] >= low_y);
   int count = 0;
   for (int k = 0; k < f->count; k++) {
-    near[count] = (uint8_t)k;
+    neighbors[count] = (uint8_t)k;
     count += is_near[k];
   }
   return count;
@@ -173,10 +173,10 @@ meet_table_as(const carom_sim *sim, int i, const motion *m, double T, const bool
   }
 
   /* each feature narrows the horizon of those behind it */
-  uint8_t near[MOST_FEATURES];
-  const int count = list_near(f, box, near);
-  for (int at = 0; at < count; at++) {
-    const carom_meeting next = meet_feature(sim, i, near[at], m, T, unlike);
+  uint8_t neighbors[MOST_FEATURES];
+  const int count = list_near(f, box, neighbors);
+  for (int index = 0; index < count; index++) {
+    const carom_meeting next = meet_feature(sim, i, neighbors[index], m, T, unlike);
     /* at the same time a pocket goes first, and anything before the end of the hull */
     const bool first_of_equals = first.type == CAROM_DUE_NOTHING || next.type == CAROM_EVENT_POCKET;
     if (next.time < first.time || (next.time <= first.time && first_of_equals && next.time <= T)) {
@@ -204,10 +204,10 @@ static double meet_ball(const carom_sim *sim, int i, const motion *a, int j, dou
   const double reach = sim->rates[i].radius + sim->rates[j].radius;
   if (!carom_in_space(sim))
     return sim->rules->touch_ball(&d, reach, T);
-  const double t = sim->now - sim->start[j], own = sim->now - sim->start[i];
+  const double t = sim->time - sim->start[j], elapsed = sim->time - sim->start[i];
   d.d0[2] = sim->z[j] + t * (sim->v_z[j] + t * sim->a_z[j]) -
-            (sim->z[i] + own * (sim->v_z[i] + own * sim->a_z[i]));
-  d.d1[2] = sim->v_z[j] + 2.0 * t * sim->a_z[j] - (sim->v_z[i] + 2.0 * own * sim->a_z[i]);
+            (sim->z[i] + elapsed * (sim->v_z[i] + elapsed * sim->a_z[i]));
+  d.d1[2] = sim->v_z[j] + 2.0 * t * sim->a_z[j] - (sim->v_z[i] + 2.0 * elapsed * sim->a_z[i]);
   d.d2[2] = sim->a_z[j] - sim->a_z[i];
   return carom_first_contact_in_space(&d, reach, T);
 }
@@ -217,28 +217,28 @@ static double meet_ball(const carom_sim *sim, int i, const motion *a, int j, dou
 static void meet_balls(carom_sim *sim, int i, int done) {
   const motion m = motion_now(sim, i);
   const int n = sim->count;
-  const double now = sim->now, horizon = sim->horizon[i] - now,
+  const double time = sim->time, horizon = sim->horizon[i] - time,
                reach = sim->rates[i].radius + sim->widest;
-  double clear[CAROM_BALLS_MOST], until[CAROM_BALLS_MOST];
+  double clear[CAROM_BALLS_MOST], end[CAROM_BALLS_MOST];
   for (int j = 0; j < n; j++) {
-    const double t = now - sim->start[j];
+    const double t = time - sim->start[j];
     const double p[2] = {sim->x[j] + t * (sim->v_x[j] + t * sim->a_x[j]) - m.r[0],
                          sim->y[j] + t * (sim->v_y[j] + t * sim->a_y[j]) - m.r[1]};
     const double e[2] = {sim->v_x[j] + 2.0 * t * sim->a_x[j] - m.v[0],
                          sim->v_y[j] + 2.0 * t * sim->a_y[j] - m.v[1]};
     const double a[2] = {sim->a_x[j] - m.a[0], sim->a_y[j] - m.a[1]};
-    const double T0 = sim->horizon[j] - now, T = T0 < horizon ? T0 : horizon;
+    const double T0 = sim->horizon[j] - time, T = T0 < horizon ? T0 : horizon;
     clear[j] = clearance(p, e, a, reach, T);
-    until[j] = T;
+    end[j] = T;
   }
   for (int j = 0; j < n; j++) {
     if (j == i || j == done)
       continue;
     double t = INFINITY;
-    if (until[j] >= 0.0 && until[j] < INFINITY && !(clear[j] > 0.0))
-      t = now + meet_ball(sim, i, &m, j, until[j]);
+    if (end[j] >= 0.0 && end[j] < INFINITY && !(clear[j] > 0.0))
+      t = time + meet_ball(sim, i, &m, j, end[j]);
     const int low = i < j ? i : j, high = i < j ? j : i;
-    CAROM_PROMISE(low < high && !(t < now));
+    CAROM_PROMISE(low < high && !(t < time));
     sim->pair[low][high] = t;
     sim->pair_round[low][high] = (int32_t)sim->round;
   }
@@ -284,8 +284,8 @@ __attribute__((noinline, cold)) static void take_height(carom_sim *sim, int i) {
 
 __attribute__((noinline, cold)) static carom_meeting meet_in_flight(carom_sim *sim, int i) {
   carom_ball_state s;
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &s);
-  return carom_meet_in_flight(sim, i, s.r, s.v, sim->path[i].end - sim->now);
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &s);
+  return carom_meet_in_flight(sim, i, s.r, s.v, sim->path[i].end - sim->time);
 }
 
 /* Puts the path of ball i into the columns. */
@@ -307,17 +307,17 @@ static inline void take_columns(carom_sim *sim, int i) {
  * any time, and one that is out of play meets nothing. */
 static inline void take_horizon(carom_sim *sim, int i) {
   const carom_path *path = &sim->path[i];
-  sim->own[i] = carom_lesser(path->end, sim->meeting[i].time);
+  sim->own_end[i] = carom_lesser(path->end, sim->meeting[i].time);
   if (carom_is_out(path->from.label))
     sim->horizon[i] = -INFINITY;
   else
-    sim->horizon[i] = carom_translates(path->from.label) ? sim->own[i] : INFINITY;
+    sim->horizon[i] = carom_translates(path->from.label) ? sim->own_end[i] : INFINITY;
 }
 
 /* The path of ball i, and its next meeting with the table. */
 static void take_path(carom_sim *sim, int i) {
   const carom_path *path = &sim->path[i];
-  CAROM_PROMISE(!(path->end < sim->now));
+  CAROM_PROMISE(!(path->end < sim->time));
   take_columns(sim, i);
   sim->meeting[i] = (carom_meeting){INFINITY, 0, 0};
   sim->meeting_round[i] = (int32_t)sim->round;
@@ -325,10 +325,10 @@ static void take_path(carom_sim *sim, int i) {
     sim->meeting[i] = meet_in_flight(sim, i);
   } else if (carom_translates(path->from.label)) {
     const motion m = motion_now(sim, i);
-    sim->meeting[i] = meet_table(sim, i, &m, path->end - sim->now);
+    sim->meeting[i] = meet_table(sim, i, &m, path->end - sim->time);
   }
   CAROM_PROMISE(!(sim->meeting[i].time < 0.0));
-  sim->meeting[i].time += sim->now;
+  sim->meeting[i].time += sim->time;
   take_horizon(sim, i);
 }
 

@@ -1,5 +1,6 @@
 /* What the rules of games ask of a shot (carom_facts), noted event by event. */
 #include "shot/facts.h"
+#include "table/marks.h"
 
 #include <math.h>
 #include <string.h>
@@ -24,17 +25,17 @@ static uint32_t set_of(int i) {
 
 /* Where ball i is now. */
 static carom_ball_state state_now(const carom_sim *sim, int i) {
-  carom_ball_state now;
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &now);
-  return now;
+  carom_ball_state current;
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &current);
+  return current;
 }
 
 /* Widens the range of places where the cue ball was before it met a ball. `begins`: it is the first
  * such place. */
 static void widen_range(carom_facts *facts, const carom_sim *sim, bool begins) {
-  const carom_ball_state now = state_now(sim, sim->struck);
+  const carom_ball_state current = state_now(sim, sim->struck);
   for (int axis = 0; axis < 2; axis++) {
-    const double x = now.r[axis];
+    const double x = current.r[axis];
     if (begins)
       facts->first_low[axis] = facts->first_high[axis] = x;
     facts->first_low[axis] = fmin(facts->first_low[axis], x);
@@ -45,15 +46,17 @@ static void widen_range(carom_facts *facts, const carom_sim *sim, bool begins) {
 /* The cue ball has an event before it has met a ball. Notes the balls, all at rest, that it has
  * flown over since its last event, along a straight line. */
 static void fly_over(carom_facts *facts, const carom_sim *sim) {
-  const carom_ball_state *from = &sim->path[sim->struck].from, now = state_now(sim, sim->struck);
-  if (from->label != CAROM_BALL_AIRBORNE)
+  const carom_ball_state *start = &sim->path[sim->struck].from,
+                         current = state_now(sim, sim->struck);
+  if (start->label != CAROM_BALL_AIRBORNE)
     return;
-  const double x = now.r[0] - from->r[0], y = now.r[1] - from->r[1], square = x * x + y * y;
+  const double x = current.r[0] - start->r[0], y = current.r[1] - start->r[1],
+               square = x * x + y * y;
   for (int k = 0; k < sim->count; k++) {
     const carom_ball_state *over = &sim->path[k].from;
     if (k == sim->struck || carom_is_out(over->label))
       continue;
-    const double to_x = over->r[0] - from->r[0], to_y = over->r[1] - from->r[1];
+    const double to_x = over->r[0] - start->r[0], to_y = over->r[1] - start->r[1];
     const double along = x * to_x + y * to_y, across = x * to_y - y * to_x;
     const double reach = sim->rates[k].radius + sim->rates[sim->struck].radius;
     if (along > 0.0 && along < square && across * across < reach * reach * square)
@@ -62,46 +65,46 @@ static void fly_over(carom_facts *facts, const carom_sim *sim) {
 }
 
 /* The cue ball meets a ball. Only the first meeting with each ball counts. */
-static void meet(carom_facts *facts, const carom_sim *sim, int other) {
-  int met = 0;
-  while (met < CAROM_BALLS_MOST && facts->order[met] >= 0) {
-    if (facts->order[met] == other)
+static void meet(carom_facts *facts, const carom_sim *sim, int ball) {
+  int count = 0;
+  while (count < CAROM_BALLS_MOST && facts->order[count] >= 0) {
+    if (facts->order[count] == ball)
       return;
-    met++;
+    count++;
   }
-  if (met == CAROM_BALLS_MOST)
+  if (count == CAROM_BALLS_MOST)
     return;
-  facts->order[met] = other;
+  facts->order[count] = ball;
 
   /* the first ball, and those of the same instant */
-  if (met == 0) {
-    const carom_ball_state now = state_now(sim, sim->struck);
-    memcpy(facts->first_place, now.r, sizeof facts->first_place);
+  if (count == 0) {
+    const carom_ball_state current = state_now(sim, sim->struck);
+    memcpy(facts->first_place, current.r, sizeof facts->first_place);
   }
-  if (met == 0 || sim->now - facts->first_time[0] <= CAROM_RULES_INSTANT)
-    facts->first_set |= set_of(other);
+  if (count == 0 || sim->time - facts->first_time[0] <= CAROM_RULES_INSTANT)
+    facts->first_set |= set_of(ball);
 
   /* the first two */
-  if (met < 2) {
-    facts->first[met] = other;
-    facts->first_time[met] = sim->now;
-    facts->cushions_before[met] = facts->cushions[sim->struck];
+  if (count < 2) {
+    facts->first[count] = ball;
+    facts->first_time[count] = sim->time;
+    facts->cushions_before[count] = facts->cushions[sim->struck];
   }
 }
 
 /* Whether a ball that meets a cushion is frozen to it: the ball lies where it lay at first. */
 static bool is_frozen(const carom_sim *sim, int i) {
   const double *first = sim->layout->state[i]->r;
-  const carom_ball_state now = state_now(sim, i);
-  return fabs(now.r[0] - first[0]) + fabs(now.r[1] - first[1]) < CAROM_RULES_TOUCH;
+  const carom_ball_state current = state_now(sim, i);
+  return fabs(current.r[0] - first[0]) + fabs(current.r[1] - first[1]) < CAROM_RULES_TOUCH;
 }
 
 /* A ball meets a rail or a jaw. */
-static void meet_cushion(carom_facts *facts, const carom_sim *sim, const carom_due *due) {
-  facts->cushions[due->a]++;
-  if (due->type == CAROM_EVENT_RAIL && !carom_is_cut(sim->table, due->b))
-    facts->banked |= set_of(due->a);
-  if (facts->first[0] >= 0 && !is_frozen(sim, due->a))
+static void meet_cushion(carom_facts *facts, const carom_sim *sim, const carom_due *pending_event) {
+  facts->cushions[pending_event->a]++;
+  if (pending_event->type == CAROM_EVENT_RAIL && !carom_is_cut(sim->table, pending_event->b))
+    facts->banked |= set_of(pending_event->a);
+  if (facts->first[0] >= 0 && !is_frozen(sim, pending_event->a))
     facts->cushions_after++;
 }
 
@@ -111,28 +114,29 @@ static void been_at(carom_facts *facts, const carom_sim *sim, int i, bool rests)
   double y = sim->path[i].from.r[1];
   if (rests)
     y = state_now(sim, i).r[1];
-  const double length = sim->table->length, radius = sim->rates[i].radius;
-  if (y + radius < 0.5 * length)
+  const double radius = sim->rates[i].radius;
+  const carom_marks marks = carom_marks_of(sim->table->width, sim->table->length);
+  if (y + radius < marks.centre_spot[1])
     facts->past_middle |= set_of(i);
-  if (y - radius > 0.5 * length)
+  if (y - radius > marks.centre_spot[1])
     facts->beyond_middle |= set_of(i);
-  if (y - radius <= 0.25 * length)
+  if (y - radius <= marks.head_spot[1])
     facts->at_head |= set_of(i);
 }
 
-void carom_facts_event(const carom_sim *sim, const carom_due *due) {
+void carom_facts_event(const carom_sim *sim, const carom_due *pending_event) {
   carom_facts *facts = sim->shot->facts;
-  const int a = due->a, b = due->b, cue = sim->struck;
-  const bool balls = due->type == CAROM_EVENT_BALL_BALL;
+  const int a = pending_event->a, b = pending_event->b, cue = sim->struck;
+  const bool balls = pending_event->type == CAROM_EVENT_BALL_BALL;
   const bool of_cue = a == cue || (balls && b == cue);
-  been_at(facts, sim, a, due->type == CAROM_EVENT_ROLLING_STATIONARY);
+  been_at(facts, sim, a, pending_event->type == CAROM_EVENT_ROLLING_STATIONARY);
   if (balls)
     been_at(facts, sim, b, false);
   if (of_cue && facts->first[0] < 0) {
-    widen_range(facts, sim, due->type == CAROM_EVENT_STRIKE && facts->touches == 0);
+    widen_range(facts, sim, pending_event->type == CAROM_EVENT_STRIKE && facts->touches == 0);
     fly_over(facts, sim);
   }
-  switch (due->type) {
+  switch (pending_event->type) {
   case CAROM_EVENT_STRIKE:
     facts->moved |= set_of(a);
     facts->touches++;
@@ -144,12 +148,12 @@ void carom_facts_event(const carom_sim *sim, const carom_due *due) {
     break;
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW:
-    meet_cushion(facts, sim, due);
+    meet_cushion(facts, sim, pending_event);
     break;
   case CAROM_EVENT_POCKET:
     facts->down |= set_of(a);
     facts->pocket[a] = b;
-    facts->pocket_time[a] = sim->now;
+    facts->pocket_time[a] = sim->time;
     break;
   case CAROM_EVENT_LEFT_TABLE:
     facts->off |= set_of(a);
@@ -174,8 +178,8 @@ void carom_facts_frozen(const carom_sim *sim) {
     return;
   facts->frozen = 0;
   for (int k = 0; k < sim->count; k++) {
-    const bool other = k != sim->struck && !carom_is_out(sim->path[k].from.label);
-    if (other && touch_by_rules(sim, sim->struck, k))
+    const bool is_object_ball = k != sim->struck && !carom_is_out(sim->path[k].from.label);
+    if (is_object_ball && touch_by_rules(sim, sim->struck, k))
       facts->frozen |= set_of(k);
   }
 }
@@ -184,12 +188,12 @@ void carom_facts_touches(const carom_sim *sim, int touches, double first, double
   carom_facts *facts = sim->shot->facts;
   if (facts == NULL)
     return;
-  const int before = facts->touches - 1;
-  facts->touches = before + touches;
-  if (before < 2 && facts->touches >= 2) {
-    facts->second_time = sim->now;
+  const int earlier = facts->touches - 1;
+  facts->touches = earlier + touches;
+  if (earlier < 2 && facts->touches >= 2) {
+    facts->second_time = sim->time;
     facts->second_speed = second;
-    if (before == 1)
+    if (earlier == 1)
       facts->second_speed = first;
     memcpy(facts->second_place, sim->path[sim->struck].from.r, sizeof facts->second_place);
   }
@@ -204,8 +208,8 @@ void carom_facts_push(const carom_sim *sim, const carom_cluster_state *c, const 
   for (int k = 0; k < count; k++) {
     const carom_cluster_contact_state *contact = &c->contact[order[k]];
     const bool of_tip = contact->i == c->tip.ball || contact->j == c->tip.ball;
-    const int other = contact->i == c->tip.ball ? contact->j : contact->i;
+    const int ball = contact->i == c->tip.ball ? contact->j : contact->i;
     if (of_tip && contact->time <= c->tip.last)
-      facts->pushed |= set_of(c->ball[other].which);
+      facts->pushed |= set_of(c->ball[ball].which);
   }
 }

@@ -9,7 +9,7 @@
 void carom_facts_begin(carom_facts *facts);
 
 /* Adds an event of this instant. The facts must not be NULL. */
-void carom_facts_event(const carom_sim *sim, const carom_due *due);
+void carom_facts_event(const carom_sim *sim, const carom_due *pending_event);
 
 /* Notes which balls the struck ball touches, by the tolerance of the rules, before the strike. */
 void carom_facts_frozen(const carom_sim *sim);

@@ -9,16 +9,16 @@
 
 /* The value of element k of a number. */
 static double value_of(const carom_number *n, const void *object, int k) {
-  const void *at = (const char *)object + n->offset;
+  const void *value = (const char *)object + n->offset;
   switch (n->type) {
   case CAROM_TYPE_INT32:
-    return ((const int32_t *)at)[k];
+    return ((const int32_t *)value)[k];
   case CAROM_TYPE_INT64:
-    return (double)((const int64_t *)at)[k];
+    return (double)((const int64_t *)value)[k];
   case CAROM_TYPE_UINT64:
-    return (double)((const uint64_t *)at)[k];
+    return (double)((const uint64_t *)value)[k];
   default:
-    return ((const double *)at)[k];
+    return ((const double *)value)[k];
   }
 }
 
@@ -68,9 +68,9 @@ typedef struct suspect {
 
 enum { SUSPECTS_MOST = 8 };
 
-/* Lists what comes once in a shot, and the parts and the ball at the place `at` of the fault, in
+/* Lists what comes once in a shot, and the parts and the ball at the place `index` of the fault, in
  * the order of blame; returns how many there are. */
-static int list_suspects(const carom_table *t, const carom_shot_ball *ball, int at,
+static int list_suspects(const carom_table *t, const carom_shot_ball *ball, int index,
                          const carom_cue *cue, const carom_shot_options *opt,
                          suspect suspects[SUSPECTS_MOST]) {
   int count = 0;
@@ -78,16 +78,16 @@ static int list_suspects(const carom_table *t, const carom_shot_ball *ball, int 
     suspects[count++] = (suspect){CAROM_PART_OPTIONS, 0, opt};
   suspects[count++] = (suspect){CAROM_PART_TABLE, 0, t};
 
-  if (at >= 0 && at < CAROM_RAILS_MOST && at < t->rails)
-    suspects[count++] = (suspect){CAROM_PART_RAIL, at, &t->rail[at]};
-  if (at >= 0 && at < CAROM_JAWS_MOST && at < t->jaws)
-    suspects[count++] = (suspect){CAROM_PART_JAW, at, &t->jaw[at]};
-  if (at >= 0 && at < CAROM_POCKETS_MOST && at < t->pockets)
-    suspects[count++] = (suspect){CAROM_PART_POCKET, at, &t->pocket[at]};
+  if (index >= 0 && index < CAROM_RAILS_MOST && index < t->rails)
+    suspects[count++] = (suspect){CAROM_PART_RAIL, index, &t->rail[index]};
+  if (index >= 0 && index < CAROM_JAWS_MOST && index < t->jaws)
+    suspects[count++] = (suspect){CAROM_PART_JAW, index, &t->jaw[index]};
+  if (index >= 0 && index < CAROM_POCKETS_MOST && index < t->pockets)
+    suspects[count++] = (suspect){CAROM_PART_POCKET, index, &t->pocket[index]};
 
   if (ball != NULL) {
-    suspects[count++] = (suspect){CAROM_PART_BALL, at, &ball->kind};
-    suspects[count++] = (suspect){CAROM_PART_STATE, at, &ball->state};
+    suspects[count++] = (suspect){CAROM_PART_BALL, index, &ball->kind};
+    suspects[count++] = (suspect){CAROM_PART_STATE, index, &ball->state};
   }
   if (cue != NULL)
     suspects[count++] = (suspect){CAROM_PART_CUE, 0, cue};
@@ -96,42 +96,42 @@ static int list_suspects(const carom_table *t, const carom_shot_ball *ball, int 
 
 /* Blames a number that is in its range, but not beside others: of the cue, or of the ball at the
  * place; where no number of that ball is to blame, the ball itself. */
-static void blame_beside_others(carom_fault *f, const carom_shot_ball *ball, int at,
+static void blame_beside_others(carom_fault *f, const carom_shot_ball *ball, int index,
                                 const carom_cue *cue) {
   if (cue != NULL && blame(f, CAROM_PART_CUE, 0, cue, true))
     return;
   const bool about_table = f->status == CAROM_ERROR_TABLE || f->status == CAROM_ERROR_NOSE_HEIGHT;
   if (ball == NULL || about_table)
     return;
-  if (blame(f, CAROM_PART_STATE, at, &ball->state, true))
+  if (blame(f, CAROM_PART_STATE, index, &ball->state, true))
     return;
-  if (blame(f, CAROM_PART_BALL, at, &ball->kind, true))
+  if (blame(f, CAROM_PART_BALL, index, &ball->kind, true))
     return;
-  f->part = (carom_part){CAROM_PART_BALL, at};
+  f->part = (carom_part){CAROM_PART_BALL, index};
 }
 
 carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls, int count,
                               const carom_cue *cue, const carom_shot_options *opt,
                               carom_fault *fault, char *text, size_t room) {
-  int at;
+  int index;
   if (fault == NULL)
     return CAROM_ERROR_NULL;
   carom_number_range(NULL, text, room); /* no text yet */
-  *fault = (carom_fault){.status = carom_shot_check(t, balls, count, cue, opt, &at)};
+  *fault = (carom_fault){.status = carom_shot_check(t, balls, count, cue, opt, &index)};
   if (fault->status >= 0 || fault->status == CAROM_ERROR_NULL)
     return fault->status;
 
   if (carom_surplus_of(fault->status) != CAROM_PART_NONE) {
-    fault->part = (carom_part){carom_surplus_of(fault->status), at};
+    fault->part = (carom_part){carom_surplus_of(fault->status), index};
     return fault->status;
   }
 
   /* A number outside its range has the range as its text. */
   const carom_shot_ball *ball = NULL;
-  if (at >= 0 && at < count)
-    ball = &balls[at];
+  if (index >= 0 && index < count)
+    ball = &balls[index];
   suspect suspects[SUSPECTS_MOST];
-  const int suspect_count = list_suspects(t, ball, at, cue, opt, suspects);
+  const int suspect_count = list_suspects(t, ball, index, cue, opt, suspects);
   for (int k = 0; k < suspect_count; k++)
     if (blame(fault, suspects[k].part, suspects[k].index, suspects[k].object, false)) {
       carom_number_range(fault->row, text, room);
@@ -143,8 +143,8 @@ carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls
   if (ball != NULL)
     n = carom_ball_fault(&ball->kind, text, room);
   if (n != NULL)
-    *fault = (carom_fault){n->error, {CAROM_PART_BALL, at}, 0, n, value_of(n, &ball->kind, 0)};
+    *fault = (carom_fault){n->error, {CAROM_PART_BALL, index}, 0, n, value_of(n, &ball->kind, 0)};
   else
-    blame_beside_others(fault, ball, at, cue);
+    blame_beside_others(fault, ball, index, cue);
   return fault->status;
 }

@@ -105,15 +105,15 @@ static double zero_from_left(const jaw_gap *g, double raise, double t, double T)
  */
 static double touch_circle(const flight *f, const circle *c, double t, double T) {
   const jaw_gap g = {f, c};
-  const carom_gap_at here = gap_at(&g, t);
+  const carom_gap_at gap = gap_at(&g, t);
   const double touching = 2.0 * f->radius * CAROM_SLACK;
-  if (here.value > touching)
+  if (gap.value > touching)
     return zero_from_left(&g, 0.0, t, T);
-  if (here.value < -2.0 * f->radius * CAROM_BEHIND)
+  if (gap.value < -2.0 * f->radius * CAROM_BEHIND)
     return INFINITY;
-  if (here.slope < -2.0 * f->radius * CAROM_NO_SPEED)
+  if (gap.slope < -2.0 * f->radius * CAROM_NO_SPEED)
     return t;
-  const double back = zero_from_left(&g, touching - here.value, t, T), middle = 0.5 * (t + back);
+  const double back = zero_from_left(&g, touching - gap.value, t, T), middle = 0.5 * (t + back);
   return back < INFINITY && gap_at(&g, middle).value > touching ? zero_from_left(&g, 0.0, middle, T)
                                                                 : back;
 }
@@ -136,8 +136,8 @@ static double meet_jaw(const flight *f, const circle *c, double T) {
   double over[2];
   if (cross_circle(f, c->centre, c->radius, over) < 2 || over[0] >= T || over[1] <= 0.0)
     return touch_circle(f, c, 0.0, T);
-  const double before = over[0] > 0.0 ? touch_circle(f, c, 0.0, over[0]) : INFINITY;
-  return before < INFINITY || over[1] >= T ? before : touch_circle(f, c, over[1], T);
+  const double first = over[0] > 0.0 ? touch_circle(f, c, 0.0, over[0]) : INFINITY;
+  return first < INFINITY || over[1] >= T ? first : touch_circle(f, c, over[1], T);
 }
 
 /* ---- Rails and tops */
@@ -145,7 +145,7 @@ static double meet_jaw(const flight *f, const circle *c, double T) {
 static double across(const double line[3], const flight *f, double t) {
   return line[0] * (f->r[0] + t * f->v[0]) + line[1] * (f->r[1] + t * f->v[1]) + line[2];
 }
-static bool beside(const double along[3], const flight *f, double t) {
+static bool is_between_ends(const double along[3], const flight *f, double t) {
   const double place = across(along, f, t);
   return place >= 0.0 && place <= 1.0;
 }
@@ -169,14 +169,14 @@ static double meet_rail(const carom_features *features, int k, double height, do
   double window[2];
   if (!while_beside(features->along[k], f, T, window))
     return INFINITY;
-  const double *line = features->line[k], from = window[0], z = height_at(f, from) - height;
-  const carom_separation d = {{across(line, f, from) - shift, z, 0.0},
-                              {line[0] * f->v[0] + line[1] * f->v[1], f->v[2] - f->g * from, 0.0},
+  const double *line = features->line[k], start = window[0], z = height_at(f, start) - height;
+  const carom_separation d = {{across(line, f, start) - shift, z, 0.0},
+                              {line[0] * f->v[0] + line[1] * f->v[1], f->v[2] - f->g * start, 0.0},
                               {0.0, -0.5 * f->g, 0.0}};
   const double reach = f->radius - CAROM_BEHIND;
   if (d.d0[0] * d.d0[0] + z * z < reach * reach)
     return INFINITY;
-  return from + carom_first_contact(&d, f->radius, window[1] - from);
+  return start + carom_first_contact(&d, f->radius, window[1] - start);
 }
 
 /* When the ball falls on a plane; *lies becomes whether it lies on it now. A ball that is hardly
@@ -201,7 +201,7 @@ static void take_earlier(carom_meeting *first, double t, int type, int part, dou
   *T = t;
 }
 
-static bool near(const carom_features *f, int k, const float box[4]) {
+static bool is_beside(const carom_features *f, int k, const float box[4]) {
   return f->low_x[k] <= box[1] && f->high_x[k] >= box[0] && f->low_y[k] <= box[3] &&
          f->high_y[k] >= box[2];
 }
@@ -234,7 +234,7 @@ static double leave(const carom_features *features, const flight *f) {
 static bool over_rail(const carom_features *features, int k, double shift, const flight *f,
                       double t) {
   const double s = across(features->line[k], f, t);
-  return s >= -features->width && s <= shift + on_top && beside(features->along[k], f, t);
+  return s >= -features->width && s <= shift + on_top && is_between_ends(features->along[k], f, t);
 }
 static bool over_jaw(const circle *c, const flight *f, double t) {
   const double x = f->r[0] + t * f->v[0] - c->centre[0], y = f->r[1] + t * f->v[1] - c->centre[1],
@@ -255,7 +255,7 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
   float box[4];
   box_of(f, *T, features->reference, box); /* noses are inside their walls, by less than that */
   for (int k = 0; k < features->rails + features->jaws; k++) {
-    const bool is_near = near(features, k, box);
+    const bool is_near = is_beside(features, k, box);
     if (!above && !is_near)
       continue;
     const int j = k - features->rails;
@@ -291,7 +291,7 @@ static void meet_pockets(const carom_sim *sim, const flight *f, double landing,
   for (int k = 0; k < features->pockets; k++) {
     const carom_pocket *pocket = &sim->table->pocket[k];
     double over[2];
-    if (!near(features, features->rails + features->jaws + k, box) ||
+    if (!is_beside(features, features->rails + features->jaws + k, box) ||
         cross_circle(f, pocket->centre, pocket->radius, over) < 2 || over[1] < 0.0 ||
         over[0] >= landing)
       continue;
@@ -311,8 +311,8 @@ carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3
   meet_cushions(sim, kind, &f, &first, &T);
   meet_pockets(sim, &f, landing, &first, &T);
   if (first.type == CAROM_DUE_NOTHING) { /* it lands */
-    const double there[2] = {r[0] + landing * v[0], r[1] + landing * v[1]};
-    if (carom_place_is_outside(sim->table, sim->features, kind, there))
+    const double place[2] = {r[0] + landing * v[0], r[1] + landing * v[1]};
+    if (carom_place_is_outside(sim->table, sim->features, kind, place))
       first = (carom_meeting){landing, CAROM_EVENT_LEFT_TABLE, -1};
   }
   return first;

@@ -24,12 +24,12 @@ void carom_follow_on(carom_play *play, double V, double behind) {
   const carom_cue *cue = sim->cue;
   carom_follow *f = &play->follow;
   const double left = cue->follow - f->along;
-  f->until = -1.0;
+  f->end = -1.0;
   if (!(left > 0.0 && V > 0.0) || cue->tip_time < 0.0 || !sim->rules->clusters ||
       !carom_lasts(sim->opt))
     return;
-  f->since = sim->now;
-  f->until = sim->now + left / V;
+  f->start = sim->time;
+  f->end = sim->time + left / V;
   f->along -= behind;
   f->V = V;
 }
@@ -38,8 +38,8 @@ void carom_follow_on(carom_play *play, double V, double behind) {
 static void tip_of(const carom_play *play, const double r[3], double axes[3][3], double p[3]) {
   const carom_sim *sim = &play->sim;
   const carom_follow *f = &play->follow;
-  carom_tip_from(sim->cue, sim->rates[sim->struck].radius, f->from,
-                 f->along + f->V * (sim->now - f->since), r, axes, p);
+  carom_tip_from(sim->cue, sim->rates[sim->struck].radius, f->origin,
+                 f->along + f->V * (sim->time - f->start), r, axes, p);
 }
 
 void carom_follow_find(carom_play *play) {
@@ -50,7 +50,7 @@ void carom_follow_find(carom_play *play) {
   const bool out = carom_is_out(path->from.label);
   f->time = INFINITY;
   if (out)
-    f->until = -1.0;
+    f->end = -1.0;
   if (out || !sim->turned)
     return;
 
@@ -58,30 +58,30 @@ void carom_follow_find(carom_play *play) {
   carom_ball_state s;
   carom_separation d;
   double axes[3][3];
-  carom_path_at(path, &sim->rates[i], sim->now, &s);
+  carom_path_at(path, &sim->rates[i], sim->time, &s);
   tip_of(play, s.r, axes, d.d0);
   for (int k = 0; k < 3; k++) {
     d.d1[k] = f->V * axes[0][k] - s.v[k];
     d.d2[k] = -path->a[k];
   }
-  const double horizon = carom_lesser(f->until, path->end) - sim->now;
+  const double horizon = carom_lesser(f->end, path->end) - sim->time;
   if (horizon >= 0.0)
-    f->time = sim->now + carom_first_contact_in_space(&d, sim->rates[i].radius, horizon);
+    f->time = sim->time + carom_first_contact_in_space(&d, sim->rates[i].radius, horizon);
 }
 
-bool carom_follow_cue(const carom_play *play, carom_cue *now) {
+bool carom_follow_cue(const carom_play *play, carom_cue *moved_cue) {
   const carom_sim *sim = &play->sim;
   const int i = sim->struck;
   const double R = sim->rates[i].radius;
   carom_ball_state s;
-  double axes[3][3], p[3], on[3];
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &s);
+  double axes[3][3], p[3], offset[3];
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &s);
   tip_of(play, s.r, axes, p);
-  const double p2 = carom_tip_on(axes, p, on);
-  *now = *sim->cue;
-  now->speed = play->follow.V;
-  now->follow -= play->follow.along + play->follow.V * (sim->now - play->follow.since);
-  now->a = on[1];
-  now->b = on[2];
-  return p2 > 0.25 * R * R && on[0] < -0.1;
+  const double p2 = carom_tip_on(axes, p, offset);
+  *moved_cue = *sim->cue;
+  moved_cue->speed = play->follow.V;
+  moved_cue->follow -= play->follow.along + play->follow.V * (sim->time - play->follow.start);
+  moved_cue->a = offset[1];
+  moved_cue->b = offset[2];
+  return p2 > 0.25 * R * R && offset[0] < -0.1;
 }

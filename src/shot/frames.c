@@ -22,7 +22,7 @@ typedef struct replayed {
 
 /* A shot at a time. Where `turns`, balls turn; then each path is begun as its event comes. */
 typedef struct replay {
-  uint64_t of;         /* fingerprint of the balls */
+  uint64_t balls_hash; /* fingerprint of the balls */
   uint64_t last_of;    /* and of the last event until then */
   int64_t count;       /* of balls; 0 before the first time */
   int64_t next, turns; /* next: the first event that is later */
@@ -32,7 +32,7 @@ typedef struct replay {
 
 /* What a caller keeps: the replay at the last time, and before. */
 typedef struct film {
-  replay now;
+  replay current;
   uint64_t slots[14000];
 } film;
 _Static_assert(sizeof(film) <= sizeof(carom_frames), "a film fits in the words of callers");
@@ -63,13 +63,13 @@ static uint64_t last_of(const carom_shot *shot, int64_t next) {
 }
 
 /* As the shot begins: nothing has turned. */
-static void begin(replay *at, const carom_shot_ball *balls, int count, bool turns) {
-  at->count = count;
-  at->turns = turns;
-  at->next = 0;
-  at->time = 0.0;
+static void begin(replay *state, const carom_shot_ball *balls, int count, bool turns) {
+  state->count = count;
+  state->turns = turns;
+  state->next = 0;
+  state->time = 0.0;
   for (int i = 0; i < count; i++) {
-    replayed *ball = &at->ball[i];
+    replayed *ball = &state->ball[i];
     ball->rates = carom_rates_of(&balls[i].kind);
     ball->path.from = balls[i].state;
     ball->path.start = 0.0;
@@ -80,30 +80,30 @@ static void begin(replay *at, const carom_shot_ball *balls, int count, bool turn
 }
 
 /* The path of a ball to a time, and its turn; false where that takes more steps than any shot. */
-static bool go_along(const replay *at, replayed *ball, double time, double *left) {
+static bool go_along(const replay *state, replayed *ball, double time, double *left) {
   if (!ball->begun) {
     carom_path_begin(&ball->path, &ball->rates, ball->path.start);
-    if (at->turns)
+    if (state->turns)
       carom_turning_begin(&ball->turning, &ball->path, &ball->rates);
   }
   ball->begun = 1;
-  return (!at->turns ||
+  return (!state->turns ||
           carom_turning_go_to(&ball->turning, &ball->path, &ball->rates, time, left)) &&
          carom_path_go_to(&ball->path, &ball->rates, time);
 }
 
 /* Goes forward to a time: the last event of each ball until then. */
-static bool go_to(replay *at, const carom_shot *shot, int64_t known, double time, double *left) {
+static bool go_to(replay *state, const carom_shot *shot, int64_t known, double time, double *left) {
   const carom_event *events = shot->events;
-  for (; at->next < known && events[at->next].time <= time; at->next++) {
-    const carom_event *event = &events[at->next];
+  for (; state->next < known && events[state->next].time <= time; state->next++) {
+    const carom_event *event = &events[state->next];
     const int moved[2] = {event->a, event->b};
     for (int side = 0; side < 1 + (event->type == CAROM_EVENT_BALL_BALL); side++) {
-      if (moved[side] < 0 || moved[side] >= at->count)
+      if (moved[side] < 0 || moved[side] >= state->count)
         continue;
-      replayed *ball = &at->ball[moved[side]];
-      if (at->turns) {
-        if (!go_along(at, ball, event->time, left))
+      replayed *ball = &state->ball[moved[side]];
+      if (state->turns) {
+        if (!go_along(state, ball, event->time, left))
           return false;
         carom_turning_at(&ball->turning, event->time, ball->turning.q);
       }
@@ -112,19 +112,19 @@ static bool go_to(replay *at, const carom_shot *shot, int64_t known, double time
       ball->begun = 0;
     }
   }
-  at->time = time;
+  state->time = time;
   return true;
 }
 
 /* ---- Keyframes ------------------------------------------------------------------------------- */
 
-static keyframes keyframes_of(film *of, int count, const carom_shot *shot) {
-  keyframes made = {.slots = (unsigned char *)of->slots, .size = size_of(count)};
-  const int64_t slots = (int64_t)(sizeof of->slots / made.size);
-  made.spans = slots / 2;
-  made.cells = slots - made.spans + 1;
-  made.length = shot->time / (double)(made.spans * made.cells);
-  return made;
+static keyframes keyframes_of(film *store, int count, const carom_shot *shot) {
+  keyframes keys = {.slots = (unsigned char *)store->slots, .size = size_of(count)};
+  const int64_t slots = (int64_t)(sizeof store->slots / keys.size);
+  keys.spans = slots / 2;
+  keys.cells = slots - keys.spans + 1;
+  keys.length = shot->time / (double)(keys.spans * keys.cells);
+  return keys;
 }
 
 /* The slot of a cell, counted from the beginning of the shot. */
@@ -138,129 +138,168 @@ static void *slot_of(const keyframes *keep, int64_t cell) {
 
 /* Takes the replay back, or further on, to the latest keyframe of this shot until a time; to the
  * begin, where there is none. */
-static void seek(replay *at, const keyframes *keep, const carom_shot_ball *balls,
+static void seek(replay *state, const keyframes *keep, const carom_shot_ball *balls,
                  const carom_shot *shot, int64_t known, double time) {
   const int64_t slots = keep->spans + keep->cells - 1;
-  const int count = (int)at->count;
-  const uint64_t of = at->of;
-  const double since = time < at->time ? 0.0 : at->time;
+  const int count = (int)state->count;
+  const uint64_t balls_hash = state->balls_hash;
+  const double earliest = time < state->time ? 0.0 : state->time;
   replay *best;
   do {
-    double least = since;
+    double least = earliest;
     best = NULL;
     for (int64_t k = 0; k < slots; k++) {
-      replay *one = (replay *)(void *)(keep->slots + keep->size * (size_t)k);
-      if (one->count != count || one->of != of || one->time > time || one->time <= least)
+      replay *slot = (replay *)(void *)(keep->slots + keep->size * (size_t)k);
+      if (slot->count != count || slot->balls_hash != balls_hash || slot->time > time ||
+          slot->time <= least)
         continue;
-      best = one;
-      least = one->time;
+      best = slot;
+      least = slot->time;
     }
     if (best == NULL)
       break;
 
     /* a shot that was played again has other events */
     if (best->next <= known && best->last_of == last_of(shot, best->next)) {
-      memcpy(at, best, keep->size);
+      memcpy(state, best, keep->size);
       return;
     }
     best->count = 0;
   } while (best != NULL);
-  if (time < at->time)
-    begin(at, balls, count, true);
+  if (time < state->time)
+    begin(state, balls, count, true);
 }
 
 /* Goes forward to a time, and keeps the replay at the begin of each cell on the way. */
-static bool go_by_cells(replay *at, const keyframes *keep, const carom_shot *shot, int64_t known,
+static bool go_by_cells(replay *state, const keyframes *keep, const carom_shot *shot, int64_t known,
                         double time, double *left) {
   const int64_t cells = keep->spans * keep->cells;
-  for (int64_t cell = (int64_t)(at->time / keep->length) + 1; cell < cells; cell++) {
+  for (int64_t cell = (int64_t)(state->time / keep->length) + 1; cell < cells; cell++) {
     const double begins = (double)cell * keep->length;
     if (begins > time)
       break;
-    if (begins <= at->time)
+    if (begins <= state->time)
       continue;
-    if (!go_to(at, shot, known, begins, left))
+    if (!go_to(state, shot, known, begins, left))
       return false;
-    for (int i = 0; i < at->count; i++)
-      if (!go_along(at, &at->ball[i], begins, left))
+    for (int i = 0; i < state->count; i++)
+      if (!go_along(state, &state->ball[i], begins, left))
         return false;
-    at->last_of = last_of(shot, at->next);
-    memcpy(slot_of(keep, cell), at, keep->size);
+    state->last_of = last_of(shot, state->next);
+    memcpy(slot_of(keep, cell), state, keep->size);
   }
-  return go_to(at, shot, known, time, left);
+  return go_to(state, shot, known, time, left);
 }
 
 /* ---- Frames ---------------------------------------------------------------------------------- */
 
 /* The states at a time to which the replay has gone, and the turns; false where they are not to be
  * found. */
-static bool find_states(replay *at, double *left, carom_ball_state *states, double (*turned)[4]) {
-  for (int i = 0; i < at->count; i++) {
-    replayed *ball = &at->ball[i];
-    if (!go_along(at, ball, at->time, left))
+static bool find_states(replay *state, double *left, carom_ball_state *states,
+                        double (*turned)[4]) {
+  for (int i = 0; i < state->count; i++) {
+    replayed *ball = &state->ball[i];
+    if (!go_along(state, ball, state->time, left))
       return false;
-    carom_path_at(&ball->path, &ball->rates, at->time, &states[i]);
+    carom_path_at(&ball->path, &ball->rates, state->time, &states[i]);
     double size = 0.0;
     for (int k = 0; k < 3; k++)
       size += fabs(states[i].r[k]) + fabs(states[i].v[k]) + fabs(states[i].w[k]);
     if (!(size < INFINITY))
       return false;
     if (turned != NULL)
-      carom_turning_at(&ball->turning, at->time, turned[i]);
+      carom_turning_at(&ball->turning, state->time, turned[i]);
   }
   return true;
 }
 
-/* The frames of a shot, onward from those before where `at` is of the same shot; `keep` and turned
- * may be NULL. */
+/* The shot whose frames are asked for. */
+typedef struct shown_shot {
+  const carom_shot_ball *balls;
+  int count;
+  const carom_shot *shot;
+  int64_t known;         /* events that the caller has */
+  const keyframes *keep; /* NULL: none */
+} shown_shot;
+
+/* Whether the states at a time follow from the events that the caller has. */
+static carom_status check_time(const shown_shot *shown, double time) {
+  const carom_shot *shot = shown->shot;
+  if (!(time >= 0.0))
+    return CAROM_ERROR_TIME;
+  const double last = shown->known > 0 ? shot->events[shown->known - 1].time : -INFINITY;
+  if (shot->count > shown->known && carom_lesser(time, shot->time) > last)
+    return CAROM_ERROR_EVENTS_LOST;
+  return CAROM_OK;
+}
+
+/* Takes the replay to a time. An earlier time than the last begins anew, or from a keyframe. */
+static bool show(replay *state, const shown_shot *shown, bool turns, double time, double *left) {
+  const keyframes *keep = shown->keep;
+  if (state->count == 0 || (keep == NULL && time < state->time))
+    begin(state, shown->balls, shown->count, turns);
+  if (keep == NULL)
+    return go_to(state, shown->shot, shown->known, time, left);
+  if (!(time >= state->time && time <= state->time + keep->length))
+    seek(state, keep, shown->balls, shown->shot, shown->known, time);
+  return go_by_cells(state, keep, shown->shot, shown->known, time, left);
+}
+
+/* Whether a ball moves when the replay has come to the end: its motion after it is unknown. */
+static bool has_moving_ball(const replay *state) {
+  for (int i = 0; i < state->count; i++) {
+    const int64_t label = state->ball[i].path.from.label;
+    if (label != CAROM_BALL_STATIONARY && !carom_is_out(label))
+      return true;
+  }
+  return false;
+}
+
+/* One frame, whose states and turns go to the places given; turned may be NULL. */
+static carom_status show_frame(replay *state, const shown_shot *shown, double time, double *left,
+                               carom_ball_state *states, double (*turned)[4]) {
+  const double end = shown->shot->time;
+  const carom_status status = check_time(shown, time);
+  if (status != CAROM_OK)
+    return status;
+  const bool found = show(state, shown, turned != NULL, carom_lesser(time, end), left);
+  if (time > end && has_moving_ball(state))
+    return CAROM_ERROR_TIME;
+  if (found && find_states(state, left, states, turned))
+    return CAROM_OK;
+  state->count = 0;
+  return CAROM_ERROR_UNRESOLVED;
+}
+
+/* The frames of a shot, onward from those before where `state` is of the same shot; `keep` and
+ * turned may be NULL. */
 static carom_status replay_times(const carom_shot_ball *balls, int count, const carom_shot *shot,
-                                 const double *times, size_t n, replay *at, const keyframes *keep,
-                                 carom_ball_state *states, double (*turned)[4]) {
+                                 const double *times, size_t n, replay *state,
+                                 const keyframes *keep, carom_ball_state *states,
+                                 double (*turned)[4]) {
   if (balls == NULL || shot == NULL || (n > 0 && (times == NULL || states == NULL)))
     return CAROM_ERROR_NULL;
-  const carom_status bad = carom_check_room(shot);
-  if (bad != CAROM_OK)
-    return bad;
-  if (count < 1 || count > CAROM_BALLS_MOST)
-    return CAROM_ERROR_BALLS;
-  const int64_t known = carom_events_kept(shot);
+  carom_status status = carom_check_room(shot);
+  if (status == CAROM_OK && (count < 1 || count > CAROM_BALLS_MOST))
+    status = CAROM_ERROR_BALLS;
+  if (status != CAROM_OK)
+    return status;
+
+  const shown_shot shown = {balls, count, shot, carom_events_kept(shot), keep};
   double left = most_steps;
-  for (size_t k = 0; k < n; k++) {
-    if (!(times[k] >= 0.0))
-      return CAROM_ERROR_TIME;
-    const double time = carom_lesser(times[k], shot->time);
-    if (shot->count > known && (known == 0 || time > shot->events[known - 1].time))
-      return CAROM_ERROR_EVENTS_LOST;
-    /* an earlier time than the last begins anew, or from a keyframe */
-    if (at->count == 0 || (keep == NULL && time < at->time))
-      begin(at, balls, count, turned != NULL);
-    if (keep != NULL && !(time >= at->time && time <= at->time + keep->length))
-      seek(at, keep, balls, shot, known, time);
-    bool found;
-    if (keep != NULL)
-      found = go_by_cells(at, keep, shot, known, time, &left);
-    else
-      found = go_to(at, shot, known, time, &left);
-    /* the motion after the end of the shot is unknown */
-    for (int i = 0; i < count && times[k] > shot->time; i++)
-      if (at->ball[i].path.from.label != CAROM_BALL_STATIONARY &&
-          !carom_is_out(at->ball[i].path.from.label))
-        return CAROM_ERROR_TIME;
+  for (size_t k = 0; k < n && status == CAROM_OK; k++) {
     const size_t first = k * (size_t)count;
-    found = found && find_states(at, &left, &states[first], turned ? &turned[first] : NULL);
-    if (!found) {
-      at->count = 0;
-      return CAROM_ERROR_UNRESOLVED;
-    }
+    status = show_frame(state, &shown, times[k], &left, &states[first],
+                        turned != NULL ? &turned[first] : NULL);
   }
-  return CAROM_OK;
+  return status;
 }
 
 carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const carom_shot *shot,
                                  const double *times, size_t n, carom_ball_state *states) {
-  replay at;
-  at.count = 0;
-  return replay_times(balls, count, shot, times, n, &at, NULL, states, NULL);
+  replay state;
+  state.count = 0;
+  return replay_times(balls, count, shot, times, n, &state, NULL, states, NULL);
 }
 
 carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot,
@@ -273,36 +312,36 @@ carom_status carom_shot_frames(const carom_shot_ball *balls, int count, const ca
                                carom_ball_state *states, double (*turned)[4]) {
   if (n > 0 && turned == NULL)
     return CAROM_ERROR_NULL;
-  replay at;
-  at.count = 0;
+  replay state;
+  state.count = 0;
   const bool sound = onward != NULL && balls != NULL && count > 0 && count <= CAROM_BALLS_MOST &&
                      shot != NULL && carom_check_room(shot) == CAROM_OK;
-  film *kept = (film *)(void *)onward;
+  film *store = (film *)(void *)onward;
   keyframes keep = {0};
   if (sound) {
     /* frames of another shot begin anew */
     const int64_t known = carom_events_kept(shot);
-    const uint64_t of = carom_fingerprint(0, balls, (size_t)count * sizeof *balls);
-    memcpy(&at, &kept->now, size_of(count));
-    if (at.count != count || at.of != of || at.next < 0 || at.next > known || at.turns != 1 ||
-        at.last_of != last_of(shot, at.next))
-      at.count = 0;
-    at.of = of;
-    keep = keyframes_of(kept, count, shot);
+    const uint64_t balls_hash = carom_fingerprint(0, balls, (size_t)count * sizeof *balls);
+    memcpy(&state, &store->current, size_of(count));
+    if (state.count != count || state.balls_hash != balls_hash || state.next < 0 ||
+        state.next > known || state.turns != 1 || state.last_of != last_of(shot, state.next))
+      state.count = 0;
+    state.balls_hash = balls_hash;
+    keep = keyframes_of(store, count, shot);
   }
-  const carom_status status = replay_times(balls, count, shot, times, n, &at,
+  const carom_status status = replay_times(balls, count, shot, times, n, &state,
                                            keep.length > 0.0 ? &keep : NULL, states, turned);
   if (sound) {
-    at.last_of = 0;
-    if (at.count > 0)
-      at.last_of = last_of(shot, at.next);
-    memcpy(&kept->now, &at, size_of(at.count));
+    state.last_of = 0;
+    if (state.count > 0)
+      state.last_of = last_of(shot, state.next);
+    memcpy(&store->current, &state, size_of(state.count));
   }
   return status;
 }
 
 carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, const carom_shot *shot,
                                     double time, double (*turned)[4]) {
-  carom_ball_state then[CAROM_BALLS_MOST];
-  return carom_shot_frames(balls, count, shot, &time, 1, NULL, then, turned);
+  carom_ball_state states[CAROM_BALLS_MOST];
+  return carom_shot_frames(balls, count, shot, &time, 1, NULL, states, turned);
 }

@@ -30,8 +30,8 @@ CAROM_FRICTION_LAWS(IN_ORDER)
 
 /* law_a, law_b and law_c, or Alciatore's where all are 0. */
 static inline void carom_own_law(const carom_ball_kind *kind, double k[3]) {
-  const bool own = kind->law_a + kind->law_b + kind->law_c > 0.0;
-  const carom_speed_law law = own ? (carom_speed_law){0} : carom_alciatore();
+  const bool has_law = kind->law_a + kind->law_b + kind->law_c > 0.0;
+  const carom_speed_law law = has_law ? (carom_speed_law){0} : carom_alciatore();
   k[0] = law.a + kind->law_a;
   k[1] = law.b + kind->law_b;
   k[2] = law.c + kind->law_c;
@@ -40,9 +40,9 @@ static inline void carom_own_law(const carom_ball_kind *kind, double k[3]) {
 void carom_law_of_ball(carom_ball_friction law, const carom_ball_kind *kind, double k[3]) {
   k[0] = k[1] = k[2] = 0.0;
   switch (law) {
-#define CASE(NAME, name, of, numbers, ...) \
-  case CAROM_FRICTION_##NAME:              \
-    numbers;                               \
+#define CASE(NAME, name, pair, numbers, ...) \
+  case CAROM_FRICTION_##NAME:                \
+    numbers;                                 \
     break;
     CAROM_FRICTION_LAWS(CASE)
 #undef CASE
@@ -117,9 +117,10 @@ void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state
 
 /* A ball on the cloth takes part in a contact whose line of centres n is level; n_z is dropped. The
  * radii are equal. */
-static carom_status balls_on_cloth(const carom_sim *sim, const carom_due *due, const double n[3],
-                                   carom_ball_state *a, carom_ball_state *b) {
-  const carom_ball_kind *kind_a = sim->layout->kind[due->a], *kind_b = sim->layout->kind[due->b];
+static carom_status balls_on_cloth(const carom_sim *sim, const carom_due *pending_event,
+                                   const double n[3], carom_ball_state *a, carom_ball_state *b) {
+  const carom_ball_kind *kind_a = sim->layout->kind[pending_event->a],
+                        *kind_b = sim->layout->kind[pending_event->b];
   const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);
   const carom_ball_model model = carom_ball_model_of(sim->opt);
   carom_result out;
@@ -131,7 +132,8 @@ static carom_status balls_on_cloth(const carom_sim *sim, const carom_due *due, c
   }
 
   const contact_slip s = slip_of(n, R, a, b);
-  const double mu = friction_of(sim, due->a, due->b, sqrt(s.along * s.along + s.up * s.up));
+  const double mu =
+      friction_of(sim, pending_event->a, pending_event->b, sqrt(s.along * s.along + s.up * s.up));
   if (model == CAROM_BALL_MODEL_INELASTIC) {
     inelastic(n, R, e, mu, &s, a, b);
     return CAROM_OK;
@@ -159,13 +161,14 @@ static carom_status balls_on_cloth(const carom_sim *sim, const carom_due *due, c
 }
 
 /* Spheres in space; without friction where the model has none. */
-static void balls_in_space(const carom_sim *sim, const carom_due *due, const double n[3],
+static void balls_in_space(const carom_sim *sim, const carom_due *pending_event, const double n[3],
                            carom_ball_state *a, carom_ball_state *b) {
-  const carom_ball_kind *kind_a = sim->layout->kind[due->a], *kind_b = sim->layout->kind[due->b];
+  const carom_ball_kind *kind_a = sim->layout->kind[pending_event->a],
+                        *kind_b = sim->layout->kind[pending_event->b];
   const double e = 0.5 * (kind_a->restitution + kind_b->restitution);
   carom_impact in = {.a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .restitution = e};
   if (carom_ball_model_of(sim->opt) != CAROM_BALL_MODEL_MIRROR)
-    in.mu_ball = friction_of(sim, due->a, due->b, carom_spheres_slip(&in, n));
+    in.mu_ball = friction_of(sim, pending_event->a, pending_event->b, carom_spheres_slip(&in, n));
   carom_result out;
   carom_spheres_collide(&in, n, &out);
   take_motion(&out.a, a);
@@ -174,25 +177,26 @@ static void balls_in_space(const carom_sim *sim, const carom_due *due, const dou
 
 /* Turns the plane of n and the level direction across it into that of the cloth: n to `level`, and
  * k, which is up across n, to z. Or back. */
-static void turn_plane(const double from[2][3], const double to[2][3], double x[3]) {
+static void turn_plane(const double source[2][3], const double target[2][3], double x[3]) {
   double along[2];
   for (int axis = 0; axis < 2; axis++)
-    along[axis] = x[0] * from[axis][0] + x[1] * from[axis][1] + x[2] * from[axis][2];
+    along[axis] = x[0] * source[axis][0] + x[1] * source[axis][1] + x[2] * source[axis][2];
   for (int k = 0; k < 3; k++)
-    x[k] += along[0] * (to[0][k] - from[0][k]) + along[1] * (to[1][k] - from[1][k]);
+    x[k] += along[0] * (target[0][k] - source[0][k]) + along[1] * (target[1][k] - source[1][k]);
 }
 
 /* Two balls as balls_on_cloth() has them, though n is tilted or the radii differ: all vectors are
  * turned until n is level, and R_b w_b is kept, as the law has R and w only as this product. The
  * velocities along k stay. */
-static carom_status balls_on_tilted_cloth(const carom_sim *sim, const carom_due *due,
+static carom_status balls_on_tilted_cloth(const carom_sim *sim, const carom_due *pending_event,
                                           const double n[3], carom_ball_state *a,
                                           carom_ball_state *b) {
   const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
   const double level[3] = {n[0] / size, n[1] / size, 0.0};
   const double tilted[2][3] = {{n[0], n[1], n[2]}, {-level[0] * n[2], -level[1] * n[2], size}};
   const double upright[2][3] = {{level[0], level[1], 0.0}, {0.0, 0.0, 1.0}};
-  const double ratio = sim->layout->kind[due->b]->radius / sim->layout->kind[due->a]->radius;
+  const double ratio =
+      sim->layout->kind[pending_event->b]->radius / sim->layout->kind[pending_event->a]->radius;
   carom_ball_state *ball[2] = {a, b};
   double rise[2];
 
@@ -205,7 +209,7 @@ static carom_status balls_on_tilted_cloth(const carom_sim *sim, const carom_due 
   for (int k = 0; k < 3; k++)
     b->w[k] *= ratio;
 
-  const carom_status status = balls_on_cloth(sim, due, level, a, b);
+  const carom_status status = balls_on_cloth(sim, pending_event, level, a, b);
 
   for (int k = 0; k < 3; k++)
     b->w[k] /= ratio;
@@ -221,27 +225,29 @@ static double height_above_cloth(const carom_ball_kind *kind, const carom_ball_s
   return carom_flies(s) ? s->r[2] - kind->radius : (double)0.0;
 }
 
-double carom_freedom_of_pair(const carom_sim *sim, const carom_due *due, const double n[3],
-                             const carom_ball_state *a, const carom_ball_state *b) {
-  const double height = carom_greater(height_above_cloth(sim->layout->kind[due->a], a),
-                                      height_above_cloth(sim->layout->kind[due->b], b));
+double carom_freedom_of_pair(const carom_sim *sim, const carom_due *pending_event,
+                             const double n[3], const carom_ball_state *a,
+                             const carom_ball_state *b) {
+  const double height = carom_greater(height_above_cloth(sim->layout->kind[pending_event->a], a),
+                                      height_above_cloth(sim->layout->kind[pending_event->b], b));
   return carom_freedom_of_balls(height, n[2]);
 }
 
-__attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim, const carom_due *due,
+__attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim,
+                                                         const carom_due *pending_event,
                                                          const double n[3], bool in_space,
                                                          carom_ball_state *a, carom_ball_state *b) {
   if (!in_space)
-    return balls_on_cloth(sim, due, n, a, b);
+    return balls_on_cloth(sim, pending_event, n, a, b);
 
   /* how free of the cloth they are; without friction the cloth takes no part at all */
-  const double freedom = carom_freedom_of_pair(sim, due, n, a, b);
+  const double freedom = carom_freedom_of_pair(sim, pending_event, n, a, b);
   carom_ball_state held[2] = {*a, *b}, *ball[2] = {a, b};
-  balls_in_space(sim, due, n, a, b);
+  balls_in_space(sim, pending_event, n, a, b);
   if (freedom >= 1.0 || carom_ball_model_of(sim->opt) == CAROM_BALL_MODEL_MIRROR)
     return CAROM_OK;
 
-  const carom_status status = balls_on_tilted_cloth(sim, due, n, &held[0], &held[1]);
+  const carom_status status = balls_on_tilted_cloth(sim, pending_event, n, &held[0], &held[1]);
   for (int side = 0; side < 2 && status >= 0; side++)
     for (int k = 0; k < 3; k++) {
       double *v = &ball[side]->v[k], *w = &ball[side]->w[k];
@@ -251,12 +257,12 @@ __attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim, c
   return status;
 }
 
-carom_nose carom_nose_of(const carom_table *table, const carom_due *due) {
-  if (due->type == CAROM_EVENT_RAIL) {
-    const carom_rail *rail = &table->rail[due->b];
+carom_nose carom_nose_of(const carom_table *table, const carom_due *pending_event) {
+  if (pending_event->type == CAROM_EVENT_RAIL) {
+    const carom_rail *rail = &table->rail[pending_event->b];
     return (carom_nose){rail->height, 0.0, rail->mu_cushion, rail->restitution};
   }
-  const carom_jaw *jaw = &table->jaw[due->b];
+  const carom_jaw *jaw = &table->jaw[pending_event->b];
   return (carom_nose){jaw->height, jaw->radius, jaw->mu_cushion, jaw->restitution};
 }
 
@@ -342,10 +348,10 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
 }
 
 /* NEAR THE CLOTH in resolve.c has the blend. */
-carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3],
-                                 carom_ball_state *s) {
-  const carom_ball_kind *kind = sim->layout->kind[due->a];
-  const carom_nose nose = carom_nose_of(sim->table, due);
+carom_status carom_model_cushion(const carom_sim *sim, const carom_due *pending_event,
+                                 const double n[3], carom_ball_state *s) {
+  const carom_ball_kind *kind = sim->layout->kind[pending_event->a];
+  const carom_nose nose = carom_nose_of(sim->table, pending_event);
   if (!carom_flies(s))
     return impact_on_cloth(sim, kind, n, &nose, s);
   const double chi = carom_freedom_of_height(s->r[2] - kind->radius);

@@ -34,21 +34,21 @@ static carom_due pair_of(const carom_sim *sim, int i, int j) {
 }
 
 /* All that is due up to a time. */
-static int list_due(const carom_sim *sim, double limit, carom_due due[MOST_DUE]) {
+static int list_due(const carom_sim *sim, double limit, carom_due pending_events[MOST_DUE]) {
   int count = 0;
   for (int i = 0; i < sim->count && count < MOST_DUE - CAROM_BALLS_MOST - 2; i++) {
     /* neither the ball itself nor a pair with one behind it is due */
-    if (sim->own[i] > limit && sim->first[i] > limit)
+    if (sim->own_end[i] > limit && sim->first[i] > limit)
       continue;
 
     /* the end of its phase, its meeting with the table, its pairs with balls j > i */
     if (sim->path[i].end <= limit)
-      due[count++] = end_of(sim, i);
+      pending_events[count++] = end_of(sim, i);
     if (sim->meeting[i].time <= limit)
-      due[count++] = meeting_of(sim, i);
+      pending_events[count++] = meeting_of(sim, i);
     for (int j = i + 1; sim->first[i] <= limit && j < sim->count; j++)
       if (sim->pair[i][j] <= limit)
-        due[count++] = pair_of(sim, i, j);
+        pending_events[count++] = pair_of(sim, i, j);
   }
   CAROM_PROMISE(count >= 1 && count <= MOST_DUE);
   return count;
@@ -58,7 +58,7 @@ carom_due carom_next(const carom_sim *sim) {
   /* the earliest time that anything is due */
   double first = INFINITY;
   for (int i = 0; i < sim->count; i++) {
-    const double soonest = carom_lesser(sim->own[i], sim->first[i]);
+    const double soonest = carom_lesser(sim->own_end[i], sim->first[i]);
     first = carom_lesser(soonest, first);
   }
 
@@ -66,9 +66,9 @@ carom_due carom_next(const carom_sim *sim) {
     return (carom_due){INFINITY, CAROM_DUE_REST, -1, -1};
 
   /* all that the world takes for simultaneous with it; its rules choose */
-  carom_due due[MOST_DUE];
-  const int count = list_due(sim, first + sim->rules->simultaneous, due);
+  carom_due pending_events[MOST_DUE];
+  const int count = list_due(sim, first + sim->rules->simultaneous, pending_events);
   if (count == 1)
-    return due[0];
-  return sim->rules->choose(sim, due, count);
+    return pending_events[0];
+  return sim->rules->choose(sim, pending_events, count);
 }

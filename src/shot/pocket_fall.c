@@ -33,7 +33,7 @@ typedef struct lying {
 typedef struct fall {
   const carom_pocket *pocket;
   const carom_ball_kind *kind;
-  const carom_ball_state *from;
+  const carom_ball_state *entry;
   double wall, hit; /* W, and when the ball is there, s */
   double end;       /* when it lies, s */
   const lying *others[CAROM_BALLS_MOST];
@@ -45,14 +45,14 @@ typedef struct fall {
 } fall;
 
 static double height_of(const fall *f, double t) {
-  return f->from->r[2] + t * (f->from->v[2] - 0.5 * f->kind->gravity * t);
+  return f->entry->r[2] + t * (f->entry->v[2] - 0.5 * f->kind->gravity * t);
 }
 
 /* The wall, and when the ball comes to it. */
 static void find_wall(fall *f) {
   /* the middle of the way is nearest to the pocket's; W */
-  const double x = f->from->r[0] - f->pocket->centre[0], y = f->from->r[1] - f->pocket->centre[1],
-               vx = f->from->v[0], vy = f->from->v[1];
+  const double x = f->entry->r[0] - f->pocket->centre[0], y = f->entry->r[1] - f->pocket->centre[1],
+               vx = f->entry->v[0], vy = f->entry->v[1];
   const double speed2 = vx * vx + vy * vy, inward = -(x * vx + y * vy);
   double middle = 0.0;
   if (speed2 > 0.0)
@@ -73,8 +73,8 @@ static void fall_alone(const fall *f, double t, double p[2], double v[2]) {
   /* straight to the wall */
   const double straight = carom_lesser(t, f->hit);
   for (int k = 0; k < 2; k++) {
-    v[k] = f->from->v[k];
-    p[k] = f->from->r[k] - f->pocket->centre[k] + straight * v[k];
+    v[k] = f->entry->v[k];
+    p[k] = f->entry->r[k] - f->pocket->centre[k] + straight * v[k];
   }
   if (!(t > f->hit && f->wall > 0.0))
     return;
@@ -91,8 +91,8 @@ static void fall_alone(const fall *f, double t, double p[2], double v[2]) {
 }
 
 /* Level distance that a ball at height z has to keep from one that lies. */
-static double distance_from(const fall *f, const lying *other, double z) {
-  const double sum = f->kind->radius + other->radius, up = z - other->r[2];
+static double distance_from(const fall *f, const lying *neighbor, double z) {
+  const double sum = f->kind->radius + neighbor->radius, up = z - neighbor->r[2];
   return sqrt(carom_greater(sum * sum - up * up, 0.0));
 }
 
@@ -100,19 +100,19 @@ static double distance_from(const fall *f, const lying *other, double z) {
 static const lying *in_its_way(const fall *f, double t, const double p[2]) {
   const double z = height_of(f, t);
   for (int k = 0; k < f->count; k++) {
-    const lying *other = f->others[k];
-    const double x = f->pocket->centre[0] + p[0] - other->r[0],
-                 y = f->pocket->centre[1] + p[1] - other->r[1];
-    if (other != f->touched &&
-        x * x + y * y < distance_from(f, other, z) * distance_from(f, other, z))
-      return other;
+    const lying *neighbor = f->others[k];
+    const double x = f->pocket->centre[0] + p[0] - neighbor->r[0],
+                 y = f->pocket->centre[1] + p[1] - neighbor->r[1];
+    if (neighbor != f->touched &&
+        x * x + y * y < distance_from(f, neighbor, z) * distance_from(f, neighbor, z))
+      return neighbor;
   }
   return NULL;
 }
 
 /* From one that lies, the direction of the pocket's middle, and its distance. */
-static double to_middle(const fall *f, const lying *other, double e[2]) {
-  const double x = f->pocket->centre[0] - other->r[0], y = f->pocket->centre[1] - other->r[1],
+static double to_middle(const fall *f, const lying *neighbor, double e[2]) {
+  const double x = f->pocket->centre[0] - neighbor->r[0], y = f->pocket->centre[1] - neighbor->r[1],
                far = sqrt(x * x + y * y);
   e[0] = 1.0;
   e[1] = 0.0;
@@ -148,13 +148,13 @@ static bool place_at(const fall *f, double t, double p[2], double v[2]) {
 }
 
 /* The last time up to the end at which the place is still free, from a time on. */
-static double last_free(const fall *f, double from) {
+static double last_free(const fall *f, double start) {
   static const int parts = 200;
   enum { BISECTIONS = 40 };
   double p[2], v[2];
   for (int k = 0; k <= parts && f->count > 0; k++) {
-    double low = from + (f->end - from) * (k - 1) / parts,
-           high = from + (f->end - from) * k / parts;
+    double low = start + (f->end - start) * (k - 1) / parts,
+           high = start + (f->end - start) * k / parts;
     if (place_at(f, high, p, v))
       continue;
     for (int n = 0; n < BISECTIONS && k > 0; n++) {
@@ -165,7 +165,7 @@ static double last_free(const fall *f, double from) {
         high = middle;
     }
     if (k == 0)
-      return from;
+      return start;
     return high;
   }
   return f->end;
@@ -173,26 +173,26 @@ static double last_free(const fall *f, double from) {
 
 /* The first touch, and when the ball lies: at the depth, or on others. */
 static void find_end(fall *f) {
-  const double g = f->kind->gravity, rise = f->from->v[2],
-               down = carom_greater(f->from->r[2] + f->pocket->depth, 0.0);
+  const double g = f->kind->gravity, rise = f->entry->v[2],
+               down = carom_greater(f->entry->r[2] + f->pocket->depth, 0.0);
   double p[2], v[2], e[2];
   f->end = (rise + sqrt(rise * rise + 2.0 * g * down)) / g;
   f->touched = NULL;
   f->touch = last_free(f, 0.0);
   fall_alone(f, f->touch, p, v);
-  const lying *other = in_its_way(f, f->touch, p);
-  if (other == NULL)
+  const lying *neighbor = in_its_way(f, f->touch, p);
+  if (neighbor == NULL)
     return;
 
   /* the direction, inward where the ball is right above the other one */
-  const double far = to_middle(f, other, e), x = p[0] + far * e[0], y = p[1] + far * e[1],
+  const double far = to_middle(f, neighbor, e), x = p[0] + far * e[0], y = p[1] + far * e[1],
                apart = sqrt(x * x + y * y);
   f->inward = 1.0;
   if (apart > 0.0)
     f->inward = (x * e[0] + y * e[1]) / apart;
   f->aside = y * e[0] - x * e[1];
   f->most = carom_greater(f->wall, sqrt(p[0] * p[0] + p[1] * p[1]));
-  f->touched = other;
+  f->touched = neighbor;
   f->end = last_free(f, f->touch);
 }
 
@@ -209,22 +209,22 @@ static void begin(fall *f, const lying *others, int known, int64_t pocket) {
 /* The state at a time since its begin. */
 static void state_at(const fall *f, double t, carom_ball_state *state) {
   static const double soon = 1e-7; /* s */
-  double p[2], v[2], before[2], none[2];
+  double p[2], v[2], previous[2], none[2];
   const bool lies = t >= f->end;
   t = carom_lesser(t, f->end);
   place_at(f, t, p, v);
   /* around another one the velocity is that of the way */
   if (!lies && f->touched != NULL && t > f->touch) {
-    place_at(f, carom_greater(t - soon, 0.0), before, none);
+    place_at(f, carom_greater(t - soon, 0.0), previous, none);
     for (int k = 0; k < 2; k++)
-      v[k] = (p[k] - before[k]) / soon;
+      v[k] = (p[k] - previous[k]) / soon;
   }
   for (int k = 0; k < 2; k++) {
     state->r[k] = f->pocket->centre[k] + p[k];
     state->v[k] = v[k];
   }
   state->r[2] = height_of(f, t);
-  state->v[2] = f->from->v[2] - f->kind->gravity * t;
+  state->v[2] = f->entry->v[2] - f->kind->gravity * t;
   if (lies)
     memset(state->v, 0, sizeof state->v);
 }
@@ -254,7 +254,7 @@ carom_status carom_shot_falls(const carom_table *table, const carom_shot_ball *b
     /* its fall, seen at all times that are later */
     fall f = {.pocket = &table->pocket[event->b],
               .kind = &balls[event->a].kind,
-              .from = &event->before[0]};
+              .entry = &event->before[0]};
     begin(&f, others, down, event->b);
     for (size_t k = 0; k < n; k++)
       if (times[k] >= event->time)

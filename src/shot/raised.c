@@ -54,26 +54,26 @@ static const double least_tip = 0.05; /* e of a tip, as in cluster/push.c */
 enum { TIP, SLATE, FOOT, ENDS };
 enum { OPEN, LOADS, UNLOADS, LEAVES, GONE }; /* GONE: a cue that does not follow through */
 
-typedef struct press_spring {
+typedef struct push_spring {
   int branch;
   bool returns;       /* touches anew once it is open */
   double k, e;        /* over the mass of the ball, 1/s^2; restitution */
   double d, v;        /* compression, m, and its rate, m/s */
   double top;         /* d_max */
   double rest, stiff; /* of the branch: d without a force, and the rate of the force, 1/s^2 */
-} press_spring;
+} push_spring;
 
-typedef struct pressed {
-  double B, S, D, mu;   /* the numbers of the equations */
-  double V, mass_ratio; /* of the cue: speed before the strike, m/s; m/M */
-  double follow;        /* m: how far the cue goes on */
-  press_spring of[2];   /* of tip and slate */
-  double slip;          /* s, m/s */
-  bool slips;           /* else the foot holds */
-  bool lets_go;         /* it has just begun to slip */
-  int stuck;            /* phases in a row that took no time */
+typedef struct push_state {
+  double B, S, D, mu;    /* the numbers of the equations */
+  double V, mass_ratio;  /* of the cue: speed before the strike, m/s; m/M */
+  double follow;         /* m: how far the cue goes on */
+  push_spring spring[2]; /* of tip and slate */
+  double slip;           /* s, m/s */
+  bool slips;            /* else the foot holds */
+  bool lets_go;          /* it has just begun to slip */
+  int stuck;             /* phases in a row that took no time */
   carom_raised *out;
-} pressed;
+} push_state;
 
 /* C and U of both modes, at one time. */
 typedef struct swing {
@@ -81,11 +81,11 @@ typedef struct swing {
 } swing;
 
 /* One phase: A, its eigenvalues, and what each mode has of compressions and speeds at its start. */
-typedef struct press_phase {
+typedef struct push_phase {
   double A[2][2], lambda[2], quick; /* quick: sqrt(lambda[0]), the faster one */
   double z[2][2], v[2][2];          /* [mode][contact] */
   double of_tip, of_slate;          /* the slip by the changes of both speeds */
-} press_phase;
+} push_phase;
 
 /* Values at one time of a phase. `foot` ends its state as it passes 0: the slip, or the friction
  * that it needs to hold less what it has. */
@@ -96,8 +96,8 @@ typedef struct instant {
 /* A value whose sign ends a phase: at the start of a step and at its end, or at its vertex within
  * the step, and its rates there. */
 typedef struct ending {
-  double from, from_rate, to, to_rate, share; /* share: the part of the step up to `to` */
-  int next;                                   /* the branch that follows */
+  double start, from_rate, end, to_rate, share; /* share: the part of the step up to `to` */
+  int next;                                     /* the branch that follows */
 } ending;
 
 double carom_slate_under(const carom_ball_kind *kind) {
@@ -107,7 +107,7 @@ double carom_slate_under(const carom_ball_kind *kind) {
 /* ---- Contacts */
 
 /* Begins a branch where the last one has ended. */
-static void turn_to(press_spring *x, int next) {
+static void turn_to(push_spring *x, int next) {
   const double lost = 1.0 - x->e * x->e;
   const bool comes_back = x->branch == LEAVES;
   x->stiff = x->rest = 0.0;
@@ -127,82 +127,82 @@ static void turn_to(press_spring *x, int next) {
   }
 }
 
-/* Whether a value that is not beyond 0 at either end of a step is so at its vertex within it. *near
- * becomes true where that is too close to tell. */
-static bool dips(double from, double from_rate, double to_rate, double h, int next, bool *near,
-                 ending *e) {
+/* Whether a value that is not beyond 0 at either end of a step is so at its vertex within it.
+ * *is_unclear becomes true where that is too close to tell. */
+static bool dips(double value, double from_rate, double to_rate, double h, int next,
+                 bool *is_unclear, ending *e) {
   const bool falls_first =
-      from > 0.0 ? from_rate < 0.0 && to_rate > 0.0 : from_rate > 0.0 && to_rate < 0.0;
+      value > 0.0 ? from_rate < 0.0 && to_rate > 0.0 : from_rate > 0.0 && to_rate < 0.0;
   if (!falls_first)
     return false;
   const double share = from_rate / (from_rate - to_rate), fall = 0.5 * from_rate * share * h;
-  const double vertex = from + fall;
-  *near |= fabs(vertex) < 0.1 * fabs(fall);
-  if ((vertex > 0.0) == (from > 0.0))
+  const double vertex = value + fall;
+  *is_unclear |= fabs(vertex) < 0.1 * fabs(fall);
+  if ((vertex > 0.0) == (value > 0.0))
     return false;
-  *e = (ending){from, from_rate, vertex, 0.0, share, next};
+  *e = (ending){value, from_rate, vertex, 0.0, share, next};
   return true;
 }
 
 /* The end of a branch that is left as its compression passes `level`, downwards or upwards. */
-static bool passes(double level, bool down, int i, const instant *from, const instant *to, double h,
-                   int next, bool *near, ending *e) {
-  const double start = from->d[i] - level, end = to->d[i] - level;
+static bool passes(double level, bool down, int i, const instant *first, const instant *last,
+                   double h, int next, bool *is_unclear, ending *e) {
+  const double start = first->d[i] - level, end = last->d[i] - level;
   if (down ? end < 0.0 : end > 0.0) {
-    *e = (ending){start, from->v[i], end, to->v[i], 1.0, next};
+    *e = (ending){start, first->v[i], end, last->v[i], 1.0, next};
     return true;
   }
   const bool inside = down ? start > 0.0 : start < 0.0;
-  return inside && dips(start, from->v[i], to->v[i], h, next, near, e);
+  return inside && dips(start, first->v[i], last->v[i], h, next, is_unclear, e);
 }
 
 /* The same of one that is left as it begins to unload, or to close. */
-static bool turns(bool unloads, int i, const instant *from, const instant *to, double h, bool *near,
-                  ending *e) {
-  if (unloads ? to->v[i] < 0.0 : to->v[i] > 0.0) {
-    *e = (ending){from->v[i], from->a[i], to->v[i], to->a[i], 1.0, UNLOADS};
+static bool turns(bool unloads, int i, const instant *start, const instant *end, double h,
+                  bool *is_unclear, ending *e) {
+  if (unloads ? end->v[i] < 0.0 : end->v[i] > 0.0) {
+    *e = (ending){start->v[i], start->a[i], end->v[i], end->a[i], 1.0, UNLOADS};
     return true;
   }
-  return dips(from->v[i], from->a[i], to->a[i], h, UNLOADS, near, e);
+  return dips(start->v[i], start->a[i], end->a[i], h, UNLOADS, is_unclear, e);
 }
 
 /* Whether the branch of contact i ends within a step of h. */
-static bool branch_ends(const press_spring *x, int i, const instant *from, const instant *to,
-                        double h, bool *near, ending *e) {
+static bool branch_ends(const push_spring *x, int i, const instant *start, const instant *end,
+                        double h, bool *is_unclear, ending *e) {
   switch (x->branch) {
   case LOADS:
-    return turns(true, i, from, to, h, near, e);
+    return turns(true, i, start, end, h, is_unclear, e);
   case UNLOADS:
-    return passes(x->rest, true, i, from, to, h, LEAVES, near, e) ||
-           passes(x->top, false, i, from, to, h, LOADS, near, e);
+    return passes(x->rest, true, i, start, end, h, LEAVES, is_unclear, e) ||
+           passes(x->top, false, i, start, end, h, LOADS, is_unclear, e);
   case LEAVES:
-    return dips(from->d[i], from->v[i], to->v[i], h, OPEN, near, e) ||
-           turns(false, i, from, to, h, near, e) ||
-           passes(0.0, true, i, from, to, h, OPEN, near, e);
+    return dips(start->d[i], start->v[i], end->v[i], h, OPEN, is_unclear, e) ||
+           turns(false, i, start, end, h, is_unclear, e) ||
+           passes(0.0, true, i, start, end, h, OPEN, is_unclear, e);
   case OPEN:
-    return passes(0.0, false, i, from, to, h, LOADS, near, e);
+    return passes(0.0, false, i, start, end, h, LOADS, is_unclear, e);
   default:
     return false;
   }
 }
 
 /* Whether the foot begins to hold, or to slip, within a step of h. */
-static bool foot_ends(const pressed *p, const instant *from, const instant *to, double h,
-                      bool *near, ending *e) {
-  const bool passed = p->slips ? to->foot < 0.0 : to->foot > 0.0,
-             inside = p->slips ? from->foot > 0.0 : from->foot < 0.0;
+static bool foot_ends(const push_state *p, const instant *start, const instant *end, double h,
+                      bool *is_unclear, ending *e) {
+  const bool passed = p->slips ? end->foot < 0.0 : end->foot > 0.0,
+             inside = p->slips ? start->foot > 0.0 : start->foot < 0.0;
   if (passed) {
-    *e = (ending){from->foot, from->foot_rate, to->foot, to->foot_rate, 1.0, 0};
+    *e = (ending){start->foot, start->foot_rate, end->foot, end->foot_rate, 1.0, 0};
     return true;
   }
-  return inside && dips(from->foot, from->foot_rate, to->foot_rate, h, 0, near, e);
+  return inside && dips(start->foot, start->foot_rate, end->foot_rate, h, 0, is_unclear, e);
 }
 
 /* The part of a step of h at which an ending is 0: of Hermite's cubic, less the zeros that it has
  * at its start, by Newton's method within bounds. */
 static double part_of_step(const ending *e, double step) {
-  const double h = e->share * step, rise = e->to - e->from;
-  double c[4] = {e->from, h * e->from_rate, 3.0 * rise - h * (2.0 * e->from_rate + e->to_rate),
+  const double h = e->share * step, rise = e->end - e->start;
+  double c[4] = {e->start, h * e->from_rate, 3.0 * rise - h * (2.0 * e->from_rate + e->to_rate),
                  h * (e->from_rate + e->to_rate) - 2.0 * rise};
   for (int n = 0; n < 2 && c[0] == 0.0; n++) {
     c[0] = c[1];
@@ -240,15 +240,15 @@ static void swing_of(double lambda, double t, double *C, double *U) {
   *U = t * u;
 }
 
-static swing swing_by(const press_phase *f, double t) {
-  swing by;
+static swing swing_by(const push_phase *f, double t) {
+  swing change;
   for (int n = 0; n < 2; n++)
-    swing_of(f->lambda[n], t, &by.C[n], &by.U[n]);
-  return by;
+    swing_of(f->lambda[n], t, &change.C[n], &change.U[n]);
+  return change;
 }
 
 /* At the sum of two times. */
-static swing swing_on(const press_phase *f, const swing *a, const swing *b) {
+static swing swing_on(const push_phase *f, const swing *a, const swing *b) {
   swing sum;
   for (int n = 0; n < 2; n++) {
     sum.C[n] = a->C[n] * b->C[n] - f->lambda[n] * a->U[n] * b->U[n];
@@ -258,8 +258,8 @@ static swing swing_on(const press_phase *f, const swing *a, const swing *b) {
 }
 
 /* The two modes of the phase that begins. */
-static void begin_phase(const pressed *p, press_phase *f) {
-  const press_spring *tip = &p->of[TIP], *slate = &p->of[SLATE];
+static void begin_phase(const push_state *p, push_phase *f) {
+  const push_spring *tip = &p->spring[TIP], *slate = &p->spring[SLATE];
   const double held = p->D * p->D / 3.5;
   const double B = p->slips ? p->B : p->B - held,
                S = p->slips ? p->S + p->mu * p->D : p->S; /* of N in x'' */
@@ -296,125 +296,126 @@ static void begin_phase(const pressed *p, press_phase *f) {
   f->of_slate = p->slips ? f->of_tip * S + 3.5 * p->mu : (double)0.0;
 }
 
-static void instant_at(const pressed *p, const press_phase *f, const swing *q, instant *now) {
+static void instant_at(const push_state *p, const push_phase *f, const swing *q, instant *values) {
   double force[2], rate[2], y[2];
   for (int i = 0; i < 2; i++) {
-    y[i] = now->v[i] = 0.0;
+    y[i] = values->v[i] = 0.0;
     for (int n = 0; n < 2; n++) {
       y[i] += f->z[n][i] * q->C[n] + f->v[n][i] * q->U[n];
-      now->v[i] += f->v[n][i] * q->C[n] - f->lambda[n] * f->z[n][i] * q->U[n];
+      values->v[i] += f->v[n][i] * q->C[n] - f->lambda[n] * f->z[n][i] * q->U[n];
     }
-    now->d[i] = y[i] + p->of[i].rest;
-    force[i] = p->of[i].stiff * y[i];
-    rate[i] = p->of[i].stiff * now->v[i];
+    values->d[i] = y[i] + p->spring[i].rest;
+    force[i] = p->spring[i].stiff * y[i];
+    rate[i] = p->spring[i].stiff * values->v[i];
   }
   for (int i = 0; i < 2; i++)
-    now->a[i] = -(f->A[i][0] * y[0] + f->A[i][1] * y[1]);
+    values->a[i] = -(f->A[i][0] * y[0] + f->A[i][1] * y[1]);
 
   /* the foot */
-  now->slip = p->slip + f->of_tip * (now->v[TIP] - p->of[TIP].v) +
-              f->of_slate * (now->v[SLATE] - p->of[SLATE].v);
+  values->slip = p->slip + f->of_tip * (values->v[TIP] - p->spring[TIP].v) +
+                 f->of_slate * (values->v[SLATE] - p->spring[SLATE].v);
   if (p->slips) {
-    now->foot = now->slip;
-    now->foot_rate = p->D * force[TIP] - 3.5 * p->mu * force[SLATE];
+    values->foot = values->slip;
+    values->foot_rate = p->D * force[TIP] - 3.5 * p->mu * force[SLATE];
   } else {
-    now->foot = p->D / 3.5 * force[TIP] - p->mu * force[SLATE];
-    now->foot_rate = p->D / 3.5 * rate[TIP] - p->mu * rate[SLATE];
+    values->foot = p->D / 3.5 * force[TIP] - p->mu * force[SLATE];
+    values->foot_rate = p->D / 3.5 * rate[TIP] - p->mu * rate[SLATE];
   }
 }
 
 /* Which of the endings comes first within a step, or -1, and at which part of it. */
-static int first_ending(const pressed *p, const instant *from, const instant *to, double h,
-                        bool *near, double *part, ending *first) {
-  int which = -1;
+static int first_ending(const push_state *p, const instant *start, const instant *end, double h,
+                        bool *is_unclear, double *part, ending *first) {
+  int contact = -1;
   *part = 2.0;
   *first = (ending){0.0, 0.0, 0.0, 0.0, 1.0, 0};
   for (int k = 0; k < ENDS; k++) {
     ending e;
-    const bool ends = k == FOOT ? foot_ends(p, from, to, h, near, &e)
-                                : branch_ends(&p->of[k], k, from, to, h, near, &e);
-    const double at = ends ? part_of_step(&e, h) : (double)2.0;
-    if (!(at < *part))
+    const bool ends = k == FOOT ? foot_ends(p, start, end, h, is_unclear, &e)
+                                : branch_ends(&p->spring[k], k, start, end, h, is_unclear, &e);
+    const double share = ends ? part_of_step(&e, h) : (double)2.0;
+    if (!(share < *part))
       continue;
-    *part = at;
+    *part = share;
     *first = e;
-    which = k;
+    contact = k;
   }
-  return which;
+  return contact;
 }
 
 /* The value of an ending, and its rate. */
-static double value_of(const pressed *p, int which, int next, const instant *now, double *rate) {
-  if (which == FOOT) {
-    *rate = now->foot_rate;
-    return now->foot;
+static double value_of(const push_state *p, int contact, int next, const instant *values,
+                       double *rate) {
+  if (contact == FOOT) {
+    *rate = values->foot_rate;
+    return values->foot;
   }
-  const press_spring *x = &p->of[which];
+  const push_spring *x = &p->spring[contact];
   if (next == UNLOADS) {
-    *rate = now->a[which];
-    return now->v[which];
+    *rate = values->a[contact];
+    return values->v[contact];
   }
-  *rate = now->v[which];
+  *rate = values->v[contact];
   double level = 0.0;
   if (next == LEAVES)
     level = x->rest;
   else if (x->branch == UNLOADS)
     level = x->top;
-  return now->d[which] - level;
+  return values->d[contact] - level;
 }
 
-static bool held(const pressed *p) {
-  const press_spring *tip = &p->of[TIP], *slate = &p->of[SLATE];
+static bool held(const push_state *p) {
+  const push_spring *tip = &p->spring[TIP], *slate = &p->spring[SLATE];
   return p->D / 3.5 * tip->stiff * (tip->d - tip->rest) <=
          p->mu * slate->stiff * (slate->d - slate->rest);
 }
 
 /* The tip touches anew. */
-static void count_touch(pressed *p) {
+static void count_touch(push_state *p) {
   p->out->touches++;
   if (p->out->touches == 2)
-    p->out->second = p->of[TIP].v;
+    p->out->second = p->spring[TIP].v;
 }
 
 /* Ends the phase where an ending is 0, near the time of q. */
-static void end_phase(pressed *p, const press_phase *f, swing q, double before, double h, int which,
-                      int next) {
-  instant now;
+static void end_phase(push_state *p, const push_phase *f, swing q, double elapsed, double h,
+                      int contact, int next) {
+  instant values;
   double rate;
-  instant_at(p, f, &q, &now);
-  const double value = value_of(p, which, next, &now, &rate);
+  instant_at(p, f, &q, &values);
+  const double value = value_of(p, contact, next, &values, &rate);
   double off = rate != 0.0 ? -value / rate : (double)0.0;
-  off = fabs(off) < 0.2 * h ? carom_greater(off, -before) : (double)0.0;
-  const swing by = swing_by(f, off), at = swing_on(f, &q, &by);
-  p->stuck = before + off > 1e-9 * h ? 0 : p->stuck + 1;
-  instant_at(p, f, &at, &now);
+  off = fabs(off) < 0.2 * h ? carom_greater(off, -elapsed) : (double)0.0;
+  const swing change = swing_by(f, off), total = swing_on(f, &q, &change);
+  p->stuck = elapsed + off > 1e-9 * h ? 0 : p->stuck + 1;
+  instant_at(p, f, &total, &values);
 
   /* the state there, and the branch that follows */
   for (int i = 0; i < 2; i++) {
-    p->of[i].d = now.d[i];
-    p->of[i].v = now.v[i];
+    p->spring[i].d = values.d[i];
+    p->spring[i].v = values.v[i];
   }
-  p->slip = carom_greater(now.slip, 0.0);
-  p->out->course = p->out->course * 31U + (unsigned)(which * 4 + next) + 1U;
+  p->slip = carom_greater(values.slip, 0.0);
+  p->out->course = p->out->course * 31U + (unsigned)(contact * 4 + next) + 1U;
   p->lets_go = false;
-  if (which == FOOT) {
+  if (contact == FOOT) {
     p->slips = !p->slips;
     p->lets_go = p->slips;
     p->slip = 0.0;
     return;
   }
-  if (p->of[which].branch == OPEN) {
-    p->of[which].d = 0.0;
-    if (which == TIP)
+  if (p->spring[contact].branch == OPEN) {
+    p->spring[contact].d = 0.0;
+    if (contact == TIP)
       count_touch(p);
   }
-  turn_to(&p->of[which], next);
+  turn_to(&p->spring[contact], next);
   p->slips = p->slips || !held(p);
 }
 
 /* One phase, to its end. False: it takes too many steps. */
-static bool run_phase(pressed *p) {
-  press_phase f;
+static bool run_phase(push_state *p) {
+  push_phase f;
   begin_phase(p, &f);
   const double whole = STEP / f.quick;
   double h = whole, short_steps = 1.0, done = 0.0;
@@ -424,33 +425,33 @@ static bool run_phase(pressed *p) {
     h = h / FINER;
     short_steps = short_steps * FINER;
   }
-  swing at = {{1.0, 1.0}, {0.0, 0.0}}, by = swing_by(&f, h);
-  instant from, to;
-  instant_at(p, &f, &at, &from);
-  if (p->lets_go && from.slip == 0.0)
-    from.foot_rate = 0.0; /* as it lets go, it begins to slip without a rate */
+  swing total = {{1.0, 1.0}, {0.0, 0.0}}, change = swing_by(&f, h);
+  instant start, end;
+  instant_at(p, &f, &total, &start);
+  if (p->lets_go && start.slip == 0.0)
+    start.foot_rate = 0.0; /* as it lets go, it begins to slip without a rate */
 
   for (int n = 0; n < STEPS_OF_PHASE; n++) {
-    const swing next = swing_on(&f, &at, &by);
-    instant_at(p, &f, &next, &to);
-    bool near = false;
+    const swing next = swing_on(&f, &total, &change);
+    instant_at(p, &f, &next, &end);
+    bool is_unclear = false;
     double part;
     ending e;
-    const int which = first_ending(p, &from, &to, h, &near, &part, &e);
-    if (near && finer < FINER_MOST) { /* the same once more, in shorter steps */
+    const int contact = first_ending(p, &start, &end, h, &is_unclear, &part, &e);
+    if (is_unclear && finer < FINER_MOST) { /* the same once more, in shorter steps */
       short_steps = finer == 0 ? FINER : short_steps * FINER;
       finer++;
       h = h / FINER;
-      by = swing_by(&f, h);
+      change = swing_by(&f, h);
       continue;
     }
-    if (which >= 0) { /* back from the end of the step */
+    if (contact >= 0) { /* back from the end of the step */
       const swing back = swing_by(&f, part * h - h);
-      end_phase(p, &f, swing_on(&f, &next, &back), done + part * h, h, which, e.next);
+      end_phase(p, &f, swing_on(&f, &next, &back), done + part * h, h, contact, e.next);
       return true;
     }
-    at = next;
-    from = to;
+    total = next;
+    start = end;
     done = done + h;
 
     /* past it, in long steps again */
@@ -458,7 +459,7 @@ static bool run_phase(pressed *p) {
     if (finer > 0 && short_steps < 0.5) {
       finer = 0;
       h = whole;
-      by = swing_by(&f, h);
+      change = swing_by(&f, h);
     }
   }
   return false;
@@ -467,15 +468,15 @@ static bool run_phase(pressed *p) {
 /* ---- All of it */
 
 /* The impulse of the tip so far. */
-static double impulse_of_tip(const pressed *p) {
+static double impulse_of_tip(const push_state *p) {
   const double both = p->B - p->S * p->S - p->D * p->D / 3.5;
-  return (p->V - p->of[TIP].v - p->S * p->of[SLATE].v - p->D / 3.5 * p->slip) / both;
+  return (p->V - p->spring[TIP].v - p->S * p->spring[SLATE].v - p->D / 3.5 * p->slip) / both;
 }
 
 /* How long contact i, which has no force, needs until it has one again; infinite: it has none any
  * more. */
-static double wait_of(const pressed *p, int i) {
-  const press_spring *x = &p->of[i];
+static double wait_of(const push_state *p, int i) {
+  const push_spring *x = &p->spring[i];
   if (x->branch == LEAVES)
     return x->v > 0.0 ? (double)0.0 : (double)INFINITY;
   if (x->branch == GONE || !(x->v > too_slow * p->V))
@@ -486,19 +487,19 @@ static double wait_of(const pressed *p, int i) {
 }
 
 /* Nothing acts: on to where a contact does. False: none will. */
-static bool fly(pressed *p) {
+static bool fly(push_state *p) {
   const double wait[2] = {wait_of(p, TIP), wait_of(p, SLATE)},
                first = carom_lesser(wait[TIP], wait[SLATE]);
   if (!(first < INFINITY))
     return false;
   for (int i = 0; i < 2; i++) {
-    press_spring *x = &p->of[i];
+    push_spring *x = &p->spring[i];
     x->d += first * x->v;
     if (x->branch == LEAVES && x->d < 0.0)
       turn_to(x, OPEN);
   }
   for (int i = 0; i < 2; i++) {
-    press_spring *x = &p->of[i];
+    push_spring *x = &p->spring[i];
     if (wait[i] > first)
       continue;
     if (x->branch == OPEN) {
@@ -516,26 +517,26 @@ static bool fly(pressed *p) {
 }
 
 /* From the touch of the tip until nothing acts. False: that takes too long. */
-static bool press_on(pressed *p) {
+static bool push_on(push_state *p) {
   for (int n = 0; n < PHASES_MOST; n++) {
     /* a contact without a force at which nothing moves any more has parted */
     for (int i = 0; i < 2; i++) {
-      press_spring *x = &p->of[i];
-      if (x->branch == UNLOADS && p->of[1 - i].stiff == 0.0 && x->d <= x->rest && x->v <= 0.0)
+      push_spring *x = &p->spring[i];
+      if (x->branch == UNLOADS && p->spring[1 - i].stiff == 0.0 && x->d <= x->rest && x->v <= 0.0)
         turn_to(x, LEAVES);
     }
-    const bool acts = p->of[TIP].stiff > 0.0 || p->of[SLATE].stiff > 0.0;
+    const bool acts = p->spring[TIP].stiff > 0.0 || p->spring[SLATE].stiff > 0.0;
     if (acts ? !run_phase(p) : !fly(p))
       return !acts;
   }
   return false;
 }
 
-bool carom_press_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *s,
-                       carom_raised *out) {
+bool carom_push_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *s,
+                      carom_raised *out) {
   const carom_touch touch = carom_touch_slate(kind, s);
-  const double blow = carom_speed_of_blow(cue, kind), over = 1.0 / blow;
-  pressed p;
+  const double speed = carom_strike_speed(cue, kind), over = 1.0 / speed;
+  push_state p;
   memset(&p, 0, sizeof p);
   memset(out, 0, sizeof *out);
   p.out = out;
@@ -549,7 +550,7 @@ bool carom_press_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_
   p.slips = true;
 
   /* both contacts at their touch */
-  press_spring *tip = &p.of[TIP], *slate = &p.of[SLATE];
+  push_spring *tip = &p.spring[TIP], *slate = &p.spring[SLATE];
   tip->e = carom_greater(carom_tip_of(cue), least_tip);
   tip->k = carom_linear_stiffness(carom_tip_time(cue), tip->e) / p.B;
   tip->v = p.V;
@@ -560,7 +561,7 @@ bool carom_press_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_
   turn_to(tip, LOADS);
   turn_to(slate, LOADS);
   out->touches = 1;
-  if (!press_on(&p))
+  if (!push_on(&p))
     return false;
 
   /* the impulses of tip, slate and cloth */

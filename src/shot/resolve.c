@@ -85,8 +85,8 @@ double carom_slow_speed(int64_t instants) {
 }
 
 static void count_slow(carom_sim *sim) {
-  sim->slow_instants += sim->now > sim->slow_last;
-  sim->slow_last = sim->now;
+  sim->slow_instants += sim->time > sim->slow_last;
+  sim->slow_last = sim->time;
 }
 
 static double spin_energy(const carom_ball_kind *kind, const carom_ball_state *s) {
@@ -153,15 +153,15 @@ static double passing(const contact *c, double m, double closing, double u[3]) {
  * reduced mass along n. */
 static double part_slowly(const contact *c, double s, double m, double closing) {
   double u[3] = {0.0};
-  const double there = spin_energy(c->kind_a, c->a) +
-                       (c->b != NULL ? spin_energy(c->kind_b, c->b) : 0.0) +
-                       (c->in_space ? c->freedom * passing(c, m, closing, u) : 0.0);
-  const double taken = fmin(0.5 * m * (s * s - closing * closing), 0.5 * there);
-  if (!(taken > 0.0))
+  const double spin = spin_energy(c->kind_a, c->a) +
+                      (c->b != NULL ? spin_energy(c->kind_b, c->b) : 0.0) +
+                      (c->in_space ? c->freedom * passing(c, m, closing, u) : 0.0);
+  const double lost = fmin(0.5 * m * (s * s - closing * closing), 0.5 * spin);
+  if (!(lost > 0.0))
     return fmax(closing, 0.0);
 
   /* the same share of all spins and of the motion past each other */
-  const double share = sqrt(1.0 - taken / there) * (1.0 - 1e-15);
+  const double share = sqrt(1.0 - lost / spin) * (1.0 - 1e-15);
   CAROM_PROMISE(!(share < 0.5 || share > 1.0));
   slow_spin(c->a, share);
   if (c->b != NULL)
@@ -172,7 +172,7 @@ static double part_slowly(const contact *c, double s, double m, double closing) 
       u[k] /= mobility(c, k);
     push(c, 1.0 - (c->freedom < 1.0 ? of_all : share), u);
   }
-  return sqrt(closing * closing + 2.0 * taken / m);
+  return sqrt(closing * closing + 2.0 * lost / m);
 }
 
 /* A contact that closes slowly, or that its model has left closing. */
@@ -226,18 +226,18 @@ void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_st
 }
 
 void carom_into_nose(const carom_table *table, const double line[3], double reference,
-                     const carom_ball_kind *kind, const carom_due *due, const carom_ball_state *s,
-                     double N[3]) {
+                     const carom_ball_kind *kind, const carom_due *pending_event,
+                     const carom_ball_state *s, double N[3]) {
   const double *r = s->r;
   double out[2], across, height; /* the horizontal direction from the nose to the centre; the
                                     distance from the wall */
-  if (due->type == CAROM_EVENT_RAIL) {
+  if (pending_event->type == CAROM_EVENT_RAIL) {
     out[0] = line[0];
     out[1] = line[1];
     across = line[0] * r[0] + line[1] * r[1] + line[2];
-    height = table->rail[due->b].height;
+    height = table->rail[pending_event->b].height;
   } else {
-    const carom_jaw *jaw = &table->jaw[due->b];
+    const carom_jaw *jaw = &table->jaw[pending_event->b];
     const double x = r[0] - jaw->centre[0], y = r[1] - jaw->centre[1], q = sqrt(x * x + y * y);
     out[0] = q > 0.0 ? x / q : 0.0;
     out[1] = q > 0.0 ? y / q : 0.0;
@@ -267,13 +267,16 @@ double carom_height_on_top(const carom_sim *sim, int i, int part) {
          kind->radius;
 }
 
-void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a,
-                          const carom_ball_state *b, double n[3]) {
+void carom_contact_normal(const carom_sim *sim, const carom_due *pending_event,
+                          const carom_ball_state *a, const carom_ball_state *b, double n[3]) {
   if (b != NULL)
-    carom_line_of_centres(sim->layout->kind[due->a], a, sim->layout->kind[due->b], b, n);
+    carom_line_of_centres(sim->layout->kind[pending_event->a], a,
+                          sim->layout->kind[pending_event->b], b, n);
   else
-    carom_into_nose(sim->table, sim->features->line[due->type == CAROM_EVENT_RAIL ? due->b : 0],
-                    sim->features->reference, sim->layout->kind[due->a], due, a, n);
+    carom_into_nose(
+        sim->table,
+        sim->features->line[pending_event->type == CAROM_EVENT_RAIL ? pending_event->b : 0],
+        sim->features->reference, sim->layout->kind[pending_event->a], pending_event, a, n);
 }
 
 double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const double n[3]) {
@@ -283,38 +286,58 @@ double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const
   return closing;
 }
 
-carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a,
-                           carom_ball_state *b) {
-  /* which things touch, along which line, and what the cloth holds */
-  contact c = {.kind_a = sim->layout->kind[due->a], .a = a, .b = b};
+/* Which things touch, along which line, and what the cloth holds. */
+static contact contact_of(const carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
+                          carom_ball_state *b) {
+  contact c = {.kind_a = sim->layout->kind[pending_event->a], .a = a, .b = b};
   c.in_space = carom_flies(a);
-  carom_contact_normal(sim, due, a, b, c.n);
-  c.freedom = c.in_space ? carom_lesser(carom_freedom_of_height(a->r[2] - c.kind_a->radius), 1.0)
-                         : (double)0.0;
+  carom_contact_normal(sim, pending_event, a, b, c.n);
   CAROM_PROMISE(!(fabs(c.n[0] * c.n[0] + c.n[1] * c.n[1] + c.n[2] * c.n[2] - 1.0) > 1e-9));
-
-  if (b != NULL) {
-    c.kind_b = sim->layout->kind[due->b];
-    c.in_space = c.in_space || carom_flies(b) || c.kind_a->radius != c.kind_b->radius;
-    c.freedom = carom_freedom_of_pair(sim, due, c.n, a, b);
-    c.held_a = c.in_space && !carom_flies(a) && c.n[2] > 0.0;
-    c.held_b = c.in_space && !carom_flies(b) && c.n[2] < 0.0;
+  if (b == NULL) {
+    c.freedom = c.in_space ? carom_lesser(carom_freedom_of_height(a->r[2] - c.kind_a->radius), 1.0)
+                           : (double)0.0;
+    return c;
   }
+  c.kind_b = sim->layout->kind[pending_event->b];
+  c.in_space = c.in_space || carom_flies(b) || c.kind_a->radius != c.kind_b->radius;
+  c.freedom = carom_freedom_of_pair(sim, pending_event, c.n, a, b);
+  c.held_a = c.in_space && !carom_flies(a) && c.n[2] > 0.0;
+  c.held_b = c.in_space && !carom_flies(b) && c.n[2] < 0.0;
+  return c;
+}
+
+/* The motion by the model, which leaves what the cloth holds to the slate. *closing becomes how fast
+ * a ball still moves into a cushion. */
+static carom_status take_model(const carom_sim *sim, const carom_due *pending_event, contact *c,
+                               double *closing) {
+  c->held_a = c->held_b = false;
+  if (c->b != NULL) {
+    *closing = 0.0;
+    return carom_model_balls(sim, pending_event, c->n, c->in_space, c->a, c->b);
+  }
+  const carom_status status = carom_model_cushion(sim, pending_event, c->n, c->a);
+  *closing = carom_closing(c->a, NULL, c->n);
+  return status;
+}
+
+static bool has_finite_motion(const carom_ball_state *s) {
+  return carom_is_finite(s->v) && carom_is_finite(s->w);
+}
+
+carom_status carom_resolve(carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
+                           carom_ball_state *b) {
+  contact c = contact_of(sim, pending_event, a, b);
+  const bool above = b != NULL && fabs(c.n[2]) > steep;
+  const double usual = carom_slow_speed(sim->slow_instants), speed = carom_closing(a, b, c.n),
+               slow = above ? carom_greater(usual, slow_steep) : usual;
 
   /* by the model, or slowly; a ball that the model leaves moving into a cushion parts slowly, as
    * the head says */
-  const bool above = b != NULL && fabs(c.n[2]) > steep;
-  const double usual = carom_slow_speed(sim->slow_instants), before = carom_closing(a, b, c.n),
-               slow = above ? carom_greater(usual, slow_steep) : usual;
   carom_status status = CAROM_OK;
-  double closing = before;
-  if (before >= slow) {
-    status = b != NULL ? carom_model_balls(sim, due, c.n, c.in_space, a, b)
-                       : carom_model_cushion(sim, due, c.n, a);
-    closing = b != NULL ? 0.0 : carom_closing(a, NULL, c.n);
-    c.held_a = c.held_b = false; /* the model leaves them to the slate */
-  }
-  if (before < slow || closing > 0.0) {
+  double closing = speed;
+  if (speed >= slow)
+    status = take_model(sim, pending_event, &c, &closing);
+  if (speed < slow || closing > 0.0) {
     count_slow(sim);
     resolve_slowly(&c, slow, closing);
   }
@@ -327,7 +350,6 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_stat
     carom_label_after(c.in_space, c.kind_b, b);
   if (status < 0)
     return status;
-  const bool good = carom_is_finite(a->v) && carom_is_finite(a->w) &&
-                    (b == NULL || (carom_is_finite(b->v) && carom_is_finite(b->w)));
+  const bool good = has_finite_motion(a) && (b == NULL || has_finite_motion(b));
   return good ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }

@@ -18,7 +18,7 @@ typedef struct carom_rules {
   carom_cushion_convention convention; /* of the models of cushions */
   double least_step;                   /* N s, of Euler's model of a cushion */
   /* Of `count` simultaneous events the one that goes first. */
-  carom_due (*choose)(const carom_sim *sim, const carom_due *due, int count);
+  carom_due (*choose)(const carom_sim *sim, const carom_due *pending_events, int count);
   /* The times in [0, T] at which a ball touches the line of a rail, for a gap of g[0] + g[1] t +
    * g[2] t^2, the first one first; the number of them, 0 to 2. The caller takes the first at
    * which the ball is beside the rail. */
@@ -30,7 +30,7 @@ typedef struct carom_rules {
   double (*enter_pocket)(const carom_separation *d, double radius, double T);
   /* A contact of two balls, or of a ball with a rail or a jaw, now; b is NULL then. Changes the
    * states, labels too. */
-  carom_status (*resolve)(carom_sim *sim, const carom_due *due, carom_ball_state *a,
+  carom_status (*resolve)(carom_sim *sim, const carom_due *pending_events, carom_ball_state *a,
                           carom_ball_state *b);
   /* Resolves balls that part, by Euler's model of two balls; NULL: they stay as they are. */
   void (*part_by_steps)(const carom_impact *in, const carom_options *options, carom_result *out);

@@ -20,20 +20,22 @@ static const double equal_speeds = 1e-9; /* relative */
 /* ---- The order of simultaneous events */
 
 /* How fast the contact closes, m/s. */
-static double closing_speed(const carom_sim *sim, const carom_due *due) {
+static double closing_speed(const carom_sim *sim, const carom_due *pending_event) {
   carom_ball_state a, b;
   double n[3];
-  carom_path_at(&sim->path[due->a], &sim->rates[due->a], due->time, &a);
-  if (due->type == CAROM_EVENT_SLATE || due->type == CAROM_EVENT_RAIL_TOP)
+  carom_path_at(&sim->path[pending_event->a], &sim->rates[pending_event->a], pending_event->time,
+                &a);
+  if (pending_event->type == CAROM_EVENT_SLATE || pending_event->type == CAROM_EVENT_RAIL_TOP)
     return -a.v[2];
-  const bool two = due->type == CAROM_EVENT_BALL_BALL;
+  const bool two = pending_event->type == CAROM_EVENT_BALL_BALL;
   if (two)
-    carom_path_at(&sim->path[due->b], &sim->rates[due->b], due->time, &b);
-  const carom_ball_state *other = NULL;
+    carom_path_at(&sim->path[pending_event->b], &sim->rates[pending_event->b], pending_event->time,
+                  &b);
+  const carom_ball_state *partner = NULL;
   if (two)
-    other = &b;
-  carom_contact_normal(sim, due, &a, other, n);
-  return carom_closing(&a, other, n);
+    partner = &b;
+  carom_contact_normal(sim, pending_event, &a, partner, n);
+  return carom_closing(&a, partner, n);
 }
 
 static int rank(int type) {
@@ -51,26 +53,26 @@ static int rank(int type) {
   }
 }
 
-static carom_due choose(const carom_sim *sim, const carom_due *due, int count) {
+static carom_due choose(const carom_sim *sim, const carom_due *pending_events, int count) {
   int best = 0;
   double speed = -1.0; /* of the best, where it is a contact and had to be compared */
   for (int k = 1; k < count; k++) {
-    const int order = rank(due[k].type) - rank(due[best].type);
-    if (order > 0 || (order == 0 && rank(due[k].type) < 2))
+    const int order = rank(pending_events[k].type) - rank(pending_events[best].type);
+    if (order > 0 || (order == 0 && rank(pending_events[k].type) < 2))
       continue;
     if (order == 0) {
       if (speed < 0.0)
-        speed = closing_speed(sim, &due[best]);
-      const double other = closing_speed(sim, &due[k]);
-      if (!(other > speed * (1.0 + equal_speeds)))
+        speed = closing_speed(sim, &pending_events[best]);
+      const double candidate = closing_speed(sim, &pending_events[k]);
+      if (!(candidate > speed * (1.0 + equal_speeds)))
         continue;
-      speed = other;
+      speed = candidate;
     } else {
       speed = -1.0;
     }
     best = k;
   }
-  return due[best];
+  return pending_events[best];
 }
 
 /* ---- Contacts */

@@ -32,19 +32,19 @@ static const double spacer = 1e-6, longest = 5e-6; /* m */
 static double energy_of(const carom_sim *sim, int i) {
   const carom_ball_kind *k = sim->layout->kind[i];
   carom_ball_state s;
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &s);
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &s);
   const double v2 = s.v[0] * s.v[0] + s.v[1] * s.v[1] + s.v[2] * s.v[2],
                w2 = s.w[0] * s.w[0] + s.w[1] * s.w[1] + s.w[2] * s.w[2];
   return 0.5 * k->mass * v2 + 0.5 * 0.4 * k->mass * k->radius * k->radius * w2 +
          k->mass * k->gravity * (s.r[2] - k->radius);
 }
 
-static double energy_of_event(const carom_sim *sim, const carom_due *due) {
-  if (due->type != CAROM_EVENT_BALL_BALL)
-    return energy_of(sim, due->a);
+static double energy_of_event(const carom_sim *sim, const carom_due *pending_event) {
+  if (pending_event->type != CAROM_EVENT_BALL_BALL)
+    return energy_of(sim, pending_event->a);
   carom_ball_state a, b;
-  carom_path_at(&sim->path[due->a], &sim->rates[due->a], sim->now, &a);
-  carom_path_at(&sim->path[due->b], &sim->rates[due->b], sim->now, &b);
+  carom_path_at(&sim->path[pending_event->a], &sim->rates[pending_event->a], sim->time, &a);
+  carom_path_at(&sim->path[pending_event->b], &sim->rates[pending_event->b], sim->time, &b);
   const double x = a.v[0] - b.v[0], y = a.v[1] - b.v[1];
   return x * x + y * y;
 }
@@ -68,20 +68,20 @@ static int tier_of(int kind) {
     return 2;
   return 3;
 }
-static int round_of(const carom_sim *sim, const carom_due *due) {
-  if (due->type == CAROM_EVENT_BALL_BALL)
-    return sim->pair_round[due->a][due->b];
-  if (due->type < CAROM_EVENT_SLIDING_ROLLING)
-    return sim->meeting_round[due->a];
+static int round_of(const carom_sim *sim, const carom_due *pending_event) {
+  if (pending_event->type == CAROM_EVENT_BALL_BALL)
+    return sim->pair_round[pending_event->a][pending_event->b];
+  if (pending_event->type < CAROM_EVENT_SLIDING_ROLLING)
+    return sim->meeting_round[pending_event->a];
   return 0;
 }
 
-static carom_due choose(const carom_sim *sim, const carom_due *due, int count) {
+static carom_due choose(const carom_sim *sim, const carom_due *pending_events, int count) {
   const carom_due *of_kind[5] = {NULL}, *best = NULL;
   for (int k = 0; k < count; k++) {
-    const carom_due **leader = &of_kind[kind_of(due[k].type)];
-    if (*leader == NULL || round_of(sim, &due[k]) < round_of(sim, *leader))
-      *leader = &due[k];
+    const carom_due **leader = &of_kind[kind_of(pending_events[k].type)];
+    if (*leader == NULL || round_of(sim, &pending_events[k]) < round_of(sim, *leader))
+      *leader = &pending_events[k];
   }
   for (int k = 0; k < 5; k++) {
     if (of_kind[k] == NULL)
@@ -230,30 +230,30 @@ static bool kiss_jaw(const carom_jaw *jaw, double R, double n[2], carom_ball_sta
   return true;
 }
 
-static bool kiss_cushion(const carom_sim *sim, const carom_due *due, double n[2],
+static bool kiss_cushion(const carom_sim *sim, const carom_due *pending_event, double n[2],
                          carom_ball_state *s) {
-  const double R = sim->rates[due->a].radius;
-  if (due->type == CAROM_EVENT_JAW)
-    return kiss_jaw(&sim->table->jaw[due->b], R, n, s);
-  kiss_rail(&sim->table->rail[due->b], sim->features->line[due->b], R, n, s);
+  const double R = sim->rates[pending_event->a].radius;
+  if (pending_event->type == CAROM_EVENT_JAW)
+    return kiss_jaw(&sim->table->jaw[pending_event->b], R, n, s);
+  kiss_rail(&sim->table->rail[pending_event->b], sim->features->line[pending_event->b], R, n, s);
   return true;
 }
 
-static carom_status resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a,
+static carom_status resolve(carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
                             carom_ball_state *b) {
   double n[3] = {0.0};
   bool kissed;
   if (b != NULL)
-    kissed = kiss_balls(sim->rates[due->a].radius, n, a, b);
+    kissed = kiss_balls(sim->rates[pending_event->a].radius, n, a, b);
   else
-    kissed = kiss_cushion(sim, due, n, a);
+    kissed = kiss_cushion(sim, pending_event, n, a);
   if (!kissed)
     return CAROM_ERROR_UNRESOLVED;
   carom_status status;
   if (b != NULL)
-    status = carom_model_balls(sim, due, n, false, a, b);
+    status = carom_model_balls(sim, pending_event, n, false, a, b);
   else
-    status = carom_model_cushion(sim, due, n, a);
+    status = carom_model_cushion(sim, pending_event, n, a);
   a->label = CAROM_BALL_SLIDING;
   if (status < 0)
     return status;

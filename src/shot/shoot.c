@@ -13,26 +13,28 @@
 
 /* Counts an event, and gives the place where its states go: in the caller's list, or a spare one
  * where that has no room. */
-static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
+static inline carom_event *note(carom_sim *sim, carom_event *spare,
+                                const carom_due *pending_event) {
   carom_shot *shot = sim->shot;
   CAROM_PROMISE(shot->count >= 0);
   const bool room = shot->count < shot->room;
   carom_event *event = spare;
   if (room && shot->brief != NULL)
-    shot->brief[shot->count] = (carom_brief_event){sim->now, due->type, due->a, due->b, 0};
+    shot->brief[shot->count] =
+        (carom_brief_event){sim->time, pending_event->type, pending_event->a, pending_event->b, 0};
   if (room && shot->events != NULL)
     event = &shot->events[shot->count];
   if (shot->facts != NULL)
-    carom_facts_event(sim, due);
+    carom_facts_event(sim, pending_event);
   shot->count++;
-  shot->time = sim->now;
-  event->time = sim->now;
-  event->type = due->type;
-  event->a = due->a;
-  event->b = due->b;
+  shot->time = sim->time;
+  event->time = sim->time;
+  event->type = pending_event->type;
+  event->a = pending_event->a;
+  event->b = pending_event->b;
   event->cluster = 0;
   event->impulse = 0.0;
-  if (due->type != CAROM_EVENT_BALL_BALL)
+  if (pending_event->type != CAROM_EVENT_BALL_BALL)
     memset(&event->before[1], 0, sizeof event->before[1]);
   return event;
 }
@@ -51,18 +53,19 @@ static double impulse_of(const carom_sim *sim, const carom_event *event) {
 
 /* Resolves an event: event->before to the paths of its balls. The change itself is made in
  * path->from. */
-static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_event *event) {
-  const int i = due->a, j = due->b;
+static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
+                            const carom_event *event) {
+  const int i = pending_event->a, j = pending_event->b;
   carom_ball_state *state = &sim->path[i].from;
-  switch (due->type) {
+  switch (pending_event->type) {
   case CAROM_EVENT_BALL_BALL:
     *state = event->before[0];
     sim->path[j].from = event->before[1];
-    return sim->rules->resolve(sim, due, state, &sim->path[j].from);
+    return sim->rules->resolve(sim, pending_event, state, &sim->path[j].from);
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW:
     *state = event->before[0];
-    return sim->rules->resolve(sim, due, state, NULL);
+    return sim->rules->resolve(sim, pending_event, state, NULL);
   case CAROM_EVENT_POCKET: {
     const carom_pocket *pocket = &sim->table->pocket[j];
     *state = (carom_ball_state){.r = {pocket->centre[0], pocket->centre[1], -pocket->depth},
@@ -89,22 +92,23 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
 }
 
 /* Each contact of a cluster is an event. A ball changes at its first one, unless it is among
- * changed[], and has the same state before and after the others. *due becomes the first contact of
+ * changed[], and has the same state before and after the others. *pending_event becomes the first contact of
  * the struck ball, where it has one. */
 static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
                                   const uint8_t order[], int count, bool changed[],
-                                  carom_due *due) {
+                                  carom_due *pending_event) {
   carom_status status = CAROM_OK;
   const int struck = sim->struck;
   for (int k = 0; k < count; k++) {
     /* one contact as an event of its own; balls stand in the caller's order */
     const carom_cluster_contact_state *x = &c->contact[order[k]];
     const carom_cluster_ball *two[2] = {&c->ball[x->i], &c->ball[x->j]};
-    const carom_due contact = {sim->now, CAROM_EVENT_BALL_BALL, two[0]->which, two[1]->which};
+    const carom_due contact = {sim->time, CAROM_EVENT_BALL_BALL, two[0]->which, two[1]->which};
     CAROM_PROMISE(contact.a < contact.b);
     /* whether the shot stops is asked for the first contact of the struck ball */
-    if ((contact.a == struck || contact.b == struck) && due->a != struck && due->b != struck)
-      *due = contact;
+    if ((contact.a == struck || contact.b == struck) && pending_event->a != struck &&
+        pending_event->b != struck)
+      *pending_event = contact;
 
     carom_event spare, *event = note(sim, &spare, &contact);
     event->cluster = count + c->struck; /* the strike is one of them */
@@ -118,7 +122,7 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
         event->before[side] = path->from;
       } else {
         changed[i] = true;
-        carom_path_at(path, &sim->rates[i], sim->now, &event->before[side]);
+        carom_path_at(path, &sim->rates[i], sim->time, &event->before[side]);
         path->from = event->before[side];
         carom_cluster_rest(sim, c, (int)(two[side] - c->ball), &path->from);
         carom_label_after(c->in_space, sim->layout->kind[i], &path->from);
@@ -127,7 +131,7 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
           status = CAROM_ERROR_OVERFLOW;
           path->from = event->before[side];
         }
-        carom_path_begin(path, &sim->rates[i], sim->now);
+        carom_path_begin(path, &sim->rates[i], sim->time);
       }
       event->after[side] = path->from;
     }
@@ -137,18 +141,18 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
 
 /* The shot ends at this instant, before a cluster or a push that cannot be solved. */
 static carom_status unresolved(carom_sim *sim) {
-  sim->shot->time = sim->now;
+  sim->shot->time = sim->time;
   return CAROM_ERROR_UNRESOLVED;
 }
 
 /* Resolves the contact that is due together with the contacts that last at the same time. Returns
- * false where there are no others. *due becomes the first contact of the struck ball, where it has
+ * false where there are no others. *pending_event becomes the first contact of the struck ball, where it has
  * one. This is a function of its own because a cluster needs 20 KiB of stack. */
-__attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *due,
+__attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *pending_event,
                                                           carom_status *status) {
   carom_cluster_state c;
   uint8_t order[CAROM_CLUSTER_CONTACTS];
-  const int count = carom_cluster_now(sim, due->a, due->b, &c, order);
+  const int count = carom_cluster_now(sim, pending_event->a, pending_event->b, &c, order);
   if (count == 0)
     return false;
   if (count < 0) {
@@ -156,7 +160,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
     return true;
   }
   bool changed[CAROM_BALLS_MOST] = {false};
-  *status = note_contacts(sim, &c, order, count, changed, due);
+  *status = note_contacts(sim, &c, order, count, changed, pending_event);
   carom_detect_all(sim);
   return true;
 }
@@ -167,11 +171,11 @@ typedef enum push_kind { PUSH_OF_SEVERAL, PUSH_OF_ONE, PUSH_AGAIN } push_kind;
 
 /* Resolves the push of a cue together with the contacts of balls that last meanwhile; their events
  * stand behind that of the strike. Returns false, with nothing changed, where no other ball takes
- * part in a PUSH_OF_SEVERAL, and where a PUSH_AGAIN closes below CAROM_LEAST_TOUCH. *met becomes
+ * part in a PUSH_OF_SEVERAL, and where a PUSH_AGAIN closes below CAROM_LEAST_TOUCH. *contact becomes
  * the first contact of the struck ball. */
 __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_cue *cue,
                                                  double most, bool slate, push_kind kind,
-                                                 carom_due *met, carom_status *status) {
+                                                 carom_due *contact, carom_status *status) {
   carom_sim *sim = &play->sim;
   carom_cluster_state c;
   carom_cluster_slate slates[CAROM_CLUSTER_BALLS];
@@ -187,10 +191,10 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   if (kind == PUSH_OF_SEVERAL && count == 0)
     return false;
 
-  const carom_due due = {sim->now, CAROM_EVENT_STRIKE, i, -1};
-  carom_event spare, *event = note(sim, &spare, &due);
+  const carom_due strike_event = {sim->time, CAROM_EVENT_STRIKE, i, -1};
+  carom_event spare, *event = note(sim, &spare, &strike_event);
   carom_ball_state *state = &sim->path[i].from;
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &event->before[0]);
   *state = event->before[0];
   carom_facts_push(sim, &c, order, count);
   carom_cluster_rest(sim, &c, c.tip.ball, state);
@@ -205,14 +209,14 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
     *status = CAROM_ERROR_OVERFLOW;
     *state = event->before[0];
   }
-  carom_path_begin(&sim->path[i], &sim->rates[i], sim->now);
+  carom_path_begin(&sim->path[i], &sim->rates[i], sim->time);
 
   bool changed[CAROM_BALLS_MOST] = {false};
   changed[i] = true;
-  *met = (carom_due){sim->now, CAROM_DUE_NOTHING, -1, -1};
+  *contact = (carom_due){sim->time, CAROM_DUE_NOTHING, -1, -1};
   if (count > 0)
-    met->type = CAROM_EVENT_BALL_BALL;
-  const carom_status of_contacts = note_contacts(sim, &c, order, count, changed, met);
+    contact->type = CAROM_EVENT_BALL_BALL;
+  const carom_status of_contacts = note_contacts(sim, &c, order, count, changed, contact);
   if (*status == CAROM_OK)
     *status = of_contacts;
   carom_follow_on(play, c.tip.V, carom_greater(-c.tip.d, 0.0));
@@ -220,34 +224,34 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
 }
 
 /* Whether a contact may be one of several that last. */
-static inline bool may_last(const carom_sim *sim, const carom_due *due) {
-  return due->type == CAROM_EVENT_BALL_BALL && sim->rules->clusters && carom_lasts(sim->opt) &&
-         carom_third_is_near(sim, due->a, due->b);
+static inline bool may_last(const carom_sim *sim, const carom_due *pending_event) {
+  return pending_event->type == CAROM_EVENT_BALL_BALL && sim->rules->clusters &&
+         carom_lasts(sim->opt) && carom_third_is_near(sim, pending_event->a, pending_event->b);
 }
 
 /* One event, or those of a cluster. */
-static carom_status step(carom_sim *sim, carom_due *due) {
+static carom_status step(carom_sim *sim, carom_due *pending_event) {
   carom_status together;
-  if (may_last(sim, due) && step_together(sim, due, &together))
+  if (may_last(sim, pending_event) && step_together(sim, pending_event, &together))
     return together;
-  carom_event spare, *event = note(sim, &spare, due);
-  const int i = due->a;
+  carom_event spare, *event = note(sim, &spare, pending_event);
+  const int i = pending_event->a;
   int j = -1;
-  if (due->type == CAROM_EVENT_BALL_BALL)
-    j = due->b;
+  if (pending_event->type == CAROM_EVENT_BALL_BALL)
+    j = pending_event->b;
   CAROM_PROMISE(i >= 0 && i < sim->count && (j < 0 || (i < j && j < sim->count)));
 
   /* the states of its balls where it happens */
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
-  if (due->type == CAROM_EVENT_SLATE)
-    carom_path_land(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
-  else if (due->type == CAROM_EVENT_RAIL_TOP) /* exactly on it */
-    event->before[0].r[2] = carom_height_on_top(sim, i, due->b);
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &event->before[0]);
+  if (pending_event->type == CAROM_EVENT_SLATE)
+    carom_path_land(&sim->path[i], &sim->rates[i], sim->time, &event->before[0]);
+  else if (pending_event->type == CAROM_EVENT_RAIL_TOP) /* exactly on it */
+    event->before[0].r[2] = carom_height_on_top(sim, i, pending_event->b);
   if (j >= 0)
-    carom_path_at(&sim->path[j], &sim->rates[j], sim->now, &event->before[1]);
+    carom_path_at(&sim->path[j], &sim->rates[j], sim->time, &event->before[1]);
 
   /* the states after it, on their paths; an error leaves those before it */
-  const carom_status status = resolve(sim, due, event);
+  const carom_status status = resolve(sim, pending_event, event);
   if (status < 0) {
     sim->path[i].from = event->before[0];
     if (j >= 0)
@@ -265,9 +269,9 @@ static carom_status step(carom_sim *sim, carom_due *due) {
   }
 
   /* the paths from here on, and what is met on them */
-  carom_path_begin(&sim->path[i], &sim->rates[i], sim->now);
+  carom_path_begin(&sim->path[i], &sim->rates[i], sim->time);
   if (j >= 0)
-    carom_path_begin(&sim->path[j], &sim->rates[j], sim->now);
+    carom_path_begin(&sim->path[j], &sim->rates[j], sim->time);
   if (status >= 0)
     carom_detect(sim, i, j);
   return status;
@@ -285,21 +289,21 @@ static bool may_strike(const carom_sim *sim) {
   return true;
 }
 
-/* How the rules of the world take a blow. */
-static carom_blow_kind blow_kind_of(const carom_sim *sim) {
+/* How the rules of the world take a strike. */
+static carom_strike_kind strike_kind_of(const carom_sim *sim) {
   if (sim->rules->flat)
-    return CAROM_BLOW_TURNED;
+    return CAROM_STRIKE_TURNED;
   if (sim->opt->space == CAROM_SPACE_FLAT)
-    return CAROM_BLOW_ON_CLOTH;
-  return CAROM_BLOW_IN_SPACE;
+    return CAROM_STRIKE_ON_CLOTH;
+  return CAROM_STRIKE_IN_SPACE;
 }
 
 /* The strike of a ball that meets no other meanwhile, which has the motion `alone` after it. */
 static void note_strike(carom_sim *sim, const carom_ball_state *alone, const carom_raised *raised,
-                        bool in_space, bool presses) {
+                        bool in_space, bool is_push) {
   const int i = sim->struck;
-  const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
-  carom_event spare, *event = note(sim, &spare, &due);
+  const carom_due strike_event = {0.0, CAROM_EVENT_STRIKE, i, -1};
+  carom_event spare, *event = note(sim, &spare, &strike_event);
   carom_ball_state *state = &sim->path[i].from;
   carom_facts_touches(sim, raised->touches, sim->cue->speed, raised->second);
   event->before[0] = *state;
@@ -310,13 +314,13 @@ static void note_strike(carom_sim *sim, const carom_ball_state *alone, const car
   event->after[0] = *state;
   memset(&event->after[1], 0, sizeof event->after[1]);
   event->impulse = impulse_of(sim, event);
-  if (presses)
+  if (is_push)
     event->impulse = raised->impulse;
   carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
 }
 
-/* The strike, if the cue strikes. *met becomes a contact of its push. */
-static carom_status strike(carom_play *play, carom_due *met) {
+/* The strike, if the cue strikes. *contact becomes a contact of its push. */
+static carom_status strike(carom_play *play, carom_due *contact) {
   carom_sim *sim = &play->sim;
   if (!may_strike(sim))
     return CAROM_OK;
@@ -324,43 +328,44 @@ static carom_status strike(carom_play *play, carom_due *met) {
   const int i = (int)cue->ball;
   const carom_ball_kind *kind = sim->layout->kind[i];
   carom_motion motion;
-  const carom_status status = carom_blow(cue, kind, blow_kind_of(sim), &motion);
+  const carom_status status = carom_strike_motion(cue, kind, strike_kind_of(sim), &motion);
   if (status < 0)
     return status;
   carom_facts_frozen(sim);
-  memcpy(play->follow.from, sim->path[i].from.r, sizeof play->follow.from);
+  memcpy(play->follow.origin, sim->path[i].from.r, sizeof play->follow.origin);
   play->follow.along = 0.0;
 
   /* together with the balls that the struck ball meets while the cue pushes */
   carom_status together;
   const double *v = motion.v, most = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   const bool down = v[2] != 0.0;
-  if (carom_may_push(sim, &motion) && push(play, cue, most, down, PUSH_OF_SEVERAL, met, &together))
+  if (carom_may_push(sim, &motion) &&
+      push(play, cue, most, down, PUSH_OF_SEVERAL, contact, &together))
     return together;
 
   /* alone: a level strike has a closed form, a raised one presses the ball on the slate, unless
-   * the blow takes no time */
+   * the strike takes no time */
   carom_ball_state alone = sim->path[i].from;
   carom_raised raised = {.touches = 1, .behind = 0.0};
-  raised.V = cue->speed - kind->mass / cue->mass * carom_speed_of_blow(cue, kind);
+  raised.V = cue->speed - kind->mass / cue->mass * carom_strike_speed(cue, kind);
   memcpy(alone.v, motion.v, sizeof alone.v);
   memcpy(alone.w, motion.w, sizeof alone.w);
-  const bool presses = down && cue->tip_time >= 0.0;
-  if (presses && !carom_press_alone(kind, cue, &alone, &raised)) {
-    push(play, cue, most, down, PUSH_OF_ONE, met, &together);
+  const bool is_push = down && cue->tip_time >= 0.0;
+  if (is_push && !carom_push_alone(kind, cue, &alone, &raised)) {
+    push(play, cue, most, down, PUSH_OF_ONE, contact, &together);
     return together;
   }
   carom_follow_on(play, raised.V, raised.behind);
-  note_strike(sim, &alone, &raised, down, presses);
+  note_strike(sim, &alone, &raised, down, is_push);
   return CAROM_OK;
 }
 
 static void begin(carom_sim *sim) {
   carom_take_rates(sim);
   for (int i = 0; i < sim->count; i++) {
-    carom_ball_state *from = &sim->path[i].from;
-    *from = *sim->layout->state[i];
-    carom_label_of_layout(from, sim->rates[i].radius);
+    carom_ball_state *state = &sim->path[i].from;
+    *state = *sim->layout->state[i];
+    carom_label_of_layout(state, sim->rates[i].radius);
     carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
   }
 }
@@ -371,39 +376,40 @@ static void begin(carom_sim *sim) {
 static bool stops_at(carom_sim *sim, int type, int a, int b) {
   const bool contact = type == CAROM_EVENT_BALL_BALL && (a == sim->struck || b == sim->struck);
   const bool cushion = (type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW) && a == sim->struck;
-  const bool first = contact && !sim->met;
-  sim->met |= contact;
+  const bool first = contact && !sim->has_hit;
+  sim->has_hit |= contact;
   sim->turned |= contact || cushion;
-  int other = a;
+  int partner = a;
   if (a == sim->struck)
-    other = b;
-  if (first && sim->opt->first_of != 0 && !(sim->opt->first_of >> other & 1))
+    partner = b;
+  if (first && sim->opt->first_of != 0 && !(sim->opt->first_of >> partner & 1))
     return true;
   if (contact && (sim->opt->stop_at & CAROM_STOP_AT_CONTACT) != 0)
     return true;
   return (sim->opt->stop_at & CAROM_STOP_AT(type)) != 0;
 }
 
-/* The tip touches the struck ball again, or the follow-through ends. *due becomes what happens. */
-__attribute__((noinline, cold)) static carom_status touch_again(carom_play *play, carom_due *due) {
+/* The tip touches the struck ball again, or the follow-through ends. *pending_event becomes what happens. */
+__attribute__((noinline, cold)) static carom_status touch_again(carom_play *play,
+                                                                carom_due *pending_event) {
   carom_sim *sim = &play->sim;
   carom_follow *f = &play->follow;
   carom_cue cue;
   carom_status status = CAROM_OK;
   const bool touches = carom_follow_cue(play, &cue);
   const bool raised = carom_is_raised(&cue) && sim->opt->space != CAROM_SPACE_FLAT;
-  f->along += f->V * (sim->now - f->since);
-  f->until = -1.0;
+  f->along += f->V * (sim->time - f->start);
+  f->end = -1.0;
   f->time = INFINITY;
-  due->type = CAROM_DUE_NOTHING;
-  if (touches && push(play, &cue, 2.0 * cue.speed, raised, PUSH_AGAIN, due, &status)) {
+  pending_event->type = CAROM_DUE_NOTHING;
+  if (touches && push(play, &cue, 2.0 * cue.speed, raised, PUSH_AGAIN, pending_event, &status)) {
     carom_detect_all(sim);
     if (status == CAROM_OK && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1))
       status = CAROM_STOPPED_AT_EVENT;
   }
   /* whether the shot stops at the strike is decided here; at a contact beside it, in go_on() */
-  if (due->type == CAROM_DUE_NOTHING)
-    due->type = CAROM_DUE_PIECE;
+  if (pending_event->type == CAROM_DUE_NOTHING)
+    pending_event->type = CAROM_DUE_PIECE;
   return status;
 }
 
@@ -423,27 +429,27 @@ static carom_status go_on(carom_play *play) {
   carom_status status = CAROM_OK;
   while (status == CAROM_OK) {
     /* what is due: an event, or another touch of the tip, which goes first */
-    carom_due due = carom_next(sim);
-    const bool follows = play->follow.until >= 0.0 && play->follow.time < INFINITY;
-    const bool again = follows && play->follow.time <= due.time;
-    if (again)
-      due = (carom_due){play->follow.time, CAROM_EVENT_STRIKE, sim->struck, -1};
+    carom_due pending_event = carom_next(sim);
+    const bool follows = play->follow.end >= 0.0 && play->follow.time < INFINITY;
+    const bool touches_again = follows && play->follow.time <= pending_event.time;
+    if (touches_again)
+      pending_event = (carom_due){play->follow.time, CAROM_EVENT_STRIKE, sim->struck, -1};
 
     /* what ends the shot: rest, or the time that the caller allows */
-    if (due.type == CAROM_DUE_REST)
+    if (pending_event.type == CAROM_DUE_REST)
       break;
-    if (due.time > time_most) {
+    if (pending_event.time > time_most) {
       sim->shot->time = time_most;
       return out_of_time;
     }
 
     /* another piece of a path is no event: only what it meets is looked for */
-    if (due.type == CAROM_DUE_PIECE) {
-      sim->shot->time = sim->now = carom_greater(sim->now, due.time);
+    if (pending_event.type == CAROM_DUE_PIECE) {
+      sim->shot->time = sim->time = carom_greater(sim->time, pending_event.time);
       sim->round++;
-      carom_path_go_on(&sim->path[due.a], &sim->rates[due.a]);
-      carom_detect(sim, due.a, -1);
-      if (sim->now < play->follow.until)
+      carom_path_go_on(&sim->path[pending_event.a], &sim->rates[pending_event.a]);
+      carom_detect(sim, pending_event.a, -1);
+      if (sim->time < play->follow.end)
         carom_follow_find(play);
       continue;
     }
@@ -451,20 +457,20 @@ static carom_status go_on(carom_play *play) {
     if (sim->shot->count >= events_most)
       return CAROM_ERROR_TOO_MANY_EVENTS;
     /* a ball on the cloth that finds no part of the table has left it */
-    if (due.type == CAROM_DUE_OFF_THE_CLOTH) {
-      sim->shot->time = sim->now = carom_greater(sim->now, due.time);
+    if (pending_event.type == CAROM_DUE_OFF_THE_CLOTH) {
+      sim->shot->time = sim->time = carom_greater(sim->time, pending_event.time);
       return CAROM_ERROR_LEFT_TABLE;
     }
     /* the time of an event that is simultaneous with the last one may be a rounding error less */
-    sim->now = carom_greater(sim->now, due.time);
+    sim->time = carom_greater(sim->time, pending_event.time);
     sim->round++;
-    if (again)
-      status = touch_again(play, &due);
+    if (touches_again)
+      status = touch_again(play, &pending_event);
     else
-      status = step(sim, &due);
-    if (status == CAROM_OK && stops_at(sim, due.type, due.a, due.b))
+      status = step(sim, &pending_event);
+    if (status == CAROM_OK && stops_at(sim, pending_event.type, pending_event.a, pending_event.b))
       status = CAROM_STOPPED_AT_EVENT;
-    if (sim->now < play->follow.until)
+    if (sim->time < play->follow.end)
       carom_follow_find(play);
   }
   return status;
@@ -490,14 +496,14 @@ static carom_status finish(carom_play *play, carom_status status) {
 /* The strike, and whether the shot is to go on after it. */
 static carom_status start(carom_play *play) {
   carom_sim *sim = &play->sim;
-  carom_due met = {0.0, CAROM_DUE_NOTHING, -1, -1};
-  const carom_status status = strike(play, &met);
+  carom_due contact = {0.0, CAROM_DUE_NOTHING, -1, -1};
+  const carom_status status = strike(play, &contact);
   if (status != CAROM_OK)
     return status;
   carom_detect_all(sim);
   bool stops = sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1);
-  stops |= met.type != CAROM_DUE_NOTHING && stops_at(sim, met.type, met.a, met.b);
-  if (play->follow.until > 0.0)
+  stops |= contact.type != CAROM_DUE_NOTHING && stops_at(sim, contact.type, contact.a, contact.b);
+  if (play->follow.end > 0.0)
     carom_follow_find(play);
   if (stops)
     return CAROM_STOPPED_AT_EVENT;
@@ -532,11 +538,11 @@ __attribute__((noinline)) static carom_status shoot(const carom_prepared *p, con
     if (cue != NULL && cue->ball >= 0 && cue->ball < p->count)
       sim->struck = (int)cue->ball;
     sim->world = p->opt->world;
-    sim->met = sim->turned = false;
-    sim->now = 0.0;
+    sim->has_hit = sim->turned = false;
+    sim->time = 0.0;
     sim->round = 0;
     sim->slow_instants = 0;
-    sim->slow_last = play.follow.until = -1.0;
+    sim->slow_last = play.follow.end = -1.0;
     play.follow.time = INFINITY;
     if (shot->state != NULL)
       carom_state_begin(sim);
@@ -577,9 +583,9 @@ static void clear(carom_shot *shot) {
 
 carom_status carom_shoot_prepared(const carom_prepared *p, const carom_cue *cue, carom_shot *shot) {
   clear(shot);
-  const carom_status bad = carom_check_strike(p, cue);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status status = carom_check_strike(p, cue);
+  if (status != CAROM_OK)
+    return status;
   if (shot->state != NULL && shot->facts == NULL)
     return shoot_with_facts(p, cue, shot, true);
   return shoot(p, cue, shot, true);
@@ -592,13 +598,13 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
   int where;
   if (table == NULL || balls == NULL || shot == NULL)
     return CAROM_ERROR_NULL;
-  carom_status bad = carom_check_room(shot);
-  if (bad != CAROM_OK)
-    return bad;
+  carom_status status = carom_check_room(shot);
+  if (status != CAROM_OK)
+    return status;
   clear(shot);
-  bad = carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &p, &where);
-  if (bad != CAROM_OK)
-    return bad;
+  status = carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &p, &where);
+  if (status != CAROM_OK)
+    return status;
   return carom_shoot_prepared(&p, cue, shot);
 }
 
@@ -609,11 +615,11 @@ carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball
   int where;
   if (table == NULL || balls == NULL || shot == NULL || shot->state == NULL)
     return CAROM_ERROR_NULL;
-  carom_status bad = carom_check_room(shot);
-  if (bad == CAROM_OK)
-    bad = carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &p, &where);
-  if (bad != CAROM_OK)
-    return bad;
+  carom_status status = carom_check_room(shot);
+  if (status == CAROM_OK)
+    status = carom_prepare(table, balls, count, carom_options_or_usual(opt), &features, &p, &where);
+  if (status != CAROM_OK)
+    return status;
   if (shot->count < 0 || !(shot->time >= 0.0 && shot->time < INFINITY))
     return CAROM_ERROR_STATE;
   if (shot->facts == NULL)
@@ -644,14 +650,14 @@ static carom_status shoot_row(const carom_shot_job *job, size_t k, checked *last
   if (job->cues != NULL)
     cue = job->cues + k * job->cue_stride;
   carom_shot *shot = &job->shots[k];
-  const carom_status bad = carom_check_room(shot);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status status = carom_check_room(shot);
+  if (status != CAROM_OK)
+    return status;
   /* a layout that is the last one is not checked again */
   int where;
-  const carom_ball_state *before = last->layout.state[0];
+  const carom_ball_state *states = last->layout.state[0];
   carom_take_row(&last->layout, job, k);
-  if (last->layout.state[0] != before)
+  if (last->layout.state[0] != states)
     last->status = carom_prepare_row(&last->layout, &last->features, &where);
   if (last->status == CAROM_OK)
     return carom_shoot_prepared(&last->layout, cue, shot);
@@ -681,11 +687,11 @@ carom_status carom_shoot_batch(const carom_shot_job *job) {
     return CAROM_OK;
   const carom_shot_options *opt = carom_options_or_usual(job->options);
   int where;
-  carom_status bad = carom_check_job(job);
-  if (bad == CAROM_OK)
-    bad = carom_check_common(job->table, job->count, opt, &where);
-  if (bad != CAROM_OK)
-    return bad;
+  carom_status status = carom_check_job(job);
+  if (status == CAROM_OK)
+    status = carom_check_common(job->table, job->count, opt, &where);
+  if (status != CAROM_OK)
+    return status;
   enum { LEAST = 4 }; /* shots worth a thread */
   const size_t first_bad = carom_in_threads(shoot_rows, job, (size_t)job->n, opt->threads, LEAST);
   if (first_bad == job->n)

@@ -96,8 +96,8 @@ static inline carom_cushion_model carom_cushion_model_of(const carom_shot_option
 
 /* slate.c: the restitution of a ball with the slate, from restitution_table of its kind: 0 stands
  * for the default, -1 for none. */
-static inline double carom_slate_restitution(double given) {
-  return given >= 0.0 ? carom_or_usual(given, 0.5) : 0.0;
+static inline double carom_slate_restitution(double value) {
+  return value >= 0.0 ? carom_or_usual(value, 0.5) : 0.0;
 }
 /* The speed at which a ball that falls at v_n on the slate leaves it, for a restitution e. */
 double carom_rebound(double v_n, double e);
@@ -116,9 +116,9 @@ typedef struct carom_raised {
 } carom_raised;
 
 /* raised.c: a raised cue, cue->tip_time >= 0, strikes a ball at rest on the slate that nothing else
- * touches. *state has the motion by the blow alone, carom_blow() in space, and gets that behind the
+ * touches. *state has the motion by the strike alone, carom_strike_motion() in space, and gets that behind the
  * strike. Returns false where that takes too many steps; *state is as it was then. */
-bool carom_press_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *state,
-                       carom_raised *out);
+bool carom_push_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *state,
+                      carom_raised *out);
 
 #endif

@@ -16,12 +16,12 @@ struct carom_rules;
 
 /* The cue that goes on after its push, follow_through.c. */
 typedef struct carom_follow {
-  double until;    /* s: it moves up to then; -1: it does not */
-  double since, V; /* s: it moves since then; at this speed, m/s */
-  double along;    /* m: where it was then, along its axis from where it struck first */
-  double from[3];  /* m: the struck ball at that first strike */
-  double time;     /* s: when it touches the struck ball again; infinite: it does not */
-  carom_cue cue;   /* of a stopped shot */
+  double end;       /* s: it moves up to then; -1: it does not */
+  double start, V;  /* s: it moves since then; at this speed, m/s */
+  double along;     /* m: where it was then, along its axis from where it struck first */
+  double origin[3]; /* m: the struck ball at that first strike */
+  double time;      /* s: when it touches the struck ball again; infinite: it does not */
+  carom_cue cue;    /* of a stopped shot */
 } carom_follow;
 
 typedef struct carom_sim {
@@ -37,13 +37,13 @@ typedef struct carom_sim {
   carom_shot *shot;
   int count, struck; /* struck: the cue ball */
   carom_world world;
-  bool met;      /* the cue ball has met another, */
+  bool has_hit;  /* the cue ball has met another, */
   bool turned;   /* or a cushion */
   bool unlike;   /* radii differ from each other or from the table's reference: contacts are those
                   of spheres in space */
   int flying;    /* airborne balls */
   double widest; /* m: the greatest radius of the balls */
-  double now;
+  double time;
   int64_t slow_instants; /* that had a slow contact, so far; see resolve.c */
   double slow_last;      /* s: the last of them */
   int64_t round;         /* events so far: tells when an entry below was computed */
@@ -59,9 +59,9 @@ typedef struct carom_sim {
   /* when i < j meet; infinite where not before a path ends */
   double pair[CAROM_BALLS_MOST][CAROM_BALLS_MOST];
   int32_t pair_round[CAROM_BALLS_MOST][CAROM_BALLS_MOST], meeting_round[CAROM_BALLS_MOST];
-  double own[CAROM_BALLS_MOST];   /* the end of the ball's phase or its meeting, whichever is
+  double own_end[CAROM_BALLS_MOST]; /* the end of the ball's phase or its meeting, whichever is
                                      earlier */
-  double first[CAROM_BALLS_MOST]; /* of row i of pair[] */
+  double first[CAROM_BALLS_MOST];   /* of row i of pair[] */
   int8_t first_with[CAROM_BALLS_MOST];
 } carom_sim;
 
@@ -125,17 +125,17 @@ carom_due carom_next(const carom_sim *sim);
 
 /* resolve.c: a contact in the world carom of two balls, or of a ball with a rail or a jaw, now;
  * b is NULL then. Changes the states, labels too. */
-carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a,
+carom_status carom_resolve(carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
                            carom_ball_state *b);
 /* The unit vector from the centre of a ball into the rail of a line, or into a jaw; horizontal for
  * a ball on the cloth. reference: the radius that the table is meant for. */
 void carom_into_nose(const carom_table *table, const double line[3], double reference,
-                     const carom_ball_kind *kind, const carom_due *due, const carom_ball_state *s,
-                     double N[3]);
+                     const carom_ball_kind *kind, const carom_due *pending_event,
+                     const carom_ball_state *s, double N[3]);
 /* The unit vector from ball a to ball b, or into the cushion; and how fast the two close along
  * it, m/s. */
-void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a,
-                          const carom_ball_state *b, double n[3]);
+void carom_contact_normal(const carom_sim *sim, const carom_due *pending_event,
+                          const carom_ball_state *a, const carom_ball_state *b, double n[3]);
 double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const double n[3]);
 /* The speed below which contacts are slow, after so many instants that had one. */
 double carom_slow_speed(int64_t instants);
@@ -150,17 +150,19 @@ typedef struct carom_nose {
  * j, or into the cushion. Balls `in_space` are not both on the cloth, or have unlike radii: they
  * collide the more as spheres the higher they are and the more n is tilted; an airborne ball meets
  * a nose with less of the cloth the higher it is. */
-carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3],
-                               bool in_space, carom_ball_state *a, carom_ball_state *b);
+carom_status carom_model_balls(const carom_sim *sim, const carom_due *pending_event,
+                               const double n[3], bool in_space, carom_ball_state *a,
+                               carom_ball_state *b);
 /* How free of the cloth a contact of two balls is, phi of cluster/cluster.h. */
-double carom_freedom_of_pair(const carom_sim *sim, const carom_due *due, const double n[3],
-                             const carom_ball_state *a, const carom_ball_state *b);
-carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3],
-                                 carom_ball_state *state);
+double carom_freedom_of_pair(const carom_sim *sim, const carom_due *pending_event,
+                             const double n[3], const carom_ball_state *a,
+                             const carom_ball_state *b);
+carom_status carom_model_cushion(const carom_sim *sim, const carom_due *pending_event,
+                                 const double n[3], carom_ball_state *state);
 /* The unit vector from ball a to ball b, in space. A ball on the cloth is at z = R exactly. */
 void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a,
                            const carom_ball_kind *kind_b, const carom_ball_state *b, double n[3]);
-carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
+carom_nose carom_nose_of(const carom_table *table, const carom_due *pending_event);
 /* resolve.c: the phase of a ball after a contact, which may have lifted it or pushed it down if
  * it was in space. */
 void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_state *s);

@@ -9,11 +9,33 @@ static carom_ball moving(const carom_ball_kind *kind, const carom_ball_state *s)
       .v = {s->v[0], s->v[1], s->v[2]}, .w = {s->w[0], s->w[1], s->w[2]}, .radius = kind->radius};
 }
 
+/* Whether an event is one of this table and of balls 0 to count - 1. */
+static bool is_of_shot(const carom_table *table, int count, const carom_event *event) {
+  const bool has_balls = count >= 1 && count <= CAROM_BALLS_MOST;
+  const bool has_parts = table->rails >= 0 && table->rails <= CAROM_RAILS_MOST &&
+                         table->jaws >= 0 && table->jaws <= CAROM_JAWS_MOST;
+  return has_balls && has_parts && event->a >= 0 && event->a < count;
+}
+
+/* The unit vector from the ball's centre into the nose of a rail or a jaw, or down. */
+static void find_normal(const carom_table *table, const carom_event *event, double usual_radius,
+                        const carom_ball_kind *kind, double n[3]) {
+  if (event->type != CAROM_EVENT_RAIL && event->type != CAROM_EVENT_JAW) {
+    n[0] = n[1] = 0.0;
+    n[2] = -1.0;
+    return;
+  }
+  const carom_due contact = {.type = event->type, .a = event->a, .b = event->b};
+  double line[3] = {0.0};
+  if (event->type == CAROM_EVENT_RAIL)
+    carom_rail_line(&table->rail[event->b], line);
+  carom_into_nose(table, line, carom_reference_of(table, usual_radius), kind, &contact,
+                  &event->before[0], n);
+}
+
 double carom_event_slip(const carom_table *table, const carom_shot_ball *balls, int count,
                         const carom_event *event) {
-  if (table == NULL || balls == NULL || event == NULL || count < 1 || count > CAROM_BALLS_MOST ||
-      table->rails < 0 || table->rails > CAROM_RAILS_MOST || table->jaws < 0 ||
-      table->jaws > CAROM_JAWS_MOST || event->a < 0 || event->a >= count)
+  if (table == NULL || balls == NULL || event == NULL || !is_of_shot(table, count, event))
     return NAN;
   const int64_t parts = carom_others_of(table, count, event->type);
   const bool slate = event->type == CAROM_EVENT_SLATE;
@@ -22,22 +44,15 @@ double carom_event_slip(const carom_table *table, const carom_shot_ball *balls, 
   if (!slate && (event->b < 0 || event->b >= parts))
     return NAN;
 
-  /* from the first ball's centre into what it meets */
   const carom_ball_kind *kind = &balls[event->a].kind;
   const carom_ball_state *s = &event->before[0];
-  double n[3] = {0.0, 0.0, -1.0}, line[3] = {0.0};
+  double n[3];
   if (event->type == CAROM_EVENT_BALL_BALL) {
-    const carom_ball_kind *other = &balls[event->b].kind;
-    carom_line_of_centres(kind, s, other, &event->before[1], n);
-    const carom_impact in = {.a = moving(kind, s), .b = moving(other, &event->before[1])};
+    const carom_ball_kind *partner = &balls[event->b].kind;
+    carom_line_of_centres(kind, s, partner, &event->before[1], n);
+    const carom_impact in = {.a = moving(kind, s), .b = moving(partner, &event->before[1])};
     return carom_spheres_slip(&in, n);
   }
-  if (event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW) {
-    const carom_due due = {.type = event->type, .a = event->a, .b = event->b};
-    if (event->type == CAROM_EVENT_RAIL)
-      carom_rail_line(&table->rail[event->b], line);
-    carom_into_nose(table, line, carom_reference_of(table, balls[count - 1].kind.radius), kind,
-                    &due, s, n);
-  }
+  find_normal(table, event, balls[count - 1].kind.radius, kind, n);
   return carom_touch_of(n, kind->radius, s).slip;
 }

@@ -71,22 +71,22 @@ void carom_state_begin(carom_sim *sim) {
   sim->of_options = of_options(sim->opt);
 }
 
-/* Of events, full or brief, with those `from` to `end`; 0 where there are none. */
-static uint64_t of_events(uint64_t before, const void *events, size_t size, size_t from,
+/* Of events, full or brief, with those `first` to `end`; 0 where there are none. */
+static uint64_t of_events(uint64_t hash, const void *events, size_t size, size_t first,
                           size_t end) {
   if (events == NULL)
     return 0;
-  for (size_t k = from; k < end; k++)
-    before = carom_fingerprint(before, (const unsigned char *)events + k * size, size);
-  return before;
+  for (size_t k = first; k < end; k++)
+    hash = carom_fingerprint(hash, (const unsigned char *)events + k * size, size);
+  return hash;
 }
 
 /* Adds the events of a shot up to so many, as far as its caller has them. */
 static void add_events(result *so_far, const carom_shot *shot, int64_t count) {
-  const size_t from = (size_t)(so_far->events < shot->room ? so_far->events : shot->room),
+  const size_t first = (size_t)(so_far->events < shot->room ? so_far->events : shot->room),
                end = (size_t)(count < shot->room ? count : shot->room);
-  so_far->of_events = of_events(so_far->of_events, shot->events, sizeof *shot->events, from, end);
-  so_far->of_brief = of_events(so_far->of_brief, shot->brief, sizeof *shot->brief, from, end);
+  so_far->of_events = of_events(so_far->of_events, shot->events, sizeof *shot->events, first, end);
+  so_far->of_brief = of_events(so_far->of_brief, shot->brief, sizeof *shot->brief, first, end);
   so_far->events = count;
 }
 
@@ -126,7 +126,7 @@ void carom_state_save(carom_play *play, carom_shot_state *state) {
   sim->features = NULL;
   sim->layout = NULL;
   sim->opt = NULL;
-  if (play->follow.until >= 0.0 && sim->cue != &play->follow.cue)
+  if (play->follow.end >= 0.0 && sim->cue != &play->follow.cue)
     play->follow.cue = *sim->cue;
   sim->cue = NULL;
   sim->shot = NULL;
@@ -148,11 +148,11 @@ static bool is_bool(const bool *x) {
  * the second piece of a pair, from what was known of it before. */
 static bool restore_path(carom_sim *sim, int i) {
   carom_path *path = &sim->path[i];
-  const carom_ball_state *from = &path->from;
+  const carom_ball_state *state = &path->from;
   const bool flat = sim->rules->flat || sim->opt->space == CAROM_SPACE_FLAT;
-  if (from->label < CAROM_BALL_STATIONARY || from->label > carom_last_label(flat) ||
-      !carom_is_finite(from->r) || !carom_is_finite(from->v) || !carom_is_finite(from->w) ||
-      !(path->start >= 0.0 && path->start <= sim->now) || !is_bool(&path->ends_pair) ||
+  if (state->label < CAROM_BALL_STATIONARY || state->label > carom_last_label(flat) ||
+      !carom_is_finite(state->r) || !carom_is_finite(state->v) || !carom_is_finite(state->w) ||
+      !(path->start >= 0.0 && path->start <= sim->time) || !is_bool(&path->ends_pair) ||
       !is_bool(&path->last_pair))
     return false;
   if (!path->ends_pair) {
@@ -161,7 +161,7 @@ static bool restore_path(carom_sim *sim, int i) {
   }
   /* the second piece has the direction of the first, and the state that was known there */
   carom_path_second(path, path->start);
-  return from->label == CAROM_BALL_ROLLING && sim->rates[i].drag > 0.0 && path->second[1] >= 0.0 &&
+  return state->label == CAROM_BALL_ROLLING && sim->rates[i].drag > 0.0 && path->second[1] >= 0.0 &&
          fabs(path->second[0]) <= 1e9 && fabs(path->e[0]) <= 2.0 && fabs(path->e[1]) <= 2.0;
 }
 
@@ -198,7 +198,7 @@ static bool good_pairs(const carom_sim *sim, int i) {
 static bool good_result(const carom_sim *sim, const result *so_far) {
   const carom_facts *f = &so_far->facts;
   const int64_t most = so_far->events;
-  bool good = so_far->time >= sim->now && so_far->time < INFINITY && in(most, 0, INT32_MAX) &&
+  bool good = so_far->time >= sim->time && so_far->time < INFINITY && in(most, 0, INT32_MAX) &&
               in(f->cushions_after, 0, most) &&
               (f->down | f->off | f->moved) >> (sim->count - 1) <= 1;
   good &= f->second_time >= 0.0 && carom_is_positive(1.0 + f->second_speed);
@@ -213,12 +213,12 @@ static bool good_result(const carom_sim *sim, const result *so_far) {
 
 /* Whether a cue that goes on can do so. */
 static bool good_follow(const carom_play *play) {
-  const carom_follow *f = &play->follow;
   const carom_sim *sim = &play->sim;
-  return f->until < 0.0 ||
-         (f->until < INFINITY && f->since >= 0.0 && f->since <= sim->now && f->V > 0.0 &&
-          f->V < INFINITY && fabs(f->along) < INFINITY && carom_is_finite(f->from) &&
-          f->time >= sim->now && carom_check_cue(&f->cue) == CAROM_OK);
+  const carom_follow *f = &play->follow;
+  return f->end < 0.0 ||
+         (f->end < INFINITY && f->start >= 0.0 && f->start <= sim->time && f->V > 0.0 &&
+          f->V < INFINITY && fabs(f->along) < INFINITY && carom_is_finite(f->origin) &&
+          f->time >= sim->time && carom_check_cue(&f->cue) == CAROM_OK);
 }
 
 /* Whether all indices and numbers are those of a shot of sim->layout on sim->table; those that
@@ -226,8 +226,8 @@ static bool good_follow(const carom_play *play) {
 static bool restore(carom_play *play) {
   carom_sim *sim = &play->sim;
   static const int64_t many = INT64_C(1) << 62;
-  if (!(sim->now >= 0.0 && sim->now < INFINITY) || !in(sim->round, 0, many) ||
-      !in(sim->slow_instants, 0, many) || isnan(sim->slow_last) || !is_bool(&sim->met) ||
+  if (!(sim->time >= 0.0 && sim->time < INFINITY) || !in(sim->round, 0, many) ||
+      !in(sim->slow_instants, 0, many) || isnan(sim->slow_last) || !is_bool(&sim->has_hit) ||
       !is_bool(&sim->turned) || !good_follow(play) || !in(sim->struck, 0, sim->count - 1))
     return false;
   carom_take_rates(sim);
@@ -252,21 +252,21 @@ carom_status carom_state_check(carom_play *play, const carom_shot_state *state, 
     return CAROM_ERROR_STATE_TABLE;
   if (sim->count != count || sim->of_balls != of_balls(sim))
     return CAROM_ERROR_STATE_BALLS;
-  result then, now = {.events = 0};
-  memcpy(&then, state->opaque + sizeof *play / sizeof *state->opaque, sizeof then);
-  if (!restore(play) || !good_result(sim, &then))
+  result saved, current = {.events = 0};
+  memcpy(&saved, state->opaque + sizeof *play / sizeof *state->opaque, sizeof saved);
+  if (!restore(play) || !good_result(sim, &saved))
     return CAROM_ERROR_STATE;
 
   /* the result so far, in which the events are the caller's */
   carom_shot *shot = sim->shot;
-  add_events(&now, shot, then.events);
-  if ((shot->events != NULL && now.of_events != then.of_events) ||
-      (shot->brief != NULL && now.of_brief != then.of_brief))
+  add_events(&current, shot, saved.events);
+  if ((shot->events != NULL && current.of_events != saved.of_events) ||
+      (shot->brief != NULL && current.of_brief != saved.of_brief))
     return CAROM_ERROR_EVENTS_LOST;
-  if (sim->opt->time_most > 0.0 && sim->opt->time_most < then.time)
+  if (sim->opt->time_most > 0.0 && sim->opt->time_most < saved.time)
     return CAROM_ERROR_TIME_MOST;
-  shot->count = then.events;
-  shot->time = then.time;
-  *shot->facts = then.facts;
+  shot->count = saved.events;
+  shot->time = saved.time;
+  *shot->facts = saved.facts;
   return CAROM_OK;
 }

@@ -8,9 +8,11 @@
  * eye. Each part limits its half width or its half length: that of which it leaves the larger
  * share. */
 #include "platform/promise.h"
+#include "table/marks.h"
 #include "table/table.h"
 
 #include <math.h>
+#include <string.h>
 
 static inline float lesser(float a, float b) {
   return a < b ? a : b;
@@ -72,9 +74,9 @@ static void clear_around_eye(carom_features *f) {
   for (int k = 0; k < f->count; k++) {
     const float across = greater(x - f->high_x[k], f->low_x[k] - x),
                 along = greater(y - f->high_y[k], f->low_y[k] - y);
-    const bool beside = across * length > along * width;
-    room_x = lesser(room_x, beside ? across : INFINITY);
-    room_y = lesser(room_y, beside ? INFINITY : along);
+    const bool is_across = across * length > along * width;
+    room_x = lesser(room_x, is_across ? across : INFINITY);
+    room_y = lesser(room_y, is_across ? INFINITY : along);
   }
 
   /* a trace less, for rounding: 1e-6 of the places of a table, which may be far from 0 */
@@ -87,20 +89,20 @@ static void clear_around_eye(carom_features *f) {
 static void find_eye(const carom_table *table, carom_features *f) {
   const carom_ball_kind ball = {.radius = f->radius};
   double place[2];
-  f->eye[0] = 0.5 * table->width;
-  f->eye[1] = 0.5 * table->length;
+  const carom_marks marks = carom_marks_of(table->width, table->length);
+  memcpy(f->eye, marks.centre_spot, sizeof f->eye);
   clear_around_eye(f);
-  const bool there = carom_beside_longest(table, f, f->radius, place);
+  const bool is_found = carom_beside_longest(table, f, f->radius, place);
   carom_ground ground;
-  f->has_eye = there && carom_is_clear(f, place);
+  f->has_eye = is_found && carom_is_clear(f, place);
   if (!f->has_eye) {
     carom_ground_of(table, f, &ball, &ground);
-    f->has_eye = there && carom_is_in_sight(&ground, place);
+    f->has_eye = is_found && carom_is_in_sight(&ground, place);
   }
   if (f->has_eye)
     return;
 
-  if (there && !carom_is_cut_off(&ground, place)) {
+  if (is_found && !carom_is_cut_off(&ground, place)) {
     f->has_eye = true;
     f->eye[0] = place[0];
     f->eye[1] = place[1];
@@ -129,21 +131,22 @@ void carom_features_of(const carom_table *table, double radius, double reference
     radius += reference;
 
   /* rails, then jaws, then pockets */
-  int at = 0;
-  for (int k = 0; k < f->rails; k++, at++) {
+  int index = 0;
+  for (int k = 0; k < f->rails; k++, index++) {
     prepare_rail(&table->rail[k], k, f);
     low = carom_lesser(low, table->rail[k].height);
     high = carom_greater(high, table->rail[k].height);
-    enclose(f, at, table->rail[k].p, table->rail[k].q, 0.0, radius);
+    enclose(f, index, table->rail[k].p, table->rail[k].q, 0.0, radius);
   }
-  for (int k = 0; k < f->jaws; k++, at++) {
-    enclose(f, at, table->jaw[k].centre, table->jaw[k].centre, table->jaw[k].radius, radius);
+  for (int k = 0; k < f->jaws; k++, index++) {
+    enclose(f, index, table->jaw[k].centre, table->jaw[k].centre, table->jaw[k].radius, radius);
     low = carom_lesser(low, table->jaw[k].height);
     high = carom_greater(high, table->jaw[k].height);
   }
-  for (int k = 0; k < f->pockets; k++, at++)
-    enclose(f, at, table->pocket[k].centre, table->pocket[k].centre, table->pocket[k].radius, 0.0);
-  CAROM_PROMISE(at == f->count && at <= MOST_FEATURES);
+  for (int k = 0; k < f->pockets; k++, index++)
+    enclose(f, index, table->pocket[k].centre, table->pocket[k].centre, table->pocket[k].radius,
+            0.0);
+  CAROM_PROMISE(index == f->count && index <= MOST_FEATURES);
 
   /* defaults of the table */
   f->nose_low = low;

@@ -112,9 +112,9 @@ static void resize(carom_ball_kind *kind, const struct sized *row) {
 carom_ball_kind carom_ball_kind_of(carom_game game) {
   const struct sized *row = sized_of(game);
   if (row != NULL) {
-    carom_ball_kind own = carom_ball_kind_of(row->base);
-    resize(&own, row);
-    return own;
+    carom_ball_kind sized_kind = carom_ball_kind_of(row->base);
+    resize(&sized_kind, row);
+    return sized_kind;
   }
 
   /* pooltool's: pool */
@@ -203,14 +203,14 @@ int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion, carom_ball_
       *kind = of_base;
     return has;
   }
-  carom_ball_kind made = carom_ball_kind_of(game);
-  const bool smooth = made.smooth_q > 0.0;
-  bool own = true;
+  carom_ball_kind fitted = carom_ball_kind_of(game);
+  const bool smooth = fitted.smooth_q > 0.0;
+  bool is_fitted = true;
   if (smooth && cushion != CAROM_SHOT_CUSHION_DEFAULT && cushion != CAROM_SHOT_CUSHION_SMOOTH)
-    own = take_other(game, cushion, &made);
+    is_fitted = take_other(game, cushion, &fitted);
   if (kind != NULL)
-    *kind = own ? made : carom_ball_kind_of(game);
-  return own;
+    *kind = is_fitted ? fitted : carom_ball_kind_of(game);
+  return is_fitted;
 }
 
 /* Conditions of a pool table; 0: the number stays. docs/reference/constants.md has the sources

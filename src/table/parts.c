@@ -33,7 +33,7 @@ static bool good_height(double height, double R) {
 }
 
 /* Sets the place of an error. */
-static carom_status at(int *where, int index, carom_status status) {
+static carom_status place_fault(int *where, int index, carom_status status) {
   *where = index;
   return status;
 }
@@ -46,25 +46,25 @@ static bool has_good_numbers(const carom_table *t) {
 carom_status carom_check_table(const carom_table *t, int *where) {
   *where = -1;
   if (t->rails > CAROM_RAILS_MOST)
-    return at(where, CAROM_RAILS_MOST, CAROM_ERROR_RAILS);
+    return place_fault(where, CAROM_RAILS_MOST, CAROM_ERROR_RAILS);
   if (t->jaws > CAROM_JAWS_MOST)
-    return at(where, CAROM_JAWS_MOST, CAROM_ERROR_JAWS);
+    return place_fault(where, CAROM_JAWS_MOST, CAROM_ERROR_JAWS);
   if (t->pockets > CAROM_POCKETS_MOST)
-    return at(where, CAROM_POCKETS_MOST, CAROM_ERROR_POCKETS);
+    return place_fault(where, CAROM_POCKETS_MOST, CAROM_ERROR_POCKETS);
   if (t->rails < 0 || t->jaws < 0 || t->pockets < 0 || t->rails + t->jaws < 1)
     return CAROM_ERROR_TABLE;
   if (!has_good_numbers(t))
     return CAROM_ERROR_TABLE;
   for (int k = 0; k < t->rails; k++)
     if (!good_rail(&t->rail[k]))
-      return at(where, k, CAROM_ERROR_TABLE);
+      return place_fault(where, k, CAROM_ERROR_TABLE);
   for (int k = 0; k < t->jaws; k++)
     if (!good_jaw(&t->jaw[k]))
-      return at(where, k, CAROM_ERROR_TABLE);
+      return place_fault(where, k, CAROM_ERROR_TABLE);
   for (int k = 0; k < t->pockets; k++)
     if (!good_circle(t->pocket[k].centre, t->pocket[k].radius, 1e-9) ||
         !isfinite(t->pocket[k].depth))
-      return at(where, k, CAROM_ERROR_TABLE);
+      return place_fault(where, k, CAROM_ERROR_TABLE);
   return CAROM_OK;
 }
 
@@ -75,14 +75,14 @@ carom_status carom_prepare_table(const carom_table *t, double least, double grea
   /* a ball that is behind a narrower top could be below it and clear of the nose, and so come
    * over the nose from behind */
   if (t->rail_width > 0.0 && t->rail_width < greatest)
-    return at(where, -1, CAROM_ERROR_TABLE);
+    return place_fault(where, -1, CAROM_ERROR_TABLE);
   const double lowest = carom_lesser(least, reference);
   for (int k = 0; k < t->rails; k++)
     if (!good_height(t->rail[k].height, lowest))
-      return at(where, k, CAROM_ERROR_NOSE_HEIGHT);
+      return place_fault(where, k, CAROM_ERROR_NOSE_HEIGHT);
   for (int k = 0; k < t->jaws; k++)
     if (!good_height(t->jaw[k].height, lowest))
-      return at(where, k, CAROM_ERROR_NOSE_HEIGHT);
+      return place_fault(where, k, CAROM_ERROR_NOSE_HEIGHT);
   carom_features_of(t, greatest, reference, features);
   features->least = least;
   return CAROM_OK;
@@ -91,27 +91,28 @@ carom_status carom_prepare_table(const carom_table *t, double least, double grea
 carom_status carom_check_parts(const carom_table *table, double radius, double usual,
                                carom_features *features, carom_part *part) {
   int where;
-  carom_status bad = carom_check_table(table, &where);
-  if (bad == CAROM_OK && !(carom_is_positive(radius) && carom_is_positive(usual)))
-    bad = CAROM_ERROR_RADIUS;
-  if (bad == CAROM_OK) {
+  carom_status status = carom_check_table(table, &where);
+  if (status == CAROM_OK && !(carom_is_positive(radius) && carom_is_positive(usual)))
+    status = CAROM_ERROR_RADIUS;
+  if (status == CAROM_OK) {
     features->radius = NAN; /* of nothing yet */
-    bad = carom_prepare_table(table, radius, radius, carom_reference_of(table, usual), features,
-                              &where);
+    status = carom_prepare_table(table, radius, radius, carom_reference_of(table, usual), features,
+                                 &where);
   }
   *part = (carom_part){CAROM_PART_NONE, 0};
-  if (carom_surplus_of(bad) != CAROM_PART_NONE)
-    *part = (carom_part){carom_surplus_of(bad), where};
+  if (carom_surplus_of(status) != CAROM_PART_NONE)
+    *part = (carom_part){carom_surplus_of(status), where};
   /* the checks tell an index alone: they go through rails, jaws and pockets in this order */
-  if ((bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT) && where >= 0) {
+  if ((status == CAROM_ERROR_TABLE || status == CAROM_ERROR_NOSE_HEIGHT) && where >= 0) {
     const carom_rail *rail = &table->rail[where];
     const double lowest = carom_lesser(radius, carom_reference_of(table, usual));
     const bool of_rail =
         where < table->rails &&
-        (bad == CAROM_ERROR_TABLE ? !good_rail(rail) : !good_height(rail->height, lowest));
-    const bool of_jaw = where < table->jaws &&
-                        (bad == CAROM_ERROR_TABLE ? !good_jaw(&table->jaw[where])
-                                                  : !good_height(table->jaw[where].height, lowest));
+        (status == CAROM_ERROR_TABLE ? !good_rail(rail) : !good_height(rail->height, lowest));
+    const bool of_jaw =
+        where < table->jaws &&
+        (status == CAROM_ERROR_TABLE ? !good_jaw(&table->jaw[where])
+                                     : !good_height(table->jaw[where].height, lowest));
     part->kind = CAROM_PART_POCKET;
     if (of_rail)
       part->kind = CAROM_PART_RAIL;
@@ -119,7 +120,7 @@ carom_status carom_check_parts(const carom_table *table, double radius, double u
       part->kind = CAROM_PART_JAW;
     part->index = where;
   }
-  return bad;
+  return status;
 }
 
 static double off_line(const double line[3], const double r[2]) {
@@ -134,9 +135,9 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
   if (table == NULL)
     return CAROM_ERROR_NULL;
   carom_features features;
-  const carom_status bad = carom_check_parts(table, radius, radius, &features, &fault->part);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status status = carom_check_parts(table, radius, radius, &features, &fault->part);
+  if (status != CAROM_OK)
+    return status;
 
   /* lines of rails, as they were given */
   for (int k = 0; k < table->rails; k++) {

@@ -40,11 +40,13 @@ static bool in_jaw(const carom_jaw *jaw, const double r[2], double reach) {
  * it at the distance `reach`. It crosses that line where the place along the rail is the mean of
  * those of both ends, weighted by the distance of the other. */
 static bool crosses_rail(const carom_features *f, int k, const double r[2], double reach) {
-  const double before = distance_to(f, k, f->eye) - reach, after = distance_to(f, k, r) - reach;
-  if ((before < 0.0) == (after < 0.0))
+  const double gap_at_eye = distance_to(f, k, f->eye) - reach,
+               gap_at_place = distance_to(f, k, r) - reach;
+  if ((gap_at_eye < 0.0) == (gap_at_place < 0.0))
     return false;
   const double place =
-      (before * place_along(f, k, r) - after * place_along(f, k, f->eye)) / (before - after);
+      (gap_at_eye * place_along(f, k, r) - gap_at_place * place_along(f, k, f->eye)) /
+      (gap_at_eye - gap_at_place);
   return place >= 0.0 && place <= 1.0;
 }
 /* The same for a circle: whether the place of the way that is nearest to its centre is in it. */
@@ -55,8 +57,8 @@ static bool crosses_circle(const carom_features *f, const double centre[2], doub
   const double size2 = way[0] * way[0] + way[1] * way[1],
                along = carom_lesser(carom_greater(way[0] * c[0] + way[1] * c[1], 0.0), size2),
                share = size2 > 0.0 ? along / size2 : 0.0;
-  const double there[2] = {f->eye[0] + share * way[0], f->eye[1] + share * way[1]};
-  return in_circle(centre, radius, there);
+  const double place[2] = {f->eye[0] + share * way[0], f->eye[1] + share * way[1]};
+  return in_circle(centre, radius, place);
 }
 
 void carom_ground_of(const carom_table *table, const carom_features *f, const carom_ball_kind *kind,
@@ -131,27 +133,27 @@ bool carom_stands_on_table(const carom_table *table, const carom_features *f,
 
 /* Where an airborne ball in front of noses would be, if it was moved off them until it could touch
  * them while it lay on the cloth: above it, the centre can be nearer to a nose. */
-static void off_noses(const carom_ground *ground, const double r[3], double there[2]) {
+static void off_noses(const carom_ground *ground, const double r[3], double place[2]) {
   const carom_features *f = ground->features;
   const double R = ground->kind->radius;
-  there[0] = r[0];
-  there[1] = r[1];
+  place[0] = r[0];
+  place[1] = r[1];
   for (int k = 0; k < f->rails; k++) {
-    const double more = ground->rail[k] - distance_to(f, k, there);
-    if (!is_beside(f, k, there) || more < 0.0 || more > R)
+    const double more = ground->rail[k] - distance_to(f, k, place);
+    if (!is_beside(f, k, place) || more < 0.0 || more > R)
       continue;
     for (int c = 0; c < 2; c++)
-      there[c] += more * f->line[k][c];
+      place[c] += more * f->line[k][c];
   }
   for (int k = 0; k < f->jaws; k++) {
     const carom_jaw *jaw = &ground->table->jaw[k];
-    const double d[2] = {there[0] - jaw->centre[0], there[1] - jaw->centre[1]};
+    const double d[2] = {place[0] - jaw->centre[0], place[1] - jaw->centre[1]};
     const double distance = sqrt(d[0] * d[0] + d[1] * d[1]);
     const double more = jaw->radius + ground->jaw[k] - distance;
     if (more < 0.0 || more > R)
       continue;
     for (int c = 0; c < 2; c++)
-      there[c] += more * d[c] / distance;
+      place[c] += more * d[c] / distance;
   }
 }
 
@@ -168,10 +170,10 @@ __attribute__((noinline, cold)) bool carom_is_above_table(const carom_table *tab
                                                           const double r[3]) {
   carom_ground ground;
   carom_ground_of(table, f, kind, &ground);
-  double there[2];
-  off_noses(&ground, r, there);
+  double place[2];
+  off_noses(&ground, r, place);
   bool good = r[2] >= carom_nose_height(kind, f->nose_low) + kind->radius - CAROM_MOST_OVERLAP ||
-              carom_is_clear(f, there) || !is_outside(&ground, there);
+              carom_is_clear(f, place) || !is_outside(&ground, place);
   for (int axis = 0; axis < 2; axis++)
     good &= r[axis] >= f->hull[2 * axis] - f->width && r[axis] <= f->hull[2 * axis + 1] + f->width;
   for (int k = 0; k < f->rails; k++) {

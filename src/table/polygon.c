@@ -22,11 +22,11 @@ static const double SAFE = 0.9;     /* part of the greatest d */
 
 /* A corner: where it is, the directions to the next and the one before, and where rails end. */
 typedef struct joint {
-  double at[2], next[2], before[2], turn, mouth, cut;
+  double corner[2], next[2], previous[2], turn, mouth, cut;
 } joint;
 
-static double direction(const double from[2], const double to[2], double u[2]) {
-  const double x = to[0] - from[0], y = to[1] - from[1], size = sqrt(x * x + y * y);
+static double direction(const double start[2], const double end[2], double u[2]) {
+  const double x = end[0] - start[0], y = end[1] - start[1], size = sqrt(x * x + y * y);
   u[0] = x / size;
   u[1] = y / size;
   return size;
@@ -49,7 +49,7 @@ static void add_pocket(carom_table *t, const joint *j, double nose, double r, do
   const double d = carom_lesser(half, SAFE * out);
 
   /* the bisector: into the table, also where the corner points into it */
-  double b[2] = {j->next[0] + j->before[0], j->next[1] + j->before[1]};
+  double b[2] = {j->next[0] + j->previous[0], j->next[1] + j->previous[1]};
   double size = sqrt(b[0] * b[0] + b[1] * b[1]);
   if (size < 1e-9) { /* a straight corner */
     b[0] = -j->next[1];
@@ -62,10 +62,10 @@ static void add_pocket(carom_table *t, const joint *j, double nose, double r, do
     b[k] /= size;
 
   /* the jaws, outside of each rail's end */
-  const double first[2] = {j->at[0] + j->cut * j->before[0] + r * -j->before[1],
-                           j->at[1] + j->cut * j->before[1] + r * j->before[0]};
-  const double last[2] = {j->at[0] + j->cut * j->next[0] + r * j->next[1],
-                          j->at[1] + j->cut * j->next[1] - r * j->next[0]};
+  const double first[2] = {j->corner[0] + j->cut * j->previous[0] + r * -j->previous[1],
+                           j->corner[1] + j->cut * j->previous[1] + r * j->previous[0]};
+  const double last[2] = {j->corner[0] + j->cut * j->next[0] + r * j->next[1],
+                          j->corner[1] + j->cut * j->next[1] - r * j->next[0]};
   add_jaw(t, nose, r, first[0], first[1]);
   add_jaw(t, nose, r, last[0], last[1]);
   t->pocket[t->pockets++] = (carom_pocket){
@@ -75,10 +75,10 @@ static void add_pocket(carom_table *t, const joint *j, double nose, double r, do
 }
 
 /* Tells which corner is at fault, and beside which other; -1: none. */
-static carom_status blame(carom_table_fault *fault, int corner, int other, carom_status status) {
+static carom_status blame(carom_table_fault *fault, int corner, int second, carom_status status) {
   fault->part = (carom_part){CAROM_PART_CORNER, corner};
-  if (other >= 0)
-    fault->other = (carom_part){CAROM_PART_CORNER, other};
+  if (second >= 0)
+    fault->other = (carom_part){CAROM_PART_CORNER, second};
   return status;
 }
 
@@ -99,14 +99,14 @@ static carom_status check_corners(const carom_corner *corner, int count, carom_t
 }
 
 /* Moves the corners so that the least x and y are 0. */
-static void move_to_origin(const carom_corner *from, int count, carom_corner *to) {
-  double x = from[0].x, y = from[0].y;
+static void move_to_origin(const carom_corner *start, int count, carom_corner *end) {
+  double x = start[0].x, y = start[0].y;
   for (int k = 1; k < count; k++) {
-    x = carom_lesser(x, from[k].x);
-    y = carom_lesser(y, from[k].y);
+    x = carom_lesser(x, start[k].x);
+    y = carom_lesser(y, start[k].y);
   }
   for (int k = 0; k < count; k++)
-    to[k] = (carom_corner){from[k].x - x, from[k].y - y, from[k].mouth};
+    end[k] = (carom_corner){start[k].x - x, start[k].y - y, start[k].mouth};
 }
 
 /* Twice the area, above 0 where the corners go round with the table to the left. */
@@ -126,21 +126,21 @@ static carom_status joints_of(const carom_corner *corner, int count, double r, d
 
   /* each corner with the directions to its neighbours */
   for (int k = 0; k < count; k++) {
-    int step = 1, here = k;
+    int step = 1, index = k;
     if (!(area > 0.0)) {
       step = count - 1;
-      here = count - 1 - k;
+      index = count - 1 - k;
     }
-    const carom_corner *a = &corner[here], *n = &corner[(here + step) % count],
-                       *o = &corner[(here + count - step) % count];
-    j[k].at[0] = a->x;
-    j[k].at[1] = a->y;
-    direction(j[k].at, (double[2]){n->x, n->y}, j[k].next);
-    direction(j[k].at, (double[2]){o->x, o->y}, j[k].before);
+    const carom_corner *a = &corner[index], *n = &corner[(index + step) % count],
+                       *o = &corner[(index + count - step) % count];
+    j[k].corner[0] = a->x;
+    j[k].corner[1] = a->y;
+    direction(j[k].corner, (double[2]){n->x, n->y}, j[k].next);
+    direction(j[k].corner, (double[2]){o->x, o->y}, j[k].previous);
 
     /* beta by its half: the turn is sin(beta), above 0 where the corner is convex */
-    j[k].turn = j[k].next[0] * j[k].before[1] - j[k].next[1] * j[k].before[0];
-    const double cosine = j[k].next[0] * j[k].before[0] + j[k].next[1] * j[k].before[1];
+    j[k].turn = j[k].next[0] * j[k].previous[1] - j[k].next[1] * j[k].previous[0];
+    const double cosine = j[k].next[0] * j[k].previous[0] + j[k].next[1] * j[k].previous[1];
     const double s = sqrt(carom_greater(0.5 - 0.5 * cosine, 0.0)),
                  c = copysign(sqrt(carom_greater(0.5 + 0.5 * cosine, 0.0)), j[k].turn);
     j[k].mouth = a->mouth;
@@ -152,7 +152,7 @@ static carom_status joints_of(const carom_corner *corner, int count, double r, d
       jaws += j[k].turn < CLEARLY;
     }
     if (jaws > CAROM_JAWS_MOST)
-      return blame(fault, here, -1, CAROM_ERROR_JAWS);
+      return blame(fault, index, -1, CAROM_ERROR_JAWS);
   }
   return CAROM_OK;
 }
@@ -202,29 +202,29 @@ static carom_status add_sides(const joint *j, int count, double nose_height, dou
     const int next = (k + 1) % count;
     const joint *a = &j[k], *b = &j[next];
     double u[2], p[2], q[2];
-    if (direction(a->at, b->at, u) <= a->cut + b->cut) {
+    if (direction(a->corner, b->corner, u) <= a->cut + b->cut) {
       if (turned)
         return blame(fault, count - 1 - next, count - 1 - k, CAROM_ERROR_MOUTHS);
       return blame(fault, k, next, CAROM_ERROR_MOUTHS);
     }
     for (int i = 0; i < 2; i++) {
-      p[i] = a->at[i] + a->cut * u[i];
-      q[i] = b->at[i] - b->cut * u[i];
+      p[i] = a->corner[i] + a->cut * u[i];
+      q[i] = b->corner[i] - b->cut * u[i];
     }
     add_rail(table, nose_height, p, q);
     if (a->mouth > 0.0)
       add_pocket(table, a, nose_height, jaw_radius, ball_radius);
     else if (a->turn < CLEARLY)
-      add_jaw(table, nose_height, 0.0, a->at[0], a->at[1]);
+      add_jaw(table, nose_height, 0.0, a->corner[0], a->corner[1]);
   }
   return CAROM_OK;
 }
 
-carom_status carom_table_polygon(const carom_corner *given, int count, double nose_height,
+carom_status carom_table_polygon(const carom_corner *corners, int count, double nose_height,
                                  double jaw_radius, double ball_radius, carom_table *table,
                                  carom_table_fault *fault) {
   carom_table_fault unused;
-  if (given == NULL || table == NULL)
+  if (corners == NULL || table == NULL)
     return CAROM_ERROR_NULL;
   if (fault == NULL)
     fault = &unused;
@@ -237,11 +237,11 @@ carom_status carom_table_polygon(const carom_corner *given, int count, double no
   if (count < 3 || count > CAROM_RAILS_MOST)
     return CAROM_ERROR_CORNERS;
 
-  carom_status bad = check_corners(given, count, fault);
-  if (bad != CAROM_OK)
-    return bad;
+  carom_status status = check_corners(corners, count, fault);
+  if (status != CAROM_OK)
+    return status;
   carom_corner corner[CAROM_RAILS_MOST];
-  move_to_origin(given, count, corner);
+  move_to_origin(corners, count, corner);
   const double area = twice_area_of(corner, count);
   if (are_in_line(corner, count))
     return blame(fault, 0, -1, CAROM_ERROR_CORNERS_IN_LINE);
@@ -252,9 +252,9 @@ carom_status carom_table_polygon(const carom_corner *given, int count, double no
     return CAROM_ERROR_SIDES_CROSS;
   }
   joint j[CAROM_RAILS_MOST];
-  bad = joints_of(corner, count, jaw_radius, area, j, fault);
-  if (bad != CAROM_OK)
-    return bad;
+  status = joints_of(corner, count, jaw_radius, area, j, fault);
+  if (status != CAROM_OK)
+    return status;
 
   /* the playing area reaches as far as the corners */
   table->ball_radius = ball_radius;
@@ -262,8 +262,8 @@ carom_status carom_table_polygon(const carom_corner *given, int count, double no
     table->width = carom_greater(table->width, corner[k].x);
     table->length = carom_greater(table->length, corner[k].y);
   }
-  bad = add_sides(j, count, nose_height, jaw_radius, ball_radius, area < 0.0, table, fault);
-  if (bad != CAROM_OK)
-    return bad;
+  status = add_sides(j, count, nose_height, jaw_radius, ball_radius, area < 0.0, table, fault);
+  if (status != CAROM_OK)
+    return status;
   return carom_table_check(table, ball_radius, fault);
 }

@@ -1,7 +1,7 @@
 /* Balls set up for the first shot of a game. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
-#include "table/spots.h"
+#include "table/marks.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -91,6 +91,7 @@ typedef struct rack {
   carom_ball_kind kind;
   double gap;
   uint64_t state;
+  double middle; /* of the table's width */
 } rack;
 
 static void put(rack *k, int ball, double x, double y) {
@@ -106,16 +107,16 @@ static void put_in_row(rack *k, int ball, double front, int row, int place) {
     x = random_symmetric(&k->state);
     y = random_symmetric(&k->state);
   } while (x * x + y * y > 1.0);
-  put(k, ball, 0.5 * k->table->width + (place - 0.5 * row) * pitch + 0.25 * k->gap * x,
+  put(k, ball, k->middle + (place - 0.5 * row) * pitch + 0.25 * k->gap * x,
       front + row * pitch * 0.8660254037844386 + 0.25 * k->gap * y);
 }
 
 /* The numbers from first to last, in an order drawn from the seed. */
 static void shuffle(rack *k, int *number, int count) {
   for (int n = count - 1; n > 0; n--) {
-    const int other = (int)(random_bits(&k->state) % (uint64_t)(n + 1)), kept = number[n];
-    number[n] = number[other];
-    number[other] = kept;
+    const int place = (int)(random_bits(&k->state) % (uint64_t)(n + 1)), drawn = number[n];
+    number[n] = number[place];
+    number[place] = drawn;
   }
 }
 
@@ -162,15 +163,35 @@ static void pack(rack *k, const rack_row *row, double front) {
 
 /* ---- Spots by the rules of the sports */
 
-carom_d carom_d_of(double width, double length) {
-  return (carom_d){.x = 0.5 * width, .y = 0.737 / 3.569 * length, .radius = 0.292 / 1.778 * width};
+/* Places of balls on the middle line, as shares of the length, for racks without a pack. */
+static const double middle_spots[][4] = {[CAROM_RACK_THREECUSHION] = {0.25, 0.25, 0.75},
+                                         [CAROM_RACK_FOURBALL] = {0.25, 0.875, 0.25, 0.75},
+                                         [CAROM_RACK_COWBOY] = {0.125, 0.25, 0.75, 0.5}};
+
+/* The spot of the cue ball of snooker, or of a colour. */
+static void find_snooker_spot(const carom_table *table, int ball, double place[2]) {
+  enum { YELLOW = 16 };
+  const carom_marks marks = carom_marks_of(table->width, table->length);
+  const double d = marks.d_radius, line = marks.d_centre[1];
+  if (ball == 0) {
+    place[0] += 0.4 * d;
+    place[1] = line - 0.3 * d;
+    return;
+  }
+  const double across[] = {d, -d, 0.0, 0.0, 0.0, 0.0};
+  const double along[] = {line,
+                          line,
+                          line,
+                          marks.centre_spot[1],
+                          marks.foot_spot[1],
+                          table->length - 0.324 / 3.569 * table->length};
+  place[0] += across[ball - YELLOW];
+  place[1] = along[ball - YELLOW];
 }
 
-bool carom_is_in_d(const carom_table *table, double x, double y) {
-  const carom_d d = carom_d_of(table->width, table->length);
-  x -= d.x;
-  y -= d.y;
-  return y <= 0.0 && x * x + y * y <= d.radius * d.radius;
+/* Whether a ball of snooker has a spot of its own. */
+static bool has_snooker_spot(carom_rack_kind kind, int ball) {
+  return kind == CAROM_RACK_SNOOKER && (ball == 0 || ball >= 16);
 }
 
 carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int ball,
@@ -182,42 +203,28 @@ carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int b
   const bool pool = row != NULL && row->rows > 0 && kind != CAROM_RACK_SNOOKER;
   if (row == NULL || ball < 0 || ball >= CAROM_BALLS_MOST || (!pool && ball >= row->size))
     return CAROM_ERROR_RACK;
-  const double w = table->width, l = table->length;
-  const carom_d d = carom_d_of(table->width, table->length);
+
   /* the foot spot, or the head spot of the cue ball */
-  double x = 0.5 * w, y = 0.75 * l;
+  const carom_marks marks = carom_marks_of(table->width, table->length);
+  const double *spot = marks.foot_spot;
   if (ball == 0)
-    y = 0.25 * l;
-  if (kind == CAROM_RACK_THREECUSHION || kind == CAROM_RACK_FOURBALL) {
-    static const double along[] = {0.25, 0.25, 0.75}, along_four[] = {0.25, 0.875, 0.25, 0.75};
-    if (ball == 0)
-      x += 0.1825 / 1.42 * w;
-    if (kind == CAROM_RACK_FOURBALL)
-      y = along_four[ball] * l;
-    else
-      y = along[ball] * l;
-  } else if (kind == CAROM_RACK_COWBOY) {
-    /* the cue ball, and the balls 1, 3 and 5 on the head spot, the foot spot and the centre */
-    static const double along[] = {0.125, 0.25, 0.75, 0.5};
-    y = along[ball] * l;
-  } else if (kind == CAROM_RACK_SNOOKER && ball == 0) {
-    x += 0.4 * d.radius;
-    y = d.y - 0.3 * d.radius;
-  } else if (kind == CAROM_RACK_SNOOKER && ball >= 16) {
-    const double across[] = {d.radius, -d.radius, 0.0, 0.0, 0.0, 0.0};
-    const double along[] = {d.y, d.y, d.y, 0.5 * l, 0.75 * l, l - 0.324 / 3.569 * l};
-    x += across[ball - 16];
-    y = along[ball - 16];
-  }
-  place[0] = x;
-  place[1] = y;
+    spot = marks.head_spot;
+  memcpy(place, spot, sizeof marks.foot_spot);
+
+  /* games whose balls have spots of their own; the cue balls of two begin beside the middle */
+  if (row->rows == 0)
+    place[1] = middle_spots[kind][ball] * table->length;
+  if (row->rows == 0 && kind != CAROM_RACK_COWBOY && ball == 0)
+    place[0] += 0.1825 / 1.42 * table->width;
+  if (has_snooker_spot(kind, ball))
+    find_snooker_spot(table, ball, place);
   return CAROM_OK;
 }
 
 static void put_on_spot(rack *k, carom_rack_kind kind, int ball) {
-  double at[2] = {0.0, 0.0};
-  carom_spot_of(kind, k->table, ball, at);
-  put(k, ball, at[0], at[1]);
+  double place[2] = {0.0, 0.0};
+  carom_spot_of(kind, k->table, ball, place);
+  put(k, ball, place[0], place[1]);
 }
 
 /* The gap before the pink that a rack of reds has at least, m. */
@@ -230,7 +237,8 @@ carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double g
   const rack_row *row = row_of(kind);
   if (row == NULL)
     return CAROM_ERROR_RACK;
-  rack k = {table, balls, carom_ball_kind_of(row->game), gap, seed};
+  const carom_marks marks = carom_marks_of(table->width, table->length);
+  rack k = {table, balls, carom_ball_kind_of(row->game), gap, seed, marks.foot_spot[0]};
   const double R = k.kind.radius;
   if (room < row->size || !(gap >= 0.0 && gap <= R))
     return CAROM_ERROR_RACK;
@@ -238,9 +246,9 @@ carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double g
   /* the balls that have spots, and the pack */
   const bool snooker = kind == CAROM_RACK_SNOOKER;
   for (int ball = 0; ball < row->size; ball++)
-    if (ball == 0 || row->rows == 0 || (snooker && ball >= 16))
+    if (ball == 0 || row->rows == 0 || has_snooker_spot(kind, ball))
       put_on_spot(&k, kind, ball);
-  double front = 0.75 * table->length - row->spot * (2.0 * R + gap) * 0.8660254037844386;
+  double front = marks.foot_spot[1] - row->spot * (2.0 * R + gap) * 0.8660254037844386;
   if (snooker)
     front += 2.0 * R + fmax(gap, red_gap);
   if (row->rows > 0)

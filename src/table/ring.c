@@ -70,7 +70,7 @@ static void shapes_of(const carom_ground *ground, double overlap, bool round, ri
 }
 
 /* The place of a segment that is nearest to r, and how far it is. */
-static double nearest(const shape *s, const double r[2], double there[2]) {
+static double nearest(const shape *s, const double r[2], double place[2]) {
   const double e[2] = {s->q[0] - s->p[0], s->q[1] - s->p[1]}, size2 = e[0] * e[0] + e[1] * e[1];
   double along = 0.0;
   if (size2 > 0.0)
@@ -78,29 +78,29 @@ static double nearest(const shape *s, const double r[2], double there[2]) {
   const double t = carom_lesser(carom_greater(along, 0.0), 1.0);
   double d2 = 0.0;
   for (int k = 0; k < 2; k++) {
-    there[k] = s->p[k] + t * e[k];
-    d2 += (r[k] - there[k]) * (r[k] - there[k]);
+    place[k] = s->p[k] + t * e[k];
+    d2 += (r[k] - place[k]) * (r[k] - place[k]);
   }
   return sqrt(d2);
 }
 
 /* Where two segments cross; false if they do not. */
-static bool cross_at(const shape *a, const shape *b, double there[2]) {
+static bool cross_at(const shape *a, const shape *b, double place[2]) {
   const double u[2] = {a->q[0] - a->p[0], a->q[1] - a->p[1]},
                v[2] = {b->q[0] - b->p[0], b->q[1] - b->p[1]};
   const double d[2] = {b->p[0] - a->p[0], b->p[1] - a->p[1]}, area = u[0] * v[1] - u[1] * v[0];
   const double s = (d[0] * v[1] - d[1] * v[0]) / area, t = (d[0] * u[1] - d[1] * u[0]) / area;
   for (int k = 0; k < 2; k++)
-    there[k] = a->p[k] + s * u[k];
+    place[k] = a->p[k] + s * u[k];
   return s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0;
 }
 
-/* Edge `which` of the five between two parts, its places in them, and its length: where they
+/* Edge `edge_index` of the five between two parts, its places in them, and its length: where they
  * cross, or from an end of one to the other. More than the shortest are wanted only to find
  * holes: between parallel rails there is one at each end. */
 enum { EDGES = 5 };
-static double edge(const shape *a, const shape *b, int which, double in_a[2], double in_b[2]) {
-  if (which == 0) {
+static double edge(const shape *a, const shape *b, int edge_index, double in_a[2], double in_b[2]) {
+  if (edge_index == 0) {
     const bool they_do = cross_at(a, b, in_a);
     in_b[0] = in_a[0];
     in_b[1] = in_a[1];
@@ -109,8 +109,8 @@ static double edge(const shape *a, const shape *b, int which, double in_a[2], do
     return 0.0;
   }
   const double *const ends[4] = {a->p, a->q, b->p, b->q};
-  const double *end = ends[which - 1];
-  if (which <= 2) {
+  const double *end = ends[edge_index - 1];
+  if (edge_index <= 2) {
     memcpy(in_a, end, 2 * sizeof *end);
     return nearest(b, end, in_b);
   }
@@ -143,9 +143,9 @@ static int crossing(const double a[2], const double b[2], const double P[2]) {
 /* The windings of an edge. */
 static int windings_of(const shape *a, const shape *b, const double in_a[2], const double in_b[2],
                        const double P[2]) {
-  const double from[2] = {0.5 * (a->p[0] + a->q[0]), 0.5 * (a->p[1] + a->q[1])},
-               to[2] = {0.5 * (b->p[0] + b->q[0]), 0.5 * (b->p[1] + b->q[1])};
-  return crossing(from, in_a, P) + crossing(in_a, in_b, P) + crossing(in_b, to, P);
+  const double start[2] = {0.5 * (a->p[0] + a->q[0]), 0.5 * (a->p[1] + a->q[1])},
+               end[2] = {0.5 * (b->p[0] + b->q[0]), 0.5 * (b->p[1] + b->q[1])};
+  return crossing(start, in_a, P) + crossing(in_a, in_b, P) + crossing(in_b, end, P);
 }
 
 /* The root of a node, and the windings from there. */
@@ -157,7 +157,7 @@ static int root_of(const ring *g, int i, int *windings) {
 
 /* A hole: between which parts, by which edge. */
 typedef struct hole {
-  int a, b, which;
+  int a, b, edge_index;
 } hole;
 
 /* Whether a chain of parts that are at most `grown` apart winds around P, and around P otherwise
@@ -174,13 +174,13 @@ static bool encloses(ring *g, double first, double grown, const double P[2], con
   for (int pass = 0; pass < (first < grown ? 2 : 1); pass++)
     for (int i = 0; i < g->count; i++)
       for (int j = i + 1; j < g->count; j++)
-        for (int which = 0;
-             which < EDGES && !far_apart(&g->shape[i], &g->shape[j], pass == 0 ? first : grown);
-             which++) {
+        for (int edge_index = 0; edge_index < EDGES &&
+                                 !far_apart(&g->shape[i], &g->shape[j], pass == 0 ? first : grown);
+             edge_index++) {
           const shape *a = &g->shape[i], *b = &g->shape[j];
           double in_a[2], in_b[2];
           /* an edge that is not too long for this pass */
-          const double apart = edge(a, b, which, in_a, in_b) - a->reach - b->reach;
+          const double apart = edge(a, b, edge_index, in_a, in_b) - a->reach - b->reach;
           if (!(apart <= (pass == 0 ? first : grown) && apart < INFINITY))
             continue;
           const int turns =
@@ -192,7 +192,7 @@ static bool encloses(ring *g, double first, double grown, const double P[2], con
             g->parent[root_j] = root_i;
             g->windings[root_j] = to_i + turns - to_j;
           } else if (to_i + turns != to_j) {
-            *closing = (hole){i, j, which};
+            *closing = (hole){i, j, edge_index};
             return true;
           }
         }
@@ -201,9 +201,9 @@ static bool encloses(ring *g, double first, double grown, const double P[2], con
 
 /* Whether the centre of a ball can be at r. */
 static bool is_free(const ring *g, const double r[2]) {
-  double there[2];
+  double place[2];
   for (int k = 0; k < g->count; k++)
-    if (nearest(&g->shape[k], r, there) < g->shape[k].reach)
+    if (nearest(&g->shape[k], r, place) < g->shape[k].reach)
       return false;
   return true;
 }
@@ -302,7 +302,7 @@ static bool is_closed(ring *g, const double P[2], carom_table_fault *fault) {
   if (find_hole(g, P, &found)) {
     const shape *a = &g->shape[found.a], *b = &g->shape[found.b];
     double in_a[2], in_b[2];
-    fault->gap = edge(a, b, found.which, in_a, in_b) - a->radius - b->radius;
+    fault->gap = edge(a, b, found.edge_index, in_a, in_b) - a->radius - b->radius;
     fault->part = a->part;
     fault->other = b->part;
     for (int c = 0; c < 2; c++)

@@ -118,8 +118,8 @@ bool carom_beside_longest(const carom_table *table, const carom_features *featur
 bool carom_is_cut_off(const carom_ground *ground, const double r[2]);
 
 /* The kind of part of which a table has too many, by the error; NONE for other errors. */
-static inline carom_part_kind carom_surplus_of(carom_status bad) {
-  switch (bad) {
+static inline carom_part_kind carom_surplus_of(carom_status error) {
+  switch (error) {
   case CAROM_ERROR_RAILS:
     return CAROM_PART_RAIL;
   case CAROM_ERROR_JAWS:

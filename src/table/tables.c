@@ -69,22 +69,24 @@ static openings openings_of(const carom_measures *m) {
   return f;
 }
 
-static void add_pockets(carom_table *t, const carom_measures *m, const openings *f) {
+/* Where the rails of the six sides end, from the head and from the left. */
+typedef struct rail_ends {
+  double low, middle_low, middle_high, high, right;
+} rail_ends;
+
+static void add_sides(carom_table *t, double h, const rail_ends *e) {
+  const double w = t->width, l = t->length;
+  add_rail(t, h, 1, 0.0, e->low, 0.0, e->middle_low);
+  add_rail(t, h, 1, 0.0, e->middle_high, 0.0, e->high);
+  add_rail(t, h, 0, w, e->low, w, e->middle_low);
+  add_rail(t, h, 0, w, e->middle_high, w, e->high);
+  add_rail(t, h, 1, e->low, 0.0, e->right, 0.0);
+  add_rail(t, h, 0, e->low, l, e->right, l);
+}
+
+static void add_facings_of_sides(carom_table *t, const carom_measures *m, const openings *f) {
   const double w = m->width, l = m->length, h = m->nose_height, cw = m->cushion_depth,
-               rc = m->corner_jaw, rs = m->side_jaw, sw = m->side_mouth, q = f->q, dc = f->dc,
-               ds = f->ds;
-
-  /* rails */
-  const double low = q + dc, middle_low = (l - sw) / 2.0 - ds, middle_high = (l + sw) / 2.0 + ds,
-               high = l - q - dc;
-  add_rail(t, h, 1, 0.0, low, 0.0, middle_low);
-  add_rail(t, h, 1, 0.0, middle_high, 0.0, high);
-  add_rail(t, h, 0, w, low, w, middle_low);
-  add_rail(t, h, 0, w, middle_high, w, high);
-  add_rail(t, h, 1, low, 0.0, w - q - dc, 0.0);
-  add_rail(t, h, 0, low, l, w - q - dc, l);
-
-  /* facings of the side pockets */
+               sw = m->side_mouth, ds = f->ds;
   const double back_high = (l + sw) / 2.0 - cw * f->side_back,
                back_low = (l - sw) / 2.0 + cw * f->side_back;
   const double front_high = (l + sw) / 2.0 - ds * f->sin_s,
@@ -93,9 +95,12 @@ static void add_pockets(carom_table *t, const carom_measures *m, const openings 
   add_rail(t, h, 1, -cw, back_low, -ds * f->cos_s, front_low);
   add_rail(t, h, 0, w + cw, back_high, w + ds * f->cos_s, front_high);
   add_rail(t, h, 1, w + cw, back_low, w + ds * f->cos_s, front_low);
+}
 
-  /* facings of the corner pockets */
-  const double back = q - cw * f->corner_back, front = q - dc * f->sin_c, in = dc * f->cos_c;
+static void add_facings_of_corners(carom_table *t, const carom_measures *m, const openings *f) {
+  const double w = m->width, l = m->length, h = m->nose_height, cw = m->cushion_depth;
+  const double back = f->q - cw * f->corner_back, front = f->q - f->dc * f->sin_c,
+               in = f->dc * f->cos_c;
   add_rail(t, h, 1, back, -cw, front, -in);
   add_rail(t, h, 0, -cw, back, -in, front);
   add_rail(t, h, 0, back, l + cw, front, l + in);
@@ -104,22 +109,27 @@ static void add_pockets(carom_table *t, const carom_measures *m, const openings 
   add_rail(t, h, 0, w - back, l + cw, w - front, l + in);
   add_rail(t, h, 0, w + cw, back, w + in, front);
   add_rail(t, h, 1, w - back, -cw, w - front, -in);
+}
 
-  /* jaws */
-  add_jaw(t, h, rc, low, -rc);
-  add_jaw(t, h, rc, -rc, low);
-  add_jaw(t, h, rs, -rs, middle_low);
-  add_jaw(t, h, rs, -rs, middle_high);
-  add_jaw(t, h, rc, -rc, high);
-  add_jaw(t, h, rc, low, l + rc);
-  add_jaw(t, h, rc, w - q - dc, l + rc);
-  add_jaw(t, h, rc, w + rc, high);
-  add_jaw(t, h, rs, w + rs, middle_high);
-  add_jaw(t, h, rs, w + rs, middle_low);
-  add_jaw(t, h, rc, w + rc, low);
-  add_jaw(t, h, rc, w - q - dc, -rc);
+static void add_jaws(carom_table *t, const carom_measures *m, const rail_ends *e) {
+  const double w = m->width, l = m->length, h = m->nose_height, rc = m->corner_jaw,
+               rs = m->side_jaw;
+  add_jaw(t, h, rc, e->low, -rc);
+  add_jaw(t, h, rc, -rc, e->low);
+  add_jaw(t, h, rs, -rs, e->middle_low);
+  add_jaw(t, h, rs, -rs, e->middle_high);
+  add_jaw(t, h, rc, -rc, e->high);
+  add_jaw(t, h, rc, e->low, l + rc);
+  add_jaw(t, h, rc, e->right, l + rc);
+  add_jaw(t, h, rc, w + rc, e->high);
+  add_jaw(t, h, rs, w + rs, e->middle_high);
+  add_jaw(t, h, rs, w + rs, e->middle_low);
+  add_jaw(t, h, rc, w + rc, e->low);
+  add_jaw(t, h, rc, e->right, -rc);
+}
 
-  /* pockets */
+static void add_holes(carom_table *t, const carom_measures *m) {
+  const double w = m->width, l = m->length;
   double unused, c;
   carom_sincos_degrees(45.0, &unused, &c);
   const double off = (m->corner_shelf + m->corner_hole - 0.5 * m->corner_mouth) * c,
@@ -130,6 +140,21 @@ static void add_pockets(carom_table *t, const carom_measures *m, const openings 
   add_pocket(t, m->corner_hole, w + off, -off);
   add_pocket(t, m->side_hole, w + out, l / 2.0);
   add_pocket(t, m->corner_hole, w + off, l + off);
+}
+
+/* The parts of a table with pockets, in the order of pooltool. */
+static void add_pockets(carom_table *t, const carom_measures *m, const openings *f) {
+  const double w = m->width, l = m->length, sw = m->side_mouth;
+  const rail_ends ends = {.low = f->q + f->dc,
+                          .middle_low = (l - sw) / 2.0 - f->ds,
+                          .middle_high = (l + sw) / 2.0 + f->ds,
+                          .high = l - f->q - f->dc,
+                          .right = w - f->q - f->dc};
+  add_sides(t, m->nose_height, &ends);
+  add_facings_of_sides(t, m, f);
+  add_facings_of_corners(t, m, f);
+  add_jaws(t, m, &ends);
+  add_holes(t, m);
 }
 
 /* Facings, which follow the cushions of the six sides, and jaws have numbers of their own. */
@@ -219,9 +244,9 @@ carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
   if (table == NULL)
     return CAROM_ERROR_NULL;
   carom_measures m;
-  const carom_status bad = carom_table_measures(kind, &m);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status status = carom_table_measures(kind, &m);
+  if (status != CAROM_OK)
+    return status;
   const openings f = openings_of(&m);
   if (kind == CAROM_TABLE_POOLTOOL)
     *table = carom_table_pooltool;
@@ -236,10 +261,10 @@ carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
 #define AT(member) ((int32_t)(offsetof(carom_measures, member) / sizeof(double)))
 
 /* Tells which measure is at fault beside which other, and its bound by the others. */
-static carom_status blame(carom_table_fault *fault, int32_t measure, int32_t other, double bound) {
+static carom_status blame(carom_table_fault *fault, int32_t measure, int32_t second, double bound) {
   fault->part = (carom_part){CAROM_PART_MEASURES, measure};
-  if (other >= 0)
-    fault->other = (carom_part){CAROM_PART_MEASURES, other};
+  if (second >= 0)
+    fault->other = (carom_part){CAROM_PART_MEASURES, second};
   fault->gap = bound;
   return CAROM_ERROR_TABLE;
 }
@@ -249,7 +274,7 @@ static carom_status check_room(const carom_measures *m, const openings *f,
                                carom_table_fault *fault) {
   const double cw = m->cushion_depth, root = m->corner_mouth / f->q;
   const struct {
-    int32_t measure, other;
+    int32_t measure, second;
     double value, bound;
   } rules[] = {
       /* something is left of the short and the long rails */
@@ -265,7 +290,7 @@ static carom_status check_room(const carom_measures *m, const openings *f,
        f->side_back > 0.0 ? 0.5 * m->side_mouth / f->side_back : INFINITY}};
   for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
     if (rules[k].value >= rules[k].bound)
-      return blame(fault, rules[k].measure, rules[k].other, rules[k].bound);
+      return blame(fault, rules[k].measure, rules[k].second, rules[k].bound);
   return CAROM_OK;
 }
 
@@ -289,11 +314,11 @@ carom_status carom_table_measured(const carom_measures *measures, double ball_ra
       return blame(fault, k, -1, 0.0);
   }
   const openings f = openings_of(measures);
-  carom_status bad = CAROM_OK;
+  carom_status status = CAROM_OK;
   if (pockets)
-    bad = check_room(measures, &f, fault);
-  if (bad != CAROM_OK)
-    return bad;
+    status = check_room(measures, &f, fault);
+  if (status != CAROM_OK)
+    return status;
   make(measures, &f, table);
   return carom_table_check(table, ball_radius, fault);
 }

@@ -489,10 +489,10 @@ bool phases_change(const scene *s) {
       cue.tip_time = scale * ::carom_tip_time(&cue);
     else
       cue.theta = __builtin_fmin(scale * cue.theta, 90);
-    ::carom_blow(&cue, kind, CAROM_BLOW_IN_SPACE, &motion);
+    ::carom_strike_motion(&cue, kind, CAROM_STRIKE_IN_SPACE, &motion);
     memcpy(state.v, motion.v, sizeof state.v);
     memcpy(state.w, motion.w, sizeof state.w);
-    ::carom_press_alone(kind, &cue, &state, &raised);
+    ::carom_push_alone(kind, &cue, &state, &raised);
     course = k == 0 ? raised.course : course;
     change |= raised.course != course;
   }
@@ -510,9 +510,9 @@ CAROM_APART text::carom_status strike(scene *s) {
   if (level)
     cue.theta.x = CAROM_LEAST_ELEVATION;
   text::carom_motion motion;
-  const text::carom_status status =
-      text::carom_blow(&cue, &s->ball[0].kind,
-                       flat ? text::CAROM_BLOW_ON_CLOTH : text::CAROM_BLOW_IN_SPACE, &motion);
+  const text::carom_status status = text::carom_strike_motion(
+      &cue, &s->ball[0].kind, flat ? text::CAROM_STRIKE_ON_CLOTH : text::CAROM_STRIKE_IN_SPACE,
+      &motion);
   if (status < 0)
     return status;
 
@@ -520,14 +520,14 @@ CAROM_APART text::carom_status strike(scene *s) {
   const text::carom_ball_kind *kind = &s->ball[0].kind;
   carom_ball_state *state = &s->ball[0].state;
   text::carom_raised raised = {};
-  raised.V = cue.speed - kind->mass / cue.mass * text::carom_speed_of_blow(&cue, kind);
+  raised.V = cue.speed - kind->mass / cue.mass * text::carom_strike_speed(&cue, kind);
   memcpy(state->v, motion.v, sizeof motion.v);
   memcpy(state->w, motion.w, sizeof motion.w);
 
-  /* a blow that goes down presses the ball on the slate, or lands at once */
+  /* a strike that goes down presses the ball on the slate, or lands at once */
   const bool down = !flat && cue.theta.x >= CAROM_LEAST_ELEVATION;
   if (down && w->cue->tip_time >= 0) {
-    if (!text::carom_press_alone(kind, &cue, state, &raised))
+    if (!text::carom_push_alone(kind, &cue, state, &raised))
       return text::CAROM_ERROR_TANGENT;
     w->note.flags |= !level && phases_change(s) ? CAROM_TANGENT_KINK : 0;
     const real v = raised.leaves.x;
@@ -1043,8 +1043,8 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
     w->note.flags |= CAROM_TANGENT_KINK;
 
   /* the contact, which marks the instant of a slow one by the time that it leaves */
-  s.sim.now = e->time;
-  s.sim.now.d[CLOCK] = 1;
+  s.sim.time = e->time;
+  s.sim.time.d[CLOCK] = 1;
   s.sim.slow_instants = w->slow_instants;
   s.sim.slow_last = w->slow_last;
 

@@ -337,8 +337,8 @@ static carom_shot_options next_stop(const carom_shot_options *options, int way,
 static void forge(carom_shot_state *state) {
   carom_sim sim;
   memcpy(&sim, state, sizeof sim);
-  double *const columns[] = {sim.x,   sim.y,   sim.v_x,   sim.v_y, sim.a_x,     sim.a_y,  sim.z,
-                             sim.v_z, sim.a_z, sim.start, sim.own, sim.horizon, sim.first};
+  double *const columns[] = {sim.x,   sim.y,   sim.v_x,   sim.v_y,     sim.a_x,     sim.a_y,  sim.z,
+                             sim.v_z, sim.a_z, sim.start, sim.own_end, sim.horizon, sim.first};
   for (int i = 0; i < sim.count; i++) {
     for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
       columns[k][i] = 0.25;

@@ -905,3 +905,25 @@ TEST(names) {
     }
   ck_assert_int_ge(carom_physics_revision(), 1);
 }
+
+/* Spots of racks are marks of their table; the marks of a table of snooker are the rule book's. */
+TEST(marks_of_tables) {
+  carom_table t;
+  carom_marks marks;
+  for (int kind = 0; kind < TABLES; kind++) {
+    double head[2], foot[2];
+    carom_table_make((carom_table_kind)kind, &t);
+    ck_assert_int_eq(carom_table_marks(&t, &marks), CAROM_OK);
+    carom_spot_of(CAROM_RACK_EIGHTBALL, &t, 0, head);
+    carom_spot_of(CAROM_RACK_EIGHTBALL, &t, 1, foot);
+    ck_assert_mem_eq(marks.head_spot, head, sizeof head);
+    ck_assert_mem_eq(marks.foot_spot, foot, sizeof foot);
+    ck_assert(marks.centre_spot[0] == 0.5 * t.width && marks.centre_spot[1] == 0.5 * t.length);
+    ck_assert(marks.baulk_line == 0.2 * t.length);
+  }
+  carom_table_make(CAROM_TABLE_SNOOKER, &t);
+  carom_table_marks(&t, &marks);
+  ck_assert(fabs(marks.d_centre[1] - 0.737) < 1e-3 && fabs(marks.d_radius - 0.292) < 1e-3);
+  ck_assert_int_eq(carom_table_marks(NULL, &marks), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_table_marks(&t, NULL), CAROM_ERROR_NULL);
+}

@@ -80,6 +80,7 @@ static carom_tangent_job tangent_job;
 static carom_plan_stroke choices[4];
 static carom_match match;
 static carom_bounds bounds;
+static carom_marks marks;
 static carom_bank bank;
 static carom_calibration calibration;
 static const double readings[CAROM_BANKS] = {2.0, 2.5, 3.0};
@@ -329,6 +330,7 @@ static const carom_options *no_options;
   F(strike, carom_strike(PTR(&cue), PTR(&balls[0].kind), PTR(motion)))                             \
   F(table_check, carom_table_check(PTR(&table), NUM(0.028575), MAYBE(&table_fault)))               \
   F(table_make, carom_table_make(ENUM(carom_table_kind, 0), PTR(&made)))                           \
+  F(table_marks, carom_table_marks(PTR(&table), PTR(&marks)))                                      \
   F(table_measured,                                                                                \
     carom_table_measured(PTR(&measures), NUM(0.028575), PTR(&made), MAYBE(&table_fault)))          \
   F(table_measures, carom_table_measures(ENUM(carom_table_kind, 2), PTR(&measures)))               \

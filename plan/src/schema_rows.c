@@ -1,0 +1,19 @@
+/* The options of a plan and the words of games, for programs that ask what there is. */
+#include "carom_plan.h"
+#include "games.h"
+#include "plan_options.h"
+#include "platform/arithmetic.h"
+#include "schema/rows.h"
+
+#define PLAN_OPTION(...) CAROM_OPTION_ROW(carom_plan_options, ALWAYS, __VA_ARGS__, 0)
+static const carom_number plan_options[] = {CAROM_PLAN_OPTIONS(PLAN_OPTION)};
+
+#define GAME_WORD(NAME, rules, word, text, ...) {CAROM_WORDS_RULES, CAROM_RULES_##NAME, word, text},
+static const carom_word_row game_words[] = {CAROM_GAMES(GAME_WORD)};
+
+const carom_upper_rows carom_upper_schema = {.part = CAROM_PART_PLAN_OPTIONS,
+                                             .numbers = plan_options,
+                                             .numbers_count =
+                                                 sizeof plan_options / sizeof *plan_options,
+                                             .words = game_words,
+                                             .words_count = sizeof game_words / sizeof *game_words};
