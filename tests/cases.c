@@ -1,0 +1,541 @@
+/* Cases as rows of a file: calls that are refused, and shots with known results. A case is a line
+ * and the indented lines behind it, of statements with ; between them. It begins with the objects
+ * of set_up() in functions.h. A comment begins with #.
+ *
+ *   table KIND, table empty SIZE      a table without balls and without a cue
+ *   balls GAME COUNT                  more balls, at rest on the cloth
+ *   cue GAME
+ *   PATH = VALUE, ...                 one number, or several of an array
+ *   call FUNCTION,... STATUS NOTES    each function returns this status
+ *   expect PATH = VALUE within VALUE  or <, >, or ! for a difference
+ *
+ * NOTES: `without N`, argument N is NULL; `where N`, what a check names; `unchanged`, nothing of the
+ * shot is written; `nan PATH`, this object has no numbers. A value is a number, a path or a word of
+ * the library. A path is like ball[1].r[0], the place of a ball; event[slate 1] is the second event
+ * of a type, and event[slate -1] the last. */
+#include "functions.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* ---- The file */
+
+enum { LINES_MOST = 2000, LINE = 400 };
+static char lines[LINES_MOST][LINE];
+static int lines_count, case_lines[LINES_MOST], cases_count;
+static const char *file_name, *cursor; /* within the line that is read */
+static int line_index;
+
+static _Noreturn void reject(const char *reason) {
+  ck_abort_msg("%s:%d: %s: %s", file_name, line_index, lines[line_index - 1], reason);
+}
+
+static void skip_spaces(void) {
+  while (*cursor == ' ')
+    cursor++;
+}
+
+static bool is_word_part(char letter) {
+  return isalnum((unsigned char)letter) || letter == '_';
+}
+
+/* Whether the line goes on with a word or a sign, which is skipped. */
+static bool skip(const char *expected) {
+  const size_t length = strlen(expected);
+  skip_spaces();
+  if (strncmp(cursor, expected, length) != 0)
+    return false;
+  if (is_word_part(expected[length - 1]) && is_word_part(cursor[length]))
+    return false;
+  cursor += length;
+  return true;
+}
+
+static const char *read_word(void) {
+  static char word[64];
+  size_t length = 0;
+  skip_spaces();
+  while (is_word_part(*cursor) && length + 1 < sizeof word)
+    word[length++] = *cursor++;
+  word[length] = '\0';
+  return word;
+}
+
+/* ---- Numbers by their paths */
+
+/* What a place is: a number of a type, or a struct. Those with rows of numbers are 10 and their
+ * kind of part. */
+enum { DOUBLE, INT32, INT64, UINT64, STRUCT = 10 };
+enum {
+  OF_rail = STRUCT + CAROM_PART_RAIL,
+  OF_jaw = STRUCT + CAROM_PART_JAW,
+  OF_pocket = STRUCT + CAROM_PART_POCKET,
+  OF_ball_kind = STRUCT + CAROM_PART_BALL,
+  OF_shot_options = STRUCT + CAROM_PART_OPTIONS,
+  OF_options = STRUCT + CAROM_PART_IMPACT_OPTIONS,
+  OF_cushion_options = STRUCT + CAROM_PART_CUSHION_OPTIONS,
+  OF_cue = STRUCT + CAROM_PART_CUE,
+  OF_table = STRUCT + CAROM_PART_TABLE,
+  OF_ball_state = STRUCT + CAROM_PART_STATE,
+  OF_measures = STRUCT + CAROM_PART_MEASURES,
+  OF_corner = STRUCT + CAROM_PART_CORNER,
+  OF_shot_ball,
+  OF_event,
+  OF_shot,
+  OF_facts,
+  OF_impact,
+  OF_cushion_impact,
+  OF_result,
+  OF_motion,
+  OF_part,
+  OF_table_fault,
+  OF_shot_job,
+  OF_fault,
+  OF_trace_point,
+  OF_cushion_point,
+  KINDS
+};
+
+typedef struct location {
+  char *address;
+  int of;    /* what is there */
+  int words; /* the words of its values; -1: none */
+} location;
+
+#define MEMBER(type, name, of) \
+  { OF_##type, #name, offsetof(carom_##type, name), of }
+static const struct {
+  int parent;
+  const char *name;
+  size_t offset;
+  int of;
+} members[] = {
+    MEMBER(table, rails, INT64),
+    MEMBER(table, jaws, INT64),
+    MEMBER(table, pockets, INT64),
+    MEMBER(table, rail, OF_rail),
+    MEMBER(table, jaw, OF_jaw),
+    MEMBER(table, pocket, OF_pocket),
+    MEMBER(shot_options, unused, INT32),
+    MEMBER(shot_options, reserved, UINT64),
+    MEMBER(options, unused, INT32),
+    MEMBER(options, reserved, UINT64),
+    MEMBER(cushion_options, reserved, UINT64),
+    MEMBER(cushion_options, smooth_q, DOUBLE),
+    MEMBER(cushion_options, smooth_x, DOUBLE),
+    MEMBER(cushion_options, smooth_t, DOUBLE),
+    MEMBER(cushion_options, smooth_k, DOUBLE),
+    MEMBER(corner, x, DOUBLE),
+    MEMBER(event, time, DOUBLE),
+    MEMBER(event, type, INT32),
+    MEMBER(event, a, INT32),
+    MEMBER(event, b, INT32),
+    MEMBER(event, cluster, INT32),
+    MEMBER(event, before, OF_ball_state),
+    MEMBER(event, after, OF_ball_state),
+    MEMBER(shot, count, INT64),
+    MEMBER(shot, room, INT64),
+    MEMBER(shot, time, DOUBLE),
+    MEMBER(facts, touches, INT32),
+    MEMBER(facts, pushed, INT32),
+    MEMBER(result, a, OF_motion),
+    MEMBER(result, b, OF_motion),
+    MEMBER(motion, v, DOUBLE),
+    MEMBER(motion, w, DOUBLE),
+    MEMBER(part, kind, INT32),
+    MEMBER(part, index, INT32),
+    MEMBER(table_fault, part, OF_part),
+    MEMBER(table_fault, other, OF_part),
+    MEMBER(table_fault, place, DOUBLE),
+    MEMBER(table_fault, gap, DOUBLE),
+    MEMBER(fault, part, OF_part),
+    MEMBER(trace_point, normal, DOUBLE),
+    MEMBER(trace_point, u_z, DOUBLE),
+    MEMBER(cushion_point, work, DOUBLE),
+    MEMBER(shot_job, count, INT64),
+    MEMBER(shot_job, reserved, UINT64),
+};
+
+#define SIZE(type) [OF_##type] = sizeof(carom_##type)
+static const size_t sizes[KINDS] = {8,
+                                    4,
+                                    8,
+                                    8,
+                                    SIZE(rail),
+                                    SIZE(jaw),
+                                    SIZE(pocket),
+                                    SIZE(ball_state),
+                                    SIZE(corner),
+                                    SIZE(shot_ball),
+                                    SIZE(event),
+                                    SIZE(result),
+                                    SIZE(trace_point),
+                                    SIZE(cushion_point),
+                                    SIZE(motion)};
+
+#define OBJECT(object, of) \
+  { #object, &(object), of }
+static const struct {
+  const char *name;
+  void *object;
+  int of;
+} objects[] = {
+    {"ball", balls, OF_shot_ball},
+    {"event", events, OF_event},
+    {"corner", corners, OF_corner},
+    OBJECT(table, OF_table),
+    OBJECT(cue, OF_cue),
+    OBJECT(options, OF_shot_options),
+    OBJECT(final, OF_ball_state),
+    OBJECT(states, OF_ball_state),
+    OBJECT(shot, OF_shot),
+    OBJECT(facts, OF_facts),
+    OBJECT(impact, OF_impact),
+    OBJECT(impact_options, OF_options),
+    OBJECT(result, OF_result),
+    OBJECT(rail, OF_cushion_impact),
+    OBJECT(cushion_options, OF_cushion_options),
+    OBJECT(motion, OF_motion),
+    OBJECT(measures, OF_measures),
+    OBJECT(table_fault, OF_table_fault),
+    OBJECT(part, OF_part),
+    OBJECT(job, OF_shot_job),
+    OBJECT(fault, OF_fault),
+    OBJECT(points, OF_trace_point),
+    OBJECT(cushion_points, OF_cushion_point),
+    OBJECT(times, DOUBLE),
+    OBJECT(readings, DOUBLE),
+    {"misfit", &calibration.misfit, DOUBLE},
+    OBJECT(place_x, DOUBLE),
+    OBJECT(place_y, DOUBLE),
+    OBJECT(radius, DOUBLE),
+    OBJECT(height, DOUBLE),
+    OBJECT(jaw_radius, DOUBLE),
+    OBJECT(gap, DOUBLE),
+    OBJECT(count, INT32),
+    OBJECT(place, INT32),
+    OBJECT(corners_count, INT32),
+    OBJECT(kind_of_table, INT32),
+    OBJECT(points_count, INT32),
+    OBJECT(room, INT32),
+    OBJECT(found, INT32),
+    OBJECT(bank_index, INT32),
+};
+
+static double read_value(int words);
+
+/* A number of a part, by its row. */
+static bool find_row(location *target, const char *name) {
+  const carom_number *row;
+  for (int k = 0; (row = carom_number_of((carom_part_kind)(target->of - STRUCT), k)) != NULL; k++)
+    if (strcmp(row->name, name) == 0) {
+      *target = (location){target->address + row->offset, (int)row->type, row->words};
+      return true;
+    }
+  return false;
+}
+
+static bool find_member(location *target, const char *name) {
+  /* a ball has the members of its kind and of its state */
+  location part_of_ball = {target->address + offsetof(carom_shot_ball, kind), OF_ball_kind, -1};
+  if (target->of == OF_shot_ball && find_row(&part_of_ball, name)) {
+    *target = part_of_ball;
+    return true;
+  }
+  if (target->of == OF_shot_ball)
+    *target = (location){target->address + offsetof(carom_shot_ball, state), OF_ball_state, -1};
+  for (size_t k = 0; k < sizeof members / sizeof *members; k++)
+    if (members[k].parent == target->of && strcmp(members[k].name, name) == 0) {
+      *target = (location){target->address + members[k].offset, members[k].of, -1};
+      return true;
+    }
+  return target->of > STRUCT && target->of <= OF_corner && find_row(target, name);
+}
+
+/* A number of an impact, by the library's name of it. */
+static bool find_field(location *target) {
+  const bool is_cushion = target->of == OF_cushion_impact;
+  const char *name;
+  for (int k = 0; (name = is_cushion ? carom_cushion_field_name(k) : carom_field_name(k)) != NULL;
+       k++)
+    if (skip(name)) {
+      *target = (location){target->address + (size_t)k * sizeof(double), DOUBLE, -1};
+      return true;
+    }
+  return false;
+}
+
+/* The index of an event: a number, or a type and the number among its events. */
+static int read_event_index(void) {
+  const char *start = cursor;
+  const int type = (int)read_value(CAROM_WORDS_EVENT);
+  if (!isalpha((unsigned char)*start))
+    return type;
+  int index = (int)read_value(-1);
+  const int step = index < 0 ? -1 : 1;
+  for (int k = index < 0 ? (int)shot.count - 1 : 0; k >= 0 && k < shot.count; k += step) {
+    if (events[k].type != type)
+      continue;
+    if (index == 0 || index == -1)
+      return k;
+    index -= step;
+  }
+  reject("no such event");
+}
+
+/* Reads the rest of a path: members and indices. */
+static location follow(location target) {
+  for (;;) {
+    if (*cursor == '[') {
+      cursor++;
+      const int index = target.of == OF_event ? read_event_index() : (int)read_value(-1);
+      target.address += (ptrdiff_t)index * (ptrdiff_t)sizes[target.of];
+      if (!skip("]"))
+        reject("no ]");
+    } else if (*cursor == '.') {
+      cursor++;
+      const bool is_impact = target.of == OF_impact || target.of == OF_cushion_impact;
+      if (is_impact ? !find_field(&target) : !find_member(&target, read_word()))
+        reject("no such member");
+    } else {
+      return target;
+    }
+  }
+}
+
+static bool find_object(const char *name, location *target) {
+  for (size_t k = 0; k < sizeof objects / sizeof *objects; k++)
+    if (strcmp(objects[k].name, name) == 0) {
+      *target = (location){objects[k].object, objects[k].of, -1};
+      return true;
+    }
+  return false;
+}
+
+static double number_at(location source) {
+  const void *const number = source.address;
+  if (source.of == DOUBLE)
+    return *(const double *)number;
+  if (source.of == INT32)
+    return *(const int32_t *)number;
+  if (source.of == INT64)
+    return (double)*(const int64_t *)number;
+  reject("no number");
+}
+
+static void put_number(location target, double number) {
+  void *const address = target.address;
+  if (target.of == DOUBLE)
+    *(double *)address = number;
+  else if (target.of == INT32)
+    *(int32_t *)address = (int32_t)number;
+  else if (target.of == INT64)
+    *(int64_t *)address = (int64_t)number;
+  else if (target.of == UINT64)
+    *(uint64_t *)address = (uint64_t)number;
+  else
+    reject("no number");
+}
+
+/* The value of a word of the library: of its own list, or a type of event or a label. */
+static double value_of_word(const char *word, int words) {
+  const int lists[] = {words, CAROM_WORDS_EVENT, CAROM_WORDS_LABEL};
+  for (int list = words < 0; list < 3; list++)
+    for (int k = 0; k < 32; k++) {
+      const char *known = carom_word((carom_words)lists[list], k);
+      if (known != NULL && strcmp(known, word) == 0)
+        return k;
+    }
+  reject("no such name");
+}
+
+static double read_value(int words) {
+  char *end;
+  skip_spaces();
+  const double number = strtod(cursor, &end);
+  if (end > cursor && !is_word_part(*end)) {
+    cursor = end;
+    return number;
+  }
+  const char *word = read_word();
+  location source;
+  return find_object(word, &source) ? number_at(follow(source)) : value_of_word(word, words);
+}
+
+/* ---- Statements */
+
+static location read_path(void) {
+  location target;
+  if (!find_object(read_word(), &target))
+    reject("no such object");
+  return follow(target);
+}
+
+/* Sets one number, or several of an array. */
+static void assign(void) {
+  location target = read_path();
+  if (!skip("="))
+    reject("no =");
+  do {
+    put_number(target, read_value(target.words));
+    target.address += sizes[target.of];
+  } while (skip(","));
+}
+
+/* Calls the function whose name comes next. */
+static int64_t call_function(void) {
+  const char *name = read_word();
+  argument = value_index = 0;
+  if (strcmp(name, "behind_another") == 0)
+    return behind_another();
+  for (int k = 0; k < COUNT; k++)
+    if (strcmp(functions[k].name + strlen("carom_"), name) == 0)
+      return functions[k].call();
+  reject("no such function");
+}
+
+static int read_status(void) {
+  const char *word = read_word();
+  for (int k = -128; k < 128; k++)
+    if (strcmp(carom_status_name((carom_status)k), word) == 0)
+      return k;
+  reject("no such status");
+}
+
+/* Of all that a shot writes. */
+static uint64_t shot_hash(void) {
+  uint64_t hash = hash_of(1, events, 100 * sizeof *events);
+  hash = hash_of(hash, final, sizeof final);
+  hash = hash_of(hash, &shot, sizeof shot);
+  hash = hash_of(hash, &facts, sizeof facts);
+  hash = hash_of(hash, &status, sizeof status);
+  return hash_of(hash, &state, sizeof state);
+}
+
+static void expect_nan(location target) {
+  for (size_t k = 0; k < sizes[target.of] / sizeof(double); k++)
+    if (!isnan(((const double *)(const void *)target.address)[k]))
+      reject("a number is left");
+}
+
+enum { UNSET = -100 }; /* where a function does not say what is wrong */
+
+/* What the notes behind a status say of a call. */
+static void expect_notes(bool is_changed) {
+  const int expected = skip("where") ? (int)read_value(-1) : UNSET;
+  if (expected != UNSET && where != UNSET && where != expected)
+    reject("another place");
+  if (skip("unchanged") && is_changed)
+    reject("the shot is changed");
+  if (skip("nan"))
+    expect_nan(read_path());
+}
+
+/* Calls each function of the list that comes next. */
+static void call_functions(void) {
+  const char *names[8], *notes;
+  int calls = 0;
+  do {
+    skip_spaces();
+    names[calls++] = cursor;
+    read_word();
+  } while (skip(","));
+  const int expected = read_status();
+  wrong_argument = skip("without") ? (int)read_value(-1) : -1;
+  notes = cursor;
+  for (int k = 0; k < calls; k++) {
+    cursor = names[k];
+    where = UNSET;
+    const uint64_t hash = shot_hash();
+    const int64_t returned = call_function();
+    if (returned != expected && returned != ACCEPTED)
+      reject(carom_status_name((carom_status)returned));
+    cursor = notes;
+    expect_notes(hash != shot_hash());
+  }
+}
+
+static void make_table(void) {
+  if (skip("empty"))
+    table = empty_table(read_value(-1));
+  else
+    carom_table_make((carom_table_kind)value_of_word(read_word(), CAROM_WORDS_TABLE), &table);
+  count = 0;
+  cue.speed = 0.0;
+}
+
+static void add_balls(void) {
+  const carom_game game = (carom_game)value_of_word(read_word(), CAROM_WORDS_GAME);
+  for (int k = (int)read_value(-1); k > 0; k--) {
+    balls[count] = (carom_shot_ball){.kind = carom_ball_kind_of(game)};
+    balls[count].state.r[2] = balls[count].kind.radius;
+    count++;
+  }
+}
+
+static void expect(void) {
+  const double left = read_value(-1);
+  skip_spaces();
+  const char relation = *cursor++;
+  const double right = read_value(-1), within = skip("within") ? read_value(-1) : 0.0;
+  bool good = fabs(left - right) <= within || left == right || (isnan(left) && isnan(right));
+  if (relation == '<')
+    good = left < right;
+  if (relation == '>')
+    good = left > right;
+  if (relation == '!')
+    good = left != right;
+  ck_assert_msg(good, "%s:%d: %s: it is %.17g", file_name, line_index, lines[line_index - 1], left);
+}
+
+static void make_cue(void) {
+  cue = carom_cue_of((carom_game)value_of_word(read_word(), CAROM_WORDS_GAME));
+}
+
+static const struct {
+  const char *word;
+  void (*run)(void);
+} statements[] = {{"table ", make_table},
+                  {"balls ", add_balls},
+                  {"cue ", make_cue},
+                  {"call ", call_functions},
+                  {"expect ", expect}};
+
+static void run_statement(void) {
+  for (size_t k = 0; k < sizeof statements / sizeof *statements; k++)
+    if (skip(statements[k].word)) {
+      statements[k].run();
+      return;
+    }
+  assign();
+}
+
+START_TEST(a_case) {
+  set_up();
+  line_index = case_lines[_i];
+  do {
+    cursor = lines[line_index++];
+    for (skip_spaces(); *cursor != '\0'; skip(";"))
+      run_statement();
+  } while (lines[line_index][0] == ' ');
+}
+END_TEST
+
+/* Reads the lines without comments, and finds where cases begin. */
+static bool read_lines(void) {
+  FILE *file = fopen(file_name, "r");
+  while (file != NULL && fgets(lines[lines_count], LINE, file) != NULL) {
+    lines[lines_count][strcspn(lines[lines_count], "#\n")] = '\0';
+    if (!isspace((unsigned char)lines[lines_count][0]) && lines[lines_count][0] != '\0')
+      case_lines[cases_count++] = lines_count;
+    lines_count++;
+  }
+  return file != NULL && fclose(file) == 0;
+}
+
+int main(int arguments, char **values) {
+  file_name = arguments > 1 ? values[1] : "";
+  const looped_test test[] = {{a_case, read_lines() ? cases_count : 0}};
+  return cases_count > 0 ? RUN_LOOPED("cases", test) : 1;
+}
