@@ -506,8 +506,8 @@ TEST(stopped_before_every_part) {
   ck_assert_uint_eq(seen[CAROM_EVENT_POCKET], 0x3f);
 }
 
-/* What cannot go on is refused, and nothing is written: a state that is damaged or empty, and
- * one of another shot, by name. */
+/* A state without any, or with a bit changed, is refused, and nothing is written; unit/refusals.txt
+ * has those of other shots. */
 TEST(bad_states) {
   make_breaks();
   broken *b = make_broken();
@@ -517,59 +517,18 @@ TEST(bad_states) {
   ck_assert_int_eq(b->status, CAROM_STOPPED_AT_TIME);
   broken *before = malloc(sizeof *before);
   memcpy(before, b, sizeof *before);
-#define REFUSED(status) \
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), (status))
-#define REFUSED_WITH(what, value, status) \
-  do {                                    \
-    __typeof__(what) kept = (what);       \
-    (what) = (value);                     \
-    REFUSED(status);                      \
-    (what) = kept;                        \
-  } while (0)
-  options.time_most = 0.1;
-  REFUSED(CAROM_ERROR_TIME_MOST);
   options.time_most = 0.3;
-  /* other arguments */
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 15, &options, &b->shot),
-                   CAROM_ERROR_STATE_BALLS);
-  REFUSED_WITH(balls[7].kind.mu_roll, 0.02, CAROM_ERROR_STATE_BALLS);
-  REFUSED_WITH(balls[7].kind.mass, 0.18, CAROM_ERROR_STATE_BALLS);
-  REFUSED_WITH(balls[7].kind.restitution, 0.9, CAROM_ERROR_STATE_BALLS);
-  REFUSED_WITH(balls[0].state.r[1], 0.5, CAROM_ERROR_STATE_BALLS);
-  REFUSED_WITH(table.rail[3].height, 0.036, CAROM_ERROR_STATE_TABLE);
-  REFUSED_WITH(table.pocket[5].depth, 0.2, CAROM_ERROR_STATE_TABLE);
-  REFUSED_WITH(table.rail_width, 0.2, CAROM_ERROR_STATE_TABLE);
-  REFUSED_WITH(table.jaws, table.jaws - 1, CAROM_ERROR_STATE_TABLE);
-  REFUSED_WITH(options.world, CAROM_WORLD_POOLTOOL, CAROM_ERROR_STATE_OPTIONS);
-  REFUSED_WITH(options.ball_model, CAROM_BALL_MODEL_MIRROR, CAROM_ERROR_STATE_OPTIONS);
-  REFUSED_WITH(options.cushion_model, CAROM_SHOT_CUSHION_MATHAVAN, CAROM_ERROR_STATE_OPTIONS);
-  REFUSED_WITH(options.friction, CAROM_FRICTION_CONSTANT, CAROM_ERROR_STATE_OPTIONS);
-  REFUSED_WITH(options.space, CAROM_SPACE_FLAT, CAROM_ERROR_STATE_OPTIONS);
-  REFUSED_WITH(options.steps, 500, CAROM_ERROR_STATE_OPTIONS);
-  REFUSED_WITH(options.fast, 1, CAROM_ERROR_STATE_OPTIONS);
-  REFUSED_WITH(options.cluster_steps, 50, CAROM_ERROR_STATE_OPTIONS);
-  REFUSED_WITH(options.stop_at, UINT64_C(1) << 63, CAROM_ERROR_STOP_AT);
-  ck_assert_int_eq(memcmp(b, before, sizeof *b), 0);
-  /* numbers of the result that cannot be */
-  REFUSED_WITH(b->shot.count, -1, CAROM_ERROR_STATE);
-  REFUSED_WITH(b->shot.time, (double)NAN, CAROM_ERROR_STATE);
-  REFUSED_WITH(b->shot.time, -1.0, CAROM_ERROR_STATE);
-  REFUSED_WITH(b->shot.state, NULL, CAROM_ERROR_NULL);
-  /* any single bit */
+  b->shot.state = NULL;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_NULL);
+  b->shot.state = &b->state;
   for (size_t bit = 0; bit < 8 * sizeof b->state; bit += bit < 4096 ? 1 : 61) {
     b->state.opaque[bit / 64] ^= UINT64_C(1) << bit % 64;
-    REFUSED(CAROM_ERROR_STATE);
+    ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
     b->state.opaque[bit / 64] ^= UINT64_C(1) << bit % 64;
   }
   ck_assert_int_eq(memcmp(b, before, sizeof *b), 0);
-#undef REFUSED_WITH
   ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot),
                    CAROM_STOPPED_AT_TIME);
-  /* a shot that is refused leaves no state to go on with, nor does one that ended in an error */
-  ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[4], &options, &b->shot),
-                   CAROM_ERROR_MISCUE);
-  REFUSED(CAROM_ERROR_STATE);
-#undef REFUSED
   free(before);
   free(b);
 }

@@ -207,6 +207,8 @@ static const struct {
     OBJECT(times, DOUBLE),
     OBJECT(readings, DOUBLE),
     {"misfit", &calibration.misfit, DOUBLE},
+    {"bank_speed", &bank.speed, DOUBLE},
+    {"bank_roll", &bank.roll, DOUBLE},
     OBJECT(place_x, DOUBLE),
     OBJECT(place_y, DOUBLE),
     OBJECT(radius, DOUBLE),
