@@ -97,6 +97,8 @@ enum {
   KINDS
 };
 
+static double energy_change; /* by the first event of a shot */
+
 typedef struct location {
   char *address;
   int of;    /* what is there */
@@ -212,6 +214,7 @@ static const struct {
     OBJECT(place_x, DOUBLE),
     OBJECT(place_y, DOUBLE),
     OBJECT(radius, DOUBLE),
+    OBJECT(energy_change, DOUBLE),
     OBJECT(height, DOUBLE),
     OBJECT(jaw_radius, DOUBLE),
     OBJECT(gap, DOUBLE),
@@ -385,6 +388,13 @@ static void assign(void) {
   } while (skip(","));
 }
 
+static void measure_energy(void) {
+  energy_change = 0.0;
+  for (int side = 0; side < count && side < 2; side++)
+    energy_change += state_energy(&balls[side].kind, &events[0].after[side]) -
+                     state_energy(&balls[side].kind, &events[0].before[side]);
+}
+
 /* Calls the function whose name comes next. */
 static int64_t call_function(void) {
   const char *name = read_word();
@@ -453,6 +463,7 @@ static void call_functions(void) {
     const int64_t returned = call_function();
     if (returned != expected && returned != ACCEPTED)
       reject(carom_status_name((carom_status)returned));
+    measure_energy();
     cursor = notes;
     expect_notes(hash != shot_hash());
   }
