@@ -57,7 +57,7 @@ static const int wrong_integers[] = {INT_MIN, -1, 1000000, INT_MAX};
 /* ---- Arguments that are right */
 
 enum { BALLS = 10, MEMORY = 1 << 21 };
-static carom_table table, made;
+static carom_table table;
 static carom_measures measures;
 static carom_shot_ball balls[CAROM_BALLS_MOST];
 static carom_cue cue;
@@ -325,14 +325,14 @@ static int64_t is_text(const char *word) {
   F(status_string, is_text(carom_status_string(ANYENUM(carom_status, 0))))                         \
   F(strike, carom_strike(PTR(&cue), PTR(&balls[0].kind), PTR(motion)))                             \
   F(table_check, carom_table_check(PTR(&table), NUM(radius), MAYBE(&table_fault)))                 \
-  F(table_make, carom_table_make(ENUM(carom_table_kind, kind_of_table), PTR(&made)))               \
+  F(table_make, carom_table_make(ENUM(carom_table_kind, kind_of_table), PTR(&table)))               \
   F(table_measured,                                                                                \
-    carom_table_measured(PTR(&measures), NUM(radius), PTR(&made), MAYBE(&table_fault)))            \
+    carom_table_measured(PTR(&measures), NUM(radius), PTR(&table), MAYBE(&table_fault)))            \
   F(table_measures, carom_table_measures(ENUM(carom_table_kind, kind_of_table), PTR(&measures)))   \
   F(table_name, (carom_table_name(ANYENUM(carom_table_kind, 0)), ACCEPTED))                        \
   F(table_polygon,                                                                                 \
     carom_table_polygon(PTR(corners), INT(corners_count), NUM(height), NUM(jaw_radius),            \
-                        NUM(radius), PTR(&made), MAYBE(&table_fault)))                             \
+                        NUM(radius), PTR(&table), MAYBE(&table_fault)))                             \
   F(trace, carom_trace(PTR(&impact), MAYBE(&impact_options), (size_t)points_count, PTR(points)))   \
   F(version, is_text(carom_version()))                                                             \
   F(version_number, (carom_version_number(), ACCEPTED))                                            \

@@ -97,7 +97,7 @@ static int64_t with_number(carom_part_kind of, const carom_number *row, int inde
   if (of == CAROM_PART_PLAN_OPTIONS)
     return carom_plan_memory(&plans) > 0 ? ACCEPTED : -1;
   if (of == CAROM_PART_MEASURES)
-    return carom_table_measured(&measures, radius, &made, NULL);
+    return carom_table_measured(&measures, radius, &table, NULL);
   return carom_shoot(&table, balls, count, &cue, &options, &shot);
 }
 

@@ -386,38 +386,3 @@ TEST(measures_of_tables) {
   for (int k = 0; k < 4; k++)
     ck_assert_double_eq(table.rail[k].height, 0.037);
 }
-
-/* A measure that is out of its range, or that leaves no room for another, is named, with its bound;
- * just below that the table has room. */
-TEST(measures_at_fault) {
-  static const struct {
-    int measure, other; /* -1: out of its range */
-    double value, of_other;
-  } wrong[] = {{AT(width), -1, 0.0, 0.0},
-               {AT(nose_height), -1, NAN, 0.0},
-               {AT(corner_mouth), -1, 0.0, 0.0},
-               {AT(side_cut), -1, 14.0, 0.0},
-               {AT(corner_mouth), AT(width), 0.9, 1.0},
-               {AT(side_mouth), AT(length), 0.9, 1.0},
-               {AT(corner_jaw), AT(cushion_depth), 0.3, 0.05},
-               {AT(side_jaw), AT(cushion_depth), 0.3, 0.05},
-               {AT(cushion_depth), AT(corner_cut), 0.45, 141.0},
-               {AT(cushion_depth), AT(side_cut), 0.3, 104.0}};
-  carom_measures m;
-  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
-    double *const x = &m.width;
-    carom_table_measures(CAROM_TABLE_POOLTOOL, &m);
-    if (wrong[k].other >= 0)
-      x[wrong[k].other] = wrong[k].of_other;
-    x[wrong[k].measure] = wrong[k].value;
-    ck_assert_int_eq(carom_table_measured(&m, 0.028575, &table, &table_fault), CAROM_ERROR_TABLE);
-    ck_assert(table_fault.part.kind == CAROM_PART_MEASURES &&
-              table_fault.part.index == wrong[k].measure);
-    ck_assert_int_eq(table_fault.other.kind == CAROM_PART_MEASURES ? table_fault.other.index : -1,
-                     wrong[k].other);
-    x[wrong[k].measure] = table_fault.gap * (1.0 - 1e-9);
-    if (wrong[k].other >= 0)
-      ck_assert(carom_table_measured(&m, 0.028575, &table, &table_fault) != CAROM_ERROR_TABLE ||
-                table_fault.part.index != wrong[k].measure);
-  }
-}
