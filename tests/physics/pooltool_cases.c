@@ -10,25 +10,6 @@
 
 static const carom_shot_options pooltool = {.world = CAROM_WORLD_POOLTOOL};
 
-/* Full hits with follow along x: two balls with equal accelerations, of which it makes a
- * polynomial without leading coefficient. */
-TEST(straight_follow) {
-  carom_table t;
-  carom_table_make(CAROM_TABLE_POOLTOOL, &t);
-  carom_shot_ball b[2] = {ball_at(0.3, 0.5), ball_at(0.6, 0.5)};
-  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
-  cue.phi = 0.0;
-  for (int n = 0; n < 21; n++) {
-    cue.speed = 0.5 + 0.25 * n;
-    cue.b = 0.1 + 0.02 * n;
-    for (int world = 0; world < 2; world++) {
-      play(&t, b, 2, &cue, world == 0 ? NULL : &pooltool, CAROM_OK);
-      ck_assert_double_eq(final[0].r[1], 0.5); /* exactly straight */
-      ck_assert_double_eq(final[1].r[1], 0.5);
-    }
-  }
-}
-
 /* Two balls that roll in exactly the same direction. */
 TEST(rolling_together) {
   carom_table t = empty_table(30.0);

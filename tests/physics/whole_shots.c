@@ -253,26 +253,6 @@ TEST(small_changes) {
   }
 }
 
-/* ---- Places */
-
-/* A rail ends with its ends, and is the same from either: a short wall in the middle of a table. */
-TEST(both_ends_of_a_rail) {
-  const double end[2] = {0.75, 1.25}, beyond[2] = {nextafter(0.75, 0.0), nextafter(1.25, 2.0)};
-  carom_table t = empty_table(2.0);
-  t.rails = 5;
-  for (int n = 0; n < 8; n++) {
-    const int from = n & 1, at = n >> 1 & 1;
-    const double y = n < 4 ? 0.99 : 1.01;
-    carom_shot_ball ball = ball_at(1.0, 0.5);
-    carom_part part;
-    t.rail[4] = (carom_rail){{end[from], 1.0}, {end[1 - from], 1.0}, 0.036576, .side = 1 - from};
-    carom_place_ball(&t, &ball, 1, 0, end[at], y, &part);
-    ck_assert(part.kind == CAROM_PART_RAIL && part.index == 4);
-    carom_place_ball(&t, &ball, 1, 0, beyond[at], y, &part);
-    ck_assert_int_ne(part.kind, CAROM_PART_RAIL);
-  }
-}
-
 /* ---- Balls that press on each other */
 
 static void ends_well(const carom_table *t, const carom_shot_ball *b, int count, int most_events) {
@@ -356,21 +336,6 @@ TEST(pressed_triangle) {
       b[spinning].state.w[1] = 0.0;
     }
   }
-}
-
-/* Balls without any room between two rails cannot part, so their contacts have no end: a bound
- * ends them, with a state. */
-TEST(wedged) {
-  carom_shot_ball b[5];
-  const double R = ball_at(0.0, 0.0).kind.radius;
-  const carom_table t = empty_table(10.0 * R);
-  for (int k = 0; k < 5; k++)
-    b[k] = ball_at(R + 2.0 * k * R, 3.0 * R);
-  b[0].state.w[1] = 100.0;
-  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN, .events_most = 3000};
-  play(&t, b, 5, NULL, &options, CAROM_ERROR_TOO_MANY_EVENTS);
-  for (int k = 0; k < 5; k++)
-    ck_assert_double_eq_tol(final[k].r[0], b[k].state.r[0], 1e-9);
 }
 
 /* A ball that touches a rail, at rest or moving along it, whatever the direction of the rail:

@@ -12,7 +12,8 @@
  * NOTES: `without N`, argument N is NULL; `where N`, what a check names; `unchanged`, nothing of the
  * shot is written; `nan PATH`, this object has no numbers. A value is a number, a path or a word of
  * the library. A path is like ball[1].r[0], the place of a ball; event[slate 1] is the second event
- * of a type, and event[slate -1] the last. */
+ * of a type, and event[slate -1] the last. Of a vector in the plane, .size and .angle, in degrees,
+ * are values. */
 #include "functions.h"
 
 #include <ctype.h>
@@ -124,10 +125,6 @@ static const struct {
     MEMBER(options, unused, INT32),
     MEMBER(options, reserved, UINT64),
     MEMBER(cushion_options, reserved, UINT64),
-    MEMBER(cushion_options, smooth_q, DOUBLE),
-    MEMBER(cushion_options, smooth_x, DOUBLE),
-    MEMBER(cushion_options, smooth_t, DOUBLE),
-    MEMBER(cushion_options, smooth_k, DOUBLE),
     MEMBER(corner, x, DOUBLE),
     MEMBER(event, time, DOUBLE),
     MEMBER(event, type, INT32),
@@ -140,7 +137,8 @@ static const struct {
     MEMBER(shot, room, INT64),
     MEMBER(shot, time, DOUBLE),
     MEMBER(facts, touches, INT32),
-    MEMBER(facts, pushed, INT32),
+    MEMBER(facts, second_time, DOUBLE),
+    MEMBER(facts, second_speed, DOUBLE),
     MEMBER(result, a, OF_motion),
     MEMBER(result, b, OF_motion),
     MEMBER(motion, v, DOUBLE),
@@ -230,21 +228,23 @@ static const struct {
 
 static double read_value(int words);
 
-/* A number of a part, by its row. */
-static bool find_row(location *target, const char *name) {
+/* A number of a part, by its row; options of a cushion have some of those of a ball. */
+static bool find_row(location *target, carom_part_kind parent, const char *name) {
+  const bool is_option = target->of == OF_cushion_options && parent == CAROM_PART_BALL;
   const carom_number *row;
-  for (int k = 0; (row = carom_number_of((carom_part_kind)(target->of - STRUCT), k)) != NULL; k++)
+  for (int k = 0; (row = carom_number_of(parent, k)) != NULL; k++)
     if (strcmp(row->name, name) == 0) {
-      *target = (location){target->address + row->offset, (int)row->type, row->words};
+      *target = (location){target->address + (is_option ? row->cushion_offset : row->offset),
+                           (int)row->type, row->words};
       return true;
     }
-  return false;
+  return target->of == OF_cushion_options && !is_option && find_row(target, CAROM_PART_BALL, name);
 }
 
 static bool find_member(location *target, const char *name) {
   /* a ball has the members of its kind and of its state */
   location part_of_ball = {target->address + offsetof(carom_shot_ball, kind), OF_ball_kind, -1};
-  if (target->of == OF_shot_ball && find_row(&part_of_ball, name)) {
+  if (target->of == OF_shot_ball && find_row(&part_of_ball, CAROM_PART_BALL, name)) {
     *target = part_of_ball;
     return true;
   }
@@ -255,7 +255,8 @@ static bool find_member(location *target, const char *name) {
       *target = (location){target->address + members[k].offset, members[k].of, -1};
       return true;
     }
-  return target->of > STRUCT && target->of <= OF_corner && find_row(target, name);
+  return target->of > STRUCT && target->of <= OF_corner &&
+         find_row(target, (carom_part_kind)(target->of - STRUCT), name);
 }
 
 /* A number of an impact, by the library's name of it. */
@@ -298,7 +299,7 @@ static location follow(location target) {
       target.address += (ptrdiff_t)index * (ptrdiff_t)sizes[target.of];
       if (!skip("]"))
         reject("no ]");
-    } else if (*cursor == '.') {
+    } else if (*cursor == '.' && target.of >= STRUCT) {
       cursor++;
       const bool is_impact = target.of == OF_impact || target.of == OF_cushion_impact;
       if (is_impact ? !find_field(&target) : !find_member(&target, read_word()))
@@ -363,9 +364,19 @@ static double read_value(int words) {
     cursor = end;
     return number;
   }
+  if (skip("-"))
+    return -read_value(words);
   const char *word = read_word();
   location source;
-  return find_object(word, &source) ? number_at(follow(source)) : value_of_word(word, words);
+  if (!find_object(word, &source))
+    return value_of_word(word, words);
+  source = follow(source);
+  const double *const vector = (const double *)(const void *)source.address;
+  if (skip(".size"))
+    return hypot(vector[0], vector[1]);
+  if (skip(".angle"))
+    return atan2(vector[1], vector[0]) * 180.0 / 3.14159265358979323846;
+  return number_at(source);
 }
 
 /* ---- Statements */
