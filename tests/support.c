@@ -41,6 +41,11 @@ double random_between(random_source *source, double low, double high) {
   return low + (high - low) * (double)(random_bits(source) >> 11) * 0x1p-53;
 }
 
+void random_vector(random_source *source, int count, double low, double high, double *vector) {
+  for (int k = 0; k < count; k++)
+    vector[k] = random_between(source, low, high);
+}
+
 static carom_ball random_ball(random_source *source) {
   const double speed = pow(10.0, random_between(source, -2.0, 1.0)),
                way = random_between(source, 0.0, 2.0 * pi);

@@ -41,6 +41,16 @@ typedef struct random_source {
 
 double random_between(random_source *source, double low, double high);
 
+/* The same for each number of a vector. */
+void random_vector(random_source *source, int count, double low, double high, double *vector);
+
+#define COUNT_OF(array) (sizeof(array) / sizeof *(array))
+
+/* Each number of an array is within so much of that of another. */
+#define NEAR_EACH(is, says, count, within)         \
+  for (int k_near = 0; k_near < (count); k_near++) \
+  ck_assert_double_eq_tol((is)[k_near], (says)[k_near], within)
+
 /* A random approaching pair of real size: both balls may move and spin, in any direction and
  * with any friction up to the values of real balls. */
 carom_impact random_impact(random_source *source);
@@ -96,7 +106,7 @@ typedef struct looped_test {
 /* Runs tests in this process, so that later ones see what earlier ones left, and returns main's
  * exit code. */
 int run_looped(const char *name, const looped_test *tests, size_t count);
-#define RUN_LOOPED(name, tests) run_looped(name, tests, sizeof(tests) / sizeof *(tests))
+#define RUN_LOOPED(name, tests) run_looped(name, tests, COUNT_OF(tests))
 
 /* Runs one test case and returns main's exit code. */
 int run_tests(const char *name, const TTest *const *tests, size_t count);

@@ -235,8 +235,7 @@ TEST(level_shots_are_flat_shots) {
     options.space = CAROM_SPACE_3D;
     ck_assert_int_eq(carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &space), status);
     ck_assert_int_eq(space.count, flat.count);
-    ck_assert_int_eq(
-        memcmp(events, kept, (size_t)(flat.count < ROOM ? flat.count : ROOM) * sizeof *kept), 0);
+    ck_assert_mem_eq(events, kept, (size_t)(flat.count < ROOM ? flat.count : ROOM) * sizeof *kept);
   }
 }
 

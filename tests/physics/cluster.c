@@ -242,7 +242,7 @@ TEST(rows_of_balls) {
                {5, 1.0, {-0.0711, -0.0303, -0.0145, 0.1270, 0.9888}},
                {3, 0.95, {-0.0395, 0.0902, 0.9493}},
                {5, 0.95, {-0.0396, -0.0024, 0.0104, 0.1248, 0.9068}}};
-  for (size_t q = 0; q < sizeof known / sizeof known[0]; q++) {
+  for (size_t q = 0; q < COUNT_OF(known); q++) {
     const layout l = row(known[q].n, known[q].e);
     resolve(&l, 2000);
     double v[8];
@@ -293,8 +293,7 @@ static layout random_rack(int n, random_source *random) {
                   random_between(random, -0.4, 0.4), random);
   if (n % 3 == 0)
     stir(&l, 1.0, random);
-  for (int k = 0; k < 3; k++)
-    l.ball[0].state.w[k] = random_between(random, -100.0, 100.0);
+  random_vector(random, 3, -100.0, 100.0, l.ball[0].state.w);
   if (n % 5 == 0)
     restitution(&l, 1.0);
   return l;
@@ -431,7 +430,7 @@ TEST(bystander) {
     restitution(&l, 1.0);
     resolve(&l, 0);
     rises += energy(&l, out) > energy_before(&l) * (1.0 - 1e-14);
-    ck_assert_int_eq(memcmp(out[3].v, l.ball[3].state.v, sizeof out[3].v), 0);
+    ck_assert_mem_eq(out[3].v, l.ball[3].state.v, sizeof out[3].v);
   }
   ck_assert_int_gt(rises, 0);
 }
@@ -494,7 +493,7 @@ TEST(breaks) {
                {"eight-ball, 7 ft", CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_7FT, 16, 0.15, 12.0},
                {"nine-ball, 9 ft", CAROM_RACK_NINEBALL, CAROM_TABLE_POOL_9FT, 10, 0.45, 7.0}};
   const int each = draws_of_each(42);
-  for (size_t kind = 0; kind < sizeof kinds / sizeof kinds[0]; kind++) {
+  for (size_t kind = 0; kind < COUNT_OF(kinds); kind++) {
     const int balls = kinds[kind].balls;
     carom_table table;
     carom_table_make(kinds[kind].table, &table);
@@ -584,8 +583,7 @@ TEST(default_steps) {
                      .count = 3};
         l.ball[0].state.v[1] = speed;
       }
-      for (int k = 0; k < 3; k++)
-        l.ball[0].state.w[k] = random_between(&random, -50.0, 50.0);
+      random_vector(&random, 3, -50.0, 50.0, l.ball[0].state.w);
       carom_motion first[MOST];
       resolve_in_play(&l, 0);
       memcpy(first, out, sizeof first);

@@ -38,7 +38,7 @@ static const jump_kind known[] = {
      "a ball that the model leaves closing parts at 1 mm/s, one that it lets part more slowly does "
      "so (resolve.c)"},
 };
-enum { KNOWN = sizeof known / sizeof known[0] };
+enum { KNOWN = COUNT_OF(known) };
 
 enum { HALVINGS = 12, ROOM = 4000, LEAST_LAYOUTS = 200, MOST_LINES = 100 };
 static const double steep = 1e3, persists = 1.0 / 64.0;

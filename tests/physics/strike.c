@@ -695,8 +695,7 @@ TEST(numbering_does_not_count) {
       ck_assert_int_gt(events[0].cluster, 1); /* one push, never two blows */
     }
     for (int k = 0; k < count; k++)
-      for (int axis = 0; axis < 3; axis++)
-        NEAR(end[1][count - 1 - k].v[axis], end[0][k].v[axis], 1e-9 * cue.speed);
+      NEAR_EACH(end[1][count - 1 - k].v, end[0][k].v, 3, 1e-9 * cue.speed);
   }
 }
 

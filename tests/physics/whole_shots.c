@@ -51,7 +51,7 @@ TEST(invariants) {
         continue;
       ck_assert_int_eq(carom_shot_at(s.ball, s.count, &shot, 2.0 * shot.time + 1.0, at), CAROM_OK);
       for (int k = 0; k < s.count; k++)
-        ck_assert_int_eq(memcmp(&at[k], &final[k], sizeof at[k]), 0);
+        ck_assert_mem_eq(&at[k], &final[k], sizeof at[k]);
     }
   printf("invariants: %d shots, %d landings, %d with too many events\n", (int)shots, (int)landings,
          (int)many);
@@ -67,7 +67,7 @@ typedef struct isometry {
 static const isometry isometries[] = {{"mirrored", {-1.0, 0.0}, {0.0, 1.0}, -1.0},
                                       {"turned by 90 degrees", {0.0, -1.0}, {1.0, 0.0}, 1.0},
                                       {"turned by 180 degrees", {-1.0, 0.0}, {0.0, -1.0}, 1.0}};
-enum { ISOMETRIES = sizeof isometries / sizeof isometries[0] };
+enum { ISOMETRIES = COUNT_OF(isometries) };
 
 static void map(const isometry *by, double sign, double xy[2]) {
   const double x = xy[0], y = xy[1];
@@ -448,7 +448,7 @@ TEST(tips) {
     carom_motion same;
     cue.tip_restitution = part;
     ck_assert_int_eq(carom_strike(&cue, &kind, &same), CAROM_OK);
-    ck_assert_int_eq(memcmp(&same, &out, sizeof out), 0);
+    ck_assert_mem_eq(&same, &out, sizeof out);
   }
 
   /* which tips the cues of games have */
@@ -463,10 +463,8 @@ TEST(alone) {
   const carom_table t = empty_table(200.0);
   for (int n = 0; n < 200; n++) {
     carom_shot_ball b = ball_at(100.0, 100.0);
-    for (int k = 0; k < 2; k++)
-      b.state.v[k] = random_between(&r, -3.0, 3.0);
-    for (int k = 0; k < 3; k++)
-      b.state.w[k] = random_between(&r, -150.0, 150.0);
+    random_vector(&r, 2, -3.0, 3.0, b.state.v);
+    random_vector(&r, 3, -150.0, 150.0, b.state.w);
     const double R = b.kind.radius, g = b.kind.gravity, *v = b.state.v, *w = b.state.w;
     const double u[2] = {v[0] - R * w[1], v[1] + R * w[0]}, size = hypot(u[0], u[1]);
     const double slide = 2.0 * size / (7.0 * b.kind.mu_slide * g);

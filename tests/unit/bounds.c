@@ -102,7 +102,7 @@ static const carom_cushion_impact found[] = {
 
 TEST(found_ones) {
   carom_isa_limit(CAROM_ISA_PLAIN);
-  for (size_t k = 0; k < sizeof found / sizeof found[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(found); k++) {
     char what[40];
     snprintf(what, sizeof what, "found %zu", k);
     expect_bounded_cushion(&found[k], what);

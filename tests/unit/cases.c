@@ -250,7 +250,7 @@ static bool find_member(location *target, const char *name) {
   }
   if (target->of == OF_shot_ball)
     *target = (location){target->address + offsetof(carom_shot_ball, state), OF_ball_state, -1};
-  for (size_t k = 0; k < sizeof members / sizeof *members; k++)
+  for (size_t k = 0; k < COUNT_OF(members); k++)
     if (members[k].parent == target->of && strcmp(members[k].name, name) == 0) {
       *target = (location){target->address + members[k].offset, members[k].of, -1};
       return true;
@@ -311,7 +311,7 @@ static location follow(location target) {
 }
 
 static bool find_object(const char *name, location *target) {
-  for (size_t k = 0; k < sizeof objects / sizeof *objects; k++)
+  for (size_t k = 0; k < COUNT_OF(objects); k++)
     if (strcmp(objects[k].name, name) == 0) {
       *target = (location){objects[k].object, objects[k].of, -1};
       return true;
@@ -527,7 +527,7 @@ static const struct {
                   {"expect ", expect}};
 
 static void run_statement(void) {
-  for (size_t k = 0; k < sizeof statements / sizeof *statements; k++)
+  for (size_t k = 0; k < COUNT_OF(statements); k++)
     if (skip(statements[k].word)) {
       statements[k].run();
       return;

@@ -479,6 +479,6 @@ static const struct {
   int64_t (*call)(void);
 } functions[] = {FUNCTIONS(ROW)};
 #undef ROW
-enum { COUNT = sizeof functions / sizeof functions[0] };
+enum { COUNT = COUNT_OF(functions) };
 
 #endif

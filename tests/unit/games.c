@@ -201,7 +201,7 @@ TEST(places) {
         balls[ball].state = before[ball].state;
         free_ones++;
       }
-      ck_assert_int_eq(memcmp(balls, before, sizeof balls), 0);
+      ck_assert_mem_eq(balls, before, sizeof balls);
       if (part.kind == CAROM_PART_BALL)
         ck_assert(hypot(x - balls[part.index].state.r[0], y - balls[part.index].state.r[1]) <
                   2.0 * radius_on(kind));
@@ -481,10 +481,8 @@ TEST(turns_agree_with_steps) {
     carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
     ball.kind.drag = n % 3 == 0 ? 0.0129 : 0.0;
     ball.state = (carom_ball_state){.r = {0.6, 1.2, ball.kind.radius}};
-    for (int k = 0; k < 2; k++)
-      ball.state.v[k] = random_between(&r, -2.0, 2.0);
-    for (int k = 0; k < 3; k++)
-      ball.state.w[k] = random_between(&r, -100.0, 100.0);
+    random_vector(&r, 2, -2.0, 2.0, ball.state.v);
+    random_vector(&r, 3, -100.0, 100.0, ball.state.w);
     /* half of them fly, with a constant spin */
     ball.state.v[2] = n % 2 * random_between(&r, -2.0, 2.0);
     carom_shot shot = {.events = events, .room = 200};
@@ -647,7 +645,7 @@ TEST(sources) {
                 .cushion_model = CAROM_SHOT_CUSHION_MIRROR,
                 .simultaneous = CAROM_SIMULTANEOUS_PAIRS},
                {"-stronge2000", "-alciatore-throw", "-joris-accelerating"}}};
-  for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+  for (size_t k = 0; k < COUNT_OF(rows); k++)
     for (const char *const *key = rows[k].keys; *key != NULL; key++) {
       const bool is_missing = **key == '-';
       ck_assert_msg(cites(&rows[k].options, *key + is_missing) != is_missing, "row %zu: %s", k,
@@ -690,7 +688,7 @@ TEST(names) {
     ck_assert_ptr_null(carom_pocket_name(&t, k));
   }
   for (int which = 0; which < 2; which++)
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+    for (size_t k = 0; k < COUNT_OF(numbers); k++) {
       carom_table_make(CAROM_TABLE_POOL_9FT, &t);
       *(which == 0 ? &t.rails : &t.pockets) = numbers[k];
       for (int part = 0; part < 2000000; part += 99999) {

@@ -24,13 +24,13 @@ TEST(what_is_read) {
               {"1e999", INFINITY},
               {"1e-999", 0}};
   double x;
-  for (size_t k = 0; k < sizeof good / sizeof good[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(good); k++) {
     ck_assert_msg(parse_number(good[k].text, &x), "%s", good[k].text);
     ck_assert(x == good[k].value);
   }
   ck_assert(parse_number("NaN", &x) && isnan(x));
   const char *const bad[] = {"", " ", "1,5", "1.5.2", "one", "1e", "--1", "1 2", "0x"};
-  for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
+  for (size_t k = 0; k < COUNT_OF(bad); k++)
     ck_assert_msg(!parse_number(bad[k], &x), "%s", bad[k]);
 }
 
@@ -75,7 +75,7 @@ TEST(what_is_written_is_the_shortest) {
                            9007199254740993.0,
                            5.684341886080802e-14,
                            9999999999999999.0};
-  for (size_t k = 0; k < sizeof chosen / sizeof chosen[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(chosen); k++) {
     check_shortest(chosen[k]);
     check_shortest(-chosen[k]);
   }

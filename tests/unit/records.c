@@ -82,7 +82,7 @@ TEST(decimal_commas) {
       {"1,5", true, true, 1.5},    {"-0,25e1", true, true, -2.5}, {"1.5", true, true, 1.5},
       {",5", true, true, 0.5},     {"1,5", false, false, 0.0},    {"1.234,5", true, false, 0.0},
       {"1,2,3", true, false, 0.0}, {",", true, false, 0.0},       {"0x1,8", true, false, 0.0}};
-  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(cases); k++) {
     double number = 0.0;
     const record r = {.decimal_commas = cases[k].semicolons};
     ck_assert_msg(record_number(&r, cases[k].text, &number) == cases[k].good, "%s", cases[k].text);

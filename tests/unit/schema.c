@@ -75,7 +75,7 @@ TEST(conditions_blame_a_number) {
              {"smooth_q", 0.3, "smooth_x", "above 0 where smooth_q is"},
              {"smooth_t", 0.3, "smooth_t", "0 where smooth_q is 0"},
              {"smooth_k", 0.3, "smooth_k", "0 where smooth_q is 0"}};
-  for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(bad); k++) {
     carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
     char text[80], cut[6];
     kind.law_a = 0.01;
@@ -103,7 +103,7 @@ TEST(ranges_in_words) {
               {1e6, 1e15, 0, "Pa", "0, or 1e6 to 1e15, in Pa"},
               {-1.05, 1000, NAN, "", "-1.05 to 1000"},
               {0.001, 12000, NAN, "", "0.001 to 12000"}};
-  for (size_t k = 0; k < sizeof some / sizeof some[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(some); k++) {
     char text[64], cut[8];
     carom_number n = *carom_number_of(CAROM_PART_BALL, 0);
     n.low = some[k].low;

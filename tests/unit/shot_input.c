@@ -56,7 +56,7 @@ TEST(ranges) {
                {CAROM_PART_JAW, 5, &table.jaw[5], ""},
                {CAROM_PART_POCKET, 1, &table.pocket[1], ""},
                {CAROM_PART_OPTIONS, 0, &options, "options"}};
-  for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
+  for (size_t k = 0; k < COUNT_OF(parts); k++)
     expect_ranges(parts[k].part_kind, parts[k].index, parts[k].object, parts[k].name);
   expect_named("cue.ball", CAROM_ERROR_CUE_BALL);
   expect_named("cue.ball", CAROM_ERROR_CUE_BALL_OUT);
@@ -118,13 +118,12 @@ static void expect_end(void) {
   memset(untouched, 77, sizeof untouched);
   ck_assert_int_eq(carom_shot_at(balls, count, &shot, shot.time, at), CAROM_OK);
   for (int k = 0; k < count; k++)
-    for (int axis = 0; axis < 3; axis++)
-      ck_assert_double_eq_tol(final[k].r[axis], at[k].r[axis], 1e-15);
+    NEAR_EACH(final[k].r, at[k].r, 3, 1e-15);
   const double later[] = {nextafter(shot.time, INFINITY), shot.time + 1.0, INFINITY, NAN};
   for (int n = 0; n < 4; n++) {
     memset(at, 77, sizeof at);
     ck_assert_int_eq(carom_shot_at(balls, count, &shot, later[n], at), CAROM_ERROR_TIME);
-    ck_assert_int_eq(memcmp(at, untouched, sizeof at), 0);
+    ck_assert_mem_eq(at, untouched, sizeof at);
   }
 }
 
@@ -147,7 +146,7 @@ TEST(bounded_shots) {
   shot.room = ROOM;
   ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_OK);
   ck_assert_int_eq(carom_shot_at(balls, 10, &shot, INFINITY, at), CAROM_OK);
-  ck_assert_int_eq(memcmp(at, final, sizeof at), 0);
+  ck_assert_mem_eq(at, final, sizeof at);
   ck_assert_int_eq(carom_shot_at(balls, 10, &shot, NAN, at), CAROM_ERROR_TIME);
   /* more events than there is room for: the state is known up to the last one kept */
   shot.room = 10;
@@ -225,7 +224,7 @@ TEST(damaged_events) {
   int refused = 0, unresolved = 0;
   tangent = (carom_tangent){.final = ends[0]};
   for (size_t word = 0; word < 4 * sizeof *good / sizeof(double); word++)
-    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+    for (size_t k = 0; k < COUNT_OF(bad); k++) {
       memcpy(events, good, sizeof good);
       memcpy((char *)events + word * sizeof(double), &bad[k], sizeof(double));
       unresolved += carom_shot_at(two, 2, &shot, time, states) == CAROM_ERROR_UNRESOLVED;
@@ -243,7 +242,7 @@ TEST(damaged_events) {
   /* constants of a ball */
   memcpy(events, good, sizeof good);
   for (size_t word = 0; word < sizeof(carom_ball_kind) / sizeof(double); word++)
-    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+    for (size_t k = 0; k < COUNT_OF(bad); k++) {
       carom_shot_ball other[2] = {two[0], two[1]};
       memcpy((char *)&other[0].kind + word * sizeof(double), &bad[k], sizeof(double));
       carom_shot_at(other, 2, &shot, 2.0, states);
@@ -363,7 +362,7 @@ TEST(measures_of_tables) {
                {m.side_shelf / in, 0.0, 0.375},
                {m.nose_height / in / 2.25, 0.625, 0.645},
                {m.cushion_depth / in, 1.875, 2.0}};
-    for (size_t k = 0; size <= CAROM_TABLE_POOL_9FT && k < sizeof wpa / sizeof *wpa; k++)
+    for (size_t k = 0; size <= CAROM_TABLE_POOL_9FT && k < COUNT_OF(wpa); k++)
       ck_assert_msg(wpa[k].value > wpa[k].low && wpa[k].value < wpa[k].high, "%zu: %g", k,
                     wpa[k].value);
     int closed = 0;

@@ -63,7 +63,7 @@ TEST(words_as_players_say_them) {
                {"lefts", "left|right", -1},
                {"-", "left|right", -1},
                {"", "left|right", -1}};
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++)
+  for (size_t k = 0; k < COUNT_OF(given); k++)
     ck_assert_msg(word_among(given[k].words, given[k].said, strlen(given[k].said)) ==
                       given[k].place,
                   "%s among %s", given[k].said, given[k].words);
@@ -76,7 +76,7 @@ TEST(places_in_words) {
       {"foot,30in", "30in,8d"},      {"left,6d,10cm", "0d,6d,10cm"}, {"head,20cm", "20cm,0d"},
       {"center,20cm", "2d,4d,20cm"}, {"Foot-Spot", "2d,6d"},         {"foot", "2d,6d"},
       {"0.6,1.5", "0.6,1.5"},        {"leftish,2d", "leftish,2d"}};
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(given); k++) {
     char text[40], spelt[PLACE_TEXT];
     strcpy(text, given[k][0]);
     ck_assert_str_eq(place_spelt(text, spelt), given[k][1]);
@@ -98,7 +98,7 @@ TEST(tips_in_words) {
                {"draw:follow", 2, 0.0, -0.5},
                {"0.1,0.2:low", 2, 0.1, 0.2}};
   static place_list list;
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(given); k++) {
     char text[40];
     strcpy(text, given[k].text);
     ck_assert_msg(option_tip.set(&option_tip, text, &list), "%s", given[k].text);
@@ -107,7 +107,7 @@ TEST(tips_in_words) {
                   "%s: %d, %g, %g", given[k].text, list.count, list.at[0].x.x, list.at[0].y.x);
   }
   static const char *const none[] = {"lower", "low-", "right,", "low,0.2,3", "left-frozen"};
-  for (size_t k = 0; k < sizeof none / sizeof none[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(none); k++) {
     char text[40];
     strcpy(text, none[k]);
     ck_assert_msg(!option_tip.set(&option_tip, text, &list), "%s", none[k]);
