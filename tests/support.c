@@ -117,6 +117,24 @@ carom_result widened_result(const carom_result_f32 *out) {
   return wide;
 }
 
+int read_rows(const char *name, int columns, double *numbers) {
+  FILE *const file = fopen(CAROM_TEST_DATA "/../tests/rows.csv", "r");
+  char line[1000];
+  int rows = 0;
+  ck_assert_ptr_nonnull(file);
+  while (fgets(line, sizeof line, file) != NULL) {
+    char *comma = line + strcspn(line, ",");
+    if (strncmp(line, name, strlen(name)) != 0 || comma != line + strlen(name))
+      continue;
+    for (int k = 0; k < columns; k++)
+      *numbers++ = strtod(comma + 1, &comma);
+    rows++;
+  }
+  fclose(file);
+  ck_assert_msg(rows > 0, "tests/rows.csv has no row %s", name);
+  return rows;
+}
+
 int by_size(const void *a, const void *b) {
   const double x = *(const double *)a, y = *(const double *)b;
   return (x > y) - (x < y);

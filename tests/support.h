@@ -46,6 +46,9 @@ void random_vector(random_source *source, int count, double low, double high, do
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
+/* Reads the rows of tests/rows.csv with this name, of so many numbers each. Returns how many. */
+int read_rows(const char *name, int columns, double *numbers);
+
 /* Each number of an array is within so much of that of another. */
 #define NEAR_EACH(is, says, count, within)         \
   for (int k_near = 0; k_near < (count); k_near++) \

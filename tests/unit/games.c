@@ -330,8 +330,8 @@ TEST(places_on_built_in_tables) {
 /* The jaws of a pocket are tangent to their rails, its mouth apart, and mirror images of each
  * other; the order of the corners turns only the order of the parts round. */
 TEST(polygon_tables) {
-  static const carom_corner pool[6] = {{0, 0, 0.118},       {1.27, 0, 0.118}, {1.27, 1.27, 0.137},
-                                       {1.27, 2.54, 0.118}, {0, 2.54, 0.118}, {0, 1.27, 0.137}};
+  carom_corner pool[6];
+  read_rows("pool", 3, &pool[0].x);
   static const double R = 0.028575, r = 0.01;
   carom_corner other[6];
   for (int k = 0; k < 6; k++)
@@ -356,8 +356,8 @@ TEST(polygon_tables) {
     ck_assert(found);
   }
   /* no rail of a U has a name */
-  static const carom_corner u[8] = {{0, 0, 0}, {3, 0, 0}, {3, 2.4, 0}, {2, 2.4, 0},
-                                    {2, 1, 0}, {1, 1, 0}, {1, 2.4, 0}, {0, 2.4, 0}};
+  carom_corner u[8];
+  read_rows("wide_u", 3, &u[0].x);
   ck_assert_int_eq(carom_table_polygon(u, 8, 0.0366, r, R, &t, &fault), CAROM_OK);
   for (int k = 0; k < t.rails; k++)
     ck_assert_ptr_null(carom_rail_name(&t, k));
@@ -366,7 +366,8 @@ TEST(polygon_tables) {
 /* A polygon from any origin is the same table. */
 TEST(polygons_take_any_origin) {
   static const double R = 0.028575, from[3][2] = {{-1.0, -2.0}, {-8.0, 4.0}, {16.0, 32.0}};
-  static const carom_corner square[4] = {{0, 0, 0.125}, {2, 0, 0}, {2, 4, 0}, {0, 4, 0.125}};
+  carom_corner square[4];
+  read_rows("square", 3, &square[0].x);
   carom_table at_origin, t;
   ck_assert_int_eq(carom_table_polygon(square, 4, 0.0366, 0.01, R, &at_origin, NULL), CAROM_OK);
   for (int k = 0; k < 3; k++) {
@@ -384,24 +385,21 @@ TEST(polygons_take_any_origin) {
  * slits that no ball passes once told otherwise, and so did places beyond the ends of short
  * rails. */
 TEST(places_on_odd_shapes) {
-  static const carom_corner u[8] = {{0, 0, 0},     {1.8, 0, 0},   {1.8, 1.5, 0.1}, {1.2, 1.5, 0.1},
-                                    {1.2, 0.6, 0}, {0.6, 0.6, 0}, {0.6, 1.5, 0.1}, {0, 1.5, 0.1}};
-  static const carom_corner sharp[3] = {{0, 0, 0.13}, {2, 0.5, 0}, {2, 1.2, 0}};
-  /* behind the short rails of this one, places are beyond the ends of each rail by more than the
-   * rail's length */
-  static const carom_corner few[9] = {
-      {0, 0.939, 0.135},     {0.13, 0.61, 0.135},   {0.26, 0.281, 0.135},
-      {0.541, 0.141, 0.135}, {0.822, 0, 0.135},     {1.373, 0.445, 0.135},
-      {1.11, 1.166, 0.135},  {0.761, 1.419, 0.135}, {0.412, 1.672, 0}};
-  static const double in_u[2] = {0.9, 0.3}, in_sharp[2] = {1.6, 0.7}, in_few[2] = {0.7, 0.8};
+  static const struct {
+    const char *name;
+    double jaw_radius, inside[2];
+  } shapes[] = {{"narrow_u", 0.01, {0.9, 0.3}},
+                {"sharp", 0.01, {1.6, 0.7}},
+                {"short_rails", 0.0266, {0.7, 0.8}}};
   const double R = 0.028575;
-  carom_table t;
-  ck_assert_int_eq(carom_table_polygon(u, 8, 0.0365, 0.01, R, &t, NULL), CAROM_OK);
-  expect_flooded(&t, R, 0.01, in_u);
-  ck_assert_int_eq(carom_table_polygon(sharp, 3, 0.0365, 0.01, R, &t, NULL), CAROM_OK);
-  expect_flooded(&t, R, 0.01, in_sharp);
-  ck_assert_int_eq(carom_table_polygon(few, 9, 0.0365, 0.0266, R, &t, NULL), CAROM_OK);
-  expect_flooded(&t, R, 0.01, in_few);
+  for (int k = 0; k < 3; k++) {
+    carom_corner corners[9];
+    carom_table t;
+    const int count = read_rows(shapes[k].name, 3, &corners[0].x);
+    ck_assert_int_eq(carom_table_polygon(corners, count, 0.0365, shapes[k].jaw_radius, R, &t, NULL),
+                     CAROM_OK);
+    expect_flooded(&t, R, 0.01, shapes[k].inside);
+  }
 }
 
 /* In the air and below the tops of the rails, a ball can be nearer to a rail than on the cloth. */
@@ -673,8 +671,8 @@ TEST(names) {
   ck_assert_str_eq(carom_rack_name(CAROM_RACK_EIGHTBALL), "eightball");
 
   /* rails and pockets of rectangles only, whatever the numbers of parts */
-  static const carom_corner bent[6] = {{0, 0, 0.13},  {2.4, 0, 0.13},   {2.4, 1.3, 0.13},
-                                       {1.3, 1.3, 0}, {1.3, 2.4, 0.13}, {0, 2.4, 0.13}};
+  carom_corner bent[6];
+  read_rows("bent", 3, &bent[0].x);
   static const int64_t numbers[] = {-1,      INT64_MIN, CAROM_RAILS_MOST + 1,
                                     1000000, INT64_MAX, 4562254508917369340};
   carom_table t;
