@@ -69,32 +69,32 @@ static const char *read_word(void) {
  * kind of part. */
 enum { DOUBLE, INT32, INT64, UINT64, STRUCT = 10 };
 enum {
-  OF_rail = STRUCT + CAROM_PART_RAIL,
-  OF_jaw = STRUCT + CAROM_PART_JAW,
-  OF_pocket = STRUCT + CAROM_PART_POCKET,
-  OF_ball_kind = STRUCT + CAROM_PART_BALL,
-  OF_shot_options = STRUCT + CAROM_PART_OPTIONS,
-  OF_options = STRUCT + CAROM_PART_IMPACT_OPTIONS,
-  OF_cushion_options = STRUCT + CAROM_PART_CUSHION_OPTIONS,
-  OF_cue = STRUCT + CAROM_PART_CUE,
-  OF_table = STRUCT + CAROM_PART_TABLE,
-  OF_ball_state = STRUCT + CAROM_PART_STATE,
-  OF_measures = STRUCT + CAROM_PART_MEASURES,
-  OF_corner = STRUCT + CAROM_PART_CORNER,
-  OF_shot_ball,
-  OF_event,
-  OF_shot,
-  OF_facts,
-  OF_impact,
-  OF_cushion_impact,
-  OF_result,
-  OF_motion,
-  OF_part,
-  OF_table_fault,
-  OF_shot_job,
-  OF_fault,
-  OF_trace_point,
-  OF_cushion_point,
+  STRUCT_rail = STRUCT + CAROM_PART_RAIL,
+  STRUCT_jaw = STRUCT + CAROM_PART_JAW,
+  STRUCT_pocket = STRUCT + CAROM_PART_POCKET,
+  STRUCT_ball_kind = STRUCT + CAROM_PART_BALL,
+  STRUCT_shot_options = STRUCT + CAROM_PART_OPTIONS,
+  STRUCT_options = STRUCT + CAROM_PART_IMPACT_OPTIONS,
+  STRUCT_cushion_options = STRUCT + CAROM_PART_CUSHION_OPTIONS,
+  STRUCT_cue = STRUCT + CAROM_PART_CUE,
+  STRUCT_table = STRUCT + CAROM_PART_TABLE,
+  STRUCT_ball_state = STRUCT + CAROM_PART_STATE,
+  STRUCT_measures = STRUCT + CAROM_PART_MEASURES,
+  STRUCT_corner = STRUCT + CAROM_PART_CORNER,
+  STRUCT_shot_ball,
+  STRUCT_event,
+  STRUCT_shot,
+  STRUCT_facts,
+  STRUCT_impact,
+  STRUCT_cushion_impact,
+  STRUCT_result,
+  STRUCT_motion,
+  STRUCT_part,
+  STRUCT_table_fault,
+  STRUCT_shot_job,
+  STRUCT_fault,
+  STRUCT_trace_point,
+  STRUCT_cushion_point,
   KINDS
 };
 
@@ -102,24 +102,24 @@ static double energy_change; /* by the first event of a shot */
 
 typedef struct location {
   char *address;
-  int of;    /* what is there */
+  int type;  /* what is there */
   int words; /* the words of its values; -1: none */
 } location;
 
-#define MEMBER(type, name, of) \
-  { OF_##type, #name, offsetof(carom_##type, name), of }
+#define MEMBER(parent, name, type) \
+  { STRUCT_##parent, #name, offsetof(carom_##parent, name), type }
 static const struct {
   int parent;
   const char *name;
   size_t offset;
-  int of;
+  int type;
 } members[] = {
     MEMBER(table, rails, INT64),
     MEMBER(table, jaws, INT64),
     MEMBER(table, pockets, INT64),
-    MEMBER(table, rail, OF_rail),
-    MEMBER(table, jaw, OF_jaw),
-    MEMBER(table, pocket, OF_pocket),
+    MEMBER(table, rail, STRUCT_rail),
+    MEMBER(table, jaw, STRUCT_jaw),
+    MEMBER(table, pocket, STRUCT_pocket),
     MEMBER(shot_options, unused, INT32),
     MEMBER(shot_options, reserved, UINT64),
     MEMBER(options, unused, INT32),
@@ -131,25 +131,25 @@ static const struct {
     MEMBER(event, a, INT32),
     MEMBER(event, b, INT32),
     MEMBER(event, cluster, INT32),
-    MEMBER(event, before, OF_ball_state),
-    MEMBER(event, after, OF_ball_state),
+    MEMBER(event, before, STRUCT_ball_state),
+    MEMBER(event, after, STRUCT_ball_state),
     MEMBER(shot, count, INT64),
     MEMBER(shot, room, INT64),
     MEMBER(shot, time, DOUBLE),
     MEMBER(facts, touches, INT32),
     MEMBER(facts, second_time, DOUBLE),
     MEMBER(facts, second_speed, DOUBLE),
-    MEMBER(result, a, OF_motion),
-    MEMBER(result, b, OF_motion),
+    MEMBER(result, a, STRUCT_motion),
+    MEMBER(result, b, STRUCT_motion),
     MEMBER(motion, v, DOUBLE),
     MEMBER(motion, w, DOUBLE),
     MEMBER(part, kind, INT32),
     MEMBER(part, index, INT32),
-    MEMBER(table_fault, part, OF_part),
-    MEMBER(table_fault, other, OF_part),
+    MEMBER(table_fault, part, STRUCT_part),
+    MEMBER(table_fault, other, STRUCT_part),
     MEMBER(table_fault, place, DOUBLE),
     MEMBER(table_fault, gap, DOUBLE),
-    MEMBER(fault, part, OF_part),
+    MEMBER(fault, part, STRUCT_part),
     MEMBER(trace_point, normal, DOUBLE),
     MEMBER(trace_point, u_z, DOUBLE),
     MEMBER(cushion_point, work, DOUBLE),
@@ -157,7 +157,7 @@ static const struct {
     MEMBER(shot_job, reserved, UINT64),
 };
 
-#define SIZE(type) [OF_##type] = sizeof(carom_##type)
+#define SIZE(name) [STRUCT_##name] = sizeof(carom_##name)
 static const size_t sizes[KINDS] = {8,
                                     4,
                                     8,
@@ -174,36 +174,36 @@ static const size_t sizes[KINDS] = {8,
                                     SIZE(cushion_point),
                                     SIZE(motion)};
 
-#define OBJECT(object, of) \
-  { #object, &(object), of }
+#define OBJECT(object, type) \
+  { #object, &(object), type }
 static const struct {
   const char *name;
   void *object;
-  int of;
+  int type;
 } objects[] = {
-    {"ball", balls, OF_shot_ball},
-    {"event", events, OF_event},
-    {"corner", corners, OF_corner},
-    OBJECT(table, OF_table),
-    OBJECT(cue, OF_cue),
-    OBJECT(options, OF_shot_options),
-    OBJECT(final, OF_ball_state),
-    OBJECT(states, OF_ball_state),
-    OBJECT(shot, OF_shot),
-    OBJECT(facts, OF_facts),
-    OBJECT(impact, OF_impact),
-    OBJECT(impact_options, OF_options),
-    OBJECT(result, OF_result),
-    OBJECT(rail, OF_cushion_impact),
-    OBJECT(cushion_options, OF_cushion_options),
-    OBJECT(motion, OF_motion),
-    OBJECT(measures, OF_measures),
-    OBJECT(table_fault, OF_table_fault),
-    OBJECT(part, OF_part),
-    OBJECT(job, OF_shot_job),
-    OBJECT(fault, OF_fault),
-    OBJECT(points, OF_trace_point),
-    OBJECT(cushion_points, OF_cushion_point),
+    {"ball", balls, STRUCT_shot_ball},
+    {"event", events, STRUCT_event},
+    {"corner", corners, STRUCT_corner},
+    OBJECT(table, STRUCT_table),
+    OBJECT(cue, STRUCT_cue),
+    OBJECT(options, STRUCT_shot_options),
+    OBJECT(final, STRUCT_ball_state),
+    OBJECT(states, STRUCT_ball_state),
+    OBJECT(shot, STRUCT_shot),
+    OBJECT(facts, STRUCT_facts),
+    OBJECT(impact, STRUCT_impact),
+    OBJECT(impact_options, STRUCT_options),
+    OBJECT(result, STRUCT_result),
+    OBJECT(rail, STRUCT_cushion_impact),
+    OBJECT(cushion_options, STRUCT_cushion_options),
+    OBJECT(motion, STRUCT_motion),
+    OBJECT(measures, STRUCT_measures),
+    OBJECT(table_fault, STRUCT_table_fault),
+    OBJECT(part, STRUCT_part),
+    OBJECT(job, STRUCT_shot_job),
+    OBJECT(fault, STRUCT_fault),
+    OBJECT(points, STRUCT_trace_point),
+    OBJECT(cushion_points, STRUCT_cushion_point),
     OBJECT(times, DOUBLE),
     OBJECT(readings, DOUBLE),
     {"misfit", &calibration.misfit, DOUBLE},
@@ -219,7 +219,7 @@ static const struct {
     OBJECT(count, INT32),
     OBJECT(place, INT32),
     OBJECT(corners_count, INT32),
-    OBJECT(kind_of_table, INT32),
+    OBJECT(table_kind, INT32),
     OBJECT(points_count, INT32),
     OBJECT(room, INT32),
     OBJECT(found, INT32),
@@ -230,7 +230,7 @@ static double read_value(int words);
 
 /* A number of a part, by its row; options of a cushion have some of those of a ball. */
 static bool find_row(location *target, carom_part_kind parent, const char *name) {
-  const bool is_option = target->of == OF_cushion_options && parent == CAROM_PART_BALL;
+  const bool is_option = target->type == STRUCT_cushion_options && parent == CAROM_PART_BALL;
   const carom_number *row;
   for (int k = 0; (row = carom_number_of(parent, k)) != NULL; k++)
     if (strcmp(row->name, name) == 0) {
@@ -238,30 +238,31 @@ static bool find_row(location *target, carom_part_kind parent, const char *name)
                            (int)row->type, row->words};
       return true;
     }
-  return target->of == OF_cushion_options && !is_option && find_row(target, CAROM_PART_BALL, name);
+  return target->type == STRUCT_cushion_options && !is_option &&
+         find_row(target, CAROM_PART_BALL, name);
 }
 
 static bool find_member(location *target, const char *name) {
   /* a ball has the members of its kind and of its state */
-  location part_of_ball = {target->address + offsetof(carom_shot_ball, kind), OF_ball_kind, -1};
-  if (target->of == OF_shot_ball && find_row(&part_of_ball, CAROM_PART_BALL, name)) {
-    *target = part_of_ball;
+  location ball_part = {target->address + offsetof(carom_shot_ball, kind), STRUCT_ball_kind, -1};
+  if (target->type == STRUCT_shot_ball && find_row(&ball_part, CAROM_PART_BALL, name)) {
+    *target = ball_part;
     return true;
   }
-  if (target->of == OF_shot_ball)
-    *target = (location){target->address + offsetof(carom_shot_ball, state), OF_ball_state, -1};
+  if (target->type == STRUCT_shot_ball)
+    *target = (location){target->address + offsetof(carom_shot_ball, state), STRUCT_ball_state, -1};
   for (size_t k = 0; k < COUNT_OF(members); k++)
-    if (members[k].parent == target->of && strcmp(members[k].name, name) == 0) {
-      *target = (location){target->address + members[k].offset, members[k].of, -1};
+    if (members[k].parent == target->type && strcmp(members[k].name, name) == 0) {
+      *target = (location){target->address + members[k].offset, members[k].type, -1};
       return true;
     }
-  return target->of > STRUCT && target->of <= OF_corner &&
-         find_row(target, (carom_part_kind)(target->of - STRUCT), name);
+  return target->type > STRUCT && target->type <= STRUCT_corner &&
+         find_row(target, (carom_part_kind)(target->type - STRUCT), name);
 }
 
 /* A number of an impact, by the library's name of it. */
 static bool find_field(location *target) {
-  const bool is_cushion = target->of == OF_cushion_impact;
+  const bool is_cushion = target->type == STRUCT_cushion_impact;
   const char *name;
   for (int k = 0; (name = is_cushion ? carom_cushion_field_name(k) : carom_field_name(k)) != NULL;
        k++)
@@ -295,13 +296,13 @@ static location follow(location target) {
   for (;;) {
     if (*cursor == '[') {
       cursor++;
-      const int index = target.of == OF_event ? read_event_index() : (int)read_value(-1);
-      target.address += (ptrdiff_t)index * (ptrdiff_t)sizes[target.of];
+      const int index = target.type == STRUCT_event ? read_event_index() : (int)read_value(-1);
+      target.address += (ptrdiff_t)index * (ptrdiff_t)sizes[target.type];
       if (!skip("]"))
         reject("no ]");
-    } else if (*cursor == '.' && target.of >= STRUCT) {
+    } else if (*cursor == '.' && target.type >= STRUCT) {
       cursor++;
-      const bool is_impact = target.of == OF_impact || target.of == OF_cushion_impact;
+      const bool is_impact = target.type == STRUCT_impact || target.type == STRUCT_cushion_impact;
       if (is_impact ? !find_field(&target) : !find_member(&target, read_word()))
         reject("no such member");
     } else {
@@ -313,7 +314,7 @@ static location follow(location target) {
 static bool find_object(const char *name, location *target) {
   for (size_t k = 0; k < COUNT_OF(objects); k++)
     if (strcmp(objects[k].name, name) == 0) {
-      *target = (location){objects[k].object, objects[k].of, -1};
+      *target = (location){objects[k].object, objects[k].type, -1};
       return true;
     }
   return false;
@@ -321,31 +322,31 @@ static bool find_object(const char *name, location *target) {
 
 static double number_at(location source) {
   const void *const number = source.address;
-  if (source.of == DOUBLE)
+  if (source.type == DOUBLE)
     return *(const double *)number;
-  if (source.of == INT32)
+  if (source.type == INT32)
     return *(const int32_t *)number;
-  if (source.of == INT64)
+  if (source.type == INT64)
     return (double)*(const int64_t *)number;
   reject("no number");
 }
 
 static void put_number(location target, double number) {
   void *const address = target.address;
-  if (target.of == DOUBLE)
+  if (target.type == DOUBLE)
     *(double *)address = number;
-  else if (target.of == INT32)
+  else if (target.type == INT32)
     *(int32_t *)address = (int32_t)number;
-  else if (target.of == INT64)
+  else if (target.type == INT64)
     *(int64_t *)address = (int64_t)number;
-  else if (target.of == UINT64)
+  else if (target.type == UINT64)
     *(uint64_t *)address = (uint64_t)number;
   else
     reject("no number");
 }
 
 /* The value of a word of the library: of its own list, or a type of event or a label. */
-static double value_of_word(const char *word, int words) {
+static double word_value(const char *word, int words) {
   const int lists[] = {words, CAROM_WORDS_EVENT, CAROM_WORDS_LABEL};
   for (int list = words < 0; list < 3; list++)
     for (int k = 0; k < 32; k++) {
@@ -369,7 +370,7 @@ static double read_value(int words) {
   const char *word = read_word();
   location source;
   if (!find_object(word, &source))
-    return value_of_word(word, words);
+    return word_value(word, words);
   source = follow(source);
   const double *const vector = (const double *)(const void *)source.address;
   if (skip(".size"))
@@ -395,7 +396,7 @@ static void assign(void) {
     reject("no =");
   do {
     put_number(target, read_value(target.words));
-    target.address += sizes[target.of];
+    target.address += sizes[target.type];
   } while (skip(","));
 }
 
@@ -410,8 +411,8 @@ static void measure_energy(void) {
 static int64_t call_function(void) {
   const char *name = read_word();
   argument = value_index = 0;
-  if (strcmp(name, "behind_another") == 0)
-    return behind_another();
+  if (strcmp(name, "shoot_pair") == 0)
+    return shoot_pair();
   for (int k = 0; k < COUNT; k++)
     if (strcmp(functions[k].name + strlen("carom_"), name) == 0)
       return functions[k].call();
@@ -437,7 +438,7 @@ static uint64_t shot_hash(void) {
 }
 
 static void expect_nan(location target) {
-  for (size_t k = 0; k < sizes[target.of] / sizeof(double); k++)
+  for (size_t k = 0; k < sizes[target.type] / sizeof(double); k++)
     if (!isnan(((const double *)(const void *)target.address)[k]))
       reject("a number is left");
 }
@@ -484,13 +485,13 @@ static void make_table(void) {
   if (skip("empty"))
     table = empty_table(read_value(-1));
   else
-    carom_table_make((carom_table_kind)value_of_word(read_word(), CAROM_WORDS_TABLE), &table);
+    carom_table_make((carom_table_kind)word_value(read_word(), CAROM_WORDS_TABLE), &table);
   count = 0;
   cue.speed = 0.0;
 }
 
 static void add_balls(void) {
-  const carom_game game = (carom_game)value_of_word(read_word(), CAROM_WORDS_GAME);
+  const carom_game game = (carom_game)word_value(read_word(), CAROM_WORDS_GAME);
   for (int k = (int)read_value(-1); k > 0; k--) {
     balls[count] = (carom_shot_ball){.kind = carom_ball_kind_of(game)};
     balls[count].state.r[2] = balls[count].kind.radius;
@@ -514,7 +515,7 @@ static void expect(void) {
 }
 
 static void make_cue(void) {
-  cue = carom_cue_of((carom_game)value_of_word(read_word(), CAROM_WORDS_GAME));
+  cue = carom_cue_of((carom_game)word_value(read_word(), CAROM_WORDS_GAME));
 }
 
 static const struct {

@@ -88,7 +88,7 @@ static char text[70000];
 static carom_corner corners[CAROM_RAILS_MOST];
 
 /* Arguments that are one number. */
-static int count, place, corners_count, kind_of_table, points_count, room, found, where, bank_index;
+static int count, place, corners_count, table_kind, points_count, room, found, where, bank_index;
 static double place_x, place_y, radius, height, jaw_radius, gap;
 
 static carom_detail detail;
@@ -164,7 +164,7 @@ static void set_up(void) {
   gap = 1e-4;
   place = bank_index = 0;
   corners_count = points_count = 3;
-  kind_of_table = CAROM_TABLE_POOL_9FT;
+  table_kind = CAROM_TABLE_POOL_9FT;
   room = 4;
   set_up_games();
 }
@@ -183,7 +183,7 @@ static const carom_tangent_job *played_job(void) {
 }
 /* The status of this shot in a batch behind a good one, which has a result, unless what is wrong
  * belongs to both: the table, the options, or a height of noses or tops for balls of both. */
-static inline int64_t behind_another(void) {
+static inline int64_t shoot_pair(void) {
   static carom_shot_ball layouts[2 * CAROM_BALLS_MOST];
   const carom_cue cues[] = {carom_cue_of(CAROM_GAME_POOL), cue};
   carom_shot shots[2] = {{0}, {0}};
@@ -325,10 +325,10 @@ static int64_t is_text(const char *word) {
   F(status_string, is_text(carom_status_string(ANYENUM(carom_status, 0))))                         \
   F(strike, carom_strike(PTR(&cue), PTR(&balls[0].kind), PTR(motion)))                             \
   F(table_check, carom_table_check(PTR(&table), NUM(radius), MAYBE(&table_fault)))                 \
-  F(table_make, carom_table_make(ENUM(carom_table_kind, kind_of_table), PTR(&table)))               \
+  F(table_make, carom_table_make(ENUM(carom_table_kind, table_kind), PTR(&table)))               \
   F(table_measured,                                                                                \
     carom_table_measured(PTR(&measures), NUM(radius), PTR(&table), MAYBE(&table_fault)))            \
-  F(table_measures, carom_table_measures(ENUM(carom_table_kind, kind_of_table), PTR(&measures)))   \
+  F(table_measures, carom_table_measures(ENUM(carom_table_kind, table_kind), PTR(&measures)))   \
   F(table_name, (carom_table_name(ANYENUM(carom_table_kind, 0)), ACCEPTED))                        \
   F(table_polygon,                                                                                 \
     carom_table_polygon(PTR(corners), INT(corners_count), NUM(height), NUM(jaw_radius),            \

@@ -11,7 +11,7 @@ static void expect(carom_status expected, int index) {
   shot.count = 77;
   ck_assert_int_eq(carom_shoot(&table, balls, count, &cue, &options, &shot), expected);
   ck_assert_int_eq(shot.count, 0);
-  ck_assert_int_eq(behind_another(), expected);
+  ck_assert_int_eq(shoot_pair(), expected);
 }
 
 /* The same of a field that has a status of its own, whose name and text say the field: `text` is
@@ -75,7 +75,7 @@ TEST(many_parts_and_few) {
   ck_assert_int_eq(carom_shot_check(&table, balls, count, &cue, &options, &where), CAROM_OK);
   ck_assert_int_eq(where, -1);
   ck_assert_int_eq(carom_shoot(&table, balls, count, &cue, &options, &shot), CAROM_OK);
-  ck_assert_int_eq(behind_another(), CAROM_OK);
+  ck_assert_int_eq(shoot_pair(), CAROM_OK);
   table = (carom_table){
       .jaws = 2, .pockets = 1, .jaw = {{.centre = {-5.0, -5.0}, .radius = 0.1, .height = 0.036}}};
   table.jaw[1] = (carom_jaw){.centre = {5.0, 5.0}, .radius = 0.1, .height = 0.036};
