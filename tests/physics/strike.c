@@ -166,28 +166,6 @@ static void straight(double gap, double speed, double T, double speeds[2]) {
   speeds[1] = final[1].v[1];
 }
 
-/* A tip that touches long pushes both together; one of 1 ms as the prototype had it. A gap is a
- * push with one touch, then with two; farther balls are met later. */
-TEST(straight_pushes) {
-  double v[2], most = 0.0;
-  straight(0.0, 2.0, 0.001, v);
-  printf("frozen, straight, 2 m/s: 1 ms %.4f %.4f", v[0], v[1]);
-  NEAR(v[0], 1.8770, 2e-4);
-  NEAR(v[1], 2.4087, 2e-4);
-  const carom_cue cue = cue_at(2.0, 90.0);
-  const double m = balls[0].kind.mass,
-               together = (1.0 + cue.tip_restitution) * cue.speed / (1.0 + 2.0 * m / cue.mass);
-  NEAR(together, 2.162, 1e-3);
-  static const double times[] = {0.002, 0.005, 0.01};
-  for (int k = 0; k < 3; k++) {
-    straight(0.0, 2.0, times[k], v);
-    printf(", %g ms %.4f %.4f", 1e3 * times[k], v[0], v[1]);
-    most = fmax(fabs(v[0] - together), fabs(v[1] - together));
-  }
-  printf(", for ever %.4f\n", together);
-  ck_assert(most < 0.02);
-}
-
 /* Level and without friction: all of the tip's impulse is in the balls, along the push; the energy
  * falls, counting the cue. The facts are as they should be. */
 TEST(momentum_and_energy) {

@@ -205,6 +205,7 @@ static const struct {
     OBJECT(points, STRUCT_trace_point),
     OBJECT(cushion_points, STRUCT_cushion_point),
     OBJECT(times, DOUBLE),
+    OBJECT(turned, DOUBLE),
     OBJECT(readings, DOUBLE),
     {"misfit", &calibration.misfit, DOUBLE},
     {"bank_speed", &bank.speed, DOUBLE},

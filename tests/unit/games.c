@@ -509,47 +509,6 @@ TEST(turns_agree_with_steps) {
   ck_assert_msg(worst < 1e-7, "%g rad", worst);
 }
 
-/* A ball that rolls straight turns by its way over R about the axis across it; on the spot about
- * the vertical. */
-TEST(turns_in_closed_form) {
-  carom_table t;
-  carom_event events[20];
-  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
-  carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
-  const double R = ball.kind.radius;
-  ball.state =
-      (carom_ball_state){.r = {0.2, 0.3, R}, .v = {0.3, 0.4, 0.0}, .w = {-0.4 / R, 0.3 / R, 0.0}};
-  carom_shot shot = {.events = events, .room = 20};
-  carom_ball_state s;
-  double q[1][4];
-  ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
-  for (double time = 0.0; time < shot.time; time += 0.173) {
-    carom_shot_at(&ball, 1, &shot, time, &s);
-    carom_shot_orientation(&ball, 1, &shot, time, q);
-    const double half = 0.5 * hypot(s.r[0] - 0.2, s.r[1] - 0.3) / R,
-                 expected[4] = {cos(half), -0.8 * sin(half), 0.6 * sin(half), 0};
-    ck_assert_double_lt(angle_between(q[0], expected), 1e-12);
-  }
-  ball.state = (carom_ball_state){.r = {0.2, 0.3, R}, .w = {0, 0, 77.0}};
-  ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
-  for (double time = 0.0; time < shot.time; time += 0.11) {
-    carom_shot_orientation(&ball, 1, &shot, time, q);
-    const double fall = 2.5 * ball.kind.mu_spin * ball.kind.gravity / R,
-                 half = 0.5 * (77.0 - 0.5 * fall * time) * time;
-    const double expected[4] = {cos(half), 0, 0, sin(half)};
-    ck_assert_double_lt(angle_between(q[0], expected), 1e-12);
-  }
-  /* in flight about the axis of the spin, as long as it flies */
-  ball.state = (carom_ball_state){.r = {0.6, 0.6, R + 0.3}, .w = {30.0, 40.0, 120.0}};
-  ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
-  for (double time = 0.0; time < 0.24; time += 0.017) {
-    carom_shot_orientation(&ball, 1, &shot, time, q);
-    const double half = 65.0 * time, share = sin(half) / 13.0,
-                 expected[4] = {cos(half), 3.0 * share, 4.0 * share, 12.0 * share};
-    ck_assert_double_lt(angle_between(q[0], expected), 1e-12);
-  }
-}
-
 /* A frame of a film has the bits of single calls. */
 static void same_frame(const carom_shot_ball *balls, const carom_shot *shot, double time,
                        carom_frames *film) {
