@@ -9,11 +9,12 @@
  *   call FUNCTION,... STATUS NOTES    each function returns this status
  *   expect PATH = VALUE within VALUE  or <, >, or ! for a difference
  *
- * NOTES: `without N`, argument N is NULL; `where N`, what a check names; `unchanged`, nothing of the
- * shot is written; `nan PATH`, this object has no numbers. A value is a number, a path or a word of
- * the library. A path is like ball[1].r[0], the place of a ball; event[slate 1] is the second event
- * of a type, and event[slate -1] the last. Of a vector in the plane, .size and .angle, in degrees,
- * are values. */
+ * NOTES: `without N`, argument N is NULL; `where N`, the place that a check names; `unchanged`,
+ * nothing of the shot is written; `nan PATH`, this object has no numbers.
+ *
+ * A value is a number, a path or a word of the library. A path is like ball[1].r[0], the place of a
+ * ball; event[slate 1] is the second event of a type, and event[slate -1] the last. A vector in the
+ * plane has the values .size and .angle, in degrees. */
 #include "functions.h"
 
 #include <ctype.h>

@@ -325,14 +325,14 @@ static int64_t is_text(const char *word) {
   F(status_string, is_text(carom_status_string(ANYENUM(carom_status, 0))))                         \
   F(strike, carom_strike(PTR(&cue), PTR(&balls[0].kind), PTR(motion)))                             \
   F(table_check, carom_table_check(PTR(&table), NUM(radius), MAYBE(&table_fault)))                 \
-  F(table_make, carom_table_make(ENUM(carom_table_kind, table_kind), PTR(&table)))               \
+  F(table_make, carom_table_make(ENUM(carom_table_kind, table_kind), PTR(&table)))                 \
   F(table_measured,                                                                                \
-    carom_table_measured(PTR(&measures), NUM(radius), PTR(&table), MAYBE(&table_fault)))            \
-  F(table_measures, carom_table_measures(ENUM(carom_table_kind, table_kind), PTR(&measures)))   \
+    carom_table_measured(PTR(&measures), NUM(radius), PTR(&table), MAYBE(&table_fault)))           \
+  F(table_measures, carom_table_measures(ENUM(carom_table_kind, table_kind), PTR(&measures)))      \
   F(table_name, (carom_table_name(ANYENUM(carom_table_kind, 0)), ACCEPTED))                        \
   F(table_polygon,                                                                                 \
     carom_table_polygon(PTR(corners), INT(corners_count), NUM(height), NUM(jaw_radius),            \
-                        NUM(radius), PTR(&table), MAYBE(&table_fault)))                             \
+                        NUM(radius), PTR(&table), MAYBE(&table_fault)))                            \
   F(trace, carom_trace(PTR(&impact), MAYBE(&impact_options), (size_t)points_count, PTR(points)))   \
   F(version, is_text(carom_version()))                                                             \
   F(version_number, (carom_version_number(), ACCEPTED))                                            \
