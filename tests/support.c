@@ -117,21 +117,42 @@ carom_result widened_result(const carom_result_f32 *out) {
   return wide;
 }
 
+/* The next line of a file of rows that begins with this name and a mark; what is behind the mark, or
+ * NULL. */
+static char *next_row(FILE *file, const char *name, char mark, char line[1000]) {
+  const size_t length = strlen(name);
+  ck_assert_ptr_nonnull(file);
+  while (fgets(line, 1000, file) != NULL)
+    if (strncmp(line, name, length) == 0 && line[length] == mark)
+      return line + length + 1;
+  fclose(file);
+  return NULL;
+}
+
 int read_rows(const char *name, int columns, double *numbers) {
   FILE *const file = fopen(CAROM_TEST_DATA "/../tests/rows.csv", "r");
-  char line[1000];
+  char line[1000], *row;
   int rows = 0;
-  ck_assert_ptr_nonnull(file);
-  while (fgets(line, sizeof line, file) != NULL) {
-    char *comma = line + strcspn(line, ",");
-    if (strncmp(line, name, strlen(name)) != 0 || comma != line + strlen(name))
-      continue;
-    for (int k = 0; k < columns; k++)
-      *numbers++ = strtod(comma + 1, &comma);
-    rows++;
-  }
-  fclose(file);
+  for (; (row = next_row(file, name, ',', line)) != NULL; rows++)
+    for (int k = 0; k < columns; k++) {
+      *numbers++ = strtod(row, &row);
+      row++;
+    }
   ck_assert_msg(rows > 0, "tests/rows.csv has no row %s", name);
+  return rows;
+}
+
+int read_texts(const char *name, int columns, char texts[][TEXT]) {
+  FILE *const file = fopen(CAROM_TEST_DATA "/../tests/texts.txt", "r");
+  char line[1000], *row;
+  int rows = 0;
+  for (; (row = next_row(file, name, '\t', line)) != NULL; rows++)
+    for (int k = 0; k < columns; k++) {
+      const size_t length = strcspn(row, "\t\n");
+      snprintf(*texts++, TEXT, "%.*s", (int)length, row);
+      row += length + 1;
+    }
+  ck_assert_msg(rows > 0, "tests/texts.txt has no row %s", name);
   return rows;
 }
 

@@ -49,6 +49,10 @@ void random_vector(random_source *source, int count, double low, double high, do
 /* Reads the rows of tests/rows.csv with this name, of so many numbers each. Returns how many. */
 int read_rows(const char *name, int columns, double *numbers);
 
+/* The same of texts, from tests/texts.txt; a row's fields are behind each other. */
+enum { TEXT = 120 };
+int read_texts(const char *name, int columns, char texts[][TEXT]);
+
 /* Each number of an array is within so much of that of another. */
 #define NEAR_EACH(is, says, count, within)         \
   for (int k_near = 0; k_near < (count); k_near++) \

@@ -205,21 +205,9 @@ static void refused(const char *what, const char *with, const char *said) {
 
 TEST(lines_that_are_refused) {
   write_game();
-  refused("\"format\":2", "\"format\":4", "recording.format must be 2 or 3");
-  refused("\"format\":2", "\"format\":3", "balls.hash is missing");
-  refused("\"format\":2", "\"format\":1", "recording.format is 1, whose hashes do not cover");
-  refused("\"width\":", "\"widht\":", "table.widht is no key of the format");
-  refused("\"width\":1.27,", "", "table.width is missing");
-  refused("\"width\":1.27", "\"width\":1.27,\"width\":1.27", "table.width comes twice");
-  refused("\"width\":1.27", "\"width\":\"wide\"", "table.width is no hexadecimal number");
-  refused("\"width\":1.27", "\"width\":nan", "table.width must be a number");
-  refused("\"width\":1.27", "\"width\":0.1234567890123456789", "15, and 22 places");
-  refused("\"side\":1", "\"side\":1.5", "side must be a whole number");
-  refused("{\"p\":[", "{\"p\":[0,", "table.rails[0].p has too many numbers");
-  refused("\"hash\":\"", "\"hash\":\"g", "shot.hash must be 16 hexadecimal digits");
-  refused("{\"balls\"", "{\"bals\"", "bals is no line of a recording");
-  refused("{\"recording\"", "[\"recording\"", "must be an object");
-  refused("{\"place\":{\"ball\":0", "{\"place\":{\"ball\":10", "place ");
+  static char texts[60][TEXT];
+  for (int k = 3 * (read_texts("line", 3, texts) - 1); k >= 0; k -= 3)
+    refused(texts[k], texts[k + 1], texts[k + 2]);
   ck_assert_int_eq(replay(text, size), 5);
   ck_assert_int_eq(carom_record_read(&again, "{\"end\":{}}", 10), CAROM_ERROR_RECORD);
   ck_assert_str_eq(again.fault, "end stands behind the end of the recording");
@@ -259,12 +247,7 @@ TEST(lines_that_are_refused) {
 
 /* How the game stands is read as it was written, and what no game can be is refused by its name. */
 TEST(how_a_game_stands) {
-  static const char *const wrong[][2] = {{"\"group\":3", "game.group must be 0, 1 or 2"},
-                                         {"\"fouls\":[0,3]", "game.fouls must be 0, 1 or 2"},
-                                         {"\"target\":-1", "game.target must be 1 to 1000000"},
-                                         {"\"player\":2", "game.player must be 0 or 1"},
-                                         {"\"pocket\":[1]", "game.pocket has too few numbers"},
-                                         {"\"gruop\":1", "game.gruop is no key of the format"}};
+  static char texts[40][TEXT];
   char line[100];
   memset(&game, 0, sizeof game);
   size = 0;
@@ -279,11 +262,11 @@ TEST(how_a_game_stands) {
   ck_assert_mem_eq(&again.standing, &game.standing, sizeof game.standing);
   game.standing.user[3] = UINT64_C(1) << 53; /* which no number of JSON is sure to be */
   ck_assert_uint_eq(carom_record_write(&game, CAROM_RECORD_GAME, text + size, ROOM - size), 0);
-  for (size_t k = 0; k < COUNT_OF(wrong); k++) {
-    const int n = snprintf(line, sizeof line, "{\"game\":{\"rules\":0,%s}}", wrong[k][0]);
+  for (int k = read_texts("standing", 2, texts) - 1; k >= 0; k--) {
+    const int n = snprintf(line, sizeof line, "{\"game\":{\"rules\":0,%s}}", texts[2 * k]);
     ck_assert_int_eq(replay(text, head), 0);
     ck_assert_int_eq(carom_record_read(&again, line, (size_t)n), CAROM_ERROR_RECORD);
-    ck_assert_msg(strstr(again.fault, wrong[k][1]) != NULL, "%s: %s", line, again.fault);
+    ck_assert_msg(strstr(again.fault, texts[2 * k + 1]) != NULL, "%s: %s", line, again.fault);
   }
 }
 
