@@ -505,8 +505,8 @@ static void expect(void) {
   const double left = read_value(-1);
   skip_spaces();
   const char relation = *cursor++;
-  const double right = read_value(-1), within = skip("within") ? read_value(-1) : 0.0;
-  bool good = fabs(left - right) <= within || left == right || (isnan(left) && isnan(right));
+  const double right = read_value(-1), tolerance = skip("within") ? read_value(-1) : 0.0;
+  bool good = fabs(left - right) <= tolerance || left == right || (isnan(left) && isnan(right));
   if (relation == '<')
     good = left < right;
   if (relation == '>')
