@@ -117,8 +117,8 @@ carom_result widened_result(const carom_result_f32 *out) {
   return wide;
 }
 
-/* The next line of a file of rows that begins with this name and a mark; what is behind the mark, or
- * NULL. */
+/* What is behind the name and the mark in the next line that begins with both; NULL: there is none,
+ * and the file is closed. */
 static char *next_row(FILE *file, const char *name, char mark, char line[1000]) {
   const size_t length = strlen(name);
   ck_assert_ptr_nonnull(file);
