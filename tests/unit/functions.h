@@ -353,7 +353,7 @@ static carom_player player;
 static carom_plan_options plan_options;
 static carom_plan_job plan;
 static carom_ruling ruling;
-static carom_choice choices[4];
+static carom_plan_stroke choices[4];
 static carom_match match;
 static carom_bounds bounds;
 static carom_turn settled;
@@ -362,7 +362,7 @@ static const char *range;
 static carom_rating rating;
 static carom_pot pot;
 static const carom_score score = {500.0, 3.0, 2.0};
-static const carom_choice safety = {.ball = -1};
+static const carom_plan_stroke safety = {.ball = -1};
 
 static void set_up_games(void) {
   rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
@@ -414,11 +414,12 @@ static carom_match *moving(void) {
   F(match_begin_at,                                                                                \
     carom_match_begin_at(PTR(&match), ANYENUM(carom_rules_kind, CAROM_RULES_NINEBALL),             \
                          MAYBE(&rules), PTR(&table), PTR(balls), INT(count), NULL,                 \
-                         ENUM(carom_leave, CAROM_LEAVE_HAND), INT(0)))                             \
+                         ENUM(carom_leave, CAROM_LEAVE_ANYWHERE), INT(0)))                         \
   F(match_call,                                                                                    \
     (carom_match_call(MAYBE(ready()), ANYINT(0), ((carom_call){ANYINT(1), ANYINT(1)})), ACCEPTED)) \
   F(match_choose,                                                                                  \
-    (carom_match_choose(MAYBE(ready()), ANYINT(0), ANYENUM(carom_may, CAROM_MAY_PUSH)), ACCEPTED)) \
+    (carom_match_choose(MAYBE(ready()), ANYINT(0), ANYENUM(carom_choice, CAROM_CHOICE_PUSH)),      \
+     ACCEPTED))                                                                                    \
   F(match_clock, carom_match_clock(PTR(ready()), INT(0)))                                          \
   F(match_concede, carom_match_concede(PTR(ready()), INT(0)))                                      \
   F(match_continue, carom_match_continue(PTR(moving()), NULL, MAYBE(&second_shot)))                \
