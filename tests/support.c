@@ -41,6 +41,11 @@ double random_between(random_source *source, double low, double high) {
   return low + (high - low) * (double)(random_bits(source) >> 11) * 0x1p-53;
 }
 
+void random_vector(random_source *source, int count, double low, double high, double *vector) {
+  for (int k = 0; k < count; k++)
+    vector[k] = random_between(source, low, high);
+}
+
 static carom_ball random_ball(random_source *source) {
   const double speed = pow(10.0, random_between(source, -2.0, 1.0)),
                way = random_between(source, 0.0, 2.0 * pi);
@@ -110,6 +115,45 @@ carom_result widened_result(const carom_result_f32 *out) {
   carom_result wide;
   widen((const float *)out, (double *)&wide, 12);
   return wide;
+}
+
+/* What is behind the name and the mark in the next line that begins with both; NULL: there is none,
+ * and the file is closed. */
+static char *next_row(FILE *file, const char *name, char mark, char line[1000]) {
+  const size_t length = strlen(name);
+  ck_assert_ptr_nonnull(file);
+  while (fgets(line, 1000, file) != NULL)
+    if (strncmp(line, name, length) == 0 && line[length] == mark)
+      return line + length + 1;
+  fclose(file);
+  return NULL;
+}
+
+int read_rows(const char *name, int columns, double *numbers) {
+  FILE *const file = fopen(CAROM_TEST_DATA "/../tests/rows.csv", "r");
+  char line[1000], *row;
+  int rows = 0;
+  for (; (row = next_row(file, name, ',', line)) != NULL; rows++)
+    for (int k = 0; k < columns; k++) {
+      *numbers++ = strtod(row, &row);
+      row++;
+    }
+  ck_assert_msg(rows > 0, "tests/rows.csv has no row %s", name);
+  return rows;
+}
+
+int read_texts(const char *name, int columns, char texts[][TEXT]) {
+  FILE *const file = fopen(CAROM_TEST_DATA "/../tests/texts.txt", "r");
+  char line[1000], *row;
+  int rows = 0;
+  for (; (row = next_row(file, name, '\t', line)) != NULL; rows++)
+    for (int k = 0; k < columns; k++) {
+      const size_t length = strcspn(row, "\t\n");
+      snprintf(*texts++, TEXT, "%.*s", (int)length, row);
+      row += length + 1;
+    }
+  ck_assert_msg(rows > 0, "tests/texts.txt has no row %s", name);
+  return rows;
 }
 
 int by_size(const void *a, const void *b) {

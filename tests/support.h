@@ -9,6 +9,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* The interface of this version, which tests/install/abi compares with the library. */
+#define TEXT_OF_VERSION(major, minor) #major "." #minor
+#define ABI_OF_VERSION(major, minor) \
+  CAROM_TEST_DATA "/../tests/install/abi-" TEXT_OF_VERSION(major, minor) ".expected"
+#define CAROM_ABI_FILE ABI_OF_VERSION(CAROM_VERSION_MAJOR, CAROM_VERSION_MINOR)
+
 /* The seed of this run: $CAROM_TEST_SEED, or a fixed one. Printed once, so that a failure can be
  * replayed. */
 uint64_t test_seed(void);
@@ -40,6 +46,23 @@ typedef struct random_source {
 } random_source;
 
 double random_between(random_source *source, double low, double high);
+
+/* The same for each number of a vector. */
+void random_vector(random_source *source, int count, double low, double high, double *vector);
+
+#define COUNT_OF(array) (sizeof(array) / sizeof *(array))
+
+/* Reads the rows of tests/rows.csv with this name, of so many numbers each. Returns how many. */
+int read_rows(const char *name, int columns, double *numbers);
+
+/* The same of texts, from tests/texts.txt; a row's fields are behind each other. */
+enum { TEXT = 120 };
+int read_texts(const char *name, int columns, char texts[][TEXT]);
+
+/* Each number of an array is within so much of that of another. */
+#define NEAR_EACH(is, says, count, within)         \
+  for (int k_near = 0; k_near < (count); k_near++) \
+  ck_assert_double_eq_tol((is)[k_near], (says)[k_near], within)
 
 /* A random approaching pair of real size: both balls may move and spin, in any direction and
  * with any friction up to the values of real balls. */
@@ -96,7 +119,7 @@ typedef struct looped_test {
 /* Runs tests in this process, so that later ones see what earlier ones left, and returns main's
  * exit code. */
 int run_looped(const char *name, const looped_test *tests, size_t count);
-#define RUN_LOOPED(name, tests) run_looped(name, tests, sizeof(tests) / sizeof *(tests))
+#define RUN_LOOPED(name, tests) run_looped(name, tests, COUNT_OF(tests))
 
 /* Runs one test case and returns main's exit code. */
 int run_tests(const char *name, const TTest *const *tests, size_t count);

@@ -120,7 +120,7 @@ TEST(speeds_scale) {
     const carom_impact in = random_impact(&source);
     carom_result out, scaled;
     ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
-    for (size_t j = 0; j < sizeof powers / sizeof powers[0]; j++) {
+    for (size_t j = 0; j < COUNT_OF(powers); j++) {
       carom_impact other = in;
       for (int c = 0; c < 3; c++) {
         other.a.v[c] = ldexp(in.a.v[c], powers[j]), other.b.v[c] = ldexp(in.b.v[c], powers[j]);

@@ -90,7 +90,7 @@ TEST(fast_is_the_same_law) {
 /* ---- Differences of a shot with one contact, beside its tangents ---- */
 
 static const double steps[] = {1e-7, 1e-6, 1e-5, 1e-4};
-enum { STEPS = sizeof steps / sizeof *steps, SHOTS = 200 };
+enum { STEPS = COUNT_OF(steps), SHOTS = 200 };
 
 static const double DEGREE = 3.14159265358979323846 / 180.0;
 
@@ -208,7 +208,7 @@ TEST(final_places_lie_on_a_parabola) {
   l.cue.phi = 79.0;
   l.cue.a = 0.1;
   l.cue.b = -0.1;
-  for (size_t m = 0; m < sizeof cushions / sizeof *cushions; m++)
+  for (size_t m = 0; m < COUNT_OF(cushions); m++)
     for (int d = 0; d < 4; d++) {
       static double place[PLACES][MOVES];
       l.options.cushion_model = cushions[m];

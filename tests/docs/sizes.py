@@ -109,7 +109,9 @@ def native(source, build):
     """Sizes of structs, by tests/install/abi; bytes of stack, by tests/unit/stack; and of the
     library.
     """
-    expected = Path(source, "tests/install/abi.expected").read_text(encoding="utf-8")
+    header = Path(source, "include/carom.h").read_text(encoding="utf-8")
+    version = ".".join(re.findall(r"^#define CAROM_VERSION_(?:MAJOR|MINOR) (\d+)$", header, re.M))
+    expected = Path(source, f"tests/install/abi-{version}.expected").read_text(encoding="utf-8")
     found = {
         name: int(size) for name, size in re.findall(r"^(\w+): (\d+) bytes", expected, flags=re.M)
     }

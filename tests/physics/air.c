@@ -1,7 +1,5 @@
-/* Balls that fly, fall on the slate, and meet each other in space. Numbers are for pool balls: R
- * = 28.575 mm, 0.170097 kg, g = 9.81 m/s^2, mu_slide 0.2, e 0.95, e of the slate 0.5, whose
- * fixed loss is s = 0.02 m/s; they were computed by programs of their own from the closed forms
- * of src/shot/slate.c and spheres.c, and are right to their last digit. */
+/* Balls that fly, fall on the slate, and meet each other in space. known_shots.txt has shots with
+ * known numbers. */
 #include "invariants.h"
 #include "random_shots.h"
 #include "shot_support.h"
@@ -35,60 +33,18 @@ static carom_shot let_go(carom_shot_ball ball) {
 
 /* A struck ball that stands alone: the usual cue but for the offsets, whose tip touches for no
  * time, so that the blow and the landing are two events. */
-static carom_shot strike(double speed, double theta, double b, carom_space space) {
+static void strike(double theta) {
   const carom_table table = empty_table(40.0);
   const carom_shot_ball ball = ball_at(20.0, 20.0);
   carom_cue cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
-  cue.speed = speed;
+  cue.speed = 30.0;
   cue.theta = theta;
-  cue.b = b;
+  cue.b = 0.0;
   cue.tip_time = -1.0;
-  return play(&table, &ball, 1, &cue, &(carom_shot_options){.space = space}, CAROM_OK);
+  play(&table, &ball, 1, &cue, NULL, CAROM_OK);
 }
 
 /* ---- Ball and slate */
-
-TEST(drop) {
-  static const double up[] = {0.700071425, 0.349463875, 0.173583553, 0.084455980, 0.037191439, 0.0};
-  const carom_shot shot = let_go(flying(20.0, 20.0, R + 0.1, 0.0, 0.0, 0.0));
-  ck_assert_int_eq(shot.count, 6);
-  NEAR(events[0].time, 0.142784312, 1e-9);
-  NEAR(events[0].before[0].v[2], -1.400714104, 1e-9);
-  for (int k = 0; k < 6; k++) {
-    ck_assert_int_eq(events[k].type, CAROM_EVENT_SLATE);
-    ck_assert_int_eq(events[k].before[0].label, CAROM_BALL_AIRBORNE);
-    ck_assert_int_eq(events[k].after[0].label, k < 5 ? CAROM_BALL_AIRBORNE : CAROM_BALL_STATIONARY);
-    ck_assert_double_eq(events[k].before[0].r[2], R);
-    ck_assert_double_eq(events[k].after[0].r[2], R);
-    NEAR(events[k].after[0].v[2], up[k], 1e-9);
-  }
-  NEAR(events[5].time, 0.416946651, 1e-9);
-}
-
-/* One landing that slips, one that sticks, one of a ball that only spins. w_z falls by the
- * friction of turning on the spot, and by no other: pooltool multiplies it by 2/7 where the ball
- * sticks. */
-TEST(one_landing) {
-  let_go(spinning(flying(20.0, 20.0, R, 3.0, 0.0, -1.0), 0.0, 0.0, 50.0));
-  const carom_ball_state *after = &events[0].after[0];
-  ck_assert_int_eq(events[0].type, CAROM_EVENT_SLATE);
-  ck_assert_double_eq(events[0].time, 0.0);
-  NEAR(after->v[0], 2.700080032, 1e-9);
-  NEAR(after->v[2], 0.499599840, 1e-9);
-  NEAR(after->w[1], 26.239717, 1e-6);
-  NEAR(after->w[2], 48.333778, 1e-6);
-  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
-  NEAR(state_energy(&kind, after) - state_energy(&kind, &events[0].before[0]), -0.194642162, 1e-9);
-  let_go(spinning(flying(20.0, 20.0, R, 0.5, 0.0, -1.0), 0.0, 0.0, 50.0));
-  NEAR(after->v[0], 5.0 / 14.0, 1e-12);
-  NEAR(after->w[1], 12.498438, 1e-6);
-  NEAR(after->w[1] * R, after->v[0], 1e-15);
-  NEAR(after->w[2], 48.333778, 1e-6);
-  let_go(spinning(flying(20.0, 20.0, R, 0.0, 0.0, -2.0), 0.0, -100.0, 0.0));
-  NEAR(after->v[0], -0.599959996, 1e-9);
-  NEAR(after->v[2], 0.999799980, 1e-9);
-  NEAR(after->w[1], -47.510062, 1e-6);
-}
 
 /* A ball that slips on all the way loses as much speed as if it had lain on the cloth. */
 TEST(hops_slow_as_sliding_does) {
@@ -142,58 +98,14 @@ TEST(random_hops) {
 
 /* ---- The elevated cue */
 
-TEST(elevated_strikes) {
-  /* V0 3 m/s, centre hits: angle, v_y and v_z after the slate, height and range of the first hop */
-  static const struct {
-    double theta, v_y, v_z, height, range;
-  } told[] = {{30.0, 3.304781, 1.153678, 0.067838, 0.777299},
-              {45.0, 2.331131, 1.631669, 0.135695, 0.775460}};
-  for (int k = 0; k < 2; k++) {
-    const carom_shot shot = strike(3.0, told[k].theta, 0.0, CAROM_SPACE_3D);
-    ck_assert_int_eq(events[0].type, CAROM_EVENT_STRIKE);
-    ck_assert_int_eq(events[0].after[0].label, CAROM_BALL_AIRBORNE);
-    ck_assert_int_eq(events[1].type, CAROM_EVENT_SLATE);
-    ck_assert_double_eq(events[1].time, 0.0);
-    const carom_ball_state *after = &events[1].after[0],
-                           *lands = &event_of(&shot, CAROM_EVENT_SLATE, 1)->before[0];
-    NEAR(after->v[1], told[k].v_y, 1e-6);
-    NEAR(after->v[2], told[k].v_z, 1e-6);
-    NEAR(lands->r[1] - 20.0, told[k].range, 1e-6);
-    carom_ball_state top;
-    const carom_shot_ball ball = ball_at(20.0, 20.0);
-    ck_assert_int_eq(carom_shot_at(&ball, 1, &shot, after->v[2] / g, &top), CAROM_OK);
-    ck_assert_int_eq(top.label, CAROM_BALL_AIRBORNE);
-    NEAR(top.r[2] - R, told[k].height, 1e-6);
-  }
+/* A ball sticks on the slate from 43.6028 degrees on, but for the fixed loss, and rolls in the
+ * air. */
+TEST(sticking_strikes) {
   const carom_ball_state *after = &events[1].after[0];
-  strike(3.0, 45.0, 0.0, CAROM_SPACE_3D);
-  NEAR(sqrt(events[0].after[0].v[1] * events[0].after[0].v[1] +
-            events[0].after[0].v[2] * events[0].after[0].v[2]),
-       4.615403, 1e-6);
-  NEAR(after->w[0], -81.5794, 1e-4);
-  NEAR(events[2].time, 0.332654, 1e-6);
-  strike(3.0, 5.0, 0.0, CAROM_SPACE_3D);
-  NEAR(after->v[2] * after->v[2] / (2.0 * g), 0.002041, 1e-6);
-  strike(3.0, 75.0, 0.0, CAROM_SPACE_3D);
-  NEAR(after->v[2] * after->v[2] / (2.0 * g), 0.253229, 1e-6);
-  strike(3.0, 90.0, 0.0, CAROM_SPACE_3D);
-  ck_assert(after->v[0] == 0.0 && after->v[1] == 0.0 && after->v[2] > 0.0);
-  /* it sticks on the slate from 43.6028 degrees on, but for the fixed loss, and rolls in the air */
-  strike(30.0, 43.61, 0.0, CAROM_SPACE_3D);
+  strike(43.61);
   NEAR(after->w[0] * R, -after->v[1], 1e-12);
-  strike(30.0, 43.59, 0.0, CAROM_SPACE_3D);
+  strike(43.59);
   ck_assert_double_gt(after->w[0] * R, -after->v[1] + 1e-6);
-  /* draw */
-  strike(3.0, 40.0, -0.3, CAROM_SPACE_3D);
-  NEAR(events[0].after[0].w[0], 103.266139, 1e-6);
-  NEAR(after->v[1], 2.255284680, 1e-9);
-  NEAR(after->v[2], 1.264346428, 1e-9);
-  NEAR(after->w[0], 36.890712, 1e-6);
-  /* flat play loses the blow that goes down */
-  strike(3.0, 45.0, 0.0, CAROM_SPACE_FLAT);
-  ck_assert_double_eq(events[0].after[0].v[2], 0.0);
-  ck_assert_int_eq(events[0].after[0].label, CAROM_BALL_SLIDING);
-  NEAR(events[0].after[0].v[1], 4.615403 * sqrt(0.5), 1e-6);
 }
 
 static const double no_time = 1e-9; /* s: such a tip does not follow through */
@@ -228,32 +140,6 @@ static carom_ball_state press(double V, double theta, double a, double b, double
   play(&table, &ball, 1, &cue, NULL, CAROM_OK);
   ck_assert_int_eq(events[0].type, CAROM_EVENT_STRIKE);
   return events[0].after[0];
-}
-
-/* A massé by a tip of leather stays on the cloth, but for a few mm; a jump cue lifts a ball over
- * another. From above a ball hops little, as the cue holds it down. */
-TEST(pressed_on_the_slate) {
-  const carom_table table = empty_table(40.0);
-  carom_shot_ball ball = ball_at(20.0, 20.0);
-  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
-  cue.speed = 3.0;
-  cue.theta = 60.0;
-  cue.a = 0.45;
-  cue.b = 0.0;
-  play(&table, &ball, 1, &cue, NULL, CAROM_OK);
-  const double masse = events[0].after[0].v[2];
-  ck_assert_double_lt(masse * masse / (2.0 * g), 0.003);
-
-  cue = carom_cue_of(CAROM_GAME_POOL);
-  cue.speed = 4.0;
-  cue.theta = 45.0;
-  cue.b = 0.0;
-  cue.mass = 0.25;
-  cue.tip_time = 0.0008;
-  cue.tip_restitution = 0.85;
-  play(&table, &ball, 1, &cue, NULL, CAROM_OK);
-  const double jump = events[0].after[0].v[2];
-  ck_assert_double_gt(jump * jump / (2.0 * g), 2.0 * R);
 }
 
 /* A ball rolls at last in the direction of the blow, 5/7 v + 2/7 R (w_y, -w_x), for any tip;
@@ -333,25 +219,6 @@ TEST(raised_strikes_are_continuous) {
   printf("raised: %d steep steps, no jump\n", steep);
 }
 
-/* Over a ball 0.305 m (12 inches) ahead. */
-TEST(jump_over_a_ball) {
-  static const struct {
-    double theta, speed;
-  } least[] = {{30.0, 2.762}, {40.0, 2.281}, {45.0, 2.221}, {60.0, 2.264}};
-  const carom_table table = empty_table(40.0);
-  const carom_shot_ball balls[2] = {ball_at(20.0, 20.0), ball_at(20.0, 20.305)};
-  for (int k = 0; k < 8; k++) {
-    carom_cue cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
-    cue.b = 0.0;
-    cue.theta = least[k / 2].theta;
-    cue.tip_time = -1.0;
-    cue.speed = least[k / 2].speed + (k % 2 == 0 ? -0.002 : 0.002);
-    const carom_shot shot = play(&table, balls, 2, &cue, NULL, CAROM_OK);
-    ck_assert_msg((count_of(&shot, CAROM_EVENT_BALL_BALL) > 0) == (k % 2 == 0),
-                  "%g degrees, %g m/s", cue.theta, cue.speed);
-  }
-}
-
 /* A shot in which nothing leaves the cloth has the same bits in both spaces; the header promises
  * it. */
 TEST(level_shots_are_flat_shots) {
@@ -368,24 +235,11 @@ TEST(level_shots_are_flat_shots) {
     options.space = CAROM_SPACE_3D;
     ck_assert_int_eq(carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &space), status);
     ck_assert_int_eq(space.count, flat.count);
-    ck_assert_int_eq(
-        memcmp(events, kept, (size_t)(flat.count < ROOM ? flat.count : ROOM) * sizeof *kept), 0);
+    ck_assert_mem_eq(events, kept, (size_t)(flat.count < ROOM ? flat.count : ROOM) * sizeof *kept);
   }
 }
 
 /* ---- Two balls */
-
-TEST(two_flying_balls) {
-  const carom_table table = empty_table(40.0);
-  for (int k = 0; k < 5; k++) { /* on a straight line towards each other, whatever their common
-                                   fall */
-    const double v_z = (double[]){3.0, 0.0, 1.0, -0.5, 2.0}[k], above = k == 1 ? 0.5 : 1.0;
-    const carom_shot_ball balls[2] = {flying(20.0, 20.0, R + above, 2.5, 0.0, v_z),
-                                      flying(20.5, 20.0, R + above, 0.5, 0.0, v_z)};
-    carom_shot shot = play(&table, balls, 2, NULL, NULL, CAROM_OK);
-    NEAR(event_of(&shot, CAROM_EVENT_BALL_BALL, 0)->time, 0.221425, 1e-12);
-  }
-}
 
 static carom_impact impact_of(const carom_shot_ball *a, const carom_shot_ball *b, double mu) {
   carom_impact in = {.a = {.radius = a->kind.radius, .mass = a->kind.mass},
@@ -395,70 +249,6 @@ static carom_impact impact_of(const carom_shot_ball *a, const carom_shot_ball *b
   memcpy(in.a.r, a->state.r, 9 * sizeof(double)); /* r, v and w */
   memcpy(in.b.r, b->state.r, 9 * sizeof(double));
   return in;
-}
-
-TEST(oblique_hits) {
-  const carom_shot_options constant = {.friction = CAROM_FRICTION_CONSTANT};
-  const carom_table table = empty_table(40.0);
-  const double x = sqrt(4.0 * R * R - 0.03 * 0.03);
-  carom_shot_ball balls[2] = {
-      spinning(flying(20.0, 20.0, R + 0.03, 2.0, 0.0, -0.5), 0.0, 30.0, 10.0),
-      ball_at(20.0 + x, 20.0)};
-  play(&table, balls, 2, NULL, &constant, CAROM_OK);
-  const double v_a[] = {0.386991560, -0.034744861, 0.533907161},
-               w_a[] = {-1.595693, 27.088457, 7.412700}, w_b[] = {-1.595693, -2.911543, -2.587300},
-               before[] = {2.0, 0.0, -0.5}, then[] = {1.302920043, 0.036728760, 0.516566554};
-  ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
-  ck_assert_double_lt(events[0].time, 1e-12);
-  const carom_impact in = impact_of(&balls[0], &balls[1], 0.05);
-  carom_result out;
-  ck_assert_int_eq(carom_impact3(&in, &out), CAROM_OK);
-  double change = 0.0;
-  for (int side = 0; side < 2; side++)
-    change += state_energy(&balls[side].kind, &events[0].after[side]) -
-              state_energy(&balls[side].kind, &events[0].before[side]);
-  NEAR(change, -0.017383078, 1e-9);
-  for (int k = 0; k < 3; k++) {
-    NEAR(events[0].after[0].v[k], v_a[k], 1e-9);
-    NEAR(events[0].after[0].w[k], w_a[k], 1e-6);
-    NEAR(events[0].after[1].w[k], w_b[k], 1e-6);
-    NEAR(out.a.v[k], v_a[k], 1e-9);
-    NEAR(out.b.w[k], w_b[k], 1e-6);
-    NEAR(out.a.v[k] + out.b.v[k], before[k], 1e-15);
-  }
-  /* the ball that is pushed into the cloth lands at the same instant */
-  ck_assert_int_eq(events[1].type, CAROM_EVENT_SLATE);
-  ck_assert_int_eq(events[1].a, 1);
-  ck_assert_double_eq(events[1].time, events[0].time);
-  for (int k = 0; k < 3; k++)
-    NEAR(events[1].after[0].v[k], then[k], 1e-9);
-
-  /* 45 degrees from above at 2 m/s, without friction */
-  balls[0] = flying(20.0 - 2.0 * R * sqrt(0.5), 20.0, R + 2.0 * R * sqrt(0.5), 0.0, 0.0, -2.0);
-  balls[1] = ball_at(20.0, 20.0);
-  balls[0].kind.mu_ball = balls[1].kind.mu_ball = 0.0;
-  play(&table, balls, 2, NULL, &constant, CAROM_OK);
-  NEAR(events[0].after[0].v[0], -0.975, 1e-9);
-  NEAR(events[0].after[0].v[2], -1.025, 1e-9);
-  NEAR(events[0].after[1].v[0], 0.975, 1e-9);
-  NEAR(events[0].after[1].v[2], -0.975, 1e-9);
-  ck_assert_int_eq(events[1].type, CAROM_EVENT_SLATE);
-  NEAR(events[1].after[0].v[0], 0.696428571, 1e-9);
-  NEAR(events[1].after[0].v[2], 0.487089571, 1e-9);
-  NEAR(events[1].after[0].w[1], 24.371954, 1e-6);
-
-  /* straight down at 1 m/s on a ball that lies: four impacts at one instant */
-  balls[0] = flying(20.0, 20.0, R + 2.0 * R, 0.0, 0.0, -1.0);
-  balls[1] = ball_at(20.0, 20.0);
-  carom_shot down = {.events = events, .room = ROOM};
-  carom_shoot(&table, balls, 2, NULL, NULL, &down);
-  ck_assert_int_eq(events[4].type, CAROM_EVENT_SLIDING_ROLLING);
-  for (int k = 0; k < 4; k++) {
-    ck_assert_double_lt(events[k].time, 1e-12);
-    ck_assert_int_eq(events[k].type, k % 2 == 0 ? CAROM_EVENT_BALL_BALL : CAROM_EVENT_SLATE);
-  }
-  NEAR(events[2].after[0].v[2], 0.474287, 1e-3); /* and 20 mm/s aside */
-  ck_assert_double_eq(events[3].after[0].v[2], 0.0);
 }
 
 /* x and z, turned about y. */
@@ -713,34 +503,7 @@ TEST(spheres) {
   printf("spheres: momentum within %.1e kg m/s, energy rises by %.1e at most\n", worst, rise);
   ck_assert_double_lt(worst, 1e-14);
   ck_assert_double_lt(rise, 1e-14);
-  carom_impact in = {.a = {.v = {1, 0, 0}, .radius = R, .mass = 1},
-                     .b = {.r = {1, 0, 0}, .radius = R, .mass = 1}};
   carom_result out;
-  ck_assert_int_eq(carom_impact3(NULL, &out), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_impact3(&in, NULL), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_impact3(&in, &out), CAROM_OK);
-#define REFUSED(field, value, status)                    \
-  do {                                                   \
-    carom_impact bad = in;                               \
-    bad.field = (value);                                 \
-    ck_assert_int_eq(carom_impact3(&bad, &out), status); \
-    ck_assert(isnan(out.a.v[0]) && isnan(out.b.w[2]));   \
-  } while (0)
-  REFUSED(a.r[2], NAN, CAROM_ERROR_POSITION);
-  REFUSED(b.v[1], INFINITY, CAROM_ERROR_VELOCITY);
-  REFUSED(b.w[1], NAN, CAROM_ERROR_SPIN);
-  REFUSED(a.radius, 0.0, CAROM_ERROR_RADIUS);
-  REFUSED(b.mass, -1.0, CAROM_ERROR_MASS);
-  REFUSED(mu_ball, 1.1, CAROM_ERROR_MU_BALL);
-  REFUSED(mu_ball, -0.1, CAROM_ERROR_MU_BALL);
-  REFUSED(restitution, NAN, CAROM_ERROR_RESTITUTION);
-  REFUSED(restitution, 1.01, CAROM_ERROR_RESTITUTION);
-  REFUSED(restitution, -0.01, CAROM_ERROR_RESTITUTION);
-  REFUSED(b.r[0], 0.0, CAROM_ERROR_COINCIDENT);
-  in.b.v[0] = -1e308;
-  REFUSED(a.v[0], 1.7e308, CAROM_ERROR_OVERFLOW);
-  in.b.v[0] = 0.0;
-  REFUSED(a.mass, 1e-310, CAROM_ERROR_OVERFLOW);
   /* friction at any speed: the same as at 1 m/s, in that unit */
   static const double units[] = {1e-280, 1e-200, 1e-160, 1e-100, 1e150, 1e155, 1e200, 1e290};
   const carom_impact slow = {.a = {.v = {1, 0.5, 0.2}, .w = {5, 7, 9}, .radius = R, .mass = 1},
@@ -761,7 +524,4 @@ TEST(spheres) {
       NEAR(out.b.w[k] / units[n], expected.b.w[k], 1e-12);
     }
   }
-  in.a.v[0] = -1.0;
-  ck_assert_int_eq(carom_impact3(&in, &out), CAROM_SEPARATING);
-  ck_assert_double_eq(out.a.v[0], -1.0);
 }

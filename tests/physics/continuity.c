@@ -5,7 +5,7 @@
  * a jump stays. Its kind is that of the first event behind which the states differ by more than
  * before it. A kind that is not among `known` is an error.
  *
- * 300 layouts in ./test; ./test --release has CAROM_TEST_DRAWS=10000, where a known kind that does
+ * 200 layouts in ./test; ./test --release has CAROM_TEST_DRAWS=10000, where a known kind that does
  * not occur is an error too. */
 #include "random_shots.h"
 #include "support.h"
@@ -38,9 +38,9 @@ static const jump_kind known[] = {
      "a ball that the model leaves closing parts at 1 mm/s, one that it lets part more slowly does "
      "so (resolve.c)"},
 };
-enum { KNOWN = sizeof known / sizeof known[0] };
+enum { KNOWN = COUNT_OF(known) };
 
-enum { HALVINGS = 12, ROOM = 4000, LEAST_LAYOUTS = 300, MOST_LINES = 100 };
+enum { HALVINGS = 12, ROOM = 4000, LEAST_LAYOUTS = 200, MOST_LINES = 100 };
 static const double steep = 1e3, persists = 1.0 / 64.0;
 static const double steps[] = {1e-6, 1e-9};
 

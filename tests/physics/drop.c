@@ -169,16 +169,3 @@ TEST(out_of_the_air) {
   printf("%d balls fell out of the air\n", in_flight);
   ck_assert_int_gt(in_flight, 20);
 }
-
-/* What cannot be drawn. */
-TEST(refused) {
-  const double time = 0.0;
-  carom_ball_state drawn[COUNT];
-  carom_table_make(CAROM_TABLE_POOL_7FT, &table);
-  carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, balls, COUNT);
-  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
-  shot = (carom_shot){.events = events, .room = ROOM, .final = final};
-  ck_assert_int_eq(carom_shoot(&table, balls, COUNT, &cue, NULL, &shot), CAROM_OK);
-  ck_assert_int_eq(carom_shot_drawn(NULL, balls, COUNT, &shot, &time, 1, drawn), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_shot_drawn(&table, balls, COUNT, &shot, NULL, 1, drawn), CAROM_ERROR_NULL);
-}

@@ -106,7 +106,7 @@ TEST(loss_of_roll) {
         ck_assert_msg(fabs(lost - 0.087 * v_t) < 1e-12, "%g of %g m/s are lost", lost, v_t);
         ck_assert_double_eq(with.after[0].w[0], without.after[0].w[0]);
         ck_assert_double_eq(with.after[0].w[2], without.after[0].w[2]);
-        ck_assert_int_eq(memcmp(with.after[0].v, without.after[0].v, sizeof with.after[0].v), 0);
+        ck_assert_mem_eq(with.after[0].v, without.after[0].v, sizeof with.after[0].v);
         /* all of it */
         ball.kind.roll_loss = 1.0;
         ball.state.w[1] = 0.2 * ball.state.v[0] / R;
@@ -133,8 +133,8 @@ static carom_event hit(double speed, const carom_ball_kind *a, const carom_ball_
 }
 
 static void same_event(const carom_event *a, const carom_event *b) {
-  ck_assert_int_eq(memcmp(a->before, b->before, sizeof a->before), 0);
-  ck_assert_int_eq(memcmp(a->after, b->after, sizeof a->after), 0);
+  ck_assert_mem_eq(a->before, b->before, sizeof a->before);
+  ck_assert_mem_eq(a->after, b->after, sizeof a->after);
 }
 
 /* The law of friction of the balls: its numbers are Alciatore's where all are 0; a pair has the

@@ -156,15 +156,4 @@ TEST(nothing_to_trace) {
       ck_assert_mem_eq(point[k].state.b.w, in.b.w, sizeof in.b.w);
     }
   }
-  carom_options options = {0};
-  carom_trace_point point[2] = {{.normal = 7.0}, {.normal = 7.0}};
-  ck_assert_int_eq(carom_trace(NULL, NULL, 2, point), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_trace(&in, NULL, 2, NULL), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_trace(&in, NULL, 1, point), CAROM_ERROR_POINTS);
-  ck_assert_double_eq(point[0].normal, 7.0);
-  options.steps = -1;
-  ck_assert_int_eq(carom_trace(&in, &options, 2, point), CAROM_ERROR_STEPS);
-  ck_assert(isnan(point[0].normal) && isnan(point[1].state.b.w[2]) && isnan(point[1].u_z));
-  in.b.radius *= 2.0;
-  ck_assert_int_eq(carom_trace(&in, NULL, 2, point), CAROM_ERROR_RADII_DIFFER);
 }

@@ -91,24 +91,3 @@ TEST(other_tables) {
   ck_assert_msg(after < 0.6 * before, "%g after %g", after, before);
   ck_assert(deviations < 2.0 * count);
 }
-
-/* A reading that no cushion gives is told by the misfit, or refused. */
-TEST(bad_readings) {
-  carom_calibration found;
-  carom_bank bank;
-  set_up();
-  const double off[CAROM_BANKS] = {3.0, 6.5, 5.6};
-  ck_assert_int_eq(carom_calibrate(&table, &usual, off, &found), CAROM_OK);
-  ck_assert(found.misfit > 2.0);
-  static const double bad[][CAROM_BANKS] = {{0.0, 5.8, 5.6}, {4.8, 8.0, 5.6}, {4.8, 5.8, NAN}};
-  for (int k = 0; k < 3; k++)
-    ck_assert_int_eq(carom_calibrate(&table, &usual, bad[k], &found), CAROM_ERROR_POSITION);
-  ck_assert_int_eq(carom_calibrate(NULL, &usual, off, &found), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_calibrate(&table, NULL, off, &found), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_calibrate(&table, &usual, off, NULL), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_bank_of(CAROM_BANKS, &bank), CAROM_ERROR_POSITION);
-  ck_assert_int_eq(carom_bank_of(-1, &bank), CAROM_ERROR_POSITION);
-  ck_assert_int_eq(carom_bank_of(0, NULL), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_bank_of(2, &bank), CAROM_OK);
-  ck_assert(bank.speed > 0.0 && bank.roll == 0.0);
-}

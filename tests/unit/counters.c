@@ -56,7 +56,7 @@ static const counter_row software[] = {
      4.0},
     {CORE_ZEN2, COUNTER_FMA, "another core's", PERF_TYPE_SOFTWARE, PERF_COUNT_SW_PAGE_FAULTS, 1.0},
 };
-enum { SOFTWARE = sizeof software / sizeof software[0] };
+enum { SOFTWARE = COUNT_OF(software) };
 
 /* Are there such events? A container may forbid them. */
 static bool has_software_events(void) {
@@ -212,7 +212,7 @@ TEST(refusals_have_reasons) {
                  {EPERM, "kernel.perf_event_paranoid=2"},
                  {ENOENT, "virtual machines"},
                  {ENOSYS, "errno 38"}};
-  for (size_t k = 0; k < sizeof reasons / sizeof reasons[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(reasons); k++) {
     refusal = reasons[k].error;
     counter_set *set = counters_open(counter_table, counter_table_size, CORE_ZEN2);
     refusal = 0;

@@ -47,6 +47,11 @@ TEST(fields_have_names) {
   ck_assert_str_eq(carom_field_name(25), "restitution");
   ck_assert_ptr_null(carom_field_name(26));
   ck_assert_ptr_null(carom_field_name(-1));
+  ck_assert_str_eq(carom_cushion_field_name(8), "height");
+  ck_assert_ptr_null(carom_cushion_field_name(15));
+  ck_assert_ptr_null(carom_cushion_field_name(-1));
+  ck_assert_str_eq(carom_cushion_model_name(CAROM_CUSHION_STRONGE), "stronge");
+  ck_assert_ptr_null(carom_cushion_model_name((carom_cushion_model)9));
 }
 
 TEST(version_is_that_of_the_header) {

@@ -4,7 +4,7 @@
 #include "shots/shoot_flags.h"
 #include "support.h"
 
-#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 TEST(words_of_an_option) {
@@ -47,71 +47,33 @@ TEST(every_table_and_rack_has_its_word) {
 /* Capitals, hyphens and the order of two parts do not matter, and some words have other names; a
  * word that is there itself is that one. */
 TEST(words_as_players_say_them) {
-  static const struct {
-    const char *said, *words;
-    int place;
-  } given[] = {{"Eight-Ball", "nineball|eightball", 1},
-               {"9-ball", "eightball|nineball", 1},
-               {"left_side", "side-right|side-left", 1},
-               {"top-left", "head-left|foot-left", 1},
-               {"center", "head-spot|centre", 1},
-               {"head", "head-spot|centre", 0},
-               {"head", "head-spot|head", 1},
-               {"screw", "stun|draw", 1},
-               {"screw", "high|low", 1},
-               {"side", "side-left|side-right", -1},
-               {"lefts", "left|right", -1},
-               {"-", "left|right", -1},
-               {"", "left|right", -1}};
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++)
-    ck_assert_msg(word_among(given[k].words, given[k].said, strlen(given[k].said)) ==
-                      given[k].place,
-                  "%s among %s", given[k].said, given[k].words);
+  char texts[60][TEXT];
+  for (int k = read_texts("said", 3, texts) - 1; k >= 0; k--) {
+    const char *said = texts[3 * k], *words = texts[3 * k + 1];
+    ck_assert_msg(word_among(words, said, strlen(said)) == atoi(texts[3 * k + 2]), "%s among %s",
+                  said, words);
+  }
 }
 
 /* Places by name, and those at a rail: of a bare number the unit is m, as elsewhere. */
 TEST(places_in_words) {
-  static const char *const given[][2] = {
-      {"left,4d", "0d,4d"},          {"head,2d", "2d,0d"},           {"right,1.2", "4d,1.2m"},
-      {"foot,30in", "30in,8d"},      {"left,6d,10cm", "0d,6d,10cm"}, {"head,20cm", "20cm,0d"},
-      {"center,20cm", "2d,4d,20cm"}, {"Foot-Spot", "2d,6d"},         {"foot", "2d,6d"},
-      {"0.6,1.5", "0.6,1.5"},        {"leftish,2d", "leftish,2d"}};
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
-    char text[40], spelt[PLACE_TEXT];
-    strcpy(text, given[k][0]);
-    ck_assert_str_eq(place_spelt(text, spelt), given[k][1]);
-  }
+  char texts[40][TEXT], spelt[PLACE_TEXT];
+  for (int k = read_texts("place", 2, texts) - 1; k >= 0; k--)
+    ck_assert_str_eq(place_spelt(texts[2 * k], spelt), texts[2 * k + 1]);
 }
 
 /* Places of the tip in words, at most half a radius from the centre, and with numbers. */
 TEST(tips_in_words) {
-  static const struct {
-    const char *text;
-    int count;
-    double x, y;
-  } given[] = {{"low", 1, 0.0, -0.5},
-               {"center", 1, 0.0, 0.0},
-               {"right,0", 1, 0.5, 0.0},
-               {"low-left", 1, -0.3536, -0.3536},
-               {"left,high", 1, -0.3536, 0.3536},
-               {"50%,-20%", 1, 0.25, -0.1},
-               {"draw:follow", 2, 0.0, -0.5},
-               {"0.1,0.2:low", 2, 0.1, 0.2}};
   static place_list list;
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
-    char text[40];
-    strcpy(text, given[k].text);
-    ck_assert_msg(option_tip.set(&option_tip, text, &list), "%s", given[k].text);
-    ck_assert_msg(list.count == given[k].count && fabs(list.at[0].x.x - given[k].x) < 1e-12 &&
-                      fabs(list.at[0].y.x - given[k].y) < 1e-12,
-                  "%s: %d, %g, %g", given[k].text, list.count, list.at[0].x.x, list.at[0].y.x);
+  char texts[40][TEXT];
+  for (int k = read_texts("tip", 4, texts) - 1; k >= 0; k--) {
+    ck_assert_msg(option_tip.set(&option_tip, texts[4 * k], &list), "tip %d", k);
+    ck_assert_int_eq(list.count, atoi(texts[4 * k + 1]));
+    ck_assert_double_eq_tol(list.at[0].x.x, atof(texts[4 * k + 2]), 1e-12);
+    ck_assert_double_eq_tol(list.at[0].y.x, atof(texts[4 * k + 3]), 1e-12);
   }
-  static const char *const none[] = {"lower", "low-", "right,", "low,0.2,3", "left-frozen"};
-  for (size_t k = 0; k < sizeof none / sizeof none[0]; k++) {
-    char text[40];
-    strcpy(text, none[k]);
-    ck_assert_msg(!option_tip.set(&option_tip, text, &list), "%s", none[k]);
-  }
+  for (int k = read_texts("no_tip", 1, texts) - 1; k >= 0; k--)
+    ck_assert_msg(!option_tip.set(&option_tip, texts[k], &list), "no tip %d", k);
 }
 
 TEST(numbers_by_name_and_key) {
