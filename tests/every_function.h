@@ -664,7 +664,8 @@ EVERY_BODY(record_settle) {
   F(shot_orientation) \
   F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) \
   F(spot_of) F(status_name) \
-  F(status_string) F(strike) F(table_check) F(table_make) F(table_marks) F(table_measured) F(table_measures) \
+  F(status_string) F(strike) F(table_check) F(table_make) F(table_marks) F(table_measured) \
+  F(table_measures) \
   F(table_name) F(table_polygon) F(trace) \
   F(version) F(version_number) F(word) F(word_text) EVERY_OF_PLANS(F)
 /* clang-format on */

@@ -8,7 +8,7 @@
  *   tan(alpha) = -(5/2) a sqrt(1 - a^2) / (1 + m/m_e + 5/2 (1 - a^2))
  *   w = 5 V/(2R) (b, a sin(theta), -a cos(theta))     turned about z by phi + 90 degrees
  *
- * d is the horizontal direction of phi and l the horizontal to its left. In space this is the strike
+ * d is the horizontal direction of phi, l the horizontal to its left. In space this is the strike
  * alone, which drives the ball into the slate; shot/raised.c has what the slate does meanwhile. In
  * flat play the part of the strike that goes down is lost. pooltool turns what is left of it: v = V
  * cos(theta) in the direction phi + alpha. With theta = 0 all three are the same, to the last bit.

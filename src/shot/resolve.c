@@ -306,8 +306,8 @@ static contact contact_of(const carom_sim *sim, const carom_due *pending_event, 
   return c;
 }
 
-/* The motion by the model, which leaves what the cloth holds to the slate. *closing becomes how fast
- * a ball still moves into a cushion. */
+/* The motion by the model, which leaves what the cloth holds to the slate. *closing becomes how
+ * fast a ball still moves into a cushion. */
 static carom_status take_model(const carom_sim *sim, const carom_due *pending_event, contact *c,
                                double *closing) {
   c->held_a = c->held_b = false;

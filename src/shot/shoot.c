@@ -92,8 +92,8 @@ static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
 }
 
 /* Each contact of a cluster is an event. A ball changes at its first one, unless it is among
- * changed[], and has the same state before and after the others. *pending_event becomes the first contact of
- * the struck ball, where it has one. */
+ * changed[], and has the same state before and after the others. *pending_event becomes the first
+ * contact of the struck ball, where it has one. */
 static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
                                   const uint8_t order[], int count, bool changed[],
                                   carom_due *pending_event) {
@@ -146,8 +146,8 @@ static carom_status unresolved(carom_sim *sim) {
 }
 
 /* Resolves the contact that is due together with the contacts that last at the same time. Returns
- * false where there are no others. *pending_event becomes the first contact of the struck ball, where it has
- * one. This is a function of its own because a cluster needs 20 KiB of stack. */
+ * false where there are no others. *pending_event becomes the first contact of the struck ball,
+ * where it has one. This is a function of its own because a cluster needs 20 KiB of stack. */
 __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *pending_event,
                                                           carom_status *status) {
   carom_cluster_state c;
@@ -171,8 +171,8 @@ typedef enum push_kind { PUSH_OF_SEVERAL, PUSH_OF_ONE, PUSH_AGAIN } push_kind;
 
 /* Resolves the push of a cue together with the contacts of balls that last meanwhile; their events
  * stand behind that of the strike. Returns false, with nothing changed, where no other ball takes
- * part in a PUSH_OF_SEVERAL, and where a PUSH_AGAIN closes below CAROM_LEAST_TOUCH. *contact becomes
- * the first contact of the struck ball. */
+ * part in a PUSH_OF_SEVERAL, and where a PUSH_AGAIN closes below CAROM_LEAST_TOUCH. *contact
+ * becomes the first contact of the struck ball. */
 __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_cue *cue,
                                                  double most, bool slate, push_kind kind,
                                                  carom_due *contact, carom_status *status) {
@@ -389,7 +389,8 @@ static bool stops_at(carom_sim *sim, int type, int a, int b) {
   return (sim->opt->stop_at & CAROM_STOP_AT(type)) != 0;
 }
 
-/* The tip touches the struck ball again, or the follow-through ends. *pending_event becomes what happens. */
+/* The tip touches the struck ball again, or the follow-through ends. *pending_event becomes what
+ * happens. */
 __attribute__((noinline, cold)) static carom_status touch_again(carom_play *play,
                                                                 carom_due *pending_event) {
   carom_sim *sim = &play->sim;

@@ -116,8 +116,8 @@ typedef struct carom_raised {
 } carom_raised;
 
 /* raised.c: a raised cue, cue->tip_time >= 0, strikes a ball at rest on the slate that nothing else
- * touches. *state has the motion by the strike alone, carom_strike_motion() in space, and gets that behind the
- * strike. Returns false where that takes too many steps; *state is as it was then. */
+ * touches. *state has the motion by the strike alone, carom_strike_motion() in space, and gets that
+ * behind the strike. Returns false where that takes too many steps; *state is as it was then. */
 bool carom_push_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_ball_state *state,
                       carom_raised *out);
 
