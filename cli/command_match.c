@@ -229,12 +229,12 @@ static bool keep(const players *p, carom_status status, int player, int64_t ruli
 
 /* Plays the best stroke of the player at the table, or passes. */
 static bool play_stroke(players *p) {
-  const int who = (int)match.record.player;
+  const int player = (int)match.record.player;
   const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)match.record.rules);
   carom_cue cue = carom_cue_of((carom_game)about->balls);
   cue.ball = match.cue_ball;
-  p->options.opponent = &p->player[1 - who];
-  carom_plan_job job = {.player = &p->player[who], .cue = &cue, .options = &p->options};
+  p->options.opponent = &p->player[1 - player];
+  carom_plan_job job = {.player = &p->player[player], .cue = &cue, .options = &p->options};
   job.memory = p->memory;
   job.memory_size = carom_plan_memory(&p->options);
 
@@ -248,20 +248,20 @@ static bool play_stroke(players *p) {
   }
   const int64_t rulings = match.rulings;
   if (best.kind == CAROM_PLAN_PASS)
-    return keep(p, carom_match_choose(&match, who, CAROM_MAY_PASS), who, rulings);
+    return keep(p, carom_match_choose(&match, player, CAROM_MAY_PASS), player, rulings);
   if (match.phase == CAROM_MATCH_PLACE &&
-      !keep(p, carom_match_place(&match, who, best.place[0], best.place[1]), who, rulings))
+      !keep(p, carom_match_place(&match, player, best.place[0], best.place[1]), player, rulings))
     return false;
   if (best.kind == CAROM_PLAN_PUSH &&
-      !keep(p, carom_match_choose(&match, who, CAROM_MAY_PUSH), who, rulings))
+      !keep(p, carom_match_choose(&match, player, CAROM_MAY_PUSH), player, rulings))
     return false;
   const carom_call call = {best.ball, best.pocket};
   if (match.rules.calls != 0 && best.ball >= 0 &&
-      !keep(p, carom_match_call(&match, who, call), who, rulings))
+      !keep(p, carom_match_call(&match, player, call), player, rulings))
     return false;
-  carom_player_strike(&p->player[who], (uint64_t)p->job->seed, (uint64_t)match.record.shots,
+  carom_player_strike(&p->player[player], (uint64_t)p->job->seed, (uint64_t)match.record.shots,
                       &best.cue);
-  return keep(p, carom_match_stroke(&match, who, &best.cue, NULL, NULL), who, rulings);
+  return keep(p, carom_match_stroke(&match, player, &best.cue, NULL, NULL), player, rulings);
 }
 
 /* Begins the match, unless one was read, and plays it; an exit code. */

@@ -84,18 +84,18 @@ static double miss_of(const ways_search *s, const way *w, bool *good) {
 
 /* Gives the flags the one stroke. */
 static void take(shoot_flags *f, const carom_cue *cue) {
-  const place_list tip = {.count = 1, .at = {{.x = {.x = 0.0 - cue->a}, .y = {.x = cue->b}}}};
+  const place_list tip = {.count = 1, .place = {{.x = {.x = 0.0 - cue->a}, .y = {.x = cue->b}}}};
   f->ball_speed.count = 0;
   f->speed.count = f->elevation.count = 1;
-  f->speed.at[0] = (value){.x = cue->speed};
-  f->elevation.at[0] = (value){.x = cue->theta};
+  f->speed.item[0] = (value){.x = cue->speed};
+  f->elevation.item[0] = (value){.x = cue->theta};
   f->tip = tip;
   if (f->pocket != NULL) /* is aimed at again */
     return;
   f->at_ball = NULL;
-  f->cut.count = f->to.count = 0;
+  f->cut.count = f->target.count = 0;
   f->aim.count = 1;
-  f->aim.at[0] = (value){.x = cue->phi};
+  f->aim.item[0] = (value){.x = cue->phi};
 }
 
 /* Whether a stroke follows another in the range of its speeds. */

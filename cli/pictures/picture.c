@@ -51,14 +51,14 @@ static FILE *in_memory(const char *name) {
 /* Runs a program from one file in memory to another. What it says is shown only if it fails:
  * gnuplot also warns of every part of a plot that a CSV has no rows for, and those are optional.
  * False after a complaint. */
-static bool run(const char *path, char *const words[], const char *package, FILE *from, FILE *to,
-                FILE *noise) {
+static bool run(const char *path, char *const words[], const char *package, FILE *input,
+                FILE *output, FILE *noise) {
   int status;
   fflush(NULL);
-  rewind(from);
+  rewind(input);
   const pid_t child = fork();
   if (child == 0) {
-    if (dup2(fileno(from), STDIN_FILENO) >= 0 && dup2(fileno(to), STDOUT_FILENO) >= 0 &&
+    if (dup2(fileno(input), STDIN_FILENO) >= 0 && dup2(fileno(output), STDOUT_FILENO) >= 0 &&
         dup2(fileno(noise), STDERR_FILENO) >= 0)
       execvp(words[0], words);
     _exit(NOT_INSTALLED);
@@ -77,13 +77,13 @@ static bool run(const char *path, char *const words[], const char *package, FILE
 }
 
 /* What `write` writes, put to its place by a program with these words; without one as it is. */
-static bool make(const char *path, char *const words[], const char *package, FILE *from,
+static bool make(const char *path, char *const words[], const char *package, FILE *input,
                  void (*write)(FILE *, const void *), const void *data) {
   FILE *noise = in_memory("noise"), *drawn = in_memory("picture"), *out = NULL;
-  bool good = from != NULL && noise != NULL && drawn != NULL;
+  bool good = input != NULL && noise != NULL && drawn != NULL;
   if (good) {
-    write(words != NULL ? from : drawn, data);
-    good = (words == NULL || run(path, words, package, from, drawn, noise)) &&
+    write(words != NULL ? input : drawn, data);
+    good = (words == NULL || run(path, words, package, input, drawn, noise)) &&
            (out = output_open(path)) != NULL;
   }
   if (good && output_copy(drawn, out) == 0) {
@@ -92,8 +92,8 @@ static bool make(const char *path, char *const words[], const char *package, FIL
     good = false;
   }
   for (int k = 0; k < 3; k++)
-    if ((FILE *[]){from, noise, drawn}[k] != NULL)
-      fclose((FILE *[]){from, noise, drawn}[k]);
+    if ((FILE *[]){input, noise, drawn}[k] != NULL)
+      fclose((FILE *[]){input, noise, drawn}[k]);
   return good && output_commit();
 }
 
@@ -198,9 +198,9 @@ double svg_lines(FILE *out, double x, double y, double size, int columns, const 
   FILE *wrapped = open_text(&lines, &length);
   print_wrapped(wrapped, text, columns);
   close_text(wrapped, &lines);
-  for (const char *at = lines; *at != '\0'; at += strcspn(at, "\n") + 1, y += 1.25 * size)
+  for (const char *line = lines; *line != '\0'; line += strcspn(line, "\n") + 1, y += 1.25 * size)
     if (out != NULL)
-      svg_text(out, x, y, at, (int)strcspn(at, "\n"),
+      svg_text(out, x, y, line, (int)strcspn(line, "\n"),
                "xml:space=\"preserve\" font-size=\"%.1f\" %s", size, style);
   free(lines);
   return y;

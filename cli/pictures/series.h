@@ -14,8 +14,8 @@ typedef struct series series;
 
 /* One of the combinations: a value of each input, its row, how it is solved, and the result. */
 typedef struct one_case {
-  const value *given[MOST_INPUTS];
-  shared_options asked;
+  const value *inputs[MOST_INPUTS];
+  shared_options shared;
   double row[MOST_NUMBERS], result[MOST_RESULTS];
   char id[MOST_INPUTS * VALUE_NAME];
 } one_case;
@@ -49,7 +49,7 @@ typedef struct scene {
 } scene;
 
 struct series {
-  shared_options asked;
+  shared_options shared;
   const scene *scene;
   values in[MOST_INPUTS];
   uint32_t asked_for; /* --quantity: a bit for each of the words; 0: none was given */

@@ -6,11 +6,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The text where `given` is set, else "". */
-const char *text_if(bool given, const char *text);
+/* The text where `condition` is set, else "". */
+const char *text_if(bool condition, const char *text);
 
 /* The text, or the other one where it is NULL or "". */
-const char *text_or(const char *text, const char *other);
+const char *text_or(const char *text, const char *fallback);
 
 /* "left" of a number above 0, else "right"; "below" of a number below 0, else "above". */
 const char *left_or_right(double to_left);

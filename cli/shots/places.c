@@ -37,7 +37,7 @@ static int colour_at(const char *text) {
 
 /* "left,4d" as "0d,4d", the point of a rail's nose; what stands behind the number stays. False of a
  * text that does not begin with a rail and a comma. */
-static bool rail_spelt(const char *text, char to[PLACE_TEXT]) {
+static bool rail_spelt(const char *text, char result[PLACE_TEXT]) {
   enum { HEAD, FOOT, LEFT, RIGHT };
   const size_t size = strcspn(text, ",");
   const int rail = word_among(RAILS, text, size);
@@ -49,18 +49,18 @@ static bool rail_spelt(const char *text, char to[PLACE_TEXT]) {
   const char *unit = bare ? "m" : "", *rest = number + digits;
   int written;
   if (rail == LEFT || rail == RIGHT)
-    written = snprintf(to, PLACE_TEXT, "%s,%.*s%s%s", rail == LEFT ? "0d" : "4d", digits, number,
-                       unit, rest);
+    written = snprintf(result, PLACE_TEXT, "%s,%.*s%s%s", rail == LEFT ? "0d" : "4d", digits,
+                       number, unit, rest);
   else
-    written = snprintf(to, PLACE_TEXT, "%.*s%s,%s%s", digits, number, unit,
+    written = snprintf(result, PLACE_TEXT, "%.*s%s,%s%s", digits, number, unit,
                        rail == HEAD ? "0d" : "8d", rest);
   return written < PLACE_TEXT;
 }
 
-char *place_spelt(char *text, char to[PLACE_TEXT]) {
+char *place_spelt(char *text, char result[PLACE_TEXT]) {
   enum { YELLOW = 16 };
-  if (rail_spelt(text, to))
-    return to;
+  if (rail_spelt(text, result))
+    return result;
   const size_t size = strcspn(text, ",");
   const int colour = colour_at(text);
   char spot[PLACE_TEXT / 2];
@@ -72,18 +72,19 @@ char *place_spelt(char *text, char to[PLACE_TEXT]) {
   /* the spots of snooker, on a table on which a diamond is 1 m */
   if (colour >= 0) {
     const carom_table table = {.width = 4.0, .length = 8.0};
-    double at[2] = {0.0, 0.0};
-    carom_spot_of(CAROM_RACK_SNOOKER, &table, YELLOW + colour, at);
-    snprintf(spot, sizeof spot, "%.15gd,%.15gd", at[0], at[1]);
+    double position[2] = {0.0, 0.0};
+    carom_spot_of(CAROM_RACK_SNOOKER, &table, YELLOW + colour, position);
+    snprintf(spot, sizeof spot, "%.15gd,%.15gd", position[0], position[1]);
     place = spot;
   }
-  return place != NULL && snprintf(to, PLACE_TEXT, "%s%s", place, text + size) < PLACE_TEXT ? to
-                                                                                            : text;
+  return place != NULL && snprintf(result, PLACE_TEXT, "%s%s", place, text + size) < PLACE_TEXT
+             ? result
+             : text;
 }
 
 /* Where the tip touches by words, such as low, left-low or right,0, as a pair of numbers; other
  * texts as they are. As far from the centre as a chalked tip holds. */
-static char *tip_spelt(char *text, char to[PLACE_TEXT]) {
+static char *tip_spelt(char *text, char result[PLACE_TEXT]) {
   static const struct {
     const char *word;
     double right, above;
@@ -115,8 +116,8 @@ static char *tip_spelt(char *text, char to[PLACE_TEXT]) {
       return text;
   } while (*rest++ != '\0');
   const double far = hypot(right, above), scale = far > 0.5 ? 0.5 / far : 1.0;
-  snprintf(to, PLACE_TEXT, "%.4g,%.4g", right * scale, above * scale);
-  return to;
+  snprintf(result, PLACE_TEXT, "%.4g,%.4g", right * scale, above * scale);
+  return result;
 }
 
 static bool refuse(const option_row *row, const char *text) {
@@ -144,17 +145,17 @@ static bool refuse(const option_row *row, const char *text) {
 
 /* Copies pairs, in which ranges get RANGE for ":" or "..". A colon parts two pairs where commas
  * stand on both sides of it before the next one. */
-static void spell_ranges(const char *text, char *to) {
+static void spell_ranges(const char *text, char *result) {
   for (bool comma = false; *text != '\0'; text++) {
     const bool dots = strncmp(text, "..", 2) == 0,
                next = memchr(text + 1, ',', strcspn(text + 1, ":")) != NULL,
                word = isalpha((unsigned char)text[1]) != 0,
                range = dots || (*text == ':' && !(comma && next) && !word);
     comma = *text == ',' || (comma && (*text != ':' || range));
-    *to++ = (char)(range ? RANGE : *text);
+    *result++ = (char)(range ? RANGE : *text);
     text += dots;
   }
-  *to = '\0';
+  *result = '\0';
 }
 
 /* Adds all pairs of two ranges, A:B,C:D; of one without a step five values. False after a
@@ -166,40 +167,40 @@ static bool add_ranges(const option_row *row, char *text, place_list *list) {
   *part[1]++ = '\0';
   for (int k = 0; k < 2; k++) {
     int parts = 1;
-    for (char *at = part[k]; (at = strchr(at, RANGE)) != NULL; parts++)
-      *at = ':';
+    for (char *mark = part[k]; (mark = strchr(mark, RANGE)) != NULL; parts++)
+      *mark = ':';
     if (!set_values(row, part[k], &axis[k]))
       return false;
     stride[k] = parts == 2 ? axis[k].count / 4 : 1;
     count[k] = 1 + (axis[k].count - 1) / stride[k];
   }
-  const int all = list->count + count[0] * count[1];
-  if (all > MOST_PLACES)
-    return too_many(row, all, MOST_PLACES);
-  for (int k = 0; list->count < all; k++) {
-    list->at[list->count].x = axis[0].at[k / count[1] * stride[0]];
-    list->at[list->count++].y = axis[1].at[k % count[1] * stride[1]];
+  const int total = list->count + count[0] * count[1];
+  if (total > MOST_PLACES)
+    return too_many(row, total, MOST_PLACES);
+  for (int k = 0; list->count < total; k++) {
+    list->place[list->count].x = axis[0].item[k / count[1] * stride[0]];
+    list->place[list->count++].y = axis[1].item[k % count[1] * stride[1]];
   }
   return true;
 }
 
 /* Reads "frozen-NAME,X" or, of a ball, "frozen-NAME,ANGLE,GAP"; false where it cannot be read. */
-static bool read_touching(const char *text, given_place *to) {
+static bool read_touching(const char *text, given_place *place) {
   text += strlen(frozen);
   char number[PLACE_TEXT];
   const char *comma = strchr(text, ',');
   const size_t size = comma != NULL ? (size_t)(comma - text) : 0;
   if (size == 0 || size >= PLACE_NAME)
     return false;
-  snprintf(to->touches, PLACE_NAME, "%.*s", (int)size, text);
-  if (word_among(RAILS, to->touches, size) >= 0)
-    return value_of(MEASURE_PLACE, comma + 1, &to->x);
+  snprintf(place->touches, PLACE_NAME, "%.*s", (int)size, text);
+  if (word_among(RAILS, place->touches, size) >= 0)
+    return value_of(MEASURE_PLACE, comma + 1, &place->x);
   const char *gap = strchr(comma + 1, ',');
   if (gap == NULL)
-    return value_of(MEASURE_ANGLE, comma + 1, &to->x);
+    return value_of(MEASURE_ANGLE, comma + 1, &place->x);
   snprintf(number, sizeof number, "%.*s", (int)(gap - comma - 1), comma + 1);
-  return value_of(MEASURE_ANGLE, number, &to->x) && value_of(MEASURE_LENGTH, gap + 1, &to->y) &&
-         to->y.x >= 0.0;
+  return value_of(MEASURE_ANGLE, number, &place->x) &&
+         value_of(MEASURE_LENGTH, gap + 1, &place->y) && place->y.x >= 0.0;
 }
 
 /* One of the entries between colons: "NAME=NUMBERS" or "NUMBERS". */
@@ -248,14 +249,14 @@ static bool looks_like_pair(const char *text) {
 }
 
 /* Reads the numbers of an entry into its place; false where they are none. */
-static bool read_numbers(const option_row *row, const place_entry *entry, given_place *to) {
+static bool read_numbers(const option_row *row, const place_entry *entry, given_place *place) {
   static values pair;
   if (entry->touches)
-    return read_touching(entry->numbers, to);
+    return read_touching(entry->numbers, place);
   if (!set_values(row, entry->numbers, &pair) || pair.count != 2)
     return false;
-  to->x = pair.at[0];
-  to->y = pair.at[1];
+  place->x = pair.item[0];
+  place->y = pair.item[1];
   return true;
 }
 
@@ -267,13 +268,13 @@ static bool add_entry(const option_row *row, const place_entry *entry, const cha
     return refuse(row, whole);
   if (row->least == MEASURE_TIP && strchr(entry->numbers, RANGE) != NULL)
     return add_ranges(row, entry->numbers, list);
-  given_place *to = &list->at[list->count++];
-  if (!read_numbers(row, entry, to))
+  given_place *place = &list->place[list->count++];
+  if (!read_numbers(row, entry, place))
     return refuse(row, whole);
   if (entry->colour >= 0)
-    snprintf(to->name, PLACE_NAME, "%s", colours_of_snooker[entry->colour]);
+    snprintf(place->name, PLACE_NAME, "%s", colours_of_snooker[entry->colour]);
   else
-    snprintf(to->name, PLACE_NAME, "%.*s", (int)entry->name_size, entry->name);
+    snprintf(place->name, PLACE_NAME, "%.*s", (int)entry->name_size, entry->name);
   return true;
 }
 
@@ -299,7 +300,7 @@ OPTION_SET(set_places) {
     memcpy(copy, text, strlen(text) + 1);
 
   int entries = 1;
-  for (const char *at = copy; (at = strchr(at, ':')) != NULL; at++)
+  for (const char *colon = copy; (colon = strchr(colon, ':')) != NULL; colon++)
     entries++;
   char *next = strtok_r(copy, ":", &rest);
   for (; next != NULL; next = strtok_r(NULL, ":", &rest)) {

@@ -102,9 +102,10 @@ TEST(tips_in_words) {
     char text[40];
     strcpy(text, given[k].text);
     ck_assert_msg(option_tip.set(&option_tip, text, &list), "%s", given[k].text);
-    ck_assert_msg(list.count == given[k].count && fabs(list.at[0].x.x - given[k].x) < 1e-12 &&
-                      fabs(list.at[0].y.x - given[k].y) < 1e-12,
-                  "%s: %d, %g, %g", given[k].text, list.count, list.at[0].x.x, list.at[0].y.x);
+    ck_assert_msg(list.count == given[k].count && fabs(list.place[0].x.x - given[k].x) < 1e-12 &&
+                      fabs(list.place[0].y.x - given[k].y) < 1e-12,
+                  "%s: %d, %g, %g", given[k].text, list.count, list.place[0].x.x,
+                  list.place[0].y.x);
   }
   static const char *const none[] = {"lower", "low-", "right,", "low,0.2,3", "left-frozen"};
   for (size_t k = 0; k < sizeof none / sizeof none[0]; k++) {
