@@ -1,15 +1,11 @@
 /* `carom calibrate`: the cushion of a player's table, by three banks: how to play them, what the
  * readings tell, a picture, and a file for --with. */
 #include "pictures/picture.h"
-#include "program/command.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
+#include "program/program.h"
 #include "shots/shot_table.h"
 #include "subcommands.h"
 
 #include <jansson.h>
-#include <stdlib.h>
 
 typedef struct calibrate_job {
   shared_options shared;

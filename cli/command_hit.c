@@ -7,15 +7,10 @@
 #include "pictures/contact_picture.h"
 #include "pictures/picture.h"
 #include "pictures/series.h"
-#include "program/command.h"
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/quantities.h"
 #include "shots/ball_aim.h"
 #include "subcommands.h"
-
-#include <math.h>
-#include <string.h>
 
 enum { SPIN, SPEED, CUT, SIDE, RESTITUTION, CLOTH, ROLL, RADIUS, MASS, OBJECT_MASS, FRICTION };
 static const scene_input inputs[] = {

@@ -1,11 +1,6 @@
 /* `carom match`: matches of two rated players, played, saved, gone on with and told in words, by
  * carom_match.h. */
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "shots/places.h"
 #include "subcommands.h"
 
@@ -13,9 +8,6 @@
 
 #include <errno.h>
 #include <inttypes.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 typedef struct match_job {
   shared_options shared; /* --output */

@@ -1,13 +1,6 @@
 /* `carom models`: what there is, by the rows of the library: models, words and numbers. */
-#include "program/command.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "subcommands.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 /* Enumerations with models or ways to play, and the options that take their words. */
 static const struct kind {

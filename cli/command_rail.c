@@ -7,14 +7,9 @@
 #include "pictures/contact_picture.h"
 #include "pictures/picture.h"
 #include "pictures/series.h"
-#include "program/command.h"
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/quantities.h"
 #include "subcommands.h"
-
-#include <math.h>
-#include <string.h>
 
 enum { SPIN, SPEED, ANGLE, SIDE, HEIGHT, RESTITUTION, FRICTION, CLOTH, RADIUS, MASS, MODEL };
 static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN},

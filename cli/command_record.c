@@ -3,20 +3,13 @@
 #include "carom_record.h"
 
 #include "game/judge_match.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/number.h"
 #include "shots/shot_file.h"
 #include "subcommands.h"
 
 #include <errno.h>
 #include <inttypes.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { FIRST_ROOM = 512 }; /* for events */
 

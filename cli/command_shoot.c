@@ -3,22 +3,13 @@
 #include "pictures/animation.h"
 #include "pictures/picture.h"
 #include "pictures/shot_drawings.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/doubts.h"
 #include "shots/shoot_flags.h"
 #include "shots/shot_fault.h"
 #include "shots/shot_file.h"
 #include "shots/shot_story.h"
 #include "subcommands.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* lines in error that are named */
 enum { EVENTS_USUAL = -1, BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 };

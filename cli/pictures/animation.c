@@ -4,15 +4,10 @@
 #include "pictures/animation.h"
 
 #include "player.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "shots/shot_story.h"
 
 #include <jansson.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 static const double step = 1.0 / 40.0; /* s */
 

@@ -2,16 +2,11 @@
  * temporary file can stay behind; a picture that is whole then goes to its place. */
 #include "pictures/picture.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/place.h"
+#include "program/program.h"
 
 #include <errno.h>
 #include <limits.h>
 #include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -35,8 +30,8 @@ OPTION_SET(set_picture) {
   return false;
 }
 
-static void complain_missing(const char *path, const char *program, const char *package) {
-  complain("cannot draw %s: %s is not installed (Debian: %s)", path, program, package);
+static void complain_missing(const char *path, const char *executable, const char *package) {
+  complain("cannot draw %s: %s is not installed (Debian: %s)", path, executable, package);
 }
 
 /* A file in memory, which the child inherits. Complains and returns NULL if there can be none. */
@@ -112,13 +107,14 @@ bool picture_draw(const char *path, const char *name, const char *title,
 
 /* Whether execvp() would find the program: in the folders of PATH, of which an empty one is the
  * current folder. */
-static bool is_installed(const char *program) {
+static bool is_installed(const char *executable) {
   const char *path = getenv("PATH"), *folder = path != NULL ? path : "/bin:/usr/bin";
   for (;;) {
     char name[PATH_MAX];
     struct stat about;
     const int size = (int)strcspn(folder, ":");
-    snprintf(name, sizeof name, "%.*s/%s", size > 0 ? size : 1, size > 0 ? folder : ".", program);
+    snprintf(name, sizeof name, "%.*s/%s", size > 0 ? size : 1, size > 0 ? folder : ".",
+             executable);
     if (stat(name, &about) == 0 && S_ISREG(about.st_mode) && access(name, X_OK) == 0)
       return true;
     if (folder[size] == '\0')

@@ -3,20 +3,13 @@
 
 #include "pictures/contact_picture.h"
 #include "pictures/picture.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/doubts.h"
 #include "rows/number.h"
 #include "rows/quantities.h"
 #include "rows/sink.h"
 
 #include <limits.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { MOST_COMBINED = 1000000 }; /* of a table */
 

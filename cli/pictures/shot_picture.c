@@ -5,15 +5,11 @@
 #include "pictures/ball_colours.h"
 #include "pictures/picture.h"
 #include "pictures/table_picture.h"
-#include "program/memory.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/quantities.h"
 #include "shots/shot_story.h"
 
-#include <math.h>
 #include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { MOST_MARKED = 9 }; /* cushions of a shot */
 
@@ -124,12 +120,12 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
 
 /* Part of a band, from a point to another: along one side and back along the other. */
 static void draw_part(const view *v, FILE *out, const band_point *band, int start, int end) {
-  char command = 'M';
+  char letter = 'M';
   for (int sign = 1; sign >= -1; sign -= 2)
-    for (int n = 0; n <= end - start; n++, command = 'L') {
+    for (int n = 0; n <= end - start; n++, letter = 'L') {
       const band_point *p = &band[sign > 0 ? start + n : end - n];
       const double r[2] = {p->r[0] + sign * p->side[0], p->r[1] + sign * p->side[1]};
-      fprintf(out, "%c%.1f %.1f", command, across(v, r), down(v, r));
+      fprintf(out, "%c%.1f %.1f", letter, across(v, r), down(v, r));
     }
   fputc('Z', out);
 }
@@ -299,8 +295,8 @@ static void draw_heights(const view *v, const shot_line *line, const carom_shot 
         carom_shot_at(line->ball, line->count, shot, time, states);
         s = &states[ball];
       }
-      const char command = last == 0.0 && n == 0 ? 'M' : 'L';
-      fprintf(v->out, "%c%.1f %.1f", command, across(v, s->r), cloth - v->scale * s->r[2]);
+      const char letter = last == 0.0 && n == 0 ? 'M' : 'L';
+      fprintf(v->out, "%c%.1f %.1f", letter, across(v, s->r), cloth - v->scale * s->r[2]);
     }
     last = e->time;
   }

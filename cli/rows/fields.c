@@ -1,18 +1,11 @@
 /* What options read into their fields, and the rows that several tables have. */
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/number.h"
 #include "rows/values.h"
 
 #include <errno.h>
 #include <jansson.h>
 #include <limits.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* 2^53: greater whole numbers may not be doubles. */
 static const double WHOLE_MOST = 9007199254740992.0;

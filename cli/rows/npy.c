@@ -1,12 +1,9 @@
 /* NumPy's .npy files. */
 #include "rows/npy.h"
 
-#include "program/memory.h"
-#include "program/message.h"
+#include "program/program.h"
 
 #include <errno.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 enum { HEADER = 128, LONGEST_HEADER = 1 << 20 };

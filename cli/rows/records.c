@@ -5,16 +5,11 @@
  */
 #include "rows/records.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
+#include "program/program.h"
 #include "rows/number.h"
 
 #include <csv.h>
 #include <errno.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 enum { RECORD_LIMIT = 1 << 20 };

@@ -5,19 +5,13 @@
  */
 #include "rows/row_solver.h"
 
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/monotonic.h"
+#include "program/program.h"
 #include "rows/doubts.h"
 #include "rows/precision.h"
 #include "rows/sink.h"
 #include "rows/source.h"
 
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { MOST_NAMED = 1000 };             /* rows in error that are named */
 static const double least_timed = 10e6; /* ns; less is mostly cold caches, and no time is told */

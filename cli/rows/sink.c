@@ -1,19 +1,13 @@
 /* Where results go. */
 #include "rows/sink.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/npy.h"
 #include "rows/number.h"
 #include "rows/precision.h"
 
 #include <csv.h>
 #include <errno.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 struct result_sink {
   FILE *file;

@@ -1,15 +1,9 @@
 /* Where rows come from: numbers by the names of columns, or by their places in an array. */
 #include "rows/source.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/npy.h"
 #include "rows/number.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 struct row_source {
   const shared_options *shared;

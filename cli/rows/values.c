@@ -9,14 +9,9 @@
  */
 #include "rows/values.h"
 
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/number.h"
 #include "rows/quantities.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 enum { POINTS = 161, MOST_TEXT = 256, LIST_TEXT = MOST_VALUES * VALUE_NAME };
 

@@ -1,14 +1,10 @@
 /* Values out of JSON objects. */
 #include "shots/json_values.h"
 
-#include "program/memory.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/number.h"
 
 #include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 static void *json_memory(size_t size) {
   return allocate(size, 1);

@@ -2,16 +2,11 @@
  * ranges. */
 #include "shots/places.h"
 
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 
 #include "carom_shot.h"
 
 #include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { MOST_TEXT = 4096, RANGE = 1 };
 static const char frozen[] = "frozen-";

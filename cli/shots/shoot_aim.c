@@ -1,12 +1,8 @@
 /* Aims at balls from words: ball_aim.h's, and why there is none. */
 #include "shots/shoot_aim.h"
 
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "shots/ball_aim.h"
-
-#include <math.h>
-#include <string.h>
 
 int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_TEXT]) {
   int found = -1;

@@ -3,9 +3,7 @@
  * Right is positive for english here; in the lines, which keep pooltool's format, a > 0 is left. */
 #include "shots/shoot_flags.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/doubts.h"
 #include "rows/number.h"
 #include "rows/quantities.h"
@@ -13,8 +11,6 @@
 #include "shots/shot_fault.h"
 
 #include <limits.h>
-#include <math.h>
-#include <string.h>
 
 enum { MOST_TEXT = 1024 };
 

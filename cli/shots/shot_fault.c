@@ -1,12 +1,7 @@
 /* What is wrong with the arguments of a shot, in words, and which of its numbers no model reads. */
 #include "shots/shot_fault.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/words.h"
-
-#include <math.h>
-#include <stdio.h>
+#include "program/program.h"
 
 /* How far the tip is from the centre, R. */
 double tip_off_centre(const carom_cue *cue) {

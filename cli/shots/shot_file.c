@@ -2,18 +2,12 @@
  * told by its key. */
 #include "shots/shot_file.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
+#include "program/program.h"
 #include "rows/records.h"
 #include "shots/json_values.h"
 #include "shots/shot_table.h"
 
 #include <errno.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { FIRST_ROOM = 512 }; /* for events */
 

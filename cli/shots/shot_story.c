@@ -6,13 +6,11 @@
  * samples and the golden section. */
 #include "shots/shot_story.h"
 
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/number.h"
 #include "rows/quantities.h"
 
 #include <ctype.h>
-#include <math.h>
-#include <string.h>
 
 enum { SAMPLES = 1024, REFINEMENTS = 40 };
 /* where more balls move, all but that of the cue are told shortly */

@@ -1,14 +1,8 @@
 /* Tables from JSON, and those that are built in, with the ids that pooltool gives their parts. */
 #include "shots/shot_table.h"
 
-#include "program/memory.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/values.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 void free_table(named_table *t) {
   for (int k = 0; k < CAROM_RAILS_MOST; k++)

@@ -9,13 +9,8 @@
 
 #include "carom_tangent.h"
 
-#include "program/memory.h"
-#include "program/message.h"
+#include "program/program.h"
 #include "rows/quantities.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 const double spread_most = 0.3;
 

@@ -6,10 +6,7 @@
 #include "bench_job.h"
 #include "draws.h"
 #include "machine.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/monotonic.h"
+#include "program/program.h"
 #include "sheet.h"
 
 enum { IMPACTS = 512, HAN = 0 };

@@ -7,17 +7,9 @@
  * least, as pooltool's was taken. */
 #include "bench_job.h"
 #include "machine.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/monotonic.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "sheet.h"
 #include "shots/shot_file.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { COPIES = 64 };
 static const double seconds_a_shot = 0.06;

@@ -4,17 +4,9 @@
  * to where pooltool's own histories part when the start is moved by 1e-13, have the same types
  * and balls in the same order, and times and states are within 1e-12 + 5e-13 times the recorded
  * amplification. */
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "shots/shot_file.h"
 #include "subcommands.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* One row of the table: a family of shots. */
 typedef struct row {

@@ -7,12 +7,7 @@
  * differ by more than REFERENCE_FROM, and for 1 row in 1000 of each group. */
 #include "draws.h"
 #include "kernel.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "reference.h"
 #include "rows/number.h"
 #include "rows/precision.h"
@@ -24,11 +19,7 @@
 #include "platform/enumerations.h"
 #include "platform/threads.h"
 
-#include <math.h>
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum {
   BLOCK = 1000, /* impacts that a thread draws and solves at a time */

@@ -8,14 +8,10 @@
  * multiply-adds alone, so those columns have no row of Intel's. */
 #include "counters.h"
 
-#include "program/memory.h"
+#include "program/program.h"
 
 #include <errno.h>
 #include <linux/perf_event.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/ioctl.h>
 #include <sys/syscall.h>
 #include <unistd.h>

@@ -2,12 +2,9 @@
 #include "machine.h"
 
 #include "commit.h"
-#include "program/monotonic.h"
+#include "program/program.h"
 
-#include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/utsname.h>
 #include <time.h>
 #include <unistd.h>

@@ -9,12 +9,7 @@
 #include "rounds.h"
 
 #include "pinning.h"
-#include "program/memory.h"
-#include "program/monotonic.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "program/program.h"
 
 enum { FEWEST_ROUNDS = 5, WANTED_ROUNDS = 101, MOST_ROUNDS = 10001 };
 static const double long_sample = 20e6, short_sample = 1e6; /* ns */

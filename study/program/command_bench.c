@@ -14,18 +14,11 @@
 #include "kernel.h"
 #include "machine.h"
 #include "pinning.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/place.h"
+#include "program/program.h"
 #include "rows/precision.h"
 #include "sheet.h"
 #include "subcommands.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 enum {

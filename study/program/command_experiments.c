@@ -2,20 +2,12 @@
  * the solvers compute them. */
 #include "cases.h"
 #include "kernel.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/place.h"
+#include "program/program.h"
 #include "rows/records.h"
 #include "sheet.h"
 #include "subcommands.h"
 
 #include <limits.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 static const double degree = 3.14159265358979323846 / 180.0;
 

@@ -1,14 +1,10 @@
 /* `carom-lab kernels`: the table of kernels. */
 #include "kernel.h"
-#include "program/command.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "sheet.h"
 #include "subcommands.h"
 
 #include <csv.h>
-#include <stdio.h>
-#include <string.h>
 
 typedef struct kernels_job {
   shared_options shared;

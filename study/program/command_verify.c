@@ -2,19 +2,9 @@
 #include "accuracy.h"
 #include "cases.h"
 #include "kernel.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/place.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "sheet.h"
 #include "subcommands.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* What the sentence below the table says of the ladder. */
 typedef struct ladder_summary {

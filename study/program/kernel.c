@@ -1,10 +1,7 @@
 /* The kernels that the program knows. */
 #include "kernel.h"
 
-#include "program/message.h"
-
-#include <math.h>
-#include <string.h>
+#include "program/program.h"
 
 /* Euler at N = 1000 errs by at most 1.3e-3 on the cases, with either slip. */
 static const kernel_claim claims_exact[] = {

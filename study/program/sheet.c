@@ -1,11 +1,7 @@
 /* The rows are gathered, so that each column can be as wide as its widest cell. */
 #include "sheet.h"
 
-#include "program/memory.h"
-#include "program/words.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "program/program.h"
 
 enum { COLUMNS_MOST = 24, CELL_MOST = 160 };
 
