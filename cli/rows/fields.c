@@ -223,10 +223,15 @@ static const char *refusal(const option_row *row, carom_part_kind part, const ca
   return NULL;
 }
 
-/* A number that the option takes, by its name or its key of files, with its place; NULL after a
- * complaint. */
-static const carom_number *number_named(const option_row *row, const char *name,
-                                        carom_part_kind *part, int *place) {
+/* A number of balls or cues, and where it stands: carom_number_of(part, index) is `number`. */
+typedef struct named_number {
+  const carom_number *number; /* NULL: none */
+  carom_part_kind part;
+  int index;
+} named_number;
+
+/* A number that the option takes, by its name or its key of files; none after a complaint. */
+static named_number number_named(const option_row *row, const char *name) {
   char known[1200] = "", hint[HINT_TEXT];
   const carom_number *n, *refused = NULL;
   int of_other = 0;
@@ -234,11 +239,10 @@ static const carom_number *number_named(const option_row *row, const char *name,
     for (int k = 0; (n = carom_number_of(owners[owner].part, k)) != NULL; k++) {
       const bool named =
           strcmp(n->name, name) == 0 || (name[0] != '\0' && strcmp(n->key, name) == 0);
-      *part = owners[owner].part;
-      *place = k;
-      if (refusal(row, *part, n) == NULL && named)
-        return n;
-      if (refusal(row, *part, n) == NULL)
+      const bool taken = refusal(row, owners[owner].part, n) == NULL;
+      if (taken && named)
+        return (named_number){n, owners[owner].part, k};
+      if (taken)
         size += snprintf(known + size, sizeof known - (size_t)size, "%s%s", text_if(size > 0, "|"),
                          n->name);
       else if (named && refused == NULL) {
@@ -254,7 +258,19 @@ static const carom_number *number_named(const option_row *row, const char *name,
   else
     complain("--%s is NAME=X,...; there is no number '%.40s'%s; `carom models` lists them",
              row->name, name, did_you_mean(name, known, hint));
-  return NULL;
+  return (named_number){NULL, CAROM_PART_NONE, 0};
+}
+
+static bool is_within(const carom_number *n, double x) {
+  return (x >= n->low && x <= n->high) || x == n->other;
+}
+
+/* Says what a number may be; returns false. */
+static bool refuse_value(const option_row *row, const carom_number *n, const char *text) {
+  char must[100];
+  carom_number_range(n, must, sizeof must);
+  complain("--%s: %s must be %s, not '%.40s'%s", row->name, n->name, must, text, one_hint(text));
+  return false;
 }
 
 /* A fit whose smooth_q is 0 has no smooth law: what it does not say of the law is 0, whatever the
@@ -274,12 +290,39 @@ static void give_no_smooth_law(given_numbers *numbers) {
   }
 }
 
+/* Where a number of the cue or of balls stands. */
+static void *given_at(given_numbers *owner, carom_part_kind part, int k) {
+  char *numbers = (char *)&owner->kind;
+  if (part == CAROM_PART_CUE)
+    numbers = (char *)&owner->cue;
+  return numbers + carom_number_of(part, k)->offset;
+}
+
+/* The set of the numbers of the cue or of balls that are given. */
+static uint64_t *given_set(given_numbers *numbers, carom_part_kind part) {
+  if (part == CAROM_PART_CUE)
+    return &numbers->of_cue;
+  return &numbers->of_balls;
+}
+
+/* Sets one value of a number. */
+static void give_value(given_numbers *numbers, carom_part_kind part, int k, double x) {
+  memcpy(given_at(numbers, part, k), &x, sizeof x);
+  *given_set(numbers, part) |= (uint64_t)1 << k;
+}
+
 /* Gives a number of balls by its name; complains and returns false where it is out of bounds. */
 static bool give_named(given_numbers *numbers, const char *name, double x) {
   const option_row with = {.name = "with", .part = CAROM_PART_BALL};
-  char text[200];
-  snprintf(text, sizeof text, "%s=%.17g", name, x);
-  return set_numbers(&with, text, numbers);
+  const named_number named = number_named(&with, name);
+  char text[NUMBER_TEXT];
+  if (named.number == NULL)
+    return false;
+  snprintf(text, sizeof text, "%.17g", x);
+  if (!is_within(named.number, x))
+    return refuse_value(&with, named.number, text);
+  give_value(numbers, named.part, named.index, x);
+  return true;
 }
 
 /* Gives the numbers of a fit, which `python -m carom.fit -o` wrote: constants, radius, cushion. */
@@ -308,27 +351,6 @@ static bool give_fit(const char *path, given_numbers *numbers) {
       break;
   json_decref(fit);
   return good;
-}
-
-/* Where a number of the cue or of balls stands. */
-static void *given_at(given_numbers *owner, carom_part_kind part, int k) {
-  char *numbers = (char *)&owner->kind;
-  if (part == CAROM_PART_CUE)
-    numbers = (char *)&owner->cue;
-  return numbers + carom_number_of(part, k)->offset;
-}
-
-/* The set of the numbers of the cue or of balls that are given. */
-static uint64_t *given_set(given_numbers *numbers, carom_part_kind part) {
-  if (part == CAROM_PART_CUE)
-    return &numbers->of_cue;
-  return &numbers->of_balls;
-}
-
-/* Sets one value of a number. */
-static void give_value(given_numbers *numbers, carom_part_kind part, int k, double x) {
-  memcpy(given_at(numbers, part, k), &x, sizeof x);
-  *given_set(numbers, part) |= (uint64_t)1 << k;
 }
 
 void give_of_list(const number_list *list, int k, given_numbers *numbers) {
@@ -365,7 +387,6 @@ static bool add_to_list(const option_row *row, given_numbers *numbers, carom_par
 /* Reads the value of a number with its unit, or a range of values; false after a complaint. */
 static bool read_numbers(const option_row *row, const carom_number *n, char *text, values *list) {
   const option_row of_number = {.name = row->name, .least = measure_of_unit(n->unit)};
-  char must[100];
   bool good = text != NULL;
   if (good && (strchr(text, ':') != NULL || strstr(text, "..") != NULL)) {
     if (!set_values(&of_number, text, list))
@@ -374,16 +395,9 @@ static bool read_numbers(const option_row *row, const carom_number *n, char *tex
     list->count = 1;
     good = good && value_of(of_number.least, text, &list->item[0]);
   }
-  for (int k = 0; k < list->count && good; k++) {
-    const double x = list->item[k].x;
-    good = (x >= n->low && x <= n->high) || x == n->other;
-  }
-  if (good)
-    return true;
-  carom_number_range(n, must, sizeof must);
-  const char *shown = text_or(text, "");
-  complain("--%s: %s must be %s, not '%.40s'%s", row->name, n->name, must, shown, one_hint(shown));
-  return false;
+  for (int k = 0; k < list->count && good; k++)
+    good = is_within(n, list->item[k].x);
+  return good || refuse_value(row, n, text_or(text, ""));
 }
 
 /* What a condition of the table changes, by its name, with its word; NULL where it is none. */
@@ -443,60 +457,70 @@ static bool has_own_cushion(const option_row *row, const given_numbers *numbers)
   return !shared->of_game;
 }
 
-OPTION_SET(set_numbers) {
+/* Gives a number its value, or its values; where it has one already, as further ones. */
+static bool give_values(const option_row *row, const named_number *named, char *text,
+                        bool is_further, given_numbers *numbers) {
   static values list;
-  given_numbers *numbers = field;
-  const carom_number *n = NULL;
-  carom_part_kind part = CAROM_PART_NONE;
-  char *rest = NULL;
-  int k = 0;
-  for (char *token = strtok_r(text, ",", &rest); token != NULL;
-       token = strtok_r(NULL, ",", &rest)) {
-    char *number = strchr(token, '=');
-    /* a further value of the number before it, the file of a fit, a condition, or NAME=X */
-    const bool further = number == NULL && n != NULL && strchr("+-.0123456789", *token) != NULL;
-    if (number == NULL && strstr(token, ".json") != NULL) {
-      if (!give_fit(token, numbers))
-        return false;
-      continue;
-    }
-    carom_ball_kind changed;
-    const char *condition = NULL;
-    if (number == NULL && !has_own_cushion(row, numbers))
-      condition = condition_named(token, &changed);
-    if (condition != NULL) {
-      if (!give_condition(row, condition, &changed, numbers))
-        return false;
-      n = NULL;
-      continue;
-    }
-    if (number != NULL)
-      *number++ = '\0';
-    if (further)
-      number = token;
-    else
-      n = number_named(row, token, &part, &k);
-    if (n == NULL || !read_numbers(row, n, number, &list))
+  if (!read_numbers(row, named->number, text, &list))
+    return false;
+  if (!is_further)
+    give_value(numbers, named->part, named->index, list.item[0].x);
+  for (int k = is_further ? 0 : 1; k < list.count; k++)
+    if (!add_to_list(row, numbers, named->part, named->index, list.item[k].x))
       return false;
-    if (!further)
-      give_value(numbers, part, k, list.item[0].x);
-    for (int value_at = !further; value_at < list.count; value_at++)
-      if (!add_to_list(row, numbers, part, k, list.item[value_at].x))
-        return false;
-  }
   return true;
 }
 
+/* Gives what one part of --with says: the file of a fit, a further value of the last number, a
+ * condition, or NAME=X. */
+static bool give_part(const option_row *row, char *part, named_number *last,
+                      given_numbers *numbers) {
+  char *text = strchr(part, '=');
+  if (text == NULL && strstr(part, ".json") != NULL)
+    return give_fit(part, numbers);
+  if (text == NULL && last->number != NULL && strchr("+-.0123456789", *part) != NULL)
+    return give_values(row, last, part, true, numbers);
+
+  carom_ball_kind changed;
+  const char *condition = NULL;
+  if (text == NULL && !has_own_cushion(row, numbers))
+    condition = condition_named(part, &changed);
+  if (condition != NULL) {
+    last->number = NULL;
+    return give_condition(row, condition, &changed, numbers);
+  }
+
+  if (text != NULL)
+    *text++ = '\0';
+  *last = number_named(row, part);
+  return last->number != NULL && give_values(row, last, text, false, numbers);
+}
+
+static bool give_parts(const option_row *row, char *text, named_number last,
+                       given_numbers *numbers) {
+  char *rest = NULL;
+  for (char *part = strtok_r(text, ",", &rest); part != NULL; part = strtok_r(NULL, ",", &rest))
+    if (!give_part(row, part, &last, numbers))
+      return false;
+  return true;
+}
+
+OPTION_SET(set_numbers) {
+  return give_parts(row, text, (named_number){.number = NULL}, field);
+}
+
 OPTION_SET(set_cue_number) {
-  const size_t room = strlen(row->name) + strlen(text) + 2;
-  char *pair = allocate(room, 1);
-  snprintf(pair, room, "%s=%s", row->name, text);
-  for (char *letter = pair; *letter != '='; letter++)
+  char name[32];
+  snprintf(name, sizeof name, "%s", row->name);
+  for (char *letter = name; *letter != '\0'; letter++)
     if (*letter == '-')
       *letter = '_';
-  const bool good = set_numbers(row, pair, field);
-  free(pair);
-  return good;
+  const named_number named = number_named(row, name);
+  char *rest = text + strcspn(text, ",");
+  if (*rest != '\0')
+    *rest++ = '\0';
+  return named.number != NULL && give_values(row, &named, text, false, field) &&
+         give_parts(row, rest, named, field);
 }
 
 void give_cue(const given_numbers *numbers, carom_cue *cue) {
