@@ -12,11 +12,12 @@
 
 OPTION_SET(set_leave) {
   leave *to = field;
-  char copy[PLACE_TEXT], spelt[PLACE_TEXT], *rest = NULL;
+  char copy[128], *rest = NULL;
   value *part[] = {&to->x, &to->y, &to->radius};
-  int parts = 0;
   bool good = strlen(text) < sizeof copy;
-  snprintf(copy, sizeof copy, "%s", place_spelt(text, spelt));
+  const char *others = place_named(text, &to->x, &to->y);
+  int parts = others == text ? 0 : 2;
+  snprintf(copy, sizeof copy, "%s", others);
   value_of(MEASURE_LENGTH, "0.15", &to->radius);
   for (char *token = strtok_r(copy, ",", &rest); token != NULL && good;
        token = strtok_r(NULL, ",", &rest), parts++)

@@ -395,13 +395,17 @@ int measure_of_unit(const char *unit) {
   return MEASURE_NUMBER;
 }
 
+bool value_in_unit(int measure, double number, const char *unit, value *v) {
+  const int found = find_unit(measure, unit);
+  return found != NO_UNIT && set_value(v, number, found);
+}
+
 bool value_of(int measure, const char *text, value *v) {
   double number;
   const char *unit;
   if (!split(text, &number, &unit))
     return false;
-  const int found = find_unit(measure, unit);
-  return found != NO_UNIT && set_value(v, number, found);
+  return value_in_unit(measure, number, unit, v);
 }
 
 void values_default(values *list, int measure, const char *text) {

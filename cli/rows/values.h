@@ -71,6 +71,9 @@ void values_default(values *list, int measure, const char *text);
  * read. */
 int measure_of_unit(const char *unit);
 
+/* A number in a unit of a measure, as a value of that name; false where it is none. */
+bool value_in_unit(int measure, double number, const char *unit, value *v);
+
 /* Reads one number of a measure, with a unit or without; false where it is none. */
 bool value_of(int measure, const char *text, value *v);
 

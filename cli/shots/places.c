@@ -8,15 +8,16 @@
 
 #include <ctype.h>
 
-enum { MOST_TEXT = 4096, RANGE = 1 };
+enum { MOST_TEXT = 4096, PLACE_TEXT = 128, RANGE = 1 };
 static const char frozen[] = "frozen-";
 
 /* In diamonds, as every table has them: corners and middles of the long rails lie at the noses. */
 static const struct {
-  const char *name, *place;
-} places[] = {{"head-spot", "2d,2d"},  {"centre", "2d,4d"},     {"foot-spot", "2d,6d"},
-              {"head-left", "0d,0d"},  {"head-right", "4d,0d"}, {"side-left", "0d,4d"},
-              {"side-right", "4d,4d"}, {"foot-left", "0d,8d"},  {"foot-right", "4d,8d"}};
+  const char *name;
+  double place[2];
+} places[] = {{"head-spot", {2, 2}},  {"centre", {2, 4}},     {"foot-spot", {2, 6}},
+              {"head-left", {0, 0}},  {"head-right", {4, 0}}, {"side-left", {0, 4}},
+              {"side-right", {4, 4}}, {"foot-left", {0, 8}},  {"foot-right", {4, 8}}};
 
 const char *const colours_of_snooker[COLOURS] = {"yellow", "green", "brown",
                                                  "blue",   "pink",  "black"};
@@ -30,56 +31,57 @@ static int colour_at(const char *text) {
   return -1;
 }
 
-/* "left,4d" as "0d,4d", the point of a rail's nose; what stands behind the number stays. False of a
- * text that does not begin with a rail and a comma. */
-static bool rail_spelt(const char *text, char result[PLACE_TEXT]) {
+/* A place in diamonds. */
+static void set_diamonds(const double place[2], value *x, value *y) {
+  value_in_unit(MEASURE_PLACE, place[0], "d", x);
+  value_in_unit(MEASURE_PLACE, place[1], "d", y);
+}
+
+/* The point of a rail's nose in "left,4d" and what follows; `text` where it is none. */
+static const char *point_of_rail(const char *text, value *x, value *y) {
   enum { HEAD, FOOT, LEFT, RIGHT };
+  static const double noses[][2] = {
+      [HEAD] = {0, 0}, [FOOT] = {0, 8}, [LEFT] = {0, 0}, [RIGHT] = {4, 0}};
+  char number[PLACE_TEXT];
   const size_t size = strcspn(text, ",");
   const int rail = word_among(RAILS, text, size);
   if (text[size] != ',' || rail < 0)
-    return false;
-  const char *number = text + size + 1;
-  const int digits = (int)strcspn(number, ",");
-  const bool bare = strspn(number, "+-.0123456789") == (size_t)digits;
-  const char *unit = bare ? "m" : "", *rest = number + digits;
-  int written;
-  if (rail == LEFT || rail == RIGHT)
-    written = snprintf(result, PLACE_TEXT, "%s,%.*s%s%s", rail == LEFT ? "0d" : "4d", digits,
-                       number, unit, rest);
-  else
-    written = snprintf(result, PLACE_TEXT, "%.*s%s,%s%s", digits, number, unit,
-                       rail == HEAD ? "0d" : "8d", rest);
-  return written < PLACE_TEXT;
+    return text;
+  const char *digits = text + size + 1, *rest = digits + strcspn(digits, ",");
+  snprintf(number, sizeof number, "%.*s", (int)(rest - digits), digits);
+  set_diamonds(noses[rail], x, y);
+  return value_of(MEASURE_PLACE, number, rail == LEFT || rail == RIGHT ? y : x) ? rest : text;
 }
 
-char *place_spelt(char *text, char result[PLACE_TEXT]) {
+const char *place_named(const char *text, value *x, value *y) {
   enum { YELLOW = 16 };
-  if (rail_spelt(text, result))
-    return result;
+  const double digits = 1e14; /* of a diamond: recorded layouts have these bits */
   const size_t size = strcspn(text, ",");
   const int colour = colour_at(text);
-  char spot[PLACE_TEXT / 2];
-  const char *place = NULL;
+  const char *rest = point_of_rail(text, x, y);
+  if (rest != text)
+    return rest;
   for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
-    if (same_word(text, size, places[k].name, strlen(places[k].name)))
-      place = places[k].place;
+    if (same_word(text, size, places[k].name, strlen(places[k].name))) {
+      set_diamonds(places[k].place, x, y);
+      return text + size;
+    }
+  if (colour < 0)
+    return text;
 
   /* the spots of snooker, on a table on which a diamond is 1 m */
-  if (colour >= 0) {
-    const carom_table table = {.width = 4.0, .length = 8.0};
-    double position[2] = {0.0, 0.0};
-    carom_spot_of(CAROM_RACK_SNOOKER, &table, YELLOW + colour, position);
-    snprintf(spot, sizeof spot, "%.15gd,%.15gd", position[0], position[1]);
-    place = spot;
-  }
-  return place != NULL && snprintf(result, PLACE_TEXT, "%s%s", place, text + size) < PLACE_TEXT
-             ? result
-             : text;
+  const carom_table table = {.width = 4.0, .length = 8.0};
+  double position[2] = {0.0, 0.0};
+  carom_spot_of(CAROM_RACK_SNOOKER, &table, YELLOW + colour, position);
+  for (int k = 0; k < 2; k++)
+    position[k] = round(position[k] * digits) / digits;
+  set_diamonds(position, x, y);
+  return text + size;
 }
 
-/* Where the tip touches by words, such as low, left-low or right,0, as a pair of numbers; other
- * texts as they are. As far from the centre as a chalked tip holds. */
-static char *tip_spelt(char *text, char result[PLACE_TEXT]) {
+/* Reads where the tip touches by words, such as low, left-low or right,0: as far from the centre as
+ * a chalked tip holds. False of other texts. */
+static bool tip_named(const char *text, value *x, value *y) {
   static const struct {
     const char *word;
     double right, above;
@@ -89,30 +91,30 @@ static char *tip_spelt(char *text, char result[PLACE_TEXT]) {
                {"high", 0.0, 0.5},
                {"low", 0.0, -0.5}};
   enum { TIP_WORDS = sizeof words / sizeof words[0] };
+  const double digits = 1e4; /* of a radius */
   const char *rest = text;
   double right = 0.0, above = 0.0;
   do {
     size_t size = strcspn(rest, "-,"), k = 0;
     while (k < TIP_WORDS && !same_word(rest, size, words[k].word, strlen(words[k].word)))
       k++;
-    double x = 0.0;
-    char *end = NULL;
     if (k < TIP_WORDS) {
       right += words[k].right;
       above += words[k].above;
     } else {
-      x = strtod(rest, &end);
+      char *end = NULL;
+      const double number = strtod(rest, &end);
       size = (size_t)(end - rest);
-      if (rest == text || x != 0.0 || size == 0) /* a bare 0 beside a word adds nothing */
-        return text;
+      if (rest == text || number != 0.0 || size == 0) /* a bare 0 beside a word adds nothing */
+        return false;
     }
     rest += size;
     if (rest[0] != '\0' && rest[0] != '-' && rest[0] != ',')
-      return text;
+      return false;
   } while (*rest++ != '\0');
   const double far = hypot(right, above), scale = far > 0.5 ? 0.5 / far : 1.0;
-  snprintf(result, PLACE_TEXT, "%.4g,%.4g", right * scale, above * scale);
-  return result;
+  return value_in_unit(MEASURE_TIP, round(right * scale * digits) / digits, "R", x) &&
+         value_in_unit(MEASURE_TIP, round(above * scale * digits) / digits, "R", y);
 }
 
 static bool refuse(const option_row *row, const char *text) {
@@ -205,10 +207,11 @@ typedef struct place_entry {
   int colour;       /* of a ball that is named after its spot of snooker; -1: none */
   char *numbers;
   bool touches; /* frozen-NAME,X */
-  char spelt[PLACE_TEXT];
+  bool is_read; /* by a name of a place or of the tip, into: */
+  value x, y;
 } place_entry;
 
-/* Takes an entry apart, with the names of places spelt out. */
+/* Takes an entry apart, and reads the names of places and of the tip. */
 static void split_entry(const option_row *row, char *text, place_entry *entry) {
   char *equals = strchr(text, '=');
   const bool balls_are_named = row->words != 0;
@@ -216,13 +219,14 @@ static void split_entry(const option_row *row, char *text, place_entry *entry) {
   entry->name_size = equals != NULL ? (size_t)(equals - text) : 0;
   entry->colour = balls_are_named && entry->name_size == 0 ? colour_at(text) : -1;
   entry->numbers = equals != NULL ? equals + 1 : text;
-  entry->touches = false;
+  entry->touches = entry->is_read = false;
+  if (row->least == MEASURE_TIP)
+    entry->is_read = tip_named(entry->numbers, &entry->x, &entry->y);
   if (row->least == MEASURE_PLACE) {
-    entry->numbers = place_spelt(entry->numbers, entry->spelt);
+    const char *rest = place_named(entry->numbers, &entry->x, &entry->y);
+    entry->is_read = rest != entry->numbers && *rest == '\0';
     entry->touches = strncmp(entry->numbers, frozen, strlen(frozen)) == 0;
   }
-  if (row->least == MEASURE_TIP)
-    entry->numbers = tip_spelt(entry->numbers, entry->spelt);
 }
 
 /* Whether a name is allowed, and short and plain enough; no name always is. */
@@ -248,6 +252,11 @@ static bool read_numbers(const option_row *row, const place_entry *entry, given_
   static values pair;
   if (entry->touches)
     return read_touching(entry->numbers, place);
+  if (entry->is_read) {
+    place->x = entry->x;
+    place->y = entry->y;
+    return true;
+  }
   if (!set_values(row, entry->numbers, &pair) || pair.count != 2)
     return false;
   place->x = pair.item[0];
@@ -259,9 +268,10 @@ static bool read_numbers(const option_row *row, const place_entry *entry, given_
  * text of all entries, which complaints show. */
 static bool add_entry(const option_row *row, const place_entry *entry, const char *whole,
                       place_list *list) {
-  if (!name_is_valid(row, entry) || !(entry->touches || looks_like_pair(entry->numbers)))
+  if (!name_is_valid(row, entry) ||
+      !(entry->touches || entry->is_read || looks_like_pair(entry->numbers)))
     return refuse(row, whole);
-  if (row->least == MEASURE_TIP && strchr(entry->numbers, RANGE) != NULL)
+  if (row->least == MEASURE_TIP && !entry->is_read && strchr(entry->numbers, RANGE) != NULL)
     return add_ranges(row, entry->numbers, list);
   given_place *place = &list->place[list->count++];
   if (!read_numbers(row, entry, place))

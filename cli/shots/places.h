@@ -34,10 +34,9 @@ OPTION_SET(set_places);
 enum { COLOURS = 6 };
 extern const char *const colours_of_snooker[COLOURS];
 
-/* A text that begins with the name of a place, up to a comma or its end, as X,Y in diamonds; other
- * texts as they are. `result` has the room. */
-enum { PLACE_TEXT = 128 };
-char *place_spelt(char *text, char result[PLACE_TEXT]);
+/* Reads the name of a place, or RAIL,NUMBER, up to a comma or the end of the text. Returns what
+ * follows, or `text` where it begins with neither. */
+const char *place_named(const char *text, value *x, value *y);
 
 /* A place, m: `diamond` is the distance of two diamonds. */
 double place_along(const value *v, double diamond);
