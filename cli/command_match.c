@@ -84,8 +84,7 @@ static bool is_line(const char *line, const char *kind) {
 }
 
 static void add_words(const char *words) {
-  const size_t length = strlen(decided);
-  snprintf(decided + length, sizeof decided - length, "%s%s", text_if(length > 0, ", "), words);
+  append(decided, sizeof decided, ", ", "%s", words);
 }
 
 enum { NAME_OF_BALL = 32, FIRST_COLOUR = 16 };
@@ -126,7 +125,7 @@ static void add_act(const carom_record *record, const char *line) {
                  carom_pocket_name(&record->table, (int)record->call[1]));
       break;
     case CAROM_ACT_CHOOSE:
-      for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
+      for (size_t k = 0; k < COUNT_OF(choices); k++)
         if (record->choice == INT64_C(1) << k)
           snprintf(words, sizeof words, "%s", choices[k]);
       break;

@@ -77,8 +77,7 @@ static bool isa_is_known(void) {
   for (int isa = 0; (name = carom_isa_name((carom_isa)isa)) != NULL; isa++) {
     if (strcmp(request, name) == 0)
       return true;
-    const size_t used = strlen(names);
-    snprintf(names + used, sizeof names - used, "%s%s", isa == 0 ? "" : ", ", name);
+    append(names, sizeof names, ", ", "%s", name);
   }
   complain("CAROM_ISA is '%s', which is none of the instruction sets %s", request, names);
   return false;
@@ -123,7 +122,7 @@ static void complain_unknown(const program *p, const char *name) {
   if (p->cites != NULL)
     strcat(words, "|--cite|--report");
   for (size_t k = 0; k < p->count; k++)
-    snprintf(words + strlen(words), sizeof words - strlen(words), "|%s", p->commands[k].name);
+    append(words, sizeof words, "|", "%s", p->commands[k].name);
   complain("no command '%s'; `%s --help` lists them%s", name, p->name,
            did_you_mean(name, words, hint));
 }

@@ -250,7 +250,7 @@ static void list_options(const command_form *form, struct option longs[MOST_LONG
   const int options = k;
   int count = k + 1;
   const char *last = "";
-  for (size_t n = 0; n < sizeof also / sizeof also[0]; n++)
+  for (size_t n = 0; n < COUNT_OF(also); n++)
     for (k = 0; k < options; k++)
       if (strcmp(longs[k].name, also[n].name) == 0 && strcmp(last, also[n].alias) != 0 &&
           !has_option(form, also[n].alias)) {
@@ -264,13 +264,13 @@ static void list_options(const command_form *form, struct option longs[MOST_LONG
 static void hint_at_option(const command_form *form, char *text) {
   char words[32 * MOST_ROWS] = "--help", hint[HINT_TEXT];
   text[strcspn(text, "=")] = '\0';
-  for (size_t k = 0; k < sizeof advices / sizeof advices[0]; k++)
+  for (size_t k = 0; k < COUNT_OF(advices); k++)
     if (strcmp(text + 2, advices[k].alias) == 0 && has_option(form, advices[k].name)) {
       fprintf(stderr, "%s %s: %s\n", program_name, form->name, advices[k].advice);
       return;
     }
   for (int k = 0; form->options[k] != NULL; k++) {
-    snprintf(words + strlen(words), sizeof words - strlen(words), "|--%s", form->options[k]->name);
+    append(words, sizeof words, "|", "--%s", form->options[k]->name);
     if (strncmp(text + 2, form->options[k]->name, strlen(text + 2)) == 0)
       return;
   }

@@ -2,6 +2,7 @@
 #include "program/words.h"
 
 #include <ctype.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -84,7 +85,7 @@ static bool same_letters(const char *a, size_t size, const char *b, size_t lengt
 
 bool same_word(const char *text, size_t size, const char *word, size_t length) {
   bool same = same_letters(text, size, word, length);
-  for (size_t k = 0; k < sizeof also / sizeof also[0] && !same; k++)
+  for (size_t k = 0; k < COUNT_OF(also) && !same; k++)
     same = same_letters(also[k].word, strlen(also[k].word), word, length) &&
            same_letters(text, size, also[k].alias, strlen(also[k].alias));
   return same;
@@ -109,6 +110,17 @@ const char *text_if(bool condition, const char *text) {
 
 const char *text_or(const char *text, const char *fallback) {
   return text != NULL && text[0] != '\0' ? text : fallback;
+}
+
+void append(char *text, size_t room, const char *separator, const char *format, ...) {
+  const size_t used = strlen(text), more = used > 0 ? strlen(separator) : 0;
+  va_list arguments;
+  if (used + more >= room)
+    return;
+  memcpy(text + used, separator, more);
+  va_start(arguments, format);
+  vsnprintf(text + used + more, room - used - more, format, arguments);
+  va_end(arguments);
 }
 
 const char *left_or_right(double to_left) {

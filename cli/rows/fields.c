@@ -77,14 +77,9 @@ bool set_place(const option_row *row, const char *text, const char *words, int *
   }
   char list[200] = "", hint[HINT_TEXT]; /* "this, that or another" */
   for (const char *item = words; *item != '\0';) {
-    const size_t used = strlen(list), size = strcspn(item, "|");
+    const size_t size = strcspn(item, "|");
     const bool last = item[size] == '\0';
-    const char *separator = ", ";
-    if (item == words)
-      separator = "";
-    else if (last)
-      separator = " or ";
-    snprintf(list + used, sizeof list - used, "%s%.*s", separator, (int)size, item);
+    append(list, sizeof list, last ? " or " : ", ", "%.*s", (int)size, item);
     item += size + !last;
   }
   const char *advice = did_you_mean(text, words, hint);
@@ -99,13 +94,11 @@ OPTION_SET(set_choice) {
 }
 
 const char *words_of(int list, bool with_default, char text[MOST_WORDS]) {
-  int size = 0;
   const char *word;
   text[0] = '\0';
   for (int k = 0; (word = carom_word((carom_words)list, k)) != NULL; k++)
     if (with_default || strcmp(word, "default") != 0)
-      size +=
-          snprintf(text + size, MOST_WORDS - (size_t)size, "%s%s", text_if(size > 0, "|"), word);
+      append(text, MOST_WORDS, "|", "%s", word);
   return text;
 }
 
@@ -187,7 +180,7 @@ const char *argument_of(const option_row *row) {
     return row->argument;
   words_of(row->words, false, text);
   if (row->argument != NULL)
-    snprintf(text + strlen(text), sizeof text - strlen(text), "|%s", row->argument);
+    append(text, sizeof text, "|", "%s", row->argument);
   return text;
 }
 
@@ -201,7 +194,7 @@ static const struct {
               {CAROM_PART_TABLE, "a table"},   {CAROM_PART_RAIL, "a rail"},
               {CAROM_PART_JAW, "a jaw"},       {CAROM_PART_POCKET, "a pocket"},
               {CAROM_PART_MEASURES, "a table"}};
-enum { OWNERS = sizeof owners / sizeof owners[0] };
+enum { OWNERS = COUNT_OF(owners) };
 
 /* Why an option does not take a number; NULL: it does. Those of one impact on a cushion are
  * numbers of its model. */
@@ -235,7 +228,7 @@ static named_number number_named(const option_row *row, const char *name) {
   char known[1200] = "", hint[HINT_TEXT];
   const carom_number *n, *refused = NULL;
   int of_other = 0;
-  for (int owner = 0, size = 0; owner < OWNERS; owner++)
+  for (int owner = 0; owner < OWNERS; owner++)
     for (int k = 0; (n = carom_number_of(owners[owner].part, k)) != NULL; k++) {
       const bool named =
           strcmp(n->name, name) == 0 || (name[0] != '\0' && strcmp(n->key, name) == 0);
@@ -243,8 +236,7 @@ static named_number number_named(const option_row *row, const char *name) {
       if (taken && named)
         return (named_number){n, owners[owner].part, k};
       if (taken)
-        size += snprintf(known + size, sizeof known - (size_t)size, "%s%s", text_if(size > 0, "|"),
-                         n->name);
+        append(known, sizeof known, "|", "%s", n->name);
       else if (named && refused == NULL) {
         refused = n;
         of_other = owner;
@@ -554,11 +546,11 @@ const char *reader_of(const carom_number *n, const char *of_cushion, char text[1
 
   /* several laws may read the same numbers */
   const char *word, *separator = " ";
-  size_t size = (size_t)snprintf(text, 160, "--friction");
+  snprintf(text, 160, "--friction");
   for (int k = 0; (word = carom_word(CAROM_WORDS_BALL_FRICTION, k)) != NULL; k++) {
     const carom_shot_options options = {.friction = (carom_ball_friction)k};
-    if (size < 160 && carom_number_is_read(n, &any, &options)) {
-      size += (size_t)snprintf(text + size, 160 - size, "%s%s", separator, word);
+    if (carom_number_is_read(n, &any, &options)) {
+      append(text, 160, separator, "%s", word);
       separator = "|";
     }
   }

@@ -112,11 +112,7 @@ static const struct {
     {SIDES, "gearing", 1.0, GEARING},
 };
 
-enum {
-  UNITS = sizeof units / sizeof units[0],
-  WORDS = sizeof words / sizeof words[0],
-  NO_UNIT = -1
-};
+enum { UNITS = COUNT_OF(units), WORDS = COUNT_OF(words), NO_UNIT = -1 };
 
 /* The unit of that name, "" for that of a bare number; NO_UNIT if there is none. */
 static int find_unit(int measure, const char *name) {
@@ -165,18 +161,14 @@ static bool split(const char *text, double *number, const char **unit) {
 
 /* "m/s, mph or km/h", and the words. */
 static void list_units(int measure, char *text, size_t room) {
-  const char *separator = "";
   for (int k = 0; k < WORDS; k++)
-    if ((words[k].measures & OF(measure)) != 0) {
-      snprintf(text + strlen(text), room - strlen(text), "%s%s", separator, words[k].name);
-      separator = ", ";
-    }
-  snprintf(text + strlen(text), room - strlen(text), "%sa number",
-           text_if(separator[0] != '\0', ", or "));
-  separator = measure >= MEASURE_SPIN ? " with a unit: " : ", with a unit or without: ";
+    if ((words[k].measures & OF(measure)) != 0)
+      append(text, room, ", ", "%s", words[k].name);
+  append(text, room, ", or ", "a number");
+  const char *separator = measure >= MEASURE_SPIN ? " with a unit: " : ", with a unit or without: ";
   for (int k = 0; k < UNITS; k++)
     if ((units[k].measures & OF(measure)) != 0 && units[k].name[0] != '\0') {
-      snprintf(text + strlen(text), room - strlen(text), "%s%s", separator, units[k].name);
+      append(text, room, separator, "%s", units[k].name);
       separator = ", ";
     }
 }
@@ -187,10 +179,10 @@ static bool refuse(const option_row *row, const char *text) {
   list_units(row->least, list, sizeof list);
   for (int k = 0; k < WORDS; k++)
     if ((words[k].measures & OF(row->least)) != 0)
-      snprintf(known + strlen(known), sizeof known - strlen(known), "%s|", words[k].name);
+      append(known, sizeof known, "|", "%s", words[k].name);
   for (int k = 0; k < UNITS; k++)
     if ((units[k].measures & OF(row->least)) != 0)
-      snprintf(known + strlen(known), sizeof known - strlen(known), "%s|", units[k].name);
+      append(known, sizeof known, "|", "%s", units[k].name);
   complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'%s", row->name,
            list, text, did_you_mean(word, known, hint));
   return false;
@@ -389,7 +381,7 @@ int measure_of_unit(const char *unit) {
               {"s", MEASURE_TIME},
               {"m/s", MEASURE_SPEED},
               {"degrees", MEASURE_ANGLE}};
-  for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+  for (size_t k = 0; k < COUNT_OF(rows); k++)
     if (strcmp(rows[k].unit, unit) == 0)
       return rows[k].measure;
   return MEASURE_NUMBER;

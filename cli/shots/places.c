@@ -61,7 +61,7 @@ const char *place_named(const char *text, value *x, value *y) {
   const char *rest = point_of_rail(text, x, y);
   if (rest != text)
     return rest;
-  for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
+  for (size_t k = 0; k < COUNT_OF(places); k++)
     if (same_word(text, size, places[k].name, strlen(places[k].name))) {
       set_diamonds(places[k].place, x, y);
       return text + size;
@@ -90,7 +90,7 @@ static bool tip_named(const char *text, value *x, value *y) {
                {"left", -0.5, 0.0},
                {"high", 0.0, 0.5},
                {"low", 0.0, -0.5}};
-  enum { TIP_WORDS = sizeof words / sizeof words[0] };
+  enum { TIP_WORDS = COUNT_OF(words) };
   const double digits = 1e4; /* of a radius */
   const char *rest = text;
   double right = 0.0, above = 0.0;
@@ -123,10 +123,10 @@ static bool refuse(const option_row *row, const char *text) {
   if (row->words != 0)
     words_of(row->words, true, racks);
   snprintf(known, sizeof known, "%s", racks);
-  for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
-    snprintf(known + strlen(known), sizeof known - strlen(known), "|%s", places[k].name);
+  for (size_t k = 0; k < COUNT_OF(places); k++)
+    append(known, sizeof known, "|", "%s", places[k].name);
   for (int k = 0; k < COLOURS; k++)
-    snprintf(known + strlen(known), sizeof known - strlen(known), "|%s", colours_of_snooker[k]);
+    append(known, sizeof known, "|", "%s", colours_of_snooker[k]);
   complain(
       "--%s is %s%s%s; not '%.60s'%s", row->name,
       tip ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "

@@ -55,7 +55,7 @@ typedef struct shot_tangents {
 
 static void free_tangents(shot_tangents *t) {
   double *arrays[] = {t->times, t->sampled, t->incoming, t->outgoing, t->final, t->time};
-  for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
+  for (size_t k = 0; k < COUNT_OF(arrays); k++)
     free(arrays[k]);
   free(t->states);
 }

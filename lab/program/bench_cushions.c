@@ -31,7 +31,7 @@ static const struct {
     {"euler; 1000 steps", {.model = CAROM_CUSHION_EULER, .steps = 1000}},
 };
 
-enum { MODELS = sizeof models / sizeof models[0] };
+enum { MODELS = COUNT_OF(models) };
 
 static carom_cushion_impact impacts[IMPACTS];
 

@@ -173,7 +173,7 @@ static void play_again(parity_job *job, const shot_line *line, const char *engin
     const carom_status status = shot_line_play(line, &options, &shot);
     good = compare(line, &shot, f, why);
     if (status < 0 && !good)
-      snprintf(why + strlen(why), sizeof why - strlen(why), "; %s", carom_status_name(status));
+      append(why, sizeof why, "; ", "%s", carom_status_name(status));
     free(shot.events);
   }
   f->agreed += good;

@@ -60,7 +60,7 @@ const counter_row counter_table[] = {
     {INTEL, COUNTER_STALLS_EXECUTION, "CYCLE_ACTIVITY.STALLS_TOTAL", PERF_TYPE_RAW, 0x040004a3,
      1.0},
 };
-const size_t counter_table_size = sizeof counter_table / sizeof counter_table[0];
+const size_t counter_table_size = COUNT_OF(counter_table);
 
 const char *counter_column_name(counter_column column) {
 #define COUNTER_NAME(NAME, column) column,
@@ -101,7 +101,7 @@ counter_core counter_core_of(const char *vendor, unsigned family, unsigned model
       {"GenuineIntel", 6, 0x8f, 0x8f, CORE_INTEL_AVX512}, /* Sapphire and Emerald Rapids */
       {"GenuineIntel", 6, 0xcf, 0xcf, CORE_INTEL_AVX512},
   };
-  for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
+  for (size_t k = 0; k < COUNT_OF(known); k++)
     if (strcmp(vendor, known[k].vendor) == 0 && family == known[k].family &&
         model >= known[k].first && model <= known[k].last)
       return known[k].core;

@@ -679,7 +679,7 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
   else
     fprintf(out, "%s,%s,%s,%s", w->kernel->name, config_name(w->module), isa_of(w),
             precision_of(w));
-  for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(columns); k++) {
     if (!columns[k].shown)
       continue;
     fputc(',', out);

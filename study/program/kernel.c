@@ -42,7 +42,7 @@ static const kernel kernels[] = {
 };
 
 const kernel *kernel_at(size_t k) {
-  if (k >= sizeof kernels / sizeof kernels[0])
+  if (k >= COUNT_OF(kernels))
     return NULL;
   return &kernels[k];
 }
