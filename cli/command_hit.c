@@ -13,19 +13,18 @@
 #include "subcommands.h"
 
 enum { SPIN, SPEED, CUT, SIDE, RESTITUTION, CLOTH, ROLL, RADIUS, MASS, OBJECT_MASS, FRICTION };
-static const scene_input inputs[] = {
-    [SPIN] = {"spin", MEASURE_SPIN},
-    [SPEED] = {"speed", MEASURE_SPEED},
-    [CUT] = {"cut angle", MEASURE_CUT},
-    [SIDE] = {"side spin", MEASURE_SIDE},
-    [RESTITUTION] = {"restitution", MEASURE_NUMBER},
-    [CLOTH] = {"friction of the cloth", MEASURE_NUMBER},
-    [ROLL] = {"rolling resistance", MEASURE_NUMBER},
-    [RADIUS] = {"radius of the balls", MEASURE_LENGTH},
-    [MASS] = {"mass of the balls", MEASURE_MASS},
-    [OBJECT_MASS] = {"mass of the object ball", MEASURE_OBJECT_MASS},
-    [FRICTION] = {"friction between the balls", MEASURE_FRICTION},
-    [FRICTION + 1] = {NULL, 0}};
+static const char *const inputs[] = {[SPIN] = "spin",
+                                     [SPEED] = "speed",
+                                     [CUT] = "cut angle",
+                                     [SIDE] = "side spin",
+                                     [RESTITUTION] = "restitution",
+                                     [CLOTH] = "friction of the cloth",
+                                     [ROLL] = "rolling resistance",
+                                     [RADIUS] = "radius of the balls",
+                                     [MASS] = "mass of the balls",
+                                     [OBJECT_MASS] = "mass of the object ball",
+                                     [FRICTION] = "friction between the balls",
+                                     [FRICTION + 1] = NULL};
 
 /* How the names of quantities stand on axes. */
 enum {
@@ -52,36 +51,34 @@ static const char *const quantity[] = {"throw of the object ball (degrees)",
                                        "distance at which the cue ball rests (m)",
                                        "distance at which the object ball rests (m)"};
 
-OPTION(series, option_speed, "speed", in[SPEED], 0, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
-       "speed of the cue ball at contact, m/s, or with a unit: mph, km/h; or a word: " SPEEDS,
-       .usual = "1.5");
-OPTION(series, option_cut, "cut", in[CUT], 0, "full|three-quarter|half|quarter|thin|DEGREES",
-       set_values, MEASURE_CUT,
-       "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object "
-       "ball goes to the left. Or the fullness of the hit: full, three-quarter, half or "
-       "half-ball, quarter, thin (an eighth), 2/5ball, 0.4ball",
-       .usual = "30");
-OPTION(series, option_spin, "spin", in[SPIN], 0, "stun|follow|draw|SPIN", set_values, MEASURE_SPIN,
-       "stun: no spin; follow or roll: the ball rolls; draw: the same spin backwards. Or "
-       "a number with a unit, above 0 for follow: rad/s, % of rolling, tip (height of the cue's "
-       "tip above the centre; 1 tip is 13 mm)",
-       .usual = "stun");
-OPTION(
-    series, option_side, "side", in[SIDE], 0, "right|left|outside|inside|gearing|none|SPIN",
-    set_values, MEASURE_SIDE,
+INPUT(option_speed, "speed", SPEED, SPEED_WORDS "|V", MEASURE_SPEED,
+      "speed of the cue ball at contact, m/s, or with a unit: mph, km/h; or a word: " SPEEDS,
+      .usual = "1.5");
+INPUT(option_cut, "cut", CUT, "full|three-quarter|half|quarter|thin|DEGREES", MEASURE_CUT,
+      "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object "
+      "ball goes to the left. Or the fullness of the hit: full, three-quarter, half or "
+      "half-ball, quarter, thin (an eighth), 2/5ball, 0.4ball",
+      .usual = "30");
+INPUT(option_spin, "spin", SPIN, "stun|follow|draw|SPIN", MEASURE_SPIN,
+      "stun: no spin; follow or roll: the ball rolls; draw: the same spin backwards. Or "
+      "a number with a unit, above 0 for follow: rad/s, % of rolling, tip (height of the cue's "
+      "tip above the centre; 1 tip is 13 mm)",
+      .usual = "stun");
+INPUT(
+    option_side, "side", SIDE, "right|left|outside|inside|gearing|none|SPIN", MEASURE_SIDE,
     "side spin, above 0 for right english (counterclockwise seen from above). A number with a "
     "unit: rad/s, % of english (100%: the tip half a radius off centre, 1.25 V/R) or tip; "
     "right, left: 100%; outside: 100% on the side away from the way of the object ball, right of "
     "a cut to the left; inside: on the other; gearing: the balls roll on each other without slip; "
     "none",
     .usual = "none");
-OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
-       "radius of the balls, m, or with a unit: mm, cm, in; a pool ball has 0.028575",
-       .usual = "0.028575");
-OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
-       "mass of the balls, kg, or with a unit: g, oz; 0.170097 is 6 oz", .usual = "0.170097");
-OPTION(series, option_object_mass, "object-mass", in[OBJECT_MASS], 0, "same|M", set_values,
-       MEASURE_OBJECT_MASS, "mass of the object ball", .usual = "same");
+INPUT(option_radius, "radius", RADIUS, "R", MEASURE_LENGTH,
+      "radius of the balls, m, or with a unit: mm, cm, in; a pool ball has 0.028575",
+      .usual = "0.028575");
+INPUT(option_mass, "mass", MASS, "M", MEASURE_MASS,
+      "mass of the balls, kg, or with a unit: g, oz; 0.170097 is 6 oz", .usual = "0.170097");
+INPUT(option_object_mass, "object-mass", OBJECT_MASS, "same|M", MEASURE_OBJECT_MASS,
+      "mass of the object ball", .usual = "same");
 
 /* alciatore=a,b,c is a law, and all else values. */
 static OPTION_SET(set_frictions) {
@@ -97,12 +94,12 @@ OPTION(series, option_frictions, "friction", in[FRICTION], 0, "alciatore|MU", se
        "friction between the balls: numbers; or alciatore, which falls with the slip "
        "speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants",
        .usual = "alciatore");
-OPTION(series, option_cloth, "mu-slide", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
-       "friction with the cloth", .usual = "0.2");
-OPTION(series, option_roll, "roll", in[ROLL], 0, "MU", set_values, MEASURE_NUMBER,
-       "rolling resistance of the cloth, for distances", .usual = "0.01");
-OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
-       MEASURE_NUMBER, "restitution of the balls", .usual = "0.95");
+INPUT(option_cloth, "mu-slide", CLOTH, "MU", MEASURE_NUMBER, "friction with the cloth",
+      .usual = "0.2");
+INPUT(option_roll, "roll", ROLL, "MU", MEASURE_NUMBER,
+      "rolling resistance of the cloth, for distances", .usual = "0.01");
+INPUT(option_restitution, "restitution", RESTITUTION, "E", MEASURE_NUMBER,
+      "restitution of the balls", .usual = "0.95");
 OPTION(series, option_quantity, "quantity", asked_for, 0, QUANTITIES, set_quantities, 0,
        "the quantity that curves show, or those of tables, with commas",
        .else_usual = "throw; of tables all");
@@ -202,13 +199,12 @@ static void tell_distance(FILE *out, double distance) {
 }
 
 /* Says in words what came of a collision. */
-static void tell(FILE *out, const series *s, const one_case *c) {
+static void tell(FILE *out, const one_case *c) {
   const carom_impact *in = (const carom_impact *)(const void *)c->row;
   const carom_result *result = (const carom_result *)(const void *)c->result;
   const derived d = derive(in, result);
   const double energy = energy_of(in->a.mass, in->a.radius, in->a.v, in->a.w), scale = in->a.v[0];
   char text[64];
-  (void)s;
   fprintf(out,
           "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s%s (%.4g rad/s), "
           "%s.\n",
@@ -237,7 +233,7 @@ static void tell(FILE *out, const series *s, const one_case *c) {
           out);
 }
 
-static double draw(FILE *out, double top, const series *s, const one_case *c, const char *words) {
+static double draw(FILE *out, double top, const one_case *c, const char *words) {
   const carom_impact *in = (const carom_impact *)(const void *)c->row;
   const carom_result *result = (const carom_result *)(const void *)c->result;
   const derived d = derive(in, result);
@@ -254,7 +250,6 @@ static double draw(FILE *out, double top, const series *s, const one_case *c, co
                        .way = {velocity_text(d.rolling_1, in->a.v[0], ways[0]),
                                velocity_text(d.rolling_2, in->a.v[0], ways[1])},
                        .words = lines};
-  (void)s;
   /* The way there and on, the line of centres, and the tangent line through the centre of the
    * cue ball. */
   p.line[p.lines++] = (contact_line){{-6.0 * R, 0.0}, {0.0, 0.0}, NULL};
@@ -318,8 +313,8 @@ static const command_form form = {
 };
 
 int command_hit(int argc, char **argv) {
-  static const scene hit = {&ball_kind, inputs, QUANTITIES, quantity, make,
-                            measure,    tell,   draw,       law,      NULL};
+  static const scene hit = {&ball_kind, inputs, -1,   QUANTITIES, quantity, make,
+                            measure,    tell,   draw, law,        NULL};
   static series s;
   s = (series){.shared = {.options = COMMAND_OPTIONS, .friction = {.law = carom_alciatore()}},
                .scene = &hit};

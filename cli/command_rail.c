@@ -12,20 +12,20 @@
 #include "subcommands.h"
 
 enum { SPIN, SPEED, ANGLE, SIDE, HEIGHT, RESTITUTION, FRICTION, CLOTH, RADIUS, MASS, MODEL };
-static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN},
-                                     [SPEED] = {"speed", MEASURE_SPEED},
-                                     [ANGLE] = {"angle of incidence", MEASURE_ANGLE},
-                                     [SIDE] = {"side spin", MEASURE_SIDE_RAIL},
+static const char *const inputs[] = {[SPIN] = "spin",
+                                     [SPEED] = "speed",
+                                     [ANGLE] = "angle of incidence",
+                                     [SIDE] = "side spin",
                                      /* without a default: those of the game for the model */
-                                     [HEIGHT] = {"height of the nose", MEASURE_LENGTH},
-                                     [RESTITUTION] = {"restitution", MEASURE_NUMBER},
-                                     [FRICTION] = {"friction of the cushion", MEASURE_NUMBER},
-                                     [CLOTH] = {"friction of the cloth", MEASURE_NUMBER},
-                                     [RADIUS] = {"radius of the ball", MEASURE_LENGTH},
-                                     [MASS] = {"mass of the ball", MEASURE_MASS},
-                                     [MODEL] = {"model", MEASURE_MODEL},
-                                     [MODEL + 1] = {NULL, 0}};
-_Static_assert(sizeof inputs / sizeof inputs[0] <= MOST_INPUTS + 1, "room for all");
+                                     [HEIGHT] = "height of the nose",
+                                     [RESTITUTION] = "restitution",
+                                     [FRICTION] = "friction of the cushion",
+                                     [CLOTH] = "friction of the cloth",
+                                     [RADIUS] = "radius of the ball",
+                                     [MASS] = "mass of the ball",
+                                     [MODEL] = "model",
+                                     [MODEL + 1] = NULL};
+_Static_assert(COUNT_OF(inputs) <= MOST_INPUTS + 1, "room for all");
 
 enum { ROLLING_REBOUND, REBOUND, SPEED_AFTER, SIDE_AFTER, ENERGY };
 #define QUANTITIES "rolling-rebound|rebound|speed|side|energy"
@@ -33,42 +33,39 @@ static const char *const quantity[] = {
     "angle of rebound once the ball rolls (degrees)", "angle of rebound at once (degrees)",
     "speed at once (m/s)", "side spin after (rad/s)", "kinetic energy that is lost (%)"};
 
-OPTION(series, option_speed, "speed", in[SPEED], 0, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
-       "speed of the ball, m/s, or with a unit: mph, km/h; or a word: " SPEEDS, .usual = "1.5");
-OPTION(series, option_angle, "angle", in[ANGLE], 0, "DEGREES", set_values, MEASURE_ANGLE,
-       "angle of incidence, from the normal of the cushion, -90 to 90; above 0 the ball moves to "
-       "the right",
-       .usual = "45");
-OPTION(series, option_spin, "spin", in[SPIN], 0, "roll|stun|draw|SPIN", set_values, MEASURE_SPIN,
-       "roll or follow: the ball rolls; stun: no spin; draw: the same spin backwards. Or "
-       "a number with a unit: rad/s, % of rolling, tip",
-       .usual = "roll");
-OPTION(
-    series, option_side, "side", in[SIDE], 0, "right|left|running|reverse|gearing|none|SPIN",
-    set_values, MEASURE_SIDE_RAIL,
-    "side spin, above 0 for right english. Running english turns the ball as if it rolled along "
-    "the "
-    "cushion: right at an angle above 0; reverse is the other. A number with a unit: rad/s, % of "
-    "english (100%: 1.25 V/R) or tip; right, left, running, reverse: 100%; "
-    "gearing: the ball rolls along the cushion; none",
-    .usual = "none");
+INPUT(option_speed, "speed", SPEED, SPEED_WORDS "|V", MEASURE_SPEED,
+      "speed of the ball, m/s, or with a unit: mph, km/h; or a word: " SPEEDS, .usual = "1.5");
+INPUT(option_angle, "angle", ANGLE, "DEGREES", MEASURE_ANGLE,
+      "angle of incidence, from the normal of the cushion, -90 to 90; above 0 the ball moves to "
+      "the right",
+      .usual = "45");
+INPUT(option_spin, "spin", SPIN, "roll|stun|draw|SPIN", MEASURE_SPIN,
+      "roll or follow: the ball rolls; stun: no spin; draw: the same spin backwards. Or "
+      "a number with a unit: rad/s, % of rolling, tip",
+      .usual = "roll");
+INPUT(option_side, "side", SIDE, "right|left|running|reverse|gearing|none|SPIN", MEASURE_SIDE_RAIL,
+      "side spin, above 0 for right english. Running english turns the ball as if it rolled along "
+      "the "
+      "cushion: right at an angle above 0; reverse is the other. A number with a unit: rad/s, % of "
+      "english (100%: 1.25 V/R) or tip; right, left, running, reverse: 100%; "
+      "gearing: the ball rolls along the cushion; none",
+      .usual = "none");
 OPTION(series, option_game, "game", game, 0, NULL, set_named, CAROM_WORDS_GAME,
        "the game whose ball, cloth and cushion give the numbers that you leave out",
        .usual = "pool");
-OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_LENGTH,
-       "height of the nose above the cloth, m, or with a unit: mm, in",
-       .else_usual = "that of the game");
-OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
-       MEASURE_NUMBER, "restitution of the cushion",
-       .else_usual = "that of the game for the model");
-OPTION(series, option_friction_rail, "friction", in[FRICTION], 0, "MU", set_values, MEASURE_NUMBER,
-       "friction of the cushion", .else_usual = "that of the game for the model");
-OPTION(series, option_cloth, "mu-slide", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
-       "friction with the cloth", .else_usual = "that of the game");
-OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
-       "radius of the ball, m, or with a unit: mm, cm, in", .else_usual = "that of the game");
-OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
-       "mass of the ball, kg, or with a unit: g, oz", .else_usual = "that of the game");
+INPUT(option_height, "height", HEIGHT, "H", MEASURE_LENGTH,
+      "height of the nose above the cloth, m, or with a unit: mm, in",
+      .else_usual = "that of the game");
+INPUT(option_restitution, "restitution", RESTITUTION, "E", MEASURE_NUMBER,
+      "restitution of the cushion", .else_usual = "that of the game for the model");
+INPUT(option_friction_rail, "friction", FRICTION, "MU", MEASURE_NUMBER, "friction of the cushion",
+      .else_usual = "that of the game for the model");
+INPUT(option_cloth, "mu-slide", CLOTH, "MU", MEASURE_NUMBER, "friction with the cloth",
+      .else_usual = "that of the game");
+INPUT(option_radius, "radius", RADIUS, "R", MEASURE_LENGTH,
+      "radius of the ball, m, or with a unit: mm, cm, in", .else_usual = "that of the game");
+INPUT(option_mass, "mass", MASS, "M", MEASURE_MASS, "mass of the ball, kg, or with a unit: g, oz",
+      .else_usual = "that of the game");
 
 static OPTION_SET(set_models) {
   series *s = (series *)(void *)((char *)field - row->field);
@@ -314,12 +311,11 @@ static void tell_sticking(FILE *out, const one_case *c) {
   }
 }
 
-static void tell(FILE *out, const series *s, const one_case *c) {
+static void tell(FILE *out, const one_case *c) {
   const carom_cushion_impact *in = (const carom_cushion_impact *)(const void *)c->row;
   const double *v = c->result;
   double d[MOST_DERIVED];
   char text[64];
-  (void)s;
   derive_case(c, d);
   fprintf(
       out,
@@ -342,7 +338,7 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   fprintf(out, "energy        lost:        %.2f %%\n", 100.0 * d[5]);
 }
 
-static double draw(FILE *out, double top, const series *s, const one_case *c, const char *words) {
+static double draw(FILE *out, double top, const one_case *c, const char *words) {
   const carom_cushion_impact *in = (const carom_cushion_impact *)(const void *)c->row;
   const double R = in->radius, speed = hypot(in->v[0], in->v[1]), x = in->v[0] / speed,
                y = in->v[1] / speed;
@@ -352,7 +348,6 @@ static double draw(FILE *out, double top, const series *s, const one_case *c, co
   carom_motion motion;
   memcpy(&motion, c->result, sizeof motion);
   derive_case(c, d);
-  (void)s;
   snprintf(lines, sizeof lines,
            "Dot: the ball rolls from here on. Angles are from the normal of the cushion.\n%s",
            words);
@@ -424,8 +419,8 @@ static const command_form form = {
 };
 
 int command_rail(int argc, char **argv) {
-  static const scene rail = {&cushion_kind, inputs, QUANTITIES, quantity, make,
-                             measure,       tell,   draw,       law,      check};
+  static const scene rail = {&cushion_kind, inputs, MODEL, QUANTITIES, quantity, make,
+                             measure,       tell,   draw,  law,        check};
   static series s;
   s = (series){.shared = {.cushion = true,
                           .of_game = true,

@@ -15,7 +15,7 @@ enum { MOST_COMBINED = 1000000 }; /* of a table */
 
 static int inputs_of(const series *s) {
   int count = 0;
-  while (s->scene->inputs[count].name != NULL)
+  while (s->scene->inputs[count] != NULL)
     count++;
   return count;
 }
@@ -39,7 +39,7 @@ static int count_of(const series *s) {
 
 /* Whether a curve's footer tells it as another input, or as the law. */
 static bool is_tacit(const series *s, int k) {
-  return isnan(s->in[k].item[0].x) || s->scene->inputs[k].measure == MEASURE_MODEL;
+  return isnan(s->in[k].item[0].x) || k == s->scene->model;
 }
 
 /* Combination number `index`: a range changes fastest, then the last of the lists. */
@@ -56,8 +56,7 @@ static void make_case(const series *s, int index, one_case *c) {
   /* The first value, and those of lists. */
   for (int k = 0; k < inputs; k++)
     if (k == 0 || s->in[k].count > 1)
-      snprintf(c->id + strlen(c->id), sizeof c->id - strlen(c->id), "%s%s", text_if(k > 0, "-"),
-               c->inputs[k]->name);
+      append(c->id, sizeof c->id, "-", "%s", c->inputs[k]->name);
   for (char *blank = c->id; (blank = strchr(blank, ' ')) != NULL;)
     memmove(blank, blank + 1, strlen(blank));
   s->scene->make(s, c);
@@ -232,7 +231,7 @@ static void write_table(FILE *out, const series *s, int count) {
   one_case c;
   for (int k = 0; k < inputs_of(s); k++)
     if (s->in[k].count > 1)
-      fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k].name,
+      fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k],
               s->in[k].unit);
   const char *separator = "";
   for (int q = 0; next_quantity(s, &q, word); q++) {
@@ -267,7 +266,7 @@ static void write_words(FILE *out, const series *s, int count) {
   for (int k = 0; k < count; k++) {
     resolve_case(s, k, &c);
     fputs(text_if(k > 0, "\n"), out);
-    s->scene->tell(out, s, &c);
+    s->scene->tell(out, &c);
   }
 }
 
@@ -280,13 +279,13 @@ static void write_curves(FILE *out, const void *data) {
   const int quantity = quantity_of_curves(s);
   char law[80];
   one_case c;
-  fprintf(out, "# x: %s (%s)\n# y: %s\n# footer: ", s->scene->inputs[range].name, s->in[range].unit,
+  fprintf(out, "# x: %s (%s)\n# y: %s\n# footer: ", s->scene->inputs[range], s->in[range].unit,
           s->scene->quantity[quantity]);
   /* What is the same for all, on lines of a few, and the law. */
   const char *separator = "";
   for (int k = 0, written = 0; k < inputs_of(s); k++)
     if (s->in[k].count == 1 && !is_tacit(s, k)) {
-      fprintf(out, "%s%s %s", separator, s->scene->inputs[k].name, s->in[k].item[0].name);
+      fprintf(out, "%s%s %s", separator, s->scene->inputs[k], s->in[k].item[0].name);
       written++;
       separator = written % 3 > 0 ? ", " : "\n# footer: ";
     }
@@ -301,7 +300,7 @@ static void write_curves(FILE *out, const void *data) {
       if (k != range && s->in[k].count > 1) {
         fputs(separator, out);
         if (!isnan(c.inputs[k]->number))
-          fprintf(out, "%s ", s->scene->inputs[k].name);
+          fprintf(out, "%s ", s->scene->inputs[k]);
         fputs(c.inputs[k]->name, out);
         separator = ", ";
       }
@@ -326,9 +325,9 @@ static void write_pictures(FILE *out, const void *data) {
     one_case c;
     FILE *stream = open_text(&words, &words_size);
     resolve_case(s, k, &c);
-    s->scene->tell(stream, s, &c);
+    s->scene->tell(stream, &c);
     close_text(stream, &words);
-    top += s->scene->draw(part, top, s, &c, words);
+    top += s->scene->draw(part, top, &c, words);
     free(words);
   }
   close_text(part, &body);
