@@ -160,7 +160,7 @@ static bool any_list(const shoot_flags *f, bool comma) {
   const values *const lists[] = {&f->speed,     &f->ball_speed, &f->aim, &f->cut,
                                  &f->elevation, &f->gap,        &f->seed};
   bool any = false;
-  for (size_t k = 0; k < sizeof lists / sizeof *lists; k++)
+  for (size_t k = 0; k < COUNT_OF(lists); k++)
     any |= comma ? lists[k]->comma : lists[k]->count > 0;
   return any;
 }
@@ -180,7 +180,7 @@ static void name_rack(layout *l, carom_rack_kind kind) {
   } named[] = {{CAROM_RACK_THREECUSHION, {"white", "yellow", "red"}},
                {CAROM_RACK_FOURBALL, {"white", "yellow", "red1", "red2"}},
                {CAROM_RACK_COWBOY, {"cue", "1", "3", "5"}}};
-  for (size_t n = 0; n < sizeof named / sizeof *named; n++)
+  for (size_t n = 0; n < COUNT_OF(named); n++)
     if (named[n].rack == kind) {
       for (int k = 0; k < l->count; k++)
         snprintf(l->name[k], PLACE_NAME, "%s", named[n].names[k]);
@@ -257,57 +257,83 @@ typedef struct chosen_numbers {
   given_numbers every_ball, cue_ball;
 } chosen_numbers;
 
-/* The layout with rack number `shot` of those that gaps and seeds ask for; false after a
- * complaint. */
-static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion,
-                    const chosen_numbers *numbers, int shot) {
-  carom_table_kind kind = CAROM_TABLE_POOL_9FT;
+/* The table that an option or the rack says, else that of pool. */
+static carom_table_kind table_kind_of(const shoot_flags *f) {
   if (f->table.kind != 0)
-    kind = (carom_table_kind)(f->table.kind - 1);
-  else if (f->balls.rack > 0)
-    kind = table_of_rack((carom_rack_kind)(f->balls.rack - 1));
+    return (carom_table_kind)(f->table.kind - 1);
+  if (f->balls.rack > 0)
+    return table_of_rack((carom_rack_kind)(f->balls.rack - 1));
+  return CAROM_TABLE_POOL_9FT;
+}
+
+static void lay_table(const shoot_flags *f, layout *l) {
+  const carom_table_kind kind = table_kind_of(f);
   l->table_name = f->table.text != NULL ? f->table.text : carom_table_name(kind);
   named_table *t = built_in_table(l->table_name, &(json_fault){{0}});
   l->table = t->table;
   free_table(t);
   l->game = game_of_table(kind);
-  if (!condition_fits(&numbers->every_ball, l->game))
-    return false;
-  carom_ball_kind ball;
-  kind_of_game(l->game, cushion, &ball);
-  give_ball(&numbers->every_ball, &ball);
+}
+
+/* The cue ball at its usual place, and the balls of a rack, number `shot` of those that gaps and
+ * seeds ask for. */
+static void lay_rack(const shoot_flags *f, layout *l, int shot) {
+  const carom_rack_kind rack = (carom_rack_kind)(f->balls.rack - 1);
   snprintf(l->name[0], PLACE_NAME, "cue");
   l->ball[0].state = (carom_ball_state){.r = {0.5 * l->table.width, 0.25 * l->table.length}};
   l->count = 1 + f->balls.count;
-  const carom_rack_kind rack = (carom_rack_kind)(f->balls.rack - 1);
-  if (f->balls.rack > 0) {
-    l->count = carom_rack_size(rack);
-    carom_rack(rack, &l->table, f->gap.item[shot % f->gap.count].x,
-               (uint64_t)f->seed.item[shot / f->gap.count].x, l->ball, CAROM_BALLS_MOST);
-    name_rack(l, rack);
-  }
+  if (f->balls.rack == 0)
+    return;
+  l->count = carom_rack_size(rack);
+  carom_rack(rack, &l->table, f->gap.item[shot % f->gap.count].x,
+             (uint64_t)f->seed.item[shot / f->gap.count].x, l->ball, CAROM_BALLS_MOST);
+  name_rack(l, rack);
+}
+
+/* All balls are of one kind, but for what the cue ball has alone. */
+static void choose_balls(layout *l, carom_shot_cushion cushion, const chosen_numbers *numbers) {
+  carom_ball_kind ball;
+  kind_of_game(l->game, cushion, &ball);
+  give_ball(&numbers->every_ball, &ball);
   for (int k = 0; k < l->count; k++) {
     l->ball[k].kind = ball;
     if (k == 0)
       give_ball(&numbers->cue_ball, &l->ball[k].kind);
     l->ball[k].state.r[2] = l->ball[k].kind.radius;
   }
+}
+
+/* Puts the balls that have a place there, by their names; false after a complaint. */
+static bool lay_balls(const shoot_flags *f, layout *l) {
+  for (int k = 1; k < l->count; k++) {
+    const given_place *request = &f->balls.place[k - 1];
+    if (request->name[0] != '\0')
+      snprintf(l->name[k], PLACE_NAME, "%s", request->name);
+    else
+      snprintf(l->name[k], PLACE_NAME, "%d", k);
+    if (!lay(l, k, request, k))
+      return false;
+  }
+  return true;
+}
+
+/* The layout with rack number `shot` of those that gaps and seeds ask for; false after a
+ * complaint. */
+static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion,
+                    const chosen_numbers *numbers, int shot) {
+  lay_table(f, l);
+  if (!condition_fits(&numbers->every_ball, l->game))
+    return false;
+  lay_rack(f, l, shot);
+  choose_balls(l, cushion, numbers);
 
   /* The places given. A cue ball that touches a ball is put there after it. */
   const given_place *cue = f->cue.count > 0 ? &f->cue.place[0] : NULL;
   const bool last = cue != NULL && cue->touches[0] != '\0' && rail_of(cue->touches) < 0;
   if (cue != NULL && !last && !lay(l, 0, cue, 0))
     return false;
-  if (f->balls.rack == 0)
-    for (int k = 1; k < l->count; k++) {
-      const given_place *request = &f->balls.place[k - 1];
-      if (request->name[0] != '\0')
-        snprintf(l->name[k], PLACE_NAME, "%s", request->name);
-      else
-        snprintf(l->name[k], PLACE_NAME, "%d", k);
-      if (!lay(l, k, request, k))
-        return false;
-    }
+  if (f->balls.rack == 0 && !lay_balls(f, l))
+    return false;
   return !last || lay(l, 0, cue, l->count);
 }
 
@@ -577,7 +603,7 @@ static bool options_agree(shoot_flags *f) {
        "is "
        "a ball half an inch from the cue ball"},
       {f->cue.count > 1, "--cue is one place"}};
-  for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
+  for (size_t k = 0; k < COUNT_OF(rules); k++)
     if (rules[k].broken) {
       complain("%s", rules[k].why);
       return false;
@@ -680,7 +706,7 @@ static bool make_shots_fast_enough(shoot_flags *f, const carom_shot_options *opt
                                    json_t *shots) {
   static const char *const speeds[] = {"2", "3", "4.5", "6.5"};
   f->fell_short = true;
-  for (size_t k = 0; k < sizeof speeds / sizeof speeds[0] && f->fell_short; k++) {
+  for (size_t k = 0; k < COUNT_OF(speeds) && f->fell_short; k++) {
     values_default(&f->speed, MEASURE_SPEED, speeds[k]);
     f->written = 0;
     json_array_clear(shots);

@@ -324,6 +324,41 @@ static void solve(const factored *a, double d[UNKNOWNS]) {
   }
 }
 
+/* The rates of the slips under these frictions. */
+static void rates_of(const equations *q, const real f[SLIPS], real rate[SLIPS]) {
+  for (int i = 0; i < SLIPS; i++) {
+    rate[i] = q->S_p[i];
+    for (int j = 0; j < SLIPS; j++)
+      rate[i] += q->S_f[i][j] * f[j];
+  }
+}
+
+/* How far each stage is from its equation. */
+static void defects(const integration *g, const state *start, real h, real Y[STAGES][SLIPS],
+                    real rate[STAGES][SLIPS], double d[UNKNOWNS]) {
+  for (int k = 0; k < STAGES; k++)
+    for (int i = 0; i < SLIPS; i++) {
+      real defect = start->s[i] - Y[k][i];
+      for (int l = 0; l < STAGES; l++)
+        defect += h * g->r->A[k][l] * rate[l][i];
+      d[k * SLIPS + i] = (double)defect;
+    }
+}
+
+/* The derivatives of the defects by the slips, negated. */
+static void newton_matrix(const integration *g, real h, real by_s[STAGES][SLIPS][SLIPS],
+                          factored *a) {
+  for (int l = 0; l < STAGES; l++)
+    for (int i = 0; i < SLIPS; i++)
+      for (int j = 0; j < SLIPS; j++) {
+        real J = 0;
+        for (int c = 0; c < SLIPS; c++)
+          J += g->q->S_f[i][c] * by_s[l][c][j];
+        for (int k = 0; k < STAGES; k++)
+          a->M[k * SLIPS + i][l * SLIPS + j] = (double)((k == l && i == j) - h * g->r->A[k][l] * J);
+      }
+}
+
 /* The slips and frictions at the stages of a step of length h. False if Newton's method does not
  * converge. */
 static bool solve_stages(const integration *g, const state *start, real h, real Y[STAGES][SLIPS],
@@ -335,48 +370,31 @@ static bool solve_stages(const integration *g, const state *start, real h, real 
   real last = 0;
   /* begin with the rates of the start */
   frictions(q, start->s, g->t.eps, g->loaded, f[0], by_s[0]);
+  rates_of(q, f[0], rate[0]);
   for (int k = 0; k < STAGES; k++)
-    for (int i = 0; i < SLIPS; i++) {
-      real sum = q->S_p[i];
-      for (int j = 0; j < SLIPS; j++)
-        sum += q->S_f[i][j] * f[0][j];
-      Y[k][i] = start->s[i] + h * g->r->c[k] * sum;
-    }
+    for (int i = 0; i < SLIPS; i++)
+      Y[k][i] = start->s[i] + h * g->r->c[k] * rate[0][i];
+
   for (int n = 0; n < NEWTON_MOST; n++) {
     real moved = 0;
     for (int k = 0; k < STAGES; k++) {
       memcpy(previous[k], f[k], sizeof previous[k]);
       frictions(q, Y[k], g->t.eps, g->loaded, f[k], by_s[k]);
-      for (int i = 0; i < SLIPS; i++) {
-        rate[k][i] = q->S_p[i];
-        for (int j = 0; j < SLIPS; j++)
-          rate[k][i] += q->S_f[i][j] * f[k][j];
+      rates_of(q, f[k], rate[k]);
+      for (int i = 0; i < SLIPS; i++)
         moved = fmaxl(moved, h * fabsl(f[k][i] - previous[k][i]));
-      }
     }
     if (n > 0 && moved <= CONVERGED)
       return true;
     if (isnan(moved))
       return false;
-    /* the defect of each stage, and its derivatives */
-    for (int k = 0; k < STAGES; k++)
-      for (int i = 0; i < SLIPS; i++) {
-        real defect = start->s[i] - Y[k][i];
-        for (int l = 0; l < STAGES; l++)
-          defect += h * g->r->A[k][l] * rate[l][i];
-        d[k * SLIPS + i] = (double)defect;
-      }
-    for (int l = 0; l < STAGES && !(n > 1 && moved < KEPT * last); l++)
-      for (int i = 0; i < SLIPS; i++)
-        for (int j = 0; j < SLIPS; j++) {
-          real J = 0;
-          for (int c = 0; c < SLIPS; c++)
-            J += q->S_f[i][c] * by_s[l][c][j];
-          for (int k = 0; k < STAGES; k++)
-            a.M[k * SLIPS + i][l * SLIPS + j] =
-                (double)((k == l && i == j) - h * g->r->A[k][l] * J);
-        }
-    if (!(n > 1 && moved < KEPT * last) && !factor(&a))
+
+    /* the matrix is kept while the corrections fall fast */
+    defects(g, start, h, Y, rate, d);
+    const bool is_fast = n > 1 && moved < KEPT * last;
+    if (!is_fast)
+      newton_matrix(g, h, by_s, &a);
+    if (!is_fast && !factor(&a))
       return false;
     solve(&a, d);
     last = moved;
