@@ -117,7 +117,7 @@ typedef struct breaker {
 /* Rack number k and its stroke; number -1 is the first one without errors. */
 static void set_up(const breaker *b, const shot_line *line, double gap, int number,
                    carom_shot_ball *ball, carom_cue *cue) {
-  const int seed = (int)b->job->from.seed.at[0].x;
+  const int seed = (int)b->job->from.seed.item[0].x;
   const int k = number < 0 ? 0 : number;
   carom_rack(b->rack, &line->table->table, gap, (uint64_t)(seed + k), ball, CAROM_BALLS_MOST);
   for (int n = 0; n < line->count; n++)
@@ -416,7 +416,7 @@ static bool tell_all(breaker *b, const shot_line *first, const carom_cue *stroke
                           : "makes,makes_error,balls,plays_on,foul,scratch,off,wing,x,y,spread");
   for (int g = 0; g < gaps->count; g++)
     for (int k = 0; k < strokes; k++) {
-      const double gap = gaps->at[g].x;
+      const double gap = gaps->item[g].x;
       shot_line line = *first;
       counts c;
       line.cue = stroke[k];
@@ -443,8 +443,8 @@ static bool take_gaps(shoot_flags *f, values *gaps) {
   *gaps = f->gap;
   f->gap.count = 0;
   for (int g = 0; g < gaps->count; g++)
-    if (!(gaps->at[g].x >= 0.0 && gaps->at[g].x <= GAP_MOST)) {
-      complain("--gap is 0 to %g m, not %g", GAP_MOST, gaps->at[g].x);
+    if (!(gaps->item[g].x >= 0.0 && gaps->item[g].x <= GAP_MOST)) {
+      complain("--gap is 0 to %g m, not %g", GAP_MOST, gaps->item[g].x);
       return false;
     }
   return true;
@@ -462,7 +462,7 @@ static int run(breaker *b, const shot_line *line, const carom_cue *stroke, int s
   if (!tell_all(b, line, stroke, strokes, gaps, out, &words))
     output_abandon();
   else if (output_commit()) {
-    const bool drawn = job->plot == NULL || plot(b, line, gaps->at[0].x, words);
+    const bool drawn = job->plot == NULL || plot(b, line, gaps->item[0].x, words);
     code = exit_of(drawn);
   }
   free(words);

@@ -1,15 +1,11 @@
 /* `carom calibrate`: the cushion of a player's table, by three banks: how to play them, what the
  * readings tell, a picture, and a file for --with. */
 #include "pictures/picture.h"
-#include "program/command.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
+#include "program/program.h"
 #include "shots/shot_table.h"
 #include "subcommands.h"
 
 #include <jansson.h>
-#include <stdlib.h>
 
 typedef struct calibrate_job {
   shared_options shared;
@@ -92,13 +88,14 @@ static bool write_preset(const char *path, const carom_ball_kind *kind,
   FILE *out = output_open(path);
   if (out == NULL)
     return false;
-  json_t *all = json_pack("{s:s,s:f,s:{s:f,s:f},s:{s:f,s:f}}", "cushion_model", "smooth", "radius",
-                          kind->radius, "constants", "restitution_cushion", found->restitution,
-                          "mu_cushion", found->friction, "spread", "restitution_cushion",
-                          found->restitution_error, "mu_cushion", found->friction_error);
-  json_dumpf(all, out, JSON_INDENT(1) | JSON_REAL_PRECISION(6));
+  json_t *preset =
+      json_pack("{s:s,s:f,s:{s:f,s:f},s:{s:f,s:f}}", "cushion_model", "smooth", "radius",
+                kind->radius, "constants", "restitution_cushion", found->restitution, "mu_cushion",
+                found->friction, "spread", "restitution_cushion", found->restitution_error,
+                "mu_cushion", found->friction_error);
+  json_dumpf(preset, out, JSON_INDENT(1) | JSON_REAL_PRECISION(6));
   putc('\n', out);
-  json_decref(all);
+  json_decref(preset);
   return output_commit();
 }
 
@@ -138,12 +135,12 @@ static void draw(FILE *out, const void *data) {
     carom_bank bank;
     carom_bank_of(k, &bank);
     const double share = (p->table->width + sight) / (p->table->width + 2.0 * sight);
-    const double met = edge - sight * scale + share * (bank.aim * diamond + sight * scale);
+    const double rail_point = edge - sight * scale + share * (bank.aim * diamond + sight * scale);
     const double back = edge + p->usual->comes_back[k] * diamond;
     fprintf(out,
             "<path d=\"M%.1f %.1fL%.1f %.1fL%.1f %.1f\" fill=\"none\" stroke=\"%s\" "
             "stroke-width=\"2.2\"/>\n",
-            edge, edge + width, met, edge, back, edge + width, colour[k]);
+            edge, edge + width, rail_point, edge, back, edge + width, colour[k]);
     char words[100];
     snprintf(words, sizeof words, "%d: through %.1f, %s: back at %.1f", k + 1, bank.aim,
              stroke_of(&bank), p->usual->comes_back[k]);

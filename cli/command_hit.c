@@ -7,30 +7,24 @@
 #include "pictures/contact_picture.h"
 #include "pictures/picture.h"
 #include "pictures/series.h"
-#include "program/command.h"
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/quantities.h"
 #include "shots/ball_aim.h"
 #include "subcommands.h"
 
-#include <math.h>
-#include <string.h>
-
 enum { SPIN, SPEED, CUT, SIDE, RESTITUTION, CLOTH, ROLL, RADIUS, MASS, OBJECT_MASS, FRICTION };
-static const scene_input inputs[] = {
-    [SPIN] = {"spin", MEASURE_SPIN},
-    [SPEED] = {"speed", MEASURE_SPEED},
-    [CUT] = {"cut angle", MEASURE_CUT},
-    [SIDE] = {"side spin", MEASURE_SIDE},
-    [RESTITUTION] = {"restitution", MEASURE_NUMBER},
-    [CLOTH] = {"friction of the cloth", MEASURE_NUMBER},
-    [ROLL] = {"rolling resistance", MEASURE_NUMBER},
-    [RADIUS] = {"radius of the balls", MEASURE_LENGTH},
-    [MASS] = {"mass of the balls", MEASURE_MASS},
-    [OBJECT_MASS] = {"mass of the object ball", MEASURE_OBJECT_MASS},
-    [FRICTION] = {"friction between the balls", MEASURE_FRICTION},
-    [FRICTION + 1] = {NULL, 0}};
+static const char *const inputs[] = {[SPIN] = "spin",
+                                     [SPEED] = "speed",
+                                     [CUT] = "cut angle",
+                                     [SIDE] = "side spin",
+                                     [RESTITUTION] = "restitution",
+                                     [CLOTH] = "friction of the cloth",
+                                     [ROLL] = "rolling resistance",
+                                     [RADIUS] = "radius of the balls",
+                                     [MASS] = "mass of the balls",
+                                     [OBJECT_MASS] = "mass of the object ball",
+                                     [FRICTION] = "friction between the balls",
+                                     [FRICTION + 1] = NULL};
 
 /* How the names of quantities stand on axes. */
 enum {
@@ -57,36 +51,34 @@ static const char *const quantity[] = {"throw of the object ball (degrees)",
                                        "distance at which the cue ball rests (m)",
                                        "distance at which the object ball rests (m)"};
 
-OPTION(series, option_speed, "speed", in[SPEED], 0, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
-       "speed of the cue ball at contact, m/s, or with a unit: mph, km/h; or a word: " SPEEDS,
-       .usual = "1.5");
-OPTION(series, option_cut, "cut", in[CUT], 0, "full|three-quarter|half|quarter|thin|DEGREES",
-       set_values, MEASURE_CUT,
-       "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object "
-       "ball goes to the left. Or the fullness of the hit: full, three-quarter, half or "
-       "half-ball, quarter, thin (an eighth), 2/5ball, 0.4ball",
-       .usual = "30");
-OPTION(series, option_spin, "spin", in[SPIN], 0, "stun|follow|draw|SPIN", set_values, MEASURE_SPIN,
-       "stun: no spin; follow or roll: the ball rolls; draw: the same spin backwards. Or "
-       "a number with a unit, above 0 for follow: rad/s, % of rolling, tip (height of the cue's "
-       "tip above the centre; 1 tip is 13 mm)",
-       .usual = "stun");
-OPTION(
-    series, option_side, "side", in[SIDE], 0, "right|left|outside|inside|gearing|none|SPIN",
-    set_values, MEASURE_SIDE,
+INPUT(option_speed, "speed", SPEED, SPEED_WORDS "|V", MEASURE_SPEED,
+      "speed of the cue ball at contact, m/s, or with a unit: mph, km/h; or a word: " SPEEDS,
+      .usual = "1.5");
+INPUT(option_cut, "cut", CUT, "full|three-quarter|half|quarter|thin|DEGREES", MEASURE_CUT,
+      "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object "
+      "ball goes to the left. Or the fullness of the hit: full, three-quarter, half or "
+      "half-ball, quarter, thin (an eighth), 2/5ball, 0.4ball",
+      .usual = "30");
+INPUT(option_spin, "spin", SPIN, "stun|follow|draw|SPIN", MEASURE_SPIN,
+      "stun: no spin; follow or roll: the ball rolls; draw: the same spin backwards. Or "
+      "a number with a unit, above 0 for follow: rad/s, % of rolling, tip (height of the cue's "
+      "tip above the centre; 1 tip is 13 mm)",
+      .usual = "stun");
+INPUT(
+    option_side, "side", SIDE, "right|left|outside|inside|gearing|none|SPIN", MEASURE_SIDE,
     "side spin, above 0 for right english (counterclockwise seen from above). A number with a "
     "unit: rad/s, % of english (100%: the tip half a radius off centre, 1.25 V/R) or tip; "
     "right, left: 100%; outside: 100% on the side away from the way of the object ball, right of "
     "a cut to the left; inside: on the other; gearing: the balls roll on each other without slip; "
     "none",
     .usual = "none");
-OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
-       "radius of the balls, m, or with a unit: mm, cm, in; a pool ball has 0.028575",
-       .usual = "0.028575");
-OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
-       "mass of the balls, kg, or with a unit: g, oz; 0.170097 is 6 oz", .usual = "0.170097");
-OPTION(series, option_object_mass, "object-mass", in[OBJECT_MASS], 0, "same|M", set_values,
-       MEASURE_OBJECT_MASS, "mass of the object ball", .usual = "same");
+INPUT(option_radius, "radius", RADIUS, "R", MEASURE_LENGTH,
+      "radius of the balls, m, or with a unit: mm, cm, in; a pool ball has 0.028575",
+      .usual = "0.028575");
+INPUT(option_mass, "mass", MASS, "M", MEASURE_MASS,
+      "mass of the balls, kg, or with a unit: g, oz; 0.170097 is 6 oz", .usual = "0.170097");
+INPUT(option_object_mass, "object-mass", OBJECT_MASS, "same|M", MEASURE_OBJECT_MASS,
+      "mass of the object ball", .usual = "same");
 
 /* alciatore=a,b,c is a law, and all else values. */
 static OPTION_SET(set_frictions) {
@@ -94,7 +86,7 @@ static OPTION_SET(set_frictions) {
   if (strncmp(text, "alciatore=", strlen("alciatore=")) != 0)
     return set_values(row, text, field);
   values_default(field, MEASURE_FRICTION, "alciatore");
-  return option_friction.set(row, text, &s->asked.friction);
+  return option_friction.set(row, text, &s->shared.friction);
 }
 
 OPTION(series, option_frictions, "friction", in[FRICTION], 0, "alciatore|MU", set_frictions,
@@ -102,12 +94,12 @@ OPTION(series, option_frictions, "friction", in[FRICTION], 0, "alciatore|MU", se
        "friction between the balls: numbers; or alciatore, which falls with the slip "
        "speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants",
        .usual = "alciatore");
-OPTION(series, option_cloth, "mu-slide", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
-       "friction with the cloth", .usual = "0.2");
-OPTION(series, option_roll, "roll", in[ROLL], 0, "MU", set_values, MEASURE_NUMBER,
-       "rolling resistance of the cloth, for distances", .usual = "0.01");
-OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
-       MEASURE_NUMBER, "restitution of the balls", .usual = "0.95");
+INPUT(option_cloth, "mu-slide", CLOTH, "MU", MEASURE_NUMBER, "friction with the cloth",
+      .usual = "0.2");
+INPUT(option_roll, "roll", ROLL, "MU", MEASURE_NUMBER,
+      "rolling resistance of the cloth, for distances", .usual = "0.01");
+INPUT(option_restitution, "restitution", RESTITUTION, "E", MEASURE_NUMBER,
+      "restitution of the balls", .usual = "0.95");
 OPTION(series, option_quantity, "quantity", asked_for, 0, QUANTITIES, set_quantities, 0,
        "the quantity that curves show, or those of tables, with commas",
        .else_usual = "throw; of tables all");
@@ -119,7 +111,7 @@ OPTION(series, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
        "gnuplot. OUT.svg, OUT.png or OUT.pdf");
 
 static void make(const series *s, one_case *c) {
-  const value *const *v = c->given;
+  const value *const *v = c->inputs;
   const double angle = v[CUT]->x * degree, speed = v[SPEED]->x, R = v[RADIUS]->x,
                rolling = speed / R;
   carom_impact in = {.restitution = v[RESTITUTION]->x};
@@ -138,7 +130,7 @@ static void make(const series *s, one_case *c) {
   memset(in.b.w, 0, sizeof in.b.w);
   in.b.r[0] = 2.0 * R * cos(angle);
   in.b.r[1] = 2.0 * R * sin(angle);
-  in.mu_ball = value_or(v[FRICTION], carom_mu_ball(&in, s->asked.friction.law));
+  in.mu_ball = value_or(v[FRICTION], carom_mu_ball(&in, s->shared.friction.law));
   memcpy(c->row, &in, sizeof in);
 }
 
@@ -148,35 +140,35 @@ static void make(const series *s, one_case *c) {
 static double sign_of(const series *s) {
   double sum = 0.0;
   for (int k = 0; k < s->in[CUT].count; k++)
-    sum += s->in[CUT].at[k].x;
+    sum += s->in[CUT].item[k].x;
   return sum > 0.0 ? -1.0 : 1.0;
 }
 
 /* How far from the contact a ball rests on an endless cloth, m: a shot without a strike. */
-static double distance_of(const carom_ball *ball, const carom_motion *after, double mu_roll) {
+static double distance_of(const carom_ball *ball, const carom_motion *motion, double mu_roll) {
   const carom_table cloth = endless_cloth(ball->radius);
   const carom_cue none = {0};
-  carom_shot_ball one = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  carom_shot_ball pool_ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
   carom_ball_state rests;
   carom_shot shot = {.final = &rests};
-  one.kind.radius = ball->radius;
-  one.kind.mass = ball->mass;
-  one.kind.mu_slide = ball->mu_slide;
-  one.kind.mu_roll = mu_roll;
-  one.state = (carom_ball_state){.r = {0.0, 0.0, ball->radius},
-                                 .v = {after->v[0], after->v[1], 0.0},
-                                 .w = {after->w[0], after->w[1], after->w[2]},
-                                 .label = CAROM_BALL_SLIDING};
-  if (carom_shoot(&cloth, &one, 1, &none, NULL, &shot) != CAROM_OK)
+  pool_ball.kind.radius = ball->radius;
+  pool_ball.kind.mass = ball->mass;
+  pool_ball.kind.mu_slide = ball->mu_slide;
+  pool_ball.kind.mu_roll = mu_roll;
+  pool_ball.state = (carom_ball_state){.r = {0.0, 0.0, ball->radius},
+                                       .v = {motion->v[0], motion->v[1], 0.0},
+                                       .w = {motion->w[0], motion->w[1], motion->w[2]},
+                                       .label = CAROM_BALL_SLIDING};
+  if (carom_shoot(&cloth, &pool_ball, 1, &none, NULL, &shot) != CAROM_OK)
     return (double)NAN;
   return hypot(rests.r[0], rests.r[1]);
 }
 
-static double measure(const series *s, const one_case *c, int which) {
+static double measure(const series *s, const one_case *c, int which_quantity) {
   const carom_impact *in = (const carom_impact *)(const void *)c->row;
   const carom_result *out = (const carom_result *)(const void *)c->result;
   const derived d = derive(in, out);
-  switch (which) {
+  switch (which_quantity) {
   case THROW:
     return sign_of(s) * d.throw_deg;
   case DEFLECTION:
@@ -192,9 +184,9 @@ static double measure(const series *s, const one_case *c, int which) {
   case SPIN_TRANSFER:
     return 100.0 * d.spin_transfer;
   case CUE_DISTANCE:
-    return distance_of(&in->a, &out->a, c->given[ROLL]->x);
+    return distance_of(&in->a, &out->a, c->inputs[ROLL]->x);
   case OBJECT_DISTANCE:
-    return distance_of(&in->b, &out->b, c->given[ROLL]->x);
+    return distance_of(&in->b, &out->b, c->inputs[ROLL]->x);
   default:
     return 100.0 * d.energy_lost;
   }
@@ -207,34 +199,33 @@ static void tell_distance(FILE *out, double distance) {
 }
 
 /* Says in words what came of a collision. */
-static void tell(FILE *out, const series *s, const one_case *c) {
+static void tell(FILE *out, const one_case *c) {
   const carom_impact *in = (const carom_impact *)(const void *)c->row;
-  const carom_result *after = (const carom_result *)(const void *)c->result;
-  const derived d = derive(in, after);
+  const carom_result *result = (const carom_result *)(const void *)c->result;
+  const derived d = derive(in, result);
   const double energy = energy_of(in->a.mass, in->a.radius, in->a.v, in->a.w), scale = in->a.v[0];
   char text[64];
-  (void)s;
   fprintf(out,
           "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s%s (%.4g rad/s), "
           "%s.\n",
-          scale, c->given[CUT]->x, c->given[SPIN]->name, share_of_rolling(c->given[SPIN]),
+          scale, c->inputs[CUT]->x, c->inputs[SPIN]->name, share_of_rolling(c->inputs[SPIN]),
           in->a.w[1], english_text(in->a.w[2], text));
   fprintf(out, "Friction between the balls %.4f, with the cloth %.4g, restitution %.4g.\n",
           in->mu_ball, in->a.mu_slide, in->restitution);
   /* The object ball, the cue ball, both together. */
-  fprintf(out, "object ball   at once:     %s\n", velocity_text(after->b.v, scale, text));
+  fprintf(out, "object ball   at once:     %s\n", velocity_text(result->b.v, scale, text));
   fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_2, scale, text));
-  tell_distance(out, distance_of(&in->b, &after->b, c->given[ROLL]->x));
+  tell_distance(out, distance_of(&in->b, &result->b, c->inputs[ROLL]->x));
   if (fabs(d.throw_deg) < 0.005)
     fputs("              throw:       none: it leaves along the line of centres\n", out);
   else
     fprintf(out, "              throw:       %.2f degrees to the %s of the line of centres\n",
             fabs(d.throw_deg), left_or_right(d.throw_deg));
-  tell_spin(out, after->b.v, after->b.w);
-  fprintf(out, "cue ball      at once:     %s\n", velocity_text(after->a.v, scale, text));
+  tell_spin(out, result->b.v, result->b.w);
+  fprintf(out, "cue ball      at once:     %s\n", velocity_text(result->a.v, scale, text));
   fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_1, scale, text));
-  tell_distance(out, distance_of(&in->a, &after->a, c->given[ROLL]->x));
-  tell_spin(out, after->a.v, after->a.w);
+  tell_distance(out, distance_of(&in->a, &result->a, c->inputs[ROLL]->x));
+  tell_spin(out, result->a.v, result->a.w);
   if (isfinite(d.energy_lost))
     fprintf(out, "energy        lost:        %.2f %% of %.4g J\n", 100.0 * d.energy_lost, energy);
   else
@@ -242,11 +233,11 @@ static void tell(FILE *out, const series *s, const one_case *c) {
           out);
 }
 
-static double draw(FILE *out, double top, const series *s, const one_case *c, const char *words) {
+static double draw(FILE *out, double top, const one_case *c, const char *words) {
   const carom_impact *in = (const carom_impact *)(const void *)c->row;
-  const carom_result *after = (const carom_result *)(const void *)c->result;
-  const derived d = derive(in, after);
-  const double R = in->a.radius, cut = c->given[CUT]->x, x = cos(cut * degree),
+  const carom_result *result = (const carom_result *)(const void *)c->result;
+  const derived d = derive(in, result);
+  const double R = in->a.radius, cut = c->inputs[CUT]->x, x = cos(cut * degree),
                y = sin(cut * degree);
   char ways[2][64], lines[2048];
   snprintf(lines, sizeof lines,
@@ -255,11 +246,10 @@ static double draw(FILE *out, double top, const series *s, const one_case *c, co
            words);
   contact_picture p = {.balls = 2,
                        .ball = {&in->a, &in->b},
-                       .after = {&after->a, &after->b},
+                       .outgoing = {&result->a, &result->b},
                        .way = {velocity_text(d.rolling_1, in->a.v[0], ways[0]),
                                velocity_text(d.rolling_2, in->a.v[0], ways[1])},
                        .words = lines};
-  (void)s;
   /* The way there and on, the line of centres, and the tangent line through the centre of the
    * cue ball. */
   p.line[p.lines++] = (contact_line){{-6.0 * R, 0.0}, {0.0, 0.0}, NULL};
@@ -275,8 +265,8 @@ static double draw(FILE *out, double top, const series *s, const one_case *c, co
 }
 
 static const char *law(const series *s, char text[80]) {
-  const carom_speed_law *l = &s->asked.friction.law, usual = carom_alciatore();
-  if (!isnan(s->in[FRICTION].at[0].x) || s->in[FRICTION].count > 1)
+  const carom_speed_law *l = &s->shared.friction.law, usual = carom_alciatore();
+  if (!isnan(s->in[FRICTION].item[0].x) || s->in[FRICTION].count > 1)
     text[0] = '\0';
   else if (l->a == usual.a && l->b == usual.b && l->c == usual.c)
     snprintf(text, 80, "friction between the balls by Alciatore's law");
@@ -323,10 +313,10 @@ static const command_form form = {
 };
 
 int command_hit(int argc, char **argv) {
-  static const scene hit = {&ball_kind, inputs, QUANTITIES, quantity, make,
-                            measure,    tell,   draw,       law,      NULL};
+  static const scene hit = {&ball_kind, inputs, -1,   QUANTITIES, quantity, make,
+                            measure,    tell,   draw, law,        NULL};
   static series s;
-  s = (series){.asked = {.options = COMMAND_OPTIONS, .friction = {.law = carom_alciatore()}},
+  s = (series){.shared = {.options = COMMAND_OPTIONS, .friction = {.law = carom_alciatore()}},
                .scene = &hit};
   return series_command(&s, &form, argc, argv, CUT,
                         "--cut is between -90 and 90 degrees; at 90 the balls do not meet");

@@ -1,11 +1,6 @@
 /* `carom match`: matches of two rated players, played, saved, gone on with and told in words, by
  * carom_match.h. */
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "shots/places.h"
 #include "subcommands.h"
 
@@ -13,9 +8,6 @@
 
 #include <errno.h>
 #include <inttypes.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 typedef struct match_job {
   shared_options shared; /* --output */
@@ -92,8 +84,7 @@ static bool is_line(const char *line, const char *kind) {
 }
 
 static void add_words(const char *words) {
-  const size_t length = strlen(decided);
-  snprintf(decided + length, sizeof decided - length, "%s%s", text_if(length > 0, ", "), words);
+  append(decided, sizeof decided, ", ", "%s", words);
 }
 
 enum { NAME_OF_BALL = 32, FIRST_COLOUR = 16 };
@@ -134,7 +125,7 @@ static void add_act(const carom_record *record, const char *line) {
                  carom_pocket_name(&record->table, (int)record->call[1]));
       break;
     case CAROM_ACT_CHOOSE:
-      for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
+      for (size_t k = 0; k < COUNT_OF(choices); k++)
         if (record->choice == INT64_C(1) << k)
           snprintf(words, sizeof words, "%s", choices[k]);
       break;
@@ -229,12 +220,12 @@ static bool keep(const players *p, carom_status status, int player, int64_t ruli
 
 /* Plays the best stroke of the player at the table, or passes. */
 static bool play_stroke(players *p) {
-  const int who = (int)match.record.player;
+  const int player = (int)match.record.player;
   const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)match.record.rules);
   carom_cue cue = carom_cue_of((carom_game)about->balls);
   cue.ball = match.cue_ball;
-  p->options.opponent = &p->player[1 - who];
-  carom_plan_job job = {.player = &p->player[who], .cue = &cue, .options = &p->options};
+  p->options.opponent = &p->player[1 - player];
+  carom_plan_job job = {.player = &p->player[player], .cue = &cue, .options = &p->options};
   job.memory = p->memory;
   job.memory_size = carom_plan_memory(&p->options);
 
@@ -248,20 +239,20 @@ static bool play_stroke(players *p) {
   }
   const int64_t rulings = match.rulings;
   if (best.kind == CAROM_PLAN_PASS)
-    return keep(p, carom_match_choose(&match, who, CAROM_CHOICE_PASS), who, rulings);
+    return keep(p, carom_match_choose(&match, player, CAROM_CHOICE_PASS), player, rulings);
   if (match.phase == CAROM_MATCH_PLACE &&
-      !keep(p, carom_match_place(&match, who, best.place[0], best.place[1]), who, rulings))
+      !keep(p, carom_match_place(&match, player, best.place[0], best.place[1]), player, rulings))
     return false;
   if (best.kind == CAROM_PLAN_PUSH &&
-      !keep(p, carom_match_choose(&match, who, CAROM_CHOICE_PUSH), who, rulings))
+      !keep(p, carom_match_choose(&match, player, CAROM_CHOICE_PUSH), player, rulings))
     return false;
   const carom_call call = {best.ball, best.pocket};
   if (match.rules.calls != 0 && best.ball >= 0 &&
-      !keep(p, carom_match_call(&match, who, call), who, rulings))
+      !keep(p, carom_match_call(&match, player, call), player, rulings))
     return false;
-  carom_player_strike(&p->player[who], (uint64_t)p->job->seed, (uint64_t)match.record.shots,
+  carom_player_strike(&p->player[player], (uint64_t)p->job->seed, (uint64_t)match.record.shots,
                       &best.cue);
-  return keep(p, carom_match_stroke(&match, who, &best.cue, NULL, NULL), who, rulings);
+  return keep(p, carom_match_stroke(&match, player, &best.cue, NULL, NULL), player, rulings);
 }
 
 /* Begins the match, unless one was read, and plays it; an exit code. */

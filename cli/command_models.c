@@ -1,13 +1,6 @@
 /* `carom models`: what there is, by the rows of the library: models, words and numbers. */
-#include "program/command.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "subcommands.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 /* Enumerations with models or ways to play, and the options that take their words. */
 static const struct kind {
@@ -21,7 +14,7 @@ static const struct kind {
              {CAROM_WORDS_SIMULTANEOUS, "several contacts at one instant", "--simultaneous"},
              {CAROM_WORDS_GAME, "game of a file", "params.game"},
              {CAROM_WORDS_CONDITION, "condition of a pool table", "--with of shots"}};
-enum { KINDS = sizeof kinds / sizeof kinds[0], NAME_WIDTH = 20 };
+enum { KINDS = COUNT_OF(kinds), NAME_WIDTH = 20 };
 
 /* What has numbers, and the title of its list. */
 static const struct list {
@@ -39,7 +32,7 @@ static const struct list {
              {CAROM_PART_RAIL, "numbers of a rail, and their keys in files"},
              {CAROM_PART_JAW, "numbers of a jaw, and their keys in files"},
              {CAROM_PART_POCKET, "numbers of a pocket, and their keys in files"}};
-enum { LISTS = sizeof lists / sizeof lists[0] };
+enum { LISTS = COUNT_OF(lists) };
 
 static void print_number(FILE *out, const carom_number *n) {
   char range[100], reader[160];
@@ -110,17 +103,15 @@ static bool print_named(FILE *out, const char *name) {
 
 /* What the name may have been. */
 static void hint_at_name(const char *name) {
-  char known[3000], hint[HINT_TEXT];
+  char known[3000] = "", hint[HINT_TEXT];
   const carom_number *n;
   const char *word;
-  int size = 0;
   for (int k = 0; k < KINDS; k++)
     for (int value = 0; (word = carom_word(kinds[k].list, value)) != NULL; value++)
-      size += snprintf(known + size, sizeof known - (size_t)size, "%s|", word);
+      append(known, sizeof known, "|", "%s", word);
   for (int list = 0; list < LISTS; list++)
     for (int k = 0; (n = carom_number_of(lists[list].part, k)) != NULL; k++)
-      size += snprintf(known + size, sizeof known - (size_t)size, "%s|%s|", n->name, n->key);
-  known[size - 1] = '\0';
+      append(known, sizeof known, "|", "%s|%s", n->name, n->key);
   complain("there is no model or number '%.40s'%s", name, did_you_mean(name, known, hint));
 }
 

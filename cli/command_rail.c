@@ -7,30 +7,25 @@
 #include "pictures/contact_picture.h"
 #include "pictures/picture.h"
 #include "pictures/series.h"
-#include "program/command.h"
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/quantities.h"
 #include "subcommands.h"
 
-#include <math.h>
-#include <string.h>
-
 enum { SPIN, SPEED, ANGLE, SIDE, HEIGHT, RESTITUTION, FRICTION, CLOTH, RADIUS, MASS, MODEL };
-static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN},
-                                     [SPEED] = {"speed", MEASURE_SPEED},
-                                     [ANGLE] = {"angle of incidence", MEASURE_ANGLE},
-                                     [SIDE] = {"side spin", MEASURE_SIDE_RAIL},
+static const char *const inputs[] = {[SPIN] = "spin",
+                                     [SPEED] = "speed",
+                                     [ANGLE] = "angle of incidence",
+                                     [SIDE] = "side spin",
                                      /* without a default: those of the game for the model */
-                                     [HEIGHT] = {"height of the nose", MEASURE_LENGTH},
-                                     [RESTITUTION] = {"restitution", MEASURE_NUMBER},
-                                     [FRICTION] = {"friction of the cushion", MEASURE_NUMBER},
-                                     [CLOTH] = {"friction of the cloth", MEASURE_NUMBER},
-                                     [RADIUS] = {"radius of the ball", MEASURE_LENGTH},
-                                     [MASS] = {"mass of the ball", MEASURE_MASS},
-                                     [MODEL] = {"model", MEASURE_MODEL},
-                                     [MODEL + 1] = {NULL, 0}};
-_Static_assert(sizeof inputs / sizeof inputs[0] <= MOST_INPUTS + 1, "room for all");
+                                     [HEIGHT] = "height of the nose",
+                                     [RESTITUTION] = "restitution",
+                                     [FRICTION] = "friction of the cushion",
+                                     [CLOTH] = "friction of the cloth",
+                                     [RADIUS] = "radius of the ball",
+                                     [MASS] = "mass of the ball",
+                                     [MODEL] = "model",
+                                     [MODEL + 1] = NULL};
+_Static_assert(COUNT_OF(inputs) <= MOST_INPUTS + 1, "room for all");
 
 enum { ROLLING_REBOUND, REBOUND, SPEED_AFTER, SIDE_AFTER, ENERGY };
 #define QUANTITIES "rolling-rebound|rebound|speed|side|energy"
@@ -38,50 +33,47 @@ static const char *const quantity[] = {
     "angle of rebound once the ball rolls (degrees)", "angle of rebound at once (degrees)",
     "speed at once (m/s)", "side spin after (rad/s)", "kinetic energy that is lost (%)"};
 
-OPTION(series, option_speed, "speed", in[SPEED], 0, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
-       "speed of the ball, m/s, or with a unit: mph, km/h; or a word: " SPEEDS, .usual = "1.5");
-OPTION(series, option_angle, "angle", in[ANGLE], 0, "DEGREES", set_values, MEASURE_ANGLE,
-       "angle of incidence, from the normal of the cushion, -90 to 90; above 0 the ball moves to "
-       "the right",
-       .usual = "45");
-OPTION(series, option_spin, "spin", in[SPIN], 0, "roll|stun|draw|SPIN", set_values, MEASURE_SPIN,
-       "roll or follow: the ball rolls; stun: no spin; draw: the same spin backwards. Or "
-       "a number with a unit: rad/s, % of rolling, tip",
-       .usual = "roll");
-OPTION(
-    series, option_side, "side", in[SIDE], 0, "right|left|running|reverse|gearing|none|SPIN",
-    set_values, MEASURE_SIDE_RAIL,
-    "side spin, above 0 for right english. Running english turns the ball as if it rolled along "
-    "the "
-    "cushion: right at an angle above 0; reverse is the other. A number with a unit: rad/s, % of "
-    "english (100%: 1.25 V/R) or tip; right, left, running, reverse: 100%; "
-    "gearing: the ball rolls along the cushion; none",
-    .usual = "none");
+INPUT(option_speed, "speed", SPEED, SPEED_WORDS "|V", MEASURE_SPEED,
+      "speed of the ball, m/s, or with a unit: mph, km/h; or a word: " SPEEDS, .usual = "1.5");
+INPUT(option_angle, "angle", ANGLE, "DEGREES", MEASURE_ANGLE,
+      "angle of incidence, from the normal of the cushion, -90 to 90; above 0 the ball moves to "
+      "the right",
+      .usual = "45");
+INPUT(option_spin, "spin", SPIN, "roll|stun|draw|SPIN", MEASURE_SPIN,
+      "roll or follow: the ball rolls; stun: no spin; draw: the same spin backwards. Or "
+      "a number with a unit: rad/s, % of rolling, tip",
+      .usual = "roll");
+INPUT(option_side, "side", SIDE, "right|left|running|reverse|gearing|none|SPIN", MEASURE_SIDE_RAIL,
+      "side spin, above 0 for right english. Running english turns the ball as if it rolled along "
+      "the "
+      "cushion: right at an angle above 0; reverse is the other. A number with a unit: rad/s, % of "
+      "english (100%: 1.25 V/R) or tip; right, left, running, reverse: 100%; "
+      "gearing: the ball rolls along the cushion; none",
+      .usual = "none");
 OPTION(series, option_game, "game", game, 0, NULL, set_named, CAROM_WORDS_GAME,
        "the game whose ball, cloth and cushion give the numbers that you leave out",
        .usual = "pool");
-OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_LENGTH,
-       "height of the nose above the cloth, m, or with a unit: mm, in",
-       .else_usual = "that of the game");
-OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
-       MEASURE_NUMBER, "restitution of the cushion",
-       .else_usual = "that of the game for the model");
-OPTION(series, option_friction_rail, "friction", in[FRICTION], 0, "MU", set_values, MEASURE_NUMBER,
-       "friction of the cushion", .else_usual = "that of the game for the model");
-OPTION(series, option_cloth, "mu-slide", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
-       "friction with the cloth", .else_usual = "that of the game");
-OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
-       "radius of the ball, m, or with a unit: mm, cm, in", .else_usual = "that of the game");
-OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
-       "mass of the ball, kg, or with a unit: g, oz", .else_usual = "that of the game");
+INPUT(option_height, "height", HEIGHT, "H", MEASURE_LENGTH,
+      "height of the nose above the cloth, m, or with a unit: mm, in",
+      .else_usual = "that of the game");
+INPUT(option_restitution, "restitution", RESTITUTION, "E", MEASURE_NUMBER,
+      "restitution of the cushion", .else_usual = "that of the game for the model");
+INPUT(option_friction_rail, "friction", FRICTION, "MU", MEASURE_NUMBER, "friction of the cushion",
+      .else_usual = "that of the game for the model");
+INPUT(option_cloth, "mu-slide", CLOTH, "MU", MEASURE_NUMBER, "friction with the cloth",
+      .else_usual = "that of the game");
+INPUT(option_radius, "radius", RADIUS, "R", MEASURE_LENGTH,
+      "radius of the ball, m, or with a unit: mm, cm, in", .else_usual = "that of the game");
+INPUT(option_mass, "mass", MASS, "M", MEASURE_MASS, "mass of the ball, kg, or with a unit: g, oz",
+      .else_usual = "that of the game");
 
 static OPTION_SET(set_models) {
   series *s = (series *)(void *)((char *)field - row->field);
   const values *list = field;
   const bool good = set_values(row, text, field);
-  s->asked.models = 0;
+  s->shared.models = 0;
   for (int k = 0; k < list->count && good; k++)
-    s->asked.models |= 1U << (int)list->at[k].x;
+    s->shared.models |= 1U << (int)list->item[k].x;
   return good;
 }
 
@@ -119,13 +111,13 @@ static bool ball_of_game(const series *s, int model, carom_ball_kind *kind) {
       [CAROM_GAME_FOURBALL] = CAROM_TABLE_FOURBALL,
   };
   carom_measures measures;
-  const bool own =
+  const bool has_cushion_of_game =
       carom_ball_kind_for((carom_game)s->game, (carom_shot_cushion)(model + 1), kind) != 0;
-  give_ball(&s->asked.with, kind);
+  give_ball(&s->shared.with, kind);
   carom_table_measures(table[s->game], &measures);
   if (kind->nose_height == 0.0)
     kind->nose_height = measures.nose_height;
-  return own;
+  return has_cushion_of_game;
 }
 
 /* The numbers of a ball that the options of its impacts have too. */
@@ -137,11 +129,11 @@ static void give_cushion(const carom_ball_kind *kind, carom_cushion_options *opt
 }
 
 static void make(const series *s, one_case *c) {
-  const value *const *v = c->given;
+  const value *const *v = c->inputs;
   carom_ball_kind kind;
-  c->asked.rail.model = (carom_cushion_model)v[MODEL]->x;
-  ball_of_game(s, (int)c->asked.rail.model, &kind);
-  give_cushion(&kind, &c->asked.rail);
+  c->shared.rail.model = (carom_cushion_model)v[MODEL]->x;
+  ball_of_game(s, (int)c->shared.rail.model, &kind);
+  give_cushion(&kind, &c->shared.rail);
 
   const double angle = v[ANGLE]->x * degree, speed = v[SPEED]->x;
   const double R = value_or(v[RADIUS], kind.radius), x = sin(angle), y = cos(angle),
@@ -169,22 +161,22 @@ static bool knows_speed(const carom_cushion_options *o) {
 
 /* The first value of each input. */
 static void case_of_first(const series *s, one_case *c) {
-  *c = (one_case){.asked = s->asked};
+  *c = (one_case){.shared = s->shared};
   for (int k = 0; k < MOST_INPUTS; k++)
-    c->given[k] = &s->in[k].at[0];
+    c->inputs[k] = &s->in[k].item[0];
 }
 
 /* Whether all impacts can be made; else a complaint. */
 static bool check(const series *s) {
   carom_ball_kind kind;
   const values *models = &s->in[MODEL];
-  if (!condition_fits(&s->asked.with, (carom_game)s->game))
+  if (!condition_fits(&s->shared.with, (carom_game)s->game))
     return false;
   for (int k = 0; k < models->count; k++)
-    if (!ball_of_game(s, (int)models->at[k].x, &kind) &&
-        (isnan(s->in[FRICTION].at[0].x) || isnan(s->in[RESTITUTION].at[0].x))) {
+    if (!ball_of_game(s, (int)models->item[k].x, &kind) &&
+        (isnan(s->in[FRICTION].item[0].x) || isnan(s->in[RESTITUTION].item[0].x))) {
       complain("%s has no constants for the cushion %s: give --friction and --restitution",
-               carom_word(CAROM_WORDS_GAME, s->game), models->at[k].name);
+               carom_word(CAROM_WORDS_GAME, s->game), models->item[k].name);
       return false;
     }
 
@@ -192,12 +184,12 @@ static bool check(const series *s) {
   one_case c;
   for (int k = 0; k < models->count && s->in[SPEED].count > 1; k++) {
     case_of_first(s, &c);
-    c.given[MODEL] = &models->at[k];
+    c.inputs[MODEL] = &models->item[k];
     make(s, &c);
-    if (!knows_speed(&c.asked.rail))
+    if (!knows_speed(&c.shared.rail))
       complain(
           "the law of %s does not depend on the speed: at another speed the angles are the same",
-          models->at[k].name);
+          models->item[k].name);
   }
   return true;
 }
@@ -208,12 +200,12 @@ static void derive_case(const one_case *c, double d[MOST_DERIVED]) {
   cushion_kind.derive(c->row, c->result, d);
 }
 
-static double measure(const series *s, const one_case *c, int which) {
+static double measure(const series *s, const one_case *c, int which_quantity) {
   const double *v = c->result;
   double d[MOST_DERIVED];
   derive_case(c, d);
   (void)s;
-  switch (which) {
+  switch (which_quantity) {
   case ROLLING_REBOUND:
     return -d[2];
   case REBOUND:
@@ -238,8 +230,8 @@ static const char *rebound_text(double angle, const double v[2], char text[64]) 
   return text;
 }
 
-static const char *longer_or_shorter(double by) {
-  return by > 0.0 ? "longer" : "shorter";
+static const char *longer_or_shorter(double difference) {
+  return difference > 0.0 ? "longer" : "shorter";
 }
 
 /* What the cloth makes of the spin while the ball slips: the ball rolls with 5/7 of its velocity
@@ -271,10 +263,10 @@ static void tell_english(FILE *out, const one_case *c, const double d[MOST_DERIV
   none.row[SIDE_SPIN] = 0.0;
   if (c->row[SIDE_SPIN] == 0.0)
     return;
-  cushion_kind.solve(&c->asked, false, none.row, 1, none.result, &status);
+  cushion_kind.solve(&c->shared, false, none.row, 1, none.result, &status);
   derive_case(&none, plain);
   double way = -1.0;
-  if (c->given[ANGLE]->x < 0.0) /* angles are to the left */
+  if (c->inputs[ANGLE]->x < 0.0) /* angles are to the left */
     way = 1.0;
   const double once = way * (d[1] - plain[1]), rolling = way * (d[2] - plain[2]);
   if (status != CAROM_OK || isnan(once) || isnan(rolling))
@@ -301,7 +293,7 @@ static void tell_sticking(FILE *out, const one_case *c) {
   static const char *const what[2] = {"contacts      nose: ", "              cloth:"};
   enum { POINTS = 401 };
   carom_cushion_point point[POINTS];
-  const carom_cushion_options options = cushion_options_of(&c->asked);
+  const carom_cushion_options options = cushion_options_of(&c->shared);
   if (carom_cushion_trace((const void *)c->row, &options, POINTS, point) != CAROM_OK)
     return;
   for (int contact = 0; contact < 2; contact++) {
@@ -319,23 +311,22 @@ static void tell_sticking(FILE *out, const one_case *c) {
   }
 }
 
-static void tell(FILE *out, const series *s, const one_case *c) {
+static void tell(FILE *out, const one_case *c) {
   const carom_cushion_impact *in = (const carom_cushion_impact *)(const void *)c->row;
   const double *v = c->result;
   double d[MOST_DERIVED];
   char text[64];
-  (void)s;
   derive_case(c, d);
   fprintf(
       out,
       "A ball at %.4g m/s meets a cushion: %.4g degrees from its normal, spin %s%s (%.4g rad/s), "
       "%s.\n",
-      hypot(in->v[0], in->v[1]), c->given[ANGLE]->x, c->given[SPIN]->name,
-      share_of_rolling(c->given[SPIN]), copysign(hypot(in->w[0], in->w[1]), c->given[SPIN]->x),
+      hypot(in->v[0], in->v[1]), c->inputs[ANGLE]->x, c->inputs[SPIN]->name,
+      share_of_rolling(c->inputs[SPIN]), copysign(hypot(in->w[0], in->w[1]), c->inputs[SPIN]->x),
       english_text(in->w[2], text));
   fprintf(out, "Friction with the cushion %.4g, with the cloth %.4g, restitution %.4g; model %s.\n",
-          in->mu_cushion, in->mu_slide, in->restitution, cushion_kind.name(&c->asked));
-  if (!knows_speed(&c->asked.rail))
+          in->mu_cushion, in->mu_slide, in->restitution, cushion_kind.name(&c->shared));
+  if (!knows_speed(&c->shared.rail))
     fprintf(out, "At another speed the angles are the same, because the law does not depend on the "
                  "speed.\n");
   fprintf(out, "rebound       at once:     %s\n", rebound_text(d[1], v, text));
@@ -347,29 +338,28 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   fprintf(out, "energy        lost:        %.2f %%\n", 100.0 * d[5]);
 }
 
-static double draw(FILE *out, double top, const series *s, const one_case *c, const char *words) {
+static double draw(FILE *out, double top, const one_case *c, const char *words) {
   const carom_cushion_impact *in = (const carom_cushion_impact *)(const void *)c->row;
   const double R = in->radius, speed = hypot(in->v[0], in->v[1]), x = in->v[0] / speed,
                y = in->v[1] / speed;
   double d[MOST_DERIVED];
   char way[64], lines[2048];
   carom_ball ball = {.r = {0.0, 0.0, R}, .radius = R, .mass = in->mass, .mu_slide = in->mu_slide};
-  carom_motion after;
-  memcpy(&after, c->result, sizeof after);
+  carom_motion motion;
+  memcpy(&motion, c->result, sizeof motion);
   derive_case(c, d);
-  (void)s;
   snprintf(lines, sizeof lines,
            "Dot: the ball rolls from here on. Angles are from the normal of the cushion.\n%s",
            words);
   contact_picture p = {.balls = 1,
                        .ball = {&ball},
-                       .after = {&after},
+                       .outgoing = {&motion},
                        .rail = true,
                        .way = {rebound_text(d[2], d + 3, way)},
                        .words = lines};
   p.line[p.lines++] = (contact_line){{-8.0 * R * x, -8.0 * R * y}, {0.0, 0.0}, NULL};
   p.line[p.lines++] = (contact_line){{0.0, 0.0}, {0.0, -8.0 * R}, "normal"};
-  p.arc[p.arcs++] = (contact_arc){{0.0, 0.0}, -90.0, -90.0 - c->given[ANGLE]->x, "in"};
+  p.arc[p.arcs++] = (contact_arc){{0.0, 0.0}, -90.0, -90.0 - c->inputs[ANGLE]->x, "in"};
   if (isfinite(d[1]))
     p.arc[p.arcs++] = (contact_arc){{0.0, 0.0}, -90.0, -90.0 - d[1], "at once"};
   return contact_draw(out, top, &p);
@@ -382,12 +372,12 @@ static const char *law(const series *s, char text[80]) {
   make(s, &first);
 
   const char *how = "";
-  if (s->asked.rail.law == CAROM_CUSHION_LAW_HAN)
+  if (s->shared.rail.law == CAROM_CUSHION_LAW_HAN)
     how = " with Han's restitution and friction";
-  else if (models->count == 1 && !knows_speed(&first.asked.rail))
+  else if (models->count == 1 && !knows_speed(&first.shared.rail))
     how = ", whose law does not depend on the speed";
   if (models->count == 1)
-    snprintf(text, 80, "model %s%s", models->at[0].name, how);
+    snprintf(text, 80, "model %s%s", models->item[0].name, how);
   else
     snprintf(text, 80, "every model%s", how);
   return text;
@@ -429,13 +419,13 @@ static const command_form form = {
 };
 
 int command_rail(int argc, char **argv) {
-  static const scene rail = {&cushion_kind, inputs, QUANTITIES, quantity, make,
-                             measure,       tell,   draw,       law,      check};
+  static const scene rail = {&cushion_kind, inputs, MODEL, QUANTITIES, quantity, make,
+                             measure,       tell,   draw,  law,        check};
   static series s;
-  s = (series){.asked = {.cushion = true,
-                         .of_game = true,
-                         .rail = {.model = CAROM_CUSHION_SMOOTH},
-                         .options = COMMAND_OPTIONS},
+  s = (series){.shared = {.cushion = true,
+                          .of_game = true,
+                          .rail = {.model = CAROM_CUSHION_SMOOTH},
+                          .options = COMMAND_OPTIONS},
                .scene = &rail};
   values_default(&s.in[MODEL], MEASURE_MODEL, MODEL_OF_SHOTS);
   return series_command(

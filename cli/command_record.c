@@ -3,20 +3,13 @@
 #include "carom_record.h"
 
 #include "game/judge_match.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/number.h"
 #include "shots/shot_file.h"
 #include "subcommands.h"
 
 #include <errno.h>
 #include <inttypes.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { FIRST_ROOM = 512 }; /* for events */
 
@@ -40,8 +33,8 @@ typedef struct player {
 } player;
 
 static carom_status play(player *p, carom_record_kind kind) {
-  static carom_record before;
-  before = p->game;
+  static carom_record previous;
+  previous = p->game;
   p->first = 0;
   if (kind == CAROM_RECORD_CONTINUE)
     p->first = p->game.played.events;
@@ -54,7 +47,7 @@ static carom_status play(player *p, carom_record_kind kind) {
       return status;
     /* once more, with room for all */
     p->shot.events = grow(p->shot.events, &p->room, (size_t)p->shot.count, sizeof *p->shot.events);
-    p->game = before;
+    p->game = previous;
   }
 }
 
@@ -88,12 +81,12 @@ static bool record_shot(FILE *out, player *p, const shot_line *line, const char 
   const carom_table *table = &line->table->table;
   char what[40] = "";
   int where;
-  const carom_status bad =
+  const carom_status failure =
       carom_shot_check(table, line->ball, line->count, &line->cue, &game->options, &where);
-  if (bad < 0) {
+  if (failure < 0) {
     if (where >= 0)
       snprintf(what, sizeof what, "ball or part %d: ", where);
-    complain("%s:%zu: %s%s", file, line->number, what, carom_status_string(bad));
+    complain("%s:%zu: %s%s", file, line->number, what, carom_status_string(failure));
     return false;
   }
   if (memcmp(&game->table, table, sizeof *table) != 0) {
@@ -196,22 +189,22 @@ static void recording_close(recording *r) {
 }
 
 /* Reads the next line; false at the end of the file, or after a complaint, which *bad says. */
-static bool next_line(recording *r, carom_record *game, bool *bad) {
+static bool next_line(recording *r, carom_record *game, bool *failed) {
   const ssize_t size = getline(&r->text, &r->space, r->in);
   if (size < 0) {
-    *bad = ferror(r->in) != 0 || game->kind != CAROM_RECORD_END;
+    *failed = ferror(r->in) != 0 || game->kind != CAROM_RECORD_END;
     if (ferror(r->in))
       complain("cannot read %s: %s", r->path, strerror(errno));
     else if (game->line == 0)
       complain("%s: empty; a recording begins with {\"recording\": ...}", r->path);
-    else if (*bad)
+    else if (*failed)
       complain("%s: cut off behind line %" PRId64 ": there is no line {\"end\": ...}", r->path,
                game->line);
     return false;
   }
   r->size = (size_t)size;
   const carom_status status = carom_record_read(game, r->text, r->size);
-  *bad = status < 0;
+  *failed = status < 0;
   if (status == CAROM_ERROR_REVISION)
     complain("%s: recorded with revision %" PRId64 " of the physics; this carom has revision %d, "
              "with which shots have other bits. The carom of that revision plays it",
@@ -260,15 +253,15 @@ int command_replay(int argc, char **argv) {
   if (!recording_open(&r, path))
     return EXIT_USAGE;
   FILE *out = output_open(job.shared.output);
-  bool bad = true, good = true;
+  bool failed = true, good = true;
   if (out != NULL) {
     carom_record *game = allocate(1, sizeof *game);
     fputs("shot,line,status,events,time,hash,same\n", out);
-    while (next_line(&r, game, &bad)) {
+    while (next_line(&r, game, &failed)) {
       if (!is_shot(game))
         continue;
       const carom_status status = carom_record_play(game, (carom_record_kind)game->kind, NULL);
-      if ((bad = game->pending == 1)) {
+      if ((failed = game->pending == 1)) {
         complain("%s:%" PRId64 ": %s", r.path, game->line, carom_status_string(status));
         break;
       }
@@ -283,11 +276,11 @@ int command_replay(int argc, char **argv) {
     free(game);
   }
   recording_close(&r);
-  if (out != NULL && bad)
+  if (out != NULL && failed)
     output_abandon();
   else if (out != NULL && !output_commit())
-    bad = true;
-  if (bad)
+    failed = true;
+  if (failed)
     return EXIT_USAGE;
   return exit_of(good);
 }
@@ -305,7 +298,7 @@ static int64_t place_of(double x) {
 
 /* Tells where two numbers differ; false where they do not. */
 static bool tell_number(const char *what, double played, double recorded, const char *unit) {
-  char one[NUMBER_TEXT], other[NUMBER_TEXT];
+  char recorded_text[NUMBER_TEXT], played_text[NUMBER_TEXT];
   if (same_bits(played, recorded))
     return false;
   const int64_t a = place_of(played), b = place_of(recorded);
@@ -314,7 +307,7 @@ static bool tell_number(const char *what, double played, double recorded, const 
     apart = -apart;
   printf("%s is %s%s, recorded %s%s: they differ by %.3g%s, %" PRIu64
          " units in the last place, from bit %d on\n",
-         what, number_text(played, one), unit, number_text(recorded, other), unit,
+         what, number_text(played, recorded_text), unit, number_text(recorded, played_text), unit,
          played - recorded, unit, apart, 63 - __builtin_clzll((unsigned long long)(a ^ b)));
   return true;
 }
@@ -442,9 +435,9 @@ static int tell_good(const recording *r, const carom_record *game) {
 /* Reads, compares and judges all lines; an exit code. */
 static int verify(recording *r, player *p) {
   carom_record *game = &p->game;
-  bool bad; /* r->open: a shot ended otherwise; its events will tell where it began */
+  bool failed; /* r->open: a shot ended otherwise; its events will tell where it began */
   int64_t line = 0, compared = 0;
-  while (next_line(r, game, &bad)) {
+  while (next_line(r, game, &failed)) {
     r->stands |= game->kind == CAROM_RECORD_GAME;
     if (game->kind == CAROM_RECORD_EVENT) {
       if (!compare_event(r, p, line, compared))
@@ -475,7 +468,7 @@ static int verify(recording *r, player *p) {
     tell_end(r, p, line, compared);
     return EXIT_SOME;
   }
-  if (bad)
+  if (failed)
     return EXIT_USAGE;
   return tell_good(r, game);
 }

@@ -3,12 +3,7 @@
 #include "pictures/animation.h"
 #include "pictures/picture.h"
 #include "pictures/shot_drawings.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/doubts.h"
 #include "shots/shoot_flags.h"
 #include "shots/shot_fault.h"
@@ -16,15 +11,11 @@
 #include "shots/shot_story.h"
 #include "subcommands.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* lines in error that are named */
 enum { EVENTS_USUAL = -1, BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 };
 
 typedef struct shoot_job {
-  shoot_flags from; /* --threads, --steps, --output; and a shot from words */
+  shoot_flags flags; /* --threads, --steps, --output; and a shot from words */
   int events;
   const char *id;
   drawings drawn; /* --plot, --animate */
@@ -85,18 +76,18 @@ OPTION(shoot_job, option_cite, "cite", cite, 0, NULL, set_flag, 0,
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot with this id");
 
 static carom_shot_options options_of(const shoot_job *job) {
-  carom_shot_options options = job->from.shared.shot;
-  options.threads = job->from.shared.options.threads;
+  carom_shot_options options = job->flags.shared.shot;
+  options.threads = job->flags.shared.options.threads;
   return options;
 }
 
-/* Shots `from` to before `end` of a block: good lines of one table with one number of balls. */
-static void play(block *b, int from, int end, const carom_shot_options *options) {
-  const shot_line *first = &b->line[from];
-  const int count = first->count, n = end - from;
+/* Shots `start` to before `end` of a block: good lines of one table with one number of balls. */
+static void play(block *b, int start, int end, const carom_shot_options *options) {
+  const shot_line *first = &b->line[start];
+  const int count = first->count, n = end - start;
   for (int k = 0; k < n; k++) {
-    memcpy(b->ball + k * count, b->line[from + k].ball, (size_t)count * sizeof *b->ball);
-    b->cue[k] = b->line[from + k].cue;
+    memcpy(b->ball + k * count, b->line[start + k].ball, (size_t)count * sizeof *b->ball);
+    b->cue[k] = b->line[start + k].cue;
   }
   const carom_shot_job job = {.table = &first->table->table,
                               .balls = b->ball,
@@ -106,13 +97,13 @@ static void play(block *b, int from, int end, const carom_shot_options *options)
                               .cue_stride = 1,
                               .n = (uint64_t)n,
                               .options = options,
-                              .shots = b->shot + from,
+                              .shots = b->shot + start,
                               .status = b->batch_status};
   const carom_status batch = carom_shoot_batch(&job);
   for (int k = 0; k < n; k++) {
-    const shot_line *line = &b->line[from + k];
-    carom_shot *shot = &b->shot[from + k];
-    carom_status *status = &b->status[from + k];
+    const shot_line *line = &b->line[start + k];
+    carom_shot *shot = &b->shot[start + k];
+    carom_status *status = &b->status[start + k];
     *status = (carom_status)b->batch_status[k];
 
     /* what is common to the batch may be at fault, and then nothing was played */
@@ -146,11 +137,11 @@ static bool is_named(block *b) {
 /* The residuals of the fit after as many contacts, where --with has one. They are no errors of a
  * forecast, as the strikes of the fit knew the whole shots. */
 static void tell_bands(FILE *out, const given_numbers *with, const carom_shot *shot) {
-  int met = 0, row = 0;
+  int contacts = 0, row = 0;
   for (int64_t k = 0; k < shot->count; k++)
-    met +=
+    contacts +=
         shot->events[k].type == CAROM_EVENT_BALL_BALL || shot->events[k].type == CAROM_EVENT_RAIL;
-  while (row + 1 < with->bands && with->band[row + 1][0] <= met)
+  while (row + 1 < with->bands && with->band[row + 1][0] <= contacts)
     row++;
   if (with->bands > 0)
     fprintf(out,
@@ -163,16 +154,16 @@ static void tell_bands(FILE *out, const given_numbers *with, const carom_shot *s
 static void tell_block(shoot_job *job, FILE *out, const played *shots, int count) {
   char *words;
   size_t size;
-  FILE *said = open_text(&words, &size);
+  FILE *stream = open_text(&words, &size);
   for (int k = 0; k < count; k++) {
     if (count > 1)
-      fprintf(said, "%d: ", k + 1);
-    shot_tell(said, shots[k].line, shots[k].shot, shots[k].spread, count > 1);
-    tell_bands(said, &job->from.shared.with, shots[k].shot);
+      fprintf(stream, "%d: ", k + 1);
+    shot_tell(stream, shots[k].line, shots[k].shot, shots[k].spread, count > 1);
+    tell_bands(stream, &job->flags.shared.with, shots[k].shot);
     const size_t number = shots[k].line->number;
     if (number <= MOST_SHOTS)
-      fputs(job->from.aimed[number - 1], said);
-    fputs(job->left, said);
+      fputs(job->flags.aimed[number - 1], stream);
+    fputs(job->left, stream);
   }
   for (int k = 0; k < count && job->csv; k++) {
     const int number = (int)shots[k].line->number;
@@ -180,7 +171,7 @@ static void tell_block(shoot_job *job, FILE *out, const played *shots, int count
       fputs(STORY_COLUMNS "\n", out);
     story_rows(out, number, shots[k].line, shots[k].shot);
   }
-  close_text(said, &words);
+  close_text(stream, &words);
   if (job->words && !job->csv)
     fputs(words, out);
   if (count > 0)
@@ -192,36 +183,37 @@ static void tell_block(shoot_job *job, FILE *out, const played *shots, int count
 static void draw_alone(shoot_job *job, const played *shot) {
   char *words;
   size_t size;
-  FILE *said = open_text(&words, &size);
+  FILE *stream = open_text(&words, &size);
   if (shot->spread != NULL)
-    spread_tell(said, shot->spread, shot->line);
-  close_text(said, &words);
+    spread_tell(stream, shot->spread, shot->line);
+  close_text(stream, &words);
   drawings_draw(&job->drawn, shot, 1, words);
   free(words);
 }
 
 /* The spread of shot k of a block; where it is not known, that is an error of the shot. */
 static void find_spread(block *b, int k, const shoot_job *job, const carom_shot_options *options,
-                        spread *to) {
-  *to = (spread){.status = b->status[k]};
+                        spread *result) {
+  *result = (spread){.status = b->status[k]};
   if (b->status[k] < 0)
     return;
-  spread_of(&job->error, &b->line[k], &b->shot[k], options, drawings_asked(&job->drawn), to);
-  if (to->status < 0 && is_named(b))
-    complain("%s:%zu: --spread: %s", b->file, b->line[k].number, carom_status_string(to->status));
-  if (to->status < 0)
-    b->status[k] = to->status;
+  spread_of(&job->error, &b->line[k], &b->shot[k], options, drawings_asked(&job->drawn), result);
+  if (result->status < 0 && is_named(b))
+    complain("%s:%zu: --spread: %s", b->file, b->line[k].number,
+             carom_status_string(result->status));
+  if (result->status < 0)
+    b->status[k] = result->status;
 }
 
 /* Plays what has been read: lines without error, by runs of one table and one number of balls. */
 static void play_block(block *b, const carom_shot_options *options) {
-  for (int from = 0, end; from < b->count; from = end) {
-    end = from + 1;
-    if (b->line[from].error != NULL)
+  for (int start = 0, end; start < b->count; start = end) {
+    end = start + 1;
+    if (b->line[start].error != NULL)
       continue;
-    while (end < b->count && goes_with(&b->line[from], &b->line[end]))
+    while (end < b->count && goes_with(&b->line[start], &b->line[end]))
       end++;
-    play(b, from, end, options);
+    play(b, start, end, options);
   }
 }
 
@@ -272,7 +264,7 @@ static bool finish_block(block *b, shoot_job *job, FILE *out) {
                carom_status_string(b->status[k]));
     played *shot = &shots[count];
     *shot = (played){.line = line, .shot = &b->shot[k]};
-    if (job->error.given) {
+    if (job->error.is_set) {
       shot->spread = &spreads[count];
       find_spread(b, k, job, &options, &spreads[count]);
     }
@@ -314,14 +306,15 @@ static shot_read fill_block(block *b, shoot_job *job, shot_file *file, const cha
     what = shot_file_next(file, line, text);
     if (what != SHOT_SHOT)
       break;
-    shot_numbers(line, &job->from.shared, b->file, &b->unread);
+    shot_numbers(line, &job->flags.shared, b->file, &b->unread);
     carom_cue *cue = &line->cue;
     const bool plays =
         line->error == NULL && cue->speed > 0.0 && cue->miscue == 0.0 && tip_off_centre(cue) < 1.0;
-    if (plays && doubts_about_tip(&b->tips, tip_off_centre(cue)) != NULL && job->from.shared.strict)
+    if (plays && doubts_about_tip(&b->tips, tip_off_centre(cue)) != NULL &&
+        job->flags.shared.strict)
       cue->miscue = TIP_LIMIT;
     begin_shot(b, job->events != EVENTS_NONE || job->together || drawings_asked(&job->drawn) ||
-                      job->error.given);
+                      job->error.is_set);
     b->count++;
   }
   return what;
@@ -436,15 +429,15 @@ static bool go_together(const shoot_job *job, bool words, const char *path) {
     playing = "csv";
   else if (!words)
     playing = "events";
-  else if (job->error.given)
+  else if (job->error.is_set)
     playing = "spread";
   else if (drawn)
     playing = "plot and --animate";
   if (job->cite && (job->together || path != NULL))
     complain("--cite prints the sources of models and plays nothing: give it without a shot");
-  else if (job->from.json && playing != NULL)
+  else if (job->flags.json && playing != NULL)
     complain("--json prints the shot and plays nothing: give it without --%s", playing);
-  else if (job->csv && job->error.given)
+  else if (job->csv && job->error.is_set)
     complain("--csv has no columns for --spread: give only one of them");
   else if (job->id != NULL && (job->together || !drawn))
     complain("--id is which shot of a file --plot or --animate draws");
@@ -455,8 +448,8 @@ static bool go_together(const shoot_job *job, bool words, const char *path) {
 
 /* Chooses the stroke of --leave; false after a complaint. */
 static bool chooses(shoot_job *job, const carom_shot_options *options) {
-  const given_player *given = &job->from.shared.player;
-  if (!job->leave.given && (given->rated || given->errs))
+  const given_player *player = &job->flags.shared.player;
+  if (!job->leave.given && (player->rated || player->errs))
     complain("--player and --errors belong to --leave; `carom ways` reports how often a player "
              "pots a ball, and --spread what errors make of a shot");
   else if (job->leave.given && !job->together)
@@ -464,20 +457,20 @@ static bool chooses(shoot_job *job, const carom_shot_options *options) {
   else if (!job->leave.given)
     return true;
   else
-    return leave_choose(&job->leave, &job->from, options, job->left);
+    return leave_choose(&job->leave, &job->flags, options, job->left);
   return false;
 }
 
 /* What the options of a shot that is played need; false after a complaint. */
 static bool can_play(const shoot_job *job) {
-  const carom_shot_options *shot = &job->from.shared.shot;
+  const carom_shot_options *shot = &job->flags.shared.shot;
   if (job->csv && !job->words)
     complain("--csv writes a shot by options, without --events; a file's shots are written as "
              "lines of JSON");
-  else if (job->error.given && shot->world == CAROM_WORLD_POOLTOOL)
+  else if (job->error.is_set && shot->world == CAROM_WORLD_POOLTOOL)
     complain("--spread needs derivatives, which shots by --world pooltool do not have; --world "
              "carom has them");
-  else if (job->error.given && shot->ball_model == CAROM_BALL_MODEL_EULER)
+  else if (job->error.is_set && shot->ball_model == CAROM_BALL_MODEL_EULER)
     complain(
         "--spread needs derivatives, which --ball-model euler does not have; exact, its limit, "
         "has them");
@@ -488,11 +481,11 @@ static bool can_play(const shoot_job *job) {
 
 /* Plays the shots of a file to an output, and draws, or prints them for --json; an exit code. */
 static int shoot_file(shoot_job *job, shot_file *file) {
-  FILE *out = output_open(job->from.shared.output);
+  FILE *out = output_open(job->flags.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
   int code = EXIT_GOOD;
-  if (job->from.json)
+  if (job->flags.json)
     shot_file_print(out, file);
   else
     code = shoot_all(job, file, out);
@@ -502,7 +495,7 @@ static int shoot_file(shoot_job *job, shot_file *file) {
   }
   if (!output_commit())
     return EXIT_USAGE;
-  if (!drawings_write(&job->drawn) || (code == EXIT_GOOD && job->from.left_out > 0))
+  if (!drawings_write(&job->drawn) || (code == EXIT_GOOD && job->flags.left_out > 0))
     return EXIT_SOME;
   return code;
 }
@@ -510,11 +503,11 @@ static int shoot_file(shoot_job *job, shot_file *file) {
 int command_shoot(int argc, char **argv) {
   static shoot_job job;
   const char *path;
-  job = (shoot_job){.from = {.shared = {.options = COMMAND_OPTIONS}}, .events = EVENTS_USUAL};
+  job = (shoot_job){.flags = {.shared = {.options = COMMAND_OPTIONS}}, .events = EVENTS_USUAL};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
-  job.together = has_flags(&job.from);
+  job.together = has_flags(&job.flags);
   job.words = job.together && job.events == EVENTS_USUAL;
   if (job.events == EVENTS_USUAL)
     job.events = EVENTS_FULL;
@@ -531,7 +524,7 @@ int command_shoot(int argc, char **argv) {
                "--speed 2");
     return usage_hint(&form);
   }
-  if (!job.together && job.from.shared.with.lists > 0) {
+  if (!job.together && job.flags.shared.with.lists > 0) {
     complain(WITH_LISTS);
     return EXIT_USAGE;
   }
@@ -540,7 +533,7 @@ int command_shoot(int argc, char **argv) {
 
   shot_file *file;
   if (job.together)
-    file = flags_open(&job.from, &options, job.csv ? MOST_ROWS : MOST_SHOTS);
+    file = flags_open(&job.flags, &options, job.csv ? MOST_ROWS : MOST_SHOTS);
   else
     file = shot_file_open(path, options.cushion_model);
   int code = EXIT_USAGE;

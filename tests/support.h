@@ -50,7 +50,7 @@ double random_between(random_source *source, double low, double high);
 /* The same for each number of a vector. */
 void random_vector(random_source *source, int count, double low, double high, double *vector);
 
-#define COUNT_OF(array) (sizeof(array) / sizeof *(array))
+#define COUNT_OF(array) (sizeof(array) / sizeof(array)[0])
 
 /* Reads the rows of tests/rows.csv with this name, of so many numbers each. Returns how many. */
 int read_rows(const char *name, int columns, double *numbers);

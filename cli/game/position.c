@@ -12,11 +12,12 @@
 
 OPTION_SET(set_leave) {
   leave *to = field;
-  char copy[PLACE_TEXT], spelt[PLACE_TEXT], *rest = NULL;
+  char copy[128], *rest = NULL;
   value *part[] = {&to->x, &to->y, &to->radius};
-  int parts = 0;
   bool good = strlen(text) < sizeof copy;
-  snprintf(copy, sizeof copy, "%s", place_spelt(text, spelt));
+  const char *others = place_named(text, &to->x, &to->y);
+  int parts = others == text ? 0 : 2;
+  snprintf(copy, sizeof copy, "%s", others);
   value_of(MEASURE_LENGTH, "0.15", &to->radius);
   for (char *token = strtok_r(copy, ",", &rest); token != NULL && good;
        token = strtok_r(NULL, ",", &rest), parts++)
@@ -84,18 +85,18 @@ static double miss_of(const ways_search *s, const way *w, bool *good) {
 
 /* Gives the flags the one stroke. */
 static void take(shoot_flags *f, const carom_cue *cue) {
-  const place_list tip = {.count = 1, .at = {{.x = {.x = 0.0 - cue->a}, .y = {.x = cue->b}}}};
+  const place_list tip = {.count = 1, .place = {{.x = {.x = 0.0 - cue->a}, .y = {.x = cue->b}}}};
   f->ball_speed.count = 0;
   f->speed.count = f->elevation.count = 1;
-  f->speed.at[0] = (value){.x = cue->speed};
-  f->elevation.at[0] = (value){.x = cue->theta};
+  f->speed.item[0] = (value){.x = cue->speed};
+  f->elevation.item[0] = (value){.x = cue->theta};
   f->tip = tip;
   if (f->pocket != NULL) /* is aimed at again */
     return;
   f->at_ball = NULL;
-  f->cut.count = f->to.count = 0;
+  f->cut.count = f->target.count = 0;
   f->aim.count = 1;
-  f->aim.at[0] = (value){.x = cue->phi};
+  f->aim.item[0] = (value){.x = cue->phi};
 }
 
 /* Whether a stroke follows another in the range of its speeds. */

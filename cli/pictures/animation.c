@@ -4,15 +4,10 @@
 #include "pictures/animation.h"
 
 #include "player.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "shots/shot_story.h"
 
 #include <jansson.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 static const double step = 1.0 / 40.0; /* s */
 
@@ -37,18 +32,18 @@ OPTION_SET(set_animation) {
 static double *frames_of(const carom_shot *shot, size_t *count) {
   const int64_t events = shot_events_kept(shot);
   const size_t steps = (size_t)ceil(shot->time / step) + 1;
-  double *at = allocate(steps + (size_t)events, sizeof *at);
+  double *times = allocate(steps + (size_t)events, sizeof *times);
   int64_t next = 0;
   *count = 0;
   for (size_t k = 0; k < steps; k++) {
     const double time = fmin((double)k * step, shot->time);
     for (; next < events && shot->events[next].time <= time; next++)
-      if (*count == 0 || shot->events[next].time > at[*count - 1])
-        at[(*count)++] = shot->events[next].time;
-    if (*count == 0 || time > at[*count - 1])
-      at[(*count)++] = time;
+      if (*count == 0 || shot->events[next].time > times[*count - 1])
+        times[(*count)++] = shot->events[next].time;
+    if (*count == 0 || time > times[*count - 1])
+      times[(*count)++] = time;
   }
-  return at;
+  return times;
 }
 
 static void write_text(FILE *out, const char *text) {
@@ -92,17 +87,17 @@ static void write_pose(FILE *out, const carom_ball_state *s, const double turned
 /* {"times":[...],"poses":[[10 numbers at each time] of each ball],"events":[[time, name, a, b]]} */
 static void write_shot(FILE *out, const played *p) {
   size_t frames;
-  double *at = frames_of(p->shot, &frames);
+  double *times = frames_of(p->shot, &frames);
   const int count = p->line->count;
   fputs("{\"times\":[", out);
   for (size_t k = 0; k < frames; k++)
-    fprintf(out, "%s%.6f", text_if(k > 0, ","), at[k]);
+    fprintf(out, "%s%.6f", text_if(k > 0, ","), times[k]);
   fputs("],\"poses\":[", out);
 
   /* Of all balls at each time, and then ball by ball. */
   carom_ball_state *states = allocate(frames * (size_t)count, sizeof *states);
   double(*turned)[4] = allocate(frames * (size_t)count, sizeof *turned);
-  carom_shot_frames(p->line->ball, count, p->shot, at, frames, NULL, states, turned);
+  carom_shot_frames(p->line->ball, count, p->shot, times, frames, NULL, states, turned);
   for (int ball = 0; ball < count; ball++) {
     fputs(ball > 0 ? ",\n[" : "[", out);
     /* A ball that lies still has one pose. */
@@ -115,17 +110,17 @@ static void write_shot(FILE *out, const played *p) {
   }
   free(turned);
   free(states);
-  free(at);
+  free(times);
 
   fputs("],\n\"events\":[", out);
-  const char *between = "";
+  const char *separator = "";
   for (int64_t k = 0; k < p->shot->count && k < p->shot->room; k++) {
     const carom_event *e = &p->shot->events[k];
     const char *name = carom_event_name((carom_event_type)e->type);
     if (name == NULL)
       continue;
-    fprintf(out, "%s[%.6f,\"%s\",%d,%d]", between, e->time, name, (int)e->a, (int)e->b);
-    between = ",";
+    fprintf(out, "%s[%.6f,\"%s\",%d,%d]", separator, e->time, name, (int)e->a, (int)e->b);
+    separator = ",";
   }
   fputs("]}", out);
 }

@@ -39,8 +39,8 @@ static void include(sketch *s, const double r[2], double around) {
 }
 
 /* A dashed line; labels are not put on it. */
-static void dash(sketch *s, const double from[2], const double to[2]) {
-  const double a[2] = {across(s, from), down(s, from)}, b[2] = {across(s, to), down(s, to)};
+static void dash(sketch *s, const double start[2], const double end[2]) {
+  const double a[2] = {across(s, start), down(s, start)}, b[2] = {across(s, end), down(s, end)};
   fprintf(s->out,
           "<path d=\"M%.1f %.1fL%.1f %.1f\" fill=\"none\" stroke=\"#0b2a22\" stroke-dasharray=\"5 "
           "4\"/>\n",
@@ -52,28 +52,28 @@ static void dash(sketch *s, const double from[2], const double to[2]) {
 static void keep_arc(sketch *s, const contact_arc *a, double radius) {
   double last[2] = {0};
   for (int k = 0; k <= ARC_PIECES; k++) {
-    const double angle = (a->from + (a->to - a->from) * k / ARC_PIECES) * degree;
-    const double now[2] = {across(s, a->centre) + radius * cos(angle),
-                           down(s, a->centre) - radius * sin(angle)};
+    const double angle = (a->start + (a->end - a->start) * k / ARC_PIECES) * degree;
+    const double point[2] = {across(s, a->centre) + radius * cos(angle),
+                             down(s, a->centre) - radius * sin(angle)};
     if (k > 0)
-      keep_line(&s->labels, last[0], last[1], now[0], now[1]);
-    memcpy(last, now, sizeof last);
+      keep_line(&s->labels, last[0], last[1], point[0], point[1]);
+    memcpy(last, point, sizeof last);
   }
 }
 
 /* An arc of so many pixels about a place, and its angle beside its middle. */
 static void draw_arc(sketch *s, const contact_arc *a, double radius) {
   const double x = across(s, a->centre), y = down(s, a->centre),
-               middle = 0.5 * (a->from + a->to) * degree;
-  const double angle = fabs(a->to - a->from);
+               middle = 0.5 * (a->start + a->end) * degree;
+  const double angle = fabs(a->end - a->start);
   char text[60];
   if (angle < 0.05)
     return;
   fprintf(s->out,
           "<path d=\"M%.1f %.1fA%.1f %.1f 0 %d %d %.1f %.1f\" fill=\"none\" stroke=\"#0b2a22\"/>\n",
-          x + radius * cos(a->from * degree), y - radius * sin(a->from * degree), radius, radius,
-          angle > 180.0, a->to < a->from, x + radius * cos(a->to * degree),
-          y - radius * sin(a->to * degree));
+          x + radius * cos(a->start * degree), y - radius * sin(a->start * degree), radius, radius,
+          angle > 180.0, a->end < a->start, x + radius * cos(a->end * degree),
+          y - radius * sin(a->end * degree));
   snprintf(text, sizeof text, "%s %.1f\u00b0", a->label, angle);
   put_label(&s->labels, x + radius * cos(middle), y - radius * sin(middle), text);
 }
@@ -100,8 +100,8 @@ static void move(const contact_picture *p, motion *m) {
     b->kind.radius = R;
     b->kind.mu_slide = fmax(p->ball[k]->mu_slide, least_friction);
     memcpy(b->state.r, p->ball[k]->r, sizeof b->state.r);
-    memcpy(b->state.v, p->after[k]->v, sizeof b->state.v);
-    memcpy(b->state.w, p->after[k]->w, sizeof b->state.w);
+    memcpy(b->state.v, p->outgoing[k]->v, sizeof b->state.v);
+    memcpy(b->state.w, p->outgoing[k]->w, sizeof b->state.w);
     carom_rolling_velocity(b->state.v, b->state.w, R, rolling);
     fastest =
         fmax(fastest, fmax(hypot(b->state.v[0], b->state.v[1]), hypot(rolling[0], rolling[1])));
@@ -120,24 +120,24 @@ static void move(const contact_picture *p, motion *m) {
 }
 
 static void draw_path(sketch *s, const contact_picture *p, const motion *m, int ball) {
-  carom_ball_state at[2];
-  double last[2] = {0}, now[2] = {0}, sum = 0.0;
+  carom_ball_state states[2];
+  double last[2] = {0}, point[2] = {0}, sum = 0.0;
   fprintf(s->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" d=\"", colours[ball]);
   for (int k = 0; k <= SAMPLES; k++) {
-    carom_shot_at(m->ball, p->balls, &m->shot, m->end * k / SAMPLES, at);
-    memcpy(last, now, sizeof last);
-    memcpy(now, at[ball].r, sizeof now);
-    sum += k > 0 ? hypot(now[0] - last[0], now[1] - last[1]) : 0.0;
-    fprintf(s->out, "%c%.1f %.1f", k > 0 ? 'L' : 'M', across(s, now), down(s, now));
-    keep_free(&s->labels, across(s, now) - 4.0, down(s, now) - 4.0, across(s, now) + 4.0,
-              down(s, now) + 4.0);
+    carom_shot_at(m->ball, p->balls, &m->shot, m->end * k / SAMPLES, states);
+    memcpy(last, point, sizeof last);
+    memcpy(point, states[ball].r, sizeof point);
+    sum += k > 0 ? hypot(point[0] - last[0], point[1] - last[1]) : 0.0;
+    fprintf(s->out, "%c%.1f %.1f", k > 0 ? 'L' : 'M', across(s, point), down(s, point));
+    keep_free(&s->labels, across(s, point) - 4.0, down(s, point) - 4.0, across(s, point) + 4.0,
+              down(s, point) + 4.0);
   }
   fputs("\"/>\n", s->out);
   if (s->scale * sum < 4.0)
     return;
   /* An arrow's head, and from where on the ball rolls. */
-  const double angle = atan2(now[1] - last[1], now[0] - last[0]), x = across(s, now),
-               y = down(s, now);
+  const double angle = atan2(point[1] - last[1], point[0] - last[0]), x = across(s, point),
+               y = down(s, point);
   fprintf(s->out, "<path fill=\"%s\" d=\"M%.1f %.1f", colours[ball], x + 13.0 * cos(angle),
           y - 13.0 * sin(angle));
   for (int side = -1; side < 2; side += 2)
@@ -148,9 +148,9 @@ static void draw_path(sketch *s, const contact_picture *p, const motion *m, int 
   keep_free(&s->labels, x + 13.0 * cos(angle) - 4.0, y - 13.0 * sin(angle) - 4.0,
             x + 13.0 * cos(angle) + 4.0, y - 13.0 * sin(angle) + 4.0);
   if (m->rolls[ball] > 0.0 && m->rolls[ball] < m->end) {
-    carom_shot_at(m->ball, p->balls, &m->shot, m->rolls[ball], at);
+    carom_shot_at(m->ball, p->balls, &m->shot, m->rolls[ball], states);
     fprintf(s->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#0b2a22\"/>\n",
-            across(s, at[ball].r), down(s, at[ball].r));
+            across(s, states[ball].r), down(s, states[ball].r));
   }
   put_label(&s->labels, x + 14.0 * cos(angle), y - 14.0 * sin(angle), p->way[ball]);
 }
@@ -183,17 +183,17 @@ static void draw_scale(sketch *s) {
 static sketch sketch_of(FILE *out, const contact_picture *p, const motion *m) {
   sketch s = {.out = out, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
   const double R = p->ball[0]->radius;
-  carom_ball_state at[2];
+  carom_ball_state states[2];
   for (int k = 0; k < p->balls; k++)
     include(&s, p->ball[k]->r, 1.5 * R);
   for (int k = 0; k < p->lines; k++) {
-    include(&s, p->line[k].from, 0.5 * R);
-    include(&s, p->line[k].to, 0.5 * R);
+    include(&s, p->line[k].start, 0.5 * R);
+    include(&s, p->line[k].end, 0.5 * R);
   }
   for (int k = 1; k <= SAMPLES; k++) {
-    carom_shot_at(m->ball, p->balls, &m->shot, m->end * k / SAMPLES, at);
+    carom_shot_at(m->ball, p->balls, &m->shot, m->end * k / SAMPLES, states);
     for (int ball = 0; ball < p->balls; ball++)
-      include(&s, at[ball].r, 1.5 * R);
+      include(&s, states[ball].r, 1.5 * R);
   }
   if (p->rail)
     s.high[1] = 1.8 * R;
@@ -231,7 +231,7 @@ double contact_draw(FILE *out, double top, const contact_picture *p) {
     keep_free(&s.labels, x - r, y - r, x + r, y + r);
   }
   for (int k = 0; k < p->lines; k++)
-    dash(&s, p->line[k].from, p->line[k].to);
+    dash(&s, p->line[k].start, p->line[k].end);
   for (int k = 0; k < p->arcs; k++)
     keep_arc(&s, &p->arc[k], fmax(46.0, s.scale * R * 1.3) + 34.0 * k);
   for (int k = 0; k < p->balls; k++)
@@ -240,7 +240,7 @@ double contact_draw(FILE *out, double top, const contact_picture *p) {
     draw_arc(&s, &p->arc[k], fmax(46.0, s.scale * R * 1.3) + 34.0 * k);
   for (int k = 0; k < p->lines; k++)
     if (p->line[k].label != NULL)
-      put_label(&s.labels, across(&s, p->line[k].to), down(&s, p->line[k].to), p->line[k].label);
+      put_label(&s.labels, across(&s, p->line[k].end), down(&s, p->line[k].end), p->line[k].label);
   svg_lines(out, margin, first, size, columns,
             "font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", p->words);
   fputs("</svg>\n", out);

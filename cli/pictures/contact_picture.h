@@ -12,20 +12,20 @@ enum { CONTACT_WIDTH = 900, MOST_LINES = 4, MOST_ARCS = 3 };
 
 /* A dashed line with a label at its end, m. */
 typedef struct contact_line {
-  double from[2], to[2];
+  double start[2], end[2];
   const char *label;
 } contact_line;
 
 /* An angle about a place, between two directions in degrees from +x. */
 typedef struct contact_arc {
-  double centre[2], from, to;
+  double centre[2], start, end;
   const char *label; /* "cut" */
 } contact_arc;
 
 typedef struct contact_picture {
   int balls;
   const carom_ball *ball[2]; /* as they were; the first one moved */
-  const carom_motion *after[2];
+  const carom_motion *outgoing[2];
   bool rail;                    /* a cushion touches the first ball from +y */
   const char *name[2], *way[2]; /* of the balls, and what is said where a path ends: "33.5
                                    degrees to the right" */

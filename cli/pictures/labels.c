@@ -55,12 +55,12 @@ void put_label(labels *l, double x, double y, const char *text) {
     return;
   keep_free(l, box[0], box[1], box[2], box[3]);
   /* a label that stands away is tied to its place */
-  const double near[2] = {fmin(fmax(x, box[0]), box[2]), fmin(fmax(y, box[1]), box[3])};
-  if (hypot(near[0] - x, near[1] - y) > 1.5 * l->size)
+  const double nearest[2] = {fmin(fmax(x, box[0]), box[2]), fmin(fmax(y, box[1]), box[3])};
+  if (hypot(nearest[0] - x, nearest[1] - y) > 1.5 * l->size)
     fprintf(l->out,
             "<path class=\"tie\" d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#0b2a22\" "
             "stroke-width=\"1\"/>\n",
-            x, y, near[0], near[1]);
+            x, y, nearest[0], nearest[1]);
   svg_text(l->out, box[0], box[3] - 0.25 * height, text, MOST_CHARACTERS,
            "font-size=\"%.1f\" fill=\"#fff\" stroke=\"#0b2a22\" stroke-width=\"3\" "
            "paint-order=\"stroke\"",

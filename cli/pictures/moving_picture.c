@@ -5,11 +5,8 @@
 
 #include "pictures/labels.h"
 #include "pictures/table_picture.h"
-#include "program/memory.h"
+#include "program/program.h"
 #include "shots/shot_story.h"
-
-#include <math.h>
-#include <stdlib.h>
 
 static const double step = 1.0 / 30.0, rest = 2.0; /* s */
 

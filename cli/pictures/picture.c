@@ -2,16 +2,11 @@
  * temporary file can stay behind; a picture that is whole then goes to its place. */
 #include "pictures/picture.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/place.h"
+#include "program/program.h"
 
 #include <errno.h>
 #include <limits.h>
 #include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -35,8 +30,8 @@ OPTION_SET(set_picture) {
   return false;
 }
 
-static void complain_missing(const char *path, const char *program, const char *package) {
-  complain("cannot draw %s: %s is not installed (Debian: %s)", path, program, package);
+static void complain_missing(const char *path, const char *executable, const char *package) {
+  complain("cannot draw %s: %s is not installed (Debian: %s)", path, executable, package);
 }
 
 /* A file in memory, which the child inherits. Complains and returns NULL if there can be none. */
@@ -51,14 +46,14 @@ static FILE *in_memory(const char *name) {
 /* Runs a program from one file in memory to another. What it says is shown only if it fails:
  * gnuplot also warns of every part of a plot that a CSV has no rows for, and those are optional.
  * False after a complaint. */
-static bool run(const char *path, char *const words[], const char *package, FILE *from, FILE *to,
-                FILE *noise) {
+static bool run(const char *path, char *const words[], const char *package, FILE *input,
+                FILE *output, FILE *noise) {
   int status;
   fflush(NULL);
-  rewind(from);
+  rewind(input);
   const pid_t child = fork();
   if (child == 0) {
-    if (dup2(fileno(from), STDIN_FILENO) >= 0 && dup2(fileno(to), STDOUT_FILENO) >= 0 &&
+    if (dup2(fileno(input), STDIN_FILENO) >= 0 && dup2(fileno(output), STDOUT_FILENO) >= 0 &&
         dup2(fileno(noise), STDERR_FILENO) >= 0)
       execvp(words[0], words);
     _exit(NOT_INSTALLED);
@@ -77,13 +72,13 @@ static bool run(const char *path, char *const words[], const char *package, FILE
 }
 
 /* What `write` writes, put to its place by a program with these words; without one as it is. */
-static bool make(const char *path, char *const words[], const char *package, FILE *from,
+static bool make(const char *path, char *const words[], const char *package, FILE *input,
                  void (*write)(FILE *, const void *), const void *data) {
   FILE *noise = in_memory("noise"), *drawn = in_memory("picture"), *out = NULL;
-  bool good = from != NULL && noise != NULL && drawn != NULL;
+  bool good = input != NULL && noise != NULL && drawn != NULL;
   if (good) {
-    write(words != NULL ? from : drawn, data);
-    good = (words == NULL || run(path, words, package, from, drawn, noise)) &&
+    write(words != NULL ? input : drawn, data);
+    good = (words == NULL || run(path, words, package, input, drawn, noise)) &&
            (out = output_open(path)) != NULL;
   }
   if (good && output_copy(drawn, out) == 0) {
@@ -92,8 +87,8 @@ static bool make(const char *path, char *const words[], const char *package, FIL
     good = false;
   }
   for (int k = 0; k < 3; k++)
-    if ((FILE *[]){from, noise, drawn}[k] != NULL)
-      fclose((FILE *[]){from, noise, drawn}[k]);
+    if ((FILE *[]){input, noise, drawn}[k] != NULL)
+      fclose((FILE *[]){input, noise, drawn}[k]);
   return good && output_commit();
 }
 
@@ -112,13 +107,14 @@ bool picture_draw(const char *path, const char *name, const char *title,
 
 /* Whether execvp() would find the program: in the folders of PATH, of which an empty one is the
  * current folder. */
-static bool is_installed(const char *program) {
+static bool is_installed(const char *executable) {
   const char *path = getenv("PATH"), *folder = path != NULL ? path : "/bin:/usr/bin";
   for (;;) {
     char name[PATH_MAX];
     struct stat about;
     const int size = (int)strcspn(folder, ":");
-    snprintf(name, sizeof name, "%.*s/%s", size > 0 ? size : 1, size > 0 ? folder : ".", program);
+    snprintf(name, sizeof name, "%.*s/%s", size > 0 ? size : 1, size > 0 ? folder : ".",
+             executable);
     if (stat(name, &about) == 0 && S_ISREG(about.st_mode) && access(name, X_OK) == 0)
       return true;
     if (folder[size] == '\0')
@@ -198,9 +194,9 @@ double svg_lines(FILE *out, double x, double y, double size, int columns, const 
   FILE *wrapped = open_text(&lines, &length);
   print_wrapped(wrapped, text, columns);
   close_text(wrapped, &lines);
-  for (const char *at = lines; *at != '\0'; at += strcspn(at, "\n") + 1, y += 1.25 * size)
+  for (const char *line = lines; *line != '\0'; line += strcspn(line, "\n") + 1, y += 1.25 * size)
     if (out != NULL)
-      svg_text(out, x, y, at, (int)strcspn(at, "\n"),
+      svg_text(out, x, y, line, (int)strcspn(line, "\n"),
                "xml:space=\"preserve\" font-size=\"%.1f\" %s", size, style);
   free(lines);
   return y;

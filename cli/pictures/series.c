@@ -3,26 +3,19 @@
 
 #include "pictures/contact_picture.h"
 #include "pictures/picture.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/doubts.h"
 #include "rows/number.h"
 #include "rows/quantities.h"
 #include "rows/sink.h"
 
 #include <limits.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { MOST_COMBINED = 1000000 }; /* of a table */
 
 static int inputs_of(const series *s) {
   int count = 0;
-  while (s->scene->inputs[count].name != NULL)
+  while (s->scene->inputs[count] != NULL)
     count++;
   return count;
 }
@@ -46,25 +39,24 @@ static int count_of(const series *s) {
 
 /* Whether a curve's footer tells it as another input, or as the law. */
 static bool is_tacit(const series *s, int k) {
-  return isnan(s->in[k].at[0].x) || s->scene->inputs[k].measure == MEASURE_MODEL;
+  return isnan(s->in[k].item[0].x) || k == s->scene->model;
 }
 
 /* Combination number `index`: a range changes fastest, then the last of the lists. */
 static void make_case(const series *s, int index, one_case *c) {
   const int range = range_of(s), inputs = inputs_of(s);
-  *c = (one_case){.asked = s->asked};
+  *c = (one_case){.shared = s->shared};
   for (int k = inputs; k >= 0; k--) {
     const int input = k == inputs ? range : k;
-    if (input < 0 || c->given[input] != NULL)
+    if (input < 0 || c->inputs[input] != NULL)
       continue;
-    c->given[input] = &s->in[input].at[index % s->in[input].count];
+    c->inputs[input] = &s->in[input].item[index % s->in[input].count];
     index /= s->in[input].count;
   }
   /* The first value, and those of lists. */
   for (int k = 0; k < inputs; k++)
     if (k == 0 || s->in[k].count > 1)
-      snprintf(c->id + strlen(c->id), sizeof c->id - strlen(c->id), "%s%s", text_if(k > 0, "-"),
-               c->given[k]->name);
+      append(c->id, sizeof c->id, "-", "%s", c->inputs[k]->name);
   for (char *blank = c->id; (blank = strchr(blank, ' ')) != NULL;)
     memmove(blank, blank + 1, strlen(blank));
   s->scene->make(s, c);
@@ -73,7 +65,7 @@ static void make_case(const series *s, int index, one_case *c) {
 static carom_status resolve_case(const series *s, int index, one_case *c) {
   int8_t status;
   make_case(s, index, c);
-  s->scene->kind->solve(&c->asked, false, c->row, 1, c->result, &status);
+  s->scene->kind->solve(&c->shared, false, c->row, 1, c->result, &status);
   return (carom_status)status;
 }
 
@@ -87,7 +79,7 @@ static bool check_all(const series *s, int count) {
     int field = -1;
     const carom_status status = resolve_case(s, k, &c);
     if (status != CAROM_OK) {
-      kind->check(c.row, &c.asked, &field);
+      kind->check(c.row, &c.shared, &field);
       char where[40] = "";
       if (field >= 0)
         snprintf(where, sizeof where, "%s: ", kind->columns[field].name);
@@ -95,7 +87,7 @@ static bool check_all(const series *s, int count) {
                carom_status_name(status));
       return false;
     }
-    const double tip = tip_offset(c.given, inputs_of(s), c.row[kind->radius]);
+    const double tip = tip_offset(c.inputs, inputs_of(s), c.row[kind->radius]);
     if (tip > 1.0) {
       complain("no such %s (%s): the tip is %.4g R from the centre, beside the ball", kind->noun,
                c.id, tip);
@@ -108,7 +100,7 @@ static bool check_all(const series *s, int count) {
     strange |= s->in[k].comma;
   doubts_report(&found, kind->noun, "the values given");
   doubts_report(&tips, kind->noun, "the values given");
-  return !(s->asked.strict && strange);
+  return !(s->shared.strict && strange);
 }
 
 /* ---- Velocities and spins in words */
@@ -162,12 +154,12 @@ static void write_rows(FILE *out, const series *s, int count) {
 
 /* The word of a quantity; returns whether there is one. */
 static bool quantity_word(const series *s, int quantity, char word[32]) {
-  const char *at = s->scene->quantities;
-  for (int k = 0; k < quantity && at != NULL; k++)
-    at = strchr(at, '|') != NULL ? strchr(at, '|') + 1 : NULL;
-  if (at != NULL)
-    snprintf(word, 32, "%.*s", (int)strcspn(at, "|"), at);
-  return at != NULL;
+  const char *place = s->scene->quantities;
+  for (int k = 0; k < quantity && place != NULL; k++)
+    place = strchr(place, '|') != NULL ? strchr(place, '|') + 1 : NULL;
+  if (place != NULL)
+    snprintf(word, 32, "%.*s", (int)strcspn(place, "|"), place);
+  return place != NULL;
 }
 
 /* The quantities of which a text, or what stands behind its last hyphen, is a part between hyphens,
@@ -180,9 +172,9 @@ static uint32_t quantities_with(const char *words, const char *text) {
   uint32_t set = 0;
   for (int place = 0; *words != '\0'; place++) {
     const size_t length = strcspn(words, "|");
-    for (size_t from = 0, part; from < length; from += part + 1) {
-      part = strcspn(words + from, "|-");
-      if (same_word(text, size, words + from, part))
+    for (size_t start = 0, part; start < length; start += part + 1) {
+      part = strcspn(words + start, "|-");
+      if (same_word(text, size, words + start, part))
         set |= 1U << place;
     }
     words += length + (words[length] != '\0');
@@ -239,12 +231,12 @@ static void write_table(FILE *out, const series *s, int count) {
   one_case c;
   for (int k = 0; k < inputs_of(s); k++)
     if (s->in[k].count > 1)
-      fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k].name,
+      fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k],
               s->in[k].unit);
-  const char *between = "";
+  const char *separator = "";
   for (int q = 0; next_quantity(s, &q, word); q++) {
-    fprintf(out, "%s%s%s", between, word, text_if(!s->csv, unit_of(s, q)));
-    between = ",";
+    fprintf(out, "%s%s%s", separator, word, text_if(!s->csv, unit_of(s, q)));
+    separator = ",";
   }
   fputc('\n', out);
   for (int k = 0; k < count; k++) {
@@ -252,18 +244,18 @@ static void write_table(FILE *out, const series *s, int count) {
     resolve_case(s, k, &c);
     for (int input = 0; input < inputs_of(s); input++)
       if (s->in[input].count > 1) {
-        const value *v = c.given[input];
-        fprintf(out, "%s,", isnan(v->given) ? v->name : number_text(v->given, text));
+        const value *v = c.inputs[input];
+        fprintf(out, "%s,", isnan(v->number) ? v->name : number_text(v->number, text));
       }
-    between = "";
+    separator = "";
     for (int q = 0; next_quantity(s, &q, word); q++) {
       const double x = s->scene->measure(s, &c, q) + 0.0;
       if (s->csv)
         number_text(x, text);
       else
         snprintf(text, sizeof text, "%.6g", x);
-      fprintf(out, "%s%s", between, text);
-      between = ",";
+      fprintf(out, "%s%s", separator, text);
+      separator = ",";
     }
     fputc('\n', out);
   }
@@ -274,7 +266,7 @@ static void write_words(FILE *out, const series *s, int count) {
   for (int k = 0; k < count; k++) {
     resolve_case(s, k, &c);
     fputs(text_if(k > 0, "\n"), out);
-    s->scene->tell(out, s, &c);
+    s->scene->tell(out, &c);
   }
 }
 
@@ -287,15 +279,15 @@ static void write_curves(FILE *out, const void *data) {
   const int quantity = quantity_of_curves(s);
   char law[80];
   one_case c;
-  fprintf(out, "# x: %s (%s)\n# y: %s\n# footer: ", s->scene->inputs[range].name, s->in[range].unit,
+  fprintf(out, "# x: %s (%s)\n# y: %s\n# footer: ", s->scene->inputs[range], s->in[range].unit,
           s->scene->quantity[quantity]);
   /* What is the same for all, on lines of a few, and the law. */
-  const char *between = "";
-  for (int k = 0, said = 0; k < inputs_of(s); k++)
+  const char *separator = "";
+  for (int k = 0, written = 0; k < inputs_of(s); k++)
     if (s->in[k].count == 1 && !is_tacit(s, k)) {
-      fprintf(out, "%s%s %s", between, s->scene->inputs[k].name, s->in[k].at[0].name);
-      said++;
-      between = said % 3 > 0 ? ", " : "\n# footer: ";
+      fprintf(out, "%s%s %s", separator, s->scene->inputs[k], s->in[k].item[0].name);
+      written++;
+      separator = written % 3 > 0 ? ", " : "\n# footer: ";
     }
   if (s->scene->law(s, law)[0] != '\0')
     fprintf(out, "\n# footer: %s", law);
@@ -303,21 +295,21 @@ static void write_curves(FILE *out, const void *data) {
   for (int curve = 0; curve < curves; curve++) {
     make_case(s, curve * points, &c);
     fprintf(out, "# curve %d: ", curve + 1);
-    between = "";
+    separator = "";
     for (int k = 0; k < inputs_of(s); k++)
       if (k != range && s->in[k].count > 1) {
-        fputs(between, out);
-        if (!isnan(c.given[k]->given))
-          fprintf(out, "%s ", s->scene->inputs[k].name);
-        fputs(c.given[k]->name, out);
-        between = ", ";
+        fputs(separator, out);
+        if (!isnan(c.inputs[k]->number))
+          fprintf(out, "%s ", s->scene->inputs[k]);
+        fputs(c.inputs[k]->name, out);
+        separator = ", ";
       }
     fputc('\n', out);
   }
   fputs("curve,x,y\n", out);
   for (int k = 0; k < curves * points; k++) {
     resolve_case(s, k, &c);
-    fprintf(out, "%d,%.9g,%.9g\n", k / points + 1, c.given[range]->given,
+    fprintf(out, "%d,%.9g,%.9g\n", k / points + 1, c.inputs[range]->number,
             s->scene->measure(s, &c, quantity));
   }
 }
@@ -331,11 +323,11 @@ static void write_pictures(FILE *out, const void *data) {
   FILE *part = open_text(&body, &body_size);
   for (int k = 0; k < count_of(s); k++) {
     one_case c;
-    FILE *said = open_text(&words, &words_size);
+    FILE *stream = open_text(&words, &words_size);
     resolve_case(s, k, &c);
-    s->scene->tell(said, s, &c);
-    close_text(said, &words);
-    top += s->scene->draw(part, top, s, &c, words);
+    s->scene->tell(stream, &c);
+    close_text(stream, &words);
+    top += s->scene->draw(part, top, &c, words);
     free(words);
   }
   close_text(part, &body);
@@ -356,10 +348,10 @@ static bool draw(const series *s) {
 /* Whether rows, where they are asked for, say all; false after a complaint. */
 static bool rows_have_all(const series *s) {
   const bool rows = s->csv && s->asked_for == 0;
-  if (rows && s->asked.models != 0)
+  if (rows && s->shared.models != 0)
     complain("--csv writes rows, which have no model: give --model to `carom resolve --cushion`, "
              "or --quantity here");
-  else if (rows && s->asked.options.solver != CAROM_SOLVER_EXACT)
+  else if (rows && s->shared.options.solver != CAROM_SOLVER_EXACT)
     complain("--csv writes rows, which have no solver: give --solver to `carom resolve`, or "
              "--quantity here");
   else
@@ -402,15 +394,15 @@ static bool is_above_0(double speed) {
 /* Takes those values out of a list that are out of range, with a complaint; returns whether any is
  * left, and notes in `*some` that some are not. */
 static bool take_out(values *list, bool (*is_right)(double), const char *complaint, bool *some) {
-  const int all = list->count;
+  const int total = list->count;
   double first = 0.0;
   list->count = 0;
-  for (int k = 0; k < all; k++)
-    if (is_right(list->at[k].x))
-      list->at[list->count++] = list->at[k];
+  for (int k = 0; k < total; k++)
+    if (is_right(list->item[k].x))
+      list->item[list->count++] = list->item[k];
     else if (list->count == k)
-      first = list->at[k].given;
-  const int out = all - list->count;
+      first = list->item[k].number;
+  const int out = total - list->count;
   if (out == 1)
     complain("%s; %g is left out", complaint, first);
   else if (out > 1)
@@ -422,7 +414,7 @@ static bool take_out(values *list, bool (*is_right)(double), const char *complai
 /* Writes the words, the table or the rows; false after a complaint. */
 static bool write_all(const series *s, int count) {
   const bool curves = range_of(s) >= 0, quantity = s->asked_for != 0;
-  FILE *out = output_open(s->asked.output != NULL ? s->asked.output : "-");
+  FILE *out = output_open(s->shared.output != NULL ? s->shared.output : "-");
   if (out == NULL)
     return false;
   if (s->csv && !quantity)
@@ -438,7 +430,7 @@ int series_command(series *s, const command_form *form, int argc, char **argv, i
                    const char *complaint) {
   for (int k = 0; k < inputs_of(s); k++)
     if (s->in[k].count == 0)
-      s->in[k] = (values){.count = 1, .unit = "", .at = {{.x = NAN, .given = NAN}}};
+      s->in[k] = (values){.count = 1, .unit = "", .item = {{.x = NAN, .number = NAN}}};
   const int code = parse_arguments(form, argc, argv, s, NULL);
   bool left_out = false;
   if (code >= 0)
@@ -452,7 +444,7 @@ int series_command(series *s, const command_form *form, int argc, char **argv, i
   if (!is_possible(s, count) || !output_possible(s->picture) || !check_all(s, count))
     return EXIT_USAGE;
   /* With a picture of curves the table is only written where it is asked for. */
-  const bool writes = range_of(s) < 0 || s->picture == NULL || s->csv || s->asked.output != NULL;
+  const bool writes = range_of(s) < 0 || s->picture == NULL || s->csv || s->shared.output != NULL;
   if (writes && !write_all(s, count))
     return EXIT_USAGE;
   if (s->picture != NULL && !draw(s))

@@ -14,22 +14,18 @@ typedef struct series series;
 
 /* One of the combinations: a value of each input, its row, how it is solved, and the result. */
 typedef struct one_case {
-  const value *given[MOST_INPUTS];
-  shared_options asked;
+  const value *inputs[MOST_INPUTS];
+  shared_options shared;
   double row[MOST_NUMBERS], result[MOST_RESULTS];
   char id[MOST_INPUTS * VALUE_NAME];
 } one_case;
 
-/* What an input is, on an axis: "cut angle", and its measure. An option without a default leaves
- * NaN, for which the scene knows what stands. */
-typedef struct scene_input {
-  const char *name;
-  int measure;
-} scene_input;
-
 typedef struct scene {
   const row_kind *kind;
-  const scene_input *inputs;   /* ends with a name of NULL */
+  const char *const *inputs;   /* what each is, on an axis: "cut angle"; ends with NULL. An option
+                                  without a default leaves NaN, for which the scene knows what
+                                  stands. */
+  int model;                   /* the input that is a cushion model, or -1 */
   const char *quantities;      /* words of --quantity, with bars between; the first is the usual
                                   one */
   const char *const *quantity; /* what each is, on an axis, with its unit */
@@ -38,10 +34,10 @@ typedef struct scene {
   /* Measures a quantity. */
   double (*measure)(const series *s, const one_case *c, int quantity);
   /* Tells in words what came of it. */
-  void (*tell)(FILE *out, const series *s, const one_case *c);
+  void (*tell)(FILE *out, const one_case *c);
   /* Draws it as a part of a picture, with those words, from `top` down; returns its height,
    * pixels. */
-  double (*draw)(FILE *out, double top, const series *s, const one_case *c, const char *words);
+  double (*draw)(FILE *out, double top, const one_case *c, const char *words);
   /* What holds for all curves and is no input, or "": the law of friction. */
   const char *(*law)(const series *s, char text[80]);
   /* Whether all can be made; else a complaint. NULL: it can. */
@@ -49,7 +45,7 @@ typedef struct scene {
 } scene;
 
 struct series {
-  shared_options asked;
+  shared_options shared;
   const scene *scene;
   values in[MOST_INPUTS];
   uint32_t asked_for; /* --quantity: a bit for each of the words; 0: none was given */
@@ -57,6 +53,10 @@ struct series {
   bool csv;
   const char *picture;
 };
+
+/* An option for the values of an input. */
+#define INPUT(row, option, input, argument, measure, ...) \
+  OPTION(series, row, option, in[input], 0, argument, set_values, measure, __VA_ARGS__)
 
 /* series.asked_for: words of row->argument, with commas. */
 OPTION_SET(set_quantities);

@@ -4,10 +4,7 @@
 #include "pictures/animation.h"
 #include "pictures/moving_picture.h"
 #include "pictures/picture.h"
-#include "program/memory.h"
-#include "program/output.h"
-
-#include <stdlib.h>
+#include "program/program.h"
 
 bool drawings_asked(const drawings *d) {
   return d->path[PICTURE] != NULL || d->path[FILM] != NULL;

@@ -5,15 +5,11 @@
 #include "pictures/ball_colours.h"
 #include "pictures/picture.h"
 #include "pictures/table_picture.h"
-#include "program/memory.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/quantities.h"
 #include "shots/shot_story.h"
 
-#include <math.h>
 #include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { MOST_MARKED = 9 }; /* cushions of a shot */
 
@@ -34,14 +30,15 @@ static const double letter_width = 0.53;
 /* Goes on with a path from a place to another and a time: straight, or in short pieces where the
  * ball slides. */
 static void draw_piece(const view *v, const shot_line *line, const carom_shot *shot, int ball,
-                       double from, double to, const double start[2], const double end[2],
-                       bool curved) {
+                       double start_time, double end_time, const double start[2],
+                       const double end[2], bool curved) {
   carom_ball_state states[CAROM_BALLS_MOST];
   double x = across(v, start), y = down(v, start);
   for (int n = curved ? 1 : 8; n <= 8; n++) {
     const double last[2] = {x, y}, *r = end;
     if (n < 8) {
-      carom_shot_at(line->ball, line->count, shot, from + (to - from) * n / 8.0, states);
+      carom_shot_at(line->ball, line->count, shot, start_time + (end_time - start_time) * n / 8.0,
+                    states);
       r = states[ball].r;
     }
     x = across(v, r);
@@ -52,14 +49,14 @@ static void draw_piece(const view *v, const shot_line *line, const carom_shot *s
 }
 
 /* An arrow's head on a long piece of a path. */
-static void draw_arrow(const view *v, FILE *out, const char *colour, const carom_ball_state *from,
-                       const double to[2], const carom_ball_state *middle) {
+static void draw_arrow(const view *v, FILE *out, const char *colour, const carom_ball_state *start,
+                       const double tip[2], const carom_ball_state *middle) {
   const double ux =
       across(v, (double[]){v->low[0] + middle->v[0], v->low[1] + middle->v[1]}) - across(v, v->low);
   const double uy =
       down(v, (double[]){v->low[0] + middle->v[0], v->low[1] + middle->v[1]}) - down(v, v->low);
   const double x = ux / hypot(ux, uy), y = uy / hypot(ux, uy);
-  if (hypot(across(v, to) - across(v, from->r), down(v, to) - down(v, from->r)) > least_arrow)
+  if (hypot(across(v, tip) - across(v, start->r), down(v, tip) - down(v, start->r)) > least_arrow)
     fprintf(out,
             "<path fill=\"%s\" stroke=\"#0b2a22\" stroke-width=\"0.5\" d=\"M%.1f %.1fl%.1f "
             "%.1fl%.1f %.1fZ\"/>\n",
@@ -83,18 +80,18 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
   for (int64_t k = 0; last < shot->time; k++) {
     /* The next event, or the end of the picture. */
     const bool is_event = k < shot_events_kept(shot) && shot->events[k].time <= shot->time;
-    const carom_ball_state *to = &shot->final[ball];
+    const carom_ball_state *end = &shot->final[ball];
     double time = shot->time;
     if (is_event) {
       const int side = shot_event_side(&shot->events[k], ball);
       if (side < 0)
         continue;
-      to = &shot->events[k].before[side];
+      end = &shot->events[k].before[side];
       time = shot->events[k].time;
     }
     carom_shot_at(line->ball, line->count, shot, 0.5 * (last + time), states);
     const carom_ball_state middle = states[ball];
-    const int64_t label = is_event ? to->label : middle.label;
+    const int64_t label = is_event ? end->label : middle.label;
     carom_shot_at(line->ball, line->count, shot, last, states);
 
     /* a piece from the event before, unless the ball has not moved yet or lies at the end */
@@ -107,10 +104,10 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
                 colour, thin ? "0.8" : "2.2", dashes, across(v, states[ball].r),
                 down(v, states[ball].r));
       moved = true;
-      draw_piece(v, line, shot, ball, last, time, states[ball].r, to->r,
+      draw_piece(v, line, shot, ball, last, time, states[ball].r, end->r,
                  label == CAROM_BALL_SLIDING);
       if (!thin)
-        draw_arrow(v, head, colour, &states[ball], to->r, &middle);
+        draw_arrow(v, head, colour, &states[ball], end->r, &middle);
     }
     last = time;
   }
@@ -122,13 +119,13 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
 }
 
 /* Part of a band, from a point to another: along one side and back along the other. */
-static void draw_part(const view *v, FILE *out, const band_point *band, int from, int to) {
-  char command = 'M';
+static void draw_part(const view *v, FILE *out, const band_point *band, int start, int end) {
+  char letter = 'M';
   for (int sign = 1; sign >= -1; sign -= 2)
-    for (int n = 0; n <= to - from; n++, command = 'L') {
-      const band_point *p = &band[sign > 0 ? from + n : to - n];
+    for (int n = 0; n <= end - start; n++, letter = 'L') {
+      const band_point *p = &band[sign > 0 ? start + n : end - n];
       const double r[2] = {p->r[0] + sign * p->side[0], p->r[1] + sign * p->side[1]};
-      fprintf(out, "%c%.1f %.1f", command, across(v, r), down(v, r));
+      fprintf(out, "%c%.1f %.1f", letter, across(v, r), down(v, r));
     }
   fputc('Z', out);
 }
@@ -145,15 +142,15 @@ static void draw_band(const view *v, const shot_line *line, const spread *s, int
     char *parts;
     size_t size;
     FILE *part = open_text(&parts, &size);
-    for (int k = 0, from = -1; k < s->points[ball]; k++) {
+    for (int k = 0, start = -1; k < s->points[ball]; k++) {
       const bool goes_on =
-          k + 1 < s->points[ball] && !band[k + 1].begins && (band[k + 1].time > s->until) == beyond;
-      if (!goes_on && from >= 0)
-        draw_part(v, part, band, from, k);
+          k + 1 < s->points[ball] && !band[k + 1].begins && (band[k + 1].time > s->end) == beyond;
+      if (!goes_on && start >= 0)
+        draw_part(v, part, band, start, k);
       if (!goes_on)
-        from = -1;
-      else if (from < 0)
-        from = k;
+        start = -1;
+      else if (start < 0)
+        start = k;
     }
     close_text(part, &parts);
     if (size > 0)
@@ -179,7 +176,7 @@ static void draw_ellipse(const view *v, const spread *s, const carom_ball_state 
           "stroke-width=\"1.6\"%s/>\n",
           x, y, v->scale * axes.along, v->scale * axes.across,
           v->turned ? 90.0 - axes.degrees : -axes.degrees, x, y,
-          s->until < INFINITY ? " stroke-dasharray=\"5 4\"" : "");
+          s->end < INFINITY ? " stroke-dasharray=\"5 4\"" : "");
 }
 
 /* Where a ball lies before the shot. */
@@ -243,14 +240,14 @@ static double draw_missing(const view *v, const shot_line *line, double left, do
 /* Balls that fell lie beside each other in the pocket's place. */
 static void spread_pocketed(const shot_line *line, carom_ball_state *final) {
   for (int k = 0; k < line->count; k++) {
-    int before = 0;
-    for (int other = 0; other < k; other++)
-      before += final[k].label == CAROM_BALL_POCKETED &&
+    int fallen = 0;
+    for (int earlier = 0; earlier < k; earlier++)
+      fallen += final[k].label == CAROM_BALL_POCKETED &&
                 line->ball[k].state.label != CAROM_BALL_POCKETED &&
-                fabs(final[other].r[0] - final[k].r[0]) < 0.2 &&
-                fabs(final[other].r[1] - final[k].r[1]) < 1e-9 &&
-                final[other].label == CAROM_BALL_POCKETED;
-    final[k].r[0] += 1.6 * before * line->ball[k].kind.radius;
+                fabs(final[earlier].r[0] - final[k].r[0]) < 0.2 &&
+                fabs(final[earlier].r[1] - final[k].r[1]) < 1e-9 &&
+                final[earlier].label == CAROM_BALL_POCKETED;
+    final[k].r[0] += 1.6 * fallen * line->ball[k].kind.radius;
   }
 }
 
@@ -298,8 +295,8 @@ static void draw_heights(const view *v, const shot_line *line, const carom_shot 
         carom_shot_at(line->ball, line->count, shot, time, states);
         s = &states[ball];
       }
-      const char command = last == 0.0 && n == 0 ? 'M' : 'L';
-      fprintf(v->out, "%c%.1f %.1f", command, across(v, s->r), cloth - v->scale * s->r[2]);
+      const char letter = last == 0.0 && n == 0 ? 'M' : 'L';
+      fprintf(v->out, "%c%.1f %.1f", letter, across(v, s->r), cloth - v->scale * s->r[2]);
     }
     last = e->time;
   }
@@ -454,13 +451,15 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   const double side =
       rise > 1e-3 ? v.scale * (rise + 2.0 * shots[0].line->ball[0].kind.radius) + side_margin : 0.0;
   const double below = side > 0.0 ? side + side_margin : 0.0,
-               said = svg_lines(NULL, left, 0.0, letters, columns, "", footer);
+               footer_height = svg_lines(NULL, left, 0.0, letters, columns, "", footer);
   const double legend = draw_legend(out, left, 0.0, letters, columns, shots, count, false);
   const double missing = draw_missing(&v, shots[0].line, left, 0.0, false);
-  draw_table(&v, t, below + missing + legend + said + (legend + said > 0.0 ? 1.5 * letters : 0.0));
+  draw_table(&v, t,
+             below + missing + legend + footer_height +
+                 (legend + footer_height > 0.0 ? 1.5 * letters : 0.0));
   if (side > 0.0)
     fprintf(out, "<rect y=\"%.1f\" width=\"100%%\" height=\"%.1f\" fill=\"#86a398\"/>\n", high,
-            below + (legend + said > 0.0 ? 0.0 : 20.0));
+            below + (legend + footer_height > 0.0 ? 0.0 : 20.0));
   for (int shot = 0; shot < count && side > 0.0; shot++)
     draw_side(&v, shots[shot].line, shots[shot].shot, high + side, wide);
   for (int k = 0; k < shots[0].line->count; k++)

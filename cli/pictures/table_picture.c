@@ -57,13 +57,14 @@ static void draw_diamonds(const view *v, const carom_table *t) {
   noses_of(t, low, high);
   const int along = high[1] - low[1] > high[0] - low[0]; /* the axis of the long ones */
   for (int axis = 0; axis < 2; axis++) {
-    const int parts = axis == along ? 8 : 4, other = 1 - axis;
-    const double beside[2] = {v->low[other] - 0.75 * v->margin, v->high[other] + 0.75 * v->margin};
+    const int parts = axis == along ? 8 : 4, cross_axis = 1 - axis;
+    const double edges[2] = {v->low[cross_axis] - 0.75 * v->margin,
+                             v->high[cross_axis] + 0.75 * v->margin};
     for (int k = 1; k < parts; k++)
       for (int side = 0; side < 2 && (axis != along || k != 4 || t->pockets == 0); side++) {
         double r[2];
         r[axis] = low[axis] + (high[axis] - low[axis]) * k / parts;
-        r[other] = beside[side];
+        r[cross_axis] = edges[side];
         fprintf(v->out, "<path d=\"M%.1f %.1fl3 4l-3 4l-3 -4Z\" fill=\"#e8dcc0\"/>\n", across(v, r),
                 down(v, r) - 4.0);
       }
@@ -77,16 +78,16 @@ static void name_pockets(const view *v, const carom_table *t, double width, doub
     const char *name = carom_pocket_name(t, k);
     const double x = across(v, t->pocket[k].centre), y = down(v, t->pocket[k].centre);
     const char *anchor = "middle";
-    double at = x;
+    double position = x;
     if (x < 0.25 * width) {
-      at = edge;
+      position = edge;
       anchor = "start";
     } else if (x >= 0.75 * width) {
-      at = width - edge;
+      position = width - edge;
       anchor = "end";
     }
     if (name != NULL)
-      svg_text(v->out, at, (y < 0.5 * height ? 0.0 : height - band) + edge, name, 20,
+      svg_text(v->out, position, (y < 0.5 * height ? 0.0 : height - band) + edge, name, 20,
                "class=\"pocket\" font-size=\"%.1f\" fill=\"#e8dcc0\" text-anchor=\"%s\"", size,
                anchor);
   }
@@ -98,14 +99,14 @@ static void draw_axes(const view *v, const carom_table *t) {
   static const char *const names[] = {"x, aim 0\u00b0", "y, aim 90\u00b0"};
   const double far = 0.25, out = 0.55 * v->margin;
   for (int axis = 0; axis < 2; axis++) {
-    double from[2] = {v->low[0], v->low[1]}, to[2];
-    from[1 - axis] -= out;
+    double start[2] = {v->low[0], v->low[1]}, end[2];
+    start[1 - axis] -= out;
     if (axis == 1 && t->pockets > 0 && v->turned)
-      from[axis] += 1.2 / 8.0 * t->length;
-    memcpy(to, from, sizeof to);
-    to[axis] += far;
-    const double left = across(v, from), top = down(v, from), x = across(v, to) - left,
-                 y = down(v, to) - top;
+      start[axis] += 1.2 / 8.0 * t->length;
+    memcpy(end, start, sizeof end);
+    end[axis] += far;
+    const double left = across(v, start), top = down(v, start), x = across(v, end) - left,
+                 y = down(v, end) - top;
     const double ux = x / hypot(x, y), uy = y / hypot(x, y);
     fprintf(v->out,
             "<path class=\"axis\" d=\"M%.1f %.1fl%.1f %.1fm%.1f %.1fl%.1f %.1fl%.1f %.1f\" "

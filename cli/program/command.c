@@ -15,46 +15,46 @@
 #include <string.h>
 #include <unistd.h>
 
-static void print_help(FILE *to, const program *p) {
-  fprintf(to, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n", p->name, p->about);
+static void print_help(FILE *out, const program *p) {
+  fprintf(out, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n", p->name, p->about);
   for (size_t k = 0; k < p->count; k++) {
     if (k == 0 || strcmp(p->commands[k].group, p->commands[k - 1].group) != 0)
-      fprintf(to, "\n%s:\n", p->commands[k].group);
-    fprintf(to, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
+      fprintf(out, "\n%s:\n", p->commands[k].group);
+    fprintf(out, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
   }
-  fprintf(to, "\n`%s COMMAND --help` lists its arguments,\n`%s --version` the version.\n", p->name,
+  fprintf(out, "\n`%s COMMAND --help` lists its arguments,\n`%s --version` the version.\n", p->name,
           p->name);
   if (p->cites != NULL)
     fprintf(
-        to,
+        out,
         "`%s --cite` lists what to cite, as BibTeX, with the models of `%s`,\n`%s --report` what "
         "a report of a bug needs.\n",
         p->name, p->cites, p->name);
-  fprintf(to, "\nexample:\n  %s\n", p->example);
+  fprintf(out, "\nexample:\n  %s\n", p->example);
 }
 
 /* The same as a page of the manual. */
-static void print_manual(FILE *to, const program *p) {
-  manual_begin(to, p->name, NULL, "COMMAND [ARGUMENTS]", p->about);
-  manual_section(to, "DESCRIPTION", p->about);
-  manual_section(to, "COMMANDS", "");
+static void print_manual(FILE *out, const program *p) {
+  manual_begin(out, p->name, NULL, "COMMAND [ARGUMENTS]", p->about);
+  manual_section(out, "DESCRIPTION", p->about);
+  manual_section(out, "COMMANDS", "");
   for (size_t k = 0; k < p->count; k++)
-    manual_item(to, p->commands[k].name, NULL, p->commands[k].text);
-  manual_section(to, "OPTIONS", "");
-  manual_item(to, "--help", NULL, "the commands; behind a command, its arguments");
-  manual_item(to, "--version", NULL, "the version");
+    manual_item(out, p->commands[k].name, NULL, p->commands[k].text);
+  manual_section(out, "OPTIONS", "");
+  manual_item(out, "--help", NULL, "the commands; behind a command, its arguments");
+  manual_item(out, "--version", NULL, "the version");
   if (p->cites != NULL) {
-    manual_item(to, "--cite", NULL,
+    manual_item(out, "--cite", NULL,
                 "what to cite, as BibTeX: the sources of the models of shots; options such as "
                 "--cushion choose them");
-    manual_item(to, "--report", NULL, "what a report of a bug needs: versions, system, processor");
+    manual_item(out, "--report", NULL, "what a report of a bug needs: versions, system, processor");
   }
-  manual_section(to, "ENVIRONMENT", "");
-  manual_item(to, "CAROM_ISA", NULL,
+  manual_section(out, "ENVIRONMENT", "");
+  manual_item(out, "CAROM_ISA", NULL,
               "the largest instruction set to use: plain, sse2, avx2 or avx512; on arm64 plain or "
               "neon. With plain, results have the same bits on every machine");
   manual_end(
-      to,
+      out,
       "0 if all went well; 1 if some rows or shots are in error, or a picture could not be drawn, "
       "and all others were computed; 2 for bad usage or unreadable input, with nothing written",
       p->example);
@@ -70,17 +70,16 @@ static int finish(int code) {
 
 /* The library ignores what it does not know, as it cannot speak; a command can. */
 static bool isa_is_known(void) {
-  const char *wanted = getenv("CAROM_ISA"), *name;
+  const char *request = getenv("CAROM_ISA"), *name;
   char names[100] = "";
-  if (wanted == NULL || wanted[0] == '\0')
+  if (request == NULL || request[0] == '\0')
     return true;
   for (int isa = 0; (name = carom_isa_name((carom_isa)isa)) != NULL; isa++) {
-    if (strcmp(wanted, name) == 0)
+    if (strcmp(request, name) == 0)
       return true;
-    const size_t used = strlen(names);
-    snprintf(names + used, sizeof names - used, "%s%s", isa == 0 ? "" : ", ", name);
+    append(names, sizeof names, ", ", "%s", name);
   }
-  complain("CAROM_ISA is '%s', which is none of the instruction sets %s", wanted, names);
+  complain("CAROM_ISA is '%s', which is none of the instruction sets %s", request, names);
   return false;
 }
 
@@ -123,7 +122,7 @@ static void complain_unknown(const program *p, const char *name) {
   if (p->cites != NULL)
     strcat(words, "|--cite|--report");
   for (size_t k = 0; k < p->count; k++)
-    snprintf(words + strlen(words), sizeof words - strlen(words), "|%s", p->commands[k].name);
+    append(words, sizeof words, "|", "%s", p->commands[k].name);
   complain("no command '%s'; `%s --help` lists them%s", name, p->name,
            did_you_mean(name, words, hint));
 }

@@ -22,6 +22,10 @@ typedef struct command {
                                         an exit code */
 } command;
 
+/* The rows of commands.def, COMMAND(group, name, text), as declarations and as rows of a table. */
+#define COMMAND_DECLARED(group, name, text) int command_##name(int argc, char **argv);
+#define COMMAND_ROW(group, name, text) {group, #name, text, command_##name},
+
 typedef struct program {
   const char *name, *about, *example;
   const char *cites; /* the command that --cite is an option of, or NULL */

@@ -30,13 +30,13 @@ static void write_roff(FILE *out, const char *text, size_t size) {
 static void write_text(FILE *out, const char *text) {
   for (size_t size; *text != '\0'; text += size + (text[size] == '\n')) {
     size = strcspn(text, "\n");
-    const size_t own = strspn(text, " ");
-    const char *gap = own > 0 ? strstr(text + own, "  ") : NULL, *rest = text + own;
+    const size_t indent = strspn(text, " ");
+    const char *gap = indent > 0 ? strstr(text + indent, "  ") : NULL, *rest = text + indent;
     if (size == 0)
       continue;
     if (gap != NULL && gap < text + size) {
       fputs(".TP\n.B ", out);
-      write_roff(out, text + own, (size_t)(gap - text) - own);
+      write_roff(out, text + indent, (size_t)(gap - text) - indent);
       rest = gap + strspn(gap, " ");
     } else
       fputs(".PP", out);
@@ -78,15 +78,15 @@ void manual_begin(FILE *out, const char *program, const char *command, const cha
   write_roff(out, about, strcspn(about, "."));
   fputs("\n.SH SYNOPSIS\n", out);
   /* the ways to call it, a line each */
-  for (const char *other;; usage = other + 3) {
-    other = strstr(usage, " | ");
+  for (const char *form_end;; usage = form_end + 3) {
+    form_end = strstr(usage, " | ");
     fprintf(out, ".B %s", program);
     if (command != NULL)
       fprintf(out, " %s", command);
     putc('\n', out);
-    if (other == NULL)
+    if (form_end == NULL)
       break;
-    write_roff(out, usage, (size_t)(other - usage));
+    write_roff(out, usage, (size_t)(form_end - usage));
     fputs("\n.br\n", out);
   }
   write_roff(out, usage, strlen(usage));

@@ -23,11 +23,11 @@ static bool standing;
 /* What a terminal would obey becomes '?': control characters of ASCII, and those that UTF-8
  * writes as C2 80 to C2 9F. */
 static void disarm(char *text) {
-  for (unsigned char *at = (unsigned char *)text; *at != '\0'; at++)
-    if (*at < 0x20 || *at == 0x7f)
-      *at = '?';
-    else if (*at == 0xC2 && at[1] >= 0x80 && at[1] < 0xA0)
-      at[0] = at[1] = '?';
+  for (unsigned char *byte = (unsigned char *)text; *byte != '\0'; byte++)
+    if (*byte < 0x20 || *byte == 0x7f)
+      *byte = '?';
+    else if (*byte == 0xC2 && byte[1] >= 0x80 && byte[1] < 0xA0)
+      byte[0] = byte[1] = '?';
 }
 
 void complain(const char *format, ...) {
@@ -44,9 +44,9 @@ void complain(const char *format, ...) {
 }
 
 static int hanging_indent(const char *line, size_t size) {
-  const size_t own = strspn(line, " "), most = size < TABLE_MOST ? size : TABLE_MOST;
-  size_t indent = own;
-  for (size_t k = own; k + 2 < most; k++)
+  const size_t blanks = strspn(line, " "), most = size < TABLE_MOST ? size : TABLE_MOST;
+  size_t indent = blanks;
+  for (size_t k = blanks; k + 2 < most; k++)
     if (line[k] == ' ' && line[k + 1] == ' ')
       indent = k + 2;
   return (int)indent;
@@ -76,12 +76,12 @@ const char *id_text(const char *id, char text[ID_TEXT]) {
 }
 
 void progress_show(const char *unit, double done, double total) {
-  const double now = clock_ns();
-  started = started == 0.0 ? now : started;
-  if (now - started < 1e9 || now - drawn < 1e8 || !isatty(STDERR_FILENO))
+  const double time = clock_ns();
+  started = started == 0.0 ? time : started;
+  if (time - started < 1e9 || time - drawn < 1e8 || !isatty(STDERR_FILENO))
     return;
   flockfile(stderr);
-  drawn = now;
+  drawn = time;
   standing = true;
   fprintf(stderr, "\r\033[K%.0f %s", done, unit);
   if (total > 0.0)

@@ -6,9 +6,9 @@
 
 /* Nanoseconds. */
 static inline double ns_of(clockid_t clock) {
-  struct timespec now;
-  clock_gettime(clock, &now);
-  return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
+  struct timespec reading;
+  clock_gettime(clock, &reading);
+  return 1e9 * (double)reading.tv_sec + (double)reading.tv_nsec;
 }
 static inline double clock_ns(void) {
   return ns_of(CLOCK_MONOTONIC);

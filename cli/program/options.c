@@ -21,7 +21,7 @@ static const option_row help_row = {.name = "help", .letter = 'h', .help = "this
 /* Other names of options: each is taken where a subcommand has no option of that name, as the first
  * of these that it has. */
 static const struct {
-  const char *said, *name;
+  const char *alias, *name;
 } also[] = {{"english", "side"},
             {"rack", "rules"},
             {"rack", "balls"},
@@ -44,7 +44,7 @@ static const struct {
 /* What players ask for by a name that no option has, and what says it. A subcommand without the
  * option says nothing. */
 static const struct {
-  const char *said, *name, *advice;
+  const char *alias, *name, *advice;
 } advices[] = {
     {"english", "tip", "--tip has it: --tip 50%,0 is half of the possible right english"},
     {"side", "tip", "--tip has it: --tip 50%,0 is half of the possible right english"},
@@ -72,9 +72,9 @@ static bool has_option(const command_form *form, const char *name) {
 
 /* The default of a row in a form. */
 static option_usual usual_of(const command_form *form, const option_row *row) {
-  for (const option_usual *own = form->usual; own != NULL && own->name != NULL; own++)
-    if (strcmp(own->name, row->name) == 0)
-      return *own;
+  for (const option_usual *usual = form->usual; usual != NULL && usual->name != NULL; usual++)
+    if (strcmp(usual->name, row->name) == 0)
+      return *usual;
   return (option_usual){row->name, row->usual, row->else_usual};
 }
 
@@ -97,13 +97,13 @@ void fill_usual(void *job, const option_row *row) {
 
 /* The help with the default behind it: "the table (default 9ft)". */
 static const char *help_of(const command_form *form, const option_row *row, char text[1024]) {
-  const option_usual own = usual_of(form, row);
-  const char *value = text_if(own.usual != NULL, own.usual),
-             *more = text_if(own.else_usual != NULL, own.else_usual);
-  if (own.usual == NULL && own.else_usual == NULL)
+  const option_usual usual = usual_of(form, row);
+  const char *value = text_if(usual.usual != NULL, usual.usual),
+             *more = text_if(usual.else_usual != NULL, usual.else_usual);
+  if (usual.usual == NULL && usual.else_usual == NULL)
     return row->help;
-  snprintf(text, 1024, "%s (default%s %s%s%s)", row->help, text_if(own.usual == NULL, ":"), value,
-           text_if(own.usual != NULL && own.else_usual != NULL, "; "), more);
+  snprintf(text, 1024, "%s (default%s %s%s%s)", row->help, text_if(usual.usual == NULL, ":"), value,
+           text_if(usual.usual != NULL && usual.else_usual != NULL, "; "), more);
   return text;
 }
 
@@ -210,11 +210,12 @@ static const command_form *with_all_rows(const command_form *form) {
     }
     const int more = rows_of(form->options[k], next);
     for (int j = 0; j < more; j++) {
-      int own = 0;
-      while (form->options[own] != NULL && (form->options[own]->name == NULL ||
-                                            strcmp(form->options[own]->name, next[j].name) != 0))
-        own++;
-      if (form->options[own] == NULL)
+      int match = 0;
+      while (form->options[match] != NULL &&
+             (form->options[match]->name == NULL ||
+              strcmp(form->options[match]->name, next[j].name) != 0))
+        match++;
+      if (form->options[match] == NULL)
         rows[count++] = &next[j];
     }
     next += more;
@@ -246,15 +247,15 @@ static void list_options(const command_form *form, struct option longs[MOST_LONG
   longs[k] = (struct option){help_row.name, no_argument, NULL, help_row.letter};
 
   /* the other names, of the first option that the form has */
-  const int own = k;
+  const int options = k;
   int count = k + 1;
   const char *last = "";
-  for (size_t n = 0; n < sizeof also / sizeof also[0]; n++)
-    for (k = 0; k < own; k++)
-      if (strcmp(longs[k].name, also[n].name) == 0 && strcmp(last, also[n].said) != 0 &&
-          !has_option(form, also[n].said)) {
+  for (size_t n = 0; n < COUNT_OF(also); n++)
+    for (k = 0; k < options; k++)
+      if (strcmp(longs[k].name, also[n].name) == 0 && strcmp(last, also[n].alias) != 0 &&
+          !has_option(form, also[n].alias)) {
         longs[count] = longs[k];
-        longs[count++].name = last = also[n].said;
+        longs[count++].name = last = also[n].alias;
       }
 }
 
@@ -263,13 +264,13 @@ static void list_options(const command_form *form, struct option longs[MOST_LONG
 static void hint_at_option(const command_form *form, char *text) {
   char words[32 * MOST_ROWS] = "--help", hint[HINT_TEXT];
   text[strcspn(text, "=")] = '\0';
-  for (size_t k = 0; k < sizeof advices / sizeof advices[0]; k++)
-    if (strcmp(text + 2, advices[k].said) == 0 && has_option(form, advices[k].name)) {
+  for (size_t k = 0; k < COUNT_OF(advices); k++)
+    if (strcmp(text + 2, advices[k].alias) == 0 && has_option(form, advices[k].name)) {
       fprintf(stderr, "%s %s: %s\n", program_name, form->name, advices[k].advice);
       return;
     }
   for (int k = 0; form->options[k] != NULL; k++) {
-    snprintf(words + strlen(words), sizeof words - strlen(words), "|--%s", form->options[k]->name);
+    append(words, sizeof words, "|", "--%s", form->options[k]->name);
     if (strncmp(text + 2, form->options[k]->name, strlen(text + 2)) == 0)
       return;
   }
@@ -279,10 +280,10 @@ static void hint_at_option(const command_form *form, char *text) {
 
 /* Whether the options that were given are for the kind of rows that is asked for; complains
  * where one is not. */
-static bool are_for_kind(const command_form *form, const bool given[MOST_ROWS], const void *job) {
+static bool are_for_kind(const command_form *form, const bool is_set[MOST_ROWS], const void *job) {
   for (int k = 0; form->options[k] != NULL; k++) {
     const option_row *row = form->options[k];
-    if (!given[k] || row->only == ANY_KIND ||
+    if (!is_set[k] || row->only == ANY_KIND ||
         (row->only == CUSHION_ONLY) == ((const shared_options *)job)->cushion)
       continue;
     complain("%s: option '--%s' goes %s --cushion", form->name, row->name,
@@ -294,11 +295,11 @@ static bool are_for_kind(const command_form *form, const bool given[MOST_ROWS], 
 
 /* Prints what may stand where `word` is being typed, a line each: values of the option before
  * it, or options. Upper-case words of an argument, such as OUT, are no values. */
-static void complete(const command_form *form, const char *before, const char *word) {
+static void complete(const command_form *form, const char *previous, const char *word) {
   for (int k = 0; form->options[k] != NULL; k++) {
     const char *value = argument_of(form->options[k]);
-    if (value == NULL || strncmp(before, "--", 2) != 0 ||
-        strcmp(before + 2, form->options[k]->name) != 0)
+    if (value == NULL || strncmp(previous, "--", 2) != 0 ||
+        strcmp(previous + 2, form->options[k]->name) != 0)
       continue;
     for (size_t size; *value != '\0'; value += size + (value[size] == '|')) {
       size = strcspn(value, "|");
@@ -315,7 +316,7 @@ static void complete(const command_form *form, const char *before, const char *w
 static int parse_options(const command_form *form, int argc, char **argv, void *job) {
   struct option longs[MOST_LONGS] = {0};
   char shorts[2 * MOST_ROWS] = "h", name[80];
-  bool given[MOST_ROWS] = {false};
+  bool is_set[MOST_ROWS] = {false};
   int option;
   /* getopt complains in the name of the subcommand. */
   snprintf(name, sizeof name, "%s %s", program_name, form->name);
@@ -346,9 +347,9 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
     if (!row->set(row, optarg, (char *)job + row->field))
       return EXIT_USAGE;
     for (int k = 0; k < MOST_ROWS && form->options[k] != NULL; k++)
-      given[k] |= form->options[k] == row;
+      is_set[k] |= form->options[k] == row;
   }
-  return are_for_kind(form, given, job) && numbers_are_read(job) ? -1 : usage_hint(form);
+  return are_for_kind(form, is_set, job) && numbers_are_read(job) ? -1 : usage_hint(form);
 }
 
 int parse_arguments(const command_form *form, int argc, char **argv, void *job, const char **file) {

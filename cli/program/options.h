@@ -101,14 +101,14 @@ const char *argument_of(const option_row *row);
 enum { LIST_MOST = 32, LISTS_MOST = 6 };
 typedef struct number_list {
   int part, number, count; /* CAROM_PART_BALL or CAROM_PART_CUE; as carom_number_of() has it */
-  double at[LIST_MOST];
+  double value[LIST_MOST];
 } number_list;
 
-/* Numbers that --with gives: bit k of `which` is carom_number_of(CAROM_PART_BALL, k), and of
+/* Numbers that --with gives: bit k of `of_balls` is carom_number_of(CAROM_PART_BALL, k), and of
  * `of_cue` that of CAROM_PART_CUE; `of_fit` are those of a fit, and `fitted`
  * is its cushion, or 0. */
 typedef struct given_numbers {
-  uint64_t which, of_cue, of_fit;
+  uint64_t of_balls, of_cue, of_fit;
   int bands; /* of the fit: from so many contacts on, m within which 68 and 95 % of places were */
   double band[8][3];
   carom_shot_cushion fitted;
@@ -118,25 +118,25 @@ typedef struct given_numbers {
   number_list list[LISTS_MOST];
   bool in_lines;         /* the lines of the shots have them already */
   const char *condition; /* the last condition of a pool table that is given, or NULL */
-  uint64_t by_condition; /* of `which`, those that conditions gave */
+  uint64_t by_condition; /* of `of_balls`, those that conditions gave */
 } given_numbers;
 
 /* Whether a game is played on the tables that the conditions describe; else a complaint. */
-bool condition_fits(const given_numbers *given, carom_game game);
+bool condition_fits(const given_numbers *numbers, carom_game game);
 
 /* Gives value `k` of a list. */
-void give_of_list(const number_list *list, int k, given_numbers *given);
+void give_of_list(const number_list *list, int k, given_numbers *numbers);
 
 /* Puts the numbers that are given into those of a ball, or of a cue. */
-void give_ball(const given_numbers *given, carom_ball_kind *kind);
-void give_cue(const given_numbers *given, carom_cue *cue);
+void give_ball(const given_numbers *numbers, carom_ball_kind *kind);
+void give_cue(const given_numbers *numbers, carom_cue *cue);
 
 /* Says into text[160] what would read a number, such as "--friction constant". */
 const char *reader_of(const carom_number *number, const char *of_cushion, char text[160]);
 
-/* Friction between the balls by their slip speed, where it is `given`. */
+/* Friction between the balls by their slip speed, where it is `is_set`. */
 typedef struct friction_law {
-  bool given;
+  bool is_set;
   carom_speed_law law;
 } friction_law;
 

@@ -18,14 +18,14 @@ static const char *name;     /* for messages */
 static char place[PATH_MAX]; /* where the file is to be */
 /* Beside it, and whether it is there: read by the signal handler, and so never freed. */
 static char temporary[PATH_MAX];
-static volatile sig_atomic_t there;
+static volatile sig_atomic_t unfinished;
 /* Or the file itself, -1 if it is not open: where none can stand beside it, an unnamed file
  * takes the text until it is whole.
  */
 static int itself = -1;
 
 static void on_signal(int number) {
-  if (there)
+  if (unfinished)
     unlink(temporary);
   signal(number, SIG_DFL);
   raise(number);
@@ -33,7 +33,7 @@ static void on_signal(int number) {
 
 static void forget(void) {
   file = NULL;
-  there = 0;
+  unfinished = 0;
   itself = -1;
 }
 
@@ -49,24 +49,24 @@ static void list_ending(sigset_t *set) {
 /* Has them handled, but for those that are ignored, as nohup and a shell's & leave them, or that
  * someone else handles. */
 static void handle_signals(void) {
-  struct sigaction now, own = {.sa_handler = on_signal};
-  list_ending(&own.sa_mask);
+  struct sigaction current, handler = {.sa_handler = on_signal};
+  list_ending(&handler.sa_mask);
   for (int number = 1; number <= SIGRTMAX; number++)
-    if (sigismember(&own.sa_mask, number) == 1 && sigaction(number, NULL, &now) == 0 &&
-        (now.sa_flags & SA_SIGINFO) == 0 && now.sa_handler == SIG_DFL)
-      sigaction(number, &own, NULL);
+    if (sigismember(&handler.sa_mask, number) == 1 && sigaction(number, NULL, &current) == 0 &&
+        (current.sa_flags & SA_SIGINFO) == 0 && current.sa_handler == SIG_DFL)
+      sigaction(number, &handler, NULL);
 }
 
 /* Has them wait while a file appears or goes that the handler must know of, or while a file is
  * overwritten. */
 static void hold_signals(bool hold) {
-  static sigset_t before;
+  static sigset_t previous;
   sigset_t set;
   list_ending(&set);
   if (hold)
-    sigprocmask(SIG_BLOCK, &set, &before);
+    sigprocmask(SIG_BLOCK, &set, &previous);
   else
-    sigprocmask(SIG_SETMASK, &before, NULL);
+    sigprocmask(SIG_SETMASK, &previous, NULL);
 }
 
 /* Writes into `place` where a path leads in the end, through symbolic links even to what is not
@@ -96,9 +96,9 @@ static bool make_beside(void) {
   handle_signals();
   hold_signals(true);
   const int descriptor = mkostemp(temporary, O_CLOEXEC);
-  there = descriptor >= 0;
+  unfinished = descriptor >= 0;
   hold_signals(false);
-  if (there && (file = fdopen(descriptor, "wb")) == NULL) {
+  if (unfinished && (file = fdopen(descriptor, "wb")) == NULL) {
     close(descriptor);
     output_abandon();
   }
@@ -186,32 +186,32 @@ bool output_possible(const char *path) {
   return good;
 }
 
-size_t output_copy(FILE *from, FILE *to) {
+size_t output_copy(FILE *source, FILE *target) {
   char block[65536];
-  size_t all = 0;
-  rewind(from);
-  for (size_t size; (size = fread(block, 1, sizeof block, from)) > 0; all += size)
-    fwrite(block, 1, size, to);
-  return all;
+  size_t total = 0;
+  rewind(source);
+  for (size_t size; (size = fread(block, 1, sizeof block, source)) > 0; total += size)
+    fwrite(block, 1, size, target);
+  return total;
 }
 
 /* Copies the unnamed file over the file itself. The room is taken first, so that a full disk
  * leaves the old text. */
 static bool put_in_place(void) {
   struct stat old, whole;
-  FILE *to;
+  FILE *target;
   if (fstat(itself, &old) != 0 || fstat(fileno(file), &whole) != 0 ||
-      (to = fdopen(itself, "wb")) == NULL)
+      (target = fdopen(itself, "wb")) == NULL)
     return false; /* fdopen() shortens nothing */
   hold_signals(true);
   const int obstacle = whole.st_size > 0 ? posix_fallocate(itself, 0, whole.st_size) : 0;
   bool good = obstacle != ENOSPC && obstacle != EDQUOT && obstacle != EFBIG && obstacle != EIO;
   if (good)
-    good = output_copy(file, to) == (size_t)whole.st_size && fflush(to) == 0 &&
+    good = output_copy(file, target) == (size_t)whole.st_size && fflush(target) == 0 &&
            ftruncate(itself, whole.st_size) == 0;
   else if (ftruncate(itself, old.st_size) == 0) /* some of the room may have been taken */
     errno = obstacle;
-  good = fclose(to) == 0 && good;
+  good = fclose(target) == 0 && good;
   itself = -1;
   hold_signals(false);
   return good;
@@ -224,10 +224,10 @@ bool output_commit(void) {
   if (file != stdout)
     good = fclose(file) == 0 && good;
   file = NULL;
-  if (good && there) {
+  if (good && unfinished) {
     hold_signals(true);
     good = rename(temporary, place) == 0;
-    there = !good;
+    unfinished = !good;
     hold_signals(false);
   }
   if (!good) {
@@ -244,7 +244,7 @@ void output_abandon(void) {
     fclose(file);
   if (itself >= 0)
     close(itself);
-  if (there)
+  if (unfinished)
     unlink(temporary);
   forget();
 }

@@ -35,6 +35,6 @@ bool output_commit(void);
 void output_abandon(void);
 
 /* Copies a whole file that can be sought to a stream; returns how much there was. */
-size_t output_copy(FILE *from, FILE *to);
+size_t output_copy(FILE *source, FILE *target);
 
 #endif

@@ -21,10 +21,10 @@ const char *place_find(const char *name, char path[PATH_MAX]) {
   return path;
 }
 
-const char *data_folder(const char *given) {
+const char *data_folder(const char *chosen_folder) {
   static char folder[PATH_MAX];
   const char *variable = getenv("CAROM_DATA");
-  if (given != NULL)
-    return given;
+  if (chosen_folder != NULL)
+    return chosen_folder;
   return variable != NULL && variable[0] != '\0' ? variable : place_find("data", folder);
 }

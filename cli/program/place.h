@@ -9,8 +9,8 @@
  * installation that the program belongs to, or beside the program in a build. Returns `path`. */
 const char *place_find(const char *name, char path[PATH_MAX]);
 
-/* The folder of the reference collisions: `given` if it is not NULL, else $CAROM_DATA, else the
- * one that came with carom. */
-const char *data_folder(const char *given);
+/* The folder of the reference collisions: `chosen_folder` if it is not NULL, else
+ * $CAROM_DATA, else the one that came with carom. */
+const char *data_folder(const char *chosen_folder);
 
 #endif

@@ -2,6 +2,7 @@
 #include "program/words.h"
 
 #include <ctype.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -9,7 +10,7 @@ enum { LONGEST_WORD = 24 };
 
 /* What players also say: each stands for the word where that is one of those that may be said. */
 static const struct {
-  const char *said, *word;
+  const char *alias, *word;
 } also[] = {{"8ball", "eightball"},
             {"9ball", "nineball"},
             {"10ball", "tenball"},
@@ -56,22 +57,22 @@ static const struct {
             {"stun", "centre"}};
 
 /* The letters of a word in lower case, without hyphens, underscores and blanks. */
-static size_t plain(const char *text, size_t size, char to[LONGEST_WORD + 1]) {
+static size_t plain(const char *text, size_t size, char letters[LONGEST_WORD + 1]) {
   size_t n = 0;
   for (size_t k = 0; k < size; k++)
     if (strchr("-_ ", text[k]) == NULL && n < LONGEST_WORD)
-      to[n++] = (char)tolower((unsigned char)text[k]);
-  to[n] = '\0';
+      letters[n++] = (char)tolower((unsigned char)text[k]);
+  letters[n] = '\0';
   return n;
 }
 
 /* Whether two words have the same letters, or the parts at a hyphen in the other order. */
 static bool same_letters(const char *a, size_t size, const char *b, size_t length) {
-  char one[LONGEST_WORD + 1], other[LONGEST_WORD + 1], turned[LONGEST_WORD + 1];
-  const size_t n = plain(a, size, one);
-  if (n == 0 || n != plain(b, length, other) || size > LONGEST_WORD || length > LONGEST_WORD)
+  char letters_a[LONGEST_WORD + 1], letters_b[LONGEST_WORD + 1], turned[LONGEST_WORD + 1];
+  const size_t n = plain(a, size, letters_a);
+  if (n == 0 || n != plain(b, length, letters_b) || size > LONGEST_WORD || length > LONGEST_WORD)
     return false;
-  if (strcmp(one, other) == 0)
+  if (strcmp(letters_a, letters_b) == 0)
     return true;
   const char *hyphen = memchr(b, '-', length);
   if (hyphen == NULL)
@@ -79,14 +80,14 @@ static bool same_letters(const char *a, size_t size, const char *b, size_t lengt
   const size_t first = (size_t)(hyphen - b);
   const size_t second = plain(hyphen, length - first, turned);
   plain(b, first, turned + second);
-  return strcmp(one, turned) == 0;
+  return strcmp(letters_a, turned) == 0;
 }
 
 bool same_word(const char *text, size_t size, const char *word, size_t length) {
   bool same = same_letters(text, size, word, length);
-  for (size_t k = 0; k < sizeof also / sizeof also[0] && !same; k++)
+  for (size_t k = 0; k < COUNT_OF(also) && !same; k++)
     same = same_letters(also[k].word, strlen(also[k].word), word, length) &&
-           same_letters(text, size, also[k].said, strlen(also[k].said));
+           same_letters(text, size, also[k].alias, strlen(also[k].alias));
   return same;
 }
 
@@ -103,12 +104,23 @@ int word_among(const char *words, const char *text, size_t size) {
   return -1;
 }
 
-const char *text_if(bool given, const char *text) {
-  return given ? text : "";
+const char *text_if(bool condition, const char *text) {
+  return condition ? text : "";
 }
 
-const char *text_or(const char *text, const char *other) {
-  return text != NULL && text[0] != '\0' ? text : other;
+const char *text_or(const char *text, const char *fallback) {
+  return text != NULL && text[0] != '\0' ? text : fallback;
+}
+
+void append(char *text, size_t room, const char *separator, const char *format, ...) {
+  const size_t used = strlen(text), more = used > 0 ? strlen(separator) : 0;
+  va_list arguments;
+  if (used + more >= room)
+    return;
+  memcpy(text + used, separator, more);
+  va_start(arguments, format);
+  vsnprintf(text + used + more, room - used - more, format, arguments);
+  va_end(arguments);
 }
 
 const char *left_or_right(double to_left) {

@@ -6,11 +6,18 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The text where `given` is set, else "". */
-const char *text_if(bool given, const char *text);
+#define COUNT_OF(array) (sizeof(array) / sizeof(array)[0])
+
+/* The text where `condition` is set, else "". */
+const char *text_if(bool condition, const char *text);
 
 /* The text, or the other one where it is NULL or "". */
-const char *text_or(const char *text, const char *other);
+const char *text_or(const char *text, const char *fallback);
+
+/* Adds to a list in a text of so many bytes, as far as there is room; behind the separator, unless
+ * the list is empty. */
+__attribute__((format(printf, 4, 5))) void append(char *text, size_t room, const char *separator,
+                                                  const char *format, ...);
 
 /* "left" of a number above 0, else "right"; "below" of a number below 0, else "above". */
 const char *left_or_right(double to_left);

@@ -49,8 +49,8 @@ static const char *count_doubt(doubts *d, const double numbers[DOUBTS]) {
 static double share_of(const double *in) {
   const carom_impact *impact = (const carom_impact *)(const void *)in;
   const carom_ball *a = &impact->a, *b = &impact->b;
-  const double between[3] = {b->r[0] - a->r[0], b->r[1] - a->r[1], b->r[2] - a->r[2]};
-  return length(between) / (a->radius + b->radius);
+  const double offset[3] = {b->r[0] - a->r[0], b->r[1] - a->r[1], b->r[2] - a->r[2]};
+  return length(offset) / (a->radius + b->radius);
 }
 
 const char *doubts_about(doubts *d, const row_kind *kind, const double *in) {
@@ -69,8 +69,8 @@ const char *doubts_about_tip(doubts *d, double offset) {
   return count_doubt(d, (const double[DOUBTS]){[DOUBT_APART] = 1.0, [DOUBT_TIP] = offset});
 }
 
-static bool near(double x, double wanted) {
-  return fabs(x / wanted - 1.0) < 0.03;
+static bool is_near(double x, double expected) {
+  return fabs(x / expected - 1.0) < 0.03;
 }
 
 /* What the distance of the centres over R1 + R2 may come from. */
@@ -84,7 +84,7 @@ static const char *guess(double share) {
                   {0.01, "; is R in cm?"},
                   {0.001, "; is R in mm?"}};
   for (size_t k = 0; k < sizeof mistakes / sizeof mistakes[0]; k++)
-    if (near(share, mistakes[k].share))
+    if (is_near(share, mistakes[k].share))
       return mistakes[k].guess;
   return share < 1.0 ? "; the balls overlap" : "; the balls do not touch";
 }

@@ -1,18 +1,11 @@
 /* What options read into their fields, and the rows that several tables have. */
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/number.h"
 #include "rows/values.h"
 
 #include <errno.h>
 #include <jansson.h>
 #include <limits.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* 2^53: greater whole numbers may not be doubles. */
 static const double WHOLE_MOST = 9007199254740992.0;
@@ -83,16 +76,11 @@ bool set_place(const option_row *row, const char *text, const char *words, int *
     return true;
   }
   char list[200] = "", hint[HINT_TEXT]; /* "this, that or another" */
-  for (const char *at = words; *at != '\0';) {
-    const size_t used = strlen(list), size = strcspn(at, "|");
-    const bool last = at[size] == '\0';
-    const char *before = ", ";
-    if (at == words)
-      before = "";
-    else if (last)
-      before = " or ";
-    snprintf(list + used, sizeof list - used, "%s%.*s", before, (int)size, at);
-    at += size + !last;
+  for (const char *item = words; *item != '\0';) {
+    const size_t size = strcspn(item, "|");
+    const bool last = item[size] == '\0';
+    append(list, sizeof list, last ? " or " : ", ", "%.*s", (int)size, item);
+    item += size + !last;
   }
   const char *advice = did_you_mean(text, words, hint);
   if (place_among(words, text, strcspn(text, ",:")) >= 0)
@@ -106,19 +94,17 @@ OPTION_SET(set_choice) {
 }
 
 const char *words_of(int list, bool with_default, char text[MOST_WORDS]) {
-  int size = 0;
   const char *word;
   text[0] = '\0';
   for (int k = 0; (word = carom_word((carom_words)list, k)) != NULL; k++)
     if (with_default || strcmp(word, "default") != 0)
-      size +=
-          snprintf(text + size, MOST_WORDS - (size_t)size, "%s%s", text_if(size > 0, "|"), word);
+      append(text, MOST_WORDS, "|", "%s", word);
   return text;
 }
 
 OPTION_SET(set_named) {
-  char all[MOST_WORDS];
-  return set_place(row, text, words_of(row->least, true, all), field);
+  char list[MOST_WORDS];
+  return set_place(row, text, words_of(row->least, true, list), field);
 }
 
 /* ---- Options of the library, as it tells them */
@@ -137,10 +123,10 @@ static const carom_number *option_of(const option_row *row) {
 
 OPTION_SET(set_option) {
   const carom_number *n = option_of(row);
-  char all[MOST_WORDS], must[100];
+  char list[MOST_WORDS], must[100];
   value v;
   if (n->words >= 0)
-    return set_place(row, text, words_of(n->words, true, all), field);
+    return set_place(row, text, words_of(n->words, true, list), field);
   const bool whole = n->type != CAROM_TYPE_DOUBLE;
   double most = n->high;
   if (n->type == CAROM_TYPE_UINT64)
@@ -194,7 +180,7 @@ const char *argument_of(const option_row *row) {
     return row->argument;
   words_of(row->words, false, text);
   if (row->argument != NULL)
-    snprintf(text + strlen(text), sizeof text - strlen(text), "|%s", row->argument);
+    append(text, sizeof text, "|", "%s", row->argument);
   return text;
 }
 
@@ -208,7 +194,7 @@ static const struct {
               {CAROM_PART_TABLE, "a table"},   {CAROM_PART_RAIL, "a rail"},
               {CAROM_PART_JAW, "a jaw"},       {CAROM_PART_POCKET, "a pocket"},
               {CAROM_PART_MEASURES, "a table"}};
-enum { OWNERS = sizeof owners / sizeof owners[0] };
+enum { OWNERS = COUNT_OF(owners) };
 
 /* Why an option does not take a number; NULL: it does. Those of one impact on a cushion are
  * numbers of its model. */
@@ -230,67 +216,109 @@ static const char *refusal(const option_row *row, carom_part_kind part, const ca
   return NULL;
 }
 
-/* A number that the option takes, by its name or its key of files, with its place; NULL after a
- * complaint. */
-static const carom_number *number_named(const option_row *row, const char *name,
-                                        carom_part_kind *part, int *place) {
+/* A number of balls or cues, and where it stands: carom_number_of(part, index) is `number`. */
+typedef struct named_number {
+  const carom_number *number; /* NULL: none */
+  carom_part_kind part;
+  int index;
+} named_number;
+
+/* A number that the option takes, by its name or its key of files; none after a complaint. */
+static named_number number_named(const option_row *row, const char *name) {
   char known[1200] = "", hint[HINT_TEXT];
-  const carom_number *n, *other = NULL;
+  const carom_number *n, *refused = NULL;
   int of_other = 0;
-  for (int owner = 0, size = 0; owner < OWNERS; owner++)
+  for (int owner = 0; owner < OWNERS; owner++)
     for (int k = 0; (n = carom_number_of(owners[owner].part, k)) != NULL; k++) {
       const bool named =
           strcmp(n->name, name) == 0 || (name[0] != '\0' && strcmp(n->key, name) == 0);
-      *part = owners[owner].part;
-      *place = k;
-      if (refusal(row, *part, n) == NULL && named)
-        return n;
-      if (refusal(row, *part, n) == NULL)
-        size += snprintf(known + size, sizeof known - (size_t)size, "%s%s", text_if(size > 0, "|"),
-                         n->name);
-      else if (named && other == NULL) {
-        other = n;
+      const bool taken = refusal(row, owners[owner].part, n) == NULL;
+      if (taken && named)
+        return (named_number){n, owners[owner].part, k};
+      if (taken)
+        append(known, sizeof known, "|", "%s", n->name);
+      else if (named && refused == NULL) {
+        refused = n;
         of_other = owner;
       }
     }
-  if (other != NULL)
+  if (refused != NULL)
     complain("--%s: %s is a number of %s; %s", row->name, name, owners[of_other].whose,
-             refusal(row, owners[of_other].part, other));
+             refusal(row, owners[of_other].part, refused));
   else if (name[strspn(name, "+-.:0123456789")] == '\0')
     complain("--%s is NAME=X,...; '%.40s' has no NAME", row->name, name);
   else
     complain("--%s is NAME=X,...; there is no number '%.40s'%s; `carom models` lists them",
              row->name, name, did_you_mean(name, known, hint));
-  return NULL;
+  return (named_number){NULL, CAROM_PART_NONE, 0};
+}
+
+static bool is_within(const carom_number *n, double x) {
+  return (x >= n->low && x <= n->high) || x == n->other;
+}
+
+/* Says what a number may be; returns false. */
+static bool refuse_value(const option_row *row, const carom_number *n, const char *text) {
+  char must[100];
+  carom_number_range(n, must, sizeof must);
+  complain("--%s: %s must be %s, not '%.40s'%s", row->name, n->name, must, text, one_hint(text));
+  return false;
 }
 
 /* A fit whose smooth_q is 0 has no smooth law: what it does not say of the law is 0, whatever the
  * balls of the game have. */
-static void give_no_smooth_law(given_numbers *given) {
+static void give_no_smooth_law(given_numbers *numbers) {
   static const carom_shot_options smooth = {.cushion_model = CAROM_SHOT_CUSHION_SMOOTH};
   const carom_number *n;
   bool dropped = false;
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
     if (strcmp(n->name, "smooth_q") == 0)
-      dropped = (given->which >> k & 1) != 0 && given->kind.smooth_q == 0.0;
-    if (!dropped || n->reader != CAROM_READ_BY_CUSHION || (given->which >> k & 1) != 0 ||
-        !carom_number_is_read(n, &given->kind, &smooth))
+      dropped = (numbers->of_balls >> k & 1) != 0 && numbers->kind.smooth_q == 0.0;
+    if (!dropped || n->reader != CAROM_READ_BY_CUSHION || (numbers->of_balls >> k & 1) != 0 ||
+        !carom_number_is_read(n, &numbers->kind, &smooth))
       continue;
-    memset((char *)&given->kind + n->offset, 0, sizeof(double));
-    given->which |= (uint64_t)1 << k;
+    memset((char *)&numbers->kind + n->offset, 0, sizeof(double));
+    numbers->of_balls |= (uint64_t)1 << k;
   }
 }
 
+/* Where a number of the cue or of balls stands. */
+static void *given_at(given_numbers *owner, carom_part_kind part, int k) {
+  char *numbers = (char *)&owner->kind;
+  if (part == CAROM_PART_CUE)
+    numbers = (char *)&owner->cue;
+  return numbers + carom_number_of(part, k)->offset;
+}
+
+/* The set of the numbers of the cue or of balls that are given. */
+static uint64_t *given_set(given_numbers *numbers, carom_part_kind part) {
+  if (part == CAROM_PART_CUE)
+    return &numbers->of_cue;
+  return &numbers->of_balls;
+}
+
+/* Sets one value of a number. */
+static void give_value(given_numbers *numbers, carom_part_kind part, int k, double x) {
+  memcpy(given_at(numbers, part, k), &x, sizeof x);
+  *given_set(numbers, part) |= (uint64_t)1 << k;
+}
+
 /* Gives a number of balls by its name; complains and returns false where it is out of bounds. */
-static bool give_named(given_numbers *given, const char *name, double x) {
+static bool give_named(given_numbers *numbers, const char *name, double x) {
   const option_row with = {.name = "with", .part = CAROM_PART_BALL};
-  char text[200];
-  snprintf(text, sizeof text, "%s=%.17g", name, x);
-  return set_numbers(&with, text, given);
+  const named_number named = number_named(&with, name);
+  char text[NUMBER_TEXT];
+  if (named.number == NULL)
+    return false;
+  snprintf(text, sizeof text, "%.17g", x);
+  if (!is_within(named.number, x))
+    return refuse_value(&with, named.number, text);
+  give_value(numbers, named.part, named.index, x);
+  return true;
 }
 
 /* Gives the numbers of a fit, which `python -m carom.fit -o` wrote: constants, radius, cushion. */
-static bool give_fit(const char *path, given_numbers *given) {
+static bool give_fit(const char *path, given_numbers *numbers) {
   json_error_t error;
   json_t *fit = json_load_file(path, 0, &error), *constants = json_object_get(fit, "constants"), *x;
   const json_t *bands = json_object_get(fit, "bands");
@@ -298,99 +326,70 @@ static bool give_fit(const char *path, given_numbers *given) {
   bool good = json_is_object(constants);
   json_object_set(constants, "radius", json_object_get(fit, "radius"));
   json_object_foreach(constants, name, x) good =
-      good && give_named(given, name, json_is_number(x) ? json_number_value(x) : NAN);
+      good && give_named(numbers, name, json_is_number(x) ? json_number_value(x) : NAN);
   if (fit == NULL)
     complain("--with %.200s: %s", path, error.text);
   else if (!good)
     complain("--with %.200s: no fit, whose `constants` are numbers of balls", path);
   for (int k = 0; model != NULL && carom_word(CAROM_WORDS_CUSHION_MODEL, k) != NULL; k++)
     if (strcmp(carom_word(CAROM_WORDS_CUSHION_MODEL, k), model) == 0)
-      given->fitted = (carom_shot_cushion)(k + 1);
-  give_no_smooth_law(given);
-  given->of_fit = given->which;
-  double *row = given->band[0];
-  for (given->bands = 0; given->bands < 8; row = given->band[++given->bands])
-    if (json_unpack(json_array_get(bands, (size_t)given->bands), "[FFF]", row, row + 1, row + 2) !=
-        0)
+      numbers->fitted = (carom_shot_cushion)(k + 1);
+  give_no_smooth_law(numbers);
+  numbers->of_fit = numbers->of_balls;
+  double *row = numbers->band[0];
+  for (numbers->bands = 0; numbers->bands < 8; row = numbers->band[++numbers->bands])
+    if (json_unpack(json_array_get(bands, (size_t)numbers->bands), "[FFF]", row, row + 1,
+                    row + 2) != 0)
       break;
   json_decref(fit);
   return good;
 }
 
-/* Where a number of the cue or of balls stands. */
-static void *given_at(given_numbers *given, carom_part_kind part, int k) {
-  char *numbers = (char *)&given->kind;
-  if (part == CAROM_PART_CUE)
-    numbers = (char *)&given->cue;
-  return numbers + carom_number_of(part, k)->offset;
-}
-
-/* The set of the numbers of the cue or of balls that are given. */
-static uint64_t *given_set(given_numbers *given, carom_part_kind part) {
-  if (part == CAROM_PART_CUE)
-    return &given->of_cue;
-  return &given->which;
-}
-
-/* Sets one value of a number. */
-static void give_value(given_numbers *given, carom_part_kind part, int k, double x) {
-  memcpy(given_at(given, part, k), &x, sizeof x);
-  *given_set(given, part) |= (uint64_t)1 << k;
-}
-
-void give_of_list(const number_list *list, int k, given_numbers *given) {
-  give_value(given, (carom_part_kind)list->part, list->number, list->at[k]);
+void give_of_list(const number_list *list, int k, given_numbers *numbers) {
+  give_value(numbers, (carom_part_kind)list->part, list->number, list->value[k]);
 }
 
 /* Adds a value to the list of a number, which begins with the value that it has; false after a
  * complaint. */
-static bool add_to_list(const option_row *row, given_numbers *given, carom_part_kind part, int k,
+static bool add_to_list(const option_row *row, given_numbers *numbers, carom_part_kind part, int k,
                         double x) {
-  number_list *list = given->list;
-  while (list < given->list + given->lists && (list->part != (int)part || list->number != k))
+  number_list *list = numbers->list;
+  while (list < numbers->list + numbers->lists && (list->part != (int)part || list->number != k))
     list++;
   if (row->only == CUSHION_ONLY) {
     complain("--%s: %s takes one value here; `carom shoot` takes a list", row->name,
              carom_number_of(part, k)->name);
     return false;
   }
-  if (list == given->list + LISTS_MOST || list->count == LIST_MOST) {
+  if (list == numbers->list + LISTS_MOST || list->count == LIST_MOST) {
     complain("--%s: at most %d numbers have lists, of at most %d values", row->name, LISTS_MOST,
              LIST_MOST);
     return false;
   }
-  if (list == given->list + given->lists) {
+  if (list == numbers->list + numbers->lists) {
     *list = (number_list){.part = (int)part, .number = k, .count = 1};
-    memcpy(list->at, given_at(given, part, k), sizeof *list->at);
-    given->lists++;
+    memcpy(list->value, given_at(numbers, part, k), sizeof *list->value);
+    numbers->lists++;
   }
-  list->at[list->count++] = x;
-  *given_set(given, part) &= ~((uint64_t)1 << k);
+  list->value[list->count++] = x;
+  *given_set(numbers, part) &= ~((uint64_t)1 << k);
   return true;
 }
 
 /* Reads the value of a number with its unit, or a range of values; false after a complaint. */
 static bool read_numbers(const option_row *row, const carom_number *n, char *text, values *list) {
   const option_row of_number = {.name = row->name, .least = measure_of_unit(n->unit)};
-  char must[100];
   bool good = text != NULL;
   if (good && (strchr(text, ':') != NULL || strstr(text, "..") != NULL)) {
     if (!set_values(&of_number, text, list))
       return false;
   } else {
     list->count = 1;
-    good = good && value_of(of_number.least, text, &list->at[0]);
+    good = good && value_of(of_number.least, text, &list->item[0]);
   }
-  for (int k = 0; k < list->count && good; k++) {
-    const double x = list->at[k].x;
-    good = (x >= n->low && x <= n->high) || x == n->other;
-  }
-  if (good)
-    return true;
-  carom_number_range(n, must, sizeof must);
-  const char *given = text_or(text, "");
-  complain("--%s: %s must be %s, not '%.40s'%s", row->name, n->name, must, given, one_hint(given));
-  return false;
+  for (int k = 0; k < list->count && good; k++)
+    good = is_within(n, list->item[k].x);
+  return good || refuse_value(row, n, text_or(text, ""));
 }
 
 /* What a condition of the table changes, by its name, with its word; NULL where it is none. */
@@ -407,9 +406,9 @@ static const char *condition_named(const char *name, carom_ball_kind *kind) {
 
 /* Gives the numbers of a condition; false after a complaint: an impact has no rolling ball. */
 static bool give_condition(const option_row *row, const char *word, const carom_ball_kind *kind,
-                           given_numbers *given) {
+                           given_numbers *numbers) {
   const carom_number *n;
-  given->condition = word;
+  numbers->condition = word;
   if (row->only == CUSHION_ONLY && kind->restitution_cushion == 0.0) {
     complain("--%s: %s has no effect on one impact; `carom shoot --with` takes it", row->name,
              word);
@@ -420,112 +419,122 @@ static bool give_condition(const option_row *row, const char *word, const carom_
     memcpy(&x, (const char *)kind + n->offset, sizeof x);
     if (x == 0.0)
       continue;
-    if ((given->by_condition >> k & 1) != 0) {
+    if ((numbers->by_condition >> k & 1) != 0) {
       complain("--%s: %s and a condition before it both set %s: give one of them", row->name, word,
                n->name);
       return false;
     }
-    given->by_condition |= UINT64_C(1) << k;
-    give_value(given, CAROM_PART_BALL, k, x);
+    numbers->by_condition |= UINT64_C(1) << k;
+    give_value(numbers, CAROM_PART_BALL, k, x);
   }
   return true;
 }
 
-bool condition_fits(const given_numbers *given, carom_game game) {
-  const carom_ball_kind pool = carom_ball_kind_of(CAROM_GAME_POOL), own = carom_ball_kind_of(game);
-  if (given->condition == NULL ||
-      (own.mu_roll == pool.mu_roll && own.restitution_cushion == pool.restitution_cushion))
+bool condition_fits(const given_numbers *numbers, carom_game game) {
+  const carom_ball_kind pool = carom_ball_kind_of(CAROM_GAME_POOL), kind = carom_ball_kind_of(game);
+  if (numbers->condition == NULL ||
+      (kind.mu_roll == pool.mu_roll && kind.restitution_cushion == pool.restitution_cushion))
     return true;
-  complain("--with: %s is a condition of tables of pool, not of %s", given->condition,
+  complain("--with: %s is a condition of tables of pool, not of %s", numbers->condition,
            carom_word(CAROM_WORDS_GAME, (int)game));
   return false;
 }
 
 /* Whether the rows of a command have their own restitution and friction, which no condition
  * changes: those of impacts that are not of a game. */
-static bool has_own_cushion(const option_row *row, const given_numbers *given) {
+static bool has_own_cushion(const option_row *row, const given_numbers *numbers) {
   if (row->only != CUSHION_ONLY)
     return false;
-  const shared_options *shared = (const void *)((const char *)given - row->field);
+  const shared_options *shared = (const void *)((const char *)numbers - row->field);
   return !shared->of_game;
 }
 
-OPTION_SET(set_numbers) {
+/* Gives a number its value, or its values; where it has one already, as further ones. */
+static bool give_values(const option_row *row, const named_number *named, char *text,
+                        bool is_further, given_numbers *numbers) {
   static values list;
-  given_numbers *given = field;
-  const carom_number *n = NULL;
-  carom_part_kind part = CAROM_PART_NONE;
-  char *rest = NULL;
-  int k = 0;
-  for (char *token = strtok_r(text, ",", &rest); token != NULL;
-       token = strtok_r(NULL, ",", &rest)) {
-    char *number = strchr(token, '=');
-    /* a further value of the number before it, the file of a fit, a condition, or NAME=X */
-    const bool further = number == NULL && n != NULL && strchr("+-.0123456789", *token) != NULL;
-    if (number == NULL && strstr(token, ".json") != NULL) {
-      if (!give_fit(token, given))
-        return false;
-      continue;
-    }
-    carom_ball_kind changed;
-    const char *condition = NULL;
-    if (number == NULL && !has_own_cushion(row, given))
-      condition = condition_named(token, &changed);
-    if (condition != NULL) {
-      if (!give_condition(row, condition, &changed, given))
-        return false;
-      n = NULL;
-      continue;
-    }
-    if (number != NULL)
-      *number++ = '\0';
-    if (further)
-      number = token;
-    else
-      n = number_named(row, token, &part, &k);
-    if (n == NULL || !read_numbers(row, n, number, &list))
+  if (!read_numbers(row, named->number, text, &list))
+    return false;
+  if (!is_further)
+    give_value(numbers, named->part, named->index, list.item[0].x);
+  for (int k = is_further ? 0 : 1; k < list.count; k++)
+    if (!add_to_list(row, numbers, named->part, named->index, list.item[k].x))
       return false;
-    if (!further)
-      give_value(given, part, k, list.at[0].x);
-    for (int value_at = !further; value_at < list.count; value_at++)
-      if (!add_to_list(row, given, part, k, list.at[value_at].x))
-        return false;
-  }
   return true;
 }
 
-OPTION_SET(set_cue_number) {
-  const size_t room = strlen(row->name) + strlen(text) + 2;
-  char *pair = allocate(room, 1);
-  snprintf(pair, room, "%s=%s", row->name, text);
-  for (char *at = pair; *at != '='; at++)
-    if (*at == '-')
-      *at = '_';
-  const bool good = set_numbers(row, pair, field);
-  free(pair);
-  return good;
+/* Gives what one part of --with says: the file of a fit, a further value of the last number, a
+ * condition, or NAME=X. */
+static bool give_part(const option_row *row, char *part, named_number *last,
+                      given_numbers *numbers) {
+  char *text = strchr(part, '=');
+  if (text == NULL && strstr(part, ".json") != NULL)
+    return give_fit(part, numbers);
+  if (text == NULL && last->number != NULL && strchr("+-.0123456789", *part) != NULL)
+    return give_values(row, last, part, true, numbers);
+
+  carom_ball_kind changed;
+  const char *condition = NULL;
+  if (text == NULL && !has_own_cushion(row, numbers))
+    condition = condition_named(part, &changed);
+  if (condition != NULL) {
+    last->number = NULL;
+    return give_condition(row, condition, &changed, numbers);
+  }
+
+  if (text != NULL)
+    *text++ = '\0';
+  *last = number_named(row, part);
+  return last->number != NULL && give_values(row, last, text, false, numbers);
 }
 
-void give_cue(const given_numbers *given, carom_cue *cue) {
+static bool give_parts(const option_row *row, char *text, named_number last,
+                       given_numbers *numbers) {
+  char *rest = NULL;
+  for (char *part = strtok_r(text, ",", &rest); part != NULL; part = strtok_r(NULL, ",", &rest))
+    if (!give_part(row, part, &last, numbers))
+      return false;
+  return true;
+}
+
+OPTION_SET(set_numbers) {
+  return give_parts(row, text, (named_number){.number = NULL}, field);
+}
+
+OPTION_SET(set_cue_number) {
+  char name[32];
+  snprintf(name, sizeof name, "%s", row->name);
+  for (char *letter = name; *letter != '\0'; letter++)
+    if (*letter == '-')
+      *letter = '_';
+  const named_number named = number_named(row, name);
+  char *rest = text + strcspn(text, ",");
+  if (*rest != '\0')
+    *rest++ = '\0';
+  return named.number != NULL && give_values(row, &named, text, false, field) &&
+         give_parts(row, rest, named, field);
+}
+
+void give_cue(const given_numbers *numbers, carom_cue *cue) {
   const carom_number *n;
   for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++)
-    if ((given->of_cue >> k & 1) != 0)
-      memcpy((char *)cue + n->offset, (const char *)&given->cue + n->offset, sizeof(double));
+    if ((numbers->of_cue >> k & 1) != 0)
+      memcpy((char *)cue + n->offset, (const char *)&numbers->cue + n->offset, sizeof(double));
 }
 
-static void give(const given_numbers *given, void *to, bool to_cushion) {
+static void give(const given_numbers *numbers, void *target, bool to_cushion) {
   const carom_number *n;
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
     int32_t offset = n->offset;
     if (to_cushion)
       offset = n->cushion_offset;
-    if ((given->which >> k & 1) != 0 && offset >= 0)
-      memcpy((char *)to + offset, (const char *)&given->kind + n->offset, sizeof(double));
+    if ((numbers->of_balls >> k & 1) != 0 && offset >= 0)
+      memcpy((char *)target + offset, (const char *)&numbers->kind + n->offset, sizeof(double));
   }
 }
 
-void give_ball(const given_numbers *given, carom_ball_kind *kind) {
-  give(given, kind, false);
+void give_ball(const given_numbers *numbers, carom_ball_kind *kind) {
+  give(numbers, kind, false);
 }
 
 const char *reader_of(const carom_number *n, const char *of_cushion, char text[160]) {
@@ -536,13 +545,13 @@ const char *reader_of(const carom_number *n, const char *of_cushion, char text[1
   }
 
   /* several laws may read the same numbers */
-  const char *word, *before = " ";
-  size_t size = (size_t)snprintf(text, 160, "--friction");
+  const char *word, *separator = " ";
+  snprintf(text, 160, "--friction");
   for (int k = 0; (word = carom_word(CAROM_WORDS_BALL_FRICTION, k)) != NULL; k++) {
     const carom_shot_options options = {.friction = (carom_ball_friction)k};
-    if (size < 160 && carom_number_is_read(n, &any, &options)) {
-      size += (size_t)snprintf(text + size, 160 - size, "%s%s", before, word);
-      before = "|";
+    if (carom_number_is_read(n, &any, &options)) {
+      append(text, 160, separator, "%s", word);
+      separator = "|";
     }
   }
   return text;
@@ -564,10 +573,10 @@ static bool is_read(const shared_options *shared, uint32_t models, const carom_n
 
 bool numbers_are_read(shared_options *shared) {
   const given_numbers *with = &shared->with;
-  uint64_t which = with->which & ~with->of_fit;
+  uint64_t of_balls = with->of_balls & ~with->of_fit;
   for (int k = 0; k < with->lists; k++)
     if (with->list[k].part == CAROM_PART_BALL)
-      which |= (uint64_t)1 << with->list[k].number;
+      of_balls |= (uint64_t)1 << with->list[k].number;
   uint32_t models = shared->models;
   if (models == 0)
     models = 1U << shared->rail.model;
@@ -577,11 +586,11 @@ bool numbers_are_read(shared_options *shared) {
     shared->shot.cushion_model = with->fitted; /* balls with a smooth_q have the smooth one */
   /* a fit has numbers of all models */
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
-    if ((which >> k & 1) != 0 && !is_read(shared, models, n)) {
-      const char *by = "cushion";
+    if ((of_balls >> k & 1) != 0 && !is_read(shared, models, n)) {
+      const char *option = "cushion";
       if (shared->cushion)
-        by = "model";
-      complain("--with: %s has no effect; %s reads it", n->name, reader_of(n, by, reader));
+        option = "model";
+      complain("--with: %s has no effect; %s reads it", n->name, reader_of(n, option, reader));
       return false;
     }
   if (!shared->cushion)
@@ -603,7 +612,7 @@ static OPTION_SET(set_law) {
   const size_t size = sizeof name - 1;
   char rest, hint[HINT_TEXT];
   double mu;
-  *law = (friction_law){.given = true, .law = carom_alciatore()};
+  *law = (friction_law){.is_set = true, .law = carom_alciatore()};
   if (parse_number(text, &mu) && mu >= 0.0 && mu <= 1.0) {
     law->law = (carom_speed_law){.a = mu};
     return true;
@@ -627,20 +636,20 @@ static OPTION_SET(set_law) {
 }
 
 static OPTION_SET(set_player) {
-  given_player *given = field;
-  given->rated = true;
-  if (!set_number(row, text, &given->rating))
+  given_player *player = field;
+  player->rated = true;
+  if (!set_number(row, text, &player->rating))
     return false;
-  const bool good = given->rating >= 200.0 && given->rating <= 850.0;
+  const bool good = player->rating >= 200.0 && player->rating <= 850.0;
   if (!good)
-    complain("--%s: it must be 200 to 850, not %g", row->name, given->rating);
+    complain("--%s: it must be 200 to 850, not %g", row->name, player->rating);
   return good;
 }
 
 static OPTION_SET(set_errors) {
-  given_player *given = field;
-  given->errs = true;
-  return set_amount(row, text, &given->scale);
+  given_player *player = field;
+  player->errs = true;
+  return set_amount(row, text, &player->scale);
 }
 
 /* ---- The rows */

@@ -42,13 +42,13 @@ typedef struct row_kind {
                                     rounded */
 
   /* The name of the solver or model that is asked for. */
-  const char *(*name)(const shared_options *asked);
+  const char *(*name)(const shared_options *shared);
   /* Checks a row as carom_check() does. */
-  carom_status (*check)(const void *in, const shared_options *asked, int *field);
+  carom_status (*check)(const void *in, const shared_options *shared, int *field);
   /* Sets the numbers that options say instead of columns; may be NULL. */
-  void (*prepare)(const shared_options *asked, void *in);
+  void (*prepare)(const shared_options *shared, void *in);
   /* Resolves n rows, of floats where `single` is set, as it is only with `has_single`. */
-  void (*solve)(const shared_options *asked, bool single, const void *in, size_t n, void *out,
+  void (*solve)(const shared_options *shared, bool single, const void *in, size_t n, void *out,
                 int8_t *status);
 
   /* --derived: names, how many, and the numbers. */
@@ -60,15 +60,15 @@ typedef struct row_kind {
 extern const row_kind ball_kind, cushion_kind;
 
 /* The kind that the options ask for. */
-static inline const row_kind *kind_of(const shared_options *asked) {
-  return asked->cushion ? &cushion_kind : &ball_kind;
+static inline const row_kind *kind_of(const shared_options *shared) {
+  return shared->cushion ? &cushion_kind : &ball_kind;
 }
 
 /* The options of impacts on a cushion, with the steps and threads that every kind has. */
-static inline carom_cushion_options cushion_options_of(const shared_options *asked) {
-  carom_cushion_options options = asked->rail;
-  options.steps = asked->options.steps;
-  options.threads = asked->options.threads;
+static inline carom_cushion_options cushion_options_of(const shared_options *shared) {
+  carom_cushion_options options = shared->rail;
+  options.steps = shared->options.steps;
+  options.threads = shared->options.threads;
   return options;
 }
 

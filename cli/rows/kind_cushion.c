@@ -31,18 +31,18 @@ static const column columns[NUMBERS] = {PLAIN("vx"),
                                         {"rho", NULL, NO_NUMBER, true}};
 static const double defaults[NUMBERS] = {[NORMAL + 1] = 1.0};
 
-static const char *name(const shared_options *asked) {
-  return carom_cushion_model_name(asked->rail.model);
+static const char *name(const shared_options *shared) {
+  return carom_cushion_model_name(shared->rail.model);
 }
 
-static carom_status check(const void *in, const shared_options *asked, int *field) {
-  const carom_cushion_options options = cushion_options_of(asked);
+static carom_status check(const void *in, const shared_options *shared, int *field) {
+  const carom_cushion_options options = cushion_options_of(shared);
   return carom_cushion_check(in, &options, field);
 }
 
-static void solve(const shared_options *asked, bool single, const void *in, size_t n, void *out,
+static void solve(const shared_options *shared, bool single, const void *in, size_t n, void *out,
                   int8_t *status) {
-  const carom_cushion_options options = cushion_options_of(asked);
+  const carom_cushion_options options = cushion_options_of(shared);
   (void)single;
   carom_cushion_batch(in, n, &options, out, status);
 }
@@ -57,18 +57,18 @@ static double rebound(const carom_cushion_impact *in, const double v[2]) {
 
 static void derive_row(const void *in, const void *out, double *numbers) {
   const carom_cushion_impact *impact = in;
-  const carom_motion *after = out;
+  const carom_motion *motion = out;
   const double m = impact->mass, R = impact->radius;
   double rolling[3];
-  carom_rolling_velocity(after->v, after->w, R, rolling);
-  const double all[DERIVED] = {angle_between(impact->normal, impact->v),
-                               rebound(impact, after->v),
-                               rebound(impact, rolling),
-                               rolling[0],
-                               rolling[1],
-                               1.0 - energy_of(m, R, after->v, after->w) /
-                                         energy_of(m, R, impact->v, impact->w)};
-  memcpy(numbers, all, sizeof all);
+  carom_rolling_velocity(motion->v, motion->w, R, rolling);
+  const double values[DERIVED] = {angle_between(impact->normal, impact->v),
+                                  rebound(impact, motion->v),
+                                  rebound(impact, rolling),
+                                  rolling[0],
+                                  rolling[1],
+                                  1.0 - energy_of(m, R, motion->v, motion->w) /
+                                            energy_of(m, R, impact->v, impact->w)};
+  memcpy(numbers, values, sizeof values);
 }
 
 const row_kind cushion_kind = {

@@ -1,12 +1,9 @@
 /* NumPy's .npy files. */
 #include "rows/npy.h"
 
-#include "program/memory.h"
-#include "program/message.h"
+#include "program/program.h"
 
 #include <errno.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 enum { HEADER = 128, LONGEST_HEADER = 1 << 20 };
@@ -20,12 +17,12 @@ bool npy_is_name(const char *path) {
 static const char *value_of(const char *header, const char *key) {
   char quoted[32];
   snprintf(quoted, sizeof quoted, "'%s'", key);
-  const char *at = strstr(header, quoted);
-  if (at == NULL)
+  const char *place = strstr(header, quoted);
+  if (place == NULL)
     return NULL;
-  at += strlen(quoted);
-  at += strspn(at, " ");
-  return *at == ':' ? at + 1 + strspn(at + 1, " ") : NULL;
+  place += strlen(quoted);
+  place += strspn(place, " ");
+  return *place == ':' ? place + 1 + strspn(place + 1, " ") : NULL;
 }
 
 static bool parse_header(const char *path, const char *header, size_t columns, npy_array *array) {
@@ -100,16 +97,16 @@ bool npy_open(const char *path, size_t columns, npy_array *array) {
   return good;
 }
 
-bool npy_read(npy_array *array, size_t rows, double *to) {
+bool npy_read(npy_array *array, size_t rows, double *target) {
   const size_t numbers = rows * array->row_size / (array->single ? sizeof(float) : sizeof(double));
   /* Floats are read behind the room that they leave, and made double from the first on. */
-  float *narrow = (float *)(void *)to + numbers;
+  float *narrow = (float *)(void *)target + numbers;
   const bool good =
-      fread(array->single ? (void *)narrow : to, array->row_size, rows, array->file) == rows;
+      fread(array->single ? (void *)narrow : target, array->row_size, rows, array->file) == rows;
   for (size_t k = 0; good && array->single && k < numbers; k++) {
     float x;
     memcpy(&x, narrow + k, sizeof x);
-    to[k] = (double)x;
+    target[k] = (double)x;
   }
   if (good)
     return true;

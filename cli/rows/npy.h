@@ -25,7 +25,7 @@ bool npy_is_name(const char *path);
 bool npy_open(const char *path, size_t columns, npy_array *array);
 
 /* Reads the next rows as doubles, of which there must be so many left; false after a complaint. */
-bool npy_read(npy_array *array, size_t rows, double *to);
+bool npy_read(npy_array *array, size_t rows, double *target);
 void npy_close(npy_array *array);
 
 /* Writes the header of an array of type `descr` ("<f8", "<f4") and shape (rows, columns). It has

@@ -4,16 +4,16 @@
 
 #include <stddef.h>
 
-/* `from` is an array of structs that hold nothing but doubles, `to` one of the same structs in
- * float; `numbers` counts those of all of them. */
-static inline void to_single(const void *from, void *to, size_t numbers) {
+/* `source` is an array of structs that hold nothing but doubles, and `target` has the same structs
+ * in float; `numbers` counts the numbers of all of them. */
+static inline void to_single(const void *source, void *target, size_t numbers) {
   for (size_t k = 0; k < numbers; k++)
-    ((float *)to)[k] = (float)((const double *)from)[k];
+    ((float *)target)[k] = (float)((const double *)source)[k];
 }
 
-static inline void to_double(const void *from, void *to, size_t numbers) {
+static inline void to_double(const void *source, void *target, size_t numbers) {
   for (size_t k = 0; k < numbers; k++)
-    ((double *)to)[k] = ((const float *)from)[k];
+    ((double *)target)[k] = ((const float *)source)[k];
 }
 
 #endif

@@ -43,10 +43,10 @@ derived derive(const carom_impact *in, const carom_result *out) {
   d.deflection_rolls = length(d.rolling_1) > least ? turn(in, in->a.v, d.rolling_1) : (double)NAN;
   d.spin_transfer = in->a.w[2] != 0.0 ? (out->b.w[2] - in->b.w[2]) / in->a.w[2] : (double)NAN;
   const carom_ball *a = &in->a, *b = &in->b;
-  const double before =
+  const double energy_in =
       energy_of(a->mass, a->radius, a->v, a->w) + energy_of(b->mass, b->radius, b->v, b->w);
-  const double after = energy_of(a->mass, a->radius, out->a.v, out->a.w) +
-                       energy_of(b->mass, b->radius, out->b.v, out->b.w);
-  d.energy_lost = 1.0 - after / before;
+  const double energy_out = energy_of(a->mass, a->radius, out->a.v, out->a.w) +
+                            energy_of(b->mass, b->radius, out->b.v, out->b.w);
+  d.energy_lost = 1.0 - energy_out / energy_in;
   return d;
 }

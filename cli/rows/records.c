@@ -5,16 +5,11 @@
  */
 #include "rows/records.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
+#include "program/program.h"
 #include "rows/number.h"
 
 #include <csv.h>
 #include <errno.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 enum { RECORD_LIMIT = 1 << 20 };
@@ -41,12 +36,12 @@ static void on_field(void *text, size_t size, void *context) {
   record_reader *r = context;
   r->start = grow(r->start, &r->start_room, r->count + 1, sizeof *r->start);
   r->text = grow(r->text, &r->text_room, r->text_size + size + 1, 1);
-  char *to = r->text + r->text_size;
+  char *end = r->text + r->text_size;
   if (size > 0)
-    memcpy(to, text, size);
-  for (char *nul = to; (nul = memchr(nul, '\0', (size_t)(to + size - nul))) != NULL;)
+    memcpy(end, text, size);
+  for (char *nul = end; (nul = memchr(nul, '\0', (size_t)(end + size - nul))) != NULL;)
     *nul = '?'; /* or the field would seem to end here, and 0.5<NUL>junk be a number */
-  to[size] = '\0';
+  end[size] = '\0';
   r->start[r->count++] = r->text_size;
   r->text_size += size + 1;
 }
@@ -80,22 +75,22 @@ record_reader *record_open(const char *path) {
 /* The next line, which ends with LF, CRLF, CR or the input; what exceeds the limit is passed
  * over. False if there is none. */
 static bool read_line(record_reader *r) {
-  char *to = r->line, *const limit = r->line + RECORD_LIMIT + 1;
+  char *end = r->line, *const limit = r->line + RECORD_LIMIT + 1;
   int byte;
   while ((byte = getc_unlocked(r->file)) != EOF) {
-    if (to < limit)
-      *to++ = (char)byte;
+    if (end < limit)
+      *end++ = (char)byte;
     if (byte == '\n' || byte == '\r')
       break;
   }
   if (byte == '\r' && (byte = getc_unlocked(r->file)) != '\n')
     ungetc(byte, r->file); /* which EOF leaves as it is */
-  else if (byte == '\n' && to[-1] == '\r' && to < limit)
-    *to++ = '\n';
-  r->line_size = (size_t)(to - r->line);
+  else if (byte == '\n' && end[-1] == '\r' && end < limit)
+    *end++ = '\n';
+  r->line_size = (size_t)(end - r->line);
   if (r->lines++ == 0 && r->line_size >= 3 && memcmp(r->line, "\xEF\xBB\xBF", 3) == 0)
     memmove(r->line, r->line + 3, r->line_size -= 3); /* the byte-order mark */
-  return to > r->line;
+  return end > r->line;
 }
 
 bool is_text(const char *bytes, size_t size) {

@@ -5,19 +5,13 @@
  */
 #include "rows/row_solver.h"
 
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/monotonic.h"
+#include "program/program.h"
 #include "rows/doubts.h"
 #include "rows/precision.h"
 #include "rows/sink.h"
 #include "rows/source.h"
 
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { MOST_NAMED = 1000 };             /* rows in error that are named */
 static const double least_timed = 10e6; /* ns; less is mostly cold caches, and no time is told */
@@ -31,7 +25,7 @@ typedef struct reading {
 
 typedef struct run {
   const row_job *job;
-  const shared_options *asked;
+  const shared_options *shared;
   const row_kind *kind;
   bool single;
   row_source *in;
@@ -65,7 +59,7 @@ static void finish_row(run *r, const source_block *block, size_t k) {
   }
   if (error == NULL && status >= 0)
     doubt = doubts_about(&r->doubts, r->kind, row);
-  if (r->asked->strict && doubt != NULL) {
+  if (r->shared->strict && doubt != NULL) {
     error = doubt;
     memset(result, 0xff, results * sizeof *result); /* NaN throughout */
   }
@@ -93,12 +87,12 @@ static void solve_and_write(run *r, const source_block *block) {
     to_single(block->numbers, r->narrow, numbers);
   if (r->single && !narrow)
     to_double(r->narrow, block->numbers, numbers);
-  const double before = clock_ns();
+  const double start = clock_ns();
   if (r->job->solve != NULL)
-    r->job->solve(r->job->context, &r->asked->options, narrow, in, count, out, r->status);
+    r->job->solve(r->job->context, &r->shared->options, narrow, in, count, out, r->status);
   else
-    r->kind->solve(r->asked, narrow, in, count, out, r->status);
-  r->solving += clock_ns() - before;
+    r->kind->solve(r->shared, narrow, in, count, out, r->status);
+  r->solving += clock_ns() - start;
   if (r->single && !narrow)
     to_single(r->result, r->narrow_result, results);
   if (r->single)
@@ -110,24 +104,25 @@ static void solve_and_write(run *r, const source_block *block) {
 /* Two readings take turns: one is solved and written while the other is filled. False after a
  * complaint. */
 static bool resolve_all(run *r) {
-  reading readings[2] = {{.in = r->in}, {.in = r->in}}, *now = &readings[0], *next = &readings[1];
-  read_block(now);
-  while (now->result == READ_ONE) {
+  reading readings[2] = {{.in = r->in}, {.in = r->in}}, *current = &readings[0],
+          *next = &readings[1];
+  read_block(current);
+  while (current->result == READ_ONE) {
     pthread_t reader;
     /* Where no thread can be started, the next block is read when this one is done. */
     const bool apart = pthread_create(&reader, NULL, read_block, next) == 0;
-    solve_and_write(r, &now->block);
+    solve_and_write(r, &current->block);
     if (apart)
       pthread_join(reader, NULL);
     else
       read_block(next);
     const double share = source_share(r->in), rows = (double)(r->ok + r->separating + r->errors);
-    double all = -1.0;
+    double duration = -1.0;
     if (share > 0.0)
-      all = rows / share;
-    progress_show("rows", rows, all);
-    reading *const done = now;
-    now = next;
+      duration = rows / share;
+    progress_show("rows", rows, duration);
+    reading *const done = current;
+    current = next;
     next = done;
   }
   progress_clear();
@@ -135,9 +130,9 @@ static bool resolve_all(run *r) {
     complain("%lld more rows are in error; the column status says of each why",
              r->errors - MOST_NAMED);
   doubts_report(&r->doubts, r->kind->noun, source_name(r->in));
-  source_free_block(&now->block);
+  source_free_block(&current->block);
   source_free_block(&next->block);
-  return now->result == READ_END;
+  return current->result == READ_END;
 }
 
 static void print_summary(const run *r) {
@@ -145,14 +140,14 @@ static void print_summary(const run *r) {
           r->ok + r->separating + r->errors, r->ok, r->separating, r->errors);
   if (r->solving >= least_timed)
     fprintf(stderr, "; %s took %.3g s, %.3g us per %s",
-            r->job->solve != NULL ? r->job->solver : r->kind->name(r->asked), 1e-9 * r->solving,
+            r->job->solve != NULL ? r->job->solver : r->kind->name(r->shared), 1e-9 * r->solving,
             1e-3 * r->solving / (double)(r->ok > 0 ? r->ok : 1), r->kind->noun);
   fputc('\n', stderr);
 }
 
 int resolve_file(const row_job *job, const char *file) {
   run r = {.job = job,
-           .asked = &job->shared,
+           .shared = &job->shared,
            .kind = kind_of(&job->shared),
            .in = source_open(file, &job->shared)};
   int code = EXIT_USAGE;

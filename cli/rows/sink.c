@@ -1,19 +1,13 @@
 /* Where results go. */
 #include "rows/sink.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/npy.h"
 #include "rows/number.h"
 #include "rows/precision.h"
 
 #include <csv.h>
 #include <errno.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 struct result_sink {
   FILE *file;
@@ -27,9 +21,9 @@ static void write_header(const result_sink *s) {
   npy_write_header(s->file, s->single ? "<f4" : "<f8", s->rows, (size_t)s->kind->results);
 }
 
-result_sink *sink_open(const shared_options *asked, bool single) {
-  const char *path = asked->output != NULL ? asked->output : "-";
-  if (asked->derived && npy_is_name(path)) {
+result_sink *sink_open(const shared_options *shared, bool single) {
+  const char *path = shared->output != NULL ? shared->output : "-";
+  if (shared->derived && npy_is_name(path)) {
     complain("--derived adds columns to CSV, which an array has not: %s", path);
     return NULL;
   }
@@ -38,10 +32,10 @@ result_sink *sink_open(const shared_options *asked, bool single) {
     return NULL;
   result_sink *s = allocate(1, sizeof *s);
   *s = (result_sink){.file = file,
-                     .kind = kind_of(asked),
+                     .kind = kind_of(shared),
                      .array = npy_is_name(path),
                      .single = single,
-                     .derived = asked->derived};
+                     .derived = shared->derived};
   if (s->array)
     write_header(s);
   else

@@ -17,7 +17,7 @@ typedef struct result_sink result_sink;
 /* Opens the output that the options name: .npy, or CSV, or "-" for CSV on stdout. `single` says
  * that a
  * .npy file is to hold float32. Complains and returns NULL if that fails. */
-result_sink *sink_open(const shared_options *asked, bool single);
+result_sink *sink_open(const shared_options *shared, bool single);
 
 /* Writes a row. `id` may be NULL: the number of the row, from 1, is written. `in` is the row
  * resolved, `result` what came of it, NaN throughout where there is an error. `error` is NULL,

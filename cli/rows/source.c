@@ -1,42 +1,36 @@
 /* Where rows come from: numbers by the names of columns, or by their places in an array. */
 #include "rows/source.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/npy.h"
 #include "rows/number.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 struct row_source {
-  const shared_options *asked;
+  const shared_options *shared;
   const row_kind *kind;
   const char *name;
   size_t next; /* rows that have been read */
   npy_array array;
-  record_reader *records;           /* of CSV; NULL for an array */
-  size_t width;                     /* fields of the header */
-  size_t id_at, at[MOST_NUMBERS];   /* places of the column id and of those that fill the
+  record_reader *records;               /* of CSV; NULL for an array */
+  size_t width;                         /* fields of the header */
+  size_t id_place, place[MOST_NUMBERS]; /* places of the column id and of those that fill the
                                        numbers, or SIZE_MAX; */
-  const char *column[MOST_NUMBERS]; /* the names of these */
+  const char *column[MOST_NUMBERS];     /* the names of these */
 };
 
 /* ---- Columns */
 
 /* The place of the column, SIZE_MAX if there is none; false after a complaint if there are two. */
-static bool find_once(const record *header, const char *file, const char *name, size_t *at) {
-  *at = SIZE_MAX;
+static bool find_once(const record *header, const char *file, const char *name, size_t *place) {
+  *place = SIZE_MAX;
   for (size_t k = 0; k < header->count && name != NULL; k++) {
     if (strcmp(header->field[k], name) != 0)
       continue;
-    if (*at != SIZE_MAX) {
+    if (*place != SIZE_MAX) {
       complain("%s:%lld: column '%s' appears twice; which one is meant?", file, header->line, name);
       return false;
     }
-    *at = k;
+    *place = k;
   }
   return true;
 }
@@ -58,9 +52,9 @@ static bool find_column(row_source *s, const record *header, int number) {
              c->both, c->name);
     return false;
   }
-  s->at[number] = at_own;
+  s->place[number] = at_own;
   if (at_own == SIZE_MAX)
-    s->at[number] = at_both;
+    s->place[number] = at_both;
   /* What is missing should have been for both balls, unless the other one has a column of its
    * own. */
   const bool alone =
@@ -76,9 +70,9 @@ static bool is_missing(const row_source *s, int number) {
   const column *c = &s->kind->columns[number];
   const bool named = c->both != NULL && c->partner < number &&
                      strcmp(s->column[number], s->column[c->partner]) == 0;
-  const bool half = c->optional && c->partner != NO_NUMBER && s->at[c->partner] != SIZE_MAX;
-  const bool by_option = s->asked->friction.given && strcmp(c->name, "u_b") == 0;
-  return s->at[number] == SIZE_MAX && (half || !c->optional) && !named && !by_option;
+  const bool half = c->optional && c->partner != NO_NUMBER && s->place[c->partner] != SIZE_MAX;
+  const bool by_option = s->shared->friction.is_set && strcmp(c->name, "u_b") == 0;
+  return s->place[number] == SIZE_MAX && (half || !c->optional) && !named && !by_option;
 }
 
 static bool find_columns(row_source *s, const record *header) {
@@ -91,7 +85,7 @@ static bool find_columns(row_source *s, const record *header) {
     return false;
   }
   s->width = header->count;
-  if (!find_once(header, s->name, "id", &s->id_at))
+  if (!find_once(header, s->name, "id", &s->id_place))
     return false;
   for (int number = 0; number < s->kind->numbers; number++)
     if (!find_column(s, header, number))
@@ -102,12 +96,13 @@ static bool find_columns(row_source *s, const record *header) {
       strcat(strcat(missing, s->column[number]), " ");
   if (missing[1] == '\0')
     return true;
-  const bool other = !find_once(header, s->name, s->kind->clue, &unused) || unused != SIZE_MAX;
+  const bool is_other_kind =
+      !find_once(header, s->name, s->kind->clue, &unused) || unused != SIZE_MAX;
   const char *hint = "names are case-sensitive";
   if (header->count == 1)
     hint = "the header is a single field, without commas";
   complain("%s:%lld: missing columns:%s(%s%s; `%s resolve --help` lists them)", s->name,
-           header->line, missing, text_if(other, s->kind->meant), hint, program_name);
+           header->line, missing, text_if(is_other_kind, s->kind->meant), hint, program_name);
   return false;
 }
 
@@ -127,9 +122,9 @@ static bool open_csv(row_source *s, const char *path) {
   return result == READ_ONE && !header.malformed && find_columns(s, &header);
 }
 
-row_source *source_open(const char *path, const shared_options *asked) {
+row_source *source_open(const char *path, const shared_options *shared) {
   row_source *s = allocate(1, sizeof *s);
-  *s = (row_source){.asked = asked, .kind = kind_of(asked), .name = path};
+  *s = (row_source){.shared = shared, .kind = kind_of(shared), .name = path};
   const bool is_array = npy_is_name(path);
   if (is_array && npy_open(path, (size_t)s->kind->numbers, &s->array))
     return s;
@@ -149,8 +144,8 @@ static void set_id(const row_source *s, const record *in, size_t row, row_note *
   char number[24];
   snprintf(number, sizeof number, "%zu", row);
   const char *id = number;
-  if (!in->malformed && s->id_at < in->count)
-    id = in->field[s->id_at];
+  if (!in->malformed && s->id_place < in->count)
+    id = in->field[s->id_place];
   note->id = grow(note->id, &note->id_room, strlen(id) + 1, 1);
   strcpy(note->id, id);
 }
@@ -172,10 +167,10 @@ static const char *fill(const row_source *s, const record *in, row_note *note, d
   /* Each number from its column. */
   for (int k = 0; k < s->kind->numbers; k++) {
     const char *name = s->column[k], *text = "";
-    if (s->at[k] == SIZE_MAX) /* it may be missing */
+    if (s->place[k] == SIZE_MAX) /* it may be missing */
       continue;
-    if (s->at[k] < in->count)
-      text = in->field[s->at[k]];
+    if (s->place[k] < in->count)
+      text = in->field[s->place[k]];
     if (text[0] == '\0') {
       snprintf(note->message, sizeof note->message, "%s is missing", name);
       return "missing_value";
@@ -235,7 +230,7 @@ read_result source_read(row_source *s, source_block *block) {
   s->next += block->count;
   /* what options say instead of columns */
   for (size_t k = 0; s->kind->prepare != NULL && k < block->count; k++)
-    s->kind->prepare(s->asked, source_row(s, block, k));
+    s->kind->prepare(s->shared, source_row(s, block, k));
   if (result == READ_ONE && block->count == 0)
     return READ_END;
   if (result == READ_END && block->count > 0)
@@ -263,7 +258,7 @@ void source_report(const row_source *s, const source_block *block, size_t k, car
   const double *row = source_row(s, block, k);
   int field = -1;
   char where[256], what[64] = "", id[ID_TEXT], text[NUMBER_TEXT];
-  s->kind->check(row, s->asked, &field);
+  s->kind->check(row, s->shared, &field);
   /* Where it is, and which of its numbers is to blame. */
   if (note != NULL)
     snprintf(where, sizeof where, "%s:%lld: id '%s'", s->name, note->line, id_text(note->id, id));

@@ -31,9 +31,9 @@ typedef struct source_block {
 } source_block;
 
 /* Opens a file of rows of the kind that is asked for by its name: .npy, or CSV, or "-" for CSV
- * on stdin. Complains and returns NULL if it or a column is missing. `asked` is read until the
+ * on stdin. Complains and returns NULL if it or a column is missing. `shared` is read until the
  * source is closed. */
-row_source *source_open(const char *path, const shared_options *asked);
+row_source *source_open(const char *path, const shared_options *shared);
 
 /* Whether the numbers were float in the file. */
 bool source_is_single(const row_source *source);

@@ -9,14 +9,9 @@
  */
 #include "rows/values.h"
 
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/number.h"
 #include "rows/quantities.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 enum { POINTS = 161, MOST_TEXT = 256, LIST_TEXT = MOST_VALUES * VALUE_NAME };
 
@@ -39,7 +34,7 @@ enum {
 /* Every unit of the program. The first one of a measure is that of a bare number; a spin has
  * none. */
 static const struct {
-  unsigned of;
+  unsigned measures;
   const char *name, *axis;
   double factor;
   int times;
@@ -84,7 +79,7 @@ static const struct {
 };
 
 static const struct {
-  unsigned of;
+  unsigned measures;
   const char *name;
   double x;
   int times;
@@ -117,32 +112,28 @@ static const struct {
     {SIDES, "gearing", 1.0, GEARING},
 };
 
-enum {
-  UNITS = sizeof units / sizeof units[0],
-  WORDS = sizeof words / sizeof words[0],
-  NO_UNIT = -1
-};
+enum { UNITS = COUNT_OF(units), WORDS = COUNT_OF(words), NO_UNIT = -1 };
 
 /* The unit of that name, "" for that of a bare number; NO_UNIT if there is none. */
 static int find_unit(int measure, const char *name) {
   if (strcmp(name, "tips") == 0)
     name = "tip";
   for (int k = 0; k < UNITS; k++)
-    if ((units[k].of & OF(measure)) != 0 &&
+    if ((units[k].measures & OF(measure)) != 0 &&
         ((name[0] == '\0' && measure < MEASURE_SPIN) || strcmp(name, units[k].name) == 0))
       return k;
   return NO_UNIT;
 }
 
 /* Sets a value of a number in a unit; false where it is out of range. */
-static bool set_value(value *v, double given, int unit) {
-  v->given = given;
+static bool set_value(value *v, double number, int unit) {
+  v->number = number;
   v->times = units[unit].times;
-  v->x = given * units[unit].factor;
-  if (isnan(units[unit].factor) && given >= 0.0 && given <= 1.0) /* BALL_FRACTION */
-    v->x = asin(1.0 - given) / degree;
+  v->x = number * units[unit].factor;
+  if (isnan(units[unit].factor) && number >= 0.0 && number <= 1.0) /* BALL_FRACTION */
+    v->x = asin(1.0 - number) / degree;
   const bool apart = units[unit].name[0] >= 'a' && units[unit].times != DIAMONDS; /* 2d, 2 m */
-  snprintf(v->name, sizeof v->name, "%.6g%s%s", given, text_if(apart, " "), units[unit].name);
+  snprintf(v->name, sizeof v->name, "%.6g%s%s", number, text_if(apart, " "), units[unit].name);
   return isfinite(v->x);
 }
 
@@ -170,19 +161,15 @@ static bool split(const char *text, double *number, const char **unit) {
 
 /* "m/s, mph or km/h", and the words. */
 static void list_units(int measure, char *text, size_t room) {
-  const char *between = "";
   for (int k = 0; k < WORDS; k++)
-    if ((words[k].of & OF(measure)) != 0) {
-      snprintf(text + strlen(text), room - strlen(text), "%s%s", between, words[k].name);
-      between = ", ";
-    }
-  snprintf(text + strlen(text), room - strlen(text), "%sa number",
-           text_if(between[0] != '\0', ", or "));
-  between = measure >= MEASURE_SPIN ? " with a unit: " : ", with a unit or without: ";
+    if ((words[k].measures & OF(measure)) != 0)
+      append(text, room, ", ", "%s", words[k].name);
+  append(text, room, ", or ", "a number");
+  const char *separator = measure >= MEASURE_SPIN ? " with a unit: " : ", with a unit or without: ";
   for (int k = 0; k < UNITS; k++)
-    if ((units[k].of & OF(measure)) != 0 && units[k].name[0] != '\0') {
-      snprintf(text + strlen(text), room - strlen(text), "%s%s", between, units[k].name);
-      between = ", ";
+    if ((units[k].measures & OF(measure)) != 0 && units[k].name[0] != '\0') {
+      append(text, room, separator, "%s", units[k].name);
+      separator = ", ";
     }
 }
 
@@ -191,11 +178,11 @@ static bool refuse(const option_row *row, const char *text) {
   const char *word = text + strspn(text, "+-.0123456789");
   list_units(row->least, list, sizeof list);
   for (int k = 0; k < WORDS; k++)
-    if ((words[k].of & OF(row->least)) != 0)
-      snprintf(known + strlen(known), sizeof known - strlen(known), "%s|", words[k].name);
+    if ((words[k].measures & OF(row->least)) != 0)
+      append(known, sizeof known, "|", "%s", words[k].name);
   for (int k = 0; k < UNITS; k++)
-    if ((units[k].of & OF(row->least)) != 0)
-      snprintf(known + strlen(known), sizeof known - strlen(known), "%s|", units[k].name);
+    if ((units[k].measures & OF(row->least)) != 0)
+      append(known, sizeof known, "|", "%s", units[k].name);
   complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'%s", row->name,
            list, text, did_you_mean(word, known, hint));
   return false;
@@ -213,9 +200,9 @@ static bool set_word(const char *text, int measure, value *v) {
   if (measure == MEASURE_CUT && end != NULL && end[5] == '\0')
     size = (size_t)(end - text);
   for (int k = 0; k < WORDS; k++)
-    if ((words[k].of & OF(measure)) != 0 &&
+    if ((words[k].measures & OF(measure)) != 0 &&
         same_word(text, size, words[k].name, strlen(words[k].name))) {
-      *v = (value){.x = words[k].x, .given = (double)NAN, .times = words[k].times};
+      *v = (value){.x = words[k].x, .number = (double)NAN, .times = words[k].times};
       snprintf(v->name, sizeof v->name, "%s", text);
       return true;
     }
@@ -227,7 +214,7 @@ static bool set_word(const char *text, int measure, value *v) {
 static bool set_range(const option_row *row, const char *text, char *copy, values *list) {
   char *rest = NULL;
   double end[3];
-  const char *unit = "", *own;
+  const char *unit = "", *own_unit;
   int parts = 0, worded = 0;
   value word = {.times = FIXED};
   for (char *part = strtok_r(copy, ":", &rest); part != NULL;
@@ -239,10 +226,10 @@ static bool set_range(const option_row *row, const char *text, char *copy, value
       end[parts] = word.x;
       continue;
     }
-    if (parts == 3 || !split(part, &end[parts], &own))
+    if (parts == 3 || !split(part, &end[parts], &own_unit))
       return refuse(row, text);
-    if (own[0] != '\0')
-      unit = own;
+    if (own_unit[0] != '\0')
+      unit = own_unit;
   }
   if (worded > 0 && unit[0] != '\0')
     return refuse(row, text);
@@ -259,21 +246,21 @@ static bool set_range(const option_row *row, const char *text, char *copy, value
     double x = end[0] + (end[1] - end[0]) * k / steps;
     if (parts == 3)
       x = end[0] + k * end[2];
-    if (!set_value(&list->at[k], x, found))
+    if (!set_value(&list->item[k], x, found))
       return refuse(row, text);
     if (worded > 0)
-      list->at[k].times = word.times;
+      list->item[k].times = word.times;
   }
   return true;
 }
 
 /* The name of a cushion model. */
 static bool set_model(const option_row *row, const char *text, value *v) {
-  char all[MOST_WORDS];
+  char list[MOST_WORDS];
   int place;
-  if (!set_place(row, text, words_of(CAROM_WORDS_CUSHION_MODEL, false, all), &place))
+  if (!set_place(row, text, words_of(CAROM_WORDS_CUSHION_MODEL, false, list), &place))
     return false;
-  *v = (value){.x = place, .given = (double)NAN};
+  *v = (value){.x = place, .number = (double)NAN};
   snprintf(v->name, sizeof v->name, "%s", text);
   return true;
 }
@@ -320,16 +307,16 @@ static int unit_of_last(int measure, const char *text) {
 }
 
 /* Copies a text with a colon for each "..". */
-static void copy_with_colons(const char *from, char *to) {
-  for (; *from != '\0'; from++) {
-    *to = *from;
-    if (strncmp(from, "..", 2) == 0) {
-      *to = ':';
-      from++;
+static void copy_with_colons(const char *source, char *target) {
+  for (; *source != '\0'; source++) {
+    *target = *source;
+    if (strncmp(source, "..", 2) == 0) {
+      *target = ':';
+      source++;
     }
-    to++;
+    target++;
   }
-  *to = '\0';
+  *target = '\0';
 }
 
 static bool read_values(const option_row *row, const char *text, values *list) {
@@ -341,8 +328,8 @@ static bool read_values(const option_row *row, const char *text, values *list) {
 
   /* how many there are */
   double several = 1.0;
-  for (const char *at = text; *at != '\0'; at++)
-    several += *at == ',';
+  for (const char *letter = text; *letter != '\0'; letter++)
+    several += *letter == ',';
   if (several > MOST_VALUES || strlen(text) >= LIST_TEXT)
     return too_many(row, several, MOST_VALUES);
 
@@ -352,7 +339,7 @@ static bool read_values(const option_row *row, const char *text, values *list) {
     return set_range(row, text, copy, list);
   char *rest = NULL;
   for (char *part = strtok_r(copy, ",", &rest); part != NULL; part = strtok_r(NULL, ",", &rest))
-    if (!set_one(row, part, common, &list->at[list->count++]))
+    if (!set_one(row, part, common, &list->item[list->count++]))
       return false;
   return list->count > 0 || refuse(row, text);
 }
@@ -389,15 +376,20 @@ int measure_of_unit(const char *unit) {
   static const struct {
     const char *unit;
     int measure;
-  } of[] = {{"m", MEASURE_LENGTH},
-            {"kg", MEASURE_MASS},
-            {"s", MEASURE_TIME},
-            {"m/s", MEASURE_SPEED},
-            {"degrees", MEASURE_ANGLE}};
-  for (size_t k = 0; k < sizeof of / sizeof *of; k++)
-    if (strcmp(of[k].unit, unit) == 0)
-      return of[k].measure;
+  } rows[] = {{"m", MEASURE_LENGTH},
+              {"kg", MEASURE_MASS},
+              {"s", MEASURE_TIME},
+              {"m/s", MEASURE_SPEED},
+              {"degrees", MEASURE_ANGLE}};
+  for (size_t k = 0; k < COUNT_OF(rows); k++)
+    if (strcmp(rows[k].unit, unit) == 0)
+      return rows[k].measure;
   return MEASURE_NUMBER;
+}
+
+bool value_in_unit(int measure, double number, const char *unit, value *v) {
+  const int found = find_unit(measure, unit);
+  return found != NO_UNIT && set_value(v, number, found);
 }
 
 bool value_of(int measure, const char *text, value *v) {
@@ -405,8 +397,7 @@ bool value_of(int measure, const char *text, value *v) {
   const char *unit;
   if (!split(text, &number, &unit))
     return false;
-  const int found = find_unit(measure, unit);
-  return found != NO_UNIT && set_value(v, number, found);
+  return value_in_unit(measure, number, unit, v);
 }
 
 void values_default(values *list, int measure, const char *text) {
@@ -414,16 +405,16 @@ void values_default(values *list, int measure, const char *text) {
   read_values(&row, text, list);
 }
 
-double tip_offset(const value *const *given, int count, double radius) {
+double tip_offset(const value *const *offsets, int count, double radius) {
   double square = 0.0;
   for (int k = 0; k < count; k++)
-    if (given[k]->times == OFFSET)
-      square += given[k]->x * given[k]->x;
+    if (offsets[k]->times == OFFSET)
+      square += offsets[k]->x * offsets[k]->x;
   return sqrt(square) / (strike * radius);
 }
 
 const char *share_of_rolling(const value *v) {
-  return text_if(v->times == ROLLING && !isnan(v->given), " of rolling");
+  return text_if(v->times == ROLLING && !isnan(v->number), " of rolling");
 }
 
 double spin_of(const value *v, double speed, double radius, double gearing) {

@@ -41,7 +41,7 @@ enum spin_unit { FIXED, ROLLING, OFFSET, GEARING, GEARED, DIAMONDS, OF_BALL };
 
 typedef struct value {
   double x;              /* SI units; angles in degrees */
-  double given;          /* in the unit of the list */
+  double number;         /* in the unit of the list */
   int times;             /* enum spin_unit */
   char name[VALUE_NAME]; /* as it was given, with its unit: "7mph" */
 } value;
@@ -52,7 +52,7 @@ typedef struct values {
   bool comma;       /* two numbers that look like one with a decimal comma, of which set_values()
                        warned */
   const char *unit; /* as an axis says it: "mph" */
-  value at[MOST_VALUES];
+  value item[MOST_VALUES];
 } values;
 
 /* For `values` of a measure, row->least: numbers with commas, or a range A:B or A:B:STEP.
@@ -71,11 +71,14 @@ void values_default(values *list, int measure, const char *text);
  * read. */
 int measure_of_unit(const char *unit);
 
+/* A number in a unit of a measure, as a value of that name; false where it is none. */
+bool value_in_unit(int measure, double number, const char *unit, value *v);
+
 /* Reads one number of a measure, with a unit or without; false where it is none. */
 bool value_of(int measure, const char *text, value *v);
 
 /* How far from the centre, in R, a tip is that gives all spins that are given in tips. */
-double tip_offset(const value *const *given, int count, double radius);
+double tip_offset(const value *const *offsets, int count, double radius);
 
 /* What a sentence says after the name of a spin: of what its percents are, "-71% of rolling". */
 const char *share_of_rolling(const value *v);

@@ -43,7 +43,7 @@ typedef struct path {
 typedef struct target {
   const carom_table *table;
   const carom_shot_ball *balls;
-  int count, at;
+  int count, index;
   carom_shot_options options;
   double x, y, distance, cut; /* from the ball of the cue, m; degrees */
   double touch, turn; /* R1 + R2, m; the direction in which the struck ball leaves, alone and
@@ -84,17 +84,18 @@ static double ball_met_at(const path *p, double time, double q[2]) {
  * at one of them. */
 static bool next_root(const path *p, double distance, double step, double end, double *time,
                       double q[2], bool *reached) {
-  double early = *time, before = ball_met_at(p, early, q) - distance;
-  *reached |= before >= 0.0;
+  double early = *time, early_gap = ball_met_at(p, early, q) - distance;
+  *reached |= early_gap >= 0.0;
   for (double late = early; late < end; early = late) {
     *time = late = fmin(late + step, end);
-    const double now = ball_met_at(p, late, q) - distance;
-    *reached |= now >= 0.0;
-    if ((now > 0.0) == (before > 0.0))
+    const double late_gap = ball_met_at(p, late, q) - distance;
+    *reached |= late_gap >= 0.0;
+    if ((late_gap > 0.0) == (early_gap > 0.0))
       continue;
     for (int k = 0; k < HALVINGS; k++) {
       const double middle = 0.5 * (early + late);
-      *((ball_met_at(p, middle, q) - distance > 0.0) == (before > 0.0) ? &early : &late) = middle;
+      *((ball_met_at(p, middle, q) - distance > 0.0) == (early_gap > 0.0) ? &early : &late) =
+          middle;
     }
     return true;
   }
@@ -125,14 +126,14 @@ static bool holds(const target *t, const double q[2], double time, carom_cue *cu
     if (c->type == CAROM_EVENT_BALL_BALL && (c->a == cue->ball || c->b == cue->ball))
       e = c;
   const int side = e->a == cue->ball ? 0 : 1;
-  const double *from = e->before[side].r, *to = e->before[1 - side].r;
+  const double *start = e->before[side].r, *end = e->before[1 - side].r;
   const bool pushed =
       events[0].type == CAROM_EVENT_STRIKE && events[0].cluster > 0 && e->time == events[0].time;
-  if (pushed && (side == 0 ? e->b : e->a) == t->at)
+  if (pushed && (side == 0 ? e->b : e->a) == t->index)
     return fabs(pushed_cut(t, cue->phi) - t->cut) < same_cut;
-  if (e->type == CAROM_EVENT_BALL_BALL && (side == 0 ? e->b : e->a) == t->at)
+  if (e->type == CAROM_EVENT_BALL_BALL && (side == 0 ? e->b : e->a) == t->index)
     return fabs(angle_between(e->before[side].v,
-                              (const double[]){to[0] - from[0], to[1] - from[1]}) -
+                              (const double[]){end[0] - start[0], end[1] - start[1]}) -
                 t->cut) < same_cut;
   if (e->time < time && !*barred) {
     *first = *e;
@@ -142,24 +143,24 @@ static bool holds(const target *t, const double q[2], double time, carom_cue *cu
 }
 
 aim_result aim_at(const carom_table *table, const carom_shot_ball *balls, int count,
-                  const carom_shot_options *options, int at, double cut, carom_cue *cue,
+                  const carom_shot_options *options, int index, double cut, carom_cue *cue,
                   carom_event *first) {
-  const carom_shot_ball *own = &balls[cue->ball], *other = &balls[at];
-  const carom_table cloth = endless_cloth(own->kind.radius);
-  target t = {.table = table, .balls = balls, .count = count, .at = at, .cut = cut};
+  const carom_shot_ball *cue_ball = &balls[cue->ball], *target_ball = &balls[index];
+  const carom_table cloth = endless_cloth(cue_ball->kind.radius);
+  target t = {.table = table, .balls = balls, .count = count, .index = index, .cut = cut};
   bool reached = false, barred = false;
   double q[2];
-  t.x = other->state.r[0] - own->state.r[0];
-  t.y = other->state.r[1] - own->state.r[1];
+  t.x = target_ball->state.r[0] - cue_ball->state.r[0];
+  t.y = target_ball->state.r[1] - cue_ball->state.r[1];
   t.distance = hypot(t.x, t.y);
   t.options = (carom_shot_options){.world = options->world,
                                    .space = options->space,
                                    .events_most = MOST_EVENTS,
                                    .fast = options->fast};
   /* The path on an endless cloth, for phi = 0. */
-  path p = {.ball = *own,
-            .touch = own->kind.radius + other->kind.radius,
-            .height = other->state.r[2],
+  path p = {.ball = *cue_ball,
+            .touch = cue_ball->kind.radius + target_ball->kind.radius,
+            .height = target_ball->state.r[2],
             .cut = cut * degree};
   carom_cue straight = *cue;
   p.ball.state.r[0] = p.ball.state.r[1] = straight.phi = 0.0;

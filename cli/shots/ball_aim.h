@@ -13,12 +13,12 @@ typedef enum aim_result {
   AIM_NONE         /* its path leads past or over the ball, or meets it at other cuts only */
 } aim_result;
 
-/* Sets cue->phi, so that the first contact of the ball of the cue is that with ball `at`, at
+/* Sets cue->phi, so that the first contact of the ball of the cue is that with ball `index`, at
  * `cut` degrees from its direction there to the line of centres, above 0 to the left: angles as
  * seen from above. The arguments are such that carom_shot_check() accepts them; the other balls
  * are at rest. AIM_BARRED: *first is that contact in the first of those directions. */
 aim_result aim_at(const carom_table *table, const carom_shot_ball *balls, int count,
-                  const carom_shot_options *options, int at, double cut, carom_cue *cue,
+                  const carom_shot_options *options, int index, double cut, carom_cue *cue,
                   carom_event *first);
 
 /* A table whose cushions no ball reaches, with the origin in its middle. */

@@ -1,14 +1,10 @@
 /* Values out of JSON objects. */
 #include "shots/json_values.h"
 
-#include "program/memory.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/number.h"
 
 #include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 static void *json_memory(size_t size) {
   return allocate(size, 1);
@@ -25,7 +21,7 @@ json_t *json_short(double x) {
 }
 
 void json_write_short(FILE *out, const json_t *value) {
-  const char *before = "", *key;
+  const char *separator = "", *key;
   char text[NUMBER_TEXT];
   json_t *part;
   size_t k;
@@ -33,18 +29,18 @@ void json_write_short(FILE *out, const json_t *value) {
   case JSON_OBJECT:
     putc('{', out);
     json_object_foreach((json_t *)value, key, part) {
-      fprintf(out, "%s\"%s\": ", before, key);
+      fprintf(out, "%s\"%s\": ", separator, key);
       json_write_short(out, part);
-      before = ", ";
+      separator = ", ";
     }
     putc('}', out);
     break;
   case JSON_ARRAY:
     putc('[', out);
     json_array_foreach((json_t *)value, k, part) {
-      fputs(before, out);
+      fputs(separator, out);
       json_write_short(out, part);
-      before = ", ";
+      separator = ", ";
     }
     putc(']', out);
     break;
@@ -64,7 +60,7 @@ bool json_wrong(json_fault *f, const char *format, ...) {
   return false;
 }
 
-bool json_get_part(const json_t *object, const char *where, carom_part_kind part, void *to,
+bool json_get_part(const json_t *object, const char *where, carom_part_kind part, void *target,
                    json_fault *f) {
   const carom_number *n;
   for (int k = 0; (n = carom_number_of(part, k)) != NULL; k++) {
@@ -72,7 +68,7 @@ bool json_get_part(const json_t *object, const char *where, carom_part_kind part
     if (v != NULL && !json_is_number(v))
       return json_wrong(f, "%s%s must be a number", where, n->key);
     if (v != NULL && n->type == CAROM_TYPE_DOUBLE)
-      memcpy((char *)to + n->offset, &(double){json_number_value(v)}, sizeof(double));
+      memcpy((char *)target + n->offset, &(double){json_number_value(v)}, sizeof(double));
   }
   return true;
 }

@@ -27,7 +27,7 @@ __attribute__((format(printf, 2, 3))) bool json_wrong(json_fault *f, const char 
 
 /* The doubles of a struct by the keys of its numbers, which stay as they are where there is no such
  * key. `where` stands before the key in what is said. */
-bool json_get_part(const json_t *object, const char *where, carom_part_kind part, void *to,
+bool json_get_part(const json_t *object, const char *where, carom_part_kind part, void *target,
                    json_fault *f);
 
 /* All its keys, with a blank between them, behind others. */

@@ -2,26 +2,22 @@
  * ranges. */
 #include "shots/places.h"
 
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 
 #include "carom_shot.h"
 
 #include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-enum { MOST_TEXT = 4096, RANGE = 1 };
+enum { MOST_TEXT = 4096, PLACE_TEXT = 128, RANGE = 1 };
 static const char frozen[] = "frozen-";
 
 /* In diamonds, as every table has them: corners and middles of the long rails lie at the noses. */
 static const struct {
-  const char *name, *place;
-} places[] = {{"head-spot", "2d,2d"},  {"centre", "2d,4d"},     {"foot-spot", "2d,6d"},
-              {"head-left", "0d,0d"},  {"head-right", "4d,0d"}, {"side-left", "0d,4d"},
-              {"side-right", "4d,4d"}, {"foot-left", "0d,8d"},  {"foot-right", "4d,8d"}};
+  const char *name;
+  double place[2];
+} places[] = {{"head-spot", {2, 2}},  {"centre", {2, 4}},     {"foot-spot", {2, 6}},
+              {"head-left", {0, 0}},  {"head-right", {4, 0}}, {"side-left", {0, 4}},
+              {"side-right", {4, 4}}, {"foot-left", {0, 8}},  {"foot-right", {4, 8}}};
 
 const char *const colours_of_snooker[COLOURS] = {"yellow", "green", "brown",
                                                  "blue",   "pink",  "black"};
@@ -35,55 +31,57 @@ static int colour_at(const char *text) {
   return -1;
 }
 
-/* "left,4d" as "0d,4d", the point of a rail's nose; what stands behind the number stays. False of a
- * text that does not begin with a rail and a comma. */
-static bool rail_spelt(const char *text, char to[PLACE_TEXT]) {
+/* A place in diamonds. */
+static void set_diamonds(const double place[2], value *x, value *y) {
+  value_in_unit(MEASURE_PLACE, place[0], "d", x);
+  value_in_unit(MEASURE_PLACE, place[1], "d", y);
+}
+
+/* The point of a rail's nose in "left,4d" and what follows; `text` where it is none. */
+static const char *point_of_rail(const char *text, value *x, value *y) {
   enum { HEAD, FOOT, LEFT, RIGHT };
+  static const double noses[][2] = {
+      [HEAD] = {0, 0}, [FOOT] = {0, 8}, [LEFT] = {0, 0}, [RIGHT] = {4, 0}};
+  char number[PLACE_TEXT];
   const size_t size = strcspn(text, ",");
   const int rail = word_among(RAILS, text, size);
   if (text[size] != ',' || rail < 0)
-    return false;
-  const char *number = text + size + 1;
-  const int digits = (int)strcspn(number, ",");
-  const bool bare = strspn(number, "+-.0123456789") == (size_t)digits;
-  const char *unit = bare ? "m" : "", *rest = number + digits;
-  int written;
-  if (rail == LEFT || rail == RIGHT)
-    written = snprintf(to, PLACE_TEXT, "%s,%.*s%s%s", rail == LEFT ? "0d" : "4d", digits, number,
-                       unit, rest);
-  else
-    written = snprintf(to, PLACE_TEXT, "%.*s%s,%s%s", digits, number, unit,
-                       rail == HEAD ? "0d" : "8d", rest);
-  return written < PLACE_TEXT;
+    return text;
+  const char *digits = text + size + 1, *rest = digits + strcspn(digits, ",");
+  snprintf(number, sizeof number, "%.*s", (int)(rest - digits), digits);
+  set_diamonds(noses[rail], x, y);
+  return value_of(MEASURE_PLACE, number, rail == LEFT || rail == RIGHT ? y : x) ? rest : text;
 }
 
-char *place_spelt(char *text, char to[PLACE_TEXT]) {
+const char *place_named(const char *text, value *x, value *y) {
   enum { YELLOW = 16 };
-  if (rail_spelt(text, to))
-    return to;
+  const double digits = 1e14; /* of a diamond: recorded layouts have these bits */
   const size_t size = strcspn(text, ",");
   const int colour = colour_at(text);
-  char spot[PLACE_TEXT / 2];
-  const char *place = NULL;
-  for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
-    if (same_word(text, size, places[k].name, strlen(places[k].name)))
-      place = places[k].place;
+  const char *rest = point_of_rail(text, x, y);
+  if (rest != text)
+    return rest;
+  for (size_t k = 0; k < COUNT_OF(places); k++)
+    if (same_word(text, size, places[k].name, strlen(places[k].name))) {
+      set_diamonds(places[k].place, x, y);
+      return text + size;
+    }
+  if (colour < 0)
+    return text;
 
   /* the spots of snooker, on a table on which a diamond is 1 m */
-  if (colour >= 0) {
-    const carom_table table = {.width = 4.0, .length = 8.0};
-    double at[2] = {0.0, 0.0};
-    carom_spot_of(CAROM_RACK_SNOOKER, &table, YELLOW + colour, at);
-    snprintf(spot, sizeof spot, "%.15gd,%.15gd", at[0], at[1]);
-    place = spot;
-  }
-  return place != NULL && snprintf(to, PLACE_TEXT, "%s%s", place, text + size) < PLACE_TEXT ? to
-                                                                                            : text;
+  const carom_table table = {.width = 4.0, .length = 8.0};
+  double position[2] = {0.0, 0.0};
+  carom_spot_of(CAROM_RACK_SNOOKER, &table, YELLOW + colour, position);
+  for (int k = 0; k < 2; k++)
+    position[k] = round(position[k] * digits) / digits;
+  set_diamonds(position, x, y);
+  return text + size;
 }
 
-/* Where the tip touches by words, such as low, left-low or right,0, as a pair of numbers; other
- * texts as they are. As far from the centre as a chalked tip holds. */
-static char *tip_spelt(char *text, char to[PLACE_TEXT]) {
+/* Reads where the tip touches by words, such as low, left-low or right,0: as far from the centre as
+ * a chalked tip holds. False of other texts. */
+static bool tip_named(const char *text, value *x, value *y) {
   static const struct {
     const char *word;
     double right, above;
@@ -92,31 +90,31 @@ static char *tip_spelt(char *text, char to[PLACE_TEXT]) {
                {"left", -0.5, 0.0},
                {"high", 0.0, 0.5},
                {"low", 0.0, -0.5}};
-  enum { TIP_WORDS = sizeof words / sizeof words[0] };
+  enum { TIP_WORDS = COUNT_OF(words) };
+  const double digits = 1e4; /* of a radius */
   const char *rest = text;
   double right = 0.0, above = 0.0;
   do {
     size_t size = strcspn(rest, "-,"), k = 0;
     while (k < TIP_WORDS && !same_word(rest, size, words[k].word, strlen(words[k].word)))
       k++;
-    double x = 0.0;
-    char *end = NULL;
     if (k < TIP_WORDS) {
       right += words[k].right;
       above += words[k].above;
     } else {
-      x = strtod(rest, &end);
+      char *end = NULL;
+      const double number = strtod(rest, &end);
       size = (size_t)(end - rest);
-      if (rest == text || x != 0.0 || size == 0) /* a bare 0 beside a word adds nothing */
-        return text;
+      if (rest == text || number != 0.0 || size == 0) /* a bare 0 beside a word adds nothing */
+        return false;
     }
     rest += size;
     if (rest[0] != '\0' && rest[0] != '-' && rest[0] != ',')
-      return text;
+      return false;
   } while (*rest++ != '\0');
   const double far = hypot(right, above), scale = far > 0.5 ? 0.5 / far : 1.0;
-  snprintf(to, PLACE_TEXT, "%.4g,%.4g", right * scale, above * scale);
-  return to;
+  return value_in_unit(MEASURE_TIP, round(right * scale * digits) / digits, "R", x) &&
+         value_in_unit(MEASURE_TIP, round(above * scale * digits) / digits, "R", y);
 }
 
 static bool refuse(const option_row *row, const char *text) {
@@ -125,10 +123,10 @@ static bool refuse(const option_row *row, const char *text) {
   if (row->words != 0)
     words_of(row->words, true, racks);
   snprintf(known, sizeof known, "%s", racks);
-  for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
-    snprintf(known + strlen(known), sizeof known - strlen(known), "|%s", places[k].name);
+  for (size_t k = 0; k < COUNT_OF(places); k++)
+    append(known, sizeof known, "|", "%s", places[k].name);
   for (int k = 0; k < COLOURS; k++)
-    snprintf(known + strlen(known), sizeof known - strlen(known), "|%s", colours_of_snooker[k]);
+    append(known, sizeof known, "|", "%s", colours_of_snooker[k]);
   complain(
       "--%s is %s%s%s; not '%.60s'%s", row->name,
       tip ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
@@ -144,17 +142,17 @@ static bool refuse(const option_row *row, const char *text) {
 
 /* Copies pairs, in which ranges get RANGE for ":" or "..". A colon parts two pairs where commas
  * stand on both sides of it before the next one. */
-static void spell_ranges(const char *text, char *to) {
+static void spell_ranges(const char *text, char *result) {
   for (bool comma = false; *text != '\0'; text++) {
     const bool dots = strncmp(text, "..", 2) == 0,
                next = memchr(text + 1, ',', strcspn(text + 1, ":")) != NULL,
                word = isalpha((unsigned char)text[1]) != 0,
                range = dots || (*text == ':' && !(comma && next) && !word);
     comma = *text == ',' || (comma && (*text != ':' || range));
-    *to++ = (char)(range ? RANGE : *text);
+    *result++ = (char)(range ? RANGE : *text);
     text += dots;
   }
-  *to = '\0';
+  *result = '\0';
 }
 
 /* Adds all pairs of two ranges, A:B,C:D; of one without a step five values. False after a
@@ -166,40 +164,40 @@ static bool add_ranges(const option_row *row, char *text, place_list *list) {
   *part[1]++ = '\0';
   for (int k = 0; k < 2; k++) {
     int parts = 1;
-    for (char *at = part[k]; (at = strchr(at, RANGE)) != NULL; parts++)
-      *at = ':';
+    for (char *mark = part[k]; (mark = strchr(mark, RANGE)) != NULL; parts++)
+      *mark = ':';
     if (!set_values(row, part[k], &axis[k]))
       return false;
     stride[k] = parts == 2 ? axis[k].count / 4 : 1;
     count[k] = 1 + (axis[k].count - 1) / stride[k];
   }
-  const int all = list->count + count[0] * count[1];
-  if (all > MOST_PLACES)
-    return too_many(row, all, MOST_PLACES);
-  for (int k = 0; list->count < all; k++) {
-    list->at[list->count].x = axis[0].at[k / count[1] * stride[0]];
-    list->at[list->count++].y = axis[1].at[k % count[1] * stride[1]];
+  const int total = list->count + count[0] * count[1];
+  if (total > MOST_PLACES)
+    return too_many(row, total, MOST_PLACES);
+  for (int k = 0; list->count < total; k++) {
+    list->place[list->count].x = axis[0].item[k / count[1] * stride[0]];
+    list->place[list->count++].y = axis[1].item[k % count[1] * stride[1]];
   }
   return true;
 }
 
 /* Reads "frozen-NAME,X" or, of a ball, "frozen-NAME,ANGLE,GAP"; false where it cannot be read. */
-static bool read_touching(const char *text, given_place *to) {
+static bool read_touching(const char *text, given_place *place) {
   text += strlen(frozen);
   char number[PLACE_TEXT];
   const char *comma = strchr(text, ',');
   const size_t size = comma != NULL ? (size_t)(comma - text) : 0;
   if (size == 0 || size >= PLACE_NAME)
     return false;
-  snprintf(to->touches, PLACE_NAME, "%.*s", (int)size, text);
-  if (word_among(RAILS, to->touches, size) >= 0)
-    return value_of(MEASURE_PLACE, comma + 1, &to->x);
+  snprintf(place->touches, PLACE_NAME, "%.*s", (int)size, text);
+  if (word_among(RAILS, place->touches, size) >= 0)
+    return value_of(MEASURE_PLACE, comma + 1, &place->x);
   const char *gap = strchr(comma + 1, ',');
   if (gap == NULL)
-    return value_of(MEASURE_ANGLE, comma + 1, &to->x);
+    return value_of(MEASURE_ANGLE, comma + 1, &place->x);
   snprintf(number, sizeof number, "%.*s", (int)(gap - comma - 1), comma + 1);
-  return value_of(MEASURE_ANGLE, number, &to->x) && value_of(MEASURE_LENGTH, gap + 1, &to->y) &&
-         to->y.x >= 0.0;
+  return value_of(MEASURE_ANGLE, number, &place->x) &&
+         value_of(MEASURE_LENGTH, gap + 1, &place->y) && place->y.x >= 0.0;
 }
 
 /* One of the entries between colons: "NAME=NUMBERS" or "NUMBERS". */
@@ -209,10 +207,11 @@ typedef struct place_entry {
   int colour;       /* of a ball that is named after its spot of snooker; -1: none */
   char *numbers;
   bool touches; /* frozen-NAME,X */
-  char spelt[PLACE_TEXT];
+  bool is_read; /* by a name of a place or of the tip, into: */
+  value x, y;
 } place_entry;
 
-/* Takes an entry apart, with the names of places spelt out. */
+/* Takes an entry apart, and reads the names of places and of the tip. */
 static void split_entry(const option_row *row, char *text, place_entry *entry) {
   char *equals = strchr(text, '=');
   const bool balls_are_named = row->words != 0;
@@ -220,13 +219,14 @@ static void split_entry(const option_row *row, char *text, place_entry *entry) {
   entry->name_size = equals != NULL ? (size_t)(equals - text) : 0;
   entry->colour = balls_are_named && entry->name_size == 0 ? colour_at(text) : -1;
   entry->numbers = equals != NULL ? equals + 1 : text;
-  entry->touches = false;
+  entry->touches = entry->is_read = false;
+  if (row->least == MEASURE_TIP)
+    entry->is_read = tip_named(entry->numbers, &entry->x, &entry->y);
   if (row->least == MEASURE_PLACE) {
-    entry->numbers = place_spelt(entry->numbers, entry->spelt);
+    const char *rest = place_named(entry->numbers, &entry->x, &entry->y);
+    entry->is_read = rest != entry->numbers && *rest == '\0';
     entry->touches = strncmp(entry->numbers, frozen, strlen(frozen)) == 0;
   }
-  if (row->least == MEASURE_TIP)
-    entry->numbers = tip_spelt(entry->numbers, entry->spelt);
 }
 
 /* Whether a name is allowed, and short and plain enough; no name always is. */
@@ -248,14 +248,19 @@ static bool looks_like_pair(const char *text) {
 }
 
 /* Reads the numbers of an entry into its place; false where they are none. */
-static bool read_numbers(const option_row *row, const place_entry *entry, given_place *to) {
+static bool read_numbers(const option_row *row, const place_entry *entry, given_place *place) {
   static values pair;
   if (entry->touches)
-    return read_touching(entry->numbers, to);
+    return read_touching(entry->numbers, place);
+  if (entry->is_read) {
+    place->x = entry->x;
+    place->y = entry->y;
+    return true;
+  }
   if (!set_values(row, entry->numbers, &pair) || pair.count != 2)
     return false;
-  to->x = pair.at[0];
-  to->y = pair.at[1];
+  place->x = pair.item[0];
+  place->y = pair.item[1];
   return true;
 }
 
@@ -263,17 +268,18 @@ static bool read_numbers(const option_row *row, const place_entry *entry, given_
  * text of all entries, which complaints show. */
 static bool add_entry(const option_row *row, const place_entry *entry, const char *whole,
                       place_list *list) {
-  if (!name_is_valid(row, entry) || !(entry->touches || looks_like_pair(entry->numbers)))
+  if (!name_is_valid(row, entry) ||
+      !(entry->touches || entry->is_read || looks_like_pair(entry->numbers)))
     return refuse(row, whole);
-  if (row->least == MEASURE_TIP && strchr(entry->numbers, RANGE) != NULL)
+  if (row->least == MEASURE_TIP && !entry->is_read && strchr(entry->numbers, RANGE) != NULL)
     return add_ranges(row, entry->numbers, list);
-  given_place *to = &list->at[list->count++];
-  if (!read_numbers(row, entry, to))
+  given_place *place = &list->place[list->count++];
+  if (!read_numbers(row, entry, place))
     return refuse(row, whole);
   if (entry->colour >= 0)
-    snprintf(to->name, PLACE_NAME, "%s", colours_of_snooker[entry->colour]);
+    snprintf(place->name, PLACE_NAME, "%s", colours_of_snooker[entry->colour]);
   else
-    snprintf(to->name, PLACE_NAME, "%.*s", (int)entry->name_size, entry->name);
+    snprintf(place->name, PLACE_NAME, "%.*s", (int)entry->name_size, entry->name);
   return true;
 }
 
@@ -299,7 +305,7 @@ OPTION_SET(set_places) {
     memcpy(copy, text, strlen(text) + 1);
 
   int entries = 1;
-  for (const char *at = copy; (at = strchr(at, ':')) != NULL; at++)
+  for (const char *colon = copy; (colon = strchr(colon, ':')) != NULL; colon++)
     entries++;
   char *next = strtok_r(copy, ":", &rest);
   for (; next != NULL; next = strtok_r(NULL, ":", &rest)) {

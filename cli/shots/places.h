@@ -18,7 +18,7 @@ typedef struct given_place {
 typedef struct place_list {
   int count;
   int rack; /* 1 + the carom_rack_kind that stood there instead; or 0 */
-  given_place at[MOST_PLACES];
+  given_place place[MOST_PLACES];
 } place_list;
 
 /* For a place_list: X,Y:X,Y:..., each perhaps behind NAME=, where balls are named, or the name of a
@@ -34,10 +34,9 @@ OPTION_SET(set_places);
 enum { COLOURS = 6 };
 extern const char *const colours_of_snooker[COLOURS];
 
-/* A text that begins with the name of a place, up to a comma or its end, as X,Y in diamonds; other
- * texts as they are. `to` has the room. */
-enum { PLACE_TEXT = 128 };
-char *place_spelt(char *text, char to[PLACE_TEXT]);
+/* Reads the name of a place, or RAIL,NUMBER, up to a comma or the end of the text. Returns what
+ * follows, or `text` where it begins with neither. */
+const char *place_named(const char *text, value *x, value *y);
 
 /* A place, m: `diamond` is the distance of two diamonds. */
 double place_along(const value *v, double diamond);

@@ -1,12 +1,8 @@
 /* Aims at balls from words: ball_aim.h's, and why there is none. */
 #include "shots/shoot_aim.h"
 
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "shots/ball_aim.h"
-
-#include <math.h>
-#include <string.h>
 
 int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_TEXT]) {
   int found = -1;
@@ -22,11 +18,11 @@ int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_
 const char *names_there(char names[NAMES_TEXT]) {
   char text[NAMES_TEXT];
   size_t size = 0;
-  for (const char *at = names; *at != '\0' && size + 3 < sizeof text; at++) {
-    const bool between = *at == '|';
-    if (!between)
-      text[size++] = *at;
-    else if (at[1] != '\0')
+  for (const char *letter = names; *letter != '\0' && size + 3 < sizeof text; letter++) {
+    const bool is_bar = *letter == '|';
+    if (!is_bar)
+      text[size++] = *letter;
+    else if (letter[1] != '\0')
       size += (size_t)snprintf(text + size, sizeof text - size, ", ");
   }
   text[size] = '\0';
@@ -49,10 +45,10 @@ const char *ball_words(const layout *l, int ball, char text[BALL_TEXT]) {
   return ball == 0 ? "the cue ball" : named_ball(l->name[ball], text);
 }
 
-const char *obstacle(const layout *l, int type, int other, char text[BALL_TEXT]) {
+const char *obstacle(const layout *l, int type, int index, char text[BALL_TEXT]) {
   switch (type) {
   case CAROM_EVENT_BALL_BALL:
-    return ball_words(l, other, text);
+    return ball_words(l, index, text);
   case CAROM_EVENT_POCKET:
     return "a pocket";
   case CAROM_EVENT_LEFT_TABLE:
@@ -65,11 +61,11 @@ const char *obstacle(const layout *l, int type, int other, char text[BALL_TEXT])
 }
 
 int ball_in_front(const carom_shot_ball *ball, int count) {
-  const double *from = ball[0].state.r;
+  const double *start = ball[0].state.r;
   double nearest = INFINITY;
   int front = 0;
   for (int k = 1; k < count; k++) {
-    const double away = hypot(ball[k].state.r[0] - from[0], ball[k].state.r[1] - from[1]);
+    const double away = hypot(ball[k].state.r[0] - start[0], ball[k].state.r[1] - start[1]);
     if (away < nearest) {
       nearest = away;
       front = k;
@@ -81,10 +77,10 @@ int ball_in_front(const carom_shot_ball *ball, int count) {
 bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *options, double cut,
                  carom_cue *cue) {
   char text[BALL_TEXT], names[NAMES_TEXT], hint[HINT_TEXT];
-  carom_event met;
-  const int at = ball_named(l, name, strlen(name), names);
+  carom_event contact;
+  const int index = ball_named(l, name, strlen(name), names);
   did_you_mean(name, names, hint);
-  if (at < 0)
+  if (index < 0)
     complain("--at-ball '%s': there is no such ball; the balls of --balls are %s%s", name,
              names_there(names), hint);
   else if (!(fabs(cut) < 90.0))
@@ -92,14 +88,15 @@ bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *op
   else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)
     return true; /* which is told when it is played */
   else {
-    const aim_result found = aim_at(&l->table, l->ball, l->count, options, at, cut, cue, &met);
+    const aim_result found =
+        aim_at(&l->table, l->ball, l->count, options, index, cut, cue, &contact);
     *l->missed |= found != AIM_FOUND;
     switch (l->quiet ? AIM_FOUND : found) {
     case AIM_FOUND:
       return found == AIM_FOUND;
     case AIM_BARRED:
       complain("--at-ball %s: at a cut of %.4g degrees %s is in the way", name, cut,
-               obstacle(l, met.type, met.a == 0 ? met.b : met.a, text));
+               obstacle(l, contact.type, contact.a == 0 ? contact.b : contact.a, text));
       break;
     case AIM_NOT_REACHED:
       complain("--at-ball %s: at a cut of %.4g degrees the cue ball comes to rest before it; give "
@@ -118,9 +115,10 @@ bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *op
 int pocket_named(const carom_table *t, char *const id[], const char *name, char names[NAMES_TEXT]) {
   int found = -1;
   for (int p = 0; p < t->pockets; p++) {
-    const char *own = carom_pocket_name(t, p) != NULL ? carom_pocket_name(t, p) : id[p];
-    snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s%s", text_if(p > 0, "|"), own);
-    if (same_word(name, strlen(name), own, strlen(own)) || strcmp(id[p], name) == 0)
+    const char *pocket = carom_pocket_name(t, p) != NULL ? carom_pocket_name(t, p) : id[p];
+    snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s%s", text_if(p > 0, "|"),
+             pocket);
+    if (same_word(name, strlen(name), pocket, strlen(pocket)) || strcmp(id[p], name) == 0)
       found = p;
   }
   return found;

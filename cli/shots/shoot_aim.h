@@ -35,8 +35,8 @@ enum { BALL_TEXT = PLACE_NAME + 8 };
 const char *named_ball(const char *name, char text[BALL_TEXT]);
 const char *ball_words(const layout *l, int ball, char text[BALL_TEXT]);
 
-/* What stands in the way of a ball that met `other` or a part of the table. */
-const char *obstacle(const layout *l, int type, int other, char text[BALL_TEXT]);
+/* What stands in the way of a ball that met ball `index` or a part of the table. */
+const char *obstacle(const layout *l, int type, int index, char text[BALL_TEXT]);
 
 /* The ball nearest to ball 0: that in front of a rack. */
 int ball_in_front(const carom_shot_ball *ball, int count);

@@ -3,9 +3,7 @@
  * Right is positive for english here; in the lines, which keep pooltool's format, a > 0 is left. */
 #include "shots/shoot_flags.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/doubts.h"
 #include "rows/number.h"
 #include "rows/quantities.h"
@@ -13,14 +11,12 @@
 #include "shots/shot_fault.h"
 
 #include <limits.h>
-#include <math.h>
-#include <string.h>
 
 enum { MOST_TEXT = 1024 };
 
 static OPTION_SET(set_table) {
   struct chosen_table *table = field;
-  char all[MOST_WORDS], name[MOST_WORDS];
+  char list[MOST_WORDS], name[MOST_WORDS];
   json_fault fault;
   if (strstr(text, ".json") != NULL) {
     complain("--%s is the name of a table, not a file: --with %.80s takes what `carom calibrate` "
@@ -30,7 +26,7 @@ static OPTION_SET(set_table) {
   }
   text = table_spelt(text);
   snprintf(name, sizeof name, "%.*s", (int)strcspn(text, ","), text);
-  if (!set_place(row, name, words_of(row->words, true, all), &table->kind))
+  if (!set_place(row, name, words_of(row->words, true, list), &table->kind))
     return false;
   table->kind++;
   table->text = text;
@@ -78,13 +74,13 @@ const option_row option_cue_ball = {
     .help = "numbers of the cue ball alone, as in --with: mass=6.5oz,radius=30mm. Several values "
             "give several shots of `carom shoot`",
     .set = set_numbers,
-    .field = offsetof(shoot_flags, own),
+    .field = offsetof(shoot_flags, cue_numbers),
     .part = CAROM_PART_BALL};
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
     "direction of the cue, counterclockwise from +x; 90 is along the table. With side spin the "
     "ball leaves a little beside it, because of squirt",
     .usual = "90", .is_list = true);
-ROW(option_to, "to", to, "X,Y", set_places, MEASURE_PLACE,
+ROW(option_to, "to", target, "X,Y", set_places, MEASURE_PLACE,
     "instead of --aim: the cue ball leaves towards this place, because carom corrects for squirt. "
     "The place is written as in --cue, 4d,6d or foot-right; several with colons, 4d,6d:4d,7d. Spin "
     "may bend the path after that");
@@ -127,11 +123,11 @@ ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELE
     "stick "
     "needs to clear the cushions and balls behind the cue ball",
     .usual = "0", .is_list = true);
-ROW(option_tip_time, "tip-time", own, "SECONDS", set_cue_number, 0,
+ROW(option_tip_time, "tip-time", cue_numbers, "SECONDS", set_cue_number, 0,
     "how long the tip of a raised cue presses the ball on the slate, at most 0.01: 0.001 for "
     "leather, 0.0008 for hard resin, with which balls jump. -1: no time",
     .else_usual = "0.001");
-ROW(option_tip_restitution, "tip-restitution", own, "E", set_cue_number, 0,
+ROW(option_tip_restitution, "tip-restitution", cue_numbers, "E", set_cue_number, 0,
     "restitution of the tip and the ball, above 0 to 1: the speed of the ball is proportional to 1 "
     "+ E: 0.73 for leather, 0.85 for phenolic resin, 1 in pooltool",
     .else_usual = "0.73");
@@ -161,19 +157,19 @@ ROW(option_one_seed, "seed", seed, "N", set_single, MEASURE_NUMBER, SEED_HELP);
 
 /* Whether one of the lists is given, or looks like a number with a decimal comma. */
 static bool any_list(const shoot_flags *f, bool comma) {
-  const values *const all[] = {&f->speed,     &f->ball_speed, &f->aim, &f->cut,
-                               &f->elevation, &f->gap,        &f->seed};
+  const values *const lists[] = {&f->speed,     &f->ball_speed, &f->aim, &f->cut,
+                                 &f->elevation, &f->gap,        &f->seed};
   bool any = false;
-  for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-    any |= comma ? all[k]->comma : all[k]->count > 0;
+  for (size_t k = 0; k < COUNT_OF(lists); k++)
+    any |= comma ? lists[k]->comma : lists[k]->count > 0;
   return any;
 }
 
 bool has_flags(const shoot_flags *f) {
   return f->table.kind != 0 || f->at_ball != NULL || f->pocket != NULL || f->via != NULL ||
-         f->json || f->cue.count > 0 || f->to.count > 0 || f->balls.count > 0 ||
-         f->balls.rack > 0 || f->tip.count > 0 || f->own.which != 0 || f->own.of_cue != 0 ||
-         f->own.lists > 0 || any_list(f, false);
+         f->json || f->cue.count > 0 || f->target.count > 0 || f->balls.count > 0 ||
+         f->balls.rack > 0 || f->tip.count > 0 || f->cue_numbers.of_balls != 0 ||
+         f->cue_numbers.of_cue != 0 || f->cue_numbers.lists > 0 || any_list(f, false);
 }
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
@@ -184,7 +180,7 @@ static void name_rack(layout *l, carom_rack_kind kind) {
   } named[] = {{CAROM_RACK_THREECUSHION, {"white", "yellow", "red"}},
                {CAROM_RACK_FOURBALL, {"white", "yellow", "red1", "red2"}},
                {CAROM_RACK_COWBOY, {"cue", "1", "3", "5"}}};
-  for (size_t n = 0; n < sizeof named / sizeof *named; n++)
+  for (size_t n = 0; n < COUNT_OF(named); n++)
     if (named[n].rack == kind) {
       for (int k = 0; k < l->count; k++)
         snprintf(l->name[k], PLACE_NAME, "%s", named[n].names[k]);
@@ -205,19 +201,19 @@ static int rail_of(const char *name) {
 
 /* The place of a ball of radius R that touches a rail, or with R = 0 of a point of its nose; false
  * where the place is at none. */
-static bool place_at_rail(const layout *l, const given_place *at, double R, double place[2]) {
+static bool place_at_rail(const layout *l, const given_place *request, double R, double place[2]) {
   enum { HEAD, FOOT, LEFT, RIGHT };
   const double width = l->table.width, length = l->table.length;
-  const int rail = rail_of(at->touches);
-  if (at->touches[0] == '\0' || rail < 0)
+  const int rail = rail_of(request->touches);
+  if (request->touches[0] == '\0' || rail < 0)
     return false;
   if (rail == HEAD || rail == FOOT) {
-    place[0] = place_along(&at->x, 0.25 * width);
+    place[0] = place_along(&request->x, 0.25 * width);
     place[1] = rail == HEAD ? R : length - R;
     return true;
   }
   place[0] = rail == LEFT ? R : width - R;
-  place[1] = place_along(&at->x, 0.125 * length);
+  place[1] = place_along(&request->x, 0.125 * length);
   return true;
 }
 
@@ -230,27 +226,27 @@ static double off_nose(double x, double room, double R) {
 
 /* Puts ball k at rest at a place, which may touch one of the first `laid` balls; false after a
  * complaint. */
-static bool lay(layout *l, int k, const given_place *at, int laid) {
+static bool lay(layout *l, int k, const given_place *request, int laid) {
   const double width = l->table.width, length = l->table.length, R = l->ball[k].kind.radius;
-  double place[2] = {off_nose(place_along(&at->x, 0.25 * width), width, R),
-                     off_nose(place_along(&at->y, 0.125 * length), length, R)};
-  if (!place_at_rail(l, at, R, place) && at->touches[0] != '\0') {
-    int other = laid - 1;
-    while (other >= 0 && strcmp(l->name[other], at->touches) != 0)
-      other--;
-    if (other < 0 || other == k) {
+  double place[2] = {off_nose(place_along(&request->x, 0.25 * width), width, R),
+                     off_nose(place_along(&request->y, 0.125 * length), length, R)};
+  if (!place_at_rail(l, request, R, place) && request->touches[0] != '\0') {
+    int neighbor = laid - 1;
+    while (neighbor >= 0 && strcmp(l->name[neighbor], request->touches) != 0)
+      neighbor--;
+    if (neighbor < 0 || neighbor == k) {
       char names[NAMES_TEXT] = "";
       for (int ball = 0; ball < laid; ball++)
         snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s|", l->name[ball]);
       complain("frozen-%s: it is a rail, " RAILS ", or a ball that lies already: cue, or one that "
                "stands before it; there are %s",
-               at->touches, names_there(names));
+               request->touches, names_there(names));
       return false;
     }
-    const carom_shot_ball *ball = &l->ball[other];
-    const double apart = R + ball->kind.radius + at->y.x;
-    place[0] = ball->state.r[0] + apart * cos(at->x.x * degree);
-    place[1] = ball->state.r[1] + apart * sin(at->x.x * degree);
+    const carom_shot_ball *ball = &l->ball[neighbor];
+    const double apart = R + ball->kind.radius + request->y.x;
+    place[0] = ball->state.r[0] + apart * cos(request->x.x * degree);
+    place[1] = ball->state.r[1] + apart * sin(request->x.x * degree);
   }
   l->ball[k].state = (carom_ball_state){.r = {place[0], place[1], R}};
   return true;
@@ -258,62 +254,88 @@ static bool lay(layout *l, int k, const given_place *at, int laid) {
 
 /* The numbers of the balls and the cue in a combination: of --with, and of shoot_flags.own. */
 typedef struct chosen_numbers {
-  given_numbers all, own;
+  given_numbers every_ball, cue_ball;
 } chosen_numbers;
 
-/* The layout with rack number `which` of those that gaps and seeds ask for; false after a
- * complaint. */
-static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion,
-                    const chosen_numbers *numbers, int which) {
-  carom_table_kind kind = CAROM_TABLE_POOL_9FT;
+/* The table that an option or the rack says, else that of pool. */
+static carom_table_kind table_kind_of(const shoot_flags *f) {
   if (f->table.kind != 0)
-    kind = (carom_table_kind)(f->table.kind - 1);
-  else if (f->balls.rack > 0)
-    kind = table_of_rack((carom_rack_kind)(f->balls.rack - 1));
+    return (carom_table_kind)(f->table.kind - 1);
+  if (f->balls.rack > 0)
+    return table_of_rack((carom_rack_kind)(f->balls.rack - 1));
+  return CAROM_TABLE_POOL_9FT;
+}
+
+static void lay_table(const shoot_flags *f, layout *l) {
+  const carom_table_kind kind = table_kind_of(f);
   l->table_name = f->table.text != NULL ? f->table.text : carom_table_name(kind);
   named_table *t = built_in_table(l->table_name, &(json_fault){{0}});
   l->table = t->table;
   free_table(t);
   l->game = game_of_table(kind);
-  if (!condition_fits(&numbers->all, l->game))
-    return false;
-  carom_ball_kind ball;
-  kind_of_game(l->game, cushion, &ball);
-  give_ball(&numbers->all, &ball);
+}
+
+/* The cue ball at its usual place, and the balls of a rack, number `shot` of those that gaps and
+ * seeds ask for. */
+static void lay_rack(const shoot_flags *f, layout *l, int shot) {
+  const carom_rack_kind rack = (carom_rack_kind)(f->balls.rack - 1);
   snprintf(l->name[0], PLACE_NAME, "cue");
   carom_marks marks;
   carom_table_marks(&l->table, &marks);
   l->ball[0].state = (carom_ball_state){.r = {marks.head_spot[0], marks.head_spot[1]}};
   l->count = 1 + f->balls.count;
-  const carom_rack_kind rack = (carom_rack_kind)(f->balls.rack - 1);
-  if (f->balls.rack > 0) {
-    l->count = carom_rack_size(rack);
-    carom_rack(rack, &l->table, f->gap.at[which % f->gap.count].x,
-               (uint64_t)f->seed.at[which / f->gap.count].x, l->ball, CAROM_BALLS_MOST);
-    name_rack(l, rack);
-  }
+  if (f->balls.rack == 0)
+    return;
+  l->count = carom_rack_size(rack);
+  carom_rack(rack, &l->table, f->gap.item[shot % f->gap.count].x,
+             (uint64_t)f->seed.item[shot / f->gap.count].x, l->ball, CAROM_BALLS_MOST);
+  name_rack(l, rack);
+}
+
+/* All balls are of one kind, but for what the cue ball has alone. */
+static void choose_balls(layout *l, carom_shot_cushion cushion, const chosen_numbers *numbers) {
+  carom_ball_kind ball;
+  kind_of_game(l->game, cushion, &ball);
+  give_ball(&numbers->every_ball, &ball);
   for (int k = 0; k < l->count; k++) {
     l->ball[k].kind = ball;
     if (k == 0)
-      give_ball(&numbers->own, &l->ball[k].kind);
+      give_ball(&numbers->cue_ball, &l->ball[k].kind);
     l->ball[k].state.r[2] = l->ball[k].kind.radius;
   }
+}
+
+/* Puts the balls that have a place there, by their names; false after a complaint. */
+static bool lay_balls(const shoot_flags *f, layout *l) {
+  for (int k = 1; k < l->count; k++) {
+    const given_place *request = &f->balls.place[k - 1];
+    if (request->name[0] != '\0')
+      snprintf(l->name[k], PLACE_NAME, "%s", request->name);
+    else
+      snprintf(l->name[k], PLACE_NAME, "%d", k);
+    if (!lay(l, k, request, k))
+      return false;
+  }
+  return true;
+}
+
+/* The layout with rack number `shot` of those that gaps and seeds ask for; false after a
+ * complaint. */
+static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion,
+                    const chosen_numbers *numbers, int shot) {
+  lay_table(f, l);
+  if (!condition_fits(&numbers->every_ball, l->game))
+    return false;
+  lay_rack(f, l, shot);
+  choose_balls(l, cushion, numbers);
 
   /* The places given. A cue ball that touches a ball is put there after it. */
-  const given_place *cue = f->cue.count > 0 ? &f->cue.at[0] : NULL;
+  const given_place *cue = f->cue.count > 0 ? &f->cue.place[0] : NULL;
   const bool last = cue != NULL && cue->touches[0] != '\0' && rail_of(cue->touches) < 0;
   if (cue != NULL && !last && !lay(l, 0, cue, 0))
     return false;
-  if (f->balls.rack == 0)
-    for (int k = 1; k < l->count; k++) {
-      const given_place *at = &f->balls.at[k - 1];
-      if (at->name[0] != '\0')
-        snprintf(l->name[k], PLACE_NAME, "%s", at->name);
-      else
-        snprintf(l->name[k], PLACE_NAME, "%d", k);
-      if (!lay(l, k, at, k))
-        return false;
-    }
+  if (f->balls.rack == 0 && !lay_balls(f, l))
+    return false;
   return !last || lay(l, 0, cue, l->count);
 }
 
@@ -325,37 +347,38 @@ static double tip_of(const value *v, double radius) {
 static void name_value(char *id, const char *what, const values *list, int k) {
   if (list->count > 1)
     snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%s%s %s", text_if(id[0] != '\0', ", "), what,
-             list->at[k].name);
+             list->item[k].name);
 }
 
 /* Gives a cue the speed with which a level one would give its ball `speed`. The ball's speed is in
  * proportion to the cue's. Along x, and by a root, it has the same bits in other languages. */
 static void strike_to(double speed, const carom_ball_kind *kind, carom_cue *cue) {
   carom_cue level = *cue;
-  carom_motion after;
+  carom_motion motion;
   level.speed = 1.0;
   level.theta = 0.0;
-  if (carom_strike(&level, kind, &after) == CAROM_OK)
-    cue->speed = speed / sqrt(after.v[0] * after.v[0] + after.v[1] * after.v[1]);
+  if (carom_strike(&level, kind, &motion) == CAROM_OK)
+    cue->speed = speed / sqrt(motion.v[0] * motion.v[0] + motion.v[1] * motion.v[1]);
 }
 
 /* Turns a cue so that its ball leaves towards a place; false after a complaint. */
-static bool aim_to(const given_place *to, const layout *l, carom_cue *cue) {
-  const double *from = l->ball[0].state.r;
-  double place[2] = {place_along(&to->x, 0.25 * l->table.width),
-                     place_along(&to->y, 0.125 * l->table.length)};
-  const bool at_rail = place_at_rail(l, to, 0.0, place);
-  const double ahead[2] = {place[0] - from[0], place[1] - from[1]};
-  carom_motion after;
-  if ((to->touches[0] != '\0' && !at_rail) || hypot(ahead[0], ahead[1]) < l->ball[0].kind.radius) {
+static bool aim_to(const given_place *target, const layout *l, carom_cue *cue) {
+  const double *start = l->ball[0].state.r;
+  double place[2] = {place_along(&target->x, 0.25 * l->table.width),
+                     place_along(&target->y, 0.125 * l->table.length)};
+  const bool at_rail = place_at_rail(l, target, 0.0, place);
+  const double ahead[2] = {place[0] - start[0], place[1] - start[1]};
+  carom_motion motion;
+  if ((target->touches[0] != '\0' && !at_rail) ||
+      hypot(ahead[0], ahead[1]) < l->ball[0].kind.radius) {
     complain(
         "--to is a place away from the cue ball: X,Y, or of a rail right,3d, or one that has a "
         "name");
     return false;
   }
   cue->phi = 0.0;
-  if (carom_strike(cue, &l->ball[0].kind, &after) == CAROM_OK)
-    cue->phi = (atan2(ahead[1], ahead[0]) - atan2(after.v[1], after.v[0])) / degree;
+  if (carom_strike(cue, &l->ball[0].kind, &motion) == CAROM_OK)
+    cue->phi = (atan2(ahead[1], ahead[0]) - atan2(motion.v[1], motion.v[0])) / degree;
   return true;
 }
 
@@ -365,8 +388,8 @@ static const values *speeds_of(const shoot_flags *f) {
 }
 
 static int directions_of(const shoot_flags *f) {
-  if (f->to.count > 0)
-    return f->to.count;
+  if (f->target.count > 0)
+    return f->target.count;
   return f->cut.count > 0 ? f->cut.count : f->aim.count;
 }
 
@@ -382,7 +405,7 @@ static const number_list *number_list_at(const shoot_flags *f, int k) {
   const given_numbers *with = &f->shared.with;
   if (k < with->lists)
     return &with->list[k];
-  return k < with->lists + f->own.lists ? &f->own.list[k - with->lists] : NULL;
+  return k < with->lists + f->cue_numbers.lists ? &f->cue_numbers.list[k - with->lists] : NULL;
 }
 
 /* Takes a place among `count` off the index of a combination. */
@@ -405,27 +428,28 @@ static combination combination_at(const shoot_flags *f, int index) {
   return c;
 }
 
-static void numbers_of(const shoot_flags *f, const combination *c, chosen_numbers *to) {
+static void numbers_of(const shoot_flags *f, const combination *c, chosen_numbers *chosen) {
   const number_list *list;
-  *to = (chosen_numbers){f->shared.with, f->own};
+  *chosen = (chosen_numbers){f->shared.with, f->cue_numbers};
   for (int k = 0; (list = number_list_at(f, k)) != NULL; k++)
-    give_of_list(list, c->number[k], k < f->shared.with.lists ? &to->all : &to->own);
+    give_of_list(list, c->number[k],
+                 k < f->shared.with.lists ? &chosen->every_ball : &chosen->cue_ball);
 }
 
 /* The strike of a combination, towards +x; false after a complaint where there is no such one. */
 static bool strike_of(const shoot_flags *f, const layout *l, const combination *c,
                       const chosen_numbers *numbers, carom_cue *cue) {
   const double R = l->ball[0].kind.radius;
-  const bool least = isnan(f->elevation.at[c->rise].x);
-  carom_motion after;
+  const bool least = isnan(f->elevation.item[c->rise].x);
+  carom_motion motion;
   *cue = carom_cue_of(l->game);
-  cue->speed = c->speeds->at[c->speed].x;
+  cue->speed = c->speeds->item[c->speed].x;
   cue->phi = 0.0;
-  cue->theta = least ? 0.0 : f->elevation.at[c->rise].x;
-  give_cue(&numbers->all, cue);
-  give_cue(&numbers->own, cue);
-  cue->a = -tip_of(&f->tip.at[c->tip].x, R);
-  cue->b = tip_of(&f->tip.at[c->tip].y, R);
+  cue->theta = least ? 0.0 : f->elevation.item[c->rise].x;
+  give_cue(&numbers->every_ball, cue);
+  give_cue(&numbers->cue_ball, cue);
+  cue->a = -tip_of(&f->tip.place[c->tip].x, R);
+  cue->b = tip_of(&f->tip.place[c->tip].y, R);
   if (!(cue->speed > 0.0)) {
     complain("--%s is above 0", f->ball_speed.count > 0 ? "ball-speed" : "speed");
     return false;
@@ -434,14 +458,14 @@ static bool strike_of(const shoot_flags *f, const layout *l, const combination *
     complain("--elevation least needs a pot to aim: give --pocket");
     return false;
   }
-  const carom_status status = carom_strike(cue, &l->ball[0].kind, &after);
+  const carom_status status = carom_strike(cue, &l->ball[0].kind, &motion);
   if (status == CAROM_ERROR_MISCUE)
     complain("--tip: it is %.4g R from the centre%s tip slips off beyond %g R",
              hypot(cue->a, cue->b), cue->miscue > 0.0 ? "; this" : ", beside the ball; a chalked",
              cue->miscue > 0.0 ? cue->miscue : TIP_LIMIT);
   else if (status != CAROM_OK)
     complain("no such strike: %s", carom_status_string(status));
-  const bool of_ball = f->ball_speed.count > 0 || c->speeds->at[c->speed].times == OF_BALL;
+  const bool of_ball = f->ball_speed.count > 0 || c->speeds->item[c->speed].times == OF_BALL;
   if (of_ball)
     strike_to(cue->speed, &l->ball[0].kind, cue);
   return status == CAROM_OK;
@@ -452,7 +476,7 @@ static bool aim_of(shoot_flags *f, const layout *l, const carom_shot_options *op
                    const combination *c, carom_cue *cue) {
   char report[AIMED_TEXT] = "";
   if (f->pocket != NULL) {
-    if (isnan(f->elevation.at[c->rise].x))
+    if (isnan(f->elevation.item[c->rise].x))
       cue->theta = (double)NAN;
     if (!aim_at_pocket(f->pocket, f->via, l, options, cue, report))
       return false;
@@ -460,15 +484,15 @@ static bool aim_of(shoot_flags *f, const layout *l, const carom_shot_options *op
       memcpy(f->aimed[f->written], report, sizeof report);
     return true;
   }
-  if (f->to.count > 0)
-    return aim_to(&f->to.at[c->way], l, cue);
+  if (f->target.count > 0)
+    return aim_to(&f->target.place[c->way], l, cue);
   if (f->cut.count > 0) {
     const char *at_ball = f->balls.rack > 0 ? l->name[ball_in_front(l->ball, l->count)] : "1";
     if (f->at_ball != NULL)
       at_ball = f->at_ball;
-    return aim_at_ball(at_ball, l, options, f->cut.at[c->way].x, cue);
+    return aim_at_ball(at_ball, l, options, f->cut.item[c->way].x, cue);
   }
-  cue->phi = f->aim.at[c->way].x;
+  cue->phi = f->aim.item[c->way].x;
   return true;
 }
 
@@ -479,37 +503,37 @@ static void name_shot(const shoot_flags *f, const combination *c, char id[MOST_T
   name_value(id, "seed", &f->seed, c->rack / f->gap.count);
   name_value(id, "aim", &f->aim, c->way);
   name_value(id, "cut", &f->cut, c->way);
-  if (f->to.count > 1)
+  if (f->target.count > 1)
     snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%sto %s,%s", text_if(id[0] != '\0', ", "),
-             f->to.at[c->way].x.name, f->to.at[c->way].y.name);
+             f->target.place[c->way].x.name, f->target.place[c->way].y.name);
   name_value(id, "elevation", &f->elevation, c->rise);
   const number_list *list;
   for (int k = 0; (list = number_list_at(f, k)) != NULL; k++)
     snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%s%s%s %.6g", text_if(id[0] != '\0', ", "),
              text_if(k >= f->shared.with.lists && list->part == CAROM_PART_BALL, "cue ball "),
              carom_number_of((carom_part_kind)list->part, list->number)->name,
-             list->at[c->number[k]]);
+             list->value[c->number[k]]);
   name_value(id, "speed", c->speeds, c->speed);
   if (f->tip.count > 1)
     snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%stip %s,%s", text_if(id[0] != '\0', ", "),
-             f->tip.at[c->tip].x.name, f->tip.at[c->tip].y.name);
+             f->tip.place[c->tip].x.name, f->tip.place[c->tip].y.name);
 }
 
 /* The numbers of a cue by their keys: the stroke, and what is given or not 0 besides. */
 static json_t *cue_json(const layout *l, const chosen_numbers *numbers, const carom_cue *cue) {
-  const uint64_t given = numbers->all.of_cue | numbers->own.of_cue;
+  const uint64_t set = numbers->every_ball.of_cue | numbers->cue_ball.of_cue;
   const carom_number *n;
-  json_t *to = json_object();
+  json_t *object = json_object();
   for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
     double x = 0.0;
     if (n->key[0] != '\0')
       memcpy(&x, (const char *)cue + n->offset, sizeof x);
     const bool of_stroke = n->offset <= (int32_t)offsetof(carom_cue, b);
-    if (x != 0.0 || (given >> k & 1) != 0 || of_stroke)
-      json_object_set_new(to, n->key, json_short(x + 0.0));
+    if (x != 0.0 || (set >> k & 1) != 0 || of_stroke)
+      json_object_set_new(object, n->key, json_short(x + 0.0));
   }
-  json_object_set_new(to, "ball", json_string(l->name[0]));
-  return to;
+  json_object_set_new(object, "ball", json_string(l->name[0]));
+  return object;
 }
 
 /* A ball at rest, with the numbers that are given. */
@@ -517,14 +541,14 @@ static json_t *ball_json(const layout *l, const chosen_numbers *chosen, int ball
   enum { LABEL, X, Y, Z, NUMBERS = 10 };
   const double *r = l->ball[ball].state.r;
   const double state[NUMBERS] = {[X] = r[0], [Y] = r[1], [Z] = r[2]};
-  const uint64_t given = chosen->all.which | (ball == 0 ? chosen->own.which : 0);
+  const uint64_t set = chosen->every_ball.of_balls | (ball == 0 ? chosen->cue_ball.of_balls : 0);
   const carom_number *n;
   json_t *params = json_pack("{s: s}", "game", carom_word(CAROM_WORDS_GAME, (int)l->game)),
          *numbers = json_array();
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
     double x;
     memcpy(&x, (const char *)&l->ball[ball].kind + n->offset, sizeof x);
-    if ((given >> k & 1) != 0)
+    if ((set >> k & 1) != 0)
       json_object_set_new(params, n->key, json_short(x));
   }
   for (int k = LABEL; k < NUMBERS; k++)
@@ -570,7 +594,7 @@ static bool options_agree(shoot_flags *f) {
        "--aim is a direction, --at-ball and --cut aim at a ball: give only one of them"},
       {f->pocket != NULL && (aim || at_ball),
        "--pocket says the direction, and so do --aim, --at-ball and --cut: give one of them"},
-      {f->to.count > 0 && (aim || at_ball || f->pocket != NULL),
+      {f->target.count > 0 && (aim || at_ball || f->pocket != NULL),
        "--to says the direction, and so do --aim, --at-ball, --cut and --pocket: give one of them"},
       {f->via != NULL && f->pocket == NULL,
        "--via is the way of a ball to its pocket: give --pocket too"},
@@ -581,7 +605,7 @@ static bool options_agree(shoot_flags *f) {
        "is "
        "a ball half an inch from the cue ball"},
       {f->cue.count > 1, "--cue is one place"}};
-  for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
+  for (size_t k = 0; k < COUNT_OF(rules); k++)
     if (rules[k].broken) {
       complain("%s", rules[k].why);
       return false;
@@ -619,9 +643,9 @@ static bool seed_is_valid(double seed) {
 static bool racks_are_valid(const shoot_flags *f) {
   bool valid = true;
   for (int k = 0; k < f->gap.count; k++)
-    valid &= gap_is_valid(f->gap.at[k].x);
+    valid &= gap_is_valid(f->gap.item[k].x);
   for (int k = 0; k < f->seed.count; k++)
-    valid &= seed_is_valid(f->seed.at[k].x);
+    valid &= seed_is_valid(f->seed.item[k].x);
   if (!valid)
     complain("--gap is 0 to %g m, and --seed a whole number, 1 to %d", GAP_MOST, INT_MAX);
   return valid;
@@ -632,19 +656,19 @@ static int combinations_of(const shoot_flags *f, int most) {
   const values *speeds = speeds_of(f);
   /* The product may exceed an int. */
   const number_list *list;
-  double all = (double)speeds->count * f->tip.count * f->elevation.count * directions_of(f) *
-               f->gap.count * f->seed.count;
+  double total = (double)speeds->count * f->tip.count * f->elevation.count * directions_of(f) *
+                 f->gap.count * f->seed.count;
   for (int k = 0; (list = number_list_at(f, k)) != NULL; k++)
-    all *= list->count;
-  if (all <= most)
-    return (int)all;
+    total *= list->count;
+  if (total <= most)
+    return (int)total;
   if (most == 1)
     complain("these are %.0f layouts, and a plan takes one; `carom shoot --json` writes them as a "
              "file of shots",
-             all);
+             total);
   else
     complain("these are %.0f shots; at most %d are described and drawn at once, and %d with --csv",
-             all, MOST_SHOTS, MOST_ROWS);
+             total, MOST_SHOTS, MOST_ROWS);
   return 0;
 }
 
@@ -684,7 +708,7 @@ static bool make_shots_fast_enough(shoot_flags *f, const carom_shot_options *opt
                                    json_t *shots) {
   static const char *const speeds[] = {"2", "3", "4.5", "6.5"};
   f->fell_short = true;
-  for (size_t k = 0; k < sizeof speeds / sizeof speeds[0] && f->fell_short; k++) {
+  for (size_t k = 0; k < COUNT_OF(speeds) && f->fell_short; k++) {
     values_default(&f->speed, MEASURE_SPEED, speeds[k]);
     f->written = 0;
     json_array_clear(shots);

@@ -24,8 +24,8 @@ typedef struct shoot_flags {
   } table;
   const char *at_ball, *pocket, *via;
   values speed, ball_speed, aim, cut, elevation, gap, seed;
-  given_numbers own; /* numbers of the cue ball alone, and of the tip */
-  place_list cue, balls, tip, to;
+  given_numbers cue_numbers; /* numbers of the cue ball alone, and of the tip */
+  place_list cue, balls, tip, target;
   bool json;
   bool tries;            /* shots that cannot be aimed are left out, without a complaint */
   int written, left_out; /* of the shots that were asked for */

@@ -1,12 +1,7 @@
 /* What is wrong with the arguments of a shot, in words, and which of its numbers no model reads. */
 #include "shots/shot_fault.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/words.h"
-
-#include <math.h>
-#include <stdio.h>
+#include "program/program.h"
 
 /* How far the tip is from the centre, R. */
 double tip_off_centre(const carom_cue *cue) {
@@ -60,19 +55,19 @@ static void say_off_table(const carom_table *table, const carom_shot_ball *ball,
 
 /* Says of a ball that overlaps another one which that is, and how far apart they are. */
 static void say_overlap(const shot_line *line, int ball, char *text, size_t room) {
-  const carom_shot_ball *one = &line->ball[ball];
+  const carom_shot_ball *first = &line->ball[ball];
   int with = ball;
   double least = INFINITY, apart = 0.0, needed = 0.0;
   for (int k = 0; k < line->count; k++) {
-    const carom_shot_ball *other = &line->ball[k];
-    const double both = one->kind.radius + other->kind.radius;
-    const double between =
-        hypot(one->state.r[0] - other->state.r[0], one->state.r[1] - other->state.r[1]);
-    if (k == ball || is_out_of_play(&other->state) || between - both >= least)
+    const carom_shot_ball *second = &line->ball[k];
+    const double both = first->kind.radius + second->kind.radius;
+    const double distance =
+        hypot(first->state.r[0] - second->state.r[0], first->state.r[1] - second->state.r[1]);
+    if (k == ball || is_out_of_play(&second->state) || distance - both >= least)
       continue;
-    least = between - both;
+    least = distance - both;
     with = k;
-    apart = between;
+    apart = distance;
     needed = both;
   }
   snprintf(text, room,
@@ -93,7 +88,7 @@ bool shot_fault(const shot_line *line, const carom_shot_options *options, char t
     return false;
 
   const carom_number *n = f.row;
-  const int at = f.part.index, size = say_where(line, status, &f.part, text);
+  const int index = f.part.index, size = say_where(line, status, &f.part, text);
   char *rest = text + size;
   const size_t room = (size_t)(FAULT_TEXT - size);
 
@@ -102,15 +97,15 @@ bool shot_fault(const shot_line *line, const carom_shot_options *options, char t
     snprintf(rest, room,
              "cue: the tip is %.4g R from the centre; it slips off the ball from %.4g R on",
              tip_off_centre(&line->cue), line->cue.miscue > 0.0 ? line->cue.miscue : 1.0);
-  else if (status == CAROM_ERROR_OFF_TABLE && at >= 0 && at < line->count)
-    say_off_table(&line->table->table, &line->ball[at], rest, room);
-  else if (status == CAROM_ERROR_OVERLAP && at >= 0 && at < line->count)
-    say_overlap(line, at, rest, room);
+  else if (status == CAROM_ERROR_OFF_TABLE && index >= 0 && index < line->count)
+    say_off_table(&line->table->table, &line->ball[index], rest, room);
+  else if (status == CAROM_ERROR_OVERLAP && index >= 0 && index < line->count)
+    say_overlap(line, index, rest, room);
   else if (n == NULL || must[0] == '\0' || f.part.kind == CAROM_PART_STATE)
     snprintf(rest, room, "%s", carom_status_string(status));
   else if (f.part.kind <= CAROM_PART_POCKET)
-    snprintf(rest, room, "%s[%d].%s must be %s, not %.6g", lists[f.part.kind], at, key_of(n), must,
-             f.value);
+    snprintf(rest, room, "%s[%d].%s must be %s, not %.6g", lists[f.part.kind], index, key_of(n),
+             must, f.value);
   else
     snprintf(rest, room, "%s%s must be %s, not %.6g", part_words(f.part.kind), key_of(n), must,
              f.value);
@@ -129,7 +124,7 @@ void shot_numbers(shot_line *line, const shared_options *shared, const char *fil
     while (i < line->count && !carom_number_is_read(n, &line->ball[i].kind, &shared->shot))
       i++;
     const uint64_t bit = (uint64_t)1 << k;
-    if ((line->given & bit) == 0 || i < line->count || (shared->with.which & bit) != 0)
+    if ((line->own_numbers & bit) == 0 || i < line->count || (shared->with.of_balls & bit) != 0)
       continue;
     char reader[160], text[FAULT_TEXT];
     snprintf(text, sizeof text, "params.%s has no effect; %s reads it", n->key,
@@ -154,7 +149,7 @@ void shot_numbers(shot_line *line, const shared_options *shared, const char *fil
           cue, n->key,
           json_real(*(const double *)(const void *)((const char *)&with->cue + n->offset)));
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
-    if ((with->which >> k & 1) != 0)
+    if ((with->of_balls >> k & 1) != 0)
       shot_line_give(line, n,
                      *(const double *)(const void *)((const char *)&with->kind + n->offset));
 }

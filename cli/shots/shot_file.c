@@ -2,18 +2,12 @@
  * told by its key. */
 #include "shots/shot_file.h"
 
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
+#include "program/program.h"
 #include "rows/records.h"
 #include "shots/json_values.h"
 #include "shots/shot_table.h"
 
 #include <errno.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { FIRST_ROOM = 512 }; /* for events */
 
@@ -44,10 +38,10 @@ static void keep_table(shot_file *file, named_table *t) {
 
 /* ---- Shots */
 
-/* The numbers of a ball by their keys; the bits of `given` become those that differ from the
+/* The numbers of a ball by their keys; the bits of `own_numbers` become those that differ from the
  * game's. */
 static bool read_kind(const json_t *params, const char *where, carom_ball_kind *kind,
-                      uint64_t *given, json_fault *f) {
+                      uint64_t *own_numbers, json_fault *f) {
   const carom_ball_kind of_game = *kind;
   char known[JSON_KEYS];
   const carom_number *n;
@@ -57,7 +51,7 @@ static bool read_kind(const json_t *params, const char *where, carom_ball_kind *
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
     if (memcmp((const char *)kind + n->offset, (const char *)&of_game + n->offset,
                sizeof(double)) != 0)
-      *given |= (uint64_t)1 << k;
+      *own_numbers |= (uint64_t)1 << k;
   return true;
 }
 
@@ -92,15 +86,16 @@ static bool read_ball(shot_file *file, const json_t *v, int k, shot_line *line, 
   snprintf(where, sizeof where, "balls[%d].", k);
   if (!json_get_id(v, where, &line->name[k], f))
     return false;
-  for (int other = 0; other < k; other++)
-    if (strcmp(line->name[other], line->name[k]) == 0)
+  for (int earlier = 0; earlier < k; earlier++)
+    if (strcmp(line->name[earlier], line->name[k]) == 0)
       return json_wrong(f, "%sid '%s' is that of another ball", where, line->name[k]);
   carom_ball_kind *kind = &line->ball[k].kind;
   const json_t *params = json_object_get(v, "params");
   if (params != NULL && !json_is_object(params))
     return json_wrong(f, "%sparams must be an object", where);
   snprintf(key, sizeof key, "%sparams.", where);
-  if (!read_game(file, params, key, kind, f) || !read_kind(params, key, kind, &line->given, f))
+  if (!read_game(file, params, key, kind, f) ||
+      !read_kind(params, key, kind, &line->own_numbers, f))
     return false;
   if (json_object_get(params, "u_sp") == NULL && json_object_get(params, "game") == NULL)
     kind->mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind->radius;

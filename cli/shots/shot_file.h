@@ -26,9 +26,9 @@ typedef struct shot_line {
   carom_shot_ball ball[CAROM_BALLS_MOST];
   char *name[CAROM_BALLS_MOST]; /* the balls' ids */
   carom_cue cue;
-  uint64_t given; /* numbers of balls that are not those of the game: bit k is number k */
-  char *error;    /* what is wrong with the line, or NULL */
-  json_t *json;   /* the line; NULL where it is no JSON */
+  uint64_t own_numbers; /* numbers of balls that are not those of the game: bit k is number k */
+  char *error;          /* what is wrong with the line, or NULL */
+  json_t *json;         /* the line; NULL where it is no JSON */
 } shot_line;
 
 typedef struct shot_file shot_file;

@@ -6,13 +6,11 @@
  * samples and the golden section. */
 #include "shots/shot_story.h"
 
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/number.h"
 #include "rows/quantities.h"
 
 #include <ctype.h>
-#include <math.h>
-#include <string.h>
 
 enum { SAMPLES = 1024, REFINEMENTS = 40 };
 /* where more balls move, all but that of the cue are told shortly */
@@ -46,7 +44,7 @@ typedef struct moment {
 /* The moments of a ball, in their order. */
 typedef struct story {
   int count;
-  moment at[MOST_MOMENTS];
+  moment moment[MOST_MOMENTS];
 } story;
 
 static bool has_ball(const carom_event *e, int ball) {
@@ -70,10 +68,10 @@ bool counts_as_rail(const shot_line *line, const carom_shot *shot, int64_t k, in
   const carom_event *e = &shot->events[k];
   const carom_table *t = &line->table->table;
   bool counts = e->type == CAROM_EVENT_RAIL && e->a == ball && is_cushion(t, (int)e->b);
-  for (int64_t before = k - 1;
-       before >= 0 && counts && e->time - shot->events[before].time < SAME_CONTACT; before--)
-    counts = !(shot->events[before].type == e->type && shot->events[before].a == ball &&
-               shot->events[before].b == e->b);
+  for (int64_t earlier = k - 1;
+       earlier >= 0 && counts && e->time - shot->events[earlier].time < SAME_CONTACT; earlier--)
+    counts = !(shot->events[earlier].type == e->type && shot->events[earlier].a == ball &&
+               shot->events[earlier].b == e->b);
   return counts;
 }
 
@@ -159,11 +157,11 @@ static moment moment_at(moment_kind kind, double time, const carom_ball_state *s
 }
 
 /* The cut of a ball on another one at rest, degrees; NaN where the other one moves. */
-static double cut_of(const carom_ball_state *own, const carom_ball_state *other) {
-  const double along[2] = {other->r[0] - own->r[0], other->r[1] - own->r[1]};
-  if (hypot(other->v[0], other->v[1]) != 0.0 || !(hypot(own->v[0], own->v[1]) > 0.0))
+static double cut_of(const carom_ball_state *mover, const carom_ball_state *target) {
+  const double along[2] = {target->r[0] - mover->r[0], target->r[1] - mover->r[1]};
+  if (hypot(target->v[0], target->v[1]) != 0.0 || !(hypot(mover->v[0], mover->v[1]) > 0.0))
     return (double)NAN;
-  return fabs(angle_between(own->v, along));
+  return fabs(angle_between(mover->v, along));
 }
 
 /* Whether a contact is part of a push, while the tip is on the ball of the cue: the motion before
@@ -236,11 +234,11 @@ static bool ever_meet(const carom_shot *shot, int a, int b) {
 }
 
 /* The least gap of two balls on the way, where it is below a radius, as a moment of `ball`. */
-static bool passes(const shot_line *line, const carom_shot *shot, int ball, int other, moment *m) {
+static bool passes(const shot_line *line, const carom_shot *shot, int ball, int passed, moment *m) {
   double gap[SAMPLES + 1];
   int least = 0;
   for (int k = 0; k <= SAMPLES; k++) {
-    gap[k] = gap_at(line, shot, ball, other, shot->time * k / SAMPLES);
+    gap[k] = gap_at(line, shot, ball, passed, shot->time * k / SAMPLES);
     if (gap[k] < gap[least])
       least = k;
   }
@@ -251,7 +249,7 @@ static bool passes(const shot_line *line, const carom_shot *shot, int ball, int 
   for (int k = 0; k < REFINEMENTS; k++) {
     const double first = early + 0.382 * (late - early);
     const double second = early + 0.618 * (late - early);
-    if (gap_at(line, shot, ball, other, first) < gap_at(line, shot, ball, other, second))
+    if (gap_at(line, shot, ball, passed, first) < gap_at(line, shot, ball, passed, second))
       late = second;
     else
       early = first;
@@ -260,34 +258,36 @@ static bool passes(const shot_line *line, const carom_shot *shot, int ball, int 
   const double time = 0.5 * (early + late);
   carom_shot_at(line->ball, line->count, shot, time, s);
   *m = moment_at(MOMENT_PASSES, time, &s[ball]);
-  m->with = other;
-  m->value = gap_at(line, shot, ball, other, time);
+  m->with = passed;
+  m->value = gap_at(line, shot, ball, passed, time);
   if (m->value > line->ball[ball].kind.radius)
     return false;
   /* of two that move the faster one passes */
-  const double own = hypot(s[ball].v[0], s[ball].v[1]), its = hypot(s[other].v[0], s[other].v[1]);
-  return own > its || (own == its && ball < other);
+  const double speed = hypot(s[ball].v[0], s[ball].v[1]),
+               passed_speed = hypot(s[passed].v[0], s[passed].v[1]);
+  return speed > passed_speed || (speed == passed_speed && ball < passed);
 }
 
 /* ---- The story of a ball */
 
-/* Adds a contact with another ball; `met` is the time of the contact before. Of contacts at one
- * instant the first counts. A ball that is pushed along is met once, and left when it is met last:
- * its start to roll between the two is left out. */
-static void add_contact(story *s, const moment *m, double *met) {
+/* Adds a contact with another ball; `last_contact` is the time of the previous contact. Of contacts
+ * at one instant the first counts. A ball that is pushed along is met once, and left when it is met
+ * last: its start to roll between the two is left out. */
+static void add_contact(story *s, const moment *m, double *last_contact) {
   int last = s->count - 1;
-  if (last >= 0 && s->at[last].kind == MOMENT_MEETS && s->at[last].time == m->time)
+  if (last >= 0 && s->moment[last].kind == MOMENT_MEETS && s->moment[last].time == m->time)
     return;
-  const bool is_soon = m->time - *met < SAME_CONTACT;
-  *met = m->time;
-  if (last > 0 && s->at[last].kind == MOMENT_ROLLS)
+  const bool is_soon = m->time - *last_contact < SAME_CONTACT;
+  *last_contact = m->time;
+  if (last > 0 && s->moment[last].kind == MOMENT_ROLLS)
     last--;
-  if (last >= 0 && s->at[last].kind == MOMENT_MEETS && s->at[last].with == m->with && is_soon) {
-    s->at[last].speed = m->speed;
-    s->at[last].direction = m->direction;
+  if (last >= 0 && s->moment[last].kind == MOMENT_MEETS && s->moment[last].with == m->with &&
+      is_soon) {
+    s->moment[last].speed = m->speed;
+    s->moment[last].direction = m->direction;
     s->count = last + 1;
   } else
-    s->at[s->count++] = *m;
+    s->moment[s->count++] = *m;
 }
 
 /* How high a ball that leaves a place so rises above the cloth, m. */
@@ -299,32 +299,32 @@ static double height_of(const carom_ball_kind *kind, const carom_ball_state *s) 
 /* Adds the flight of a ball that begins with event k and ends with the next one of the ball. */
 static void add_flight(const shot_line *line, const carom_shot *shot, int64_t k, int ball,
                        story *s) {
-  const carom_ball_state *from = &shot->events[k].after[shot_event_side(&shot->events[k], ball)];
-  const double height = height_of(&line->ball[ball].kind, from);
-  const int64_t kept = shot_events_kept(shot);
+  const carom_ball_state *start = &shot->events[k].after[shot_event_side(&shot->events[k], ball)];
+  const double height = height_of(&line->ball[ball].kind, start);
+  const int64_t count = shot_events_kept(shot);
   int64_t next = k + 1;
-  while (next < kept && !has_ball(&shot->events[next], ball))
+  while (next < count && !has_ball(&shot->events[next], ball))
     next++;
 
   /* of contacts at one instant the last one sends it off */
-  const bool ends = next < kept;
-  const bool again = ends && shot->events[next].time == shot->events[k].time;
-  if (from->label != CAROM_BALL_AIRBORNE || height < hop_least || again)
+  const bool ends = next < count;
+  const bool repeats = ends && shot->events[next].time == shot->events[k].time;
+  if (start->label != CAROM_BALL_AIRBORNE || height < hop_least || repeats)
     return;
-  moment flies = moment_at(MOMENT_FLIES, shot->events[k].time, from);
+  moment flies = moment_at(MOMENT_FLIES, shot->events[k].time, start);
   flies.value = height;
-  s->at[s->count++] = flies;
+  s->moment[s->count++] = flies;
   if (!ends || shot->events[next].type != CAROM_EVENT_SLATE)
     return;
   moment lands = moment_at(MOMENT_LANDS, shot->events[next].time, &shot->events[next].after[0]);
   lands.value = hypot(lands.x - flies.x, lands.y - flies.y);
-  s->at[s->count++] = lands;
+  s->moment[s->count++] = lands;
 }
 
 /* Adds the moments of the events of a ball; returns the time of the last event. */
 static double add_events(const shot_line *line, const carom_shot *shot, int ball, story *s) {
   const int most = MOST_MOMENTS - 2 * CAROM_BALLS_MOST; /* with room for its end and those passed */
-  double last = 0.0, met = -INFINITY;
+  double last = 0.0, last_contact = -INFINITY;
   for (int64_t k = 0; k < shot_events_kept(shot) && s->count < most; k++) {
     moment m;
     if (!has_ball(&shot->events[k], ball))
@@ -332,9 +332,9 @@ static double add_events(const shot_line *line, const carom_shot *shot, int ball
     last = shot->events[k].time;
     if (moment_of(line, shot, k, ball, &m)) {
       if (m.kind == MOMENT_MEETS)
-        add_contact(s, &m, &met);
+        add_contact(s, &m, &last_contact);
       else
-        s->at[s->count++] = m;
+        s->moment[s->count++] = m;
     }
     add_flight(line, shot, k, ball, s);
   }
@@ -345,21 +345,21 @@ static double add_events(const shot_line *line, const carom_shot *shot, int ball
 static void add_end(const carom_shot *shot, int ball, double last, story *s) {
   const carom_ball_state *final = &shot->final[ball];
   if (final->label == CAROM_BALL_STATIONARY)
-    s->at[s->count++] = moment_at(MOMENT_RESTS, last, final);
+    s->moment[s->count++] = moment_at(MOMENT_RESTS, last, final);
   else if (final->label != CAROM_BALL_POCKETED && final->label != CAROM_BALL_OFF)
-    s->at[s->count++] = moment_at(MOMENT_MOVES, shot->time, final);
+    s->moment[s->count++] = moment_at(MOMENT_MOVES, shot->time, final);
 }
 
 /* Adds the balls that it passes without contact, each at its time. */
 static void add_passes(const shot_line *line, const carom_shot *shot, int ball, story *s) {
-  for (int other = 0; other < line->count; other++) {
+  for (int passed = 0; passed < line->count; passed++) {
     moment m;
-    if (other == ball || ever_meet(shot, ball, other) || !passes(line, shot, ball, other, &m))
+    if (passed == ball || ever_meet(shot, ball, passed) || !passes(line, shot, ball, passed, &m))
       continue;
-    int at = s->count++;
-    for (; at > 0 && s->at[at - 1].time > m.time; at--)
-      s->at[at] = s->at[at - 1];
-    s->at[at] = m;
+    int index = s->count++;
+    for (; index > 0 && s->moment[index - 1].time > m.time; index--)
+      s->moment[index] = s->moment[index - 1];
+    s->moment[index] = m;
   }
 }
 
@@ -429,8 +429,8 @@ void story_rows(FILE *out, int number, const shot_line *line, const carom_shot *
     for (int k = 0; k < s.count; k++) {
       char text[WHERE_TEXT];
       fprintf(out, "%d,\"%s\",%s,%s,%s", number, json_is_string(id) ? json_string_value(id) : "",
-              line->name[ball], what[s.at[k].kind], with_words(line, &s.at[k], text));
-      write_moment(out, &s.at[k]);
+              line->name[ball], what[s.moment[k].kind], with_words(line, &s.moment[k], text));
+      write_moment(out, &s.moment[k]);
     }
   }
 }
@@ -519,16 +519,16 @@ static void tell_moment(FILE *out, const shot_line *line, const moment *m, bool 
  * first of them, and its end. */
 static void tell_shortly(FILE *out, const shot_line *line, const story *s) {
   enum { MOST_TIMES = 5 };
-  int met = 0, rails = 0;
-  while (met < s->count && s->at[met].kind != MOMENT_MEETS)
-    met++;
-  if (s->at[0].kind == MOMENT_LEAVES && met < s->count) {
-    tell_contact(out, line, &s->at[met]);
+  int contacts = 0, rails = 0;
+  while (contacts < s->count && s->moment[contacts].kind != MOMENT_MEETS)
+    contacts++;
+  if (s->moment[0].kind == MOMENT_LEAVES && contacts < s->count) {
+    tell_contact(out, line, &s->moment[contacts]);
     fputs("; ", out);
   }
   double height = 0.0, far = 0.0; /* of the highest flight */
   for (int k = 0; k < s->count; k++) {
-    const moment *m = &s->at[k];
+    const moment *m = &s->moment[k];
     rails += m->kind == MOMENT_RAIL;
     if (m->kind == MOMENT_LANDS && m[-1].value == height)
       far = m->value;
@@ -538,11 +538,11 @@ static void tell_shortly(FILE *out, const shot_line *line, const story *s) {
     }
   }
   fprintf(out, rails == 1 ? "%d rail" : "%d rails", rails);
-  const char *before = " after ";
+  const char *separator = " after ";
   for (int k = 0, times = 0; k < s->count && times < MOST_TIMES; k++)
-    if (s->at[k].kind == MOMENT_RAIL) {
-      fprintf(out, "%s%.2f", before, s->at[k].time);
-      before = ", ";
+    if (s->moment[k].kind == MOMENT_RAIL) {
+      fprintf(out, "%s%.2f", separator, s->moment[k].time);
+      separator = ", ";
       times++;
     }
   if (rails > MOST_TIMES)
@@ -553,7 +553,7 @@ static void tell_shortly(FILE *out, const shot_line *line, const story *s) {
   if (far > 0.0)
     fprintf(out, ", %.3f m far", far);
   fputs(text_if(height > 0.0, "; "), out);
-  tell_end(out, line, &s->at[s->count - 1]);
+  tell_end(out, line, &s->moment[s->count - 1]);
 }
 
 static void tell_ball(FILE *out, const shot_line *line, const carom_shot *shot, int ball,
@@ -565,7 +565,7 @@ static void tell_ball(FILE *out, const shot_line *line, const carom_shot *shot, 
     tell_shortly(out, line, &s);
   else
     for (int k = 0; k < s.count; k++)
-      tell_moment(out, line, &s.at[k], k == 0);
+      tell_moment(out, line, &s.moment[k], k == 0);
 }
 
 /* What the cue ball meets before the tip has left it. */

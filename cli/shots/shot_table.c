@@ -1,14 +1,8 @@
 /* Tables from JSON, and those that are built in, with the ids that pooltool gives their parts. */
 #include "shots/shot_table.h"
 
-#include "program/memory.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/values.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 void free_table(named_table *t) {
   for (int k = 0; k < CAROM_RAILS_MOST; k++)
@@ -130,7 +124,7 @@ carom_game game_of_table(carom_table_kind kind) {
 
 /* Changes measures by "corner=4.25in,side_cut=104", which it cuts up. */
 static bool give_measures(char *keys, carom_measures *m, json_fault *f) {
-  char all[JSON_KEYS], hint[HINT_TEXT], range[100], *rest = NULL;
+  char known[JSON_KEYS], hint[HINT_TEXT], range[100], *rest = NULL;
   for (char *key = strtok_r(keys, ",", &rest); key != NULL; key = strtok_r(NULL, ",", &rest)) {
     char *text = key + strcspn(key, "=");
     const carom_number *n;
@@ -140,10 +134,10 @@ static bool give_measures(char *keys, carom_measures *m, json_fault *f) {
       *text++ = '\0';
     while ((n = carom_number_of(CAROM_PART_MEASURES, k)) != NULL && strcmp(n->key, key) != 0)
       k++;
-    json_keys_of(CAROM_PART_MEASURES, "", all);
+    json_keys_of(CAROM_PART_MEASURES, "", known);
     if (n == NULL)
-      return json_wrong(f, "%.40s is no measure; there are%s%s", key, all,
-                        did_you_mean(key, all, hint));
+      return json_wrong(f, "%.40s is no measure; there are%s%s", key, known,
+                        did_you_mean(key, known, hint));
     carom_number_range(n, range, sizeof range);
     const int measure = measure_of_unit(n->unit);
     if (!value_of(measure, text, &v))
@@ -156,19 +150,19 @@ static bool give_measures(char *keys, carom_measures *m, json_fault *f) {
 }
 
 /* Says what is wrong with measures. */
-static bool tell_measures(carom_status status, const carom_table_fault *at, json_fault *f) {
+static bool tell_measures(carom_status status, const carom_table_fault *fault, json_fault *f) {
   char range[100];
-  if (at->part.kind != CAROM_PART_MEASURES && at->gap > 0.0)
+  if (fault->part.kind != CAROM_PART_MEASURES && fault->gap > 0.0)
     return json_wrong(f, "%s; %.3g m are open at x = %.4g, y = %.4g m", carom_status_string(status),
-                      at->gap, at->place[0], at->place[1]);
-  if (at->part.kind != CAROM_PART_MEASURES)
+                      fault->gap, fault->place[0], fault->place[1]);
+  if (fault->part.kind != CAROM_PART_MEASURES)
     return json_wrong(f, "%s", carom_status_string(status));
-  const carom_number *n = carom_number_of(CAROM_PART_MEASURES, at->part.index);
+  const carom_number *n = carom_number_of(CAROM_PART_MEASURES, fault->part.index);
   carom_number_range(n, range, sizeof range);
-  if (at->other.kind != CAROM_PART_MEASURES)
+  if (fault->other.kind != CAROM_PART_MEASURES)
     return json_wrong(f, "%s must be %s", n->key, range);
-  return json_wrong(f, "%s must be below %.4g m with this %s", n->key, at->gap,
-                    carom_number_of(CAROM_PART_MEASURES, at->other.index)->key);
+  return json_wrong(f, "%s must be below %.4g m with this %s", n->key, fault->gap,
+                    carom_number_of(CAROM_PART_MEASURES, fault->other.index)->key);
 }
 
 char *table_spelt(char *text) {
@@ -209,15 +203,15 @@ named_table *built_in_table(const char *id, json_fault *f) {
   carom_table_make((carom_table_kind)kind, &t->table);
   if (id[size] != '\0') {
     carom_measures m;
-    carom_table_fault at;
+    carom_table_fault fault;
     char *keys = copy_text(id + size);
     carom_table_measures((carom_table_kind)kind, &m);
     bool good = give_measures(keys, &m, f);
     free(keys);
     if (good) {
       const double R = carom_ball_kind_of(game_of_table((carom_table_kind)kind)).radius;
-      const carom_status status = carom_table_measured(&m, R, &t->table, &at);
-      good = status == CAROM_OK || tell_measures(status, &at, f);
+      const carom_status status = carom_table_measured(&m, R, &t->table, &fault);
+      good = status == CAROM_OK || tell_measures(status, &fault, f);
     }
     if (!good) {
       free_table(t);

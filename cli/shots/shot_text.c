@@ -110,7 +110,7 @@ json_t *shot_json(json_t *id, json_t *family, const char *table, json_t *cue, js
 }
 
 /* What was read, as it was read; NULL where the line has no such key. */
-static json_t *given(const shot_line *line, const char *key) {
+static json_t *line_value(const shot_line *line, const char *key) {
   return json_incref(json_object_get(line->json, key));
 }
 
@@ -122,35 +122,35 @@ void shot_json_write(FILE *out, json_t *line) {
 
 void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status,
                 int events, json_t *spread) {
-  json_t *all = shot_json(given(line, "id"), given(line, "family"), line->table->id,
-                          given(line, "cue"), given(line, "balls"));
+  json_t *object = shot_json(line_value(line, "id"), line_value(line, "family"), line->table->id,
+                             line_value(line, "cue"), line_value(line, "balls"));
   /* What happened. */
-  json_object_set_new(all, "n_events", json_integer(shot->count + 2));
+  json_object_set_new(object, "n_events", json_integer(shot->count + 2));
   if (events != EVENTS_NONE) {
     json_t *list = json_pack("[o]", nothing_at(0.0, events));
     for (int64_t k = 0; k < shot->count && k < shot->room; k++)
       json_array_append_new(list, event_of(line, &shot->events[k], events));
     json_array_append_new(list, nothing_at(shot->time, events));
-    json_object_set_new(all, "events", list);
+    json_object_set_new(object, "events", list);
   }
   /* How it ended. */
   json_t *balls = json_object();
   for (int k = 0; k < line->count; k++)
     json_object_set_new(balls, line->name[k], state_of(&shot->final[k]));
-  json_object_set_new(all, "final",
+  json_object_set_new(object, "final",
                       json_pack("{s: f, s: o, s: o}", "t", shot->time, "balls", balls, "pockets",
                                 pockets_of(line, shot->final)));
   if (spread != NULL)
-    json_object_set_new(all, "spread", spread);
-  json_object_set_new(all, "status", json_string(carom_status_name(status)));
+    json_object_set_new(object, "spread", spread);
+  json_object_set_new(object, "status", json_string(carom_status_name(status)));
   if (status < 0)
-    json_object_set_new(all, "error", json_string(carom_status_string(status)));
-  shot_json_write(out, all);
+    json_object_set_new(object, "error", json_string(carom_status_string(status)));
+  shot_json_write(out, object);
 }
 
 void shot_write_error(FILE *out, const shot_line *line, const char *status, const char *error) {
-  json_t *all = shot_json(given(line, "id"), NULL, NULL, NULL, NULL);
-  json_object_set_new(all, "status", json_string(status));
-  json_object_set_new(all, "error", json_string(error));
-  shot_json_write(out, all);
+  json_t *object = shot_json(line_value(line, "id"), NULL, NULL, NULL, NULL);
+  json_object_set_new(object, "status", json_string(status));
+  json_object_set_new(object, "error", json_string(error));
+  shot_json_write(out, object);
 }

@@ -9,13 +9,8 @@
 
 #include "carom_tangent.h"
 
-#include "program/memory.h"
-#include "program/message.h"
+#include "program/program.h"
 #include "rows/quantities.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 const double spread_most = 0.3;
 
@@ -32,7 +27,7 @@ OPTION_SET(set_player_error) {
   int count = 0;
   bool good = strlen(text) < sizeof copy, all_zero = true;
   snprintf(copy, sizeof copy, "%s", text);
-  *error = (player_error){.given = true};
+  *error = (player_error){.is_set = true};
   for (char *part = strtok_r(copy, ",", &rest); part != NULL && good;
        part = strtok_r(NULL, ",", &rest)) {
     good = count < ERRORS && value_of(measure[count], part, &error->deviation[count]) &&
@@ -54,14 +49,14 @@ OPTION_SET(set_player_error) {
 
 /* What carom_shot_tangent() tells of a shot, per standard deviation of each error. */
 typedef struct shot_tangents {
-  double *times, *at, *before, *after, *final, *time;
+  double *times, *sampled, *incoming, *outgoing, *final, *time;
   carom_ball_state *states; /* at the times */
 } shot_tangents;
 
 static void free_tangents(shot_tangents *t) {
-  double *all[] = {t->times, t->at, t->before, t->after, t->final, t->time};
-  for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-    free(all[k]);
+  double *arrays[] = {t->times, t->sampled, t->incoming, t->outgoing, t->final, t->time};
+  for (size_t k = 0; k < COUNT_OF(arrays); k++)
+    free(arrays[k]);
   free(t->states);
 }
 
@@ -100,7 +95,7 @@ static void add_point(spread *s, int ball, double time, const carom_ball_state *
 static void make_band(spread *s, const shot_tangents *t, const shot_line *line,
                       const carom_shot *shot, int ball) {
   static const double zeros[NUMBERS];
-  const carom_ball_state *from = &line->ball[ball].state;
+  const carom_ball_state *start = &line->ball[ball].state;
   const double *d = zeros;
   double last = 0.0, along[2] = {1.0, 0.0};
   int next = 0;
@@ -110,26 +105,26 @@ static void make_band(spread *s, const shot_tangents *t, const shot_line *line,
     const int side = e != NULL ? shot_event_side(e, ball) : 0;
     if (side < 0)
       continue;
-    const double until = e != NULL ? e->time : shot->time;
-    const carom_ball_state *to = e != NULL ? &e->before[side] : &shot->final[ball];
-    if (until > last && (to->r[0] != from->r[0] || to->r[1] != from->r[1])) {
-      add_point(s, ball, last, from, d, along, true);
-      for (; next < TIMES && t->times[next] < until && !s->cut[ball]; next++) {
-        const double *here = t->at + (next * line->count + ball) * NUMBERS;
+    const double end = e != NULL ? e->time : shot->time;
+    const carom_ball_state *end_state = e != NULL ? &e->before[side] : &shot->final[ball];
+    if (end > last && (end_state->r[0] != start->r[0] || end_state->r[1] != start->r[1])) {
+      add_point(s, ball, last, start, d, along, true);
+      for (; next < TIMES && t->times[next] < end && !s->cut[ball]; next++) {
+        const double *tangent = t->sampled + (next * line->count + ball) * NUMBERS;
         double c[3] = {0};
-        add_covariance(here, c);
+        add_covariance(tangent, c);
         s->cut[ball] = axes_of(c).along > spread_most;
         if (t->times[next] > last)
-          add_point(s, ball, t->times[next], &t->states[next * line->count + ball], here, along,
+          add_point(s, ball, t->times[next], &t->states[next * line->count + ball], tangent, along,
                     false);
       }
-      d = e != NULL ? t->before + (2 * k + side) * NUMBERS : t->final + ball * NUMBERS;
-      add_point(s, ball, until, to, d, along, false);
+      d = e != NULL ? t->incoming + (2 * k + side) * NUMBERS : t->final + ball * NUMBERS;
+      add_point(s, ball, end, end_state, d, along, false);
     }
     if (e != NULL) {
-      from = &e->after[side];
-      d = t->after + (2 * k + side) * NUMBERS;
-      last = until;
+      start = &e->after[side];
+      d = t->outgoing + (2 * k + side) * NUMBERS;
+      last = end;
     }
   }
 }
@@ -157,7 +152,7 @@ static bool parts_cluster(const carom_shot *shot, int64_t count) {
  * to one falls with each. */
 static carom_status find_until(const shot_line *line, const carom_shot *shot,
                                const carom_shot_options *options, const carom_tangent_seeds *seeds,
-                               const shot_tangents *t, double *until) {
+                               const shot_tangents *t, double *end) {
   int64_t same = 0, changed = shot->count;
   while (changed - same > 1) {
     double reach[ERRORS];
@@ -180,29 +175,29 @@ static carom_status find_until(const shot_line *line, const carom_shot *shot,
     else
       same = part.count;
   }
-  *until = shot->events[changed - 1].time;
+  *end = shot->events[changed - 1].time;
   return CAROM_OK;
 }
 
 void spread_of(const player_error *error, const shot_line *line, const carom_shot *shot,
-               const carom_shot_options *options, bool bands, spread *to) {
+               const carom_shot_options *options, bool bands, spread *result) {
   static const int number_of[ERRORS] = {CUE_SPEED, CUE_PHI, CUE_A, CUE_B};
   const size_t events = (size_t)shot->count + 1, balls = (size_t)line->count,
                times = bands ? TIMES : 0;
   const double R = line->ball[line->cue.ball].kind.radius;
-  *to = (spread){.until = INFINITY};
+  *result = (spread){.end = INFINITY};
   /* one direction for each error, as long as its standard deviation */
   double cue[CAROM_CUE_NUMBERS][ERRORS] = {{0}};
   for (int j = 0; j < ERRORS; j++) {
-    to->error[j] = error->deviation[j].x * (j == ERROR_SPEED ? line->cue.speed : 1.0) /
-                   (error->deviation[j].times == OFFSET ? R : 1.0);
-    cue[number_of[j]][j] = to->error[j];
+    result->error[j] = error->deviation[j].x * (j == ERROR_SPEED ? line->cue.speed : 1.0) /
+                       (error->deviation[j].times == OFFSET ? R : 1.0);
+    cue[number_of[j]][j] = result->error[j];
   }
   const carom_tangent_seeds seeds = {.directions = ERRORS, .cue = &cue[0][0]};
   shot_tangents t = {.times = allocate(times + 1, sizeof *t.times),
-                     .at = allocate(times * balls * NUMBERS + 1, sizeof *t.at),
-                     .before = allocate(events * 2 * NUMBERS, sizeof *t.before),
-                     .after = allocate(events * 2 * NUMBERS, sizeof *t.after),
+                     .sampled = allocate(times * balls * NUMBERS + 1, sizeof *t.sampled),
+                     .incoming = allocate(events * 2 * NUMBERS, sizeof *t.incoming),
+                     .outgoing = allocate(events * 2 * NUMBERS, sizeof *t.outgoing),
                      .final = allocate(balls * NUMBERS, sizeof *t.final),
                      .time = allocate(events * ERRORS, sizeof *t.time),
                      .states = allocate(times * balls + 1, sizeof *t.states)};
@@ -210,29 +205,29 @@ void spread_of(const player_error *error, const shot_line *line, const carom_sho
     t.times[k] = shot->time * ((double)k + 0.5) / (double)times;
   carom_tangent tangent = {.final = t.final,
                            .time = t.time,
-                           .before = t.before,
-                           .after = t.after,
-                           .at = t.at,
+                           .before = t.incoming,
+                           .after = t.outgoing,
+                           .at = t.sampled,
                            .times = t.times,
                            .times_count = (int64_t)times,
-                           .reach = to->reach};
+                           .reach = result->reach};
   carom_status status = carom_shot_tangent(&line->table->table, line->ball, line->count, &line->cue,
                                            options, shot, &seeds, &tangent);
   if (status == CAROM_OK && bands)
     status = carom_shot_at_times(line->ball, line->count, shot, t.times, times, t.states);
-  to->flags = tangent.all_flags;
+  result->flags = tangent.all_flags;
   for (int k = 0; k < line->count && status == CAROM_OK; k++) {
-    add_covariance(t.final + k * NUMBERS, to->final[k]);
+    add_covariance(t.final + k * NUMBERS, result->final[k]);
     if (bands)
-      make_band(to, &t, line, shot, k);
+      make_band(result, &t, line, shot, k);
   }
-  to->together = together(to->reach);
-  if (status == CAROM_OK && to->together < 1.0)
-    status = find_until(line, shot, options, &seeds, &t, &to->until);
+  result->together = together(result->reach);
+  if (status == CAROM_OK && result->together < 1.0)
+    status = find_until(line, shot, options, &seeds, &t, &result->end);
   free_tangents(&t);
   if (status != CAROM_OK)
-    spread_free(to);
-  to->status = status;
+    spread_free(result);
+  result->status = status;
 }
 
 void spread_free(spread *s) {
@@ -288,8 +283,8 @@ void spread_tell(FILE *out, const spread *s, const shot_line *line) {
             "       reach: %.2g standard deviations of %s, %.2g of all together, change a ball's "
             "events\n",
             s->reach[least], named[least], s->together);
-  if (s->until < INFINITY)
-    fprintf(out, "       beyond reach from %.2f s on (dashed)\n", s->until);
+  if (s->end < INFINITY)
+    fprintf(out, "       beyond reach from %.2f s on (dashed)\n", s->end);
   if (cut)
     fprintf(out,
             "       bands end where the standard deviation is above %g m: derivatives say nothing "
@@ -315,6 +310,6 @@ json_t *spread_json(const spread *s, const shot_line *line) {
                         json_pack("[f, f, f]", s->final[k][0], s->final[k][1], s->final[k][2]));
   return json_pack("{s: o, s: o, s: o, s: o, s: i, s: o}", "error", error, "reach", reach,
                    "together", isfinite(s->together) ? json_real(s->together) : json_null(),
-                   "until", isfinite(s->until) ? json_real(s->until) : json_null(), "flags",
+                   "until", isfinite(s->end) ? json_real(s->end) : json_null(), "flags",
                    (int)s->flags, "covariance", balls);
 }

@@ -11,7 +11,7 @@
  * are in R, or in tips. */
 enum { ERROR_SPEED, ERROR_AIM, ERROR_RIGHT, ERROR_ABOVE, ERRORS };
 typedef struct player_error {
-  bool given;
+  bool is_set;
   value deviation[ERRORS];
 } player_error;
 
@@ -35,7 +35,7 @@ typedef struct spread {
   double reach[ERRORS]; /* the least change of each at which a ball meets something else, in
                            standard deviations, */
   double together;      /* and of all errors together, at least */
-  double until;         /* s: when the first event is for which one standard deviation is beyond
+  double end;           /* s: when the first event is for which one standard deviation is beyond
                            reach; or infinite */
   int64_t flags;        /* of all events: carom_tangent_flag */
   /* Of each ball: covariance of its place at the end, m^2: xx, xy, yy, 0 in a pocket; and its
@@ -48,7 +48,7 @@ typedef struct spread {
 
 /* Finds it for a shot with all of its events, with bands or without; to be freed. */
 void spread_of(const player_error *error, const shot_line *line, const carom_shot *shot,
-               const carom_shot_options *options, bool bands, spread *to);
+               const carom_shot_options *options, bool bands, spread *result);
 void spread_free(spread *s);
 
 /* The axes of a covariance: standard deviations along the longer one and across it, m, and its

@@ -6,10 +6,7 @@
 #include "bench_job.h"
 #include "draws.h"
 #include "machine.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/monotonic.h"
+#include "program/program.h"
 #include "sheet.h"
 
 enum { IMPACTS = 512, HAN = 0 };
@@ -34,7 +31,7 @@ static const struct {
     {"euler; 1000 steps", {.model = CAROM_CUSHION_EULER, .steps = 1000}},
 };
 
-enum { MODELS = sizeof models / sizeof models[0] };
+enum { MODELS = COUNT_OF(models) };
 
 static carom_cushion_impact impacts[IMPACTS];
 
@@ -74,11 +71,11 @@ static bool verified(timed_cushion *t, const char *name) {
       complain("%s: impact %d: %s: it is not timed", name, k, carom_status_string(status));
       return false;
     }
-    const double before = energy(in->v, in->w, in->radius),
-                 after = energy(t->out[k].v, t->out[k].w, in->radius);
-    if (!(after <= before * (1.0 + 1e-9))) {
+    const double energy_in = energy(in->v, in->w, in->radius),
+                 energy_out = energy(t->out[k].v, t->out[k].w, in->radius);
+    if (!(energy_out <= energy_in * (1.0 + 1e-9))) {
       complain("%s: impact %d gains energy, %.3g of it: it is not timed", name, k,
-               after / before - 1.0);
+               energy_out / energy_in - 1.0);
       return false;
     }
   }
@@ -105,7 +102,7 @@ static bool choose(bench_job *job) {
     else
       job->code = EXIT_SOME;
   }
-  job->now = processor_ns;
+  job->clock = processor_ns;
   if (job->budget == 0.0)
     job->budget = 20.0;
   return true;

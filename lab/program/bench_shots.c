@@ -7,17 +7,9 @@
  * least, as pooltool's was taken. */
 #include "bench_job.h"
 #include "machine.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/monotonic.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "sheet.h"
 #include "shots/shot_file.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { COPIES = 64 };
 static const double seconds_a_shot = 0.06;
@@ -35,7 +27,7 @@ static struct {
   shot_file *file; /* open as long as its tables are needed */
   timed_shot *shot;
   size_t count, space;
-} all;
+} timed;
 
 /* ---- Reading and verifying */
 
@@ -60,14 +52,14 @@ static bool verified(timed_shot *t) {
 }
 
 static bool read_shots(bench_job *job) {
-  if ((all.file = shot_file_open(job->shots, CAROM_SHOT_CUSHION_DEFAULT)) == NULL)
+  if ((timed.file = shot_file_open(job->shots, CAROM_SHOT_CUSHION_DEFAULT)) == NULL)
     return false;
   timed_shot t = {.options = job->shared.shot};
   t.options.threads = 1;
   if (job->threads.count > 0)
     t.options.threads = atoi(job->threads.name[0]);
   shot_read what;
-  while ((what = shot_file_next_shot(all.file, &t.line)) == SHOT_SHOT) {
+  while ((what = shot_file_next_shot(timed.file, &t.line)) == SHOT_SHOT) {
     if (t.line.error != NULL)
       complain("line %zu: refused: %s", t.line.number, t.line.error);
     if (t.line.error != NULL || !verified(&t)) {
@@ -81,12 +73,12 @@ static bool read_shots(bench_job *job) {
     t.recorded_us = NAN;
     if (json_is_number(recorded))
       t.recorded_us = 1e3 * json_number_value(recorded);
-    all.shot = grow(all.shot, &all.space, all.count + 1, sizeof *all.shot);
-    all.shot[all.count++] = t;
+    timed.shot = grow(timed.shot, &timed.space, timed.count + 1, sizeof *timed.shot);
+    timed.shot[timed.count++] = t;
   }
-  if (what == SHOT_END && all.count == 0)
+  if (what == SHOT_END && timed.count == 0)
     complain("%s has no shots that can be timed", job->shots);
-  return what == SHOT_END && all.count > 0;
+  return what == SHOT_END && timed.count > 0;
 }
 
 /* ---- Timing */
@@ -116,10 +108,10 @@ static uint64_t fingerprint(const void *context) {
 static bool choose(bench_job *job) {
   if (!read_shots(job))
     return false;
-  job->subject_count = all.count;
-  job->subject = allocate(all.count, sizeof *job->subject);
-  for (size_t k = 0; k < all.count; k++) {
-    timed_shot *t = &all.shot[k];
+  job->subject_count = timed.count;
+  job->subject = allocate(timed.count, sizeof *job->subject);
+  for (size_t k = 0; k < timed.count; k++) {
+    timed_shot *t = &timed.shot[k];
     t->copies = 1;
     if (t->options.threads > 1)
       t->copies = COPIES * (size_t)t->options.threads;
@@ -133,10 +125,10 @@ static bool choose(bench_job *job) {
                                       .threads = t->options.threads,
                                       .reference = SIZE_MAX};
   }
-  if (all.shot[0].options.threads == 1)
-    job->now = processor_ns;
+  if (timed.shot[0].options.threads == 1)
+    job->clock = processor_ns;
   if (job->budget == 0.0)
-    job->budget = seconds_a_shot * (double)all.count;
+    job->budget = seconds_a_shot * (double)timed.count;
   return true;
 }
 
@@ -146,8 +138,8 @@ static bool choose(bench_job *job) {
 static void print_row(const bench_job *job, FILE *out, const char *family, double *us) {
   double balls = 0.0, events = 0.0, sum = 0.0, recorded = 0.0, slowest = INFINITY;
   size_t n = 0;
-  for (size_t k = 0; k < all.count; k++) {
-    const timed_shot *t = &all.shot[k];
+  for (size_t k = 0; k < timed.count; k++) {
+    const timed_shot *t = &timed.shot[k];
     if ((family != NULL && strcmp(family, t->family) != 0) || !job->figure[k].unchanged)
       continue;
     us[n] = job->figure[k].ns.median / 1e3;
@@ -167,8 +159,8 @@ static void print_row(const bench_job *job, FILE *out, const char *family, doubl
 }
 
 static void print(const bench_job *job, FILE *out) {
-  const carom_shot_options *options = &all.shot[0].options;
-  double *scratch = allocate(all.count, sizeof *scratch);
+  const carom_shot_options *options = &timed.shot[0].options;
+  double *scratch = allocate(timed.count, sizeof *scratch);
   sheet table;
   const char *whose = "carom";
   if (options->world == CAROM_WORLD_POOLTOOL)
@@ -179,12 +171,12 @@ static void print(const bench_job *job, FILE *out) {
   fputs("family,balls,shots,events_per_shot,us_median,shots_per_s,recorded_us,speedup,"
         "speedup_least\n",
         rows);
-  for (size_t k = 0; k < all.count; k++) {
+  for (size_t k = 0; k < timed.count; k++) {
     bool seen = false;
-    for (size_t before = 0; before < k; before++)
-      seen |= strcmp(all.shot[before].family, all.shot[k].family) == 0;
+    for (size_t earlier = 0; earlier < k; earlier++)
+      seen |= strcmp(timed.shot[earlier].family, timed.shot[k].family) == 0;
     if (!seen)
-      print_row(job, rows, all.shot[k].family, scratch);
+      print_row(job, rows, timed.shot[k].family, scratch);
   }
   print_row(job, rows, NULL, scratch);
   sheet_end(&table, rows);

@@ -4,17 +4,9 @@
  * to where pooltool's own histories part when the start is moved by 1e-13, have the same types
  * and balls in the same order, and times and states are within 1e-12 + 5e-13 times the recorded
  * amplification. */
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "shots/shot_file.h"
 #include "subcommands.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* One row of the table: a family of shots. */
 typedef struct row {
@@ -25,12 +17,12 @@ typedef struct row {
 
 typedef struct parity_job {
   shared_options shared;
-  bool all; /* every difference is told */
+  bool every_difference; /* every difference is told */
   row *each;
   size_t count, room;
 } parity_job;
 
-OPTION(parity_job, option_verbose, "verbose", all, 'v', NULL, set_flag, 0,
+OPTION(parity_job, option_verbose, "verbose", every_difference, 'v', NULL, set_flag, 0,
        "print the first difference of each shot that disagrees");
 
 /* ---- The record */
@@ -96,8 +88,9 @@ static row *family_of(parity_job *job, const char *name) {
 }
 
 /* What is allowed where the start moved by 1e-13 moves a number by 1e-13 times so much. */
-static double allowed(const json_t *sens, const char *of, size_t k) {
-  return 1e-12 + 5e-13 * fmax(json_number_value(json_array_get(json_object_get(sens, of), k)), 1.0);
+static double allowed(const json_t *sens, const char *quantity, size_t k) {
+  return 1e-12 +
+         5e-13 * fmax(json_number_value(json_array_get(json_object_get(sens, quantity), k)), 1.0);
 }
 
 /* The largest difference of places, of velocities, and of spins times the radius. */
@@ -110,16 +103,16 @@ static double states_apart(const carom_ball_state *a, const carom_ball_state *b,
 }
 
 /* Whether an event of carom is that of the record: type, balls, and the part of the table. */
-static bool same_event(const shot_line *line, const carom_event *own, const carom_event *e,
+static bool same_event(const shot_line *line, const carom_event *played, const carom_event *e,
                        const json_t *json) {
-  if (own->type != e->type || own->a != e->a ||
-      (e->type == CAROM_EVENT_BALL_BALL && own->b != e->b))
+  if (played->type != e->type || played->a != e->a ||
+      (e->type == CAROM_EVENT_BALL_BALL && played->b != e->b))
     return false;
   if (e->type < CAROM_EVENT_RAIL || e->type > CAROM_EVENT_POCKET)
     return true;
-  const char *met = shot_part_name(line->table, own),
+  const char *part = shot_part_name(line->table, played),
              *id = json_string_value(json_array_get(json_array_get(json, 2), 1));
-  return met != NULL && id != NULL && strcmp(met, id) == 0;
+  return part != NULL && id != NULL && strcmp(part, id) == 0;
 }
 
 /* Compares the events of a shot; false where they disagree, told in `why`. The record begins and
@@ -134,19 +127,19 @@ static bool compare(const shot_line *line, const carom_shot *shot, row *f, char 
     return snprintf(why, 200, "it has no recorded events") < 0;
   for (size_t k = 1; k < same && k + 1 < recorded; k++) {
     const json_t *json = json_array_get(events, k);
-    const carom_event *own = &shot->events[k - 1];
+    const carom_event *played = &shot->events[k - 1];
     carom_event e;
     if ((int64_t)k > shot->count)
       return snprintf(why, 200, "event %zu of %zu: there is none", k, recorded) < 0;
-    if (!read_event(line, json, &e) || !same_event(line, own, &e, json))
+    if (!read_event(line, json, &e) || !same_event(line, played, &e, json))
       return snprintf(why, 200, "event %zu of %zu: %s at %.17g, not %s at %.17g", k, recorded,
-                      shot_event_name(own->type), own->time,
+                      shot_event_name(played->type), played->time,
                       json_string_value(json_array_get(json, 1)), e.time) < 0;
-    const double dt = fabs(own->time - e.time) / allowed(sens, "t", k);
+    const double dt = fabs(played->time - e.time) / allowed(sens, "t", k);
     double worst = 0.0; /* of the states after the event, whose amplification is recorded */
     for (size_t side = 0; side < sides_of(&e); side++) {
-      worst = fmax(worst, states_apart(&own->after[side], &e.after[side], 0.03));
-      if (own->after[side].label != e.after[side].label)
+      worst = fmax(worst, states_apart(&played->after[side], &e.after[side], 0.03));
+      if (played->after[side].label != e.after[side].label)
         worst = INFINITY;
     }
     worst /= allowed(sens, "state", k);
@@ -180,11 +173,11 @@ static void play_again(parity_job *job, const shot_line *line, const char *engin
     const carom_status status = shot_line_play(line, &options, &shot);
     good = compare(line, &shot, f, why);
     if (status < 0 && !good)
-      snprintf(why + strlen(why), sizeof why - strlen(why), "; %s", carom_status_name(status));
+      append(why, sizeof why, "; ", "%s", carom_status_name(status));
     free(shot.events);
   }
   f->agreed += good;
-  if (!good && job->all)
+  if (!good && job->every_difference)
     complain("line %zu: shot %s: %s", line->number, text_or(line->id, "-"),
              text_or(line->error, why));
 }
@@ -197,21 +190,21 @@ static void print_row(const row *f) {
 }
 
 static bool print_families(const parity_job *job) {
-  row all = {.name = "all"};
+  row total = {.name = "all"};
   printf("%-16s %5s %7s %6s %6s %10s %10s\n", "family", "shots", "events", "agreed", "whole",
          "time", "state");
   for (const row *f = job->each; f < job->each + job->count; f++) {
     print_row(f);
-    all.shots += f->shots;
-    all.events += f->events;
-    all.agreed += f->agreed;
-    all.whole += f->whole;
-    all.time = fmax(all.time, f->time);
-    all.state = fmax(all.state, f->state);
+    total.shots += f->shots;
+    total.events += f->events;
+    total.agreed += f->agreed;
+    total.whole += f->whole;
+    total.time = fmax(total.time, f->time);
+    total.state = fmax(total.state, f->state);
     free(f->name);
   }
-  print_row(&all);
-  return all.agreed == all.shots;
+  print_row(&total);
+  return total.agreed == total.shots;
 }
 
 static const command_form form = {
@@ -231,7 +224,7 @@ static const command_form form = {
 };
 
 int command_parity(int argc, char **argv) {
-  parity_job job = {.all = false};
+  parity_job job = {.every_difference = false};
   const char *path;
   const int code = parse_arguments(&form, argc, argv, &job, &path);
   if (code >= 0)

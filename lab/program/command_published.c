@@ -1,16 +1,11 @@
 /* `carom-lab published`: lab/published.py, which sets the values of data/measured.csv beside those
  * of carom.
  * It reads carom's headers and calls the shared library. */
-#include "program/command.h"
-#include "program/options.h"
-#include "program/output.h"
-#include "program/place.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "python.h"
 #include "subcommands.h"
 
 #include <limits.h>
-#include <stdio.h>
 
 typedef struct published_job {
   shared_options shared;

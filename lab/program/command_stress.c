@@ -7,12 +7,7 @@
  * differ by more than REFERENCE_FROM, and for 1 row in 1000 of each group. */
 #include "draws.h"
 #include "kernel.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/options.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "reference.h"
 #include "rows/number.h"
 #include "rows/precision.h"
@@ -24,11 +19,7 @@
 #include "platform/enumerations.h"
 #include "platform/threads.h"
 
-#include <math.h>
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum {
   BLOCK = 1000, /* impacts that a thread draws and solves at a time */
@@ -63,7 +54,7 @@ typedef struct stress {
   uint64_t seed, draws;   /* draws of each group */
   tally tally[GROUPS][2]; /* of double and of single precision */
   long other_bits;        /* rows of batches that differ from single calls */
-  long asked, precise_wrong;
+  long request, precise_wrong;
   double precise_largest; /* error against the reference */
 } stress;
 
@@ -103,25 +94,25 @@ static double quantile(const tally *t, double share) {
   return t->largest;
 }
 
-static void add_tally(tally *to, const tally *from) {
+static void add_tally(tally *sum, const tally *part) {
   for (int k = 0; k < COUNTS; k++)
-    to->count[k] += from->count[k];
+    sum->count[k] += part->count[k];
   for (int k = 0; k < DECADES * PER_DECADE; k++)
-    to->histogram[k] += from->histogram[k];
-  to->largest = fmax(to->largest, from->largest);
-  to->largest_of_play = fmax(to->largest_of_play, from->largest_of_play);
-  if (from->worst_share > to->worst_share)
-    to->worst_share = from->worst_share, to->worst = from->worst;
+    sum->histogram[k] += part->histogram[k];
+  sum->largest = fmax(sum->largest, part->largest);
+  sum->largest_of_play = fmax(sum->largest_of_play, part->largest_of_play);
+  if (part->worst_share > sum->worst_share)
+    sum->worst_share = part->worst_share, sum->worst = part->worst;
 }
 
-static void add(stress *to, const stress *from) {
+static void add(stress *sum, const stress *part) {
   for (int group = 0; group < GROUPS; group++)
     for (int single = 0; single < 2; single++)
-      add_tally(&to->tally[group][single], &from->tally[group][single]);
-  to->other_bits += from->other_bits;
-  to->asked += from->asked;
-  to->precise_wrong += from->precise_wrong;
-  to->precise_largest = fmax(to->precise_largest, from->precise_largest);
+      add_tally(&sum->tally[group][single], &part->tally[group][single]);
+  sum->other_bits += part->other_bits;
+  sum->request += part->request;
+  sum->precise_wrong += part->precise_wrong;
+  sum->precise_largest = fmax(sum->precise_largest, part->precise_largest);
 }
 
 /* ---- One impact */
@@ -133,7 +124,7 @@ static double apart(const drawn *c, const outcome *a, const outcome *b) {
     return cushion_distance(&c->rail, &a->rail, &b->rail);
   const carom_impact *in = &c->balls;
   const double *x = (const double *)&a->balls, *y = (const double *)&b->balls,
-               *before[] = {in->a.v, in->b.v};
+               *velocities[] = {in->a.v, in->b.v};
   double most = 0, scale = 0;
   const double weights[] = {1, in->a.radius}; /* of velocities, and of angular ones */
   for (int k = 0; k < 12; k++) {
@@ -141,7 +132,7 @@ static double apart(const drawn *c, const outcome *a, const outcome *b) {
     if (isnan(x[k]))
       return INFINITY;
     most = fmax(most, weight * fabs(x[k] - y[k]));
-    scale = fmax(scale, weight * fmax(fabs(y[k]), 1e-9 * fabs(before[k / 6][k % 6])));
+    scale = fmax(scale, weight * fmax(fabs(y[k]), 1e-9 * fabs(velocities[k / 6][k % 6])));
   }
   if (most == 0)
     return 0;
@@ -176,8 +167,8 @@ static bool is_error(tally *t, carom_status status) {
 
 static void compare(stress *s, int group, uint64_t k, const drawn *c) {
   tally *t = &s->tally[group][0];
-  outcome own, precise, exact;
-  const carom_status status = call(c, &own);
+  outcome solved, precise, exact;
+  const carom_status status = call(c, &solved);
   if (!c->cushion && status != CAROM_SEPARATING)
     t->count[SLOW] += carom_kernels_of_call(0)->call[CAROM_F64](&c->balls, carom_spin_sign(c->slip),
                                                                 &exact, NULL) <= 0;
@@ -186,15 +177,15 @@ static void compare(stress *s, int group, uint64_t k, const drawn *c) {
   const bool known = precisely(c, &precise);
   double error = INFINITY;
   if (known)
-    error = apart(c, &own, &precise);
+    error = apart(c, &solved, &precise);
   if (error > REFERENCE_FROM || k % 1000 == 0) {
     if (by_reference(c, &exact)) {
       static const double precise_most[] = {1e-9, 1e-8}; /* of balls, on a cushion */
       double precise_error = 0;
       if (known)
         precise_error = apart(c, &precise, &exact);
-      error = apart(c, &own, &exact);
-      s->asked++;
+      error = apart(c, &solved, &exact);
+      s->request++;
       s->precise_wrong += precise_error > precise_most[c->cushion];
       s->precise_largest = fmax(s->precise_largest, precise_error);
     } else if (error > REFERENCE_FROM) {
@@ -235,37 +226,37 @@ static void run_batch(stress *s, int group, carom_slip slip, const drawn *block,
   static _Thread_local carom_impact_f32 in32[BLOCK];
   static _Thread_local carom_result out[BLOCK];
   static _Thread_local carom_result_f32 out32[BLOCK];
-  const drawn *of[BLOCK];
+  const drawn *draws[BLOCK];
   carom_result alone;
   carom_result_f32 alone32;
   int8_t status[BLOCK], status32[BLOCK];
   size_t n = 0;
   for (size_t k = 0; k < count; k++)
     if (!block[k].cushion && block[k].slip == slip)
-      in[n] = block[k].balls, of[n++] = &block[k];
+      in[n] = block[k].balls, draws[n++] = &block[k];
   to_single(in, in32, 26 * n);
   carom_collide_batch(in, n, &options, out, status);
   carom_collide_batch_f32(in32, n, &options, out32, status32);
   for (size_t k = 0; k < n; k++) {
-    const carom_status one = carom_collide(&in[k], &options, &alone),
+    const carom_status alone_status = carom_collide(&in[k], &options, &alone),
                        one32 = carom_collide_one(CAROM_F32, &in32[k], &options, &alone32);
-    s->other_bits += one != status[k] || memcmp(&alone, &out[k], sizeof alone) != 0;
+    s->other_bits += alone_status != status[k] || memcmp(&alone, &out[k], sizeof alone) != 0;
     s->other_bits += one32 != status32[k] || memcmp(&alone32, &out32[k], sizeof alone32) != 0;
-    compare_single(s, group, of[k], &in32[k], &alone32, one32);
+    compare_single(s, group, draws[k], &in32[k], &alone32, one32);
   }
 }
 
-static size_t run_blocks(const void *of, size_t from, size_t end) {
+static size_t run_blocks(const void *context, size_t start, size_t end) {
   static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
   static size_t done;
-  stress *const all = *(stress *const *)of, *part = allocate(1, sizeof *part);
-  const size_t groups = (size_t)draw_groups(all->kind);
+  stress *const total = *(stress *const *)context, *part = allocate(1, sizeof *part);
+  const size_t groups = (size_t)draw_groups(total->kind);
   drawn *drawn_ones = allocate(BLOCK, sizeof *drawn_ones);
-  *part = (stress){.kind = all->kind, .seed = all->seed, .draws = all->draws};
-  for (size_t block = from; block < end; block++) {
+  *part = (stress){.kind = total->kind, .seed = total->seed, .draws = total->draws};
+  for (size_t block = start; block < end; block++) {
     const int group = (int)(block % groups);
     const uint64_t first = block / groups * BLOCK,
-                   n = all->draws - first < BLOCK ? all->draws - first : BLOCK;
+                   n = total->draws - first < BLOCK ? total->draws - first : BLOCK;
     for (uint64_t k = 0; k < n; k++) {
       drawn_ones[k] = draw(part->kind, group, part->seed, first + k);
       compare(part, group, first + k, &drawn_ones[k]);
@@ -274,11 +265,11 @@ static size_t run_blocks(const void *of, size_t from, size_t end) {
       run_batch(part, group, (carom_slip)slip, drawn_ones, (size_t)n);
     pthread_mutex_lock(&lock);
     progress_show("blocks of impacts", (double)++done,
-                  (double)groups * ceil((double)all->draws / BLOCK));
+                  (double)groups * ceil((double)total->draws / BLOCK));
     pthread_mutex_unlock(&lock);
   }
   pthread_mutex_lock(&lock);
-  add(all, part);
+  add(total, part);
   pthread_mutex_unlock(&lock);
   free(drawn_ones);
   free(part);
@@ -332,16 +323,16 @@ static void print_table(const stress *s, FILE *out) {
           "precise solver against the reference, where calls differ from it by more than %g, and "
           "1 row in 1000: %ld rows, largest error %.1e, %ld above %s\n"
           "\nlargest errors:\n",
-          s->other_bits, REFERENCE_FROM, s->asked, s->precise_largest, s->precise_wrong,
+          s->other_bits, REFERENCE_FROM, s->request, s->precise_largest, s->precise_wrong,
           "1e-9, on a cushion 1e-8");
   for (int group = 0; group < draw_groups(s->kind); group++) {
     const tally *const t = &s->tally[group][0];
     if (t->count[ROWS] > 0) {
       const drawn c = draw(s->kind, group, s->seed, t->worst);
-      const char *of = carom_slip_name(c.slip);
+      const char *slip = carom_slip_name(c.slip);
       if (c.cushion)
-        of = "cushion";
-      fprintf(out, "%s, %s %llu, %.2g of its bound: ", of, draw_name(s->kind, group),
+        slip = "cushion";
+      fprintf(out, "%s, %s %llu, %.2g of its bound: ", slip, draw_name(s->kind, group),
               (unsigned long long)t->worst, t->worst_share);
       print_numbers(out, &c);
       fputc('\n', out);
@@ -410,23 +401,23 @@ int command_stress(int argc, char **argv) {
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
-  stress *all = allocate(1, sizeof *all);
-  all->kind = (draw_kind)job.kind;
+  stress *total = allocate(1, sizeof *total);
+  total->kind = (draw_kind)job.kind;
   if (job.cushions > 0)
-    all->kind = DRAW_CUSHION;
+    total->kind = DRAW_CUSHION;
   else if (job.coincidences > 0)
-    all->kind = DRAW_COINCIDENCES;
-  all->seed = (uint64_t)job.seed;
-  all->draws = 100000;
+    total->kind = DRAW_COINCIDENCES;
+  total->seed = (uint64_t)job.seed;
+  total->draws = 100000;
   if (counts > 0)
-    all->draws = (uint64_t)(job.draws + job.cushions + job.coincidences);
-  carom_in_threads(run_blocks, &all,
-                   (size_t)draw_groups(all->kind) * ((all->draws + BLOCK - 1) / BLOCK),
+    total->draws = (uint64_t)(job.draws + job.cushions + job.coincidences);
+  carom_in_threads(run_blocks, &total,
+                   (size_t)draw_groups(total->kind) * ((total->draws + BLOCK - 1) / BLOCK),
                    job.shared.options.threads, 1);
   progress_clear();
-  print_table(all, out);
-  const bool good = holds(all);
-  free(all);
+  print_table(total, out);
+  const bool good = holds(total);
+  free(total);
   if (!output_commit())
     return EXIT_USAGE;
   return exit_of(good);

@@ -3,12 +3,10 @@
 #ifndef CAROM_LAB_SUBCOMMANDS_H
 #define CAROM_LAB_SUBCOMMANDS_H
 
-#include "study/program/subcommands.h"
+#include "program/command.h"
 
-int command_learn(int argc, char **argv);
-int command_parity(int argc, char **argv);
-int command_plan(int argc, char **argv);
-int command_published(int argc, char **argv);
-int command_stress(int argc, char **argv);
+#define COMMAND COMMAND_DECLARED
+#include "commands.def"
+#undef COMMAND
 
 #endif

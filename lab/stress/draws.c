@@ -158,18 +158,18 @@ bool is_of_play(const carom_impact *in) {
 }
 
 drawn draw(draw_kind kind, int group, uint64_t seed, uint64_t k) {
-  drawn one = {.cushion = kind == DRAW_CUSHION, .slip = (carom_slip)group};
+  drawn drawn_case = {.cushion = kind == DRAW_CUSHION, .slip = (carom_slip)group};
   if (kind == DRAW_COINCIDENCES)
     return coincidence_draw(group, seed, k);
-  if (one.cushion) {
-    one.rail = draw_cushion((cushion_draw)group, seed, k);
-    one.of_play = group == CUSHION_PLAY;
-    one.slip = CAROM_SLIP_PAPER;
+  if (drawn_case.cushion) {
+    drawn_case.rail = draw_cushion((cushion_draw)group, seed, k);
+    drawn_case.of_play = group == CUSHION_PLAY;
+    drawn_case.slip = CAROM_SLIP_PAPER;
   } else {
-    one.balls = draw_collision(kind, one.slip, seed, k);
-    one.of_play = is_of_play(&one.balls);
+    drawn_case.balls = draw_collision(kind, drawn_case.slip, seed, k);
+    drawn_case.of_play = is_of_play(&drawn_case.balls);
   }
-  return one;
+  return drawn_case;
 }
 
 double cushion_distance(const carom_cushion_impact *in, const carom_motion *a,

@@ -15,8 +15,8 @@ carom_status collide_precisely(const carom_impact *in, carom_slip slip, double t
   const carom_reduced c = carom_reduce(&local);
   carom_trajectory path;
   const carom_status status = carom_precise(&c, tolerance, 0, &path);
-  const carom_integrals all = carom_precise_integrals(&c, &path);
-  carom_restore(&c, &all, &local);
+  const carom_integrals total = carom_precise_integrals(&c, &path);
+  carom_restore(&c, &total, &local);
   carom_from_frame(&frame, &local, out);
   return status;
 }
@@ -31,8 +31,8 @@ carom_status cushion_precisely(const carom_cushion_impact *in, double tolerance,
   carom_trajectory path;
   carom_mathavan_begin(&contact, tolerance, 0, &path);
   const carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
-  const carom_impulse all = carom_mathavan_impulse(&contact, &path);
-  carom_push(&contact, &all);
+  const carom_impulse total = carom_mathavan_impulse(&contact, &path);
+  carom_push(&contact, &total);
   carom_from_cushion(&frame, &contact, in->radius, out);
   return status;
 }

@@ -206,15 +206,15 @@ typedef struct rule {
 } rule;
 
 static real legendre(int n, real x) {
-  real before = 1, now = x;
+  real previous = 1, current = x;
   if (n == 0)
     return 1;
   for (int k = 2; k <= n; k++) {
-    const real next = ((2 * k - 1) * x * now - (k - 1) * before) / k;
-    before = now;
-    now = next;
+    const real next = ((2 * k - 1) * x * current - (k - 1) * previous) / k;
+    previous = current;
+    current = next;
   }
-  return now;
+  return current;
 }
 
 /* The nodes are the zeros of P_(n-1) - P_n, over [-1, 1], the last of which is 1. */
@@ -324,59 +324,77 @@ static void solve(const factored *a, double d[UNKNOWNS]) {
   }
 }
 
+/* The rates of the slips under these frictions. */
+static void rates_of(const equations *q, const real f[SLIPS], real rate[SLIPS]) {
+  for (int i = 0; i < SLIPS; i++) {
+    rate[i] = q->S_p[i];
+    for (int j = 0; j < SLIPS; j++)
+      rate[i] += q->S_f[i][j] * f[j];
+  }
+}
+
+/* How far each stage is from its equation. */
+static void defects(const integration *g, const state *start, real h, real Y[STAGES][SLIPS],
+                    real rate[STAGES][SLIPS], double d[UNKNOWNS]) {
+  for (int k = 0; k < STAGES; k++)
+    for (int i = 0; i < SLIPS; i++) {
+      real defect = start->s[i] - Y[k][i];
+      for (int l = 0; l < STAGES; l++)
+        defect += h * g->r->A[k][l] * rate[l][i];
+      d[k * SLIPS + i] = (double)defect;
+    }
+}
+
+/* The derivatives of the defects by the slips, negated. */
+static void newton_matrix(const integration *g, real h, real by_s[STAGES][SLIPS][SLIPS],
+                          factored *a) {
+  for (int l = 0; l < STAGES; l++)
+    for (int i = 0; i < SLIPS; i++)
+      for (int j = 0; j < SLIPS; j++) {
+        real J = 0;
+        for (int c = 0; c < SLIPS; c++)
+          J += g->q->S_f[i][c] * by_s[l][c][j];
+        for (int k = 0; k < STAGES; k++)
+          a->M[k * SLIPS + i][l * SLIPS + j] = (double)((k == l && i == j) - h * g->r->A[k][l] * J);
+      }
+}
+
 /* The slips and frictions at the stages of a step of length h. False if Newton's method does not
  * converge. */
-static bool solve_stages(const integration *g, const state *from, real h, real Y[STAGES][SLIPS],
+static bool solve_stages(const integration *g, const state *start, real h, real Y[STAGES][SLIPS],
                          real f[STAGES][SLIPS]) {
   const equations *q = g->q;
-  real by_s[STAGES][SLIPS][SLIPS], rate[STAGES][SLIPS], before[STAGES][SLIPS];
+  real by_s[STAGES][SLIPS][SLIPS], rate[STAGES][SLIPS], previous[STAGES][SLIPS];
   factored a;
   double d[UNKNOWNS];
   real last = 0;
   /* begin with the rates of the start */
-  frictions(q, from->s, g->t.eps, g->loaded, f[0], by_s[0]);
+  frictions(q, start->s, g->t.eps, g->loaded, f[0], by_s[0]);
+  rates_of(q, f[0], rate[0]);
   for (int k = 0; k < STAGES; k++)
-    for (int i = 0; i < SLIPS; i++) {
-      real all = q->S_p[i];
-      for (int j = 0; j < SLIPS; j++)
-        all += q->S_f[i][j] * f[0][j];
-      Y[k][i] = from->s[i] + h * g->r->c[k] * all;
-    }
+    for (int i = 0; i < SLIPS; i++)
+      Y[k][i] = start->s[i] + h * g->r->c[k] * rate[0][i];
+
   for (int n = 0; n < NEWTON_MOST; n++) {
     real moved = 0;
     for (int k = 0; k < STAGES; k++) {
-      memcpy(before[k], f[k], sizeof before[k]);
+      memcpy(previous[k], f[k], sizeof previous[k]);
       frictions(q, Y[k], g->t.eps, g->loaded, f[k], by_s[k]);
-      for (int i = 0; i < SLIPS; i++) {
-        rate[k][i] = q->S_p[i];
-        for (int j = 0; j < SLIPS; j++)
-          rate[k][i] += q->S_f[i][j] * f[k][j];
-        moved = fmaxl(moved, h * fabsl(f[k][i] - before[k][i]));
-      }
+      rates_of(q, f[k], rate[k]);
+      for (int i = 0; i < SLIPS; i++)
+        moved = fmaxl(moved, h * fabsl(f[k][i] - previous[k][i]));
     }
     if (n > 0 && moved <= CONVERGED)
       return true;
     if (isnan(moved))
       return false;
-    /* the defect of each stage, and its derivatives */
-    for (int k = 0; k < STAGES; k++)
-      for (int i = 0; i < SLIPS; i++) {
-        real defect = from->s[i] - Y[k][i];
-        for (int l = 0; l < STAGES; l++)
-          defect += h * g->r->A[k][l] * rate[l][i];
-        d[k * SLIPS + i] = (double)defect;
-      }
-    for (int l = 0; l < STAGES && !(n > 1 && moved < KEPT * last); l++)
-      for (int i = 0; i < SLIPS; i++)
-        for (int j = 0; j < SLIPS; j++) {
-          real J = 0;
-          for (int c = 0; c < SLIPS; c++)
-            J += q->S_f[i][c] * by_s[l][c][j];
-          for (int k = 0; k < STAGES; k++)
-            a.M[k * SLIPS + i][l * SLIPS + j] =
-                (double)((k == l && i == j) - h * g->r->A[k][l] * J);
-        }
-    if (!(n > 1 && moved < KEPT * last) && !factor(&a))
+
+    /* the matrix is kept while the corrections fall fast */
+    defects(g, start, h, Y, rate, d);
+    const bool is_fast = n > 1 && moved < KEPT * last;
+    if (!is_fast)
+      newton_matrix(g, h, by_s, &a);
+    if (!is_fast && !factor(&a))
       return false;
     solve(&a, d);
     last = moved;
@@ -388,30 +406,30 @@ static bool solve_stages(const integration *g, const state *from, real h, real Y
 }
 
 /* A step of length h. Returns its error over the tolerance; infinite if Newton's method fails. */
-static real try_step(const integration *g, const state *from, real h, state *to) {
+static real try_step(const integration *g, const state *start, real h, state *end) {
   const equations *q = g->q;
   real Y[STAGES][SLIPS], f[STAGES][SLIPS], v[STAGES], high = 0;
-  if (!solve_stages(g, from, h, Y, f))
+  if (!solve_stages(g, start, h, Y, f))
     return INFINITY;
-  *to = *from;
-  to->so_far.p += h;
-  memcpy(to->s, Y[STAGES - 1], sizeof to->s);
+  *end = *start;
+  end->so_far.p += h;
+  memcpy(end->s, Y[STAGES - 1], sizeof end->s);
   for (int k = 0; k < STAGES; k++) {
-    v[k] = from->v + h * g->r->c[k] * q->v_p;
+    v[k] = start->v + h * g->r->c[k] * q->v_p;
     for (int l = 0; l < STAGES; l++)
       for (int i = 0; i < SLIPS; i++)
         v[k] += h * g->r->A[k][l] * q->v_f[i] * f[l][i];
   }
-  to->v = v[STAGES - 1];
+  end->v = v[STAGES - 1];
   for (int k = 0; k < STAGES; k++) {
-    to->W += h * g->r->A[STAGES - 1][k] * v[k];
+    end->W += h * g->r->A[STAGES - 1][k] * v[k];
     for (int i = 0; i < SLIPS; i++)
-      to->so_far.f[i] += h * g->r->A[STAGES - 1][k] * f[k][i];
+      end->so_far.f[i] += h * g->r->A[STAGES - 1][k] * f[k][i];
   }
   /* no stage is at the start, where a slip may just be about to vanish: hence the difference
    * there */
   real at_start[SLIPS], by_s[SLIPS][SLIPS];
-  frictions(q, from->s, g->t.eps, g->loaded, at_start, by_s);
+  frictions(q, start->s, g->t.eps, g->loaded, at_start, by_s);
   for (int i = 0; i < SLIPS; i++) {
     real coefficient[2] = {0}, difference = -at_start[i];
     for (int k = 0; k < STAGES; k++) {
@@ -431,42 +449,42 @@ enum { END_OF_PHASE, LOAD, EVENTS };
 
 /* Positive once the event has happened. A load that is zero all the time must not count: hence
  * the last term. */
-static real event(const integration *g, int which, const state *at) {
-  if (which == END_OF_PHASE)
-    return g->restitution ? g->target - at->W : -at->v;
+static real event(const integration *g, int index, const state *point) {
+  if (index == END_OF_PHASE)
+    return g->restitution ? g->target - point->W : -point->v;
   real f[SLIPS], by_s[SLIPS][SLIPS];
-  const real load = frictions(g->q, at->s, g->t.eps, g->loaded, f, by_s);
+  const real load = frictions(g->q, point->s, g->t.eps, g->loaded, f, by_s);
   return (g->loaded ? -load : load) - 1e-13L;
 }
 
 /* The length of the step at whose end the event happens: regula falsi with halving. */
-static real locate(const integration *g, int which, const state *from, real h, state *to) {
-  real low = 0, high = h, at_low = event(g, which, from), at_high = event(g, which, to);
+static real locate(const integration *g, int index, const state *start, real h, state *end) {
+  real low = 0, high = h, at_low = event(g, index, start), at_high = event(g, index, end);
   for (int k = 0; k < ROOT_MOST && high - low > 1e-18L * h && at_high > 1e-18L; k++) {
     real middle = (low * at_high - high * at_low) / (at_high - at_low);
     if (k % 3 == 2 || !(middle > low && middle < high))
       middle = (low + high) / 2;
-    if (!isfinite(try_step(g, from, middle, to)))
+    if (!isfinite(try_step(g, start, middle, end)))
       return NAN;
-    const real value = event(g, which, to);
+    const real value = event(g, index, end);
     *(value > 0 ? &high : &low) = middle;
     *(value > 0 ? &at_high : &at_low) = value;
   }
-  return isfinite(try_step(g, from, high, to)) ? high : (real)NAN;
+  return isfinite(try_step(g, start, high, end)) ? high : (real)NAN;
 }
 
 /* From contact to parting. */
-static bool integrate(const rule *r, const equations *q, const tolerances *t, impulses *all,
+static bool integrate(const rule *r, const equations *q, const tolerances *t, impulses *total,
                       real *W_c) {
   integration g = {.q = q, .r = r, .t = *t};
-  state at = {.v = 1};
-  memcpy(at.s, q->s, sizeof at.s);
+  state point = {.v = 1};
+  memcpy(point.s, q->s, sizeof point.s);
   real h = -0.05L / q->v_p, f[SLIPS], by_s[SLIPS][SLIPS];
-  g.loaded = frictions(q, at.s, t->eps, false, f, by_s) > 0 && q->mu_slide > 0;
+  g.loaded = frictions(q, point.s, t->eps, false, f, by_s) > 0 && q->mu_slide > 0;
   const real small = 1e4L * t->eps;
   for (int n = 0; n < STEPS_MOST; n++) {
     state next;
-    const real error = try_step(&g, &at, h, &next);
+    const real error = try_step(&g, &point, h, &next);
     if (!(error <= 1)) {
       h *= isfinite(error) ? fmaxl(0.1L, 0.8L * powl(error, -1.0L / (STAGES - 1))) : 0.25L;
       if (h < 1e-25L)
@@ -477,31 +495,33 @@ static bool integrate(const rule *r, const equations *q, const tolerances *t, im
     /* what happens first */
     int first = -1;
     real length = h;
-    for (int which = 0; which < EVENTS; which++)
-      if ((which != LOAD || q->mu_slide > 0) && event(&g, which, &next) > 0 &&
-          event(&g, which, &at) <= 0) {
-        length = locate(&g, which, &at, length, &next);
-        first = which;
+    for (int index = 0; index < EVENTS; index++)
+      if ((index != LOAD || q->mu_slide > 0) && event(&g, index, &next) > 0 &&
+          event(&g, index, &point) <= 0) {
+        length = locate(&g, index, &point, length, &next);
+        first = index;
         if (isnan(length))
           return false;
       }
-    at = next;
+    point = next;
     if (first == LOAD)
       g.loaded = !g.loaded;
     else if (first == END_OF_PHASE && (g.restitution || q->e == 0)) {
-      *all = at.so_far;
-      *W_c = g.restitution ? *W_c : at.W;
+      *total = point.so_far;
+      *W_c = g.restitution ? *W_c : point.W;
       return true;
     } else if (first == END_OF_PHASE) {
       g.restitution = true;
-      *W_c = at.W;
-      at.W = at.v = 0;
+      *W_c = point.W;
+      point.W = point.v = 0;
       g.target = -q->e * q->e * *W_c;
     }
     /* a ball that is jammed between nose and cloth stays so */
     if (first < 0 && h > 0.1L &&
-        fabsl(at.v) + fabsl(at.s[0]) + fabsl(at.s[1]) + fabsl(at.s[2]) + fabsl(at.s[3]) < small) {
-      *all = at.so_far;
+        fabsl(point.v) + fabsl(point.s[0]) + fabsl(point.s[1]) + fabsl(point.s[2]) +
+                fabsl(point.s[3]) <
+            small) {
+      *total = point.so_far;
       return true;
     }
     if (first < 0)
@@ -534,15 +554,15 @@ static real apart(meeting a, const meeting *b) {
 static bool pass(meeting *k, const rule *r, const equations *parameters, const tolerances *t,
                  real *P, real *W_c) {
   equations q = *parameters;
-  impulses all = {0};
+  impulses total = {0};
   derive(k, &q);
-  if (!integrate(r, &q, t, &all, W_c))
+  if (!integrate(r, &q, t, &total, W_c))
     return false;
-  *P = all.p *= q.v;
+  *P = total.p *= q.v;
   *W_c *= q.v * q.v;
   for (int i = 0; i < SLIPS; i++)
-    all.f[i] *= q.v;
-  apply(k, &all);
+    total.f[i] *= q.v;
+  apply(k, &total);
   return true;
 }
 
@@ -583,11 +603,11 @@ static reference_status solve_checked(set_up *prepare, const void *in, int slip,
     normal[1] = unit * (double)W_c;
   }
   for (int n = 1; n < VARIANTS && solved; n++) {
-    meeting other;
-    if (!prepare(in, slip, n, &other, &q) || !pass(&other, &r, &q, &level_of[0], &P, &W_c))
+    meeting second;
+    if (!prepare(in, slip, n, &second, &q) || !pass(&second, &r, &q, &level_of[0], &P, &W_c))
       rounding = INFINITY;
     else
-      rounding = fmax(rounding, (double)(apart(other, &rough) / scale));
+      rounding = fmax(rounding, (double)(apart(second, &rough) / scale));
   }
   if (rounding > (double)TOO_SHAKY)
     return REFERENCE_ROUNDING;

@@ -56,11 +56,11 @@ carom_local draw_exchanged(const carom_local *c) {
 }
 
 void draw_ball(carom_local *c, bool second, double v_x, double v_y, double roll, double side) {
-  double *const to[2][5] = {{&c->v_ix, &c->v_iy, &c->w_ix, &c->w_iy, &c->w_iz},
-                            {&c->v_jx, &c->v_jy, &c->w_jx, &c->w_jy, &c->w_jz}};
+  double *const targets[2][5] = {{&c->v_ix, &c->v_iy, &c->w_ix, &c->w_iy, &c->w_iz},
+                                 {&c->v_jx, &c->v_jy, &c->w_jx, &c->w_jy, &c->w_jz}};
   const double numbers[5] = {v_x, v_y, -v_y * roll / c->R, v_x * roll / c->R, side / c->R};
   for (int k = 0; k < 5; k++)
-    *to[second][k] = numbers[k];
+    *targets[second][k] = numbers[k];
 }
 
 /* A ball of speed v at angle phi to y. */

@@ -8,14 +8,10 @@
  * multiply-adds alone, so those columns have no row of Intel's. */
 #include "counters.h"
 
-#include "program/memory.h"
+#include "program/program.h"
 
 #include <errno.h>
 #include <linux/perf_event.h>
-#include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/ioctl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -64,7 +60,7 @@ const counter_row counter_table[] = {
     {INTEL, COUNTER_STALLS_EXECUTION, "CYCLE_ACTIVITY.STALLS_TOTAL", PERF_TYPE_RAW, 0x040004a3,
      1.0},
 };
-const size_t counter_table_size = sizeof counter_table / sizeof counter_table[0];
+const size_t counter_table_size = COUNT_OF(counter_table);
 
 const char *counter_column_name(counter_column column) {
 #define COUNTER_NAME(NAME, column) column,
@@ -105,7 +101,7 @@ counter_core counter_core_of(const char *vendor, unsigned family, unsigned model
       {"GenuineIntel", 6, 0x8f, 0x8f, CORE_INTEL_AVX512}, /* Sapphire and Emerald Rapids */
       {"GenuineIntel", 6, 0xcf, 0xcf, CORE_INTEL_AVX512},
   };
-  for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
+  for (size_t k = 0; k < COUNT_OF(known); k++)
     if (strcmp(vendor, known[k].vendor) == 0 && family == known[k].family &&
         model >= known[k].first && model <= known[k].last)
       return known[k].core;
@@ -291,7 +287,7 @@ void counters_columns(const counter_set *set, const double *count, double column
 
 /* ---- Words */
 
-static void explain(int error, FILE *to) {
+static void explain(int error, FILE *out) {
   char paranoid[16] = "unknown";
   FILE *file = fopen("/proc/sys/kernel/perf_event_paranoid", "r");
   if (file != NULL && fgets(paranoid, sizeof paranoid, file) != NULL)
@@ -306,12 +302,12 @@ static void explain(int error, FILE *to) {
           "container forbids the call";
   else if (error == EBUSY)
     why = "others hold the counters, perhaps the kernel's watchdog (sysctl kernel.nmi_watchdog=0)";
-  fprintf(to, "%s (perf_event_open: errno %d, perf_event_paranoid %s)", why, error, paranoid);
+  fprintf(out, "%s (perf_event_open: errno %d, perf_event_paranoid %s)", why, error, paranoid);
 }
 
 /* Names the columns that are counted (`error` 0), have no event (-1), or are refused with that
  * errno; false where there are none. */
-static bool name_columns(const counter_set *set, int error, FILE *to) {
+static bool name_columns(const counter_set *set, int error, FILE *out) {
   bool any = false;
   for (int c = 0; c < COUNTER_COLUMNS; c++) {
     int of_column = set->refusal[c];
@@ -319,20 +315,20 @@ static bool name_columns(const counter_set *set, int error, FILE *to) {
       of_column = -1;
     if (of_column != error)
       continue;
-    const char *between[] = {"", ", "};
-    fprintf(to, "%s%s", between[any], counter_column_name((counter_column)c));
+    const char *separators[] = {"", ", "};
+    fprintf(out, "%s%s", separators[any], counter_column_name((counter_column)c));
     any = true;
   }
   return any;
 }
 
-void counters_describe(const counter_set *set, FILE *to) {
-  if (name_columns(set, 0, to)) {
-    fputs(" counted per collision, in user mode, by", to);
+void counters_describe(const counter_set *set, FILE *out) {
+  if (name_columns(set, 0, out)) {
+    fputs(" counted per collision, in user mode, by", out);
     for (size_t k = 0; k < set->count; k++)
       if (set->refusal[set->event[k].row->column] == 0)
-        fprintf(to, " %s", set->event[k].row->name);
-    fprintf(to, ", in %zu group(s) that take turns by rounds; ", set->groups);
+        fprintf(out, " %s", set->event[k].row->name);
+    fprintf(out, ", in %zu group(s) that take turns by rounds; ", set->groups);
   }
   /* each errno once, with its columns */
   for (int c = 0; c < COUNTER_COLUMNS; c++) {
@@ -341,12 +337,12 @@ void counters_describe(const counter_set *set, FILE *to) {
       first = first && set->refusal[earlier] != set->refusal[c];
     if (!first)
       continue;
-    name_columns(set, set->refusal[c], to);
-    fputs(" not measured: ", to);
-    explain(set->refusal[c], to);
-    fputs("; ", to);
+    name_columns(set, set->refusal[c], out);
+    fputs(" not measured: ", out);
+    explain(set->refusal[c], out);
+    fputs("; ", out);
   }
-  if (name_columns(set, -1, to))
-    fputs(" not measured: no event of this processor is known for them; ", to);
-  fputs("ns are of the clock", to);
+  if (name_columns(set, -1, out))
+    fputs(" not measured: no event of this processor is known for them; ", out);
+  fputs("ns are of the clock", out);
 }

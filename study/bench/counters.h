@@ -70,7 +70,7 @@ counter_set *counters_open(const counter_row *rows, size_t count, counter_core c
 void counters_close(counter_set *set);
 
 /* One line: which columns are counted by which events, which are not, and why. */
-void counters_describe(const counter_set *set, FILE *to);
+void counters_describe(const counter_set *set, FILE *out);
 
 size_t counters_groups(const counter_set *set);
 size_t counters_events(const counter_set *set);

@@ -2,17 +2,14 @@
 #include "machine.h"
 
 #include "commit.h"
-#include "program/monotonic.h"
+#include "program/program.h"
 
-#include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/utsname.h>
 #include <time.h>
 #include <unistd.h>
 
-void machine_note(FILE *to, const char *what, const char *format, ...) {
+void machine_note(FILE *out, const char *what, const char *format, ...) {
   char text[2000];
   va_list arguments;
   va_start(arguments, format);
@@ -21,7 +18,7 @@ void machine_note(FILE *to, const char *what, const char *format, ...) {
   for (char *c = text; *c != '\0'; c++)
     if (*c == '\n' || *c == '\r')
       *c = ' ';
-  fprintf(to, "# %s: %s\n", what, text);
+  fprintf(out, "# %s: %s\n", what, text);
 }
 
 #if defined(__x86_64__)
@@ -63,42 +60,42 @@ static const char *cpuinfo(const char *key, char *line, int size) {
   return found;
 }
 
-static void describe_processor(FILE *to) {
-  char name[256], other[256];
+static void describe_processor(FILE *out) {
+  char name[256], second[256];
   const char *model = cpuinfo("model name", name, sizeof name);
   const char *flags = cpuinfo("flags", (char[8192]){0}, 8192);
-  machine_note(to, "processor", "%s", model != NULL ? model : "NA");
+  machine_note(out, "processor", "%s", model != NULL ? model : "NA");
   const char *family = cpuinfo("cpu family", name, sizeof name),
-             *number = cpuinfo("model\t", other, sizeof other);
+             *number = cpuinfo("model\t", second, sizeof second);
   if (family != NULL && number != NULL)
-    machine_note(to, "processor family", "%s, model %s", family, number);
-  machine_note(to, "cores", "%ld online%s", sysconf(_SC_NPROCESSORS_ONLN),
+    machine_note(out, "processor family", "%s, model %s", family, number);
+  machine_note(out, "cores", "%ld online%s", sysconf(_SC_NPROCESSORS_ONLN),
                flags != NULL && strstr(flags, " hypervisor") != NULL
                    ? ", of a virtual machine: others may share them"
                    : "");
   const double cycle = clock_core_cycle();
   if (cycle > 0)
-    machine_note(to, "core cycle", "%.4f ns", cycle);
+    machine_note(out, "core cycle", "%.4f ns", cycle);
 }
 
-void machine_describe(FILE *to) {
-  describe_processor(to);
+void machine_describe(FILE *out) {
+  describe_processor(out);
   struct utsname system;
   if (uname(&system) == 0)
-    machine_note(to, "system", "%s %s %s", system.sysname, system.release, system.machine);
+    machine_note(out, "system", "%s %s %s", system.sysname, system.release, system.machine);
   double load;
   if (getloadavg(&load, 1) == 1)
-    machine_note(to, "load before", "%.2f runnable threads in the last minute", load);
+    machine_note(out, "load before", "%.2f runnable threads in the last minute", load);
 #if defined(__clang__)
-  machine_note(to, "compiler", "%s", __VERSION__);
+  machine_note(out, "compiler", "%s", __VERSION__);
 #else
-  machine_note(to, "compiler", "gcc %s", __VERSION__);
+  machine_note(out, "compiler", "gcc %s", __VERSION__);
 #endif
-  machine_note(to, "flags", "%s", CAROM_BUILD_FLAGS);
-  machine_note(to, "commit", "%s", CAROM_COMMIT);
+  machine_note(out, "flags", "%s", CAROM_BUILD_FLAGS);
+  machine_note(out, "commit", "%s", CAROM_COMMIT);
   char date[32];
-  const time_t now = time(NULL);
+  const time_t moment = time(NULL);
   struct tm utc;
-  strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
-  machine_note(to, "date", "%s", date);
+  strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&moment, &utc));
+  machine_note(out, "date", "%s", date);
 }

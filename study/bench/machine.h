@@ -6,10 +6,10 @@
 
 /* Prints lines "# what: text" about the processor, the system, the build and the time. What a
  * machine does not tell is "NA". */
-void machine_describe(FILE *to);
+void machine_describe(FILE *out);
 
 /* Prints one such line; line breaks in the text become blanks. */
-__attribute__((format(printf, 3, 4))) void machine_note(FILE *to, const char *what,
+__attribute__((format(printf, 3, 4))) void machine_note(FILE *out, const char *what,
                                                         const char *format, ...);
 
 /* The length of a core cycle just now, in ns: that of an addition in a chain of them, which

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <time.h>
 
-static cpu_set_t all, one; /* the cores before, and the one that is pinned to */
+static cpu_set_t allowed, pinned; /* the cores before, and the one that is pinned to */
 static bool active, real_time;
 
 /* The first of the isolated cores, which Linux lists as "2-3,7", or -1. An isolated core is not
@@ -26,21 +26,21 @@ static int isolated_core(void) {
 }
 
 static bool pin_to(int core) {
-  CPU_ZERO(&one);
-  CPU_SET((size_t)core, &one);
-  return sched_setaffinity(0, sizeof one, &one) == 0;
+  CPU_ZERO(&pinned);
+  CPU_SET((size_t)core, &pinned);
+  return sched_setaffinity(0, sizeof pinned, &pinned) == 0;
 }
 
 const char *pinning_begin(void) {
   static char text[200];
-  active = sched_getaffinity(0, sizeof all, &all) == 0;
+  active = sched_getaffinity(0, sizeof allowed, &allowed) == 0;
   /* who was given one core only, keeps it */
   int isolated = -1;
-  if (active && CPU_COUNT(&all) > 1)
+  if (active && CPU_COUNT(&allowed) > 1)
     isolated = isolated_core();
   int core = isolated;
   if (active && (isolated < 0 || !pin_to(isolated))) {
-    for (core = CPU_SETSIZE - 1; core > 0 && !CPU_ISSET((size_t)core, &all);)
+    for (core = CPU_SETSIZE - 1; core > 0 && !CPU_ISSET((size_t)core, &allowed);)
       core--;
     active = pin_to(core);
   }
@@ -65,12 +65,12 @@ void pinning_end(void) {
 
 void pinning_suspend(void) {
   if (active)
-    sched_setaffinity(0, sizeof all, &all);
+    sched_setaffinity(0, sizeof allowed, &allowed);
 }
 
 void pinning_resume(void) {
   if (active)
-    sched_setaffinity(0, sizeof one, &one);
+    sched_setaffinity(0, sizeof pinned, &pinned);
 }
 
 void pinning_breathe(double busy_ns) {

@@ -9,12 +9,7 @@
 #include "rounds.h"
 
 #include "pinning.h"
-#include "program/memory.h"
-#include "program/monotonic.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "program/program.h"
 
 enum { FEWEST_ROUNDS = 5, WANTED_ROUNDS = 101, MOST_ROUNDS = 10001 };
 static const double long_sample = 20e6, short_sample = 1e6; /* ns */
@@ -53,10 +48,10 @@ sample_summary summarise(double *sample, size_t n) {
 }
 
 uint64_t bench_fingerprint(const void *results, size_t bytes) {
-  const char *from = results;
+  const char *next = results;
   uint64_t hash = 0xcbf29ce484222325u, word;
   for (size_t k = 0; k + sizeof word <= bytes; k += sizeof word) {
-    memcpy(&word, from + k, sizeof word);
+    memcpy(&word, next + k, sizeof word);
     hash = (hash ^ word) * 0x100000001b3u;
   }
   return hash;
@@ -72,16 +67,16 @@ typedef struct counting {
 } counting;
 
 /* The counters start and stop just outside the clock, so that starting them is not timed. */
-static double sample(const bench_subject *s, size_t loops, double (*now)(void),
+static double sample(const bench_subject *s, size_t loops, double (*clock)(void),
                      const counting *counters) {
   if (s->prepare != NULL)
     s->prepare(s->context);
   if (counters->set != NULL)
     counters_start(counters->set, counters->group);
-  const double start = now();
+  const double start = clock();
   for (size_t k = 0; k < loops; k++)
     s->resolve(s->context);
-  const double elapsed = now() - start;
+  const double elapsed = clock() - start;
   if (counters->set != NULL)
     counters_stop(counters->set, counters->group, counters->count);
   return elapsed;
@@ -89,10 +84,10 @@ static double sample(const bench_subject *s, size_t loops, double (*now)(void),
 
 /* Warm-up, and what one pass costs: the fastest of ever more loops until they take a
  * millisecond. */
-static double estimate(const bench_subject *s, double (*now)(void)) {
+static double estimate(const bench_subject *s, double (*clock)(void)) {
   double pass = INFINITY, elapsed = 0.0;
   for (size_t loops = 1; elapsed < short_sample && loops < SIZE_MAX / 2; loops *= 2) {
-    elapsed = sample(s, loops, now, &(counting){.set = NULL});
+    elapsed = sample(s, loops, clock, &(counting){.set = NULL});
     pass = fmin(pass, elapsed / (double)loops);
   }
   return pass;
@@ -100,15 +95,15 @@ static double estimate(const bench_subject *s, double (*now)(void)) {
 
 /* ns per pair. A sample of more than one loop begins with a pass that is not timed. Counters
  * belong to this thread, so they do not count a subject that has more of them. */
-static double take_sample(const bench_subject *s, size_t loops, double (*now)(void),
+static double take_sample(const bench_subject *s, size_t loops, double (*clock)(void),
                           counting counters) {
   if (s->threads > 1) {
     pinning_suspend();
     counters.set = NULL;
   }
   if (loops > 1)
-    sample(s, 1, now, &(counting){.set = NULL});
-  const double full = sample(s, loops, now, &counters);
+    sample(s, 1, clock, &(counting){.set = NULL});
+  const double full = sample(s, loops, clock, &counters);
   if (s->threads > 1)
     pinning_resume();
   pinning_breathe(full);
@@ -151,8 +146,8 @@ static void summarise_times(const double *ns, const double *cycles, size_t round
 
 void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *settings,
                   bench_figure *figure) {
-  double (*const now)(void) = settings->now != NULL ? settings->now : clock_ns;
-  const double start = now(), budget = 1e9 * settings->budget;
+  double (*const clock)(void) = settings->clock != NULL ? settings->clock : clock_ns;
+  const double start = clock(), budget = 1e9 * settings->budget;
   const counter_set *counters = settings->counters;
   size_t groups = 0, events = 0;
   if (counters != NULL) {
@@ -161,15 +156,15 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
   }
   double *pass = allocate(n, sizeof *pass);
   double *ns = NULL, *cycles = NULL, *count = NULL; /* round after round */
-  uint64_t *before = allocate(n, sizeof *before);
+  uint64_t *fingerprints = allocate(n, sizeof *fingerprints);
   double passes = 0.0;
   for (size_t k = 0; k < n; k++) {
-    before[k] = subject[k].fingerprint(subject[k].context);
-    passes += pass[k] = estimate(&subject[k], now);
+    fingerprints[k] = subject[k].fingerprint(subject[k].context);
+    passes += pass[k] = estimate(&subject[k], clock);
   }
 
   /* samples of the length that gives the rounds that are wanted */
-  const double a_round = (budget - (now() - start)) / WANTED_ROUNDS;
+  const double a_round = (budget - (clock() - start)) / WANTED_ROUNDS;
   const double length = fmin(fmax((a_round - passes) / (double)n, short_sample), long_sample);
   for (size_t k = 0; k < n; k++)
     figure[k].loops = (size_t)fmax(1.0, floor(length / pass[k]));
@@ -179,7 +174,7 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
   double spent = 0.0, longest = 0.0;
   while (rounds < FEWEST_ROUNDS || rounds < groups || rounds % 2 == 0 ||
          (rounds < MOST_ROUNDS && spent + 2.0 * longest < budget)) {
-    const double begin = now();
+    const double begin = clock();
     ns = grow(ns, &room, (rounds + 1) * n, sizeof *ns);
     cycles = grow(cycles, &cycles_room, (rounds + 1) * n, sizeof *cycles);
     count = grow(count, &count_room, (rounds + 1) * n * events + 1, sizeof *count);
@@ -193,13 +188,13 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
       double cycle = NAN;
       if (settings->cycle != NULL)
         cycle = settings->cycle();
-      ns[rounds * n + k] = take_sample(&subject[k], figure[k].loops, now, round);
+      ns[rounds * n + k] = take_sample(&subject[k], figure[k].loops, clock, round);
       cycles[rounds * n + k] = ns[rounds * n + k] / cycle;
       if (settings->progress != NULL)
-        settings->progress(fmin(now() - start, budget) * 1e-9, settings->budget);
+        settings->progress(fmin(clock() - start, budget) * 1e-9, settings->budget);
     }
-    spent = now() - start;
-    longest = fmax(longest, now() - begin);
+    spent = clock() - start;
+    longest = fmax(longest, clock() - begin);
     rounds++;
   }
 
@@ -211,10 +206,10 @@ void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
     if (counters != NULL)
       summarise_counts(counters, count + k * events, rounds, n * events,
                        (double)figure[k].loops * (double)subject[k].pairs, &figure[k]);
-    figure[k].unchanged = subject[k].fingerprint(subject[k].context) == before[k];
+    figure[k].unchanged = subject[k].fingerprint(subject[k].context) == fingerprints[k];
   }
   free(scratch);
-  free(before);
+  free(fingerprints);
   free(pass);
   free(count);
   free(cycles);

@@ -33,7 +33,7 @@ typedef struct bench_subject {
 typedef struct bench_settings {
   double budget;                               /* seconds for all; at least 5 rounds are run
                                                   whatever it is */
-  double (*now)(void);                         /* nanoseconds; NULL for the monotonic clock */
+  double (*clock)(void);                       /* nanoseconds; NULL for the monotonic clock */
   double (*cycle)(void);                       /* a core cycle just now, ns; NULL: not wanted */
   void (*progress)(double done, double total); /* called after each sample; NULL for none */
   const counter_set *counters;                 /* read around each sample; NULL for none */

@@ -53,7 +53,7 @@
 enum { ROUNDS = 400, TURNS = 50, LINKS = 100 };
 
 static const double full[2][2] = {{1.61803398874989, 1.0}, {2.71828182845904, 1.0}},
-                    one[2] = {1.0, 1.0};
+                    unit[2] = {1.0, 1.0};
 
 /* The whole loop is one piece of assembly: a value set anew between two turns would let them
  * overlap. */
@@ -65,7 +65,7 @@ static const double full[2][2] = {{1.61803398874989, 1.0}, {2.71828182845904, 1.
                      "%%xmm3, %%xmm3, %%xmm3\n1:\n\t.rept 100\n\t" instructions                  \
                      ".endr\n\tdec %0\n\tjnz 1b\n\tvzeroupper\n\t"                               \
                      : "+r"(turns)                                                               \
-                     : "m"(full[0]), "m"(full[1]), "m"(one)                                      \
+                     : "m"(full[0]), "m"(full[1]), "m"(unit)                                     \
                      : "rax", "xmm0", "xmm2", "xmm3", "xmm4", "memory", "cc");                   \
     return (clock_ns() - begin) / (TURNS * LINKS);                                               \
   }

@@ -49,11 +49,11 @@ static bool may_run(const ladder_contents *contents, const char *path, char why[
   return same && strcmp(contents->cpu, cpu) == 0;
 }
 
-static bool load(slot *one, char why[LADDER_WHY_SIZE]) {
+static bool load(slot *entry, char why[LADDER_WHY_SIZE]) {
   char path[sizeof LADDER_MODULE_DIR + 64];
-  snprintf(path, sizeof path, "%s/ladder-%s.so", LADDER_MODULE_DIR, one->name);
-  if (!file_fingerprint(path, one->fingerprint))
-    strcpy(one->fingerprint, "unknown");
+  snprintf(path, sizeof path, "%s/ladder-%s.so", LADDER_MODULE_DIR, entry->name);
+  if (!file_fingerprint(path, entry->fingerprint))
+    strcpy(entry->fingerprint, "unknown");
   void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
   ladder_contents_of *contents_of = NULL;
   if (library != NULL)
@@ -68,28 +68,28 @@ static bool load(slot *one, char why[LADDER_WHY_SIZE]) {
     return false;
   }
   for (size_t k = 0; k < RUNGS; k++)
-    one->run[k] = contents->rung[k].run;
-  one->module = (ladder_module){
-      .name = one->name,
+    entry->run[k] = contents->rung[k].run;
+  entry->module = (ladder_module){
+      .name = entry->name,
       .compiler = contents->compiler,
       .version = contents->version,
       .config = contents->config,
       .flags = contents->flags,
-      .fingerprint = one->fingerprint,
-      .run = one->run,
+      .fingerprint = entry->fingerprint,
+      .run = entry->run,
   };
-  one->loaded = true;
+  entry->loaded = true;
   return true;
 }
 
 const ladder_module *ladder_module_find(const char *name, char why[LADDER_WHY_SIZE]) {
-  for (slot *one = slots; one->name != NULL; one++)
-    if (strcmp(one->name, name) == 0 || strcmp(one->config, name) == 0)
-      return one->loaded || load(one, why) ? &one->module : NULL;
+  for (slot *entry = slots; entry->name != NULL; entry++)
+    if (strcmp(entry->name, name) == 0 || strcmp(entry->config, name) == 0)
+      return entry->loaded || load(entry, why) ? &entry->module : NULL;
   size_t length = (size_t)snprintf(why, LADDER_WHY_SIZE, "no configuration '%s'; there are", name);
-  for (const slot *one = slots; one->name != NULL; one++)
+  for (const slot *entry = slots; entry->name != NULL; entry++)
     if (length < LADDER_WHY_SIZE)
-      length += (size_t)snprintf(why + length, LADDER_WHY_SIZE - length, " %s", one->name);
+      length += (size_t)snprintf(why + length, LADDER_WHY_SIZE - length, " %s", entry->name);
   if (slots[0].name == NULL)
     snprintf(why, LADDER_WHY_SIZE, "this build has no kernels of the ladder: " LADDER_ABSENT);
   return NULL;

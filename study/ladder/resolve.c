@@ -94,9 +94,9 @@ static void note_status(batch *b, size_t pair, carom_status status) {
  * status of a pair that is not handed to it. */
 static carom_status prepare(const batch *b, const carom_impact *in, carom_frame *frame,
                             carom_local *local) {
-  const carom_status bad = carom_check(in, b->options, NULL);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status status = carom_check(in, b->options, NULL);
+  if (status != CAROM_OK)
+    return status;
   if (in->a.mass != in->b.mass)
     return CAROM_ERROR_MASSES_DIFFER;
   *frame = carom_frame_of(in);

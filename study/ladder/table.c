@@ -15,10 +15,10 @@ const ladder_rung *ladder_rung_at(size_t k) {
 }
 
 const ladder_rung *ladder_rung_find(const char *name) {
-  const ladder_rung *one;
-  for (size_t k = 0; (one = ladder_rung_at(k)) != NULL; k++)
-    if (strcmp(one->name, name) == 0)
-      return one;
+  const ladder_rung *rung;
+  for (size_t k = 0; (rung = ladder_rung_at(k)) != NULL; k++)
+    if (strcmp(rung->name, name) == 0)
+      return rung;
   return NULL;
 }
 

@@ -1,12 +1,8 @@
 /* How far results are from a reference. */
 #include "accuracy.h"
 
-#include "program/memory.h"
+#include "program/program.h"
 #include "rounds.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { COMPONENTS = 12 };
 

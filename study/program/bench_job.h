@@ -34,7 +34,7 @@ struct bench_job {
   const char *shots; /* time a file of shots instead */
   bool cushions;     /* time impacts on a cushion instead */
   const bench_table *table;
-  double (*now)(void);    /* the clock; NULL: the engine's */
+  double (*clock)(void);  /* the clock; NULL: the engine's */
   bench_subject *subject; /* those that passed */
   bench_figure *figure;
   size_t subject_count;

@@ -1,16 +1,12 @@
 /* The reference collisions in data/. */
 #include "cases.h"
 
-#include "program/memory.h"
-#include "program/message.h"
+#include "program/program.h"
 #include "rows/number.h"
 #include "rows/source.h"
 
 #include <limits.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 bool cases_load(const char *folder, const char *name, case_set *out) {
   char path[PATH_MAX];

@@ -14,18 +14,11 @@
 #include "kernel.h"
 #include "machine.h"
 #include "pinning.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/place.h"
+#include "program/program.h"
 #include "rows/precision.h"
 #include "sheet.h"
 #include "subcommands.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 enum {
@@ -46,14 +39,14 @@ struct workload {
   bool single;          /* precision */
   size_t size;          /* pairs in a call of a batch; 0: single calls */
   size_t calls, stride; /* calls in a pass, each so many rows after the one before */
-  call *one;
+  call *single_call;
   const void *in;  /* the rows, of doubles or floats */
   size_t *case_of; /* their cases; NULL: row k is case k modulo their number */
   size_t rows;
   size_t period;   /* rows after which the cases come again */
   size_t left_out; /* cases that the kernel's precision does not resolve in so many steps */
   void *result;
-  accuracy_summary own, exact; /* against the kernel's own reference, and the exact limit */
+  accuracy_summary claimed, exact; /* against the kernel's own reference, and the exact limit */
 };
 
 static struct {
@@ -64,7 +57,7 @@ static struct {
   size_t count, room;
   carom_impact *tiled; /* the cases over and over */
   carom_impact_f32 *tiled_f32;
-} all;
+} timing;
 
 /* ---- What is called */
 
@@ -101,7 +94,7 @@ static void choose_isa(void *context) {
 static void resolve(void *context) {
   const workload *w = context;
   for (size_t k = 0, first = 0; k < w->calls; k++) {
-    w->one(w, first);
+    w->single_call(w, first);
     BENCH_CONSUME(w->result);
     first += w->stride;
     if (first >= w->period)
@@ -118,8 +111,8 @@ static uint64_t fingerprint(const void *context) {
   return bench_fingerprint(w->result, w->rows * result_size(w->single));
 }
 
-static bool is_rung_of_lanes(const kernel *one) {
-  return one->is_rung && ladder_rung_find(one->name)->width > 1;
+static bool is_rung_of_lanes(const kernel *candidate) {
+  return candidate->is_rung && ladder_rung_find(candidate->name)->width > 1;
 }
 
 static const char *isa_of(const workload *w) {
@@ -149,13 +142,13 @@ static accuracy_summary compare(const workload *w, const carom_result *reference
   pair_accuracy *each = allocate(w->rows + 1, sizeof *each);
   accuracy_summary s = {.max = INFINITY};
   for (size_t k = 0; k < w->rows; k++) {
-    carom_result own;
+    carom_result result;
     if (w->single)
-      to_double((carom_result_f32 *)w->result + k, &own, sizeof own / sizeof(double));
+      to_double((carom_result_f32 *)w->result + k, &result, sizeof result / sizeof(double));
     else
-      own = ((carom_result *)w->result)[k];
-    const size_t which = case_of(w, k);
-    each[k] = accuracy_of(&own, &reference[which], w->cases->impact[which].a.radius);
+      result = ((carom_result *)w->result)[k];
+    const size_t index = case_of(w, k);
+    each[k] = accuracy_of(&result, &reference[index], w->cases->impact[index].a.radius);
   }
   if (w->rows > 0)
     s = accuracy_summarise(each, w->rows);
@@ -164,11 +157,11 @@ static accuracy_summary compare(const workload *w, const carom_result *reference
 }
 
 static bool compare_file(const workload *w, const char *folder, const char *name,
-                         accuracy_summary *to) {
+                         accuracy_summary *summary) {
   reference_set reference;
   const bool loaded = reference_load(folder, name, w->cases, &reference);
   if (loaded)
-    *to = compare(w, reference.result);
+    *summary = compare(w, reference.result);
   reference_free(&reference);
   return loaded;
 }
@@ -185,7 +178,7 @@ static double bound_of(const workload *w) {
 }
 
 static bool within(const workload *w, double allowed, int steps) {
-  if (w->own.max <= allowed)
+  if (w->claimed.max <= allowed)
     return true;
   char with[64] = "", lanes[64] = "";
   if (kernel_takes_steps(w->kernel))
@@ -193,22 +186,22 @@ static bool within(const workload *w, double allowed, int steps) {
   if (w->size > 0)
     snprintf(lanes, sizeof lanes, ", %s, %s", isa_of(w), precision_of(w));
   complain("%s (%s%s)%s is %.2g off its reference, and %.2g is allowed: it is not timed",
-           w->kernel->name, config_name(w->module), lanes, with, w->own.max, allowed);
+           w->kernel->name, config_name(w->module), lanes, with, w->claimed.max, allowed);
   return false;
 }
 
 /* Single calls only: drops the rows that the kernel's precision does not resolve in so many
  * steps. */
 static void leave_out_too_slow(workload *w) {
-  carom_impact *kept = allocate(w->rows, sizeof *kept);
+  carom_impact *impacts = allocate(w->rows, sizeof *impacts);
   w->case_of = allocate(w->rows, sizeof *w->case_of);
   size_t count = 0;
   for (size_t k = 0; k < w->rows; k++)
-    if (w->one(w, k) != CAROM_ERROR_TOO_SLOW) {
-      kept[count] = w->cases->impact[k];
+    if (w->single_call(w, k) != CAROM_ERROR_TOO_SLOW) {
+      impacts[count] = w->cases->impact[k];
       w->case_of[count++] = k;
     }
-  w->in = kept;
+  w->in = impacts;
   w->left_out = w->rows - count;
   w->rows = w->calls = count;
   resolve(w);
@@ -225,7 +218,7 @@ static bool verify_other_steps(workload *w) {
   euler.solver = CAROM_SOLVER_EULER;
   for (size_t k = 0; k < w->cases->count; k++)
     carom_collide(&w->cases->impact[k], &euler, &reference[k]);
-  w->own = compare(w, reference);
+  w->claimed = compare(w, reference);
   free(reference);
   const int steps = w->options.steps;
   return within(w, kernel_bound(bound_of(w), &w->kernel->claims[0], steps), steps);
@@ -239,7 +232,7 @@ static bool verify(workload *w, const char *folder, bool *good) {
   choose_isa(w);
   resolve(w);
   w->options.steps = steps;
-  if (!compare_file(w, folder, claim->reference, &w->own))
+  if (!compare_file(w, folder, claim->reference, &w->claimed))
     return false;
   *good = within(w, bound_of(w), claim->steps);
   if (*good && kernel_takes_steps(w->kernel) && steps != claim->steps)
@@ -274,34 +267,35 @@ static bool wants_precision(const bench_job *job, bool single) {
          (job->shared.precision == SINGLE_PRECISION) == single;
 }
 
-static workload *add(const kernel *one, int steps) {
-  all.work = grow(all.work, &all.room, all.count + 1, sizeof *all.work);
-  workload *w = &all.work[all.count++];
-  *w = (workload){.kernel = one, .cases = &all.cases, .isa = carom_isa_in_force()};
-  w->options = (carom_options){
-      .slip = one->claims[0].slip, .steps = CAROM_DEFAULT_STEPS, .solver = CAROM_SOLVER_EXACT};
-  if (kernel_takes_steps(one))
+static workload *add(const kernel *candidate, int steps) {
+  timing.work = grow(timing.work, &timing.room, timing.count + 1, sizeof *timing.work);
+  workload *w = &timing.work[timing.count++];
+  *w = (workload){.kernel = candidate, .cases = &timing.cases, .isa = carom_isa_in_force()};
+  w->options = (carom_options){.slip = candidate->claims[0].slip,
+                               .steps = CAROM_DEFAULT_STEPS,
+                               .solver = CAROM_SOLVER_EXACT};
+  if (kernel_takes_steps(candidate))
     w->options.steps = steps;
-  if (!one->is_rung)
-    w->options.solver = one->solver;
+  if (!candidate->is_rung)
+    w->options.solver = candidate->solver;
   return w;
 }
 
 /* The cases, one call each, unless they are there already. Where a kernel takes no steps, they
  * are not read. */
-static void add_calls(const kernel *one, const ladder_module *module, int steps) {
-  for (const workload *w = all.work; w < all.work + all.count; w++)
-    if (w->size == 0 && w->kernel == one && w->module == module &&
-        (w->options.steps == steps || !kernel_takes_steps(one)))
+static void add_calls(const kernel *candidate, const ladder_module *module, int steps) {
+  for (const workload *w = timing.work; w < timing.work + timing.count; w++)
+    if (w->size == 0 && w->kernel == candidate && w->module == module &&
+        (w->options.steps == steps || !kernel_takes_steps(candidate)))
       return;
-  workload *w = add(one, steps);
+  workload *w = add(candidate, steps);
   w->module = module;
-  w->one = by_library;
-  if (one->is_rung)
-    w->one = by_ladder;
-  w->in = all.cases.impact;
+  w->single_call = by_library;
+  if (candidate->is_rung)
+    w->single_call = by_ladder;
+  w->in = timing.cases.impact;
   w->stride = 1;
-  w->period = w->rows = w->calls = all.cases.count;
+  w->period = w->rows = w->calls = timing.cases.count;
   w->result = allocate(w->rows, sizeof(carom_result));
 }
 
@@ -332,18 +326,19 @@ static size_t whole_turns(size_t size, size_t period) {
 
 /* A rung across collisions, on batches of the cases that its precision resolves in so many
  * steps. */
-static void add_lanes(const kernel *one, const ladder_module *module, int steps, size_t size) {
-  workload *w = add(one, steps);
-  const size_t n = all.cases.count;
+static void add_lanes(const kernel *candidate, const ladder_module *module, int steps,
+                      size_t size) {
+  workload *w = add(candidate, steps);
+  const size_t n = timing.cases.count;
   int8_t *status = allocate(n, sizeof *status);
   carom_result *unused = allocate(n, sizeof *unused);
-  size_t *kept = allocate(n, sizeof *kept), count = 0;
-  kernel_resolve(one, module, all.cases.impact, n, &w->options, unused, status);
+  size_t *rows = allocate(n, sizeof *rows), count = 0;
+  kernel_resolve(candidate, module, timing.cases.impact, n, &w->options, unused, status);
   for (size_t k = 0; k < n; k++)
     if (status[k] != CAROM_ERROR_TOO_SLOW)
-      kept[count++] = k;
+      rows[count++] = k;
   w->module = module;
-  w->one = by_lanes_of_ladder;
+  w->single_call = by_lanes_of_ladder;
   w->left_out = n - count;
   w->options.threads = 1;
   if (count > 0) {
@@ -355,64 +350,64 @@ static void add_lanes(const kernel *one, const ladder_module *module, int steps,
   carom_impact *in = allocate(w->rows + 1, sizeof *in);
   w->case_of = allocate(w->rows + 1, sizeof *w->case_of);
   for (size_t k = 0; k < w->rows; k++) {
-    w->case_of[k] = kept[k % count];
-    in[k] = all.cases.impact[w->case_of[k]];
+    w->case_of[k] = rows[k % count];
+    in[k] = timing.cases.impact[w->case_of[k]];
   }
   w->in = in;
   w->result = allocate(w->rows + 1, sizeof(carom_result));
   free(status);
   free(unused);
-  free(kept);
+  free(rows);
 }
 
 /* By the sizes of batches that are asked for, or the rung's own. */
-static void add_all_lanes(const bench_job *job, const kernel *one, const ladder_module *module,
-                          int steps) {
-  const bool asked = job->pairs.room > 0;
-  for (size_t k = 0; asked && k < job->pairs.count; k++)
-    add_lanes(one, module, steps, (size_t)atoi(job->pairs.name[k]));
-  if (!asked)
-    add_lanes(one, module, steps, 0);
+static void add_all_lanes(const bench_job *job, const kernel *candidate,
+                          const ladder_module *module, int steps) {
+  const bool has_sizes = job->pairs.room > 0;
+  for (size_t k = 0; has_sizes && k < job->pairs.count; k++)
+    add_lanes(candidate, module, steps, (size_t)atoi(job->pairs.name[k]));
+  if (!has_sizes)
+    add_lanes(candidate, module, steps, 0);
 }
 
-static bool add_config(const bench_job *job, const kernel *one, const char *config) {
+static bool add_config(const bench_job *job, const kernel *candidate, const char *config) {
   const ladder_module *module;
-  if (!kernel_module(one, config, &module))
+  if (!kernel_module(candidate, config, &module))
     return false;
   for (size_t k = 0; k < job->steps.count; k++)
-    if (is_rung_of_lanes(one))
-      add_all_lanes(job, one, module, atoi(job->steps.name[k]));
+    if (is_rung_of_lanes(candidate))
+      add_all_lanes(job, candidate, module, atoi(job->steps.name[k]));
     else
-      add_calls(one, module, atoi(job->steps.name[k]));
+      add_calls(candidate, module, atoi(job->steps.name[k]));
   return true;
 }
 
-static bool add_configs(const bench_job *job, const kernel *one) {
+static bool add_configs(const bench_job *job, const kernel *candidate) {
   const name_list *configs = &job->configs;
   bool good = true;
-  for (size_t k = 0; k < configs->count && one->is_rung; k++)
+  for (size_t k = 0; k < configs->count && candidate->is_rung; k++)
     if (strcmp(configs->name[k], "all") != 0)
-      good = good && add_config(job, one, configs->name[k]);
+      good = good && add_config(job, candidate, configs->name[k]);
     else
       for (size_t m = 0; ladder_module_name(m) != NULL; m++)
-        good = good && add_config(job, one, ladder_module_name(m));
-  return good && ((configs->count > 0 && one->is_rung) || add_config(job, one, NULL));
+        good = good && add_config(job, candidate, ladder_module_name(m));
+  return good && ((configs->count > 0 && candidate->is_rung) || add_config(job, candidate, NULL));
 }
 
 /* Where nothing is named, what cannot run here is left out; where it is named, it is an error. */
-static bool is_wanted(const bench_job *job, const kernel *one) {
+static bool is_wanted(const bench_job *job, const kernel *candidate) {
   if (job->kernels.count > 0)
-    return names(&job->kernels, one->name);
-  if (one->is_rung)
-    return ladder_module_name(0) != NULL && ladder_rung_runs(ladder_rung_find(one->name));
+    return names(&job->kernels, candidate->name);
+  if (candidate->is_rung)
+    return ladder_module_name(0) != NULL && ladder_rung_runs(ladder_rung_find(candidate->name));
   return job->configs.count == 0;
 }
 
 /* Single calls, or the lanes of a rung's own instruction set. */
-static bool wants_form(const bench_job *job, const kernel *one) {
-  if (!is_rung_of_lanes(one))
+static bool wants_form(const bench_job *job, const kernel *candidate) {
+  if (!is_rung_of_lanes(candidate))
     return !job->batch && (job->isas.count == 0 || names(&job->isas, "scalar"));
-  const char *isa = ladder_isa_name(ladder_rung_find(one->name)->isa);
+  const char *isa = ladder_isa_name(ladder_rung_find(candidate->name)->isa);
   const char *best = carom_isa_name(carom_isa_in_force());
   return job->isas.count == 0 || names(&job->isas, isa) ||
          (names(&job->isas, "best") && strcmp(best, isa) == 0);
@@ -420,29 +415,30 @@ static bool wants_form(const bench_job *job, const kernel *one) {
 
 /* All that does not come in batches of the library. */
 static bool add_all_calls(const bench_job *job) {
-  const kernel *one;
+  const kernel *candidate;
   const ladder_module *unused;
   if (job->configs.count > 0 && ladder_module_name(0) == NULL)
     return kernel_module(kernel_find(ladder_rung_at(0)->name), NULL, &unused);
-  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
-    if (is_wanted(job, one) && wants_form(job, one) &&
-        wants_precision(job, strcmp(one->precision, "single") == 0) && !add_configs(job, one))
+  for (size_t k = 0; (candidate = kernel_at(k)) != NULL; k++) {
+    if (is_wanted(job, candidate) && wants_form(job, candidate) &&
+        wants_precision(job, strcmp(candidate->precision, "single") == 0) &&
+        !add_configs(job, candidate))
       return false;
   }
   return true;
 }
 
 /* Batches of `size` pairs by a solver in lanes of `isa`, from the cases over and over. */
-static void add_batch(const kernel *one, carom_isa isa, bool single, int threads, int steps,
+static void add_batch(const kernel *candidate, carom_isa isa, bool single, int threads, int steps,
                       size_t size) {
-  workload *w = add(one, steps);
-  w->in = all.tiled;
+  workload *w = add(candidate, steps);
+  w->in = timing.tiled;
   if (single)
-    w->in = all.tiled_f32;
+    w->in = timing.tiled_f32;
   w->isa = isa;
   w->single = single;
-  w->one = by_batch;
-  lay_out_calls(w, size, all.cases.count);
+  w->single_call = by_batch;
+  lay_out_calls(w, size, timing.cases.count);
   w->options.threads = threads;
   w->result = allocate(w->rows, result_size(single));
 }
@@ -459,27 +455,28 @@ static bool wants_isa(const bench_job *job, carom_isa isa) {
 
 /* Solvers with steps cost a batch as much as thousands of the others, so they have to be asked
  * for. */
-static bool wants_batches(const bench_job *job, const kernel *one) {
-  return !one->is_rung && (job->kernels.count == 0 || names(&job->kernels, one->name)) &&
-         (job->batch || (job->configs.count == 0 && !kernel_takes_steps(one)));
+static bool wants_batches(const bench_job *job, const kernel *candidate) {
+  return !candidate->is_rung &&
+         (job->kernels.count == 0 || names(&job->kernels, candidate->name)) &&
+         (job->batch || (job->configs.count == 0 && !kernel_takes_steps(candidate)));
 }
 
 /* Every size, precision, number of threads and, where a kernel takes any, of steps that is
  * wanted. */
-static void add_batches(const bench_job *job, const kernel *one, carom_isa isa) {
+static void add_batches(const bench_job *job, const kernel *candidate, carom_isa isa) {
   size_t steps = 1;
-  if (kernel_takes_steps(one))
+  if (kernel_takes_steps(candidate))
     steps = job->steps.count;
   for (size_t size = 0; size < job->pairs.count; size++)
     for (int single = 0; single < 2; single++)
       for (size_t t = 0; t < job->threads.count && wants_precision(job, single != 0); t++)
         for (size_t k = 0; k < steps; k++)
-          add_batch(one, isa, single != 0, atoi(job->threads.name[t]), atoi(job->steps.name[k]),
-                    (size_t)atoi(job->pairs.name[size]));
+          add_batch(candidate, isa, single != 0, atoi(job->threads.name[t]),
+                    atoi(job->steps.name[k]), (size_t)atoi(job->pairs.name[size]));
 }
 
 static void add_all_batches(bench_job *job) {
-  const size_t n = all.cases.count;
+  const size_t n = timing.cases.count;
   const name_list *pairs = &job->pairs;
   if (job->threads.count == 0) {
     add_count(&job->threads, 1);
@@ -492,16 +489,17 @@ static void add_all_batches(bench_job *job) {
     if (needed > rows)
       rows = needed;
   }
-  all.tiled = allocate(rows, sizeof *all.tiled);
-  all.tiled_f32 = allocate(rows, sizeof *all.tiled_f32);
+  timing.tiled = allocate(rows, sizeof *timing.tiled);
+  timing.tiled_f32 = allocate(rows, sizeof *timing.tiled_f32);
   for (size_t k = 0; k < rows; k++)
-    all.tiled[k] = all.cases.impact[k % n];
-  to_single(all.tiled, all.tiled_f32, rows * sizeof *all.tiled / sizeof(double));
-  const kernel *one;
-  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
-    for (int isa = 0; carom_isa_name((carom_isa)isa) != NULL && wants_batches(job, one); isa++)
+    timing.tiled[k] = timing.cases.impact[k % n];
+  to_single(timing.tiled, timing.tiled_f32, rows * sizeof *timing.tiled / sizeof(double));
+  const kernel *candidate;
+  for (size_t k = 0; (candidate = kernel_at(k)) != NULL; k++)
+    for (int isa = 0; carom_isa_name((carom_isa)isa) != NULL && wants_batches(job, candidate);
+         isa++)
       if (wants_isa(job, (carom_isa)isa))
-        add_batches(job, one, (carom_isa)isa);
+        add_batches(job, candidate, (carom_isa)isa);
 }
 
 /* ---- The reference of speedup: the ladder's first rung in the default configuration; without a
@@ -509,18 +507,18 @@ static void add_all_batches(bench_job *job) {
  * none */
 
 static bool is_reference(const workload *w) {
-  return w->size == 0 && w->kernel == all.reference && w->module == all.reference_module;
+  return w->size == 0 && w->kernel == timing.reference && w->module == timing.reference_module;
 }
 
 static bool add_references(void) {
   const char *name = carom_solver_name(CAROM_SOLVER_EULER);
   if (ladder_module_name(0) != NULL)
     name = ladder_rung_at(0)->name;
-  all.reference = kernel_find(name);
-  if (all.reference->is_rung && !kernel_module(all.reference, NULL, &all.reference_module))
+  timing.reference = kernel_find(name);
+  if (timing.reference->is_rung && !kernel_module(timing.reference, NULL, &timing.reference_module))
     return false;
-  for (size_t k = 0, chosen = all.count; k < chosen; k++)
-    add_calls(all.reference, all.reference_module, all.work[k].options.steps);
+  for (size_t k = 0, chosen = timing.count; k < chosen; k++)
+    add_calls(timing.reference, timing.reference_module, timing.work[k].options.steps);
   return true;
 }
 
@@ -528,14 +526,14 @@ static bool add_references(void) {
 
 static bool verify_all(bench_job *job, const char *folder) {
   size_t count = 0;
-  for (size_t k = 0; k < all.count; k++) {
+  for (size_t k = 0; k < timing.count; k++) {
     bool good;
-    if (!verify(&all.work[k], folder, &good))
+    if (!verify(&timing.work[k], folder, &good))
       return false;
-    progress_show("kernels verified", (double)(k + 1), (double)all.count);
-    const workload passed = all.work[k];
-    all.work[k] = all.work[count]; /* those that are refused come to the end */
-    all.work[count] = passed;
+    progress_show("kernels verified", (double)(k + 1), (double)timing.count);
+    const workload passed = timing.work[k];
+    timing.work[k] = timing.work[count]; /* those that are refused come to the end */
+    timing.work[count] = passed;
     count += good;
     if (!good)
       job->code = EXIT_SOME;
@@ -543,7 +541,7 @@ static bool verify_all(bench_job *job, const char *folder) {
   job->subject_count = count;
   job->subject = allocate(count + 1, sizeof *job->subject);
   for (size_t k = 0; k < count; k++) {
-    workload *w = &all.work[k];
+    workload *w = &timing.work[k];
     bench_subject *s = &job->subject[k];
     *s = (bench_subject){.name = w->kernel->name,
                          .context = w,
@@ -558,7 +556,7 @@ static bool verify_all(bench_job *job, const char *folder) {
       s->threads = w->options.threads;
     }
     for (size_t j = 0; j < count; j++)
-      if (is_reference(&all.work[j]) && all.work[j].options.steps == w->options.steps)
+      if (is_reference(&timing.work[j]) && timing.work[j].options.steps == w->options.steps)
         s->reference = j;
   }
   return true;
@@ -570,16 +568,16 @@ static bool choose(bench_job *job) {
     add_count(&job->steps, CAROM_DEFAULT_STEPS);
   if (job->budget == 0.0)
     job->budget = 20.0;
-  if (!cases_load(folder, "collisions-204.csv", &all.cases))
+  if (!cases_load(folder, "collisions-204.csv", &timing.cases))
     return false;
   if (job->pairs.count == 0) { /* whole turns of the cases */
-    add_count(&job->pairs, (int)whole_turns(DEFAULT_SIZE, all.cases.count));
+    add_count(&job->pairs, (int)whole_turns(DEFAULT_SIZE, timing.cases.count));
     job->pairs.room = 0; /* no column for them */
   }
   if (!add_all_calls(job))
     return false;
   add_all_batches(job);
-  if (all.count == 0) {
+  if (timing.count == 0) {
     complain("nothing to time: no kernel is all that is asked for (see `carom-lab kernels`; only "
              "the library's and those across collisions come in batches)");
     return false;
@@ -591,24 +589,24 @@ static bool choose(bench_job *job) {
 
 static void note(const bench_job *job, FILE *out) {
   machine_note(out, "workload", "%zu reference cases, one call each, mean over the cases",
-               all.cases.count);
+               timing.cases.count);
   const char *pairs = job->pairs.name[0];
   if (job->pairs.room > 0)
     pairs = "column";
   machine_note(out, "batches", "the cases over and over, %s pairs in a call", pairs);
-  for (const workload *w = all.work; w < all.work + job->subject_count; w++)
+  for (const workload *w = timing.work; w < timing.work + job->subject_count; w++)
     if (is_rung_of_lanes(w->kernel) && job->pairs.room == 0) {
       machine_note(out, "lanes of the ladder", "the cases over and over, %zu pairs in a call",
-                   whole_turns(LARGE, all.cases.count));
+                   whole_turns(LARGE, timing.cases.count));
       break;
     }
-  machine_note(out, "reference kernel", "%s, %s, with as many steps", all.reference->name,
-               config_name(all.reference_module));
+  machine_note(out, "reference kernel", "%s, %s, with as many steps", timing.reference->name,
+               config_name(timing.reference_module));
   const char *name;
   for (size_t k = 0; (name = ladder_module_name(k)) != NULL; k++)
     for (size_t w = 0; w < job->subject_count; w++)
-      if (all.work[w].module != NULL && all.work[w].module->name == name) {
-        const ladder_module *module = all.work[w].module;
+      if (timing.work[w].module != NULL && timing.work[w].module->name == name) {
+        const ladder_module *module = timing.work[w].module;
         machine_note(out, module->name, "%s, %s, %s", module->compiler, module->version,
                      module->flags);
         char what[64];
@@ -616,13 +614,13 @@ static void note(const bench_job *job, FILE *out) {
         machine_note(out, what, "%s", module->fingerprint);
         break;
       }
-  for (const workload *w = all.work; w < all.work + job->subject_count; w++)
+  for (const workload *w = timing.work; w < timing.work + job->subject_count; w++)
     if (w->left_out > 0)
       machine_note(out, "left out",
                    "%s, %s, %d steps: %zu of %zu cases, whose approach its precision does not "
                    "resolve in as many steps",
                    w->kernel->name, config_name(w->module), w->options.steps, w->left_out,
-                   all.cases.count);
+                   timing.cases.count);
 }
 
 /* The columns of hardware counters, or their heads for w = NULL. */
@@ -640,17 +638,17 @@ static void print_counts(const bench_job *job, FILE *out, const workload *w,
 
 /* The head of the table for w = NULL. */
 static void print_row(const bench_job *job, FILE *out, const workload *w, const bench_figure *f) {
-  const workload none = {.kernel = all.reference};
-  const workload *of = &none;
+  const workload none = {.kernel = timing.reference};
+  const workload *listed = &none;
   if (w != NULL)
-    of = w;
-  double threads = 1.0, pairs = (double)of->rows, steps = 0.0;
-  if (of->size > 0) {
-    threads = of->options.threads;
-    pairs = (double)of->size;
+    listed = w;
+  double threads = 1.0, pairs = (double)listed->rows, steps = 0.0;
+  if (listed->size > 0) {
+    threads = listed->options.threads;
+    pairs = (double)listed->size;
   }
-  if (kernel_takes_steps(of->kernel))
-    steps = of->options.steps;
+  if (kernel_takes_steps(listed->kernel))
+    steps = listed->options.steps;
   const bool csv = job->csv, more = job->spread;
   const struct {
     bool shown;
@@ -665,15 +663,15 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
       {!csv, "spread", "%.3g", f->ns.spread},
       {true, "speedup", "%.5g", f->speedup.median},
       {!csv, "spread", "%.3g", f->speedup.spread},
-      {true, "pair_error_max", "%.3g", of->own.max},
+      {true, "pair_error_max", "%.3g", listed->claimed.max},
       {more, "ns_spread", "%.3g", f->ns.spread},
       {more, "speedup_min", "%.5g", f->speedup.min},
       {more, "speedup_max", "%.5g", f->speedup.max},
       {more, "speedup_spread", "%.3g", f->speedup.spread},
       {more, "core_cycles", "%.6g", f->core_cycles},
       {job->errors, "slip", NULL, 0.0},
-      {job->errors, "error_exact_median", "%.3g", of->exact.median},
-      {job->errors || !csv, "error_exact_max", "%.3g", of->exact.max},
+      {job->errors, "error_exact_median", "%.3g", listed->exact.median},
+      {job->errors || !csv, "error_exact_max", "%.3g", listed->exact.max},
       {job->pairs.room > 0, "pairs", "%.0f", pairs},
   };
   if (w == NULL)
@@ -681,7 +679,7 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
   else
     fprintf(out, "%s,%s,%s,%s", w->kernel->name, config_name(w->module), isa_of(w),
             precision_of(w));
-  for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(columns); k++) {
     if (!columns[k].shown)
       continue;
     fputc(',', out);
@@ -698,7 +696,7 @@ static void print_row(const bench_job *job, FILE *out, const workload *w, const 
   const char *paper = "-";
   if (w == NULL)
     paper = "paper";
-  else if (w->module != NULL && w->module == all.reference_module)
+  else if (w->module != NULL && w->module == timing.reference_module)
     paper = ladder_rung_find(w->kernel->name)->paper;
   if (!csv)
     fprintf(out, ",%s", paper);
@@ -716,7 +714,8 @@ static size_t place_of(const workload *w) {
     return is_rung_of_lanes(w->kernel) ? PLACE_OF_LANES : PLACE_OF_RUNGS;
   /* The table of kernels has the exact solver first. */
   size_t behind = 0;
-  for (const kernel *one = w->kernel + 1; one != kernel_find(ladder_rung_at(0)->name); one++)
+  for (const kernel *candidate = w->kernel + 1; candidate != kernel_find(ladder_rung_at(0)->name);
+       candidate++)
     behind++;
   return PLACE_OF_SOLVERS + behind;
 }
@@ -728,12 +727,12 @@ static void print(const bench_job *job, FILE *out) {
   print_row(job, rows, NULL, &(bench_figure){.loops = 0});
   size_t last = 0;
   for (size_t k = 0; k < job->subject_count; k++)
-    if (place_of(&all.work[k]) > last)
-      last = place_of(&all.work[k]);
+    if (place_of(&timing.work[k]) > last)
+      last = place_of(&timing.work[k]);
   for (size_t place = 0; place <= last; place++)
     for (size_t k = 0; k < job->subject_count; k++)
-      if (place_of(&all.work[k]) == place && job->figure[k].unchanged)
-        print_row(job, rows, &all.work[k], &job->figure[k]);
+      if (place_of(&timing.work[k]) == place && job->figure[k].unchanged)
+        print_row(job, rows, &timing.work[k], &job->figure[k]);
   sheet_end(&table, rows);
 }
 
@@ -776,7 +775,7 @@ static bool bench_all(bench_job *job) {
   counter_set *counters = open_counters(job, out);
   const bench_settings settings = {
       .budget = job->budget,
-      .now = job->now,
+      .clock = job->clock,
       .cycle = clock_core_cycle,
       .progress = show_time,
       .counters = counters,
@@ -802,42 +801,42 @@ static bool bench_all(bench_job *job) {
 
 /* Adds to a list what stands between commas, each good. */
 static bool add_each(const option_row *row, char *text, name_list *list,
-                     bool good(const option_row *row, char *one)) {
-  char *rest, *one = strtok_r(text, ",", &rest);
-  if (one == NULL)
+                     bool good(const option_row *row, char *word)) {
+  char *rest, *word = strtok_r(text, ",", &rest);
+  if (word == NULL)
     return good(row, text + strlen(text));
-  for (; one != NULL && good(row, one); one = strtok_r(NULL, ",", &rest))
-    add_name(list, one);
-  return one == NULL;
+  for (; word != NULL && good(row, word); word = strtok_r(NULL, ",", &rest))
+    add_name(list, word);
+  return word == NULL;
 }
 
-static bool is_name(const option_row *row, char *one) {
-  if (one[0] == '\0')
+static bool is_name(const option_row *row, char *word) {
+  if (word[0] == '\0')
     complain("--%s needs a name", row->name);
-  return one[0] != '\0';
+  return word[0] != '\0';
 }
 
-static bool is_count(const option_row *row, char *one) {
+static bool is_count(const option_row *row, char *word) {
   int unused;
-  return set_count(row, one, &unused);
+  return set_count(row, word, &unused);
 }
 
-static bool is_kernel(const option_row *row, char *one) {
+static bool is_kernel(const option_row *row, char *word) {
   const kernel *unused;
-  return is_name(row, one) && set_kernel(row, one, &unused);
+  return is_name(row, word) && set_kernel(row, word, &unused);
 }
 
-static bool is_isa(const option_row *row, char *one) {
-  char here[128] = "scalar, best";
-  bool good = strcmp(one, "scalar") == 0 || strcmp(one, "best") == 0;
+static bool is_isa(const option_row *row, char *word) {
+  char known[128] = "scalar, best";
+  bool good = strcmp(word, "scalar") == 0 || strcmp(word, "best") == 0;
   for (int isa = 0; carom_isa_name((carom_isa)isa) != NULL; isa++)
     if (isa_is_here((carom_isa)isa)) {
-      good |= strcmp(one, carom_isa_name((carom_isa)isa)) == 0;
-      strcat(strcat(here, ", "), carom_isa_name((carom_isa)isa));
+      good |= strcmp(word, carom_isa_name((carom_isa)isa)) == 0;
+      strcat(strcat(known, ", "), carom_isa_name((carom_isa)isa));
     }
-  if (!is_name(row, one) || good)
+  if (!is_name(row, word) || good)
     return good;
-  complain("no instruction set '%s' here; there are %s", one, here);
+  complain("no instruction set '%s' here; there are %s", word, known);
   return false;
 }
 

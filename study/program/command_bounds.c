@@ -1,12 +1,8 @@
 /* `carom-lab bounds`: study/bounds, which counts the operations of the kernels in the module that
  * is timed, and bounds their cycles. */
-#include "program/command.h"
-#include "program/options.h"
-#include "program/output.h"
+#include "program/program.h"
 #include "python.h"
 #include "subcommands.h"
-
-#include <stdio.h>
 
 typedef struct bounds_job {
   shared_options shared;

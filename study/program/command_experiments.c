@@ -2,20 +2,12 @@
  * the solvers compute them. */
 #include "cases.h"
 #include "kernel.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/place.h"
+#include "program/program.h"
 #include "rows/records.h"
 #include "sheet.h"
 #include "subcommands.h"
 
 #include <limits.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 static const double degree = 3.14159265358979323846 / 180.0;
 
@@ -83,14 +75,14 @@ static carom_impact impact_of(const shot *s) {
   return in;
 }
 
-static bool outcome_of(const shot *s, const kernel *one, carom_slip slip,
+static bool outcome_of(const shot *s, const kernel *candidate, carom_slip slip,
                        double outcome[OUTCOMES]) {
   const carom_impact in = impact_of(s);
   carom_options options = {0};
   carom_result out;
   double cue[3], object[3];
   options.slip = slip;
-  if (kernel_resolve(one, NULL, &in, 1, &options, &out, NULL) != CAROM_OK)
+  if (kernel_resolve(candidate, NULL, &in, 1, &options, &out, NULL) != CAROM_OK)
     return false;
   carom_rolling_velocity(out.a.v, out.a.w, in.a.radius, cue);
   carom_rolling_velocity(out.b.v, out.b.w, in.b.radius, object);
@@ -117,11 +109,11 @@ static void print_all(FILE *out, bool csv, const shot *shots, size_t count, caro
   for (const shot *s = shots; s < shots + count; s++) {
     print_line(rows, s->id, "measured", ",%g", s->measured);
     print_line(rows, s->id, "predicted", ",%g", s->predicted);
-    const kernel *one;
+    const kernel *candidate;
     double outcome[OUTCOMES];
-    for (size_t at = 0; (one = kernel_at(at)) != NULL; at++)
-      if (!one->is_rung && outcome_of(s, one, slip, outcome))
-        print_line(rows, s->id, one->name, ",%.6f", outcome);
+    for (size_t index = 0; (candidate = kernel_at(index)) != NULL; index++)
+      if (!candidate->is_rung && outcome_of(s, candidate, slip, outcome))
+        print_line(rows, s->id, candidate->name, ",%.6f", outcome);
   }
   sheet_end(&table, rows);
 }

@@ -1,14 +1,10 @@
 /* `carom-lab kernels`: the table of kernels. */
 #include "kernel.h"
-#include "program/command.h"
-#include "program/output.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "sheet.h"
 #include "subcommands.h"
 
 #include <csv.h>
-#include <stdio.h>
-#include <string.h>
 
 typedef struct kernels_job {
   shared_options shared;
@@ -36,20 +32,20 @@ static const command_form form = {
 static void print_kernels(FILE *out, bool csv) {
   sheet table;
   FILE *rows = sheet_begin(&table, out, csv);
-  const kernel *one;
+  const kernel *candidate;
   fputs("kernel,precision,parent,needs,paper,idea\n", rows);
-  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
+  for (size_t k = 0; (candidate = kernel_at(k)) != NULL; k++) {
     const ladder_rung *rung = NULL;
-    if (one->is_rung)
-      rung = ladder_rung_find(one->name);
+    if (candidate->is_rung)
+      rung = ladder_rung_find(candidate->name);
     if (!csv && rung != NULL && !ladder_rung_runs(rung))
       continue;
-    fprintf(rows, "%s,%s,", one->name, one->precision);
+    fprintf(rows, "%s,%s,", candidate->name, candidate->precision);
     if (rung != NULL)
       fprintf(rows, "%s,%s,%s,", rung->parent, ladder_isa_name(rung->isa), rung->paper);
     else
       fputs(",,,", rows);
-    csv_fwrite(rows, one->text, strlen(one->text));
+    csv_fwrite(rows, candidate->text, strlen(candidate->text));
     fputc('\n', rows);
   }
   sheet_end(&table, rows);

@@ -1,12 +1,8 @@
 /* `carom-lab paper`: study/paper.py, which measures what the seed paper claims, or takes it from a
  * report, and judges each claim. */
-#include "program/command.h"
-#include "program/options.h"
-#include "program/output.h"
+#include "program/program.h"
 #include "python.h"
 #include "subcommands.h"
-
-#include <stdio.h>
 
 typedef struct paper_job {
   shared_options shared;

@@ -1,8 +1,7 @@
 /* `carom-lab resolve`: collisions from a file, by any kernel: a solver of the library, or a rung
  * of the ladder in any build. */
 #include "kernel.h"
-#include "program/command.h"
-#include "program/message.h"
+#include "program/program.h"
 #include "rows/help.h"
 #include "rows/row_solver.h"
 #include "subcommands.h"

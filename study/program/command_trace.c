@@ -1,19 +1,10 @@
 /* `carom-lab trace`: a reference collision over normal impulse, by the exact solver and by Euler's
  * method, as the CSV file that study/figures/trace.gp draws. */
 #include "cases.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/place.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "rows/kind.h"
 #include "rows/number.h"
 #include "subcommands.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 typedef struct trace_job {
   shared_options shared;

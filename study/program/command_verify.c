@@ -2,19 +2,9 @@
 #include "accuracy.h"
 #include "cases.h"
 #include "kernel.h"
-#include "program/command.h"
-#include "program/memory.h"
-#include "program/message.h"
-#include "program/output.h"
-#include "program/place.h"
-#include "program/words.h"
+#include "program/program.h"
 #include "sheet.h"
 #include "subcommands.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* What the sentence below the table says of the ladder. */
 typedef struct ladder_summary {
@@ -54,15 +44,15 @@ typedef struct verification {
 } verification;
 
 /* The seed paper's count of cases at its number of steps, NA where it gives none. */
-static void print_count(FILE *to, const kernel *one, int steps,
+static void print_count(FILE *out, const kernel *candidate, int steps,
                         int (*count)(const ladder_rung *rung)) {
   int counted = -1;
-  if (one->is_rung && steps == one->claims[0].steps)
-    counted = count(ladder_rung_find(one->name));
+  if (candidate->is_rung && steps == candidate->claims[0].steps)
+    counted = count(ladder_rung_find(candidate->name));
   if (counted < 0)
-    fputs(",NA", to);
+    fputs(",NA", out);
   else
-    fprintf(to, ",%d", counted);
+    fprintf(out, ",%d", counted);
 }
 
 static int count_1e3(const ladder_rung *rung) {
@@ -79,18 +69,18 @@ static const char *verdict(bool pass) {
   return "fail";
 }
 
-static void print_claim(const verification *v, const kernel *one, const ladder_module *module,
+static void print_claim(const verification *v, const kernel *candidate, const ladder_module *module,
                         const comparison *c, const accuracy_summary *s) {
   char lanes[32] = "";
   if (module == NULL && v->way != SINGLE_CALLS)
     snprintf(lanes, sizeof lanes, "-%s", carom_isa_name((carom_isa)v->way));
-  fprintf(v->rows, "%s,%s%s,%s,%d,%s,%zu,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g,%zu,%zu,%zu", one->name,
-          config_name(module), lanes, carom_slip_name(c->slip), c->steps, c->reference, s->cases,
-          c->refused, s->identical, s->mean, s->median, s->p99, s->max, c->bound, s->component_1e3,
-          s->component_1e2, s->strict_1e3);
-  print_count(v->rows, one, c->steps, count_1e3);
+  fprintf(v->rows, "%s,%s%s,%s,%d,%s,%zu,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g,%zu,%zu,%zu",
+          candidate->name, config_name(module), lanes, carom_slip_name(c->slip), c->steps,
+          c->reference, s->cases, c->refused, s->identical, s->mean, s->median, s->p99, s->max,
+          c->bound, s->component_1e3, s->component_1e2, s->strict_1e3);
+  print_count(v->rows, candidate, c->steps, count_1e3);
   fprintf(v->rows, ",%zu", s->strict_1e2);
-  print_count(v->rows, one, c->steps, count_1e2);
+  print_count(v->rows, candidate, c->steps, count_1e2);
   fprintf(v->rows, ",%s,%s\n", verdict(c->pass), verdict(s->strict_1e2 == 0));
 }
 
@@ -113,11 +103,11 @@ static void tell_ladder(const verification *v) {
           l->pass_paper, l->comparisons, l->most_over, v->cases.count);
 }
 
-static void count_in_ladder(verification *v, const kernel *one, const comparison *c,
+static void count_in_ladder(verification *v, const kernel *candidate, const comparison *c,
                             const accuracy_summary *s) {
   ladder_summary *l = &v->ladder;
   double *worst = &l->worst_double;
-  if (strcmp(one->precision, "single") == 0)
+  if (strcmp(candidate->precision, "single") == 0)
     worst = &l->worst_single;
   *worst = fmax(*worst, s->max);
   l->comparisons++;
@@ -128,23 +118,24 @@ static void count_in_ladder(verification *v, const kernel *one, const comparison
 }
 
 /* A sentence about single calls of the library. */
-static void tell_solver(verification *v, const kernel *one, const comparison *c,
+static void tell_solver(verification *v, const kernel *candidate, const comparison *c,
                         const accuracy_summary *s) {
   const size_t used = strlen(v->parity);
   if (c->bound > 0.0)
     snprintf(v->parity + used, sizeof v->parity - used,
-             "%s, %s slip: pair error against %s at most %.2g\n", one->name,
+             "%s, %s slip: pair error against %s at most %.2g\n", candidate->name,
              carom_slip_name(c->slip), c->reference, s->max);
   else
     snprintf(v->parity + used, sizeof v->parity - used,
-             "%s: %zu of %zu cases bit-identical to %s\n", one->name, s->identical, s->cases,
+             "%s: %zu of %zu cases bit-identical to %s\n", candidate->name, s->identical, s->cases,
              c->reference);
 }
 
-static void resolve_cases(verification *v, const kernel *one, const ladder_module *module,
+static void resolve_cases(verification *v, const kernel *candidate, const ladder_module *module,
                           const carom_options *options) {
   if (module != NULL || v->way != SINGLE_CALLS) {
-    kernel_resolve(one, module, v->cases.impact, v->cases.count, options, v->result, v->status);
+    kernel_resolve(candidate, module, v->cases.impact, v->cases.count, options, v->result,
+                   v->status);
     return;
   }
   for (size_t k = 0; k < v->cases.count; k++)
@@ -153,11 +144,11 @@ static void resolve_cases(verification *v, const kernel *one, const ladder_modul
 
 /* Compares the cases that the kernel solves; with other steps than the claim's it may refuse some,
  * because its precision does not resolve a step. */
-static void compare(verification *v, const kernel *one, const ladder_module *module, comparison *c,
-                    const carom_result *reference) {
+static void compare(verification *v, const kernel *candidate, const ladder_module *module,
+                    comparison *c, const carom_result *reference) {
   size_t count = 0;
   for (size_t k = 0; k < v->cases.count; k++)
-    if (v->status[k] != CAROM_ERROR_TOO_SLOW || c->steps == one->claims[0].steps)
+    if (v->status[k] != CAROM_ERROR_TOO_SLOW || c->steps == candidate->claims[0].steps)
       v->each[count++] = accuracy_of(&v->result[k], &reference[k], v->cases.impact[k].a.radius);
   c->refused = v->cases.count - count;
   if (count == 0)
@@ -167,11 +158,11 @@ static void compare(verification *v, const kernel *one, const ladder_module *mod
   if (c->bound == 0.0)
     c->pass = s.identical == s.cases;
   v->all_pass &= c->pass;
-  print_claim(v, one, module, c, &s);
+  print_claim(v, candidate, module, c, &s);
   if (module != NULL)
-    count_in_ladder(v, one, c, &s);
+    count_in_ladder(v, candidate, c, &s);
   else if (v->way == SINGLE_CALLS)
-    tell_solver(v, one, c, &s);
+    tell_solver(v, candidate, c, &s);
 }
 
 /* pooltool's results with as many steps: those of the library's Euler, which has its bits. */
@@ -184,7 +175,7 @@ static carom_result *solve_by_euler(const verification *v, const carom_options *
   return reference;
 }
 
-static bool verify_claim(verification *v, const kernel *one, const ladder_module *module,
+static bool verify_claim(verification *v, const kernel *candidate, const ladder_module *module,
                          const kernel_claim *claim) {
   comparison c = {.slip = claim->slip, .steps = claim->steps, .reference = claim->reference};
   if (v->steps > 0) {
@@ -192,23 +183,23 @@ static bool verify_claim(verification *v, const kernel *one, const ladder_module
     c.reference = "euler";
   }
   c.bound = kernel_bound(claim->bound, claim, c.steps);
-  const carom_options options = {.slip = c.slip, .steps = c.steps, .solver = one->solver};
-  reference_set kept = {0};
+  const carom_options options = {.slip = c.slip, .steps = c.steps, .solver = candidate->solver};
+  reference_set references = {0};
   if (v->steps > 0)
-    kept.result = solve_by_euler(v, &options);
-  else if (!reference_load(v->folder, claim->reference, &v->cases, &kept)) {
-    reference_free(&kept);
+    references.result = solve_by_euler(v, &options);
+  else if (!reference_load(v->folder, claim->reference, &v->cases, &references)) {
+    reference_free(&references);
     return false;
   }
-  resolve_cases(v, one, module, &options);
-  compare(v, one, module, &c, kept.result);
-  reference_free(&kept);
+  resolve_cases(v, candidate, module, &options);
+  compare(v, candidate, module, &c, references.result);
+  reference_free(&references);
   return true;
 }
 
-static bool verify_module(verification *v, const kernel *one, const ladder_module *module) {
-  for (const kernel_claim *claim = one->claims; claim->reference != NULL; claim++)
-    if (!verify_claim(v, one, module, claim))
+static bool verify_module(verification *v, const kernel *candidate, const ladder_module *module) {
+  for (const kernel_claim *claim = candidate->claims; claim->reference != NULL; claim++)
+    if (!verify_claim(v, candidate, module, claim))
       return false;
   return true;
 }
@@ -216,43 +207,43 @@ static bool verify_module(verification *v, const kernel *one, const ladder_modul
 /* By single calls and in the lanes of every instruction set that this processor has; the
  * sentences tell of single calls only.
  */
-static bool verify_solver(verification *v, const kernel *one) {
+static bool verify_solver(verification *v, const kernel *candidate) {
   if (v->config != NULL)
     return true;
-  bool good = verify_module(v, one, NULL);
-  const carom_isa before = carom_isa_in_force();
-  for (int isa = 0; good && isa <= (int)before; isa++)
+  bool good = verify_module(v, candidate, NULL);
+  const carom_isa previous = carom_isa_in_force();
+  for (int isa = 0; good && isa <= (int)previous; isa++)
     if (carom_isa_available((carom_isa)isa)) {
       carom_isa_limit((carom_isa)isa);
       v->way = isa;
-      good = verify_module(v, one, NULL);
+      good = verify_module(v, candidate, NULL);
     }
-  carom_isa_limit(before);
+  carom_isa_limit(previous);
   v->way = SINGLE_CALLS;
   return good;
 }
 
 /* In the one configuration given, or in all. */
-static bool verify_config(verification *v, const kernel *one, const char *name) {
+static bool verify_config(verification *v, const kernel *candidate, const char *name) {
   const ladder_module *module;
-  return kernel_module(one, name, &module) && verify_module(v, one, module);
+  return kernel_module(candidate, name, &module) && verify_module(v, candidate, module);
 }
 
-static bool verify_rung(verification *v, const kernel *one) {
-  if (!ladder_rung_runs(ladder_rung_find(one->name)))
+static bool verify_rung(verification *v, const kernel *candidate) {
+  if (!ladder_rung_runs(ladder_rung_find(candidate->name)))
     return true;
   if (v->config != NULL)
-    return verify_config(v, one, v->config);
+    return verify_config(v, candidate, v->config);
   const char *name;
   bool good = true;
   for (size_t k = 0; good && (name = ladder_module_name(k)) != NULL; k++)
-    good = verify_config(v, one, name);
+    good = verify_config(v, candidate, name);
   return good;
 }
 
 /* With other steps Euler's method is the reference, and a kernel without steps has none. */
-static bool is_compared(const verification *v, const kernel *one) {
-  return v->steps == 0 || one->is_rung;
+static bool is_compared(const verification *v, const kernel *candidate) {
+  return v->steps == 0 || candidate->is_rung;
 }
 
 static bool verify_all(verification *v) {
@@ -265,14 +256,14 @@ static bool verify_all(verification *v) {
         "over_1e3,over_1e2,strict_1e3,paper_1e3,strict_1e2,paper_1e2,verdict,paper_verdict\n",
         v->rows);
   bool good = true;
-  const kernel *one;
-  for (size_t k = 0; good && (one = kernel_at(k)) != NULL; k++) {
-    if ((v->only != NULL && v->only != one) || !is_compared(v, one))
+  const kernel *candidate;
+  for (size_t k = 0; good && (candidate = kernel_at(k)) != NULL; k++) {
+    if ((v->only != NULL && v->only != candidate) || !is_compared(v, candidate))
       continue;
-    if (one->is_rung)
-      good = verify_rung(v, one);
+    if (candidate->is_rung)
+      good = verify_rung(v, candidate);
     else
-      good = verify_solver(v, one);
+      good = verify_solver(v, candidate);
   }
   sheet_end(&table, v->rows);
   if (!v->csv) {
@@ -329,10 +320,10 @@ int command_verify(int argc, char **argv) {
   const ladder_module *unused;
   const bool wants_rung =
       v.config != NULL || (v.only != NULL && v.only->is_rung && ladder_module_name(0) == NULL);
-  const kernel *wanted = v.only;
-  if (wanted == NULL)
-    wanted = kernel_find(ladder_rung_at(0)->name);
-  if (wants_rung && !kernel_module(wanted, v.config, &unused))
+  const kernel *request = v.only;
+  if (request == NULL)
+    request = kernel_find(ladder_rung_at(0)->name);
+  if (wants_rung && !kernel_module(request, v.config, &unused))
     return EXIT_USAGE;
   v.folder = data_folder(v.shared.folder);
   code = EXIT_USAGE;

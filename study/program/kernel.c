@@ -1,10 +1,7 @@
 /* The kernels that the program knows. */
 #include "kernel.h"
 
-#include "program/message.h"
-
-#include <math.h>
-#include <string.h>
+#include "program/program.h"
 
 /* Euler at N = 1000 errs by at most 1.3e-3 on the cases, with either slip. */
 static const kernel_claim claims_exact[] = {
@@ -45,7 +42,7 @@ static const kernel kernels[] = {
 };
 
 const kernel *kernel_at(size_t k) {
-  if (k >= sizeof kernels / sizeof kernels[0])
+  if (k >= COUNT_OF(kernels))
     return NULL;
   return &kernels[k];
 }
@@ -59,10 +56,10 @@ const char *precision_name(bool single) {
 }
 
 const kernel *kernel_find(const char *name) {
-  const kernel *one;
-  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
-    if (strcmp(one->name, name) == 0)
-      return one;
+  const kernel *candidate;
+  for (size_t k = 0; (candidate = kernel_at(k)) != NULL; k++)
+    if (strcmp(candidate->name, name) == 0)
+      return candidate;
   return NULL;
 }
 
@@ -77,12 +74,12 @@ double kernel_bound(double bound, const kernel_claim *claim, int steps) {
 }
 
 OPTION_SET(set_kernel) {
-  const kernel *one = kernel_find(text);
-  if (one == NULL)
+  const kernel *candidate = kernel_find(text);
+  if (candidate == NULL)
     complain("no %s '%s'; `%s kernels` lists them", row->name, text, program_name);
   else
-    *(const kernel **)field = one;
-  return one != NULL;
+    *(const kernel **)field = candidate;
+  return candidate != NULL;
 }
 
 carom_status kernel_resolve(const kernel *k, const ladder_module *module, const carom_impact *in,
@@ -90,17 +87,17 @@ carom_status kernel_resolve(const kernel *k, const ladder_module *module, const 
                             int8_t *status) {
   if (k->is_rung)
     return ladder_resolve_batch(module, ladder_rung_find(k->name), in, n, options, out, status);
-  carom_options own = *options;
-  own.solver = k->solver;
-  return carom_collide_batch(in, n, &own, out, status);
+  carom_options changed = *options;
+  changed.solver = k->solver;
+  return carom_collide_batch(in, n, &changed, out, status);
 }
 
 carom_status kernel_resolve_f32(const kernel *k, const carom_impact_f32 *in, size_t n,
                                 const carom_options *options, carom_result_f32 *out,
                                 int8_t *status) {
-  carom_options own = *options;
-  own.solver = k->solver;
-  return carom_collide_batch_f32(in, n, &own, out, status);
+  carom_options changed = *options;
+  changed.solver = k->solver;
+  return carom_collide_batch_f32(in, n, &changed, out, status);
 }
 
 bool kernel_module(const kernel *k, const char *config, const ladder_module **module) {

@@ -27,13 +27,13 @@ int python_run(const char *needs, const char *module, const char *const words[],
   for (size_t k = 0; words[k] != NULL; k++)
     add_quoted(line, words[k]);
   fclose(line);
-  FILE *said = popen(text, "r");
+  FILE *output = popen(text, "r");
   free(text);
-  if (said == NULL)
+  if (output == NULL)
     return -1;
-  for (int c; (c = fgetc(said)) != EOF;)
+  for (int c; (c = fgetc(output)) != EOF;)
     fputc(c, out);
-  const int status = pclose(said);
+  const int status = pclose(output);
   if (!WIFEXITED(status))
     return -1;
   return WEXITSTATUS(status);

@@ -1,11 +1,7 @@
 /* The rows are gathered, so that each column can be as wide as its widest cell. */
 #include "sheet.h"
 
-#include "program/memory.h"
-#include "program/words.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "program/program.h"
 
 enum { COLUMNS_MOST = 24, CELL_MOST = 160 };
 
@@ -19,14 +15,14 @@ FILE *sheet_begin(sheet *s, FILE *out, bool csv) {
 
 /* Puts the next cell of a row into `cell` as it is shown; returns what follows it, NULL at the end
  * of the row. *number: whether it is one. */
-static const char *next_cell(const char *at, char cell[CELL_MOST], bool *number) {
+static const char *next_cell(const char *place, char cell[CELL_MOST], bool *number) {
   size_t size = 0;
   bool quoted = false;
-  for (; *at != '\n' && (*at != ',' || quoted); at++)
-    if (*at == '"')
+  for (; *place != '\n' && (*place != ',' || quoted); place++)
+    if (*place == '"')
       quoted = !quoted;
     else if (size + 1 < CELL_MOST)
-      cell[size++] = *at;
+      cell[size++] = *place;
   cell[size] = '\0';
   char *end;
   const double x = strtod(cell, &end);
@@ -36,9 +32,9 @@ static const char *next_cell(const char *at, char cell[CELL_MOST], bool *number)
     snprintf(cell, CELL_MOST, "%.4g", x);
   else if (rounds)
     snprintf(cell, CELL_MOST, "%.0f", x);
-  if (*at != ',')
+  if (*place != ',')
     return NULL;
-  return at + 1;
+  return place + 1;
 }
 
 void sheet_end(sheet *s, FILE *rows) {
@@ -51,15 +47,15 @@ void sheet_end(sheet *s, FILE *rows) {
   /* once to measure, once to print; a row with a number tells that its column has them */
   for (int print = 0; print < 2; print++)
     for (const char *row = s->text; *row != '\0'; row = strchr(row, '\n') + 1) {
-      const char *at = row;
-      for (int k = 0; at != NULL && k < COLUMNS_MOST; k++) {
-        at = next_cell(at, cell, &number);
+      const char *place = row;
+      for (int k = 0; place != NULL && k < COLUMNS_MOST; k++) {
+        place = next_cell(place, cell, &number);
         numbers[k] |= number;
         if (print == 0 && (int)strlen(cell) > width[k])
           width[k] = (int)strlen(cell);
         int wide = width[k];
         if (!numbers[k]) /* to the left, with nothing behind the last cell */
-          wide = -width[k] * (at != NULL);
+          wide = -width[k] * (place != NULL);
         if (print == 1)
           fprintf(s->out, "%s%*s", text_if(k > 0, "  "), wide, cell);
       }

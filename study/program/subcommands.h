@@ -1,14 +1,11 @@
-/* The study's subcommands of `carom-lab`, a file each: command_NAME.c. */
+/* The subcommands of `carom-lab`, of which a file command_NAME.c each is the study's. */
 #ifndef CAROM_STUDY_SUBCOMMANDS_H
 #define CAROM_STUDY_SUBCOMMANDS_H
 
-int command_bench(int argc, char **argv);
-int command_bounds(int argc, char **argv);
-int command_experiments(int argc, char **argv);
-int command_kernels(int argc, char **argv);
-int command_paper(int argc, char **argv);
-int command_resolve(int argc, char **argv);
-int command_trace(int argc, char **argv);
-int command_verify(int argc, char **argv);
+#include "program/command.h"
+
+#define COMMAND COMMAND_DECLARED
+#include "../../lab/program/commands.def"
+#undef COMMAND
 
 #endif

@@ -20,18 +20,13 @@ from study.report.pictures import draw
 from study.report.sheets import ROOT, Sheet, complain, number, shown, write
 
 HERE = Path(__file__).resolve().parent
-# NAME.svg: its CSV and its title. Captions are in page.html.
+# What stands on the page, in its order. Of a figure: its CSV, its title, and whether the docs show
+# it, in docs/figures, with its CSV in docs/figures/data.
+CONTENTS = Sheet(HERE / "contents.csv").rows
 FIGURES = {
-    "accuracy": ("accuracy", "Error against time"),
-    "speedup": ("speedup", "Cumulative speedup of the scalar kernels"),
-    "runtime": ("steps", "Run time over the number of steps"),
-    "performance": ("performance", "Floating point operations per cycle"),
-    "trace": ("trace", "The course of one collision"),
-    "isas": ("isas", "Batches by instruction set and precision"),
-    "batch": ("batch", "Throughput of the exact solver over batch size and threads"),
+    row["name"]: (row["source"], row["title"]) for row in CONTENTS if row["kind"] == "figure"
 }
-# What the docs show, in docs/figures, with the CSV files beside them in docs/figures/data.
-OF_DOCS = ("accuracy", "speedup", "runtime", "performance", "isas", "batch")
+OF_DOCS = [row["name"] for row in CONTENTS if row["docs"] == "yes"]
 # Files that are derived from others.
 MADE_OF = {"speedup": ("kernels", "ladder"), "performance": ("cycles", "bounds")}
 MACHINE = (
@@ -203,7 +198,7 @@ def crossed(sheet, down, across, value):
 
 
 def write_page(options, data):
-    """index.html from its template, which names the figures and the tables; returns what it names
+    """index.html from its template and its contents; returns the figures and tables that they name
     and is not there.
     """
     missing = []
@@ -216,8 +211,9 @@ def write_page(options, data):
         text = svg.read_text(encoding="utf-8")
         return markupsafe.Markup(text[text.index("<svg") :])
 
-    def cells(name, rows, columns):
+    def cells(name, columns):
         """The heads and the rows of a table, of the columns named, or all."""
+        rows = tables[name]
         if not rows:
             missing.append(name)
             return None
@@ -233,18 +229,21 @@ def write_page(options, data):
     )
     ladder = data["ladder"]
     claims = paper.judge(options.folder)
+    tables = {
+        "speedups": data["speedup"].rows,
+        "errors": worst_of_builds(data["verify"].rows),
+        "operations": operations(data),
+        "configurations": crossed(data["configs"], "kernel", "config", "speedup"),
+        "experiments": data["experiments"].rows,
+        "batches": [row for row in ladder.rows + data["isas"].rows if row["config"] == "library"],
+    }
     page = environment.get_template("page.html").render(
         claims=claims,
         conclusion=paper.conclude(options.folder, claims),
         picture=picture,
         cells=cells,
         is_number=lambda text: not math.isnan(number(text.replace(",", ""))),
-        speedups=data["speedup"].rows,
-        errors=worst_of_builds(data["verify"].rows),
-        operations=operations(data),
-        configurations=crossed(data["configs"], "kernel", "config", "speedup"),
-        experiments=data["experiments"].rows,
-        batches=[row for row in ladder.rows + data["isas"].rows if row["config"] == "library"],
+        contents=CONTENTS,
         machine=[(what, ladder.notes[what]) for what in MACHINE if what in ladder.notes],
         commands=[(f"{name}.csv", command) for name, (_, command) in DATA.items()],
     )

@@ -54,10 +54,4 @@ done
 carom break --nine-on-spot --cue 0.3,0.6 --elevation 2 --cut 5 --racks 60 --falls
 echo "--- other racks, refused"
 carom break --rules tenball --racks 20 --csv | sed -n 2p | cut -d , -f 1,12,13
-try carom break --rules straightpool
-try carom break --racks nineball
-try carom break --racks 0
-try carom break --gap 3cm
-try carom break --cut 20 --aim 80
-try carom break --player 500 --errors 1
-try carom break file.jsonl
+try_rows "break, bad usage"

@@ -66,16 +66,7 @@ grep -o '>red[0-9]*<' reds.svg
 carom plan --rules snooker --table snooker --cue 1.2,2.9 --balls black:red3=0.6,2.9 --shots 100 --plot down.svg > down.txt
 sed -n '/Down:/,$p' down.svg | grep -c 'fill="#ff8d80" stroke="#111"'
 echo "--- refused"
-try carom shoot --speed brisk
-try carom shoot --speed slow:3mph
-try carom shoot --speed slow --elevation 5
-try carom hit --cut 1/0ball
-try carom shoot --table snooker --balls snooker --pocket red16:side-right
-try carom shoot --cue 0.6,0.8 --player 600
-try carom shoot --leave centre -
-try carom shoot --cue 0.6,0.8 --balls 0.3,1.9 --pocket 1:foot-left --leave 3d,1d,5cm
-try carom shoot --cue 0.6,0.8 --balls 0.3,1.9 --pocket 2:foot-left --leave centre
-try carom shoot --cue 0.6,0.8 --balls 0.6,1.9:0.6,1.2 --pocket 1:foot-left --leave centre
+try_rows "coach, refused"
 echo "--- of several shots those that cannot be aimed are left out"
 try carom shoot --cue 2d,4d --balls foot-spot --pocket 1:foot-left --speed slow,medium,soft,fast | grep -v '^[c1] '
 try carom shoot --cue 2d,4d --balls foot-spot --pocket 1:foot-left --speed slow,soft
@@ -86,7 +77,4 @@ echo "--- the cue over a cushion and a ball"
 for elevation in 0 least 20; do
   carom shoot --cue 0.62,0.03 --balls 0.4,2.2 --pocket 1:foot-left --speed 3 --elevation $elevation | grep -E '^(9ft|butt)'
 done
-try carom shoot --cue 0.62,1.6 --balls 0.4,2.2:0.6391,1.546 --pocket 1:foot-left --speed 3 --tip 0,-0.5 --elevation least
-try carom shoot --cue 0.62,1.6 --balls 0.4,2.2:0.63,1.56:0.63,1.56 --pocket 1:foot-left --speed 3 --elevation least
-try carom shoot --cue 0.62,1.6 --balls 0.4,2.2 --at-ball 1 --elevation least
-try carom shoot --cue 0.62,1.6 --balls 0.4,2.2 --pocket 1:foot-left --elevation lest
+try_rows "coach, the cue over a ball"

@@ -80,12 +80,6 @@ printf 'vx,vy,vz,wx,wy,wz,R,M,h,mu_s,mu_w,e,nx,ny,rho\n1.2,-0.5,0,0,0,30,0.028,0
   awk -F, 'NR > 1 { printf "%s %.9f %.9f\n", $1, $2, $3 }'
 awk -F, '$1 == "side" { printf "%s %.9f %.9f\n", $1, $3, -$2 }' after.csv
 echo "--- usage"
-try carom resolve --cushion
-try carom resolve --cushion --model bumper impacts.csv
-try carom resolve --cushion --least-step -1 impacts.csv
-try carom resolve --cushion --solver exact impacts.csv
-try carom resolve --law han "$DATA/collisions-204.csv"
-try carom resolve --cushion --friction 0.1 impacts.csv
-try carom resolve --cushion missing.csv
+try_rows "cushion, usage"
 printf 'vx,vy,vz,wx,wy,wz,R,M,h,mu_s,nx\n' > short.csv
 try carom resolve --cushion short.csv

@@ -1,7 +1,5 @@
 # hit: one collision from speed, cut and spin, in words, as a row, as a picture; and what textbooks say of such collisions.
-try carom hit
-try carom hit --spin draw,20rad/s --cut -40 --side gearing --speed 3 --friction 0.05
-try carom hit --cut 0 --spin stun --restitution 1 --friction 0
+try_rows "hit"
 echo "--derived, of recorded collisions:"
 carom resolve --derived -o derived.csv "$DATA/collisions-204.csv"
 python - << 'PYTHON'

@@ -99,9 +99,7 @@ try carom resolve case.csv
 sed '1s/u_b/mu_b/; 1s/e_b/eb/' plain.csv > near.csv
 try carom resolve near.csv
 sed '1s/u_b/friction/' plain.csv > far.csv
-try carom resolve far.csv
-try carom resolv plain.csv
-try carom re
+try_rows "kinds, mistyped"
 echo "messages have a limit:"
 {
   head -n 1 plain.csv

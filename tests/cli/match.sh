@@ -33,14 +33,4 @@ forged '$ i {"act":{"act":3,"player":1,"hash":"0000000000000001"}}'
 carom record -o shots.jsonl "$DATA/break-nineball.jsonl"
 try carom match --show shots.jsonl
 echo "--- bad usage"
-try carom match --fargo 650
-try carom match --fargo nan,600
-try carom match --show
-try carom match --rules snooker --table 9ft --strokes 1 -o small.jsonl
-try carom match --table threecushion
-try carom match --rules threecushion --table 9ft
-try carom match --equal-innings
-try carom match --target 5
-try carom match --target 5 rail.jsonl
-try carom match missing.jsonl
-try carom match --rules snooker --strokes 1 -o small.jsonl nineball.jsonl
+try_rows "match, bad usage"

@@ -17,11 +17,7 @@ reaches han 0.2 restitution_log=-0.1
 reaches han 0.2 mu_log=0.2
 for one in 0.2,smooth_x=1.3,smooth_t=1.2 0.35,smooth_x=1,smooth_t=1.2 0.35,smooth_x=1.3,smooth_t=1 0.35,smooth_x=1.3,smooth_t=1.2,smooth_a=0.9 \
   0.35,smooth_x=1.3,smooth_t=1.2,smooth_k=0.9; do reaches smooth 0.2 smooth_q=$one; done
-try carom rail --model han --with smooth_q=0.2
-try carom rail --with mass=0.2
-try carom rail --with omega=1
-try carom rail --model stronge --with omega_ratio=2
-try carom rail --model smooth --with smooth_x=1
+try_rows "models, numbers that another model reads"
 carom rail --csv --speed 3 --angle 20 --friction 0.9 > rail.csv
 carom resolve --cushion --model stronge rail.csv > usual
 carom resolve --cushion --model stronge --with omega_ratio=1.1 rail.csv | cmp -s - usual || echo "resolve reads it too"
@@ -38,11 +34,7 @@ try carom shoot --events none --friction constant changed.jsonl | grep -o '"stat
 carom shoot $shot --cushion stronge --with e_c=0.7,omega_ratio=1.1 --json > own.jsonl
 carom shoot --cushion stronge own.jsonl > kept
 carom shoot --cushion stronge --with e_c=0.7,omega_ratio=1.1 line.jsonl | cmp - kept && echo "--json and the played line have the numbers of --with"
-try carom shoot --with u_b=0.1 line.jsonl
-try carom shoot --with u_bb=0.1 line.jsonl
-try carom shoot --friction some line.jsonl
+try_rows "models, misspelt"
 carom record --friction constant line.jsonl | sed -n 2p
 echo "--- a tip beside the ball"
-try carom hit --side 3tips
-try carom hit --side 1.5tips --spin 2tips
-try carom rail --side 3tips
+try_rows "models, a tip beside the ball"

@@ -56,10 +56,7 @@ head -c 4 break.png | tail -c 3 && echo
 try carom shoot --events none --plot usual.png -o /dev/null "$DATA/break-nineball.jsonl"
 head -c 4 usual.png | tail -c 3 && echo
 ln -s /dev/full full.svg
-try carom shoot --events none --plot full.svg -o /dev/null "$DATA/break-nineball.jsonl"
-try carom shoot --events none --plot nowhere/break.svg -o /dev/null "$DATA/break-nineball.jsonl"
-try carom hit --plot full.svg -o /dev/null
-try carom hit --cut 0:60 --plot full.svg
+try_rows "pictures, a full disk"
 ln -sf link_to.svg linked.svg
 try carom shoot --events none --plot linked.svg -o /dev/null "$DATA/break-nineball.jsonl"
 test -L linked.svg && tail -n 1 link_to.svg

@@ -104,10 +104,7 @@ carom shoot --cue 0.4,0.9 --aim 90 --json > alone.jsonl
 for game in eightball nineball potting; do try carom plan --rules $game alone.jsonl; done
 carom shoot --table threecushion --cue 0.4,0.9 --balls 0.3,1.9 --aim 90 --json > carom.jsonl
 for game in nineball threecushion; do try carom plan --rules $game carom.jsonl; done
-try carom plan
-try carom plan --shots 99 layout.jsonl
-try carom plan --rules curling layout.jsonl
-try carom plan --shots 2000000 layout.jsonl
+try_rows "plan, other games"
 sed 's/"id": "2"/"id": "red"/' layout.jsonl > names.jsonl
 try carom plan --rules eightball names.jsonl
 : > empty.jsonl

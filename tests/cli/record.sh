@@ -1,7 +1,5 @@
 # Recordings: what is recorded is played again with the same bits; what is forged, damaged, cut off or of another revision is told.
-try carom record --events full -o full.jsonl "$DATA/shots-pooltool.jsonl"
-try carom record --events brief -o game.jsonl "$DATA/break-nineball.jsonl"
-try carom verify full.jsonl
+try_rows "record, usage"
 try carom verify - < game.jsonl
 sed 's/"revision":[0-9]*/"revision":N/; s/:{.*\("status":[0-9]*,"events":[0-9]*\).*/:...\1/' game.jsonl | head -n 7 | cut -c 1-100
 echo "--- replayed: the end of each shot, on any instruction set"

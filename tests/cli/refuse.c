@@ -11,17 +11,17 @@ void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *block, size_t size);
 
-static atomic_long asked;
+static atomic_long requests;
 static long first, last;
 
 __attribute__((constructor)) static void begin(void) {
-  const char *const text = getenv("CAROM_REFUSE"), *const one = getenv("CAROM_REFUSE_ONE");
+  const char *const text = getenv("CAROM_REFUSE"), *const single = getenv("CAROM_REFUSE_ONE");
   first = text != NULL ? strtol(text, NULL, 10) : 0;
-  last = one != NULL && *one != '\0' ? first : 1000000000;
+  last = single != NULL && *single != '\0' ? first : 1000000000;
 }
 
 static int refused(void) {
-  const long number = first == 0 ? 0 : ++asked;
+  const long number = first == 0 ? 0 : ++requests;
   if (number < first || number > last || first == 0)
     return 0;
   if (number == first && write(STDERR_FILENO, "refused\n", 8) != 8)

@@ -149,10 +149,7 @@ echo "--- bounds"
 try carom shoot --events-most 5 --events none - < "$DATA/break-nineball.jsonl" > bounds.out
 grep -o '"status": "[a-z_]*"' bounds.out
 echo "--- usage"
-try carom shoot
-try carom shoot nosuch.jsonl
-try carom shoot --world other "$DATA/break-nineball.jsonl"
-try carom shoot --plot break.txt "$DATA/break-nineball.jsonl"
+try_rows "shoot, usage"
 echo "--- balls of a game, and what cushions and balls have of their own"
 state='"state": [3, 0.7, 1.0, 0.03075, 0.6, 1.2, 0, -39.024390243902438, 19.512195121951219, 0]'
 final() { carom shoot --cushion han --events none - | grep -o '"status".*\|"final": {"t": [0-9.]*'; }

@@ -36,10 +36,7 @@ for all in "resolve row.csv" hit rail "shoot --balls 0.5,1.6" "ways --balls 0.5,
     done
   done
 done | sort | uniq -c | sed 's/^ *[0-9]* //'
-for words in "shoot --tip-time 0,1" "break --seed 1:3:1" "ways --gap 0,0.3mm" "plan --gap 0:1mm:0.5mm" "shoot --with mu_ball=0.1,0.2" "shoot --with mu_ball=0.1:0.2:0.1" "hit --solver exact,euler" "rail --law han,constant" "shoot --cushion han,mirror"; do
-  # shellcheck disable=SC2086
-  try carom $words
-done
+try_rows "together, one value"
 carom shoot --tip-time 0,0.001 --tip-restitution 0.7:0.8:0.1 --elevation 2,3.5 --csv | sed -n 's/^[0-9]*,"\(.*\)",cue,leaves,,0,[^,]*,[^,]*,\([0-9.]\{6\}\).*/\1: \2 m\/s/p'
 echo "--- lists of models, frictions, masses"
 carom rail --model han,mathavan --angle 30,60 --quantity rebound --csv | cut -c 1-16
@@ -61,11 +58,7 @@ leaves() { carom shoot --cue 0.6,0.8 --tip 0.4,0 "$@" --csv | sed -n 2p; }
 carom shoot --tip-time -1 --with M=0.5,end_mass=0.02,tip_restitution=0 --json | grep -o '"M.*tip_restitution": 0,\|"tip_time": -1'
 carom ways line.jsonl --with u_b=2 2>&1 | head -n 1
 echo "--- options that would be ignored"
-for words in "shoot --cite --cue 1,1" "shoot --json --csv --aim 1" "shoot --json --events brief --aim 1" "shoot --json --plot a.svg --aim 1" "shoot --json --spread 1%,0,0,0 --aim 1" "shoot --csv --spread 1%,0,0,0 --aim 1" \
-  "shoot --id a --aim 1" "shoot --id a line.jsonl" "hit --csv --solver euler" "rail --csv --model euler"; do
-  # shellcheck disable=SC2086
-  try carom $words
-done
+try_rows "together, options that would be ignored"
 echo "--- numbers of a fit"
 echo '{"constants": {"mu_slide": 0.3, "smooth_q": 0.0, "law_a": 0.02}, "radius": 0.03, "cushion_model": "mathavan", "bands": [[0, 0.01, 0.03], [2, 0.02, 0.05]]}' > fit.json
 for words in "fit.json" "fit.json,u_s=0.4"; do carom shoot --cue 0.3,0.5 --with $words --json | grep -o '"R": [0-9.]*\|"u_s": [0-9.]*\|"law_a[^,]*'; done

@@ -3,12 +3,7 @@ header=id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2
 try carom > said 2>&1
 sed -n '1p;$p' said
 rm said
-for words in frobnicate resolve "resolve a b" "resolve --frobnicate x.csv" "resolve --outptu x.csv" "hit --sp 3" "hit --csv=3" "resolve -o" "resolve --steps" \
-  "resolve -x x.csv" --verison "help nosuch" "resolve --solver rough x.csv" "resolve --precision half x.csv" "resolve --threads -1 x.csv" "resolve --kernel exact x.csv" \
-  bench "resolve --slip none x.csv" "resolve --steps 0 x.csv" "resolve --steps 1e3 x.csv" "resolve missing.csv" "resolve ."; do
-  # shellcheck disable=SC2086
-  try carom $words
-done
+try_rows "usage, bad usage"
 try carom resolve ""
 carom help hit | head -n 1
 : > empty.csv

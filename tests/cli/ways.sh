@@ -76,16 +76,7 @@ carom shoot --cue 2d,3d --balls frozen-left,5d --pocket 1:foot-left --speed 1.5 
 echo "--- each stroke"
 carom ways --cue 0.6,0.8 --balls 0.3,1.9 --ball 1 --pocket foot-left --rails 0 --speed 1:3:1 --tip -0.2..0.2..0.2,0 --each --csv | cut -d , -f 6,9
 echo "--- refused"
-try carom ways
-try carom ways --cue 0.6,0.8
-try carom ways --cue 0.6,0.8 --balls 0.3,1.9 --ball 9
-try carom ways --cue 0.6,0.8 --balls 0.3,1.9 --pocket foot-lef
-try carom ways --cue 0.6,0.8 --balls 0.3,1.9 --csv --json
-try carom ways --cue 0.6,0.8 --balls 0.3,1.9 --player 500 --errors 1
-try carom ways --cue 0.6,0.8 --balls 0.3,1.9 --rails 3
-try carom ways --balls nineball --gap 3cm
-try carom shoot --cue 0.6,0.8 --gap 0.1mm
-try carom ways --table threecushion --cue 0.6,0.8 --balls 0.3,1.9
+try_rows "ways, refused"
 carom shoot --cue 0.6,0.8 --balls 0.3,1.9 --json > a.jsonl
 carom shoot --cue 0.6,0.9 --balls 0.3,1.9 --json > b.jsonl
 cat a.jsonl b.jsonl > both.jsonl
@@ -93,9 +84,7 @@ try carom ways both.jsonl
 # Errors alone are shown.
 # shellcheck disable=SC2069
 carom ways --table threecushion --balls threecushion --speed 25 --scan 3000 2>&1 > none
-try carom ways --cue 0.6,0.8 --leave 3
-try carom shoot --cue 0.6,0.8 --tip 0,-0.4..0.4..0
-try carom ways --cue 0.6,0.8 a.jsonl
+try_rows "ways, no way"
 carom ways --rails 0 a.jsonl | cut -c 1-30 | head -n 1
 echo "--- places in diamonds, ranges of tips"
 carom shoot --cue 1d,2d --balls 2,6d --table 8ft --aim 90 --json | grep -o '"state": \[0, [^,]*, [^,]*'
@@ -104,9 +93,7 @@ for place in $(carom shoot --help | tr -s ' \n' ' ' | grep -o 'a place: [^(]*At 
   carom shoot --cue $place --table 8ft --json | grep -o '"state": \[0, [^,]*, [^,]*'
 done
 carom shoot --cue 1,1 --balls 8=foot-spot:centre --json | grep -o '"id": "[^"]*", "params\|"state": \[0, [^,]*, [^,]*'
-try carom shoot --cue foot-sot
-try carom shoot --tip foot-spot
-try carom ways --cue 0.6,0.8 --leave centre,1,2
+try_rows "ways, names"
 carom shoot --cue 0.5,0.5 --tip -0.2..0.2..0.2,0..0.4..0.2 --json | sed 's/.*"a": \([^,]*\), "b": \([^,]*\),.*/\1 \2/' | tr '\n' ';'
 echo
 echo "--- gaps and seeds of a rack"

@@ -25,7 +25,4 @@ numbers < "$DATA/../plan/src/games.h" > is.txt
 for game in $(sed -n 's/.*--rules \([a-z]*\) --racks.*/\1/p' "$DATA/../plan/src/games.h" | sort -u); do grep -qF "$(lab learn --rules $game --racks 40 --shots 100 | numbers | sed 's/ $//')" is.txt && echo "$game: same"; done
 grep -o "racks [0-9]*" "$DATA/../plan/src/games.h"
 echo "--- usage"
-try lab learn --racks 3
-try lab learn --shots 99
-try lab plan --shots 99
-try lab plan --rules snooker --left 2
+try_rows "plan, usage"

@@ -13,6 +13,4 @@ done
 echo "--- the largest errors can be made again"
 sed -n 's/^cushion, rolling, cushion [0-9]*, [^:]*: //p' table | awk -F, '{ print NF }'
 echo "--- usage"
-try lab stress --coincidences 0
-try lab stress --cushion 5 --draws 10
-try lab stress --cushion 5 --kind extreme
+try_rows "stress, usage"

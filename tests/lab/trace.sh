@@ -13,8 +13,4 @@ for kernel in exact euler; do
     END { print kernel, "does" }'
 done
 echo "--- usage"
-try lab trace
-try lab trace --id nothing
-try lab trace --id pooltool-135 --points 1
-try lab trace --id pooltool-135 one.csv
-try lab trace --id pooltool-135 -o no/where.csv
+try_rows "trace, usage"

@@ -1,9 +1,5 @@
 # A build without CAROM_LADDER: what needs a kernel of the ladder says so; the library's own are verified and timed all the same.
-try lab resolve --kernel base "$DATA/collisions-204.csv"
-try lab verify --kernel float
-try lab verify --config o3
-try lab bench --kernel base
-try lab bench --config all
+try_rows "without a ladder"
 lab kernels | tail -n 1
 lab verify --kernel exact | sed -n 's/^\(exact, .*\):.*/\1/p'
 echo "--- times: Euler's method of the library is the reference"

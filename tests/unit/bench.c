@@ -72,7 +72,7 @@ TEST(turns_and_figures) {
   const bench_subject subjects[] = {subject_of(&slow, 0), subject_of(&fast, 0),
                                     subject_of(&fast, SIZE_MAX)};
   bench_figure figure[3];
-  const bench_settings settings = {.budget = 1.0, .now = now_made_up};
+  const bench_settings settings = {.budget = 1.0, .clock = now_made_up};
   bench_rounds(subjects, 3, &settings, figure);
   ck_assert_double_eq_tol(figure[0].ns.median, 1e5, 1e-3);
   ck_assert_double_eq_tol(figure[1].ns.median, 2.5e4, 1e-3);
@@ -102,7 +102,7 @@ TEST(ratios_cancel_what_slows_both) {
   bench_subject subjects[] = {subject_of(&slow, 0), subject_of(&fast, 0)};
   subjects[0].resolve = subjects[1].resolve = work_slower;
   bench_figure figure[2];
-  bench_settings settings = {.budget = 8.0, .now = now_made_up};
+  bench_settings settings = {.budget = 8.0, .clock = now_made_up};
   bench_rounds(subjects, 2, &settings, figure);
   ck_assert(isnan(figure[0].core_cycles));
   settings.cycle = cycle_made_up;
@@ -119,7 +119,7 @@ TEST(budget_too_small_for_one_round) {
   made_up slow = {.name = 'A', .cost = 1e9};
   const bench_subject subject = subject_of(&slow, 0);
   bench_figure figure;
-  const bench_settings settings = {.budget = 0.5, .now = now_made_up};
+  const bench_settings settings = {.budget = 0.5, .clock = now_made_up};
   bench_rounds(&subject, 1, &settings, &figure);
   ck_assert_uint_eq(figure.ns.count, 5);
   ck_assert_uint_eq(figure.loops, 1);
