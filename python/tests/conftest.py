@@ -15,11 +15,11 @@ import carom
 DATA = Path(__file__).parents[2] / "data"
 
 
-def columns(name: str, wanted: str) -> np.ndarray:
+def columns(name: str, names: str) -> np.ndarray:
     """Columns of a file of data/, in the order wanted, as an array of rows."""
     with open(DATA / name, newline="", encoding="utf-8") as file:
         return np.array(
-            [[float(row[key]) for key in wanted.split()] for row in csv.DictReader(file)]
+            [[float(row[key]) for key in names.split()] for row in csv.DictReader(file)]
         )
 
 

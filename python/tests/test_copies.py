@@ -46,9 +46,9 @@ def two(**how):
 
 
 def match():
-    made = carom.Match("potting", TABLE, balls=TWO)
-    made.stroke(STROKE)
-    return made
+    match = carom.Match("potting", TABLE, balls=TWO)
+    match.stroke(STROKE)
+    return match
 
 
 def fitted(recordings=MADE.recordings):
@@ -133,14 +133,14 @@ OBJECTS = {
 }
 
 
-def bits(given):
+def bits(value):
     """Of what a call gives."""
     return (
-        tuple(map(bits, given))
-        if isinstance(given, tuple)
-        else given.tobytes()
-        if isinstance(given, np.ndarray)
-        else given
+        tuple(map(bits, value))
+        if isinstance(value, tuple)
+        else value.tobytes()
+        if isinstance(value, np.ndarray)
+        else value
     )
 
 

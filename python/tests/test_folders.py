@@ -66,17 +66,17 @@ def test_a_name_that_is_not_there():
 
 def test_gymnasium_knows_the_short_name():
     gymnasium = pytest.importorskip("gymnasium", reason="gymnasium is not installed")
-    made = gymnasium.make("carom.gymnasium:carom/PotOne-v1")
-    assert made.spec.entry_point == "carom.gymnasium:GameEnv"
-    assert type(made.unwrapped) is importlib.import_module("carom.games.gymnasium").GameEnv
+    env = gymnasium.make("carom.gymnasium:carom/PotOne-v1")
+    assert env.spec.entry_point == "carom.gymnasium:GameEnv"
+    assert type(env.unwrapped) is importlib.import_module("carom.games.gymnasium").GameEnv
 
 
 @pytest.mark.parametrize("package", ["gymnasium", "pettingzoo"])
 def test_without_what_is_optional(package):
     """The import says what is needed."""
     absent = f"import sys; sys.modules['{package}'] = None; import carom.potting, carom.pool"
-    said = run("-c", f"{absent}; import carom.{package}").stderr
-    assert f"ImportError: carom.{package} needs" in said and f"pip install {package}" in said
+    message = run("-c", f"{absent}; import carom.{package}").stderr
+    assert f"ImportError: carom.{package} needs" in message and f"pip install {package}" in message
 
 
 def test_tab_completion_shows_what_a_module_of_a_folder_offers():

@@ -53,8 +53,8 @@ def _ranges(part: int) -> list[tuple[str, float, float, float, Any]]:
 def refuse_numbers(part: int, name: str, record: dtypes.Records) -> None:
     """Refuses one record, called `name`, with a number outside its range."""
     values = dict(zip(record.dtype.names or (), record.item(), strict=True))
-    for field, low, high, other, row in _ranges(part):
-        if not low <= values[field] <= high and values[field] != other:
+    for field, low, high, limit, row in _ranges(part):
+        if not low <= values[field] <= high and values[field] != limit:
             must = ffi.new("char[]", 100)
             lib.carom_number_range(row, must, 100)
             raise _fault(row.error, name, [field], record, ffi.string(must).decode())
@@ -96,13 +96,13 @@ def argument_error(
     where = ffi.new("int *", -1)
     if lib.carom_shot_check(*arguments, where) >= 0:
         return None
-    told, text = ffi.new("carom_fault *"), ffi.new("char[]", 100)
-    code = lib.carom_shot_fault(*arguments, told, text, 100)
-    kind, index, must = told.part.kind, told.part.index, ffi.string(text).decode()
+    fault, text = ffi.new("carom_fault *"), ffi.new("char[]", 100)
+    code = lib.carom_shot_fault(*arguments, fault, text, 100)
+    kind, index, must = fault.part.kind, fault.part.index, ffi.string(text).decode()
     # Several numbers of the cue may be at fault together.
-    name = "" if told.row == ffi.NULL else ffi.string(told.row.name).decode()
+    name = "" if fault.row == ffi.NULL else ffi.string(fault.row.name).decode()
     if name and kind == lib.CAROM_PART_CUE and cue is not None:
-        return _fault(code, "cue", [name] if must else _numbers(kind, told.row.error), cue, must)
+        return _fault(code, "cue", [name] if must else _numbers(kind, fault.row.error), cue, must)
     if name and kind in (lib.CAROM_PART_BALL, lib.CAROM_PART_STATE):
         part = "kind" if kind == lib.CAROM_PART_BALL else "state"
         return _fault(code, f"balls[{index}].{part}", [name], layout[index][part], must)
@@ -115,7 +115,7 @@ def argument_error(
     ):
         if name and must:
             part = f"table.{_TABLE[kind]}[{index}]" if kind in _TABLE else "table"
-            return CaromError(code, f"{part}.{name}", told.value, text=f"it must be {must}")
+            return CaromError(code, f"{part}.{name}", fault.value, text=f"it must be {must}")
         return CaromError(code, "table")
     return (
         CaromError(code, "balls", len(layout))

@@ -76,7 +76,7 @@ class Shots:
     threads: int
     room: int
     nan: bool
-    told: bool
+    has_extras: bool
     """Whether reach and flags are wanted beside the states."""
 
     @property
@@ -119,7 +119,7 @@ class Shots:
         return layouts, cues
 
     @functools.cached_property
-    def one(self) -> _One | None:
+    def single_shot(self) -> _One | None:
         """Where a single shot can be played again and again."""
         single = (
             len(self.balls_shape) == 1 and self.cues_shape == () and len(self.directions) <= MOST
@@ -131,13 +131,13 @@ class Shots:
         flags (...).
         """
         numbers = np.asarray(x)
-        if self.told:
-            states, _, *told = self.both(numbers)
-            return (states, *told)
+        if self.has_extras:
+            states, _, *extras = self.both(numbers)
+            return (states, *extras)
         if (
             numbers.ndim == 1
-            and self.one is not None
-            and (played := self.one.play(numbers, False)) is not None
+            and self.single_shot is not None
+            and (played := self.single_shot.play(numbers, False)) is not None
         ):
             return (played[0],)
         layouts, cues = self.records(numbers)
@@ -152,10 +152,10 @@ class Shots:
         """
         numbers = np.asarray(x)
         if (
-            not self.told
+            not self.has_extras
             and numbers.ndim == 1
-            and self.one is not None
-            and (found_alone := self.one.play(numbers, True)) is not None
+            and self.single_shot is not None
+            and (found_alone := self.single_shot.play(numbers, True)) is not None
         ):
             return found_alone
         layouts, cues = self.records(numbers)
@@ -165,7 +165,7 @@ class Shots:
             cues,
             self.seeds,
             np.zeros(0),
-            ("final", "reach", "flags") if self.told else ("final",),
+            ("final", "reach", "flags") if self.has_extras else ("final",),
             self.room,
             self.threads,
             self.options,
@@ -175,8 +175,8 @@ class Shots:
             if self.nan
             else codes
         )
-        told = (found["reach"], found["flags"]) if self.told else ()
-        return (self.numbers(numbers, final, played), found["final"], *told)
+        extras = (found["reach"], found["flags"]) if self.has_extras else ()
+        return (self.numbers(numbers, final, played), found["final"], *extras)
 
     def second(self, x: Any) -> dtypes.Doubles:
         """The second derivatives of the final states, of shape (..., balls, STATE, m, m), as
@@ -230,14 +230,14 @@ class Shots:
 
     def numbers(self, x: dtypes.Doubles, final: dtypes.Records, status: Array) -> dtypes.Doubles:
         """Final states as numbers; shots in error are nan, or raise."""
-        bad = status < 0
-        failed = bool(bad.any())
+        invalid = status < 0
+        failed = bool(invalid.any())
         if failed and not self.nan:
-            first = tuple(int(k) for k in np.argwhere(bad)[0])
+            first = tuple(int(k) for k in np.argwhere(invalid)[0])
             self.refuse(x, first, Status(int(status[first])))
         states: dtypes.Doubles = final.view(np.float64).reshape(*final.shape, -1)[..., _ORDER]
         if failed:
-            states[bad] = np.nan
+            states[invalid] = np.nan
         return states
 
     def refuse(self, x: dtypes.Doubles, where: tuple[int, ...], status: Status) -> None:
@@ -250,11 +250,11 @@ class Shots:
             simulate(self.played_on, layouts, cues, options=self.options)
         except CaromError as error:
             text = str(error)
-        which = f"shot {list(where)} of the batch, " if where else ""
+        place = f"shot {list(where)} of the batch, " if where else ""
         values = ", ".join(
             f"{direction.name} = {value:g}" for direction, value in zip(self.directions, x[where])
         )
-        raise CaromError(status, text=f"{which}{values}: {text}")
+        raise CaromError(status, text=f"{place}{values}: {text}")
 
 
 class _One:
@@ -278,14 +278,14 @@ class _One:
         ]
         self.final: Array = np.zeros(shots.count, dtypes.ball_state)
         self.slopes: Array = np.zeros((shots.count, STATE, len(self.numbers)))
-        self.kept = np.empty(shots.room, dtypes.event), shots.seeds, table
+        self.memory = np.empty(shots.room, dtypes.event), shots.seeds, table
         self.arguments = shot_arguments(table, balls, cue, shot_options(shots.options))
         self.differentiated = (*self.arguments[:4], tangent_options(shots.options, 0))
         seeds = {name: pointer("double[]", row) for name, row in shots.seeds.items()}
         self.seeds = ffi.new("carom_tangent_seeds *", {"directions": len(self.numbers), **seeds})
         self.tangent = ffi.new("carom_tangent *", {"final": pointer("double[]", self.slopes)})
         events, final = (
-            pointer("carom_event[]", self.kept[0]),
+            pointer("carom_event[]", self.memory[0]),
             pointer("carom_ball_state[]", self.final),
         )
         self.shot = ffi.new("carom_shot *", {"events": events, "room": shots.room, "final": final})
@@ -332,7 +332,7 @@ def shots_of(
     errors: str,
     threads: int,
     options: Options,
-    told: bool,
+    has_extras: bool,
 ) -> tuple[Shots, list[tuple[Any, tuple[int, ...]]], tuple[int, ...]]:
     """The shots, each of their numbers as an `array` (...) or (..., elements) with the shape to
     which it is broadcast, and that of the batch.
@@ -366,8 +366,8 @@ def shots_of(
         {
             **leading,
             **{
-                name: tuple(part.shape[: part.ndim - len(own)])
-                for name, part, own in zip(numbers, parts, owns)
+                name: tuple(part.shape[: part.ndim - len(layout_shape)])
+                for name, part, layout_shape in zip(numbers, parts, owns)
             },
         }
     )
@@ -382,9 +382,13 @@ def shots_of(
         threads,
         room,
         errors == "nan",
-        told,
+        has_extras,
     )
-    return shots, [(part, (*batch, *own)) for part, own in zip(parts, owns)], batch
+    return (
+        shots,
+        [(part, (*batch, *layout_shape)) for part, layout_shape in zip(parts, owns)],
+        batch,
+    )
 
 
 def named(shots: Shots, states: Any, reach: Any = None, flags: Any = None) -> Final:

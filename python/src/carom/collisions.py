@@ -92,7 +92,7 @@ def impacts(
     ndarray of `carom.dtypes.impact`, shape (...)
         `carom.dtypes.plain()` gives the numbers, of shape (..., 26).
     """
-    other = {
+    partner = {
         "b.mass": mass if mass_b is None else mass_b,
         "b.mu_slide": mu_slide if mu_slide_b is None else mu_slide_b,
     }
@@ -110,7 +110,7 @@ def impacts(
             "b.v": v_b,
             "b.w": w_b,
             "b.radius": radius,
-            **other,
+            **partner,
             "mu_ball": mu_ball,
             "restitution": restitution,
         },
@@ -195,7 +195,7 @@ def mu_ball(
     if (
         not isinstance(a_b_c, (tuple, list))
         or len(a_b_c) != 3
-        or not all(isinstance(one, float) for one in a_b_c)
+        or not all(isinstance(value, float) for value in a_b_c)
     ):
         raise ValueError(f"law: three numbers a, b and c are needed, not {law!r}")
     source, target = pointer("carom_impact[]", array), pointer("double[]", mu)

@@ -49,7 +49,7 @@ def _options(
     threads: int,
     least_step: float,
     plain: bool,
-    own: tuple[tuple[str, float], ...],
+    own_numbers: tuple[tuple[str, float], ...],
 ) -> Any:
     """The options of C; they are never written to."""
     if (
@@ -62,7 +62,7 @@ def _options(
         ffi.new("carom_ball_kind *", lib.carom_ball_kind_of(lib.CAROM_GAME_POOLTOOL_POOL)),
         ffi.new("char[]", 100),
     )
-    for name, value in own:
+    for name, value in own_numbers:
         setattr(kind, name, value)
     if (wrong := lib.carom_ball_fault(kind, must, 100)) != ffi.NULL:
         name = ffi.string(wrong.name).decode()
@@ -80,7 +80,8 @@ def _options(
         "plain": whole(plain, "plain", most=1),
     }
     return ffi.new(
-        "carom_cushion_options *", {**named, **numbers, "least_step": least_step, **dict(own)}
+        "carom_cushion_options *",
+        {**named, **numbers, "least_step": least_step, **dict(own_numbers)},
     )
 
 
@@ -160,8 +161,8 @@ def cushion_impacts(
         "restitution": (restitution, "restitution_cushion"),
     }
     fields: dict[str, npt.ArrayLike] = {"v": v, "w": w, "normal": normal, "jaw_radius": jaw_radius}
-    for name, (given, number_of_kind) in of_game.items():
-        fields[name] = given if given is not None else getattr(_ball(game, model), number_of_kind)
+    for name, (value, number_of_kind) in of_game.items():
+        fields[name] = value if value is not None else getattr(_ball(game, model), number_of_kind)
     return fill(dtypes.cushion_impact, {"v": 3, "w": 3, "normal": 2}, fields)
 
 
@@ -217,12 +218,12 @@ def cushion(
     CaromError
         One impact, of shape (15,) or (), that is in error.
     """
-    own = dict(_own(numbers))
+    own_numbers = dict(_own(numbers))
     if game is not None:
         kind = _ball(game, model)
-        own = {name: getattr(kind, name) for name in NUMBERS} | own
+        own_numbers = {name: getattr(kind, name) for name in NUMBERS} | own_numbers
     options = _options(
-        model, convention, law, steps, threads, least_step, plain, tuple(own.items())
+        model, convention, law, steps, threads, least_step, plain, tuple(own_numbers.items())
     )
     seconds = 1e-5 if model == "mathavan" else 1e-7 * (steps or 1000) if model == "euler" else 1e-7
     return resolve(CUSHION, impacts, options, seconds, threads, out)
@@ -280,15 +281,15 @@ def calibrate(
     kind = ffi.new(
         "carom_ball_kind *", lib.carom_ball_kind_of(choice(worded("GAME"), game, "game"))
     )
-    given, found = ffi.NULL, ffi.new("carom_calibration *")
+    measured, found = ffi.NULL, ffi.new("carom_calibration *")
     if readings is not None:
         read = as_array(readings, "readings", np.float64)
         if read.shape != (3,):
             raise ValueError(f"readings: three are needed, of shape (3,), not {read.shape}")
         if not ((read > 0) & (read < 8)).all():
             raise ValueError(f"readings: each must be above 0 and below 8, not {read.tolist()}")
-        given = ffi.new("double[3]", read.tolist())
-    code = lib.carom_calibrate(pointer("carom_table[]", record), kind, given, found)
+        measured = ffi.new("double[3]", read.tolist())
+    code = lib.carom_calibrate(pointer("carom_table[]", record), kind, measured, found)
     if code < 0:
         raise CaromError(code, "readings", None if readings is None else tuple(read.tolist()))
     return Calibration(

@@ -123,11 +123,11 @@ class Table:
         >>> table = table.changed(rails=rails)
         """
         sizes = ("width", "length", "ball_radius", "rail_width", "pocket_back")
-        given: dict[str, Any] = {name: float(self.record[name]) for name in sizes}
-        given |= {"rails": self.rails, "jaws": self.jaws, "pockets": self.pockets}
-        if unknown := parts.keys() - given.keys():
-            raise TypeError(f"table: there is no {min(unknown)!r}; known are {', '.join(given)}")
-        return Table(**{**given, **parts})
+        fields: dict[str, Any] = {name: float(self.record[name]) for name in sizes}
+        fields |= {"rails": self.rails, "jaws": self.jaws, "pockets": self.pockets}
+        if unknown := parts.keys() - fields.keys():
+            raise TypeError(f"table: there is no {min(unknown)!r}; known are {', '.join(fields)}")
+        return Table(**{**fields, **parts})
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.record = sealed(state["record"])
@@ -223,13 +223,15 @@ class Table:
 def refuse_table(code: int, fault: Any) -> None:
     """Raises an error of a table, with the place of its fault."""
     if code < 0:
-        other = "" if fault.other.kind == lib.CAROM_PART_NONE else f", beside {_part(fault.other)}"
+        partner = (
+            "" if fault.other.kind == lib.CAROM_PART_NONE else f", beside {_part(fault.other)}"
+        )
         gap = f", {fault.gap:.4g} m wide" if fault.gap > 0.0 else ""
         where = ""
         if any(fault.place):
-            where = f" (at x = {fault.place[0]:.4g} m, y = {fault.place[1]:.4g} m{gap}{other})"
-        elif other:
-            where = other
+            where = f" (at x = {fault.place[0]:.4g} m, y = {fault.place[1]:.4g} m{gap}{partner})"
+        elif partner:
+            where = partner
         raise CaromError(code, _part(fault.part), text=Status(code).text + where)
 
 
@@ -275,19 +277,24 @@ _SIZES = _sizes()
 @functools.lru_cache(maxsize=256)
 def _other_constants(kind: bytes, cushion_model: str) -> str:
     """What is to be said of a ball that has a game's constants of another model of the cushion."""
-    given, of_c = (
+    constants, of_c = (
         np.frombuffer(kind, dtypes.ball_kind)[_CUSHION].tobytes(),
         ffi.new("carom_ball_kind *"),
     )
     for game, number in list(GAMES.items())[:3]:
-        own = {}
-        for model, of in _CUSHIONS.items():
-            if lib.carom_ball_kind_for(number, of, of_c):
-                own[model] = np.frombuffer(ffi.buffer(of_c), dtypes.ball_kind)[_CUSHION].tobytes()
-        if given in own.values() and own.get(cushion_model) != given:
+        constants_of_model = {}
+        for model, numbers in _CUSHIONS.items():
+            if lib.carom_ball_kind_for(number, numbers, of_c):
+                constants_of_model[model] = np.frombuffer(ffi.buffer(of_c), dtypes.ball_kind)[
+                    _CUSHION
+                ].tobytes()
+        if (
+            constants in constants_of_model.values()
+            and constants_of_model.get(cushion_model) != constants
+        ):
             return (
                 f"balls(game={game!r}, cushion_model={cushion_model!r}) have its own"
-                if cushion_model in own
+                if cushion_model in constants_of_model
                 else f"{game} has no constants for it"
             )
     return ""
@@ -297,8 +304,8 @@ def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
     """Warns of balls of another game than that whose balls the table is made for, and of those with
     a game's constants of another model of the cushion than that which is asked for by name.
     """
-    own = table.record["ball_radius"].item()
-    radii = [own] if own else _SIZES.get((table.width, table.length), [])
+    table_radius = table.record["ball_radius"].item()
+    radii = [table_radius] if table_radius else _SIZES.get((table.width, table.length), [])
     first: Any = (
         kinds[(0,) * kinds.ndim] if kinds.size else None
     )  # of one record: kinds.flat[:1] copies it field by field
@@ -314,10 +321,10 @@ def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
     if (
         named
         and cushion_model in _CUSHIONS
-        and (said := _other_constants(first.tobytes(), str(cushion_model)))
+        and (doubt := _other_constants(first.tobytes(), str(cushion_model)))
     ):
         warnings.warn(
-            f"cushion_model: {cushion_model!r} plays constants of another model: {said}",
+            f"cushion_model: {cushion_model!r} plays constants of another model: {doubt}",
             stacklevel=3,
         )
 
@@ -423,36 +430,36 @@ def by_number(
     ValueError
         A ball is none of the game, or there twice, or there is no cue ball.
     """
-    given = of_record(balls, dtypes.shot_ball, "balls", "balls()")
+    layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     names = list(
         map(str, several(ids, "ids", "the number of each ball is needed, and the cue ball's name"))
     )
     last = choice(LAST, rules, "rules")
-    if given.shape != (len(names),):
+    if layout.shape != (len(names),):
         raise ValueError(
-            f"ids: one for each ball of an array of shape (balls,) is needed, not {len(names)} for {given.shape}"
+            f"ids: one for each ball of an array of shape (balls,) is needed, not {len(names)} for {layout.shape}"
         )
     if names.count(str(cue)) != 1:
         raise ValueError(f"cue: it must be one of the ids, once, not {cue!r}")
-    at: dict[int, int] = {}
+    index_of: dict[int, int] = {}
     for k, name in enumerate(names):
         number = _COLOURS.get(name, name.removeprefix("red")) if rules == "snooker" else name
         of_ball = 0 if name == str(cue) else int(number) if number.isdecimal() else -1
-        if not 0 <= of_ball <= last or of_ball in at or (of_ball == 0 and name != str(cue)):
+        if not 0 <= of_ball <= last or of_ball in index_of or (of_ball == 0 and name != str(cue)):
             raise ValueError(
                 f"ids: ball {name!r}: the balls of {rules} are the cue ball and 1 to {last}, each once"
             )
-        at[of_ball] = k
-    made = given[[at.get(ball, at[0]) for ball in range(last + 1)]]
-    down = [ball for ball in range(last + 1) if ball not in at]
-    made["state"][down] = np.zeros((), dtypes.ball_state)
-    made["state"]["r"][down, 2], made["state"]["label"][down] = -0.1, lib.CAROM_BALL_POCKETED
-    return made
+        index_of[of_ball] = k
+    ordered = layout[[index_of.get(ball, index_of[0]) for ball in range(last + 1)]]
+    down = [ball for ball in range(last + 1) if ball not in index_of]
+    ordered["state"][down] = np.zeros((), dtypes.ball_state)
+    ordered["state"]["r"][down, 2], ordered["state"]["label"][down] = -0.1, lib.CAROM_BALL_POCKETED
+    return ordered
 
 
-def _finite(**given: npt.ArrayLike) -> None:
+def _finite(**named: npt.ArrayLike) -> None:
     """Refuses one layout whose numbers are not finite; of many, a wrong one costs its own shots."""
-    for name, values in given.items():
+    for name, values in named.items():
         numbers = as_array(values, name, np.float64)
         if not np.isfinite(numbers).all():
             wrong = numbers[~np.isfinite(numbers)].flat[0]
@@ -531,15 +538,15 @@ def balls(
         condition = choice(_CONDITIONS, word, "conditions")
         lib.carom_condition_give(condition, ffi.addressof(ball, "kind"))
     usual = bytes(ffi.buffer(ball))
-    made = fill(
+    layout = fill(
         dtypes.shot_ball,
         {"r": 3, "v": 3, "w": 3},
         {**fields, "state.r": places, "state.v": v, "state.w": w},
         usual,
     )
     if centres.shape[-1] == 2:
-        made["state"]["r"][..., 2] = made["kind"]["radius"]
-    return made
+        layout["state"]["r"][..., 2] = layout["kind"]["radius"]
+    return layout
 
 
 def cue(
@@ -631,7 +638,7 @@ def cue(
     usual = bytes(ffi.buffer(ffi.new("carom_cue *", lib.carom_cue_of(choice(GAMES, game, "game")))))
     if ball_speed is not None:
         speed = as_array(ball_speed, "ball_speed", np.float64)
-    given = {"speed": speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball}
+    stroke = {"speed": speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball}
     more = {
         "miscue": miscue,
         "tip_time": tip_time,
@@ -641,15 +648,15 @@ def cue(
         "tip_radius": tip_radius,
     }
     more["follow"] = follow
-    made = fill(dtypes.cue, {}, {**given, **more}, usual)
+    record = fill(dtypes.cue, {}, {**stroke, **more}, usual)
     if ball_speed is not None:
-        _strike_to(made, game)
-    if made.shape == ():
-        checked = made.copy()
-        if np.isnan(made["theta"]):
+        _strike_to(record, game)
+    if record.shape == ():
+        checked = record.copy()
+        if np.isnan(record["theta"]):
             checked["theta"] = 0.0  # nan is right: carom.aim() then finds the elevation
         refuse_numbers(lib.CAROM_PART_CUE, "cue", checked)
-    return made
+    return record
 
 
 def _strike_to(cues: dtypes.Records, game: Game) -> None:
@@ -663,14 +670,14 @@ def _strike_to(cues: dtypes.Records, game: Game) -> None:
         )
     kind = balls([[0.0, 0.0]], game=game)[0]["kind"]
     flat = cues.reshape(-1)
-    wanted, phi = flat["speed"].copy(), flat["phi"].copy()
+    speed, phi = flat["speed"].copy(), flat["phi"].copy()
     flat["speed"], flat["phi"] = (
         1.0,
         0.0,
     )  # along x, and by a root, it has the same bits in other languages
     for k in range(flat.size):
         x, y, _ = struck(flat[k : k + 1].reshape(()), kind)["v"]
-        flat["speed"][k] = wanted[k] / np.sqrt(x * x + y * y)
+        flat["speed"][k] = speed[k] / np.sqrt(x * x + y * y)
     flat["phi"] = phi
 
 
@@ -678,12 +685,12 @@ def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
     """Warns of angles that are within a turn in radians, one of them a twelfth of pi or a multiple
     of it, as few degrees are.
     """
-    given = as_array(angle, name, np.float64)
-    if not (np.abs(given) < 24.5 * np.pi / 12.0).all():
+    angles = as_array(angle, name, np.float64)
+    if not (np.abs(angles) < 24.5 * np.pi / 12.0).all():
         return
-    turns = given * (12.0 / np.pi)
+    turns = angles * (12.0 / np.pi)
     nearest = np.round(turns)
-    like = given[(np.abs(turns - nearest) < 1e-12) & (nearest != 0.0)]
+    like = angles[(np.abs(turns - nearest) < 1e-12) & (nearest != 0.0)]
     if like.size:
         first = like.flat[0]
         warnings.warn(

@@ -76,7 +76,7 @@ class _Canvas:
         )  # a long table lies on its side: y to the right, x downwards
         self.size = size[::-1] if self.turned else size
 
-    def at(self, r: npt.ArrayLike) -> tuple[float, float]:
+    def place(self, r: npt.ArrayLike) -> tuple[float, float]:
         """A point of the table on the picture, in pixels."""
         x, y = (float(value) for value in np.asarray(r)[:2])
         right, down = (
@@ -87,10 +87,10 @@ class _Canvas:
         return float(right) * _SCALE, float(down) * _SCALE
 
     def point(self, r: npt.ArrayLike) -> str:
-        return ",".join(map(_number, self.at(r)))
+        return ",".join(map(_number, self.place(r)))
 
     def circle(self, centre: npt.ArrayLike, radius: float, rest: str) -> str:
-        x, y = map(_number, self.at(centre))
+        x, y = map(_number, self.place(centre))
         return f'<circle cx="{x}" cy="{y}" r="{_number(radius * _SCALE)}" {rest}/>'
 
     def ball(
@@ -203,8 +203,8 @@ def picture(
             for r in places
         ]
     texts: list[tuple[float, float]] = []
-    for place, size, told, beside in marks:
-        x, y = canvas.at(place)
+    for place, size, label, side in marks:
+        x, y = canvas.place(place)
         circle = canvas.circle(
             place, size, f'fill="none" stroke="{_MARK}" stroke-width="1.5" pointer-events="all"'
         )
@@ -212,14 +212,14 @@ def picture(
         anchor, x = (
             ("start", x + size * _SCALE) if x < 0.5 * canvas.size[0] else ("end", x - size * _SCALE)
         )
-        while beside and any(
-            abs(x - other) < 140.0 and abs(y - below) < 13.0 for other, below in texts
+        while side and any(
+            abs(x - x_of_text) < 140.0 and abs(y - below) < 13.0 for x_of_text, below in texts
         ):
             y += 13.0
-        texts += [(x, y)] if beside else []
+        texts += [(x, y)] if side else []
         text = f'<text x="{_number(x)}" y="{_number(y)}" text-anchor="{anchor}" font-size="12" font-family="sans-serif" fill="#fff">'
         parts.append(
-            f"<g><title>{html.escape(told)}</title>{circle}{text}{html.escape(beside)}</text></g>"
+            f"<g><title>{html.escape(label)}</title>{circle}{text}{html.escape(side)}</text></g>"
         )
     return canvas.document(parts)
 
@@ -313,11 +313,11 @@ class _Pixels:
 
     def disc(self, centre: npt.ArrayLike, radius: float, ink: str, opacity: float = 1.0) -> None:
         """A disc of a radius in pixels at a place of the table."""
-        at = np.array(self.canvas.at(centre))
+        point = np.array(self.canvas.place(centre))
         self._cover(
-            at - radius,
-            at + radius,
-            lambda x, y: np.hypot(x - at[0], y - at[1]) - radius,
+            point - radius,
+            point + radius,
+            lambda x, y: np.hypot(x - point[0], y - point[1]) - radius,
             ink,
             opacity,
         )
@@ -326,7 +326,7 @@ class _Pixels:
         self, p: npt.ArrayLike, q: npt.ArrayLike, width: float, ink: str, opacity: float = 1.0
     ) -> None:
         """A line of a width in pixels between two places of the table."""
-        a, b = np.array(self.canvas.at(p)), np.array(self.canvas.at(q))
+        a, b = np.array(self.canvas.place(p)), np.array(self.canvas.place(q))
         along = b - a
         square = max(float(along @ along), 1e-12)
 
@@ -346,7 +346,7 @@ class _Pixels:
         digits = [_DIGITS[int(digit)] for digit in str(number)]
         x_0, y_0 = (
             int(round(value))
-            for value in np.array(self.canvas.at(centre)) - [2.0 * len(digits) - 0.5, 2.5]
+            for value in np.array(self.canvas.place(centre)) - [2.0 * len(digits) - 0.5, 2.5]
         )
         for k, digit in enumerate(digits):
             for row, bits in enumerate(digit):
@@ -383,7 +383,7 @@ def pixels(table: Any, shot: Any = None) -> npt.NDArray[np.uint8]:
     """
     canvas = _Canvas(table)
     drawn = _Pixels(canvas)
-    corners = np.array([canvas.at((0.0, 0.0)), canvas.at((table.width, table.length))])
+    corners = np.array([canvas.place((0.0, 0.0)), canvas.place((table.width, table.length))])
     low, high = corners.min(axis=0), corners.max(axis=0)
     drawn._cover(
         low,

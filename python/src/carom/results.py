@@ -41,13 +41,13 @@ from carom.status import CaromError, Status
 
 
 def _moments(times: npt.ArrayLike) -> dtypes.Doubles:
-    at = np.asarray(as_array(times, "times", np.float64), order="C")
-    wrong = at[~((at >= 0.0) & (at < np.inf))]
+    moments = np.asarray(as_array(times, "times", np.float64), order="C")
+    wrong = moments[~((moments >= 0.0) & (moments < np.inf))]
     if wrong.size:
         raise ValueError(
             f"times: each must be a finite number of seconds from the beginning of the shot, not {wrong.flat[0]}"
         )
-    return at
+    return moments
 
 
 def _picker(index: Any, shape: tuple[int, ...]) -> Callable[[Array], Array]:
@@ -62,9 +62,9 @@ def _picker(index: Any, shape: tuple[int, ...]) -> Callable[[Array], Array]:
         missing = len(shape) - sum(entry is not None and entry is not ... for entry in entries)
         if ... not in entries:
             entries += (...,)
-        at = entries.index(...)
+        place = entries.index(...)
         whole_ones = (slice(None),) * missing
-        view = (*entries[:at], *whole_ones, *entries[at + 1 :], ...)
+        view = (*entries[:place], *whole_ones, *entries[place + 1 :], ...)
         return lambda array: array[view]
     # which shots are chosen, as coordinates: an array that is broadcast is not copied for them
     places: Array = np.arange(math.prod(shape)).reshape(shape)[index]
@@ -138,39 +138,44 @@ class Shot:
         ValueError
             A time is before 0, or not finite.
         """
-        at = _moments(times)
-        states: Array = np.zeros((*at.shape, len(self.balls)), dtypes.ball_state)
+        moments = _moments(times)
+        states: Array = np.zeros((*moments.shape, len(self.balls)), dtypes.ball_state)
         look = (
             functools.partial(lib.carom_shot_drawn, pointer("carom_table[]", self.table.record))
             if drawn
             else lib.carom_shot_at_times
         )
-        self._at(at, states, 1, "carom_ball_state[]", look)
+        self._at(moments, states, 1, "carom_ball_state[]", look)
         return states
 
     def _at(
-        self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]
+        self,
+        instants: dtypes.Doubles,
+        out: Array,
+        numbers: int,
+        ctype: str,
+        look: Callable[..., int],
     ) -> None:
         """Calls look(balls, count, shot, times, n, out), in chunks of the times."""
         if self.events.dtype != dtypes.event:
             raise CaromError(Status.ERROR_EVENTS_LOST)
         events = np.ascontiguousarray(self.events)
-        kept = {
+        fields = {
             "events": pointer("carom_event[]", events),
             "room": len(events),
             "count": self.count,
             "time": self.time,
         }
-        shot = ffi.new("carom_shot *", kept)
+        shot = ffi.new("carom_shot *", fields)
         balls, count = pointer("carom_shot_ball[]", self.balls), len(self.balls)
-        moments, target = pointer("double[]", at), pointer(ctype, out)
+        moments, target = pointer("double[]", instants), pointer(ctype, out)
 
         def chunk(begin: int, many: int) -> int:
             return int(
                 look(balls, count, shot, moments + begin, many, target + begin * count * numbers)
             )
 
-        code = in_chunks(at.size, 1e-6, 0, chunk)
+        code = in_chunks(instants.size, 1e-6, 0, chunk)
         if code < 0:
             raise CaromError(code)
 
@@ -181,9 +186,9 @@ class Shot:
         These are unit quaternions (w, x, y, z), which take what is painted on a ball at the start
         to where it is then. Times and errors are those of `states`.
         """
-        at = _moments(times)
-        turned: dtypes.Doubles = np.zeros((*at.shape, len(self.balls), 4))
-        self._at(at, turned, 4, "double[]", lib.carom_python_orientations)
+        moments = _moments(times)
+        turned: dtypes.Doubles = np.zeros((*moments.shape, len(self.balls), 4))
+        self._at(moments, turned, 4, "double[]", lib.carom_python_orientations)
         return turned
 
     @property
@@ -291,24 +296,29 @@ class _OfBatch(Shot):
         return seen
 
     def _at(
-        self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]
+        self,
+        instants: dtypes.Doubles,
+        out: Array,
+        numbers: int,
+        ctype: str,
+        look: Callable[..., int],
     ) -> None:
         if self.count > len(self.events) or self.events.dtype != dtypes.event:
             raise CaromError(Status.ERROR_EVENTS_LOST)
-        super()._at(at, out, numbers, ctype, look)
+        super()._at(instants, out, numbers, ctype, look)
 
 
 def _kept(batch: Shots, index: Any) -> dtypes.Records:
-    kept: dtypes.Records = batch.events[index]
-    return sealed(kept[: int(batch.record["count"][index])])
+    brief: dtypes.Records = batch.events[index]
+    return sealed(brief[: int(batch.record["count"][index])])
 
 
 def _layout(batch: Shots, index: Any) -> dtypes.Records:
-    given: dtypes.Records = np.broadcast_to(batch.layouts, batch.final.shape)[index]
+    layouts: dtypes.Records = np.broadcast_to(batch.layouts, batch.final.shape)[index]
     if batch.kinds is None:
-        return sealed(np.array(given, dtypes.shot_ball))
-    balls = np.empty(given.shape, dtypes.shot_ball)
-    balls["kind"], balls["state"] = batch.kinds, given
+        return sealed(np.array(layouts, dtypes.shot_ball))
+    balls = np.empty(layouts.shape, dtypes.shot_ball)
+    balls["kind"], balls["state"] = batch.kinds, layouts
     return sealed(balls)
 
 
@@ -568,26 +578,29 @@ class Shots:
         """For `states` and `positions`: the array, and of each shot, in C order, whether some of it
         is unknown.
         """
-        given = _moments(times)
-        order = np.argsort(given.reshape(-1), kind="stable")
-        at = given.reshape(-1)[order]
+        instants = _moments(times)
+        order = np.argsort(instants.reshape(-1), kind="stable")
+        ordered = instants.reshape(-1)[order]
         count = self.final.shape[-1]
-        out: Array = np.empty((self.status.size, at.size, count, *numbers), dtype)
+        out: Array = np.empty((self.status.size, ordered.size, count, *numbers), dtype)
         seen = pointer("double[]" if numbers else "carom_ball_state[]", out)
-        moments, row = pointer("double[]", at), at.size * count * (numbers[0] if numbers else 1)
+        moments, row = (
+            pointer("double[]", ordered),
+            ordered.size * count * (numbers[0] if numbers else 1),
+        )
 
         def look(job: Any, codes: Any, begin: int) -> int:
             states, positions = (
                 (ffi.NULL, seen + begin * row) if numbers else (seen + begin * row, ffi.NULL)
             )
-            return int(lib.carom_python_look(job, moments, at.size, states, positions, codes))
+            return int(lib.carom_python_look(job, moments, ordered.size, states, positions, codes))
 
-        codes = self._look(look, 5e-6 + 2e-8 * at.size * count, threads)
+        codes = self._look(look, 5e-6 + 2e-8 * ordered.size * count, threads)
         if (np.diff(order) < 0).any():
             back = np.empty_like(order)
             back[order] = np.arange(len(order))
             out = out[:, back]
-        return out.reshape((*self.shape, *given.shape, count, *numbers)), codes
+        return out.reshape((*self.shape, *instants.shape, count, *numbers)), codes
 
     def _look(
         self, look: Callable[[Any, Any, int], int], seconds: float, threads: int
@@ -642,7 +655,7 @@ class Shots:
         results, flags = pointer("carom_shot[]", record), pointer("int8_t[]", status)
 
         def job(begin: int, many: int) -> Any:
-            given = {
+            pointers = {
                 "table": table,
                 "balls" if self.kinds is None else "states": balls
                 if one_layout
@@ -657,7 +670,7 @@ class Shots:
                 "shots": results + begin,
                 "status": flags + begin,
             }
-            return ffi.new("carom_shot_job *", given)
+            return ffi.new("carom_shot_job *", pointers)
 
         return job
 
@@ -682,7 +695,7 @@ class Shots:
                 else [(f"_{k}", (k,)) for k in range(values.shape[-1])]
             )
             found |= {
-                f"{name}{suffix}": values[(..., *which)].reshape(-1) for suffix, which in parts
+                f"{name}{suffix}": values[(..., *index)].reshape(-1) for suffix, index in parts
             }
         known = sorted(Status)
         return (
@@ -762,7 +775,7 @@ class Shots:
             found[name] = (*dims, *last), values
         # what codes mean, as the conventions of climate and forecast say it
         codes: dict[str, type[enum.IntEnum]] = {"status": Status, "label": Label}
-        of = {
+        attributes = {
             name: {
                 "flag_values": [code.value for code in kind],
                 "flag_meanings": " ".join(code.name.lower() for code in kind),
@@ -773,7 +786,7 @@ class Shots:
             name: (
                 names,
                 np.array(values),
-                {**of.get(name, {}), **_units(name)},
+                {**attributes.get(name, {}), **_units(name)},
             )
             for name, (names, values) in found.items()
         }

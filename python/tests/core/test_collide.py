@@ -18,10 +18,12 @@ IMPACT = "vx vy vz wx wy wz nx ny h R M mu_s mu_w e rho"
 SCALE = np.repeat([1.0, 0.028575], 3)
 
 
-def pair_error(got, expected, before):
+def pair_error(got, expected, impacts):
     """Largest difference of a v or R w, over the fastest of them before the collision."""
     scale = np.tile(SCALE, 2)
-    speeds = np.abs(np.concatenate([before[:, 3:9], before[:, 15:21]], axis=1) * scale).max(axis=1)
+    speeds = np.abs(np.concatenate([impacts[:, 3:9], impacts[:, 15:21]], axis=1) * scale).max(
+        axis=1
+    )
     return (np.abs(got - expected) * scale).max(axis=1) / speeds
 
 
@@ -43,24 +45,26 @@ def test_pooltools_bits(impacts, reference):
 def test_cushions():
     """Recorded impacts of pooltool; the exact model as the limit of its steps; a mirror by hand."""
     impacts, expected = (
-        columns("cushion-stronge.csv", wanted) for wanted in (IMPACT, "avx avy avz awx awy awz")
+        columns("cushion-stronge.csv", names) for names in (IMPACT, "avx avy avz awx awy awz")
     )
     motion, status = carom.cushion(impacts, model="stronge", convention="pooltool")
     assert motion.shape == (479, 6) and not status.any()
     fastest = np.abs(impacts[:, :6] * SCALE).max(axis=1, keepdims=True)
     assert (np.abs((motion - expected) * SCALE) / fastest).max() < 1e-13
-    other = carom.cushion(impacts, model="stronge", convention="pooltool", omega_ratio=1.7).motion
-    assert (other != motion).any(axis=1).mean() > 0.1
+    pooltool = carom.cushion(
+        impacts, model="stronge", convention="pooltool", omega_ratio=1.7
+    ).motion
+    assert (pooltool != motion).any(axis=1).mean() > 0.1
     # every number of a model reaches it
     smooth = {"model": "smooth", "smooth_q": 0.35, "smooth_x": 1.3, "smooth_t": 1.2}
     for name in NUMBERS:
         usual = smooth if name.startswith("smooth") else {"model": "stronge"}
-        near = {"smooth_q": 0.2, "smooth_x": 1.0, "smooth_t": 1.0, "omega_ratio": 1.2}.get(
+        tolerance = {"smooth_q": 0.2, "smooth_x": 1.0, "smooth_t": 1.0, "omega_ratio": 1.2}.get(
             name, 0.1
         )
         assert (
             carom.cushion(impacts, **usual).motion
-            != carom.cushion(impacts, **(usual | {name: near})).motion
+            != carom.cushion(impacts, **(usual | {name: tolerance})).motion
         ).any(), name
     impact = carom.cushion_impacts(v=(0.4, 1.5, 0), w=(-20.0, 0, 30.0))
     exact = carom.cushion(impact).motion["v"]
@@ -79,9 +83,9 @@ def test_cushions():
 def test_shapes_and_layouts_have_the_same_bits(impacts):
     expected, _ = carom.collide(impacts)
     for k in (0, 7, 203):
-        one, status = carom.collide(impacts[k])
-        assert one.shape == (12,) and status.shape == () and status == 0
-        np.testing.assert_array_equal(one, expected[k])
+        single, status = carom.collide(impacts[k])
+        assert single.shape == (12,) and status.shape == () and status == 0
+        np.testing.assert_array_equal(single, expected[k])
     shaped, status = carom.collide(impacts.reshape(3, 68, 26))
     assert status.shape == (3, 68)
     np.testing.assert_array_equal(shaped.reshape(204, 12), expected)
@@ -114,9 +118,9 @@ def test_out_is_written_and_checked(impacts):
 
 def test_a_bad_row_costs_itself(impacts):
     expected, _ = carom.collide(impacts)
-    bad = impacts.copy()
-    bad[5, 10], bad[6, 3:6] = -1.0, [-1.0, 0.0, 0.0]
-    motion, status = carom.collide(bad)
+    invalid = impacts.copy()
+    invalid[5, 10], invalid[6, 3:6] = -1.0, [-1.0, 0.0, 0.0]
+    motion, status = carom.collide(invalid)
     assert status[5] == carom.Status.ERROR_MASS and np.isnan(motion[5]).all()
     assert status[6] == carom.Status.SEPARATING and (motion[6, :3] == [-1.0, 0.0, 0.0]).all()
     keep = (np.arange(204) < 5) | (np.arange(204) > 6)

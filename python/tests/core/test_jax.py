@@ -54,7 +54,9 @@ def test_a_ball_in_the_air():
         and np.array_equal(found.z, shot.final["r"][:, 2])
         and np.array_equal(found.v_z, shot.final["v"][:, 2])
     )
-    slopes = jax.jacrev(lambda given: carom.jax.final(TABLE, BALLS, cue, given, **jump).z)(numbers)
+    slopes = jax.jacrev(lambda numbers: carom.jax.final(TABLE, BALLS, cue, numbers, **jump).z)(
+        numbers
+    )
     tangents = carom.tangents(shot, list(numbers)).final["z"]
     assert (tangents[0] != 0.0).all() and np.array_equal(
         np.stack(list(slopes.values()), axis=-1), tangents
@@ -101,22 +103,25 @@ def test_gradients_are_differences_of_shots():
         "kind.restitution_cushion": 0.85,
     }
 
-    def layout(given):
-        made = carom.balls(
-            [[0.4, given["balls[0].r[1]"]], given["balls[1].r"]],
-            radius=given["kind.radius"],
-            mu_slide=given["kind.mu_slide"],
-            restitution_cushion=given["kind.restitution_cushion"],
-            restitution=[0.95, given["balls[1].kind.restitution"]],
+    def layout(numbers):
+        layout = carom.balls(
+            [[0.4, numbers["balls[0].r[1]"]], numbers["balls[1].r"]],
+            radius=numbers["kind.radius"],
+            mu_slide=numbers["kind.mu_slide"],
+            restitution_cushion=numbers["kind.restitution_cushion"],
+            restitution=[0.95, numbers["balls[1].kind.restitution"]],
         )
-        made["state"]["v"][0, :2], made["state"]["w"][0] = given["balls[0].v"], given["balls[0].w"]
-        return carom.simulate(TABLE, made, **CLOSED)
+        layout["state"]["v"][0, :2], layout["state"]["w"][0] = (
+            numbers["balls[0].v"],
+            numbers["balls[0].w"],
+        )
+        return carom.simulate(TABLE, layout, **CLOSED)
 
     found = carom.jax.final(TABLE, start, None, numbers, **CLOSED)
     expected = layout(numbers)
     assert expected.count > 5 and (expected.events["type"] == carom.EventType.BALL_BALL).any()
     assert np.array_equal(found.r, expected.final["r"][:, :2])
-    slopes = jax.jacrev(lambda given: carom.jax.final(TABLE, start, None, given, **CLOSED).r)(
+    slopes = jax.jacrev(lambda numbers: carom.jax.final(TABLE, start, None, numbers, **CLOSED).r)(
         numbers
     )
     tangents = carom.tangents(expected, list(numbers)).final["r"]
@@ -163,7 +168,7 @@ def test_clusters_banks_and_raised_strikes():
         b=0.1,
     )
     names, balls = ["cue.speed", "cue.phi", "cue.theta", "cue.b"], carom.balls([[0.6, 0.5], *rack])
-    found = jax.jacfwd(lambda given: carom.jax.final(TABLE, balls, cues, given).r.sum(axis=0))(
+    found = jax.jacfwd(lambda numbers: carom.jax.final(TABLE, balls, cues, numbers).r.sum(axis=0))(
         {name: jnp.asarray(cues[name[4:]]) for name in names}
     )
     for k, cue in enumerate(cues):
@@ -185,8 +190,8 @@ def test_vmap_is_one_batch_and_jit_changes_no_bit(monkeypatch):
     assert np.isfinite(singly).all() and (np.ptp(singly, axis=0) > 0).all()
     batches = []
 
-    def counted(*given, **more):
-        shots = derivatives_simulate(*given, **more)
+    def counted(*arguments, **more):
+        shots = derivatives_simulate(*arguments, **more)
         batches.append(shots.shape)
         return shots
 
@@ -227,13 +232,13 @@ def test_batches_of_layouts_cues_and_numbers():
     }
     layouts["kind"]["mu_slide"] = 0.21
 
-    def play(given):
-        return carom.jax.final(TABLE, layouts, cues, given, **CLOSED).r
+    def play(numbers):
+        return carom.jax.final(TABLE, layouts, cues, numbers, **CLOSED).r
 
     found, compiled, slopes = (
         play(numbers),
         jax.jit(play)(numbers),
-        jax.jacrev(lambda given: play(given).sum(axis=(0, 1)))(numbers),
+        jax.jacrev(lambda numbers: play(numbers).sum(axis=(0, 1)))(numbers),
     )
     assert found.shape == (2, 3, 2, 2) and np.array_equal(found, compiled)
     expected = {name: [] for name in numbers}
@@ -247,15 +252,15 @@ def test_batches_of_layouts_cues_and_numbers():
             expected[name].append(part)
     # of a sum over the batch, each shot has its own slope by its own number, and all of them one by
     # a number for all
-    own = {"kind.mu_slide": np.sum(expected["kind.mu_slide"], axis=0)}
-    own["cue.phi"] = np.moveaxis(np.reshape(expected["cue.phi"], (2, 3, 2, 2)), (0, 1), (2, 3))
-    own["balls[1].r"] = np.moveaxis(
+    sums = {"kind.mu_slide": np.sum(expected["kind.mu_slide"], axis=0)}
+    sums["cue.phi"] = np.moveaxis(np.reshape(expected["cue.phi"], (2, 3, 2, 2)), (0, 1), (2, 3))
+    sums["balls[1].r"] = np.moveaxis(
         np.reshape(expected["balls[1].r"], (2, 3, 2, 2, 2)).sum(axis=0), 0, 2
     )
     for name, slope in slopes.items():
         assert np.abs(slope).max() > 0.0
         np.testing.assert_allclose(
-            slope, own[name], rtol=1e-12, atol=1e-12 * np.abs(own[name]).max(), err_msg=name
+            slope, sums[name], rtol=1e-12, atol=1e-12 * np.abs(sums[name]).max(), err_msg=name
         )
     # a batch that is mapped is a batch of batches
     more = jax.vmap(lambda phi: play({**numbers, "cue.phi": phi}))(
@@ -276,27 +281,27 @@ def test_reach_and_flags_are_outputs_without_gradient():
     expected = carom.tangents(shot, NAMES)
     flags = np.bitwise_or.reduce(expected.flags)
 
-    def told(aim):
+    def slopes_with_reach(aim):
         return ends(aim, reach=True)
 
-    for found in (told(AIM), jax.jit(told)(AIM)):
+    for found in (slopes_with_reach(AIM), jax.jit(slopes_with_reach)(AIM)):
         assert np.array_equal(np.stack([found.reach[name] for name in NAMES]), expected.reach)
         assert int(found.flags) == flags and np.array_equal(found.r, ends(AIM).r)
-    many = jax.vmap(told)(jnp.stack([AIM, AIM + 0.01, AIM]))
+    many = jax.vmap(slopes_with_reach)(jnp.stack([AIM, AIM + 0.01, AIM]))
     assert many.reach["cue.phi"].shape == many.flags.shape == (3,)
     assert float(many.reach["cue.phi"][2]) == expected.reach[1]
     assert ends(AIM).reach is None and ends(AIM).flags is None
 
     def guarded(aim):
-        found = told(aim)
-        near = found.reach["cue.phi"] < 12.0 * 1e-3
-        return jnp.where(near, 0.0, ((found.r[1] - GOAL) ** 2).sum()) + found.reach["cue.phi"]
+        found = slopes_with_reach(aim)
+        in_reach = found.reach["cue.phi"] < 12.0 * 1e-3
+        return jnp.where(in_reach, 0.0, ((found.r[1] - GOAL) ** 2).sum()) + found.reach["cue.phi"]
 
     value, slope = jax.value_and_grad(guarded)(AIM)
     assert np.isfinite(value) and np.array_equal(slope, jax.grad(miss)(AIM))
-    assert jax.jacfwd(lambda aim: told(aim).reach["cue.a"])(AIM).tolist() == [0.0] * 4
+    assert jax.jacfwd(lambda aim: slopes_with_reach(aim).reach["cue.a"])(AIM).tolist() == [0.0] * 4
     np.testing.assert_array_equal(
-        jax.hessian(lambda aim: told(aim).r[1, 0])(AIM),
+        jax.hessian(lambda aim: slopes_with_reach(aim).r[1, 0])(AIM),
         jax.hessian(lambda aim: ends(aim).r[1, 0])(AIM),
     )
     # numbers of several elements, and a shot in error
@@ -324,14 +329,14 @@ def test_a_search_in_compiled_code_improves_an_aim():
 
 
 def test_shots_that_are_refused_say_why():
-    bad = AIM.at[3].set(2.0)
+    invalid = AIM.at[3].set(2.0)
     for call in (ends, jax.jit(ends), jax.grad(miss), jax.jit(jax.grad(miss))):
         with pytest.raises(
             (ValueError, RuntimeError),
             match=r"cue\.speed = 1\.5, cue\.phi = 79, cue\.a = 0\.1, cue\.b = 2: .*must be -1 to 1",
         ):
-            jax.block_until_ready(call(bad))
-    both = jnp.stack([AIM, AIM, bad])
+            jax.block_until_ready(call(invalid))
+    both = jnp.stack([AIM, AIM, invalid])
     with pytest.raises(
         (ValueError, RuntimeError), match=r"shot \[2\] of the batch, cue\.speed = 1\.5"
     ):

@@ -212,18 +212,18 @@ VALUES = [
     (r"shot: ", lambda: carom.resume(None)),
     *(
         (
-            rf"times: .* not {bad}",
-            lambda bad=bad, look=look: look(carom.simulate(TABLE, RACK, CUE))([0.1, bad]),
+            rf"times: .* not {time}",
+            lambda time=time, look=look: look(carom.simulate(TABLE, RACK, CUE))([0.1, time]),
         )
-        for bad in (np.nan, np.inf, -5.0)
+        for time in (np.nan, np.inf, -5.0)
         for look in (lambda s: s.positions, lambda s: s.states, lambda s: s.orientations)
     ),
     *(
         (
-            rf"times: .* not {bad}",
-            lambda bad=bad: carom.simulate_batch(TABLE, RACK, CUE).positions([0.1, bad]),
+            rf"times: .* not {time}",
+            lambda time=time: carom.simulate_batch(TABLE, RACK, CUE).positions([0.1, time]),
         )
-        for bad in (np.nan, -1.0)
+        for time in (np.nan, -1.0)
     ),
     (r"times: .* from the beginning", lambda: carom.tangents(shot(), ["cue.phi"], times=[-1.0])),
     (
@@ -481,8 +481,8 @@ def test_a_generator_is_a_seed():
     def racks(generator):
         return [carom.racks.nineball(TABLE, seed=generator).tobytes() for _ in range(2)]
 
-    first, again = (racks(np.random.default_rng(5)) for _ in range(2))
-    assert first == again and first[0] != first[1]
+    first, second = (racks(np.random.default_rng(5)) for _ in range(2))
+    assert first == second and first[0] != first[1]
     with pytest.raises(ValueError, match="^seed: it must be a whole number .*Generator will do"):
         carom.racks.nineball(TABLE, seed=0.5)
 
@@ -571,7 +571,7 @@ def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(call, go
 
 
 def test_what_looks_like_a_number_and_is_none():
-    for call, said in (
+    for call, message in (
         (lambda: carom.cue(phi="90"), "phi: real numbers are needed, not '90'"),
         (lambda: carom.cue(speed=[None, 1.0]), "speed: real numbers are needed, not [None, 1.0]"),
         (
@@ -583,7 +583,7 @@ def test_what_looks_like_a_number_and_is_none():
             "options: a carom.Options is needed, such as",
         ),
     ):
-        with pytest.raises(TypeError, match="^" + re.escape(said)):
+        with pytest.raises(TypeError, match="^" + re.escape(message)):
             call()
 
 
@@ -616,12 +616,12 @@ def test_balls_of_another_game_than_the_table_are_doubted(play):
     }
     for made_for, table in tables.items():
         for game in ("pool", "snooker", "billiard", "blackball", "pyramid"):
-            with warnings.catch_warnings(record=True) as told:
+            with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")
                 play(table, carom.balls([[0.5, 0.5]], game=game))
-            of = f"balls: they are of {game}, .* made for those of {made_for.partition(',')[0]}"
-            assert len(told) == (not made_for.startswith(game)) and all(
-                re.match(of, str(one.message)) for one in told
+            doubt = f"balls: they are of {game}, .* made for those of {made_for.partition(',')[0]}"
+            assert len(caught) == (not made_for.startswith(game)) and all(
+                re.match(doubt, str(warning.message)) for warning in caught
             )
     for game in ("pool", "fourball"):  # tables of one size
         with warnings.catch_warnings():
@@ -638,27 +638,27 @@ def test_a_model_of_the_cushion_has_its_own_constants_or_says_that_it_has_none()
     models = get_args(ShotCushion)
     for game, table in tables.items():
 
-        def played(model, given, play=carom.simulate):
-            with warnings.catch_warnings(record=True) as told:
+        def played(model, options, play=carom.simulate):
+            with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")
-                layout = carom.balls([[0.5, 0.5]], game=game, cushion_model=given)
-                made = len(told)
+                layout = carom.balls([[0.5, 0.5]], game=game, cushion_model=options)
+                count = len(caught)
                 final = play(table, layout, carom.cue(speed=4.0), cushion_model=model).final
-            return made, [str(one.message) for one in told[made:]], final
+            return count, [str(warning.message) for warning in caught[count:]], final
 
         for model in models:
-            none, told, own = played(model, model)
-            said, other = played(model, "default")[1:]
-            assert none == (len(told) == 1) and all(
-                f"{game} has no constants for it" in text for text in told
+            none, caught, own_ball = played(model, model)
+            message, doubt_of_default = played(model, "default")[1:]
+            assert none == (len(caught) == 1) and all(
+                f"{game} has no constants for it" in text for text in caught
             )
             # what is another shot, or has none of its own, is told
             assert (
-                len(said)
-                == (none or other.tobytes() != own.tobytes())
+                len(message)
+                == (none or doubt_of_default.tobytes() != own_ball.tobytes())
                 == len(played(model, "default", carom.simulate_batch)[1])
             )
-            assert model not in ("default", "smooth") or (not said and not none)
+            assert model not in ("default", "smooth") or (not message and not none)
         assert len(played("han", "mathavan")[1]) == 1
     with pytest.raises(ValueError, match="cushion_model: must be one of 'default', 'mathavan'"):
         carom.balls([[0.5, 0.5]], cushion_model="rubber")
@@ -698,8 +698,8 @@ def test_failures_of_a_batch():
     shots = carom.simulate_batch(
         TABLE, layouts, carom.cue(speed=[1.0, np.nan, 1.0, 1.0], ball=[99, 0, 0, 0])
     )
-    told = [(index[0], text.partition(":")[0]) for index, text in shots.failures()]
-    assert told == [
+    failures = [(index[0], text.partition(":")[0]) for index, text in shots.failures()]
+    assert failures == [
         (0, "cue.ball = 99"),
         (1, "cue.speed = nan"),
         (2, "balls[3].kind.mass = -1.0"),

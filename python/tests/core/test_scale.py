@@ -30,9 +30,9 @@ def test_dask_and_xarray(impacts):
     )
     np.testing.assert_array_equal(motion.compute(), expected.motion)
     np.testing.assert_array_equal(status.compute(), expected.status)
-    given = xarray.DataArray(impacts.reshape(4, 51, 26), dims=("speed", "angle", "field"))
+    labelled = xarray.DataArray(impacts.reshape(4, 51, 26), dims=("speed", "angle", "field"))
     motion, status = xarray.apply_ufunc(
-        carom.collide, given, input_core_dims=[["field"]], output_core_dims=[["motion"], []]
+        carom.collide, labelled, input_core_dims=[["field"]], output_core_dims=[["motion"], []]
     )
     assert motion.dims == ("speed", "angle", "motion") and status.dims == ("speed", "angle")
     np.testing.assert_array_equal(motion.values.reshape(204, 12), expected.motion)
@@ -79,12 +79,12 @@ def digest_of(*arguments):
     return digest
 
 
-@pytest.mark.parametrize("by", ["dask", "ray"])
-def test_two_worker_processes(by):
+@pytest.mark.parametrize("way", ["dask", "ray"])
+def test_two_worker_processes(way):
     """A batch over a cluster of two worker processes has the bits that it has in one process."""
-    package = {"dask": "distributed", "ray": "ray"}[by]
+    package = {"dask": "distributed", "ray": "ray"}[way]
     if importlib.util.find_spec(package) is None:
         pytest.skip(f"{package} is not installed")
-    here = digest_of("--by", "local")
-    assert digest_of("--by", by, "--workers", "2") == here
-    assert digest_of("--by", "local", "--seed", "2") != here
+    digest = digest_of("--by", "local")
+    assert digest_of("--by", way, "--workers", "2") == digest
+    assert digest_of("--by", "local", "--seed", "2") != digest

@@ -48,7 +48,7 @@ def test_gradients_are_differences_of_shots():
     # closed models, as steps of the exact one change differences by 1e-4
     scales = torch.tensor([1.0, 1.0, 0.1, 0.1], dtype=torch.float64)
     x = (AIM / scales).requires_grad_()
-    function = lambda given: ends(given * scales, **CLOSED).r  # noqa: E731
+    function = lambda arguments: ends(arguments * scales, **CLOSED).r  # noqa: E731
     assert torch.autograd.gradcheck(function, x, eps=1e-6, atol=1e-6, rtol=1e-6)
     # float32 and lists are converted, and the gradient of a float32 tensor is float32
     single = torch.tensor(1.5, requires_grad=True)
@@ -84,35 +84,36 @@ def test_batches_are_broadcast_and_have_the_bits_of_single_shots():
 def test_reach_and_flags_are_outputs_without_gradient():
     expected = carom.tangents(played(AIM), NAMES)
     aim = AIM.clone().requires_grad_()
-    for given in (AIM, aim):
-        found = ends(given, reach=True)
+    for start in (AIM, aim):
+        found = ends(start, reach=True)
         reach = torch.stack([found.reach[name] for name in NAMES])
         assert np.array_equal(reach.numpy(), expected.reach) and not reach.requires_grad
         assert int(found.flags) == np.bitwise_or.reduce(expected.flags)
     slope, plain = (
-        torch.autograd.grad(ends(aim, reach=told).r[1].sum(), aim)[0] for told in (True, False)
+        torch.autograd.grad(ends(aim, reach=has_reach).r[1].sum(), aim)[0]
+        for has_reach in (True, False)
     )
     assert torch.equal(slope, plain)
     many = ends(torch.stack([AIM, AIM + 0.01]), reach=True)
     assert many.reach["cue.phi"].shape == many.flags.shape == (2,)
     assert ends(AIM).reach is None
     if hasattr(torch, "func"):
-        mapped = torch.func.vmap(lambda one: ends(one, reach=True).reach["cue.phi"])
+        mapped = torch.func.vmap(lambda aim: ends(aim, reach=True).reach["cue.phi"])
         assert torch.equal(mapped(torch.stack([AIM, AIM + 0.01])), many.reach["cue.phi"])
-        jacobian = torch.func.jacrev(lambda one: ends(one, reach=True).r[1])(AIM)
-        assert torch.equal(jacobian, torch.func.jacrev(lambda one: ends(one).r[1])(AIM))
+        jacobian = torch.func.jacrev(lambda aim: ends(aim, reach=True).r[1])(AIM)
+        assert torch.equal(jacobian, torch.func.jacrev(lambda aim: ends(aim).r[1])(AIM))
 
 
 def test_shots_that_are_refused_say_why():
-    bad = AIM.clone()
-    bad[3] = 2.0
-    for given in (bad, bad.clone().requires_grad_()):
+    invalid = AIM.clone()
+    invalid[3] = 2.0
+    for numbers in (invalid, invalid.clone().requires_grad_()):
         with pytest.raises(
             carom.CaromError,
             match=r"cue\.speed = 1\.5, cue\.phi = 79, cue\.a = 0\.1, cue\.b = 2: .*must be -1 to 1",
         ):
-            ends(given)
-    both = torch.stack([AIM, bad]).requires_grad_()
+            ends(numbers)
+    both = torch.stack([AIM, invalid]).requires_grad_()
     found = ends(both, errors="nan").r
     found[0].sum().backward()
     assert (
@@ -180,7 +181,7 @@ def test_functions_of_torch_func(monkeypatch):
     monkeypatch.setattr(
         carom.derivatives,
         "simulate_batch",
-        lambda *given, **more: played_at.append(1) or simulate(*given, **more),
+        lambda *arguments, **more: played_at.append(1) or simulate(*arguments, **more),
     )
     aims = AIM + torch.linspace(0.0, 0.1, 5, dtype=torch.float64)[:, None]
     singly = np.stack([carom.tangents(played(aim), NAMES).final["r"].sum((0, 1)) for aim in aims])
@@ -227,10 +228,13 @@ def test_clusters_banks_and_raised_strikes():
         b=0.1,
     )
     names, balls = ["cue.speed", "cue.phi", "cue.theta", "cue.b"], carom.balls([[0.6, 0.5], *rack])
-    given = [torch.tensor(cues[name[4:]].copy(), requires_grad=True) for name in names]
-    carom.torch.final(TABLE, balls, cues, dict(zip(names, given))).r.sum().backward()
+    numbers = [torch.tensor(cues[name[4:]].copy(), requires_grad=True) for name in names]
+    carom.torch.final(TABLE, balls, cues, dict(zip(names, numbers))).r.sum().backward()
     for k, cue in enumerate(cues):
         expected = carom.tangents(carom.simulate(TABLE, balls, cue), names).final["r"].sum((0, 1))
         np.testing.assert_allclose(
-            [each.grad[k] for each in given], expected, rtol=0.0, atol=1e-9 * np.abs(expected).max()
+            [each.grad[k] for each in numbers],
+            expected,
+            rtol=0.0,
+            atol=1e-9 * np.abs(expected).max(),
         )

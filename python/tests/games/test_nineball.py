@@ -39,10 +39,10 @@ def action(stroke, place=(0.0, 0.0)):
 
 
 def test_a_legal_pot_keeps_the_turn_and_a_miss_passes_it():
-    before = position_of({0: CUE, 3: NEAR, 9: (0.6, 2.0)}, fouls=(2, 1))
-    after, turn = RULES.play(before, action(AT_POCKET))
+    start = position_of({0: CUE, 3: NEAR, 9: (0.6, 2.0)}, fouls=(2, 1))
+    outcome, turn = RULES.play(start, action(AT_POCKET))
     assert (turn.foul, turn.first, turn.potted) == ("", 3, (3,))
-    assert (after.player, after.hand, after.fouls, after.strokes, after.winner) == (
+    assert (outcome.player, outcome.hand, outcome.fouls, outcome.strokes, outcome.winner) == (
         0,
         Hand.NOWHERE,
         (0, 1),
@@ -54,34 +54,34 @@ def test_a_legal_pot_keeps_the_turn_and_a_miss_passes_it():
         position_of({0: CUE + [0.03, 0.0], 3: NEAR, 9: (0.6, 2.0)}, player=1), action(AT_POCKET)
     )
     assert (turn.foul, turn.potted, missed.player, missed.hand) == ("", (), 0, Hand.NOWHERE)
-    assert before.strokes == 0 and before.balls["state"]["label"][3] == carom.Label.STATIONARY
+    assert start.strokes == 0 and start.balls["state"]["label"][3] == carom.Label.STATIONARY
 
 
 def test_the_nine_wins():
     """By itself, by a combination of the lowest; not by a foul, after which it is spotted."""
     for places in ({0: CUE, 9: NEAR}, {0: CUE, 4: NEAR, 9: NEARER}):
-        after, turn = RULES.play(position_of(places, player=1), action(AT_POCKET))
-        assert after.winner == 1 and 9 in turn.potted and not turn.foul
+        outcome, turn = RULES.play(position_of(places, player=1), action(AT_POCKET))
+        assert outcome.winner == 1 and 9 in turn.potted and not turn.foul
         with pytest.raises(ValueError, match="the game has ended"):
-            RULES.play(after, action(AT_POCKET))
-    after, turn = RULES.play(position_of({0: CUE, 4: (0.6, 2.0), 9: NEAR}), action(AT_POCKET))
+            RULES.play(outcome, action(AT_POCKET))
+    outcome, turn = RULES.play(position_of({0: CUE, 4: (0.6, 2.0), 9: NEAR}), action(AT_POCKET))
     assert (
         turn.foul == "the cue ball met another ball first than one that is on"
         and turn.potted == (9,)
-        and after.winner is None
+        and outcome.winner is None
     )
-    nine = after.balls["state"][9]
+    nine = outcome.balls["state"][9]
     assert nine["label"] == carom.Label.STATIONARY and nine["r"].tolist() == [
         0.635,
         1.905,
         0.028575,
     ]
-    assert (after.player, after.hand, after.fouls) == (1, Hand.ANYWHERE, (1, 0))
+    assert (outcome.player, outcome.hand, outcome.fouls) == (1, Hand.ANYWHERE, (1, 0))
     # The spot is taken: behind it, on the long string.
-    after, _ = RULES.play(position_of({0: CUE, 4: (0.635, 1.905), 9: NEAR}), action(AT_POCKET))
+    outcome, _ = RULES.play(position_of({0: CUE, 4: (0.635, 1.905), 9: NEAR}), action(AT_POCKET))
     assert (
-        after.balls["state"]["r"][9, 0] == 0.635
-        and 0.0571 < after.balls["state"]["r"][9, 1] - 1.905 < 0.06
+        outcome.balls["state"]["r"][9, 0] == 0.635
+        and 0.0571 < outcome.balls["state"]["r"][9, 1] - 1.905 < 0.06
     )
 
 
@@ -103,9 +103,9 @@ def test_fouls():
             "nothing fell, and nothing met a cushion after the first contact",
         ),
     ):
-        after, turn = RULES.play(position_of(places), action(stroke))
+        outcome, turn = RULES.play(position_of(places), action(stroke))
         assert turn.foul == foul
-        assert (after.player, after.hand, after.fouls, after.winner) == (
+        assert (outcome.player, outcome.hand, outcome.fouls, outcome.winner) == (
             1,
             Hand.ANYWHERE,
             (1, 0),
@@ -123,12 +123,15 @@ def test_a_ball_that_leaves_the_table_is_a_foul_and_stays_down(monkeypatch):
         return shots
 
     monkeypatch.setattr("carom.games.rules.simulate_batch", off)
-    before = position_of({0: CUE, 3: NEAR, 9: (0.6, 2.0)})
-    after, turn = RULES.play(before, action(AT_POCKET))
-    assert turn.foul == "a ball left the table" and (after.player, after.hand) == (1, Hand.ANYWHERE)
+    start = position_of({0: CUE, 3: NEAR, 9: (0.6, 2.0)})
+    outcome, turn = RULES.play(start, action(AT_POCKET))
+    assert turn.foul == "a ball left the table" and (outcome.player, outcome.hand) == (
+        1,
+        Hand.ANYWHERE,
+    )
     assert (
-        after.balls["state"]["label"][3] == carom.Label.POCKETED
-        and before.balls["state"]["label"][3] == carom.Label.STATIONARY
+        outcome.balls["state"]["label"][3] == carom.Label.POCKETED
+        and start.balls["state"]["label"][3] == carom.Label.STATIONARY
     )
 
 
@@ -152,26 +155,26 @@ def test_the_break():
 
 
 def test_ball_in_hand():
-    before = position_of({0: CUE, 1: (0.6, 1.8), 9: (0.6, 2.0)}, hand=Hand.ANYWHERE)
-    _, turn = RULES.play(before, action(RULES.base.actions(90.0, 2.0), (-0.5, 0.0)))
+    start = position_of({0: CUE, 1: (0.6, 1.8), 9: (0.6, 2.0)}, hand=Hand.ANYWHERE)
+    _, turn = RULES.play(start, action(RULES.base.actions(90.0, 2.0), (-0.5, 0.0)))
     np.testing.assert_allclose(
         turn.shot.balls["state"]["r"][0, :2], [0.635 - 0.5 * (0.635 - 0.029575), 1.27], atol=1e-9
     )
     # A place that another ball takes becomes one that is free, always the same.
-    taken = [
+    placed = [
         2.0 * (0.6 - 0.029575) / (1.27 - 0.05915) - 1.0,
         2.0 * (1.8 - 0.029575) / (2.54 - 0.05915) - 1.0,
     ]
     places = [
-        RULES.play(before, action(RULES.base.actions(90.0, 2.0), taken))[1]
+        RULES.play(start, action(RULES.base.actions(90.0, 2.0), placed))[1]
         .shot.balls["state"]["r"][0]
         .tolist()
         for _ in range(2)
     ]
     assert places[0] == places[1] and np.hypot(*(np.array(places[0][:2]) - [0.6, 1.8])) > 0.05715
-    for bad in (np.zeros(5), np.full(6, np.nan)):
+    for invalid in (np.zeros(5), np.full(6, np.nan)):
         with pytest.raises(ValueError, match="action: six finite numbers"):
-            RULES.play(before, bad)
+            RULES.play(start, invalid)
 
 
 def test_observations_are_within_bounds():
@@ -201,21 +204,25 @@ def test_eightball_by_hand():
     wins as the last, and loses before.
     """
     far = {5: (0.6, 2.0), 12: (0.7, 2.2), 8: (0.3, 2.3)}
-    after, turn = EIGHT.play(position_of({0: CUE, 3: NEAR, **far}, EIGHT), action(AT_POCKET))
-    assert (turn.foul, turn.potted, after.player, after.hand, after.state["group"]) == (
+    outcome, turn = EIGHT.play(position_of({0: CUE, 3: NEAR, **far}, EIGHT), action(AT_POCKET))
+    assert (turn.foul, turn.potted, outcome.player, outcome.hand, outcome.state["group"]) == (
         "",
         (3,),
         0,
         Hand.NOWHERE,
         1,
     )
-    after, _ = EIGHT.play(position_of({0: CUE, 11: NEAR, **far}, EIGHT), action(AT_POCKET))
-    assert after.state["group"] == 2 and after.player == 0
+    outcome, _ = EIGHT.play(position_of({0: CUE, 11: NEAR, **far}, EIGHT), action(AT_POCKET))
+    assert outcome.state["group"] == 2 and outcome.player == 0
     # A ball of the other group met first is a foul; the other then has his own group.
-    after, turn = EIGHT.play(
+    outcome, turn = EIGHT.play(
         position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2), action(AT_POCKET)
     )
-    assert turn.code == carom.Foul.FIRST and (after.player, after.hand, after.state["group"]) == (
+    assert turn.code == carom.Foul.FIRST and (
+        outcome.player,
+        outcome.hand,
+        outcome.state["group"],
+    ) == (
         1,
         Hand.ANYWHERE,
         1,
@@ -224,17 +231,17 @@ def test_eightball_by_hand():
         (1, {8: NEAR, 12: (0.7, 2.2)}, 0),
         (1, {8: NEAR, 5: (0.6, 2.0)}, 1),
     ):
-        after, _ = EIGHT.play(
+        outcome, _ = EIGHT.play(
             position_of({0: CUE, **places}, EIGHT, group=group), action(AT_POCKET)
         )
-        assert after.winner == winner
+        assert outcome.winner == winner
     assert EIGHT.on(position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2)) == (12,)
     # What an observation tells is the position again, for whoever is at the table.
     position = position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2, player=1)
-    again = EIGHT.seen(EIGHT.observe(position, 1))
+    restored = EIGHT.seen(EIGHT.observe(position, 1))
     assert (
-        again.balls[[0, 3, 5, 12, 8]].tobytes() == position.balls[[0, 3, 5, 12, 8]].tobytes()
-        and (again.state == position.state).all()
+        restored.balls[[0, 3, 5, 12, 8]].tobytes() == position.balls[[0, 3, 5, 12, 8]].tobytes()
+        and (restored.state == position.state).all()
     )
     assert EIGHT.observe(position, 0)[-1] == 1.0 and EIGHT.observe(position, 1)[-1] == 2.0
     assert EIGHT.observe(EIGHT.begin(1), 0)[-3:].tolist() == [1.0, 1.0, 0.0]
@@ -245,23 +252,23 @@ def test_what_strokes_are_worth():
     generator = np.random.default_rng(5)
     for rules in (RULES, EIGHT):
         seen = set()
-        for before in (
+        for start in (
             position_of({0: CUE, 3: NEAR, 5: (0.6, 2.0), 8: (0.3, 2.3), 9: (0.9, 1.2)}, rules),
             rules.begin(2),
         ):
             actions = generator.uniform(-1.0, 1.0, (60, 6))
             actions[:5, :4] = AT_POCKET
-            for worth, one in zip(rules.tried(before, actions), actions):
-                after, turn = rules.play(before, one)
+            for worth, stroke in zip(rules.tried(start, actions), actions):
+                outcome, turn = rules.play(start, stroke)
                 expected = (
                     1.0
-                    if after.winner == 0
+                    if outcome.winner == 0
                     else -1.0
-                    if after.winner == 1
+                    if outcome.winner == 1
                     else -0.5
                     if turn.foul
                     else 0.5
-                    if after.player == 0
+                    if outcome.player == 0
                     else 0.0
                 )
                 assert worth == expected

@@ -33,11 +33,11 @@ def test_kinds_of_strokes_are_those_of_c_and_have_words():
 
 def test_plan():
     best = carom.plan(TABLE, LAYOUT, rules="potting", shots=300)
-    again = carom.plan(TABLE, LAYOUT, rules="potting", shots=300, threads=2)
+    repeat = carom.plan(TABLE, LAYOUT, rules="potting", shots=300, threads=2)
     assert (
         best.dtype == carom.dtypes.choice
         and 1 <= len(best) <= 5
-        and best.tobytes() == again.tobytes()
+        and best.tobytes() == repeat.tobytes()
     )
     assert best["ball"][0] in (1, 2, 3) and 0.3 < best["value"][0] <= 1.0 and best["keep"][0] > 0.5
     # the stroke pots the ball that it says
@@ -95,8 +95,8 @@ def test_a_layout_is_planned_by_the_numbers_of_its_balls():
     places = {"5": [0.3, 1.9], "cue": [0.4, 0.9], "2": [0.9, 1.7], "9": [0.7, 0.5]}
     layout = carom.by_number(carom.balls(list(places.values())), list(places), "nineball")
     assert layout.shape == (10,) and all(
-        layout["state"]["r"][int(name.replace("cue", "0")), :2].tolist() == at
-        for name, at in places.items()
+        layout["state"]["r"][int(name.replace("cue", "0")), :2].tolist() == place
+        for name, place in places.items()
     )
     assert np.flatnonzero(layout["state"]["label"] == carom.Label.POCKETED).tolist() == [
         1,
@@ -114,7 +114,7 @@ def test_a_layout_is_planned_by_the_numbers_of_its_balls():
         == layout.tobytes()
     )
     assert carom.by_number(layout, range(10), "eightball", cue=0).shape == (16,)
-    for ids, rules, told in (
+    for ids, rules, message in (
         (
             ["cue", "5", "5", "9"],
             "nineball",
@@ -128,7 +128,7 @@ def test_a_layout_is_planned_by_the_numbers_of_its_balls():
         (["cue", "5", "2", "9"], "elevenball", "rules: must be one of"),
         (["cue", "red5", "pink", "red20"], "snooker", "ball 'red20'"),
     ):
-        with pytest.raises(ValueError, match=told):
+        with pytest.raises(ValueError, match=message):
             carom.by_number(LAYOUT, ids, rules)
 
 
@@ -172,7 +172,7 @@ def test_aim_by_a_way():
             if event["type"] in (carom.EventType.BALL_BALL, carom.EventType.RAIL)
             and ball in (event["a"], event["b"])
         ]
-        met = [
+        contacts = [
             event["a"] + event["b"] - ball
             if event["type"] == carom.EventType.BALL_BALL
             else TABLE.rail_names[event["b"]]
@@ -185,7 +185,7 @@ def test_aim_by_a_way():
                 for event in events[:fallen]
                 if event["type"] == carom.EventType.RAIL
             ][0] == via[0]
-        assert met[: len(way)] == way, met  # then it may touch what is beside the pocket
+        assert contacts[: len(way)] == way, contacts  # then it may touch what is beside the pocket
         assert TABLE.pocket_names[events[fallen]["b"]] == ("foot-left" if pocket == 2 else pocket)
 
 
@@ -210,13 +210,13 @@ def test_aim_by_a_way():
     ],
 )
 def test_no_such_aim(changes, match):
-    given = {"ball": 1, "pocket": "foot-left", "speed": 2.0} | changes
+    arguments = {"ball": 1, "pocket": "foot-left", "speed": 2.0} | changes
     with pytest.raises(ValueError, match=match):
         carom.aim(
             TABLE,
             carom.balls([[0.6, 0.8], [0.4, 1.7]]),
-            carom.cue(speed=given.pop("speed")),
-            **given,
+            carom.cue(speed=arguments.pop("speed")),
+            **arguments,
         )
 
 
@@ -242,20 +242,23 @@ def test_chances_of_strokes():
     best = carom.plan(TABLE, LAYOUT, rules="potting", shots=1000)
     away = carom.cue(speed=1.0, phi=float(best["cue"]["phi"][0]) + 20.0)
     cues = np.array([best["cue"][0], away])
-    told = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7)
-    again = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7, threads=2)
+    chances = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7)
+    repeat = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7, threads=2)
     assert (
-        told.dtype == carom.dtypes.choice
-        and told.shape == (2,)
-        and told.tobytes() == again.tobytes()
-        and told["seen"].tolist() == [1000, 1000]
+        chances.dtype == carom.dtypes.choice
+        and chances.shape == (2,)
+        and chances.tobytes() == repeat.tobytes()
+        and chances["seen"].tolist() == [1000, 1000]
     )
-    assert abs(told["keep"][0] - best["keep"][0]) < 0.1 and told["keep"][1] < told["keep"][0] - 0.3
-    assert (told["ball"][0], told["pocket"][0]) == (best["ball"][0], best["pocket"][0])
-    one = carom.chances(
+    assert (
+        abs(chances["keep"][0] - best["keep"][0]) < 0.1
+        and chances["keep"][1] < chances["keep"][0] - 0.3
+    )
+    assert (chances["ball"][0], chances["pocket"][0]) == (best["ball"][0], best["pocket"][0])
+    single = carom.chances(
         TABLE, LAYOUT, best["cue"][0], rules="potting", shots=100, player=carom.player(0.0)
     )
-    assert one.shape == () and one["keep"] in (0.0, 1.0) and one["error"] < 1e-6
+    assert single.shape == () and single["keep"] in (0.0, 1.0) and single["error"] < 1e-6
     with pytest.raises(ValueError, match="cues: 1 to 1000 are needed, not 0"):
         carom.chances(TABLE, LAYOUT, cues[:0], rules="potting")
     with pytest.raises(TypeError, match="cues: an array of the dtype of carom.cue"):
@@ -334,19 +337,23 @@ def test_ratings():
 def test_strokes_with_errors():
     cue = carom.cue(speed=2.0, phi=40.0, tip_restitution=1.0)
     player = carom.player(2.0)
-    made = np.array([carom.with_errors(cue, player, 5, k) for k in range(4000)])
-    np.testing.assert_allclose([made["speed"].mean(), made["phi"].mean()], [2.0, 40.0], atol=0.02)
+    sample = np.array([carom.with_errors(cue, player, 5, k) for k in range(4000)])
     np.testing.assert_allclose(
-        [made["speed"].std(), made["phi"].std(), made["a"].std()], [0.2, 0.2, 0.006], rtol=0.06
+        [sample["speed"].mean(), sample["phi"].mean()], [2.0, 40.0], atol=0.02
+    )
+    np.testing.assert_allclose(
+        [sample["speed"].std(), sample["phi"].std(), sample["a"].std()],
+        [0.2, 0.2, 0.006],
+        rtol=0.06,
     )
     # a leather tip takes a faster cue, and the same speeds of the ball
     cue["speed"], cue["tip_restitution"] = 4.0 / 1.73, 0.73
     leather = np.array([carom.with_errors(cue, player, 5, k) for k in range(100)])
-    np.testing.assert_allclose(leather["speed"] * 1.73 / 2.0, made["speed"][:100], rtol=1e-14)
+    np.testing.assert_allclose(leather["speed"] * 1.73 / 2.0, sample["speed"][:100], rtol=1e-14)
     cue["speed"], cue["tip_restitution"] = 2.0, 1.0
     assert (
-        made[7].tobytes() == carom.with_errors(cue, player, 5, 7).tobytes()
-        and made["theta"].min() >= 0.0
+        sample[7].tobytes() == carom.with_errors(cue, player, 5, 7).tobytes()
+        and sample["theta"].min() >= 0.0
     )
     player["phi"] = 0.0
     assert carom.with_errors(cue, player, 5)["phi"] == 40.0
@@ -370,23 +377,23 @@ def test_arguments_in_error():
 
 
 def _down(layout, balls):
-    made = layout.copy()
-    made["state"]["label"][balls] = carom.Label.POCKETED
-    return made
+    layout_after = layout.copy()
+    layout_after["state"]["label"][balls] = carom.Label.POCKETED
+    return layout_after
 
 
 def _player(**fields):
-    made = carom.player()
+    player = carom.player()
     for name, value in fields.items():
-        made[name] = value
-    return made
+        player[name] = value
+    return player
 
 
 RACK = carom.racks.eightball(TABLE)
 
 
 @pytest.mark.parametrize(
-    ("given", "match"),
+    ("arguments", "match"),
     [
         (
             {"state": [0] * 8, "group": "open"},
@@ -423,9 +430,11 @@ RACK = carom.racks.eightball(TABLE)
         ),
     ],
 )
-def test_what_cannot_be_planned(given, match):
+def test_what_cannot_be_planned(arguments, match):
     with pytest.raises(ValueError, match=match):
-        carom.plan(given.pop("table", TABLE), given.pop("balls", RACK), shots=100, **given)
+        carom.plan(
+            arguments.pop("table", TABLE), arguments.pop("balls", RACK), shots=100, **arguments
+        )
 
 
 def test_a_player_has_one_strength():
@@ -531,23 +540,23 @@ def test_rules_of_ones_own():
             TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300
         )
         assert set(best["pocket"]) <= {pocket, -1}
-        again = carom.plan(
+        repeat = carom.plan(
             TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300, threads=2
         )
-        assert best.tobytes() == again.tobytes()
+        assert best.tobytes() == repeat.tobytes()
     best = carom.plan(TABLE, ORDER, rules="nineball", shots=300)[0]
     corner, pot = int(best["pocket"]), best["cue"]
-    here = carom.referee(TABLE, ORDER, pot, rules=Corner(), state=[corner, 5, 0, 0, 0, 0, 0, 0])
-    assert (here.turn, here.points, here.potted, here.state[:2].tolist()) == (
+    ruling = carom.referee(TABLE, ORDER, pot, rules=Corner(), state=[corner, 5, 0, 0, 0, 0, 0, 0])
+    assert (ruling.turn, ruling.points, ruling.potted, ruling.state[:2].tolist()) == (
         "keep",
         1.0,
         (1,),
         [corner, 6],
     )
-    there = carom.referee(
+    rulings = carom.referee(
         TABLE, ORDER, pot, rules=Corner(), state=[(corner + 1) % 6, 5, 0, 0, 0, 0, 0, 0]
     )
-    assert there.turn == "pass" and there.balls["state"]["r"][1, :2].tolist() == [
+    assert rulings.turn == "pass" and rulings.balls["state"]["r"][1, :2].tolist() == [
         TABLE.width / 2,
         0.75 * TABLE.length,
     ]
@@ -619,9 +628,9 @@ def test_what_rules_cannot_say(method, gives, match):
 
 def test_the_bot_for_ten_ball(capsys):
     runpy.run_path(str(Path(__file__).parents[2] / "examples" / "ten_ball.py"))
-    told = capsys.readouterr().out.splitlines()
+    output = capsys.readouterr().out.splitlines()
     assert (
-        len(told) > 5 and told[-1] == f"after {len(told)} strokes: player 0 has won"
+        len(output) > 5 and output[-1] == f"after {len(output)} strokes: player 0 has won"
     )  # the one with a rating of 750
 
 
@@ -632,10 +641,10 @@ class Every(Corner):
     raises = ""
 
     def __init__(self):
-        self.asked = set()
+        self.requests = set()
 
     def ask(self, method):
-        self.asked.add(method)
+        self.requests.add(method)
         if method == self.raises:
             raise KeyError(f"in {method}")
 
@@ -686,12 +695,12 @@ def test_every_method_of_rules():
     assert (ruling.state[0], ruling.points, without.points) == (7, TABLE.length, 0.0)
     kinds = {"shots": 100}
     carom.plan(TABLE, LAYOUT, rules=every, **kinds)
-    assert every.asked == {"on", "judge", "left", "pockets", "points", "settle"}
+    assert every.requests == {"on", "judge", "left", "pockets", "points", "settle"}
     carom.plan(TABLE, LAYOUT, rules=valued, **kinds)
-    assert "value" in valued.asked and "points" not in valued.asked
+    assert "value" in valued.requests and "points" not in valued.requests
 
     match = carom.Match(valued, TABLE, balls=ORDER)
-    for method in every.asked | {"value"}:
+    for method in every.requests | {"value"}:
         every.raises = valued.raises = method
         raised = 0
         for call in (
@@ -751,11 +760,11 @@ def test_balls_are_not_settled_where_none_can_lie(place):
             balls["state"]["r"][2, :2] = 0.6, 1.6
             return turn
 
-    before = carom.Match(Wrong(), TABLE, balls=LAYOUT)
-    lines = before.lines[:]
+    match = carom.Match(Wrong(), TABLE, balls=LAYOUT)
+    lines = match.lines[:]
     with pytest.raises(carom.CaromError, match=r"settle: balls\[[12]\]"):
-        before.stroke(carom.cue(speed=1.0, phi=200.0))
-    assert before.lines == lines and before.phase == "stroke"
+        match.stroke(carom.cue(speed=1.0, phi=200.0))
+    assert match.lines == lines and match.phase == "stroke"
 
 
 def test_errors_of_rules():
@@ -805,27 +814,27 @@ def test_one_pocket():
         carom.balls([[0.6, 1.4], [0.95, 2.1], [0.3, 2.1]]), ["cue", 3, 9], "onepocket"
     )
     right, left = (table.pocket_names.index(name) for name in ("foot-right", "foot-left"))
-    for own, other, ball in ((right, left, 3), (left, right, 9)):
-        state = {"pocket": (own, other), "score": (5, 6)}
+    for pocket, opposite, ball in ((right, left, 3), (left, right, 9)):
+        state = {"pocket": (pocket, opposite), "score": (5, 6)}
         best = carom.plan(table, layout, rules="onepocket", state=state, shots=600)
-        assert set(best["pocket"]) <= {own, -1} and (best["ball"][0], best["pocket"][0]) == (
+        assert set(best["pocket"]) <= {pocket, -1} and (best["ball"][0], best["pocket"][0]) == (
             ball,
-            own,
+            pocket,
         )
-        made = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
+        legal = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
         assert (
-            made.turn == "keep"
-            and made.potted == (ball,)
-            and made.score == (6, 6)
-            and made.points == 1.0
+            legal.turn == "keep"
+            and legal.potted == (ball,)
+            and legal.score == (6, 6)
+            and legal.points == 1.0
         )
         # the same ball in the pocket of the other
-        state["pocket"] = (other, own)
-        given = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
+        state["pocket"] = (opposite, pocket)
+        fouled = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
         assert (
-            given.turn == "pass"
-            and given.score == (7, 5)
-            and given.state["pocket"].tolist() == [own, other]
+            fouled.turn == "pass"
+            and fouled.score == (7, 5)
+            and fouled.state["pocket"].tolist() == [pocket, opposite]
         )
     # no ball is met: one that counted comes back; who has none owes one
     for balls in (5, 0):
@@ -834,7 +843,7 @@ def test_one_pocket():
             layout,
             carom.cue(speed=0.5, phi=180.0),
             rules="onepocket",
-            state={"pocket": (own, other), "score": (balls, 0)},
+            state={"pocket": (pocket, opposite), "score": (balls, 0)},
         )
         assert (
             missed.turn == "pass"
@@ -933,14 +942,14 @@ def test_straight_pool_and_snooker():
         and scratch.score == (4, 0)
         and int(scratch.state["may"]) & 1
     )
-    again = carom.referee(
+    repeat = carom.referee(
         table, scratch.balls, cue, rules="snooker", state=scratch.state, call=(-3, -1)
     )
     assert (
-        again.turn == "pass"
-        and again.foul == carom.Foul.NONE
-        and again.score == (0, 4)
-        and again.state["may"] == 0
+        repeat.turn == "pass"
+        and repeat.foul == carom.Foul.NONE
+        and repeat.score == (0, 4)
+        and repeat.state["may"] == 0
     )
     with pytest.raises(ValueError, match="balls: snooker has the cue ball and 1 to 21"):
         carom.referee(table, layout[:5], cue, rules="snooker")
@@ -959,9 +968,9 @@ def test_an_aim_that_follows_keeps_the_place_across_the_path():
     while pots < 8:
         layout = carom.balls(random.uniform([0.2, 0.4], [1.07, 2.1], (2, 2)))
         try:
-            wanted = carom.cue(speed=random.uniform(1.5, 3.0), b=random.uniform(-0.2, 0.3))
+            target = carom.cue(speed=random.uniform(1.5, 3.0), b=random.uniform(-0.2, 0.3))
             cue = carom.aim(
-                TABLE, layout, wanted, ball=1, pocket=int(random.integers(6)), **closed
+                TABLE, layout, target, ball=1, pocket=int(random.integers(6)), **closed
             ).cue
             shot = carom.simulate(TABLE, layout, cue, **closed)
             slope = carom.aim_slope(shot, 1, wrt)
@@ -980,13 +989,11 @@ def test_an_aim_that_follows_keeps_the_place_across_the_path():
                 stroke[("speed", "b")[j]] += h
             else:
                 balls["state"]["r"][1 - (j - 2), j - 2] += h
-            other = carom.simulate(TABLE, balls, stroke, **closed)
+            shot = carom.simulate(TABLE, balls, stroke, **closed)
             return (
                 across
                 @ (
-                    other.events[other.events["type"] == carom.EventType.POCKET][0]["before"][0][
-                        "r"
-                    ]
+                    shot.events[shot.events["type"] == carom.EventType.POCKET][0]["before"][0]["r"]
                     - fell["r"]
                 )[:2]
             )
@@ -1049,11 +1056,11 @@ def test_rating():
             for x in [(d - r) * np.log(2) / 100]
         )
         mass = np.cumsum(np.exp(logs - logs.max()))
-        wanted = [
+        expected = [
             np.average(r, weights=np.diff(mass, prepend=0)),
             *np.interp([0.025 * mass[-1], 0.975 * mass[-1]], mass, r),
         ]
-        assert np.allclose(carom.rating(rows), wanted, rtol=0, atol=0.01)
+        assert np.allclose(carom.rating(rows), expected, rtol=0, atol=0.01)
     with pytest.raises(carom.CaromError, match=r"scores\[1\] = .*games won and lost 0 to 1e9"):
         carom.rating([(500, 1, 1), (500, -1, 1)])
     with pytest.raises(ValueError, match="scores: rows of 3 numbers"):

@@ -117,9 +117,13 @@ def test_strokes_are_those_of_simulate():
 def test_a_stroke_in_error_is_taken_back():
     table = carom.tables.pool_9ft()
     # Without the cushions of one long side a ball can leave the table.
-    there = (table.rails["p"][:, 0] > 0.1) | (table.rails["q"][:, 0] > 0.1)
+    behind_rail = (table.rails["p"][:, 0] > 0.1) | (table.rails["q"][:, 0] > 0.1)
     opened = carom.Table(
-        table.width, table.length, rails=table.rails[there], jaws=table.jaws, pockets=table.pockets
+        table.width,
+        table.length,
+        rails=table.rails[behind_rail],
+        jaws=table.jaws,
+        pockets=table.pockets,
     )
     rules = Potting(balls=1, table=opened)
     layout = rules.layout([[0.4, 0.9], [1.0, 2.0]])
@@ -142,21 +146,21 @@ def test_any_game_keeps_the_rules():
         actions = generator.uniform(-1.2, 1.2, (300, 4))
         stroke = rules.play(layouts, actions)
         assert (stroke.status == 0).all()
-        now = stroke.layouts["state"]["label"][:, 1:] == carom.Label.POCKETED
-        assert (now >= down).all(), "a ball came back"
-        np.testing.assert_array_equal(stroke.potted, (now & ~down).sum(axis=1))
+        pocketed = stroke.layouts["state"]["label"][:, 1:] == carom.Label.POCKETED
+        assert (pocketed >= down).all(), "a ball came back"
+        np.testing.assert_array_equal(stroke.potted, (pocketed & ~down).sum(axis=1))
         np.testing.assert_array_equal(stroke.rewards, stroke.potted - (stroke.foul != 0))
         assert (stroke.foul[stroke.scratch] == carom.Foul.CUE_BALL).all()
-        down, layouts = now, stroke.layouts
+        down, layouts = pocketed, stroke.layouts
         back = np.flatnonzero(stroke.scratch)
-        again = layouts[back]
-        rules.put_back(again, draws, back)
-        layouts[back] = again
+        repeat = layouts[back]
+        rules.put_back(repeat, draws, back)
+        layouts[back] = repeat
         seen = rules.observe(layouts, left)
         assert ((seen >= low) & (seen <= high)).all()
-        again = rules.layouts(seen)
-        in_play = again["state"]["label"] != carom.Label.POCKETED
-        assert again[in_play].tobytes() == layouts[in_play].tobytes()
+        repeat = rules.layouts(seen)
+        in_play = repeat["state"]["label"] != carom.Label.POCKETED
+        assert repeat[in_play].tobytes() == layouts[in_play].tobytes()
         np.testing.assert_array_equal(in_play[:, 1:], ~down)
     assert down.any() and not down.all()
 
@@ -202,9 +206,9 @@ def test_what_the_rules_refuse():
 def test_noise_of_execution():
     """Its standard deviations, in degrees, m/s and radii; and `play` has none."""
     rules = Potting(noise=(2.0, 0.3, 0.05))
-    wanted = np.tile(rules.actions(179.0, 2.0, a=0.1), (4000, 1))
+    actions = np.tile(rules.actions(179.0, 2.0, a=0.1), (4000, 1))
     games = np.arange(4000)
-    done = rules.cues(wanted, Draws(games).seeds(games))
+    done = rules.cues(actions, Draws(games).seeds(games))
     turn = (done["phi"] - 179.0 + 180.0) % 360.0 - 180.0
     for deviation, values in (
         (2.0, turn),
@@ -216,15 +220,15 @@ def test_noise_of_execution():
     layout = rules.deal(Draws([1]), np.arange(1))[0]
     exact, game = Potting(), Draws([5])
     strokes = exact.turn(
-        layout[np.newaxis], np.zeros((1, 0), np.uint64), wanted[:1], game, games[:1]
+        layout[np.newaxis], np.zeros((1, 0), np.uint64), actions[:1], game, games[:1]
     )
     assert (
-        strokes.cues.tobytes() == exact.cues(wanted[:1]).tobytes()
-        and strokes.strokes.layouts.tobytes() == rules.play(layout, wanted[:1]).layouts.tobytes()
+        strokes.cues.tobytes() == exact.cues(actions[:1]).tobytes()
+        and strokes.strokes.layouts.tobytes() == rules.play(layout, actions[:1]).layouts.tobytes()
     )
     # One of a seed is that of carom.with_errors.
     assert (
-        done[7].tobytes() == carom.with_errors(exact.cues(wanted[7]), rules.player(), 7).tobytes()
+        done[7].tobytes() == carom.with_errors(exact.cues(actions[7]), rules.player(), 7).tobytes()
     )
 
 
@@ -248,13 +252,13 @@ def test_random_parameters_ball_sets_and_rewards():
         snooker.radius == carom.racks.snooker(carom.tables.snooker())["kind"]["radius"][0]
         and snooker.table == carom.tables.snooker()
     )
-    near = Potting(
+    close = Potting(
         balls=1,
         reward=lambda balls, strokes: -np.linalg.norm(
             strokes.layouts["state"]["r"][..., 0, :2], axis=-1
         ),
     )
-    played = near.play(near.layout([[0.5, 0.5], [0.9, 1.5]]), near.actions([0.0, 90.0], 1.0))
+    played = close.play(close.layout([[0.5, 0.5], [0.9, 1.5]]), close.actions([0.0, 90.0], 1.0))
     np.testing.assert_allclose(played.rewards, -np.hypot(*played.layouts["state"]["r"][:, 0, :2].T))
 
 
@@ -521,23 +525,29 @@ def test_pictures(gymnasium):
     envs.reset(seed=4)
     still = envs.render()
     envs.step(np.full((2, 4), 0.3))
-    for before, after in zip(still, envs.render()):
+    for still_picture, picture in zip(still, envs.render()):
         assert (
-            ElementTree.fromstring(before).tag
-            == ElementTree.fromstring(after).tag
+            ElementTree.fromstring(still_picture).tag
+            == ElementTree.fromstring(picture).tag
             == "{http://www.w3.org/2000/svg}svg"
         )
-        assert after.count("polyline") > before.count("polyline")
+        assert picture.count("polyline") > still_picture.count("polyline")
     images = gymnasium.make_vec(
         "carom/Potting-v1", num_envs=2, balls=2, strokes=5, render_mode="rgb_array"
     )
     images.reset(seed=4)
     still = images.render()
     images.step(np.full((2, 4), 0.3))
-    for before, after in zip(still, images.render()):
-        assert before.dtype == np.uint8 and before.shape == after.shape == (484, 864, 3)
+    for still_picture, picture in zip(still, images.render()):
+        assert still_picture.dtype == np.uint8 and still_picture.shape == picture.shape == (
+            484,
+            864,
+            3,
+        )
         # the cue ball is white where it lay, and elsewhere afterwards
-        assert (before == 255).all(axis=-1).any() and (before != after).any(axis=-1).sum() > 200
+        assert (still_picture == 255).all(axis=-1).any() and (still_picture != picture).any(
+            axis=-1
+        ).sum() > 200
     with pytest.raises(
         ValueError, match="render_mode: must be None, 'svg' or 'rgb_array', not 'human'"
     ):
@@ -601,14 +611,16 @@ def test_games_with_fixed_rules(gymnasium, name):
     many = gymnasium.make_vec(name, num_envs=3)
     seen, _ = alone.reset(seed=5)
     np.testing.assert_array_equal(seen, many.reset(seed=5)[0][0])
-    own, generator, ended = alone.unwrapped.rules, np.random.default_rng(3), False
-    assert alone.observation_space.shape == seen.shape and own.noise == rules["noise"]
+    fixed_rules, generator, ended = alone.unwrapped.rules, np.random.default_rng(3), False
+    assert alone.observation_space.shape == seen.shape and fixed_rules.noise == rules["noise"]
     for k in range(4):
         # A planner's stroke of few shots, and strokes at random.
         action = (
-            own.best_seen(seen, shots=100) if k == 0 else generator.uniform(-1.0, 1.0, own.acts)
+            fixed_rules.best_seen(seen, shots=100)
+            if k == 0
+            else generator.uniform(-1.0, 1.0, fixed_rules.acts)
         )
-        assert alone.action_space.contains(action.astype(np.float32)) and own.tried(
+        assert alone.action_space.contains(action.astype(np.float32)) and fixed_rules.tried(
             seen, action[np.newaxis]
         ).shape == (1,)
         seen, reward, ended, truncated, info = alone.step(action)
@@ -711,22 +723,26 @@ def test_the_opponent_is_stopped_by_shots(monkeypatch, game):
     tried = []
     played = pool.Pool.played
     monkeypatch.setattr(
-        pool.Pool, "played", lambda *given: (tried.append(given[2].size), played(*given))[1]
+        pool.Pool,
+        "played",
+        lambda *arguments: (tried.append(arguments[2].size), played(*arguments))[1],
     )
-    monkeypatch.setattr(pool, "plan", lambda *given, **named: pytest.fail("a plan was made"))
+    monkeypatch.setattr(pool, "plan", lambda *arguments, **named: pytest.fail("a plan was made"))
     rules = Match(game, opponent=carom.player(0.0), opponent_shots=12)
     potted, visits = 0, 20
     for seed in range(visits):
         position = rules.pool.begin(seed)
         position, _ = rules.pool.play(position, [0.5, 0.9, 0.0, 0.2, 0.0, 0.0])
         position = replace(position, player=1, hand=Hand.ANYWHERE, winner=None)
-        before = (position.balls["state"]["label"] == carom.Label.POCKETED).sum()
+        count_down = (position.balls["state"]["label"] == carom.Label.POCKETED).sum()
         tried.clear()
-        after = rules._visit(position)
+        position_after = rules._visit(position)
         assert 0 < max(tried) <= 12
-        potted += (after.balls["state"]["label"] == carom.Label.POCKETED).sum() - before
+        potted += (
+            position_after.balls["state"]["label"] == carom.Label.POCKETED
+        ).sum() - count_down
     assert potted > 1.5 * visits
-    monkeypatch.setattr(pool, "plan", lambda *given, **named: 1 / 0)
+    monkeypatch.setattr(pool, "plan", lambda *arguments, **named: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         Match(game, opponent_shots=100)._visit(position)
 

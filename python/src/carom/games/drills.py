@@ -61,25 +61,27 @@ class Break(Potting):
         return low, np.array([self.table.width - low[0], self.table.length / 4.0])
 
     def deal(self, draws: Draws, games: Games) -> dtypes.Records:
-        made = super().deal(draws, games)
+        layouts = super().deal(draws, games)
         for k, game in enumerate(games.tolist()):
-            made["state"]["r"][k] = racks.nineball(self.table, seed=draws.key(game))["state"]["r"]
-        made["state"]["r"][..., 2] = self.radius
-        return made
+            layouts["state"]["r"][k] = racks.nineball(self.table, seed=draws.key(game))["state"][
+                "r"
+            ]
+        layouts["state"]["r"][..., 2] = self.radius
+        return layouts
 
     def placed(self, balls: dtypes.Records, actions: npt.ArrayLike) -> dtypes.Records:
         """The layouts, broadcast against the actions, with the cue balls where the actions put
         them.
         """
-        given = np.asarray(actions, np.float64)
+        values = np.asarray(actions, np.float64)
         low, high = self.corners()
         laid = copied(
             np.broadcast_to(
-                balls, (*np.broadcast_shapes(balls.shape[:-1], given.shape[:-1]), balls.shape[-1])
+                balls, (*np.broadcast_shapes(balls.shape[:-1], values.shape[:-1]), balls.shape[-1])
             )
         )
         laid["state"]["r"][..., 0, :2] = (
-            low + (high - low) * (np.clip(given[..., 4:], -1.0, 1.0) + 1.0) / 2.0
+            low + (high - low) * (np.clip(values[..., 4:], -1.0, 1.0) + 1.0) / 2.0
         )
         return laid
 

@@ -103,11 +103,20 @@ class Match:
             [
                 np.append(
                     self.pool.observe(
-                        Position(layout, 0, Hand(int(own[-1])), _state(own), 0, None, none), 0
+                        Position(
+                            layout,
+                            0,
+                            Hand(int(state_words[-1])),
+                            _state(state_words),
+                            0,
+                            None,
+                            none,
+                        ),
+                        0,
                     ),
-                    now,
+                    group_left,
                 )
-                for layout, own, now in zip(balls, words, left, strict=True)
+                for layout, state_words, group_left in zip(balls, words, left, strict=True)
             ]
         )
 
@@ -131,11 +140,11 @@ class Match:
 
         `words` is written to.
         """
-        given = np.asarray(actions, np.float64)
+        values = np.asarray(actions, np.float64)
         n = len(games)
-        struck, after, cues = balls.copy(), balls.copy(), np.zeros(n, dtypes.cue)
+        struck, outcome, cues = balls.copy(), balls.copy(), np.zeros(n, dtypes.cue)
         strokes = Strokes(
-            after,
+            outcome,
             np.zeros(n),
             np.zeros(n, np.int64),
             np.zeros(n, np.bool_),
@@ -146,10 +155,10 @@ class Match:
         )
         ended = np.zeros(n, np.bool_)
         for k, game in enumerate(games.tolist()):
-            before = Position(
-                balls[k], 0, Hand(int(words[k, -1])), _state(words[k]), 0, None, draws.of(game)
+            start = Position(
+                balls[k], 0, Hand(int(words[k, -1])), _state(words[k]), 0, None, draws.single(game)
             )
-            position, turn = self.pool.play(before, given[k])
+            position, turn = self.pool.play(start, values[k])
             struck[k], cues[k] = turn.shot.balls, turn.shot.cue
             strokes.potted[k], strokes.scratch[k], strokes.foul[k] = (
                 len(turn.potted),
@@ -158,7 +167,7 @@ class Match:
             )
             strokes.status[k], strokes.time[k] = int(turn.shot.status), turn.shot.time
             position = self._visit(position)
-            after[k], words[k] = position.balls, [*_words(position.state), int(position.hand)]
+            outcome[k], words[k] = position.balls, [*_words(position.state), int(position.hand)]
             draws.keep(game, position.draws)
             ended[k] = position.winner is not None
             strokes.rewards[k] = {None: 0.0, 0: 1.0}.get(position.winner, -1.0)

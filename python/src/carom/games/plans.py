@@ -99,11 +99,11 @@ def player(errors: float | None = None, *, fargo: float | None = None) -> dtypes
         <= 850.0
     ):
         raise ValueError(f"fargo: it must be 200 to 850, not {fargo}")
-    made: Array = np.zeros((), dtypes.player)
-    pointer("carom_player[]", made)[0] = (
+    record: Array = np.zeros((), dtypes.player)
+    pointer("carom_player[]", record)[0] = (
         lib.carom_player_of(errors) if fargo is None else lib.carom_player_fargo(fargo)
     )
-    return made
+    return record
 
 
 class Rating(NamedTuple):
@@ -124,15 +124,15 @@ def rating(scores: npt.ArrayLike) -> Rating:
     the first game ratings are normal around 400 with a spread of 150, which is a stated choice; a
     player without games is unrated.
     """
-    given = np.ascontiguousarray(as_array(scores, "scores", np.float64))
-    if given.size and (given.ndim != 2 or given.shape[1] != 3):
+    points = np.ascontiguousarray(as_array(scores, "scores", np.float64))
+    if points.size and (points.ndim != 2 or points.shape[1] != 3):
         raise ValueError(
-            f"scores: rows of 3 numbers are needed: against, won, lost; not the shape {given.shape}"
+            f"scores: rows of 3 numbers are needed: against, won, lost; not the shape {points.shape}"
         )
-    made = ffi.new("carom_rating *")
-    if (code := lib.carom_rating_of(pointer("carom_score[]", given), len(given), made)) < 0:
-        raise CaromError(code, f"scores[{made.row}]", given[made.row].tolist())
-    return Rating(made.mean, made.low, made.high)
+    record = ffi.new("carom_rating *")
+    if (code := lib.carom_rating_of(pointer("carom_score[]", points), len(points), record)) < 0:
+        raise CaromError(code, f"scores[{record.row}]", points[record.row].tolist())
+    return Rating(record.mean, record.low, record.high)
 
 
 def with_errors(
@@ -146,14 +146,14 @@ def with_errors(
     array of `carom.dtypes.cue`, shape ()
         The same for the same arguments, on every machine.
     """
-    made = copied(one_cue(cue))
+    struck = copied(one_cue(cue))
     lib.carom_player_strike(
         _one_player(player),
         seed_of(seed, 2**63 - 1),
         whole(number, "number"),
-        pointer("carom_cue[]", made),
+        pointer("carom_cue[]", struck),
     )
-    return made
+    return struck
 
 
 @dataclass(frozen=True, repr=False)
@@ -228,31 +228,35 @@ def aim(
     layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
     if layout.ndim != 1:
         raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}")
-    made = copied(one_cue(cue))
+    struck = copied(one_cue(cue))
 
     # The ball, the pocket and the way as C knows them.
-    def index(one: int | str, name: str, names: list[str | None], most: int) -> int:
-        if isinstance(one, str):
-            if one not in names:
+    def index(value: int | str, name: str, names: list[str | None], most: int) -> int:
+        if isinstance(value, str):
+            if value not in names:
                 raise ValueError(
-                    f"{name}: it must be one of {', '.join(sorted({known for known in names if known}))}, not {one!r}"
+                    f"{name}: it must be one of {', '.join(sorted({known for known in names if known}))}, not {value!r}"
                 )
-            return names.index(one)
-        if whole(one, name, least=0) >= most:
-            raise ValueError(f"{name}: there are {most}, not {one + 1}")
-        return one
+            return names.index(value)
+        if whole(value, name, least=0) >= most:
+            raise ValueError(f"{name}: there are {most}, not {value + 1}")
+        return value
 
     rails, pockets = table.rail_names, table.pocket_names
     via = several(via, "via", "names of rails and indices of balls are needed")
     way = [
         (
-            lib.CAROM_PART_RAIL if isinstance(one, str) else lib.CAROM_PART_BALL,
-            index(one, "via", rails, len(layout)),
+            lib.CAROM_PART_RAIL if isinstance(step, str) else lib.CAROM_PART_BALL,
+            index(step, "via", rails, len(layout)),
         )
-        for one in via
+        for step in via
     ]
-    met = [one for one in via if not isinstance(one, str)]
-    if len(way) > lib.CAROM_VIA_MOST or len({0, *met}) <= len(met) or ball in met[:-1]:
+    balls_hit = [step for step in via if not isinstance(step, str)]
+    if (
+        len(way) > lib.CAROM_VIA_MOST
+        or len({0, *balls_hit}) <= len(balls_hit)
+        or ball in balls_hit[:-1]
+    ):
         raise ValueError(
             f"via: it must be up to {lib.CAROM_VIA_MOST} names of rails and indices of balls, each once, not the cue ball, and {ball} last, not {list(via)}"
         )
@@ -272,12 +276,12 @@ def aim(
         len(layout),
         shot,
         pot,
-        pointer("carom_cue[]", made),
+        pointer("carom_cue[]", struck),
     )
     if code < 0:
-        raise argument_error(shot_arguments(table, layout, made, shot), layout, made) or CaromError(
-            code, "balls"
-        )
+        raise argument_error(
+            shot_arguments(table, layout, struck, shot), layout, struck
+        ) or CaromError(code, "balls")
     if reason := pot.outcome:
         part = (
             f"ball {pot.met.b}"
@@ -292,7 +296,7 @@ def aim(
         )
         raise ValueError(f"pocket: no such aim at {pocket}: {why}")
     return Pot(
-        made,
+        struck,
         pot.cut,
         pot.margin,
         (pot.phi[0], pot.phi[1]),
@@ -304,9 +308,9 @@ def aim(
 _usual_player = player
 
 
-def _one_player(given: dtypes.Records, name: str = "player") -> Any:
+def _one_player(player: dtypes.Records, name: str = "player") -> Any:
     """A player for C. It keeps the array that it is made of."""
-    record = copied(of_record(given, dtypes.player, name, "player()"))
+    record = copied(of_record(player, dtypes.player, name, "player()"))
     if record.ndim != 0:
         raise ValueError(f"{name}: one is needed, of shape (), not {record.shape}")
     for field in dtypes.player.names or ():
@@ -363,7 +367,7 @@ class _Job:
         balls: dtypes.Records,
         cue: dtypes.Records | None,
         game: Made,
-        own: dtypes.Records | None,
+        personal: dtypes.Records | None,
         opponent: dtypes.Records | None,
         shots: int | None,
         seed: Seed,
@@ -385,29 +389,29 @@ class _Job:
         self.shot = shot_options(options)
         if stop is not None and not hasattr(stop, "is_set"):
             raise TypeError(f"stop: a threading.Event is needed, not {stop!r}")
-        wanted = ffi.new(
+        request = ffi.new(
             "carom_plan_options *",
             {
                 "shots": 0 if shots is None else whole(shots, "shots", least=100, most=1_000_000),
                 "seed": seed_of(seed),
             },
         )
-        wanted.threads = whole(threads, "threads", least=-1)
-        wanted.level = whole(level, "level", most=1)
-        wanted.unsure = number(unsure, "unsure")
-        if not 0.0 <= wanted.unsure <= 1.0:
+        request.threads = whole(threads, "threads", least=-1)
+        request.level = whole(level, "level", most=1)
+        request.unsure = number(unsure, "unsure")
+        if not 0.0 <= request.unsure <= 1.0:
             raise ValueError(f"unsure: it must be 0 to 1, not {unsure}")
-        wanted.seconds = number(seconds, "seconds")
-        if not 0.0 <= wanted.seconds <= 1e6:
+        request.seconds = number(seconds, "seconds")
+        if not 0.0 <= request.seconds <= 1e6:
             raise ValueError(f"seconds: they must be 0 to 1e6, not {seconds}")
-        wanted.chance_opponent = whole(run_out, "run_out", most=1)
-        wanted.once = stop is None and seconds == 0.0  # Ctrl-C asks for no choice
-        other = None if opponent is None else _one_player(opponent, "opponent")
-        wanted.opponent = ffi.NULL if other is None else other
-        wanted.stop = game.stop
-        player = _one_player(_usual_player() if own is None else own)
+        request.chance_opponent = whole(run_out, "run_out", most=1)
+        request.once = stop is None and seconds == 0.0  # Ctrl-C asks for no choice
+        rival = None if opponent is None else _one_player(opponent, "opponent")
+        request.opponent = ffi.NULL if rival is None else rival
+        request.stop = game.stop
+        player = _one_player(_usual_player() if personal is None else personal)
         game.check_layout(table, self.layout)
-        memory: Array = np.empty(lib.carom_plan_memory(wanted) // 8 + 1, np.float64)
+        memory: Array = np.empty(lib.carom_plan_memory(request) // 8 + 1, np.float64)
         record = table.record
         self.c = ffi.new(
             "carom_plan_job *",
@@ -419,16 +423,16 @@ class _Job:
                 "player": player,
                 "rules": game.c,
                 "shot": self.shot,
-                "options": wanted,
+                "options": request,
                 "memory": pointer("double[]", memory),
                 "memory_size": memory.nbytes,
             },
         )
-        self.table, self.game, self.stop, self.kept = (
+        self.table, self.game, self.stop, self.references = (
             table,
             game,
             stop,
-            (wanted, other, player, memory, record),
+            (request, rival, player, memory, record),
         )
 
     def call(self, function: Callable[..., int], *arguments: Any, field: str = "balls") -> None:
@@ -447,7 +451,7 @@ class _Job:
 class ByMatch(NamedTuple):
     """A plan that a match makes: its own rules of the caller's, and its call of C."""
 
-    made: Made | None
+    game_record: Made | None
     call: Callable[..., int]
 
 
@@ -551,7 +555,7 @@ def plan(
     layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     radius = float(layout["kind"]["radius"].flat[0]) if layout.size else 0.0
     corners = _corners(in_hand, table, radius)
-    game = (_by and _by.made) or Made(rules, state, group, opening)
+    game = (_by and _by.game_record) or Made(rules, state, group, opening)
     game.stop[0] = 0
     job = _Job(
         table,

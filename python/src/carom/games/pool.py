@@ -74,8 +74,8 @@ class Position(Arrays):
         """Of player 0 and of player 1 in nine-ball, in consecutive strokes of that player; three
         lose the game.
         """
-        own, other = self.state["fouls"].tolist()
-        return (own, other) if self.player == 0 else (other, own)
+        personal, rival = self.state["fouls"].tolist()
+        return (personal, rival) if self.player == 0 else (rival, personal)
 
 
 @dataclass(frozen=True)
@@ -226,12 +226,12 @@ class Pool:
         """The balls that the player may meet first."""
         return on_of(Made(self.game, position.state), position.balls)
 
-    def put(self, balls: dtypes.Records, hand: Hand, wanted: npt.ArrayLike, draws: Draws) -> None:
+    def put(self, balls: dtypes.Records, hand: Hand, point: npt.ArrayLike, draws: Draws) -> None:
         """Put the cue ball of a layout where it is wanted, two numbers from -1 to 1, or where that
         is not free, at random.
         """
         low, high = self.area(hand)
-        part = (np.clip(wanted, -1.0, 1.0) + 1.0) / 2.0
+        part = (np.clip(point, -1.0, 1.0) + 1.0) / 2.0
         self.lay(balls, low + (high - low) * part)
         while not self.base.free(balls):
             self.lay(balls, low + (high - low) * draws.uniform(_ONE, 2)[0])
@@ -248,19 +248,19 @@ class Pool:
 
     def play(self, position: Position, action: npt.ArrayLike) -> tuple[Position, Stroke]:
         """Play a stroke: the position after it, and what it was."""
-        given = np.asarray(action, dtype=np.float64)
-        if given.shape != (6,) or not np.isfinite(given).all():
-            raise ValueError(f"action: six finite numbers are needed, not {given}")
+        values = np.asarray(action, dtype=np.float64)
+        if values.shape != (6,) or not np.isfinite(values).all():
+            raise ValueError(f"action: six finite numbers are needed, not {values}")
         if position.winner is not None:
             raise ValueError("position: the game has ended")
         balls, draws = position.balls.copy(), position.draws.copy()
         if position.hand:
-            self.put(balls, position.hand, given[4:], draws)
+            self.put(balls, position.hand, values[4:], draws)
         call = (-1, -1)
         if self.game == "eightball":
-            meant = self.played(balls[np.newaxis], self.base.cues(given[np.newaxis, :4]))
+            meant = self.played(balls[np.newaxis], self.base.cues(values[np.newaxis, :4]))
             call = tuple(calls_of(Made(self.game, position.state), balls, meant)[0].tolist())
-        done = self.base.cues(given[:4], draws.seeds(_ONE) if any(self.base.noise) else None)
+        done = self.base.cues(values[:4], draws.seeds(_ONE) if any(self.base.noise) else None)
         return self.struck(replace(position, balls=balls, draws=draws), done, call)
 
     def struck(
@@ -284,7 +284,7 @@ class Pool:
         ruled.state["may"] = 0
         keeps = ruled.turn in ("keep", "win")
         player = position.player if keeps else 1 - position.player
-        after = replace(
+        outcome = replace(
             position,
             balls=ruled.balls,
             player=player,
@@ -301,7 +301,7 @@ class Pool:
             else ""
         )
         potted = tuple(ball for ball in ruled.potted if ball != 0)
-        return after, Stroke(
+        return outcome, Stroke(
             failed or ruled.foul.text,
             int(ruled.foul),
             ruled.first if ruled.first >= 0 else None,
@@ -319,19 +319,19 @@ class Pool:
         """What actions of shape (n, 6) give without noise, of shape (n,): 1 for a win, 0.5 where
         the player goes on, 0 where the other plays, -0.5 for a foul, -1 for a loss.
         """
-        given = np.asarray(actions, dtype=np.float64)
-        layouts = np.repeat(position.balls[np.newaxis], len(given), axis=0)
+        values = np.asarray(actions, dtype=np.float64)
+        layouts = np.repeat(position.balls[np.newaxis], len(values), axis=0)
         if position.hand:
             draws = position.draws.copy()
-            for layout, wanted in zip(layouts, given[:, 4:]):
-                self.put(layout, position.hand, wanted, draws)
-        made = Made(self.game, position.state)
-        shots = self.played(layouts, self.base.cues(given[:, :4]))
+            for layout, point in zip(layouts, values[:, 4:]):
+                self.put(layout, position.hand, point, draws)
+        game = Made(self.game, position.state)
+        shots = self.played(layouts, self.base.cues(values[:, :4]))
         turns = judge(
-            made,
+            game,
             layouts,
             shots,
-            calls=calls_of(made, position.balls, shots) if self.game == "eightball" else None,
+            calls=calls_of(game, position.balls, shots) if self.game == "eightball" else None,
         )
         return self.worth(turns)
 
@@ -363,15 +363,15 @@ class Pool:
                 ]
             )
         group = int(position.state["group"])
-        own = group if player == position.player or group == 0 else 3 - group
+        group_code = group if player == position.player or group == 0 else 3 - group
         return np.concatenate(
-            [seen, np.array([position.hand, position.state["opening"], own], np.float64)]
+            [seen, np.array([position.hand, position.state["opening"], group_code], np.float64)]
         )
 
     def seen(self, observation: npt.ArrayLike) -> Position:
         """The position, with player 0 at the table, of an observation of the player at the table."""
-        given = np.asarray(observation, np.float64)
-        hand, second, third = (int(number) for number in given[-3:])
+        values = np.asarray(observation, np.float64)
+        hand, second, third = (int(number) for number in values[-3:])
         given_state = (
             {"opening": hand == Hand.BEHIND, "fouls": (second, third)}
             if self.game == "nineball"
@@ -379,7 +379,13 @@ class Pool:
         )
         state = Made(self.game, given_state).state
         return Position(
-            self.base.layouts(np.append(given[:-3], 0.0)), 0, Hand(hand), state, 0, None, Draws([0])
+            self.base.layouts(np.append(values[:-3], 0.0)),
+            0,
+            Hand(hand),
+            state,
+            0,
+            None,
+            Draws([0]),
         )
 
     def bounds(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:

@@ -87,18 +87,18 @@ class Turned(NamedTuple):
 
 def in_space(actions: npt.ArrayLike, shape: tuple[int, ...], name: str) -> dtypes.Doubles:
     """The actions that an environment is given: numbers of its space, from -1 to 1, of a shape."""
-    given = as_array(actions, name, np.float64)
-    if given.shape != shape:
-        raise ValueError(f"{name}: the shape must be {shape}, not {given.shape}")
+    array = as_array(actions, name, np.float64)
+    if array.shape != shape:
+        raise ValueError(f"{name}: the shape must be {shape}, not {array.shape}")
     # in single precision, as policies give them, 1 may be a little more
-    outside = ~(np.abs(given) <= 1.0 + 1e-6)
+    outside = ~(np.abs(array) <= 1.0 + 1e-6)
     if outside.any():
         where = tuple(int(k) for k in np.argwhere(outside)[0])
         raise ValueError(
-            f"{name}: each number must be from -1 to 1, not {given[where]:g}, which is at {list(where)}; "
+            f"{name}: each number must be from -1 to 1, not {array[where]:g}, which is at {list(where)}; "
             "np.clip or gymnasium.wrappers.ClipAction brings it there"
         )
-    return given
+    return array
 
 
 class Potting:
@@ -168,17 +168,18 @@ class Potting:
     ) -> None:
         whole(balls, "balls", least=1, most=15)
         whole(strokes, "strokes", least=1)
-        wanted = "two speeds are needed, the least and the most, m/s"
+        requirement = "two speeds are needed, the least and the most, m/s"
         speeds_given = [
-            number(speed, "speeds", wanted) for speed in several(speeds, "speeds", wanted)
+            number(speed, "speeds", requirement) for speed in several(speeds, "speeds", requirement)
         ]
         if len(speeds_given) != 2 or not 0.0 < speeds_given[0] <= speeds_given[1] < np.inf:
             raise ValueError(
                 f"speeds: must be the least and the most, positive and finite, not {speeds}"
             )
-        wanted = "three standard deviations are needed, of degrees, m/s and radii"
+        requirement = "three standard deviations are needed, of degrees, m/s and radii"
         deviations = [
-            number(deviation, "noise", wanted) for deviation in several(noise, "noise", wanted)
+            number(deviation, "noise", requirement)
+            for deviation in several(noise, "noise", requirement)
         ]
         if len(deviations) != 3 or not all(0.0 <= deviation < np.inf for deviation in deviations):
             raise ValueError(
@@ -299,21 +300,21 @@ class Potting:
 
         With seeds, of shape (...), they err by the noise, as `carom.with_errors` has it.
         """
-        given = np.ascontiguousarray(actions, dtype=np.float64)
-        if given.shape[-1] == self.acts:
-            cues: dtypes.Records = np.empty(given.shape[:-1], dtypes.cue)
+        values = np.ascontiguousarray(actions, dtype=np.float64)
+        if values.shape[-1] == self.acts:
+            cues: dtypes.Records = np.empty(values.shape[:-1], dtypes.cue)
             drawn = ffi.NULL if seeds is None else pointer("uint64_t[]", seeds)
             if lib.carom_python_cues(
                 self._c,
                 cues.size,
-                pointer("double[]", given),
+                pointer("double[]", values),
                 self.acts,
                 drawn,
                 pointer("carom_cue[]", cues),
             ):
                 return cues
         raise ValueError(
-            f"actions: finite numbers of shape (..., {self.acts}) are needed, not of shape {given.shape}: {given}"
+            f"actions: finite numbers of shape (..., {self.acts}) are needed, not of shape {values.shape}: {values}"
         )
 
     def actions(
@@ -347,12 +348,12 @@ class Potting:
         """What an agent sees of layouts, of shape (..., balls + 1): of shape (..., 3 (balls + 1) +
         1).
         """
-        given = np.ascontiguousarray(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
-        count = given.shape[-1]
-        seen = np.empty((*given.shape[:-1], 3 * count + 1))
+        layouts = np.ascontiguousarray(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
+        count = layouts.shape[-1]
+        seen = np.empty((*layouts.shape[:-1], 3 * count + 1))
         lib.carom_python_seen(
-            pointer("carom_shot_ball[]", given),
-            given.size // count,
+            pointer("carom_shot_ball[]", layouts),
+            layouts.size // count,
             count,
             pointer("double[]", seen),
         )
@@ -361,25 +362,25 @@ class Potting:
 
     def layouts(self, observations: npt.ArrayLike) -> dtypes.Records:
         """The balls of observations: `carom.dtypes.shot_ball` of shape (..., balls + 1)."""
-        given = np.asarray(observations, dtype=np.float64)
-        seen = given[..., :-1].reshape((*given.shape[:-1], self.balls + 1, 3))
+        values = np.asarray(observations, dtype=np.float64)
+        seen = values[..., :-1].reshape((*values.shape[:-1], self.balls + 1, 3))
         return self._balls(seen[..., :2], seen[..., 2] != 0.0)
 
     def _balls(self, centres: dtypes.Doubles, in_play: npt.NDArray[np.bool_]) -> dtypes.Records:
         """Balls at rest, those that are not in play in a pocket."""
-        made = repeated(self._ball, dtypes.shot_ball, centres.shape[:-1])
-        made["state"]["r"][..., :2] = centres
-        made["state"]["label"] = np.where(in_play, _STATIONARY, _POCKETED)
-        return made
+        records = repeated(self._ball, dtypes.shot_ball, centres.shape[:-1])
+        records["state"]["r"][..., :2] = centres
+        records["state"]["label"] = np.where(in_play, _STATIONARY, _POCKETED)
+        return records
 
     def player(self) -> dtypes.Records:
         """The player with the noise, the speeds and the tip of this game, for `carom.plan`."""
-        made = plans.player(0.0)
-        made["phi"], made["a"], made["b"] = self.noise[0], self.noise[2], self.noise[2]
+        record = plans.player(0.0)
+        record["phi"], record["a"], record["b"] = self.noise[0], self.noise[2], self.noise[2]
         # of a cue whose tip loses nothing
-        made["speed"] = self.noise[1] * (1.0 + float(layouts.cue()["tip_restitution"])) / 2.0
-        made["speed_least"], made["speed_most"], made["tip_most"] = *self.speeds, 0.35
-        return made
+        record["speed"] = self.noise[1] * (1.0 + float(layouts.cue()["tip_restitution"])) / 2.0
+        record["speed_least"], record["speed_most"], record["tip_most"] = *self.speeds, 0.35
+        return record
 
     def best(self, balls: dtypes.Records, *, shots: int = 500, seed: Seed = 0) -> dtypes.Doubles:
         """The action, of shape (4,), of the library's planner for a layout of shape (balls + 1,): a
@@ -419,22 +420,22 @@ class Potting:
 
     def deal(self, draws: Draws, games: Games) -> dtypes.Records:
         """Random layouts of some games, of shape (len(games), balls + 1), with random parameters."""
-        made = repeated(self._ball, dtypes.shot_ball, (len(games), self.balls + 1))
-        self._place(made, draws, games, self.balls + 1)
+        layouts = repeated(self._ball, dtypes.shot_ball, (len(games), self.balls + 1))
+        self._place(layouts, draws, games, self.balls + 1)
         for name, (low, high) in self.parameters.items():
-            made["kind"][name] = low + (high - low) * draws.uniform(games, 1)
-        return made
+            layouts["kind"][name] = low + (high - low) * draws.uniform(games, 1)
+        return layouts
 
     def layout(self, centres: npt.ArrayLike) -> dtypes.Records:
         """A layout of shape (balls + 1,) with centres (m) of shape (balls + 1, 2), which are
         checked.
         """
-        given = np.asarray(centres, dtype=np.float64)
-        if given.shape != (self.balls + 1, 2):
+        places = np.asarray(centres, dtype=np.float64)
+        if places.shape != (self.balls + 1, 2):
             raise ValueError(
-                f"layout: the shape must be ({self.balls + 1}, 2), the cue ball first, not {given.shape}"
+                f"layout: the shape must be ({self.balls + 1}, 2), the cue ball first, not {places.shape}"
             )
-        layout = self._balls(given, np.ones(self.balls + 1, np.bool_))
+        layout = self._balls(places, np.ones(self.balls + 1, np.bool_))
         simulate(
             self.table, layout
         )  # without a strike: raises CaromError where balls overlap or are not on the table
@@ -450,18 +451,18 @@ class Potting:
         """Place the first balls of layouts, drawn together until all are clear of each other, of
         what is fixed, and of the others in play.
         """
-        at = draws.at[games]
+        keys = draws.keys[games]
         if not lib.carom_python_place(
             self._c,
             len(games),
-            pointer("uint64_t[]", at),
+            pointer("uint64_t[]", keys),
             many,
             pointer("carom_shot_ball[]", balls),
         ):
             raise ValueError(
                 f"table: no free places for {many} balls in 10,000 draws: it is too small for {self.balls}"
             )
-        draws.at[games] = at
+        draws.keys[games] = keys
 
     def free(self, balls: dtypes.Records) -> bool:
         """Whether the cue ball of a layout is clear of the others in play, of pockets and of jaws."""
@@ -499,41 +500,44 @@ class Potting:
         lead, count = len(shape), balls.shape[-1]
         if count != self.balls + 1:
             raise ValueError(f"balls: the shape must be (..., {self.balls + 1}), not {balls.shape}")
-        before, one = one_or_all(balls, (*shape, count), lead)
+        previous, is_single = one_or_all(balls, (*shape, count), lead)
         strikes, one_cue = one_or_all(cues, shape, lead)
-        after, made = np.empty((*shape, count), dtypes.shot_ball), np.empty(shape, _STROKE)
-        given = (
-            pointer("carom_shot_ball[]", before),
-            0 if one else count,
+        outcomes, records = np.empty((*shape, count), dtypes.shot_ball), np.empty(shape, _STROKE)
+        pointers = (
+            pointer("carom_shot_ball[]", previous),
+            0 if is_single else count,
             pointer("carom_cue[]", strikes),
             0 if one_cue else 1,
         )
-        written = (pointer("carom_shot_ball[]", after), pointer("carom_python_stroke[]", made))
+        written = (
+            pointer("carom_shot_ball[]", outcomes),
+            pointer("carom_python_stroke[]", records),
+        )
         code = in_chunks(
-            made.size,
+            records.size,
             5e-5,
             self.threads,
             lambda begin, many: int(
-                lib.carom_python_strokes(self._c, begin, many, *given, *written)
+                lib.carom_python_strokes(self._c, begin, many, *pointers, *written)
             ),
         )
-        if code < 0 and not (made["status"] < 0).any():
+        if code < 0 and not (records["status"] < 0).any():
             raise CaromError(code, "table")
         strokes = Strokes(
-            after,
-            made["reward"],
-            made["potted"],
-            made["scratch"],
-            made["foul"],
-            made["status"],
-            made["time"],
-            made["cleared"],
+            outcomes,
+            records["reward"],
+            records["potted"],
+            records["scratch"],
+            records["foul"],
+            records["status"],
+            records["time"],
+            records["cleared"],
         )
         if self.reward is not None:
-            own = np.asarray(
-                self.reward(np.broadcast_to(balls, after.shape), strokes), dtype=np.float64
+            seat_numbers = np.asarray(
+                self.reward(np.broadcast_to(balls, outcomes.shape), strokes), dtype=np.float64
             )
-            strokes = replace(strokes, rewards=np.broadcast_to(own, shape).copy())
+            strokes = replace(strokes, rewards=np.broadcast_to(seat_numbers, shape).copy())
         return strokes
 
     def turn(
@@ -554,9 +558,9 @@ class Potting:
         strokes = self._played(struck, cues)
         if np.count_nonzero(strokes.scratch):
             back = np.flatnonzero(strokes.scratch)
-            again = raw(strokes.layouts)[back].view(dtypes.shot_ball)
-            self.put_back(again, draws, games[back])
-            raw(strokes.layouts)[back] = raw(again)
+            layouts = raw(strokes.layouts)[back].view(dtypes.shot_ball)
+            self.put_back(layouts, draws, games[back])
+            raw(strokes.layouts)[back] = raw(layouts)
         return Turned(struck, cues, strokes, strokes.cleared)
 
     def shot(self, balls: dtypes.Records, cue: dtypes.Records | None) -> Shot:

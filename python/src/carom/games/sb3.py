@@ -62,11 +62,11 @@ class VecGames(_vec_env.VecEnv):
             final = infos["final_info"]
             whole = {name: np.where(ended, final[name], infos[name]) for name in names}
         columns = (values.tolist() for values in whole.values())
-        told: list[dict[str, Any]] = [dict(zip(names, row)) for row in zip(*columns)]
+        details: list[dict[str, Any]] = [dict(zip(names, row)) for row in zip(*columns)]
         for game in np.flatnonzero(ended):
-            told[game]["terminal_observation"] = infos["final_obs"][game]
-            told[game]["TimeLimit.truncated"] = False
-        return seen, rewards.astype(np.float32), ended, told
+            details[game]["terminal_observation"] = infos["final_obs"][game]
+            details[game]["TimeLimit.truncated"] = False
+        return seen, rewards.astype(np.float32), ended, details
 
     def close(self) -> None:
         """Nothing is held open."""
