@@ -256,21 +256,6 @@ def test_plain_takes_records_of_doubles_alone():
     for name in ("impact", "result", "motion", "cushion_impact", "ball_kind", "jaw", "pocket"):
         records = np.zeros((2, 3), getattr(carom.dtypes, name))
         assert carom.dtypes.plain(records).shape == (2, 3, records.dtype.itemsize // 8)
-    for name, field in (
-        ("ball_state", "label"),
-        ("shot_ball", r"state\.label"),
-        ("event", r"type and \d+ more"),
-        ("trace_point", "phase"),
-        ("cushion_point", "phase"),
-        ("cue", "ball"),
-        ("rail", "side"),
-        ("table", ""),
-        ("shot", ""),
-    ):
-        with pytest.raises(TypeError, match=rf"records: .*{field}.* integers.* by their names"):
-            carom.dtypes.plain(np.zeros(2, getattr(carom.dtypes, name)))
-    with pytest.raises(TypeError, match="a structured array is needed"):
-        carom.dtypes.plain(np.zeros((2, 26)))
 
 
 def test_memory_that_overlaps_is_refused(impacts):
@@ -467,8 +452,6 @@ def test_what_to_cite():
     assert carom.cite().startswith("@software{carom,") and "{mathavan2010," not in carom.cite()
     assert "{mathavan2010," in carom.cite(cushion_model="mathavan")
     assert "{kiefl2024," in carom.cite(options=carom.Options(world="pooltool"))
-    with pytest.raises(ValueError, match="cushion_model"):
-        carom.cite(cushion_model="none")
 
 
 def test_the_revision_of_the_physics():

@@ -208,8 +208,6 @@ def test_second_derivatives_of_batches(monkeypatch):
             np.testing.assert_allclose(
                 along.states[k], expected, rtol=0.0, atol=1e-5 * np.abs(expected).max()
             )
-    with pytest.raises(TypeError, match="^shot: "):
-        carom.hessian(TABLE, ["cue.phi"])
 
 
 def test_jacobian_has_the_batch_in_front():

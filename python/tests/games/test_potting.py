@@ -165,44 +165,6 @@ def test_any_game_keeps_the_rules():
     assert down.any() and not down.all()
 
 
-def test_what_the_rules_refuse():
-    # a table that says that its bed is wider than it is: balls would be dealt beyond its rails
-    pool = carom.tables.pool_9ft()
-    wider = carom.Table(
-        pool.width + 0.1, pool.length, rails=pool.rails, jaws=pool.jaws, pockets=pool.pockets
-    )
-    for arguments, words in (
-        ({"balls": 0}, "balls: it must be a whole number from 1 to 15"),
-        ({"strokes": 0}, "strokes: it must be a whole number from 1"),
-        ({"speeds": (2.0, 1.0)}, "speeds: must be the least and the most"),
-        ({"noise": (1.0, -1.0, 0.0)}, "noise: must be three standard deviations"),
-        ({"table": carom.tables.threecushion()}, "table: must have pockets"),
-        (
-            {"table": wider},
-            r"table: its rails must lie around 0 <= x <= width = 1\.37 m, .* there is one at x = 1\.27 m",
-        ),
-        ({"parameters": {"mu": (0, 1)}}, "parameters: must give"),
-        ({"parameters": {"mass": (2, 1)}}, "'mass'"),
-        ({"parameters": {"mu_slide": (-1, 1)}}, "mu_slide"),
-    ):
-        with pytest.raises(ValueError, match=words):
-            Potting(**arguments)
-    rules = Potting(balls=1)
-    for call, words in (
-        (lambda: rules.layout([[0.5, 0.5]]), r"layout: the shape must be \(2, 2\)"),
-        (lambda: rules.layout([[0.5, 0.5], [0.5, 0.51]]), "overlap"),
-        (lambda: rules.cues([0.0, np.nan, 0.0, 0.0]), "actions: finite numbers"),
-        (lambda: rules.actions(np.inf, 1.0), "phi, speed, a, b: finite numbers"),
-    ):
-        with pytest.raises(ValueError, match=words):
-            call()
-    with pytest.raises(
-        TypeError,
-        match="^noise: three standard deviations are needed, of degrees, m/s and radii, not True",
-    ):
-        Potting(noise=True)
-
-
 def test_noise_of_execution():
     """Its standard deviations, in degrees, m/s and radii; and `play` has none."""
     rules = Potting(noise=(2.0, 0.3, 0.05))
