@@ -13,6 +13,8 @@ import pytest
 
 import carom
 
+pytest.register_assert_rewrite("gradient_cases")
+
 DATA = Path(__file__).parents[2] / "data"
 
 

@@ -432,7 +432,7 @@ def test_many_games_are_one_batch(gymnasium, calls):
         )
         envs.reset(seed=1)
         actions = np.random.default_rng(1).uniform(-1.0, 1.0, (6, count, 4))
-        most.append(max(calls(lambda: envs.step(action)) for action in actions))  # noqa: B023: it is called at once
+        most.append(max(calls(lambda: envs.step(action)) for action in actions))  # noqa: B023
     assert most[1] < most[0] + 120, most  # chunks of a batch, and places that are drawn again
 
 
