@@ -14,11 +14,11 @@ from __future__ import annotations
 import argparse
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 import carom
 
-Doubles = npt.NDArray[np.float64]
+Doubles = NDArray[np.float64]
 TABLE = carom.tables.pool_9ft()
 BALLS = carom.balls([[0.34, 1.21], [0.52, 1.47]])
 VARIED = ["cue.speed", "cue.b"]

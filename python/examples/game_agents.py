@@ -26,7 +26,7 @@ from typing import Any, cast
 
 import gymnasium
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 import carom
 from carom.games.drills import Break, ThreeCushion
@@ -34,7 +34,7 @@ from carom.games.gymnasium import GAMES, GameEnv, Rules
 from carom.games.matches import Match
 from carom.games.pool import Hand
 
-Doubles = npt.NDArray[np.float64]
+Doubles = NDArray[np.float64]
 Agent = Callable[[Rules, Doubles], Doubles]
 
 SPEEDS = np.array([1.5, 2.5, 4.0])  # m/s, of the cue

@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 import carom
 
@@ -37,7 +37,7 @@ class Part(NamedTuple):
 
 
 Summary = tuple[
-    bytes, npt.NDArray[np.int64]
+    bytes, NDArray[np.int64]
 ]  # of a part: digest of the final states, and how many shots potted 0, 1, ... balls
 
 

@@ -22,7 +22,7 @@ import emcee
 import jax
 import jax.numpy as jnp
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 import numpyro
 import numpyro.distributions as dist
 from numpyro.diagnostics import split_gelman_rubin
@@ -31,7 +31,7 @@ from numpyro.infer import MCMC, NUTS
 import carom
 import carom.jax
 
-Doubles = npt.NDArray[np.float64]
+Doubles = NDArray[np.float64]
 TRUTH: dict[str, Any] = {
     "mu_slide": 0.22,
     "mu_roll": 0.0085,
@@ -64,7 +64,7 @@ class Shots:
         ends = played.final["r"][..., :2]
         self.seen: Doubles = ends + NOISE * random.normal(size=ends.shape)
 
-    def some(self, mask: npt.NDArray[np.bool_]) -> "Shots":
+    def some(self, mask: NDArray[np.bool_]) -> "Shots":
         part = Shots.__new__(Shots)
         part.places, part.cues, part.seen = self.places[mask], self.cues[mask], self.seen[mask]
         return part
@@ -119,7 +119,7 @@ def by_nuts(shots: Shots, steps: int) -> tuple[Doubles, int]:
     return np.array(chains), divergences
 
 
-def steady(shots: Shots, means: Doubles, deviations: Doubles) -> npt.NDArray[np.bool_]:
+def steady(shots: Shots, means: Doubles, deviations: Doubles) -> NDArray[np.bool_]:
     """Which shots keep their events for REACH deviations of each constant."""
     found = shots.ends(means, reach=True)
     far = np.stack([np.asarray(found.reach[name]) for name in NAMES], axis=-1) / deviations

@@ -24,12 +24,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 import carom.tracks.fit
 from carom.tracks import _events, _from_events, _summary
 
-Doubles = npt.NDArray[np.float64]
+Doubles = NDArray[np.float64]
 Recordings = list[carom.tracks.Recording]
 SECOND = 3  # the second search of strikes has the seed of the first plus this
 

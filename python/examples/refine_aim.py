@@ -17,12 +17,12 @@ import argparse
 import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 import carom
 
 matplotlib.use("Agg")
-Doubles = npt.NDArray[np.float64]
+Doubles = NDArray[np.float64]
 NAMES = ("cue.speed", "cue.phi", "cue.a", "cue.b")
 SCALES = np.array([1.0, 1.0, 0.1, 0.1])  # what is a moderate change of each: m/s, degrees, R, R
 OFF = np.array([0.03, 0.3, 0.2, 0.2])  # by how much a start is off, in scales

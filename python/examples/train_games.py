@@ -27,14 +27,14 @@ from typing import Any
 import game_agents
 import matplotlib.pyplot as plt
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 from gymnasium.spaces import Box
 
 from carom.games.gymnasium import GAMES, RULES, GameEnv, GameVectorEnv, Rules
 from carom.games.matches import Match
 from carom.games.pool import Hand, Position
 
-Doubles = npt.NDArray[np.float64]
+Doubles = NDArray[np.float64]
 Policy = Callable[[Doubles], Doubles]
 PLAN = "`best(shots=300)`"
 

@@ -7,9 +7,9 @@ from __future__ import annotations
 import functools
 from typing import Any
 
-from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import numbers_of
+from carom.dtypes import Records
 from carom.status import CaromError, Status
 
 _TABLE = {
@@ -25,7 +25,7 @@ def _numbers(part: int, status: int) -> list[str]:
 
 
 def _fault(
-    status: int, name: str, fields: list[str], record: dtypes.Records, must: str = ""
+    status: int, name: str, fields: list[str], record: Records, must: str = ""
 ) -> CaromError:
     """The exception for numbers of a record, called `name`."""
     where = [f"{name}.{field}" for field in fields]
@@ -50,7 +50,7 @@ def _ranges(part: int) -> list[tuple[str, float, float, float, Any]]:
     ]
 
 
-def refuse_numbers(part: int, name: str, record: dtypes.Records) -> None:
+def refuse_numbers(part: int, name: str, record: Records) -> None:
     """Refuses one record, called `name`, with a number outside its range."""
     values = dict(zip(record.dtype.names or (), record.item(), strict=True))
     for field, low, high, limit, row in _ranges(part):
@@ -60,7 +60,7 @@ def refuse_numbers(part: int, name: str, record: dtypes.Records) -> None:
             raise _fault(row.error, name, [field], record, ffi.string(must).decode())
 
 
-def strike_error(status: int, cue: dtypes.Records, kind: dtypes.Records) -> CaromError:
+def strike_error(status: int, cue: Records, kind: Records) -> CaromError:
     """The exception for a cue and a kind that carom_strike() refuses."""
     if fields := _numbers(lib.CAROM_PART_CUE, status):
         return _fault(status, "cue", fields, cue)
@@ -76,7 +76,7 @@ def strike_error(status: int, cue: dtypes.Records, kind: dtypes.Records) -> Caro
 
 
 def shot_arguments(
-    table: Any, layout: dtypes.Records, cue: dtypes.Records | None, options: Any
+    table: Any, layout: Records, cue: Records | None, options: Any
 ) -> tuple[Any, ...]:
     """The arguments of carom_shot_check() and carom_shoot()."""
     strike = ffi.NULL if cue is None else ffi.from_buffer("carom_cue[]", cue)
@@ -90,7 +90,7 @@ def shot_arguments(
 
 
 def argument_error(
-    arguments: tuple[Any, ...], layout: dtypes.Records, cue: dtypes.Records | None
+    arguments: tuple[Any, ...], layout: Records, cue: Records | None
 ) -> CaromError | None:
     """The exception for arguments that carom_shot_check() refuses; None if they are right."""
     where = ffi.new("int *", -1)

@@ -33,6 +33,7 @@ from carom.derivatives import (
     tangent_options,
     tangents,
 )
+from carom.dtypes import Doubles, Records
 from carom.layouts import Table, of_record
 from carom.shots import simulate, simulate_batch
 from carom.status import CaromError, Status
@@ -90,14 +91,14 @@ class Shots:
         ]
 
     @functools.cached_property
-    def seeds(self) -> dict[str, dtypes.Doubles]:
+    def seeds(self) -> dict[str, Doubles]:
         return seeds_of(self.directions, self.count)
 
     @functools.cached_property
     def played_on(self) -> Table:
         return Table.from_record(np.frombuffer(self.table, dtypes.table)[0])
 
-    def records(self, x: dtypes.Doubles) -> tuple[dtypes.Records, dtypes.Records | None]:
+    def records(self, x: Doubles) -> tuple[Records, Records | None]:
         """Layouts and cues with these numbers, of shape (..., m)."""
         layouts: Array = np.frombuffer(self.balls, dtypes.shot_ball).reshape(self.balls_shape)
         cues: Array | None = (
@@ -178,14 +179,14 @@ class Shots:
         extras = (found["reach"], found["flags"]) if self.has_extras else ()
         return (self.numbers(numbers, final, played), found["final"], *extras)
 
-    def second(self, x: Any) -> dtypes.Doubles:
+    def second(self, x: Any) -> Doubles:
         """The second derivatives of the final states, of shape (..., balls, STATE, m, m), as
         `carom.hessian` has them.
         """
         slopes = self._along(x, np.eye(len(self.directions)))
         return (slopes + slopes.swapaxes(-1, -2)) / 2.0
 
-    def along(self, x: Any, vectors: Array) -> dtypes.Doubles:
+    def along(self, x: Any, vectors: Array) -> Doubles:
         """The derivatives along vectors (..., p, m) of the derivatives of the final states: (...,
         balls, STATE, m, p); nan where unknown.
 
@@ -196,7 +197,7 @@ class Shots:
             return self._along(x, vectors)
         return self.second(x) @ vectors.swapaxes(-1, -2)[..., np.newaxis, np.newaxis, :, :]
 
-    def _along(self, x: Any, vectors: Array) -> dtypes.Doubles:
+    def _along(self, x: Any, vectors: Array) -> Doubles:
         numbers = np.asarray(x)
         shape, m = numbers.shape[:-1], numbers.shape[-1]
         layouts, cues = self.records(numbers)
@@ -228,19 +229,19 @@ class Shots:
                 )
         return found.reshape(*shape, *found.shape[1:])
 
-    def numbers(self, x: dtypes.Doubles, final: dtypes.Records, status: Array) -> dtypes.Doubles:
+    def numbers(self, x: Doubles, final: Records, status: Array) -> Doubles:
         """Final states as numbers; shots in error are nan, or raise."""
         invalid = status < 0
         failed = bool(invalid.any())
         if failed and not self.nan:
             first = tuple(int(k) for k in np.argwhere(invalid)[0])
             self.refuse(x, first, Status(int(status[first])))
-        states: dtypes.Doubles = final.view(np.float64).reshape(*final.shape, -1)[..., _ORDER]
+        states: Doubles = final.view(np.float64).reshape(*final.shape, -1)[..., _ORDER]
         if failed:
             states[invalid] = np.nan
         return states
 
-    def refuse(self, x: dtypes.Doubles, where: tuple[int, ...], status: Status) -> None:
+    def refuse(self, x: Doubles, where: tuple[int, ...], status: Status) -> None:
         """Raises the error of one shot, with its place in the batch and its numbers."""
         text = status.text
         layouts, cues = self.records(x)
@@ -291,9 +292,7 @@ class _One:
         self.shot = ffi.new("carom_shot *", {"events": events, "room": shots.room, "final": final})
         self.free = threading.Lock()
 
-    def play(
-        self, x: dtypes.Doubles, differentiated: bool
-    ) -> tuple[dtypes.Doubles, dtypes.Doubles] | None:
+    def play(self, x: Doubles, differentiated: bool) -> tuple[Doubles, Doubles] | None:
         """The final states and, where they are asked for, their derivatives; None where there are
         none, and the batch says why.
         """
@@ -324,8 +323,8 @@ _shots = functools.lru_cache(maxsize=256)(Shots)
 
 def shots_of(
     table: Table,
-    balls: dtypes.Records,
-    cue: dtypes.Records | None,
+    balls: Records,
+    cue: Records | None,
     numbers: Mapping[str, Any],
     array: Callable[[Any], Any],
     room: int,

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -79,7 +79,7 @@ CUSHION = Kind(
 
 def resolve(
     kind: Kind,
-    impacts: npt.ArrayLike,
+    impacts: ArrayLike,
     options: Any,
     seconds: float,
     threads: int,
@@ -154,7 +154,7 @@ def resolve_one(kind: Kind, numbers: list[float], options: Any) -> Array:
     return motion
 
 
-def trace(kind: Kind, impact: npt.ArrayLike, points: int, options: Any) -> dtypes.Records:
+def trace(kind: Kind, impact: ArrayLike, points: int, options: Any) -> dtypes.Records:
     """Follows one impact."""
     array = rows(impact, kind.source, "impact")
     if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():

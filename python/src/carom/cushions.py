@@ -6,7 +6,7 @@ import functools
 from typing import TYPE_CHECKING, Any, NamedTuple, TypedDict
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -113,16 +113,16 @@ def _ball(game: str, model: str) -> Any:
 
 def cushion_impacts(
     *,
-    v: npt.ArrayLike,
-    w: npt.ArrayLike = 0.0,
-    normal: npt.ArrayLike = (0.0, 1.0),
-    height: npt.ArrayLike | None = None,
-    radius: npt.ArrayLike | None = None,
-    mass: npt.ArrayLike | None = None,
-    mu_slide: npt.ArrayLike | None = None,
-    mu_cushion: npt.ArrayLike | None = None,
-    restitution: npt.ArrayLike | None = None,
-    jaw_radius: npt.ArrayLike = 0.0,
+    v: ArrayLike,
+    w: ArrayLike = 0.0,
+    normal: ArrayLike = (0.0, 1.0),
+    height: ArrayLike | None = None,
+    radius: ArrayLike | None = None,
+    mass: ArrayLike | None = None,
+    mu_slide: ArrayLike | None = None,
+    mu_cushion: ArrayLike | None = None,
+    restitution: ArrayLike | None = None,
+    jaw_radius: ArrayLike = 0.0,
     game: str = "pool",
     model: CushionModel = "mathavan",
 ) -> dtypes.Records:
@@ -152,7 +152,7 @@ def cushion_impacts(
     -------
     ndarray of `carom.dtypes.cushion_impact`, shape (...)
     """
-    of_game: dict[str, tuple[npt.ArrayLike | None, str]] = {
+    of_game: dict[str, tuple[ArrayLike | None, str]] = {
         "height": (height, "nose_height"),
         "radius": (radius, "radius"),
         "mass": (mass, "mass"),
@@ -160,14 +160,14 @@ def cushion_impacts(
         "mu_cushion": (mu_cushion, "mu_cushion"),
         "restitution": (restitution, "restitution_cushion"),
     }
-    fields: dict[str, npt.ArrayLike] = {"v": v, "w": w, "normal": normal, "jaw_radius": jaw_radius}
+    fields: dict[str, ArrayLike] = {"v": v, "w": w, "normal": normal, "jaw_radius": jaw_radius}
     for name, (value, number_of_kind) in of_game.items():
         fields[name] = value if value is not None else getattr(_ball(game, model), number_of_kind)
     return fill(dtypes.cushion_impact, {"v": 3, "w": 3, "normal": 2}, fields)
 
 
 def cushion(
-    impacts: npt.ArrayLike,
+    impacts: ArrayLike,
     *,
     model: CushionModel = "mathavan",
     convention: CushionConvention = "paper",
@@ -248,7 +248,7 @@ class Calibration(NamedTuple):
 
 
 def calibrate(
-    readings: npt.ArrayLike | None, table: Table | None = None, *, game: str = "pool"
+    readings: ArrayLike | None, table: Table | None = None, *, game: str = "pool"
 ) -> Calibration:
     """Find restitution and friction of a table's cushions from three banks that were played.
 
@@ -301,7 +301,7 @@ def calibrate(
 
 
 def cushion_trace(
-    impact: npt.ArrayLike,
+    impact: ArrayLike,
     points: int = 101,
     *,
     model: CushionModel = "mathavan",

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -33,6 +33,7 @@ from carom._rows import (
     workers,
 )
 from carom._shot_options import Options, chosen, shot_options
+from carom.dtypes import Doubles, Records
 from carom.layouts import Table, of_record
 from carom.results import EventType, Shot, Shots
 from carom.shots import simulate_batch
@@ -108,27 +109,25 @@ class Tangents:
 
     names: tuple[str, ...]  # what changes in each direction,
     units: tuple[str, ...]  # and the unit that derivatives are per
-    states: dtypes.Doubles  # all of `final`, (..., balls, 9, m)
-    states_at: dtypes.Doubles  # all of `at`, (..., times, balls, 9, m)
+    states: Doubles  # all of `final`, (..., balls, 9, m)
+    states_at: Doubles  # all of `at`, (..., times, balls, 9, m)
     time: (
-        dtypes.Doubles
-    )  # (..., events, m): of the times of the events, s; nan beyond the events of a shot
-    flags: npt.NDArray[np.int32]  # (..., events): sums of `Flag`; -1 beyond the events
+        Doubles  # (..., events, m): of the times of the events, s; nan beyond the events of a shot
+    )
+    flags: NDArray[np.int32]  # (..., events): sums of `Flag`; -1 beyond the events
     # (..., m): the least change in each direction, in its unit, at which to first order a ball
     # meets something else, or in another order
-    reach: dtypes.Doubles
-    error: (
-        dtypes.Doubles
-    )  # (...): the largest relative error of what had to be found by differences
-    status: npt.NDArray[np.int8]  # (...): as `carom.Status`; derivatives of a shot in error are nan
+    reach: Doubles
+    error: Doubles  # (...): the largest relative error of what had to be found by differences
+    status: NDArray[np.int8]  # (...): as `carom.Status`; derivatives of a shot in error are nan
 
     @property
-    def final(self) -> dict[str, dtypes.Doubles]:
+    def final(self) -> dict[str, Doubles]:
         """Of the final states."""
         return _by_name(self.states)
 
     @property
-    def at(self) -> dict[str, dtypes.Doubles]:
+    def at(self) -> dict[str, Doubles]:
         """Of the states at the times that were asked for."""
         return _by_name(self.states_at)
 
@@ -152,7 +151,7 @@ def _tangents(
     return Tangents(names, units, **arrays, status=status.reshape(shape))
 
 
-def _by_name(states: dtypes.Doubles) -> dict[str, dtypes.Doubles]:
+def _by_name(states: Doubles) -> dict[str, Doubles]:
     return {name: states[..., part, :] for name, part in PARTS.items()}
 
 
@@ -229,7 +228,7 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
     return found
 
 
-def seeds_of(directions: Sequence[Direction], balls: int) -> dict[str, dtypes.Doubles]:
+def seeds_of(directions: Sequence[Direction], balls: int) -> dict[str, Doubles]:
     """The arrays of carom_tangent_seeds."""
     m = len(directions)
     seeds = {
@@ -245,9 +244,7 @@ def seeds_of(directions: Sequence[Direction], balls: int) -> dict[str, dtypes.Do
 
 
 @functools.lru_cache(maxsize=256)
-def _seeds(
-    wrt: tuple[str, ...], balls: int
-) -> tuple[tuple[Direction, ...], dict[str, dtypes.Doubles]]:
+def _seeds(wrt: tuple[str, ...], balls: int) -> tuple[tuple[Direction, ...], dict[str, Doubles]]:
     """All directions of some names, and their seeds, which are only read."""
     wanted_directions = tuple(
         direction for several in directions(wrt, balls) for direction in several
@@ -260,7 +257,7 @@ def _differentiate(
     n: int,
     balls: int,
     events: int,
-    seeds: dict[str, dtypes.Doubles],
+    seeds: dict[str, Doubles],
     times: Array,
     outputs: Collection[str],
     threads: int,
@@ -321,7 +318,7 @@ def _differentiate(
     return whole, codes
 
 
-def _sorted_times(times: npt.ArrayLike | None) -> Array:
+def _sorted_times(times: ArrayLike | None) -> Array:
     if times is None:
         return np.zeros(0)
     sorted_times = np.ascontiguousarray(as_array(times, "times", np.float64))
@@ -364,7 +361,7 @@ def _job_of_one(shot: Shot, options: Any) -> Callable[[int, int], Any]:
 
 
 def tangents(
-    shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | None = None, threads: int = 0
+    shot: Shot | Shots, wrt: Sequence[str], *, times: ArrayLike | None = None, threads: int = 0
 ) -> Tangents:
     """Differentiate a shot that `carom.simulate` has played, or many of `carom.simulate_batch`.
 
@@ -430,7 +427,7 @@ def tangents(
     return _tangents(directions, (), found, codes)
 
 
-def _final_states(shots: Shots, directions: Sequence[Direction], threads: int) -> dtypes.Doubles:
+def _final_states(shots: Shots, directions: Sequence[Direction], threads: int) -> Doubles:
     """Derivatives of the final states alone of shots with all of their events: (shots, balls,
     STATE, m).
     """
@@ -452,13 +449,13 @@ class Hessian:
     # first derivatives, with the names and units of the directions, their reach, and the flags of
     # the events
     first: Tangents
-    states: dtypes.Doubles  # all of `final`, (..., balls, 9, m, m)
+    states: Doubles  # all of `final`, (..., balls, 9, m, m)
     # (...): the largest difference of d2/dx dy and d2/dy dx over the largest second derivative,
     # each for changes in proportion to the steps; nan along a vector, where it is unknown
-    error: dtypes.Doubles
+    error: Doubles
 
     @property
-    def final(self) -> dict[str, dtypes.Doubles]:
+    def final(self) -> dict[str, Doubles]:
         """Of the final states."""
         batch = (slice(None),) * (self.first.states.ndim - 2)
         return {name: self.states[(*batch, part)] for name, part in PARTS.items()}
@@ -468,7 +465,7 @@ class Hessian:
 
 
 def numbers_of_direction(
-    direction: Direction, layouts: dtypes.Records, cues: dtypes.Records | None
+    direction: Direction, layouts: Records, cues: Records | None
 ) -> list[Array]:
     """The numbers that a direction changes, as views into layouts (..., balls) and cues (...); none
     of a table.
@@ -486,7 +483,7 @@ def numbers_of_direction(
 
 
 def hessian(
-    shot: Shot | Shots, wrt: Sequence[str], *, along: npt.ArrayLike | None = None, threads: int = 0
+    shot: Shot | Shots, wrt: Sequence[str], *, along: ArrayLike | None = None, threads: int = 0
 ) -> Hessian:
     """Second derivatives of the final states of shots that were played: central differences of
     their first ones.
@@ -553,7 +550,7 @@ def hessian(
     )
 
 
-def _whole(shots: Shots) -> tuple[dtypes.Records, dtypes.Records | None]:
+def _whole(shots: Shots) -> tuple[Records, Records | None]:
     """The layouts (n, balls) and cues (n,) of shots, a row each."""
     layouts = np.broadcast_to(shots.layouts, shots.final.shape).reshape(-1, shots.final.shape[-1])
     if shots.kinds is not None:
@@ -564,11 +561,9 @@ def _whole(shots: Shots) -> tuple[dtypes.Records, dtypes.Records | None]:
     ).reshape(-1)
 
 
-def steps_of(
-    directions: Sequence[Direction], shots: Shots, reach: dtypes.Doubles
-) -> dtypes.Doubles:
+def steps_of(directions: Sequence[Direction], shots: Shots, reach: Doubles) -> Doubles:
     """The steps (..., m) of second derivatives."""
-    steps: dtypes.Doubles = np.fmin(_STEP * reach, _STEP_MOST)
+    steps: Doubles = np.fmin(_STEP * reach, _STEP_MOST)
     if all(direction.array != "kind" for direction in directions):
         return steps
     layouts = _whole(shots)[0]
@@ -592,10 +587,10 @@ def _repeated(records: Array, p: int) -> Array:
 def by_steps(
     shots: Shots,
     directions: Sequence[Direction],
-    steps: dtypes.Doubles,
+    steps: Doubles,
     vectors: Array,
     threads: int,
-) -> dtypes.Doubles:
+) -> Doubles:
     """Differences of the tangents of shots along vectors (..., p, m), for each unit of them: (...,
     balls, STATE, m, p).
     """
@@ -656,7 +651,7 @@ def by_steps(
     return found.reshape(*shots.shape, balls, STATE, m, p)
 
 
-def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi") -> dtypes.Doubles:
+def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi") -> Doubles:
     """How the direction of the cue must follow other numbers of a shot, so that a ball falls at the
     same place across its path.
 
@@ -695,21 +690,21 @@ def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi")
     across = v_x * d[1] - v_y * d[0]
     if across[0] == 0.0 or len(directions([by], shot.final.shape[-1], "by")[0]) != 1:
         raise ValueError(f"by: {by} does not turn the path of ball {ball}")
-    slopes: dtypes.Doubles = -across[1:] / across[0]
+    slopes: Doubles = -across[1:] / across[0]
     return slopes
 
 
 def play(
     table: Table,
-    layouts: dtypes.Records,
-    cues: dtypes.Records | None,
-    seeds: dict[str, dtypes.Doubles],
+    layouts: Records,
+    cues: Records | None,
+    seeds: dict[str, Doubles],
     times: Array,
     outputs: Collection[str],
     room: int,
     threads: int,
     options: Options,
-) -> tuple[dict[str, Array], Array, dtypes.Records]:
+) -> tuple[dict[str, Array], Array, Records]:
     """Plays shots, some at a time, and differentiates them: what is wanted, statuses and final
     states, of the shape of the batch.
     """
@@ -793,17 +788,17 @@ def play(
 
 def jacobian(
     table: Table,
-    layouts: dtypes.Records,
-    cues: dtypes.Records | None,
+    layouts: Records,
+    cues: Records | None,
     wrt: Sequence[str],
     *,
     of: str = "final.r",
-    times: npt.ArrayLike | None = None,
+    times: ArrayLike | None = None,
     room: int = 512,
     threads: int = 0,
     options: Options = Options(),
     **changes: Unpack[Changes],
-) -> dtypes.Doubles:
+) -> Doubles:
     """Play shots and give one derivative of each, with leading batch dimensions.
 
     Parameters

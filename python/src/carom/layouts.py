@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from carom import dtypes, pictures
 from carom._carom import ffi, lib
@@ -30,6 +30,7 @@ from carom._rows import (
     with_numbers,
     worded,
 )
+from carom.dtypes import Record, Records
 from carom.status import CaromError, Status
 
 if TYPE_CHECKING:
@@ -70,9 +71,9 @@ class Table:
         width: float,
         length: float,
         *,
-        rails: dtypes.Records,
-        jaws: dtypes.Records | None = None,
-        pockets: dtypes.Records | None = None,
+        rails: Records,
+        jaws: Records | None = None,
+        pockets: Records | None = None,
         ball_radius: float = 0.0,
         rail_width: float = 0.0,
         pocket_back: float = 0.0,
@@ -106,10 +107,10 @@ class Table:
                 )
             record[name] = len(values)
             raw(record[part])[: len(values)] = raw(np.ascontiguousarray(values))
-        self.record: dtypes.Records = sealed(record)
+        self.record: Records = sealed(record)
 
     @classmethod
-    def from_record(cls, record: dtypes.Records) -> Table:
+    def from_record(cls, record: Records) -> Table:
         """The table of a record of `carom.dtypes.table`, of shape (), which is copied."""
         table = cls.__new__(cls)
         table.record = frozen(np.asarray(record, dtypes.table)).reshape(())
@@ -143,17 +144,17 @@ class Table:
         return float(self.record["length"])
 
     @property
-    def rails(self) -> dtypes.Records:
+    def rails(self) -> Records:
         """The straight pieces of cushion: a view, which cannot be written to."""
         return self._parts("rail", "rails")
 
     @property
-    def jaws(self) -> dtypes.Records:
+    def jaws(self) -> Records:
         """The rounded ends of cushions: a view, which cannot be written to."""
         return self._parts("jaw", "jaws")
 
     @property
-    def pockets(self) -> dtypes.Records:
+    def pockets(self) -> Records:
         """The pockets: a view, which cannot be written to."""
         return self._parts("pocket", "pockets")
 
@@ -177,8 +178,8 @@ class Table:
         )
         return [ffi.string(text).decode() if text != ffi.NULL else None for text in texts]
 
-    def _parts(self, part: str, count: str) -> dtypes.Records:
-        parts: dtypes.Records = self.record[part]
+    def _parts(self, part: str, count: str) -> Records:
+        parts: Records = self.record[part]
         return parts[: int(self.record[count])]
 
     def check(self, radius: float = 0.028575) -> None:
@@ -329,7 +330,7 @@ def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
         )
 
 
-def of_record(values: dtypes.Records, record: dtypes.Record, name: str, builder: str) -> Array:
+def of_record(values: Records, record: Record, name: str, builder: str) -> Array:
     """The values in C order, refused where they are not of the record, which carom.<builder> gives."""
     array = as_array(values, name)
     if array.dtype != record:
@@ -339,7 +340,7 @@ def of_record(values: dtypes.Records, record: dtypes.Record, name: str, builder:
     return np.asarray(array, order="C")
 
 
-def one_cue(cue: dtypes.Records, name: str = "cue") -> Array:
+def one_cue(cue: Records, name: str = "cue") -> Array:
     """A cue of shape (); many are refused."""
     cues = of_record(cue, dtypes.cue, name, "cue()")
     if cues.size != 1:
@@ -359,9 +360,7 @@ def _part(part: Any) -> str:
     return f"{names[part.kind]}[{part.index}]" if part.kind in names else "table"
 
 
-def place_ball(
-    table: Table, balls: dtypes.Records, ball: int, x: float, y: float
-) -> dtypes.Records:
+def place_ball(table: Table, balls: Records, ball: int, x: float, y: float) -> Records:
     """Ball in hand: a copy of a layout, in which the ball of this index lies at rest at (x, y), m,
     also one that was pocketed.
 
@@ -405,8 +404,8 @@ _COLOURS = {"yellow": "16", "green": "17", "brown": "18", "blue": "19", "pink": 
 
 
 def by_number(
-    balls: dtypes.Records, ids: Sequence[int | str], rules: str, *, cue: int | str = "cue"
-) -> dtypes.Records:
+    balls: Records, ids: Sequence[int | str], rules: str, *, cue: int | str = "cue"
+) -> Records:
     """A layout as `plan` and `referee` want it, in which ball k is number k, from balls in any
     order; those that are missing are down.
 
@@ -457,7 +456,7 @@ def by_number(
     return ordered
 
 
-def _finite(**named: npt.ArrayLike) -> None:
+def _finite(**named: ArrayLike) -> None:
     """Refuses one layout whose numbers are not finite; of many, a wrong one costs its own shots."""
     for name, values in named.items():
         numbers = as_array(values, name, np.float64)
@@ -468,15 +467,15 @@ def _finite(**named: npt.ArrayLike) -> None:
 
 @with_numbers(lib.CAROM_PART_BALL)
 def balls(
-    r: npt.ArrayLike,
+    r: ArrayLike,
     *,
-    v: npt.ArrayLike = 0.0,
-    w: npt.ArrayLike = 0.0,
+    v: ArrayLike = 0.0,
+    w: ArrayLike = 0.0,
     game: Game = "pool",
     cushion_model: ShotCushion = "default",
     conditions: Sequence[Condition] = (),
     **kind: Unpack[BallNumbers],
-) -> dtypes.Records:
+) -> Records:
     """Balls on a table, from fields that are broadcast against each other.
 
     Parameters
@@ -508,8 +507,7 @@ def balls(
             f"balls: there is no field {unknown[0]!r}; known are {', '.join(dtypes.ball_kind.names or ())}"
         )
     fields = {
-        f"kind.{name}": value
-        for name, value in cast("dict[str, npt.ArrayLike | None]", kind).items()
+        f"kind.{name}": value for name, value in cast("dict[str, ArrayLike | None]", kind).items()
     }
     centres = as_array(r, "r", np.float64)
     if centres.ndim < 2 or centres.shape[-1] not in (2, 3):
@@ -551,23 +549,23 @@ def balls(
 
 def cue(
     *,
-    speed: npt.ArrayLike | None = None,
-    phi: npt.ArrayLike = 90.0,
-    theta: npt.ArrayLike = 0.0,
-    a: npt.ArrayLike | None = None,
-    b: npt.ArrayLike | None = None,
-    ball: npt.ArrayLike = 0,
+    speed: ArrayLike | None = None,
+    phi: ArrayLike = 90.0,
+    theta: ArrayLike = 0.0,
+    a: ArrayLike | None = None,
+    b: ArrayLike | None = None,
+    ball: ArrayLike = 0,
     game: Game = "pool",
-    mass: npt.ArrayLike | None = None,
-    end_mass: npt.ArrayLike | None = None,
-    tip_radius: npt.ArrayLike | None = None,
-    miscue: npt.ArrayLike = 0.0,
-    tip_time: npt.ArrayLike = 0.0,
-    tip_restitution: npt.ArrayLike | None = None,
-    ball_speed: npt.ArrayLike | None = None,
-    tip: npt.ArrayLike | None = None,
-    follow: npt.ArrayLike | None = None,
-) -> dtypes.Records:
+    mass: ArrayLike | None = None,
+    end_mass: ArrayLike | None = None,
+    tip_radius: ArrayLike | None = None,
+    miscue: ArrayLike = 0.0,
+    tip_time: ArrayLike = 0.0,
+    tip_restitution: ArrayLike | None = None,
+    ball_speed: ArrayLike | None = None,
+    tip: ArrayLike | None = None,
+    follow: ArrayLike | None = None,
+) -> Records:
     """Build a cue with its strike, or many.
 
     The fields are broadcast against each other. One cue with a number outside its range is refused.
@@ -659,7 +657,7 @@ def cue(
     return record
 
 
-def _strike_to(cues: dtypes.Records, game: Game) -> None:
+def _strike_to(cues: Records, game: Game) -> None:
     """Gives cues, whose speeds are those of balls, the speeds that they need.
 
     The ball's speed is in proportion to the level cue's.
@@ -681,7 +679,7 @@ def _strike_to(cues: dtypes.Records, game: Game) -> None:
     flat["phi"] = phi
 
 
-def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
+def _doubt_radians(name: str, angle: ArrayLike) -> None:
     """Warns of angles that are within a turn in radians, one of them a twelfth of pi or a multiple
     of it, as few degrees are.
     """
@@ -699,7 +697,7 @@ def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
         )
 
 
-def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
+def struck(cue: Records, kind: Records) -> Records:
     """The motion of a ball at rest after a strike: `carom.dtypes.motion` of a `carom.dtypes.cue`
     and a `carom.dtypes.ball_kind`, shapes ().
     """

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
-from carom import dtypes
 from carom._rows import listing, needed, number
+from carom.dtypes import Doubles
 
 __all__ = ["Animation", "Picture"]
 __dir__ = listing(__name__)
@@ -76,7 +76,7 @@ class _Canvas:
         )  # a long table lies on its side: y to the right, x downwards
         self.size = size[::-1] if self.turned else size
 
-    def place(self, r: npt.ArrayLike) -> tuple[float, float]:
+    def place(self, r: ArrayLike) -> tuple[float, float]:
         """A point of the table on the picture, in pixels."""
         x, y = (float(value) for value in np.asarray(r)[:2])
         right, down = (
@@ -86,10 +86,10 @@ class _Canvas:
         )
         return float(right) * _SCALE, float(down) * _SCALE
 
-    def point(self, r: npt.ArrayLike) -> str:
+    def point(self, r: ArrayLike) -> str:
         return ",".join(map(_number, self.place(r)))
 
-    def circle(self, centre: npt.ArrayLike, radius: float, rest: str) -> str:
+    def circle(self, centre: ArrayLike, radius: float, rest: str) -> str:
         x, y = map(_number, self.place(centre))
         return f'<circle cx="{x}" cy="{y}" r="{_number(radius * _SCALE)}" {rest}/>'
 
@@ -97,7 +97,7 @@ class _Canvas:
         self,
         shot: Any,
         number: int,
-        places: dtypes.Doubles,
+        places: Doubles,
         opacity: float = 1.0,
         duration: str = "",
     ) -> str:
@@ -157,13 +157,13 @@ def colour(ball: int) -> str:
     )
 
 
-def _paths(shot: Any) -> dtypes.Doubles:
+def _paths(shot: Any) -> Doubles:
     """Places of the balls of a shot, (n, balls, 3).
 
     Paths are parabolas between events, so the events' times are among those looked at.
     """
     times = np.union1d(np.linspace(0.0, shot.time, _PATH_POINTS), shot.events["time"])
-    paths: dtypes.Doubles = (
+    paths: Doubles = (
         shot.positions(times)
         if shot.count <= len(shot.events)
         else np.zeros((0, len(shot.balls), 3))
@@ -174,8 +174,8 @@ def _paths(shot: Any) -> dtypes.Doubles:
 def picture(
     table: Any,
     shot: Any = None,
-    seen: Sequence[dtypes.Doubles] = (),
-    marks: Sequence[tuple[npt.ArrayLike, float, str, str]] = (),
+    seen: Sequence[Doubles] = (),
+    marks: Sequence[tuple[ArrayLike, float, str, str]] = (),
 ) -> str:
     """A table, and a shot's paths with the balls where they begin (faint) and end, as the text of
     an SVG.
@@ -292,12 +292,10 @@ class _Pixels:
         self.canvas = canvas
         # even numbers, as films have them
         width, height = (2 * int(np.ceil(size / 2.0)) for size in canvas.size)
-        self.image: npt.NDArray[np.float64] = np.empty((height, width, 3))
+        self.image: NDArray[np.float64] = np.empty((height, width, 3))
         self.image[:] = _colour(_WOOD)
 
-    def _cover(
-        self, low: dtypes.Doubles, high: dtypes.Doubles, distance: Any, ink: str, opacity: float
-    ) -> None:
+    def _cover(self, low: Doubles, high: Doubles, distance: Any, ink: str, opacity: float) -> None:
         """Paints the pixels of a box, pixels, by how far they are outside a shape: distance(x, y)."""
         height, width = self.image.shape[:2]
         x_0, y_0 = (int(max(np.floor(value) - 1.0, 0.0)) for value in low)
@@ -311,7 +309,7 @@ class _Pixels:
         part = self.image[y_0:y_1, x_0:x_1]
         part += cover * (_colour(ink) - part)
 
-    def disc(self, centre: npt.ArrayLike, radius: float, ink: str, opacity: float = 1.0) -> None:
+    def disc(self, centre: ArrayLike, radius: float, ink: str, opacity: float = 1.0) -> None:
         """A disc of a radius in pixels at a place of the table."""
         point = np.array(self.canvas.place(centre))
         self._cover(
@@ -323,7 +321,7 @@ class _Pixels:
         )
 
     def line(
-        self, p: npt.ArrayLike, q: npt.ArrayLike, width: float, ink: str, opacity: float = 1.0
+        self, p: ArrayLike, q: ArrayLike, width: float, ink: str, opacity: float = 1.0
     ) -> None:
         """A line of a width in pixels between two places of the table."""
         a, b = np.array(self.canvas.place(p)), np.array(self.canvas.place(q))
@@ -336,7 +334,7 @@ class _Pixels:
 
         self._cover(np.minimum(a, b) - width, np.maximum(a, b) + width, distance, ink, opacity)
 
-    def ball(self, shot: Any, number: int, centre: dtypes.Doubles, opacity: float) -> None:
+    def ball(self, shot: Any, number: int, centre: Doubles, opacity: float) -> None:
         """A ball, with its number unless it is the first."""
         radius = float(shot.balls["kind"]["radius"][number]) * _SCALE
         self.disc(centre, radius, "#000000", opacity)
@@ -358,7 +356,7 @@ class _Pixels:
                         )
 
 
-def _colour(ink: str) -> dtypes.Doubles:
+def _colour(ink: str) -> Doubles:
     return np.array([int(ink[k : k + 2], 16) for k in (1, 3, 5)], np.float64)
 
 
@@ -377,7 +375,7 @@ def rendered(shot: Any, mode: str) -> Any:
     return picture(shot.table, shot) if mode == "svg" else pixels(shot.table, shot)
 
 
-def pixels(table: Any, shot: Any = None) -> npt.NDArray[np.uint8]:
+def pixels(table: Any, shot: Any = None) -> NDArray[np.uint8]:
     """What `picture` draws as an image, of shape (height, width, 3): red, green and blue, both
     sizes even.
     """

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields
 from typing import Any, overload
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes, pictures
 from carom._carom import ffi, lib
@@ -35,12 +35,13 @@ from carom._rows import (
     whole,
 )
 from carom._shot_options import Options, shot_options
+from carom.dtypes import Doubles, Record, Records
 from carom.layouts import Table
 from carom.pictures import Animation
 from carom.status import CaromError, Status
 
 
-def _moments(times: npt.ArrayLike) -> dtypes.Doubles:
+def _moments(times: ArrayLike) -> Doubles:
     moments = np.asarray(as_array(times, "times", np.float64), order="C")
     wrong = moments[~((moments >= 0.0) & (moments < np.inf))]
     if wrong.size:
@@ -112,17 +113,17 @@ class Shot:
     """
 
     table: Table
-    balls: dtypes.Records
+    balls: Records
     status: Status
     time: float
     count: int
-    events: dtypes.Records
-    final: dtypes.Records
-    cue: dtypes.Records | None
+    events: Records
+    final: Records
+    cue: Records | None
     options: Options
     state: Array | None = None
 
-    def states(self, times: npt.ArrayLike, *, drawn: bool = False) -> dtypes.Records:
+    def states(self, times: ArrayLike, *, drawn: bool = False) -> Records:
         """The states of all balls at any times, s: an ndarray of `carom.dtypes.ball_state`, shape
         (shape of the times..., balls).
 
@@ -150,7 +151,7 @@ class Shot:
 
     def _at(
         self,
-        instants: dtypes.Doubles,
+        instants: Doubles,
         out: Array,
         numbers: int,
         ctype: str,
@@ -179,7 +180,7 @@ class Shot:
         if code < 0:
             raise CaromError(code)
 
-    def orientations(self, times: npt.ArrayLike) -> dtypes.Doubles:
+    def orientations(self, times: ArrayLike) -> Doubles:
         """How each ball has turned since the start of the shot, for drawing it: float64 of shape
         (..., balls, 4).
 
@@ -187,12 +188,12 @@ class Shot:
         to where it is then. Times and errors are those of `states`.
         """
         moments = _moments(times)
-        turned: dtypes.Doubles = np.zeros((*moments.shape, len(self.balls), 4))
+        turned: Doubles = np.zeros((*moments.shape, len(self.balls), 4))
         self._at(moments, turned, 4, "double[]", lib.carom_python_orientations)
         return turned
 
     @property
-    def slips(self) -> dtypes.Doubles:
+    def slips(self) -> Doubles:
         """How fast surfaces pass each other in each event, m/s: with `impulse` it says how a
         contact sounds. 0 where nothing touches.
         """
@@ -208,7 +209,7 @@ class Shot:
             ]
         )
 
-    def positions(self, times: npt.ArrayLike) -> dtypes.Doubles:
+    def positions(self, times: ArrayLike) -> Doubles:
         """The centres of all balls at any times: float64 of shape (..., balls, 3), m.
 
         Times and errors are those of `states`.
@@ -275,15 +276,15 @@ class _OfBatch(Shot):
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *_ATTRIBUTES})
 
-    def states(self, times: npt.ArrayLike, *, drawn: bool = False) -> dtypes.Records:
+    def states(self, times: ArrayLike, *, drawn: bool = False) -> Records:
         return (
             super().states(times, drawn=True) if drawn else self._seen(times, dtypes.ball_state, ())
         )
 
-    def positions(self, times: npt.ArrayLike) -> dtypes.Doubles:
+    def positions(self, times: ArrayLike) -> Doubles:
         return self._seen(times, np.dtype(np.float64), (3,))
 
-    def _seen(self, times: npt.ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...]) -> Array:
+    def _seen(self, times: ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...]) -> Array:
         index: tuple[Any, ...] = self._index if isinstance(self._index, tuple) else (self._index,)
         alone: Shots = self._batch[(*index, ...)]
         seen, codes = alone._look_at(times, dtype, numbers, 0)
@@ -297,7 +298,7 @@ class _OfBatch(Shot):
 
     def _at(
         self,
-        instants: dtypes.Doubles,
+        instants: Doubles,
         out: Array,
         numbers: int,
         ctype: str,
@@ -308,13 +309,13 @@ class _OfBatch(Shot):
         super()._at(instants, out, numbers, ctype, look)
 
 
-def _kept(batch: Shots, index: Any) -> dtypes.Records:
-    brief: dtypes.Records = batch.events[index]
+def _kept(batch: Shots, index: Any) -> Records:
+    brief: Records = batch.events[index]
     return sealed(brief[: int(batch.record["count"][index])])
 
 
-def _layout(batch: Shots, index: Any) -> dtypes.Records:
-    layouts: dtypes.Records = np.broadcast_to(batch.layouts, batch.final.shape)[index]
+def _layout(batch: Shots, index: Any) -> Records:
+    layouts: Records = np.broadcast_to(batch.layouts, batch.final.shape)[index]
     if batch.kinds is None:
         return sealed(np.array(layouts, dtypes.shot_ball))
     balls = np.empty(layouts.shape, dtypes.shot_ball)
@@ -351,13 +352,13 @@ class Features(Arrays):
     without a cue. A cushion is a rail or its rounded end.
     """
 
-    contact: npt.NDArray[np.int32]
-    contact_time: dtypes.Doubles
-    cushions_before: npt.NDArray[np.int32]
-    cushions_after: npt.NDArray[np.int32]
-    pocket: npt.NDArray[np.int32]
-    pocket_time: dtypes.Doubles
-    cushions: npt.NDArray[np.int32]
+    contact: NDArray[np.int32]
+    contact_time: Doubles
+    cushions_before: NDArray[np.int32]
+    cushions_after: NDArray[np.int32]
+    pocket: NDArray[np.int32]
+    pocket_time: Doubles
+    cushions: NDArray[np.int32]
 
     def __getitem__(self, index: Any) -> Features:
         """Those of some shots: the index is that of `Shots`."""
@@ -427,35 +428,35 @@ class Shots:
     def __init__(
         self,
         table: Table,
-        layouts: dtypes.Records,
+        layouts: Records,
         shape: tuple[int, ...],
         room: int,
-        event: dtypes.Record = dtypes.event,
+        event: Record = dtypes.event,
     ) -> None:
         balls = layouts.shape[-1]
         self.table = table
         self.layouts = layouts
-        self.kinds: dtypes.Records | None = None
-        self.cues: dtypes.Records | None = None
-        self.status: npt.NDArray[np.int8] = np.zeros(shape, INT8)
-        self.final: dtypes.Records = np.zeros((*shape, balls), dtypes.ball_state)
-        self.events: dtypes.Records = np.zeros((*shape, room), event)
-        self.record: dtypes.Records = np.zeros(shape, dtypes.shot)
-        self._facts: dtypes.Records | None = None  # dtypes.facts, with features
+        self.kinds: Records | None = None
+        self.cues: Records | None = None
+        self.status: NDArray[np.int8] = np.zeros(shape, INT8)
+        self.final: Records = np.zeros((*shape, balls), dtypes.ball_state)
+        self.events: Records = np.zeros((*shape, room), event)
+        self.record: Records = np.zeros(shape, dtypes.shot)
+        self._facts: Records | None = None  # dtypes.facts, with features
         self.options = _USUAL
 
     @property
-    def time(self) -> dtypes.Doubles:
+    def time(self) -> Doubles:
         """When the last event happened, s: a view, which cannot be written to."""
         return sealed(self.record["time"])
 
     @property
-    def count(self) -> npt.NDArray[np.int64]:
+    def count(self) -> NDArray[np.int64]:
         """Events that happened: a view, which cannot be written to."""
         return sealed(self.record["count"])
 
     @property
-    def refused(self) -> npt.NDArray[np.bool_]:
+    def refused(self) -> NDArray[np.bool_]:
         """Which shots were not played, as an argument was in error."""
         return np.asarray((self.status < 0) & (self.count == 0) & (self.time == 0.0))
 
@@ -510,7 +511,7 @@ class Shots:
     @overload
     def __getitem__(self, index: tuple[int, ...]) -> Shot: ...
     @overload
-    def __getitem__(self, index: slice | npt.NDArray[Any] | list[Any]) -> Shots: ...
+    def __getitem__(self, index: slice | NDArray[Any] | list[Any]) -> Shots: ...
     @overload
     def __getitem__(self, index: Any) -> Any: ...
     def __getitem__(self, index: Any) -> Any:
@@ -547,7 +548,7 @@ class Shots:
     # ---- Trajectories
     # ---------------------------------------------------------------------------------------------------
 
-    def states(self, times: npt.ArrayLike, *, threads: int = 0) -> dtypes.Records:
+    def states(self, times: ArrayLike, *, threads: int = 0) -> Records:
         """The states of all balls of all shots at any times, s: an ndarray of
         `carom.dtypes.ball_state`, shape (batch..., times..., balls).
 
@@ -564,7 +565,7 @@ class Shots:
         """
         return self._look_at(times, dtypes.ball_state, (), threads)[0]
 
-    def positions(self, times: npt.ArrayLike, *, threads: int = 0) -> dtypes.Doubles:
+    def positions(self, times: ArrayLike, *, threads: int = 0) -> Doubles:
         """The centres of all balls of all shots at any times: float64 of shape (batch..., times...,
         balls, 3), m.
 
@@ -573,8 +574,8 @@ class Shots:
         return self._look_at(times, np.dtype(np.float64), (3,), threads)[0]
 
     def _look_at(
-        self, times: npt.ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...], threads: int
-    ) -> tuple[Array, npt.NDArray[np.int8]]:
+        self, times: ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...], threads: int
+    ) -> tuple[Array, NDArray[np.int8]]:
         """For `states` and `positions`: the array, and of each shot, in C order, whether some of it
         is unknown.
         """
@@ -604,12 +605,12 @@ class Shots:
 
     def _look(
         self, look: Callable[[Any, Any, int], int], seconds: float, threads: int
-    ) -> npt.NDArray[np.int8]:
+    ) -> NDArray[np.int8]:
         """Calls look(job, codes, first row) for all rows, which take so many seconds each; the
         codes.
         """
         whole(threads, "threads", least=-1)
-        codes: npt.NDArray[np.int8] = np.zeros(self.status.size, INT8)
+        codes: NDArray[np.int8] = np.zeros(self.status.size, INT8)
         flags = pointer("int8_t[]", codes)
         job = self._jobs(shot_options(self.options))
         code = in_chunks(

@@ -30,6 +30,7 @@ from carom._rows import (
     whole,
 )
 from carom._shot_options import Options, StopAt, chosen, shot_options
+from carom.dtypes import Records
 from carom.layouts import Table, check_table, doubt_balls, of_record, one_cue
 from carom.results import UNKNOWN, Shot, Shots
 from carom.status import CaromError, Status
@@ -65,8 +66,8 @@ def cite(*, options: Options = _USUAL, **changes: Unpack[Changes]) -> str:
 
 def simulate(
     table: Table,
-    balls: dtypes.Records,
-    cue: dtypes.Records | None = None,
+    balls: Records,
+    cue: Records | None = None,
     *,
     options: Options = _USUAL,
     **changes: Unpack[Changes],
@@ -121,7 +122,7 @@ def simulate(
     return _run(begun, lambda shot: lib.carom_shoot(*arguments, shot))
 
 
-def _check_first_of(options: Options, balls: int, cues: dtypes.Records | None) -> None:
+def _check_first_of(options: Options, balls: int, cues: Records | None) -> None:
     """Refuses indices of no ball, and of the cue ball, which does not meet itself."""
     struck = {0} if cues is None else set(np.unique(cues["ball"]).tolist())
     for ball in (options.first_of,) if isinstance(options.first_of, int) else options.first_of:
@@ -218,11 +219,11 @@ def resume(
 
 def simulate_batch(
     table: Table,
-    layouts: dtypes.Records,
-    cues: dtypes.Records | None = None,
+    layouts: Records,
+    cues: Records | None = None,
     *,
     room: int = 0,
-    kinds: dtypes.Records | None = None,
+    kinds: Records | None = None,
     records: Literal["full", "brief"] = "full",
     features: bool = False,
     threads: int = 0,
@@ -340,8 +341,8 @@ def simulate_batch(
 
 def simulate_arrow(
     table: Table,
-    layouts: dtypes.Records,
-    cues: dtypes.Records | Iterator[dtypes.Records] | None = None,
+    layouts: Records,
+    cues: Records | Iterator[Records] | None = None,
     *,
     at_once: int = 10_000,
     **more: Any,

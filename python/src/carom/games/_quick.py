@@ -26,6 +26,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._rows import Array, raw
+from carom.dtypes import Doubles, Records
 from carom.games.rules import Made, calls_of, judge, on_of
 from carom.layouts import cue as cue_of
 
@@ -37,9 +38,7 @@ BREAK = 9.0  # m/s
 _LEAST_COS = np.cos(np.radians(75.0))  # of a cut
 
 
-def quick_stroke(
-    pool: Any, position: Any, shots: int
-) -> tuple[dtypes.Records, dtypes.Records, tuple[int, int]]:
+def quick_stroke(pool: Any, position: Any, shots: int) -> tuple[Records, Records, tuple[int, int]]:
     """The layout, with the cue ball where it is put, the cue, and the call of eight-ball."""
     game = Made(pool.game, position.state)
     layouts, cues = _candidates(pool, position, game, max(shots // OF_PAIR, 1))
@@ -50,9 +49,7 @@ def quick_stroke(
     return layouts[best], cues[best], call
 
 
-def _candidates(
-    pool: Any, position: Any, game: Made, pairs: int
-) -> tuple[dtypes.Records, dtypes.Records]:
+def _candidates(pool: Any, position: Any, game: Made, pairs: int) -> tuple[Records, Records]:
     """Layouts (n, balls) and cues (n,) of the easiest pairs of a ball and a pocket."""
     balls, radius = position.balls, pool.base.radius
     centres = balls["state"]["r"][:, :2]
@@ -94,9 +91,7 @@ def _candidates(
     return layouts, cue_of(speed=speed.ravel(), phi=phi.ravel(), b=0.0)
 
 
-def _break(
-    pool: Any, position: Any, targets: dtypes.Doubles
-) -> tuple[dtypes.Records, dtypes.Records]:
+def _break(pool: Any, position: Any, targets: Doubles) -> tuple[Records, Records]:
     """A stroke at the first ball of the rack, from behind the head string."""
     low, high = pool.area(position.hand)
     place = np.array([(low[0] + high[0]) / 2.0, high[1]])
@@ -106,7 +101,7 @@ def _break(
     return _laid(pool, position, place[np.newaxis]), cue_of(speed=[speed], phi=[phi], b=0.0)
 
 
-def _free(pool: Any, position: Any, point: dtypes.Doubles) -> dtypes.Doubles:
+def _free(pool: Any, position: Any, point: Doubles) -> Doubles:
     """The places that are free, where the cue ball is in hand, and others in place of those that
     are not.
     """
@@ -122,7 +117,7 @@ def _free(pool: Any, position: Any, point: dtypes.Doubles) -> dtypes.Doubles:
     return point
 
 
-def _laid(pool: Any, position: Any, places: dtypes.Doubles) -> dtypes.Records:
+def _laid(pool: Any, position: Any, places: Doubles) -> Records:
     """The layout with the cue ball at each of some places, if it is in hand."""
     layouts: Array = np.repeat(raw(position.balls)[np.newaxis], len(places), axis=0)
     layouts = layouts.view(dtypes.shot_ball)

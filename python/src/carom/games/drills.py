@@ -7,10 +7,11 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
-from carom import dtypes, racks
+from carom import racks
 from carom._rows import Seed, copied, listing
+from carom.dtypes import Doubles, Records
 from carom.games import plans
 from carom.games._draws import Draws, Games
 from carom.games.potting import Potting
@@ -55,12 +56,12 @@ class Break(Potting):
     def __init__(self, *, speeds: tuple[float, float] = (0.5, 10.5), **options: Any) -> None:
         super().__init__(9, 1, speeds=speeds, **options)
 
-    def corners(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:
+    def corners(self) -> tuple[Doubles, Doubles]:
         """The lower and the upper corner, m, of the rectangle in which the cue ball is put."""
         low = np.full(2, self.radius + 1e-3)
         return low, np.array([self.table.width - low[0], self.table.length / 4.0])
 
-    def deal(self, draws: Draws, games: Games) -> dtypes.Records:
+    def deal(self, draws: Draws, games: Games) -> Records:
         layouts = super().deal(draws, games)
         for k, game in enumerate(games.tolist()):
             layouts["state"]["r"][k] = racks.nineball(self.table, seed=draws.key(game))["state"][
@@ -69,7 +70,7 @@ class Break(Potting):
         layouts["state"]["r"][..., 2] = self.radius
         return layouts
 
-    def placed(self, balls: dtypes.Records, actions: npt.ArrayLike) -> dtypes.Records:
+    def placed(self, balls: Records, actions: ArrayLike) -> Records:
         """The layouts, broadcast against the actions, with the cue balls where the actions put
         them.
         """
@@ -85,7 +86,7 @@ class Break(Potting):
         )
         return laid
 
-    def best(self, balls: dtypes.Records, *, shots: int = 500, seed: Seed = 0) -> dtypes.Doubles:
+    def best(self, balls: Records, *, shots: int = 500, seed: Seed = 0) -> Doubles:
         """The action, of shape (6,), of the planner, which wants to win the game of nine-ball
         against a player with the same errors.
         """

@@ -21,10 +21,11 @@ from collections.abc import Callable, Sequence
 from typing import Any, Literal, cast
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes, pictures
 from carom._rows import listing, raw
+from carom.dtypes import Doubles, Records
 from carom.games._draws import Draws, Games
 from carom.games.drills import Break, ThreeCushion
 from carom.games.matches import Match
@@ -54,7 +55,7 @@ RULES: dict[str, Callable[..., Rules]] = {
 }
 """The rules of an environment by the word `game`: classes, and `Match` of both games of pool."""
 _OPTIONS = {"layout", "strokes"}
-_Bools = npt.NDArray[np.bool_]
+_Bools = NDArray[np.bool_]
 _ONE: Games = np.zeros(1, np.int64)
 
 
@@ -67,9 +68,9 @@ class _Games:
     def __init__(self, rules: Rules, games: int, render_mode: str | None) -> None:
         pictures.check_render_mode(render_mode)
         self.rules = rules
-        self.balls: dtypes.Records = np.zeros((games, rules.balls + 1), dtypes.shot_ball)
-        self.words: npt.NDArray[np.uint64] = np.tile(np.array(rules.words, np.uint64), (games, 1))
-        self.left: npt.NDArray[np.int64] = np.zeros(games, np.int64)
+        self.balls: Records = np.zeros((games, rules.balls + 1), dtypes.shot_ball)
+        self.words: NDArray[np.uint64] = np.tile(np.array(rules.words, np.uint64), (games, 1))
+        self.left: NDArray[np.int64] = np.zeros(games, np.int64)
         self.ended: _Bools = np.ones(games, np.bool_)
         self.begun = False
         self.draws = Draws(np.random.SeedSequence().generate_state(games, np.uint64))
@@ -77,7 +78,7 @@ class _Games:
         self.render_mode = render_mode
         self.drawn = render_mode is not None
         self.previous = self.balls.copy()
-        self.cues: dtypes.Records = np.zeros(games, dtypes.cue)
+        self.cues: Records = np.zeros(games, dtypes.cue)
         self.struck: _Bools = np.zeros(games, np.bool_)
 
     def begin(
@@ -105,7 +106,7 @@ class _Games:
             raw(self.previous)[games] = raw(dealt)
         self.struck[games] = False
 
-    def play(self, games: Games, actions: dtypes.Doubles) -> Strokes:
+    def play(self, games: Games, actions: Doubles) -> Strokes:
         """One stroke of each of some games."""
         # Where all games play, nothing is copied but by the stroke itself.
         everyone = len(games) == len(self.balls)
@@ -125,7 +126,7 @@ class _Games:
             raw(self.balls)[games] = raw(strokes.layouts)
         return strokes
 
-    def observe(self) -> dtypes.Doubles:
+    def observe(self) -> Doubles:
         return self.rules.observe(self.balls, self.left, self.words)
 
     def render(self, game: int) -> Any:
@@ -164,7 +165,7 @@ def _checked(options: dict[str, Any] | None) -> dict[str, Any]:
     return settings
 
 
-class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
+class GameEnv(gymnasium.Env[Doubles, Doubles]):
     """One game: `game` names the rules, of `RULES`, and **rules are their arguments.
 
     `render` gives a picture of the last stroke, from where the balls lay (faint) to where they came
@@ -188,7 +189,7 @@ class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[dtypes.Doubles, dict[str, Any]]:
+    ) -> tuple[Doubles, dict[str, Any]]:
         """Begin a game: a layout drawn from the seed, or from the game's random numbers as they
         stand.
         """
@@ -200,9 +201,7 @@ class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
         self._games.begin(_ONE, None if layout is None else [layout], settings.get("strokes"))
         return self._games.observe()[0], {}
 
-    def step(
-        self, action: npt.ArrayLike
-    ) -> tuple[dtypes.Doubles, float, bool, bool, dict[str, Any]]:
+    def step(self, action: ArrayLike) -> tuple[Doubles, float, bool, bool, dict[str, Any]]:
         """Play a stroke: observation, reward, terminated, truncated, info."""
         if self._games.ended[0]:
             raise gymnasium.error.ResetNeeded("the game has ended, or has not begun: call reset()")
@@ -228,7 +227,7 @@ class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
         return self._games.render(0)
 
 
-class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]]):
+class GameVectorEnv(VectorEnv[Doubles, Doubles, NDArray[Any]]):
     """Many games, all strokes of a step in one `carom.simulate_batch`, except matches, which are
     played one after another.
 
@@ -285,7 +284,7 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
         *,
         seed: int | Sequence[int | None] | None = None,
         options: dict[str, Any] | None = None,
-    ) -> tuple[dtypes.Doubles, dict[str, Any]]:
+    ) -> tuple[Doubles, dict[str, Any]]:
         """Begin all games anew, or those of the mask."""
         seeds = [None] * self.num_envs if seed is None else seed
         if isinstance(seeds, int):
@@ -309,11 +308,11 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
         self._games.begin(chosen, layouts, settings.get("strokes"))
         return self._games.observe(), {}
 
-    def _mask(self, mask: Any) -> npt.NDArray[np.bool_]:
+    def _mask(self, mask: Any) -> NDArray[np.bool_]:
         """Which games a reset begins anew."""
         if mask is None:
             return np.ones(self.num_envs, np.bool_)
-        flags: npt.NDArray[Any] = np.asarray(mask)
+        flags: NDArray[Any] = np.asarray(mask)
         if flags.dtype != np.bool_ or flags.shape != (self.num_envs,) or not flags.any():
             raise ValueError(
                 f"options: reset_mask: an array of bool of shape ({self.num_envs},) with a True in it is needed, "
@@ -326,10 +325,8 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
         return flags
 
     def step(
-        self, actions: npt.ArrayLike
-    ) -> tuple[
-        dtypes.Doubles, npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any], dict[str, Any]
-    ]:
+        self, actions: ArrayLike
+    ) -> tuple[Doubles, NDArray[Any], NDArray[Any], NDArray[Any], dict[str, Any]]:
         """Play a stroke of each game, or begin it anew: observations (num_envs, ...); rewards,
         terminated, truncated (num_envs,); infos.
         """
@@ -357,9 +354,9 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
             infos = self._begun_at_once(infos, ended)
         return self._games.observe(), rewards, ended, np.zeros(self.num_envs, np.bool_), infos
 
-    def _infos(self, strokes: Strokes, playing: npt.NDArray[np.bool_]) -> dict[str, Any]:
+    def _infos(self, strokes: Strokes, playing: NDArray[np.bool_]) -> dict[str, Any]:
         """What the strokes of some games were."""
-        details: dict[str, npt.NDArray[Any]] = {
+        details: dict[str, NDArray[Any]] = {
             "potted": strokes.potted,
             "scratch": strokes.scratch,
             "foul": strokes.foul.astype(np.int64),
@@ -373,7 +370,7 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
             infos["_" + name] = playing.copy()
         return infos
 
-    def _begun_at_once(self, infos: dict[str, Any], ended: npt.NDArray[np.bool_]) -> dict[str, Any]:
+    def _begun_at_once(self, infos: dict[str, Any], ended: NDArray[np.bool_]) -> dict[str, Any]:
         """Begins the games anew that have ended; what was theirs is final."""
         last, final = self._games.observe(), dict[str, Any]()
         final_obs = np.full(self.num_envs, None, dtype=object)

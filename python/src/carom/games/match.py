@@ -12,6 +12,7 @@ from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import Seed, choice, copied, listing, number, pointer, seed_of, whole
 from carom._shot_options import Options, StopAt, chosen, options_of, shot_options
+from carom.dtypes import Records
 from carom.games.plans import ByMatch, Kind, plan
 from carom.games.rules import GivenState, Hand, Made, Rules, Ruling, of_set, ruling_of, words_of
 from carom.games.rules import GAMES, LEAVES, Game, hand_of
@@ -67,7 +68,7 @@ class Match:
         *,
         seed: Seed = 0,
         player: int = 0,
-        balls: dtypes.Records | None = None,
+        balls: Records | None = None,
         state: GivenState | None = None,
         hand: Hand = "no",
         options: Options = _USUAL,
@@ -130,7 +131,7 @@ class Match:
         self.lines: list[str] = []
         self._made = Made(rules, state)
         self._c: Any = ffi.new("carom_match *")
-        self._struck: tuple[dtypes.Records, dtypes.Records] | None = None
+        self._struck: tuple[Records, Records] | None = None
 
     @classmethod
     def load(
@@ -179,13 +180,13 @@ class Match:
         return Table.from_record(np.frombuffer(record, dtypes.table).reshape(()))
 
     @property
-    def balls(self) -> dtypes.Records:
+    def balls(self) -> Records:
         """The layout of the next stroke: `carom.dtypes.shot_ball`, of shape (balls,)."""
         size = self._c.record.count * dtypes.shot_ball.itemsize
         return np.frombuffer(ffi.buffer(self._c.record.balls, size), dtypes.shot_ball).copy()
 
     @property
-    def state(self) -> dtypes.Records:
+    def state(self) -> Records:
         """How the game stands for the player at the table: `carom.dtypes.rules_state`."""
         state = ffi.buffer(ffi.addressof(self._c.rules, "state"))
         return np.frombuffer(state, dtypes.rules_state).copy().reshape(())
@@ -319,7 +320,7 @@ class Match:
 
     def stroke(
         self,
-        cue: dtypes.Records,
+        cue: Records,
         *,
         t_final: float | None = None,
         stop_at: StopAt | Iterable[StopAt] = (),
@@ -362,7 +363,7 @@ class Match:
 
     # ---- Plans
 
-    def plan(self, **wanted: Any) -> dtypes.Records:
+    def plan(self, **wanted: Any) -> Records:
         """The best strokes of the player at the table, with a cue ball in hand within `bounds`.
 
         `wanted` is as for `carom.plan`: player, opponent, shots, best, seed, ...
@@ -386,7 +387,7 @@ class Match:
             **wanted,
         )
 
-    def take(self, best: dtypes.Records, cue: dtypes.Records | None = None) -> None:
+    def take(self, best: Records, cue: Records | None = None) -> None:
         """Take a choice of `plan`: place, call and play its stroke, or pass.
 
         `cue` is the stroke as the player makes it; by default that of the choice.

@@ -18,7 +18,7 @@ from __future__ import annotations
 from typing import Any, Literal
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from carom import dtypes, pictures
 from carom._rows import listing, needed
@@ -103,7 +103,7 @@ class PoolEnv(AECEnv):
         """What a player sees."""
         return self.rules.observe(self.position, _PLAYERS.index(agent))
 
-    def step(self, action: npt.ArrayLike | None) -> None:
+    def step(self, action: ArrayLike | None) -> None:
         """Play the stroke of the player whose turn it is."""
         agent = self.agent_selection
         if self.terminations[agent] or self.truncations[agent]:

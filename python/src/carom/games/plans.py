@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -18,6 +18,7 @@ from carom._faults import argument_error, shot_arguments
 from carom._rows import Array, Arrays, as_array, choice, copied, listing, number, pointer
 from carom._rows import Seed, seed_of, several, whole
 from carom._shot_options import Options, chosen, shot_options
+from carom.dtypes import Records
 from carom.games.rules import LEAVES, Game, GivenState, Group, Hand, Made, Rules
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
@@ -71,7 +72,7 @@ class Kind(enum.IntEnum):
         return str(ffi.string(lib.carom_plan_kind_name(self)).decode())
 
 
-def player(errors: float | None = None, *, fargo: float | None = None) -> dtypes.Records:
+def player(errors: float | None = None, *, fargo: float | None = None) -> Records:
     """A player whose strokes err, as an array of `carom.dtypes.player`, shape ().
 
     Its fields may be changed.
@@ -116,7 +117,7 @@ class Rating(NamedTuple):
     high: float
 
 
-def rating(scores: npt.ArrayLike) -> Rating:
+def rating(scores: ArrayLike) -> Rating:
     """The Fargo rating of a player by games, 200 to 850.
 
     `scores` has a row (against, won, lost) for each opponent: the rating, 0 to 1000, and the games
@@ -135,9 +136,7 @@ def rating(scores: npt.ArrayLike) -> Rating:
     return Rating(record.mean, record.low, record.high)
 
 
-def with_errors(
-    cue: dtypes.Records, player: dtypes.Records, seed: Seed, number: int = 0
-) -> dtypes.Records:
+def with_errors(cue: Records, player: Records, seed: Seed, number: int = 0) -> Records:
     """The stroke that a player makes of the one that he means, with errors drawn from a seed and
     the number of the stroke.
 
@@ -160,7 +159,7 @@ def with_errors(
 class Pot(Arrays):
     """A stroke that pots a ball, and what it may err."""
 
-    cue: dtypes.Records
+    cue: Records
     """An array of `carom.dtypes.cue`, shape ()."""
     cut: float
     """Degrees, of the cue ball on the first ball, which goes to the left of its way where this is
@@ -189,8 +188,8 @@ _WHY_NOT = {
 
 def aim(
     table: Table,
-    balls: dtypes.Records,
-    cue: dtypes.Records,
+    balls: Records,
+    cue: Records,
     *,
     ball: int,
     pocket: int | str,
@@ -308,7 +307,7 @@ def aim(
 _usual_player = player
 
 
-def _one_player(player: dtypes.Records, name: str = "player") -> Any:
+def _one_player(player: Records, name: str = "player") -> Any:
     """A player for C. It keeps the array that it is made of."""
     record = copied(of_record(player, dtypes.player, name, "player()"))
     if record.ndim != 0:
@@ -320,7 +319,7 @@ def _one_player(player: dtypes.Records, name: str = "player") -> Any:
     return pointer("carom_player[]", record)
 
 
-def _corners(in_hand: Hand | npt.ArrayLike, table: Table, radius: float) -> tuple[Any, Any] | None:
+def _corners(in_hand: Hand | ArrayLike, table: Table, radius: float) -> tuple[Any, Any] | None:
     """The corners for C between which the cue ball is put; NULL: anywhere. None: not in hand."""
     if isinstance(in_hand, str):
         leave = choice({word: LEAVES.get(word, 0) for word in get_args(Hand)}, in_hand, "in_hand")
@@ -364,11 +363,11 @@ class _Job:
     def __init__(
         self,
         table: Table,
-        balls: dtypes.Records,
-        cue: dtypes.Records | None,
+        balls: Records,
+        cue: Records | None,
         game: Made,
-        personal: dtypes.Records | None,
-        opponent: dtypes.Records | None,
+        personal: Records | None,
+        opponent: Records | None,
         shots: int | None,
         seed: Seed,
         threads: int,
@@ -457,18 +456,18 @@ class ByMatch(NamedTuple):
 
 def plan(
     table: Table,
-    balls: dtypes.Records,
-    cue: dtypes.Records | None = None,
+    balls: Records,
+    cue: Records | None = None,
     *,
     rules: Game | Rules = "eightball",
     group: Group | None = None,
     opening: bool = False,
     state: GivenState | None = None,
-    player: dtypes.Records | None = None,
-    opponent: dtypes.Records | None = None,
+    player: Records | None = None,
+    opponent: Records | None = None,
     shots: int | None = None,
     seconds: float = 0.0,
-    in_hand: Hand | npt.ArrayLike = "no",
+    in_hand: Hand | ArrayLike = "no",
     best: int = 5,
     seed: Seed = 0,
     threads: int = 0,
@@ -479,7 +478,7 @@ def plan(
     options: Options = _USUAL,
     _by: ByMatch | None = None,
     **changes: Unpack[Changes],
-) -> dtypes.Records:
+) -> Records:
     """Find the best shots of a layout.
 
     Parameters
@@ -588,15 +587,15 @@ def plan(
 
 def chances(
     table: Table,
-    balls: dtypes.Records,
-    cues: dtypes.Records,
+    balls: Records,
+    cues: Records,
     *,
     rules: Game | Rules = "eightball",
     group: Group | None = None,
     opening: bool = False,
     state: GivenState | None = None,
-    player: dtypes.Records | None = None,
-    opponent: dtypes.Records | None = None,
+    player: Records | None = None,
+    opponent: Records | None = None,
     shots: int = 2000,
     seed: Seed = 0,
     threads: int = 0,
@@ -604,7 +603,7 @@ def chances(
     stop: threading.Event | None = None,
     options: Options = _USUAL,
     **changes: Unpack[Changes],
-) -> dtypes.Records:
+) -> Records:
     """How likely strokes of yours are to win: the chances of each, played with a player's errors.
 
     Parameters
@@ -663,14 +662,14 @@ def chances(
 
 def value(
     table: Table,
-    balls: dtypes.Records,
+    balls: Records,
     *,
     rules: Game | Rules = "eightball",
     group: Group | None = None,
     opening: bool = False,
     state: GivenState | None = None,
-    player: dtypes.Records | None = None,
-    opponent: dtypes.Records | None = None,
+    player: Records | None = None,
+    opponent: Records | None = None,
     in_hand: bool = False,
     options: Options = _USUAL,
     **changes: Unpack[Changes],

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes, layouts, tables
 from carom._carom import ffi, lib
@@ -37,6 +37,7 @@ from carom._rows import (
     whole,
 )
 from carom._shot_options import Options, ShotCushion, shot_options
+from carom.dtypes import Doubles, Records
 from carom.games import plans
 from carom.games._draws import Draws, Games
 from carom.games.rules import Game as RulesGame
@@ -62,30 +63,28 @@ class Strokes(Arrays):
 
     # (..., balls + 1): The balls at rest after the stroke. A cue ball that was potted is still
     # down.
-    layouts: dtypes.Records
-    rewards: (
-        dtypes.Doubles
-    )  # (...): Balls that were potted, less 1 for a foul; or the result of `reward` of the rules
-    potted: npt.NDArray[np.int64]  # (...): Balls that were potted, without the cue ball
-    scratch: npt.NDArray[np.bool_]  # (...): Whether the cue ball was potted
-    foul: npt.NDArray[np.int32]  # (...): As `carom.Foul`; 0 for none
+    layouts: Records
+    rewards: Doubles  # (...): Balls that were potted, less 1 for a foul; or the result of `reward` of the rules
+    potted: NDArray[np.int64]  # (...): Balls that were potted, without the cue ball
+    scratch: NDArray[np.bool_]  # (...): Whether the cue ball was potted
+    foul: NDArray[np.int32]  # (...): As `carom.Foul`; 0 for none
     # (...): As `carom.Status`. After an error, or where a ball left the table, the stroke is a
     # foul, and the balls stay where they were.
-    status: npt.NDArray[np.int8]
-    time: dtypes.Doubles  # (...): How long the balls moved, s
-    cleared: npt.NDArray[np.bool_]  # (...): Whether all balls but the cue ball are down
+    status: NDArray[np.int8]
+    time: Doubles  # (...): How long the balls moved, s
+    cleared: NDArray[np.bool_]  # (...): Whether all balls but the cue ball are down
 
 
 class Turned(NamedTuple):
     """What a stroke of each of some games was, for the environments."""
 
-    struck: dtypes.Records  # (..., balls + 1): The layouts as they were struck
-    cues: dtypes.Records  # (...): The strikes, with the noise
+    struck: Records  # (..., balls + 1): The layouts as they were struck
+    cues: Records  # (...): The strikes, with the noise
     strokes: Strokes
-    ended: npt.NDArray[np.bool_]  # (...): Whether the game is over, whatever strokes are left
+    ended: NDArray[np.bool_]  # (...): Whether the game is over, whatever strokes are left
 
 
-def in_space(actions: npt.ArrayLike, shape: tuple[int, ...], name: str) -> dtypes.Doubles:
+def in_space(actions: ArrayLike, shape: tuple[int, ...], name: str) -> Doubles:
     """The actions that an environment is given: numbers of its space, from -1 to 1, of a shape."""
     array = as_array(actions, name, np.float64)
     if array.shape != shape:
@@ -161,7 +160,7 @@ class Potting:
         ball_set: Game = "pool",
         noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
         parameters: Mapping[str, tuple[float, float]] | None = None,
-        reward: Callable[[dtypes.Records, Strokes], npt.ArrayLike] | None = None,
+        reward: Callable[[Records, Strokes], ArrayLike] | None = None,
         speeds: tuple[float, float] = (0.5, 7.0),
         cushion_model: ShotCushion = "default",
         threads: int = 0,
@@ -281,7 +280,7 @@ class Potting:
     # ---- Actions and observations
     # ---------------------------------------------------------------------------------------
 
-    def bounds(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:
+    def bounds(self) -> tuple[Doubles, Doubles]:
         """The least and the most of each number of an observation; balls may rest in the mouth of a
         pocket, beyond the cushions.
         """
@@ -293,16 +292,14 @@ class Potting:
         )
         return low, high
 
-    def cues(
-        self, actions: npt.ArrayLike, seeds: npt.NDArray[np.uint64] | None = None
-    ) -> dtypes.Records:
+    def cues(self, actions: ArrayLike, seeds: NDArray[np.uint64] | None = None) -> Records:
         """The strikes of actions, of shape (..., acts): `carom.dtypes.cue` of shape (...).
 
         With seeds, of shape (...), they err by the noise, as `carom.with_errors` has it.
         """
         values = np.ascontiguousarray(actions, dtype=np.float64)
         if values.shape[-1] == self.acts:
-            cues: dtypes.Records = np.empty(values.shape[:-1], dtypes.cue)
+            cues: Records = np.empty(values.shape[:-1], dtypes.cue)
             drawn = ffi.NULL if seeds is None else pointer("uint64_t[]", seeds)
             if lib.carom_python_cues(
                 self._c,
@@ -319,11 +316,11 @@ class Potting:
 
     def actions(
         self,
-        phi: npt.ArrayLike,
-        speed: npt.ArrayLike,
-        a: npt.ArrayLike = 0.0,
-        b: npt.ArrayLike = 0.0,
-    ) -> dtypes.Doubles:
+        phi: ArrayLike,
+        speed: ArrayLike,
+        a: ArrayLike = 0.0,
+        b: ArrayLike = 0.0,
+    ) -> Doubles:
         """The actions, of shape (..., 4), of directions (degrees), speeds (m/s) and places of the
         tip (radii), of shape (...).
         """
@@ -342,9 +339,7 @@ class Potting:
         )
         return np.stack(parts, axis=-1)
 
-    def observe(
-        self, balls: dtypes.Records, strokes_left: npt.ArrayLike, words: object = None
-    ) -> dtypes.Doubles:
+    def observe(self, balls: Records, strokes_left: ArrayLike, words: object = None) -> Doubles:
         """What an agent sees of layouts, of shape (..., balls + 1): of shape (..., 3 (balls + 1) +
         1).
         """
@@ -360,20 +355,20 @@ class Potting:
         seen[..., -1] = strokes_left
         return seen
 
-    def layouts(self, observations: npt.ArrayLike) -> dtypes.Records:
+    def layouts(self, observations: ArrayLike) -> Records:
         """The balls of observations: `carom.dtypes.shot_ball` of shape (..., balls + 1)."""
         values = np.asarray(observations, dtype=np.float64)
         seen = values[..., :-1].reshape((*values.shape[:-1], self.balls + 1, 3))
         return self._balls(seen[..., :2], seen[..., 2] != 0.0)
 
-    def _balls(self, centres: dtypes.Doubles, in_play: npt.NDArray[np.bool_]) -> dtypes.Records:
+    def _balls(self, centres: Doubles, in_play: NDArray[np.bool_]) -> Records:
         """Balls at rest, those that are not in play in a pocket."""
         records = repeated(self._ball, dtypes.shot_ball, centres.shape[:-1])
         records["state"]["r"][..., :2] = centres
         records["state"]["label"] = np.where(in_play, _STATIONARY, _POCKETED)
         return records
 
-    def player(self) -> dtypes.Records:
+    def player(self) -> Records:
         """The player with the noise, the speeds and the tip of this game, for `carom.plan`."""
         record = plans.player(0.0)
         record["phi"], record["a"], record["b"] = self.noise[0], self.noise[2], self.noise[2]
@@ -382,7 +377,7 @@ class Potting:
         record["speed_least"], record["speed_most"], record["tip_most"] = *self.speeds, 0.35
         return record
 
-    def best(self, balls: dtypes.Records, *, shots: int = 500, seed: Seed = 0) -> dtypes.Doubles:
+    def best(self, balls: Records, *, shots: int = 500, seed: Seed = 0) -> Doubles:
         """The action, of shape (4,), of the library's planner for a layout of shape (balls + 1,): a
         baseline for agents.
 
@@ -403,13 +398,11 @@ class Potting:
         )["cue"][0]
         return self.actions(found["phi"], found["speed"], found["a"], found["b"])
 
-    def best_seen(
-        self, observation: npt.ArrayLike, *, shots: int = 500, seed: Seed = 0
-    ) -> dtypes.Doubles:
+    def best_seen(self, observation: ArrayLike, *, shots: int = 500, seed: Seed = 0) -> Doubles:
         """The action, of shape (acts,), of the library's planner for an observation."""
         return self.best(self.layouts(observation), shots=shots, seed=seed)
 
-    def tried(self, observation: npt.ArrayLike, actions: npt.ArrayLike) -> dtypes.Doubles:
+    def tried(self, observation: ArrayLike, actions: ArrayLike) -> Doubles:
         """What actions of shape (..., acts) are worth for the next stroke alone, without noise, of
         shape (...): here their rewards.
         """
@@ -418,7 +411,7 @@ class Potting:
     # ---- The game
     # -------------------------------------------------------------------------------------------------------
 
-    def deal(self, draws: Draws, games: Games) -> dtypes.Records:
+    def deal(self, draws: Draws, games: Games) -> Records:
         """Random layouts of some games, of shape (len(games), balls + 1), with random parameters."""
         layouts = repeated(self._ball, dtypes.shot_ball, (len(games), self.balls + 1))
         self._place(layouts, draws, games, self.balls + 1)
@@ -426,7 +419,7 @@ class Potting:
             layouts["kind"][name] = low + (high - low) * draws.uniform(games, 1)
         return layouts
 
-    def layout(self, centres: npt.ArrayLike) -> dtypes.Records:
+    def layout(self, centres: ArrayLike) -> Records:
         """A layout of shape (balls + 1,) with centres (m) of shape (balls + 1, 2), which are
         checked.
         """
@@ -441,13 +434,13 @@ class Potting:
         )  # without a strike: raises CaromError where balls overlap or are not on the table
         return layout
 
-    def put_back(self, balls: dtypes.Records, draws: Draws, games: Games) -> None:
+    def put_back(self, balls: Records, draws: Draws, games: Games) -> None:
         """Put the cue balls of some games, layouts of shape (len(games), balls + 1), back on the
         table, at random.
         """
         self._place(balls, draws, games, 1)
 
-    def _place(self, balls: dtypes.Records, draws: Draws, games: Games, many: int) -> None:
+    def _place(self, balls: Records, draws: Draws, games: Games, many: int) -> None:
         """Place the first balls of layouts, drawn together until all are clear of each other, of
         what is fixed, and of the others in play.
         """
@@ -464,15 +457,15 @@ class Potting:
             )
         draws.keys[games] = keys
 
-    def free(self, balls: dtypes.Records) -> bool:
+    def free(self, balls: Records) -> bool:
         """Whether the cue ball of a layout is clear of the others in play, of pockets and of jaws."""
         return bool(lib.carom_python_free(self._c, pointer("carom_shot_ball[]", balls), 1))
 
-    def placed(self, balls: dtypes.Records, actions: npt.ArrayLike) -> dtypes.Records:
+    def placed(self, balls: Records, actions: ArrayLike) -> Records:
         """The layouts with what actions place: here nothing."""
         return balls
 
-    def play(self, balls: dtypes.Records, actions: npt.ArrayLike) -> Strokes:
+    def play(self, balls: Records, actions: ArrayLike) -> Strokes:
         """Play strokes.
 
         Parameters
@@ -490,7 +483,7 @@ class Potting:
         laid = of_record(balls, dtypes.shot_ball, "balls", "balls()")
         return self._played(self.placed(laid, actions), self.cues(actions))
 
-    def _played(self, balls: dtypes.Records, cues: dtypes.Records) -> Strokes:
+    def _played(self, balls: Records, cues: Records) -> Strokes:
         """Strikes from layouts, which are broadcast against each other."""
         shape = (
             cues.shape
@@ -542,9 +535,9 @@ class Potting:
 
     def turn(
         self,
-        balls: dtypes.Records,
-        words: npt.NDArray[np.uint64],
-        actions: npt.ArrayLike,
+        balls: Records,
+        words: NDArray[np.uint64],
+        actions: ArrayLike,
         draws: Draws,
         games: Games,
     ) -> Turned:
@@ -563,6 +556,6 @@ class Potting:
             raw(strokes.layouts)[back] = raw(layouts)
         return Turned(struck, cues, strokes, strokes.cleared)
 
-    def shot(self, balls: dtypes.Records, cue: dtypes.Records | None) -> Shot:
+    def shot(self, balls: Records, cue: Records | None) -> Shot:
         """One stroke with its events, for looking at; without a cue the balls lie still."""
         return simulate(self.table, balls, cue, cushion_model=self.cushion_model)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, cast, get_args
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -28,6 +28,7 @@ from carom._rows import (
     whole,
 )
 from carom._shot_options import Options
+from carom.dtypes import Records
 from carom.layouts import LAST, Table, of_record, one_cue
 from carom.results import Label, Shot, Shots
 from carom.shots import simulate_batch
@@ -43,8 +44,8 @@ __dir__ = listing(__name__)
 
 Game = RulesWord
 Group = Literal["open", "solids", "stripes"]
-State = npt.NDArray[Any]
-GivenState = Mapping[str, Any] | npt.ArrayLike
+State = NDArray[Any]
+GivenState = Mapping[str, Any] | ArrayLike
 Hand = Literal["no", "anywhere", "kitchen", "d", "baulk"]
 GAMES = {word: k for k, word in enumerate(get_args(RulesWord))}
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
@@ -212,7 +213,7 @@ class Rules:
         """
         return range(8)
 
-    def value(self, state: list[int], layout: dtypes.Records, in_hand: bool) -> float:
+    def value(self, state: list[int], layout: Records, in_hand: bool) -> float:
         """The chance that the player at the table wins from a layout, 0 to 1: an array of
         `carom.dtypes.ball_state`, shape (balls,). Without an opponent: how many balls the player is
         still going to pot.
@@ -229,7 +230,7 @@ class Rules:
         """
         raise NotImplementedError
 
-    def settle(self, state: list[int], table: Table, balls: dtypes.Records, turn: Turn) -> Turn:
+    def settle(self, state: list[int], table: Table, balls: Records, turn: Turn) -> Turn:
         """Do what depends on the places of the balls after a stroke that was judged: return the
         turn, changed or not. `balls` is an array of `carom.dtypes.shot_ball`, shape (balls,); what
         is written to it and to `state` stays.
@@ -462,7 +463,7 @@ class Made:
             self.callbacks.append(guarded(f"carom_rules_{name} *", call, otherwise))
             setattr(self.c, name, self.callbacks[-1])
 
-    def check_layout(self, table: Table, layout: dtypes.Records) -> None:
+    def check_layout(self, table: Table, layout: Records) -> None:
         """Refuses what is no layout of the game, for a plan."""
         pockets = len(table.pocket_names)
         is_named = isinstance(self.rules, str)
@@ -503,12 +504,12 @@ class Made:
             raise self.raised
 
 
-_bits: npt.NDArray[np.uint32] = np.uint32(1) << np.arange(32, dtype=np.uint32)
+_bits: NDArray[np.uint32] = np.uint32(1) << np.arange(32, dtype=np.uint32)
 
 
 def judge(
-    c_turn: Made,
-    layout: dtypes.Records,
+    game: Made,
+    layout: Records,
     shots: Shots,
     states: State | None = None,
     calls: Array | None = None,
@@ -523,7 +524,7 @@ def judge(
     in_play = ((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]
     turns: Array = np.zeros(shots.shape, dtypes.turn)
     lib.carom_python_judge(
-        c_turn.c,
+        game.c,
         turns.size,
         pointer("int8_t[]", shots.status),
         pointer("carom_facts[]", shots._facts),
@@ -532,11 +533,11 @@ def judge(
         ffi.NULL if states is None else pointer("carom_rules_state[]", states),
         pointer("carom_turn[]", turns),
     )
-    c_turn.check()
+    game.check()
     return turns
 
 
-def on_of(game: Made, layout: dtypes.Records) -> tuple[int, ...]:
+def on_of(game: Made, layout: Records) -> tuple[int, ...]:
     """The balls of a layout, of shape (balls,), that may be met first."""
     label = layout["state"]["label"]
     return tuple(
@@ -553,7 +554,7 @@ def on_of(game: Made, layout: dtypes.Records) -> tuple[int, ...]:
     )
 
 
-def calls_of(game: Made, layout: dtypes.Records, shots: Shots) -> Array:
+def calls_of(game: Made, layout: Records, shots: Shots) -> Array:
     """The calls of shots with facts from a layout, int32 of shape (..., 2): the first ball on that
     falls, and its pocket; or -1, -1.
     """
@@ -583,8 +584,8 @@ class Ruling(Arrays):
     first: int  # The ball that the cue ball met first, -1 for none
     points: float
     balls: (
-        dtypes.Records
-    )  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
+        Records  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
+    )
     put: frozenset[int]  # Balls that lie elsewhere than the shot left them
     # (): How the game stands for the next player, `carom.dtypes.rules_state`; of rules of one's own
     # eight numbers
@@ -601,8 +602,8 @@ class Ruling(Arrays):
 
 def referee(
     table: Table,
-    balls: dtypes.Records,
-    cue: dtypes.Records,
+    balls: Records,
+    cue: Records,
     *,
     rules: Game | Rules = "eightball",
     group: Group | None = None,

@@ -27,6 +27,7 @@ from carom import dtypes
 from carom._rows import Array, Seed, listing, seed_of
 from carom._shot_options import BallModel, Friction, Options, ShotCushion
 from carom.collisions import alciatore
+from carom.dtypes import Records
 from carom.games.plans import plan, player as usual_player, with_errors
 from carom.games.rules import Group
 from carom.layouts import LAST, Table
@@ -152,14 +153,14 @@ def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[A
         across = [rail for rail in rails if abs(rail[0][axis] - rail[1][axis]) < 1e-9] or rails
         ends = [end[axis] for rail in across for end in rail[:2]]
         size.append(max(ends) - min(ends) if ends else 1.0)
-    pieces: list[dtypes.Records] = [
+    pieces: list[Records] = [
         np.array(*part)
         for part in ((rails, dtypes.rail), (jaws, dtypes.jaw), (pockets, dtypes.pocket))
     ]
     return Table(size[0], size[1], rails=pieces[0], jaws=pieces[1], pockets=pieces[2])
 
 
-def balls_of(system: Any) -> dtypes.Records:
+def balls_of(system: Any) -> Records:
     """The balls of a System, in its order, for `carom.simulate`."""
     kinds: dict[int, bytes] = {}
     records = bytearray()
@@ -177,7 +178,7 @@ def balls_of(system: Any) -> dtypes.Records:
     return np.frombuffer(records, dtypes.shot_ball)
 
 
-def cue_of(system: Any) -> dtypes.Records:
+def cue_of(system: Any) -> Records:
     """The cue of a System, for `carom.simulate`."""
     cue, specs = system.cue, system.cue.specs
     ball = list(system.balls).index(cue.cue_ball_id)
@@ -216,7 +217,7 @@ def _one_of(known: Collection[str], name: str, part: str) -> None:
         raise UnsupportedError(f"engine: carom knows {', '.join(known)} for {part}, not {name}")
 
 
-def _options_of(engine: Any, table: Table, balls: dtypes.Records) -> tuple[Options, Table]:
+def _options_of(engine: Any, table: Table, balls: Records) -> tuple[Options, Table]:
     """The models of an engine of pooltool's and the table for them, or an error that says what of
     it carom does not know.
 
@@ -417,8 +418,8 @@ class Agent:
 
     def __init__(
         self,
-        player: dtypes.Records | None = None,
-        opponent: dtypes.Records | None = None,
+        player: Records | None = None,
+        opponent: Records | None = None,
         *,
         exact: bool = False,
         engine: Any = None,
@@ -491,7 +492,7 @@ class Agent:
         rules: PooltoolGame = "eightball",
         opening: bool = False,
         hand: str = "none",
-    ) -> dtypes.Records:
+    ) -> Records:
         """The stroke for a System without a game of pooltool's: the balls and the cue of the System
         stay as they are.
 
@@ -543,7 +544,7 @@ class Agent:
         cue = cue_of(system)
         cue["ball"] = 0
 
-        best: dtypes.Records = plan(
+        best: Records = plan(
             table,
             layout,
             cue,

@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from carom import dtypes
 from carom._objects import make, turn
+from carom.dtypes import Doubles, Records
 from carom.results import EventType, Shot
 
 _events: Any = importlib.import_module("pooltool.events")
@@ -162,7 +162,7 @@ def _later_history(states: Callable[[], list[Any]]) -> Any:
 # ------------------------------------------------------------------------------------------------------------
 
 
-def after_each_event(shot: Shot) -> dtypes.Records:
+def after_each_event(shot: Shot) -> Records:
     """The states of all balls just after each event, (events, balls)."""
     events = shot.events
     times, pair = events["time"], events["type"] == _BALL_BALL
@@ -179,7 +179,7 @@ def after_each_event(shot: Shot) -> dtypes.Records:
     return states
 
 
-def _rvw(states: dtypes.Records) -> dtypes.Doubles:
+def _rvw(states: Records) -> Doubles:
     """Copies of r, v, w as pooltool has them, (..., 3, 3)."""
     rvw = np.empty((*states.shape, 3, 3))
     for k, name in enumerate("rvw"):
@@ -187,7 +187,7 @@ def _rvw(states: dtypes.Records) -> dtypes.Doubles:
     return rvw
 
 
-def _states(rvws: dtypes.Doubles, labels: list[int], times: list[float]) -> list[Any]:
+def _states(rvws: Doubles, labels: list[int], times: list[float]) -> list[Any]:
     """States of pooltool's, of (n, 3, 3) numbers."""
     states: list[Any] = make(
         _balls.BallState, len(labels), ("rvw", "s", "t"), (list(rvws), labels, times)
@@ -200,11 +200,11 @@ class _Histories:
     between the first and the last.
     """
 
-    def __init__(self, look: Callable[[], tuple[dtypes.Records, dtypes.Doubles]]) -> None:
+    def __init__(self, look: Callable[[], tuple[Records, Doubles]]) -> None:
         self.look = look
 
     @functools.cached_property
-    def _all(self) -> tuple[dtypes.Doubles, list[list[int]], list[float]]:
+    def _all(self) -> tuple[Doubles, list[list[int]], list[float]]:
         states, times = self.look()
         of_ball = np.swapaxes(states, 0, 1)
         return _rvw(of_ball), of_ball["label"].tolist(), times.tolist()
@@ -222,7 +222,7 @@ class _Histories:
 class _Filler:
     """Makes pooltool's events from those of a shot."""
 
-    def __init__(self, system: Any, events: dtypes.Records) -> None:
+    def __init__(self, system: Any, events: Records) -> None:
         self.system = system
         self.events = events
         self.balls = list(system.balls.values())

@@ -26,7 +26,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom._carom import lib
 from carom._rows import Arrays, pointer
@@ -263,7 +263,7 @@ def _pieces(shot: int, ball: int, rows: Doubles, noise: float) -> list[Any]:
     return found
 
 
-def _state(record: Any, time: npt.ArrayLike) -> tuple[Doubles, Doubles]:
+def _state(record: Any, time: ArrayLike) -> tuple[Doubles, Doubles]:
     """Place and velocity of a piece at times, (..., 2) each."""
     u = (np.asarray(time, np.float64) - record["time"])[..., None]
     return record["r"] + u * (record["v"] + 0.5 * u * record["a"]), record["v"] + u * record["a"]
@@ -314,7 +314,7 @@ def halves(
     n: int,
     splits: int,
     random: np.random.Generator,
-    find: Callable[[npt.NDArray[np.intp]], Doubles],
+    find: Callable[[NDArray[np.intp]], Doubles],
 ) -> Doubles:
     """The standard errors of what `find` gives of all n rows, by random halves: the difference of
     two halves is twice that error.

@@ -32,7 +32,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import pictures
 from carom._rows import Arrays
@@ -61,7 +61,7 @@ class Forecast(Arrays):
     numbers: Doubles  # (draws, 6 + 5 * 16): Strikes, on the clock of the plays, and kicks
     plays: _strikes.Plays  # A shot for each draw, with its constants and places of rest
 
-    def positions(self, times: npt.ArrayLike) -> Doubles:
+    def positions(self, times: ArrayLike) -> Doubles:
         """The centres of all balls in all draws at times of the recording's clock, m: shape (draws,
         times..., balls, 2).
         """
@@ -76,9 +76,7 @@ class Forecast(Arrays):
         ]
         return np.array(places)
 
-    def regions(
-        self, times: npt.ArrayLike, shares: npt.ArrayLike = SHARES
-    ) -> tuple[Doubles, Doubles]:
+    def regions(self, times: ArrayLike, shares: ArrayLike = SHARES) -> tuple[Doubles, Doubles]:
         """Where balls will be: centres, m, of shape (times..., balls, 2), and radii, m, of shape
         (shares..., times..., balls), of the circles that hold these shares of the draws.
 
@@ -90,12 +88,12 @@ class Forecast(Arrays):
         levels = np.asarray(shares, np.float64)
         return middle, np.maximum(np.quantile(off, levels, axis=0), 3.0 * self.recording.noise)
 
-    def later(self) -> tuple[Doubles, npt.NDArray[np.int64]]:
+    def later(self) -> tuple[Doubles, NDArray[np.int64]]:
         """The rows of the recording (t, x, y) after the first seconds, and the ball of each."""
         parts = [track[track[:, 0] > self.until] for track in self.recording.tracks]
         return np.concatenate(parts), np.repeat(np.arange(len(parts)), list(map(len, parts)))
 
-    def covered(self, shares: npt.ArrayLike = SHARES) -> Doubles:
+    def covered(self, shares: ArrayLike = SHARES) -> Doubles:
         """Which part of the later rows is in the regions of these shares; nan without any."""
         rows, balls = self.later()
         if not len(rows):
@@ -120,7 +118,7 @@ class Forecast(Arrays):
             "radii": radii.tolist(),
         }
 
-    def plot(self, waits: npt.ArrayLike = (1.0, 2.0, 4.0)) -> pictures.Picture:
+    def plot(self, waits: ArrayLike = (1.0, 2.0, 4.0)) -> pictures.Picture:
         """The regions so many seconds after the last one that is known, as circles of 68 and 95 %,
         on the recorded places, dots. Its `svg` is the text of a file.
         """

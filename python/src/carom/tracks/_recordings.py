@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 from carom.dtypes import Doubles
 
@@ -112,7 +112,7 @@ class Recording:
         return int(first[int(np.argmin(hit))])
 
     @functools.cached_property
-    def moving(self) -> list[npt.NDArray[np.intp]]:
+    def moving(self) -> list[NDArray[np.intp]]:
         """Of each ball the rows that tell a motion: each is farther than `away` from the one
         before, the first from the place of rest.
         """
@@ -200,11 +200,11 @@ def noise_of(recordings: Sequence[Recording]) -> float:
 
 def _reached(
     track: Doubles,
-    first: npt.NDArray[np.intp],
-    last: npt.NDArray[np.intp],
+    first: NDArray[np.intp],
+    last: NDArray[np.intp],
     noise: float,
     ends: tuple[Any, Any] | None = None,
-) -> npt.NDArray[np.bool_]:
+) -> NDArray[np.bool_]:
     """Whether a ball goes from row `first` to row `last`, by its speed just before and just after
     two rows, `ends`, which are these.
 

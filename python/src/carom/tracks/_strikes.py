@@ -24,7 +24,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -37,7 +37,7 @@ from carom.status import CaromError
 from carom.tracks import _constants
 from carom.tracks._recordings import Recording
 
-Integers = npt.NDArray[np.int32]
+Integers = NDArray[np.int32]
 
 HUBER = 0.01  # c, m
 # of the forward differences, m/s and s: small against what moves an event, large against rounding
@@ -130,7 +130,7 @@ class Plays:
             [_constants.layout(self.centres, self.radius, constants) for constants in changed]
         )
 
-    def some(self, rows: npt.ArrayLike) -> Plays:
+    def some(self, rows: ArrayLike) -> Plays:
         """Some of the shots."""
         shots = [self.recordings[row] for row in np.asarray(rows)]
         return Plays(
@@ -489,7 +489,7 @@ def descend(
     return strikes, sums
 
 
-def _best(shots: Integers, strikes: Doubles, costs: Doubles, keep: int) -> npt.NDArray[np.intp]:
+def _best(shots: Integers, strikes: Doubles, costs: Doubles, keep: int) -> NDArray[np.intp]:
     """The rows of the `keep` best strikes of each shot, without those that are near a better one."""
     chosen: list[int] = []
     of_shot: dict[int, list[int]] = {}

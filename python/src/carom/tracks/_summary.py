@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import pictures
 from carom._carom import lib
@@ -91,7 +91,7 @@ class Fit:
             for status in self.status
         ]
 
-    def _counted(self, train: bool | None) -> npt.NDArray[np.bool_]:
+    def _counted(self, train: bool | None) -> NDArray[np.bool_]:
         part = [
             train is None or self.train is None or item == train
             for item in self.train or [True] * len(self.status)
@@ -237,7 +237,7 @@ class Fit:
             for name, off in zip(self.fitted, changes.T)
         }
 
-    def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
+    def positions(self, i: int, times: ArrayLike) -> Doubles:
         """The centres of shot i's balls as played at times of the recording's clock, m, shape (...,
         balls, 2); at rest before the strike.
         """
