@@ -2,7 +2,9 @@
 own tests.
 """
 
+import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -38,82 +40,16 @@ def action(stroke, place=(0.0, 0.0)):
     return np.concatenate([stroke, place])
 
 
-def test_a_legal_pot_keeps_the_turn_and_a_miss_passes_it():
-    start = position_of({0: CUE, 3: NEAR, 9: (0.6, 2.0)}, fouls=(2, 1))
-    outcome, turn = RULES.play(start, action(AT_POCKET))
-    assert (turn.foul, turn.first, turn.potted) == ("", 3, (3,))
-    assert (outcome.player, outcome.hand, outcome.fouls, outcome.strokes, outcome.winner) == (
-        0,
-        Hand.NOWHERE,
-        (0, 1),
-        1,
-        None,
-    )
-    # The same stroke from a little beside drives the ball to a cushion.
-    missed, turn = RULES.play(
-        position_of({0: CUE + [0.03, 0.0], 3: NEAR, 9: (0.6, 2.0)}, player=1), action(AT_POCKET)
-    )
-    assert (turn.foul, turn.potted, missed.player, missed.hand) == ("", (), 0, Hand.NOWHERE)
-    assert start.strokes == 0 and start.balls["state"]["label"][3] == carom.Label.STATIONARY
-
-
-def test_the_nine_wins():
-    """By itself, by a combination of the lowest; not by a foul, after which it is spotted."""
-    for places in ({0: CUE, 9: NEAR}, {0: CUE, 4: NEAR, 9: NEARER}):
-        outcome, turn = RULES.play(position_of(places, player=1), action(AT_POCKET))
-        assert outcome.winner == 1 and 9 in turn.potted and not turn.foul
-        with pytest.raises(ValueError, match="the game has ended"):
-            RULES.play(outcome, action(AT_POCKET))
-    outcome, turn = RULES.play(position_of({0: CUE, 4: (0.6, 2.0), 9: NEAR}), action(AT_POCKET))
-    assert (
-        turn.foul == "the cue ball met another ball first than one that is on"
-        and turn.potted == (9,)
-        and outcome.winner is None
-    )
-    nine = outcome.balls["state"][9]
-    assert nine["label"] == carom.Label.STATIONARY and nine["r"].tolist() == [
-        0.635,
-        1.905,
-        0.028575,
-    ]
-    assert (outcome.player, outcome.hand, outcome.fouls) == (1, Hand.ANYWHERE, (1, 0))
-    # The spot is taken: behind it, on the long string.
+def test_a_nine_comes_back_behind_a_ball_on_its_spot():
     outcome, _ = RULES.play(position_of({0: CUE, 4: (0.635, 1.905), 9: NEAR}), action(AT_POCKET))
-    assert (
-        outcome.balls["state"]["r"][9, 0] == 0.635
-        and 0.0571 < outcome.balls["state"]["r"][9, 1] - 1.905 < 0.06
-    )
+    x, y, _ = outcome.balls["state"]["r"][9]
+    assert x == 0.635 and 0.0571 < y - 1.905 < 0.06
 
 
-def test_fouls():
-    away = RULES.base.actions(90.0, 2.0)
-    soft = RULES.base.actions(90.0, 0.5)
-    far = {9: (0.6, 2.0)}
-    for places, stroke, foul in (
-        ({0: CUE, 1: NEAR, **far}, away, "the cue ball met no ball"),
-        (
-            {0: CUE, 1: (0.6, 2.3), 2: NEAR, **far},
-            AT_POCKET,
-            "the cue ball met another ball first than one that is on",
-        ),
-        ({0: CUE, 1: (0.6, 2.3), **far}, AT_POCKET, "the cue ball fell or left the table"),
-        (
-            {0: (0.635, 0.3), 1: (0.635, 1.27), 9: (0.3, 2.0)},
-            soft,
-            "nothing fell, and nothing met a cushion after the first contact",
-        ),
-    ):
-        outcome, turn = RULES.play(position_of(places), action(stroke))
-        assert turn.foul == foul
-        assert (outcome.player, outcome.hand, outcome.fouls, outcome.winner) == (
-            1,
-            Hand.ANYWHERE,
-            (1, 0),
-            None,
-        )
-    # The third in consecutive strokes of a player loses; those of the other do not count.
-    lost, _ = RULES.play(position_of({0: CUE, 1: NEAR, **far}, fouls=(2, 2)), action(away))
-    assert lost.winner == 1
+def test_a_game_that_has_ended_takes_no_stroke():
+    outcome, _ = RULES.play(position_of({0: CUE, 9: NEAR}), action(AT_POCKET))
+    with pytest.raises(ValueError, match="the game has ended"):
+        RULES.play(outcome, action(AT_POCKET))
 
 
 def test_a_ball_that_leaves_the_table_is_a_foul_and_stays_down(monkeypatch):
@@ -197,44 +133,46 @@ def test_observations_are_within_bounds():
 
 
 EIGHT = Pool("eightball", cushion_model="han")
+PLACES = {"cue": CUE, "near": NEAR, "nearer": NEARER, "beside the line": CUE + [0.03, 0.0]}
+STROKES = {
+    "pot": AT_POCKET,
+    "away": RULES.base.actions(90.0, 2.0),
+    "soft": RULES.base.actions(90.0, 0.5),
+}
+POSITIONS = (Path(__file__).parent / "positions.jsonl").read_text(encoding="utf-8").splitlines()
 
 
-def test_eightball_by_hand():
-    """The stroke calls what it pots without noise; the first ball decides the groups; the eight
-    wins as the last, and loses before.
-    """
+@pytest.mark.parametrize("row", [json.loads(line) for line in POSITIONS], ids=str)
+def test_a_stroke_at_a_position(row):
+    """A pot, a miss, fouls, the ball that wins, and of eight-ball groups: what becomes of each."""
+    rules = EIGHT if row["game"] == "eightball" else RULES
+    places = {
+        int(ball): place if isinstance(place, list) else PLACES[place]
+        for ball, place in row["balls"].items()
+    }
+    start = position_of(places, rules, **row.get("start", {}))
+    layout = start.balls.tobytes()
+    outcome, turn = rules.play(start, action(STROKES[row["stroke"]]))
+    assert start.balls.tobytes() == layout and start.strokes == 0
+    nine = outcome.balls["state"][9]
+    found = {
+        "foul": turn.foul,
+        "code": carom.Foul(turn.code).name,
+        "first": turn.first,
+        "potted": [*turn.potted],
+        "player": outcome.player,
+        "hand": outcome.hand.name,
+        "fouls": [*outcome.fouls],
+        "strokes": outcome.strokes,
+        "winner": outcome.winner,
+        "group": outcome.state["group"],
+        "nine": "down" if nine["label"] == carom.Label.POCKETED else nine["r"].tolist(),
+    }
+    assert {name: found[name] for name in row["expected"]} == row["expected"]
+
+
+def test_an_observation_tells_the_position():
     far = {5: (0.6, 2.0), 12: (0.7, 2.2), 8: (0.3, 2.3)}
-    outcome, turn = EIGHT.play(position_of({0: CUE, 3: NEAR, **far}, EIGHT), action(AT_POCKET))
-    assert (turn.foul, turn.potted, outcome.player, outcome.hand, outcome.state["group"]) == (
-        "",
-        (3,),
-        0,
-        Hand.NOWHERE,
-        1,
-    )
-    outcome, _ = EIGHT.play(position_of({0: CUE, 11: NEAR, **far}, EIGHT), action(AT_POCKET))
-    assert outcome.state["group"] == 2 and outcome.player == 0
-    # A ball of the other group met first is a foul; the other then has his own group.
-    outcome, turn = EIGHT.play(
-        position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2), action(AT_POCKET)
-    )
-    assert turn.code == carom.Foul.FIRST and (
-        outcome.player,
-        outcome.hand,
-        outcome.state["group"],
-    ) == (
-        1,
-        Hand.ANYWHERE,
-        1,
-    )
-    for group, places, winner in (
-        (1, {8: NEAR, 12: (0.7, 2.2)}, 0),
-        (1, {8: NEAR, 5: (0.6, 2.0)}, 1),
-    ):
-        outcome, _ = EIGHT.play(
-            position_of({0: CUE, **places}, EIGHT, group=group), action(AT_POCKET)
-        )
-        assert outcome.winner == winner
     assert EIGHT.on(position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2)) == (12,)
     # What an observation tells is the position again, for whoever is at the table.
     position = position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2, player=1)

@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from spoil import spoiled
-from test_tracks import RADIUS, TABLE, csv_of, fitted, synthetic
+from test_tracks import RADIUS, TABLE, csv_of, fitted, struck, synthetic
 
 import carom
 from carom import _described, tracks
@@ -46,9 +46,14 @@ HAN = {
 }
 
 
+def seen_by_han(shots, **how):
+    """Recordings of shots of Han's model."""
+    return synthetic(shots, constants=HAN, **{"seed": 2, **how})
+
+
 @pytest.fixture(scope="module")
 def sample():
-    return synthetic(12, constants=HAN, seed=2)
+    return seen_by_han(12)
 
 
 @pytest.fixture(scope="module")
@@ -207,9 +212,7 @@ def test_a_strike_at_a_near_rail_is_found():
         tracks_of = tuple(np.column_stack([t, seen[:, ball]]) for ball in range(3))
         recordings.append(tracks.Recording(len(recordings) + 1, (1, 2, 3), tracks_of))
         true.append(velocity)
-    found = fitted(
-        recordings, TABLE, RADIUS, cushion_model="smooth", constants=values, free="none", seed=1
-    )
+    found = fitted(recordings, cushion_model="smooth", constants=values, free="none", seed=1)
     assert (found.rmse < 1e-3).sum() >= 10
     is_close = np.abs(found.strikes[:, :2] - np.array(true)).max(axis=1) < 0.05
     assert is_close.sum() >= 10
@@ -219,7 +222,7 @@ def test_forecasts_hold_on_shots_with_known_constants(sample):
     """Of shots without errors of the models the regions are wide, never too narrow; the known rows
     alone count.
     """
-    known = fitted(sample.recordings, TABLE, RADIUS, constants=sample.constants, free="none")
+    known = struck(sample)
     inside, some = [], sample.recordings[:6]
     for shot in some:
         seen = known.forecast(shot, after=2.0, draws=60)
@@ -249,10 +252,8 @@ def test_forecasts_hold_on_shots_with_known_constants(sample):
 
 
 def test_known_constants_give_the_strikes_back(sample):
-    found = fitted(sample.recordings, TABLE, RADIUS, constants=sample.constants, free="none")
-    repeat = fitted(
-        sample.recordings, TABLE, RADIUS, constants=sample.constants, free="none", threads=2
-    )
+    found = struck(sample)
+    repeat = struck(sample, threads=2)
     assert np.array_equal(found.strikes, repeat.strikes)
     assert found.status == ["ok"] * 12
     # the noise of 0.35 mm in x and y, and what an unlucky strike adds
@@ -293,10 +294,10 @@ def test_known_constants_give_the_strikes_back(sample):
     ],
 )
 def test_recordings_as_people_make_them_are_fitted_to_their_noise(how, spoil):
-    sample = synthetic(12, constants=HAN, seed=2, **how)
+    sample = seen_by_han(12, **how)
     camera = {name: value for name, value in how.items() if name != "thin"}
     recordings = spoiled(sample.recordings, 2, **camera, **spoil)
-    found = fitted(recordings, TABLE, RADIUS, constants=sample.constants, free="none")
+    found = struck(sample, recordings)
     noise = how.get("noise", tracks.NOISE)
     assert found.recordings[0].noise == pytest.approx(noise, rel=0.15)
     assert all(shot.cue == 0 for shot in found.recordings) and found.status.count("ok") >= 9
@@ -331,16 +332,10 @@ def test_recordings_as_people_make_them_are_fitted_to_their_noise(how, spoil):
 )
 @pytest.mark.parametrize("thin", [0.0, 0.016])
 def test_false_rows_and_swapped_names_are_mended_and_told(spoil, status, thin):
-    sample = synthetic(12, constants=HAN, seed=2, thin=thin)
+    sample = seen_by_han(12, thin=thin)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        found = fitted(
-            spoiled(sample.recordings, 2, **spoil),
-            TABLE,
-            RADIUS,
-            constants=sample.constants,
-            free="none",
-        )
+        found = struck(sample, spoiled(sample.recordings, 2, **spoil))
     assert sum(re.fullmatch(status, text) is not None for text in found.status) >= (
         8 if thin == 0.0 else 4
     )
@@ -364,14 +359,9 @@ def test_false_rows_and_swapped_names_are_mended_and_told(spoil, status, thin):
 
 def told_and_mended(**how):
     """Fits of a table that lies crooked, as it is and calibrated."""
-    sample = synthetic(20, constants=HAN, seed=2)
+    sample = seen_by_han(20)
     recordings = spoiled(sample.recordings, 2, lead_in=0.5, **how)
-    return (
-        fitted(
-            recordings, TABLE, RADIUS, constants=sample.constants, free="none", calibrate=calibrate
-        )
-        for calibrate in (False, True)
-    )
+    return (struck(sample, recordings, calibrate=calibrate) for calibrate in (False, True))
 
 
 @pytest.mark.parametrize(
@@ -394,10 +384,8 @@ def test_a_crooked_or_scaled_table_is_told_and_calibrated(angle, scale):
 
 
 def test_a_straight_table_stays_as_it_is():
-    sample = synthetic(20, constants=HAN, seed=2)
-    straight = fitted(
-        sample.recordings, TABLE, RADIUS, constants=sample.constants, free="none", calibrate=True
-    )
+    sample = seen_by_han(20)
+    straight = struck(sample, calibrate=True)
     assert list(straight.warnings) == [] and straight.median_rmse < 1.3 * np.sqrt(2) * tracks.NOISE
 
 
@@ -421,7 +409,7 @@ def test_a_bent_picture_is_told_and_calibrated(bend):
 @pytest.mark.parametrize("seed", range(2 if MATCHES else 1))
 def test_noise_does_not_turn_the_table(seed):
     """Noise of 3 mm at 240 pictures a second turns a coordinate round in every third row."""
-    sample = synthetic(20, constants=HAN, noise=3e-3, rate=240.0, thin=0.0, seed=seed)
+    sample = seen_by_han(20, noise=3e-3, rate=240.0, thin=0.0, seed=seed)
     lie = _recordings.lie_of(_recordings.sound(sample.recordings, 3e-3)[0], TABLE, RADIUS)
     assert (
         lie.far < 4.0 * lie.error
@@ -472,16 +460,8 @@ def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
             for ball, (x, y) in enumerate(frame)
         ]
     (tmp_path / "frames.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    options = [
-        str(tmp_path / "frames.csv"),
-        "--table",
-        "1.42,2.84",
-        "--radius",
-        "0.03075",
-        "--cushion-model",
-        "han",
-    ]
-    assert fit.main([*options, "-o", str(tmp_path / "fit.json")]) == 0
+    words = f"{tmp_path}/frames.csv --table 1.42,2.84 --radius 0.03075 --cushion-model han"
+    assert fit.main(f"{words} -o {tmp_path}/fit.json".split()) == 0
     found = json.loads((tmp_path / "fit.json").read_text(encoding="utf-8"))
     assert "warning" not in capsys.readouterr().err and found["noise"] == pytest.approx(
         noise, rel=0.1
@@ -510,12 +490,12 @@ def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
 
 
 def test_no_shot_is_ok_whose_rmse_is_three_times_the_noise():
-    sample = synthetic(12, constants=HAN, noise=0.5e-3, seed=3)
+    sample = seen_by_han(12, noise=0.5e-3, seed=3)
     off = {
         **sample.constants,
         "restitution_cushion": sample.constants["restitution_cushion"] - 0.01,
     }
-    found = fitted(sample.recordings, TABLE, RADIUS, constants=off, free="none")
+    found = struck(sample, constants=off)
     above = found.rmse / (np.sqrt(2) * found.recordings[0].noise)
     kinds = [text.partition(":")[0] for text in found.status]
     assert "rough" in kinds and all(ratio < 2 for kind, ratio in zip(kinds, above) if kind == "ok")
@@ -578,8 +558,6 @@ def test_shots_of_a_game_are_fitted_by_the_recipe_of_the_page(model):
         )
     found = fitted(
         recordings,
-        TABLE,
-        RADIUS,
         cushion_model=model,
         free="none",
         **({} if model == "smooth" else {"constants": kind}),
@@ -607,13 +585,13 @@ def test_an_rmse_does_not_depend_on_how_long_balls_are_seen_at_rest(sample, play
     ]
     whole = rmse(sample.recordings)
     assert np.median(whole) > 5e-3 and rmse(longer) == pytest.approx(whole, rel=1e-4)
-    often = synthetic(12, constants=HAN, thin=0.0, seed=2).recordings
+    often = seen_by_han(12, thin=0.0).recordings
     assert np.median(rmse(often)) == pytest.approx(np.median(whole), rel=0.3)
 
 
 def test_what_no_play_explains_is_doubtful_and_counts(sample):
     wrong = {**sample.constants, "mu_cushion": 0.05, "restitution_cushion": 0.6}
-    found = fitted(sample.recordings, TABLE, RADIUS, constants=wrong, free="none")
+    found = struck(sample, constants=wrong)
     doubtful = [text.startswith("doubtful: RMSE") for text in found.status]
     assert (
         sum(doubtful) >= 6
@@ -646,7 +624,7 @@ def test_a_recording_that_begins_after_the_strike_does_not_count(sample):
                 ),
             )
         )
-    found = fitted(cut, TABLE, RADIUS, constants=sample.constants, free="none")
+    found = struck(sample, cut)
     wrong = [rmse > 5e-3 for rmse in found.rmse]
     assert (
         sum(wrong) >= 6
@@ -702,10 +680,8 @@ def test_derivatives_of_shots_give_the_normal_equations(sample, plays):
 def test_strikes_are_off_by_what_their_covariance_says():
     off, within = [], []
     for seed in (2, 6):
-        sample = synthetic(24, constants=HAN, seed=seed)
-        found = fitted(
-            sample.recordings, TABLE, RADIUS, constants=sample.constants, free="none", threads=-1
-        )
+        sample = seen_by_han(24, seed=seed)
+        found = struck(sample, threads=-1)
         for k in np.flatnonzero(found.rmse < 1e-3):
             covariance = found.strike_covariance(int(k))
             assert np.isfinite(covariance).all() and (np.linalg.eigvalsh(covariance) > 0).all()
@@ -737,7 +713,7 @@ def test_strikes_are_off_by_what_their_covariance_says():
         (off < 2).mean(),
     )
     still = tuple(track[[0, 0]] + [[0, 0, 0], [1, 0, 0]] for track in sample.recordings[0].tracks)
-    none = fitted([tracks.Recording(1, (1, 2, 3), still)], TABLE, RADIUS, free="none")
+    none = fitted([tracks.Recording(1, (1, 2, 3), still)], free="none")
     with pytest.raises(ValueError, match="no strike was found"):
         none.strike_covariance(0)
 
@@ -764,8 +740,6 @@ def test_unknown_constants_are_found_within_their_spread():
         notes = []
         found = fitted(
             sample.recordings,
-            TABLE,
-            RADIUS,
             seed=1,
             threads=-1,
             progress=lambda what, part: notes.append((what, part)),
@@ -794,7 +768,7 @@ def test_unknown_constants_are_found_within_their_spread():
     # had 8 of 11 and four had 10; by the rounding of another NumPy or processor a fit may end
     # elsewhere
     assert sum(abs(z) < 2 for z in off) >= 0.6 * len(off) and max(map(abs, off)) < 5, off
-    usual = fitted(sample.recordings, TABLE, RADIUS, free="none")
+    usual = fitted(sample.recordings, free="none")
     assert found.median_rmse < 0.3 * usual.median_rmse
     assert {what for what, _ in notes} == {"events", "strikes", "constants", "spread"} and all(
         0 <= part <= 1 for _, part in notes
@@ -810,7 +784,7 @@ def billiard(seed):
 def test_a_friction_without_slip_is_found(seed):
     """From a law with slip these matches stopped at three times the noise."""
     sample = billiard(seed)
-    found = fitted(sample.recordings, TABLE, RADIUS, seed=1)
+    found = fitted(sample.recordings, seed=1)
     assert found.median_rmse < 1.5 * np.sqrt(2) * 0.5e-3
     assert (
         "law_b" not in found.fitted and found.constants["law_b"] == found.constants["law_c"] == 0.0
@@ -872,22 +846,9 @@ def test_matches_far_from_the_usual_are_fitted_within_their_spread():
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             found = fitted(
-                recordings,
-                TABLE,
-                RADIUS,
-                cushion_model=model,
-                seed=1,
-                threads=-1,
-                calibrate=bool(crooked),
+                recordings, cushion_model=model, seed=1, threads=-1, calibrate=bool(crooked)
             )
-        best = fitted(
-            sample.recordings,
-            TABLE,
-            RADIUS,
-            cushion_model=model,
-            constants=sample.constants,
-            free="none",
-        )
+        best = struck(sample, cushion_model=model)
         # a friction that hardly changes with the slip may be found without the change, whose
         # numbers then have no spread
         notes = [
@@ -960,7 +921,7 @@ def test_named_constants_follow_their_priors_and_threads_change_no_bit():
     start = {**TRUTH, "mu_spin": 0.0045}
 
     def found(recordings, **how):
-        return fitted(recordings, TABLE, RADIUS, constants=start, free=["mu_spin"], seed=3, **how)
+        return fitted(recordings, constants=start, free=["mu_spin"], seed=3, **how)
 
     first = found(sample.recordings)
     assert first.constants["mu_spin"] == pytest.approx(0.006, rel=0.05)
@@ -1121,8 +1082,6 @@ def test_a_number_of_the_cushion_is_found_by_whole_shots():
     sample = synthetic(6, seed=5, cushion_model="smooth", constants={"smooth_x": 1.1})
     found = fitted(
         sample.recordings,
-        TABLE,
-        RADIUS,
         cushion_model="smooth",
         constants={**sample.constants, "smooth_x": 1.3},
         free=["smooth_x"],
@@ -1159,8 +1118,6 @@ def test_an_impact_loses_roll_as_in_a_shot():
 def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given(sample):
     few = fitted(
         sample.recordings[:2],
-        TABLE,
-        RADIUS,
         cushion_model="mirror",
         constants={"mu_slide": 0.19, "mu_ball": 0.05},
         free="events",
@@ -1168,11 +1125,11 @@ def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given
     assert "restitution" not in few.spread and few.constants["restitution"] == 0.951
     assert few.constants["mu_slide"] != 0.19 and "mu_cushion" not in few.spread
     with pytest.raises(ValueError, match="no constant 'all' to fit"):
-        fitted(sample.recordings, TABLE, RADIUS, free="all")
+        fitted(sample.recordings, free="all")
     with pytest.raises(ValueError, match="cushion_model: must be"):
-        fitted(sample.recordings, TABLE, RADIUS, cushion_model="euler")
+        fitted(sample.recordings, cushion_model="euler")
     with pytest.raises(ValueError, match="mu_spin must have a finite mean and a deviation above 0"):
-        fitted(sample.recordings, TABLE, RADIUS, priors={"mu_spin": (0.005, 0.0)})
+        fitted(sample.recordings, priors={"mu_spin": (0.005, 0.0)})
 
 
 def test_shots_that_are_no_shots_have_a_status(sample):
@@ -1186,7 +1143,7 @@ def test_shots_that_are_no_shots_have_a_status(sample):
         tracks.Recording(2, (1, 2, 3), both),
         sample.recordings[2],
     ]
-    found = fitted(shots, TABLE, RADIUS, constants=sample.constants, free="none")
+    found = struck(sample, shots)
     assert found.status[0] == "no ball moves" and np.isnan(found.rmse[0])
     assert found.status[1].startswith("begins after the strike: balls")
     assert found.status[2] == "ok" and found.median_rmse == found.rmse[2]
@@ -1196,7 +1153,7 @@ def test_shots_that_are_no_shots_have_a_status(sample):
     first = sample.recordings[0]
     message = f"shot 9 has 2 balls, shot {first.id} {len(first.balls)}; all shots must have the same number"
     with pytest.raises(ValueError, match=message):
-        fitted([first, tracks.Recording(9, (1, 2), still[:2])], TABLE, RADIUS)
+        fitted([first, tracks.Recording(9, (1, 2), still[:2])])
 
 
 def test_the_command_splits_goes_on_and_writes_a_page(sample, tmp_path, capsys, monkeypatch):
@@ -1204,24 +1161,11 @@ def test_the_command_splits_goes_on_and_writes_a_page(sample, tmp_path, capsys, 
     (tmp_path / "in.json").write_text(json.dumps({**sample.constants, "mu_spin": 0.0045}))
     (tmp_path / "priors.json").write_text(json.dumps({"mu_spin": [0.0045, 0.002]}))
     out, repeat, page = (tmp_path / name for name in ("out.json", "again.json", "page.html"))
-    usual = [
-        str(tmp_path / "tracks.csv"),
-        "--table",
-        "2.84,1.42",
-        "--radius",
-        "0.03075",
-        "--cushion-model",
-        "han",
-        "--constants",
-        str(tmp_path / "in.json"),
-        "--free",
-        "mu_spin",
-        "--priors",
-        str(tmp_path / "priors.json"),
-        "--split",
-    ]
-    arguments = [*usual, "--forecast", "2", "--summary", str(page), "-o", str(out)]
-    assert fit.main(arguments) == 0
+    usual = (
+        f"{tmp_path}/tracks.csv --table 2.84,1.42 --radius 0.03075 --cushion-model han --split"
+        f" --constants {tmp_path}/in.json --free mu_spin --priors {tmp_path}/priors.json"
+    )
+    assert fit.main(f"{usual} --forecast 2 --summary {page} -o {out}".split()) == 0
     written = json.loads(out.read_text())
     seen = written["forecasts"]
     assert [forecast["id"] for forecast in seen] == [2, 4, 6, 8]
@@ -1275,9 +1219,9 @@ def test_the_command_splits_goes_on_and_writes_a_page(sample, tmp_path, capsys, 
         return stages(self, number, seed)
 
     monkeypatch.setattr(_joint.Search, "stage", interrupted)
-    assert fit.main([*usual, "-o", str(repeat)]) == 130
+    assert fit.main(f"{usual} -o {repeat}".split()) == 130
     assert "the same command goes on" in capsys.readouterr().err and not repeat.exists()
-    assert fit.main([*usual, "-o", str(repeat)]) == 0
+    assert fit.main(f"{usual} -o {repeat}".split()) == 0
     same = json.loads(out.read_text())
     del same["forecasts"]
     assert done[:4] == [0, 1, 1, 2] and repeat.read_text() == json.dumps(same, indent=1) + "\n"
@@ -1289,19 +1233,8 @@ def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatc
     reality = importlib.import_module("reality")
     sample = synthetic(16, seed=5)
     (tmp_path / "tracks.csv").write_text(csv_of(sample.recordings))
-    reality.main(
-        [
-            str(tmp_path / "tracks.csv"),
-            "--table",
-            "2.84,1.42",
-            "--radius",
-            "0.03075",
-            "--models",
-            "han",
-            "--pictures",
-            str(tmp_path / "p"),
-        ]
-    )
+    words = f"{tmp_path}/tracks.csv --table 2.84,1.42 --radius 0.03075 --models han"
+    reality.main(f"{words} --pictures {tmp_path}/p".split())
     output = capsys.readouterr().out
     outputs, rmse = (
         [cell.strip() for cell in line.split("|")]

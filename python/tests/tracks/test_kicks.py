@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 from test_fit import HAN
-from test_tracks import RADIUS, TABLE, csv_of, fitted, synthetic
+from test_tracks import RADIUS, TABLE, csv_of, struck, synthetic
 
 import carom
 from carom import tracks
@@ -119,7 +119,7 @@ def output_table(table, row="all"):
 
 
 def test_kicks_of_the_true_model_are_as_large_as_the_noise(sample):
-    found = fitted(sample.recordings, TABLE, RADIUS, constants=sample.constants, free="none")
+    found = struck(sample)
     kicks = found.kicks()
     assert np.median(kicks.rmse) < 1.1 * np.sqrt(2) * tracks.NOISE and len(kicks.contacts) > 120
     moved = kicks.contacts["error"] > 0.0
@@ -147,13 +147,7 @@ def test_a_wrong_constant_shows_at_its_contacts_in_its_output(
     sample, constant, off, cushion, output, mean
 ):
     value = sample.constants[constant] + off
-    found = fitted(
-        sample.recordings,
-        TABLE,
-        RADIUS,
-        constants={**sample.constants, constant: value},
-        free="none",
-    )
+    found = struck(sample, constants={**sample.constants, constant: value})
     kicks = found.kicks()
     assert np.median(kicks.rmse) < 0.7 * found.median_rmse
     means, errors = output_table(kicks.tables[0 if cushion else 1])
@@ -169,27 +163,11 @@ def test_a_wrong_constant_shows_at_its_contacts_in_its_output(
 def test_the_command_tells_kicks(sample, tmp_path, capsys):
     (tmp_path / "tracks.csv").write_text(csv_of(sample.recordings[:12]))
     (tmp_path / "in.json").write_text(json.dumps({**sample.constants, "restitution_cushion": 0.85}))
-    arguments = [
-        str(tmp_path / "tracks.csv"),
-        "--table",
-        "2.84,1.42",
-        "--radius",
-        "0.03075",
-        "--constants",
-        str(tmp_path / "in.json"),
-    ]
-    arguments += [
-        "--cushion-model",
-        "han",
-        "--free",
-        "none",
-        "--kicks",
-        "--summary",
-        str(tmp_path / "page.html"),
-        "-o",
-        str(tmp_path / "out.json"),
-    ]
-    assert fit.main(arguments) == 0
+    words = (
+        f"{tmp_path}/tracks.csv --table 2.84,1.42 --radius 0.03075 --constants {tmp_path}/in.json"
+    )
+    words += f" --cushion-model han --free none --kicks --summary {tmp_path}/page.html"
+    assert fit.main(f"{words} -o {tmp_path}/out.json".split()) == 0
     words = capsys.readouterr().out
     assert (
         re.search(r"with kicks: RMSE median \S+ cm", words)

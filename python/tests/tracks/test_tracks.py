@@ -15,9 +15,14 @@ from carom.tracks import _constants, fit
 
 TABLE, RADIUS = (2.84, 1.42), 0.03075
 # most tests play the cushion of Han, whose constants differ from the usual ones of the game
-synthetic, fitted = (
-    functools.partial(call, cushion_model="han") for call in (tracks.synthetic, fit.fit)
-)
+synthetic = functools.partial(tracks.synthetic, cushion_model="han")
+fitted = functools.partial(fit.fit, table=TABLE, radius=RADIUS, cushion_model="han")
+
+
+def struck(sample, recordings=None, **how):
+    """A fit of the strikes alone, with the true constants."""
+    known = {"constants": sample.constants, "free": "none", **how}
+    return fitted(sample.recordings if recordings is None else recordings, **known)
 
 
 def csv_of(recordings):
