@@ -6,9 +6,10 @@ pooltool and by carom in one process.
 
 Both play the same Systems, and it is checked first that their events and histories agree. Every
 time is processor time after both are warm. The first three rows are means of 30 different Systems,
-each on a table of its own and played once; the fourth is what a stroke that meets nothing costs.
-The others are of one break of nine-ball: the least of REPEATS plays (default 30; pooltool: a fifth
-as many), with the memory and the table of the last play at hand. Needs pooltool 0.6.
+at most REPEATS, each on a table of its own and played once; the fourth is what a stroke that meets
+nothing costs. The others are of one break of nine-ball: the least of REPEATS plays (default 30;
+pooltool: a fifth as many), with the memory and the table of the last play at hand. Needs pooltool
+0.6.
 
 Notebooks, such as those of docs/examples of pooltool's repository, are run by both, without
 pictures of plotly: pooltool.simulate is replaced. Told are its calls and the processor time of
@@ -174,7 +175,7 @@ def main() -> None:
         notebooks(sys.argv[1:])
         return
     repeats = int(sys.argv[1]) if len(sys.argv) > 1 else 30
-    few = max(repeats // 5, 1)
+    few, breaks = max(repeats // 5, 1), min(repeats, BREAKS)
     system = opening(NINEBALL, 1, 8.0)
     lone = pooltool.System(
         cue=pooltool.Cue(cue_ball_id="cue"),
@@ -185,12 +186,12 @@ def main() -> None:
     theirs, ours = pooltool.simulate, carom.pooltool.simulate
 
     def games(kind: Any) -> tuple[str, float, float]:
-        others = [opening(kind, 2 + k, 6.0 + 4.0 * k / BREAKS) for k in range(BREAKS)]
+        others = [opening(kind, 2 + k, 6.0 + 4.0 * k / breaks) for k in range(breaks)]
 
         def time_of(play: Any) -> float:
             return once(others, lambda system: play(system, inplace=True))
 
-        return f"drop-in, {BREAKS} of {kind}", time_of(theirs), time_of(ours)
+        return f"drop-in, {breaks} of {kind}", time_of(theirs), time_of(ours)
 
     mine, right = ours(system, continuous=True), theirs(system, continuous=True)
     check(mine, right)
