@@ -58,20 +58,15 @@ def miss(aim, **models):
 def test_second_derivatives_are_those_of_hessian():
     """Through both modes in any order, compiled and mapped, and as a product with a vector."""
     expected, *_ = hessian_of_a_miss(**CLOSED)
-    rev, fwd = jax.jacrev, jax.jacfwd
-    for second in (
-        jax.hessian(miss),
-        jax.jit(jax.hessian(miss)),
-        rev(rev(miss)),
-        fwd(fwd(miss)),
-        rev(fwd(miss)),
-    ):
+    rev, fwd, jit = jax.jacrev, jax.jacfwd, jax.jit  # compiled, they take a fifth of the time
+    modes = (jax.hessian(miss), jit(rev(rev(miss))), jit(fwd(fwd(miss))), jit(rev(fwd(miss))))
+    for second in (jit(jax.hessian(miss)), *modes):
         np.testing.assert_allclose(second(AIM), expected, rtol=1e-9)
     along = jnp.array([0.1, 0.2, 0.3, 0.4])
     np.testing.assert_allclose(
         jax.jvp(jax.grad(miss), (AIM,), (along,))[1], expected @ along, rtol=1e-9
     )
-    many = jax.vmap(jax.hessian(miss))(jnp.stack([AIM + 0.01, AIM]))
+    many = jit(jax.vmap(jax.hessian(miss)))(jnp.stack([AIM + 0.01, AIM]))
     np.testing.assert_allclose(many[1], expected, rtol=1e-9)
     assert np.abs(many[0] - many[1]).max() > 1e-3
 
