@@ -7,6 +7,7 @@ derivatives of a function by a dictionary of numbers, and `compiled`.
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 import carom
 
@@ -58,7 +59,7 @@ def test_values_are_those_of_shots_and_derivatives_those_of_tangents(library, mo
 
         for jacobian in library.jacobians:
             joined = np.stack(list(jacobian(values, numbers).values()), axis=-1)
-            np.testing.assert_allclose(joined, expected, rtol=1e-14, atol=scale)
+            assert_allclose(joined, expected, rtol=1e-14, atol=scale)
 
 
 def test_a_ball_in_the_air(library):
@@ -122,7 +123,7 @@ def test_gradients_are_differences_of_shots(library):
     slopes = library.jacobians[-1](places, numbers)
     tangents = carom.tangents(expected, list(numbers)).final["r"]
     joined = np.concatenate([slope.reshape(2, 2, -1) for slope in slopes.values()], axis=-1)
-    np.testing.assert_allclose(joined, tangents, rtol=1e-13, atol=1e-13 * np.abs(tangents).max())
+    assert_allclose(joined, tangents, rtol=1e-13, atol=1e-13 * np.abs(tangents).max())
 
 
 def test_clusters_banks_and_raised_strikes(library):
@@ -148,7 +149,7 @@ def test_clusters_banks_and_raised_strikes(library):
         has_cluster = (expected.flags & carom.Flag.CLUSTER).any()
         assert [has_cluster, True, np.abs(places[..., 2]).max() > 0.0][k % 3]
         slopes = np.stack([found[name][..., k] for name in names], axis=-1)
-        np.testing.assert_allclose(slopes, places, rtol=0.0, atol=1e-9 * np.abs(places).max())
+        assert_allclose(slopes, places, rtol=0.0, atol=1e-9 * np.abs(places).max())
 
 
 def test_batches_of_layouts_cues_and_numbers(library):
@@ -193,7 +194,7 @@ def test_batches_of_layouts_cues_and_numbers(library):
     }
     for name, slope in slopes.items():
         assert np.abs(slope).max() > 0.0
-        np.testing.assert_allclose(
+        assert_allclose(
             slope, sums[name], rtol=1e-12, atol=1e-12 * np.abs(sums[name]).max(), err_msg=name
         )
     wrong = np.zeros((2, 3))

@@ -20,6 +20,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.testing import assert_array_equal
 
 import carom
 
@@ -124,7 +125,7 @@ def test_errors_can_be_pickled():
             )
             if error.shot is not None:
                 assert copy.shot.count == error.shot.count == 15  # the break is one cluster
-                np.testing.assert_array_equal(
+                assert_array_equal(
                     copy.shot.positions([0.0, 0.1]), error.shot.positions([0.0, 0.1])
                 )
 
@@ -276,17 +277,15 @@ def test_memory_that_overlaps_is_refused(impacts):
     ):
         with pytest.raises(ValueError, match=what):
             carom.collide(inside, out=out)
-    np.testing.assert_array_equal(inside, impacts)
+    assert_array_equal(inside, impacts)
     # Side by side in one block is as good as apart; and an input that is copied first may be
     # written over.
     expected = carom.collide(impacts).motion
-    np.testing.assert_array_equal(
-        carom.collide(inside, out=(neighbor, bytes_from(38 * n))).motion, expected
-    )
+    assert_array_equal(carom.collide(inside, out=(neighbor, bytes_from(38 * n))).motion, expected)
     turned = np.asfortranarray(impacts)
     over = turned.T.reshape(-1)[: 12 * n].reshape(n, 12)
     assert np.may_share_memory(turned, over)
-    np.testing.assert_array_equal(carom.collide(turned, out=(over, status)).motion, expected)
+    assert_array_equal(carom.collide(turned, out=(over, status)).motion, expected)
     with pytest.raises(ValueError, match=r"out\[0\]: .* impacts"):
         carom.cushion(
             memory[: 15 * n].reshape(n, 15), out=(memory[10 * n : 16 * n].reshape(n, 6), status)

@@ -4,6 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose, assert_array_equal
 
 import carom
 
@@ -51,13 +52,13 @@ def test_tangents_are_differences():
         for name in "rvw":
             wide = 3 if name == "w" else 2
             difference = (more.final[name] - less.final[name])[:, :wide] / (2 * h)
-            np.testing.assert_allclose(
+            assert_allclose(
                 found.final[name][..., j],
                 difference,
                 atol=1e-5 * np.abs(found.states[..., j]).max(),
             )
         difference = (more.positions([0.5, 1.0]) - less.positions([0.5, 1.0]))[..., :2] / (2 * h)
-        np.testing.assert_allclose(
+        assert_allclose(
             found.at["r"][..., j], difference, atol=1e-5 * np.abs(found.states_at[..., j]).max()
         )
 
@@ -113,7 +114,7 @@ def test_second_derivatives_are_differences_of_values():
         shots += 1
         contacts += (shot.events["type"] == carom.EventType.BALL_BALL).any()
         assert found.final["r"].shape == (3, 2, 4, 4) and np.isfinite(found.states).all()
-        np.testing.assert_array_equal(found.states, found.states.swapaxes(-1, -2))
+        assert_array_equal(found.states, found.states.swapaxes(-1, -2))
         errors.append(found.error)
         h = 1e-2 * np.minimum(found.first.reach, 0.1)
         second, weight = second_differences(balls, cue, h, CLOSED), h[:, np.newaxis] * h
@@ -144,7 +145,7 @@ def test_second_derivatives_of_a_ball_that_rolls():
             [0.0, 0.0, 0.0],
         ]
     )
-    np.testing.assert_allclose(found.final["r"][0, 1], expected, rtol=1e-5, atol=1e-6)
+    assert_allclose(found.final["r"][0, 1], expected, rtol=1e-5, atol=1e-6)
     for wrt, along, words in (
         (["table.nose_height"], None, "wrt: table.nose_height has no second"),
         ([], None, "wrt: name at least one"),
@@ -169,7 +170,7 @@ def test_second_derivatives_of_a_ball_that_rolls():
     found = carom.hessian(
         carom.simulate(TABLE, balls, carom.cue(speed=2.0), **CLOSED), ["kind.radius"]
     )
-    np.testing.assert_allclose(
+    assert_allclose(
         found.final["r"][..., 0], (by_radius[0] - by_radius[1]) / 2e-7, rtol=1e-5, atol=1e-3
     )
 
@@ -205,9 +206,7 @@ def test_second_derivatives_of_batches(monkeypatch):
                 and found.error[k] == single.error
             )
             expected = single.states @ vectors[k]
-            np.testing.assert_allclose(
-                along.states[k], expected, rtol=0.0, atol=1e-5 * np.abs(expected).max()
-            )
+            assert_allclose(along.states[k], expected, rtol=0.0, atol=1e-5 * np.abs(expected).max())
 
 
 def test_jacobian_has_the_batch_in_front():
@@ -221,7 +220,7 @@ def test_jacobian_has_the_batch_in_front():
     single = carom.tangents(
         carom.simulate(TABLE, balls, cues[0, 1], **CLOSED), ["cue.speed", "kind.mu_roll"]
     )
-    np.testing.assert_array_equal(found[0, 1], single.final["r"])
+    assert_array_equal(found[0, 1], single.final["r"])
 
 
 @pytest.mark.parametrize(
@@ -314,7 +313,7 @@ def test_jacobians_of_more_shots_than_are_kept_at_a_time(monkeypatch):
         part = carom.jacobian(
             TABLE, np.broadcast_to(balls, (23, 3)), cues, names, of=name, **CLOSED
         )
-        np.testing.assert_allclose(
+        assert_allclose(
             part, array, rtol=1e-9, atol=1e-9 * np.nanmax(np.abs(array[np.isfinite(array)]))
         )
         assert part.shape == array.shape and np.isfinite(part).sum() == np.isfinite(array).sum() > 0

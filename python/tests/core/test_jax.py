@@ -9,6 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose, assert_array_equal
 
 import carom
 from carom import _functions, derivatives
@@ -61,13 +62,11 @@ def test_second_derivatives_are_those_of_hessian():
     rev, fwd, jit = jax.jacrev, jax.jacfwd, jax.jit  # compiled, they take a fifth of the time
     modes = (jax.hessian(miss), jit(rev(rev(miss))), jit(fwd(fwd(miss))), jit(rev(fwd(miss))))
     for second in (jit(jax.hessian(miss)), *modes):
-        np.testing.assert_allclose(second(AIM), expected, rtol=1e-9)
+        assert_allclose(second(AIM), expected, rtol=1e-9)
     along = jnp.array([0.1, 0.2, 0.3, 0.4])
-    np.testing.assert_allclose(
-        jax.jvp(jax.grad(miss), (AIM,), (along,))[1], expected @ along, rtol=1e-9
-    )
+    assert_allclose(jax.jvp(jax.grad(miss), (AIM,), (along,))[1], expected @ along, rtol=1e-9)
     many = jit(jax.vmap(jax.hessian(miss)))(jnp.stack([AIM + 0.01, AIM]))
-    np.testing.assert_allclose(many[1], expected, rtol=1e-9)
+    assert_allclose(many[1], expected, rtol=1e-9)
     assert np.abs(many[0] - many[1]).max() > 1e-3
 
 
@@ -86,7 +85,7 @@ def test_vmap_is_one_batch_and_jit_changes_no_bit(monkeypatch):
     monkeypatch.setattr(derivatives, "simulate_batch", counted)
     monkeypatch.setattr(_functions, "simulate_batch", counted)
     many = jax.jit(jax.vmap(jax.grad(miss)))
-    np.testing.assert_allclose(many(aims), singly, rtol=1e-13)
+    assert_allclose(many(aims), singly, rtol=1e-13)
     assert batches == [(6,)]
     # of a function of two batches: all pairs of speeds and directions; and without derivatives
     speeds, directions = aims[:, 0], aims[:4, 1]
@@ -138,7 +137,7 @@ def test_reach_and_flags_are_outputs_without_gradient():
     value, slope = jax.value_and_grad(guarded)(AIM)
     assert np.isfinite(value) and np.array_equal(slope, jax.grad(miss)(AIM))
     assert jax.jacfwd(lambda aim: slopes_with_reach(aim).reach["cue.a"])(AIM).tolist() == [0.0] * 4
-    np.testing.assert_array_equal(
+    assert_array_equal(
         jax.hessian(lambda aim: slopes_with_reach(aim).r[1, 0])(AIM),
         jax.hessian(lambda aim: ends(aim).r[1, 0])(AIM),
     )
@@ -163,7 +162,7 @@ def test_a_search_in_compiled_code_improves_an_aim():
     start = AIM[:2] + jnp.array([2e-3, 1e-2])
     found = search(start)
     assert jnp.abs(off(start)).max() > 1e-3 and jnp.abs(off(found)).max() < 1e-12
-    np.testing.assert_allclose(found, AIM[:2], atol=1e-9)
+    assert_allclose(found, AIM[:2], atol=1e-9)
 
 
 def test_shots_that_are_refused_say_why():

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.testing import assert_array_equal
 
 import carom
 
@@ -28,14 +29,14 @@ def test_dask_and_xarray(impacts):
         output_sizes={"j": 12},
         output_dtypes=[float, np.int8],
     )
-    np.testing.assert_array_equal(motion.compute(), expected.motion)
-    np.testing.assert_array_equal(status.compute(), expected.status)
+    assert_array_equal(motion.compute(), expected.motion)
+    assert_array_equal(status.compute(), expected.status)
     labelled = xarray.DataArray(impacts.reshape(4, 51, 26), dims=("speed", "angle", "field"))
     motion, status = xarray.apply_ufunc(
         carom.collide, labelled, input_core_dims=[["field"]], output_core_dims=[["motion"], []]
     )
     assert motion.dims == ("speed", "angle", "motion") and status.dims == ("speed", "angle")
-    np.testing.assert_array_equal(motion.values.reshape(204, 12), expected.motion)
+    assert_array_equal(motion.values.reshape(204, 12), expected.motion)
 
 
 def test_tables_of_arrow_in_bounded_memory():

@@ -10,6 +10,7 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose, assert_array_equal
 
 import carom
 
@@ -72,7 +73,7 @@ def test_the_speed_of_a_ball():
     )
     kind = carom.balls([[0.5, 0.5]], game="snooker")[0]["kind"]
     speeds = [[np.hypot(*carom.struck(cue, kind)["v"][:2]) for cue in row] for row in cues]
-    np.testing.assert_allclose(speeds, [[1.0] * 3, [4.0] * 3], rtol=1e-14)
+    assert_allclose(speeds, [[1.0] * 3, [4.0] * 3], rtol=1e-14)
     assert (cues["a"][0] == [0.0, -0.3, 0.4]).all()
 
 
@@ -87,15 +88,11 @@ def test_a_batch_has_the_bits_of_single_shots():
         assert shots[index].count == single.count and shots.time[index] == single.time
         assert np.array_equal(shots[index].events, single.events)
         assert shots.final[index].tobytes() == single.final.tobytes()
-        np.testing.assert_array_equal(
-            shots[index].positions([0.3, 1.0]), single.positions([0.3, 1.0])
-        )
+        assert_array_equal(shots[index].positions([0.3, 1.0]), single.positions([0.3, 1.0]))
     finals = carom.simulate_batch(TABLE, rack, cues, **options)
     assert finals.final.tobytes() == shots.final.tobytes()
     # Where events were not kept, the shot is played again.
-    np.testing.assert_array_equal(
-        finals[1, 2].positions([0.3, 1.0]), shots[1, 2].positions([0.3, 1.0])
-    )
+    assert_array_equal(finals[1, 2].positions([0.3, 1.0]), shots[1, 2].positions([0.3, 1.0]))
 
 
 @pytest.fixture(scope="module")
@@ -138,11 +135,11 @@ def test_trajectories_of_a_batch(breaks, options):
                 shots[k].states(0.5)
         else:
             assert states[k].tobytes() == single.states(times).tobytes()
-            np.testing.assert_array_equal(positions[k], single.positions(times))
+            assert_array_equal(positions[k], single.positions(times))
             assert shots[k].states(times).tobytes() == states[k].tobytes()
-    np.testing.assert_array_equal(shots[3:9:2].positions(times), positions[3:9:2])
-    np.testing.assert_array_equal(shots[[7, 1]].positions(0.5), shots.positions(0.5)[[7, 1]])
-    np.testing.assert_array_equal(pickle.loads(pickle.dumps(shots)).positions(times), positions)
+    assert_array_equal(shots[3:9:2].positions(times), positions[3:9:2])
+    assert_array_equal(shots[[7, 1]].positions(0.5), shots.positions(0.5)[[7, 1]])
+    assert_array_equal(pickle.loads(pickle.dumps(shots)).positions(times), positions)
     assert shots.positions(np.zeros(0)).shape == (12, 0, 10, 3) and shots[:0].positions(
         1.0
     ).shape == (0, 10, 3)
@@ -189,7 +186,7 @@ def test_slices_and_iteration(breaks):
         TABLE, RACK, carom.cue(speed=[[5.0], [6.0]], phi=[89.0, 90.0, 91.0])
     )
     assert grid[1, :].shape == (3,) and grid[:, 2].time.tolist() == grid.time[:, 2].tolist()
-    np.testing.assert_array_equal(grid[:, 1:].positions(0.4), grid.positions(0.4)[:, 1:])
+    assert_array_equal(grid[:, 1:].positions(0.4), grid.positions(0.4)[:, 1:])
     assert [shot.time for shot in grid.flat] == grid.time.reshape(-1).tolist()
     assert [row.shape for row in grid] == [(3,), (3,)] and (grid.ndim, grid.size) == (2, 6)
     single = carom.simulate_batch(TABLE, RACK, carom.cue(speed=5.0), features=True)
@@ -376,7 +373,7 @@ def test_orientations():
         and half[1, 1] > 2.6
         and (turned[..., 1, :] == [1, 0, 0, 0]).all()
     )
-    np.testing.assert_allclose(
+    assert_allclose(
         turned[..., 0, :2], np.stack([np.cos(half), -np.sin(half)], axis=-1), atol=1e-12
     )
 
@@ -524,7 +521,7 @@ def test_states_between_events():
         positions.shape == (7, 1, 1, 3)
         and shot.events["type"][0] == carom.EventType.SLIDING_ROLLING
     )
-    np.testing.assert_allclose(
+    assert_allclose(
         positions[:, 0, 0, 1], 0.3 + times[:, 0] - 0.5 * 0.2 * 9.81 * times[:, 0] ** 2, rtol=1e-14
     )
     assert shot.states(1e9).tobytes() == shot.final.tobytes() and shot.states(0.0)[
@@ -726,8 +723,8 @@ def test_columns_and_frames():
     shot = carom.simulate(TABLE, RACK, carom.cue(speed=8.0))
     columns = carom.dtypes.columns(shot.events)
     assert all(column.shape == (shot.count,) for column in columns.values())
-    np.testing.assert_array_equal(columns["after_b_w_z"], shot.events["after"]["w"][:, 1, 2])
-    np.testing.assert_array_equal(columns["time"], shot.events["time"])
+    assert_array_equal(columns["after_b_w_z"], shot.events["after"]["w"][:, 1, 2])
+    assert_array_equal(columns["time"], shot.events["time"])
     assert set(carom.dtypes.columns(TABLE.rails)) >= {"p_x", "q_y", "height", "line_z"}
     assert "state_label" in carom.dtypes.columns(
         shot.balls
@@ -767,7 +764,7 @@ def test_a_batch_as_a_frame(breaks):
         ("pocket_9", shots.features.pocket[:, 9]),
         ("cushions_after", shots.features.cushions_after),
     ):
-        np.testing.assert_array_equal(frame[column], values, err_msg=column)
+        assert_array_equal(frame[column], values, err_msg=column)
     grid = carom.simulate_batch(
         TABLE,
         carom.balls([[0.5, 0.6]], v=[0.0, 0.5, 0.0]),
@@ -799,7 +796,7 @@ def test_a_batch_as_a_dataset(breaks):
         ("pocket", shots.features.pocket),
         ("cushions_after", shots.features.cushions_after),
     ):
-        np.testing.assert_array_equal(data[name], values, err_msg=name)
+        assert_array_equal(data[name], values, err_msg=name)
     assert data.sel(axis="y", ball=3)["r"].dims == ("shot",) and data["v"].attrs == {"units": "m/s"}
     assert dict(
         zip(data["label"].attrs["flag_meanings"].split(), data["label"].attrs["flag_values"])

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 import carom
 
@@ -105,7 +106,7 @@ def test_second_derivatives_are_those_of_hessian():
     expected, off, first = hessian_of_a_miss()
 
     def close(found, rtol=1e-09):
-        return np.testing.assert_allclose(found.detach().numpy(), expected, rtol=rtol, atol=rtol)  # noqa: E731
+        return assert_allclose(found.detach().numpy(), expected, rtol=rtol, atol=rtol)  # noqa: E731
 
     close(torch.autograd.functional.hessian(miss, AIM))
     aim = AIM.clone().requires_grad_()
@@ -132,8 +133,8 @@ def test_second_derivatives_are_those_of_hessian():
         close(second)
     # Along one vector the product alone is found, by differences of its own.
     along = func.jvp(func.grad(miss), (AIM,), (AIM.new_tensor([1.0, 0.1, 1.0, 1.0]),))
-    np.testing.assert_allclose(along[0], 2.0 * off @ first, rtol=1e-12)
-    np.testing.assert_allclose(along[1], slopes, rtol=2e-5)
+    assert_allclose(along[0], 2.0 * off @ first, rtol=1e-12)
+    assert_allclose(along[1], slopes, rtol=2e-5)
     with pytest.raises(NotImplementedError, match="third derivatives of shots"):
         rev(hessian(miss))(AIM)
     with pytest.raises(NotImplementedError, match="forward mode of forward mode"):
@@ -161,7 +162,7 @@ def test_functions_of_torch_func(monkeypatch):
         func.grad(lambda x: func.vmap(total)(x).sum()),
     ):
         played_at.clear()
-        np.testing.assert_allclose(slopes(aims), singly, rtol=1e-11)
+        assert_allclose(slopes(aims), singly, rtol=1e-11)
         assert len(played_at) == 1
     # one number is mapped, one is not; nested
     speeds, phis = aims[:3, 0], aims[:2, 1]
@@ -179,4 +180,4 @@ def test_functions_of_torch_func(monkeypatch):
     value = compiled(aim)
     value.backward()
     assert float(value) == pytest.approx(float(total(AIM)), rel=1e-13)
-    np.testing.assert_allclose(aim.grad, singly[0], rtol=1e-11)
+    assert_allclose(aim.grad, singly[0], rtol=1e-11)

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import refused, refused_by_name
+from numpy.testing import assert_allclose
 
 import carom
 from carom._rows import numbered
@@ -282,10 +283,8 @@ def test_strokes_with_errors():
     cue = carom.cue(speed=2.0, phi=40.0, tip_restitution=1.0)
     player = carom.player(2.0)
     sample = np.array([carom.with_errors(cue, player, 5, k) for k in range(4000)])
-    np.testing.assert_allclose(
-        [sample["speed"].mean(), sample["phi"].mean()], [2.0, 40.0], atol=0.02
-    )
-    np.testing.assert_allclose(
+    assert_allclose([sample["speed"].mean(), sample["phi"].mean()], [2.0, 40.0], atol=0.02)
+    assert_allclose(
         [sample["speed"].std(), sample["phi"].std(), sample["a"].std()],
         [0.2, 0.2, 0.006],
         rtol=0.06,
@@ -293,7 +292,7 @@ def test_strokes_with_errors():
     # a leather tip takes a faster cue, and the same speeds of the ball
     cue["speed"], cue["tip_restitution"] = 4.0 / 1.73, 0.73
     leather = np.array([carom.with_errors(cue, player, 5, k) for k in range(100)])
-    np.testing.assert_allclose(leather["speed"] * 1.73 / 2.0, sample["speed"][:100], rtol=1e-14)
+    assert_allclose(leather["speed"] * 1.73 / 2.0, sample["speed"][:100], rtol=1e-14)
     cue["speed"], cue["tip_restitution"] = 2.0, 1.0
     assert (
         sample[7].tobytes() == carom.with_errors(cue, player, 5, 7).tobytes()

@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose, assert_array_equal
 
 import carom
 from carom.games._draws import Draws
@@ -76,7 +77,7 @@ def test_a_pot_and_a_scratch_by_hand():
     back = foul.layouts.copy()
     rules.put_back(back[np.newaxis], Draws([2]), np.arange(1))
     assert rules.play(back, rules.actions(0.0, 0.5)).status == 0
-    np.testing.assert_array_equal(back[1], foul.layouts[1])
+    assert_array_equal(back[1], foul.layouts[1])
 
 
 def test_a_ball_that_leaves_the_table_is_a_foul_and_taken_back():
@@ -111,7 +112,7 @@ def test_strokes_are_those_of_simulate():
                 phi=180 * action[0], speed=3.75 + 3.25 * action[1], a=[0.3, 0, -0.1][k], b=0.2
             ),
         )
-        np.testing.assert_allclose(shot.final["r"], alone.final["r"], atol=1e-9)
+        assert_allclose(shot.final["r"], alone.final["r"], atol=1e-9)
 
 
 def test_a_stroke_in_error_is_taken_back():
@@ -148,8 +149,8 @@ def test_any_game_keeps_the_rules():
         assert (stroke.status == 0).all()
         pocketed = stroke.layouts["state"]["label"][:, 1:] == carom.Label.POCKETED
         assert (pocketed >= down).all(), "a ball came back"
-        np.testing.assert_array_equal(stroke.potted, (pocketed & ~down).sum(axis=1))
-        np.testing.assert_array_equal(stroke.rewards, stroke.potted - (stroke.foul != 0))
+        assert_array_equal(stroke.potted, (pocketed & ~down).sum(axis=1))
+        assert_array_equal(stroke.rewards, stroke.potted - (stroke.foul != 0))
         assert (stroke.foul[stroke.scratch] == carom.Foul.CUE_BALL).all()
         down, layouts = pocketed, stroke.layouts
         back = np.flatnonzero(stroke.scratch)
@@ -161,7 +162,7 @@ def test_any_game_keeps_the_rules():
         repeat = rules.layouts(seen)
         in_play = repeat["state"]["label"] != carom.Label.POCKETED
         assert repeat[in_play].tobytes() == layouts[in_play].tobytes()
-        np.testing.assert_array_equal(in_play[:, 1:], ~down)
+        assert_array_equal(in_play[:, 1:], ~down)
     assert down.any() and not down.all()
 
 
@@ -221,7 +222,7 @@ def test_random_parameters_ball_sets_and_rewards():
         ),
     )
     played = close.play(close.layout([[0.5, 0.5], [0.9, 1.5]]), close.actions([0.0, 90.0], 1.0))
-    np.testing.assert_allclose(played.rewards, -np.hypot(*played.layouts["state"]["r"][:, 0, :2].T))
+    assert_allclose(played.rewards, -np.hypot(*played.layouts["state"]["r"][:, 0, :2].T))
 
 
 # ---- The environments
@@ -384,7 +385,7 @@ def test_many_games_are_single_games(gymnasium, threads):
         assert got[4].keys() == expected[4].keys()
         for name, values in got[4].items():
             assert values.dtype == expected[4][name].dtype
-            np.testing.assert_array_equal(values, expected[4][name], err_msg=name)
+            assert_array_equal(values, expected[4][name], err_msg=name)
         ended += got[2].sum()
     assert ended > 40
     seeds = [5, None, 7, None, None, 5, 1]
@@ -440,7 +441,7 @@ def test_reset_options(gymnasium):
     env = gymnasium.make("carom/Potting-v1", balls=2, strokes=6)
     centres, phi = lined_up(env.unwrapped.rules)
     seen, _ = env.reset(seed=1, options={"layout": centres, "strokes": 2})
-    np.testing.assert_array_equal(seen[:-1].reshape(3, 3), np.column_stack([centres, np.ones(3)]))
+    assert_array_equal(seen[:-1].reshape(3, 3), np.column_stack([centres, np.ones(3)]))
     action = env.unwrapped.rules.actions(phi, 2.0, b=-0.2)
     seen, reward, terminated, truncated, info = env.step(action)
     assert (reward, terminated, truncated, info["potted"], seen[-1]) == (1.0, False, False, 1, 1.0)
@@ -457,7 +458,7 @@ def test_reset_options(gymnasium):
             env.reset(options=options)
     envs = gymnasium.make_vec("carom/Potting-v1", num_envs=2, balls=2, strokes=6)
     seen, _ = envs.reset(seed=1, options={"layout": np.stack([centres, centres + 0.01])})
-    np.testing.assert_array_equal(seen[1, :2], centres[0] + 0.01)
+    assert_array_equal(seen[1, :2], centres[0] + 0.01)
     with pytest.raises(ValueError, match="layout: one or 2 are needed, not 3"):
         envs.reset(options={"layout": np.stack([centres] * 3)})
     with pytest.raises(ValueError, match=r"actions: the shape must be \(2, 4\)"):
@@ -546,7 +547,7 @@ def test_the_greedy_agent_does_better_than_chance(gymnasium, tmp_path):
         list(played) == ["random", "greedy", "plan of 100 shots"]
         and planned.mean() > 1.0 + by_chance.mean()
     )
-    np.testing.assert_array_equal(example.main([*line, "--plans", ""])["random"], by_chance)
+    assert_array_equal(example.main([*line, "--plans", ""])["random"], by_chance)
 
 
 @pytest.mark.parametrize(
@@ -561,7 +562,7 @@ def test_games_with_fixed_rules(gymnasium, name):
     name = f"carom/{name}-v1"
     rules = carom.gymnasium.GAMES[name]
     player = carom.player(2)
-    np.testing.assert_allclose(
+    assert_allclose(
         rules["noise"], [float(player[field]) for field in ("phi", "speed", "a")], rtol=1e-12
     )
     with warnings.catch_warnings():
@@ -572,7 +573,7 @@ def test_games_with_fixed_rules(gymnasium, name):
         alone = gymnasium.make(name, render_mode="svg", disable_env_checker=False)
     many = gymnasium.make_vec(name, num_envs=3)
     seen, _ = alone.reset(seed=5)
-    np.testing.assert_array_equal(seen, many.reset(seed=5)[0][0])
+    assert_array_equal(seen, many.reset(seed=5)[0][0])
     fixed_rules, generator, ended = alone.unwrapped.rules, np.random.default_rng(3), False
     assert alone.observation_space.shape == seen.shape and fixed_rules.noise == rules["noise"]
     for k in range(4):
@@ -587,7 +588,7 @@ def test_games_with_fixed_rules(gymnasium, name):
         ).shape == (1,)
         seen, reward, ended, truncated, info = alone.step(action)
         of_many = many.step(np.tile(action, (3, 1)))
-        np.testing.assert_array_equal(seen, of_many[0][0])
+        assert_array_equal(seen, of_many[0][0])
         assert (reward, ended, truncated) == (
             of_many[1][0],
             of_many[2][0],
@@ -634,7 +635,7 @@ def test_the_break(gymnasium):
     strokes = rules.play(layouts, actions)
     laid = rules.placed(layouts, actions)
     low, high = rules.corners()
-    np.testing.assert_allclose(laid["state"]["r"][[0, 39], 0, 0], [low[0], high[0]], rtol=1e-15)
+    assert_allclose(laid["state"]["r"][[0, 39], 0, 0], [low[0], high[0]], rtol=1e-15)
     assert (strokes.rewards[20:] == -1.0).all()
     for k in range(40):
         ruling = carom.referee(
@@ -720,7 +721,7 @@ def test_the_planner_plays_the_level_cue_of_the_game():
         for k in (False, True)
     )
     assert raised["theta"] > 5.0 and level["theta"] == 0.0
-    np.testing.assert_array_equal(
+    assert_array_equal(
         rules.best(layout, shots=200),
         rules.actions(level["phi"], level["speed"], level["a"], level["b"]),
     )

@@ -21,6 +21,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import DATA
+from numpy.testing import assert_allclose
 
 # pooltool writes its settings into the home folder when it is imported.
 home = tempfile.mkdtemp(prefix="carom-pooltool-")
@@ -360,7 +361,7 @@ def test_tables_have_the_size_of_their_bed(game):
     """So racks and layouts that are dealt lie on it."""
     theirs = pt.Table.default() if game is None else pt.Table.from_game_type(game)
     table = bridge.table_of(theirs)
-    np.testing.assert_allclose([table.width, table.length], [theirs.w, theirs.l], rtol=1e-12)
+    assert_allclose([table.width, table.length], [theirs.w, theirs.l], rtol=1e-12)
     if len(table.pockets):
         rules = Potting(
             balls=5, table=table, ball_set="snooker" if game is pt.GameType.SNOOKER else "pool"
@@ -379,7 +380,7 @@ def test_continuized():
     for name, ball in theirs.balls.items():
         ours = mine.balls[name].history_cts.vectorize()
         for got, expected in zip(ours, ball.history_cts.vectorize(), strict=True):
-            np.testing.assert_allclose(got, expected, atol=1e-9)
+            assert_allclose(got, expected, atol=1e-9)
 
 
 def test_ends():
@@ -398,10 +399,8 @@ def test_ends():
         ], options
         for name, ball in theirs.balls.items():
             assert mine.balls[name].state.s == ball.state.s
-            np.testing.assert_allclose(mine.balls[name].state.rvw, ball.state.rvw, atol=1e-9)
-            np.testing.assert_allclose(
-                mine.balls[name].history[-2].rvw, ball.history[-2].rvw, atol=1e-9
-            )
+            assert_allclose(mine.balls[name].state.rvw, ball.state.rvw, atol=1e-9)
+            assert_allclose(mine.balls[name].history[-2].rvw, ball.history[-2].rvw, atol=1e-9)
 
 
 def test_in_place_and_saved(tmp_path):
