@@ -3,7 +3,9 @@ wrong kind.
 """
 
 import csv
+import os
 import re
+import subprocess
 import sys
 import warnings
 from pathlib import Path
@@ -56,6 +58,19 @@ def calls():
         return kinds.count("call") + kinds.count("c_call")
 
     return count
+
+
+def run_python(*arguments, status=0, **environment) -> subprocess.CompletedProcess:
+    """This Python with arguments, in an environment that is changed; it ends with the status."""
+    variables = os.environ | environment
+    done = subprocess.run(
+        [sys.executable, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        env={name: text for name, text in variables.items() if text is not None},
+    )
+    assert done.returncode == status, done.stdout + done.stderr
+    return done
 
 
 WRONG = [

@@ -12,14 +12,13 @@ import pkgutil
 import pydoc
 import re
 import signal
-import subprocess
-import sys
 import threading
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import run_python
 from numpy.testing import assert_array_equal
 
 import carom
@@ -59,28 +58,17 @@ bits = {name: array.tobytes().hex() for name, array in bits.items()}
 def test_plain_has_the_bits_of_a_process_limited_to_plain():
     def bits(plain, isa):
         program = PLAYS + "import json; print(json.dumps(bits))"
-        environment = {
-            **{name: value for name, value in os.environ.items() if name != "CAROM_ISA"},
-            **isa,
-        }
-        done = subprocess.run(
-            [sys.executable, "-c", program, repr(plain)],
-            env=environment,
-            capture_output=True,
-            text=True,
-        )
-        assert done.returncode == 0, done.stderr
-        return json.loads(done.stdout)
+        return json.loads(run_python("-c", program, repr(plain), CAROM_ISA=isa).stdout)
 
     limited, request = (
-        bits(({}, {"fast": True}), {"CAROM_ISA": "plain"}),
-        bits(({"plain": True}, {}), {}),
+        bits(({}, {"fast": True}), "plain"),
+        bits(({"plain": True}, {}), None),
     )
     assert request == limited and limited["shot"] == limited["shots"][: len(limited["shot"])]
     # Collisions by the solver exact, and shots whose cushion is the smooth one, have one set of bits
     # anyway; the solver fast and a cushion alone have other bits with wide registers.
     if carom.isa_in_force() not in ("plain", "sse2"):
-        unlimited = bits(({}, {"fast": True}), {})
+        unlimited = bits(({}, {"fast": True}), None)
         assert {name for name in limited if unlimited[name] != limited[name]} == {
             "fast",
             "cushions",
@@ -216,15 +204,9 @@ def test_racks_and_tables_are_those_of_the_library():
     [("jax", "import carom.jax"), ("pyarrow", "import carom; carom.simulate_arrow(0, 0)")],
 )
 def test_what_is_not_installed_is_asked_for(module, use):
-    done = subprocess.run(
-        [sys.executable, "-c", f"import sys; sys.modules['{module}'] = None; {use}"],
-        capture_output=True,
-        text=True,
-    )
-    assert (
-        done.returncode == 1
-        and f" needs {module}, which is not installed here: pip install {module}" in done.stderr
-    )
+    absent = f"import sys; sys.modules['{module}'] = None"
+    done = run_python("-c", f"{absent}; {use}", status=1)
+    assert f" needs {module}, which is not installed here: pip install {module}" in done.stderr
 
 
 def test_objects_are_made_of_plain_classes_alone():

@@ -2,13 +2,12 @@
 batches, compiled code, errors.
 """
 
-import subprocess
-import sys
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from conftest import run_python
 from numpy.testing import assert_allclose, assert_array_equal
 
 import carom
@@ -217,5 +216,5 @@ def test_without_64_bits_the_error_says_what_to_do():
 def test_what_a_gradient_costs():
     """The example finds the gradients of tangents, and prints its rows."""
     script = Path(__file__).parents[2] / "examples" / "gradient_speed.py"
-    ran = subprocess.run([sys.executable, str(script), "jax", "1"], capture_output=True, text=True)
-    assert ran.returncode == 0 and ran.stdout.count(" us, ratio ") == 3, ran.stderr + ran.stdout
+    ran = run_python(script, "jax", 1)
+    assert ran.stdout.count(" us, ratio ") == 3, ran.stdout

@@ -3,13 +3,12 @@ clusters of two worker processes.
 """
 
 import importlib.util
-import subprocess
-import sys
 import tracemalloc
 from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import run_python
 from numpy.testing import assert_array_equal
 
 import carom
@@ -72,9 +71,7 @@ def test_tables_of_arrow_in_bounded_memory():
 
 def digest_of(*arguments):
     """What examples/on_a_cluster.py prints as the digest of the same small batch."""
-    command = [sys.executable, str(EXAMPLE), "--shots", "300", "--parts", "6", *arguments]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
+    done = run_python(EXAMPLE, "--shots", 300, "--parts", 6, *arguments)
     name, digest = done.stdout.splitlines()[-1].split()
     assert name == "digest:" and len(digest) == 64
     return digest

@@ -3,8 +3,6 @@ and against each other.
 """
 
 import importlib.util
-import subprocess
-import sys
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +10,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from conftest import run_python
 from numpy.testing import assert_allclose, assert_array_equal
 
 import carom
@@ -418,8 +417,8 @@ def test_a_step_of_one_game_makes_few_calls(gymnasium, calls):
 def test_what_a_step_costs(gymnasium):
     """The example prints a row for each environment, and for threads where they are taken."""
     script = EXAMPLE.with_name("games_speed.py")
-    ran = subprocess.run([sys.executable, str(script), "1"], capture_output=True, text=True)
-    assert ran.returncode == 0 and ran.stdout.count(" steps/s ") == 12, ran.stderr + ran.stdout
+    ran = run_python(script, 1)
+    assert ran.stdout.count(" steps/s ") == 12, ran.stdout
 
 
 def test_many_games_are_one_batch(gymnasium, calls):

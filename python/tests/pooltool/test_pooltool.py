@@ -11,7 +11,6 @@ import json
 import os
 import pickle
 import shutil
-import subprocess
 import sys
 import tempfile
 import types
@@ -20,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import DATA
+from conftest import DATA, run_python
 from numpy.testing import assert_allclose
 
 # pooltool writes its settings into the home folder when it is imported.
@@ -614,13 +613,7 @@ def test_what_pooltool_plays_is_told_once(installed, played):
 def test_speed():
     """The example that compares the times finds the same events and histories, and prints its rows."""
     script = Path(__file__).parents[2] / "examples" / "pooltool_speed.py"
-    ran = subprocess.run(
-        [sys.executable, str(script), "3"],
-        capture_output=True,
-        text=True,
-        env={**os.environ, "HOME": home},
-    )
-    assert ran.returncode == 0, ran.stderr
+    ran = run_python(script, 3, HOME=home)
     print(ran.stdout)
     times = [[float(word) for word in line[32:].split()] for line in ran.stdout.splitlines()[3:]]
     assert len(times) == 11 and all(min(row) > 0 for row in times), ran.stdout
@@ -641,14 +634,8 @@ def test_notebooks(tmp_path):
         ]
         (tmp_path / f"{name}.ipynb").write_text(json.dumps({"cells": cells}), encoding="utf-8")
     script = Path(__file__).parents[2] / "examples" / "pooltool_speed.py"
-    paths = [str(tmp_path / f"{name}.ipynb") for name in ("same", "other")]
-    ran = subprocess.run(
-        [sys.executable, str(script), *paths],
-        capture_output=True,
-        text=True,
-        env={**os.environ, "HOME": home},
-    )
-    assert ran.returncode == 0, ran.stderr
+    paths = [tmp_path / f"{name}.ipynb" for name in ("same", "other")]
+    ran = run_python(script, *paths, HOME=home)
     same, text, failed, second, differs = ran.stdout.splitlines()
     assert (
         same.startswith("same: 1 calls, ")
