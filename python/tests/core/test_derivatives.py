@@ -4,6 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
+from conftest import refused
 from numpy.testing import assert_allclose, assert_array_equal
 
 import carom
@@ -146,14 +147,6 @@ def test_second_derivatives_of_a_ball_that_rolls():
         ]
     )
     assert_allclose(found.final["r"][0, 1], expected, rtol=1e-5, atol=1e-6)
-    for wrt, along, words in (
-        (["table.nose_height"], None, "wrt: table.nose_height has no second"),
-        ([], None, "wrt: name at least one"),
-        (["cue.phi"], [1.0, 2.0], r"along: the shape must be \(1,\)"),
-        (["cue.phi"], [[1.0]], "along: the shape"),
-    ):
-        with pytest.raises(ValueError, match=words):
-            carom.hessian(shot, wrt, along=along)
     # of a radius, with the height of the balls
     by_radius = [
         carom.tangents(
@@ -371,10 +364,6 @@ def test_events_that_were_not_kept():
             carom.tangents(shots[2], ["cue.phi"])
     found = carom.tangents(carom.simulate_batch(TABLE, balls, cues, room=most), ["cue.phi"])
     assert np.isfinite(found.states[[0, 2]]).all() and np.isnan(found.states[1]).all()
-    with pytest.raises(ValueError, match='records="full"'):
-        carom.tangents(
-            carom.simulate_batch(TABLE, balls, cues, room=99, records="brief"), ["cue.phi"]
-        )
 
 
 def test_what_is_not_known():
@@ -382,5 +371,7 @@ def test_what_is_not_known():
     with pytest.raises(carom.CaromError) as error:
         carom.tangents(carom.simulate(TABLE, balls, cue, world="pooltool"), ["cue.phi"])
     assert error.value.status is carom.Status.ERROR_TANGENT
-    with pytest.raises(ValueError, match="times"):
-        carom.tangents(carom.simulate(TABLE, balls, cue), ["cue.phi"], times=[1.0, 0.5])
+
+
+def test_refusals(refusal):
+    refused(refusal, globals())
