@@ -8,7 +8,7 @@ import functools
 from typing import Any
 
 from carom._carom import ffi, lib
-from carom._rows import numbers_of
+from carom._rows import numbers_of, text_of
 from carom.dtypes import Records
 from carom.status import CaromError, Status
 
@@ -21,7 +21,7 @@ _TABLE = {
 
 def _numbers(part: int, status: int) -> list[str]:
     """The numbers of a part that have a status."""
-    return [ffi.string(row.name).decode() for row in numbers_of(part) if row.error == status]
+    return [text_of(row.name) for row in numbers_of(part) if row.error == status]
 
 
 def _fault(
@@ -44,10 +44,7 @@ def _fault(
 @functools.cache
 def _ranges(part: int) -> list[tuple[str, float, float, float, Any]]:
     """The name, the range and the other value of each number of a part, and its row."""
-    return [
-        (ffi.string(row.name).decode(), row.low, row.high, row.other, row)
-        for row in numbers_of(part)
-    ]
+    return [(text_of(row.name), row.low, row.high, row.other, row) for row in numbers_of(part)]
 
 
 def refuse_numbers(part: int, name: str, record: Records) -> None:
@@ -57,7 +54,7 @@ def refuse_numbers(part: int, name: str, record: Records) -> None:
         if not low <= values[field] <= high and values[field] != limit:
             must = ffi.new("char[]", 100)
             lib.carom_number_range(row, must, 100)
-            raise _fault(row.error, name, [field], record, ffi.string(must).decode())
+            raise _fault(row.error, name, [field], record, text_of(must))
 
 
 def strike_error(status: int, cue: Records, kind: Records) -> CaromError:
@@ -69,9 +66,7 @@ def strike_error(status: int, cue: Records, kind: Records) -> CaromError:
     return (
         CaromError(status, "kind")
         if number == ffi.NULL
-        else _fault(
-            status, "kind", [ffi.string(number.name).decode()], kind, ffi.string(must).decode()
-        )
+        else _fault(status, "kind", [text_of(number.name)], kind, text_of(must))
     )
 
 
@@ -98,9 +93,9 @@ def argument_error(
         return None
     fault, text = ffi.new("carom_fault *"), ffi.new("char[]", 100)
     code = lib.carom_shot_fault(*arguments, fault, text, 100)
-    kind, index, must = fault.part.kind, fault.part.index, ffi.string(text).decode()
+    kind, index, must = fault.part.kind, fault.part.index, text_of(text)
     # Several numbers of the cue may be at fault together.
-    name = "" if fault.row == ffi.NULL else ffi.string(fault.row.name).decode()
+    name = "" if fault.row == ffi.NULL else text_of(fault.row.name)
     if name and kind == lib.CAROM_PART_CUE and cue is not None:
         return _fault(code, "cue", [name] if must else _numbers(kind, fault.row.error), cue, must)
     if name and kind in (lib.CAROM_PART_BALL, lib.CAROM_PART_STATE):

@@ -362,6 +362,11 @@ def listing(module: str) -> Callable[[], list[str]]:
     return names
 
 
+def text_of(words: Any) -> str:
+    """A text of C."""
+    return bytes(ffi.string(words)).decode()
+
+
 def numbers_of(part: int) -> Iterator[Any]:
     """The rows of a part's numbers, each a `carom_number`."""
     k = 0
@@ -376,8 +381,8 @@ def with_numbers(part: int) -> Callable[[_Made], _Made]:
 
     def describe(row: Any, indent: str) -> str:
         lib.carom_number_range(row, text, 100)
-        name, about = ffi.string(row.name).decode(), ffi.string(row.text).decode()
-        allowed = ffi.string(text).decode()
+        name, about = text_of(row.name), text_of(row.text)
+        allowed = text_of(text)
         return (
             f"{indent}{name} : array_like, shape (...)\n"
             f"{indent}    {about[0].upper()}{about[1:]}; {allowed}."
@@ -412,7 +417,7 @@ def worded(kind: str) -> dict[str, int]:
     """The values of an enumeration of C by their words, from 0 on: WORLD has carom and pooltool."""
     found: dict[str, int] = {}
     while (word := lib.carom_word(getattr(lib, f"CAROM_WORDS_{kind}"), len(found))) != ffi.NULL:
-        found[ffi.string(word).decode()] = len(found)
+        found[text_of(word)] = len(found)
     return found
 
 

@@ -13,7 +13,18 @@ from carom._carom import ffi, lib
 from carom._described import CushionConvention, CushionLaw, CushionModel, CushionNumbers
 from carom._impacts import CUSHION, Outcome, resolve
 from carom._impacts import trace as follow
-from carom._rows import Array, as_array, cached, choice, fill, number, pointer, whole, worded
+from carom._rows import (
+    Array,
+    as_array,
+    cached,
+    choice,
+    fill,
+    number,
+    pointer,
+    text_of,
+    whole,
+    worded,
+)
 from carom.status import CaromError
 
 if TYPE_CHECKING:
@@ -27,7 +38,7 @@ _MODELS, _CONVENTIONS, _LAWS = (
     worded("CUSHION_LAW"),
 )
 _ROWS = iter((lib.carom_number_of(lib.CAROM_PART_BALL, k) for k in range(1000)).__next__, ffi.NULL)
-NUMBERS = [ffi.string(row.name).decode() for row in _ROWS if row.cushion_offset >= 0]
+NUMBERS = [text_of(row.name) for row in _ROWS if row.cushion_offset >= 0]
 
 
 def _own(numbers: Any) -> tuple[tuple[str, float], ...]:
@@ -65,10 +76,8 @@ def _options(
     for name, value in own_numbers:
         setattr(kind, name, value)
     if (wrong := lib.carom_ball_fault(kind, must, 100)) != ffi.NULL:
-        name = ffi.string(wrong.name).decode()
-        raise ValueError(
-            f"{name}: it must be {ffi.string(must).decode()}, not {getattr(kind, name)!r}"
-        )
+        name = text_of(wrong.name)
+        raise ValueError(f"{name}: it must be {text_of(must)}, not {getattr(kind, name)!r}")
     named = {
         "model": choice(_MODELS, model, "model"),
         "convention": choice(_CONVENTIONS, convention, "convention"),

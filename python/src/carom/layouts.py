@@ -19,13 +19,14 @@ from carom._rows import (
     Array,
     as_array,
     choice,
-    frozen,
     fill,
+    frozen,
     number,
     pointer,
     raw,
     sealed,
     several,
+    text_of,
     whole,
     with_numbers,
     worded,
@@ -176,7 +177,7 @@ class Table:
         texts = (
             name(pointer("carom_table[]", self.record), k) for k in range(int(self.record[count]))
         )
-        return [ffi.string(text).decode() if text != ffi.NULL else None for text in texts]
+        return [text_of(text) if text != ffi.NULL else None for text in texts]
 
     def _parts(self, part: str, count: str) -> Records:
         parts: Records = self.record[part]
@@ -396,7 +397,7 @@ def place_ball(table: Table, balls: Records, ball: int, x: float, y: float) -> R
 
 
 LAST = {
-    ffi.string(about.name).decode(): about.last
+    text_of(about.name): about.last
     for k in range(99)
     if (about := lib.carom_rules_about_of(k)) and about.last
 }  # the highest number of a ball

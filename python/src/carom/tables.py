@@ -20,13 +20,14 @@ from carom._rows import (
     numbers_of,
     pointer,
     several,
+    text_of,
 )
 from carom.layouts import Table, radius_on, refuse_table
 from carom.status import CaromError
 
 
 _ROWS = list(numbers_of(lib.CAROM_PART_MEASURES))
-_KEYS = {ffi.string(row.key).decode(): ffi.string(row.name).decode() for row in _ROWS}
+_KEYS = {text_of(row.key): text_of(row.name) for row in _ROWS}
 
 
 def measures(table: str) -> dict[str, float]:
@@ -60,7 +61,7 @@ def _measured(name: str, changes: dict[str, float], record: Array) -> None:
         must = (
             f"below {fault.gap:.4g} m with this {keys[fault.other.index]}"
             if is_measure
-            else ffi.string(text).decode()
+            else text_of(text)
         )
         raise CaromError(
             code, keys[fault.part.index], values[keys[fault.part.index]], text=f"it must be {must}"
@@ -79,7 +80,7 @@ def _maker(name: str) -> Callable[..., Table]:
             raise CaromError(code)
         return Table.from_record(record)
 
-    table, text = make(), ffi.string(lib.carom_word_text(lib.CAROM_WORDS_TABLE, kind)).decode()
+    table, text = make(), text_of(lib.carom_word_text(lib.CAROM_WORDS_TABLE, kind))
     advice = "Measures change it: corner=0.108 (m); carom.tables.measures() lists them."
     return called(
         make,

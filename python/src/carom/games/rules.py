@@ -25,6 +25,7 @@ from carom._rows import (
     number,
     pointer,
     several,
+    text_of,
     whole,
 )
 from carom._shot_options import Options
@@ -77,7 +78,7 @@ class Foul(enum.IntEnum):
     @property
     def text(self) -> str:
         """Why, in words."""
-        return str(ffi.string(lib.carom_foul_string(self)).decode())
+        return text_of(lib.carom_foul_string(self))
 
 
 _A_LIST = "whole numbers are needed"
@@ -347,7 +348,7 @@ class Made:
             )
             if wrong:
                 raise ValueError(
-                    f"{ffi.string(wrong).decode()}: by the rules {rules} it must be {ffi.string(limits[0]).decode()}"
+                    f"{text_of(wrong)}: by the rules {rules} it must be {text_of(limits[0])}"
                 )
 
     @property
@@ -691,7 +692,7 @@ def words_of(ruling: Any) -> str:
     """A ruling of C in words."""
     words = ffi.new("char[]", 256)
     lib.carom_ruling_string(ruling, words, 256)
-    return str(ffi.string(words).decode())
+    return text_of(words)
 
 
 def ruling_of(ruling: Any, count: int, is_own: bool, shot: Shot) -> Ruling:

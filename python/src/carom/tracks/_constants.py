@@ -15,7 +15,7 @@ import numpy as np
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._described import Game
-from carom._rows import Array, numbered, numbers_of
+from carom._rows import Array, numbered, numbers_of, text_of
 from carom._shot_options import ShotCushion
 from carom.cushions import NUMBERS
 from carom.layouts import Table, balls
@@ -44,9 +44,9 @@ def _own(model: int) -> Constants:
     """
     found = {}
     for row in numbers_of(lib.CAROM_PART_BALL):
-        default = re.search(r"\b0: ([\d.]+(?:e-?\d+)?)", ffi.string(row.text).decode())
+        default = re.search(r"\b0: ([\d.]+(?:e-?\d+)?)", text_of(row.text))
         if default and (row.reader, row.model) == (lib.CAROM_READ_BY_CUSHION, model):
-            found[ffi.string(row.name).decode()] = float(default[1])
+            found[text_of(row.name)] = float(default[1])
     return found
 
 
