@@ -174,6 +174,7 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
     """Of each name: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both
     places, or balls[0].r[1].
     """
+    fields = {"cue": CUE, "table": _TABLE, "kind": KIND}
     found: list[list[Direction]] = []
     for name in _names(wrt, argument):
         match = re.fullmatch(
@@ -181,39 +182,23 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
         )
         group, ball, inner, field, index = match.groups() if match else ("", None, None, "", None)
         unit = _UNITS.get(field, "1")
-        if group == "cue" and field in CUE and index is None and not inner:
-            found.append([Direction(name, unit, "cue", ((CUE.index(field),),))])
-        elif group == "table" and field in _TABLE and index is None and not inner:
-            found.append([Direction(name, unit, "table", ((_TABLE.index(field),),))])
-        elif group == "kind" and field in KIND and index is None and not inner:
-            found.append(
-                [Direction(name, unit, "kind", tuple((i, KIND.index(field)) for i in range(balls)))]
-            )
-        elif (
-            ball is not None
-            and int(ball) < balls
-            and inner
-            and field in KIND
-            and field != "radius"
-            and index is None
-        ):
-            found.append([Direction(name, unit, "kind", ((int(ball), KIND.index(field)),))])
-        elif (
-            ball is not None
-            and int(ball) < balls
-            and not inner
-            and field in ELEMENTS
-            and int(index or 0) < 3
-        ):
+        number = balls if ball is None else int(ball)
+        if field in fields.get(group, ()) and index is None and not inner:
+            column = fields[group].index(field)
+            rows = ((i, column) for i in range(balls)) if group == "kind" else ((column,),)
+            found.append([Direction(name, unit, group, tuple(rows))])
+        elif number < balls and inner and field in KIND and field != "radius" and index is None:
+            found.append([Direction(name, unit, "kind", ((number, KIND.index(field)),))])
+        elif number < balls and not inner and field in ELEMENTS and int(index or 0) < 3:
             # of a place and a velocity those along the cloth, unless the one upward is asked for
             ks = range(3 if field == "w" else 2) if index is None else [int(index)]
             found.append(
                 [
                     Direction(
-                        f"balls[{ball}].{field}[{k}]",
+                        f"balls[{number}].{field}[{k}]",
                         unit,
                         "state",
-                        ((int(ball), ELEMENTS[field][k]),),
+                        ((number, ELEMENTS[field][k]),),
                     )
                     for k in ks
                 ]
