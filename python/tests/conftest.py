@@ -110,6 +110,8 @@ def pytest_generate_tests(metafunc):
         ):
             text = Path(metafunc.module.__file__).with_suffix(".txt").read_text(encoding="utf-8")
             rows = re.findall(r"^([^#\s].*)\n +(\w[\w ]*): ?(.*)$", text, re.M)
+            lines = re.findall(r"^[^#\n].*$", text, re.M)
+            assert len(lines) == 2 * len(rows), "a row is two lines: a call, and its error"
             chosen = [row for row in rows if (row[1] == "each of") == of_arguments]
             metafunc.parametrize(name, chosen, ids=[row[0] for row in chosen])
 

@@ -64,6 +64,7 @@ def planned(**how):
 # A name, what makes an object, and below it what a call reads of `it`.
 ROWS = Path(__file__).with_suffix(".txt").read_text(encoding="utf-8")
 OBJECTS = {name: rest for name, *rest in re.findall(r"^(\w.*?): (.*)\n +(.*)$", ROWS, re.M)}
+assert 2 * len(OBJECTS) == len(ROWS.splitlines())
 
 
 def bits(value):

@@ -103,6 +103,7 @@ def named(kind, argument):
     """What makes the systems or the engines of the text beside this module, by their names."""
     text = Path(__file__).with_suffix(".txt").read_text(encoding="utf-8")
     rows = re.findall(rf"^{kind} (.*?): (.*)$", text, re.M)
+    assert len(rows) == 8
     return {name: eval(f"lambda {argument}: {row}", globals()) for name, row in rows}
 
 
