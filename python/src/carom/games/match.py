@@ -243,7 +243,7 @@ class Match:
     @property
     def bounds(self) -> Bounds | None:
         """Where the cue ball in hand may be put, until the stroke."""
-        if self._c.leave < lib.CAROM_LEAVE_HAND:
+        if self._c.leave < lib.CAROM_LEAVE_ANYWHERE:
             return None
         bounds = self._c.bounds
         return Bounds((*bounds.low,), (*bounds.high,), (*bounds.centre,), bounds.radius)
@@ -392,7 +392,7 @@ class Match:
 
         `cue` is the stroke as the player makes it; by default that of the choice.
         """
-        choice = pointer("carom_choice *", copied(best))
+        choice = pointer("carom_plan_stroke *", copied(best))
         self._act(lambda: lib.carom_match_prepare(self._c, self.player, choice), "best")
         if best["kind"] != Kind.PASS:
             self.stroke(best["cue"] if cue is None else cue)
