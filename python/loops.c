@@ -85,31 +85,31 @@ static bool look_at_shot(looking *with, size_t k, const double *times, size_t m,
                          carom_ball_state *states, double *positions, int8_t *status) {
   const carom_shot_job *job = with->job;
   const size_t count = (size_t)job->count;
-  carom_shot *given = &job->shots[k], shot = *given;
+  carom_shot *source = &job->shots[k], shot = *source;
   carom_status played = (carom_status)job->status[k], look = CAROM_OK;
 
   /* The shot with all of its events; none of one whose arguments were refused. */
-  const bool kept = given->count <= given->room && given->events != NULL;
+  const bool has_events = source->count <= source->room && source->events != NULL;
   bool known = true;
-  if (given->count == 0 && played < 0 && !(given->time > 0.0)) {
+  if (source->count == 0 && played < 0 && !(source->time > 0.0)) {
     known = false;
-  } else if (!kept) {
-    carom_status again;
+  } else if (!has_events) {
+    carom_status repeat_status;
     shot.final = with->final;
-    if (!play_whole(with, k, &shot, &again))
+    if (!play_whole(with, k, &shot, &repeat_status))
       return false;
-    known = again == played && shot.count == given->count && shot.time == given->time &&
-            memcmp(with->final, given->final, count * sizeof *with->final) == 0;
+    known = repeat_status == played && shot.count == source->count && shot.time == source->time &&
+            memcmp(with->final, source->final, count * sizeof *with->final) == 0;
     look = known ? CAROM_OK : CAROM_ERROR_STATE;
   }
 
-  carom_ball_state *at = states != NULL ? &states[k * m * count] : with->states;
-  if (at != NULL) {
-    const carom_status late = look_at_times(with, k, known ? &shot : NULL, times, m, at);
+  carom_ball_state *target = states != NULL ? &states[k * m * count] : with->states;
+  if (target != NULL) {
+    const carom_status late = look_at_times(with, k, known ? &shot : NULL, times, m, target);
     look = look == CAROM_OK ? late : look;
   }
   for (size_t i = 0; positions != NULL && i < m * count; i++)
-    memcpy(&positions[3 * (k * m * count + i)], at[i].r, sizeof at[i].r);
+    memcpy(&positions[3 * (k * m * count + i)], target[i].r, sizeof target[i].r);
   status[k] = (int8_t)look;
   return true;
 }
@@ -176,14 +176,14 @@ bool carom_python_cues(const carom_python_game *game, size_t n, const double *ac
 }
 
 /* What a shot was by the rules, and the layout after it. */
-static void settle(const carom_python_game *game, const carom_shot_ball *before,
-                   const carom_shot *shot, int8_t status, carom_shot_ball *after,
+static void settle(const carom_python_game *game, const carom_shot_ball *previous,
+                   const carom_shot *shot, int8_t status, carom_shot_ball *next,
                    carom_python_stroke *stroke) {
   const size_t count = (size_t)game->balls;
   uint32_t in_play = 0;
   bool failed = status < 0;
   for (size_t i = 0; i < count; i++) {
-    const int64_t label = before[i].state.label;
+    const int64_t label = previous[i].state.label;
     in_play |= (uint32_t)(label != CAROM_BALL_POCKETED && label != CAROM_BALL_OFF) << i;
     failed |= shot->final[i].label == CAROM_BALL_OFF;
   }
@@ -193,12 +193,12 @@ static void settle(const carom_python_game *game, const carom_shot_ball *before,
       .time = shot->time, .foul = turn.foul, .status = status, .cleared = true};
 
   // A stroke that failed is taken back.
-  memcpy(after, before, count * sizeof *after);
+  memcpy(next, previous, count * sizeof *next);
   for (size_t i = 0; i < count; i++) {
     if (!failed)
-      after[i].state = shot->final[i];
-    const bool down = after[i].state.label == CAROM_BALL_POCKETED;
-    const bool falls = down && before[i].state.label != CAROM_BALL_POCKETED;
+      next[i].state = shot->final[i];
+    const bool down = next[i].state.label == CAROM_BALL_POCKETED;
+    const bool falls = down && previous[i].state.label != CAROM_BALL_POCKETED;
     stroke->scratch |= i == 0 && falls;
     stroke->potted += i > 0 && falls;
     stroke->cleared &= i == 0 || down;
@@ -209,7 +209,7 @@ static void settle(const carom_python_game *game, const carom_shot_ball *before,
 
 carom_status carom_python_strokes(const carom_python_game *game, size_t begin, size_t n,
                                   const carom_shot_ball *balls, size_t ball_stride,
-                                  const carom_cue *cues, size_t cue_stride, carom_shot_ball *after,
+                                  const carom_cue *cues, size_t cue_stride, carom_shot_ball *next,
                                   carom_python_stroke *strokes) {
   const size_t count = (size_t)game->balls;
   carom_shot *shots = calloc(n + 1, sizeof *shots);
@@ -235,7 +235,7 @@ carom_status carom_python_strokes(const carom_python_game *game, size_t begin, s
                                                .shots = shots,
                                                .status = status});
     for (size_t k = 0; k < n; k++)
-      settle(game, &balls[k * ball_stride], &shots[k], status[k], &after[(begin + k) * count],
+      settle(game, &balls[k * ball_stride], &shots[k], status[k], &next[(begin + k) * count],
              &strokes[begin + k]);
   }
   free(shots);
@@ -249,8 +249,8 @@ carom_status carom_python_strokes(const carom_python_game *game, size_t begin, s
 static const double gap = 1e-3;
 
 /* Whether a place is farther than `least` from another one. */
-static bool beyond(const double r[], const double other[], double least) {
-  const double x = r[0] - other[0], y = r[1] - other[1];
+static bool beyond(const double r[], const double place[], double least) {
+  const double x = r[0] - place[0], y = r[1] - place[1];
   return x * x + y * y > least * least;
 }
 
@@ -274,8 +274,8 @@ bool carom_python_free(const carom_python_game *game, const carom_shot_ball *bal
 }
 
 /* The next number of SplitMix64, from 0 to 1, without 1. */
-static double draw(uint64_t *at) {
-  uint64_t z = *at += 0x9e3779b97f4a7c15u;
+static double draw(uint64_t *state) {
+  uint64_t z = *state += 0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
   z ^= z >> 31;
@@ -429,27 +429,27 @@ static void roll(const carom_ball_kind *kind, double t, carom_ball_state *s) {
 /* Appends the way from a state to an end, whose state may be NULL: then it follows from the
  * motion. */
 static bool go(way *w, const carom_shot_ball *ball, double start, double end,
-               const carom_ball_state *to) {
-  carom_ball_state from = ball->state, there;
-  const bool cuts = ball->kind.drag > 0.0 && from.label == CAROM_BALL_ROLLING;
+               const carom_ball_state *target) {
+  carom_ball_state state = ball->state, next;
+  const bool cuts = ball->kind.drag > 0.0 && state.label == CAROM_BALL_ROLLING;
   const int parts =
       cuts && end - start > piece_most ? (int)fmin(ceil((end - start) / piece_most), 64.0) : 1;
   for (int k = 1; k <= parts; k++) {
-    const double since = (end - start) * k / parts;
+    const double elapsed = (end - start) * k / parts;
     if (k < parts) {
-      there = from;
-      roll(&ball->kind, (end - start) / parts, &there);
-    } else if (to == NULL) {
-      if (carom_shot_at(ball, 1, &(carom_shot){.time = since}, since, &there) < 0)
+      next = state;
+      roll(&ball->kind, (end - start) / parts, &next);
+    } else if (target == NULL) {
+      if (carom_shot_at(ball, 1, &(carom_shot){.time = elapsed}, elapsed, &next) < 0)
         return false;
     } else {
-      there = *to;
+      next = *target;
     }
     if (w->pieces == PIECES_MOST)
       return false;
     w->piece[w->pieces++] =
-        piece_of(start + (end - start) * (k - 1) / parts, &from, start + since, &there);
-    from = there;
+        piece_of(start + (end - start) * (k - 1) / parts, &state, start + elapsed, &next);
+    state = next;
   }
   return true;
 }
@@ -458,7 +458,7 @@ static bool go(way *w, const carom_shot_ball *ball, double start, double end,
 static void kick(const carom_table *table, const carom_event *e, const double k[KICKS],
                  carom_shot_ball *balls) {
   carom_ball_state *a = &balls[e->a].state, *b = &balls[e->b].state;
-  const carom_ball_state *from = &e->before[0], *to = &e->before[1];
+  const carom_ball_state *ball_state = &e->before[0], *partner_state = &e->before[1];
   const bool two = e->type == CAROM_EVENT_BALL_BALL;
   const double R = balls[e->a].kind.radius;
 
@@ -466,7 +466,7 @@ static void kick(const carom_table *table, const carom_event *e, const double k[
   double n[2];
   if (two) {
     for (int x = 0; x < 2; x++)
-      n[x] = to->r[x] - from->r[x];
+      n[x] = partner_state->r[x] - ball_state->r[x];
   } else {
     const carom_rail *rail = &table->rail[e->b];
     n[0] = rail->q[1] - rail->p[1];
@@ -476,11 +476,11 @@ static void kick(const carom_table *table, const carom_event *e, const double k[
   double closing = 0.0;
   for (int x = 0; x < 2; x++) {
     n[x] /= size;
-    closing += n[x] * (from->v[x] - (two ? to->v[x] : 0.0));
+    closing += n[x] * (ball_state->v[x] - (two ? partner_state->v[x] : 0.0));
   }
   for (int x = 0; x < 2 && !two && closing < 0.0; x++)
     n[x] = -n[x];
-  const double t[2] = {n[1], -n[0]}, V = two ? closing : hypot(from->v[0], from->v[1]);
+  const double t[2] = {n[1], -n[0]}, V = two ? closing : hypot(ball_state->v[0], ball_state->v[1]);
 
   for (int x = 0; x < 2; x++) {
     const double push = V * k[0] * n[x], throw = V * k[1] * t[x], lift = V / R * k[2] * t[x];
@@ -499,15 +499,15 @@ static void kick(const carom_table *table, const carom_event *e, const double k[
     b->w[2] += V / R * k[4];
 }
 
-/* Appends the ways up to some events of all balls, which are at `balls` at the times since[]. */
-static bool follow(const carom_event *events, int many, carom_shot_ball *balls, double *since,
+/* Appends the ways up to some events of all balls, which are at `balls` at the times starts[]. */
+static bool follow(const carom_event *events, int many, carom_shot_ball *balls, double *starts,
                    way *ways) {
   bool good = true;
   for (const carom_event *e = events; e < events + many; e++)
     for (int side = 0; side < (e->type == CAROM_EVENT_BALL_BALL ? 2 : 1); side++) {
       const int i = side == 0 ? e->a : e->b;
-      good = good && go(&ways[i], &balls[i], since[i], e->time, &e->before[side]);
-      since[i] = e->time;
+      good = good && go(&ways[i], &balls[i], starts[i], e->time, &e->before[side]);
+      starts[i] = e->time;
       balls[i].state = e->after[side];
     }
   return good;
@@ -524,7 +524,7 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
                          const double *strike, double end, carom_event *events, int *many,
                          way *ways) {
   const int count = tracks->count;
-  carom_shot_ball balls[CAROM_BALLS_MOST], now[CAROM_BALLS_MOST];
+  carom_shot_ball balls[CAROM_BALLS_MOST], current[CAROM_BALLS_MOST];
   carom_ball_state final[CAROM_BALLS_MOST];
   const size_t layout = (size_t)variant * (size_t)tracks->shots + (size_t)shot;
   memcpy(balls, &tracks->balls[layout * (size_t)count], (size_t)count * sizeof *balls);
@@ -535,10 +535,10 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
     struck->state.v[k] = strike[k];
   for (int k = 0; k < 3; k++)
     struck->state.w[k] = strike[2 + k] / struck->kind.radius;
-  memcpy(now, balls, (size_t)count * sizeof *now);
+  memcpy(current, balls, (size_t)count * sizeof *current);
 
   /* In parts: up to each contact that has kicks, from the states just after them. */
-  double since[CAROM_BALLS_MOST] = {0}, begin = 0.0;
+  double starts[CAROM_BALLS_MOST] = {0}, begin = 0.0;
   carom_shot_options options = *tracks->options;
   end = end > 1e-3 ? end : 1e-3;
   bool good = true;
@@ -553,7 +553,7 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
     options.time_most = end - begin;
     carom_event *first = &events[*many];
     carom_shot played = {.events = first, .room = EVENTS_MOST - *many, .final = final};
-    const carom_status status = carom_shoot(tracks->table, now, count, NULL, &options, &played);
+    const carom_status status = carom_shoot(tracks->table, current, count, NULL, &options, &played);
     if (status < 0)
       return status;
     if (played.count > played.room)
@@ -563,39 +563,39 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
       contact += parts && is_contact(&first[e]);
     }
     *many += (int)played.count;
-    good = good && follow(first, (int)played.count, balls, since, ways);
+    good = good && follow(first, (int)played.count, balls, starts, ways);
     begin += played.time;
     if (status != CAROM_STOPPED_AT_EVENT || begin >= end)
       break;
 
     /* The kicks of the last contact; its balls go on with them, on all other ways nothing ends. */
     for (int i = 0; i < count; i++)
-      now[i].state = final[i];
+      current[i].state = final[i];
     const carom_event *last = &events[*many - 1];
     if (contact > tracks->kicks)
       continue;
-    kick(tracks->table, last, &strike[STRIKE + KICKS * (contact - 1)], now);
-    balls[last->a].state = now[last->a].state;
+    kick(tracks->table, last, &strike[STRIKE + KICKS * (contact - 1)], current);
+    balls[last->a].state = current[last->a].state;
     if (last->type == CAROM_EVENT_BALL_BALL)
-      balls[last->b].state = now[last->b].state;
+      balls[last->b].state = current[last->b].state;
   }
 
   /* What follows a ball's last event goes to the end of the time. */
   for (int i = 0; i < count; i++)
-    good = good && go(&ways[i], &balls[i], since[i], end, NULL);
+    good = good && go(&ways[i], &balls[i], starts[i], end, NULL);
   return good ? CAROM_OK : CAROM_ERROR_ROOM;
 }
 
-static void copy(way *to, const way *from) {
-  to->pieces = from->pieces;
-  memcpy(to->piece, from->piece, (size_t)from->pieces * sizeof *from->piece);
+static void copy(way *target, const way *source) {
+  target->pieces = source->pieces;
+  memcpy(target->piece, source->piece, (size_t)source->pieces * sizeof *source->piece);
 }
 
 /* The place at a time; *at is the piece of the last call, for times that increase. */
-static void place(const way *w, double time, int *at, double r[2]) {
-  while (*at + 1 < w->pieces && w->piece[*at + 1].start <= time)
-    ++*at;
-  const piece *p = &w->piece[*at];
+static void place(const way *w, double time, int *index, double r[2]) {
+  while (*index + 1 < w->pieces && w->piece[*index + 1].start <= time)
+    ++*index;
+  const piece *p = &w->piece[*index];
   const double s = time > p->start ? time - p->start : 0.0;
   for (int k = 0; k < 2; k++)
     r[k] = p->c[0][k] + s * (p->c[1][k] + s * (p->c[2][k] + s * p->c[3][k]));
@@ -603,25 +603,25 @@ static void place(const way *w, double time, int *at, double r[2]) {
 
 /* Adds up the sums of a play. ways[0 ... count - 1] are those of the play itself, with start[0]
  * the strike's time; with `plays` above 1, the next `count` are those with the first number
- * changed by step[0], which changes nothing before from[0] on the play's clock, and so on. */
+ * changed by step[0], which changes nothing before onset[0] on the play's clock, and so on. */
 static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *ways,
-                   const double *start, int plays, const double *step, const double *from,
-                   double until, double *sums) {
+                   const double *start, int plays, const double *step, const double *onset,
+                   double end, double *sums) {
   const int count = tracks->count;
   const double c2 = tracks->huber * tracks->huber;
   double *gradient = &sums[3], *square = &gradient[plays - 1];
   memset(sums, 0, (size_t)(3 + (plays - 1) + (plays - 1) * plays / 2) * sizeof *sums);
   for (int i = 0; i < count; i++) {
     const int64_t *first = &tracks->first[(size_t)shot * (size_t)count + (size_t)i];
-    int at[PLAYS_MOST] = {0};
+    int indices[PLAYS_MOST] = {0};
     for (int64_t m = first[0]; m < first[1]; m += tracks->stride) {
       const double *sample = &tracks->samples[3 * m];
-      if (sample[0] > until)
+      if (sample[0] > end)
         break;
 
       /* The distance and its cost; 1 / root is its weight. */
       double d[2], r[2], J[PLAYS_MOST][2];
-      place(&ways[i], sample[0] - start[0], &at[0], r);
+      place(&ways[i], sample[0] - start[0], &indices[0], r);
       for (int k = 0; k < 2; k++)
         d[k] = r[k] - sample[1 + k];
       const double size = d[0] * d[0] + d[1] * d[1];
@@ -635,10 +635,10 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
       int live[PLAYS_MOST], lives = 0;
       for (int a = 0; a + 1 < plays; a++) {
         double moved[2];
-        if (sample[0] - start[0] < from[a])
+        if (sample[0] - start[0] < onset[a])
           continue;
         live[lives++] = a;
-        place(&ways[(a + 1) * count + i], sample[0] - start[a + 1], &at[a + 1], moved);
+        place(&ways[(a + 1) * count + i], sample[0] - start[a + 1], &indices[a + 1], moved);
         for (int k = 0; k < 2; k++)
           J[a][k] = (moved[k] - r[k]) / step[a];
       }
@@ -658,19 +658,19 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
 /* When each of the numbers of a strike and its kicks begins to change a play, on its clock: its
  * contact, or never. */
 static void begins(const carom_python_tracks *tracks, const carom_event *events, int many,
-                   double *from) {
+                   double *onset) {
   const int kicks = KICKS * tracks->kicks;
   for (int d = 0; d < STRIKE + kicks + tracks->constants; d++)
-    from[d] = d < STRIKE || d >= STRIKE + kicks ? -HUGE_VAL : HUGE_VAL;
+    onset[d] = d < STRIKE || d >= STRIKE + kicks ? -HUGE_VAL : HUGE_VAL;
   int contact = 0;
   for (int e = 0; e < many && contact < tracks->kicks; e++)
     if (is_contact(&events[e]))
       for (int k = KICKS * contact++; k < KICKS * contact; k++)
-        from[STRIKE + k] = events[e].time;
+        onset[STRIKE + k] = events[e].time;
 }
 
-carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *of,
-                                 const double *strikes, const double *until, const double *most,
+carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *shots,
+                                 const double *strikes, const double *ends, const double *most,
                                  double *sums) {
   if (tracks->constants > CONSTANTS_MOST || tracks->kicks > KICKED_MOST)
     return CAROM_ERROR_NULL;
@@ -682,19 +682,19 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
   const bool room = events != NULL && ways != NULL;
   for (size_t k = 0; k < n && room; k++, strikes += free_numbers, sums += size) {
     /* The play itself, */
-    double start[PLAYS_MOST], step[PLAYS_MOST], from[PLAYS_MOST];
+    double start[PLAYS_MOST], step[PLAYS_MOST], onset[PLAYS_MOST];
     int many;
     start[0] = strikes[5];
     memset(sums, 0, (size_t)size * sizeof *sums);
-    if (play(tracks, of[k], 0, strikes, until[k] - start[0], events, &many, ways) < 0) {
+    if (play(tracks, shots[k], 0, strikes, ends[k] - start[0], events, &many, ways) < 0) {
       sums[0] = sums[1] = HUGE_VAL;
       continue;
     }
-    add_up(tracks, of[k], ways, start, 1, step, from, until[k], sums);
+    add_up(tracks, shots[k], ways, start, 1, step, onset, ends[k], sums);
 
     /* and, where it is good enough, those beside it. */
     bool good = sums[0] < most[k];
-    begins(tracks, events, many, from);
+    begins(tracks, events, many, onset);
     for (int d = 0; d < numbers && good; d++) {
       double strike[STRIKE + KICKS * KICKED_MOST];
       memcpy(strike, strikes, (size_t)free_numbers * sizeof *strike);
@@ -702,7 +702,7 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
       if (d < free_numbers)
         strike[d] += step[d];
       start[d + 1] = strike[5];
-      if (from[d] == HUGE_VAL)
+      if (onset[d] == HUGE_VAL)
         continue;
       if (d == STRIKE - 1) {
         /* struck later, the balls go the same way */
@@ -710,11 +710,11 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
           copy(&ways[(d + 1) * count + i], &ways[i]);
         continue;
       }
-      good = play(tracks, of[k], d < free_numbers ? 0 : 1 + d - free_numbers, strike,
-                  until[k] - start[d + 1], events, &many, &ways[(d + 1) * count]) >= 0;
+      good = play(tracks, shots[k], d < free_numbers ? 0 : 1 + d - free_numbers, strike,
+                  ends[k] - start[d + 1], events, &many, &ways[(d + 1) * count]) >= 0;
     }
     if (good)
-      add_up(tracks, of[k], ways, start, 1 + numbers, step, from, until[k], sums);
+      add_up(tracks, shots[k], ways, start, 1 + numbers, step, onset, ends[k], sums);
   }
   free(events);
   free(ways);
@@ -722,18 +722,18 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
 }
 
 carom_status carom_python_kicked(const carom_python_tracks *tracks, int32_t shot,
-                                 const double *strike, double until, size_t n, const double *times,
+                                 const double *strike, double end, size_t n, const double *times,
                                  carom_event *events, int32_t *many, double *places) {
   way *ways = malloc((size_t)tracks->count * sizeof *ways);
   int happened = 0;
   carom_status status = CAROM_ERROR_NULL;
   if (ways != NULL)
-    status = play(tracks, shot, 0, strike, until - strike[5], events, &happened, ways);
+    status = play(tracks, shot, 0, strike, end - strike[5], events, &happened, ways);
   *many = happened;
   for (int i = 0; i < tracks->count && status >= 0; i++) {
-    int at = 0;
+    int index = 0;
     for (size_t k = 0; k < n; k++)
-      place(&ways[i], times[k] - strike[5], &at, &places[2 * ((size_t)i * n + k)]);
+      place(&ways[i], times[k] - strike[5], &index, &places[2 * ((size_t)i * n + k)]);
   }
   free(ways);
   return status;

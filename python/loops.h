@@ -50,12 +50,12 @@ bool carom_python_cues(const carom_python_game *game, size_t n, const double *ac
                        const uint64_t *seeds, carom_cue *cues);
 
 /* Plays the strokes `begin` up to, without it, begin + n, and judges them. Stroke k is of
- * balls[k * ball_stride ...] and cues[k * cue_stride]. after[k * balls ...] becomes the layout
+ * balls[k * ball_stride ...] and cues[k * cue_stride]. next[k * balls ...] becomes the layout
  * after it: that before it, where it ended in an error or a ball left the table. Returns what
  * carom_shoot_batch() does, or CAROM_ERROR_NULL without memory. */
 carom_status carom_python_strokes(const carom_python_game *game, size_t begin, size_t n,
                                   const carom_shot_ball *balls, size_t ball_stride,
-                                  const carom_cue *cues, size_t cue_stride, carom_shot_ball *after,
+                                  const carom_cue *cues, size_t cue_stride, carom_shot_ball *next,
                                   carom_python_stroke *strokes);
 
 /* Whether the first `many` balls of a layout are clear of each other and of the others in play, by
@@ -114,10 +114,10 @@ typedef struct carom_python_tracks {
                      d, m; 0: the sum of d^2 */
 } carom_python_tracks;
 
-/* How far n plays are from what was recorded. Play k is of shot of[k] by the strike strikes[(6 +
+/* How far n plays are from what was recorded. Play k is of shot shots[k] by the strike strikes[(6 +
  * 5 kicks) k ...]: v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike,
  * the strike's time (s), and five kicks of each of the first contacts; samples up to the time
- * until[k] count.
+ * ends[k] count.
  *
  * Kicks are changes of the motion just after a contact, over the speed V before it. Of a ball at a
  * cushion, with n into it and t = (n_y, -n_x): velocity along t and away from it, roll along t and
@@ -132,8 +132,8 @@ typedef struct carom_python_tracks {
  * nearby, J is by forward differences, of the strike, the kicks and then the constants. A play
  * that ends in an error has infinite cost. Returns CAROM_OK, or CAROM_ERROR_NULL without memory or
  * for too many numbers. */
-carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *of,
-                                 const double *strikes, const double *until, const double *most,
+carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *shots,
+                                 const double *strikes, const double *ends, const double *most,
                                  double *sums);
 
 /* One such play: its events, 400 of them at most, whose states `after` are those before kicks,
@@ -141,7 +141,7 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
  * times times[k], ascending, of the recording's clock. The status is that of the play;
  * CAROM_ERROR_ROOM: it has too many events. */
 carom_status carom_python_kicked(const carom_python_tracks *tracks, int32_t shot,
-                                 const double *strike, double until, size_t n, const double *times,
+                                 const double *strike, double end, size_t n, const double *times,
                                  carom_event *events, int32_t *many, double *places);
 
 #endif

@@ -13,8 +13,8 @@ def dynamic_metadata(settings: Mapping[str, Any], project: Mapping[str, Any]) ->
     """The field "version", read from carom.h: in library/ in an archive of the sources, else beside
     this folder.
     """
-    here = Path(__file__).parent
-    library = here / "library" if (here / "library").is_dir() else here.parent
+    folder = Path(__file__).parent
+    library = folder / "library" if (folder / "library").is_dir() else folder.parent
     header = (library / "include" / "carom.h").read_text(encoding="utf-8")
     numbers = dict(
         re.findall(r"^#define CAROM_VERSION_(MAJOR|MINOR|PATCH) +(\d+)$", header, re.MULTILINE)

@@ -25,8 +25,8 @@ for ball, (way, state) in enumerate(zip(ways, shot.final)):
     touched = contacts[(contacts["a"] == ball) | (contacts["b"] == ball)]
     first = "meets no ball"
     if len(touched):
-        other = int(touched["b"][0] if touched["a"][0] == ball else touched["a"][0])
-        first = f"meets {other or 'cue'} after {touched['time'][0]:.3f} s"
+        partner = int(touched["b"][0] if touched["a"][0] == ball else touched["a"][0])
+        first = f"meets {partner or 'cue'} after {touched['time'][0]:.3f} s"
     end = (
         "is potted"
         if state["label"] == carom.Label.POCKETED

@@ -14,11 +14,11 @@ from __future__ import annotations
 import argparse
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 import carom
 
-Doubles = npt.NDArray[np.float64]
+Doubles = NDArray[np.float64]
 TABLE = carom.tables.pool_9ft()
 BALLS = carom.balls([[0.34, 1.21], [0.52, 1.47]])
 VARIED = ["cue.speed", "cue.b"]
@@ -53,9 +53,9 @@ def main() -> None:
     )
     parser.add_argument("--goal", default="0.17,1.18", help="where the cue ball is to rest, m")
     parser.add_argument("--steps", type=int, default=3)
-    given = parser.parse_args()
-    goal = np.array([float(part) for part in given.goal.split(",")])
-    for step, (x, miss) in enumerate(solve(goal, np.array([1.8, 0.0]), given.steps)):
+    options = parser.parse_args()
+    goal = np.array([float(part) for part in options.goal.split(",")])
+    for step, (x, miss) in enumerate(solve(goal, np.array([1.8, 0.0]), options.steps)):
         print(
             f"step {step}: speed {x[0]:.4f} m/s, tip {x[1]:+.4f} R, the cue ball rests {1000 * miss:.2f} mm from its goal"
         )

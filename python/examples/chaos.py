@@ -39,11 +39,11 @@ while len(found) < 2000:
     tangents = carom.tangents(shot, ["cue.phi"])
     found.append((contacts, np.hypot(*tangents.final["r"][..., 0].T)))  # m per degree
 
-contacts, d = (np.concatenate(one) for one in zip(*found, strict=True))
+contacts, d = (np.concatenate(values) for values in zip(*found, strict=True))
 balls = [d[(contacts == n) & (d > 0)] for n in range(1, 6)]
-medians = [np.median(one) for one in balls]
-for n, (one, median) in enumerate(zip(balls, medians, strict=True), 1):
-    print(f"{n} contacts: {len(one)} balls, median {median:.3g} m per degree")
+medians = [np.median(values) for values in balls]
+for n, (values, median) in enumerate(zip(balls, medians, strict=True), 1):
+    print(f"{n} contacts: {len(values)} balls, median {median:.3g} m per degree")
 assert (
     all(later > 1.5 * sooner for sooner, later in zip(medians, medians[1:], strict=False))
     and medians[3] > 100 * medians[0]

@@ -32,8 +32,8 @@ print(
 assert kick.any() and not (kick & ~potted).any()
 
 # The easiest kick is in the middle of the widest window of directions.
-near = np.stack([np.convolve(row, np.ones(21), "same") for row in kick]) * kick
-best = np.unravel_index(near.argmax(), near.shape)
+neighborhood = np.stack([np.convolve(row, np.ones(21), "same") for row in kick]) * kick
+best = np.unravel_index(neighborhood.argmax(), neighborhood.shape)
 shot = carom.simulate(table, layout, cues[best])
 print(
     f"{cues['speed'][best]:g} m/s at {cues['phi'][best]:.2f} degrees, after {facts.cushions_before[best][0]} cushions"

@@ -29,11 +29,14 @@ for away in (0.3, 0.6, 0.9):
         # From the contact to the next one of the cue ball, with a rail or with a ball that comes
         # back.
         types, a = shot.events["type"], shot.events["a"]
-        met, *later = shot.events[
+        hit_ball, *later = shot.events[
             (types == carom.EventType.BALL_BALL) | ((types == carom.EventType.RAIL) & (a == 0))
         ]
         end = later[0]["time"] if later else shot.time
-        way = shot.positions(np.linspace(met["time"], end, 400))[:, 0, 1] - met["before"][0]["r"][1]
+        way = (
+            shot.positions(np.linspace(hit_ball["time"], end, 400))[:, 0, 1]
+            - hit_ball["before"][0]["r"][1]
+        )
         back.append(max(0.0, -way.min()))  # the farthest behind the contact, m
     print(
         f"object ball {away:.1f} m away: {back[0]:.2f} m back with the tip at {tips[0]:.1f} R, {back[-1]:.2f} m with a centre hit"

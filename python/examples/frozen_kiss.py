@@ -28,8 +28,8 @@ layout, cue = (
 shots = {}
 for how in ("cluster", "pairs"):
     shot = shots[how] = carom.simulate(table, layout, cue, simultaneous=how)
-    at = shot.events["time"][shot.events["type"] == carom.EventType.BALL_BALL][0] + 0.01
-    v = shot.states([at])["v"][0, :, :2]
+    contact_time = shot.events["time"][shot.events["type"] == carom.EventType.BALL_BALL][0] + 0.01
+    v = shot.states([contact_time])["v"][0, :, :2]
     print(
         f"{how:8s} ball 1 at {np.degrees(np.arctan2(*v[1][::-1])):6.1f} degrees, ball 2 at {np.degrees(np.arctan2(*v[2][::-1])):5.1f} degrees"
     )

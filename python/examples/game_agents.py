@@ -26,7 +26,7 @@ from typing import Any, cast
 
 import gymnasium
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 import carom
 from carom.games.drills import Break, ThreeCushion
@@ -34,7 +34,7 @@ from carom.games.gymnasium import GAMES, GameEnv, Rules
 from carom.games.matches import Match
 from carom.games.pool import Hand
 
-Doubles = npt.NDArray[np.float64]
+Doubles = NDArray[np.float64]
 Agent = Callable[[Rules, Doubles], Doubles]
 
 SPEEDS = np.array([1.5, 2.5, 4.0])  # m/s, of the cue
@@ -72,11 +72,11 @@ def candidates(rules: Rules, observation: Doubles) -> Doubles:
     """Actions to try, of shape (aims, speeds, sides, acts)."""
     base = rules.pool.base if isinstance(rules, Match) else rules
     seen = observation[: 3 * base.balls + 3].reshape(-1, 3)
-    on = np.flatnonzero(seen[1:, 2]) + 1
+    targets = np.flatnonzero(seen[1:, 2]) + 1
     speeds, sides, hand = SPEEDS, SIDES, Hand.NOWHERE
     if isinstance(rules, Match):
         position = rules.seen(observation)
-        on, hand = np.array(rules.pool.on(position)), position.hand
+        targets, hand = np.array(rules.pool.on(position)), position.hand
     elif isinstance(rules, Break):
         hand = Hand.BEHIND
     if isinstance(rules, ThreeCushion):
@@ -88,7 +88,7 @@ def candidates(rules: Rules, observation: Doubles) -> Doubles:
         )
     # A cue ball in hand is tried at some places; a break goes straight at the nearest ball.
     places = {Hand.NOWHERE: np.zeros((1, 2)), Hand.BEHIND: BEHIND, Hand.ANYWHERE: ANYWHERE}[hand]
-    made = []
+    candidate_rows = []
     for place in places:
         cue_ball = seen[0, :2]
         if hand:
@@ -96,7 +96,7 @@ def candidates(rules: Rules, observation: Doubles) -> Doubles:
                 rules.pool.area(hand) if isinstance(rules, Match) else cast(Break, rules).corners()
             )
             cue_ball = area[0] + (area[1] - area[0]) * (place + 1.0) / 2.0
-        balls = seen[on, :2]
+        balls = seen[targets, :2]
         if hand is Hand.BEHIND:
             nearest = balls[np.hypot(*(balls - cue_ball).T).argmin()] - cue_ball
             aims, speeds = (
@@ -108,12 +108,12 @@ def candidates(rules: Rules, observation: Doubles) -> Doubles:
         strokes = base.actions(
             *np.broadcast_arrays(aims[:, np.newaxis, np.newaxis] + sides, speeds[:, np.newaxis])
         )
-        made.append(
+        candidate_rows.append(
             np.concatenate([strokes, np.broadcast_to(place, (*strokes.shape[:-1], 2))], axis=-1)[
                 ..., : rules.acts
             ]
         )
-    return np.concatenate(made)
+    return np.concatenate(candidate_rows)
 
 
 def greedy_agent(rules: Rules, observation: Doubles) -> Doubles:
@@ -188,32 +188,32 @@ def main(arguments: list[str] | None = None) -> dict[str, Doubles]:
         default="potting.svg",
         help="the picture of the greedy agent's best stroke in the last game",
     )
-    given = parser.parse_args(arguments)
-    own = {
-        name: getattr(given, name)
+    options = parser.parse_args(arguments)
+    settings = {
+        name: getattr(options, name)
         for name in ("balls", "strokes")
-        if getattr(given, name) is not None
+        if getattr(options, name) is not None
     }
-    agents = {"random": random_agent(given.seed), "greedy": greedy_agent}
+    agents = {"random": random_agent(options.seed), "greedy": greedy_agent}
     agents |= {
         f"plan of {shots} shots": planner(int(shots))
-        for shots in filter(None, given.plans.split(","))
+        for shots in filter(None, options.plans.split(","))
     }
     every = [name for name in GAMES if name != "carom/Potting-v1"]
-    games = every if given.game == "all" else [given.game]
+    games = every if options.game == "all" else [options.game]
     found: dict[str, Doubles] = {}
     cells: dict[str, list[str]] = {name: [name] for name in agents}
     for game in games:
-        rules = own | {"cushion_model": given.cushion}
+        rules = settings | {"cushion_model": options.cushion}
         most = most_of(GameEnv(**(GAMES[game] | rules)).rules)
         for name, agent in agents.items():
-            found[name], picture = play(agent, game, given.games, given.seed, **rules)
+            found[name], picture = play(agent, game, options.games, options.seed, **rules)
             cells[name].append(score(found[name], most))
             print(f"{game}, {name}: {cells[name][-1]}", file=sys.stderr)
             if name == "greedy":
-                Path(given.out).write_text(picture, encoding="utf-8")
+                Path(options.out).write_text(picture, encoding="utf-8")
     print(
-        f"Means of {given.games} games, seed {given.seed}; in brackets how many were perfect. {given.out} has a stroke of the greedy agent.\n"
+        f"Means of {options.games} games, seed {options.seed}; in brackets how many were perfect. {options.out} has a stroke of the greedy agent.\n"
     )
     print(
         "\n".join(

@@ -23,7 +23,7 @@ MATCHES = "nineball", "eightball"
 OTHERS = {"carom/Potting-v1": {"balls": 5, "strokes": 5}}
 
 
-def made(name: str, threads: int) -> Any:
+def make_game(name: str, threads: int) -> Any:
     """The games of an environment; None for threads and matches, which take none."""
     is_match = carom.gymnasium.GAMES[name].get("game") in MATCHES
     if is_match and threads:
@@ -51,7 +51,7 @@ def main() -> None:
         (name, max(threads, 1), games)
         for name in carom.gymnasium.GAMES
         for threads in (0, 2)
-        if (games := made(name, threads))
+        if (games := make_game(name, threads))
     ]
     times = np.array(
         [

@@ -38,8 +38,8 @@ def by_hand(stroke: Any) -> tuple[float, Any]:
 
 def library(name: str) -> Callable[[Any], Any]:
     """What gives values and gradients of strokes (..., 2)."""
-    final, of = importlib.import_module(f"carom.{name}").final, importlib.import_module(name)
-    goal = GOAL if name == "jax" else of.from_numpy(GOAL)
+    final, module = importlib.import_module(f"carom.{name}").final, importlib.import_module(name)
+    goal = GOAL if name == "jax" else module.from_numpy(GOAL)
 
     def miss(strokes: Any) -> Any:
         ends = final(
@@ -48,22 +48,27 @@ def library(name: str) -> Callable[[Any], Any]:
         return ((ends.r[..., 1, :] - goal) ** 2).sum(-1)
 
     def by_torch(strokes: Any) -> Any:
-        x = of.from_numpy(strokes).requires_grad_()
+        x = module.from_numpy(strokes).requires_grad_()
         values = miss(x)
         values.sum().backward()
         return values, x.grad
 
     if name == "torch":
         return by_torch
-    of.config.update("jax_enable_x64", True)
-    alone, mapped = of.jit(of.value_and_grad(miss)), of.jit(of.vmap(of.value_and_grad(miss)))
-    return lambda strokes: of.block_until_ready((alone if strokes.ndim == 1 else mapped)(strokes))
+    module.config.update("jax_enable_x64", True)
+    alone, mapped = (
+        module.jit(module.value_and_grad(miss)),
+        module.jit(module.vmap(module.value_and_grad(miss))),
+    )
+    return lambda strokes: module.block_until_ready(
+        (alone if strokes.ndim == 1 else mapped)(strokes)
+    )
 
 
-def spent(play: Callable[[Any], Any], given: Any, count: int) -> float:
+def spent(play: Callable[[Any], Any], argument: Any, count: int) -> float:
     """Processor time of a stroke, us."""
     begin = time.process_time()
-    for each in given:
+    for each in argument:
         play(each)
     return 1e6 * (time.process_time() - begin) / count
 
@@ -77,19 +82,19 @@ def main() -> None:
     for stroke, *found in zip(few, *play(few)):
         for expected, *others in zip(by_hand(stroke), found, play(stroke)):
             np.testing.assert_allclose(
-                [np.array(other.tolist()) for other in others], [expected] * 2, rtol=1e-9
+                [np.array(values.tolist()) for values in others], [expected] * 2, rtol=1e-9
             )
 
-    def batch(given: Any) -> Any:
-        return carom.jacobian(TABLE, BALLS, carom.cue(speed=given[:, 0], phi=given[:, 1]), NAMES)  # noqa: E731
+    def batch(points: Any) -> Any:
+        return carom.jacobian(TABLE, BALLS, carom.cue(speed=points[:, 0], phi=points[:, 1]), NAMES)  # noqa: E731
 
-    for name, ours, given, count in (
+    for name, ours, argument, count in (
         ("one", by_hand, few, 50),
         ("batch of 50", batch, [few], 50),
         ("batch of 2000", batch, [STROKES], 2000),
     ):
         times = np.array(
-            [[spent(each, given, count) for each in (ours, play)] for _ in range(rounds)]
+            [[spent(each, argument, count) for each in (ours, play)] for _ in range(rounds)]
         )
         ratio = np.median(times[:, 1] / times[:, 0])
         print(

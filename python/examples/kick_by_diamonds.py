@@ -31,9 +31,9 @@ def kick(start: float, first: float, **numbers: Any) -> tuple[carom.Shot, float,
     """The shot from a start to a number of the first rail, and its places on the third and the
     fourth: NaN where it meets others.
     """
-    at = np.array([0.2 * DIAMOND, max(2 * (5 - start), 0.2) * DIAMOND])
-    phi = np.degrees(np.arctan2(*(np.array([table.width, (8 - first) * DIAMOND]) - at)[::-1]))
-    layout = carom.balls([at], game="billiard", **numbers)
+    point = np.array([0.2 * DIAMOND, max(2 * (5 - start), 0.2) * DIAMOND])
+    phi = np.degrees(np.arctan2(*(np.array([table.width, (8 - first) * DIAMOND]) - point)[::-1]))
+    layout = carom.balls([point], game="billiard", **numbers)
     shot = carom.simulate(
         table, layout, carom.cue(speed=3.0, phi=phi, a=0.3, b=0.2, game="billiard")
     )
@@ -56,8 +56,8 @@ def through_two(start: float, **numbers: Any) -> list[float]:
     """The number of the first rail with which the third is met at 2, and the place on the fourth."""
     firsts = np.linspace(start - 2.2, start - 1.4, 9)
     third, fourth = np.transpose([kick(start, first, **numbers)[1:] for first in firsts])
-    met = np.isfinite(third)
-    return [float(np.interp(-2.0, -third[met], values[met])) for values in (firsts, fourth)]
+    hits = np.isfinite(third)
+    return [float(np.interp(-2.0, -third[hits], values[hits])) for values in (firsts, fourth)]
 
 
 for name, numbers in ("2022", {}), ("2017", {"restitution_cushion": 0.753, "mu_cushion": 0.238}):

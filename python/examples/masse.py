@@ -32,14 +32,14 @@ good = (shots.status == 0) & (seen.contact[..., 0] == 2) & (seen.cushions_before
 runs = np.zeros(good.shape, int)  # neighbouring directions that succeed, counted from the left
 for k in range(len(aims)):
     runs[:, k] = np.where(good[:, k], (runs[:, k - 1] if k else 0) + 1, 0)
-which, last = np.unravel_index(runs.argmax(), runs.shape)
-widest = runs[which, last]
+row, last = np.unravel_index(runs.argmax(), runs.shape)
+widest = runs[row, last]
 aim = aims[last - widest // 2]
 print(f"{good.sum()} of {good.size} strokes hit the ball behind")
-print(f"at {speeds[which]:.1f} m/s those of {widest * 0.25:.2f} degrees around {aim:.2f} do")
+print(f"at {speeds[row]:.1f} m/s those of {widest * 0.25:.2f} degrees around {aim:.2f} do")
 
 shot = carom.simulate(
-    table, balls, carom.cue(speed=speeds[which], phi=aim, theta=60.0, tip=(-0.45, -0.2))
+    table, balls, carom.cue(speed=speeds[row], phi=aim, theta=60.0, tip=(-0.45, -0.2))
 )
 way = shot.positions(
     np.linspace(0.0, shot.events["time"][shot.events["type"] == carom.EventType.BALL_BALL][0], 200)

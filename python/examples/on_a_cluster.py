@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 import carom
 
@@ -37,7 +37,7 @@ class Part(NamedTuple):
 
 
 Summary = tuple[
-    bytes, npt.NDArray[np.int64]
+    bytes, NDArray[np.int64]
 ]  # of a part: digest of the final states, and how many shots potted 0, 1, ... balls
 
 
@@ -116,9 +116,9 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--shots", type=int, default=100_000)
     parser.add_argument("--parts", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
-    given = parser.parse_args(arguments)
-    sizes = np.diff(np.linspace(0, given.shots, given.parts + 1).astype(int))
-    parts = [Part(given.seed, k, int(size), given.threads) for k, size in enumerate(sizes)]
+    options = parser.parse_args(arguments)
+    sizes = np.diff(np.linspace(0, options.shots, options.parts + 1).astype(int))
+    parts = [Part(options.seed, k, int(size), options.threads) for k, size in enumerate(sizes)]
 
     together, potted, begun, first, skipped = (
         hashlib.sha256(),
@@ -127,15 +127,15 @@ def main(arguments: list[str] | None = None) -> None:
         0.0,
         len(parts),
     )
-    for k, (digest, down) in enumerate(WAYS[given.by](parts, given.workers, given.address)):
+    for k, (digest, down) in enumerate(WAYS[options.by](parts, options.workers, options.address)):
         # the first summaries come when processes have started and libraries are loaded: the rate is
         # that of the others
-        if k == (0 if given.by == "local" else given.workers - 1):
+        if k == (0 if options.by == "local" else options.workers - 1):
             first, skipped = time.monotonic(), k + 1
         together.update(digest)
         potted += down
     ended = time.monotonic()
-    print(f"{given.shots} breaks by {given.by} in {ended - begun:.2f} s", end="")
+    print(f"{options.shots} breaks by {options.by} in {ended - begun:.2f} s", end="")
     print(
         f"; once all workers run {sizes[skipped:].sum() / (ended - first):.0f} shots/s"
         if len(parts) > skipped

@@ -31,20 +31,20 @@ class Easiest:
     def decide(self, system: Any, game: Any, callback: Any = None) -> Any:
         """The stroke, with errors. Ball in hand stays where pooltool has put it."""
         cue, table, constraints = system.balls["cue"], system.table, game.shot_constraints
-        on = [
+        targets = [
             system.balls[name]
             for name in constraints.hittable
             if name in system.balls and system.balls[name].state.s != pt.constants.pocketed
         ]
-        on.sort(key=lambda ball: np.linalg.norm(ball.xyz - cue.xyz))
-        ball, pocket, speed = on[0], None, 8.0
+        targets.sort(key=lambda ball: np.linalg.norm(ball.xyz - cue.xyz))
+        ball, pocket, speed = targets[0], None, 8.0
         if game.shot_number > 0:
             speed = 2.5
             ball, pocket = next(
                 (
-                    (its, hole)
-                    for its in on
-                    if (hole := pt.pot.pick_easiest_pot(system, its)) is not None
+                    (target, hole)
+                    for target in targets
+                    if (hole := pt.pot.pick_easiest_pot(system, target)) is not None
                 ),
                 (ball, None),
             )
@@ -115,13 +115,13 @@ def main() -> None:
         "--errors", type=float, default=1.0, help="of both players, as for carom.player"
     )
     parser.add_argument("--shots", type=int, default=1000, help="of a plan")
-    given = parser.parse_args()
-    player = carom.player(given.errors)
+    options = parser.parse_args()
+    player = carom.player(options.errors)
     agents = [
-        carom.pooltool.Agent(player, shots=given.shots, seed=given.seed),
-        Easiest(player, given.seed + 1),
+        carom.pooltool.Agent(player, shots=options.shots, seed=options.seed),
+        Easiest(player, options.seed + 1),
     ]
-    game, lines = play(given.game, agents, given.seed)
+    game, lines = play(options.game, agents, options.seed)
     print("\n".join(lines))
     winner = game.shot_info.winner
     print("no winner" if winner is None else f"{winner.name} has won after {len(lines)} strokes")

@@ -6,9 +6,10 @@ pooltool and by carom in one process.
 
 Both play the same Systems, and it is checked first that their events and histories agree. Every
 time is processor time after both are warm. The first three rows are means of 30 different Systems,
-each on a table of its own and played once; the fourth is what a stroke that meets nothing costs.
-The others are of one break of nine-ball: the least of REPEATS plays (default 30; pooltool: a fifth
-as many), with the memory and the table of the last play at hand. Needs pooltool 0.6.
+at most REPEATS, each on a table of its own and played once; the fourth is what a stroke that meets
+nothing costs. The others are of one break of nine-ball: the least of REPEATS plays (default 30;
+pooltool: a fifth as many), with the memory and the table of the last play at hand. Needs pooltool
+0.6.
 
 Notebooks, such as those of docs/examples of pooltool's repository, are run by both, without
 pictures of plotly: pooltool.simulate is replaced. Told are its calls and the processor time of
@@ -45,9 +46,9 @@ def opening(game: Any, seed: int, speed: float) -> Any:
     np.random.seed(seed)
     table = pooltool.Table.from_game_type(game)
     balls = pooltool.get_rack(game, table, spacing_factor=1e-3)
-    first, other = ("cue", "1") if "cue" in balls else ("white", "red")
+    first, second = ("cue", "1") if "cue" in balls else ("white", "red")
     system = pooltool.System(cue=pooltool.Cue(cue_ball_id=first), table=table, balls=balls)
-    way = balls[other].xyz - balls[first].xyz
+    way = balls[second].xyz - balls[first].xyz
     # In three-cushion it passes the red ball or meets it on either side.
     aside = 0.0 if first == "cue" else float(np.random.uniform(-3.0, 3.0))
     system.strike(V0=speed, phi=float(np.degrees(np.arctan2(way[1], way[0]))) + aside, b=0.1)
@@ -76,10 +77,10 @@ def check(mine: Any, theirs: Any) -> None:
         (e.event_type, e.ids) for e in theirs.events
     ]
     for name, ball in theirs.balls.items():
-        for of in ("history", "history_cts"):
+        for field in ("history", "history_cts"):
             ours, expected = (
-                getattr(mine.balls[name], of).vectorize(),
-                getattr(ball, of).vectorize(),
+                getattr(mine.balls[name], field).vectorize(),
+                getattr(ball, field).vectorize(),
             )
             for got, right in zip(ours, expected, strict=True):
                 np.testing.assert_allclose(got, right, atol=1e-5)
@@ -132,7 +133,7 @@ def run_notebook(path: Path, play: Callable[..., Any]) -> tuple[str, int, float,
     pictures = shown | {name: drawing for name in missing}
     begin = time.process_time()
     with (
-        contextlib.redirect_stdout(io.StringIO()) as told,
+        contextlib.redirect_stdout(io.StringIO()) as output,
         mock.patch.dict(sys.modules, pictures),
         mock.patch.object(pooltool, "simulate", simulate),
     ):
@@ -141,7 +142,7 @@ def run_notebook(path: Path, play: Callable[..., Any]) -> tuple[str, int, float,
                 exec("".join(cell["source"]), names)
             except Exception as error:
                 print(f"cell {k} failed: {type(error).__name__}: {error}")
-    return told.getvalue(), len(calls), sum(calls), time.process_time() - begin
+    return output.getvalue(), len(calls), sum(calls), time.process_time() - begin
 
 
 def notebooks(paths: list[str]) -> None:
@@ -150,11 +151,11 @@ def notebooks(paths: list[str]) -> None:
     for play in (theirs, ours):
         play(opening(NINEBALL, 1, 8.0))
     for path in paths:
-        (told, calls, slow, all_slow), (ours_told, _, fast, all_fast) = (
+        (output, calls, slow, all_slow), (ours_told, _, fast, all_fast) = (
             run_notebook(Path(path), play) for play in (theirs, ours)
         )
         failed = [
-            line for line in told.splitlines() if line.startswith("cell ") and " failed: " in line
+            line for line in output.splitlines() if line.startswith("cell ") and " failed: " in line
         ]
         print(
             f"{Path(path).stem}: {calls} calls, {slow:.3f} s by pooltool, {fast:.3f} s by carom, {slow / max(fast, 1e-9):.1f} times as fast"
@@ -162,7 +163,7 @@ def notebooks(paths: list[str]) -> None:
         print(
             "\n".join(
                 [
-                    f"  all cells {all_slow:.2f} s and {all_fast:.2f} s, printed text {'the same' if told == ours_told else 'differs'}",
+                    f"  all cells {all_slow:.2f} s and {all_fast:.2f} s, printed text {'the same' if output == ours_told else 'differs'}",
                     *failed,
                 ]
             )
@@ -174,7 +175,7 @@ def main() -> None:
         notebooks(sys.argv[1:])
         return
     repeats = int(sys.argv[1]) if len(sys.argv) > 1 else 30
-    few = max(repeats // 5, 1)
+    few, breaks = max(repeats // 5, 1), min(repeats, BREAKS)
     system = opening(NINEBALL, 1, 8.0)
     lone = pooltool.System(
         cue=pooltool.Cue(cue_ball_id="cue"),
@@ -185,12 +186,12 @@ def main() -> None:
     theirs, ours = pooltool.simulate, carom.pooltool.simulate
 
     def games(kind: Any) -> tuple[str, float, float]:
-        others = [opening(kind, 2 + k, 6.0 + 4.0 * k / BREAKS) for k in range(BREAKS)]
+        others = [opening(kind, 2 + k, 6.0 + 4.0 * k / breaks) for k in range(breaks)]
 
         def time_of(play: Any) -> float:
             return once(others, lambda system: play(system, inplace=True))
 
-        return f"drop-in, {BREAKS} of {kind}", time_of(theirs), time_of(ours)
+        return f"drop-in, {breaks} of {kind}", time_of(theirs), time_of(ours)
 
     mine, right = ours(system, continuous=True), theirs(system, continuous=True)
     check(mine, right)

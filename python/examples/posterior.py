@@ -22,7 +22,7 @@ import emcee
 import jax
 import jax.numpy as jnp
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 import numpyro
 import numpyro.distributions as dist
 from numpyro.diagnostics import split_gelman_rubin
@@ -31,7 +31,7 @@ from numpyro.infer import MCMC, NUTS
 import carom
 import carom.jax
 
-Doubles = npt.NDArray[np.float64]
+Doubles = NDArray[np.float64]
 TRUTH: dict[str, Any] = {
     "mu_slide": 0.22,
     "mu_roll": 0.0085,
@@ -64,9 +64,9 @@ class Shots:
         ends = played.final["r"][..., :2]
         self.seen: Doubles = ends + NOISE * random.normal(size=ends.shape)
 
-    def some(self, which: npt.NDArray[np.bool_]) -> "Shots":
+    def some(self, mask: NDArray[np.bool_]) -> "Shots":
         part = Shots.__new__(Shots)
-        part.places, part.cues, part.seen = self.places[which], self.cues[which], self.seen[which]
+        part.places, part.cues, part.seen = self.places[mask], self.cues[mask], self.seen[mask]
         return part
 
     def ends(self, constants: Any, reach: bool = False) -> Any:
@@ -79,11 +79,11 @@ class Shots:
 def by_emcee(shots: Shots, steps: int) -> Doubles:
     """Chains (steps, walkers, constants). All walkers are one batch."""
 
-    def density(given: Doubles) -> Doubles:
-        inside = ((given > LOW) & (given < HIGH)).all(axis=1)
-        found = np.full(len(given), -np.inf)
+    def density(point: Doubles) -> Doubles:
+        inside = ((point > LOW) & (point < HIGH)).all(axis=1)
+        found = np.full(len(point), -np.inf)
         constants: dict[str, Any] = {
-            name: given[inside][:, k, None, None] for k, name in enumerate(TRUTH)
+            name: point[inside][:, k, None, None] for k, name in enumerate(TRUTH)
         }
         places = np.broadcast_to(shots.places, (int(inside.sum()), *shots.places.shape))
         played = carom.simulate_batch(
@@ -119,7 +119,7 @@ def by_nuts(shots: Shots, steps: int) -> tuple[Doubles, int]:
     return np.array(chains), divergences
 
 
-def steady(shots: Shots, means: Doubles, deviations: Doubles) -> npt.NDArray[np.bool_]:
+def steady(shots: Shots, means: Doubles, deviations: Doubles) -> NDArray[np.bool_]:
     """Which shots keep their events for REACH deviations of each constant."""
     found = shots.ends(means, reach=True)
     far = np.stack([np.asarray(found.reach[name]) for name in NAMES], axis=-1) / deviations
@@ -131,10 +131,10 @@ def show(what: str, chains: Doubles, seconds: float, more: str = "") -> None:
     print(f"\n{what}: {seconds:.0f} s{more}\n")
     print("| constant | mean | deviation | R-hat | off |\n|---|--:|--:|--:|--:|")
     for k, (name, true) in enumerate(TRUTH.items()):
-        one = chains[..., k]
-        ratio = float(split_gelman_rubin(one))
-        off = (one.mean() - true) / one.std()
-        print(f"| {name} | {one.mean():.5f} | {one.std():.5f} | {ratio:.2f} | {off:+.1f} |")
+        chain = chains[..., k]
+        ratio = float(split_gelman_rubin(chain))
+        off = (chain.mean() - true) / chain.std()
+        print(f"| {name} | {chain.mean():.5f} | {chain.std():.5f} | {ratio:.2f} | {off:+.1f} |")
 
 
 def timed(work: Callable[[], Any]) -> tuple[Any, float]:
@@ -149,16 +149,16 @@ def main(arguments: list[str] | None = None) -> None:
         "--steps", type=int, default=200, help="of a chain of NUTS, half of emcee's"
     )
     parser.add_argument("--shots", type=int, default=30)
-    given = parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
     numpyro.enable_x64()
-    shots = Shots(given.shots, seed=0)
-    chains, seconds = timed(lambda: by_emcee(shots, 20 * given.steps))
-    show(f"emcee, {given.shots} shots", chains.swapaxes(0, 1), seconds)
+    shots = Shots(options.shots, seed=0)
+    chains, seconds = timed(lambda: by_emcee(shots, 20 * options.steps))
+    show(f"emcee, {options.shots} shots", chains.swapaxes(0, 1), seconds)
     means, deviations = chains.mean(axis=(0, 1)), chains.std(axis=(0, 1))
-    (chains, divergences), seconds = timed(lambda: by_nuts(shots, given.steps))
-    show(f"NUTS, {given.shots} shots", chains, seconds, f", {divergences} divergences")
+    (chains, divergences), seconds = timed(lambda: by_nuts(shots, options.steps))
+    show(f"NUTS, {options.shots} shots", chains, seconds, f", {divergences} divergences")
     good = steady(shots, means, deviations)
-    (chains, divergences), seconds = timed(lambda: by_nuts(shots.some(good), given.steps))
+    (chains, divergences), seconds = timed(lambda: by_nuts(shots.some(good), options.steps))
     what = f"NUTS, the {good.sum()} shots whose reach is above {REACH:g} deviations"
     show(what, chains, seconds, f", {divergences} divergences")
 

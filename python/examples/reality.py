@@ -24,21 +24,21 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 import carom.tracks.fit
 from carom.tracks import _events, _from_events, _summary
 
-Doubles = npt.NDArray[np.float64]
+Doubles = NDArray[np.float64]
 Recordings = list[carom.tracks.Recording]
 SECOND = 3  # the second search of strikes has the seed of the first plus this
 
 
-def law(values: Doubles, by: Doubles, edges: Sequence[float]) -> list[str]:
+def law(values: Doubles, keys: Doubles, edges: Sequence[float]) -> list[str]:
     """Medians of values over ranges of another number, with their errors and how many."""
     rows = []
     for low, high in zip(edges[:-1], edges[1:]):
-        part = values[(by >= low) & (by < high)]
+        part = values[(keys >= low) & (keys < high)]
         if len(part) >= 5:
             middle, error = _events.median(part)
             rows.append(f"| {low:g} to {high:g} | {middle:.3f} ± {error:.3f} | {len(part)} |")
@@ -67,7 +67,7 @@ def held_out(
                 half, table, radius, cushion_model=model, free=free, seed=seed
             )
             begin = time.process_time()
-            one, two = (
+            first, two = (
                 carom.tracks.fit.fit(
                     recordings[1 - fold :: 2],
                     table,
@@ -75,14 +75,14 @@ def held_out(
                     cushion_model=model,
                     constants=found.constants,
                     free="none",
-                    seed=own,
+                    seed=start_seed,
                 )
-                for own in (seed, seed + SECOND)
+                for start_seed in (seed, seed + SECOND)
             )
             spent += 0.5 * (time.process_time() - begin)
-            counts = np.array(one.counts)
-            once.append(100.0 * one.rmse[counts])
-            twice.append(100.0 * np.fmin(one.rmse, two.rmse)[counts])
+            counts = np.array(first.counts)
+            once.append(100.0 * first.rmse[counts])
+            twice.append(100.0 * np.fmin(first.rmse, two.rmse)[counts])
         figures: list[float] = []
         for part in (once, twice):
             both = np.concatenate(part)
@@ -102,7 +102,7 @@ def floor(fit: carom.tracks.fit.Fit, shots: int, seed: int) -> None:
     """The RMSE that is left where the model is perfect: recordings of plays, with the noise of
     these.
     """
-    made = carom.tracks.synthetic(
+    sample = carom.tracks.synthetic(
         shots,
         table=fit.table,
         radius=fit.radius,
@@ -112,11 +112,11 @@ def floor(fit: carom.tracks.fit.Fit, shots: int, seed: int) -> None:
         seed=seed,
     )
     found = carom.tracks.fit.fit(
-        made.recordings,
+        sample.recordings,
         fit.table,
         fit.radius,
         cushion_model=fit.cushion_model,
-        constants=made.constants,
+        constants=sample.constants,
         free="none",
         seed=seed,
     )
@@ -140,29 +140,29 @@ def outputs(seen: carom.tracks.Events, radius: float, models: Sequence[Any], see
             continue
         names = ("restitution_cushion", "mu_cushion", "nose_height", "roll_loss")
         e, mu, height, loss = (values.get(name, 0.0) for name in names)
-        made = _from_events.predicted(good, radius, model, e, mu, height or radius, loss)
-        off = [made[:, 0] - good["w_t"], made[:, 1] - good["w_n"]]
+        motions = _from_events.predicted(good, radius, model, e, mu, height or radius, loss)
+        off = [motions[:, 0] - good["w_t"], motions[:, 1] - good["w_n"]]
         off += [
-            made[:, 0] - made[:, 2] - good["w_t"] + good["u_t"],
-            made[:, 1] - made[:, 3] - good["w_n"] + good["u_n"],
+            motions[:, 0] - motions[:, 2] - good["w_t"] + good["u_t"],
+            motions[:, 1] - motions[:, 3] - good["w_n"] + good["u_n"],
         ]
         sizes = " | ".join(
             f"{148.26 * np.median(np.abs(values - np.median(values)) / speed):.2f}"
             for values in off
         )
-        chi2 = 9.0 * np.log1p(made[:, 4] / 9.0).sum()
+        chi2 = 9.0 * np.log1p(motions[:, 4] / 9.0).sum()
         print(f"| {model} | {sizes} | {chi2:.0f} | {len(good)} |")
 
 
 def growth(fit: carom.tracks.fit.Fit, seed: int) -> None:
     """The RMSE of strikes that are fitted to the first seconds alone."""
     print("\n| strike fitted to the first | RMSE of these, median, cm |\n|---|--:|")
-    for until in (0.5, 1.0, 2.0, 3.0, 5.0, 8.0):
+    for end in (0.5, 1.0, 2.0, 3.0, 5.0, 8.0):
         parts = [
             replace(
                 shot,
                 tracks=tuple(
-                    track[(track[:, 0] <= shot.moves.min() + until) | (np.arange(len(track)) == 0)]
+                    track[(track[:, 0] <= shot.moves.min() + end) | (np.arange(len(track)) == 0)]
                     for track in shot.tracks
                 ),
             )
@@ -177,7 +177,7 @@ def growth(fit: carom.tracks.fit.Fit, seed: int) -> None:
             free="none",
             seed=seed,
         )
-        print(f"| {until:g} s | {100 * found.median_rmse:.2f} |")
+        print(f"| {end:g} s | {100 * found.median_rmse:.2f} |")
 
 
 def few_shots(
@@ -193,13 +193,13 @@ def few_shots(
     both = min(len(even), len(odd)) >= 10
     print("Asked of the other half of the file." if both else "Asked of the same half of the file.")
     print("| shots fitted | RMSE of others: median, cm | 9 in 10 below, cm |\n|--:|--:|--:|")
-    own = odd if both else recordings
-    for count in (n for n in (0, 1, 3, 5, 10, 20) if n + 10 * (not both) <= len(own)):
+    pool = odd if both else recordings
+    for count in (n for n in (0, 1, 3, 5, 10, 20) if n + 10 * (not both) <= len(pool)):
         figures = []
         for draw in range(draws):
             random = np.random.default_rng((seed, draw))
-            drawn = [own[k] for k in random.permutation(len(own))]
-            asked = [even[k] for k in random.permutation(len(even))] if both else drawn[count:]
+            drawn = [pool[k] for k in random.permutation(len(pool))]
+            test_shots = [even[k] for k in random.permutation(len(even))] if both else drawn[count:]
             constants = (
                 carom.tracks.fit.fit(
                     drawn[:count], table, radius, free="table", seed=seed
@@ -208,7 +208,7 @@ def few_shots(
                 else None
             )
             found = carom.tracks.fit.fit(
-                asked[:20], table, radius, constants=constants, free="none", seed=seed
+                test_shots[:20], table, radius, constants=constants, free="none", seed=seed
             )
             figures.append((100 * found.median_rmse, 100 * found.p90_rmse))
         print(
@@ -235,12 +235,12 @@ def forecasts(
         carom.tracks.fit.fit(recordings[fold::2], table, radius, free="table", seed=seed)
         for fold in (0, 1)
     ]
-    for after in afters:
+    for duration in afters:
         inside, radii, shots = [np.zeros((2, 0), bool)], [np.zeros(0)], 0
         for fold, fit in enumerate(halves):
             for shot in recordings[1 - fold :: 2]:
                 try:
-                    seen = fit.forecast(shot, after=after, seed=seed)
+                    seen = fit.forecast(shot, after=duration, seed=seed)
                 except ValueError:  # no strike was found
                     continue
                 rows, balls = seen.later()
@@ -253,10 +253,12 @@ def forecasts(
                     shots += 1
                     if pictures:
                         pictures.mkdir(parents=True, exist_ok=True)
-                        (pictures / f"forecast-{after:g}-{shot.id}.svg").write_text(seen.plot().svg)
+                        (pictures / f"forecast-{duration:g}-{shot.id}.svg").write_text(
+                            seen.plot().svg
+                        )
         whole = np.concatenate(inside, axis=1)
         print(
-            f"| {after:g} | {shots} | {whole.shape[1]} | {100 * whole[0].mean():.0f} % | {100 * whole[1].mean():.0f} % | "
+            f"| {duration:g} | {shots} | {whole.shape[1]} | {100 * whole[0].mean():.0f} % | {100 * whole[1].mean():.0f} % | "
             f"{100 * np.median(np.concatenate(radii)):.1f} |",
             flush=True,
         )
@@ -305,31 +307,40 @@ def main(arguments: Sequence[str] | None = None) -> int:
         help="only how well forecasts from the first T seconds hold",
     )
     parser.add_argument("--pictures", type=Path, metavar="FOLDER")
-    given = parser.parse_args(arguments)
-    recordings = carom.tracks.read(given.tracks, table=given.table, radius=given.radius)
+    options = parser.parse_args(arguments)
+    recordings = carom.tracks.read(options.tracks, table=options.table, radius=options.radius)
     recordings = [shot for shot in recordings if np.isfinite(shot.moves).any()]
-    models = given.models.split(",")
-    if given.forecast:
-        forecasts(recordings, given.table, given.radius, given.forecast, given.seed, given.pictures)
+    models = options.models.split(",")
+    if options.forecast:
+        forecasts(
+            recordings,
+            options.table,
+            options.radius,
+            options.forecast,
+            options.seed,
+            options.pictures,
+        )
         return 0
-    if given.few:
-        few_shots(recordings, given.table, given.radius, given.few, given.seed)
+    if options.few:
+        few_shots(recordings, options.table, options.radius, options.few, options.seed)
         return 0
-    seen = carom.tracks.events(recordings, given.table, given.radius)
+    seen = carom.tracks.events(recordings, options.table, options.radius)
     single_events(seen)
-    outputs(seen, given.radius, models, given.seed)
+    outputs(seen, options.radius, models, options.seed)
     print()
-    fit = held_out(recordings, given.table, given.radius, models, given.free.split(","), given.seed)
-    floor(fit, len(recordings), given.seed)
-    growth(fit, given.seed)
-    if given.pictures:
-        given.pictures.mkdir(parents=True, exist_ok=True)
+    fit = held_out(
+        recordings, options.table, options.radius, models, options.free.split(","), options.seed
+    )
+    floor(fit, len(recordings), options.seed)
+    growth(fit, options.seed)
+    if options.pictures:
+        options.pictures.mkdir(parents=True, exist_ok=True)
         pictures = {"rmse": _summary.histogram(fit), "bands": _summary.bands(fit)}
         pictures.update(
             zip(("rolling", "sliding", "cushion", "hits"), (svg for _, svg in _summary.laws(fit)))
         )
         for name, svg in pictures.items():
-            (given.pictures / f"reality-{name}.svg").write_text(svg + "\n", encoding="utf-8")
+            (options.pictures / f"reality-{name}.svg").write_text(svg + "\n", encoding="utf-8")
     return 0
 
 

@@ -17,12 +17,12 @@ import argparse
 import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 import carom
 
 matplotlib.use("Agg")
-Doubles = npt.NDArray[np.float64]
+Doubles = NDArray[np.float64]
 NAMES = ("cue.speed", "cue.phi", "cue.a", "cue.b")
 SCALES = np.array([1.0, 1.0, 0.1, 0.1])  # what is a moderate change of each: m/s, degrees, R, R
 OFF = np.array([0.03, 0.3, 0.2, 0.2])  # by how much a start is off, in scales
@@ -103,9 +103,10 @@ def main() -> None:
     parser.add_argument("--draws", type=int, default=40)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", default="refine_aim.svg")
-    given = parser.parse_args()
+    options = parser.parse_args()
     runs = [
-        refine(start, balls, goal)[1] for balls, _, goal, start in tasks(given.draws, given.seed)
+        refine(start, balls, goal)[1]
+        for balls, _, goal, start in tasks(options.draws, options.seed)
     ]
     solved = sum(misses[-1] < 1e-3 for misses in runs)
     counts = [len(misses) - 1 for misses in runs if misses[-1] < 1e-3]
@@ -124,9 +125,9 @@ def main() -> None:
     )
     plt.rcParams["svg.hashsalt"] = "carom"
     figure.savefig(
-        given.out, dpi=150, metadata={"Date": None} if given.out.endswith(".svg") else None
+        options.out, dpi=150, metadata={"Date": None} if options.out.endswith(".svg") else None
     )
-    print(f"wrote {given.out}")
+    print(f"wrote {options.out}")
 
 
 if __name__ == "__main__":

@@ -32,11 +32,11 @@ class TenBall(carom.Rules):
         self, state: list[int], in_play: frozenset[int], facts: carom.Facts, call: tuple[int, int]
     ) -> carom.Turn:
         foul = facts.foul(self.on(state, in_play))
-        made = not foul and facts.potted.get(call[0]) == call[1]
-        if made and in_play == {0, 10}:
+        potted = not foul and facts.potted.get(call[0]) == call[1]
+        if potted and in_play == {0, 10}:
             return carom.Turn("win")
         back = {10} & {*facts.potted, *facts.off}
-        if made:
+        if potted:
             return carom.Turn("keep", spot=back)
         state[0] = 1 - state[0]
         return carom.Turn("pass", "anywhere" if foul else "after", foul, back)

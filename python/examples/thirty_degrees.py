@@ -29,8 +29,8 @@ def turned(spin: float) -> np.ndarray:
     """
     pairs = carom.impacts(v_a=(SPEED, 0.0, 0.0), w_a=(0.0, spin * SPEED / RADIUS, 0.0), r_b=centres)
     pairs["mu_ball"] = carom.mu_ball(pairs)
-    after, _ = carom.collide(pairs)
-    v, w = after["a"]["v"], after["a"]["w"]
+    motions, _ = carom.collide(pairs)
+    v, w = motions["a"]["v"], motions["a"]["w"]
     rolling = 5 / 7 * v[:, :2] + 2 / 7 * RADIUS * np.stack([w[:, 1], -w[:, 0]], axis=-1)
     return np.asarray(np.degrees(np.abs(np.arctan2(rolling[:, 1], rolling[:, 0]))))
 

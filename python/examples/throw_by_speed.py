@@ -23,8 +23,8 @@ centres = np.stack([np.cos(cuts), -np.sin(cuts), np.zeros_like(cuts)], axis=-1)
 moving = np.stack([speeds, 0 * speeds, 0 * speeds], axis=-1)
 pairs = carom.impacts(v_a=moving[:, None], r_b=centres)  # (3 speeds, 161 cuts)
 pairs["mu_ball"] = carom.mu_ball(pairs)
-after, status = carom.collide(pairs)
-velocity = after["b"]["v"]
+motions, status = carom.collide(pairs)
+velocity = motions["b"]["v"]
 throw = np.degrees(cuts + np.arctan2(velocity[..., 1], velocity[..., 0]))
 
 for speed, curve in zip(speeds, throw):

@@ -27,14 +27,14 @@ from typing import Any
 import game_agents
 import matplotlib.pyplot as plt
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 from gymnasium.spaces import Box
 
 from carom.games.gymnasium import GAMES, RULES, GameEnv, GameVectorEnv, Rules
 from carom.games.matches import Match
 from carom.games.pool import Hand, Position
 
-Doubles = npt.NDArray[np.float64]
+Doubles = NDArray[np.float64]
 Policy = Callable[[Doubles], Doubles]
 PLAN = "`best(shots=300)`"
 
@@ -75,40 +75,44 @@ class Sight:
         self.low, self.high = np.full(2, self.base.radius + 1e-3), size - self.base.radius - 1e-3
         self.head = np.array([self.high[0], size[1] / 4.0])
 
-    def ghost(self, ball: Doubles, to: Doubles) -> Doubles:
+    def ghost(self, ball: Doubles, target: Doubles) -> Doubles:
         return np.asarray(
-            ball - 2.0 * self.base.radius * np.stack([np.cos(to), np.sin(to)], axis=-1)
+            ball - 2.0 * self.base.radius * np.stack([np.cos(target), np.sin(target)], axis=-1)
         )
 
-    def on(self, observed: Doubles, there: Any) -> tuple[Any, Any]:
+    def legal_targets(self, observed: Doubles, present: Any) -> tuple[Any, Any]:
         """Which balls may be met first, and which after that, (games, balls)."""
         if not isinstance(self.rules, Match):
-            return there, there
+            return present, present
         if self.rules.pool.game == "nineball":
-            order = np.cumsum(there, axis=1)
-            return there & (order == 1), there & (order == 2)
+            order = np.cumsum(present, axis=1)
+            return present & (order == 1), present & (order == 2)
         number, group = np.arange(15), observed[:, -2:-1]
-        own = there & np.where(
+        group_balls = present & np.where(
             group == 0, number != 7, np.where(group == 1, number < 7, number > 7)
         )
-        own = np.where(own.any(axis=1, keepdims=True), own, there & (number == 7))
-        return own, own
+        group_balls = np.where(
+            group_balls.any(axis=1, keepdims=True), group_balls, present & (number == 7)
+        )
+        return group_balls, group_balls
 
     def blocked(self, begin: Doubles, end: Doubles, balls: Doubles) -> Any:
         """Whether a ball that is not struck lies in the way, (games, balls, places, pockets)."""
-        long, by = (
+        long, width = (
             np.linalg.norm(end - begin, axis=-1)[..., np.newaxis],
             balls[:, np.newaxis, np.newaxis, np.newaxis],
         )
-        one, off = (
+        inside, off = (
             (end - begin)[..., np.newaxis, :] / long[..., np.newaxis],
-            by[..., :2] - begin[..., np.newaxis, :],
+            width[..., :2] - begin[..., np.newaxis, :],
         )
         along, aside = (
-            (off * one).sum(axis=-1),
-            np.abs(off[..., 0] * one[..., 1] - off[..., 1] * one[..., 0]),
+            (off * inside).sum(axis=-1),
+            np.abs(off[..., 0] * inside[..., 1] - off[..., 1] * inside[..., 0]),
         )
-        others = (by[..., 2] > 0.0) & ~np.eye(balls.shape[1], dtype=bool)[:, np.newaxis, np.newaxis]
+        others = (width[..., 2] > 0.0) & ~np.eye(balls.shape[1], dtype=bool)[
+            :, np.newaxis, np.newaxis
+        ]
         return ((along > 0.0) & (along < long) & (aside < 2.0 * self.base.radius) & others).any(
             axis=-1
         )
@@ -135,49 +139,50 @@ class Sight:
             self.pockets,
         )
         direct = straight[:, np.newaxis, np.newaxis, np.newaxis]
-        to, far = (
+        pot_line, far = (
             np.where(direct, direction(ball - cue), direction(pocket - ball)),
             np.linalg.norm(pocket - ball, axis=-1),
         )
-        line = self.ghost(ball, to) - cue
-        near, cut = (
+        line = self.ghost(ball, pot_line) - cue
+        close, cut = (
             np.linalg.norm(line, axis=-1),
-            (direction(line) - to + np.pi) % (2.0 * np.pi) - np.pi,
+            (direction(line) - pot_line + np.pi) % (2.0 * np.pi) - np.pi,
         )
         side = 1.0 * np.broadcast_to(
             np.abs(pocket[:, 1] - self.base.table.length / 2.0) < 0.1, cut.shape
         )
         hard = (
-            near
+            close
             * far
             / np.maximum(
-                np.maximum(np.cos(cut), 1e-3) * np.where(side > 0.0, np.cos(to) ** 2, 1.0), 1e-9
+                np.maximum(np.cos(cut), 1e-3) * np.where(side > 0.0, np.cos(pot_line) ** 2, 1.0),
+                1e-9,
             )
         )
         if self.pots and self.base.balls > 1:
             hard += 100.0 * (
                 self.blocked(cue, cue + line, balls) | self.blocked(ball, pocket, balls)
             )
-        hard = np.where(direct, near, hard).reshape(*balls.shape[:2], -1)
+        hard = np.where(direct, close, hard).reshape(*balls.shape[:2], -1)
 
         # The easiest of all is the stroke; of the other balls, where the next lies.
-        first, after = self.on(observed, balls[..., 2] > 0.0)
+        first, second = self.legal_targets(observed, balls[..., 2] > 0.0)
         easiest = hard.min(axis=-1)
         k = np.where(first, easiest, np.inf).argmin(axis=1)
-        after = after & (np.arange(balls.shape[1]) != k[:, np.newaxis])
-        following = balls[games, np.where(after, easiest, np.inf).argmin(axis=1), :2] * after.any(
+        second = second & (np.arange(balls.shape[1]) != k[:, np.newaxis])
+        following = balls[games, np.where(second, easiest, np.inf).argmin(axis=1), :2] * second.any(
             axis=1, keepdims=True
         )
         place, hole = np.divmod(hard[games, k].argmin(axis=-1), len(pocket))
         parts = [
             np.broadcast_to(part, cut.shape)[games, k, place, hole]
-            for part in (cut, near, far, to, side)
+            for part in (cut, close, far, pot_line, side)
         ]
         return np.column_stack(
             [*parts, cues[games, place], balls[games, k, :2], straight, observed[:, -1], following]
         )
 
-    def strokes(self, sight: Doubles, given: Doubles) -> Doubles:
+    def strokes(self, sight: Doubles, actions: Doubles) -> Doubles:
         """The actions of the game for answers, (games, 6): of the direction, speed, tip, and the
         place of the cue ball in a break.
         """
@@ -185,18 +190,22 @@ class Sight:
         if self.rules.acts == 6:
             cue = np.where(
                 straight[:, np.newaxis],
-                self.low + (self.head - self.low) * (given[:, 4:6] + 1.0) / 2.0,
+                self.low + (self.head - self.low) * (actions[:, 4:6] + 1.0) / 2.0,
                 cue,
             )
-        to = np.where(straight, direction(ball - cue), sight[:, 3])
-        phi = np.degrees(direction(self.ghost(ball, to + self.most * given[:, 0]) - cue))
-        speed = 0.5 + np.where(straight, self.base.speeds[1] - 0.5, 6.5) * (given[:, 1] + 1.0) / 2.0
+        direction_line = np.where(straight, direction(ball - cue), sight[:, 3])
+        phi = np.degrees(
+            direction(self.ghost(ball, direction_line + self.most * actions[:, 0]) - cue)
+        )
+        speed = (
+            0.5 + np.where(straight, self.base.speeds[1] - 0.5, 6.5) * (actions[:, 1] + 1.0) / 2.0
+        )
         place = np.where(
             straight[:, np.newaxis],
-            given[:, 4:6],
+            actions[:, 4:6],
             np.clip(2.0 * (cue - self.low) / (self.high - self.low) - 1.0, -1.0, 1.0),
         )
-        return np.column_stack([self.base.actions(phi, speed, *(0.35 * given[:, 2:4].T)), place])[
+        return np.column_stack([self.base.actions(phi, speed, *(0.35 * actions[:, 2:4].T)), place])[
             :, : self.rules.acts
         ]
 
@@ -264,14 +273,14 @@ def train(game: str, minutes: float, look: Callable[[int, Policy], None], looks:
         "learning_rate": lambda _: 1e-3 * left / whole,
     }
     model: Any = PPO("MlpPolicy", Games(), seed=1, policy_kwargs={"log_std_init": -1.0}, **how)
-    due = whole
+    pending = whole
     while left > 0.0:
-        if left <= due:
+        if left <= pending:
             look(
                 model.num_timesteps,
                 lambda sight: np.asarray(model.predict(sight, deterministic=True)[0]),
             )
-            due -= whole / looks
+            pending -= whole / looks
         begun = time.perf_counter()
         model.learn(16 * count, reset_num_timesteps=False)
         left = max(left - (time.perf_counter() - begun), 0.0)
@@ -314,7 +323,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument(
         "--games", type=int, default=400, help="that all agents play; an eighth of them of matches"
     )
-    given = parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
     figure, axes = plt.subplots(2, 4, figsize=(12.0, 6.0), layout="constrained")
     figure.supxlabel("thousand strokes of training")
     figure.supylabel("mean return")
@@ -333,34 +342,35 @@ def main(arguments: list[str] | None = None) -> None:
         )
     }
     lines = ["game,strokes,return"]
-    for game, axis in zip(given.only, axes.flat, strict=False):
+    for game, axis in zip(options.only, axes.flat, strict=False):
         curve, found = learn(
-            game, given.minutes, max(given.games // 8, 2) if "Ball-" in game else given.games
+            game, options.minutes, max(options.games // 8, 2) if "Ball-" in game else options.games
         )
         most, name = game_agents.most_of(GameEnv(**GAMES[game]).rules), game[6:-3]
         cells = {
-            who: game_agents.score(own, most).replace(" ± ", "±").removesuffix(" (0%)")
-            for who, own in found.items()
+            player: game_agents.score(cells, most).replace(" ± ", "±").removesuffix(" (0%)")
+            for player, cells in found.items()
         }
-        for who, cell in [
+        for player, cell in [
             *cells.items(),
             ("agent", name),
             ("---", "--:"),
             ("thousand strokes of PPO", f"{curve[-1][0] / 1000:.0f}"),
         ]:
-            rows[who].append(cell)
+            rows[player].append(cell)
         lines += [f"{name},{strokes},{mean:.6g}" for strokes, mean in curve]
         axis.plot(*(np.array(curve) / (1000.0, 1.0)).T)
-        for who, side in (("random", "bottom"), (PLAN, "top")):
-            axis.axhline(float(found[who].mean()), linestyle="--", color="gray")
-            axis.text(0.0, float(found[who].mean()), who.strip("`"), verticalalignment=side)
+        for player, side in (("random", "bottom"), (PLAN, "top")):
+            axis.axhline(float(found[player].mean()), linestyle="--", color="gray")
+            axis.text(0.0, float(found[player].mean()), player.strip("`"), verticalalignment=side)
         axis.set_title(name)
         # Written after each game: what is done is not lost where the program is stopped.
-        given.out.with_suffix(".csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
-        given.out.with_suffix(".md").write_text(
-            "".join(f"|{'|'.join([who, *own])}|\n" for who, own in rows.items()), encoding="utf-8"
+        options.out.with_suffix(".csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        options.out.with_suffix(".md").write_text(
+            "".join(f"|{'|'.join([player, *cells])}|\n" for player, cells in rows.items()),
+            encoding="utf-8",
         )
-        figure.savefig(given.out)
+        figure.savefig(options.out)
 
 
 if __name__ == "__main__":

@@ -3,8 +3,11 @@ wrong kind.
 """
 
 import csv
+import os
 import re
+import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -12,14 +15,16 @@ import pytest
 
 import carom
 
+pytest.register_assert_rewrite("gradient_cases")
+
 DATA = Path(__file__).parents[2] / "data"
 
 
-def columns(name: str, wanted: str) -> np.ndarray:
+def columns(name: str, names: str) -> np.ndarray:
     """Columns of a file of data/, in the order wanted, as an array of rows."""
     with open(DATA / name, newline="", encoding="utf-8") as file:
         return np.array(
-            [[float(row[key]) for key in wanted.split()] for row in csv.DictReader(file)]
+            [[float(row[key]) for key in names.split()] for row in csv.DictReader(file)]
         )
 
 
@@ -55,6 +60,19 @@ def calls():
     return count
 
 
+def run_python(*arguments, status=0, **environment) -> subprocess.CompletedProcess:
+    """This Python with arguments, in an environment that is changed; it ends with the status."""
+    variables = os.environ | environment
+    done = subprocess.run(
+        [sys.executable, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        env={name: text for name, text in variables.items() if text is not None},
+    )
+    assert done.returncode == status, done.stdout + done.stderr
+    return done
+
+
 WRONG = [
     "1",
     "x",
@@ -80,14 +98,52 @@ WRONG = [
 TEXT = "game world ball_model cushion_model friction space simultaneous stop_at records rules group ball_set solver slip model convention law"
 
 
-def refused_by_name(call, good, names):
+def pytest_generate_tests(metafunc):
+    """A test of a `refusal` runs for each row of the text beside its module: a call, and indented
+    below it the class of its error and the pattern that its message begins with. A test of an
+    `argument_row` runs for those with "each of", and the names of arguments.
+    """
+    for name, of_arguments in (("refusal", False), ("argument_row", True)):
+        if (
+            name in metafunc.fixturenames
+            and metafunc.definition.get_closest_marker("parametrize") is None
+        ):
+            text = Path(metafunc.module.__file__).with_suffix(".txt").read_text(encoding="utf-8")
+            rows = re.findall(r"^([^#\s].*)\n +(\w[\w ]*): ?(.*)$", text, re.M)
+            lines = re.findall(r"^[^#\n].*$", text, re.M)
+            assert len(lines) == 2 * len(rows), "a row is two lines: a call, and its error"
+            chosen = [row for row in rows if (row[1] == "each of") == of_arguments]
+            metafunc.parametrize(name, chosen, ids=[row[0] for row in chosen])
+
+
+def refused(refusal, names):
+    """The call raises the error, with a short text of public names and without a warning; a
+    CaromError has the field that its text names.
+    """
+    call, kind, message = refusal
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(Exception, match=f"^{message}") as caught:
+            eval(call, names)
+    error = caught.value
+    assert type(error).__name__ == kind and len(str(error)) < 410
+    assert not re.search(r"offsets|options\.", str(error))
+    if kind == "CaromError":
+        assert error.field == re.split(" = |: ", str(error))[0] and error.status < 0
+
+
+def refused_by_name(argument_row, names):
     """A value of another kind in place of each argument in turn is refused, by the name of the
     argument.
     """
-    for name in names.split():
+    call, _, arguments = argument_row
+    function, _, good = call.partition("(")
+    if "frame" in function:
+        pytest.importorskip("pandas")
+    for name in arguments.split():
         for wrong in WRONG:
             try:
-                call(**{**good, name: wrong})
+                eval(function, names)(**{**eval(f"dict({good}", names), name: wrong})
             except carom.CaromError as error:
                 assert error.field, (name, wrong)  # whose numbers C refused
             except (TypeError, ValueError) as error:

@@ -134,8 +134,8 @@ def test_what_ppo_is_given():
 
 SHORT = [
     (name, Path(command.split()[0]).stem)
-    for name, by, command in figures.made(EXAMPLES.parents[1])
-    if by == "python"
+    for name, program, command in figures.made(EXAMPLES.parents[1])
+    if program == "python"
 ]
 ASIDE = 0.5  # points of a plot by matplotlib, whose versions lay plots out differently
 

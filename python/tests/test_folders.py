@@ -3,10 +3,9 @@
 import importlib
 import importlib.util
 import pickle
-import subprocess
-import sys
 
 import pytest
+from conftest import run_python
 
 import carom
 
@@ -19,14 +18,12 @@ MODULES = {
 SHORT = [name for name in MODULES if name[6:] not in ABSENT]
 
 
-def run(*arguments):
-    return subprocess.run([sys.executable, *arguments], capture_output=True, text=True)
-
-
 def test_the_core_loads_no_folder():
     loaded = "print({'carom.tracks', 'carom.games', 'carom.pooltool'} & sys.modules.keys())"
-    assert run("-c", f"import carom, sys; {loaded}").stdout == "set()\n"
-    assert run("-c", f"import carom, sys; carom.plan; {loaded}").stdout == "{'carom.games'}\n"
+    assert run_python("-c", f"import carom, sys; {loaded}").stdout == "set()\n"
+    assert (
+        run_python("-c", f"import carom, sys; carom.plan; {loaded}").stdout == "{'carom.games'}\n"
+    )
 
 
 @pytest.mark.parametrize("first", ["import {short}", "from carom import {name}", "import carom"])
@@ -41,16 +38,14 @@ def test_a_short_name_offers_what_the_module_offers(first):
         lines.append("for name in long.__all__:")
         lines.append(f"    assert getattr({module}, name) is getattr(long, name), name")
         lines.append(f"assert importlib.reload({module}) is {module}")
-    done = run("-c", "\n".join(lines))
-    assert done.returncode == 0, done.stderr
+    run_python("-c", "\n".join(lines))
 
 
 def test_short_names_run_and_have_help():
-    done = run("-m", "carom.fit", "--help")
-    assert done.returncode == 0 and "--cushion-model" in done.stdout, done.stderr
-    assert "fit(recordings" in run("-m", "pydoc", "carom.tracks.fit").stdout
-    assert "carom.tracks.fit" in run("-m", "pydoc", "carom.fit").stdout
-    assert "referee" in run("-m", "pydoc", "carom").stdout
+    assert "--cushion-model" in run_python("-m", "carom.fit", "--help").stdout
+    assert "fit(recordings" in run_python("-m", "pydoc", "carom.tracks.fit").stdout
+    assert "carom.tracks.fit" in run_python("-m", "pydoc", "carom.fit").stdout
+    assert "referee" in run_python("-m", "pydoc", "carom").stdout
 
 
 def test_pickles_have_short_names_and_long_ones():
@@ -66,17 +61,17 @@ def test_a_name_that_is_not_there():
 
 def test_gymnasium_knows_the_short_name():
     gymnasium = pytest.importorskip("gymnasium", reason="gymnasium is not installed")
-    made = gymnasium.make("carom.gymnasium:carom/PotOne-v1")
-    assert made.spec.entry_point == "carom.gymnasium:GameEnv"
-    assert type(made.unwrapped) is importlib.import_module("carom.games.gymnasium").GameEnv
+    env = gymnasium.make("carom.gymnasium:carom/PotOne-v1")
+    assert env.spec.entry_point == "carom.gymnasium:GameEnv"
+    assert type(env.unwrapped) is importlib.import_module("carom.games.gymnasium").GameEnv
 
 
 @pytest.mark.parametrize("package", ["gymnasium", "pettingzoo"])
 def test_without_what_is_optional(package):
     """The import says what is needed."""
     absent = f"import sys; sys.modules['{package}'] = None; import carom.potting, carom.pool"
-    said = run("-c", f"{absent}; import carom.{package}").stderr
-    assert f"ImportError: carom.{package} needs" in said and f"pip install {package}" in said
+    message = run_python("-c", f"{absent}; import carom.{package}", status=1).stderr
+    assert f"ImportError: carom.{package} needs" in message and f"pip install {package}" in message
 
 
 def test_tab_completion_shows_what_a_module_of_a_folder_offers():

@@ -65,9 +65,13 @@ def check(program, folder, mode):
     count = found["summary"]["filesAnalyzed"]
     assert count == len(list(folder.glob("*.py"))), f"pyright read {count} files of {folder}"
     return [
-        (Path(one["file"]).stem, one["range"]["start"]["line"] + 1, one["message"])
-        for one in found["generalDiagnostics"]
-        if one["severity"] == "error"
+        (
+            Path(diagnostic["file"]).stem,
+            diagnostic["range"]["start"]["line"] + 1,
+            diagnostic["message"],
+        )
+        for diagnostic in found["generalDiagnostics"]
+        if diagnostic["severity"] == "error"
     ]
 
 
@@ -78,14 +82,14 @@ for folder in (programs, strict):
     folder.mkdir()
 shutil.copy(source / "tests/python/typed.py", strict)
 for page in pages(str(source)):
-    own = [
+    sources = [
         text
         for kind, text in blocks(str(source), page)
         if kind.startswith("python") and kind != "python elsewhere"
     ]
-    if own:
+    if sources:
         name = page.removesuffix(".md").replace("/", "_")
-        (programs / f"{name}.py").write_text("\n".join(own), encoding="utf-8")
+        (programs / f"{name}.py").write_text("\n".join(sources), encoding="utf-8")
 files = sorted(programs.glob("*.py"))
 assert len(files) >= 6, files
 errors = check(pyright, strict, "strict")

@@ -7,9 +7,9 @@ from __future__ import annotations
 import functools
 from typing import Any
 
-from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import numbers_of
+from carom._rows import numbers_of, text_of
+from carom.dtypes import Records
 from carom.status import CaromError, Status
 
 _TABLE = {
@@ -21,11 +21,11 @@ _TABLE = {
 
 def _numbers(part: int, status: int) -> list[str]:
     """The numbers of a part that have a status."""
-    return [ffi.string(row.name).decode() for row in numbers_of(part) if row.error == status]
+    return [text_of(row.name) for row in numbers_of(part) if row.error == status]
 
 
 def _fault(
-    status: int, name: str, fields: list[str], record: dtypes.Records, must: str = ""
+    status: int, name: str, fields: list[str], record: Records, must: str = ""
 ) -> CaromError:
     """The exception for numbers of a record, called `name`."""
     where = [f"{name}.{field}" for field in fields]
@@ -44,23 +44,20 @@ def _fault(
 @functools.cache
 def _ranges(part: int) -> list[tuple[str, float, float, float, Any]]:
     """The name, the range and the other value of each number of a part, and its row."""
-    return [
-        (ffi.string(row.name).decode(), row.low, row.high, row.other, row)
-        for row in numbers_of(part)
-    ]
+    return [(text_of(row.name), row.low, row.high, row.other, row) for row in numbers_of(part)]
 
 
-def refuse_numbers(part: int, name: str, record: dtypes.Records) -> None:
+def refuse_numbers(part: int, name: str, record: Records) -> None:
     """Refuses one record, called `name`, with a number outside its range."""
     values = dict(zip(record.dtype.names or (), record.item(), strict=True))
-    for field, low, high, other, row in _ranges(part):
-        if not low <= values[field] <= high and values[field] != other:
+    for field, low, high, limit, row in _ranges(part):
+        if not low <= values[field] <= high and values[field] != limit:
             must = ffi.new("char[]", 100)
             lib.carom_number_range(row, must, 100)
-            raise _fault(row.error, name, [field], record, ffi.string(must).decode())
+            raise _fault(row.error, name, [field], record, text_of(must))
 
 
-def strike_error(status: int, cue: dtypes.Records, kind: dtypes.Records) -> CaromError:
+def strike_error(status: int, cue: Records, kind: Records) -> CaromError:
     """The exception for a cue and a kind that carom_strike() refuses."""
     if fields := _numbers(lib.CAROM_PART_CUE, status):
         return _fault(status, "cue", fields, cue)
@@ -69,14 +66,12 @@ def strike_error(status: int, cue: dtypes.Records, kind: dtypes.Records) -> Caro
     return (
         CaromError(status, "kind")
         if number == ffi.NULL
-        else _fault(
-            status, "kind", [ffi.string(number.name).decode()], kind, ffi.string(must).decode()
-        )
+        else _fault(status, "kind", [text_of(number.name)], kind, text_of(must))
     )
 
 
 def shot_arguments(
-    table: Any, layout: dtypes.Records, cue: dtypes.Records | None, options: Any
+    table: Any, layout: Records, cue: Records | None, options: Any
 ) -> tuple[Any, ...]:
     """The arguments of carom_shot_check() and carom_shoot()."""
     strike = ffi.NULL if cue is None else ffi.from_buffer("carom_cue[]", cue)
@@ -90,19 +85,19 @@ def shot_arguments(
 
 
 def argument_error(
-    arguments: tuple[Any, ...], layout: dtypes.Records, cue: dtypes.Records | None
+    arguments: tuple[Any, ...], layout: Records, cue: Records | None
 ) -> CaromError | None:
     """The exception for arguments that carom_shot_check() refuses; None if they are right."""
     where = ffi.new("int *", -1)
     if lib.carom_shot_check(*arguments, where) >= 0:
         return None
-    told, text = ffi.new("carom_fault *"), ffi.new("char[]", 100)
-    code = lib.carom_shot_fault(*arguments, told, text, 100)
-    kind, index, must = told.part.kind, told.part.index, ffi.string(text).decode()
+    fault, text = ffi.new("carom_fault *"), ffi.new("char[]", 100)
+    code = lib.carom_shot_fault(*arguments, fault, text, 100)
+    kind, index, must = fault.part.kind, fault.part.index, text_of(text)
     # Several numbers of the cue may be at fault together.
-    name = "" if told.row == ffi.NULL else ffi.string(told.row.name).decode()
+    name = "" if fault.row == ffi.NULL else text_of(fault.row.name)
     if name and kind == lib.CAROM_PART_CUE and cue is not None:
-        return _fault(code, "cue", [name] if must else _numbers(kind, told.row.error), cue, must)
+        return _fault(code, "cue", [name] if must else _numbers(kind, fault.row.error), cue, must)
     if name and kind in (lib.CAROM_PART_BALL, lib.CAROM_PART_STATE):
         part = "kind" if kind == lib.CAROM_PART_BALL else "state"
         return _fault(code, f"balls[{index}].{part}", [name], layout[index][part], must)
@@ -115,7 +110,7 @@ def argument_error(
     ):
         if name and must:
             part = f"table.{_TABLE[kind]}[{index}]" if kind in _TABLE else "table"
-            return CaromError(code, f"{part}.{name}", told.value, text=f"it must be {must}")
+            return CaromError(code, f"{part}.{name}", fault.value, text=f"it must be {must}")
         return CaromError(code, "table")
     return (
         CaromError(code, "balls", len(layout))

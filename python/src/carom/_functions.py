@@ -33,6 +33,7 @@ from carom.derivatives import (
     tangent_options,
     tangents,
 )
+from carom.dtypes import Doubles, Records
 from carom.layouts import Table, of_record
 from carom.shots import simulate, simulate_batch
 from carom.status import CaromError, Status
@@ -76,7 +77,7 @@ class Shots:
     threads: int
     room: int
     nan: bool
-    told: bool
+    has_extras: bool
     """Whether reach and flags are wanted beside the states."""
 
     @property
@@ -90,14 +91,14 @@ class Shots:
         ]
 
     @functools.cached_property
-    def seeds(self) -> dict[str, dtypes.Doubles]:
+    def seeds(self) -> dict[str, Doubles]:
         return seeds_of(self.directions, self.count)
 
     @functools.cached_property
     def played_on(self) -> Table:
         return Table.from_record(np.frombuffer(self.table, dtypes.table)[0])
 
-    def records(self, x: dtypes.Doubles) -> tuple[dtypes.Records, dtypes.Records | None]:
+    def records(self, x: Doubles) -> tuple[Records, Records | None]:
         """Layouts and cues with these numbers, of shape (..., m)."""
         layouts: Array = np.frombuffer(self.balls, dtypes.shot_ball).reshape(self.balls_shape)
         cues: Array | None = (
@@ -119,7 +120,7 @@ class Shots:
         return layouts, cues
 
     @functools.cached_property
-    def one(self) -> _One | None:
+    def single_shot(self) -> _One | None:
         """Where a single shot can be played again and again."""
         single = (
             len(self.balls_shape) == 1 and self.cues_shape == () and len(self.directions) <= MOST
@@ -131,13 +132,13 @@ class Shots:
         flags (...).
         """
         numbers = np.asarray(x)
-        if self.told:
-            states, _, *told = self.both(numbers)
-            return (states, *told)
+        if self.has_extras:
+            states, _, *extras = self.both(numbers)
+            return (states, *extras)
         if (
             numbers.ndim == 1
-            and self.one is not None
-            and (played := self.one.play(numbers, False)) is not None
+            and self.single_shot is not None
+            and (played := self.single_shot.play(numbers, False)) is not None
         ):
             return (played[0],)
         layouts, cues = self.records(numbers)
@@ -152,10 +153,10 @@ class Shots:
         """
         numbers = np.asarray(x)
         if (
-            not self.told
+            not self.has_extras
             and numbers.ndim == 1
-            and self.one is not None
-            and (found_alone := self.one.play(numbers, True)) is not None
+            and self.single_shot is not None
+            and (found_alone := self.single_shot.play(numbers, True)) is not None
         ):
             return found_alone
         layouts, cues = self.records(numbers)
@@ -165,7 +166,7 @@ class Shots:
             cues,
             self.seeds,
             np.zeros(0),
-            ("final", "reach", "flags") if self.told else ("final",),
+            ("final", "reach", "flags") if self.has_extras else ("final",),
             self.room,
             self.threads,
             self.options,
@@ -175,17 +176,17 @@ class Shots:
             if self.nan
             else codes
         )
-        told = (found["reach"], found["flags"]) if self.told else ()
-        return (self.numbers(numbers, final, played), found["final"], *told)
+        extras = (found["reach"], found["flags"]) if self.has_extras else ()
+        return (self.numbers(numbers, final, played), found["final"], *extras)
 
-    def second(self, x: Any) -> dtypes.Doubles:
+    def second(self, x: Any) -> Doubles:
         """The second derivatives of the final states, of shape (..., balls, STATE, m, m), as
         `carom.hessian` has them.
         """
         slopes = self._along(x, np.eye(len(self.directions)))
         return (slopes + slopes.swapaxes(-1, -2)) / 2.0
 
-    def along(self, x: Any, vectors: Array) -> dtypes.Doubles:
+    def along(self, x: Any, vectors: Array) -> Doubles:
         """The derivatives along vectors (..., p, m) of the derivatives of the final states: (...,
         balls, STATE, m, p); nan where unknown.
 
@@ -196,7 +197,7 @@ class Shots:
             return self._along(x, vectors)
         return self.second(x) @ vectors.swapaxes(-1, -2)[..., np.newaxis, np.newaxis, :, :]
 
-    def _along(self, x: Any, vectors: Array) -> dtypes.Doubles:
+    def _along(self, x: Any, vectors: Array) -> Doubles:
         numbers = np.asarray(x)
         shape, m = numbers.shape[:-1], numbers.shape[-1]
         layouts, cues = self.records(numbers)
@@ -228,19 +229,19 @@ class Shots:
                 )
         return found.reshape(*shape, *found.shape[1:])
 
-    def numbers(self, x: dtypes.Doubles, final: dtypes.Records, status: Array) -> dtypes.Doubles:
+    def numbers(self, x: Doubles, final: Records, status: Array) -> Doubles:
         """Final states as numbers; shots in error are nan, or raise."""
-        bad = status < 0
-        failed = bool(bad.any())
+        invalid = status < 0
+        failed = bool(invalid.any())
         if failed and not self.nan:
-            first = tuple(int(k) for k in np.argwhere(bad)[0])
+            first = tuple(int(k) for k in np.argwhere(invalid)[0])
             self.refuse(x, first, Status(int(status[first])))
-        states: dtypes.Doubles = final.view(np.float64).reshape(*final.shape, -1)[..., _ORDER]
+        states: Doubles = final.view(np.float64).reshape(*final.shape, -1)[..., _ORDER]
         if failed:
-            states[bad] = np.nan
+            states[invalid] = np.nan
         return states
 
-    def refuse(self, x: dtypes.Doubles, where: tuple[int, ...], status: Status) -> None:
+    def refuse(self, x: Doubles, where: tuple[int, ...], status: Status) -> None:
         """Raises the error of one shot, with its place in the batch and its numbers."""
         text = status.text
         layouts, cues = self.records(x)
@@ -250,11 +251,11 @@ class Shots:
             simulate(self.played_on, layouts, cues, options=self.options)
         except CaromError as error:
             text = str(error)
-        which = f"shot {list(where)} of the batch, " if where else ""
+        place = f"shot {list(where)} of the batch, " if where else ""
         values = ", ".join(
             f"{direction.name} = {value:g}" for direction, value in zip(self.directions, x[where])
         )
-        raise CaromError(status, text=f"{which}{values}: {text}")
+        raise CaromError(status, text=f"{place}{values}: {text}")
 
 
 class _One:
@@ -278,22 +279,20 @@ class _One:
         ]
         self.final: Array = np.zeros(shots.count, dtypes.ball_state)
         self.slopes: Array = np.zeros((shots.count, STATE, len(self.numbers)))
-        self.kept = np.empty(shots.room, dtypes.event), shots.seeds, table
+        self.memory = np.empty(shots.room, dtypes.event), shots.seeds, table
         self.arguments = shot_arguments(table, balls, cue, shot_options(shots.options))
         self.differentiated = (*self.arguments[:4], tangent_options(shots.options, 0))
         seeds = {name: pointer("double[]", row) for name, row in shots.seeds.items()}
         self.seeds = ffi.new("carom_tangent_seeds *", {"directions": len(self.numbers), **seeds})
         self.tangent = ffi.new("carom_tangent *", {"final": pointer("double[]", self.slopes)})
         events, final = (
-            pointer("carom_event[]", self.kept[0]),
+            pointer("carom_event[]", self.memory[0]),
             pointer("carom_ball_state[]", self.final),
         )
         self.shot = ffi.new("carom_shot *", {"events": events, "room": shots.room, "final": final})
         self.free = threading.Lock()
 
-    def play(
-        self, x: dtypes.Doubles, differentiated: bool
-    ) -> tuple[dtypes.Doubles, dtypes.Doubles] | None:
+    def play(self, x: Doubles, differentiated: bool) -> tuple[Doubles, Doubles] | None:
         """The final states and, where they are asked for, their derivatives; None where there are
         none, and the batch says why.
         """
@@ -324,15 +323,15 @@ _shots = functools.lru_cache(maxsize=256)(Shots)
 
 def shots_of(
     table: Table,
-    balls: dtypes.Records,
-    cue: dtypes.Records | None,
+    balls: Records,
+    cue: Records | None,
     numbers: Mapping[str, Any],
     array: Callable[[Any], Any],
     room: int,
     errors: str,
     threads: int,
     options: Options,
-    told: bool,
+    has_extras: bool,
 ) -> tuple[Shots, list[tuple[Any, tuple[int, ...]]], tuple[int, ...]]:
     """The shots, each of their numbers as an `array` (...) or (..., elements) with the shape to
     which it is broadcast, and that of the batch.
@@ -366,8 +365,8 @@ def shots_of(
         {
             **leading,
             **{
-                name: tuple(part.shape[: part.ndim - len(own)])
-                for name, part, own in zip(numbers, parts, owns)
+                name: tuple(part.shape[: part.ndim - len(layout_shape)])
+                for name, part, layout_shape in zip(numbers, parts, owns)
             },
         }
     )
@@ -382,9 +381,13 @@ def shots_of(
         threads,
         room,
         errors == "nan",
-        told,
+        has_extras,
     )
-    return shots, [(part, (*batch, *own)) for part, own in zip(parts, owns)], batch
+    return (
+        shots,
+        [(part, (*batch, *layout_shape)) for part, layout_shape in zip(parts, owns)],
+        batch,
+    )
 
 
 def named(shots: Shots, states: Any, reach: Any = None, flags: Any = None) -> Final:

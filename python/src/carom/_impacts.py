@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -39,7 +39,7 @@ class Outcome(NamedTuple):
 class Kind(NamedTuple):
     """A kind of impact: its records, what C calls them, and C's functions."""
 
-    given: dtypes.Record
+    source: dtypes.Record
     gives: dtypes.Record
     point: dtypes.Record
     names: tuple[str, str, str]
@@ -47,7 +47,7 @@ class Kind(NamedTuple):
     trace: Callable[..., int]
     check: Callable[..., int]
     field_name: Callable[[int], Any]
-    one: Callable[..., int] | None = (
+    single: Callable[..., int] | None = (
         None  # a single call, with the bits of a batch and without filling lanes
     )
     batch_f32: Callable[..., int] | None = None
@@ -79,14 +79,14 @@ CUSHION = Kind(
 
 def resolve(
     kind: Kind,
-    impacts: npt.ArrayLike,
+    impacts: ArrayLike,
     options: Any,
     seconds: float,
     threads: int,
     out: tuple[Array, Array] | None,
 ) -> Outcome:
     """Resolves impacts, each of which takes so many seconds."""
-    array = rows(impacts, kind.given, "impacts", single=kind.batch_f32 is not None)
+    array = rows(impacts, kind.source, "impacts", single=kind.batch_f32 is not None)
     record = array.dtype.names is not None
     shape: tuple[int, ...] = array.shape if record else array.shape[:-1]
     if out is not None and not (isinstance(out, tuple) and len(out) == 2):
@@ -102,14 +102,19 @@ def resolve(
     if out is not None:
         apart((("impacts", array),), (("out[0]", motion), ("out[1]", status)))
 
-    given, gives, _ = kind.names
+    input_type, gives, _ = kind.names
     single = array.dtype is not FLOAT64 and array.dtype == FLOAT32
-    if shape == () and not single and kind.one is not None:
-        code = kind.one(pointer(f"{given}[]", array), options, pointer(f"{gives}[]", motion))
+    if shape == () and not single and kind.single is not None:
+        code = kind.single(
+            pointer(f"{input_type}[]", array), options, pointer(f"{gives}[]", motion)
+        )
         status[...] = code
     else:
         width, batch = ("_f32", kind.batch_f32) if single else ("", kind.batch)
-        source, target = pointer(f"{given}{width}[]", array), pointer(f"{gives}{width}[]", motion)
+        source, target = (
+            pointer(f"{input_type}{width}[]", array),
+            pointer(f"{gives}{width}[]", motion),
+        )
         flags = pointer("int8_t[]", status)
 
         def solve(begin: int, count: int) -> int:
@@ -125,9 +130,9 @@ _NUMBERS = ffi.typeof("double[]")
 
 
 @functools.cache
-def _types(given: str, gives: str) -> tuple[Any, Any, int]:
+def _types(input_name: str, gives: str) -> tuple[Any, Any, int]:
     """Pointers to an impact and to its motion, and how many numbers the motion has."""
-    return ffi.typeof(f"{given} *"), ffi.typeof(f"{gives} *"), ffi.sizeof(gives) // 8
+    return ffi.typeof(f"{input_name} *"), ffi.typeof(f"{gives} *"), ffi.sizeof(gives) // 8
 
 
 def resolve_one(kind: Kind, numbers: list[float], options: Any) -> Array:
@@ -136,12 +141,12 @@ def resolve_one(kind: Kind, numbers: list[float], options: Any) -> Array:
     It takes less time than `resolve`, which looks at the layout of arrays; that counts where an
     engine resolves one impact after another.
     """
-    given, gives, size = _types(kind.names[0], kind.names[1])
+    input_type, gives, size = _types(kind.names[0], kind.names[1])
     impact = ffi.new(_NUMBERS, numbers)
     motion = np.empty(size)
-    source, target = ffi.cast(given, impact), ffi.cast(gives, ffi.from_buffer(motion))
-    if kind.one is not None:
-        code = kind.one(source, options, target)
+    source, target = ffi.cast(input_type, impact), ffi.cast(gives, ffi.from_buffer(motion))
+    if kind.single is not None:
+        code = kind.single(source, options, target)
     else:
         code = kind.batch(source, 1, options, target, ffi.NULL)
     if code < 0:
@@ -149,18 +154,18 @@ def resolve_one(kind: Kind, numbers: list[float], options: Any) -> Array:
     return motion
 
 
-def trace(kind: Kind, impact: npt.ArrayLike, points: int, options: Any) -> dtypes.Records:
+def trace(kind: Kind, impact: ArrayLike, points: int, options: Any) -> dtypes.Records:
     """Follows one impact."""
-    array = rows(impact, kind.given, "impact")
+    array = rows(impact, kind.source, "impact")
     if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():
-        width = kind.given.itemsize // 8
+        width = kind.source.itemsize // 8
         raise ValueError(
             f"impact: a trace is of one impact, of shape ({width},), or structured of shape ()"
         )
     traced = np.zeros(whole(points, "points", least=2), kind.point)
-    given, _, point = kind.names
+    input_type, _, point = kind.names
     code = kind.trace(
-        pointer(f"{given}[]", array), options, traced.size, pointer(f"{point}[]", traced)
+        pointer(f"{input_type}[]", array), options, traced.size, pointer(f"{point}[]", traced)
     )
     if code < 0:
         raise _error(kind, code, array, options)

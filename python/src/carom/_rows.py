@@ -57,7 +57,7 @@ def as_array(values: npt.ArrayLike, name: str, dtype: npt.DTypeLike | None = Non
         if dtype is None or array.dtype == dtype:
             return array
         if array.dtype.kind in "biuf" or (
-            array.dtype.kind == "O" and not any(_is_text(one) for one in array.flat)
+            array.dtype.kind == "O" and not any(_is_text(item) for item in array.flat)
         ):
             with np.errstate(all="ignore"):
                 return array.astype(dtype)
@@ -115,23 +115,23 @@ def rows(values: npt.ArrayLike, record: np.dtype[Any], name: str, single: bool =
     return array
 
 
-def output(given: Array | None, shape: tuple[int, ...], dtype: np.dtype[Any], name: str) -> Array:
+def output(array: Array | None, shape: tuple[int, ...], dtype: np.dtype[Any], name: str) -> Array:
     """The array given to be written to, checked, or a new one."""
-    if given is None:
+    if array is None:
         return np.empty(shape, dtype)
-    as_array(given, name)
-    if not isinstance(given, np.ndarray):
+    as_array(array, name)
+    if not isinstance(array, np.ndarray):
         raise TypeError(
-            f"{name}: an array of shape {shape} and dtype {described(dtype)} is needed, not {type(given).__name__}"
+            f"{name}: an array of shape {shape} and dtype {described(dtype)} is needed, not {type(array).__name__}"
         )
-    flags = given.flags
-    right = given.shape == shape and (given.dtype is dtype or given.dtype == dtype)
+    flags = array.flags
+    right = array.shape == shape and (array.dtype is dtype or array.dtype == dtype)
     if not (right and flags.c_contiguous and flags.writeable and flags.aligned):
         raise ValueError(
-            f"{name}: a writeable array in C order of shape {shape} and dtype {described(dtype)} is needed, not of shape {given.shape} "
-            f"and dtype {described(given.dtype)}"
+            f"{name}: a writeable array in C order of shape {shape} and dtype {described(dtype)} is needed, not of shape {array.shape} "
+            f"and dtype {described(array.dtype)}"
         )
-    return given
+    return array
 
 
 def apart(inputs: tuple[tuple[str, Array], ...], outputs: tuple[tuple[str, Array], ...]) -> None:
@@ -139,14 +139,14 @@ def apart(inputs: tuple[tuple[str, Array], ...], outputs: tuple[tuple[str, Array
 
     All are in C order, so their bounds tell.
     """
-    taken = inputs
+    accepted = inputs
     for output in outputs:
-        for other in taken:
-            if np.may_share_memory(output[1], other[1]):
+        for second in accepted:
+            if np.may_share_memory(output[1], second[1]):
                 raise ValueError(
-                    f"{output[0]}: its memory overlaps that of {other[0]}; give an array of its own"
+                    f"{output[0]}: its memory overlaps that of {second[0]}; give an array of its own"
                 )
-        taken += (output,)
+        accepted += (output,)
 
 
 def workers(threads: int) -> int:
@@ -171,15 +171,20 @@ def in_chunks(n: int, seconds: float, threads: int, call: Callable[[int, int], i
         return call(0, n)
     hands = workers(threads) if threads else 1
     count *= hands
-    wanted, least, begin, status = 0.02 if hands == 1 else 0.1, 64 * hands if hands > 1 else 1, 0, 0
+    duration, least, begin, status = (
+        0.02 if hands == 1 else 0.1,
+        64 * hands if hands > 1 else 1,
+        0,
+        0,
+    )
     while begin < n:
         count = min(count, n - begin)
-        since = time.perf_counter()
+        start = time.perf_counter()
         code = call(begin, count)
-        spent = time.perf_counter() - since
+        spent = time.perf_counter() - start
         status = code if status >= 0 > code else status
         begin += count
-        count = max(least, min(8 * count, int(count * wanted / max(spent, 1e-9))))
+        count = max(least, min(8 * count, int(count * duration / max(spent, 1e-9))))
     return status
 
 
@@ -193,7 +198,7 @@ def spread(threads: int, call: Callable[[int, int], int]) -> Callable[[int, int]
 
     def shared(begin: int, many: int) -> int:
         ends = [begin + many * hand // hands for hand in range(hands + 1)]
-        sizes = [after - before for before, after in zip(ends, ends[1:])]
+        sizes = [end - start for start, end in zip(ends, ends[1:])]
         with ThreadPoolExecutor(hands) as pool:
             return min(pool.map(call, ends[:-1], sizes))
 
@@ -272,11 +277,11 @@ pointer: Any = ffi.from_buffer
 def whole(value: object, name: str, least: int = 0, most: int = 2**31 - 1) -> int:
     """A whole number between bounds; anything else is refused by its name."""
     try:
-        given = operator.index(value)  # type: ignore[arg-type]
+        integer = operator.index(value)  # type: ignore[arg-type]
     except TypeError:
-        given = least - 1
-    if least <= given <= most:
-        return int(given)
+        integer = least - 1
+    if least <= integer <= most:
+        return int(integer)
     raise ValueError(
         f"{name}: it must be a whole number from {least} to {most}, not {reprlib.repr(value)}"
     )
@@ -301,19 +306,19 @@ _Made = TypeVar("_Made", bound=Callable[..., Any])
 
 def cached(function: _Made) -> _Made:
     """functools.lru_cache of a function, which names an argument that has no hash."""
-    kept = functools.lru_cache(maxsize=256)(function)
+    function_cache = functools.lru_cache(maxsize=256)(function)
 
     @functools.wraps(function)
     def call(*arguments: Any) -> Any:
         try:
-            return kept(*arguments)
+            return function_cache(*arguments)
         except TypeError:
             for name, value in zip(function.__code__.co_varnames, arguments):
-                given = zip(value._fields, value) if hasattr(value, "_fields") else [(name, value)]
-                for field, part in given:
+                fields = zip(value._fields, value) if hasattr(value, "_fields") else [(name, value)]
+                for field, part in fields:
                     if not all(
-                        isinstance(one, Hashable)
-                        for one in (part if isinstance(part, tuple) else [part])
+                        isinstance(item, Hashable)
+                        for item in (part if isinstance(part, tuple) else [part])
                     ):
                         raise TypeError(
                             f"{field}: {reprlib.repr(part)} is none of its values"
@@ -330,14 +335,14 @@ def called(function: _Made, name: str, text: str) -> _Made:
     return function
 
 
-def needed(module: str, by: str) -> Any:
+def needed(module: str, user: str) -> Any:
     """A module of another package, or the error that says how to get it."""
     try:
         return importlib.import_module(module)
     except ImportError as missing:
         package = module.partition(".")[0]
         raise ImportError(
-            f"{by} needs {package}, which is not installed here: pip install {package}",
+            f"{user} needs {package}, which is not installed here: pip install {package}",
             name=missing.name,
         ) from missing
 
@@ -346,15 +351,20 @@ def listing(module: str) -> Callable[[], list[str]]:
     """A module's __dir__, for tab completion: what it offers, without the names that it imports."""
 
     def names() -> list[str]:
-        given = sys.modules[module]
-        own = [
+        contents = sys.modules[module]
+        members = [
             name
-            for name, value in vars(given).items()
+            for name, value in vars(contents).items()
             if name[0] != "_" and getattr(value, "__module__", None) == module
         ]
-        return sorted(getattr(given, "__all__", own))
+        return sorted(getattr(contents, "__all__", members))
 
     return names
+
+
+def text_of(words: Any) -> str:
+    """A text of C."""
+    return bytes(ffi.string(words)).decode()
 
 
 def numbers_of(part: int) -> Iterator[Any]:
@@ -369,17 +379,17 @@ def with_numbers(part: int) -> Callable[[_Made], _Made]:
     """Writes the numbers of a part into a docstring, in place of its parameter **kind."""
     text = ffi.new("char[]", 100)
 
-    def told(row: Any, indent: str) -> str:
+    def describe(row: Any, indent: str) -> str:
         lib.carom_number_range(row, text, 100)
-        name, about = ffi.string(row.name).decode(), ffi.string(row.text).decode()
-        allowed = ffi.string(text).decode()
+        name, about = text_of(row.name), text_of(row.text)
+        allowed = text_of(text)
         return (
             f"{indent}{name} : array_like, shape (...)\n"
             f"{indent}    {about[0].upper()}{about[1:]}; {allowed}."
         )
 
     def every_one(place: re.Match[str]) -> str:
-        return "\n".join(told(row, place[1]) for row in numbers_of(part))
+        return "\n".join(describe(row, place[1]) for row in numbers_of(part))
 
     def written(function: _Made) -> _Made:
         if function.__doc__:
@@ -403,11 +413,11 @@ def numbered(enum: str) -> dict[str, int]:
     }
 
 
-def worded(of: str) -> dict[str, int]:
+def worded(kind: str) -> dict[str, int]:
     """The values of an enumeration of C by their words, from 0 on: WORLD has carom and pooltool."""
     found: dict[str, int] = {}
-    while (word := lib.carom_word(getattr(lib, f"CAROM_WORDS_{of}"), len(found))) != ffi.NULL:
-        found[ffi.string(word).decode()] = len(found)
+    while (word := lib.carom_word(getattr(lib, f"CAROM_WORDS_{kind}"), len(found))) != ffi.NULL:
+        found[text_of(word)] = len(found)
     return found
 
 
@@ -421,6 +431,11 @@ def choice(names: dict[str, int], value: str, option: str) -> int:
         ) from None
 
 
+def record_of(fields: str) -> np.dtype[Any]:
+    """A structured dtype by its fields, such as "shot:i8 time:f8 r:2f8"."""
+    return np.dtype([tuple(field.split(":")) for field in fields.split()])
+
+
 def broadcast(shapes: dict[str, tuple[int, ...]]) -> tuple[int, ...]:
     """The shape to which leading dimensions of arguments are broadcast."""
     unlike = set(shapes.values()) - {()}
@@ -429,9 +444,9 @@ def broadcast(shapes: dict[str, tuple[int, ...]]) -> tuple[int, ...]:
     try:
         return np.broadcast_shapes(*unlike)
     except ValueError:
-        given = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
+        described = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
         raise ValueError(
-            f"leading dimensions must be equal or 1, to be broadcast against each other, but are {given}"
+            f"leading dimensions must be equal or 1, to be broadcast against each other, but are {described}"
         ) from None
 
 

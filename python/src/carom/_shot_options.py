@@ -20,7 +20,7 @@ from carom._described import World as World
 from carom._rows import cached, choice, number, numbered, several, whole, worded
 
 Friction = BallFriction
-_WORDS = {name: worded(of) for name, of in WORDS.items()}
+_WORDS = {name: worded(kind) for name, kind in WORDS.items()}
 # CAROM_STOP_AT_CONTACT, and CAROM_STOP_AT() of the values of carom_event_type.
 _STOPS = {"contact": 0, **numbered("carom_event_type")}
 
@@ -40,10 +40,10 @@ class Options(ShotOptions):
 
     if not TYPE_CHECKING:
 
-        def __new__(cls, *given, **named):
-            made = super().__new__(cls, *given, **_known(named)).changed({})
-            shot_options(made)  # refuses what is wrong now, not when a shot is played
-            return made
+        def __new__(cls, *values, **named):
+            options = super().__new__(cls, *values, **_known(named)).changed({})
+            shot_options(options)  # refuses what is wrong now, not when a shot is played
+            return options
 
     def __repr__(self) -> str:
         """What differs from the defaults, which keeps signatures short."""
@@ -56,17 +56,23 @@ class Options(ShotOptions):
 
     def changed(self, changes: Any) -> Options:
         """These options except some, by their names."""
-        made = self._replace(**_known(changes))
-        if not isinstance(made.first_of, (int, tuple)):
-            balls = several(made.first_of, "first_of", "the index of a ball is needed, or several")
-            made = made._replace(first_of=tuple(whole(ball, "first_of", most=31) for ball in balls))
-        if not isinstance(made.stop_at, (str, tuple)):
-            made = made._replace(
+        options = self._replace(**_known(changes))
+        if not isinstance(options.first_of, (int, tuple)):
+            balls = several(
+                options.first_of, "first_of", "the index of a ball is needed, or several"
+            )
+            options = options._replace(
+                first_of=tuple(whole(ball, "first_of", most=31) for ball in balls)
+            )
+        if not isinstance(options.stop_at, (str, tuple)):
+            options = options._replace(
                 stop_at=tuple(
-                    several(made.stop_at, "stop_at", "the name of an event is needed, or several")
+                    several(
+                        options.stop_at, "stop_at", "the name of an event is needed, or several"
+                    )
                 )
             )
-        return made
+        return options
 
 
 Options.__doc__ = ShotOptions.__doc__
@@ -84,9 +90,9 @@ def chosen(options: object, changes: Any) -> Options:
 
 
 @cached
-def shot_options(given: Options, threads: int = 0) -> Any:
+def shot_options(options: Options, threads: int = 0) -> Any:
     """The options of C; they are never written to."""
-    t_final, stop_at, first_of = given.t_final, given.stop_at, given.first_of
+    t_final, stop_at, first_of = options.t_final, options.stop_at, options.first_of
     if (
         t_final is not None
         and not 0.0
@@ -96,8 +102,8 @@ def shot_options(given: Options, threads: int = 0) -> Any:
         raise ValueError(f"t_final: it must be positive and finite, in s, or None, not {t_final:g}")
     stops = (stop_at,) if isinstance(stop_at, str) else tuple(stop_at)
     balls = (first_of,) if isinstance(first_of, int) else tuple(first_of)
-    named = {name: choice(words, getattr(given, name), name) for name, words in _WORDS.items()}
-    counts = {name: whole(getattr(given, name), name, most=most) for name, most in COUNTS.items()}
+    named = {name: choice(words, getattr(options, name), name) for name, words in _WORDS.items()}
+    counts = {name: whole(getattr(options, name), name, most=most) for name, most in COUNTS.items()}
     sets = {
         "stop_at": sum({1 << choice(_STOPS, stop, "stop_at") for stop in stops}),
         "first_of": sum({1 << whole(ball, "first_of", most=31) for ball in balls}),
@@ -116,11 +122,11 @@ def shot_options(given: Options, threads: int = 0) -> Any:
 
 def options_of(record: Any) -> Options:
     """Options of C as they are here; threads are not read."""
-    made: dict[str, Any] = {
+    values: dict[str, Any] = {
         name: next(word for word, value in known.items() if value == getattr(record, name))
         for name, known in _WORDS.items()
     }
-    made |= {name: getattr(record, name) for name in COUNTS}
-    made["stop_at"] = tuple(word for word, bit in _STOPS.items() if record.stop_at >> bit & 1)
-    made["first_of"] = tuple(ball for ball in range(32) if record.first_of >> ball & 1)
-    return Options(**made, t_final=record.time_most or None)
+    values |= {name: getattr(record, name) for name in COUNTS}
+    values["stop_at"] = tuple(word for word, bit in _STOPS.items() if record.stop_at >> bit & 1)
+    values["first_of"] = tuple(ball for ball in range(32) if record.first_of >> ball & 1)
+    return Options(**values, t_final=record.time_most or None)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -49,19 +49,19 @@ def _options(solver: str, slip: str, steps: int, threads: int, plain: bool) -> A
 
 def impacts(
     *,
-    r_a: npt.ArrayLike = (0.0, 0.0, 0.0),
-    v_a: npt.ArrayLike,
-    w_a: npt.ArrayLike = 0.0,
-    r_b: npt.ArrayLike,
-    v_b: npt.ArrayLike = 0.0,
-    w_b: npt.ArrayLike = 0.0,
-    radius: npt.ArrayLike = 0.028575,
-    mass: npt.ArrayLike = 0.170097,
-    mass_b: npt.ArrayLike | None = None,
-    mu_slide: npt.ArrayLike = 0.2,
-    mu_slide_b: npt.ArrayLike | None = None,
-    mu_ball: npt.ArrayLike = 0.05,
-    restitution: npt.ArrayLike = 0.95,
+    r_a: ArrayLike = (0.0, 0.0, 0.0),
+    v_a: ArrayLike,
+    w_a: ArrayLike = 0.0,
+    r_b: ArrayLike,
+    v_b: ArrayLike = 0.0,
+    w_b: ArrayLike = 0.0,
+    radius: ArrayLike = 0.028575,
+    mass: ArrayLike = 0.170097,
+    mass_b: ArrayLike | None = None,
+    mu_slide: ArrayLike = 0.2,
+    mu_slide_b: ArrayLike | None = None,
+    mu_ball: ArrayLike = 0.05,
+    restitution: ArrayLike = 0.95,
 ) -> dtypes.Records:
     """Build impacts for `collide`.
 
@@ -92,7 +92,7 @@ def impacts(
     ndarray of `carom.dtypes.impact`, shape (...)
         `carom.dtypes.plain()` gives the numbers, of shape (..., 26).
     """
-    other = {
+    partner = {
         "b.mass": mass if mass_b is None else mass_b,
         "b.mu_slide": mu_slide if mu_slide_b is None else mu_slide_b,
     }
@@ -110,7 +110,7 @@ def impacts(
             "b.v": v_b,
             "b.w": w_b,
             "b.radius": radius,
-            **other,
+            **partner,
             "mu_ball": mu_ball,
             "restitution": restitution,
         },
@@ -118,7 +118,7 @@ def impacts(
 
 
 def collide(
-    impacts: npt.ArrayLike,
+    impacts: ArrayLike,
     *,
     solver: Solver = "exact",
     slip: Slip = "paper",
@@ -179,9 +179,7 @@ def alciatore() -> tuple[float, float, float]:
     return (law.a, law.b, law.c)
 
 
-def mu_ball(
-    impacts: npt.ArrayLike, law: tuple[float, float, float] | None = None
-) -> dtypes.Doubles:
+def mu_ball(impacts: ArrayLike, law: tuple[float, float, float] | None = None) -> dtypes.Doubles:
     """Friction between two balls from the speed of slip just before they collide: float64, shape
     (...).
 
@@ -195,7 +193,7 @@ def mu_ball(
     if (
         not isinstance(a_b_c, (tuple, list))
         or len(a_b_c) != 3
-        or not all(isinstance(one, float) for one in a_b_c)
+        or not all(isinstance(value, float) for value in a_b_c)
     ):
         raise ValueError(f"law: three numbers a, b and c are needed, not {law!r}")
     source, target = pointer("carom_impact[]", array), pointer("double[]", mu)
@@ -209,7 +207,7 @@ def mu_ball(
 
 
 def trace(
-    impact: npt.ArrayLike,
+    impact: ArrayLike,
     points: int = 101,
     *,
     solver: Solver = "exact",

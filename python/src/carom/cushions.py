@@ -6,14 +6,25 @@ import functools
 from typing import TYPE_CHECKING, Any, NamedTuple, TypedDict
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._described import CushionConvention, CushionLaw, CushionModel, CushionNumbers
 from carom._impacts import CUSHION, Outcome, resolve
 from carom._impacts import trace as follow
-from carom._rows import Array, as_array, cached, choice, fill, number, pointer, whole, worded
+from carom._rows import (
+    Array,
+    as_array,
+    cached,
+    choice,
+    fill,
+    number,
+    pointer,
+    text_of,
+    whole,
+    worded,
+)
 from carom.status import CaromError
 
 if TYPE_CHECKING:
@@ -27,7 +38,7 @@ _MODELS, _CONVENTIONS, _LAWS = (
     worded("CUSHION_LAW"),
 )
 _ROWS = iter((lib.carom_number_of(lib.CAROM_PART_BALL, k) for k in range(1000)).__next__, ffi.NULL)
-NUMBERS = [ffi.string(row.name).decode() for row in _ROWS if row.cushion_offset >= 0]
+NUMBERS = [text_of(row.name) for row in _ROWS if row.cushion_offset >= 0]
 
 
 def _own(numbers: Any) -> tuple[tuple[str, float], ...]:
@@ -49,7 +60,7 @@ def _options(
     threads: int,
     least_step: float,
     plain: bool,
-    own: tuple[tuple[str, float], ...],
+    own_numbers: tuple[tuple[str, float], ...],
 ) -> Any:
     """The options of C; they are never written to."""
     if (
@@ -62,13 +73,11 @@ def _options(
         ffi.new("carom_ball_kind *", lib.carom_ball_kind_of(lib.CAROM_GAME_POOLTOOL_POOL)),
         ffi.new("char[]", 100),
     )
-    for name, value in own:
+    for name, value in own_numbers:
         setattr(kind, name, value)
     if (wrong := lib.carom_ball_fault(kind, must, 100)) != ffi.NULL:
-        name = ffi.string(wrong.name).decode()
-        raise ValueError(
-            f"{name}: it must be {ffi.string(must).decode()}, not {getattr(kind, name)!r}"
-        )
+        name = text_of(wrong.name)
+        raise ValueError(f"{name}: it must be {text_of(must)}, not {getattr(kind, name)!r}")
     named = {
         "model": choice(_MODELS, model, "model"),
         "convention": choice(_CONVENTIONS, convention, "convention"),
@@ -80,7 +89,8 @@ def _options(
         "plain": whole(plain, "plain", most=1),
     }
     return ffi.new(
-        "carom_cushion_options *", {**named, **numbers, "least_step": least_step, **dict(own)}
+        "carom_cushion_options *",
+        {**named, **numbers, "least_step": least_step, **dict(own_numbers)},
     )
 
 
@@ -112,16 +122,16 @@ def _ball(game: str, model: str) -> Any:
 
 def cushion_impacts(
     *,
-    v: npt.ArrayLike,
-    w: npt.ArrayLike = 0.0,
-    normal: npt.ArrayLike = (0.0, 1.0),
-    height: npt.ArrayLike | None = None,
-    radius: npt.ArrayLike | None = None,
-    mass: npt.ArrayLike | None = None,
-    mu_slide: npt.ArrayLike | None = None,
-    mu_cushion: npt.ArrayLike | None = None,
-    restitution: npt.ArrayLike | None = None,
-    jaw_radius: npt.ArrayLike = 0.0,
+    v: ArrayLike,
+    w: ArrayLike = 0.0,
+    normal: ArrayLike = (0.0, 1.0),
+    height: ArrayLike | None = None,
+    radius: ArrayLike | None = None,
+    mass: ArrayLike | None = None,
+    mu_slide: ArrayLike | None = None,
+    mu_cushion: ArrayLike | None = None,
+    restitution: ArrayLike | None = None,
+    jaw_radius: ArrayLike = 0.0,
     game: str = "pool",
     model: CushionModel = "mathavan",
 ) -> dtypes.Records:
@@ -151,7 +161,7 @@ def cushion_impacts(
     -------
     ndarray of `carom.dtypes.cushion_impact`, shape (...)
     """
-    of_game: dict[str, tuple[npt.ArrayLike | None, str]] = {
+    of_game: dict[str, tuple[ArrayLike | None, str]] = {
         "height": (height, "nose_height"),
         "radius": (radius, "radius"),
         "mass": (mass, "mass"),
@@ -159,14 +169,14 @@ def cushion_impacts(
         "mu_cushion": (mu_cushion, "mu_cushion"),
         "restitution": (restitution, "restitution_cushion"),
     }
-    fields: dict[str, npt.ArrayLike] = {"v": v, "w": w, "normal": normal, "jaw_radius": jaw_radius}
-    for name, (given, number_of_kind) in of_game.items():
-        fields[name] = given if given is not None else getattr(_ball(game, model), number_of_kind)
+    fields: dict[str, ArrayLike] = {"v": v, "w": w, "normal": normal, "jaw_radius": jaw_radius}
+    for name, (value, number_of_kind) in of_game.items():
+        fields[name] = value if value is not None else getattr(_ball(game, model), number_of_kind)
     return fill(dtypes.cushion_impact, {"v": 3, "w": 3, "normal": 2}, fields)
 
 
 def cushion(
-    impacts: npt.ArrayLike,
+    impacts: ArrayLike,
     *,
     model: CushionModel = "mathavan",
     convention: CushionConvention = "paper",
@@ -217,12 +227,12 @@ def cushion(
     CaromError
         One impact, of shape (15,) or (), that is in error.
     """
-    own = dict(_own(numbers))
+    own_numbers = dict(_own(numbers))
     if game is not None:
         kind = _ball(game, model)
-        own = {name: getattr(kind, name) for name in NUMBERS} | own
+        own_numbers = {name: getattr(kind, name) for name in NUMBERS} | own_numbers
     options = _options(
-        model, convention, law, steps, threads, least_step, plain, tuple(own.items())
+        model, convention, law, steps, threads, least_step, plain, tuple(own_numbers.items())
     )
     seconds = 1e-5 if model == "mathavan" else 1e-7 * (steps or 1000) if model == "euler" else 1e-7
     return resolve(CUSHION, impacts, options, seconds, threads, out)
@@ -247,7 +257,7 @@ class Calibration(NamedTuple):
 
 
 def calibrate(
-    readings: npt.ArrayLike | None, table: Table | None = None, *, game: str = "pool"
+    readings: ArrayLike | None, table: Table | None = None, *, game: str = "pool"
 ) -> Calibration:
     """Find restitution and friction of a table's cushions from three banks that were played.
 
@@ -280,15 +290,15 @@ def calibrate(
     kind = ffi.new(
         "carom_ball_kind *", lib.carom_ball_kind_of(choice(worded("GAME"), game, "game"))
     )
-    given, found = ffi.NULL, ffi.new("carom_calibration *")
+    measured, found = ffi.NULL, ffi.new("carom_calibration *")
     if readings is not None:
         read = as_array(readings, "readings", np.float64)
         if read.shape != (3,):
             raise ValueError(f"readings: three are needed, of shape (3,), not {read.shape}")
         if not ((read > 0) & (read < 8)).all():
             raise ValueError(f"readings: each must be above 0 and below 8, not {read.tolist()}")
-        given = ffi.new("double[3]", read.tolist())
-    code = lib.carom_calibrate(pointer("carom_table[]", record), kind, given, found)
+        measured = ffi.new("double[3]", read.tolist())
+    code = lib.carom_calibrate(pointer("carom_table[]", record), kind, measured, found)
     if code < 0:
         raise CaromError(code, "readings", None if readings is None else tuple(read.tolist()))
     return Calibration(
@@ -300,7 +310,7 @@ def calibrate(
 
 
 def cushion_trace(
-    impact: npt.ArrayLike,
+    impact: ArrayLike,
     points: int = 101,
     *,
     model: CushionModel = "mathavan",

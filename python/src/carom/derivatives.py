@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -33,6 +33,7 @@ from carom._rows import (
     workers,
 )
 from carom._shot_options import Options, chosen, shot_options
+from carom.dtypes import Doubles, Records
 from carom.layouts import Table, of_record
 from carom.results import EventType, Shot, Shots
 from carom.shots import simulate_batch
@@ -108,27 +109,25 @@ class Tangents:
 
     names: tuple[str, ...]  # what changes in each direction,
     units: tuple[str, ...]  # and the unit that derivatives are per
-    states: dtypes.Doubles  # all of `final`, (..., balls, 9, m)
-    states_at: dtypes.Doubles  # all of `at`, (..., times, balls, 9, m)
+    states: Doubles  # all of `final`, (..., balls, 9, m)
+    states_at: Doubles  # all of `at`, (..., times, balls, 9, m)
     time: (
-        dtypes.Doubles
-    )  # (..., events, m): of the times of the events, s; nan beyond the events of a shot
-    flags: npt.NDArray[np.int32]  # (..., events): sums of `Flag`; -1 beyond the events
+        Doubles  # (..., events, m): of the times of the events, s; nan beyond the events of a shot
+    )
+    flags: NDArray[np.int32]  # (..., events): sums of `Flag`; -1 beyond the events
     # (..., m): the least change in each direction, in its unit, at which to first order a ball
     # meets something else, or in another order
-    reach: dtypes.Doubles
-    error: (
-        dtypes.Doubles
-    )  # (...): the largest relative error of what had to be found by differences
-    status: npt.NDArray[np.int8]  # (...): as `carom.Status`; derivatives of a shot in error are nan
+    reach: Doubles
+    error: Doubles  # (...): the largest relative error of what had to be found by differences
+    status: NDArray[np.int8]  # (...): as `carom.Status`; derivatives of a shot in error are nan
 
     @property
-    def final(self) -> dict[str, dtypes.Doubles]:
+    def final(self) -> dict[str, Doubles]:
         """Of the final states."""
         return _by_name(self.states)
 
     @property
-    def at(self) -> dict[str, dtypes.Doubles]:
+    def at(self) -> dict[str, Doubles]:
         """Of the states at the times that were asked for."""
         return _by_name(self.states_at)
 
@@ -143,16 +142,16 @@ def _tangents(
     status: Array,
 ) -> Tangents:
     parts = ("final", "at", "time", "flags", "reach", "error")
-    given = {name: found[name].reshape((*shape, *found[name].shape[1:])) for name in parts}
-    given["states"], given["states_at"] = given.pop("final"), given.pop("at")
+    arrays = {name: found[name].reshape((*shape, *found[name].shape[1:])) for name in parts}
+    arrays["states"], arrays["states_at"] = arrays.pop("final"), arrays.pop("at")
     names, units = (
         tuple(direction.name for direction in directions),
         tuple(direction.unit for direction in directions),
     )
-    return Tangents(names, units, **given, status=status.reshape(shape))
+    return Tangents(names, units, **arrays, status=status.reshape(shape))
 
 
-def _by_name(states: dtypes.Doubles) -> dict[str, dtypes.Doubles]:
+def _by_name(states: Doubles) -> dict[str, Doubles]:
     return {name: states[..., part, :] for name, part in PARTS.items()}
 
 
@@ -175,6 +174,7 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
     """Of each name: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both
     places, or balls[0].r[1].
     """
+    fields = {"cue": CUE, "table": _TABLE, "kind": KIND}
     found: list[list[Direction]] = []
     for name in _names(wrt, argument):
         match = re.fullmatch(
@@ -182,39 +182,23 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
         )
         group, ball, inner, field, index = match.groups() if match else ("", None, None, "", None)
         unit = _UNITS.get(field, "1")
-        if group == "cue" and field in CUE and index is None and not inner:
-            found.append([Direction(name, unit, "cue", ((CUE.index(field),),))])
-        elif group == "table" and field in _TABLE and index is None and not inner:
-            found.append([Direction(name, unit, "table", ((_TABLE.index(field),),))])
-        elif group == "kind" and field in KIND and index is None and not inner:
-            found.append(
-                [Direction(name, unit, "kind", tuple((i, KIND.index(field)) for i in range(balls)))]
-            )
-        elif (
-            ball is not None
-            and int(ball) < balls
-            and inner
-            and field in KIND
-            and field != "radius"
-            and index is None
-        ):
-            found.append([Direction(name, unit, "kind", ((int(ball), KIND.index(field)),))])
-        elif (
-            ball is not None
-            and int(ball) < balls
-            and not inner
-            and field in ELEMENTS
-            and int(index or 0) < 3
-        ):
+        number = balls if ball is None else int(ball)
+        if field in fields.get(group, ()) and index is None and not inner:
+            column = fields[group].index(field)
+            rows = ((i, column) for i in range(balls)) if group == "kind" else ((column,),)
+            found.append([Direction(name, unit, group, tuple(rows))])
+        elif number < balls and inner and field in KIND and field != "radius" and index is None:
+            found.append([Direction(name, unit, "kind", ((number, KIND.index(field)),))])
+        elif number < balls and not inner and field in ELEMENTS and int(index or 0) < 3:
             # of a place and a velocity those along the cloth, unless the one upward is asked for
             ks = range(3 if field == "w" else 2) if index is None else [int(index)]
             found.append(
                 [
                     Direction(
-                        f"balls[{ball}].{field}[{k}]",
+                        f"balls[{number}].{field}[{k}]",
                         unit,
                         "state",
-                        ((int(ball), ELEMENTS[field][k]),),
+                        ((number, ELEMENTS[field][k]),),
                     )
                     for k in ks
                 ]
@@ -229,28 +213,28 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
     return found
 
 
-def seeds_of(given: Sequence[Direction], balls: int) -> dict[str, dtypes.Doubles]:
+def seeds_of(directions: Sequence[Direction], balls: int) -> dict[str, Doubles]:
     """The arrays of carom_tangent_seeds."""
-    m = len(given)
+    m = len(directions)
     seeds = {
         "cue": np.zeros((len(CUE), m)),
         "kind": np.zeros((balls, len(KIND), m)),
         "state": np.zeros((balls, STATE, m)),
         "table": np.zeros((len(_TABLE), m)),
     }
-    for j, direction in enumerate(given):
+    for j, direction in enumerate(directions):
         for place in direction.places:
             seeds[direction.array][(*place, j)] = 1.0
     return seeds
 
 
 @functools.lru_cache(maxsize=256)
-def _seeds(
-    wrt: tuple[str, ...], balls: int
-) -> tuple[tuple[Direction, ...], dict[str, dtypes.Doubles]]:
+def _seeds(wrt: tuple[str, ...], balls: int) -> tuple[tuple[Direction, ...], dict[str, Doubles]]:
     """All directions of some names, and their seeds, which are only read."""
-    given = tuple(direction for several in directions(wrt, balls) for direction in several)
-    return given, seeds_of(given, balls)
+    wanted_directions = tuple(
+        direction for several in directions(wrt, balls) for direction in several
+    )
+    return wanted_directions, seeds_of(wanted_directions, balls)
 
 
 def _differentiate(
@@ -258,9 +242,9 @@ def _differentiate(
     n: int,
     balls: int,
     events: int,
-    seeds: dict[str, dtypes.Doubles],
+    seeds: dict[str, Doubles],
     times: Array,
-    wanted: Collection[str],
+    outputs: Collection[str],
     threads: int,
 ) -> tuple[dict[str, Array], Array]:
     """What is wanted of the tangents of n played shots, each of shape (n, ...), and their statuses.
@@ -286,31 +270,31 @@ def _differentiate(
             "time": (events, width),
             "reach": (width,),
         }
-        needed = {"final", *wanted} | ({"time"} if "reach" in wanted else set())
-        made: dict[str, Array] = {
+        needed = {"final", *outputs} | ({"time"} if "reach" in outputs else set())
+        arrays: dict[str, Array] = {
             name: np.full((n, *shape), np.nan) for name, shape in shapes.items() if name in needed
         }
-        if "flags" in wanted:
-            made["flags"] = np.full((n, events), -1, np.int32)
+        if "flags" in outputs:
+            arrays["flags"] = np.full((n, events), -1, np.int32)
         record: Array = np.zeros(n, dtypes.tangent)
-        for name, array in made.items():
+        for name, array in arrays.items():
             record[name] = addresses(array, 1)
-        if "at" in made and len(times):
+        if "at" in arrays and len(times):
             record["times"], record["times_count"] = times.ctypes.data, len(times)
         results, statuses = pointer("carom_tangent[]", record), pointer("int8_t[]", codes)
 
         def differentiate(begin: int, many: int) -> int:
-            given = {
+            pointers = {
                 "played": job(begin, many),
                 "seeds": of_c,
                 "tangents": results + begin,
                 "status": statuses + begin,
             }
-            return int(lib.carom_shot_tangent_batch(ffi.new("carom_tangent_job *", given)))
+            return int(lib.carom_shot_tangent_batch(ffi.new("carom_tangent_job *", pointers)))
 
         in_chunks(n, 1e-4, threads, differentiate)
-        made["error"] = record["error"]
-        parts.append(made)
+        arrays["error"] = record["error"]
+        parts.append(arrays)
     whole = parts[0]
     if len(parts) > 1:
         for name in set(whole) - {"flags", "error"}:
@@ -319,15 +303,19 @@ def _differentiate(
     return whole, codes
 
 
-def _sorted_times(times: npt.ArrayLike | None) -> Array:
+def _sorted_times(times: ArrayLike | None) -> Array:
     if times is None:
         return np.zeros(0)
-    at = np.ascontiguousarray(as_array(times, "times", np.float64))
-    if at.ndim != 1 or not (np.isfinite(at) & (at >= 0.0)).all() or (np.diff(at) < 0).any():
+    sorted_times = np.ascontiguousarray(as_array(times, "times", np.float64))
+    if (
+        sorted_times.ndim != 1
+        or not (np.isfinite(sorted_times) & (sorted_times >= 0.0)).all()
+        or (np.diff(sorted_times) < 0).any()
+    ):
         raise ValueError(
             "times: finite numbers of seconds from the beginning of the shot, in ascending order, are needed, of shape (times,)"
         )
-    return at
+    return sorted_times
 
 
 def tangent_options(models: Options, threads: int) -> Any:
@@ -358,7 +346,7 @@ def _job_of_one(shot: Shot, options: Any) -> Callable[[int, int], Any]:
 
 
 def tangents(
-    shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | None = None, threads: int = 0
+    shot: Shot | Shots, wrt: Sequence[str], *, times: ArrayLike | None = None, threads: int = 0
 ) -> Tangents:
     """Differentiate a shot that `carom.simulate` has played, or many of `carom.simulate_batch`.
 
@@ -398,10 +386,10 @@ def tangents(
             f"shot: what carom.simulate() or carom.simulate_batch() gives is needed, not {type(shot).__name__}"
         )
     balls = shot.final.shape[-1]
-    given, seeds = _seeds(_names(wrt), balls)
-    at = _sorted_times(times)
+    directions, seeds = _seeds(_names(wrt), balls)
+    moments = _sorted_times(times)
     whole(threads, "threads", least=-1)
-    wanted = ("final", "at", "time", "flags", "reach")
+    outputs = ("final", "at", "time", "flags", "reach")
     if shot.events.dtype != dtypes.event:
         raise ValueError('shot: its events were kept in brief; play it with records="full"')
     count, status, room = np.asarray(shot.count), np.asarray(shot.status), shot.events.shape[-1]
@@ -413,23 +401,25 @@ def tangents(
     events = int(np.minimum(count, room).max(initial=0))
     if isinstance(shot, Shots):
         job = shot._jobs(tangent_options(shot.options, threads))
-        found, codes = _differentiate(job, count.size, balls, events, seeds, at, wanted, threads)
-        return _tangents(given, shot.shape, found, codes)
+        found, codes = _differentiate(
+            job, count.size, balls, events, seeds, moments, outputs, threads
+        )
+        return _tangents(directions, shot.shape, found, codes)
     job = _job_of_one(shot, tangent_options(shot.options, 0))
-    found, codes = _differentiate(job, 1, balls, events, seeds, at, wanted, 0)
+    found, codes = _differentiate(job, 1, balls, events, seeds, moments, outputs, 0)
     if codes[0] < 0:
         raise CaromError(int(codes[0]))
-    return _tangents(given, (), found, codes)
+    return _tangents(directions, (), found, codes)
 
 
-def _final_states(shots: Shots, given: Sequence[Direction], threads: int) -> dtypes.Doubles:
+def _final_states(shots: Shots, directions: Sequence[Direction], threads: int) -> Doubles:
     """Derivatives of the final states alone of shots with all of their events: (shots, balls,
     STATE, m).
     """
     balls = shots.final.shape[-1]
     job = shots._jobs(tangent_options(shots.options, threads))
     return _differentiate(
-        job, shots.size, balls, 0, seeds_of(given, balls), np.zeros(0), ("final",), threads
+        job, shots.size, balls, 0, seeds_of(directions, balls), np.zeros(0), ("final",), threads
     )[0]["final"]
 
 
@@ -444,13 +434,13 @@ class Hessian:
     # first derivatives, with the names and units of the directions, their reach, and the flags of
     # the events
     first: Tangents
-    states: dtypes.Doubles  # all of `final`, (..., balls, 9, m, m)
+    states: Doubles  # all of `final`, (..., balls, 9, m, m)
     # (...): the largest difference of d2/dx dy and d2/dy dx over the largest second derivative,
     # each for changes in proportion to the steps; nan along a vector, where it is unknown
-    error: dtypes.Doubles
+    error: Doubles
 
     @property
-    def final(self) -> dict[str, dtypes.Doubles]:
+    def final(self) -> dict[str, Doubles]:
         """Of the final states."""
         batch = (slice(None),) * (self.first.states.ndim - 2)
         return {name: self.states[(*batch, part)] for name, part in PARTS.items()}
@@ -460,7 +450,7 @@ class Hessian:
 
 
 def numbers_of_direction(
-    direction: Direction, layouts: dtypes.Records, cues: dtypes.Records | None
+    direction: Direction, layouts: Records, cues: Records | None
 ) -> list[Array]:
     """The numbers that a direction changes, as views into layouts (..., balls) and cues (...); none
     of a table.
@@ -478,7 +468,7 @@ def numbers_of_direction(
 
 
 def hessian(
-    shot: Shot | Shots, wrt: Sequence[str], *, along: npt.ArrayLike | None = None, threads: int = 0
+    shot: Shot | Shots, wrt: Sequence[str], *, along: ArrayLike | None = None, threads: int = 0
 ) -> Hessian:
     """Second derivatives of the final states of shots that were played: central differences of
     their first ones.
@@ -507,28 +497,29 @@ def hessian(
         Derivatives are not known for this shot.
     """
     first = tangents(shot, wrt, threads=threads)
-    given = _seeds(_names(wrt), shot.final.shape[-1])[0]
-    shape, m = first.error.shape, len(given)
+    directions = _seeds(_names(wrt), shot.final.shape[-1])[0]
+    shape, m = first.error.shape, len(directions)
     if isinstance(shot, Shot):
         shot = simulate_batch(
             shot.table, shot.balls, shot.cue, room=shot.count, options=shot.options
         )
-    for direction in given:
+    for direction in directions:
         if direction.array == "table" or (direction.array == "cue" and shot.cues is None):
             raise ValueError(
                 f"wrt: {direction.name} has no second derivatives here: numbers of a cue that strikes, and of balls, have"
             )
-    steps = steps_of(given, shot, first.reach)
+    steps = steps_of(directions, shot, first.reach)
     if along is None:
-        d = by_steps(shot, given, steps, np.eye(m), threads)
-        other, axes = d.swapaxes(-1, -2), (-4, -3, -2, -1)
+        d = by_steps(shot, directions, steps, np.eye(m), threads)
+        transposed, axes = d.swapaxes(-1, -2), (-4, -3, -2, -1)
         weight = (steps[..., :, np.newaxis] * steps[..., np.newaxis, :])[
             ..., np.newaxis, np.newaxis, :, :
         ]
         largest, apart = (
-            np.fmax.reduce(np.abs(each) * weight, axis=axes, initial=0.0) for each in (d, d - other)
+            np.fmax.reduce(np.abs(each) * weight, axis=axes, initial=0.0)
+            for each in (d, d - transposed)
         )
-        return Hessian(first, (d + other) / 2.0, apart / np.where(largest > 0.0, largest, 1.0))
+        return Hessian(first, (d + transposed) / 2.0, apart / np.where(largest > 0.0, largest, 1.0))
     vectors = as_array(along, "along", np.float64)
     if (
         vectors.shape[-1:] != (m,)
@@ -539,12 +530,12 @@ def hessian(
         )
     return Hessian(
         first,
-        by_steps(shot, given, steps, vectors[..., np.newaxis, :], threads)[..., 0],
+        by_steps(shot, directions, steps, vectors[..., np.newaxis, :], threads)[..., 0],
         np.full(shape, np.nan),
     )
 
 
-def _whole(shots: Shots) -> tuple[dtypes.Records, dtypes.Records | None]:
+def _whole(shots: Shots) -> tuple[Records, Records | None]:
     """The layouts (n, balls) and cues (n,) of shots, a row each."""
     layouts = np.broadcast_to(shots.layouts, shots.final.shape).reshape(-1, shots.final.shape[-1])
     if shots.kinds is not None:
@@ -555,13 +546,13 @@ def _whole(shots: Shots) -> tuple[dtypes.Records, dtypes.Records | None]:
     ).reshape(-1)
 
 
-def steps_of(given: Sequence[Direction], shots: Shots, reach: dtypes.Doubles) -> dtypes.Doubles:
+def steps_of(directions: Sequence[Direction], shots: Shots, reach: Doubles) -> Doubles:
     """The steps (..., m) of second derivatives."""
-    steps: dtypes.Doubles = np.fmin(_STEP * reach, _STEP_MOST)
-    if all(direction.array != "kind" for direction in given):
+    steps: Doubles = np.fmin(_STEP * reach, _STEP_MOST)
+    if all(direction.array != "kind" for direction in directions):
         return steps
     layouts = _whole(shots)[0]
-    for j, direction in enumerate(given):
+    for j, direction in enumerate(directions):
         if direction.array == "kind":
             numbers = np.max(
                 np.abs(numbers_of_direction(direction, layouts, None)), axis=0
@@ -579,12 +570,16 @@ def _repeated(records: Array, p: int) -> Array:
 
 
 def by_steps(
-    shots: Shots, given: Sequence[Direction], steps: dtypes.Doubles, vectors: Array, threads: int
-) -> dtypes.Doubles:
+    shots: Shots,
+    directions: Sequence[Direction],
+    steps: Doubles,
+    vectors: Array,
+    threads: int,
+) -> Doubles:
     """Differences of the tangents of shots along vectors (..., p, m), for each unit of them: (...,
     balls, STATE, m, p).
     """
-    n, balls, m, p = shots.status.size, shots.final.shape[-1], len(given), vectors.shape[-2]
+    n, balls, m, p = shots.status.size, shots.final.shape[-1], len(directions), vectors.shape[-2]
     ways = np.broadcast_to(vectors, (*shots.shape, p, m)).reshape(n, p, m)
     layouts, cues = _whole(shots)
     events, count, status = (
@@ -609,7 +604,7 @@ def by_steps(
             _repeated(layouts[part], p),
             None if cues is None else _repeated(cues[part], p),
         )
-        for j, direction in enumerate(given):
+        for j, direction in enumerate(directions):
             if direction.name == "kind.radius":
                 # a ball stays as high above the cloth as it is
                 moved["state"]["r"][..., 2] += changes[..., j, np.newaxis]
@@ -631,8 +626,8 @@ def by_steps(
             ).all(axis=-1)
         slopes = np.full((*same.shape, balls, STATE, m), np.nan)
         if same.any():
-            these = others if same.all() else others[same]
-            slopes[same] = _final_states(these, given, threads)
+            matching = others if same.all() else others[same]
+            slopes[same] = _final_states(matching, directions, threads)
         with np.errstate(invalid="ignore"):
             change = (slopes[:, 0] - slopes[:, 1]) / (
                 2.0 * h[part, :, np.newaxis, np.newaxis, np.newaxis]
@@ -641,7 +636,7 @@ def by_steps(
     return found.reshape(*shots.shape, balls, STATE, m, p)
 
 
-def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi") -> dtypes.Doubles:
+def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi") -> Doubles:
     """How the direction of the cue must follow other numbers of a shot, so that a ball falls at the
     same place across its path.
 
@@ -674,27 +669,27 @@ def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi")
         raise ValueError(f"ball: ball {ball} does not fall in this shot")
     # Across the path, a place at a time just before the fall is that of the fall, whenever it
     # happens.
-    before = fell["time"][-1] * (1.0 - 1e-9)
-    v_x, v_y, _ = shot.states(before)["v"][ball]
-    d = tangents(shot, [by, *wrt], times=[before]).at["r"][0, ball]
+    before_end = fell["time"][-1] * (1.0 - 1e-9)
+    v_x, v_y, _ = shot.states(before_end)["v"][ball]
+    d = tangents(shot, [by, *wrt], times=[before_end]).at["r"][0, ball]
     across = v_x * d[1] - v_y * d[0]
     if across[0] == 0.0 or len(directions([by], shot.final.shape[-1], "by")[0]) != 1:
         raise ValueError(f"by: {by} does not turn the path of ball {ball}")
-    slopes: dtypes.Doubles = -across[1:] / across[0]
+    slopes: Doubles = -across[1:] / across[0]
     return slopes
 
 
 def play(
     table: Table,
-    layouts: dtypes.Records,
-    cues: dtypes.Records | None,
-    seeds: dict[str, dtypes.Doubles],
+    layouts: Records,
+    cues: Records | None,
+    seeds: dict[str, Doubles],
     times: Array,
-    wanted: Collection[str],
+    outputs: Collection[str],
     room: int,
     threads: int,
     options: Options,
-) -> tuple[dict[str, Array], Array, dtypes.Records]:
+) -> tuple[dict[str, Array], Array, Records]:
     """Plays shots, some at a time, and differentiates them: what is wanted, statuses and final
     states, of the shape of the batch.
     """
@@ -726,33 +721,37 @@ def play(
     at_once = max(
         -(-n // max(-(-n // at_once), 1)), 1
     )  # as many in each part, which then all use the memory of the first
-    kept = min(room, _FEW)
+    room_used = min(room, _FEW)
     for begin in range(0, max(n, 1), at_once):
         part = slice(begin, min(begin + at_once, n))
         many = part.stop - part.start
         struck = strikes if strikes is None or one_cue else strikes[part]
         while True:
-            again = (
+            reused = (
                 shots
-                if shots is not None and shots.shape == (many,) and shots.events.shape[-1] == kept
+                if shots is not None
+                and shots.shape == (many,)
+                and shots.events.shape[-1] == room_used
                 else None
             )
             shots = simulate_batch(
                 table,
                 rows if one_layout else rows[part],
                 struck,
-                room=kept,
+                room=room_used,
                 threads=threads,
-                out=again,
+                out=reused,
                 options=options,
             )
             longest = int(shots.count.max(initial=0))
-            if longest <= kept or kept == room:
+            if longest <= room_used or room_used == room:
                 break
-            kept = min(longest, room)
+            room_used = min(longest, room)
         events = min(longest, room)
         job = shots._jobs(tangent_options(shots.options, threads))
-        found, codes[part] = _differentiate(job, many, balls, events, seeds, times, wanted, threads)
+        found, codes[part] = _differentiate(
+            job, many, balls, events, seeds, times, outputs, threads
+        )
         if "flags" in found:  # those of all events of a shot together
             found["flags"] = np.bitwise_or.reduce(np.maximum(found["flags"], 0), axis=1)
         raw(final)[part] = raw(shots.final)
@@ -764,8 +763,8 @@ def play(
             # as many events as the longest shot has
             most = max(block.shape[1] for block in blocks)
             longer = [np.full((len(block), most, *block.shape[2:]), np.nan) for block in blocks]
-            for to, block in zip(longer, blocks):
-                to[:, : block.shape[1]] = block
+            for target, block in zip(longer, blocks):
+                target[:, : block.shape[1]] = block
             blocks = longer
         joined = np.concatenate(blocks) if len(blocks) > 1 else blocks[0]
         gathered[name] = joined.reshape((*shape, *joined.shape[1:]))
@@ -774,17 +773,17 @@ def play(
 
 def jacobian(
     table: Table,
-    layouts: dtypes.Records,
-    cues: dtypes.Records | None,
+    layouts: Records,
+    cues: Records | None,
     wrt: Sequence[str],
     *,
     of: str = "final.r",
-    times: npt.ArrayLike | None = None,
+    times: ArrayLike | None = None,
     room: int = 512,
     threads: int = 0,
     options: Options = Options(),
     **changes: Unpack[Changes],
-) -> dtypes.Doubles:
+) -> Doubles:
     """Play shots and give one derivative of each, with leading batch dimensions.
 
     Parameters

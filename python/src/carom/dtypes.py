@@ -162,13 +162,13 @@ def plain(records: Records) -> Doubles:
         )
     integers = _integers(records.dtype)
     if integers:
-        which = (
+        kind = (
             f"{integers[0]} and {len(integers) - 1} more hold"
             if len(integers) > 1
             else f"{integers[0]} holds"
         )
         raise TypeError(
-            f"records: {which} integers, but rows of float64 were asked for; take the fields by their names"
+            f"records: {kind} integers, but rows of float64 were asked for; take the fields by their names"
         )
     numbers = np.ascontiguousarray(records).reshape(-1).view(np.float64)
     return numbers.reshape((*records.shape, records.dtype.itemsize // 8))
@@ -200,6 +200,7 @@ def columns(records: Records) -> dict[str, npt.NDArray[Any]]:
         for part, values in parts.items():
             inner = {part: values} if values.dtype.names is None else columns(values)
             found |= {
-                own if own == part else f"{part}_{own}": column for own, column in inner.items()
+                inner_name if inner_name == part else f"{part}_{inner_name}": column
+                for inner_name, column in inner.items()
             }
     return found

@@ -51,8 +51,8 @@ def _shapes(shots: Shots, x: Any, *, slopes: bool) -> tuple[Any, ...]:
     first: tuple[Any, ...] = (shape(states, np.float64),)
     if slopes:
         first += (shape((*states, m), np.float64),)
-    told = (shape((*lead, m), np.float64), shape(lead, np.int32))
-    return first + told if shots.told else first
+    extras = (shape((*lead, m), np.float64), shape(lead, np.int32))
+    return first + extras if shots.has_extras else first
 
 
 def _constant(values: Any) -> Any:
@@ -84,16 +84,16 @@ def _second(shots: Shots, x: Any) -> Any:
 
 
 def _of_states(shots: Shots, primals: Any, changes: Any) -> Any:
-    states, derivatives, *told = _both(shots, primals[0])
+    states, derivatives, *extras = _both(shots, primals[0])
     slope = _jnp.einsum("...bsm,...m->...bs", derivatives, changes[0])
-    return (states, *told), (slope, *map(_constant, told))
+    return (states, *extras), (slope, *map(_constant, extras))
 
 
 def _of_both(shots: Shots, primals: Any, changes: Any) -> Any:
-    states, derivatives, *told = _both(shots, primals[0])
+    states, derivatives, *extras = _both(shots, primals[0])
     slope = _jnp.einsum("...bsm,...m->...bs", derivatives, changes[0])
     bend = _jnp.einsum("...bsmk,...k->...bsm", _second(shots, primals[0]), changes[0])
-    return (states, derivatives, *told), (slope, bend, *map(_constant, told))
+    return (states, derivatives, *extras), (slope, bend, *map(_constant, extras))
 
 
 def _of_second(shots: Shots, primals: Any, changes: Any) -> Any:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from carom import dtypes, pictures
 from carom._carom import ffi, lib
@@ -19,17 +19,19 @@ from carom._rows import (
     Array,
     as_array,
     choice,
-    frozen,
     fill,
+    frozen,
     number,
     pointer,
     raw,
     sealed,
     several,
+    text_of,
     whole,
     with_numbers,
     worded,
 )
+from carom.dtypes import Record, Records
 from carom.status import CaromError, Status
 
 if TYPE_CHECKING:
@@ -70,9 +72,9 @@ class Table:
         width: float,
         length: float,
         *,
-        rails: dtypes.Records,
-        jaws: dtypes.Records | None = None,
-        pockets: dtypes.Records | None = None,
+        rails: Records,
+        jaws: Records | None = None,
+        pockets: Records | None = None,
         ball_radius: float = 0.0,
         rail_width: float = 0.0,
         pocket_back: float = 0.0,
@@ -106,10 +108,10 @@ class Table:
                 )
             record[name] = len(values)
             raw(record[part])[: len(values)] = raw(np.ascontiguousarray(values))
-        self.record: dtypes.Records = sealed(record)
+        self.record: Records = sealed(record)
 
     @classmethod
-    def from_record(cls, record: dtypes.Records) -> Table:
+    def from_record(cls, record: Records) -> Table:
         """The table of a record of `carom.dtypes.table`, of shape (), which is copied."""
         table = cls.__new__(cls)
         table.record = frozen(np.asarray(record, dtypes.table)).reshape(())
@@ -123,11 +125,11 @@ class Table:
         >>> table = table.changed(rails=rails)
         """
         sizes = ("width", "length", "ball_radius", "rail_width", "pocket_back")
-        given: dict[str, Any] = {name: float(self.record[name]) for name in sizes}
-        given |= {"rails": self.rails, "jaws": self.jaws, "pockets": self.pockets}
-        if unknown := parts.keys() - given.keys():
-            raise TypeError(f"table: there is no {min(unknown)!r}; known are {', '.join(given)}")
-        return Table(**{**given, **parts})
+        fields: dict[str, Any] = {name: float(self.record[name]) for name in sizes}
+        fields |= {"rails": self.rails, "jaws": self.jaws, "pockets": self.pockets}
+        if unknown := parts.keys() - fields.keys():
+            raise TypeError(f"table: there is no {min(unknown)!r}; known are {', '.join(fields)}")
+        return Table(**{**fields, **parts})
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.record = sealed(state["record"])
@@ -143,17 +145,17 @@ class Table:
         return float(self.record["length"])
 
     @property
-    def rails(self) -> dtypes.Records:
+    def rails(self) -> Records:
         """The straight pieces of cushion: a view, which cannot be written to."""
         return self._parts("rail", "rails")
 
     @property
-    def jaws(self) -> dtypes.Records:
+    def jaws(self) -> Records:
         """The rounded ends of cushions: a view, which cannot be written to."""
         return self._parts("jaw", "jaws")
 
     @property
-    def pockets(self) -> dtypes.Records:
+    def pockets(self) -> Records:
         """The pockets: a view, which cannot be written to."""
         return self._parts("pocket", "pockets")
 
@@ -175,10 +177,10 @@ class Table:
         texts = (
             name(pointer("carom_table[]", self.record), k) for k in range(int(self.record[count]))
         )
-        return [ffi.string(text).decode() if text != ffi.NULL else None for text in texts]
+        return [text_of(text) if text != ffi.NULL else None for text in texts]
 
-    def _parts(self, part: str, count: str) -> dtypes.Records:
-        parts: dtypes.Records = self.record[part]
+    def _parts(self, part: str, count: str) -> Records:
+        parts: Records = self.record[part]
         return parts[: int(self.record[count])]
 
     def check(self, radius: float = 0.028575) -> None:
@@ -223,13 +225,15 @@ class Table:
 def refuse_table(code: int, fault: Any) -> None:
     """Raises an error of a table, with the place of its fault."""
     if code < 0:
-        other = "" if fault.other.kind == lib.CAROM_PART_NONE else f", beside {_part(fault.other)}"
+        partner = (
+            "" if fault.other.kind == lib.CAROM_PART_NONE else f", beside {_part(fault.other)}"
+        )
         gap = f", {fault.gap:.4g} m wide" if fault.gap > 0.0 else ""
         where = ""
         if any(fault.place):
-            where = f" (at x = {fault.place[0]:.4g} m, y = {fault.place[1]:.4g} m{gap}{other})"
-        elif other:
-            where = other
+            where = f" (at x = {fault.place[0]:.4g} m, y = {fault.place[1]:.4g} m{gap}{partner})"
+        elif partner:
+            where = partner
         raise CaromError(code, _part(fault.part), text=Status(code).text + where)
 
 
@@ -275,19 +279,24 @@ _SIZES = _sizes()
 @functools.lru_cache(maxsize=256)
 def _other_constants(kind: bytes, cushion_model: str) -> str:
     """What is to be said of a ball that has a game's constants of another model of the cushion."""
-    given, of_c = (
+    constants, of_c = (
         np.frombuffer(kind, dtypes.ball_kind)[_CUSHION].tobytes(),
         ffi.new("carom_ball_kind *"),
     )
     for game, number in list(GAMES.items())[:3]:
-        own = {}
-        for model, of in _CUSHIONS.items():
-            if lib.carom_ball_kind_for(number, of, of_c):
-                own[model] = np.frombuffer(ffi.buffer(of_c), dtypes.ball_kind)[_CUSHION].tobytes()
-        if given in own.values() and own.get(cushion_model) != given:
+        constants_of_model = {}
+        for model, numbers in _CUSHIONS.items():
+            if lib.carom_ball_kind_for(number, numbers, of_c):
+                constants_of_model[model] = np.frombuffer(ffi.buffer(of_c), dtypes.ball_kind)[
+                    _CUSHION
+                ].tobytes()
+        if (
+            constants in constants_of_model.values()
+            and constants_of_model.get(cushion_model) != constants
+        ):
             return (
                 f"balls(game={game!r}, cushion_model={cushion_model!r}) have its own"
-                if cushion_model in own
+                if cushion_model in constants_of_model
                 else f"{game} has no constants for it"
             )
     return ""
@@ -297,8 +306,8 @@ def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
     """Warns of balls of another game than that whose balls the table is made for, and of those with
     a game's constants of another model of the cushion than that which is asked for by name.
     """
-    own = table.record["ball_radius"].item()
-    radii = [own] if own else _SIZES.get((table.width, table.length), [])
+    table_radius = table.record["ball_radius"].item()
+    radii = [table_radius] if table_radius else _SIZES.get((table.width, table.length), [])
     first: Any = (
         kinds[(0,) * kinds.ndim] if kinds.size else None
     )  # of one record: kinds.flat[:1] copies it field by field
@@ -314,15 +323,15 @@ def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
     if (
         named
         and cushion_model in _CUSHIONS
-        and (said := _other_constants(first.tobytes(), str(cushion_model)))
+        and (doubt := _other_constants(first.tobytes(), str(cushion_model)))
     ):
         warnings.warn(
-            f"cushion_model: {cushion_model!r} plays constants of another model: {said}",
+            f"cushion_model: {cushion_model!r} plays constants of another model: {doubt}",
             stacklevel=3,
         )
 
 
-def of_record(values: dtypes.Records, record: dtypes.Record, name: str, builder: str) -> Array:
+def of_record(values: Records, record: Record, name: str, builder: str) -> Array:
     """The values in C order, refused where they are not of the record, which carom.<builder> gives."""
     array = as_array(values, name)
     if array.dtype != record:
@@ -332,7 +341,7 @@ def of_record(values: dtypes.Records, record: dtypes.Record, name: str, builder:
     return np.asarray(array, order="C")
 
 
-def one_cue(cue: dtypes.Records, name: str = "cue") -> Array:
+def one_cue(cue: Records, name: str = "cue") -> Array:
     """A cue of shape (); many are refused."""
     cues = of_record(cue, dtypes.cue, name, "cue()")
     if cues.size != 1:
@@ -352,9 +361,7 @@ def _part(part: Any) -> str:
     return f"{names[part.kind]}[{part.index}]" if part.kind in names else "table"
 
 
-def place_ball(
-    table: Table, balls: dtypes.Records, ball: int, x: float, y: float
-) -> dtypes.Records:
+def place_ball(table: Table, balls: Records, ball: int, x: float, y: float) -> Records:
     """Ball in hand: a copy of a layout, in which the ball of this index lies at rest at (x, y), m,
     also one that was pocketed.
 
@@ -390,7 +397,7 @@ def place_ball(
 
 
 LAST = {
-    ffi.string(about.name).decode(): about.last
+    text_of(about.name): about.last
     for k in range(99)
     if (about := lib.carom_rules_about_of(k)) and about.last
 }  # the highest number of a ball
@@ -398,8 +405,8 @@ _COLOURS = {"yellow": "16", "green": "17", "brown": "18", "blue": "19", "pink": 
 
 
 def by_number(
-    balls: dtypes.Records, ids: Sequence[int | str], rules: str, *, cue: int | str = "cue"
-) -> dtypes.Records:
+    balls: Records, ids: Sequence[int | str], rules: str, *, cue: int | str = "cue"
+) -> Records:
     """A layout as `plan` and `referee` want it, in which ball k is number k, from balls in any
     order; those that are missing are down.
 
@@ -423,36 +430,36 @@ def by_number(
     ValueError
         A ball is none of the game, or there twice, or there is no cue ball.
     """
-    given = of_record(balls, dtypes.shot_ball, "balls", "balls()")
+    layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     names = list(
         map(str, several(ids, "ids", "the number of each ball is needed, and the cue ball's name"))
     )
     last = choice(LAST, rules, "rules")
-    if given.shape != (len(names),):
+    if layout.shape != (len(names),):
         raise ValueError(
-            f"ids: one for each ball of an array of shape (balls,) is needed, not {len(names)} for {given.shape}"
+            f"ids: one for each ball of an array of shape (balls,) is needed, not {len(names)} for {layout.shape}"
         )
     if names.count(str(cue)) != 1:
         raise ValueError(f"cue: it must be one of the ids, once, not {cue!r}")
-    at: dict[int, int] = {}
+    index_of: dict[int, int] = {}
     for k, name in enumerate(names):
         number = _COLOURS.get(name, name.removeprefix("red")) if rules == "snooker" else name
         of_ball = 0 if name == str(cue) else int(number) if number.isdecimal() else -1
-        if not 0 <= of_ball <= last or of_ball in at or (of_ball == 0 and name != str(cue)):
+        if not 0 <= of_ball <= last or of_ball in index_of or (of_ball == 0 and name != str(cue)):
             raise ValueError(
                 f"ids: ball {name!r}: the balls of {rules} are the cue ball and 1 to {last}, each once"
             )
-        at[of_ball] = k
-    made = given[[at.get(ball, at[0]) for ball in range(last + 1)]]
-    down = [ball for ball in range(last + 1) if ball not in at]
-    made["state"][down] = np.zeros((), dtypes.ball_state)
-    made["state"]["r"][down, 2], made["state"]["label"][down] = -0.1, lib.CAROM_BALL_POCKETED
-    return made
+        index_of[of_ball] = k
+    ordered = layout[[index_of.get(ball, index_of[0]) for ball in range(last + 1)]]
+    down = [ball for ball in range(last + 1) if ball not in index_of]
+    ordered["state"][down] = np.zeros((), dtypes.ball_state)
+    ordered["state"]["r"][down, 2], ordered["state"]["label"][down] = -0.1, lib.CAROM_BALL_POCKETED
+    return ordered
 
 
-def _finite(**given: npt.ArrayLike) -> None:
+def _finite(**named: ArrayLike) -> None:
     """Refuses one layout whose numbers are not finite; of many, a wrong one costs its own shots."""
-    for name, values in given.items():
+    for name, values in named.items():
         numbers = as_array(values, name, np.float64)
         if not np.isfinite(numbers).all():
             wrong = numbers[~np.isfinite(numbers)].flat[0]
@@ -461,15 +468,15 @@ def _finite(**given: npt.ArrayLike) -> None:
 
 @with_numbers(lib.CAROM_PART_BALL)
 def balls(
-    r: npt.ArrayLike,
+    r: ArrayLike,
     *,
-    v: npt.ArrayLike = 0.0,
-    w: npt.ArrayLike = 0.0,
+    v: ArrayLike = 0.0,
+    w: ArrayLike = 0.0,
     game: Game = "pool",
     cushion_model: ShotCushion = "default",
     conditions: Sequence[Condition] = (),
     **kind: Unpack[BallNumbers],
-) -> dtypes.Records:
+) -> Records:
     """Balls on a table, from fields that are broadcast against each other.
 
     Parameters
@@ -501,8 +508,7 @@ def balls(
             f"balls: there is no field {unknown[0]!r}; known are {', '.join(dtypes.ball_kind.names or ())}"
         )
     fields = {
-        f"kind.{name}": value
-        for name, value in cast("dict[str, npt.ArrayLike | None]", kind).items()
+        f"kind.{name}": value for name, value in cast("dict[str, ArrayLike | None]", kind).items()
     }
     centres = as_array(r, "r", np.float64)
     if centres.ndim < 2 or centres.shape[-1] not in (2, 3):
@@ -531,36 +537,36 @@ def balls(
         condition = choice(_CONDITIONS, word, "conditions")
         lib.carom_condition_give(condition, ffi.addressof(ball, "kind"))
     usual = bytes(ffi.buffer(ball))
-    made = fill(
+    layout = fill(
         dtypes.shot_ball,
         {"r": 3, "v": 3, "w": 3},
         {**fields, "state.r": places, "state.v": v, "state.w": w},
         usual,
     )
     if centres.shape[-1] == 2:
-        made["state"]["r"][..., 2] = made["kind"]["radius"]
-    return made
+        layout["state"]["r"][..., 2] = layout["kind"]["radius"]
+    return layout
 
 
 def cue(
     *,
-    speed: npt.ArrayLike | None = None,
-    phi: npt.ArrayLike = 90.0,
-    theta: npt.ArrayLike = 0.0,
-    a: npt.ArrayLike | None = None,
-    b: npt.ArrayLike | None = None,
-    ball: npt.ArrayLike = 0,
+    speed: ArrayLike | None = None,
+    phi: ArrayLike = 90.0,
+    theta: ArrayLike = 0.0,
+    a: ArrayLike | None = None,
+    b: ArrayLike | None = None,
+    ball: ArrayLike = 0,
     game: Game = "pool",
-    mass: npt.ArrayLike | None = None,
-    end_mass: npt.ArrayLike | None = None,
-    tip_radius: npt.ArrayLike | None = None,
-    miscue: npt.ArrayLike = 0.0,
-    tip_time: npt.ArrayLike = 0.0,
-    tip_restitution: npt.ArrayLike | None = None,
-    ball_speed: npt.ArrayLike | None = None,
-    tip: npt.ArrayLike | None = None,
-    follow: npt.ArrayLike | None = None,
-) -> dtypes.Records:
+    mass: ArrayLike | None = None,
+    end_mass: ArrayLike | None = None,
+    tip_radius: ArrayLike | None = None,
+    miscue: ArrayLike = 0.0,
+    tip_time: ArrayLike = 0.0,
+    tip_restitution: ArrayLike | None = None,
+    ball_speed: ArrayLike | None = None,
+    tip: ArrayLike | None = None,
+    follow: ArrayLike | None = None,
+) -> Records:
     """Build a cue with its strike, or many.
 
     The fields are broadcast against each other. One cue with a number outside its range is refused.
@@ -631,7 +637,7 @@ def cue(
     usual = bytes(ffi.buffer(ffi.new("carom_cue *", lib.carom_cue_of(choice(GAMES, game, "game")))))
     if ball_speed is not None:
         speed = as_array(ball_speed, "ball_speed", np.float64)
-    given = {"speed": speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball}
+    stroke = {"speed": speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball}
     more = {
         "miscue": miscue,
         "tip_time": tip_time,
@@ -641,18 +647,18 @@ def cue(
         "tip_radius": tip_radius,
     }
     more["follow"] = follow
-    made = fill(dtypes.cue, {}, {**given, **more}, usual)
+    record = fill(dtypes.cue, {}, {**stroke, **more}, usual)
     if ball_speed is not None:
-        _strike_to(made, game)
-    if made.shape == ():
-        checked = made.copy()
-        if np.isnan(made["theta"]):
+        _strike_to(record, game)
+    if record.shape == ():
+        checked = record.copy()
+        if np.isnan(record["theta"]):
             checked["theta"] = 0.0  # nan is right: carom.aim() then finds the elevation
         refuse_numbers(lib.CAROM_PART_CUE, "cue", checked)
-    return made
+    return record
 
 
-def _strike_to(cues: dtypes.Records, game: Game) -> None:
+def _strike_to(cues: Records, game: Game) -> None:
     """Gives cues, whose speeds are those of balls, the speeds that they need.
 
     The ball's speed is in proportion to the level cue's.
@@ -663,27 +669,27 @@ def _strike_to(cues: dtypes.Records, game: Game) -> None:
         )
     kind = balls([[0.0, 0.0]], game=game)[0]["kind"]
     flat = cues.reshape(-1)
-    wanted, phi = flat["speed"].copy(), flat["phi"].copy()
+    speed, phi = flat["speed"].copy(), flat["phi"].copy()
     flat["speed"], flat["phi"] = (
         1.0,
         0.0,
     )  # along x, and by a root, it has the same bits in other languages
     for k in range(flat.size):
         x, y, _ = struck(flat[k : k + 1].reshape(()), kind)["v"]
-        flat["speed"][k] = wanted[k] / np.sqrt(x * x + y * y)
+        flat["speed"][k] = speed[k] / np.sqrt(x * x + y * y)
     flat["phi"] = phi
 
 
-def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
+def _doubt_radians(name: str, angle: ArrayLike) -> None:
     """Warns of angles that are within a turn in radians, one of them a twelfth of pi or a multiple
     of it, as few degrees are.
     """
-    given = as_array(angle, name, np.float64)
-    if not (np.abs(given) < 24.5 * np.pi / 12.0).all():
+    angles = as_array(angle, name, np.float64)
+    if not (np.abs(angles) < 24.5 * np.pi / 12.0).all():
         return
-    turns = given * (12.0 / np.pi)
+    turns = angles * (12.0 / np.pi)
     nearest = np.round(turns)
-    like = given[(np.abs(turns - nearest) < 1e-12) & (nearest != 0.0)]
+    like = angles[(np.abs(turns - nearest) < 1e-12) & (nearest != 0.0)]
     if like.size:
         first = like.flat[0]
         warnings.warn(
@@ -692,7 +698,7 @@ def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
         )
 
 
-def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
+def struck(cue: Records, kind: Records) -> Records:
     """The motion of a ball at rest after a strike: `carom.dtypes.motion` of a `carom.dtypes.cue`
     and a `carom.dtypes.ball_kind`, shapes ().
     """

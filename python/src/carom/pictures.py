@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
-from carom import dtypes
 from carom._rows import listing, needed, number
+from carom.dtypes import Doubles
 
 __all__ = ["Animation", "Picture"]
 __dir__ = listing(__name__)
@@ -76,7 +76,7 @@ class _Canvas:
         )  # a long table lies on its side: y to the right, x downwards
         self.size = size[::-1] if self.turned else size
 
-    def at(self, r: npt.ArrayLike) -> tuple[float, float]:
+    def place(self, r: ArrayLike) -> tuple[float, float]:
         """A point of the table on the picture, in pixels."""
         x, y = (float(value) for value in np.asarray(r)[:2])
         right, down = (
@@ -86,18 +86,18 @@ class _Canvas:
         )
         return float(right) * _SCALE, float(down) * _SCALE
 
-    def point(self, r: npt.ArrayLike) -> str:
-        return ",".join(map(_number, self.at(r)))
+    def point(self, r: ArrayLike) -> str:
+        return ",".join(map(_number, self.place(r)))
 
-    def circle(self, centre: npt.ArrayLike, radius: float, rest: str) -> str:
-        x, y = map(_number, self.at(centre))
+    def circle(self, centre: ArrayLike, radius: float, rest: str) -> str:
+        x, y = map(_number, self.place(centre))
         return f'<circle cx="{x}" cy="{y}" r="{_number(radius * _SCALE)}" {rest}/>'
 
     def ball(
         self,
         shot: Any,
         number: int,
-        places: dtypes.Doubles,
+        places: Doubles,
         opacity: float = 1.0,
         duration: str = "",
     ) -> str:
@@ -157,13 +157,13 @@ def colour(ball: int) -> str:
     )
 
 
-def _paths(shot: Any) -> dtypes.Doubles:
+def _paths(shot: Any) -> Doubles:
     """Places of the balls of a shot, (n, balls, 3).
 
     Paths are parabolas between events, so the events' times are among those looked at.
     """
     times = np.union1d(np.linspace(0.0, shot.time, _PATH_POINTS), shot.events["time"])
-    paths: dtypes.Doubles = (
+    paths: Doubles = (
         shot.positions(times)
         if shot.count <= len(shot.events)
         else np.zeros((0, len(shot.balls), 3))
@@ -174,8 +174,8 @@ def _paths(shot: Any) -> dtypes.Doubles:
 def picture(
     table: Any,
     shot: Any = None,
-    seen: Sequence[dtypes.Doubles] = (),
-    marks: Sequence[tuple[npt.ArrayLike, float, str, str]] = (),
+    seen: Sequence[Doubles] = (),
+    marks: Sequence[tuple[ArrayLike, float, str, str]] = (),
 ) -> str:
     """A table, and a shot's paths with the balls where they begin (faint) and end, as the text of
     an SVG.
@@ -203,8 +203,8 @@ def picture(
             for r in places
         ]
     texts: list[tuple[float, float]] = []
-    for place, size, told, beside in marks:
-        x, y = canvas.at(place)
+    for place, size, label, side in marks:
+        x, y = canvas.place(place)
         circle = canvas.circle(
             place, size, f'fill="none" stroke="{_MARK}" stroke-width="1.5" pointer-events="all"'
         )
@@ -212,14 +212,14 @@ def picture(
         anchor, x = (
             ("start", x + size * _SCALE) if x < 0.5 * canvas.size[0] else ("end", x - size * _SCALE)
         )
-        while beside and any(
-            abs(x - other) < 140.0 and abs(y - below) < 13.0 for other, below in texts
+        while side and any(
+            abs(x - x_of_text) < 140.0 and abs(y - below) < 13.0 for x_of_text, below in texts
         ):
             y += 13.0
-        texts += [(x, y)] if beside else []
+        texts += [(x, y)] if side else []
         text = f'<text x="{_number(x)}" y="{_number(y)}" text-anchor="{anchor}" font-size="12" font-family="sans-serif" fill="#fff">'
         parts.append(
-            f"<g><title>{html.escape(told)}</title>{circle}{text}{html.escape(beside)}</text></g>"
+            f"<g><title>{html.escape(label)}</title>{circle}{text}{html.escape(side)}</text></g>"
         )
     return canvas.document(parts)
 
@@ -292,12 +292,10 @@ class _Pixels:
         self.canvas = canvas
         # even numbers, as films have them
         width, height = (2 * int(np.ceil(size / 2.0)) for size in canvas.size)
-        self.image: npt.NDArray[np.float64] = np.empty((height, width, 3))
+        self.image: NDArray[np.float64] = np.empty((height, width, 3))
         self.image[:] = _colour(_WOOD)
 
-    def _cover(
-        self, low: dtypes.Doubles, high: dtypes.Doubles, distance: Any, ink: str, opacity: float
-    ) -> None:
+    def _cover(self, low: Doubles, high: Doubles, distance: Any, ink: str, opacity: float) -> None:
         """Paints the pixels of a box, pixels, by how far they are outside a shape: distance(x, y)."""
         height, width = self.image.shape[:2]
         x_0, y_0 = (int(max(np.floor(value) - 1.0, 0.0)) for value in low)
@@ -311,22 +309,22 @@ class _Pixels:
         part = self.image[y_0:y_1, x_0:x_1]
         part += cover * (_colour(ink) - part)
 
-    def disc(self, centre: npt.ArrayLike, radius: float, ink: str, opacity: float = 1.0) -> None:
+    def disc(self, centre: ArrayLike, radius: float, ink: str, opacity: float = 1.0) -> None:
         """A disc of a radius in pixels at a place of the table."""
-        at = np.array(self.canvas.at(centre))
+        point = np.array(self.canvas.place(centre))
         self._cover(
-            at - radius,
-            at + radius,
-            lambda x, y: np.hypot(x - at[0], y - at[1]) - radius,
+            point - radius,
+            point + radius,
+            lambda x, y: np.hypot(x - point[0], y - point[1]) - radius,
             ink,
             opacity,
         )
 
     def line(
-        self, p: npt.ArrayLike, q: npt.ArrayLike, width: float, ink: str, opacity: float = 1.0
+        self, p: ArrayLike, q: ArrayLike, width: float, ink: str, opacity: float = 1.0
     ) -> None:
         """A line of a width in pixels between two places of the table."""
-        a, b = np.array(self.canvas.at(p)), np.array(self.canvas.at(q))
+        a, b = np.array(self.canvas.place(p)), np.array(self.canvas.place(q))
         along = b - a
         square = max(float(along @ along), 1e-12)
 
@@ -336,7 +334,7 @@ class _Pixels:
 
         self._cover(np.minimum(a, b) - width, np.maximum(a, b) + width, distance, ink, opacity)
 
-    def ball(self, shot: Any, number: int, centre: dtypes.Doubles, opacity: float) -> None:
+    def ball(self, shot: Any, number: int, centre: Doubles, opacity: float) -> None:
         """A ball, with its number unless it is the first."""
         radius = float(shot.balls["kind"]["radius"][number]) * _SCALE
         self.disc(centre, radius, "#000000", opacity)
@@ -346,7 +344,7 @@ class _Pixels:
         digits = [_DIGITS[int(digit)] for digit in str(number)]
         x_0, y_0 = (
             int(round(value))
-            for value in np.array(self.canvas.at(centre)) - [2.0 * len(digits) - 0.5, 2.5]
+            for value in np.array(self.canvas.place(centre)) - [2.0 * len(digits) - 0.5, 2.5]
         )
         for k, digit in enumerate(digits):
             for row, bits in enumerate(digit):
@@ -358,7 +356,7 @@ class _Pixels:
                         )
 
 
-def _colour(ink: str) -> dtypes.Doubles:
+def _colour(ink: str) -> Doubles:
     return np.array([int(ink[k : k + 2], 16) for k in (1, 3, 5)], np.float64)
 
 
@@ -377,13 +375,13 @@ def rendered(shot: Any, mode: str) -> Any:
     return picture(shot.table, shot) if mode == "svg" else pixels(shot.table, shot)
 
 
-def pixels(table: Any, shot: Any = None) -> npt.NDArray[np.uint8]:
+def pixels(table: Any, shot: Any = None) -> NDArray[np.uint8]:
     """What `picture` draws as an image, of shape (height, width, 3): red, green and blue, both
     sizes even.
     """
     canvas = _Canvas(table)
     drawn = _Pixels(canvas)
-    corners = np.array([canvas.at((0.0, 0.0)), canvas.at((table.width, table.length))])
+    corners = np.array([canvas.place((0.0, 0.0)), canvas.place((table.width, table.length))])
     low, high = corners.min(axis=0), corners.max(axis=0)
     drawn._cover(
         low,

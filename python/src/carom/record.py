@@ -49,8 +49,8 @@ class Replayed:
         return self.recorded == self.played
 
 
-def _end(of: Any) -> End:
-    return End(Status(of.status), of.events, of.time, of.hash)
+def _end(end: Any) -> End:
+    return End(Status(end.status), end.events, end.time, end.hash)
 
 
 def _final(game: Any) -> dtypes.Records:
@@ -103,11 +103,13 @@ def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replay
         )
 
 
-def lines_of(recording: str | os.PathLike[str] | Iterable[str], kept: list[str]) -> Iterator[str]:
+def lines_of(
+    recording: str | os.PathLike[str] | Iterable[str], read_lines: list[str]
+) -> Iterator[str]:
     if isinstance(recording, (str, os.PathLike)):
         with Path(recording).open(encoding="utf-8") as lines:
-            yield from lines_of(lines, kept)
+            yield from lines_of(lines, read_lines)
         return
     for text in recording:
-        kept.append(text.rstrip() + "\n")
+        read_lines.append(text.rstrip() + "\n")
         yield text

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields
 from typing import Any, overload
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes, pictures
 from carom._carom import ffi, lib
@@ -35,19 +35,20 @@ from carom._rows import (
     whole,
 )
 from carom._shot_options import Options, shot_options
+from carom.dtypes import Doubles, Record, Records
 from carom.layouts import Table
 from carom.pictures import Animation
 from carom.status import CaromError, Status
 
 
-def _moments(times: npt.ArrayLike) -> dtypes.Doubles:
-    at = np.asarray(as_array(times, "times", np.float64), order="C")
-    wrong = at[~((at >= 0.0) & (at < np.inf))]
+def _moments(times: ArrayLike) -> Doubles:
+    moments = np.asarray(as_array(times, "times", np.float64), order="C")
+    wrong = moments[~((moments >= 0.0) & (moments < np.inf))]
     if wrong.size:
         raise ValueError(
             f"times: each must be a finite number of seconds from the beginning of the shot, not {wrong.flat[0]}"
         )
-    return at
+    return moments
 
 
 def _picker(index: Any, shape: tuple[int, ...]) -> Callable[[Array], Array]:
@@ -62,9 +63,9 @@ def _picker(index: Any, shape: tuple[int, ...]) -> Callable[[Array], Array]:
         missing = len(shape) - sum(entry is not None and entry is not ... for entry in entries)
         if ... not in entries:
             entries += (...,)
-        at = entries.index(...)
+        place = entries.index(...)
         whole_ones = (slice(None),) * missing
-        view = (*entries[:at], *whole_ones, *entries[at + 1 :], ...)
+        view = (*entries[:place], *whole_ones, *entries[place + 1 :], ...)
         return lambda array: array[view]
     # which shots are chosen, as coordinates: an array that is broadcast is not copied for them
     places: Array = np.arange(math.prod(shape)).reshape(shape)[index]
@@ -112,17 +113,17 @@ class Shot:
     """
 
     table: Table
-    balls: dtypes.Records
+    balls: Records
     status: Status
     time: float
     count: int
-    events: dtypes.Records
-    final: dtypes.Records
-    cue: dtypes.Records | None
+    events: Records
+    final: Records
+    cue: Records | None
     options: Options
     state: Array | None = None
 
-    def states(self, times: npt.ArrayLike, *, drawn: bool = False) -> dtypes.Records:
+    def states(self, times: ArrayLike, *, drawn: bool = False) -> Records:
         """The states of all balls at any times, s: an ndarray of `carom.dtypes.ball_state`, shape
         (shape of the times..., balls).
 
@@ -138,56 +139,61 @@ class Shot:
         ValueError
             A time is before 0, or not finite.
         """
-        at = _moments(times)
-        states: Array = np.zeros((*at.shape, len(self.balls)), dtypes.ball_state)
+        moments = _moments(times)
+        states: Array = np.zeros((*moments.shape, len(self.balls)), dtypes.ball_state)
         look = (
             functools.partial(lib.carom_shot_drawn, pointer("carom_table[]", self.table.record))
             if drawn
             else lib.carom_shot_at_times
         )
-        self._at(at, states, 1, "carom_ball_state[]", look)
+        self._at(moments, states, 1, "carom_ball_state[]", look)
         return states
 
     def _at(
-        self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]
+        self,
+        instants: Doubles,
+        out: Array,
+        numbers: int,
+        ctype: str,
+        look: Callable[..., int],
     ) -> None:
         """Calls look(balls, count, shot, times, n, out), in chunks of the times."""
         if self.events.dtype != dtypes.event:
             raise CaromError(Status.ERROR_EVENTS_LOST)
         events = np.ascontiguousarray(self.events)
-        kept = {
+        fields = {
             "events": pointer("carom_event[]", events),
             "room": len(events),
             "count": self.count,
             "time": self.time,
         }
-        shot = ffi.new("carom_shot *", kept)
+        shot = ffi.new("carom_shot *", fields)
         balls, count = pointer("carom_shot_ball[]", self.balls), len(self.balls)
-        moments, target = pointer("double[]", at), pointer(ctype, out)
+        moments, target = pointer("double[]", instants), pointer(ctype, out)
 
         def chunk(begin: int, many: int) -> int:
             return int(
                 look(balls, count, shot, moments + begin, many, target + begin * count * numbers)
             )
 
-        code = in_chunks(at.size, 1e-6, 0, chunk)
+        code = in_chunks(instants.size, 1e-6, 0, chunk)
         if code < 0:
             raise CaromError(code)
 
-    def orientations(self, times: npt.ArrayLike) -> dtypes.Doubles:
+    def orientations(self, times: ArrayLike) -> Doubles:
         """How each ball has turned since the start of the shot, for drawing it: float64 of shape
         (..., balls, 4).
 
         These are unit quaternions (w, x, y, z), which take what is painted on a ball at the start
         to where it is then. Times and errors are those of `states`.
         """
-        at = _moments(times)
-        turned: dtypes.Doubles = np.zeros((*at.shape, len(self.balls), 4))
-        self._at(at, turned, 4, "double[]", lib.carom_python_orientations)
+        moments = _moments(times)
+        turned: Doubles = np.zeros((*moments.shape, len(self.balls), 4))
+        self._at(moments, turned, 4, "double[]", lib.carom_python_orientations)
         return turned
 
     @property
-    def slips(self) -> dtypes.Doubles:
+    def slips(self) -> Doubles:
         """How fast surfaces pass each other in each event, m/s: with `impulse` it says how a
         contact sounds. 0 where nothing touches.
         """
@@ -203,7 +209,7 @@ class Shot:
             ]
         )
 
-    def positions(self, times: npt.ArrayLike) -> dtypes.Doubles:
+    def positions(self, times: ArrayLike) -> Doubles:
         """The centres of all balls at any times: float64 of shape (..., balls, 3), m.
 
         Times and errors are those of `states`.
@@ -270,15 +276,15 @@ class _OfBatch(Shot):
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *_ATTRIBUTES})
 
-    def states(self, times: npt.ArrayLike, *, drawn: bool = False) -> dtypes.Records:
+    def states(self, times: ArrayLike, *, drawn: bool = False) -> Records:
         return (
             super().states(times, drawn=True) if drawn else self._seen(times, dtypes.ball_state, ())
         )
 
-    def positions(self, times: npt.ArrayLike) -> dtypes.Doubles:
+    def positions(self, times: ArrayLike) -> Doubles:
         return self._seen(times, np.dtype(np.float64), (3,))
 
-    def _seen(self, times: npt.ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...]) -> Array:
+    def _seen(self, times: ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...]) -> Array:
         index: tuple[Any, ...] = self._index if isinstance(self._index, tuple) else (self._index,)
         alone: Shots = self._batch[(*index, ...)]
         seen, codes = alone._look_at(times, dtype, numbers, 0)
@@ -291,24 +297,29 @@ class _OfBatch(Shot):
         return seen
 
     def _at(
-        self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]
+        self,
+        instants: Doubles,
+        out: Array,
+        numbers: int,
+        ctype: str,
+        look: Callable[..., int],
     ) -> None:
         if self.count > len(self.events) or self.events.dtype != dtypes.event:
             raise CaromError(Status.ERROR_EVENTS_LOST)
-        super()._at(at, out, numbers, ctype, look)
+        super()._at(instants, out, numbers, ctype, look)
 
 
-def _kept(batch: Shots, index: Any) -> dtypes.Records:
-    kept: dtypes.Records = batch.events[index]
-    return sealed(kept[: int(batch.record["count"][index])])
+def _kept(batch: Shots, index: Any) -> Records:
+    brief: Records = batch.events[index]
+    return sealed(brief[: int(batch.record["count"][index])])
 
 
-def _layout(batch: Shots, index: Any) -> dtypes.Records:
-    given: dtypes.Records = np.broadcast_to(batch.layouts, batch.final.shape)[index]
+def _layout(batch: Shots, index: Any) -> Records:
+    layouts: Records = np.broadcast_to(batch.layouts, batch.final.shape)[index]
     if batch.kinds is None:
-        return sealed(np.array(given, dtypes.shot_ball))
-    balls = np.empty(given.shape, dtypes.shot_ball)
-    balls["kind"], balls["state"] = batch.kinds, given
+        return sealed(np.array(layouts, dtypes.shot_ball))
+    balls = np.empty(layouts.shape, dtypes.shot_ball)
+    balls["kind"], balls["state"] = batch.kinds, layouts
     return sealed(balls)
 
 
@@ -341,13 +352,13 @@ class Features(Arrays):
     without a cue. A cushion is a rail or its rounded end.
     """
 
-    contact: npt.NDArray[np.int32]
-    contact_time: dtypes.Doubles
-    cushions_before: npt.NDArray[np.int32]
-    cushions_after: npt.NDArray[np.int32]
-    pocket: npt.NDArray[np.int32]
-    pocket_time: dtypes.Doubles
-    cushions: npt.NDArray[np.int32]
+    contact: NDArray[np.int32]
+    contact_time: Doubles
+    cushions_before: NDArray[np.int32]
+    cushions_after: NDArray[np.int32]
+    pocket: NDArray[np.int32]
+    pocket_time: Doubles
+    cushions: NDArray[np.int32]
 
     def __getitem__(self, index: Any) -> Features:
         """Those of some shots: the index is that of `Shots`."""
@@ -417,35 +428,35 @@ class Shots:
     def __init__(
         self,
         table: Table,
-        layouts: dtypes.Records,
+        layouts: Records,
         shape: tuple[int, ...],
         room: int,
-        event: dtypes.Record = dtypes.event,
+        event: Record = dtypes.event,
     ) -> None:
         balls = layouts.shape[-1]
         self.table = table
         self.layouts = layouts
-        self.kinds: dtypes.Records | None = None
-        self.cues: dtypes.Records | None = None
-        self.status: npt.NDArray[np.int8] = np.zeros(shape, INT8)
-        self.final: dtypes.Records = np.zeros((*shape, balls), dtypes.ball_state)
-        self.events: dtypes.Records = np.zeros((*shape, room), event)
-        self.record: dtypes.Records = np.zeros(shape, dtypes.shot)
-        self._facts: dtypes.Records | None = None  # dtypes.facts, with features
+        self.kinds: Records | None = None
+        self.cues: Records | None = None
+        self.status: NDArray[np.int8] = np.zeros(shape, INT8)
+        self.final: Records = np.zeros((*shape, balls), dtypes.ball_state)
+        self.events: Records = np.zeros((*shape, room), event)
+        self.record: Records = np.zeros(shape, dtypes.shot)
+        self._facts: Records | None = None  # dtypes.facts, with features
         self.options = _USUAL
 
     @property
-    def time(self) -> dtypes.Doubles:
+    def time(self) -> Doubles:
         """When the last event happened, s: a view, which cannot be written to."""
         return sealed(self.record["time"])
 
     @property
-    def count(self) -> npt.NDArray[np.int64]:
+    def count(self) -> NDArray[np.int64]:
         """Events that happened: a view, which cannot be written to."""
         return sealed(self.record["count"])
 
     @property
-    def refused(self) -> npt.NDArray[np.bool_]:
+    def refused(self) -> NDArray[np.bool_]:
         """Which shots were not played, as an argument was in error."""
         return np.asarray((self.status < 0) & (self.count == 0) & (self.time == 0.0))
 
@@ -500,7 +511,7 @@ class Shots:
     @overload
     def __getitem__(self, index: tuple[int, ...]) -> Shot: ...
     @overload
-    def __getitem__(self, index: slice | npt.NDArray[Any] | list[Any]) -> Shots: ...
+    def __getitem__(self, index: slice | NDArray[Any] | list[Any]) -> Shots: ...
     @overload
     def __getitem__(self, index: Any) -> Any: ...
     def __getitem__(self, index: Any) -> Any:
@@ -537,7 +548,7 @@ class Shots:
     # ---- Trajectories
     # ---------------------------------------------------------------------------------------------------
 
-    def states(self, times: npt.ArrayLike, *, threads: int = 0) -> dtypes.Records:
+    def states(self, times: ArrayLike, *, threads: int = 0) -> Records:
         """The states of all balls of all shots at any times, s: an ndarray of
         `carom.dtypes.ball_state`, shape (batch..., times..., balls).
 
@@ -554,7 +565,7 @@ class Shots:
         """
         return self._look_at(times, dtypes.ball_state, (), threads)[0]
 
-    def positions(self, times: npt.ArrayLike, *, threads: int = 0) -> dtypes.Doubles:
+    def positions(self, times: ArrayLike, *, threads: int = 0) -> Doubles:
         """The centres of all balls of all shots at any times: float64 of shape (batch..., times...,
         balls, 3), m.
 
@@ -563,40 +574,43 @@ class Shots:
         return self._look_at(times, np.dtype(np.float64), (3,), threads)[0]
 
     def _look_at(
-        self, times: npt.ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...], threads: int
-    ) -> tuple[Array, npt.NDArray[np.int8]]:
+        self, times: ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...], threads: int
+    ) -> tuple[Array, NDArray[np.int8]]:
         """For `states` and `positions`: the array, and of each shot, in C order, whether some of it
         is unknown.
         """
-        given = _moments(times)
-        order = np.argsort(given.reshape(-1), kind="stable")
-        at = given.reshape(-1)[order]
+        instants = _moments(times)
+        order = np.argsort(instants.reshape(-1), kind="stable")
+        ordered = instants.reshape(-1)[order]
         count = self.final.shape[-1]
-        out: Array = np.empty((self.status.size, at.size, count, *numbers), dtype)
+        out: Array = np.empty((self.status.size, ordered.size, count, *numbers), dtype)
         seen = pointer("double[]" if numbers else "carom_ball_state[]", out)
-        moments, row = pointer("double[]", at), at.size * count * (numbers[0] if numbers else 1)
+        moments, row = (
+            pointer("double[]", ordered),
+            ordered.size * count * (numbers[0] if numbers else 1),
+        )
 
         def look(job: Any, codes: Any, begin: int) -> int:
             states, positions = (
                 (ffi.NULL, seen + begin * row) if numbers else (seen + begin * row, ffi.NULL)
             )
-            return int(lib.carom_python_look(job, moments, at.size, states, positions, codes))
+            return int(lib.carom_python_look(job, moments, ordered.size, states, positions, codes))
 
-        codes = self._look(look, 5e-6 + 2e-8 * at.size * count, threads)
+        codes = self._look(look, 5e-6 + 2e-8 * ordered.size * count, threads)
         if (np.diff(order) < 0).any():
             back = np.empty_like(order)
             back[order] = np.arange(len(order))
             out = out[:, back]
-        return out.reshape((*self.shape, *given.shape, count, *numbers)), codes
+        return out.reshape((*self.shape, *instants.shape, count, *numbers)), codes
 
     def _look(
         self, look: Callable[[Any, Any, int], int], seconds: float, threads: int
-    ) -> npt.NDArray[np.int8]:
+    ) -> NDArray[np.int8]:
         """Calls look(job, codes, first row) for all rows, which take so many seconds each; the
         codes.
         """
         whole(threads, "threads", least=-1)
-        codes: npt.NDArray[np.int8] = np.zeros(self.status.size, INT8)
+        codes: NDArray[np.int8] = np.zeros(self.status.size, INT8)
         flags = pointer("int8_t[]", codes)
         job = self._jobs(shot_options(self.options))
         code = in_chunks(
@@ -642,7 +656,7 @@ class Shots:
         results, flags = pointer("carom_shot[]", record), pointer("int8_t[]", status)
 
         def job(begin: int, many: int) -> Any:
-            given = {
+            pointers = {
                 "table": table,
                 "balls" if self.kinds is None else "states": balls
                 if one_layout
@@ -657,7 +671,7 @@ class Shots:
                 "shots": results + begin,
                 "status": flags + begin,
             }
-            return ffi.new("carom_shot_job *", given)
+            return ffi.new("carom_shot_job *", pointers)
 
         return job
 
@@ -682,7 +696,7 @@ class Shots:
                 else [(f"_{k}", (k,)) for k in range(values.shape[-1])]
             )
             found |= {
-                f"{name}{suffix}": values[(..., *which)].reshape(-1) for suffix, which in parts
+                f"{name}{suffix}": values[(..., *index)].reshape(-1) for suffix, index in parts
             }
         known = sorted(Status)
         return (
@@ -762,7 +776,7 @@ class Shots:
             found[name] = (*dims, *last), values
         # what codes mean, as the conventions of climate and forecast say it
         codes: dict[str, type[enum.IntEnum]] = {"status": Status, "label": Label}
-        of = {
+        attributes = {
             name: {
                 "flag_values": [code.value for code in kind],
                 "flag_meanings": " ".join(code.name.lower() for code in kind),
@@ -773,7 +787,7 @@ class Shots:
             name: (
                 names,
                 np.array(values),
-                {**of.get(name, {}), **_units(name)},
+                {**attributes.get(name, {}), **_units(name)},
             )
             for name, (names, values) in found.items()
         }

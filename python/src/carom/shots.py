@@ -30,6 +30,7 @@ from carom._rows import (
     whole,
 )
 from carom._shot_options import Options, StopAt, chosen, shot_options
+from carom.dtypes import Records
 from carom.layouts import Table, check_table, doubt_balls, of_record, one_cue
 from carom.results import UNKNOWN, Shot, Shots
 from carom.status import CaromError, Status
@@ -56,17 +57,17 @@ def cite(*, options: Options = _USUAL, **changes: Unpack[Changes]) -> str:
     options, **changes
         As for `simulate`: `carom.cite(cushion_model="mathavan")`.
     """
-    given = shot_options(chosen(options, changes))
-    room = lib.carom_cite(given, ffi.NULL, 0) + 1
+    record = shot_options(chosen(options, changes))
+    room = lib.carom_cite(record, ffi.NULL, 0) + 1
     text = ffi.new("char[]", room)
-    lib.carom_cite(given, text, room)
+    lib.carom_cite(record, text, room)
     return bytes(ffi.string(text)).decode()
 
 
 def simulate(
     table: Table,
-    balls: dtypes.Records,
-    cue: dtypes.Records | None = None,
+    balls: Records,
+    cue: Records | None = None,
     *,
     options: Options = _USUAL,
     **changes: Unpack[Changes],
@@ -121,7 +122,7 @@ def simulate(
     return _run(begun, lambda shot: lib.carom_shoot(*arguments, shot))
 
 
-def _check_first_of(options: Options, balls: int, cues: dtypes.Records | None) -> None:
+def _check_first_of(options: Options, balls: int, cues: Records | None) -> None:
     """Refuses indices of no ball, and of the cue ball, which does not meet itself."""
     struck = {0} if cues is None else set(np.unique(cues["ball"]).tolist())
     for ball in (options.first_of,) if isinstance(options.first_of, int) else options.first_of:
@@ -152,7 +153,7 @@ def _run(begun: Shot, play: Callable[[Any], int]) -> Shot:
             events[: begun.count] = begun.events
         final = copied(begun.final)
         state = None if begun.state is None else begun.state.copy()
-        given = {
+        pointers = {
             "events": pointer("carom_event[]", events),
             "room": room,
             "count": begun.count,
@@ -162,7 +163,7 @@ def _run(begun: Shot, play: Callable[[Any], int]) -> Shot:
             if state is None
             else ffi.cast("carom_shot_state *", pointer("uint64_t[]", state)),
         }
-        shot = ffi.new("carom_shot *", given)
+        shot = ffi.new("carom_shot *", pointers)
         code = play(shot)
         if shot.count <= room:
             break
@@ -212,17 +213,17 @@ def resume(
         shot_options(begun.options),
     )
     return _run(
-        begun, lambda given: lib.carom_shot_continue(table, balls, len(shot.balls), options, given)
+        begun, lambda job: lib.carom_shot_continue(table, balls, len(shot.balls), options, job)
     )
 
 
 def simulate_batch(
     table: Table,
-    layouts: dtypes.Records,
-    cues: dtypes.Records | None = None,
+    layouts: Records,
+    cues: Records | None = None,
     *,
     room: int = 0,
-    kinds: dtypes.Records | None = None,
+    kinds: Records | None = None,
     records: Literal["full", "brief"] = "full",
     features: bool = False,
     threads: int = 0,
@@ -306,14 +307,14 @@ def simulate_batch(
         )
     shots = Shots(table, all_balls, shape, room, event) if out is None else out
     if out is not None:
-        wanted = {"status": (shape, INT8), "final": ((*shape, count), dtypes.ball_state)}
-        wanted |= {"events": ((*shape, room), event), "record": (shape, dtypes.shot)}
+        outputs = {"status": (shape, INT8), "final": ((*shape, count), dtypes.ball_state)}
+        outputs |= {"events": ((*shape, room), event), "record": (shape, dtypes.shot)}
         written = tuple(
             (f"out.{name}", output(getattr(out, name), *form, f"out.{name}"))
-            for name, form in wanted.items()
+            for name, form in outputs.items()
         )
-        given = (("layouts", all_balls), ("cues", all_cues), ("table", table.record))
-        apart(given if kinds is None else (*given, ("kinds", kinds)), written)
+        inputs = (("layouts", all_balls), ("cues", all_cues), ("table", table.record))
+        apart(inputs if kinds is None else (*inputs, ("kinds", kinds)), written)
         out.table, out.layouts = table, all_balls
         out.record["time"], out.record["count"] = 0.0, 0
         out.status[...] = Status.OK
@@ -340,8 +341,8 @@ def simulate_batch(
 
 def simulate_arrow(
     table: Table,
-    layouts: dtypes.Records,
-    cues: dtypes.Records | Iterator[dtypes.Records] | None = None,
+    layouts: Records,
+    cues: Records | Iterator[Records] | None = None,
     *,
     at_once: int = 10_000,
     **more: Any,
@@ -372,8 +373,8 @@ def simulate_arrow(
 
     def played() -> Iterator[Any]:
         first = 0
-        for given in cues if isinstance(cues, Iterator) else [cues]:
-            struck = given if given is None else of_record(given, dtypes.cue, "cues", "cue()")
+        for part in cues if isinstance(cues, Iterator) else [cues]:
+            struck = part if part is None else of_record(part, dtypes.cue, "cues", "cue()")
             shape = broadcast(
                 {"layouts": all_balls.shape[:-1], "cues": () if struck is None else struck.shape}
             ) or (1,)

@@ -20,13 +20,14 @@ from carom._rows import (
     numbers_of,
     pointer,
     several,
+    text_of,
 )
 from carom.layouts import Table, radius_on, refuse_table
 from carom.status import CaromError
 
 
 _ROWS = list(numbers_of(lib.CAROM_PART_MEASURES))
-_KEYS = {ffi.string(row.key).decode(): ffi.string(row.name).decode() for row in _ROWS}
+_KEYS = {text_of(row.key): text_of(row.name) for row in _ROWS}
 
 
 def measures(table: str) -> dict[str, float]:
@@ -34,14 +35,14 @@ def measures(table: str) -> dict[str, float]:
 
     Each is an argument of that table's function.
     """
-    of = ffi.new("carom_measures *")
-    lib.carom_table_measures(choice(numbered("carom_table_kind"), table, "table"), of)
-    return {key: getattr(of, name) for key, name in _KEYS.items()}
+    record = ffi.new("carom_measures *")
+    lib.carom_table_measures(choice(numbered("carom_table_kind"), table, "table"), record)
+    return {key: getattr(record, name) for key, name in _KEYS.items()}
 
 
 def _measured(name: str, changes: dict[str, float], record: Array) -> None:
     """Fills the record of a built-in table some of whose measures are changed."""
-    given, fault, text, keys = (
+    values, fault, text, keys = (
         measures(name),
         ffi.new("carom_table_fault *"),
         ffi.new("char[]", 100),
@@ -51,19 +52,19 @@ def _measured(name: str, changes: dict[str, float], record: Array) -> None:
     for key, value in changes.items():
         if key not in _KEYS:
             raise TypeError(f"{key}: it is no measure of a table; there are {', '.join(keys)}")
-        given[key] = number(value, key, "a length in m, or degrees of a cut, is needed")
-    of = ffi.new("carom_measures *", {_KEYS[key]: value for key, value in given.items()})
-    code = lib.carom_table_measured(of, radius, pointer("carom_table[]", record), fault)
+        values[key] = number(value, key, "a length in m, or degrees of a cut, is needed")
+    c_measures = ffi.new("carom_measures *", {_KEYS[key]: value for key, value in values.items()})
+    code = lib.carom_table_measured(c_measures, radius, pointer("carom_table[]", record), fault)
     if fault.part.kind == lib.CAROM_PART_MEASURES:
         lib.carom_number_range(_ROWS[fault.part.index], text, 100)
-        other = fault.other.kind == lib.CAROM_PART_MEASURES
+        is_measure = fault.other.kind == lib.CAROM_PART_MEASURES
         must = (
             f"below {fault.gap:.4g} m with this {keys[fault.other.index]}"
-            if other
-            else ffi.string(text).decode()
+            if is_measure
+            else text_of(text)
         )
         raise CaromError(
-            code, keys[fault.part.index], given[keys[fault.part.index]], text=f"it must be {must}"
+            code, keys[fault.part.index], values[keys[fault.part.index]], text=f"it must be {must}"
         )
     refuse_table(code, fault)
 
@@ -79,10 +80,12 @@ def _maker(name: str) -> Callable[..., Table]:
             raise CaromError(code)
         return Table.from_record(record)
 
-    made, text = make(), ffi.string(lib.carom_word_text(lib.CAROM_WORDS_TABLE, kind)).decode()
-    told = "Measures change it: corner=0.108 (m); carom.tables.measures() lists them."
+    table, text = make(), text_of(lib.carom_word_text(lib.CAROM_WORDS_TABLE, kind))
+    advice = "Measures change it: corner=0.108 (m); carom.tables.measures() lists them."
     return called(
-        make, name, f"{text[0].upper()}{text[1:]}: {made.width:.4g} x {made.length:.5g} m. {told}"
+        make,
+        name,
+        f"{text[0].upper()}{text[1:]}: {table.width:.4g} x {table.length:.5g} m. {advice}",
     )
 
 

@@ -68,15 +68,18 @@ class _Known(_torch.autograd.Function):
     plain: Any = None
 
     @classmethod
-    def of(cls, *inputs: Any) -> Any:
+    def evaluate(cls, *inputs: Any) -> Any:
         return (cls if cls.plain is None or _transformed() else cls.plain).apply(*inputs)
 
     @staticmethod
     def setup_context(ctx: Any, inputs: Any, output: Any) -> None:
-        ctx.shots, kept = inputs[0], (inputs[1], *(output[1:] if isinstance(output, tuple) else ()))
-        ctx.save_for_backward(*kept)
-        ctx.save_for_forward(*kept)
-        ctx.mark_non_differentiable(*kept[1:])
+        ctx.shots, saved = (
+            inputs[0],
+            (inputs[1], *(output[1:] if isinstance(output, tuple) else ())),
+        )
+        ctx.save_for_backward(*saved)
+        ctx.save_for_forward(*saved)
+        ctx.mark_non_differentiable(*saved[1:])
 
     backward = jvp = staticmethod(_refuse)
 
@@ -90,16 +93,16 @@ class _States(_Known):
     def forward(shots: Any, x: Any, differentiated: bool) -> Any:
         numbers = x.detach().numpy()
         if differentiated:
-            states, slopes, *told = shots.both(numbers)
+            states, slopes, *extras = shots.both(numbers)
         else:
-            (states, *told), slopes = shots.states(numbers), numbers[..., 0].copy()
-        return tuple(map(_torch.from_numpy, map(np.asarray, (states, slopes, *told))))
+            (states, *extras), slopes = shots.states(numbers), numbers[..., 0].copy()
+        return tuple(map(_torch.from_numpy, map(np.asarray, (states, slopes, *extras))))
 
     @staticmethod
     def backward(ctx: Any, cotangent: Any, *_: Any) -> Any:
         x, slopes = ctx.saved_tensors[:2]
         if _torch.is_grad_enabled() or slopes.ndim < x.ndim:
-            slopes = _Slopes.of(ctx.shots, x, slopes)
+            slopes = _Slopes.evaluate(ctx.shots, x, slopes)
         return (
             None,
             (cotangent.flatten(-2).unsqueeze(-2) @ slopes.flatten(-3, -2)).squeeze(-2),
@@ -112,13 +115,13 @@ class _States(_Known):
             raise NotImplementedError(
                 "carom.torch: PyTorch loses derivatives in forward mode of forward mode: use torch.func.hessian, or jacrev twice"
             )
-        slopes = _Slopes.of(ctx.shots, *ctx.saved_tensors[:2])
+        slopes = _Slopes.evaluate(ctx.shots, *ctx.saved_tensors[:2])
         change_of_states = _torch.einsum("...bsm,...m->...bs", slopes, change)
         return (change_of_states, None, *(None for _ in ctx.saved_tensors[2:]))
 
     @staticmethod
     def vmap(info: Any, dims: Any, shots: Any, x: Any, differentiated: bool) -> Any:
-        found = _States.of(shots, _front(x, dims[1], info.batch_size), differentiated)
+        found = _States.evaluate(shots, _front(x, dims[1], info.batch_size), differentiated)
         return found, (0,) * len(found)
 
 
@@ -138,18 +141,18 @@ class _Slopes(_Known):
         return (
             None,
             _torch.einsum(
-                "...bsmk,...bsm->...k", _Second.of(ctx.shots, *ctx.saved_tensors), cotangent
+                "...bsmk,...bsm->...k", _Second.evaluate(ctx.shots, *ctx.saved_tensors), cotangent
             ),
             None,
         )
 
     @staticmethod
     def jvp(ctx: Any, _: Any, change: Any, __: Any) -> Any:
-        return _Along.of(ctx.shots, *ctx.saved_tensors, change)
+        return _Along.evaluate(ctx.shots, *ctx.saved_tensors, change)
 
     @staticmethod
     def vmap(info: Any, dims: Any, shots: Any, x: Any, slopes: Any) -> Any:
-        return _Slopes.of(
+        return _Slopes.evaluate(
             shots, _front(x, dims[1], info.batch_size), _front(slopes, dims[2], info.batch_size)
         ), 0
 
@@ -163,7 +166,7 @@ class _Second(_Known):
 
     @staticmethod
     def vmap(info: Any, dims: Any, shots: Any, x: Any) -> Any:
-        return _Second.of(shots, _front(x, dims[1], info.batch_size)), 0
+        return _Second.evaluate(shots, _front(x, dims[1], info.batch_size)), 0
 
 
 class _Along(_Known):
@@ -182,9 +185,9 @@ class _Along(_Known):
     @staticmethod
     def vmap(info: Any, dims: Any, shots: Any, x: Any, change: Any) -> Any:
         if dims[1] is None:
-            return _Along.of(shots, x, change.movedim(dims[2], 0)), 0
+            return _Along.evaluate(shots, x, change.movedim(dims[2], 0)), 0
         x, change = x.movedim(dims[1], 0), _front(change, dims[2], info.batch_size)
-        return _Along.of(shots, x, change.movedim(0, -x.ndim)), change.ndim - x.ndim
+        return _Along.evaluate(shots, x, change.movedim(0, -x.ndim)), change.ndim - x.ndim
 
 
 def _plain(kind: Any) -> Any:
@@ -237,18 +240,18 @@ def _play(
     wide = [
         part if part.shape == shape else _torch.broadcast_to(part, shape) for part, shape in parts
     ]
-    one = all(shape == batch for _, shape in parts)
+    is_single = all(shape == batch for _, shape in parts)
     x = (
         _torch.stack(wide, -1)
-        if one
+        if is_single
         else _torch.cat([part[..., None] if part.ndim == len(batch) else part for part in wide], -1)
     )
     differentiated = (
         x.requires_grad and _torch.is_grad_enabled()
     ) or _torch.autograd.forward_ad.unpack_dual(x).tangent is not None
-    states, _, *told = _States.of(shots, x, differentiated)
-    if told:
-        return named(shots, states, *told)
+    states, _, *extras = _States.evaluate(shots, x, differentiated)
+    if extras:
+        return named(shots, states, *extras)
     # one call of PyTorch takes the time of some of the shot
     r, v, w, z, v_z = states.split((2, 2, 3, 1, 1), -1)
     return Final(r, v, w, z[..., 0], v_z[..., 0])

@@ -20,11 +20,3 @@ def test_three_banks():
     assert slow["kind"]["mu_roll"][0] > kind["mu_roll"]
     assert slow["kind"]["restitution_cushion"][0] < kind["restitution_cushion"]
     assert slow["kind"]["mu_cushion"][0] == 0.3
-    with pytest.raises(ValueError, match="fast_cloth"):
-        carom.balls([[0.5, 0.5]], conditions=("felt",))
-    with pytest.raises(ValueError, match="tables of pool, not of snooker"):
-        carom.balls([[0.5, 0.5]], game="snooker", conditions=("fast_cloth",))
-    with pytest.raises(ValueError, match="of shape"):
-        carom.calibrate([4.7, 5.6])
-    with pytest.raises(ValueError, match="below 8, not"):
-        carom.calibrate([4.7, 5.6, 8.5])

@@ -4,6 +4,8 @@ import pickle
 
 import numpy as np
 import pytest
+from conftest import refused
+from numpy.testing import assert_allclose, assert_array_equal
 
 import carom
 
@@ -36,14 +38,14 @@ def test_tangents_are_differences():
     assert (found.reach > 0).all() and not (found.flags & carom.Flag.KINK).any()
 
     def moved(h, j):
-        other, stroke = balls.copy(), cue.copy()
+        layout, stroke = balls.copy(), cue.copy()
         if j < 2:
             stroke["speed" if j == 0 else "phi"] += h
         elif j < 4:
-            other["state"]["r"][1, j - 2] += h
+            layout["state"]["r"][1, j - 2] += h
         else:
-            other["kind"]["mu_slide"] += h
-        return carom.simulate(TABLE, other, stroke, **CLOSED)
+            layout["kind"]["mu_slide"] += h
+        return carom.simulate(TABLE, layout, stroke, **CLOSED)
 
     for j in range(5):
         h = 1e-7
@@ -51,13 +53,13 @@ def test_tangents_are_differences():
         for name in "rvw":
             wide = 3 if name == "w" else 2
             difference = (more.final[name] - less.final[name])[:, :wide] / (2 * h)
-            np.testing.assert_allclose(
+            assert_allclose(
                 found.final[name][..., j],
                 difference,
                 atol=1e-5 * np.abs(found.states[..., j]).max(),
             )
         difference = (more.positions([0.5, 1.0]) - less.positions([0.5, 1.0]))[..., :2] / (2 * h)
-        np.testing.assert_allclose(
+        assert_allclose(
             found.at["r"][..., j], difference, atol=1e-5 * np.abs(found.states_at[..., j]).max()
         )
 
@@ -88,13 +90,15 @@ def test_second_derivatives_are_differences_of_values():
     """On 100 shots, compared for changes of a hundredth of the reach: those of values have errors
     of their own, in fourth derivatives.
     """
-    random, shots, met, errors, off = np.random.default_rng(5), 0, 0, [], []
+    random, shots, contacts, errors, off = np.random.default_rng(5), 0, 0, [], []
     while shots < 100:
         balls = carom.balls(random.uniform([0.15, 0.3], [1.1, 2.2], (3, 2)))
-        at = np.degrees(np.arctan2(*(balls["state"]["r"][1] - balls["state"]["r"][0])[1::-1]))
+        direction = np.degrees(
+            np.arctan2(*(balls["state"]["r"][1] - balls["state"]["r"][0])[1::-1])
+        )
         cue = carom.cue(
             speed=random.uniform(1.0, 3.0),
-            phi=at + random.uniform(-10.0, 10.0),
+            phi=direction + random.uniform(-10.0, 10.0),
             a=random.uniform(-0.2, 0.2),
             b=random.uniform(-0.2, 0.3),
         )
@@ -109,17 +113,17 @@ def test_second_derivatives_are_differences_of_values():
         ):
             continue
         shots += 1
-        met += (shot.events["type"] == carom.EventType.BALL_BALL).any()
+        contacts += (shot.events["type"] == carom.EventType.BALL_BALL).any()
         assert found.final["r"].shape == (3, 2, 4, 4) and np.isfinite(found.states).all()
-        np.testing.assert_array_equal(found.states, found.states.swapaxes(-1, -2))
+        assert_array_equal(found.states, found.states.swapaxes(-1, -2))
         errors.append(found.error)
         h = 1e-2 * np.minimum(found.first.reach, 0.1)
         second, weight = second_differences(balls, cue, h, CLOSED), h[:, np.newaxis] * h
         off.append(
             np.abs((found.final["r"] - second) * weight).max() / np.abs(second * weight).max()
         )
-    assert met > 50 and np.median(errors) < 1e-6 and np.quantile(errors, 0.9) < 1e-4, np.quantile(
-        errors, [0.5, 0.9, 1.0]
+    assert contacts > 50 and np.median(errors) < 1e-6 and np.quantile(errors, 0.9) < 1e-4, (
+        np.quantile(errors, [0.5, 0.9, 1.0])
     )
     assert np.median(off) < 1e-4 and np.quantile(off, 0.9) < 1e-2, np.quantile(off, [0.5, 0.9, 1.0])
 
@@ -142,15 +146,7 @@ def test_second_derivatives_of_a_ball_that_rolls():
             [0.0, 0.0, 0.0],
         ]
     )
-    np.testing.assert_allclose(found.final["r"][0, 1], expected, rtol=1e-5, atol=1e-6)
-    for wrt, along, words in (
-        (["table.nose_height"], None, "wrt: table.nose_height has no second"),
-        ([], None, "wrt: name at least one"),
-        (["cue.phi"], [1.0, 2.0], r"along: the shape must be \(1,\)"),
-        (["cue.phi"], [[1.0]], "along: the shape"),
-    ):
-        with pytest.raises(ValueError, match=words):
-            carom.hessian(shot, wrt, along=along)
+    assert_allclose(found.final["r"][0, 1], expected, rtol=1e-5, atol=1e-6)
     # of a radius, with the height of the balls
     by_radius = [
         carom.tangents(
@@ -167,7 +163,7 @@ def test_second_derivatives_of_a_ball_that_rolls():
     found = carom.hessian(
         carom.simulate(TABLE, balls, carom.cue(speed=2.0), **CLOSED), ["kind.radius"]
     )
-    np.testing.assert_allclose(
+    assert_allclose(
         found.final["r"][..., 0], (by_radius[0] - by_radius[1]) / 2e-7, rtol=1e-5, atol=1e-3
     )
 
@@ -188,7 +184,7 @@ def test_second_derivatives_of_batches(monkeypatch):
         np.random.default_rng(1).normal(size=(2, 3, 7)) * [0.1, 0.1, 0.01, 0.01, 0.01, 0.01, 1e-3],
     )
     monkeypatch.setattr(carom.derivatives, "AT_ONCE", 5)
-    along, again = carom.hessian(shots, wrt, along=vectors), carom.hessian(shots, wrt)
+    along, repeat = carom.hessian(shots, wrt, along=vectors), carom.hessian(shots, wrt)
     assert (
         found.states.shape == (2, 3, 3, 9, 7, 7)
         and found.final["z"].shape == (2, 3, 3, 7, 7)
@@ -197,17 +193,13 @@ def test_second_derivatives_of_batches(monkeypatch):
     assert np.isnan(found.states[1, 0]).all() and np.isnan(along.error).all()
     for k in np.ndindex(2, 3):
         if k != (1, 0):
-            one = carom.hessian(shots[k], wrt)
+            single = carom.hessian(shots[k], wrt)
             assert (
-                found.states[k].tobytes() == again.states[k].tobytes() == one.states.tobytes()
-                and found.error[k] == one.error
+                found.states[k].tobytes() == repeat.states[k].tobytes() == single.states.tobytes()
+                and found.error[k] == single.error
             )
-            expected = one.states @ vectors[k]
-            np.testing.assert_allclose(
-                along.states[k], expected, rtol=0.0, atol=1e-5 * np.abs(expected).max()
-            )
-    with pytest.raises(TypeError, match="^shot: "):
-        carom.hessian(TABLE, ["cue.phi"])
+            expected = single.states @ vectors[k]
+            assert_allclose(along.states[k], expected, rtol=0.0, atol=1e-5 * np.abs(expected).max())
 
 
 def test_jacobian_has_the_batch_in_front():
@@ -218,10 +210,10 @@ def test_jacobian_has_the_batch_in_front():
     found = carom.jacobian(TABLE, balls, cues, ["cue.speed", "kind.mu_roll"], **CLOSED)
     assert found.shape == (2, 3, 3, 2, 2)
     assert np.isnan(found[1, 2]).all() and np.isfinite(found[:, :2]).all()
-    one = carom.tangents(
+    single = carom.tangents(
         carom.simulate(TABLE, balls, cues[0, 1], **CLOSED), ["cue.speed", "kind.mu_roll"]
     )
-    np.testing.assert_array_equal(found[0, 1], one.final["r"])
+    assert_array_equal(found[0, 1], single.final["r"])
 
 
 @pytest.mark.parametrize(
@@ -243,18 +235,18 @@ def test_batches_have_the_bits_of_single_shots(models, threads):
     assert found.status[4] == carom.Status.ERROR_MISCUE and (found.status != 0).sum() == 1
     assert found.states.shape == (9, 3, carom.derivatives.STATE, 6) and found.reach.shape == (9, 6)
     ofs = {
-        of: carom.jacobian(
+        name: carom.jacobian(
             table,
             layouts,
             cues,
             names,
-            of=of,
+            of=name,
             times=[0.1, 0.4],
             room=200,
             threads=threads,
             **models,
         )
-        for of in ("final.r", "at.w", "time", "reach")
+        for name in ("final.r", "at.w", "time", "reach")
     }
     for k in range(9):
         if k == 4:
@@ -265,21 +257,21 @@ def test_batches_have_the_bits_of_single_shots(models, threads):
             )
             assert all(np.isnan(array[k]).all() for array in ofs.values())
             continue
-        one = carom.tangents(
+        single_shot = carom.tangents(
             carom.simulate(table, layouts[k], cues[k], **models), names, times=[0.1, 0.4]
         )
-        events = len(one.time)
+        events = len(single_shot.time)
         for batch, single in (
-            (found.states[k], one.states),
-            (found.states_at[k], one.states_at),
-            (found.time[k, :events], one.time),
-            (found.flags[k, :events], one.flags),
-            (found.reach[k], one.reach),
-            (found.error[k], one.error),
-            (ofs["final.r"][k], one.final["r"]),
-            (ofs["at.w"][k], one.at["w"]),
-            (ofs["time"][k, :events], one.time),
-            (ofs["reach"][k], one.reach),
+            (found.states[k], single_shot.states),
+            (found.states_at[k], single_shot.states_at),
+            (found.time[k, :events], single_shot.time),
+            (found.flags[k, :events], single_shot.flags),
+            (found.reach[k], single_shot.reach),
+            (found.error[k], single_shot.error),
+            (ofs["final.r"][k], single_shot.final["r"]),
+            (ofs["at.w"][k], single_shot.at["w"]),
+            (ofs["time"][k, :events], single_shot.time),
+            (ofs["reach"][k], single_shot.reach),
         ):
             assert (
                 np.isfinite(single).any()
@@ -287,8 +279,8 @@ def test_batches_have_the_bits_of_single_shots(models, threads):
             )
         assert np.isnan(found.time[k, events:]).all() and (found.flags[k, events:] == -1).all()
         # a shot that is taken out of the batch knows how it was played
-        again = carom.tangents(shots[k], names)
-        assert again.states.tobytes() == one.states.tobytes()
+        repeat = carom.tangents(shots[k], names)
+        assert repeat.states.tobytes() == single_shot.states.tobytes()
 
 
 def test_jacobians_of_more_shots_than_are_kept_at_a_time(monkeypatch):
@@ -305,14 +297,16 @@ def test_jacobians_of_more_shots_than_are_kept_at_a_time(monkeypatch):
     ]
     names = names[: carom.derivatives.MOST - 1]
     whole = {
-        of: carom.jacobian(TABLE, balls, cues, names, of=of, **CLOSED)
-        for of in ("final.v", "final.r", "time", "reach")
+        name: carom.jacobian(TABLE, balls, cues, names, of=name, **CLOSED)
+        for name in ("final.v", "final.r", "time", "reach")
     }
     monkeypatch.setattr(carom.derivatives, "AT_ONCE", 5)
     monkeypatch.setattr(carom.derivatives, "MOST", 20)
-    for of, array in whole.items():
-        part = carom.jacobian(TABLE, np.broadcast_to(balls, (23, 3)), cues, names, of=of, **CLOSED)
-        np.testing.assert_allclose(
+    for name, array in whole.items():
+        part = carom.jacobian(
+            TABLE, np.broadcast_to(balls, (23, 3)), cues, names, of=name, **CLOSED
+        )
+        assert_allclose(
             part, array, rtol=1e-9, atol=1e-9 * np.nanmax(np.abs(array[np.isfinite(array)]))
         )
         assert part.shape == array.shape and np.isfinite(part).sum() == np.isfinite(array).sum() > 0
@@ -338,8 +332,8 @@ def test_a_shot_knows_what_it_was_played_with():
     assert (
         shot.options.cushion_model == "smooth" and shot.options.t_final == 2.0 and shot.cue == cue
     )
-    again = carom.resume(shot, t_final=3.0)
-    assert again.options == shot.options._replace(t_final=3.0) and again.cue == cue
+    repeat = carom.resume(shot, t_final=3.0)
+    assert repeat.options == shot.options._replace(t_final=3.0) and repeat.cue == cue
     assert carom.tangents(pickle.loads(pickle.dumps(shot)), names).states.tobytes() == expected
     cues = np.repeat(cue.reshape(1), 3)
     cues["speed"][1] = 1.7
@@ -370,10 +364,6 @@ def test_events_that_were_not_kept():
             carom.tangents(shots[2], ["cue.phi"])
     found = carom.tangents(carom.simulate_batch(TABLE, balls, cues, room=most), ["cue.phi"])
     assert np.isfinite(found.states[[0, 2]]).all() and np.isnan(found.states[1]).all()
-    with pytest.raises(ValueError, match='records="full"'):
-        carom.tangents(
-            carom.simulate_batch(TABLE, balls, cues, room=99, records="brief"), ["cue.phi"]
-        )
 
 
 def test_what_is_not_known():
@@ -381,5 +371,7 @@ def test_what_is_not_known():
     with pytest.raises(carom.CaromError) as error:
         carom.tangents(carom.simulate(TABLE, balls, cue, world="pooltool"), ["cue.phi"])
     assert error.value.status is carom.Status.ERROR_TANGENT
-    with pytest.raises(ValueError, match="times"):
-        carom.tangents(carom.simulate(TABLE, balls, cue), ["cue.phi"], times=[1.0, 0.5])
+
+
+def test_refusals(refusal):
+    refused(refusal, globals())

@@ -1,6 +1,7 @@
 """Batches are indexed as NumPy indexes their array `status`, in every form and every dimension."""
 
 import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -25,29 +26,13 @@ def batches(request):
 
 def indices(shape):
     """Every form of an index that NumPy has, right and wrong ones, for an array of a shape."""
-    rng = np.random.default_rng(1)
-    n = len(shape)
-    mask = rng.random(shape) < 0.5
-    yield from [(), ..., None, (None,), (..., None), (None, ...), True, False, np.True_]
-    yield from [0, -1, 1, np.int8(-1), np.array(0), 99, -99, 1.0, "a", "time", b"r", object()]
-    yield from [slice(None), slice(1, None), slice(None, None, -1), slice(2, 1), slice(-2, 99)]
-    yield from [[0], [0, -1], [], [99], np.array([0, 0]), np.zeros((0,), int), np.array([0.5])]
-    yield from [[True], [False], np.ones(1, bool), np.ones(99, bool), mask, ~mask, mask.tolist()]
-    yield from [(..., 0), (..., -1), (..., [0]), (0, ...), (..., slice(None, 1)), (..., ..., 0)]
-    yield from [(0,) * n, (-1,) * n, (0,) * (n + 1), (slice(None),) * n, (slice(None),) * (n + 1)]
-    yield from [(np.array(0),) * n, ([0, -1],) * n, (None, 0), (0, None), (0, None, ...)]
-    yield from [(mask, None), (None, mask), (mask, ...), (..., mask), (mask, 0), ([[0], [0]],)]
-    if n > 1:
-        yield from [(slice(None), 1), (slice(None), -1, None), ([0, 1], slice(None)), (1, ..., 0)]
-        yield from [(slice(None), [1, 0]), (..., [1, 0]), ([0], ..., [0]), mask.any(axis=-1)]
-        yield from [
-            np.ix_(*([0, -1] for _ in shape)),
-            np.ix_(mask.any(axis=(1, 2)[: n - 1]), *([0] for _ in shape[1:])),
-        ]
-        yield from [(np.newaxis, slice(None), None, [0, 1]), (0, [1, 0]), ([1, 0], 0), (1, True)]
-    if n > 2:
-        yield from [(0, slice(None), [0, 1]), ([0, 1], slice(None), [0, 1]), (..., 0, None)]
-        yield from [(slice(None), mask[0]), (mask[..., 0], 1), (1, ..., [0])]
+    n, mask = len(shape), np.random.default_rng(1).random(shape) < 0.5
+    names = {"np": np, "shape": shape, "n": n, "mask": mask}
+    for line in Path(__file__).with_suffix(".txt").read_text(encoding="utf-8").splitlines():
+        if line.startswith("#"):
+            least = int(line.split()[2])
+        elif n >= least:
+            yield eval(line, names)
 
 
 def numpy_s(array, index):
@@ -64,39 +49,41 @@ def test_every_index_is_numpy_s(batches, shape):
     places = np.arange(shots.size).reshape(shape)
     forms = 0
     for index in indices(shape):
-        expected, given = numpy_s(places, index), numpy_s(shots, index)
-        said = (shape, index)
+        expected, found = numpy_s(places, index), numpy_s(shots, index)
+        context = (shape, index)
         forms += 1
         if isinstance(expected, type):
-            assert given is expected, said
+            assert found is expected, context
         elif not isinstance(expected, np.ndarray):
-            assert isinstance(given, carom.Shot), said
-            assert given.time == shots.time.flat[expected], said
-            assert given.final.tobytes() == shots.final.reshape(-1, 2)[expected].tobytes(), said
-            assert given.cue["speed"] == shots.cues["speed"].flat[expected], said
-            assert given.balls.tobytes() == BALLS.tobytes() and given.positions(0.3).shape == (2, 3)
+            assert isinstance(found, carom.Shot), context
+            assert found.time == shots.time.flat[expected], context
+            assert found.final.tobytes() == shots.final.reshape(-1, 2)[expected].tobytes(), context
+            assert found.cue["speed"] == shots.cues["speed"].flat[expected], context
+            assert found.balls.tobytes() == BALLS.tobytes() and found.positions(0.3).shape == (2, 3)
         else:
-            assert isinstance(given, carom.Shots) and given.shape == expected.shape, said
-            compared(shots, given, expected, said)
+            assert isinstance(found, carom.Shots) and found.shape == expected.shape, context
+            compared(shots, found, expected, context)
     assert forms > 50
 
 
-def compared(shots, part, places, said):
+def compared(shots, part, places, context):
     """Every array of a part is that of the whole at these places."""
     shape = places.shape
     for name in ("status", "time", "count", "refused"):
-        assert np.array_equal(getattr(part, name), getattr(shots, name).reshape(-1)[places]), said
-    assert part.final.shape == (*shape, 2) and part.events.shape[:-1] == shape, said
-    assert part.final.tobytes() == shots.final.reshape(-1, 2)[places].tobytes(), said
+        assert np.array_equal(getattr(part, name), getattr(shots, name).reshape(-1)[places]), (
+            context
+        )
+    assert part.final.shape == (*shape, 2) and part.events.shape[:-1] == shape, context
+    assert part.final.tobytes() == shots.final.reshape(-1, 2)[places].tobytes(), context
     cues = np.broadcast_to(shots.cues, shots.shape).reshape(-1)[places]
-    assert np.array_equal(np.broadcast_to(part.cues, shape), cues), said
-    assert np.broadcast_to(part.layouts, part.final.shape).shape == (*shape, 2), said
+    assert np.array_equal(np.broadcast_to(part.cues, shape), cues), context
+    assert np.broadcast_to(part.layouts, part.final.shape).shape == (*shape, 2), context
     events = shots.events.reshape(shots.size, shots.events.shape[-1])[places]
-    assert part.events["time"].tobytes() == events["time"].tobytes(), said
+    assert part.events["time"].tobytes() == events["time"].tobytes(), context
     where = shots.features.contact_time.reshape(shots.size, 2)[places]
-    assert part.features.contact_time.tobytes() == where.tobytes(), said
+    assert part.features.contact_time.tobytes() == where.tobytes(), context
     seen = shots.positions([0.2, 0.5]).reshape(-1, 2, 2, 3)[places]
-    assert np.array_equal(part.positions([0.2, 0.5]), seen), said
+    assert np.array_equal(part.positions([0.2, 0.5]), seen), context
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=str)
@@ -142,10 +129,15 @@ def test_tables_have_units():
     shots = batch((4,))
     schema = shots.to_arrow().schema
     units = {field.name: (field.metadata or {}).get(b"units", b"").decode() for field in schema}
-    wanted = {"time": "s", "cue_speed": "m/s", "cue_phi": "degree", "ball_1_r_x": "m"}
-    wanted |= {"ball_0_w_z": "rad/s", "pocket_time_1": "s", "contact_time_0": "s", "cue_mass": "kg"}
-    wanted |= {"count": "", "shot": "", "cue_a": "", "ball_0_label": "", "contact_0": ""}
-    assert {name: units[name] for name in wanted} == wanted
+    expected_units = {"time": "s", "cue_speed": "m/s", "cue_phi": "degree", "ball_1_r_x": "m"}
+    expected_units |= {
+        "ball_0_w_z": "rad/s",
+        "pocket_time_1": "s",
+        "contact_time_0": "s",
+        "cue_mass": "kg",
+    }
+    expected_units |= {"count": "", "shot": "", "cue_a": "", "ball_0_label": "", "contact_0": ""}
+    assert {name: units[name] for name in expected_units} == expected_units
     reader = carom.simulate_arrow(TABLE, BALLS, carom.cue(speed=[1.0, 2.0]))
     assert reader.schema.field("ball_0_v_y").metadata == {b"units": b"m/s"}
     data = shots.to_xarray(["speed"])
@@ -204,15 +196,15 @@ def test_one_layout_stays_one():
 
 def test_what_later_calls_read_cannot_be_written_to():
     shots = batch((3,), room=64)
-    one = carom.simulate(TABLE, BALLS, carom.cue(speed=2.0, phi=80.8))
-    for shot in (one, shots[1]):
+    single = carom.simulate(TABLE, BALLS, carom.cue(speed=2.0, phi=80.8))
+    for shot in (single, shots[1]):
         for array in (shot.events, shot.balls, shot.cue, shot.table.record):
             assert not array.flags.writeable
     with pytest.raises(ValueError, match="read-only"):
-        one.events["time"] = 0.0
+        single.events["time"] = 0.0
     for array in (shots.time, shots.count, TABLE.rails, TABLE.jaws, TABLE.pockets, TABLE.record):
         assert not array.flags.writeable
-    assert one.events.copy().flags.writeable
+    assert single.events.copy().flags.writeable
 
 
 def test_tables_and_options_hash_and_compare():
@@ -222,9 +214,9 @@ def test_tables_and_options_hash_and_compare():
     assert not pickle.loads(pickle.dumps(TABLE)).record.flags.writeable
     rails = TABLE.rails.copy()
     rails["restitution"] = 0.7
-    other = TABLE.changed(rails=rails)
-    assert other != TABLE and (other.rails["restitution"] == 0.7).all()
-    assert len({other, TABLE, carom.tables.snooker()}) == 3
+    table = TABLE.changed(rails=rails)
+    assert table != TABLE and (table.rails["restitution"] == 0.7).all()
+    assert len({table, TABLE, carom.tables.snooker()}) == 3
     with pytest.raises(TypeError, match="there is no 'rail'; known are width"):
         TABLE.changed(rail=rails)
     # -0.0 equals 0.0

@@ -3,13 +3,13 @@ clusters of two worker processes.
 """
 
 import importlib.util
-import subprocess
-import sys
 import tracemalloc
 from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import run_python
+from numpy.testing import assert_array_equal
 
 import carom
 
@@ -28,14 +28,14 @@ def test_dask_and_xarray(impacts):
         output_sizes={"j": 12},
         output_dtypes=[float, np.int8],
     )
-    np.testing.assert_array_equal(motion.compute(), expected.motion)
-    np.testing.assert_array_equal(status.compute(), expected.status)
-    given = xarray.DataArray(impacts.reshape(4, 51, 26), dims=("speed", "angle", "field"))
+    assert_array_equal(motion.compute(), expected.motion)
+    assert_array_equal(status.compute(), expected.status)
+    labelled = xarray.DataArray(impacts.reshape(4, 51, 26), dims=("speed", "angle", "field"))
     motion, status = xarray.apply_ufunc(
-        carom.collide, given, input_core_dims=[["field"]], output_core_dims=[["motion"], []]
+        carom.collide, labelled, input_core_dims=[["field"]], output_core_dims=[["motion"], []]
     )
     assert motion.dims == ("speed", "angle", "motion") and status.dims == ("speed", "angle")
-    np.testing.assert_array_equal(motion.values.reshape(204, 12), expected.motion)
+    assert_array_equal(motion.values.reshape(204, 12), expected.motion)
 
 
 def test_tables_of_arrow_in_bounded_memory():
@@ -71,20 +71,18 @@ def test_tables_of_arrow_in_bounded_memory():
 
 def digest_of(*arguments):
     """What examples/on_a_cluster.py prints as the digest of the same small batch."""
-    command = [sys.executable, str(EXAMPLE), "--shots", "300", "--parts", "6", *arguments]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
+    done = run_python(EXAMPLE, "--shots", 300, "--parts", 6, *arguments)
     name, digest = done.stdout.splitlines()[-1].split()
     assert name == "digest:" and len(digest) == 64
     return digest
 
 
-@pytest.mark.parametrize("by", ["dask", "ray"])
-def test_two_worker_processes(by):
+@pytest.mark.parametrize("way", ["dask", "ray"])
+def test_two_worker_processes(way):
     """A batch over a cluster of two worker processes has the bits that it has in one process."""
-    package = {"dask": "distributed", "ray": "ray"}[by]
+    package = {"dask": "distributed", "ray": "ray"}[way]
     if importlib.util.find_spec(package) is None:
         pytest.skip(f"{package} is not installed")
-    here = digest_of("--by", "local")
-    assert digest_of("--by", by, "--workers", "2") == here
-    assert digest_of("--by", "local", "--seed", "2") != here
+    digest = digest_of("--by", "local")
+    assert digest_of("--by", way, "--workers", "2") == digest
+    assert digest_of("--by", "local", "--seed", "2") != digest

@@ -2,7 +2,9 @@
 own tests.
 """
 
+import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -38,82 +40,16 @@ def action(stroke, place=(0.0, 0.0)):
     return np.concatenate([stroke, place])
 
 
-def test_a_legal_pot_keeps_the_turn_and_a_miss_passes_it():
-    before = position_of({0: CUE, 3: NEAR, 9: (0.6, 2.0)}, fouls=(2, 1))
-    after, turn = RULES.play(before, action(AT_POCKET))
-    assert (turn.foul, turn.first, turn.potted) == ("", 3, (3,))
-    assert (after.player, after.hand, after.fouls, after.strokes, after.winner) == (
-        0,
-        Hand.NOWHERE,
-        (0, 1),
-        1,
-        None,
-    )
-    # The same stroke from a little beside drives the ball to a cushion.
-    missed, turn = RULES.play(
-        position_of({0: CUE + [0.03, 0.0], 3: NEAR, 9: (0.6, 2.0)}, player=1), action(AT_POCKET)
-    )
-    assert (turn.foul, turn.potted, missed.player, missed.hand) == ("", (), 0, Hand.NOWHERE)
-    assert before.strokes == 0 and before.balls["state"]["label"][3] == carom.Label.STATIONARY
+def test_a_nine_comes_back_behind_a_ball_on_its_spot():
+    outcome, _ = RULES.play(position_of({0: CUE, 4: (0.635, 1.905), 9: NEAR}), action(AT_POCKET))
+    x, y, _ = outcome.balls["state"]["r"][9]
+    assert x == 0.635 and 0.0571 < y - 1.905 < 0.06
 
 
-def test_the_nine_wins():
-    """By itself, by a combination of the lowest; not by a foul, after which it is spotted."""
-    for places in ({0: CUE, 9: NEAR}, {0: CUE, 4: NEAR, 9: NEARER}):
-        after, turn = RULES.play(position_of(places, player=1), action(AT_POCKET))
-        assert after.winner == 1 and 9 in turn.potted and not turn.foul
-        with pytest.raises(ValueError, match="the game has ended"):
-            RULES.play(after, action(AT_POCKET))
-    after, turn = RULES.play(position_of({0: CUE, 4: (0.6, 2.0), 9: NEAR}), action(AT_POCKET))
-    assert (
-        turn.foul == "the cue ball met another ball first than one that is on"
-        and turn.potted == (9,)
-        and after.winner is None
-    )
-    nine = after.balls["state"][9]
-    assert nine["label"] == carom.Label.STATIONARY and nine["r"].tolist() == [
-        0.635,
-        1.905,
-        0.028575,
-    ]
-    assert (after.player, after.hand, after.fouls) == (1, Hand.ANYWHERE, (1, 0))
-    # The spot is taken: behind it, on the long string.
-    after, _ = RULES.play(position_of({0: CUE, 4: (0.635, 1.905), 9: NEAR}), action(AT_POCKET))
-    assert (
-        after.balls["state"]["r"][9, 0] == 0.635
-        and 0.0571 < after.balls["state"]["r"][9, 1] - 1.905 < 0.06
-    )
-
-
-def test_fouls():
-    away = RULES.base.actions(90.0, 2.0)
-    soft = RULES.base.actions(90.0, 0.5)
-    far = {9: (0.6, 2.0)}
-    for places, stroke, foul in (
-        ({0: CUE, 1: NEAR, **far}, away, "the cue ball met no ball"),
-        (
-            {0: CUE, 1: (0.6, 2.3), 2: NEAR, **far},
-            AT_POCKET,
-            "the cue ball met another ball first than one that is on",
-        ),
-        ({0: CUE, 1: (0.6, 2.3), **far}, AT_POCKET, "the cue ball fell or left the table"),
-        (
-            {0: (0.635, 0.3), 1: (0.635, 1.27), 9: (0.3, 2.0)},
-            soft,
-            "nothing fell, and nothing met a cushion after the first contact",
-        ),
-    ):
-        after, turn = RULES.play(position_of(places), action(stroke))
-        assert turn.foul == foul
-        assert (after.player, after.hand, after.fouls, after.winner) == (
-            1,
-            Hand.ANYWHERE,
-            (1, 0),
-            None,
-        )
-    # The third in consecutive strokes of a player loses; those of the other do not count.
-    lost, _ = RULES.play(position_of({0: CUE, 1: NEAR, **far}, fouls=(2, 2)), action(away))
-    assert lost.winner == 1
+def test_a_game_that_has_ended_takes_no_stroke():
+    outcome, _ = RULES.play(position_of({0: CUE, 9: NEAR}), action(AT_POCKET))
+    with pytest.raises(ValueError, match="the game has ended"):
+        RULES.play(outcome, action(AT_POCKET))
 
 
 def test_a_ball_that_leaves_the_table_is_a_foul_and_stays_down(monkeypatch):
@@ -123,12 +59,15 @@ def test_a_ball_that_leaves_the_table_is_a_foul_and_stays_down(monkeypatch):
         return shots
 
     monkeypatch.setattr("carom.games.rules.simulate_batch", off)
-    before = position_of({0: CUE, 3: NEAR, 9: (0.6, 2.0)})
-    after, turn = RULES.play(before, action(AT_POCKET))
-    assert turn.foul == "a ball left the table" and (after.player, after.hand) == (1, Hand.ANYWHERE)
+    start = position_of({0: CUE, 3: NEAR, 9: (0.6, 2.0)})
+    outcome, turn = RULES.play(start, action(AT_POCKET))
+    assert turn.foul == "a ball left the table" and (outcome.player, outcome.hand) == (
+        1,
+        Hand.ANYWHERE,
+    )
     assert (
-        after.balls["state"]["label"][3] == carom.Label.POCKETED
-        and before.balls["state"]["label"][3] == carom.Label.STATIONARY
+        outcome.balls["state"]["label"][3] == carom.Label.POCKETED
+        and start.balls["state"]["label"][3] == carom.Label.STATIONARY
     )
 
 
@@ -152,26 +91,26 @@ def test_the_break():
 
 
 def test_ball_in_hand():
-    before = position_of({0: CUE, 1: (0.6, 1.8), 9: (0.6, 2.0)}, hand=Hand.ANYWHERE)
-    _, turn = RULES.play(before, action(RULES.base.actions(90.0, 2.0), (-0.5, 0.0)))
+    start = position_of({0: CUE, 1: (0.6, 1.8), 9: (0.6, 2.0)}, hand=Hand.ANYWHERE)
+    _, turn = RULES.play(start, action(RULES.base.actions(90.0, 2.0), (-0.5, 0.0)))
     np.testing.assert_allclose(
         turn.shot.balls["state"]["r"][0, :2], [0.635 - 0.5 * (0.635 - 0.029575), 1.27], atol=1e-9
     )
     # A place that another ball takes becomes one that is free, always the same.
-    taken = [
+    placed = [
         2.0 * (0.6 - 0.029575) / (1.27 - 0.05915) - 1.0,
         2.0 * (1.8 - 0.029575) / (2.54 - 0.05915) - 1.0,
     ]
     places = [
-        RULES.play(before, action(RULES.base.actions(90.0, 2.0), taken))[1]
+        RULES.play(start, action(RULES.base.actions(90.0, 2.0), placed))[1]
         .shot.balls["state"]["r"][0]
         .tolist()
         for _ in range(2)
     ]
     assert places[0] == places[1] and np.hypot(*(np.array(places[0][:2]) - [0.6, 1.8])) > 0.05715
-    for bad in (np.zeros(5), np.full(6, np.nan)):
+    for invalid in (np.zeros(5), np.full(6, np.nan)):
         with pytest.raises(ValueError, match="action: six finite numbers"):
-            RULES.play(before, bad)
+            RULES.play(start, invalid)
 
 
 def test_observations_are_within_bounds():
@@ -194,47 +133,53 @@ def test_observations_are_within_bounds():
 
 
 EIGHT = Pool("eightball", cushion_model="han")
+PLACES = {"cue": CUE, "near": NEAR, "nearer": NEARER, "beside the line": CUE + [0.03, 0.0]}
+STROKES = {
+    "pot": AT_POCKET,
+    "away": RULES.base.actions(90.0, 2.0),
+    "soft": RULES.base.actions(90.0, 0.5),
+}
+POSITIONS = (Path(__file__).parent / "positions.jsonl").read_text(encoding="utf-8").splitlines()
 
 
-def test_eightball_by_hand():
-    """The stroke calls what it pots without noise; the first ball decides the groups; the eight
-    wins as the last, and loses before.
-    """
+@pytest.mark.parametrize("row", [json.loads(line) for line in POSITIONS], ids=str)
+def test_a_stroke_at_a_position(row):
+    """A pot, a miss, fouls, the ball that wins, and of eight-ball groups: what becomes of each."""
+    rules = EIGHT if row["game"] == "eightball" else RULES
+    places = {
+        int(ball): place if isinstance(place, list) else PLACES[place]
+        for ball, place in row["balls"].items()
+    }
+    start = position_of(places, rules, **row.get("start", {}))
+    layout = start.balls.tobytes()
+    outcome, turn = rules.play(start, action(STROKES[row["stroke"]]))
+    assert start.balls.tobytes() == layout and start.strokes == 0
+    nine = outcome.balls["state"][9]
+    found = {
+        "foul": turn.foul,
+        "code": carom.Foul(turn.code).name,
+        "first": turn.first,
+        "potted": [*turn.potted],
+        "player": outcome.player,
+        "hand": outcome.hand.name,
+        "fouls": [*outcome.fouls],
+        "strokes": outcome.strokes,
+        "winner": outcome.winner,
+        "group": outcome.state["group"],
+        "nine": "down" if nine["label"] == carom.Label.POCKETED else nine["r"].tolist(),
+    }
+    assert {name: found[name] for name in row["expected"]} == row["expected"]
+
+
+def test_an_observation_tells_the_position():
     far = {5: (0.6, 2.0), 12: (0.7, 2.2), 8: (0.3, 2.3)}
-    after, turn = EIGHT.play(position_of({0: CUE, 3: NEAR, **far}, EIGHT), action(AT_POCKET))
-    assert (turn.foul, turn.potted, after.player, after.hand, after.state["group"]) == (
-        "",
-        (3,),
-        0,
-        Hand.NOWHERE,
-        1,
-    )
-    after, _ = EIGHT.play(position_of({0: CUE, 11: NEAR, **far}, EIGHT), action(AT_POCKET))
-    assert after.state["group"] == 2 and after.player == 0
-    # A ball of the other group met first is a foul; the other then has his own group.
-    after, turn = EIGHT.play(
-        position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2), action(AT_POCKET)
-    )
-    assert turn.code == carom.Foul.FIRST and (after.player, after.hand, after.state["group"]) == (
-        1,
-        Hand.ANYWHERE,
-        1,
-    )
-    for group, places, winner in (
-        (1, {8: NEAR, 12: (0.7, 2.2)}, 0),
-        (1, {8: NEAR, 5: (0.6, 2.0)}, 1),
-    ):
-        after, _ = EIGHT.play(
-            position_of({0: CUE, **places}, EIGHT, group=group), action(AT_POCKET)
-        )
-        assert after.winner == winner
     assert EIGHT.on(position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2)) == (12,)
     # What an observation tells is the position again, for whoever is at the table.
     position = position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2, player=1)
-    again = EIGHT.seen(EIGHT.observe(position, 1))
+    restored = EIGHT.seen(EIGHT.observe(position, 1))
     assert (
-        again.balls[[0, 3, 5, 12, 8]].tobytes() == position.balls[[0, 3, 5, 12, 8]].tobytes()
-        and (again.state == position.state).all()
+        restored.balls[[0, 3, 5, 12, 8]].tobytes() == position.balls[[0, 3, 5, 12, 8]].tobytes()
+        and (restored.state == position.state).all()
     )
     assert EIGHT.observe(position, 0)[-1] == 1.0 and EIGHT.observe(position, 1)[-1] == 2.0
     assert EIGHT.observe(EIGHT.begin(1), 0)[-3:].tolist() == [1.0, 1.0, 0.0]
@@ -245,23 +190,23 @@ def test_what_strokes_are_worth():
     generator = np.random.default_rng(5)
     for rules in (RULES, EIGHT):
         seen = set()
-        for before in (
+        for start in (
             position_of({0: CUE, 3: NEAR, 5: (0.6, 2.0), 8: (0.3, 2.3), 9: (0.9, 1.2)}, rules),
             rules.begin(2),
         ):
             actions = generator.uniform(-1.0, 1.0, (60, 6))
             actions[:5, :4] = AT_POCKET
-            for worth, one in zip(rules.tried(before, actions), actions):
-                after, turn = rules.play(before, one)
+            for worth, stroke in zip(rules.tried(start, actions), actions):
+                outcome, turn = rules.play(start, stroke)
                 expected = (
                     1.0
-                    if after.winner == 0
+                    if outcome.winner == 0
                     else -1.0
-                    if after.winner == 1
+                    if outcome.winner == 1
                     else -0.5
                     if turn.foul
                     else 0.5
-                    if after.player == 0
+                    if outcome.player == 0
                     else 0.0
                 )
                 assert worth == expected

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import refused_by_name
+from conftest import refused, refused_by_name
+from numpy.testing import assert_allclose
 
 import carom
 from carom._rows import numbered
-from carom.games.potting import Potting
 from carom.plans import Kind
 
 TABLE = carom.tables.pool_9ft()
@@ -33,11 +33,11 @@ def test_kinds_of_strokes_are_those_of_c_and_have_words():
 
 def test_plan():
     best = carom.plan(TABLE, LAYOUT, rules="potting", shots=300)
-    again = carom.plan(TABLE, LAYOUT, rules="potting", shots=300, threads=2)
+    repeat = carom.plan(TABLE, LAYOUT, rules="potting", shots=300, threads=2)
     assert (
         best.dtype == carom.dtypes.choice
         and 1 <= len(best) <= 5
-        and best.tobytes() == again.tobytes()
+        and best.tobytes() == repeat.tobytes()
     )
     assert best["ball"][0] in (1, 2, 3) and 0.3 < best["value"][0] <= 1.0 and best["keep"][0] > 0.5
     # the stroke pots the ball that it says
@@ -82,10 +82,6 @@ def test_points_of_three_cushion():
         assert abs(np.mean(points) - best["keep"][0]) < 0.35 and [
             ruling.turn == "keep" for ruling in hit
         ] == [point == 1.0 for point in points]
-    with pytest.raises(ValueError, match="table: threecushion needs one without pockets"):
-        carom.plan(TABLE, LAYOUT, rules="threecushion", shots=100)
-    with pytest.raises(ValueError, match="balls: threecushion needs three"):
-        carom.plan(table, layout[:2], rules="threecushion", shots=100)
 
 
 def test_a_layout_is_planned_by_the_numbers_of_its_balls():
@@ -95,8 +91,8 @@ def test_a_layout_is_planned_by_the_numbers_of_its_balls():
     places = {"5": [0.3, 1.9], "cue": [0.4, 0.9], "2": [0.9, 1.7], "9": [0.7, 0.5]}
     layout = carom.by_number(carom.balls(list(places.values())), list(places), "nineball")
     assert layout.shape == (10,) and all(
-        layout["state"]["r"][int(name.replace("cue", "0")), :2].tolist() == at
-        for name, at in places.items()
+        layout["state"]["r"][int(name.replace("cue", "0")), :2].tolist() == place
+        for name, place in places.items()
     )
     assert np.flatnonzero(layout["state"]["label"] == carom.Label.POCKETED).tolist() == [
         1,
@@ -114,22 +110,6 @@ def test_a_layout_is_planned_by_the_numbers_of_its_balls():
         == layout.tobytes()
     )
     assert carom.by_number(layout, range(10), "eightball", cue=0).shape == (16,)
-    for ids, rules, told in (
-        (
-            ["cue", "5", "5", "9"],
-            "nineball",
-            "ball '5': the balls of nineball are the cue ball and 1 to 9, each once",
-        ),
-        (["cue", "5", "10", "9"], "nineball", "ball '10'"),
-        (["cue", "5", "red", "9"], "eightball", "'red': .* 1 to 15"),
-        (["cue", "0", "1", "9"], "nineball", "ball '0'"),
-        (["1", "2", "3", "9"], "nineball", "cue: it must be one of the ids"),
-        (["cue", "5"], "nineball", "ids: one for each ball"),
-        (["cue", "5", "2", "9"], "elevenball", "rules: must be one of"),
-        (["cue", "red5", "pink", "red20"], "snooker", "ball 'red20'"),
-    ):
-        with pytest.raises(ValueError, match=told):
-            carom.by_number(LAYOUT, ids, rules)
 
 
 def test_aim():
@@ -172,7 +152,7 @@ def test_aim_by_a_way():
             if event["type"] in (carom.EventType.BALL_BALL, carom.EventType.RAIL)
             and ball in (event["a"], event["b"])
         ]
-        met = [
+        contacts = [
             event["a"] + event["b"] - ball
             if event["type"] == carom.EventType.BALL_BALL
             else TABLE.rail_names[event["b"]]
@@ -185,39 +165,8 @@ def test_aim_by_a_way():
                 for event in events[:fallen]
                 if event["type"] == carom.EventType.RAIL
             ][0] == via[0]
-        assert met[: len(way)] == way, met  # then it may touch what is beside the pocket
+        assert contacts[: len(way)] == way, contacts  # then it may touch what is beside the pocket
         assert TABLE.pocket_names[events[fallen]["b"]] == ("foot-left" if pocket == 2 else pocket)
-
-
-@pytest.mark.parametrize(
-    ("changes", "match"),
-    [
-        (
-            {"pocket": "head-right"},
-            "pocket: no such aim at head-right: no direction of the cue sends ball 1 there",
-        ),
-        ({"ball": 2}, "ball: there are 2, not 3"),
-        (
-            {"pocket": "foot"},
-            "pocket: it must be one of foot-left, foot-right, head-left, head-right, side-left, side-right, not 'foot'",
-        ),
-        ({"via": ["top"]}, "via: it must be one of foot, head, left, right, not 'top'"),
-        (
-            {"via": [1, "left", 1]},
-            "via: it must be up to 4 names of rails and indices of balls, each once, not the cue ball, and 1 last",
-        ),
-        ({"speed": 0.6}, "pocket: no such aim at foot-left: ball 1 comes to rest on its way"),
-    ],
-)
-def test_no_such_aim(changes, match):
-    given = {"ball": 1, "pocket": "foot-left", "speed": 2.0} | changes
-    with pytest.raises(ValueError, match=match):
-        carom.aim(
-            TABLE,
-            carom.balls([[0.6, 0.8], [0.4, 1.7]]),
-            carom.cue(speed=given.pop("speed")),
-            **given,
-        )
 
 
 def test_elevation_of_an_aim():
@@ -228,38 +177,31 @@ def test_elevation_of_an_aim():
     )
     assert level.cue["theta"] == 0.0 and 10.0 < level.elevation < 20.0
     assert raised.cue["theta"] == raised.elevation == pytest.approx(level.elevation, abs=0.1)
-    behind = carom.balls([[0.62, 1.6], [0.4, 2.2], [0.6391, 1.546]])
-    with pytest.raises(
-        ValueError,
-        match="the stick would be raised by 6.* degrees over what is behind the cue ball",
-    ):
-        carom.aim(
-            TABLE, behind, carom.cue(speed=3.0, theta=np.nan, b=-0.5), ball=1, pocket="foot-left"
-        )
 
 
 def test_chances_of_strokes():
     best = carom.plan(TABLE, LAYOUT, rules="potting", shots=1000)
     away = carom.cue(speed=1.0, phi=float(best["cue"]["phi"][0]) + 20.0)
     cues = np.array([best["cue"][0], away])
-    told = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7)
-    again = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7, threads=2)
+    chances = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7)
+    repeat = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7, threads=2)
     assert (
-        told.dtype == carom.dtypes.choice
-        and told.shape == (2,)
-        and told.tobytes() == again.tobytes()
-        and told["seen"].tolist() == [1000, 1000]
+        chances.dtype == carom.dtypes.choice
+        and chances.shape == (2,)
+        and chances.tobytes() == repeat.tobytes()
+        and chances["seen"].tolist() == [1000, 1000]
     )
-    assert abs(told["keep"][0] - best["keep"][0]) < 0.1 and told["keep"][1] < told["keep"][0] - 0.3
-    assert (told["ball"][0], told["pocket"][0]) == (best["ball"][0], best["pocket"][0])
-    one = carom.chances(
+    assert (
+        abs(chances["keep"][0] - best["keep"][0]) < 0.1
+        and chances["keep"][1] < chances["keep"][0] - 0.3
+    )
+    assert (chances["ball"][0], chances["pocket"][0]) == (best["ball"][0], best["pocket"][0])
+    single = carom.chances(
         TABLE, LAYOUT, best["cue"][0], rules="potting", shots=100, player=carom.player(0.0)
     )
-    assert one.shape == () and one["keep"] in (0.0, 1.0) and one["error"] < 1e-6
+    assert single.shape == () and single["keep"] in (0.0, 1.0) and single["error"] < 1e-6
     with pytest.raises(ValueError, match="cues: 1 to 1000 are needed, not 0"):
         carom.chances(TABLE, LAYOUT, cues[:0], rules="potting")
-    with pytest.raises(TypeError, match="cues: an array of the dtype of carom.cue"):
-        carom.chances(TABLE, LAYOUT, [1.0], rules="potting")
     cues["speed"][1] = -1.0
     with pytest.raises(carom.CaromError, match="cues"):
         carom.chances(TABLE, LAYOUT, cues, rules="potting")
@@ -320,49 +262,37 @@ def test_run_out():
         for out in (False, True)
     )
     assert runs < wins - 0.02
-    with pytest.raises(ValueError, match="run_out"):
-        carom.plan(TABLE, LAYOUT, run_out=2)
 
 
 def test_ratings():
     errors = [float(carom.player(fargo=rating)["phi"]) for rating in (200, 400, 500, 600, 700, 850)]
     assert errors == sorted(errors, reverse=True) and errors[0] > 5 * errors[-1] > 0.0
-    with pytest.raises(ValueError, match="fargo: it must be 200 to 850, not 0"):
-        carom.player(fargo=0)
 
 
 def test_strokes_with_errors():
     cue = carom.cue(speed=2.0, phi=40.0, tip_restitution=1.0)
     player = carom.player(2.0)
-    made = np.array([carom.with_errors(cue, player, 5, k) for k in range(4000)])
-    np.testing.assert_allclose([made["speed"].mean(), made["phi"].mean()], [2.0, 40.0], atol=0.02)
-    np.testing.assert_allclose(
-        [made["speed"].std(), made["phi"].std(), made["a"].std()], [0.2, 0.2, 0.006], rtol=0.06
+    sample = np.array([carom.with_errors(cue, player, 5, k) for k in range(4000)])
+    assert_allclose([sample["speed"].mean(), sample["phi"].mean()], [2.0, 40.0], atol=0.02)
+    assert_allclose(
+        [sample["speed"].std(), sample["phi"].std(), sample["a"].std()],
+        [0.2, 0.2, 0.006],
+        rtol=0.06,
     )
     # a leather tip takes a faster cue, and the same speeds of the ball
     cue["speed"], cue["tip_restitution"] = 4.0 / 1.73, 0.73
     leather = np.array([carom.with_errors(cue, player, 5, k) for k in range(100)])
-    np.testing.assert_allclose(leather["speed"] * 1.73 / 2.0, made["speed"][:100], rtol=1e-14)
+    assert_allclose(leather["speed"] * 1.73 / 2.0, sample["speed"][:100], rtol=1e-14)
     cue["speed"], cue["tip_restitution"] = 2.0, 1.0
     assert (
-        made[7].tobytes() == carom.with_errors(cue, player, 5, 7).tobytes()
-        and made["theta"].min() >= 0.0
+        sample[7].tobytes() == carom.with_errors(cue, player, 5, 7).tobytes()
+        and sample["theta"].min() >= 0.0
     )
     player["phi"] = 0.0
     assert carom.with_errors(cue, player, 5)["phi"] == 40.0
 
 
 def test_arguments_in_error():
-    with pytest.raises(ValueError, match="rules"):
-        carom.plan(TABLE, LAYOUT, rules="elevenball")
-    with pytest.raises(ValueError, match="shots"):
-        carom.plan(TABLE, LAYOUT, shots=10)
-    with pytest.raises(ValueError, match="errors"):
-        carom.player(-1.0)
-    with pytest.raises(ValueError, match="in_hand"):
-        carom.plan(TABLE, LAYOUT, in_hand=[1.0, 2.0])
-    with pytest.raises(TypeError, match="player"):
-        carom.plan(TABLE, LAYOUT, player=carom.cue())
     layout = LAYOUT.copy()
     layout["state"]["r"][1] = layout["state"]["r"][0]
     with pytest.raises(carom.CaromError):
@@ -370,69 +300,19 @@ def test_arguments_in_error():
 
 
 def _down(layout, balls):
-    made = layout.copy()
-    made["state"]["label"][balls] = carom.Label.POCKETED
-    return made
+    layout_after = layout.copy()
+    layout_after["state"]["label"][balls] = carom.Label.POCKETED
+    return layout_after
 
 
 def _player(**fields):
-    made = carom.player()
+    player = carom.player()
     for name, value in fields.items():
-        made[name] = value
-    return made
+        player[name] = value
+    return player
 
 
 RACK = carom.racks.eightball(TABLE)
-
-
-@pytest.mark.parametrize(
-    ("given", "match"),
-    [
-        (
-            {"state": [0] * 8, "group": "open"},
-            "state, group: the state says the group, too: give one of both",
-        ),
-        ({"state": [0] * 8, "opening": True}, "state, opening: the state says the opening, too"),
-        (
-            {"rules": "nineball", "group": "solids", "balls": RACK[:10]},
-            "group: by the rules nineball it must be 0, as the game has none",
-        ),
-        (
-            {"rules": "potting", "opening": True},
-            "opening: by the rules potting it must be 0, as the game has none",
-        ),
-        ({"rules": "nineball"}, "balls: the balls of nineball are the cue ball and 1 to 9, not 10"),
-        (
-            {"balls": _down(RACK, slice(1, None))},
-            "balls: no ball is left to be played: all that count are down, or the eight is",
-        ),
-        (
-            {"balls": _down(RACK, slice(1, None)), "rules": "potting"},
-            "no ball is left to be played",
-        ),
-        ({"balls": _down(RACK, 8)}, "no ball is left to be played"),
-        ({"player": _player(phi=-1.0)}, "player: phi: it must be 0 to 1000, not -1.0"),
-        ({"opponent": _player(tip_most=3.0)}, "opponent: tip_most: it must be 0 to 1, not 3.0"),
-        (
-            {
-                "table": carom.tables.threecushion(),
-                "balls": carom.racks.threecushion(carom.tables.threecushion()),
-                "rules": "potting",
-            },
-            "table: it has no pockets, which potting needs",
-        ),
-    ],
-)
-def test_what_cannot_be_planned(given, match):
-    with pytest.raises(ValueError, match=match):
-        carom.plan(given.pop("table", TABLE), given.pop("balls", RACK), shots=100, **given)
-
-
-def test_a_player_has_one_strength():
-    with pytest.raises(
-        ValueError, match="errors, fargo: a player has errors or a rating, not both"
-    ):
-        carom.player(1.0, fargo=500)
 
 
 # ---- Rules
@@ -531,23 +411,23 @@ def test_rules_of_ones_own():
             TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300
         )
         assert set(best["pocket"]) <= {pocket, -1}
-        again = carom.plan(
+        repeat = carom.plan(
             TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300, threads=2
         )
-        assert best.tobytes() == again.tobytes()
+        assert best.tobytes() == repeat.tobytes()
     best = carom.plan(TABLE, ORDER, rules="nineball", shots=300)[0]
     corner, pot = int(best["pocket"]), best["cue"]
-    here = carom.referee(TABLE, ORDER, pot, rules=Corner(), state=[corner, 5, 0, 0, 0, 0, 0, 0])
-    assert (here.turn, here.points, here.potted, here.state[:2].tolist()) == (
+    ruling = carom.referee(TABLE, ORDER, pot, rules=Corner(), state=[corner, 5, 0, 0, 0, 0, 0, 0])
+    assert (ruling.turn, ruling.points, ruling.potted, ruling.state[:2].tolist()) == (
         "keep",
         1.0,
         (1,),
         [corner, 6],
     )
-    there = carom.referee(
+    rulings = carom.referee(
         TABLE, ORDER, pot, rules=Corner(), state=[(corner + 1) % 6, 5, 0, 0, 0, 0, 0, 0]
     )
-    assert there.turn == "pass" and there.balls["state"]["r"][1, :2].tolist() == [
+    assert rulings.turn == "pass" and rulings.balls["state"]["r"][1, :2].tolist() == [
         TABLE.width / 2,
         0.75 * TABLE.length,
     ]
@@ -573,55 +453,13 @@ def test_a_plan_is_stopped():
     assert Long.calls < 100_000
     late = carom.plan(TABLE, LAYOUT, rules="potting", seconds=1e-9)
     assert len(late) == 1 and late["seen"][0] == 0
-    with pytest.raises(ValueError, match="seconds: they must be 0 to 1e6, not -1"):
-        carom.plan(TABLE, LAYOUT, seconds=-1)
-
-
-@pytest.mark.parametrize(
-    ("method", "gives", "match"),
-    [
-        ("judge", None, "judge: it must return a carom.Turn, not None"),
-        (
-            "judge",
-            carom.Turn("passes"),
-            "Turn.turn: must be one of 'keep', 'pass', 'win', 'lose', 'draw', not 'passes'",
-        ),
-        (
-            "judge",
-            carom.Turn("pass", spot=[99]),
-            "Turn.spot: it must be a whole number from 0 to 31, not 99",
-        ),
-        ("judge", carom.Turn("pass", spot=[30]), "Turn.spot: there are 16 balls, none is 30"),
-        (
-            "judge",
-            carom.Turn("pass", spot=[0, 1]),
-            r"Turn.spot: balls come back that are down or off the table, not the cue ball, and not \[0, 1\]",
-        ),
-        ("left", (-1, 8), "left: it must be a whole number from 0"),
-        ("pockets", {9}, "pockets: it must be a whole number from 0 to 7, not 9"),
-        (
-            "pockets",
-            {"foot-left"},
-            "pockets: it must be a whole number from 0 to 7, not 'foot-left'",
-        ),
-        ("on", {-1}, "on: it must be a whole number from 0 to 31, not -1"),
-    ],
-)
-def test_what_rules_cannot_say(method, gives, match):
-    layout = carom.racks.eightball(TABLE, seed=1)
-    wrong = type("Wrong", (Corner,), {method: lambda *_: gives})()
-    with pytest.raises((ValueError, TypeError), match=match):
-        if method == "judge":
-            carom.referee(TABLE, layout, carom.cue(speed=0.6, phi=90.0), rules=wrong)
-        else:
-            carom.plan(TABLE, layout, rules=wrong, shots=100)
 
 
 def test_the_bot_for_ten_ball(capsys):
     runpy.run_path(str(Path(__file__).parents[2] / "examples" / "ten_ball.py"))
-    told = capsys.readouterr().out.splitlines()
+    output = capsys.readouterr().out.splitlines()
     assert (
-        len(told) > 5 and told[-1] == f"after {len(told)} strokes: player 0 has won"
+        len(output) > 5 and output[-1] == f"after {len(output)} strokes: player 0 has won"
     )  # the one with a rating of 750
 
 
@@ -632,10 +470,10 @@ class Every(Corner):
     raises = ""
 
     def __init__(self):
-        self.asked = set()
+        self.requests = set()
 
     def ask(self, method):
-        self.asked.add(method)
+        self.requests.add(method)
         if method == self.raises:
             raise KeyError(f"in {method}")
 
@@ -686,12 +524,12 @@ def test_every_method_of_rules():
     assert (ruling.state[0], ruling.points, without.points) == (7, TABLE.length, 0.0)
     kinds = {"shots": 100}
     carom.plan(TABLE, LAYOUT, rules=every, **kinds)
-    assert every.asked == {"on", "judge", "left", "pockets", "points", "settle"}
+    assert every.requests == {"on", "judge", "left", "pockets", "points", "settle"}
     carom.plan(TABLE, LAYOUT, rules=valued, **kinds)
-    assert "value" in valued.asked and "points" not in valued.asked
+    assert "value" in valued.requests and "points" not in valued.requests
 
     match = carom.Match(valued, TABLE, balls=ORDER)
-    for method in every.asked | {"value"}:
+    for method in every.requests | {"value"}:
         every.raises = valued.raises = method
         raised = 0
         for call in (
@@ -711,38 +549,6 @@ def test_every_method_of_rules():
     match.stroke(best["cue"])
 
 
-@pytest.mark.parametrize(
-    ("method", "gives", "match"),
-    [
-        ("value", "half", "value: a chance of 0 to 1 is needed, .* not 'half'"),
-        ("points", None, "points: points are needed, not None"),
-        ("settle", None, "settle: it must return a carom.Turn, not None"),
-    ],
-)
-def test_what_other_methods_cannot_say(method, gives, match):
-    wrong = type("Wrong", (Every,), {method: lambda *_: gives})()
-    with pytest.raises(TypeError, match=match):
-        carom.plan(TABLE, LAYOUT, rules=wrong, shots=100)
-        carom.referee(TABLE, ORDER, carom.cue(speed=1.0), rules=wrong)
-
-
-@pytest.mark.parametrize(
-    ("method", "gives", "error", "match"),
-    [
-        ("value", np.nan, ValueError, "value: a chance of 0 to 1 is needed, .* not nan"),
-        ("value", 1.5, ValueError, "value: a chance of 0 to 1 is needed, .* not 1.5"),
-        ("points", np.inf, ValueError, "points: points are needed, not inf"),
-        ("on", None, TypeError, "on: whole numbers are needed, not None"),
-        ("left", 3, TypeError, "left: whole numbers are needed, not 3"),
-        ("left", (1, 2, 3), ValueError, "left: two numbers are needed"),
-    ],
-)
-def test_nonsense_of_methods_is_named(method, gives, error, match):
-    wrong = type("Wrong", (Every,), {method: lambda *_: gives})()
-    with pytest.raises(error, match=match):
-        carom.plan(TABLE, LAYOUT, rules=wrong, shots=100)
-
-
 @pytest.mark.parametrize("place", [(np.nan, 0.5), (9.0, 0.5), (0.6, 1.6)])
 def test_balls_are_not_settled_where_none_can_lie(place):
     class Wrong(Every):
@@ -751,11 +557,11 @@ def test_balls_are_not_settled_where_none_can_lie(place):
             balls["state"]["r"][2, :2] = 0.6, 1.6
             return turn
 
-    before = carom.Match(Wrong(), TABLE, balls=LAYOUT)
-    lines = before.lines[:]
+    match = carom.Match(Wrong(), TABLE, balls=LAYOUT)
+    lines = match.lines[:]
     with pytest.raises(carom.CaromError, match=r"settle: balls\[[12]\]"):
-        before.stroke(carom.cue(speed=1.0, phi=200.0))
-    assert before.lines == lines and before.phase == "stroke"
+        match.stroke(carom.cue(speed=1.0, phi=200.0))
+    assert match.lines == lines and match.phase == "stroke"
 
 
 def test_errors_of_rules():
@@ -771,25 +577,6 @@ def test_errors_of_rules():
     assert Wrong.calls < 3  # it ends the plan
     with pytest.raises(KeyError, match="a mistake of the caller"):
         carom.referee(TABLE, LAYOUT, carom.cue(speed=1.0), rules=Wrong())
-    with pytest.raises(NotImplementedError, match="Rules needs the method on"):
-        carom.plan(TABLE, LAYOUT, rules=carom.Rules(), shots=100)
-    with pytest.raises(ValueError, match=r"rules: give a game, Corner\(\), not the class Corner"):
-        carom.plan(TABLE, LAYOUT, rules=Corner, shots=100)
-    with pytest.raises(ValueError, match="a plan needs the cue ball and one more"):
-        carom.plan(TABLE, LAYOUT[:1], shots=100)
-    with pytest.raises(ValueError, match="in_hand: must be one of 'no', 'anywhere', 'kitchen'"):
-        carom.plan(TABLE, LAYOUT, in_hand="head", shots=100)
-    with pytest.raises(ValueError, match="state: 8 whole numbers"):
-        carom.plan(TABLE, LAYOUT, rules=Corner(), state=[1, 2])
-    for state, match in (
-        ({"grup": 1}, "state: there is no 'grup'; there are opening, group"),
-        ({"group": "reds"}, "state: group: must be one of 'open'"),
-        ({"group": 3}, "group: by the rules eightball it must be 0, 1 or 2"),
-        ({"group": 0.5}, "state: group: "),
-        ([0] * 8, "state: an array"),
-    ):
-        with pytest.raises((TypeError, ValueError), match=match):
-            carom.plan(TABLE, LAYOUT, state=state)
     wrong = carom.cue()
     wrong["speed"] = -1.0
     with pytest.raises(carom.CaromError):
@@ -805,27 +592,27 @@ def test_one_pocket():
         carom.balls([[0.6, 1.4], [0.95, 2.1], [0.3, 2.1]]), ["cue", 3, 9], "onepocket"
     )
     right, left = (table.pocket_names.index(name) for name in ("foot-right", "foot-left"))
-    for own, other, ball in ((right, left, 3), (left, right, 9)):
-        state = {"pocket": (own, other), "score": (5, 6)}
+    for pocket, opposite, ball in ((right, left, 3), (left, right, 9)):
+        state = {"pocket": (pocket, opposite), "score": (5, 6)}
         best = carom.plan(table, layout, rules="onepocket", state=state, shots=600)
-        assert set(best["pocket"]) <= {own, -1} and (best["ball"][0], best["pocket"][0]) == (
+        assert set(best["pocket"]) <= {pocket, -1} and (best["ball"][0], best["pocket"][0]) == (
             ball,
-            own,
+            pocket,
         )
-        made = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
+        legal = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
         assert (
-            made.turn == "keep"
-            and made.potted == (ball,)
-            and made.score == (6, 6)
-            and made.points == 1.0
+            legal.turn == "keep"
+            and legal.potted == (ball,)
+            and legal.score == (6, 6)
+            and legal.points == 1.0
         )
         # the same ball in the pocket of the other
-        state["pocket"] = (other, own)
-        given = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
+        state["pocket"] = (opposite, pocket)
+        fouled = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
         assert (
-            given.turn == "pass"
-            and given.score == (7, 5)
-            and given.state["pocket"].tolist() == [own, other]
+            fouled.turn == "pass"
+            and fouled.score == (7, 5)
+            and fouled.state["pocket"].tolist() == [pocket, opposite]
         )
     # no ball is met: one that counted comes back; who has none owes one
     for balls in (5, 0):
@@ -834,7 +621,7 @@ def test_one_pocket():
             layout,
             carom.cue(speed=0.5, phi=180.0),
             rules="onepocket",
-            state={"pocket": (own, other), "score": (balls, 0)},
+            state={"pocket": (pocket, opposite), "score": (balls, 0)},
         )
         assert (
             missed.turn == "pass"
@@ -845,10 +632,6 @@ def test_one_pocket():
         assert np.count_nonzero(missed.balls["state"]["label"] == carom.Label.STATIONARY) == (
             12 if balls else 16
         )
-    with pytest.raises(ValueError, match="balls: onepocket has the cue ball and 1 to 15"):
-        carom.plan(table, layout[:10], rules="onepocket")
-    with pytest.raises(ValueError, match="opening: by the rules onepocket it must be 0"):
-        carom.plan(table, layout, rules="onepocket", opening=True)
 
 
 def test_straight_pool_and_snooker():
@@ -933,14 +716,14 @@ def test_straight_pool_and_snooker():
         and scratch.score == (4, 0)
         and int(scratch.state["may"]) & 1
     )
-    again = carom.referee(
+    repeat = carom.referee(
         table, scratch.balls, cue, rules="snooker", state=scratch.state, call=(-3, -1)
     )
     assert (
-        again.turn == "pass"
-        and again.foul == carom.Foul.NONE
-        and again.score == (0, 4)
-        and again.state["may"] == 0
+        repeat.turn == "pass"
+        and repeat.foul == carom.Foul.NONE
+        and repeat.score == (0, 4)
+        and repeat.state["may"] == 0
     )
     with pytest.raises(ValueError, match="balls: snooker has the cue ball and 1 to 21"):
         carom.referee(table, layout[:5], cue, rules="snooker")
@@ -959,9 +742,9 @@ def test_an_aim_that_follows_keeps_the_place_across_the_path():
     while pots < 8:
         layout = carom.balls(random.uniform([0.2, 0.4], [1.07, 2.1], (2, 2)))
         try:
-            wanted = carom.cue(speed=random.uniform(1.5, 3.0), b=random.uniform(-0.2, 0.3))
+            target = carom.cue(speed=random.uniform(1.5, 3.0), b=random.uniform(-0.2, 0.3))
             cue = carom.aim(
-                TABLE, layout, wanted, ball=1, pocket=int(random.integers(6)), **closed
+                TABLE, layout, target, ball=1, pocket=int(random.integers(6)), **closed
             ).cue
             shot = carom.simulate(TABLE, layout, cue, **closed)
             slope = carom.aim_slope(shot, 1, wrt)
@@ -980,13 +763,11 @@ def test_an_aim_that_follows_keeps_the_place_across_the_path():
                 stroke[("speed", "b")[j]] += h
             else:
                 balls["state"]["r"][1 - (j - 2), j - 2] += h
-            other = carom.simulate(TABLE, balls, stroke, **closed)
+            shot = carom.simulate(TABLE, balls, stroke, **closed)
             return (
                 across
                 @ (
-                    other.events[other.events["type"] == carom.EventType.POCKET][0]["before"][0][
-                        "r"
-                    ]
+                    shot.events[shot.events["type"] == carom.EventType.POCKET][0]["before"][0]["r"]
                     - fell["r"]
                 )[:2]
             )
@@ -1003,40 +784,43 @@ def test_an_aim_that_follows_keeps_the_place_across_the_path():
         carom.aim_slope(shot, 0, wrt)
     with pytest.raises(ValueError, match=r"by: balls\[0\].v\[2\] does not turn the path of ball 1"):
         carom.aim_slope(shot, 1, wrt, by="balls[0].v[2]")
-    with pytest.raises(TypeError, match="^shot: "):
-        carom.aim_slope(TABLE, 1, wrt)
 
 
-CALLS = [
-    (
-        carom.plan,
-        {"table": TABLE, "balls": LAYOUT, "rules": "potting", "shots": 100},
-        "table balls rules group state player opponent shots seconds in_hand best seed threads stop options",
-    ),
-    (
-        carom.aim,
-        {"table": TABLE, "balls": LAYOUT, "cue": carom.cue(), "ball": 1, "pocket": 0},
-        "table balls cue ball pocket options",
-    ),
-    (carom.player, {}, "errors fargo"),
-    (
-        carom.with_errors,
-        {"cue": carom.cue(), "player": carom.player(), "seed": 1},
-        "cue player seed number",
-    ),
-    (
-        Potting,
-        {},
-        "balls strokes table ball_set noise parameters reward speeds cushion_model threads",
-    ),
-]
+# The calls of test_plan.txt
+# ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("call", "good", "names"), CALLS, ids=[case[0].__qualname__ for case in CALLS]
-)
-def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(call, good, names):
-    refused_by_name(call, good, names)
+def aim(ball=1, pocket="foot-left", speed=2.0, **more):
+    layout = carom.balls([[0.6, 0.8], [0.4, 1.7]])
+    return carom.aim(TABLE, layout, carom.cue(speed=speed), ball=ball, pocket=pocket, **more)
+
+
+def plan(table=TABLE, balls=RACK, **more):
+    return carom.plan(table, balls, shots=100, **more)
+
+
+def answers(game, **answer):
+    """A ruling or a plan by rules whose method answers this."""
+    ((method, value),) = answer.items()
+    rules = type("Wrong", (game,), {method: lambda *_: value})()
+    if method in ("judge", "settle"):
+        layout = carom.racks.eightball(TABLE, seed=1)
+        return carom.referee(TABLE, layout, carom.cue(speed=0.6, phi=90.0), rules=rules)
+    return plan(balls=LAYOUT, rules=rules)
+
+
+def wider():
+    """A table that says that its bed is wider than it is: balls would be dealt beyond its rails."""
+    parts = {"rails": TABLE.rails, "jaws": TABLE.jaws, "pockets": TABLE.pockets}
+    return carom.Table(TABLE.width + 0.1, TABLE.length, **parts)
+
+
+def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(argument_row):
+    refused_by_name(argument_row, globals())
+
+
+def test_refusals(refusal):
+    refused(refusal, globals())
 
 
 def test_rating():
@@ -1049,12 +833,8 @@ def test_rating():
             for x in [(d - r) * np.log(2) / 100]
         )
         mass = np.cumsum(np.exp(logs - logs.max()))
-        wanted = [
+        expected = [
             np.average(r, weights=np.diff(mass, prepend=0)),
             *np.interp([0.025 * mass[-1], 0.975 * mass[-1]], mass, r),
         ]
-        assert np.allclose(carom.rating(rows), wanted, rtol=0, atol=0.01)
-    with pytest.raises(carom.CaromError, match=r"scores\[1\] = .*games won and lost 0 to 1e9"):
-        carom.rating([(500, 1, 1), (500, -1, 1)])
-    with pytest.raises(ValueError, match="scores: rows of 3 numbers"):
-        carom.rating([1, 2, 3])
+        assert np.allclose(carom.rating(rows), expected, rtol=0, atol=0.01)

@@ -46,13 +46,13 @@ def test_games_of_the_adapter_are_those_of_single_environments():
     for _ in range(7):
         actions = rng.uniform(-1.0, 1.0, (4, 4))
         (seen, rewards, ended, infos), expected = many.step(actions), singles.step(actions)
-        for found, other in zip((seen, rewards, ended), expected):
-            assert np.array_equal(found, other) and found.dtype == other.dtype
-        for info, other in zip(infos, expected[3]):
+        for found, second in zip((seen, rewards, ended), expected):
+            assert np.array_equal(found, second) and found.dtype == second.dtype
+        for info, second in zip(infos, expected[3]):
             assert np.array_equal(
-                info.pop("terminal_observation", 0), other.pop("terminal_observation", 0)
+                info.pop("terminal_observation", 0), second.pop("terminal_observation", 0)
             )
-            assert info | {"TimeLimit.truncated": False} == other
+            assert info | {"TimeLimit.truncated": False} == second
         ends += int(ended.sum())
     assert ends == 12
     with pytest.raises(AttributeError, match="games share their attributes"):

@@ -47,10 +47,10 @@ def test_a_game_is_replayed_with_the_same_bits(tmp_path):
     assert list(replay(text.splitlines())) != []
     command = os.path.join(os.environ.get("CAROM_BUILD", ""), "carom")
     if os.access(command, os.X_OK) and not os.path.isdir(command):
-        said = subprocess.run(
+        message = subprocess.run(
             [command, "verify", str(path)], capture_output=True, text=True, check=True
         ).stdout
-        assert "3 shots, every bit agrees" in said
+        assert "3 shots, every bit agrees" in message
 
 
 def test_a_forged_stroke_ends_otherwise():
@@ -62,16 +62,16 @@ def test_a_forged_stroke_ends_otherwise():
 
 
 @pytest.mark.parametrize(
-    ("what", "instead", "status", "said"),
+    ("what", "instead", "status", "message"),
     [
         ('"revision":', '"revision":9', "ERROR_REVISION", "line 1: the recording is of revision 9"),
         ('"phi":', '"phy":', "ERROR_RECORD", "line 6: shot.phy is no key of the format"),
         ('{"end"', "", "ERROR_RECORD", "line 12"),
     ],
 )
-def test_what_is_refused(what, instead, status, said):
+def test_what_is_refused(what, instead, status, message):
     text = a_game().end().replace(what, instead, 1)
-    with pytest.raises(carom.CaromError, match=said) as refused:
+    with pytest.raises(carom.CaromError, match=message) as refused:
         list(replay(text.splitlines()))
     assert refused.value.status == carom.Status[status]
 

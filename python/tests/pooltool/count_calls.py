@@ -23,7 +23,7 @@ OWN = (
 )
 LEAST = 12  # tests that simulate
 
-asked, played, own, failed = (
+requests, played, personal, failed = (
     collections.Counter(),
     collections.Counter(),
     collections.Counter(),
@@ -40,10 +40,10 @@ def counting(counter, function):
     return counted
 
 
-bridge.simulate = counting(asked, bridge.simulate)
+bridge.simulate = counting(requests, bridge.simulate)
 bridge._play = counting(played, bridge._play)
 loop = importlib.import_module("pooltool.evolution.event_based.simulate")._SimulationState
-loop.init = counting(own, loop.init)
+loop.init = counting(personal, loop.init)
 bridge.install()
 
 
@@ -59,18 +59,20 @@ def pytest_runtest_logreport(report):
 
 
 def pytest_sessionfinish(session, exitstatus):
-    tests = asked.keys() | played.keys() | own.keys()
-    by_carom = {name for name in tests if played[name] == asked[name] > 0}
+    tests = requests.keys() | played.keys() | personal.keys()
+    by_carom = {name for name in tests if played[name] == requests[name] > 0}
     wrong = {
-        name for name in tests if (name not in by_carom or own[name]) and not name.startswith(OWN)
+        name
+        for name in tests
+        if (name not in by_carom or personal[name]) and not name.startswith(OWN)
     }
     good = failed == FAIL and not wrong and len(by_carom) >= LEAST and exitstatus in (0, 1)
     session.exitstatus = 0 if good else 1
     print(f"\n{'asked':>6} {'carom':>6} {'own':>6}  test")
     for name in sorted(tests):
-        print(f"{asked[name]:6} {played[name]:6} {own[name]:6}  {name}")
+        print(f"{requests[name]:6} {played[name]:6} {personal[name]:6}  {name}")
     print(
-        f"{len(by_carom)} tests that simulate have all shots from carom, {sum(played.values())} of {sum(asked.values())} shots"
+        f"{len(by_carom)} tests that simulate have all shots from carom, {sum(played.values())} of {sum(requests.values())} shots"
     )
     if not good:
         print(f"wrong: failed {sorted(failed ^ FAIL)}, not by carom {sorted(wrong)}")

@@ -10,8 +10,8 @@ import importlib
 import json
 import os
 import pickle
+import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import types
@@ -20,7 +20,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import DATA
+from conftest import DATA, run_python
+from numpy.testing import assert_allclose
 
 # pooltool writes its settings into the home folder when it is imported.
 home = tempfile.mkdtemp(prefix="carom-pooltool-")
@@ -60,7 +61,7 @@ def scattered(rng, count, game=None):
     places = []
     while len(places) < count:
         place = rng.uniform([0.06, 0.06], [table.w - 0.06, table.l - 0.06])
-        if all(np.hypot(*(place - other)) > 0.07 for other in places):
+        if all(np.hypot(*(place - second)) > 0.07 for second in places):
             places.append(place)
     names = ["cue", *map(str, range(1, count))]
     balls = {name: pt.Ball.create(name, xy=tuple(place)) for name, place in zip(names, places)}
@@ -69,11 +70,11 @@ def scattered(rng, count, game=None):
 
 def struck(system, rng, V0, phi=(0, 360), **more):
     """The system, struck with these numbers, or numbers drawn between bounds."""
-    given = {"V0": V0, "phi": phi, **more}
+    options = {"V0": V0, "phi": phi, **more}
     system.strike(
         **{
             name: rng.uniform(*value) if isinstance(value, tuple) else value
-            for name, value in given.items()
+            for name, value in options.items()
         }
     )
     return system
@@ -98,34 +99,17 @@ def moving(rng):
     return system
 
 
+def named(kind, argument):
+    """What makes the systems or the engines of the text beside this module, by their names."""
+    text = Path(__file__).with_suffix(".txt").read_text(encoding="utf-8")
+    rows = re.findall(rf"^{kind} (.*?): (.*)$", text, re.M)
+    assert len(rows) == 8
+    return {name: eval(f"lambda {argument}: {row}", globals()) for name, row in rows}
+
+
 NINE, EIGHT, THREE = pt.GameType.NINEBALL, pt.GameType.EIGHTBALL, pt.GameType.THREECUSHION
 WIDE = {"a": (-0.5, 0.5), "b": (-0.5, 0.5)}
-FAMILIES = {
-    "nineball": lambda rng: struck(
-        rack(NINE, rng, rng.uniform(1e-4, 1e-2)),
-        rng,
-        (4.5, 10),
-        (85, 95),
-        a=(-0.2, 0.2),
-        b=(-0.2, 0.3),
-    ),
-    "eightball": lambda rng: struck(
-        rack(EIGHT, rng, rng.uniform(1e-4, 1e-2)),
-        rng,
-        (4.5, 10),
-        (85, 95),
-        theta=(0, 6),
-        b=(-0.2, 0.3),
-    ),
-    "threecushion": lambda rng: struck(rack(THREE, rng), rng, (2, 6), a=(-0.5, 0.5), b=(-0.4, 0.4)),
-    "layout": lambda rng: struck(scattered(rng, int(rng.integers(2, 6))), rng, (0.5, 5), **WIDE),
-    "bank": lambda rng: struck(
-        scattered(rng, int(rng.integers(1, 4))), rng, (3, 7), a=(-0.2, 0.2), b=(0, 0.3)
-    ),
-    "spin": lambda rng: struck(scattered(rng, 2), rng, (1, 4), theta=(0, 70), a=(-0.5, 0.5), b=0.3),
-    "pot": pot,
-    "moving": moving,
-}
+FAMILIES = named("system", "rng")
 
 
 # ---- Comparing
@@ -146,8 +130,8 @@ def amplification(system, engine):
         bridge.cue_of(system),
     )
     options, played_on = bridge._options_of(engine, table, balls)
-    one = carom.simulate(played_on, balls, cue, options=options)
-    same, change = one.count, np.ones(one.count)
+    first = carom.simulate(played_on, balls, cue, options=options)
+    same, change = first.count, np.ones(first.count)
     for k in range(4):
         moved, struck = balls.copy(), cue.copy()
         moved["state"]["r"][..., :2] += np.random.default_rng(k).uniform(
@@ -156,9 +140,9 @@ def amplification(system, engine):
         struck["speed"] *= 1 + 1e-13
         struck["phi"] += 1e-13
         options, played_on = bridge._options_of(engine, table, moved)
-        other = carom.simulate(played_on, moved, struck, options=options)
-        count = min(same, other.count)
-        mine, theirs = one.events[:count], other.events[:count]
+        second = carom.simulate(played_on, moved, struck, options=options)
+        count = min(same, second.count)
+        mine, theirs = first.events[:count], second.events[:count]
         differ = (
             (mine["type"] != theirs["type"])
             | (mine["a"] != theirs["a"])
@@ -201,7 +185,7 @@ def compare(system, engine=bridge._simulate.DEFAULT_ENGINE, jump=0.0):
     A model of so many steps may take one step more or less by rounding: the first difference up to
     `jump` ends the comparison.
     """
-    before = system.copy()
+    copy = system.copy()
     try:
         theirs = pt.simulate(system, engine)
     # the head of pooltool's repository has no answer for two balls that slow down alike
@@ -209,7 +193,7 @@ def compare(system, engine=bridge._simulate.DEFAULT_ENGINE, jump=0.0):
         assert "Leading coefficient" in str(error)
         return 0, 0
     mine = bridge.simulate(system, engine)
-    assert mine is not system and not system.simulated and system.balls == before.balls
+    assert mine is not system and not system.simulated and system.balls == copy.balls
     same, change = amplification(system, engine)
     whole = same == len(theirs.events) - 2
     if whole:
@@ -221,14 +205,17 @@ def compare(system, engine=bridge._simulate.DEFAULT_ENGINE, jump=0.0):
         assert abs(ours.time - event.time) <= allowed
         if allowed < apart(ours, event) < jump:
             return k, len(theirs.events) - 1
-        for one, other in zip(ours.agents, event.agents, strict=True):
-            assert one.agent_type == other.agent_type
+        for first, second in zip(ours.agents, event.agents, strict=True):
+            assert first.agent_type == second.agent_type
             for state in ("initial", "final"):
-                if one.agent_type == "ball":
-                    same_ball(getattr(one, state), getattr(other, state), allowed)
+                if first.agent_type == "ball":
+                    same_ball(getattr(first, state), getattr(second, state), allowed)
                 else:
-                    assert type(getattr(one, state)) is type(getattr(other, state))
-                    assert getattr(one, state) == getattr(other, state) or one.agent_type == "null"
+                    assert type(getattr(first, state)) is type(getattr(second, state))
+                    assert (
+                        getattr(first, state) == getattr(second, state)
+                        or first.agent_type == "null"
+                    )
         for name, ball in theirs.balls.items():
             ours, state = mine.balls[name].history[k], ball.history[k]
             assert ours.s == state.s and abs(ours.t - state.t) <= allowed
@@ -256,12 +243,12 @@ def test_random_shots(family):
 
 def engine(ball_ball=None, **cushions):
     """The default engine with other models."""
-    made = new_engine()
-    made.resolver.ball_ball = ball_ball or made.resolver.ball_ball
+    engine = new_engine()
+    engine.resolver.ball_ball = ball_ball or engine.resolver.ball_ball
     for part in ("linear", "circular"):
         if part in cushions:
-            setattr(made.resolver, f"ball_{part}_cushion", cushions[part])
-    return made
+            setattr(engine.resolver, f"ball_{part}_cushion", cushions[part])
+    return engine
 
 
 new_engine = (
@@ -281,32 +268,7 @@ stronge = importlib.import_module("pooltool.physics.resolve.ball_cushion.stronge
 han = importlib.import_module("pooltool.physics.resolve.ball_cushion.han_2005.model")
 steps = importlib.import_module("pooltool.physics.resolve.ball_cushion.mathavan_2010.model")
 mirror = importlib.import_module("pooltool.physics.resolve.ball_cushion.unrealistic")
-ENGINES = {
-    "frictionless": lambda: engine(
-        frictionless(), linear=mirror.UnrealisticLinear(), circular=mirror.UnrealisticCircular(True)
-    ),
-    "average friction": lambda: engine(inelastic(friction=of_friction.AverageBallBallFriction())),
-    "own law": lambda: engine(
-        inelastic(friction=of_friction.AlciatoreBallBallFriction(0.02, 0.2, 0.5))
-    ),
-    "no friction": lambda: engine(
-        inelastic(friction=of_friction.AlciatoreBallBallFriction(0.0, 0.0, 0.0))
-    ),
-    "own ratio": lambda: engine(
-        linear=stronge.StrongeCompliantLinear(1.5), circular=stronge.StrongeCompliantCircular(1.5)
-    ),
-    "han": lambda: engine(linear=han.Han2005Linear(), circular=han.Han2005Circular()),
-    "steps": lambda: engine(
-        mathavan(num_iterations=400),
-        linear=steps.Mathavan2010Linear(400),
-        circular=steps.Mathavan2010Circular(400),
-    ),
-    "exact": lambda: engine(
-        bridge.ExactBallBall(),
-        linear=bridge.ExactLinearCushion(),
-        circular=bridge.ExactCircularCushion(),
-    ),
-}
+ENGINES = named("engine", "")
 
 
 @pytest.mark.parametrize("name", ENGINES)
@@ -333,20 +295,20 @@ def test_recorded_shots():
     for line in (line for line in lines if line["kind"] == "shot"):
         kind = pt.TableType.POCKET if pockets[line["table"]] else pt.TableType.BILLIARD
         balls = {}
-        for given in line["balls"]:
-            params = dict(given["params"])
+        for row in line["balls"]:
+            params = dict(row["params"])
             params["u_sp_proportionality"] = params.pop("u_sp") / params["R"]
-            state = given["state"]
-            ball = pt.Ball(given["id"], params=pt.BallParams(**params))
+            state = row["state"]
+            ball = pt.Ball(row["id"], params=pt.BallParams(**params))
             ball.state = pt.objects.BallState(np.array(state[1:]).reshape(3, 3), state[0])
-            balls[given["id"]] = ball
-        given = line["cue"]
-        numbers = {key: given[key] for key in ("M", "end_mass", "tip_radius")}
+            balls[row["id"]] = ball
+        row = line["cue"]
+        numbers = {key: row[key] for key in ("M", "end_mass", "tip_radius")}
         specs = attrs.evolve(pt.objects.CueSpecs.default(), **numbers)
         cue = pt.Cue(
             specs=specs,
-            cue_ball_id=given["ball"],
-            **{key: given[key] for key in ("V0", "phi", "theta", "a", "b")},
+            cue_ball_id=row["ball"],
+            **{key: row[key] for key in ("V0", "phi", "theta", "a", "b")},
         )
         compared += compare(pt.System(cue=cue, table=tables[kind].copy(), balls=balls))[0]
     assert compared > 1000
@@ -357,7 +319,7 @@ def test_tables_have_the_size_of_their_bed(game):
     """So racks and layouts that are dealt lie on it."""
     theirs = pt.Table.default() if game is None else pt.Table.from_game_type(game)
     table = bridge.table_of(theirs)
-    np.testing.assert_allclose([table.width, table.length], [theirs.w, theirs.l], rtol=1e-12)
+    assert_allclose([table.width, table.length], [theirs.w, theirs.l], rtol=1e-12)
     if len(table.pockets):
         rules = Potting(
             balls=5, table=table, ball_set="snooker" if game is pt.GameType.SNOOKER else "pool"
@@ -376,7 +338,7 @@ def test_continuized():
     for name, ball in theirs.balls.items():
         ours = mine.balls[name].history_cts.vectorize()
         for got, expected in zip(ours, ball.history_cts.vectorize(), strict=True):
-            np.testing.assert_allclose(got, expected, atol=1e-9)
+            assert_allclose(got, expected, atol=1e-9)
 
 
 def test_ends():
@@ -395,10 +357,8 @@ def test_ends():
         ], options
         for name, ball in theirs.balls.items():
             assert mine.balls[name].state.s == ball.state.s
-            np.testing.assert_allclose(mine.balls[name].state.rvw, ball.state.rvw, atol=1e-9)
-            np.testing.assert_allclose(
-                mine.balls[name].history[-2].rvw, ball.history[-2].rvw, atol=1e-9
-            )
+            assert_allclose(mine.balls[name].state.rvw, ball.state.rvw, atol=1e-9)
+            assert_allclose(mine.balls[name].history[-2].rvw, ball.history[-2].rvw, atol=1e-9)
 
 
 def test_in_place_and_saved(tmp_path):
@@ -407,9 +367,9 @@ def test_in_place_and_saved(tmp_path):
     system.save(tmp_path / "shot.msgpack")
     loaded = pt.System.load(tmp_path / "shot.msgpack")
     assert [e.ids for e in loaded.events] == [e.ids for e in system.events]
-    again = system.copy()
-    again.reset_balls()
-    assert [e.time for e in bridge.simulate(again).events] == [e.time for e in system.events]
+    repeat = system.copy()
+    repeat.reset_balls()
+    assert [e.time for e in bridge.simulate(repeat).events] == [e.time for e in system.events]
 
 
 def test_objects_made_when_first_looked_at_are_pooltools():
@@ -577,26 +537,26 @@ def test_what_pooltool_plays_is_told_once(installed, played):
     """Each reason once, at the line that asked; and anew after install()."""
     throttled = new_engine()
     throttled.resolver.stick_ball.english_throttle = 0.5
-    other = new_engine()
-    other.resolver.ball_linear_cushion.omega_ratio = 1.5
+    second = new_engine()
+    second.resolver.ball_linear_cushion.omega_ratio = 1.5
     without = set(
         importlib.import_module("pooltool.evolution.event_based.config").INCLUDED_EVENTS
     ) - {pt.EventType.BALL_POCKET}
     overlapping = pt.System.example()
     overlapping.balls["cue"].state.rvw[0] = overlapping.balls["1"].state.rvw[0] + [0.01, 0, 0]
     for _ in range(2):
-        with warnings.catch_warnings(record=True) as told:
+        with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             for _ in range(2):
                 assert pt.simulate(pt.System.example(), throttled).simulated
-                assert pt.simulate(pt.System.example(), other).simulated
+                assert pt.simulate(pt.System.example(), second).simulated
                 assert pt.simulate(pt.System.example(), include=without, max_events=1).simulated
                 pt.simulate(overlapping, max_events=1)
                 pt.simulate(pt.System.example())
-        texts = [str(warning.message) for warning in told]
+        texts = [str(warning.message) for warning in caught]
         assert all(
             warning.category is bridge.FallbackWarning and warning.filename == __file__
-            for warning in told
+            for warning in caught
         )
         assert all(
             text.startswith("pooltool plays this system instead of carom: ") for text in texts
@@ -612,13 +572,7 @@ def test_what_pooltool_plays_is_told_once(installed, played):
 def test_speed():
     """The example that compares the times finds the same events and histories, and prints its rows."""
     script = Path(__file__).parents[2] / "examples" / "pooltool_speed.py"
-    ran = subprocess.run(
-        [sys.executable, str(script), "3"],
-        capture_output=True,
-        text=True,
-        env={**os.environ, "HOME": home},
-    )
-    assert ran.returncode == 0, ran.stderr
+    ran = run_python(script, 3, HOME=home)
     print(ran.stdout)
     times = [[float(word) for word in line[32:].split()] for line in ran.stdout.splitlines()[3:]]
     assert len(times) == 11 and all(min(row) > 0 for row in times), ran.stdout
@@ -639,21 +593,15 @@ def test_notebooks(tmp_path):
         ]
         (tmp_path / f"{name}.ipynb").write_text(json.dumps({"cells": cells}), encoding="utf-8")
     script = Path(__file__).parents[2] / "examples" / "pooltool_speed.py"
-    paths = [str(tmp_path / f"{name}.ipynb") for name in ("same", "other")]
-    ran = subprocess.run(
-        [sys.executable, str(script), *paths],
-        capture_output=True,
-        text=True,
-        env={**os.environ, "HOME": home},
-    )
-    assert ran.returncode == 0, ran.stderr
-    same, text, failed, other, differs = ran.stdout.splitlines()
+    paths = [tmp_path / f"{name}.ipynb" for name in ("same", "other")]
+    ran = run_python(script, *paths, HOME=home)
+    same, text, failed, second, differs = ran.stdout.splitlines()
     assert (
         same.startswith("same: 1 calls, ")
         and text.endswith("printed text the same")
         and "cell 2 failed: ZeroDivisionError" in failed
     )
-    assert other.startswith("other: 1 calls, ") and differs.endswith("printed text differs")
+    assert second.startswith("other: 1 calls, ") and differs.endswith("printed text differs")
 
 
 # ---- The agent
@@ -704,21 +652,21 @@ def test_the_agent_pots_its_own_balls():
     what it calls.
     """
     places = {"cue": (0.5, 1.0), "3": (0.06, 0.06), "11": (0.93, 0.06), "8": (0.5, 1.9)}
-    for group, wanted in ((range(1, 8), "3"), (range(9, 16), "11")):
+    for group, target in ((range(1, 8), "3"), (range(9, 16), "11")):
         system, game = end_game("eightball", places, group)
         agent = bridge.Agent(carom.player(0.3), exact=True, shots=300)
-        told = []
-        action = agent.decide(system, game, told.append)
+        calls = []
+        action = agent.decide(system, game, calls.append)
         assert (
-            told == [action]
-            and game.shot_constraints.ball_call == wanted
+            calls == [action]
+            and game.shot_constraints.ball_call == target
             and game.shot_constraints.can_shoot()
         )
         agent.apply(system, action)
         assert (system.cue.V0, system.cue.phi) == (action.V0, action.phi)
         pt.simulate(system, inplace=True)
         assert pt.ruleset.is_ball_pocketed_in_pocket(
-            system, wanted, game.shot_constraints.pocket_call
+            system, target, game.shot_constraints.pocket_call
         )
         game.process_and_advance(system)
         assert game.shot_info.legal and not game.shot_info.turn_over
@@ -745,9 +693,9 @@ def test_a_stroke_without_a_game():
     """It is that of the agent in the same game; the System stays as it is."""
     places = {"cue": (0.5, 1.0), "3": (0.06, 0.06), "11": (0.93, 0.06), "8": (0.5, 1.9)}
     system, game = end_game("eightball", places, range(9, 16))
-    before = system.copy()
+    copy = system.copy()
     best = bridge.Agent(shots=200).stroke(system, ["11"])
-    assert system == before and best["ball"] == 11
+    assert system == copy and best["ball"] == 11
     # the same seed, so the same errors
     action = bridge.Agent(shots=200).decide(system, game)
     assert [best["cue"][name] for name in ("speed", "phi", "theta", "a", "b")] == [

@@ -29,7 +29,7 @@ def spoiled(
     q (1/m), q from the middle.
     """
     random = np.random.default_rng(seed)
-    made = []
+    changed_recordings = []
     for shot in recordings:
         tracks = []
         for track in shot.tracks:
@@ -49,9 +49,9 @@ def spoiled(
         for _ in range(swaps):
             a, b = random.choice(len(tracks), 2, replace=False)
             time = random.uniform(lead_in + 0.5, lead_in + 4.0)
-            one, other = tracks[a], tracks[b]
-            tracks[a] = np.vstack([one[one[:, 0] < time], other[other[:, 0] >= time]])
-            tracks[b] = np.vstack([other[other[:, 0] < time], one[one[:, 0] >= time]])
+            first, second = tracks[a], tracks[b]
+            tracks[a] = np.vstack([first[first[:, 0] < time], second[second[:, 0] >= time]])
+            tracks[b] = np.vstack([second[second[:, 0] < time], first[first[:, 0] >= time]])
         turn = scale * np.array(
             [
                 [np.cos(np.radians(angle)), -np.sin(np.radians(angle))],
@@ -63,7 +63,7 @@ def spoiled(
             q * (1.0 + bend[0] * (q * q).sum(axis=1) + q @ bend[1:])[:, None] + np.array(table) / 2
             for q in places
         ]
-        made.append(
+        changed_recordings.append(
             replace(
                 shot,
                 tracks=tuple(
@@ -71,4 +71,4 @@ def spoiled(
                 ),
             )
         )
-    return made
+    return changed_recordings

@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from spoil import spoiled
-from test_tracks import RADIUS, TABLE, csv_of, fitted, synthetic
+from test_tracks import RADIUS, TABLE, csv_of, fitted, struck, synthetic
 
 import carom
 from carom import _described, tracks
@@ -46,23 +46,28 @@ HAN = {
 }
 
 
-@pytest.fixture(scope="module")
-def made():
-    return synthetic(12, constants=HAN, seed=2)
+def seen_by_han(shots, **how):
+    """Recordings of shots of Han's model."""
+    return synthetic(shots, constants=HAN, **{"seed": 2, **how})
 
 
 @pytest.fixture(scope="module")
-def plays(made):
-    return _strikes.Plays(made.recordings, TABLE, RADIUS, made.constants, "han")
+def sample():
+    return seen_by_han(12)
 
 
-def distances(made, constants, k, strike, until, stride=1):
+@pytest.fixture(scope="module")
+def plays(sample):
+    return _strikes.Plays(sample.recordings, TABLE, RADIUS, sample.constants, "han")
+
+
+def distances(sample, constants, k, strike, end, stride=1):
     """Recorded less played places of shot k up to a time, by single calls of simulate."""
-    shot = made.recordings[k]
-    strikes = np.zeros((len(made.recordings), 6))
+    shot = sample.recordings[k]
+    strikes = np.zeros((len(sample.recordings), 6))
     strikes[k] = strike
     found = fit.Fit(
-        made.recordings,
+        sample.recordings,
         TABLE,
         RADIUS,
         "han",
@@ -75,37 +80,41 @@ def distances(made, constants, k, strike, until, stride=1):
     apart = []
     for ball, track in enumerate(shot.tracks):
         rows = track[::stride]
-        rows = rows[rows[:, 0] <= until]
+        rows = rows[rows[:, 0] <= end]
         apart.append(found.positions(k, rows[:, 0])[:, ball] - rows[:, 1:])
     return np.concatenate(apart)
 
 
 @pytest.mark.parametrize(
-    ("until", "stride", "drag"),
+    ("end", "stride", "drag"),
     [(1.3, 1, 0.0), (np.inf, 1, 0.0), (3.0, 3, 0.0), (np.inf, 1, 0.013)],
 )
-def test_sums_are_those_of_plays_in_python(made, until, stride, drag):
+def test_sums_are_those_of_plays_in_python(sample, end, stride, drag):
     # with drag the ways are cubics that are right to some micrometres, and carom_shoot's to one
-    near, nearer, shape = (1e-3, 1e-3, 1e-2) if drag else (1e-9, 1e-7, 1e-5)
-    constants = {**made.constants, "drag": drag}
-    plays = _strikes.Plays(made.recordings, TABLE, RADIUS, constants, "han")
-    n = len(made.strikes)
-    strikes = made.strikes + np.random.default_rng(1).normal(0, 3e-3, made.strikes.shape)
-    of, ends, most = np.arange(n, dtype=np.int32), np.minimum(until, plays.ends), np.full(n, np.inf)
-    sums = plays.misfit(of, strikes, ends, most, stride=stride)
+    tolerance, nearer, shape = (1e-3, 1e-3, 1e-2) if drag else (1e-9, 1e-7, 1e-5)
+    constants = {**sample.constants, "drag": drag}
+    plays = _strikes.Plays(sample.recordings, TABLE, RADIUS, constants, "han")
+    n = len(sample.strikes)
+    strikes = sample.strikes + np.random.default_rng(1).normal(0, 3e-3, sample.strikes.shape)
+    shots, ends, most = (
+        np.arange(n, dtype=np.int32),
+        np.minimum(end, plays.ends),
+        np.full(n, np.inf),
+    )
+    sums = plays.misfit(shots, strikes, ends, most, stride=stride)
     for k in range(n):
-        d = distances(made, constants, k, strikes[k], ends[k], stride)
+        d = distances(sample, constants, k, strikes[k], ends[k], stride)
         square = (d**2).sum(axis=1)
         root = np.sqrt(1 + square / _strikes.HUBER**2)
         assert sums[k, 2] == len(d)
-        assert sums[k, 1] == pytest.approx(square.sum(), rel=near)
+        assert sums[k, 1] == pytest.approx(square.sum(), rel=tolerance)
         assert sums[k, 0] == pytest.approx(2 * _strikes.HUBER**2 * (root - 1).sum(), rel=nearer)
         # J by the same differences, in Python
         J = []
         for a in range(6):
             moved = strikes[k].copy()
             moved[a] += _strikes.STEP
-            J.append((distances(made, constants, k, moved, ends[k], stride) - d) / _strikes.STEP)
+            J.append((distances(sample, constants, k, moved, ends[k], stride) - d) / _strikes.STEP)
         J = np.array(J)
         square = np.einsum("anx,bnx,n->ab", J, J, 1 / root)
         scale = np.sqrt(np.outer(square.diagonal(), square.diagonal())) + 1e-12
@@ -120,38 +129,38 @@ def test_sums_are_those_of_plays_in_python(made, until, stride, drag):
         )
 
 
-def test_rows_that_are_not_better_have_no_derivatives_and_threads_change_no_bit(made, plays):
+def test_rows_that_are_not_better_have_no_derivatives_and_threads_change_no_bit(sample, plays):
     n = 700
-    of = (np.arange(n) % len(made.strikes)).astype(np.int32)
-    strikes = made.strikes[of] + np.random.default_rng(2).normal(0, 0.05, (n, 6))
-    all_of_them = plays.misfit(of, strikes, plays.ends[of], np.full(n, np.inf))
+    shots = (np.arange(n) % len(sample.strikes)).astype(np.int32)
+    strikes = sample.strikes[shots] + np.random.default_rng(2).normal(0, 0.05, (n, 6))
+    all_of_them = plays.misfit(shots, strikes, plays.ends[shots], np.full(n, np.inf))
     most = np.where(np.arange(n) % 2, np.inf, all_of_them[:, 0])
-    some = plays.misfit(of, strikes, plays.ends[of], most)
+    some = plays.misfit(shots, strikes, plays.ends[shots], most)
     assert np.array_equal(some[1::2], all_of_them[1::2])
     assert np.array_equal(some[::2, :3], all_of_them[::2, :3]) and not some[::2, 3:].any()
-    threads = _strikes.Plays(made.recordings, TABLE, RADIUS, made.constants, "han", threads=3)
-    assert np.array_equal(threads.misfit(of, strikes, plays.ends[of], most), some)
+    threads = _strikes.Plays(sample.recordings, TABLE, RADIUS, sample.constants, "han", threads=3)
+    assert np.array_equal(threads.misfit(shots, strikes, plays.ends[shots], most), some)
 
 
-def test_strikes_that_stuck_are_found_by_way_of_kicks(made, plays):
-    true = made.strikes - np.column_stack([np.zeros((len(made.strikes), 5)), plays.origins])
+def test_strikes_that_stuck_are_found_by_way_of_kicks(sample, plays):
+    true = sample.strikes - np.column_stack([np.zeros((len(sample.strikes), 5)), plays.origins])
     off = true + np.random.default_rng(0).normal(0, 0.1, true.shape) * [1, 1, 1, 1, 1, 0.1]
     stuck, _ = _strikes.descend(plays, np.arange(len(off), dtype=np.int32), off, plays.ends, 60)
-    before, after = plays.rmse(stuck), plays.rmse(_kicks.eased(plays, stuck))
+    stuck_rmse, eased_rmse = plays.rmse(stuck), plays.rmse(_kicks.eased(plays, stuck))
     # the better of both: some are mended to the noise
-    assert (before > 5e-3).sum() >= 4
-    assert np.exp(np.log(np.fmin(after, before) / before).mean()) < 0.6
+    assert (stuck_rmse > 5e-3).sum() >= 4
+    assert np.exp(np.log(np.fmin(eased_rmse, stuck_rmse) / stuck_rmse).mean()) < 0.6
 
 
 @pytest.mark.parametrize("rows", [1, 2, 3, 5])
-def test_a_start_is_near_the_strike_however_few_rows_tell_it(made, rows):
+def test_a_start_is_near_the_strike_however_few_rows_tell_it(sample, rows):
     """Where another ball moves so soon that few rows of the cue ball are its own."""
-    for strike, shot in zip(made.strikes, made.recordings, strict=True):
+    for strike, shot in zip(sample.strikes, sample.recordings, strict=True):
         track = shot.tracks[shot.cue]
         last = np.searchsorted(track[:, 0], shot.moves[shot.cue]) + rows - 1
         moves = [
-            own if ball == shot.cue else track[last, 0] + 0.021
-            for ball, own in enumerate(shot.moves)
+            start if ball == shot.cue else track[last, 0] + 0.021
+            for ball, start in enumerate(shot.moves)
         ]
         found = _strikes.starts(
             SimpleNamespace(
@@ -203,20 +212,18 @@ def test_a_strike_at_a_near_rail_is_found():
         tracks_of = tuple(np.column_stack([t, seen[:, ball]]) for ball in range(3))
         recordings.append(tracks.Recording(len(recordings) + 1, (1, 2, 3), tracks_of))
         true.append(velocity)
-    found = fitted(
-        recordings, TABLE, RADIUS, cushion_model="smooth", constants=values, free="none", seed=1
-    )
+    found = fitted(recordings, cushion_model="smooth", constants=values, free="none", seed=1)
     assert (found.rmse < 1e-3).sum() >= 10
-    near = np.abs(found.strikes[:, :2] - np.array(true)).max(axis=1) < 0.05
-    assert near.sum() >= 10
+    is_close = np.abs(found.strikes[:, :2] - np.array(true)).max(axis=1) < 0.05
+    assert is_close.sum() >= 10
 
 
-def test_forecasts_hold_on_shots_with_known_constants(made):
+def test_forecasts_hold_on_shots_with_known_constants(sample):
     """Of shots without errors of the models the regions are wide, never too narrow; the known rows
     alone count.
     """
-    known = fitted(made.recordings, TABLE, RADIUS, constants=made.constants, free="none")
-    inside, some = [], made.recordings[:6]
+    known = struck(sample)
+    inside, some = [], sample.recordings[:6]
     for shot in some:
         seen = known.forecast(shot, after=2.0, draws=60)
         rows, balls = seen.later()
@@ -232,22 +239,22 @@ def test_forecasts_hold_on_shots_with_known_constants(made):
     cut = [track[track[:, 0] <= shot.moves.min() + 2.0] for track in shot.tracks]
     short = replace(shot, tracks=tuple(cut))
     times = shot.moves.min() + np.array([2.5, 3.5])
-    whole, alone, other = (
-        known.forecast(one, after=2.0, draws=20, seed=seed).positions(times)
-        for one, seed in ((0, 3), (short, 3), (short, 4))
+    whole, alone, second = (
+        known.forecast(history, after=2.0, draws=20, seed=seed).positions(times)
+        for history, seed in ((0, 3), (short, 3), (short, 4))
     )
     assert whole.shape == (20, 2, 3, 2) and np.array_equal(whole, alone)
-    assert not np.array_equal(whole, other)
+    assert not np.array_equal(whole, second)
     with pytest.raises(ValueError, match="^after: it must be positive and finite"):
         known.forecast(0, after=-1.0)
     with pytest.raises(ValueError, match="^draws: "):
         known.forecast(0, after=1.0, draws=3)
 
 
-def test_known_constants_give_the_strikes_back(made):
-    found = fitted(made.recordings, TABLE, RADIUS, constants=made.constants, free="none")
-    again = fitted(made.recordings, TABLE, RADIUS, constants=made.constants, free="none", threads=2)
-    assert np.array_equal(found.strikes, again.strikes)
+def test_known_constants_give_the_strikes_back(sample):
+    found = struck(sample)
+    repeat = struck(sample, threads=2)
+    assert np.array_equal(found.strikes, repeat.strikes)
     assert found.status == ["ok"] * 12
     # the noise of 0.35 mm in x and y, and what an unlucky strike adds
     assert np.median(found.rmse) < 0.6e-3 and (found.rmse < 2e-3).sum() >= 11
@@ -256,11 +263,11 @@ def test_known_constants_give_the_strikes_back(made):
     assert (found.covered(found.bands()) >= (0.68, 0.95)).all() and (
         halves.covered(halves.bands(True), False) > (0.5, 0.85)
     ).all()
-    error = np.abs(found.strikes - made.strikes)[good]
+    error = np.abs(found.strikes - sample.strikes)[good]
     assert np.median(error, axis=0)[:5].max() < 0.02 and np.median(error[:, 5]) < 1e-3
     # rmse is that of the positions, whose rolling against drag is within 1e-5 m
-    told = made.recordings[3]
-    moving = [track[rows] for track, rows in zip(told.tracks, told.moving)]
+    notes = sample.recordings[3]
+    moving = [track[rows] for track, rows in zip(notes.tracks, notes.moving)]
     places = [
         found.positions(3, track[:, 0])[:, ball] - track[:, 1:] for ball, track in enumerate(moving)
     ]
@@ -268,7 +275,7 @@ def test_known_constants_give_the_strikes_back(made):
     assert found.rmse[3] == pytest.approx(
         np.sqrt((np.concatenate(places) ** 2).sum(axis=1).mean()), abs=5e-6
     )
-    assert found.plot(3).svg.count("<circle") > sum(map(len, made.recordings[3].tracks))
+    assert found.plot(3).svg.count("<circle") > sum(map(len, sample.recordings[3].tracks))
 
 
 @pytest.mark.parametrize(
@@ -287,10 +294,10 @@ def test_known_constants_give_the_strikes_back(made):
     ],
 )
 def test_recordings_as_people_make_them_are_fitted_to_their_noise(how, spoil):
-    made = synthetic(12, constants=HAN, seed=2, **how)
+    sample = seen_by_han(12, **how)
     camera = {name: value for name, value in how.items() if name != "thin"}
-    recordings = spoiled(made.recordings, 2, **camera, **spoil)
-    found = fitted(recordings, TABLE, RADIUS, constants=made.constants, free="none")
+    recordings = spoiled(sample.recordings, 2, **camera, **spoil)
+    found = struck(sample, recordings)
     noise = how.get("noise", tracks.NOISE)
     assert found.recordings[0].noise == pytest.approx(noise, rel=0.15)
     assert all(shot.cue == 0 for shot in found.recordings) and found.status.count("ok") >= 9
@@ -299,17 +306,17 @@ def test_recordings_as_people_make_them_are_fitted_to_their_noise(how, spoil):
         np.median(found.rmse) < 1.3 * np.sqrt(2) * noise
         and (found.rmse < 2 * np.sqrt(2) * noise).sum() >= 9
     )
-    late = recordings[0].tracks[0][-1, 0] - made.recordings[0].tracks[0][-1, 0]
-    assert np.median(np.abs(found.strikes[:, 5] - made.strikes[:, 5] - late)) < 2e-3
+    late = recordings[0].tracks[0][-1, 0] - sample.recordings[0].tracks[0][-1, 0]
+    assert np.median(np.abs(found.strikes[:, 5] - sample.strikes[:, 5] - late)) < 2e-3
     # the covariance of a strike does not depend on the clock
     later = [
         replace(shot, tracks=tuple(track + (64.0, 0.0, 0.0) for track in shot.tracks))
         for shot in found.recordings
     ]
-    again = replace(
+    replaced = replace(
         found, recordings=later, strikes=found.strikes + [0.0, 0.0, 0.0, 0.0, 0.0, 64.0]
     )
-    assert np.allclose(again.strike_covariance(1), found.strike_covariance(1), rtol=1e-5)
+    assert np.allclose(replaced.strike_covariance(1), found.strike_covariance(1), rtol=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -325,16 +332,10 @@ def test_recordings_as_people_make_them_are_fitted_to_their_noise(how, spoil):
 )
 @pytest.mark.parametrize("thin", [0.0, 0.016])
 def test_false_rows_and_swapped_names_are_mended_and_told(spoil, status, thin):
-    made = synthetic(12, constants=HAN, seed=2, thin=thin)
+    sample = seen_by_han(12, thin=thin)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        found = fitted(
-            spoiled(made.recordings, 2, **spoil),
-            TABLE,
-            RADIUS,
-            constants=made.constants,
-            free="none",
-        )
+        found = struck(sample, spoiled(sample.recordings, 2, **spoil))
     assert sum(re.fullmatch(status, text) is not None for text in found.status) >= (
         8 if thin == 0.0 else 4
     )
@@ -358,29 +359,24 @@ def test_false_rows_and_swapped_names_are_mended_and_told(spoil, status, thin):
 
 def told_and_mended(**how):
     """Fits of a table that lies crooked, as it is and calibrated."""
-    made = synthetic(20, constants=HAN, seed=2)
-    recordings = spoiled(made.recordings, 2, lead_in=0.5, **how)
-    return (
-        fitted(
-            recordings, TABLE, RADIUS, constants=made.constants, free="none", calibrate=calibrate
-        )
-        for calibrate in (False, True)
-    )
+    sample = seen_by_han(20)
+    recordings = spoiled(sample.recordings, 2, lead_in=0.5, **how)
+    return (struck(sample, recordings, calibrate=calibrate) for calibrate in (False, True))
 
 
 @pytest.mark.parametrize(
     ("angle", "scale"), [(-0.5, 0.99), (0.5, 1.0), (0.0, 1.01)][: None if MATCHES else 1]
 )
 def test_a_crooked_or_scaled_table_is_told_and_calibrated(angle, scale):
-    told, mended = told_and_mended(angle=angle, scale=scale)
+    notes, mended = told_and_mended(angle=angle, scale=scale)
     number = re.match(
         r"the tracks lie turned by (\S+) degrees, (\S+) times .*--calibrate puts them right",
-        told.warnings[0],
+        notes.warnings[0],
     )
     assert float(number[1]) == pytest.approx(angle, abs=0.04) and float(number[2]) == pytest.approx(
         scale, abs=1e-3
     )
-    assert "times that of the noise" in told.warnings[1] and told.median_rmse > 5e-3
+    assert "times that of the noise" in notes.warnings[1] and notes.median_rmse > 5e-3
     assert (
         mended.warnings[0].endswith("put right")
         and mended.median_rmse < 2 * np.sqrt(2) * tracks.NOISE
@@ -388,10 +384,8 @@ def test_a_crooked_or_scaled_table_is_told_and_calibrated(angle, scale):
 
 
 def test_a_straight_table_stays_as_it_is():
-    made = synthetic(20, constants=HAN, seed=2)
-    straight = fitted(
-        made.recordings, TABLE, RADIUS, constants=made.constants, free="none", calibrate=True
-    )
+    sample = seen_by_han(20)
+    straight = struck(sample, calibrate=True)
     assert list(straight.warnings) == [] and straight.median_rmse < 1.3 * np.sqrt(2) * tracks.NOISE
 
 
@@ -400,12 +394,12 @@ def test_a_straight_table_stays_as_it_is():
 )
 def test_a_bent_picture_is_told_and_calibrated(bend):
     """By a lens or a camera that looks askew, as it bends the edges; corners are up to 2 cm off."""
-    told, mended = told_and_mended(angle=0.2, bend=bend)
+    notes, mended = told_and_mended(angle=0.2, bend=bend)
     assert re.match(
         r"the tracks lie turned by .* times as large as the table, bent by up to (1|2)\d\.\d mm, and",
-        told.warnings[0],
+        notes.warnings[0],
     )
-    assert told.median_rmse > 5e-3
+    assert notes.median_rmse > 5e-3
     assert (
         mended.warnings[0].endswith("put right")
         and mended.median_rmse < 2 * np.sqrt(2) * tracks.NOISE
@@ -415,8 +409,8 @@ def test_a_bent_picture_is_told_and_calibrated(bend):
 @pytest.mark.parametrize("seed", range(2 if MATCHES else 1))
 def test_noise_does_not_turn_the_table(seed):
     """Noise of 3 mm at 240 pictures a second turns a coordinate round in every third row."""
-    made = synthetic(20, constants=HAN, noise=3e-3, rate=240.0, thin=0.0, seed=seed)
-    lie = _recordings.lie_of(_recordings.sound(made.recordings, 3e-3)[0], TABLE, RADIUS)
+    sample = seen_by_han(20, noise=3e-3, rate=240.0, thin=0.0, seed=seed)
+    lie = _recordings.lie_of(_recordings.sound(sample.recordings, 3e-3)[0], TABLE, RADIUS)
     assert (
         lie.far < 4.0 * lie.error
         and lie.error < 4e-3
@@ -429,7 +423,7 @@ def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
     """Frames as a camera has them, of shots on the built-in table: constants are found, with no
     word on them or on the strikes.
     """
-    other = {
+    constants = {
         "mu_slide": 0.2,
         "mu_roll": 0.0046,
         "mu_spin": 0.005,
@@ -448,7 +442,7 @@ def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
             "phi": random.uniform(40, 140),
             "tip": random.uniform((-0.3, -0.2), (0.3, 0.3)),
         }
-        kind = {**_constants.usual("han"), **other}
+        kind = {**_constants.usual("han"), **constants}
         shots.append(
             carom.simulate(
                 table,
@@ -466,16 +460,8 @@ def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
             for ball, (x, y) in enumerate(frame)
         ]
     (tmp_path / "frames.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    given = [
-        str(tmp_path / "frames.csv"),
-        "--table",
-        "1.42,2.84",
-        "--radius",
-        "0.03075",
-        "--cushion-model",
-        "han",
-    ]
-    assert fit.main([*given, "-o", str(tmp_path / "fit.json")]) == 0
+    words = f"{tmp_path}/frames.csv --table 1.42,2.84 --radius 0.03075 --cushion-model han"
+    assert fit.main(f"{words} -o {tmp_path}/fit.json".split()) == 0
     found = json.loads((tmp_path / "fit.json").read_text(encoding="utf-8"))
     assert "warning" not in capsys.readouterr().err and found["noise"] == pytest.approx(
         noise, rel=0.1
@@ -491,7 +477,7 @@ def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
     left = np.array([played.states([0.0])[0, 0]["v"][:2] for played in shots])
     assert np.median(np.abs([[cue["v_x"], cue["v_y"]] for cue in cues] - left), axis=0).max() < 0.02
     # the constants of the balls: within 3 %, and nine of eleven within two spreads
-    kind = {**_constants.usual("han"), **other}
+    kind = {**_constants.usual("han"), **constants}
     truth = {name: float(kind[name]) for name in found["spread"]}
     assert {name: found["constants"][name] for name in truth if name != "law_b"} == pytest.approx(
         {name: value for name, value in truth.items() if name != "law_b"}, rel=0.03
@@ -504,9 +490,12 @@ def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
 
 
 def test_no_shot_is_ok_whose_rmse_is_three_times_the_noise():
-    made = synthetic(12, constants=HAN, noise=0.5e-3, seed=3)
-    off = {**made.constants, "restitution_cushion": made.constants["restitution_cushion"] - 0.01}
-    found = fitted(made.recordings, TABLE, RADIUS, constants=off, free="none")
+    sample = seen_by_han(12, noise=0.5e-3, seed=3)
+    off = {
+        **sample.constants,
+        "restitution_cushion": sample.constants["restitution_cushion"] - 0.01,
+    }
+    found = struck(sample, constants=off)
     above = found.rmse / (np.sqrt(2) * found.recordings[0].noise)
     kinds = [text.partition(":")[0] for text in found.status]
     assert "rough" in kinds and all(ratio < 2 for kind, ratio in zip(kinds, above) if kind == "ok")
@@ -518,7 +507,7 @@ def test_no_shot_is_ok_whose_rmse_is_three_times_the_noise():
     assert len(found.counted()) == 12
     # many are told in one line
     found.status[:] = [f"rough: {k}" for k in range(12)]
-    assert [line for line in _summary.told(found) if "rough" in line][0].startswith(
+    assert [line for line in _summary.summary_lines(found) if "rough" in line][0].startswith(
         "12 of 12 shots are rough: RMSE "
     )
 
@@ -556,21 +545,19 @@ def test_shots_of_a_game_are_fitted_by_the_recipe_of_the_page(model):
             game="billiard",
         )
         shot = carom.simulate(table, balls, cue, cushion_model=model)
-        at = np.arange(-0.5, shot.time + 0.1, 0.02)
-        seen = shot.positions(np.maximum(at, 0.0))[..., :2] + random.normal(
-            0.0, 0.5e-3, (len(at), 3, 2)
+        times = np.arange(-0.5, shot.time + 0.1, 0.02)
+        seen = shot.positions(np.maximum(times, 0.0))[..., :2] + random.normal(
+            0.0, 0.5e-3, (len(times), 3, 2)
         )
         recordings.append(
             tracks.Recording(
                 len(recordings),
                 (1, 2, 3),
-                tuple(np.column_stack([at, seen[:, ball]]) for ball in range(3)),
+                tuple(np.column_stack([times, seen[:, ball]]) for ball in range(3)),
             )
         )
     found = fitted(
         recordings,
-        TABLE,
-        RADIUS,
         cushion_model=model,
         free="none",
         **({} if model == "smooth" else {"constants": kind}),
@@ -578,13 +565,13 @@ def test_shots_of_a_game_are_fitted_by_the_recipe_of_the_page(model):
     assert 0.65e-3 < found.median_rmse < 0.8e-3 and found.status == ["ok"] * 4
 
 
-def test_an_rmse_does_not_depend_on_how_long_balls_are_seen_at_rest(made, plays):
+def test_an_rmse_does_not_depend_on_how_long_balls_are_seen_at_rest(sample, plays):
     """Nor much on how often they are seen."""
 
     def rmse(recordings):
-        other = {**made.constants, "restitution_cushion": 0.9}
-        strikes = made.strikes - np.eye(6)[5] * plays.origins[:, None]
-        return _strikes.Plays(recordings, TABLE, RADIUS, other, "han").rmse(strikes)
+        wrong = {**sample.constants, "restitution_cushion": 0.9}
+        strikes = sample.strikes - np.eye(6)[5] * plays.origins[:, None]
+        return _strikes.Plays(recordings, TABLE, RADIUS, wrong, "han").rmse(strikes)
 
     rest = np.arange(0.1, 20.0, 0.02)[:, None]
     longer = [
@@ -594,17 +581,17 @@ def test_an_rmse_does_not_depend_on_how_long_balls_are_seen_at_rest(made, plays)
                 np.concatenate([track, track[-1] + rest * (1.0, 0.0, 0.0)]) for track in shot.tracks
             ),
         )
-        for shot in made.recordings
+        for shot in sample.recordings
     ]
-    whole = rmse(made.recordings)
+    whole = rmse(sample.recordings)
     assert np.median(whole) > 5e-3 and rmse(longer) == pytest.approx(whole, rel=1e-4)
-    often = synthetic(12, constants=HAN, thin=0.0, seed=2).recordings
+    often = seen_by_han(12, thin=0.0).recordings
     assert np.median(rmse(often)) == pytest.approx(np.median(whole), rel=0.3)
 
 
-def test_what_no_play_explains_is_doubtful_and_counts(made):
-    other = {**made.constants, "mu_cushion": 0.05, "restitution_cushion": 0.6}
-    found = fitted(made.recordings, TABLE, RADIUS, constants=other, free="none")
+def test_what_no_play_explains_is_doubtful_and_counts(sample):
+    wrong = {**sample.constants, "mu_cushion": 0.05, "restitution_cushion": 0.6}
+    found = struck(sample, constants=wrong)
     doubtful = [text.startswith("doubtful: RMSE") for text in found.status]
     assert (
         sum(doubtful) >= 6
@@ -615,18 +602,18 @@ def test_what_no_play_explains_is_doubtful_and_counts(made):
         found.to_dict()["warnings"] == list(found.warnings)
         and found.to_dict()["noise"] == found.recordings[0].noise
     )
-    assert any("doubtful" in line for line in _summary.told(found)) and "doubtful" in _summary.page(
-        found, "a"
-    )
+    assert any(
+        "doubtful" in line for line in _summary.summary_lines(found)
+    ) and "doubtful" in _summary.page(found, "a")
     # a strike at the bound of its time: the ball is seen to move long before it moves
     assert _strikes.at_bound(np.array([2.0, 0.0, 0.0, 1.0, 0.5, _strikes.EARLIEST])) == "time"
     assert _strikes.at_bound(np.array([2.0, 0.0, 0.0, 1.0, 4.2, 0.0])) == "spin"
     assert _strikes.at_bound(np.array([2.0, 0.0, 0.0, 1.0, 0.5, 0.0])) == ""
 
 
-def test_a_recording_that_begins_after_the_strike_does_not_count(made):
+def test_a_recording_that_begins_after_the_strike_does_not_count(sample):
     cut = []
-    for shot in made.recordings:
+    for shot in sample.recordings:
         # from 0.3 s after the first hit
         begin = np.sort(shot.moves)[1] + 0.3
         cut.append(
@@ -637,7 +624,7 @@ def test_a_recording_that_begins_after_the_strike_does_not_count(made):
                 ),
             )
         )
-    found = fitted(cut, TABLE, RADIUS, constants=made.constants, free="none")
+    found = struck(sample, cut)
     wrong = [rmse > 5e-3 for rmse in found.rmse]
     assert (
         sum(wrong) >= 6
@@ -646,7 +633,7 @@ def test_a_recording_that_begins_after_the_strike_does_not_count(made):
     assert all(text != "ok" for text, rmse in zip(found.status, found.rmse) if rmse > 2.02 * RADIUS)
 
 
-def test_derivatives_of_shots_give_the_normal_equations(made, plays):
+def test_derivatives_of_shots_give_the_normal_equations(sample, plays):
     """J^T W J by tangents of whole shots against that of C, by differences, which see the rounding
     of single precision.
     """
@@ -661,13 +648,13 @@ def test_derivatives_of_shots_give_the_normal_equations(made, plays):
         "mu_cushion",
         "nose_height",
     ]
-    plays = plays.some(range(len(made.strikes)))
-    plays.set(made.constants, dict.fromkeys(names, 1e-5))
-    rows = np.arange(len(made.strikes), dtype=np.int32)
-    square, gradient = _strikes.normal(plays.misfit(rows, made.strikes, plays.ends, np.inf))
+    plays = plays.some(range(len(sample.strikes)))
+    plays.set(sample.constants, dict.fromkeys(names, 1e-5))
+    rows = np.arange(len(sample.strikes), dtype=np.int32)
+    square, gradient = _strikes.normal(plays.misfit(rows, sample.strikes, plays.ends, np.inf))
     off = []
     for row in rows:
-        d, X, C, R = _strikes.derivatives(plays, int(row), made.strikes[row], names)
+        d, X, C, R = _strikes.derivatives(plays, int(row), sample.strikes[row], names)
         J, W = (
             np.concatenate([X, C], axis=1),
             np.repeat(1 / np.sqrt(1 + (d.reshape(-1, 2) ** 2).sum(axis=1) / _strikes.HUBER**2), 2),
@@ -680,10 +667,10 @@ def test_derivatives_of_shots_give_the_normal_equations(made, plays):
             )
         )
         # the place of rest of a ball that is never met moves its own samples alone, by as much
-        for ball in np.flatnonzero(~np.isfinite(made.recordings[row].moves)):
+        for ball in np.flatnonzero(~np.isfinite(sample.recordings[row].moves)):
             assert np.isclose(
                 (R[:, 2 * ball : 2 * ball + 2] ** 2).sum(axis=0),
-                len(made.recordings[row].tracks[ball]),
+                len(sample.recordings[row].tracks[ball]),
             ).all()
     # the noise of single precision over the step is some thousandths, and more where a shot
     # magnifies it
@@ -693,24 +680,22 @@ def test_derivatives_of_shots_give_the_normal_equations(made, plays):
 def test_strikes_are_off_by_what_their_covariance_says():
     off, within = [], []
     for seed in (2, 6):
-        made = synthetic(24, constants=HAN, seed=seed)
-        found = fitted(
-            made.recordings, TABLE, RADIUS, constants=made.constants, free="none", threads=-1
-        )
+        sample = seen_by_han(24, seed=seed)
+        found = struck(sample, threads=-1)
         for k in np.flatnonzero(found.rmse < 1e-3):
             covariance = found.strike_covariance(int(k))
             assert np.isfinite(covariance).all() and (np.linalg.eigvalsh(covariance) > 0).all()
-            off.append((found.strikes[k] - made.strikes[k]) / np.sqrt(covariance.diagonal()))
+            off.append((found.strikes[k] - sample.strikes[k]) / np.sqrt(covariance.diagonal()))
             # draws end about where the shot did: which share of them is nearer to their middle
             table, layouts, starts = found.draws(int(k), 100)
             ends = carom.simulate_batch(table, layouts, cushion_model="han").final["r"][..., :2]
             apart = (
                 ends - np.median(ends, axis=0),
-                made.shots[k].final["r"][:, :2] - np.median(ends, axis=0),
+                sample.shots[k].final["r"][:, :2] - np.median(ends, axis=0),
             )
             within += (
                 (np.hypot(*apart[0].T).T < np.hypot(*apart[1].T))
-                .mean(axis=0)[np.isfinite(made.recordings[k].moves)]
+                .mean(axis=0)[np.isfinite(sample.recordings[k].moves)]
                 .tolist()
             )
             assert (
@@ -727,8 +712,8 @@ def test_strikes_are_off_by_what_their_covariance_says():
         (off < 1).mean(),
         (off < 2).mean(),
     )
-    still = tuple(track[[0, 0]] + [[0, 0, 0], [1, 0, 0]] for track in made.recordings[0].tracks)
-    none = fitted([tracks.Recording(1, (1, 2, 3), still)], TABLE, RADIUS, free="none")
+    still = tuple(track[[0, 0]] + [[0, 0, 0], [1, 0, 0]] for track in sample.recordings[0].tracks)
+    none = fitted([tracks.Recording(1, (1, 2, 3), still)], free="none")
     with pytest.raises(ValueError, match="no strike was found"):
         none.strike_covariance(0)
 
@@ -751,15 +736,13 @@ TRUTH = {
 def test_unknown_constants_are_found_within_their_spread():
     off = []
     for seed in (4, 6) if MATCHES else (4,):
-        made = synthetic(24, constants=TRUTH, seed=seed)
-        told = []
+        sample = synthetic(24, constants=TRUTH, seed=seed)
+        notes = []
         found = fitted(
-            made.recordings,
-            TABLE,
-            RADIUS,
+            sample.recordings,
             seed=1,
             threads=-1,
-            progress=lambda what, part: told.append((what, part)),
+            progress=lambda what, part: notes.append((what, part)),
         )
         off += [
             (found.constants[name] - value) / found.spread[name] for name, value in TRUTH.items()
@@ -785,10 +768,10 @@ def test_unknown_constants_are_found_within_their_spread():
     # had 8 of 11 and four had 10; by the rounding of another NumPy or processor a fit may end
     # elsewhere
     assert sum(abs(z) < 2 for z in off) >= 0.6 * len(off) and max(map(abs, off)) < 5, off
-    usual = fitted(made.recordings, TABLE, RADIUS, free="none")
+    usual = fitted(sample.recordings, free="none")
     assert found.median_rmse < 0.3 * usual.median_rmse
-    assert {what for what, _ in told} == {"events", "strikes", "constants", "spread"} and all(
-        0 <= part <= 1 for _, part in told
+    assert {what for what, _ in notes} == {"events", "strikes", "constants", "spread"} and all(
+        0 <= part <= 1 for _, part in notes
     )
 
 
@@ -800,8 +783,8 @@ def billiard(seed):
 @pytest.mark.parametrize("seed", [5, 7])
 def test_a_friction_without_slip_is_found(seed):
     """From a law with slip these matches stopped at three times the noise."""
-    made = billiard(seed)
-    found = fitted(made.recordings, TABLE, RADIUS, seed=1)
+    sample = billiard(seed)
+    found = fitted(sample.recordings, seed=1)
     assert found.median_rmse < 1.5 * np.sqrt(2) * 0.5e-3
     assert (
         "law_b" not in found.fitted and found.constants["law_b"] == found.constants["law_c"] == 0.0
@@ -834,7 +817,7 @@ def test_matches_far_from_the_usual_are_fitted_within_their_spread():
             (0.35e-3, 0.2e-3, 1e-3, 3e-3)[seed % 4],
             (50.0, 25.0, 120.0, 240.0)[seed // 2 % 4],
         )
-        made = synthetic(
+        sample = synthetic(
             24,
             cushion_model=model,
             constants=truth,
@@ -849,7 +832,7 @@ def test_matches_far_from_the_usual_are_fitted_within_their_spread():
             else {}
         )
         recordings = spoiled(
-            made.recordings,
+            sample.recordings,
             seed,
             lead_in=random.uniform(0.0, 3.0),
             rate=rate,
@@ -863,34 +846,21 @@ def test_matches_far_from_the_usual_are_fitted_within_their_spread():
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             found = fitted(
-                recordings,
-                TABLE,
-                RADIUS,
-                cushion_model=model,
-                seed=1,
-                threads=-1,
-                calibrate=bool(crooked),
+                recordings, cushion_model=model, seed=1, threads=-1, calibrate=bool(crooked)
             )
-        best = fitted(
-            made.recordings,
-            TABLE,
-            RADIUS,
-            cushion_model=model,
-            constants=made.constants,
-            free="none",
-        )
+        best = struck(sample, cushion_model=model)
         # a friction that hardly changes with the slip may be found without the change, whose
         # numbers then have no spread
-        told = [
+        notes = [
             abs(found.constants[name] - value) / found.spread[name]
             for name, value in truth.items()
             if name in found.spread
         ]
-        off += told
+        off += notes
         sound += found.median_rmse < 2 * np.sqrt(2) * noise
         print(
             f"match {seed}: noise {1e3 * noise:.2f} mm, rate {rate:g}, RMSE {1e3 * found.median_rmse:.2f} mm, with the true constants "
-            f"{1e3 * best.median_rmse:.2f} mm, constants within one spread {np.mean(np.array(told) < 1):.2f}"
+            f"{1e3 * best.median_rmse:.2f} mm, constants within one spread {np.mean(np.array(notes) < 1):.2f}"
         )
     off = np.array(off)
     print(
@@ -918,8 +888,8 @@ def test_few_shots_tell_a_table():
         "mu_roll": 0.0052,
         "drag": 0.009,
     }
-    made = tracks.synthetic(5, constants=table, noise=0.5e-3, seed=3)
-    found = fit.fit(made.recordings, TABLE, RADIUS, free="table")
+    sample = tracks.synthetic(5, constants=table, noise=0.5e-3, seed=3)
+    found = fit.fit(sample.recordings, TABLE, RADIUS, free="table")
     usual = _constants.usual("smooth")
     assert found.cushion_model == "smooth" and set(found.fitted) == set(table)
     assert all(found.constants[name] == usual[name] for name in usual if name not in table)
@@ -931,7 +901,7 @@ def test_few_shots_tell_a_table():
 
 
 def test_a_search_that_stopped_far_above_the_noise_has_a_larger_spread():
-    def at(times):
+    def positions_at(times):
         found = _joint.left(
             SimpleNamespace(
                 names=["mu_spin"], scale=np.array([3e-3]), noise=1e-3, middle=4e-6 * times**2
@@ -939,23 +909,27 @@ def test_a_search_that_stopped_far_above_the_noise_has_a_larger_spread():
         )
         return float(found[0]) / _joint._SHAPE["mu_spin"]
 
-    assert at(1.0) == pytest.approx(0.1) and at(3.0) == pytest.approx(2.1) and at(60.0) == at(6.0)
+    assert (
+        positions_at(1.0) == pytest.approx(0.1)
+        and positions_at(3.0) == pytest.approx(2.1)
+        and positions_at(60.0) == positions_at(6.0)
+    )
 
 
 def test_named_constants_follow_their_priors_and_threads_change_no_bit():
-    made = synthetic(8, constants=TRUTH, seed=8)
+    sample = synthetic(8, constants=TRUTH, seed=8)
     start = {**TRUTH, "mu_spin": 0.0045}
 
     def found(recordings, **how):
-        return fitted(recordings, TABLE, RADIUS, constants=start, free=["mu_spin"], seed=3, **how)
+        return fitted(recordings, constants=start, free=["mu_spin"], seed=3, **how)
 
-    first = found(made.recordings)
+    first = found(sample.recordings)
     assert first.constants["mu_spin"] == pytest.approx(0.006, rel=0.05)
     assert all(first.constants[name] == value for name, value in TRUTH.items() if name != "mu_spin")
-    held = found(made.recordings, priors={"mu_spin": (0.0045, 1e-6)})
+    held = found(sample.recordings, priors={"mu_spin": (0.0045, 1e-6)})
     assert held.constants["mu_spin"] == pytest.approx(0.0045, rel=1e-2)
     # constants come from the shots of `train` alone, whatever the threads
-    part, alone = found(made.recordings, train=range(5)), found(made.recordings[:5], threads=2)
+    part, alone = found(sample.recordings, train=range(5)), found(sample.recordings[:5], threads=2)
     assert part.constants == alone.constants and len(part.rmse) == 8
     # eight shots tell how far a constant may be off, and five do not
     assert (
@@ -1015,8 +989,10 @@ def test_ten_banks_on_film_give_the_cushion_of_a_pool_table(tmp_path, rate):
         ]
     film, out = tmp_path / "ten.csv", tmp_path / "my.json"
     film.write_text("\n".join(lines) + "\n")
-    asked = f"{film} --unit {inch} --origin 4.5,3 --rate {rate} --table 2.54,1.27 --radius {radius}"
-    assert fit.main(f"{asked} --game pool --free table -o {out}".split()) == 0
+    arguments = (
+        f"{film} --unit {inch} --origin 4.5,3 --rate {rate} --table 2.54,1.27 --radius {radius}"
+    )
+    assert fit.main(f"{arguments} --game pool --free table -o {out}".split()) == 0
     found = json.loads(out.read_text())["constants"]
     assert {name: found[name] for name in table} == pytest.approx(table, rel=0.02)
 
@@ -1046,7 +1022,7 @@ def test_events_are_predicted_by_the_laws_of_the_library(monkeypatch):
     impacts = np.zeros(1, IMPACT)
     impacts["v_n"], impacts["v_t"], impacts["first"] = 2.5, 0.8, 1.0
     usual = _constants.usual("smooth")
-    before = _from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036)
+    predicted = _from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036)
     for name, value in (
         ("restitution_log", -0.1),
         ("restitution_log2", -0.05),
@@ -1059,7 +1035,7 @@ def test_events_are_predicted_by_the_laws_of_the_library(monkeypatch):
         )
         assert (
             _from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036)[:, :4]
-            != before[:, :4]
+            != predicted[:, :4]
         ).any(), name
 
 
@@ -1086,9 +1062,9 @@ def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name()
                 assert row.low <= mean == usual[name] <= row.high and deviation > 0.0, (model, name)
     usual = _constants.usual("smooth")
     for name in NUMBERS:
-        own = {**usual, name: usual[name] or (1.5 if name == "omega_ratio" else 0.0)}
-        mean, deviation = fit._priors([name], {}, own, "smooth")[name]
-        assert mean == own[name] and 0.0 < deviation <= 0.2
+        constants = {**usual, name: usual[name] or (1.5 if name == "omega_ratio" else 0.0)}
+        mean, deviation = fit._priors([name], {}, constants, "smooth")[name]
+        assert mean == constants[name] and 0.0 < deviation <= 0.2
     assert fit._priors(["law_c"], {"law_c": (1.0, 0.1)}, usual, "smooth") == {"law_c": (1.0, 0.1)}
     for name, message in (
         ("law_c", "law_c needs its mean and deviation"),
@@ -1103,13 +1079,11 @@ def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name()
 
 
 def test_a_number_of_the_cushion_is_found_by_whole_shots():
-    made = synthetic(6, seed=5, cushion_model="smooth", constants={"smooth_x": 1.1})
+    sample = synthetic(6, seed=5, cushion_model="smooth", constants={"smooth_x": 1.1})
     found = fitted(
-        made.recordings,
-        TABLE,
-        RADIUS,
+        sample.recordings,
         cushion_model="smooth",
-        constants={**made.constants, "smooth_x": 1.3},
+        constants={**sample.constants, "smooth_x": 1.3},
         free=["smooth_x"],
         seed=1,
     )
@@ -1141,11 +1115,9 @@ def test_an_impact_loses_roll_as_in_a_shot():
     )
 
 
-def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given(made):
+def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given(sample):
     few = fitted(
-        made.recordings[:2],
-        TABLE,
-        RADIUS,
+        sample.recordings[:2],
         cushion_model="mirror",
         constants={"mu_slide": 0.19, "mu_ball": 0.05},
         free="events",
@@ -1153,15 +1125,15 @@ def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given
     assert "restitution" not in few.spread and few.constants["restitution"] == 0.951
     assert few.constants["mu_slide"] != 0.19 and "mu_cushion" not in few.spread
     with pytest.raises(ValueError, match="no constant 'all' to fit"):
-        fitted(made.recordings, TABLE, RADIUS, free="all")
+        fitted(sample.recordings, free="all")
     with pytest.raises(ValueError, match="cushion_model: must be"):
-        fitted(made.recordings, TABLE, RADIUS, cushion_model="euler")
+        fitted(sample.recordings, cushion_model="euler")
     with pytest.raises(ValueError, match="mu_spin must have a finite mean and a deviation above 0"):
-        fitted(made.recordings, TABLE, RADIUS, priors={"mu_spin": (0.005, 0.0)})
+        fitted(sample.recordings, priors={"mu_spin": (0.005, 0.0)})
 
 
-def test_shots_that_are_no_shots_have_a_status(made):
-    still = tuple(track[[0, 0]] + [[0, 0, 0], [1, 0, 0]] for track in made.recordings[0].tracks)
+def test_shots_that_are_no_shots_have_a_status(sample):
+    still = tuple(track[[0, 0]] + [[0, 0, 0], [1, 0, 0]] for track in sample.recordings[0].tracks)
     moving = np.array(
         [[0, 0.5, 0.5], [0.02, 0.54, 0.5], [0.04, 0.58, 0.5], [0.06, 0.62, 0.5], [2, 1, 0.5]]
     )
@@ -1169,48 +1141,35 @@ def test_shots_that_are_no_shots_have_a_status(made):
     shots = [
         tracks.Recording(1, (1, 2, 3), still),
         tracks.Recording(2, (1, 2, 3), both),
-        made.recordings[2],
+        sample.recordings[2],
     ]
-    found = fitted(shots, TABLE, RADIUS, constants=made.constants, free="none")
+    found = struck(sample, shots)
     assert found.status[0] == "no ball moves" and np.isnan(found.rmse[0])
     assert found.status[1].startswith("begins after the strike: balls")
     assert found.status[2] == "ok" and found.median_rmse == found.rmse[2]
     with pytest.raises(ValueError, match="shot 1: no strike was found: no ball moves"):
         found.shot(0)
     assert json.loads(json.dumps(found.to_dict()))["shots"][0]["cue"] is None
-    first = made.recordings[0]
-    told = f"shot 9 has 2 balls, shot {first.id} {len(first.balls)}; all shots must have the same number"
-    with pytest.raises(ValueError, match=told):
-        fitted([first, tracks.Recording(9, (1, 2), still[:2])], TABLE, RADIUS)
+    first = sample.recordings[0]
+    message = f"shot 9 has 2 balls, shot {first.id} {len(first.balls)}; all shots must have the same number"
+    with pytest.raises(ValueError, match=message):
+        fitted([first, tracks.Recording(9, (1, 2), still[:2])])
 
 
-def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, monkeypatch):
-    (tmp_path / "tracks.csv").write_text(csv_of(made.recordings[:8]))
-    (tmp_path / "in.json").write_text(json.dumps({**made.constants, "mu_spin": 0.0045}))
+def test_the_command_splits_goes_on_and_writes_a_page(sample, tmp_path, capsys, monkeypatch):
+    (tmp_path / "tracks.csv").write_text(csv_of(sample.recordings[:8]))
+    (tmp_path / "in.json").write_text(json.dumps({**sample.constants, "mu_spin": 0.0045}))
     (tmp_path / "priors.json").write_text(json.dumps({"mu_spin": [0.0045, 0.002]}))
-    out, again, page = (tmp_path / name for name in ("out.json", "again.json", "page.html"))
-    usual = [
-        str(tmp_path / "tracks.csv"),
-        "--table",
-        "2.84,1.42",
-        "--radius",
-        "0.03075",
-        "--cushion-model",
-        "han",
-        "--constants",
-        str(tmp_path / "in.json"),
-        "--free",
-        "mu_spin",
-        "--priors",
-        str(tmp_path / "priors.json"),
-        "--split",
-    ]
-    asked = [*usual, "--forecast", "2", "--summary", str(page), "-o", str(out)]
-    assert fit.main(asked) == 0
+    out, repeat, page = (tmp_path / name for name in ("out.json", "again.json", "page.html"))
+    usual = (
+        f"{tmp_path}/tracks.csv --table 2.84,1.42 --radius 0.03075 --cushion-model han --split"
+        f" --constants {tmp_path}/in.json --free mu_spin --priors {tmp_path}/priors.json"
+    )
+    assert fit.main(f"{usual} --forecast 2 --summary {page} -o {out}".split()) == 0
     written = json.loads(out.read_text())
     seen = written["forecasts"]
-    assert [one["id"] for one in seen] == [2, 4, 6, 8]
-    shapes = {len(one["times"]): np.shape(one["radii"]) for one in seen}
+    assert [forecast["id"] for forecast in seen] == [2, 4, 6, 8]
+    shapes = {len(forecast["times"]): np.shape(forecast["radii"]) for forecast in seen}
     assert all(shape == (2, times, 3) for times, shape in shapes.items())
     assert [shot["train"] for shot in written["shots"]] == [True, False] * 4
     assert (
@@ -1223,15 +1182,15 @@ def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, mo
         "p90_rmse"
     ] == pytest.approx(np.percentile(rmse, 90))
     assert set(written["shots"][0]["cue"]) == {"ball", "v_x", "v_y", "w_x", "w_y", "w_z", "start"}
-    told = capsys.readouterr().out
+    output = capsys.readouterr().out
     assert (
-        "fitted, 4 of 8 shots: RMSE median" in told
-        and "predicted, 4 of 8 shots" in told
-        and "% are within the residuals of 68 and 95 %" in told
-        and "forecasts from the first 2 s of 4 shots: " in told
+        "fitted, 4 of 8 shots: RMSE median" in output
+        and "predicted, 4 of 8 shots" in output
+        and "% are within the residuals of 68 and 95 %" in output
+        and "forecasts from the first 2 s of 4 shots: " in output
     )
     assert written["bands"][0][0] == 0 and all(
-        0.0 < near <= far for _, near, far in written["bands"]
+        0.0 < inner <= far for _, inner, far in written["bands"]
     )
     # one file, with the pictures in it
     text = page.read_text()
@@ -1260,37 +1219,26 @@ def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, mo
         return stages(self, number, seed)
 
     monkeypatch.setattr(_joint.Search, "stage", interrupted)
-    assert fit.main([*usual, "-o", str(again)]) == 130
-    assert "the same command goes on" in capsys.readouterr().err and not again.exists()
-    assert fit.main([*usual, "-o", str(again)]) == 0
+    assert fit.main(f"{usual} -o {repeat}".split()) == 130
+    assert "the same command goes on" in capsys.readouterr().err and not repeat.exists()
+    assert fit.main(f"{usual} -o {repeat}".split()) == 0
     same = json.loads(out.read_text())
     del same["forecasts"]
-    assert done[:4] == [0, 1, 1, 2] and again.read_text() == json.dumps(same, indent=1) + "\n"
+    assert done[:4] == [0, 1, 1, 2] and repeat.read_text() == json.dumps(same, indent=1) + "\n"
     assert not list(tmp_path.glob("*.state*"))
 
 
 def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatch):
     monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "examples"))
     reality = importlib.import_module("reality")
-    made = synthetic(16, seed=5)
-    (tmp_path / "tracks.csv").write_text(csv_of(made.recordings))
-    reality.main(
-        [
-            str(tmp_path / "tracks.csv"),
-            "--table",
-            "2.84,1.42",
-            "--radius",
-            "0.03075",
-            "--models",
-            "han",
-            "--pictures",
-            str(tmp_path / "p"),
-        ]
-    )
-    told = capsys.readouterr().out
+    sample = synthetic(16, seed=5)
+    (tmp_path / "tracks.csv").write_text(csv_of(sample.recordings))
+    words = f"{tmp_path}/tracks.csv --table 2.84,1.42 --radius 0.03075 --models han"
+    reality.main(f"{words} --pictures {tmp_path}/p".split())
+    output = capsys.readouterr().out
     outputs, rmse = (
         [cell.strip() for cell in line.split("|")]
-        for line in told.splitlines()
+        for line in output.splitlines()
         if line.startswith("| han")
     )
     # shots of Han's own model are predicted to some millimetres, and its outputs are right to what
@@ -1298,15 +1246,18 @@ def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatc
     assert (
         0.05 < float(rmse[2]) < 1.0
         and int(rmse[8]) == 16
-        and all(float(better) <= float(one) for one, better in zip(rmse[2:5], rmse[5:8]))
+        and all(float(better) <= float(value) for value, better in zip(rmse[2:5], rmse[5:8]))
     )
     assert all(0.0 < float(off) < 2.5 for off in outputs[2:6])
-    assert f"({made.constants['mu_roll'] * 9.81:.3f}"[:5] in told and "m/s² |" in told
+    assert f"({sample.constants['mu_roll'] * 9.81:.3f}"[:5] in output and "m/s² |" in output
     # the floor is the noise; strikes of the first seconds are off by that of both coordinates, too,
     # as a picture of the shot is left
-    floor = re.search(r"The floor: (\S+) cm in the median, 9 in 10 below (\S+) cm, 16 shots", told)
+    floor = re.search(
+        r"The floor: (\S+) cm in the median, 9 in 10 below (\S+) cm, 16 shots", output
+    )
     assert (
-        0.04 < float(floor[1]) < 0.1 and len(re.findall(r"^\| \S+ s \| (\S+) \|$", told, re.M)) == 6
+        0.04 < float(floor[1]) < 0.1
+        and len(re.findall(r"^\| \S+ s \| (\S+) \|$", output, re.M)) == 6
     )
     names = sorted(path.name for path in (tmp_path / "p").iterdir())
     assert names == [
@@ -1328,14 +1279,16 @@ def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatc
         ({"--free": "mu_rol"}, "there is no constant 'mu_rol' to fit; known are"),
     ],
 )
-def test_the_command_tells_what_is_wrong(made, tmp_path, capsys, change, message):
-    (tmp_path / "tracks.csv").write_text(csv_of(made.recordings[:1]))
-    given = {"tracks": "tracks.csv", "--table": "2.84,1.42", "--radius": "0.03075", **change}
-    if "--constants" in given:
-        (tmp_path / "in.json").write_text(given["--constants"])
-        given["--constants"] = str(tmp_path / "in.json")
-    name = str(tmp_path / given.pop("tracks"))
+def test_the_command_tells_what_is_wrong(sample, tmp_path, capsys, change, message):
+    (tmp_path / "tracks.csv").write_text(csv_of(sample.recordings[:1]))
+    options = {"tracks": "tracks.csv", "--table": "2.84,1.42", "--radius": "0.03075", **change}
+    if "--constants" in options:
+        (tmp_path / "in.json").write_text(options["--constants"])
+        options["--constants"] = str(tmp_path / "in.json")
+    name = str(tmp_path / options.pop("tracks"))
     out = tmp_path / "out.json"
-    assert fit.main([name, *(word for pair in given.items() for word in pair), "-o", str(out)]) == 2
+    assert (
+        fit.main([name, *(word for pair in options.items() for word in pair), "-o", str(out)]) == 2
+    )
     assert message in capsys.readouterr().err
     assert not out.exists()

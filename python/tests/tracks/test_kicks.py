@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 from test_fit import HAN
-from test_tracks import RADIUS, TABLE, csv_of, fitted, synthetic
+from test_tracks import RADIUS, TABLE, csv_of, struck, synthetic
 
 import carom
 from carom import tracks
@@ -17,12 +17,12 @@ from carom.tracks import _kicks, _strikes, fit
 
 
 @pytest.fixture(scope="module")
-def made():
+def sample():
     return synthetic(24, constants=HAN, seed=2)
 
 
-def plays_of(made, **others):
-    return _strikes.Plays(made.recordings, TABLE, RADIUS, {**made.constants, **others}, "han")
+def plays_of(sample, **others):
+    return _strikes.Plays(sample.recordings, TABLE, RADIUS, {**sample.constants, **others}, "han")
 
 
 def with_kicks(strikes, *kicks):
@@ -32,10 +32,10 @@ def with_kicks(strikes, *kicks):
     return numbers
 
 
-def test_without_kicks_a_play_in_parts_is_that_of_a_shot(made):
-    plays, rows = plays_of(made, drag=0.0), np.arange(24, dtype=np.int32)
-    whole = plays.misfit(rows, made.strikes, plays.ends, np.inf)
-    parts = plays.misfit(rows, with_kicks(made.strikes), plays.ends, np.inf)
+def test_without_kicks_a_play_in_parts_is_that_of_a_shot(sample):
+    plays, rows = plays_of(sample, drag=0.0), np.arange(24, dtype=np.int32)
+    whole = plays.misfit(rows, sample.strikes, plays.ends, np.inf)
+    parts = plays.misfit(rows, with_kicks(sample.strikes), plays.ends, np.inf)
     assert np.allclose(parts[:, :9], whole[:, :9], rtol=1e-5, atol=1e-8)
     square, gradient = _strikes.normal(parts)
     assert np.allclose(
@@ -44,12 +44,12 @@ def test_without_kicks_a_play_in_parts_is_that_of_a_shot(made):
     # derivatives by kicks, against sums at kicks that are changed; those of contacts that do not
     # happen are 0
     for k in range(4):
-        met = _kicks.contacts(plays, k, with_kicks(made.strikes)[k])
-        assert (square[k].diagonal()[6 + 5 * len(met) :] == 0.0).all() and len(met) > 3
-        for number in (7, 6 + 5 * (len(met) - 2) + 1):
+        contacts = _kicks.contacts(plays, k, with_kicks(sample.strikes)[k])
+        assert (square[k].diagonal()[6 + 5 * len(contacts) :] == 0.0).all() and len(contacts) > 3
+        for number in (7, 6 + 5 * (len(contacts) - 2) + 1):
             cost = []
             for step in (-1e-5, 1e-5):
-                numbers = with_kicks(made.strikes)
+                numbers = with_kicks(sample.strikes)
                 numbers[k, number] = step
                 cost.append(
                     plays.misfit(
@@ -61,15 +61,15 @@ def test_without_kicks_a_play_in_parts_is_that_of_a_shot(made):
 
 
 @pytest.mark.parametrize("kind", [EventType.BALL_BALL, EventType.RAIL])
-def test_a_kick_is_the_change_of_motion_that_is_told(made, kind):
+def test_a_kick_is_the_change_of_motion_that_is_told(sample, kind):
     """By single calls: a shot that stops at the contact, the change in words, and a shot from
     there.
     """
-    plays = plays_of(made, drag=0.0)
+    plays = plays_of(sample, drag=0.0)
     kicks = np.array([0.011, 0.007, -0.013, 0.02, 0.017])
     seen = 0
     for k in range(12):
-        strike, cue = made.strikes[k], made.recordings[k].cue
+        strike, cue = sample.strikes[k], sample.recordings[k].cue
         balls = plays.layouts[0, k].copy()
         balls["state"]["v"][cue, :2], balls["state"]["w"][cue] = strike[:2], strike[2:5] / RADIUS
         stopped = carom.simulate(
@@ -80,46 +80,46 @@ def test_a_kick_is_the_change_of_motion_that_is_told(made, kind):
             continue
         a, b = event["a"], event["b"]
         balls["state"] = stopped.final
-        before = event["before"]
+        incoming = event["before"]
         if kind == EventType.RAIL:
-            x, y = before[0]["r"][:2]
+            x, y = incoming[0]["r"][:2]
             n = np.array(
                 [[0, -1], [1, 0], [0, 1], [-1, 0]][
                     int(np.argmin([y, TABLE[0] - x, TABLE[1] - y, x]))
                 ],
                 float,
             )
-            t, V = np.array([n[1], -n[0]]), np.hypot(*before[0]["v"][:2])
+            t, V = np.array([n[1], -n[0]]), np.hypot(*incoming[0]["v"][:2])
             balls["state"]["v"][a, :2] += V * (kicks[0] * t - kicks[1] * n)
             balls["state"]["w"][a] += (
                 V / RADIUS * np.array([*(kicks[2] * n + kicks[3] * t), kicks[4]])
             )
         else:
-            n = (before[1]["r"] - before[0]["r"])[:2] / (2 * RADIUS)
-            t, V = np.array([n[1], -n[0]]), (before[0]["v"] - before[1]["v"])[:2] @ n
+            n = (incoming[1]["r"] - incoming[0]["r"])[:2] / (2 * RADIUS)
+            t, V = np.array([n[1], -n[0]]), (incoming[0]["v"] - incoming[1]["v"])[:2] @ n
             balls["state"]["v"][a, :2] += V * (kicks[1] * t - kicks[0] * n)
             balls["state"]["v"][b, :2] -= V * (kicks[1] * t - kicks[0] * n)
             balls["state"]["w"][[a, b]] += (
                 V / RADIUS * np.array([[*(kicks[2] * t), kicks[3]], [*(kicks[2] * t), kicks[4]]])
             )
-        on = carom.simulate(plays.table, balls, cushion_model="han")
+        shot = carom.simulate(plays.table, balls, cushion_model="han")
         times = np.linspace(0.0, 1.5, 40)
         _, places = plays.played(
             k, with_kicks(strike[None], *kicks)[0], times + stopped.time + strike[5]
         )
-        assert np.abs(places.transpose(1, 0, 2) - on.positions(times)[..., :2]).max() < 1e-9
+        assert np.abs(places.transpose(1, 0, 2) - shot.positions(times)[..., :2]).max() < 1e-9
         seen += 1
     assert seen >= 2
 
 
-def told(table, row="all"):
+def output_table(table, row="all"):
     """Means and errors of a row, %."""
     cells = next(cells for cells in table if cells[0] == row)
     return np.array([re.fullmatch(r"(\S+) ± (\S+)", cell).groups() for cell in cells[3:]], float).T
 
 
-def test_kicks_of_the_true_model_are_as_large_as_the_noise(made):
-    found = fitted(made.recordings, TABLE, RADIUS, constants=made.constants, free="none")
+def test_kicks_of_the_true_model_are_as_large_as_the_noise(sample):
+    found = struck(sample)
     kicks = found.kicks()
     assert np.median(kicks.rmse) < 1.1 * np.sqrt(2) * tracks.NOISE and len(kicks.contacts) > 120
     moved = kicks.contacts["error"] > 0.0
@@ -129,7 +129,7 @@ def test_kicks_of_the_true_model_are_as_large_as_the_noise(made):
         (off < 1).mean(),
         (off < 2).mean(),
     )
-    means, errors = told(kicks.tables[0])
+    means, errors = output_table(kicks.tables[0])
     assert (np.abs(means) < 0.1).all() and (np.abs(means) < 4 * errors + 0.02).all()
     assert np.median(kicks.contacts["effect"]) < 0.4e-3
 
@@ -144,16 +144,14 @@ def test_kicks_of_the_true_model_are_as_large_as_the_noise(made):
     ],
 )
 def test_a_wrong_constant_shows_at_its_contacts_in_its_output(
-    made, constant, off, cushion, output, mean
+    sample, constant, off, cushion, output, mean
 ):
-    value = made.constants[constant] + off
-    found = fitted(
-        made.recordings, TABLE, RADIUS, constants={**made.constants, constant: value}, free="none"
-    )
+    value = sample.constants[constant] + off
+    found = struck(sample, constants={**sample.constants, constant: value})
     kicks = found.kicks()
     assert np.median(kicks.rmse) < 0.7 * found.median_rmse
-    means, errors = told(kicks.tables[0 if cushion else 1])
-    others, spread = told(kicks.tables[1 if cushion else 0])
+    means, errors = output_table(kicks.tables[0 if cushion else 1])
+    others, spread = output_table(kicks.tables[1 if cushion else 0])
     assert means[output] == pytest.approx(mean, rel=0.5) and abs(means[output]) > 4 * errors[output]
     # at a cushion nothing else is wrong
     rest, error = (
@@ -162,30 +160,14 @@ def test_a_wrong_constant_shows_at_its_contacts_in_its_output(
     assert (np.abs(rest) < 0.3 * abs(means[output]) + 3 * error).all()
 
 
-def test_the_command_tells_kicks(made, tmp_path, capsys):
-    (tmp_path / "tracks.csv").write_text(csv_of(made.recordings[:12]))
-    (tmp_path / "in.json").write_text(json.dumps({**made.constants, "restitution_cushion": 0.85}))
-    given = [
-        str(tmp_path / "tracks.csv"),
-        "--table",
-        "2.84,1.42",
-        "--radius",
-        "0.03075",
-        "--constants",
-        str(tmp_path / "in.json"),
-    ]
-    given += [
-        "--cushion-model",
-        "han",
-        "--free",
-        "none",
-        "--kicks",
-        "--summary",
-        str(tmp_path / "page.html"),
-        "-o",
-        str(tmp_path / "out.json"),
-    ]
-    assert fit.main(given) == 0
+def test_the_command_tells_kicks(sample, tmp_path, capsys):
+    (tmp_path / "tracks.csv").write_text(csv_of(sample.recordings[:12]))
+    (tmp_path / "in.json").write_text(json.dumps({**sample.constants, "restitution_cushion": 0.85}))
+    words = (
+        f"{tmp_path}/tracks.csv --table 2.84,1.42 --radius 0.03075 --constants {tmp_path}/in.json"
+    )
+    words += f" --cushion-model han --free none --kicks --summary {tmp_path}/page.html"
+    assert fit.main(f"{words} -o {tmp_path}/out.json".split()) == 0
     words = capsys.readouterr().out
     assert (
         re.search(r"with kicks: RMSE median \S+ cm", words)

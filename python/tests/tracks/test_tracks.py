@@ -15,9 +15,14 @@ from carom.tracks import _constants, fit
 
 TABLE, RADIUS = (2.84, 1.42), 0.03075
 # most tests play the cushion of Han, whose constants differ from the usual ones of the game
-synthetic, fitted = (
-    functools.partial(call, cushion_model="han") for call in (tracks.synthetic, fit.fit)
-)
+synthetic = functools.partial(tracks.synthetic, cushion_model="han")
+fitted = functools.partial(fit.fit, table=TABLE, radius=RADIUS, cushion_model="han")
+
+
+def struck(sample, recordings=None, **how):
+    """A fit of the strikes alone, with the true constants."""
+    known = {"constants": sample.constants, "free": "none", **how}
+    return fitted(sample.recordings if recordings is None else recordings, **known)
 
 
 def csv_of(recordings):
@@ -39,28 +44,28 @@ def jsonl_of(recordings):
 
 
 @pytest.fixture(scope="module")
-def made():
+def sample():
     return synthetic(20, seed=5)
 
 
 @pytest.mark.parametrize("name", ["a.csv", "a.csv.xz", "a.csv.gz", "a.jsonl", "a.jsonl.xz"])
-def test_every_format_gives_the_recordings_back(made, tmp_path, name):
-    text = jsonl_of(made.recordings) if "jsonl" in name else csv_of(made.recordings)
+def test_every_format_gives_the_recordings_back(sample, tmp_path, name):
+    text = jsonl_of(sample.recordings) if "jsonl" in name else csv_of(sample.recordings)
     opened = {"xz": lzma.open, "gz": gzip.open}.get(name.rpartition(".")[2], open)
     with opened(tmp_path / name, "wt", encoding="utf-8") as file:
         file.write(text)
     read = tracks.read(tmp_path / name, table=TABLE, radius=RADIUS)
     assert [(shot.id, shot.balls) for shot in read] == [
-        (shot.id, shot.balls) for shot in made.recordings
+        (shot.id, shot.balls) for shot in sample.recordings
     ]
-    for one, other in zip(read, made.recordings):
-        assert all(np.array_equal(a, b) for a, b in zip(one.tracks, other.tracks))
+    for first, second in zip(read, sample.recordings):
+        assert all(np.array_equal(a, b) for a, b in zip(first.tracks, second.tracks))
 
 
 @pytest.mark.parametrize("rate", [30.0, 120.0])
-def test_a_film_in_inches_from_an_origin_of_its_own_is_read_in_metres(made, tmp_path, rate):
+def test_a_film_in_inches_from_an_origin_of_its_own_is_read_in_metres(sample, tmp_path, rate):
     lines = ["y,note,frame,ball,x,t,shot"]
-    for shot in made.recordings:
+    for shot in sample.recordings:
         for ball, rows in zip(shot.balls, shot.tracks):
             lines += [
                 f"{y / 0.0254 + 3.0},a,0,{ball},{x / 0.0254 + 4.5},{t * rate},{shot.id}"
@@ -70,8 +75,8 @@ def test_a_film_in_inches_from_an_origin_of_its_own_is_read_in_metres(made, tmp_
     path.write_text("\n".join(lines) + "\n")
     film = {"unit": 0.0254, "origin": (4.5, 3.0), "rate": rate}
     read = tracks.read(path, table=TABLE, radius=RADIUS, **film)
-    for one, other in zip(read, made.recordings):
-        assert all(np.allclose(a, b, atol=1e-12) for a, b in zip(one.tracks, other.tracks))
+    for first, second in zip(read, sample.recordings):
+        assert all(np.allclose(a, b, atol=1e-12) for a, b in zip(first.tracks, second.tracks))
     with pytest.raises(tracks.TrackError, match="all in metres"):
         tracks.read(path, table=TABLE, radius=RADIUS, rate=rate)
     with pytest.raises(ValueError, match="unit, rate"):
@@ -123,8 +128,8 @@ def test_a_bad_file_is_told_with_what_and_where(tmp_path, name, text, message):
         tracks.read(tmp_path / name, table=TABLE, radius=RADIUS)
 
 
-def test_synthetic_tracks_have_the_traps_of_real_ones(made):
-    for shot, strike in zip(made.recordings, made.strikes):
+def test_synthetic_tracks_have_the_traps_of_real_ones(sample):
+    for shot, strike in zip(sample.recordings, sample.strikes):
         assert shot.cue == 0
         # the struck ball is first seen under way, no more than a picture after the start
         assert strike[5] < shot.moves[0] < strike[5] + 0.05
@@ -134,11 +139,11 @@ def test_synthetic_tracks_have_the_traps_of_real_ones(made):
             assert (track[:, 1:] >= RADIUS).all() and (
                 track[:, 1:] <= np.array(TABLE) - RADIUS
             ).all()
-    places = np.concatenate([track[:, 1:] for shot in made.recordings for track in shot.tracks])
+    places = np.concatenate([track[:, 1:] for shot in sample.recordings for track in shot.tracks])
     assert ((places == RADIUS) | (places == np.array(TABLE) - RADIUS)).any()
-    again, other = synthetic(20, seed=5), synthetic(20, seed=6)
-    assert np.array_equal(again.recordings[0].tracks[0], made.recordings[0].tracks[0])
-    assert not np.array_equal(other.strikes, made.strikes)
+    repeat, second = synthetic(20, seed=5), synthetic(20, seed=6)
+    assert np.array_equal(repeat.recordings[0].tracks[0], sample.recordings[0].tracks[0])
+    assert not np.array_equal(second.strikes, sample.strikes)
 
 
 def test_a_recording_without_motion_has_no_strike():
@@ -188,17 +193,19 @@ def test_the_struck_ball_is_told_from_one_that_it_touches_at_once():
 
 
 @pytest.fixture(scope="module")
-def seen(made):
-    return tracks.events(made.recordings, TABLE, RADIUS)
+def seen(sample):
+    return tracks.events(sample.recordings, TABLE, RADIUS)
 
 
-def test_pieces_tell_the_friction_of_the_cloth(made, seen):
+def test_pieces_tell_the_friction_of_the_cloth(sample, seen):
     gravity = 9.81
     slide, error = seen.slide
-    assert abs(slide - made.constants["mu_slide"] * gravity) < 0.03 and error < 0.03
+    assert abs(slide - sample.constants["mu_slide"] * gravity) < 0.03 and error < 0.03
     (a, a_error), (b, b_error) = seen.roll
-    assert abs(a - made.constants["mu_roll"] * gravity) < max(3 * a_error, 1e-3) and a_error < 2e-3
-    assert abs(b - made.constants["drag"]) < max(3 * b_error, 2e-3) and b_error < 3e-3
+    assert (
+        abs(a - sample.constants["mu_roll"] * gravity) < max(3 * a_error, 1e-3) and a_error < 2e-3
+    )
+    assert abs(b - sample.constants["drag"]) < max(3 * b_error, 2e-3) and b_error < 3e-3
     pieces = seen.pieces
     assert (
         not (pieces["sliding"] & pieces["rolling"]).any()
@@ -210,14 +217,14 @@ def test_pieces_tell_the_friction_of_the_cloth(made, seen):
     assert np.median(pieces["rms"][long]) == pytest.approx(tracks.NOISE * np.sqrt(2), rel=0.1)
     # velocities are those of the play, at the middle of the pieces
     for piece in pieces[long][::7]:
-        at = piece["time"] - made.strikes[piece["shot"], 5]
-        state = made.shots[piece["shot"]].states(at)[piece["ball"]]
+        elapsed = piece["time"] - sample.strikes[piece["shot"], 5]
+        state = sample.shots[piece["shot"]].states(elapsed)[piece["ball"]]
         assert np.hypot(*(state["v"][:2] - piece["v"])) < 0.05
 
 
-def test_impacts_have_the_numbers_of_the_play(made, seen):
+def test_impacts_have_the_numbers_of_the_play(sample, seen):
     truth, errors, missed = [], [], 0
-    for k, shot in enumerate(made.shots):
+    for k, shot in enumerate(sample.shots):
         rails = shot.events[
             (shot.events["type"] == 3)
             & (np.hypot(*shot.events["before"][:, 0]["v"][:, :2].T) > 0.5)
@@ -225,32 +232,32 @@ def test_impacts_have_the_numbers_of_the_play(made, seen):
         truth.append(len(rails))
         for event in rails:
             # rails of the play: y = 0, x = W, y = L, x = 0
-            own = seen.impacts
-            own = own[
-                (own["shot"] == k)
-                & (own["ball"] == event["a"])
-                & (own["rail"] == (2, 1, 3, 0)[event["b"]])
+            impacts = seen.impacts
+            impacts = impacts[
+                (impacts["shot"] == k)
+                & (impacts["ball"] == event["a"])
+                & (impacts["rail"] == (2, 1, 3, 0)[event["b"]])
             ]
-            late = np.abs(own["time"] - event["time"] - made.strikes[k, 5])
-            own = own[np.argsort(late)][: (late < 0.03).sum()]
+            late = np.abs(impacts["time"] - event["time"] - sample.strikes[k, 5])
+            impacts = impacts[np.argsort(late)][: (late < 0.03).sum()]
             if (
-                len(own) == 0
-                or own["chi2"][0] > 2.5
-                or own["w_error"][0] > 0.05
-                or own["v_error"][0] > 0.05
+                len(impacts) == 0
+                or impacts["chi2"][0] > 2.5
+                or impacts["w_error"][0] > 0.05
+                or impacts["v_error"][0] > 0.05
             ):
                 missed += 1
                 continue
-            found = own[0]
+            found = impacts[0]
             n = np.array([[-1, 0], [1, 0], [0, -1], [0, 1]])[found["rail"]]
             t = np.array([n[1], -n[0]])
-            before, after = event["before"][0]["v"][:2], event["after"][0]["v"][:2]
-            size = np.hypot(*before)
+            incoming, outgoing = event["before"][0]["v"][:2], event["after"][0]["v"][:2]
+            size = np.hypot(*incoming)
             parts = [
-                before @ n - found["v_n"],
-                before @ t - found["v_t"],
-                after @ n - found["w_n"],
-                after @ t - found["w_t"],
+                incoming @ n - found["v_n"],
+                incoming @ t - found["v_t"],
+                outgoing @ n - found["w_n"],
+                outgoing @ t - found["w_t"],
             ]
             errors.append(np.abs(parts) / size)
     # half of the fast impacts are well known, and their velocities right to a per cent
@@ -258,13 +265,13 @@ def test_impacts_have_the_numbers_of_the_play(made, seen):
     assert np.median(errors, axis=0).max() < 0.01
 
 
-def test_hits_have_the_restitution_of_the_play(made, seen):
+def test_hits_have_the_restitution_of_the_play(sample, seen):
     good = seen.hits[
         (seen.hits["chi2"] < 3) & (seen.hits["v_n"] > 0.5) & (seen.hits["w_error"] < 0.1)
     ]
     assert len(good) >= 5
     e = (good["z_n"] - good["w_n"]) / good["v_n"]
-    assert np.median(e) == pytest.approx(made.constants["restitution"], abs=0.02)
+    assert np.median(e) == pytest.approx(sample.constants["restitution"], abs=0.02)
     # with equal masses and the other ball at rest, the velocities along the line of centres add up
     assert np.median(np.abs(good["w_n"] + good["z_n"] - good["v_n"]) / good["v_n"]) < 0.02
 
@@ -282,4 +289,4 @@ def test_no_motion_has_no_events():
 
 def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument():
     names = "shots table radius cushion_model constants speeds noise rate thin seed"
-    refused_by_name(tracks.synthetic, {"shots": 1}, names)
+    refused_by_name(("tracks.synthetic(shots=1)", "each of", names), globals())

@@ -11,11 +11,11 @@ import functools
 import math
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes
 
-Games = npt.NDArray[np.int64]
+Games = NDArray[np.int64]
 _MIX = (
     (np.uint64(30), np.uint64(0xBF58476D1CE4E5B9)),
     (np.uint64(27), np.uint64(0x94D049BB133111EB)),
@@ -24,27 +24,27 @@ _11, _31 = np.uint64(11), np.uint64(31)
 
 
 @functools.cache
-def _steps(many: int) -> npt.NDArray[np.uint64]:
+def _steps(many: int) -> NDArray[np.uint64]:
     return np.uint64(0x9E3779B97F4A7C15) * np.arange(1, many + 1, dtype=np.uint64)
 
 
 class Draws:
     """The random numbers of `games` games, each begun with a key from 0 to 2**64 - 1."""
 
-    def __init__(self, keys: npt.ArrayLike) -> None:
-        self.at = np.array(keys, np.uint64)
+    def __init__(self, keys: ArrayLike) -> None:
+        self.keys = np.array(keys, np.uint64)
 
-    def begin(self, games: Games, keys: npt.ArrayLike) -> None:
+    def begin(self, games: Games, keys: ArrayLike) -> None:
         """Begins some games anew."""
-        self.at[games] = np.asarray(keys, np.uint64)
+        self.keys[games] = np.asarray(keys, np.uint64)
 
-    def of(self, game: int) -> Draws:
+    def single(self, game: int) -> Draws:
         """The numbers of one game, as those of a game alone."""
-        return Draws(self.at[game : game + 1])
+        return Draws(self.keys[game : game + 1])
 
     def keep(self, game: int, drawn: Draws) -> None:
         """Go on in one game where `drawn`, of a game alone, stands."""
-        self.at[game] = drawn.at[0]
+        self.keys[game] = drawn.keys[0]
 
     def key(self, game: int) -> int:
         """A seed for what draws its own numbers, from 0 to 2**53 - 1."""
@@ -52,12 +52,12 @@ class Draws:
 
     def copy(self) -> Draws:
         """The same numbers once more."""
-        return Draws(self.at)
+        return Draws(self.keys)
 
     def uniform(self, games: Games, *shape: int) -> dtypes.Doubles:
         """Numbers from 0 to 1, without 1, of shape (len(games), *shape)."""
-        z = self.at[games][:, np.newaxis] + _steps(math.prod(shape))
-        self.at[games] = z[:, -1]
+        z = self.keys[games][:, np.newaxis] + _steps(math.prod(shape))
+        self.keys[games] = z[:, -1]
         for shift, factor in _MIX:
             z ^= z >> shift
             z *= factor
@@ -66,8 +66,8 @@ class Draws:
         numbers: dtypes.Doubles = np.multiply(z, 2.0**-53, dtype=np.float64)
         return numbers.reshape(len(games), *shape)
 
-    def seeds(self, games: Games) -> npt.NDArray[np.uint64]:
+    def seeds(self, games: Games) -> NDArray[np.uint64]:
         """A seed of each game, for what draws its own numbers."""
-        seeds: npt.NDArray[np.uint64] = self.at[games]
-        self.at[games] = seeds + _steps(1)
+        seeds: NDArray[np.uint64] = self.keys[games]
+        self.keys[games] = seeds + _steps(1)
         return seeds

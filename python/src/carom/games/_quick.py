@@ -26,6 +26,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._rows import Array, raw
+from carom.dtypes import Doubles, Records
 from carom.games.rules import Made, calls_of, judge, on_of
 from carom.layouts import cue as cue_of
 
@@ -37,49 +38,45 @@ BREAK = 9.0  # m/s
 _LEAST_COS = np.cos(np.radians(75.0))  # of a cut
 
 
-def quick_stroke(
-    pool: Any, position: Any, shots: int
-) -> tuple[dtypes.Records, dtypes.Records, tuple[int, int]]:
+def quick_stroke(pool: Any, position: Any, shots: int) -> tuple[Records, Records, tuple[int, int]]:
     """The layout, with the cue ball where it is put, the cue, and the call of eight-ball."""
-    made = Made(pool.game, position.state)
-    layouts, cues = _candidates(pool, position, made, max(shots // OF_PAIR, 1))
+    game = Made(pool.game, position.state)
+    layouts, cues = _candidates(pool, position, game, max(shots // OF_PAIR, 1))
     played = pool.played(layouts, cues)
-    calls = calls_of(made, position.balls, played) if pool.game == "eightball" else None
-    best = int(pool.worth(judge(made, layouts, played, calls=calls)).argmax())
+    calls = calls_of(game, position.balls, played) if pool.game == "eightball" else None
+    best = int(pool.worth(judge(game, layouts, played, calls=calls)).argmax())
     call = (-1, -1) if calls is None else (int(calls[best, 0]), int(calls[best, 1]))
     return layouts[best], cues[best], call
 
 
-def _candidates(
-    pool: Any, position: Any, made: Made, pairs: int
-) -> tuple[dtypes.Records, dtypes.Records]:
+def _candidates(pool: Any, position: Any, game: Made, pairs: int) -> tuple[Records, Records]:
     """Layouts (n, balls) and cues (n,) of the easiest pairs of a ball and a pocket."""
     balls, radius = position.balls, pool.base.radius
     centres = balls["state"]["r"][:, :2]
-    on = np.array(on_of(made, balls))
+    targets = np.array(on_of(game, balls))
     if position.state["opening"]:
-        return _break(pool, position, centres[on])
+        return _break(pool, position, centres[targets])
 
     # of each pair: the way of the ball to the pocket, and the ghost ball
-    way = pool.table.pockets["centre"] - centres[on][:, np.newaxis]
+    way = pool.table.pockets["centre"] - centres[targets][:, np.newaxis]
     far = np.linalg.norm(way, axis=-1).ravel()
     way = way.reshape(-1, 2) / far[:, np.newaxis]
-    ghost = np.repeat(centres[on], len(pool.table.pockets), axis=0) - 2.0 * radius * way
+    ghost = np.repeat(centres[targets], len(pool.table.pockets), axis=0) - 2.0 * radius * way
     if position.hand:
         places = np.clip(ghost - DISTANCE * way, *pool.area(position.hand))
     else:
         places = np.broadcast_to(centres[0], ghost.shape)
     line = ghost - places
-    near = np.linalg.norm(line, axis=-1)
-    cosine = np.einsum("ij,ij->i", line, way) / near
-    ease = np.where(cosine > _LEAST_COS, cosine, 1e-3 * (2.0 + cosine)) / (near * far)
+    distances = np.linalg.norm(line, axis=-1)
+    cosine = np.einsum("ij,ij->i", line, way) / distances
+    ease = np.where(cosine > _LEAST_COS, cosine, 1e-3 * (2.0 + cosine)) / (distances * far)
 
     # the easiest of them, from places that are free
     chosen = np.argsort(-ease, kind="stable")[:pairs]
     way, ghost, far = way[chosen], ghost[chosen], far[chosen]
     places = _free(pool, position, places[chosen])
     line = ghost - places
-    near = np.linalg.norm(line, axis=-1)
+    distances = np.linalg.norm(line, axis=-1)
 
     # thrown to the side of the cue ball's way, the ball needs a ghost ball beside that
     side = np.sign(line[:, 0] * way[:, 1] - line[:, 1] * way[:, 0])
@@ -88,39 +85,39 @@ def _candidates(
     turned = np.stack([x * cos - y * sin, x * sin + y * cos], axis=-1)
     aim = (line + 2.0 * radius * way)[:, np.newaxis] - 2.0 * radius * turned
     phi = np.degrees(np.arctan2(aim[..., 1], aim[..., 0]))[..., np.newaxis]
-    longer = 0.7 + 0.3 * (near + far)[:, np.newaxis, np.newaxis]
+    longer = 0.7 + 0.3 * (distances + far)[:, np.newaxis, np.newaxis]
     phi, speed = np.broadcast_arrays(phi, np.minimum(SPEEDS * longer, pool.base.speeds[1]))
     layouts = _laid(pool, position, np.repeat(places, OF_PAIR, axis=0))
     return layouts, cue_of(speed=speed.ravel(), phi=phi.ravel(), b=0.0)
 
 
-def _break(pool: Any, position: Any, on: dtypes.Doubles) -> tuple[dtypes.Records, dtypes.Records]:
+def _break(pool: Any, position: Any, targets: Doubles) -> tuple[Records, Records]:
     """A stroke at the first ball of the rack, from behind the head string."""
     low, high = pool.area(position.hand)
     place = np.array([(low[0] + high[0]) / 2.0, high[1]])
-    line = on[np.argmin(on[:, 1])] - place
+    line = targets[np.argmin(targets[:, 1])] - place
     phi = np.degrees(np.arctan2(line[1], line[0]))
     speed = min(BREAK, pool.base.speeds[1])
     return _laid(pool, position, place[np.newaxis]), cue_of(speed=[speed], phi=[phi], b=0.0)
 
 
-def _free(pool: Any, position: Any, wanted: dtypes.Doubles) -> dtypes.Doubles:
+def _free(pool: Any, position: Any, point: Doubles) -> Doubles:
     """The places that are free, where the cue ball is in hand, and others in place of those that
     are not.
     """
     if not position.hand:
-        return wanted
+        return point
     tried: Array = position.balls.copy()
     draws = position.draws.copy()
-    for place in wanted:
+    for place in point:
         pool.lay(tried, place)
         if not pool.base.free(tried):
             pool.put(tried, position.hand, np.zeros(2), draws)
             place[...] = tried["state"]["r"][0, :2]
-    return wanted
+    return point
 
 
-def _laid(pool: Any, position: Any, places: dtypes.Doubles) -> dtypes.Records:
+def _laid(pool: Any, position: Any, places: Doubles) -> Records:
     """The layout with the cue ball at each of some places, if it is in hand."""
     layouts: Array = np.repeat(raw(position.balls)[np.newaxis], len(places), axis=0)
     layouts = layouts.view(dtypes.shot_ball)

@@ -7,10 +7,11 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
-from carom import dtypes, racks
+from carom import racks
 from carom._rows import Seed, copied, listing
+from carom.dtypes import Doubles, Records
 from carom.games import plans
 from carom.games._draws import Draws, Games
 from carom.games.potting import Potting
@@ -55,35 +56,37 @@ class Break(Potting):
     def __init__(self, *, speeds: tuple[float, float] = (0.5, 10.5), **options: Any) -> None:
         super().__init__(9, 1, speeds=speeds, **options)
 
-    def corners(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:
+    def corners(self) -> tuple[Doubles, Doubles]:
         """The lower and the upper corner, m, of the rectangle in which the cue ball is put."""
         low = np.full(2, self.radius + 1e-3)
         return low, np.array([self.table.width - low[0], self.table.length / 4.0])
 
-    def deal(self, draws: Draws, games: Games) -> dtypes.Records:
-        made = super().deal(draws, games)
+    def deal(self, draws: Draws, games: Games) -> Records:
+        layouts = super().deal(draws, games)
         for k, game in enumerate(games.tolist()):
-            made["state"]["r"][k] = racks.nineball(self.table, seed=draws.key(game))["state"]["r"]
-        made["state"]["r"][..., 2] = self.radius
-        return made
+            layouts["state"]["r"][k] = racks.nineball(self.table, seed=draws.key(game))["state"][
+                "r"
+            ]
+        layouts["state"]["r"][..., 2] = self.radius
+        return layouts
 
-    def placed(self, balls: dtypes.Records, actions: npt.ArrayLike) -> dtypes.Records:
+    def placed(self, balls: Records, actions: ArrayLike) -> Records:
         """The layouts, broadcast against the actions, with the cue balls where the actions put
         them.
         """
-        given = np.asarray(actions, np.float64)
+        values = np.asarray(actions, np.float64)
         low, high = self.corners()
         laid = copied(
             np.broadcast_to(
-                balls, (*np.broadcast_shapes(balls.shape[:-1], given.shape[:-1]), balls.shape[-1])
+                balls, (*np.broadcast_shapes(balls.shape[:-1], values.shape[:-1]), balls.shape[-1])
             )
         )
         laid["state"]["r"][..., 0, :2] = (
-            low + (high - low) * (np.clip(given[..., 4:], -1.0, 1.0) + 1.0) / 2.0
+            low + (high - low) * (np.clip(values[..., 4:], -1.0, 1.0) + 1.0) / 2.0
         )
         return laid
 
-    def best(self, balls: dtypes.Records, *, shots: int = 500, seed: Seed = 0) -> dtypes.Doubles:
+    def best(self, balls: Records, *, shots: int = 500, seed: Seed = 0) -> Doubles:
         """The action, of shape (6,), of the planner, which wants to win the game of nine-ball
         against a player with the same errors.
         """

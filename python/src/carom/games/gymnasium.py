@@ -21,10 +21,11 @@ from collections.abc import Callable, Sequence
 from typing import Any, Literal, cast
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes, pictures
 from carom._rows import listing, raw
+from carom.dtypes import Doubles, Records
 from carom.games._draws import Draws, Games
 from carom.games.drills import Break, ThreeCushion
 from carom.games.matches import Match
@@ -54,7 +55,7 @@ RULES: dict[str, Callable[..., Rules]] = {
 }
 """The rules of an environment by the word `game`: classes, and `Match` of both games of pool."""
 _OPTIONS = {"layout", "strokes"}
-_Bools = npt.NDArray[np.bool_]
+_Bools = NDArray[np.bool_]
 _ONE: Games = np.zeros(1, np.int64)
 
 
@@ -67,17 +68,17 @@ class _Games:
     def __init__(self, rules: Rules, games: int, render_mode: str | None) -> None:
         pictures.check_render_mode(render_mode)
         self.rules = rules
-        self.balls: dtypes.Records = np.zeros((games, rules.balls + 1), dtypes.shot_ball)
-        self.words: npt.NDArray[np.uint64] = np.tile(np.array(rules.words, np.uint64), (games, 1))
-        self.left: npt.NDArray[np.int64] = np.zeros(games, np.int64)
+        self.balls: Records = np.zeros((games, rules.balls + 1), dtypes.shot_ball)
+        self.words: NDArray[np.uint64] = np.tile(np.array(rules.words, np.uint64), (games, 1))
+        self.left: NDArray[np.int64] = np.zeros(games, np.int64)
         self.ended: _Bools = np.ones(games, np.bool_)
         self.begun = False
         self.draws = Draws(np.random.SeedSequence().generate_state(games, np.uint64))
         # The last stroke, where it may be drawn.
         self.render_mode = render_mode
         self.drawn = render_mode is not None
-        self.before = self.balls.copy()
-        self.cues: dtypes.Records = np.zeros(games, dtypes.cue)
+        self.previous = self.balls.copy()
+        self.cues: Records = np.zeros(games, dtypes.cue)
         self.struck: _Bools = np.zeros(games, np.bool_)
 
     def begin(
@@ -90,42 +91,42 @@ class _Games:
             raise ValueError(
                 f"strokes: must be 1 to {self.rules.strokes}, that of the environment, not {strokes}"
             )
-        given = (
+        chosen_layouts = (
             None if layouts is None else np.stack([self.rules.layout(layout) for layout in layouts])
         )
         dealt = self.rules.deal(self.draws, games)
-        if given is not None:
-            dealt["state"] = given["state"]
+        if chosen_layouts is not None:
+            dealt["state"] = chosen_layouts["state"]
         raw(self.balls)[games] = raw(dealt)
         self.words[games] = self.rules.words
         self.left[games] = self.rules.strokes if strokes is None else strokes
         self.ended[games] = False
         self.begun = True
         if self.drawn:
-            raw(self.before)[games] = raw(dealt)
+            raw(self.previous)[games] = raw(dealt)
         self.struck[games] = False
 
-    def play(self, games: Games, actions: dtypes.Doubles) -> Strokes:
+    def play(self, games: Games, actions: Doubles) -> Strokes:
         """One stroke of each of some games."""
         # Where all games play, nothing is copied but by the stroke itself.
         everyone = len(games) == len(self.balls)
-        which: Any = slice(None) if everyone else games
-        before = self.balls if everyone else raw(self.balls)[games].view(dtypes.shot_ball)
-        words = self.words[which]
-        struck, cues, strokes, ended = self.rules.turn(before, words, actions, self.draws, games)
-        self.left[which] -= 1
-        self.ended[which] = ended | (self.left[which] <= 0)
-        self.words[which] = words
+        rows: Any = slice(None) if everyone else games
+        previous = self.balls if everyone else raw(self.balls)[games].view(dtypes.shot_ball)
+        words = self.words[rows]
+        struck, cues, strokes, ended = self.rules.turn(previous, words, actions, self.draws, games)
+        self.left[rows] -= 1
+        self.ended[rows] = ended | (self.left[rows] <= 0)
+        self.words[rows] = words
         if self.drawn:
-            raw(self.before)[which] = raw(struck)
-            self.cues[which], self.struck[which] = cues, True
+            raw(self.previous)[rows] = raw(struck)
+            self.cues[rows], self.struck[rows] = cues, True
         if everyone:
             self.balls = strokes.layouts
         else:
             raw(self.balls)[games] = raw(strokes.layouts)
         return strokes
 
-    def observe(self) -> dtypes.Doubles:
+    def observe(self) -> Doubles:
         return self.rules.observe(self.balls, self.left, self.words)
 
     def render(self, game: int) -> Any:
@@ -133,7 +134,7 @@ class _Games:
         if self.render_mode is None:
             return None
         return pictures.rendered(
-            self.rules.shot(self.before[game], self.cues[game] if self.struck[game] else None),
+            self.rules.shot(self.previous[game], self.cues[game] if self.struck[game] else None),
             self.render_mode,
         )
 
@@ -156,15 +157,15 @@ def _rules(game: str, rules: dict[str, Any]) -> Rules:
 
 def _checked(options: dict[str, Any] | None) -> dict[str, Any]:
     """The options of a reset, none of them unknown."""
-    given = {} if options is None else options
-    if not given.keys() <= _OPTIONS:
+    settings = {} if options is None else options
+    if not settings.keys() <= _OPTIONS:
         raise ValueError(
-            f"options: 'layout' and 'strokes' are known, not {', '.join(map(repr, sorted(given.keys() - _OPTIONS)))}"
+            f"options: 'layout' and 'strokes' are known, not {', '.join(map(repr, sorted(settings.keys() - _OPTIONS)))}"
         )
-    return given
+    return settings
 
 
-class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
+class GameEnv(gymnasium.Env[Doubles, Doubles]):
     """One game: `game` names the rules, of `RULES`, and **rules are their arguments.
 
     `render` gives a picture of the last stroke, from where the balls lay (faint) to where they came
@@ -188,26 +189,24 @@ class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[dtypes.Doubles, dict[str, Any]]:
+    ) -> tuple[Doubles, dict[str, Any]]:
         """Begin a game: a layout drawn from the seed, or from the game's random numbers as they
         stand.
         """
         super().reset(seed=seed)
-        given = _checked(options)
-        layout = given.get("layout")
+        settings = _checked(options)
+        layout = settings.get("layout")
         if seed is not None:
             self._games.draws.begin(_ONE, int(self.np_random.integers(2**63)))
-        self._games.begin(_ONE, None if layout is None else [layout], given.get("strokes"))
+        self._games.begin(_ONE, None if layout is None else [layout], settings.get("strokes"))
         return self._games.observe()[0], {}
 
-    def step(
-        self, action: npt.ArrayLike
-    ) -> tuple[dtypes.Doubles, float, bool, bool, dict[str, Any]]:
+    def step(self, action: ArrayLike) -> tuple[Doubles, float, bool, bool, dict[str, Any]]:
         """Play a stroke: observation, reward, terminated, truncated, info."""
         if self._games.ended[0]:
             raise gymnasium.error.ResetNeeded("the game has ended, or has not begun: call reset()")
-        given = in_space(action, (self.rules.acts,), "action")
-        strokes = self._games.play(_ONE, given[np.newaxis])
+        values = in_space(action, (self.rules.acts,), "action")
+        strokes = self._games.play(_ONE, values[np.newaxis])
         info = {
             "potted": int(strokes.potted[0]),
             "scratch": bool(strokes.scratch[0]),
@@ -228,7 +227,7 @@ class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
         return self._games.render(0)
 
 
-class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]]):
+class GameVectorEnv(VectorEnv[Doubles, Doubles, NDArray[Any]]):
     """Many games, all strokes of a step in one `carom.simulate_batch`, except matches, which are
     played one after another.
 
@@ -285,55 +284,53 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
         *,
         seed: int | Sequence[int | None] | None = None,
         options: dict[str, Any] | None = None,
-    ) -> tuple[dtypes.Doubles, dict[str, Any]]:
+    ) -> tuple[Doubles, dict[str, Any]]:
         """Begin all games anew, or those of the mask."""
         seeds = [None] * self.num_envs if seed is None else seed
         if isinstance(seeds, int):
             seeds = [seeds + k for k in range(self.num_envs)]
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed: one number or {self.num_envs} are needed, not {len(seeds)}")
-        given = dict({} if options is None else options)
-        chosen = np.flatnonzero(self._mask(given.pop("reset_mask", None)))
-        given = _checked(given)
+        settings = dict({} if options is None else options)
+        chosen = np.flatnonzero(self._mask(settings.pop("reset_mask", None)))
+        settings = _checked(settings)
         layouts: list[Any] | None = None
-        if given.get("layout") is not None:
-            centres = np.asarray(given["layout"], dtype=np.float64)
+        if settings.get("layout") is not None:
+            centres = np.asarray(settings["layout"], dtype=np.float64)
             layouts = list(centres) if centres.ndim == 3 else [centres] * self.num_envs
             if len(layouts) != self.num_envs:
                 raise ValueError(f"layout: one or {self.num_envs} are needed, not {len(layouts)}")
             layouts = [layouts[game] for game in chosen]
         for game in chosen:
-            if (own := seeds[game]) is not None:
-                key = int(seeding.np_random(own)[0].integers(2**63))
+            if (game_seed := seeds[game]) is not None:
+                key = int(seeding.np_random(game_seed)[0].integers(2**63))
                 self._games.draws.begin(np.array([game]), key)
-        self._games.begin(chosen, layouts, given.get("strokes"))
+        self._games.begin(chosen, layouts, settings.get("strokes"))
         return self._games.observe(), {}
 
-    def _mask(self, mask: Any) -> npt.NDArray[np.bool_]:
+    def _mask(self, mask: Any) -> NDArray[np.bool_]:
         """Which games a reset begins anew."""
         if mask is None:
             return np.ones(self.num_envs, np.bool_)
-        given: npt.NDArray[Any] = np.asarray(mask)
-        if given.dtype != np.bool_ or given.shape != (self.num_envs,) or not given.any():
+        flags: NDArray[Any] = np.asarray(mask)
+        if flags.dtype != np.bool_ or flags.shape != (self.num_envs,) or not flags.any():
             raise ValueError(
                 f"options: reset_mask: an array of bool of shape ({self.num_envs},) with a True in it is needed, "
-                f"not of {given.dtype} and shape {given.shape}"
+                f"not of {flags.dtype} and shape {flags.shape}"
             )
-        if not (self._games.begun or given.all()):
+        if not (self._games.begun or flags.all()):
             raise gymnasium.error.ResetNeeded(
                 "no game has begun: the first reset() is of all games"
             )
-        return given
+        return flags
 
     def step(
-        self, actions: npt.ArrayLike
-    ) -> tuple[
-        dtypes.Doubles, npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any], dict[str, Any]
-    ]:
+        self, actions: ArrayLike
+    ) -> tuple[Doubles, NDArray[Any], NDArray[Any], NDArray[Any], dict[str, Any]]:
         """Play a stroke of each game, or begin it anew: observations (num_envs, ...); rewards,
         terminated, truncated (num_envs,); infos.
         """
-        given = in_space(actions, (self.num_envs, self.rules.acts), "actions")
+        values = in_space(actions, (self.num_envs, self.rules.acts), "actions")
         if not self._games.begun:
             raise gymnasium.error.ResetNeeded(
                 "no game has begun: call reset() before the first step()"
@@ -349,7 +346,7 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
         rewards = np.zeros(self.num_envs)
         infos: dict[str, Any] = {}
         if playing.any():
-            strokes = self._games.play(np.flatnonzero(playing), given[playing])
+            strokes = self._games.play(np.flatnonzero(playing), values[playing])
             rewards[playing] = strokes.rewards
             infos = self._infos(strokes, playing)
         ended = self._games.ended.copy()
@@ -357,9 +354,9 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
             infos = self._begun_at_once(infos, ended)
         return self._games.observe(), rewards, ended, np.zeros(self.num_envs, np.bool_), infos
 
-    def _infos(self, strokes: Strokes, playing: npt.NDArray[np.bool_]) -> dict[str, Any]:
+    def _infos(self, strokes: Strokes, playing: NDArray[np.bool_]) -> dict[str, Any]:
         """What the strokes of some games were."""
-        told: dict[str, npt.NDArray[Any]] = {
+        details: dict[str, NDArray[Any]] = {
             "potted": strokes.potted,
             "scratch": strokes.scratch,
             "foul": strokes.foul.astype(np.int64),
@@ -367,13 +364,13 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
             "time": strokes.time,
         }
         infos: dict[str, Any] = {}
-        for name, values in told.items():
+        for name, values in details.items():
             infos[name] = np.zeros(self.num_envs, values.dtype)
             infos[name][playing] = values
             infos["_" + name] = playing.copy()
         return infos
 
-    def _begun_at_once(self, infos: dict[str, Any], ended: npt.NDArray[np.bool_]) -> dict[str, Any]:
+    def _begun_at_once(self, infos: dict[str, Any], ended: NDArray[np.bool_]) -> dict[str, Any]:
         """Begins the games anew that have ended; what was theirs is final."""
         last, final = self._games.observe(), dict[str, Any]()
         final_obs = np.full(self.num_envs, None, dtype=object)

@@ -12,6 +12,7 @@ from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import Seed, choice, copied, listing, number, pointer, seed_of, whole
 from carom._shot_options import Options, StopAt, chosen, options_of, shot_options
+from carom.dtypes import Records
 from carom.games.plans import ByMatch, Kind, plan
 from carom.games.rules import GivenState, Hand, Made, Rules, Ruling, of_set, ruling_of, words_of
 from carom.games.rules import GAMES, LEAVES, Game, hand_of
@@ -67,7 +68,7 @@ class Match:
         *,
         seed: Seed = 0,
         player: int = 0,
-        balls: dtypes.Records | None = None,
+        balls: Records | None = None,
         state: GivenState | None = None,
         hand: Hand = "no",
         options: Options = _USUAL,
@@ -96,7 +97,7 @@ class Match:
         """
         check_table(table)
         self._make(rules, state)
-        made = pointer("carom_table *", table.record)
+        pointed = pointer("carom_table *", table.record)
         if balls is None:
             if isinstance(rules, Rules):
                 raise ValueError("balls: rules of one's own have no rack: give a layout")
@@ -106,7 +107,7 @@ class Match:
                 GAMES[rules],
                 begins.target,
                 begins.innings,
-                made,
+                pointed,
                 seed_of(seed),
                 whole(player, "player", most=1),
             )
@@ -116,7 +117,7 @@ class Match:
                 self._c,
                 _OWN if isinstance(rules, Rules) else GAMES[rules],
                 self._made.c,
-                made,
+                pointed,
                 pointer("carom_shot_ball[]", layout),
                 layout.size,
                 shot_options(chosen(options, changes)),
@@ -130,7 +131,7 @@ class Match:
         self.lines: list[str] = []
         self._made = Made(rules, state)
         self._c: Any = ffi.new("carom_match *")
-        self._struck: tuple[dtypes.Records, dtypes.Records] | None = None
+        self._struck: tuple[Records, Records] | None = None
 
     @classmethod
     def load(
@@ -151,12 +152,12 @@ class Match:
             match._c.rules = match._made.c[0]
         scratch = ffi.new("carom_record *")
         for text in lines_of(recording, match.lines):
-            line, before = text.encode(), match.balls
+            line, previous = text.encode(), match.balls
             match._told(lib.carom_match_read(match._c, scratch, line, len(line)), "line")
             match._made.check()
             if text.startswith('{"shot"'):
                 cue = ffi.buffer(ffi.addressof(match._c.record, "cue"))
-                match._struck = before, np.frombuffer(cue, dtypes.cue).copy().reshape(())
+                match._struck = previous, np.frombuffer(cue, dtypes.cue).copy().reshape(())
         if rules is None:
             match.rules = list(GAMES)[match._c.record.rules]
         match._act(lambda: 0, "line")  # the lines that are missing, of a text that was cut off
@@ -179,13 +180,13 @@ class Match:
         return Table.from_record(np.frombuffer(record, dtypes.table).reshape(()))
 
     @property
-    def balls(self) -> dtypes.Records:
+    def balls(self) -> Records:
         """The layout of the next stroke: `carom.dtypes.shot_ball`, of shape (balls,)."""
         size = self._c.record.count * dtypes.shot_ball.itemsize
         return np.frombuffer(ffi.buffer(self._c.record.balls, size), dtypes.shot_ball).copy()
 
     @property
-    def state(self) -> dtypes.Records:
+    def state(self) -> Records:
         """How the game stands for the player at the table: `carom.dtypes.rules_state`."""
         state = ffi.buffer(ffi.addressof(self._c.rules, "state"))
         return np.frombuffer(state, dtypes.rules_state).copy().reshape(())
@@ -244,8 +245,8 @@ class Match:
         """Where the cue ball in hand may be put, until the stroke."""
         if self._c.leave < lib.CAROM_LEAVE_ANYWHERE:
             return None
-        of = self._c.bounds
-        return Bounds((*of.low,), (*of.high,), (*of.centre,), of.radius)
+        bounds = self._c.bounds
+        return Bounds((*bounds.low,), (*bounds.high,), (*bounds.centre,), bounds.radius)
 
     @property
     def hand(self) -> Hand:
@@ -286,11 +287,11 @@ class Match:
     def _act(self, call: Callable[[], int], field: str) -> bool:
         """Does what C does; an act that C or a method of the rules refuses changes nothing."""
         is_own = isinstance(self.rules, Rules)
-        before = bytes(ffi.buffer(self._c)) if is_own else b""
+        previous = bytes(ffi.buffer(self._c)) if is_own else b""
         code = call()
         raised, self._made.raised = self._made.raised, None
         if raised is not None:
-            ffi.buffer(self._c)[:] = before
+            ffi.buffer(self._c)[:] = previous
             raise raised
         self._told(code, field)
         text = ffi.unpack(self._c.text, self._c.size).decode()
@@ -306,20 +307,20 @@ class Match:
         """Put the cue ball in hand to a place within `bounds`, m; until the stroke it may be put
         elsewhere.
         """
-        at = number(x, "x"), number(y, "y")
-        self._act(lambda: lib.carom_match_place(self._c, self.player, *at), "place")
+        point = number(x, "x"), number(y, "y")
+        self._act(lambda: lib.carom_match_place(self._c, self.player, *point), "place")
 
     def call(self, ball: int, pocket: int = -1) -> None:
         """Call the ball and the pocket of the next stroke; ball -1: a safety. In snooker it names a
         colour or a free ball.
         """
-        given = [whole(ball, "ball", least=-1), whole(pocket, "pocket", least=-1)]
-        call = ffi.new("carom_call *", given)[0]
+        numbers = [whole(ball, "ball", least=-1), whole(pocket, "pocket", least=-1)]
+        call = ffi.new("carom_call *", numbers)[0]
         self._act(lambda: lib.carom_match_call(self._c, self.player, call), "call")
 
     def stroke(
         self,
-        cue: dtypes.Records,
+        cue: Records,
         *,
         t_final: float | None = None,
         stop_at: StopAt | Iterable[StopAt] = (),
@@ -332,9 +333,9 @@ class Match:
             Whether the shot has ended, and is ruled.
         """
         balls, strike, stop = self.balls, copied(one_cue(cue)), _stop(t_final, stop_at)
-        at = pointer("carom_cue[]", strike)
+        struck_cue = pointer("carom_cue[]", strike)
         is_ended = self._act(
-            lambda: lib.carom_match_stroke(self._c, self.player, at, stop, ffi.NULL), "cue"
+            lambda: lib.carom_match_stroke(self._c, self.player, struck_cue, stop, ffi.NULL), "cue"
         )
         self._struck = balls, strike
         return is_ended
@@ -348,8 +349,8 @@ class Match:
 
     def concede(self, player: int) -> None:
         """A player, 0 or 1, gives the game to the other."""
-        who = whole(player, "player", most=1)
-        self._act(lambda: lib.carom_match_concede(self._c, who), "player")
+        seat = whole(player, "player", most=1)
+        self._act(lambda: lib.carom_match_concede(self._c, seat), "player")
 
     def clock(self) -> None:
         """The time of the player at the table is over: a foul."""
@@ -362,7 +363,7 @@ class Match:
 
     # ---- Plans
 
-    def plan(self, **wanted: Any) -> dtypes.Records:
+    def plan(self, **wanted: Any) -> Records:
         """The best strokes of the player at the table, with a cue ball in hand within `bounds`.
 
         `wanted` is as for `carom.plan`: player, opponent, shots, best, seed, ...
@@ -386,7 +387,7 @@ class Match:
             **wanted,
         )
 
-    def take(self, best: dtypes.Records, cue: dtypes.Records | None = None) -> None:
+    def take(self, best: Records, cue: Records | None = None) -> None:
         """Take a choice of `plan`: place, call and play its stroke, or pass.
 
         `cue` is the stroke as the player makes it; by default that of the choice.

@@ -6,10 +6,11 @@ from dataclasses import replace
 from typing import Any, ClassVar, Literal
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes
 from carom._rows import Seed, listing, whole
+from carom.dtypes import Doubles, Records
 from carom.games._draws import Draws, Games
 from carom.games.plans import player, with_errors
 from carom.games.pool import Hand, Pool, Position
@@ -27,7 +28,7 @@ def _words(state: State) -> list[int]:
     return words
 
 
-def _state(words: npt.NDArray[np.uint64]) -> State:
+def _state(words: NDArray[np.uint64]) -> State:
     return words[:-1].copy().view(dtypes.rules_state).reshape(())
 
 
@@ -68,7 +69,7 @@ class Match:
         game: Literal["nineball", "eightball"] = "nineball",
         strokes: int = 60,
         *,
-        opponent: dtypes.Records | None = None,
+        opponent: Records | None = None,
         opponent_shots: int = 12,
         **rules: Any,
     ) -> None:
@@ -88,14 +89,14 @@ class Match:
         )
         self._agent = self.pool.base.player()
 
-    def bounds(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:
+    def bounds(self) -> tuple[Doubles, Doubles]:
         """The least and the most of each number of an observation."""
         low, high = self.pool.bounds()
         return np.append(low, 0.0), np.append(high, self.strokes)
 
     def observe(
-        self, balls: dtypes.Records, strokes_left: npt.ArrayLike, words: npt.NDArray[np.uint64]
-    ) -> dtypes.Doubles:
+        self, balls: Records, strokes_left: ArrayLike, words: NDArray[np.uint64]
+    ) -> Doubles:
         """What the agent sees of games, of shape (games, ...)."""
         left = np.broadcast_to(np.asarray(strokes_left, np.float64), len(balls))
         none = Draws([0])
@@ -103,27 +104,36 @@ class Match:
             [
                 np.append(
                     self.pool.observe(
-                        Position(layout, 0, Hand(int(own[-1])), _state(own), 0, None, none), 0
+                        Position(
+                            layout,
+                            0,
+                            Hand(int(state_words[-1])),
+                            _state(state_words),
+                            0,
+                            None,
+                            none,
+                        ),
+                        0,
                     ),
-                    now,
+                    group_left,
                 )
-                for layout, own, now in zip(balls, words, left, strict=True)
+                for layout, state_words, group_left in zip(balls, words, left, strict=True)
             ]
         )
 
-    def deal(self, draws: Draws, games: Games) -> dtypes.Records:
+    def deal(self, draws: Draws, games: Games) -> Records:
         """The racks of some games, of shape (len(games), balls + 1)."""
         return np.stack([self.pool.begin(draws.key(game)).balls for game in games.tolist()])
 
-    def layout(self, centres: npt.ArrayLike) -> dtypes.Records:
+    def layout(self, centres: ArrayLike) -> Records:
         """Refuses layouts: a match begins with its break."""
         raise ValueError("layout: a match begins with the break, and takes no layout")
 
     def turn(
         self,
-        balls: dtypes.Records,
-        words: npt.NDArray[np.uint64],
-        actions: npt.ArrayLike,
+        balls: Records,
+        words: NDArray[np.uint64],
+        actions: ArrayLike,
         draws: Draws,
         games: Games,
     ) -> Turned:
@@ -131,11 +141,11 @@ class Match:
 
         `words` is written to.
         """
-        given = np.asarray(actions, np.float64)
+        values = np.asarray(actions, np.float64)
         n = len(games)
-        struck, after, cues = balls.copy(), balls.copy(), np.zeros(n, dtypes.cue)
+        struck, outcome, cues = balls.copy(), balls.copy(), np.zeros(n, dtypes.cue)
         strokes = Strokes(
-            after,
+            outcome,
             np.zeros(n),
             np.zeros(n, np.int64),
             np.zeros(n, np.bool_),
@@ -146,10 +156,10 @@ class Match:
         )
         ended = np.zeros(n, np.bool_)
         for k, game in enumerate(games.tolist()):
-            before = Position(
-                balls[k], 0, Hand(int(words[k, -1])), _state(words[k]), 0, None, draws.of(game)
+            start = Position(
+                balls[k], 0, Hand(int(words[k, -1])), _state(words[k]), 0, None, draws.single(game)
             )
-            position, turn = self.pool.play(before, given[k])
+            position, turn = self.pool.play(start, values[k])
             struck[k], cues[k] = turn.shot.balls, turn.shot.cue
             strokes.potted[k], strokes.scratch[k], strokes.foul[k] = (
                 len(turn.potted),
@@ -158,7 +168,7 @@ class Match:
             )
             strokes.status[k], strokes.time[k] = int(turn.shot.status), turn.shot.time
             position = self._visit(position)
-            after[k], words[k] = position.balls, [*_words(position.state), int(position.hand)]
+            outcome[k], words[k] = position.balls, [*_words(position.state), int(position.hand)]
             draws.keep(game, position.draws)
             ended[k] = position.winner is not None
             strokes.rewards[k] = {None: 0.0, 0: 1.0}.get(position.winner, -1.0)
@@ -175,22 +185,20 @@ class Match:
             position, _ = self.pool.struck(replace(position, balls=laid), stroke, call)
         return position
 
-    def shot(self, balls: dtypes.Records, cue: dtypes.Records | None) -> Shot:
+    def shot(self, balls: Records, cue: Records | None) -> Shot:
         """A stroke of the agent with its events, for looking at; without a cue the balls lie still."""
         return self.pool.base.shot(balls, cue)
 
-    def best_seen(
-        self, observation: npt.ArrayLike, *, shots: int = 500, seed: Seed = 0
-    ) -> dtypes.Doubles:
+    def best_seen(self, observation: ArrayLike, *, shots: int = 500, seed: Seed = 0) -> Doubles:
         """The action, of shape (6,), of the library's planner for an observation."""
         return self.pool.best(
             self.seen(observation), opponent=self.opponent, shots=shots, seed=seed
         )
 
-    def seen(self, observation: npt.ArrayLike) -> Position:
+    def seen(self, observation: ArrayLike) -> Position:
         """The position of an observation."""
         return self.pool.seen(np.asarray(observation, np.float64)[:-1])
 
-    def tried(self, observation: npt.ArrayLike, actions: npt.ArrayLike) -> dtypes.Doubles:
+    def tried(self, observation: ArrayLike, actions: ArrayLike) -> Doubles:
         """What actions of shape (n, 6) are worth for the next stroke alone, as `Pool.tried`."""
         return self.pool.tried(self.seen(observation), actions)

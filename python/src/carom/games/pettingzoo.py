@@ -18,7 +18,7 @@ from __future__ import annotations
 from typing import Any, Literal
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from carom import dtypes, pictures
 from carom._rows import listing, needed
@@ -86,8 +86,8 @@ class PoolEnv(AECEnv):
         """
         if seed is not None:
             self._generator = seeding.np_random(seed)[0]
-        given = {} if options is None else options
-        self.position = given.get("position") or self.rules.begin(
+        settings = {} if options is None else options
+        self.position = settings.get("position") or self.rules.begin(
             int(self._generator.integers(2**63))
         )
         self.stroke: Stroke | None = None
@@ -103,7 +103,7 @@ class PoolEnv(AECEnv):
         """What a player sees."""
         return self.rules.observe(self.position, _PLAYERS.index(agent))
 
-    def step(self, action: npt.ArrayLike | None) -> None:
+    def step(self, action: ArrayLike | None) -> None:
         """Play the stroke of the player whose turn it is."""
         agent = self.agent_selection
         if self.terminations[agent] or self.truncations[agent]:
@@ -112,10 +112,10 @@ class PoolEnv(AECEnv):
         self._cumulative_rewards[agent] = 0.0
         if action is None:
             raise ValueError("action: six numbers are needed while the game goes on")
-        given = in_space(action, (6,), "action")
-        self.position, self.stroke = self.rules.play(self.position, given)
+        values = in_space(action, (6,), "action")
+        self.position, self.stroke = self.rules.play(self.position, values)
         winner = self.position.winner
-        told = {
+        info = {
             "foul": self.stroke.foul,
             "first": self.stroke.first or 0,
             "potted": list(self.stroke.potted),
@@ -125,7 +125,7 @@ class PoolEnv(AECEnv):
             self.rewards[name] = 0.0 if winner is None else 1.0 if k == winner else -1.0
             self.terminations[name] = winner is not None
             self.truncations[name] = winner is None and self.position.strokes >= self.strokes
-            self.infos[name] = dict(told)
+            self.infos[name] = dict(info)
         self.agent_selection = _PLAYERS[self.position.player]
         self._accumulate_rewards()
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -18,6 +18,7 @@ from carom._faults import argument_error, shot_arguments
 from carom._rows import Array, Arrays, as_array, choice, copied, listing, number, pointer
 from carom._rows import Seed, seed_of, several, whole
 from carom._shot_options import Options, chosen, shot_options
+from carom.dtypes import Records
 from carom.games.rules import LEAVES, Game, GivenState, Group, Hand, Made, Rules
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
@@ -71,7 +72,7 @@ class Kind(enum.IntEnum):
         return str(ffi.string(lib.carom_plan_kind_name(self)).decode())
 
 
-def player(errors: float | None = None, *, fargo: float | None = None) -> dtypes.Records:
+def player(errors: float | None = None, *, fargo: float | None = None) -> Records:
     """A player whose strokes err, as an array of `carom.dtypes.player`, shape ().
 
     Its fields may be changed.
@@ -99,11 +100,11 @@ def player(errors: float | None = None, *, fargo: float | None = None) -> dtypes
         <= 850.0
     ):
         raise ValueError(f"fargo: it must be 200 to 850, not {fargo}")
-    made: Array = np.zeros((), dtypes.player)
-    pointer("carom_player[]", made)[0] = (
+    record: Array = np.zeros((), dtypes.player)
+    pointer("carom_player[]", record)[0] = (
         lib.carom_player_of(errors) if fargo is None else lib.carom_player_fargo(fargo)
     )
-    return made
+    return record
 
 
 class Rating(NamedTuple):
@@ -116,7 +117,7 @@ class Rating(NamedTuple):
     high: float
 
 
-def rating(scores: npt.ArrayLike) -> Rating:
+def rating(scores: ArrayLike) -> Rating:
     """The Fargo rating of a player by games, 200 to 850.
 
     `scores` has a row (against, won, lost) for each opponent: the rating, 0 to 1000, and the games
@@ -124,20 +125,18 @@ def rating(scores: npt.ArrayLike) -> Rating:
     the first game ratings are normal around 400 with a spread of 150, which is a stated choice; a
     player without games is unrated.
     """
-    given = np.ascontiguousarray(as_array(scores, "scores", np.float64))
-    if given.size and (given.ndim != 2 or given.shape[1] != 3):
+    points = np.ascontiguousarray(as_array(scores, "scores", np.float64))
+    if points.size and (points.ndim != 2 or points.shape[1] != 3):
         raise ValueError(
-            f"scores: rows of 3 numbers are needed: against, won, lost; not the shape {given.shape}"
+            f"scores: rows of 3 numbers are needed: against, won, lost; not the shape {points.shape}"
         )
-    made = ffi.new("carom_rating *")
-    if (code := lib.carom_rating_of(pointer("carom_score[]", given), len(given), made)) < 0:
-        raise CaromError(code, f"scores[{made.row}]", given[made.row].tolist())
-    return Rating(made.mean, made.low, made.high)
+    record = ffi.new("carom_rating *")
+    if (code := lib.carom_rating_of(pointer("carom_score[]", points), len(points), record)) < 0:
+        raise CaromError(code, f"scores[{record.row}]", points[record.row].tolist())
+    return Rating(record.mean, record.low, record.high)
 
 
-def with_errors(
-    cue: dtypes.Records, player: dtypes.Records, seed: Seed, number: int = 0
-) -> dtypes.Records:
+def with_errors(cue: Records, player: Records, seed: Seed, number: int = 0) -> Records:
     """The stroke that a player makes of the one that he means, with errors drawn from a seed and
     the number of the stroke.
 
@@ -146,21 +145,21 @@ def with_errors(
     array of `carom.dtypes.cue`, shape ()
         The same for the same arguments, on every machine.
     """
-    made = copied(one_cue(cue))
+    struck = copied(one_cue(cue))
     lib.carom_player_strike(
         _one_player(player),
         seed_of(seed, 2**63 - 1),
         whole(number, "number"),
-        pointer("carom_cue[]", made),
+        pointer("carom_cue[]", struck),
     )
-    return made
+    return struck
 
 
 @dataclass(frozen=True, repr=False)
 class Pot(Arrays):
     """A stroke that pots a ball, and what it may err."""
 
-    cue: dtypes.Records
+    cue: Records
     """An array of `carom.dtypes.cue`, shape ()."""
     cut: float
     """Degrees, of the cue ball on the first ball, which goes to the left of its way where this is
@@ -189,8 +188,8 @@ _WHY_NOT = {
 
 def aim(
     table: Table,
-    balls: dtypes.Records,
-    cue: dtypes.Records,
+    balls: Records,
+    cue: Records,
     *,
     ball: int,
     pocket: int | str,
@@ -228,31 +227,35 @@ def aim(
     layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
     if layout.ndim != 1:
         raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}")
-    made = copied(one_cue(cue))
+    struck = copied(one_cue(cue))
 
     # The ball, the pocket and the way as C knows them.
-    def index(one: int | str, name: str, names: list[str | None], most: int) -> int:
-        if isinstance(one, str):
-            if one not in names:
+    def index(value: int | str, name: str, names: list[str | None], most: int) -> int:
+        if isinstance(value, str):
+            if value not in names:
                 raise ValueError(
-                    f"{name}: it must be one of {', '.join(sorted({known for known in names if known}))}, not {one!r}"
+                    f"{name}: it must be one of {', '.join(sorted({known for known in names if known}))}, not {value!r}"
                 )
-            return names.index(one)
-        if whole(one, name, least=0) >= most:
-            raise ValueError(f"{name}: there are {most}, not {one + 1}")
-        return one
+            return names.index(value)
+        if whole(value, name, least=0) >= most:
+            raise ValueError(f"{name}: there are {most}, not {value + 1}")
+        return value
 
     rails, pockets = table.rail_names, table.pocket_names
     via = several(via, "via", "names of rails and indices of balls are needed")
     way = [
         (
-            lib.CAROM_PART_RAIL if isinstance(one, str) else lib.CAROM_PART_BALL,
-            index(one, "via", rails, len(layout)),
+            lib.CAROM_PART_RAIL if isinstance(step, str) else lib.CAROM_PART_BALL,
+            index(step, "via", rails, len(layout)),
         )
-        for one in via
+        for step in via
     ]
-    met = [one for one in via if not isinstance(one, str)]
-    if len(way) > lib.CAROM_VIA_MOST or len({0, *met}) <= len(met) or ball in met[:-1]:
+    balls_hit = [step for step in via if not isinstance(step, str)]
+    if (
+        len(way) > lib.CAROM_VIA_MOST
+        or len({0, *balls_hit}) <= len(balls_hit)
+        or ball in balls_hit[:-1]
+    ):
         raise ValueError(
             f"via: it must be up to {lib.CAROM_VIA_MOST} names of rails and indices of balls, each once, not the cue ball, and {ball} last, not {list(via)}"
         )
@@ -272,12 +275,12 @@ def aim(
         len(layout),
         shot,
         pot,
-        pointer("carom_cue[]", made),
+        pointer("carom_cue[]", struck),
     )
     if code < 0:
-        raise argument_error(shot_arguments(table, layout, made, shot), layout, made) or CaromError(
-            code, "balls"
-        )
+        raise argument_error(
+            shot_arguments(table, layout, struck, shot), layout, struck
+        ) or CaromError(code, "balls")
     if reason := pot.outcome:
         part = (
             f"ball {pot.met.b}"
@@ -292,7 +295,7 @@ def aim(
         )
         raise ValueError(f"pocket: no such aim at {pocket}: {why}")
     return Pot(
-        made,
+        struck,
         pot.cut,
         pot.margin,
         (pot.phi[0], pot.phi[1]),
@@ -304,9 +307,9 @@ def aim(
 _usual_player = player
 
 
-def _one_player(given: dtypes.Records, name: str = "player") -> Any:
+def _one_player(player: Records, name: str = "player") -> Any:
     """A player for C. It keeps the array that it is made of."""
-    record = copied(of_record(given, dtypes.player, name, "player()"))
+    record = copied(of_record(player, dtypes.player, name, "player()"))
     if record.ndim != 0:
         raise ValueError(f"{name}: one is needed, of shape (), not {record.shape}")
     for field in dtypes.player.names or ():
@@ -316,7 +319,7 @@ def _one_player(given: dtypes.Records, name: str = "player") -> Any:
     return pointer("carom_player[]", record)
 
 
-def _corners(in_hand: Hand | npt.ArrayLike, table: Table, radius: float) -> tuple[Any, Any] | None:
+def _corners(in_hand: Hand | ArrayLike, table: Table, radius: float) -> tuple[Any, Any] | None:
     """The corners for C between which the cue ball is put; NULL: anywhere. None: not in hand."""
     if isinstance(in_hand, str):
         leave = choice({word: LEAVES.get(word, 0) for word in get_args(Hand)}, in_hand, "in_hand")
@@ -360,11 +363,11 @@ class _Job:
     def __init__(
         self,
         table: Table,
-        balls: dtypes.Records,
-        cue: dtypes.Records | None,
+        balls: Records,
+        cue: Records | None,
         game: Made,
-        own: dtypes.Records | None,
-        opponent: dtypes.Records | None,
+        personal: Records | None,
+        opponent: Records | None,
         shots: int | None,
         seed: Seed,
         threads: int,
@@ -385,29 +388,29 @@ class _Job:
         self.shot = shot_options(options)
         if stop is not None and not hasattr(stop, "is_set"):
             raise TypeError(f"stop: a threading.Event is needed, not {stop!r}")
-        wanted = ffi.new(
+        request = ffi.new(
             "carom_plan_options *",
             {
                 "shots": 0 if shots is None else whole(shots, "shots", least=100, most=1_000_000),
                 "seed": seed_of(seed),
             },
         )
-        wanted.threads = whole(threads, "threads", least=-1)
-        wanted.level = whole(level, "level", most=1)
-        wanted.unsure = number(unsure, "unsure")
-        if not 0.0 <= wanted.unsure <= 1.0:
+        request.threads = whole(threads, "threads", least=-1)
+        request.level = whole(level, "level", most=1)
+        request.unsure = number(unsure, "unsure")
+        if not 0.0 <= request.unsure <= 1.0:
             raise ValueError(f"unsure: it must be 0 to 1, not {unsure}")
-        wanted.seconds = number(seconds, "seconds")
-        if not 0.0 <= wanted.seconds <= 1e6:
+        request.seconds = number(seconds, "seconds")
+        if not 0.0 <= request.seconds <= 1e6:
             raise ValueError(f"seconds: they must be 0 to 1e6, not {seconds}")
-        wanted.chance_opponent = whole(run_out, "run_out", most=1)
-        wanted.once = stop is None and seconds == 0.0  # Ctrl-C asks for no choice
-        other = None if opponent is None else _one_player(opponent, "opponent")
-        wanted.opponent = ffi.NULL if other is None else other
-        wanted.stop = game.stop
-        player = _one_player(_usual_player() if own is None else own)
+        request.chance_opponent = whole(run_out, "run_out", most=1)
+        request.once = stop is None and seconds == 0.0  # Ctrl-C asks for no choice
+        rival = None if opponent is None else _one_player(opponent, "opponent")
+        request.opponent = ffi.NULL if rival is None else rival
+        request.stop = game.stop
+        player = _one_player(_usual_player() if personal is None else personal)
         game.check_layout(table, self.layout)
-        memory: Array = np.empty(lib.carom_plan_memory(wanted) // 8 + 1, np.float64)
+        memory: Array = np.empty(lib.carom_plan_memory(request) // 8 + 1, np.float64)
         record = table.record
         self.c = ffi.new(
             "carom_plan_job *",
@@ -419,16 +422,16 @@ class _Job:
                 "player": player,
                 "rules": game.c,
                 "shot": self.shot,
-                "options": wanted,
+                "options": request,
                 "memory": pointer("double[]", memory),
                 "memory_size": memory.nbytes,
             },
         )
-        self.table, self.game, self.stop, self.kept = (
+        self.table, self.game, self.stop, self.references = (
             table,
             game,
             stop,
-            (wanted, other, player, memory, record),
+            (request, rival, player, memory, record),
         )
 
     def call(self, function: Callable[..., int], *arguments: Any, field: str = "balls") -> None:
@@ -447,24 +450,24 @@ class _Job:
 class ByMatch(NamedTuple):
     """A plan that a match makes: its own rules of the caller's, and its call of C."""
 
-    made: Made | None
+    game_record: Made | None
     call: Callable[..., int]
 
 
 def plan(
     table: Table,
-    balls: dtypes.Records,
-    cue: dtypes.Records | None = None,
+    balls: Records,
+    cue: Records | None = None,
     *,
     rules: Game | Rules = "eightball",
     group: Group | None = None,
     opening: bool = False,
     state: GivenState | None = None,
-    player: dtypes.Records | None = None,
-    opponent: dtypes.Records | None = None,
+    player: Records | None = None,
+    opponent: Records | None = None,
     shots: int | None = None,
     seconds: float = 0.0,
-    in_hand: Hand | npt.ArrayLike = "no",
+    in_hand: Hand | ArrayLike = "no",
     best: int = 5,
     seed: Seed = 0,
     threads: int = 0,
@@ -475,7 +478,7 @@ def plan(
     options: Options = _USUAL,
     _by: ByMatch | None = None,
     **changes: Unpack[Changes],
-) -> dtypes.Records:
+) -> Records:
     """Find the best shots of a layout.
 
     Parameters
@@ -551,7 +554,7 @@ def plan(
     layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     radius = float(layout["kind"]["radius"].flat[0]) if layout.size else 0.0
     corners = _corners(in_hand, table, radius)
-    game = (_by and _by.made) or Made(rules, state, group, opening)
+    game = (_by and _by.game_record) or Made(rules, state, group, opening)
     game.stop[0] = 0
     job = _Job(
         table,
@@ -584,15 +587,15 @@ def plan(
 
 def chances(
     table: Table,
-    balls: dtypes.Records,
-    cues: dtypes.Records,
+    balls: Records,
+    cues: Records,
     *,
     rules: Game | Rules = "eightball",
     group: Group | None = None,
     opening: bool = False,
     state: GivenState | None = None,
-    player: dtypes.Records | None = None,
-    opponent: dtypes.Records | None = None,
+    player: Records | None = None,
+    opponent: Records | None = None,
     shots: int = 2000,
     seed: Seed = 0,
     threads: int = 0,
@@ -600,7 +603,7 @@ def chances(
     stop: threading.Event | None = None,
     options: Options = _USUAL,
     **changes: Unpack[Changes],
-) -> dtypes.Records:
+) -> Records:
     """How likely strokes of yours are to win: the chances of each, played with a player's errors.
 
     Parameters
@@ -659,14 +662,14 @@ def chances(
 
 def value(
     table: Table,
-    balls: dtypes.Records,
+    balls: Records,
     *,
     rules: Game | Rules = "eightball",
     group: Group | None = None,
     opening: bool = False,
     state: GivenState | None = None,
-    player: dtypes.Records | None = None,
-    opponent: dtypes.Records | None = None,
+    player: Records | None = None,
+    opponent: Records | None = None,
     in_hand: bool = False,
     options: Options = _USUAL,
     **changes: Unpack[Changes],

@@ -20,11 +20,12 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike
 
-from carom import dtypes, racks
+from carom import racks
 from carom._rows import Array, Arrays, Seed, choice, listing, seed_of
 from carom._shot_options import ShotCushion
+from carom.dtypes import Doubles, Records
 from carom.games._draws import Draws
 from carom.games._quick import quick_stroke
 from carom.games.plans import plan
@@ -60,7 +61,7 @@ class Hand(enum.IntEnum):
 class Position(Arrays):
     """A game between two strokes."""
 
-    balls: dtypes.Records  # (10,) or (16,): The cue ball, then 1 to 9 or 1 to 15
+    balls: Records  # (10,) or (16,): The cue ball, then 1 to 9 or 1 to 15
     player: int  # Whose turn it is, 0 or 1
     hand: Hand  # Whether that player has the cue ball in hand
     state: State  # (): Of the rules, as that player has it, for `carom.plan` and `carom.referee`
@@ -74,8 +75,8 @@ class Position(Arrays):
         """Of player 0 and of player 1 in nine-ball, in consecutive strokes of that player; three
         lose the game.
         """
-        own, other = self.state["fouls"].tolist()
-        return (own, other) if self.player == 0 else (other, own)
+        personal, rival = self.state["fouls"].tolist()
+        return (personal, rival) if self.player == 0 else (rival, personal)
 
 
 @dataclass(frozen=True)
@@ -144,7 +145,7 @@ class Pool:
     # ---- The cue ball in hand
     # -------------------------------------------------------------------------------------------
 
-    def area(self, hand: Hand) -> tuple[dtypes.Doubles, dtypes.Doubles]:
+    def area(self, hand: Hand) -> tuple[Doubles, Doubles]:
         """The lower and the upper corner, m, of the rectangle in which a cue ball in hand is put."""
         low = np.full(2, self.base.radius + 1e-3)
         length = self.table.length / 4.0 if hand is Hand.BEHIND else self.table.length - low[1]
@@ -154,10 +155,10 @@ class Pool:
         self,
         position: Position,
         *,
-        opponent: dtypes.Records | None = None,
+        opponent: Records | None = None,
         shots: int = 500,
         seed: Seed = 0,
-    ) -> dtypes.Doubles:
+    ) -> Doubles:
         """The action, of shape (6,), of the library's planner: a baseline and an opponent for
         agents. It allows for the noise.
 
@@ -175,12 +176,12 @@ class Pool:
     def planned(
         self,
         position: Position,
-        player: dtypes.Records,
-        opponent: dtypes.Records | None,
+        player: Records,
+        opponent: Records | None,
         shots: int,
         seed: Seed,
         level: bool = False,
-    ) -> dtypes.Records:
+    ) -> Records:
         """The best choice of `carom.plan`, of shape (), for a player; actions are strokes of a
         level cue.
         """
@@ -203,11 +204,11 @@ class Pool:
     def stroke_of(
         self,
         position: Position,
-        player: dtypes.Records,
-        opponent: dtypes.Records | None,
+        player: Records,
+        opponent: Records | None,
         shots: int,
         seed: int,
-    ) -> tuple[dtypes.Records, dtypes.Records, tuple[int, int]]:
+    ) -> tuple[Records, Records, tuple[int, int]]:
         """The stroke of a player who thinks for so many shots, without errors: the layout, in which
         he has put a cue ball in hand, the cue and the call.
 
@@ -226,17 +227,17 @@ class Pool:
         """The balls that the player may meet first."""
         return on_of(Made(self.game, position.state), position.balls)
 
-    def put(self, balls: dtypes.Records, hand: Hand, wanted: npt.ArrayLike, draws: Draws) -> None:
+    def put(self, balls: Records, hand: Hand, point: ArrayLike, draws: Draws) -> None:
         """Put the cue ball of a layout where it is wanted, two numbers from -1 to 1, or where that
         is not free, at random.
         """
         low, high = self.area(hand)
-        part = (np.clip(wanted, -1.0, 1.0) + 1.0) / 2.0
+        part = (np.clip(point, -1.0, 1.0) + 1.0) / 2.0
         self.lay(balls, low + (high - low) * part)
         while not self.base.free(balls):
             self.lay(balls, low + (high - low) * draws.uniform(_ONE, 2)[0])
 
-    def lay(self, balls: dtypes.Records, place: npt.ArrayLike) -> None:
+    def lay(self, balls: Records, place: ArrayLike) -> None:
         """Lay the cue ball of layouts (..., balls) to places (..., 2), m, at rest."""
         state = balls["state"]
         state["r"][..., 0, :2], state["r"][..., 0, 2] = place, self.base.radius
@@ -246,25 +247,25 @@ class Pool:
     # ---- Strokes
     # --------------------------------------------------------------------------------------------------------
 
-    def play(self, position: Position, action: npt.ArrayLike) -> tuple[Position, Stroke]:
+    def play(self, position: Position, action: ArrayLike) -> tuple[Position, Stroke]:
         """Play a stroke: the position after it, and what it was."""
-        given = np.asarray(action, dtype=np.float64)
-        if given.shape != (6,) or not np.isfinite(given).all():
-            raise ValueError(f"action: six finite numbers are needed, not {given}")
+        values = np.asarray(action, dtype=np.float64)
+        if values.shape != (6,) or not np.isfinite(values).all():
+            raise ValueError(f"action: six finite numbers are needed, not {values}")
         if position.winner is not None:
             raise ValueError("position: the game has ended")
         balls, draws = position.balls.copy(), position.draws.copy()
         if position.hand:
-            self.put(balls, position.hand, given[4:], draws)
+            self.put(balls, position.hand, values[4:], draws)
         call = (-1, -1)
         if self.game == "eightball":
-            meant = self.played(balls[np.newaxis], self.base.cues(given[np.newaxis, :4]))
+            meant = self.played(balls[np.newaxis], self.base.cues(values[np.newaxis, :4]))
             call = tuple(calls_of(Made(self.game, position.state), balls, meant)[0].tolist())
-        done = self.base.cues(given[:4], draws.seeds(_ONE) if any(self.base.noise) else None)
+        done = self.base.cues(values[:4], draws.seeds(_ONE) if any(self.base.noise) else None)
         return self.struck(replace(position, balls=balls, draws=draws), done, call)
 
     def struck(
-        self, position: Position, cue: dtypes.Records, call: tuple[int, int] = (-1, -1)
+        self, position: Position, cue: Records, call: tuple[int, int] = (-1, -1)
     ) -> tuple[Position, Stroke]:
         """The position after a stroke of a cue, without noise, and what it was; the cue ball has
         been put on the table.
@@ -284,7 +285,7 @@ class Pool:
         ruled.state["may"] = 0
         keeps = ruled.turn in ("keep", "win")
         player = position.player if keeps else 1 - position.player
-        after = replace(
+        outcome = replace(
             position,
             balls=ruled.balls,
             player=player,
@@ -301,7 +302,7 @@ class Pool:
             else ""
         )
         potted = tuple(ball for ball in ruled.potted if ball != 0)
-        return after, Stroke(
+        return outcome, Stroke(
             failed or ruled.foul.text,
             int(ruled.foul),
             ruled.first if ruled.first >= 0 else None,
@@ -309,34 +310,34 @@ class Pool:
             ruled.shot,
         )
 
-    def played(self, layouts: dtypes.Records, cues: dtypes.Records) -> Shots:
+    def played(self, layouts: Records, cues: Records) -> Shots:
         """Strokes of cues from layouts, with features."""
         return simulate_batch(
             self.table, layouts, cues, features=True, cushion_model=self.base.cushion_model
         )
 
-    def tried(self, position: Position, actions: npt.ArrayLike) -> dtypes.Doubles:
+    def tried(self, position: Position, actions: ArrayLike) -> Doubles:
         """What actions of shape (n, 6) give without noise, of shape (n,): 1 for a win, 0.5 where
         the player goes on, 0 where the other plays, -0.5 for a foul, -1 for a loss.
         """
-        given = np.asarray(actions, dtype=np.float64)
-        layouts = np.repeat(position.balls[np.newaxis], len(given), axis=0)
+        values = np.asarray(actions, dtype=np.float64)
+        layouts = np.repeat(position.balls[np.newaxis], len(values), axis=0)
         if position.hand:
             draws = position.draws.copy()
-            for layout, wanted in zip(layouts, given[:, 4:]):
-                self.put(layout, position.hand, wanted, draws)
-        made = Made(self.game, position.state)
-        shots = self.played(layouts, self.base.cues(given[:, :4]))
+            for layout, point in zip(layouts, values[:, 4:]):
+                self.put(layout, position.hand, point, draws)
+        game = Made(self.game, position.state)
+        shots = self.played(layouts, self.base.cues(values[:, :4]))
         turns = judge(
-            made,
+            game,
             layouts,
             shots,
-            calls=calls_of(made, position.balls, shots) if self.game == "eightball" else None,
+            calls=calls_of(game, position.balls, shots) if self.game == "eightball" else None,
         )
         return self.worth(turns)
 
     @staticmethod
-    def worth(turns: Array) -> dtypes.Doubles:
+    def worth(turns: Array) -> Doubles:
         """What strokes are worth to the player, as `tried` has it, by `carom.dtypes.turn`."""
         foul = (turns["foul"] != 0) & (turns["outcome"] != _LOSE)
         return np.where(foul, -0.5, _WORTH[turns["outcome"]])
@@ -344,7 +345,7 @@ class Pool:
     # ---- Observations
     # ---------------------------------------------------------------------------------------------------
 
-    def observe(self, position: Position, player: int) -> dtypes.Doubles:
+    def observe(self, position: Position, player: int) -> Doubles:
         """What a player sees: x, y (m) and 1 in play of each ball, the cue ball first, 30 or 48
         numbers; then three more.
 
@@ -363,15 +364,15 @@ class Pool:
                 ]
             )
         group = int(position.state["group"])
-        own = group if player == position.player or group == 0 else 3 - group
+        group_code = group if player == position.player or group == 0 else 3 - group
         return np.concatenate(
-            [seen, np.array([position.hand, position.state["opening"], own], np.float64)]
+            [seen, np.array([position.hand, position.state["opening"], group_code], np.float64)]
         )
 
-    def seen(self, observation: npt.ArrayLike) -> Position:
+    def seen(self, observation: ArrayLike) -> Position:
         """The position, with player 0 at the table, of an observation of the player at the table."""
-        given = np.asarray(observation, np.float64)
-        hand, second, third = (int(number) for number in given[-3:])
+        values = np.asarray(observation, np.float64)
+        hand, second, third = (int(number) for number in values[-3:])
         given_state = (
             {"opening": hand == Hand.BEHIND, "fouls": (second, third)}
             if self.game == "nineball"
@@ -379,10 +380,16 @@ class Pool:
         )
         state = Made(self.game, given_state).state
         return Position(
-            self.base.layouts(np.append(given[:-3], 0.0)), 0, Hand(hand), state, 0, None, Draws([0])
+            self.base.layouts(np.append(values[:-3], 0.0)),
+            0,
+            Hand(hand),
+            state,
+            0,
+            None,
+            Draws([0]),
         )
 
-    def bounds(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:
+    def bounds(self) -> tuple[Doubles, Doubles]:
         """The least and the most of each number of an observation."""
         low, high = self.base.bounds()
         most = [2.0, 3.0, 3.0] if self.game == "nineball" else [2.0, 1.0, 2.0]

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes, layouts, tables
 from carom._carom import ffi, lib
@@ -37,6 +37,7 @@ from carom._rows import (
     whole,
 )
 from carom._shot_options import Options, ShotCushion, shot_options
+from carom.dtypes import Doubles, Records
 from carom.games import plans
 from carom.games._draws import Draws, Games
 from carom.games.rules import Game as RulesGame
@@ -62,43 +63,41 @@ class Strokes(Arrays):
 
     # (..., balls + 1): The balls at rest after the stroke. A cue ball that was potted is still
     # down.
-    layouts: dtypes.Records
-    rewards: (
-        dtypes.Doubles
-    )  # (...): Balls that were potted, less 1 for a foul; or the result of `reward` of the rules
-    potted: npt.NDArray[np.int64]  # (...): Balls that were potted, without the cue ball
-    scratch: npt.NDArray[np.bool_]  # (...): Whether the cue ball was potted
-    foul: npt.NDArray[np.int32]  # (...): As `carom.Foul`; 0 for none
+    layouts: Records
+    rewards: Doubles  # (...): Balls that were potted, less 1 for a foul; or the result of `reward` of the rules
+    potted: NDArray[np.int64]  # (...): Balls that were potted, without the cue ball
+    scratch: NDArray[np.bool_]  # (...): Whether the cue ball was potted
+    foul: NDArray[np.int32]  # (...): As `carom.Foul`; 0 for none
     # (...): As `carom.Status`. After an error, or where a ball left the table, the stroke is a
     # foul, and the balls stay where they were.
-    status: npt.NDArray[np.int8]
-    time: dtypes.Doubles  # (...): How long the balls moved, s
-    cleared: npt.NDArray[np.bool_]  # (...): Whether all balls but the cue ball are down
+    status: NDArray[np.int8]
+    time: Doubles  # (...): How long the balls moved, s
+    cleared: NDArray[np.bool_]  # (...): Whether all balls but the cue ball are down
 
 
 class Turned(NamedTuple):
     """What a stroke of each of some games was, for the environments."""
 
-    struck: dtypes.Records  # (..., balls + 1): The layouts as they were struck
-    cues: dtypes.Records  # (...): The strikes, with the noise
+    struck: Records  # (..., balls + 1): The layouts as they were struck
+    cues: Records  # (...): The strikes, with the noise
     strokes: Strokes
-    ended: npt.NDArray[np.bool_]  # (...): Whether the game is over, whatever strokes are left
+    ended: NDArray[np.bool_]  # (...): Whether the game is over, whatever strokes are left
 
 
-def in_space(actions: npt.ArrayLike, shape: tuple[int, ...], name: str) -> dtypes.Doubles:
+def in_space(actions: ArrayLike, shape: tuple[int, ...], name: str) -> Doubles:
     """The actions that an environment is given: numbers of its space, from -1 to 1, of a shape."""
-    given = as_array(actions, name, np.float64)
-    if given.shape != shape:
-        raise ValueError(f"{name}: the shape must be {shape}, not {given.shape}")
+    array = as_array(actions, name, np.float64)
+    if array.shape != shape:
+        raise ValueError(f"{name}: the shape must be {shape}, not {array.shape}")
     # in single precision, as policies give them, 1 may be a little more
-    outside = ~(np.abs(given) <= 1.0 + 1e-6)
+    outside = ~(np.abs(array) <= 1.0 + 1e-6)
     if outside.any():
         where = tuple(int(k) for k in np.argwhere(outside)[0])
         raise ValueError(
-            f"{name}: each number must be from -1 to 1, not {given[where]:g}, which is at {list(where)}; "
+            f"{name}: each number must be from -1 to 1, not {array[where]:g}, which is at {list(where)}; "
             "np.clip or gymnasium.wrappers.ClipAction brings it there"
         )
-    return given
+    return array
 
 
 class Potting:
@@ -161,24 +160,25 @@ class Potting:
         ball_set: Game = "pool",
         noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
         parameters: Mapping[str, tuple[float, float]] | None = None,
-        reward: Callable[[dtypes.Records, Strokes], npt.ArrayLike] | None = None,
+        reward: Callable[[Records, Strokes], ArrayLike] | None = None,
         speeds: tuple[float, float] = (0.5, 7.0),
         cushion_model: ShotCushion = "default",
         threads: int = 0,
     ) -> None:
         whole(balls, "balls", least=1, most=15)
         whole(strokes, "strokes", least=1)
-        wanted = "two speeds are needed, the least and the most, m/s"
+        requirement = "two speeds are needed, the least and the most, m/s"
         speeds_given = [
-            number(speed, "speeds", wanted) for speed in several(speeds, "speeds", wanted)
+            number(speed, "speeds", requirement) for speed in several(speeds, "speeds", requirement)
         ]
         if len(speeds_given) != 2 or not 0.0 < speeds_given[0] <= speeds_given[1] < np.inf:
             raise ValueError(
                 f"speeds: must be the least and the most, positive and finite, not {speeds}"
             )
-        wanted = "three standard deviations are needed, of degrees, m/s and radii"
+        requirement = "three standard deviations are needed, of degrees, m/s and radii"
         deviations = [
-            number(deviation, "noise", wanted) for deviation in several(noise, "noise", wanted)
+            number(deviation, "noise", requirement)
+            for deviation in several(noise, "noise", requirement)
         ]
         if len(deviations) != 3 or not all(0.0 <= deviation < np.inf for deviation in deviations):
             raise ValueError(
@@ -280,7 +280,7 @@ class Potting:
     # ---- Actions and observations
     # ---------------------------------------------------------------------------------------
 
-    def bounds(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:
+    def bounds(self) -> tuple[Doubles, Doubles]:
         """The least and the most of each number of an observation; balls may rest in the mouth of a
         pocket, beyond the cushions.
         """
@@ -292,37 +292,35 @@ class Potting:
         )
         return low, high
 
-    def cues(
-        self, actions: npt.ArrayLike, seeds: npt.NDArray[np.uint64] | None = None
-    ) -> dtypes.Records:
+    def cues(self, actions: ArrayLike, seeds: NDArray[np.uint64] | None = None) -> Records:
         """The strikes of actions, of shape (..., acts): `carom.dtypes.cue` of shape (...).
 
         With seeds, of shape (...), they err by the noise, as `carom.with_errors` has it.
         """
-        given = np.ascontiguousarray(actions, dtype=np.float64)
-        if given.shape[-1] == self.acts:
-            cues: dtypes.Records = np.empty(given.shape[:-1], dtypes.cue)
+        values = np.ascontiguousarray(actions, dtype=np.float64)
+        if values.shape[-1] == self.acts:
+            cues: Records = np.empty(values.shape[:-1], dtypes.cue)
             drawn = ffi.NULL if seeds is None else pointer("uint64_t[]", seeds)
             if lib.carom_python_cues(
                 self._c,
                 cues.size,
-                pointer("double[]", given),
+                pointer("double[]", values),
                 self.acts,
                 drawn,
                 pointer("carom_cue[]", cues),
             ):
                 return cues
         raise ValueError(
-            f"actions: finite numbers of shape (..., {self.acts}) are needed, not of shape {given.shape}: {given}"
+            f"actions: finite numbers of shape (..., {self.acts}) are needed, not of shape {values.shape}: {values}"
         )
 
     def actions(
         self,
-        phi: npt.ArrayLike,
-        speed: npt.ArrayLike,
-        a: npt.ArrayLike = 0.0,
-        b: npt.ArrayLike = 0.0,
-    ) -> dtypes.Doubles:
+        phi: ArrayLike,
+        speed: ArrayLike,
+        a: ArrayLike = 0.0,
+        b: ArrayLike = 0.0,
+    ) -> Doubles:
         """The actions, of shape (..., 4), of directions (degrees), speeds (m/s) and places of the
         tip (radii), of shape (...).
         """
@@ -341,47 +339,45 @@ class Potting:
         )
         return np.stack(parts, axis=-1)
 
-    def observe(
-        self, balls: dtypes.Records, strokes_left: npt.ArrayLike, words: object = None
-    ) -> dtypes.Doubles:
+    def observe(self, balls: Records, strokes_left: ArrayLike, words: object = None) -> Doubles:
         """What an agent sees of layouts, of shape (..., balls + 1): of shape (..., 3 (balls + 1) +
         1).
         """
-        given = np.ascontiguousarray(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
-        count = given.shape[-1]
-        seen = np.empty((*given.shape[:-1], 3 * count + 1))
+        layouts = np.ascontiguousarray(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
+        count = layouts.shape[-1]
+        seen = np.empty((*layouts.shape[:-1], 3 * count + 1))
         lib.carom_python_seen(
-            pointer("carom_shot_ball[]", given),
-            given.size // count,
+            pointer("carom_shot_ball[]", layouts),
+            layouts.size // count,
             count,
             pointer("double[]", seen),
         )
         seen[..., -1] = strokes_left
         return seen
 
-    def layouts(self, observations: npt.ArrayLike) -> dtypes.Records:
+    def layouts(self, observations: ArrayLike) -> Records:
         """The balls of observations: `carom.dtypes.shot_ball` of shape (..., balls + 1)."""
-        given = np.asarray(observations, dtype=np.float64)
-        seen = given[..., :-1].reshape((*given.shape[:-1], self.balls + 1, 3))
+        values = np.asarray(observations, dtype=np.float64)
+        seen = values[..., :-1].reshape((*values.shape[:-1], self.balls + 1, 3))
         return self._balls(seen[..., :2], seen[..., 2] != 0.0)
 
-    def _balls(self, centres: dtypes.Doubles, in_play: npt.NDArray[np.bool_]) -> dtypes.Records:
+    def _balls(self, centres: Doubles, in_play: NDArray[np.bool_]) -> Records:
         """Balls at rest, those that are not in play in a pocket."""
-        made = repeated(self._ball, dtypes.shot_ball, centres.shape[:-1])
-        made["state"]["r"][..., :2] = centres
-        made["state"]["label"] = np.where(in_play, _STATIONARY, _POCKETED)
-        return made
+        records = repeated(self._ball, dtypes.shot_ball, centres.shape[:-1])
+        records["state"]["r"][..., :2] = centres
+        records["state"]["label"] = np.where(in_play, _STATIONARY, _POCKETED)
+        return records
 
-    def player(self) -> dtypes.Records:
+    def player(self) -> Records:
         """The player with the noise, the speeds and the tip of this game, for `carom.plan`."""
-        made = plans.player(0.0)
-        made["phi"], made["a"], made["b"] = self.noise[0], self.noise[2], self.noise[2]
+        record = plans.player(0.0)
+        record["phi"], record["a"], record["b"] = self.noise[0], self.noise[2], self.noise[2]
         # of a cue whose tip loses nothing
-        made["speed"] = self.noise[1] * (1.0 + float(layouts.cue()["tip_restitution"])) / 2.0
-        made["speed_least"], made["speed_most"], made["tip_most"] = *self.speeds, 0.35
-        return made
+        record["speed"] = self.noise[1] * (1.0 + float(layouts.cue()["tip_restitution"])) / 2.0
+        record["speed_least"], record["speed_most"], record["tip_most"] = *self.speeds, 0.35
+        return record
 
-    def best(self, balls: dtypes.Records, *, shots: int = 500, seed: Seed = 0) -> dtypes.Doubles:
+    def best(self, balls: Records, *, shots: int = 500, seed: Seed = 0) -> Doubles:
         """The action, of shape (4,), of the library's planner for a layout of shape (balls + 1,): a
         baseline for agents.
 
@@ -402,13 +398,11 @@ class Potting:
         )["cue"][0]
         return self.actions(found["phi"], found["speed"], found["a"], found["b"])
 
-    def best_seen(
-        self, observation: npt.ArrayLike, *, shots: int = 500, seed: Seed = 0
-    ) -> dtypes.Doubles:
+    def best_seen(self, observation: ArrayLike, *, shots: int = 500, seed: Seed = 0) -> Doubles:
         """The action, of shape (acts,), of the library's planner for an observation."""
         return self.best(self.layouts(observation), shots=shots, seed=seed)
 
-    def tried(self, observation: npt.ArrayLike, actions: npt.ArrayLike) -> dtypes.Doubles:
+    def tried(self, observation: ArrayLike, actions: ArrayLike) -> Doubles:
         """What actions of shape (..., acts) are worth for the next stroke alone, without noise, of
         shape (...): here their rewards.
         """
@@ -417,61 +411,61 @@ class Potting:
     # ---- The game
     # -------------------------------------------------------------------------------------------------------
 
-    def deal(self, draws: Draws, games: Games) -> dtypes.Records:
+    def deal(self, draws: Draws, games: Games) -> Records:
         """Random layouts of some games, of shape (len(games), balls + 1), with random parameters."""
-        made = repeated(self._ball, dtypes.shot_ball, (len(games), self.balls + 1))
-        self._place(made, draws, games, self.balls + 1)
+        layouts = repeated(self._ball, dtypes.shot_ball, (len(games), self.balls + 1))
+        self._place(layouts, draws, games, self.balls + 1)
         for name, (low, high) in self.parameters.items():
-            made["kind"][name] = low + (high - low) * draws.uniform(games, 1)
-        return made
+            layouts["kind"][name] = low + (high - low) * draws.uniform(games, 1)
+        return layouts
 
-    def layout(self, centres: npt.ArrayLike) -> dtypes.Records:
+    def layout(self, centres: ArrayLike) -> Records:
         """A layout of shape (balls + 1,) with centres (m) of shape (balls + 1, 2), which are
         checked.
         """
-        given = np.asarray(centres, dtype=np.float64)
-        if given.shape != (self.balls + 1, 2):
+        places = np.asarray(centres, dtype=np.float64)
+        if places.shape != (self.balls + 1, 2):
             raise ValueError(
-                f"layout: the shape must be ({self.balls + 1}, 2), the cue ball first, not {given.shape}"
+                f"layout: the shape must be ({self.balls + 1}, 2), the cue ball first, not {places.shape}"
             )
-        layout = self._balls(given, np.ones(self.balls + 1, np.bool_))
+        layout = self._balls(places, np.ones(self.balls + 1, np.bool_))
         simulate(
             self.table, layout
         )  # without a strike: raises CaromError where balls overlap or are not on the table
         return layout
 
-    def put_back(self, balls: dtypes.Records, draws: Draws, games: Games) -> None:
+    def put_back(self, balls: Records, draws: Draws, games: Games) -> None:
         """Put the cue balls of some games, layouts of shape (len(games), balls + 1), back on the
         table, at random.
         """
         self._place(balls, draws, games, 1)
 
-    def _place(self, balls: dtypes.Records, draws: Draws, games: Games, many: int) -> None:
+    def _place(self, balls: Records, draws: Draws, games: Games, many: int) -> None:
         """Place the first balls of layouts, drawn together until all are clear of each other, of
         what is fixed, and of the others in play.
         """
-        at = draws.at[games]
+        keys = draws.keys[games]
         if not lib.carom_python_place(
             self._c,
             len(games),
-            pointer("uint64_t[]", at),
+            pointer("uint64_t[]", keys),
             many,
             pointer("carom_shot_ball[]", balls),
         ):
             raise ValueError(
                 f"table: no free places for {many} balls in 10,000 draws: it is too small for {self.balls}"
             )
-        draws.at[games] = at
+        draws.keys[games] = keys
 
-    def free(self, balls: dtypes.Records) -> bool:
+    def free(self, balls: Records) -> bool:
         """Whether the cue ball of a layout is clear of the others in play, of pockets and of jaws."""
         return bool(lib.carom_python_free(self._c, pointer("carom_shot_ball[]", balls), 1))
 
-    def placed(self, balls: dtypes.Records, actions: npt.ArrayLike) -> dtypes.Records:
+    def placed(self, balls: Records, actions: ArrayLike) -> Records:
         """The layouts with what actions place: here nothing."""
         return balls
 
-    def play(self, balls: dtypes.Records, actions: npt.ArrayLike) -> Strokes:
+    def play(self, balls: Records, actions: ArrayLike) -> Strokes:
         """Play strokes.
 
         Parameters
@@ -489,7 +483,7 @@ class Potting:
         laid = of_record(balls, dtypes.shot_ball, "balls", "balls()")
         return self._played(self.placed(laid, actions), self.cues(actions))
 
-    def _played(self, balls: dtypes.Records, cues: dtypes.Records) -> Strokes:
+    def _played(self, balls: Records, cues: Records) -> Strokes:
         """Strikes from layouts, which are broadcast against each other."""
         shape = (
             cues.shape
@@ -499,48 +493,51 @@ class Potting:
         lead, count = len(shape), balls.shape[-1]
         if count != self.balls + 1:
             raise ValueError(f"balls: the shape must be (..., {self.balls + 1}), not {balls.shape}")
-        before, one = one_or_all(balls, (*shape, count), lead)
+        previous, is_single = one_or_all(balls, (*shape, count), lead)
         strikes, one_cue = one_or_all(cues, shape, lead)
-        after, made = np.empty((*shape, count), dtypes.shot_ball), np.empty(shape, _STROKE)
-        given = (
-            pointer("carom_shot_ball[]", before),
-            0 if one else count,
+        outcomes, records = np.empty((*shape, count), dtypes.shot_ball), np.empty(shape, _STROKE)
+        pointers = (
+            pointer("carom_shot_ball[]", previous),
+            0 if is_single else count,
             pointer("carom_cue[]", strikes),
             0 if one_cue else 1,
         )
-        written = (pointer("carom_shot_ball[]", after), pointer("carom_python_stroke[]", made))
+        written = (
+            pointer("carom_shot_ball[]", outcomes),
+            pointer("carom_python_stroke[]", records),
+        )
         code = in_chunks(
-            made.size,
+            records.size,
             5e-5,
             self.threads,
             lambda begin, many: int(
-                lib.carom_python_strokes(self._c, begin, many, *given, *written)
+                lib.carom_python_strokes(self._c, begin, many, *pointers, *written)
             ),
         )
-        if code < 0 and not (made["status"] < 0).any():
+        if code < 0 and not (records["status"] < 0).any():
             raise CaromError(code, "table")
         strokes = Strokes(
-            after,
-            made["reward"],
-            made["potted"],
-            made["scratch"],
-            made["foul"],
-            made["status"],
-            made["time"],
-            made["cleared"],
+            outcomes,
+            records["reward"],
+            records["potted"],
+            records["scratch"],
+            records["foul"],
+            records["status"],
+            records["time"],
+            records["cleared"],
         )
         if self.reward is not None:
-            own = np.asarray(
-                self.reward(np.broadcast_to(balls, after.shape), strokes), dtype=np.float64
+            seat_numbers = np.asarray(
+                self.reward(np.broadcast_to(balls, outcomes.shape), strokes), dtype=np.float64
             )
-            strokes = replace(strokes, rewards=np.broadcast_to(own, shape).copy())
+            strokes = replace(strokes, rewards=np.broadcast_to(seat_numbers, shape).copy())
         return strokes
 
     def turn(
         self,
-        balls: dtypes.Records,
-        words: npt.NDArray[np.uint64],
-        actions: npt.ArrayLike,
+        balls: Records,
+        words: NDArray[np.uint64],
+        actions: ArrayLike,
         draws: Draws,
         games: Games,
     ) -> Turned:
@@ -554,11 +551,11 @@ class Potting:
         strokes = self._played(struck, cues)
         if np.count_nonzero(strokes.scratch):
             back = np.flatnonzero(strokes.scratch)
-            again = raw(strokes.layouts)[back].view(dtypes.shot_ball)
-            self.put_back(again, draws, games[back])
-            raw(strokes.layouts)[back] = raw(again)
+            layouts = raw(strokes.layouts)[back].view(dtypes.shot_ball)
+            self.put_back(layouts, draws, games[back])
+            raw(strokes.layouts)[back] = raw(layouts)
         return Turned(struck, cues, strokes, strokes.cleared)
 
-    def shot(self, balls: dtypes.Records, cue: dtypes.Records | None) -> Shot:
+    def shot(self, balls: Records, cue: Records | None) -> Shot:
         """One stroke with its events, for looking at; without a cue the balls lie still."""
         return simulate(self.table, balls, cue, cushion_model=self.cushion_model)

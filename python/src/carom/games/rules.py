@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, cast, get_args
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -25,9 +25,11 @@ from carom._rows import (
     number,
     pointer,
     several,
+    text_of,
     whole,
 )
 from carom._shot_options import Options
+from carom.dtypes import Records
 from carom.layouts import LAST, Table, of_record, one_cue
 from carom.results import Label, Shot, Shots
 from carom.shots import simulate_batch
@@ -43,8 +45,8 @@ __dir__ = listing(__name__)
 
 Game = RulesWord
 Group = Literal["open", "solids", "stripes"]
-State = npt.NDArray[Any]
-GivenState = Mapping[str, Any] | npt.ArrayLike
+State = NDArray[Any]
+GivenState = Mapping[str, Any] | ArrayLike
 Hand = Literal["no", "anywhere", "kitchen", "d", "baulk"]
 GAMES = {word: k for k, word in enumerate(get_args(RulesWord))}
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
@@ -76,7 +78,7 @@ class Foul(enum.IntEnum):
     @property
     def text(self) -> str:
         """Why, in words."""
-        return str(ffi.string(lib.carom_foul_string(self)).decode())
+        return text_of(lib.carom_foul_string(self))
 
 
 _A_LIST = "whole numbers are needed"
@@ -124,12 +126,12 @@ def _facts(record: Any) -> Facts:
     down = sorted(of_set(record.down), key=lambda ball: record.pocket_time[ball])
     potted = {ball: int(record.pocket[ball]) for ball in down}
     first, second = record.first
-    before = (record.cushions_before[0], record.cushions_before[1])
-    sets = [of_set(of) for of in (record.off, record.frozen, record.pushed, record.jumped)]
+    cushions = (record.cushions_before[0], record.cushions_before[1])
+    sets = [of_set(mask) for mask in (record.off, record.frozen, record.pushed, record.jumped)]
     return Facts(
         first,
         second,
-        before,
+        cushions,
         potted,
         sets[0],
         tuple(record.cushions),
@@ -212,7 +214,7 @@ class Rules:
         """
         return range(8)
 
-    def value(self, state: list[int], layout: dtypes.Records, in_hand: bool) -> float:
+    def value(self, state: list[int], layout: Records, in_hand: bool) -> float:
         """The chance that the player at the table wins from a layout, 0 to 1: an array of
         `carom.dtypes.ball_state`, shape (balls,). Without an opponent: how many balls the player is
         still going to pot.
@@ -229,7 +231,7 @@ class Rules:
         """
         raise NotImplementedError
 
-    def settle(self, state: list[int], table: Table, balls: dtypes.Records, turn: Turn) -> Turn:
+    def settle(self, state: list[int], table: Table, balls: Records, turn: Turn) -> Turn:
         """Do what depends on the places of the balls after a stroke that was judged: return the
         turn, changed or not. `balls` is an array of `carom.dtypes.shot_ball`, shape (balls,); what
         is written to it and to `state` stays.
@@ -253,10 +255,10 @@ _OPTIONAL = ("pockets", "value", "points", "settle")
 _CHANCE = "a chance of 0 to 1 is needed, or without an opponent a number of balls"
 
 
-def _array_of(at: Any, count: int, of: np.dtype[Any]) -> Array:
+def _array_of(address: Any, count: int, dtype: np.dtype[Any]) -> Array:
     """Records of C, which are written where they are."""
-    made: Array = np.frombuffer(ffi.buffer(at, count * of.itemsize), of)
-    return made
+    array: Array = np.frombuffer(ffi.buffer(address, count * dtype.itemsize), dtype)
+    return array
 
 
 def _turn_of(turn: Any) -> Turn:
@@ -272,21 +274,21 @@ def _turn_of(turn: Any) -> Turn:
     )
 
 
-def _write_turn(to: Any, turn: Any, method: str) -> None:
+def _write_turn(target: Any, turn: Any, method: str) -> None:
     """What a method of rules returned, to a turn of C."""
     if not isinstance(turn, Turn):
         raise TypeError(f"{method}: it must return a carom.Turn, not {turn!r}")
-    to.outcome = choice(_TURNS, turn.turn, "Turn.turn")
-    to.leave = choice(LEAVES, turn.leave, "Turn.leave")
-    to.foul, to.spot = int(turn.foul), _set_of(turn.spot, "Turn.spot")
-    to.points = _finite(turn.points, "Turn.points", "points are needed")
+    target.outcome = choice(_TURNS, turn.turn, "Turn.turn")
+    target.leave = choice(LEAVES, turn.leave, "Turn.leave")
+    target.foul, target.spot = int(turn.foul), _set_of(turn.spot, "Turn.spot")
+    target.points = _finite(turn.points, "Turn.points", "points are needed")
 
 
 def _finite(value: object, name: str, needed: str) -> float:
-    made = number(value, name, needed)
-    if not np.isfinite(made):
-        raise ValueError(f"{name}: {needed}, not {made}")
-    return made
+    finite = number(value, name, needed)
+    if not np.isfinite(finite):
+        raise ValueError(f"{name}: {needed}, not {finite}")
+    return finite
 
 
 def _check_settled(table: Any, balls: Any, count: int, turn: Any) -> None:
@@ -309,7 +311,7 @@ class Made:
         opening: bool = False,
     ) -> None:
         self.raised: BaseException | None = None
-        self.kept: list[Any] = []
+        self.callbacks: list[Any] = []
         self.rules = rules
         self.stop = ffi.new("int32_t *")
         """Of plans; set by an exception."""
@@ -346,7 +348,7 @@ class Made:
             )
             if wrong:
                 raise ValueError(
-                    f"{ffi.string(wrong).decode()}: by the rules {rules} it must be {ffi.string(limits[0]).decode()}"
+                    f"{text_of(wrong)}: by the rules {rules} it must be {text_of(limits[0])}"
                 )
 
     @property
@@ -356,18 +358,18 @@ class Made:
             bytearray(ffi.buffer(ffi.addressof(self.c, "state"))), dtypes.rules_state
         ).reshape(())
 
-    def _stand(self, given: Any) -> None:
+    def _stand(self, values: Any) -> None:
         """A record; or of a game some members by their names, of rules of one's own eight words."""
-        members: Any = given
+        members: Any = values
         if isinstance(self.rules, Rules):
-            words = as_array(given, "state")
+            words = as_array(values, "state")
             if words.shape != (_WORDS,) or words.dtype.kind not in "iu" or (words < 0).any():
                 raise ValueError(
-                    f"state: {_WORDS} whole numbers, at least 0, are needed, not {given!r}"
+                    f"state: {_WORDS} whole numbers, at least 0, are needed, not {values!r}"
                 )
             members = {"user": words}
-        elif not isinstance(given, Mapping):
-            record = of_record(given, dtypes.rules_state, "state", "referee().state")
+        elif not isinstance(values, Mapping):
+            record = of_record(values, dtypes.rules_state, "state", "referee().state")
             members = {name: record[name] for name in _MEMBERS}
         for name, value in members.items():
             if not hasattr(self.c.state, name):
@@ -402,14 +404,14 @@ class Made:
             state = list(game.user)
             turn = rules.judge(state, of_set(in_play), _facts(facts), (call.ball, call.pocket))
             keep(game, state, "judge")
-            made = ffi.new("carom_turn *")
-            _write_turn(made, turn, "judge")
-            there = of_set(made.spot & (in_play & ~(facts.down | facts.off) | 1))
-            if there:
+            c_turn = ffi.new("carom_turn *")
+            _write_turn(c_turn, turn, "judge")
+            spots = of_set(c_turn.spot & (in_play & ~(facts.down | facts.off) | 1))
+            if spots:
                 raise ValueError(
-                    f"Turn.spot: balls come back that are down or off the table, not the cue ball, and not {sorted(there)}"
+                    f"Turn.spot: balls come back that are down or off the table, not the cue ball, and not {sorted(spots)}"
                 )
-            return made[0]
+            return c_turn[0]
 
         def left(game: Any, in_play: int, out: Any) -> None:
             both = several(rules.left(list(game.user), of_set(in_play)), "left", _A_LIST)
@@ -425,24 +427,24 @@ class Made:
 
         def value(game: Any, layout: Any, count: int, in_hand: int) -> float:
             states = _array_of(layout, count, dtypes.ball_state).copy()
-            made = _finite(rules.value(list(game.user), states, bool(in_hand)), "value", _CHANCE)
-            if not 0.0 <= made <= (count if rules.race == "alone" else 1.0):
-                raise ValueError(f"value: {_CHANCE}, not {made}")
-            return made
+            worth = _finite(rules.value(list(game.user), states, bool(in_hand)), "value", _CHANCE)
+            if not 0.0 <= worth <= (count if rules.race == "alone" else 1.0):
+                raise ValueError(f"value: {_CHANCE}, not {worth}")
+            return worth
 
         def points(game: Any, in_play: int, ball: int) -> float:
-            made = rules.points(list(game.user), of_set(in_play), ball)
-            return _finite(made, "points", "points are needed")
+            points = rules.points(list(game.user), of_set(in_play), ball)
+            return _finite(points, "points", "points are needed")
 
         def settle(game: Any, table: Any, balls: Any, count: int, turn: Any) -> None:
             if self.raised is not None:
                 return  # judge() has no turn that could be settled
             state = list(game.user)
             on_table = Table.from_record(_array_of(table, 1, dtypes.table)[0])
-            there = _array_of(balls, count, dtypes.shot_ball)
-            made = rules.settle(state, on_table, there, _turn_of(turn))
+            layout = _array_of(balls, count, dtypes.shot_ball)
+            word = rules.settle(state, on_table, layout, _turn_of(turn))
             keep(game, state, "settle")
-            _write_turn(turn, made, "settle")
+            _write_turn(turn, word, "settle")
             _check_settled(table, balls, count, turn)
 
         lost = ffi.new("carom_turn *", {"outcome": lib.CAROM_TURN_LOSE})[0]
@@ -459,10 +461,10 @@ class Made:
             # The library has its own of those that a class may leave out.
             if name in _OPTIONAL and getattr(type(rules), name) is getattr(Rules, name):
                 continue
-            self.kept.append(guarded(f"carom_rules_{name} *", call, otherwise))
-            setattr(self.c, name, self.kept[-1])
+            self.callbacks.append(guarded(f"carom_rules_{name} *", call, otherwise))
+            setattr(self.c, name, self.callbacks[-1])
 
-    def check_layout(self, table: Table, layout: dtypes.Records) -> None:
+    def check_layout(self, table: Table, layout: Records) -> None:
         """Refuses what is no layout of the game, for a plan."""
         pockets = len(table.pocket_names)
         is_named = isinstance(self.rules, str)
@@ -503,12 +505,12 @@ class Made:
             raise self.raised
 
 
-_bits: npt.NDArray[np.uint32] = np.uint32(1) << np.arange(32, dtype=np.uint32)
+_bits: NDArray[np.uint32] = np.uint32(1) << np.arange(32, dtype=np.uint32)
 
 
 def judge(
-    made: Made,
-    before: dtypes.Records,
+    game: Made,
+    layout: Records,
     shots: Shots,
     states: State | None = None,
     calls: Array | None = None,
@@ -519,11 +521,11 @@ def judge(
     `states` are changed; by default each shot has that of the rules. `calls` are int32 of shape
     (..., 2); by default none.
     """
-    label = before["state"]["label"]
+    label = layout["state"]["label"]
     in_play = ((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]
     turns: Array = np.zeros(shots.shape, dtypes.turn)
     lib.carom_python_judge(
-        made.c,
+        game.c,
         turns.size,
         pointer("int8_t[]", shots.status),
         pointer("carom_facts[]", shots._facts),
@@ -532,19 +534,19 @@ def judge(
         ffi.NULL if states is None else pointer("carom_rules_state[]", states),
         pointer("carom_turn[]", turns),
     )
-    made.check()
+    game.check()
     return turns
 
 
-def on_of(made: Made, layout: dtypes.Records) -> tuple[int, ...]:
+def on_of(game: Made, layout: Records) -> tuple[int, ...]:
     """The balls of a layout, of shape (balls,), that may be met first."""
     label = layout["state"]["label"]
     return tuple(
         sorted(
             of_set(
                 int(
-                    made.c.on(
-                        ffi.addressof(made.c, "state"),
+                    game.c.on(
+                        ffi.addressof(game.c, "state"),
                         int(((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]),
                     )
                 )
@@ -553,14 +555,14 @@ def on_of(made: Made, layout: dtypes.Records) -> tuple[int, ...]:
     )
 
 
-def calls_of(made: Made, layout: dtypes.Records, shots: Shots) -> Array:
+def calls_of(game: Made, layout: Records, shots: Shots) -> Array:
     """The calls of shots with facts from a layout, int32 of shape (..., 2): the first ball on that
     falls, and its pocket; or -1, -1.
     """
     facts: Any = shots._facts
     falls = np.full(facts["pocket_time"].shape, np.inf)
-    on = [*on_of(made, layout)]
-    falls[..., on] = facts["pocket_time"][..., on]
+    targets = [*on_of(game, layout)]
+    falls[..., targets] = facts["pocket_time"][..., targets]
     ball = falls.argmin(axis=-1)
     pocket = np.take_along_axis(facts["pocket"], ball[..., np.newaxis], axis=-1)[..., 0]
     calls: Array = np.stack([np.where(pocket < 0, -1, ball), pocket], axis=-1).astype(np.int32)
@@ -583,8 +585,8 @@ class Ruling(Arrays):
     first: int  # The ball that the cue ball met first, -1 for none
     points: float
     balls: (
-        dtypes.Records
-    )  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
+        Records  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
+    )
     put: frozenset[int]  # Balls that lie elsewhere than the shot left them
     # (): How the game stands for the next player, `carom.dtypes.rules_state`; of rules of one's own
     # eight numbers
@@ -601,8 +603,8 @@ class Ruling(Arrays):
 
 def referee(
     table: Table,
-    balls: dtypes.Records,
-    cue: dtypes.Records,
+    balls: Records,
+    cue: Records,
     *,
     rules: Game | Rules = "eightball",
     group: Group | None = None,
@@ -638,8 +640,8 @@ def referee(
         taken back.
     """
     layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
-    made = Made(rules, state, group, opening)
-    made.check_count(layout.shape[-1])
+    game = Made(rules, state, group, opening)
+    game.check_count(layout.shape[-1])
     strike = one_cue(cue).copy()
     if call[0] <= lib.CAROM_CALL_PASS:  # a choice without a stroke
         strike["speed"] = 0.0
@@ -668,7 +670,7 @@ def referee(
         [whole(call[0], "call", least=lib.CAROM_CALL_SPOT), whole(call[1], "call", least=-1)],
     )
     code = lib.carom_referee(
-        made.c,
+        game.c,
         pointer("carom_table *", table.record),
         pointer("carom_shot_ball[]", layout),
         len(layout),
@@ -677,7 +679,7 @@ def referee(
         called[0],
         ruling,
     )
-    made.check()
+    game.check()
     beyond = [ball for ball in of_set(ruling.turn.spot) if ball >= len(layout)]
     if beyond:
         raise ValueError(f"Turn.spot: there are {len(layout)} balls, none is {beyond[0]}")
@@ -690,14 +692,14 @@ def words_of(ruling: Any) -> str:
     """A ruling of C in words."""
     words = ffi.new("char[]", 256)
     lib.carom_ruling_string(ruling, words, 256)
-    return str(ffi.string(words).decode())
+    return text_of(words)
 
 
 def ruling_of(ruling: Any, count: int, is_own: bool, shot: Shot) -> Ruling:
     """A ruling of C for so many balls."""
     facts, turn = _facts(ffi.addressof(ruling, "facts")), ruling.turn
     size = count * dtypes.shot_ball.itemsize
-    after = np.frombuffer(ffi.buffer(ruling.balls, size), dtypes.shot_ball).copy()
+    layout = np.frombuffer(ffi.buffer(ruling.balls, size), dtypes.shot_ball).copy()
     state = (
         np.frombuffer(ffi.buffer(ffi.addressof(ruling, "state")), dtypes.rules_state)
         .copy()
@@ -710,7 +712,7 @@ def ruling_of(ruling: Any, count: int, is_own: bool, shot: Shot) -> Ruling:
         tuple(facts.potted),
         facts.first,
         turn.points,
-        after,
+        layout,
         of_set(ruling.put),
         state["user"] if is_own else state,
         tuple((state["score"] - state["lost"]).tolist()),

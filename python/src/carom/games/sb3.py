@@ -17,7 +17,7 @@ from typing import Any
 
 import gymnasium
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 from carom._rows import listing, needed
 from carom.games.gymnasium import GAMES, GameVectorEnv
@@ -42,18 +42,18 @@ class VecGames(_vec_env.VecEnv):
         spaces = self.games.single_observation_space, self.games.single_action_space
         super().__init__(num_envs, *spaces)
 
-    def reset(self) -> npt.NDArray[Any]:
+    def reset(self) -> NDArray[Any]:
         """Begin all games, by the seeds that `seed` gave them."""
         seeds: list[int | None] = list(self._seeds)
         self._reset_seeds()
         self._reset_options()
         return self.games.reset(seed=seeds)[0]
 
-    def step_async(self, actions: npt.NDArray[Any]) -> None:
+    def step_async(self, actions: NDArray[Any]) -> None:
         """Take the actions of the next step."""
         self.actions = actions
 
-    def step_wait(self) -> tuple[Any, npt.NDArray[np.float32], npt.NDArray[Any], list[Any]]:
+    def step_wait(self) -> tuple[Any, NDArray[np.float32], NDArray[Any], list[Any]]:
         """Play the step: a game that ends begins anew, and its info has "terminal_observation"."""
         seen, rewards, ended, _, infos = self.games.step(self.actions)
         names = [name for name in infos if name[0] != "_" and not name.startswith("final_")]
@@ -62,11 +62,11 @@ class VecGames(_vec_env.VecEnv):
             final = infos["final_info"]
             whole = {name: np.where(ended, final[name], infos[name]) for name in names}
         columns = (values.tolist() for values in whole.values())
-        told: list[dict[str, Any]] = [dict(zip(names, row)) for row in zip(*columns)]
+        details: list[dict[str, Any]] = [dict(zip(names, row)) for row in zip(*columns)]
         for game in np.flatnonzero(ended):
-            told[game]["terminal_observation"] = infos["final_obs"][game]
-            told[game]["TimeLimit.truncated"] = False
-        return seen, rewards.astype(np.float32), ended, told
+            details[game]["terminal_observation"] = infos["final_obs"][game]
+            details[game]["TimeLimit.truncated"] = False
+        return seen, rewards.astype(np.float32), ended, details
 
     def close(self) -> None:
         """Nothing is held open."""

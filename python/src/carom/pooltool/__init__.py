@@ -27,6 +27,7 @@ from carom import dtypes
 from carom._rows import Array, Seed, listing, seed_of
 from carom._shot_options import BallModel, Friction, Options, ShotCushion
 from carom.collisions import alciatore
+from carom.dtypes import Records
 from carom.games.plans import plan, player as usual_player, with_errors
 from carom.games.rules import Group
 from carom.layouts import LAST, Table
@@ -150,15 +151,16 @@ def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[A
     size = []
     for axis in range(2):
         across = [rail for rail in rails if abs(rail[0][axis] - rail[1][axis]) < 1e-9] or rails
-        at = [end[axis] for rail in across for end in rail[:2]]
-        size.append(max(at) - min(at) if at else 1.0)
-    pieces: list[dtypes.Records] = [
-        np.array(*of) for of in ((rails, dtypes.rail), (jaws, dtypes.jaw), (pockets, dtypes.pocket))
+        ends = [end[axis] for rail in across for end in rail[:2]]
+        size.append(max(ends) - min(ends) if ends else 1.0)
+    pieces: list[Records] = [
+        np.array(*part)
+        for part in ((rails, dtypes.rail), (jaws, dtypes.jaw), (pockets, dtypes.pocket))
     ]
     return Table(size[0], size[1], rails=pieces[0], jaws=pieces[1], pockets=pieces[2])
 
 
-def balls_of(system: Any) -> dtypes.Records:
+def balls_of(system: Any) -> Records:
     """The balls of a System, in its order, for `carom.simulate`."""
     kinds: dict[int, bytes] = {}
     records = bytearray()
@@ -176,7 +178,7 @@ def balls_of(system: Any) -> dtypes.Records:
     return np.frombuffer(records, dtypes.shot_ball)
 
 
-def cue_of(system: Any) -> dtypes.Records:
+def cue_of(system: Any) -> Records:
     """The cue of a System, for `carom.simulate`."""
     cue, specs = system.cue, system.cue.specs
     ball = list(system.balls).index(cue.cue_ball_id)
@@ -215,7 +217,7 @@ def _one_of(known: Collection[str], name: str, part: str) -> None:
         raise UnsupportedError(f"engine: carom knows {', '.join(known)} for {part}, not {name}")
 
 
-def _options_of(engine: Any, table: Table, balls: dtypes.Records) -> tuple[Options, Table]:
+def _options_of(engine: Any, table: Table, balls: Records) -> tuple[Options, Table]:
     """The models of an engine of pooltool's and the table for them, or an error that says what of
     it carom does not know.
 
@@ -360,14 +362,16 @@ def simulate(
         _tell(reason)
         return original(shot, engine, inplace, continuous, dt, t_final, include, max_events)
     system = shot if inplace else shot.copy()
-    kept, stopped = played.count, False
+    retained, stopped = played.count, False
     if t_final is not None:
         # pooltool ends with the first event that is not before t_final.
-        kept = min(kept, int(np.searchsorted(played.events["time"], t_final, side="left")) + 1)
-    if 0 < max_events < kept - 1:
+        retained = min(
+            retained, int(np.searchsorted(played.events["time"], t_final, side="left")) + 1
+        )
+    if 0 < max_events < retained - 1:
         # pooltool looks after the event, and counts from 0.
-        kept, stopped = max_events + 2, True
-    fill(system, played, kept, stopped, (0.01 if dt is None else dt) if continuous else None)
+        retained, stopped = max_events + 2, True
+    fill(system, played, retained, stopped, (0.01 if dt is None else dt) if continuous else None)
     return system
 
 
@@ -414,8 +418,8 @@ class Agent:
 
     def __init__(
         self,
-        player: dtypes.Records | None = None,
-        opponent: dtypes.Records | None = None,
+        player: Records | None = None,
+        opponent: Records | None = None,
         *,
         exact: bool = False,
         engine: Any = None,
@@ -446,7 +450,7 @@ class Agent:
         UnsupportedError
             Another game, or an engine or a table that is pooltool's alone.
         """
-        kind = next((its.__name__ for its in type(game).__mro__ if its.__name__ in _GAMES), None)
+        kind = next((base.__name__ for base in type(game).__mro__ if base.__name__ in _GAMES), None)
         if kind is None:
             raise UnsupportedError(
                 f"game: the agent plays pooltool's eight-ball and nine-ball, not {type(game).__name__}"
@@ -466,12 +470,12 @@ class Agent:
             ball.state.rvw[0] = (*best["place"], ball.params.R)
             ball.state.s = int(Label.STATIONARY)
         if constraints.call_shot:
-            on = [
+            targets = [
                 name
                 for name in constraints.hittable
                 if name in system.balls and system.balls[name].state.s != Label.POCKETED
             ]
-            constraints.ball_call = str(best["ball"]) if best["ball"] > 0 else on[0]
+            constraints.ball_call = str(best["ball"]) if best["ball"] > 0 else targets[0]
             constraints.pocket_call = list(system.table.pockets)[best["pocket"]]
         action = _action.Action(
             *(float(best["cue"][name]) for name in ("speed", "phi", "theta", "a", "b"))
@@ -488,7 +492,7 @@ class Agent:
         rules: PooltoolGame = "eightball",
         opening: bool = False,
         hand: str = "none",
-    ) -> dtypes.Records:
+    ) -> Records:
         """The stroke for a System without a game of pooltool's: the balls and the cue of the System
         stay as they are.
 
@@ -528,11 +532,11 @@ class Agent:
 
         # The layout by numbers; a cue ball in hand is nowhere yet.
         table, names = table_of(system.table), ["cue", *map(str, range(1, LAST[rules] + 1))]
-        given = dict(zip(system.balls, balls_of(system), strict=True))
+        layout_of = dict(zip(system.balls, balls_of(system), strict=True))
         layout: Array = np.array(
-            [given.get(name, given["cue"]) for name in names], dtype=dtypes.shot_ball
+            [layout_of.get(name, layout_of["cue"]) for name in names], dtype=dtypes.shot_ball
         )
-        down = [k for k, name in enumerate(names) if name not in given] + (
+        down = [k for k, name in enumerate(names) if name not in layout_of] + (
             [0] if hand != "none" else []
         )
         layout["state"]["label"][down] = Label.POCKETED
@@ -540,12 +544,12 @@ class Agent:
         cue = cue_of(system)
         cue["ball"] = 0
 
-        best: dtypes.Records = plan(
+        best: Records = plan(
             table,
             layout,
             cue,
             rules=rules,
-            group=_group(targets, given) if rules == "eightball" else None,
+            group=_group(targets, layout_of) if rules == "eightball" else None,
             opening=opening,
             player=self.player,
             opponent=self.opponent,
@@ -591,8 +595,8 @@ def _replace(old: Any, new: Any) -> None:
         if name != __name__ and issubclass(type(module), types.ModuleType):
             # Not by vars(), which would load a module that waits for its first use.
             names = object.__getattribute__(module, "__dict__")
-            for its in [its for its, value in list(names.items()) if value is old]:
-                names[its] = new
+            for key in [key for key, value in list(names.items()) if value is old]:
+                names[key] = new
 
 
 def install() -> None:

@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from carom import dtypes
 from carom._objects import make, turn
+from carom.dtypes import Doubles, Records
 from carom.results import EventType, Shot
 
 _events: Any = importlib.import_module("pooltool.events")
@@ -87,9 +87,9 @@ class _LaterHistory(_BallHistory):  # type: ignore[misc]
             states: Callable[[], list[Any]] = _states_of.__get__(self)
         except AttributeError:
             states = list
-        made = states()
-        self.states = made
-        return made
+        values = states()
+        self.states = values
+        return values
 
     @states.setter
     def states(self, value: Any) -> None:
@@ -162,7 +162,7 @@ def _later_history(states: Callable[[], list[Any]]) -> Any:
 # ------------------------------------------------------------------------------------------------------------
 
 
-def after_each_event(shot: Shot) -> dtypes.Records:
+def after_each_event(shot: Shot) -> Records:
     """The states of all balls just after each event, (events, balls)."""
     events = shot.events
     times, pair = events["time"], events["type"] == _BALL_BALL
@@ -179,7 +179,7 @@ def after_each_event(shot: Shot) -> dtypes.Records:
     return states
 
 
-def _rvw(states: dtypes.Records) -> dtypes.Doubles:
+def _rvw(states: Records) -> Doubles:
     """Copies of r, v, w as pooltool has them, (..., 3, 3)."""
     rvw = np.empty((*states.shape, 3, 3))
     for k, name in enumerate("rvw"):
@@ -187,7 +187,7 @@ def _rvw(states: dtypes.Records) -> dtypes.Doubles:
     return rvw
 
 
-def _states(rvws: dtypes.Doubles, labels: list[int], times: list[float]) -> list[Any]:
+def _states(rvws: Doubles, labels: list[int], times: list[float]) -> list[Any]:
     """States of pooltool's, of (n, 3, 3) numbers."""
     states: list[Any] = make(
         _balls.BallState, len(labels), ("rvw", "s", "t"), (list(rvws), labels, times)
@@ -200,16 +200,16 @@ class _Histories:
     between the first and the last.
     """
 
-    def __init__(self, look: Callable[[], tuple[dtypes.Records, dtypes.Doubles]]) -> None:
+    def __init__(self, look: Callable[[], tuple[Records, Doubles]]) -> None:
         self.look = look
 
     @functools.cached_property
-    def _all(self) -> tuple[dtypes.Doubles, list[list[int]], list[float]]:
+    def _all(self) -> tuple[Doubles, list[list[int]], list[float]]:
         states, times = self.look()
         of_ball = np.swapaxes(states, 0, 1)
         return _rvw(of_ball), of_ball["label"].tolist(), times.tolist()
 
-    def of(self, index: int, first: list[Any], last: list[Any]) -> list[Any]:
+    def history(self, index: int, first: list[Any], last: list[Any]) -> list[Any]:
         """The states of one ball."""
         rvws, labels, times = self._all
         return [*first, *_states(rvws[index], labels[index], times), *last]
@@ -222,7 +222,7 @@ class _Histories:
 class _Filler:
     """Makes pooltool's events from those of a shot."""
 
-    def __init__(self, system: Any, events: dtypes.Records) -> None:
+    def __init__(self, system: Any, events: Records) -> None:
         self.system = system
         self.events = events
         self.balls = list(system.balls.values())
@@ -249,7 +249,7 @@ class _Filler:
         """Gives all agents their balls, before and after, each without a history."""
         n, when = len(self.agents), self.events["time"][np.array(self.rows) // 2].tolist()
         owners = [self.balls[number] for number in self.numbers]
-        own = [[getattr(ball, field) for ball in owners] for field in _OWN_FIELDS]
+        fields = [[getattr(ball, field) for ball in owners] for field in _OWN_FIELDS]
         columns = []
         for side in ("before", "after"):
             states = self.events[side]
@@ -258,61 +258,67 @@ class _Filler:
                 states["label"].ravel()[self.rows].tolist(),
             )
             empty, empty_cts = (make(_LaterHistory, n, (), ()) for _ in range(2))
-            made = (*own, _states(rvws, labels, when), empty, empty_cts)
+            values = (*fields, _states(rvws, labels, when), empty, empty_cts)
             columns.append(
-                make(_balls.Ball, n, (*_OWN_FIELDS, "state", "history", "history_cts"), made)
+                make(_balls.Ball, n, (*_OWN_FIELDS, "state", "history", "history_cts"), values)
             )
         turn(self.agents, _Agent, ("initial", "final"), tuple(columns))
 
     def happened(self) -> list[Any]:
         """The events with their agents; pockets take their balls."""
         seconds = iter(self.agents[len(self.types) :])
-        who: list[tuple[Any, ...]] = []
+        agents: list[tuple[Any, ...]] = []
         for kind, a, b, ball in zip(
             self.types, self.numbers, self.others, self.agents, strict=False
         ):
             if kind == _BALL_BALL:
                 # A pair is named in the order of the System, as pooltool names it.
                 second = next(seconds)
-                who.append((ball, second) if a < b else (second, ball))
+                agents.append((ball, second) if a < b else (second, ball))
             elif kind == _STRIKE:
                 cue = self.system.cue
-                who.append((_Agent(cue.id, _CUE, cue.copy()), ball))
+                agents.append((_Agent(cue.id, _CUE, cue.copy()), ball))
             elif kind == _RAIL:
-                who.append((ball, _Agent(self.linear[b].id, _LINEAR, self.linear[b].copy())))
+                agents.append((ball, _Agent(self.linear[b].id, _LINEAR, self.linear[b].copy())))
             elif kind == _JAW:
-                who.append((ball, _Agent(self.circular[b].id, _CIRCULAR, self.circular[b].copy())))
+                agents.append(
+                    (ball, _Agent(self.circular[b].id, _CIRCULAR, self.circular[b].copy()))
+                )
             elif kind == _POCKET:
                 pocket = self.pockets[b]
                 empty = pocket.copy()
                 pocket.add(self.balls[a].id)
-                who.append((ball, _Agent(pocket.id, _POCKET_AGENT, empty, pocket.copy())))
+                agents.append((ball, _Agent(pocket.id, _POCKET_AGENT, empty, pocket.copy())))
             else:
-                who.append((ball,))
-        columns = ([_TYPES[kind] for kind in self.types], who, self.events["time"].tolist())
-        made: list[Any] = make(_events.Event, len(who), ("event_type", "agents", "time"), columns)
-        return made
+                agents.append((ball,))
+        columns = ([_TYPES[kind] for kind in self.types], agents, self.events["time"].tolist())
+        events: list[Any] = make(
+            _events.Event, len(agents), ("event_type", "agents", "time"), columns
+        )
+        return events
 
 
-def fill(system: Any, shot: Shot, kept: int, stopped: bool, dt: float | None) -> None:
+def fill(system: Any, shot: Shot, retained: int, stopped: bool, dt: float | None) -> None:
     """Writes the first `kept` events of a shot into the System.
 
     `stopped`: its balls are then stopped, as max_events does. With a `dt` it gets the continuous
     histories that pooltool's `continuize` gives, a state each dt.
     """
-    events = shot.events[:kept]
+    events = shot.events[:retained]
     filler = _Filler(system, events)
     happened = filler.happened()
     end: float = happened[-1].time if happened else 0.0
     system.events = [_events.null_event(time=0), *happened, _events.null_event(time=end)]
     system.t = end
-    final = shot.final if kept == shot.count else after_each_event(shot)[kept - 1]
+    final = shot.final if retained == shot.count else after_each_event(shot)[retained - 1]
     lasts = (
         _states(_rvw(final), final["label"].tolist(), [end] * len(final))
-        if kept
+        if retained
         else [b.state for b in filler.balls]
     )
-    histories = _Histories(lambda: (after_each_event(shot)[: kept - 1], events["time"][: kept - 1]))
+    histories = _Histories(
+        lambda: (after_each_event(shot)[: retained - 1], events["time"][: retained - 1])
+    )
     continuous = None
     if dt is not None:
         # pooltool adds up its steps.
@@ -323,12 +329,16 @@ def fill(system: Any, shot: Shot, kept: int, stopped: bool, dt: float | None) ->
         first, last = ball.state, lasts[index]
         _time_of.__set__(first, 0.0)
         history = _later_history(
-            functools.partial(histories.of, index, [first], [last, last] if kept else [last])
+            functools.partial(
+                histories.history, index, [first], [last, last] if retained else [last]
+            )
         )
-        made = (
-            list if continuous is None else functools.partial(continuous.of, index, [first], [last])
+        values = (
+            list
+            if continuous is None
+            else functools.partial(continuous.history, index, [first], [last])
         )
-        for slot, value in zip(_BALL_FIELDS, (history, _later_history(made), last), strict=True):
+        for slot, value in zip(_BALL_FIELDS, (history, _later_history(values), last), strict=True):
             slot.__set__(ball, value)
     if stopped:
         system.stop_balls()

@@ -105,7 +105,7 @@ def _csv_rows(file: io.TextIOBase, path: Path) -> _Rows:
         raise TrackError(
             f"{path}, line 1: no column {', '.join(missing)}; the first line must name the columns {','.join(_COLUMNS)}, in any order"
         )
-    at = [header.index(name) for name in _COLUMNS]
+    columns = [header.index(name) for name in _COLUMNS]
     for row in lines:
         if not row:
             continue
@@ -114,7 +114,7 @@ def _csv_rows(file: io.TextIOBase, path: Path) -> _Rows:
             raise TrackError(
                 f"{where}: {len(row)} fields, but the first line names {len(header)} columns"
             )
-        shot, ball, *numbers = (row[k].strip() for k in at)
+        shot, ball, *numbers = (row[k].strip() for k in columns)
         yield (where, shot, ball, *_numbers(numbers, where))
 
 
@@ -255,13 +255,13 @@ def _record(
     tracks: list[Doubles] = []
     for ball in range(seen.shape[1]):
         # a row once the ball is far enough from the last one, and the last of all
-        kept = [0]
+        rows_recorded = [0]
         for k in range(1, len(times)):
-            if np.hypot(*(seen[k, ball] - seen[kept[-1], ball])) >= thin:
-                kept.append(k)
-        if kept[-1] != len(times) - 1:
-            kept.append(len(times) - 1)
-        tracks.append(np.column_stack([times[kept], seen[kept, ball]]))
+            if np.hypot(*(seen[k, ball] - seen[rows_recorded[-1], ball])) >= thin:
+                rows_recorded.append(k)
+        if rows_recorded[-1] != len(times) - 1:
+            rows_recorded.append(len(times) - 1)
+        tracks.append(np.column_stack([times[rows_recorded], seen[rows_recorded, ball]]))
     return tuple(tracks)
 
 
@@ -302,11 +302,11 @@ def synthetic(
         ("table", table, 6.0 * radius, "six times the radius, "),
         ("speeds", speeds, 0.0, ""),
     ):
-        given = as_array(pair, name, np.float64)
+        pair_values = as_array(pair, name, np.float64)
         if (
-            given.shape != (2,)
-            or not (np.isfinite(given) & (given > least)).all()
-            or (name == "speeds" and given[0] > given[1])
+            pair_values.shape != (2,)
+            or not (np.isfinite(pair_values) & (pair_values > least)).all()
+            or (name == "speeds" and pair_values[0] > pair_values[1])
         ):
             raise ValueError(
                 f"{name}: two finite numbers above {what}{least:g} are needed, not {pair!r}"
@@ -328,8 +328,10 @@ def synthetic(
                 break
         # towards the second ball or thereabouts, with spins that a cue can give
         speed = random.uniform(*speeds)
-        to = centres[1] - centres[0]
-        angle = np.arctan2(to[1], to[0]) + random.normal(0.0, 1.2 * radius / np.hypot(*to))
+        direction = centres[1] - centres[0]
+        angle = np.arctan2(direction[1], direction[0]) + random.normal(
+            0.0, 1.2 * radius / np.hypot(*direction)
+        )
         way = np.array([np.cos(angle), np.sin(angle)])
         follow, side = random.uniform(-0.5, 0.9) * speed, random.uniform(-1.0, 1.0) * speed
         start = random.uniform(0.0, 1.0 / rate)

@@ -15,7 +15,7 @@ import numpy as np
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._described import Game
-from carom._rows import Array, numbered, numbers_of
+from carom._rows import Array, numbered, numbers_of, text_of
 from carom._shot_options import ShotCushion
 from carom.cushions import NUMBERS
 from carom.layouts import Table, balls
@@ -44,9 +44,9 @@ def _own(model: int) -> Constants:
     """
     found = {}
     for row in numbers_of(lib.CAROM_PART_BALL):
-        default = re.search(r"\b0: ([\d.]+(?:e-?\d+)?)", ffi.string(row.text).decode())
+        default = re.search(r"\b0: ([\d.]+(?:e-?\d+)?)", text_of(row.text))
         if default and (row.reader, row.model) == (lib.CAROM_READ_BY_CUSHION, model):
-            found[ffi.string(row.name).decode()] = float(default[1])
+            found[text_of(row.name)] = float(default[1])
     return found
 
 
@@ -87,40 +87,46 @@ def usual(cushion_model: ShotCushion) -> Constants:
         raise ValueError(
             f"cushion_model: must be one of {', '.join(map(repr, STARTS))}, which a fit can begin with, not {cushion_model!r}"
         )
-    own = of_game("billiard")
+    numbers = of_game("billiard")
     if cushion_model == "smooth":
-        return {**own, **STARTS[cushion_model]}
-    made = {**own, **dict.fromkeys(NUMBERS, 0.0), **_SINGLE, **_LAW, **STARTS[cushion_model]}
-    return made if made["mu_cushion"] else {**made, "roll_loss": 0.0}
+        return {**numbers, **STARTS[cushion_model]}
+    constants = {
+        **numbers,
+        **dict.fromkeys(NUMBERS, 0.0),
+        **_SINGLE,
+        **_LAW,
+        **STARTS[cushion_model],
+    }
+    return constants if constants["mu_cushion"] else {**constants, "roll_loss": 0.0}
 
 
 def complete(
-    given: Mapping[str, float] | Array | np.void,
+    constants: Mapping[str, float] | Array | np.void,
     cushion_model: ShotCushion,
     where: str = "constants",
 ) -> Constants:
     """The given constants, and the usual ones for those that are not given."""
     if (
-        isinstance(given, (np.ndarray, np.void))
-        and given.dtype == dtypes.ball_kind
-        and given.shape == ()
+        isinstance(constants, (np.ndarray, np.void))
+        and constants.dtype == dtypes.ball_kind
+        and constants.shape == ()
     ):
-        given = of_kind(given)
-    if not isinstance(given, Mapping):
+        constants = of_kind(constants)
+    if not isinstance(constants, Mapping):
         raise TypeError(
-            f"{where}: numbers by the names of constants are needed, such as {{'mu_slide': 0.2}}, not {given!r}"
+            f"{where}: numbers by the names of constants are needed, such as {{'mu_slide': 0.2}}, not {constants!r}"
         )
-    for name, value in given.items():
+    for name, value in constants.items():
         if name not in KINDS:
             raise ValueError(
                 f"{where}: there is no constant {name!r}; known are {', '.join(KINDS)}"
             )
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value):
             raise ValueError(f"{where}: {name} must be a finite number, not {value!r}")
-    values = {**usual(cushion_model), **{name: float(value) for name, value in given.items()}}
+    values = {**usual(cushion_model), **{name: float(value) for name, value in constants.items()}}
     # friction between balls as one number is a law that does not depend on the slip
     number = values.pop("mu_ball", None)
-    if number is not None and not any(name in given for name in _LAW):
+    if number is not None and not any(name in constants for name in _LAW):
         values.update(law_a=number, law_b=0.0, law_c=0.0)
     return values
 
@@ -141,7 +147,7 @@ def layout(
     centres: dtypes.Doubles, radius: float, constants: Mapping[str, float]
 ) -> dtypes.Records:
     """Balls at rest at centres of shape (..., balls, 2), of shape (..., balls)."""
-    made = balls(centres, game="billiard", radius=radius)
+    layout = balls(centres, game="billiard", radius=radius)
     for name, value in constants.items():
-        made["kind"][name] = value
-    return made
+        layout["kind"][name] = value
+    return layout

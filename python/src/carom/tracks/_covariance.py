@@ -71,7 +71,7 @@ def of_strike(
     )
 
 
-def of_constants(search: _joint.Search, told: Mapping[str, float]) -> Doubles | None:
+def of_constants(search: _joint.Search, priors: Mapping[str, float]) -> Doubles | None:
     """The covariance of the constants of a search that is done; None where too few shots tell.
 
     `told` are the errors of constants that single events told: those of the means of the priors.
@@ -82,7 +82,10 @@ def of_constants(search: _joint.Search, told: Mapping[str, float]) -> Doubles | 
         return None
     g = g - g.mean(axis=0)
     off = np.array(
-        [min(told.get(name, scale) / scale, 1.0) for name, scale in zip(search.names, search.scale)]
+        [
+            min(priors.get(name, scale) / scale, 1.0)
+            for name, scale in zip(search.names, search.scale)
+        ]
     )
     inner = g.T @ g * (len(g) / (len(g) - 1.0)) + np.diag((search.prior_cost * off) ** 2)
     inverse = np.linalg.inv(whole)

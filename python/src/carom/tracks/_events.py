@@ -26,10 +26,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom._carom import lib
-from carom._rows import Arrays, pointer
+from carom._rows import Arrays, pointer, record_of
 from carom.dtypes import Doubles, Records
 from carom.tracks._recordings import Recording
 
@@ -45,50 +45,18 @@ _TOUCH = 0.02  # m: at a cut a ball is this close to what it met
 _TURN = 0.03  # m/s: least change of velocity in a hit
 _BEFORE, _AFTER = 0.6, 0.9  # s: samples of an impact, at most
 
-piece = np.dtype(
-    [
-        ("shot", "i8"),
-        ("ball", "i8"),
-        ("begin", "f8"),
-        ("end", "f8"),
-        ("samples", "i8"),
-        ("time", "f8"),
-        ("r", "f8", 2),
-        ("v", "f8", 2),
-        ("a", "f8", 2),
-        ("v_error", "f8"),
-        ("a_error", "f8"),
-        ("rms", "f8"),
-        ("sliding", "?"),
-        ("rolling", "?"),
-    ]
+piece = record_of(
+    "shot:i8 ball:i8 begin:f8 end:f8 samples:i8 time:f8 r:2f8 v:2f8 a:2f8 v_error:f8 "
+    "a_error:f8 rms:f8 sliding:? rolling:?"
 )
 """A piece of a track: index of the recording and of the ball; first and last time (s); place,
 velocity and acceleration at `time`; errors of a component; root of the mean squared distance of the
 samples (m); whether the ball slides or rolls (neither: not known).
 """
 
-impact = np.dtype(
-    [
-        ("shot", "i8"),
-        ("ball", "i8"),
-        ("rail", "i8"),
-        ("time", "f8"),
-        ("r", "f8", 2),
-        ("v_n", "f8"),
-        ("v_t", "f8"),
-        ("w_n", "f8"),
-        ("w_t", "f8"),
-        ("u_n", "f8"),
-        ("u_t", "f8"),
-        ("delay", "f8"),
-        ("v_error", "f8"),
-        ("w_error", "f8"),
-        ("u_error", "f8"),
-        ("chi2", "f8"),
-        ("rolling", "?"),
-        ("first", "?"),
-    ]
+impact = record_of(
+    "shot:i8 ball:i8 rail:i8 time:f8 r:2f8 v_n:f8 v_t:f8 w_n:f8 w_t:f8 u_n:f8 u_t:f8 "
+    "delay:f8 v_error:f8 w_error:f8 u_error:f8 chi2:f8 rolling:? first:?"
 )
 """An impact on rail 0 (x = 0), 1 (x = W), 2 (y = 0) or 3 (y = L).
 
@@ -98,24 +66,9 @@ and whether it is a ball that was not struck before its first cushion, which has
 spin.
 """
 
-hit = np.dtype(
-    [
-        ("shot", "i8"),
-        ("a", "i8"),
-        ("b", "i8"),
-        ("time", "f8"),
-        ("n", "f8", 2),
-        ("v_n", "f8"),
-        ("v_t", "f8"),
-        ("w_n", "f8"),
-        ("w_t", "f8"),
-        ("z_n", "f8"),
-        ("z_t", "f8"),
-        ("v_error", "f8"),
-        ("w_error", "f8"),
-        ("z_error", "f8"),
-        ("chi2", "f8"),
-    ]
+hit = record_of(
+    "shot:i8 a:i8 b:i8 time:f8 n:2f8 v_n:f8 v_t:f8 w_n:f8 w_t:f8 z_n:f8 z_t:f8 "
+    "v_error:f8 w_error:f8 z_error:f8 chi2:f8"
 )
 """A hit of ball a on ball b at rest.
 
@@ -213,8 +166,8 @@ def _free(track: Doubles, moves: float, low: float, high: Doubles) -> Doubles:
     """
     rows = track[track[:, 0] >= moves][:-1]
     clamped = (np.abs(rows[:, 1:] - low) < 1e-5) | (np.abs(rows[:, 1:] - high) < 1e-5)
-    kept: Doubles = rows[~clamped.any(axis=1)]
-    return kept
+    free_rows: Doubles = rows[~clamped.any(axis=1)]
+    return free_rows
 
 
 def _pieces(shot: int, ball: int, rows: Doubles, noise: float) -> list[Any]:
@@ -263,10 +216,10 @@ def _pieces(shot: int, ball: int, rows: Doubles, noise: float) -> list[Any]:
     return found
 
 
-def _state(of: Any, time: npt.ArrayLike) -> tuple[Doubles, Doubles]:
+def _state(record: Any, time: ArrayLike) -> tuple[Doubles, Doubles]:
     """Place and velocity of a piece at times, (..., 2) each."""
-    u = (np.asarray(time, np.float64) - of["time"])[..., None]
-    return of["r"] + u * (of["v"] + 0.5 * u * of["a"]), of["v"] + u * of["a"]
+    u = (np.asarray(time, np.float64) - record["time"])[..., None]
+    return record["r"] + u * (record["v"] + 0.5 * u * record["a"]), record["v"] + u * record["a"]
 
 
 def _cloth(
@@ -314,7 +267,7 @@ def halves(
     n: int,
     splits: int,
     random: np.random.Generator,
-    find: Callable[[npt.NDArray[np.intp]], Doubles],
+    find: Callable[[NDArray[np.intp]], Doubles],
 ) -> Doubles:
     """The standard errors of what `find` gives of all n rows, by random halves: the difference of
     two halves is twice that error.
@@ -345,7 +298,7 @@ class _Motion:
         """Deceleration of rolling, m/s^2."""
         return self.roll[0] + self.roll[1] * speed**2
 
-    def after(self, t: Doubles, r: Doubles, w: Doubles, u: Doubles) -> Doubles:
+    def place_after(self, t: Doubles, r: Doubles, w: Doubles, u: Doubles) -> Doubles:
         """Slides from velocity w with slip u, then rolls and stops."""
         size, way = _unit(u)
         lasts = 2.0 * size / (7.0 * self.slide)
@@ -353,17 +306,21 @@ class _Motion:
         rolling = w - (2.0 / 7.0) * u
         speed, along = _unit(rolling)
         slows = self.slowing(0.95 * speed)
-        then = np.minimum(np.maximum(t - lasts, 0.0), speed / np.maximum(slows, 1e-6))[..., None]
+        rolling_time = np.minimum(np.maximum(t - lasts, 0.0), speed / np.maximum(slows, 1e-6))[
+            ..., None
+        ]
         r, w, way, rolling = r[:, None], w[:, None], way[:, None], rolling[:, None]
         slid = r + w * sliding - 0.5 * self.slide * way * sliding**2
-        return np.asarray(slid + rolling * then - 0.5 * (slows * along)[:, None] * then**2)
+        return np.asarray(
+            slid + rolling * rolling_time - 0.5 * (slows * along)[:, None] * rolling_time**2
+        )
 
 
 def _cushion(
     rows: Doubles,
     window: tuple[float, float, float],
-    before: Any,
-    after: Any,
+    incoming: Any,
+    outgoing: Any,
     n: Doubles,
     motion: _Motion,
     noise: float,
@@ -378,16 +335,16 @@ def _cushion(
         return None
     # in the frame of the cushion, along and into, about the place of the cut
     frame = np.array([[n[1], -n[0]], n])
-    place, v = _state(before, time)
-    _, w = _state(after, time)
+    place, v = _state(incoming, time)
+    _, w = _state(outgoing, time)
     seen = (rows[:, 1:] - place) @ frame.T
     t_1, t_2 = rows[first, 0] - time, rows[second, 0] - time
     v, w = frame @ v, frame @ w
     sigma = _sigma(np.hypot(*v), noise)
-    slides = bool(np.hypot(*before["a"]) > _ROLLS)
+    slides = bool(np.hypot(*incoming["a"]) > _ROLLS)
 
     def residuals(q: Doubles) -> Doubles:
-        at, r, v, a, w, u, delay = (
+        contact_time, r, v, a, w, u, delay = (
             q[:, :1],
             q[:, 1:3],
             q[:, 3:5],
@@ -399,14 +356,14 @@ def _cushion(
         if not slides:
             speed, way = _unit(v)
             a = a - motion.slowing(speed) * way
-        s = (t_1 - at)[..., None]
+        s = (t_1 - contact_time)[..., None]
         come = r[:, None] + v[:, None] * s + 0.5 * a[:, None] * s**2
         left = r.copy()
         left[:, 1:] -= w[:, 1:] * delay
-        gone = motion.after(t_2 - at, left, w, u)
-        near = np.concatenate([come - seen[first], gone - seen[second]], axis=1) / sigma
+        gone = motion.place_after(t_2 - contact_time, left, w, u)
+        distances = np.concatenate([come - seen[first], gone - seen[second]], axis=1) / sigma
         prior = [(delay - _DELAY) / _DELAY_ERROR] + ([] if slides else [10.0 * q[:, 5:7]])
-        return np.concatenate([near.reshape(len(q), -1), *prior], axis=1)
+        return np.concatenate([distances.reshape(len(q), -1), *prior], axis=1)
 
     scale = np.array([0.005, 0.005, 0.005, 0.1, 0.1, 0.5, 0.5, 0.1, 0.1, 0.2, 0.2, 0.005])
     best: tuple[Doubles, float, Doubles] | None = None
@@ -417,7 +374,7 @@ def _cushion(
                 0.0,
                 0.0,
                 *v,
-                *(before["a"] @ frame.T if slides else (0.0, 0.0)),
+                *(incoming["a"] @ frame.T if slides else (0.0, 0.0)),
                 *w,
                 0.0,
                 slip * v[1],
@@ -470,27 +427,27 @@ def _hit(
     t_1, t_2, t_3 = rows[first, 0] - time, rows[second, 0] - time, others[third, 0] - time
     # where the approach, a quadratic, comes within two radii
     come = np.polyfit(t_1, rows[first, 1:], 2)
-    at = np.linspace(-0.05, 0.02, 281)
-    ways = come[0] * at[:, None] ** 2 + come[1] * at[:, None] + come[2]
+    times = np.linspace(-0.05, 0.02, 281)
+    ways = come[0] * times[:, None] ** 2 + come[1] * times[:, None] + come[2]
     gaps = np.hypot(*(ways - rest).T)
     k = int(np.argmax(gaps < 2.0 * radius)) if (gaps < 2.0 * radius).any() else int(np.argmin(gaps))
-    v = 2.0 * come[0] * at[k] + come[1]
+    v = 2.0 * come[0] * times[k] + come[1]
     w, z = np.polyfit(t_2, rows[second, 1:], 1)[0], np.polyfit(t_3, others[third, 1:], 1)[0]
     sigma = float(_sigma(np.hypot(*v), noise))
 
     def residuals(q: Doubles) -> Doubles:
         time, r, v, a, w, u, z, slip, o = q[:, :1], *(q[:, k : k + 2] for k in range(1, 17, 2))
         s = (t_1 - time)[..., None]
-        near = [
+        distances = [
             r[:, None] + v[:, None] * s + 0.5 * a[:, None] * s**2 - rows[first, 1:],
-            motion.after(t_2 - time, r, w, u) - rows[second, 1:],
-            motion.after(t_3 - time, o, z, slip) - others[third, 1:],
+            motion.place_after(t_2 - time, r, w, u) - rows[second, 1:],
+            motion.place_after(t_3 - time, o, z, slip) - others[third, 1:],
         ]
         # the balls touch; the other lay where it was seen
         touch = (np.hypot(*(o - r).T)[:, None] - 2.0 * radius) / 3e-4
         return np.concatenate(
             [
-                np.concatenate(near, axis=1).reshape(len(q), -1) / sigma,
+                np.concatenate(distances, axis=1).reshape(len(q), -1) / sigma,
                 touch,
                 (o - rest) / max(5e-4, noise),
                 a / 1.5,
@@ -498,7 +455,7 @@ def _hit(
             axis=1,
         )
 
-    start = np.concatenate([at[k : k + 1], ways[k], v, np.zeros(2), w, v - w, 1.1 * z, z, rest])
+    start = np.concatenate([times[k : k + 1], ways[k], v, np.zeros(2), w, v - w, 1.1 * z, z, rest])
     scale = np.array(
         [0.003, 0.003, 0.003, 0.1, 0.1, 0.5, 0.5, *[0.1, 0.1, 0.2, 0.2] * 2, 0.001, 0.001]
     )
@@ -534,8 +491,8 @@ class _Cut:
     time: float
     kind: str
     rail: int
-    before: Any
-    after: Any
+    incoming: Any
+    outgoing: Any
 
 
 def _cuts_of(
@@ -543,10 +500,10 @@ def _cuts_of(
 ) -> list[_Cut]:
     """The cuts between a ball's pieces, told apart."""
     found: list[_Cut] = []
-    for before, after in zip(pieces[:-1], pieces[1:]):
+    for preceding, following in zip(pieces[:-1], pieces[1:]):
         # where the two quadratics come closest
-        times: Doubles = np.linspace(before["end"] - 0.02, after["begin"] + 0.02, 121)
-        (r_0, v_0), (r_1, v_1) = _state(before, times), _state(after, times)
+        times: Doubles = np.linspace(preceding["end"] - 0.02, following["begin"] + 0.02, 121)
+        (r_0, v_0), (r_1, v_1) = _state(preceding, times), _state(following, times)
         k = int(np.argmin(np.hypot(*(r_0 - r_1).T)))
         r, turn = 0.5 * (r_0[k] + r_1[k]), float(np.hypot(*(v_1[k] - v_0[k])))
         walls = np.array(
@@ -556,10 +513,10 @@ def _cuts_of(
         n = _NORMALS[rail]
         gaps = [
             math.hypot(
-                np.interp(times[k], other[:, 0], other[:, 1]) - r[0],
-                np.interp(times[k], other[:, 0], other[:, 2]) - r[1],
+                np.interp(times[k], track_of_ball[:, 0], track_of_ball[:, 1]) - r[0],
+                np.interp(times[k], track_of_ball[:, 0], track_of_ball[:, 2]) - r[1],
             )
-            for number, other in enumerate(shot.tracks)
+            for number, track_of_ball in enumerate(shot.tracks)
             if number != ball
         ]
         kind = "smooth"
@@ -569,7 +526,7 @@ def _cuts_of(
             kind = "ball"
         elif turn > 0.12:
             kind = "other"
-        found.append(_Cut(float(times[k]), kind, rail, before, after))
+        found.append(_Cut(float(times[k]), kind, rail, preceding, following))
     return found
 
 
@@ -585,7 +542,7 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
     """
     low, high = radius, np.array(table) - radius
     rows = [
-        [_free(*of, low, high) for of in zip(shot.tracks, shot.moves.tolist())]
+        [_free(*pieces, low, high) for pieces in zip(shot.tracks, shot.moves.tolist())]
         for shot in recordings
     ]
     by_track = [
@@ -596,7 +553,7 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
         for s, tracks in enumerate(rows)
     ]
     pieces = (
-        np.concatenate([of for tracks in by_track for of in tracks])
+        np.concatenate([pieces for tracks in by_track for pieces in tracks])
         if by_track
         else np.zeros(0, piece)
     )
@@ -612,15 +569,19 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
     for s, shot in enumerate(recordings):
         if not np.isfinite(shot.moves).any():
             continue
-        cuts = [_cuts_of(shot, of, ball, radius, table) for ball, of in enumerate(by_track[s])]
-        hard = [np.array([cut.time for cut in of if cut.kind != "smooth"]) for of in cuts]
-        for ball, of in enumerate(cuts):
+        cuts = [
+            _cuts_of(shot, pieces, ball, radius, table) for ball, pieces in enumerate(by_track[s])
+        ]
+        hard = [np.array([cut.time for cut in pieces if cut.kind != "smooth"]) for pieces in cuts]
+        for ball, ball_cuts in enumerate(cuts):
             track = rows[s][ball]
-            for number, cut in enumerate(of):
+            for number, cut in enumerate(ball_cuts):
                 if cut.kind != "cushion":
                     continue
                 # samples up to the neighbouring events, and before the impact of one phase alone
-                smooth = [c.time for c in of if c.kind == "smooth" and c.time < cut.time - 0.02]
+                smooth = [
+                    c.time for c in ball_cuts if c.kind == "smooth" and c.time < cut.time - 0.02
+                ]
                 past, next_ones = (
                     hard[ball][hard[ball] < cut.time - 1e-9],
                     hard[ball][hard[ball] > cut.time + 1e-9],
@@ -630,14 +591,16 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
                 numbers = _cushion(
                     track,
                     (begin, cut.time, end),
-                    cut.before,
-                    cut.after,
+                    cut.incoming,
+                    cut.outgoing,
                     _NORMALS[cut.rail],
                     motion,
                     shot.noise,
                 )
                 if numbers is not None:
-                    first = ball != shot.cue and not any(c.kind == "cushion" for c in of[:number])
+                    first = ball != shot.cue and not any(
+                        c.kind == "cushion" for c in ball_cuts[:number]
+                    )
                     impacts.append((s, ball, cut.rail, *numbers, first))
         # the struck ball's hits on balls that lie still
         cue, rest, moves = shot.cue, shot.rest, shot.moves
@@ -649,7 +612,7 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
             past = hard[cue][hard[cue] < time - 0.05]
             smooth = [c.time for c in cuts[cue] if c.kind == "smooth" and c.time < time - 0.06]
             begin = max([time - 0.35, *(past + 0.015), *smooth[-1:]])
-            ends = [min([time + 0.6, *(of - 0.012)]) for of in later]
+            ends = [min([time + 0.6, *(pieces - 0.012)]) for pieces in later]
             numbers = _hit(
                 track,
                 rows[s][ball],

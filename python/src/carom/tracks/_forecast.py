@@ -32,7 +32,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import pictures
 from carom._rows import Arrays
@@ -61,22 +61,22 @@ class Forecast(Arrays):
     numbers: Doubles  # (draws, 6 + 5 * 16): Strikes, on the clock of the plays, and kicks
     plays: _strikes.Plays  # A shot for each draw, with its constants and places of rest
 
-    def positions(self, times: npt.ArrayLike) -> Doubles:
+    def positions(self, times: ArrayLike) -> Doubles:
         """The centres of all balls in all draws at times of the recording's clock, m: shape (draws,
         times..., balls, 2).
         """
-        at = np.asarray(times, np.float64)
-        sorted_times, back = np.unique(at, return_inverse=True)
+        moments = np.asarray(times, np.float64)
+        sorted_times, back = np.unique(moments, return_inverse=True)
         on_clock = sorted_times - self.plays.origins[0]
         places = [
-            self.plays.played(k, numbers, on_clock)[1].transpose(1, 0, 2)[back.reshape(at.shape)]
+            self.plays.played(k, numbers, on_clock)[1].transpose(1, 0, 2)[
+                back.reshape(moments.shape)
+            ]
             for k, numbers in enumerate(self.numbers)
         ]
         return np.array(places)
 
-    def regions(
-        self, times: npt.ArrayLike, shares: npt.ArrayLike = SHARES
-    ) -> tuple[Doubles, Doubles]:
+    def regions(self, times: ArrayLike, shares: ArrayLike = SHARES) -> tuple[Doubles, Doubles]:
         """Where balls will be: centres, m, of shape (times..., balls, 2), and radii, m, of shape
         (shares..., times..., balls), of the circles that hold these shares of the draws.
 
@@ -85,15 +85,15 @@ class Forecast(Arrays):
         places = self.positions(times)
         middle: Doubles = np.median(places, axis=0)
         off = np.linalg.norm(places - middle, axis=-1)
-        given = np.asarray(shares, np.float64)
-        return middle, np.maximum(np.quantile(off, given, axis=0), 3.0 * self.recording.noise)
+        levels = np.asarray(shares, np.float64)
+        return middle, np.maximum(np.quantile(off, levels, axis=0), 3.0 * self.recording.noise)
 
-    def later(self) -> tuple[Doubles, npt.NDArray[np.int64]]:
+    def later(self) -> tuple[Doubles, NDArray[np.int64]]:
         """The rows of the recording (t, x, y) after the first seconds, and the ball of each."""
         parts = [track[track[:, 0] > self.until] for track in self.recording.tracks]
         return np.concatenate(parts), np.repeat(np.arange(len(parts)), list(map(len, parts)))
 
-    def covered(self, shares: npt.ArrayLike = SHARES) -> Doubles:
+    def covered(self, shares: ArrayLike = SHARES) -> Doubles:
         """Which part of the later rows is in the regions of these shares; nan without any."""
         rows, balls = self.later()
         if not len(rows):
@@ -118,12 +118,12 @@ class Forecast(Arrays):
             "radii": radii.tolist(),
         }
 
-    def plot(self, waits: npt.ArrayLike = (1.0, 2.0, 4.0)) -> pictures.Picture:
+    def plot(self, waits: ArrayLike = (1.0, 2.0, 4.0)) -> pictures.Picture:
         """The regions so many seconds after the last one that is known, as circles of 68 and 95 %,
         on the recorded places, dots. Its `svg` is the text of a file.
         """
-        given = np.asarray(waits, np.float64)
-        middle, radii = self.regions(self.until + given)
+        durations = np.asarray(waits, np.float64)
+        middle, radii = self.regions(self.until + durations)
         marks = [
             (
                 middle[k, ball],
@@ -131,7 +131,7 @@ class Forecast(Arrays):
                 f"ball {name} {wait:g} s later: {100 * part:.0f} %",
                 f"{wait:g} s" if share else "",
             )
-            for k, wait in enumerate(given.tolist())
+            for k, wait in enumerate(durations.tolist())
             for ball, name in enumerate(self.recording.balls)
             for share, part in enumerate(SHARES)
             if radii[0, k, ball] > 3.0 * self.recording.noise
@@ -140,10 +140,10 @@ class Forecast(Arrays):
         return pictures.Picture(pictures.picture(self.plays.table, None, seen, marks))
 
 
-def first_seconds(recording: Recording, after: float) -> Recording:
+def first_seconds(recording: Recording, duration: float) -> Recording:
     """The rows until `after` seconds from the first motion, and at least one of each ball."""
-    until = recording.moves.min() + after
-    rows = [(track[:, 0] <= until) | (np.arange(len(track)) == 0) for track in recording.tracks]
+    end = recording.moves.min() + duration
+    rows = [(track[:, 0] <= end) | (np.arange(len(track)) == 0) for track in recording.tracks]
     return replace(
         recording, tracks=tuple(track[keep] for track, keep in zip(recording.tracks, rows))
     )
@@ -152,33 +152,35 @@ def first_seconds(recording: Recording, after: float) -> Recording:
 def forecast(fit: Any, whole: Recording, after: float, draws: int, seed: int) -> Forecast:
     """By the constants of a `Fit`, of the first seconds of a recording."""
     random = np.random.default_rng(seed)
-    until = float(whole.moves.min() + after)
-    plays, numbers = _Before(_part(fit, whole, after, seed), until, draws, random).drawn(random)
+    end = float(whole.moves.min() + after)
+    plays, numbers = _Before(_part(fit, whole, after, seed), end, draws, random).drawn(random)
     plays.ends = np.full(draws, _LONG)
-    numbers = _kicked(plays, numbers, until - plays.origins[0], random)
+    numbers = _kicked(plays, numbers, end - plays.origins[0], random)
     good = np.isfinite(numbers[:, 0])
     plays.layouts = plays.layouts[:, good]
-    return Forecast(whole, after, until, numbers[good], plays)
+    return Forecast(whole, after, end, numbers[good], plays)
 
 
-def _part(fit: Any, whole: Recording, after: float, seed: int) -> Any:
+def _part(fit: Any, whole: Recording, duration: float, seed: int) -> Any:
     """A `Fit` of the first seconds alone, with the constants of another."""
-    (part,), _ = _recordings.sound([first_seconds(whole, after)], fit.noise)
+    (part,), _ = _recordings.sound([first_seconds(whole, duration)], fit.noise)
     plays = _strikes.Plays([part], fit.table, fit.radius, fit.constants, fit.cushion_model)
     found, _ = _strikes.find(plays, seed, squares=True)
     rmse = plays.rmse(found)
     if ROUGH * fit.noise * np.sqrt(2.0) < rmse[0] < np.inf:
-        other = _kicks.eased(plays, found)
-        if plays.rmse(other)[0] < rmse[0]:
-            found, rmse = other, plays.rmse(other)
+        trial = _kicks.eased(plays, found)
+        if plays.rmse(trial)[0] < rmse[0]:
+            found, rmse = trial, plays.rmse(trial)
     if not np.isfinite(rmse[0]):
-        raise ValueError(f"shot: in its first {after:g} s no strike was found that can be played")
+        raise ValueError(
+            f"shot: in its first {duration:g} s no strike was found that can be played"
+        )
     found[:, 5] += plays.origins
     return replace(fit, recordings=[part], strikes=found, status=["ok"], rmse=rmse, train=None)
 
 
 def _kicked(
-    plays: _strikes.Plays, before: Doubles, after: float, random: np.random.Generator
+    plays: _strikes.Plays, strikes: Doubles, duration: float, random: np.random.Generator
 ) -> Doubles:
     """Strikes and kicks up to a time of the plays' clock with random kicks of the contacts after
     it; nan where a play ends in an error.
@@ -186,48 +188,52 @@ def _kicked(
     A kick changes which contacts follow. So the kicks of one contact after the other are as large
     as its kind asks, until the kinds of all are those of the play.
     """
-    known = before.shape[1]
-    kicks = random.normal(size=(len(before), _kicks.CONTACTS, _strikes.KICKS))
-    numbers = np.zeros((len(before), 6 + kicks[0].size))
-    numbers[:, :known] = before
-    for row, own in enumerate(numbers):
+    known = strikes.shape[1]
+    kicks = random.normal(size=(len(strikes), _kicks.CONTACTS, _strikes.KICKS))
+    numbers = np.zeros((len(strikes), 6 + kicks[0].size))
+    numbers[:, :known] = strikes
+    for row, row_numbers in enumerate(numbers):
         for _ in range(_kicks.CONTACTS + 1):
-            met = _kicks.contacts(plays, row, own)
-            sizes = _kicks.deviations(met)
-            sizes[: len(met)][met["time"] + own[5] <= after] = 0.0
-            wanted = (sizes * kicks[row]).ravel()
-            wanted[: known - 6] = before[row, 6:]
-            if np.array_equal(wanted, own[6:]):
+            met_contacts = _kicks.contacts(plays, row, row_numbers)
+            sizes = _kicks.deviations(met_contacts)
+            sizes[: len(met_contacts)][met_contacts["time"] + row_numbers[5] <= duration] = 0.0
+            offsets = (sizes * kicks[row]).ravel()
+            offsets[: known - 6] = strikes[row, 6:]
+            if np.array_equal(offsets, row_numbers[6:]):
                 break
-            own[6:] = wanted
+            row_numbers[6:] = offsets
         try:
-            plays.played(row, own)
+            plays.played(row, row_numbers)
         except CaromError:
-            own[:] = np.nan
+            row_numbers[:] = np.nan
     return numbers
 
 
 class _Before:
     """P of strikes and kicks in the first seconds, a row for each draw of constants and places."""
 
-    def __init__(self, fit: Any, until: float, count: int, random: np.random.Generator) -> None:
-        one = fit._plays([0])
-        start = fit.strikes[:1] - [0.0, 0.0, 0.0, 0.0, 0.0, one.origins[0]]
-        whole = _kicks.find(one, start)
-        met = _kicks.contacts(one, 0, whole[0])
-        met = met[met["time"] + whole[0, 5] <= until - one.origins[0]]
-        self.start = whole[:, : 6 + _strikes.KICKS * len(met)]
-        price = _kicks.PRICE / _kicks.deviations(met)[: len(met)].ravel() ** 2
+    def __init__(self, fit: Any, end: float, count: int, random: np.random.Generator) -> None:
+        play = fit._plays([0])
+        start = fit.strikes[:1] - [0.0, 0.0, 0.0, 0.0, 0.0, play.origins[0]]
+        whole = _kicks.find(play, start)
+        first_contacts = _kicks.contacts(play, 0, whole[0])
+        first_contacts = first_contacts[
+            first_contacts["time"] + whole[0, 5] <= end - play.origins[0]
+        ]
+        self.start = whole[:, : 6 + _strikes.KICKS * len(first_contacts)]
+        price = _kicks.PRICE / _kicks.deviations(first_contacts)[: len(first_contacts)].ravel() ** 2
         self.held = np.concatenate([_kicks.PRICE / _covariance.bounds(whole[0]) ** 2, price])
 
         # the constants and places of rest of each draw
-        by: Doubles = np.zeros((count, len(fit.fitted)))
+        changes: Doubles = np.zeros((count, len(fit.fitted)))
         if fit.covariance is not None and fit.fitted:
-            by = random.multivariate_normal(by[0], fit.covariance, count)
+            changes = random.multivariate_normal(changes[0], fit.covariance, count)
         shot = fit.recordings[0]
         rest = shot.noise / np.sqrt(shot.still)[:, np.newaxis]
         moved = rest * random.normal(size=(count, len(rest), 2))
-        _, layouts = fit._struck(0, np.repeat(fit.strikes, count, axis=0), moved, fit.changed(by))
+        _, layouts = fit._struck(
+            0, np.repeat(fit.strikes, count, axis=0), moved, fit.changed(changes)
+        )
         layouts["state"]["v"], layouts["state"]["w"] = 0.0, 0.0
         self.plays = _strikes.Plays(
             fit.recordings * count, fit.table, fit.radius, fit.constants, fit.cushion_model

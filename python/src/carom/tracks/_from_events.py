@@ -55,7 +55,7 @@ def measured(
     radius: float,
     cushion_model: ShotCushion,
     seed: int,
-    given: Mapping[str, float] | None = None,
+    constants: Mapping[str, float] | None = None,
 ) -> tuple[dict[str, float], dict[str, float]]:
     """The constants that the events tell, and their errors.
 
@@ -71,7 +71,7 @@ def measured(
             radius,
             cushion_model,
             np.random.default_rng(seed),
-            given or usual(cushion_model),
+            constants or usual(cushion_model),
         ),
     }
     found = {name: pair for name, pair in found.items() if math.isfinite(pair[0])}
@@ -111,7 +111,7 @@ def rebound(
     spin: Doubles,
     radius: float,
     model: ShotCushion,
-    given: Mapping[str, Any],
+    constants: Mapping[str, Any],
 ) -> Doubles:
     """v_t, v_n and R w_t, R w_n, R w_z after impacts, (..., 5), as carom_shoot() has them; `spin`
     has the last three before, (..., 3).
@@ -126,9 +126,9 @@ def rebound(
         ("mu_cushion", "mu_cushion"),
         ("restitution", "restitution_cushion"),
     ):
-        balls[field] = given[name]
-    own = cast(CushionNumbers, {name: given[name] for name in NUMBERS})
-    motion = cushion(balls, model="mathavan" if model == "default" else model, **own)[0]
+        balls[field] = constants[name]
+    numbers = cast(CushionNumbers, {name: constants[name] for name in NUMBERS})
+    motion = cushion(balls, model="mathavan" if model == "default" else model, **numbers)[0]
     return np.concatenate([motion["v"][..., :2], radius * motion["w"]], axis=-1)
 
 
@@ -140,7 +140,7 @@ def predicted(
     mu: float | Doubles,
     height: float,
     roll_loss: float = 0.0,
-    given: Mapping[str, float] | None = None,
+    constants: Mapping[str, float] | None = None,
 ) -> Doubles:
     """w_t, w_n, u_t and u_n after each impact of a rolling ball, by the model, with its best side
     spin, and the misfit, (n, 5).
@@ -160,16 +160,21 @@ def predicted(
         "nose_height": height,
         "roll_loss": roll_loss,
     }
-    made = rebound(
+    motions = rebound(
         v_t,
         v_n,
         np.stack([-v_n, v_t, _SPINS * v[:, None]], axis=-1),
         radius,
         model,
-        {**(given or usual(model)), **numbers},
+        {**(constants or usual(model)), **numbers},
     )
-    after = np.stack(
-        [made[..., 0], made[..., 1], made[..., 0] - made[..., 3], made[..., 1] + made[..., 2]],
+    outgoing = np.stack(
+        [
+            motions[..., 0],
+            motions[..., 1],
+            motions[..., 0] - motions[..., 3],
+            motions[..., 1] + motions[..., 2],
+        ],
         axis=-1,
     )
     seen = np.stack([impacts["w_t"], impacts["w_n"], impacts["u_t"], impacts["u_n"]], axis=-1)
@@ -180,12 +185,12 @@ def predicted(
     )
     error = np.stack([w_error, w_error, u_error, u_error], axis=-1)
     prior = np.where(impacts["first"], 0.12, 0.7)
-    chi2 = (((after - seen[:, None]) / error[:, None]) ** 2).sum(axis=-1) + (
+    chi2 = (((outgoing - seen[:, None]) / error[:, None]) ** 2).sum(axis=-1) + (
         _SPINS / prior[:, None]
     ) ** 2
     best = np.argmin(np.where(np.isfinite(chi2), chi2, np.inf), axis=1)
     rows = np.arange(len(impacts))
-    return np.concatenate([after[rows, best], chi2[rows, best, None]], axis=1)
+    return np.concatenate([outgoing[rows, best], chi2[rows, best, None]], axis=1)
 
 
 _CUSHION = ("restitution_cushion", "mu_cushion", "roll_loss", "nose_height")
@@ -201,19 +206,27 @@ def _free(model: ShotCushion) -> tuple[str, ...]:
 
 
 def _cost(
-    impacts: Records, radius: float, model: ShotCushion, values: Doubles, given: Mapping[str, float]
+    impacts: Records,
+    radius: float,
+    model: ShotCushion,
+    values: Doubles,
+    constants: Mapping[str, float],
 ) -> float:
     """The cost of constants of _CUSHION, the last over the radius, with a prior of the friction:
     above some value every ball sticks.
     """
     e, mu, loss, height = values
     prior = ((mu - usual(model)["mu_cushion"]) / _MU_ERROR) ** 2
-    chi2 = predicted(impacts, radius, model, e, mu, height * radius, loss, given)[:, 4]
+    chi2 = predicted(impacts, radius, model, e, mu, height * radius, loss, constants)[:, 4]
     return float(prior + (_OUTLIER**2 * np.log1p(chi2 / _OUTLIER**2)).sum())
 
 
 def _fit_cushion(
-    impacts: Records, radius: float, model: ShotCushion, start: Doubles, given: Mapping[str, float]
+    impacts: Records,
+    radius: float,
+    model: ShotCushion,
+    start: Doubles,
+    constants: Mapping[str, float],
 ) -> Doubles:
     """The constants of _CUSHION, the last over the radius, of these impacts."""
     free = len(_free(model))
@@ -222,7 +235,7 @@ def _fit_cushion(
         rows: list[Doubles] = []
         for values in sets:
             e, mu, loss, height = bounded = np.clip([*values, *start[free:]], _LEAST, _MOST)
-            chi2 = predicted(impacts, radius, model, e, mu, height * radius, loss, given)[:, 4]
+            chi2 = predicted(impacts, radius, model, e, mu, height * radius, loss, constants)[:, 4]
             # the square root of the cost, so that squares add up to it, and what leads back from
             # beyond the bounds
             outside = 100.0 * (np.array(values) - bounded[:free])
@@ -239,7 +252,7 @@ def _cushion(
     radius: float,
     model: ShotCushion,
     random: np.random.Generator,
-    given: Mapping[str, float],
+    constants: Mapping[str, float],
 ) -> dict[str, tuple[float, float]]:
     """The constants of _CUSHION."""
     good = chosen(impacts)
@@ -249,15 +262,15 @@ def _cushion(
     start = np.array([first[name] for name in _CUSHION]) / size
     # another friction may be another minimum, in which most balls stick
     tried = [
-        _fit_cushion(good, radius, model, start * [1.0, share, 1.0, 1.0], given)
+        _fit_cushion(good, radius, model, start * [1.0, share, 1.0, 1.0], constants)
         for share in (1.0, 0.6)
     ]
-    found = min(tried, key=lambda one: _cost(good, radius, model, one, given))
+    found = min(tried, key=lambda values: _cost(good, radius, model, values, constants))
     error = _events.halves(
         len(good),
         _SPLITS,
         random,
-        lambda half: _fit_cushion(good[half], radius, model, found, given),
+        lambda half: _fit_cushion(good[half], radius, model, found, constants),
     )
     return {
         name: (float(value), float(spread))

@@ -144,7 +144,7 @@ class Search:
         self.values = np.array([plays.constants[name] for name in priors])
         self.first, self.scale = np.array(list(priors.values())).T
         self.low, self.high = np.array([prior(name)[1:] for name in priors]).T
-        self.strikes, self.until = strikes[self.rows], plays.ends[self.rows]
+        self.strikes, self.ends = strikes[self.rows], plays.ends[self.rows]
         self.counts = plays.counts[self.rows].astype(float)
         self.noise, self.prior_cost, self.middle = plays.recordings[0].noise, PRIOR_MOST, MOST
 
@@ -154,7 +154,7 @@ class Search:
     def cost(self, values: Doubles, strikes: Doubles, iterations: int) -> tuple[float, Doubles]:
         """Of constants, after the strikes have descended; and these."""
         self.plays.set(self.constants(values))
-        strikes, sums = descend(self.plays, self.rows, strikes, self.until, iterations)
+        strikes, sums = descend(self.plays, self.rows, strikes, self.ends, iterations)
         prior = self.prior_cost * float((((values - self.first) / self.scale) ** 2).sum())
         return float(
             self.counts @ (self.middle * np.log1p(sums[:, 0] / self.counts / self.middle))
@@ -166,7 +166,7 @@ class Search:
         """
         self.plays.set(self.constants(self.values), dict(zip(self.names, _STEP * self.scale)))
         most = MOST * self.counts
-        sums = self.plays.misfit(self.rows, self.strikes, self.until, most)
+        sums = self.plays.misfit(self.rows, self.strikes, self.ends, most)
         counted = sums[:, 0] < most
         # in deviations of the constants
         square, gradient = normal(sums)
@@ -196,7 +196,10 @@ class Search:
             # a strike follows, or stays where that is better
             self.plays.set(self.constants(values))
             both = np.stack([strikes, self.strikes])
-            costs = [self.plays.misfit(self.rows, of, self.until, -np.inf)[:, 0] for of in both]
+            costs = [
+                self.plays.misfit(self.rows, candidates, self.ends, -np.inf)[:, 0]
+                for candidates in both
+            ]
             best = np.where((costs[0] < costs[1])[:, None], both[0], both[1])
             new, best = self.cost(values, best, 4)
             if new < cost:
@@ -208,16 +211,18 @@ class Search:
     def anew(self, seed: int) -> None:
         """Searches all strikes anew, and takes those that are better."""
         self.plays.set(self.constants(self.values))
-        now = self.plays.misfit(self.rows, self.strikes, self.plays.ends[self.rows], -np.inf)[:, 0]
+        current = self.plays.misfit(self.rows, self.strikes, self.plays.ends[self.rows], -np.inf)[
+            :, 0
+        ]
         found, costs = find(self.plays.some(self.rows), seed)
-        better = costs < now
+        better = costs < current
         self.strikes[better] = found[better]
 
     def weigh(self) -> float:
         """What the samples are off by says how much a shot and a prior count: the median over the
         shots of the cost of a sample.
         """
-        sums = self.plays.misfit(self.rows, self.strikes, self.until, -np.inf)
+        sums = self.plays.misfit(self.rows, self.strikes, self.ends, -np.inf)
         self.counts = np.maximum(sums[:, 2], 1.0)
         middle = float(np.median(sums[:, 0] / self.counts)) if len(sums) else MOST
         self.middle = min(max(2.0 * middle, _AT_NOISE * self.noise**2), MOST)
@@ -236,7 +241,7 @@ class Search:
         plays, n = self.plays, len(self.names)
         plays.set(self.constants(self.values))
         whole, gradients, follow = self.prior_cost * np.eye(n), [], {}
-        for at, (row, strike) in enumerate(zip(self.rows, self.strikes)):
+        for index, (row, strike) in enumerate(zip(self.rows, self.strikes)):
             try:
                 d, X, C, _ = derivatives(plays, int(row), strike, self.names, rest=False)
             except CaromError:
@@ -253,8 +258,10 @@ class Search:
             W = np.repeat(np.minimum(1.0, _FARTHEST**2 / np.maximum(moved, 1e-12)) / root, 2)[
                 :, None
             ]
-            follow[at] = np.linalg.solve(damped(X.T @ (W * X)), X.T @ (W * np.column_stack([C, d])))
-            A = C - X @ follow[at][:, :-1]
+            follow[index] = np.linalg.solve(
+                damped(X.T @ (W * X)), X.T @ (W * np.column_stack([C, d]))
+            )
+            A = C - X @ follow[index][:, :-1]
             whole += C.T @ (W * A)
             gradients.append(A.T @ (W[:, 0] * d))
         return whole, np.array(gradients).reshape(-1, n), follow
@@ -263,17 +270,22 @@ class Search:
         """The search a part of a Newton step farther, where each strike follows, or stays where
         that is better, or is found anew.
         """
-        other = copy.copy(self)
-        other.values = np.clip(self.values + part * self.scale * step, self.low, self.high)
+        trial = copy.copy(self)
+        trial.values = np.clip(self.values + part * self.scale * step, self.low, self.high)
         strikes = self.strikes.copy()
-        for at, by in follow.items():
-            strikes[at] -= part * (by[:, :-1] @ step) + by[:, -1]
-        both = np.stack([other.cost(other.values, of, 6)[1] for of in (strikes, self.strikes)])
-        costs = [self.plays.misfit(self.rows, of, self.until, -np.inf)[:, 0] for of in both]
-        other.strikes = np.where((costs[0] < costs[1])[:, None], both[0], both[1])
-        other.anew(seed)
-        _, other.strikes = other.cost(other.values, other.strikes, 4)
-        return other
+        for index, change in follow.items():
+            strikes[index] -= part * (change[:, :-1] @ step) + change[:, -1]
+        both = np.stack(
+            [trial.cost(trial.values, candidates, 6)[1] for candidates in (strikes, self.strikes)]
+        )
+        costs = [
+            self.plays.misfit(self.rows, candidates, self.ends, -np.inf)[:, 0]
+            for candidates in both
+        ]
+        trial.strikes = np.where((costs[0] < costs[1])[:, None], both[0], both[1])
+        trial.anew(seed)
+        _, trial.strikes = trial.cost(trial.values, trial.strikes, 4)
+        return trial
 
     def finish(self, seed: int, rounds: int) -> list[Any]:
         """Newton's steps by derivatives in double precision, as long as half of the shots come
@@ -283,7 +295,7 @@ class Search:
         of a strike moves a shot far: on synthetic recordings they end up to seven standard errors
         from the truth, and one to three of these steps end within one.
         """
-        self.until = self.plays.ends[self.rows]
+        self.ends = self.plays.ends[self.rows]
         middle = self.weigh()
         for number in range(rounds):
             whole, gradients, follow = self.equations()
@@ -292,14 +304,14 @@ class Search:
             )
             step = -np.linalg.solve(whole, slope)
             for part in (1.0, 0.3):
-                other = self.moved(part, step, follow, seed + number)
-                if (new := other.weigh()) < middle:
+                trial = self.moved(part, step, follow, seed + number)
+                if (new := trial.weigh()) < middle:
                     break
             else:
                 break
             middle = new
-            self.resume([other.values, other.strikes, other.middle, other.prior_cost])
-            self.counts = other.counts
+            self.resume([trial.values, trial.strikes, trial.middle, trial.prior_cost])
+            self.counts = trial.counts
             inverse = np.linalg.inv(whole)
             if (
                 np.abs(step)
@@ -319,18 +331,18 @@ class Search:
             ]  # nothing is left to find
         if number == _ELSEWHERE and self.middle > 2.5 * _AT_NOISE * self.noise**2:
             # a search that stopped early begins again elsewhere
-            other = copy.copy(self)
+            trial = copy.copy(self)
             moved = self.values + 0.5 * self.scale * np.random.default_rng(seed).normal(
                 size=len(self.values)
             )
-            other.values, other.strikes = np.clip(moved, self.low, self.high), self.strikes.copy()
+            trial.values, trial.strikes = np.clip(moved, self.low, self.high), self.strikes.copy()
             for earlier in range(1, len(_HORIZONS)):
-                other.stage(earlier, seed + _ELSEWHERE)
-            if other.middle < self.middle:
-                self.resume([other.values, other.strikes, other.middle, other.prior_cost])
+                trial.stage(earlier, seed + _ELSEWHERE)
+            if trial.middle < self.middle:
+                self.resume([trial.values, trial.strikes, trial.middle, trial.prior_cost])
         if number:
             self.anew(seed + number)
-        self.until = np.minimum(
+        self.ends = np.minimum(
             _HORIZONS[min(number, len(_HORIZONS) - 1)], self.plays.ends[self.rows]
         )
         _, self.strikes = self.cost(self.values, self.strikes, 4)
@@ -338,9 +350,9 @@ class Search:
         cost, _ = self.cost(self.values, self.strikes, 0)
         damping = 1e-2
         for _ in range(_STEPS):
-            before = cost
+            previous = cost
             cost, damping = self.step(damping, cost)
-            if cost > before * (1.0 - 1e-3) and (cost == before or damping < 1e-5):
+            if cost > previous * (1.0 - 1e-3) and (cost == previous or damping < 1e-5):
                 break
         return [self.values.tolist(), self.strikes.tolist(), self.middle, self.prior_cost]
 

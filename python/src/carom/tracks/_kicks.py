@@ -24,7 +24,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import lib
-from carom._rows import Array, Arrays
+from carom._rows import Array, Arrays, record_of
 from carom.dtypes import Doubles, Records
 from carom.status import CaromError
 from carom.tracks import _strikes
@@ -55,23 +55,23 @@ def contacts(plays: Plays, row: int, numbers: Doubles) -> Records:
         events, _ = plays.played(row, numbers)
     except CaromError:
         events = np.zeros(0, dtypes.event)
-    met: Records = events[
+    met_contacts: Records = events[
         (events["type"] == lib.CAROM_EVENT_BALL_BALL) | (events["type"] == lib.CAROM_EVENT_RAIL)
     ]
-    return met[:CONTACTS]
+    return met_contacts[:CONTACTS]
 
 
-def deviations(met: Records) -> Doubles:
+def deviations(met_contacts: Records) -> Doubles:
     """s of the kicks of contacts, (CONTACTS, KICKS): beyond the last those of a cushion."""
     found = np.tile(CUSHION, (CONTACTS, 1))
-    found[: len(met)][met["type"] == lib.CAROM_EVENT_BALL_BALL] = BALLS
+    found[: len(met_contacts)][met_contacts["type"] == lib.CAROM_EVENT_BALL_BALL] = BALLS
     return found
 
 
-def _held(met: Sequence[Records]) -> Doubles:
+def _held(met_contacts: Sequence[Records]) -> Doubles:
     """What the square of each number costs, (shots, numbers)."""
-    price = np.zeros((len(met), 6 + KICKS * CONTACTS))
-    for k, events in enumerate(met):
+    price = np.zeros((len(met_contacts), 6 + KICKS * CONTACTS))
+    for k, events in enumerate(met_contacts):
         price[k, 6:] = PRICE / deviations(events).ravel() ** 2
     return price
 
@@ -116,7 +116,7 @@ class Quadratic:
     """
 
     row: int
-    met: Records  # (contacts,), as `contacts` gives
+    contacts: Records  # (contacts,), as `contacts` gives
     start: float  # the time of the strike on the plays' clock, s
     kicks: Doubles  # (5 contacts,)
     cost: float
@@ -143,7 +143,7 @@ class Quadratic:
 def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
     """Of the shots that are played to their ends and have contacts."""
     balls = plays.centres.shape[1]
-    beside = plays.some(range(len(numbers)))
+    variations = plays.some(range(len(numbers)))
     # constants are the places of rest here, each moved towards the middle of the table
     steps = np.where(plays.centres < 0.5 * np.array(plays.table_size), _REST, -_REST)
     moved = [plays.layouts[0]]
@@ -152,21 +152,21 @@ def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
             layouts = plays.layouts[0].copy()
             layouts["state"]["r"][:, ball, axis] += steps[:, ball, axis]
             moved.append(layouts)
-    beside.layouts, beside.steps = np.array(moved), np.full(2 * balls, _REST)
+    variations.layouts, variations.steps = np.array(moved), np.full(2 * balls, _REST)
     rows = np.arange(len(numbers), dtype=np.int32)
-    sums = beside.misfit(rows, numbers, plays.ends, np.inf)
+    sums = variations.misfit(rows, numbers, plays.ends, np.inf)
     square, gradient = _strikes.normal(sums)
     sign = np.sign(steps).reshape(len(numbers), -1)
     found = []
     for k in rows:
-        met = contacts(plays, int(k), numbers[k])
-        m = 6 + KICKS * len(met)
-        if len(met) == 0 or not np.isfinite(sums[k, 0]) or not square[k].any():
+        met_contacts = contacts(plays, int(k), numbers[k])
+        m = 6 + KICKS * len(met_contacts)
+        if len(met_contacts) == 0 or not np.isfinite(sums[k, 0]) or not square[k].any():
             continue
         found.append(
             Quadratic(
                 int(k),
-                met,
+                met_contacts,
                 float(numbers[k, 5]),
                 numbers[k, 6:m],
                 float(sums[k, 0]),
@@ -174,7 +174,7 @@ def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
                 gradient[k, :m],
                 square[k, :m, :m],
                 square[k, :m, numbers.shape[1] :] * sign[k],
-                _held([met])[0, :m],
+                _held([met_contacts])[0, :m],
             )
         )
     return found
@@ -191,25 +191,9 @@ def _frame(impacts: Records) -> tuple[Doubles, Doubles, Doubles, Doubles]:
 
 # ---- The report
 
-contact = np.dtype(
-    [
-        ("shot", "i8"),
-        ("contact", "i8"),
-        ("time", "f8"),
-        ("r", "f8", 2),
-        ("a", "i8"),
-        ("b", "i8"),
-        ("rail", "i8"),
-        ("struck", "?"),
-        ("v", "f8"),
-        ("v_n", "f8"),
-        ("angle", "f8"),
-        ("side", "f8"),
-        ("kick", "f8", KICKS),
-        ("error", "f8", KICKS),
-        ("share", "f8", KICKS),
-        ("effect", "f8"),
-    ]
+contact = record_of(
+    "shot:i8 contact:i8 time:f8 r:2f8 a:i8 b:i8 rail:i8 struck:? v:f8 v_n:f8 angle:f8 side:f8 "
+    f"kick:{KICKS}f8 error:{KICKS}f8 share:{KICKS}f8 effect:f8"
 )
 """A contact: index of the recording and the number of the contact, both from 0; when, on the
 recording's clock (s); where ball a was (m); indices of ball a, and of ball b or -1; whether one of
@@ -246,7 +230,9 @@ class Kicks(Arrays):
 
     def to_list(self) -> list[dict[str, Any]]:
         """The contacts, of numbers that JSON has."""
-        return [{name: one[name].tolist() for name in contact.names or ()} for one in self.contacts]
+        return [
+            {name: play[name].tolist() for name in contact.names or ()} for play in self.contacts
+        ]
 
     def markdown(self) -> str:
         """The tables."""
@@ -263,24 +249,24 @@ class Kicks(Arrays):
         """Of the contacts of a shot: where, how large (m), and in words which kick stands out, at
         length and for a picture.
         """
-        made = []
-        for one in self.contacts[self.contacts["shot"] == shot]:
-            cushion = one["rail"] >= 0
-            largest = int(np.argmax(np.abs(one["kick"]) / (CUSHION if cushion else BALLS)))
-            short = f"{OUTPUTS[bool(cushion)][largest]} {100.0 * one['kick'][largest]:+.1f} %"
+        marks = []
+        for play in self.contacts[self.contacts["shot"] == shot]:
+            cushion = play["rail"] >= 0
+            largest = int(np.argmax(np.abs(play["kick"]) / (CUSHION if cushion else BALLS)))
+            short = f"{OUTPUTS[bool(cushion)][largest]} {100.0 * play['kick'][largest]:+.1f} %"
             long = ", ".join(
                 f"{name} {100.0 * kick:+.2f} ± {100.0 * error:.2f} %"
-                for name, kick, error in zip(OUTPUTS[bool(cushion)], one["kick"], one["error"])
+                for name, kick, error in zip(OUTPUTS[bool(cushion)], play["kick"], play["error"])
             )
-            made.append(
+            marks.append(
                 (
-                    one["r"],
-                    float(one["effect"]),
-                    f"contact {one['contact'] + 1} at {one['time']:.2f} s, {1e3 * one['effect']:.1f} mm: {long}",
+                    play["r"],
+                    float(play["effect"]),
+                    f"contact {play['contact'] + 1} at {play['time']:.2f} s, {1e3 * play['effect']:.1f} mm: {long}",
                     short,
                 )
             )
-        return made
+        return marks
 
 
 def report(plays: Plays, strikes: Doubles, shots: Sequence[int], count: int) -> Kicks:
@@ -288,78 +274,89 @@ def report(plays: Plays, strikes: Doubles, shots: Sequence[int], count: int) -> 
     found = find(plays, strikes)
     numbers, rmse = np.full((count, found.shape[1]), np.nan), np.full(count, np.nan)
     numbers[shots], rmse[shots] = found, plays.rmse(found)
-    near = quadratics(plays, found)
-    told, turns = (
-        (list(part) for part in zip(*(_contacts(one, plays, shots[one.row]) for one in near)))
-        if near
+    fits_near = quadratics(plays, found)
+    records, turns = (
+        (
+            list(part)
+            for part in zip(*(_contacts(play, plays, shots[play.row]) for play in fits_near))
+        )
+        if fits_near
         else ([], [])
     )
     # shots that kicks do not explain either say nothing of their contacts
-    good = [k for k, one in enumerate(near) if one.good]
+    good = [k for k, play in enumerate(fits_near) if play.good]
     tables = [
-        _table([near[k] for k in good], [told[k] for k in good], [turns[k] for k in good], cushion)
+        _table(
+            [fits_near[k] for k in good],
+            [records[k] for k in good],
+            [turns[k] for k in good],
+            cushion,
+        )
         for cushion in (True, False)
     ]
     return Kicks(
-        np.concatenate([np.zeros(0, contact), *told]), rmse, numbers, (tables[0], tables[1])
+        np.concatenate([np.zeros(0, contact), *records]), rmse, numbers, (tables[0], tables[1])
     )
 
 
-def _contacts(one: Quadratic, plays: Plays, number: int) -> tuple[Records, Doubles]:
+def _contacts(play: Quadratic, plays: Plays, number: int) -> tuple[Records, Doubles]:
     """The contacts of a shot, of that number, and the signs, (n, 5), that turn their kicks into
     those of loops.h.
     """
-    shot, n = plays.recordings[one.row], len(one.met)
-    made: Array = np.zeros(n, contact)
-    made["shot"], made["contact"], made["time"] = (
+    shot, n = plays.recordings[play.row], len(play.contacts)
+    records: Array = np.zeros(n, contact)
+    records["shot"], records["contact"], records["time"] = (
         number,
         np.arange(n),
-        one.met["time"] + one.start + plays.origins[one.row],
+        play.contacts["time"] + play.start + plays.origins[play.row],
     )
-    cushion = one.met["type"] == lib.CAROM_EVENT_RAIL
-    a, b = one.met["before"][:, 0], one.met["before"][:, 1]
-    made["r"], made["a"], made["b"] = (
+    cushion = play.contacts["type"] == lib.CAROM_EVENT_RAIL
+    a, b = play.contacts["before"][:, 0], play.contacts["before"][:, 1]
+    records["r"], records["a"], records["b"] = (
         a["r"][:, :2],
-        one.met["a"],
-        np.where(cushion, -1, one.met["b"]),
+        play.contacts["a"],
+        np.where(cushion, -1, play.contacts["b"]),
     )
-    made["struck"] = (made["a"] == shot.cue) | (made["b"] == shot.cue)
-    made["rail"], made["side"] = np.where(cushion, one.met["b"], -1), plays.radius * a["w"][:, 2]
+    records["struck"] = (records["a"] == shot.cue) | (records["b"] == shot.cue)
+    records["rail"], records["side"] = (
+        np.where(cushion, play.contacts["b"], -1),
+        plays.radius * a["w"][:, 2],
+    )
     # the normal, and the direction along it
     line = b["r"][:, :2] - a["r"][:, :2]
     normal = np.where(
         cushion[:, None],
-        _NORMALS[np.where(cushion, one.met["b"], 0)],
+        _NORMALS[np.where(cushion, play.contacts["b"], 0)],
         line / np.maximum(np.hypot(*line.T), 1e-9)[:, None],
     )
     v = a["v"][:, :2] - np.where(cushion[:, None], 0.0, b["v"][:, :2])
     into, along = (v * normal).sum(axis=1), v[:, 0] * normal[:, 1] - v[:, 1] * normal[:, 0]
     slip = along - np.where(cushion, 0.0, plays.radius * (a["w"][:, 2] + b["w"][:, 2]))
-    made["v_n"], made["v"] = into, np.where(cushion, np.hypot(*v.T), into)
-    made["angle"] = np.degrees(np.arctan2(np.abs(along), into))
+    records["v_n"], records["v"] = into, np.where(cushion, np.hypot(*v.T), into)
+    records["angle"] = np.degrees(np.arctan2(np.abs(along), into))
     # how the noise moves the kicks, and which share of them the track tells
-    inverse = one.inverse(one.price)
+    inverse = play.inverse(play.price)
     still = np.repeat(shot.still, 2)
-    spread = inverse @ (one.H + (one.rest / still) @ one.rest.T) @ inverse
-    seen = one.H[6:, 6:] - one.H[6:, :6] @ np.linalg.pinv(one.H[:6, :6]) @ one.H[:6, 6:]
-    y = one.kicks.reshape(n, KICKS)
-    own = [slice(KICKS * j, KICKS * (j + 1)) for j in range(n)]
-    made["effect"] = [
-        np.sqrt(max(float(k @ seen[at, at] @ k), 0.0) / one.count) for k, at in zip(y, own)
+    spread = inverse @ (play.H + (play.rest / still) @ play.rest.T) @ inverse
+    seen = play.H[6:, 6:] - play.H[6:, :6] @ np.linalg.pinv(play.H[:6, :6]) @ play.H[:6, 6:]
+    y = play.kicks.reshape(n, KICKS)
+    parts = [slice(KICKS * j, KICKS * (j + 1)) for j in range(n)]
+    records["effect"] = [
+        np.sqrt(max(float(k @ seen[part, part] @ k), 0.0) / play.count) for k, part in zip(y, parts)
     ]
-    made["error"] = shot.noise * np.sqrt(spread.diagonal().clip(0.0)).reshape(-1)[6:].reshape(
+    records["error"] = shot.noise * np.sqrt(spread.diagonal().clip(0.0)).reshape(-1)[6:].reshape(
         n, KICKS
     )
-    made["share"] = np.clip((inverse @ one.H).diagonal()[6:].reshape(n, KICKS), 0.0, 1.0)
+    records["share"] = np.clip((inverse @ play.H).diagonal()[6:].reshape(n, KICKS), 0.0, 1.0)
     # the mirror image of a contact has the same numbers
     turned = np.where(np.where(cushion, along, slip) < 0.0, -1.0, 1.0)[:, None]
     odd = np.where(cushion[:, None], np.array([1, 0, 1, 0, 1]), np.array([0, 1, 0, 1, 1])).astype(
         bool
     )
-    made["side"] *= turned[:, 0]
+    records["side"] *= turned[:, 0]
     turn = np.where(odd, turned, 1.0)
-    made["kick"] = turn * y
-    return made, turn
+    records["kick"] = turn * y
+    return records, turn
 
 
 def _means(
@@ -370,17 +367,17 @@ def _means(
 
     A kick that a track tells in part alone is too small, and its mean with it; this one is not.
     """
-    middle = 2.0 * float(np.median([one.cost / one.count for one in found]))
+    middle = 2.0 * float(np.median([play.cost / play.count for play in found]))
     whole, slopes = np.zeros((KICKS, KICKS)), []
-    for one, picked, turn in zip(found, chosen, turns):
+    for play, picked, turn in zip(found, chosen, turns):
         J = np.concatenate(
             [np.zeros((6, KICKS)), *(picked[j] * np.diag(turn[j]) for j in range(len(picked)))]
         )
-        inverse = one.inverse(one.price)
-        Q = np.diag(one.price) - one.price[:, None] * inverse * one.price
-        linear = one.price * (inverse @ one.g)
-        y = np.concatenate([np.zeros(6), one.kicks])
-        weight = 1.0 / (one.count * middle + one.cost)
+        inverse = play.inverse(play.price)
+        Q = np.diag(play.price) - play.price[:, None] * inverse * play.price
+        linear = play.price * (inverse @ play.g)
+        y = np.concatenate([np.zeros(6), play.kicks])
+        weight = 1.0 / (play.count * middle + play.cost)
         whole += weight * J.T @ Q @ J
         slopes.append((weight * J.T @ Q @ J, weight * J.T @ (Q @ y - linear)))
     inverted = np.linalg.pinv(whole)
@@ -394,10 +391,10 @@ _SPEEDS, _ANGLES = (0.0, 0.5, 1.0, 2.0, np.inf), (0.0, 30.0, 60.0, 90.0)
 
 
 def _table(
-    found: Sequence[Quadratic], told: Sequence[Records], turns: Sequence[Doubles], cushion: bool
+    found: Sequence[Quadratic], tables: Sequence[Records], turns: Sequence[Doubles], cushion: bool
 ) -> list[list[str]]:
     """What the kicks of cushions or of balls have in common, the names of the columns first."""
-    kicks: Records = np.concatenate([np.zeros(0, contact), *told])
+    kicks: Records = np.concatenate([np.zeros(0, contact), *tables])
     of_kind = (kicks["rail"] >= 0) == cushion
     groups = [("all", of_kind)]
     if cushion:
@@ -420,7 +417,7 @@ def _table(
                     part,
                 )
             )
-    made = [
+    lines = [
         [
             "cushions" if cushion else "balls",
             "contacts",
@@ -428,13 +425,13 @@ def _table(
             *(f"{name}, %" for name in OUTPUTS[cushion]),
         ]
     ]
-    cuts = np.cumsum([0, *map(len, told)])
+    cuts = np.cumsum([0, *map(len, tables)])
     for name, part in groups:
         part = part & of_kind
         if part.sum() >= _FEWEST:
             means = _means(found, [part[a:b] for a, b in zip(cuts[:-1], cuts[1:])], turns)
             cells = [f"{100.0 * value:+.2f} ± {100.0 * error:.2f}" for value, error in zip(*means)]
-            made.append(
+            lines.append(
                 [name, str(part.sum()), f"{1e3 * np.median(kicks['effect'][part]):.1f}", *cells]
             )
-    return made
+    return lines

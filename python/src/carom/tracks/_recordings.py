@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
 from carom.dtypes import Doubles
 
@@ -112,17 +112,17 @@ class Recording:
         return int(first[int(np.argmin(hit))])
 
     @functools.cached_property
-    def moving(self) -> list[npt.NDArray[np.intp]]:
+    def moving(self) -> list[NDArray[np.intp]]:
         """Of each ball the rows that tell a motion: each is farther than `away` from the one
         before, the first from the place of rest.
         """
         found = []
-        for track, at in zip(self.tracks, self.rest):
+        for track, rest_time in zip(self.tracks, self.rest):
             rows = []
             for k, place in enumerate(track[:, 1:]):
-                if np.hypot(*(place - at)) > self.away:
+                if np.hypot(*(place - rest_time)) > self.away:
                     rows.append(k)
-                    at = place
+                    rest_time = place
             found.append(np.array(rows, np.intp))
         return found
 
@@ -200,11 +200,11 @@ def noise_of(recordings: Sequence[Recording]) -> float:
 
 def _reached(
     track: Doubles,
-    first: npt.NDArray[np.intp],
-    last: npt.NDArray[np.intp],
+    first: NDArray[np.intp],
+    last: NDArray[np.intp],
     noise: float,
     ends: tuple[Any, Any] | None = None,
-) -> npt.NDArray[np.bool_]:
+) -> NDArray[np.bool_]:
     """Whether a ball goes from row `first` to row `last`, by its speed just before and just after
     two rows, `ends`, which are these.
 
@@ -214,10 +214,10 @@ def _reached(
     dt = np.diff(t)
     speed = np.where(dt < 0.2, np.hypot(*np.diff(r, axis=0).T) / dt, 0.0)
     left, right = ends or (first, last)
-    before = np.where(left > 0, speed[left - 1], 0.0)
-    after = np.where(right < len(speed), speed[np.minimum(right, len(speed) - 1)], 0.0)
+    speed_before = np.where(left > 0, speed[left - 1], 0.0)
+    speed_after = np.where(right < len(speed), speed[np.minimum(right, len(speed) - 1)], 0.0)
     most = (
-        _FASTER * np.maximum(before, after) * np.minimum(t[last] - t[first], 0.12)
+        _FASTER * np.maximum(speed_before, speed_after) * np.minimum(t[last] - t[first], 0.12)
         + 8.0 * noise
         + 2e-3
     )
@@ -235,10 +235,10 @@ def without_false(track: Doubles, noise: float) -> Doubles:
             break
         k = np.arange(1, n - block)
         # neither reached from before nor from behind, while these reach each other
-        before, after = k - 1, k + block
+        preceding, following = k - 1, k + block
         reached = [
-            _reached(track, *rows, noise, (before, after))
-            for rows in ((before, k), (after - 1, after), (before, after))
+            _reached(track, *rows, noise, (preceding, following))
+            for rows in ((preceding, k), (following - 1, following), (preceding, following))
         ]
         false = k[~reached[0] & ~reached[1] & reached[2]]
         track = np.delete(track, np.unique(false[:, None] + np.arange(block)), axis=0)
@@ -262,14 +262,14 @@ def without_swaps(
 ) -> tuple[list[Doubles], list[tuple[int, int, float]]]:
     """Tracks with their names put right, and which two were swapped from which time on."""
     mended, swaps = list(tracks), list[tuple[int, int, float]]()
-    near = 0.04 + 6.0 * noise
+    reach = 0.04 + 6.0 * noise
 
     def place(track: Doubles, k: int, time: float) -> Doubles:
         """Where a ball is at a time by its row k and the one before."""
         dt = track[k, 0] - track[k - 1, 0] if k else math.inf
         velocity = (track[k, 1:] - track[k - 1, 1:]) / dt if dt < 0.2 else np.zeros(2)
-        there: Doubles = track[k, 1:] + velocity * min(time - track[k, 0], 0.1)
-        return there
+        point: Doubles = track[k, 1:] + velocity * min(time - track[k, 0], 0.1)
+        return point
 
     while len(swaps) < 20:
         found = None
@@ -277,19 +277,22 @@ def without_swaps(
             k = np.arange(len(track) - 1)
             for row in (k[~_reached(track, k, k + 1, noise)] + 1).tolist():
                 time = track[row, 0]
-                for b, other in enumerate(mended):
-                    at = int(np.searchsorted(other[:, 0], time - 1e-6))
-                    if b == a or at == 0 or (found is not None and time >= found[2]):
+                for b, partner in enumerate(mended):
+                    index = int(np.searchsorted(partner[:, 0], time - 1e-6))
+                    if b == a or index == 0 or (found is not None and time >= found[2]):
                         continue
                     # the one goes to where the other was, which goes to its place or is not seen
                     # where rows at rest are left out
-                    there = np.hypot(*(track[row, 1:] - place(other, at - 1, time))) < near
-                    back = at == len(other) or other[at, 0] > time + 0.2
+                    point = np.hypot(*(track[row, 1:] - place(partner, index - 1, time))) < reach
+                    back = index == len(partner) or partner[index, 0] > time + 0.2
                     back = (
                         back
-                        or np.hypot(*(other[at, 1:] - place(track, row - 1, other[at, 0]))) < near
+                        or np.hypot(
+                            *(partner[index, 1:] - place(track, row - 1, partner[index, 0]))
+                        )
+                        < reach
                     )
-                    if there and back:
+                    if point and back:
                         found = (a, b, time)
         if found is None:
             break
@@ -313,14 +316,14 @@ def sound(recordings: Sequence[Recording], noise: float) -> tuple[list[Recording
         tracks, swaps = without_swaps(shot.tracks, noise)
         tracks = [without_false(track, noise) for track in tracks]
         lost = 1.0 - sum(map(len, tracks)) / sum(map(len, shot.tracks))
-        told = [
+        remarks = [
             f"balls {shot.balls[a]} and {shot.balls[b]} swapped from {time:.2f} s on"
             for a, b, time in swaps
         ]
         if lost > 0.0:
-            told.append(f"{100.0 * lost:.2g} % false detections, left out")
+            remarks.append(f"{100.0 * lost:.2g} % false detections, left out")
         mended.append(replace(shot, tracks=tuple(tracks), noise=noise))
-        notes.append(told)
+        notes.append(remarks)
     return mended, notes
 
 
@@ -393,17 +396,17 @@ def _turns(track: Doubles, axis: int, noise: float) -> Doubles:
         # lines through the rows before and after, fewer after, where the ball slides; without the
         # row of the turn itself
         t = track[:, 0] - track[k, 0]
-        before, after = (
+        incoming, outgoing = (
             np.flatnonzero((t < -gap) & (t > -0.1))[-4:],
             np.flatnonzero((t > gap) & (t < 0.1))[:4],
         )
-        after = after[: max(int((t[after] < 0.045).sum()), 2)]
-        if len(before) < 2 or len(after) < 2:
+        outgoing = outgoing[: max(int((t[outgoing] < 0.045).sum()), 2)]
+        if len(incoming) < 2 or len(outgoing) < 2:
             continue
-        slid = np.sign(x[after[-1]] - x[k]) * 0.5 * _SLIDING * t[after] ** 2
+        slid = np.sign(x[outgoing[-1]] - x[k]) * 0.5 * _SLIDING * t[outgoing] ** 2
         (v, x_0), (w, x_1) = (
-            np.polyfit(t[before], x[before], 1),
-            np.polyfit(t[after], x[after] + slid, 1),
+            np.polyfit(t[incoming], x[incoming], 1),
+            np.polyfit(t[outgoing], x[outgoing] + slid, 1),
         )
         if v * w < 0.0 and min(abs(v), abs(w)) > 0.15:
             time = (x_0 - x_1) / (w - v)
@@ -446,15 +449,15 @@ def lie_of(recordings: Sequence[Recording], table: tuple[float, float], radius: 
             for axis in (0, 1):
                 found = _turns(track[max(still - 1, 0) :], axis, shot.noise)
                 places = np.where(found[:, 2] > 0.0, table[axis] - radius, radius)
-                near = np.abs(found[:, 0] - places) < 0.07
-                x, along, v, c = found[near, 0], found[near, 1], found[near, 2], places[near]
-                one, none = np.ones_like(x), np.zeros_like(x)
+                close = np.abs(found[:, 0] - places) < 0.07
+                x, along, v, c = found[close, 0], found[close, 1], found[close, 2], places[close]
+                ones, none = np.ones_like(x), np.zeros_like(x)
                 turn = along if axis == 0 else -along
                 q = np.stack([x, along] if axis == 0 else [along, x], axis=-1) - middle
                 bent = q[:, axis, None] * np.column_stack([(q * q).sum(axis=1), q])
                 rows.append(
                     np.column_stack(
-                        [x - c, x, -turn, *((one, none) if axis == 0 else (none, one)), v, bent]
+                        [x - c, x, -turn, *((ones, none) if axis == 0 else (none, ones)), v, bent]
                     )
                 )
     A = np.concatenate([np.empty((0, 9)), *rows])

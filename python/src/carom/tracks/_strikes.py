@@ -24,7 +24,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -37,7 +37,7 @@ from carom.status import CaromError
 from carom.tracks import _constants
 from carom.tracks._recordings import Recording
 
-Integers = npt.NDArray[np.int32]
+Integers = NDArray[np.int32]
 
 HUBER = 0.01  # c, m
 # of the forward differences, m/s and s: small against what moves an event, large against rounding
@@ -68,7 +68,7 @@ _FIRST_KEPT = {
 # The others: samples up to a time (s), offspring of each strike, how many of all descend,
 # iterations, how many go on.
 _STAGES = {
-    False: tuple((until, 30, 3, 4, 3) for until in (2.0, 4.0, 8.0, np.inf)),
+    False: tuple((end, 30, 3, 4, 3) for end in (2.0, 4.0, 8.0, np.inf)),
     True: ((2.0, 40, 8, 4, 8), (4.0, 40, 7, 4, 6), (8.0, 40, 6, 4, 4), (np.inf, 60, 5, 4, 3)),
 }
 _WIDER = 10.0  # standard deviations of the widest offspring
@@ -127,10 +127,10 @@ class Plays:
             *({**self.constants, name: constants[name] + step} for name, step in steps.items()),
         ]
         self.layouts = np.array(
-            [_constants.layout(self.centres, self.radius, given) for given in changed]
+            [_constants.layout(self.centres, self.radius, constants) for constants in changed]
         )
 
-    def some(self, rows: npt.ArrayLike) -> Plays:
+    def some(self, rows: ArrayLike) -> Plays:
         """Some of the shots."""
         shots = [self.recordings[row] for row in np.asarray(rows)]
         return Plays(
@@ -194,9 +194,9 @@ class Plays:
 
     def misfit(
         self,
-        of: Integers,
+        shots: Integers,
         strikes: Doubles,
-        until: Doubles,
+        end: Doubles,
         most: Doubles | float,
         *,
         huber: float = HUBER,
@@ -209,13 +209,13 @@ class Plays:
         has five more for each.
         """
         numbers = strikes.shape[1] + len(self.steps)
-        sums = np.empty((len(of), 3 + numbers + numbers * (numbers + 1) // 2))
-        of, strikes, until = (
-            np.ascontiguousarray(of, np.int32),
+        sums = np.empty((len(shots), 3 + numbers + numbers * (numbers + 1) // 2))
+        shots, strikes, end = (
+            np.ascontiguousarray(shots, np.int32),
             np.ascontiguousarray(strikes),
-            np.ascontiguousarray(until),
+            np.ascontiguousarray(end),
         )
-        most = np.ascontiguousarray(np.broadcast_to(most, len(of)), np.float64)
+        most = np.ascontiguousarray(np.broadcast_to(most, len(shots)), np.float64)
         tracks = self._of_c(strikes, stride, huber)
 
         def part(rows: slice) -> int:
@@ -226,15 +226,15 @@ class Plays:
                 code = code or lib.carom_python_misfit(
                     tracks,
                     cut.stop - begin,
-                    pointer("int32_t[]", of[cut]),
+                    pointer("int32_t[]", shots[cut]),
                     pointer("double[]", strikes[cut]),
-                    pointer("double[]", until[cut]),
+                    pointer("double[]", end[cut]),
                     pointer("double[]", most[cut]),
                     pointer("double[]", sums[cut]),
                 )
             return int(code)
 
-        cuts = np.linspace(0, len(of), self.workers + 1).astype(int)
+        cuts = np.linspace(0, len(shots), self.workers + 1).astype(int)
         parts = [slice(int(a), int(b)) for a, b in zip(cuts[:-1], cuts[1:])]
         if len(parts) == 1:
             codes = [part(parts[0])]
@@ -310,10 +310,10 @@ def _off_rails(
     the rail and back to where it is seen.
     """
     track, rest = shot.tracks[shot.cue], shot.rest[shot.cue]
-    since = track[:, 0] - shot.moves[shot.cue]
+    elapsed = track[:, 0] - shot.moves[shot.cue]
     found = []
     for begin, end in _WINDOWS:
-        rows = track[(since >= begin) & (since <= end)]
+        rows = track[(elapsed >= begin) & (elapsed <= end)]
         if len(rows) < 2:
             continue
         middle, velocity = _line(rows)
@@ -339,14 +339,16 @@ def starts(shot: Recording, table: tuple[float, float], radius: float) -> Double
     cue = shot.cue
     track, rest = shot.tracks[cue], shot.rest[cue]
     still = int(np.searchsorted(track[:, 0], shot.moves[cue]))
-    other = min((time for ball, time in enumerate(shot.moves) if ball != cue), default=np.inf)
+    second_start = min(
+        (time for ball, time in enumerate(shot.moves) if ball != cue), default=np.inf
+    )
     # samples under way, up to 80 ms, a picture and more before another ball is seen to move
     picture = (
         float(np.median(np.diff(track[still : still + 12, 0]))) if len(track) > still + 1 else 0.02
     )
     known = 1
     while still + known < len(track) and track[still + known, 0] <= min(
-        track[still, 0] + 0.082, other - 1.05 * picture
+        track[still, 0] + 0.082, second_start - 1.05 * picture
     ):
         known += 1
     # velocity by the line through all but the first quarter, the strike's time by the way back to
@@ -376,10 +378,10 @@ def starts(shot: Recording, table: tuple[float, float], radius: float) -> Double
         if known <= 3
         else (np.linspace(-1.3, 1.3, 9), np.linspace(-0.9, 1.0, 6))
     )
-    made = [_grid(speed, angle, begin, turns, faster, sides, follows)]
+    grids = [_grid(speed, angle, begin, turns, faster, sides, follows)]
     for motion in _off_rails(shot, table, radius):
-        made.append(_grid(*motion, *_ROUGH))
-    return np.concatenate(made)
+        grids.append(_grid(*motion, *_ROUGH))
+    return np.concatenate(grids)
 
 
 def _grid(
@@ -431,9 +433,9 @@ def normal(sums: Doubles) -> tuple[Doubles, Doubles]:
 
 def descend(
     plays: Plays,
-    of: Integers,
+    shots: Integers,
     strikes: Doubles,
-    until: Doubles,
+    end: Doubles,
     iterations: int,
     *,
     huber: float = HUBER,
@@ -450,7 +452,7 @@ def descend(
     strikes = _allowed(strikes)
     n, numbers = strikes.shape
     held = np.zeros((n, numbers)) if held is None else held
-    sums = plays.misfit(of, strikes, until, np.inf, huber=huber, stride=stride)
+    sums = plays.misfit(shots, strikes, end, np.inf, huber=huber, stride=stride)
     costs = sums[:, 0] + (held * strikes**2).sum(axis=1)
     damping, failed = np.full(n, 1e-2), np.zeros(n, int)
     active = np.isfinite(costs)
@@ -471,7 +473,7 @@ def descend(
         # taken where the cost falls; else a shorter one next time, up to six times
         price = (held[rows] * tried**2).sum(axis=1)
         new = plays.misfit(
-            of[rows], tried, until[rows], costs[rows] - price, huber=huber, stride=stride
+            shots[rows], tried, end[rows], costs[rows] - price, huber=huber, stride=stride
         )
         cost = new[:, 0] + price
         better = cost < costs[rows]
@@ -487,21 +489,23 @@ def descend(
     return strikes, sums
 
 
-def _best(of: Integers, strikes: Doubles, costs: Doubles, keep: int) -> npt.NDArray[np.intp]:
+def _best(shots: Integers, strikes: Doubles, costs: Doubles, keep: int) -> NDArray[np.intp]:
     """The rows of the `keep` best strikes of each shot, without those that are near a better one."""
-    kept: list[int] = []
+    chosen: list[int] = []
     of_shot: dict[int, list[int]] = {}
     for row in np.argsort(costs, kind="stable").tolist():
-        others = of_shot.setdefault(int(of[row]), [])
+        others = of_shot.setdefault(int(shots[row]), [])
         if len(others) < keep and np.isfinite(costs[row]):
-            if all(np.abs(strikes[other, :5] - strikes[row, :5]).max() > 1e-2 for other in others):
+            if all(
+                np.abs(strikes[better, :5] - strikes[row, :5]).max() > 1e-2 for better in others
+            ):
                 others.append(row)
-                kept.append(row)
-    return np.array(sorted(kept), np.intp)
+                chosen.append(row)
+    return np.array(sorted(chosen), np.intp)
 
 
 def _offspring(
-    of: Integers, strikes: Doubles, sums: Doubles, each: int, random: np.random.Generator
+    shots: Integers, strikes: Doubles, sums: Doubles, each: int, random: np.random.Generator
 ) -> tuple[Integers, Doubles]:
     """Strikes drawn about each strike, from the normal distribution that its misfit gives, from one
     to _WIDER deviations wide.
@@ -511,10 +515,12 @@ def _offspring(
     most = 0.5 * np.maximum(np.hypot(strikes[:, :1], strikes[:, 1:2]), 0.3)
     variance = sums[:, :1] / np.maximum(sums[:, 2:3], 1.0)
     deviation = np.minimum(np.sqrt(variance / np.maximum(values, 1e-12)), most)
-    drawn = random.normal(size=(len(of), each, _NUMBERS)) * np.geomspace(1.0, _WIDER, each)[:, None]
+    drawn = (
+        random.normal(size=(len(shots), each, _NUMBERS)) * np.geomspace(1.0, _WIDER, each)[:, None]
+    )
     moved = np.einsum("nij,nmj->nmi", axes * deviation[:, None, :], drawn)
     tried = strikes[:, None] + np.clip(moved, -most[..., None], most[..., None])
-    return np.repeat(of, each), _allowed(tried.reshape(-1, _NUMBERS))
+    return np.repeat(shots, each), _allowed(tried.reshape(-1, _NUMBERS))
 
 
 def find(
@@ -535,40 +541,45 @@ def find(
         starts(shot, plays.table_size, plays.radius) - [0.0, 0.0, 0.0, 0.0, 0.0, begin]
         for shot, begin in zip(plays.recordings, plays.origins)
     ]
-    of = np.repeat(np.arange(len(first), dtype=np.int32), [len(rows) for rows in first])
+    shots = np.repeat(np.arange(len(first), dtype=np.int32), [len(rows) for rows in first])
     strikes = _allowed(np.concatenate(first))
     # the best of the starts descend
-    until = np.minimum(_FIRST, plays.ends)
+    end = np.minimum(_FIRST, plays.ends)
     rows = _best(
-        of, strikes, plays.misfit(of, strikes, until[of], -np.inf)[:, 0], _FIRST_KEPT[squares]
+        shots,
+        strikes,
+        plays.misfit(shots, strikes, end[shots], -np.inf)[:, 0],
+        _FIRST_KEPT[squares],
     )
-    of = of[rows]
-    strikes, sums = descend(plays, of, strikes[rows], until[of], _FIRST_ITERATIONS)
-    rows = _best(of, strikes, sums[:, 0], _FIRST_KEPT[squares])
+    shots = shots[rows]
+    strikes, sums = descend(plays, shots, strikes[rows], end[shots], _FIRST_ITERATIONS)
+    rows = _best(shots, strikes, sums[:, 0], _FIRST_KEPT[squares])
     for number, (time, each, descending, iterations, keep) in enumerate(_STAGES[squares]):
         if progress:
             progress("strikes", number / len(_STAGES[squares]))
-        of, strikes, sums = of[rows], strikes[rows], sums[rows]
-        drawn_of, drawn = _offspring(of, strikes, sums, each, random)
-        of, strikes = np.concatenate([of, drawn_of]), np.concatenate([strikes, drawn])
-        until = np.minimum(time, plays.ends)
-        rows = _best(of, strikes, plays.misfit(of, strikes, until[of], -np.inf)[:, 0], descending)
-        of = of[rows]
-        strikes, sums = descend(plays, of, strikes[rows], until[of], iterations)
+        shots, strikes, sums = shots[rows], strikes[rows], sums[rows]
+        drawn_of, drawn = _offspring(shots, strikes, sums, each, random)
+        shots, strikes = np.concatenate([shots, drawn_of]), np.concatenate([strikes, drawn])
+        end = np.minimum(time, plays.ends)
         rows = _best(
-            of,
+            shots, strikes, plays.misfit(shots, strikes, end[shots], -np.inf)[:, 0], descending
+        )
+        shots = shots[rows]
+        strikes, sums = descend(plays, shots, strikes[rows], end[shots], iterations)
+        rows = _best(
+            shots,
             strikes,
             sums[:, 0],
             keep if number + 1 < len(_STAGES[squares]) else _FINALISTS if squares else 1,
         )
-    of = of[rows]
-    strikes, sums = descend(plays, of, strikes[rows], plays.ends[of], _LAST)
+    shots = shots[rows]
+    strikes, sums = descend(plays, shots, strikes[rows], plays.ends[shots], _LAST)
     if squares:
-        strikes, sums = descend(plays, of, strikes, plays.ends[of], _SQUARES, huber=0.0)
-        rows = _best(of, strikes, sums[:, 0], 1)
-        of, strikes, sums = of[rows], strikes[rows], sums[rows]
+        strikes, sums = descend(plays, shots, strikes, plays.ends[shots], _SQUARES, huber=0.0)
+        rows = _best(shots, strikes, sums[:, 0], 1)
+        shots, strikes, sums = shots[rows], strikes[rows], sums[rows]
     found, cost = np.full((len(first), _NUMBERS), np.nan), np.full(len(first), np.inf)
-    found[of], cost[of] = strikes, sums[:, 0]
+    found[shots], cost[shots] = strikes, sums[:, 0]
     return found, cost
 
 
@@ -589,11 +600,11 @@ def derivatives(
 
     # the tangents at all times of samples, on the clock of the play
     times = np.unique(np.concatenate([track[:, 0] for track in tracks]))
-    at = np.maximum(times - strike[5], 0.0)
+    moments = np.maximum(times - strike[5], 0.0)
     wrt = [f"balls[{struck}].v", f"balls[{struck}].w", *(f"kind.{name}" for name in names)]
     wrt += [f"balls[{ball}].r" for ball in range(len(balls)) if rest]
-    found = tangents(played, wrt, times=at).at["r"]
-    states = played.states(at)
+    found = tangents(played, wrt, times=moments).at["r"]
+    states = played.states(moments)
 
     distances, slopes = [], []
     for ball, track in enumerate(tracks):

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import ArrayLike, NDArray
 
 from carom import pictures
 from carom._carom import lib
@@ -91,10 +91,10 @@ class Fit:
             for status in self.status
         ]
 
-    def _counted(self, train: bool | None) -> npt.NDArray[np.bool_]:
+    def _counted(self, train: bool | None) -> NDArray[np.bool_]:
         part = [
-            train is None or self.train is None or one == train
-            for one in self.train or [True] * len(self.status)
+            train is None or self.train is None or item == train
+            for item in self.train or [True] * len(self.status)
         ]
         return np.asarray(np.array(self.counts) & np.array(part), np.bool_)
 
@@ -158,9 +158,9 @@ class Fit:
         ValueError
             No strike was found.
         """
-        own, follow, rest = self._strike_off(i)
+        block, follow, rest = self._strike_off(i)
         follow = follow[:, len(self.fitted) :] * rest
-        return np.asarray(own + follow @ follow.T)
+        return np.asarray(block + follow @ follow.T)
 
     def _strike_off(self, i: int) -> tuple[Doubles, Doubles, Doubles]:
         self.shot(i)
@@ -181,21 +181,21 @@ class Fit:
         ValueError
             No strike was found.
         """
-        own, follow, rest = self._strike_off(i)
-        random, by, names = (
+        block, follow, rest = self._strike_off(i)
+        random, changes, names = (
             np.random.default_rng(seed_of(seed, 2**64 - 1)),
             np.zeros((count, len(self.fitted))),
             self.fitted,
         )
         if self.covariance is not None and names:
-            by = random.multivariate_normal(np.zeros(len(names)), self.covariance, count)
+            changes = random.multivariate_normal(np.zeros(len(names)), self.covariance, count)
         moved = random.normal(0.0, rest, (count, len(rest)))
         strikes = (
-            random.multivariate_normal(self.strikes[i], own, count)
-            + np.hstack([by, moved]) @ follow.T
+            random.multivariate_normal(self.strikes[i], block, count)
+            + np.hstack([changes, moved]) @ follow.T
         )
         moved = moved.reshape(count, -1, 2)
-        return (*self._struck(i, strikes, moved, self.changed(by)), strikes[:, 5])
+        return (*self._struck(i, strikes, moved, self.changed(changes)), strikes[:, 5])
 
     def forecast(
         self, shot: int | Recording, *, after: float, draws: int = 200, seed: Seed = 0
@@ -230,19 +230,19 @@ class Fit:
         draws, seed = _whole(draws, "draws", least=10), seed_of(seed)
         return forecast(self, whole, after, draws, seed)
 
-    def changed(self, by: Doubles) -> dict[str, Doubles]:
+    def changed(self, changes: Doubles) -> dict[str, Doubles]:
         """The fitted constants, off by numbers of shape (n, fitted), within their bounds."""
         return {
             name: np.clip(self.constants[name] + off, *_joint.prior(name)[1:])
-            for name, off in zip(self.fitted, by.T)
+            for name, off in zip(self.fitted, changes.T)
         }
 
-    def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
+    def positions(self, i: int, times: ArrayLike) -> Doubles:
         """The centres of shot i's balls as played at times of the recording's clock, m, shape (...,
         balls, 2); at rest before the strike.
         """
-        at = np.asarray(times, np.float64)
-        return self.shot(i).positions(np.maximum(at - self.strikes[i, 5], 0.0))[..., :2]
+        moments = np.asarray(times, np.float64)
+        return self.shot(i).positions(np.maximum(moments - self.strikes[i, 5], 0.0))[..., :2]
 
     def off(self, train: bool | None = None) -> Doubles:
         """How far the plays of shots that count are off, shape (samples of moving balls, 3): how
@@ -252,7 +252,7 @@ class Fit:
         found = [np.zeros((0, 3))]
         for k in np.flatnonzero(self._counted(train)):
             shot, recording = self.shot(int(k)), self.recordings[k]
-            met = shot.events["time"][
+            contacts = shot.events["time"][
                 np.isin(shot.events["type"], (lib.CAROM_EVENT_BALL_BALL, lib.CAROM_EVENT_RAIL))
             ]
             rows = [
@@ -269,7 +269,11 @@ class Fit:
             )
             found.append(
                 np.stack(
-                    [np.searchsorted(met, t), np.hypot(*apart.T), np.full(len(t), 1.0 / len(t))],
+                    [
+                        np.searchsorted(contacts, t),
+                        np.hypot(*apart.T),
+                        np.full(len(t), 1.0 / len(t)),
+                    ],
                     axis=1,
                 )
             )
@@ -284,14 +288,14 @@ class Fit:
         They are no forecast: the samples after the first seconds of a shot are several times as far
         off where the strike knows these seconds alone. `forecast` gives regions for them.
         """
-        off, made = self.off(train), []
+        off, bands = self.off(train), []
         larger = 1.0 + 1.0 / max(off[:, 2].sum(), 1.0)
         for least, below in zip(_CONTACTS, (*_CONTACTS[1:], np.inf)):
             part = off[(off[:, 0] >= least) & (off[:, 0] < below)]
             if len(part):
                 part = part[np.argsort(part[:, 1])]
                 reached = np.cumsum(part[:, 2]) / part[:, 2].sum()
-                made.append(
+                bands.append(
                     [
                         least,
                         *(
@@ -300,13 +304,13 @@ class Fit:
                         ),
                     ]
                 )
-        return np.array(made).reshape(-1, 3)
+        return np.array(bands).reshape(-1, 3)
 
     def covered(self, bands: Doubles, train: bool | None = None) -> Doubles:
         """Which shares of the samples are within bands: 68 and 95 %, where the bands are true."""
         off = self.off(train)
-        at = np.maximum(np.searchsorted(bands[:, 0], off[:, 0], side="right") - 1, 0)
-        return np.asarray(off[:, 2] @ (off[:, 1:2] <= bands[at, 1:]) / off[:, 2].sum())
+        band = np.maximum(np.searchsorted(bands[:, 0], off[:, 0], side="right") - 1, 0)
+        return np.asarray(off[:, 2] @ (off[:, 1:2] <= bands[band, 1:]) / off[:, 2].sum())
 
     def kicks(self) -> Kicks:
         """What the models get wrong at each contact of the shots that count: the small changes of
@@ -456,9 +460,9 @@ class _Chart:
         (x_0, x_1), (y_0, y_1) = self.ends
         for a, b in zip(x.tolist(), y.tolist()):
             if x_0 <= a <= x_1 and y_0 <= b <= y_1:
-                at = self._at(a, b)
+                point = self._at(a, b)
                 self.parts.append(
-                    f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="2" fill="{_MARK}" fill-opacity="0.45"/>'
+                    f'<circle cx="{point[0]:.1f}" cy="{point[1]:.1f}" r="2" fill="{_MARK}" fill-opacity="0.45"/>'
                 )
 
     def line(self, x: Doubles, y: Doubles) -> None:
@@ -570,7 +574,7 @@ def laws(fit: Fit) -> list[tuple[str, str]]:
     return found
 
 
-def told(fit: Fit) -> list[str]:
+def summary_lines(fit: Fit) -> list[str]:
     """What a reader of the result should know: the noise, what holds of all shots, and the shots
     that are not ok.
     """
@@ -596,8 +600,8 @@ def told(fit: Fit) -> list[str]:
 
 def told_forecasts(seen: Sequence[Forecast]) -> str:
     """How many of the later places lie in the regions of forecasts."""
-    counts = [len(one.later()[0]) for one in seen]
-    inside = 100.0 * np.average([one.covered() for one in seen], axis=0, weights=counts)
+    counts = [len(item.later()[0]) for item in seen]
+    inside = 100.0 * np.average([item.covered() for item in seen], axis=0, weights=counts)
     return (
         f"forecasts from the first {seen[0].after:g} s of {len(seen)} shots: {inside[0]:.0f} and "
         f"{inside[1]:.0f} % of {sum(counts)} later places lie in the regions of 68 and 95 %"
@@ -618,7 +622,9 @@ def page(
             f"<p>{len(ok)} of {len(fit.status)} shots, cushion model {fit.cushion_model}: RMSE median {100 * fit.median_rmse:.2f} cm, "
             f"9 in 10 below {100 * fit.p90_rmse:.2f} cm.</p>"
         )
-    parts.append(f"<ul>{''.join(f'<li>{html.escape(line)}</li>' for line in told(fit))}</ul>")
+    parts.append(
+        f"<ul>{''.join(f'<li>{html.escape(line)}</li>' for line in summary_lines(fit))}</ul>"
+    )
     figures = [("RMSE over all samples of all balls of a shot.", histogram(fit))] if order else []
     if order:
         whose = "shots" if fit.train is None else "shots that the constants were not fitted to"
@@ -638,7 +644,7 @@ def page(
             text += f" Played with kicks: {100 * kicks.rmse[k]:.2f} cm. Circles: contacts, the larger the more of the RMSE they have."
         figures.append((text, fit.plot(k, kicks).svg))
     if forecasts:
-        wide = [float(np.median(one.regions([one.until + 2.0])[1])) for one in forecasts]
+        wide = [float(np.median(item.regions([item.until + 2.0])[1])) for item in forecasts]
         median = forecasts[int(np.argsort(wide)[len(wide) // 2])]
         text = f"Shot {median.recording.id}, {told_forecasts(forecasts)}. Circles: these regions of this shot. Dots as recorded."
         figures.append((text, median.plot().svg))

@@ -130,8 +130,8 @@ class _Saved:
         )
         if path is not None and path.exists():
             with contextlib.suppress(ValueError, TypeError, KeyError):  # another file: begin anew
-                given = json.loads(path.read_text(encoding="utf-8"))
-                self.parts = given["parts"] if given["key"] == self.key else {}
+                saved = json.loads(path.read_text(encoding="utf-8"))
+                self.parts = saved["parts"] if saved["key"] == self.key else {}
 
     def get(self, name: str, compute: Callable[[], Any]) -> Any:
         """A part, which is computed if it is not there."""
@@ -160,9 +160,9 @@ def _sound(
     """
     noise = _recordings.noise_of(recordings if train is None else [recordings[k] for k in train])
     recordings, notes = _recordings.sound(recordings, noise)
-    lie, told = _recordings.lie_of(recordings, table, radius), list[str]()
+    lie, remarks = _recordings.lie_of(recordings, table, radius), list[str]()
     if lie.far > max(_CROOKED, 4.0 * lie.error):
-        told.append(
+        remarks.append(
             f"the tracks lie {lie}: {'put right' if calibrate else '--calibrate puts them right'}"
         )
     for _ in range(2 if calibrate else 0):
@@ -189,7 +189,7 @@ def _sound(
         raise ValueError(
             f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, and those above 0"
         )
-    return recordings, notes, noise, told
+    return recordings, notes, noise, remarks
 
 
 def _seek_again(
@@ -199,15 +199,15 @@ def _seek_again(
     stuck = np.array(played)[rmse[played] > rough]
     if len(stuck):
         some = plays.some(np.searchsorted(played, stuck))
-        other = _kicks.eased(some, strikes[stuck])
-        again = some.rmse(other)
-        better = again < rmse[stuck]
-        strikes[stuck[better]], rmse[stuck[better]] = other[better], again[better]
+        trial = _kicks.eased(some, strikes[stuck])
+        repeat = some.rmse(trial)
+        better = repeat < rmse[stuck]
+        strikes[stuck[better]], rmse[stuck[better]] = trial[better], repeat[better]
 
 
 def _told_by_events(
     values: dict[str, float],
-    told: list[str],
+    remarks: list[str],
     measured: Mapping[str, float],
     errors: Mapping[str, float],
 ) -> tuple[dict[str, float], dict[str, float]]:
@@ -218,7 +218,7 @@ def _told_by_events(
         name for name in measured if errors.get(name, 0.0) > (_joint.prior(name)[0] or math.inf)
     ]
     if worse:
-        told.append(
+        remarks.append(
             f"single events tell {', '.join(worse)} worse than tables differ: begun as given"
         )
     better = {name: value for name, value in measured.items() if name not in worse}
@@ -255,7 +255,7 @@ class _Job:
 
 
 def _fit_to_events(
-    job: _Job, fitted: Sequence[int], values: dict[str, float], told: list[str]
+    job: _Job, fitted: Sequence[int], values: dict[str, float], remarks: list[str]
 ) -> tuple[dict[str, float], dict[str, float]]:
     """The constants that single events of these shots tell, and their errors."""
     job.report("events", 0.0)
@@ -265,7 +265,7 @@ def _fit_to_events(
         found = events(shots, job.table, job.radius)
         return _from_events.measured(found, job.radius, job.cushion_model, job.seed, values)
 
-    return _told_by_events(values, told, *job.saved.get("events", measured))
+    return _told_by_events(values, remarks, *job.saved.get("events", measured))
 
 
 def _search(job: _Job, first: _joint.Search) -> _joint.Search:
@@ -294,7 +294,7 @@ def _fit_to_shots(
     fitted: Sequence[int],
     values: dict[str, float],
     spread: dict[str, float],
-    told: list[str],
+    remarks: list[str],
 ) -> tuple[dict[str, float], dict[str, float], tuple[str, ...], Doubles | None]:
     """The constants that these shots as a whole tell, the errors of all, and the names and the
     covariance of those that were fitted.
@@ -303,11 +303,11 @@ def _fit_to_shots(
     found = job.saved.get(
         "strikes", lambda: _strikes.find(plays, job.seed, job.progress)[0].tolist()
     )
-    wanted = _priors(job.free, job.priors, values, job.cushion_model)
-    search = _search(job, _joint.Search(plays, np.array(found), range(len(fitted)), wanted))
+    expected = _priors(job.free, job.priors, values, job.cushion_model)
+    search = _search(job, _joint.Search(plays, np.array(found), range(len(fitted)), expected))
     job.report("spread", _joint.STAGES / (_joint.STAGES + 2))
     if search.middle >= _joint.MOST:
-        told.append(
+        remarks.append(
             "half of the shots are off by centimetres: whole shots tell no constants, which stay as they were before"
         )
         return values, spread, (), None
@@ -318,7 +318,7 @@ def _fit_to_shots(
     if covariance is not None:
         errors = np.sqrt(covariance.diagonal()).tolist()
         spread = {**spread, **dict(zip(names, errors))}
-    told += [
+    remarks += [
         f"{name} is at its bound, {values[name]:g}: the recordings do not tell it, or the cushion's model does not fit them"
         for name in names
         if values[name] in _joint.prior(name)[1:]
@@ -391,7 +391,7 @@ def fit(
     recordings, seed = list(recordings), seed_of(seed, 2**64 - 1)
     if not recordings:
         raise ValueError("recordings: at least one shot is needed")
-    recordings, notes, noise, told = _sound(recordings, table, radius, train, calibrate)
+    recordings, notes, noise, remarks = _sound(recordings, table, radius, train, calibrate)
     free = [free] if isinstance(free, str) else list(free)
     values = _constants.complete({} if constants is None else constants, cushion_model)
     _priors([] if free[0] in ("none", "events") else free, priors or {}, values, cushion_model)
@@ -419,9 +419,9 @@ def fit(
             saved,
         )
         if free[0] in ("events", "default"):
-            values, spread = _fit_to_events(job, fitted, values, told)
+            values, spread = _fit_to_events(job, fitted, values, remarks)
         if free[0] not in ("none", "events") and fitted:
-            values, spread, names, covariance = _fit_to_shots(job, fitted, values, spread, told)
+            values, spread, names, covariance = _fit_to_shots(job, fitted, values, spread, remarks)
         plays = job.plays(played, values)
         strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])
@@ -447,10 +447,10 @@ def fit(
         part,
         names,
         covariance,
-        told,
+        remarks,
     )
     if found.median_rmse > _MANY * noise:
-        told.append(
+        remarks.append(
             f"the median RMSE is {found.median_rmse / noise / math.sqrt(2.0):.0f} times that of the noise: the constants or the "
             f"models are off by more than the camera"
         )
@@ -472,8 +472,8 @@ def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
     above = rmse / noise / math.sqrt(2.0)
     if rmse > max(2.0 * radius, _MANY * noise):
         return f"doubtful: RMSE {100.0 * rmse:.1f} cm, {above:.0f} times that of the noise"
-    if at := _strikes.at_bound(strike):
-        return f"doubtful: {at} of the strike is at its bound"
+    if bound := _strikes.at_bound(strike):
+        return f"doubtful: {bound} of the strike is at its bound"
     return (
         f"rough: RMSE {1e3 * rmse:.1f} mm, {above:.2g} times that of the noise"
         if above > ROUGH
@@ -501,14 +501,14 @@ _place = _two_numbers("X,Y, a place in the unit of the file, such as 4.5,3")
 def _read_object(path: Path, such: str) -> dict[str, Any]:
     """An object of a JSON file: the constants of it, where it is what this command wrote."""
     try:
-        given: Any = json.loads(path.read_text(encoding="utf-8"))
+        content: Any = json.loads(path.read_text(encoding="utf-8"))
     except ValueError as error:
         raise TrackError(f"{path}: no JSON ({error})") from None
-    if isinstance(given, dict) and isinstance(given.get("constants"), dict):
-        given = given["constants"]
-    if not isinstance(given, dict):
+    if isinstance(content, dict) and isinstance(content.get("constants"), dict):
+        content = content["constants"]
+    if not isinstance(content, dict):
         raise TrackError(f"{path}: an object of constants is needed, such as {such}")
-    return cast(dict[str, Any], given)
+    return cast(dict[str, Any], content)
 
 
 def _show(what: str, part: float) -> None:
@@ -520,7 +520,7 @@ def _show(what: str, part: float) -> None:
     )
 
 
-def _forecasts(found: Fit, after: float, seed: int) -> list[Forecast]:
+def _forecasts(found: Fit, duration: float, seed: int) -> list[Forecast]:
     """Of the shots that the constants were not fitted to, or of all; without those of which nothing
     is known after the first seconds.
     """
@@ -529,14 +529,14 @@ def _forecasts(found: Fit, after: float, seed: int) -> list[Forecast]:
         if found.train is not None and found.train[k]:
             continue
         try:
-            one = found.forecast(k, after=after, seed=seed)
+            forecast = found.forecast(k, after=duration, seed=seed)
         except ValueError as error:
-            if not 0.0 < after < math.inf:
+            if not 0.0 < duration < math.inf:
                 raise
             print(f"carom.fit: shot {shot.id}: no forecast: {error}", file=sys.stderr)
             continue
-        if len(one.later()[0]):
-            seen.append(one)
+        if len(forecast.later()[0]):
+            seen.append(forecast)
     return seen
 
 
@@ -618,47 +618,49 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--threads", type=int, default=0, help="0: one; -1: all processors")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT.json")
-    given = parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
     try:
-        constants = _read_object(given.constants, '{"mu_slide": 0.2}') if given.constants else {}
-        _constants.complete(constants, given.cushion_model, str(given.constants))
-        if given.game != "billiard":
-            constants = {**_constants.of_game(given.game), **constants}
+        constants = (
+            _read_object(options.constants, '{"mu_slide": 0.2}') if options.constants else {}
+        )
+        _constants.complete(constants, options.cushion_model, str(options.constants))
+        if options.game != "billiard":
+            constants = {**_constants.of_game(options.game), **constants}
         recordings = read(
-            given.tracks,
-            table=given.table,
-            radius=given.radius,
-            unit=given.unit,
-            origin=given.origin,
-            rate=given.rate,
+            options.tracks,
+            table=options.table,
+            radius=options.radius,
+            unit=options.unit,
+            origin=options.origin,
+            rate=options.rate,
         )
         found = fit(
             recordings,
-            given.table,
-            given.radius,
-            cushion_model=given.cushion_model,
+            options.table,
+            options.radius,
+            cushion_model=options.cushion_model,
             constants=constants,
-            free=given.free,
-            priors=_read_object(given.priors, '{"mu_spin": [0.004, 0.001]}')
-            if given.priors
+            free=options.free,
+            priors=_read_object(options.priors, '{"mu_spin": [0.004, 0.001]}')
+            if options.priors
             else None,
-            train=range(0, len(recordings), 2) if given.split else None,
-            seed=given.seed,
-            threads=given.threads,
+            train=range(0, len(recordings), 2) if options.split else None,
+            seed=options.seed,
+            threads=options.threads,
             progress=_show if sys.stderr.isatty() else None,
-            state=given.output.with_name(given.output.name + ".state"),
-            calibrate=given.calibrate,
+            state=options.output.with_name(options.output.name + ".state"),
+            calibrate=options.calibrate,
         )
-        kicks = found.kicks() if given.kicks else None
-        seen = _forecasts(found, given.forecast, given.seed) if given.forecast else []
-        if given.summary:
-            given.summary.write_text(
-                _summary.page(found, given.tracks.name, kicks, seen), encoding="utf-8"
+        kicks = found.kicks() if options.kicks else None
+        seen = _forecasts(found, options.forecast, options.seed) if options.forecast else []
+        if options.summary:
+            options.summary.write_text(
+                _summary.page(found, options.tracks.name, kicks, seen), encoding="utf-8"
             )
         written = found.to_dict(kicks)
-        if given.forecast:
-            written["forecasts"] = [one.to_dict() for one in seen]
-        given.output.write_text(json.dumps(written, indent=1) + "\n", encoding="utf-8")
+        if options.forecast:
+            written["forecasts"] = [forecast.to_dict() for forecast in seen]
+        options.output.write_text(json.dumps(written, indent=1) + "\n", encoding="utf-8")
     except (OSError, ValueError) as error:
         print(f"carom.fit: {error}", file=sys.stderr)
         return 2
@@ -680,7 +682,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
     if seen:
         print(_summary.told_forecasts(seen))
-    print("\n".join(_summary.told(found)))
+    print("\n".join(_summary.summary_lines(found)))
     if kicks is not None and np.isfinite(kicks.rmse).any():
         rmse = 100.0 * kicks.rmse[np.isfinite(kicks.rmse)]
         print(
