@@ -80,10 +80,10 @@ static carom_status blame(const carom_impact *in, int *field) {
   *field = carom_first_outside(x, 2 * BALL_FIELDS, of_ball, BALL_FIELDS);
   if (*field < 2 * BALL_FIELDS)
     return of_ball[*field % BALL_FIELDS].error;
-  const int of = carom_first_outside(x + 2 * BALL_FIELDS, 2, of_pair, 2);
-  *field += of;
-  if (of < 2)
-    return of_pair[of].error;
+  const int index = carom_first_outside(x + 2 * BALL_FIELDS, 2, of_pair, 2);
+  *field += index;
+  if (index < 2)
+    return of_pair[index].error;
   *field = -1;
   if (radii_differ(in)) {
     *field = FIELD(b.radius);

@@ -59,32 +59,33 @@ static int room_of(const work *w) {
 }
 
 /* The state of a row on its way, between its place in a list and a lane. */
-static void put_state(work *w, enum step_kind kind, int place, lane_state at, int lane) {
+static void put_state(work *w, enum step_kind kind, int place, lane_state lanes, int lane) {
   if (w->precision == CAROM_F64)
     for (int c = 0; c < LANE_COLUMNS; c++)
-      w->state[kind].double_numbers[c][place] = at[c].double_numbers[lane];
+      w->state[kind].double_numbers[c][place] = lanes[c].double_numbers[lane];
   else
     for (int c = 0; c < LANE_COLUMNS; c++)
-      w->state[kind].single_numbers[c][place] = at[c].single_numbers[lane];
+      w->state[kind].single_numbers[c][place] = lanes[c].single_numbers[lane];
 }
-static void take_state(const work *w, enum step_kind kind, int place, lane_state at, int lane) {
+static void take_state(const work *w, enum step_kind kind, int place, lane_state lanes, int lane) {
   if (w->precision == CAROM_F64)
     for (int c = 0; c < LANE_COLUMNS; c++)
-      at[c].double_numbers[lane] = w->state[kind].double_numbers[c][place];
+      lanes[c].double_numbers[lane] = w->state[kind].double_numbers[c][place];
   else
     for (int c = 0; c < LANE_COLUMNS; c++)
-      at[c].single_numbers[lane] = w->state[kind].single_numbers[c][place];
+      lanes[c].single_numbers[lane] = w->state[kind].single_numbers[c][place];
 }
 /* The same for all lanes, of places one behind the other. */
-static void take_states(const work *w, enum step_kind kind, int first, int lanes, lane_state at) {
+static void take_states(const work *w, enum step_kind kind, int first, int lanes,
+                        lane_state gathered) {
   const size_t numbers = (size_t)lanes;
   if (w->precision == CAROM_F64)
     for (int c = 0; c < LANE_COLUMNS; c++)
-      memcpy(at[c].double_numbers, w->state[kind].double_numbers[c] + first,
+      memcpy(gathered[c].double_numbers, w->state[kind].double_numbers[c] + first,
              numbers * sizeof(double));
   else
     for (int c = 0; c < LANE_COLUMNS; c++)
-      memcpy(at[c].single_numbers, w->state[kind].single_numbers[c] + first,
+      memcpy(gathered[c].single_numbers, w->state[kind].single_numbers[c] + first,
              numbers * sizeof(float));
 }
 
@@ -101,7 +102,7 @@ static void one_by_one(work *w, uint32_t row) {
 
 /* A list that has no room, which should not happen, is no reason to fail: a single call has the
  * same bits. */
-static void add_row(work *w, enum step_kind kind, int place, uint32_t row, lane_state at,
+static void add_row(work *w, enum step_kind kind, int place, uint32_t row, lane_state lanes,
                     int lane) {
   row_list *list = &w->list[kind][place];
   if (list->count == room_of(w)) {
@@ -109,7 +110,7 @@ static void add_row(work *w, enum step_kind kind, int place, uint32_t row, lane_
     return;
   }
   if (place == ON_THEIR_WAY)
-    put_state(w, kind, list->count, at, lane);
+    put_state(w, kind, list->count, lanes, lane);
   list->row[list->count++] = row;
 }
 
@@ -138,17 +139,18 @@ static inline uint32_t lowest(uint32_t bits) {
 /* After a step: writes the rows that are solved, and puts the others on the lists of their next
  * steps. Rows that are not solved yet may be written too, for now. */
 static void sort(work *w, const lane_group *t, uint32_t good, const step_io *h, int place,
-                 lane_state at) {
-  const uint32_t there = (uint32_t)((UINT64_C(1) << t->count) - 1), right = there & good;
+                 lane_state gathered) {
+  const uint32_t present = (uint32_t)((UINT64_C(1) << t->count) - 1), right = present & good;
   uint32_t done = right & h->next[SOLVED];
   if (done != 0)
     done &= w->with->rows_out[w->precision](&h->context, h->out, w->out, t->row);
   for (int kind = 0; kind < STEP_KINDS; kind++) {
     const uint32_t lanes = right & h->next[kind];
     done |= lanes;
-    EACH_LANE(lane, lanes) add_row(w, (enum step_kind)kind, place, t->row[lane], at, (int)lane);
+    EACH_LANE(lane, lanes)
+    add_row(w, (enum step_kind)kind, place, t->row[lane], gathered, (int)lane);
   }
-  EACH_LANE(lane, there & ~done) one_by_one(w, t->row[lane]);
+  EACH_LANE(lane, present & ~done) one_by_one(w, t->row[lane]);
 }
 
 /* Not inlined, nor is next_steps(): only one of their frames is on the stack at a time. */
@@ -161,30 +163,30 @@ __attribute__((noinline)) static void first_steps(work *w, const lane_group *t) 
 }
 
 __attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, int place,
-                                                 const lane_group *t, lane_state at) {
+                                                 const lane_group *t, lane_state lanes) {
   step_io h;
   const uint32_t good = w->with->rows_in[w->precision](w->in, t->row, w->s, &h.context, h.in);
   w->with->next_step[w->precision](kind, place == AT_START, h.in, 2.5 * w->s,
-                                   carom_tolerances[w->precision], at, h.out, h.next);
-  sort(w, t, good, &h, ON_THEIR_WAY, at);
+                                   carom_tolerances[w->precision], lanes, h.out, h.next);
+  sort(w, t, good, &h, ON_THEIR_WAY, lanes);
 }
 
 /* Takes up to a register's worth of rows off the end of a list, and their steps. */
 static void work_off(work *w, enum step_kind kind, int place) {
   row_list *list = &w->list[kind][place];
   const int lanes = w->with->lanes[w->precision];
-  lane_state at;
+  lane_state gathered;
   lane_group t = {.count = list->count < lanes ? list->count : lanes};
   CAROM_PROMISE(t.count >= 1 && t.count <= lanes);
   list->count -= t.count;
   for (int lane = 0; lane < lanes; lane++)
     t.row[lane] = list->row[list->count + (lane < t.count ? lane : t.count - 1)];
   if (place == ON_THEIR_WAY && t.count == lanes)
-    take_states(w, kind, list->count, lanes, at);
+    take_states(w, kind, list->count, lanes, gathered);
   else if (place == ON_THEIR_WAY)
     for (int lane = 0; lane < lanes; lane++)
-      take_state(w, kind, list->count + (lane < t.count ? lane : t.count - 1), at, lane);
-  next_steps(w, kind, place, &t, at);
+      take_state(w, kind, list->count + (lane < t.count ? lane : t.count - 1), gathered, lane);
+  next_steps(w, kind, place, &t, gathered);
 }
 
 /* Works off every list that holds at least so many rows. Returns whether there was one. */
@@ -228,8 +230,8 @@ static size_t solve_part(carom_precision precision, const char *in, size_t n,
     /* the data of two registers later, while there is work to hide it */
     const size_t ahead = (first + 2 * lanes) * w.in_size,
                  end = ahead + register_size < size ? ahead + register_size : size;
-    for (size_t at = ahead; at < end; at += CACHE_LINE)
-      __builtin_prefetch(w.in + at);
+    for (size_t offset = ahead; offset < end; offset += CACHE_LINE)
+      __builtin_prefetch(w.in + offset);
 
     /* lanes beyond the last row repeat it */
     lane_group t;
@@ -259,13 +261,14 @@ typedef struct batch {
 static size_t solve_rows(const void *job, size_t first, size_t end) {
   const batch *b = job;
   size_t first_bad = end;
-  for (size_t from = first; from < end; from += MOST_ROWS) {
-    const size_t rows = end - from < MOST_ROWS ? end - from : MOST_ROWS;
-    const size_t bad = solve_part(b->precision, b->in + from * carom_impact_size(b->precision),
-                                  rows, b->opt, b->out + from * carom_result_size(b->precision),
-                                  b->status != NULL ? b->status + from : NULL);
-    if (bad < rows && first_bad == end)
-      first_bad = from + bad;
+  for (size_t start = first; start < end; start += MOST_ROWS) {
+    const size_t rows = end - start < MOST_ROWS ? end - start : MOST_ROWS;
+    const size_t error_row =
+        solve_part(b->precision, b->in + start * carom_impact_size(b->precision), rows, b->opt,
+                   b->out + start * carom_result_size(b->precision),
+                   b->status != NULL ? b->status + start : NULL);
+    if (error_row < rows && first_bad == end)
+      first_bad = start + error_row;
   }
   return first_bad;
 }
@@ -284,11 +287,11 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
   const carom_options defaults = {0};
   if (opt == NULL)
     opt = &defaults;
-  carom_status bad = carom_check_options(opt);
-  if (bad == CAROM_OK && n > 0 && (in == NULL || out == NULL))
-    bad = CAROM_ERROR_NULL;
-  if (bad != CAROM_OK || n == 0)
-    return bad;
+  carom_status error = carom_check_options(opt);
+  if (error == CAROM_OK && n > 0 && (in == NULL || out == NULL))
+    error = CAROM_ERROR_NULL;
+  if (error != CAROM_OK || n == 0)
+    return error;
   const batch job = {.precision = precision, .in = in, .out = out, .status = status, .opt = opt};
   const size_t first_bad = carom_in_threads(solve_rows, &job, n, opt->threads, least_part(opt));
   if (first_bad == n)

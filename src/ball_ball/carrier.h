@@ -254,9 +254,10 @@ always reg at_all_nodes(const reg *x, int j) {
 }
 #elif defined(CAROM_LANES_AVX2) && !defined(CAROM_LANES_F32)
 always reg at_all_nodes(const reg *x, int j) {
-  const int at = 2 * (j % 4);
-  return (reg)_mm256_permutevar8x32_ps(
-      (__m256)x[j / 4], _mm256_setr_epi32(at, at + 1, at, at + 1, at, at + 1, at, at + 1));
+  const int column = 2 * (j % 4);
+  return (reg)_mm256_permutevar8x32_ps((__m256)x[j / 4],
+                                       _mm256_setr_epi32(column, column + 1, column, column + 1,
+                                                         column, column + 1, column, column + 1));
 }
 #else
 always reg at_all_nodes(const reg *x, int j) {
@@ -412,11 +413,11 @@ always vreal inverse_sinh(vreal x) {
 
 /* The fields are explained where they are computed, in tools/collocation_rules.py. */
 typedef struct gauss_rule {
-  node_row node, all, end, bend, third;
+  node_row node, whole, end, bend, third;
   node_row sum[MOST_NODES], part[MOST_NODES], twice[MOST_NODES], powers[MOST_NODES];
 } gauss_rule;
 typedef struct stick_rule {
-  node_row all, lambda, lambda_2, lambda_5, log, gone, gone_mean;
+  node_row whole, lambda, lambda_2, lambda_5, log, gone, gone_mean;
   node_row sum[MOST_NODES], turn[MOST_NODES], powers[MOST_NODES], basis[MOST_NODES];
 } stick_rule;
 

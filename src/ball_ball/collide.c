@@ -36,9 +36,9 @@ static carom_detail empty_report(void) {
 /* From the integrals of reduced.h. `compression`: int v_n dp up to v_n = 0; p_stick is NaN for
  * balls that do not stick. */
 static carom_detail report_of_integrals(const carom_frame *frame, const carom_reduced *c,
-                                        const carom_local *before, const carom_integrals *g,
+                                        const carom_local *approach, const carom_integrals *g,
                                         double compression, double p_stick, bool in_compression) {
-  const double M = c->j_pressed ? before->M_j : before->M_i, sign = c->j_pressed ? -1 : 1;
+  const double M = c->j_pressed ? approach->M_j : approach->M_i, sign = c->j_pressed ? -1 : 1;
   carom_detail d = {.normal = M * g->p,
                     .work_compression = -M * compression,
                     .work = -M * (1 + c->e * c->e) * compression,
@@ -51,9 +51,9 @@ static carom_detail report_of_integrals(const carom_frame *frame, const carom_re
   return d;
 }
 
-static carom_detail report_of_solution(const carom_frame *frame, const carom_local *before,
+static carom_detail report_of_solution(const carom_frame *frame, const carom_local *approach,
                                        const double solution[OUT_COLUMNS], int evaluations) {
-  carom_reduced c = carom_reduce(before);
+  carom_reduced c = carom_reduce(approach);
   const double unit = -c.v_n / c.kappa, u = sqrt(c.u_x * c.u_x + c.u_z * c.u_z);
   /* as in rows.h */
   c.mu = c.u_z <= LEAST_PRESS * unit ? 0 : c.mu;
@@ -73,31 +73,32 @@ static carom_detail report_of_solution(const carom_frame *frame, const carom_loc
   /* v = v_n / kappa in units of `unit`, with the slope 1 - f: see problem.h */
   const double compression = c.kappa * unit * unit * (solution[OUT_K_C] - 0.5),
                p_stick = unit * solution[OUT_STICK];
-  carom_detail d = report_of_integrals(frame, &c, before, &g, compression, stick ? p_stick : NAN,
+  carom_detail d = report_of_integrals(frame, &c, approach, &g, compression, stick ? p_stick : NAN,
                                        c.v_n + c.kappa * p_stick - g.F_y < 0);
   d.evaluations = evaluations;
   return d;
 }
 
-static carom_detail report_of_trajectory(const carom_frame *frame, const carom_local *before,
+static carom_detail report_of_trajectory(const carom_frame *frame, const carom_local *approach,
                                          const carom_trajectory *path) {
-  const carom_reduced c = carom_reduce(before);
-  const carom_integrals all = carom_precise_integrals(&c, path);
+  const carom_reduced c = carom_reduce(approach);
+  const carom_integrals integrals = carom_precise_integrals(&c, path);
   const double p_stick = -c.v_n * path->p_stick;
-  carom_detail d = report_of_integrals(frame, &c, before, &all, -(c.v_n * c.v_n) * path->W_c,
-                                       p_stick, c.v_n + c.kappa * p_stick - all.F_y < 0);
+  carom_detail d =
+      report_of_integrals(frame, &c, approach, &integrals, -(c.v_n * c.v_n) * path->W_c, p_stick,
+                          c.v_n + c.kappa * p_stick - integrals.F_y < 0);
   d.evaluations = 8 * path->iterations;
   return d;
 }
 
-static carom_detail report_of_euler(const carom_frame *frame, const carom_local *before,
-                                    const carom_local *after, const carom_euler_run *run) {
-  const double C_i = 5.0 / (2.0 * before->M_i * before->R),
-               C_j = 5.0 / (2.0 * before->M_j * before->R);
-  const double turned_i = (after->w_ix - before->w_ix) / C_i,
-               turned_j = (after->w_jx - before->w_jx) / C_j;
-  const double pushed_j = before->M_j * (after->v_jy - before->v_jy);
-  const double both = before->M_i * (after->v_iy - before->v_iy) + pushed_j;
+static carom_detail report_of_euler(const carom_frame *frame, const carom_local *approach,
+                                    const carom_local *departure, const carom_euler_run *run) {
+  const double C_i = 5.0 / (2.0 * approach->M_i * approach->R),
+               C_j = 5.0 / (2.0 * approach->M_j * approach->R);
+  const double turned_i = (departure->w_ix - approach->w_ix) / C_i,
+               turned_j = (departure->w_jx - approach->w_jx) / C_j;
+  const double pushed_j = approach->M_j * (departure->v_jy - approach->v_jy);
+  const double both = approach->M_i * (departure->v_iy - approach->v_iy) + pushed_j;
   const double P_iy = 0.5 * (both + turned_i - turned_j), P_jy = 0.5 * (both - turned_i + turned_j);
   carom_detail d = {.steps = run->steps,
                     .normal = pushed_j - P_jy,
@@ -105,9 +106,9 @@ static carom_detail report_of_euler(const carom_frame *frame, const carom_local 
                     .work = run->work,
                     .stick = CAROM_STICK_NEVER,
                     .stick_normal = NAN};
-  along(frame, -(after->w_iz - before->w_iz) / C_i, 0.0, turned_i - P_iy, d.friction);
-  along(frame, -(after->w_iy - before->w_iy) / C_i, P_iy, 0.0, d.cloth_a);
-  along(frame, -(after->w_jy - before->w_jy) / C_j, P_jy, 0.0, d.cloth_b);
+  along(frame, -(departure->w_iz - approach->w_iz) / C_i, 0.0, turned_i - P_iy, d.friction);
+  along(frame, -(departure->w_iy - approach->w_iy) / C_i, P_iy, 0.0, d.cloth_a);
+  along(frame, -(departure->w_jy - approach->w_jy) / C_j, P_jy, 0.0, d.cloth_b);
   return d;
 }
 
@@ -121,8 +122,8 @@ static bool solve_by_collocation(const carom_impact *in, const carom_options *op
                                                               detail == NULL ? NULL : solution);
   if (evaluations > 0 && detail != NULL) {
     const carom_frame frame = carom_frame_of(in);
-    const carom_local before = carom_to_frame(&frame, in, opt->slip);
-    *detail = report_of_solution(&frame, &before, solution, evaluations);
+    const carom_local approach = carom_to_frame(&frame, in, opt->slip);
+    *detail = report_of_solution(&frame, &approach, solution, evaluations);
   }
   return evaluations > 0;
 }
@@ -132,20 +133,20 @@ static carom_status solve_exact(const carom_frame *frame, carom_local *local, in
   const carom_reduced c = carom_reduce(local);
   carom_trajectory path;
   const carom_status status = carom_precise(&c, CAROM_PRECISE_TOLERANCE, plain, &path);
-  const carom_integrals all = carom_precise_integrals(&c, &path);
+  const carom_integrals integrals = carom_precise_integrals(&c, &path);
   if (status == CAROM_OK && detail != NULL)
     *detail = report_of_trajectory(frame, local, &path);
-  carom_restore(&c, &all, local);
+  carom_restore(&c, &integrals, local);
   return status;
 }
 
 static carom_status solve_euler(const carom_frame *frame, carom_local *local, int steps,
                                 carom_detail *detail) {
-  const carom_local before = *local;
+  const carom_local approach = *local;
   carom_euler_run run;
   const carom_status status = carom_euler(local, steps, INT64_MAX, &run);
   if (status == CAROM_OK && detail != NULL)
-    *detail = report_of_euler(frame, &before, local, &run);
+    *detail = report_of_euler(frame, &approach, local, &run);
   return status;
 }
 
@@ -154,9 +155,9 @@ static carom_status collide_one_pair(const carom_impact *in, const carom_options
   if (opt->solver != CAROM_SOLVER_EULER && solve_by_collocation(in, opt, out, detail))
     return CAROM_OK;
   int field;
-  const carom_status bad = carom_check_impact(in, &field);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status error = carom_check_impact(in, &field);
+  if (error != CAROM_OK)
+    return error;
   const carom_frame frame = carom_frame_of(in);
   if (frame.distance == 0.0) /* centres so near that the square of their distance underflows */
     return CAROM_ERROR_COINCIDENT;
@@ -200,24 +201,24 @@ carom_status carom_collide(const carom_impact *in, const carom_options *opt, car
 }
 
 static void to_double(const carom_impact_f32 *in, carom_impact *out) {
-  const float *from = (const float *)in;
-  double *to = (double *)out;
-  for (size_t k = 0; k < sizeof *in / sizeof *from; k++)
-    to[k] = from[k];
+  const float *single = (const float *)in;
+  double *wide = (double *)out;
+  for (size_t k = 0; k < sizeof *in / sizeof *single; k++)
+    wide[k] = single[k];
 }
 
 static carom_status to_single(carom_status status, const carom_result *in, carom_result_f32 *out) {
-  const double *from = (const double *)in;
-  float *to = (float *)out;
+  const double *wide = (const double *)in;
+  float *single = (float *)out;
   bool fits = true;
-  for (size_t k = 0; k < sizeof *out / sizeof *to; k++) {
-    to[k] = (float)from[k];
-    fits &= isfinite(to[k]) || !isfinite(from[k]);
+  for (size_t k = 0; k < sizeof *out / sizeof *single; k++) {
+    single[k] = (float)wide[k];
+    fits &= isfinite(single[k]) || !isfinite(wide[k]);
   }
   if (fits)
     return status;
-  for (size_t k = 0; k < sizeof *out / sizeof *to; k++)
-    to[k] = NAN;
+  for (size_t k = 0; k < sizeof *out / sizeof *single; k++)
+    single[k] = NAN;
   return CAROM_ERROR_OVERFLOW;
 }
 
@@ -229,12 +230,12 @@ static carom_status collide_single(const carom_impact_f32 *in, const carom_optio
     return CAROM_OK;
   carom_impact wide;
   carom_result result;
-  carom_options own = *opt;
+  carom_options options = *opt;
   /* double precision inside would say nothing about numbers that were rounded before */
-  if (own.solver == CAROM_SOLVER_EXACT)
-    own.solver = CAROM_SOLVER_FAST;
+  if (options.solver == CAROM_SOLVER_EXACT)
+    options.solver = CAROM_SOLVER_FAST;
   to_double(in, &wide);
-  return to_single(carom_collide(&wide, &own, &result), &result, out);
+  return to_single(carom_collide(&wide, &options, &result), &result, out);
 }
 
 carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt,

@@ -93,7 +93,7 @@ typedef struct collision {
  * + |d_1|) / |d_1 - d_0|. Friction of the cloth shortens d on the way, in a direction that is
  * not known: its size is subtracted. */
 always vreal inverse_rho(const problem *a, const state *s, const prediction *g, vreal length) {
-  const real own = a->spin < 1 ? 1 - a->spin : 0;
+  const real margin = a->spin < 1 ? 1 - a->spin : 0;
   const vreal g_x = length * (a->mu_b * g->c),
               g_y = length * v_fma(-a->spin * a->mu_b, g->z, v_splat(1)), tiny = v_splat(TINY);
   /* d at the end of the step, and |d| at both ends */
@@ -101,8 +101,8 @@ always vreal inverse_rho(const problem *a, const state *s, const prediction *g, 
   const vreal d_0 = root(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, tiny))),
               d_1 = root(v_fma(d_x, d_x, v_fma(d_y, d_y, tiny)));
   /* half of rho + 1 / rho; rho is at least twice that less its inverse */
-  const vreal taken = own * a->mu_mu_b * g->z * length;
-  const vreal sum = v_max((d_0 + d_1 - taken) * inverse_length(g_x, g_y), v_splat(1));
+  const vreal shortening = margin * a->mu_mu_b * g->z * length;
+  const vreal sum = v_max((d_0 + d_1 - shortening) * inverse_length(g_x, g_y), v_splat(1));
   return v_select(has_no_slip(a, s), v_splat(0), v_reciprocal(2 * sum - v_reciprocal(sum)));
 }
 
@@ -152,9 +152,9 @@ always turn_step select_turn_step(const problem *a, const collision *c, const pr
   const state *const s = &c->s;
   /* d' = g, with the cloth's own friction along d; and its curvature c, as u turns at the rate
    * `angular` */
-  const vreal own = (a->spin - 1) * a->mu_mu_b * g->z * inverse_length(s->d_x, s->d_y);
-  const vreal g_x = own * s->d_x - a->mu_b * g->c,
-              g_y = own * s->d_y + (a->spin * a->mu_b * g->z - 1);
+  const vreal drive = (a->spin - 1) * a->mu_mu_b * g->z * inverse_length(s->d_x, s->d_y);
+  const vreal g_x = drive * s->d_x - a->mu_b * g->c,
+              g_y = drive * s->d_y + (a->spin * a->mu_b * g->z - 1);
   const vreal angular = -a->mu_b * g->inverse_u * g->z * g->c * a->kappa;
   const vreal c_x = -a->mu_b * g->z * angular, c_y = -a->spin * a->mu_b * g->c * angular;
 
@@ -170,10 +170,10 @@ always turn_step select_turn_step(const problem *a, const collision *c, const pr
   /* p_t, and delta with the sign of the side on which zero is passed: of the straight line
    * through that point */
   const vreal side = (d_x * v_y - d_y * v_x) * per_v2,
-              at = straight - (d_x * v_x + d_y * v_y) * per_v2, width = v_abs(side);
+              nearest = straight - (d_x * v_x + d_y * v_y) * per_v2, width = v_abs(side);
 
   /* the longest step by how much of |u| it may lose, and after refusals */
-  const vreal one = v_splat(1), q = g->rate * c->to_end,
+  const vreal unit = v_splat(1), q = g->rate * c->to_end,
               reach = c->share * v_min(c->to_end, TURN_Q * v_reciprocal(g->rate));
 
   /* rho^16 that the tolerance needs; the singularities at +- i pi / 2 then allow a range of xi
@@ -188,31 +188,32 @@ always turn_step select_turn_step(const problem *a, const collision *c, const pr
   /* a zero far from the step is as good as one that is nearer by and wider: p_t near the step,
    * delta within bounds */
   const vmask rests = has_no_slip(a, s);
-  p.p_t = v_select(rests, 2 * reach, v_min(v_max(at, -reach), 2 * reach));
-  const vreal moved = v_select(rests, reach, v_abs(at - p.p_t));
+  p.p_t = v_select(rests, 2 * reach, v_min(v_max(nearest, -reach), 2 * reach));
+  const vreal moved = v_select(rests, reach, v_abs(nearest - p.p_t));
   p.delta = v_min(v_max(v_max(width, v_splat(LEAST_DELTA)), moved), 2 * reach);
 
   /* sinh(xi) at the start and at `reach`, and how far that range leads: to `reach`, or to the
    * widest range allowed */
   const vreal per_delta = v_reciprocal(p.delta), sinh_0 = -p.p_t * per_delta,
               sinh_1 = (reach - p.p_t) * per_delta;
-  const vreal from = inverse_sinh(sinh_0), range = inverse_sinh(sinh_1) - from;
-  const vreal e = ONE_OF(exponential(SPREAD(from + widest))),
+  const vreal low = inverse_sinh(sinh_0), range = inverse_sinh(sinh_1) - low;
+  const vreal e = ONE_OF(exponential(SPREAD(low + widest))),
               bound = p.p_t + REAL(0.5) * p.delta * (e - v_reciprocal(e));
   const vmask whole = v_less_equal(range, widest);
   p.length = v_select(whole, reach, v_min(bound, reach));
-  *last = whole & v_less(q, v_splat(TURN_Q)) & v_less_equal(one, c->share);
+  *last = whole & v_less(q, v_splat(TURN_Q)) & v_less_equal(unit, c->share);
 
   /* refused: d passes too close to zero on the step or, in a sensitive collision, shortly before
    * it */
   const vreal least = v_select(a->sensitive, v_splat(LEAST_DELTA_SENSITIVE), v_splat(LEAST_DELTA));
-  const vmask on_step = v_less(v_select(a->sensitive, -least, v_splat(0)), at) & v_less(at, reach);
+  const vmask on_step =
+      v_less(v_select(a->sensitive, -least, v_splat(0)), nearest) & v_less(nearest, reach);
   *refused =
       v_less(c->share, v_splat(LEAST_SHARE)) | (v_less(width, least) & v_not(rests) & on_step);
 
   /* the mean of t_y along the straight line, whose parts along and across v integrate to sqrt(1
    * + sinh^2) and to xi; and the mean of f that follows */
-  const vreal along = root(v_fma(sinh_1, sinh_1, one)) - root(v_fma(sinh_0, sinh_0, one)),
+  const vreal along = root(v_fma(sinh_1, sinh_1, unit)) - root(v_fma(sinh_0, sinh_0, unit)),
               across = v_select(v_less(side, v_splat(0)), v_x, -v_x) * range;
   const vreal mean_y = p.delta * per_v * v_reciprocal(reach) * v_fma(v_y, along, across);
   p.mean_f = -a->mu_mu_b_y * g->z * v_select(v_less(moved, v_splat(TINY)), mean_y, g->t_y);
@@ -400,8 +401,9 @@ always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead,
 
   /* those that have tried too often go to the fallback */
   const vmask spent = v_less_equal(v_splat(MOST_ATTEMPTS), c->attempts) | impossible;
-  const vreal then = next_kind(a, c, inverse_rho_ahead(a, &c->s, &c->g, c->to_end), false, ahead);
-  *next = choose_kind(spent, REFUSED, then);
+  const vreal following =
+      next_kind(a, c, inverse_rho_ahead(a, &c->s, &c->g, c->to_end), false, ahead);
+  *next = choose_kind(spent, REFUSED, following);
   return solved;
 }
 
@@ -439,23 +441,24 @@ int COLLOCATION_KERNEL(carom_collocate)(const real in[IN_COLUMNS], double spin, 
 _Static_assert(LANE_STATE + (int)STATE_COLUMNS == LANE_RESTITUTION,
                "the columns of a state come first");
 
-static collision load_collision(const problem *a, lane_state at) {
-  collision c = {.share = COLUMN(at, LANE_SHARE), .attempts = COLUMN(at, LANE_ATTEMPTS)};
-  lanes_unrolled for (int k = 0; k < STATE_COLUMNS; k++) c.s.column[k] = COLUMN(at, LANE_STATE + k);
-  c.s.restitution = v_less(v_splat(0), COLUMN(at, LANE_RESTITUTION));
-  c.careful = v_less(v_splat(0), COLUMN(at, LANE_CAREFUL));
+static collision load_collision(const problem *a, lane_state lanes) {
+  collision c = {.share = COLUMN(lanes, LANE_SHARE), .attempts = COLUMN(lanes, LANE_ATTEMPTS)};
+  lanes_unrolled for (int k = 0; k < STATE_COLUMNS; k++) c.s.column[k] =
+      COLUMN(lanes, LANE_STATE + k);
+  c.s.restitution = v_less(v_splat(0), COLUMN(lanes, LANE_RESTITUTION));
+  c.careful = v_less(v_splat(0), COLUMN(lanes, LANE_CAREFUL));
   c.to_end = impulse_to_end(a, &c.s);
   c.g = predict(a, &c.s, c.to_end);
   return c;
 }
 
-static void store_collision(const collision *c, lane_state at) {
+static void store_collision(const collision *c, lane_state lanes) {
   lanes_unrolled for (int k = 0; k < STATE_COLUMNS; k++)
-      put_column(at, LANE_STATE + k, c->s.column[k]);
-  put_column(at, LANE_RESTITUTION, v_select(c->s.restitution, v_splat(1), v_splat(0)));
-  put_column(at, LANE_SHARE, c->share);
-  put_column(at, LANE_CAREFUL, v_select(c->careful, v_splat(1), v_splat(0)));
-  put_column(at, LANE_ATTEMPTS, c->attempts);
+      put_column(lanes, LANE_STATE + k, c->s.column[k]);
+  put_column(lanes, LANE_RESTITUTION, v_select(c->s.restitution, v_splat(1), v_splat(0)));
+  put_column(lanes, LANE_SHARE, c->share);
+  put_column(lanes, LANE_CAREFUL, v_select(c->careful, v_splat(1), v_splat(0)));
+  put_column(lanes, LANE_ATTEMPTS, c->attempts);
 }
 
 /* The next step after a step, in the lanes that it solved and in others. Returns whether there
@@ -486,20 +489,20 @@ void COLLOCATION_KERNEL(carom_first_step)(step_inputs in, uint32_t good, double 
 }
 
 void COLLOCATION_KERNEL(carom_next_step)(enum step_kind kind, int at_start, step_inputs in,
-                                         double spin, float tolerance, lane_state at,
+                                         double spin, float tolerance, lane_state lanes,
                                          step_outputs out, lanes_by_step next) {
   const problem a = problem_of(in, (real)spin, tolerance);
-  collision c = at_start ? collision_of(&a, in) : load_collision(&a, at);
+  collision c = at_start ? collision_of(&a, in) : load_collision(&a, lanes);
   if (at_start && kind == EASY) /* lanes that the first step did not wait for: it does not count */
     c.attempts = v_splat(-1);
   solution answer;
-  vreal then = v_splat((real)REFUSED);
+  vreal following = v_splat((real)REFUSED);
   prediction ahead = kind == EASY ? c.g : predict_ahead(&a, &c);
-  const vmask solved = take_step(kind, &a, &ahead, &c, &answer, &then);
+  const vmask solved = take_step(kind, &a, &ahead, &c, &answer, &following);
   if (kind != PART)
     put_solution(&answer, out);
-  if (store_kinds(solved, v_not(solved), then, next))
-    store_collision(&c, at);
+  if (store_kinds(solved, v_not(solved), following, next))
+    store_collision(&c, lanes);
 }
 
 #endif

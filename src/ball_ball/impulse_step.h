@@ -94,14 +94,14 @@ always node_map turned_map(const turn_step *p, vreal length) {
 
 /* X and its slope at the nodes of a rule from 0 to a share of x. */
 always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m, vreal share,
-                      mapped_nodes *to) {
+                      mapped_nodes *target) {
   if (!turned) {
     /* X = x X_per_x (1 + y) (1 + y^2) and dX/dx = 4 X_per_x y^3, with y = 1 - h x */
     const vreal h = share * m->h, to_X = share * m->X_per_x;
     EACH_REG(k, n) {
       const reg x = SPREAD(AT(r->node, k)), y = MADD(-h, x, REAL(1.0)), y2 = y * y;
-      to->X[k] = (to_X * x) * ((1 + y) * (1 + y2));
-      to->weight[k] = (4 * to_X) * (y2 * y);
+      target->X[k] = (to_X * x) * ((1 + y) * (1 + y2));
+      target->weight[k] = (4 * to_X) * (y2 * y);
     }
   } else {
     /* X = (sinh(xi) - sinh_0) delta / L, by e^xi */
@@ -109,8 +109,8 @@ always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m
                 start = 2 * m->sinh_0 * m->half_width;
     EACH_REG(k, n) {
       const reg e = exponential(MADD(range, AT(r->node, k), m->xi_0)), i = reg_reciprocal(e);
-      to->X[k] = MADD(m->half_width, e - i, -start);
-      to->weight[k] = slope * (e + i);
+      target->X[k] = MADD(m->half_width, e - i, -start);
+      target->weight[k] = slope * (e + i);
     }
   }
 }
@@ -240,8 +240,8 @@ always void predict_directions(int n, bool turned, impulse_step *p) {
   directions *const f = &p->f;
   const turning turns = predict_turning(turned, p->a, g, s, l->mu_b * g->inverse_u);
   /* the cloth's own pull on d, along its direction half way */
-  const vreal own = turned ? v_splat(0) : l->S_in_d * g->z, own_x = own * g->t_x,
-              own_y = l->length - own * g->t_y;
+  const vreal turn = turned ? v_splat(0) : l->S_in_d * g->z, own_x = turn * g->t_x,
+              own_y = l->length - turn * g->t_y;
   const vreal half_b = REAL(0.5) * l->mu_b, half_y = REAL(0.5) * l->Z_in_d_y;
   EACH_REG(k, n) {
     /* u turned by w: cosine and sine to second order; sums begin with the first known */
@@ -360,7 +360,7 @@ always void end_iterations(int n, const gauss_rule *r, impulse_step *p, vreal *d
     f->w_y[k] = weighed(n, &p->nodes, k, f->s_y[k]);
   }
   /* their means, as changes of c and z */
-  const vreal sine = dot(r->all, turned, n), drop = dot(r->all, lost, n);
+  const vreal sine = dot(r->whole, turned, n), drop = dot(r->whole, lost, n);
   *dc = v_fma(-g->z, sine, -g->c * drop);
   *dz = v_fma(g->c, sine, -g->z * drop);
 }
@@ -408,25 +408,25 @@ always end_slopes slopes_at_end(const problem *a, const state *s) {
  *
  * For a constant f, v' = 1 - f makes the balance of work a linear equation for v^2. The slope of
  * f, and the slope of that, are integrated over the p that the constant f leaves. */
-always vreal extrapolate_to_end(const problem *a, const state *s, const end_slopes *here,
+always vreal extrapolate_to_end(const problem *a, const state *s, const end_slopes *slopes,
                                 vreal third_x, vreal third_y, solution *out) {
   /* f and half of its slope here; the work to be returned if no more were done on friction, and
    * p to the end then */
-  const vreal f = -a->mu_mu_b_y * here->y, half_df = (REAL(-0.5) * a->mu_mu_b_y) * here->dy,
+  const vreal f = -a->mu_mu_b_y * slopes->y, half_df = (REAL(-0.5) * a->mu_mu_b_y) * slopes->dy,
               returned = work_returned(a, s->K_c, s->K);
   const vreal half_excess = REAL(0.5) * v_fma(-s->v, s->v, v_fma(a->e, a->e, returned));
-  const vreal near = half_excess * v_reciprocal(v_max(s->v, v_splat(TINY)));
+  const vreal series = half_excess * v_reciprocal(v_max(s->v, v_splat(TINY)));
   /* the term of the change of f in int f dp; K, all further work on friction; v at the end */
-  const vreal bend = (near * near) * v_fma(near, -a->mu_mu_b_y * third_y, half_df),
+  const vreal bend = (series * series) * v_fma(series, -a->mu_mu_b_y * third_y, half_df),
               K = v_fma(f, half_excess, bend * s->v);
   const vreal left = v_fma(v_splat(-2), K, returned),
               v = root(v_max(v_fma(a->e, a->e, left), v_splat(TINY)));
   /* p to the end, and the integrals up to there */
   const vreal dp = ((v - s->v) + bend) * v_reciprocal(1 - f), half = REAL(0.5) * dp;
-  out->I_x = v_fma(dp, v_fma(dp, v_fma(dp, third_x, REAL(0.5) * here->dx), here->x), s->I_x);
-  out->I_y = v_fma(dp, v_fma(dp, v_fma(dp, third_y, REAL(0.5) * here->dy), here->y), s->I_y);
-  out->J_c = v_fma(dp, v_fma(half, here->dc, here->c - s->c_0), s->J_c);
-  out->J_z = v_fma(dp, v_fma(half, here->dz, here->z - s->z_0), s->J_z);
+  out->I_x = v_fma(dp, v_fma(dp, v_fma(dp, third_x, REAL(0.5) * slopes->dx), slopes->x), s->I_x);
+  out->I_y = v_fma(dp, v_fma(dp, v_fma(dp, third_y, REAL(0.5) * slopes->dy), slopes->y), s->I_y);
+  out->J_c = v_fma(dp, v_fma(half, slopes->dc, slopes->c - s->c_0), s->J_c);
+  out->J_z = v_fma(dp, v_fma(half, slopes->dz, slopes->z - s->z_0), s->J_z);
   out->overshoot = v_fma(-a->mu_mu_b_y, out->I_y, left * v_reciprocal(v + a->e));
   out->K_c = s->K_c;
   out->stick = v_splat(-1);
@@ -488,15 +488,15 @@ always vreal K_at_v_0(const gauss_rule *r, int n, const coefficients *l, const s
  * there, and the integral of S over X is taken by Gauss's rule up to it. */
 always vreal K_at_v_0_mapped(bool turned, const gauss_rule *r, int n, const node_map *map,
                              const coefficients *l, const state *s, vreal f, const reg *w_y) {
-  const vreal per = v_reciprocal((1 - f) * l->length), zero = v_splat(0), one = v_splat(1);
-  vreal S_power[MOST_NODES], X = v_min(v_max(-s->v * per, zero), one), x, S, v;
+  const vreal per = v_reciprocal((1 - f) * l->length), zero = v_splat(0), unit = v_splat(1);
+  vreal S_power[MOST_NODES], X = v_min(v_max(-s->v * per, zero), unit), x, S, v;
   sum_polynomials(r->powers, n, w_y, S_power);
   /* the point: x, S and v there */
   lanes_rolled for (int i = 0; i < 2; i++) {
     x = x_at(turned, map, X);
     S = x * polynomial(S_power, n, 2 * x - 1);
     v = v_fma(l->length, X, v_fma(l->mu_mu_b_y, S, s->v));
-    X = i == 0 ? v_min(v_max(X - v * per, zero), one) : X;
+    X = i == 0 ? v_min(v_max(X - v * per, zero), unit) : X;
   }
   /* the rule from 0 to x: int S dX */
   mapped_nodes up_to;
@@ -506,7 +506,7 @@ always vreal K_at_v_0_mapped(bool turned, const gauss_rule *r, int n, const node
     const reg xi = x * AT(r->node, k);
     slope[k] = up_to.weight[k] * (xi * polynomial_at_nodes(S_power, n, 2 * xi - 1));
   }
-  return K_by_parts(l, s, f, v, S, dot(r->all, slope, n));
+  return K_by_parts(l, s, f, v, S, dot(r->whole, slope, n));
 }
 
 /* The same at the end of a step of four nodes, on which t hardly turns: by the polynomials,
@@ -565,8 +565,8 @@ always vreal end_step(int n, bool turned, impulse_step *p, vmask last, state *ne
   EACH_REG(k, n)
   work[k] = -(l.mu_mu_b_y * f->w_y[k]) *
             MADD(l.mu_mu_b_y, f->S_y[k], MADD(l.length, p->nodes.X[k], s->v));
-  const vreal X = dot(r->all, f->w_x, n), Y = dot(r->all, f->w_y, n);
-  state end = state_after(g, &l, s, X, Y, dC, dZ, dot(r->all, work, n));
+  const vreal X = dot(r->whole, f->w_x, n), Y = dot(r->whole, f->w_y, n);
+  state end = state_after(g, &l, s, X, Y, dC, dZ, dot(r->whole, work, n));
 
   /* K at v = 0, if the step passes it */
   vmask passes = v_not(s->restitution) & v_less(v_splat(0), end.v);

@@ -90,7 +90,8 @@ typedef void carom_first_step(step_inputs in, uint32_t good, double spin, float 
 /* A step of a kind, for collisions that are at their start, or stand at *at, which becomes where
  * they stand after it. */
 typedef void carom_next_step(enum step_kind kind, int at_start, step_inputs in, double spin,
-                             float tolerance, lane_state at, step_outputs out, lanes_by_step next);
+                             float tolerance, lane_state gathered, step_outputs out,
+                             lanes_by_step next);
 
 /* One reduced collision, by all steps that it takes. Returns the number of right-hand sides
  * evaluated, or 0 if no step within the tolerance leads on. */

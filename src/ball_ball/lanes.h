@@ -143,12 +143,12 @@ static inline vreal v_splat(real x) {
 #endif
 }
 
-static inline vreal v_load(const real *from) {
-  return (vreal) * (const vreal_unaligned *)from;
+static inline vreal v_load(const real *source) {
+  return (vreal) * (const vreal_unaligned *)source;
 }
 
-static inline void v_store(real *to, vreal x) {
-  *(vreal_unaligned *)to = (vreal_unaligned)x;
+static inline void v_store(real *target, vreal x) {
+  *(vreal_unaligned *)target = (vreal_unaligned)x;
 }
 
 /* ---- Masks ----------------------------------------------------------------------------------- */
@@ -335,9 +335,9 @@ static inline vreal v_estimate_reciprocal_sqrt(vreal x) {
 typedef real chunk __attribute__((vector_size(16)));
 typedef real chunk_unaligned __attribute__((vector_size(16), aligned(sizeof(real)), may_alias));
 
-/* Chunk k of the vector is read from row[k * CHUNK] + at. */
-static inline vreal v_load_chunks(const real *const row[], int at) {
-#define CHUNK_OF(k) ((chunk) * (const chunk_unaligned *)(row[(k)*CHUNK] + at))
+/* Chunk k of the vector is read from row[k * CHUNK] + offset. */
+static inline vreal v_load_chunks(const real *const row[], int offset) {
+#define CHUNK_OF(k) ((chunk) * (const chunk_unaligned *)(row[(k)*CHUNK] + offset))
 #if defined(CAROM_LANES_AVX512) && defined(CAROM_LANES_F32)
   __m512 x = _mm512_castps128_ps512((__m128)CHUNK_OF(0));
   x = _mm512_mask_broadcast_f32x4(x, 0x00f0, (__m128)CHUNK_OF(1));
@@ -361,8 +361,8 @@ static inline vreal v_load_chunks(const real *const row[], int at) {
 }
 
 /* The reverse. */
-static inline void v_store_chunks(real *const row[], int at, vreal x) {
-#define CHUNK_TO(k) *(chunk_unaligned *)(row[(k)*CHUNK] + at)
+static inline void v_store_chunks(real *const row[], int offset, vreal x) {
+#define CHUNK_TO(k) *(chunk_unaligned *)(row[(k)*CHUNK] + offset)
 #if defined(CAROM_LANES_AVX512) && defined(CAROM_LANES_F32)
   CHUNK_TO(0) = (chunk_unaligned)_mm512_castps512_ps128(x);
   CHUNK_TO(1) = (chunk_unaligned)_mm512_extractf32x4_ps(x, 1);
@@ -425,16 +425,16 @@ static inline void v_transpose_chunks(vreal m[]) {
 }
 
 /* Columns [at, at + CHUNK) of LANES rows of memory, one vector each; lane k is row k. */
-static inline void v_load_columns(const real *const row[LANES], int at, vreal column[]) {
-  lanes_unrolled for (int k = 0; k < CHUNK; k++) column[k] = v_load_chunks(row + k, at);
+static inline void v_load_columns(const real *const row[LANES], int offset, vreal column[]) {
+  lanes_unrolled for (int k = 0; k < CHUNK; k++) column[k] = v_load_chunks(row + k, offset);
   v_transpose_chunks(column);
 }
 
-static inline void v_store_columns(real *const row[LANES], int at, const vreal column[]) {
+static inline void v_store_columns(real *const row[LANES], int offset, const vreal column[]) {
   vreal m[16 / sizeof(real)];
   lanes_unrolled for (int k = 0; k < CHUNK; k++) m[k] = column[k];
   v_transpose_chunks(m);
-  lanes_unrolled for (int k = 0; k < CHUNK; k++) v_store_chunks(row + k, at, m[k]);
+  lanes_unrolled for (int k = 0; k < CHUNK; k++) v_store_chunks(row + k, offset, m[k]);
 }
 
 #endif /* not CAROM_LANES_ONE */

@@ -90,8 +90,9 @@ always vmask has_no_slip(const problem *a, const state *s) {
 static const real SENSITIVE = REAL(0.12); /* own / drift; at twice this, errors of 1e-6 occur in
                                          collisions of play */
 always vmask is_sensitive(const problem *a) {
-  const vreal own = (a->spin - 1) * a->mu_mu_b, drift = v_fma(v_splat(-a->spin), a->mu_b, 1 - own);
-  return v_less(SENSITIVE * drift, own);
+  const vreal drive = (a->spin - 1) * a->mu_mu_b,
+              drift = v_fma(v_splat(-a->spin), a->mu_b, 1 - drive);
+  return v_less(SENSITIVE * drift, drive);
 }
 
 always prediction predict(const problem *a, const state *s, vreal length) {

@@ -185,7 +185,8 @@ static inline vmask restore_rows(const row_lanes *r, const row_impulses *q,
    * again */
   const vreal sum =
       ((x[0] + x[1]) + (x[3] + x[4])) + ((x[5] + x[6]) + (x[7] + x[9])) + (x[10] + x[11]);
-  lanes_unrolled for (int at = 0; at < OUT_NUMBERS; at += CHUNK) v_store_columns(row, at, x + at);
+  lanes_unrolled for (int offset = 0; offset < OUT_NUMBERS; offset += CHUNK)
+      v_store_columns(row, offset, x + offset);
   return v_equal(sum * zero, zero);
 }
 
@@ -193,12 +194,12 @@ static inline vmask restore_rows(const row_lanes *r, const row_impulses *q,
 
 /* One row, with the bits that a lane of a batch has. */
 int KERNEL(carom_call)(const void *in, double s, void *out, double report[OUT_COLUMNS]) {
-  const real *const from[1] = {in};
-  real *const to[1] = {out};
+  const real *const input_row[1] = {in};
+  real *const output_row[1] = {out};
   row_lanes r;
   real reduced[IN_COLUMNS], solution[OUT_COLUMNS];
   collocated columns[IN_COLUMNS], answer[OUT_COLUMNS];
-  if (!reduce_rows(from, (real)s, &r, reduced))
+  if (!reduce_rows(input_row, (real)s, &r, reduced))
     return 0;
   for (int c = 0; c < IN_COLUMNS; c++)
     columns[c] = (collocated)reduced[c];
@@ -211,7 +212,7 @@ int KERNEL(carom_call)(const void *in, double s, void *out, double report[OUT_CO
   for (int c = 0; c < OUT_COLUMNS && report != NULL; c++)
     report[c] = (double)answer[c];
   const row_impulses q = impulses_of(&r, solution);
-  return restore_rows(&r, &q, to) ? evaluations : 0;
+  return restore_rows(&r, &q, output_row) ? evaluations : 0;
 }
 
 #else
@@ -226,7 +227,7 @@ typedef collocated collocated_lanes_unaligned __attribute__((
     vector_size(LANES * sizeof(collocated)), aligned(sizeof(collocated)), may_alias));
 
 uint32_t KERNEL(carom_rows_in)(const void *in, const uint32_t row[MOST_LANES], double s,
-                               row_context *context, step_inputs to) {
+                               row_context *context, step_inputs inputs) {
   uint32_t good = 0;
   lanes_unrolled for (int k = 0; k < REGISTERS; k++) {
     const real *rows[LANES];
@@ -236,7 +237,7 @@ uint32_t KERNEL(carom_rows_in)(const void *in, const uint32_t row[MOST_LANES], d
     row_lanes *r = (row_lanes *)context + k;
     good |= (uint32_t)v_bits(reduce_rows(rows, (real)s, r, columns)) << (k * LANES);
     lanes_unrolled for (int c = 0; c < IN_COLUMNS; c++) *
-        (collocated_lanes_unaligned *)(LANE_NUMBERS(to[c]) + k * LANES) =
+        (collocated_lanes_unaligned *)(LANE_NUMBERS(inputs[c]) + k * LANES) =
         __builtin_convertvector(columns[c], collocated_lanes);
   }
   return good;

@@ -11,8 +11,8 @@ enum { IN_NUMBERS = 26, OUT_NUMBERS = 12 };
 
 /* The columns of the rows; the last ones overlap those before where CHUNK does not divide 26. */
 static inline void load_rows(const real *const row[LANES], vreal x[IN_NUMBERS]) {
-  lanes_unrolled for (int at = 0; at + CHUNK <= IN_NUMBERS; at += CHUNK)
-      v_load_columns(row, at, x + at);
+  lanes_unrolled for (int offset = 0; offset + CHUNK <= IN_NUMBERS; offset += CHUNK)
+      v_load_columns(row, offset, x + offset);
   if (IN_NUMBERS % CHUNK != 0) {
     vreal last[CHUNK];
     v_load_columns(row, IN_NUMBERS - CHUNK, last);

@@ -100,11 +100,11 @@ static inline vreal v_estimate_reciprocal_sqrt(vreal x) {
 #endif
 
 /* A row of memory is a column of one lane. */
-static inline void v_load_columns(const real *const row[LANES], int at, vreal column[]) {
-  column[0] = row[0][at];
+static inline void v_load_columns(const real *const row[LANES], int offset, vreal column[]) {
+  column[0] = row[0][offset];
 }
-static inline void v_store_columns(real *const row[LANES], int at, const vreal column[]) {
-  row[0][at] = column[0];
+static inline void v_store_columns(real *const row[LANES], int offset, const vreal column[]) {
+  row[0][offset] = column[0];
 }
 
 #endif

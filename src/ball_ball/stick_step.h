@@ -91,8 +91,8 @@ always vreal K_at_v_0_to_stick(const problem *a, const stick_rule *r, const stat
   /* v at those nodes; K = int v f dp up to there, and the little that is left for a mean f */
   apply(gauss_6.sum, dv, on_way, n);
   EACH_REG(k, n) part[k] = tau[k] * (s->v + on_way[k]);
-  const vreal v_c = s->v + dot(gauss_6.all, dv, n);
-  return v_fma(per_f, dot(gauss_6.all, part, n), s->K) -
+  const vreal v_c = s->v + dot(gauss_6.whole, dv, n);
+  return v_fma(per_f, dot(gauss_6.whole, part, n), s->K) -
          REAL(0.5) * f * v_c * v_c * v_reciprocal(1 - f);
 }
 
@@ -199,12 +199,12 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
     slope_v[k] = MADD(per_p, slope[k], -per_f * tau_y[k]);
     work[k] = Y[k] * slope_v[k];
   }
-  const vreal X_sum = dot(r->all, tau_x, n), Y_sum = dot(r->all, tau_y, n),
-              p = per_p * dot(r->all, slope, n);
+  const vreal X_sum = dot(r->whole, tau_x, n), Y_sum = dot(r->whole, tau_y, n),
+              p = per_p * dot(r->whole, slope, n);
 
   /* K by parts, since slope bends where W is about u_z, and tau does not */
   const vreal v = s->v + (p - per_f * Y_sum),
-              K = v_fma(per_f, v_fma(v, Y_sum, -dot(r->all, work, n)), s->K);
+              K = v_fma(per_f, v_fma(v, Y_sum, -dot(r->whole, work, n)), s->K);
 
   /* F = -mu mu_b I */
   const vreal weight = 2 * u_z * per_mu_b;

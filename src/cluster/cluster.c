@@ -195,14 +195,14 @@ static inline void law_of(const contact *x, double k[3]) {
 /* The contacts that are pressed at half a step: those that were, and open ones that have an
  * overlap, which touch within it and get their sizes and normals. Returns the longest step that
  * suits these and those that touch in the other half, infinite where there are none. */
-static inline double find_pressed(bool flat, state *c, double h, pushes *now) {
+static inline double find_pressed(bool flat, state *c, double h, pushes *pushed) {
   double norm = 0.0;
-  now->pressed = 0;
+  pushed->pressed = 0;
   CAROM_PROMISE(!(h < 0.0));
   for (int k = 0; k < c->contacts; k++) {
     contact *x = &c->contact[k];
     if (x->d_max > 0.0) {
-      now->press[now->pressed++] = (uint8_t)k;
+      pushed->press[pushed->pressed++] = (uint8_t)k;
       continue;
     }
     /* one that touched as all began, and has parted without an impulse, touches as any other */
@@ -222,7 +222,7 @@ static inline double find_pressed(bool flat, state *c, double h, pushes *now) {
     if (d + 0.5 * h * v <= open_overlap)
       continue;
     if (d > open_overlap && (meets || !first))
-      now->press[now->pressed++] = (uint8_t)k;
+      pushed->press[pushed->pressed++] = (uint8_t)k;
     x->size = v > 0.0 ? carom_cluster_compression(x->K, mobility(x), v) : 0.0;
     norm += quickness(x, x->size);
   }
@@ -231,13 +231,13 @@ static inline double find_pressed(bool flat, state *c, double h, pushes *now) {
 
 /* Those of the pressed contacts that act, and their impulses. *norm becomes that of all that
  * overlap. Returns whether any does. */
-static inline bool find_acting(bool flat, state *c, double h, double tau, pushes *now,
+static inline bool find_acting(bool flat, state *c, double h, double tau, pushes *pushed,
                                double *norm) {
   bool overlap = false;
   *norm = 0.0;
-  now->contacts = 0;
-  for (int k = 0; k < now->pressed; k++) {
-    contact *x = &c->contact[now->press[k]];
+  pushed->contacts = 0;
+  for (int k = 0; k < pushed->pressed; k++) {
+    contact *x = &c->contact[pushed->press[k]];
     const double d = overlap_of(flat, x);
     if (d <= open_overlap)
       continue;
@@ -257,7 +257,7 @@ static inline bool find_acting(bool flat, state *c, double h, double tau, pushes
 
     *norm += quickness(x, x->size);
     if (x->J > 0.0)
-      now->push[now->contacts++] = now->press[k];
+      pushed->push[pushed->contacts++] = pushed->press[k];
   }
   return overlap;
 }
@@ -357,22 +357,22 @@ static inline void iterate(bool flat, contact *x, double change[2]) {
 /* ---- A step */
 
 /* Lists a ball, once, as the step begins. */
-static inline void list_pushed(const state *c, pushes *now, ball *p) {
+static inline void list_pushed(const state *c, pushes *pushed, ball *p) {
   if (p->acting != 0)
     return;
-  now->pushed[now->balls++] = (uint8_t)(p - c->ball);
+  pushed->pushed[pushed->balls++] = (uint8_t)(p - c->ball);
   p->base[0] = p->v[0] - p->W[1];
   p->base[1] = p->v[1] + p->W[0];
   p->load = p->g[0] = p->g[1] = 0.0;
 }
 
 /* Slips, limits and speeds as the step begins, and the normal impulses. */
-static inline void begin_step(bool flat, state *c, pushes *now) {
+static inline void begin_step(bool flat, state *c, pushes *pushed) {
   for (int k = 0; k < c->balls; k++)
     c->ball[k].acting = 0;
-  now->balls = 0;
-  for (int a = 0; a < now->contacts; a++) {
-    contact *x = &c->contact[now->push[a]];
+  pushed->balls = 0;
+  for (int a = 0; a < pushed->contacts; a++) {
+    contact *x = &c->contact[pushed->push[a]];
     /* speeds, and mu, which falls only where the slip is the greatest so far */
     x->closing = closing_of(flat, x);
     slip_of(flat, x, x->u);
@@ -390,18 +390,18 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
     /* its two balls, each listed once, as the step begins */
     for (int side = 0; side < 2; side++) {
       ball *p = side == 0 ? x->p : x->q;
-      list_pushed(c, now, p);
+      list_pushed(c, pushed, p);
       p->acting = (int8_t)(p->acting < 2 ? p->acting + 1 : 2);
     }
   }
   for (int k = 0; c->on_slate && k < c->balls; k++)
     if (c->slate[k].J > 0.0)
-      list_pushed(c, now, &c->ball[k]);
+      list_pushed(c, pushed, &c->ball[k]);
   CAROM_PROMISE(now->contacts <= now->pressed && now->balls <= c->balls);
 
   /* all normal impulses, when all of that is known */
-  for (int a = 0; a < now->contacts; a++) {
-    const contact *x = &c->contact[now->push[a]];
+  for (int a = 0; a < pushed->contacts; a++) {
+    const contact *x = &c->contact[pushed->push[a]];
     cluster_add(flat, x->p->v, -x->J * x->p->inverse_mass, x->n);
     cluster_add(flat, x->q->v, x->J * x->q->inverse_mass, x->n);
   }
@@ -415,32 +415,32 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
 }
 
 /* The friction of a step, of all contacts and of the cloth. */
-static inline void rub_all(bool flat, state *c, const pushes *now) {
+static inline void rub_all(bool flat, state *c, const pushes *pushed) {
   double change[CAROM_CLUSTER_CONTACTS][2];
   /* first that of the step before */
-  for (int a = 0; a < now->contacts; a++) {
-    contact *x = &c->contact[now->push[a]];
+  for (int a = 0; a < pushed->contacts; a++) {
+    contact *x = &c->contact[pushed->push[a]];
     x->f[0] *= x->J;
     x->f[1] *= x->J;
     rub(flat, x, x->f);
   }
   for (int iteration = 0; iteration <= ITERATIONS; iteration++) {
-    for (int k = 0; k < now->balls; k++)
-      rub_on_cloth(&c->ball[now->pushed[k]]);
+    for (int k = 0; k < pushed->balls; k++)
+      rub_on_cloth(&c->ball[pushed->pushed[k]]);
     if (iteration == ITERATIONS)
       return;
-    for (int a = 0; a < now->contacts; a++)
-      iterate(flat, &c->contact[now->push[a]], change[a]);
-    for (int a = 0; a < now->contacts; a++)
-      rub(flat, &c->contact[now->push[a]], change[a]);
+    for (int a = 0; a < pushed->contacts; a++)
+      iterate(flat, &c->contact[pushed->push[a]], change[a]);
+    for (int a = 0; a < pushed->contacts; a++)
+      rub(flat, &c->contact[pushed->push[a]], change[a]);
   }
 }
 
 /* The other half of the step, after which contacts may be open. */
-static inline void end_step(bool flat, state *c, double h, const pushes *now) {
+static inline void end_step(bool flat, state *c, double h, const pushes *pushed) {
   move(flat, c, 0.5 * h);
-  for (int a = 0; a < now->contacts; a++) {
-    contact *x = &c->contact[now->push[a]];
+  for (int a = 0; a < pushed->contacts; a++) {
+    contact *x = &c->contact[pushed->push[a]];
     const double each = 1.0 / x->J;
     for (int k = 0; k < 2; k++) {
       x->rubbed[k] += x->f[k];
@@ -449,8 +449,8 @@ static inline void end_step(bool flat, state *c, double h, const pushes *now) {
     x->d_max = carom_hertz_vertex(x->d, x->d_max, h, x->closing, closing_of(flat, x));
   }
   /* where the force has reached 0 the rest of the overlap is forgotten */
-  for (int k = 0; k < now->pressed; k++) {
-    contact *x = &c->contact[now->press[k]];
+  for (int k = 0; k < pushed->pressed; k++) {
+    contact *x = &c->contact[pushed->press[k]];
     const double rest = (1.0 - x->e * x->e) * x->d_max;
     if (overlap_of(flat, x) <= rest) {
       x->offset -= rest;
@@ -478,9 +478,9 @@ static double energy_of(const state *c) {
 
 /* Takes what the integrator has added to the energy from the motion about the centre of mass, so
  * momentum is kept. */
-static void take_back(state *c, double before) {
-  const double after = energy_of(c);
-  if (!(after > before))
+static void take_back(state *c, double energy) {
+  const double new_energy = energy_of(c);
+  if (!(new_energy > energy))
     return;
   /* of the balls that were touched; a bystander keeps its motion */
   bool touched[CAROM_CLUSTER_BALLS] = {false};
@@ -508,17 +508,18 @@ static void take_back(state *c, double before) {
   }
 
   /* a little less than all of it, so that rounding adds nothing */
-  const double share = sqrt(carom_greater(1.0 - (after - before) / about, 0.0)) * (1.0 - 1e-15);
+  const double share =
+      sqrt(carom_greater(1.0 - (new_energy - energy) / about, 0.0)) * (1.0 - 1e-15);
   for (int k = 0; k < c->balls; k++)
     for (int axis = 0; axis < 3 && touched[k]; axis++)
       c->ball[k].v[axis] = centre[axis] + share * (c->ball[k].v[axis] - centre[axis]);
 }
 
 /* The same of a strike: by an impulse -J of the tip, which takes J |b| - J^2 k/2. */
-static void take_back_from_tip(bool flat, state *c, double before) {
+static void take_back_from_tip(bool flat, state *c, double energy) {
   carom_cluster_tip *x = &c->tip;
   const ball *p = &c->ball[x->ball];
-  const double more = energy_of(c) - before;
+  const double more = energy_of(c) - energy;
   const double b = x->V - cluster_dot(flat, p->v, x->along) - cluster_dot(false, p->W, x->arm);
   if (!(more > 0.0 && b < 0.0))
     return;
@@ -583,31 +584,31 @@ static bool go_on(bool flat, state *c, double *tau) {
 
 /* Step by step, until no contact acts. */
 static inline bool solve(bool flat, state *c) {
-  const double before = energy_of(c);
+  const double energy = energy_of(c);
   double h = first_step(flat, c), tau = 0.0, norm;
   if (c->struck)
     h = strike_step(c);
   const int least = c->steps > (double)CAROM_CLUSTER_STEPS ? (int)c->steps : CAROM_CLUSTER_STEPS,
             most = CAROM_CLUSTER_STEPS_MOST * least;
-  for (c->taken = 0;; c->taken++) {
-    if (c->taken == most)
+  for (c->steps_done = 0;; c->steps_done++) {
+    if (c->steps_done == most)
       return false;
 
     /* half a step of the positions */
-    pushes now;
+    pushes pushed;
     move(flat, c, 0.5 * h);
 
     /* a touch that is faster than what acts asks for a shorter step */
-    const double longest = find_pressed(flat, c, h, &now);
+    const double longest = find_pressed(flat, c, h, &pushed);
     if (longest < h) {
       move(flat, c, 0.5 * (longest - h));
       h = longest;
-      find_pressed(flat, c, h, &now);
+      find_pressed(flat, c, h, &pushed);
     }
 
     /* where no contact acts, one may touch again, from where the balls are; else all is over */
     tau += 0.5 * h;
-    const bool balls = find_acting(flat, c, h, tau, &now, &norm),
+    const bool balls = find_acting(flat, c, h, tau, &pushed, &norm),
                cue = c->struck && tip_acts(c, h, tau), slate = c->on_slate && slate_acts(c, h);
     if (!balls && !cue && !slate) {
       if (!touch_again(flat, c) && !(c->struck && go_on(flat, c, &tau)))
@@ -618,9 +619,9 @@ static inline bool solve(bool flat, state *c) {
     }
 
     /* impulses, friction and the other half */
-    begin_step(flat, c, &now);
-    rub_all(flat, c, &now);
-    end_step(flat, c, h, &now);
+    begin_step(flat, c, &pushed);
+    rub_all(flat, c, &pushed);
+    end_step(flat, c, h, &pushed);
     tau += 0.5 * h;
     h = step_of(balls ? norm : (double)0.0, c->steps);
     if (c->struck)
@@ -628,8 +629,8 @@ static inline bool solve(bool flat, state *c) {
   }
   c->duration = tau;
   if (c->struck)
-    take_back_from_tip(flat, c, before);
-  take_back(c, before);
+    take_back_from_tip(flat, c, energy);
+  take_back(c, energy);
   return true;
 }
 

@@ -60,8 +60,8 @@
 /* BETWEEN THE TWO, above: how free of the cloth a ball is by its height, m, and a contact of two
  * balls by the greater height and by the tilt. */
 static inline double carom_freedom_of_height(double height) {
-  static const double near = 1e-3; /* m */
-  return height > 0.0 ? height / near : (double)0.0;
+  static const double full_height = 1e-3; /* m */
+  return height > 0.0 ? height / full_height : (double)0.0;
 }
 static inline double carom_freedom_of_balls(double height, double n_z) {
   static const double steep = 0.1;
@@ -85,7 +85,7 @@ typedef struct carom_cluster_ball {
                                   pair has the mean of each */
   bool flies;                  /* above the cloth: its contacts are in space */
   int8_t friction;             /* the law, one for all balls */
-  int8_t which;                /* the caller's index */
+  int8_t index;                /* the caller's index */
   int8_t acting;               /* its contacts that act in this step, at most 2 */
   /* of the integrator */
   double s[3];                /* int v dtau, m */
@@ -146,7 +146,7 @@ typedef struct carom_cluster_state {
   double steepness; /* of the cue, 0 to 1, push.c; read where it is on_slate */
   double slow;      /* m/s: contacts that close slower are none, and do not prolong a cluster */
   double duration;  /* of the integration, s */
-  int taken;        /* steps */
+  int steps_done;   /* steps */
   carom_cluster_ball ball[CAROM_CLUSTER_BALLS];
   carom_cluster_contact_state contact[CAROM_CLUSTER_CONTACTS];
   carom_cluster_tip tip;

@@ -28,19 +28,19 @@ static inline void carom_cue_axes(double phi, double theta, double axis[3], doub
 
 /* p, from the centre of a ball at r to the tip, which has gone so far `along` its axis since it
  * touched that ball at `from`. axes become the directions of the cue. */
-static inline void carom_tip_from(const carom_cue *cue, double R, const double from[3],
+static inline void carom_tip_from(const carom_cue *cue, double R, const double origin[3],
                                   double along, const double r[3], double axes[3][3], double p[3]) {
   const double a = cue->a, b = cue->b, ahead = along - R * sqrt(1.0 - a * a - b * b);
   carom_cue_axes(cue->phi, cue->theta, axes[0], axes[1], axes[2]);
   for (int k = 0; k < 3; k++)
-    p[k] = from[k] + R * (a * axes[1][k] + b * axes[2][k]) + ahead * axes[0][k] - r[k];
+    p[k] = origin[k] + R * (a * axes[1][k] + b * axes[2][k]) + ahead * axes[0][k] - r[k];
 }
 
 /* p/|p| along these axes, of which the last two are the (a, b) of a touch. Returns |p|^2. */
-static inline double carom_tip_on(double axes[3][3], const double p[3], double on[3]) {
+static inline double carom_tip_on(double axes[3][3], const double p[3], double offset[3]) {
   const double p2 = p[0] * p[0] + p[1] * p[1] + p[2] * p[2], over = 1.0 / sqrt(p2);
   for (int k = 0; k < 3; k++)
-    on[k] = over * (p[0] * axes[k][0] + p[1] * axes[k][1] + p[2] * axes[k][2]);
+    offset[k] = over * (p[0] * axes[k][0] + p[1] * axes[k][1] + p[2] * axes[k][2]);
   return p2;
 }
 

@@ -63,7 +63,7 @@ typedef struct two_balls {
   double n[3], gap, closing;
 } two_balls;
 
-static two_balls between(const carom_cluster_ball *a, const carom_cluster_ball *b) {
+static two_balls pair_of(const carom_cluster_ball *a, const carom_cluster_ball *b) {
   two_balls two;
   double v[3];
   cluster_minus(false, b->r, a->r, two.n);
@@ -81,7 +81,7 @@ static bool fastest_pair(const carom_cluster_state *c, int pair[2]) {
   double most = 0.0;
   for (int i = 0; i < c->balls; i++)
     for (int j = i + 1; j < c->balls; j++) {
-      const two_balls two = between(&c->ball[i], &c->ball[j]);
+      const two_balls two = pair_of(&c->ball[i], &c->ball[j]);
       if (two.gap >= CAROM_TOUCHING || two.closing < c->slow || two.closing <= most)
         continue;
       most = two.closing;
@@ -119,7 +119,7 @@ static void follow(const carom_cluster_state *c, const first_contact *first,
     for (int j = 0; j < c->balls; j++) {
       if (in[j])
         continue;
-      const two_balls two = between(&c->ball[queue[k]], &c->ball[j]);
+      const two_balls two = pair_of(&c->ball[queue[k]], &c->ball[j]);
       if (reaches(first, reach, &two)) {
         in[j] = true;
         queue[found++] = j;
@@ -161,7 +161,7 @@ static int list_contacts(carom_cluster_state *c, const first_contact *first, dou
   int count = 0;
   for (int i = 0; i < c->balls; i++)
     for (int j = i + 1; j < c->balls; j++) {
-      const two_balls two = between(&c->ball[i], &c->ball[j]);
+      const two_balls two = pair_of(&c->ball[i], &c->ball[j]);
       if (two.gap >= CAROM_TOUCHING && !reaches(first, deltas, &two))
         continue;
       if (count == CAROM_CLUSTER_CONTACTS)
@@ -174,13 +174,13 @@ static int list_contacts(carom_cluster_state *c, const first_contact *first, dou
 /* Keeps the members, in the caller's order, and lists their contacts. */
 static int keep(carom_cluster_state *c, const first_contact *first,
                 const bool in[CAROM_CLUSTER_BALLS]) {
-  int kept = 0;
+  int reached = 0;
   for (int k = 0; k < c->balls; k++)
     if (in[k])
-      c->ball[kept++] = c->ball[k];
-  c->balls = kept;
+      c->ball[reached++] = c->ball[k];
+  c->balls = reached;
   c->in_space = false;
-  for (int k = 0; k < kept; k++)
+  for (int k = 0; k < reached; k++)
     c->in_space |= c->ball[k].flies || c->ball[k].radius != c->ball[0].radius;
   /* small balls around a large one may have more neighbours than there is room for: then only
    * the nearest */
@@ -198,7 +198,7 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second) {
   if (first < 0 && !fastest_pair(c, pair))
     return 0;
   const carom_cluster_ball *a = &c->ball[pair[0]], *b = &c->ball[pair[1]];
-  const double closing = between(a, b).closing;
+  const double closing = pair_of(a, b).closing;
   if (closing < c->slow)
     return 0;
   const first_contact starts = first_of(a, b, closing);
@@ -209,14 +209,14 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second) {
 int carom_cluster_members_of_tip(carom_cluster_state *c, double most) {
   bool in[CAROM_CLUSTER_BALLS] = {false};
   int queue[CAROM_CLUSTER_BALLS] = {c->tip.ball};
-  const int which = c->ball[c->tip.ball].which;
+  const int struck = c->ball[c->tip.ball].index;
   /* as far as the ball gets in twice the duration of tip or slate, beside what a contact is deep */
   first_contact starts = first_of(&c->ball[c->tip.ball], &c->ball[c->tip.ball], most);
   starts.delta += most * carom_greater(c->tip.T, CAROM_SLATE_TIME);
   follow(c, &starts, queue, 1, in);
   const int count = keep(c, &starts, in);
   for (int k = 0; k < c->balls; k++)
-    if (c->ball[k].which == which)
+    if (c->ball[k].index == struck)
       c->tip.ball = k;
   return count;
 }

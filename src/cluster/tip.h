@@ -78,11 +78,11 @@ static inline double strike_step(const carom_cluster_state *c) {
  */
 static inline double step_to_touch(const carom_cluster_state *c, double h) {
   const carom_cluster_tip *x = &c->tip;
-  const double own = push_step(c, x->T, x->e);
-  if (x->gone || !(h > own) || x->d > 0.0)
+  const double free_step = push_step(c, x->T, x->e);
+  if (x->gone || !(h > free_step) || x->d > 0.0)
     return h;
   const double closing = tip_closing(x, &c->ball[x->ball]);
-  return closing > 0.0 ? carom_lesser(h, own - x->d / closing) : h;
+  return closing > 0.0 ? carom_lesser(h, free_step - x->d / closing) : h;
 }
 
 /* Half a step of its compression, and its impulse; whether it acts. */

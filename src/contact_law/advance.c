@@ -99,17 +99,17 @@ static double work_end(const carom_trajectory *path) {
 }
 
 /* Where a step starts: slips, directions and rates, and how far it may go. */
-static void start_at(const carom_trajectory *path, double to, step_start *s) {
-  const carom_point *at = &path->at;
+static void start_at(const carom_trajectory *path, double target, step_start *s) {
+  const carom_point *point = &path->point;
   const carom_terms *k = &path->terms;
   /* the slips: sizes, and directions or, of a slip that begins, those of the regime */
-  s->r = sqrt(at->a_x * at->a_x + at->a_y * at->a_y);
-  s->q = sqrt(at->b_x * at->b_x + at->b_y * at->b_y);
+  s->r = sqrt(point->a_x * point->a_x + point->a_y * point->a_y);
+  s->q = sqrt(point->b_x * point->b_x + point->b_y * point->b_y);
   const double per_r = 1 / s->r, per_q = 1 / s->q;
-  s->u_x = s->r > 0 ? at->a_x * per_r : path->regime.u_x;
-  s->u_y = s->r > 0 ? at->a_y * per_r : path->regime.u_y;
-  s->t_x = s->q > 0 ? at->b_x * per_q : path->regime.t_x;
-  s->t_y = s->q > 0 ? at->b_y * per_q : path->regime.t_y;
+  s->u_x = s->r > 0 ? point->a_x * per_r : path->regime.u_x;
+  s->u_y = s->r > 0 ? point->a_y * per_r : path->regime.u_y;
+  s->t_x = s->q > 0 ? point->b_x * per_q : path->regime.t_x;
+  s->t_y = s->q > 0 ? point->b_y * per_q : path->regime.t_y;
 
   /* the rates */
   s->w = (k->w_0 + k->w_u * s->u_y) / (1 - k->w_t * s->t_y);
@@ -131,13 +131,13 @@ static void start_at(const carom_trajectory *path, double to, step_start *s) {
     /* p where W = target, by the quadratic equation for a constant v' */
     s->goal = AT_WORK;
     s->target = work_end(path);
-    const double missing = s->target - at->W, square = at->v * at->v + 2 * s->dv * missing;
+    const double missing = s->target - point->W, square = point->v * point->v + 2 * s->dv * missing;
     s->to_goal =
-        square > 0 || s->dv < 0 ? 2 * missing / (at->v - sqrt(most_of(square, 0))) : INFINITY;
+        square > 0 || s->dv < 0 ? 2 * missing / (point->v - sqrt(most_of(square, 0))) : INFINITY;
   } else {
     s->goal = AT_END_OF_APPROACH;
     s->target = 0;
-    s->to_goal = s->dv < 0 ? -at->v / s->dv : INFINITY;
+    s->to_goal = s->dv < 0 ? -point->v / s->dv : INFINITY;
   }
 
   /* no end in sight: as far as the larger of the slips lasts, but no more than 1 */
@@ -150,13 +150,13 @@ static void start_at(const carom_trajectory *path, double to, step_start *s) {
   }
 
   /* an earlier end: p asked for, the event of the regime, the length left by a refusal */
-  if (to - at->p < s->to_goal) {
+  if (target - point->p < s->to_goal) {
     s->goal = AT_P;
-    s->target = s->to_goal = to - at->p;
+    s->target = s->to_goal = target - point->p;
   }
-  if (path->event_at - at->p < (s->goal == AT_P ? s->to_goal : DBL_MAX)) {
+  if (path->event_at - point->p < (s->goal == AT_P ? s->to_goal : DBL_MAX)) {
     s->goal = AT_EVENT;
-    s->to_goal = most_of(path->event_at - at->p, DBL_MIN);
+    s->to_goal = most_of(path->event_at - point->p, DBL_MIN);
   }
   if (path->longest < s->to_goal) {
     s->goal = AT_LENGTH;
@@ -165,12 +165,12 @@ static void start_at(const carom_trajectory *path, double to, step_start *s) {
 }
 
 /* Directions to begin with: both slips along straight lines. */
-static void aim_u(plan *n, const carom_point *at, const step_start *s) {
-  aim(&n->s, at->a_x, at->a_y, s->da_x, s->da_y, s->u_x, s->u_y, n->s.u_x, n->s.u_y);
+static void aim_u(plan *n, const carom_point *point, const step_start *s) {
+  aim(&n->s, point->a_x, point->a_y, s->da_x, s->da_y, s->u_x, s->u_y, n->s.u_x, n->s.u_y);
 }
 
-static void aim_t(plan *n, const carom_point *at, const step_start *s) {
-  aim(&n->s, at->b_x, at->b_y, s->line_x, s->line_y, s->t_x, s->t_y, n->s.t_x, n->s.t_y);
+static void aim_t(plan *n, const carom_point *point, const step_start *s) {
+  aim(&n->s, point->b_x, point->b_y, s->line_x, s->line_y, s->t_x, s->t_y, n->s.t_x, n->s.t_y);
 }
 
 /* Limits the length, which then is the end of the step. */
@@ -195,8 +195,8 @@ static void plan_carefully(const carom_trajectory *path, const step_start *s, pl
   n->kind = held_exact;
   if (driving_slips(path))
     n->kind = path->regime.loaded ? exact_in_both : exact_unloaded;
-  aim_u(n, &path->at, s);
-  aim_t(n, &path->at, s);
+  aim_u(n, &path->point, s);
+  aim_t(n, &path->point, s);
 }
 
 /* Whether the equations for b are stiff: b is quasi-steady, so that friction nearly balances
@@ -230,21 +230,21 @@ static void plan_stiff_cloth(const carom_trajectory *path, const step_start *s, 
     limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->da_x) + fabs(s->da_y) + DBL_MIN));
   even_map(&n->s, length);
   n->kind = driving_slips(path) ? exact_in_both : held_exact;
-  aim_u(n, &path->at, s);
+  aim_u(n, &path->point, s);
   aim(&n->s, 0, 0, 0, 0, s->t_x, s->t_y, n->s.t_x, n->s.t_y);
 }
 
 /* The step while friction holds the driving contact: a sinh map if b passes near zero, else an
  * even one. */
 static void plan_held(const carom_trajectory *path, const step_start *s, plan *n) {
-  const passage g = passage_of_b(&path->at, &path->terms, s, s->to_goal);
+  const passage g = passage_of_b(&path->point, &path->terms, s, s->to_goal);
   n->kind = held_straight;
   n->s.goal = s->goal;
-  if (!g.near)
+  if (!g.matters)
     even_map(&n->s, s->to_goal);
   else if (!sinh_map(&n->s, &g, s->to_goal))
     n->s.goal = AT_LENGTH;
-  aim_t(n, &path->at, s);
+  aim_t(n, &path->point, s);
 }
 
 /* The step for a stiff a, which is quasi-steady or begins from zero: exact, over an even map,
@@ -265,12 +265,12 @@ static void plan_stiff(const carom_trajectory *path, const step_start *s, const 
     n->s.goal = AT_STICK;
   }
   /* an even map resolves no b that passes near zero: stop before */
-  if (path->regime.loaded && passage_of_b(&path->at, &path->terms, s, length).near)
+  if (path->regime.loaded && passage_of_b(&path->point, &path->terms, s, length).matters)
     limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->db_x) + fabs(s->db_y)));
   even_map(&n->s, length);
   n->kind = path->regime.loaded ? exact_in_a : exact_unloaded;
   aim(&n->s, 0, 0, 0, 0, s->u_x, s->u_y, n->s.u_x, n->s.u_y);
-  aim_t(n, &path->at, s);
+  aim_t(n, &path->point, s);
 }
 
 /* The step while a slides: a stretched map, or a sinh map if b passes near zero; but that of
@@ -285,16 +285,16 @@ static void plan_sliding(const carom_trajectory *path, const step_start *s, plan
   n->kind = path->regime.loaded ? sliding : sliding_unloaded;
   n->s.goal = s->goal;
   const double along = s->u_x * s->da_x + s->u_y * s->da_y;
-  passage g = {.near = false};
+  passage g = {.matters = false};
   if (path->regime.loaded)
-    g = passage_of_b(&path->at, &path->terms, s, s->to_goal);
-  if (g.near) {
+    g = passage_of_b(&path->point, &path->terms, s, s->to_goal);
+  if (g.matters) {
     /* a changes little in the step: its E belongs to |a| along a straight line */
     double length = s->to_goal;
     limit(&length, &n->s.goal, 0.7 * s->r / (fabs(s->da_x) + fabs(s->da_y)));
     if (!sinh_map(&n->s, &g, length))
       n->s.goal = AT_LENGTH;
-    aim_u(n, &path->at, s);
+    aim_u(n, &path->point, s);
     EACH n->s.E[i] = exponential(-c.m * n->s.p[i] / (s->r + 0.5 * along * n->s.p[i]));
   } else {
     /* tau to the goal, or the largest that is allowed; two equal steps rather than a long and a
@@ -313,27 +313,27 @@ static void plan_sliding(const carom_trajectory *path, const step_start *s, plan
     }
     stretched_map(&n->s, &c, s, tau);
   }
-  aim_t(n, &path->at, s);
+  aim_t(n, &path->point, s);
 }
 
 /* Sets to zero a slip that has become negligible, and the motion along x of an impact that has
  * become planar. Returns whether the regime has ended. before: where the step began. */
-static bool snap_to_zero(carom_trajectory *path, const carom_point *before) {
-  carom_point *at = &path->at;
-  if (fabs(at->a_x) <= path->no_slip && fabs(at->b_x) <= path->no_slip) {
+static bool snap_to_zero(carom_trajectory *path, const carom_point *previous) {
+  carom_point *point = &path->point;
+  if (fabs(point->a_x) <= path->no_slip && fabs(point->b_x) <= path->no_slip) {
     if (path->law.H < 0)
-      path->across += fabs(at->a_x) + fabs(at->b_x);
-    at->a_x = at->b_x = 0;
+      path->across += fabs(point->a_x) + fabs(point->b_x);
+    point->a_x = point->b_x = 0;
   }
-  const double a = fabs(at->a_x) + fabs(at->a_y), b = fabs(at->b_x) + fabs(at->b_y);
+  const double a = fabs(point->a_x) + fabs(point->a_y), b = fabs(point->b_x) + fabs(point->b_y);
   const bool a_ends =
-      driving_slips(path) && a <= path->no_slip && a < fabs(before->a_x) + fabs(before->a_y);
+      driving_slips(path) && a <= path->no_slip && a < fabs(previous->a_x) + fabs(previous->a_y);
   const bool b_ends =
-      path->regime.loaded && b <= path->no_slip && b < fabs(before->b_x) + fabs(before->b_y);
+      path->regime.loaded && b <= path->no_slip && b < fabs(previous->b_x) + fabs(previous->b_y);
   if (a_ends)
-    at->a_x = at->a_y = 0;
+    point->a_x = point->a_y = 0;
   if (b_ends)
-    at->b_x = at->b_y = 0;
+    point->b_x = point->b_y = 0;
   return a_ends || b_ends;
 }
 
@@ -341,26 +341,26 @@ static bool snap_to_zero(carom_trajectory *path, const carom_point *before) {
  * lies across b. With |b|' = r and h = -H w, e' = h e/|b|, so that e follows |b|^(h/r). Where b
  * passes zero, e is the rest of |b|: then |b|^(h/r) e is |b| itself. The error of the
  * friction's impulse is the change of e over |H|. */
-static void drive_error(carom_trajectory *path, const step_start *s, const carom_point *before) {
-  const double e = path->across, from = most_of(fabs(before->b_y), e), end = fabs(path->at.b_y);
+static void drive_error(carom_trajectory *path, const step_start *s, const carom_point *start) {
+  const double e = path->across, begin = most_of(fabs(start->b_y), e), end = fabs(path->point.b_y);
   const double h = -path->terms.H_x * s->w,
-               r = (end - fabs(before->b_y)) / (path->at.p - before->p);
+               r = (end - fabs(start->b_y)) / (path->point.p - start->p);
   if (!(e > 0 && h > 0 && path->regime.loaded))
     return;
   if (end > e) /* rates of nearly zero leave |b| as it is, and e grows exponentially */
     path->across =
-        e * carom_exp(fabs(r) > 1e-3 * h ? h / r * (rough_log(end) - rough_log(from))
-                                         : h * (path->at.p - before->p) / least(from, end));
-  if (r < 0 && from > e && !(path->across < end)) {
+        e * carom_exp(fabs(r) > 1e-3 * h ? h / r * (rough_log(end) - rough_log(begin))
+                                         : h * (path->point.p - start->p) / least(begin, end));
+  if (r < 0 && begin > e && !(path->across < end)) {
     const double power = -h / r;
-    path->across = carom_exp((rough_log(e) + power * rough_log(from)) / (1 + power));
+    path->across = carom_exp((rough_log(e) + power * rough_log(begin)) / (1 + power));
   }
 }
 
 /* Whether friction would drive a rounding error of b's direction, where the impact begins with a
  * small b that is not planar. */
 static bool driven_at_start(const carom_trajectory *path) {
-  if (!(path->law.H < 0) || !path->regime.loaded || (path->at.a_x == 0 && path->at.b_x == 0))
+  if (!(path->law.H < 0) || !path->regime.loaded || (path->point.a_x == 0 && path->point.b_x == 0))
     return false;
   step_start s;
   start_at(path, INFINITY, &s);
@@ -373,19 +373,21 @@ static bool driven_at_start(const carom_trajectory *path) {
 /* On along a straight line, where all rates are constant: to the goal, or to where a slip is
  * zero. Returns whether that is the goal. In planar motion only the y components change. */
 static bool go_straight(carom_trajectory *path, const step_start *s) {
-  carom_point *at = &path->at;
-  const carom_point before = *at;
-  const double to_a = driving_slips(path) && at->a_y * s->da_y < 0 ? -at->a_y / s->da_y : INFINITY;
-  const double to_b = path->regime.loaded && at->b_y * s->db_y < 0 ? -at->b_y / s->db_y : INFINITY;
+  carom_point *point = &path->point;
+  const carom_point start = *point;
+  const double to_a =
+      driving_slips(path) && point->a_y * s->da_y < 0 ? -point->a_y / s->da_y : INFINITY;
+  const double to_b =
+      path->regime.loaded && point->b_y * s->db_y < 0 ? -point->b_y / s->db_y : INFINITY;
   const double length = least(s->to_goal, least(to_a, to_b));
   /* W before v, since it is the integral of the old v */
-  at->W += length * (at->v + 0.5 * s->dv * length);
-  at->v += s->dv * length;
-  at->p += length;
-  at->a_y = length == to_a ? 0 : at->a_y + s->da_y * length;
-  at->b_y = length == to_b ? 0 : at->b_y + s->db_y * length;
+  point->W += length * (point->v + 0.5 * s->dv * length);
+  point->v += s->dv * length;
+  point->p += length;
+  point->a_y = length == to_a ? 0 : point->a_y + s->da_y * length;
+  point->b_y = length == to_b ? 0 : point->b_y + s->db_y * length;
   path->iterations++;
-  drive_error(path, s, &before);
+  drive_error(path, s, &start);
   return length == s->to_goal;
 }
 
@@ -394,32 +396,33 @@ static void end_phase(carom_trajectory *path) {
     path->ended = true;
   else {
     path->restitution = true;
-    path->at.v = 0;
-    path->W_c = path->at.W;
-    path->at.W = 0;
+    path->point.v = 0;
+    path->W_c = path->point.W;
+    path->point.W = 0;
     path->ended = path->law.e == 0;
   }
 }
 
 /* Plans a step and takes it, or draws the consequences of its refusal. Returns false if there is
  * no way on. */
-static bool next_step(carom_trajectory *path, double to) {
+static bool next_step(carom_trajectory *path, double target) {
   /* planar motion, and motion without any friction that changes, is a straight line */
   step_start s;
-  start_at(path, to, &s);
-  const carom_point before = path->at;
-  const bool planar = before.a_x == 0 && before.b_x == 0 && s.u_x == 0 && s.t_x == 0;
+  start_at(path, target, &s);
+  const carom_point start = path->point;
+  const bool planar = start.a_x == 0 && start.b_x == 0 && s.u_x == 0 && s.t_x == 0;
   if (planar || (!driving_slips(path) && !path->regime.loaded)) {
-    const bool there = go_straight(path, &s) && (s.goal == AT_END_OF_APPROACH || s.goal == AT_WORK);
+    const bool reached =
+        go_straight(path, &s) && (s.goal == AT_END_OF_APPROACH || s.goal == AT_WORK);
     if (path->variation != NULL)
-      carom_variation_straight(path, &before, planar);
-    if (there)
+      carom_variation_straight(path, &start, planar);
+    if (reached)
       end_phase(path);
 
     /* a slip that has come to nothing is zero from here on */
-    const bool goes_on = !snap_to_zero(path, &before) || carom_impact_regime(path, false);
+    const bool goes_on = !snap_to_zero(path, &start) || carom_impact_regime(path, false);
     if (path->variation != NULL)
-      carom_variation_follow(path, &before, there);
+      carom_variation_follow(path, &start, reached);
     return goes_on;
   }
 
@@ -429,7 +432,7 @@ static bool next_step(carom_trajectory *path, double to) {
   n.s.restitution = path->restitution;
   n.s.least_work = work_end(path);
   n.s.tolerance = path->tolerance;
-  n.s.kept = path->variation != NULL ? &path->variation->kept : NULL;
+  n.s.record = path->variation != NULL ? &path->variation->record : NULL;
   if (path->careful)
     plan_carefully(path, &s, &n);
   else if (cloth_is_stiff(path, &s))
@@ -441,10 +444,10 @@ static bool next_step(carom_trajectory *path, double to) {
 
   /* the step. Behind it a regime may begin, a phase may end, or a slip may be negligible */
   double advice = 1;
-  const enum outcome r = n.kind(&path->terms, &n.s, &path->at, &path->iterations, &advice);
+  const enum outcome r = n.kind(&path->terms, &n.s, &path->point, &path->iterations, &advice);
   if (r == TAKEN && path->variation != NULL) {
     /* derivatives may need a shorter step */
-    const double length = path->at.p - before.p;
+    const double length = path->point.p - start.p;
     int vanishes = -1;
     if (n.s.goal == AT_STICK)
       vanishes = (int)OF_A_X;
@@ -452,10 +455,10 @@ static bool next_step(carom_trajectory *path, double to) {
       vanishes = (int)OF_B_X;
     const bool stiff = n.kind == exact_in_a || n.kind == exact_unloaded ||
                        n.kind == exact_in_both || n.kind == held_exact;
-    advice = variation_step(path, &before, driving_slips(path), stiff, vanishes);
+    advice = variation_step(path, &start, driving_slips(path), stiff, vanishes);
     if (advice > 1) {
       /* the planner keeps a length that it is given to a few percent only */
-      path->at = before;
+      path->point = start;
       path->longest =
           length * most_of(0.2, least(0.7, 0.9 / sqrt(sqrt(sqrt(sqrt(least(advice, 1e12)))))));
       return true;
@@ -466,23 +469,23 @@ static bool next_step(carom_trajectory *path, double to) {
   if (r == TAKEN) {
     path->longest = INFINITY;
     path->refusals = 0;
-    const bool there = n.s.goal == AT_END_OF_APPROACH || n.s.goal == AT_WORK;
+    const bool reached = n.s.goal == AT_END_OF_APPROACH || n.s.goal == AT_WORK;
     bool goes_on;
     if (n.s.goal == AT_STICK || n.s.goal == AT_CLOTH_STICK || n.s.goal == AT_EVENT) {
       goes_on = carom_impact_regime(path, n.s.goal == AT_EVENT);
     } else {
-      if (there)
+      if (reached)
         end_phase(path);
-      goes_on = !snap_to_zero(path, &before) || carom_impact_regime(path, false);
+      goes_on = !snap_to_zero(path, &start) || carom_impact_regime(path, false);
     }
     if (path->variation != NULL)
-      carom_variation_follow(path, &before, there);
+      carom_variation_follow(path, &start, reached);
     return goes_on;
   }
 
   /* refused: up to the event; or a shorter step, by the error estimate */
   if (r == EVENT_WITHIN) {
-    path->event_at = path->at.p + advice;
+    path->event_at = path->point.p + advice;
     if (advice < IMMEDIATE * s.to_goal)
       return carom_impact_regime(path, true);
   } else /* the error is of order 16 in the length */
@@ -501,16 +504,17 @@ static bool next_step(carom_trajectory *path, double to) {
   return path->refusals < MOST_CAREFUL_REFUSALS;
 }
 
-carom_status CAROM_IMPACT_ADVANCE(carom_trajectory *path, double to, int most) {
-  if (path->at.p == 0 && driven_at_start(path))
+carom_status CAROM_IMPACT_ADVANCE(carom_trajectory *path, double target, int most) {
+  if (path->point.p == 0 && driven_at_start(path))
     return CAROM_ERROR_UNRESOLVED;
-  while (!path->ended && path->at.p < to) {
-    if (path->iterations >= most || !next_step(path, to) || !(path->at.growth <= MOST_GROWTH) ||
-        !(path->across <= MOST_ACROSS) || (path->restitution && path->at.v > AGAIN))
+  while (!path->ended && path->point.p < target) {
+    if (path->iterations >= most || !next_step(path, target) ||
+        !(path->point.growth <= MOST_GROWTH) || !(path->across <= MOST_ACROSS) ||
+        (path->restitution && path->point.v > AGAIN))
       return CAROM_ERROR_UNRESOLVED;
     /* the first stick; a regime in which both contacts hold ends the impact */
     if (path->regime.held && isnan(path->p_stick))
-      path->p_stick = path->at.p;
+      path->p_stick = path->point.p;
     if ((path->regime.held && path->regime.cloth_held) || carom_impact_jams(path))
       path->ended = true;
   }

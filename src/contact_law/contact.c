@@ -137,9 +137,9 @@ static bool from_rest(const carom_law *l, carom_regime *r) {
 
 /* The regime that begins at a point, after *r. event: that of *r has ended it. False if no
  * regime is consistent. */
-static bool choose(const carom_law *l, const carom_point *at, bool event, carom_regime *r) {
-  const bool a_rests = l->mu > 0 && at->a_x == 0 && at->a_y == 0,
-             b_rests = l->mu_c > 0 && at->b_x == 0 && at->b_y == 0;
+static bool choose(const carom_law *l, const carom_point *point, bool event, carom_regime *r) {
+  const bool a_rests = l->mu > 0 && point->a_x == 0 && point->a_y == 0,
+             b_rests = l->mu_c > 0 && point->b_x == 0 && point->b_y == 0;
   if (a_rests && b_rests)
     return from_rest(l, r);
   const carom_regime last = *r;
@@ -148,7 +148,7 @@ static bool choose(const carom_law *l, const carom_point *at, bool event, carom_
   /* the driving contact: friction f holds it, or its slip begins, or it slips */
   pair u, f;
   if (a_rests) {
-    const pair t = direction((pair){at->b_x, at->b_y}, (pair){0, -1});
+    const pair t = direction((pair){point->b_x, point->b_y}, (pair){0, -1});
     f = holding(l, t);
     r->held = within(f, l->mu) && !(event && last.held);
     if (!r->held) {
@@ -158,7 +158,7 @@ static bool choose(const carom_law *l, const carom_point *at, bool event, carom_
       f = (pair){-l->mu * u.x, -l->mu * u.y};
     }
   } else {
-    u = direction((pair){at->a_x, at->a_y}, (pair){0, 0});
+    u = direction((pair){point->a_x, point->a_y}, (pair){0, 0});
     f = (pair){-l->mu * u.x, -l->mu * u.y};
   }
 
@@ -248,14 +248,15 @@ carom_terms carom_impact_terms(const carom_law *l, const carom_regime *r) {
 }
 
 bool carom_impact_jams(const carom_trajectory *path) {
-  const carom_point *at = &path->at;
-  return fabs(at->v) + fabs(at->a_x) + fabs(at->a_y) + fabs(at->b_x) + fabs(at->b_y) <
+  const carom_point *point = &path->point;
+  return fabs(point->v) + fabs(point->a_x) + fabs(point->a_y) + fabs(point->b_x) +
+                 fabs(point->b_y) <
              NEARLY_JAMMED &&
          both_hold(&path->law);
 }
 
 bool carom_impact_regime(carom_trajectory *path, bool event) {
-  if (!choose(&path->law, &path->at, event, &path->regime))
+  if (!choose(&path->law, &path->point, event, &path->regime))
     return false;
   path->terms = carom_impact_terms(&path->law, &path->regime);
   path->event_at = INFINITY;

@@ -31,38 +31,38 @@ void carom_impact_begin(const carom_law *law, double tolerance, int plain, doubl
                          .no_slip = fmax(law->H < 0 ? ROUNDING : NO_SLIP, ROUNDING * driving_slips),
                          .longest = INFINITY,
                          .event_at = INFINITY};
-  path->at = path->start;
+  path->point = path->start;
   if (!(driving_slips < MOST_SLIP)) {
     path->status = CAROM_ERROR_OVERFLOW;
     return;
   }
   /* slips that count as zero, and motion along x of which there is none */
-  carom_point *at = &path->at;
+  carom_point *point = &path->point;
   if (fabs(a_x) <= path->no_slip && fabs(b_x) <= path->no_slip) {
     if (law->H < 0)
       path->across = fabs(a_x) + fabs(b_x) + rounding;
-    at->a_x = at->b_x = 0;
+    point->a_x = point->b_x = 0;
   }
   if (fabs(a_x) + fabs(a_y) <= path->no_slip)
-    at->a_x = at->a_y = 0;
+    point->a_x = point->a_y = 0;
   if (fabs(b_x) + fabs(b_y) <= path->no_slip)
-    at->b_x = at->b_y = 0;
+    point->b_x = point->b_y = 0;
   if (!carom_impact_regime(path, false))
     path->status = CAROM_ERROR_UNRESOLVED;
 }
 
-carom_status carom_impact_advance(carom_trajectory *path, double to, int most) {
+carom_status carom_impact_advance(carom_trajectory *path, double target, int most) {
   if (path->status == CAROM_OK) {
     switch (carom_isa_of_call(path->plain)) {
 #if defined(__x86_64__) && !defined(CAROM_WITHOUT_AVX2)
     case CAROM_ISA_AVX2:
     case CAROM_ISA_AVX512: /* eight numbers in a vector of AVX-512 are not faster: a step is
                               bound by latency */
-      path->status = carom_impact_advance_avx2(path, to, most);
+      path->status = carom_impact_advance_avx2(path, target, most);
       break;
 #endif
     default:
-      path->status = carom_impact_advance_plain(path, to, most);
+      path->status = carom_impact_advance_plain(path, target, most);
     }
   }
   return path->status;
@@ -70,15 +70,15 @@ carom_status carom_impact_advance(carom_trajectory *path, double to, int most) {
 
 carom_impulses carom_impact_impulses(const carom_trajectory *path) {
   const carom_law *l = &path->law;
-  const carom_point *from = &path->start, *at = &path->at;
+  const carom_point *start = &path->start, *point = &path->point;
   /* the changes by friction */
-  const double a_x = at->a_x - from->a_x, a_y = at->a_y - from->a_y - l->A_0 * at->p,
-               b_x = at->b_x - from->b_x, v = at->v - from->v - l->V_0 * at->p;
+  const double a_x = point->a_x - start->a_x, a_y = point->a_y - start->a_y - l->A_0 * point->p,
+               b_x = point->b_x - start->b_x, v = point->v - start->v - l->V_0 * point->p;
   if (l->mu_c == 0)
-    return (carom_impulses){.p = at->p, .f_x = a_x / l->K_x, .f_y = a_y / l->K_y};
+    return (carom_impulses){.p = point->p, .f_x = a_x / l->K_x, .f_y = a_y / l->K_y};
   const double per_x = 1 / (l->K_x * l->H - l->C_x * l->L_x),
                per_y = 1 / (l->K_y * l->V_F - l->C_y * l->V_f);
-  return (carom_impulses){.p = at->p,
+  return (carom_impulses){.p = point->p,
                           .f_x = (l->H * a_x - l->C_x * b_x) * per_x,
                           .f_y = (l->V_F * a_y - l->C_y * v) * per_y,
                           .F_x = (l->K_x * b_x - l->L_x * a_x) * per_x,
@@ -86,5 +86,5 @@ carom_impulses carom_impact_impulses(const carom_trajectory *path) {
 }
 
 double carom_impact_work(const carom_trajectory *path) {
-  return path->restitution ? path->W_c - path->at.W : path->at.W;
+  return path->restitution ? path->W_c - path->point.W : path->point.W;
 }

@@ -40,7 +40,7 @@ struct carom_variation;
 /* An impact on its way. */
 typedef struct carom_trajectory {
   carom_law law;
-  carom_point start, at;
+  carom_point start, point;
   carom_regime regime;
   carom_terms terms;
   bool restitution, ended; /* v = 0 is passed; nothing follows */
@@ -82,7 +82,7 @@ void carom_impact_begin(const carom_law *law, double tolerance, int plain, doubl
  * CAROM_ERROR_UNRESOLVED if that takes more than `most` iterations, counted from the start, if
  * no regime is consistent, or if the result depends on rounding errors.
  */
-carom_status carom_impact_advance(carom_trajectory *path, double to, int most);
+carom_status carom_impact_advance(carom_trajectory *path, double target, int most);
 
 /* The most iterations for the impact of a call, and for each sample of a trace. */
 enum { CAROM_IMPACT_ITERATIONS = 400 };
@@ -106,8 +106,8 @@ bool carom_impact_jams(const carom_trajectory *path);
 
 /* carom_impact_advance() as advance.c is compiled to: with vectors of two numbers, and with four
  * for AVX2. */
-carom_status carom_impact_advance_plain(carom_trajectory *path, double to, int most);
-carom_status carom_impact_advance_avx2(carom_trajectory *path, double to, int most);
+carom_status carom_impact_advance_plain(carom_trajectory *path, double target, int most);
+carom_status carom_impact_advance_avx2(carom_trajectory *path, double target, int most);
 
 #ifdef CAROM_LANES_AVX2
 #define CAROM_IMPACT_ADVANCE carom_impact_advance_avx2

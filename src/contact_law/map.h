@@ -55,36 +55,36 @@ static void even_map(step *s, double length) {
 /* Where a straight line is nearest to zero. */
 typedef struct passage {
   double p_c, d;
-  bool near; /* a step of the length asked for has to take account of it */
+  bool matters; /* a step of the length asked for has to take account of it */
 } passage;
 
-static passage nearest(const carom_point *at, double rate_x, double rate_y, double length) {
+static passage nearest(const carom_point *point, double rate_x, double rate_y, double length) {
   const double per = 1 / (rate_x * rate_x + rate_y * rate_y);
-  passage g = {.p_c = -(at->b_x * rate_x + at->b_y * rate_y) * per,
-               .d = fabs(at->b_x * rate_y - at->b_y * rate_x) * per};
+  passage g = {.p_c = -(point->b_x * rate_x + point->b_y * rate_y) * per,
+               .d = fabs(point->b_x * rate_y - point->b_y * rate_x) * per};
   /* b is zero at p_c +- i d: in units of the step, from -1 to 1, the sum of the distances to the
    * ends tells the ellipse */
   const double x = 2 * g.p_c / length - 1, y = 2 * g.d / length;
-  g.near = sqrt((x - 1) * (x - 1) + y * y) + sqrt((x + 1) * (x + 1) + y * y) < ELLIPSE;
+  g.matters = sqrt((x - 1) * (x - 1) + y * y) + sqrt((x + 1) * (x + 1) + y * y) < ELLIPSE;
   return g;
 }
 
 /* How b passes zero. It goes at its present rate, or if that does not lead near zero, at the
  * mean rate beyond. */
-static passage passage_of_b(const carom_point *at, const carom_terms *k, const step_start *s,
+static passage passage_of_b(const carom_point *point, const carom_terms *k, const step_start *s,
                             double length) {
   const double rate =
       fabs(s->db_x) + fabs(s->db_y) + (k->H_x < 0 ? fabs(s->line_x) + fabs(s->line_y) : 0);
-  passage g = {.near = false};
+  passage g = {.matters = false};
   if (s->q == 0 || s->q > 2 * length * rate)
     return g;
   /* friction that drives the slip slows b on its way to zero: then the mean rate comes first */
   if (k->H_x > 0)
-    g = nearest(at, s->db_x, s->db_y, length);
-  if (!g.near)
-    g = nearest(at, s->line_x, s->line_y, length);
-  if (!g.near && k->H_x < 0)
-    g = nearest(at, s->db_x, s->db_y, length);
+    g = nearest(point, s->db_x, s->db_y, length);
+  if (!g.matters)
+    g = nearest(point, s->line_x, s->line_y, length);
+  if (!g.matters && k->H_x < 0)
+    g = nearest(point, s->db_x, s->db_y, length);
   /* a slip that friction drives stays near zero for long: there the map has to resolve more */
   const double least = (k->H_x > 0 ? LEAST_D : LEAST_D_UNSTABLE) * s->q / rate;
   g.d = g.d > least ? g.d : least;
@@ -111,16 +111,16 @@ static double near_asinh(double x) {
  * but for the error of near_asinh(). */
 static bool sinh_map(step *s, const passage *g, double length) {
   /* x at both ends of the step */
-  const double from = near_asinh(-g->p_c / g->d);
-  double to = near_asinh((length - g->p_c) / g->d);
-  const bool arrives = to - from <= SINH_LENGTH;
+  const double low = near_asinh(-g->p_c / g->d);
+  double high = near_asinh((length - g->p_c) / g->d);
+  const bool arrives = high - low <= SINH_LENGTH;
   if (!arrives) /* two equal steps rather than a long and a short one */
-    to = from + (to - from < 2 * SINH_LENGTH ? 0.5 * (to - from) : SINH_LENGTH);
+    high = low + (high - low < 2 * SINH_LENGTH ? 0.5 * (high - low) : SINH_LENGTH);
   /* dp = d cosh(x) h dX and p = d (sinh(x) - sinh(from)), by e^x */
-  const double h = to - from;
-  const part ends = exponential((part){from, to}), sinh_2 = ends - 1 / ends; /* twice the sine */
+  const double h = high - low;
+  const part ends = exponential((part){low, high}), sinh_2 = ends - 1 / ends; /* twice the sine */
   EACH {
-    const part e = exponential(from + h * PART(NODE, i)), per_e = 1 / e;
+    const part e = exponential(low + h * PART(NODE, i)), per_e = 1 / e;
     s->z[i] = (0.5 * h * g->d) * (e + per_e);
     s->p[i] = (0.5 * g->d) * ((e - per_e) - sinh_2[0]);
     s->E[i] = splat(1);
@@ -175,7 +175,7 @@ static double tau_at(const closed_form *c, double length, double first, double m
 }
 
 /* To tau, with the directions of u that belong to it. */
-static void stretched_map(step *s, const closed_form *c, const step_start *from, double tau) {
+static void stretched_map(step *s, const closed_form *c, const step_start *origin, double tau) {
   /* a slip along D keeps its direction, not only nearly */
   const double q_2 = c->q_0 * c->q_0, turns = c->sine != 0;
   EACH {
@@ -190,8 +190,8 @@ static void stretched_map(step *s, const closed_form *c, const step_start *from,
     /* dp = r tau dX; u turned by the angle */
     s->E[i] = e;
     s->z[i] = (tau * c->A) * e * (1 / d + q_2 * d);
-    s->u_x[i] = from->u_x * cosine - from->u_y * sine;
-    s->u_y[i] = from->u_y * cosine + from->u_x * sine;
+    s->u_x[i] = origin->u_x * cosine - origin->u_y * sine;
+    s->u_y[i] = origin->u_y * cosine + origin->u_x * sine;
   }
   integrate(s->z, s->p);
   s->length = dot(WEIGHT, s->z);

@@ -89,8 +89,8 @@ typedef struct step {
   double target;
   bool restitution; /* v <= 0, and W >= least_work */
   double least_work;
-  double tolerance;      /* scales CONVERGED and TOLERANCE */
-  carom_kept_step *kept; /* where the step is kept for derivatives, or NULL */
+  double tolerance;        /* scales CONVERGED and TOLERANCE */
+  carom_kept_step *record; /* where the step is kept for derivatives, or NULL */
 } step;
 
 /* The values of the iteration at the nodes. */
@@ -150,10 +150,10 @@ always void integrate_slip(double x, double y, const part *zx, const part *zy, p
 
 /* x, y over their length, whose inverse becomes *inverse. near: *inverse has the inverse of a
  * similar length. */
-always void normalise(part *x, part *y, bool near, part *inverse) {
+always void normalise(part *x, part *y, bool approximate, part *inverse) {
   EACH {
     const part square = madd(x[i], x[i], madd(y[i], y[i], splat(1e-300)));
-    if (near) { /* one step of third order */
+    if (approximate) { /* one step of third order */
       const part left = 1 - square * (inverse[i] * inverse[i]);
       inverse[i] = madd(inverse[i] * left, madd(left, splat(0.375), splat(0.5)), inverse[i]);
     } else
@@ -166,17 +166,17 @@ always void normalise(part *x, part *y, bool near, part *inverse) {
 /* One step of Newton's method for the directions u of the slip a, by an integrating factor. zk:
  * z times k of the head of this file; before: 1/E; after: E. a becomes a unit vector.
  * correction: by which angles. */
-always void rotate(part *a_x, part *a_y, const part *zk, const part *before, const part *after,
-                   bool near, part *inverse, part *u_x, part *u_y, part *correction) {
+always void rotate(part *a_x, part *a_y, const part *zk, const part *previous, const part *next,
+                   bool approximate, part *inverse, part *u_x, part *u_y, part *correction) {
   nodes across, f, angle;
   /* the sine of the angle from u to a, once a has length 1 */
   EACH across[i] = madd(u_x[i], a_y[i], -(u_y[i] * a_x[i]));
-  normalise(a_x, a_y, near, inverse);
+  normalise(a_x, a_y, approximate, inverse);
   /* (E / |a|) M(z k r / E): by this angle a is turned back, which gives the new u */
-  EACH f[i] = zk[i] * before[i] * across[i] * inverse[i];
+  EACH f[i] = zk[i] * previous[i] * across[i] * inverse[i];
   integrate(f, angle);
   EACH {
-    angle[i] *= after[i] * inverse[i];
+    angle[i] *= next[i] * inverse[i];
     correction[i] = magnitude(across[i] * inverse[i] - angle[i]);
     u_x[i] = madd(a_y[i], angle[i], a_x[i]);
     u_y[i] = madd(a_x[i], -angle[i], a_y[i]);
@@ -237,9 +237,9 @@ always void events(const carom_terms *k, const iterate *c, const bool driving_sl
 }
 
 /* The event function at a point; 0 where the slip has no direction. */
-static double event_gap(const carom_terms *k, const carom_point *at, const bool driving_slips) {
-  const double x = driving_slips ? at->a_x : at->b_x, y = driving_slips ? at->a_y : at->b_y,
-               size = sqrt(x * x + y * y);
+static double event_gap(const carom_terms *k, const carom_point *point, const bool driving_slips) {
+  const double x = driving_slips ? point->a_x : point->b_x,
+               y = driving_slips ? point->a_y : point->b_y, size = sqrt(x * x + y * y);
   if (!(size > 0))
     return 0;
   const double w = driving_slips ? 1 : k->w_0 / (1 - k->w_t * y / size);
@@ -248,9 +248,9 @@ static double event_gap(const carom_terms *k, const carom_point *at, const bool 
 
 /* p from the beginning of the step to where the event function, at the nodes *f, first becomes
  * positive, by linear interpolation between nodes. scale: of z. */
-static double first_event(const carom_terms *k, const carom_point *at, const step *s, double scale,
-                          const part *f, const bool driving_slips) {
-  double p = 0, value = event_gap(k, at, driving_slips);
+static double first_event(const carom_terms *k, const carom_point *point, const step *s,
+                          double scale, const part *f, const bool driving_slips) {
+  double p = 0, value = event_gap(k, point, driving_slips);
   for (int n = 0; n <= NODES; n++) {
     const double next_p = scale * (n < NODES ? AT(s->p, n) : s->length),
                  next = n < NODES ? AT(f, n) : 1;
@@ -264,14 +264,14 @@ static double first_event(const carom_terms *k, const carom_point *at, const ste
   return p;
 }
 
-/* int v dp from *at to the end of the step. to_end: weights of the integral of an integral. */
-always double work(const carom_point *at, double length, double scale, const double *to_end,
+/* int v dp from *point to the end of the step. to_end: weights of the integral of an integral. */
+always double work(const carom_point *point, double length, double scale, const double *to_end,
                    const iterate *c) {
-  return at->v * length + scale * scale * dot(to_end, c->v);
+  return point->v * length + scale * scale * dot(to_end, c->v);
 }
 
 /* By how much p has to grow for the step to end at its goal: a step of Newton's method. */
-always double to_goal(const carom_terms *k, const carom_point *from, const step *s,
+always double to_goal(const carom_terms *k, const carom_point *start, const step *s,
                       const iterate *c, double scale, const part *to_end,
                       const bool driving_slips) {
   /* a given p, or v = 0 or W = target: Newton's method with v at the end and v' there */
@@ -281,19 +281,20 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
   if (s->goal == AT_END_OF_APPROACH || s->goal == AT_WORK) {
     nodes zv;
     EACH zv[i] = s->z[i] * c->v[i];
-    const double v = from->v + scale * dot(WEIGHT, zv);
+    const double v = start->v + scale * dot(WEIGHT, zv);
     if (s->goal == AT_END_OF_APPROACH)
       return -v / LAST(c->v);
-    return v < 0 ? (s->target - from->W - work(from, length, scale, (const double *)to_end, c)) / v
-                 : 0.3 * length;
+    return v < 0
+               ? (s->target - start->W - work(start, length, scale, (const double *)to_end, c)) / v
+               : 0.3 * length;
   }
 
   /* the slip at the end, and its rate there */
   const bool driving = s->goal == AT_STICK || (s->goal == AT_EVENT && driving_slips);
   const part *zx = driving ? c->za_x : c->zb_x, *zy = driving ? c->za_y : c->zb_y;
   const double last = 1 / (scale * LAST(s->z)), dx = LAST(zx) * last, dy = LAST(zy) * last;
-  double x = (driving ? from->a_x : from->b_x) + dot(WEIGHT, zx),
-         y = (driving ? from->a_y : from->b_y) + dot(WEIGHT, zy);
+  double x = (driving ? start->a_x : start->b_x) + dot(WEIGHT, zx),
+         y = (driving ? start->a_y : start->b_y) + dot(WEIGHT, zy);
 
   /* stick: the slip along its direction over its rate */
   if (s->goal != AT_EVENT) {
@@ -323,12 +324,12 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
  * slips. A refused step leaves *at as it is; then *advice is, for INACCURATE, the squared error
  * estimate over the tolerance, and for EVENT_WITHIN the p from here to the event. */
 always enum outcome collocate(const carom_terms *terms, const step *s, const bool driving_slips,
-                              const bool loaded, const enum exact exact, carom_point *at,
+                              const bool loaded, const enum exact exact, carom_point *point,
                               int *iterations, double *advice) {
   const carom_terms k = *terms;
   iterate c;
-  nodes per_E, ease, one, to_end, inverse_a, inverse_b, slip_x, slip_y, D_x, D_y, zk, f, correction,
-      correction_t;
+  nodes per_E, ease, unit, to_end, inverse_a, inverse_b, slip_x, slip_y, D_x, D_y, zk, f,
+      correction, correction_t;
   double for_u[NODES][NODES] __attribute__((aligned(PART_BYTES))),
       for_t[NODES][NODES] __attribute__((aligned(PART_BYTES)));
 
@@ -339,7 +340,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     c.u_y[i] = s->u_y[i];
     c.t_x[i] = s->t_x[i];
     c.t_y[i] = s->t_y[i];
-    one[i] = splat(1);
+    unit[i] = splat(1);
     ease[i] = inverse_a[i] = inverse_b[i] = splat(0);
     per_E[i] = driving_slips && exact == FOR_NONE ? 1 / s->E[i] : splat(1);
     to_end[i] = PART(WEIGHT, i) * s->z[i] * (s->length - s->p[i]);
@@ -347,7 +348,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
 
   /* iterations; `scale` is the length over the planned one, `last` the last correction */
   double scale = 1, last = 1, last_rate = 0.3;
-  bool converged = false, forward = true, near = false;
+  bool converged = false, forward = true, approximate = false;
   for (int n = 0; n < MOST_ITERATIONS && !converged; n++) {
     forward = true;
     /* the rates at the nodes, and the correction of the length */
@@ -356,12 +357,12 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     const double change =
         s->goal == AT_LENGTH
             ? 0
-            : to_goal(&k, at, s, &c, scale, to_end, driving_slips) / (scale * s->length);
+            : to_goal(&k, point, s, &c, scale, to_end, driving_slips) / (scale * s->length);
     EACH correction[i] = splat(0);
 
     /* u from the slip at the driving contact */
     if (driving_slips) {
-      integrate_slip(at->a_x, at->a_y, c.za_x, c.za_y, slip_x, slip_y);
+      integrate_slip(point->a_x, point->a_y, c.za_x, c.za_y, slip_x, slip_y);
       /* z da'/dphi, of which u has a part in the load too */
       EACH {
         const part zs = scale * s->z[i], w_u = loaded ? k.w_u * c.u_x[i] : splat(0);
@@ -373,12 +374,12 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
         forward = rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_u, c.u_x,
                                  c.u_y, correction);
       else
-        rotate(slip_x, slip_y, zk, per_E, s->E, near, inverse_a, c.u_x, c.u_y, correction);
+        rotate(slip_x, slip_y, zk, per_E, s->E, approximate, inverse_a, c.u_x, c.u_y, correction);
     }
 
     /* t from the slip on the cloth */
     if (loaded) {
-      integrate_slip(at->b_x, at->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
+      integrate_slip(point->b_x, point->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
       /* z db'/dphi, of which t has a part in the load where the driving contact holds */
       if (driving_slips && exact != FOR_BOTH)
         EACH zk[i] = (scale * s->z[i]) * (k.H_x * c.w[i]);
@@ -396,7 +397,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
         forward &= rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_t, c.t_x,
                                   c.t_y, correction_t);
       else {
-        rotate(slip_x, slip_y, zk, ease, one, near, inverse_b, c.t_x, c.t_y, correction_t);
+        rotate(slip_x, slip_y, zk, ease, unit, approximate, inverse_b, c.t_x, c.t_y, correction_t);
         if (n < 2) {
           integrate(zk, f);
           EACH ease[i] = 1 / (1 + f[i] * inverse_b[i]);
@@ -408,19 +409,19 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
 
     /* the error left is the last correction times the rate of convergence; it acts over the length
      * of the step */
-    const double now = largest(correction), rate = n > 0 ? now / last : 0.3,
+    const double remainder = largest(correction), rate = n > 0 ? remainder / last : 0.3,
                  worst = rate > last_rate ? rate : last_rate;
-    if (!(now < 10) || (n >= 3 && rate > 0.6 && now > 1e-3))
+    if (!(remainder < 10) || (n >= 3 && rate > 0.6 && remainder > 1e-3))
       return DIVERGED;
     const double share = scale * s->length < 1 ? scale * s->length : 1;
-    converged = now * (worst < 1 ? worst : 1) * share < CONVERGED * s->tolerance && now < 1e-3 &&
-                fabs(change) < SETTLED;
+    converged = remainder * (worst < 1 ? worst : 1) * share < CONVERGED * s->tolerance &&
+                remainder < 1e-3 && fabs(change) < SETTLED;
 
     /* the new length, within limits */
     const double at_least = change > -0.4 ? change : -0.4;
     scale *= 1 + (change > 0.5 ? 0.5 : at_least);
-    near = now < NEARLY_CONVERGED && fabs(change) < NEARLY_CONVERGED;
-    last = now;
+    approximate = remainder < NEARLY_CONVERGED && fabs(change) < NEARLY_CONVERGED;
+    last = remainder;
     last_rate = rate;
   }
   if (!converged || !forward)
@@ -430,14 +431,14 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
   rates(&k, s->z, scale, driving_slips, loaded, &c);
   const double length = scale * s->length;
   EACH f[i] = s->z[i] * c.v[i];
-  carom_point to = {.a_x = at->a_x + dot(WEIGHT, c.za_x),
-                    .a_y = at->a_y + dot(WEIGHT, c.za_y),
-                    .b_x = at->b_x + dot(WEIGHT, c.zb_x),
-                    .b_y = at->b_y + dot(WEIGHT, c.zb_y),
-                    .v = at->v + scale * dot(WEIGHT, f),
-                    .W = at->W + work(at, length, scale, (const double *)to_end, &c),
-                    .p = at->p + length,
-                    .growth = at->growth};
+  carom_point reached = {.a_x = point->a_x + dot(WEIGHT, c.za_x),
+                         .a_y = point->a_y + dot(WEIGHT, c.za_y),
+                         .b_x = point->b_x + dot(WEIGHT, c.zb_x),
+                         .b_y = point->b_y + dot(WEIGHT, c.zb_y),
+                         .v = point->v + scale * dot(WEIGHT, f),
+                         .W = point->W + work(point, length, scale, (const double *)to_end, &c),
+                         .p = point->p + length,
+                         .growth = point->growth};
 
   /* the estimate of its error */
   double error = 0;
@@ -451,46 +452,47 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
 
   /* whether the regime has lasted to the end */
   events(&k, &c, driving_slips, f);
-  const double event = largest(f), end = event_gap(&k, &to, driving_slips);
+  const double event = largest(f), end = event_gap(&k, &reached, driving_slips);
   const bool sticks = s->goal == AT_STICK || s->goal == AT_CLOTH_STICK;
   if (s->goal == AT_EVENT ? event > LATE
                           : event > EVENT_TOLERANCE || (end > EVENT_TOLERANCE && !sticks)) {
-    *advice = first_event(&k, at, s, scale, f, driving_slips);
+    *advice = first_event(&k, point, s, scale, f, driving_slips);
     return EVENT_WITHIN;
   }
 
   /* where friction drives the slip on the cloth, an error of its direction grows by exp(int |H|
    * w / |b| dp) */
   if (loaded && k.H_x < 0) {
-    integrate_slip(at->b_x, at->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
+    integrate_slip(point->b_x, point->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
     normalise(slip_x, slip_y, false, inverse_b);
     EACH f[i] = s->z[i] * c.w[i] * inverse_b[i];
-    to.growth -= scale * k.H_x * dot(WEIGHT, f);
+    reached.growth -= scale * k.H_x * dot(WEIGHT, f);
   }
 
   /* the variables that are exactly zero at the goal */
   if (s->goal == AT_STICK)
-    to.a_x = to.a_y = 0;
+    reached.a_x = reached.a_y = 0;
   if (s->goal == AT_CLOTH_STICK)
-    to.b_x = to.b_y = 0;
-  if (s->goal == AT_END_OF_APPROACH || (s->goal == AT_CLOTH_STICK && fabs(to.v) < NEARLY_STOPPED))
-    to.v = 0;
-  else if (s->goal != AT_WORK && (s->restitution ? to.W < s->least_work : to.v < 0))
+    reached.b_x = reached.b_y = 0;
+  if (s->goal == AT_END_OF_APPROACH ||
+      (s->goal == AT_CLOTH_STICK && fabs(reached.v) < NEARLY_STOPPED))
+    reached.v = 0;
+  else if (s->goal != AT_WORK && (s->restitution ? reached.W < s->least_work : reached.v < 0))
     return BEYOND_PHASE;
 
   /* a slip that takes no part has no direction: the plan did not set one */
-  if (s->kept != NULL)
+  if (s->record != NULL)
     EACH {
       const int n = NODES / PARTS * i;
       const part none = splat(0);
-      *(part_of_row *)&s->kept->z[n] = (part_of_row)(scale * s->z[i]);
-      *(part_of_row *)&s->kept->p[n] = (part_of_row)(scale * s->p[i]);
-      *(part_of_row *)&s->kept->u_x[n] = (part_of_row)(driving_slips ? c.u_x[i] : none);
-      *(part_of_row *)&s->kept->u_y[n] = (part_of_row)(driving_slips ? c.u_y[i] : none);
-      *(part_of_row *)&s->kept->t_x[n] = (part_of_row)(loaded ? c.t_x[i] : none);
-      *(part_of_row *)&s->kept->t_y[n] = (part_of_row)(loaded ? c.t_y[i] : none);
+      *(part_of_row *)&s->record->z[n] = (part_of_row)(scale * s->z[i]);
+      *(part_of_row *)&s->record->p[n] = (part_of_row)(scale * s->p[i]);
+      *(part_of_row *)&s->record->u_x[n] = (part_of_row)(driving_slips ? c.u_x[i] : none);
+      *(part_of_row *)&s->record->u_y[n] = (part_of_row)(driving_slips ? c.u_y[i] : none);
+      *(part_of_row *)&s->record->t_x[n] = (part_of_row)(loaded ? c.t_x[i] : none);
+      *(part_of_row *)&s->record->t_y[n] = (part_of_row)(loaded ? c.t_y[i] : none);
     }
-  *at = to;
+  *point = reached;
   return TAKEN;
 }
 

@@ -71,19 +71,19 @@ void carom_variation_rates(const carom_terms *k, const double lead[4], double v,
   rate[OF_W] = v;
 }
 
-void carom_variation_leads(const carom_point *at, const double otherwise[4], double lead[4]) {
-  const double a = sqrt(at->a_x * at->a_x + at->a_y * at->a_y),
-               b = sqrt(at->b_x * at->b_x + at->b_y * at->b_y);
-  lead[0] = a > 0 ? at->a_x / a : otherwise[0];
-  lead[1] = a > 0 ? at->a_y / a : otherwise[1];
-  lead[2] = b > 0 ? at->b_x / b : otherwise[2];
-  lead[3] = b > 0 ? at->b_y / b : otherwise[3];
+void carom_variation_leads(const carom_point *point, const double otherwise[4], double lead[4]) {
+  const double a = sqrt(point->a_x * point->a_x + point->a_y * point->a_y),
+               b = sqrt(point->b_x * point->b_x + point->b_y * point->b_y);
+  lead[0] = a > 0 ? point->a_x / a : otherwise[0];
+  lead[1] = a > 0 ? point->a_y / a : otherwise[1];
+  lead[2] = b > 0 ? point->b_x / b : otherwise[2];
+  lead[3] = b > 0 ? point->b_y / b : otherwise[3];
 }
 
 /* The coefficients of the regime with one variable changed by a small amount, over twice of
  * which their difference is their derivative: of this and the opposite change. */
-static double changed_terms(const carom_trajectory *path, enum carom_variable by, carom_terms *more,
-                            carom_terms *less) {
+static double changed_terms(const carom_trajectory *path, enum carom_variable variable,
+                            carom_terms *more, carom_terms *less) {
   const carom_law *law = &path->law, *d = path->variation->d_law;
   carom_law l[2] = {*law, *law};
 
@@ -91,10 +91,10 @@ static double changed_terms(const carom_trajectory *path, enum carom_variable by
   double step = COEFFICIENT;
   for (int k = 0; k < 2; k++) {
     const double s = k == 0 ? COEFFICIENT : -COEFFICIENT;
-    if (by == BY_MU) {
+    if (variable == BY_MU) {
       l[k].mu += s * law->mu;
       step = COEFFICIENT * law->mu;
-    } else if (by == BY_MU_C) {
+    } else if (variable == BY_MU_C) {
       l[k].mu_c += s * law->mu_c;
       step = COEFFICIENT * law->mu_c;
     } else {
@@ -129,7 +129,7 @@ void carom_variation_begin_regime(carom_trajectory *path) {
   g->regime = regime;
   for (int c = BY_MU; c < CAROM_VARIABLES; c++) {
     carom_terms more, less;
-    if (!(g->asked & CAROM_PARAMETERS & 1u << c))
+    if (!(g->requests & CAROM_PARAMETERS & 1u << c))
       continue;
     const double apart = changed_terms(path, (enum carom_variable)c, &more, &less);
     const double *high = (const double *)&more, *low = (const double *)&less;
@@ -138,9 +138,9 @@ void carom_variation_begin_regime(carom_trajectory *path) {
   }
 }
 
-void carom_variation_straight(carom_trajectory *path, const carom_point *before, bool planar) {
+void carom_variation_straight(carom_trajectory *path, const carom_point *start, bool planar) {
   carom_variation *g = path->variation;
-  const double length = path->at.p - before->p, none[4] = {0};
+  const double length = path->point.p - start->p, none[4] = {0};
   /* constant rates, which no direction changes */
   g->lost |= planar && ((!path->regime.held && path->law.mu > 0) || path->regime.loaded);
   for (int c = 0; c < CAROM_VARIABLES; c++)
@@ -153,15 +153,15 @@ void carom_variation_straight(carom_trajectory *path, const carom_point *before,
       g->d[r][c] += length * g->d_terms[term[r] / sizeof(double)][c];
     g->d[OF_W][c] += 0.5 * length * length * g->d_terms[term[OF_V] / sizeof(double)][c];
   }
-  carom_variation_leads(&path->at, none, g->lead);
-  carom_variation_rates(&path->terms, g->lead, path->at.v, g->rate);
+  carom_variation_leads(&path->point, none, g->lead);
+  carom_variation_rates(&path->terms, g->lead, path->point.v, g->rate);
 }
 
 /* The end of the impact, or of compression: where W, or v, has its value. */
 static void end_phase(carom_trajectory *path) {
   carom_variation *g = path->variation;
   const double e = path->law.e;
-  const bool compression = path->at.v == 0 && !(path->ended && e > 0);
+  const bool compression = path->point.v == 0 && !(path->ended && e > 0);
   for (int c = 0; c < CAROM_VARIABLES; c++) {
     double d_p = 0;
     if (compression) {
@@ -180,19 +180,19 @@ static void end_phase(carom_trajectory *path) {
   }
 }
 
-void carom_variation_follow(carom_trajectory *path, const carom_point *before, bool phase_ended) {
+void carom_variation_follow(carom_trajectory *path, const carom_point *start, bool phase_ended) {
   carom_variation *g = path->variation;
-  const carom_point *at = &path->at;
+  const carom_point *point = &path->point;
   if (phase_ended)
     end_phase(path);
   if (path->ended)
     return;
 
   /* a slip that has become zero */
-  const bool a_ends =
-      at->a_x == 0 && at->a_y == 0 && (before->a_x != 0 || before->a_y != 0) && path->law.mu > 0;
-  const bool b_ends =
-      at->b_x == 0 && at->b_y == 0 && (before->b_x != 0 || before->b_y != 0) && path->law.mu_c > 0;
+  const bool a_ends = point->a_x == 0 && point->a_y == 0 && (start->a_x != 0 || start->a_y != 0) &&
+                      path->law.mu > 0;
+  const bool b_ends = point->b_x == 0 && point->b_y == 0 && (start->b_x != 0 || start->b_y != 0) &&
+                      path->law.mu_c > 0;
   if (!a_ends && !b_ends)
     return;
   if ((a_ends && b_ends) || (a_ends && !path->regime.held) ||
@@ -206,9 +206,9 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
   const double u_x = g->lead[a_ends ? 0 : 2], u_y = g->lead[a_ends ? 1 : 3];
   const double falls = u_x * g->rate[first] + u_y * g->rate[first + 1];
   const double begins[4] = {path->regime.u_x, path->regime.u_y, path->regime.t_x, path->regime.t_y};
-  double lead[4], after[CAROM_VARIED];
-  carom_variation_leads(at, begins, lead);
-  carom_variation_rates(&path->terms, lead, at->v, after);
+  double lead[4], next_rate[CAROM_VARIED];
+  carom_variation_leads(point, begins, lead);
+  carom_variation_rates(&path->terms, lead, point->v, next_rate);
 
   /* it ends a little earlier or later; rates change there. By the rates at its end and not by
    * the direction of the slip alone: that of a slip which is negligible, but not zero, still
@@ -218,11 +218,11 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
     /* the rest of da, which has to be 0, tells how well the end of the slip was resolved */
     const double x = g->d[first][c] + g->rate[first] * d_p,
                  y = g->d[first + 1][c] + g->rate[first + 1] * d_p;
-    if ((g->asked >> c & 1) &&
+    if ((g->requests >> c & 1) &&
         fabs(x) + fabs(y) > UNRESOLVED * fmax(fabs(g->d[first][c]) + fabs(g->d[first + 1][c]), 1))
       g->lost = true;
     for (int r = 0; r < CAROM_VARIED; r++)
-      g->d[r][c] += (g->rate[r] - after[r]) * d_p;
+      g->d[r][c] += (g->rate[r] - next_rate[r]) * d_p;
     g->d[first][c] = g->d[first + 1][c] = 0;
   }
 }
@@ -246,8 +246,9 @@ static carom_status impulses_of(const carom_law *law, const double slips[4], dou
 }
 
 /* A law and slips with one variable changed. */
-static void change(carom_law *law, const carom_law *d_law, double slips[4], int by, double step) {
-  switch (by) {
+static void change(carom_law *law, const carom_law *d_law, double slips[4], int variable,
+                   double step) {
+  switch (variable) {
   case BY_MU:
     law->mu += step;
     break;
@@ -265,7 +266,7 @@ static void change(carom_law *law, const carom_law *d_law, double slips[4], int 
     break;
   }
   default:
-    slips[by] += step;
+    slips[variable] += step;
   }
 }
 _Static_assert(sizeof(carom_law) == 17 * sizeof(double) &&
@@ -275,16 +276,17 @@ _Static_assert(sizeof(carom_law) == 17 * sizeof(double) &&
 /* Central differences of order 4 by one variable, with smaller steps where two orders differ. */
 __attribute__((noinline)) static void differentiate(const carom_law *law, const carom_law *d_law,
                                                     const double slips[4], double tolerance,
-                                                    int plain, int by, carom_impact_tangent *out) {
+                                                    int plain, int variable,
+                                                    carom_impact_tangent *out) {
   const double size =
       fmax(fmax(fabs(slips[0]), fabs(slips[1])), fmax(fabs(slips[2]), fabs(slips[3])));
-  double h = by == BY_E ? 1e-3 : 1e-4, best = INFINITY, bends = INFINITY;
-  if (by <= BY_B_Y)
+  double h = variable == BY_E ? 1e-3 : 1e-4, best = INFINITY, bends = INFINITY;
+  if (variable <= BY_B_Y)
     h = 2e-3 * fmax(1, 0.01 * size);
-  const double here[5] = {out->q.p, out->q.f_x, out->q.f_y, out->q.F_x, out->q.F_y};
-  if (by == BY_MU || by == BY_MU_C)
-    h = fmin(h, 0.4 * (by == BY_MU ? law->mu : law->mu_c));
-  if (by == BY_E)
+  const double value[5] = {out->q.p, out->q.f_x, out->q.f_y, out->q.F_x, out->q.F_y};
+  if (variable == BY_MU || variable == BY_MU_C)
+    h = fmin(h, 0.4 * (variable == BY_MU ? law->mu : law->mu_c));
+  if (variable == BY_E)
     h = fmin(h, 0.4 * law->e);
   for (int attempt = 0; attempt < 4 && (best > 1e-5 || bends > KINK) && h > 0; attempt++, h /= 8) {
     static const double steps[4] = {-2, -1, 1, 2};
@@ -293,16 +295,16 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
     for (int s = 0; s < 4 && fine; s++) {
       carom_law l = *law;
       double x[4] = {slips[0], slips[1], slips[2], slips[3]};
-      change(&l, d_law, x, by, steps[s] * h);
+      change(&l, d_law, x, variable, steps[s] * h);
       fine = impulses_of(&l, x, tolerance, plain, f[s]) == CAROM_OK;
     }
     for (int r = 0; r < 5 && fine; r++) {
-      const double near = (f[2][r] - f[1][r]) / (2 * h), far = (f[3][r] - f[0][r]) / (4 * h);
-      error = fmax(error, fabs(near - far) / 3);
-      most = fmax(most, fabs(near));
+      const double narrow = (f[2][r] - f[1][r]) / (2 * h), far = (f[3][r] - f[0][r]) / (4 * h);
+      error = fmax(error, fabs(narrow - far) / 3);
+      most = fmax(most, fabs(narrow));
       /* the difference of the slopes to both sides, less a smooth function's, which is in
        * proportion to h */
-      const double less = f[2][r] + f[1][r] - 2 * here[r], more = f[3][r] + f[0][r] - 2 * here[r];
+      const double less = f[2][r] + f[1][r] - 2 * value[r], more = f[3][r] + f[0][r] - 2 * value[r];
       bend = fmax(bend, fabs(2 * less - 0.5 * more) / h);
     }
     if (fine)
@@ -310,11 +312,11 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
     if (fine && error / most < best) {
       best = error / most;
       for (int r = 0; r < 5; r++)
-        out->d[r][by] = (8 * (f[2][r] - f[1][r]) - (f[3][r] - f[0][r])) / (12 * h);
+        out->d[r][variable] = (8 * (f[2][r] - f[1][r]) - (f[3][r] - f[0][r])) / (12 * h);
     }
   }
   if (!(best < INFINITY) && tolerance < 1) {
-    differentiate(law, d_law, slips, 1, plain, by, out);
+    differentiate(law, d_law, slips, 1, plain, variable, out);
     return;
   }
   out->differences = true;
@@ -331,21 +333,21 @@ __attribute__((noinline)) static void impulses_by(const carom_trajectory *path,
   carom_trajectory d = *path;
   d.start =
       (carom_point){.a_x = c == BY_A_X, .a_y = c == BY_A_Y, .b_x = c == BY_B_X, .b_y = c == BY_B_Y};
-  d.at = (carom_point){.a_x = g->d[OF_A_X][c],
-                       .a_y = g->d[OF_A_Y][c],
-                       .b_x = g->d[OF_B_X][c],
-                       .b_y = g->d[OF_B_Y][c],
-                       .v = g->d[OF_V][c],
-                       .p = g->d_p[c]};
+  d.point = (carom_point){.a_x = g->d[OF_A_X][c],
+                          .a_y = g->d[OF_A_Y][c],
+                          .b_x = g->d[OF_B_X][c],
+                          .b_y = g->d[OF_B_Y][c],
+                          .v = g->d[OF_V][c],
+                          .p = g->d_p[c]};
   const carom_impulses q = carom_impact_impulses(&d);
   double sum[5] = {q.p, q.f_x, q.f_y, q.F_x, q.F_y};
   if (c == BY_LAMBDA) {
     carom_impulses end[2];
     double unused[4];
     for (int k = 0; k < 2; k++) {
-      carom_trajectory there = *path;
-      change(&there.law, g->d_law, unused, c, k == 0 ? COEFFICIENT : -COEFFICIENT);
-      end[k] = carom_impact_impulses(&there);
+      carom_trajectory shifted = *path;
+      change(&shifted.law, g->d_law, unused, c, k == 0 ? COEFFICIENT : -COEFFICIENT);
+      end[k] = carom_impact_impulses(&shifted);
     }
     sum[1] += (end[0].f_x - end[1].f_x) / (2 * COEFFICIENT);
     sum[2] += (end[0].f_y - end[1].f_y) / (2 * COEFFICIENT);
@@ -362,9 +364,9 @@ __attribute__((noinline)) static void impulses_by(const carom_trajectory *path,
 static void end_held_slips(const carom_trajectory *path, carom_variation *g) {
   const carom_law *l = &path->law;
   const carom_regime *r = &path->regime;
-  const carom_point *at = &path->at;
+  const carom_point *point = &path->point;
   const double begins[4] = {r->u_x, r->u_y, r->t_x, r->t_y};
-  carom_variation_leads(at, begins, g->lead);
+  carom_variation_leads(point, begins, g->lead);
   const double t_x = g->lead[2], t_y = g->lead[3], w = r->loaded ? l->mu_c * l->g_1 : 0;
 
   /* friction that nearly leaves its cone: the smallest change lasts, or is held, depending on
@@ -378,7 +380,8 @@ static void end_held_slips(const carom_trajectory *path, carom_variation *g) {
     const double a_x = g->d[OF_A_X][c], a_y = g->d[OF_A_Y][c];
     /* a slip that begins from zero goes one way, whatever the sign of a change: here, and of b
      * below */
-    g->kink |= l->mu > 0 && !r->held && at->a_x == 0 && at->a_y == 0 && (a_x != 0 || a_y != 0);
+    g->kink |=
+        l->mu > 0 && !r->held && point->a_x == 0 && point->a_y == 0 && (a_x != 0 || a_y != 0);
     if (r->held && (a_x != 0 || a_y != 0)) {
       g->kink |= edge;
       f_y = -a_y / (l->K_y - l->C_y * w * t_y);
@@ -403,13 +406,13 @@ static void end_held_slips(const carom_trajectory *path, carom_variation *g) {
       g->d[OF_A_X][c] = g->d[OF_A_Y][c] = 0;
     if (r->cloth_held)
       g->d[OF_B_X][c] = g->d[OF_B_Y][c] = 0;
-    g->kink |=
-        r->loaded && at->b_x == 0 && at->b_y == 0 && (g->d[OF_B_X][c] != 0 || g->d[OF_B_Y][c] != 0);
+    g->kink |= r->loaded && point->b_x == 0 && point->b_y == 0 &&
+               (g->d[OF_B_X][c] != 0 || g->d[OF_B_Y][c] != 0);
   }
 }
 
 carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law,
-                                        const double slips[4], int plain, unsigned asked,
+                                        const double slips[4], int plain, unsigned requests,
                                         carom_impact_tangent *out) {
   carom_trajectory path;
   carom_variation g;
@@ -419,9 +422,9 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
 
   /* each variable asked for begins as its own derivative */
   g.d_law = d_law;
-  g.asked = asked;
+  g.requests = requests;
   for (int c = BY_A_X; c <= BY_B_Y; c++)
-    g.d[c][c] = asked >> c & 1;
+    g.d[c][c] = requests >> c & 1;
   if (path.status == CAROM_OK)
     end_held_slips(&path, &g);
 
@@ -442,13 +445,13 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   out->q = carom_impact_impulses(&path);
   if (status != CAROM_OK)
     return status;
-  out->kink =
-      g.kink || (law->mu == 0 && (asked >> BY_MU & 1)) || (law->e == 0 && (asked >> BY_E & 1));
+  out->kink = g.kink || (law->mu == 0 && (requests >> BY_MU & 1)) ||
+              (law->e == 0 && (requests >> BY_E & 1));
 
   /* where they were lost on the way, differences of impacts take their place */
   g.lost |= !path.ended || g.rate[OF_V] == 0 || (path.regime.held && path.regime.cloth_held);
   for (int c = 0; c < CAROM_VARIABLES; c++) {
-    if (!(asked >> c & 1))
+    if (!(requests >> c & 1))
       continue;
     if (g.lost) {
       differentiate(law, d_law, slips, tolerance, plain, c, out);

@@ -34,13 +34,13 @@ typedef struct carom_kept_step {
 enum carom_varied { OF_A_X, OF_A_Y, OF_B_X, OF_B_Y, OF_V, OF_W, CAROM_VARIED };
 
 typedef struct carom_variation {
-  carom_kept_step kept;
+  carom_kept_step record;
   /* the derivatives of the coefficients of path->terms by the variables, for `regime` */
   double d_terms[sizeof(carom_terms) / sizeof(double)][CAROM_VARIABLES];
   double d[CAROM_VARIED][CAROM_VARIABLES]; /* derivatives at a fixed p: that of path->at; those
                                               by others than those asked are 0 */
   const carom_law *d_law;                  /* by lambda */
-  unsigned asked;                          /* bit k: by variable k */
+  unsigned requests;                       /* bit k: by variable k */
   int regime;
   double d_p[CAROM_VARIABLES];   /* at the end that of where the impact ends, and then d are
                                     total ones */
@@ -66,20 +66,20 @@ typedef struct carom_impact_tangent {
  * options.plain of the call. Errors: those of
  * carom_impact_advance(). */
 carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law,
-                                        const double slips[4], int plain, unsigned asked,
+                                        const double slips[4], int plain, unsigned requests,
                                         carom_impact_tangent *out);
 
 /* Makes d_terms those of path->regime. */
 void carom_variation_begin_regime(carom_trajectory *path);
 /* Directions of the slips at a point; `otherwise` where a slip is zero. */
-void carom_variation_leads(const carom_point *at, const double otherwise[4], double lead[4]);
+void carom_variation_leads(const carom_point *point, const double otherwise[4], double lead[4]);
 /* The rates at one place, from directions. */
 void carom_variation_rates(const carom_terms *k, const double lead[4], double v,
                            double rate[CAROM_VARIED]);
 
 /* Called by advance.c, besides variation_step() of variation_step.h: after a straight step; */
-void carom_variation_straight(carom_trajectory *path, const carom_point *before, bool planar);
+void carom_variation_straight(carom_trajectory *path, const carom_point *start, bool planar);
 /* and after either, once the regime is decided. phase_ended: compression or restitution has. */
-void carom_variation_follow(carom_trajectory *path, const carom_point *before, bool phase_ended);
+void carom_variation_follow(carom_trajectory *path, const carom_point *start, bool phase_ended);
 
 #endif

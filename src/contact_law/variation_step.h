@@ -43,23 +43,23 @@ _Static_assert((int)CAROM_VARIABLES == (int)NODES, "both fill a vector");
 /* A block of the matrix by columns: minus u x M D; of the slip whose angles these are too, |a|
  * on the diagonal, or NULL. */
 always void block(const part *u_x, const part *u_y, const part *D_x, const part *D_y,
-                  const part *length, matrix to) {
+                  const part *length, matrix columns) {
   unrolled for (int j = 0; j < NODES; j++) {
     const part x = splat(AT(D_x, j)), y = splat(-AT(D_y, j));
     nodes column;
     EACH column[i] = PART(INTEGRAL[j], i) * madd(u_y[i], x, u_x[i] * y);
     if (length != NULL)
       AT(column, j) += AT(length, j);
-    EACH((part_of_row *)to[j])[i] = (part_of_row)column[i];
+    EACH((part_of_row *)columns[j])[i] = (part_of_row)column[i];
   }
 }
 
 /* |a| at the nodes: the component of a along u. */
 always void lengths(double x, double y, const part *za_x, const part *za_y, const part *u_x,
-                    const part *u_y, part *to) {
+                    const part *u_y, part *length) {
   nodes a_x, a_y;
   integrate_slip(x, y, za_x, za_y, a_x, a_y);
-  EACH to[i] = madd(u_x[i], a_x[i], u_y[i] * a_y[i]);
+  EACH length[i] = madd(u_x[i], a_x[i], u_y[i] * a_y[i]);
 }
 
 /* z times the derivatives of the rates by the angles of u and of t, and by the parameters. */
@@ -91,7 +91,8 @@ _Static_assert((int)BY_MU == NODES / 2, "the upper half");
 /* z times the derivatives of the rates by the parameters, at each node over the variables. */
 always void parameter_derivatives(const carom_terms *k, const carom_variation *g, const part *z,
                                   const part *u_x, const part *u_y, const part *t_x,
-                                  const part *t_y, const part *w, const part *per, table *by) {
+                                  const part *t_y, const part *w, const part *per,
+                                  table *by_parameters) {
 #define D(name) PART(g->d_terms[offsetof(carom_terms, name) / sizeof(double)], i)
   for (int j = 0; j < NODES; j++) {
     const part a_x = splat(AT(u_x, j)), a_y = splat(AT(u_y, j)), b_x = splat(AT(t_x, j)),
@@ -101,11 +102,14 @@ always void parameter_derivatives(const carom_terms *k, const carom_variation *g
     EACH_PARAMETER {
       const part d_w = madd(y, D(w_t), madd(a_y, D(w_u), D(w_0))) * held, d_x = d_w * b_x,
                  d_y = d_w * b_y;
-      by[OF_A_X][j][i] = scale * madd(a_x, D(S_x), -madd(x, D(C_x), k->C_x * d_x));
-      by[OF_A_Y][j][i] = scale * (madd(a_y, D(S_y), D(A_0)) - madd(y, D(C_y), k->C_y * d_y));
-      by[OF_B_X][j][i] = scale * madd(a_x, D(R_x), -madd(x, D(H_x), k->H_x * d_x));
-      by[OF_B_Y][j][i] = scale * (madd(a_y, D(R_y), D(B_0)) - madd(y, D(H_y), k->H_y * d_y));
-      by[OF_V][j][i] = scale * (madd(a_y, D(V_u), D(V_0)) - madd(y, D(V_w), k->V_w * d_y));
+      by_parameters[OF_A_X][j][i] = scale * madd(a_x, D(S_x), -madd(x, D(C_x), k->C_x * d_x));
+      by_parameters[OF_A_Y][j][i] =
+          scale * (madd(a_y, D(S_y), D(A_0)) - madd(y, D(C_y), k->C_y * d_y));
+      by_parameters[OF_B_X][j][i] = scale * madd(a_x, D(R_x), -madd(x, D(H_x), k->H_x * d_x));
+      by_parameters[OF_B_Y][j][i] =
+          scale * (madd(a_y, D(R_y), D(B_0)) - madd(y, D(H_y), k->H_y * d_y));
+      by_parameters[OF_V][j][i] =
+          scale * (madd(a_y, D(V_u), D(V_0)) - madd(y, D(V_w), k->V_w * d_y));
     }
   }
 #undef D
@@ -113,18 +117,18 @@ always void parameter_derivatives(const carom_terms *k, const carom_variation *g
 
 /* The product of a matrix by columns with a matrix by rows, whose numbers in a row belong to the
  * variables. */
-always void multiply(matrix m, table f, table to) {
+always void multiply(matrix m, table f, table product) {
   for (int k = 0; k < NODES; k++) {
     nodes sum;
     EACH sum[i] = splat(m[0][k]) * f[0][i];
     unrolled for (int j = 1; j < NODES; j++) EACH sum[i] = madd(splat(m[j][k]), f[j][i], sum[i]);
-    EACH to[k][i] = sum[i];
+    EACH product[k][i] = sum[i];
   }
 }
 
 /* u x (da_0 + M z da'), where `by` has z da' of the parameters. */
-always void right_sides(nodes *d, table *by, int first, bool parameters, const part *u_x,
-                        const part *u_y, table to) {
+always void right_sides(nodes *d, table *by_parameters, int first, bool parameters, const part *u_x,
+                        const part *u_y, table right) {
   for (int k = 0; k < NODES; k++) {
     nodes x, y;
     EACH {
@@ -133,10 +137,10 @@ always void right_sides(nodes *d, table *by, int first, bool parameters, const p
     }
     if (parameters)
       unrolled for (int j = 0; j < NODES; j++) EACH_PARAMETER {
-        x[i] = madd(splat(INTEGRAL[j][k]), by[first][j][i], x[i]);
-        y[i] = madd(splat(INTEGRAL[j][k]), by[first + 1][j][i], y[i]);
+        x[i] = madd(splat(INTEGRAL[j][k]), by_parameters[first][j][i], x[i]);
+        y[i] = madd(splat(INTEGRAL[j][k]), by_parameters[first + 1][j][i], y[i]);
       }
-    EACH to[k][i] = madd(splat(AT(u_x, k)), y[i], splat(-AT(u_y, k)) * x[i]);
+    EACH right[k][i] = madd(splat(AT(u_x, k)), y[i], splat(-AT(u_y, k)) * x[i]);
   }
 }
 
@@ -144,7 +148,7 @@ always void right_sides(nodes *d, table *by, int first, bool parameters, const p
 typedef struct step_rates {
   nodes z, u_x, u_y, t_x, t_y, w, per; /* per: 1 over 1 - w_t t_y, of which w is a part */
   node_rates by_u, by_t;               /* by the angles */
-  table by[5];                         /* by the parameters, where there are any */
+  table by_parameters[5];              /* by the parameters, where there are any */
   bool driving_slips, loaded, parameters;
 } step_rates;
 
@@ -180,7 +184,7 @@ always void split_shift(const carom_trajectory *path, const carom_point *start, 
 
 always void take_rates(const carom_trajectory *path, bool driving_slips, step_rates *n) {
   const carom_variation *g = path->variation;
-  const carom_kept_step *s = &g->kept;
+  const carom_kept_step *s = &g->record;
   const carom_terms *k = &path->terms;
   EACH {
     n->z[i] = PART(s->z, i);
@@ -193,10 +197,11 @@ always void take_rates(const carom_trajectory *path, bool driving_slips, step_ra
   }
   n->driving_slips = driving_slips;
   n->loaded = path->regime.loaded;
-  n->parameters = (g->asked & CAROM_PARAMETERS) != 0;
+  n->parameters = (g->requests & CAROM_PARAMETERS) != 0;
   node_derivatives(k, n->z, n->u_x, n->u_y, n->t_x, n->t_y, n->w, n->per, n->by_u, n->by_t);
   if (n->parameters)
-    parameter_derivatives(k, g, n->z, n->u_x, n->u_y, n->t_x, n->t_y, n->w, n->per, n->by);
+    parameter_derivatives(k, g, n->z, n->u_x, n->u_y, n->t_x, n->t_y, n->w, n->per,
+                          n->by_parameters);
 }
 
 /* The inverse of the block of u, and phi as far as it does not depend on psi. */
@@ -211,7 +216,7 @@ always void solve_u(const carom_terms *k, const carom_point *start, step_rates *
   lengths(start->a_x, start->a_y, rate_x, rate_y, n->u_x, n->u_y, along);
   block(n->u_x, n->u_y, n->by_u[OF_A_X], n->by_u[OF_A_Y], along, of_u);
   invert(of_u);
-  right_sides(d, n->by, OF_A_X, n->parameters, n->u_x, n->u_y, right);
+  right_sides(d, n->by_parameters, OF_A_X, n->parameters, n->u_x, n->u_y, right);
   multiply(of_u, right, phi);
 }
 
@@ -220,7 +225,7 @@ always void solve_u(const carom_terms *k, const carom_point *start, step_rates *
 always void eliminate_u(step_rates *n, matrix of_u, table phi, matrix of_ut, matrix of_t,
                         table right) {
   matrix of_tu;
-  table taken;
+  table share;
   block(n->u_x, n->u_y, n->by_t[OF_A_X], n->by_t[OF_A_Y], NULL, of_ut);
   block(n->t_x, n->t_y, n->by_u[OF_B_X], n->by_u[OF_B_Y], NULL, of_tu);
 
@@ -235,9 +240,9 @@ always void eliminate_u(step_rates *n, matrix of_u, table phi, matrix of_ut, mat
   }
 
   /* likewise of the right sides */
-  multiply(of_tu, phi, taken);
+  multiply(of_tu, phi, share);
   for (int j = 0; j < NODES; j++)
-    EACH right[j][i] -= taken[j][i];
+    EACH right[j][i] -= share[j][i];
 }
 
 /* psi by the Schur complement, and what psi takes from phi. */
@@ -252,7 +257,7 @@ always void solve_t(const carom_terms *k, const carom_point *start, step_rates *
   }
   lengths(start->b_x, start->b_y, rate_x, rate_y, n->t_x, n->t_y, along);
   block(n->t_x, n->t_y, n->by_t[OF_B_X], n->by_t[OF_B_Y], along, of_t);
-  right_sides(d, n->by, OF_B_X, n->parameters, n->t_x, n->t_y, right);
+  right_sides(d, n->by_parameters, OF_B_X, n->parameters, n->t_x, n->t_y, right);
   if (n->driving_slips)
     eliminate_u(n, of_u, phi, of_ut, of_t, right);
   invert(of_t);
@@ -272,7 +277,7 @@ always double integrate_rates(const carom_variation *g, step_rates *n, double le
   /* weights of the integral of an integral, which W is */
   double to_end[NODES];
   for (int j = 0; j < NODES; j++)
-    to_end[j] = WEIGHT[j] * (length - g->kept.p[j]);
+    to_end[j] = WEIGHT[j] * (length - g->record.p[j]);
   nodes size, error;
   EACH {
     size[i] = splat(1e-300);
@@ -287,7 +292,7 @@ always double integrate_rates(const carom_variation *g, step_rates *n, double le
       nodes x;
       EACH x[i] = splat(0);
       if (n->parameters)
-        EACH_PARAMETER x[i] = n->by[r][j][i];
+        EACH_PARAMETER x[i] = n->by_parameters[r][j][i];
       if (n->driving_slips)
         EACH x[i] = madd(splat(AT(n->by_u[r], j)), phi[j][i], x[i]);
       if (n->loaded)
@@ -325,8 +330,8 @@ always void take_end_rates(carom_trajectory *path, const step_rates *n) {
   carom_variation *g = path->variation;
   const double last[4] = {dot(AT_END, n->u_x), dot(AT_END, n->u_y), dot(AT_END, n->t_x),
                           dot(AT_END, n->t_y)};
-  carom_variation_leads(&path->at, last, g->lead);
-  carom_variation_rates(&path->terms, g->lead, path->at.v, g->rate);
+  carom_variation_leads(&path->point, last, g->lead);
+  carom_variation_rates(&path->terms, g->lead, path->point.v, g->rate);
 }
 
 /* After a step from `start`: see variation.h. Vectors over the nodes, and those over the
@@ -334,7 +339,7 @@ always void take_end_rates(carom_trajectory *path, const step_rates *n) {
 static double variation_step(carom_trajectory *path, const carom_point *start, bool driving_slips,
                              bool stiff, int vanishes) {
   carom_variation *g = path->variation;
-  const double length = path->at.p - start->p;
+  const double length = path->point.p - start->p;
   carom_variation_begin_regime(path);
 
   /* the derivatives at the start, without a shift along the motion */

@@ -59,12 +59,14 @@ void carom_apply_speed(carom_contact *c, const carom_cushion_options *opt) {
 
 carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
   /* the constants of the caller, or those that were measured */
-  const bool own = opt->smooth_q > 0;
+  const bool has_width = opt->smooth_q > 0;
   const double q = carom_or_usual(opt->smooth_q, 0.35), k = opt->smooth_k,
-               C_x = opt->smooth_x + (own ? 0 : 1.3), C_t = opt->smooth_t + (own ? 0 : 1.18),
-               a = opt->smooth_a + (own ? 0 : 0.25), g = opt->smooth_g + (own ? 0 : 0.067),
-               g_log = opt->smooth_g_log + (own ? 0 : -0.059),
-               e_d = opt->smooth_e + (own ? 0 : 0.06);
+               C_x = opt->smooth_x + (has_width ? 0 : 1.3),
+               C_t = opt->smooth_t + (has_width ? 0 : 1.18),
+               a = opt->smooth_a + (has_width ? 0 : 0.25),
+               g = opt->smooth_g + (has_width ? 0 : 0.067),
+               g_log = opt->smooth_g_log + (has_width ? 0 : -0.059),
+               e_d = opt->smooth_e + (has_width ? 0 : 0.06);
 
   /* the slips, and restitution by how far the surface moves down the nose, -1 to 1 */
   const double s_x = carom_slip_x(c), s_t = carom_slip_t(c);
@@ -103,8 +105,8 @@ carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
     }
     more = carom_greater(more, 0);
   }
-  const carom_impulse all = {.P = more, .f_x = -sigma * F_x, .f_t = -sigma * F_t};
-  carom_push(c, &all);
+  const carom_impulse impulse = {.P = more, .f_x = -sigma * F_x, .f_t = -sigma * F_t};
+  carom_push(c, &impulse);
   return CAROM_OK;
 }
 

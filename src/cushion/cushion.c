@@ -123,9 +123,9 @@ carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n,
                                  int8_t *status) {
   if (opt == NULL)
     opt = &defaults;
-  const carom_status bad = carom_cushion_check_options(opt);
-  if (bad != CAROM_OK || n == 0)
-    return bad;
+  const carom_status error = carom_cushion_check_options(opt);
+  if (error != CAROM_OK || n == 0)
+    return error;
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;
   const batch work = {in, opt, out, status};

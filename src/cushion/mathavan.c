@@ -33,8 +33,8 @@ carom_status carom_mathavan(carom_contact *c, int plain) {
   carom_mathavan_begin(c, 1, plain, &path);
   const carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
   if (status == CAROM_OK) {
-    const carom_impulse all = carom_mathavan_impulse(c, &path);
-    carom_push(c, &all);
+    const carom_impulse impulse = carom_mathavan_impulse(c, &path);
+    carom_push(c, &impulse);
   }
   return status;
 }

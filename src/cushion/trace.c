@@ -34,13 +34,13 @@ static carom_status trace_exact(const subject *s, int plain, size_t n,
   carom_trajectory path;
   carom_mathavan_begin(&s->start, TOLERANCE, plain, &path);
   carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
-  const double p = path.at.p, energy = s->start.v_y * s->start.v_y * s->start.cosine;
+  const double p = path.point.p, energy = s->start.v_y * s->start.v_y * s->start.cosine;
   carom_mathavan_begin(&s->start, TOLERANCE, plain, &path);
   for (size_t k = 0; k < n && status == CAROM_OK; k++) {
-    double until = INFINITY; /* the last point is the end */
+    double end = INFINITY; /* the last point is the end */
     if (k + 1 < n)
-      until = p * ((double)k / (double)(n - 1));
-    status = carom_impact_advance(&path, until, path.iterations + CAROM_IMPACT_ITERATIONS);
+      end = p * ((double)k / (double)(n - 1));
+    status = carom_impact_advance(&path, end, path.iterations + CAROM_IMPACT_ITERATIONS);
     carom_contact c = s->start;
     const carom_impulse so_far = carom_mathavan_impulse(&s->start, &path);
     carom_push(&c, &so_far);

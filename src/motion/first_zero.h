@@ -31,7 +31,7 @@ typedef struct carom_gap_at {
 
 /* A gap, as functions of its description. They are constants where the search is inlined. */
 typedef carom_gap_at carom_gap(const void *context, double t);
-typedef double carom_gap_bound(const void *context, double from, double to);
+typedef double carom_gap_bound(const void *context, double start, double end);
 
 /* The first zero of g + raise at or after t, where that is positive, up to T; or infinity.
  * `small`: a value that counts as none but for a last step, by the parabola that touches g
@@ -42,12 +42,12 @@ carom_first_zero(carom_gap *gap, carom_gap_bound *bound, const void *context, do
   enum { MOST_STEPS = 1000, LONG_STEPS = 8 };
   double ahead = T; /* how far the bound reaches */
   for (int k = 0; k < MOST_STEPS; k++) {
-    const carom_gap_at here = gap(context, t);
-    const double y = here.value + raise, y1 = here.slope;
+    const carom_gap_at gap_here = gap(context, t);
+    const double y = gap_here.value + raise, y1 = gap_here.slope;
     if (y <= small && y1 < 0.0) {
-      const double own = y1 * y1 - 4.0 * bound(context, t, t) * y;
-      if (own >= 0.0) {
-        const double last = t + 2.0 * y / (-y1 + sqrt(own));
+      const double discriminant = y1 * y1 - 4.0 * bound(context, t, t) * y;
+      if (discriminant >= 0.0) {
+        const double last = t + 2.0 * y / (-y1 + sqrt(discriminant));
         return last <= T ? carom_greater(last, 0.0) : INFINITY;
       }
     }

@@ -42,12 +42,12 @@ static carom_gap_at quartic_at(const void *context, double t) {
 }
 
 /* The least half curvature on [from, to]. */
-static double least_half_curvature(const void *context, double from, double to) {
+static double least_half_curvature(const void *context, double start, double end) {
   const quartic *f = context;
-  double least = carom_lesser(half_curvature(f, from), half_curvature(f, to));
+  double least = carom_lesser(half_curvature(f, start), half_curvature(f, end));
   if (f->c[4] > 0.0) {
     const double lowest = -f->c[3] / (4.0 * f->c[4]);
-    if (lowest > from && lowest < to)
+    if (lowest > start && lowest < end)
       least = carom_lesser(least, half_curvature(f, lowest));
   }
   return least;
@@ -62,9 +62,9 @@ static carom_gap_at slope_at(const void *context, double t) {
   const quartic *f = context;
   return (carom_gap_at){slope(f, t), 2.0 * half_curvature(f, t)};
 }
-static double least_third(const void *context, double from, double to) {
+static double least_third(const void *context, double start, double end) {
   const quartic *f = context;
-  return 3.0 * f->c[3] + 12.0 * f->c[4] * (f->c[4] > 0.0 ? from : to);
+  return 3.0 * f->c[3] + 12.0 * f->c[4] * (f->c[4] > 0.0 ? start : end);
 }
 
 /* The first time up to T when f begins to fall: 0 where it does so at once, the end of a rise

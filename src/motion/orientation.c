@@ -42,13 +42,13 @@ static double size_of(const double a[3]) {
 }
 
 /* Turns q further, about the axes of the table, by the vector `by`. */
-static void turn(double q[4], const double by[3]) {
-  const double angle = size_of(by);
+static void turn(double q[4], const double rotation[3]) {
+  const double angle = size_of(rotation);
   if (!(angle > 0.0))
     return;
   double sine, cosine, p[4];
   carom_sincos(0.5 * angle, &sine, &cosine);
-  const double s = sine / angle, x = s * by[0], y = s * by[1], z = s * by[2];
+  const double s = sine / angle, x = s * rotation[0], y = s * rotation[1], z = s * rotation[2];
   p[0] = cosine * q[0] - x * q[1] - y * q[2] - z * q[3];
   p[1] = cosine * q[1] + x * q[0] + y * q[3] - z * q[2];
   p[2] = cosine * q[2] + y * q[0] + z * q[1] - x * q[3];
@@ -80,14 +80,14 @@ static void turn_part(double q[4], const double a[3], const double b[3], double 
 /* The interval from a time on, at which the ball is at `from`: until the path ends, or until the
  * side spin does, where that is earlier. In flight it is constant, as all spin is. */
 static void begin_interval(carom_turning *turning, const carom_path *path,
-                           const carom_ball_rates *rates, double from) {
+                           const carom_ball_rates *rates, double start) {
   carom_ball_state a, b;
   const double kink = path->start + fabs(path->from.w[2]) / rates->spin;
-  turning->from = from;
+  turning->start = start;
   turning->done = 0.0;
-  turning->until = !carom_flies(&path->from) && kink > from && kink < path->end ? kink : path->end;
-  carom_path_at(path, rates, from, &a);
-  if (from == kink)
+  turning->end = !carom_flies(&path->from) && kink > start && kink < path->end ? kink : path->end;
+  carom_path_at(path, rates, start, &a);
+  if (start == kink)
     a.w[2] = 0.0;
   for (int k = 0; k < 3; k++) {
     turning->w[k] = a.w[k];
@@ -96,21 +96,21 @@ static void begin_interval(carom_turning *turning, const carom_path *path,
   turning->part = turning->parts = 0.0;
   turning->fastest = size_of(a.w);
   /* nothing changes on a path without an end */
-  const double T = turning->until - from;
+  const double T = turning->end - start;
   if (!(T < INFINITY && T > 0.0))
     return;
 
   double bent[3];
-  carom_path_at(path, rates, turning->until, &b);
+  carom_path_at(path, rates, turning->end, &b);
   for (int k = 0; k < 3; k++)
     turning->bend[k] = (b.w[k] - a.w[k]) / T;
   cross(a.w, b.w, bent);
   const double fastest = turning->fastest = carom_greater(size_of(a.w), size_of(b.w));
   /* one turn about one axis, or parts */
   const bool one_axis = size_of(bent) <= 1e-12 * fastest * fastest;
-  const double wanted =
+  const double length =
       carom_greater(fastest * T / most_turn, T * sqrt(size_of(turning->bend) / most_bend));
-  turning->parts = one_axis ? 1.0 : ceil(wanted);
+  turning->parts = one_axis ? 1.0 : ceil(length);
   turning->part = T / turning->parts;
 }
 
@@ -131,11 +131,11 @@ bool carom_turning_go_to(carom_turning *turning, carom_path *path, const carom_b
                          double time, double *left) {
   for (bool more = true; more;) {
     /* whole parts, and at the end of the interval the last one, whatever rounding says */
-    const bool ends = turning->until < time;
-    if (!(turning->fastest * (carom_lesser(time, turning->until) - turning->from) <= most_angle))
+    const bool ends = turning->end < time;
+    if (!(turning->fastest * (carom_lesser(time, turning->end) - turning->start) <= most_angle))
       return false;
     while (turning->done < turning->parts &&
-           (ends || turning->from + (turning->done + 1.0) * turning->part <= time)) {
+           (ends || turning->start + (turning->done + 1.0) * turning->part <= time)) {
       if (!((*left -= 1.0) > 0.0))
         return false;
       turn_on(turning->q, turning, turning->part);
@@ -143,11 +143,11 @@ bool carom_turning_go_to(carom_turning *turning, carom_path *path, const carom_b
     }
 
     /* the next interval of the path, or its next piece */
-    more = ends && (turning->until < path->end || path->goes_on);
+    more = ends && (turning->end < path->end || path->goes_on);
     if (more && !((*left -= 1.0) > 0.0))
       return false;
-    if (more && turning->until < path->end)
-      begin_interval(turning, path, rates, turning->until);
+    if (more && turning->end < path->end)
+      begin_interval(turning, path, rates, turning->end);
     else if (more) {
       carom_path_go_on(path, rates);
       begin_interval(turning, path, rates, path->start);
@@ -159,7 +159,7 @@ bool carom_turning_go_to(carom_turning *turning, carom_path *path, const carom_b
 void carom_turning_at(const carom_turning *turning, double time, double q[4]) {
   memcpy(q, turning->q, sizeof turning->q);
   const double h =
-      carom_lesser(time, turning->until) - (turning->from + turning->done * turning->part);
+      carom_lesser(time, turning->end) - (turning->start + turning->done * turning->part);
   if (h > 0.0)
     turn_on(q, turning, h);
 }

@@ -6,7 +6,7 @@
 
 typedef struct carom_turning {
   double q[4];          /* w, x, y, z: the turn from the start of the shot to the last whole part */
-  double from, until;   /* the interval, on the clock */
+  double start, end;    /* the interval, on the clock */
   double w[3], bend[3]; /* rad/s at its start, and their change, rad/s^2 */
   double fastest;       /* |w| at most, rad/s */
   double parts, part;   /* how many it has, 0 where it has no end; the length of one, s */

@@ -39,9 +39,9 @@ __attribute__((noinline, cold)) static double begin_pair(carom_path *path,
   const double A = rates->roll, k = rates->drag, slows = A + k * v * v;
   const double fall = rough_cube_root(most * slows * slows / (k * v));
   path->last_pair = !(fall < v);
-  const double least = path->last_pair ? 0.0 : v - fall, by = v - least;
+  const double least = path->last_pair ? 0.0 : v - fall, fall_of_pair = v - least;
   /* series of atan(x)/x and atanh(y)/y; x^2 and y are below 0.06 and 0.12 where k <= 1/m */
-  const double x = by / (A + k * v * least), x2 = A * k * x * x;
+  const double x = fall_of_pair / (A + k * v * least), x2 = A * k * x * x;
   const double T =
       x *
       (1.0 -
@@ -49,11 +49,12 @@ __attribute__((noinline, cold)) static double begin_pair(carom_path *path,
              x2 * (1.0 / 5.0 -
                    x2 * (1.0 / 7.0 -
                          x2 * (1.0 / 9.0 - x2 * (1.0 / 11.0 - x2 * (1.0 / 13.0 - x2 / 15.0)))))));
-  const double y = by * (v + least) / (2.0 * A + k * (v * v + least * least)), y2 = k * k * y * y;
+  const double y = fall_of_pair * (v + least) / (2.0 * A + k * (v * v + least * least)),
+               y2 = k * k * y * y;
   const double S =
       y *
       (1.0 + y2 * (1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (1.0 / 7.0 + y2 * (1.0 / 9.0 + y2 / 11.0)))));
-  const double mean = by / T, first = 4.0 * (v * T - S) / (T * T) - mean;
+  const double mean = fall_of_pair / T, first = 4.0 * (v * T - S) / (T * T) - mean;
   path->second[0] = 2.0 * mean - first;
   path->second[1] = 0.5 * T;
   path->goes_on = true;
@@ -61,22 +62,22 @@ __attribute__((noinline, cold)) static double begin_pair(carom_path *path,
 }
 
 void carom_path_go_on(carom_path *path, const carom_ball_rates *rates) {
-  carom_ball_state there;
-  const double now = path->end;
-  carom_path_at(path, rates, now, &there);
-  path->from = there;
+  carom_ball_state end_state;
+  const double time = path->end;
+  carom_path_at(path, rates, time, &end_state);
+  path->from = end_state;
   if (path->ends_pair) {
-    carom_path_begin(path, rates, now);
+    carom_path_begin(path, rates, time);
     return;
   }
-  carom_path_second(path, now);
+  carom_path_second(path, time);
 }
 
-void carom_path_second(carom_path *path, double now) {
+void carom_path_second(carom_path *path, double start) {
   path->ends_pair = true;
   path->goes_on = !path->last_pair;
-  path->start = now;
-  path->end = now + path->second[1];
+  path->start = start;
+  path->end = start + path->second[1];
   for (int k = 0; k < 2; k++)
     path->a[k] = -0.5 * path->second[0] * path->e[k];
 }
@@ -89,9 +90,9 @@ bool carom_path_go_to(carom_path *path, const carom_ball_rates *rates, double ti
   return pieces < MOST_PIECES;
 }
 
-void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double now) {
+void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double start) {
   const carom_ball_state *s = &path->from;
-  path->start = now;
+  path->start = start;
   path->end = INFINITY;
   path->goes_on = path->ends_pair = false;
   path->a[0] = path->a[1] = path->a[2] = path->e[0] = path->e[1] = 0.0;
@@ -99,7 +100,7 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
   /* each phase has its acceleration and its end; a ball at rest has neither */
   switch (s->label) {
   case CAROM_BALL_SPINNING:
-    path->end = now + fabs(s->w[2]) / rates->spin;
+    path->end = start + fabs(s->w[2]) / rates->spin;
     break;
   case CAROM_BALL_ROLLING:
   case CAROM_BALL_SLIDING: {
@@ -122,15 +123,15 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
     path->a[0] = -0.5 * friction * path->e[0];
     path->a[1] = -0.5 * friction * path->e[1];
     if (slides)
-      path->end = now + 2.0 * size / (7.0 * friction);
+      path->end = start + 2.0 * size / (7.0 * friction);
     else
-      path->end = now + (path->goes_on ? path->second[1] : size / friction);
+      path->end = start + (path->goes_on ? path->second[1] : size / friction);
     break;
   }
   case CAROM_BALL_AIRBORNE:
     path->a[2] = -0.5 * rates->gravity;
-    path->end =
-        now + carom_fall_time(carom_greater(s->r[2] - rates->radius, 0.0), s->v[2], rates->gravity);
+    path->end = start + carom_fall_time(carom_greater(s->r[2] - rates->radius, 0.0), s->v[2],
+                                        rates->gravity);
     break;
   default:
     break;
@@ -222,11 +223,11 @@ int64_t carom_label_of_layout(carom_ball_state *s, double radius) {
 
 void carom_path_land(const carom_path *path, const carom_ball_rates *rates, double time,
                      carom_ball_state *state) {
-  const carom_ball_state *from = &path->from;
-  const double height = carom_greater(from->r[2] - rates->radius, 0.0);
+  const carom_ball_state *start = &path->from;
+  const double height = carom_greater(start->r[2] - rates->radius, 0.0);
   carom_path_at(path, rates, time, state);
   state->r[2] = rates->radius;
-  state->v[2] = -sqrt(from->v[2] * from->v[2] + 2.0 * rates->gravity * height);
+  state->v[2] = -sqrt(start->v[2] * start->v[2] + 2.0 * rates->gravity * height);
 }
 
 void carom_path_end(const carom_path *path, const carom_ball_rates *rates,

@@ -79,10 +79,10 @@ static inline bool carom_is_out(int64_t label) {
 double carom_fall_time(double height, double v_z, double gravity);
 
 /* Starts a path at a time from path->from, whose label says the phase. */
-void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double now);
+void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double start);
 
 /* The second piece of a pair, from the state in path->from. */
-void carom_path_second(carom_path *path, double now);
+void carom_path_second(carom_path *path, double start);
 /* At the end of a path that goes on: the next piece. */
 void carom_path_go_on(carom_path *path, const carom_ball_rates *rates);
 

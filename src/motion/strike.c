@@ -68,9 +68,9 @@ carom_status carom_strike_motion(const carom_cue *cue, const carom_ball_kind *ki
 carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out) {
   if (cue == NULL || kind == NULL || out == NULL)
     return CAROM_ERROR_NULL;
-  const carom_status bad = carom_check_cue(cue);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status error = carom_check_cue(cue);
+  if (error != CAROM_OK)
+    return error;
   if (!carom_is_positive(kind->mass))
     return CAROM_ERROR_MASS;
   return carom_is_positive(kind->radius)

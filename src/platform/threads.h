@@ -8,7 +8,7 @@
 
 /* Works on the rows from `from` to before `end` of a job; returns the first of them that is in
  * error, or `end`. Called from several threads at once. */
-typedef size_t carom_part_worker(const void *job, size_t from, size_t end);
+typedef size_t carom_part_worker(const void *job, size_t start, size_t end);
 
 /* Works on all of n rows, by at most `threads` threads (options.threads with its meaning), none
  * of which gets fewer rows than `least`. Returns the first row in error, or n. */

@@ -37,7 +37,7 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
 
   /* what it is made of, where 0 stands for usual */
   b.flies = flies;
-  b.which = (int8_t)ball;
+  b.index = (int8_t)ball;
   b.radius = kind->radius;
   b.inverse_mass = 1.0 / kind->mass;
   b.mu_slide = kind->mu_slide;
@@ -140,7 +140,7 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
   const int count = in_order(c, order);
   for (int k = 1; k < count; k++) {
     const carom_cluster_contact_state *x = &c->contact[order[k]];
-    if (c->ball[x->i].which != i || c->ball[x->j].which != j)
+    if (c->ball[x->i].index != i || c->ball[x->j].index != j)
       continue;
     const uint8_t contact = order[k];
     memmove(&order[1], &order[0], (size_t)k);
@@ -176,7 +176,7 @@ static void put_on_slate(const carom_sim *sim, carom_cluster_state *c) {
   carom_cluster_put_on_slate(c);
   for (int k = 0; k < c->balls; k++)
     if (!c->ball[k].flies)
-      c->slate[k].e = carom_slate_under(sim->layout->kind[c->ball[k].which]);
+      c->slate[k].e = carom_slate_under(sim->layout->kind[c->ball[k].index]);
 }
 
 /* The tip of a cue at ball[struck]. */
@@ -234,7 +234,7 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
 
 void carom_cluster_rest(const carom_sim *sim, const carom_cluster_state *c, int k,
                         carom_ball_state *s) {
-  const carom_ball_kind *kind = sim->layout->kind[c->ball[k].which];
+  const carom_ball_kind *kind = sim->layout->kind[c->ball[k].index];
   carom_cluster_take(&c->ball[k], s);
   if (c->on_slate)
     carom_leave_slate(kind, carom_cluster_slate_impulse(c, k) / kind->mass, s);
@@ -248,7 +248,7 @@ void carom_cluster_take(const carom_cluster_ball *b, carom_ball_state *s) {
 
 static carom_cluster_contact contact_of(const carom_cluster_state *c,
                                         const carom_cluster_contact_state *x) {
-  carom_cluster_contact out = {c->ball[x->i].which, c->ball[x->j].which,         x->time,
+  carom_cluster_contact out = {c->ball[x->i].index, c->ball[x->j].index,         x->time,
                                x->impulse,          {x->n[0], x->n[1], x->n[2]}, {0.0}};
   double t[3], third[3];
   cluster_across(!c->in_space, x->n, t, third);
@@ -324,7 +324,7 @@ static carom_status solve(const carom_shot_ball *balls, int count, const carom_s
 
     /* its balls are done, */
     for (int k = 0; k < c.balls; k++) {
-      const int i = c.ball[k].which;
+      const int i = c.ball[k].index;
       done[i] = true;
       motion_of(&c.ball[k], out[i].v, out[i].w);
       if (!carom_is_finite(out[i].v) || !carom_is_finite(out[i].w))

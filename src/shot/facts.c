@@ -210,6 +210,6 @@ void carom_facts_push(const carom_sim *sim, const carom_cluster_state *c, const 
     const bool of_tip = contact->i == c->tip.ball || contact->j == c->tip.ball;
     const int ball = contact->i == c->tip.ball ? contact->j : contact->i;
     if (of_tip && contact->time <= c->tip.last)
-      facts->pushed |= set_of(c->ball[ball].which);
+      facts->pushed |= set_of(c->ball[ball].index);
   }
 }

@@ -103,7 +103,7 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
     /* one contact as an event of its own; balls stand in the caller's order */
     const carom_cluster_contact_state *x = &c->contact[order[k]];
     const carom_cluster_ball *two[2] = {&c->ball[x->i], &c->ball[x->j]};
-    const carom_due contact = {sim->time, CAROM_EVENT_BALL_BALL, two[0]->which, two[1]->which};
+    const carom_due contact = {sim->time, CAROM_EVENT_BALL_BALL, two[0]->index, two[1]->index};
     CAROM_PROMISE(contact.a < contact.b);
     /* whether the shot stops is asked for the first contact of the struck ball */
     if ((contact.a == struck || contact.b == struck) && pending_event->a != struck &&
@@ -115,7 +115,7 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
     event->impulse =
         sqrt(x->impulse * x->impulse + x->rubbed[0] * x->rubbed[0] + x->rubbed[1] * x->rubbed[1]);
     for (int side = 0; side < 2; side++) {
-      const int i = two[side]->which;
+      const int i = two[side]->index;
       carom_path *path = &sim->path[i];
       /* a ball changes once: before a further contact it is as after its first */
       if (changed[i]) {

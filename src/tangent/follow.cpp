@@ -139,7 +139,7 @@ CAROM_APART void begin_ball(const carom_tangent_work *w, int i, int side, scene 
   load_kind(w, i, kind);
   s->sim.rates[side] = text::carom_rates_of(kind);
   text::carom_path *path = &s->sim.path[side];
-  set(ball->from, &path->from);
+  set(ball->origin, &path->from);
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
     load(w->pass, w->tangent->final, (int64_t)i * CAROM_STATE_NUMBERS + k,
          &number_of(&path->from, k));
@@ -151,7 +151,7 @@ CAROM_APART void begin_ball(const carom_tangent_work *w, int i, int side, scene 
 CAROM_APART void state_at(const carom_tangent_work *w, int i, int side, real time, scene *s,
                           carom_ball_state *to) {
   text::carom_path *path = &s->sim.path[side];
-  const real tau = time - w->ball[i].since;
+  const real tau = time - w->ball[i].origin_time;
   number at = tau > AT_ONCE ? tau : AT_ONCE;
   at.d[CLOCK] = 1;
   /* pieces of a roll with drag */
@@ -235,7 +235,7 @@ bool lands(const scene *s) {
     const real x = at->r[0] - p->centre[0], y = at->r[1] - p->centre[1];
     return __builtin_sqrt(x * x + y * y) < p->radius - SIMULTANEOUS;
   }
-  const real start = s->w->ball[e->a].since;
+  const real start = s->w->ball[e->a].origin_time;
   return e->type == CAROM_EVENT_SLATE ||
          (e->type == CAROM_EVENT_LEFT_TABLE && !(at->v[2] == 0 && e->time <= start) &&
           e->time >= start + s->sim.path[0].end.x - 1e-12);
@@ -262,13 +262,13 @@ CAROM_APART void tip_at(const scene *s, text::carom_cue *cue, number *along, num
   const int64_t struck = s->event->a;
   load_cue(w, cue);
   cue->speed = known(tip->V, tip->V_row);
-  number since = s->event->time - tip->since, from[3];
+  number since = s->event->time - tip->start_time, from[3];
   since.d[CLOCK] = 1;
   *along = known(tip->along, tip->along_row) + cue->speed * (since - known(0.0, tip->start));
 
   /* from where it struck */
   for (int k = 0; k < 2; k++) {
-    from[k] = tip->from[k];
+    from[k] = tip->origin[k];
     load(w->pass, w->seeds->state, struck * CAROM_STATE_NUMBERS + S_X + k, &from[k]);
   }
   from[2] = s->ball[0].kind.radius;
@@ -380,7 +380,7 @@ CAROM_APART number gap(scene *s) {
   case CAROM_EVENT_RAIL_TOP:
     return a->r[2] - text::carom_height_on_top(&s->sim, 0, e->b < w->table->rails ? 0 : 1);
   case CAROM_EVENT_LEFT_TABLE: /* it comes to lie on a rail, or to the edge of the rails */
-    return e->before[0].v[2] == 0 && e->time <= w->ball[e->a].since ? a->v[2] : edge(s, a);
+    return e->before[0].v[2] == 0 && e->time <= w->ball[e->a].origin_time ? a->v[2] : edge(s, a);
   default: /* the strike */
     return 0.0;
   }
@@ -457,9 +457,9 @@ CAROM_APART void note_order(scene *s, const number &g) {
     return;
   for (int i = 0; i <= s->two; i++) {
     carom_tangent_ball *ball = &s->w->ball[s->side[i]];
-    const bool at_once = slate && e->time <= ball->since;
-    const bool lands_now = ball->from.label == CAROM_BALL_AIRBORNE &&
-                           ball->since + s->sim.path[i].end.x - e->time < SIMULTANEOUS;
+    const bool at_once = slate && e->time <= ball->origin_time;
+    const bool lands_now = ball->origin.label == CAROM_BALL_AIRBORNE &&
+                           ball->origin_time + s->sim.path[i].end.x - e->time < SIMULTANEOUS;
     if ((e->time - ball->last_contact < SIMULTANEOUS && !at_once) || (!slate && lands_now))
       s->w->note.flags |= CAROM_TANGENT_SIMULTANEOUS;
     ball->last_contact = e->time;
@@ -646,8 +646,8 @@ CAROM_APART void put(carom_tangent_work *w, int i, const ::carom_ball_state &pla
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
     unload(w->pass, number_of(s, k), w->tangent->final, (int64_t)i * CAROM_STATE_NUMBERS + k);
   memcpy(ball->start, &dT, sizeof dT);
-  ball->from = played;
-  ball->since = time;
+  ball->origin = played;
+  ball->origin_time = time;
 }
 
 /* The options of a shot, but when it stops. */
@@ -749,7 +749,7 @@ CAROM_APART void take_cue(const scene *s, const row &dT, cluster *c) {
       add_time(dT, x);
     tip->along = along.x;
     store(along, tip->along_row);
-    tip->since = s->event->time;
+    tip->start_time = s->event->time;
     memcpy(tip->start, &dT, sizeof dT);
   }
   memcpy(c->cue, &cue.speed, sizeof c->cue);
@@ -762,7 +762,7 @@ CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e, clust
   begin_event(w, e, &s);
   if (e->type == CAROM_EVENT_STRIKE && !carom_touches_again(e)) { /* at time 0, of a ball at rest */
     take_cue(&s, row{}, c);
-    store_state(&s.ball[0].state, w->before[0]);
+    store_state(&s.ball[0].state, w->approach[0]);
     return row{};
   }
   const number g = gap(&s);
@@ -775,7 +775,7 @@ CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e, clust
   for (int i = 0; i <= s.two; i++) {
     add_time(dT, &s.ball[i].state);
     set(e->before[i], &s.ball[i].state);
-    store_state(&s.ball[i].state, w->before[i]);
+    store_state(&s.ball[i].state, w->approach[i]);
   }
   if (w->tangent->reach != nullptr)
     note_margin(&s);
@@ -982,11 +982,11 @@ void carom_tangent_begin(carom_tangent_work *w, int i) {
   text::carom_ball_kind kind;
   load_kind(w, i, &kind);
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
-    load(w->pass, carom_is_out(ball->from.label) ? nullptr : w->seeds->state,
+    load(w->pass, carom_is_out(ball->origin.label) ? nullptr : w->seeds->state,
          (int64_t)i * CAROM_STATE_NUMBERS + k, &number_of(&s, k));
-  set(ball->from, &s);
+  set(ball->origin, &s);
   settle(&kind, &s);
-  put(w, i, ball->from, 0, row{}, &s);
+  put(w, i, ball->origin, 0, row{}, &s);
 }
 
 void carom_tangent_at(const carom_tangent_work *w, int i, double time, carom_tangent_rows d) {
@@ -1027,7 +1027,7 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
   for (int i = 0; i <= s.two; i++) {
     add_time(dT, &s.ball[i].state);
     set(e->before[i], &s.ball[i].state);
-    store_state(&s.ball[i].state, w->before[i]);
+    store_state(&s.ball[i].state, w->approach[i]);
   }
   if (w->tangent->reach != nullptr)
     note_margin(&s);

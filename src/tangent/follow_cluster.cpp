@@ -53,7 +53,7 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
                   "the numbers come first");
     real x[CAROM_MEMBER_NUMBERS + 1], d[CAROM_MEMBER_NUMBERS + 1];
     ball->flies = c->give(c->context, k, x, d);
-    ball->which = (int8_t)k;
+    ball->index = (int8_t)k;
     ball->friction = (int8_t)c->friction;
     for (int n = 0; n < CAROM_MEMBER_NUMBERS; n++) {
       to[n].x = x[n];
@@ -76,7 +76,7 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
     if (c->on_slate)
       text::carom_cluster_put_on_slate(&state);
     for (int k = 0; c->on_slate && k < state.balls; k++)
-      slates[k].e = state.ball[k].flies ? number(0) : slate_e[state.ball[k].which];
+      slates[k].e = state.ball[k].flies ? number(0) : slate_e[state.ball[k].index];
   } else {
     contacts = text::carom_cluster_members(&state, c->first, c->second);
   }

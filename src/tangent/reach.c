@@ -34,8 +34,8 @@ enum { PARTS_OF_WAY = 6, BISECTIONS = 30 };
 void carom_reach_go_on(carom_tangent_work *work, int i) {
   carom_tangent_ball *ball = &work->ball[i];
   const carom_ball_rates rates = carom_rates_of(ball->kind);
-  carom_path path = {.from = ball->from};
-  carom_path_begin(&path, &rates, ball->since);
+  carom_path path = {.from = ball->origin};
+  carom_path_begin(&path, &rates, ball->origin_time);
   memcpy(ball->a, path.a, sizeof ball->a);
 }
 
@@ -62,8 +62,8 @@ static void take(carom_reach *reach, int j, double gap, double rate) {
  * v t + a t^2, or to an end of a rail, across whose line they touch. The distance is that from a
  * ring around the middle, or behind the line; they touch at `reach`. */
 typedef struct miss {
-  int type, ball, other; /* of the event that does not happen */
-  double from, d[3], v[3], a[3], line[3];
+  int type, ball, partner; /* of the event that does not happen */
+  double start, d[3], v[3], a[3], line[3];
   double ring, reach;
 } miss;
 
@@ -71,18 +71,18 @@ typedef struct miss {
  * its radius. */
 static void motion_at(const carom_tangent_ball *ball, double time, double r[3], double v[3],
                       double a[3]) {
-  const double tau = time - ball->since;
-  const bool moves = carom_translates(ball->from.label);
+  const double tau = time - ball->origin_time;
+  const bool moves = carom_translates(ball->origin.label);
   for (int k = 0; k < 3; k++) {
-    r[k] = ball->from.r[k];
+    r[k] = ball->origin.r[k];
     v[k] = a[k] = 0.0;
     if (moves) {
-      r[k] += tau * (ball->from.v[k] + tau * ball->a[k]);
-      v[k] = ball->from.v[k] + 2.0 * tau * ball->a[k];
+      r[k] += tau * (ball->origin.v[k] + tau * ball->a[k]);
+      v[k] = ball->origin.v[k] + 2.0 * tau * ball->a[k];
       a[k] = ball->a[k];
     }
   }
-  if (!carom_flies(&ball->from))
+  if (!carom_flies(&ball->origin))
     r[2] = ball->kind->radius;
 }
 
@@ -90,14 +90,14 @@ static void motion_at(const carom_tangent_ball *ball, double time, double r[3], 
 static miss miss_of(const carom_tangent_work *w, int i, int type, int b) {
   const carom_tangent_ball *ball = &w->ball[i];
   const carom_table *table = w->table;
-  miss m = {.type = type, .ball = i, .other = b, .from = ball->since};
+  miss m = {.type = type, .ball = i, .partner = b, .start = ball->origin_time};
   double r[2][3], v[2][3] = {{0}}, a[2][3] = {{0}};
   if (type == CAROM_EVENT_BALL_BALL) {
-    m.from = fmax(ball->since, w->ball[b].since);
-    motion_at(&w->ball[b], m.from, r[1], v[1], a[1]);
+    m.start = fmax(ball->origin_time, w->ball[b].origin_time);
+    motion_at(&w->ball[b], m.start, r[1], v[1], a[1]);
     m.reach = ball->kind->radius + w->ball[b].kind->radius;
   }
-  motion_at(ball, m.from, r[0], v[0], a[0]);
+  motion_at(ball, m.start, r[0], v[0], a[0]);
 
   /* a pocket has no height, nor has a cushion for a ball on the cloth */
   if (type == CAROM_EVENT_POCKET) {
@@ -105,7 +105,7 @@ static miss miss_of(const carom_tangent_work *w, int i, int type, int b) {
     r[1][2] = r[0][2];
     m.reach = table->pocket[b].radius;
   } else if (type != CAROM_EVENT_BALL_BALL) {
-    const bool rail = type == CAROM_EVENT_RAIL, flies = carom_flies(&ball->from);
+    const bool rail = type == CAROM_EVENT_RAIL, flies = carom_flies(&ball->origin);
     double height;
     if (rail) {
       height = table->rail[b].height;
@@ -168,7 +168,7 @@ static double end_of_tip(const carom_tangent_work *w, carom_tangent_row d) {
   const double time = (w->cue->follow - tip->along) / tip->V;
   for (int j = 0; j < w->pass.columns; j++)
     d[j] = tip->start[j] - (tip->along_row[j] + time * tip->V_row[j]) / tip->V;
-  return tip->since + time;
+  return tip->start_time + time;
 }
 
 /* What the gap at a time is worth in each direction, where it is one that a change may close.
@@ -180,7 +180,7 @@ static void take_gap(carom_reach *reach, const miss *m, double t, double first) 
 
   /* its value, too, by the path itself, whose pieces with drag m does not know */
   carom_tangent_row d = {0.0};
-  const carom_event event = {.time = m->from + t, .type = m->type, .a = m->ball, .b = m->other};
+  const carom_event event = {.time = m->start + t, .type = m->type, .a = m->ball, .b = m->partner};
   const double gap = carom_tangent_gap(reach->work, &event, d);
   if (m->type == CAROM_EVENT_STRIKE) {
     carom_tangent_row end;
@@ -202,27 +202,27 @@ static bool is_beside(const miss *m, const carom_rail *rail, double t) {
 }
 
 /* The least distances on the way up to a time; stops: the end of the way counts as one. */
-static void search(carom_reach *reach, const miss *m, double until, bool stops) {
+static void search(carom_reach *reach, const miss *m, double end, bool stops) {
   /* nothing is missed that is too far for the whole way */
   const carom_tangent_work *w = reach->work;
-  double way = 0.0, before, now;
-  const double T = until - m->from, first = distance_at(m, 0.0, &before) - m->reach;
+  double way = 0.0, previous, current;
+  const double T = end - m->start, first = distance_at(m, 0.0, &previous) - m->reach;
   for (int k = 0; k < 3; k++)
     way += T * (fabs(m->v[k]) + T * fabs(m->a[k]));
   if (!(T > 0.0) || first - way > NEAR)
     return;
 
   const bool rail = m->type == CAROM_EVENT_RAIL;
-  if (rail && !carom_flies(&w->ball[m->ball].from)) {
+  if (rail && !carom_flies(&w->ball[m->ball].origin)) {
     take_gap(reach, m, T, first);
     return;
   }
 
   /* a part of the way at whose end the distance grows has a least one within */
-  for (int k = 1; k <= PARTS_OF_WAY; k++, before = now) {
+  for (int k = 1; k <= PARTS_OF_WAY; k++, previous = current) {
     double low = T * (k - 1) / (double)PARTS_OF_WAY, high = T * k / (double)PARTS_OF_WAY, opens;
-    distance_at(m, high, &now);
-    const bool least = before < 0.0 && now >= 0.0;
+    distance_at(m, high, &current);
+    const bool least = previous < 0.0 && current >= 0.0;
     for (int n = 0; n < BISECTIONS && least; n++) {
       const double middle = 0.5 * (low + high);
       distance_at(m, middle, &opens);
@@ -231,8 +231,8 @@ static void search(carom_reach *reach, const miss *m, double until, bool stops) 
       else
         high = middle;
     }
-    if ((least || (stops && k == PARTS_OF_WAY && before < 0.0)) &&
-        (!rail || is_beside(m, &w->table->rail[m->other], high)))
+    if ((least || (stops && k == PARTS_OF_WAY && previous < 0.0)) &&
+        (!rail || is_beside(m, &w->table->rail[m->partner], high)))
       take_gap(reach, m, high, first);
   }
 }
@@ -242,13 +242,13 @@ static void search(carom_reach *reach, const miss *m, double until, bool stops) 
 static void spin_of(carom_reach *reach, int i, const carom_event *event) {
   const carom_tangent_work *w = reach->work;
   const carom_tangent_ball *ball = &w->ball[i];
-  if (!carom_translates(ball->from.label) || carom_flies(&ball->from))
+  if (!carom_translates(ball->origin.label) || carom_flies(&ball->origin))
     return;
-  const double lost = carom_rates_of(ball->kind).spin * (event->time - ball->since);
+  const double lost = carom_rates_of(ball->kind).spin * (event->time - ball->origin_time);
   const double *d =
       carom_tangent_columns(&w->pass, w->tangent->final, i * CAROM_STATE_NUMBERS + S_W_Z);
   for (int j = 0; j < w->pass.columns && lost > 0.0; j++)
-    take(reach, j, fabs(fabs(ball->from.w[2]) - lost), d[j]);
+    take(reach, j, fabs(fabs(ball->origin.w[2]) - lost), d[j]);
 }
 
 /* What ball i misses on its path, up to the event: on the cloth a rail only where it stops short of
@@ -258,20 +258,21 @@ static void misses_of(carom_reach *reach, int i, const carom_event *event) {
                               CAROM_EVENT_POCKET};
   const carom_tangent_work *w = reach->work;
   const int64_t counts[] = {w->count, w->table->rails, w->table->jaws, w->table->pockets};
-  const carom_ball_state *from = &w->ball[i].from;
-  const bool moves = carom_translates(from->label), flies = carom_flies(from);
+  const carom_ball_state *state = &w->ball[i].origin;
+  const bool moves = carom_translates(state->label), flies = carom_flies(state);
   const bool stops =
       event->type == CAROM_EVENT_ROLLING_SPINNING || event->type == CAROM_EVENT_ROLLING_STATIONARY;
   for (int n = 0; n < 4; n++)
     for (int b = 0; b < counts[n]; b++) {
       const int type = types[n];
       const bool ball = type == CAROM_EVENT_BALL_BALL;
-      int64_t other = CAROM_BALL_STATIONARY;
+      int64_t label = CAROM_BALL_STATIONARY;
       if (ball)
-        other = w->ball[b].from.label;
-      const bool met = event->type == type && (b == event->b || (ball && b == event->a));
-      if (met || (ball && b == i) || carom_is_out(other) || !(moves || carom_translates(other)) ||
-          (type == CAROM_EVENT_RAIL && !flies && !stops) || (type == CAROM_EVENT_POCKET && flies))
+        label = w->ball[b].origin.label;
+      const bool is_hit = event->type == type && (b == event->b || (ball && b == event->a));
+      if (is_hit || (ball && b == i) || carom_is_out(label) ||
+          !(moves || carom_translates(label)) || (type == CAROM_EVENT_RAIL && !flies && !stops) ||
+          (type == CAROM_EVENT_POCKET && flies))
         continue;
       const miss m = miss_of(w, i, type, b);
       search(reach, &m, event->time, stops);
@@ -285,16 +286,17 @@ static void misses_of_tip(carom_reach *reach, int i, const carom_event *event) {
   const carom_tangent_tip *tip = &w->tip;
   const carom_tangent_ball *ball = &w->ball[i];
   if (!tip->turned || !(tip->V > 0.0 && w->cue->follow > 0.0) || i != w->cue->ball ||
-      carom_touches_again(event) || carom_is_out(ball->from.label))
+      carom_touches_again(event) || carom_is_out(ball->origin.label))
     return;
   carom_tangent_row d;
   double r[3], v[3], a[3], axes[3][3];
-  const double R = ball->kind->radius, from[3] = {tip->from[0], tip->from[1], R};
+  const double R = ball->kind->radius, origin[3] = {tip->origin[0], tip->origin[1], R};
   const double end = end_of_tip(w, d);
-  miss m = {.type = CAROM_EVENT_STRIKE, .ball = i, .other = -1, .reach = R};
-  m.from = fmax(ball->since, tip->since);
-  motion_at(ball, m.from, r, v, a);
-  carom_tip_from(w->cue, R, from, tip->along + tip->V * (m.from - tip->since), r, axes, m.d);
+  miss m = {.type = CAROM_EVENT_STRIKE, .ball = i, .partner = -1, .reach = R};
+  m.start = fmax(ball->origin_time, tip->start_time);
+  motion_at(ball, m.start, r, v, a);
+  carom_tip_from(w->cue, R, origin, tip->along + tip->V * (m.start - tip->start_time), r, axes,
+                 m.d);
   for (int k = 0; k < 3; k++) {
     m.v[k] = tip->V * axes[0][k] - v[k];
     m.a[k] = -a[k];
@@ -341,8 +343,9 @@ static void take_rails(carom_reach *reach, const carom_event *event, carom_tange
     const bool meets = event->type == CAROM_EVENT_RAIL && event->b == k;
     const bool at_end =
         meets || (jaw != NULL && beyond > 0.0 && rounds(jaw, place < 0.0 ? rail->p : rail->q));
-    const bool before = event->type != CAROM_EVENT_RAIL && beyond <= 0.0 && gap > 0.0 && gap < NEAR;
-    for (int j = 0; j < w->pass.columns && (at_end || before); j++)
+    const bool approaches =
+        event->type != CAROM_EVENT_RAIL && beyond <= 0.0 && gap > 0.0 && gap < NEAR;
+    for (int j = 0; j < w->pass.columns && (at_end || approaches); j++)
       take(reach, j, at_end ? fabs(beyond) : gap,
            at_end ? (e[0] * d[S_X][j] + e[1] * d[S_Y][j]) / length
                   : line[0] * d[S_X][j] + line[1] * d[S_Y][j]);
@@ -384,7 +387,7 @@ static void take_landing(carom_reach *reach, const carom_event *event, carom_tan
  * that makes its velocity another one, by as much as the velocity itself, has others. */
 static void take_turn(carom_reach *reach, int i) {
   const carom_tangent_work *w = reach->work;
-  const double *v = w->ball[i].from.v;
+  const double *v = w->ball[i].origin.v;
   const int row = i * CAROM_STATE_NUMBERS;
   const double *d_x = carom_tangent_columns(&w->pass, w->tangent->final, row + S_V_X),
                *d_y = carom_tangent_columns(&w->pass, w->tangent->final, row + S_V_Y);
@@ -402,9 +405,9 @@ static void take_order(carom_reach *reach, int64_t k, const carom_event *event, 
   const bool is_forced = event->type == CAROM_EVENT_SLATE || event->type == CAROM_EVENT_LEFT_TABLE;
   const bool at_once = is_forced && event->time <= reach->last_time[i];
   if (last >= 0 && !at_once) {
-    const double *before = carom_tangent_columns(&w->pass, w->tangent->time, last);
+    const double *last_time = carom_tangent_columns(&w->pass, w->tangent->time, last);
     for (int j = 0; j < w->pass.columns; j++)
-      take(reach, j, event->time - reach->last_time[i], w->time[j] - before[j]);
+      take(reach, j, event->time - reach->last_time[i], w->time[j] - last_time[j]);
   }
   reach->last_event[i] = k;
   reach->last_time[i] = event->time;
@@ -412,7 +415,7 @@ static void take_order(carom_reach *reach, int64_t k, const carom_event *event, 
 
 void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) {
   carom_tangent_work *w = reach->work;
-  carom_tangent_rows *d = w->before;
+  carom_tangent_rows *d = w->approach;
   const int m = w->pass.columns;
   const bool two = event->type == CAROM_EVENT_BALL_BALL;
   const int balls[2] = {event->a, event->b};

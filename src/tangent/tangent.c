@@ -23,10 +23,10 @@ static const carom_status BUILT = CAROM_ERROR_NO_TANGENTS;
 
 /* Whether an event can be one of the shot. */
 static carom_status check_event(const carom_table *table, int count, const carom_cue *cue,
-                                const carom_event *event, double since) {
+                                const carom_event *event, double last) {
   const int type = event->type;
   if (type < CAROM_EVENT_STRIKE || type > CAROM_EVENT_LEFT_TABLE || event->a < 0 ||
-      event->a >= count || event->cluster < 0 || !(event->time >= since && event->time < INFINITY))
+      event->a >= count || event->cluster < 0 || !(event->time >= last && event->time < INFINITY))
     return CAROM_ERROR_STATE;
   const bool two = type == CAROM_EVENT_BALL_BALL;
   const int64_t parts = carom_others_of(table, count, type);
@@ -74,9 +74,9 @@ static carom_status check(const carom_prepared *p, const carom_cue *cue, const c
   if (!CAROM_RESERVED_IS_ZERO(seeds))
     return CAROM_ERROR_SHOT_OPTIONS;
   int where;
-  const carom_status bad = carom_check_common(p->table, p->count, opt, &where);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status error = carom_check_common(p->table, p->count, opt, &where);
+  if (error != CAROM_OK)
+    return error;
   if (shot->count > 0 && (shot->events == NULL || shot->count > shot->room))
     return CAROM_ERROR_EVENTS_LOST;
   /* times, and whether the motion is known there */
@@ -121,9 +121,9 @@ static carom_tangent_pass pass_of(int m, int first) {
 static const carom_tangent_row zeros;
 
 /* Tangents of a state into rows of the caller's; NULL stands for zeros. */
-static void put(const work *w, carom_tangent_row *d, double *rows, int64_t at) {
+static void put(const work *w, carom_tangent_row *d, double *rows, int64_t index) {
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
-    memcpy(carom_tangent_columns(&w->pass, rows, at * CAROM_STATE_NUMBERS + k),
+    memcpy(carom_tangent_columns(&w->pass, rows, index * CAROM_STATE_NUMBERS + k),
            d != NULL ? d[k] : zeros, sizeof(double) * (size_t)w->pass.columns);
 }
 
@@ -140,8 +140,8 @@ static void begin(work *w, const carom_prepared *p) {
     carom_tangent_ball *ball = &w->ball[i];
     ball->kind = p->kind[i];
     ball->last_contact = -INFINITY;
-    ball->from = *p->state[i];
-    carom_label_of_layout(&ball->from, ball->kind->radius);
+    ball->origin = *p->state[i];
+    carom_label_of_layout(&ball->origin, ball->kind->radius);
     carom_tangent_begin(w, i);
   }
 }
@@ -159,12 +159,12 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
     const bool has = side == 0 || event->type == CAROM_EVENT_BALL_BALL;
     const int i = balls[side];
     if (t->before != NULL && event->cluster == 0)
-      put(w, has ? w->before[side] : NULL, t->before, 2 * k + side);
+      put(w, has ? w->approach[side] : NULL, t->before, 2 * k + side);
     for (int n = 0; n < CAROM_STATE_NUMBERS && t->after != NULL; n++) {
-      const double *from =
+      const double *source =
           has ? carom_tangent_columns(&w->pass, t->final, i * CAROM_STATE_NUMBERS + n) : zeros;
       memcpy(carom_tangent_columns(&w->pass, t->after, (2 * k + side) * CAROM_STATE_NUMBERS + n),
-             from, columns);
+             source, columns);
     }
     if (has && t->reach != NULL)
       carom_reach_go_on(w, i);
@@ -174,16 +174,16 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
 /* Whether a contact that is resolved alone has a third ball so near that a small change may have
  * it touched before. */
 __attribute__((noinline)) static bool is_in_pile(const work *w, const carom_event *e) {
-  static const double near = 1e-3; /* m; gaps of racks are half of it at most */
+  static const double reach = 1e-3; /* m; gaps of racks are half of it at most */
   for (int i = 0; i < w->count && e->type == CAROM_EVENT_BALL_BALL; i++) {
     const carom_ball_rates rates = carom_rates_of(w->ball[i].kind);
-    carom_path path = {.from = w->ball[i].from};
+    carom_path path = {.from = w->ball[i].origin};
     carom_ball_state s;
-    carom_path_begin(&path, &rates, w->ball[i].since);
+    carom_path_begin(&path, &rates, w->ball[i].origin_time);
     carom_path_at(&path, &rates, e->time, &s);
     for (int side = 0; side < 2 && i != e->a && i != e->b && !carom_is_out(s.label); side++) {
       const double *r = e->before[side].r, x = s.r[0] - r[0], y = s.r[1] - r[1], z = s.r[2] - r[2];
-      if (sqrt(x * x + y * y + z * z) - rates.radius - w->ball[e->a].kind->radius < near)
+      if (sqrt(x * x + y * y + z * z) - rates.radius - w->ball[e->a].kind->radius < reach)
         return true;
     }
   }
@@ -199,14 +199,14 @@ static bool turns_to_tip(const carom_event *e, int struck) {
 /* The directions of one pass. */
 static carom_status differentiate(work *w, const carom_prepared *p, const carom_shot *shot) {
   carom_tangent *tangent = w->tangent;
-  carom_tangent_row *d = w->before[0]; /* free before and behind an event */
+  carom_tangent_row *d = w->approach[0]; /* free before and behind an event */
   carom_reach reach;
   int64_t next = 0, end_of_cluster = 0;
   const bool one_by_one = w->opt->simultaneous == CAROM_SIMULTANEOUS_PAIRS ||
                           w->opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
   begin(w, p);
   for (int k = 0; k < 2 && shot->count > 0; k++)
-    w->tip.from[k] = shot->events[0].before[0].r[k];
+    w->tip.origin[k] = shot->events[0].before[0].r[k];
   if (tangent->reach != NULL)
     carom_reach_begin(&reach, w);
   for (int64_t k = 0; k <= shot->count; k++) {
@@ -249,7 +249,7 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
 
   /* the end of the shot, where balls may still move; how they go on is not known */
   for (int i = 0; i < w->count && tangent->times_count > 0; i++) {
-    const int64_t label = w->ball[i].from.label;
+    const int64_t label = w->ball[i].origin.label;
     if (tangent->times[tangent->times_count - 1] > shot->time && label != CAROM_BALL_STATIONARY &&
         !carom_is_out(label))
       return CAROM_ERROR_TIME;
@@ -361,11 +361,11 @@ carom_status carom_shot_tangent_batch(const carom_tangent_job *job) {
     return CAROM_ERROR_SHOT_OPTIONS;
   int where;
   const carom_shot_options *opt = carom_options_or_usual(played->options);
-  carom_status bad = carom_check_job(played);
-  if (bad == CAROM_OK)
-    bad = carom_check_common(played->table, played->count, opt, &where);
-  if (bad != CAROM_OK)
-    return bad;
+  carom_status error = carom_check_job(played);
+  if (error == CAROM_OK)
+    error = carom_check_common(played->table, played->count, opt, &where);
+  if (error != CAROM_OK)
+    return error;
   const size_t first_bad = carom_in_threads(rows, job, (size_t)played->n, opt->threads, 4);
   if (first_bad == played->n)
     return CAROM_OK;
@@ -406,9 +406,9 @@ carom_status carom_collide_tangent(const carom_impact *in, const carom_options *
 
   /* balls that part keep their motion: v and w of both among the numbers of an impact */
   if (status == CAROM_SEPARATING) {
-    static const int from[12] = {3, 4, 5, 6, 7, 8, 15, 16, 17, 18, 19, 20};
+    static const int row_of[12] = {3, 4, 5, 6, 7, 8, 15, 16, 17, 18, 19, 20};
     for (int k = 0; k < 12; k++)
-      memcpy(tangent + (size_t)k * m, seeds + (size_t)from[k] * m, m * sizeof *tangent);
+      memcpy(tangent + (size_t)k * m, seeds + (size_t)row_of[k] * m, m * sizeof *tangent);
   }
   for (int first = 0; first < (int)m && status == CAROM_OK; first += CAROM_TANGENT_COLUMNS) {
     const carom_tangent_pass pass = pass_of((int)m, first);

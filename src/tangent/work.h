@@ -32,8 +32,8 @@ typedef struct carom_tangent_pass {
 /* A ball since its last event. Total tangents of the state there are in tangent->final. */
 typedef struct carom_tangent_ball {
   const carom_ball_kind *kind;
-  carom_ball_state from;   /* the state there, */
-  double since;            /* and its time, s, */
+  carom_ball_state origin; /* the state there, */
+  double origin_time;      /* and its time, s, */
   carom_tangent_row start; /* with its tangent */
   double a[3];             /* half the acceleration from there on; for reach only */
   double last_contact;     /* s */
@@ -41,7 +41,7 @@ typedef struct carom_tangent_ball {
 
 /* The tip of a cue that goes on after its push, as in carom_follow, with its tangents. */
 typedef struct carom_tangent_tip {
-  double V, along, since, from[2];
+  double V, along, start_time, origin[2];
   carom_tangent_row V_row, along_row, start;
   bool turned; /* the struck ball has met another, or a cushion */
 } carom_tangent_tip;
@@ -64,7 +64,7 @@ typedef struct carom_tangent_work {
    * both balls */
   carom_tangent_note note;
   carom_tangent_row time;
-  carom_tangent_rows before[2];
+  carom_tangent_rows approach[2];
   bool inner; /* it is one of a cluster, and not the one that starts it */
   /* m: how far its hit is from a miss, or infinity; for reach only */
   double margin;
@@ -92,7 +92,7 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *even
 /* the events of a cluster, of which the first is event `at` of the shot; writes tangent->before
  * too. CAROM_ERROR_TANGENT where it is not found again; */
 carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_event *events,
-                                          int count, int64_t at);
+                                          int count, int64_t index);
 /* tangents of ball i at a fixed time, not before its last event. */
 void carom_tangent_at(const carom_tangent_work *w, int i, double time, carom_tangent_rows d);
 

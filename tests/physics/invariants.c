@@ -217,8 +217,8 @@ TEST(planar_impacts_stay_planar) {
     const carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
     ck_assert(status == CAROM_OK || status == CAROM_ERROR_UNRESOLVED);
     ck_assert_double_eq(path.across, 0.0);
-    ck_assert(path.at.a_x == 0.0 && path.at.b_x == 0.0);
-    passed_zero += status == CAROM_OK && path.at.b_y * b_y <= 0.0;
+    ck_assert(path.point.a_x == 0.0 && path.point.b_x == 0.0);
+    passed_zero += status == CAROM_OK && path.point.b_y * b_y <= 0.0;
   }
   ck_assert_int_gt(passed_zero, 100);
 }
