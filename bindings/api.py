@@ -96,8 +96,8 @@ class Header:
         it.
         """
         for number in range(line - 1, max(line - 2 - over, 0), -1):
-            for _, last, words in self.comments:
-                if last == number and not self.code[number - 1].strip():
+            for first, last, words in self.comments:
+                if last == number and not self.code[first - 1].strip():
                     return words if not words.startswith(("----", "====")) else ""
             if not self.code[number - 1].strip():
                 break

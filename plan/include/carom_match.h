@@ -58,7 +58,7 @@ CAROM_API int carom_is_within(const carom_bounds *bounds, double x, double y);
 
 /* What a match waits for. */
 typedef enum carom_match_phase {
-  CAROM_MATCH_NONE = 0,   /* it has not begun */
+  CAROM_MATCH_NONE = 0,   /* nothing: the match has not begun */
   CAROM_MATCH_STROKE = 1, /* a stroke, or one of the choices in match.may */
   CAROM_MATCH_PLACE = 2,  /* the cue ball is in hand: a place within match.bounds, or a choice */
   CAROM_MATCH_MOVING = 3, /* the shot was stopped while balls move: it goes on */
@@ -75,7 +75,7 @@ typedef enum carom_act {
 
 /* Why an act was refused. */
 typedef enum carom_refusal {
-  CAROM_REFUSED_NOT = 0,
+  CAROM_REFUSED_NOT = 0,       /* the act was not refused */
   CAROM_REFUSED_NOT_BEGUN = 1, /* the match has not begun */
   CAROM_REFUSED_OVER = 2,      /* the match is over */
   CAROM_REFUSED_TURN = 3,      /* the other player is at the table */
@@ -101,28 +101,27 @@ enum { CAROM_MATCH_TEXT = 135168 };
 
 /* A match. The caller reads it, and changes it by calls alone. It may be copied. */
 typedef struct carom_match {
-  carom_record
-      record; /* table, balls, count, options; player, who is at the table; hand, whether the
-                          cue ball is to be placed. Its final states and facts are of the last
-                          shot. */
-  carom_plan_rules rules; /* their state is that of the player at the table. */
-  int32_t phase;          /* a carom_match_phase. */
-  int32_t winner;         /* 0 or 1; CAROM_DRAWN; -1: none yet. */
-  int32_t may;            /* the choices: the sum of the carom_may for carom_match_choose(). */
-  int32_t cue_ball;       /* of the player at the table. */
-  uint32_t on;            /* balls that may be met first in the next stroke, as a set. */
-  uint32_t touching;      /* balls that touch the cue ball, as a set. */
-  carom_bounds bounds;    /* of a cue ball in hand, until the stroke. */
-  int32_t leave;          /* the carom_leave of these bounds. */
-  int32_t refusal;        /* of the last act: a carom_refusal. */
-  carom_call call;        /* of the next stroke; {-1, -1}: none. */
-  carom_ruling ruling;    /* the last one; all zero before it. */
-  int64_t rulings;        /* how many there were. */
-  int64_t size;    /* bytes of text[]: the lines of the last act; behind lines that were read:
-                             those that are still missing. */
-  int64_t due;     /* of these, the bytes that carom_match_read() awaits. */
-  char fault[256]; /* of the last act, why it was refused. */
-  char text[CAROM_MATCH_TEXT];
+  carom_record record;         /* table, balls, count, options; player, who is at the table; hand,
+                                  whether the cue ball is to be placed. Its final states and facts
+                                  are of the last shot. */
+  carom_plan_rules rules;      /* their state is that of the player at the table. */
+  int32_t phase;               /* a carom_match_phase. */
+  int32_t winner;              /* 0 or 1; CAROM_DRAWN; -1: none yet. */
+  int32_t may;                 /* the choices: the sum of the carom_may for carom_match_choose(). */
+  int32_t cue_ball;            /* of the player at the table. */
+  uint32_t on;                 /* balls that may be met first in the next stroke, as a set. */
+  uint32_t touching;           /* balls that touch the cue ball, as a set. */
+  carom_bounds bounds;         /* of a cue ball in hand, until the stroke. */
+  int32_t leave;               /* the carom_leave of these bounds. */
+  int32_t refusal;             /* of the last act: a carom_refusal. */
+  carom_call call;             /* of the next stroke; {-1, -1}: none. */
+  carom_ruling ruling;         /* the last one; all zero before it. */
+  int64_t rulings;             /* how many there were. */
+  int64_t size;                /* bytes of text[]: the lines of the last act; behind lines that were
+                                  read: those that are still missing. */
+  int64_t due;                 /* of these, the bytes that carom_match_read() awaits. */
+  char fault[256];             /* of the last act, why it was refused. */
+  char text[CAROM_MATCH_TEXT]; /* lines: `size` bytes of them. */
 } carom_match;
 
 /* Begins a match with the rack of a game, by gaps of 0.1 mm and the seed, on a table that it fits;
