@@ -29,7 +29,9 @@ for of in api["structs"] + api["enums"]:
     for member in of.get("fields") or of["values"]:
         text = member["comment"]
         if not text or re.match(CONTINUES, text) or text.endswith((",", ";", ":")):
-            faults.append(f"{of['name']}.{member['name']}: its comment does not stand alone: {text}")
+            faults.append(
+                f"{of['name']}.{member['name']}: its comment does not stand alone: {text}"
+            )
 
 
 def comment(struct, name):
