@@ -115,6 +115,13 @@ class Layer:
         self.structs = {one["name"]: one for one in api["structs"]}
         self.by_hand = called_by(self.HAND, self.CALL)
 
+    def listed(self, several, indent, form):
+        """Entries of the description, each with its comment above it."""
+        lines = []
+        for one in several:
+            lines += [*self.about(one["comment"], indent), *f"{indent}{form(one)}".split("\n")]
+        return lines
+
     def made(self, of_match):
         """The functions that are made, with the roles of their arguments: those of a match, or all
         others.
@@ -133,8 +140,14 @@ class Layer:
         """The lines of these functions."""
         found = []
         for one, roles in self.made(of_match):
-            found += ["", *self.comment(one), *self.function(one, roles, of_match)]
+            found += ["", *self.about(one["comment"], self.INDENT)]
+            found += self.function(one, roles, of_match)
         return found[1:]
+
+    def calls(self):
+        """The functions as a file."""
+        parts = ("\n".join(self.lines(of_match)) for of_match in (False, True))
+        return NOTE.format(version=self.api["version"]) + self.CALLS.format(*parts)
 
     def called(self):
         """The functions of C that the layer without pointers calls."""
@@ -197,7 +210,7 @@ class CSharp(Layer):
         "words": ("", "to"),
         "room": ("", "room"),
     }
-    MEMBER = "{0} = {0}"
+    MEMBER, INDENT = "{0} = {0}", "    "
     PASSED_MOST = 8000  # bytes of a struct
     FIXED = {"changed": "&{name}", "list": "{name}", "changed list": "{name}"}
 
@@ -258,7 +271,7 @@ class CSharp(Layer):
         return found + "*" * about.get("pointer", 0)
 
     @staticmethod
-    def summary(words, indent):
+    def about(words, indent):
         words = words.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
         return wrapped(f"<summary>{words}</summary>", f"{indent}/// ") if words else []
 
@@ -273,85 +286,72 @@ class CSharp(Layer):
         self.arrays[self.type(about), count] = about["size"]
         return f"public {pascal(self.type(about))}Array{count} {name};"
 
+    HEAD = """using System;
+using System.Runtime.InteropServices;
+
+namespace Carom {"""
+    ARRAY = """  /// <summary>{count} of {struct}, one behind the other.</summary>
+  [StructLayout(LayoutKind.Sequential, Size = {size})]
+  public unsafe struct {name}Array{count} {{
+    {struct} first;
+    public {struct} this[int k] {{
+      get {{ Check(k); fixed ({struct}* at = &first) return at[k]; }}
+      set {{ Check(k); fixed ({struct}* at = &first) at[k] = value; }}
+    }}
+    static void Check(int k) {{ if (k < 0 || k >= {count}) throw new IndexOutOfRangeException($"must be 0 to {last}, not {{k}}"); }}
+  }}
+"""
+    # IL2CPP links a plugin into the program itself on these systems.
+    NATIVE = """  /// <summary>Constants and functions of the library, by their names in C.</summary>
+  public static unsafe class Native {
+#if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR
+    const string Library = "__Internal";
+#else
+    const string Library = "carom";
+#endif"""
+    CALLBACK = "[UnmanagedFunctionPointer(CallingConvention.Cdecl)]\n    public delegate {};"
+    FUNCTION = "[DllImport(Library, CallingConvention = CallingConvention.Cdecl)]\n    public static extern {};"
+
     def text(self):
-        lines = [
-            NOTE.format(version=self.api["version"]) + "using System;",
-            "using System.Runtime.InteropServices;",
-            "",
-            "namespace Carom {",
-        ]
+        lines = [NOTE.format(version=self.api["version"]) + self.HEAD]
         for one in self.api["enums"]:
-            lines += [
-                *self.summary(one["comment"], "  "),
-                f"  public enum {self.type_name(one['name'])} {{",
-            ]
+            lines += self.listed(
+                [one], "  ", lambda one: f"public enum {self.type_name(one['name'])} {{"
+            )
             for name, value in enumerators(one):
-                lines += self.summary(value["comment"], "    ")
-                lines.append(f"    {name} = {value['value']},")
+                lines += self.listed(
+                    [value], "    ", lambda value, name=name: f"{name} = {value['value']},"
+                )
             lines += ["  }", ""]
         for one in self.api["structs"]:
-            lines += [
-                *self.summary(one["comment"], "  "),
-                "  [StructLayout(LayoutKind.Sequential)]",
-            ]
-            lines.append(f"  public unsafe struct {self.type_name(one['name'])} {{")
-            for field in one["fields"]:
-                lines += [*self.summary(field["comment"], "    "), f"    {self.field(field)}"]
-            lines += ["  }", ""]
+            lines += self.listed([one], "  ", self.struct_head)
+            lines += [*self.listed(one["fields"], "    ", self.field), "  }", ""]
         for (struct, count), size in self.arrays.items():
-            lines += [
-                f"  /// <summary>{count} of {struct}, one behind the other.</summary>",
-                f"  [StructLayout(LayoutKind.Sequential, Size = {size})]",
-                f"  public unsafe struct {pascal(struct)}Array{count} {{",
-                f"    {struct} first;",
-                f"    public {struct} this[int k] {{",
-                f"      get {{ Check(k); fixed ({struct}* at = &first) return at[k]; }}",
-                f"      set {{ Check(k); fixed ({struct}* at = &first) at[k] = value; }}",
-                "    }",
-                f'    static void Check(int k) {{ if (k < 0 || k >= {count}) throw new IndexOutOfRangeException($"must be 0 to {count - 1}, not {{k}}"); }}',
-                "  }",
-                "",
-            ]
-        lines += [
-            "  /// <summary>Constants and functions of the library, by their names in C.</summary>",
-            "  public static unsafe class Native {",
-        ]
-        # IL2CPP links a plugin into the program itself on these systems.
-        lines += [
-            "#if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR",
-            '    const string Library = "__Internal";',
-            "#else",
-            '    const string Library = "carom";',
-            "#endif",
-        ]
-        for one in self.api["constants"]:
-            kind = "double" if isinstance(one["value"], float) else "int"
-            lines += [
-                *self.summary(one["comment"], "    "),
-                f"    public const {kind} {one['name']} = {one['value']};",
-            ]
-        for one in self.api["callbacks"]:
-            lines += [
-                *self.summary(one["comment"], "    "),
-                "    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]",
-            ]
             lines.append(
-                f"    public delegate {self.type(one['returns'])} {one['name']}({self.arguments(one)});"
+                self.ARRAY.format(
+                    struct=struct, count=count, size=size, name=pascal(struct), last=count - 1
+                )
             )
-        for one in self.api["functions"]:
-            lines += [
-                *self.summary(one["comment"], "    "),
-                "    [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]",
-            ]
-            lines.append(
-                f"    public static extern {self.type(one['returns'])} {one['name']}({self.arguments(one)});"
+        lines.append(self.NATIVE)
+        lines += self.listed(self.api["constants"], "    ", self.constant)
+        for kind, form in (("callbacks", self.CALLBACK), ("functions", self.FUNCTION)):
+            lines += self.listed(
+                self.api[kind], "    ", lambda one, form=form: form.format(self.signature(one))
             )
         return "\n".join([*lines, "  }", "}", ""])
 
-    def arguments(self, function):
-        return ", ".join(
-            f"{self.type(one)} {self.name(one['name'])}" for one in function["arguments"]
-        )
+    def struct_head(self, one):
+        name = self.type_name(one["name"])
+        return f"[StructLayout(LayoutKind.Sequential)]\n  public unsafe struct {name} {{"
+
+    @staticmethod
+    def constant(one):
+        kind = "double" if isinstance(one["value"], float) else "int"
+        return f"public const {kind} {one['name']} = {one['value']};"
+
+    def signature(self, function):
+        arguments = (f"{self.type(one)} {self.name(one['name'])}" for one in function["arguments"])
+        return f"{self.type(function['returns'])} {function['name']}({', '.join(arguments)})"
 
     def value_type(self, about):
         return self.type({**about, "pointer": 0})
@@ -359,9 +359,6 @@ class CSharp(Layer):
     def is_large(self, about):
         """Whether Mono refuses to pass it by value."""
         return self.structs[about["type"]]["size"] > self.PASSED_MOST
-
-    def comment(self, function):
-        return self.summary(function["comment"], "    ")
 
     def function(self, function, roles, of_match):
         """A function without pointers."""
@@ -414,41 +411,38 @@ class CSharp(Layer):
         head = f"    public static {result} {name}({', '.join(given)}) {{"
         return [head, *(f"      {line}" for line in lines), "    }"]
 
-    def calls(self):
-        """Runtime/Calls.cs."""
-        return "\n".join(
-            [
-                NOTE.format(version=self.api["version"]) + "using System;",
-                "",
-                "namespace Carom {",
-                "  /// <summary>Functions of C without pointers, by their names in C.</summary>",
-                "  public static unsafe class Calls {",
-                *self.lines(of_match=False),
-                "  }",
-                "",
-                "  public sealed unsafe partial class LiveMatch {",
-                *self.lines(of_match=True),
-                "  }",
-                "}",
-                "",
-            ]
-        )
+    CALLS = """using System;
+
+namespace Carom {{
+  /// <summary>Functions of C without pointers, by their names in C.</summary>
+  public static unsafe class Calls {{
+{}
+  }}
+
+  public sealed unsafe partial class LiveMatch {{
+{}
+  }}
+}}
+"""
+    LAYOUT = """using System;
+using System.Runtime.InteropServices;
+using Carom;
+static class Layout {{
+  static int wrong;
+  static void Same(string what, long seen, long expected) {{
+    if (seen != expected) {{ Console.WriteLine($"{{what}}: {{seen}}, in C {{expected}}"); wrong++; }}
+  }}
+  static unsafe int Main() {{
+{tests}
+    if (wrong == 0) Console.WriteLine("{count} structs have the layout of C");
+    return wrong == 0 ? 0 : 1;
+  }}
+}}
+"""
 
     def layout_test(self):
         """A program that compares sizes and offsets with those of C."""
-        lines = [
-            "using System;",
-            "using System.Runtime.InteropServices;",
-            "using Carom;",
-            "static class Layout {",
-        ]
-        lines += [
-            "  static int wrong;",
-            "  static void Same(string what, long seen, long expected) {",
-            '    if (seen != expected) { Console.WriteLine($"{what}: {seen}, in C {expected}"); wrong++; }',
-            "  }",
-            "  static unsafe int Main() {",
-        ]
+        lines = []
         for one in self.api["structs"]:
             struct = self.type_name(one["name"])
             lines.append(f'    Same("{struct}", sizeof({struct}), {one["size"]});')
@@ -457,15 +451,7 @@ class CSharp(Layer):
                 for field in one["fields"]
                 for name in [self.name(field["name"])]
             ]
-        count = len(self.api["structs"])
-        lines += [
-            f'    if (wrong == 0) Console.WriteLine("{count} structs have the layout of C");',
-            "    return wrong == 0 ? 0 : 1;",
-            "  }",
-            "}",
-            "",
-        ]
-        return "\n".join(lines)
+        return self.LAYOUT.format(tests="\n".join(lines), count=len(self.api["structs"]))
 
 
 class Rust(Layer):
@@ -486,7 +472,7 @@ class Rust(Layer):
         "words": ("", "to"),
         "room": ("", "room"),
     }
-    MEMBER = "{0}"
+    MEMBER, INDENT = "{0}", ""
 
     BASE = {
         "double": "f64",
@@ -531,65 +517,60 @@ class Rust(Layer):
         # brackets would be links, and angles HTML
         return wrapped(re.sub(r"([\[\]<>])", r"\\\1", words), f"{indent}/// ")
 
+    HEAD = """//! The declarations of the C library carom, by their names in C.
+#![allow(non_camel_case_types)]
+pub mod words;
+use std::os::raw::{c_char, c_int, c_void};
+"""
+    # All fields are numbers, pointers, or functions that may be missing: zeros are valid in each.
+    DEFAULT = """}}
+
+impl Default for {0} {{
+    /// All zero.
+    fn default() -> Self {{
+        unsafe {{ core::mem::zeroed() }}
+    }}
+}}"""
+
     def text(self):
-        lines = [
-            NOTE.format(version=self.api["version"])
-            + "//! The declarations of the C library carom, by their names in C."
-        ]
-        lines += [
-            "#![allow(non_camel_case_types)]",
-            "pub mod words;",
-            "use std::os::raw::{c_char, c_int, c_void};",
-            "",
-        ]
-        for one in self.api["constants"]:
-            kind = "f64" if isinstance(one["value"], float) else "c_int"
-            lines += [
-                *self.about(one["comment"]),
-                f"pub const {one['name']}: {kind} = {one['value']};",
-            ]
+        lines = [NOTE.format(version=self.api["version"]) + self.HEAD]
+        lines += self.listed(self.api["constants"], "", self.constant)
         for one in self.api["enums"]:
-            lines += [*self.about(one["comment"]), f"pub type {one['name']} = c_int;"]
-            for value in one["values"]:
-                lines += [
-                    *self.about(value["comment"]),
-                    f"pub const {value['name']}: {one['name']} = {value['value']};",
-                ]
+            lines += self.listed([one], "", lambda one: f"pub type {one['name']} = c_int;")
+            lines += self.listed(
+                one["values"],
+                "",
+                lambda value,
+                of=one["name"]: f"pub const {value['name']}: {of} = {value['value']};",
+            )
         for one in self.api["structs"]:
-            lines += [
-                "",
-                *self.about(one["comment"]),
-                "#[repr(C)]",
-                "#[derive(Clone, Copy, Debug)]",
-                f"pub struct {one['name']} {{",
-            ]
-            for field in one["fields"]:
-                lines += [
-                    *self.about(field["comment"], "    "),
-                    f"    pub {self.name(field['name'])}: {self.type(field)},",
-                ]
-            lines += ["}", "", f"impl Default for {one['name']} {{", "    /// All zero."]
-            # All fields are numbers, pointers, or functions that may be missing: zeros are valid in
-            # each.
-            lines += [
-                "    fn default() -> Self {",
-                "        unsafe { core::mem::zeroed() }",
-                "    }",
-                "}",
-            ]
+            lines += ["", *self.listed([one], "", self.struct_head)]
+            lines += self.listed(one["fields"], "    ", self.field)
+            lines.append(self.DEFAULT.format(one["name"]))
         for one in self.api["callbacks"]:
-            lines += [
-                "",
-                *self.about(one["comment"]),
-                f'pub type {one["name"]} = unsafe extern "C" fn{self.signature(one)};',
-            ]
+            lines += ["", *self.listed([one], "", self.callback)]
         lines += ["", 'extern "C" {']
-        for one in self.api["functions"]:
-            lines += [
-                *self.about(one["comment"], "    "),
-                f"    pub fn {one['name']}{self.signature(one)};",
-            ]
+        lines += self.listed(
+            self.api["functions"],
+            "    ",
+            lambda one: f"pub fn {one['name']}{self.signature(one)};",
+        )
         return "\n".join([*lines, "}", ""])
+
+    @staticmethod
+    def constant(one):
+        kind = "f64" if isinstance(one["value"], float) else "c_int"
+        return f"pub const {one['name']}: {kind} = {one['value']};"
+
+    @staticmethod
+    def struct_head(one):
+        return f"#[repr(C)]\n#[derive(Clone, Copy, Debug)]\npub struct {one['name']} {{"
+
+    def field(self, one):
+        return f"pub {self.name(one['name'])}: {self.type(one)},"
+
+    def callback(self, one):
+        return f'pub type {one["name"]} = unsafe extern "C" fn{self.signature(one)};'
 
     def value_type(self, about):
         """A type of the safe layer: enumerations are those of words.rs."""
@@ -597,9 +578,6 @@ class Rust(Layer):
         if name in self.structs:
             return f"sys::{name}"
         return type_name(name) if name in self.enums else self.BASE[name].replace("c_int", "i32")
-
-    def comment(self, function):
-        return self.about(function["comment"])
 
     def function(self, function, roles, of_match):
         """A function without pointers."""
@@ -642,23 +620,16 @@ class Rust(Layer):
             else (self.value_type(returned), [call])
         )
 
-    def calls(self):
-        """carom/src/calls.rs."""
-        return "\n".join(
-            [
-                NOTE.format(version=self.api["version"])
-                + "//! Functions of C without pointers, by their names in C.",
-                "use crate::sys::words::*;",
-                "use crate::{check, optional_text, sys, written, Error, Match};",
-                "",
-                *self.lines(of_match=False),
-                "",
-                "impl Match {",
-                *self.lines(of_match=True),
-                "}",
-                "",
-            ]
-        )
+    CALLS = """//! Functions of C without pointers, by their names in C.
+use crate::sys::words::*;
+use crate::{{check, optional_text, sys, written, Error, Match}};
+
+{}
+
+impl Match {{
+{}
+}}
+"""
 
     WORDS = """
 macro_rules! words {
