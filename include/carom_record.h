@@ -94,7 +94,7 @@ typedef struct carom_record {
   int64_t act;                              /* the last act that was decided, a carom_act of
                                                carom_match.h. */
   int64_t actor;                            /* the player who decided the last act, 0 or 1. */
-  int64_t choice;                           /* the choice of the last act, a carom_may. */
+  int64_t choice;                           /* the choice of the last act, a carom_choice. */
   int64_t call[2];                          /* indices of the ball and the pocket that were called
                                                in the last act. */
   uint64_t seal;                            /* the hash in the last line that has one. */

@@ -101,26 +101,26 @@ enum { CAROM_MATCH_TEXT = 135168 };
 
 /* A match. The caller reads it, and changes it by calls alone. It may be copied. */
 typedef struct carom_match {
-  carom_record record;         /* table, balls, count, options; player, who is at the table; hand,
+  carom_record record;    /* table, balls, count, options; player, who is at the table; hand,
                                   whether the cue ball is to be placed. Its final states and facts
                                   are of the last shot. */
-  carom_plan_rules rules;      /* their state is that of the player at the table. */
-  int32_t phase;               /* a carom_match_phase. */
-  int32_t winner;              /* 0 or 1; CAROM_DRAWN; -1: none yet. */
-  int32_t may;                 /* the choices: the sum of the carom_may for carom_match_choose(). */
-  int32_t cue_ball;            /* of the player at the table. */
-  uint32_t on;                 /* balls that may be met first in the next stroke, as a set. */
-  uint32_t touching;           /* balls that touch the cue ball, as a set. */
-  carom_bounds bounds;         /* of a cue ball in hand, until the stroke. */
-  int32_t leave;               /* the carom_leave of these bounds. */
-  int32_t refusal;             /* of the last act: a carom_refusal. */
-  carom_call call;             /* of the next stroke; {-1, -1}: none. */
-  carom_ruling ruling;         /* the last one; all zero before it. */
-  int64_t rulings;             /* how many there were. */
-  int64_t size;                /* bytes of text[]: the lines of the last act; behind lines that were
+  carom_plan_rules rules; /* their state is that of the player at the table. */
+  int32_t phase;          /* a carom_match_phase. */
+  int32_t winner;         /* 0 or 1; CAROM_DRAWN; -1: none yet. */
+  int32_t may;            /* the choices: the sum of the carom_choice for carom_match_choose(). */
+  int32_t cue_ball;       /* of the player at the table. */
+  uint32_t on;            /* balls that may be met first in the next stroke, as a set. */
+  uint32_t touching;      /* balls that touch the cue ball, as a set. */
+  carom_bounds bounds;    /* of a cue ball in hand, until the stroke. */
+  int32_t leave;          /* the carom_leave of these bounds. */
+  int32_t refusal;        /* of the last act: a carom_refusal. */
+  carom_call call;        /* of the next stroke; {-1, -1}: none. */
+  carom_ruling ruling;    /* the last one; all zero before it. */
+  int64_t rulings;        /* how many there were. */
+  int64_t size;           /* bytes of text[]: the lines of the last act; behind lines that were
                                   read: those that are still missing. */
-  int64_t due;                 /* of these, the bytes that carom_match_read() awaits. */
-  char fault[256];             /* of the last act, why it was refused. */
+  int64_t due;            /* of these, the bytes that carom_match_read() awaits. */
+  char fault[256];        /* of the last act, why it was refused. */
   char text[CAROM_MATCH_TEXT]; /* lines: `size` bytes of them. */
 } carom_match;
 
@@ -152,7 +152,7 @@ CAROM_API carom_status carom_match_begin_at(carom_match *match, carom_rules_kind
 /* All return CAROM_OK, CAROM_ERROR_NULL or CAROM_ERROR_ACT. `player` is who acts.
  *
  * carom_match_choose: one of match->may: PUSH for the next stroke, the others instead of it. */
-CAROM_API carom_status carom_match_choose(carom_match *match, int player, carom_may choice);
+CAROM_API carom_status carom_match_choose(carom_match *match, int player, carom_choice choice);
 
 /* Puts the cue ball in hand, m; until the stroke it may be put elsewhere. The choice to leave it
  * where it lies is then gone. */
@@ -167,7 +167,7 @@ CAROM_API carom_status carom_match_call(carom_match *match, int player, carom_ca
  * out and calls. The choice PASS passes, and no stroke follows. match->text has the lines of all
  * these acts; if one is refused, those of the acts before it, which stand. */
 CAROM_API carom_status carom_match_prepare(carom_match *match, int player,
-                                           const carom_choice *choice);
+                                           const carom_plan_stroke *choice);
 
 /* Plays a stroke of match->cue_ball, and rules. `stop` says when to stop the shot, by time_most,
  * stop_at, first_of and events_most, and may be NULL: at its end. `shot` may be NULL; else events,
@@ -206,7 +206,7 @@ CAROM_API carom_status carom_match_read(carom_match *match, carom_record *scratc
  * its bounds. As carom_plan() and carom_plan_hand(); goes on by carom_plan_continue(), with the
  * match unchanged. CAROM_ERROR_ACT where no stroke may be played. */
 CAROM_API carom_status carom_match_plan(carom_match *match, carom_plan_job *job,
-                                        carom_choice *choices, int room, int *found);
+                                        carom_plan_stroke *choices, int room, int *found);
 
 #ifdef __cplusplus
 }

@@ -8,7 +8,7 @@ static class RandomMatches {
   static void Act(LiveMatch game, string name, double[] x) {
     switch (name) {
     case "choose":
-      game.Choose((May)(1 << (int)x[0]));
+      game.Choose((Choice)(1 << (int)x[0]));
       break;
     case "place":
       game.Place(x[0], x[1]);

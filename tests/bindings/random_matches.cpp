@@ -13,7 +13,7 @@ static void act(carom::match &game, std::istringstream &words) {
   for (double &number : x)
     words >> number;
   if (name == "choose")
-    game.choose(static_cast<carom_may>(1 << static_cast<int>(x[0])));
+    game.choose(static_cast<carom_choice>(1 << static_cast<int>(x[0])));
   else if (name == "place")
     game.place(x[0], x[1]);
   else if (name == "call")

@@ -1,9 +1,9 @@
 // random_matches ACTS RULED: the acts that random_matches.c wrote, judged in Rust.
-use carom::{Cue, Error, Game, Match, May, Options};
+use carom::{Choice, Cue, Error, Game, Match, Options};
 
 fn act(game: &mut Match, name: &str, x: &[f64]) -> Result<(), Error> {
     match name {
-        "choose" => game.choose(May::try_from(1 << x[0] as i32).expect("a choice")),
+        "choose" => game.choose(Choice::try_from(1 << x[0] as i32).expect("a choice")),
         "place" => game.place(x[0], x[1]),
         "call" => game.call(x[0] as i32, x[1] as i32),
         "clock" => game.clock(),

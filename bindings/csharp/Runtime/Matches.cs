@@ -151,7 +151,7 @@ namespace Carom {
     }
     /// <summary>Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is
     /// the stroke as the player makes it.</summary>
-    public void Take(Choice best, Cue cue) {
+    public void Take(PlanStroke best, Cue cue) {
       Prepare(best);
       if (best.kind != (int)PlanKind.Pass)
         Stroke(cue);

@@ -1,7 +1,7 @@
 //! Matches: one object that knows the rules, and writes its recording.
 use crate::{
-    check, count_of, status_of, sys, text, words, Choice, Cue, Error, Leave, MatchPhase, Options,
-    Position, RulesKind, Ruling, Shot, ShotBall, Table,
+    check, count_of, status_of, sys, text, words, Cue, Error, Leave, MatchPhase, Options,
+    PlanStroke, Position, RulesKind, Ruling, Shot, ShotBall, Table,
 };
 use std::os::raw::c_char;
 
@@ -219,7 +219,7 @@ impl Match {
 
     /// Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the
     /// stroke as the player makes it.
-    pub fn take(&mut self, best: &Choice, cue: &Cue) -> Result<(), Error> {
+    pub fn take(&mut self, best: &PlanStroke, cue: &Cue) -> Result<(), Error> {
         self.prepare(best)?;
         if best.kind != sys::CAROM_PLAN_PASS {
             self.stroke(cue, &Options::default())?;

@@ -1,7 +1,7 @@
 //! Plans: which stroke to play, by built-in rules or by those of the caller.
 use crate::{
-    calls, check, count_of, sys, BallState, Bounds, Call, Choice, Cue, Error, Facts, Leave,
-    Options, PlanOptions, Player, RackKind, Rules, RulesState, ShotBall, Status, Table, Turn,
+    calls, check, count_of, sys, BallState, Bounds, Call, Cue, Error, Facts, Leave, Options,
+    PlanOptions, PlanStroke, Player, RackKind, Rules, RulesState, ShotBall, Status, Table, Turn,
 };
 use std::any::{type_name, TypeId};
 use std::os::raw::c_int;
@@ -245,7 +245,7 @@ impl Position {
     }
 
     /// The best strokes, best first, at most `most`; in hand, with the places of the cue ball.
-    pub fn plan(&self, most: usize, in_hand: bool) -> Result<Vec<Choice>, Error> {
+    pub fn plan(&self, most: usize, in_hand: bool) -> Result<Vec<PlanStroke>, Error> {
         let mut all = self.clone().think(0, most, in_hand)?;
         all.go_on()?;
         Ok(all.choices)
@@ -276,8 +276,8 @@ impl Position {
     }
 
     /// The chances of strokes of the caller's, in their order.
-    pub fn chances(&self, cues: &[Cue]) -> Result<Vec<Choice>, Error> {
-        let mut told = vec![Choice::default(); cues.len()];
+    pub fn chances(&self, cues: &[Cue]) -> Result<Vec<PlanStroke>, Error> {
+        let mut told = vec![PlanStroke::default(); cues.len()];
         let bytes = self.with_job(&mut [], |job| unsafe {
             sys::carom_plan_memory(job.options)
         });
@@ -340,7 +340,7 @@ unsafe impl Sync for Thinking {}
 fn bounds_in_hand(of: &Position) -> Bounds {
     let about = unsafe { sys::carom_rules_about_of(of.rules.learned - 1).as_ref() };
     let leave = about.and_then(|one| one.hand.try_into().ok());
-    calls::hand_bounds(leave.unwrap_or(Leave::Hand), &of.table, 0.0).unwrap_or_default()
+    calls::hand_bounds(leave.unwrap_or(Leave::Anywhere), &of.table, 0.0).unwrap_or_default()
 }
 
 /// A plan on its way.
@@ -350,7 +350,7 @@ pub struct Thinking {
     wanted: Box<PlanOptions>,
     watch: Watch,
     memory: Vec<f64>,
-    choices: Vec<Choice>,
+    choices: Vec<PlanStroke>,
     most: usize,
     in_hand: bool,
     begun: bool,
@@ -368,7 +368,7 @@ impl Thinking {
         }
         let job = self.of.job(&self.wanted, &mut self.memory);
         let mut found = 0;
-        let mut choices = vec![Choice::default(); self.most];
+        let mut choices = vec![PlanStroke::default(); self.most];
         let (to, room) = (choices.as_mut_ptr(), self.most as c_int);
         let status = unsafe {
             if self.begun {
@@ -391,7 +391,7 @@ impl Thinking {
     }
 
     /// The best strokes, best first; empty until the end.
-    pub fn choices(&self) -> &[Choice] {
+    pub fn choices(&self) -> &[PlanStroke] {
         &self.choices
     }
 }
