@@ -52,7 +52,18 @@ READ_AND_WRITTEN = {
     ("carom_match_stroke", "shot"),
     ("carom_match_continue", "shot"),
     ("carom_match_plan", "job"),
+    ("carom_ball_kind_for", "kind"),
+    ("carom_condition_give", "kind"),
+    ("carom_cushion_start", "kind"),
+    ("carom_record_play", "shot"),
+    ("carom_spot_ball", "balls"),
+    ("carom_spot_ball_of", "balls"),
+    ("carom_turn_settle", "balls"),
+    ("carom_turn_settle", "state"),
+    ("carom_turn_settle", "turn"),
 }
+# Objects that functions change, as carom_match_place() changes a match.
+OBJECTS = ("match", "record")
 # Macros without a value of their own: guards, marks, and expressions of other constants.
 NO_VALUE = {"CAROM_API", "CAROM_VERSION_NUMBER", "CAROM_STOP_AT", "CAROM_KIND_NUMBERS"}
 A_UNIT = r"m/s\^2|m/s|rad/s|1/m|s/m|N s|kg|m|s|J|Pa|degrees"
@@ -96,8 +107,8 @@ class Header:
         it.
         """
         for number in range(line - 1, max(line - 2 - over, 0), -1):
-            for _, last, words in self.comments:
-                if last == number and not self.code[number - 1].strip():
+            for first, last, words in self.comments:
+                if last == number and not self.code[first - 1].strip():
                     return words if not words.startswith(("----", "====")) else ""
             if not self.code[number - 1].strip():
                 break
@@ -143,7 +154,7 @@ class Api:
         }
         parser, earlier = c_parser.CParser(), BUILT_IN
         for name in HEADERS:
-            header = Header(header_of(Path(include), name))
+            header, self.header = Header(header_of(Path(include), name)), name
             # Earlier headers stand on one line before it, so that lines keep their numbers.
             tree = parser.parse(
                 earlier + '\n# 1 "' + name + '"\n' + "\n".join(header.code), "before"
@@ -196,7 +207,13 @@ class Api:
             raise SystemExit(f"{name}: it is declared twice")
         self.places[name] = len(self.places)
         self.about[kind].append(
-            {"name": name, "comment": comment, "place": self.places[name], **more}
+            {
+                "name": name,
+                "comment": comment,
+                "header": self.header,
+                "place": self.places[name],
+                **more,
+            }
         )
 
     @staticmethod
@@ -217,7 +234,7 @@ class Api:
             found["to_array"] = [self.value(one) for one in found["to_array"]]
         written = found.get("pointer") and not found.get("const")
         both = (function, node.name) in READ_AND_WRITTEN or (
-            function.startswith("carom_match_") and node.name == "match"
+            node.name in OBJECTS and function.startswith(f"carom_{node.name}_")
         )
         return {**found, "direction": "inout" if both else "out" if written else "in"}
 

@@ -334,117 +334,96 @@ def wrapped(text, indent, width=140):
     return textwrap.wrap(text, width, initial_indent=indent, subsequent_indent=indent)
 
 
-def python():
-    """Types for checkers of types, which know nothing of the library: words, and the numbers of one
-    impact on a cushion.
-    """
-    lines = [
-        '"""Words and numbers of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""',
-        "",
-    ]
-    lines += [
-        "from __future__ import annotations",
-        "",
-        "import enum",
-        "from collections.abc import Iterable",
-    ]
-    lines += [
-        "from typing import Literal, NamedTuple, TypedDict",
-        "",
-        "import numpy.typing as npt",
-        "",
-    ]
-    enums = []
-    for of in OF_PYTHON:
-        lines.append(
-            f"{name_of(of)} = Literal[{', '.join(json.dumps(word) for word, _ in words()[of])}]"
-        )
-    events = [
-        value.removeprefix("EVENT_").lower()
-        for _, (of, value, *_) in rows("schema/words.h", "CAROM_WORD_ROWS")
-        if of == "EVENT"
-    ]
+HEAD = '''"""Words and numbers of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Iterable
+from typing import Literal, NamedTuple, TypedDict
+
+import numpy.typing as npt
+'''
+EVENTS = '''
+
+class {}(enum.IntEnum):
+    """{}"""
+'''
+OPTIONS = '''
+
+class ShotOptions(NamedTuple):
+    """By what a shot is played. `carom.simulate` takes these names as keywords, or an object of this
+    class, or both.
+
+    Attributes
+    ----------'''
+CHANGES = '''
+
+class Changes(TypedDict, total=False):
+    """Some of the options, as keywords."""
+'''
+KINDS = """
+
+# What each of them is: words, or a whole number up to this.
+WORDS = {"""
+CUSHIONS = '''
+
+class CushionNumbers(TypedDict, total=False):
+    """Numbers of an impact on a cushion, by the models that read them."""
+'''
+BALLS = '''
+
+class BallNumbers(TypedDict, total=False):
+    """Numbers of a ball and its cushions, the fields of `carom.dtypes.ball_kind`."""
+'''
+
+
+def quoted(several):
+    return ", ".join(map(json.dumps, several))
+
+
+def python_event_types():
+    """Labels and types of events as enumerations, and the literal type of the latter."""
+    every_word = [row for _, row in rows("schema/words.h", "CAROM_WORD_ROWS")]
+    lines = []
     for name, of, text in (
         ("Label", "LABEL", "How a ball moves."),
         ("EventType", "EVENT", "What happened: to ball a, and to ball, rail, jaw or pocket b."),
     ):
-        values = [row[1] for _, row in rows("schema/words.h", "CAROM_WORD_ROWS") if row[0] == of]
-        enums += ["", "", f"class {name}(enum.IntEnum):", f'    """{text}"""', ""]
-        enums += [
-            f"    {value.split('_', 1)[1]} = {k}" for k, value in enumerate(values, of == "EVENT")
-        ]
-    lines += [
-        "StopAt = Literal[",
-        *wrapped(", ".join(json.dumps(word) for word in ["contact", *events]) + ",", "    "),
-        "]  # fmt: skip",
-    ]
-    chosen = list(shot_options())
-    lines += [
-        *enums,
-        "",
-        "",
-        "class ShotOptions(NamedTuple):",
-        '    """By what a shot is played. `carom.simulate` takes these names as keywords, or an object of this',
-    ]
-    lines += ["    class, or both.", "", "    Attributes", "    ----------"]
+        values = [row[1].partition("_")[2] for row in every_word if row[0] == of]
+        lines.append(EVENTS.format(name, text))
+        lines += [f"    {value} = {k}" for k, value in enumerate(values, of == "EVENT")]
+    events = quoted(["contact", *map(str.lower, values)])
+    return ["StopAt = Literal[", *wrapped(f"{events},", "    "), "]  # fmt: skip", *lines]
+
+
+def python():
+    """Types for checkers of types, which know nothing of the library: words, and the numbers of one
+    impact on a cushion.
+    """
+    lines, chosen = [HEAD], list(shot_options())
+    for of in OF_PYTHON:
+        lines.append(f"{name_of(of)} = Literal[{quoted(word for word, _ in words()[of])}]")
+    lines += [*python_event_types(), OPTIONS]
     for name, kind, _, text, of in chosen:
-        several = (
-            "{" + ", ".join(json.dumps(word) for word, _ in words()[of]) + "}"
-            if of in words()
-            else kind
-        )
+        several = f"{{{quoted(word for word, _ in words()[of])}}}" if of in words() else kind
         lines += [f"    {name} : {several}", *wrapped(text[0].upper() + text[1:], "        ")]
-    lines += ['    """', ""] + [
-        f"    {name}: {kind} = {default}" for name, kind, default, *_ in chosen
-    ]
-    lines += [
-        "",
-        "",
-        "class Changes(TypedDict, total=False):",
-        '    """Some of the options, as keywords."""',
-        "",
-    ]
-    lines += [f"    {name}: {kind}" for name, kind, *_ in chosen]
-    lines += ["", "", "# What each of them is: words, or a whole number up to this."]
-    lines += [
-        "WORDS = {",
-        *wrapped(
-            ", ".join(f'"{name}": "{of}"' for name, *_, of in chosen if of in words()) + ",", "    "
-        ),
-        "}  # fmt: skip",
-    ]
-    lines.append(
-        "COUNTS = {"
-        + ", ".join(f'"{name}": {of}' for name, *_, of in chosen if isinstance(of, int))
-        + "}"
-    )
-    lines += [
-        "",
-        "",
-        "class CushionNumbers(TypedDict, total=False):",
-        '    """Numbers of an impact on a cushion, by the models that read them."""',
-        "",
-    ]
+    lines += ['    """', ""]
+    lines += [f"    {name}: {kind} = {default}" for name, kind, default, *_ in chosen]
+    lines += [CHANGES, *(f"    {name}: {kind}" for name, kind, *_ in chosen), KINDS]
+    kinds = ", ".join(f'"{name}": "{of}"' for name, *_, of in chosen if of in words())
+    counts = ", ".join(f'"{name}": {of}' for name, *_, of in chosen if isinstance(of, int))
+    lines += [*wrapped(f"{kinds},", "    "), "}  # fmt: skip", f"COUNTS = {{{counts}}}", CUSHIONS]
     for one in numbers():
         if one["of_cushion"]:
             reader = re.match(r"(?:BY_CUSHION|WITH)\((\w+)", one["reader"])
             model = reader[1].lower() if reader else "any model"
-            lines += [
-                f"    {one['name']}: float",
-                f'    """{model}: {one["text"]}; {one["range"]}"""',
-            ]
-    lines += [
-        "",
-        "",
-        "class BallNumbers(TypedDict, total=False):",
-        '    """Numbers of a ball and its cushions, the fields of `carom.dtypes.ball_kind`."""',
-        "",
-    ]
+            lines.append(f"    {one['name']}: float")
+            lines.append(f'    """{model}: {one["text"]}; {one["range"]}"""')
+    lines.append(BALLS)
     for one in numbers():
-        lines += [
-            f"    {one['name']}: npt.ArrayLike | None",
-            f'    """{one["text"]}; {one["range"]}"""',
-        ]
+        lines.append(f"    {one['name']}: npt.ArrayLike | None")
+        lines.append(f'    """{one["text"]}; {one["range"]}"""')
     return "\n".join([*lines, ""])
 
 

@@ -41,6 +41,145 @@ def enumerators(enum):
         yield ("_" if name[0].isdigit() else "") + name, value
 
 
+# Names of a number of elements, which stands right behind the pointer to the first of them.
+COUNTS = {"count", "n", "size", "room"}
+# Results that say where an error is: a layer that makes an exception of the status needs them.
+FAULTS = {"fault", "field", "where", "in_the_way"}
+# What an argument with a pointer is without one, by its direction and by whether a number follows.
+ROLES = {
+    ("in", True): "list",
+    ("in", False): "object",
+    ("inout", True): "changed list",
+    ("inout", False): "changed",
+    ("out", False): "result",
+}
+
+
+def has_pointer(name, structs):
+    """Whether a struct has a pointer or a callback, so that code without pointers cannot make it."""
+    if name not in structs:
+        return name.startswith("carom_rules_")
+    return any(
+        field.get("pointer") or has_pointer(field["type"], structs)
+        for field in structs[name]["fields"]
+    )
+
+
+def role_of(one, following, last_role, function, structs):
+    """The role of an argument, or None."""
+    if not one.get("pointer"):
+        if one["name"] in COUNTS:
+            return {"list": "count", "changed list": "count", "words": "room"}.get(last_role)
+        fields = structs[one["type"]]["fields"] if one["type"] in structs else []
+        return "members" if {field["type"] for field in fields} == {"int32_t"} else "value"
+    counted = following in COUNTS and not one["type"].endswith("_options")
+    if one["type"] == "char" and one["direction"] == "out" and counted:
+        return "words"
+    if one["type"] not in structs or one["name"] in FAULTS or has_pointer(one["type"], structs):
+        return None
+    role = ROLES.get((one["direction"], counted))
+    is_status = function["returns"]["type"] == "carom_status"
+    return "changed" if role == "result" and not is_status else role
+
+
+def roles_of(function, structs):
+    """(argument, role) for each argument of a function without pointers; None where the rules have
+    no role for one of them, so that a layer calls the function by hand.
+    """
+    if function["returns"].get("pointer") and function["returns"]["type"] != "char":
+        return None
+    found, last_role = [], None
+    for one, following in zip(function["arguments"], [*function["arguments"][1:], {"name": ""}]):
+        last_role = role_of(one, following["name"], last_role, function, structs)
+        found.append((one, last_role))
+    roles = [role for _, role in found]
+    return found if None not in roles and roles.count("result") < 2 else None
+
+
+def called_by(folder, pattern):
+    """The functions of C that the sources of a layer call."""
+    text = "\n".join(path.read_text(encoding="utf-8") for path in sorted(HERE.parent.glob(folder)))
+    return set(re.findall(pattern, re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.S)))
+
+
+class Layer:
+    """A language: its declarations of C, and its layer without pointers. The functions that the
+    layer does not call by hand are made here, by the roles of their arguments. Those of a match are
+    methods of its class, in which the player at the table acts.
+    """
+
+    def __init__(self, api):
+        self.api = api
+        self.callbacks = {one["name"] for one in api["callbacks"]}
+        self.enums = {one["name"] for one in api["enums"]}
+        self.structs = {one["name"]: one for one in api["structs"]}
+        self.by_hand = called_by(self.HAND, self.CALL)
+
+    def listed(self, several, indent, form):
+        """Entries of the description, each with its comment above it."""
+        lines = []
+        for one in several:
+            lines += [*self.about(one["comment"], indent), *f"{indent}{form(one)}".split("\n")]
+        return lines
+
+    def made(self, of_match):
+        """The functions that are made, with the roles of their arguments: those of a match, or all
+        others.
+        """
+        for one in self.api["functions"]:
+            is_of_match = one["name"].startswith("carom_match_")
+            is_beginning = one["name"].startswith("carom_match_begin")
+            if is_of_match != of_match or is_beginning or one["name"] in self.by_hand:
+                continue
+            arguments = one["arguments"][is_of_match:]
+            roles = roles_of({**one, "arguments": arguments}, self.structs)
+            if roles is not None:
+                yield one, roles
+
+    def lines(self, of_match):
+        """The lines of these functions."""
+        found = []
+        for one, roles in self.made(of_match):
+            found += ["", *self.about(one["comment"], self.INDENT)]
+            found += self.function(one, roles, of_match)
+        return found[1:]
+
+    def calls(self):
+        """The functions as a file."""
+        parts = ("\n".join(self.lines(of_match)) for of_match in (False, True))
+        return NOTE.format(version=self.api["version"]) + self.CALLS.format(*parts)
+
+    def called(self):
+        """The functions of C that the layer without pointers calls."""
+        return self.by_hand | {one["name"] for kind in (0, 1) for one, _ in self.made(kind)}
+
+    def arguments_of(self, roles):
+        """What the caller gives, and what C gets."""
+        given, passed, last = [], [], ""
+        for one, role in roles:
+            name, type_ = self.name(one["name"]), self.value_type(one)
+            fields = self.structs[one["type"]]["fields"] if role == "members" else []
+            if role == "members":
+                given += [
+                    self.GIVEN["value"][0].format(name=field["name"], type=self.value_type(field))
+                    for field in fields
+                ]
+            elif self.GIVEN[role][0]:
+                given.append(self.GIVEN[role][0].format(name=name, type=type_))
+            is_word = one["type"] in self.enums and role == "value"
+            passed.append(
+                self.GIVEN["word" if is_word else role][1].format(
+                    name=name,
+                    type=type_,
+                    last=last,
+                    count=self.type(one).replace("c_int", "i32"),
+                    members=", ".join(self.MEMBER.format(field["name"]) for field in fields),
+                )
+            )
+            last = name
+        return given, passed
+
+
 def wrapped(words, before, width=100):
     """Lines of a comment."""
     lines = [""]
@@ -51,10 +190,29 @@ def wrapped(words, before, width=100):
     return [before + line for line in lines if line]
 
 
-class CSharp:
+class CSharp(Layer):
     """Runtime/Native.cs: structs by sequential layout, enumerations, and the functions of C by
-    P/Invoke.
+    P/Invoke. Runtime/Calls.cs: functions without pointers.
     """
+
+    HAND, CALL = "bindings/csharp/Runtime/*.cs", r"\bNative\.(carom_\w+)\("
+    # How a caller gives an argument, and how C gets it, by its role.
+    GIVEN = {
+        "value": ("{type} {name}", "{name}"),
+        "word": ("{type} {name}", "{name}"),
+        "members": ("", "new {type} {{ {members} }}"),
+        "object": ("{type} {name}", "&{name}"),
+        "changed": ("ref {type} {name}", "{name}At"),
+        "list": ("{type}[] {name}", "{name}At"),
+        "changed list": ("{type}[] {name}", "{name}At"),
+        "count": ("", "({count}){last}.Length"),
+        "result": ("", "&made"),
+        "words": ("", "to"),
+        "room": ("", "room"),
+    }
+    MEMBER, INDENT = "{0} = {0}", "    "
+    PASSED_MOST = 8000  # bytes of a struct
+    FIXED = {"changed": "&{name}", "list": "{name}", "changed list": "{name}"}
 
     BASE = {
         "double": "double",
@@ -94,8 +252,8 @@ class CSharp:
     }
 
     def __init__(self, api):
-        self.api, self.arrays = api, {}
-        self.callbacks = {one["name"] for one in api["callbacks"]}
+        super().__init__(api)
+        self.arrays = {}
 
     def name(self, words):
         found = pascal(words)
@@ -113,7 +271,7 @@ class CSharp:
         return found + "*" * about.get("pointer", 0)
 
     @staticmethod
-    def summary(words, indent):
+    def about(words, indent):
         words = words.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
         return wrapped(f"<summary>{words}</summary>", f"{indent}/// ") if words else []
 
@@ -128,101 +286,163 @@ class CSharp:
         self.arrays[self.type(about), count] = about["size"]
         return f"public {pascal(self.type(about))}Array{count} {name};"
 
+    HEAD = """using System;
+using System.Runtime.InteropServices;
+
+namespace Carom {"""
+    ARRAY = """  /// <summary>{count} of {struct}, one behind the other.</summary>
+  [StructLayout(LayoutKind.Sequential, Size = {size})]
+  public unsafe struct {name}Array{count} {{
+    {struct} first;
+    public {struct} this[int k] {{
+      get {{ Check(k); fixed ({struct}* at = &first) return at[k]; }}
+      set {{ Check(k); fixed ({struct}* at = &first) at[k] = value; }}
+    }}
+    static void Check(int k) {{ if (k < 0 || k >= {count}) throw new IndexOutOfRangeException($"must be 0 to {last}, not {{k}}"); }}
+  }}
+"""
+    # IL2CPP links a plugin into the program itself on these systems.
+    NATIVE = """  /// <summary>Constants and functions of the library, by their names in C.</summary>
+  public static unsafe class Native {
+#if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR
+    const string Library = "__Internal";
+#else
+    const string Library = "carom";
+#endif"""
+    CALLBACK = "[UnmanagedFunctionPointer(CallingConvention.Cdecl)]\n    public delegate {};"
+    FUNCTION = "[DllImport(Library, CallingConvention = CallingConvention.Cdecl)]\n    public static extern {};"
+
     def text(self):
-        lines = [
-            NOTE.format(version=self.api["version"]) + "using System;",
-            "using System.Runtime.InteropServices;",
-            "",
-            "namespace Carom {",
-        ]
+        lines = [NOTE.format(version=self.api["version"]) + self.HEAD]
         for one in self.api["enums"]:
-            lines += [
-                *self.summary(one["comment"], "  "),
-                f"  public enum {self.type_name(one['name'])} {{",
-            ]
+            lines += self.listed(
+                [one], "  ", lambda one: f"public enum {self.type_name(one['name'])} {{"
+            )
             for name, value in enumerators(one):
-                lines += self.summary(value["comment"], "    ")
-                lines.append(f"    {name} = {value['value']},")
+                lines += self.listed(
+                    [value], "    ", lambda value, name=name: f"{name} = {value['value']},"
+                )
             lines += ["  }", ""]
         for one in self.api["structs"]:
-            lines += [
-                *self.summary(one["comment"], "  "),
-                "  [StructLayout(LayoutKind.Sequential)]",
-            ]
-            lines.append(f"  public unsafe struct {self.type_name(one['name'])} {{")
-            for field in one["fields"]:
-                lines += [*self.summary(field["comment"], "    "), f"    {self.field(field)}"]
-            lines += ["  }", ""]
+            lines += self.listed([one], "  ", self.struct_head)
+            lines += [*self.listed(one["fields"], "    ", self.field), "  }", ""]
         for (struct, count), size in self.arrays.items():
-            lines += [
-                f"  /// <summary>{count} of {struct}, one behind the other.</summary>",
-                f"  [StructLayout(LayoutKind.Sequential, Size = {size})]",
-                f"  public unsafe struct {pascal(struct)}Array{count} {{",
-                f"    {struct} first;",
-                f"    public {struct} this[int k] {{",
-                f"      get {{ Check(k); fixed ({struct}* at = &first) return at[k]; }}",
-                f"      set {{ Check(k); fixed ({struct}* at = &first) at[k] = value; }}",
-                "    }",
-                f'    static void Check(int k) {{ if (k < 0 || k >= {count}) throw new IndexOutOfRangeException($"must be 0 to {count - 1}, not {{k}}"); }}',
-                "  }",
-                "",
-            ]
-        lines += [
-            "  /// <summary>Constants and functions of the library, by their names in C.</summary>",
-            "  public static unsafe class Native {",
-        ]
-        # IL2CPP links a plugin into the program itself on these systems.
-        lines += [
-            "#if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR",
-            '    const string Library = "__Internal";',
-            "#else",
-            '    const string Library = "carom";',
-            "#endif",
-        ]
-        for one in self.api["constants"]:
-            kind = "double" if isinstance(one["value"], float) else "int"
-            lines += [
-                *self.summary(one["comment"], "    "),
-                f"    public const {kind} {one['name']} = {one['value']};",
-            ]
-        for one in self.api["callbacks"]:
-            lines += [
-                *self.summary(one["comment"], "    "),
-                "    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]",
-            ]
             lines.append(
-                f"    public delegate {self.type(one['returns'])} {one['name']}({self.arguments(one)});"
+                self.ARRAY.format(
+                    struct=struct, count=count, size=size, name=pascal(struct), last=count - 1
+                )
             )
-        for one in self.api["functions"]:
-            lines += [
-                *self.summary(one["comment"], "    "),
-                "    [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]",
-            ]
-            lines.append(
-                f"    public static extern {self.type(one['returns'])} {one['name']}({self.arguments(one)});"
+        lines.append(self.NATIVE)
+        lines += self.listed(self.api["constants"], "    ", self.constant)
+        for kind, form in (("callbacks", self.CALLBACK), ("functions", self.FUNCTION)):
+            lines += self.listed(
+                self.api[kind], "    ", lambda one, form=form: form.format(self.signature(one))
             )
         return "\n".join([*lines, "  }", "}", ""])
 
-    def arguments(self, function):
-        return ", ".join(
-            f"{self.type(one)} {self.name(one['name'])}" for one in function["arguments"]
+    def struct_head(self, one):
+        name = self.type_name(one["name"])
+        return f"[StructLayout(LayoutKind.Sequential)]\n  public unsafe struct {name} {{"
+
+    @staticmethod
+    def constant(one):
+        kind = "double" if isinstance(one["value"], float) else "int"
+        return f"public const {kind} {one['name']} = {one['value']};"
+
+    def signature(self, function):
+        arguments = (f"{self.type(one)} {self.name(one['name'])}" for one in function["arguments"])
+        return f"{self.type(function['returns'])} {function['name']}({', '.join(arguments)})"
+
+    def value_type(self, about):
+        return self.type({**about, "pointer": 0})
+
+    def is_large(self, about):
+        """Whether Mono refuses to pass it by value."""
+        return self.structs[about["type"]]["size"] > self.PASSED_MOST
+
+    def function(self, function, roles, of_match):
+        """A function without pointers."""
+        roles = [
+            (one, "changed" if role == "object" and self.is_large(one) else role)
+            for one, role in roles
+        ]
+        given, passed = self.arguments_of(roles)
+        name = pascal(function["name"].removeprefix("carom_match_" if of_match else "carom_"))
+        if of_match:
+            of_player = ["Player" if one == "player" else one for one in passed]
+            given = [one for one in given if one != "int player"]
+            call = f"Native.{function['name']}({', '.join(['Open', *of_player])})"
+            return [
+                f"    public void {name}({', '.join(given)}) {{",
+                f"      Told({call});",
+                "    }",
+            ]
+
+        pinned = "".join(
+            f"fixed ({self.type(one)} {self.name(one['name'])}At = {place}) "
+            for one, role in roles
+            if role in self.FIXED
+            for place in [self.FIXED[role].format(name=self.name(one["name"]))]
         )
+        call = f"Native.{function['name']}({', '.join(passed)})"
+        result = next((self.value_type(one) for one, role in roles if role == "result"), None)
+        returned = function["returns"]
+        if result:
+            lines = [f"{result} made;", f"{pinned}Billiards.Check({call});", "return made;"]
+        elif "to" in passed:
+            result = "string"
+            size, write = (
+                call.replace("to, room", words)
+                for words in ("null, UIntPtr.Zero", "to, (UIntPtr)text.Length")
+            )
+            lines = [
+                "byte[] text;",
+                f"{pinned}text = new byte[(int){size} + 1];",
+                f"{pinned}fixed (byte* to = text) {write};",
+                "fixed (byte* to = text) return Billiards.Text(to);",
+            ]
+        elif returned.get("pointer"):
+            result, lines = "string", [f"{pinned}return Billiards.Text({call});"]
+        elif returned["type"] == "carom_status":
+            result, lines = "Status", [f"{pinned}return Billiards.Check({call});"]
+        else:
+            result = self.type(returned)
+            lines = [f"{pinned}{'' if result == 'void' else 'return '}{call};"]
+        head = f"    public static {result} {name}({', '.join(given)}) {{"
+        return [head, *(f"      {line}" for line in lines), "    }"]
+
+    CALLS = """using System;
+
+namespace Carom {{
+  /// <summary>Functions of C without pointers, by their names in C.</summary>
+  public static unsafe class Calls {{
+{}
+  }}
+
+  public sealed unsafe partial class LiveMatch {{
+{}
+  }}
+}}
+"""
+    LAYOUT = """using System;
+using System.Runtime.InteropServices;
+using Carom;
+static class Layout {{
+  static int wrong;
+  static void Same(string what, long seen, long expected) {{
+    if (seen != expected) {{ Console.WriteLine($"{{what}}: {{seen}}, in C {{expected}}"); wrong++; }}
+  }}
+  static unsafe int Main() {{
+{tests}
+    if (wrong == 0) Console.WriteLine("{count} structs have the layout of C");
+    return wrong == 0 ? 0 : 1;
+  }}
+}}
+"""
 
     def layout_test(self):
         """A program that compares sizes and offsets with those of C."""
-        lines = [
-            "using System;",
-            "using System.Runtime.InteropServices;",
-            "using Carom;",
-            "static class Layout {",
-        ]
-        lines += [
-            "  static int wrong;",
-            "  static void Same(string what, long seen, long expected) {",
-            '    if (seen != expected) { Console.WriteLine($"{what}: {seen}, in C {expected}"); wrong++; }',
-            "  }",
-            "  static unsafe int Main() {",
-        ]
+        lines = []
         for one in self.api["structs"]:
             struct = self.type_name(one["name"])
             lines.append(f'    Same("{struct}", sizeof({struct}), {one["size"]});')
@@ -231,19 +451,28 @@ class CSharp:
                 for field in one["fields"]
                 for name in [self.name(field["name"])]
             ]
-        count = len(self.api["structs"])
-        lines += [
-            f'    if (wrong == 0) Console.WriteLine("{count} structs have the layout of C");',
-            "    return wrong == 0 ? 0 : 1;",
-            "  }",
-            "}",
-            "",
-        ]
-        return "\n".join(lines)
+        return self.LAYOUT.format(tests="\n".join(lines), count=len(self.api["structs"]))
 
 
-class Rust:
-    """carom-sys/src/lib.rs: the declarations of C."""
+class Rust(Layer):
+    """carom-sys/src/lib.rs: the declarations of C. carom/src/calls.rs: functions without pointers."""
+
+    HAND, CALL = "bindings/rust/carom/src/*.rs", r"\bsys::(carom_\w+)\("
+    # How a caller gives an argument, and how C gets it, by its role.
+    GIVEN = {
+        "value": ("{name}: {type}", "{name}"),
+        "word": ("{name}: {type}", "{name}.into()"),
+        "members": ("", "{type} {{ {members} }}"),
+        "object": ("{name}: &{type}", "{name}"),
+        "changed": ("{name}: &mut {type}", "{name}"),
+        "list": ("{name}: &[{type}]", "{name}.as_ptr()"),
+        "changed list": ("{name}: &mut [{type}]", "{name}.as_mut_ptr()"),
+        "count": ("", "{last}.len() as {count}"),
+        "result": ("", "&mut made"),
+        "words": ("", "to"),
+        "room": ("", "room"),
+    }
+    MEMBER, INDENT = "{0}", ""
 
     BASE = {
         "double": "f64",
@@ -259,10 +488,6 @@ class Rust:
         "void": "c_void",
     }
     KEYWORDS = {"final", "type", "in", "where", "box", "match", "move", "ref", "loop", "use"}
-
-    def __init__(self, api):
-        self.api = api
-        self.callbacks = {one["name"] for one in api["callbacks"]}
 
     def name(self, words):
         return f"r#{words}" if words in self.KEYWORDS else words
@@ -292,65 +517,119 @@ class Rust:
         # brackets would be links, and angles HTML
         return wrapped(re.sub(r"([\[\]<>])", r"\\\1", words), f"{indent}/// ")
 
+    HEAD = """//! The declarations of the C library carom, by their names in C.
+#![allow(non_camel_case_types)]
+pub mod words;
+use std::os::raw::{c_char, c_int, c_void};
+"""
+    # All fields are numbers, pointers, or functions that may be missing: zeros are valid in each.
+    DEFAULT = """}}
+
+impl Default for {0} {{
+    /// All zero.
+    fn default() -> Self {{
+        unsafe {{ core::mem::zeroed() }}
+    }}
+}}"""
+
     def text(self):
-        lines = [
-            NOTE.format(version=self.api["version"])
-            + "//! The declarations of the C library carom, by their names in C."
-        ]
-        lines += [
-            "#![allow(non_camel_case_types)]",
-            "pub mod words;",
-            "use std::os::raw::{c_char, c_int, c_void};",
-            "",
-        ]
-        for one in self.api["constants"]:
-            kind = "f64" if isinstance(one["value"], float) else "c_int"
-            lines += [
-                *self.about(one["comment"]),
-                f"pub const {one['name']}: {kind} = {one['value']};",
-            ]
+        lines = [NOTE.format(version=self.api["version"]) + self.HEAD]
+        lines += self.listed(self.api["constants"], "", self.constant)
         for one in self.api["enums"]:
-            lines += [*self.about(one["comment"]), f"pub type {one['name']} = c_int;"]
-            for value in one["values"]:
-                lines += [
-                    *self.about(value["comment"]),
-                    f"pub const {value['name']}: {one['name']} = {value['value']};",
-                ]
+            lines += self.listed([one], "", lambda one: f"pub type {one['name']} = c_int;")
+            lines += self.listed(
+                one["values"],
+                "",
+                lambda value,
+                of=one["name"]: f"pub const {value['name']}: {of} = {value['value']};",
+            )
         for one in self.api["structs"]:
-            lines += [
-                "",
-                *self.about(one["comment"]),
-                "#[repr(C)]",
-                "#[derive(Clone, Copy, Debug)]",
-                f"pub struct {one['name']} {{",
-            ]
-            for field in one["fields"]:
-                lines += [
-                    *self.about(field["comment"], "    "),
-                    f"    pub {self.name(field['name'])}: {self.type(field)},",
-                ]
-            lines += ["}", "", f"impl Default for {one['name']} {{", "    /// All zero."]
-            # All fields are numbers, pointers, or functions that may be missing: zeros are valid in
-            # each.
-            lines += [
-                "    fn default() -> Self {",
-                "        unsafe { core::mem::zeroed() }",
-                "    }",
-                "}",
-            ]
+            lines += ["", *self.listed([one], "", self.struct_head)]
+            lines += self.listed(one["fields"], "    ", self.field)
+            lines.append(self.DEFAULT.format(one["name"]))
         for one in self.api["callbacks"]:
-            lines += [
-                "",
-                *self.about(one["comment"]),
-                f'pub type {one["name"]} = unsafe extern "C" fn{self.signature(one)};',
-            ]
+            lines += ["", *self.listed([one], "", self.callback)]
         lines += ["", 'extern "C" {']
-        for one in self.api["functions"]:
-            lines += [
-                *self.about(one["comment"], "    "),
-                f"    pub fn {one['name']}{self.signature(one)};",
-            ]
+        lines += self.listed(
+            self.api["functions"],
+            "    ",
+            lambda one: f"pub fn {one['name']}{self.signature(one)};",
+        )
         return "\n".join([*lines, "}", ""])
+
+    @staticmethod
+    def constant(one):
+        kind = "f64" if isinstance(one["value"], float) else "c_int"
+        return f"pub const {one['name']}: {kind} = {one['value']};"
+
+    @staticmethod
+    def struct_head(one):
+        return f"#[repr(C)]\n#[derive(Clone, Copy, Debug)]\npub struct {one['name']} {{"
+
+    def field(self, one):
+        return f"pub {self.name(one['name'])}: {self.type(one)},"
+
+    def callback(self, one):
+        return f'pub type {one["name"]} = unsafe extern "C" fn{self.signature(one)};'
+
+    def value_type(self, about):
+        """A type of the safe layer: enumerations are those of words.rs."""
+        name = about["type"]
+        if name in self.structs:
+            return f"sys::{name}"
+        return type_name(name) if name in self.enums else self.BASE[name].replace("c_int", "i32")
+
+    def function(self, function, roles, of_match):
+        """A function without pointers."""
+        given, passed = self.arguments_of(roles)
+        name = self.name(function["name"].removeprefix("carom_match_" if of_match else "carom_"))
+        call = f"sys::{function['name']}({', '.join(['&mut *self.of'] * of_match + passed)})"
+        if of_match:
+            player = ["let player = self.at_table();"] if "player" in passed else []
+            given = ["&mut self", *(one for one in given if not one.startswith("player:"))]
+            result = "Result<(), Error>"
+            lines = [*player, f"let status = unsafe {{ {call} }};", "self.told(status)"]
+        else:
+            result, lines = self.result(function["returns"], roles, f"unsafe {{ {call} }}")
+        arrow = f" -> {result}" if result else ""
+        lines = [
+            f"pub fn {name}({', '.join(given)}){arrow} {{",
+            *(f"    {one}" for one in lines),
+            "}",
+        ]
+        return [f"    {line}" for line in lines] if of_match else lines
+
+    def result(self, returned, roles, call):
+        """What a function returns, and its lines."""
+        made = [self.value_type(one) for one, role in roles if role == "result"]
+        if made:
+            lines = ["let mut made = Default::default();", f"check({call})?;", "Ok(made)"]
+            return f"Result<{made[0]}, Error>", lines
+        if "words" in (role for _, role in roles):
+            return "String", [f"written(|to, room| {call})"]
+        if returned.get("pointer"):
+            return "Option<String>", [f"optional_text({call})"]
+        if returned["type"] == "carom_status":
+            return "Result<Status, Error>", [f"check({call})"]
+        if returned["type"] in self.enums:
+            known = '.expect("the library is of the version of carom-sys")'
+            return self.value_type(returned), [f"{call}.try_into(){known}"]
+        return (
+            ("", [f"{call};"])
+            if returned["type"] == "void"
+            else (self.value_type(returned), [call])
+        )
+
+    CALLS = """//! Functions of C without pointers, by their names in C.
+use crate::sys::words::*;
+use crate::{{check, optional_text, sys, written, Error, Match}};
+
+{}
+
+impl Match {{
+{}
+}}
+"""
 
     WORDS = """
 macro_rules! words {
@@ -425,7 +704,9 @@ def main():
     made = {
         "api.json": json.dumps(api, indent=1, ensure_ascii=False) + "\n",
         "csharp/Runtime/Native.cs": CSharp(api).text(),
+        "csharp/Runtime/Calls.cs": CSharp(api).calls(),
         "csharp/Tests/Layout.cs": CSharp(api).layout_test(),
+        "rust/carom/src/calls.rs": Rust(api).calls(),
         "rust/carom-sys/src/lib.rs": Rust(api).text(),
         "rust/carom-sys/src/words.rs": Rust(api).words(),
         "rust/carom-sys/tests/layout.rs": Rust(api).layout_test(),

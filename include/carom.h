@@ -133,7 +133,7 @@ typedef struct carom_ball {
  * has found the contact. The struct is 26 doubles without gaps, so an array of n is also an (n,
  * 26) array of doubles in row order. */
 typedef struct carom_impact {
-  carom_ball a, b;
+  carom_ball a, b;    /* the first and the second ball: the line of centres goes from a to b. */
   double mu_ball;     /* coefficient of sliding friction between the balls, 0 to 1. */
   double restitution; /* e, 0 to 1: the collision ends once e^2 of the work of compression has
                          been given back. */
@@ -147,7 +147,7 @@ typedef struct carom_motion {
 
 /* The balls just after the collision; positions do not change. 12 doubles without gaps. */
 typedef struct carom_result {
-  carom_motion a, b;
+  carom_motion a, b; /* the motion of the first and of the second ball. */
 } carom_result;
 
 /* ---- How a call ended ------------------------------------------------------------------------ */
@@ -227,37 +227,39 @@ typedef enum carom_status {
   CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below miscue^2. */
   CAROM_ERROR_TABLE = -52,           /* there is no part; or a part is not finite, has no length, or
                               has a bad mu or e; or rail_width is too small. */
-  CAROM_ERROR_RACK = -53, /* there is no such rack, the gap is not between 0 and R, or there is too
-                              little room. */
-  CAROM_ERROR_EVENTS_LOST = -54,   /* carom_shot_at(), carom_shot_continue(): not all events so
-                                      far are in shot.events. */
-  CAROM_ERROR_TIME = -55,          /* carom_shot_at(): the time is below 0, not a number, or after
-                                      the end of a shot that stopped while balls moved. */
-  CAROM_ERROR_DRAG = -56,          /* the drag of a rolling ball is not in [0, 1] 1/m. */
-  CAROM_ERROR_BALL_CUSHION = -57,  /* roll_loss of a ball is not 0 to 1, or its nose_height not 0
-                                      to below 2 R. */
-  CAROM_ERROR_MODULUS = -58,       /* a ball's modulus is neither 0 nor 1e6 to 1e15 Pa. */
-  CAROM_ERROR_STATE = -60,         /* carom_shot_continue(): shot.state is damaged, or belongs to no
-                                      shot that can go on. carom_plan_continue(): the same for a
-                                      plan's memory. With the next three, shot.state */
-  CAROM_ERROR_STATE_TABLE = -64,   /* belongs to a shot on another table, */
-  CAROM_ERROR_STATE_BALLS = -65,   /* with other balls, or from another layout, */
-  CAROM_ERROR_STATE_OPTIONS = -66, /* or with other options, apart from those that say when to
-                                      stop. */
-  CAROM_ERROR_ROOM = -67,          /* shot.room is negative, or is not 0 where shot.events and
-                                      shot.brief are both NULL. */
-  CAROM_ERROR_TABLE_OPEN = -61,    /* carom_table_check(): a ball can leave the table, or has no
-                                      place on it. */
-  CAROM_ERROR_RAIL_SIDE = -62,     /* carom_table_check(): the played side of a rail is turned
-                                      away from the table. */
-  CAROM_ERROR_RAIL_LINE = -63,     /* carom_table_check(): the line of a rail does not pass
-                                      through both of its ends. */
-  CAROM_ERROR_TANGENT = -70,       /* carom_tangent.h: derivatives are not known for this world
-                                      or model. */
-  CAROM_ERROR_DIRECTIONS = -71,    /* carom_tangent.h: the number of directions is not 1 to
-                                      CAROM_DIRECTIONS_MOST. */
-  CAROM_ERROR_NO_TANGENTS = -72,   /* carom_tangent.h: this library was built without derivatives,
-                                      as it is without C++. */
+  CAROM_ERROR_RACK = -53,            /* there is no such rack, the gap is not between 0 and R, or
+                                        there is too little room. */
+  CAROM_ERROR_EVENTS_LOST = -54,     /* carom_shot_at(), carom_shot_continue(): not all events so
+                                        far are in shot.events. */
+  CAROM_ERROR_TIME = -55,            /* carom_shot_at(): the time is below 0, not a number, or after
+                                        the end of a shot that stopped while balls moved. */
+  CAROM_ERROR_DRAG = -56,            /* the drag of a rolling ball is not in [0, 1] 1/m. */
+  CAROM_ERROR_BALL_CUSHION = -57,    /* roll_loss of a ball is not 0 to 1, or its nose_height not 0
+                                        to below 2 R. */
+  CAROM_ERROR_MODULUS = -58,         /* a ball's modulus is neither 0 nor 1e6 to 1e15 Pa. */
+  CAROM_ERROR_STATE = -60,           /* carom_shot_continue(): shot.state is damaged, or belongs to
+                                        no shot that can go on. carom_plan_continue(): the memory of
+                                        the plan is damaged, or belongs to no plan. */
+  CAROM_ERROR_STATE_TABLE = -64,     /* carom_shot_continue(): shot.state belongs to a shot on
+                                        another table. */
+  CAROM_ERROR_STATE_BALLS = -65,     /* carom_shot_continue(): shot.state belongs to a shot with
+                                        other balls, or from another layout. */
+  CAROM_ERROR_STATE_OPTIONS = -66,   /* carom_shot_continue(): shot.state belongs to a shot with
+                                        other options, apart from those that say when to stop. */
+  CAROM_ERROR_ROOM = -67,            /* shot.room is negative, or is not 0 where shot.events and
+                                        shot.brief are both NULL. */
+  CAROM_ERROR_TABLE_OPEN = -61,      /* carom_table_check(): a ball can leave the table, or has no
+                                        place on it. */
+  CAROM_ERROR_RAIL_SIDE = -62,       /* carom_table_check(): the played side of a rail is turned
+                                        away from the table. */
+  CAROM_ERROR_RAIL_LINE = -63,       /* carom_table_check(): the line of a rail does not pass
+                                        through both of its ends. */
+  CAROM_ERROR_TANGENT = -70,         /* carom_tangent.h: derivatives are not known for this world or
+                                        model. */
+  CAROM_ERROR_DIRECTIONS = -71,      /* carom_tangent.h: the number of directions is not 1 to
+                                        CAROM_DIRECTIONS_MOST. */
+  CAROM_ERROR_NO_TANGENTS = -72,     /* carom_tangent.h: this library was built without derivatives,
+                                        as it is without C++. */
 
   CAROM_ERROR_CUE_SPEED = -80,           /* cue.speed is not 0 to 1000 m/s. */
   CAROM_ERROR_CUE_PHI = -81,             /* cue.phi is not -1e9 to 1e9 degrees. */
@@ -302,9 +304,9 @@ typedef enum carom_status {
   CAROM_ERROR_CORNERS_MEET = -113,      /* two corners that follow each other are at one place. */
   CAROM_ERROR_CORNERS_IN_LINE = -114,   /* all corners lie on one line. */
   CAROM_ERROR_MOUTHS = -115,            /* the mouths at its ends leave nothing of a side. */
-  CAROM_ERROR_POCKETS = -116,           /* a table has more than CAROM_POCKETS_MOST pockets, */
-  CAROM_ERROR_JAWS = -117,              /* more than CAROM_JAWS_MOST jaws, */
-  CAROM_ERROR_RAILS = -118,             /* or more than CAROM_RAILS_MOST rails. */
+  CAROM_ERROR_POCKETS = -116,           /* a table has more than CAROM_POCKETS_MOST pockets. */
+  CAROM_ERROR_JAWS = -117,              /* a table has more than CAROM_JAWS_MOST jaws. */
+  CAROM_ERROR_RAILS = -118,             /* a table has more than CAROM_RAILS_MOST rails. */
   CAROM_ERROR_ACT = -119                /* carom_match.h: match.fault says what the rules do not
                                            allow, and what would be right. */
 } carom_status;
@@ -416,24 +418,26 @@ CAROM_API void carom_rolling_velocity(const double v[3], const double w[3], doub
  * of the exact solver for collisions of play are within 2e-5 of the exact result for the rounded
  * numbers. */
 typedef struct carom_ball_f32 {
-  float r[3], v[3], w[3];
-  float radius, mass, mu_slide;
+  float r[3], v[3], w[3];       /* centre, velocity and angular velocity, as of a carom_ball. */
+  float radius, mass, mu_slide; /* radius, mass and sliding friction on the cloth, as of a
+                                   carom_ball. */
 } carom_ball_f32;
 
 /* Two balls that touch, in single precision. */
 typedef struct carom_impact_f32 {
-  carom_ball_f32 a, b;
-  float mu_ball, restitution;
+  carom_ball_f32 a, b;        /* the first and the second ball. */
+  float mu_ball, restitution; /* coefficient of sliding friction between the balls, and e, 0 to
+                                 1. */
 } carom_impact_f32;
 
 /* The motion of a ball, in single precision. */
 typedef struct carom_motion_f32 {
-  float v[3], w[3];
+  float v[3], w[3]; /* velocity and angular velocity, as of a carom_motion. */
 } carom_motion_f32;
 
 /* Both motions after a collision, in single precision. */
 typedef struct carom_result_f32 {
-  carom_motion_f32 a, b;
+  carom_motion_f32 a, b; /* the motion of the first and of the second ball. */
 } carom_result_f32;
 
 /* carom_collide_batch() in single precision. Each row is bit-identical to the same row alone.
@@ -451,12 +455,12 @@ CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_
  * ignored. A single call uses plain if options.plain is 1, and a shot uses it unless
  * carom_shot_options.fast is 1. */
 typedef enum carom_isa {
-  CAROM_ISA_ANY = -1, /* no limit: for carom_isa_limit(). */
-  CAROM_ISA_PLAIN = 0,
-  CAROM_ISA_SSE2 = 1,
-  CAROM_ISA_NEON = 2,
-  CAROM_ISA_AVX2 = 3,
-  CAROM_ISA_AVX512 = 4,
+  CAROM_ISA_ANY = -1,   /* no limit: for carom_isa_limit(). */
+  CAROM_ISA_PLAIN = 0,  /* what every processor has; its bits are the same on all machines. */
+  CAROM_ISA_SSE2 = 1,   /* x86-64: 2 doubles at a time. */
+  CAROM_ISA_NEON = 2,   /* arm64: 2 doubles at a time. */
+  CAROM_ISA_AVX2 = 3,   /* x86-64: 4 doubles at a time. */
+  CAROM_ISA_AVX512 = 4, /* x86-64: 8 doubles at a time. */
 } carom_isa;
 
 /* The name of an instruction set, or NULL for a value not listed. */
@@ -492,12 +496,13 @@ typedef struct carom_detail {
                               first; the opposite on the first. */
   double friction[3];      /* impulse of the second ball's friction on the first ball; the opposite
                               on the second. */
-  double cloth_a[3];       /* impulse of the cloth's friction on the first ball, */
-  double cloth_b[3];       /* and on the second. The friction of one ball presses only the other one
-                              into the cloth. */
+  double cloth_a[3];       /* impulse of the cloth's friction on the first ball. The friction of one
+                              ball presses only the other one into the cloth. */
+  double cloth_b[3];       /* impulse of the cloth's friction on the second ball, as for the first
+                              one. */
   double work_compression; /* work of the normal force until the balls no longer approach, J. */
-  double work;             /* the same over the whole collision: (1 + e^2) of it; with Euler's
-                              method up to a step more. */
+  double work;             /* work of the normal force over the whole collision, J: (1 + e^2) of
+                              work_compression; with Euler's method up to a step more. */
   carom_stick stick;       /* always CAROM_STICK_NEVER with Euler's method, because its slip
                               alternates in sign instead. */
   double stick_normal;     /* the normal impulse when the balls began to stick; NaN if they never
@@ -511,7 +516,10 @@ CAROM_API carom_status carom_collide_detail(const carom_impact *in, const carom_
                                             carom_result *out, carom_detail *detail);
 
 /* Compression lasts while the balls approach each other; in restitution they separate. */
-typedef enum carom_phase { CAROM_PHASE_COMPRESSION = 0, CAROM_PHASE_RESTITUTION = 1 } carom_phase;
+typedef enum carom_phase {
+  CAROM_PHASE_COMPRESSION = 0, /* the balls approach each other */
+  CAROM_PHASE_RESTITUTION = 1  /* the balls separate */
+} carom_phase;
 
 /* One point of a collision. Slips are in the collision frame: y is the line of centres from the
  * first ball to the second, z points up, x = y x z. A slip is the velocity, m/s, of one surface
@@ -525,9 +533,9 @@ typedef struct carom_trace_point {
   double v_n;         /* speed at which the balls separate along y, m/s; negative while they
                          approach. */
   double u_x, u_z;    /* slip of the first ball on the second; 0 once they stick. */
-  double d_x, d_y;    /* slip of the first ball over the cloth, with the sign of options.slip, */
-  double b_x, b_y;    /* and of the second ball. */
-  carom_result state; /* both balls, along the axes of the table. */
+  double d_x, d_y;    /* slip of the first ball over the cloth, with the sign of options.slip. */
+  double b_x, b_y;    /* slip of the second ball over the cloth, with the sign of options.slip. */
+  carom_result state; /* motion of both balls, along the axes of the table. */
   double reserved[4]; /* 0; room for future fields. */
 } carom_trace_point;
 

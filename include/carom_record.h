@@ -52,8 +52,8 @@ enum { CAROM_RECORD_TEXT = 65536 };
 /* How a shot ended, or a part of it. */
 typedef struct carom_record_end {
   int64_t status; /* a carom_status. */
-  int64_t events; /* number of events, */
-  double time;    /* s: and carom_shot.time. */
+  int64_t events; /* number of events. */
+  double time;    /* s: carom_shot.time. */
   uint64_t hash;  /* hash of the lines so far, the stroke, these three numbers and all final states.
                      It is equal if every bit is equal; otherwise it differs, except for 1 chance in
                      2^64. It is no signature. */
@@ -88,47 +88,55 @@ typedef struct carom_rules_state {
 
 /* A game in progress: its state after the lines so far. All zero before the first line. */
 typedef struct carom_record {
-  int64_t kind;     /* kind of the last line, a carom_record_kind. */
-  int64_t line;     /* lines so far. */
-  int64_t revision; /* carom_physics_revision() of the library that recorded it. */
-  int64_t format;   /* format of the text: 2, or 3 for a match. In a match, lines "act" have what
-                       players decided, and lines "balls", "place", "game" and "act" have the hash
-                       of all lines so far. */
-  int64_t shots;    /* number of strokes and continuations so far. */
-  uint64_t hash;    /* hash of all lines so far, except the end. */
-  int64_t count;    /* number of balls. */
-  carom_shot_ball balls[CAROM_BALLS_MOST];  /* at the start of the last shot, for
-                                               carom_shot_at(); */
-  carom_ball_state final[CAROM_BALLS_MOST]; /* and at its end. */
-  carom_table table;
-  carom_shot_options options; /* fast and threads are not read. The options of when to stop only
-                                 hold for the next shot or continuation. */
-  carom_cue cue;
-  int64_t placed;  /* the last ball in hand, */
-  double place[2]; /* m: and the place where it was put. */
-  int64_t hand;    /* 1: it is in hand and not placed yet. */
-  int64_t bounds;  /* where it may be placed: a carom_leave of carom_plan.h; 0: anywhere. */
-  int64_t rules;   /* the rules of the game, a carom_rules_kind of carom_plan.h. */
-  int64_t player;  /* who is at the table, 0 or 1. */
+  int64_t kind;                             /* kind of the last line, a carom_record_kind. */
+  int64_t line;                             /* lines so far. */
+  int64_t revision;                         /* carom_physics_revision() of the library that recorded
+                                               it. */
+  int64_t format;                           /* format of the text: 2, or 3 for a match. In a match,
+                                               lines "act" have what players decided, and lines
+                                               "balls", "place", "game" and "act" have the hash of
+                                               all lines so far. */
+  int64_t shots;                            /* number of strokes and continuations so far. */
+  uint64_t hash;                            /* hash of all lines so far, except the end. */
+  int64_t count;                            /* number of balls. */
+  carom_shot_ball balls[CAROM_BALLS_MOST];  /* the balls at the start of the last shot, for
+                                               carom_shot_at(). */
+  carom_ball_state final[CAROM_BALLS_MOST]; /* the states at the end of the last shot. */
+  carom_table table;                        /* the table. */
+  carom_shot_options options;               /* fast and threads are not read. The options of when to
+                                               stop only hold for the next shot or continuation. */
+  carom_cue cue;                            /* the stroke of the last shot. */
+  int64_t placed;                           /* index of the last ball that was taken in hand. */
+  double place[2];                          /* m: the place where that ball was put. */
+  int64_t hand;                             /* 1: it is in hand and not placed yet. */
+  int64_t bounds;                           /* where it may be placed: a carom_leave of
+                                               carom_plan.h; 0: anywhere. */
+  int64_t rules;                            /* the rules of the game, a carom_rules_kind of
+                                               carom_plan.h. */
+  int64_t player;                           /* who is at the table, 0 or 1. */
   int64_t winner;  /* 1 + the player who has won; CAROM_DRAWN of carom_plan.h; 0: none yet. */
-  int64_t foul;    /* the foul of the last stroke, a carom_foul of carom_plan.h. */
-  int64_t act;     /* the last act that was decided, a carom_act of carom_match.h, */
-  int64_t actor;   /* the player who decided it, 0 or 1, */
-  int64_t choice;  /* the choice, a carom_choice, */
-  int64_t call[2]; /* and the ball and the pocket that were called. */
+  int64_t foul;    /* the foul of the last stroke, a carom_foul of
+                                               carom_plan.h. */
+  int64_t act;     /* the last act that was decided, a carom_act of
+                                               carom_match.h. */
+  int64_t actor;   /* the player who decided the last act, 0 or 1. */
+  int64_t choice;  /* the choice of the last act, a carom_choice. */
+  int64_t call[2]; /* indices of the ball and the pocket that were called
+                                               in the last act. */
   uint64_t seal;   /* the hash in the last line that has one. */
-  int64_t match;   /* 1: the recording is of a match. Set it before the first line is written. */
+  int64_t match;   /* 1: the recording is of a match. Set it before the
+                                               first line is written. */
   /* The state of the game for this player; carom_rules_fault() checks it. */
   carom_rules_state standing;
-  carom_record_end recorded; /* how the last shot that was read had ended; */
+  carom_record_end recorded; /* how the last shot that was read had ended. */
   carom_record_end played;   /* how the shot that was played ended. */
-  carom_event event;         /* the event of the last line that had one; */
-  int64_t before, after;     /* for how many balls it has states: 0, 1 or 2. */
+  carom_event event;         /* the event of the last line that had one. */
+  int64_t before, after;     /* for how many balls `event` has states: 0, 1 or 2. */
   int64_t pending;           /* 1: the shot of the last line has not been played yet. */
   int64_t moved;             /* 1: final[] has not been put into balls[] yet. */
   carom_facts facts;         /* facts of the last shot. */
-  carom_shot_state state;
-  char fault[192]; /* the fault, with the key, after CAROM_ERROR_RECORD. */
+  carom_shot_state state;    /* where the last shot was stopped. */
+  char fault[192];           /* the fault, with the key, after CAROM_ERROR_RECORD. */
 } carom_record;
 
 /* Reads a line of `size` bytes, with or without its end of line, into the record, and places a ball

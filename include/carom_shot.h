@@ -30,8 +30,8 @@ typedef struct carom_cushion_impact {
   double height;      /* of the cushion's nose above the cloth, m, between 0 and 2 radius. */
   double radius;      /* of the ball, m, > 0. */
   double mass;        /* kg, > 0. The moment of inertia is that of a solid ball, 2/5 M R^2. */
-  double mu_slide;    /* coefficient of sliding friction between ball and cloth, 0 to 1, */
-  double mu_cushion;  /* and between ball and cushion, 0 to 1. */
+  double mu_slide;    /* coefficient of sliding friction between ball and cloth, 0 to 1. */
+  double mu_cushion;  /* coefficient of sliding friction between ball and cushion, 0 to 1. */
   double restitution; /* e, 0 to 1: the impact ends once e^2 of the work of compression has been
                          given back. */
   double jaw_radius;  /* m, >= 0: radius of the jaw, 0 for a straight rail. The nose is touched
@@ -178,8 +178,10 @@ typedef struct carom_cushion_point {
   double normal;      /* normal impulse so far, N s. It grows during the whole impact. */
   double work;        /* work of the normal force so far, J: the sum of |v_n| dP. */
   carom_phase phase;  /* CAROM_PHASE_COMPRESSION up to v_n = 0. */
-  int nose_sticks;    /* 1 if the ball does not slip on the nose, */
-  int cloth_sticks;   /* and on the cloth; otherwise 0. Always 0 with Euler's method. */
+  int nose_sticks;    /* 1 if the ball does not slip on the nose, otherwise 0. Always 0 with Euler's
+                         method. */
+  int cloth_sticks;   /* 1 if the ball does not slip on the cloth, otherwise 0. Always 0 with
+                         Euler's method. */
   int unused;         /* 0. */
   double v_n;         /* speed into the nose, along the normal there, m/s; negative while they
                          part. */
@@ -306,8 +308,8 @@ typedef struct carom_ball_state {
 
 /* A ball of a layout: what it is, and where. */
 typedef struct carom_shot_ball {
-  carom_ball_kind kind;
-  carom_ball_state state;
+  carom_ball_kind kind;   /* the constants of the ball. */
+  carom_ball_state state; /* the place and the motion of the ball. */
 } carom_shot_ball;
 
 /* Games, for their balls and cues. docs/reference/constants.md has the source of each number.
@@ -323,14 +325,19 @@ typedef enum carom_game {
   CAROM_GAME_BILLIARD = 2,          /* three-cushion: measured on one table, from 182 recorded
                                       shots, with drag, loss of roll and the numbers of
                                       CAROM_CUSHION_SMOOTH */
-  CAROM_GAME_POOLTOOL_POOL = 3,     /* the numbers of pooltool's balls, for parity with it: pool, */
-  CAROM_GAME_POOLTOOL_SNOOKER = 4,  /* snooker, */
-  CAROM_GAME_POOLTOOL_BILLIARD = 5, /* and carom */
-  CAROM_GAME_BLACKBALL = 6,         /* POOL with balls of 50.8 mm and 116 g, */
-  CAROM_GAME_PYRAMID = 7,           /* with balls of 68 mm and 285 g; */
-  CAROM_GAME_FOURBALL = 8 /* BILLIARD with balls of 65.5 mm, whose mass follows from the size. The
-                               noses of these three are as high for their balls; no table was
-                               measured */
+  CAROM_GAME_POOLTOOL_POOL = 3,     /* pool balls with the numbers of pooltool, for parity with
+                                       it */
+  CAROM_GAME_POOLTOOL_SNOOKER = 4,  /* snooker balls with the numbers of pooltool, for parity with
+                                       it */
+  CAROM_GAME_POOLTOOL_BILLIARD = 5, /* carom balls with the numbers of pooltool, for parity with
+                                       it */
+  CAROM_GAME_BLACKBALL = 6,         /* POOL with balls of 50.8 mm and 116 g. Noses are as high for
+                                       these balls as in POOL; no table was measured */
+  CAROM_GAME_PYRAMID = 7,           /* POOL with balls of 68 mm and 285 g. Noses are as high for
+                                       these balls as in POOL; no table was measured */
+  CAROM_GAME_FOURBALL = 8           /* BILLIARD with balls of 65.5 mm, whose mass follows from the
+                                       size. Noses are as high for these balls as in BILLIARD; no
+                                       table was measured */
 } carom_game;
 
 /* The constants of the balls of a game; those of pool for a value not listed. Racks use the balls
@@ -347,15 +354,16 @@ enum { CAROM_RAILS_MOST = 32, CAROM_JAWS_MOST = 32, CAROM_POCKETS_MOST = 8, CARO
  * carom then derives it. `side` says where balls are: 0 where lx x + ly y + l0 < 0, 1 where it is >
  * 0. With a derived line, side 1 is on the left of p -> q, side 0 on its right. */
 typedef struct carom_rail {
-  double p[2], q[2], height; /* m; height of the nose above the cloth, between 0 and 2 R. */
-  double line[3];
-  int64_t side;
+  double p[2], q[2], height;      /* m; height of the nose above the cloth, between 0 and 2 R. */
+  double line[3];                 /* lx, ly, l0 of the line lx x + ly y + l0 = 0; all 0: carom
+                                     derives them. */
+  int64_t side;                   /* 0: balls are where lx x + ly y + l0 < 0; 1: where it is > 0. */
   double mu_cushion, restitution; /* of this rail, 0 to 1; 0: those of the ball. */
 } carom_rail;
 
 /* A rounded end of a cushion: a vertical cylinder, whose outside balls touch. radius >= 0. */
 typedef struct carom_jaw {
-  double centre[2], radius, height; /* m; */
+  double centre[2], radius, height; /* m; height of the nose above the cloth, between 0 and 2 R. */
   double mu_cushion, restitution;   /* 0 to 1, as of a rail. */
 } carom_jaw;
 
@@ -367,11 +375,12 @@ typedef struct carom_pocket {
 
 /* A table: any geometry. Fill the counts and the arrays, or call carom_table_make(). */
 typedef struct carom_table {
-  double width, length; /* m, for drawing and racks. */
-  int64_t rails, jaws, pockets;
-  carom_rail rail[CAROM_RAILS_MOST];
-  carom_jaw jaw[CAROM_JAWS_MOST];
-  carom_pocket pocket[CAROM_POCKETS_MOST];
+  double width, length;                    /* m, for drawing and racks. */
+  int64_t rails, jaws, pockets;            /* how many elements of rail[], jaw[] and pocket[]
+                                              count. */
+  carom_rail rail[CAROM_RAILS_MOST];       /* straight pieces of cushion. */
+  carom_jaw jaw[CAROM_JAWS_MOST];          /* rounded ends of cushions. */
+  carom_pocket pocket[CAROM_POCKETS_MOST]; /* pockets. */
   /* Only read with CAROM_SPACE_3D. All >= 0, m; 0 means the default. */
   double ball_radius; /* m, radius of the balls for which rails are placed: such a ball on the cloth
                          touches a rail when its centre is one radius from the rail's line. This
@@ -416,7 +425,7 @@ CAROM_API const char *carom_pocket_name(const carom_table *table, int pocket);
 
 /* A part of a table, or a ball. */
 typedef enum carom_part_kind {
-  CAROM_PART_NONE = 0,
+  CAROM_PART_NONE = 0,   /* no part */
   CAROM_PART_RAIL = 1,   /* carom_rail */
   CAROM_PART_JAW = 2,    /* carom_jaw */
   CAROM_PART_POCKET = 3, /* carom_pocket */
@@ -436,8 +445,8 @@ typedef enum carom_part_kind {
 
 /* A part of a table or of a layout. */
 typedef struct carom_part {
-  carom_part_kind kind;
-  int32_t index; /* in its array; 0 of CAROM_PART_NONE. */
+  carom_part_kind kind; /* a carom_part_kind. */
+  int32_t index;        /* in its array; 0 of CAROM_PART_NONE. */
 } carom_part;
 
 /* What is wrong with a table, and where. A measure is a part too; its index is its place in its
@@ -476,13 +485,11 @@ typedef struct carom_measures {
   double width, length; /* m, of the playing area, between the noses. */
   double nose_height;   /* m */
   double cushion_depth; /* m, to which the facings go back behind the noses. */
-  double corner_mouth, corner_cut, corner_shelf, corner_jaw, corner_hole; /* m and degrees; jaw and
-                                                                             hole are radii, of the
-                                                                             rounded point and of
-                                                                             the hole. Both mouths
-                                                                             0: a table without
-                                                                             pockets. */
-  double side_mouth, side_cut, side_shelf, side_jaw, side_hole; /* the same, m and degrees. */
+  /* of corner pockets, m and degrees; jaw and hole are radii, of the rounded point and of the hole.
+   * Both mouths 0: a table without pockets. */
+  double corner_mouth, corner_cut, corner_shelf, corner_jaw, corner_hole;
+  /* of side pockets, m and degrees; jaw and hole are radii, as of corner pockets. */
+  double side_mouth, side_cut, side_shelf, side_jaw, side_hole;
   double facing_restitution, facing_friction; /* of facings and jaws, as restitution and mu_cushion
                            of a carom_rail, 0 to 1; 0: those of the ball. */
 } carom_measures;
@@ -501,7 +508,7 @@ CAROM_API carom_status carom_table_measured(const carom_measures *measures, doub
  * pocket's mouth there, from jaw to jaw, m; 0: no pocket. A corner on a straight side makes a side
  * pocket. */
 typedef struct carom_corner {
-  double x, y, mouth;
+  double x, y, mouth; /* m. x, y: the place; mouth: the width of the mouth, 0: no pocket. */
 } carom_corner;
 
 /* Makes a table from its corners, 3 to CAROM_RAILS_MOST, in the order of a walk around it, in
@@ -570,8 +577,8 @@ typedef struct carom_marks {
   double centre_spot[2]; /* middle of the table. */
   double foot_spot[2];   /* where racks begin. */
   double d_centre[2];    /* middle of the baulk line of snooker; the D is the half circle around it
-                            towards y = 0, */
-  double d_radius;       /* of this radius. */
+                            towards y = 0. */
+  double d_radius;       /* radius of the D. */
   double baulk_line;     /* y of the baulk line of blackball. */
 } carom_marks;
 
@@ -648,11 +655,14 @@ CAROM_API carom_status carom_strike(const carom_cue *cue, const carom_ball_kind 
  * balls change place only by their motion. CAROM_WORLD_POOLTOOL: the rules of pooltool, with its
  * spacers of 1 um, its order of simultaneous events, and its exchange between balls that touch for
  * long. They give the same histories as pooltool. */
-typedef enum carom_world { CAROM_WORLD_CAROM = 0, CAROM_WORLD_POOLTOOL = 1 } carom_world;
+typedef enum carom_world {
+  CAROM_WORLD_CAROM = 0,   /* the rules of carom */
+  CAROM_WORLD_POOLTOOL = 1 /* the rules of pooltool, with its histories */
+} carom_world;
 
 /* The collision of two balls. DEFAULT is EXACT in the world carom, INELASTIC in pooltool. */
 typedef enum carom_ball_model {
-  CAROM_BALL_MODEL_DEFAULT = 0,
+  CAROM_BALL_MODEL_DEFAULT = 0,   /* EXACT in the world carom, INELASTIC in the world pooltool */
   CAROM_BALL_MODEL_EXACT = 1,     /* carom_collide(): the exact limit of the 2014 model */
   CAROM_BALL_MODEL_EULER = 2,     /* carom_collide() in `steps` steps; with pooltool's slip in
                                      the world pooltool */
@@ -665,8 +675,9 @@ typedef enum carom_ball_model {
 /* Friction between two balls: ALCIATORE depends on their speed of slip, by Alciatore's law or the
  * law of the balls; CONSTANT is mu_ball of the balls. */
 typedef enum carom_ball_friction {
-  CAROM_FRICTION_ALCIATORE = 0,
-  CAROM_FRICTION_CONSTANT = 1
+  CAROM_FRICTION_ALCIATORE = 0, /* falls with the speed of slip, by Alciatore's law or the law of
+                                   the balls */
+  CAROM_FRICTION_CONSTANT = 1   /* mu_ball of the balls, at every speed */
 } carom_ball_friction;
 
 /* Whether balls can leave the cloth. With 3D, a shot in which no ball leaves the cloth has the same
@@ -688,13 +699,14 @@ typedef enum carom_space {
  * those of carom_cushion_model, in which 0 is a model. Compilers warn if the two are mixed
  * (-Wenum-conversion, which -Wextra of gcc turns on). */
 typedef enum carom_shot_cushion {
-  CAROM_SHOT_CUSHION_DEFAULT = 0,
-  CAROM_SHOT_CUSHION_MATHAVAN = 1,
-  CAROM_SHOT_CUSHION_STRONGE = 2,
-  CAROM_SHOT_CUSHION_HAN = 3,
-  CAROM_SHOT_CUSHION_MIRROR = 4,
-  CAROM_SHOT_CUSHION_EULER = 5,
-  CAROM_SHOT_CUSHION_SMOOTH = 6
+  CAROM_SHOT_CUSHION_DEFAULT = 0,  /* STRONGE in the world pooltool; in the world carom SMOOTH for
+                                      balls with smooth_q above 0, and otherwise HAN */
+  CAROM_SHOT_CUSHION_MATHAVAN = 1, /* CAROM_CUSHION_MATHAVAN */
+  CAROM_SHOT_CUSHION_STRONGE = 2,  /* CAROM_CUSHION_STRONGE */
+  CAROM_SHOT_CUSHION_HAN = 3,      /* CAROM_CUSHION_HAN */
+  CAROM_SHOT_CUSHION_MIRROR = 4,   /* CAROM_CUSHION_MIRROR */
+  CAROM_SHOT_CUSHION_EULER = 5,    /* CAROM_CUSHION_EULER */
+  CAROM_SHOT_CUSHION_SMOOTH = 6    /* CAROM_CUSHION_SMOOTH */
 } carom_shot_cushion;
 
 /* Writes the constants of a game's balls that belong to a model of the cushion, and returns 1. If
@@ -706,12 +718,12 @@ CAROM_API int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion,
 /* Conditions of a pool table, for players who do not measure theirs: carom_calibrate() does.
  * docs/reference/constants.md has the sources. */
 typedef enum carom_condition {
-  CAROM_CONDITION_SLOW_CLOTH = 0,
-  CAROM_CONDITION_MEDIUM_CLOTH = 1, /* that of CAROM_GAME_POOL */
-  CAROM_CONDITION_FAST_CLOTH = 2,
-  CAROM_CONDITION_OLD_CUSHION = 3,
-  CAROM_CONDITION_NEW_CUSHION = 4,
-  CAROM_CONDITION_HUMID_CUSHION = 5
+  CAROM_CONDITION_SLOW_CLOTH = 0,   /* a napped or dirty cloth */
+  CAROM_CONDITION_MEDIUM_CLOTH = 1, /* the cloth of CAROM_GAME_POOL */
+  CAROM_CONDITION_FAST_CLOTH = 2,   /* a new cloth without nap */
+  CAROM_CONDITION_OLD_CUSHION = 3,  /* slower cushions; soft banks come back shorter */
+  CAROM_CONDITION_NEW_CUSHION = 4,  /* faster cushions; soft banks come back longer */
+  CAROM_CONDITION_HUMID_CUSHION = 5 /* cushions in humid air; banks come back shorter */
 } carom_condition;
 
 /* Gives a ball the numbers of a condition, and returns 1: a cloth changes mu_roll, a cushion
@@ -724,40 +736,44 @@ CAROM_API int carom_condition_give(carom_condition condition, carom_ball_kind *k
  * are resolved one after the other, the fastest first. The world pooltool and the other ball models
  * always use PAIRS. */
 typedef enum carom_simultaneous {
-  CAROM_SIMULTANEOUS_CLUSTER = 0,
-  CAROM_SIMULTANEOUS_PAIRS = 1
+  CAROM_SIMULTANEOUS_CLUSTER = 0, /* contacts last and overlap in time, as in carom_cluster() */
+  CAROM_SIMULTANEOUS_PAIRS = 1    /* contacts are resolved one after the other, the fastest first */
 } carom_simultaneous;
 
 /* All zero means the defaults. */
 typedef struct carom_shot_options {
-  carom_world world;
-  carom_ball_model ball_model;
-  carom_shot_cushion cushion_model;
-  carom_ball_friction friction;
-  int32_t steps;       /* of Euler's models; 0: 1000. */
-  int32_t events_most; /* largest number of events of a shot; the events of one cluster stay
-                          together. 0: 10000. */
-  int32_t threads;     /* largest number of threads of a batch, including the calling one; 0: only
-                          that one; CAROM_ALL_THREADS. */
-  carom_space space;
-  double time_most; /* s: the shot is stopped at exactly this time on its clock, after the events of
-                       that instant, with CAROM_STOPPED_AT_TIME. 0: it is not stopped, but ends
-                       after 1000 s with CAROM_ERROR_TOO_LONG. */
-  uint64_t stop_at; /* the shot is stopped right after an event of this set, or after its cluster,
-                       with CAROM_STOPPED_AT_EVENT. The set is CAROM_STOP_AT(type) of a
-                       carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: it is not
-                       stopped. */
-  int32_t fast;     /* 0: with the bits that all machines share. 1: the exact limit of a cushion
-                       is computed with the instruction set in use, and has its bits. */
-  carom_simultaneous simultaneous;
-  int32_t cluster_steps; /* steps of the integrator of clusters for the duration of a contact, at
-                            most 10000; 0: 25. */
-  int32_t unused;        /* must be 0. */
-  uint64_t first_of;     /* the shot is stopped right after the first contact of the cue ball with
-                            another ball, with CAROM_STOPPED_AT_EVENT, unless that ball is of this
-                            set: bit k is ball k of the layout. 0: it is not stopped. Only the bit
-                            of the cue ball: it is stopped at any ball. */
-  uint64_t reserved[1];  /* must be 0. */
+  carom_world world;                /* the rules of contact. */
+  carom_ball_model ball_model;      /* the collision of two balls. */
+  carom_shot_cushion cushion_model; /* the impact of a ball on a cushion. */
+  carom_ball_friction friction;     /* the friction between two balls. */
+  int32_t steps;                    /* of Euler's models; 0: 1000. */
+  int32_t events_most;              /* largest number of events of a shot; the events of one cluster
+                                       stay together. 0: 10000. */
+  int32_t threads;                  /* largest number of threads of a batch, including the calling
+                                       one; 0: only that one; CAROM_ALL_THREADS. */
+  carom_space space;                /* whether balls can leave the cloth. */
+  double time_most;                 /* s: the shot is stopped at exactly this time on its clock,
+                                       after the events of that instant, with CAROM_STOPPED_AT_TIME.
+                                       0: it is not stopped, but ends after 1000 s with
+                                       CAROM_ERROR_TOO_LONG. */
+  uint64_t stop_at;                 /* the shot is stopped right after an event of this set, or
+                                       after its cluster, with CAROM_STOPPED_AT_EVENT. The set is
+                                       CAROM_STOP_AT(type) of a carom_event_type,
+                                       CAROM_STOP_AT_CONTACT, or several joined by |. 0: it is not
+                                       stopped. */
+  int32_t fast;                     /* 0: with the bits that all machines share. 1: the exact limit
+                                       of a cushion is computed with the instruction set in use, and
+                                       has its bits. */
+  carom_simultaneous simultaneous;  /* contacts of several balls at one instant. */
+  int32_t cluster_steps;            /* steps of the integrator of clusters for the duration of a
+                                       contact, at most 10000; 0: 25. */
+  int32_t unused;                   /* must be 0. */
+  uint64_t first_of;                /* the shot is stopped right after the first contact of the cue
+                                       ball with another ball, with CAROM_STOPPED_AT_EVENT, unless
+                                       that ball is of this set: bit k is ball k of the layout. 0:
+                                       it is not stopped. Only the bit of the cue ball: it is
+                                       stopped at any ball. */
+  uint64_t reserved[1];             /* must be 0. */
 } carom_shot_options;
 
 /* Writes the sources of the models that shots with these options use, as BibTeX, with carom itself
@@ -770,20 +786,20 @@ CAROM_API size_t carom_cite(const carom_shot_options *options, char *text, size_
 
 /* What happened, and what `a` and `b` of the event are. */
 typedef enum carom_event_type {
-  CAROM_EVENT_STRIKE = 1,          /* the cue and ball a */
-  CAROM_EVENT_BALL_BALL = 2,       /* balls a and b */
-  CAROM_EVENT_RAIL = 3,            /* ball a and rail b */
-  CAROM_EVENT_JAW = 4,             /* ball a and jaw b */
-  CAROM_EVENT_POCKET = 5,          /* ball a and pocket b */
-  CAROM_EVENT_SLIDING_ROLLING = 6, /* ball a, as the rest */
-  CAROM_EVENT_ROLLING_SPINNING = 7,
-  CAROM_EVENT_ROLLING_STATIONARY = 8,
-  CAROM_EVENT_SPINNING_STATIONARY = 9,
-  CAROM_EVENT_SLATE = 10,     /* airborne ball a lands on the slate */
-  CAROM_EVENT_RAIL_TOP = 11,  /* airborne ball a falls on the top of rail b, or of jaw b minus the
-                                 number of rails */
-  CAROM_EVENT_LEFT_TABLE = 12 /* airborne ball a leaves the table: it falls or flies off it, or
-                                 comes to rest on a rail. The shot goes on. */
+  CAROM_EVENT_STRIKE = 1,              /* the cue and ball a */
+  CAROM_EVENT_BALL_BALL = 2,           /* balls a and b */
+  CAROM_EVENT_RAIL = 3,                /* ball a and rail b */
+  CAROM_EVENT_JAW = 4,                 /* ball a and jaw b */
+  CAROM_EVENT_POCKET = 5,              /* ball a and pocket b */
+  CAROM_EVENT_SLIDING_ROLLING = 6,     /* ball a slid, and rolls now */
+  CAROM_EVENT_ROLLING_SPINNING = 7,    /* ball a rolled, and turns on the spot now */
+  CAROM_EVENT_ROLLING_STATIONARY = 8,  /* ball a rolled, and rests now */
+  CAROM_EVENT_SPINNING_STATIONARY = 9, /* ball a turned on the spot, and rests now */
+  CAROM_EVENT_SLATE = 10,              /* airborne ball a lands on the slate */
+  CAROM_EVENT_RAIL_TOP = 11,           /* airborne ball a falls on the top of rail b, or of jaw b
+                                          minus the number of rails */
+  CAROM_EVENT_LEFT_TABLE = 12          /* airborne ball a leaves the table: it falls or flies off
+                                          it, or comes to rest on a rail. The shot goes on. */
 } carom_event_type;
 
 /* The name of an event ("ball_linear_cushion" for a rail), as in files of `carom shoot`, or NULL
@@ -796,19 +812,22 @@ CAROM_API const char *carom_event_name(carom_event_type type);
  * its final state before and after. Momentum and energy therefore balance over all events of a
  * cluster, but not over a single one. */
 typedef struct carom_event {
-  double time; /* s */
-  int32_t type, a, b;
-  int32_t cluster; /* of a CAROM_EVENT_BALL_BALL: the number of contacts in its cluster; 0: a
-                      contact of only two balls. */
-  double impulse;  /* N s, for sounds: the size of the impulse that ball a got from the cue, ball,
-                      cushion or slate; in a cluster only from ball b. 0 for every other event. */
-  carom_ball_state before[2], after[2];
+  double time;                          /* when it happened, s. */
+  int32_t type, a, b;                   /* a carom_event_type, and the indices of what it names. */
+  int32_t cluster;                      /* of a CAROM_EVENT_BALL_BALL: the number of contacts in its
+                                           cluster; 0: a contact of only two balls. */
+  double impulse;                       /* N s, for sounds: the size of the impulse that ball a got
+                                           from the cue, ball, cushion or slate; in a cluster only
+                                           from ball b. 0 for every other event. */
+  carom_ball_state before[2], after[2]; /* the states of balls a and b just before the event and
+                                           just after it. */
 } carom_event;
 
 /* An event without states, with the size of three doubles. */
 typedef struct carom_brief_event {
-  double time; /* s */
-  int32_t type, a, b, reserved;
+  double time;                  /* when it happened, s. */
+  int32_t type, a, b, reserved; /* a carom_event_type, and the indices of what it names; reserved is
+                                   0. */
 } carom_brief_event;
 
 /* For options.stop_at: the events of a type, */
@@ -822,7 +841,7 @@ typedef struct carom_brief_event {
  * of the same version and physics revision, which refuses them if a byte has changed. They depend
  * only on the arguments of the calls, and are 0 where they hold nothing. */
 typedef struct carom_shot_state {
-  uint64_t opaque[4096];
+  uint64_t opaque[4096]; /* for the library alone. */
 } carom_shot_state;
 
 /* What happened in a shot, for rules of games. The library fills it in while it plays the shot, so
@@ -830,53 +849,64 @@ typedef struct carom_shot_state {
  * cue ball is that of the cue, or ball 0 without a cue. A cushion is a rail or a jaw. Bit k of a
  * set is ball k. */
 typedef struct carom_facts {
-  int32_t first[2];                 /* the first two different balls that the cue ball met, */
-  int32_t cushions_before[2];       /* impacts of the cue ball on cushions before it met each of
-                                       them; 0 where it met none, */
-  double first_time[2];             /* and when it met them, s. */
-  int32_t cushions_after;           /* impacts of all balls on cushions after the first contact. If
-                                       a ball touches a cushion, within CAROM_RULES_TOUCH, when the
-                                       shot begins, its impacts on it do not count until it has left
-                                       the cushion. */
-  uint32_t down;                    /* the set of the balls that fell into a pocket in this shot, */
-  uint32_t off;                     /* of those that left the table in this shot, */
-  uint32_t moved;                   /* and of those that were struck or met by another ball. */
-  int32_t pocket[CAROM_BALLS_MOST]; /* the pocket that took each ball in this shot, */
-  double pocket_time[CAROM_BALLS_MOST]; /* and when, s. */
+  int32_t first[2];                     /* the first two different balls that the cue ball met. */
+  int32_t cushions_before[2];           /* impacts of the cue ball on cushions before it met each
+                                           ball of first[]; 0 where it met none. */
+  double first_time[2];                 /* when the cue ball met the balls of first[], s. */
+  int32_t cushions_after;               /* impacts of all balls on cushions after the first contact.
+                                           If a ball touches a cushion, within CAROM_RULES_TOUCH,
+                                           when the shot begins, its impacts on it do not count
+                                           until it has left the cushion. */
+  uint32_t down;                        /* the set of the balls that fell into a pocket in this
+                                           shot. */
+  uint32_t off;                         /* the set of the balls that left the table in this shot. */
+  uint32_t moved;                       /* the set of the balls that were struck or met by another
+                                           ball. */
+  int32_t pocket[CAROM_BALLS_MOST];     /* the pocket that took each ball in this shot. */
+  double pocket_time[CAROM_BALLS_MOST]; /* when each ball fell into its pocket, s. */
   int32_t cushions[CAROM_BALLS_MOST];   /* impacts of each ball on cushions. */
   uint32_t frozen;                      /* the set of the balls that touched the cue ball, within
-                      CAROM_RULES_TOUCH, when it was struck, */
-  uint32_t pushed; /* and of those that it met before the tip left it: while the tip pushed it, or
-                      while the tip touched it again within the push. */
-  int32_t touches; /* how often the tip touched the cue ball: 0 without a strike, 1, or 2 and more
-                      in a double hit. A second touch occurs within the push, during which positions
-                      stay, or later because of cue.follow. */
-  uint32_t banked; /* the set of the balls that met a cushion outside of the jaws and cuts of
-                      pockets. */
-  double second_time;     /* time of the second of these touches, s; infinite if there was none; 0:
-                             within the push, */
-  double second_speed;    /* the closing speed of the tip then, m/s, */
-  double second_place[2]; /* and the place of the cue ball, m. 0 if there was none. */
-  uint32_t first_set;     /* the set of the balls that the cue ball met first, at one instant: the
-                             first one and those met within CAROM_RULES_INSTANT after it. */
-  uint32_t barred;        /* the set of the balls that may not be met first because of their places.
-                             A referee sets it; a shot leaves it 0. */
-  uint32_t jumped;        /* the set of the balls that the cue ball flew over before it met a ball:
-                             its centre passed theirs, and the balls overlap seen from above. */
-  uint32_t beyond_middle; /* the set of the balls that were wholly on the side of y = length of the
-                             line y = length/2, by their places at their events; see also
-                             past_middle. */
-  int32_t order[CAROM_BALLS_MOST]; /* the different balls that the cue ball met, in their order; -1
-                                      behind them. */
-  double first_place[2]; /* m: the place of the cue ball when it met the first ball; 0 if it met
-                            none. */
-  double first_low[2];   /* m: the least x and y of the cue ball at its strike and at its events up
-                            to the first contact, */
-  double first_high[2];  /* m: and the greatest. */
-  uint32_t past_middle;  /* the set of the balls that were wholly on the side of y = 0 of the line
-                            y = length/2, by their places at their events, */
-  uint32_t at_head;      /* and of those that touched the head string, y = length/4, or were on that
-                            side of it. */
+                                           CAROM_RULES_TOUCH, when it was struck. */
+  uint32_t pushed;                      /* the set of the balls that the cue ball met before the tip
+                                           left it: while the tip pushed it, or while the tip
+                                           touched it again within the push. */
+  int32_t touches;                      /* how often the tip touched the cue ball: 0 without a
+                                           strike, 1, or 2 and more in a double hit. A second touch
+                                           occurs within the push, during which positions stay, or
+                                           later because of cue.follow. */
+  uint32_t banked;                      /* the set of the balls that met a cushion outside of the
+                                           jaws and cuts of pockets. */
+  double second_time;                   /* time of the second touch of the tip, s; infinite if there
+                                           was none; 0: within the push. */
+  double second_speed;                  /* the closing speed of the tip at its second touch, m/s; 0
+                                           if there was none. */
+  double second_place[2];               /* the place of the cue ball at the second touch of the tip,
+                                           m; 0 if there was none. */
+  uint32_t first_set;                   /* the set of the balls that the cue ball met first, at one
+                                           instant: the first one and those met within
+                                           CAROM_RULES_INSTANT after it. */
+  uint32_t barred;                      /* the set of the balls that may not be met first because of
+                                           their places. A referee sets it; a shot leaves it 0. */
+  uint32_t jumped;                      /* the set of the balls that the cue ball flew over before
+                                           it met a ball: its centre passed theirs, and the balls
+                                           overlap seen from above. */
+  uint32_t beyond_middle;               /* the set of the balls that were wholly on the side of y =
+                                           length of the line y = length/2, by their places at their
+                                           events; see also past_middle. */
+  int32_t order[CAROM_BALLS_MOST];      /* the different balls that the cue ball met, in their
+                                           order; -1 behind them. */
+  double first_place[2];                /* m: the place of the cue ball when it met the first ball;
+                                           0 if it met none. */
+  double first_low[2];                  /* m: the least x and y of the cue ball at its strike and at
+                                           its events up to the first contact. */
+  double first_high[2];                 /* m: the greatest x and y of the cue ball at its strike and
+                                           at its events up to the first contact. */
+  uint32_t past_middle;                 /* the set of the balls that were wholly on the side of y =
+                                           0 of the line y = length/2, by their places at their
+                                           events. */
+  uint32_t at_head;                     /* the set of the balls that touched the head string, y =
+                                           length/4, or were on its side of y = 0, by their places
+                                           at their events. */
 } carom_facts;
 
 /* m: for the rules, balls and cushions that are nearer than this touch. This is a convention: about
@@ -890,22 +920,23 @@ typedef struct carom_facts {
 /* The result of a shot. The caller sets the members that it wants; with all zero, the shot returns
  * only count and time. */
 typedef struct carom_shot {
-  carom_event *events;      /* in the order in which they happened. The first `room` of them are
-                               kept. May be NULL, */
-  carom_brief_event *brief; /* and so may brief: the same events without states. */
+  carom_event *events;      /* takes the events in the order in which they happened, of which the
+                               first `room` are kept; may be NULL. */
+  carom_brief_event *brief; /* takes the events of events[] without states; may be NULL. */
   int64_t room;             /* elements of events[], of brief[], or of each of both. 0 if both
                                are NULL. */
   int64_t count;            /* events that happened, also beyond room. */
   carom_ball_state *final;  /* the states at the end, one for each ball; may be NULL. */
-  double time; /* s: the time up to which the shot was followed. This is time_most if the shot was
-                  stopped there, and otherwise the time of the last event, or the time at which a
-                  ball left the table. If events_most ended the shot while balls with drag rolled,
-                  it is the time up to which they were followed. If the shot ended while balls
-                  moved, carom_shot_at() knows no later state. */
-  carom_shot_state *state; /* the state in which the shot stopped, for carom_shot_continue(); may be
-                              NULL. */
-  carom_facts *facts;      /* of the whole shot, also after carom_shot_continue(); may be NULL. */
-  uint64_t reserved[3];    /* not read or written yet. */
+  double time;              /* s: the time up to which the shot was followed. This is time_most if
+                               the shot was stopped there, and otherwise the time of the last event,
+                               or the time at which a ball left the table. If events_most ended the
+                               shot while balls with drag rolled, it is the time up to which they
+                               were followed. If the shot ended while balls moved, carom_shot_at()
+                               knows no later state. */
+  carom_shot_state *state;  /* the state in which the shot stopped, for carom_shot_continue(); may
+                               be NULL. */
+  carom_facts *facts;       /* of the whole shot, also after carom_shot_continue(); may be NULL. */
+  uint64_t reserved[3];     /* not read or written yet. */
 } carom_shot;
 
 /* The collision of two spheres in space along any line of centres: one impulse in closed form, for
@@ -1061,22 +1092,23 @@ CAROM_API double carom_event_slip(const carom_table *table, const carom_shot_bal
  *     job.shots = shots;
  *     status = carom_shoot_batch(&job); */
 typedef struct carom_shot_job {
-  const carom_table *table;
-  const carom_shot_ball *balls;
+  const carom_table *table;          /* the table of all shots. */
+  const carom_shot_ball *balls;      /* the layouts; NULL: kinds and states have them. */
   const carom_cue *cues;             /* NULL: no strikes. */
   int64_t count;                     /* balls of a shot. */
   uint64_t ball_stride;              /* distance from the layout of a shot to that of the next, in
-                                        balls or states, usually `count`; */
-  uint64_t cue_stride;               /* and from cue to cue, usually 1. 0: all shots have the
+                                        balls or states, usually `count`; 0: all shots have the
                                         first. */
+  uint64_t cue_stride;               /* distance from the cue of a shot to that of the next, in
+                                        cues, usually 1; 0: all shots have the first. */
   uint64_t n;                        /* shots. */
   const carom_shot_options *options; /* NULL: the defaults. `threads` is read here only. */
   carom_shot *shots;                 /* n results, in which the caller has set the members that it
                                         wants, as for carom_shoot(). */
   int8_t *status;                    /* n statuses; may be NULL. */
-  const carom_ball_kind *kinds;      /* instead of `balls`, which is NULL then: `count` kinds, those
-                                        of all shots; */
-  const carom_ball_state *states;    /* and the layouts. */
+  const carom_ball_kind *kinds;      /* `count` kinds, those of the balls of all shots, if `balls`
+                                        is NULL. */
+  const carom_ball_state *states;    /* the layouts as states, if `balls` is NULL. */
   uint64_t reserved[2];              /* must be 0. */
 } carom_shot_job;
 
@@ -1128,7 +1160,7 @@ CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int 
 /* How far carom_shot_frames() has gone: the caller's memory, all zero before the first call. It is
  * valid in one process only, so do not keep it in files. */
 typedef struct carom_frames {
-  uint64_t opaque[15400];
+  uint64_t opaque[15400]; /* for the library alone. */
 } carom_frames;
 
 /* Frames: states and quaternions at `n` times, those of times[k] from states[k * count] and
@@ -1156,20 +1188,20 @@ CAROM_API carom_status carom_shot_frames(const carom_shot_ball *balls, int count
 
 /* What reads a number. */
 typedef enum carom_reader {
-  CAROM_READ_ALWAYS = 0,
-  CAROM_READ_BY_CUSHION = 1,  /* a carom_cushion_model, */
-  CAROM_READ_BY_FRICTION = 2, /* a carom_ball_friction, */
-  CAROM_READ_TO_STOP = 3,     /* or an option of when to stop, */
-  CAROM_READ_TO_COMPUTE = 4   /* or of how to compute */
+  CAROM_READ_ALWAYS = 0,      /* every call */
+  CAROM_READ_BY_CUSHION = 1,  /* a carom_cushion_model */
+  CAROM_READ_BY_FRICTION = 2, /* a carom_ball_friction */
+  CAROM_READ_TO_STOP = 3,     /* an option of when to stop */
+  CAROM_READ_TO_COMPUTE = 4   /* an option of how to compute */
 } carom_reader;
 
 /* Types of members. */
 typedef enum carom_type {
-  CAROM_TYPE_DOUBLE = 0,
-  CAROM_TYPE_INT32 = 1,
-  CAROM_TYPE_INT64 = 2,
-  CAROM_TYPE_UINT64 = 3 /* a set, whose bit k is value k of `words`, or ball k; or a seed, any
-                           number */
+  CAROM_TYPE_DOUBLE = 0, /* a double */
+  CAROM_TYPE_INT32 = 1,  /* an int32_t */
+  CAROM_TYPE_INT64 = 2,  /* an int64_t */
+  CAROM_TYPE_UINT64 = 3  /* a set, whose bit k is value k of `words`, or ball k; or a seed, any
+                            number */
 } carom_type;
 
 /* A number of a struct. It may be low to high, including both ends, or `other`. Later versions add
@@ -1183,15 +1215,15 @@ typedef struct carom_number {
   double low, high;       /* the range. */
   double other;           /* an allowed value outside the range: 0, which is a default, or -1; NaN:
                              none. */
-  int32_t offset;         /* its place in the struct, bytes, */
-  int32_t cushion_offset; /* and in carom_cushion_options, for numbers of a ball; -1: it is not
-                             there. */
+  int32_t offset;         /* the place of the member in its struct, bytes. */
+  int32_t cushion_offset; /* the place of a number of a ball in carom_cushion_options, bytes; -1: it
+                             is not there. */
   carom_status error;     /* the error for a value that is not allowed. */
-  carom_reader reader;    /* what reads it, */
-  int32_t model;          /* which of its models or laws. */
-  carom_type type;
-  int32_t words; /* a carom_words if its values have words, otherwise -1. */
-  int32_t count; /* how many numbers an array has; otherwise 1. */
+  carom_reader reader;    /* what reads it. */
+  int32_t model;          /* which model or law of the reader reads it. */
+  carom_type type;        /* the type of the member. */
+  int32_t words;          /* a carom_words if its values have words, otherwise -1. */
+  int32_t count;          /* how many numbers an array has; otherwise 1. */
 } carom_number;
 
 /* Number k of a part, in the order of its struct; options are in the order of their rows. NULL
@@ -1271,24 +1303,25 @@ CAROM_API int carom_cushion_start(carom_cushion_model model, carom_ball_kind *ki
 
 /* Enumerations whose values have words. */
 typedef enum carom_words {
-  CAROM_WORDS_WORLD = 0,              /* of carom_world, */
-  CAROM_WORDS_BALL_MODEL = 1,         /* carom_ball_model, */
-  CAROM_WORDS_SHOT_CUSHION = 2,       /* carom_shot_cushion, */
-  CAROM_WORDS_BALL_FRICTION = 3,      /* carom_ball_friction, */
-  CAROM_WORDS_SPACE = 4,              /* carom_space, */
-  CAROM_WORDS_SIMULTANEOUS = 5,       /* carom_simultaneous, */
-  CAROM_WORDS_CUSHION_MODEL = 6,      /* carom_cushion_model, */
-  CAROM_WORDS_CUSHION_CONVENTION = 7, /* carom_cushion_convention, */
-  CAROM_WORDS_CUSHION_LAW = 8,        /* carom_cushion_law, */
-  CAROM_WORDS_GAME = 9,               /* carom_game, */
-  CAROM_WORDS_EVENT = 10,             /* carom_event_type, */
-  CAROM_WORDS_LABEL = 11,             /* carom_label, */
-  CAROM_WORDS_TABLE = 12,             /* carom_table_kind, */
-  CAROM_WORDS_RACK = 13,              /* carom_rack_kind, */
-  CAROM_WORDS_SOLVER = 14,            /* carom_solver, */
-  CAROM_WORDS_SLIP = 15,              /* carom_slip, */
-  CAROM_WORDS_RULES = 16,             /* carom_rules_kind; without the planner it has no words, */
-  CAROM_WORDS_CONDITION = 17          /* carom_condition. */
+  CAROM_WORDS_WORLD = 0,              /* words of carom_world */
+  CAROM_WORDS_BALL_MODEL = 1,         /* words of carom_ball_model */
+  CAROM_WORDS_SHOT_CUSHION = 2,       /* words of carom_shot_cushion */
+  CAROM_WORDS_BALL_FRICTION = 3,      /* words of carom_ball_friction */
+  CAROM_WORDS_SPACE = 4,              /* words of carom_space */
+  CAROM_WORDS_SIMULTANEOUS = 5,       /* words of carom_simultaneous */
+  CAROM_WORDS_CUSHION_MODEL = 6,      /* words of carom_cushion_model */
+  CAROM_WORDS_CUSHION_CONVENTION = 7, /* words of carom_cushion_convention */
+  CAROM_WORDS_CUSHION_LAW = 8,        /* words of carom_cushion_law */
+  CAROM_WORDS_GAME = 9,               /* words of carom_game */
+  CAROM_WORDS_EVENT = 10,             /* words of carom_event_type */
+  CAROM_WORDS_LABEL = 11,             /* words of carom_label */
+  CAROM_WORDS_TABLE = 12,             /* words of carom_table_kind */
+  CAROM_WORDS_RACK = 13,              /* words of carom_rack_kind */
+  CAROM_WORDS_SOLVER = 14,            /* words of carom_solver */
+  CAROM_WORDS_SLIP = 15,              /* words of carom_slip */
+  CAROM_WORDS_RULES = 16,             /* words of carom_rules_kind; there are none without the
+                                         planner */
+  CAROM_WORDS_CONDITION = 17          /* words of carom_condition */
 } carom_words;
 
 /* The word of a value ("han"), and its meaning in a few words; NULL if there is none. */

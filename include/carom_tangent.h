@@ -53,37 +53,37 @@ enum {
 
 /* What limits a tangent at an event. A sum of these, 0 for none. */
 typedef enum carom_tangent_flag {
-  CAROM_TANGENT_GRAZING = 1, /* the contact closes at less than 1 % of the speed, or it is the last
-                                hop of a ball on the slate, or nearly the last. Derivatives grow
-                                without bound there. Or it is a strike whose hop comes or goes if
-                                its speed changes by 1 %. */
-  CAROM_TANGENT_SLOW = 2,    /* a slow contact, for which docs/using/shots.md has the rule. */
+  CAROM_TANGENT_GRAZING = 1,      /* the contact closes at less than 1 % of the speed, or it is the
+                                     last hop of a ball on the slate, or nearly the last.
+                                     Derivatives grow without bound there. Or it is a strike whose
+                                     hop comes or goes if its speed changes by 1 %. */
+  CAROM_TANGENT_SLOW = 2,         /* a slow contact, for which docs/using/shots.md has the rule. */
   CAROM_TANGENT_SIMULTANEOUS = 4, /* a ball of the contact was in another contact less than 1e-9 s
                                      before, or it is a contact at the start whose gap changes. A
                                      small change may reverse the order of the contacts, or separate
                                      them, so the derivative holds to one side at most. */
-  CAROM_TANGENT_KINK = 8,   /* the model has no derivative here, or it was not found to 1e-4. An
-                               example is the derivative with respect to theta at theta = 0 if balls
-                               can leave the cloth: it is the one upward. */
-  CAROM_TANGENT_EULER = 16, /* the cushion was resolved in steps, and the derivative is that of the
-                               steps, by differences. */
+  CAROM_TANGENT_KINK = 8,         /* the model has no derivative here, or it was not found to 1e-4.
+                                     An example is the derivative with respect to theta at theta = 0
+                                     if balls can leave the cloth: it is the one upward. */
+  CAROM_TANGENT_EULER = 16,       /* the cushion was resolved in steps, and the derivative is that
+                                     of the steps, by differences. */
   CAROM_TANGENT_DIFFERENCES = 32, /* the derivative of this contact comes from central differences
                                      of the one contact. This happens for exact models if the motion
                                      is planar or a ball jams, and for Euler's steps. */
   CAROM_TANGENT_DRAG = 64,        /* no longer set: derivatives of a roll with drag are those of the
                                      pieces that shots follow. */
-  CAROM_TANGENT_CLUSTER = 128     /* it is a contact of a cluster, a further touch of the tip, or a
-                                     single contact with a third ball within 1 mm. The reach does
-                                     not count touches of balls that come or go there, nor their
-                                     order. It ends where the velocity of a ball behind the contact
-                                     changes by as much as itself. */
+  CAROM_TANGENT_CLUSTER = 128     /* a contact of a cluster, a further touch of the tip, or a single
+                                     contact with a third ball within 1 mm. The reach does not count
+                                     touches of balls that come or go there, nor their order. It
+                                     ends where the velocity of a ball behind the contact changes by
+                                     as much as itself. */
 } carom_tangent_flag;
 
 /* The changes in each direction; `directions` is their number m, 1 to 64. NULL stands for zeros.
  * Numbers that a shot does not use are not read: nose heights and cushions of the table count if
  * the ball, or the part, has none of its own. */
 typedef struct carom_tangent_seeds {
-  int64_t directions;
+  int64_t directions;   /* number of directions, 1 to CAROM_DIRECTIONS_MOST. */
   const double *cue;    /* [8][m] */
   const double *kind;   /* [balls][CAROM_KIND_NUMBERS][m]; balls of the same radius must change it
                            together. */
@@ -95,26 +95,28 @@ typedef struct carom_tangent_seeds {
 
 /* Results, per unit of the seeds. `final` is needed; each of the others may be NULL. */
 typedef struct carom_tangent {
-  double *final;       /* [balls][9][m]: derivatives of the states at the end of the shot. 0 for a
-                          pocketed ball; for a ball that left the table, those of the place where it
-                          left. */
-  double *time;        /* [events][m], s: derivatives of the times of the events. */
-  double *before;      /* [events][2][9][m]: derivatives of the states of the balls just before each
-                          event, whose time changes too; */
-  double *after;       /* and just after it. 0 for the second ball of an event with one ball. */
-  double *at;          /* [times][balls][9][m]: derivatives of the states at fixed times. */
-  const double *times; /* [times], s: ascending, for `at`. */
-  int64_t times_count; /* number of times. */
-  int32_t *flags;      /* [events]: sums of carom_tangent_flag. */
-  double *reach;       /* [m], in the unit of the direction: the smallest change at which, to first
-                          order, a ball meets something else, or in another order. A hit becomes a
-                          miss, a miss becomes a hit, two events of a ball swap, or a spin about the
-                          vertical ends before a contact instead of after it. Infinite if nothing of
-                          this happens. A tangent holds for changes well below the reach. Needs
-                          `time`. */
-  double error;        /* written: the largest relative error of the derivatives that were found by
-                          differences. */
-  int64_t all_flags;   /* written: the flags of all events together. */
+  double *final;        /* [balls][9][m]: derivatives of the states at the end of the shot. 0 for a
+                           pocketed ball; for a ball that left the table, those of the place where
+                           it left. */
+  double *time;         /* [events][m], s: derivatives of the times of the events. */
+  double *before;       /* [events][2][9][m]: derivatives of the states of the balls just before
+                           each event, whose time changes too. */
+  double *after;        /* [events][2][9][m]: derivatives of the states of the balls just after each
+                           event, whose time changes too. 0 for the second ball of an event with one
+                           ball. */
+  double *at;           /* [times][balls][9][m]: derivatives of the states at fixed times. */
+  const double *times;  /* [times], s: ascending, for `at`. */
+  int64_t times_count;  /* number of times. */
+  int32_t *flags;       /* [events]: sums of carom_tangent_flag. */
+  double *reach;        /* [m], in the unit of the direction: the smallest change at which, to first
+                           order, a ball meets something else, or in another order. A hit becomes a
+                           miss, a miss becomes a hit, two events of a ball swap, or a spin about
+                           the vertical ends before a contact instead of after it. Infinite if
+                           nothing of this happens. A tangent holds for changes well below the
+                           reach. Needs `time`. */
+  double error;         /* written: the largest relative error of the derivatives that were found by
+                           differences. */
+  int64_t all_flags;    /* written: the flags of all events together. */
   uint64_t reserved[4]; /* not read or written yet. */
 } carom_tangent;
 

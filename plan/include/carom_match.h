@@ -43,9 +43,9 @@ typedef struct carom_bounds {
   double radius;          /* m: of the D; 0: there is none */
 } carom_bounds;
 
-/* The bounds that a leave sets on a table for balls of this radius, m: HAND the whole table,
+/* The bounds that a leave sets on a table for balls of this radius, m: ANYWHERE the whole table,
  * KITCHEN behind the head string or on it, D the D of snooker. AFTER and BEFORE, where no ball is
- * in hand, are as HAND. CAROM_ERROR_NULL; CAROM_ERROR_ACT for a value not listed;
+ * in hand, are as ANYWHERE. CAROM_ERROR_NULL; CAROM_ERROR_ACT for a value not listed;
  * CAROM_ERROR_RADIUS for a radius that is not 0 or more and finite. */
 CAROM_API carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, double radius,
                                          carom_bounds *bounds);
@@ -58,7 +58,7 @@ CAROM_API int carom_is_within(const carom_bounds *bounds, double x, double y);
 
 /* What a match waits for. */
 typedef enum carom_match_phase {
-  CAROM_MATCH_NONE = 0,   /* it has not begun */
+  CAROM_MATCH_NONE = 0,   /* nothing: the match has not begun */
   CAROM_MATCH_STROKE = 1, /* a stroke, or one of the choices in match.may */
   CAROM_MATCH_PLACE = 2,  /* the cue ball is in hand: a place within match.bounds, or a choice */
   CAROM_MATCH_MOVING = 3, /* the shot was stopped while balls move: it goes on */
@@ -75,7 +75,7 @@ typedef enum carom_act {
 
 /* Why an act was refused. */
 typedef enum carom_refusal {
-  CAROM_REFUSED_NOT = 0,
+  CAROM_REFUSED_NOT = 0,       /* the act was not refused */
   CAROM_REFUSED_NOT_BEGUN = 1, /* the match has not begun */
   CAROM_REFUSED_OVER = 2,      /* the match is over */
   CAROM_REFUSED_TURN = 3,      /* the other player is at the table */
@@ -101,10 +101,9 @@ enum { CAROM_MATCH_TEXT = 135168 };
 
 /* A match. The caller reads it, and changes it by calls alone. It may be copied. */
 typedef struct carom_match {
-  carom_record
-      record; /* table, balls, count, options; player, who is at the table; hand, whether the
-                          cue ball is to be placed. Its final states and facts are of the last
-                          shot. */
+  carom_record record;    /* table, balls, count, options; player, who is at the table; hand,
+                                  whether the cue ball is to be placed. Its final states and facts
+                                  are of the last shot. */
   carom_plan_rules rules; /* their state is that of the player at the table. */
   int32_t phase;          /* a carom_match_phase. */
   int32_t winner;         /* 1 + the player who has won; CAROM_DRAWN; 0: none yet. */
@@ -118,11 +117,11 @@ typedef struct carom_match {
   carom_call call;        /* of the next stroke; {-1, -1}: none. */
   carom_ruling ruling;    /* the last one; all zero before it. */
   int64_t rulings;        /* how many there were. */
-  int64_t size;    /* bytes of text[]: the lines of the last act; behind lines that were read:
-                             those that are still missing. */
-  int64_t due;     /* of these, the bytes that carom_match_read() awaits. */
-  char fault[256]; /* of the last act, why it was refused. */
-  char text[CAROM_MATCH_TEXT];
+  int64_t size;           /* bytes of text[]: the lines of the last act; behind lines that were
+                                  read: those that are still missing. */
+  int64_t due;            /* of these, the bytes that carom_match_read() awaits. */
+  char fault[256];        /* of the last act, why it was refused. */
+  char text[CAROM_MATCH_TEXT]; /* lines: `size` bytes of them. */
 } carom_match;
 
 /* Begins a match with the rack of a game, by gaps of 0.1 mm and the seed, on a table that it fits;
@@ -140,7 +139,7 @@ CAROM_API carom_status carom_match_begin_to(carom_match *match, carom_rules_kind
 
 /* The same from any layout. `of` NULL: the rules of this kind, as they stand at the beginning; else
  * these, with their state: of a caller's own rules the reader needs the same in match->rules. With
- * `leave` HAND, KITCHEN or D the cue ball is in hand. `options`, which may be NULL, has the models.
+ * `leave` ANYWHERE, KITCHEN or D the cue ball is in hand. `options`, which may be NULL, has the models.
  * Also an error of carom_shot_check(). */
 CAROM_API carom_status carom_match_begin_at(carom_match *match, carom_rules_kind rules,
                                             const carom_plan_rules *of, const carom_table *table,

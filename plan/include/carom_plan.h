@@ -36,14 +36,15 @@ extern "C" {
 typedef struct carom_player {
   double speed;       /* m/s, for a cue whose tip loses nothing. With a tip of restitution e it is
                          2/(1 + e) times as much, so that the error of the ball's speed is the
-                         same, */
-  double speed_share; /* and as a share of the speed; the squares of both are added. */
+                         same. */
+  double speed_share; /* error of the speed of the cue as a share of the speed; the squares of this
+                         and of `speed` are added. */
   double phi, theta;  /* degrees. */
   double a, b;        /* radii of the ball. */
-  double speed_least; /* bounds of the speed of the cue, m/s, for all strokes. 0: 0.5 times 2/(1 +
-                         e), or speed_most if that is lower; */
-  double speed_most;  /* and 0: 8 times 2/(1 + e), or speed_least if that is higher: 9.2 with a
-                         tip of leather. */
+  double speed_least; /* least speed of the cue, m/s, for all strokes. 0: 0.5 times 2/(1 + e), or
+                         speed_most if that is lower. */
+  double speed_most;  /* greatest speed of the cue, m/s, for all strokes. 0: 8 times 2/(1 + e), or
+                         speed_least if that is higher: 9.2 with a tip of leather. */
   double tip_most;    /* bound of |a| and |b|, radii, 0 to 1. 0: 0.5. */
   double growth;      /* s/m: how the errors of phi, a and b grow with the speed v of the cue, by
                          sqrt(1 + (growth v)^2), for a tip as above; that of phi also grows as
@@ -56,8 +57,8 @@ typedef struct carom_player {
                          made every ball and the player 90 % of the later pots, and
                          carom_plan_stroke.value is the chance that this pays. 0 for advice to a
                          player. */
-  double shots; /* of this player's plans, if the options have neither shots nor seconds: 100 to
-                         2000. 0: 2000. */
+  double shots;       /* of this player's plans, if the options have neither shots nor seconds: 100
+                         to 2000. 0: 2000. */
 } carom_player;
 
 /* A player with all errors proportional to `scale` >= 0: 0.1 m/s, 0.1 degrees of direction and of
@@ -82,7 +83,8 @@ CAROM_API void carom_player_strike(const carom_player *player, uint64_t seed, ui
 /* How many games a player won and lost against an opponent with a Fargo rating, 0 to 1000. won and
  * lost are 0 to 1e9; fractions are allowed, such as for games that count less. */
 typedef struct carom_score {
-  double against, won, lost;
+  double against, won, lost; /* against: the Fargo rating of the opponent, 0 to 1000; won, lost: how
+                                many games, 0 to 1e9. */
 } carom_score;
 
 /* What is known of a rating. */
@@ -122,26 +124,27 @@ typedef enum carom_leave {
   CAROM_LEAVE_AFTER = 0,    /* as the balls lie */
   CAROM_LEAVE_BEFORE = 1,   /* as the balls lay before: the shot is taken back */
   CAROM_LEAVE_ANYWHERE = 2, /* as the balls lie, but the cue ball is in hand, anywhere */
-  CAROM_LEAVE_KITCHEN = 3,  /* the same behind the head string; carom_plan() values it as HAND */
-  CAROM_LEAVE_D = 4,        /* the same in the D of a snooker table */
-  CAROM_LEAVE_BAULK = 5 /* the same behind the baulk line, a fifth of the length from the head; any
-                              ball may be met from there */
+  CAROM_LEAVE_KITCHEN = 3,  /* in hand behind the head string; carom_plan() values it as ANYWHERE */
+  CAROM_LEAVE_D = 4,        /* in hand in the D of a snooker table */
+  CAROM_LEAVE_BAULK = 5     /* in hand behind the baulk line, a fifth of the length from the head;
+                               any ball may be met from there */
 } carom_leave;
 
 /* Why a shot is a foul. The first of these that holds counts, except that DOUBLE_HIT comes before
  * CUSHION and BREAK. */
 typedef enum carom_foul {
-  CAROM_FOUL_NONE = 0,     /* it is no foul */
-  CAROM_FOUL_CUE_BALL = 1, /* the cue ball fell or left the table */
-  CAROM_FOUL_NO_BALL = 2,  /* the cue ball met no ball */
-  CAROM_FOUL_FIRST = 3,    /* the cue ball first hit a ball that is not on */
-  CAROM_FOUL_OFF = 4,      /* a ball left the table */
-  CAROM_FOUL_CUSHION = 5,  /* nothing fell, and nothing met a cushion after the first contact.
-                               Unlike the WPA's rules, this counts a cushion at which a ball lay */
-  CAROM_FOUL_BREAK = 6,    /* a break that potted nothing drove too few balls to cushions. It needs
-                               four; in straight pool the cue ball and two more, in bank pool two */
-  CAROM_FOUL_OTHER = 7,    /* another rule, such as one of the caller */
-  CAROM_FOUL_POT = 8,      /* a ball fell that was not on */
+  CAROM_FOUL_NONE = 0,       /* no foul: the shot is legal */
+  CAROM_FOUL_CUE_BALL = 1,   /* the cue ball fell or left the table */
+  CAROM_FOUL_NO_BALL = 2,    /* the cue ball met no ball */
+  CAROM_FOUL_FIRST = 3,      /* the cue ball first hit a ball that is not on */
+  CAROM_FOUL_OFF = 4,        /* a ball left the table */
+  CAROM_FOUL_CUSHION = 5,    /* nothing fell, and nothing met a cushion after the first contact.
+                                Unlike the WPA's rules, this counts a cushion at which a ball lay */
+  CAROM_FOUL_BREAK = 6,      /* a break that potted nothing drove too few balls to cushions. It
+                                needs four; in straight pool the cue ball and two more, in bank pool
+                                two */
+  CAROM_FOUL_OTHER = 7,      /* another rule, such as one of the caller */
+  CAROM_FOUL_POT = 8,        /* a ball fell that was not on */
   CAROM_FOUL_DOUBLE_HIT = 9, /* before the tip left the cue ball, the cue ball met a ball that was
                                not frozen to it; or the tip touched the cue ball twice. The finest
                                graze counts too, although rules allow it. A player may play through
@@ -161,17 +164,17 @@ CAROM_API const char *carom_foul_string(int foul);
 
 /* What a shot means by the rules: who plays next, the foul, the points. */
 typedef struct carom_turn {
-  carom_turn_outcome outcome;
-  carom_leave leave;
-  int32_t foul;  /* a carom_foul; 0 for a legal shot. */
-  uint32_t spot; /* the set of the balls that carom_turn_settle() puts back. */
-  double points; /* of the shot. A plan only reads them if there is no opponent. */
+  carom_turn_outcome outcome; /* what happens to the turn. */
+  carom_leave leave;          /* the layout of the next stroke. */
+  int32_t foul;               /* a carom_foul; 0 for a legal shot. */
+  uint32_t spot;              /* the set of the balls that carom_turn_settle() puts back. */
+  double points;              /* of the shot. A plan only reads them if there is no opponent. */
 } carom_turn;
 
 /* The ball and the pocket that were called. ball -1: none, a safety. Rules without calls only read
  * the other two values of ball: */
 typedef struct carom_call {
-  int32_t ball, pocket;
+  int32_t ball, pocket; /* indices of the ball, -1 for a safety, and of the pocket. */
 } carom_call;
 enum {
   CAROM_CALL_PUSH = -2, /* the stroke is a push-out */
@@ -212,10 +215,10 @@ typedef enum carom_group {
 /* Which balls must be potted before the game is won. */
 typedef enum carom_race {
   CAROM_RACE_OWN = 0,    /* each player has balls of their own */
-  CAROM_RACE_SHARED = 1, /* both have the same */
+  CAROM_RACE_SHARED = 1, /* the balls are shared by both players */
   CAROM_RACE_ALONE = 2,  /* there is no opponent: the value is the share of the balls that the
                             player pots in a visit */
-  CAROM_RACE_POINTS = 3  /* both make points: left() says how many each of them needs */
+  CAROM_RACE_POINTS = 3  /* players make points: left() says how many each of them needs */
 } carom_race;
 
 /* The functions of rules. A set of balls has bit k for ball k; `in_play` is the set of the balls on
@@ -257,10 +260,12 @@ typedef void carom_rules_settle(carom_rules_state *state, const carom_table *tab
 /* The rules of a game. The state is always that of the player at the table: judge() leaves the
  * state for the player who plays next. */
 typedef struct carom_plan_rules {
-  carom_rules_state state; /* a shot may change it. */
-  carom_rules_on *on;
-  carom_rules_judge *judge;
-  carom_rules_left *left;
+  carom_rules_state state;      /* a shot may change it. */
+  carom_rules_on *on;           /* the balls that may be hit first: a function that must be
+                                   there. */
+  carom_rules_judge *judge;     /* the outcome of a shot: a function that must be there. */
+  carom_rules_left *left;       /* how much both players need to win: a function that must be
+                                   there. */
   carom_rules_value *value;     /* NULL: an estimate from the two best pots and the balls that are
                                    left. */
   carom_rules_pockets *pockets; /* NULL: all. */
@@ -442,22 +447,25 @@ CAROM_API carom_status carom_turn_settle(const carom_plan_rules *rules, carom_ru
 
 /* A ball that fell into a pocket, at a time, s. */
 typedef struct carom_fall {
-  double time;
-  int32_t ball, pocket;
+  double time;          /* when it fell, s. */
+  int32_t ball, pocket; /* indices of the ball and of the pocket. */
 } carom_fall;
 
 /* The result of a stroke by the rules. */
 typedef struct carom_ruling {
-  carom_turn turn;         /* as carom_turn_settle() left it. */
-  carom_rules_state state; /* for the player who plays next; `may` says what this player may do
-                              besides a stroke. */
-  int32_t hand;            /* 1: the cue ball is in hand. */
-  uint32_t on;       /* the set of the balls that the cue ball may hit first in the next stroke. */
-  uint32_t put;      /* the set of the balls that are no longer where the shot left them. */
-  uint32_t touching; /* the set of the balls that touch the cue ball, within CAROM_RULES_TOUCH;
-                        empty if it is in hand. */
-  int64_t falls;     /* how many balls fell. */
-  carom_fall fall[CAROM_BALLS_MOST];       /* these balls, in the order in which they fell. */
+  carom_turn turn;                         /* as carom_turn_settle() left it. */
+  carom_rules_state state;                 /* for the player who plays next; `may` says what this
+                                              player may do besides a stroke. */
+  int32_t hand;                            /* 1: the cue ball is in hand. */
+  uint32_t on;                             /* the set of the balls that the cue ball may hit first
+                                              in the next stroke. */
+  uint32_t put;                            /* the set of the balls that are no longer where the shot
+                                              left them. */
+  uint32_t touching;                       /* the set of the balls that touch the cue ball, within
+                                              CAROM_RULES_TOUCH; empty if it is in hand. */
+  int64_t falls;                           /* how many balls fell. */
+  carom_fall fall[CAROM_BALLS_MOST];       /* the balls that fell, in the order in which they
+                                              fell. */
   carom_facts facts;                       /* of the shot. */
   carom_shot_ball balls[CAROM_BALLS_MOST]; /* the layout of the next stroke, with all balls that
                                               come back. A cue ball in hand is where the shot left
@@ -500,11 +508,12 @@ typedef struct carom_plan_options {
                                    it depends on the layout and on the error phi of the player, as
                                    learned from played racks. A chance below 0.001 counts as 0.001.
                                    Values of layouts depend on it. */
-  double chance_opponent;       /* the same for the opponent, 0 to 1. 1: the opponent makes every
-                                   ball, so the plan tries to run out, because a turn that ends
-                                   before is worth nothing. In games of points a layout is then
-                                   worth the share of the points on the table that the visit
-                                   makes. */
+  double chance_opponent;       /* chance of each later pot of a visit, 0 to 1, for the opponent. 0:
+                                   it depends on the layout and on the error phi of the opponent. 1:
+                                   the opponent makes every ball, so the plan tries to run out,
+                                   because a turn that ends before is worth nothing. In games of
+                                   points a layout is then worth the share of the points on the
+                                   table that the visit makes. */
   const volatile int32_t *stop; /* not NULL: another thread may set *stop to end the plan early,
                                    within some ms. Unless `once` is set, the call plays plans of
                                    100, 200, 400 ... shots. A plan that was stopped returns one
@@ -578,11 +587,11 @@ CAROM_API uint32_t carom_stroke_marks(const carom_facts *facts, int cue_ball);
 
 /* A stroke that a plan proposes, and its results. */
 typedef struct carom_plan_stroke {
-  carom_cue cue;     /* the cue, raised just enough for its stick to clear cushions and balls,
+  carom_cue cue;        /* the cue, raised just enough for its stick to clear cushions and balls,
                            unless `level` is set */
-  double place[2];   /* the place where the cue ball lies or is put, m. */
-  int32_t kind;      /* a carom_plan_kind. */
-  int32_t ball;      /* the ball that falls and keeps the turn. In rules with calls this is the
+  double place[2];      /* the place where the cue ball lies or is put, m. */
+  int32_t kind;         /* a carom_plan_kind. */
+  int32_t ball;         /* the ball that falls and keeps the turn. In rules with calls this is the
                            ball that falls first without errors. In other rules it is the ball that
                            does so most often with errors, if at least half of the strokes with
                            errors pot one, and otherwise the ball of the stroke without errors. -1
@@ -590,9 +599,9 @@ typedef struct carom_plan_stroke {
                            also -1 for a foul. CAROM_CALL_PUSH and CAROM_CALL_PASS for those kinds,
                            so that ball and pocket are the call. On a table without pockets it is
                            the ball that the cue ball hits first. */
-  int32_t pocket;    /* and its pocket, or -1. */
-  int32_t cushions;  /* impacts of that ball on cushions, in one such stroke. */
-  double value;      /* chance to win, and half the chance to draw; without an opponent, the
+  int32_t pocket;       /* the pocket into which `ball` falls, or -1. */
+  int32_t cushions;     /* impacts of that ball on cushions, in one such stroke. */
+  double value;         /* chance to win, and half the chance to draw; without an opponent, the
                            share of the balls that are potted; 0 to 1. In four-ball a stroke that
                            costs a point counts -1. A foul counts 0.03 less than the position that
                            follows it, so that the plan chooses a legal stroke among equally good
@@ -603,29 +612,29 @@ typedef struct carom_plan_stroke {
                            others. A choice is worth at most as much as the best one. A plan that
                            was stopped may have none; the value is then 0.75 standard errors less
                            than the mean of the shots. */
-  double error;      /* the standard error of the mean of the shots. */
-  double keep;       /* chance that the player plays on, wins or draws; also that of the point that
-                           lets the opponent have the equalizing inning, */
-  double foul, lose; /* chances that the shot is a foul, and that it loses. */
-  int64_t seen;      /* how often the shot was played with errors. 0 if the plan was stopped
+  double error;         /* the standard error of the mean of the shots. */
+  double keep;          /* chance that the player plays on, wins or draws; also that of the point
+                           that lets the opponent have the equalizing inning. */
+  double foul, lose;    /* chances that the shot is a foul, and that it loses. */
+  int64_t seen;         /* how often the shot was played with errors. 0 if the plan was stopped
                            before that; the value is then that of the shot without errors. */
   uint64_t reserved[4]; /* 0. */
 } carom_plan_stroke;
 
 /* The position for which a plan is made. */
 typedef struct carom_plan_job {
-  const carom_table *table;
-  const carom_shot_ball *balls; /* the layout, at rest. */
-  int64_t count;                /* number of balls, 2 to CAROM_BALLS_MOST. */
-  const carom_cue *cue;         /* the cue: its ball, masses, tip and miscue are read; the stroke
-                                   itself is not. */
-  const carom_player *player;
-  const carom_plan_rules *rules;
+  const carom_table *table;          /* the table. */
+  const carom_shot_ball *balls;      /* the layout, at rest. */
+  int64_t count;                     /* number of balls, 2 to CAROM_BALLS_MOST. */
+  const carom_cue *cue;              /* the cue: its ball, masses, tip and miscue are read; the
+                                        stroke itself is not. */
+  const carom_player *player;        /* whose stroke is planned, and how this player errs. */
+  const carom_plan_rules *rules;     /* the rules, with the state of the player at the table. */
   const carom_shot_options *shot;    /* models, space, fast; NULL: the defaults. threads, and the
                                         options of when to stop, are not read. */
   const carom_plan_options *options; /* NULL: the defaults. */
-  void *memory;                      /* room for the plan, aligned as by malloc(), */
-  size_t memory_size;                /* of at least carom_plan_memory() bytes. */
+  void *memory;                      /* room for the plan, aligned as by malloc(). */
+  size_t memory_size;                /* bytes of `memory`, at least carom_plan_memory(). */
   int64_t leave;                     /* a carom_leave: the bounds within which the cue ball was
                                         placed for this stroke. Behind the head string, it may not
                                         first meet balls that lie there too (WPA 6.11). 0: it was
@@ -708,7 +717,7 @@ typedef enum carom_pot_outcome {
 /* A ball and the pocket into which it is to fall. The caller sets the first block, and carom_aim()
  * the second one. */
 typedef struct carom_pot {
-  int32_t ball, pocket;
+  int32_t ball, pocket;           /* indices of the ball and of its pocket. */
   int32_t vias;                   /* number of elements of via[], 0 to CAROM_VIA_MOST. */
   carom_part via[CAROM_VIA_MOST]; /* balls and rails in the order in which they are met. A rail is
                                      met by the ball before it. Rails before the first ball are met

@@ -147,8 +147,8 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
     order[0] = contact;
   }
   for (int k = 1; k < count; k++)
-    CAROM_PROMISE(c->ball[c->contact[order[k]].i].which != i ||
-                  c->ball[c->contact[order[k]].j].which != j);
+    CAROM_PROMISE(c->ball[c->contact[order[k]].i].index != i ||
+                  c->ball[c->contact[order[k]].j].index != j);
   if (count == 1)
     return 0;
   return count;

@@ -187,8 +187,7 @@ static class Program {
     Billiards.Aim(table, balls, ref pot, ref cue);
     var whole = Billiards.Play(table, balls, cue);
     Must(pot.outcome == (int)PotOutcome.Falls && whole.Facts.down == 2, "the aimed ball stays up");
-    Must(Billiards.Strike(Native.carom_player_fargo(400), 1, 0, cue).phi != cue.phi,
-         "a 400 does not err");
+    Must(Billiards.Strike(Calls.PlayerFargo(400), 1, 0, cue).phi != cue.phi, "a 400 does not err");
 
     var lines = "";
     using (var game = new Recording()) using (var read = new Recording()) {

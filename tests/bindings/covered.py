@@ -1,6 +1,7 @@
-"""covered.py SOURCE: the calls of C that the layers without pointers cover, in C++, C# and Rust,
-are those of bindings/covered.txt, a line for each function of the headers. UPDATE=1 in the
-environment writes it; what a layer loses or gains is seen in its changes.
+"""covered.py SOURCE: bindings/covered.txt lists each public function with its header and the languages
+whose layer without pointers calls it. The functions are those of the headers, and those that
+tests/install/abi-MINOR.expected says that the library exports. UPDATE=1 in the environment writes the
+list; what a layer loses or gains is seen in its changes.
 """
 
 import os
@@ -12,24 +13,33 @@ SOURCE = Path(sys.argv[1])
 sys.path.insert(0, str(SOURCE / "bindings"))
 
 from api import describe  # noqa: E402
+from write import CSharp, Rust, called_by  # noqa: E402
 
-LAYERS = {
-    "C++": ("include/carom*.hpp", r"\b(carom_\w+)\("),
-    "C#": ("bindings/csharp/Runtime/*.cs", r"\bNative\.(carom_\w+)\("),
-    "Rust": ("bindings/rust/carom/src/*.rs", r"\bsys::(carom_\w+)\("),
+api = describe(SOURCE / "include")
+HEADER = (SOURCE / "include/carom.h").read_text()
+VERSION = ".".join(re.findall(r"^#define CAROM_VERSION_(?:MAJOR|MINOR) (\d+)$", HEADER, re.M))
+functions = {one["name"]: one["header"] for one in api["functions"]}
+called = {
+    "C++": called_by("include/carom*.hpp", r"\b(carom_\w+)\("),
+    "C#": CSharp(api).called(),
+    "Rust": Rust(api).called(),
+    "Python": called_by("python/src/carom/**/*.py", r"\blib\.(carom_\w+)\("),
+    "npm": called_by("web/npm/src/*.ts", r"\.(carom_\w+)\("),
 }
-functions = sorted(one["name"] for one in describe(SOURCE / "include")["functions"])
-called = {}
-for language, (paths, pattern) in LAYERS.items():
-    text = "\n".join(path.read_text(encoding="utf-8") for path in sorted(SOURCE.glob(paths)))
-    called[language] = set(
-        re.findall(pattern, re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.S))
-    ) & set(functions)
-    if not called[language]:
-        sys.exit(f"{paths}: no call of the library was found")
+exported = {
+    line.removeprefix("exported: ")
+    for line in (SOURCE / f"tests/install/abi-{VERSION}.expected").read_text().splitlines()
+    if line.startswith("exported: ")
+}
+if exported != set(functions):
+    sys.exit(f"only in the headers or only exported: {sorted(exported ^ set(functions))}")
+for language, names in called.items():
+    names &= set(functions)
+    if not names:
+        sys.exit(f"{language}: no call of the library was found")
 lines = "".join(
-    f"{name}: {', '.join(one for one in LAYERS if name in called[one]) or '-'}\n"
-    for name in functions
+    f"{name}  {functions[name]}  {', '.join(one for one in called if name in called[one]) or '-'}\n"
+    for name in sorted(functions)
 )
 
 kept = SOURCE / "bindings/covered.txt"

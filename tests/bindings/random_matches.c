@@ -1,6 +1,6 @@
 /* random_matches GAMES SEED ACTS RULED: matches of all games by random acts. ACTS has the first
  * lines of each match and its acts, RULED what came of each act, and the recording of each match.
- * random_matches.py and random_matches.mjs read ACTS, and write the same RULED. */
+ * The random_matches and RandomMatches of other languages read ACTS, and write the same RULED. */
 #include <carom_match.h>
 
 #include <inttypes.h>

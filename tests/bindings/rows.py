@@ -1,5 +1,7 @@
 """rows.py SOURCE SHARED: the rows of numbers and words say what the headers and the library say.
 
+Each member of a struct or an enumeration has a comment that stands alone, as editors of other
+languages show it by itself: it does not continue that of the member before, and is not continued.
 The comment of each member names the unit of its row, every number of its range, and its default.
 bindings/rows.py has the texts and the ranges that the library tells. Each value of an enumeration
 with words has one.
@@ -22,20 +24,18 @@ constants = {one["name"]: one["value"] for one in api["constants"]}
 OPTIONS = "carom_cushion_options"
 faults = []
 
+CONTINUES = r"(and|the same|these|those|of those|or|with|both|it|in the|instead|likewise)\b"
+for of in api["structs"] + api["enums"]:
+    for member in of.get("fields") or of["values"]:
+        text = member["comment"]
+        if not text or re.match(CONTINUES, text) or text.endswith((",", ";", ":")):
+            faults.append(
+                f"{of['name']}.{member['name']}: its comment does not stand alone: {text}"
+            )
+
 
 def comment(struct, name):
-    """The comment of a member, with those of its neighbours where a sentence goes over several of
-    them.
-    """
-    sentence, found = [], False
-    for field in structs[struct]:
-        sentence.append(field["comment"])
-        found |= field["name"] == name
-        if field["comment"].endswith("."):
-            if found:
-                break
-            sentence = []
-    return " ".join(dict.fromkeys(sentence))
+    return next(field["comment"] for field in structs[struct] if field["name"] == name)
 
 
 def said_of(struct, number):

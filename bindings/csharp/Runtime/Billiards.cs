@@ -1,5 +1,5 @@
-// Tables, racks, shots and recordings without pointers; plans are in Plans.cs. Native has every
-// other function of the library.
+// Tables, racks, shots and recordings without pointers; plans are in Plans.cs. Calls has the other
+// functions that need no pointers, and Native has all functions as C declares them.
 using System;
 using System.Collections.Generic;
 using System.Runtime.InteropServices;
@@ -15,8 +15,7 @@ namespace Carom {
     }
 
     internal unsafe CaromException(Status status, string more = null)
-        : base(Billiards.Text(Native.carom_status_string(status)) +
-               (more == null ? "" : ": " + more)) {
+        : base(Calls.StatusString(status) + (more == null ? "" : ": " + more)) {
       Status = status;
     }
   }
@@ -145,8 +144,7 @@ namespace Carom {
     /// <summary>How fast surfaces pass each other in an event, m/s: with its impulse, how it
     /// sounds.</summary>
     public double Slip(ShotEvent of) {
-      fixed(ShotBall *layout = balls)
-          fixed(Table *on = &table) return Native.carom_event_slip(on, layout, balls.Length, &of);
+      return Calls.EventSlip(table, balls, of);
     }
 
     /// <summary>What the library reads of it.</summary>
@@ -208,26 +206,22 @@ namespace Carom {
     /// <summary>The revision of the physics: players in lockstep agree only with the same
     /// number.</summary>
     public static int PhysicsRevision {
-      get { return Native.carom_physics_revision(); }
+      get { return Calls.PhysicsRevision(); }
     }
 
     /// <summary>The version of the library that runs.</summary>
     public static string Version {
-      get { return Text(Native.carom_version()); }
+      get { return Calls.Version(); }
     }
 
     /// <summary>A built-in table.</summary>
     public static Table Table(TableKind kind) {
-      Table table;
-      Check(Native.carom_table_make(kind, &table));
-      return table;
+      return Calls.TableMake(kind);
     }
 
     /// <summary>The measures of a built-in table.</summary>
     public static Measures Measures(TableKind kind) {
-      Measures measures;
-      Check(Native.carom_table_measures(kind, &measures));
-      return measures;
+      return Calls.TableMeasures(kind);
     }
 
     /// <summary>A table by its measures, checked for balls of a radius, m. The exception names the
@@ -245,7 +239,7 @@ namespace Carom {
     /// <summary>A rack, with the cue ball first. `gap`, m, is left between neighbours; `seed` draws
     /// the rest.</summary>
     public static ShotBall[] Rack(RackKind kind, Table table, double gap = 1e-4, ulong seed = 1) {
-      var balls = new ShotBall[Native.carom_rack_size(kind)];
+      var balls = new ShotBall[Calls.RackSize(kind)];
       fixed(ShotBall *to = balls)
           Check(Native.carom_rack(kind, &table, gap, seed, to, balls.Length));
       return balls;
@@ -253,7 +247,7 @@ namespace Carom {
 
     /// <summary>The usual cue of a game.</summary>
     public static Cue Cue(Game game) {
-      return Native.carom_cue_of(game);
+      return Calls.CueOf(game);
     }
 
     /// <summary>Plays a shot until nothing moves, or until the options stop it. The balls are not
@@ -287,7 +281,7 @@ namespace Carom {
 
     /// <summary>Built-in rules, with the state after the break.</summary>
     public static PlanRules Rules(RulesKind kind) {
-      return Native.carom_plan_rules_of(kind);
+      return Calls.PlanRulesOf(kind);
     }
 
     /// <summary>What a shot that was played comes to by the rules, with the state of the game
@@ -308,15 +302,13 @@ namespace Carom {
 
     /// <summary>A ruling in words.</summary>
     public static string Words(ref Ruling of) {
-      byte *text = stackalloc byte[256];
-      fixed(Ruling *ruling = &of) Native.carom_ruling_string(ruling, text, (UIntPtr)256);
-      return Text(text);
+      return Calls.RulingString(ref of);
     }
 
     /// <summary>The stroke that a player makes who means `cue`: with errors drawn from `seed` and
     /// the number of the stroke.</summary>
     public static Cue Strike(Player player, ulong seed, ulong number, Cue cue) {
-      Native.carom_player_strike(&player, seed, number, &cue);
+      Calls.PlayerStrike(player, seed, number, ref cue);
       return cue;
     }
 
@@ -337,8 +329,7 @@ namespace Carom {
 
     /// <summary>Puts a ball back as the rules of a rack's game ask.</summary>
     public static void Spot(RackKind kind, Table table, ShotBall[] balls, int ball) {
-      fixed(ShotBall *of = balls)
-          Check(Native.carom_spot_ball_of(kind, &table, of, balls.Length, ball));
+      Calls.SpotBallOf(kind, table, balls, ball);
     }
 
     /// <summary>The numbers of a part, or the options of a call, as the library describes
@@ -357,7 +348,7 @@ namespace Carom {
 
     /// <summary>The word of a value, such as "han"; null where it has none.</summary>
     public static string Word(Words of, int value) {
-      return Text(Native.carom_word(of, value));
+      return Calls.Word(of, value);
     }
 
     /// <summary>The exception of a shot, with the number at fault where there is one.</summary>

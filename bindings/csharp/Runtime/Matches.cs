@@ -6,7 +6,7 @@ using System.Text;
 namespace Carom {
   /// <summary>A match, as carom_match.h has it. An act that the rules forbid is a CaromException
   /// that says what would be right; then nothing has changed.</summary>
-  public sealed unsafe class LiveMatch : IDisposable {
+  public sealed unsafe partial class LiveMatch : IDisposable {
     Match *match;
     Record *scratch;
     readonly StringBuilder lines = new StringBuilder();
@@ -127,18 +127,6 @@ namespace Carom {
       return of;
     }
 
-    /// <summary>Makes one of the choices that the rules allow now.</summary>
-    public void Choose(Choice choice) {
-      Told(Native.carom_match_choose(Open, Player, choice));
-    }
-    /// <summary>Puts the cue ball in hand at a place, m, within the bounds.</summary>
-    public void Place(double x, double y) {
-      Told(Native.carom_match_place(Open, Player, x, y));
-    }
-    /// <summary>Ball -1: a safety.</summary>
-    public void Call(int ball, int pocket) {
-      Told(Native.carom_match_call(Open, Player, new Call { ball = ball, pocket = pocket }));
-    }
     /// <summary>Plays a stroke; `stop` says when to stop its shot. Returns whether the shot has
     /// ended, and is ruled.</summary>
     public bool Stroke(Cue cue, ShotOptions stop = default(ShotOptions)) {
@@ -161,19 +149,10 @@ namespace Carom {
     public void Concede(int player) {
       Told(Native.carom_match_concede(Open, player));
     }
-    /// <summary>The time of the player at the table is over.</summary>
-    public void Clock() {
-      Told(Native.carom_match_clock(Open, Player));
-    }
-    /// <summary>Ends the recording.</summary>
-    public void End() {
-      Told(Native.carom_match_end(Open));
-    }
-
     /// <summary>Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is
     /// the stroke as the player makes it.</summary>
     public void Take(PlanStroke best, Cue cue) {
-      Told(Native.carom_match_prepare(Open, Player, &best));
+      Prepare(best);
       if (best.kind != (int)PlanKind.Pass)
         Stroke(cue);
     }

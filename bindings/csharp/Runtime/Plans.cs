@@ -226,7 +226,7 @@ namespace Carom {
       Balls = balls;
       Cue = cue;
       Rules = rules;
-      Player = Opponent = Native.carom_player_fargo(rating);
+      Player = Opponent = Calls.PlayerFargo(rating);
     }
 
     /// <summary>The best strokes, best first, at most `most`; in hand, with the places of the cue
@@ -339,12 +339,9 @@ namespace Carom {
     }
 
     static HandBounds BoundsAfterFoul(Position of) {
-      HandBounds bounds;
       var about = Native.carom_rules_about_of((RulesKind)(of.Rules.learned - 1));
       var leave = about != null ? (Leave)about->hand : Leave.Anywhere;
-      fixed(Table *table = &of.Table)
-          Billiards.Check(Native.carom_hand_bounds(leave, table, 0.0, &bounds));
-      return bounds;
+      return Calls.HandBounds(leave, of.Table, 0.0);
     }
 
     /// <summary>Plays a slice. Returns whether the plan has ended.</summary>

@@ -18,7 +18,6 @@ fn main() {
         Path::new(&out).join("libcarom.a"),
     );
     let mut cc = tool("CC");
-    cc.args(env::var("CFLAGS").unwrap_or_default().split_whitespace());
     cc.args([
         "-std=c17",
         "-O2",
@@ -30,6 +29,8 @@ fn main() {
         "-o",
     ])
     .arg(&object);
+    // Last, so that they may change those above.
+    cc.args(env::var("CFLAGS").unwrap_or_default().split_whitespace());
     run(cc);
     let mut ar = tool("AR");
     ar.arg("crs").args([&library, &object]);

@@ -1,5 +1,5 @@
-//! Billiards by the C library carom: tables, racks, whole shots, plans and recordings. `sys` has
-//! every other function of the library.
+//! Billiards by the C library carom: tables, racks, whole shots, plans and recordings. `calls` has
+//! the other functions that need no pointers, and `sys` has all functions as C declares them.
 //!
 //! ```
 //! use carom::{Error, Game, RackKind, TableKind};
@@ -15,13 +15,19 @@
 //!
 //! Units are SI; directions of a cue are in degrees. A shot has the same bits on all machines,
 //! unless `fast` is set.
+#[rustfmt::skip] // written by bindings/write.py
+pub mod calls;
 mod match_game;
 mod plan;
 mod record;
 
+pub use calls::{
+    cue_of as cue, physics_revision, plan_rules_of as built_in_rules, ruling_string as words,
+    table_make as table, table_measures as measures, word,
+};
 pub use carom_sys as sys;
 pub use match_game::Match;
-pub use plan::{built_in_rules, rules, spot, strike, words, GameRules, Position, Thinking};
+pub use plan::{rules, spot, strike, GameRules, Position, Thinking};
 pub use record::Recording;
 pub use sys::words::*;
 pub use sys::{
@@ -47,8 +53,7 @@ pub struct Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
-        // Never NULL, by the header.
-        let words = text(unsafe { sys::carom_status_string(self.status.into()) });
+        let words = calls::status_string(self.status).unwrap_or_default();
         if self.fault.is_empty() {
             write!(to, "{words}")
         } else if self.status == Status::ErrorRecord {
@@ -65,6 +70,17 @@ fn text(from: *const c_char) -> String {
     unsafe { CStr::from_ptr(from) }
         .to_string_lossy()
         .into_owned()
+}
+
+fn optional_text(from: *const c_char) -> Option<String> {
+    (!from.is_null()).then(|| text(from))
+}
+
+/// What a function writes that returns the length of the whole text.
+fn written(write: impl Fn(*mut c_char, usize) -> usize) -> String {
+    let mut bytes = vec![0u8; write(std::ptr::null_mut(), 0) + 1];
+    write(bytes.as_mut_ptr().cast(), bytes.len());
+    text(bytes.as_ptr().cast())
 }
 
 /// A number of a ball, a cue or a table, or an option: its names, unit, range in words, default,
@@ -101,12 +117,6 @@ pub fn rows(part: PartKind) -> Vec<Row> {
         }
     };
     (0..).map_while(row).map(told).collect()
-}
-
-/// The word of a value, such as "han" of `Words::ShotCushion`.
-pub fn word(of: Words, value: i32) -> Option<String> {
-    let found = unsafe { sys::carom_word(of.into(), value) };
-    (!found.is_null()).then(|| text(found))
 }
 
 /// The error of a shot, with the number at fault where there is one.
@@ -154,25 +164,6 @@ fn status_of(code: sys::carom_status) -> Status {
     Status::try_from(code).expect("the library is of the version of carom-sys")
 }
 
-/// The revision of the physics: players in lockstep agree only with the same number.
-pub fn physics_revision() -> i32 {
-    unsafe { sys::carom_physics_revision() }
-}
-
-/// A built-in table, such as `TableKind::Pool9ft`.
-pub fn table(kind: TableKind) -> Result<Table, Error> {
-    let mut table = Table::default();
-    check(unsafe { sys::carom_table_make(kind.into(), &mut table) })?;
-    Ok(table)
-}
-
-/// The measures of a built-in table.
-pub fn measures(kind: TableKind) -> Result<Measures, Error> {
-    let mut measures = Measures::default();
-    check(unsafe { sys::carom_table_measures(kind.into(), &mut measures) })?;
-    Ok(measures)
-}
-
 /// A table by its measures, checked for balls of a radius, m. The error names the measure that is
 /// wrong.
 pub fn table_measured(measures: &Measures, radius: f64) -> Result<Table, Error> {
@@ -195,11 +186,6 @@ pub fn rack(kind: RackKind, table: &Table, gap: f64, seed: u64) -> Result<Vec<Sh
     let mut balls = vec![ShotBall::default(); size as usize];
     check(unsafe { sys::carom_rack(kind.into(), table, gap, seed, balls.as_mut_ptr(), size) })?;
     Ok(balls)
-}
-
-/// The usual cue of a game.
-pub fn cue(game: Game) -> Cue {
-    unsafe { sys::carom_cue_of(game.into()) }
 }
 
 /// Ball in hand: puts a ball at rest at x, y (m). `Ok(Err(part))` where that place is not free: the
@@ -415,8 +401,7 @@ impl Shot {
 
     /// How fast surfaces pass each other in an event, m/s: with its impulse, how it sounds.
     pub fn slip(&self, of: &Event) -> f64 {
-        let (balls, count) = (self.balls.as_ptr(), count_of(&self.balls));
-        unsafe { sys::carom_event_slip(&self.table, balls, count, of) }
+        calls::event_slip(&self.table, &self.balls, of)
     }
 
     /// What the shot comes to by the rules, with the state of the game before it.

@@ -1,6 +1,6 @@
 //! Matches: one object that knows the rules, and writes its recording.
 use crate::{
-    check, count_of, status_of, sys, text, words, Choice, Cue, Error, Leave, MatchPhase, Options,
+    check, count_of, status_of, sys, text, words, Cue, Error, Leave, MatchPhase, Options,
     PlanStroke, Position, RulesKind, Ruling, Shot, ShotBall, Table,
 };
 use std::os::raw::c_char;
@@ -8,7 +8,7 @@ use std::os::raw::c_char;
 /// A match, as `carom_match.h` has it. An act that the rules forbid is an error that says what
 /// would be right; then nothing has changed.
 pub struct Match {
-    of: Box<sys::carom_match>,
+    pub(crate) of: Box<sys::carom_match>,
     scratch: Box<sys::carom_record>,
     lines: String,
     last: Option<Shot>,
@@ -100,7 +100,7 @@ impl Match {
     }
 
     /// Keeps the lines of an act; an error is what was refused.
-    fn told(&mut self, status: sys::carom_status) -> Result<(), Error> {
+    pub(crate) fn told(&mut self, status: sys::carom_status) -> Result<(), Error> {
         let bytes = &self.of.text[..self.of.size as usize];
         self.lines
             .extend(bytes.iter().map(|&one| char::from(one as u8)));
@@ -180,26 +180,6 @@ impl Match {
         &self.of.ruling
     }
 
-    /// Takes one of the choices, a sum of which is `state().may`.
-    pub fn choose(&mut self, choice: Choice) -> Result<(), Error> {
-        let status =
-            unsafe { sys::carom_match_choose(&mut *self.of, self.at_table(), choice.into()) };
-        self.told(status)
-    }
-
-    /// Puts the cue ball in hand, m.
-    pub fn place(&mut self, x: f64, y: f64) -> Result<(), Error> {
-        let status = unsafe { sys::carom_match_place(&mut *self.of, self.at_table(), x, y) };
-        self.told(status)
-    }
-
-    /// Calls the ball and the pocket of the next stroke; ball -1: a safety.
-    pub fn call(&mut self, ball: i32, pocket: i32) -> Result<(), Error> {
-        let call = sys::carom_call { ball, pocket };
-        let status = unsafe { sys::carom_match_call(&mut *self.of, self.at_table(), call) };
-        self.told(status)
-    }
-
     /// Plays a stroke; `stop` says when to stop its shot. Returns whether the shot has ended, and
     /// is ruled.
     pub fn stroke(&mut self, cue: &Cue, stop: &Options) -> Result<bool, Error> {
@@ -239,24 +219,10 @@ impl Match {
         self.told(status)
     }
 
-    /// The time of the player at the table is over.
-    pub fn clock(&mut self) -> Result<(), Error> {
-        let status = unsafe { sys::carom_match_clock(&mut *self.of, self.at_table()) };
-        self.told(status)
-    }
-
-    /// Ends the recording.
-    pub fn end(&mut self) -> Result<(), Error> {
-        let status = unsafe { sys::carom_match_end(&mut *self.of) };
-        self.told(status)
-    }
-
     /// Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the
     /// stroke as the player makes it.
     pub fn take(&mut self, best: &PlanStroke, cue: &Cue) -> Result<(), Error> {
-        let player = self.at_table();
-        let status = unsafe { sys::carom_match_prepare(&mut *self.of, player, best) };
-        self.told(status)?;
+        self.prepare(best)?;
         if best.kind != sys::CAROM_PLAN_PASS {
             self.stroke(cue, &Options::default())?;
         }
@@ -268,7 +234,7 @@ impl Match {
         words(&self.of.ruling)
     }
 
-    fn at_table(&self) -> i32 {
+    pub(crate) fn at_table(&self) -> i32 {
         self.of.record.player as i32
     }
 }

@@ -1,11 +1,10 @@
 //! Plans: which stroke to play, by built-in rules or by those of the caller.
 use crate::{
-    check, count_of, sys, text, BallState, Bounds, Call, Cue, Error, Facts, Leave, Options,
-    PlanOptions, PlanStroke, Player, RackKind, Rules, RulesKind, RulesState, Ruling, ShotBall,
-    Status, Table, Turn,
+    calls, check, count_of, sys, BallState, Bounds, Call, Cue, Error, Facts, Leave, Options,
+    PlanOptions, PlanStroke, Player, RackKind, Rules, RulesState, ShotBall, Status, Table, Turn,
 };
 use std::any::{type_name, TypeId};
-use std::os::raw::{c_char, c_int};
+use std::os::raw::c_int;
 use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -191,29 +190,15 @@ pub fn spot(
     balls: &mut [ShotBall],
     ball: usize,
 ) -> Result<(), Error> {
-    let (count, ball) = (count_of(balls), ball.min(i32::MAX as usize) as i32);
-    let to = balls.as_mut_ptr();
-    check(unsafe { sys::carom_spot_ball_of(kind.into(), table, to, count, ball) })?;
-    Ok(())
-}
-
-/// Built-in rules, such as `RulesKind::Nineball`, with the state after the break.
-pub fn built_in_rules(kind: RulesKind) -> Rules {
-    unsafe { sys::carom_plan_rules_of(kind.into()) }
-}
-
-/// A ruling in words.
-pub fn words(of: &Ruling) -> String {
-    let mut words = [0 as c_char; 256];
-    unsafe { sys::carom_ruling_string(of, words.as_mut_ptr(), words.len()) };
-    text(words.as_ptr())
+    let ball = ball.min(i32::MAX as usize) as i32;
+    calls::spot_ball_of(kind, table, balls, ball).map(|_| ())
 }
 
 /// The stroke that a player makes who means `cue`: with errors drawn from `seed` and the number of
 /// the stroke.
 pub fn strike(player: &Player, seed: u64, number: u64, cue: &Cue) -> Cue {
     let mut made = *cue;
-    unsafe { sys::carom_player_strike(player, seed, number, &mut made) };
+    calls::player_strike(player, seed, number, &mut made);
     made
 }
 
@@ -243,13 +228,13 @@ pub struct Position {
 }
 
 impl Position {
-    /// Of two players of the same rating, 200 to 850, as by `sys::carom_player_fargo`.
+    /// Of two players of the same rating, 200 to 850, as by `calls::player_fargo`.
     pub fn new(table: &Table, balls: &[ShotBall], cue: &Cue, rules: &Rules, rating: f64) -> Self {
         Position {
             table: *table,
             balls: balls.to_vec(),
             cue: *cue,
-            player: unsafe { sys::carom_player_fargo(rating) },
+            player: calls::player_fargo(rating),
             opponent: None,
             rules: *rules,
             shot: Options::default(),
@@ -352,16 +337,10 @@ unsafe impl Send for Thinking {}
 unsafe impl Sync for Thinking {}
 
 /// Where the game lets a cue ball in hand be put after a foul.
-unsafe fn bounds_in_hand(job: &sys::carom_plan_job) -> Bounds {
-    let mut bounds = Bounds::default();
-    let about = sys::carom_rules_about_of((*job.rules).learned - 1);
-    let leave = if about.is_null() {
-        sys::CAROM_LEAVE_ANYWHERE
-    } else {
-        (*about).hand
-    };
-    sys::carom_hand_bounds(leave, job.table, 0.0, &mut bounds);
-    bounds
+fn bounds_in_hand(of: &Position) -> Bounds {
+    let about = unsafe { sys::carom_rules_about_of(of.rules.learned - 1).as_ref() };
+    let leave = about.and_then(|one| one.hand.try_into().ok());
+    calls::hand_bounds(leave.unwrap_or(Leave::Anywhere), &of.table, 0.0).unwrap_or_default()
 }
 
 /// A plan on its way.
@@ -395,7 +374,7 @@ impl Thinking {
             if self.begun {
                 sys::carom_plan_continue(&job, to, room, &mut found)
             } else if self.in_hand {
-                let bounds = self.of.bounds.unwrap_or_else(|| bounds_in_hand(&job));
+                let bounds = self.of.bounds.unwrap_or_else(|| bounds_in_hand(&self.of));
                 let (low, high) = (bounds.low.as_ptr(), bounds.high.as_ptr());
                 sys::carom_plan_hand(&job, low, high, to, room, &mut found)
             } else {
@@ -421,7 +400,8 @@ impl Thinking {
 mod tests {
     use super::*;
     use crate::{
-        aim, cue, place, rack, shoot, table, Game, Pot, PotOutcome, Race, TableKind, TurnOutcome,
+        aim, built_in_rules, cue, place, rack, shoot, table, Game, Pot, PotOutcome, Race,
+        RulesKind, TableKind, TurnOutcome,
     };
 
     /// A drill: any ball counts, until one misses.
@@ -616,7 +596,7 @@ mod tests {
         }
         assert_eq!(parts.resume(&table, &options).unwrap(), Status::Ok);
         assert!(whole.clone().resume(&table, &options).is_err());
-        let player = unsafe { sys::carom_player_fargo(400.0) };
+        let player = calls::player_fargo(400.0);
         assert_ne!(strike(&player, 1, 0, &cue).phi, cue.phi);
         pot.ball = 99;
         assert!(aim(&table, &balls, &mut pot, &mut cue, &options).is_err());
