@@ -27,7 +27,7 @@ const MASK = (1n << 64n) - 1n;
 export class Draws {
   constructor(private state: bigint) {}
 
-  between(low: number, high: number): number {
+  uniform(low: number, high: number): number {
     this.state = (this.state + 0x9e3779b97f4a7c15n) & MASK;
     let z = this.state;
     z = ((z ^ (z >> 30n)) * 0xbf58476d1ce4e5b9n) & MASK;
@@ -38,6 +38,6 @@ export class Draws {
 
   /** A power of two between 2^low and 2^high. */
   powerOfTwo(low: number, high: number): number {
-    return 2 ** Math.trunc(this.between(low, high));
+    return 2 ** Math.trunc(this.uniform(low, high));
   }
 }

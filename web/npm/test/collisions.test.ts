@@ -26,11 +26,11 @@ function deviation(out: Float64Array, reference: Float64Array, k: number): numbe
 }
 
 function impactOf(row: Float64Array): Impact {
-  const at = (k: number): Vec3 => [row[k]!, row[k + 1]!, row[k + 2]!];
+  const vector = (k: number): Vec3 => [row[k]!, row[k + 1]!, row[k + 2]!];
   const ball = (k: number): Impact["a"] => ({
-    r: at(k),
-    v: at(k + 3),
-    w: at(k + 6),
+    r: vector(k),
+    v: vector(k + 3),
+    w: vector(k + 6),
     radius: row[k + 9]!,
     mass: row[k + 10]!,
     muSlide: row[k + 11]!,
@@ -93,8 +93,8 @@ describe.each(builds)("collisions by $name", ({ carom }) => {
     const slip = Math.hypot(1.5 * 0.5, 1.5 * Math.hypot(0.866, 0.5) * 0.866);
     expect(mu).toBeCloseTo(0.009951 + 0.108 * Math.exp(-1.088 * slip), 3);
     expect(carom.collide(rolls)).toEqual(carom.collide({ ...rolls, muBall: mu }));
-    const after = carom.rollingVelocity(carom.collide(rolls).a, 0.028575);
-    expect((Math.atan2(-after[1], after[0]) * 180) / Math.PI).toBeCloseTo(33.49, 1);
+    const rolling = carom.rollingVelocity(carom.collide(rolls).a, 0.028575);
+    expect((Math.atan2(-rolling[1], rolling[0]) * 180) / Math.PI).toBeCloseTo(33.49, 1);
   });
 
   test("balls that part keep their motion", () => {

@@ -36,29 +36,29 @@ test.runIf(thereIsACommand)("both builds choose the shots that the command choos
   });
   expect(rows[1]).toEqual(rows[0]);
   const { balls } = lay(builds[0]!.carom, "nineball", PLACES);
-  const here = balls.flatMap((ball, k) =>
+  const opening = balls.flatMap((ball, k) =>
     ball.state.label === "pocketed" ? [] : [[k === 0 ? "cue" : String(k), ball] as const],
   );
   const line = toLine({
     tableName: "9ft",
-    balls: here.map(([, ball]) => ball),
-    names: here.map(([name]) => name),
+    balls: opening.map(([, ball]) => ball),
+    names: opening.map(([name]) => name),
     cue: builds[0]!.carom.cue(),
   });
-  const [head, ...told] = run(
+  const [head, ...rest] = run(
     ["plan", "--rules", "nineball", "--shots", "400", "--errors", "2", "--csv", "-"],
     line,
   )
     .trim()
     .split("\n")
     .map((row) => row.split(","));
-  expect(told.length).toBe(rows[0]!.length);
-  told.forEach((row, k) => {
-    const one = rows[0]![k]!;
+  expect(rest.length).toBe(rows[0]!.length);
+  rest.forEach((row, k) => {
+    const choice = rows[0]![k]!;
     for (const key of ["speed", "phi", "a", "b"] as const)
-      expect(Number(row[head!.indexOf(key)])).toBe(one.cue[key]);
-    expect(row[head!.indexOf("kind")]).toBe(one.kind);
-    expect(Number(row[head!.indexOf("value")])).toBeCloseTo(one.value, 5);
+      expect(Number(row[head!.indexOf(key)])).toBe(choice.cue[key]);
+    expect(row[head!.indexOf("kind")]).toBe(choice.kind);
+    expect(Number(row[head!.indexOf("value")])).toBeCloseTo(choice.value, 5);
   });
 });
 
@@ -114,12 +114,12 @@ test.runIf(thereIsACommand)(
       [0, 1, 2, 3, 4, 5, 6, 7, 8, 9].map((k) => !order.includes(k)),
     );
     expect(carom.ballsOn(game, ordered.balls)).toEqual([2]);
-    const [one] = carom.plan(read.table, ordered.balls, options);
-    expect(String(one!.ball)).toBe(best![head!.indexOf("ball")]);
-    expect(one!.value).toBeCloseTo(Number(best![head!.indexOf("value")]), 5);
+    const [choice] = carom.plan(read.table, ordered.balls, options);
+    expect(String(choice!.ball)).toBe(best![head!.indexOf("ball")]);
+    expect(choice!.value).toBeCloseTo(Number(best![head!.indexOf("value")]), 5);
     // Its balls keep their numbers, and a list in another order is refused.
     expect(
-      carom.referee(read.table, ordered.balls, one!.cue, game).balls.map(({ id }) => id),
+      carom.referee(read.table, ordered.balls, choice!.cue, game).balls.map(({ id }) => id),
     ).toEqual(ordered.names);
     expect(toLine({ ...read, names: undefined })).toBe(toLine(read));
     const wrong =
@@ -129,13 +129,13 @@ test.runIf(thereIsACommand)(
     expect(() => carom.ballsOn(game, read.balls)).toThrow(wrong);
     expect(() => carom.referee(read.table, read.balls, {}, game)).toThrow(wrong);
     expect(carom.plan(read.table, read.balls, { ...options, rules: "potting" }).length).toBe(1);
-    for (const [of, name] of [
+    for (const [ball, name] of [
       ["5", "10"],
       ["5", "2"],
       ["9", "red 1"],
     ] as const)
       expect(() =>
-        byNumber(fromLine(carom, line.replace(`"id":"${of}"`, `"id":"${name}"`)), "nineball"),
+        byNumber(fromLine(carom, line.replace(`"id":"${ball}"`, `"id":"${name}"`)), "nineball"),
       ).toThrow(`.id: the balls of nineball are the cue ball and 1 to 9, each once, not "${name}"`);
   },
 );
@@ -145,19 +145,19 @@ test.runIf(thereIsACommand)(
   () => {
     for (const { carom } of builds) {
       const table = carom.table("9ft");
-      const one: Vec2[] = [[0.9, 1.5]];
+      const corner: Vec2[] = [[0.9, 1.5]];
       const two: Vec2[] = [
         [0.55, 1.3],
         [0.4, 1.7],
       ];
-      const asked = [
-        [one, 1, "foot-right", []],
-        [one, 1, "foot-left", ["right"]],
+      const request = [
+        [corner, 1, "foot-right", []],
+        [corner, 1, "foot-left", ["right"]],
         [two, 2, "foot-left", [1]],
         [two, 2, "foot-right", [1, "left"]],
       ] as const;
-      const balls = [[0.6, 0.8], ...one].map(([x, y]) => carom.ball(x!, y!));
-      for (const [places, ball, pocket, via] of asked) {
+      const balls = [[0.6, 0.8], ...corner].map(([x, y]) => carom.ball(x!, y!));
+      for (const [places, ball, pocket, via] of request) {
         const balls = [[0.6, 0.8], ...places].map(([x, y]) => carom.ball(x!, y!));
         const aimed = carom.aim(table, balls, { speed: 3 }, { ball, pocket, via });
         expect(aimed.outcome).toBe("falls");
@@ -178,9 +178,9 @@ test.runIf(thereIsACommand)(
           .simulate(table, balls, aimed.cue)
           .events.find(({ type, a }) => type === "ball_pocket" && a === ball);
         expect(carom.pocketNames(table)[fall!.b]).toBe(pocket);
-        const told = run(words, "");
-        expect(told).toContain(`the ball has ${aimed.margin.toFixed(2)} degrees to either jaw`);
-        expect(told).toContain(
+        const output = run(words, "");
+        expect(output).toContain(`the ball has ${aimed.margin.toFixed(2)} degrees to either jaw`);
+        expect(output).toContain(
           `aims of ${aimed.phi[0].toFixed(2)} to ${aimed.phi[1].toFixed(2)} degrees`,
         );
       }
@@ -225,7 +225,7 @@ test("one set of names for pockets", () => {
 test("ball in hand, chances and errors", () => {
   const { carom } = builds[0]!;
   const { table, balls } = lay(carom, "nineball", PLACES);
-  const [one] = carom.plan(table, balls, {
+  const [choice] = carom.plan(table, balls, {
     rules: "nineball",
     shots: 200,
     inHand: [
@@ -233,7 +233,7 @@ test("ball in hand, chances and errors", () => {
       [table.width, 0.4],
     ],
   });
-  expect(one!.place[1]).toBeLessThan(0.4);
+  expect(choice!.place[1]).toBeLessThan(0.4);
   const weak = carom.player({ errors: 6 });
   const [sure, unsure] = [carom.player({ errors: 0.2 }), weak].map((player) => {
     const [found] = carom.plan(table, balls, { rules: "nineball", shots: 300, player, best: 1 });
@@ -417,19 +417,23 @@ test("one-pocket: the pocket of the player, balls that come back, a ball that is
         },
   );
   balls = carom.placeBall(pool, carom.placeBall(pool, balls, 0, 0.6, 1.4), 1, 0.95, 2.1);
-  const own = carom.pocketNames(pool).indexOf("foot-right");
+  const footRight = carom.pocketNames(pool).indexOf("foot-right");
   const [best] = carom.plan(pool, balls, { rules: "onepocket", shots: 200 });
-  expect([best!.ball, best!.pocket]).toEqual([1, own]);
+  expect([best!.ball, best!.pocket]).toEqual([1, footRight]);
   const game = { rules: "onepocket" as const, group: "open" as const, opening: false };
   expect(carom.referee(pool, balls, best!.cue, { ...game, score: [7, 6] }).turn).toBe("win");
-  const given = carom.referee(pool, balls, best!.cue, { ...game, pocket: [2, own], score: [3, 6] });
-  expect([given.turn, given.score]).toEqual(["pass", [7, 3]]);
+  const awarded = carom.referee(pool, balls, best!.cue, {
+    ...game,
+    pocket: [2, footRight],
+    score: [3, 6],
+  });
+  expect([awarded.turn, awarded.score]).toEqual(["pass", [7, 3]]);
   const missed = carom.referee(pool, balls, carom.cue({ speed: 0.5, phi: 180 }), game);
   expect([missed.turn, missed.reason, missed.score, missed.game.pocket, missed.game.lost]).toEqual([
     "pass",
     "no_ball",
     [0, -1],
-    [2, own],
+    [2, footRight],
     [0, 1],
   ]);
   expect(() => carom.plan(pool, balls.slice(0, 5), { rules: "onepocket" })).toThrow(
@@ -455,20 +459,20 @@ test("straight pool and snooker: points, colours on their own spots, a foul, the
     1.7,
   );
   const [best] = carom.plan(pool, balls, { rules: "straight", shots: 600 });
-  const made = carom.referee(
+  const pot = carom.referee(
     pool,
     balls,
     best!.cue,
     { rules: "straight", group: "open", opening: false },
     { ball: best!.ball, pocket: best!.pocket },
   );
-  expect([made.turn, made.score, made.points, made.hand]).toEqual(["keep", [1, 0], 1, "no"]);
-  expect(made.balls.every(({ state }) => state.label === "stationary")).toBe(true); // racked again
-  expect([made.facts.first[0], made.facts.potted]).toMatchObject([
+  expect([pot.turn, pot.score, pot.points, pot.hand]).toEqual(["keep", [1, 0], 1, "no"]);
+  expect(pot.balls.every(({ state }) => state.label === "stationary")).toBe(true); // racked again
+  expect([pot.facts.first[0], pot.facts.potted]).toMatchObject([
     best!.ball,
     [{ ball: best!.ball, pocket: best!.pocket }],
   ]);
-  const missed = carom.referee(pool, balls, carom.cue({ speed: 0.5, phi: 180 }), made.game);
+  const missed = carom.referee(pool, balls, carom.cue({ speed: 0.5, phi: 180 }), pot.game);
   expect([missed.turn, missed.reason, missed.score]).toEqual(["pass", "no_ball", [0, 0]]);
   expect(missed.game).toMatchObject({
     target: 100,
@@ -511,8 +515,8 @@ test("straight pool and snooker: points, colours on their own spots, a foul, the
     opening: false,
   });
   expect([foul.reason, foul.score]).toEqual(["no_ball", [4, 0]]);
-  const again = carom.referee(table, foul.balls, carom.cue({}, "snooker"), foul.game, "pass");
-  expect([again.turn, again.foul, again.score, again.game.may]).toEqual([
+  const passed = carom.referee(table, foul.balls, carom.cue({}, "snooker"), foul.game, "pass");
+  expect([passed.turn, passed.foul, passed.score, passed.game.may]).toEqual([
     "pass",
     false,
     [0, 4],

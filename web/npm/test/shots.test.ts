@@ -78,13 +78,13 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     const events = recorded.events.filter(([, type]) => type !== "none");
     expect(shot.count).toBe(events.length);
     shot.events.forEach((event, k) => {
-      const [time, type, , before, after] = events[k]!;
+      const [time, type, , incoming, outgoing] = events[k]!;
       expect([event.time, event.type]).toEqual([time, type]);
-      expect(event.before.map(flat).slice(0, before.length)).toEqual(
-        before.slice(0, event.before.length),
+      expect(event.before.map(flat).slice(0, incoming.length)).toEqual(
+        incoming.slice(0, event.before.length),
       );
-      expect(event.after.map(flat).slice(0, after.length)).toEqual(
-        after.slice(0, event.after.length),
+      expect(event.after.map(flat).slice(0, outgoing.length)).toEqual(
+        outgoing.slice(0, event.after.length),
       );
     });
     expectFinal(shot, fromLine(carom, break9).names, recorded);
@@ -154,16 +154,16 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     expect(carom.simulateBatch(batch, { cushionModel: "han" })).toBe("ok");
     cues.forEach((cue, k) => {
       const single = carom.simulate(table, balls, cue, { cushionModel: "han" });
-      const one = batch.shot(k);
-      expect(one.bytes).toEqual(single.bytes);
-      expect(one.final).toEqual(single.final);
+      const shot = batch.shot(k);
+      expect(shot.bytes).toEqual(single.bytes);
+      expect(shot.final).toEqual(single.final);
       expect([batch.time(k), batch.events(k), batch.status[k]]).toEqual([
         single.time,
         single.count,
         0,
       ]);
       expect(batch.state(k, 3)).toEqual(single.final[3]);
-      expect(one.states(1.25)).toEqual(single.states(1.25));
+      expect(shot.states(1.25)).toEqual(single.states(1.25));
     });
     batch.free();
   });
@@ -179,10 +179,10 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
 
   test("positions, states and turns at any time", () => {
     const shot = played(carom, break9);
-    const other = played(carom, named[0]!);
+    const namedShot = played(carom, named[0]!);
     expect([...shot.positions(0)]).toEqual(shot.balls.flatMap((ball) => [...ball.state.r]));
     expect([...shot.positions(1e6)]).toEqual(shot.final.flatMap((state) => [...state.r]));
-    expect(other.positions(0.3)).toHaveLength(3 * other.balls.length);
+    expect(namedShot.positions(0.3)).toHaveLength(3 * namedShot.balls.length);
     const early = shot.states(shot.events[5]!.time - 1e-9);
     expect(early[shot.events[5]!.a]!.r[0]).toBeCloseTo(shot.events[5]!.before[0]!.r[0], 6);
     const times = [0, 0.3, 1.5];
@@ -196,7 +196,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     // Frames, onward and back, are those of single calls, in the same memory.
     const first = shot.frame(0);
     for (const time of [0.3, 1.5, 0.7, shot.time]) {
-      const turned = other.orientations(0.1) && shot.orientations(time);
+      const turned = namedShot.orientations(0.1) && shot.orientations(time);
       const frame = shot.frame(time);
       expect(
         frame.states.buffer === first.states.buffer &&
@@ -212,7 +212,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
         expect(frame.label(k)).toBe(state.label);
       });
     }
-    expect(other.frame(0.1).turned).toHaveLength(4 * other.balls.length);
+    expect(namedShot.frame(0.1).turned).toHaveLength(4 * namedShot.balls.length);
     expect(() => shot.frame(NaN)).toThrow("time NaN");
   });
 
@@ -363,13 +363,13 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     const table = carom.table("9ft");
     const balls = carom.rack("nineball", table);
     balls[0] = { ...balls[0]!, state: { ...balls[0]!.state, label: "pocketed" } };
-    const before = structuredClone(balls);
+    const backup = structuredClone(balls);
     const placed = carom.placeBall(table, balls, 0, 0.6, 0.5);
     expect(placed[0]).toEqual(carom.ball(0.6, 0.5));
-    expect([placed.slice(1), balls]).toEqual([before.slice(1), before]);
+    expect([placed.slice(1), balls]).toEqual([backup.slice(1), backup]);
     const { r } = balls[4]!.state;
     const [x, y] = table.pockets[0]!.centre;
-    for (const [at, status, field] of [
+    for (const [place, status, field] of [
       [[r[0], r[1]], "overlap", /^balls\[4\]$/],
       [[0.01, 1], "off_table", /^table\.rails\[\d+\]$/],
       [[x, y], "off_table", /^table\.(pockets|rails|jaws)\[\d+\]$/],
@@ -377,7 +377,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     ] as const) {
       let error: unknown;
       try {
-        carom.placeBall(table, balls, 0, at[0], at[1]);
+        carom.placeBall(table, balls, 0, place[0], place[1]);
       } catch (thrown) {
         error = thrown;
       }
@@ -385,7 +385,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
       expect((error as CaromError).status).toBe(status);
       expect((error as CaromError).field).toMatch(field);
       expect((error as CaromError).message).toContain(
-        `at ${at[0]}, ${at[1]} m; a free place is needed`,
+        `at ${place[0]}, ${place[1]} m; a free place is needed`,
       );
     }
     expect(() => carom.placeBall(table, balls, 10, 0.6, 0.5)).toThrow(
@@ -432,12 +432,12 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
   test("what is refused", () => {
     const table = carom.table("9ft");
     const balls = carom.rack("nineball", table);
-    const bad = structuredClone(balls) as unknown as {
+    const faulty = structuredClone(balls) as unknown as {
       kind: { radius: number };
       state: { r: number[] };
     }[];
-    bad[3]!.state.r[0] = NaN;
-    expect(() => carom.simulate(table, bad as never, {})).toThrow(
+    faulty[3]!.state.r[0] = NaN;
+    expect(() => carom.simulate(table, faulty as never, {})).toThrow(
       "balls[3].state.r: it must be -1e6 to 1e6, in m, not NaN",
     );
     expect(() => carom.simulate(table, balls, { a: 0.9, b: 0.9 })).toThrow(
@@ -571,16 +571,21 @@ test.each(builds)("pocketed balls fall where they are drawn, by $name", ({ carom
     carom.simulate(table, carom.rack("nineball", table, { seed }), { speed: 9 }),
   );
   const shot = shots.find(({ events }) => events.some(({ type }) => type === "ball_pocket"))!;
-  const { time, a, before, after } = shot.events.find(({ type }) => type === "ball_pocket")!;
+  const {
+    time,
+    a,
+    before: incoming,
+    after: outgoing,
+  } = shot.events.find(({ type }) => type === "ball_pocket")!;
   const heights = [0, 0.02, 0.04, 0.06].map((later) => shot.states(time + later, true)[a]!.r[2]);
   heights.forEach((height, k) =>
-    expect(height).toBeCloseTo(before[0]!.r[2] - 0.5 * 9.81 * (0.02 * k) ** 2, 3),
+    expect(height).toBeCloseTo(incoming[0]!.r[2] - 0.5 * 9.81 * (0.02 * k) ** 2, 3),
   );
   // it lies where its fall ends, at the depth of its pocket
   const lies = shot.states(time + 1, true)[a]!;
-  expect(lies.r[2]).toBeCloseTo(after[0]!.r[2], 12);
-  expect({ ...lies, r: after[0]!.r }).toEqual(after[0]);
+  expect(lies.r[2]).toBeCloseTo(outgoing[0]!.r[2], 12);
+  expect({ ...lies, r: outgoing[0]!.r }).toEqual(outgoing[0]);
   expect(shot.states(time + 2, true)[a]).toEqual(lies);
   expect(shot.positionsAt([time + 0.04], true)[3 * a + 2]).toBe(heights[2]);
-  expect(shot.states(time + 0.04)[a]).toEqual(after[0]);
+  expect(shot.states(time + 0.04)[a]).toEqual(outgoing[0]);
 });

@@ -38,8 +38,8 @@ export class Hash {
     this.#f64[0] = x;
     return this.#words(this.#u32[0]!, this.#u32[1]!);
   }
-  numbers(all: Iterable<number>): this {
-    for (const x of all) this.number(x);
+  numbers(values: Iterable<number>): this {
+    for (const x of values) this.number(x);
     return this;
   }
   /** A whole number of 64 bits, negative ones in two's complement. */

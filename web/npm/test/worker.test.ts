@@ -14,7 +14,7 @@ test("a worker computes the same bits", async () => {
     const choices = carom.plan(table, carom.rack("nineball", table), { rules: "nineball", opening: true, shots: 100 });
     parentPort.postMessage([carom.build, shot.time, shot.final, choices]);`;
   const worker = new Worker(new URL(`data:text/javascript,${encodeURIComponent(source)}`));
-  const said = await new Promise((resolve, reject) =>
+  const message = await new Promise((resolve, reject) =>
     worker.once("message", resolve).once("error", reject),
   );
   await worker.terminate();
@@ -26,7 +26,7 @@ test("a worker computes the same bits", async () => {
     opening: true,
     shots: 100,
   });
-  expect(said).toEqual(["simd", shot.time, shot.final, choices]);
+  expect(message).toEqual(["simd", shot.time, shot.final, choices]);
 });
 
 test("the package has the library's version, and no dependency at run time", () => {

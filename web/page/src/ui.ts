@@ -58,21 +58,24 @@ export function slider(
  * Follows a pointer that is held on an element: calls for where it goes down, which comes first,
  * and where it moves to.
  */
-export function drags(on: HTMLElement, over: (event: PointerEvent, first: boolean) => void): void {
-  on.addEventListener("pointerdown", (event) => {
-    on.setPointerCapture(event.pointerId);
+export function drags(
+  element: HTMLElement,
+  over: (event: PointerEvent, first: boolean) => void,
+): void {
+  element.addEventListener("pointerdown", (event) => {
+    element.setPointerCapture(event.pointerId);
     over(event, true);
   });
-  on.addEventListener(
+  element.addEventListener(
     "pointermove",
-    (event) => on.hasPointerCapture(event.pointerId) && over(event, false),
+    (event) => element.hasPointerCapture(event.pointerId) && over(event, false),
   );
 }
 
 /** What sliders are set to. */
 export const valuesOf = <K extends string>(sliders: Record<K, Slider>): Record<K, number> =>
   Object.fromEntries(
-    Object.entries<Slider>(sliders).map(([key, one]) => [key, one.value]),
+    Object.entries<Slider>(sliders).map(([key, control]) => [key, control.value]),
   ) as Record<K, number>;
 
 /**
@@ -94,11 +97,11 @@ export function pad(
   let pointer: [number, number] = [0, 0];
   drags(root, (event, first) => {
     const box = root.getBoundingClientRect();
-    const from = first ? [(box.left + box.right) / 2, (box.top + box.bottom) / 2] : pointer;
+    const start = first ? [(box.left + box.right) / 2, (box.top + box.bottom) / 2] : pointer;
     const [x, y] = first ? [0, 0] : place;
     place = [
-      x + (2.1 * (event.clientX - from[0]!)) / box.width,
-      y - (2.1 * (event.clientY - from[1]!)) / box.height,
+      x + (2.1 * (event.clientX - start[0]!)) / box.width,
+      y - (2.1 * (event.clientY - start[1]!)) / box.height,
     ];
     pointer = [event.clientX, event.clientY];
     const most = Math.min(1, 0.7 / Math.hypot(...place));
@@ -119,9 +122,9 @@ export function button(
   onClick: () => void,
   attributes: Record<string, string> = {},
 ): HTMLButtonElement {
-  const made = el("button", { type: "button", ...attributes }, text);
-  made.addEventListener("click", onClick);
-  return made;
+  const element = el("button", { type: "button", ...attributes }, text);
+  element.addEventListener("click", onClick);
+  return element;
 }
 
 export function choice(
@@ -151,12 +154,12 @@ export function check(
 
 /** Calls `draw` once before the next frame, however often it is asked for. */
 export function eachFrame(draw: () => void): () => void {
-  let asked = false;
+  let isPending = false;
   return () => {
-    if (asked) return;
-    asked = true;
+    if (isPending) return;
+    isPending = true;
     requestAnimationFrame(() => {
-      asked = false;
+      isPending = false;
       draw();
     });
   };
@@ -218,16 +221,16 @@ export function dialog(
   title: string,
   ...children: (Node | string)[]
 ): HTMLDialogElement {
-  const made = el(
+  const element = el(
     "dialog",
     { id, "aria-label": title },
     el(
       "div",
       { class: "row head" },
       el("h2", {}, title),
-      button(texts.close, () => made.close(), { class: "close" }),
+      button(texts.close, () => element.close(), { class: "close" }),
     ),
     ...children,
   );
-  return made;
+  return element;
 }

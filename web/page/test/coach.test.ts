@@ -7,7 +7,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
 
   test("the coach tells chances before a stroke, what it cost after it, and keeps a log to print", async () => {
     // A straight pot, and the nine for the game.
-    const one = await open(
+    const page = await open(
       "",
       { width: 390, height: 844, touch: true },
       {
@@ -18,71 +18,71 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
         at: "0.635,1.2 0.3,2.2 in in in in in in in 0.9,1.9",
       },
     );
-    await one.locator("#new-game").click();
-    await one.locator("#coach").check();
-    await one.locator("#rate").selectOption("1000");
-    await one.locator("#menu .close").click();
-    await one.locator("#hint").click();
+    await page.locator("#new-game").click();
+    await page.locator("#coach").check();
+    await page.locator("#rate").selectOption("1000");
+    await page.locator("#menu .close").click();
+    await page.locator("#hint").click();
     await expect
-      .poll(() => text(one, "said"))
+      .poll(() => text(page, "said"))
       .toMatch(
         /^Hint: ball [19] into the .*\. An unrated player \(\d+\) keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/,
       );
     // A stroke that meets nothing: a foul, which the chances and the review tell.
-    await turnTo(one, 200);
-    await set(one, "power", 0.6);
+    await turnTo(page, 200);
+    await set(page, "power", 0.6);
     await expect
-      .poll(() => text(one, "said"))
+      .poll(() => text(page, "said"))
       .toMatch(
         /^This stroke: An unrated player \(\d+\) keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/,
       );
-    await one.locator("#shoot").click();
+    await page.locator("#shoot").click();
     await expect
-      .poll(() => text(one, "said"))
+      .poll(() => text(page, "said"))
       .toMatch(
         /^That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\.$/,
       );
-    await one.locator("#new-game").click();
-    await one.locator("#open-log").click();
-    expect(await one.locator("#log tbody tr").count()).toBe(1);
-    expect(await text(one, "log-sum")).toMatch(/^1 stroke\. A stroke cost [1-9]\d* % of a game/);
-    expect(await violations(one)).toEqual([]);
+    await page.locator("#new-game").click();
+    await page.locator("#open-log").click();
+    expect(await page.locator("#log tbody tr").count()).toBe(1);
+    expect(await text(page, "log-sum")).toMatch(/^1 stroke\. A stroke cost [1-9]\d* % of a game/);
+    expect(await violations(page)).toEqual([]);
     // On paper there is the log alone.
-    await one.emulateMedia({ media: "print" });
-    expect(await one.locator("#table-scene").isVisible()).toBe(false);
-    expect(await one.locator("#log table").isVisible()).toBe(true);
-    await one.close();
+    await page.emulateMedia({ media: "print" });
+    expect(await page.locator("#table-scene").isVisible()).toBe(false);
+    expect(await page.locator("#log table").isVisible()).toBe(true);
+    await page.close();
   });
 
   test("the view from behind the cue starts when it is asked for, and shows the balls as they roll", async () => {
-    const one = await open("");
-    expect(await one.locator("#scene").count()).toBe(0);
-    await one.locator("#space").click();
-    await one.locator("#scene").waitFor();
-    expect(await violations(one)).toEqual([]);
+    const page = await open("");
+    expect(await page.locator("#scene").count()).toBe(0);
+    await page.locator("#space").click();
+    await page.locator("#scene").waitFor();
+    expect(await violations(page)).toEqual([]);
     // What is seen changes with the aim and with the balls.
     const seen = async (): Promise<string> =>
-      (await one.locator("#scene").screenshot()).toString("base64");
-    const before = await seen();
-    const box = (await one.locator("#scene").boundingBox())!;
-    await one.mouse.move(box.x + 100, box.y + 100);
-    await one.mouse.down();
-    await one.mouse.move(box.x + 150, box.y + 100);
-    await one.mouse.up();
-    expect(Number(await one.locator("#phi").inputValue())).toBeCloseTo(90 - 4, 0);
+      (await page.locator("#scene").screenshot()).toString("base64");
+    const initial = await seen();
+    const box = (await page.locator("#scene").boundingBox())!;
+    await page.mouse.move(box.x + 100, box.y + 100);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 150, box.y + 100);
+    await page.mouse.up();
+    expect(Number(await page.locator("#phi").inputValue())).toBeCloseTo(90 - 4, 0);
     const turned = await seen();
-    expect(turned).not.toBe(before);
-    await one.locator("#shoot").click();
+    expect(turned).not.toBe(initial);
+    await page.locator("#shoot").click();
     await expect.poll(seen).not.toBe(turned);
-    await one.locator("#space").click();
-    expect(await one.locator("#scene").count()).toBe(0);
-    expect(await one.locator("#table-scene").isVisible()).toBe(true);
-    await one.close();
+    await page.locator("#space").click();
+    expect(await page.locator("#scene").count()).toBe(0);
+    expect(await page.locator("#table-scene").isVisible()).toBe(true);
+    await page.close();
   });
 
   test("behind the cue the table fills the view of a phone, the aim is on the cloth, and balls have their numbers", async () => {
     // The 1 lies before the camera, its number up.
-    const one = await open(
+    const page = await open(
       "",
       { width: 390, height: 844, touch: true },
       {
@@ -93,15 +93,15 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
         at: "0.635,0.635 0.75,0.4 in in in in in in in in",
       },
     );
-    await turnTo(one, 90);
-    await one.locator("#new-game").click();
-    await one.locator("#numbers").check();
-    await one.locator("#menu .close").click();
-    await one.locator("#space").click();
-    await one.locator("#scene").waitFor();
-    expect(await violations(one)).toEqual([]);
-    const png = (await one.locator("#scene").screenshot()).toString("base64");
-    const { width, height, letters } = await one.evaluate(async (png) => {
+    await turnTo(page, 90);
+    await page.locator("#new-game").click();
+    await page.locator("#numbers").check();
+    await page.locator("#menu .close").click();
+    await page.locator("#space").click();
+    await page.locator("#scene").waitFor();
+    expect(await violations(page)).toEqual([]);
+    const png = (await page.locator("#scene").screenshot()).toString("base64");
+    const { width, height, letters } = await page.evaluate(async (png) => {
       const image = new Image();
       image.src = `data:image/png;base64,${png}`;
       await image.decode();
@@ -137,7 +137,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
       );
     // Its number is beside it, too.
     expect(
-      await one.locator(".over-scene").evaluate(
+      await page.locator(".over-scene").evaluate(
         (over: HTMLCanvasElement) =>
           over
             .getContext("2d")!
@@ -181,11 +181,11 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
         (r, g, b) => Math.max(r, g, b) < 200 && Math.max(r, g, b) - Math.min(r, g, b) < 40,
       ).length,
     ).toBeGreaterThan(3);
-    await one.close();
+    await page.close();
   });
 
   test("behind the cue a finger calls another pocket, and moves the cue ball that is in hand", async () => {
-    const one = await open(
+    const page = await open(
       "",
       { width: 390, height: 844, touch: true },
       {
@@ -196,13 +196,13 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
         at: "0.635,0.6 0.635,1.6 in in in in in in 1.0,2.0 0.3,0.5 in in in in in in",
       },
     );
-    await turnTo(one, 88.5);
-    await one.locator("#space").click();
-    await one.locator("#scene").waitFor();
-    const box = (await one.locator("#scene").boundingBox())!;
+    await turnTo(page, 88.5);
+    await page.locator("#space").click();
+    await page.locator("#scene").waitFor();
+    const box = (await page.locator("#scene").boundingBox())!;
     /** Where the view has marks: what is called, or in hand. */
     const marks = (): Promise<string[]> =>
-      one.locator(".over-scene").evaluate((over: HTMLCanvasElement) => {
+      page.locator(".over-scene").evaluate((over: HTMLCanvasElement) => {
         const copy = document.createElement("canvas");
         [copy.width, copy.height] = [over.width, over.height];
         copy.getContext("2d")!.drawImage(over, 0, 0);
@@ -214,62 +214,63 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
           )
           .map((k) => `${k % over.width},${Math.floor(k / over.width)}`);
       });
-    const middle = (all: string[]): [number, number] =>
+    const middle = (marks: string[]): [number, number] =>
       [0, 1].map(
-        (c) => all.reduce((sum, at) => sum + Number(at.split(",")[c]), 0) / all.length,
+        (c) => marks.reduce((sum, mark) => sum + Number(mark.split(",")[c]), 0) / marks.length,
       ) as [number, number];
     const next = async (pocket: string): Promise<void> => {
-      for (let k = 0; k < 6 && !(await text(one, "turn")).includes(pocket); k++) {
-        await one.locator("#scene").press("c");
-        await frames(one);
+      for (let k = 0; k < 6 && !(await text(page, "turn")).includes(pocket); k++) {
+        await page.locator("#scene").press("c");
+        await frames(page);
       }
     };
-    await expect.poll(() => text(one, "turn")).toContain("Call: the 1, ");
+    await expect.poll(() => text(page, "turn")).toContain("Call: the 1, ");
     await next("foot-right");
-    const before = await marks();
+    const initial = await marks();
     await next("foot-left");
-    const [x, y] = middle((await marks()).filter((at) => !before.includes(at)));
+    const [x, y] = middle((await marks()).filter((mark) => !initial.includes(mark)));
     await next("foot-right");
-    await one.touchscreen.tap(box.x + x, box.y + y);
-    await expect.poll(() => text(one, "turn")).toContain("Call: the 1, foot-left pocket.");
+    await page.touchscreen.tap(box.x + x, box.y + y);
+    await expect.poll(() => text(page, "turn")).toContain("Call: the 1, foot-left pocket.");
     // A foul, and the cue ball in hand.
-    await turnTo(one, 200);
-    await set(one, "power", 0.4);
-    await one.locator("#shoot").click();
-    await one.locator("#skip").click();
-    await expect.poll(() => text(one, "turn")).toMatch(/Cue ball in hand: drag it/);
+    await turnTo(page, 200);
+    await set(page, "power", 0.4);
+    await page.locator("#shoot").click();
+    await page.locator("#skip").click();
+    await expect.poll(() => text(page, "turn")).toMatch(/Cue ball in hand: drag it/);
     // The mark that is nearest to whoever aims.
-    const all = await marks();
-    const from = middle(
-      all.filter(
-        (at) =>
-          Number(at.split(",")[1]) > Math.max(...all.map((one) => Number(one.split(",")[1]))) - 40,
+    const seenMarks = await marks();
+    const start = middle(
+      seenMarks.filter(
+        (place) =>
+          Number(place.split(",")[1]) >
+          Math.max(...seenMarks.map((place) => Number(place.split(",")[1]))) - 40,
       ),
     );
-    const devtools = await one.context().newCDPSession(one);
+    const devtools = await page.context().newCDPSession(page);
     const touch = (
       type: "touchStart" | "touchMove" | "touchEnd",
-      ...to: number[]
+      ...target: number[]
     ): Promise<unknown> =>
       devtools.send("Input.dispatchTouchEvent", {
         type,
-        touchPoints: to.length ? [{ x: box.x + to[0]!, y: box.y + to[1]! }] : [],
+        touchPoints: target.length ? [{ x: box.x + target[0]!, y: box.y + target[1]! }] : [],
       });
-    await touch("touchStart", ...from);
-    for (let k = 10; k <= 60; k += 10) await touch("touchMove", from[0] + k, from[1]);
+    await touch("touchStart", ...start);
+    for (let k = 10; k <= 60; k += 10) await touch("touchMove", start[0] + k, start[1]);
     await touch("touchEnd");
-    await one.locator("#shoot").click();
-    const places = linesOf<{ at?: [number, number] }>(await keptGame(one), "place");
-    const put = places.filter(({ at }) => at !== undefined);
+    await page.locator("#shoot").click();
+    const places = linesOf<{ at?: [number, number] }>(await keptGame(page), "place");
+    const put = places.filter((row) => row.at !== undefined);
     // It lay on the head spot.
     expect(put).toHaveLength(1);
     expect(put[0]!.at).not.toEqual([0.635, 0.635]);
-    await one.close();
+    await page.close();
   });
 
   test("without WebGL the flat view stays, and the page says why", async () => {
-    const one = await open("");
-    await one.evaluate(() => {
+    const page = await open("");
+    await page.evaluate(() => {
       const get = HTMLCanvasElement.prototype.getContext as (
         this: HTMLCanvasElement,
         kind: string,
@@ -283,11 +284,11 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
         return kind === "webgl2" ? null : get.call(this, kind, ...rest);
       } as typeof HTMLCanvasElement.prototype.getContext;
     });
-    await one.locator("#space").click();
+    await page.locator("#space").click();
     await expect
-      .poll(() => text(one, "said"))
+      .poll(() => text(page, "said"))
       .toBe("This browser does not show three dimensions (it has no WebGL 2).");
-    expect(await one.locator("#table-scene").isVisible()).toBe(true);
-    await one.close();
+    expect(await page.locator("#table-scene").isVisible()).toBe(true);
+    await page.close();
   });
 });

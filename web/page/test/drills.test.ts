@@ -39,16 +39,16 @@ test.runIf(process.env.CAROM_DRILLS)("ratings that make a drill in half of the t
     const { table, balls } = layout(carom, drill);
     const good = (cue: Partial<Cue>): boolean =>
       judge(drill, carom.simulate(table, balls, cue, OPTIONS)).outcome !== "missed";
-    const made: Partial<Cue>[] = [];
+    const strokes: Partial<Cue>[] = [];
     for (const cue of strokesFor(carom, table, balls, drill, 200, OPTIONS))
-      if (good(cue) && made.push(cue) === 200) break;
+      if (good(cue) && strokes.push(cue) === 200) break;
     const share = (cue: Partial<Cue>, fargo: number, count: number): number =>
       Array.from({ length: count }, (_, k) =>
         good(carom.withErrors(cue, carom.player({ fargo }), count, k)),
       ).filter(Boolean).length / count;
     const best = (fargo: number): number =>
       Math.max(
-        ...made
+        ...strokes
           .map((cue) => [share(cue, fargo, 25), cue] as const)
           .sort(([a], [b]) => b - a)
           .slice(0, 8)
@@ -84,15 +84,15 @@ test.each(drills.map((drill) => [drill.name, drill] as const))(
     const { carom } = builds[0]!;
     const { table, balls } = layout(carom, drill);
     const player = carom.player({ fargo: drill.rating });
-    const { cue, made } = drillStroke(carom, table, balls, drill, player, OPTIONS)!;
+    const { cue, chance } = drillStroke(carom, table, balls, drill, player, OPTIONS)!;
     expect(judge(drill, carom.simulate(table, balls, cue, OPTIONS)).outcome).not.toBe("missed");
-    expect(made).toBeGreaterThan(0.25);
+    expect(chance).toBeGreaterThan(0.25);
   },
 );
 
 test("a game of pool is played on the table that it names, with the pockets of that table", () => {
   const { carom } = builds[0]!;
-  const on = (table?: string, game = "nineball"): Play =>
+  const practiceOn = (table?: string, game = "nineball"): Play =>
     new Play(carom, {
       game,
       against: "practice",
@@ -100,10 +100,10 @@ test("a game of pool is played on the table that it names, with the pockets of t
       seed: 1,
       ...(table !== undefined && { table }),
     });
-  expect(["9ft", "8ft", "7ft", "tight"].map((name) => on(name).table.width)).toEqual([
+  expect(["9ft", "8ft", "7ft", "tight"].map((name) => practiceOn(name).table.width)).toEqual([
     1.27, 1.1176, 0.9906, 1.27,
   ]);
-  expect(on().table).toEqual(on("9ft").table);
+  expect(practiceOn().table).toEqual(practiceOn("9ft").table);
   // Of balls side by side that run at a corner, fewer fall into the tight one.
   const into = ({ table, balls }: Play): number => {
     const lie = balls.map(
@@ -116,15 +116,15 @@ test("a game of pool is played on the table that it names, with the pockets of t
       carom.placeBall(table, lie, 0, 0.4, 0.4 + 0.002 * k),
     );
     return line.filter(
-      (all) =>
-        carom.simulate(table, all, carom.cue({ speed: 2, phi: 225 }), OPTIONS).final[0]!.label ===
+      (balls) =>
+        carom.simulate(table, balls, carom.cue({ speed: 2, phi: 225 }), OPTIONS).final[0]!.label ===
         "pocketed",
     ).length;
   };
-  const usual = into(on("9ft"));
-  const tight = into(on("tight"));
+  const usual = into(practiceOn("9ft"));
+  const tight = into(practiceOn("tight"));
   expect(tight).toBeGreaterThan(2);
   expect(tight).toBeLessThan(usual);
-  expect(() => on("10ft")).toThrow('table: there is no table "10ft" for this game');
-  expect(() => on("7ft", "snooker")).toThrow('there is no table "7ft"');
+  expect(() => practiceOn("10ft")).toThrow('table: there is no table "10ft" for this game');
+  expect(() => practiceOn("7ft", "snooker")).toThrow('there is no table "7ft"');
 });

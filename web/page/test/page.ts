@@ -9,7 +9,7 @@ import { root } from "../../test/support.js";
 export const browserPath =
   process.env.CHROMIUM ??
   ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
-export const page = `${root}web/page/dist/index.html`;
+export const pageFile = `${root}web/page/dist/index.html`;
 if (browserPath === undefined)
   console.log(
     "without the tests of the page: there is no Chromium (Debian: chromium); CHROMIUM may name one",
@@ -19,9 +19,9 @@ export const axe = readFileSync(
   "utf8",
 );
 /** What axe finds wrong with a page. */
-export async function violations(one: Page): Promise<string[]> {
-  await one.evaluate(axe);
-  return one.evaluate(async () => {
+export async function violations(page: Page): Promise<string[]> {
+  await page.evaluate(axe);
+  return page.evaluate(async () => {
     const { violations } = await (
       window as unknown as {
         axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> };
@@ -38,8 +38,8 @@ export const sizes = [
 ] as const;
 
 /** The games that a page's browser keeps, as text, by their ids; and which one the tab has open. */
-export function keptGames(one: Page): Promise<{ open: string; games: Record<string, string> }> {
-  return one.evaluate(async () => {
+export function keptGames(page: Page): Promise<{ open: string; games: Record<string, string> }> {
+  return page.evaluate(async () => {
     const finished = <T>(request: IDBRequest<T>): Promise<T> =>
       new Promise((done, failed) => {
         request.addEventListener("success", () => done(request.result));
@@ -56,8 +56,8 @@ export function keptGames(one: Page): Promise<{ open: string; games: Record<stri
   });
 }
 /** The text of the game that a page has open, as its browser keeps it. */
-export async function keptGame(one: Page): Promise<string> {
-  const { open, games } = await keptGames(one);
+export async function keptGame(page: Page): Promise<string> {
+  const { open, games } = await keptGames(page);
   return games[open]!;
 }
 
@@ -78,13 +78,13 @@ function seeded(seed: number): void {
 
 const NINE_FEET = [1.27, 2.54] as const;
 /** Where a place of a table, m, is on the page. */
-async function on(
-  one: Page,
+async function pixelOf(
+  page: Page,
   x: number,
   y: number,
   [w, l]: readonly [number, number] = NINE_FEET,
 ): Promise<[number, number]> {
-  const box = (await one.locator("#table-scene").boundingBox())!;
+  const box = (await page.locator("#table-scene").boundingBox())!;
   const upright = box.height > box.width;
   const scale = box.width / ((upright ? w : l) + 0.2);
   return upright
@@ -96,54 +96,60 @@ async function on(
  * another.
  */
 async function drag(
-  one: Page,
-  from: readonly [number, number],
-  to: readonly [number, number],
+  page: Page,
+  start: readonly [number, number],
+  end: readonly [number, number],
   touch = false,
 ): Promise<void> {
-  const a = await on(one, ...from);
-  const b = await on(one, ...to);
+  const a = await pixelOf(page, ...start);
+  const b = await pixelOf(page, ...end);
   const steps = Array.from(
     { length: 8 },
     (_, k) => a.map((x, c) => x + ((b[c]! - x) * (k + 1)) / 8) as [number, number],
   );
   if (!touch) {
-    await one.mouse.move(...a);
-    await one.mouse.down();
-    for (const step of steps) await one.mouse.move(...step);
-    return one.mouse.up();
+    await page.mouse.move(...a);
+    await page.mouse.down();
+    for (const step of steps) await page.mouse.move(...step);
+    return page.mouse.up();
   }
-  const devtools = await one.context().newCDPSession(one);
+  const devtools = await page.context().newCDPSession(page);
   const send = (
     type: "touchStart" | "touchMove" | "touchEnd",
-    at?: [number, number],
+    pixel?: [number, number],
   ): Promise<unknown> =>
     devtools.send("Input.dispatchTouchEvent", {
       type,
-      touchPoints: at ? [{ x: at[0], y: at[1] }] : [],
+      touchPoints: pixel ? [{ x: pixel[0], y: pixel[1] }] : [],
     });
   await send("touchStart", a);
   for (const step of steps) await send("touchMove", step);
   await send("touchEnd");
 }
-async function click(one: Page, x: number, y: number, touch = false): Promise<void> {
-  const at = await on(one, x, y);
-  await (touch ? one.touchscreen.tap(...at) : one.mouse.click(...at));
+async function click(page: Page, x: number, y: number, touch = false): Promise<void> {
+  const pixel = await pixelOf(page, x, y);
+  await (touch ? page.touchscreen.tap(...pixel) : page.mouse.click(...pixel));
 }
 /** Where the balls of the page lie, by the line that it exports: label, x, y. */
-async function lies(one: Page): Promise<Record<string, number[]>> {
-  const details = one.locator("main details");
-  if ((await details.getAttribute("open")) === null) await one.locator("main summary").click();
-  await one.locator("#export").click();
-  const line = JSON.parse(await one.locator("#line").inputValue()) as {
+async function lies(page: Page): Promise<Record<string, number[]>> {
+  const details = page.locator("main details");
+  if ((await details.getAttribute("open")) === null) await page.locator("main summary").click();
+  await page.locator("#export").click();
+  const line = JSON.parse(await page.locator("#line").inputValue()) as {
     balls: { id: string; state: number[] }[];
   };
-  await one.evaluate(() => scrollTo(0, 0));
+  await page.evaluate(() => scrollTo(0, 0));
   return Object.fromEntries(line.balls.map(({ id, state }) => [id, state.slice(0, 3)]));
 }
 /** Pixels of the table's picture in a rectangle of the page: red, green, blue and alpha of each. */
-function pixels(one: Page, x: number, y: number, width: number, height: number): Promise<number[]> {
-  return one.locator("#table-scene").evaluate(
+function pixels(
+  page: Page,
+  x: number,
+  y: number,
+  width: number,
+  height: number,
+): Promise<number[]> {
+  return page.locator("#table-scene").evaluate(
     (canvas, [x, y, width, height]) => {
       const box = canvas.getBoundingClientRect();
       const ratio = (canvas as HTMLCanvasElement).width / box.width;
@@ -159,31 +165,31 @@ function pixels(one: Page, x: number, y: number, width: number, height: number):
     [x, y, width, height] as const,
   );
 }
-const pixel = (one: Page, x: number, y: number): Promise<number[]> =>
-  pixels(one, x, y, 1, 1).then((all) => all.slice(0, 3));
+const pixel = (page: Page, x: number, y: number): Promise<number[]> =>
+  pixels(page, x, y, 1, 1).then((colours) => colours.slice(0, 3));
 /**
  * The colour of the table's picture at a place, m; or the brightest of each part in a square of so
  * many pixels around it.
  */
-async function colour(one: Page, x: number, y: number, size = 1): Promise<number[]> {
-  const [px, py] = await on(one, x, y);
-  const data = await pixels(one, px - (size - 1) / 2, py - (size - 1) / 2, size, size);
+async function colour(page: Page, x: number, y: number, size = 1): Promise<number[]> {
+  const [px, py] = await pixelOf(page, x, y);
+  const data = await pixels(page, px - (size - 1) / 2, py - (size - 1) / 2, size, size);
   return [0, 1, 2].map((part) => Math.max(...data.filter((_, k) => k % 4 === part)));
 }
 /** How many pixels between two places are bright in each part. */
 async function bright(
-  one: Page,
-  from: readonly [number, number],
-  to: readonly [number, number],
+  page: Page,
+  start: readonly [number, number],
+  end: readonly [number, number],
 ): Promise<number> {
-  const [ax, ay] = await on(one, ...from);
-  const [bx, by] = await on(one, ...to);
+  const [ax, ay] = await pixelOf(page, ...start);
+  const [bx, endY] = await pixelOf(page, ...end);
   const data = await pixels(
-    one,
+    page,
     Math.min(ax, bx),
-    Math.min(ay, by),
+    Math.min(ay, endY),
     Math.min(Math.abs(ax - bx), 300),
-    Math.min(Math.abs(ay - by), 150),
+    Math.min(Math.abs(ay - endY), 150),
   );
   let count = 0;
   for (let k = 0; k < data.length; k += 4)
@@ -191,20 +197,20 @@ async function bright(
   return count;
 }
 /** Waits until the page has drawn so many frames: what was asked for before them is seen. */
-const frames = (one: Page, count = 2): Promise<void> =>
-  one.evaluate(async (count) => {
+const frames = (page: Page, count = 2): Promise<void> =>
+  page.evaluate(async (count) => {
     for (let k = 0; k < count; k++) await new Promise(requestAnimationFrame);
   }, count);
 /** Sets the direction of a stroke, whose slider may be folded away. */
-const turnTo = (one: Page, phi: number): Promise<void> =>
-  one.locator("#phi").evaluate((input: HTMLInputElement, phi) => {
+const turnTo = (page: Page, phi: number): Promise<void> =>
+  page.locator("#phi").evaluate((input: HTMLInputElement, phi) => {
     input.value = String(phi);
     input.dispatchEvent(new Event("input"));
   }, phi);
-const text = async (one: Page, id: string): Promise<string> =>
-  (await one.locator(`#${id}`).textContent())!;
-const set = (one: Page, id: string, value: number): Promise<void> =>
-  one.locator(`#${id}`).fill(String(value));
+const text = async (page: Page, id: string): Promise<string> =>
+  (await page.locator(`#${id}`).textContent())!;
+const set = (page: Page, id: string, value: number): Promise<void> =>
+  page.locator(`#${id}`).fill(String(value));
 
 /** What the lines of a kind hold, of a game that is kept. */
 export function linesOf<T = object>(game: string, kind: string): T[] {
@@ -216,8 +222,8 @@ export function linesOf<T = object>(game: string, kind: string): T[] {
  * A number of the first stroke of the game that is kept, of which a line has some as hexadecimal
  * text.
  */
-async function struck(one: Page, key: string): Promise<number> {
-  const [shot] = linesOf<Record<string, number | string>>(await keptGame(one), "shot");
+async function struck(page: Page, key: string): Promise<number> {
+  const [shot] = linesOf<Record<string, number | string>>(await keptGame(page), "shot");
   const value = shot![key]!;
   const [, digits = "", power = "0"] = /^0x1\.?([0-9a-f]*)p([+-]\d+)/.exec(String(value)) ?? [];
   return typeof value === "number"
@@ -231,8 +237,8 @@ async function struck(one: Page, key: string): Promise<number> {
  */
 export function pages() {
   let browser: Browser;
-  const said: string[] = [];
-  const asked: string[] = [];
+  const messages: string[] = [];
+  const requests: string[] = [];
   beforeAll(async () => {
     console.log(`seed ${seed} (replay with CAROM_TEST_SEED)`);
     browser = await chromium.launch({
@@ -242,10 +248,10 @@ export function pages() {
   });
   afterAll(async () => {
     await browser?.close();
-    expect(said).toEqual([]);
+    expect(messages).toEqual([]);
     // Nothing is loaded from elsewhere, nor anything beside the page itself.
     expect(
-      asked.filter(
+      requests.filter(
         (url) => !url.startsWith("file://") && !url.startsWith("data:") && !url.startsWith("blob:"),
       ),
     ).toEqual([]);
@@ -262,10 +268,10 @@ export function pages() {
     game?: object,
   ): Promise<Page> {
     const kind = [width, height, dark, touch].join();
-    const one = free[kind]?.pop() ?? (await tab(kind, width, height, dark, touch));
+    const page = free[kind]?.pop() ?? (await tab(kind, width, height, dark, touch));
     // A picture of the same origin, where what an earlier game has kept goes.
-    await one.goto(`file://${page.replace("index.html", "icon.svg")}`);
-    await one.evaluate(
+    await page.goto(`file://${pageFile.replace("index.html", "icon.svg")}`);
+    await page.evaluate(
       (text) => {
         localStorage.clear();
         sessionStorage.clear();
@@ -275,9 +281,9 @@ export function pages() {
       },
       game && JSON.stringify(game),
     );
-    await one.goto(`file://${page}${hash}`);
-    await one.waitForSelector("main[aria-busy=false]");
-    return one;
+    await page.goto(`file://${pageFile}${hash}`);
+    await page.waitForSelector("main[aria-busy=false]");
+    return page;
   }
   async function tab(
     kind: string,
@@ -286,34 +292,34 @@ export function pages() {
     dark: boolean,
     touch: boolean,
   ): Promise<Page> {
-    const one = await browser.newPage({
+    const page = await browser.newPage({
       viewport: { width, height },
       colorScheme: dark ? "dark" : "light",
       hasTouch: touch,
       permissions: ["clipboard-read", "clipboard-write"],
     });
-    one.setDefaultTimeout(300_000);
-    one.on(
+    page.setDefaultTimeout(300_000);
+    page.on(
       "console",
       (message) =>
         ["error", "warning"].includes(message.type()) &&
         !message.text().includes("GPU stall due to ReadPixels") &&
-        said.push(`${one.url()}: ${message.text()}`),
+        messages.push(`${page.url()}: ${message.text()}`),
     );
-    one.on("pageerror", (error) => said.push(`${one.url()}: ${error.message}`));
-    one.on("request", (request) => asked.push(request.url()));
-    await one.addInitScript(seeded, seed);
-    one.close = async () => {
-      await one.emulateMedia({ media: null });
-      await one.goto("about:blank");
-      (free[kind] ??= []).push(one);
+    page.on("pageerror", (error) => messages.push(`${page.url()}: ${error.message}`));
+    page.on("request", (request) => requests.push(request.url()));
+    await page.addInitScript(seeded, seed);
+    page.close = async () => {
+      await page.emulateMedia({ media: null });
+      await page.goto("about:blank");
+      (free[kind] ??= []).push(page);
     };
-    return one;
+    return page;
   }
 
   return {
     open,
-    on,
+    pixelOf,
     drag,
     click,
     lies,
@@ -325,7 +331,7 @@ export function pages() {
     text,
     set,
     struck,
-    said,
+    messages,
     browser: () => browser,
   };
 }

@@ -13,60 +13,60 @@ describe.runIf(browserPath !== undefined)("practice", () => {
   const { open, text, set, turnTo } = pages();
 
   test("a drill counts what is made and missed, begins again, and hides the way of the balls", async () => {
-    const one = await open("", { width: 390, height: 844, touch: true });
-    await one.locator("#new-game").click();
-    await one.locator("#rate").selectOption("1000");
-    await one.locator("#drill").selectOption("Short straight pot");
-    await one.locator("#start-drill").click();
-    expect(await text(one, "turn")).toBe("Short straight pot");
-    await turnTo(one, 151.2);
-    await one.locator("#shoot").click();
+    const page = await open("", { width: 390, height: 844, touch: true });
+    await page.locator("#new-game").click();
+    await page.locator("#rate").selectOption("1000");
+    await page.locator("#drill").selectOption("Short straight pot");
+    await page.locator("#start-drill").click();
+    expect(await text(page, "turn")).toBe("Short straight pot");
+    await turnTo(page, 151.2);
+    await page.locator("#shoot").click();
     await expect
-      .poll(() => text(one, "said"))
+      .poll(() => text(page, "said"))
       .toBe("Missed: 0 of 1. The cue ball fell or left the table.");
     // So little off its pocket that the page tells by how much.
-    await turnTo(one, 48);
-    await set(one, "power", 1.5);
-    await one.locator("#shoot").click();
+    await turnTo(page, 48);
+    await set(page, "power", 1.5);
+    await page.locator("#shoot").click();
     await expect
-      .poll(() => text(one, "said"))
+      .poll(() => text(page, "said"))
       .toMatch(/^Missed: 0 of 2\. The 1 did not fall\. Turn the aim [23]\.\d\d° to the right\.$/);
-    await turnTo(one, 45);
-    await set(one, "power", 1.5);
-    await one.locator("#shoot").click();
-    await expect.poll(() => text(one, "said")).toBe("Made: 1 of 3.");
-    expect(await one.locator("#undo-stroke").isVisible()).toBe(false);
-    await one.reload();
-    await one.waitForSelector("main[aria-busy=false]");
-    expect(await text(one, "turn")).toBe("Short straight pot");
-    await one.locator("#new-game").click();
-    await one.locator("#drill").selectOption("Stop shot");
-    await one.locator("#drill").selectOption("Short straight pot");
-    expect(await text(one, "drill-note")).toContain("Made 1 of 3.");
+    await turnTo(page, 45);
+    await set(page, "power", 1.5);
+    await page.locator("#shoot").click();
+    await expect.poll(() => text(page, "said")).toBe("Made: 1 of 3.");
+    expect(await page.locator("#undo-stroke").isVisible()).toBe(false);
+    await page.reload();
+    await page.waitForSelector("main[aria-busy=false]");
+    expect(await text(page, "turn")).toBe("Short straight pot");
+    await page.locator("#new-game").click();
+    await page.locator("#drill").selectOption("Stop shot");
+    await page.locator("#drill").selectOption("Short straight pot");
+    expect(await text(page, "drill-note")).toContain("Made 1 of 3.");
     // What came of a place that was wanted, and all of it in the log.
-    await one.locator("#drill").selectOption("Draw");
-    await one.locator("#start-drill").click();
-    await turnTo(one, 63.43);
-    await set(one, "power", 1.2);
-    await one.locator("#shoot").click();
+    await page.locator("#drill").selectOption("Draw");
+    await page.locator("#start-drill").click();
+    await turnTo(page, 63.43);
+    await set(page, "power", 1.2);
+    await page.locator("#shoot").click();
     await expect
-      .poll(() => text(one, "said"))
+      .poll(() => text(page, "said"))
       .toMatch(/The cue ball came back \d+ cm of 40 cm: strike it lower or faster\.$/);
-    await one.locator("#new-game").click();
-    await one.locator("#open-log").click();
-    expect(await one.locator("#log tbody tr").count()).toBe(4);
-    expect(await one.locator("#log tbody tr").nth(2).textContent()).toMatch(
+    await page.locator("#new-game").click();
+    await page.locator("#open-log").click();
+    expect(await page.locator("#log tbody tr").count()).toBe(4);
+    expect(await page.locator("#log tbody tr").nth(2).textContent()).toMatch(
       /Short straight pot.*[23]\.\d\d/,
     );
-    expect(await text(one, "log-sum")).toMatch(/Practise next: .*\(/);
-    expect(await violations(one)).toEqual([]);
-    await one.close();
+    expect(await text(page, "log-sum")).toMatch(/Practise next: .*\(/);
+    expect(await violations(page)).toEqual([]);
+    await page.close();
   });
 
   test.each(sizes)(
     "four corners and taps on a photo that are off by 2 pixels lay the balls within 1 cm: %s",
     async (_, how) => {
-      const one = await open("", how);
+      const page = await open("", how);
       const size = [1600, 1200] as const;
       const see = pinhole(size, [0.5, -1.0, 1.3], [0.635, 1.1, 0], 1200);
       const balls: [number, number, number, string][] = [
@@ -76,7 +76,7 @@ describe.runIf(browserPath !== undefined)("practice", () => {
         [8, 1.1, 1.0, "#191b1e"],
       ];
       // The photo: cloth and balls as that camera sees them.
-      const picture = await one.evaluate(
+      const picture = await page.evaluate(
         ({ size, cloth, balls }) => {
           const canvas = document.createElement("canvas");
           [canvas.width, canvas.height] = size;
@@ -85,12 +85,12 @@ describe.runIf(browserPath !== undefined)("practice", () => {
           g.fillRect(0, 0, ...size);
           g.fillStyle = "#1f6f5c";
           g.beginPath();
-          for (const at of cloth) g.lineTo(...at);
+          for (const pixel of cloth) g.lineTo(...pixel);
           g.fill();
-          for (const { at, radius, hex } of balls) {
+          for (const { pixel, radius, hex } of balls) {
             g.fillStyle = hex;
             g.beginPath();
-            g.arc(...at, radius, 0, 7);
+            g.arc(...pixel, radius, 0, 7);
             g.fill();
           }
           return canvas.toDataURL("image/png").split(",")[1]!;
@@ -101,30 +101,30 @@ describe.runIf(browserPath !== undefined)("practice", () => {
             ([u, v]) => [u, v] as [number, number],
           ),
           balls: balls.map(([, x, y, hex]) => ({
-            at: [...see(x, y, R)] as [number, number],
+            pixel: [...see(x, y, R)] as [number, number],
             radius: Math.hypot(see(x, y, R)[0] - see(x + R, y, R)[0], 1),
             hex,
           })),
         },
       );
-      await one.locator("#new-game").click();
-      await one.locator("#open-photo").click();
-      expect(await violations(one)).toEqual([]);
-      await one.locator("#photo-file").setInputFiles({
+      await page.locator("#new-game").click();
+      await page.locator("#open-photo").click();
+      expect(await violations(page)).toEqual([]);
+      await page.locator("#photo-file").setInputFiles({
         name: "table.png",
         mimeType: "image/png",
         buffer: Buffer.from(picture, "base64"),
       });
-      await expect.poll(() => text(one, "photo-said")).toContain("Mark the corner head left");
-      const box = (await one.locator("#photo").boundingBox())!;
+      await expect.poll(() => text(page, "photo-said")).toContain("Mark the corner head left");
+      const box = (await page.locator("#photo").boundingBox())!;
       const draws = new Draws(5n);
       const tap = async (x: number, y: number, z: number): Promise<void> => {
         const [u, v] = see(x, y, z);
-        const at = [
-          box.x + (u * box.width) / size[0] + draws.between(-2, 2),
-          box.y + (v * box.height) / size[1] + draws.between(-2, 2),
+        const pixel = [
+          box.x + (u * box.width) / size[0] + draws.uniform(-2, 2),
+          box.y + (v * box.height) / size[1] + draws.uniform(-2, 2),
         ] as const;
-        await ("touch" in how ? one.touchscreen.tap(...at) : one.mouse.click(...at));
+        await ("touch" in how ? page.touchscreen.tap(...pixel) : page.mouse.click(...pixel));
       };
       for (const [x, y] of [
         [0, 0],
@@ -133,39 +133,41 @@ describe.runIf(browserPath !== undefined)("practice", () => {
         [0, L],
       ] as const)
         await tap(x, y, NOSE);
-      await expect.poll(() => text(one, "photo-said")).toContain("Tap the middle of each ball");
+      await expect.poll(() => text(page, "photo-said")).toContain("Tap the middle of each ball");
       for (const [ball, x, y] of balls) {
         await tap(x, y, R);
         // Where the colour does not tell the ball, the page asks.
-        const answer = one.locator("#photo-ask button", { hasText: new RegExp(`^${ball}$`) });
+        const answer = page.locator("#photo-ask button", { hasText: new RegExp(`^${ball}$`) });
         if ((await answer.count()) > 0) await answer.click();
-        expect(await one.locator("#photo-ask button").count()).toBe(0);
+        expect(await page.locator("#photo-ask button").count()).toBe(0);
       }
       // A finger that is held sees what is under it, and two fingers a part larger.
       if ("touch" in how) {
-        const devtools = await one.context().newCDPSession(one);
+        const devtools = await page.context().newCDPSession(page);
         const touch = (
           type: "touchStart" | "touchMove" | "touchEnd",
-          ...at: number[][]
+          ...pixels: number[][]
         ): Promise<unknown> =>
           devtools.send("Input.dispatchTouchEvent", {
             type,
-            touchPoints: at.map(([x, y], id) => ({ x: box.x + x!, y: box.y + y!, id })),
+            touchPoints: pixels.map(([x, y], id) => ({ x: box.x + x!, y: box.y + y!, id })),
           });
         const seen = (): Promise<string> =>
-          one.locator("#photo").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
-        const before = await seen();
+          page.locator("#photo").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+        const initial = await seen();
         await touch("touchStart", [150, 100]);
-        await expect.poll(seen).not.toBe(before);
+        await expect.poll(seen).not.toBe(initial);
         await touch("touchStart", [150, 100], [200, 100]);
         await touch("touchMove", [130, 100], [220, 100]);
         await touch("touchEnd");
-        expect((await one.locator("#photo").boundingBox())!.width).toBeGreaterThan(1.5 * box.width);
+        expect((await page.locator("#photo").boundingBox())!.width).toBeGreaterThan(
+          1.5 * box.width,
+        );
       }
-      expect(await text(one, "photo-said")).toContain("4 balls");
-      await one.locator("#photo-use").click();
-      const { at } = JSON.parse(await keptGame(one)) as { at: string };
-      const places = at.split(" ");
+      expect(await text(page, "photo-said")).toContain("4 balls");
+      await page.locator("#photo-use").click();
+      const { at: layout } = JSON.parse(await keptGame(page)) as { at: string };
+      const places = layout.split(" ");
       let worst = 0;
       for (const [ball, x, y] of balls) {
         const [px, py] = places[ball]!.split(",").map(Number) as [number, number];
@@ -176,7 +178,7 @@ describe.runIf(browserPath !== undefined)("practice", () => {
       );
       expect(places.filter((place) => place !== "in")).toHaveLength(4);
       expect(worst).toBeLessThan(0.01);
-      await one.close();
+      await page.close();
     },
   );
 });

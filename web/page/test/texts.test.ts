@@ -21,8 +21,8 @@ const files = readdirSync(source, { recursive: true, encoding: "utf8" }).filter(
 function shown(text: unknown): string[] {
   if (typeof text !== "function") return [];
   const marks = Array.from({ length: text.length }, (_, k) => `<${k}>`);
-  const made = (text as (...parts: string[]) => string)(...marks);
-  return marks.filter((mark) => made.includes(mark));
+  const filled = (text as (...parts: string[]) => string)(...marks);
+  return marks.filter((mark) => filled.includes(mark));
 }
 
 /** Strings that no reader sees: markup, classes, fonts, names of keys, media queries. */
@@ -72,12 +72,12 @@ describe("the texts of the page", () => {
   });
 
   test("a text of the files is used", () => {
-    const all = [
+    const sources = [
       ...files.map((name) => read(source + name)),
       read(`${source}../index.html`),
     ].join();
     const unused = Object.keys(ENGLISH).filter(
-      (key) => !new RegExp(`texts\\.${key}\\b|data-text="${key}"`).test(all),
+      (key) => !new RegExp(`texts\\.${key}\\b|data-text="${key}"`).test(sources),
     );
     expect(unused.filter((key) => key !== "known")).toEqual([]);
   });
@@ -104,7 +104,7 @@ describe("the texts of the page", () => {
   });
 
   test("each game of the library has its rules", () => {
-    for (const [game] of words.rules.filter(([one]) => one !== "potting"))
+    for (const [game] of words.rules.filter(([rule]) => rule !== "potting"))
       for (const texts of [ENGLISH, GERMAN])
         expect(texts.rules[game]?.length, game).toBeGreaterThan(100);
   });
@@ -112,17 +112,17 @@ describe("the texts of the page", () => {
   test("labels tell balls of different colours apart in each game and language", () => {
     for (const [game, { rack, names }] of Object.entries(GAMES))
       for (const { letters } of [ENGLISH, GERMAN]) {
-        const all = Array.from({ length: 22 }, (_, k) => names(k));
-        const labels = labelsOf(all, letters);
+        const ballNames = Array.from({ length: 22 }, (_, k) => names(k));
+        const labels = labelsOf(ballNames, letters);
         const colours = new Map<string, string>();
         labels.forEach((label, k) => {
-          const colour = colourOf(all[k]!, k, game === "pyramid" ? 0.034 : 0.03);
+          const colour = colourOf(ballNames[k]!, k, game === "pyramid" ? 0.034 : 0.03);
           const isNumber = Number(label) > 0;
           if (label !== "" && !isNumber)
             expect(colours.get(label) ?? colour, `${game} (${rack}): ${label}`).toBe(colour);
           colours.set(label, colour);
           // The cue ball of pool is the only one that is white.
-          if (label === "") expect(all[k]).toBe("cue");
+          if (label === "") expect(ballNames[k]).toBe("cue");
         });
       }
     expect(labelsOf(["red 3", "7"], {})).toEqual(["", "7"]);

@@ -7,13 +7,13 @@ import { texts } from "../texts/texts.js";
 
 /** Shows a stroke, which is played, or the shot of a recording. */
 export function present(d: Desk, stroke: Cue, played?: Replayed): void {
-  const said = played ? "" : suit(d);
+  const message = played ? "" : suit(d);
   const { controls, table, balls, names } = d;
   d.recorded = played;
   d.recording.shows(played);
   controls.stroke.set({}); // the tip is where its sliders are
   const begun = performance.now();
-  says(d, said);
+  says(d, message);
   try {
     d.shot = played?.film ?? d.carom.simulate(table, balls, stroke, optionsOf(d));
   } catch (error) {

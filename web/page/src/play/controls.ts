@@ -52,24 +52,24 @@ function wheelOf(turn: (steps: number) => void): HTMLElement {
     },
     el("span", {}, `↺ ${STEP}° ↻`),
   );
-  let from = 0;
+  let start = 0;
   let last = 0;
-  let at = 0;
+  let total = 0;
   const roll = (steps: number): void => {
-    at += steps;
-    wheel.style.backgroundPositionX = `${at}px`;
-    wheel.setAttribute("aria-valuenow", String(at));
-    wheel.setAttribute("aria-valuetext", texts.degreesToTheRight((at * STEP).toFixed(2)));
+    total += steps;
+    wheel.style.backgroundPositionX = `${total}px`;
+    wheel.setAttribute("aria-valuenow", String(total));
+    wheel.setAttribute("aria-valuetext", texts.degreesToTheRight((total * STEP).toFixed(2)));
     turn(steps);
   };
   drags(wheel, ({ clientX: x }, first) => {
-    if (first) from = x;
+    if (first) start = x;
     else if (x !== last) roll(x - last);
     last = x;
   });
   wheel.addEventListener("pointerup", ({ clientX: x }) => {
     const { left, width } = wheel.getBoundingClientRect();
-    if (Math.abs(x - from) < 3) roll(from - x + Math.sign(x - left - width / 2));
+    if (Math.abs(x - start) < 3) roll(start - x + Math.sign(x - left - width / 2));
   });
   wheel.addEventListener("keydown", (event) => {
     const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
@@ -116,7 +116,7 @@ export function controls(s: Session): Controls {
     ),
     set,
     value,
-    met(contact, name = "") {
+    showContact(contact, name = "") {
       part.style.visibility = contact ? "visible" : "hidden";
       if (!contact) return;
       part

@@ -56,11 +56,11 @@ export function gamesList(
   }
   /** A file that a page saved, or `carom match` wrote: two players at this page go on with it. */
   async function openFile(): Promise<void> {
-    const [given] = file.files!;
-    if (!given) return;
+    const [recording] = file.files!;
+    if (!recording) return;
     close();
     try {
-      goOnWith(s, imported(s.carom, await given.text()));
+      goOnWith(s, imported(s.carom, await recording.text()));
     } catch (error) {
       says(s, texts.theGameWasNot(wrong(error)));
     }
@@ -69,16 +69,16 @@ export function gamesList(
   /** The first press says what the second one does. */
   function deleteButton(game: SavedGame): HTMLButtonElement {
     const question = isLostByLeaving(game) ? texts.deleteItCountsAs : texts.deleteForGood;
-    const made = button(texts.deleteWord, async () => {
-      if (made.textContent !== question) {
-        made.textContent = question;
+    const deletion = button(texts.deleteWord, async () => {
+      if (deletion.textContent !== question) {
+        deletion.textContent = question;
         return;
       }
       if (isLostByLeaving(game)) countGame(game.setup, 1);
       await deleteGame(game.id);
       await refresh();
     });
-    return made;
+    return deletion;
   }
   function save(game: SavedGame): void {
     try {

@@ -1,6 +1,6 @@
 // The texts of the page in its language: the one that was chosen in the settings, or else the
 // browser's. A page keeps its language; another choice loads it again.
-import { DICTIONARY, told } from "../../../player/words.js";
+import { DICTIONARY, translate } from "../../../player/words.js";
 import { GERMAN } from "./de.js";
 import { ENGLISH } from "./en.js";
 
@@ -14,8 +14,8 @@ export const LANGUAGE_NAMES: readonly (readonly [Language, string])[] = [
 const KEY = "carom-language";
 
 function languageOfReader(): Language {
-  const asked = [chosenLanguage() ?? "", ...(globalThis.navigator?.languages ?? [])];
-  const known = asked.map((one) => one.slice(0, 2)).find((one) => one in LANGUAGES);
+  const preferences = [chosenLanguage() ?? "", ...(globalThis.navigator?.languages ?? [])];
+  const known = preferences.map((code) => code.slice(0, 2)).find((code) => code in LANGUAGES);
   return (known as Language | undefined) ?? "en";
 }
 /** What was chosen; workers, and browsers that keep nothing, know of none. */
@@ -35,4 +35,4 @@ export function chooseLanguage(language: string): void {
 export const language = languageOfReader();
 export const texts: typeof ENGLISH = LANGUAGES[language];
 Object.assign(DICTIONARY, texts.known);
-export { told };
+export { translate };
