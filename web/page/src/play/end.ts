@@ -5,7 +5,7 @@ import { wordsOfPot } from "../table/words.js";
 import { button, el } from "../ui.js";
 import { type Deed, OPTIONS, type Play } from "./game.js";
 import { isRaceOver, racksOf } from "./keep.js";
-import { levels } from "./ladder.js";
+import { levels, wordsOfRung } from "./ladder.js";
 import type { EndView, Session } from "./parts.js";
 import { nameOf, wordsOfEnd, wordsOfScore } from "./state.js";
 import { texts } from "../texts/texts.js";
@@ -70,7 +70,7 @@ function wordsOfRating(s: Session, previous: EndView["rated"]): string[] {
     : texts.ratingChanged(previous.rating, current.rating);
   const { against } = s.play.setup;
   const level = levels().find(({ rating }) => rating === against);
-  return level ? [changed, texts.levelStands(against, level.won, level.needed)] : [changed];
+  return level ? [changed, wordsOfRung(level)] : [changed];
 }
 
 export function endView(s: Session, restart: () => void, list: () => void): EndView {
@@ -96,7 +96,7 @@ export function endView(s: Session, restart: () => void, list: () => void): EndV
     const reasons = [race, wordsOfEnd(play) && `${wordsOfEnd(play)}.`];
     const lines = [
       race === "" ? wordsOfScore(play, seat, racks) : "",
-      best && texts.bestStrokeOf(nameOf(play, player, seat), !isShared, best),
+      best && texts.bestStrokeOf(!isShared, nameOf(play, player, seat), best),
       ...wordsOfRating(s, s.end.rated),
     ];
     const paragraphs = (words: readonly string[], attributes = {}): HTMLElement[] =>

@@ -36,6 +36,9 @@ export function levels(): Level[] {
     return { rating, won, lost, needed: Math.max(CLIMBED - won, 0) };
   });
 }
+/** How far one has climbed. */
+export const wordsOfRung = ({ rating, won, needed }: Level): string =>
+  needed === 0 ? texts.levelClimbed(rating, won) : texts.levelWon(rating, won);
 /** The stars of a drill: for one try that made it, for half of six, and for four fifths of ten. */
 export function starsOf(hits: number, tries: number): number {
   const share = hits / Math.max(tries, 1);

@@ -9,7 +9,7 @@ import { type Against, isComputer, tableOf } from "./game.js";
 import { keepText, keptValue } from "./keep.js";
 import type { Session, Settings } from "./parts.js";
 import { gamesList } from "./games_list.js";
-import { levels } from "./ladder.js";
+import { levels, wordsOfRung } from "./ladder.js";
 import { begin } from "./opening.js";
 import { chooseLanguage, language, LANGUAGE_NAMES, texts, translate } from "../texts/texts.js";
 
@@ -66,12 +66,13 @@ function ladderOf(choose: (rating: string) => void): {
   const root = el("ol", { id: "ladder", "aria-label": texts.ladder });
   /** Shows how far one has climbed, and which opponent is chosen. */
   function mark(chosen: string): void {
-    const rungs = levels().map(({ rating, won, lost, needed }) => {
+    const rungs = levels().map((level) => {
+      const { rating, won, lost, needed } = level;
       const games = won + lost > 0 ? `${won} : ${lost}` : "–";
       const stands = needed === 0 ? "★" : games;
       const rung = button(rating, () => choose(rating), {
         "aria-pressed": String(rating === chosen),
-        title: texts.levelStands(rating, won, needed),
+        title: wordsOfRung(level),
       });
       rung.append(el("small", {}, stands));
       return el("li", {}, rung);
