@@ -67,7 +67,7 @@ function collisions(carom: Carom, solver: "exact" | "euler", slip: "paper" | "po
   return hash.text;
 }
 
-const addState = (hash: Hash, s: BallState): Hash =>
+const addState = (hash: Hash, s: BallState) =>
   hash.numbers([...s.r, ...s.v, ...s.w]).whole(LABELS.indexOf(s.label));
 
 const TYPES = [

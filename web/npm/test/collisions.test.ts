@@ -8,10 +8,19 @@ import {
   toLine,
   type Vec3,
 } from "../dist/index.js";
-import { builds, cases, csv, references, run, thereIsACommand } from "./support.js";
+import {
+  builds,
+  cases,
+  csv,
+  references,
+  refuses,
+  run,
+  thereIsACommand,
+  refusal,
+} from "./support.js";
 
 const { ids, rows } = cases();
-const R = (k: number): number => rows[26 * k + 9]!;
+const R = (k: number) => rows[26 * k + 9]!;
 
 /** The largest deviation over the fastest of the twelve numbers, spins times the radius. */
 function deviation(out: Float64Array, reference: Float64Array, k: number): number {
@@ -27,7 +36,7 @@ function deviation(out: Float64Array, reference: Float64Array, k: number): numbe
 
 function impactOf(row: Float64Array): Impact {
   const vector = (k: number): Vec3 => [row[k]!, row[k + 1]!, row[k + 2]!];
-  const ball = (k: number): Impact["a"] => ({
+  const ball = (k: number) => ({
     r: vector(k),
     v: vector(k + 3),
     w: vector(k + 6),
@@ -105,7 +114,7 @@ describe.each(builds)("collisions by $name", ({ carom }) => {
 
   test.runIf(thereIsACommand)("cushions: the command's doubles, by four models", () => {
     const table = csv("cushion-stronge.csv");
-    const number = (row: Record<string, string>, key: string): number => Number(row[key]);
+    const number = (row: Record<string, string>, key: string) => Number(row[key]);
     for (const model of ["mathavan", "stronge", "han", "mirror"] as const) {
       const [head, ...lines] = run([
         "resolve",
@@ -146,15 +155,6 @@ describe.each(builds)("collisions by $name", ({ carom }) => {
 describe("what is refused", () => {
   const { carom } = builds[0]!;
   const good: Impact = { a: { v: [1, 0, 0] }, b: { r: [0.05715, 0, 0] } };
-  const refusal = (call: () => unknown): unknown => {
-    try {
-      call();
-    } catch (error) {
-      return error;
-    }
-    throw new Error("nothing was refused");
-  };
-
   test.each([
     [{ ...good, a: { v: [NaN, 0, 0] } }, "bad_velocity", "a.v[0]"],
     [{ ...good, a: { v: [1, 0, 0], radius: 0 } }, "bad_radius", "a.radius"],
@@ -162,7 +162,7 @@ describe("what is refused", () => {
     [{ ...good, restitution: 1.5 }, "bad_restitution", "restitution"],
     [{ ...good, muBall: 2 }, "bad_mu_ball", "mu_ball"],
   ] as [Impact, string, string][])("a collision: %#", (impact, status, field) => {
-    const error = refusal(() => carom.collide(impact)) as CaromError;
+    const error = refusal<CaromError>(() => carom.collide(impact));
     expect(error).toBeInstanceOf(CaromError);
     expect([error.status, error.field]).toEqual([status, field]);
     expect(error.message).toMatch(new RegExp(`^${field.replace(/[[\].]/g, "\\$&")}: .{10,}`));
@@ -177,30 +177,34 @@ describe("what is refused", () => {
     expect(batch.get(50).a.v).toEqual([NaN, NaN, NaN]);
     expect(batch.get(51)).toEqual(carom.collide(good));
     batch.free();
-    expect(() => batch.in).toThrow("given back");
-    expect(() => carom.collideBatch(batch)).toThrow("given back");
+    refuses([() => batch.in, "given back"], [() => carom.collideBatch(batch), "given back"]);
   });
 
   test("words, shapes, fields and sizes that are not there", () => {
-    expect(() => carom.collide(good, { solver: "magic" as never })).toThrow(
-      "solver: it must be one of exact, euler",
+    refuses(
+      [
+        () => carom.collide(good, { solver: "magic" as never }),
+        "solver: it must be one of exact, euler",
+      ],
+      [() => carom.collide(good, { steps: -1 }), "steps: it must be a whole number"],
+      [
+        () => carom.collide({ ...good, a: { v: [1, 0] as never } }),
+        "a.v: it must be 3 numbers, not [1,0]",
+      ],
+      [() => carom.cushion({ v: [1, 0, 0], normal: [0, 0] }), "normal"],
+      [
+        () => carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { model: "wood" as never }),
+        "model: it must be one of mathavan, stronge, han, mirror, euler, smooth",
+      ],
+      [() => carom.trace(good, 1), "at least 2"],
+      [() => carom.collisions(-1), "0 or more"],
+      [() => carom.collisions(2).set(2, good), "k: it must be 0 to 1"],
+      [() => carom.table("10ft" as never), "7ft, 8ft, 9ft"],
+      [() => carom.rack("golf" as never, carom.table("9ft")), "nineball"],
+      [() => carom.kind("golf" as never), "game: it must be one of"],
+      [() => carom.rack("nineball", carom.table("9ft"), { gap: -1 }), CaromError],
+      [() => carom.rack("nineball", carom.table("9ft"), { seed: 0.5 }), "seed"],
     );
-    expect(() => carom.collide(good, { steps: -1 })).toThrow("steps: it must be a whole number");
-    expect(() => carom.collide({ ...good, a: { v: [1, 0] as never } })).toThrow(
-      "a.v: it must be 3 numbers, not [1,0]",
-    );
-    expect(() => carom.cushion({ v: [1, 0, 0], normal: [0, 0] })).toThrow("normal");
-    expect(() =>
-      carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { model: "wood" as never }),
-    ).toThrow("model: it must be one of mathavan, stronge, han, mirror, euler, smooth");
-    expect(() => carom.trace(good, 1)).toThrow("at least 2");
-    expect(() => carom.collisions(-1)).toThrow("0 or more");
-    expect(() => carom.collisions(2).set(2, good)).toThrow("k: it must be 0 to 1");
-    expect(() => carom.table("10ft" as never)).toThrow("7ft, 8ft, 9ft");
-    expect(() => carom.rack("golf" as never, carom.table("9ft"))).toThrow("nineball");
-    expect(() => carom.kind("golf" as never)).toThrow("game: it must be one of");
-    expect(() => carom.rack("nineball", carom.table("9ft"), { gap: -1 })).toThrow(CaromError);
-    expect(() => carom.rack("nineball", carom.table("9ft"), { seed: 0.5 })).toThrow("seed");
   });
 
   // Every object that a call takes, with one key that it does not have.
@@ -320,7 +324,7 @@ describe("what is refused", () => {
       "tableName",
     ],
   ] as [() => unknown, string, string | undefined][])("an unknown key: %#", (call, key, better) => {
-    const { message } = refusal(call) as Error;
+    const { message } = refusal(call);
     expect(
       message.startsWith(
         `${key}: there is no such key${better === undefined ? "; there are " : `; did you mean "${better}"?`}`,
@@ -337,14 +341,19 @@ describe("what is refused", () => {
     expect(carom.cue({ speed: undefined })).toEqual(cue);
     const kind: Partial<typeof ball.kind> = { ...ball.kind };
     delete kind.mass;
-    expect(() => carom.simulate(table, [{ ...ball, kind }] as never)).toThrow(
-      "balls[0].kind.mass: it must be a number, not undefined",
-    );
-    expect(() => carom.cushion({ normal: [1, 0] } as never)).toThrow(
-      "impact.v: it must be 3 numbers, not undefined",
-    );
-    expect(() => carom.collide({ a: { v: [1, 0, 0] } } as never)).toThrow(
-      "b: an object is needed, not undefined",
+    refuses(
+      [
+        () => carom.simulate(table, [{ ...ball, kind }] as never),
+        "balls[0].kind.mass: it must be a number, not undefined",
+      ],
+      [
+        () => carom.cushion({ normal: [1, 0] } as never),
+        "impact.v: it must be 3 numbers, not undefined",
+      ],
+      [
+        () => carom.collide({ a: { v: [1, 0, 0] } } as never),
+        "b: an object is needed, not undefined",
+      ],
     );
   });
 });

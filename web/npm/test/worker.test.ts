@@ -43,7 +43,7 @@ test("the package has the library's version, and no dependency at run time", () 
 test("the compressed size is at most 335 kB", async () => {
   const { gzipSync } = await import("node:zlib");
   const { readdirSync } = await import("node:fs");
-  const size = (names: string[]): number =>
+  const size = (names: string[]) =>
     gzipSync(Buffer.concat(names.map((name) => readFileSync(`${root}web/npm/dist/${name}`))), {
       level: 9,
     }).length;

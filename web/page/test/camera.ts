@@ -11,14 +11,14 @@ export function pinhole(
   target: number[],
   focal: number,
 ): (x: number, y: number, z: number) => Pixel {
-  const minus = (a: number[], b: number[]): number[] => a.map((x, k) => x - b[k]!);
-  const cross = ([a, b, c]: number[], [x, y, z]: number[]): number[] => [
+  const minus = (a: number[], b: number[]) => a.map((x, k) => x - b[k]!);
+  const cross = ([a, b, c]: number[], [x, y, z]: number[]) => [
     b! * z! - c! * y!,
     c! * x! - a! * z!,
     a! * y! - b! * x!,
   ];
-  const unit = (a: number[]): number[] => a.map((x) => x / Math.hypot(...a));
-  const dot = (a: number[], b: number[]): number => a.reduce((sum, x, k) => sum + x * b[k]!, 0);
+  const unit = (a: number[]) => a.map((x) => x / Math.hypot(...a));
+  const dot = (a: number[], b: number[]) => a.reduce((sum, x, k) => sum + x * b[k]!, 0);
   const ahead = unit(minus(target, eye));
   const right = unit(cross(ahead, Math.abs(ahead[2]!) > 0.999 ? [0, 1, 0] : [0, 0, 1]));
   const down = cross(ahead, right);

@@ -1,103 +1,93 @@
 // The coach and the view in three dimensions, in a browser.
 import { describe, expect, test } from "vitest";
-import { browserPath, keptGame, linesOf, pages, violations } from "./page.js";
+import {
+  act,
+  boxOf,
+  browserPath,
+  comesToSay,
+  dragMouse,
+  fingersOn,
+  gameOf,
+  keptGame,
+  linesOf,
+  numberIn,
+  pages,
+  PHONE,
+  says,
+  shows,
+  violations,
+} from "./page.js";
 
 describe.runIf(browserPath !== undefined)("beside the game", () => {
-  const { open, frames, text, set, turnTo } = pages();
+  const { open, frames, text, turnTo } = pages();
 
   test("the coach tells chances before a stroke, what it cost after it, and keeps a log to print", async () => {
     // A straight pot, and the nine for the game.
     const page = await open(
       "",
-      { width: 390, height: 844, touch: true },
-      {
-        game: "nineball",
-        against: "person",
-        own: "0",
-        seed: 7,
-        at: "0.635,1.2 0.3,2.2 in in in in in in in 0.9,1.9",
-      },
+      PHONE,
+      gameOf("nineball", "person", "0.635,1.2 0.3,2.2 in in in in in in in 0.9,1.9"),
     );
-    await page.locator("#new-game").click();
-    await page.locator("#coach").check();
-    await page.locator("#rate").selectOption("1000");
-    await page.locator("#menu .close").click();
-    await page.locator("#hint").click();
-    await expect
-      .poll(() => text(page, "said"))
-      .toMatch(
-        /^Hint: ball [19] into the .*\. An unrated player \(\d+\) keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/,
-      );
+    await act(page, "#new-game", "#coach=on", "#rate=1000", "#menu .close", "#hint");
+    await comesToSay(
+      page,
+      "said",
+      /^Hint: ball [19] into the .*\. An unrated player \(\d+\) keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/,
+    );
     // A stroke that meets nothing: a foul, which the chances and the review tell.
     await turnTo(page, 200);
-    await set(page, "power", 0.6);
-    await expect
-      .poll(() => text(page, "said"))
-      .toMatch(
-        /^This stroke: An unrated player \(\d+\) keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/,
-      );
-    await page.locator("#shoot").click();
-    await expect
-      .poll(() => text(page, "said"))
-      .toMatch(
-        /^That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\.$/,
-      );
-    await page.locator("#new-game").click();
-    await page.locator("#open-log").click();
+    await act(page, "#power=0.6");
+    await comesToSay(
+      page,
+      "said",
+      /^This stroke: An unrated player \(\d+\) keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/,
+    );
+    await act(page, "#shoot");
+    await comesToSay(
+      page,
+      "said",
+      /^That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\.$/,
+    );
+    await act(page, "#new-game", "#open-log");
     expect(await page.locator("#log tbody tr").count()).toBe(1);
-    expect(await text(page, "log-sum")).toMatch(/^1 stroke\. A stroke cost [1-9]\d* % of a game/);
+    await says(page, "log-sum", /^1 stroke\. A stroke cost [1-9]\d* % of a game/);
     expect(await violations(page)).toEqual([]);
     // On paper there is the log alone.
     await page.emulateMedia({ media: "print" });
-    expect(await page.locator("#table-scene").isVisible()).toBe(false);
-    expect(await page.locator("#log table").isVisible()).toBe(true);
-    await page.close();
+    await shows(page, "#table-scene", false);
+    await shows(page, "#log table");
   });
 
   test("the view from behind the cue starts when it is asked for, and shows the balls as they roll", async () => {
     const page = await open("");
     expect(await page.locator("#scene").count()).toBe(0);
-    await page.locator("#space").click();
+    await act(page, "#space");
     await page.locator("#scene").waitFor();
     expect(await violations(page)).toEqual([]);
     // What is seen changes with the aim and with the balls.
-    const seen = async (): Promise<string> =>
-      (await page.locator("#scene").screenshot()).toString("base64");
+    const seen = async () => (await page.locator("#scene").screenshot()).toString("base64");
     const initial = await seen();
-    const box = (await page.locator("#scene").boundingBox())!;
-    await page.mouse.move(box.x + 100, box.y + 100);
-    await page.mouse.down();
-    await page.mouse.move(box.x + 150, box.y + 100);
-    await page.mouse.up();
-    expect(Number(await page.locator("#phi").inputValue())).toBeCloseTo(90 - 4, 0);
+    const box = await boxOf(page, "#scene");
+    await dragMouse(page, [box.x + 100, box.y + 100], [box.x + 150, box.y + 100]);
+    expect(await numberIn(page, "phi")).toBeCloseTo(90 - 4, 0);
     const turned = await seen();
     expect(turned).not.toBe(initial);
-    await page.locator("#shoot").click();
+    await act(page, "#shoot");
     await expect.poll(seen).not.toBe(turned);
-    await page.locator("#space").click();
+    await act(page, "#space");
     expect(await page.locator("#scene").count()).toBe(0);
-    expect(await page.locator("#table-scene").isVisible()).toBe(true);
-    await page.close();
+    await shows(page, "#table-scene");
   });
 
   test("behind the cue the table fills the view of a phone, the aim is on the cloth, and balls have their numbers", async () => {
     // The 1 lies before the camera, its number up.
     const page = await open(
       "",
-      { width: 390, height: 844, touch: true },
-      {
-        game: "nineball",
-        against: "person",
-        own: "0",
-        seed: 7,
-        at: "0.635,0.635 0.75,0.4 in in in in in in in in",
-      },
+      PHONE,
+      gameOf("nineball", "person", "0.635,0.635 0.75,0.4 in in in in in in in in"),
     );
     await turnTo(page, 90);
-    await page.locator("#new-game").click();
-    await page.locator("#numbers").check();
-    await page.locator("#menu .close").click();
-    await page.locator("#space").click();
+    await act(page, "#new-game", "#numbers=on", "#menu .close", "#space");
     await page.locator("#scene").waitFor();
     expect(await violations(page)).toEqual([]);
     const png = (await page.locator("#scene").screenshot()).toString("base64");
@@ -122,7 +112,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     const where = (
       [x0, y0, x1, y1]: readonly number[],
       is: (r: number, g: number, b: number) => boolean,
-    ): [number, number][] =>
+    ) =>
       Array.from(
         { length: (y1! - y0!) * (x1! - x0!) },
         (_, k) => [x0! + (k % (x1! - x0!)), y0! + Math.floor(k / (x1! - x0!))] as [number, number],
@@ -181,27 +171,24 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
         (r, g, b) => Math.max(r, g, b) < 200 && Math.max(r, g, b) - Math.min(r, g, b) < 40,
       ).length,
     ).toBeGreaterThan(3);
-    await page.close();
   });
 
   test("behind the cue a finger calls another pocket, and moves the cue ball that is in hand", async () => {
     const page = await open(
       "",
-      { width: 390, height: 844, touch: true },
-      {
-        game: "eightball",
-        own: "0",
-        seed: 7,
-        against: "person",
-        at: "0.635,0.6 0.635,1.6 in in in in in in 1.0,2.0 0.3,0.5 in in in in in in",
-      },
+      PHONE,
+      gameOf(
+        "eightball",
+        "person",
+        "0.635,0.6 0.635,1.6 in in in in in in 1.0,2.0 0.3,0.5 in in in in in in",
+      ),
     );
     await turnTo(page, 88.5);
-    await page.locator("#space").click();
+    await act(page, "#space");
     await page.locator("#scene").waitFor();
-    const box = (await page.locator("#scene").boundingBox())!;
+    const box = await boxOf(page, "#scene");
     /** Where the view has marks: what is called, or in hand. */
-    const marks = (): Promise<string[]> =>
+    const marks = () =>
       page.locator(".over-scene").evaluate((over: HTMLCanvasElement) => {
         const copy = document.createElement("canvas");
         [copy.width, copy.height] = [over.width, over.height];
@@ -214,30 +201,28 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
           )
           .map((k) => `${k % over.width},${Math.floor(k / over.width)}`);
       });
-    const middle = (marks: string[]): [number, number] =>
+    const middle = (marks: string[]) =>
       [0, 1].map(
         (c) => marks.reduce((sum, mark) => sum + Number(mark.split(",")[c]), 0) / marks.length,
       ) as [number, number];
-    const next = async (pocket: string): Promise<void> => {
+    const next = async (pocket: string) => {
       for (let k = 0; k < 6 && !(await text(page, "turn")).includes(pocket); k++) {
         await page.locator("#scene").press("c");
         await frames(page);
       }
     };
-    await expect.poll(() => text(page, "turn")).toContain("Call: the 1, ");
+    await comesToSay(page, "turn", /Call: the 1, /);
     await next("foot-right");
     const initial = await marks();
     await next("foot-left");
     const [x, y] = middle((await marks()).filter((mark) => !initial.includes(mark)));
     await next("foot-right");
     await page.touchscreen.tap(box.x + x, box.y + y);
-    await expect.poll(() => text(page, "turn")).toContain("Call: the 1, foot-left pocket.");
+    await comesToSay(page, "turn", /Call: the 1, foot-left pocket\./);
     // A foul, and the cue ball in hand.
     await turnTo(page, 200);
-    await set(page, "power", 0.4);
-    await page.locator("#shoot").click();
-    await page.locator("#skip").click();
-    await expect.poll(() => text(page, "turn")).toMatch(/Cue ball in hand: drag it/);
+    await act(page, "#power=0.4", "#shoot", "#skip");
+    await comesToSay(page, "turn", /Cue ball in hand: drag it/);
     // The mark that is nearest to whoever aims.
     const seenMarks = await marks();
     const start = middle(
@@ -247,25 +232,18 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
           Math.max(...seenMarks.map((place) => Number(place.split(",")[1]))) - 40,
       ),
     );
-    const devtools = await page.context().newCDPSession(page);
-    const touch = (
-      type: "touchStart" | "touchMove" | "touchEnd",
-      ...target: number[]
-    ): Promise<unknown> =>
-      devtools.send("Input.dispatchTouchEvent", {
-        type,
-        touchPoints: target.length ? [{ x: box.x + target[0]!, y: box.y + target[1]! }] : [],
-      });
-    await touch("touchStart", ...start);
-    for (let k = 10; k <= 60; k += 10) await touch("touchMove", start[0] + k, start[1]);
-    await touch("touchEnd");
-    await page.locator("#shoot").click();
+    const touch = await fingersOn(page);
+    const startX = box.x + start[0];
+    const startY = box.y + start[1];
+    await touch("Start", [[startX, startY]]);
+    for (let k = 10; k <= 60; k += 10) await touch("Move", [[startX + k, startY]]);
+    await touch("End");
+    await act(page, "#shoot");
     const places = linesOf<{ at?: [number, number] }>(await keptGame(page), "place");
     const put = places.filter((row) => row.at !== undefined);
     // It lay on the head spot.
     expect(put).toHaveLength(1);
     expect(put[0]!.at).not.toEqual([0.635, 0.635]);
-    await page.close();
   });
 
   test("without WebGL the flat view stays, and the page says why", async () => {
@@ -284,11 +262,12 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
         return kind === "webgl2" ? null : get.call(this, kind, ...rest);
       } as typeof HTMLCanvasElement.prototype.getContext;
     });
-    await page.locator("#space").click();
-    await expect
-      .poll(() => text(page, "said"))
-      .toBe("This browser does not show three dimensions (it has no WebGL 2).");
-    expect(await page.locator("#table-scene").isVisible()).toBe(true);
-    await page.close();
+    await act(page, "#space");
+    await comesToSay(
+      page,
+      "said",
+      "This browser does not show three dimensions (it has no WebGL 2).",
+    );
+    await shows(page, "#table-scene");
   });
 });

@@ -4,17 +4,31 @@ import { tmpdir } from "node:os";
 import { deflateRawSync, inflateRawSync } from "node:zlib";
 import { describe, expect, test } from "vitest";
 import type { Page } from "playwright-core";
-import { browserPath, keptGame, pages, sizes, violations } from "./page.js";
+import {
+  act,
+  boxOf,
+  browserPath,
+  comesToSay,
+  comesToShow,
+  gameOf,
+  keptGame,
+  keptLines,
+  pages,
+  says,
+  shows,
+  sizes,
+  valueOf,
+  violations,
+} from "./page.js";
 
 describe.runIf(browserPath !== undefined)("a diagram", () => {
-  const { open, text, set, turnTo } = pages();
-  const picture = (page: Page): Promise<string> =>
+  const { open, text, turnTo } = pages();
+  const picture = (page: Page) =>
     page.locator("#diagram-scene").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
   async function opened(page: Page): Promise<void> {
-    await page.locator("#new-game").click();
-    await page.locator("#open-diagram").click();
+    await act(page, "#new-game", "#open-diagram");
   }
-  const resume = (game: object, how: object): Promise<Page> => open("", how, game);
+  const resume = (game: object, how: object) => open("", how, game);
   const PRACTICE = {
     game: "eightball",
     against: "practice",
@@ -29,30 +43,30 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
     async (_, how) => {
       const page = await resume(PRACTICE, how);
       await turnTo(page, 70);
-      await set(page, "power", 3);
+      await act(page, "#power=3");
       await opened(page);
       expect(await page.locator("#diagram-which option").allTextContents()).toEqual([
         "the stroke that is aimed",
         "the balls as they lie",
       ]);
-      expect(await text(page, "diagram-words")).toBe(
+      await says(
+        page,
+        "diagram-words",
         "Eight-ball. Cue: 3.0 m/s, direction 70.00°, tip in the middle.",
       );
       // Each choice draws something else.
       const drawn = [await picture(page)];
-      await page.locator("#diagram-path").uncheck();
+      await act(page, "#diagram-path=off");
       drawn.push(await picture(page));
-      await page.locator("#diagram-after").check();
+      await act(page, "#diagram-after=on");
       drawn.push(await picture(page));
-      await page.locator("#diagram-path").check();
+      await act(page, "#diagram-path=on");
       drawn.push(await picture(page));
       expect(new Set(drawn).size).toBe(4);
       expect(await violations(page)).toEqual([]);
       await page.locator("#notes").fill(NOTES);
-      await page.locator("#link-diagram").click();
-      await expect
-        .poll(() => text(page, "diagram-said"))
-        .toBe("The link to this diagram is copied.");
+      await act(page, "#link-diagram");
+      await comesToSay(page, "diagram-said", "The link to this diagram is copied.");
       const link = await page.evaluate(() => navigator.clipboard.readText());
 
       // On paper there are the table as wide as it is on the screen or wider, the words and the
@@ -69,7 +83,7 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
       ] as const)
         expect(await page.locator(what).isVisible(), what).toBe(is);
       expect(await page.locator("#diagram .on-paper").textContent()).toBe(NOTES);
-      const box = (await page.locator("#diagram-scene").boundingBox())!;
+      const box = await boxOf(page, "#diagram-scene");
       const long = Math.max(box.width, box.height);
       const short = Math.min(box.width, box.height);
       expect(long / short).toBeCloseTo((2.54 + 0.2) / (1.27 + 0.2), 1);
@@ -82,79 +96,61 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
       const secondPage = await open("", how);
       const game = await keptGame(secondPage);
       await secondPage.evaluate((hash) => (location.hash = hash), new URL(link).hash);
-      await expect.poll(() => secondPage.locator("#diagram").isVisible()).toBe(true);
-      expect(await secondPage.locator("#notes").inputValue()).toBe(NOTES);
-      expect(await text(secondPage, "diagram-words")).toBe(await text(page, "diagram-words"));
+      await comesToShow(secondPage, "#diagram");
+      expect(await valueOf(secondPage, "notes")).toBe(NOTES);
+      await says(secondPage, "diagram-words", await text(page, "diagram-words"));
       expect(await secondPage.locator("#diagram-after").isChecked()).toBe(true);
       await expect.poll(() => picture(secondPage)).toBe(await picture(page));
-      expect(await secondPage.locator("#diagram-which").isVisible()).toBe(false);
-      await secondPage.locator("#diagram .close").click();
+      await shows(secondPage, "#diagram-which", false);
+      await act(secondPage, "#diagram .close");
       await expect.poll(() => secondPage.evaluate(() => location.hash)).toBe("#view=play");
       expect(await keptGame(secondPage)).toBe(game);
-      await page.close();
-      await secondPage.close();
     },
   );
 
   test("in a game it shows the last stroke, and never where the aim leads", async () => {
     const page = await resume(
-      {
-        game: "nineball",
-        against: "person",
-        own: "0",
-        seed: 7,
-        at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9",
-      },
+      gameOf("nineball", "person", "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9"),
       {},
     );
     await opened(page);
-    expect(await text(page, "diagram-words")).toBe("Nine-ball. ");
-    expect(await page.locator("#diagram-path").isVisible()).toBe(false);
+    await says(page, "diagram-words", "Nine-ball. ");
+    await shows(page, "#diagram-path", false);
     const lie = await picture(page);
-    await page.locator("#diagram .close").click();
-    await page.locator("#new-game").click();
-    await page.locator("#rate").selectOption("1000");
-    await page.locator("#menu .close").click();
-    await page.locator("#shoot").click();
-    await expect.poll(() => page.locator("#skip").isVisible()).toBe(false);
+    await act(page, "#diagram .close", "#new-game", "#rate=1000", "#menu .close", "#shoot");
+    await comesToShow(page, "#skip", false);
     await opened(page);
     expect(await page.locator("#diagram-which option").allTextContents()).toEqual([
       "the last stroke",
       "the balls as they lie",
     ]);
-    expect(await text(page, "diagram-words")).toMatch(/^Nine-ball\. Cue: 2\.5 m\/s/);
+    await says(page, "diagram-words", /^Nine-ball\. Cue: 2\.5 m\/s/);
     expect(await picture(page)).not.toBe(lie);
-    await page.close();
   });
 
   test("it strikes the cue ball of the player, who in games of carom has an own one", async () => {
     const page = await resume({ game: "threecushion", against: "person", own: "0", seed: 1 }, {});
-    await page.locator("#new-game").click();
-    await page.locator("#rate").selectOption("1000");
-    await page.locator("#menu .close").click();
-    const strokes = async (): Promise<string[]> =>
-      (JSON.parse(await keptGame(page)) as { lines: string[] }).lines.filter((line) =>
-        line.startsWith('{"shot"'),
-      );
+    await act(page, "#new-game", "#rate=1000", "#menu .close");
+    const strokes = async () =>
+      (await keptLines(page)).filter((line) => line.startsWith('{"shot"'));
     // Soft strokes miss, so that the turn passes.
     for (const [count, ball] of [
       [1, undefined],
       [2, 1],
     ] as const) {
-      await set(page, "power", 0.5);
-      await page.locator("#shoot").click();
+      await act(page, "#power=0.5", "#shoot");
       await expect.poll(async () => (await strokes()).length).toBe(count);
-      await expect.poll(() => page.locator("#skip").isVisible()).toBe(false);
+      await comesToShow(page, "#skip", false);
       const [shot] = (await strokes()).slice(-1);
       expect((JSON.parse(shot!) as { shot: { ball?: number } }).shot.ball).toBe(ball);
     }
     await opened(page);
-    await page.locator("#link-diagram").click();
-    await expect.poll(() => text(page, "diagram-said")).toBe("The link to this diagram is copied.");
+    await act(page, "#link-diagram");
+    await comesToSay(page, "diagram-said", "The link to this diagram is copied.");
     const drawn = await picture(page);
     const link = new URL(await page.evaluate(() => navigator.clipboard.readText())).hash;
     const secondPage = await open(link);
-    await expect.poll(() => secondPage.locator("#diagram").isVisible()).toBe(true);
+    await comesToShow(secondPage, "#diagram");
     await expect.poll(() => picture(secondPage)).toBe(drawn);
     // The same stroke of the white is drawn otherwise.
     const packed = new URLSearchParams(link.slice(1)).get("d")!;
@@ -163,13 +159,11 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
     const white = deflateRawSync(JSON.stringify({ ...sent, ball: 0 })).toString("base64url");
     await secondPage.evaluate((d) => (location.hash = `#view=play&d=${d}`), white);
     await expect.poll(() => picture(secondPage)).not.toBe(drawn);
-    await page.close();
-    await secondPage.close();
   });
 
   test("a link that is damaged or changed is refused, and says why", async () => {
     const page = await open("");
-    const packed = (text: string): Promise<string> =>
+    const packed = (text: string) =>
       page.evaluate(async (text) => {
         const bytes = new Uint8Array(
           await new Response(
@@ -197,8 +191,7 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
     ] as const) {
       await page.evaluate((d) => (location.hash = `#view=play&d=${d}`), d);
       await expect.poll(() => text(page, "said")).toContain(`The diagram was not read: ${why}`);
-      expect(await page.locator("#diagram").isVisible()).toBe(false);
+      await shows(page, "#diagram", false);
     }
-    await page.close();
   });
 });

@@ -2,7 +2,7 @@
 // nothing makes none.
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
-import type { Carom, Cue, ShotBall, Shot } from "carom";
+import type { Carom, Cue, ShotBall } from "carom";
 import { drillStroke, strokesFor } from "../src/play/drill_search.js";
 import { type Drill, drillsOf, judge } from "../src/play/drills.js";
 import { Play } from "../src/play/game.js";
@@ -37,16 +37,16 @@ test.runIf(process.env.CAROM_DRILLS)("ratings that make a drill in half of the t
   const { carom } = builds[0]!;
   for (const drill of drills) {
     const { table, balls } = layout(carom, drill);
-    const good = (cue: Partial<Cue>): boolean =>
+    const good = (cue: Partial<Cue>) =>
       judge(drill, carom.simulate(table, balls, cue, OPTIONS)).outcome !== "missed";
     const strokes: Partial<Cue>[] = [];
     for (const cue of strokesFor(carom, table, balls, drill, 200, OPTIONS))
       if (good(cue) && strokes.push(cue) === 200) break;
-    const share = (cue: Partial<Cue>, fargo: number, count: number): number =>
+    const share = (cue: Partial<Cue>, fargo: number, count: number) =>
       Array.from({ length: count }, (_, k) =>
         good(carom.withErrors(cue, carom.player({ fargo }), count, k)),
       ).filter(Boolean).length / count;
-    const best = (fargo: number): number =>
+    const best = (fargo: number) =>
       Math.max(
         ...strokes
           .map((cue) => [share(cue, fargo, 25), cue] as const)
@@ -69,7 +69,7 @@ test.each(drills.map((drill) => [drill.name, drill] as const))(
   (_, drill) => {
     const { carom } = builds[0]!;
     const { table, balls } = layout(carom, drill);
-    const play = (cue: Partial<Cue>): Shot => carom.simulate(table, balls, cue, OPTIONS);
+    const play = (cue: Partial<Cue>) => carom.simulate(table, balls, cue, OPTIONS);
     expect(judge(drill, play({ speed: 0.1, phi: 200, b: 0 }))).toMatchObject({ outcome: "missed" });
     // Where three balls are to fall, the stroke goes on.
     for (const cue of strokesFor(carom, table, balls, drill, 200, OPTIONS))
@@ -92,7 +92,7 @@ test.each(drills.map((drill) => [drill.name, drill] as const))(
 
 test("a game of pool is played on the table that it names, with the pockets of that table", () => {
   const { carom } = builds[0]!;
-  const practiceOn = (table?: string, game = "nineball"): Play =>
+  const practiceOn = (table?: string, game = "nineball") =>
     new Play(carom, {
       game,
       against: "practice",
@@ -105,7 +105,7 @@ test("a game of pool is played on the table that it names, with the pockets of t
   ]);
   expect(practiceOn().table).toEqual(practiceOn("9ft").table);
   // Of balls side by side that run at a corner, fewer fall into the tight one.
-  const into = ({ table, balls }: Play): number => {
+  const into = ({ table, balls }: Play) => {
     const lie = balls.map(
       ({ kind, state }): ShotBall => ({
         kind,

@@ -3,7 +3,20 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
 import { toLine } from "carom";
-import { browserPath, pages, sizes } from "./page.js";
+import {
+  act,
+  boxOf,
+  browserPath,
+  comesToSay,
+  dragMouse,
+  numberIn,
+  pages,
+  PHONE,
+  says,
+  shows,
+  sizes,
+  valueOf,
+} from "./page.js";
 import { builds } from "../../test/builds.js";
 import { root, run, thereIsACommand } from "../../test/support.js";
 
@@ -19,10 +32,7 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
         [3.2, -42.5, 0.31, -0.2],
         [0.7, 15, -0.5, 0],
       ] as const) {
-        await set(page, "speed", speed);
-        await set(page, "cut", cut);
-        await set(page, "side", side);
-        await set(page, "tip", tip);
+        await act(page, `#speed=${speed}`, `#cut=${cut}`, `#side=${side}`, `#tip=${tip}`);
         const spin = `${(2.5 * speed * tip) / 0.028575}rad/s`;
         const english = `${(2.5 * speed * side) / 0.028575}rad/s`;
         const output = run([
@@ -41,115 +51,116 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
           .trim()
           .split("\n")
           .map((line) => line.split(","));
-        const number = (column: string): number => Number(derived[1]![derived[0]!.indexOf(column)]);
+        const number = (column: string) => Number(derived[1]![derived[0]!.indexOf(column)]);
         const v = (ball: number): [number, number] => [number(`v${ball}x`), number(`v${ball}y`)];
-        const angle = ([x, y]: [number, number]): string =>
+        const angle = ([x, y]: [number, number]) =>
           `${Math.abs((Math.atan2(y, x) * 180) / Math.PI).toFixed(2)}° ${y > 0 ? "left" : "right"}`;
-        const speedOf = ([x, y]: [number, number]): string => `${Math.hypot(x, y).toFixed(3)} m/s`;
-        expect(await text(page, "n-object")).toBe(`${angle(v(2))}, ${speedOf(v(2))}`);
-        expect(await text(page, "n-deflection")).toBe(`${angle(v(1))}, ${speedOf(v(1))}`);
+        const speedOf = ([x, y]: [number, number]) => `${Math.hypot(x, y).toFixed(3)} m/s`;
+        await says(page, "n-object", `${angle(v(2))}, ${speedOf(v(2))}`);
+        await says(page, "n-deflection", `${angle(v(1))}, ${speedOf(v(1))}`);
         const thrown = (Math.atan2(v(2)[1], v(2)[0]) * 180) / Math.PI - cut;
-        expect(await text(page, "n-throw")).toBe(
+        await says(
+          page,
+          "n-throw",
           `${Math.abs(thrown).toFixed(2)}° ${thrown > 0 ? "left" : "right"}`,
         );
-        expect(await text(page, "n-spin")).toBe(`${number("w2z").toFixed(2)} rad/s`);
+        await says(page, "n-spin", `${number("w2z").toFixed(2)} rad/s`);
       }
-      await page.close();
     },
   );
 
   test("dragging the cue ball, keys and the address", async () => {
     const page = await open("#view=collision&speed=2&cut=10");
-    expect(await page.locator("#speed").inputValue()).toBe("2");
-    expect(await page.locator("#cut").inputValue()).toBe("10");
+    expect(await valueOf(page, "speed")).toBe("2");
+    expect(await valueOf(page, "cut")).toBe("10");
     const scene = page.locator("#collision-scene");
     const box = (await scene.boundingBox())!;
-    await page.mouse.move(box.x + box.width * 0.4, box.y + box.height * 0.5);
-    await page.mouse.down();
-    await page.mouse.move(box.x + box.width * 0.5 - 100, box.y + box.height * 0.5 + 100, {
-      steps: 5,
-    });
-    await page.mouse.up();
-    expect(await page.locator("#cut").inputValue()).toBe("45");
+    await dragMouse(
+      page,
+      [box.x + box.width * 0.4, box.y + box.height * 0.5],
+      [box.x + box.width * 0.5 - 100, box.y + box.height * 0.5 + 100],
+      5,
+    );
+    expect(await valueOf(page, "cut")).toBe("45");
     await scene.press("ArrowRight");
-    expect(await page.locator("#cut").inputValue()).toBe("45.5");
+    expect(await valueOf(page, "cut")).toBe("45.5");
     const exact = await text(page, "n-throw");
-    await page.locator("#solver").selectOption("euler");
-    expect(await text(page, "n-stick")).toContain("unknown");
+    await act(page, "#solver=euler");
+    await says(page, "n-stick", /unknown/);
     expect(parseFloat(await text(page, "n-throw"))).toBeCloseTo(parseFloat(exact), 1);
     await page.waitForURL(/view=collision&speed=2&cut=45.5&solver=euler/);
-    await page.close();
   });
 
   test.runIf(thereIsACommand)(
     "a break plays to its end, with the command's final state",
     async () => {
       const page = await open("#view=lab&phi=89.3&right=-0.1");
-      await page.locator("main summary").click();
-      await page.locator("#export").click();
-      const line = await page.locator("#line").inputValue();
+      await act(page, "main summary", "#export");
+      const line = await valueOf(page, "line");
       const played = JSON.parse(run(["shoot", "-"], line)) as {
         status: string;
         events: unknown[][];
         final: { t: number; balls: Record<string, number[]> };
       };
-      expect(await text(page, "s-status")).toBe(played.status);
-      expect(await text(page, "s-time")).toBe(`${played.final.t.toFixed(3)} s`);
-      expect(await text(page, "s-count")).toBe(
+      await says(page, "s-status", played.status);
+      await says(page, "s-time", `${played.final.t.toFixed(3)} s`);
+      await says(
+        page,
+        "s-count",
         String(played.events.filter(([, type]) => type !== "none").length),
       );
       const cue = played.final.balls.cue!;
-      expect(await text(page, "s-cue-ball")).toBe(
+      await says(
+        page,
+        "s-cue-ball",
         cue[0] === 4 ? "in a pocket" : `${cue[1]!.toFixed(4)}, ${cue[2]!.toFixed(4)} m`,
       );
       const fell = Object.entries(played.final.balls)
         .filter(([, state]) => state[0] === 4)
         .map(([name]) => name);
-      expect(await text(page, "s-pocketed")).toBe(fell.join(", ") || "none");
+      await says(page, "s-pocketed", fell.join(", ") || "none");
       // The film, from some time before its end, so that a busy machine does not miss it.
       await set(page, "time", Math.floor(1000 * (played.final.t - 3)) / 1000);
-      await page.locator("#play").click();
-      expect(await text(page, "play")).toBe("Pause");
-      await expect.poll(() => text(page, "play")).toBe("Play");
-      expect(Number(await page.locator("#time").inputValue())).toBeCloseTo(played.final.t, 2);
+      await act(page, "#play");
+      await says(page, "play", "Pause");
+      await comesToSay(page, "play", "Play");
+      expect(await numberIn(page, "time")).toBeCloseTo(played.final.t, 2);
       expect(await page.locator('.events li[aria-current="true"] + li').count()).toBe(0);
       // From event to event.
       await page.locator(".events button").first().click();
-      await page.locator("#forward").click();
-      expect(Number(await page.locator("#time").inputValue())).toBeCloseTo(
+      await act(page, "#forward");
+      expect(await numberIn(page, "time")).toBeCloseTo(
         Number(await text(page, "s-contact").then((t) => t.match(/after ([\d.]+)/)![1])),
         2,
       );
-      await page.locator("#back").click();
-      expect(Number(await page.locator("#time").inputValue())).toBe(0);
-      await page.close();
+      await act(page, "#back");
+      expect(await numberIn(page, "time")).toBe(0);
     },
   );
 
   test("a line is read back, and a bad one is refused with its key", async () => {
     const page = await open("#view=lab");
-    await page.locator("main summary").click();
+    await act(page, "main summary");
     await page.locator("#line").fill(readFileSync(`${root}data/break-nineball.jsonl`, "utf8"));
-    await page.locator("#import").click();
-    expect(await text(page, "message")).toBe("");
-    expect(await page.locator("#speed").inputValue()).toBe("9");
+    await act(page, "#import");
+    await says(page, "message", "");
+    expect(await valueOf(page, "speed")).toBe("9");
     if (thereIsACommand) {
       const played = JSON.parse(
         run(["shoot", "--events", "none", `${root}data/break-nineball.jsonl`]),
       ) as { final: { t: number; balls: Record<string, number[]> } };
       const [, x, y] = played.final.balls.cue!;
-      expect(await text(page, "s-time")).toBe(`${played.final.t.toFixed(3)} s`);
-      expect(await text(page, "s-cue-ball")).toBe(`${x!.toFixed(4)}, ${y!.toFixed(4)} m`);
+      await says(page, "s-time", `${played.final.t.toFixed(3)} s`);
+      await says(page, "s-cue-ball", `${x!.toFixed(4)}, ${y!.toFixed(4)} m`);
       // The address has the whole shot.
       await page.waitForURL(/line=/);
       const reopened = await open(new URL(page.url()).hash);
-      expect(await text(reopened, "s-time")).toBe(`${played.final.t.toFixed(3)} s`);
+      await says(reopened, "s-time", `${played.final.t.toFixed(3)} s`);
       await reopened.close();
     }
     await page.locator("#line").fill('{"kind": "shot", "table": "9ft", "balls": []}');
-    await page.locator("#import").click();
-    expect(await text(page, "message")).toContain("balls: ");
-    await page.close();
+    await act(page, "#import");
+    await says(page, "message", /balls: /);
   });
 
   test.runIf(thereIsACommand)(
@@ -164,7 +175,7 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
         8: [1.0, 1.1],
         12: [0.2, 0.4],
       };
-      const fileOf = (...names: string[]): string =>
+      const fileOf = (...names: string[]) =>
         toLine({
           id: "a layout",
           tableName: "9ft",
@@ -173,55 +184,58 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
           cue: carom.cue({ speed: 2 }),
         });
       const page = await open("#view=lab");
-      await page.locator("main summary").click();
-      const take = async (game: string, line: string): Promise<void> => {
-        await page.locator("#game").selectOption(game);
+      await act(page, "main summary");
+      const take = async (game: string, line: string) => {
+        await act(page, `#game=${game}`);
         await page.locator("#line").fill(line);
-        await page.locator("#import").click();
+        await act(page, "#import");
       };
       const nine = fileOf("cue", "5", "2", "9");
       await take("nineball", nine);
-      expect(await text(page, "message")).toBe("");
+      await says(page, "message", "");
       // Ball 12 is of eight-ball alone, and without ball 9 there is no nine-ball.
       for (const line of [fileOf("cue", "5", "12", "8", "9"), fileOf("cue", "8", "2")]) {
         await take("nineball", line);
-        expect(await page.locator("#game").inputValue()).toBe("eightball");
-        expect(await text(page, "message")).toBe("");
+        expect(await valueOf(page, "game")).toBe("eightball");
+        await says(page, "message", "");
       }
       // Two games fit: the one that was chosen, which the page says, or none.
       const both = fileOf("cue", "8", "9", "2");
       await take("eightball", both);
-      expect(await text(page, "message")).toBe(
+      await says(
+        page,
+        "message",
         "The balls are read as those of Eight-ball. If they are of Nine-ball, choose this game and import again.",
       );
       await take("nineball", both);
-      expect(await text(page, "message")).toContain("read as those of Nine-ball");
+      await says(page, "message", /read as those of Nine-ball/);
       await take("eightball", both.replace("a layout", "nineball"));
-      expect(await page.locator("#game").inputValue()).toBe("nineball");
+      expect(await valueOf(page, "game")).toBe("nineball");
       await take("snooker", both);
-      expect(await text(page, "message")).toBe(
+      await says(
+        page,
+        "message",
         "balls: they fit Nine-ball and Eight-ball; choose one of these games, then import again",
       );
       // Neither: it can be played.
       await take("nineball", fileOf("cue", "5", "2"));
-      expect(await text(page, "message")).toBe("");
-      await page.close();
+      await says(page, "message", "");
     },
   );
 
   test("aiming: a drag on the cloth, the cue ball moved, every game", async () => {
     const page = await open("#view=lab&game=eightball");
-    const box = (await page.locator("#table-scene").boundingBox())!;
+    const box = await boxOf(page, "#table-scene");
     await page.mouse.move(box.x + box.width * 0.7, box.y + box.height * 0.3);
     await page.mouse.down();
     for (let k = 0; k < 60; k++)
       await page.mouse.move(box.x + box.width * 0.7, box.y + box.height * (0.3 + 0.005 * k));
     console.log(`an eight-ball break is aimed: ${await text(page, "cost")}`);
     await page.mouse.up();
-    expect(await page.locator("#phi").inputValue()).not.toBe("90");
+    expect(await valueOf(page, "phi")).not.toBe("90");
     for (const game of ["nineball", "snooker", "threecushion"]) {
-      await page.locator("#game").selectOption(game);
-      expect(await text(page, "s-status")).toBe("ok");
+      await act(page, `#game=${game}`);
+      await says(page, "s-status", "ok");
       expect(Number(await text(page, "s-count"))).toBeGreaterThan(5);
     }
     const cushions = (
@@ -231,12 +245,11 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     ).words.CUSHION_MODEL!;
     expect(await page.locator("#cushion option").allTextContents()).toHaveLength(cushions.length);
     for (const [cushion] of cushions) {
-      await page.locator("#cushion").selectOption(cushion);
-      expect(await text(page, "s-status")).toBe("ok");
+      await act(page, `#cushion=${cushion}`);
+      await says(page, "s-status", "ok");
     }
-    await page.locator("#solver").selectOption("euler");
-    expect(await text(page, "s-status")).toBe("ok");
-    await page.close();
+    await act(page, "#solver=euler");
+    await says(page, "s-status", "ok");
   });
 
   test("cushions play the constants that the game has for them, and say so where there are none", async () => {
@@ -244,7 +257,7 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     const table = carom.table("threecushion");
     const page = await open("#view=lab&game=threecushion&speed=4&phi=62");
     for (const cushionModel of ["han", "smooth", "mathavan"] as const) {
-      await page.locator("#cushion").selectOption(cushionModel);
+      await act(page, `#cushion=${cushionModel}`);
       const kind = carom.kind("billiard", cushionModel);
       const balls = carom.rack("threecushion", table).map(({ state }) => ({ kind, state }));
       const shot = carom.simulate(
@@ -258,12 +271,10 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
       );
       expect(await page.locator("#message").textContent()).toBe("");
     }
-    await page.locator("#game").selectOption("snooker");
-    await page.locator("#cushion").selectOption("stronge");
+    await act(page, "#game=snooker", "#cushion=stronge");
     expect(await page.locator("#message").textContent()).toContain(
       'snooker has no constants for "stronge"; it plays those of its own cushions',
     );
-    await page.close();
   });
 
   test.each(sizes)(
@@ -307,14 +318,13 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
         await page.waitForURL(/%2C90/);
       }
       await click(page, 0.9, 0.5, touch);
-      const box = (await page.locator("#table-scene").boundingBox())!;
+      const box = await boxOf(page, "#table-scene");
       const reach = 36 / ((box.height > box.width ? box.width : box.height) / 1.47);
       const [, px, py] = (await lies(page))["1"]! as [number, number, number];
       await drag(page, [px + reach, py], [px, py + reach], touch);
       await page.waitForURL(/%2C(89|90|91)(\+|&|$)/);
       expect((await lies(page))["1"]!.slice(1)).toEqual([px, py]);
       expect(await page.evaluate(() => scrollY)).toBe(0);
-      await page.close();
     },
   );
 
@@ -329,42 +339,41 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
       game.continue();
       game.stroke({ speed: 2.5, phi: 70 });
       const whole = game.end();
-      const lineOf = (part: string): number =>
+      const lineOf = (part: string) =>
         whole.split("\n").findIndex((line) => line.includes(part)) + 1;
       const ends = [...carom.replay(whole)].map(({ played }) => played);
-      const give = (name: string, content: string): Promise<void> =>
+      const give = (name: string, content: string) =>
         page
           .locator("#recording")
           .setInputFiles({ name, mimeType: "application/jsonl", buffer: Buffer.from(content) });
       const page = await open("#view=lab", how);
       // Waits for the name alone, so that other words fail at once.
-      const wordsOf = async (file: string, where = "reel-file"): Promise<string> => {
+      const wordsOf = async (file: string, where = "reel-file") => {
         await expect.poll(() => text(page, where)).toContain(file);
         return text(page, where);
       };
       await give("game.jsonl", whole);
       expect(await wordsOf("game.jsonl")).toBe("game.jsonl: 3 shots, every bit agrees.");
-      expect(await text(page, "reel-shot")).toBe("Shot 1 of 3: as recorded.");
-      expect(await text(page, "s-time")).toBe(`${ends[0]!.time.toFixed(3)} s`);
-      expect(await text(page, "s-status")).toBe("stopped_at_time");
+      await says(page, "reel-shot", "Shot 1 of 3: as recorded.");
+      await says(page, "s-time", `${ends[0]!.time.toFixed(3)} s`);
+      await says(page, "s-status", "stopped_at_time");
       expect(
         await page.evaluate(
           () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
         ),
       ).toBeLessThanOrEqual(0);
       // The film goes on from shot to shot.
-      await page.locator("#rate").selectOption("1000");
-      await page.locator("#play").click();
-      await expect.poll(() => text(page, "reel-shot")).toBe("Shot 3 of 3: as recorded.");
-      await expect.poll(() => text(page, "play")).toBe("Play");
-      expect(await text(page, "s-count")).toBe(String(ends[2]!.events));
+      await act(page, "#rate=1000", "#play");
+      await comesToSay(page, "reel-shot", "Shot 3 of 3: as recorded.");
+      await comesToSay(page, "play", "Play");
+      await says(page, "s-count", String(ends[2]!.events));
       // Back to the one that continues: it begins where the other was stopped. What is changed is
       // recorded no longer.
-      await page.locator("#reel-back").click();
-      expect(Number(await page.locator("#time").inputValue())).toBe(0.5);
-      expect(await text(page, "s-time")).toBe(`${ends[1]!.time.toFixed(3)} s`);
+      await act(page, "#reel-back");
+      expect(await numberIn(page, "time")).toBe(0.5);
+      await says(page, "s-time", `${ends[1]!.time.toFixed(3)} s`);
       await page.locator("#speed").fill("3");
-      expect(await text(page, "reel-shot")).toBe("Shot 2 of 3 was changed.");
+      await says(page, "reel-shot", "Shot 2 of 3 was changed.");
       // A forged stroke, dropped: its shot is shown.
       const dropped = await page.evaluateHandle(
         (content) => {
@@ -391,10 +400,9 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
       expect(await wordsOf("other.jsonl", "message")).toContain(
         "other.jsonl: line 1: the recording is of revision 9",
       );
-      expect(await text(page, "reel-file")).toContain("damaged.jsonl");
-      await page.locator("#rack").click();
-      expect(await page.locator("#reel").isVisible()).toBe(false);
-      await page.close();
+      await says(page, "reel-file", /damaged\.jsonl/);
+      await act(page, "#rack");
+      await shows(page, "#reel", false);
     },
   );
 
@@ -406,21 +414,21 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
         "#view=lab&game=nineball&speed=3&at=0.635,0.6 0.5,1.6 in in in in in in in 1,2",
         how,
       );
-      expect(await text(page, "message")).toBe("");
+      await says(page, "message", "");
       // the stick is drawn back: 0.04 m for each m/s
       await drag(page, [0.635, 0.6 - 0.35], [0.635, 0.6 - 0.43], touch);
-      expect(Number(await page.locator("#speed").inputValue())).toBeCloseTo(5, 0);
+      expect(await numberIn(page, "speed")).toBeCloseTo(5, 0);
       await page.locator("#speed").fill("2.8");
-      const ball = (await page.locator("#spin").boundingBox())!;
+      const ball = await boxOf(page, "#spin");
       const place = [
         ball.x + ball.width * (0.5 + 0.2 / 1.05),
         ball.y + ball.height * (0.5 + 0.1 / 1.05),
       ] as const;
       await (touch ? page.touchscreen.tap(...place) : page.mouse.click(...place));
-      expect(Number(await page.locator("#right").inputValue())).toBeCloseTo(0.4, 1);
-      expect(Number(await page.locator("#up").inputValue())).toBeCloseTo(-0.2, 1);
+      expect(await numberIn(page, "right")).toBeCloseTo(0.4, 1);
+      expect(await numberIn(page, "up")).toBeCloseTo(-0.2, 1);
       await click(page, 0.5, 1.6, touch);
-      const inPocket = async (): Promise<number> =>
+      const inPocket = async () =>
         Math.max(...(await colour(page, -0.0295, 2.5695, touch ? 11 : 25)));
       expect(await inPocket()).toBeLessThan(60);
       // every corner at the foot takes the ball, with squirt and throw
@@ -430,59 +438,58 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
       ] as const) {
         await click(page, x, y, touch);
         expect(await text(page, "message")).toContain(`Aimed: ball 1 into the foot-${name} pocket`);
-        expect(await text(page, "s-pocketed")).toBe("1");
-        expect(await text(page, "s-status")).toBe("ok");
+        await says(page, "s-pocketed", "1");
+        await says(page, "s-status", "ok");
       }
       // its trail ends in the pocket, where the ball lies
       expect(await inPocket()).toBeGreaterThan(60);
       // one that is picked, and hidden behind the other
       await click(page, 1, 2, touch);
       await click(page, 0, 0, touch);
-      expect(await text(page, "message")).toContain(
-        "No such aim: no direction sends ball 9 into the head-left pocket.",
+      await says(
+        page,
+        "message",
+        /No such aim: no direction sends ball 9 into the head-left pocket\./,
       );
-      const phi = Number(await page.locator("#phi").inputValue());
+      const phi = await numberIn(page, "phi");
       await page.waitForURL(
         ({ hash }) => Math.abs(Number(new URLSearchParams(hash.slice(1)).get("phi")) - phi) < 0.05,
       ); // the address follows
       const aimed = page.url();
       const shot = await text(page, "s-time");
-      await page.locator("#next").click();
+      await act(page, "#next");
       const lie = await lies(page);
       expect(lie["1"]![0]).toBe(4);
       expect(await text(page, "s-time")).not.toBe(shot);
-      await page.locator("#undo").click();
-      expect(await text(page, "s-time")).toBe(shot);
+      await act(page, "#undo");
+      await says(page, "s-time", shot);
       await page.waitForURL(({ href }) => href === aimed);
-      await page.locator("#copy").click();
-      await expect.poll(() => text(page, "message")).toContain("copied");
+      await act(page, "#copy");
+      await comesToSay(page, "message", /copied/);
       const reopened = await open(
         new URL(await page.evaluate(() => navigator.clipboard.readText())).hash,
         how,
       );
-      expect(await text(reopened, "s-time")).toBe(shot);
-      expect(await text(reopened, "s-pocketed")).toBe("1");
-      await reopened.close();
-      await page.close();
+      await says(reopened, "s-time", shot);
+      await says(reopened, "s-pocketed", "1");
     },
   );
 
   test("a finger on the cloth scrolls the page, and turns the aim on its line", async () => {
-    const page = await open("#view=lab", { width: 390, height: 844, touch: true });
-    const phi = await page.locator("#phi").inputValue();
+    const page = await open("#view=lab", PHONE);
+    const phi = await valueOf(page, "phi");
     await drag(page, [0.2, 1.2], [0.2, 1.9], true);
     await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(100);
-    expect(await page.locator("#phi").inputValue()).toBe(phi);
+    expect(await valueOf(page, "phi")).toBe(phi);
     // The page glides on.
-    const height = (): Promise<number> => page.evaluate(() => scrollY);
+    const height = () => page.evaluate(() => scrollY);
     await expect.poll(async () => (await height()) - (await frames(page, 10).then(height))).toBe(0);
     await page.evaluate(() => scrollTo(0, 0));
     await drag(page, [0.635, 1.4], [0.7, 1.4], true);
     expect(await page.evaluate(() => scrollY)).toBe(0);
-    expect(Number(await page.locator("#phi").inputValue())).toBeCloseTo(90 - 4.8, 0);
+    expect(await numberIn(page, "phi")).toBeCloseTo(90 - 4.8, 0);
     await click(page, 0.2, 1.5, true);
-    expect(Number(await page.locator("#phi").inputValue())).toBeCloseTo(116.7, 0);
-    await page.close();
+    expect(await numberIn(page, "phi")).toBeCloseTo(116.7, 0);
   });
 
   test("keys on the table aim, move and turn balls, undo, and play", async () => {
@@ -491,13 +498,13 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     await scene.press("ArrowLeft");
     await scene.press("Shift+ArrowRight");
     await scene.press("ArrowUp");
-    expect(Number(await page.locator("#phi").inputValue())).toBeCloseTo(89.1, 1);
-    expect(Number(await page.locator("#speed").inputValue())).toBeCloseTo(3.1, 6);
+    expect(await numberIn(page, "phi")).toBeCloseTo(89.1, 1);
+    expect(await numberIn(page, "speed")).toBeCloseTo(3.1, 6);
     await page.waitForURL(/phi=89.1/);
     // The cue ball, and then the one that is picked, by 1 and 10 mm as one sees them: the table
     // lies.
     await scene.press("Alt+ArrowRight");
-    const reports = (begins: string): Promise<void> =>
+    const reports = (begins: string) =>
       page.waitForURL(({ hash }) =>
         (new URLSearchParams(hash.slice(1)).get("at") ?? "")
           .replace(/\d+\.\d+/g, (x) => String(Number(Number(x).toFixed(6))))
@@ -520,13 +527,12 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
       expect((await lies(page))["1"]!.map((x) => Number(x.toFixed(6)))).toEqual([0, x, 1.6]);
     }
     await scene.press(" ");
-    expect(await text(page, "play")).toBe("Pause");
-    await page.close();
+    await says(page, "play", "Pause");
   });
 
   test.each(sizes)("the table of the laboratory is large: %s", async (_, how) => {
     const page = await open("#view=lab", how);
-    const box = (await page.locator("#table-scene").boundingBox())!;
+    const box = await boxOf(page, "#table-scene");
     expect((box.width * box.height) / (how.width * how.height)).toBeGreaterThan(0.48);
     expect(box.y + box.height).toBeLessThan(how.height);
     // Diamonds are bright on the wood, beside a quarter of the head cushion; ball 9 is yellow
@@ -536,6 +542,5 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     expect((await colour(page, x! + 0.02, y!))[2]).toBeGreaterThan(200);
     // on the phone it is two pixels wide
     if (how.width > 1000) expect((await colour(page, x!, y! + 0.021))[2]).toBeLessThan(80);
-    await page.close();
   });
 });

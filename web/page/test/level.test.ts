@@ -2,7 +2,23 @@
 // that is met, and the price of a hint.
 import { describe, expect, test } from "vitest";
 import type { Page } from "playwright-core";
-import { browserPath, keptGame, pages, sizes, violations } from "./page.js";
+import {
+  act,
+  boxOf,
+  browserPath,
+  comesToSay,
+  dragMouse,
+  gameOf,
+  keptSetup,
+  numberIn,
+  pages,
+  reload,
+  says,
+  shows,
+  sizes,
+  valueOf,
+  violations,
+} from "./page.js";
 
 describe.runIf(browserPath !== undefined)("by level", () => {
   const { open, bright, frames, struck, text, turnTo } = pages();
@@ -20,7 +36,7 @@ describe.runIf(browserPath !== undefined)("by level", () => {
        * Bright pixels of the way of the 1, after a cut by which it goes to the left, near it and
        * farther on.
        */
-      const seen = async (lines: string, games: object): Promise<boolean[]> => {
+      const seen = async (lines: string, games: object) => {
         await page.evaluate(
           ([lines, games]) => {
             localStorage.setItem("carom-settings", JSON.stringify({ lines }));
@@ -28,8 +44,7 @@ describe.runIf(browserPath !== undefined)("by level", () => {
           },
           [lines, JSON.stringify(games)] as const,
         );
-        await page.reload();
-        await page.waitForSelector("main[aria-busy=false]");
+        await reload(page);
         await turnTo(page, (Math.atan2(1.9 - 0.635, 0.318 - 0.635) * 180) / Math.PI);
         await frames(page, 4);
         return [
@@ -51,19 +66,15 @@ describe.runIf(browserPath !== undefined)("by level", () => {
       }
       await seen("full", {});
       expect(Number((await text(page, "part")).split(" ")[0])).toBeGreaterThan(40);
-      const initial = Number(await page.locator("#phi").inputValue());
-      expect(await text(page, "wheel")).toBe("↺ 0.02° ↻");
-      const box = (await page.locator("#wheel").boundingBox())!;
-      await page.mouse.move(box.x + 20, box.y + 20);
-      await page.mouse.down();
-      await page.mouse.move(box.x + 70, box.y + 20);
-      await page.mouse.up();
-      expect(Number(await page.locator("#phi").inputValue())).toBeCloseTo(initial - 1, 1);
+      const initial = await numberIn(page, "phi");
+      await says(page, "wheel", "↺ 0.02° ↻");
+      const box = await boxOf(page, "#wheel");
+      await dragMouse(page, [box.x + 20, box.y + 20], [box.x + 70, box.y + 20]);
+      expect(await numberIn(page, "phi")).toBeCloseTo(initial - 1, 1);
       await page.mouse.click(box.x + 5, box.y + 20);
       await page.locator("#wheel").press("ArrowLeft");
-      expect(Number(await page.locator("#phi").inputValue())).toBeCloseTo(initial - 0.95, 1);
+      expect(await numberIn(page, "phi")).toBeCloseTo(initial - 0.95, 1);
       expect(await violations(page)).toEqual([]);
-      await page.close();
     },
   );
 
@@ -80,59 +91,57 @@ describe.runIf(browserPath !== undefined)("by level", () => {
         at: "0.4,0.4 in in in in in in in in 0.06,0.06",
       },
     );
-    await page.locator("#new-game").click();
-    expect(await text(page, "new-note")).toMatch(
+    await act(page, "#new-game");
+    await says(
+      page,
+      "new-note",
       /You are unrated until your first game\. Hints are those for a 426, the mean of all players\./,
     );
-    await page.locator("#rate").selectOption("1000");
-    await page.locator("#menu .close").click();
-    await page.locator("#hint").click();
-    await expect.poll(() => text(page, "said")).toMatch(/^Hint: .* This stroke errs like his\.$/);
-    const meant = Number(await page.locator("#phi").inputValue());
-    await page.locator("#shoot").click();
-    await expect.poll(() => text(page, "turn")).toMatch(/have won: the 9 fell\.$/);
+    await act(page, "#rate=1000", "#menu .close", "#hint");
+    await comesToSay(page, "said", /^Hint: .* This stroke errs like his\.$/);
+    const meant = await numberIn(page, "phi");
+    await act(page, "#shoot");
+    await comesToSay(page, "turn", /have won: the 9 fell\.$/);
     // The errors of an 800 are below 0.2 degrees.
     expect(Math.abs((await struck(page, "phi")) - meant)).toBeGreaterThan(0.2);
     // A normal distribution, 400 and 150 wide, from 200 to 850, times 1 / (1 + 2^(5 - r / 100)):
     // summed at 200,000 ratings.
-    expect(await text(page, "said")).toBe(
+    await says(
+      page,
+      "said",
       "Your rating is about 487 (95 %: 250 to 741), by 1 : 0 against a 500.",
     );
     expect(await page.locator("#end").innerText()).toMatch(
       /You have won\s+The 9 fell\.[^]*Your best stroke: ball 9 into the head-left pocket; its aim had a room of \d+\.\d\d°\.\s+Your first rating is 487\.\s+Won at the level 500: 1 of 3\./,
     );
     expect(await violations(page)).toEqual([]);
-    await page.locator("#play-again").click();
-    expect(await page.locator("#end").isVisible()).toBe(false);
-    expect(await text(page, "turn")).toContain("You break");
-    await page.close();
+    await act(page, "#play-again");
+    await shows(page, "#end", false);
+    await says(page, "turn", /You break/);
   });
 
   test.each(sizes)("a race ends where one has won its racks: %s", async (_, how) => {
-    const HANGS = { game: "nineball", against: "person", own: "0", seed: 7 };
-    const win = async (racks: [number, number]): Promise<Page> => {
+    const HANGS = gameOf("nineball", "person");
+    const win = async (racks: [number, number]) => {
       const places = "0.4,0.4 in in in in in in in in 0.06,0.06";
       const page = await open("", how, { ...HANGS, at: places, race: 2, racks });
       await turnTo(page, 225);
-      await page.locator("#shoot").click();
-      await page.locator("#skip").click();
+      await act(page, "#shoot", "#skip");
       await page.locator("#end").waitFor();
       return page;
     };
-    const racksOf = async (page: Page): Promise<number[]> =>
-      (JSON.parse(await keptGame(page)) as { racks: number[] }).racks;
+    const racksOf = async (page: Page) => (await keptSetup<{ racks: number[] }>(page)).racks;
     const first = await win([0, 1]);
     expect(await first.locator("#end").innerText()).toContain("Race to 2: 1 : 1");
-    expect(await text(first, "play-again")).toBe("Next rack");
-    await first.locator("#play-again").click();
+    await says(first, "play-again", "Next rack");
+    await act(first, "#play-again");
     expect(await racksOf(first)).toEqual([1, 1]);
-    expect(await text(first, "score")).toBe("lowest ball 1 · race to 2: 1 : 1");
+    await says(first, "score", "lowest ball 1 · race to 2: 1 : 1");
     await first.close();
     const last = await win([1, 0]);
     expect(await last.locator("#end").innerText()).toContain("The race is won by 2 : 0.");
-    await last.locator("#play-again").click();
+    await act(last, "#play-again");
     expect(await racksOf(last)).toEqual([0, 0]);
-    await last.close();
   });
 
   test("the ladder and the stars show what was won and made, and a dash where nothing was", async () => {
@@ -141,17 +150,15 @@ describe.runIf(browserPath !== undefined)("by level", () => {
       localStorage.setItem("carom-ladder", '{"200":[3,1],"300":[1,2]}');
       localStorage.setItem("carom-drills", '{"Draw":[0,3],"Side pocket":[9,10],"Follow":[1,9]}');
     });
-    await page.reload();
-    await page.waitForSelector("main[aria-busy=false]");
-    await page.locator("#new-game").click();
+    await reload(page);
+    await act(page, "#new-game");
     const rungs = await page.locator("#ladder button").allTextContents();
     expect(rungs.slice(0, 3)).toEqual(["200★", "3001 : 2", "400–"]);
     await page.locator("#ladder button").nth(3).click();
-    expect(await page.locator("#new-against").inputValue()).toBe("500");
+    expect(await valueOf(page, "new-against")).toBe("500");
     const drills = await page.locator("#drill option").allTextContents();
     for (const drill of ["Draw ☆☆☆", "Side pocket ★★★", "Follow ★☆☆", "Stop shot –"])
       expect(drills).toContain(drill);
     expect(await violations(page)).toEqual([]);
-    await page.close();
   });
 });

@@ -6,17 +6,30 @@ import type { AddressInfo } from "node:net";
 import { deflateRawSync, inflateRawSync } from "node:zlib";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import type { BrowserContext, Page } from "playwright-core";
-import { browserPath, keptGame, linesOf, pageFile, pages, sizes } from "./page.js";
+import {
+  act,
+  browserPath,
+  comesToSay,
+  comesToShow,
+  gameOf,
+  keptGame,
+  linesOf,
+  pageFile,
+  pages,
+  reload,
+  says,
+  sizes,
+} from "./page.js";
 
-const packed = (text: string): string => deflateRawSync(text).toString("base64url");
-const unpacked = (url: string): string =>
+const packed = (text: string) => deflateRawSync(text).toString("base64url");
+const unpacked = (url: string) =>
   inflateRawSync(
     Buffer.from(new URLSearchParams(new URL(url).hash.slice(1)).get("g")!, "base64url"),
   ).toString();
 
 describe.runIf(browserPath !== undefined)("a game by link", () => {
   const { browser, text, messages } = pages();
-  const turn = (page: Page): Promise<string> => text(page, "turn");
+  const turn = (page: Page) => text(page, "turn");
   let server: Server;
   let address = "";
   // Pages of one origin hear each other, which files are not.
@@ -32,11 +45,7 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     server.close();
     server.closeAllConnections();
   });
-  const contextOf = (how: {
-    width: number;
-    height: number;
-    touch?: boolean;
-  }): Promise<BrowserContext> =>
+  const contextOf = (how: { width: number; height: number; touch?: boolean }) =>
     browser().newContext({
       viewport: { width: how.width, height: how.height },
       hasTouch: how.touch ?? false,
@@ -58,18 +67,21 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     return page;
   }
   async function begin(page: Page, game: string): Promise<void> {
-    await page.locator("#new-game").click();
-    await page.locator("#new-which").selectOption(game);
-    await page.locator("#new-against").selectOption("link");
-    await page.locator("#new-own").selectOption("500");
-    await page.locator("#rate").selectOption("1000");
-    await page.locator("#start").click();
+    await act(
+      page,
+      "#new-game",
+      `#new-which=${game}`,
+      "#new-against=link",
+      "#new-own=500",
+      "#rate=1000",
+      "#start",
+    );
     await page.waitForURL(/g=/);
   }
   /** The link that a page makes. */
   async function link(page: Page): Promise<string> {
-    await page.locator("#send").click();
-    await expect.poll(() => text(page, "said")).toMatch(/copied/);
+    await act(page, "#send");
+    await comesToSay(page, "said", /copied/);
     return page.evaluate(() => navigator.clipboard.readText());
   }
 
@@ -79,10 +91,9 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     await begin(page, "eightball");
     const secondPage = await open(context, new URL(await link(page)).hash);
     await secondPage.setViewportSize({ width: 390, height: 844 });
-    await secondPage.locator("#new-game").click();
-    await secondPage.locator("#rate").selectOption("1000");
+    await act(secondPage, "#new-game", "#rate=1000");
     await secondPage.locator(".close").first().click();
-    expect(await turn(secondPage)).toMatch(/^The other player/);
+    await says(secondPage, "turn", /^The other player/);
     expect(await secondPage.locator("#shoot").isEnabled()).toBe(false);
     let strokes = 0;
     let heard = 0;
@@ -95,14 +106,12 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
           : [secondPage, page];
       await plays.bringToFront();
       if (strokes > 0) {
-        await plays.locator("#hint").click();
-        await expect.poll(() => text(plays, "said")).toMatch(/^Hint: /);
+        await act(plays, "#hint");
+        await comesToSay(plays, "said", /^Hint: /);
       }
-      await plays.locator("#shoot").click();
+      await act(plays, "#shoot");
       await hears.bringToFront();
-      await expect
-        .poll(() => text(hears, "said"))
-        .toBe(`Stroke ${strokes + 1} was repeated; every bit agrees.`);
+      await comesToSay(hears, "said", `Stroke ${strokes + 1} was repeated; every bit agrees.`);
       heard++;
       // Then somebody may play, or has won.
       await expect
@@ -123,9 +132,8 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     ).toEqual(["The other player has", "You have"]);
     // Both have the same game, which a reload keeps.
     expect(unpacked(page.url())).toBe(unpacked(secondPage.url()));
-    await secondPage.reload();
-    await secondPage.waitForSelector("main[aria-busy=false]");
-    await expect.poll(() => turn(secondPage)).toBe(yours);
+    await reload(secondPage);
+    await comesToSay(secondPage, "turn", yours);
     console.log(`two tabs: ${strokes} strokes; ${mine}; the link has ${page.url().length} letters`);
     await context.close();
   }, 300_000);
@@ -135,7 +143,7 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     const desk = await contextOf(sizes[0][1]);
     const page = await open(
       phone,
-      `#view=play&seat=0&g=${packed(JSON.stringify({ game: "nineball", against: "link", own: "0", seed: 7, at: "0.3,0.3 0.1,0.1 in in in in in in in 0.9,1.9" }))}`,
+      `#view=play&seat=0&g=${packed(JSON.stringify(gameOf("nineball", "link", "0.3,0.3 0.1,0.1 in in in in in in in 0.9,1.9")))}`,
     );
     for (const [id, value] of [
       ["phi", "225"],
@@ -146,18 +154,19 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
         input.value = value;
         input.dispatchEvent(new Event("input"));
       }, value);
-    await page.locator("#shoot").click();
-    await page.locator("#skip").click();
-    await expect.poll(() => turn(page)).toMatch(/^Your turn/);
+    await act(page, "#shoot", "#skip");
+    await comesToSay(page, "turn", /^Your turn/);
     const secondPage = await open(desk, new URL(await link(page)).hash);
-    expect(await text(page, "said")).toMatch(
-      /You are still at the table: send it again after your turn/,
-    );
-    expect(await turn(secondPage)).toBe(
+    await says(page, "said", /You are still at the table: send it again after your turn/);
+    await says(
+      secondPage,
+      "turn",
       "The other player plays: wait for the link that comes after this turn.",
     );
     await secondPage.locator("#shoot").evaluate((button: HTMLElement) => button.click());
-    expect(await text(secondPage, "said")).toBe(
+    await says(
+      secondPage,
+      "said",
       "The other player is at the table: open the link that comes after his turn.",
     );
     await phone.close();
@@ -169,17 +178,17 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     const phone = await contextOf(sizes[1][1]);
     const page = await open(desk);
     await begin(page, "eightball");
-    await page.locator("#shoot").click();
-    await expect.poll(() => page.locator("#skip").isVisible()).toBe(false);
+    await act(page, "#shoot");
+    await comesToShow(page, "#skip", false);
     const url = await link(page);
     const secondPage = await open(phone, new URL(url).hash);
-    expect(await text(secondPage, "said")).toBe("1 stroke was repeated; every bit agrees.");
+    await says(secondPage, "said", "1 stroke was repeated; every bit agrees.");
     // It shows the last stroke before it tells whose turn it is.
     await expect.poll(() => turn(secondPage)).not.toContain("plays …");
     const game = JSON.parse(unpacked(url)) as { lines: string[] };
     expect(linesOf(unpacked(url), "shot")).toHaveLength(1);
     // The speed; a hash; a missing line; a link that was cut off.
-    const forged = (change: (line: string) => string | []): string => {
+    const forged = (change: (line: string) => string | []) => {
       const lines = game.lines.flatMap((line) =>
         line.startsWith('{"shot"') ? change(line) : line,
       );
@@ -206,22 +215,24 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
       const damaged = await open(phone, `#view=play&seat=1&g=${g}`);
       expect(await text(damaged, "said")).toContain(`The game was not opened: ${why}`);
       // What this browser keeps is opened in its place, as it was.
-      expect(await turn(damaged)).toBe(await turn(secondPage));
+      await says(damaged, "turn", await turn(secondPage));
       expect(unpacked(damaged.url())).toBe(unpacked(secondPage.url()));
       await damaged.close();
     }
     // A game against the page goes on elsewhere, too.
     const ownPage = await open(desk, "#view=play");
-    await ownPage.locator("#new-game").click();
-    await ownPage.locator("#new-which").selectOption("nineball");
-    await ownPage.locator("#new-against").selectOption("person");
-    await ownPage.locator("#rate").selectOption("1000");
-    await ownPage.locator("#start").click();
-    await ownPage.locator("#shoot").click();
-    await expect.poll(() => ownPage.locator("#skip").isVisible()).toBe(false);
-    await ownPage.locator("#new-game").click();
-    await ownPage.locator("#copy-game").click();
-    await expect.poll(() => text(ownPage, "said")).toBe("The link to this game is copied.");
+    await act(
+      ownPage,
+      "#new-game",
+      "#new-which=nineball",
+      "#new-against=person",
+      "#rate=1000",
+      "#start",
+      "#shoot",
+    );
+    await comesToShow(ownPage, "#skip", false);
+    await act(ownPage, "#new-game", "#copy-game");
+    await comesToSay(ownPage, "said", "The link to this game is copied.");
     const reopened = await open(
       phone,
       new URL(await ownPage.evaluate(() => navigator.clipboard.readText())).hash,

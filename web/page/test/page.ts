@@ -2,7 +2,7 @@
 // a file; places of the table, drags and taps on it.
 import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { afterAll, beforeAll, expect } from "vitest";
+import { afterAll, afterEach, beforeAll, expect } from "vitest";
 import { type Browser, chromium, type Page } from "playwright-core";
 import { root } from "../../test/support.js";
 
@@ -36,6 +36,7 @@ export const sizes = [
   ["wide", { width: 1280, height: 800 }],
   ["phone", { width: 390, height: 844, touch: true }],
 ] as const;
+export const PHONE = sizes[1][1];
 
 /** The games that a page's browser keeps, as text, by their ids; and which one the tab has open. */
 export function keptGames(page: Page): Promise<{ open: string; games: Record<string, string> }> {
@@ -61,6 +62,10 @@ export async function keptGame(page: Page): Promise<string> {
   return games[open]!;
 }
 
+/** What the page's browser keeps of the game that is open. */
+export const keptSetup = async <T>(page: Page) => JSON.parse(await keptGame(page)) as T;
+export const keptLines = async (page: Page) => (await keptSetup<{ lines: string[] }>(page)).lines;
+
 const seed = Number(process.env.CAROM_TEST_SEED ?? 20141);
 /**
  * Makes the random numbers of a page those of a seed (T. Ettinger's mulberry32), so that its racks
@@ -68,7 +73,7 @@ const seed = Number(process.env.CAROM_TEST_SEED ?? 20141);
  */
 function seeded(seed: number): void {
   let state = seed;
-  Math.random = (): number => {
+  Math.random = () => {
     state = (state + 0x6d2b79f5) | 0;
     let t = Math.imul(state ^ (state >>> 15), 1 | state);
     t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
@@ -84,12 +89,37 @@ async function pixelOf(
   y: number,
   [w, l]: readonly [number, number] = NINE_FEET,
 ): Promise<[number, number]> {
-  const box = (await page.locator("#table-scene").boundingBox())!;
+  const box = await boxOf(page, "#table-scene");
   const upright = box.height > box.width;
   const scale = box.width / ((upright ? w : l) + 0.2);
   return upright
     ? [box.x + (x + 0.1) * scale, box.y + (l + 0.1 - y) * scale]
     : [box.x + (y + 0.1) * scale, box.y + (x + 0.1) * scale];
+}
+/** Fingers on a page: each call is one event, with the places of all and its time where that counts. */
+export async function fingersOn(page: Page) {
+  const devtools = await page.context().newCDPSession(page);
+  return (
+    type: "Start" | "Move" | "End",
+    places: readonly (readonly number[])[] = [],
+    timestamp?: number,
+  ) =>
+    devtools.send("Input.dispatchTouchEvent", {
+      type: `touch${type}`,
+      touchPoints: places.map(([x, y], id) => ({ x: x!, y: y!, id })),
+      timestamp,
+    });
+}
+/** Where a part of the page is. */
+export const boxOf = async (page: Page, selector: string) =>
+  (await page.locator(selector).boundingBox())!;
+type Place = readonly [number, number];
+/** Drags the mouse between two places of the page. */
+export async function dragMouse(page: Page, start: Place, end: Place, steps = 1): Promise<void> {
+  await page.mouse.move(...start);
+  await page.mouse.down();
+  await page.mouse.move(...end, { steps });
+  await page.mouse.up();
 }
 /**
  * Drags with the mouse, or with a finger where the page has one, from one place of the table to
@@ -113,18 +143,10 @@ async function drag(
     for (const step of steps) await page.mouse.move(...step);
     return page.mouse.up();
   }
-  const devtools = await page.context().newCDPSession(page);
-  const send = (
-    type: "touchStart" | "touchMove" | "touchEnd",
-    pixel?: [number, number],
-  ): Promise<unknown> =>
-    devtools.send("Input.dispatchTouchEvent", {
-      type,
-      touchPoints: pixel ? [{ x: pixel[0], y: pixel[1] }] : [],
-    });
-  await send("touchStart", a);
-  for (const step of steps) await send("touchMove", step);
-  await send("touchEnd");
+  const send = await fingersOn(page);
+  await send("Start", [a]);
+  for (const step of steps) await send("Move", [step]);
+  await send("End");
 }
 async function click(page: Page, x: number, y: number, touch = false): Promise<void> {
   const pixel = await pixelOf(page, x, y);
@@ -165,7 +187,7 @@ function pixels(
     [x, y, width, height] as const,
   );
 }
-const pixel = (page: Page, x: number, y: number): Promise<number[]> =>
+const pixel = (page: Page, x: number, y: number) =>
   pixels(page, x, y, 1, 1).then((colours) => colours.slice(0, 3));
 /**
  * The colour of the table's picture at a place, m; or the brightest of each part in a square of so
@@ -197,20 +219,66 @@ async function bright(
   return count;
 }
 /** Waits until the page has drawn so many frames: what was asked for before them is seen. */
-const frames = (page: Page, count = 2): Promise<void> =>
+const frames = (page: Page, count = 2) =>
   page.evaluate(async (count) => {
     for (let k = 0; k < count; k++) await new Promise(requestAnimationFrame);
   }, count);
 /** Sets the direction of a stroke, whose slider may be folded away. */
-const turnTo = (page: Page, phi: number): Promise<void> =>
+const turnTo = (page: Page, phi: number) =>
   page.locator("#phi").evaluate((input: HTMLInputElement, phi) => {
     input.value = String(phi);
     input.dispatchEvent(new Event("input"));
   }, phi);
-const text = async (page: Page, id: string): Promise<string> =>
-  (await page.locator(`#${id}`).textContent())!;
-const set = (page: Page, id: string, value: number): Promise<void> =>
-  page.locator(`#${id}`).fill(String(value));
+const text = async (page: Page, id: string) => (await page.locator(`#${id}`).textContent())!;
+/**
+ * Does what whoever plays does, step by step: "#shoot" is pressed, "#power=3" sets a slider, a choice
+ * or, with "on" and "off", a box.
+ */
+export async function act(page: Page, ...steps: string[]): Promise<void> {
+  for (const step of steps) {
+    const [, id, value] = /^(#[\w-]+)=(.*)$/.exec(step) ?? [];
+    const control = page.locator(id ?? step);
+    if (value === undefined) await control.click();
+    else if (/^(on|off)$/.test(value)) await control.setChecked(value === "on");
+    else if (await control.evaluate((element) => element.tagName === "SELECT"))
+      await control.selectOption(value);
+    else await control.fill(value);
+  }
+}
+type Words = string | RegExp;
+const matching = (words: Words) =>
+  typeof words === "string" ? words : expect.stringMatching(words);
+/** Checks the words of a part of the page, as they are or as they soon will be. */
+export async function says(page: Page, id: string, words: Words): Promise<void> {
+  expect(await text(page, id), id).toEqual(matching(words));
+}
+export async function comesToSay(page: Page, id: string, words: Words): Promise<void> {
+  await expect.poll(() => text(page, id), { message: id }).toEqual(matching(words));
+}
+/** The same of whether a part is seen. */
+export async function shows(page: Page, selector: string, isShown = true): Promise<void> {
+  expect(await page.locator(selector).isVisible(), selector).toBe(isShown);
+}
+export async function comesToShow(page: Page, selector: string, isShown = true): Promise<void> {
+  const seen = () => page.locator(selector).isVisible();
+  await expect.poll(seen, { message: selector }).toBe(isShown);
+}
+export async function reload(page: Page): Promise<void> {
+  await page.reload();
+  await page.waitForSelector("main[aria-busy=false]");
+}
+/** What a control is set to. */
+export const valueOf = (page: Page, id: string) => page.locator(`#${id}`).inputValue();
+export const numberIn = async (page: Page, id: string) => Number(await valueOf(page, id));
+/** A game without errors as a page keeps it, with its balls at places where some are named. */
+export const gameOf = (game: string, against: string, at?: string) => ({
+  game,
+  against,
+  own: "0",
+  seed: 7,
+  ...(at !== undefined && { at }),
+});
+const set = (page: Page, id: string, value: number) => page.locator(`#${id}`).fill(String(value));
 
 /** What the lines of a kind hold, of a game that is kept. */
 export function linesOf<T = object>(game: string, kind: string): T[] {
@@ -258,9 +326,13 @@ export function pages() {
   });
 
   const free: Record<string, Page[]> = {};
+  const opened = new Set<Page>();
+  afterEach(async () => {
+    for (const page of opened) await page.close();
+  });
   /**
    * Opens the page, with a game that was kept, in a tab of that kind that a test has closed, or in
-   * a new one: a new tab takes a second.
+   * a new one: a new tab takes a second. What a test leaves open is closed after it.
    */
   async function open(
     hash: string,
@@ -283,6 +355,7 @@ export function pages() {
     );
     await page.goto(`file://${pageFile}${hash}`);
     await page.waitForSelector("main[aria-busy=false]");
+    opened.add(page);
     return page;
   }
   async function tab(
@@ -310,6 +383,7 @@ export function pages() {
     page.on("request", (request) => requests.push(request.url()));
     await page.addInitScript(seeded, seed);
     page.close = async () => {
+      opened.delete(page);
       await page.emulateMedia({ media: null });
       await page.goto("about:blank");
       (free[kind] ??= []).push(page);

@@ -22,7 +22,7 @@ const COLOURS = [
   "#16181b",
 ];
 
-const pinhole = (eye: number[], target: number[], focal: number): ReturnType<typeof camera> =>
+const pinhole = (eye: number[], target: number[], focal: number) =>
   camera(SIZE, eye, target, focal);
 const corners = (see: ReturnType<typeof pinhole>): Pixel[] => [
   see(0, 0, NOSE),
@@ -101,7 +101,7 @@ test("corners that are no table are refused", () => {
 });
 
 test("a patch suggests its ball, or the balls that it may be", () => {
-  const patch = (white: number, hex: string, light: number): number[] =>
+  const patch = (white: number, hex: string, light: number) =>
     Array.from({ length: 100 }, (_, k) =>
       k < 100 * white
         ? [235, 232, 225, 255]
@@ -131,7 +131,7 @@ function outline(see: ReturnType<typeof camera>, more: number, z: number): numbe
     corners[(k + 1) % 4]![1] - v,
   ]);
 }
-const isWithin = (edges: number[][], x: number, y: number): boolean =>
+const isWithin = (edges: number[][], x: number, y: number) =>
   edges.every(([u, v, du, dv]) => du! * (y - v!) < dv! * (x - u!));
 
 /**
@@ -148,7 +148,7 @@ function photo(
 ): Picture {
   const data = new Uint8ClampedArray(4 * w * h);
   let state = draws.uniform(0, 2 ** 31) | 0;
-  const rgb = (hex: string): number[] => [1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16));
+  const rgb = (hex: string) => [1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16));
   const nose = outline(see, 0, NOSE);
   const back = outline(see, 0.05, NOSE);
   const bed = outline(see, 0, 0);
@@ -164,7 +164,7 @@ function photo(
   const wood = rgb("#5b3a24");
   const cloth = rgb("#1f6f5c");
   const white = rgb("#f4f2ea");
-  const paint = (x: number, y: number, colour: number[]): void => {
+  const paint = (x: number, y: number, colour: number[]) => {
     state = Math.imul(state, 1664525) + 1013904223; // draws of 64 bits would take most of the time
     for (let c = 0; c < 4; c++)
       data[4 * (w * y + x) + c] = c === 3 ? 255 : colour[c]! * light[c]! + state / 2 ** 28;
@@ -279,8 +279,7 @@ test.each([
       const noses = corners(see);
       const marks = noses.map(finger);
       const moved = snapCorners(picture, marks, (3.6 * size[0]) / 344, [W, L]);
-      const off = ([u, v]: Pixel, k: number): number =>
-        Math.hypot(u - noses[k]![0], v - noses[k]![1]);
+      const off = ([u, v]: Pixel, k: number) => Math.hypot(u - noses[k]![0], v - noses[k]![1]);
       moved.forEach((pixel, k) => expect(off(pixel, k)).toBeLessThan(off(marks[k]!, k) + 0.5));
       const view = cameraOf(size, moved, [W, L], NOSE - R);
       const errors = balls.map(([, x, y]) => {

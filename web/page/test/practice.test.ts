@@ -2,7 +2,21 @@
 import { describe, expect, test } from "vitest";
 import { pinhole } from "./camera.js";
 import { Draws } from "../../test/support.js";
-import { browserPath, keptGame, pages, sizes, violations } from "./page.js";
+import {
+  act,
+  boxOf,
+  browserPath,
+  comesToSay,
+  fingersOn,
+  keptSetup,
+  pages,
+  PHONE,
+  reload,
+  says,
+  shows,
+  sizes,
+  violations,
+} from "./page.js";
 
 const W = 1.27;
 const L = 2.54;
@@ -10,57 +24,47 @@ const NOSE = 0.0366;
 const R = 0.028575;
 
 describe.runIf(browserPath !== undefined)("practice", () => {
-  const { open, text, set, turnTo } = pages();
+  const { open, turnTo } = pages();
 
   test("a drill counts what is made and missed, begins again, and hides the way of the balls", async () => {
-    const page = await open("", { width: 390, height: 844, touch: true });
-    await page.locator("#new-game").click();
-    await page.locator("#rate").selectOption("1000");
-    await page.locator("#drill").selectOption("Short straight pot");
-    await page.locator("#start-drill").click();
-    expect(await text(page, "turn")).toBe("Short straight pot");
+    const page = await open("", PHONE);
+    await act(page, "#new-game", "#rate=1000", "#drill=Short straight pot", "#start-drill");
+    await says(page, "turn", "Short straight pot");
     await turnTo(page, 151.2);
-    await page.locator("#shoot").click();
-    await expect
-      .poll(() => text(page, "said"))
-      .toBe("Missed: 0 of 1. The cue ball fell or left the table.");
+    await act(page, "#shoot");
+    await comesToSay(page, "said", "Missed: 0 of 1. The cue ball fell or left the table.");
     // So little off its pocket that the page tells by how much.
     await turnTo(page, 48);
-    await set(page, "power", 1.5);
-    await page.locator("#shoot").click();
-    await expect
-      .poll(() => text(page, "said"))
-      .toMatch(/^Missed: 0 of 2\. The 1 did not fall\. Turn the aim [23]\.\d\d° to the right\.$/);
+    await act(page, "#power=1.5", "#shoot");
+    await comesToSay(
+      page,
+      "said",
+      /^Missed: 0 of 2\. The 1 did not fall\. Turn the aim [23]\.\d\d° to the right\.$/,
+    );
     await turnTo(page, 45);
-    await set(page, "power", 1.5);
-    await page.locator("#shoot").click();
-    await expect.poll(() => text(page, "said")).toBe("Made: 1 of 3.");
-    expect(await page.locator("#undo-stroke").isVisible()).toBe(false);
-    await page.reload();
-    await page.waitForSelector("main[aria-busy=false]");
-    expect(await text(page, "turn")).toBe("Short straight pot");
-    await page.locator("#new-game").click();
-    await page.locator("#drill").selectOption("Stop shot");
-    await page.locator("#drill").selectOption("Short straight pot");
-    expect(await text(page, "drill-note")).toContain("Made 1 of 3.");
+    await act(page, "#power=1.5", "#shoot");
+    await comesToSay(page, "said", "Made: 1 of 3.");
+    await shows(page, "#undo-stroke", false);
+    await reload(page);
+    await says(page, "turn", "Short straight pot");
+    await act(page, "#new-game", "#drill=Stop shot", "#drill=Short straight pot");
+    await says(page, "drill-note", /Made 1 of 3\./);
     // What came of a place that was wanted, and all of it in the log.
-    await page.locator("#drill").selectOption("Draw");
-    await page.locator("#start-drill").click();
+    await act(page, "#drill=Draw", "#start-drill");
     await turnTo(page, 63.43);
-    await set(page, "power", 1.2);
-    await page.locator("#shoot").click();
-    await expect
-      .poll(() => text(page, "said"))
-      .toMatch(/The cue ball came back \d+ cm of 40 cm: strike it lower or faster\.$/);
-    await page.locator("#new-game").click();
-    await page.locator("#open-log").click();
+    await act(page, "#power=1.2", "#shoot");
+    await comesToSay(
+      page,
+      "said",
+      /The cue ball came back \d+ cm of 40 cm: strike it lower or faster\.$/,
+    );
+    await act(page, "#new-game", "#open-log");
     expect(await page.locator("#log tbody tr").count()).toBe(4);
     expect(await page.locator("#log tbody tr").nth(2).textContent()).toMatch(
       /Short straight pot.*[23]\.\d\d/,
     );
-    expect(await text(page, "log-sum")).toMatch(/Practise next: .*\(/);
+    await says(page, "log-sum", /Practise next: .*\(/);
     expect(await violations(page)).toEqual([]);
-    await page.close();
   });
 
   test.each(sizes)(
@@ -107,18 +111,17 @@ describe.runIf(browserPath !== undefined)("practice", () => {
           })),
         },
       );
-      await page.locator("#new-game").click();
-      await page.locator("#open-photo").click();
+      await act(page, "#new-game", "#open-photo");
       expect(await violations(page)).toEqual([]);
       await page.locator("#photo-file").setInputFiles({
         name: "table.png",
         mimeType: "image/png",
         buffer: Buffer.from(picture, "base64"),
       });
-      await expect.poll(() => text(page, "photo-said")).toContain("Mark the corner head left");
-      const box = (await page.locator("#photo").boundingBox())!;
+      await comesToSay(page, "photo-said", /Mark the corner head left/);
+      const box = await boxOf(page, "#photo");
       const draws = new Draws(5n);
-      const tap = async (x: number, y: number, z: number): Promise<void> => {
+      const tap = async (x: number, y: number, z: number) => {
         const [u, v] = see(x, y, z);
         const pixel = [
           box.x + (u * box.width) / size[0] + draws.uniform(-2, 2),
@@ -133,7 +136,7 @@ describe.runIf(browserPath !== undefined)("practice", () => {
         [0, L],
       ] as const)
         await tap(x, y, NOSE);
-      await expect.poll(() => text(page, "photo-said")).toContain("Tap the middle of each ball");
+      await comesToSay(page, "photo-said", /Tap the middle of each ball/);
       for (const [ball, x, y] of balls) {
         await tap(x, y, R);
         // Where the colour does not tell the ball, the page asks.
@@ -143,30 +146,21 @@ describe.runIf(browserPath !== undefined)("practice", () => {
       }
       // A finger that is held sees what is under it, and two fingers a part larger.
       if ("touch" in how) {
-        const devtools = await page.context().newCDPSession(page);
-        const touch = (
-          type: "touchStart" | "touchMove" | "touchEnd",
-          ...pixels: number[][]
-        ): Promise<unknown> =>
-          devtools.send("Input.dispatchTouchEvent", {
-            type,
-            touchPoints: pixels.map(([x, y], id) => ({ x: box.x + x!, y: box.y + y!, id })),
-          });
-        const seen = (): Promise<string> =>
+        const touch = await fingersOn(page);
+        const fingers = (...xs: number[]) => xs.map((x) => [box.x + x, box.y + 100]);
+        const seen = () =>
           page.locator("#photo").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
         const initial = await seen();
-        await touch("touchStart", [150, 100]);
+        await touch("Start", fingers(150));
         await expect.poll(seen).not.toBe(initial);
-        await touch("touchStart", [150, 100], [200, 100]);
-        await touch("touchMove", [130, 100], [220, 100]);
-        await touch("touchEnd");
-        expect((await page.locator("#photo").boundingBox())!.width).toBeGreaterThan(
-          1.5 * box.width,
-        );
+        await touch("Start", fingers(150, 200));
+        await touch("Move", fingers(130, 220));
+        await touch("End");
+        expect((await boxOf(page, "#photo")).width).toBeGreaterThan(1.5 * box.width);
       }
-      expect(await text(page, "photo-said")).toContain("4 balls");
-      await page.locator("#photo-use").click();
-      const { at: layout } = JSON.parse(await keptGame(page)) as { at: string };
+      await says(page, "photo-said", /4 balls/);
+      await act(page, "#photo-use");
+      const { at: layout } = await keptSetup<{ at: string }>(page);
       const places = layout.split(" ");
       let worst = 0;
       for (const [ball, x, y] of balls) {
@@ -178,7 +172,6 @@ describe.runIf(browserPath !== undefined)("practice", () => {
       );
       expect(places.filter((place) => place !== "in")).toHaveLength(4);
       expect(worst).toBeLessThan(0.01);
-      await page.close();
     },
   );
 });

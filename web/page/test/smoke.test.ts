@@ -6,23 +6,30 @@ import { chromium } from "playwright-core";
 import { describe, expect, test } from "vitest";
 import { root } from "../../test/support.js";
 import { scene } from "../tools/picture.mjs";
-import { browserPath, keptGame, linesOf, pages, sizes, violations } from "./page.js";
+import {
+  act,
+  browserPath,
+  keptGame,
+  linesOf,
+  numberIn,
+  pages,
+  says,
+  sizes,
+  violations,
+} from "./page.js";
 
 describe.runIf(browserPath !== undefined)("smoke", () => {
-  const { open, set, text } = pages();
+  const { open, text } = pages();
 
   test.each(sizes)("a game: a stroke is played, ruled and kept: %s", async (_, how) => {
     const page = await open("", how);
-    expect(await text(page, "turn")).toContain("You break");
+    await says(page, "turn", /You break/);
     expect(await violations(page)).toEqual([]);
-    await set(page, "power", 6);
-    await page.locator("#shoot").click();
-    await page.locator("#skip").click();
+    await act(page, "#power=6", "#shoot", "#skip");
     // The page's player or the one who sits here is next, and the game has the stroke.
     await expect.poll(() => text(page, "turn")).not.toContain("You break");
     const shots = linesOf(await keptGame(page), "shot");
     expect(shots[0]).toHaveProperty("speed");
-    await page.close();
   });
 
   test("the pictures of the docs show the words of today", async () => {
@@ -35,41 +42,34 @@ describe.runIf(browserPath !== undefined)("smoke", () => {
   test("a hint aims the stroke that it names", async () => {
     const page = await open("");
     const initial = await text(page, "said");
-    await set(page, "power", 1);
-    await page.locator("#hint").click();
+    await act(page, "#power=1", "#hint");
     await expect.poll(() => text(page, "said")).not.toBe(initial);
     // A break is played hard.
-    await expect
-      .poll(async () => Number(await page.locator("#power").inputValue()))
-      .toBeGreaterThan(5);
-    await page.close();
+    await expect.poll(async () => await numberIn(page, "power")).toBeGreaterThan(5);
   });
 
   test("the balls are listed in words", async () => {
     const page = await open("");
-    await page.locator("details:has(#ball-list) summary").click();
+    await act(page, "details:has(#ball-list) summary");
     await expect.poll(() => page.locator("#ball-list li").count()).toBe(16);
     expect(await page.locator("#ball-list li").first().textContent()).toMatch(
       /^cue: \d+ cm from the left cushion, \d+ cm from the head cushion$/,
     );
-    await page.close();
   });
 
   test("the laboratory: a break is played, and its events are listed", async () => {
     const page = await open("#view=lab");
     // Of the page at rest: what a film lights up changes its colour as it plays.
     expect(await violations(page)).toEqual([]);
-    await page.locator("#play").click();
+    await act(page, "#play");
     await expect.poll(() => page.locator(".events li").count()).toBeGreaterThan(5);
-    await page.close();
   });
 
   test("a collision: the numbers follow the cut", async () => {
     const page = await open("#view=collision&speed=2&cut=10");
     const initial = await text(page, "n-object");
-    await set(page, "cut", 40);
+    await act(page, "#cut=40");
     await expect.poll(() => text(page, "n-object")).not.toBe(initial);
     expect(await violations(page)).toEqual([]);
-    await page.close();
   });
 });

@@ -7,7 +7,7 @@ test("a harder stroke is louder, by the impulses of its events", () => {
   const { carom } = builds[0]!;
   const table = carom.table("9ft");
   const balls = carom.rack("nineball", table);
-  const loudest = (speed: number, type: string): number =>
+  const loudest = (speed: number, type: string) =>
     Math.max(
       ...carom
         .simulate(table, balls, { speed, phi: 90 })
@@ -26,7 +26,7 @@ test("a harder stroke is louder, by the impulses of its events", () => {
 test("a wave decays, and has its tone", () => {
   const rate = 48_000;
   const samples = wave({ tones: [[1000, 0.5, 0.02]], noise: [0, 0.001, 0.5], full: 1 }, rate);
-  const level = (start: number, end: number): number =>
+  const level = (start: number, end: number) =>
     Math.sqrt(
       samples.slice(start * rate, end * rate).reduce((sum, x) => sum + x * x, 0) /
         ((end - start) * rate),

@@ -13,7 +13,7 @@ import { type Language, LANGUAGES, partsOf, textsOf } from "../src/texts/texts.j
 const source = `${root}web/page/src/`;
 const ENGLISH = LANGUAGES.en;
 const LANGUAGE_CODES = Object.keys(LANGUAGES) as Language[];
-const read = (path: string): string => readFileSync(path, "utf8");
+const read = (path: string) => readFileSync(path, "utf8");
 const files = readdirSync(source, { recursive: true, encoding: "utf8" }).filter(
   (name) => name.endsWith(".ts") && !name.startsWith("texts"),
 );
@@ -32,7 +32,7 @@ function isForReaders(text: string): boolean {
   return /[a-z]{2}/i.test(bare) && /[a-z,:] +[a-z…]/i.test(bare);
 }
 /** A file of the page as a tree, and where a node of it is. */
-const treeOf = (name: string): ts.SourceFile =>
+const treeOf = (name: string) =>
   ts.createSourceFile(name, read(source + name), ts.ScriptTarget.Latest, true);
 function placeOf(node: ts.Node): string {
   const tree = node.getSourceFile();

@@ -7,7 +7,17 @@ import { tmpdir } from "node:os";
 import { gzipSync } from "node:zlib";
 import { describe, expect, test } from "vitest";
 import type { Page } from "playwright-core";
-import { browserPath, pageFile, pages, violations } from "./page.js";
+import {
+  act,
+  boxOf,
+  browserPath,
+  pageFile,
+  pages,
+  PHONE,
+  reload,
+  says,
+  violations,
+} from "./page.js";
 import { LANGUAGES } from "../src/texts/texts.js";
 import { root, run, thereIsACommand } from "../../test/support.js";
 
@@ -15,16 +25,16 @@ import { root, run, thereIsACommand } from "../../test/support.js";
  * An icon of a page that is served: its size, how many of its pixels differ from icon.svg, and how
  * many beyond the circle that each shape of an icon keeps differ from its corner.
  */
-const iconOf = (page: Page, name: string): Promise<object> =>
+const iconOf = (page: Page, name: string) =>
   page.evaluate(async (name) => {
-    const load = async (source: string): Promise<HTMLImageElement> => {
+    const load = async (source: string) => {
       const image = Object.assign(new Image(), { src: source });
       await image.decode();
       return image;
     };
     const icon = await load(name);
     const size = name.endsWith(".svg") ? 512 : icon.naturalWidth;
-    const pixelsOf = (image: HTMLImageElement): Uint8ClampedArray => {
+    const pixelsOf = (image: HTMLImageElement) => {
       const canvas = Object.assign(document.createElement("canvas"), { width: size, height: size });
       const g = canvas.getContext("2d")!;
       g.drawImage(image, 0, 0, size, size);
@@ -32,8 +42,8 @@ const iconOf = (page: Page, name: string): Promise<object> =>
     };
     const shown = pixelsOf(icon);
     const drawn = pixelsOf(await load("icon.svg"));
-    const far = (a: number, b: number): boolean => Math.abs(a - b) > 40;
-    const isBeyond = (k: number): boolean => {
+    const far = (a: number, b: number) => Math.abs(a - b) > 40;
+    const isBeyond = (k: number) => {
       const [x, y] = [k % size, Math.floor(k / size)].map((c) => (c + 0.5) / size - 0.5);
       return Math.hypot(x!, y!) > 0.4;
     };
@@ -96,27 +106,25 @@ describe.runIf(browserPath !== undefined)("the page", () => {
         press,
       ).toBeLessThanOrEqual(0);
     }
-    await page.close();
   });
 
   test.each(Object.keys(LANGUAGES))("on a phone nothing is cut: %s", async (language) => {
-    const page = await open("", { width: 390, height: 844, touch: true });
+    const page = await open("", PHONE);
     await page.evaluate((language) => {
       localStorage.setItem("carom-language", language);
       const row = { when: "2026-11-28T18:00", game: "eightball", meant: "ball 7", best: "ball 3" };
       localStorage.setItem("carom-log", JSON.stringify([{ ...row, phi: 0.3, value: 0.5 }]));
     }, language);
-    await page.reload();
-    await page.waitForSelector("main[aria-busy=false]");
+    await reload(page);
     // The tip grows under a finger.
-    const tip = (await page.locator("#tip-ball").boundingBox())!;
+    const tip = await boxOf(page, "#tip-ball");
     await page.mouse.move(tip.x + tip.width / 2, tip.y + tip.height / 2);
     await page.mouse.down();
-    const grown = (await page.locator("#tip-ball").boundingBox())!;
+    const grown = await boxOf(page, "#tip-ball");
     expect(grown.width).toBeGreaterThan(1.5 * tip.width);
     expect(grown.x + grown.width).toBeLessThanOrEqual(390);
     await page.mouse.up();
-    await page.locator("#new-game").click();
+    await act(page, "#new-game");
     const cut = await page.locator("select:visible").evaluateAll((selects) =>
       selects.flatMap((select) => {
         const { font, paddingLeft, paddingRight } = getComputedStyle(select);
@@ -131,12 +139,11 @@ describe.runIf(browserPath !== undefined)("the page", () => {
       }),
     );
     expect(cut).toEqual([]);
-    await page.locator("#open-log").click();
+    await act(page, "#open-log");
     const beyond = await page
       .locator("#log, #log .scrolls")
       .evaluateAll((parts) => parts.map((part) => part.scrollWidth - part.clientWidth));
     expect(beyond).toEqual([0, 0]);
-    await page.close();
   });
 
   test("a page that is served can be installed, and works without a network", async () => {
@@ -184,9 +191,8 @@ describe.runIf(browserPath !== undefined)("the page", () => {
       server.close(closed);
       server.closeAllConnections();
     });
-    await page.reload();
-    await page.waitForSelector("main[aria-busy=false]");
-    expect(await text(page, "turn")).toContain("You break");
+    await reload(page);
+    await says(page, "turn", /You break/);
     await context.close();
   });
 
@@ -196,9 +202,9 @@ describe.runIf(browserPath !== undefined)("the page", () => {
       run(["shoot", "--animate", `${folder}/break.html`, `${root}data/break-nineball.jsonl`]),
     ) as { final: { t: number; balls: Record<string, number[]> }; events: unknown[][] };
     const firstPage = await open("#view=lab");
-    await firstPage.locator("main summary").click();
+    await act(firstPage, "main summary");
     await firstPage.locator("#line").fill(readFileSync(`${root}data/break-nineball.jsonl`, "utf8"));
-    await firstPage.locator("#import").click();
+    await act(firstPage, "#import");
     const secondPage = await browser().newPage({ viewport: { width: 1300, height: 800 } });
     secondPage.on(
       "console",
@@ -208,8 +214,8 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     );
     secondPage.on("pageerror", (error) => messages.push(`animate: ${error.message}`));
     await secondPage.goto(`file://${folder}/break.html`);
-    expect(await text(secondPage, "play")).toBe("Pause");
-    await secondPage.locator("#play").click();
+    await says(secondPage, "play", "Pause");
+    await act(secondPage, "#play");
     for (const page of [firstPage, secondPage])
       await expect
         .poll(() => page.locator(".events li").count())
@@ -236,7 +242,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
 
   test("the page has the licence of all that is in it", async () => {
     const page = await open("#view=lab");
-    await page.locator("#licences summary").click();
+    await act(page, "#licences summary");
     const words = await text(page, "licences");
     for (const name of [
       "Apache License\n",
@@ -246,6 +252,5 @@ describe.runIf(browserPath !== undefined)("the page", () => {
       "three\n\nThe MIT License\n\nCopyright © 2010-2025 three.js authors",
     ])
       expect(words).toContain(name);
-    await page.close();
   });
 });
