@@ -15,34 +15,45 @@ import { translate } from "./words.js";
  *   allEvents: { time: number, text: string }[] }} Clock */
 
 /**
- * @template {keyof HTMLElementTagNameMap} K @param {K} tag @param {Record<string, string>}
- * attributes @param {(Node | string | undefined)[]} children
+ * The element of a selector such as "p#said.note". @template {string} S
+ * @typedef {S extends `${infer T}#${string}` ? T : S extends `${infer T}.${string}` ? T : S} TagOf */
+
+/**
+ * An element by its name, id and classes, as a selector has them; then its attributes and its
+ * children. @template {string} S @param {S} selector
+ * @param {(Record<string, string> | Node | string | undefined)[]} parts
+ * @returns {HTMLElementTagNameMap[TagOf<S> & keyof HTMLElementTagNameMap]}
  */
-export function make(tag, attributes = {}, ...children) {
-  const element = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  element.append(...children.filter((child) => child !== undefined));
+export function make(selector, ...parts) {
+  const [name, ...classes] = selector.split(".");
+  const [tag, id] = name.split("#");
+  const element = document.createElement(
+    /** @type {TagOf<S> & keyof HTMLElementTagNameMap} */ (tag),
+  );
+  if (id) element.id = id;
+  if (classes.length > 0) element.className = classes.join(" ");
+  for (const part of parts)
+    if (typeof part === "string" || part instanceof Node) element.append(part);
+    else for (const [key, value] of Object.entries(part ?? {})) element.setAttribute(key, value);
   return element;
 }
 
 /** The elements of a player. */
 function parts() {
-  const canvas = make("canvas", {
-    class: "scene",
-    id: "table-scene",
+  const canvas = make("canvas#table-scene.scene", {
     role: "img",
     tabindex: "0",
     "aria-label": translate("A billiard table from above"),
   });
-  const play = make("button", { type: "button", id: "play" }, translate("Play"));
+  const play = make("button#play", { type: "button" }, translate("Play"));
   const back = make(
-    "button",
-    { type: "button", id: "back", "aria-label": translate("Previous event") },
+    "button#back",
+    { type: "button", "aria-label": translate("Previous event") },
     "◀",
   );
   const forward = make(
-    "button",
-    { type: "button", id: "forward", "aria-label": translate("Next event") },
+    "button#forward",
+    { type: "button", "aria-label": translate("Next event") },
     "▶",
   );
   const paces = /** @type {const} */ ([
@@ -53,23 +64,22 @@ function parts() {
     ["1000", translate("at once")],
   ]);
   const pace = make(
-    "select",
-    { id: "rate", "aria-label": translate("Speed of the film") },
+    "select#rate",
+    { "aria-label": translate("Speed of the film") },
     ...paces.map(([value, text]) => make("option", { value }, text)),
   );
-  const slider = make("input", {
+  const slider = make("input#time", {
     type: "range",
-    id: "time",
     min: "0",
     step: "0.001",
     "aria-label": translate("Time of the film"),
   });
-  const output = make("output", { id: "time-value", for: "time" });
-  const controls = make("div", { class: "row film" }, play, back, forward, pace, slider, output);
-  const list = make("ol", {});
+  const output = make("output#time-value", { for: "time" });
+  const controls = make("div.row.film", play, back, forward, pace, slider, output);
+  const list = make("ol");
   const events = make(
-    "div",
-    { class: "events", tabindex: "0", role: "region", "aria-label": translate("Events") },
+    "div.events",
+    { tabindex: "0", role: "region", "aria-label": translate("Events") },
     list,
   );
   return { canvas, play, back, forward, pace, slider, output, controls, list, events };
@@ -98,11 +108,11 @@ function listEvents(widgets, clock, go) {
       const row = make(
         "button",
         { type: "button" },
-        make("span", {}, `${event.time.toFixed(3)} s`),
-        make("span", {}, event.text),
+        make("span", `${event.time.toFixed(3)} s`),
+        make("span", event.text),
       );
       row.addEventListener("click", () => go(event.time));
-      return make("li", {}, row);
+      return make("li", row);
     }),
   );
   tellTime(widgets, clock);

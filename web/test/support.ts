@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 export const root = fileURLToPath(new URL("../../", import.meta.url));
 
 /** The command of the native build; CAROM in the environment names another. */
-export const command = process.env.CAROM ?? `${root}build/carom`;
+const command = process.env.CAROM ?? `${root}build/carom`;
 export const thereIsACommand = existsSync(command);
 if (!thereIsACommand)
   console.log(`without the tests against the command: there is no ${command} (./run builds it)`);

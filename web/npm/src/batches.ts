@@ -44,6 +44,10 @@ export class Owner<L extends { memory: Memory } = Library> {
     if (pointer === undefined) throw new Error("carom: its memory has been given back");
     return pointer;
   }
+  /** A part of it as numbers. */
+  protected numbers(k: number, bytes: number): Float64Array {
+    return new Float64Array(this.library.memory.buffer, this.pointer(k), bytes / 8);
+  }
   /**
    * Gives the memory back. Views of it are not valid any more. Without this call the garbage
    * collector does it, later.
@@ -54,6 +58,12 @@ export class Owner<L extends { memory: Memory } = Library> {
   }
 }
 
+/** An index of so many. */
+export function indexed(k: number, count: number, name = "k"): number {
+  if (!Number.isInteger(k) || k < 0 || k >= count)
+    throw new RangeError(`${name}: it must be 0 to ${count - 1}, not ${k}`);
+  return k;
+}
 function rows(n: number, name: string): number {
   if (!Number.isInteger(n) || n < 0)
     throw new RangeError(`${name}: it must be a whole number, 0 or more, not ${n}`);
@@ -79,22 +89,14 @@ export class Collisions extends Owner {
    * balls; mu_ball, restitution.
    */
   get in(): Float64Array {
-    return new Float64Array(
-      this.library.memory.buffer,
-      this.pointer(0),
-      (this.n * IMPACT.size) / 8,
-    );
+    return this.numbers(0, this.n * IMPACT.size);
   }
   /**
    * 12 doubles for each collision, those of carom_result: v and w of both balls. NaN where the
    * status is an error.
    */
   get out(): Float64Array {
-    return new Float64Array(
-      this.library.memory.buffer,
-      this.pointer(1),
-      (this.n * RESULT.size) / 8,
-    );
+    return this.numbers(1, this.n * RESULT.size);
   }
   /** One status for each collision: 0 resolved, 1 separating, negative an error of carom.h. */
   get status(): Int8Array {
@@ -102,22 +104,17 @@ export class Collisions extends Owner {
   }
   /** Writes collision k from an object. */
   set(k: number, impact: Impact): void {
-    this.library.writeImpact(this.pointer(0) + this.#row(k) * IMPACT.size, impact);
+    this.library.writeImpact(this.pointer(0) + indexed(k, this.n) * IMPACT.size, impact);
   }
   /** Collision k as an object. */
   get(k: number): Collided {
     const f64 = this.library.memory.f64;
-    const pointer = this.pointer(1) + this.#row(k) * RESULT.size;
+    const pointer = this.pointer(1) + indexed(k, this.n) * RESULT.size;
     return {
       status: this.library.statusName(this.status[k]!),
       a: readMotion(f64, pointer + RESULT.offset.a),
       b: readMotion(f64, pointer + RESULT.offset.b),
     };
-  }
-  #row(k: number): number {
-    if (!Number.isInteger(k) || k < 0 || k >= this.n)
-      throw new RangeError(`k: it must be 0 to ${this.n - 1}, not ${k}`);
-    return k;
   }
 }
 
@@ -177,18 +174,14 @@ export class Shots extends Owner {
   }
   /** `cueSize` numbers for each shot, those of carom_cue; `cueFields` says where each is. */
   get cues(): Float64Array {
-    return new Float64Array(this.library.memory.buffer, this.pointer(2), (this.n * CUE.size) / 8);
+    return this.numbers(2, this.n * CUE.size);
   }
   /**
    * 10 numbers for each ball of each shot: r, v, w at the end; the tenth is the label, an integer,
    * for `label()`.
    */
   get final(): Float64Array {
-    return new Float64Array(
-      this.library.memory.buffer,
-      this.pointer(4),
-      (this.n * this.count * STATE.size) / 8,
-    );
+    return this.numbers(4, this.n * this.count * STATE.size);
   }
   /**
    * One status for each shot: 0 came to rest, positive stopped as asked, negative an error of
@@ -201,7 +194,7 @@ export class Shots extends Owner {
   setCue(k: number, cue: Cue): void {
     writeStruct(
       this.library.memory,
-      this.pointer(2) + this.#shot(k) * CUE.size,
+      this.pointer(2) + indexed(k, this.n) * CUE.size,
       "carom_cue",
       cue,
       "cue",
@@ -209,17 +202,19 @@ export class Shots extends Owner {
   }
   /** The state of a ball at the end of shot k. */
   state(k: number, ball: number): BallState {
-    if (!(ball >= 0 && ball < this.count))
-      throw new RangeError(`ball: it must be 0 to ${this.count - 1}, not ${ball}`);
     return readState(
       this.library.memory,
-      this.pointer(4) + (this.#shot(k) * this.count + ball) * STATE.size,
+      this.pointer(4) +
+        (indexed(k, this.n) * this.count + indexed(ball, this.count, "ball")) * STATE.size,
     );
   }
   /** How long shot k lasts, s. */
   time(k: number): number {
     return this.library.memory.f64[
-      (this.pointer(3) + this.#shot(k) * layout.carom_shot.size + layout.carom_shot.offset.time) / 8
+      (this.pointer(3) +
+        indexed(k, this.n) * layout.carom_shot.size +
+        layout.carom_shot.offset.time) /
+        8
     ]!;
   }
   /** How many events shot k has. */
@@ -227,7 +222,7 @@ export class Shots extends Owner {
     return Number(
       this.library.memory.i64[
         (this.pointer(3) +
-          this.#shot(k) * layout.carom_shot.size +
+          indexed(k, this.n) * layout.carom_shot.size +
           layout.carom_shot.offset.count) /
           8
       ],
@@ -240,10 +235,5 @@ export class Shots extends Owner {
         `room: shot ${k} has ${this.events(k)} events, and there is room for ${this.room} of them`,
       );
     return this.library.shotOf(this, k);
-  }
-  #shot(k: number): number {
-    if (!Number.isInteger(k) || k < 0 || k >= this.n)
-      throw new RangeError(`k: it must be 0 to ${this.n - 1}, not ${k}`);
-    return k;
   }
 }

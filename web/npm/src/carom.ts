@@ -1,5 +1,5 @@
 // The library: every call of C that the package offers.
-import { Collisions, type Library, Shots } from "./batches.js";
+import { Collisions, type Library, Shots, indexed } from "./batches.js";
 import { CaromError } from "./error.js";
 import { layout, names, values } from "./generated/layout.js";
 import type * as C from "./generated/structs.js";
@@ -396,26 +396,37 @@ export class Carom {
     };
   }
 
+  /** Calls with an impact and options in the module's memory. Throws what is refused. */
+  #resolve(
+    impact: Impact,
+    options: CollideOptions,
+    call: (impact: Pointer, options: Pointer) => number,
+  ): number {
+    const { impact: pointer } = this.#addresses;
+    this.#writeImpact(pointer, impact);
+    const opt = this.#writeOptions(options);
+    const code = call(pointer, opt);
+    if (code < 0) throw this.#impactError(code, opt);
+    return code;
+  }
+
   /**
    * Resolves one collision of two balls. Throws a CaromError that names the field where something
    * is out of range.
    */
   collide(impact: Impact, options: CollideOptions = {}): Collided {
-    const { impact: pointer, result } = this.#addresses;
-    this.#writeImpact(pointer, impact);
-    const opt = this.#writeOptions(options);
-    const code = this.#call.carom_collide(pointer, opt, result);
-    if (code < 0) throw this.#impactError(code, opt);
-    return this.#collided(code);
+    const { result } = this.#addresses;
+    return this.#collided(
+      this.#resolve(impact, options, (...both) => this.#call.carom_collide(...both, result)),
+    );
   }
 
   /** The same, with impulses, works, and when the balls stuck. */
   collideDetail(impact: Impact, options: CollideOptions = {}): Collided & { detail: Detail } {
-    const { impact: pointer, result, detail } = this.#addresses;
-    this.#writeImpact(pointer, impact);
-    const opt = this.#writeOptions(options);
-    const code = this.#call.carom_collide_detail(pointer, opt, result, detail);
-    if (code < 0) throw this.#impactError(code, opt);
+    const { result, detail } = this.#addresses;
+    const code = this.#resolve(impact, options, (...both) =>
+      this.#call.carom_collide_detail(...both, result, detail),
+    );
     const fields = readStruct<Omit<C.Detail, "stick"> & { stick: number }>(
       this.#memory,
       detail,
@@ -430,16 +441,12 @@ export class Carom {
    */
   trace(impact: Impact, n: number, options: CollideOptions = {}): TracePoint[] {
     if (whole(n, "n") < 2) throw new RangeError(`n: at least 2 points are needed, not ${n}`);
-    const { impact: pointer } = this.#addresses;
-    this.#writeImpact(pointer, impact);
-    const opt = this.#writeOptions(options);
     if (n > this.#pointRoom) {
       if (this.#points !== 0) this.#memory.free(this.#points);
       this.#points = this.#memory.allocate(n * POINT.size);
       this.#pointRoom = n;
     }
-    const code = this.#call.carom_trace(pointer, opt, n, this.#points);
-    if (code < 0) throw this.#impactError(code, opt);
+    this.#resolve(impact, options, (...both) => this.#call.carom_trace(...both, n, this.#points));
     return Array.from({ length: n }, (_, k) => {
       const { dX, dY, bX, bY, sticks, ...point } = readStruct<
         Omit<C.TracePoint, "phase"> & { phase: number }
@@ -552,8 +559,7 @@ export class Carom {
         table,
         detail,
       );
-      if (code < 0)
-        throw this.#error(code, this.#part(detail + layout.carom_table_fault.offset.part));
+      this.#refuseTable(code);
     }
     return readTable(this.#memory, table);
   }
@@ -606,11 +612,11 @@ export class Carom {
       radius,
       this.#addresses.detail,
     );
-    if (code >= 0) return;
-    throw this.#error(
-      code,
-      this.#part(this.#addresses.detail + layout.carom_table_fault.offset.part),
-    );
+    this.#refuseTable(code);
+  }
+  #refuseTable(code: number): void {
+    const { part } = layout.carom_table_fault.offset;
+    if (code < 0) throw this.#error(code, this.#part(this.#addresses.detail + part));
   }
 
   /** The name of a carom_part. */
@@ -737,8 +743,7 @@ export class Carom {
     x: number,
     y: number,
   ): ShotBall[] {
-    if (!Number.isInteger(ball) || ball < 0 || ball >= balls.length)
-      throw new RangeError(`ball: it must be 0 to ${balls.length - 1}, not ${ball}`);
+    indexed(ball, balls.length, "ball");
     this.#writeLayout(table, balls);
     const { table: tablePointer, balls: ballsPointer, detail } = this.#addresses;
     const code = this.#call.carom_place_ball(

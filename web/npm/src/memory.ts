@@ -43,7 +43,6 @@ export class Memory {
   #f64 = new Float64Array();
   #i32 = new Int32Array();
   #u32 = new Uint32Array();
-  #i8 = new Int8Array();
   #u8 = new Uint8Array();
   #i64 = new BigInt64Array();
   readonly #text = new TextDecoder();
@@ -79,7 +78,6 @@ export class Memory {
     this.#f64 = new Float64Array(buffer);
     this.#i32 = new Int32Array(buffer);
     this.#u32 = new Uint32Array(buffer);
-    this.#i8 = new Int8Array(buffer);
     this.#u8 = new Uint8Array(buffer);
     this.#i64 = new BigInt64Array(buffer);
   }
@@ -94,10 +92,6 @@ export class Memory {
   get u32(): Uint32Array {
     this.#renew();
     return this.#u32;
-  }
-  get i8(): Int8Array {
-    this.#renew();
-    return this.#i8;
   }
   get u8(): Uint8Array {
     this.#renew();

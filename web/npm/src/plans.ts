@@ -162,6 +162,12 @@ export class Plans {
     this.#host.refuse(code, field);
   }
 
+  #writeCue(cue: Partial<Cue>): Cue {
+    const struck = this.#host.cue(cue);
+    writeStruct(this.#memory, this.#host.addresses.cue, "carom_cue", struck, "cue");
+    return struck;
+  }
+
   player({ errors: scale, fargo }: { errors?: number; fargo?: number }): Player {
     if (scale !== undefined && fargo !== undefined)
       throw new TypeError("errors, fargo: a player has errors or a rating, not both");
@@ -198,7 +204,7 @@ export class Plans {
   withErrors(cue: Partial<Cue>, player: Player, seed: number, number: number): Cue {
     const { cue: pointer } = this.#host.addresses;
     this.#writePlayer(this.#addresses.player, player, "player");
-    writeStruct(this.#memory, pointer, "carom_cue", this.#host.cue(cue), "cue");
+    this.#writeCue(cue);
     this.#memory.exports.carom_player_strike(
       this.#addresses.player,
       BigInt(whole(seed, "seed", Number.MAX_SAFE_INTEGER)),
@@ -309,7 +315,7 @@ export class Plans {
     let cue: Partial<Cue> = { ...options.cue };
     for (const ball of members(inPlay(balls), balls.length)) {
       const struck = { ...options.cue, ball };
-      writeStruct(memory, this.#host.addresses.cue, "carom_cue", this.#host.cue(struck), "cue");
+      this.#writeCue(struck);
       const code = memory.exports.carom_plan_value(job, 0, found);
       const value = memory.f64[found / 8]!;
       if (code < 0 || value <= most) continue;
@@ -354,7 +360,7 @@ export class Plans {
     const memory = this.#memory;
     const { pot } = this.#addresses;
     this.#host.writeLayout(table, balls);
-    writeStruct(memory, addresses.cue, "carom_cue", this.#host.cue(cue), "cue");
+    this.#writeCue(cue);
     const shot = this.#host.writeShotOptions(options);
 
     // The ball, the pocket and the way, by their names or indices.
@@ -452,9 +458,8 @@ export class Plans {
     const { addresses } = this.#host;
     const memory = this.#memory;
     // The shot once more, with its facts.
-    const struck = this.#host.cue(cue);
     this.#host.writeLayout(table, balls);
-    writeStruct(memory, addresses.cue, "carom_cue", struck, "cue");
+    const struck = this.#writeCue(cue);
     const optionsAt = this.#host.writeShotOptions(options);
     this.#host.writeShot();
     const code =
@@ -627,7 +632,7 @@ export class Plans {
     const { addresses } = this.#host;
     const { player, opponent, rules, options: optionsAt, job } = this.#addresses;
     this.#host.writeLayout(table, balls);
-    writeStruct(memory, addresses.cue, "carom_cue", this.#host.cue(options.cue ?? {}), "cue");
+    this.#writeCue(options.cue ?? {});
     this.#writePlayer(player, options.player ?? this.player({}), "player");
     const shot = this.#host.writeShotOptions(options.shot ?? {});
     this.#writeRules(options, balls);

@@ -1,28 +1,11 @@
 // Plans, players and rules beside the command, between both builds, and by shots whose ruling is
 // known.
 import { expect, test } from "vitest";
-import type { Carom, GameState, ShotBall, Vec2 } from "../dist/index.js";
+import type { GameState, ShotBall, Vec2 } from "../dist/index.js";
 import { pocketName } from "../../player/words.js";
 import { byNumber, fromLine, toLine } from "../dist/index.js";
-import { builds, refuses, run, thereIsACommand } from "./support.js";
+import { builds, carom, lay, refuses, run, thereIsACommand } from "./support.js";
 
-/** Some balls of a game where they are put; the others are down. */
-function lay(
-  carom: Carom,
-  game: "eightball" | "nineball",
-  places: Record<number, Vec2>,
-): { table: ReturnType<Carom["table"]>; balls: ShotBall[] } {
-  const table = carom.table("9ft");
-  let balls = carom.rack(game, table).map(
-    ({ kind, state }): ShotBall => ({
-      kind,
-      state: { ...state, r: [0, 0, -0.1], label: "pocketed" },
-    }),
-  );
-  for (const [k, [x, y]] of Object.entries(places))
-    balls = carom.placeBall(table, balls, Number(k), x, y);
-  return { table, balls };
-}
 const PLACES: Record<number, Vec2> = { 0: [0.4, 0.9], 1: [0.3, 1.9], 2: [0.9, 1.7], 9: [0.7, 0.5] };
 
 test.runIf(thereIsACommand)("both builds choose the shots that the command chooses", () => {
@@ -63,7 +46,6 @@ test.runIf(thereIsACommand)("both builds choose the shots that the command choos
 });
 
 test("a plan in slices has the choices of one call, whatever is computed between them", () => {
-  const { carom } = builds[0]!;
   const { table, balls } = lay(carom, "nineball", PLACES);
   for (const inHand of ["no", "anywhere"] as const) {
     const options = { rules: "nineball", shots: 300, best: 3, inHand } as const;
@@ -90,7 +72,6 @@ test("a plan in slices has the choices of one call, whatever is computed between
 test.runIf(thereIsACommand)(
   "a layout is planned by the numbers of its balls, in whatever order a line has them",
   () => {
-    const { carom } = builds[0]!;
     const { balls } = lay(carom, "nineball", {
       0: [0.4, 0.9],
       2: [0.9, 1.7],
@@ -218,7 +199,6 @@ test.runIf(thereIsACommand)(
 );
 
 test("one set of names for pockets", () => {
-  const { carom } = builds[0]!;
   for (const name of ["7ft", "8ft", "9ft", "snooker"] as const) {
     const table = carom.table(name);
     expect(carom.pocketNames(table).map((pocket) => `${pocket} pocket`)).toEqual(
@@ -231,7 +211,6 @@ test("one set of names for pockets", () => {
 });
 
 test("ball in hand, chances and errors", () => {
-  const { carom } = builds[0]!;
   const { table, balls } = lay(carom, "nineball", PLACES);
   const [choice] = carom.plan(table, balls, {
     rules: "nineball",
@@ -350,7 +329,6 @@ test("rulings of shots", () => {
 });
 
 test("points of three-cushion", () => {
-  const { carom } = builds[0]!;
   const table = carom.table("threecushion");
   const balls = carom.rack("threecushion", table);
   const best = carom.plan(table, balls, { rules: "threecushion", shots: 600 });
@@ -376,7 +354,6 @@ test("points of three-cushion", () => {
 });
 
 test("arguments in error", () => {
-  const { carom } = builds[0]!;
   const { table, balls } = lay(carom, "nineball", PLACES);
   refuses(
     [() => carom.plan(table, balls, { rules: "croquet" as "nineball" }), /rules/],
@@ -422,7 +399,6 @@ test("arguments in error", () => {
 });
 
 test("one-pocket: the pocket of the player, balls that come back, a ball that is owed", () => {
-  const { carom } = builds[0]!;
   const pool = carom.table("9ft");
   let balls = carom.rack("eightball", pool).map((ball, k) =>
     k < 2
@@ -462,7 +438,6 @@ test("one-pocket: the pocket of the player, balls that come back, a ball that is
 });
 
 test("straight pool and snooker: points, colours on their own spots, a foul, the other who plays again", () => {
-  const { carom } = builds[0]!;
   const pool = carom.table("9ft");
   const down = (balls: ShotBall[], ...up: number[]): ShotBall[] =>
     balls.map((ball, k) =>

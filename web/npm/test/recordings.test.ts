@@ -7,7 +7,7 @@ import {
   type Match,
   type ShotBall,
 } from "../dist/index.js";
-import { builds, refuses, root, run, thereIsACommand } from "./support.js";
+import { builds, carom, refuses, root, run, thereIsACommand } from "./support.js";
 
 const STRONGE = { cushionModel: "stronge" } as const;
 function aGame(carom: Carom): Match {
@@ -58,7 +58,6 @@ test.runIf(thereIsACommand)("what the command records is replayed here", () => {
 });
 
 test("a forged stroke, damage and other revisions are told", () => {
-  const { carom } = builds[0]!;
   const text = aGame(carom).end();
   expect(
     [...carom.replay(text.replace('"speed":2.5', '"speed":2.6'))].map(({ same }) => same),
@@ -217,7 +216,6 @@ test.each(builds)("plans of a match are by its rules, by $name", ({ carom }) => 
 });
 
 test("a match that is read again has the bounds of a scratch, and nothing behind its end", () => {
-  const [{ carom }] = builds as [(typeof builds)[number]];
   const table = carom.table("9ft");
   let match: Match;
   let phi = 84;
@@ -244,7 +242,6 @@ test("a match that is read again has the bounds of a scratch, and nothing behind
 });
 
 test("a plan is told where the cue ball in hand may be put", () => {
-  const [{ carom }] = builds as [(typeof builds)[number]];
   const table = carom.table("9ft");
   const balls = carom.rack("eightball", table);
   const place = (inHand: "kitchen" | "anywhere") =>
@@ -254,7 +251,6 @@ test("a plan is told where the cue ball in hand may be put", () => {
 });
 
 test("a match of another layout and state", () => {
-  const [{ carom }] = builds as [(typeof builds)[number]];
   const table = carom.table("snooker");
   const game = { rules: "snooker", group: "open", opening: false, score: [30, 10] } as const;
   const balls = carom.rack("snooker", table);

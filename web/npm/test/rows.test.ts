@@ -3,7 +3,7 @@
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import { type BallKind, fromLine, toLine, words } from "../dist/index.js";
-import { builds, refuses, root } from "./support.js";
+import { carom, refuses, root } from "./support.js";
 
 interface Row {
   name: string;
@@ -20,7 +20,6 @@ interface Rows {
   words: Record<string, [string, string][]>;
 }
 const rows = JSON.parse(readFileSync(`${root}build/web/rows.json`, "utf8")) as Rows;
-const { carom } = builds[0]!;
 const camel = (name: string) =>
   name.replace(/_([a-z0-9])/g, (_, letter: string) => letter.toUpperCase());
 const table = carom.table("9ft");

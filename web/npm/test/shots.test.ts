@@ -12,8 +12,19 @@ import {
   type Shot,
   toLine,
 } from "../dist/index.js";
-import { builds, nineball, refuses, root, run, thereIsACommand, refusal } from "./support.js";
+import { names } from "../dist/generated/layout.js";
+import {
+  builds,
+  carom,
+  nineball,
+  refusal,
+  refuses,
+  root,
+  run,
+  thereIsACommand,
+} from "./support.js";
 
+const EVENT_TYPES = names.carom_event_type.slice(1) as unknown as EventType[];
 const LABELS = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne", "off"];
 const flat = (s: BallState) => [LABELS.indexOf(s.label), ...s.r, ...s.v, ...s.w];
 const break9 = readFileSync(`${root}data/break-nineball.jsonl`, "utf8").trim();
@@ -235,24 +246,8 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
   test("stopped after events of a set: the first of them in the unbroken shot", () => {
     const { table, balls } = nineball(carom);
     const whole = carom.simulate(table, balls, { speed: 8 });
-    const types: EventType[] = [
-      "stick_ball",
-      "ball_ball",
-      "ball_linear_cushion",
-      "ball_circular_cushion",
-      "ball_pocket",
-      "sliding_rolling",
-    ];
-    types.push(
-      "rolling_spinning",
-      "rolling_stationary",
-      "spinning_stationary",
-      "slate",
-      "rail_top",
-      "left_table",
-    );
     for (const stopAt of [
-      ...types,
+      ...EVENT_TYPES,
       [],
       ["ball_pocket", "ball_linear_cushion"],
       ["contact", "ball_linear_cushion"],
@@ -529,7 +524,6 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
 });
 
 test("memory stays flat over a hundred thousand calls", () => {
-  const { carom } = builds[0]!;
   const { table, balls } = nineball(carom);
   const impact = {
     a: { v: [1.5, 0, 0] as const },

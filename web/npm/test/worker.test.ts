@@ -2,7 +2,7 @@
 import { readFileSync } from "node:fs";
 import { Worker } from "node:worker_threads";
 import { expect, test } from "vitest";
-import { builds, root } from "./support.js";
+import { builds, carom, root } from "./support.js";
 
 test("a worker computes the same bits", async () => {
   const source = `
@@ -18,7 +18,6 @@ test("a worker computes the same bits", async () => {
     worker.once("message", resolve).once("error", reject),
   );
   await worker.terminate();
-  const { carom } = builds[0]!;
   const table = carom.table("9ft");
   const shot = carom.simulate(table, carom.rack("nineball", table), { speed: 8 });
   const choices = carom.plan(table, carom.rack("nineball", table), {

@@ -41,7 +41,7 @@ export function slider(
     onInput();
   });
   return {
-    root: el("div", { class: "field" }, el("label", { for: id }, text), output, input),
+    root: el("div.field", el("label", { for: id }, text), output, input),
     input,
     get value() {
       return exact ?? input.valueAsNumber;
@@ -72,6 +72,12 @@ export function drags(
   );
 }
 
+/** Rows of a table of numbers: their ids behind a prefix, names and texts. */
+export const numberRows = (prefix: string, rows: readonly (readonly string[])[]) =>
+  rows.map(([id, name, text]) =>
+    el("tr", el("th", { scope: "row" }, name), el("td", { id: `${prefix}-${id}` }, text)),
+  );
+
 /** What sliders are set to. */
 export const valuesOf = <K extends string>(sliders: Record<K, Slider>): Record<K, number> =>
   Object.fromEntries(
@@ -87,7 +93,7 @@ export function pad(
   text: string,
   onInput: (right: number, up: number) => void,
 ): { root: HTMLElement; set(right: number, up: number): void } {
-  const root = el("div", { id, class: "pad", role: "img", "aria-label": text });
+  const root = el("div.pad", { id, role: "img", "aria-label": text });
   root.innerHTML =
     '<svg viewBox="-1.05 -1.05 2.1 2.1"><circle r="1" fill="#fbfaf5" stroke="#000a" stroke-width="0.03"/><circle r="0.5" fill="none" stroke="#0006" stroke-width="0.02" stroke-dasharray="0.06 0.05"/>' +
     '<path d="M-1 0H1M0-1V1" stroke="#0003" stroke-width="0.02"/><circle class="tip" r="0.15" fill="#3f7fbf" stroke="#000a" stroke-width="0.02"/></svg>';
@@ -117,12 +123,14 @@ export function pad(
   };
 }
 
+/** A button, with the id and classes of a selector such as "#hint.main". */
 export function button(
   text: string,
   onClick: () => void,
+  selector = "",
   attributes: Record<string, string> = {},
 ): HTMLButtonElement {
-  const element = el("button", { type: "button", ...attributes }, text);
+  const element = el(`button${selector}` as "button", { type: "button", ...attributes }, text);
   element.addEventListener("click", onClick);
   return element;
 }
@@ -139,7 +147,7 @@ export function choice(
     ...options.map(([value, label]) => el("option", { value }, label)),
   );
   select.addEventListener("change", onChange);
-  return { root: el("label", { class: "inline" }, text, select), select };
+  return { root: el("label.inline", text, select), select };
 }
 
 export function check(
@@ -149,7 +157,7 @@ export function check(
 ): { root: HTMLElement; input: HTMLInputElement } {
   const input = el("input", { type: "checkbox", id });
   input.addEventListener("change", onChange);
-  return { root: el("label", { class: "check" }, input, text), input };
+  return { root: el("label.check", input, text), input };
 }
 
 /** Calls `draw` once before the next frame, however often it is asked for. */
@@ -225,10 +233,9 @@ export function dialog(
     "dialog",
     { id, "aria-label": title },
     el(
-      "div",
-      { class: "row head" },
-      el("h2", {}, title),
-      button(texts.close, () => element.close(), { class: "close" }),
+      "div.row.head",
+      el("h2", title),
+      button(texts.close, () => element.close(), ".close"),
     ),
     ...children,
   );

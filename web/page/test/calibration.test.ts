@@ -4,6 +4,7 @@ import { describe, expect, test } from "vitest";
 import {
   act,
   browserPath,
+  counts,
   keptGame,
   keptSetup,
   linesOf,
@@ -27,7 +28,7 @@ describe.runIf(browserPath !== undefined)("conditions of a table", () => {
   test.each(sizes)("three readings become a table to play on: %s", async (_, size) => {
     const page = await open("", size);
     await act(page, "#new-game", "#open-calibration");
-    expect(await page.locator("#calibration path").count()).toBe(3);
+    await counts(page, "#calibration path", 3);
     expect(await page.locator("#use-calibration").isDisabled()).toBe(true);
     const read = async (...places: number[]) => {
       for (const [k, place] of places.entries()) await set(page, `bank-${k + 1}`, place);

@@ -5,6 +5,7 @@ import {
   boxOf,
   browserPath,
   comesToSay,
+  counts,
   dragMouse,
   fingersOn,
   gameOf,
@@ -49,7 +50,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
       /^That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\.$/,
     );
     await act(page, "#new-game", "#open-log");
-    expect(await page.locator("#log tbody tr").count()).toBe(1);
+    await counts(page, "#log tbody tr", 1);
     await says(page, "log-sum", /^1 stroke\. A stroke cost [1-9]\d* % of a game/);
     expect(await violations(page)).toEqual([]);
     // On paper there is the log alone.
@@ -60,7 +61,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
 
   test("the view from behind the cue starts when it is asked for, and shows the balls as they roll", async () => {
     const page = await open("");
-    expect(await page.locator("#scene").count()).toBe(0);
+    await counts(page, "#scene", 0);
     await act(page, "#space");
     await page.locator("#scene").waitFor();
     expect(await violations(page)).toEqual([]);
@@ -75,7 +76,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await act(page, "#shoot");
     await expect.poll(seen).not.toBe(turned);
     await act(page, "#space");
-    expect(await page.locator("#scene").count()).toBe(0);
+    await counts(page, "#scene", 0);
     await shows(page, "#table-scene");
   });
 

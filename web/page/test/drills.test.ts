@@ -2,30 +2,19 @@
 // nothing makes none.
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
-import type { Carom, Cue, ShotBall } from "carom";
+import type { Carom, Cue } from "carom";
 import { drillStroke, strokesFor } from "../src/play/drill_search.js";
 import { type Drill, drillsOf, judge } from "../src/play/drills.js";
 import { Play } from "../src/play/game.js";
-import { builds } from "../../test/builds.js";
+import { allDown, carom, lay } from "../../test/builds.js";
 import { root } from "../../test/support.js";
 
 const drills = drillsOf(readFileSync(`${root}data/drills.csv`, "utf8"));
+const ROWS = drills.map((drill) => [drill.name, drill] as const);
 const OPTIONS = {};
 
-function layout(
-  carom: Carom,
-  { balls }: Drill,
-): { table: ReturnType<Carom["table"]>; balls: ShotBall[] } {
-  const table = carom.table("9ft");
-  let lie = carom.rack("eightball", table).map(
-    ({ kind, state }): ShotBall => ({
-      kind,
-      state: { ...state, r: [0, 0, -0.1], label: "pocketed" },
-    }),
-  );
-  for (const [ball, [x, y]] of balls) lie = carom.placeBall(table, lie, ball, x, y);
-  return { table, balls: lie };
-}
+const layout = (carom: Carom, { balls }: Drill) =>
+  lay(carom, "eightball", Object.fromEntries(balls));
 test("there are twenty, with names of their own", () => {
   expect(drills).toHaveLength(20);
   expect(new Set(drills.map(({ name }) => name)).size).toBe(20);
@@ -34,7 +23,6 @@ test("there are twenty, with names of their own", () => {
 // For new drills: CAROM_DRILLS=1 prints each rating, by the best of 200 strokes; three balls fall by
 // three such strokes.
 test.runIf(process.env.CAROM_DRILLS)("ratings that make a drill in half of the tries", () => {
-  const { carom } = builds[0]!;
   for (const drill of drills) {
     const { table, balls } = layout(carom, drill);
     const good = (cue: Partial<Cue>) =>
@@ -64,24 +52,19 @@ test.runIf(process.env.CAROM_DRILLS)("ratings that make a drill in half of the t
   }
 });
 
-test.each(drills.map((drill) => [drill.name, drill] as const))(
-  "%s can be made, and is not made by itself",
-  (_, drill) => {
-    const { carom } = builds[0]!;
-    const { table, balls } = layout(carom, drill);
-    const play = (cue: Partial<Cue>) => carom.simulate(table, balls, cue, OPTIONS);
-    expect(judge(drill, play({ speed: 0.1, phi: 200, b: 0 }))).toMatchObject({ outcome: "missed" });
-    // Where three balls are to fall, the stroke goes on.
-    for (const cue of strokesFor(carom, table, balls, drill, 200, OPTIONS))
-      if (judge(drill, play(cue)).outcome !== "missed") return;
-    expect.fail(`${drill.name}: no stroke of 200 for each way makes it`);
-  },
-);
+test.each(ROWS)("%s can be made, and is not made by itself", (_, drill) => {
+  const { table, balls } = layout(carom, drill);
+  const play = (cue: Partial<Cue>) => carom.simulate(table, balls, cue, OPTIONS);
+  expect(judge(drill, play({ speed: 0.1, phi: 200, b: 0 }))).toMatchObject({ outcome: "missed" });
+  // Where three balls are to fall, the stroke goes on.
+  for (const cue of strokesFor(carom, table, balls, drill, 200, OPTIONS))
+    if (judge(drill, play(cue)).outcome !== "missed") return;
+  expect.fail(`${drill.name}: no stroke of 200 for each way makes it`);
+});
 
-test.each(drills.map((drill) => [drill.name, drill] as const))(
+test.each(ROWS)(
   "the hint of %s makes it, and a player of its rating makes it in about half of the tries",
   (_, drill) => {
-    const { carom } = builds[0]!;
     const { table, balls } = layout(carom, drill);
     const player = carom.player({ fargo: drill.rating });
     const { cue, chance } = drillStroke(carom, table, balls, drill, player, OPTIONS)!;
@@ -91,7 +74,6 @@ test.each(drills.map((drill) => [drill.name, drill] as const))(
 );
 
 test("a game of pool is played on the table that it names, with the pockets of that table", () => {
-  const { carom } = builds[0]!;
   const practiceOn = (table?: string, game = "nineball") =>
     new Play(carom, {
       game,
@@ -106,14 +88,8 @@ test("a game of pool is played on the table that it names, with the pockets of t
   expect(practiceOn().table).toEqual(practiceOn("9ft").table);
   // Of balls side by side that run at a corner, fewer fall into the tight one.
   const into = ({ table, balls }: Play) => {
-    const lie = balls.map(
-      ({ kind, state }): ShotBall => ({
-        kind,
-        state: { ...state, r: [0, 0, -0.1], label: "pocketed" },
-      }),
-    );
     const line = Array.from({ length: 41 }, (_, k) =>
-      carom.placeBall(table, lie, 0, 0.4, 0.4 + 0.002 * k),
+      carom.placeBall(table, allDown(balls), 0, 0.4, 0.4 + 0.002 * k),
     );
     return line.filter(
       (balls) =>

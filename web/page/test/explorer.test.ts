@@ -17,7 +17,7 @@ import {
   sizes,
   valueOf,
 } from "./page.js";
-import { builds } from "../../test/builds.js";
+import { carom } from "../../test/builds.js";
 import { root, run, thereIsACommand } from "../../test/support.js";
 
 describe.runIf(browserPath !== undefined)("the laboratory", () => {
@@ -166,7 +166,6 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
   test.runIf(thereIsACommand)(
     "an imported layout has its balls by their numbers, in the game that its file or the page names",
     async () => {
-      const { carom } = builds[0]!;
       const places: Record<string, [number, number]> = {
         cue: [0.4, 0.9],
         5: [0.3, 1.9],
@@ -253,7 +252,6 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
   });
 
   test("cushions play the constants that the game has for them, and say so where there are none", async () => {
-    const { carom } = builds[0]!;
     const table = carom.table("threecushion");
     const page = await open("#view=lab&game=threecushion&speed=4&phi=62");
     for (const cushionModel of ["han", "smooth", "mathavan"] as const) {
@@ -269,7 +267,7 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
       expect(await text(page, "s-cue-ball"), cushionModel).toBe(
         `${shot.final[0]!.r[0].toFixed(4)}, ${shot.final[0]!.r[1].toFixed(4)} m`,
       );
-      expect(await page.locator("#message").textContent()).toBe("");
+      await says(page, "message", "");
     }
     await act(page, "#game=snooker", "#cushion=stronge");
     expect(await page.locator("#message").textContent()).toContain(
@@ -331,7 +329,6 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
   test.each(sizes)(
     "a recording is opened or dropped, verified, and played shot by shot: %s",
     async (_, how) => {
-      const { carom } = builds[0]!;
       const table = carom.table("9ft");
       const balls = carom.rack("nineball", table);
       const game = carom.match("nineball", table, { balls, shot: { cushionModel: "stronge" } });

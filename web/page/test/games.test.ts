@@ -5,8 +5,10 @@ import { run, thereIsACommand } from "../../npm/test/support.js";
 import {
   act,
   browserPath,
+  comesToCount,
   comesToSay,
   comesToShow,
+  counts,
   keptGames,
   keptLines,
   linesOf,
@@ -135,7 +137,7 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
     expect(await lost()).toBe(null);
     await remove.click();
     await expect.poll(lost).toBe('{"300":[0,1]}');
-    await expect.poll(() => page.locator("#saved-games li").count()).toBe(1);
+    await comesToCount(page, "#saved-games li", 1);
   });
 
   test("what is damaged begins anew, is put aside, and is named; the page starts", async () => {
@@ -195,7 +197,7 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
     await page.clock.runFor(1000);
     await says(page, "clock", /^(2[89]|30) s left$/);
     await page.clock.runFor(22_000);
-    expect(await page.locator("#clock.warned").count()).toBe(1);
+    await counts(page, "#clock.warned", 1);
     // Each of both players has the whole time anew.
     await page.clock.runFor(8_000);
     await says(page, "turn", /^Player 1 fouls: the time for the stroke is over. Player 2/);

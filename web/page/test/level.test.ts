@@ -25,13 +25,11 @@ describe.runIf(browserPath !== undefined)("by level", () => {
   test.each(sizes)(
     "lines and the part of the ball that is met, by setting and by rating; the wheel turns by its step: %s",
     async (_, how) => {
-      const page = await open("", how, {
-        game: "nineball",
-        against: "300",
-        own: "800",
-        seed: 7,
-        at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9",
-      });
+      const page = await open(
+        "",
+        how,
+        gameOf("nineball", "300", "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9", "800"),
+      );
       /**
        * Bright pixels of the way of the 1, after a cut by which it goes to the left, near it and
        * farther on.
@@ -83,13 +81,7 @@ describe.runIf(browserPath !== undefined)("by level", () => {
     const page = await open(
       "",
       {},
-      {
-        game: "nineball",
-        against: "500",
-        own: "800",
-        seed: 7,
-        at: "0.4,0.4 in in in in in in in in 0.06,0.06",
-      },
+      gameOf("nineball", "500", "0.4,0.4 in in in in in in in in 0.06,0.06", "800"),
     );
     await act(page, "#new-game");
     await says(

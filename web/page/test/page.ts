@@ -14,10 +14,7 @@ if (browserPath === undefined)
   console.log(
     "without the tests of the page: there is no Chromium (Debian: chromium); CHROMIUM may name one",
   );
-export const axe = readFileSync(
-  createRequire(import.meta.url).resolve("axe-core/axe.min.js"),
-  "utf8",
-);
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 /** What axe finds wrong with a page. */
 export async function violations(page: Page): Promise<string[]> {
   await page.evaluate(axe);
@@ -263,6 +260,13 @@ export async function comesToShow(page: Page, selector: string, isShown = true):
   const seen = () => page.locator(selector).isVisible();
   await expect.poll(seen, { message: selector }).toBe(isShown);
 }
+/** The same of how many parts there are. */
+export async function counts(page: Page, selector: string, count: number): Promise<void> {
+  expect(await page.locator(selector).count(), selector).toBe(count);
+}
+export async function comesToCount(page: Page, selector: string, count: number): Promise<void> {
+  await expect.poll(() => page.locator(selector).count(), { message: selector }).toBe(count);
+}
 export async function reload(page: Page): Promise<void> {
   await page.reload();
   await page.waitForSelector("main[aria-busy=false]");
@@ -270,11 +274,14 @@ export async function reload(page: Page): Promise<void> {
 /** What a control is set to. */
 export const valueOf = (page: Page, id: string) => page.locator(`#${id}`).inputValue();
 export const numberIn = async (page: Page, id: string) => Number(await valueOf(page, id));
-/** A game without errors as a page keeps it, with its balls at places where some are named. */
-export const gameOf = (game: string, against: string, at?: string) => ({
+/**
+ * A game as a page keeps it, with its balls at places where some are named, and with the errors of
+ * a rating, "0" for none.
+ */
+export const gameOf = (game: string, against: string, at?: string, own = "0") => ({
   game,
   against,
-  own: "0",
+  own,
   seed: 7,
   ...(at !== undefined && { at }),
 });

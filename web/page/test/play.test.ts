@@ -597,7 +597,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
         const saved = await keptGame(page);
         expect((JSON.parse(saved) as { game: string }).game).toBe(game);
         expect(linesOf(saved, "shot")).toHaveLength(against === "practice" ? 0 : played);
-        expect(await page.locator("#said").textContent()).toMatch(/^$|Drag/);
+        await says(page, "said", /^$|Drag/);
         await reload(page);
         expect(await keptGame(page)).toBe(saved);
       }

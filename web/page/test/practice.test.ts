@@ -7,6 +7,7 @@ import {
   boxOf,
   browserPath,
   comesToSay,
+  counts,
   fingersOn,
   keptSetup,
   pages,
@@ -59,7 +60,7 @@ describe.runIf(browserPath !== undefined)("practice", () => {
       /The cue ball came back \d+ cm of 40 cm: strike it lower or faster\.$/,
     );
     await act(page, "#new-game", "#open-log");
-    expect(await page.locator("#log tbody tr").count()).toBe(4);
+    await counts(page, "#log tbody tr", 4);
     expect(await page.locator("#log tbody tr").nth(2).textContent()).toMatch(
       /Short straight pot.*[23]\.\d\d/,
     );
@@ -142,7 +143,7 @@ describe.runIf(browserPath !== undefined)("practice", () => {
         // Where the colour does not tell the ball, the page asks.
         const answer = page.locator("#photo-ask button", { hasText: new RegExp(`^${ball}$`) });
         if ((await answer.count()) > 0) await answer.click();
-        expect(await page.locator("#photo-ask button").count()).toBe(0);
+        await counts(page, "#photo-ask button", 0);
       }
       // A finger that is held sees what is under it, and two fingers a part larger.
       if ("touch" in how) {

@@ -9,6 +9,7 @@ import { scene } from "../tools/picture.mjs";
 import {
   act,
   browserPath,
+  comesToCount,
   keptGame,
   linesOf,
   numberIn,
@@ -51,7 +52,7 @@ describe.runIf(browserPath !== undefined)("smoke", () => {
   test("the balls are listed in words", async () => {
     const page = await open("");
     await act(page, "details:has(#ball-list) summary");
-    await expect.poll(() => page.locator("#ball-list li").count()).toBe(16);
+    await comesToCount(page, "#ball-list li", 16);
     expect(await page.locator("#ball-list li").first().textContent()).toMatch(
       /^cue: \d+ cm from the left cushion, \d+ cm from the head cushion$/,
     );

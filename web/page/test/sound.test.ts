@@ -1,10 +1,9 @@
 // Sounds of the page: louder by a larger impulse, and each with the tones that it is made of.
 import { expect, test } from "vitest";
 import { loudness, wave } from "../src/play/sound.js";
-import { builds } from "../../test/builds.js";
+import { carom } from "../../test/builds.js";
 
 test("a harder stroke is louder, by the impulses of its events", () => {
-  const { carom } = builds[0]!;
   const table = carom.table("9ft");
   const balls = carom.rack("nineball", table);
   const loudest = (speed: number, type: string) =>

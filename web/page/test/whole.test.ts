@@ -21,6 +21,9 @@ import {
 import { LANGUAGES } from "../src/texts/texts.js";
 import { root, run, thereIsACommand } from "../../test/support.js";
 
+type State = [name: string, hash: string, how: object, presses: string[]];
+const STATES = JSON.parse(readFileSync(`${root}web/page/test/states.json`, "utf8")) as State[];
+
 /**
  * An icon of a page that is served: its size, how many of its pixels differ from icon.svg, and how
  * many beyond the circle that each shape of an icon keeps differ from its corner.
@@ -67,32 +70,8 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     expect(length).toBeLessThan(480_000);
   });
 
-  // States one after another, by what is pressed; ".close" is none by itself.
-  test.each([
-    ["play", "", {}, ["", "#new-game", ".close", "#shoot"]],
-    [
-      "play, dark, phone",
-      "",
-      { dark: true, width: 390, height: 844, touch: true },
-      ["", "#new-game", ".close", ".numbers-of summary", "#shoot"],
-    ],
-    ["play, phone on its side", "", { width: 844, height: 390, touch: true }, [""]],
-    ["collision", "#view=collision", {}, [""]],
-    ["collision, dark, phone", "#view=collision", { dark: true, width: 390, height: 844 }, [""]],
-    ["laboratory", "#view=lab", {}, ["main summary"]],
-    [
-      "laboratory, dark, phone",
-      "#view=lab&game=snooker",
-      { dark: true, width: 390, height: 844 },
-      ["main summary"],
-    ],
-    [
-      "laboratory, phone on its side",
-      "#view=lab",
-      { width: 844, height: 390, touch: true },
-      ["main summary"],
-    ],
-  ] as const)("axe finds nothing: %s", async (_, hash, how, presses) => {
+  // The states of states.json one after another, by what is pressed; ".close" is none by itself.
+  test.each(STATES)("axe finds nothing: %s", async (_, hash, how, presses) => {
     const page = await open(hash, how);
     for (const press of presses) {
       if (press) await page.locator(press).first().click();

@@ -11,6 +11,7 @@ import {
   eachFrame,
   el,
   keep,
+  numberRows,
   parameters,
   slider,
   type Slider,
@@ -344,11 +345,7 @@ function show(view: View): void {
   const result = carom.collideDetail(impact, { solver: solver() });
   const { a, b } = result;
   const rolls = [carom.rollingVelocity(a, R), carom.rollingVelocity(b, R)];
-  numbers.replaceChildren(
-    ...rowsOf(s, impact, result, rolls, euler).map(([id, name, text]) =>
-      el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `n-${id}` }, text)),
-    ),
-  );
+  numbers.replaceChildren(...numberRows("n", rowsOf(s, impact, result, rolls, euler)));
   canvas.setAttribute(
     "aria-label",
     texts.twoBallsFromAbove(
@@ -404,43 +401,32 @@ export function collisionView(
 ): { update(): void; theme(): void } {
   const update = (): void => show(view);
   const controls = controlsOf(update);
-  const canvas = el("canvas", {
-    class: "scene",
-    id: "collision-scene",
-    role: "img",
-    tabindex: "0",
-  });
+  const canvas = el("canvas#collision-scene.scene", { role: "img", tabindex: "0" });
   const numbers = el("tbody");
-  const curves = el("div", { class: "plots" });
+  const curves = el("div.plots");
   const roots = (...keys: Exclude<keyof Setting, "law">[]): HTMLElement[] =>
     keys.map((key) => controls.sliders[key].root);
   main.replaceChildren(
     el(
-      "div",
-      { class: "columns" },
+      "div.columns",
       el(
-        "section",
-        { class: "panel first", "aria-label": texts.settings },
-        el("h2", {}, texts.twoBallsMeet),
+        "section.panel.first",
+        { "aria-label": texts.settings },
+        el("h2", texts.twoBallsMeet),
         ...roots("speed", "cut", "side", "tip"),
         controls.law.root,
         ...roots("mu", "cloth", "e"),
       ),
       el(
-        "section",
-        { class: "panel scene-panel", "aria-label": texts.seenFromAbove },
+        "section.panel.scene-panel",
+        { "aria-label": texts.seenFromAbove },
         canvas,
-        el("p", { class: "note" }, texts.dragTheWhiteBall),
+        el("p.note", texts.dragTheWhiteBall),
       ),
       el(
-        "section",
-        { class: "panel", "aria-label": texts.numbers },
-        el(
-          "table",
-          { class: "numbers", id: "collision-numbers" },
-          el("caption", {}, texts.justAfterAndOnce),
-          numbers,
-        ),
+        "section.panel",
+        { "aria-label": texts.numbers },
+        el("table#collision-numbers.numbers", el("caption", texts.justAfterAndOnce), numbers),
       ),
     ),
     curves,

@@ -97,9 +97,9 @@ export function controlsOf(aimed: () => void, racked: () => void) {
       aimed,
     ),
     summary: el("tbody"),
-    message: el("p", { class: "error", role: "status", id: "message" }),
-    line: el("textarea", { id: "line", spellcheck: "false" }),
-    cost: el("p", { class: "note", id: "cost" }),
+    message: el("p#message.error", { role: "status" }),
+    line: el("textarea#line", { spellcheck: "false" }),
+    cost: el("p#cost.note"),
   };
 }
 

@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import { color, el } from "../ui.js";
 
-export interface Mark {
+interface Mark {
   x: number;
   y: number;
 }
@@ -11,7 +11,7 @@ export type Column = (number | null)[];
  * What a plot shows: its words, the label and the range of x, the label of y, its curves, and a
  * band of |y|.
  */
-export interface Shows {
+interface Shows {
   id: string;
   title: string;
   note: string;
@@ -48,13 +48,7 @@ export function plot(
 ): { set(data: Column[], marks: Mark[]): void; theme(): void } {
   const place = el("div");
   into.append(
-    el(
-      "section",
-      { class: "panel plot", id, "aria-label": title },
-      el("h2", {}, title),
-      place,
-      el("p", {}, note),
-    ),
+    el("section.panel.plot", { id, "aria-label": title }, el("h2", title), place, el("p", note)),
   );
   const wide = (): number => Math.max(place.clientWidth, 240);
   let marks: Mark[] = [];

@@ -33,23 +33,16 @@ export function reel(d: Desk): Reel {
   let shots: Replayed[] = [];
   let shown = -1;
   let opened = 0;
-  const file = el("output", { id: "reel-file" });
-  const output = el("output", { id: "reel-shot" });
-  const back = button(texts.shotBack, () => go(shown - 1), {
-    id: "reel-back",
+  const file = el("output#reel-file");
+  const output = el("output#reel-shot");
+  const back = button(texts.shotBack, () => go(shown - 1), "#reel-back", {
     "aria-label": texts.previousShotOfThe,
   });
-  const next = button(texts.shotOn, () => go(shown + 1), {
-    id: "reel-next",
+  const next = button(texts.shotOn, () => go(shown + 1), "#reel-next", {
     "aria-label": texts.nextShotOfThe,
   });
-  const bar = el("div", { class: "row", id: "reel", hidden: "" }, back, next, output, file);
-  const input = el("input", {
-    type: "file",
-    id: "recording",
-    accept: ".jsonl,.json,.txt",
-    hidden: "",
-  });
+  const bar = el("div#reel.row", { hidden: "" }, back, next, output, file);
+  const input = el("input#recording", { type: "file", accept: ".jsonl,.json,.txt", hidden: "" });
   input.addEventListener("change", () => {
     const [file] = input.files ?? [];
     input.value = ""; // the same file may be opened again
@@ -102,9 +95,8 @@ export function reel(d: Desk): Reel {
     shows,
     open: el(
       "span",
-      {},
       input,
-      button(texts.openRecording, () => input.click(), { id: "open-recording" }),
+      button(texts.openRecording, () => input.click(), "#open-recording"),
     ),
     accept(target) {
       target.addEventListener(

@@ -1,7 +1,7 @@
 // The dialog that finds the cushions of a player's own pool table: a picture of three banks, where
 // each came back, and the two numbers that follow, which the browser keeps and a file can have.
 import { type Carom, CaromError, type Table } from "carom";
-import { POOL_TABLES } from "../table/games.js";
+import { POOL_TABLE_NAMES, POOL_TABLES } from "../table/games.js";
 import { button, choice, dialog, el } from "../ui.js";
 import { keepText, stored } from "./keep.js";
 import { texts } from "../texts/texts.js";
@@ -57,13 +57,8 @@ export function calibrationPage(
   carom: Carom,
   use: (pair: string) => void,
 ): { root: HTMLDialogElement; open(table: string): void } {
-  const size = choice(
-    "calibration-table",
-    texts.table,
-    Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const),
-    show,
-  );
-  const drawn = el("div", { id: "calibration-picture" });
+  const size = choice("calibration-table", texts.table, POOL_TABLE_NAMES, show);
+  const drawn = el("div#calibration-picture");
   const outcomes = BANKS.map(() => el("span"));
   const inputs = BANKS.map((k) => {
     const input = el("input", {
@@ -77,7 +72,7 @@ export function calibrationPage(
     input.addEventListener("input", find);
     return input;
   });
-  const message = el("p", { id: "calibration-said", role: "status" });
+  const message = el("p#calibration-said", { role: "status" });
   let pair = "";
   let file = "";
   const play = button(
@@ -87,7 +82,7 @@ export function calibrationPage(
       root.close();
       use(pair);
     },
-    { id: "use-calibration", class: "main" },
+    "#use-calibration.main",
   );
   const save = button(
     texts.saveForTheCommand,
@@ -99,7 +94,7 @@ export function calibrationPage(
       link.click();
       URL.revokeObjectURL(link.href);
     },
-    { id: "save-calibration" },
+    "#save-calibration",
   );
 
   function allow(isFound: boolean): void {
@@ -162,20 +157,20 @@ export function calibrationPage(
   const root = dialog(
     "calibration",
     texts.calibrateByBanks,
-    el("p", { class: "note" }, texts.putTheCueBall),
-    el("div", { class: "fields" }, size.root),
+    el("p.note", texts.putTheCueBall),
+    el("div.fields", size.root),
     drawn,
     ...BANKS.map((k) =>
       el(
-        "label",
-        { class: "bank", style: `--bank: ${COLOURS[k]}` },
-        el("b", {}, String(k + 1)),
+        "label.bank",
+        { style: `--bank: ${COLOURS[k]}` },
+        el("b", String(k + 1)),
         outcomes[k]!,
         inputs[k]!,
       ),
     ),
     message,
-    el("div", { class: "row" }, play, save),
+    el("div.row", play, save),
   );
   return {
     root,

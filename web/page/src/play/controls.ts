@@ -13,9 +13,7 @@ const FASTEST = 10;
 const STEP = 0.02;
 
 function shootButton(s: Session): HTMLButtonElement {
-  const shoot = button(texts.shoot, () => undefined, {
-    id: "shoot",
-    class: "main",
+  const shoot = button(texts.shoot, () => undefined, "#shoot.main", {
     title: texts.playsTheStrokeWith,
   });
   let down: number | undefined;
@@ -42,15 +40,9 @@ function shootButton(s: Session): HTMLButtonElement {
 /** A wheel that turns the aim as it is dragged; a tap turns it by a step to its side. */
 function wheelOf(turn: (steps: number) => void): HTMLElement {
   const wheel = el(
-    "div",
-    {
-      id: "wheel",
-      role: "slider",
-      tabindex: "0",
-      "aria-label": texts.fineAim,
-      "aria-valuenow": "0",
-    },
-    el("span", {}, `↺ ${STEP}° ↻`),
+    "div#wheel",
+    { role: "slider", tabindex: "0", "aria-label": texts.fineAim, "aria-valuenow": "0" },
+    el("span", `↺ ${STEP}° ↻`),
   );
   let start = 0;
   let last = 0;
@@ -92,26 +84,19 @@ export function controls(s: Session): Controls {
     set({ phi: (Math.round((sliders.phi.value - STEP * steps + 360) * 1000) / 1000) % 360 });
     s.changed();
   });
-  const part = el("div", { id: "part", role: "img", "aria-label": texts.theAimMeetsNo });
+  const part = el("div#part", { role: "img", "aria-label": texts.theAimMeetsNo });
   part.innerHTML =
     '<svg viewBox="-3.1 -1.1 6.2 2.2"><circle r="1" fill="#e8702a" stroke="#000a" stroke-width="0.05"/><circle class="over" r="1" fill="#fbfaf5c0" stroke="#000a" stroke-width="0.05"/></svg>';
   const share = el("span");
   part.append(share);
 
   return {
-    side: el(
-      "section",
-      { class: "side", "aria-label": texts.theStroke },
-      sliders.speed.root,
-      part,
-      tip,
-    ),
+    side: el("section.side", { "aria-label": texts.theStroke }, sliders.speed.root, part, tip),
     shoot,
     row: [wheel, shoot],
     numbers: el(
-      "details",
-      { class: "numbers-of" },
-      el("summary", {}, texts.strokeInNumbers),
+      "details.numbers-of",
+      el("summary", texts.strokeInNumbers),
       ...(["phi", "right", "up", "theta"] as const).map((key) => sliders[key].root),
     ),
     set,

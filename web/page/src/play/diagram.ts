@@ -61,9 +61,9 @@ function partsOf(take: (k: number) => void, changed: () => void) {
   const sourceChoice = choice("diagram-which", texts.draw, [], () =>
     take(Number(sourceChoice.select.value)),
   );
-  const notes = el("textarea", { id: "notes", class: "no-print", maxlength: "2000", rows: "3" });
+  const notes = el("textarea#notes.no-print", { maxlength: "2000", rows: "3" });
   // A box for text shows on paper only what fits into it.
-  const printed = el("p", { class: "on-paper" });
+  const printed = el("p.on-paper");
   notes.addEventListener("input", () => (printed.textContent = notes.value));
   const final = check("diagram-after", texts.afterTheStroke, changed);
   const path = check("diagram-path", texts.withItsPath, changed);
@@ -73,8 +73,8 @@ function partsOf(take: (k: number) => void, changed: () => void) {
     path,
     notes,
     printed,
-    words: el("p", { id: "diagram-words" }),
-    message: el("p", { class: "error no-print", id: "diagram-said", role: "status" }),
+    words: el("p#diagram-words"),
+    message: el("p#diagram-said.error.no-print", { role: "status" }),
   };
 }
 function dialogOf({ film, parts }: Diagram, link: () => void): HTMLDialogElement {
@@ -82,17 +82,16 @@ function dialogOf({ film, parts }: Diagram, link: () => void): HTMLDialogElement
   const root = dialog(
     "diagram",
     texts.diagram,
-    el("div", { class: "row no-print" }, sourceChoice.root, final.root, path.root),
+    el("div.row.no-print", sourceChoice.root, final.root, path.root),
     film.canvas,
     words,
-    el("label", { for: "notes", class: "no-print" }, texts.notes),
+    el("label.no-print", { for: "notes" }, texts.notes),
     notes,
     printed,
     el(
-      "div",
-      { class: "row no-print" },
-      button(texts.print, () => window.print(), { id: "print-diagram", class: "main" }),
-      button(texts.linkToThisDiagram, link, { id: "link-diagram" }),
+      "div.row.no-print",
+      button(texts.print, () => window.print(), "#print-diagram.main"),
+      button(texts.linkToThisDiagram, link, "#link-diagram"),
     ),
     message,
   );

@@ -73,7 +73,7 @@ export function* strokesFor(
   }
 }
 
-export interface DrillStroke {
+interface DrillStroke {
   cue: Cue;
   /** The share of `plays` with the player's errors that made the drill, or went on with it. */
   chance: number;

@@ -41,7 +41,7 @@ function emblem({ last, names, balls, winner }: Play, isWon: boolean): HTMLEleme
   const ball = winner === last?.player ? (fallen.at(-1)?.a ?? last?.cue.ball ?? 0) : 0;
   const name = names[ball] ?? "";
   const colour = colourOf(name, ball, balls[ball]?.kind.radius ?? 0);
-  const root = el("div", { class: "emblem", "aria-hidden": "true" });
+  const root = el("div.emblem", { "aria-hidden": "true" });
   root.classList.toggle("won", isWon);
   const number = Number(name) > 0 ? name : "";
   const disc = number && '<circle r="17" fill="#fbfaf5"/>';
@@ -74,7 +74,7 @@ function wordsOfRating(s: Session, previous: EndView["rated"]): string[] {
 }
 
 export function endView(s: Session, restart: () => void, list: () => void): EndView {
-  const root = el("section", { id: "end", "aria-label": texts.endOfTheGame, hidden: "" });
+  const root = el("section#end", { "aria-label": texts.endOfTheGame, hidden: "" });
   const hide = (): void => void (root.hidden = true);
   function show(): void {
     const { play, seat } = s;
@@ -105,16 +105,15 @@ export function endView(s: Session, restart: () => void, list: () => void): EndV
         .map((line) => el("p", attributes, `${line[0]!.toUpperCase()}${line.slice(1)}`));
     const next = isRace && race === "" ? texts.nextRack : texts.playAgain;
     root.replaceChildren(
-      button("×", hide, { class: "close", "aria-label": texts.close }),
+      button("×", hide, ".close", { "aria-label": texts.close }),
       emblem(play, isWon),
-      el("h2", {}, title),
+      el("h2", title),
       ...paragraphs(reasons, { class: "why" }),
       ...paragraphs(lines),
       el(
-        "div",
-        { class: "row" },
-        button(next, restart, { id: "play-again", class: "main" }),
-        button(texts.yourGames, list, { id: "end-games" }),
+        "div.row",
+        button(next, restart, "#play-again.main"),
+        button(texts.yourGames, list, "#end-games"),
       ),
     );
     root.hidden = false;

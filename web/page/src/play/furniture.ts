@@ -4,7 +4,7 @@ import * as THREE from "three";
 import { arcOf, markingsOf, WOOD } from "../../../player/table.js";
 import type { Table } from "../../../player/words.js";
 
-export interface Furnished {
+interface Furnished {
   table: Table;
   cloth: string;
   wood: string;

@@ -22,7 +22,7 @@ export const countGame = (setup: Setup, winner: 0 | 1): unknown =>
 
 /** So many games won against a rating climb its level of the ladder. */
 const CLIMBED = 3;
-export interface Level {
+interface Level {
   rating: string;
   won: number;
   lost: number;

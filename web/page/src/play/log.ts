@@ -44,7 +44,7 @@ export const keepRow = (row: Row): void =>
 /** The log as a page to print. */
 export function logPage(plan: () => string): { root: HTMLDialogElement; open(): void } {
   const body = el("tbody");
-  const sum = el("p", { id: "log-sum" });
+  const sum = el("p#log-sum");
   const head = [
     texts.when,
     texts.game,
@@ -59,10 +59,9 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
     texts.cost,
   ];
   const table = el(
-    "table",
-    { class: "numbers log" },
-    el("caption", {}, texts.strokesTheLastOne),
-    el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))),
+    "table.numbers.log",
+    el("caption", texts.strokesTheLastOne),
+    el("thead", el("tr", ...head.map((text) => el("th", { scope: "col" }, text)))),
     body,
   );
   const clear = button(texts.deleteAll, () => {
@@ -73,15 +72,10 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
     "log",
     texts.whatYourStrokesCost,
     sum,
+    el("div.scrolls", { tabindex: "0", role: "region", "aria-label": texts.strokes }, table),
     el(
-      "div",
-      { class: "scrolls", tabindex: "0", role: "region", "aria-label": texts.strokes },
-      table,
-    ),
-    el(
-      "div",
-      { class: "row no-print" },
-      button(texts.print, () => window.print(), { id: "print-log" }),
+      "div.row.no-print",
+      button(texts.print, () => window.print(), "#print-log"),
       clear,
     ),
   );
@@ -96,7 +90,6 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
         .map((row) =>
           el(
             "tr",
-            {},
             ...[
               row.when.replace("T", " "),
               nameOfGame(row.game),

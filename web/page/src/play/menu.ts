@@ -1,6 +1,6 @@
 // The dialog of a new game: which one, against whom, and how the page plays it.
 import { words } from "carom";
-import { GAMES, hasMember, PLAYED, POOL_TABLES } from "../table/games.js";
+import { GAMES, hasMember, PLAYED, POOL_TABLE_NAMES } from "../table/games.js";
 import { RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
 import { CLOCKS } from "./clock.js";
@@ -63,19 +63,19 @@ function ladderOf(choose: (rating: string) => void): {
   root: HTMLElement;
   mark(chosen: string): void;
 } {
-  const root = el("ol", { id: "ladder", "aria-label": texts.ladder });
+  const root = el("ol#ladder", { "aria-label": texts.ladder });
   /** Shows how far one has climbed, and which opponent is chosen. */
   function mark(chosen: string): void {
     const rungs = levels().map((level) => {
       const { rating, won, lost, needed } = level;
       const games = won + lost > 0 ? `${won} : ${lost}` : "–";
       const stands = needed === 0 ? "★" : games;
-      const rung = button(rating, () => choose(rating), {
+      const rung = button(rating, () => choose(rating), "", {
         "aria-pressed": String(rating === chosen),
         title: wordsOfRung(level),
       });
-      rung.append(el("small", {}, stands));
-      return el("li", {}, rung);
+      rung.append(el("small", stands));
+      return el("li", rung);
     });
     root.replaceChildren(...rungs);
   }
@@ -133,15 +133,10 @@ export function menu(
     ],
     () => undefined,
   );
-  const table = choice(
-    "new-table",
-    texts.table,
-    Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const),
-    () => undefined,
-  );
+  const table = choice("new-table", texts.table, POOL_TABLE_NAMES, () => undefined);
   const cloth = choice("new-cloth", texts.cloth, CLOTHS, describe);
   const cushion = choice("new-cushion", texts.cushions, [], describe);
-  const effect = el("p", { class: "note", id: "new-effect" });
+  const effect = el("p#new-effect.note");
   /** The cushions to choose from: those of the player's own table are calibrated. */
   function listCushions(chosen: string): void {
     const pair = ownCushion();
@@ -166,13 +161,13 @@ export function menu(
       root.close();
       calibration.open(table.select.value);
     },
-    { id: "open-calibration" },
+    "#open-calibration",
   );
   const ofPool = [table.root, cloth.root, cushion.root, effect, calibrate];
   const lines = choice("lines", texts.lines, LINES, changeSettings);
-  const note = el("p", { class: "note", id: "new-note" });
-  const rules = el("p", { id: "new-rules" });
-  const rulesOf = el("details", {}, el("summary", {}, texts.theRules), rules);
+  const note = el("p#new-note.note");
+  const rules = el("p#new-rules");
+  const rulesOf = el("details", el("summary", texts.theRules), rules);
   /** Strokes against the page's player err a little, if nothing else is chosen. */
   function chooseErrors(): void {
     errors.select.value = isComputer(against.select.value as Against) ? "800" : "0";
@@ -251,25 +246,25 @@ export function menu(
           clock.select.value !== CLOCKS[0] && { clock: Number(clock.select.value) }),
       });
     },
-    { id: "start", class: "main" },
+    "#start.main",
   );
   const games = gamesList(s, () => root.close());
   const root: HTMLDialogElement = dialog(
     "menu",
     texts.newGame,
-    el("div", { class: "fields" }, game.root, ...ofPool, against.root),
+    el("div.fields", game.root, ...ofPool, against.root),
     ladder.root,
-    el("div", { class: "fields" }, errors.root, race.root, clock.root, equal.root),
+    el("div.fields", errors.root, race.root, clock.root, equal.root),
     note,
     rulesOf,
     start,
     games.root,
-    el("h3", {}, texts.settings),
+    el("h3", texts.settings),
     speech.root,
     lines.root,
     coach.root,
     numbers.root,
-    el("div", { class: "row" }, el("span", {}, texts.speedOfTheFilm), s.film.pace),
+    el("div.row", el("span", texts.speedOfTheFilm), s.film.pace),
     ...more,
   );
   return {

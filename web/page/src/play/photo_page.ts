@@ -19,7 +19,7 @@ const LENS = 50;
 /** The radius of the balls that may lie there, m. */
 const POOL_BALL = 0.028575;
 
-export interface Host {
+interface Host {
   /** Names of the balls that may lie there, and the size of their table, m. */
   names: readonly string[];
   size: readonly [number, number];
@@ -366,17 +366,15 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
       value: String(value),
     });
     input.addEventListener("change", () => draw(p));
-    return { root: el("label", { class: "inline" }, text, input), input };
+    return { root: el("label.inline", text, input), input };
   };
-  const canvas = el("canvas", {
-    id: "photo",
+  const canvas = el("canvas#photo", {
     tabindex: "0",
     role: "img",
     "aria-label": texts.thePhotoArrowKeys,
   });
-  const file = el("input", {
+  const file = el("input#photo-file", {
     type: "file",
-    id: "photo-file",
     accept: "image/*",
     "aria-label": texts.aPhotoOfA,
   });
@@ -393,12 +391,9 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
     ],
     () => undefined,
   );
-  const done = button(texts.layTheBalls, () => finish(p) && root.close(), {
-    id: "photo-use",
-    class: "main",
-  });
-  const message = el("p", { id: "photo-said", role: "status" });
-  const ask = el("div", { id: "photo-ask", class: "row", role: "status" });
+  const done = button(texts.layTheBalls, () => finish(p) && root.close(), "#photo-use.main");
+  const message = el("p#photo-said", { role: "status" });
+  const ask = el("div#photo-ask.row", { role: "status" });
   const p: Photo = {
     host,
     canvas,
@@ -421,17 +416,11 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
   const root = dialog(
     "photo-page",
     texts.aTableFromA,
-    el("div", { class: "row" }, file, wide.root, long.root),
+    el("div.row", file, wide.root, long.root),
     message,
-    el("div", { class: "photo-frame" }, canvas),
+    el("div.photo-frame", canvas),
     ask,
-    el(
-      "div",
-      { class: "row" },
-      ball.root,
-      button(texts.takeBack, back, { id: "photo-back" }),
-      done,
-    ),
+    el("div.row", ball.root, button(texts.takeBack, back, "#photo-back"), done),
   );
 
   const pixel = (event: PointerEvent): Pixel =>

@@ -49,7 +49,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
     if (!drill) throw new TypeError(texts.drillThereIsNo(name));
     return drill;
   };
-  const note = el("p", { class: "note", id: "drill-note" });
+  const note = el("p#drill-note.note");
   const drillChoice = choice(
     "drill",
     texts.drill,
@@ -80,7 +80,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
       close();
       begin(setupOf(atOf(drillOf(drillChoice.select.value), BALLS), drillChoice.select.value));
     },
-    { id: "start-drill" },
+    "#start-drill",
   );
   const photo = photoPage({
     names: Array.from({ length: BALLS }, (_, k) => (k === 0 ? "cue" : String(k))),
@@ -102,12 +102,11 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
   describe();
   return {
     parts: [
-      el("h3", {}, texts.practice),
-      el("div", { class: "fields" }, drillChoice.root),
+      el("h3", texts.practice),
+      el("div.fields", drillChoice.root),
       note,
       el(
-        "div",
-        { class: "row" },
+        "div.row",
         start,
         button(
           texts.aTableFromA,
@@ -115,7 +114,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
             close();
             photo.open();
           },
-          { id: "open-photo" },
+          "#open-photo",
         ),
       ),
     ],

@@ -7,7 +7,7 @@ import { WOOD } from "../../../player/table.js";
 import { furnish } from "./furniture.js";
 import { IVORY, type Pose, type Table } from "../../../player/words.js";
 
-export interface SceneOf {
+interface SceneOf {
   table: Table;
   balls: { name: string; radius: number; colour: string }[];
   cloth: string;
@@ -17,7 +17,7 @@ export interface SceneOf {
  * The cue, how far its tip is from the cue ball's middle, and where the cue ball first meets
  * something, m.
  */
-export interface Stick {
+interface Stick {
   cue: Cue;
   gap: number;
   first: readonly number[] | undefined;

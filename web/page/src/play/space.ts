@@ -32,7 +32,7 @@ export class Space implements SpaceView {
   #scene: Scene | undefined;
   #play: Play | undefined;
   /** What is drawn over the scene: lines, and the numbers of balls. */
-  readonly #over = el("canvas", { class: "over-scene" });
+  readonly #over = el("canvas.over-scene");
   isOn = false;
   /** Whether the cue ball is being moved. */
   #moves = false;

@@ -27,20 +27,20 @@ import { choose, concede, mayConcede, togglePush, undo } from "./turns.js";
 import { texts, translate } from "../texts/texts.js";
 
 const wordsOf = (): Session["words"] => ({
-  turn: el("p", { id: "turn", role: "status" }),
-  score: el("p", { id: "score" }),
-  message: el("p", { id: "said", role: "status" }),
+  turn: el("p#turn", { role: "status" }),
+  score: el("p#score"),
+  message: el("p#said", { role: "status" }),
 });
 /** The balls on the table in words, for whoever does not see them; read anew at each opening. */
 function listOfBalls(s: Session): HTMLDetailsElement {
-  const list = el("ul", { id: "ball-list" });
-  const root = el("details", {}, el("summary", {}, texts.whereBallsLie), list);
+  const list = el("ul#ball-list");
+  const root = el("details", el("summary", texts.whereBallsLie), list);
   root.addEventListener("toggle", () => {
     const { balls, names } = s.play;
     const rows = balls.flatMap(({ state }, k) => {
       if (!onTable(state)) return [];
       const [across, up] = [state.r[0], state.r[1]].map((x) => (100 * x).toFixed(0));
-      return el("li", {}, texts.ballLiesAt(translate(names[k]!), across!, up!));
+      return el("li", texts.ballLiesAt(translate(names[k]!), across!, up!));
     });
     list.replaceChildren(...rows);
   });
@@ -61,7 +61,7 @@ function buttonsOf(session: () => Session): Session["buttons"] {
     text: string,
     press: (s: Session) => unknown,
     more: Record<string, string> = {},
-  ): HTMLButtonElement => button(text, () => void press(session()), { id, ...more });
+  ): HTMLButtonElement => button(text, () => void press(session()), `#${id}`, { ...more });
   return {
     menu: named("new-game", texts.newGame, () => undefined),
     hint: named("hint", texts.hint, (s) => s.coach.advise()),
@@ -117,7 +117,7 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
     sound: new Sound(settings.sound),
     words: wordsOf(),
     buttons: buttonsOf(() => s),
-    choices: CHOICES.map(([act, text]) => [act, button(text, () => choose(s, act), { id: act })]),
+    choices: CHOICES.map(([act, text]) => [act, button(text, () => choose(s, act), `#${act}`)]),
   });
   const session = Object.assign(s, {
     showing: showing(s),
@@ -161,7 +161,7 @@ function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typ
       games.root.close();
       action();
     };
-    return button(text, press, { id });
+    return button(text, press, `#${id}`);
   };
   const draw = (): void => {
     const { play } = s;
@@ -184,7 +184,7 @@ function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typ
       games.root.close();
       concede(s);
     },
-    { id: "concede" },
+    "#concede",
   );
   const rows = [
     shut(texts.linkToThisGame, "copy-game", () => void s.link.send()),
@@ -192,12 +192,7 @@ function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typ
     shut(texts.diagramToPrint, "open-diagram", draw),
     give,
   ];
-  const games = menu(
-    s,
-    ...s.training.parts,
-    el("h3", {}, texts.thisGame),
-    el("div", { class: "row" }, ...rows),
-  );
+  const games = menu(s, ...s.training.parts, el("h3", texts.thisGame), el("div.row", ...rows));
   s.buttons.menu.addEventListener("click", () => {
     give.textContent = texts.concede;
     give.hidden = !mayConcede(s.play);
@@ -213,24 +208,18 @@ export function playView(
   carom: Carom,
   main: HTMLElement,
 ): { update(): void; theme(): void; close(): void } {
-  const felt = el("section", { class: "felt", "aria-label": texts.table });
+  const felt = el("section.felt", { "aria-label": texts.table });
   const s = sessionOf(carom, felt);
   const { words, buttons, stroke } = s;
   aiming(s);
   const { overlays, diagram } = dialogs(s);
   const clock = shotClock(s);
   const bar = el(
-    "section",
-    { class: "play-bar", "aria-label": texts.game },
+    "section.play-bar",
+    { "aria-label": texts.game },
+    el("div.words", el("div.row.state", words.turn, words.score, clock.root), words.message),
     el(
-      "div",
-      { class: "words" },
-      el("div", { class: "row state" }, words.turn, words.score, clock.root),
-      words.message,
-    ),
-    el(
-      "div",
-      { class: "row tools" },
+      "div.row.tools",
       buttons.menu,
       buttons.hint,
       buttons.replay,
@@ -241,25 +230,10 @@ export function playView(
       ...s.choices.map(([, button]) => button),
       buttons.link,
     ),
-    el(
-      "div",
-      { class: "row strike" },
-      ...stroke.row.slice(0, -1),
-      buttons.skip,
-      ...stroke.row.slice(-1),
-    ),
+    el("div.row.strike", ...stroke.row.slice(0, -1), buttons.skip, ...stroke.row.slice(-1)),
   );
   main.replaceChildren(
-    el(
-      "div",
-      { class: "play" },
-      felt,
-      stroke.side,
-      bar,
-      stroke.numbers,
-      listOfBalls(s),
-      ...overlays,
-    ),
+    el("div.play", felt, stroke.side, bar, stroke.numbers, listOfBalls(s), ...overlays),
   );
 
   start(s, s.play, "");

@@ -40,7 +40,7 @@ export function pathsOf(shot: Shot, often = 25, most = 500): Path[] {
   return found;
 }
 
-export interface Layout {
+interface Layout {
   table: Table;
   balls: readonly ShotBall[];
   names: readonly string[];

@@ -71,6 +71,9 @@ export const POOL_TABLES: Record<
   "7ft": [texts.sevenFeet, "7ft"],
   tight: [texts.nineFeetCornersOf, "9ft", { cornerMouth: 0.10795 }],
 };
+export const POOL_TABLE_NAMES = Object.entries(POOL_TABLES).map(
+  ([key, [text]]) => [key, text] as const,
+);
 export const TABLES: readonly TableName[] = words.table.map(([word]) => word);
 
 /** A line that was read, and its game, in which ball k of the list is ball k. */

@@ -72,7 +72,7 @@ export function ballOf(names: readonly string[], ball: number): string {
   return Number(name) > 0 ? texts.ballNumber(name) : texts.theBallNamed(translate(name));
 }
 /** What a choice is, by which the cue ball may be known to meet a cushion first. */
-export function wordsOfChoice(
+function wordsOfChoice(
   table: Table,
   names: readonly string[],
   choice: Choice,

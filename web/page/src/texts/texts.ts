@@ -10,9 +10,9 @@ import { DICTIONARY, translate } from "../../../player/words.js";
 import german from "./de.json" with { type: "json" };
 import english from "./en.json" with { type: "json" };
 
-export type Part = string | number | boolean;
+type Part = string | number | boolean;
 type Lists = Record<"rules" | "letters" | "known", Record<string, string>>;
-export type LanguageFile = Pick<typeof english, "plain" | "filled"> & Lists;
+type LanguageFile = Pick<typeof english, "plain" | "filled"> & Lists;
 type Texts = LanguageFile["plain"] &
   Record<keyof LanguageFile["filled"], (...parts: Part[]) => string> &
   Lists;
