@@ -38,7 +38,7 @@ static carom_plan_job job_after(const carom_plan_job *job, const carom_ruling *r
 
 /* The best shot from what is left. */
 static carom_status plan_next(const carom_plan_job *job, const carom_ruling *ruling,
-                              carom_choice *choice) {
+                              carom_plan_stroke *choice) {
   carom_plan_rules rules;
   const carom_plan_job next = job_after(job, ruling, &rules);
   const double radius = job->balls[job->cue->ball].kind.radius;
@@ -72,7 +72,7 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
     fputs("the visit ends\n", out);
     return;
   }
-  carom_choice c;
+  carom_plan_stroke c;
   char pocket[WHERE_TEXT], ball[BALL_TEXT];
   if (plan_next(job, ruling, &c) != CAROM_OK)
     fputs("nothing to play\n", out);
@@ -144,12 +144,12 @@ static strokes play_with(const carom_plan_job *job, const carom_player *player,
   return s;
 }
 
-bool plan_names_ball(const carom_choice *choice) {
+bool plan_names_ball(const carom_plan_stroke *choice) {
   const bool is_meant = choice->kind == CAROM_PLAN_POT || choice->kind == CAROM_PLAN_GIVEN;
   return choice->ball >= 0 && (is_meant || choice->keep >= PLAN_LUCK);
 }
 
-void plan_play_again(const carom_plan_job *job, carom_choice *choice) {
+void plan_play_again(const carom_plan_job *job, carom_plan_stroke *choice) {
   const carom_call call = {choice->ball, choice->pocket};
   const strokes s = play_with(job, job->player, &choice->cue, call);
   const double n = WHY_STROKES, mean = s.worth / n;
@@ -170,7 +170,7 @@ static const char *percent(double share, char text[16]) {
 
 /* How often a stroke with errors misses, and what that leaves the other; and what it is worth more
  * without errors of speed, and without those of aim. */
-static void tell_misses(FILE *out, const carom_plan_job *job, const carom_choice *choice) {
+static void tell_misses(FILE *out, const carom_plan_job *job, const carom_plan_stroke *choice) {
   const carom_cue *cue = &choice->cue;
   const carom_call call = {choice->ball, choice->pocket};
   const strokes all = play_with(job, job->player, cue, call);
@@ -278,7 +278,7 @@ static void tell_speed(FILE *out, const carom_cue *cue, const carom_ball_kind *b
 }
 
 void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
-                   const carom_choice *choice) {
+                   const carom_plan_stroke *choice) {
   if (choice->kind == CAROM_PLAN_PASS)
     return;
   static carom_event events[EVENTS];

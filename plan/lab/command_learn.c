@@ -207,7 +207,7 @@ static void play(const learn_job *job, int number, visit *to) {
   make_rack(&rack, game, &draw);
 
   carom_turn turn = {.outcome = CAROM_TURN_KEEP};
-  carom_choice choice;
+  carom_plan_stroke choice;
   to->count = 0;
   while (turn.outcome == CAROM_TURN_KEEP && to->count < STROKES_MOST) {
     sample s = look(&rack);
@@ -329,7 +329,7 @@ static void print_row(const learn_job *job, const sample *s, size_t count) {
   printf("    {/* of %ld strokes: carom-lab learn --rules %s --racks %d --shots %d --seed %d */\n",
          strokes, game, job->racks, job->shots, job->seed);
   const int hand = carom_rules_about_of((carom_rules_kind)job->rules)->hand;
-  print_numbers(s, count, NEXT, NEXT_NUMBERS, "next", hand == CAROM_LEAVE_HAND);
+  print_numbers(s, count, NEXT, NEXT_NUMBERS, "next", hand == CAROM_LEAVE_ANYWHERE);
   print_numbers(s, count, LATER, LATER_NUMBERS, "later", false);
   print_numbers(s, count, FIRST, FIRST_NUMBERS, "first", false);
   carom_table table;

@@ -87,7 +87,7 @@ void lab_rack_end(lab_rack *rack, int left) {
   }
 }
 
-bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
+bool lab_rack_stroke(lab_rack *rack, carom_plan_stroke *choice, carom_turn *turn) {
   const carom_plan_job *job = &rack->plan;
   const int count = (int)job->count;
   int found;

@@ -5,7 +5,7 @@
 
 #include "carom_plan.h"
 
-_Static_assert(sizeof(carom_choice) == 27 * sizeof(double), "the room for choices");
+_Static_assert(sizeof(carom_plan_stroke) == 27 * sizeof(double), "the room for choices");
 
 /* A plan for the rack, with few shots. */
 static inline carom_plan_job plan_of(const every_input *in, every_room *room,
@@ -33,14 +33,14 @@ static inline carom_plan_job plan_of(const every_input *in, every_room *room,
     HASH(found);                                                               \
     return HASH(room->choice);                                                 \
   }
-EVERY_PLAN(plan, carom_plan(&job, (carom_choice *)room->choice, EVERY_FEW, &found))
+EVERY_PLAN(plan, carom_plan(&job, (carom_plan_stroke *)room->choice, EVERY_FEW, &found))
 EVERY_PLAN(plan_continue,
-           carom_plan(&job, (carom_choice *)room->choice, EVERY_FEW, &found) < 0
+           carom_plan(&job, (carom_plan_stroke *)room->choice, EVERY_FEW, &found) < 0
                ? CAROM_ERROR_NULL
-               : carom_plan_continue(&job, (carom_choice *)room->choice, EVERY_FEW, &found))
+               : carom_plan_continue(&job, (carom_plan_stroke *)room->choice, EVERY_FEW, &found))
 EVERY_PLAN(plan_hand,
-           carom_plan_hand(&job, NULL, NULL, (carom_choice *)room->choice, EVERY_FEW, &found))
-EVERY_PLAN(plan_try, carom_plan_try(&job, in->cue, 2, (carom_choice *)room->choice))
+           carom_plan_hand(&job, NULL, NULL, (carom_plan_stroke *)room->choice, EVERY_FEW, &found))
+EVERY_PLAN(plan_try, carom_plan_try(&job, in->cue, 2, (carom_plan_stroke *)room->choice))
 EVERY_PLAN(plan_value, carom_plan_value(&job, 1, &room->choice[0]))
 EVERY_BODY(aim) {
   for (int pocket = 0; pocket < 6; pocket++) {
@@ -176,9 +176,9 @@ EVERY_BODY(match_begin_to) {
 }
 EVERY_ACT(match_place, carom_match_place(&room->match, 0, 0.7, 0.5))
 EVERY_ACT(match_call, carom_match_call(&room->match, 0, (carom_call){3, 1}))
-EVERY_ACT(match_choose, carom_match_choose(&room->match, 0, CAROM_MAY_PASS))
+EVERY_ACT(match_choose, carom_match_choose(&room->match, 0, CAROM_CHOICE_PASS))
 EVERY_ACT(match_prepare,
-          carom_match_prepare(&room->match, 0, &(carom_choice){.ball = 3, .pocket = 1}))
+          carom_match_prepare(&room->match, 0, &(carom_plan_stroke){.ball = 3, .pocket = 1}))
 EVERY_ACT(match_stroke, carom_match_stroke(&room->match, 0, &in->cue[0], NULL, NULL))
 EVERY_ACT(match_continue, carom_match_continue(&room->match, NULL, NULL))
 EVERY_ACT(match_concede, carom_match_concede(&room->match, 1))
@@ -200,7 +200,7 @@ EVERY_BODY(match_plan) {
                         .options = &options,
                         .memory = room->plan,
                         .memory_size = carom_plan_memory(&options)};
-  carom_choice choice;
+  carom_plan_stroke choice;
   int found = 0;
   STATUS(carom_match_plan(&room->match, &job, &choice, 1, &found));
   return HASH(choice);

@@ -77,7 +77,7 @@ static carom_ruling ruling;
 static carom_record record;
 static carom_shot_job job;
 static carom_tangent_job tangent_job;
-static carom_choice choices[4];
+static carom_plan_stroke choices[4];
 static carom_match match;
 static carom_bounds bounds;
 static carom_bank bank;
@@ -168,7 +168,7 @@ static carom_match *moving(void) {
   carom_match_stroke(ready(), 0, &cue, &half, NULL);
   return &match;
 }
-static const carom_choice safety = {.ball = -1};
+static const carom_plan_stroke safety = {.ball = -1};
 static const char *line_of_record(void) {
   carom_record_write(&record, CAROM_RECORD_HEAD, text, sizeof text);
   return text;
@@ -217,11 +217,12 @@ static const carom_options *no_options;
   F(match_begin_at,                                                                                \
     carom_match_begin_at(PTR(&match), ANYENUM(carom_rules_kind, CAROM_RULES_NINEBALL),             \
                          MAYBE(&rules), PTR(&table), PTR(balls), INT(BALLS), NULL,                 \
-                         ENUM(carom_leave, CAROM_LEAVE_HAND), INT(0)))                             \
+                         ENUM(carom_leave, CAROM_LEAVE_ANYWHERE), INT(0)))                         \
   F(match_call,                                                                                    \
     (carom_match_call(MAYBE(ready()), ANYINT(0), ((carom_call){ANYINT(1), ANYINT(1)})), ACCEPTED)) \
   F(match_choose,                                                                                  \
-    (carom_match_choose(MAYBE(ready()), ANYINT(0), ANYENUM(carom_may, CAROM_MAY_PUSH)), ACCEPTED)) \
+    (carom_match_choose(MAYBE(ready()), ANYINT(0), ANYENUM(carom_choice, CAROM_CHOICE_PUSH)),      \
+     ACCEPTED))                                                                                    \
   F(match_clock, carom_match_clock(PTR(ready()), INT(0)))                                          \
   F(match_concede, carom_match_concede(PTR(ready()), INT(0)))                                      \
   F(match_continue, carom_match_continue(PTR(moving()), NULL, MAYBE(&other)))                      \

@@ -12,7 +12,7 @@ import {
   type Game,
   type GameState,
   type Match,
-  type May,
+  type Choice,
   type Ruling,
   type Shot,
   type ShotBall,
@@ -237,7 +237,7 @@ export class Play {
     return this.#match?.bounds;
   }
   /** The choices besides a stroke. */
-  get acts(): readonly May[] {
+  get acts(): readonly Choice[] {
     return this.#match?.may ?? [];
   }
   /** The points of each. */
@@ -320,7 +320,7 @@ export class Play {
     return this.#ruled(situation, true);
   }
   /** Takes a choice instead of a stroke. */
-  choose(what: May): Stroke {
+  choose(what: Choice): Stroke {
     const situation = this.#situation(this.carom.cue(), what === "pass" ? what : undefined);
     this.#match!.choose(what);
     return this.#ruled(situation, false);
