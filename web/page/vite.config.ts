@@ -4,12 +4,12 @@ import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { build, defineConfig, type Plugin, type Rollup, transformWithEsbuild } from "vite";
 
-const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
+const pathOf = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 
 /** The view in three dimensions as a module by itself, and the modules in it. */
 async function sceneModule(): Promise<{ code: string; modules: string[] }> {
-  const lib = { entry: here("src/play/scene.ts"), formats: ["es" as const] };
-  const [made] = (await build({
+  const lib = { entry: pathOf("src/play/scene.ts"), formats: ["es" as const] };
+  const [output] = (await build({
     configFile: false,
     logLevel: "warn",
     build: {
@@ -20,7 +20,7 @@ async function sceneModule(): Promise<{ code: string; modules: string[] }> {
       rollupOptions: { output: { inlineDynamicImports: true } },
     },
   })) as Rollup.RollupOutput[];
-  const [chunk] = made!.output;
+  const [chunk] = output!.output;
   // Vite leaves the space in modules of libraries.
   return {
     code: (await transformWithEsbuild(chunk.code, "scene.js", { minify: true, target: "es2022" }))
@@ -35,7 +35,7 @@ async function sceneModule(): Promise<{ code: string; modules: string[] }> {
  */
 function gzip(text: string): Buffer {
   const zopfli = spawnSync(
-    here("../../build/web/zopfli/bin/python3"),
+    pathOf("../../build/web/zopfli/bin/python3"),
     [
       "-c",
       "import sys, zopfli.gzip as z; sys.stdout.buffer.write(z.compress(sys.stdin.buffer.read()))",
@@ -60,8 +60,8 @@ function licences(modules: string[]): string {
     modules.flatMap((name) => name.match(/^.*\/node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []),
   );
   const texts = [
-    here("../../LICENSE"),
-    here("../npm/NOTICES"),
+    pathOf("../../LICENSE"),
+    pathOf("../npm/NOTICES"),
     ...[...packages].map(licenceFile),
   ].map((file) =>
     readFileSync(file, "utf8")
@@ -134,7 +134,7 @@ function moduleOfPage(): Plugin {
     load(id) {
       if (id.endsWith("/generated/plain.js")) return 'export default "";';
       if (!id.endsWith("/generated/simd.js")) return undefined;
-      const module = readFileSync(here("../../build/web/page.wasm.gz")).toString("base64");
+      const module = readFileSync(pathOf("../../build/web/page.wasm.gz")).toString("base64");
       return `export default "${module}";`;
     },
   };
@@ -151,22 +151,22 @@ function compressed(): Plugin {
         if (!isPage || !accepts) return next();
         response.setHeader("content-type", "text/html; charset=utf-8");
         response.setHeader("content-encoding", "gzip");
-        response.end(gzipSync(readFileSync(here("dist/index.html")), { level: 9 }));
+        response.end(gzipSync(readFileSync(pathOf("dist/index.html")), { level: 9 }));
       });
     },
   };
 }
 
 export default defineConfig({
-  root: here("."),
+  root: pathOf("."),
   base: "./",
   define: {
-    MEASURED: JSON.stringify(readFileSync(here("../../data/experiments.csv"), "utf8")),
-    DRILLS: JSON.stringify(readFileSync(here("../../data/drills.csv"), "utf8")),
+    MEASURED: JSON.stringify(readFileSync(pathOf("../../data/experiments.csv"), "utf8")),
+    DRILLS: JSON.stringify(readFileSync(pathOf("../../data/drills.csv"), "utf8")),
   },
   build: {
     target: "es2022",
-    outDir: here("dist"),
+    outDir: pathOf("dist"),
     emptyOutDir: true,
     cssCodeSplit: false,
     modulePreload: false,

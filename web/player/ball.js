@@ -15,7 +15,7 @@ const NUMBER = 0.52;
 const DOT = 0.2;
 
 /**
- * A pixel beside another one, by a way on the table. @param {View} view @param {Point} at @param
+ * A pixel beside another one, by a way on the table. @param {View} view @param {Point} centre @param
  * {number} x @param {number} y @returns {[number, number]}
  */
 const onCanvas = (view, [px, py], x, y) => (view.upright ? [px + x, py - y] : [px + y, py + x]);
@@ -23,11 +23,11 @@ const onCanvas = (view, [px, py], x, y) => (view.upright ? [px + x, py - y] : [p
 /**
  * A cap of a ball, around a direction on it, as it is seen from above. The part beyond the rim lies
  * on the rim.
- * @param {CanvasRenderingContext2D} g @param {View} view @param {Point} at on the canvas @param
+ * @param {CanvasRenderingContext2D} g @param {View} view @param {Point} centre on the canvas @param
  *   {number} radius pixels
  * @param {readonly number[]} n towards the cap's middle @param {number} angle @param {string} fill
  */
-function cap(g, view, at, radius, n, angle, fill) {
+function cap(g, view, centre, radius, n, angle, fill) {
   const flat = Math.hypot(n[0], n[1]);
   if (n[2] <= 0 && flat <= Math.cos(angle)) return;
   const [ux, uy] = flat > 1e-9 ? [n[0] / flat, n[1] / flat] : [1, 0];
@@ -41,7 +41,9 @@ function cap(g, view, at, radius, n, angle, fill) {
     const y = uy * along + ux * s;
     const z = n[2] * Math.cos(angle) + flat * c;
     const rim = z < 0 ? Math.hypot(x, y) : 1;
-    g[k === 0 ? "moveTo" : "lineTo"](...onCanvas(view, at, (radius * x) / rim, (radius * y) / rim));
+    g[k === 0 ? "moveTo" : "lineTo"](
+      ...onCanvas(view, centre, (radius * x) / rim, (radius * y) / rim),
+    );
   }
   g.fillStyle = fill;
   g.fill();
@@ -61,12 +63,12 @@ function axesOf({ 0: w, 1: i, 2: j, 3: n }) {
 
 /**
  * The number lies on the ball: its right and its lower side are axes of the ball, as they are seen.
- * @param {CanvasRenderingContext2D} g @param {View} view @param {Point} at @param {number} radius
+ * @param {CanvasRenderingContext2D} g @param {View} view @param {Point} centre @param {number} radius
  *   @param {string} name
  * @param {readonly number[]} up @param {readonly number[]} right @param {readonly number[]} down */
-function drawNumber(g, view, at, radius, name, up, right, down) {
+function drawNumber(g, view, centre, radius, name, up, right, down) {
   g.save();
-  g.translate(...onCanvas(view, at, radius * up[0], radius * up[1]));
+  g.translate(...onCanvas(view, centre, radius * up[0], radius * up[1]));
   g.transform(
     ...onCanvas(view, [0, 0], right[0], right[1]),
     ...onCanvas(view, [0, 0], down[0], down[1]),
@@ -110,7 +112,7 @@ function lightOf() {
  * radius: number }} ball @param {number} k @param {Pose} pose
  * @param {number} alpha @param {string} [ring] */
 export function drawBall(g, view, { name, radius: R }, k, { r, q }, alpha, ring) {
-  const at = view.place(r[0], r[1]);
+  const centre = view.place(r[0], r[1]);
   // One that flies looks larger, one that falls in a pocket smaller.
   const radius = Math.max(R * view.scale * (1 + (r[2] > R ? 1 : 3) * (r[2] - R)), 3);
   const colour = colourOf(name, k, R);
@@ -125,29 +127,30 @@ export function drawBall(g, view, { name, radius: R }, k, { r, q }, alpha, ring)
   disc(g, view, r, radius);
   for (const sign of [1, -1]) {
     const [x, y, z] = axes.map((axis) => axis.map((c) => sign * c));
-    if (number > 8) cap(g, view, at, radius, x, END, IVORY);
+    if (number > 8) cap(g, view, centre, radius, x, END, IVORY);
     if (!(number > 0))
       for (const axis of [x, y, z])
-        cap(g, view, at, radius, axis, DOT, colour === IVORY ? POOL[2] : "#ffffff90");
+        cap(g, view, centre, radius, axis, DOT, colour === IVORY ? POOL[2] : "#ffffff90");
     else {
-      cap(g, view, at, radius, z, NUMBER, IVORY);
+      cap(g, view, centre, radius, z, NUMBER, IVORY);
       if (z[2] < 0.2 || radius < 6) continue;
       if (view.upright)
         drawNumber(
           g,
           view,
-          at,
+          centre,
           radius,
           name,
           z,
           x,
           axes[1].map((c) => -c),
         );
-      else drawNumber(g, view, at, radius, name, z, y, axes[0]);
+      else drawNumber(g, view, centre, radius, name, z, y, axes[0]);
     }
   }
   // The light, and the rim.
-  if (radius >= 5) g.drawImage(lightOf(), at[0] - radius, at[1] - radius, 2 * radius, 2 * radius);
+  if (radius >= 5)
+    g.drawImage(lightOf(), centre[0] - radius, centre[1] - radius, 2 * radius, 2 * radius);
   for (const [colour, beyond] of /** @type {[string, number][]} */ (
     ring
       ? [
@@ -159,7 +162,7 @@ export function drawBall(g, view, { name, radius: R }, k, { r, q }, alpha, ring)
     g.strokeStyle = colour;
     g.lineWidth = beyond || 1;
     g.beginPath();
-    g.arc(...at, radius + beyond, 0, 7);
+    g.arc(...centre, radius + beyond, 0, 7);
     g.stroke();
   }
   g.globalAlpha = 1;

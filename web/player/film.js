@@ -59,7 +59,7 @@ export function drawTrails(g, view, { balls, shots, apart = false }) {
 export function drawBalls(g, view, { balls, shots, apart = false }, time) {
   shots.forEach((shot, index) => {
     shot
-      .at(Math.min(time, shot.time))
+      .poses(Math.min(time, shot.time))
       .forEach(
         (pose, k) =>
           pose.seen &&
@@ -87,21 +87,21 @@ export function recorded({ table, balls, shots }) {
   const filmed = shots.map(({ times, poses, events }, index) => ({
     time: times[times.length - 1],
     /** @param {number} time */
-    at(time) {
+    poses(time) {
       const k = times.findLastIndex((t) => t <= time);
-      const since = time - times[k];
+      const elapsed = time - times[k];
       return poses.map((pose) => {
         const moves = pose.length > 10;
-        const [from, to] = moves ? [10 * k, 10 * Math.min(k + 1, times.length - 1)] : [0, 0];
-        const share = to > from ? since / (times[k + 1] - times[k]) : 0;
-        const r = [0, 1, 2].map((c) => pose[from + c] + share * (pose[to + c] - pose[from + c]));
+        const [start, end] = moves ? [10 * k, 10 * Math.min(k + 1, times.length - 1)] : [0, 0];
+        const share = end > start ? elapsed / (times[k + 1] - times[k]) : 0;
+        const r = [0, 1, 2].map((c) => pose[start + c] + share * (pose[end + c] - pose[start + c]));
         // It turns on by its spin.
-        const spin = pose.slice(from + 7, from + 10);
+        const spin = pose.slice(start + 7, start + 10);
         const rate = Math.hypot(...spin);
-        const c = Math.cos((rate * since) / 2);
-        const s = rate > 0 ? Math.sin((rate * since) / 2) / rate : 0;
-        const q = product([c, ...spin.map((part) => part * s)], pose.slice(from + 3, from + 7));
-        return { r, q, seen: pose[from + 2] >= 0 && (moves || index === 0) };
+        const c = Math.cos((rate * elapsed) / 2);
+        const s = rate > 0 ? Math.sin((rate * elapsed) / 2) / rate : 0;
+        const q = product([c, ...spin.map((part) => part * s)], pose.slice(start + 3, start + 7));
+        return { r, q, seen: pose[start + 2] >= 0 && (moves || index === 0) };
       });
     },
     paths: poses.flatMap((pose, ball) =>

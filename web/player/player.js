@@ -3,46 +3,57 @@
 import { drawBall } from "./ball.js";
 import { drawBalls, drawTrails } from "./film.js";
 import { clothFor, fitTable, viewOf } from "./table.js";
-import { told } from "./words.js";
+import { translate } from "./words.js";
 
 /** @import { Film, Hooks, Point, Pose } from "./words.js" */
 /** @typedef {ReturnType<typeof parts>} Parts */
 /**
- * What a player shows, and when of it, s; `before` is when the last frame was drawn, ms, and `all`
- * has the events of all shots.
- * @typedef {{ film: Film | undefined, time: number, end: number, playing: boolean, before: number,
+ * What a player shows, and when of it, s; `frameTime` is when the last frame was drawn, ms, and
+ * `allEvents` has the events of all shots.
+ * @typedef {{ film: Film | undefined, time: number, end: number, playing: boolean, frameTime: number,
  *   listing: number,
- *   all: { time: number, text: string }[] }} Clock */
+ *   allEvents: { time: number, text: string }[] }} Clock */
 
 /**
- * @template {keyof HTMLElementTagNameMap} K @param {K} tag @param {Record<string, string>}
- * attributes @param {(Node | string | undefined)[]} children
+ * The element of a selector such as "p#said.note". @template {string} S
+ * @typedef {S extends `${infer T}#${string}` ? T : S extends `${infer T}.${string}` ? T : S} TagOf */
+
+/**
+ * An element by its name, id and classes, as a selector has them; then its attributes and its
+ * children. @template {string} S @param {S} selector
+ * @param {(Record<string, string> | Node | string | undefined)[]} parts
+ * @returns {HTMLElementTagNameMap[TagOf<S> & keyof HTMLElementTagNameMap]}
  */
-export function make(tag, attributes = {}, ...children) {
-  const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.append(...children.filter((child) => child !== undefined));
-  return made;
+export function make(selector, ...parts) {
+  const [name, ...classes] = selector.split(".");
+  const [tag, id] = name.split("#");
+  const element = document.createElement(
+    /** @type {TagOf<S> & keyof HTMLElementTagNameMap} */ (tag),
+  );
+  if (id) element.id = id;
+  if (classes.length > 0) element.className = classes.join(" ");
+  for (const part of parts)
+    if (typeof part === "string" || part instanceof Node) element.append(part);
+    else for (const [key, value] of Object.entries(part ?? {})) element.setAttribute(key, value);
+  return element;
 }
 
 /** The elements of a player. */
 function parts() {
-  const canvas = make("canvas", {
-    class: "scene",
-    id: "table-scene",
+  const canvas = make("canvas#table-scene.scene", {
     role: "img",
     tabindex: "0",
-    "aria-label": told("A billiard table from above"),
+    "aria-label": translate("A billiard table from above"),
   });
-  const play = make("button", { type: "button", id: "play" }, told("Play"));
+  const play = make("button#play", { type: "button" }, translate("Play"));
   const back = make(
-    "button",
-    { type: "button", id: "back", "aria-label": told("Previous event") },
+    "button#back",
+    { type: "button", "aria-label": translate("Previous event") },
     "◀",
   );
   const forward = make(
-    "button",
-    { type: "button", id: "forward", "aria-label": told("Next event") },
+    "button#forward",
+    { type: "button", "aria-label": translate("Next event") },
     "▶",
   );
   const paces = /** @type {const} */ ([
@@ -50,37 +61,36 @@ function parts() {
     ["0.25", "1/4 ×"],
     ["0.1", "1/10 ×"],
     ["4", "4 ×"],
-    ["1000", told("at once")],
+    ["1000", translate("at once")],
   ]);
   const pace = make(
-    "select",
-    { id: "rate", "aria-label": told("Speed of the film") },
+    "select#rate",
+    { "aria-label": translate("Speed of the film") },
     ...paces.map(([value, text]) => make("option", { value }, text)),
   );
-  const slider = make("input", {
+  const slider = make("input#time", {
     type: "range",
-    id: "time",
     min: "0",
     step: "0.001",
-    "aria-label": told("Time of the film"),
+    "aria-label": translate("Time of the film"),
   });
-  const said = make("output", { id: "time-value", for: "time" });
-  const controls = make("div", { class: "row film" }, play, back, forward, pace, slider, said);
-  const list = make("ol", {});
+  const output = make("output#time-value", { for: "time" });
+  const controls = make("div.row.film", play, back, forward, pace, slider, output);
+  const list = make("ol");
   const events = make(
-    "div",
-    { class: "events", tabindex: "0", role: "region", "aria-label": told("Events") },
+    "div.events",
+    { tabindex: "0", role: "region", "aria-label": translate("Events") },
     list,
   );
-  return { canvas, play, back, forward, pace, slider, said, controls, list, events };
+  return { canvas, play, back, forward, pace, slider, output, controls, list, events };
 }
 
 /** Tells the time, and marks the event that was last. @param {Parts} of @param {Clock} clock */
-function tellTime({ slider, said, list, events }, { time, all }) {
+function tellTime({ slider, output, list, events }, { time, allEvents }) {
   slider.value = String(time);
-  said.textContent = `${time.toFixed(2)} s`;
-  slider.setAttribute("aria-valuetext", said.textContent);
-  const current = list.children[all.findLastIndex((event) => event.time <= time + 1e-9)];
+  output.textContent = `${time.toFixed(2)} s`;
+  slider.setAttribute("aria-valuetext", output.textContent);
+  const current = list.children[allEvents.findLastIndex((event) => event.time <= time + 1e-9)];
   const old = list.querySelector('[aria-current="true"]');
   if (old === current) return;
   old?.removeAttribute("aria-current");
@@ -89,27 +99,27 @@ function tellTime({ slider, said, list, events }, { time, all }) {
 }
 
 /**
- * Lists the events; one that is pressed goes to its time. @param {Parts} of @param {Clock} clock
+ * Lists the events; one that is pressed goes to its time. @param {Parts} widgets @param {Clock} clock
  * @param {(to: number) => void} go
  */
-function listEvents(of, clock, go) {
-  of.list.replaceChildren(
-    ...clock.all.map((event) => {
+function listEvents(widgets, clock, go) {
+  widgets.list.replaceChildren(
+    ...clock.allEvents.map((event) => {
       const row = make(
         "button",
         { type: "button" },
-        make("span", {}, `${event.time.toFixed(3)} s`),
-        make("span", {}, event.text),
+        make("span", `${event.time.toFixed(3)} s`),
+        make("span", event.text),
       );
       row.addEventListener("click", () => go(event.time));
-      return make("li", {}, row);
+      return make("li", row);
     }),
   );
-  tellTime(of, clock);
+  tellTime(widgets, clock);
 }
 
 /**
- * What draws the film at the time of its clock. @param {Parts} of @param {Clock} clock @param
+ * What draws the film at the time of its clock. @param {Parts} widgets @param {Clock} clock @param
  * {ReturnType<typeof viewOf>} view @param {Hooks} hooks
  */
 function drawing({ canvas }, clock, view, { over, hidden, sharp = 1 }) {
@@ -128,23 +138,24 @@ function drawing({ canvas }, clock, view, { over, hidden, sharp = 1 }) {
 }
 
 /**
- * The hands of the clock: to a time, on with each frame, and stopped. @param {Parts} of @param
+ * The hands of the clock: to a time, on with each frame, and stopped. @param {Parts} widgets @param
  * {Clock} clock @param {Hooks} hooks @param {() => void} draw
  */
-function winding(of, clock, { ended, moved, still = () => false }, draw) {
-  /** @param {number} to */
-  function put(to) {
-    clock.time = to;
-    tellTime(of, clock);
+function winding(widgets, clock, { ended, moved, still = () => false }, draw) {
+  /** @param {number} time */
+  function put(time) {
+    clock.time = time;
+    tellTime(widgets, clock);
     draw();
     moved?.();
   }
-  /** @param {number} now */
-  function frame(now) {
+  /** @param {number} time */
+  function frame(time) {
     if (!clock.playing) return;
     // the first frame may have begun before the start
-    const step = Math.max(Math.min((now - clock.before) / 1000, 0.1), 0) * Number(of.pace.value);
-    clock.before = now;
+    const step =
+      Math.max(Math.min((time - clock.frameTime) / 1000, 0.1), 0) * Number(widgets.pace.value);
+    clock.frameTime = time;
     put(Math.min(clock.time + step, clock.end));
     if (clock.time < clock.end) return void requestAnimationFrame(frame);
     stop();
@@ -154,35 +165,35 @@ function winding(of, clock, { ended, moved, still = () => false }, draw) {
     if (!clock.film) return;
     if (clock.time >= clock.end) clock.time = 0;
     clock.playing = true;
-    of.play.textContent = told("Pause");
-    clock.before = performance.now();
+    widgets.play.textContent = translate("Pause");
+    clock.frameTime = performance.now();
     requestAnimationFrame(frame);
   }
   function stop() {
     clock.playing = false;
-    of.play.textContent = told("Play");
+    widgets.play.textContent = translate("Play");
   }
-  /** @param {number} to */
-  function go(to) {
-    if (still()) return tellTime(of, clock);
+  /** @param {number} time */
+  function go(time) {
+    if (still()) return tellTime(widgets, clock);
     stop();
-    put(to);
+    put(time);
   }
-  /** To the next event, or the one before. @param {1 | -1} by */
-  function step(by) {
+  /** To the next event, or the one before. @param {1 | -1} direction */
+  function step(direction) {
     const next =
-      by > 0
-        ? clock.all.find((event) => event.time > clock.time + 1e-9)
-        : clock.all.findLast((event) => event.time < clock.time - 1e-9);
+      direction > 0
+        ? clock.allEvents.find((event) => event.time > clock.time + 1e-9)
+        : clock.allEvents.findLast((event) => event.time < clock.time - 1e-9);
     if (next) go(next.time);
   }
-  of.play.addEventListener("click", () => {
+  widgets.play.addEventListener("click", () => {
     if (!clock.playing) start();
     else if (!still()) stop();
   });
-  of.back.addEventListener("click", () => step(-1));
-  of.forward.addEventListener("click", () => step(1));
-  of.slider.addEventListener("input", () => go(of.slider.valueAsNumber));
+  widgets.back.addEventListener("click", () => step(-1));
+  widgets.forward.addEventListener("click", () => step(1));
+  widgets.slider.addEventListener("input", () => go(widgets.slider.valueAsNumber));
   return { start, stop, go, step };
 }
 
@@ -191,7 +202,7 @@ function winding(of, clock, { ended, moved, still = () => false }, draw) {
  * not the reader's now;
  * `sharp` is how many pixels of the picture there are at least for one of the page. */
 export function player(hooks = {}) {
-  const of = parts();
+  const widgets = parts();
   const view = viewOf();
   /** @type {Clock} */
   const clock = {
@@ -199,12 +210,12 @@ export function player(hooks = {}) {
     time: 0,
     end: 0,
     playing: false,
-    before: 0,
+    frameTime: 0,
     listing: 0,
-    all: [],
+    allEvents: [],
   };
-  const draw = drawing(of, clock, view, hooks);
-  const hands = winding(of, clock, hooks, draw);
+  const draw = drawing(widgets, clock, view, hooks);
+  const hands = winding(widgets, clock, hooks, draw);
 
   /** Shows the start of a film. @param {Film} next */
   function show(next) {
@@ -214,32 +225,32 @@ export function player(hooks = {}) {
       film: next,
       time: 0,
       end,
-      all: next.shots.flatMap((shot) => shot.events).sort((a, b) => a.time - b.time),
+      allEvents: next.shots.flatMap((shot) => shot.events).sort((a, b) => a.time - b.time),
     });
-    of.slider.max = String(Math.max(end, 0.001));
+    widgets.slider.max = String(Math.max(end, 0.001));
     // The list waits until nothing has changed for a moment: it costs more than a shot.
     window.clearTimeout(clock.listing);
-    of.list.replaceChildren();
-    clock.listing = window.setTimeout(() => listEvents(of, clock, hands.go), 100);
-    tellTime(of, clock);
+    widgets.list.replaceChildren();
+    clock.listing = window.setTimeout(() => listEvents(widgets, clock, hands.go), 100);
+    tellTime(widgets, clock);
     draw();
   }
   /**
    * Shows the table so many times larger, with a point of it in the middle, m. 1: all of it. @param
-   * {number} times @param {Point} [at]
+   * {number} times @param {Point} [place]
    */
-  function look(times, at) {
+  function look(times, place) {
     view.zoom = Math.min(Math.max(times, 1), 6);
-    if (at) view.middle = at;
+    if (place) view.middle = place;
     draw();
   }
 
   return {
-    canvas: of.canvas,
-    controls: of.controls,
-    events: of.events,
-    play: of.play,
-    pace: of.pace,
+    canvas: widgets.canvas,
+    controls: widgets.controls,
+    events: widgets.events,
+    play: widgets.play,
+    pace: widgets.pace,
     show,
     draw,
     look,

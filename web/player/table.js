@@ -80,13 +80,13 @@ export function fitTable(view, canvas, table, sharp) {
   const { zoom, middle } = view;
   if (zoom > 1 && middle) {
     // No further than the wood.
-    const at = view.place(...middle);
+    const centre = view.place(...middle);
     view.scale *= zoom;
     view.offset = /** @type {[number, number]} */ (
       [width, height].map(
         (size, k) =>
           size / 2 -
-          Math.min(Math.max(zoom * at[k], size / 2), (zoom - 0.5) * size) +
+          Math.min(Math.max(zoom * centre[k], size / 2), (zoom - 0.5) * size) +
           zoom * view.offset[k],
       )
     );
@@ -137,11 +137,11 @@ export function arcOf(table, { centre, radius }) {
     .flatMap(({ p, q }) => [p, q])
     .filter(([x, y]) => Math.abs(Math.hypot(x - centre[0], y - centre[1]) - radius) < 1e-3);
   if (ends.length !== 2) return [];
-  const [from, to] = ends.map(([x, y]) => Math.atan2(y - centre[1], x - centre[0]));
-  const turned = Math.atan2(Math.sin(to - from), Math.cos(to - from));
+  const [start, end] = ends.map(([x, y]) => Math.atan2(y - centre[1], x - centre[0]));
+  const turned = Math.atan2(Math.sin(end - start), Math.cos(end - start));
   return Array.from({ length: 9 }, (_, k) => [
-    centre[0] + radius * Math.cos(from + (turned * k) / 8),
-    centre[1] + radius * Math.sin(from + (turned * k) / 8),
+    centre[0] + radius * Math.cos(start + (turned * k) / 8),
+    centre[1] + radius * Math.sin(start + (turned * k) / 8),
   ]);
 }
 
@@ -156,11 +156,13 @@ function drawPockets(g, view, table, bed) {
     .concat(...table.jaws.map((jaw) => arcOf(table, jaw)));
   for (const { centre, radius } of table.pockets) {
     const mouth = facings.filter(([x, y]) => Math.hypot(x - centre[0], y - centre[1]) < 3 * radius);
-    const middle = [0, 1].map((c) => mouth.reduce((sum, at) => sum + at[c], 0) / mouth.length);
+    const middle = [0, 1].map(
+      (c) => mouth.reduce((sum, point) => sum + point[c], 0) / mouth.length,
+    );
     const angle = (/** @type {Point} */ [x, y]) => Math.atan2(y - middle[1], x - middle[0]);
     g.beginPath();
-    for (const at of mouth.sort((one, other) => angle(one) - angle(other)))
-      g.lineTo(...view.place(at[0], at[1]));
+    for (const point of mouth.sort((a, b) => angle(a) - angle(b)))
+      g.lineTo(...view.place(point[0], point[1]));
     g.fillStyle = bed;
     g.fill();
     g.fillStyle = "#241811"; // the leather around the hole
@@ -210,9 +212,9 @@ function drawLight(g, view, table) {
 export function markingsOf({ width, length, pockets }) {
   const middle = width / 2;
   if (pockets.length === 0) return { lines: [], spots: [] };
-  const at = (/** @type {number[]} */ ...heights) =>
+  const pointsOf = (/** @type {number[]} */ ...heights) =>
     heights.map((y) => /** @type {Point} */ ([middle, y]));
-  if (length < 3) return { lines: [], spots: at(length / 4, (3 * length) / 4) };
+  if (length < 3) return { lines: [], spots: pointsOf(length / 4, (3 * length) / 4) };
   const baulk = 0.7366;
   const radius = 0.2921;
   const d = Array.from({ length: 25 }, (_, k) => {
@@ -232,7 +234,7 @@ export function markingsOf({ width, length, pockets }) {
     [middle - radius, baulk],
     [middle + radius, baulk],
   ];
-  const spots = at(baulk, length / 2, (3 * length) / 4, length - 0.32385);
+  const spots = pointsOf(baulk, length / 2, (3 * length) / 4, length - 0.32385);
   return { lines: [line, d], spots: [...corners, ...spots] };
 }
 
@@ -321,7 +323,7 @@ export function clothFor(view, canvas) {
     const [bed, wood] = ["--cloth", "--rail"].map((name) =>
       getComputedStyle(canvas).getPropertyValue(name).trim(),
     );
-    const now = [
+    const state = [
       width,
       height,
       dpr,
@@ -333,8 +335,8 @@ export function clothFor(view, canvas) {
       view.scale,
       ...view.offset,
     ].join();
-    if (now === drawn) return cloth;
-    drawn = now;
+    if (state === drawn) return cloth;
+    drawn = state;
     [cloth.width, cloth.height] = [canvas.width, canvas.height];
     const g = /** @type {CanvasRenderingContext2D} */ (cloth.getContext("2d", { alpha: false }));
     g.setTransform(dpr, 0, 0, dpr, 0, 0);

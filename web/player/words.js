@@ -15,7 +15,7 @@
 /**
  * A shot: its poses at a time, s; x, y, z of the balls that move, point after point; what happens
  * when.
- * @typedef {{ time: number, at(time: number): Pose[], paths: { ball: number, xyz: ArrayLike<number>
+ * @typedef {{ time: number, poses(time: number): Pose[], paths: { ball: number, xyz: ArrayLike<number>
  *   }[], events: { time: number, text: string }[] }} Shot
  */
 /**
@@ -93,7 +93,7 @@ export function pocketName({ width, length, pockets }, pocket) {
  */
 export const DICTIONARY = {};
 /** A word in the reader's language; one that is not known stays English. @param {string} word */
-export const told = (word) => DICTIONARY[word] ?? word;
+export const translate = (word) => DICTIONARY[word] ?? word;
 
 /** @type {Record<string, string>} */
 const EVENTS = {
@@ -112,7 +112,8 @@ const EVENTS = {
  * @param {number} a @param {number} b
  */
 export function wordsOf(table, names, type, a, b) {
-  if (type === "stick_ball") return told("the cue strikes");
-  if (type === "ball_ball") return `${told(names[a])} ${told("hits")} ${told(names[b])}`;
-  return `${told(names[a])}: ${told(type === "ball_pocket" ? pocketName(table, b) : (EVENTS[type] ?? type))}`;
+  if (type === "stick_ball") return translate("the cue strikes");
+  if (type === "ball_ball")
+    return `${translate(names[a])} ${translate("hits")} ${translate(names[b])}`;
+  return `${translate(names[a])}: ${translate(type === "ball_pocket" ? pocketName(table, b) : (EVENTS[type] ?? type))}`;
 }

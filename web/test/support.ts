@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 export const root = fileURLToPath(new URL("../../", import.meta.url));
 
 /** The command of the native build; CAROM in the environment names another. */
-export const command = process.env.CAROM ?? `${root}build/carom`;
+const command = process.env.CAROM ?? `${root}build/carom`;
 export const thereIsACommand = existsSync(command);
 if (!thereIsACommand)
   console.log(`without the tests against the command: there is no ${command} (./run builds it)`);
@@ -27,7 +27,7 @@ const MASK = (1n << 64n) - 1n;
 export class Draws {
   constructor(private state: bigint) {}
 
-  between(low: number, high: number): number {
+  uniform(low: number, high: number): number {
     this.state = (this.state + 0x9e3779b97f4a7c15n) & MASK;
     let z = this.state;
     z = ((z ^ (z >> 30n)) * 0xbf58476d1ce4e5b9n) & MASK;
@@ -38,6 +38,6 @@ export class Draws {
 
   /** A power of two between 2^low and 2^high. */
   powerOfTwo(low: number, high: number): number {
-    return 2 ** Math.trunc(this.between(low, high));
+    return 2 ** Math.trunc(this.uniform(low, high));
   }
 }

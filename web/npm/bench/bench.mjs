@@ -11,7 +11,7 @@ const columns =
   "r1x r1y r1z v1x v1y v1z w1x w1y w1z R M u_s1 r2x r2y r2z v2x v2y v2z w2x w2y w2z R M u_s2 u_b e_b".split(
     " ",
   );
-const one = lines.flatMap((line) =>
+const row = lines.flatMap((line) =>
   columns.map((column) => Number(line.split(",")[names.indexOf(column)])),
 );
 const N = lines.length;
@@ -22,7 +22,7 @@ const tasks = [];
 for (const build of ["simd", "plain"]) {
   const carom = await load({ build });
   const batch = carom.collisions(n);
-  for (let k = 0; k < TIMES; k++) batch.in.set(one, k * one.length);
+  for (let k = 0; k < TIMES; k++) batch.in.set(row, k * row.length);
   tasks.push({
     what: `WebAssembly ${build}: exact, batch`,
     count: n,
@@ -30,26 +30,26 @@ for (const build of ["simd", "plain"]) {
   });
   if (build === "simd") {
     const few = carom.collisions(N);
-    few.in.set(one);
+    few.in.set(row);
     tasks.push({
       what: "WebAssembly: 1000 Euler steps",
       count: N,
       go: () => carom.collideBatch(few, { solver: "euler" }),
     });
-    const at = (k) => [one[k], one[k + 1], one[k + 2]];
+    const vector = (k) => [row[k], row[k + 1], row[k + 2]];
     const ball = (k) => ({
-      r: at(k),
-      v: at(k + 3),
-      w: at(k + 6),
-      radius: one[k + 9],
-      mass: one[k + 10],
-      muSlide: one[k + 11],
+      r: vector(k),
+      v: vector(k + 3),
+      w: vector(k + 6),
+      radius: row[k + 9],
+      mass: row[k + 10],
+      muSlide: row[k + 11],
     });
     const impacts = lines.map((_, k) => ({
       a: ball(26 * k),
       b: ball(26 * k + 12),
-      muBall: one[26 * k + 24],
-      restitution: one[26 * k + 25],
+      muBall: row[26 * k + 24],
+      restitution: row[26 * k + 25],
     }));
     tasks.push({
       what: "WebAssembly: exact, single calls with objects",

@@ -50,8 +50,8 @@ async function client(build) {
   };
 }
 
-const here = await client("simd");
-const there = await client("plain");
+const home = await client("simd");
+const guest = await client("plain");
 const strokes = [
   { speed: 8, phi: 90 },
   { speed: 3, phi: 62.5, a: 0.2 },
@@ -60,9 +60,9 @@ const strokes = [
 ];
 for (const stroke of strokes) {
   const text = JSON.stringify(stroke);
-  const digests = [here.play(text), there.play(text)];
+  const digests = [home.play(text), guest.play(text)];
   console.log(`${text}: ${digests[0]}`);
   if (digests[0] !== digests[1])
-    throw new Error(`${here.build} and ${there.build} differ after ${text}`);
+    throw new Error(`${home.build} and ${guest.build} differ after ${text}`);
 }
-console.log(`${strokes.length} strokes, ${here.build} and ${there.build} agree`);
+console.log(`${strokes.length} strokes, ${home.build} and ${guest.build} agree`);

@@ -25,11 +25,11 @@ let game = { rules: "nineball", group: "open" };
 
 let ruling;
 for (let stroke = 1; stroke <= 8; stroke++) {
-  const [on] = carom.ballsOn(game, balls);
+  const [target] = carom.ballsOn(game, balls);
   const [best] = carom.plan(table, balls, { ...game, player, shots: 400, best: 1 });
   ruling = carom.referee(table, balls, carom.withErrors(best.cue, player, stroke), game);
   console.log(
-    `stroke ${stroke}: ball ${on}, hopes to win by ${(100 * best.value).toFixed(0)} %: ${ruling.turn}`,
+    `stroke ${stroke}: ball ${target}, hopes to win by ${(100 * best.value).toFixed(0)} %: ${ruling.turn}`,
   );
   if (ruling.turn !== "keep") break;
   ({ balls, game } = ruling);

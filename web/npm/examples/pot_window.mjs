@@ -13,7 +13,7 @@ const kind = carom.kind("pool");
 const DEGREE = Math.PI / 180;
 const [px, py] = table.pockets
   .map((pocket) => pocket.centre)
-  .reduce((far, at) => (at[0] + at[1] > far[0] + far[1] ? at : far));
+  .reduce((far, corner) => (corner[0] + corner[1] > far[0] + far[1] ? corner : far));
 
 /** Does ball 1 fall, with the cue ball behind it for a cut of 30 degrees? */
 function pots(distance, phi) {
@@ -46,20 +46,20 @@ function edge(distance, inside, outside) {
   return inside;
 }
 
-let before = Infinity;
+let previous = Infinity;
 for (const distance of [0.3, 0.6, 0.9]) {
   const { phi } = layout(distance);
-  const inside = Array.from({ length: 401 }, (_, k) => phi - 2 + k / 100).find((at) =>
-    pots(distance, at),
+  const inside = Array.from({ length: 401 }, (_, k) => phi - 2 + k / 100).find((direction) =>
+    pots(distance, direction),
   );
   if (inside === undefined) throw new Error(`no direction pots from ${distance} m`);
-  const from = edge(distance, inside, inside - 0.02);
-  const to = edge(distance, inside, inside + 4);
-  const middle = (from + to) / 2 - phi;
+  const low = edge(distance, inside, inside - 0.02);
+  const high = edge(distance, inside, inside + 4);
+  const middle = (low + high) / 2 - phi;
   console.log(
-    `${distance} m: ${(to - from).toFixed(2)} degrees wide, its middle ${middle.toFixed(2)} degrees from the ghost ball's direction`,
+    `${distance} m: ${(high - low).toFixed(2)} degrees wide, its middle ${middle.toFixed(2)} degrees from the ghost ball's direction`,
   );
-  if (!(to - from > 0 && to - from < before))
+  if (!(high - low > 0 && high - low < previous))
     throw new Error("the window should shrink with the distance");
-  before = to - from;
+  previous = high - low;
 }

@@ -25,9 +25,9 @@ function rebound(english, model) {
     w: [-along / radius, along / radius, spin],
     normal: [0, 1],
   };
-  const after = carom.cushion(impact, { model });
-  if (after.status !== "ok") throw new Error(`${model}: ${after.status}`);
-  return (Math.atan2(after.v[0], -after.v[1]) * 180) / Math.PI;
+  const rebound = carom.cushion(impact, { model });
+  if (rebound.status !== "ok") throw new Error(`${model}: ${rebound.status}`);
+  return (Math.atan2(rebound.v[0], -rebound.v[1]) * 180) / Math.PI;
 }
 
 console.log("english, %   exact   Han (degrees from the normal, before the cloth turns the path)");

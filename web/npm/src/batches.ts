@@ -15,18 +15,18 @@ const STATE = layout.carom_ball_state;
 export interface Library {
   readonly memory: Memory;
   statusName(code: number): string;
-  writeImpact(at: Pointer, impact: Impact): void;
+  writeImpact(pointer: Pointer, impact: Impact): void;
   shotOf(shots: Shots, k: number): Shot;
 }
 
 /** Memory of the module that is given back by free(), or when nothing refers to it any more. */
-const owned = new FinalizationRegistry<{ memory: Memory; at: Pointer[] }>(({ memory, at }) =>
-  at.forEach((one) => memory.free(one)),
+const owned = new FinalizationRegistry<{ memory: Memory; pointers: Pointer[] }>(
+  ({ memory, pointers }) => pointers.forEach((pointer) => memory.free(pointer)),
 );
 
 /** What holds memory of the module, and gives it back. */
 export class Owner<L extends { memory: Memory } = Library> {
-  readonly #held: { memory: Memory; at: Pointer[] };
+  readonly #held: { memory: Memory; pointers: Pointer[] };
 
   constructor(
     protected readonly library: L,
@@ -34,15 +34,19 @@ export class Owner<L extends { memory: Memory } = Library> {
   ) {
     this.#held = {
       memory: library.memory,
-      at: sizes.map((bytes) => library.memory.allocate(bytes)),
+      pointers: sizes.map((bytes) => library.memory.allocate(bytes)),
     };
     owned.register(this, this.#held, this.#held);
   }
   /** @internal */
-  at(k: number): Pointer {
-    const at = this.#held.at[k];
-    if (at === undefined) throw new Error("carom: its memory has been given back");
-    return at;
+  pointer(k: number): Pointer {
+    const pointer = this.#held.pointers[k];
+    if (pointer === undefined) throw new Error("carom: its memory has been given back");
+    return pointer;
+  }
+  /** A part of it as numbers. */
+  protected numbers(k: number, bytes: number): Float64Array {
+    return new Float64Array(this.library.memory.buffer, this.pointer(k), bytes / 8);
   }
   /**
    * Gives the memory back. Views of it are not valid any more. Without this call the garbage
@@ -50,10 +54,16 @@ export class Owner<L extends { memory: Memory } = Library> {
    */
   free(): void {
     owned.unregister(this.#held);
-    this.#held.at.splice(0).forEach((one) => this.#held.memory.free(one));
+    this.#held.pointers.splice(0).forEach((pointer) => this.#held.memory.free(pointer));
   }
 }
 
+/** An index of so many. */
+export function indexed(k: number, count: number, name = "k"): number {
+  if (!Number.isInteger(k) || k < 0 || k >= count)
+    throw new RangeError(`${name}: it must be 0 to ${count - 1}, not ${k}`);
+  return k;
+}
 function rows(n: number, name: string): number {
   if (!Number.isInteger(n) || n < 0)
     throw new RangeError(`${name}: it must be a whole number, 0 or more, not ${n}`);
@@ -79,37 +89,32 @@ export class Collisions extends Owner {
    * balls; mu_ball, restitution.
    */
   get in(): Float64Array {
-    return new Float64Array(this.library.memory.buffer, this.at(0), (this.n * IMPACT.size) / 8);
+    return this.numbers(0, this.n * IMPACT.size);
   }
   /**
    * 12 doubles for each collision, those of carom_result: v and w of both balls. NaN where the
    * status is an error.
    */
   get out(): Float64Array {
-    return new Float64Array(this.library.memory.buffer, this.at(1), (this.n * RESULT.size) / 8);
+    return this.numbers(1, this.n * RESULT.size);
   }
   /** One status for each collision: 0 resolved, 1 separating, negative an error of carom.h. */
   get status(): Int8Array {
-    return new Int8Array(this.library.memory.buffer, this.at(2), this.n);
+    return new Int8Array(this.library.memory.buffer, this.pointer(2), this.n);
   }
   /** Writes collision k from an object. */
   set(k: number, impact: Impact): void {
-    this.library.writeImpact(this.at(0) + this.#row(k) * IMPACT.size, impact);
+    this.library.writeImpact(this.pointer(0) + indexed(k, this.n) * IMPACT.size, impact);
   }
   /** Collision k as an object. */
   get(k: number): Collided {
     const f64 = this.library.memory.f64;
-    const at = this.at(1) + this.#row(k) * RESULT.size;
+    const pointer = this.pointer(1) + indexed(k, this.n) * RESULT.size;
     return {
       status: this.library.statusName(this.status[k]!),
-      a: readMotion(f64, at + RESULT.offset.a),
-      b: readMotion(f64, at + RESULT.offset.b),
+      a: readMotion(f64, pointer + RESULT.offset.a),
+      b: readMotion(f64, pointer + RESULT.offset.b),
     };
-  }
-  #row(k: number): number {
-    if (!Number.isInteger(k) || k < 0 || k >= this.n)
-      throw new RangeError(`k: it must be 0 to ${this.n - 1}, not ${k}`);
-    return k;
   }
 }
 
@@ -162,38 +167,34 @@ export class Shots extends Owner {
     ];
     super(library, sizes);
     this.count = count;
-    writeTable(library.memory, this.at(0), table);
+    writeTable(library.memory, this.pointer(0), table);
     layouts.forEach((balls, k) =>
-      writeBalls(library.memory, this.at(1) + k * count * layout.carom_shot_ball.size, balls),
+      writeBalls(library.memory, this.pointer(1) + k * count * layout.carom_shot_ball.size, balls),
     );
   }
   /** `cueSize` numbers for each shot, those of carom_cue; `cueFields` says where each is. */
   get cues(): Float64Array {
-    return new Float64Array(this.library.memory.buffer, this.at(2), (this.n * CUE.size) / 8);
+    return this.numbers(2, this.n * CUE.size);
   }
   /**
    * 10 numbers for each ball of each shot: r, v, w at the end; the tenth is the label, an integer,
    * for `label()`.
    */
   get final(): Float64Array {
-    return new Float64Array(
-      this.library.memory.buffer,
-      this.at(4),
-      (this.n * this.count * STATE.size) / 8,
-    );
+    return this.numbers(4, this.n * this.count * STATE.size);
   }
   /**
    * One status for each shot: 0 came to rest, positive stopped as asked, negative an error of
    * carom.h.
    */
   get status(): Int8Array {
-    return new Int8Array(this.library.memory.buffer, this.at(5), this.n);
+    return new Int8Array(this.library.memory.buffer, this.pointer(5), this.n);
   }
   /** Sets the cue of shot k. */
   setCue(k: number, cue: Cue): void {
     writeStruct(
       this.library.memory,
-      this.at(2) + this.#shot(k) * CUE.size,
+      this.pointer(2) + indexed(k, this.n) * CUE.size,
       "carom_cue",
       cue,
       "cue",
@@ -201,24 +202,29 @@ export class Shots extends Owner {
   }
   /** The state of a ball at the end of shot k. */
   state(k: number, ball: number): BallState {
-    if (!(ball >= 0 && ball < this.count))
-      throw new RangeError(`ball: it must be 0 to ${this.count - 1}, not ${ball}`);
     return readState(
       this.library.memory,
-      this.at(4) + (this.#shot(k) * this.count + ball) * STATE.size,
+      this.pointer(4) +
+        (indexed(k, this.n) * this.count + indexed(ball, this.count, "ball")) * STATE.size,
     );
   }
   /** How long shot k lasts, s. */
   time(k: number): number {
     return this.library.memory.f64[
-      (this.at(3) + this.#shot(k) * layout.carom_shot.size + layout.carom_shot.offset.time) / 8
+      (this.pointer(3) +
+        indexed(k, this.n) * layout.carom_shot.size +
+        layout.carom_shot.offset.time) /
+        8
     ]!;
   }
   /** How many events shot k has. */
   events(k: number): number {
     return Number(
       this.library.memory.i64[
-        (this.at(3) + this.#shot(k) * layout.carom_shot.size + layout.carom_shot.offset.count) / 8
+        (this.pointer(3) +
+          indexed(k, this.n) * layout.carom_shot.size +
+          layout.carom_shot.offset.count) /
+          8
       ],
     );
   }
@@ -229,10 +235,5 @@ export class Shots extends Owner {
         `room: shot ${k} has ${this.events(k)} events, and there is room for ${this.room} of them`,
       );
     return this.library.shotOf(this, k);
-  }
-  #shot(k: number): number {
-    if (!Number.isInteger(k) || k < 0 || k >= this.n)
-      throw new RangeError(`k: it must be 0 to ${this.n - 1}, not ${k}`);
-    return k;
   }
 }

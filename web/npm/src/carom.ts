@@ -1,5 +1,5 @@
 // The library: every call of C that the package offers.
-import { Collisions, type Library, Shots } from "./batches.js";
+import { Collisions, type Library, Shots, indexed } from "./batches.js";
 import { CaromError } from "./error.js";
 import { layout, names, values } from "./generated/layout.js";
 import type * as C from "./generated/structs.js";
@@ -108,10 +108,10 @@ function arena(memory: Memory): (bytes: number) => Pointer {
   let next = memory.allocate(65536);
   const end = next + 65536;
   return (bytes) => {
-    const at = next;
+    const pointer = next;
     next += (bytes + 15) & ~15;
     if (next > end) throw new RangeError("carom: the memory for arguments is too small");
-    return at;
+    return pointer;
   };
 }
 
@@ -127,7 +127,7 @@ export class Carom {
   readonly #reader: Reader;
   readonly #plans: Plans;
   readonly #recordings: MatchHost;
-  readonly #at: Record<
+  readonly #addresses: Record<
     | "impact"
     | "options"
     | "result"
@@ -163,7 +163,7 @@ export class Carom {
     this.build = build;
     this.#memory = memory;
     const part = arena(memory);
-    this.#at = {
+    this.#addresses = {
       impact: part(Math.max(IMPACT.size, CUSHION.size)),
       options: part(Math.max(OPTIONS.size, CUSHION_OPTIONS.size, SHOT_OPTIONS.size)),
       result: part(RESULT.size),
@@ -188,13 +188,13 @@ export class Carom {
     this.#library = {
       memory,
       statusName: (code) => this.statusName(code),
-      writeImpact: (at, impact) => this.#writeImpact(at, impact),
+      writeImpact: (pointer, impact) => this.#writeImpact(pointer, impact),
       shotOf: (shots, k) => this.#shotOf(shots, k),
     };
     this.#reader = this.#readerOf();
     this.#plans = new Plans({
       memory,
-      at: this.#at,
+      addresses: this.#addresses,
       cue: (fields) => this.#cue(fields),
       writeLayout: (table, balls) => this.#writeLayout(table, balls),
       writeShotOptions: (options) => this.#writeShotOptions(options),
@@ -206,11 +206,11 @@ export class Carom {
       statusName: (code) => this.statusName(code),
       cue: (fields) => this.cue(fields),
       writeShotOptions: (options) => this.#writeShotOptions(options),
-      played: (...of) => this.#played(...of),
-      readState: (...of) => this.#plans.readState(...of),
-      checkOwn: () => this.#plans.own.check(),
-      writeState: (...of) => this.#plans.writeState(...of),
-      readRuling: (...of) => this.#plans.readRuling(...of),
+      played: (...rest) => this.#played(...rest),
+      readState: (...rest) => this.#plans.readState(...rest),
+      checkOwn: () => this.#plans.customRules.check(),
+      writeState: (...rest) => this.#plans.writeState(...rest),
+      readRuling: (...rest) => this.#plans.readRuling(...rest),
       think: (table, balls, options, slice, leave) =>
         this.#plans.think(table, balls, undefined, options, slice, leave),
       film: (table, balls, cue, options) => this.#shoot(table, balls, cue, options),
@@ -224,28 +224,30 @@ export class Carom {
       events: (shot) => {
         this.#reside(shot);
         return Array.from({ length: shot.count }, (_, k) => {
-          const at = this.#events + k * EVENT.size;
+          const event = this.#events + k * EVENT.size;
           return {
-            ...readEvent(this.#memory, at),
+            ...readEvent(this.#memory, event),
             slip: this.#call.carom_event_slip(
-              this.#at.table,
-              this.#at.balls,
+              this.#addresses.table,
+              this.#addresses.balls,
               shot.balls.length,
-              at,
+              event,
             ),
           };
         });
       },
       states: (shot, time, drawn) => {
         this.#look(shot, time, drawn);
-        return shot.balls.map((_, k) => readState(this.#memory, this.#at.final + k * STATE.size));
+        return shot.balls.map((_, k) =>
+          readState(this.#memory, this.#addresses.final + k * STATE.size),
+        );
       },
       positions: (shot, time, into) => {
         this.#look(shot, time);
         const f64 = this.#memory.f64;
         for (let k = 0; k < shot.balls.length; k++) {
-          const at = (this.#at.final + k * STATE.size) / 8;
-          for (let c = 0; c < 3; c++) into[3 * k + c] = f64[at + c]!;
+          const pointer = (this.#addresses.final + k * STATE.size) / 8;
+          for (let c = 0; c < 3; c++) into[3 * k + c] = f64[pointer + c]!;
         }
       },
       positionsAt: (shot, times, drawn) => {
@@ -253,31 +255,31 @@ export class Carom {
         const n = times.length;
         const count = shot.balls.length;
         const size = STATE.size;
-        const at = this.#memory.allocate(8 * n + n * count * size);
+        const pointer = this.#memory.allocate(8 * n + n * count * size);
         try {
-          this.#memory.f64.set(times, at / 8);
-          const states = at + 8 * n;
-          this.#statesAt(shot, at, n, states, drawn, "times");
+          this.#memory.f64.set(times, pointer / 8);
+          const states = pointer + 8 * n;
+          this.#statesAt(shot, pointer, n, states, drawn, "times");
           const f64 = this.#memory.f64;
           const into = new Float64Array(3 * n * count);
           for (let k = 0; k < n * count; k++)
             into.set(f64.subarray((states + k * size) / 8, (states + k * size) / 8 + 3), 3 * k);
           return into;
         } finally {
-          this.#memory.free(at);
+          this.#memory.free(pointer);
         }
       },
       frame: (shot, time) => {
         this.#reside(shot);
         const count = shot.balls.length;
-        const { table, balls, shot: at, number, frame: states } = this.#at;
+        const { table, balls, shot: pointer, number, frame: states } = this.#addresses;
         const turned = states + BALLS_MOST * STATE.size;
         this.#memory.f64[number / 8] = time;
         this.#refuse(
           this.#call.carom_shot_frames(
             balls,
             count,
-            at,
+            pointer,
             number,
             1,
             turned + BALLS_MOST * 32,
@@ -286,7 +288,7 @@ export class Carom {
           ),
           `time ${time}`,
         );
-        this.#refuse(this.#call.carom_shot_falls(table, balls, count, at, number, 1, states));
+        this.#refuse(this.#call.carom_shot_falls(table, balls, count, pointer, number, 1, states));
         const { f64, i32 } = this.#memory;
         if (this.#frame.states.buffer !== f64.buffer || this.#frame.turned.length !== 4 * count)
           this.#frame = {
@@ -337,7 +339,7 @@ export class Carom {
   ): CaromError {
     // The text of a field's own status begins with the field, by its name in C: "cue.end_mass must
     // be positive and finite".
-    const [, of, name, must] =
+    const [, object, name, must] =
       (field === undefined && /^(cue\.|options\.)(\w+) (must .*)/.exec(text)) || [];
     if (name === undefined) return new CaromError(code, this.statusName(code), text, field, shot);
     const key = name.replace(/_(.)/g, (_, letter: string) => letter.toUpperCase());
@@ -345,7 +347,7 @@ export class Carom {
       code,
       this.statusName(code),
       `it ${must}`,
-      of === "cue." ? of + key : key,
+      object === "cue." ? object + key : key,
       shot,
     );
   }
@@ -356,28 +358,29 @@ export class Carom {
 
   // ---- Two balls --------------------------------------------------------------------------------
 
-  #writeImpact(at: Pointer, impact: Impact): void {
+  #writeImpact(pointer: Pointer, impact: Impact): void {
     const { a, b } = IMPACT.offset;
     refuseUnknown(impact, KEYS.impact, "impact");
-    writeStruct(this.#memory, at + a, "carom_ball", impact.a, "a", BALL);
-    writeStruct(this.#memory, at + b, "carom_ball", impact.b, "b", BALL);
-    this.#memory.f64[(at + IMPACT.offset.restitution) / 8] = impact.restitution ?? 0.95;
-    this.#memory.f64[(at + IMPACT.offset.muBall) / 8] = impact.muBall ?? this.#alciatore(at);
+    writeStruct(this.#memory, pointer + a, "carom_ball", impact.a, "a", BALL);
+    writeStruct(this.#memory, pointer + b, "carom_ball", impact.b, "b", BALL);
+    this.#memory.f64[(pointer + IMPACT.offset.restitution) / 8] = impact.restitution ?? 0.95;
+    this.#memory.f64[(pointer + IMPACT.offset.muBall) / 8] =
+      impact.muBall ?? this.#alciatore(pointer);
   }
 
   #alciatore(impact: Pointer): number {
-    this.#call.carom_alciatore(this.#at.number);
-    return this.#call.carom_mu_ball(impact, this.#at.number);
+    this.#call.carom_alciatore(this.#addresses.number);
+    return this.#call.carom_mu_ball(impact, this.#addresses.number);
   }
 
   #writeOptions(options: CollideOptions): Pointer {
     refuseUnknown(options, KEYS.collide);
-    return writeOptions(this.#memory, this.#at.options, "carom_options", options);
+    return writeOptions(this.#memory, this.#addresses.options, "carom_options", options);
   }
 
   /** What carom_check() says of the impact that a call refused. */
   #impactError(code: number, options: Pointer): CaromError {
-    const { impact, number } = this.#at;
+    const { impact, number } = this.#addresses;
     this.#call.carom_check(impact, options, number);
     const field = this.#memory.text(this.#call.carom_field_name(this.#memory.i32[number / 4]!));
     return this.#error(code, field);
@@ -385,7 +388,7 @@ export class Carom {
 
   #collided(code: number): Collided {
     const f64 = this.#memory.f64;
-    const { result } = this.#at;
+    const { result } = this.#addresses;
     return {
       status: this.statusName(code),
       a: readMotion(f64, result + RESULT.offset.a),
@@ -393,32 +396,43 @@ export class Carom {
     };
   }
 
+  /** Calls with an impact and options in the module's memory. Throws what is refused. */
+  #resolve(
+    impact: Impact,
+    options: CollideOptions,
+    call: (impact: Pointer, options: Pointer) => number,
+  ): number {
+    const { impact: pointer } = this.#addresses;
+    this.#writeImpact(pointer, impact);
+    const opt = this.#writeOptions(options);
+    const code = call(pointer, opt);
+    if (code < 0) throw this.#impactError(code, opt);
+    return code;
+  }
+
   /**
    * Resolves one collision of two balls. Throws a CaromError that names the field where something
    * is out of range.
    */
   collide(impact: Impact, options: CollideOptions = {}): Collided {
-    const { impact: at, result } = this.#at;
-    this.#writeImpact(at, impact);
-    const opt = this.#writeOptions(options);
-    const code = this.#call.carom_collide(at, opt, result);
-    if (code < 0) throw this.#impactError(code, opt);
-    return this.#collided(code);
+    const { result } = this.#addresses;
+    return this.#collided(
+      this.#resolve(impact, options, (...both) => this.#call.carom_collide(...both, result)),
+    );
   }
 
   /** The same, with impulses, works, and when the balls stuck. */
   collideDetail(impact: Impact, options: CollideOptions = {}): Collided & { detail: Detail } {
-    const { impact: at, result, detail } = this.#at;
-    this.#writeImpact(at, impact);
-    const opt = this.#writeOptions(options);
-    const code = this.#call.carom_collide_detail(at, opt, result, detail);
-    if (code < 0) throw this.#impactError(code, opt);
-    const told = readStruct<Omit<C.Detail, "stick"> & { stick: number }>(
+    const { result, detail } = this.#addresses;
+    const code = this.#resolve(impact, options, (...both) =>
+      this.#call.carom_collide_detail(...both, result, detail),
+    );
+    const fields = readStruct<Omit<C.Detail, "stick"> & { stick: number }>(
       this.#memory,
       detail,
       "carom_detail",
     );
-    return { ...this.#collided(code), detail: { ...told, stick: STICK[told.stick]! } };
+    return { ...this.#collided(code), detail: { ...fields, stick: STICK[fields.stick]! } };
   }
 
   /**
@@ -427,16 +441,12 @@ export class Carom {
    */
   trace(impact: Impact, n: number, options: CollideOptions = {}): TracePoint[] {
     if (whole(n, "n") < 2) throw new RangeError(`n: at least 2 points are needed, not ${n}`);
-    const { impact: at } = this.#at;
-    this.#writeImpact(at, impact);
-    const opt = this.#writeOptions(options);
     if (n > this.#pointRoom) {
       if (this.#points !== 0) this.#memory.free(this.#points);
       this.#points = this.#memory.allocate(n * POINT.size);
       this.#pointRoom = n;
     }
-    const code = this.#call.carom_trace(at, opt, n, this.#points);
-    if (code < 0) throw this.#impactError(code, opt);
+    this.#resolve(impact, options, (...both) => this.#call.carom_trace(...both, n, this.#points));
     return Array.from({ length: n }, (_, k) => {
       const { dX, dY, bX, bY, sticks, ...point } = readStruct<
         Omit<C.TracePoint, "phase"> & { phase: number }
@@ -449,18 +459,23 @@ export class Carom {
    * Friction between pool balls that slip on each other as those of the impact, by Alciatore's law.
    */
   muBall(impact: Impact): number {
-    this.#writeImpact(this.#at.impact, { ...impact, muBall: 0 });
-    return this.#alciatore(this.#at.impact);
+    this.#writeImpact(this.#addresses.impact, { ...impact, muBall: 0 });
+    return this.#alciatore(this.#addresses.impact);
   }
 
   /** The velocity, m/s, at which a ball begins to roll after sliding. */
   rollingVelocity(motion: Motion, radius: number): [number, number, number] {
-    const { motion: at } = this.#at;
+    const { motion: pointer } = this.#addresses;
     refuseUnknown(motion, KEYS.motion, "motion");
     const { v, w } = motion;
-    writeStruct(this.#memory, at, "carom_motion", { v, w }, "motion");
-    this.#call.carom_rolling_velocity(at, at + layout.carom_motion.offset.w, radius, at);
-    return [...vec3(this.#memory.f64, at)];
+    writeStruct(this.#memory, pointer, "carom_motion", { v, w }, "motion");
+    this.#call.carom_rolling_velocity(
+      pointer,
+      pointer + layout.carom_motion.offset.w,
+      radius,
+      pointer,
+    );
+    return [...vec3(this.#memory.f64, pointer)];
   }
 
   /** Memory for n collisions. */
@@ -476,7 +491,13 @@ export class Carom {
   collideBatch(batch: Collisions, options: CollideOptions = {}): string {
     const opt = this.#writeOptions(options);
     return this.statusName(
-      this.#call.carom_collide_batch(batch.at(0), batch.n, opt, batch.at(1), batch.at(2)),
+      this.#call.carom_collide_batch(
+        batch.pointer(0),
+        batch.n,
+        opt,
+        batch.pointer(1),
+        batch.pointer(2),
+      ),
     );
   }
 
@@ -499,14 +520,14 @@ export class Carom {
 
   /** Resolves one impact of a ball on a cushion. */
   cushion(impact: CushionImpact, options: CushionOptions = {}): Motion & { status: string } {
-    const { impact: at, options: opt, motion, number } = this.#at;
+    const { impact: pointer, options: opt, motion, number } = this.#addresses;
     refuseUnknown(options, KEYS.cushion);
     writeOptions(this.#memory, opt, "carom_cushion_options", options);
     const rail = this.#rail(options.model);
-    writeStruct(this.#memory, at, "carom_cushion_impact", impact, "impact", rail);
-    const code = this.#call.carom_cushion(at, opt, motion);
+    writeStruct(this.#memory, pointer, "carom_cushion_impact", impact, "impact", rail);
+    const code = this.#call.carom_cushion(pointer, opt, motion);
     if (code < 0) {
-      this.#call.carom_cushion_check(at, opt, number);
+      this.#call.carom_cushion_check(pointer, opt, number);
       throw this.#error(
         code,
         this.#memory.text(this.#call.carom_cushion_field_name(this.#memory.i32[number / 4]!)),
@@ -522,7 +543,7 @@ export class Carom {
    * cornerMouth: 0.108 }).
    */
   table(name: TableName, measures: Partial<Measures> = {}): Table {
-    const { table, balls, detail } = this.#at;
+    const { table, balls, detail } = this.#addresses;
     const kind = value("carom_table_kind", name, "table");
     this.#refuse(this.#call.carom_table_make(kind, table), "table");
     this.#resident = undefined;
@@ -538,8 +559,7 @@ export class Carom {
         table,
         detail,
       );
-      if (code < 0)
-        throw this.#error(code, this.#part(detail + layout.carom_table_fault.offset.part));
+      this.#refuseTable(code);
     }
     return readTable(this.#memory, table);
   }
@@ -560,7 +580,7 @@ export class Carom {
         `corners: at most ${values.CAROM_RAILS_MOST} are allowed, not ${corners.length}`,
       );
     const { noseHeight = 0.0366, jawRadius = 0.01, ballRadius = 0.028575 } = options;
-    const { table, balls, detail } = this.#at;
+    const { table, balls, detail } = this.#addresses;
     corners.forEach((corner, k) => {
       refuseUnknown(corner, KEYS.corner, `corners[${k}]`);
       this.#memory.f64.set([corner.x, corner.y, corner.mouth ?? 0], balls / 8 + 3 * k);
@@ -586,16 +606,23 @@ export class Carom {
    * that says which part is wrong.
    */
   checkTable(table: Table, radius = 0.028575): void {
-    writeTable(this.#memory, this.#at.table, table);
-    const code = this.#call.carom_table_check(this.#at.table, radius, this.#at.detail);
-    if (code >= 0) return;
-    throw this.#error(code, this.#part(this.#at.detail + layout.carom_table_fault.offset.part));
+    writeTable(this.#memory, this.#addresses.table, table);
+    const code = this.#call.carom_table_check(
+      this.#addresses.table,
+      radius,
+      this.#addresses.detail,
+    );
+    this.#refuseTable(code);
+  }
+  #refuseTable(code: number): void {
+    const { part } = layout.carom_table_fault.offset;
+    if (code < 0) throw this.#error(code, this.#part(this.#addresses.detail + part));
   }
 
   /** The name of a carom_part. */
-  #part(at: Pointer): string {
-    const kind = this.#memory.i32[(at + layout.carom_part.offset.kind) / 4]!;
-    const index = this.#memory.i32[(at + layout.carom_part.offset.index) / 4]!;
+  #part(pointer: Pointer): string {
+    const kind = this.#memory.i32[(pointer + layout.carom_part.offset.kind) / 4]!;
+    const index = this.#memory.i32[(pointer + layout.carom_part.offset.index) / 4]!;
     const name = names.carom_part_kind[kind]!;
     if (name === "ball" || name === "state") return `balls[${index}]`;
     if (name === "measures") return `measures.${MEASURES[index]}`;
@@ -619,12 +646,12 @@ export class Carom {
     const { gap = 1e-4, seed = 1 } = options;
     const kind = value("carom_rack_kind", name, "rack");
     this.#resident = undefined;
-    writeTable(this.#memory, this.#at.table, table);
-    const { table: of, balls } = this.#at;
+    writeTable(this.#memory, this.#addresses.table, table);
+    const { table: tablePointer, balls } = this.#addresses;
     const isWhole = typeof seed === "bigint" || (Number.isSafeInteger(seed) && seed >= 0);
     if (!isWhole) throw new RangeError(`seed: it must be a whole number, 0 or more, not ${seed}`);
     this.#refuse(
-      this.#call.carom_rack(kind, of, gap, BigInt(seed), balls, BALLS_MOST),
+      this.#call.carom_rack(kind, tablePointer, gap, BigInt(seed), balls, BALLS_MOST),
       `rack "${name}", gap ${gap}`,
     );
     return readBalls(this.#memory, balls, this.#call.carom_rack_size(kind));
@@ -649,22 +676,22 @@ export class Carom {
       !this.#call.carom_ball_kind_for(
         value("carom_game", game, "game"),
         value("carom_shot_cushion", cushion, "cushion"),
-        this.#at.detail,
+        this.#addresses.detail,
       )
     )
       throw new RangeError(`cushion: ${game} has no constants for "${cushion}"`);
     for (const condition of conditions)
       this.#call.carom_condition_give(
         value("carom_condition", condition, "conditions"),
-        this.#at.detail,
+        this.#addresses.detail,
       );
-    return readStruct(this.#memory, this.#at.detail, "carom_ball_kind");
+    return readStruct(this.#memory, this.#addresses.detail, "carom_ball_kind");
   }
 
   /** Bank number 0, 1 or 2 of those that calibrate a table: sight, speed of the ball, m/s, roll. */
   bank(k: number): Bank {
-    this.#refuse(this.#call.carom_bank_of(k, this.#at.detail), `bank ${k}`);
-    return readStruct(this.#memory, this.#at.detail, "carom_bank");
+    this.#refuse(this.#call.carom_bank_of(k, this.#addresses.detail), `bank ${k}`);
+    return readStruct(this.#memory, this.#addresses.detail, "carom_bank");
   }
 
   /**
@@ -678,17 +705,17 @@ export class Carom {
     table: Table,
     game: Game = "pool",
   ): Calibration {
-    const { table: of, detail, number, text } = this.#at;
+    const { table: tablePointer, detail, number, text } = this.#addresses;
     this.#resident = undefined;
-    writeTable(this.#memory, of, table);
+    writeTable(this.#memory, tablePointer, table);
     this.kind(game); // which leaves it at `detail`
-    if (readings?.some((one) => !(one > 0 && one < 8)))
+    if (readings?.some((reading) => !(reading > 0 && reading < 8)))
       throw new RangeError(
         `readings: each must be above 0 and below 8, not ${readings.join(", ")}`,
       );
     if (readings) this.#memory.f64.set(readings, number / 8);
     this.#refuse(
-      this.#call.carom_calibrate(of, detail, readings ? number : 0, text),
+      this.#call.carom_calibrate(tablePointer, detail, readings ? number : 0, text),
       `readings ${readings?.join(", ")}`,
     );
     return readStruct(this.#memory, text, "carom_calibration");
@@ -716,11 +743,18 @@ export class Carom {
     x: number,
     y: number,
   ): ShotBall[] {
-    if (!Number.isInteger(ball) || ball < 0 || ball >= balls.length)
-      throw new RangeError(`ball: it must be 0 to ${balls.length - 1}, not ${ball}`);
+    indexed(ball, balls.length, "ball");
     this.#writeLayout(table, balls);
-    const { table: of, balls: at, detail } = this.#at;
-    const code = this.#call.carom_place_ball(of, at, balls.length, ball, x, y, detail);
+    const { table: tablePointer, balls: ballsPointer, detail } = this.#addresses;
+    const code = this.#call.carom_place_ball(
+      tablePointer,
+      ballsPointer,
+      balls.length,
+      ball,
+      x,
+      y,
+      detail,
+    );
     if (code === values.CAROM_ERROR_OVERLAP || code === values.CAROM_ERROR_OFF_TABLE) {
       const part = this.#part(detail);
       throw this.#error(
@@ -731,8 +765,8 @@ export class Carom {
       );
     }
     this.#refuse(code, `ball ${ball} at ${x}, ${y}`);
-    const placed = readBalls(this.#memory, at, balls.length)[ball]!;
-    return balls.map((one, k) => (k === ball ? { ...one, state: placed.state } : one));
+    const placed = readBalls(this.#memory, ballsPointer, balls.length)[ball]!;
+    return balls.map((item, k) => (k === ball ? { ...item, state: placed.state } : item));
   }
 
   /**
@@ -764,12 +798,12 @@ export class Carom {
   }
 
   #cue(fields: Partial<Cue> = {}, game: Game = "pool"): Cue {
-    this.#call.carom_cue_of(this.#at.detail, value("carom_game", game, "game"));
-    const cue = readStruct<Cue>(this.#memory, this.#at.detail, "carom_cue");
+    this.#call.carom_cue_of(this.#addresses.detail, value("carom_game", game, "game"));
+    const cue = readStruct<Cue>(this.#memory, this.#addresses.detail, "carom_cue");
     refuseUnknownOf("carom_cue", fields, "cue");
     return {
       ...cue,
-      ...Object.fromEntries(Object.entries(fields).filter(([, given]) => given !== undefined)),
+      ...Object.fromEntries(Object.entries(fields).filter(([, value]) => value !== undefined)),
     };
   }
 
@@ -777,7 +811,7 @@ export class Carom {
 
   #writeShotOptions(options: ShotOptions): Pointer {
     refuseUnknown(options, KEYS.shot);
-    return writeOptions(this.#memory, this.#at.options, "carom_shot_options", options);
+    return writeOptions(this.#memory, this.#addresses.options, "carom_shot_options", options);
   }
 
   #needRoom(room: number): void {
@@ -788,8 +822,8 @@ export class Carom {
   }
 
   #writeShot(count: number): void {
-    const { shot: at, final, state, facts } = this.#at;
-    setStruct(this.#memory, at, "carom_shot", {
+    const { shot: pointer, final, state, facts } = this.#addresses;
+    setStruct(this.#memory, pointer, "carom_shot", {
       events: this.#events,
       final,
       state,
@@ -800,7 +834,7 @@ export class Carom {
   }
 
   #count(): number {
-    return Number(this.#memory.i64[(this.#at.shot + SHOT.offset.count) / 8]);
+    return Number(this.#memory.i64[(this.#addresses.shot + SHOT.offset.count) / 8]);
   }
 
   /** Table and balls into the module's memory. */
@@ -808,8 +842,8 @@ export class Carom {
     if (balls.length < 1 || balls.length > BALLS_MOST)
       throw new RangeError(`balls: there must be 1 to ${BALLS_MOST}, not ${balls.length}`);
     this.#resident = undefined;
-    writeTable(this.#memory, this.#at.table, table);
-    writeBalls(this.#memory, this.#at.balls, balls);
+    writeTable(this.#memory, this.#addresses.table, table);
+    writeBalls(this.#memory, this.#addresses.balls, balls);
   }
 
   /**
@@ -830,22 +864,29 @@ export class Carom {
 
   /** Plays a shot by options in the module's memory. */
   #shoot(table: Table, balls: readonly ShotBall[], struck: Cue | undefined, opt: Pointer): Shot {
-    const at = this.#at;
+    const addresses = this.#addresses;
     this.#writeLayout(table, balls);
-    if (struck !== undefined) writeStruct(this.#memory, at.cue, "carom_cue", struck, "cue");
-    const cueAt = struck === undefined ? 0 : at.cue;
+    if (struck !== undefined) writeStruct(this.#memory, addresses.cue, "carom_cue", struck, "cue");
+    const cueAt = struck === undefined ? 0 : addresses.cue;
     this.#needRoom(256);
     let code: number;
     // A shot that has more events than there is room for is played again with enough of it: it has
     // the same bits.
     for (;;) {
       this.#writeShot(0);
-      code = this.#call.carom_shoot(at.table, at.balls, balls.length, cueAt, opt, at.shot);
+      code = this.#call.carom_shoot(
+        addresses.table,
+        addresses.balls,
+        balls.length,
+        cueAt,
+        opt,
+        addresses.shot,
+      );
       if (this.#count() <= this.#room) break;
       this.#needRoom(this.#count());
     }
     if (code < 0 && this.#count() === 0)
-      throw this.#shotError(at.table, at.balls, balls.length, cueAt, opt);
+      throw this.#shotError(addresses.table, addresses.balls, balls.length, cueAt, opt);
     return this.#ended(
       table,
       balls.map((ball) => ({ ...ball, kind: { ...ball.kind }, state: { ...ball.state } })),
@@ -864,12 +905,12 @@ export class Carom {
   continue(shot: Shot, options: StopOptions = {}): Shot {
     refuseUnknown(options, KEYS.stop);
     if (shot.status === "ok") return shot;
-    const kept = shot.kept;
-    if (kept === undefined)
+    const retained = shot.retained;
+    if (retained === undefined)
       throw new TypeError(
         `shot: only what simulate() or continue() stopped can go on, not a shot "${shot.status}", or one of a batch`,
       );
-    const at = this.#at;
+    const addresses = this.#addresses;
     let code: number;
     // As in simulate(), if there is too little room: what was there before is put back.
     for (;;) {
@@ -877,14 +918,14 @@ export class Carom {
       this.#reside(shot);
       this.#resident = undefined;
       for (const part of ["table", "options", "state"] as const)
-        this.#memory.u8.set(kept[part], at[part]);
-      writeOptions(this.#memory, at.options, "carom_shot_options", options, true);
+        this.#memory.u8.set(retained[part], addresses[part]);
+      writeOptions(this.#memory, addresses.options, "carom_shot_options", options, true);
       code = this.#call.carom_shot_continue(
-        at.table,
-        at.balls,
+        addresses.table,
+        addresses.balls,
         shot.balls.length,
-        at.options,
-        at.shot,
+        addresses.options,
+        addresses.shot,
       );
       if (REFUSED.includes(code)) throw this.#error(code);
       if (this.#count() <= this.#room) break;
@@ -898,22 +939,31 @@ export class Carom {
    * in an error.
    */
   #ended(table: Table, balls: readonly ShotBall[], code: number): Shot {
-    const { shot: at, final } = this.#at;
-    let kept: Kept | undefined;
+    const { shot: pointer, final } = this.#addresses;
+    let retained: Kept | undefined;
     if (
       code > 0 ||
       code === values.CAROM_ERROR_TOO_MANY_EVENTS ||
       code === values.CAROM_ERROR_TOO_LONG
     ) {
       const copy = (part: keyof Kept, size: number): Uint8Array =>
-        this.#memory.u8.slice(this.#at[part], this.#at[part] + size);
-      kept = {
+        this.#memory.u8.slice(this.#addresses[part], this.#addresses[part] + size);
+      retained = {
         table: copy("table", layout.carom_table.size),
         options: copy("options", SHOT_OPTIONS.size),
         state: copy("state", layout.carom_shot_state.size),
       };
     }
-    const shot = this.#played(table, balls, code, at, final, this.#events, this.#at.facts, kept);
+    const shot = this.#played(
+      table,
+      balls,
+      code,
+      pointer,
+      final,
+      this.#events,
+      this.#addresses.facts,
+      retained,
+    );
     this.#resident = shot;
     if (code < 0) throw this.#error(code, undefined, shot);
     return shot;
@@ -926,7 +976,7 @@ export class Carom {
   #shotError(
     ...args: [table: Pointer, balls: Pointer, count: number, cue: Pointer, options: Pointer]
   ): CaromError {
-    const { fault, text } = this.#at;
+    const { fault, text } = this.#addresses;
     const code = this.#call.carom_shot_fault(...args, fault, text, 128);
     const row = this.#memory.u32[(fault + FAULT.offset.row) / 4]!;
     const part = this.#part(fault + FAULT.offset.part);
@@ -967,7 +1017,7 @@ export class Carom {
     final: Pointer,
     events: Pointer,
     facts?: Pointer,
-    kept?: Kept,
+    retained?: Kept,
   ): Shot {
     const count = Number(this.#memory.i64[(shot + SHOT.offset.count) / 8]);
     const bytes = this.#memory.u8.slice(events, events + count * EVENT.size);
@@ -982,7 +1032,7 @@ export class Carom {
       count,
       bytes,
       facts ? this.#memory.u8.slice(facts, facts + layout.carom_facts.size) : undefined,
-      kept,
+      retained,
     );
   }
 
@@ -991,18 +1041,18 @@ export class Carom {
     if (this.#resident === shot) return;
     this.#resident = undefined;
     this.#needRoom(Math.max(shot.count, 256));
-    writeTable(this.#memory, this.#at.table, shot.table);
-    writeBalls(this.#memory, this.#at.balls, shot.balls);
+    writeTable(this.#memory, this.#addresses.table, shot.table);
+    writeBalls(this.#memory, this.#addresses.balls, shot.balls);
     this.#memory.u8.set(shot.bytes, this.#events);
     this.#writeShot(shot.count);
-    this.#memory.f64[(this.#at.shot + SHOT.offset.time) / 8] = shot.time;
+    this.#memory.f64[(this.#addresses.shot + SHOT.offset.time) / 8] = shot.time;
     this.#resident = shot;
   }
 
   #look(shot: Shot, time: number, drawn = false): void {
     this.#reside(shot);
-    this.#memory.f64[this.#at.number / 8] = time;
-    this.#statesAt(shot, this.#at.number, 1, this.#at.final, drawn, `time ${time}`);
+    this.#memory.f64[this.#addresses.number / 8] = time;
+    this.#statesAt(shot, this.#addresses.number, 1, this.#addresses.final, drawn, `time ${time}`);
   }
   #statesAt(
     shot: Shot,
@@ -1012,8 +1062,8 @@ export class Carom {
     drawn: boolean,
     field: string,
   ): void {
-    const { balls, shot: at, table } = this.#at;
-    const rest = [balls, shot.balls.length, at, times, n, states];
+    const { balls, shot: pointer, table } = this.#addresses;
+    const rest = [balls, shot.balls.length, pointer, times, n, states];
     this.#refuse(
       drawn ? this.#call.carom_shot_drawn(table, ...rest) : this.#call.carom_shot_at_times(...rest),
       field,
@@ -1044,11 +1094,11 @@ export class Carom {
 
   /** The motion of a ball at rest just after a strike. */
   strike(cue: Partial<Cue>, kind: BallKind): Motion {
-    const { cue: at, detail, motion } = this.#at;
+    const { cue: pointer, detail, motion } = this.#addresses;
     this.#resident = undefined;
-    writeStruct(this.#memory, at, "carom_cue", this.#cue(cue), "cue");
+    writeStruct(this.#memory, pointer, "carom_cue", this.#cue(cue), "cue");
     writeStruct(this.#memory, detail, "carom_ball_kind", kind, "kind");
-    const code = this.#call.carom_strike(at, detail, motion);
+    const code = this.#call.carom_strike(pointer, detail, motion);
     if (code < 0)
       throw this.#error(code, code === values.CAROM_ERROR_MISCUE ? "cue.a, cue.b" : undefined);
     return readMotion(this.#memory.f64, motion);
@@ -1087,19 +1137,19 @@ export class Carom {
     const opt = this.#writeShotOptions(options);
     const { u32, i64, u8 } = this.#memory;
     for (let k = 0; k < shots.n; k++) {
-      const shot = shots.at(3) + k * SHOT.size;
+      const shot = shots.pointer(3) + k * SHOT.size;
       u8.fill(0, shot, shot + SHOT.size);
       u32[(shot + SHOT.offset.events) / 4] =
-        shots.room === 0 ? 0 : shots.at(6) + k * shots.room * EVENT.size;
-      u32[(shot + SHOT.offset.final) / 4] = shots.at(4) + k * shots.count * STATE.size;
+        shots.room === 0 ? 0 : shots.pointer(6) + k * shots.room * EVENT.size;
+      u32[(shot + SHOT.offset.final) / 4] = shots.pointer(4) + k * shots.count * STATE.size;
       i64[(shot + SHOT.offset.room) / 8] = BigInt(shots.room);
     }
-    const job = setStruct(this.#memory, shots.at(7), "carom_shot_job", {
-      table: shots.at(0),
-      balls: shots.at(1),
-      cues: shots.at(2),
-      shots: shots.at(3),
-      status: shots.at(5),
+    const job = setStruct(this.#memory, shots.pointer(7), "carom_shot_job", {
+      table: shots.pointer(0),
+      balls: shots.pointer(1),
+      cues: shots.pointer(2),
+      shots: shots.pointer(3),
+      status: shots.pointer(5),
       options: opt,
       count: shots.count,
       ballStride: shots.layouts.length === 1 ? 0 : shots.count,
@@ -1111,15 +1161,15 @@ export class Carom {
 
   #shotOf(shots: Shots, k: number): Shot {
     const balls = shots.layouts[shots.layouts.length === 1 ? 0 : k]!;
-    const shot = shots.at(3) + k * SHOT.size;
-    const final = shots.at(4) + k * shots.count * STATE.size;
+    const shot = shots.pointer(3) + k * SHOT.size;
+    const final = shots.pointer(4) + k * shots.count * STATE.size;
     return this.#played(
       shots.table,
       balls,
       shots.status[k]!,
       shot,
       final,
-      shots.at(6) + k * shots.room * EVENT.size,
+      shots.pointer(6) + k * shots.room * EVENT.size,
     );
   }
 
@@ -1127,7 +1177,7 @@ export class Carom {
    * Begins a match between two players by the rules of a game, or of a state of it; without a table
    * one whose lines are read at first, of a game of your own with its rules.
    */
-  match(own?: OwnGame): Match;
+  match(game?: OwnGame): Match;
   match(
     rules: GameState["rules"] | GameState | OwnGame,
     table: Table,
@@ -1152,9 +1202,9 @@ export class Carom {
    * way, times `errors`. Or by a Fargo rating, 200 to 850, such as 500: its plans then play as
    * rated where `shots` is not given; `onlyPots: 0` makes plans that advise such a player.
    */
-  player(of: { errors?: number; fargo?: number } = {}): Player {
-    refuseUnknown(of, KEYS.player);
-    return this.#plans.player(of);
+  player(skill: { errors?: number; fargo?: number } = {}): Player {
+    refuseUnknown(skill, KEYS.player);
+    return this.#plans.player(skill);
   }
 
   /**
@@ -1184,11 +1234,11 @@ export class Carom {
     table: Table,
     balls: readonly ShotBall[],
     cue: Partial<Cue>,
-    of: AimOf,
+    pot: AimOf,
     options: ShotOptions = {},
   ): Aim {
-    refuseUnknown(of, KEYS.aim, "aim");
-    return this.#plans.aim(table, balls, cue, of, options);
+    refuseUnknown(pot, KEYS.aim, "aim");
+    return this.#plans.aim(table, balls, cue, pot, options);
   }
 
   /**
@@ -1204,10 +1254,10 @@ export class Carom {
     return this.#names(table, "rail");
   }
 
-  #names(table: Table, of: "rail" | "pocket"): (string | undefined)[] {
+  #names(table: Table, kind: "rail" | "pocket"): (string | undefined)[] {
     this.#resident = undefined;
-    writeTable(this.#memory, this.#at.table, table);
-    return this.#plans.names(of, table[`${of}s`].length);
+    writeTable(this.#memory, this.#addresses.table, table);
+    return this.#plans.names(kind, table[`${kind}s`].length);
   }
 
   /**
@@ -1250,7 +1300,7 @@ export class Carom {
   /** The balls that may be met first, and potted. */
   ballsOn(game: GameState | OwnGame, balls: readonly ShotBall[]): number[] {
     refuseUnknown(game, KEYS.game, "game");
-    return this.#plans.on(game, balls);
+    return this.#plans.targets(game, balls);
   }
 
   /**
@@ -1277,8 +1327,8 @@ export class Carom {
     refuseUnknown(game, KEYS.game, "game");
     if (shot.facts === undefined) throw new TypeError("shot: one of a batch has no facts");
     this.#reside(shot);
-    this.#memory.u8.set(shot.facts, this.#at.facts);
-    writeStates(this.#memory, this.#at.final, shot.final);
-    return this.#plans.rule(shot.balls, this.#at.shot, game, call, cueBall);
+    this.#memory.u8.set(shot.facts, this.#addresses.facts);
+    writeStates(this.#memory, this.#addresses.final, shot.final);
+    return this.#plans.rule(shot.balls, this.#addresses.shot, game, call, cueBall);
   }
 }

@@ -15,7 +15,7 @@ import type {
 } from "./types.js";
 
 /** The keys of an interface; the compiler refuses a list that lacks one or has another. */
-const all = <T>(keys: Record<keyof T, 1>): readonly string[] => Object.keys(keys);
+const keysOf = <T>(keys: Record<keyof T, 1>): readonly string[] => Object.keys(keys);
 
 const GAME: Record<keyof GameState, 1> = {
   rules: 1,
@@ -33,26 +33,27 @@ const GAME: Record<keyof GameState, 1> = {
   own: 1,
   user: 1,
 };
-const keysOf = (struct: keyof typeof options): string[] => options[struct].map(({ key }) => key);
+const optionKeys = (struct: keyof typeof options): string[] =>
+  options[struct].map(({ key }) => key);
 
 /** The keys of the objects that are no struct of C. */
 export const KEYS = {
-  impact: all<Impact>({ a: 1, b: 1, muBall: 1, restitution: 1 }),
-  collide: keysOf("carom_options"),
-  cushion: keysOf("carom_cushion_options"),
-  motion: all<Motion & { status: string }>({ v: 1, w: 1, status: 1 }),
-  ball: all<ShotBall>({ kind: 1, state: 1, id: 1 }),
+  impact: keysOf<Impact>({ a: 1, b: 1, muBall: 1, restitution: 1 }),
+  collide: optionKeys("carom_options"),
+  cushion: optionKeys("carom_cushion_options"),
+  motion: keysOf<Motion & { status: string }>({ v: 1, w: 1, status: 1 }),
+  ball: keysOf<ShotBall>({ kind: 1, state: 1, id: 1 }),
   table: [...numbers.carom_table.map(([, field]) => field), "rails", "jaws", "pockets"],
   stop: options.carom_shot_options.filter(({ stop }) => stop).map(({ key }) => key),
-  shot: keysOf("carom_shot_options"),
-  line: all<Line>({ id: 1, tableName: 1, table: 1, names: 1, balls: 1, cue: 1 }),
-  game: all<GameState>(GAME),
-  turn: all<OwnTurn>({ turn: 1, leave: 1, reason: 1, spot: 1, points: 1 }),
-  match: all<MatchOptions>({ seed: 1, player: 1, balls: 1, hand: 1, shot: 1 }),
-  aim: all<AimOf>({ ball: 1, pocket: 1, via: 1 }),
+  shot: optionKeys("carom_shot_options"),
+  line: keysOf<Line>({ id: 1, tableName: 1, table: 1, names: 1, balls: 1, cue: 1 }),
+  game: keysOf<GameState>(GAME),
+  turn: keysOf<OwnTurn>({ turn: 1, leave: 1, reason: 1, spot: 1, points: 1 }),
+  match: keysOf<MatchOptions>({ seed: 1, player: 1, balls: 1, hand: 1, shot: 1 }),
+  aim: keysOf<AimOf>({ ball: 1, pocket: 1, via: 1 }),
   plan: [
-    ...keysOf("carom_plan_options"),
-    ...all<Omit<PlanOptions, keyof PlanRows>>({
+    ...optionKeys("carom_plan_options"),
+    ...keysOf<Omit<PlanOptions, keyof PlanRows>>({
       player: 1,
       opponent: 1,
       inHand: 1,
@@ -99,29 +100,32 @@ function distance(a: string, b: string): number {
  */
 export function meant(word: string, names: readonly string[]): string {
   const letters = (name: string): string => name.toLowerCase().replaceAll("_", "");
-  const given = letters(word);
+  const letterOrder = letters(word);
   const apart = (name: string): number => {
-    const one = letters(name);
+    const candidate = letters(name);
     const within =
-      Math.min(one.length, given.length) > 3 && (one.includes(given) || given.includes(one));
-    return within ? Math.min(1, distance(one, given)) : distance(one, given);
+      Math.min(candidate.length, letterOrder.length) > 3 &&
+      (candidate.includes(letterOrder) || letterOrder.includes(candidate));
+    return within
+      ? Math.min(1, distance(candidate, letterOrder))
+      : distance(candidate, letterOrder);
   };
   const [nearest] = [...names].sort((a, b) => apart(a) - apart(b));
-  const near =
+  const isNear =
     nearest !== undefined &&
-    apart(nearest) < given.length &&
-    apart(nearest) <= Math.max(1, given.length / 3);
-  return near ? `; did you mean "${nearest}"?` : "";
+    apart(nearest) < letterOrder.length &&
+    apart(nearest) <= Math.max(1, letterOrder.length / 3);
+  return isNear ? `; did you mean "${nearest}"?` : "";
 }
 
 /**
  * Throws where an object has a key that is not among those known. `name` says which object it is,
  * such as "cue".
  */
-export function refuseUnknown(from: object, known: readonly string[], name = ""): void {
-  if (typeof from !== "object" || from === null)
-    throw new TypeError(`${name || "options"}: an object is needed, not ${String(from)}`);
-  for (const key in from)
+export function refuseUnknown(source: object, known: readonly string[], name = ""): void {
+  if (typeof source !== "object" || source === null)
+    throw new TypeError(`${name || "options"}: an object is needed, not ${String(source)}`);
+  for (const key in source)
     if (!known.includes(key))
       throw new TypeError(
         `${name && `${name}.`}${key}: there is no such key${meant(key, known) || `; there are ${known.join(", ")}`}`,

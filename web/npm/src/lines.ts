@@ -42,29 +42,29 @@ function refuse(key: string, right: string): never {
   throw new TypeError(`${key}: ${right}`);
 }
 
-function numbers(from: unknown, key: string, count: number): number[] {
+function numbers(source: unknown, key: string, count: number): number[] {
   const good =
-    Array.isArray(from) &&
-    from.length === count &&
-    from.every((x) => typeof x === "number" && Number.isFinite(x));
-  return good ? (from as number[]) : refuse(key, `${count} numbers are needed`);
+    Array.isArray(source) &&
+    source.length === count &&
+    source.every((x) => typeof x === "number" && Number.isFinite(x));
+  return good ? (source as number[]) : refuse(key, `${count} numbers are needed`);
 }
 
 /** Numbers by their keys; `other` is the key of what is no number. */
 function fill<Key extends string>(
   into: Record<Key, number>,
   keys: readonly (readonly [string, Key])[],
-  from: Record<string, unknown>,
-  other: string,
+  source: Record<string, unknown>,
+  nameKey: string,
   name: string,
 ): void {
-  refuseUnknown(from, [...keys.map(([key]) => key), other], name);
+  refuseUnknown(source, [...keys.map(([key]) => key), nameKey], name);
   for (const [key, field] of keys) {
-    const given = from[key];
-    if (given === undefined) continue;
+    const value = source[key];
+    if (value === undefined) continue;
     into[field] =
-      typeof given === "number" && Number.isFinite(given)
-        ? given
+      typeof value === "number" && Number.isFinite(value)
+        ? value
         : refuse(`${name}.${key}`, "a number is needed");
   }
 }
@@ -119,14 +119,14 @@ export function fromLine(carom: Library, text: string): Line {
       },
     };
   });
-  const given = (line.cue ?? {}) as Record<string, unknown>;
-  const ball = given.ball === undefined ? 0 : names.indexOf(given.ball as string);
+  const fields = (line.cue ?? {}) as Record<string, unknown>;
+  const ball = fields.ball === undefined ? 0 : names.indexOf(fields.ball as string);
   if (ball < 0)
-    return refuse("cue.ball", `it must be the id of a ball, not ${JSON.stringify(given.ball)}`);
+    return refuse("cue.ball", `it must be the id of a ball, not ${JSON.stringify(fields.ball)}`);
   const cue = carom.cue({ ball, phi: 0 }, "pooltool_pool");
-  fill(cue as unknown as Record<string, number>, CUE, given, "ball", "cue");
+  fill(cue as unknown as Record<string, number>, CUE, fields, "ball", "cue");
   // A strike says how high it is: the cue's usual b is not the centre.
-  if (given.b === undefined && Object.keys(given).some((key) => key !== "ball"))
+  if (fields.b === undefined && Object.keys(fields).some((key) => key !== "ball"))
     return refuse(
       "cue.b",
       "how far above the centre the tip touches, in radii, is missing; 0 is the centre",
@@ -163,17 +163,17 @@ function numberOf(name: string, rules: RulesKind): number {
 export function byNumber(line: Line, rules: RulesKind): Line {
   const last = LAST[rules];
   if (last === undefined) return line;
-  const at = Array<number | undefined>(last + 1);
+  const slots = Array<number | undefined>(last + 1);
   for (const [k, name] of line.names.entries()) {
     const number = k === line.cue.ball ? 0 : numberOf(name, rules);
-    if ((number === 0 && k !== line.cue.ball) || number > last || at[number] !== undefined)
+    if ((number === 0 && k !== line.cue.ball) || number > last || slots[number] !== undefined)
       return refuse(
         `balls[${k}].id`,
         `the balls of ${rules} are the cue ball and 1 to ${last}, each once, not ${JSON.stringify(name)}`,
       );
-    at[number] = k;
+    slots[number] = k;
   }
-  const balls = Array.from(at, (k, number): ShotBall => {
+  const balls = Array.from(slots, (k, number): ShotBall => {
     if (k !== undefined)
       return { ...line.balls[k]!, id: number === 0 ? line.names[k]! : String(number) };
     return {

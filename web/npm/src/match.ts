@@ -55,13 +55,13 @@ export interface Bounds {
 export interface Host extends RecordingHost {
   cue(fields: Partial<Cue>): Cue;
   writeShotOptions(options: ShotOptions): Pointer;
-  readState(at: Pointer, game: Rules): GameState;
+  readState(pointer: Pointer, game: Rules): GameState;
   /** Throws what rules of the caller's threw in the last call. */
   checkOwn(): void;
   writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer;
   /** Plays a shot with its events, by options in the module's memory. */
   film(table: Table, balls: readonly ShotBall[], cue: Cue, options: Pointer): Shot;
-  readRuling(at: Pointer, game: Rules, balls: readonly ShotBall[]): Ruling;
+  readRuling(pointer: Pointer, game: Rules, balls: readonly ShotBall[]): Ruling;
   think(
     table: Table,
     balls: readonly ShotBall[],
@@ -81,7 +81,7 @@ export class Match extends Owner<Host> {
   /** The last stroke, for its film. */
   #struck: { balls: ShotBall[]; cue: Cue } | undefined;
   #film: Shot | undefined;
-  #own: GameState["own"];
+  #customRules: GameState["own"];
 
   /** @internal */
   constructor(host: Host) {
@@ -90,10 +90,10 @@ export class Match extends Owner<Host> {
 
   /** @internal The rules of the caller's for lines that are read. */
   readBy(game: Partial<GameState>): void {
-    this.#own = game.own;
+    this.#customRules = game.own;
     const rules = this.#host.writeState(game, []) - layout.carom_plan_rules.offset.state;
     this.#host.memory.u8.copyWithin(
-      this.#at + MATCH.rules,
+      this.#pointer + MATCH.rules,
       rules,
       rules + layout.carom_plan_rules.size,
     );
@@ -104,29 +104,32 @@ export class Match extends Owner<Host> {
     refuseUnknown(options, KEYS.match, "options");
     const { memory } = this.#host;
     const { seed, player, balls, hand = "no", shot = {} } = options;
-    this.#own = game.own;
+    this.#customRules = game.own;
     const rules = game.own ? OWN : value("carom_rules_kind", game.rules ?? "eightball", "rules");
     if (game.own && balls === undefined)
       throw new TypeError("balls: rules of your own have no rack; a layout is needed");
-    const who = whole(player, "player", 1);
+    const opener = whole(player, "player", 1);
     const tableAt = memory.allocate(layout.carom_table.size);
     const ballsAt = memory.allocate(values.CAROM_BALLS_MOST * layout.carom_shot_ball.size);
     try {
       writeTable(memory, tableAt, table);
       if (balls === undefined) {
-        const from = BigInt(whole(seed, "seed", Number.MAX_SAFE_INTEGER));
+        const draws = BigInt(whole(seed, "seed", Number.MAX_SAFE_INTEGER));
         const { target = 0, innings = 0 } = game;
-        this.#act((at, call) =>
-          call.carom_match_begin_to(at, rules, target, innings, tableAt, from, who),
+        this.#act((pointer, call) =>
+          call.carom_match_begin_to(pointer, rules, target, innings, tableAt, draws, opener),
         );
         return;
       }
       writeBalls(memory, ballsAt, balls);
-      const of = this.#host.writeState(game, balls) - layout.carom_plan_rules.offset.state;
+      const rulesPointer =
+        this.#host.writeState(game, balls) - layout.carom_plan_rules.offset.state;
       const models = this.#host.writeShotOptions(shot);
       const leave = Math.max(indexOf(HANDS, hand, "hand"), 0);
-      const rest = [tableAt, ballsAt, balls.length, models, leave, who];
-      this.#act((at, call) => call.carom_match_begin_at(at, rules, of, ...rest));
+      const rest = [tableAt, ballsAt, balls.length, models, leave, opener];
+      this.#act((pointer, call) =>
+        call.carom_match_begin_at(pointer, rules, rulesPointer, ...rest),
+      );
     } finally {
       memory.free(tableAt);
       memory.free(ballsAt);
@@ -146,9 +149,9 @@ export class Match extends Owner<Host> {
     const balls = line.startsWith('{"shot"') ? this.balls : undefined;
     try {
       memory.u8.set(bytes, text);
-      const code = memory.exports.carom_match_read(this.#at, scratch, text, bytes.length);
+      const code = memory.exports.carom_match_read(this.#pointer, scratch, text, bytes.length);
       this.#host.checkOwn();
-      this.#told(code);
+      this.#checked(code);
     } finally {
       memory.free(text);
       memory.free(scratch);
@@ -176,7 +179,7 @@ export class Match extends Owner<Host> {
   }
   /** How the game stands for the player at the table. */
   get game(): GameState {
-    const state = this.#at + MATCH.rules + layout.carom_plan_rules.offset.state;
+    const state = this.#pointer + MATCH.rules + layout.carom_plan_rules.offset.state;
     return this.#host.readState(state, this.#rules);
   }
   /** A stroke, a place of the cue ball in hand, the rest of a shot that was stopped, or nothing. */
@@ -202,8 +205,8 @@ export class Match extends Owner<Host> {
   }
   /** The choices for `choose`; a "free_ball" is named by a call. */
   get may(): Choice[] {
-    const may = this.#number("may");
-    return names.carom_choice.filter((_, k) => (may >> k) & 1) as Choice[];
+    const acts = this.#number("may");
+    return names.carom_choice.filter((_, k) => (acts >> k) & 1) as Choice[];
   }
   /** The ball that the player at the table strikes. */
   get cueBall(): number {
@@ -212,7 +215,7 @@ export class Match extends Owner<Host> {
   /** The balls that the player at the table may strike: `cueBall`, or where the rules say so any. */
   get strikable(): number[] {
     const { anyCueBall } = layout.carom_plan_rules.offset;
-    const isAny = this.#host.memory.i32[(this.#at + MATCH.rules + anyCueBall) / 4] !== 0;
+    const isAny = this.#host.memory.i32[(this.#pointer + MATCH.rules + anyCueBall) / 4] !== 0;
     if (!isAny || this.game.opening) return [this.cueBall];
     return [...this.balls.entries()].flatMap(([ball, { state }]) =>
       state.label === "pocketed" || state.label === "off" ? [] : [ball],
@@ -232,12 +235,12 @@ export class Match extends Owner<Host> {
   /** Where a cue ball in hand may be put, until the stroke. */
   get bounds(): Bounds | undefined {
     if (this.hand === "no") return undefined;
-    return readStruct(this.#host.memory, this.#at + MATCH.bounds, "carom_bounds");
+    return readStruct(this.#host.memory, this.#pointer + MATCH.bounds, "carom_bounds");
   }
   /** The last ruling. */
   get ruling(): Ruling | undefined {
     if (this.#number("rulings") === 0) return undefined;
-    return this.#host.readRuling(this.#at + MATCH.ruling, this.#rules, this.balls);
+    return this.#host.readRuling(this.#pointer + MATCH.ruling, this.#rules, this.balls);
   }
   /** The cue of the last stroke. */
   get cue(): Cue | undefined {
@@ -255,22 +258,22 @@ export class Match extends Owner<Host> {
   /** Takes a choice: "push" for the next stroke, the others instead of it. */
   choose(what: Choice): void {
     const bit = 1 << value("carom_choice", what, "what");
-    this.#act((at, call) => call.carom_match_choose(at, this.player, bit));
+    this.#act((pointer, call) => call.carom_match_choose(pointer, this.player, bit));
   }
   /** Puts the cue ball in hand within `bounds`, m; until the stroke it may be put elsewhere. */
   place(x: number, y: number): void {
-    this.#act((at, call) => call.carom_match_place(at, this.player, x, y));
+    this.#act((pointer, call) => call.carom_match_place(pointer, this.player, x, y));
   }
   /** Calls the ball and the pocket of the next stroke; ball -1: a safety. */
   call(ball: number, pocket = -1): void {
-    for (const [name, given] of Object.entries({ ball, pocket }))
-      if ((given | 0) !== given)
-        throw new TypeError(`${name}: it must be a whole number, not ${JSON.stringify(given)}`);
+    for (const [name, number] of Object.entries({ ball, pocket }))
+      if ((number | 0) !== number)
+        throw new TypeError(`${name}: it must be a whole number, not ${JSON.stringify(number)}`);
     const { memory } = this.#host;
     const called = memory.allocate(8);
     memory.i32.set([ball, pocket], called / 4);
     try {
-      this.#act((at, call) => call.carom_match_call(at, this.player, called));
+      this.#act((pointer, call) => call.carom_match_call(pointer, this.player, called));
     } finally {
       memory.free(called);
     }
@@ -286,9 +289,9 @@ export class Match extends Owner<Host> {
     const struck = this.#host.cue({ ball: this.cueBall, ...cue });
     try {
       writeStruct(memory, cueAt, "carom_cue", struck, "cue");
-      const until = this.#host.writeShotOptions(stop);
-      const isEnded = this.#act((at, call) =>
-        call.carom_match_stroke(at, this.player, cueAt, until, 0),
+      const stopOptions = this.#host.writeShotOptions(stop);
+      const isEnded = this.#act((pointer, call) =>
+        call.carom_match_stroke(pointer, this.player, cueAt, stopOptions, 0),
       );
       this.#keep(balls);
       return isEnded;
@@ -299,21 +302,21 @@ export class Match extends Owner<Host> {
   /** Goes on with a shot that was stopped, likewise. */
   continue(stop: StopOptions = {}): boolean {
     this.#film = undefined;
-    const until = this.#host.writeShotOptions(stop);
-    return this.#act((at, call) => call.carom_match_continue(at, until, 0));
+    const stopOptions = this.#host.writeShotOptions(stop);
+    return this.#act((pointer, call) => call.carom_match_continue(pointer, stopOptions, 0));
   }
   /** A player gives the game to the other. */
   concede(player: number): void {
-    const who = whole(player, "player", 1);
-    this.#act((at, call) => call.carom_match_concede(at, who));
+    const seat = whole(player, "player", 1);
+    this.#act((pointer, call) => call.carom_match_concede(pointer, seat));
   }
   /** The time of the player at the table is over: a foul. */
   clock(): void {
-    this.#act((at, call) => call.carom_match_clock(at, this.player));
+    this.#act((pointer, call) => call.carom_match_clock(pointer, this.player));
   }
   /** The whole text, with its last line: nothing follows, and the memory is given back. */
   end(): string {
-    this.#act((at, call) => call.carom_match_end(at));
+    this.#act((pointer, call) => call.carom_match_end(pointer));
     const text = this.lines.join("");
     this.free();
     return text;
@@ -329,13 +332,13 @@ export class Match extends Owner<Host> {
   think(options: PlanOptions = {}, slice = 1000): Generator<undefined, PlanStroke[]> {
     if (this.phase === "over") throw new RangeError("plan: the match is over");
     if (this.phase === "moving") throw new RangeError("plan: balls move: continue() the shot");
-    const wanted: PlanOptions = {
+    const request: PlanOptions = {
       ...options,
       ...this.game,
       cue: { ...options.cue, ...(this.strikable.length === 1 && { ball: this.cueBall }) },
       inHand: this.phase === "place" ? this.hand : "no",
     };
-    return this.#host.think(this.table, this.balls, wanted, slice, this.#number("leave"));
+    return this.#host.think(this.table, this.balls, request, slice, this.#number("leave"));
   }
   /**
    * Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the stroke as
@@ -346,7 +349,7 @@ export class Match extends Owner<Host> {
     if (this.phase === "place") this.place(place[0]!, place[1]!);
     if (kind === "push") this.choose("push");
     const { calls } = layout.carom_plan_rules.offset;
-    if (ball >= 0 && this.#host.memory.i32[(this.#at + MATCH.rules + calls) / 4] !== 0)
+    if (ball >= 0 && this.#host.memory.i32[(this.#pointer + MATCH.rules + calls) / 4] !== 0)
       this.call(ball, pocket);
     this.stroke(cue);
   }
@@ -356,51 +359,53 @@ export class Match extends Owner<Host> {
   get #host(): Host {
     return this.library;
   }
-  get #at(): Pointer {
-    return this.at(0);
+  get #pointer(): Pointer {
+    return this.pointer(0);
   }
-  #number(of: keyof typeof MATCH): number {
-    const at = this.#at + MATCH[of];
-    const isLong = (layout.carom_match.type as Record<string, string>)[of] === "i64";
-    return isLong ? Number(this.#host.memory.i64[at / 8]) : this.#host.memory.i32[at / 4]!;
+  #number(field: keyof typeof MATCH): number {
+    const pointer = this.#pointer + MATCH[field];
+    const isLong = (layout.carom_match.type as Record<string, string>)[field] === "i64";
+    return isLong
+      ? Number(this.#host.memory.i64[pointer / 8])
+      : this.#host.memory.i32[pointer / 4]!;
   }
-  #record(of: keyof typeof layout.carom_record.offset): Pointer {
-    return this.#at + MATCH.record + layout.carom_record.offset[of];
+  #record(field: keyof typeof layout.carom_record.offset): Pointer {
+    return this.#pointer + MATCH.record + layout.carom_record.offset[field];
   }
   get #rules(): Rules {
     const rules = names.carom_rules_kind[this.#recorded("rules")] ?? "eightball";
-    return { rules, own: this.#own };
+    return { rules, own: this.#customRules };
   }
-  #recorded(of: "count" | "rules" | "player" | "shots"): number {
-    return Number(this.#host.memory.i64[this.#record(of) / 8]);
+  #recorded(field: "count" | "rules" | "player" | "shots"): number {
+    return Number(this.#host.memory.i64[this.#record(field) / 8]);
   }
   /** The lines of the last act. */
   get #written(): string[] {
-    const text = this.#at + MATCH.text;
+    const text = this.#pointer + MATCH.text;
     const bytes = this.#host.memory.u8.slice(text, text + this.#number("size"));
     return new TextDecoder().decode(bytes).match(/.*\n/g) ?? [];
   }
-  #act(act: (at: Pointer, call: Exports) => number): boolean {
+  #act(act: (pointer: Pointer, call: Exports) => number): boolean {
     const { memory } = this.#host;
     this.#lines.push(...this.#written);
-    const at = this.#at;
+    const pointer = this.#pointer;
     const size = layout.carom_match.size;
-    const before = this.#own && memory.u8.slice(at, at + size);
-    const code = act(at, memory.exports);
+    const backup = this.#customRules && memory.u8.slice(pointer, pointer + size);
+    const code = act(pointer, memory.exports);
     try {
       this.#host.checkOwn();
     } catch (error) {
-      memory.u8.set(before!, at); // an act whose rules threw has not been
-      memory.i64[(at + MATCH.size) / 8] = 0n;
+      memory.u8.set(backup!, pointer); // an act whose rules threw has not been
+      memory.i64[(pointer + MATCH.size) / 8] = 0n;
       throw error;
     }
-    return this.#told(code);
+    return this.#checked(code);
   }
   /** Throws what was refused; else whether a shot has ended. */
-  #told(code: number): boolean {
+  #checked(code: number): boolean {
     const { memory } = this.#host;
     if (code >= 0) return code === 0;
-    const fault = memory.text(this.#at + MATCH.fault)!;
+    const fault = memory.text(this.#pointer + MATCH.fault)!;
     if (fault === "") this.#host.refuse(code);
     const [act, ...right] = fault.split(": ");
     throw new CaromError(code, this.#host.statusName(code), right.join(": "), act);

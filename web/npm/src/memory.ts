@@ -11,7 +11,7 @@ export interface Exports {
   /** The functions that structs of C refer to, by number. */
   __indirect_function_table: WebAssembly.Table;
   malloc(bytes: number): Pointer;
-  free(at: Pointer): void;
+  free(pointer: Pointer): void;
   [name: `carom_${string}`]: (...numbers: (number | bigint)[]) => number;
 }
 
@@ -43,7 +43,6 @@ export class Memory {
   #f64 = new Float64Array();
   #i32 = new Int32Array();
   #u32 = new Uint32Array();
-  #i8 = new Int8Array();
   #u8 = new Uint8Array();
   #i64 = new BigInt64Array();
   readonly #text = new TextDecoder();
@@ -52,7 +51,7 @@ export class Memory {
   /** `own` has the functions of own.c, which the module imports. */
   constructor(
     readonly exports: Exports,
-    readonly own: Record<string, (...numbers: number[]) => number> = {},
+    readonly callbacks: Record<string, (...numbers: number[]) => number> = {},
   ) {}
 
   /**
@@ -79,7 +78,6 @@ export class Memory {
     this.#f64 = new Float64Array(buffer);
     this.#i32 = new Int32Array(buffer);
     this.#u32 = new Uint32Array(buffer);
-    this.#i8 = new Int8Array(buffer);
     this.#u8 = new Uint8Array(buffer);
     this.#i64 = new BigInt64Array(buffer);
   }
@@ -95,10 +93,6 @@ export class Memory {
     this.#renew();
     return this.#u32;
   }
-  get i8(): Int8Array {
-    this.#renew();
-    return this.#i8;
-  }
   get u8(): Uint8Array {
     this.#renew();
     return this.#u8;
@@ -110,20 +104,20 @@ export class Memory {
 
   /** Memory that is all zero. */
   allocate(bytes: number): Pointer {
-    const at = this.exports.malloc(Math.max(bytes, 8)) >>> 0;
-    if (at === 0) throw new RangeError(`carom: no memory for ${bytes} bytes`);
-    this.u8.fill(0, at, at + bytes);
-    return at;
+    const pointer = this.exports.malloc(Math.max(bytes, 8)) >>> 0;
+    if (pointer === 0) throw new RangeError(`carom: no memory for ${bytes} bytes`);
+    this.u8.fill(0, pointer, pointer + bytes);
+    return pointer;
   }
-  free(at: Pointer): void {
-    this.exports.free(at);
+  free(pointer: Pointer): void {
+    this.exports.free(pointer);
   }
 
   /** The text that a function of C returns; undefined for NULL. */
-  text(at: Pointer): string | undefined {
-    if (at === 0) return undefined;
+  text(pointer: Pointer): string | undefined {
+    if (pointer === 0) return undefined;
     const u8 = this.u8;
-    return this.#text.decode(u8.slice(at, u8.indexOf(0, at)));
+    return this.#text.decode(u8.slice(pointer, u8.indexOf(0, pointer)));
   }
 }
 
@@ -145,23 +139,24 @@ export async function start(build: Build): Promise<Memory> {
     words[size >>> 2] = 0;
     return 0;
   };
-  const now = (_clock: number, _precision: number, at: number): number => {
+  const clockTime = (_clock: number, _precision: number, pointer: number): number => {
     const nanoseconds = BigInt(Math.round(1e6 * performance.now()));
-    new BigUint64Array(buffer()!)[at >>> 3] = nanoseconds;
+    new BigUint64Array(buffer()!)[pointer >>> 3] = nanoseconds;
     return 0;
   };
   const known: Record<string, (...numbers: number[]) => number | void> = {
     environ_sizes_get: empty as (...numbers: number[]) => number,
     environ_get: () => 0,
-    clock_time_get: now as (...numbers: number[]) => number,
+    clock_time_get: clockTime as (...numbers: number[]) => number,
     emscripten_notify_memory_growth: () => undefined,
   };
-  const own: Memory["own"] = {};
+  const callbacks: Memory["callbacks"] = {};
   const imports: WebAssembly.Imports = {};
-  for (const wanted of WebAssembly.Module.imports(module)) {
-    const { name } = wanted;
-    if (wanted.module === "carom_own") known[name] = (...numbers) => own[name]!(...numbers);
-    (imports[wanted.module] ??= {})[name] =
+  for (const wantedImport of WebAssembly.Module.imports(module)) {
+    const { name } = wantedImport;
+    if (wantedImport.module === "carom_own")
+      known[name] = (...numbers) => callbacks[name]!(...numbers);
+    (imports[wantedImport.module] ??= {})[name] =
       known[name] ??
       (() => {
         throw new Error(`carom: the library called ${name}(), which has no meaning here`);
@@ -171,5 +166,5 @@ export async function start(build: Build): Promise<Memory> {
   const exports = instance.exports as unknown as Exports & { _initialize?: () => void };
   buffer = () => exports.memory.buffer;
   exports._initialize?.();
-  return new Memory(exports, own);
+  return new Memory(exports, callbacks);
 }

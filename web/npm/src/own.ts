@@ -34,39 +34,39 @@ const NOTHING = 0;
 export class OwnRules {
   readonly #memory: Memory;
   readonly #numbers = new WeakMap<GameRules, number>();
-  readonly #all: WeakRef<GameRules>[] = [];
+  readonly #known: WeakRef<GameRules>[] = [];
   #failure: { error: unknown } | undefined;
 
   constructor(memory: Memory) {
     this.#memory = memory;
-    Object.assign(memory.own, {
+    Object.assign(memory.callbacks, {
       on: (state: Pointer, inPlay: number) =>
         this.#guarded(state, "on", (rules, user) => setOf(rules.on(user, members(inPlay)), "on")),
       judge: (
-        to: Pointer,
+        target: Pointer,
         state: Pointer,
         inPlay: number,
         cueBall: number,
         facts: Pointer,
         call: Pointer,
       ) => {
-        memory.u8.fill(0, to, to + layout.carom_turn.size);
+        memory.u8.fill(0, target, target + layout.carom_turn.size);
         const seen = readFacts(memory, facts);
         const called = readStruct<C.Call>(memory, call, "carom_call");
-        const foul = (on: readonly number[]): C.Foul =>
+        const foul = (targets: readonly number[]): C.Foul =>
           memory.paused(() => {
-            const found = memory.exports.carom_foul_of(facts, setOf(on, "on"), cueBall);
+            const found = memory.exports.carom_foul_of(facts, setOf(targets, "on"), cueBall);
             return names.carom_foul[found]!;
           }, false);
         return this.#guarded(
           state,
           "judge",
           (rules, user) => rules.judge(user, members(inPlay), cueBall, seen, called, foul),
-          (turn) => this.#writeTurn(to, turn, "judge"),
+          (turn) => this.#writeTurn(target, turn, "judge"),
         );
       },
-      left: (state: Pointer, inPlay: number, to: Pointer) => {
-        memory.i32.fill(1, to / 4, to / 4 + 2);
+      left: (state: Pointer, inPlay: number, target: Pointer) => {
+        memory.i32.fill(1, target / 4, target / 4 + 2);
         return this.#guarded(
           state,
           "left",
@@ -74,9 +74,9 @@ export class OwnRules {
             const left: unknown = rules.left(user, members(inPlay));
             if (!Array.isArray(left) || left.length !== 2)
               throw new TypeError(`left: two numbers are needed, not ${JSON.stringify(left)}`);
-            return left.map((one: number) => whole(one, "left"));
+            return left.map((count: number) => whole(count, "left"));
           },
-          (left) => void memory.i32.set(left, to / 4),
+          (left) => void memory.i32.set(left, target / 4),
         );
       },
       value: (state: Pointer, layoutAt: Pointer, count: number, inHand: number) => {
@@ -84,11 +84,11 @@ export class OwnRules {
           readState(memory, layoutAt + k * layout.carom_ball_state.size),
         );
         return this.#guarded(state, "value", (rules, user) => {
-          const made = numberOf(rules.value!(user, states, inHand !== 0), "value");
+          const worth = numberOf(rules.value!(user, states, inHand !== 0), "value");
           const most = rules.race === "alone" ? count : 1;
-          if (made < 0 || made > most)
-            throw new RangeError(`value: it must be 0 to ${most}, not ${made}`);
-          return made;
+          if (worth < 0 || worth > most)
+            throw new RangeError(`value: it must be 0 to ${most}, not ${worth}`);
+          return worth;
         });
       },
       pockets: (state: Pointer) =>
@@ -100,13 +100,13 @@ export class OwnRules {
           numberOf(rules.points!(user, members(inPlay), ball), "points"),
         ),
       settle: (state: Pointer, table: Pointer, balls: Pointer, count: number, turnAt: Pointer) => {
-        const on = readTable(memory, table);
-        const there = readBalls(memory, balls, count);
+        const tableRead = readTable(memory, table);
+        const layoutBalls = readBalls(memory, balls, count);
         const turn = this.#readTurn(turnAt);
         /** The library puts a ball back, where the rules have laid the others. */
         const spot = (ball: number): void =>
           memory.paused(() => {
-            writeBalls(memory, balls, there);
+            writeBalls(memory, balls, layoutBalls);
             const code = memory.exports.carom_spot_ball(
               table,
               balls,
@@ -114,14 +114,14 @@ export class OwnRules {
               whole(ball, "spot", count - 1),
             );
             if (code < 0) throw new RangeError(`spot: there is no room for ball ${ball}`);
-            there[ball] = readBalls(memory, balls, count)[ball]!;
+            layoutBalls[ball] = readBalls(memory, balls, count)[ball]!;
           }, false);
         return this.#guarded(
           state,
           "settle",
-          (rules, user) => rules.settle!(user, on, there, turn, spot),
+          (rules, user) => rules.settle!(user, tableRead, layoutBalls, turn, spot),
           (changed) => {
-            writeBalls(memory, balls, there);
+            writeBalls(memory, balls, layoutBalls);
             this.#writeTurn(turnAt, changed, "settle");
             this.#checkSettled(table, balls, count, turnAt);
           },
@@ -131,16 +131,16 @@ export class OwnRules {
   }
 
   /** Writes rules with a state that is 0 but for its words. */
-  write(at: Pointer, rules: GameRules, user: readonly number[]): void {
+  write(pointer: Pointer, rules: GameRules, user: readonly number[]): void {
     const memory = this.#memory;
     for (const method of ["on", "judge", "left"] as const)
       if (typeof rules[method] !== "function") throw new TypeError(`own: ${method}() is missing`);
     const has = OPTIONAL.reduce((set, name, k) => set | (Number(name in rules) << k), 0);
-    memory.exports.carom_own_rules(at, has);
+    memory.exports.carom_own_rules(pointer, has);
     const { race = "own", calls = false, firstDecides = false } = rules;
     setStruct(
       memory,
-      at,
+      pointer,
       "carom_plan_rules",
       {
         race: value("carom_race", race, "race"),
@@ -151,17 +151,17 @@ export class OwnRules {
     );
     let number = this.#numbers.get(rules);
     if (number === undefined) {
-      number = this.#all.push(new WeakRef(rules)) - 1;
+      number = this.#known.push(new WeakRef(rules)) - 1;
       this.#numbers.set(rules, number);
     }
-    this.#writeUser(at + RULES.offset.state, user, "user");
-    memory.i64[(at + RULES.offset.state + STATE.user) / 8 + WORDS] = BigInt(number);
+    this.#writeUser(pointer + RULES.offset.state, user, "user");
+    memory.i64[(pointer + RULES.offset.state + STATE.user) / 8 + WORDS] = BigInt(number);
   }
 
   /** The words of a state in the module's memory. */
   user(state: Pointer): number[] {
-    const at = (state + STATE.user) / 8;
-    return Array.from(this.#memory.i64.slice(at, at + WORDS), Number);
+    const pointer = (state + STATE.user) / 8;
+    return Array.from(this.#memory.i64.slice(pointer, pointer + WORDS), Number);
   }
 
   /** Throws what rules threw in the call that has ended. */
@@ -176,17 +176,17 @@ export class OwnRules {
     state: Pointer,
     method: keyof GameRules,
     call: (rules: GameRules, user: number[]) => T,
-    keep?: (made: T) => void,
+    keep?: (result: T) => void,
   ): T | typeof NOTHING {
     if (this.#failure) return NOTHING;
     const memory = this.#memory;
     const number = Number(memory.i64[(state + STATE.user) / 8 + WORDS]);
     const user = this.user(state);
     try {
-      const made = memory.paused(() => call(this.#all[number]!.deref()!, user));
+      const result = memory.paused(() => call(this.#known[number]!.deref()!, user));
       if (method === "judge" || method === "settle") this.#writeUser(state, user, method);
-      keep?.(made);
-      return made;
+      keep?.(result);
+      return result;
     } catch (error) {
       this.#failure = { error };
       return NOTHING;
@@ -217,31 +217,31 @@ export class OwnRules {
       );
   }
 
-  #readTurn(at: Pointer): Required<OwnTurn> {
+  #readTurn(pointer: Pointer): Required<OwnTurn> {
     const { i32, u32, f64 } = this.#memory;
     return {
-      turn: names.carom_turn_outcome[i32[(at + TURN.outcome) / 4]!]!,
-      leave: names.carom_leave[i32[(at + TURN.leave) / 4]!]!,
-      reason: names.carom_foul[i32[(at + TURN.foul) / 4]!]!,
-      spot: members(u32[(at + TURN.spot) / 4]!),
-      points: f64[(at + TURN.points) / 8]!,
+      turn: names.carom_turn_outcome[i32[(pointer + TURN.outcome) / 4]!]!,
+      leave: names.carom_leave[i32[(pointer + TURN.leave) / 4]!]!,
+      reason: names.carom_foul[i32[(pointer + TURN.foul) / 4]!]!,
+      spot: members(u32[(pointer + TURN.spot) / 4]!),
+      points: f64[(pointer + TURN.points) / 8]!,
     };
   }
 
-  #writeTurn(at: Pointer, made: OwnTurn, method: string): void {
-    refuseUnknown(made, KEYS.turn, method);
-    const { turn, leave = "after", reason = "none", spot = [], points = 0 } = made;
-    setStruct(this.#memory, at, "carom_turn", {
+  #writeTurn(pointer: Pointer, supplied: OwnTurn, method: string): void {
+    refuseUnknown(supplied, KEYS.turn, method);
+    const { turn, leave = "after", reason = "none", spot = [], points = 0 } = supplied;
+    setStruct(this.#memory, pointer, "carom_turn", {
       outcome: value("carom_turn_outcome", turn, `${method}: turn`),
       leave: value("carom_leave", leave, `${method}: leave`),
       foul: value("carom_foul", reason, `${method}: reason`),
       points: numberOf(points, `${method}: points`),
     });
-    this.#memory.u32[(at + TURN.spot) / 4] = setOf(spot, `${method}: spot`);
+    this.#memory.u32[(pointer + TURN.spot) / 4] = setOf(spot, `${method}: spot`);
   }
 }
 
-function numberOf(given: unknown, name: string): number {
-  if (!Number.isFinite(given)) throw new TypeError(`${name}: a number is needed, not ${given}`);
-  return given as number;
+function numberOf(number: unknown, name: string): number {
+  if (!Number.isFinite(number)) throw new TypeError(`${name}: a number is needed, not ${number}`);
+  return number as number;
 }

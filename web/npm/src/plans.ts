@@ -59,7 +59,7 @@ const MEMBERS = [
   "target",
   "innings",
 ] as const;
-const of = (state: object, keys: readonly string[]): object =>
+const fieldsOf = (state: object, keys: readonly string[]): object =>
   Object.fromEntries(
     Object.entries(state).filter(([key, value]) => keys.includes(key) && value !== undefined),
   );
@@ -77,7 +77,7 @@ const BOUNDS = {
 /** What the calls of this file need of the library. */
 export interface Host {
   readonly memory: Memory;
-  readonly at: Record<"table" | "balls" | "cue" | "shot" | "final", Pointer>;
+  readonly addresses: Record<"table" | "balls" | "cue" | "shot" | "final", Pointer>;
   cue(fields: Partial<Cue>): Cue;
   writeLayout(table: Table, balls: readonly ShotBall[]): void;
   writeShotOptions(options: ShotOptions): Pointer;
@@ -118,8 +118,8 @@ function numbersOf(call: Call | undefined): { ball: number; pocket: number } {
 
 export class Plans {
   readonly #host: Host;
-  readonly own: OwnRules;
-  readonly #at: Record<
+  readonly customRules: OwnRules;
+  readonly #addresses: Record<
     | "player"
     | "opponent"
     | "rules"
@@ -136,9 +136,9 @@ export class Plans {
 
   constructor(host: Host) {
     this.#host = host;
-    this.own = new OwnRules(host.memory);
+    this.customRules = new OwnRules(host.memory);
     const room = (bytes: number): Pointer => host.memory.allocate(bytes);
-    this.#at = {
+    this.#addresses = {
       player: room(PLAYER.size),
       opponent: room(PLAYER.size),
       rules: room(RULES.size),
@@ -158,32 +158,42 @@ export class Plans {
   }
 
   #refuse(code: number, field?: string): void {
-    this.own.check();
+    this.customRules.check();
     this.#host.refuse(code, field);
   }
 
-  player({ errors: given, fargo }: { errors?: number; fargo?: number }): Player {
-    if (given !== undefined && fargo !== undefined)
+  #writeCue(cue: Partial<Cue>): Cue {
+    const struck = this.#host.cue(cue);
+    writeStruct(this.#memory, this.#host.addresses.cue, "carom_cue", struck, "cue");
+    return struck;
+  }
+
+  player({ errors: scale, fargo }: { errors?: number; fargo?: number }): Player {
+    if (scale !== undefined && fargo !== undefined)
       throw new TypeError("errors, fargo: a player has errors or a rating, not both");
-    const errors = given ?? 1;
+    const errors = scale ?? 1;
     if (!(errors >= 0 && errors < Infinity))
       throw new RangeError(`errors: it must be finite and at least 0, not ${errors}`);
     if (fargo !== undefined && !(fargo >= 200 && fargo <= 850))
       throw new RangeError(`fargo: it must be 200 to 850, not ${fargo}`);
-    if (fargo === undefined) this.#memory.exports.carom_player_of(this.#at.player, errors);
-    else this.#memory.exports.carom_player_fargo(this.#at.player, fargo);
-    return readStruct<Player>(this.#memory, this.#at.player, "carom_player");
+    if (fargo === undefined) this.#memory.exports.carom_player_of(this.#addresses.player, errors);
+    else this.#memory.exports.carom_player_fargo(this.#addresses.player, fargo);
+    return readStruct<Player>(this.#memory, this.#addresses.player, "carom_player");
   }
 
   rating(scores: readonly Score[]): Rating {
     const memory = this.#memory;
     const rows = memory.allocate(scores.length * SCORE.size + 8);
-    const made = this.#at.corners;
+    const ratingPointer = this.#addresses.corners;
     try {
-      for (const [k, one] of scores.entries())
-        writeStruct(memory, rows + k * SCORE.size, "carom_score", one, `scores[${k}]`);
-      const code = memory.exports.carom_rating_of(rows, BigInt(scores.length), made);
-      const { row, ...rating } = readStruct<Rating & { row: number }>(memory, made, "carom_rating");
+      for (const [k, score] of scores.entries())
+        writeStruct(memory, rows + k * SCORE.size, "carom_score", score, `scores[${k}]`);
+      const code = memory.exports.carom_rating_of(rows, BigInt(scores.length), ratingPointer);
+      const { row, ...rating } = readStruct<Rating & { row: number }>(
+        memory,
+        ratingPointer,
+        "carom_rating",
+      );
       this.#refuse(code, `scores[${row}]`);
       return rating;
     } finally {
@@ -192,16 +202,16 @@ export class Plans {
   }
 
   withErrors(cue: Partial<Cue>, player: Player, seed: number, number: number): Cue {
-    const { cue: at } = this.#host.at;
-    this.#writePlayer(this.#at.player, player, "player");
-    writeStruct(this.#memory, at, "carom_cue", this.#host.cue(cue), "cue");
+    const { cue: pointer } = this.#host.addresses;
+    this.#writePlayer(this.#addresses.player, player, "player");
+    this.#writeCue(cue);
     this.#memory.exports.carom_player_strike(
-      this.#at.player,
+      this.#addresses.player,
       BigInt(whole(seed, "seed", Number.MAX_SAFE_INTEGER)),
       BigInt(whole(number, "number")),
-      at,
+      pointer,
     );
-    return readStruct<Cue>(this.#memory, at, "carom_cue");
+    return readStruct<Cue>(this.#memory, pointer, "carom_cue");
   }
 
   plan(
@@ -223,19 +233,19 @@ export class Plans {
     table: Table,
     balls: readonly ShotBall[],
     cues: readonly Partial<Cue>[] | undefined,
-    given: PlanOptions,
+    request: PlanOptions,
     slice: number,
     leave: number,
   ): Generator<undefined, PlanStroke[]> {
-    refuseUnknown(given, KEYS.plan);
-    const { best = 5, inHand = "no" } = given;
-    const options = this.#withCueBall(table, balls, cues, given);
+    refuseUnknown(request, KEYS.plan);
+    const { best = 5, inHand = "no" } = request;
+    const options = this.#withCueBall(table, balls, cues, request);
     const memory = this.#memory;
     const most = cues?.length ?? best;
     if (!Number.isInteger(most) || most < 1 || most > 1000)
       throw new RangeError(`${cues ? "cues: there" : "best: it"} must be 1 to 1000, not ${most}`);
     this.#writeJob(table, balls, options);
-    const size = memory.exports.carom_plan_memory(this.#at.options);
+    const size = memory.exports.carom_plan_memory(this.#addresses.options);
     if (size === 0)
       throw new RangeError(
         `shots: it must be a whole number from 100 to 1000000, not ${options.shots}`,
@@ -244,11 +254,11 @@ export class Plans {
     const choices = memory.allocate(most * CHOICE.size);
     const strokes = memory.allocate(most * layout.carom_cue.size);
     try {
-      const { corners, found } = this.#at;
+      const { corners, found } = this.#addresses;
       for (let begun = false; ; begun = true) {
         // Other calls since the last slice have used the memory of arguments.
         const job = this.#writeJob(table, balls, options);
-        setStruct(memory, this.#at.options, "carom_plan_options", { slice }, false);
+        setStruct(memory, this.#addresses.options, "carom_plan_options", { slice }, false);
         const more = { memory: room, memorySize: size, leave };
         setStruct(memory, job, "carom_plan_job", more, false);
         memory.i32[found / 4] = most;
@@ -280,7 +290,7 @@ export class Plans {
         yield undefined;
       }
     } finally {
-      for (const at of [room, choices, strokes]) memory.free(at);
+      for (const pointer of [room, choices, strokes]) memory.free(pointer);
     }
   }
 
@@ -298,14 +308,14 @@ export class Plans {
     if (cues !== undefined) return options;
     const memory = this.#memory;
     const job = this.#writeJob(table, balls, options);
-    const isAny = memory.i32[(this.#at.rules + RULES.offset.anyCueBall) / 4] !== 0;
+    const isAny = memory.i32[(this.#addresses.rules + RULES.offset.anyCueBall) / 4] !== 0;
     if (!isAny || options.opening || options.cue?.ball !== undefined) return options;
-    const { found } = this.#at;
+    const { found } = this.#addresses;
     let most = -1;
     let cue: Partial<Cue> = { ...options.cue };
     for (const ball of members(inPlay(balls), balls.length)) {
       const struck = { ...options.cue, ball };
-      writeStruct(memory, this.#host.at.cue, "carom_cue", this.#host.cue(struck), "cue");
+      this.#writeCue(struck);
       const code = memory.exports.carom_plan_value(job, 0, found);
       const value = memory.f64[found / 8]!;
       if (code < 0 || value <= most) continue;
@@ -316,25 +326,25 @@ export class Plans {
   }
 
   /** Where a cue ball in hand may be put on the table in the module's memory. */
-  #writeBounds(inHand: NonNullable<PlanOptions["inHand"]>, at: Pointer, radius: number): void {
+  #writeBounds(inHand: NonNullable<PlanOptions["inHand"]>, pointer: Pointer, radius: number): void {
     const memory = this.#memory;
-    const { table } = this.#host.at;
-    if (typeof inHand === "object") return memory.f64.set(inHand.flat(), at / 8);
+    const { table } = this.#host.addresses;
+    if (typeof inHand === "object") return memory.f64.set(inHand.flat(), pointer / 8);
     const leave = HANDS.lastIndexOf(inHand);
     if (leave < 0)
       throw new TypeError(
-        `inHand: it must be the hand of a ruling, ${[...new Set(HANDS)].map((one) => `"${one}"`).join(", ")}, or two corners [[x, y], [x, y]], not ${String(inHand)}`,
+        `inHand: it must be the hand of a ruling, ${[...new Set(HANDS)].map((word) => `"${word}"`).join(", ")}, or two corners [[x, y], [x, y]], not ${String(inHand)}`,
       );
-    this.#refuse(memory.exports.carom_hand_bounds(leave, table, radius, at), "inHand");
+    this.#refuse(memory.exports.carom_hand_bounds(leave, table, radius, pointer), "inHand");
   }
 
   /** The names of the rails or pockets of the table in the module's memory. */
-  names(of: "rail" | "pocket", count: number): (string | undefined)[] {
+  names(kind: "rail" | "pocket", count: number): (string | undefined)[] {
     const { exports } = this.#memory;
-    const { table } = this.#host.at;
+    const { table } = this.#host.addresses;
     return Array.from({ length: count }, (_, k) =>
       this.#memory.text(
-        of === "rail" ? exports.carom_rail_name(table, k) : exports.carom_pocket_name(table, k),
+        kind === "rail" ? exports.carom_rail_name(table, k) : exports.carom_pocket_name(table, k),
       ),
     );
   }
@@ -346,24 +356,28 @@ export class Plans {
     { ball, pocket, via = [] }: AimOf,
     options: ShotOptions,
   ): Aim {
-    const { at } = this.#host;
+    const { addresses } = this.#host;
     const memory = this.#memory;
-    const { pot } = this.#at;
+    const { pot } = this.#addresses;
     this.#host.writeLayout(table, balls);
-    writeStruct(memory, at.cue, "carom_cue", this.#host.cue(cue), "cue");
+    this.#writeCue(cue);
     const shot = this.#host.writeShotOptions(options);
 
     // The ball, the pocket and the way, by their names or indices.
     const rails = this.names("rail", table.rails.length);
     const pockets = this.names("pocket", table.pockets.length);
-    const index = (name: string, of: string, names: readonly (string | undefined)[]): number => {
+    const index = (
+      name: string,
+      option: string,
+      names: readonly (string | undefined)[],
+    ): number => {
       const found = names.indexOf(name);
       return found >= 0
         ? found
         : refuseName(
-            of,
+            option,
             name,
-            [...new Set(names)].filter((one) => one !== undefined),
+            [...new Set(names)].filter((known) => known !== undefined),
           );
     };
     if (via.length > values.CAROM_VIA_MOST)
@@ -377,29 +391,40 @@ export class Plans {
       typeof pocket === "string" ? index(pocket, "pocket", pockets) : pocket,
     );
     write(POT.offset.vias, via.length);
-    for (const [k, one] of via.entries()) {
+    for (const [k, stop] of via.entries()) {
       const part = POT.offset.via + k * PART.size;
       write(
         part + PART.offset.kind,
-        typeof one === "string" ? values.CAROM_PART_RAIL : values.CAROM_PART_BALL,
+        typeof stop === "string" ? values.CAROM_PART_RAIL : values.CAROM_PART_BALL,
       );
-      write(part + PART.offset.index, typeof one === "string" ? index(one, "via", rails) : one);
+      write(part + PART.offset.index, typeof stop === "string" ? index(stop, "via", rails) : stop);
     }
     this.#refuse(
-      memory.exports.carom_aim(at.table, at.balls, balls.length, shot, pot, at.cue),
+      memory.exports.carom_aim(
+        addresses.table,
+        addresses.balls,
+        balls.length,
+        shot,
+        pot,
+        addresses.cue,
+      ),
       "aim",
     );
 
-    const { outcome, elevation, cut, margin, phi, speed, met } = readStruct<C.Pot>(
-      memory,
-      pot,
-      "carom_pot",
-    );
+    const {
+      outcome,
+      elevation,
+      cut,
+      margin,
+      phi,
+      speed,
+      met: contact,
+    } = readStruct<C.Pot>(memory, pot, "carom_pot");
     const word = names.carom_pot_outcome[outcome]!;
-    const { type, a, b } = met;
+    const { type, a, b } = contact;
     return {
       outcome: word,
-      cue: readStruct<Cue>(memory, at.cue, "carom_cue"),
+      cue: readStruct<Cue>(memory, addresses.cue, "carom_cue"),
       elevation,
       cut,
       margin,
@@ -411,14 +436,14 @@ export class Plans {
     };
   }
 
-  on(game: Partial<GameState>, balls: readonly ShotBall[]): number[] {
+  targets(game: Partial<GameState>, balls: readonly ShotBall[]): number[] {
     this.#writeRules(game, balls);
     // A function of the rules, by the module's table of functions.
-    const on = this.#memory.exports.__indirect_function_table.get(
-      this.#memory.u32[(this.#at.rules + RULES.offset.on) / 4]!,
+    const targetsOf = this.#memory.exports.__indirect_function_table.get(
+      this.#memory.u32[(this.#addresses.rules + RULES.offset.on) / 4]!,
     ) as Method;
-    const set = on(this.#at.rules + RULES.offset.state, inPlay(balls));
-    this.own.check();
+    const set = targetsOf(this.#addresses.rules + RULES.offset.state, inPlay(balls));
+    this.customRules.check();
     return members(set, balls.length);
   }
 
@@ -430,19 +455,25 @@ export class Plans {
     call: Call | undefined,
     options: ShotOptions,
   ): Ruling {
-    const { at } = this.#host;
+    const { addresses } = this.#host;
     const memory = this.#memory;
     // The shot once more, with its facts.
-    const struck = this.#host.cue(cue);
     this.#host.writeLayout(table, balls);
-    writeStruct(memory, at.cue, "carom_cue", struck, "cue");
+    const struck = this.#writeCue(cue);
     const optionsAt = this.#host.writeShotOptions(options);
     this.#host.writeShot();
     const code =
       call === "pass"
         ? -1
-        : memory.exports.carom_shoot(at.table, at.balls, balls.length, at.cue, optionsAt, at.shot);
-    return this.rule(balls, code < 0 ? 0 : at.shot, game, call, struck.ball);
+        : memory.exports.carom_shoot(
+            addresses.table,
+            addresses.balls,
+            balls.length,
+            addresses.cue,
+            optionsAt,
+            addresses.shot,
+          );
+    return this.rule(balls, code < 0 ? 0 : addresses.shot, game, call, struck.ball);
   }
 
   /**
@@ -456,9 +487,9 @@ export class Plans {
     call: Call | undefined,
     cueBall: number,
   ): Ruling {
-    const { at } = this.#host;
+    const { addresses } = this.#host;
     const memory = this.#memory;
-    const { call: callAt, rules, ruling } = this.#at;
+    const { call: callAt, rules, ruling } = this.#addresses;
     this.#writeRules(game, balls);
     const { ball, pocket } = numbersOf(call);
     memory.i32[callAt / 4] = ball;
@@ -466,8 +497,8 @@ export class Plans {
     this.#refuse(
       memory.exports.carom_referee(
         rules,
-        at.table,
-        at.balls,
+        addresses.table,
+        addresses.balls,
         balls.length,
         cueBall,
         shot,
@@ -482,7 +513,7 @@ export class Plans {
   /** A carom_ruling in the module's memory; `balls` have what it leaves as it was. */
   readRuling(ruling: Pointer, game: Rules, balls: readonly ShotBall[]): Ruling {
     const memory = this.#memory;
-    const { text } = this.#at;
+    const { text } = this.#addresses;
     memory.exports.carom_ruling_string(ruling, text, 256);
     const turn = readStruct<Omit<C.Turn, "outcome" | "leave"> & { outcome: number; leave: number }>(
       memory,
@@ -518,24 +549,27 @@ export class Plans {
   /**
    * A carom_rules_state in the module's memory; and one that is written there, once it is checked.
    */
-  readState(at: Pointer, { rules = "eightball", own }: Rules): GameState {
-    const { group, opening, may, ...state } = readStruct<C.RulesState & { group: number }>(
-      this.#memory,
-      at,
-      "carom_rules_state",
-    );
+  readState(pointer: Pointer, { rules = "eightball", own: custom }: Rules): GameState {
+    const {
+      group,
+      opening,
+      may: permitted,
+      ...state
+    } = readStruct<C.RulesState & { group: number }>(this.#memory, pointer, "carom_rules_state");
     return {
       rules,
       group: names.carom_group[group]!,
       opening: opening !== 0,
-      may: MAY.filter((_, k) => (may >> k) & 1),
-      ...(own ? { own, user: this.own.user(at) } : of(state, MEMBERS)),
+      may: MAY.filter((_, k) => (permitted >> k) & 1),
+      ...(custom
+        ? { own: custom, user: this.customRules.user(pointer) }
+        : fieldsOf(state, MEMBERS)),
     };
   }
 
   writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer {
     this.#writeRules(game, balls);
-    return this.#at.rules + RULES.offset.state;
+    return this.#addresses.rules + RULES.offset.state;
   }
 
   // ---- Structs ----------------------------------------------------------------------------------
@@ -545,32 +579,32 @@ export class Plans {
    * in the list then.
    */
   get #settles(): boolean {
-    return this.#memory.u32[(this.#at.rules + RULES.offset.settle) / 4] !== 0;
+    return this.#memory.u32[(this.#addresses.rules + RULES.offset.settle) / 4] !== 0;
   }
 
-  #writePlayer(at: Pointer, player: Player, name: string): Pointer {
-    writeStruct(this.#memory, at, "carom_player", player, name, BOUNDS);
-    return at;
+  #writePlayer(pointer: Pointer, player: Player, name: string): Pointer {
+    writeStruct(this.#memory, pointer, "carom_player", player, name, BOUNDS);
+    return pointer;
   }
 
   #writeRules(game: Partial<GameState>, balls: readonly ShotBall[]): void {
-    const { rules = "eightball", group = "open", opening = false, may = [] } = game;
-    const { rules: at } = this.#at;
+    const { rules = "eightball", group = "open", opening = false, may: permitted = [] } = game;
+    const { rules: pointer } = this.#addresses;
     const memory = this.#memory;
-    if (game.own) return this.own.write(at, game.own, game.user ?? []);
+    if (game.own) return this.customRules.write(pointer, game.own, game.user ?? []);
     refuseOrder(balls, rules);
     const kind = value("carom_rules_kind", rules, "rules");
-    memory.exports.carom_plan_rules_of(at, kind);
+    memory.exports.carom_plan_rules_of(pointer, kind);
     const last = LAST[rules];
     if (this.#settles && last !== undefined && balls.length <= last)
       throw new TypeError(
         `balls: ${rules} has the cue ball and 1 to ${last}, of which some may be down`,
       );
-    const stateAt = at + RULES.offset.state;
+    const stateAt = pointer + RULES.offset.state;
     const words = {
       group: value("carom_group", group, "group"),
       opening: Number(opening),
-      may: may.reduce((sum, one) => sum | (1 << indexOf(MAY, one, "may")), 0),
+      may: permitted.reduce((sum, act) => sum | (1 << indexOf(MAY, act, "may")), 0),
     };
     writeStruct(
       memory,
@@ -578,25 +612,27 @@ export class Plans {
       "carom_rules_state",
       {
         ...readStruct<object>(memory, stateAt, "carom_rules_state"),
-        ...of(game, MEMBERS),
+        ...fieldsOf(game, MEMBERS),
         ...words,
         user: Array(8).fill(0),
       },
       "game",
     );
-    const wrong = memory.text(memory.exports.carom_rules_fault(kind, stateAt, this.#at.found));
+    const wrong = memory.text(
+      memory.exports.carom_rules_fault(kind, stateAt, this.#addresses.found),
+    );
     if (wrong !== undefined)
       throw new RangeError(
-        `${wrong}: by the rules ${rules} it must be ${memory.text(memory.u32[this.#at.found / 4]!)}`,
+        `${wrong}: by the rules ${rules} it must be ${memory.text(memory.u32[this.#addresses.found / 4]!)}`,
       );
   }
 
   #writeJob(table: Table, balls: readonly ShotBall[], options: PlanOptions): Pointer {
     const memory = this.#memory;
-    const { at } = this.#host;
-    const { player, opponent, rules, options: optionsAt, job } = this.#at;
+    const { addresses } = this.#host;
+    const { player, opponent, rules, options: optionsAt, job } = this.#addresses;
     this.#host.writeLayout(table, balls);
-    writeStruct(memory, at.cue, "carom_cue", this.#host.cue(options.cue ?? {}), "cue");
+    this.#writeCue(options.cue ?? {});
     this.#writePlayer(player, options.player ?? this.player({}), "player");
     const shot = this.#host.writeShotOptions(options.shot ?? {});
     this.#writeRules(options, balls);
@@ -613,9 +649,9 @@ export class Plans {
         false,
       );
     return setStruct(memory, job, "carom_plan_job", {
-      table: at.table,
-      balls: at.balls,
-      cue: at.cue,
+      table: addresses.table,
+      balls: addresses.balls,
+      cue: addresses.cue,
       player,
       rules,
       shot,
@@ -624,8 +660,12 @@ export class Plans {
     });
   }
 
-  #readChoice(at: Pointer): PlanStroke {
-    const { kind, ...choice } = readStruct<C.PlanStroke>(this.#memory, at, "carom_plan_stroke");
+  #readChoice(pointer: Pointer): PlanStroke {
+    const { kind, ...choice } = readStruct<C.PlanStroke>(
+      this.#memory,
+      pointer,
+      "carom_plan_stroke",
+    );
     return { ...choice, kind: names.carom_plan_kind[kind]! };
   }
 }

@@ -68,23 +68,23 @@ export interface Host {
 /** A carom_record in memory. */
 class Game {
   readonly #host: Host;
-  readonly at: Pointer;
+  readonly pointer: Pointer;
 
   constructor(host: Host) {
     this.#host = host;
-    this.at = host.memory.allocate(layout.carom_record.size);
+    this.pointer = host.memory.allocate(layout.carom_record.size);
   }
 
   number(offset: number): number {
-    return Number(this.#host.memory.i64[(this.at + offset) / 8]);
+    return Number(this.#host.memory.i64[(this.pointer + offset) / 8]);
   }
 
   end(offset: number): ShotEnd {
     return {
       status: this.#host.statusName(this.number(offset + END.status)),
       events: this.number(offset + END.events),
-      time: this.#host.memory.f64[(this.at + offset + END.time) / 8]!,
-      hash: hex(this.#host.memory.i64[(this.at + offset + END.hash) / 8]!),
+      time: this.#host.memory.f64[(this.pointer + offset + END.time) / 8]!,
+      hash: hex(this.#host.memory.i64[(this.pointer + offset + END.hash) / 8]!),
     };
   }
 
@@ -95,12 +95,12 @@ class Game {
       throw new CaromError(
         code,
         this.#host.statusName(code),
-        this.#host.memory.text(this.at + RECORD.fault)!,
+        this.#host.memory.text(this.pointer + RECORD.fault)!,
         line,
       );
     if (code === values.CAROM_ERROR_REVISION) {
-      const own = this.#host.memory.exports.carom_physics_revision();
-      const text = `the recording is of revision ${this.number(RECORD.revision)} of the physics, not ${own}: its shots have other bits here`;
+      const revision = this.#host.memory.exports.carom_physics_revision();
+      const text = `the recording is of revision ${this.number(RECORD.revision)} of the physics, not ${revision}: its shots have other bits here`;
       throw new CaromError(code, this.#host.statusName(code), text, line);
     }
   }
@@ -128,25 +128,25 @@ class Game {
   play(kind: number): number {
     const { memory } = this.#host;
     if (this.#shot === 0) this.#shot = memory.allocate(SHOT.size);
-    const before = memory.u8.slice(this.at, this.at + layout.carom_record.size);
+    const backup = memory.u8.slice(this.pointer, this.pointer + layout.carom_record.size);
     for (;;) {
       memory.u8.fill(0, this.#shot, this.#shot + SHOT.size);
       memory.u32[(this.#shot + SHOT.offset.events) / 4] = this.#events;
       memory.i64[(this.#shot + SHOT.offset.room) / 8] = BigInt(this.#room);
-      const code = memory.exports.carom_record_play(this.at, kind, this.#shot);
+      const code = memory.exports.carom_record_play(this.pointer, kind, this.#shot);
       const count = Number(memory.i64[(this.#shot + SHOT.offset.count) / 8]);
       if (count <= this.#room) {
-        const table = readTable(memory, this.at + RECORD.table);
-        const balls = readBalls(memory, this.at + RECORD.balls, this.number(RECORD.count));
+        const table = readTable(memory, this.pointer + RECORD.table);
+        const balls = readBalls(memory, this.pointer + RECORD.balls, this.number(RECORD.count));
         if (this.number(RECORD.pending) === 2)
           this.film = this.#host.played(
             table,
             balls,
             code,
             this.#shot,
-            this.at + RECORD.final,
+            this.pointer + RECORD.final,
             this.#events,
-            this.at + RECORD.facts,
+            this.pointer + RECORD.facts,
           );
         return code;
       }
@@ -155,7 +155,7 @@ class Game {
       memory.u8.copyWithin(events, this.#events, this.#events + this.#room * EVENT_SIZE);
       memory.free(this.#events);
       [this.#events, this.#room] = [events, 2 * count];
-      memory.u8.set(before, this.at);
+      memory.u8.set(backup, this.pointer);
     }
   }
 
@@ -170,7 +170,9 @@ class Game {
     memory.u8.set(bytes, this.#line);
     // Blank lines are lines too, but for the end of a text.
     this.refuse(
-      bytes.length === 0 ? 0 : memory.exports.carom_record_read(this.at, this.#line, bytes.length),
+      bytes.length === 0
+        ? 0
+        : memory.exports.carom_record_read(this.pointer, this.#line, bytes.length),
     );
     if (this.number(RECORD.pending) !== 1) return undefined;
     const kind = this.number(RECORD.kind);
@@ -186,7 +188,7 @@ class Game {
       continues: kind === values.CAROM_RECORD_CONTINUE,
       table: film.table,
       balls: [...film.balls],
-      cue: readStruct<Cue>(memory, this.at + RECORD.cue, "carom_cue"),
+      cue: readStruct<Cue>(memory, this.pointer + RECORD.cue, "carom_cue"),
       recorded,
       played,
       same: (Object.keys(played) as (keyof ShotEnd)[]).every((key) =>
@@ -198,7 +200,8 @@ class Game {
   }
 
   free(): void {
-    for (const at of [this.at, this.#shot, this.#events, this.#line]) this.#host.memory.free(at);
+    for (const pointer of [this.pointer, this.#shot, this.#events, this.#line])
+      this.#host.memory.free(pointer);
   }
 }
 

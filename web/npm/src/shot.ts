@@ -39,7 +39,7 @@ export class Shot {
     /** @internal What rules ask about, as the library wrote it. */
     readonly facts?: Uint8Array,
     /** @internal What `continue` needs. */
-    readonly kept?: Kept,
+    readonly retained?: Kept,
   ) {
     this.#reader = reader;
   }

@@ -29,8 +29,8 @@ export function indexOf(words: readonly string[], word: unknown, option: string)
 }
 
 /** The value of a word of an enumeration: value("carom_cushion_model", "han", "model"). */
-export function value(of: keyof typeof NAMES, word: unknown, option: string): number {
-  return indexOf(NAMES[of], word, option);
+export function value(enumeration: keyof typeof NAMES, word: unknown, option: string): number {
+  return indexOf(NAMES[enumeration], word, option);
 }
 
 /** Throws because a name is none of a list. */
@@ -57,9 +57,9 @@ const FIELDS = Object.fromEntries(
     Object.entries(offset)
       .filter(([key]) => key !== "unused")
       .map(([key, begin]): Field => {
-        const of = (type as Record<string, Type>)[key]!;
-        const size = (bytes as Record<string, number>)[key]! / bytesOf(of);
-        return { key, begin, type: of, size };
+        const fieldType = (type as Record<string, Type>)[key]!;
+        const size = (bytes as Record<string, number>)[key]! / bytesOf(fieldType);
+        return { key, begin, type: fieldType, size };
       }),
   ]),
 ) as Record<StructName, Field[]>;
@@ -68,8 +68,8 @@ const KEYS_OF = Object.fromEntries(
 ) as Record<StructName, string[]>;
 
 /** Refuses what a struct does not have. */
-export function refuseUnknownOf(struct: StructName, from: object, name: string): void {
-  refuseUnknown(from, KEYS_OF[struct], name);
+export function refuseUnknownOf(struct: StructName, fields: object, name: string): void {
+  refuseUnknown(fields, KEYS_OF[struct], name);
 }
 
 /** What a field has to be, in words. */
@@ -79,9 +79,9 @@ function wordsOf(size: number, whole: boolean): string {
 }
 
 /** The numbers of a field that is one of them or a list; undefined where it is neither. */
-function listOf(given: unknown, size: number): ArrayLike<number> | null | undefined {
-  if (size === 1) return [given as number];
-  return typeof given === "object" ? (given as ArrayLike<number> | null) : undefined;
+function listOf(value: unknown, size: number): ArrayLike<number> | null | undefined {
+  if (size === 1) return [value as number];
+  return typeof value === "object" ? (value as ArrayLike<number> | null) : undefined;
 }
 
 /**
@@ -90,56 +90,56 @@ function listOf(given: unknown, size: number): ArrayLike<number> | null | undefi
  */
 export function writeStruct(
   memory: Memory,
-  at: Pointer,
+  pointer: Pointer,
   struct: StructName,
-  from: object,
+  fields: object,
   name: string,
   defaults?: object,
 ): void {
-  refuseUnknownOf(struct, from, name);
+  refuseUnknownOf(struct, fields, name);
   const { f64, i64, i32 } = memory;
   for (const { key, begin, size, type } of FIELDS[struct]) {
     if (key === "unused") continue; // it stays 0
-    const given =
-      (from as Record<string, unknown>)[key] ??
+    const value =
+      (fields as Record<string, unknown>)[key] ??
       (defaults as Record<string, unknown> | undefined)?.[key];
     const whole = type === "i64" || type === "i32";
-    const list = listOf(given, size);
+    const list = listOf(value, size);
     if (
       list?.length !== size ||
       ((size === 1 || whole) &&
-        !Array.from(list).every((one) =>
-          whole ? Number.isSafeInteger(one) : typeof one === "number",
+        !Array.from(list).every((number) =>
+          whole ? Number.isSafeInteger(number) : typeof number === "number",
         ))
     )
       throw new TypeError(
-        `${name}.${key}: it must be ${wordsOf(size, whole)}, not ${JSON.stringify(given)}`,
+        `${name}.${key}: it must be ${wordsOf(size, whole)}, not ${JSON.stringify(value)}`,
       );
     for (let k = 0; k < size; k++)
-      if (type === "i64") i64[(at + begin) / 8 + k] = BigInt(list[k]!);
-      else if (type === "i32") i32[(at + begin) / 4 + k] = list[k]!;
-      else f64[(at + begin) / 8 + k] = list[k]!;
+      if (type === "i64") i64[(pointer + begin) / 8 + k] = BigInt(list[k]!);
+      else if (type === "i32") i32[(pointer + begin) / 4 + k] = list[k]!;
+      else f64[(pointer + begin) / 8 + k] = list[k]!;
   }
 }
 
 /** Sets some fields of a struct, which is cleared before: numbers, enumerators and addresses. */
 export function setStruct<S extends StructName>(
   memory: Memory,
-  at: Pointer,
+  pointer: Pointer,
   struct: S,
-  from: { [key in keyof (typeof layout)[S]["offset"]]?: number | bigint },
+  values: { [key in keyof (typeof layout)[S]["offset"]]?: number | bigint },
   clear = true,
 ): Pointer {
-  if (clear) memory.u8.fill(0, at, at + layout[struct].size);
+  if (clear) memory.u8.fill(0, pointer, pointer + layout[struct].size);
   const { f64, i64, i32 } = memory;
   for (const { key, begin, type, size } of FIELDS[struct]) {
-    const given = (from as Record<string, number | bigint | undefined>)[key];
-    if (given === undefined) continue;
-    if (type === "f64") f64[(at + begin) / 8] = Number(given);
-    else if (size * bytesOf(type) === 8) i64[(at + begin) / 8] = BigInt(given);
-    else i32[(at + begin) / 4] = Number(given);
+    const value = (values as Record<string, number | bigint | undefined>)[key];
+    if (value === undefined) continue;
+    if (type === "f64") f64[(pointer + begin) / 8] = Number(value);
+    else if (size * bytesOf(type) === 8) i64[(pointer + begin) / 8] = BigInt(value);
+    else i32[(pointer + begin) / 4] = Number(value);
   }
-  return at;
+  return pointer;
 }
 
 /** A number of a count or a seed. */
@@ -158,101 +158,101 @@ export function whole(number: number | undefined, option: string, most = 0x7ffff
  */
 export function writeOptions(
   memory: Memory,
-  at: Pointer,
+  pointer: Pointer,
   struct: keyof typeof OPTIONS,
-  from: object,
+  options: object,
   stops = false,
 ): Pointer {
   const fields: Record<string, number | bigint> = {};
-  for (const { key, form, of, stop } of OPTIONS[struct]) {
+  for (const { key, form, enumeration, stop } of OPTIONS[struct]) {
     if (stops && !stop) continue;
-    const given = (from as Record<string, unknown>)[key] ?? 0;
-    const bit = (one: unknown): bigint =>
+    const supplied = (options as Record<string, unknown>)[key] ?? 0;
+    const bit = (item: unknown): bigint =>
       1n <<
       BigInt(
-        of === ""
-          ? whole(one as number, key, 63)
-          : indexOf(["contact", ...NAMES[of].slice(1)], one, key),
+        enumeration === ""
+          ? whole(item as number, key, 63)
+          : indexOf(["contact", ...NAMES[enumeration].slice(1)], item, key),
       );
     if (form === "words")
-      fields[key] = given === 0 ? 0 : value(of as keyof typeof NAMES, given, key);
+      fields[key] = supplied === 0 ? 0 : value(enumeration as keyof typeof NAMES, supplied, key);
     else if (form === "set")
       fields[key] =
-        given === 0
+        supplied === 0
           ? 0n
-          : (Array.isArray(given) ? given : [given]).reduce(
-              (set: bigint, one) => set | bit(one),
+          : (Array.isArray(supplied) ? supplied : [supplied]).reduce(
+              (set: bigint, item) => set | bit(item),
               0n,
             );
-    else if (form === "number" && typeof given !== "number")
-      throw new TypeError(`${key}: it must be a number, not ${JSON.stringify(given)}`);
+    else if (form === "number" && typeof supplied !== "number")
+      throw new TypeError(`${key}: it must be a number, not ${JSON.stringify(supplied)}`);
     else
       fields[key] =
         form === "number"
-          ? (given as number)
-          : whole(given as number, key, form === "seed" ? Number.MAX_SAFE_INTEGER : undefined);
+          ? (supplied as number)
+          : whole(supplied as number, key, form === "seed" ? Number.MAX_SAFE_INTEGER : undefined);
   }
-  return setStruct(memory, at, struct, fields, !stops);
+  return setStruct(memory, pointer, struct, fields, !stops);
 }
 
 /** A struct as an object: numbers, lists of numbers, and structs in it. */
-export function readStruct<T>(memory: Memory, at: Pointer, struct: StructName): T {
+export function readStruct<T>(memory: Memory, pointer: Pointer, struct: StructName): T {
   const { f64, i64, i32 } = memory;
-  const one = (type: Type, at: Pointer): unknown => {
-    if (type === "f64") return f64[at / 8];
-    if (type === "i64") return Number(i64[at / 8]);
-    if (type === "i32") return i32[at / 4];
-    return readStruct(memory, at, type as StructName);
+  const readOne = (type: Type, place: Pointer): unknown => {
+    if (type === "f64") return f64[place / 8];
+    if (type === "i64") return Number(i64[place / 8]);
+    if (type === "i32") return i32[place / 4];
+    return readStruct(memory, place, type as StructName);
   };
   const read = ({ key, begin, type, size }: Field): [string, unknown] => [
     key,
     size === 1
-      ? one(type, at + begin)
-      : Array.from({ length: size }, (_, k) => one(type, at + begin + k * bytesOf(type))),
+      ? readOne(type, pointer + begin)
+      : Array.from({ length: size }, (_, k) => readOne(type, pointer + begin + k * bytesOf(type))),
   ];
   return Object.fromEntries(FIELDS[struct].filter(({ type }) => type !== "").map(read)) as T;
 }
 
-export function vec3(f64: Float64Array, at: Pointer): Vec3 {
-  const k = at / 8;
+export function vec3(f64: Float64Array, pointer: Pointer): Vec3 {
+  const k = pointer / 8;
   return [f64[k]!, f64[k + 1]!, f64[k + 2]!];
 }
 
-export function readMotion(f64: Float64Array, at: Pointer): Motion {
+export function readMotion(f64: Float64Array, pointer: Pointer): Motion {
   return {
-    v: vec3(f64, at + layout.carom_motion.offset.v),
-    w: vec3(f64, at + layout.carom_motion.offset.w),
+    v: vec3(f64, pointer + layout.carom_motion.offset.v),
+    w: vec3(f64, pointer + layout.carom_motion.offset.w),
   };
 }
 
 const STATE = layout.carom_ball_state.offset;
 
-export function readState(memory: Memory, at: Pointer): BallState {
+export function readState(memory: Memory, pointer: Pointer): BallState {
   const f64 = memory.f64;
-  const label = NAMES.carom_label[memory.i32[(at + STATE.label) / 4]!]!;
+  const label = NAMES.carom_label[memory.i32[(pointer + STATE.label) / 4]!]!;
   return {
-    r: vec3(f64, at + STATE.r),
-    v: vec3(f64, at + STATE.v),
-    w: vec3(f64, at + STATE.w),
+    r: vec3(f64, pointer + STATE.r),
+    v: vec3(f64, pointer + STATE.v),
+    w: vec3(f64, pointer + STATE.w),
     label,
   };
 }
 
-export function writeStates(memory: Memory, at: Pointer, states: readonly BallState[]): void {
+export function writeStates(memory: Memory, pointer: Pointer, states: readonly BallState[]): void {
   for (const [k, state] of states.entries())
     writeStruct(
       memory,
-      at + k * layout.carom_ball_state.size,
+      pointer + k * layout.carom_ball_state.size,
       "carom_ball_state",
       { ...state, label: value("carom_label", state.label, "label") },
       "state",
     );
 }
 
-export function writeBalls(memory: Memory, at: Pointer, balls: readonly ShotBall[]): void {
+export function writeBalls(memory: Memory, pointer: Pointer, balls: readonly ShotBall[]): void {
   const { kind, state } = layout.carom_shot_ball.offset;
   for (const [k, ball] of balls.entries()) {
-    const ballAt = at + k * layout.carom_shot_ball.size;
+    const ballAt = pointer + k * layout.carom_shot_ball.size;
     const name = `balls[${k}]`;
     refuseUnknown(ball, KEYS.ball, name);
     writeStruct(memory, ballAt + kind, "carom_ball_kind", ball.kind, `${name}.kind`);
@@ -267,10 +267,10 @@ export function writeBalls(memory: Memory, at: Pointer, balls: readonly ShotBall
   }
 }
 
-export function readBalls(memory: Memory, at: Pointer, count: number): ShotBall[] {
+export function readBalls(memory: Memory, pointer: Pointer, count: number): ShotBall[] {
   const { kind, state } = layout.carom_shot_ball.offset;
   return Array.from({ length: count }, (_, k) => {
-    const ball = at + k * layout.carom_shot_ball.size;
+    const ball = pointer + k * layout.carom_shot_ball.size;
     return {
       kind: readStruct(memory, ball + kind, "carom_ball_kind"),
       state: readState(memory, ball + state),
@@ -289,21 +289,21 @@ const PARTS = [
 /** What the parts of a table may lack. */
 const PART = { line: [0, 0, 0], muCushion: 0, restitution: 0 };
 
-export function writeTable(memory: Memory, at: Pointer, table: Table): void {
+export function writeTable(memory: Memory, pointer: Pointer, table: Table): void {
   refuseUnknown(table, KEYS.table, "table");
-  memory.u8.fill(0, at, at + layout.carom_table.size);
-  for (const key of TABLE_NUMBERS) memory.f64[(at + TABLE[key]) / 8] = table[key] ?? 0;
+  memory.u8.fill(0, pointer, pointer + layout.carom_table.size);
+  for (const key of TABLE_NUMBERS) memory.f64[(pointer + TABLE[key]) / 8] = table[key] ?? 0;
   for (const [name, count, struct, first, most] of PARTS) {
     const parts = table[name];
     if (!Array.isArray(parts))
       throw new TypeError(`table.${name}: a list is needed, not ${JSON.stringify(parts)}`);
     if (parts.length > most)
       throw new RangeError(`table.${name}: at most ${most}, not ${parts.length}`);
-    memory.i64[(at + count) / 8] = BigInt(parts.length);
+    memory.i64[(pointer + count) / 8] = BigInt(parts.length);
     for (const [k, part] of parts.entries())
       writeStruct(
         memory,
-        at + first + k * layout[struct].size,
+        pointer + first + k * layout[struct].size,
         struct,
         part,
         `table.${name}[${k}]`,
@@ -312,36 +312,36 @@ export function writeTable(memory: Memory, at: Pointer, table: Table): void {
   }
 }
 
-export function readTable(memory: Memory, at: Pointer): Table {
+export function readTable(memory: Memory, pointer: Pointer): Table {
   const parts = PARTS.map(([name, count, struct, first]) => [
     name,
-    Array.from({ length: Number(memory.i64[(at + count) / 8]) }, (_, k) =>
-      readStruct(memory, at + first + k * layout[struct].size, struct),
+    Array.from({ length: Number(memory.i64[(pointer + count) / 8]) }, (_, k) =>
+      readStruct(memory, pointer + first + k * layout[struct].size, struct),
     ),
   ]);
-  const numbers = TABLE_NUMBERS.map((key) => [key, memory.f64[(at + TABLE[key]) / 8]!]);
+  const numbers = TABLE_NUMBERS.map((key) => [key, memory.f64[(pointer + TABLE[key]) / 8]!]);
   return { ...Object.fromEntries(numbers), ...Object.fromEntries(parts) } as Table;
 }
 
 const EVENT = layout.carom_event.offset;
 
-export function readEvent(memory: Memory, at: Pointer): Omit<ShotEvent, "slip"> {
+export function readEvent(memory: Memory, pointer: Pointer): Omit<ShotEvent, "slip"> {
   const i32 = memory.i32;
-  const type = i32[(at + EVENT.type) / 4]!;
+  const type = i32[(pointer + EVENT.type) / 4]!;
   const sides = type === values.CAROM_EVENT_BALL_BALL ? 2 : 1;
   const states = (begin: number): BallState[] =>
     Array.from({ length: sides }, (_, k) =>
-      readState(memory, at + begin + k * layout.carom_ball_state.size),
+      readState(memory, pointer + begin + k * layout.carom_ball_state.size),
     );
   return {
-    time: memory.f64[(at + EVENT.time) / 8]!,
+    time: memory.f64[(pointer + EVENT.time) / 8]!,
     type: NAMES.carom_event_type[type] as EventType,
-    a: i32[(at + EVENT.a) / 4]!,
-    b: i32[(at + EVENT.b) / 4]!,
+    a: i32[(pointer + EVENT.a) / 4]!,
+    b: i32[(pointer + EVENT.b) / 4]!,
     before: states(EVENT.before),
     after: states(EVENT.after),
-    cluster: i32[(at + EVENT.cluster) / 4]!,
-    impulse: memory.f64[(at + EVENT.impulse) / 8]!,
+    cluster: i32[(pointer + EVENT.cluster) / 4]!,
+    impulse: memory.f64[(pointer + EVENT.impulse) / 8]!,
   };
 }
 
@@ -351,8 +351,8 @@ export function members(set: number, count = 32): number[] {
 }
 
 /** The set of balls, or of others that are fewer than `count`. */
-export function setOf(of: readonly number[], name: string, count = 32): number {
-  return of.reduce((set, one) => set | (1 << whole(one, name, count - 1)), 0) >>> 0;
+export function setOf(members: readonly number[], name: string, count = 32): number {
+  return members.reduce((set, item) => set | (1 << whole(item, name, count - 1)), 0) >>> 0;
 }
 
 const FACTS = layout.carom_facts.offset;
@@ -360,24 +360,24 @@ const FACTS = layout.carom_facts.offset;
 /** The facts of a shot with so many balls. */
 export function readFacts(
   memory: Memory,
-  at: Pointer,
+  pointer: Pointer,
   count: number = values.CAROM_BALLS_MOST,
 ): ShotFacts {
   const { first, cushionsBefore, cushionsAfter, cushions, pocket, pocketTime, touches } =
-    readStruct<C.Facts>(memory, at, "carom_facts");
-  const all = (field: "down" | "off" | "frozen" | "pushed" | "jumped"): number[] =>
-    members(memory.u32[(at + FACTS[field]) / 4]!, count);
-  const potted = all("down").sort((a, b) => pocketTime[a]! - pocketTime[b]!);
+    readStruct<C.Facts>(memory, pointer, "carom_facts");
+  const ballsWith = (field: "down" | "off" | "frozen" | "pushed" | "jumped"): number[] =>
+    members(memory.u32[(pointer + FACTS[field]) / 4]!, count);
+  const potted = ballsWith("down").sort((a, b) => pocketTime[a]! - pocketTime[b]!);
   return {
     first,
     cushionsBefore,
     cushionsAfter,
     cushions: cushions.slice(0, count),
     potted: potted.map((ball) => ({ ball, pocket: pocket[ball]!, time: pocketTime[ball]! })),
-    off: all("off"),
-    frozen: all("frozen"),
-    pushed: all("pushed"),
-    jumped: all("jumped"),
+    off: ballsWith("off"),
+    frozen: ballsWith("frozen"),
+    pushed: ballsWith("pushed"),
+    jumped: ballsWith("jumped"),
     touches,
   };
 }

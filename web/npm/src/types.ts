@@ -286,7 +286,7 @@ export interface GameRules {
     cueBall: number,
     facts: ShotFacts,
     call: C.Call,
-    foul: (on: readonly number[]) => C.Foul,
+    foul: (targets: readonly number[]) => C.Foul,
   ): OwnTurn;
   /** How many balls, or points, the player at the table and the other need to win. */
   left(user: readonly number[], inPlay: number[]): readonly [number, number];

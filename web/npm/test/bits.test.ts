@@ -11,11 +11,11 @@ const LABELS = ["stationary", "spinning", "sliding", "rolling", "pocketed", "air
 function drawCollision(draws: Draws, k: number): number[] {
   const wild = k % 2 === 1;
   const radius = 0.028575;
-  const x = draws.between(-1, 1);
-  const y = draws.between(-1, 1);
+  const x = draws.uniform(-1, 1);
+  const y = draws.uniform(-1, 1);
   const length = Math.sqrt(x * x + y * y) + 2 ** -60;
-  const aCloth = draws.between(0, wild ? 1 : 0.4);
-  const bCloth = draws.between(0, wild ? 1 : 0.4);
+  const aCloth = draws.uniform(0, wild ? 1 : 0.4);
+  const bCloth = draws.uniform(0, wild ? 1 : 0.4);
   const bMass = wild ? 0.17 * draws.powerOfTwo(-3, 3) : 0.17;
   const r = [(2 * radius * x) / length, (2 * radius * y) / length, 0];
   const av = [0, 0, 0];
@@ -23,17 +23,17 @@ function drawCollision(draws: Draws, k: number): number[] {
   const aw = [0, 0, 0];
   const bw = [0, 0, 0];
   for (let c = 0; c < 2; c++) {
-    av[c] = draws.between(-2, 2);
-    bv[c] = wild ? draws.between(-2, 2) : 0;
+    av[c] = draws.uniform(-2, 2);
+    bv[c] = wild ? draws.uniform(-2, 2) : 0;
     if (wild) bv[c]! *= draws.powerOfTwo(-30, 2);
   }
   for (let c = 0; c < 3; c++) {
-    aw[c] = draws.between(-100, 100);
+    aw[c] = draws.uniform(-100, 100);
     if (wild) aw[c]! *= draws.powerOfTwo(-30, 3);
-    bw[c] = wild ? draws.between(-100, 100) : 0;
+    bw[c] = wild ? draws.uniform(-100, 100) : 0;
   }
-  const muBall = draws.between(0, wild ? 1 : 0.12);
-  let restitution = draws.between(wild ? 0 : 0.8, 1);
+  const muBall = draws.uniform(0, wild ? 1 : 0.12);
+  let restitution = draws.uniform(wild ? 0 : 0.8, 1);
   if (k % 97 === 50) restitution = 2;
   return [
     0,
@@ -67,7 +67,7 @@ function collisions(carom: Carom, solver: "exact" | "euler", slip: "paper" | "po
   return hash.text;
 }
 
-const addState = (hash: Hash, s: BallState): Hash =>
+const addState = (hash: Hash, s: BallState) =>
   hash.numbers([...s.r, ...s.v, ...s.w]).whole(LABELS.indexOf(s.label));
 
 const TYPES = [
@@ -80,7 +80,7 @@ const TYPES = [
 const LATER = ["sliding_rolling", "rolling_spinning", "rolling_stationary", "spinning_stationary"];
 
 /** shots() of bits.c, up to and with the combinations asked for. */
-function shots(carom: Carom, wanted: string[]): Map<string, string> {
+function shots(carom: Carom, keys: string[]): Map<string, string> {
   const games: [string, RackName, TableName, Game][] = [
     ["nine-ball", "nineball", "9ft", "pool"],
     ["eight-ball", "eightball", "7ft", "pool"],
@@ -102,11 +102,11 @@ function shots(carom: Carom, wanted: string[]): Map<string, string> {
         const balls = carom.rack(rackName, table, { gap: k === 1 ? 0 : 1e-4, seed: k });
         const kind = carom.kind(game);
         for (const ball of balls) ball.kind = kind;
-        const speed = draws.between(0.5, 8.5);
-        const phi = rackName === "threecushion" ? draws.between(0, 360) : draws.between(80, 100);
-        const theta = k === 3 ? draws.between(0, 60) : 2;
-        const a = draws.between(-0.4, 0.4);
-        const b = draws.between(-0.4, 0.4);
+        const speed = draws.uniform(0.5, 8.5);
+        const phi = rackName === "threecushion" ? draws.uniform(0, 360) : draws.uniform(80, 100);
+        const theta = k === 3 ? draws.uniform(0, 60) : 2;
+        const a = draws.uniform(-0.4, 0.4);
+        const b = draws.uniform(-0.4, 0.4);
         const shot = carom.simulate(table, balls, carom.cue({ speed, phi, theta, a, b }, game), {
           ...options,
           space: "flat",
@@ -116,8 +116,8 @@ function shots(carom: Carom, wanted: string[]): Map<string, string> {
           const type = [...TYPES, ...LATER].indexOf(event.type) + 1;
           if (type === 0) throw new Error(`an event of an unknown type: ${event.type}`);
           hash.number(event.time).whole(type * 10000 + event.a * 100 + event.b);
-          event.before.forEach((before, side) =>
-            addState(addState(hash, before), event.after[side]!),
+          event.before.forEach((state, side) =>
+            addState(addState(hash, state), event.after[side]!),
           );
         }
         for (const state of shot.final) addState(hash, state);
@@ -125,7 +125,7 @@ function shots(carom: Carom, wanted: string[]): Map<string, string> {
         for (const state of shot.states(1.25)) addState(hash, state);
       }
       found.set(`shots: ${gameName}, ${modelName}`, hash.text);
-      if (wanted.every((what) => found.has(what))) return found;
+      if (keys.every((what) => found.has(what))) return found;
     }
   }
   return found;
@@ -144,12 +144,12 @@ describe.each(builds)("bits of $name", ({ carom }) => {
   });
 
   test("whole shots: four games by three models of cushions", () => {
-    const wanted = ["default", "stronge", "han"].flatMap((model) =>
+    const keys = ["default", "stronge", "han"].flatMap((model) =>
       ["nine-ball", "eight-ball", "snooker", "three-cushion"].map(
         (game) => `shots: ${game}, ${model}`,
       ),
     );
-    const found = shots(carom, wanted);
-    for (const what of wanted) expect(`${what} ${found.get(what)}`).toBe(`${what} ${golden(what)}`);
+    const found = shots(carom, keys);
+    for (const what of keys) expect(`${what} ${found.get(what)}`).toBe(`${what} ${golden(what)}`);
   });
 });

@@ -8,10 +8,20 @@ import {
   toLine,
   type Vec3,
 } from "../dist/index.js";
-import { builds, cases, csv, references, run, thereIsACommand } from "./support.js";
+import {
+  builds,
+  carom,
+  cases,
+  csv,
+  references,
+  refusal,
+  refuses,
+  run,
+  thereIsACommand,
+} from "./support.js";
 
 const { ids, rows } = cases();
-const R = (k: number): number => rows[26 * k + 9]!;
+const R = (k: number) => rows[26 * k + 9]!;
 
 /** The largest deviation over the fastest of the twelve numbers, spins times the radius. */
 function deviation(out: Float64Array, reference: Float64Array, k: number): number {
@@ -26,11 +36,11 @@ function deviation(out: Float64Array, reference: Float64Array, k: number): numbe
 }
 
 function impactOf(row: Float64Array): Impact {
-  const at = (k: number): Vec3 => [row[k]!, row[k + 1]!, row[k + 2]!];
-  const ball = (k: number): Impact["a"] => ({
-    r: at(k),
-    v: at(k + 3),
-    w: at(k + 6),
+  const vector = (k: number): Vec3 => [row[k]!, row[k + 1]!, row[k + 2]!];
+  const ball = (k: number) => ({
+    r: vector(k),
+    v: vector(k + 3),
+    w: vector(k + 6),
     radius: row[k + 9]!,
     mass: row[k + 10]!,
     muSlide: row[k + 11]!,
@@ -93,8 +103,8 @@ describe.each(builds)("collisions by $name", ({ carom }) => {
     const slip = Math.hypot(1.5 * 0.5, 1.5 * Math.hypot(0.866, 0.5) * 0.866);
     expect(mu).toBeCloseTo(0.009951 + 0.108 * Math.exp(-1.088 * slip), 3);
     expect(carom.collide(rolls)).toEqual(carom.collide({ ...rolls, muBall: mu }));
-    const after = carom.rollingVelocity(carom.collide(rolls).a, 0.028575);
-    expect((Math.atan2(-after[1], after[0]) * 180) / Math.PI).toBeCloseTo(33.49, 1);
+    const rolling = carom.rollingVelocity(carom.collide(rolls).a, 0.028575);
+    expect((Math.atan2(-rolling[1], rolling[0]) * 180) / Math.PI).toBeCloseTo(33.49, 1);
   });
 
   test("balls that part keep their motion", () => {
@@ -105,7 +115,7 @@ describe.each(builds)("collisions by $name", ({ carom }) => {
 
   test.runIf(thereIsACommand)("cushions: the command's doubles, by four models", () => {
     const table = csv("cushion-stronge.csv");
-    const number = (row: Record<string, string>, key: string): number => Number(row[key]);
+    const number = (row: Record<string, string>, key: string) => Number(row[key]);
     for (const model of ["mathavan", "stronge", "han", "mirror"] as const) {
       const [head, ...lines] = run([
         "resolve",
@@ -144,17 +154,7 @@ describe.each(builds)("collisions by $name", ({ carom }) => {
 });
 
 describe("what is refused", () => {
-  const { carom } = builds[0]!;
   const good: Impact = { a: { v: [1, 0, 0] }, b: { r: [0.05715, 0, 0] } };
-  const refusal = (call: () => unknown): unknown => {
-    try {
-      call();
-    } catch (error) {
-      return error;
-    }
-    throw new Error("nothing was refused");
-  };
-
   test.each([
     [{ ...good, a: { v: [NaN, 0, 0] } }, "bad_velocity", "a.v[0]"],
     [{ ...good, a: { v: [1, 0, 0], radius: 0 } }, "bad_radius", "a.radius"],
@@ -162,7 +162,7 @@ describe("what is refused", () => {
     [{ ...good, restitution: 1.5 }, "bad_restitution", "restitution"],
     [{ ...good, muBall: 2 }, "bad_mu_ball", "mu_ball"],
   ] as [Impact, string, string][])("a collision: %#", (impact, status, field) => {
-    const error = refusal(() => carom.collide(impact)) as CaromError;
+    const error = refusal<CaromError>(() => carom.collide(impact));
     expect(error).toBeInstanceOf(CaromError);
     expect([error.status, error.field]).toEqual([status, field]);
     expect(error.message).toMatch(new RegExp(`^${field.replace(/[[\].]/g, "\\$&")}: .{10,}`));
@@ -177,157 +177,139 @@ describe("what is refused", () => {
     expect(batch.get(50).a.v).toEqual([NaN, NaN, NaN]);
     expect(batch.get(51)).toEqual(carom.collide(good));
     batch.free();
-    expect(() => batch.in).toThrow("given back");
-    expect(() => carom.collideBatch(batch)).toThrow("given back");
+    refuses([() => batch.in, "given back"], [() => carom.collideBatch(batch), "given back"]);
   });
 
   test("words, shapes, fields and sizes that are not there", () => {
-    expect(() => carom.collide(good, { solver: "magic" as never })).toThrow(
-      "solver: it must be one of exact, euler",
+    refuses(
+      [
+        () => carom.collide(good, { solver: "magic" as never }),
+        "solver: it must be one of exact, euler",
+      ],
+      [() => carom.collide(good, { steps: -1 }), "steps: it must be a whole number"],
+      [
+        () => carom.collide({ ...good, a: { v: [1, 0] as never } }),
+        "a.v: it must be 3 numbers, not [1,0]",
+      ],
+      [() => carom.cushion({ v: [1, 0, 0], normal: [0, 0] }), "normal"],
+      [
+        () => carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { model: "wood" as never }),
+        "model: it must be one of mathavan, stronge, han, mirror, euler, smooth",
+      ],
+      [() => carom.trace(good, 1), "at least 2"],
+      [() => carom.collisions(-1), "0 or more"],
+      [() => carom.collisions(2).set(2, good), "k: it must be 0 to 1"],
+      [() => carom.table("10ft" as never), "7ft, 8ft, 9ft"],
+      [() => carom.rack("golf" as never, carom.table("9ft")), "nineball"],
+      [() => carom.kind("golf" as never), "game: it must be one of"],
+      [() => carom.rack("nineball", carom.table("9ft"), { gap: -1 }), CaromError],
+      [() => carom.rack("nineball", carom.table("9ft"), { seed: 0.5 }), "seed"],
     );
-    expect(() => carom.collide(good, { steps: -1 })).toThrow("steps: it must be a whole number");
-    expect(() => carom.collide({ ...good, a: { v: [1, 0] as never } })).toThrow(
-      "a.v: it must be 3 numbers, not [1,0]",
-    );
-    expect(() => carom.cushion({ v: [1, 0, 0], normal: [0, 0] })).toThrow("normal");
-    expect(() =>
-      carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { model: "wood" as never }),
-    ).toThrow("model: it must be one of mathavan, stronge, han, mirror, euler, smooth");
-    expect(() => carom.trace(good, 1)).toThrow("at least 2");
-    expect(() => carom.collisions(-1)).toThrow("0 or more");
-    expect(() => carom.collisions(2).set(2, good)).toThrow("k: it must be 0 to 1");
-    expect(() => carom.table("10ft" as never)).toThrow("7ft, 8ft, 9ft");
-    expect(() => carom.rack("golf" as never, carom.table("9ft"))).toThrow("nineball");
-    expect(() => carom.kind("golf" as never)).toThrow("game: it must be one of");
-    expect(() => carom.rack("nineball", carom.table("9ft"), { gap: -1 })).toThrow(CaromError);
-    expect(() => carom.rack("nineball", carom.table("9ft"), { seed: 0.5 })).toThrow("seed");
   });
 
   // Every object that a call takes, with one key that it does not have.
   const table = carom.table("9ft");
   const ball = carom.ball(0.6, 0.6);
   const cue = carom.cue();
+  /** The methods of the library, and of what it makes, by name. */
+  const calls = {
+    set: (impact: Impact) => carom.collisions(1).set(0, impact),
+    setCue: (struck: typeof cue) => carom.shots(table, [ball], 1).setCue(0, struck),
+    toLine,
+  };
+  const callOf = (method: string, args: unknown[]): unknown => {
+    const library = method in calls ? calls : carom;
+    return (library as unknown as Record<string, (...args: unknown[]) => unknown>)[method]!(
+      ...args,
+    );
+  };
   test.each([
-    [() => carom.collide({ ...good, mu_ball: 0.1 } as never), "impact.mu_ball", "muBall"],
+    ["collide", [{ ...good, mu_ball: 0.1 }], "impact.mu_ball", "muBall"],
+    ["collide", [{ ...good, b: { ...good.b, raduis: 0.03 } }], "b.raduis", "radius"],
+    ["collide", [{ ...good, a: { speed: 3 } }], "a.speed", undefined],
+    ["collide", [good, { step: 10 }], "step", "steps"],
+    ["collideDetail", [good, { solvr: "exact" }], "solvr", "solver"],
+    ["trace", [good, 3, { Slip: "paper" }], "Slip", "slip"],
+    ["collideBatch", [carom.collisions(1), { threads: 2 }], "threads", undefined],
+    ["set", [{ ...good, restitutoin: 0.9 }], "impact.restitutoin", "restitution"],
+    ["muBall", [{ ...good, c: 1 }], "impact.c", undefined],
     [
-      () => carom.collide({ ...good, b: { ...good.b, raduis: 0.03 } } as never),
-      "b.raduis",
-      "radius",
-    ],
-    [() => carom.collide({ ...good, a: { speed: 3 } } as never), "a.speed", undefined],
-    [() => carom.collide(good, { step: 10 } as never), "step", "steps"],
-    [() => carom.collideDetail(good, { solvr: "exact" } as never), "solvr", "solver"],
-    [() => carom.trace(good, 3, { Slip: "paper" } as never), "Slip", "slip"],
-    [() => carom.collideBatch(carom.collisions(1), { threads: 2 } as never), "threads", undefined],
-    [
-      () => carom.collisions(1).set(0, { ...good, restitutoin: 0.9 } as never),
-      "impact.restitutoin",
-      "restitution",
-    ],
-    [() => carom.muBall({ ...good, c: 1 } as never), "impact.c", undefined],
-    [
-      () => carom.rollingVelocity({ v: [1, 0, 0], w: [0, 0, 0], r: [0, 0, 0] } as never, 0.03),
+      "rollingVelocity",
+      [{ v: [1, 0, 0], w: [0, 0, 0], r: [0, 0, 0] }, 0.03],
       "motion.r",
       undefined,
     ],
     [
-      () => carom.cushion({ v: [1, 0, 0], normal: [1, 0], mu_cushion: 0.2 } as never),
+      "cushion",
+      [{ v: [1, 0, 0], normal: [1, 0], mu_cushion: 0.2 }],
       "impact.mu_cushion",
       "muCushion",
     ],
+    ["cushion", [{ v: [1, 0, 0], normal: [1, 0] }, { modle: "han" }], "modle", "model"],
+    ["rack", ["nineball", table, { sed: 3 }], "sed", "seed"],
+    ["rack", ["nineball", { ...table, ball_radius: 0.03 }], "table.ball_radius", "ballRadius"],
     [
-      () => carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { modle: "han" } as never),
-      "modle",
-      "model",
-    ],
-    [() => carom.rack("nineball", table, { sed: 3 } as never), "sed", "seed"],
-    [
-      () => carom.rack("nineball", { ...table, ball_radius: 0.03 } as never),
-      "table.ball_radius",
-      "ballRadius",
-    ],
-    [
-      () => carom.checkTable({ ...table, rails: [{ ...table.rails[0]!, heigth: 0.03 }] } as never),
+      "checkTable",
+      [{ ...table, rails: [{ ...table.rails[0]!, heigth: 0.03 }] }],
       "table.rails[0].heigth",
       "height",
     ],
     [
-      () => carom.checkTable({ ...table, jaws: [{ ...table.jaws[0]!, center: [0, 0] }] } as never),
+      "checkTable",
+      [{ ...table, jaws: [{ ...table.jaws[0]!, center: [0, 0] }] }],
       "table.jaws[0].center",
       "centre",
     ],
     [
-      () => carom.checkTable({ ...table, pockets: [{ ...table.pockets[0]!, side: 1 }] } as never),
+      "checkTable",
+      [{ ...table, pockets: [{ ...table.pockets[0]!, side: 1 }] }],
       "table.pockets[0].side",
       undefined,
     ],
-    [() => carom.ball(0.5, 0.5, { ...ball.kind, muRol: 0.01 } as never), "kind.muRol", "muRoll"],
-    [() => carom.cue({ spead: 3 } as never), "cue.spead", "speed"],
-    [() => carom.strike({ tipradius: 3 } as never, ball.kind), "cue.tipradius", "tipRadius"],
-    [() => carom.strike({}, { ...ball.kind, gravty: 9.81 } as never), "kind.gravty", "gravity"],
-    [() => carom.simulate(table, [ball], { V0: 3 } as never), "cue.V0", undefined],
+    ["ball", [0.5, 0.5, { ...ball.kind, muRol: 0.01 }], "kind.muRol", "muRoll"],
+    ["cue", [{ spead: 3 }], "cue.spead", "speed"],
+    ["strike", [{ tipradius: 3 }, ball.kind], "cue.tipradius", "tipRadius"],
+    ["strike", [{}, { ...ball.kind, gravty: 9.81 }], "kind.gravty", "gravity"],
+    ["simulate", [table, [ball], { V0: 3 }], "cue.V0", undefined],
+    ["simulate", [table, [ball], {}, { cushion: "han" }], "cushion", "cushionModel"],
+    ["simulate", [table, [ball], {}, { stopAtContact: true }], "stopAtContact", "stopAt"],
+    ["simulate", [table, [{ ...ball, name: "eight" }]], "balls[0].name", undefined],
     [
-      () => carom.simulate(table, [ball], {}, { cushion: "han" } as never),
-      "cushion",
-      "cushionModel",
-    ],
-    [
-      () => carom.simulate(table, [ball], {}, { stopAtContact: true } as never),
-      "stopAtContact",
-      "stopAt",
-    ],
-    [
-      () => carom.simulate(table, [{ ...ball, name: "eight" }] as never),
-      "balls[0].name",
-      undefined,
-    ],
-    [
-      () =>
-        carom.simulate(table, [ball, { ...ball, state: { ...ball.state, lable: "off" } }] as never),
+      "simulate",
+      [table, [ball, { ...ball, state: { ...ball.state, lable: "off" } }]],
       "balls[1].state.lable",
       "label",
     ],
     [
-      () => carom.simulate(table, [{ ...ball, kind: { ...ball.kind, mu_slide: 0.2 } }] as never),
+      "simulate",
+      [table, [{ ...ball, kind: { ...ball.kind, mu_slide: 0.2 } }]],
       "balls[0].kind.mu_slide",
       "muSlide",
     ],
-    [() => carom.firstContact(table, [ball], {}, { timemost: 1 } as never), "timemost", "timeMost"],
+    ["firstContact", [table, [ball], {}, { timemost: 1 }], "timemost", "timeMost"],
+    ["continue", [carom.simulate(table, [ball]), { tiemMost: 1 }], "tiemMost", "timeMost"],
+    ["placeBall", [table, [{ ...ball, stat: 1 }], 0, 0.5, 0.5], "balls[0].stat", "state"],
+    ["shots", [table, [ball], 1, { events: 5 }], "events", undefined],
+    ["setCue", [{ ...cue, endmass: 0.005 }], "cue.endmass", "endMass"],
+    ["simulateBatch", [carom.shots(table, [ball], 1), { eventMost: 5 }], "eventMost", "eventsMost"],
     [
-      () => carom.continue(carom.simulate(table, [ball]), { tiemMost: 1 } as never),
-      "tiemMost",
-      "timeMost",
-    ],
-    [
-      () => carom.placeBall(table, [{ ...ball, stat: 1 }] as never, 0, 0.5, 0.5),
-      "balls[0].stat",
-      "state",
-    ],
-    [() => carom.shots(table, [ball], 1, { events: 5 } as never), "events", undefined],
-    [
-      () => carom.shots(table, [ball], 1).setCue(0, { ...cue, endmass: 0.005 } as never),
-      "cue.endmass",
-      "endMass",
-    ],
-    [
-      () => carom.simulateBatch(carom.shots(table, [ball], 1), { eventMost: 5 } as never),
-      "eventMost",
-      "eventsMost",
-    ],
-    [
-      () => toLine({ table: "9ft", balls: [ball], cue, tablename: "9ft" } as never),
+      "toLine",
+      [{ table: "9ft", balls: [ball], cue, tablename: "9ft" }],
       "shot.tablename",
       "tableName",
     ],
-  ] as [() => unknown, string, string | undefined][])("an unknown key: %#", (call, key, better) => {
-    const { message } = refusal(call) as Error;
-    expect(
-      message.startsWith(
-        `${key}: there is no such key${better === undefined ? "; there are " : `; did you mean "${better}"?`}`,
-      ),
-      message,
-    ).toBe(true);
-  });
+  ] as [string, unknown[], string, string | undefined][])(
+    "an unknown key of %s: %#",
+    (method, args, key, better) => {
+      const { message } = refusal(() => callOf(method, args));
+      expect(
+        message.startsWith(
+          `${key}: there is no such key${better === undefined ? "; there are " : `; did you mean "${better}"?`}`,
+        ),
+        message,
+      ).toBe(true);
+    },
+  );
 
   test("an unknown key of load(), and keys that are missing", async () => {
     await expect(load({ bild: "plain" } as never)).rejects.toThrow(
@@ -337,14 +319,19 @@ describe("what is refused", () => {
     expect(carom.cue({ speed: undefined })).toEqual(cue);
     const kind: Partial<typeof ball.kind> = { ...ball.kind };
     delete kind.mass;
-    expect(() => carom.simulate(table, [{ ...ball, kind }] as never)).toThrow(
-      "balls[0].kind.mass: it must be a number, not undefined",
-    );
-    expect(() => carom.cushion({ normal: [1, 0] } as never)).toThrow(
-      "impact.v: it must be 3 numbers, not undefined",
-    );
-    expect(() => carom.collide({ a: { v: [1, 0, 0] } } as never)).toThrow(
-      "b: an object is needed, not undefined",
+    refuses(
+      [
+        () => carom.simulate(table, [{ ...ball, kind }] as never),
+        "balls[0].kind.mass: it must be a number, not undefined",
+      ],
+      [
+        () => carom.cushion({ normal: [1, 0] } as never),
+        "impact.v: it must be 3 numbers, not undefined",
+      ],
+      [
+        () => carom.collide({ a: { v: [1, 0, 0] } } as never),
+        "b: an object is needed, not undefined",
+      ],
     );
   });
 });

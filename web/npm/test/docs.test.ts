@@ -24,7 +24,7 @@ test.each([
   const printed: string[] = [];
   const spy = vi
     .spyOn(console, "log")
-    .mockImplementation((...all: unknown[]) => void printed.push(all.join(" ")));
+    .mockImplementation((...values: unknown[]) => void printed.push(values.join(" ")));
   const session = text.replaceAll(
     'from "carom"',
     `from ${JSON.stringify(`file://${root}web/npm/dist/index.js`)}`,

@@ -1,14 +1,14 @@
 // Rules of the caller's: every method is called, and what one throws ends the call, never more.
 import { expect, test } from "vitest";
 import type { GameRules } from "../dist/index.js";
-import { builds } from "./support.js";
+import { builds, carom, nineball, refuses } from "./support.js";
 
 /** Rules with all methods, which write down that they were asked, and throw where they are told to. */
-function every(asked: Set<string>, throws: { in: string }, withValue: boolean): GameRules {
-  const ask = <Told>(method: string, told: Told): Told => {
-    asked.add(method);
+function every(called: Set<string>, throws: { in: string }, withValue: boolean): GameRules {
+  const ask = <Told>(method: string, answer: Told) => {
+    called.add(method);
     if (method === throws.in) throw new RangeError(`in ${method}`);
-    return told;
+    return answer;
   };
   const rules: GameRules = {
     race: "points",
@@ -54,37 +54,36 @@ for (const { carom, name } of builds)
       carom.aim(table, balls, { speed: 1, b: -0.3 }, { ball: 1, pocket: 0 }).cue,
     );
     expect(shot.facts).toBeDefined();
-    const asked = new Set<string>();
+    const called = new Set<string>();
     const throws = { in: "" };
-    const own = every(asked, throws, false);
-    const valued = every(asked, throws, true);
+    const asking = every(called, throws, false);
+    const valued = every(called, throws, true);
 
     // a ruling: the ball that fell comes back, the state and the points are those of settle()
-    const ruling = carom.rule(shot, { own, user: [3] });
+    const ruling = carom.rule(shot, { own: asking, user: [3] });
     expect([ruling.put, ruling.turn, ruling.points]).toEqual([[1], "pass", table.length]);
     expect(ruling.game.user).toEqual([7, 0, 0, 0, 0, 0, 0]);
     expect(ruling.reason).toBe("none");
     const settled = every(new Set(), throws, false);
     delete settled.settle; // the library puts it back in the same place
     expect(carom.rule(shot, { own: settled }).balls).toEqual(ruling.balls);
-    expect(carom.ballsOn({ own }, balls)).toEqual([1, 2, 3]);
+    expect(carom.ballsOn({ own: asking }, balls)).toEqual([1, 2, 3]);
 
-    const plan = (rules: GameRules): unknown =>
-      carom.plan(table, balls, { own: rules, shots: 100 });
-    plan(own);
-    expect(asked).toEqual(new Set(["on", "judge", "left", "pockets", "points", "settle"]));
+    const plan = (rules: GameRules) => carom.plan(table, balls, { own: rules, shots: 100 });
+    plan(asking);
+    expect(called).toEqual(new Set(["on", "judge", "left", "pockets", "points", "settle"]));
     const first = plan(valued);
-    expect(asked).toContain("value");
+    expect(called).toContain("value");
 
     const match = carom.match({ own: valued }, table, { balls });
     const played = [...match.lines];
-    for (const method of asked) {
+    for (const method of called) {
       throws.in = method;
       let thrown = 0;
       for (const call of [
-        () => plan(own),
+        () => plan(asking),
         () => plan(valued),
-        () => carom.rule(shot, { own }),
+        () => carom.rule(shot, { own: asking }),
         () => match.stroke({ speed: 1, phi: 90 }),
         () => carom.match({ own: valued }, table, { balls }),
       ])
@@ -100,33 +99,36 @@ for (const { carom, name } of builds)
     throws.in = "";
     expect(plan(valued)).toEqual(first); // what was thrown once is over
     match.stroke({ speed: 1, phi: 90 });
-    const again = carom.match({ own: valued });
-    match.lines.forEach((line) => again.read(line));
-    expect(again.balls).toEqual(match.balls);
-    expect(again.game).toEqual(match.game);
+    const replay = carom.match({ own: valued });
+    match.lines.forEach((line) => replay.read(line));
+    expect(replay.balls).toEqual(match.balls);
+    expect(replay.game).toEqual(match.game);
   });
 
 test("what rules cannot say, and that they cannot call the library", () => {
-  const { carom } = builds[0]!;
-  const table = carom.table("9ft");
-  const balls = carom.rack("nineball", table);
+  const { table, balls } = nineball(carom);
   const shot = carom.simulate(table, balls, { speed: 8 });
   const good = every(new Set(), { in: "" }, true);
-  const rule = (of: object): unknown => carom.rule(shot, { own: { ...good, ...of } });
-  expect(() => rule({ judge: () => undefined })).toThrow("judge: an object is needed");
-  expect(() => rule({ judge: () => ({ turn: "stop" }) })).toThrow("judge: turn: it must be one of");
-  expect(() => rule({ judge: () => ({ turn: "pass", spot: [40] }) })).toThrow("judge: spot");
-  expect(() => rule({ on: () => [-1] })).toThrow("on: it must be a whole number");
-  expect(() => rule({ judge: () => carom.simulate(table, balls) })).toThrow(
-    "rules cannot call the library that calls them",
+  const rule = (changes: object) => carom.rule(shot, { own: { ...good, ...changes } });
+  refuses(
+    [() => rule({ judge: () => undefined }), "judge: an object is needed"],
+    [() => rule({ judge: () => ({ turn: "stop" }) }), "judge: turn: it must be one of"],
+    [() => rule({ judge: () => ({ turn: "pass", spot: [40] }) }), "judge: spot"],
+    [() => rule({ on: () => [-1] }), "on: it must be a whole number"],
+    [
+      () => rule({ judge: () => carom.simulate(table, balls) }),
+      "rules cannot call the library that calls them",
+    ],
+    [() => rule({ left: undefined }), "own: left() is missing"],
   );
-  expect(() => rule({ left: undefined })).toThrow("own: left() is missing");
-  const plan = (of: object): unknown =>
-    carom.plan(table, balls, { own: { ...good, ...of }, shots: 100 });
-  expect(() => plan({ left: () => 3 })).toThrow("left: two numbers are needed, not 3");
-  expect(() => plan({ left: () => [1, 2, 3] })).toThrow("left: two numbers are needed");
-  expect(() => plan({ value: () => NaN })).toThrow("value: a number is needed, not NaN");
-  expect(() => plan({ value: () => 1.5 })).toThrow("value: it must be 0 to 1, not 1.5");
+  const plan = (changes: object) =>
+    carom.plan(table, balls, { own: { ...good, ...changes }, shots: 100 });
+  refuses(
+    [() => plan({ left: () => 3 }), "left: two numbers are needed, not 3"],
+    [() => plan({ left: () => [1, 2, 3] }), "left: two numbers are needed"],
+    [() => plan({ value: () => NaN }), "value: a number is needed, not NaN"],
+    [() => plan({ value: () => 1.5 }), "value: it must be 0 to 1, not 1.5"],
+  );
   const settle =
     (x: number, y: number): GameRules["settle"] =>
     (_user, _table, laid, turn) => {
@@ -134,9 +136,11 @@ test("what rules cannot say, and that they cannot call the library", () => {
       laid[2]!.state.r = [0.6, 1.6, laid[2]!.state.r[2]];
       return turn;
     };
-  expect(() => rule({ settle: settle(NaN, 1) })).toThrow("settle: balls[1]: a position must be");
-  expect(() => rule({ settle: settle(9, 1) })).toThrow("settle: balls[1]: a ball is not on");
-  expect(() => rule({ settle: settle(0.6, 1.6) })).toThrow(/settle: balls.*: two balls overlap/);
-  expect(() => carom.match({ own: good }, table)).toThrow("rules of your own have no rack");
+  refuses(
+    [() => rule({ settle: settle(NaN, 1) }), "settle: balls[1]: a position must be"],
+    [() => rule({ settle: settle(9, 1) }), "settle: balls[1]: a ball is not on"],
+    [() => rule({ settle: settle(0.6, 1.6) }), /settle: balls.*: two balls overlap/],
+    [() => carom.match({ own: good }, table), "rules of your own have no rack"],
+  );
   expect(carom.rule(shot, { own: good }).turn).toBe("pass");
 });

@@ -3,7 +3,7 @@
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import { type BallKind, fromLine, toLine, words } from "../dist/index.js";
-import { builds, root } from "./support.js";
+import { carom, refuses, root } from "./support.js";
 
 interface Row {
   name: string;
@@ -20,8 +20,7 @@ interface Rows {
   words: Record<string, [string, string][]>;
 }
 const rows = JSON.parse(readFileSync(`${root}build/web/rows.json`, "utf8")) as Rows;
-const { carom } = builds[0]!;
-const camel = (name: string): string =>
+const camel = (name: string) =>
   name.replace(/_([a-z0-9])/g, (_, letter: string) => letter.toUpperCase());
 const table = carom.table("9ft");
 const balls = [carom.ball(0.5, 0.5), carom.ball(0.6, 1.5)];
@@ -46,7 +45,7 @@ const options = Object.entries(calls).flatMap(([struct, call]) =>
 test.each(options)("option $key of $struct", ({ key, form, words, call }) => {
   const known = words === null ? [] : rows.words[words]!.map(([word]) => word);
   const good: Partial<Record<string, unknown>> = { set: [1], number: 0.5, flag: 1 };
-  for (const given of words === null ? [good[form] ?? 100] : known) call({ [key]: given });
+  for (const value of words === null ? [good[form] ?? 100] : known) call({ [key]: value });
   for (const wrong of ["no such word", form === "number" ? NaN : -1.5])
     expect(() => call({ [key]: wrong })).toThrow(Number.isNaN(wrong) ? /./ : `${key}: it must be`);
   expect(() => call({ [`${key}x`]: 1 })).toThrow("there is no such key; did you mean");
@@ -103,36 +102,40 @@ test.each(
     string,
     Record<string, number | number[]>[]
   >;
-  const one = wrong[`${part}s`]![1]!;
-  const bad = field === "side" ? 7 : NaN;
-  one[field] = Array.isArray(one[field]) ? one[field].map(() => bad) : bad;
+  const ball = wrong[`${part}s`]![1]!;
+  const invalid = field === "side" ? 7 : NaN;
+  ball[field] = Array.isArray(ball[field]) ? ball[field].map(() => invalid) : invalid;
   expect(() => carom.simulate(wrong as never, balls)).toThrow(
-    `table.${part}s[1].${field}: it must be ${range}, not ${bad}`,
+    `table.${part}s[1].${field}: it must be ${range}, not ${invalid}`,
   );
 });
 
 test("three banks find the cushions of a table, and conditions are named", () => {
-  const here = carom.table("9ft");
-  const usual = carom.calibrate(undefined, here);
+  const table = carom.table("9ft");
+  const usual = carom.calibrate(undefined, table);
   const [a, b, c] = usual.comesBack as unknown as [number, number, number];
-  const found = carom.calibrate([a, b, c], here);
+  const found = carom.calibrate([a, b, c], table);
   expect(found.restitution).toBeCloseTo(carom.kind("pool").restitutionCushion, 6);
   expect(found.friction).toBeCloseTo(carom.kind("pool").muCushion, 6);
   expect(found.misfit).toBeLessThan(1e-6);
   expect(carom.bank(0).aim).toBe(2.5);
-  expect(() => carom.bank(3)).toThrow("bank 3");
-  expect(() => carom.calibrate([4.7, 5.6, 8.5], here)).toThrow("below 8, not 4.7, 5.6, 8.5");
+  refuses(
+    [() => carom.bank(3), "bank 3"],
+    [() => carom.calibrate([4.7, 5.6, 8.5], table), "below 8, not 4.7, 5.6, 8.5"],
+  );
   for (const [condition] of rows.words.CONDITION!)
     expect(carom.kind("pool", "default", [condition as "fast_cloth"]).radius).toBeGreaterThan(0);
   const slow = carom.kind("pool", "default", ["slow_cloth", "old_cushion"]);
   expect([slow.muRoll, slow.restitutionCushion]).toEqual([0.015, 0.75]);
-  expect(() => carom.kind("pool", "default", ["felt" as never])).toThrow("conditions: it must be");
-  expect(() => carom.kind("snooker", "default", ["fast_cloth"])).toThrow("pool, not of snooker");
+  refuses(
+    [() => carom.kind("pool", "default", ["felt" as never]), "conditions: it must be"],
+    [() => carom.kind("snooker", "default", ["fast_cloth"]), "pool, not of snooker"],
+  );
 });
 
 test("words of games, tables and racks", () => {
   expect(Object.entries(words)).toEqual(
-    Object.entries(rows.words).map(([of, list]) => [camel(of.toLowerCase()), list]),
+    Object.entries(rows.words).map(([group, list]) => [camel(group.toLowerCase()), list]),
   );
   for (const [game] of rows.words.GAME!)
     expect(carom.kind(game as "pool").radius).toBeGreaterThan(0);

@@ -12,10 +12,21 @@ import {
   type Shot,
   toLine,
 } from "../dist/index.js";
-import { builds, root, run, thereIsACommand } from "./support.js";
+import { names } from "../dist/generated/layout.js";
+import {
+  builds,
+  carom,
+  nineball,
+  refusal,
+  refuses,
+  root,
+  run,
+  thereIsACommand,
+} from "./support.js";
 
+const EVENT_TYPES = names.carom_event_type.slice(1) as unknown as EventType[];
 const LABELS = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne", "off"];
-const flat = (s: BallState): number[] => [LABELS.indexOf(s.label), ...s.r, ...s.v, ...s.w];
+const flat = (s: BallState) => [LABELS.indexOf(s.label), ...s.r, ...s.v, ...s.w];
 const break9 = readFileSync(`${root}data/break-nineball.jsonl`, "utf8").trim();
 const layouts = readFileSync(`${root}data/shots-layouts.jsonl`, "utf8").trim().split("\n");
 const named = layouts.filter(
@@ -60,9 +71,11 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
         const { speed, phi, theta, a, b } = carom.cue(fields);
         expect(typed(...words)).toMatchObject({ speed, phi, theta, a, b });
       }
-      expect(() => carom.cue({ speed: 1, ballSpeed: 1 })).toThrow("cue.ballSpeed");
-      expect(() => carom.cue({ theta: 5, ballSpeed: 1 })).toThrow("level cue");
-      expect(() => carom.cue({ tip: [0, 0], b: 0 })).toThrow("cue.tip");
+      refuses(
+        [() => carom.cue({ speed: 1, ballSpeed: 1 }), "cue.ballSpeed"],
+        [() => carom.cue({ theta: 5, ballSpeed: 1 }), "level cue"],
+        [() => carom.cue({ tip: [0, 0], b: 0 }), "cue.tip"],
+      );
     },
   );
 
@@ -78,13 +91,13 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     const events = recorded.events.filter(([, type]) => type !== "none");
     expect(shot.count).toBe(events.length);
     shot.events.forEach((event, k) => {
-      const [time, type, , before, after] = events[k]!;
+      const [time, type, , incoming, outgoing] = events[k]!;
       expect([event.time, event.type]).toEqual([time, type]);
-      expect(event.before.map(flat).slice(0, before.length)).toEqual(
-        before.slice(0, event.before.length),
+      expect(event.before.map(flat).slice(0, incoming.length)).toEqual(
+        incoming.slice(0, event.before.length),
       );
-      expect(event.after.map(flat).slice(0, after.length)).toEqual(
-        after.slice(0, event.after.length),
+      expect(event.after.map(flat).slice(0, outgoing.length)).toEqual(
+        outgoing.slice(0, event.after.length),
       );
     });
     expectFinal(shot, fromLine(carom, break9).names, recorded);
@@ -144,8 +157,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
   });
 
   test("a batch has the bits of single shots", () => {
-    const table = carom.table("9ft");
-    const balls = carom.rack("nineball", table);
+    const { table, balls } = nineball(carom);
     const batch = carom.shots(table, balls, 7, { room: 300 });
     const cues = [...Array(7).keys()].map((k) =>
       carom.cue({ speed: 2 + k, phi: 88 + k / 2, a: 0.05 * k }),
@@ -154,16 +166,16 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     expect(carom.simulateBatch(batch, { cushionModel: "han" })).toBe("ok");
     cues.forEach((cue, k) => {
       const single = carom.simulate(table, balls, cue, { cushionModel: "han" });
-      const one = batch.shot(k);
-      expect(one.bytes).toEqual(single.bytes);
-      expect(one.final).toEqual(single.final);
+      const shot = batch.shot(k);
+      expect(shot.bytes).toEqual(single.bytes);
+      expect(shot.final).toEqual(single.final);
       expect([batch.time(k), batch.events(k), batch.status[k]]).toEqual([
         single.time,
         single.count,
         0,
       ]);
       expect(batch.state(k, 3)).toEqual(single.final[3]);
-      expect(one.states(1.25)).toEqual(single.states(1.25));
+      expect(shot.states(1.25)).toEqual(single.states(1.25));
     });
     batch.free();
   });
@@ -179,10 +191,10 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
 
   test("positions, states and turns at any time", () => {
     const shot = played(carom, break9);
-    const other = played(carom, named[0]!);
+    const namedShot = played(carom, named[0]!);
     expect([...shot.positions(0)]).toEqual(shot.balls.flatMap((ball) => [...ball.state.r]));
     expect([...shot.positions(1e6)]).toEqual(shot.final.flatMap((state) => [...state.r]));
-    expect(other.positions(0.3)).toHaveLength(3 * other.balls.length);
+    expect(namedShot.positions(0.3)).toHaveLength(3 * namedShot.balls.length);
     const early = shot.states(shot.events[5]!.time - 1e-9);
     expect(early[shot.events[5]!.a]!.r[0]).toBeCloseTo(shot.events[5]!.before[0]!.r[0], 6);
     const times = [0, 0.3, 1.5];
@@ -196,7 +208,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     // Frames, onward and back, are those of single calls, in the same memory.
     const first = shot.frame(0);
     for (const time of [0.3, 1.5, 0.7, shot.time]) {
-      const turned = other.orientations(0.1) && shot.orientations(time);
+      const turned = namedShot.orientations(0.1) && shot.orientations(time);
       const frame = shot.frame(time);
       expect(
         frame.states.buffer === first.states.buffer &&
@@ -212,13 +224,12 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
         expect(frame.label(k)).toBe(state.label);
       });
     }
-    expect(other.frame(0.1).turned).toHaveLength(4 * other.balls.length);
+    expect(namedShot.frame(0.1).turned).toHaveLength(4 * namedShot.balls.length);
     expect(() => shot.frame(NaN)).toThrow("time NaN");
   });
 
   test("the first contact, without the rest of the shot", () => {
-    const table = carom.table("9ft");
-    const balls = carom.rack("nineball", table);
+    const { table, balls } = nineball(carom);
     const contact = carom.firstContact(table, balls, { speed: 8 })!;
     const whole = carom.simulate(table, balls, { speed: 8 }).firstContact!;
     expect(contact).toEqual(whole);
@@ -233,27 +244,10 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
   });
 
   test("stopped after events of a set: the first of them in the unbroken shot", () => {
-    const table = carom.table("9ft");
-    const balls = carom.rack("nineball", table);
+    const { table, balls } = nineball(carom);
     const whole = carom.simulate(table, balls, { speed: 8 });
-    const types: EventType[] = [
-      "stick_ball",
-      "ball_ball",
-      "ball_linear_cushion",
-      "ball_circular_cushion",
-      "ball_pocket",
-      "sliding_rolling",
-    ];
-    types.push(
-      "rolling_spinning",
-      "rolling_stationary",
-      "spinning_stationary",
-      "slate",
-      "rail_top",
-      "left_table",
-    );
     for (const stopAt of [
-      ...types,
+      ...EVENT_TYPES,
       [],
       ["ball_pocket", "ball_linear_cushion"],
       ["contact", "ball_linear_cushion"],
@@ -329,27 +323,23 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
       "ball_linear_cushion",
     ]);
     expect(carom.continue(rail).final).toEqual(whole.final);
-    let error: unknown;
-    try {
-      carom.continue(first, { eventsMost: 50 });
-    } catch (thrown) {
-      error = thrown;
-    }
-    expect([(error as CaromError).status, (error as CaromError).shot!.count]).toEqual([
-      "too_many_events",
-      50,
-    ]);
-    expect(carom.continue((error as CaromError).shot!).bytes).toEqual(whole.bytes);
+    const error = refusal<CaromError>(() => carom.continue(first, { eventsMost: 50 }));
+    expect([error.status, error.shot!.count]).toEqual(["too_many_events", 50]);
+    expect(carom.continue(error.shot!).bytes).toEqual(whole.bytes);
     expect(() => carom.continue(rail, { timeMost: rail.time / 2 })).toThrow(
       /^timeMost: it must be .* not before the time of a shot that goes on$/,
     );
     const changed = carom.simulate(table, balls, { speed: 20 }, { timeMost: 0.01 });
     (changed.balls[1]!.kind as { mass: number }).mass *= 1.1;
-    expect(() => carom.continue(changed)).toThrow(
-      expect.objectContaining({ status: "other_balls", shot: undefined }),
-    );
-    expect(() => carom.continue(first, { cushionModel: "han" } as never)).toThrow(
-      "cushionModel: there is no such key; there are timeMost, stopAt, firstOf, eventsMost",
+    refuses(
+      [
+        () => carom.continue(changed),
+        expect.objectContaining({ status: "other_balls", shot: undefined }),
+      ],
+      [
+        () => carom.continue(first, { cushionModel: "han" } as never),
+        "cushionModel: there is no such key; there are timeMost, stopAt, firstOf, eventsMost",
+      ],
     );
     const batch = carom.shots(table, balls, 1, { room: 64 });
     carom.simulateBatch(batch, { timeMost: 0.01 });
@@ -360,38 +350,30 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
   });
 
   test("ball in hand: a free place is taken, and what is in the way of another is named", () => {
-    const table = carom.table("9ft");
-    const balls = carom.rack("nineball", table);
+    const { table, balls } = nineball(carom);
     balls[0] = { ...balls[0]!, state: { ...balls[0]!.state, label: "pocketed" } };
-    const before = structuredClone(balls);
+    const backup = structuredClone(balls);
     const placed = carom.placeBall(table, balls, 0, 0.6, 0.5);
     expect(placed[0]).toEqual(carom.ball(0.6, 0.5));
-    expect([placed.slice(1), balls]).toEqual([before.slice(1), before]);
+    expect([placed.slice(1), balls]).toEqual([backup.slice(1), backup]);
     const { r } = balls[4]!.state;
     const [x, y] = table.pockets[0]!.centre;
-    for (const [at, status, field] of [
+    for (const [place, status, field] of [
       [[r[0], r[1]], "overlap", /^balls\[4\]$/],
       [[0.01, 1], "off_table", /^table\.rails\[\d+\]$/],
       [[x, y], "off_table", /^table\.(pockets|rails|jaws)\[\d+\]$/],
       [[5, 5], "off_table", /^table$/],
     ] as const) {
-      let error: unknown;
-      try {
-        carom.placeBall(table, balls, 0, at[0], at[1]);
-      } catch (thrown) {
-        error = thrown;
-      }
+      const error = refusal<CaromError>(() => carom.placeBall(table, balls, 0, place[0], place[1]));
       expect(error).toBeInstanceOf(CaromError);
-      expect((error as CaromError).status).toBe(status);
-      expect((error as CaromError).field).toMatch(field);
-      expect((error as CaromError).message).toContain(
-        `at ${at[0]}, ${at[1]} m; a free place is needed`,
-      );
+      expect(error.status).toBe(status);
+      expect(error.field).toMatch(field);
+      expect(error.message).toContain(`at ${place[0]}, ${place[1]} m; a free place is needed`);
     }
-    expect(() => carom.placeBall(table, balls, 10, 0.6, 0.5)).toThrow(
-      "ball: it must be 0 to 9, not 10",
+    refuses(
+      [() => carom.placeBall(table, balls, 10, 0.6, 0.5), "ball: it must be 0 to 9, not 10"],
+      [() => carom.placeBall(table, balls, 0, NaN, 0.5), /^ball 0 at NaN, 0.5: /],
     );
-    expect(() => carom.placeBall(table, balls, 0, NaN, 0.5)).toThrow(/^ball 0 at NaN, 0.5: /);
   });
 
   test("a table of one's own: rails, jaws and pockets are kept and checked", () => {
@@ -417,31 +399,38 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     expect(carom.table("9ft", { cornerMouth: 0.108 }).jaws[0]!.centre[0]).toBeLessThan(
       carom.table("9ft").jaws[0]!.centre[0],
     );
-    expect(() => carom.table("9ft", { sideMouth: 2 })).toThrow(/^measures.sideMouth: /);
-    expect(() => carom.table("9ft", { corner: 0.1 } as never)).toThrow(/corner.*cornerMouth/);
-    expect(() =>
-      carom.polygon([
-        { x: 0, y: 0 },
-        { x: 1, y: 0, mouth: 3 },
-        { x: 0, y: 1 },
-      ]),
-    ).toThrow(/^table\.corners\[0\]: /);
-    expect(() => carom.polygon([{ x: 0, y: 0, moth: 1 } as never])).toThrow(/moth.*mouth/);
+    refuses(
+      [() => carom.table("9ft", { sideMouth: 2 }), /^measures.sideMouth: /],
+      [() => carom.table("9ft", { corner: 0.1 } as never), /corner.*cornerMouth/],
+      [
+        () =>
+          carom.polygon([
+            { x: 0, y: 0 },
+            { x: 1, y: 0, mouth: 3 },
+            { x: 0, y: 1 },
+          ]),
+        /^table\.corners\[0\]: /,
+      ],
+      [() => carom.polygon([{ x: 0, y: 0, moth: 1 } as never]), /moth.*mouth/],
+    );
   });
 
   test("what is refused", () => {
-    const table = carom.table("9ft");
-    const balls = carom.rack("nineball", table);
-    const bad = structuredClone(balls) as unknown as {
+    const { table, balls } = nineball(carom);
+    const faulty = structuredClone(balls) as unknown as {
       kind: { radius: number };
       state: { r: number[] };
     }[];
-    bad[3]!.state.r[0] = NaN;
-    expect(() => carom.simulate(table, bad as never, {})).toThrow(
-      "balls[3].state.r: it must be -1e6 to 1e6, in m, not NaN",
-    );
-    expect(() => carom.simulate(table, balls, { a: 0.9, b: 0.9 })).toThrow(
-      /^cue\.a, cue\.b: the tip misses the ball: /,
+    faulty[3]!.state.r[0] = NaN;
+    refuses(
+      [
+        () => carom.simulate(table, faulty as never, {}),
+        "balls[3].state.r: it must be -1e6 to 1e6, in m, not NaN",
+      ],
+      [
+        () => carom.simulate(table, balls, { a: 0.9, b: 0.9 }),
+        /^cue\.a, cue\.b: the tip misses the ball: /,
+      ],
     );
     const out = structuredClone(balls) as unknown as { state: { label: string } }[];
     out[3]!.state.label = "pocketed";
@@ -472,29 +461,29 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
           }),
         );
     }
-    expect(() => carom.simulate(table, balls, {}, { timeMost: -1 })).toThrow(
-      /^timeMost: it must be 0 or more/,
+    refuses(
+      [() => carom.simulate(table, balls, {}, { timeMost: -1 }), /^timeMost: it must be 0 or more/],
+      [
+        () => carom.simulate(table, balls, {}, { eventsMost: -1 }),
+        /^eventsMost: it must be a whole number, 0 or more, not -1/,
+      ],
+      [() => carom.simulate(table, balls, { ball: 0.5 }), /^cue.ball: /],
+      [() => carom.simulate(table, [], {}), "1 to 32"],
+      [
+        () => carom.simulate(table, balls, {}, { cushionModel: "wood" as never }),
+        "cushionModel: it must be one of ",
+      ],
+      [
+        () => carom.simulate({ ...table, rails: Array(33).fill(table.rails[0]) }, balls, {}),
+        "at most 32",
+      ],
     );
-    expect(() => carom.simulate(table, balls, {}, { eventsMost: -1 })).toThrow(
-      /^eventsMost: it must be a whole number, 0 or more, not -1/,
+    const error = refusal<CaromError>(() =>
+      carom.simulate(table, balls, { speed: 8 }, { eventsMost: 10, simultaneous: "pairs" }),
     );
-    expect(() => carom.simulate(table, balls, { ball: 0.5 })).toThrow(/^cue.ball: /);
-    expect(() => carom.simulate(table, [], {})).toThrow("1 to 32");
-    expect(() => carom.simulate(table, balls, {}, { cushionModel: "wood" as never })).toThrow(
-      "cushionModel: it must be one of ",
-    );
-    expect(() =>
-      carom.simulate({ ...table, rails: Array(33).fill(table.rails[0]) }, balls, {}),
-    ).toThrow("at most 32");
-    let error: unknown;
-    try {
-      carom.simulate(table, balls, { speed: 8 }, { eventsMost: 10, simultaneous: "pairs" });
-    } catch (thrown) {
-      error = thrown;
-    }
     expect(error).toBeInstanceOf(CaromError);
-    expect((error as CaromError).status).toBe("too_many_events");
-    expect((error as CaromError).shot!.count).toBe(10);
+    expect(error.status).toBe("too_many_events");
+    expect(error.shot!.count).toBe(10);
     const none = carom.shots(table, balls, 1);
     carom.simulateBatch(none);
     expect(() => none.shot(0)).toThrow("room");
@@ -535,15 +524,13 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
 });
 
 test("memory stays flat over a hundred thousand calls", () => {
-  const { carom } = builds[0]!;
-  const table = carom.table("9ft");
-  const balls = carom.rack("nineball", table);
+  const { table, balls } = nineball(carom);
   const impact = {
     a: { v: [1.5, 0, 0] as const },
     b: { r: [0.05, 0.02767, 0] as const },
     muBall: 0.06,
   };
-  const cycle = (calls: number): void => {
+  const cycle = (calls: number) => {
     for (let k = 0; k < calls; k++) {
       carom.collide(impact);
       if (k % 5000 === 0) {
@@ -571,16 +558,21 @@ test.each(builds)("pocketed balls fall where they are drawn, by $name", ({ carom
     carom.simulate(table, carom.rack("nineball", table, { seed }), { speed: 9 }),
   );
   const shot = shots.find(({ events }) => events.some(({ type }) => type === "ball_pocket"))!;
-  const { time, a, before, after } = shot.events.find(({ type }) => type === "ball_pocket")!;
+  const {
+    time,
+    a,
+    before: incoming,
+    after: outgoing,
+  } = shot.events.find(({ type }) => type === "ball_pocket")!;
   const heights = [0, 0.02, 0.04, 0.06].map((later) => shot.states(time + later, true)[a]!.r[2]);
   heights.forEach((height, k) =>
-    expect(height).toBeCloseTo(before[0]!.r[2] - 0.5 * 9.81 * (0.02 * k) ** 2, 3),
+    expect(height).toBeCloseTo(incoming[0]!.r[2] - 0.5 * 9.81 * (0.02 * k) ** 2, 3),
   );
   // it lies where its fall ends, at the depth of its pocket
   const lies = shot.states(time + 1, true)[a]!;
-  expect(lies.r[2]).toBeCloseTo(after[0]!.r[2], 12);
-  expect({ ...lies, r: after[0]!.r }).toEqual(after[0]);
+  expect(lies.r[2]).toBeCloseTo(outgoing[0]!.r[2], 12);
+  expect({ ...lies, r: outgoing[0]!.r }).toEqual(outgoing[0]);
   expect(shot.states(time + 2, true)[a]).toEqual(lies);
   expect(shot.positionsAt([time + 0.04], true)[3 * a + 2]).toBe(heights[2]);
-  expect(shot.states(time + 0.04)[a]).toEqual(after[0]);
+  expect(shot.states(time + 0.04)[a]).toEqual(outgoing[0]);
 });

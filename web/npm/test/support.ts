@@ -1,10 +1,31 @@
 // What tests of the package share besides: the tree's data, and the hashes of
 // tests/platforms/bits.c.
 import { readFileSync } from "node:fs";
+import { expect } from "vitest";
+import type { Carom, ShotBall, Table } from "../dist/index.js";
 import { root } from "../../test/support.js";
 
 export * from "../../test/builds.js";
 export * from "../../test/support.js";
+
+/** Each call throws, with a message that has these words. */
+export function refuses(...rows: (readonly [() => unknown, string | RegExp | object])[]): void {
+  for (const [call, message] of rows) expect(call).toThrow(message as RegExp);
+}
+/** What a call throws. */
+export function refusal<E = Error>(call: () => unknown): E {
+  try {
+    call();
+  } catch (error) {
+    return error as E;
+  }
+  throw new Error("nothing was refused");
+}
+/** The table and the balls of a game of nine-ball. */
+export function nineball(carom: Carom): { table: Table; balls: ShotBall[] } {
+  const table = carom.table("9ft");
+  return { table, balls: carom.rack("nineball", table) };
+}
 
 /** A CSV file of data/ as rows by column. */
 export function csv(name: string): Record<string, string>[] {
@@ -38,8 +59,8 @@ export class Hash {
     this.#f64[0] = x;
     return this.#words(this.#u32[0]!, this.#u32[1]!);
   }
-  numbers(all: Iterable<number>): this {
-    for (const x of all) this.number(x);
+  numbers(values: Iterable<number>): this {
+    for (const x of values) this.number(x);
     return this;
   }
   /** A whole number of 64 bits, negative ones in two's complement. */

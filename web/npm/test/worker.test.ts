@@ -2,7 +2,7 @@
 import { readFileSync } from "node:fs";
 import { Worker } from "node:worker_threads";
 import { expect, test } from "vitest";
-import { builds, root } from "./support.js";
+import { builds, carom, root } from "./support.js";
 
 test("a worker computes the same bits", async () => {
   const source = `
@@ -14,11 +14,10 @@ test("a worker computes the same bits", async () => {
     const choices = carom.plan(table, carom.rack("nineball", table), { rules: "nineball", opening: true, shots: 100 });
     parentPort.postMessage([carom.build, shot.time, shot.final, choices]);`;
   const worker = new Worker(new URL(`data:text/javascript,${encodeURIComponent(source)}`));
-  const said = await new Promise((resolve, reject) =>
+  const message = await new Promise((resolve, reject) =>
     worker.once("message", resolve).once("error", reject),
   );
   await worker.terminate();
-  const { carom } = builds[0]!;
   const table = carom.table("9ft");
   const shot = carom.simulate(table, carom.rack("nineball", table), { speed: 8 });
   const choices = carom.plan(table, carom.rack("nineball", table), {
@@ -26,7 +25,7 @@ test("a worker computes the same bits", async () => {
     opening: true,
     shots: 100,
   });
-  expect(said).toEqual(["simd", shot.time, shot.final, choices]);
+  expect(message).toEqual(["simd", shot.time, shot.final, choices]);
 });
 
 test("the package has the library's version, and no dependency at run time", () => {
@@ -43,7 +42,7 @@ test("the package has the library's version, and no dependency at run time", () 
 test("the compressed size is at most 335 kB", async () => {
   const { gzipSync } = await import("node:zlib");
   const { readdirSync } = await import("node:fs");
-  const size = (names: string[]): number =>
+  const size = (names: string[]) =>
     gzipSync(Buffer.concat(names.map((name) => readFileSync(`${root}web/npm/dist/${name}`))), {
       level: 9,
     }).length;

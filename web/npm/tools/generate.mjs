@@ -3,9 +3,9 @@
 // MADE/rows.json have.
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 
-const [made, out] = process.argv.slice(2);
-const api = JSON.parse(readFileSync(`${made}/api.json`, "utf8"));
-const rows = JSON.parse(readFileSync(`${made}/rows.json`, "utf8"));
+const [build, out] = process.argv.slice(2);
+const api = JSON.parse(readFileSync(`${build}/api.json`, "utf8"));
+const rows = JSON.parse(readFileSync(`${build}/rows.json`, "utf8"));
 const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
 const pascal = (name) => camel(name.replace(/^carom/, ""));
 const note = "// Written by tools/generate.mjs from the headers and rows of the C library.\n";
@@ -17,7 +17,7 @@ const sources = readdirSync("src")
   .map((name) => readFileSync(`src/${name}`, "utf8"))
   .join("");
 const isNamed = (name) => new RegExp(`\\b${name}\\b`).test(sources);
-const byName = new Map(api.structs.map((one) => [one.name, one]));
+const byName = new Map(api.structs.map((struct) => [struct.name, struct]));
 
 /**
  * What a field is made of: numbers of 64 or 32 bits, another struct, or nothing that is converted.
@@ -25,20 +25,20 @@ const byName = new Map(api.structs.map((one) => [one.name, one]));
 function kindOf({ name, type, pointer }) {
   if (pointer || /^(reserved|unused|opaque)$/.test(name)) return "";
   if (byName.has(type)) return type;
-  if (api.enums.some((one) => one.name === type)) return "i32";
+  if (api.enums.some((enumeration) => enumeration.name === type)) return "i32";
   return { double: "f64", int64_t: "i64", int32_t: "i32", int: "i32" }[type] ?? "";
 }
 /** The structs that the sources name, and those in them. */
-const wanted = new Set();
+const needed = new Set();
 function want(name) {
-  if (wanted.has(name)) return;
-  wanted.add(name);
+  if (needed.has(name)) return;
+  needed.add(name);
   for (const { type, pointer } of byName.get(name).fields)
     if (byName.has(type) && !pointer) want(type);
 }
 api.structs.filter(({ name }) => isNamed(name)).forEach(({ name }) => want(name));
 const structs = {};
-for (const { name, fields, wasm32 } of api.structs.filter(({ name }) => wanted.has(name))) {
+for (const { name, fields, wasm32 } of api.structs.filter(({ name }) => needed.has(name))) {
   const keys = fields.map((field) => camel(field.name));
   const numbers = (list) => Object.fromEntries(keys.map((key, k) => [key, list[k]]));
   structs[name] = {
@@ -48,9 +48,10 @@ for (const { name, fields, wasm32 } of api.structs.filter(({ name }) => wanted.h
     type: numbers(fields.map(kindOf)),
   };
 }
-const enumerators = [...api.enums.flatMap((one) => one.values), ...api.constants].filter(
-  ({ name, value }) => Number.isInteger(value) && isNamed(name),
-);
+const enumerators = [
+  ...api.enums.flatMap((enumeration) => enumeration.values),
+  ...api.constants,
+].filter(({ name, value }) => Number.isInteger(value) && isNamed(name));
 const values = Object.fromEntries(
   enumerators.sort((a, b) => (a.name < b.name ? -1 : 1)).map(({ name, value }) => [name, value]),
 );
@@ -65,7 +66,10 @@ const worded = new Map(
     ]),
 );
 const words = new Map(
-  Object.entries(rows.words).map(([of, list]) => [worded.get(of), list.map(([word]) => word)]),
+  Object.entries(rows.words).map(([group, list]) => [
+    worded.get(group),
+    list.map(([word]) => word),
+  ]),
 );
 function names({ name, values }) {
   if (words.has(name)) return words.get(name);
@@ -74,7 +78,9 @@ function names({ name, values }) {
   common = common.slice(0, common.lastIndexOf("_") + 1);
   return values.map(({ name }) => name.slice(common.length).toLowerCase());
 }
-const enums = Object.fromEntries(api.enums.map((one) => [one.name, names(one)]));
+const enums = Object.fromEntries(
+  api.enums.map((enumeration) => [enumeration.name, names(enumeration)]),
+);
 
 /**
  * The options of calls and the numbers of a ball's cushions; the package has neither threads nor
@@ -84,25 +90,29 @@ const options = {};
 for (const [struct, list] of Object.entries(rows.options)) {
   const numbers = rows.numbers
     .filter(({ of_cushion }) => of_cushion && struct === "carom_cushion_options")
-    .map((one) => ({ ...one, form: "number" }));
+    .map((number) => ({ ...number, form: "number" }));
   options[struct] = [...list, ...numbers]
     .filter(({ name }) => name !== "threads" && name !== "plain")
-    .map((one) => ({ ...one, key: camel(one.name), of: one.words ? worded.get(one.words) : "" }));
+    .map((option) => ({
+      ...option,
+      key: camel(option.name),
+      enumeration: option.words ? worded.get(option.words) : "",
+    }));
 }
 
 /**
  * The enumerations whose names the package looks up, by their values: "" is none; those of sets, by
  * their bits.
  */
-const asked = new Set(
+const lookups = new Set(
   Object.values(options)
     .flat()
-    .map(({ of }) => of),
+    .map(({ enumeration }) => enumeration),
 );
 const named = Object.fromEntries(
   api.enums
     .filter(
-      ({ name }) => asked.has(name) || new RegExp(`(names\\.|")${name}\\b`, "i").test(sources),
+      ({ name }) => lookups.has(name) || new RegExp(`(names\\.|")${name}\\b`, "i").test(sources),
     )
     .map(({ name, values }) => {
       if (values.length > 2 && values.every(({ value }, k) => value === 1 << k))
@@ -116,11 +126,11 @@ const named = Object.fromEntries(
 
 // Comments speak of fields; these have their names in TypeScript.
 const known = new Set(api.structs.flatMap(({ fields }) => fields.map(({ name }) => name)));
-const said = (comment) =>
+const translated = (comment) =>
   comment
     .replace(/\b[a-z]+(_[a-z]+)+\b/g, (name) => (known.has(name) ? camel(name) : name))
     .replaceAll("*/", "");
-const comment = (text, indent) => (text ? `${indent}/** ${said(text)} */\n` : "");
+const comment = (text, indent) => (text ? `${indent}/** ${translated(text)} */\n` : "");
 const isEnum = new Set(api.enums.map(({ name }) => name));
 const isStruct = new Set(api.structs.map(({ name }) => name));
 
@@ -135,30 +145,30 @@ function typeOf({ type, array = [], pointer }) {
 let types = `${note}import type { Vec2, Vec3 } from "../types.js";\n`;
 for (const [name, ends] of Object.entries(enums))
   types += `\nexport type ${pascal(name)} = ${ends.map((end) => `"${end}"`).join(" | ")};\n`;
-for (const one of api.structs.filter(({ name }) => !(name in options))) {
-  const fields = one.fields.filter(
+for (const struct of api.structs.filter(({ name }) => !(name in options))) {
+  const fields = struct.fields.filter(
     (field) => !/^(reserved|unused|opaque)$/.test(field.name) && typeOf(field),
   );
   const lines = fields.map(
     (field) => `${comment(field.comment, "  ")}  ${camel(field.name)}: ${typeOf(field)};\n`,
   );
-  types += `\n${comment(one.comment, "")}export interface ${pascal(one.name)} {\n${lines.join("")}}\n`;
+  types += `\n${comment(struct.comment, "")}export interface ${pascal(struct.name)} {\n${lines.join("")}}\n`;
 }
 
 /** The type of an option by its form. */
-function typeOfOption({ form, of }) {
-  if (form === "words") return pascal(of);
+function typeOfOption({ form, enumeration }) {
+  if (form === "words") return pascal(enumeration);
   if (form === "set")
-    return of
-      ? `"contact" | ${pascal(of)} | readonly ("contact" | ${pascal(of)})[]`
+    return enumeration
+      ? `"contact" | ${pascal(enumeration)} | readonly ("contact" | ${pascal(enumeration)})[]`
       : "number | readonly number[]";
   return form === "flag" ? "boolean" : "number";
 }
 const optionLines = (list) =>
   list
     .map(
-      (one) =>
-        `${comment(/words|set/.test(one.form) ? one.text : `${one.text}; ${one.range}`, "  ")}  ${one.key}?: ${typeOfOption(one)};\n`,
+      (option) =>
+        `${comment(/words|set/.test(option.form) ? option.text : `${option.text}; ${option.range}`, "  ")}  ${option.key}?: ${typeOfOption(option)};\n`,
     )
     .join("");
 const [toStop, others] = [true, false].map((stop) =>
@@ -183,13 +193,18 @@ const numbers = Object.fromEntries(
 const layoutOptions = Object.fromEntries(
   Object.entries(options).map(([struct, list]) => [
     struct,
-    list.map(({ key, form, of, group }) => ({ key, form, of, stop: group === "stop" })),
+    list.map(({ key, form, enumeration, group }) => ({
+      key,
+      form,
+      enumeration,
+      stop: group === "stop",
+    })),
   ]),
 );
 writeFileSync(
   `${out}/words.ts`,
   `${note}/** The words of each enumeration that options and lines take, in the order of its values, with what each is: for choices of a page. */\n` +
-    `export const words = ${JSON.stringify(Object.fromEntries(Object.entries(rows.words).map(([of, list]) => [camel(of.toLowerCase()), list])), null, 1)} as const;\n`,
+    `export const words = ${JSON.stringify(Object.fromEntries(Object.entries(rows.words).map(([group, list]) => [camel(group.toLowerCase()), list])), null, 1)} as const;\n`,
 );
 writeFileSync(
   `${out}/layout.ts`,
@@ -205,6 +220,6 @@ for (const name of ["plain", "simd"]) {
   // The type is written out: else the declarations would have the module once more.
   writeFileSync(
     `${out}/${name}.ts`,
-    `${note}const module: string = ${JSON.stringify(readFileSync(`${made}/${name}.wasm.gz`).toString("base64"))};\nexport default module;\n`,
+    `${note}const module: string = ${JSON.stringify(readFileSync(`${build}/${name}.wasm.gz`).toString("base64"))};\nexport default module;\n`,
   );
 }

@@ -2,19 +2,19 @@
 const KEPT = "carom-explorer";
 self.addEventListener("install", (event) => {
   event.waitUntil(
-    caches.open(KEPT).then((kept) => kept.addAll(["./", "manifest.webmanifest", "icon.svg"])),
+    caches.open(KEPT).then((cache) => cache.addAll(["./", "manifest.webmanifest", "icon.svg"])),
   );
   self.skipWaiting();
 });
 self.addEventListener("activate", (event) => event.waitUntil(self.clients.claim()));
 async function answer(request) {
-  const kept = await caches.open(KEPT);
+  const cache = await caches.open(KEPT);
   try {
     const response = await fetch(request);
-    if (response.ok) await kept.put(request, response.clone());
+    if (response.ok) await cache.put(request, response.clone());
     return response;
   } catch (error) {
-    return (await kept.match(request)) ?? Promise.reject(error);
+    return (await cache.match(request)) ?? Promise.reject(error);
   }
 }
 self.addEventListener("fetch", (event) => {

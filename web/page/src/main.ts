@@ -20,8 +20,8 @@ const VIEWS = ["play", "lab", "collision"] as const;
 async function begin(main: HTMLElement): Promise<void> {
   const solver = document.getElementById("solver") as HTMLSelectElement;
   document.documentElement.lang = language;
-  for (const one of document.querySelectorAll<HTMLElement>("[data-text]"))
-    one.textContent = texts[one.dataset.text as "play"];
+  for (const element of document.querySelectorAll<HTMLElement>("[data-text]"))
+    element.textContent = texts[element.dataset.text as "play"];
   document.querySelector("nav")!.setAttribute("aria-label", texts.views);
   const theme = document.getElementById("theme") as HTMLButtonElement;
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
@@ -41,13 +41,13 @@ async function begin(main: HTMLElement): Promise<void> {
   solver.value = parameters().get("solver") === "euler" ? "euler" : "exact";
   const chosen = (): "exact" | "euler" => (solver.value === "euler" ? "euler" : "exact");
   const show = (): void => {
-    const given = parameters().get("view") ?? "play";
+    const request = parameters().get("view") ?? "play";
     // "shot" is what links of version 0.3.0 call the laboratory.
-    const name = given === "shot" ? "lab" : (VIEWS.find((one) => one === given) ?? "play");
+    const name = request === "shot" ? "lab" : (VIEWS.find((view) => view === request) ?? "play");
     document.documentElement.dataset.view = name;
-    for (const one of VIEWS) {
-      const link = document.getElementById(`to-${one}`)!;
-      if (one === name) link.setAttribute("aria-current", "page");
+    for (const view of VIEWS) {
+      const link = document.getElementById(`to-${view}`)!;
+      if (view === name) link.setAttribute("aria-current", "page");
       else link.removeAttribute("aria-current");
     }
     view?.close?.();

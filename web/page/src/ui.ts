@@ -41,7 +41,7 @@ export function slider(
     onInput();
   });
   return {
-    root: el("div", { class: "field" }, el("label", { for: id }, text), output, input),
+    root: el("div.field", el("label", { for: id }, text), output, input),
     input,
     get value() {
       return exact ?? input.valueAsNumber;
@@ -58,21 +58,30 @@ export function slider(
  * Follows a pointer that is held on an element: calls for where it goes down, which comes first,
  * and where it moves to.
  */
-export function drags(on: HTMLElement, over: (event: PointerEvent, first: boolean) => void): void {
-  on.addEventListener("pointerdown", (event) => {
-    on.setPointerCapture(event.pointerId);
+export function drags(
+  element: HTMLElement,
+  over: (event: PointerEvent, first: boolean) => void,
+): void {
+  element.addEventListener("pointerdown", (event) => {
+    element.setPointerCapture(event.pointerId);
     over(event, true);
   });
-  on.addEventListener(
+  element.addEventListener(
     "pointermove",
-    (event) => on.hasPointerCapture(event.pointerId) && over(event, false),
+    (event) => element.hasPointerCapture(event.pointerId) && over(event, false),
   );
 }
+
+/** Rows of a table of numbers: their ids behind a prefix, names and texts. */
+export const numberRows = (prefix: string, rows: readonly (readonly string[])[]) =>
+  rows.map(([id, name, text]) =>
+    el("tr", el("th", { scope: "row" }, name), el("td", { id: `${prefix}-${id}` }, text)),
+  );
 
 /** What sliders are set to. */
 export const valuesOf = <K extends string>(sliders: Record<K, Slider>): Record<K, number> =>
   Object.fromEntries(
-    Object.entries<Slider>(sliders).map(([key, one]) => [key, one.value]),
+    Object.entries<Slider>(sliders).map(([key, control]) => [key, control.value]),
   ) as Record<K, number>;
 
 /**
@@ -84,7 +93,7 @@ export function pad(
   text: string,
   onInput: (right: number, up: number) => void,
 ): { root: HTMLElement; set(right: number, up: number): void } {
-  const root = el("div", { id, class: "pad", role: "img", "aria-label": text });
+  const root = el("div.pad", { id, role: "img", "aria-label": text });
   root.innerHTML =
     '<svg viewBox="-1.05 -1.05 2.1 2.1"><circle r="1" fill="#fbfaf5" stroke="#000a" stroke-width="0.03"/><circle r="0.5" fill="none" stroke="#0006" stroke-width="0.02" stroke-dasharray="0.06 0.05"/>' +
     '<path d="M-1 0H1M0-1V1" stroke="#0003" stroke-width="0.02"/><circle class="tip" r="0.15" fill="#3f7fbf" stroke="#000a" stroke-width="0.02"/></svg>';
@@ -94,11 +103,11 @@ export function pad(
   let pointer: [number, number] = [0, 0];
   drags(root, (event, first) => {
     const box = root.getBoundingClientRect();
-    const from = first ? [(box.left + box.right) / 2, (box.top + box.bottom) / 2] : pointer;
+    const start = first ? [(box.left + box.right) / 2, (box.top + box.bottom) / 2] : pointer;
     const [x, y] = first ? [0, 0] : place;
     place = [
-      x + (2.1 * (event.clientX - from[0]!)) / box.width,
-      y - (2.1 * (event.clientY - from[1]!)) / box.height,
+      x + (2.1 * (event.clientX - start[0]!)) / box.width,
+      y - (2.1 * (event.clientY - start[1]!)) / box.height,
     ];
     pointer = [event.clientX, event.clientY];
     const most = Math.min(1, 0.7 / Math.hypot(...place));
@@ -114,14 +123,16 @@ export function pad(
   };
 }
 
+/** A button, with the id and classes of a selector such as "#hint.main". */
 export function button(
   text: string,
   onClick: () => void,
+  selector = "",
   attributes: Record<string, string> = {},
 ): HTMLButtonElement {
-  const made = el("button", { type: "button", ...attributes }, text);
-  made.addEventListener("click", onClick);
-  return made;
+  const element = el(`button${selector}` as "button", { type: "button", ...attributes }, text);
+  element.addEventListener("click", onClick);
+  return element;
 }
 
 export function choice(
@@ -136,7 +147,7 @@ export function choice(
     ...options.map(([value, label]) => el("option", { value }, label)),
   );
   select.addEventListener("change", onChange);
-  return { root: el("label", { class: "inline" }, text, select), select };
+  return { root: el("label.inline", text, select), select };
 }
 
 export function check(
@@ -146,17 +157,17 @@ export function check(
 ): { root: HTMLElement; input: HTMLInputElement } {
   const input = el("input", { type: "checkbox", id });
   input.addEventListener("change", onChange);
-  return { root: el("label", { class: "check" }, input, text), input };
+  return { root: el("label.check", input, text), input };
 }
 
 /** Calls `draw` once before the next frame, however often it is asked for. */
 export function eachFrame(draw: () => void): () => void {
-  let asked = false;
+  let isPending = false;
   return () => {
-    if (asked) return;
-    asked = true;
+    if (isPending) return;
+    isPending = true;
     requestAnimationFrame(() => {
-      asked = false;
+      isPending = false;
       draw();
     });
   };
@@ -218,16 +229,15 @@ export function dialog(
   title: string,
   ...children: (Node | string)[]
 ): HTMLDialogElement {
-  const made = el(
+  const element = el(
     "dialog",
     { id, "aria-label": title },
     el(
-      "div",
-      { class: "row head" },
-      el("h2", {}, title),
-      button(texts.close, () => made.close(), { class: "close" }),
+      "div.row.head",
+      el("h2", title),
+      button(texts.close, () => element.close(), ".close"),
     ),
     ...children,
   );
-  return made;
+  return element;
 }

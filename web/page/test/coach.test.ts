@@ -1,107 +1,98 @@
 // The coach and the view in three dimensions, in a browser.
 import { describe, expect, test } from "vitest";
-import { browserPath, keptGame, linesOf, pages, violations } from "./page.js";
+import {
+  act,
+  boxOf,
+  browserPath,
+  comesToSay,
+  counts,
+  dragMouse,
+  fingersOn,
+  gameOf,
+  keptGame,
+  linesOf,
+  numberIn,
+  pages,
+  PHONE,
+  says,
+  shows,
+  violations,
+} from "./page.js";
 
 describe.runIf(browserPath !== undefined)("beside the game", () => {
-  const { open, frames, text, set, turnTo } = pages();
+  const { open, frames, text, turnTo } = pages();
 
   test("the coach tells chances before a stroke, what it cost after it, and keeps a log to print", async () => {
     // A straight pot, and the nine for the game.
-    const one = await open(
+    const page = await open(
       "",
-      { width: 390, height: 844, touch: true },
-      {
-        game: "nineball",
-        against: "person",
-        own: "0",
-        seed: 7,
-        at: "0.635,1.2 0.3,2.2 in in in in in in in 0.9,1.9",
-      },
+      PHONE,
+      gameOf("nineball", "person", "0.635,1.2 0.3,2.2 in in in in in in in 0.9,1.9"),
     );
-    await one.locator("#new-game").click();
-    await one.locator("#coach").check();
-    await one.locator("#rate").selectOption("1000");
-    await one.locator("#menu .close").click();
-    await one.locator("#hint").click();
-    await expect
-      .poll(() => text(one, "said"))
-      .toMatch(
-        /^Hint: ball [19] into the .*\. An unrated player \(\d+\) keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/,
-      );
+    await act(page, "#new-game", "#coach=on", "#rate=1000", "#menu .close", "#hint");
+    await comesToSay(
+      page,
+      "said",
+      /^Hint: ball [19] into the .*\. An unrated player \(\d+\) keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/,
+    );
     // A stroke that meets nothing: a foul, which the chances and the review tell.
-    await turnTo(one, 200);
-    await set(one, "power", 0.6);
-    await expect
-      .poll(() => text(one, "said"))
-      .toMatch(
-        /^This stroke: An unrated player \(\d+\) keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/,
-      );
-    await one.locator("#shoot").click();
-    await expect
-      .poll(() => text(one, "said"))
-      .toMatch(
-        /^That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\.$/,
-      );
-    await one.locator("#new-game").click();
-    await one.locator("#open-log").click();
-    expect(await one.locator("#log tbody tr").count()).toBe(1);
-    expect(await text(one, "log-sum")).toMatch(/^1 stroke\. A stroke cost [1-9]\d* % of a game/);
-    expect(await violations(one)).toEqual([]);
+    await turnTo(page, 200);
+    await act(page, "#power=0.6");
+    await comesToSay(
+      page,
+      "said",
+      /^This stroke: An unrated player \(\d+\) keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/,
+    );
+    await act(page, "#shoot");
+    await comesToSay(
+      page,
+      "said",
+      /^That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\.$/,
+    );
+    await act(page, "#new-game", "#open-log");
+    await counts(page, "#log tbody tr", 1);
+    await says(page, "log-sum", /^1 stroke\. A stroke cost [1-9]\d* % of a game/);
+    expect(await violations(page)).toEqual([]);
     // On paper there is the log alone.
-    await one.emulateMedia({ media: "print" });
-    expect(await one.locator("#table-scene").isVisible()).toBe(false);
-    expect(await one.locator("#log table").isVisible()).toBe(true);
-    await one.close();
+    await page.emulateMedia({ media: "print" });
+    await shows(page, "#table-scene", false);
+    await shows(page, "#log table");
   });
 
   test("the view from behind the cue starts when it is asked for, and shows the balls as they roll", async () => {
-    const one = await open("");
-    expect(await one.locator("#scene").count()).toBe(0);
-    await one.locator("#space").click();
-    await one.locator("#scene").waitFor();
-    expect(await violations(one)).toEqual([]);
+    const page = await open("");
+    await counts(page, "#scene", 0);
+    await act(page, "#space");
+    await page.locator("#scene").waitFor();
+    expect(await violations(page)).toEqual([]);
     // What is seen changes with the aim and with the balls.
-    const seen = async (): Promise<string> =>
-      (await one.locator("#scene").screenshot()).toString("base64");
-    const before = await seen();
-    const box = (await one.locator("#scene").boundingBox())!;
-    await one.mouse.move(box.x + 100, box.y + 100);
-    await one.mouse.down();
-    await one.mouse.move(box.x + 150, box.y + 100);
-    await one.mouse.up();
-    expect(Number(await one.locator("#phi").inputValue())).toBeCloseTo(90 - 4, 0);
+    const seen = async () => (await page.locator("#scene").screenshot()).toString("base64");
+    const initial = await seen();
+    const box = await boxOf(page, "#scene");
+    await dragMouse(page, [box.x + 100, box.y + 100], [box.x + 150, box.y + 100]);
+    expect(await numberIn(page, "phi")).toBeCloseTo(90 - 4, 0);
     const turned = await seen();
-    expect(turned).not.toBe(before);
-    await one.locator("#shoot").click();
+    expect(turned).not.toBe(initial);
+    await act(page, "#shoot");
     await expect.poll(seen).not.toBe(turned);
-    await one.locator("#space").click();
-    expect(await one.locator("#scene").count()).toBe(0);
-    expect(await one.locator("#table-scene").isVisible()).toBe(true);
-    await one.close();
+    await act(page, "#space");
+    await counts(page, "#scene", 0);
+    await shows(page, "#table-scene");
   });
 
   test("behind the cue the table fills the view of a phone, the aim is on the cloth, and balls have their numbers", async () => {
     // The 1 lies before the camera, its number up.
-    const one = await open(
+    const page = await open(
       "",
-      { width: 390, height: 844, touch: true },
-      {
-        game: "nineball",
-        against: "person",
-        own: "0",
-        seed: 7,
-        at: "0.635,0.635 0.75,0.4 in in in in in in in in",
-      },
+      PHONE,
+      gameOf("nineball", "person", "0.635,0.635 0.75,0.4 in in in in in in in in"),
     );
-    await turnTo(one, 90);
-    await one.locator("#new-game").click();
-    await one.locator("#numbers").check();
-    await one.locator("#menu .close").click();
-    await one.locator("#space").click();
-    await one.locator("#scene").waitFor();
-    expect(await violations(one)).toEqual([]);
-    const png = (await one.locator("#scene").screenshot()).toString("base64");
-    const { width, height, letters } = await one.evaluate(async (png) => {
+    await turnTo(page, 90);
+    await act(page, "#new-game", "#numbers=on", "#menu .close", "#space");
+    await page.locator("#scene").waitFor();
+    expect(await violations(page)).toEqual([]);
+    const png = (await page.locator("#scene").screenshot()).toString("base64");
+    const { width, height, letters } = await page.evaluate(async (png) => {
       const image = new Image();
       image.src = `data:image/png;base64,${png}`;
       await image.decode();
@@ -122,7 +113,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     const where = (
       [x0, y0, x1, y1]: readonly number[],
       is: (r: number, g: number, b: number) => boolean,
-    ): [number, number][] =>
+    ) =>
       Array.from(
         { length: (y1! - y0!) * (x1! - x0!) },
         (_, k) => [x0! + (k % (x1! - x0!)), y0! + Math.floor(k / (x1! - x0!))] as [number, number],
@@ -137,7 +128,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
       );
     // Its number is beside it, too.
     expect(
-      await one.locator(".over-scene").evaluate(
+      await page.locator(".over-scene").evaluate(
         (over: HTMLCanvasElement) =>
           over
             .getContext("2d")!
@@ -181,28 +172,25 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
         (r, g, b) => Math.max(r, g, b) < 200 && Math.max(r, g, b) - Math.min(r, g, b) < 40,
       ).length,
     ).toBeGreaterThan(3);
-    await one.close();
   });
 
   test("behind the cue a finger calls another pocket, and moves the cue ball that is in hand", async () => {
-    const one = await open(
+    const page = await open(
       "",
-      { width: 390, height: 844, touch: true },
-      {
-        game: "eightball",
-        own: "0",
-        seed: 7,
-        against: "person",
-        at: "0.635,0.6 0.635,1.6 in in in in in in 1.0,2.0 0.3,0.5 in in in in in in",
-      },
+      PHONE,
+      gameOf(
+        "eightball",
+        "person",
+        "0.635,0.6 0.635,1.6 in in in in in in 1.0,2.0 0.3,0.5 in in in in in in",
+      ),
     );
-    await turnTo(one, 88.5);
-    await one.locator("#space").click();
-    await one.locator("#scene").waitFor();
-    const box = (await one.locator("#scene").boundingBox())!;
+    await turnTo(page, 88.5);
+    await act(page, "#space");
+    await page.locator("#scene").waitFor();
+    const box = await boxOf(page, "#scene");
     /** Where the view has marks: what is called, or in hand. */
-    const marks = (): Promise<string[]> =>
-      one.locator(".over-scene").evaluate((over: HTMLCanvasElement) => {
+    const marks = () =>
+      page.locator(".over-scene").evaluate((over: HTMLCanvasElement) => {
         const copy = document.createElement("canvas");
         [copy.width, copy.height] = [over.width, over.height];
         copy.getContext("2d")!.drawImage(over, 0, 0);
@@ -214,62 +202,54 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
           )
           .map((k) => `${k % over.width},${Math.floor(k / over.width)}`);
       });
-    const middle = (all: string[]): [number, number] =>
+    const middle = (marks: string[]) =>
       [0, 1].map(
-        (c) => all.reduce((sum, at) => sum + Number(at.split(",")[c]), 0) / all.length,
+        (c) => marks.reduce((sum, mark) => sum + Number(mark.split(",")[c]), 0) / marks.length,
       ) as [number, number];
-    const next = async (pocket: string): Promise<void> => {
-      for (let k = 0; k < 6 && !(await text(one, "turn")).includes(pocket); k++) {
-        await one.locator("#scene").press("c");
-        await frames(one);
+    const next = async (pocket: string) => {
+      for (let k = 0; k < 6 && !(await text(page, "turn")).includes(pocket); k++) {
+        await page.locator("#scene").press("c");
+        await frames(page);
       }
     };
-    await expect.poll(() => text(one, "turn")).toContain("Call: the 1, ");
+    await comesToSay(page, "turn", /Call: the 1, /);
     await next("foot-right");
-    const before = await marks();
+    const initial = await marks();
     await next("foot-left");
-    const [x, y] = middle((await marks()).filter((at) => !before.includes(at)));
+    const [x, y] = middle((await marks()).filter((mark) => !initial.includes(mark)));
     await next("foot-right");
-    await one.touchscreen.tap(box.x + x, box.y + y);
-    await expect.poll(() => text(one, "turn")).toContain("Call: the 1, foot-left pocket.");
+    await page.touchscreen.tap(box.x + x, box.y + y);
+    await comesToSay(page, "turn", /Call: the 1, foot-left pocket\./);
     // A foul, and the cue ball in hand.
-    await turnTo(one, 200);
-    await set(one, "power", 0.4);
-    await one.locator("#shoot").click();
-    await one.locator("#skip").click();
-    await expect.poll(() => text(one, "turn")).toMatch(/Cue ball in hand: drag it/);
+    await turnTo(page, 200);
+    await act(page, "#power=0.4", "#shoot", "#skip");
+    await comesToSay(page, "turn", /Cue ball in hand: drag it/);
     // The mark that is nearest to whoever aims.
-    const all = await marks();
-    const from = middle(
-      all.filter(
-        (at) =>
-          Number(at.split(",")[1]) > Math.max(...all.map((one) => Number(one.split(",")[1]))) - 40,
+    const seenMarks = await marks();
+    const start = middle(
+      seenMarks.filter(
+        (place) =>
+          Number(place.split(",")[1]) >
+          Math.max(...seenMarks.map((place) => Number(place.split(",")[1]))) - 40,
       ),
     );
-    const devtools = await one.context().newCDPSession(one);
-    const touch = (
-      type: "touchStart" | "touchMove" | "touchEnd",
-      ...to: number[]
-    ): Promise<unknown> =>
-      devtools.send("Input.dispatchTouchEvent", {
-        type,
-        touchPoints: to.length ? [{ x: box.x + to[0]!, y: box.y + to[1]! }] : [],
-      });
-    await touch("touchStart", ...from);
-    for (let k = 10; k <= 60; k += 10) await touch("touchMove", from[0] + k, from[1]);
-    await touch("touchEnd");
-    await one.locator("#shoot").click();
-    const places = linesOf<{ at?: [number, number] }>(await keptGame(one), "place");
-    const put = places.filter(({ at }) => at !== undefined);
+    const touch = await fingersOn(page);
+    const startX = box.x + start[0];
+    const startY = box.y + start[1];
+    await touch("Start", [[startX, startY]]);
+    for (let k = 10; k <= 60; k += 10) await touch("Move", [[startX + k, startY]]);
+    await touch("End");
+    await act(page, "#shoot");
+    const places = linesOf<{ at?: [number, number] }>(await keptGame(page), "place");
+    const put = places.filter((row) => row.at !== undefined);
     // It lay on the head spot.
     expect(put).toHaveLength(1);
     expect(put[0]!.at).not.toEqual([0.635, 0.635]);
-    await one.close();
   });
 
   test("without WebGL the flat view stays, and the page says why", async () => {
-    const one = await open("");
-    await one.evaluate(() => {
+    const page = await open("");
+    await page.evaluate(() => {
       const get = HTMLCanvasElement.prototype.getContext as (
         this: HTMLCanvasElement,
         kind: string,
@@ -283,11 +263,12 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
         return kind === "webgl2" ? null : get.call(this, kind, ...rest);
       } as typeof HTMLCanvasElement.prototype.getContext;
     });
-    await one.locator("#space").click();
-    await expect
-      .poll(() => text(one, "said"))
-      .toBe("This browser does not show three dimensions (it has no WebGL 2).");
-    expect(await one.locator("#table-scene").isVisible()).toBe(true);
-    await one.close();
+    await act(page, "#space");
+    await comesToSay(
+      page,
+      "said",
+      "This browser does not show three dimensions (it has no WebGL 2).",
+    );
+    await shows(page, "#table-scene");
   });
 });

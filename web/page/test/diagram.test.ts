@@ -4,17 +4,31 @@ import { tmpdir } from "node:os";
 import { deflateRawSync, inflateRawSync } from "node:zlib";
 import { describe, expect, test } from "vitest";
 import type { Page } from "playwright-core";
-import { browserPath, keptGame, pages, sizes, violations } from "./page.js";
+import {
+  act,
+  boxOf,
+  browserPath,
+  comesToSay,
+  comesToShow,
+  gameOf,
+  keptGame,
+  keptLines,
+  pages,
+  says,
+  shows,
+  sizes,
+  valueOf,
+  violations,
+} from "./page.js";
 
 describe.runIf(browserPath !== undefined)("a diagram", () => {
-  const { open, text, set, turnTo } = pages();
-  const picture = (one: Page): Promise<string> =>
-    one.locator("#diagram-scene").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
-  async function opened(one: Page): Promise<void> {
-    await one.locator("#new-game").click();
-    await one.locator("#open-diagram").click();
+  const { open, text, turnTo } = pages();
+  const picture = (page: Page) =>
+    page.locator("#diagram-scene").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+  async function opened(page: Page): Promise<void> {
+    await act(page, "#new-game", "#open-diagram");
   }
-  const kept = (game: object, how: object): Promise<Page> => open("", how, game);
+  const resume = (game: object, how: object) => open("", how, game);
   const PRACTICE = {
     game: "eightball",
     against: "practice",
@@ -27,37 +41,37 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
   test.each(sizes)(
     "balls before and after a stroke, its path and notes are printed, and a link keeps them: %s",
     async (_, how) => {
-      const one = await kept(PRACTICE, how);
-      await turnTo(one, 70);
-      await set(one, "power", 3);
-      await opened(one);
-      expect(await one.locator("#diagram-which option").allTextContents()).toEqual([
+      const page = await resume(PRACTICE, how);
+      await turnTo(page, 70);
+      await act(page, "#power=3");
+      await opened(page);
+      expect(await page.locator("#diagram-which option").allTextContents()).toEqual([
         "the stroke that is aimed",
         "the balls as they lie",
       ]);
-      expect(await text(one, "diagram-words")).toBe(
+      await says(
+        page,
+        "diagram-words",
         "Eight-ball. Cue: 3.0 m/s, direction 70.00°, tip in the middle.",
       );
       // Each choice draws something else.
-      const drawn = [await picture(one)];
-      await one.locator("#diagram-path").uncheck();
-      drawn.push(await picture(one));
-      await one.locator("#diagram-after").check();
-      drawn.push(await picture(one));
-      await one.locator("#diagram-path").check();
-      drawn.push(await picture(one));
+      const drawn = [await picture(page)];
+      await act(page, "#diagram-path=off");
+      drawn.push(await picture(page));
+      await act(page, "#diagram-after=on");
+      drawn.push(await picture(page));
+      await act(page, "#diagram-path=on");
+      drawn.push(await picture(page));
       expect(new Set(drawn).size).toBe(4);
-      expect(await violations(one)).toEqual([]);
-      await one.locator("#notes").fill(NOTES);
-      await one.locator("#link-diagram").click();
-      await expect
-        .poll(() => text(one, "diagram-said"))
-        .toBe("The link to this diagram is copied.");
-      const link = await one.evaluate(() => navigator.clipboard.readText());
+      expect(await violations(page)).toEqual([]);
+      await page.locator("#notes").fill(NOTES);
+      await act(page, "#link-diagram");
+      await comesToSay(page, "diagram-said", "The link to this diagram is copied.");
+      const link = await page.evaluate(() => navigator.clipboard.readText());
 
       // On paper there are the table as wide as it is on the screen or wider, the words and the
       // notes, and nothing to press.
-      await one.emulateMedia({ media: "print" });
+      await page.emulateMedia({ media: "print" });
       for (const [what, is] of [
         ["#diagram-scene", true],
         ["#diagram-words", true],
@@ -67,110 +81,90 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
         ["#table-scene", false],
         ["header", false],
       ] as const)
-        expect(await one.locator(what).isVisible(), what).toBe(is);
-      expect(await one.locator("#diagram .on-paper").textContent()).toBe(NOTES);
-      const box = (await one.locator("#diagram-scene").boundingBox())!;
+        expect(await page.locator(what).isVisible(), what).toBe(is);
+      expect(await page.locator("#diagram .on-paper").textContent()).toBe(NOTES);
+      const box = await boxOf(page, "#diagram-scene");
       const long = Math.max(box.width, box.height);
       const short = Math.min(box.width, box.height);
       expect(long / short).toBeCloseTo((2.54 + 0.2) / (1.27 + 0.2), 1);
       const pdf = `${tmpdir()}/carom-diagram-${process.pid}.pdf`;
-      await one.pdf({ path: pdf });
+      await page.pdf({ path: pdf });
       expect(readFileSync(pdf, "latin1").match(/\/Type \/Page\b/g)).toHaveLength(1);
-      await one.emulateMedia({ media: "screen" });
+      await page.emulateMedia({ media: "screen" });
 
       // Another page shows the same, and keeps the game that it had.
-      const other = await open("", how);
-      const game = await keptGame(other);
-      await other.evaluate((hash) => (location.hash = hash), new URL(link).hash);
-      await expect.poll(() => other.locator("#diagram").isVisible()).toBe(true);
-      expect(await other.locator("#notes").inputValue()).toBe(NOTES);
-      expect(await text(other, "diagram-words")).toBe(await text(one, "diagram-words"));
-      expect(await other.locator("#diagram-after").isChecked()).toBe(true);
-      await expect.poll(() => picture(other)).toBe(await picture(one));
-      expect(await other.locator("#diagram-which").isVisible()).toBe(false);
-      await other.locator("#diagram .close").click();
-      await expect.poll(() => other.evaluate(() => location.hash)).toBe("#view=play");
-      expect(await keptGame(other)).toBe(game);
-      await one.close();
-      await other.close();
+      const secondPage = await open("", how);
+      const game = await keptGame(secondPage);
+      await secondPage.evaluate((hash) => (location.hash = hash), new URL(link).hash);
+      await comesToShow(secondPage, "#diagram");
+      expect(await valueOf(secondPage, "notes")).toBe(NOTES);
+      await says(secondPage, "diagram-words", await text(page, "diagram-words"));
+      expect(await secondPage.locator("#diagram-after").isChecked()).toBe(true);
+      await expect.poll(() => picture(secondPage)).toBe(await picture(page));
+      await shows(secondPage, "#diagram-which", false);
+      await act(secondPage, "#diagram .close");
+      await expect.poll(() => secondPage.evaluate(() => location.hash)).toBe("#view=play");
+      expect(await keptGame(secondPage)).toBe(game);
     },
   );
 
   test("in a game it shows the last stroke, and never where the aim leads", async () => {
-    const one = await kept(
-      {
-        game: "nineball",
-        against: "person",
-        own: "0",
-        seed: 7,
-        at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9",
-      },
+    const page = await resume(
+      gameOf("nineball", "person", "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9"),
       {},
     );
-    await opened(one);
-    expect(await text(one, "diagram-words")).toBe("Nine-ball. ");
-    expect(await one.locator("#diagram-path").isVisible()).toBe(false);
-    const lie = await picture(one);
-    await one.locator("#diagram .close").click();
-    await one.locator("#new-game").click();
-    await one.locator("#rate").selectOption("1000");
-    await one.locator("#menu .close").click();
-    await one.locator("#shoot").click();
-    await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
-    await opened(one);
-    expect(await one.locator("#diagram-which option").allTextContents()).toEqual([
+    await opened(page);
+    await says(page, "diagram-words", "Nine-ball. ");
+    await shows(page, "#diagram-path", false);
+    const lie = await picture(page);
+    await act(page, "#diagram .close", "#new-game", "#rate=1000", "#menu .close", "#shoot");
+    await comesToShow(page, "#skip", false);
+    await opened(page);
+    expect(await page.locator("#diagram-which option").allTextContents()).toEqual([
       "the last stroke",
       "the balls as they lie",
     ]);
-    expect(await text(one, "diagram-words")).toMatch(/^Nine-ball\. Cue: 2\.5 m\/s/);
-    expect(await picture(one)).not.toBe(lie);
-    await one.close();
+    await says(page, "diagram-words", /^Nine-ball\. Cue: 2\.5 m\/s/);
+    expect(await picture(page)).not.toBe(lie);
   });
 
   test("it strikes the cue ball of the player, who in games of carom has an own one", async () => {
-    const one = await kept({ game: "threecushion", against: "person", own: "0", seed: 1 }, {});
-    await one.locator("#new-game").click();
-    await one.locator("#rate").selectOption("1000");
-    await one.locator("#menu .close").click();
-    const strokes = async (): Promise<string[]> =>
-      (JSON.parse(await keptGame(one)) as { lines: string[] }).lines.filter((line) =>
-        line.startsWith('{"shot"'),
-      );
+    const page = await resume({ game: "threecushion", against: "person", own: "0", seed: 1 }, {});
+    await act(page, "#new-game", "#rate=1000", "#menu .close");
+    const strokes = async () =>
+      (await keptLines(page)).filter((line) => line.startsWith('{"shot"'));
     // Soft strokes miss, so that the turn passes.
     for (const [count, ball] of [
       [1, undefined],
       [2, 1],
     ] as const) {
-      await set(one, "power", 0.5);
-      await one.locator("#shoot").click();
+      await act(page, "#power=0.5", "#shoot");
       await expect.poll(async () => (await strokes()).length).toBe(count);
-      await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
+      await comesToShow(page, "#skip", false);
       const [shot] = (await strokes()).slice(-1);
       expect((JSON.parse(shot!) as { shot: { ball?: number } }).shot.ball).toBe(ball);
     }
-    await opened(one);
-    await one.locator("#link-diagram").click();
-    await expect.poll(() => text(one, "diagram-said")).toBe("The link to this diagram is copied.");
-    const drawn = await picture(one);
-    const link = new URL(await one.evaluate(() => navigator.clipboard.readText())).hash;
-    const other = await open(link);
-    await expect.poll(() => other.locator("#diagram").isVisible()).toBe(true);
-    await expect.poll(() => picture(other)).toBe(drawn);
+    await opened(page);
+    await act(page, "#link-diagram");
+    await comesToSay(page, "diagram-said", "The link to this diagram is copied.");
+    const drawn = await picture(page);
+    const link = new URL(await page.evaluate(() => navigator.clipboard.readText())).hash;
+    const secondPage = await open(link);
+    await comesToShow(secondPage, "#diagram");
+    await expect.poll(() => picture(secondPage)).toBe(drawn);
     // The same stroke of the white is drawn otherwise.
     const packed = new URLSearchParams(link.slice(1)).get("d")!;
-    const of = JSON.parse(inflateRawSync(Buffer.from(packed, "base64url")).toString()) as object;
-    expect(of).toMatchObject({ ball: 1 });
-    const white = deflateRawSync(JSON.stringify({ ...of, ball: 0 })).toString("base64url");
-    await other.evaluate((d) => (location.hash = `#view=play&d=${d}`), white);
-    await expect.poll(() => picture(other)).not.toBe(drawn);
-    await one.close();
-    await other.close();
+    const sent = JSON.parse(inflateRawSync(Buffer.from(packed, "base64url")).toString()) as object;
+    expect(sent).toMatchObject({ ball: 1 });
+    const white = deflateRawSync(JSON.stringify({ ...sent, ball: 0 })).toString("base64url");
+    await secondPage.evaluate((d) => (location.hash = `#view=play&d=${d}`), white);
+    await expect.poll(() => picture(secondPage)).not.toBe(drawn);
   });
 
   test("a link that is damaged or changed is refused, and says why", async () => {
-    const one = await open("");
-    const packed = (text: string): Promise<string> =>
-      one.evaluate(async (text) => {
+    const page = await open("");
+    const packed = (text: string) =>
+      page.evaluate(async (text) => {
         const bytes = new Uint8Array(
           await new Response(
             new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw")),
@@ -195,10 +189,9 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
       ],
       [await packed(JSON.stringify({ ...good, notes: 1 })), "notes and at: texts are needed"],
     ] as const) {
-      await one.evaluate((d) => (location.hash = `#view=play&d=${d}`), d);
-      await expect.poll(() => text(one, "said")).toContain(`The diagram was not read: ${why}`);
-      expect(await one.locator("#diagram").isVisible()).toBe(false);
+      await page.evaluate((d) => (location.hash = `#view=play&d=${d}`), d);
+      await expect.poll(() => text(page, "said")).toContain(`The diagram was not read: ${why}`);
+      await shows(page, "#diagram", false);
     }
-    await one.close();
   });
 });

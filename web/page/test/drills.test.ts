@@ -2,30 +2,19 @@
 // nothing makes none.
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
-import type { Carom, Cue, ShotBall, Shot } from "carom";
+import type { Carom, Cue } from "carom";
 import { drillStroke, strokesFor } from "../src/play/drill_search.js";
 import { type Drill, drillsOf, judge } from "../src/play/drills.js";
 import { Play } from "../src/play/game.js";
-import { builds } from "../../test/builds.js";
+import { allDown, carom, lay } from "../../test/builds.js";
 import { root } from "../../test/support.js";
 
 const drills = drillsOf(readFileSync(`${root}data/drills.csv`, "utf8"));
+const ROWS = drills.map((drill) => [drill.name, drill] as const);
 const OPTIONS = {};
 
-function layout(
-  carom: Carom,
-  { balls }: Drill,
-): { table: ReturnType<Carom["table"]>; balls: ShotBall[] } {
-  const table = carom.table("9ft");
-  let lie = carom.rack("eightball", table).map(
-    ({ kind, state }): ShotBall => ({
-      kind,
-      state: { ...state, r: [0, 0, -0.1], label: "pocketed" },
-    }),
-  );
-  for (const [ball, [x, y]] of balls) lie = carom.placeBall(table, lie, ball, x, y);
-  return { table, balls: lie };
-}
+const layout = (carom: Carom, { balls }: Drill) =>
+  lay(carom, "eightball", Object.fromEntries(balls));
 test("there are twenty, with names of their own", () => {
   expect(drills).toHaveLength(20);
   expect(new Set(drills.map(({ name }) => name)).size).toBe(20);
@@ -34,21 +23,20 @@ test("there are twenty, with names of their own", () => {
 // For new drills: CAROM_DRILLS=1 prints each rating, by the best of 200 strokes; three balls fall by
 // three such strokes.
 test.runIf(process.env.CAROM_DRILLS)("ratings that make a drill in half of the tries", () => {
-  const { carom } = builds[0]!;
   for (const drill of drills) {
     const { table, balls } = layout(carom, drill);
-    const good = (cue: Partial<Cue>): boolean =>
+    const good = (cue: Partial<Cue>) =>
       judge(drill, carom.simulate(table, balls, cue, OPTIONS)).outcome !== "missed";
-    const made: Partial<Cue>[] = [];
+    const strokes: Partial<Cue>[] = [];
     for (const cue of strokesFor(carom, table, balls, drill, 200, OPTIONS))
-      if (good(cue) && made.push(cue) === 200) break;
-    const share = (cue: Partial<Cue>, fargo: number, count: number): number =>
+      if (good(cue) && strokes.push(cue) === 200) break;
+    const share = (cue: Partial<Cue>, fargo: number, count: number) =>
       Array.from({ length: count }, (_, k) =>
         good(carom.withErrors(cue, carom.player({ fargo }), count, k)),
       ).filter(Boolean).length / count;
-    const best = (fargo: number): number =>
+    const best = (fargo: number) =>
       Math.max(
-        ...made
+        ...strokes
           .map((cue) => [share(cue, fargo, 25), cue] as const)
           .sort(([a], [b]) => b - a)
           .slice(0, 8)
@@ -64,35 +52,29 @@ test.runIf(process.env.CAROM_DRILLS)("ratings that make a drill in half of the t
   }
 });
 
-test.each(drills.map((drill) => [drill.name, drill] as const))(
-  "%s can be made, and is not made by itself",
-  (_, drill) => {
-    const { carom } = builds[0]!;
-    const { table, balls } = layout(carom, drill);
-    const play = (cue: Partial<Cue>): Shot => carom.simulate(table, balls, cue, OPTIONS);
-    expect(judge(drill, play({ speed: 0.1, phi: 200, b: 0 }))).toMatchObject({ outcome: "missed" });
-    // Where three balls are to fall, the stroke goes on.
-    for (const cue of strokesFor(carom, table, balls, drill, 200, OPTIONS))
-      if (judge(drill, play(cue)).outcome !== "missed") return;
-    expect.fail(`${drill.name}: no stroke of 200 for each way makes it`);
-  },
-);
+test.each(ROWS)("%s can be made, and is not made by itself", (_, drill) => {
+  const { table, balls } = layout(carom, drill);
+  const play = (cue: Partial<Cue>) => carom.simulate(table, balls, cue, OPTIONS);
+  expect(judge(drill, play({ speed: 0.1, phi: 200, b: 0 }))).toMatchObject({ outcome: "missed" });
+  // Where three balls are to fall, the stroke goes on.
+  for (const cue of strokesFor(carom, table, balls, drill, 200, OPTIONS))
+    if (judge(drill, play(cue)).outcome !== "missed") return;
+  expect.fail(`${drill.name}: no stroke of 200 for each way makes it`);
+});
 
-test.each(drills.map((drill) => [drill.name, drill] as const))(
+test.each(ROWS)(
   "the hint of %s makes it, and a player of its rating makes it in about half of the tries",
   (_, drill) => {
-    const { carom } = builds[0]!;
     const { table, balls } = layout(carom, drill);
     const player = carom.player({ fargo: drill.rating });
-    const { cue, made } = drillStroke(carom, table, balls, drill, player, OPTIONS)!;
+    const { cue, chance } = drillStroke(carom, table, balls, drill, player, OPTIONS)!;
     expect(judge(drill, carom.simulate(table, balls, cue, OPTIONS)).outcome).not.toBe("missed");
-    expect(made).toBeGreaterThan(0.25);
+    expect(chance).toBeGreaterThan(0.25);
   },
 );
 
 test("a game of pool is played on the table that it names, with the pockets of that table", () => {
-  const { carom } = builds[0]!;
-  const on = (table?: string, game = "nineball"): Play =>
+  const practiceOn = (table?: string, game = "nineball") =>
     new Play(carom, {
       game,
       against: "practice",
@@ -100,31 +82,25 @@ test("a game of pool is played on the table that it names, with the pockets of t
       seed: 1,
       ...(table !== undefined && { table }),
     });
-  expect(["9ft", "8ft", "7ft", "tight"].map((name) => on(name).table.width)).toEqual([
+  expect(["9ft", "8ft", "7ft", "tight"].map((name) => practiceOn(name).table.width)).toEqual([
     1.27, 1.1176, 0.9906, 1.27,
   ]);
-  expect(on().table).toEqual(on("9ft").table);
+  expect(practiceOn().table).toEqual(practiceOn("9ft").table);
   // Of balls side by side that run at a corner, fewer fall into the tight one.
-  const into = ({ table, balls }: Play): number => {
-    const lie = balls.map(
-      ({ kind, state }): ShotBall => ({
-        kind,
-        state: { ...state, r: [0, 0, -0.1], label: "pocketed" },
-      }),
-    );
+  const into = ({ table, balls }: Play) => {
     const line = Array.from({ length: 41 }, (_, k) =>
-      carom.placeBall(table, lie, 0, 0.4, 0.4 + 0.002 * k),
+      carom.placeBall(table, allDown(balls), 0, 0.4, 0.4 + 0.002 * k),
     );
     return line.filter(
-      (all) =>
-        carom.simulate(table, all, carom.cue({ speed: 2, phi: 225 }), OPTIONS).final[0]!.label ===
+      (balls) =>
+        carom.simulate(table, balls, carom.cue({ speed: 2, phi: 225 }), OPTIONS).final[0]!.label ===
         "pocketed",
     ).length;
   };
-  const usual = into(on("9ft"));
-  const tight = into(on("tight"));
+  const usual = into(practiceOn("9ft"));
+  const tight = into(practiceOn("tight"));
   expect(tight).toBeGreaterThan(2);
   expect(tight).toBeLessThan(usual);
-  expect(() => on("10ft")).toThrow('table: there is no table "10ft" for this game');
-  expect(() => on("7ft", "snooker")).toThrow('there is no table "7ft"');
+  expect(() => practiceOn("10ft")).toThrow('table: there is no table "10ft" for this game');
+  expect(() => practiceOn("7ft", "snooker")).toThrow('there is no table "7ft"');
 });

@@ -2,153 +2,162 @@
 // drills and second tabs; and what happens where something that was kept is damaged.
 import { describe, expect, test } from "vitest";
 import { run, thereIsACommand } from "../../npm/test/support.js";
-import { browserPath, keptGames, linesOf, page, pages } from "./page.js";
+import {
+  act,
+  browserPath,
+  comesToCount,
+  comesToSay,
+  comesToShow,
+  counts,
+  keptGames,
+  keptLines,
+  linesOf,
+  pageFile,
+  pages,
+  reload,
+  says,
+  shows,
+} from "./page.js";
 
 describe.runIf(browserPath !== undefined)("kept games", () => {
-  const { browser, open, set, text } = pages();
+  const { browser, open, text } = pages();
   type Page = Awaited<ReturnType<typeof open>>;
 
   /** Begins a game by the menu. */
-  async function begin(one: Page, game: string, against: string): Promise<void> {
-    await one.locator("#new-game").click();
-    await one.locator("#new-which").selectOption(game);
-    await one.locator("#new-against").selectOption(against);
-    await one.locator("#rate").selectOption("1000");
-    await one.locator("#start").click();
+  async function begin(page: Page, game: string, against: string): Promise<void> {
+    await act(
+      page,
+      "#new-game",
+      `#new-which=${game}`,
+      `#new-against=${against}`,
+      "#rate=1000",
+      "#start",
+    );
   }
-  async function shoot(one: Page, power: number): Promise<void> {
-    await set(one, "power", power);
-    const before = (await keptGames(one)).open;
-    await one.locator("#shoot").click();
+  async function shoot(page: Page, power: number): Promise<void> {
+    await act(page, `#power=${power}`);
+    const previous = (await keptGames(page)).open;
+    await act(page, "#shoot");
     await expect
       .poll(async () => {
-        const { open, games } = await keptGames(one);
-        return open === before && linesOf(games[open]!, "shot").length > 0;
+        const { open, games } = await keptGames(page);
+        return open === previous && linesOf(games[open]!, "shot").length > 0;
       })
       .toBe(true);
   }
-  async function load(one: Page, hash = ""): Promise<void> {
-    await one.goto(`${one.url().split("#")[0]!}?again=${Math.random()}${hash}`);
-    await one.waitForSelector("main[aria-busy=false]");
+  async function load(page: Page, hash = ""): Promise<void> {
+    await page.goto(`${page.url().split("#")[0]!}?again=${Math.random()}${hash}`);
+    await page.waitForSelector("main[aria-busy=false]");
   }
 
   test("a damaged link, a new game and a drill leave the game before in the list", async () => {
-    const one = await open("");
-    await begin(one, "nineball", "person");
-    await shoot(one, 8);
-    const { open: first, games } = await keptGames(one);
+    const page = await open("");
+    await begin(page, "nineball", "person");
+    await shoot(page, 8);
+    const { open: first, games } = await keptGames(page);
 
-    await load(one, "#view=play&seat=1&g=bY_damaged");
-    expect(await text(one, "said")).toMatch(/not opened: the link is cut off or damaged/);
-    expect((await keptGames(one)).open).toBe(first);
-    expect((await keptGames(one)).games[first]).toBe(games[first]);
+    await load(page, "#view=play&seat=1&g=bY_damaged");
+    await says(page, "said", /not opened: the link is cut off or damaged/);
+    expect((await keptGames(page)).open).toBe(first);
+    expect((await keptGames(page)).games[first]).toBe(games[first]);
 
-    await begin(one, "snooker", "person");
-    expect(await text(one, "said")).toMatch(/The game before is kept under New game\.$/);
-    await one.locator("#new-game").click();
-    await one.locator("#start-drill").click();
-    const after = await keptGames(one);
-    expect(after.games[first]).toBe(games[first]);
+    await begin(page, "snooker", "person");
+    await says(page, "said", /The game before is kept under New game\.$/);
+    await act(page, "#new-game", "#start-drill");
+    const stored = await keptGames(page);
+    expect(stored.games[first]).toBe(games[first]);
     // Nobody has played in the game of snooker.
-    expect(Object.values(after.games).some((game) => game.includes("snooker"))).toBe(false);
+    expect(Object.values(stored.games).some((game) => game.includes("snooker"))).toBe(false);
 
-    await one.locator("#new-game").click();
-    const rows = one.locator("#saved-games li");
+    await act(page, "#new-game");
+    const rows = page.locator("#saved-games li");
     await expect.poll(() => rows.count()).toBe(2);
-    await one.getByRole("button", { name: "Go on with Nine-ball" }).click();
-    await expect.poll(async () => (await keptGames(one)).open).toBe(first);
-    expect(await text(one, "turn")).not.toContain("break");
-    await one.close();
+    await page.getByRole("button", { name: "Go on with Nine-ball" }).click();
+    await expect.poll(async () => (await keptGames(page)).open).toBe(first);
+    expect(await text(page, "turn")).not.toContain("break");
   });
 
   test("a game is conceded by a second press, and is over", async () => {
-    const one = await open("");
-    await begin(one, "nineball", "person");
-    await shoot(one, 8);
-    await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
-    const { open: id } = await keptGames(one);
-    await one.locator("#new-game").click();
-    await one.locator("#concede").click();
-    expect(await one.locator("#end").isVisible()).toBe(false);
-    await one.locator("#concede").click();
-    await expect.poll(() => one.locator("#end").isVisible()).toBe(true);
-    expect(await one.locator("#end").textContent()).toContain("The other player gave up.");
-    const { lines } = JSON.parse((await keptGames(one)).games[id]!) as { lines: string[] };
+    const page = await open("");
+    await begin(page, "nineball", "person");
+    await shoot(page, 8);
+    await comesToShow(page, "#skip", false);
+    const { open: id } = await keptGames(page);
+    await act(page, "#new-game", "#concede");
+    await shows(page, "#end", false);
+    await act(page, "#concede");
+    await comesToShow(page, "#end");
+    expect(await page.locator("#end").textContent()).toContain("The other player gave up.");
+    const { lines } = JSON.parse((await keptGames(page)).games[id]!) as { lines: string[] };
     expect(lines.at(-2)).toContain('"act":3');
     expect(lines.at(-1)).toContain('"winner"');
     // It can be given up no more, nor can practice.
-    await one.locator("#new-game").click();
-    expect(await one.locator("#concede").isVisible()).toBe(false);
-    await one.locator("#menu .close").click();
-    await one.close();
+    await act(page, "#new-game");
+    await shows(page, "#concede", false);
+    await act(page, "#menu .close");
   });
 
   test("a second tab does not play the game that the first one has open", async () => {
     const context = await browser().newContext();
-    const visit = async (): Promise<Page> => {
+    const visit = async () => {
       const tab = await context.newPage();
-      await tab.goto(`file://${page}`);
+      await tab.goto(`file://${pageFile}`);
       await tab.waitForSelector("main[aria-busy=false]");
       return tab;
     };
-    const one = await visit();
-    await begin(one, "nineball", "person");
-    await shoot(one, 8);
-    const { open: first, games } = await keptGames(one);
-    const other = await visit();
-    expect(await text(other, "said")).toMatch(/open in another tab: go on there/);
-    await begin(other, "eightball", "person");
-    await shoot(other, 8);
-    const both = await keptGames(other);
+    const page = await visit();
+    await begin(page, "nineball", "person");
+    await shoot(page, 8);
+    const { open: first, games } = await keptGames(page);
+    const secondPage = await visit();
+    await says(secondPage, "said", /open in another tab: go on there/);
+    await begin(secondPage, "eightball", "person");
+    await shoot(secondPage, 8);
+    const both = await keptGames(secondPage);
     expect(both.open).not.toBe(first);
     expect(both.games[first]).toBe(games[first]);
-    await one.reload();
-    await one.waitForSelector("main[aria-busy=false]");
-    expect((await keptGames(one)).open).toBe(first);
+    await reload(page);
+    expect((await keptGames(page)).open).toBe(first);
     await context.close();
   });
 
   test("a rated game that is deleted counts as lost, and its button says so before", async () => {
-    const one = await open("");
-    await begin(one, "nineball", "300");
-    await shoot(one, 8);
-    await begin(one, "eightball", "person");
-    await one.locator("#new-game").click();
-    const remove = one
+    const page = await open("");
+    await begin(page, "nineball", "300");
+    await shoot(page, 8);
+    await begin(page, "eightball", "person");
+    await act(page, "#new-game");
+    const remove = page
       .locator("#saved-games li", { hasText: "Nine-ball" })
       .getByRole("button")
       .last();
     await remove.click();
     expect(await remove.textContent()).toBe("Delete: it counts as lost");
-    const lost = (): Promise<string | null> =>
-      one.evaluate(() => localStorage.getItem("carom-ladder"));
+    const lost = () => page.evaluate(() => localStorage.getItem("carom-ladder"));
     expect(await lost()).toBe(null);
     await remove.click();
     await expect.poll(lost).toBe('{"300":[0,1]}');
-    await expect.poll(() => one.locator("#saved-games li").count()).toBe(1);
-    await one.close();
+    await comesToCount(page, "#saved-games li", 1);
   });
 
   test("what is damaged begins anew, is put aside, and is named; the page starts", async () => {
-    const one = await open("");
-    await one.evaluate(() => {
+    const page = await open("");
+    await page.evaluate(() => {
       localStorage.setItem("carom-settings", "{bad");
       localStorage.setItem("carom-ladder", '{"300":"many"}');
     });
-    await one.reload();
-    await one.waitForSelector("main[aria-busy=false]");
-    expect(await text(one, "said")).toMatch(/kept as settings, ladder was damaged and begins anew/);
-    expect(await one.evaluate(() => localStorage.getItem("carom-settings-damaged"))).toBe("{bad");
-    await one.close();
+    await reload(page);
+    await says(page, "said", /kept as settings, ladder was damaged and begins anew/);
+    expect(await page.evaluate(() => localStorage.getItem("carom-settings-damaged"))).toBe("{bad");
   });
 
   test("a file of a game is judged by the command, and another page goes on with it", async () => {
-    const one = await open("");
-    await begin(one, "nineball", "person");
-    await shoot(one, 8);
-    await one.locator("#new-game").click();
-    const waiting = one.waitForEvent("download");
-    await one.getByRole("button", { name: "Save file" }).first().click();
+    const page = await open("");
+    await begin(page, "nineball", "person");
+    await shoot(page, 8);
+    await act(page, "#new-game");
+    const waiting = page.waitForEvent("download");
+    await page.getByRole("button", { name: "Save file" }).first().click();
     const stream = await (await waiting).createReadStream();
     const chunks: Buffer[] = [];
     for await (const chunk of stream) chunks.push(chunk as Buffer);
@@ -159,75 +168,59 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
         /1 shots, every bit agrees.*; 1 rulings by the rules/,
       );
 
-    const give = (buffer: Buffer): Promise<void> =>
-      one
+    const give = (buffer: Buffer) =>
+      page
         .locator("#open-game")
         .setInputFiles({ name: "game.jsonl", mimeType: "application/jsonl", buffer });
-    const { open: before } = await keptGames(one);
+    const { open: previous } = await keptGames(page);
     await give(Buffer.from(file.toString().replace('"opening":1', '"opening":0')));
-    await expect.poll(() => text(one, "said")).toMatch(/The game was not opened: /);
-    expect((await keptGames(one)).open).toBe(before);
+    await comesToSay(page, "said", /The game was not opened: /);
+    expect((await keptGames(page)).open).toBe(previous);
     await give(file);
-    await expect.poll(async () => (await keptGames(one)).open).not.toBe(before);
-    const kept = await keptGames(one);
-    expect((JSON.parse(kept.games[kept.open]!) as { lines: string[] }).lines).toEqual(
+    await expect.poll(async () => (await keptGames(page)).open).not.toBe(previous);
+    const stored = await keptGames(page);
+    expect((JSON.parse(stored.games[stored.open]!) as { lines: string[] }).lines).toEqual(
       lines.slice(0, -1).map((line) => `${line}\n`),
     );
-    await one.close();
   });
 
   test("the clock ends a turn by a foul, and stands in the recording", async () => {
     const context = await browser().newContext();
-    const one = await context.newPage();
-    await one.clock.install();
-    await one.goto(`file://${page}`);
-    await one.waitForSelector("main[aria-busy=false]");
-    expect(await one.locator("#clock").isVisible()).toBe(false);
-    await one.locator("#new-game").click();
-    await one.locator("#new-which").selectOption("nineball");
-    await one.locator("#new-against").selectOption("practice");
-    expect(await one.locator("#new-clock").isVisible()).toBe(false);
-    await one.locator("#new-against").selectOption("person");
-    await one.locator("#new-clock").selectOption("30");
-    await one.locator("#start").click();
-    await one.clock.runFor(1000);
-    expect(await text(one, "clock")).toMatch(/^(2[89]|30) s left$/);
-    await one.clock.runFor(22_000);
-    expect(await one.locator("#clock.warned").count()).toBe(1);
+    const page = await context.newPage();
+    await page.clock.install();
+    await page.goto(`file://${pageFile}`);
+    await page.waitForSelector("main[aria-busy=false]");
+    await shows(page, "#clock", false);
+    await act(page, "#new-game", "#new-which=nineball", "#new-against=practice");
+    await shows(page, "#new-clock", false);
+    await act(page, "#new-against=person", "#new-clock=30", "#start");
+    await page.clock.runFor(1000);
+    await says(page, "clock", /^(2[89]|30) s left$/);
+    await page.clock.runFor(22_000);
+    await counts(page, "#clock.warned", 1);
     // Each of both players has the whole time anew.
-    await one.clock.runFor(8_000);
-    expect(await text(one, "turn")).toMatch(
-      /^Player 1 fouls: the time for the stroke is over. Player 2/,
-    );
-    expect(await text(one, "clock")).toMatch(/^(2[6-9]|30) s left$/);
-    const { open: id, games } = await keptGames(one);
-    const { lines } = JSON.parse(games[id]!) as { lines: string[] };
+    await page.clock.runFor(8_000);
+    await says(page, "turn", /^Player 1 fouls: the time for the stroke is over. Player 2/);
+    await says(page, "clock", /^(2[6-9]|30) s left$/);
+    const lines = await keptLines(page);
     expect(lines.filter((line) => line.startsWith('{"act":{"act":4,'))).toHaveLength(1);
-    await one.reload();
-    await one.waitForSelector("main[aria-busy=false]");
-    expect(await text(one, "turn")).toMatch(/^Player 1 fouls: the time/);
+    await reload(page);
+    await says(page, "turn", /^Player 1 fouls: the time/);
     // Three fouls in a row lose nine-ball.
-    for (let turn = 0; turn < 4; turn++) await one.clock.runFor(31_000);
-    expect(await one.locator("#end").textContent()).toContain("The time for the stroke is over.");
-    expect(await one.locator("#clock").isVisible()).toBe(false);
+    for (let turn = 0; turn < 4; turn++) await page.clock.runFor(31_000);
+    expect(await page.locator("#end").textContent()).toContain("The time for the stroke is over.");
+    await shows(page, "#clock", false);
     await context.close();
   });
 
   test("the menu begins a game with equal innings, where the game knows them", async () => {
-    const one = await open("");
-    await one.locator("#new-game").click();
-    await one.locator("#new-against").selectOption("person");
-    await one.locator("#new-which").selectOption("nineball");
-    expect(await one.locator("#new-equal").isVisible()).toBe(false);
-    await one.locator("#new-which").selectOption("straightrail");
-    await one.locator("#new-equal").check();
-    await one.locator("#rate").selectOption("1000");
-    await one.locator("#start").click();
-    await shoot(one, 3);
-    const { open: id, games } = await keptGames(one);
-    const { lines } = JSON.parse(games[id]!) as { lines: string[] };
+    const page = await open("");
+    await act(page, "#new-game", "#new-against=person", "#new-which=nineball");
+    await shows(page, "#new-equal", false);
+    await act(page, "#new-which=straightrail", "#new-equal=on", "#rate=1000", "#start");
+    await shoot(page, 3);
+    const lines = await keptLines(page);
     expect(lines.filter((line) => line.startsWith('{"game"')).at(0)).toContain('"innings":1');
-    await one.close();
   });
 
   test.runIf(thereIsACommand)("an equalizing inning is told, and a drawn game", async () => {
@@ -236,63 +229,57 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
     const lines = run([...rules, ...players], "")
       .trim()
       .split("\n");
-    const isGame = (line: string): boolean => line.startsWith('{"game"');
+    const isGame = (line: string) => line.startsWith('{"game"');
     expect(lines.filter(isGame).at(-1)).toContain('"winner":3');
-    const before = lines.slice(
-      0,
-      lines.map((line) => line.startsWith('{"shot"')).lastIndexOf(true),
-    );
-    const one = await open("");
-    const give = (given: readonly string[]): Promise<void> =>
-      one.locator("#open-game").setInputFiles({
+    const head = lines.slice(0, lines.map((line) => line.startsWith('{"shot"')).lastIndexOf(true));
+    const page = await open("");
+    const give = (content: readonly string[]) =>
+      page.locator("#open-game").setInputFiles({
         name: "game.jsonl",
         mimeType: "application/jsonl",
-        buffer: Buffer.from(given.join("\n")),
+        buffer: Buffer.from(content.join("\n")),
       });
-    await give(before);
-    await expect.poll(() => text(one, "turn")).toBe("Player 2's turn, equalizing inning.");
+    await give(head);
+    await comesToSay(page, "turn", "Player 2's turn, equalizing inning.");
     await give(lines);
-    await expect.poll(() => text(one, "turn")).toBe("The game is drawn: the score is 1 : 1.");
-    await expect.poll(() => one.locator("#end").isVisible()).toBe(true);
-    expect(await one.locator("#end h2").textContent()).toBe("The game is drawn");
-    expect(await one.locator("#rack-up").isVisible()).toBe(true);
-    await one.close();
+    await comesToSay(page, "turn", "The game is drawn: the score is 1 : 1.");
+    await comesToShow(page, "#end");
+    expect(await page.locator("#end h2").textContent()).toBe("The game is drawn");
+    await shows(page, "#rack-up");
   });
 
   test("a log of drills alone states neither a cost nor an aim that nobody measured", async () => {
-    const one = await open("");
-    await one.locator("#new-game").click();
-    await one.locator("#drill").selectOption("Lag");
-    await one.locator("#rate").selectOption("1000");
-    await one.locator("#start-drill").click();
-    await set(one, "power", 0.3);
-    await one.locator("#shoot").click();
-    await expect.poll(() => text(one, "said")).toMatch(/^Missed: 0 of 1/);
-    await one.locator("#new-game").click();
-    await one.locator("#open-log").click();
-    expect(await text(one, "log-sum")).toMatch(/^1 stroke\. Practise next:/);
-    const cells = await one.locator("#log tbody td").allTextContents();
+    const page = await open("");
+    await act(
+      page,
+      "#new-game",
+      "#drill=Lag",
+      "#rate=1000",
+      "#start-drill",
+      "#power=0.3",
+      "#shoot",
+    );
+    await comesToSay(page, "said", /^Missed: 0 of 1/);
+    await act(page, "#new-game", "#open-log");
+    await says(page, "log-sum", /^1 stroke\. Practise next:/);
+    const cells = await page.locator("#log tbody td").allTextContents();
     expect(cells.filter((cell) => cell === "–").length).toBeGreaterThan(5);
-    await one.close();
   });
 
   test("Hint in a drill aims a stroke, and tells how often it makes the drill", async () => {
-    const one = await open("");
-    await one.locator("#new-game").click();
-    await one.locator("#drill").selectOption("Kick by one cushion");
-    await one.locator("#start-drill").click();
-    await one.locator("#hint").click();
-    await expect
-      .poll(() => text(one, "said"))
-      .toMatch(/^Hint: the stroke that is aimed, at .* makes it in \d+ % of 200 tries\.$/);
-    await one.close();
+    const page = await open("");
+    await act(page, "#new-game", "#drill=Kick by one cushion", "#start-drill", "#hint");
+    await comesToSay(
+      page,
+      "said",
+      /^Hint: the stroke that is aimed, at .* makes it in \d+ % of 200 tries\.$/,
+    );
   });
 
   test.each(["eightball", "snooker", "threecushion"])("Hint in practice: %s", async (game) => {
-    const one = await open("");
-    await begin(one, game, "practice");
-    await one.locator("#hint").click();
-    await expect.poll(() => text(one, "said")).toMatch(/^Hint: .* keeps the turn in \d+ %/);
-    await one.close();
+    const page = await open("");
+    await begin(page, game, "practice");
+    await act(page, "#hint");
+    await comesToSay(page, "said", /^Hint: .* keeps the turn in \d+ %/);
   });
 });

@@ -6,24 +6,37 @@ import type { AddressInfo } from "node:net";
 import { deflateRawSync, inflateRawSync } from "node:zlib";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import type { BrowserContext, Page } from "playwright-core";
-import { browserPath, keptGame, linesOf, page, pages, sizes } from "./page.js";
+import {
+  act,
+  browserPath,
+  comesToSay,
+  comesToShow,
+  gameOf,
+  keptGame,
+  linesOf,
+  pageFile,
+  pages,
+  reload,
+  says,
+  sizes,
+} from "./page.js";
 
-const packed = (text: string): string => deflateRawSync(text).toString("base64url");
-const unpacked = (url: string): string =>
+const packed = (text: string) => deflateRawSync(text).toString("base64url");
+const unpacked = (url: string) =>
   inflateRawSync(
     Buffer.from(new URLSearchParams(new URL(url).hash.slice(1)).get("g")!, "base64url"),
   ).toString();
 
 describe.runIf(browserPath !== undefined)("a game by link", () => {
-  const { browser, text, said } = pages();
-  const turn = (one: Page): Promise<string> => text(one, "turn");
+  const { browser, text, messages } = pages();
+  const turn = (page: Page) => text(page, "turn");
   let server: Server;
   let address = "";
   // Pages of one origin hear each other, which files are not.
   beforeAll(async () => {
     server = createServer((request, response) => {
       response.writeHead(request.url === "/" ? 200 : 404, { "content-type": "text/html" });
-      response.end(request.url === "/" ? readFileSync(page) : "");
+      response.end(request.url === "/" ? readFileSync(pageFile) : "");
     });
     await new Promise<void>((listens) => server.listen(0, "127.0.0.1", listens));
     address = `http://127.0.0.1:${(server.address() as AddressInfo).port}/`;
@@ -32,11 +45,7 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     server.close();
     server.closeAllConnections();
   });
-  const contextOf = (how: {
-    width: number;
-    height: number;
-    touch?: boolean;
-  }): Promise<BrowserContext> =>
+  const contextOf = (how: { width: number; height: number; touch?: boolean }) =>
     browser().newContext({
       viewport: { width: how.width, height: how.height },
       hasTouch: how.touch ?? false,
@@ -44,142 +53,142 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
       permissions: ["clipboard-read", "clipboard-write"],
     });
   async function open(context: BrowserContext, hash = ""): Promise<Page> {
-    const one = await context.newPage();
-    one.on(
+    const page = await context.newPage();
+    page.on(
       "console",
       (message) =>
         ["error", "warning"].includes(message.type()) &&
         !/404|Service Worker registration blocked/.test(message.text()) &&
-        said.push(message.text()),
+        messages.push(message.text()),
     );
-    one.on("pageerror", (error) => said.push(error.message));
-    await one.goto(`${address}${hash}`);
-    await one.waitForSelector("main[aria-busy=false]");
-    return one;
+    page.on("pageerror", (error) => messages.push(error.message));
+    await page.goto(`${address}${hash}`);
+    await page.waitForSelector("main[aria-busy=false]");
+    return page;
   }
-  async function begin(one: Page, game: string): Promise<void> {
-    await one.locator("#new-game").click();
-    await one.locator("#new-which").selectOption(game);
-    await one.locator("#new-against").selectOption("link");
-    await one.locator("#new-own").selectOption("500");
-    await one.locator("#rate").selectOption("1000");
-    await one.locator("#start").click();
-    await one.waitForURL(/g=/);
+  async function begin(page: Page, game: string): Promise<void> {
+    await act(
+      page,
+      "#new-game",
+      `#new-which=${game}`,
+      "#new-against=link",
+      "#new-own=500",
+      "#rate=1000",
+      "#start",
+    );
+    await page.waitForURL(/g=/);
   }
   /** The link that a page makes. */
-  async function link(one: Page): Promise<string> {
-    await one.locator("#send").click();
-    await expect.poll(() => text(one, "said")).toMatch(/copied/);
-    return one.evaluate(() => navigator.clipboard.readText());
+  async function link(page: Page): Promise<string> {
+    await act(page, "#send");
+    await comesToSay(page, "said", /copied/);
+    return page.evaluate(() => navigator.clipboard.readText());
   }
 
   test("two tabs, a wide one and one as of a phone, play a whole game, each stroke compared bit by bit", async () => {
     const context = await contextOf(sizes[0][1]);
-    const one = await open(context);
-    await begin(one, "eightball");
-    const other = await open(context, new URL(await link(one)).hash);
-    await other.setViewportSize({ width: 390, height: 844 });
-    await other.locator("#new-game").click();
-    await other.locator("#rate").selectOption("1000");
-    await other.locator(".close").first().click();
-    expect(await turn(other)).toMatch(/^The other player/);
-    expect(await other.locator("#shoot").isEnabled()).toBe(false);
+    const page = await open(context);
+    await begin(page, "eightball");
+    const secondPage = await open(context, new URL(await link(page)).hash);
+    await secondPage.setViewportSize({ width: 390, height: 844 });
+    await act(secondPage, "#new-game", "#rate=1000");
+    await secondPage.locator(".close").first().click();
+    await says(secondPage, "turn", /^The other player/);
+    expect(await secondPage.locator("#shoot").isEnabled()).toBe(false);
     let strokes = 0;
     let heard = 0;
     for (; strokes < 150; strokes++) {
-      if (/won/.test(await turn(one))) break;
+      if (/won/.test(await turn(page))) break;
       // Whoever may shoot does; the other one's page hears of it.
       const [plays, hears] =
-        (await one.locator("#shoot[aria-disabled=false]").count()) > 0
-          ? [one, other]
-          : [other, one];
+        (await page.locator("#shoot[aria-disabled=false]").count()) > 0
+          ? [page, secondPage]
+          : [secondPage, page];
       await plays.bringToFront();
       if (strokes > 0) {
-        await plays.locator("#hint").click();
-        await expect.poll(() => text(plays, "said")).toMatch(/^Hint: /);
+        await act(plays, "#hint");
+        await comesToSay(plays, "said", /^Hint: /);
       }
-      await plays.locator("#shoot").click();
+      await act(plays, "#shoot");
       await hears.bringToFront();
-      await expect
-        .poll(() => text(hears, "said"))
-        .toBe(`Stroke ${strokes + 1} was repeated; every bit agrees.`);
+      await comesToSay(hears, "said", `Stroke ${strokes + 1} was repeated; every bit agrees.`);
       heard++;
       // Then somebody may play, or has won.
       await expect
         .poll(
           async () =>
-            /won/.test(await turn(one)) ||
-            (await one.locator("#shoot[aria-disabled=false]").count()) +
-              (await other.locator("#shoot[aria-disabled=false]").count()) ===
+            /won/.test(await turn(page)) ||
+            (await page.locator("#shoot[aria-disabled=false]").count()) +
+              (await secondPage.locator("#shoot[aria-disabled=false]").count()) ===
               1,
         )
         .toBe(true);
     }
     expect(heard).toBe(strokes);
-    const mine = await turn(one);
-    const yours = await turn(other);
+    const mine = await turn(page);
+    const yours = await turn(secondPage);
     expect(
-      [mine, yours].map((told) => told.match(/(You have|The other player has) won/)![1]).sort(),
+      [mine, yours].map((words) => words.match(/(You have|The other player has) won/)![1]).sort(),
     ).toEqual(["The other player has", "You have"]);
     // Both have the same game, which a reload keeps.
-    expect(unpacked(one.url())).toBe(unpacked(other.url()));
-    await other.reload();
-    await other.waitForSelector("main[aria-busy=false]");
-    await expect.poll(() => turn(other)).toBe(yours);
-    console.log(`two tabs: ${strokes} strokes; ${mine}; the link has ${one.url().length} letters`);
+    expect(unpacked(page.url())).toBe(unpacked(secondPage.url()));
+    await reload(secondPage);
+    await comesToSay(secondPage, "turn", yours);
+    console.log(`two tabs: ${strokes} strokes; ${mine}; the link has ${page.url().length} letters`);
     await context.close();
   }, 300_000);
 
   test("whoever keeps the turn is told that the other one waits, who knows for what", async () => {
-    const here = await contextOf(sizes[1][1]);
-    const there = await contextOf(sizes[0][1]);
-    const one = await open(
-      here,
-      `#view=play&seat=0&g=${packed(JSON.stringify({ game: "nineball", against: "link", own: "0", seed: 7, at: "0.3,0.3 0.1,0.1 in in in in in in in 0.9,1.9" }))}`,
+    const phone = await contextOf(sizes[1][1]);
+    const desk = await contextOf(sizes[0][1]);
+    const page = await open(
+      phone,
+      `#view=play&seat=0&g=${packed(JSON.stringify(gameOf("nineball", "link", "0.3,0.3 0.1,0.1 in in in in in in in 0.9,1.9")))}`,
     );
     for (const [id, value] of [
       ["phi", "225"],
       ["up", "-0.35"],
       ["power", "1.2"],
     ] as const)
-      await one.locator(`#${id}`).evaluate((input: HTMLInputElement, value) => {
+      await page.locator(`#${id}`).evaluate((input: HTMLInputElement, value) => {
         input.value = value;
         input.dispatchEvent(new Event("input"));
       }, value);
-    await one.locator("#shoot").click();
-    await one.locator("#skip").click();
-    await expect.poll(() => turn(one)).toMatch(/^Your turn/);
-    const other = await open(there, new URL(await link(one)).hash);
-    expect(await text(one, "said")).toMatch(
-      /You are still at the table: send it again after your turn/,
-    );
-    expect(await turn(other)).toBe(
+    await act(page, "#shoot", "#skip");
+    await comesToSay(page, "turn", /^Your turn/);
+    const secondPage = await open(desk, new URL(await link(page)).hash);
+    await says(page, "said", /You are still at the table: send it again after your turn/);
+    await says(
+      secondPage,
+      "turn",
       "The other player plays: wait for the link that comes after this turn.",
     );
-    await other.locator("#shoot").evaluate((button: HTMLElement) => button.click());
-    expect(await text(other, "said")).toBe(
+    await secondPage.locator("#shoot").evaluate((button: HTMLElement) => button.click());
+    await says(
+      secondPage,
+      "said",
       "The other player is at the table: open the link that comes after his turn.",
     );
-    await here.close();
-    await there.close();
+    await phone.close();
+    await desk.close();
   });
 
   test("a link to another machine plays the strokes, and one that was changed is refused", async () => {
-    const here = await contextOf(sizes[0][1]);
-    const there = await contextOf(sizes[1][1]);
-    const one = await open(here);
-    await begin(one, "eightball");
-    await one.locator("#shoot").click();
-    await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
-    const url = await link(one);
-    const other = await open(there, new URL(url).hash);
-    expect(await text(other, "said")).toBe("1 stroke was repeated; every bit agrees.");
+    const desk = await contextOf(sizes[0][1]);
+    const phone = await contextOf(sizes[1][1]);
+    const page = await open(desk);
+    await begin(page, "eightball");
+    await act(page, "#shoot");
+    await comesToShow(page, "#skip", false);
+    const url = await link(page);
+    const secondPage = await open(phone, new URL(url).hash);
+    await says(secondPage, "said", "1 stroke was repeated; every bit agrees.");
     // It shows the last stroke before it tells whose turn it is.
-    await expect.poll(() => turn(other)).not.toContain("plays …");
+    await expect.poll(() => turn(secondPage)).not.toContain("plays …");
     const game = JSON.parse(unpacked(url)) as { lines: string[] };
     expect(linesOf(unpacked(url), "shot")).toHaveLength(1);
     // The speed; a hash; a missing line; a link that was cut off.
-    const forged = (change: (line: string) => string | []): string => {
+    const forged = (change: (line: string) => string | []) => {
       const lines = game.lines.flatMap((line) =>
         line.startsWith('{"shot"') ? change(line) : line,
       );
@@ -203,31 +212,33 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
         "an older version of this page has kept it",
       ],
     ] as const) {
-      const bad = await open(there, `#view=play&seat=1&g=${g}`);
-      expect(await text(bad, "said")).toContain(`The game was not opened: ${why}`);
+      const damaged = await open(phone, `#view=play&seat=1&g=${g}`);
+      expect(await text(damaged, "said")).toContain(`The game was not opened: ${why}`);
       // What this browser keeps is opened in its place, as it was.
-      expect(await turn(bad)).toBe(await turn(other));
-      expect(unpacked(bad.url())).toBe(unpacked(other.url()));
-      await bad.close();
+      await says(damaged, "turn", await turn(secondPage));
+      expect(unpacked(damaged.url())).toBe(unpacked(secondPage.url()));
+      await damaged.close();
     }
     // A game against the page goes on elsewhere, too.
-    const own = await open(here, "#view=play");
-    await own.locator("#new-game").click();
-    await own.locator("#new-which").selectOption("nineball");
-    await own.locator("#new-against").selectOption("person");
-    await own.locator("#rate").selectOption("1000");
-    await own.locator("#start").click();
-    await own.locator("#shoot").click();
-    await expect.poll(() => own.locator("#skip").isVisible()).toBe(false);
-    await own.locator("#new-game").click();
-    await own.locator("#copy-game").click();
-    await expect.poll(() => text(own, "said")).toBe("The link to this game is copied.");
-    const again = await open(
-      there,
-      new URL(await own.evaluate(() => navigator.clipboard.readText())).hash,
+    const ownPage = await open(desk, "#view=play");
+    await act(
+      ownPage,
+      "#new-game",
+      "#new-which=nineball",
+      "#new-against=person",
+      "#rate=1000",
+      "#start",
+      "#shoot",
     );
-    expect(await keptGame(again)).toBe(await keptGame(own));
-    await here.close();
-    await there.close();
+    await comesToShow(ownPage, "#skip", false);
+    await act(ownPage, "#new-game", "#copy-game");
+    await comesToSay(ownPage, "said", "The link to this game is copied.");
+    const reopened = await open(
+      phone,
+      new URL(await ownPage.evaluate(() => navigator.clipboard.readText())).hash,
+    );
+    expect(await keptGame(reopened)).toBe(await keptGame(ownPage));
+    await desk.close();
+    await phone.close();
   });
 });

@@ -22,8 +22,8 @@ const COLOURS = [
   "#16181b",
 ];
 
-const pinhole = (from: number[], to: number[], focal: number): ReturnType<typeof camera> =>
-  camera(SIZE, from, to, focal);
+const pinhole = (eye: number[], target: number[], focal: number) =>
+  camera(SIZE, eye, target, focal);
 const corners = (see: ReturnType<typeof pinhole>): Pixel[] => [
   see(0, 0, NOSE),
   see(W, 0, NOSE),
@@ -38,16 +38,16 @@ test.each([
   ["from the foot", [0.7, 3.5, 1.5], [0.6, 1.2, 0], 3100],
 ] as const)(
   "balls are within 1 cm with marks that are off by a pixel: %s",
-  (_, from, to, focal) => {
-    const see = pinhole([...from], [...to], focal);
+  (_, eye, target, focal) => {
+    const see = pinhole([...eye], [...target], focal);
     const draws = new Draws(7n);
-    const off = ([u, v]: Pixel): Pixel => [u + draws.between(-1, 1), v + draws.between(-1, 1)];
+    const off = ([u, v]: Pixel): Pixel => [u + draws.uniform(-1, 1), v + draws.uniform(-1, 1)];
     let worst = 0;
     for (let picture = 0; picture < 20; picture++) {
       const camera = cameraOf(SIZE, corners(see).map(off), [W, L], NOSE - R);
       for (let k = 0; k < 16; k++) {
-        const x = draws.between(R, W - R);
-        const y = draws.between(R, L - R);
+        const x = draws.uniform(R, W - R);
+        const y = draws.uniform(R, L - R);
         const [px, py] = camera.place(off(see(x, y, R)));
         worst = Math.max(worst, Math.hypot(px - x, py - y));
       }
@@ -92,16 +92,16 @@ test("from right above the focal length stays unknown, and places are within 1 c
 test("corners that are no table are refused", () => {
   const see = pinhole([0.5, -1.0, 1.3], [0.635, 1.1, 0], 3000);
   const [a, b, c, d] = corners(see) as [Pixel, Pixel, Pixel, Pixel];
-  for (const bad of [
+  for (const corners of [
     [a, d, c, b],
     [a, c, b, d],
     [a, b, b, d],
   ])
-    expect(() => cameraOf(SIZE, bad, [W, L])).toThrow("corners: ");
+    expect(() => cameraOf(SIZE, corners, [W, L])).toThrow("corners: ");
 });
 
 test("a patch suggests its ball, or the balls that it may be", () => {
-  const patch = (white: number, hex: string, light: number): number[] =>
+  const patch = (white: number, hex: string, light: number) =>
     Array.from({ length: 100 }, (_, k) =>
       k < 100 * white
         ? [235, 232, 225, 255]
@@ -122,11 +122,16 @@ test("a patch suggests its ball, or the balls that it may be", () => {
 
 /** The outline on the picture of a rectangle around the noses, at a height, m. */
 function outline(see: ReturnType<typeof camera>, more: number, z: number): number[][] {
-  const at = [see(-more, -more, z), see(W + more, -more, z), see(W + more, L + more, z)];
-  const all = [...at, see(-more, L + more, z)];
-  return all.map(([u, v], k) => [u, v, all[(k + 1) % 4]![0] - u, all[(k + 1) % 4]![1] - v]);
+  const pixels = [see(-more, -more, z), see(W + more, -more, z), see(W + more, L + more, z)];
+  const corners = [...pixels, see(-more, L + more, z)];
+  return corners.map(([u, v], k) => [
+    u,
+    v,
+    corners[(k + 1) % 4]![0] - u,
+    corners[(k + 1) % 4]![1] - v,
+  ]);
 }
-const isWithin = (edges: number[][], x: number, y: number): boolean =>
+const isWithin = (edges: number[][], x: number, y: number) =>
   edges.every(([u, v, du, dv]) => du! * (y - v!) < dv! * (x - u!));
 
 /**
@@ -142,14 +147,14 @@ function photo(
   hasCushions = false,
 ): Picture {
   const data = new Uint8ClampedArray(4 * w * h);
-  let state = draws.between(0, 2 ** 31) | 0;
-  const rgb = (hex: string): number[] => [1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16));
+  let state = draws.uniform(0, 2 ** 31) | 0;
+  const rgb = (hex: string) => [1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16));
   const nose = outline(see, 0, NOSE);
   const back = outline(see, 0.05, NOSE);
   const bed = outline(see, 0, 0);
   const discs = balls.map(([ball, x, y]) => ({
     ball,
-    at: see(x, y, R),
+    pixel: see(x, y, R),
     r: Math.max(
       ...[see(x + R, y, R), see(x, y + R, R)].map(([u, v]) =>
         Math.hypot(u - see(x, y, R)[0], v - see(x, y, R)[1]),
@@ -159,7 +164,7 @@ function photo(
   const wood = rgb("#5b3a24");
   const cloth = rgb("#1f6f5c");
   const white = rgb("#f4f2ea");
-  const paint = (x: number, y: number, colour: number[]): void => {
+  const paint = (x: number, y: number, colour: number[]) => {
     state = Math.imul(state, 1664525) + 1013904223; // draws of 64 bits would take most of the time
     for (let c = 0; c < 4; c++)
       data[4 * (w * y + x) + c] = c === 3 ? 255 : colour[c]! * light[c]! + state / 2 ** 28;
@@ -175,7 +180,7 @@ function photo(
   for (let y = 0; y < h; y++) for (let x = 0; x < w; x++) paint(x, y, colourAt(x, y));
   for (const {
     ball,
-    at: [u, v],
+    pixel: [u, v],
     r,
   } of discs)
     for (let y = Math.ceil(v - r); y < v + r; y++)
@@ -207,10 +212,10 @@ test.each([
   [[2.9, 0.4, 1.5], [0.6, 1.2, 0], 1300, [1, 1, 0.95]],
 ] as const)(
   "a finger that errs by 2 pixels of a phone lays balls within 1 cm, and no ball gets a wrong number in silence: from %j",
-  (from, to, focal, light) => {
+  (eye, target, focal, light) => {
     const size: Pixel = [1600, 1200];
     const draws = new Draws(11n);
-    const see = camera(size, [...from], [...to], focal);
+    const see = camera(size, [...eye], [...target], focal);
     expect(
       Math.max(...corners(see).flatMap(([u, v]) => [-u, u - size[0], -v, v - size[1]])),
     ).toBeLessThan(0);
@@ -220,29 +225,32 @@ test.each([
     const picture = photo(see, size, balls, light, draws);
     const scale = size[0] / 344; // on a phone of 390 pixels
     const finger = ([u, v]: Pixel): Pixel => [
-      u + scale * draws.between(-2, 2),
-      v + scale * draws.between(-2, 2),
+      u + scale * draws.uniform(-2, 2),
+      v + scale * draws.uniform(-2, 2),
     ];
-    const of = cameraOf(
+    const view = cameraOf(
       size,
       snapCorners(picture, corners(see).map(finger), 3.6 * scale, [W, L]),
       [W, L],
       NOSE - R,
     );
     let worst = 0;
-    let asked = 0;
+    let questions = 0;
     for (const [ball, x, y] of balls) {
       const mark = finger(see(x, y, R));
-      const radius = radiusAt(of, mark);
+      const radius = radiusAt(view, mark);
       const snapped = snapDisc(picture, mark, radius, 3 * scale);
-      const [px, py] = of.place(snapped);
+      const [px, py] = view.place(snapped);
       worst = Math.max(worst, Math.hypot(px - x, py - y));
-      const may = suggest(discOf(picture, snapped, radius), COLOURS);
-      expect(may.length === 1 ? may : [...may, ball], `${ball}: ${may}`).toContain(ball);
-      asked += Number(may.length > 1);
+      const candidates = suggest(discOf(picture, snapped, radius), COLOURS);
+      expect(
+        candidates.length === 1 ? candidates : [...candidates, ball],
+        `${ball}: ${candidates}`,
+      ).toContain(ball);
+      questions += Number(candidates.length > 1);
     }
     console.log(
-      `a finger on a photo: off by at most ${(1000 * worst).toFixed(1)} mm, asked of ${asked} of ${balls.length}`,
+      `a finger on a photo: off by at most ${(1000 * worst).toFixed(1)} mm, asked of ${questions} of ${balls.length}`,
     );
     expect(worst).toBeLessThan(0.01);
   },
@@ -255,29 +263,30 @@ test.each([
   [[0.635, 1.27, 3], [0.635, 1.27, 0], 1000],
 ] as const)(
   "on a table with cushions no corner moves away from the nose, and balls lie within 5 mm in the median and 10 mm at worst, by marks off by 3 pixels: from %j",
-  (from, to, focal) => {
+  (eye, target, focal) => {
     for (const share of [1, 0.75]) {
       const size: Pixel = [1600 * share, 1200 * share];
       const draws = new Draws(13n);
-      const see = camera(size, [...from], [...to], focal * share);
+      const see = camera(size, [...eye], [...target], focal * share);
       const balls = [0, 1, 3, 8, 13].map(
         (ball, k) => [ball, 0.2 + 0.87 * ((k * 0.37) % 1), 0.3 + 0.45 * k] as const,
       );
       const picture = photo(see, size, balls, [1, 1, 1], draws, true);
       const finger = ([u, v]: Pixel): Pixel => {
-        const turn = draws.between(0, 2 * Math.PI);
+        const turn = draws.uniform(0, 2 * Math.PI);
         return [u + 3 * Math.cos(turn), v + 3 * Math.sin(turn)];
       };
       const noses = corners(see);
       const marks = noses.map(finger);
       const moved = snapCorners(picture, marks, (3.6 * size[0]) / 344, [W, L]);
-      const off = ([u, v]: Pixel, k: number): number =>
-        Math.hypot(u - noses[k]![0], v - noses[k]![1]);
-      moved.forEach((at, k) => expect(off(at, k)).toBeLessThan(off(marks[k]!, k) + 0.5));
-      const of = cameraOf(size, moved, [W, L], NOSE - R);
+      const off = ([u, v]: Pixel, k: number) => Math.hypot(u - noses[k]![0], v - noses[k]![1]);
+      moved.forEach((pixel, k) => expect(off(pixel, k)).toBeLessThan(off(marks[k]!, k) + 0.5));
+      const view = cameraOf(size, moved, [W, L], NOSE - R);
       const errors = balls.map(([, x, y]) => {
         const mark = finger(see(x, y, R));
-        const [px, py] = of.place(snapDisc(picture, mark, radiusAt(of, mark), (3 * size[0]) / 344));
+        const [px, py] = view.place(
+          snapDisc(picture, mark, radiusAt(view, mark), (3 * size[0]) / 344),
+        );
         return Math.hypot(px - x, py - y);
       });
       errors.sort((a, b) => a - b);

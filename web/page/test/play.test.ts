@@ -2,156 +2,146 @@
 import { describe, expect, test } from "vitest";
 import { words } from "carom";
 import type { Page } from "playwright-core";
-import { browserPath, keptGame, linesOf, pages, sizes, violations } from "./page.js";
+import {
+  act,
+  boxOf,
+  browserPath,
+  comesToSay,
+  comesToShow,
+  dragMouse,
+  fingersOn,
+  gameOf,
+  keptGame,
+  keptSetup,
+  linesOf,
+  numberIn,
+  pages,
+  PHONE,
+  reload,
+  says,
+  shows,
+  sizes,
+  valueOf,
+  violations,
+} from "./page.js";
 
 describe.runIf(browserPath !== undefined)("a game", () => {
-  const { open, on, drag, click, pixel, bright, text, set, struck, frames, turnTo } = pages();
-  const turn = (one: Page): Promise<string> => text(one, "turn");
-  const phi = async (one: Page): Promise<number> => Number(await one.locator("#phi").inputValue());
+  const { open, pixelOf, drag, click, pixel, bright, text, struck, frames, turnTo } = pages();
+  const turn = (page: Page) => text(page, "turn");
+  const phi = async (page: Page) => await numberIn(page, "phi");
 
   /** Begins a game by the menu, with the film at once. */
-  async function begin(one: Page, game: string, against: string, own = "0"): Promise<void> {
-    await one.locator("#new-game").click();
-    await one.locator("#new-which").selectOption(game);
-    await one.locator("#new-against").selectOption(against);
-    if (against !== "practice") await one.locator("#new-own").selectOption(own);
-    await one.locator("#rate").selectOption("1000");
-    await one.locator("#start").click();
+  async function begin(page: Page, game: string, against: string, errors = "0"): Promise<void> {
+    await act(page, "#new-game", `#new-which=${game}`, `#new-against=${against}`);
+    if (against !== "practice") await act(page, `#new-own=${errors}`);
+    await act(page, "#rate=1000", "#start");
   }
-  async function pace(one: Page, rate: string): Promise<void> {
-    await one.locator("#new-game").click();
-    await one.locator("#rate").selectOption(rate);
-    await one.locator("#menu .close").click();
+  async function pace(page: Page, rate: string): Promise<void> {
+    await act(page, "#new-game", `#rate=${rate}`, "#menu .close");
   }
-  const kept = (game: object, how = {}): Promise<Page> => open("", how, game);
+  const resume = (game: object, how = {}) => open("", how, game);
   const SHOOT = "#shoot[aria-disabled=false]";
-  const NINE = { game: "nineball", own: "0", seed: 7 };
 
   test.each(sizes)(
     "it opens on a game, with all that a stroke needs within one screen: %s",
     async (_, how) => {
-      const one = await open("", how);
-      const paint = await one.evaluate(
+      const page = await open("", how);
+      const paint = await page.evaluate(
         () => performance.getEntriesByName("first-contentful-paint")[0]!.startTime,
       );
       console.log(`first paint after ${paint.toFixed(0)} ms`);
-      expect(await turn(one)).toContain("You break");
+      await says(page, "turn", /You break/);
       for (const id of ["table-scene", "power", "tip-ball", "shoot", "hint", "turn", "said"]) {
-        const box = (await one.locator(`#${id}`).boundingBox())!;
+        const box = await boxOf(page, `#${id}`);
         expect(box.x, id).toBeGreaterThanOrEqual(0);
         expect(box.x + box.width, id).toBeLessThanOrEqual(how.width);
         expect(box.y + box.height, id).toBeLessThanOrEqual(how.height);
       }
-      const box = (await one.locator("#table-scene").boundingBox())!;
+      const box = await boxOf(page, "#table-scene");
       expect((box.width * box.height) / (how.width * how.height)).toBeGreaterThan(0.48);
-      await one.close();
     },
   );
 
   test("on a phone a drag aims and scrolls nothing, a tap aims at a ball, two fingers show a part larger, and the tip is touched", async () => {
-    const one = await open("", { width: 390, height: 844, touch: true });
-    const before = await phi(one);
-    expect(before).toBe(90);
-    await drag(one, [1.0, 1.4], [0.8, 1.4], true);
+    const page = await open("", PHONE);
+    const initial = await phi(page);
+    expect(initial).toBe(90);
+    await drag(page, [1.0, 1.4], [0.8, 1.4], true);
     // The aim turns by as much as the finger goes around the cue ball.
     const around =
       (Math.atan2(1.4 - 0.635, 0.8 - 0.635) - Math.atan2(1.4 - 0.635, 1.0 - 0.635)) *
       (180 / Math.PI);
-    expect(await phi(one)).toBeCloseTo(90 + around, 0);
-    expect(await one.evaluate(() => scrollY)).toBe(0);
-    await click(one, 0.3, 1.5, true);
-    expect(await phi(one)).toBeCloseTo((Math.atan2(1.5 - 0.635, 0.3 - 0.635) * 180) / Math.PI, 0);
-    const ball = (await one.locator("#tip-ball").boundingBox())!;
-    await one.touchscreen.tap(
+    expect(await phi(page)).toBeCloseTo(90 + around, 0);
+    expect(await page.evaluate(() => scrollY)).toBe(0);
+    await click(page, 0.3, 1.5, true);
+    expect(await phi(page)).toBeCloseTo((Math.atan2(1.5 - 0.635, 0.3 - 0.635) * 180) / Math.PI, 0);
+    const ball = await boxOf(page, "#tip-ball");
+    await page.touchscreen.tap(
       ball.x + ball.width * (0.5 + 0.3 / 2.1),
       ball.y + ball.height * (0.5 + 0.4 / 2.1),
     );
-    expect(Number(await one.locator("#right").inputValue())).toBeCloseTo(0.3, 1);
-    expect(Number(await one.locator("#up").inputValue())).toBeCloseTo(-0.4, 1);
+    expect(await numberIn(page, "right")).toBeCloseTo(0.3, 1);
+    expect(await numberIn(page, "up")).toBeCloseTo(-0.4, 1);
     // Two fingers go apart: what was between them stays there, and the aim stays.
-    const aim = await phi(one);
-    const [x, y] = await on(one, 0.635, 0.635);
+    const aim = await phi(page);
+    const [x, y] = await pixelOf(page, 0.635, 0.635);
     // Beside the cue ball is cloth, which a larger ball covers.
-    const beside = async (): Promise<number> => Math.min(...(await pixel(one, x + 10, y - 10)));
-    expect(await beside()).toBeLessThan(60);
-    const devtools = await one.context().newCDPSession(one);
-    const send = (
-      type: "touchStart" | "touchMove" | "touchEnd",
-      apart: number[],
-    ): Promise<unknown> =>
-      devtools.send("Input.dispatchTouchEvent", {
-        type,
-        touchPoints: apart.flatMap((d) => [
-          { x: x - d, y, id: 0 },
-          { x: x + d, y, id: 1 },
-        ]),
-      });
-    await send("touchStart", [20]);
-    for (let d = 24; d <= 60; d += 4) await send("touchMove", [d]);
-    await send("touchEnd", []);
-    expect(await beside()).toBeGreaterThan(150);
-    expect(await phi(one)).toBe(aim);
-    await one.close();
+    const neighbor = async () => Math.min(...(await pixel(page, x + 10, y - 10)));
+    expect(await neighbor()).toBeLessThan(60);
+    const touch = await fingersOn(page);
+    for (let d = 20; d <= 60; d += 4)
+      await touch(d === 20 ? "Start" : "Move", [
+        [x - d, y],
+        [x + d, y],
+      ]);
+    await touch("End");
+    expect(await neighbor()).toBeGreaterThan(150);
+    expect(await phi(page)).toBe(aim);
   });
 
   test("Shoot plays the power that is set however long it is pressed, a press says why it plays nothing, and keys do all", async () => {
-    const one = await open("", { touch: true });
-    await set(one, "power", 1.5);
-    const box = (await one.locator("#shoot").boundingBox())!;
+    const page = await open("", { touch: true });
+    await act(page, "#power=1.5");
+    const box = await boxOf(page, "#shoot");
     // Let go beside it: nothing is played.
-    await one.mouse.move(box.x + 20, box.y + 20);
-    await one.mouse.down();
-    await one.mouse.move(box.x - 300, box.y);
-    await one.mouse.up();
-    await frames(one, 6);
-    expect(await one.locator("#skip").isVisible()).toBe(false);
+    await dragMouse(page, [box.x + 20, box.y + 20], [box.x - 300, box.y]);
+    await frames(page, 6);
+    await shows(page, "#skip", false);
     // The times of events count. A finger that lets go does not press Skip, which is there by then.
-    const devtools = await one.context().newCDPSession(one);
-    const now = Date.now() / 1000;
-    await devtools.send("Input.dispatchTouchEvent", {
-      type: "touchStart",
-      touchPoints: [{ x: box.x + 20, y: box.y + 20 }],
-      timestamp: now,
-    });
-    await devtools.send("Input.dispatchTouchEvent", {
-      type: "touchEnd",
-      touchPoints: [],
-      timestamp: now + 0.45,
-    });
-    await expect.poll(() => one.locator("#skip").isVisible()).toBe(true);
-    await frames(one, 20);
-    expect(await one.locator("#skip").isVisible()).toBe(true);
+    const touch = await fingersOn(page);
+    const time = Date.now() / 1000;
+    await touch("Start", [[box.x + 20, box.y + 20]], time);
+    await touch("End", [], time + 0.45);
+    await comesToShow(page, "#skip");
+    await frames(page, 20);
+    await shows(page, "#skip");
     // Strokes against the page's player err a little.
-    const speed = await struck(one, "speed");
+    const speed = await struck(page, "speed");
     expect(speed).not.toBe(1.5);
     expect(Math.abs(speed - 1.5)).toBeLessThan(0.3);
-    await one.locator("#skip").click();
-    await expect.poll(() => turn(one)).toMatch(/thinks/);
-    await one.locator("#shoot").evaluate((button: HTMLElement) => button.click());
-    expect(await text(one, "said")).toBe(
-      "The other player thinks: your turn comes after his stroke.",
-    );
-    await one.reload();
-    await one.waitForSelector("main[aria-busy=false]");
-    await begin(one, "nineball", "person");
-    const scene = one.locator("#table-scene");
+    await act(page, "#skip");
+    await comesToSay(page, "turn", /thinks/);
+    await page.locator("#shoot").evaluate((button: HTMLElement) => button.click());
+    await says(page, "said", "The other player thinks: your turn comes after his stroke.");
+    await reload(page);
+    await begin(page, "nineball", "person");
+    const scene = page.locator("#table-scene");
     await scene.press("Shift+ArrowLeft");
     await scene.press("ArrowRight");
-    expect(await phi(one)).toBeCloseTo(90.9, 6);
+    expect(await phi(page)).toBeCloseTo(90.9, 6);
     await scene.press("ArrowUp");
-    expect(Number(await one.locator("#power").inputValue())).toBeCloseTo(8.1, 6);
+    expect(await numberIn(page, "power")).toBeCloseTo(8.1, 6);
     await scene.press("Alt+ArrowUp");
     await scene.press("Enter");
-    await expect.poll(() => turn(one)).toMatch(/^(Player 1 fouls.*)?Player [12]'s turn/);
-    await one.close();
+    await comesToSay(page, "turn", /^(Player 1 fouls.*)?Player [12]'s turn/);
   });
 
   test.each(sizes)("no button moves while words change: %s", async (_, how) => {
-    const one = await kept({ ...NINE, against: "300" }, how);
+    const page = await resume(gameOf("nineball", "300"), how);
     // All at one moment.
-    const seen = (): Promise<Record<string, number[]>> =>
-      one.evaluate(() => {
-        const box = (element: Element): number[] => {
+    const seen = () =>
+      page.evaluate(() => {
+        const box = (element: Element) => {
           const { x, y, width, height } = element.getBoundingClientRect();
           return [x, y, width, height];
         };
@@ -164,14 +154,14 @@ describe.runIf(browserPath !== undefined)("a game", () => {
             [
               ...["new-game", "hint", "replay", "space"].map((id) => document.getElementById(id)!),
               document.getElementById("wheel")!,
-            ].map((one) => [one.textContent, box(one)]),
+            ].map((part) => [part.textContent, box(part)]),
           ),
         };
       });
-    await pace(one, "4");
+    await pace(page, "4");
     const first = await seen();
     for (const id of ["turn", "said"]) {
-      await one
+      await page
         .locator(`#${id}`)
         .evaluate(
           (words) =>
@@ -185,47 +175,39 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     const phases = new Set<string>();
     while (!phases.has("thinks")) {
       // A weak stroke passes the turn.
-      if (await one.locator(SHOOT).isVisible()) {
-        await set(one, "power", 0.3);
-        await one.locator("#shoot").click();
+      if (await page.locator(SHOOT).isVisible()) {
+        await act(page, "#power=0.3", "#shoot");
       }
-      phases.add((await turn(one)).match(/play|thinks|Your turn|fouls/)?.[0] ?? "");
-      expect(await seen(), await turn(one)).toEqual(first);
-      await frames(one);
+      phases.add((await turn(page)).match(/play|thinks|Your turn|fouls/)?.[0] ?? "");
+      expect(await seen(), await turn(page)).toEqual(first);
+      await frames(page);
     }
     expect([...phases]).toEqual(expect.arrayContaining(["play", "thinks"]));
-    await one.close();
   });
 
   test("whoever comes to the table has his own power, the tip in the middle, and the aim at the nearest ball that is on", async () => {
-    const one = await kept({
-      ...NINE,
-      against: "person",
-      at: "0.635,0.635 0.3,1.9 0.6,0.9 in in in in in in 0.9,1.9",
-    });
-    await pace(one, "1000");
-    await turnTo(one, 200);
-    await one.locator(".numbers-of summary").click();
-    await set(one, "right", 0.3);
-    await set(one, "power", 0.4);
-    await one.locator("#shoot").click();
-    await expect.poll(() => turn(one)).toMatch(/Player 2's turn/);
+    const page = await resume(
+      gameOf("nineball", "person", "0.635,0.635 0.3,1.9 0.6,0.9 in in in in in in 0.9,1.9"),
+    );
+    await pace(page, "1000");
+    await turnTo(page, 200);
+    await act(page, ".numbers-of summary", "#right=0.3", "#power=0.4", "#shoot");
+    await comesToSay(page, "turn", /Player 2's turn/);
     // The cue ball is in hand and lies on the head spot; the 1 is the only ball that may be met.
-    expect(await phi(one)).toBeCloseTo((Math.atan2(1.9 - 0.635, 0.3 - 0.635) * 180) / Math.PI, 1);
-    expect(await one.locator("#right").inputValue()).toBe("0");
-    expect(await one.locator("#power").inputValue()).toBe("0.4");
-    await one.close();
+    expect(await phi(page)).toBeCloseTo((Math.atan2(1.9 - 0.635, 0.3 - 0.635) * 180) / Math.PI, 1);
+    expect(await valueOf(page, "right")).toBe("0");
+    expect(await valueOf(page, "power")).toBe("0.4");
   });
 
   test("the stroke of the page's player is seen before it plays, and its aim is gone when it has played", async () => {
-    const one = await open("");
-    await begin(one, "eightball", "300");
+    const page = await open("");
+    await begin(page, "eightball", "300");
     // Pixels of the stick, as long as the page says what is played.
-    await one.evaluate(() => {
+    await page.evaluate(() => {
       const seen = window as unknown as { sticks: number; left: number };
       seen.sticks = 0;
       const canvas = document.getElementById("table-scene") as HTMLCanvasElement;
-      const look = (): void => {
+      const look = () => {
         if (document.getElementById("said")!.textContent!.startsWith("The 300 plays")) {
           const copy = document.createElement("canvas");
           [copy.width, copy.height] = [canvas.width, canvas.height];
@@ -248,27 +230,24 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       };
       look();
     });
-    await pace(one, "4");
-    await one.locator("#shoot").click();
+    await pace(page, "4");
+    await act(page, "#shoot");
     // The break of full power may keep the turn, and so may a slow stroke after it.
     for (;;) {
-      await expect.poll(() => turn(one)).toMatch(/^[^…]*Your turn|The 300 (thinks|plays)/);
-      await set(one, "power", 1);
-      if (!/Your turn/.test(await turn(one))) break;
-      await one.locator("#shoot").click();
-      await expect.poll(() => turn(one)).toMatch(/…/);
+      await comesToSay(page, "turn", /^[^…]*Your turn|The 300 (thinks|plays)/);
+      await act(page, "#power=1");
+      if (!/Your turn/.test(await turn(page))) break;
+      await act(page, "#shoot");
+      await comesToSay(page, "turn", /…/);
     }
     // Of a stick behind a ball near the cushion the picture has the tip alone.
     await expect
-      .poll(() => one.evaluate(() => (window as unknown as { sticks: number }).sticks))
+      .poll(() => page.evaluate(() => (window as unknown as { sticks: number }).sticks))
       .toBeGreaterThan(40);
-    await expect.poll(() => turn(one)).toMatch(/Your turn|won/);
-    expect(await one.evaluate(() => (window as unknown as { left: number }).left)).toBe(0);
-    expect(await one.locator("#power").inputValue()).toBe("1");
-    expect(await text(one, "said")).toMatch(
-      /^The 300 pocketed (no ball|the \d+( and the \d+)*)\.$/,
-    );
-    await one.close();
+    await comesToSay(page, "turn", /Your turn|won/);
+    expect(await page.evaluate(() => (window as unknown as { left: number }).left)).toBe(0);
+    expect(await valueOf(page, "power")).toBe("1");
+    await says(page, "said", /^The 300 pocketed (no ball|the \d+( and the \d+)*)\.$/);
   }, 180_000);
 
   test.each(sizes)(
@@ -277,168 +256,145 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       const touch = "touch" in how;
       // The 1, the last of the solids, lies before a corner, the eight before another one, the 9 of
       // the other one beside.
-      const at = "0.3,0.3 0.1,0.1 in in in in in in 1.226,2.424 0.3,1.9 in in in in in in";
-      const one = await kept({ game: "eightball", own: "0", seed: 7, against: "person", at }, how);
-      await pace(one, "1000");
-      await click(one, 0.1, 0.1, touch);
-      await expect.poll(() => turn(one)).toContain("Call: the 1, head-left pocket.");
+      const places = "0.3,0.3 0.1,0.1 in in in in in in 1.226,2.424 0.3,1.9 in in in in in in";
+      const page = await resume(gameOf("eightball", "person", places), how);
+      await pace(page, "1000");
+      await click(page, 0.1, 0.1, touch);
+      await comesToSay(page, "turn", /Call: the 1, head-left pocket\./);
       // The cue ball does not follow it.
-      await one.locator(".numbers-of summary").click();
-      await set(one, "up", -0.35);
-      await set(one, "power", 1.2);
-      await one.locator("#shoot").click();
-      await expect.poll(() => turn(one)).toMatch(/^Player 1's turn, solids/);
+      await act(page, ".numbers-of summary", "#up=-0.35", "#power=1.2", "#shoot");
+      await comesToSay(page, "turn", /^Player 1's turn, solids/);
       // The aim begins at the only ball that is on. A tap at another one aims there, and calls
       // nothing that is not on.
-      const aims = phi(one);
-      await click(one, 0.3, 1.9, touch);
-      await expect
-        .poll(() => turn(one))
-        .toMatch(/Nothing is called: aim at a ball, or tap a pocket\.$/);
-      await click(one, -0.03, 1.27, touch);
-      await expect.poll(() => turn(one)).toMatch(/Call: the 8, side-left pocket\.$/);
-      await turnTo(one, await aims);
-      await expect.poll(() => turn(one)).toMatch(/Call: the 8, foot-right pocket\.$/);
-      await one.locator("#shoot").click();
-      const calls = linesOf<{ call: [number, number] }>(await keptGame(one), "act");
+      const aims = phi(page);
+      await click(page, 0.3, 1.9, touch);
+      await comesToSay(page, "turn", /Nothing is called: aim at a ball, or tap a pocket\.$/);
+      await click(page, -0.03, 1.27, touch);
+      await comesToSay(page, "turn", /Call: the 8, side-left pocket\.$/);
+      await turnTo(page, await aims);
+      await comesToSay(page, "turn", /Call: the 8, foot-right pocket\.$/);
+      await act(page, "#shoot");
+      const calls = linesOf<{ call: [number, number] }>(await keptGame(page), "act");
       expect(calls.map(({ call: [ball] }) => ball)).toEqual([1, 8]);
-      await one.close();
     },
   );
 
   test("in practice on the table of pyramid any ball may be struck", async () => {
     const [wide] = sizes;
-    const at = `0.4,0.9 0.9,1.2 0.5,2.2 1.3,2.2${" in".repeat(12)}`;
-    const one = await kept(
-      { game: "pyramid", own: "0", seed: 7, against: "practice", at },
-      wide[1],
-    );
-    await pace(one, "1000");
-    await expect.poll(() => turn(one)).toContain("You strike the yellow");
-    await one.locator("#table-scene").press("b");
-    await expect.poll(() => turn(one)).toContain("You strike ball 1");
-    await set(one, "power", 1);
-    await one.locator("#shoot").click();
-    const places = async (): Promise<string[]> =>
-      (JSON.parse(await keptGame(one)) as { at: string }).at.split(" ");
+    const layout = `0.4,0.9 0.9,1.2 0.5,2.2 1.3,2.2${" in".repeat(12)}`;
+    const page = await resume(gameOf("pyramid", "practice", layout), wide[1]);
+    await pace(page, "1000");
+    await comesToSay(page, "turn", /You strike the yellow/);
+    await page.locator("#table-scene").press("b");
+    await comesToSay(page, "turn", /You strike ball 1/);
+    await act(page, "#power=1", "#shoot");
+    const places = async () => (await keptSetup<{ at: string }>(page)).at.split(" ");
     await expect.poll(async () => (await places())[1]).not.toBe("0.9,1.2");
     expect((await places())[0]).toBe("0.4,0.9");
-    await expect.poll(() => turn(one)).toContain("You strike ball 1");
-    await one.locator("#hint").click();
-    await expect.poll(() => text(one, "said")).toMatch(/^Hint: with ball 1: /);
-    await one.close();
+    await comesToSay(page, "turn", /You strike ball 1/);
+    await act(page, "#hint");
+    await comesToSay(page, "said", /^Hint: with ball 1: /);
   });
 
   test.each(sizes)(
     "in pyramid a tap or a key chooses the ball that is struck: %s",
     async (_, how) => {
-      const at = `0.4,0.9 0.9,1.2 0.5,2.2 1.3,2.2${" in".repeat(12)}`;
-      const one = await kept({ game: "pyramid", own: "0", seed: 7, against: "person", at }, how);
-      await pace(one, "1000");
-      const scene = one.locator("#table-scene");
-      const struckBall = (ball: string): Promise<void> =>
-        expect.poll(() => turn(one)).toContain(`Player 1's turn. You strike ${ball}; tap another`);
+      const places = `0.4,0.9 0.9,1.2 0.5,2.2 1.3,2.2${" in".repeat(12)}`;
+      const page = await resume(gameOf("pyramid", "person", places), how);
+      await pace(page, "1000");
+      const scene = page.locator("#table-scene");
+      const struckBall = (ball: string) =>
+        expect.poll(() => turn(page)).toContain(`Player 1's turn. You strike ${ball}; tap another`);
       await struckBall("the yellow");
       // The table is one of 12 feet.
-      const [x, y] = await on(one, 0.5, 2.2, [1.775, 3.55]);
-      await ("touch" in how ? one.touchscreen.tap(x, y) : one.mouse.click(x, y));
+      const [x, y] = await pixelOf(page, 0.5, 2.2, [1.775, 3.55]);
+      await ("touch" in how ? page.touchscreen.tap(x, y) : page.mouse.click(x, y));
       await struckBall("ball 2");
       // The aim is at the nearest ball, the 3.
-      expect(await phi(one)).toBeCloseTo(0, 6);
+      expect(await phi(page)).toBeCloseTo(0, 6);
       for (const ball of ["ball 3", "the yellow", "ball 1", "ball 2"]) {
         await scene.press("b");
         await struckBall(ball);
       }
       // The shot is one of the ball that a hint names, and one of the ball that a key chose.
-      await one.locator("#hint").click();
-      await expect.poll(() => text(one, "said")).toMatch(/^Hint: with (the yellow|ball [123]): /);
-      const numberOf = (words: string): number =>
+      await act(page, "#hint");
+      await comesToSay(page, "said", /^Hint: with (the yellow|ball [123]): /);
+      const numberOf = (words: string) =>
         ["yellow", "1", "2", "3"].indexOf(/(?:with|strike) (?:the|ball) (\w+)/.exec(words)![1]!);
-      const hinted = numberOf(await text(one, "said"));
-      const struckBalls = async (): Promise<number[]> =>
-        linesOf<{ ball?: number }>(await keptGame(one), "shot").map(({ ball = 0 }) => ball);
-      await one.locator("#shoot").click();
+      const hinted = numberOf(await text(page, "said"));
+      const struckBalls = async () =>
+        linesOf<{ ball?: number }>(await keptGame(page), "shot").map(({ ball = 0 }) => ball);
+      await act(page, "#shoot");
       await expect.poll(struckBalls).toEqual([hinted]);
-      await expect.poll(() => turn(one)).toContain("You strike");
-      const before = numberOf(await turn(one));
+      await comesToSay(page, "turn", /You strike/);
+      const initial = numberOf(await turn(page));
       await scene.press("b");
-      await expect.poll(async () => numberOf(await turn(one))).not.toBe(before);
-      const chosen = numberOf(await turn(one));
-      await set(one, "power", 1);
-      await one.locator("#shoot").click();
+      await expect.poll(async () => numberOf(await turn(page))).not.toBe(initial);
+      const chosen = numberOf(await turn(page));
+      await act(page, "#power=1", "#shoot");
       await expect.poll(struckBalls).toEqual([hinted, chosen]);
-      await one.close();
     },
   );
 
   test("a pocket that was tapped is called as long as the aim is at its ball; the call is that of the aim at the stroke", async () => {
-    const one = await kept({
-      game: "eightball",
-      own: "0",
-      seed: 7,
-      against: "person",
-      at: "0.6,1.2 0.9,1.8 0.3,1.87 in in in in in 1.17,2.44 0.1,0.5 in in in in in in",
-    });
-    await turnTo(one, 63.2);
-    await expect.poll(() => turn(one)).toContain("Call: the 1, foot-right pocket.");
-    await click(one, -0.03, 1.27);
-    await expect.poll(() => turn(one)).toContain("Call: the 1, side-left pocket.");
-    await turnTo(one, 63.6);
-    await frames(one, 6);
-    expect(await turn(one)).toContain("Call: the 1, side-left pocket.");
+    const page = await resume(
+      gameOf(
+        "eightball",
+        "person",
+        "0.6,1.2 0.9,1.8 0.3,1.87 in in in in in 1.17,2.44 0.1,0.5 in in in in in in",
+      ),
+    );
+    await turnTo(page, 63.2);
+    await comesToSay(page, "turn", /Call: the 1, foot-right pocket\./);
+    await click(page, -0.03, 1.27);
+    await comesToSay(page, "turn", /Call: the 1, side-left pocket\./);
+    await turnTo(page, 63.6);
+    await frames(page, 6);
+    await says(page, "turn", /Call: the 1, side-left pocket\./);
     // A safety is a call, too, which a second press takes back.
-    for (const [told, is] of [
+    for (const [call, is] of [
       ["a safety.", "true"],
       ["the 1, foot-right pocket.", "false"],
       ["a safety.", "true"],
     ] as const) {
-      await one.locator("#push").click();
-      await expect.poll(() => turn(one)).toContain(`Call: ${told}`);
-      expect(await one.locator("#push").getAttribute("aria-pressed")).toBe(is);
+      await act(page, "#push");
+      await expect.poll(() => turn(page)).toContain(`Call: ${call}`);
+      expect(await page.locator("#push").getAttribute("aria-pressed")).toBe(is);
     }
     // At another ball it is another call.
-    await turnTo(one, 114.1);
-    await expect.poll(() => turn(one)).toContain("Call: the 2, foot-left pocket.");
-    await one.locator("#table-scene").press("c");
-    await expect.poll(() => turn(one)).toMatch(/Call: the 2, (?!foot-left)/);
+    await turnTo(page, 114.1);
+    await comesToSay(page, "turn", /Call: the 2, foot-left pocket\./);
+    await page.locator("#table-scene").press("c");
+    await comesToSay(page, "turn", /Call: the 2, (?!foot-left)/);
     // The aim changes, and the stroke is played before the next frame.
-    await one.locator("#phi").evaluate((input: HTMLInputElement) => {
+    await page.locator("#phi").evaluate((input: HTMLInputElement) => {
       input.value = "63.45";
       input.dispatchEvent(new Event("input"));
       document
         .getElementById("table-scene")!
         .dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" }));
     });
-    const [act] = linesOf<{ call: [number, number] }>(await keptGame(one), "act");
-    expect(act!.call[0]).toBe(1);
-    await one.close();
+    const [call] = linesOf<{ call: [number, number] }>(await keptGame(page), "act");
+    expect(call!.call[0]).toBe(1);
+    await page.close();
     // A ball that is called a safety falls, and the turn passes; of a bank nothing is guessed.
-    const other = await kept({
-      game: "bank",
-      own: "0",
-      seed: 7,
-      against: "person",
-      at: "0.3,0.3 0.1,0.1 0.9,1.8 in in in in in in in in in in in in in",
-    });
-    await pace(other, "1000");
-    await click(other, 0.1, 0.1);
-    await expect.poll(() => turn(other)).toContain("Nothing is called");
-    await other.locator("#push").click();
-    await expect.poll(() => turn(other)).toContain("Call: a safety.");
-    await other.locator("#shoot").click();
-    await expect.poll(() => turn(other)).toContain("Player 2");
-    await other.close();
+    const secondPage = await resume(
+      gameOf("bank", "person", "0.3,0.3 0.1,0.1 0.9,1.8 in in in in in in in in in in in in in"),
+    );
+    await pace(secondPage, "1000");
+    await click(secondPage, 0.1, 0.1);
+    await comesToSay(secondPage, "turn", /Nothing is called/);
+    await act(secondPage, "#push");
+    await comesToSay(secondPage, "turn", /Call: a safety\./);
+    await act(secondPage, "#shoot");
+    await comesToSay(secondPage, "turn", /Player 2/);
   });
 
   test.each(sizes)(
     "each ball has its number beside it, upright; a double tap shows the table larger, and aims at nothing: %s",
     async (_, how) => {
-      const one = await kept(
-        {
-          ...NINE,
-          against: "person",
-          at: "0.635,0.635 0.3,1.9 0.9,1.9 in in in in in in 0.6,1.4",
-        },
+      const page = await resume(
+        gameOf("nineball", "person", "0.635,0.635 0.3,1.9 0.9,1.9 in in in in in in 0.6,1.4"),
         how,
       );
       for (const [x, y] of [
@@ -446,11 +402,11 @@ describe.runIf(browserPath !== undefined)("a game", () => {
         [0.9, 1.9],
         [0.6, 1.4],
       ] as const) {
-        const [px, py] = await on(one, x, y);
+        const [px, py] = await pixelOf(page, x, y);
         const upright = how.width < 480;
         const reach = upright ? 6 : 11;
         // Above the ball.
-        const box = await one.locator("#table-scene").evaluate(
+        const box = await page.locator("#table-scene").evaluate(
           (canvas, [x, y, far]) => {
             const box = canvas.getBoundingClientRect();
             const ratio = (canvas as HTMLCanvasElement).width / box.width;
@@ -470,96 +426,75 @@ describe.runIf(browserPath !== undefined)("a game", () => {
         expect(box, `${x}, ${y}`).toBeGreaterThan(10);
       }
       if ("touch" in how) {
-        const aim = await phi(one);
-        const [x, y] = await on(one, 0.635, 0.635);
-        const beside = async (): Promise<number> => Math.min(...(await pixel(one, x + 13, y - 6)));
-        expect(await beside()).toBeLessThan(120);
-        const twice = async (): Promise<void> => {
-          const devtools = await one.context().newCDPSession(one);
-          const now = Date.now() / 1000;
-          for (const after of [0, 0.2]) {
-            await devtools.send("Input.dispatchTouchEvent", {
-              type: "touchStart",
-              touchPoints: [{ x, y }],
-              timestamp: now + after,
-            });
-            await devtools.send("Input.dispatchTouchEvent", {
-              type: "touchEnd",
-              touchPoints: [],
-              timestamp: now + after + 0.05,
-            });
+        const aim = await phi(page);
+        const [x, y] = await pixelOf(page, 0.635, 0.635);
+        const neighbor = async () => Math.min(...(await pixel(page, x + 13, y - 6)));
+        expect(await neighbor()).toBeLessThan(120);
+        const twice = async () => {
+          const touch = await fingersOn(page);
+          const time = Date.now() / 1000;
+          for (const start of [time, time + 0.2]) {
+            await touch("Start", [[x, y]], start);
+            await touch("End", [], start + 0.05);
           }
         };
         await twice();
-        await expect.poll(beside).toBeGreaterThan(150);
-        expect(await phi(one)).toBe(aim);
+        await expect.poll(neighbor).toBeGreaterThan(150);
+        expect(await phi(page)).toBe(aim);
         await twice();
-        await expect.poll(beside).toBeLessThan(120);
+        await expect.poll(neighbor).toBeLessThan(120);
       }
-      await one.close();
     },
   );
 
   test("words: one ball is one ball, and a rack is new", async () => {
-    const one = await kept({
-      ...NINE,
-      against: "practice",
-      at: "0.635,0.635 0.3,1.9 in in in in in in in in",
-    });
-    expect(await text(one, "score")).toBe("1 ball");
-    expect(await text(one, "rack-up")).toBe("New rack");
-    await one.close();
+    const page = await resume(
+      gameOf("nineball", "practice", "0.635,0.635 0.3,1.9 in in in in in in in in"),
+    );
+    await says(page, "score", "1 ball");
+    await says(page, "rack-up", "New rack");
   });
 
   test("a stroke is not swallowed while a hint is looked for", async () => {
-    const one = await open("");
-    await one.locator("#hint").click();
-    await one.locator("#shoot").click();
-    await expect.poll(() => one.locator("#skip").isVisible()).toBe(true);
-    await one.locator("#skip").click();
-    await expect.poll(() => turn(one)).not.toContain("You break");
-    expect(await text(one, "said")).not.toContain("Hint");
-    await one.close();
+    const page = await open("");
+    await act(page, "#hint", "#shoot");
+    await comesToShow(page, "#skip");
+    await act(page, "#skip");
+    await expect.poll(() => turn(page)).not.toContain("You break");
+    expect(await text(page, "said")).not.toContain("Hint");
   });
 
   test("after a scratch the other one has the cue ball in hand, and nothing internal is told", async () => {
-    const one = await kept({
-      ...NINE,
-      against: "person",
-      at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9",
-    });
-    await begin(one, "nineball", "person");
+    const page = await resume(
+      gameOf("nineball", "person", "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9"),
+    );
+    await begin(page, "nineball", "person");
     // The cue ball is put near a corner, and played into it.
-    await drag(one, [0.635, 0.635], [0.2, 0.2]);
-    await click(one, 0.05, 0.05);
-    await turnTo(one, 225);
-    await set(one, "power", 2);
-    await one.locator("#shoot").click();
-    await expect
-      .poll(() => turn(one))
-      .toMatch(/^Player 1 fouls: .*Player 2's turn.* Cue ball in hand/);
-    expect(await text(one, "said")).toBe("");
-    await one.close();
+    await drag(page, [0.635, 0.635], [0.2, 0.2]);
+    await click(page, 0.05, 0.05);
+    await turnTo(page, 225);
+    await act(page, "#power=2", "#shoot");
+    await comesToSay(page, "turn", /^Player 1 fouls: .*Player 2's turn.* Cue ball in hand/);
+    await says(page, "said", "");
   });
 
   test("a game hides the way of the balls, practice shows it; undo is of practice", async () => {
-    const at = "0.635,0.6 in in in in in in in in 0.3,2.3";
-    const seen = async (against: string): Promise<number> => {
-      const one = await kept({ ...NINE, against, at });
-      await turnTo(one, 45);
-      await set(one, "power", 3);
-      expect(await one.locator("#undo-stroke").isVisible()).toBe(against === "practice");
+    const places = "0.635,0.6 in in in in in in in in 0.3,2.3";
+    const seen = async (against: string) => {
+      const page = await resume(gameOf("nineball", against, places));
+      await turnTo(page, 45);
+      await act(page, "#power=3");
+      expect(await page.locator("#undo-stroke").isVisible()).toBe(against === "practice");
       // Behind the first cushion there is only the way of practice.
-      await frames(one, 3);
-      const count = await bright(one, [0.2, 1.35], [1.1, 2.1]);
+      await frames(page, 3);
+      const count = await bright(page, [0.2, 1.35], [1.1, 2.1]);
       if (against === "practice") {
-        await one.locator("#shoot").click();
-        await one.locator("#skip").click();
-        await expect.poll(() => one.locator("#undo-stroke").isEnabled()).toBe(true);
-        await one.locator("#undo-stroke").click();
-        expect((JSON.parse(await keptGame(one)) as { at: string }).at).toBe(at);
+        await act(page, "#shoot", "#skip");
+        await expect.poll(() => page.locator("#undo-stroke").isEnabled()).toBe(true);
+        await act(page, "#undo-stroke");
+        expect((await keptSetup<{ at: string }>(page)).at).toBe(places);
       }
-      await one.close();
+      await page.close();
       return count;
     };
     expect(await seen("person")).toBe(0);
@@ -567,20 +502,17 @@ describe.runIf(browserPath !== undefined)("a game", () => {
   });
 
   test("a reload keeps the game, to the bit", async () => {
-    const one = await open("", { width: 390, height: 844, touch: true });
-    await begin(one, "eightball", "person", "500");
-    await set(one, "power", 9);
-    await one.locator("#shoot").click();
-    await expect.poll(() => turn(one)).toMatch(/'s turn/);
-    const game = await keptGame(one);
+    const page = await open("", PHONE);
+    await begin(page, "eightball", "person", "500");
+    await act(page, "#power=9", "#shoot");
+    await comesToSay(page, "turn", /'s turn/);
+    const game = await keptGame(page);
     expect(linesOf(game, "shot")).toHaveLength(1);
-    const before = [await turn(one), await text(one, "score")];
-    await one.reload();
-    await one.waitForSelector("main[aria-busy=false]");
-    expect((await turn(one)).split(" Call")[0]).toBe(before[0]!.split(" Call")[0]);
-    expect(await text(one, "score")).toBe(before[1]);
-    expect(await keptGame(one)).toBe(game);
-    await one.close();
+    const initial = [await turn(page), await text(page, "score")];
+    await reload(page);
+    expect((await turn(page)).split(" Call")[0]).toBe(initial[0]!.split(" Call")[0]);
+    await says(page, "score", initial[1]);
+    expect(await keptGame(page)).toBe(game);
   });
 
   // One, unless CAROM_GAMES names a folder, as before a release: then every game, at two sizes,
@@ -594,56 +526,59 @@ describe.runIf(browserPath !== undefined)("a game", () => {
   test.each(folder ? whole : ([["nineball", sizes[0][1]]] as const))(
     "a game of %s against a 700 is played to its end by taps: %o",
     async (game, how) => {
-      const one = await open("", how);
-      await begin(one, game, "700");
-      const tap = (id: string): Promise<void> =>
-        "touch" in how ? one.locator(`#${id}`).tap() : one.locator(`#${id}`).click();
+      const page = await open("", how);
+      await begin(page, game, "700");
+      const tap = (id: string) =>
+        "touch" in how ? page.locator(`#${id}`).tap() : page.locator(`#${id}`).click();
       for (let k = 0; k < 400; k++) {
-        await expect.poll(() => turn(one)).toMatch(/Your turn|You break|has won|have won/);
+        await comesToSay(page, "turn", /Your turn|You break|has won|have won/);
         if (folder && k % 4 === 0)
-          await one.screenshot({ path: `${folder}/${game}-${one.viewportSize()!.width}-${k}.png` });
-        if (/won/.test(await turn(one))) break;
+          await page.screenshot({
+            path: `${folder}/${game}-${page.viewportSize()!.width}-${k}.png`,
+          });
+        if (/won/.test(await turn(page))) break;
         await tap("hint");
-        await expect.poll(() => text(one, "said")).toMatch(/^Hint: /);
+        await comesToSay(page, "said", /^Hint: /);
         if (folder && k % 4 === 1)
-          await one.screenshot({
-            path: `${folder}/${game}-${one.viewportSize()!.width}-${k}-hint.png`,
+          await page.screenshot({
+            path: `${folder}/${game}-${page.viewportSize()!.width}-${k}-hint.png`,
           });
         await tap("shoot");
         await expect
           .poll(
             async () =>
-              /won/.test(await turn(one)) || !(await text(one, "said")).startsWith("Hint"),
+              /won/.test(await turn(page)) || !(await text(page, "said")).startsWith("Hint"),
           )
           .toBe(true);
       }
-      expect(await turn(one)).toMatch(/(You have|The 700 has) won: /);
-      console.log(`${game} against a 700: ${await turn(one)} ${await text(one, "score")}`);
-      expect(await one.locator("#rack-up").isVisible()).toBe(true);
-      expect(await violations(one)).toEqual([]);
-      await one.close();
+      await says(page, "turn", /(You have|The 700 has) won: /);
+      console.log(`${game} against a 700: ${await turn(page)} ${await text(page, "score")}`);
+      await shows(page, "#rack-up");
+      expect(await violations(page)).toEqual([]);
     },
   );
 
   test("every game whose rules the library has begins, is ruled and is kept, and every table can be practised on", async () => {
-    const one = await open("", { width: 390, height: 844, touch: true });
-    await one.locator("#new-game").click();
-    const games = await one
+    const page = await open("", PHONE);
+    await act(page, "#new-game");
+    const games = await page
       .locator("#new-which option")
       .evaluateAll((options) =>
         options.map(
           (option) => [(option as HTMLOptionElement).value, option.textContent!] as const,
         ),
       );
-    await one.locator("#menu .close").click();
+    await act(page, "#menu .close");
     expect(games.map(([game]) => game)).toEqual(
       expect.arrayContaining(["eightball", "nineball", "threecushion", "snooker", "onepocket"]),
     );
     for (const [game, name] of games)
       for (const against of name.includes("(practice)") ? ["practice"] : ["person", "practice"]) {
-        await begin(one, game, against);
+        await begin(page, game, against);
         if (game === "onepocket" && against === "person")
-          expect(await turn(one)).toBe(
+          await says(
+            page,
+            "turn",
             "Player 1 breaks, into the foot-right pocket. Cue ball in hand behind the line: drag it.",
           );
         let played = 0;
@@ -652,86 +587,75 @@ describe.runIf(browserPath !== undefined)("a game", () => {
           await expect
             .poll(
               async () =>
-                (await one.locator("#shoot").isEnabled()) || /won\b/.test(await turn(one)),
-              { message: `${game} ${await turn(one)} ${await text(one, "said")}` },
+                (await page.locator("#shoot").isEnabled()) || /won\b/.test(await turn(page)),
+              { message: `${game} ${await turn(page)} ${await text(page, "said")}` },
             )
             .toBe(true);
-          if (!(await one.locator("#shoot").isEnabled())) break;
-          await one.locator("#shoot").click();
+          if (!(await page.locator("#shoot").isEnabled())) break;
+          await act(page, "#shoot");
         }
-        const saved = await keptGame(one);
+        const saved = await keptGame(page);
         expect((JSON.parse(saved) as { game: string }).game).toBe(game);
         expect(linesOf(saved, "shot")).toHaveLength(against === "practice" ? 0 : played);
-        expect(await one.locator("#said").textContent()).toMatch(/^$|Drag/);
-        await one.reload();
-        await one.waitForSelector("main[aria-busy=false]");
-        expect(await keptGame(one)).toBe(saved);
+        await says(page, "said", /^$|Drag/);
+        await reload(page);
+        expect(await keptGame(page)).toBe(saved);
       }
-    await one.close();
   }, 120_000);
 
   test("pool is played on the table that is chosen, which a new rack, a link and a diagram keep", async () => {
-    const one = await open("", { width: 390, height: 844, touch: true });
-    const setup = async (): Promise<{ table?: string; seed: number }> =>
-      JSON.parse(await keptGame(one)) as { table?: string; seed: number };
-    await one.locator("#new-game").click();
-    await one.locator("#new-which").selectOption("snooker");
-    expect(await one.locator("#new-table").isVisible()).toBe(false);
-    await one.locator("#new-which").selectOption("nineball");
+    const page = await open("", PHONE);
+    const setup = async () => await keptSetup<{ table?: string; seed: number }>(page);
+    await act(page, "#new-game", "#new-which=snooker");
+    await shows(page, "#new-table", false);
+    await act(page, "#new-which=nineball");
     expect(
-      await one
+      await page
         .locator("#new-table option")
-        .evaluateAll((all) => all.map((option) => (option as HTMLOptionElement).value)),
+        .evaluateAll((options) => options.map((option) => (option as HTMLOptionElement).value)),
     ).toEqual(["9ft", "8ft", "7ft", "tight"]);
-    await one.locator("#new-table").selectOption("tight");
-    await one.locator("#new-against").selectOption("practice");
-    await one.locator("#start").click();
+    await act(page, "#new-table=tight", "#new-against=practice", "#start");
     const { seed, table } = await setup();
     expect(table).toBe("tight");
-    await one.locator("#rack-up").click();
+    await act(page, "#rack-up");
     expect(await setup()).toMatchObject({ table: "tight", seed: seed + 1 });
-    await one.reload();
-    await one.waitForSelector("main[aria-busy=false]");
-    await one.locator("#new-game").click();
-    expect(await one.locator("#new-table").inputValue()).toBe("tight");
-    await one.close();
+    await reload(page);
+    await act(page, "#new-game");
+    expect(await valueOf(page, "new-table")).toBe("tight");
   });
 
   test.each(sizes)("letters on the balls of snooker are drawn on demand: %s", async (_, how) => {
-    const one = await open("", how);
-    await begin(one, "snooker", "practice");
-    const picture = (id: string): Promise<string> =>
-      one.locator(id).evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
-    const ask = async (): Promise<void> => {
-      await one.locator("#new-game").click();
-      await one.locator("#numbers").click();
-      await one.locator("#menu .close").click();
-      await frames(one, 4);
+    const page = await open("", how);
+    await begin(page, "snooker", "practice");
+    const picture = (id: string) =>
+      page.locator(id).evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+    const ask = async () => {
+      await act(page, "#new-game", "#numbers", "#menu .close");
+      await frames(page, 4);
     };
     const without = await picture("#table-scene");
     await ask();
     expect(await picture("#table-scene")).not.toBe(without);
-    await one.locator("#space").click();
-    await one.locator("#scene").waitFor();
+    await act(page, "#space");
+    await page.locator("#scene").waitFor();
     const behind = await picture(".over-scene");
     await ask();
     expect(await picture(".over-scene")).not.toBe(behind);
-    await one.locator("#space").click();
-    await frames(one, 4);
+    await act(page, "#space");
+    await frames(page, 4);
     expect(await picture("#table-scene")).toBe(without);
-    await one.close();
   });
 
   test("a frame of a break draws the balls and little else", async () => {
-    const one = await open("");
-    await one.evaluate(() => {
-      const page = window as unknown as { drawn: number[] };
-      page.drawn = [];
+    const page = await open("");
+    await page.evaluate(() => {
+      const recorder = window as unknown as { drawn: number[] };
+      recorder.drawn = [];
       const ask = window.requestAnimationFrame.bind(window);
       window.requestAnimationFrame = (draw) =>
-        ask((now) => {
-          page.drawn.push(0);
-          draw(now);
+        ask((time) => {
+          recorder.drawn.push(0);
+          draw(time);
         });
       for (const name of ["beginPath", "drawImage", "fillText"] as const) {
         const draw = CanvasRenderingContext2D.prototype[name] as (...args: unknown[]) => void;
@@ -739,41 +663,43 @@ describe.runIf(browserPath !== undefined)("a game", () => {
           this: CanvasRenderingContext2D,
           ...args: unknown[]
         ) {
-          page.drawn[page.drawn.length - 1]!++;
+          recorder.drawn[recorder.drawn.length - 1]!++;
           draw.apply(this, args);
         };
       }
     });
-    await one.locator("#shoot").click();
-    await frames(one, 40);
+    await act(page, "#shoot");
+    await frames(page, 40);
     // What other frames wait for draws nothing.
     const drawn = (
-      await one.evaluate(() => (window as unknown as { drawn: number[] }).drawn)
+      await page.evaluate(() => (window as unknown as { drawn: number[] }).drawn)
     ).filter((parts) => parts > 0);
     console.log(`a frame of a break: at most ${Math.max(...drawn)} parts are drawn`);
     // 16 balls of at most 11 parts each, and the cloth, which is one picture; a busy browser draws
     // a frame in ten twice.
     expect(drawn.length).toBeGreaterThan(20);
     expect(drawn.sort((a, b) => a - b)[Math.floor(0.9 * drawn.length)]).toBeLessThanOrEqual(177);
-    await one.close();
   });
 
   test.each(sizes)("a break sounds, and not where sound is off: %s", async (_, how) => {
-    const one = await open("", how);
-    await one.evaluate(() => {
+    const page = await open("", how);
+    await page.evaluate(() => {
       const heard = window as unknown as { heard: number[] };
       heard.heard = [];
-      const connect = AudioNode.prototype.connect as (this: AudioNode, to: AudioNode) => AudioNode;
-      AudioNode.prototype.connect = function (this: AudioNode, to: AudioNode) {
+      const connect = AudioNode.prototype.connect as (
+        this: AudioNode,
+        target: AudioNode,
+      ) => AudioNode;
+      AudioNode.prototype.connect = function (this: AudioNode, target: AudioNode) {
         if (this instanceof GainNode) heard.heard.push(this.gain.value);
-        return connect.call(this, to);
+        return connect.call(this, target);
       } as typeof AudioNode.prototype.connect;
     });
-    await pace(one, "4");
-    if ("touch" in how) await one.locator("#sound").click();
-    await one.locator("#shoot").click();
-    await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
-    const heard = await one.evaluate(() => (window as unknown as { heard: number[] }).heard);
+    await pace(page, "4");
+    if ("touch" in how) await act(page, "#sound");
+    await act(page, "#shoot");
+    await comesToShow(page, "#skip", false);
+    const heard = await page.evaluate(() => (window as unknown as { heard: number[] }).heard);
     if ("touch" in how) expect(heard).toEqual([]);
     else {
       // The break is louder than what comes after it.
@@ -781,6 +707,5 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       const sorted = heard.sort((a, b) => a - b);
       expect(sorted.at(-1)).toBeGreaterThan(1.5 * sorted[sorted.length >> 2]!);
     }
-    await one.close();
   });
 });

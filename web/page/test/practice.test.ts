@@ -2,7 +2,22 @@
 import { describe, expect, test } from "vitest";
 import { pinhole } from "./camera.js";
 import { Draws } from "../../test/support.js";
-import { browserPath, keptGame, pages, sizes, violations } from "./page.js";
+import {
+  act,
+  boxOf,
+  browserPath,
+  comesToSay,
+  counts,
+  fingersOn,
+  keptSetup,
+  pages,
+  PHONE,
+  reload,
+  says,
+  shows,
+  sizes,
+  violations,
+} from "./page.js";
 
 const W = 1.27;
 const L = 2.54;
@@ -10,63 +25,53 @@ const NOSE = 0.0366;
 const R = 0.028575;
 
 describe.runIf(browserPath !== undefined)("practice", () => {
-  const { open, text, set, turnTo } = pages();
+  const { open, turnTo } = pages();
 
   test("a drill counts what is made and missed, begins again, and hides the way of the balls", async () => {
-    const one = await open("", { width: 390, height: 844, touch: true });
-    await one.locator("#new-game").click();
-    await one.locator("#rate").selectOption("1000");
-    await one.locator("#drill").selectOption("Short straight pot");
-    await one.locator("#start-drill").click();
-    expect(await text(one, "turn")).toBe("Short straight pot");
-    await turnTo(one, 151.2);
-    await one.locator("#shoot").click();
-    await expect
-      .poll(() => text(one, "said"))
-      .toBe("Missed: 0 of 1. The cue ball fell or left the table.");
+    const page = await open("", PHONE);
+    await act(page, "#new-game", "#rate=1000", "#drill=Short straight pot", "#start-drill");
+    await says(page, "turn", "Short straight pot");
+    await turnTo(page, 151.2);
+    await act(page, "#shoot");
+    await comesToSay(page, "said", "Missed: 0 of 1. The cue ball fell or left the table.");
     // So little off its pocket that the page tells by how much.
-    await turnTo(one, 48);
-    await set(one, "power", 1.5);
-    await one.locator("#shoot").click();
-    await expect
-      .poll(() => text(one, "said"))
-      .toMatch(/^Missed: 0 of 2\. The 1 did not fall\. Turn the aim [23]\.\d\d° to the right\.$/);
-    await turnTo(one, 45);
-    await set(one, "power", 1.5);
-    await one.locator("#shoot").click();
-    await expect.poll(() => text(one, "said")).toBe("Made: 1 of 3.");
-    expect(await one.locator("#undo-stroke").isVisible()).toBe(false);
-    await one.reload();
-    await one.waitForSelector("main[aria-busy=false]");
-    expect(await text(one, "turn")).toBe("Short straight pot");
-    await one.locator("#new-game").click();
-    await one.locator("#drill").selectOption("Stop shot");
-    await one.locator("#drill").selectOption("Short straight pot");
-    expect(await text(one, "drill-note")).toContain("Made 1 of 3.");
+    await turnTo(page, 48);
+    await act(page, "#power=1.5", "#shoot");
+    await comesToSay(
+      page,
+      "said",
+      /^Missed: 0 of 2\. The 1 did not fall\. Turn the aim [23]\.\d\d° to the right\.$/,
+    );
+    await turnTo(page, 45);
+    await act(page, "#power=1.5", "#shoot");
+    await comesToSay(page, "said", "Made: 1 of 3.");
+    await shows(page, "#undo-stroke", false);
+    await reload(page);
+    await says(page, "turn", "Short straight pot");
+    await act(page, "#new-game", "#drill=Stop shot", "#drill=Short straight pot");
+    await says(page, "drill-note", /Made 1 of 3\./);
     // What came of a place that was wanted, and all of it in the log.
-    await one.locator("#drill").selectOption("Draw");
-    await one.locator("#start-drill").click();
-    await turnTo(one, 63.43);
-    await set(one, "power", 1.2);
-    await one.locator("#shoot").click();
-    await expect
-      .poll(() => text(one, "said"))
-      .toMatch(/The cue ball came back \d+ cm of 40 cm: strike it lower or faster\.$/);
-    await one.locator("#new-game").click();
-    await one.locator("#open-log").click();
-    expect(await one.locator("#log tbody tr").count()).toBe(4);
-    expect(await one.locator("#log tbody tr").nth(2).textContent()).toMatch(
+    await act(page, "#drill=Draw", "#start-drill");
+    await turnTo(page, 63.43);
+    await act(page, "#power=1.2", "#shoot");
+    await comesToSay(
+      page,
+      "said",
+      /The cue ball came back \d+ cm of 40 cm: strike it lower or faster\.$/,
+    );
+    await act(page, "#new-game", "#open-log");
+    await counts(page, "#log tbody tr", 4);
+    expect(await page.locator("#log tbody tr").nth(2).textContent()).toMatch(
       /Short straight pot.*[23]\.\d\d/,
     );
-    expect(await text(one, "log-sum")).toMatch(/Practise next: .*\(/);
-    expect(await violations(one)).toEqual([]);
-    await one.close();
+    await says(page, "log-sum", /Practise next: .*\(/);
+    expect(await violations(page)).toEqual([]);
   });
 
   test.each(sizes)(
     "four corners and taps on a photo that are off by 2 pixels lay the balls within 1 cm: %s",
     async (_, how) => {
-      const one = await open("", how);
+      const page = await open("", how);
       const size = [1600, 1200] as const;
       const see = pinhole(size, [0.5, -1.0, 1.3], [0.635, 1.1, 0], 1200);
       const balls: [number, number, number, string][] = [
@@ -76,7 +81,7 @@ describe.runIf(browserPath !== undefined)("practice", () => {
         [8, 1.1, 1.0, "#191b1e"],
       ];
       // The photo: cloth and balls as that camera sees them.
-      const picture = await one.evaluate(
+      const picture = await page.evaluate(
         ({ size, cloth, balls }) => {
           const canvas = document.createElement("canvas");
           [canvas.width, canvas.height] = size;
@@ -85,12 +90,12 @@ describe.runIf(browserPath !== undefined)("practice", () => {
           g.fillRect(0, 0, ...size);
           g.fillStyle = "#1f6f5c";
           g.beginPath();
-          for (const at of cloth) g.lineTo(...at);
+          for (const pixel of cloth) g.lineTo(...pixel);
           g.fill();
-          for (const { at, radius, hex } of balls) {
+          for (const { pixel, radius, hex } of balls) {
             g.fillStyle = hex;
             g.beginPath();
-            g.arc(...at, radius, 0, 7);
+            g.arc(...pixel, radius, 0, 7);
             g.fill();
           }
           return canvas.toDataURL("image/png").split(",")[1]!;
@@ -101,30 +106,29 @@ describe.runIf(browserPath !== undefined)("practice", () => {
             ([u, v]) => [u, v] as [number, number],
           ),
           balls: balls.map(([, x, y, hex]) => ({
-            at: [...see(x, y, R)] as [number, number],
+            pixel: [...see(x, y, R)] as [number, number],
             radius: Math.hypot(see(x, y, R)[0] - see(x + R, y, R)[0], 1),
             hex,
           })),
         },
       );
-      await one.locator("#new-game").click();
-      await one.locator("#open-photo").click();
-      expect(await violations(one)).toEqual([]);
-      await one.locator("#photo-file").setInputFiles({
+      await act(page, "#new-game", "#open-photo");
+      expect(await violations(page)).toEqual([]);
+      await page.locator("#photo-file").setInputFiles({
         name: "table.png",
         mimeType: "image/png",
         buffer: Buffer.from(picture, "base64"),
       });
-      await expect.poll(() => text(one, "photo-said")).toContain("Mark the corner head left");
-      const box = (await one.locator("#photo").boundingBox())!;
+      await comesToSay(page, "photo-said", /Mark the corner head left/);
+      const box = await boxOf(page, "#photo");
       const draws = new Draws(5n);
-      const tap = async (x: number, y: number, z: number): Promise<void> => {
+      const tap = async (x: number, y: number, z: number) => {
         const [u, v] = see(x, y, z);
-        const at = [
-          box.x + (u * box.width) / size[0] + draws.between(-2, 2),
-          box.y + (v * box.height) / size[1] + draws.between(-2, 2),
+        const pixel = [
+          box.x + (u * box.width) / size[0] + draws.uniform(-2, 2),
+          box.y + (v * box.height) / size[1] + draws.uniform(-2, 2),
         ] as const;
-        await ("touch" in how ? one.touchscreen.tap(...at) : one.mouse.click(...at));
+        await ("touch" in how ? page.touchscreen.tap(...pixel) : page.mouse.click(...pixel));
       };
       for (const [x, y] of [
         [0, 0],
@@ -133,39 +137,32 @@ describe.runIf(browserPath !== undefined)("practice", () => {
         [0, L],
       ] as const)
         await tap(x, y, NOSE);
-      await expect.poll(() => text(one, "photo-said")).toContain("Tap the middle of each ball");
+      await comesToSay(page, "photo-said", /Tap the middle of each ball/);
       for (const [ball, x, y] of balls) {
         await tap(x, y, R);
         // Where the colour does not tell the ball, the page asks.
-        const answer = one.locator("#photo-ask button", { hasText: new RegExp(`^${ball}$`) });
+        const answer = page.locator("#photo-ask button", { hasText: new RegExp(`^${ball}$`) });
         if ((await answer.count()) > 0) await answer.click();
-        expect(await one.locator("#photo-ask button").count()).toBe(0);
+        await counts(page, "#photo-ask button", 0);
       }
       // A finger that is held sees what is under it, and two fingers a part larger.
       if ("touch" in how) {
-        const devtools = await one.context().newCDPSession(one);
-        const touch = (
-          type: "touchStart" | "touchMove" | "touchEnd",
-          ...at: number[][]
-        ): Promise<unknown> =>
-          devtools.send("Input.dispatchTouchEvent", {
-            type,
-            touchPoints: at.map(([x, y], id) => ({ x: box.x + x!, y: box.y + y!, id })),
-          });
-        const seen = (): Promise<string> =>
-          one.locator("#photo").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
-        const before = await seen();
-        await touch("touchStart", [150, 100]);
-        await expect.poll(seen).not.toBe(before);
-        await touch("touchStart", [150, 100], [200, 100]);
-        await touch("touchMove", [130, 100], [220, 100]);
-        await touch("touchEnd");
-        expect((await one.locator("#photo").boundingBox())!.width).toBeGreaterThan(1.5 * box.width);
+        const touch = await fingersOn(page);
+        const fingers = (...xs: number[]) => xs.map((x) => [box.x + x, box.y + 100]);
+        const seen = () =>
+          page.locator("#photo").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+        const initial = await seen();
+        await touch("Start", fingers(150));
+        await expect.poll(seen).not.toBe(initial);
+        await touch("Start", fingers(150, 200));
+        await touch("Move", fingers(130, 220));
+        await touch("End");
+        expect((await boxOf(page, "#photo")).width).toBeGreaterThan(1.5 * box.width);
       }
-      expect(await text(one, "photo-said")).toContain("4 balls");
-      await one.locator("#photo-use").click();
-      const { at } = JSON.parse(await keptGame(one)) as { at: string };
-      const places = at.split(" ");
+      await says(page, "photo-said", /4 balls/);
+      await act(page, "#photo-use");
+      const { at: layout } = await keptSetup<{ at: string }>(page);
+      const places = layout.split(" ");
       let worst = 0;
       for (const [ball, x, y] of balls) {
         const [px, py] = places[ball]!.split(",").map(Number) as [number, number];
@@ -176,7 +173,6 @@ describe.runIf(browserPath !== undefined)("practice", () => {
       );
       expect(places.filter((place) => place !== "in")).toHaveLength(4);
       expect(worst).toBeLessThan(0.01);
-      await one.close();
     },
   );
 });

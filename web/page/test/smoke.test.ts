@@ -6,23 +6,31 @@ import { chromium } from "playwright-core";
 import { describe, expect, test } from "vitest";
 import { root } from "../../test/support.js";
 import { scene } from "../tools/picture.mjs";
-import { browserPath, keptGame, linesOf, pages, sizes, violations } from "./page.js";
+import {
+  act,
+  browserPath,
+  comesToCount,
+  keptGame,
+  linesOf,
+  numberIn,
+  pages,
+  says,
+  sizes,
+  violations,
+} from "./page.js";
 
 describe.runIf(browserPath !== undefined)("smoke", () => {
-  const { open, set, text } = pages();
+  const { open, text } = pages();
 
   test.each(sizes)("a game: a stroke is played, ruled and kept: %s", async (_, how) => {
-    const one = await open("", how);
-    expect(await text(one, "turn")).toContain("You break");
-    expect(await violations(one)).toEqual([]);
-    await set(one, "power", 6);
-    await one.locator("#shoot").click();
-    await one.locator("#skip").click();
+    const page = await open("", how);
+    await says(page, "turn", /You break/);
+    expect(await violations(page)).toEqual([]);
+    await act(page, "#power=6", "#shoot", "#skip");
     // The page's player or the one who sits here is next, and the game has the stroke.
-    await expect.poll(() => text(one, "turn")).not.toContain("You break");
-    const shots = linesOf(await keptGame(one), "shot");
+    await expect.poll(() => text(page, "turn")).not.toContain("You break");
+    const shots = linesOf(await keptGame(page), "shot");
     expect(shots[0]).toHaveProperty("speed");
-    await one.close();
   });
 
   test("the pictures of the docs show the words of today", async () => {
@@ -33,43 +41,36 @@ describe.runIf(browserPath !== undefined)("smoke", () => {
   });
 
   test("a hint aims the stroke that it names", async () => {
-    const one = await open("");
-    const before = await text(one, "said");
-    await set(one, "power", 1);
-    await one.locator("#hint").click();
-    await expect.poll(() => text(one, "said")).not.toBe(before);
+    const page = await open("");
+    const initial = await text(page, "said");
+    await act(page, "#power=1", "#hint");
+    await expect.poll(() => text(page, "said")).not.toBe(initial);
     // A break is played hard.
-    await expect
-      .poll(async () => Number(await one.locator("#power").inputValue()))
-      .toBeGreaterThan(5);
-    await one.close();
+    await expect.poll(async () => await numberIn(page, "power")).toBeGreaterThan(5);
   });
 
   test("the balls are listed in words", async () => {
-    const one = await open("");
-    await one.locator("details:has(#ball-list) summary").click();
-    await expect.poll(() => one.locator("#ball-list li").count()).toBe(16);
-    expect(await one.locator("#ball-list li").first().textContent()).toMatch(
+    const page = await open("");
+    await act(page, "details:has(#ball-list) summary");
+    await comesToCount(page, "#ball-list li", 16);
+    expect(await page.locator("#ball-list li").first().textContent()).toMatch(
       /^cue: \d+ cm from the left cushion, \d+ cm from the head cushion$/,
     );
-    await one.close();
   });
 
   test("the laboratory: a break is played, and its events are listed", async () => {
-    const one = await open("#view=lab");
+    const page = await open("#view=lab");
     // Of the page at rest: what a film lights up changes its colour as it plays.
-    expect(await violations(one)).toEqual([]);
-    await one.locator("#play").click();
-    await expect.poll(() => one.locator(".events li").count()).toBeGreaterThan(5);
-    await one.close();
+    expect(await violations(page)).toEqual([]);
+    await act(page, "#play");
+    await expect.poll(() => page.locator(".events li").count()).toBeGreaterThan(5);
   });
 
   test("a collision: the numbers follow the cut", async () => {
-    const one = await open("#view=collision&speed=2&cut=10");
-    const before = await text(one, "n-object");
-    await set(one, "cut", 40);
-    await expect.poll(() => text(one, "n-object")).not.toBe(before);
-    expect(await violations(one)).toEqual([]);
-    await one.close();
+    const page = await open("#view=collision&speed=2&cut=10");
+    const initial = await text(page, "n-object");
+    await act(page, "#cut=40");
+    await expect.poll(() => text(page, "n-object")).not.toBe(initial);
+    expect(await violations(page)).toEqual([]);
   });
 });

@@ -1,13 +1,12 @@
 // Sounds of the page: louder by a larger impulse, and each with the tones that it is made of.
 import { expect, test } from "vitest";
 import { loudness, wave } from "../src/play/sound.js";
-import { builds } from "../../test/builds.js";
+import { carom } from "../../test/builds.js";
 
 test("a harder stroke is louder, by the impulses of its events", () => {
-  const { carom } = builds[0]!;
   const table = carom.table("9ft");
   const balls = carom.rack("nineball", table);
-  const loudest = (speed: number, type: string): number =>
+  const loudest = (speed: number, type: string) =>
     Math.max(
       ...carom
         .simulate(table, balls, { speed, phi: 90 })
@@ -26,10 +25,10 @@ test("a harder stroke is louder, by the impulses of its events", () => {
 test("a wave decays, and has its tone", () => {
   const rate = 48_000;
   const samples = wave({ tones: [[1000, 0.5, 0.02]], noise: [0, 0.001, 0.5], full: 1 }, rate);
-  const level = (from: number, to: number): number =>
+  const level = (start: number, end: number) =>
     Math.sqrt(
-      samples.slice(from * rate, to * rate).reduce((sum, x) => sum + x * x, 0) /
-        ((to - from) * rate),
+      samples.slice(start * rate, end * rate).reduce((sum, x) => sum + x * x, 0) /
+        ((end - start) * rate),
     );
   expect(level(0.04, 0.05) / level(0, 0.01)).toBeLessThan(0.25);
   let crossings = 0;

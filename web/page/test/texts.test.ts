@@ -8,22 +8,15 @@ import { root } from "../../test/support.js";
 import { colourOf } from "../../player/words.js";
 import { labelsOf } from "../src/table/drawing.js";
 import { GAMES } from "../src/table/games.js";
-import { GERMAN } from "../src/texts/de.js";
-import { ENGLISH } from "../src/texts/en.js";
+import { type Language, LANGUAGES, partsOf, textsOf } from "../src/texts/texts.js";
 
 const source = `${root}web/page/src/`;
-const read = (path: string): string => readFileSync(path, "utf8");
+const ENGLISH = LANGUAGES.en;
+const LANGUAGE_CODES = Object.keys(LANGUAGES) as Language[];
+const read = (path: string) => readFileSync(path, "utf8");
 const files = readdirSync(source, { recursive: true, encoding: "utf8" }).filter(
   (name) => name.endsWith(".ts") && !name.startsWith("texts"),
 );
-
-/** What a text is that is given marks as its parts, and which of them it has. */
-function shown(text: unknown): string[] {
-  if (typeof text !== "function") return [];
-  const marks = Array.from({ length: text.length }, (_, k) => `<${k}>`);
-  const made = (text as (...parts: string[]) => string)(...marks);
-  return marks.filter((mark) => made.includes(mark));
-}
 
 /** Strings that no reader sees: markup, classes, fonts, names of keys, media queries. */
 const TECHNICAL =
@@ -38,9 +31,15 @@ function isForReaders(text: string): boolean {
   if (/^[A-Z][a-z]+/.test(bare)) return true;
   return /[a-z]{2}/i.test(bare) && /[a-z,:] +[a-z…]/i.test(bare);
 }
+/** A file of the page as a tree, and where a node of it is. */
+const treeOf = (name: string) =>
+  ts.createSourceFile(name, read(source + name), ts.ScriptTarget.Latest, true);
+function placeOf(node: ts.Node): string {
+  const tree = node.getSourceFile();
+  return `${tree.fileName}:${tree.getLineAndCharacterOfPosition(node.getStart()).line + 1}`;
+}
 /** The sentences of a file, with their lines. */
 function sentencesOf(name: string): string[] {
-  const tree = ts.createSourceFile(name, read(source + name), ts.ScriptTarget.Latest, true);
   const found: string[] = [];
   function visit(node: ts.Node): void {
     if (ts.isImportDeclaration(node) || ts.isTypeNode(node)) return;
@@ -50,36 +49,68 @@ function sentencesOf(name: string): string[] {
     if (ts.isStringLiteralLike(node)) parts = [node.text];
     if (ts.isTemplateExpression(node))
       parts = [node.head.text, ...node.templateSpans.map(({ literal }) => literal.text)];
-    if (parts.length > 0 && isForReaders(parts.join("…"))) {
-      const { line } = tree.getLineAndCharacterOfPosition(node.getStart());
-      found.push(`${name}:${line + 1}: ${parts.join("…")}`);
+    if (parts.length > 0 && isForReaders(parts.join("…")))
+      found.push(`${placeOf(node)}: ${parts.join("…")}`);
+    ts.forEachChild(node, visit);
+  }
+  visit(treeOf(name));
+  return found;
+}
+/** The calls of a file that hand over more or fewer parts than the text names. */
+function wrongCallsOf(name: string): string[] {
+  const found: string[] = [];
+  function visit(node: ts.Node): void {
+    if (ts.isCallExpression(node) && node.expression.getText().startsWith("texts.")) {
+      const key = node.expression.getText().slice("texts.".length);
+      const text = (ENGLISH.filled as Record<string, string>)[key]!;
+      if (node.arguments.length !== partsOf(text).length)
+        found.push(`${placeOf(node)}: ${node.getText()} for "${text}"`);
     }
     ts.forEachChild(node, visit);
   }
-  visit(tree);
+  visit(treeOf(name));
   return found;
 }
 
 describe("the texts of the page", () => {
-  test("each text is there in each language, with the same parts", () => {
-    const english = ENGLISH as Record<string, unknown>;
-    const german = GERMAN as Record<string, unknown>;
-    expect(Object.keys(german).sort()).toEqual(Object.keys(english).sort());
-    for (const [key, text] of Object.entries(english)) {
-      expect(typeof german[key], key).toBe(typeof text);
-      expect(shown(german[key]), key).toEqual(shown(text));
+  test.each(LANGUAGE_CODES)("each text is there, with the parts of the English one: %s", (code) => {
+    for (const section of ["plain", "filled"] as const) {
+      const texts: Record<string, string> = LANGUAGES[code][section];
+      const english: Record<string, string> = ENGLISH[section];
+      expect(Object.keys(texts)).toEqual(Object.keys(english));
+      for (const [key, text] of Object.entries(english)) {
+        expect(texts[key], key).not.toBe("");
+        expect(partsOf(texts[key]!).sort(), key).toEqual(partsOf(text).sort());
+        expect(partsOf(text).length > 0, key).toBe(section === "filled");
+      }
     }
   });
 
+  test("parts are filled in, and choose words", () => {
+    const [english, german] = LANGUAGE_CODES.map(textsOf);
+    expect(english!.ballsCounted(1)).toBe("1 ball");
+    expect(english!.ballsCounted(2)).toBe("2 balls");
+    expect(english!.bestStrokeOf(true, "Ann", "a break")).toBe("Your best stroke: a break.");
+    expect(english!.bestStrokeOf(false, "Ann", "a {name}")).toBe("Ann's best stroke: a {name}.");
+    expect(german!.bestStrokeOf(false, "Ann", "ein Anstoß")).toBe(
+      "Bester Stoß von Ann: ein Anstoß.",
+    );
+  });
+
+  test("a call hands over the parts of its text", () => {
+    expect(files.flatMap(wrongCallsOf)).toEqual([]);
+  });
+
   test("a text of the files is used", () => {
-    const all = [
+    const sources = [
       ...files.map((name) => read(source + name)),
       read(`${source}../index.html`),
     ].join();
-    const unused = Object.keys(ENGLISH).filter(
-      (key) => !new RegExp(`texts\\.${key}\\b|data-text="${key}"`).test(all),
+    const { plain, filled } = ENGLISH;
+    const unused = Object.keys({ ...plain, ...filled }).filter(
+      (key) => !new RegExp(`texts\\.${key}\\b|data-text="${key}"`).test(sources),
     );
-    expect(unused.filter((key) => key !== "known")).toEqual([]);
+    expect(unused).toEqual([]);
   });
 
   test("no sentence stands outside of the files of texts", () => {
@@ -91,7 +122,7 @@ describe("the texts of the page", () => {
 
   test("texts of the page's frame are those of English", () => {
     const frame = read(`${source}../index.html`);
-    const texts = ENGLISH as unknown as Record<string, string>;
+    const texts: Record<string, string> = ENGLISH.plain;
     const named = [...frame.matchAll(/data-text="(\w+)"\s*>([^<]*)</g)];
     expect(named.length).toBeGreaterThan(5);
     for (const [, key = "", text = ""] of named)
@@ -104,25 +135,25 @@ describe("the texts of the page", () => {
   });
 
   test("each game of the library has its rules", () => {
-    for (const [game] of words.rules.filter(([one]) => one !== "potting"))
-      for (const texts of [ENGLISH, GERMAN])
+    for (const [game] of words.rules.filter(([rule]) => rule !== "potting"))
+      for (const texts of Object.values(LANGUAGES))
         expect(texts.rules[game]?.length, game).toBeGreaterThan(100);
   });
 
   test("labels tell balls of different colours apart in each game and language", () => {
     for (const [game, { rack, names }] of Object.entries(GAMES))
-      for (const { letters } of [ENGLISH, GERMAN]) {
-        const all = Array.from({ length: 22 }, (_, k) => names(k));
-        const labels = labelsOf(all, letters);
+      for (const { letters } of Object.values(LANGUAGES)) {
+        const ballNames = Array.from({ length: 22 }, (_, k) => names(k));
+        const labels = labelsOf(ballNames, letters);
         const colours = new Map<string, string>();
         labels.forEach((label, k) => {
-          const colour = colourOf(all[k]!, k, game === "pyramid" ? 0.034 : 0.03);
+          const colour = colourOf(ballNames[k]!, k, game === "pyramid" ? 0.034 : 0.03);
           const isNumber = Number(label) > 0;
           if (label !== "" && !isNumber)
             expect(colours.get(label) ?? colour, `${game} (${rack}): ${label}`).toBe(colour);
           colours.set(label, colour);
           // The cue ball of pool is the only one that is white.
-          if (label === "") expect(all[k]).toBe("cue");
+          if (label === "") expect(ballNames[k]).toBe("cue");
         });
       }
     expect(labelsOf(["red 3", "7"], {})).toEqual(["", "7"]);
@@ -132,8 +163,8 @@ describe("the texts of the page", () => {
     const rows = read(`${root}data/drills.csv`).trim().split("\n").slice(1);
     for (const row of rows) {
       const [, name = "", quoted, plain] = /^([^,]*),(?:"([^"]*)"|([^,]*)),/.exec(row)!;
-      expect(GERMAN.known[name], name).toBeDefined();
-      expect(GERMAN.known[quoted ?? plain!], name).toBeDefined();
+      expect(LANGUAGES.de.known[name], name).toBeDefined();
+      expect(LANGUAGES.de.known[quoted ?? plain!], name).toBeDefined();
     }
   });
 });

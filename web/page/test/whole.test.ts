@@ -7,24 +7,37 @@ import { tmpdir } from "node:os";
 import { gzipSync } from "node:zlib";
 import { describe, expect, test } from "vitest";
 import type { Page } from "playwright-core";
-import { browserPath, page, pages, violations } from "./page.js";
+import {
+  act,
+  boxOf,
+  browserPath,
+  pageFile,
+  pages,
+  PHONE,
+  reload,
+  says,
+  violations,
+} from "./page.js";
 import { LANGUAGES } from "../src/texts/texts.js";
 import { root, run, thereIsACommand } from "../../test/support.js";
+
+type State = [name: string, hash: string, how: object, presses: string[]];
+const STATES = JSON.parse(readFileSync(`${root}web/page/test/states.json`, "utf8")) as State[];
 
 /**
  * An icon of a page that is served: its size, how many of its pixels differ from icon.svg, and how
  * many beyond the circle that each shape of an icon keeps differ from its corner.
  */
-const iconOf = (one: Page, name: string): Promise<object> =>
-  one.evaluate(async (name) => {
-    const load = async (source: string): Promise<HTMLImageElement> => {
+const iconOf = (page: Page, name: string) =>
+  page.evaluate(async (name) => {
+    const load = async (source: string) => {
       const image = Object.assign(new Image(), { src: source });
       await image.decode();
       return image;
     };
     const icon = await load(name);
     const size = name.endsWith(".svg") ? 512 : icon.naturalWidth;
-    const pixelsOf = (image: HTMLImageElement): Uint8ClampedArray => {
+    const pixelsOf = (image: HTMLImageElement) => {
       const canvas = Object.assign(document.createElement("canvas"), { width: size, height: size });
       const g = canvas.getContext("2d")!;
       g.drawImage(image, 0, 0, size, size);
@@ -32,92 +45,66 @@ const iconOf = (one: Page, name: string): Promise<object> =>
     };
     const shown = pixelsOf(icon);
     const drawn = pixelsOf(await load("icon.svg"));
-    const far = (a: number, b: number): boolean => Math.abs(a - b) > 40;
-    const isBeyond = (k: number): boolean => {
+    const far = (a: number, b: number) => Math.abs(a - b) > 40;
+    const isBeyond = (k: number) => {
       const [x, y] = [k % size, Math.floor(k / size)].map((c) => (c + 0.5) / size - 0.5);
       return Math.hypot(x!, y!) > 0.4;
     };
     let differs = 0;
     let beyond = 0;
-    for (let at = 0; at < shown.length; at++) {
-      if (far(shown[at]!, drawn[at]!)) differs++;
-      if (isBeyond(Math.floor(at / 4)) && far(shown[at]!, shown[at % 4]!)) beyond++;
+    for (let offset = 0; offset < shown.length; offset++) {
+      if (far(shown[offset]!, drawn[offset]!)) differs++;
+      if (isBeyond(Math.floor(offset / 4)) && far(shown[offset]!, shown[offset % 4]!)) beyond++;
     }
     const sizes = name.endsWith(".svg") ? "any" : `${icon.naturalWidth}x${icon.naturalHeight}`;
     return { sizes, differs, beyond };
   }, name);
 
 describe.runIf(browserPath !== undefined)("the page", () => {
-  const { open, colour, text, set, said, browser } = pages();
+  const { open, colour, text, set, messages, browser } = pages();
 
   test("its first view, without the view in three dimensions, is below 480 kB compressed", () => {
-    const text = readFileSync(page, "utf8").replace(/(id="scene-module">)[^<]*/, "$1");
+    const text = readFileSync(pageFile, "utf8").replace(/(id="scene-module">)[^<]*/, "$1");
     const { length } = gzipSync(text, { level: 9 });
     console.log(`the first view has ${length} bytes, compressed`);
     expect(length).toBeLessThan(480_000);
   });
 
-  // States one after another, by what is pressed; ".close" is none by itself.
-  test.each([
-    ["play", "", {}, ["", "#new-game", ".close", "#shoot"]],
-    [
-      "play, dark, phone",
-      "",
-      { dark: true, width: 390, height: 844, touch: true },
-      ["", "#new-game", ".close", ".numbers-of summary", "#shoot"],
-    ],
-    ["play, phone on its side", "", { width: 844, height: 390, touch: true }, [""]],
-    ["collision", "#view=collision", {}, [""]],
-    ["collision, dark, phone", "#view=collision", { dark: true, width: 390, height: 844 }, [""]],
-    ["laboratory", "#view=lab", {}, ["main summary"]],
-    [
-      "laboratory, dark, phone",
-      "#view=lab&game=snooker",
-      { dark: true, width: 390, height: 844 },
-      ["main summary"],
-    ],
-    [
-      "laboratory, phone on its side",
-      "#view=lab",
-      { width: 844, height: 390, touch: true },
-      ["main summary"],
-    ],
-  ] as const)("axe finds nothing: %s", async (_, hash, how, presses) => {
-    const one = await open(hash, how);
+  // The states of states.json one after another, by what is pressed; ".close" is none by itself.
+  test.each(STATES)("axe finds nothing: %s", async (_, hash, how, presses) => {
+    const page = await open(hash, how);
     for (const press of presses) {
-      if (press) await one.locator(press).first().click();
+      if (press) await page.locator(press).first().click();
       if (press === ".close") continue;
-      expect(await violations(one), press).toEqual([]);
+      expect(await violations(page), press).toEqual([]);
       // Nothing is wider than the screen.
       expect(
-        await one.evaluate(
+        await page.evaluate(
           () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
         ),
         press,
       ).toBeLessThanOrEqual(0);
     }
-    await one.close();
   });
 
   test.each(Object.keys(LANGUAGES))("on a phone nothing is cut: %s", async (language) => {
-    const one = await open("", { width: 390, height: 844, touch: true });
-    await one.evaluate((language) => {
+    const page = await open("", PHONE);
+    await page.evaluate((language) => {
       localStorage.setItem("carom-language", language);
       const row = { when: "2026-11-28T18:00", game: "eightball", meant: "ball 7", best: "ball 3" };
       localStorage.setItem("carom-log", JSON.stringify([{ ...row, phi: 0.3, value: 0.5 }]));
     }, language);
-    await one.reload();
-    await one.waitForSelector("main[aria-busy=false]");
+    await reload(page);
     // The tip grows under a finger.
-    const tip = (await one.locator("#tip-ball").boundingBox())!;
-    await one.mouse.move(tip.x + tip.width / 2, tip.y + tip.height / 2);
-    await one.mouse.down();
-    const grown = (await one.locator("#tip-ball").boundingBox())!;
+    const tip = await boxOf(page, "#tip-ball");
+    await page.mouse.move(tip.x + tip.width / 2, tip.y + tip.height / 2);
+    await page.mouse.down();
+    const grown = await boxOf(page, "#tip-ball");
     expect(grown.width).toBeGreaterThan(1.5 * tip.width);
     expect(grown.x + grown.width).toBeLessThanOrEqual(390);
-    await one.mouse.up();
-    await one.locator("#new-game").click();
-    const cut = await one.locator("select:visible").evaluateAll((selects) =>
+    await page.mouse.up();
+    await act(page, "#new-game");
+    const cut = await page.locator("select:visible").evaluateAll((selects) =>
       selects.flatMap((select) => {
         const { font, paddingLeft, paddingRight } = getComputedStyle(select);
         const arrow = 18;
@@ -131,12 +118,11 @@ describe.runIf(browserPath !== undefined)("the page", () => {
       }),
     );
     expect(cut).toEqual([]);
-    await one.locator("#open-log").click();
-    const beyond = await one
+    await act(page, "#open-log");
+    const beyond = await page
       .locator("#log, #log .scrolls")
-      .evaluateAll((all) => all.map((part) => part.scrollWidth - part.clientWidth));
+      .evaluateAll((parts) => parts.map((part) => part.scrollWidth - part.clientWidth));
     expect(beyond).toEqual([0, 0]);
-    await one.close();
   });
 
   test("a page that is served can be installed, and works without a network", async () => {
@@ -154,16 +140,16 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     });
     await new Promise<void>((listens) => server.listen(0, "127.0.0.1", listens));
     const context = await browser().newContext({ viewport: { width: 390, height: 844 } });
-    const one = await context.newPage();
-    one.on(
+    const page = await context.newPage();
+    page.on(
       "console",
       (message) =>
-        ["error", "warning"].includes(message.type()) && said.push(`served: ${message.text()}`),
+        ["error", "warning"].includes(message.type()) && messages.push(`served: ${message.text()}`),
     );
-    await one.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/`);
-    await one.waitForSelector("main[aria-busy=false]");
-    await one.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
-    const devtools = await context.newCDPSession(one);
+    await page.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/`);
+    await page.waitForSelector("main[aria-busy=false]");
+    await page.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
+    const devtools = await context.newCDPSession(page);
     const manifest = await devtools.send("Page.getAppManifest");
     expect(manifest.errors).toEqual([]);
     expect(JSON.parse(manifest.data!)).toMatchObject({
@@ -177,65 +163,66 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     ).toEqual([]);
     const { icons } = JSON.parse(manifest.data!) as { icons: { src: string; sizes: string }[] };
     for (const { src, sizes } of icons)
-      expect(await iconOf(one, src), src).toEqual({ sizes, differs: 0, beyond: 0 });
+      expect(await iconOf(page, src), src).toEqual({ sizes, differs: 0, beyond: 0 });
     // No network, and no server either.
     await context.setOffline(true);
     await new Promise((closed) => {
       server.close(closed);
       server.closeAllConnections();
     });
-    await one.reload();
-    await one.waitForSelector("main[aria-busy=false]");
-    expect(await text(one, "turn")).toContain("You break");
+    await reload(page);
+    await says(page, "turn", /You break/);
     await context.close();
   });
 
   test.runIf(thereIsACommand)("a page of carom shoot --animate shows the same player", async () => {
     const folder = mkdtempSync(`${tmpdir()}/carom-`);
-    const told = JSON.parse(
+    const output = JSON.parse(
       run(["shoot", "--animate", `${folder}/break.html`, `${root}data/break-nineball.jsonl`]),
     ) as { final: { t: number; balls: Record<string, number[]> }; events: unknown[][] };
-    const one = await open("#view=lab");
-    await one.locator("main summary").click();
-    await one.locator("#line").fill(readFileSync(`${root}data/break-nineball.jsonl`, "utf8"));
-    await one.locator("#import").click();
-    const other = await browser().newPage({ viewport: { width: 1300, height: 800 } });
-    other.on(
+    const firstPage = await open("#view=lab");
+    await act(firstPage, "main summary");
+    await firstPage.locator("#line").fill(readFileSync(`${root}data/break-nineball.jsonl`, "utf8"));
+    await act(firstPage, "#import");
+    const secondPage = await browser().newPage({ viewport: { width: 1300, height: 800 } });
+    secondPage.on(
       "console",
       (message) =>
-        ["error", "warning"].includes(message.type()) && said.push(`animate: ${message.text()}`),
+        ["error", "warning"].includes(message.type()) &&
+        messages.push(`animate: ${message.text()}`),
     );
-    other.on("pageerror", (error) => said.push(`animate: ${error.message}`));
-    await other.goto(`file://${folder}/break.html`);
-    expect(await text(other, "play")).toBe("Pause");
-    await other.locator("#play").click();
-    for (const page of [one, other])
+    secondPage.on("pageerror", (error) => messages.push(`animate: ${error.message}`));
+    await secondPage.goto(`file://${folder}/break.html`);
+    await says(secondPage, "play", "Pause");
+    await act(secondPage, "#play");
+    for (const page of [firstPage, secondPage])
       await expect
         .poll(() => page.locator(".events li").count())
-        .toBe(told.events.filter(([, type]) => type !== "none").length);
-    expect(await other.locator(".events li").allTextContents()).toEqual(
-      await one.locator(".events li").allTextContents(),
+        .toBe(output.events.filter(([, type]) => type !== "none").length);
+    expect(await secondPage.locator(".events li").allTextContents()).toEqual(
+      await firstPage.locator(".events li").allTextContents(),
     );
     // At the end ball 8 lies at the command's place, on both tables, which differ in size.
-    const end = Number(await other.locator("#time").getAttribute("max"));
-    expect(end).toBeCloseTo(told.final.t, 3);
-    for (const page of [one, other]) await set(page, "time", Math.floor(1000 * end) / 1000);
-    const [, x, y] = told.final.balls["8"]!;
-    for (const page of [one, other]) {
+    const end = Number(await secondPage.locator("#time").getAttribute("max"));
+    expect(end).toBeCloseTo(output.final.t, 3);
+    for (const page of [firstPage, secondPage])
+      await set(page, "time", Math.floor(1000 * end) / 1000);
+    const [, x, y] = output.final.balls["8"]!;
+    for (const page of [firstPage, secondPage]) {
       await page.evaluate(() => scrollTo(0, 0));
       // the cloth is brighter, and the number
       expect(Math.max(...(await colour(page, x!, y! + 0.0245)))).toBeLessThan(60);
     }
-    expect(await violations(other)).toEqual([]);
-    await one.close();
-    await other.close();
+    expect(await violations(secondPage)).toEqual([]);
+    await firstPage.close();
+    await secondPage.close();
     rmSync(folder, { recursive: true });
   });
 
   test("the page has the licence of all that is in it", async () => {
-    const one = await open("#view=lab");
-    await one.locator("#licences summary").click();
-    const words = await text(one, "licences");
+    const page = await open("#view=lab");
+    await act(page, "#licences summary");
+    const words = await text(page, "licences");
     for (const name of [
       "Apache License\n",
       "Copyright (c) 2005-2020 Rich Felker, et al.",
@@ -244,6 +231,5 @@ describe.runIf(browserPath !== undefined)("the page", () => {
       "three\n\nThe MIT License\n\nCopyright © 2010-2025 three.js authors",
     ])
       expect(words).toContain(name);
-    await one.close();
   });
 });

@@ -5,12 +5,12 @@ import { readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
-const here = (name) => fileURLToPath(new URL(`../public/${name}`, import.meta.url));
+const pathOf = (name) => fileURLToPath(new URL(`../public/${name}`, import.meta.url));
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
   args: ["--no-sandbox"],
 });
-const svg = readFileSync(here("icon.svg")).toString("base64");
+const svg = readFileSync(pathOf("icon.svg")).toString("base64");
 for (const size of [192, 512]) {
   const page = await browser.newPage({ viewport: { width: size, height: size } });
   await page.setContent(
@@ -18,6 +18,6 @@ for (const size of [192, 512]) {
     <img src="data:image/svg+xml;base64,${svg}">`,
   );
   await page.locator("img").evaluate((image) => image.decode());
-  await page.screenshot({ path: here(`icon-${size}.png`) });
+  await page.screenshot({ path: pathOf(`icon-${size}.png`) });
 }
 await browser.close();

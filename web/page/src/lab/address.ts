@@ -11,48 +11,48 @@ import { texts } from "../texts/texts.js";
 /** All that differs from the defaults. */
 function stateOf(d: Desk): Record<string, string> {
   const { controls } = d;
-  const kept: Record<string, string> = {};
-  if (d.gameName !== "nineball") kept.game = d.gameName;
-  if (d.seed !== 1) kept.seed = String(d.seed);
+  const settings: Record<string, string> = {};
+  if (d.gameName !== "nineball") settings.game = d.gameName;
+  if (d.seed !== 1) settings.seed = String(d.seed);
   for (const [key, s] of Object.entries(controls.sliders))
-    if (s.value !== DEFAULTS[key]) kept[key] = String(s.value);
-  if (controls.cushion.select.value !== "han") kept.cushion = controls.cushion.select.value;
-  if (d.solver() === "euler") kept.solver = "euler";
-  if (d.imported) kept.line = lineOf(d);
+    if (s.value !== DEFAULTS[key]) settings[key] = String(s.value);
+  if (controls.cushion.select.value !== "han") settings.cushion = controls.cushion.select.value;
+  if (d.solver() === "euler") settings.solver = "euler";
+  if (d.imported) settings.line = lineOf(d);
   else if (d.moved || d.faces.some((face) => face !== 0))
-    kept.at = d.balls
+    settings.at = d.balls
       .map(({ state: { r, label } }, k) =>
         label === "pocketed" ? "in" : `${r[0]},${r[1]}${d.faces[k] ? `,${d.faces[k]}` : ""}`,
       )
       .join(" ");
-  return kept;
+  return settings;
 }
 
 /** Sets the desk to what an address says. */
-export function restore(d: Desk, given: URLSearchParams): void {
+export function restore(d: Desk, query: URLSearchParams): void {
   const { controls } = d;
   const known = (key: string, among: readonly string[]): string =>
-    among.includes(given.get(key) ?? "") ? given.get(key)! : among[0]!;
+    among.includes(query.get(key) ?? "") ? query.get(key)! : among[0]!;
   d.gameName = known("game", Object.keys(GAMES));
-  d.seed = Number(given.get("seed") ?? 1);
+  d.seed = Number(query.get("seed") ?? 1);
   if (!Number.isSafeInteger(d.seed) || d.seed < 0) d.seed = 1;
   for (const [key, s] of Object.entries(controls.sliders)) {
-    const x = given.has(key) ? Number(given.get(key)) : NaN;
+    const x = query.has(key) ? Number(query.get(key)) : NaN;
     s.value = Number.isFinite(x) ? x : DEFAULTS[key]!;
   }
   controls.cushion.select.value = known("cushion", CUSHIONS);
   lay(d);
   let refused = "";
   try {
-    if (given.has("line")) take(d, given.get("line")!);
-    else if (given.has("at")) {
-      const places = placesOf(given.get("at")!, d.table, d.balls);
+    if (query.has("line")) take(d, query.get("line")!);
+    else if (query.has("at")) {
+      const places = placesOf(query.get("at")!, d.table, d.balls);
       Object.assign(d, { balls: places.balls, faces: places.faces, moved: true });
     }
   } catch (error) {
     refused = wrong(error);
   }
-  controls.line.value = given.get("line") ?? "";
+  controls.line.value = query.get("line") ?? "";
   d.aimed();
   if (refused) says(d, refused);
 }
@@ -65,20 +65,20 @@ export function undoing(d: Desk, changed: (past: boolean) => void) {
   function commit(): void {
     window.clearTimeout(d.writing);
     if (!d.builtIn) return;
-    const now = String(new URLSearchParams({ view: "lab", ...stateOf(d) }));
-    if (now !== committed) {
+    const address = String(new URLSearchParams({ view: "lab", ...stateOf(d) }));
+    if (address !== committed) {
       if (committed !== "") past.push(committed);
-      history.replaceState(null, "", `#${now}`);
+      history.replaceState(null, "", `#${address}`);
     }
-    committed = now;
+    committed = address;
     changed(past.length > 0);
   }
   function back(): void {
     commit();
-    const to = past.pop();
-    if (to === undefined) return;
+    const previous = past.pop();
+    if (previous === undefined) return;
     committed = "";
-    restore(d, new URLSearchParams(to));
+    restore(d, new URLSearchParams(previous));
     commit();
   }
   /** Balls lie where this shot ends. A cue ball that fell comes back to the head string. */

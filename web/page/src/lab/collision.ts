@@ -11,6 +11,7 @@ import {
   eachFrame,
   el,
   keep,
+  numberRows,
   parameters,
   slider,
   type Slider,
@@ -97,7 +98,7 @@ interface View {
 }
 
 function controlsOf(update: () => void) {
-  const given = parameters();
+  const query = parameters();
   const two = (x: number): string => x.toFixed(2);
   const sliders: Record<Exclude<keyof Setting, "law">, Slider> = {
     speed: slider("speed", texts.speedAtTheContact, 0.1, 8, 0.1, " m/s", update, (x) =>
@@ -110,12 +111,12 @@ function controlsOf(update: () => void) {
     cloth: slider("cloth", texts.frictionWithTheCloth, 0, 0.5, 0.01, "", update, two),
     e: slider("e", texts.restitution, 0.5, 1, 0.01, "", update, two),
   };
-  for (const [key, one] of Object.entries(sliders)) {
-    const x = given.has(key) ? Number(given.get(key)) : NaN;
-    one.value = Number.isFinite(x) ? x : DEFAULTS[key]!;
+  for (const [key, control] of Object.entries(sliders)) {
+    const x = query.has(key) ? Number(query.get(key)) : NaN;
+    control.value = Number.isFinite(x) ? x : DEFAULTS[key]!;
   }
   const law = check("law", texts.byAlciatoreSLaw, update);
-  law.input.checked = given.get("law") !== "0";
+  law.input.checked = query.get("law") !== "0";
   return { sliders, law };
 }
 
@@ -178,10 +179,10 @@ function along(
   { carom, curve, solver }: View,
   s: Setting,
   key: "cut" | "side",
-  from: number,
-  to: number,
+  start: number,
+  end: number,
 ): { x: number[]; thrown: Column; deflected: Column } {
-  const x = Array.from({ length: CURVE }, (_, k) => from + ((to - from) * k) / (CURVE - 1));
+  const x = Array.from({ length: CURVE }, (_, k) => start + ((end - start) * k) / (CURVE - 1));
   x.forEach((value, k) => curve.set(k, impactOf(s, { [key]: value })));
   carom.collideBatch(curve, { solver: solver() });
   const thrown: Column = [];
@@ -213,7 +214,7 @@ function drawCurves(view: View, s: Setting, impact: Impact, thrown: number, roll
     merged(
       byCut.x,
       byCut.deflected,
-      experiments.map((one) => ({ x: one.cut, y: -one.deflection })),
+      experiments.map((experiment) => ({ x: experiment.cut, y: -experiment.deflection })),
     ),
     norm(rolls) > 1e-6 ? [{ x: s.cut, y: direction(rolls) }] : [],
   );
@@ -240,8 +241,8 @@ function rowsOf(
   [rollsA, rollsB]: readonly Vec3[],
   euler: boolean,
 ): [string, string, string][] {
-  const before = energy({ v: impact.a.v!, w: impact.a.w! });
-  const lost = before - energy(a) - energy(b);
+  const initial = energy({ v: impact.a.v!, w: impact.a.w! });
+  const lost = initial - energy(a) - energy(b);
   const gearing = Math.sin(s.cut / DEGREES) / 2.5;
   const way = (v: Vec3, stops = false): string =>
     stops && norm(v) < 1e-9 ? texts.stops : `${sided(direction(v))}, ${norm(v).toFixed(3)} m/s`;
@@ -263,7 +264,7 @@ function rowsOf(
     [
       "energy",
       texts.energyLost,
-      `${(1000 * lost).toFixed(1)} mJ, ${((100 * lost) / before).toFixed(1)} %`,
+      `${(1000 * lost).toFixed(1)} mJ, ${((100 * lost) / initial).toFixed(1)} %`,
     ],
     ["impulse", texts.normalImpulse, `${detail.normal.toFixed(4)} N s`],
     ["friction", texts.impulseOfFriction, `${norm(detail.friction).toFixed(4)} N s`],
@@ -308,15 +309,15 @@ function draw(view: View, s: Setting, a: Motion, b: Motion): void {
   ball(cx, cy, "#fbfaf5");
   ball(ox, oy, "#d8a400");
   const longest = Math.min(width * 0.36, 3.2 * radius);
-  const to = (v: readonly number[]): [number, number] => [
+  const toPixels = (v: readonly number[]): [number, number] => [
     (v[0]! / s.speed) * longest,
     (-v[1]! / s.speed) * longest,
   ];
   arrow(g, cx - longest - radius, cy, longest, 0, "#ffffff");
-  arrow(g, cx, cy, ...to(view.carom.rollingVelocity(a, R)), "#0b2f4f", true);
-  arrow(g, cx, cy, ...to(a.v), "#0b2f4f");
-  arrow(g, ox, oy, ...to(view.carom.rollingVelocity(b, R)), "#4a2a00", true);
-  arrow(g, ox, oy, ...to(b.v), "#4a2a00");
+  arrow(g, cx, cy, ...toPixels(view.carom.rollingVelocity(a, R)), "#0b2f4f", true);
+  arrow(g, cx, cy, ...toPixels(a.v), "#0b2f4f");
+  arrow(g, ox, oy, ...toPixels(view.carom.rollingVelocity(b, R)), "#4a2a00", true);
+  arrow(g, ox, oy, ...toPixels(b.v), "#4a2a00");
   // Side spin: an arc around the ball, in the sense in which it turns.
   for (const [x, y, w] of [
     [cx, cy, a.w[2]],
@@ -341,14 +342,10 @@ function show(view: View): void {
   const euler = solver() === "euler";
   sliders.mu.input.disabled = law.input.checked;
   if (law.input.checked) sliders.mu.value = carom.muBall(impact);
-  const after = carom.collideDetail(impact, { solver: solver() });
-  const { a, b } = after;
+  const result = carom.collideDetail(impact, { solver: solver() });
+  const { a, b } = result;
   const rolls = [carom.rollingVelocity(a, R), carom.rollingVelocity(b, R)];
-  numbers.replaceChildren(
-    ...rowsOf(s, impact, after, rolls, euler).map(([id, name, text]) =>
-      el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `n-${id}` }, text)),
-    ),
-  );
+  numbers.replaceChildren(...numberRows("n", rowsOf(s, impact, result, rolls, euler)));
   canvas.setAttribute(
     "aria-label",
     texts.twoBallsFromAbove(
@@ -362,13 +359,13 @@ function show(view: View): void {
   draw(view, s, a, b);
   drawCurves(view, s, impact, turn(direction(b.v) - s.cut), rolls[0]!);
 
-  const kept: Record<string, string> = { view: "collision" };
-  for (const [key, one] of Object.entries(sliders))
-    if ((key !== "mu" || !law.input.checked) && one.value !== DEFAULTS[key])
-      kept[key] = String(one.value);
-  if (!law.input.checked) kept.law = "0";
-  if (euler) kept.solver = "euler";
-  keep(kept);
+  const settings: Record<string, string> = { view: "collision" };
+  for (const [key, control] of Object.entries(sliders))
+    if ((key !== "mu" || !law.input.checked) && control.value !== DEFAULTS[key])
+      settings[key] = String(control.value);
+  if (!law.input.checked) settings.law = "0";
+  if (euler) settings.solver = "euler";
+  keep(settings);
 }
 
 /** Lets the cue ball be dragged around the other one, or turned by keys. */
@@ -380,7 +377,10 @@ function handle(view: View, update: () => void): void {
   const soon = eachFrame(update);
   const cutTo = (cut: number): void => void (sliders.cut.value = Math.max(-85, Math.min(85, cut)));
   drags(canvas, (event) => {
-    const [x, y] = pixelsOf(canvas, event).map((at, k) => at - view.origin[k]!) as [number, number];
+    const [x, y] = pixelsOf(canvas, event).map((coordinate, k) => coordinate - view.origin[k]!) as [
+      number,
+      number,
+    ];
     if (Math.hypot(x, y) < view.scale / 2) return;
     cutTo(Math.round(2 * Math.atan2(y, -x) * DEGREES) / 2);
     soon();
@@ -401,43 +401,32 @@ export function collisionView(
 ): { update(): void; theme(): void } {
   const update = (): void => show(view);
   const controls = controlsOf(update);
-  const canvas = el("canvas", {
-    class: "scene",
-    id: "collision-scene",
-    role: "img",
-    tabindex: "0",
-  });
+  const canvas = el("canvas#collision-scene.scene", { role: "img", tabindex: "0" });
   const numbers = el("tbody");
-  const curves = el("div", { class: "plots" });
+  const curves = el("div.plots");
   const roots = (...keys: Exclude<keyof Setting, "law">[]): HTMLElement[] =>
     keys.map((key) => controls.sliders[key].root);
   main.replaceChildren(
     el(
-      "div",
-      { class: "columns" },
+      "div.columns",
       el(
-        "section",
-        { class: "panel first", "aria-label": texts.settings },
-        el("h2", {}, texts.twoBallsMeet),
+        "section.panel.first",
+        { "aria-label": texts.settings },
+        el("h2", texts.twoBallsMeet),
         ...roots("speed", "cut", "side", "tip"),
         controls.law.root,
         ...roots("mu", "cloth", "e"),
       ),
       el(
-        "section",
-        { class: "panel scene-panel", "aria-label": texts.seenFromAbove },
+        "section.panel.scene-panel",
+        { "aria-label": texts.seenFromAbove },
         canvas,
-        el("p", { class: "note" }, texts.dragTheWhiteBall),
+        el("p.note", texts.dragTheWhiteBall),
       ),
       el(
-        "section",
-        { class: "panel", "aria-label": texts.numbers },
-        el(
-          "table",
-          { class: "numbers", id: "collision-numbers" },
-          el("caption", {}, texts.justAfterAndOnce),
-          numbers,
-        ),
+        "section.panel",
+        { "aria-label": texts.numbers },
+        el("table#collision-numbers.numbers", el("caption", texts.justAfterAndOnce), numbers),
       ),
     ),
     curves,
@@ -458,7 +447,7 @@ export function collisionView(
   return {
     update,
     theme() {
-      for (const one of Object.values(view.plots)) one.theme();
+      for (const plot of Object.values(view.plots)) plot.theme();
       update();
     },
   };

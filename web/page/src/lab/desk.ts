@@ -97,9 +97,9 @@ export function controlsOf(aimed: () => void, racked: () => void) {
       aimed,
     ),
     summary: el("tbody"),
-    message: el("p", { class: "error", role: "status", id: "message" }),
-    line: el("textarea", { id: "line", spellcheck: "false" }),
-    cost: el("p", { class: "note", id: "cost" }),
+    message: el("p#message.error", { role: "status" }),
+    line: el("textarea#line", { spellcheck: "false" }),
+    cost: el("p#cost.note"),
   };
 }
 
@@ -123,16 +123,16 @@ export function optionsOf({ solver, controls }: Desk): ShotOptions {
  * their own. What it says where there are none.
  */
 export function suit(d: Desk): string {
-  let said = "";
-  if (d.imported) return said;
+  let message = "";
+  if (d.imported) return message;
   let kind = d.carom.kind(d.game.game);
   try {
     kind = d.carom.kind(d.game.game, optionsOf(d).cushionModel);
   } catch (error) {
-    said = texts.itPlaysThoseOf(wrong(error));
+    message = texts.itPlaysThoseOf(wrong(error));
   }
   d.balls = d.balls.map(({ state }) => ({ kind, state }));
-  return said;
+  return message;
 }
 
 /** Lays the balls of the game as they begin. */

@@ -27,7 +27,7 @@ import { aimAt } from "./lines.js";
  * before the next frame.
  */
 interface Hand {
-  held: { grip: Grip; at: Point; from: Point; value: number; taps: boolean } | undefined;
+  held: { grip: Grip; place: Point; start: Point; value: number; taps: boolean } | undefined;
   readonly soon: () => void;
 }
 
@@ -86,13 +86,14 @@ export function drawHand(d: Desk, g: CanvasRenderingContext2D): void {
 const position = ({ canvas, unplace }: Film, event: { clientX: number; clientY: number }): Point =>
   unplace(...pixelsOf(canvas, event));
 /** What lies under a pointer. A finger reaches farther. */
-function under(d: Desk, at: Point, finger: boolean): Grip {
+function under(d: Desk, place: Point, finger: boolean): Grip {
   const reach = (finger ? 22 : 12) / d.film.scale;
-  const near = ([x, y]: readonly number[]): number => Math.hypot(x! - at[0], y! - at[1]);
+  const distance = ([x, y]: readonly number[]): number => Math.hypot(x! - place[0], y! - place[1]);
   const places: (readonly number[])[] = d.balls.map(({ state }) => state.r);
   waits(d).forEach((k, index) => (places[k] = waitsAt(d, index)));
-  if (canTurn(d) && near(turner(d)) < Math.min(reach, ...places.map(near))) return { kind: "turn" };
-  return gripAt(at, reach, d.table, d.balls, places, cueOf(d), 0);
+  if (canTurn(d) && distance(turner(d)) < Math.min(reach, ...places.map(distance)))
+    return { kind: "turn" };
+  return gripAt(place, reach, d.table, d.balls, places, cueOf(d), 0);
 }
 function turnTo(d: Desk, { soon }: Hand, phi: number): void {
   d.controls.set("phi", direction(phi));
@@ -111,8 +112,8 @@ function moveBall(d: Desk, { soon }: Hand, ball: number, [x, y]: Point): void {
   const out = Math.max(-x, x - table.width, -y, y - table.length) > 1.5 * balls[ball]!.kind.radius;
   const leaves = out && ball !== 0 && table.pockets.length > 0;
   const laid = leaves
-    ? balls.map((one, k) =>
-        k === ball ? { kind: one.kind, state: pocketed(table, one.state) } : one,
+    ? balls.map((each, k) =>
+        k === ball ? { kind: each.kind, state: pocketed(table, each.state) } : each,
       )
     : put(d.carom, table, balls, ball, [x, y]);
   if (!laid) return; // it stays
@@ -120,26 +121,26 @@ function moveBall(d: Desk, { soon }: Hand, ball: number, [x, y]: Point): void {
   d.moved = true;
   soon();
 }
-function drag(d: Desk, hand: Hand, at: Point): void {
+function drag(d: Desk, hand: Hand, place: Point): void {
   if (!hand.held) return;
-  const { grip, from, value } = hand.held;
+  const { grip, start, value } = hand.held;
   const cueBall = d.balls[0]!;
   const picked = d.balls[d.chosen]!;
-  if (grip.kind === "ball") moveBall(d, hand, grip.ball, at);
+  if (grip.kind === "ball") moveBall(d, hand, grip.ball, place);
   else if (grip.kind === "turn")
     turnBall(
       d,
       hand,
       d.chosen,
-      value + angleFrom(picked, at) - angleFrom(picked, from) - d.faces[d.chosen]!,
+      value + angleFrom(picked, place) - angleFrom(picked, start) - d.faces[d.chosen]!,
     );
   else if (grip.kind === "stick") {
-    d.controls.set("speed", drawnTo(cueBall, value, from, at));
+    d.controls.set("speed", drawnTo(cueBall, value, start, place));
     hand.soon();
   } else if (grip.kind === "line")
-    turnTo(d, hand, value + angleFrom(cueBall, at) - angleFrom(cueBall, from));
-  else if (grip.kind === "cloth") turnTo(d, hand, angleFrom(cueBall, at));
-  hand.held.at = at;
+    turnTo(d, hand, value + angleFrom(cueBall, place) - angleFrom(cueBall, start));
+  else if (grip.kind === "cloth") turnTo(d, hand, angleFrom(cueBall, place));
+  hand.held.place = place;
 }
 function clicked(d: Desk, grip: Grip): void {
   if (grip.kind === "ball" && grip.ball > 0) {
@@ -160,32 +161,33 @@ function valueOf({ controls, faces, chosen }: Desk, { kind }: Grip): number {
 function down(d: Desk, hand: Hand, event: PointerEvent): void {
   const { film } = d;
   if (film.time > 0 || film.playing) film.go(0);
-  const at = position(film, event);
-  const grip = under(d, at, event.pointerType === "touch");
+  const place = position(film, event);
+  const grip = under(d, place, event.pointerType === "touch");
   hand.held = {
     grip,
-    at,
-    from: at,
+    place,
+    start: place,
     value: valueOf(d, grip),
     taps: true,
   };
   // A finger on the cloth may be about to scroll the page: what it does waits for its end.
   if (event.pointerType === "touch") return;
   film.canvas.setPointerCapture(event.pointerId);
-  if (grip.kind === "cloth") drag(d, hand, at);
+  if (grip.kind === "cloth") drag(d, hand, place);
 }
 function over(d: Desk, hand: Hand, event: PointerEvent): void {
   if (!hand.held) return;
-  const { from, grip } = hand.held;
-  const at = position(d.film, event);
-  if (Math.hypot(at[0] - from[0], at[1] - from[1]) * d.film.scale > 4) hand.held.taps = false;
+  const { start, grip } = hand.held;
+  const place = position(d.film, event);
+  if (Math.hypot(place[0] - start[0], place[1] - start[1]) * d.film.scale > 4)
+    hand.held.taps = false;
   if (!hand.held.taps && !(event.pointerType === "touch" && grip.kind === "cloth"))
-    drag(d, hand, at);
+    drag(d, hand, place);
 }
 function up(d: Desk, hand: Hand): void {
   const was = hand.held;
   if (was?.taps) {
-    if (was.grip.kind === "cloth") drag(d, hand, was.at);
+    if (was.grip.kind === "cloth") drag(d, hand, was.place);
     else clicked(d, was.grip);
   }
   hand.held = undefined;
@@ -194,17 +196,17 @@ function key(d: Desk, hand: Hand, undo: () => void, event: KeyboardEvent): void 
   const { set, value } = d.controls;
   const arrow = ARROWS[event.key];
   const ball = Math.max(d.chosen, 0);
-  const by = event.shiftKey ? 1 : 0.1;
+  const step = event.shiftKey ? 1 : 0.1;
   if (event.key === " ") d.film.play.click();
   else if ((event.ctrlKey || event.metaKey) && event.key === "z") undo();
   else if (event.key === "," || event.key === ".")
     turnBall(d, hand, ball, event.key === "." ? 10 : -10);
   // The picked ball, or the cue ball, by 1 mm as one sees it.
   else if (event.altKey && arrow)
-    moveBall(d, hand, ball, movedBy(d.film, d.balls[ball]!, arrow, by * 0.01 * d.film.scale));
+    moveBall(d, hand, ball, movedBy(d.film, d.balls[ball]!, arrow, step * 0.01 * d.film.scale));
   else if (!arrow) return;
   else if (arrow[0] !== 0)
-    set("phi", Math.round(((value("phi") - arrow[0] * by + 360) % 360) * 1e6) / 1e6);
+    set("phi", Math.round(((value("phi") - arrow[0] * step + 360) % 360) * 1e6) / 1e6);
   else set("speed", within(value("speed") - arrow[1] * 0.1, 1e6));
   event.preventDefault();
   if (arrow && !event.altKey) d.aimed();

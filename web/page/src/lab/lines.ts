@@ -6,7 +6,7 @@ import { GAMES, gameOf, type Read, TABLES } from "../table/games.js";
 import { wrong } from "../ui.js";
 import { aim, cueOf, type Desk, lay, optionsOf, says } from "./desk.js";
 import { present } from "./shown.js";
-import { texts, told } from "../texts/texts.js";
+import { texts, translate } from "../texts/texts.js";
 
 export const lineOf = (d: Desk, id?: string): string =>
   toLine({
@@ -51,28 +51,28 @@ function use<L extends Line>(d: Desk, read: Read<L>): Read<L> {
  * A shot of a recording, which has neither names of balls nor of the table: they are those of the
  * game that it fits.
  */
-export function showRecorded(d: Desk, one: Replayed, from: number): void {
-  const same = JSON.stringify(one.table);
+export function showRecorded(d: Desk, replayed: Replayed, source: number): void {
+  const same = JSON.stringify(replayed.table);
   const tableName = TABLES.find((name) => JSON.stringify(d.carom.table(name)) === same);
   const isGame = tableName !== undefined && tableName in GAMES;
-  const poolGame = one.balls.length > 10 ? "eightball" : "nineball";
+  const poolGame = replayed.balls.length > 10 ? "eightball" : "nineball";
   const name = isGame ? tableName : poolGame;
   use(
     d,
     gameOf(
       {
-        ...one,
+        ...replayed,
         id: "",
-        balls: [...one.balls],
+        balls: [...replayed.balls],
         tableName: tableName ?? "9ft",
-        names: one.balls.map((_, k) => GAMES[name]!.names(k)),
+        names: replayed.balls.map((_, k) => GAMES[name]!.names(k)),
       },
       name,
     ),
   );
   d.builtIn = tableName !== undefined;
-  present(d, cueOf(d), one);
-  d.film.go(from);
+  present(d, cueOf(d), replayed);
+  d.film.go(source);
 }
 
 /**
@@ -81,21 +81,21 @@ export function showRecorded(d: Desk, one: Replayed, from: number): void {
 export function aimAt(d: Desk, pocket: number): void {
   const { names, table, balls } = d;
   const ball = d.chosen > 0 ? d.chosen : (d.shot?.firstContact?.ball ?? -1);
-  const name = texts.ballIntoThe(names[ball], told(pocketName(table, pocket)));
+  const name = texts.ballIntoThe(names[ball], translate(pocketName(table, pocket)));
   if (ball < 0) return says(d, texts.whichBallClickIt);
   const pot = d.carom.aim(table, balls, cueOf(d), { ball, pocket }, optionsOf(d));
-  const { outcome, met } = pot;
+  const { outcome, met: contact } = pot;
   if (outcome === "no_way") return says(d, texts.noSuchAimNo(name));
   d.controls.set("phi", Math.round(pot.cue.phi * 1e4) / 1e4);
   d.aimed();
-  const of = names[met?.a ?? 0];
-  const other = met?.type === "ball_ball" ? names[met.b] : texts.aCushion;
+  const roller = names[contact?.a ?? 0];
+  const obstacle = contact?.type === "ball_ball" ? names[contact.b] : texts.aCushion;
   const why = {
     falls: "",
     stick: texts.theStickWouldHave,
     rejected: texts.theJawsSendIt,
-    short: texts.ballComesToRest(of),
-    barred: texts.ballMeets(of, other),
+    short: texts.ballComesToRest(roller),
+    barred: texts.ballMeets(roller, obstacle),
   }[outcome];
   const [low, high] = pot.speed.map((speed) => speed.toFixed(1));
   if (outcome !== "falls") says(d, texts.aimedButDoesNot(name, why));

@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import { color, el } from "../ui.js";
 
-export interface Mark {
+interface Mark {
   x: number;
   y: number;
 }
@@ -11,7 +11,7 @@ export type Column = (number | null)[];
  * What a plot shows: its words, the label and the range of x, the label of y, its curves, and a
  * band of |y|.
  */
-export interface Shows {
+interface Shows {
   id: string;
   title: string;
   note: string;
@@ -22,10 +22,10 @@ export interface Shows {
 }
 
 function drawBand(u: uPlot, [low, high]: readonly [number, number]): void {
-  const at = (y: number): number => u.valToPos(y, "y", true);
+  const height = (y: number): number => u.valToPos(y, "y", true);
   u.ctx.fillStyle = color("band");
   for (const top of [high, -low])
-    u.ctx.fillRect(u.bbox.left, at(top), u.bbox.width, Math.abs(at(low) - at(high)));
+    u.ctx.fillRect(u.bbox.left, height(top), u.bbox.width, Math.abs(height(low) - height(high)));
 }
 function drawMarks(u: uPlot, marks: readonly Mark[]): void {
   for (const mark of marks) {
@@ -48,13 +48,7 @@ export function plot(
 ): { set(data: Column[], marks: Mark[]): void; theme(): void } {
   const place = el("div");
   into.append(
-    el(
-      "section",
-      { class: "panel plot", id, "aria-label": title },
-      el("h2", {}, title),
-      place,
-      el("p", {}, note),
-    ),
+    el("section.panel.plot", { id, "aria-label": title }, el("h2", title), place, el("p", note)),
   );
   const wide = (): number => Math.max(place.clientWidth, 240);
   let marks: Mark[] = [];
@@ -89,24 +83,24 @@ export function plot(
     };
     return new uPlot(options, last as uPlot.AlignedData, place);
   };
-  let made = build();
+  let plot = build();
   return {
-    set(data, at) {
+    set(data, places) {
       last = data;
-      marks = at;
-      made.setData(data as uPlot.AlignedData);
-      if (Math.abs(made.width - wide()) > 2) made.setSize({ width: wide(), height: 230 });
+      marks = places;
+      plot.setData(data as uPlot.AlignedData);
+      if (Math.abs(plot.width - wide()) > 2) plot.setSize({ width: wide(), height: 230 });
     },
     theme() {
-      made.destroy();
-      made = build();
+      plot.destroy();
+      plot = build();
     },
   };
 }
 
 /** A curve and points at x of their own, on one ascending axis. */
-export const merged = (x: number[], y: Column, at: readonly Mark[]): Column[] =>
+export const merged = (x: number[], y: Column, marks: readonly Mark[]): Column[] =>
   uPlot.join([
     [x, y],
-    [at.map((one) => one.x), at.map((one) => one.y)],
+    [marks.map((mark) => mark.x), marks.map((mark) => mark.y)],
   ]) as Column[];

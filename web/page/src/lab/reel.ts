@@ -9,18 +9,18 @@ import { texts } from "../texts/texts.js";
 /** Plays the recording of a file again while it is `wanted`. The page lives meanwhile. */
 async function replayed(
   d: Desk,
-  given: File,
-  wanted: () => boolean,
+  file: File,
+  isWanted: () => boolean,
 ): Promise<{ found: Replayed[]; refused: string }> {
   const found: Replayed[] = [];
   try {
     let pause = performance.now() + 30;
-    for (const shot of d.carom.replay(await given.text())) {
+    for (const shot of d.carom.replay(await file.text())) {
       found.push(shot);
       if (performance.now() < pause) continue;
-      says(d, texts.shotsSoFar(given.name, found.length));
+      says(d, texts.shotsSoFar(file.name, found.length));
       await new Promise(requestAnimationFrame);
-      if (!wanted()) break;
+      if (!isWanted()) break;
       pause = performance.now() + 30;
     }
     return { found, refused: "" };
@@ -33,40 +33,33 @@ export function reel(d: Desk): Reel {
   let shots: Replayed[] = [];
   let shown = -1;
   let opened = 0;
-  const file = el("output", { id: "reel-file" });
-  const said = el("output", { id: "reel-shot" });
-  const back = button(texts.shotBack, () => go(shown - 1), {
-    id: "reel-back",
+  const file = el("output#reel-file");
+  const output = el("output#reel-shot");
+  const back = button(texts.shotBack, () => go(shown - 1), "#reel-back", {
     "aria-label": texts.previousShotOfThe,
   });
-  const next = button(texts.shotOn, () => go(shown + 1), {
-    id: "reel-next",
+  const next = button(texts.shotOn, () => go(shown + 1), "#reel-next", {
     "aria-label": texts.nextShotOfThe,
   });
-  const bar = el("div", { class: "row", id: "reel", hidden: "" }, back, next, said, file);
-  const input = el("input", {
-    type: "file",
-    id: "recording",
-    accept: ".jsonl,.json,.txt",
-    hidden: "",
-  });
+  const bar = el("div#reel.row", { hidden: "" }, back, next, output, file);
+  const input = el("input#recording", { type: "file", accept: ".jsonl,.json,.txt", hidden: "" });
   input.addEventListener("change", () => {
-    const [given] = input.files ?? [];
+    const [file] = input.files ?? [];
     input.value = ""; // the same file may be opened again
-    if (given) void read(given);
+    if (file) void read(file);
   });
 
-  async function read(given: File): Promise<void> {
+  async function read(recording: File): Promise<void> {
     const mine = ++opened;
-    const { found, refused } = await replayed(d, given, () => mine === opened);
+    const { found, refused } = await replayed(d, recording, () => mine === opened);
     if (mine !== opened) return;
-    if (found.length === 0) return says(d, `${given.name}: ${refused || texts.itHasNoShot}`);
+    if (found.length === 0) return says(d, `${recording.name}: ${refused || texts.itHasNoShot}`);
     const differ = found.filter(({ same }) => !same);
     const agrees =
       differ.length === 0
         ? texts.everyBitAgrees
         : texts.shotsDiffer(differ.length, differ[0]!.shot, differ[0]!.line);
-    file.value = `${given.name}: ${texts.shotsCounted(found.length)}, ${agrees}.${refused && texts.theRestIsRefused(refused)}`;
+    file.value = `${recording.name}: ${texts.shotsCounted(found.length)}, ${agrees}.${refused && texts.theRestIsRefused(refused)}`;
     shots = found;
     bar.hidden = false;
     go(Math.max(found.indexOf(differ[0]!), 0));
@@ -74,8 +67,8 @@ export function reel(d: Desk): Reel {
 
   function go(index: number): void {
     shown = index;
-    const one = shots[index]!;
-    showRecorded(d, one, one.continues ? shots[index - 1]!.film.time : 0);
+    const shot = shots[index]!;
+    showRecorded(d, shot, shot.continues ? shots[index - 1]!.film.time : 0);
   }
 
   function shows(shot: Replayed | undefined): void {
@@ -83,12 +76,17 @@ export function reel(d: Desk): Reel {
     back.disabled = shown <= 0;
     next.disabled = shown >= shots.length - 1;
     const where = texts.shotOf(shown + 1, shots.length);
-    if (shot === undefined) said.value = texts.wasChanged(where);
-    else if (shot.same) said.value = texts.asRecorded(where);
+    if (shot === undefined) output.value = texts.wasChanged(where);
+    else if (shot.same) output.value = texts.asRecorded(where);
     else {
       const end = ({ status, events, time, hash }: Replayed["played"]): string =>
         texts.eventsSHash(status, events, time.toFixed(6), hash);
-      said.value = texts.lineRecordedPlayed(where, shot.line, end(shot.recorded), end(shot.played));
+      output.value = texts.lineRecordedPlayed(
+        where,
+        shot.line,
+        end(shot.recorded),
+        end(shot.played),
+      );
     }
   }
 
@@ -97,9 +95,8 @@ export function reel(d: Desk): Reel {
     shows,
     open: el(
       "span",
-      {},
       input,
-      button(texts.openRecording, () => input.click(), { id: "open-recording" }),
+      button(texts.openRecording, () => input.click(), "#open-recording"),
     ),
     accept(target) {
       target.addEventListener(
@@ -107,10 +104,10 @@ export function reel(d: Desk): Reel {
         (event) => event.dataTransfer?.types.includes("Files") && event.preventDefault(),
       );
       target.addEventListener("drop", (event) => {
-        const [given] = event.dataTransfer?.files ?? [];
-        if (!given) return;
+        const [file] = event.dataTransfer?.files ?? [];
+        if (!file) return;
         event.preventDefault();
-        void read(given);
+        void read(file);
       });
     },
     advance() {

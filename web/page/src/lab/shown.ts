@@ -1,19 +1,19 @@
 // What the laboratory shows of a shot: its film, its numbers.
 import { CaromError, type Cue, type Replayed } from "carom";
 import { facing, filmOf, pathsOf } from "../table/filmed.js";
-import { el, wrong } from "../ui.js";
+import { numberRows, wrong } from "../ui.js";
 import { type Desk, optionsOf, says, suit } from "./desk.js";
 import { texts } from "../texts/texts.js";
 
 /** Shows a stroke, which is played, or the shot of a recording. */
 export function present(d: Desk, stroke: Cue, played?: Replayed): void {
-  const said = played ? "" : suit(d);
+  const message = played ? "" : suit(d);
   const { controls, table, balls, names } = d;
   d.recorded = played;
   d.recording.shows(played);
   controls.stroke.set({}); // the tip is where its sliders are
   const begun = performance.now();
-  says(d, said);
+  says(d, message);
   try {
     d.shot = played?.film ?? d.carom.simulate(table, balls, stroke, optionsOf(d));
   } catch (error) {
@@ -66,11 +66,7 @@ function showNumbers({ controls, shot, balls, names, game, film }: Desk): void {
       label === "pocketed" ? texts.inAPocket : `${r[0].toFixed(4)}, ${r[1].toFixed(4)} m`,
     ]);
   }
-  controls.summary.replaceChildren(
-    ...rows.map(([id, name, text]) =>
-      el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `s-${id}` }, text)),
-    ),
-  );
+  controls.summary.replaceChildren(...numberRows("s", rows));
   film.canvas.setAttribute(
     "aria-label",
     texts.tableFromAboveThe(

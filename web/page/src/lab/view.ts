@@ -51,67 +51,54 @@ function pageOf(d: Desk, tools: HTMLElement): HTMLElement {
   const { controls, film, recording } = d;
   const roots = (...keys: string[]): HTMLElement[] =>
     keys.map((key) => controls.sliders[key]!.root);
-  const row = (...parts: HTMLElement[]): HTMLElement => el("div", { class: "row" }, ...parts);
+  const row = (...parts: HTMLElement[]): HTMLElement => el("div.row", ...parts);
   const out = button(
     texts.exportWord,
     () => {
       controls.line.value = lineOf(d, d.gameName);
       controls.line.select();
     },
-    { id: "export" },
+    "#export",
   );
   const lines = el(
     "details",
-    {},
-    el("summary", {}, texts.exportAndImport),
+    el("summary", texts.exportAndImport),
     el("label", { for: "line" }, texts.theShotAsThe),
     controls.line,
     row(
       out,
-      button(texts.importWord, () => importLine(d), { id: "import" }),
+      button(texts.importWord, () => importLine(d), "#import"),
       recording.open,
     ),
   );
-  const numbers = el(
-    "table",
-    { class: "numbers", id: "shot-numbers" },
-    el("caption", {}, texts.theShot),
-    controls.summary,
-  );
+  const numbers = el("table#shot-numbers.numbers", el("caption", texts.theShot), controls.summary);
   return el(
-    "div",
-    { class: "table-view" },
+    "div.table-view",
     el(
-      "section",
-      { class: "stage", "aria-label": texts.table },
+      "section.stage",
+      { "aria-label": texts.table },
       film.canvas,
       ...roots("speed"),
       controls.stroke.tip,
     ),
-    el("section", { class: "bar", "aria-label": texts.film }, film.controls, recording.bar, tools),
+    el("section.bar", { "aria-label": texts.film }, film.controls, recording.bar, tools),
     el(
-      "section",
-      { class: "panel aim", "aria-label": texts.theShot },
+      "section.panel.aim",
+      { "aria-label": texts.theShot },
       ...roots("right", "up", "phi", "theta"),
       row(controls.games.root, controls.cushion.root),
       lines,
     ),
     el(
-      "div",
-      { class: "below" },
+      "div.below",
       el(
-        "section",
-        { class: "panel", "aria-label": texts.how },
-        ...HELP.map((text) => el("p", { class: "note" }, text)),
+        "section.panel",
+        { "aria-label": texts.how },
+        ...HELP.map((text) => el("p.note", text)),
         controls.cost,
       ),
-      el("section", { class: "panel", "aria-label": texts.theShotInNumbers }, numbers),
-      el(
-        "section",
-        { class: "panel", "aria-label": texts.whatHappens },
-        el("h2", {}, texts.events),
-        film.events,
-      ),
+      el("section.panel", { "aria-label": texts.theShotInNumbers }, numbers),
+      el("section.panel", { "aria-label": texts.whatHappens }, el("h2", texts.events), film.events),
     ),
   );
 }
@@ -124,27 +111,23 @@ export function laboratory(
   const d = deskOf(carom, solver);
   const { commit, back, nextShot, copyLink } = undoing(d, (past) => (undo.disabled = !past));
   d.settled = commit;
-  const undo = button(texts.undo, back, { id: "undo" });
+  const undo = button(texts.undo, back, "#undo");
   const rack = button(
     texts.newRack,
     () => {
       d.seed += 1;
       rackUp(d);
     },
-    { id: "rack" },
+    "#rack",
   );
-  const next = button(texts.nextShot, nextShot, {
-    id: "next",
-    title: texts.theNextShotFrom,
-  });
+  const next = button(texts.nextShot, nextShot, "#next", { title: texts.theNextShotFrom });
   const page = pageOf(
     d,
     el(
-      "div",
-      { class: "row" },
+      "div.row",
       undo,
       next,
-      button(texts.copyLink, () => void copyLink(), { id: "copy" }),
+      button(texts.copyLink, () => void copyLink(), "#copy"),
       rack,
       d.controls.message,
     ),

@@ -51,8 +51,8 @@ import { texts } from "../texts/texts.js";
  */
 interface Held {
   grip: Grip;
-  from: Point;
-  at: Point;
+  start: Point;
+  place: Point;
   phi: number;
   speed: number;
   taps: boolean;
@@ -61,7 +61,7 @@ interface Hand {
   held: Held | undefined;
   readonly pointers: Map<number, Point>;
   pinch: { apart: number; zoom: number; middle: Point } | undefined;
-  tapped: { when: number; at: Point; phi: number; struck: number } | undefined;
+  tapped: { when: number; place: Point; phi: number; struck: number } | undefined;
 }
 
 /**
@@ -69,7 +69,7 @@ interface Hand {
  * show them.
  */
 export function drawWays(s: Session, pen: Pen): void {
-  const { ball, from, way, ways } = s.first!;
+  const { ball, start, way, ways } = s.first!;
   if (
     ball < 0 ||
     s.play.breaks ||
@@ -80,7 +80,7 @@ export function drawWays(s: Session, pen: Pen): void {
   const speed = Math.hypot(way[0]!, way[1]!) || 1;
   pen.g.setLineDash([5, 4]);
   const lines =
-    ways.length > 0 ? ways : [[from, [0, 1].map((c) => from[c]! + (0.3 * way[c]!) / speed)]];
+    ways.length > 0 ? ways : [[start, [0, 1].map((c) => start[c]! + (0.3 * way[c]!) / speed)]];
   for (const line of lines) path(pen, line, 1.4, "#ffffffd0");
   pen.g.setLineDash([]);
 }
@@ -111,7 +111,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   if (film.time > 0 || film.playing) {
     // Balls that are too small to be read while they roll have their labels beside them.
     const isSmall = play.balls[0]!.kind.radius * film.scale < 8;
-    const poses = isSmall || hasLetters ? s.filmed!.shots[0]!.at(film.time) : [];
+    const poses = isSmall || hasLetters ? s.filmed!.shots[0]!.poses(film.time) : [];
     return drawLabels(
       pen,
       poses.map(({ r, seen }, k) => ({
@@ -127,8 +127,8 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   drawMarks(s, pen);
   if (cue && onTable(cueBall.state)) {
     if (s.first) {
-      stroke(pen, cueBall.state.r, s.first.at, 1.4, "#ffffffd0");
-      ring(pen, s.first.at, cueBall.kind.radius, 0);
+      stroke(pen, cueBall.state.r, s.first.place, 1.4, "#ffffffd0");
+      ring(pen, s.first.place, cueBall.kind.radius, 0);
       drawWays(s, pen);
     }
     drawStick(pen, cueBall, cue);
@@ -139,11 +139,11 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
 // ---- One pointer --------------------------------------------------------------------------------
 
 /** What lies under a pointer. A finger reaches farther. */
-function under(s: Session, at: Point, finger: boolean): Grip {
+function under(s: Session, place: Point, finger: boolean): Grip {
   const { balls, table } = s.play;
   const reach = (finger ? 20 : 10) / s.film.scale;
   const grip = gripAt(
-    at,
+    place,
     reach,
     table,
     balls,
@@ -161,32 +161,32 @@ const turn = (s: Session, phi: number): void => set(s, { phi: direction(phi) });
 /** Whether a ball may be moved. */
 export const movable = ({ play }: Session, ball: number): boolean =>
   play.practice || (ball === play.cueBall && play.hand !== "no");
-export function move(s: Session, ball: number, to: Point): void {
+export function move(s: Session, ball: number, target: Point): void {
   const { play } = s;
   const { balls, bounds, table } = play;
-  const laid = put(s.carom, table, balls, ball, to, bounds?.high[1]);
+  const laid = put(s.carom, table, balls, ball, target, bounds?.high[1]);
   // it stays
   if (!laid || (bounds && !isWithin(bounds, laid[ball]!.state))) return;
   play.balls = laid;
   s.changed();
 }
-function drag(s: Session, { grip, from, phi, speed }: Held, at: Point): void {
+function drag(s: Session, { grip, start, phi, speed }: Held, place: Point): void {
   const cueBall = s.play.balls[s.play.cueBall]!;
-  if (grip.kind === "ball" && movable(s, grip.ball)) move(s, grip.ball, at);
-  else if (grip.kind === "stick") set(s, { speed: drawnTo(cueBall, speed, from, at) });
-  else turn(s, phi + angleFrom(cueBall, at) - angleFrom(cueBall, from));
+  if (grip.kind === "ball" && movable(s, grip.ball)) move(s, grip.ball, place);
+  else if (grip.kind === "stick") set(s, { speed: drawnTo(cueBall, speed, start, place) });
+  else turn(s, phi + angleFrom(cueBall, place) - angleFrom(cueBall, start));
 }
 /** A ball or a pocket was tapped: it is called. */
 function choose(s: Session, target: { ball: number } | { pocket: number }): void {
   look(s);
-  const met = s.first?.ball ?? -1;
+  const hitBall = s.first?.ball ?? -1;
   if ("pocket" in target) {
-    s.chosen = { ...valid(s), pocket: target.pocket, met };
+    s.chosen = { ...valid(s), pocket: target.pocket, hitBall };
     if (needsCall(s.play) && !called(s)) says(s, texts.whichBallTapIt);
   } else {
     const { ball } = target;
     const mayBeCalled = needsCall(s.play) && ballsOn(s.play).includes(ball);
-    s.chosen = mayBeCalled ? { ball, pocket: -1, met } : NONE;
+    s.chosen = mayBeCalled ? { ball, pocket: -1, hitBall } : NONE;
   }
   s.changed();
 }
@@ -198,7 +198,7 @@ function strike(s: Session, ball: number): void {
   aimAtNearest(s);
   s.changed();
 }
-export function tap(s: Session, grip: Grip, at: Point): void {
+export function tap(s: Session, grip: Grip, place: Point): void {
   const cueBall = s.play.balls[s.play.cueBall]!;
   if (grip.kind === "pocket") return choose(s, { pocket: grip.pocket });
   if (grip.kind === "ball" && grip.ball !== s.play.cueBall) {
@@ -206,7 +206,7 @@ export function tap(s: Session, grip: Grip, at: Point): void {
     const { r } = s.play.balls[grip.ball]!.state;
     turn(s, angleFrom(cueBall, [r[0], r[1]]));
     choose(s, { ball: grip.ball });
-  } else if (grip.kind === "cloth") turn(s, angleFrom(cueBall, at));
+  } else if (grip.kind === "cloth") turn(s, angleFrom(cueBall, place));
 }
 
 // ---- Two pointers -------------------------------------------------------------------------------
@@ -217,8 +217,8 @@ const apart = ([a, b]: Point[]): number => Math.hypot(a![0] - b![0], a![1] - b![
 function enlarge(film: Film, times: number, place: Point, under: Point): void {
   film.look(times, place);
   const centre = film.unplace(film.canvas.clientWidth / 2, film.canvas.clientHeight / 2);
-  const now = film.unplace(...under);
-  film.look(times, [centre[0] + place[0] - now[0], centre[1] + place[1] - now[1]]);
+  const current = film.unplace(...under);
+  film.look(times, [centre[0] + place[0] - current[0], centre[1] + place[1] - current[1]]);
 }
 /** A second finger is there: the first one has begun to aim, and has not. */
 function pinch(s: Session, hand: Hand): void {
@@ -241,12 +241,12 @@ function down(s: Session, hand: Hand, event: PointerEvent): void {
   film.canvas.setPointerCapture(event.pointerId);
   if (hand.pointers.size === 2) return pinch(s, hand);
   if (!free(s) || hand.pointers.size > 1) return;
-  const at = film.unplace(...pixelsOf(film.canvas, event));
+  const place = film.unplace(...pixelsOf(film.canvas, event));
   const { phi, speed } = cueOf(s);
   hand.held = {
-    grip: under(s, at, event.pointerType === "touch"),
-    from: at,
-    at,
+    grip: under(s, place, event.pointerType === "touch"),
+    start: place,
+    place,
     phi,
     speed,
     taps: true,
@@ -262,9 +262,9 @@ function over(s: Session, { pointers, pinch, held }: Hand, event: PointerEvent):
     return enlarge(s.film, (pinch.zoom * apart(both)) / pinch.apart, pinch.middle, middle(both));
   }
   if (!held || !free(s)) return;
-  held.at = s.film.unplace(...pixels);
-  if (apart([held.at, held.from]) * s.film.scale > 5) held.taps = false;
-  if (!held.taps) drag(s, held, held.at);
+  held.place = s.film.unplace(...pixels);
+  if (apart([held.place, held.start]) * s.film.scale > 5) held.taps = false;
+  if (!held.taps) drag(s, held, held.place);
 }
 function up(s: Session, hand: Hand, event: PointerEvent): void {
   hand.pointers.delete(event.pointerId);
@@ -276,21 +276,21 @@ function up(s: Session, hand: Hand, event: PointerEvent): void {
   if (event.type !== "pointerup" || !was.taps || !free(s)) return;
   // A second tap at the same place shows it larger, or all of the table; the first one has aimed at
   // nothing.
-  const at = pixelsOf(s.film.canvas, event);
-  const before = hand.tapped;
-  hand.tapped = { when: event.timeStamp, at, phi: was.phi, struck: s.play.cueBall };
+  const place = pixelsOf(s.film.canvas, event);
+  const previous = hand.tapped;
+  hand.tapped = { when: event.timeStamp, place, phi: was.phi, struck: s.play.cueBall };
   if (
     event.pointerType !== "touch" ||
-    !before ||
-    event.timeStamp - before.when > 350 ||
-    apart([at, before.at]) > 30
+    !previous ||
+    event.timeStamp - previous.when > 350 ||
+    apart([place, previous.place]) > 30
   )
-    return tap(s, was.grip, was.at);
+    return tap(s, was.grip, was.place);
   hand.tapped = undefined;
-  s.play.strike(before.struck);
-  turn(s, before.phi);
+  s.play.strike(previous.struck);
+  turn(s, previous.phi);
   if (s.film.zoom > 1) s.film.look(1);
-  else enlarge(s.film, 3, was.at, at);
+  else enlarge(s.film, 3, was.place, place);
 }
 /** A key of an arrow: it turns the aim, sets the power, or with Alt moves the cue ball in hand. */
 function arrowKey(s: Session, arrow: Point, { altKey, shiftKey }: KeyboardEvent): boolean {
@@ -309,8 +309,8 @@ function arrowKey(s: Session, arrow: Point, { altKey, shiftKey }: KeyboardEvent)
 }
 /** Calls the next pocket, which C does. */
 function callNext(s: Session): void {
-  const before = (needsCall(s.play) ? called(s) : undefined)?.pocket ?? -1;
-  choose(s, { pocket: (before + 1) % s.play.table.pockets.length });
+  const current = (needsCall(s.play) ? called(s) : undefined)?.pocket ?? -1;
+  choose(s, { pocket: (current + 1) % s.play.table.pockets.length });
 }
 /** Chooses the next ball to be struck, which B does. */
 function strikeNext(s: Session): void {
@@ -346,8 +346,8 @@ export function aiming(s: Session): void {
   });
   const wheel = (event: WheelEvent): void => {
     event.preventDefault();
-    const at = pixelsOf(canvas, event);
-    enlarge(s.film, s.film.zoom * Math.exp(-event.deltaY / 400), s.film.unplace(...at), at);
+    const place = pixelsOf(canvas, event);
+    enlarge(s.film, s.film.zoom * Math.exp(-event.deltaY / 400), s.film.unplace(...place), place);
   };
   canvas.addEventListener("wheel", wheel, { passive: false });
 }

@@ -1,9 +1,9 @@
 // The dialog that finds the cushions of a player's own pool table: a picture of three banks, where
 // each came back, and the two numbers that follow, which the browser keeps and a file can have.
 import { type Carom, CaromError, type Table } from "carom";
-import { POOL_TABLES } from "../table/games.js";
+import { POOL_TABLE_NAMES, POOL_TABLES } from "../table/games.js";
 import { button, choice, dialog, el } from "../ui.js";
-import { keepText, kept } from "./keep.js";
+import { keepText, stored } from "./keep.js";
 import { texts } from "../texts/texts.js";
 
 /** Where the browser keeps the cushions of one's own table, as "restitution,friction". */
@@ -15,10 +15,10 @@ const SIGHT = 0.094;
 /** A misfit above this is that of a misread bank. */
 const MISREAD = 2;
 
-export const ownCushion = (): string | undefined => kept(KEY);
+export const ownCushion = (): string | undefined => stored(KEY);
 /** The two numbers of a cushion, in words. */
-export const wordsOfCushion = (own: string): string => {
-  const [restitution, friction] = own.split(",");
+export const wordsOfCushion = (pair: string): string => {
+  const [restitution, friction] = pair.split(",");
   return texts.restitutionFriction(restitution!, friction!);
 };
 
@@ -39,10 +39,10 @@ function picture(carom: Carom, table: Table, back: readonly number[]): string {
   const ways = BANKS.map((k) => {
     // The line runs from behind the corner to behind the other rail, through its sight.
     const share = (width + SIGHT) / (width + 2 * SIGHT);
-    const met = share * (carom.bank(k).aim * diamond + SIGHT) - SIGHT;
+    const hit = share * (carom.bank(k).aim * diamond + SIGHT) - SIGHT;
     const end = back[k]! * diamond;
     return (
-      `<path d="M0 ${width}L${met} 0L${end} ${width}" stroke="${COLOURS[k]}"/>` +
+      `<path d="M0 ${width}L${hit} 0L${end} ${width}" stroke="${COLOURS[k]}"/>` +
       `<text x="${end - 0.035}" y="${width - 0.06 - 0.09 * k}" style="fill:${COLOURS[k]}">${k + 1}</text>`
     );
   });
@@ -55,16 +55,11 @@ function picture(carom: Carom, table: Table, back: readonly number[]): string {
 /** The dialog; `use` is told the numbers that the player keeps, as `cushion` of a game. */
 export function calibrationPage(
   carom: Carom,
-  use: (own: string) => void,
+  use: (pair: string) => void,
 ): { root: HTMLDialogElement; open(table: string): void } {
-  const size = choice(
-    "calibration-table",
-    texts.table,
-    Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const),
-    show,
-  );
-  const drawn = el("div", { id: "calibration-picture" });
-  const told = BANKS.map(() => el("span"));
+  const size = choice("calibration-table", texts.table, POOL_TABLE_NAMES, show);
+  const drawn = el("div#calibration-picture");
+  const outcomes = BANKS.map(() => el("span"));
   const inputs = BANKS.map((k) => {
     const input = el("input", {
       type: "number",
@@ -77,17 +72,17 @@ export function calibrationPage(
     input.addEventListener("input", find);
     return input;
   });
-  const said = el("p", { id: "calibration-said", role: "status" });
-  let own = "";
+  const message = el("p#calibration-said", { role: "status" });
+  let pair = "";
   let file = "";
   const play = button(
     texts.playOnThisTable,
     () => {
-      keepText(own, KEY);
+      keepText(pair, KEY);
       root.close();
-      use(own);
+      use(pair);
     },
-    { id: "use-calibration", class: "main" },
+    "#use-calibration.main",
   );
   const save = button(
     texts.saveForTheCommand,
@@ -99,7 +94,7 @@ export function calibrationPage(
       link.click();
       URL.revokeObjectURL(link.href);
     },
-    { id: "save-calibration" },
+    "#save-calibration",
   );
 
   function allow(isFound: boolean): void {
@@ -116,7 +111,7 @@ export function calibrationPage(
     drawn.innerHTML = picture(carom, table, comesBack);
     for (const k of BANKS) {
       const { aim, roll } = carom.bank(k);
-      told[k]!.textContent = texts.throughSight(
+      outcomes[k]!.textContent = texts.throughSight(
         aim.toFixed(1),
         soft(roll),
         comesBack[k]!.toFixed(1),
@@ -127,26 +122,26 @@ export function calibrationPage(
   function find(): void {
     const readings = inputs.map((input) => input.valueAsNumber);
     const [a, b, c] = readings as [number, number, number];
-    const isRead = readings.every((one) => one > 0 && one < 8);
+    const isRead = readings.every((reading) => reading > 0 && reading < 8);
     allow(false);
     if (!isRead) {
-      said.textContent = texts.enterTheSight;
+      message.textContent = texts.enterTheSight;
       return;
     }
     try {
       const found = carom.calibrate([a, b, c], tableHere());
       const { restitution, restitutionError, friction, frictionError, misfit } = found;
       if (misfit > MISREAD) {
-        said.textContent = texts.noCushionBrings((2.5 * misfit).toFixed(0));
+        message.textContent = texts.noCushionBrings((2.5 * misfit).toFixed(0));
         return;
       }
-      own = `${restitution.toFixed(3)},${friction.toFixed(3)}`;
+      pair = `${restitution.toFixed(3)},${friction.toFixed(3)}`;
       file = JSON.stringify({
         cushion_model: "smooth",
         constants: { restitution_cushion: restitution, mu_cushion: friction },
         spread: { restitution_cushion: restitutionError, mu_cushion: frictionError },
       });
-      said.textContent = texts.yourCushions(
+      message.textContent = texts.yourCushions(
         restitution.toFixed(3),
         restitutionError.toFixed(3),
         friction.toFixed(3),
@@ -155,27 +150,27 @@ export function calibrationPage(
       allow(true);
     } catch (error) {
       if (!(error instanceof CaromError)) throw error;
-      said.textContent = texts.nothingIsFound(error.message);
+      message.textContent = texts.nothingIsFound(error.message);
     }
   }
 
   const root = dialog(
     "calibration",
     texts.calibrateByBanks,
-    el("p", { class: "note" }, texts.putTheCueBall),
-    el("div", { class: "fields" }, size.root),
+    el("p.note", texts.putTheCueBall),
+    el("div.fields", size.root),
     drawn,
     ...BANKS.map((k) =>
       el(
-        "label",
-        { class: "bank", style: `--bank: ${COLOURS[k]}` },
-        el("b", {}, String(k + 1)),
-        told[k]!,
+        "label.bank",
+        { style: `--bank: ${COLOURS[k]}` },
+        el("b", String(k + 1)),
+        outcomes[k]!,
         inputs[k]!,
       ),
     ),
-    said,
-    el("div", { class: "row" }, play, save),
+    message,
+    el("div.row", play, save),
   );
   return {
     root,

@@ -13,7 +13,7 @@ const TICK_MS = 200;
 const WARNED = 10;
 
 export function shotClock(s: Session): { root: HTMLElement; close(): void } {
-  const root = el("p", { id: "clock", role: "timer", hidden: "" });
+  const root = el("p#clock", { role: "timer", hidden: "" });
   let stroke = ""; // for which the clock runs
   let begun = 0; // ms
   function tick(): void {

@@ -126,7 +126,7 @@ function setHint(s: Session, choice: PlanStroke): void {
   s.chosen = {
     ball: isPotted ? choice.ball : -1,
     pocket: isPotted ? choice.pocket : otherwise,
-    met: s.first?.ball ?? -1,
+    hitBall: s.first?.ball ?? -1,
     phi: choice.cue.phi,
   };
   s.special = choice.kind === "push" ? "push" : undefined;
@@ -146,7 +146,7 @@ async function adviseDrill(s: Session, name: string, isWanted: () => boolean): P
   aimAt(s, found.cue);
   s.hinted = true;
   s.showing.rest();
-  const share = texts.makesItInOf(percent(found.made), found.plays);
+  const share = texts.makesItInOf(percent(found.chance), found.plays);
   says(s, texts.hintTheStrokeThat(wordsOfCue(found.cue), wordsOfLevel(s), share));
 }
 
@@ -202,23 +202,23 @@ async function lookBack(
 ): Promise<string> {
   try {
     // Both plans play as the same player, with the cue ball where it was put.
-    const other = best(request, { inHand: "no" });
-    const [own, found] = await Promise.all([chancesOf(request, cue), other]);
+    const advice = best(request, { inHand: "no" });
+    const [chances, found] = await Promise.all([chancesOf(request, cue), advice]);
     const { game, table, balls } = request;
     const row: Row = {
       when: new Date().toISOString().slice(0, 16),
       game,
-      meant: intentionOf(request, own, call),
+      meant: intentionOf(request, chances, call),
       ...(isPot(call) ? errors(carom, table, balls, cue, call) : {}),
-      keep: own.keep,
-      value: own.value,
+      keep: chances.keep,
+      value: chances.value,
       best: wordsOfPlan(request, found),
       bestValue: found.value,
     };
     keepRow(row);
     const cost = costOf(row)!;
     const verdict = cost < 0.02 ? texts.youChoseWell : texts.itCost(percent(cost));
-    return texts.thatStrokeWinsIn(percent(own.value), row.best, percent(found.value), verdict);
+    return texts.thatStrokeWinsIn(percent(chances.value), row.best, percent(found.value), verdict);
   } catch (error) {
     return texts.theReviewOfThat(wrong(error));
   }

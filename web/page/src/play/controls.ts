@@ -13,9 +13,7 @@ const FASTEST = 10;
 const STEP = 0.02;
 
 function shootButton(s: Session): HTMLButtonElement {
-  const shoot = button(texts.shoot, () => undefined, {
-    id: "shoot",
-    class: "main",
+  const shoot = button(texts.shoot, () => undefined, "#shoot.main", {
     title: texts.playsTheStrokeWith,
   });
   let down: number | undefined;
@@ -42,34 +40,28 @@ function shootButton(s: Session): HTMLButtonElement {
 /** A wheel that turns the aim as it is dragged; a tap turns it by a step to its side. */
 function wheelOf(turn: (steps: number) => void): HTMLElement {
   const wheel = el(
-    "div",
-    {
-      id: "wheel",
-      role: "slider",
-      tabindex: "0",
-      "aria-label": texts.fineAim,
-      "aria-valuenow": "0",
-    },
-    el("span", {}, `↺ ${STEP}° ↻`),
+    "div#wheel",
+    { role: "slider", tabindex: "0", "aria-label": texts.fineAim, "aria-valuenow": "0" },
+    el("span", `↺ ${STEP}° ↻`),
   );
-  let from = 0;
+  let start = 0;
   let last = 0;
-  let at = 0;
+  let total = 0;
   const roll = (steps: number): void => {
-    at += steps;
-    wheel.style.backgroundPositionX = `${at}px`;
-    wheel.setAttribute("aria-valuenow", String(at));
-    wheel.setAttribute("aria-valuetext", texts.degreesToTheRight((at * STEP).toFixed(2)));
+    total += steps;
+    wheel.style.backgroundPositionX = `${total}px`;
+    wheel.setAttribute("aria-valuenow", String(total));
+    wheel.setAttribute("aria-valuetext", texts.degreesToTheRight((total * STEP).toFixed(2)));
     turn(steps);
   };
   drags(wheel, ({ clientX: x }, first) => {
-    if (first) from = x;
+    if (first) start = x;
     else if (x !== last) roll(x - last);
     last = x;
   });
   wheel.addEventListener("pointerup", ({ clientX: x }) => {
     const { left, width } = wheel.getBoundingClientRect();
-    if (Math.abs(x - from) < 3) roll(from - x + Math.sign(x - left - width / 2));
+    if (Math.abs(x - start) < 3) roll(start - x + Math.sign(x - left - width / 2));
   });
   wheel.addEventListener("keydown", (event) => {
     const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
@@ -92,31 +84,24 @@ export function controls(s: Session): Controls {
     set({ phi: (Math.round((sliders.phi.value - STEP * steps + 360) * 1000) / 1000) % 360 });
     s.changed();
   });
-  const part = el("div", { id: "part", role: "img", "aria-label": texts.theAimMeetsNo });
+  const part = el("div#part", { role: "img", "aria-label": texts.theAimMeetsNo });
   part.innerHTML =
     '<svg viewBox="-3.1 -1.1 6.2 2.2"><circle r="1" fill="#e8702a" stroke="#000a" stroke-width="0.05"/><circle class="over" r="1" fill="#fbfaf5c0" stroke="#000a" stroke-width="0.05"/></svg>';
   const share = el("span");
   part.append(share);
 
   return {
-    side: el(
-      "section",
-      { class: "side", "aria-label": texts.theStroke },
-      sliders.speed.root,
-      part,
-      tip,
-    ),
+    side: el("section.side", { "aria-label": texts.theStroke }, sliders.speed.root, part, tip),
     shoot,
     row: [wheel, shoot],
     numbers: el(
-      "details",
-      { class: "numbers-of" },
-      el("summary", {}, texts.strokeInNumbers),
+      "details.numbers-of",
+      el("summary", texts.strokeInNumbers),
       ...(["phi", "right", "up", "theta"] as const).map((key) => sliders[key].root),
     ),
     set,
     value,
-    met(contact, name = "") {
+    showContact(contact, name = "") {
       part.style.visibility = contact ? "visible" : "hidden";
       if (!contact) return;
       part

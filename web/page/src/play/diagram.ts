@@ -58,41 +58,42 @@ interface Diagram {
   shot: Shot | undefined;
 }
 function partsOf(take: (k: number) => void, changed: () => void) {
-  const which = choice("diagram-which", texts.draw, [], () => take(Number(which.select.value)));
-  const notes = el("textarea", { id: "notes", class: "no-print", maxlength: "2000", rows: "3" });
+  const sourceChoice = choice("diagram-which", texts.draw, [], () =>
+    take(Number(sourceChoice.select.value)),
+  );
+  const notes = el("textarea#notes.no-print", { maxlength: "2000", rows: "3" });
   // A box for text shows on paper only what fits into it.
-  const printed = el("p", { class: "on-paper" });
+  const printed = el("p.on-paper");
   notes.addEventListener("input", () => (printed.textContent = notes.value));
-  const after = check("diagram-after", texts.afterTheStroke, changed);
+  const final = check("diagram-after", texts.afterTheStroke, changed);
   const path = check("diagram-path", texts.withItsPath, changed);
   return {
-    which,
-    after,
+    sourceChoice,
+    final,
     path,
     notes,
     printed,
-    words: el("p", { id: "diagram-words" }),
-    said: el("p", { class: "error no-print", id: "diagram-said", role: "status" }),
+    words: el("p#diagram-words"),
+    message: el("p#diagram-said.error.no-print", { role: "status" }),
   };
 }
 function dialogOf({ film, parts }: Diagram, link: () => void): HTMLDialogElement {
-  const { which, after, path, notes, printed, words, said } = parts;
+  const { sourceChoice, final, path, notes, printed, words, message } = parts;
   const root = dialog(
     "diagram",
     texts.diagram,
-    el("div", { class: "row no-print" }, which.root, after.root, path.root),
+    el("div.row.no-print", sourceChoice.root, final.root, path.root),
     film.canvas,
     words,
-    el("label", { for: "notes", class: "no-print" }, texts.notes),
+    el("label.no-print", { for: "notes" }, texts.notes),
     notes,
     printed,
     el(
-      "div",
-      { class: "row no-print" },
-      button(texts.print, () => window.print(), { id: "print-diagram", class: "main" }),
-      button(texts.linkToThisDiagram, link, { id: "link-diagram" }),
+      "div.row.no-print",
+      button(texts.print, () => window.print(), "#print-diagram.main"),
+      button(texts.linkToThisDiagram, link, "#link-diagram"),
     ),
-    said,
+    message,
   );
   root.addEventListener("close", () => {
     if (location.hash.includes("&d=")) history.replaceState(null, "", "#view=play");
@@ -101,7 +102,7 @@ function dialogOf({ film, parts }: Diagram, link: () => void): HTMLDialogElement
 }
 
 const cueOf = ({ carom, play, drawn }: Diagram, numbers: readonly number[]): Cue => ({
-  ...carom.cue({ ball: drawn.ball ?? 0 }, GAMES[play!.played?.of ?? play!.setup.game]!.game),
+  ...carom.cue({ ball: drawn.ball ?? 0 }, GAMES[play!.played?.base ?? play!.setup.game]!.game),
   ...Object.fromEntries(SET.map((key, k) => [key, numbers[k]])),
 });
 const ballsOf = ({ play, drawn, shot }: Diagram): ShotBall[] =>
@@ -132,27 +133,27 @@ function draw(d: Diagram): void {
   );
 }
 /** Lays the balls and plays the stroke. Throws where they cannot be. */
-function lay(d: Diagram, of: Drawn): void {
-  const { after, path, words } = d.parts;
+function lay(d: Diagram, drawn: Drawn): void {
+  const { final, path, words } = d.parts;
   const next = new Play(d.carom, {
-    game: of.game,
-    ...tableOf(of),
+    game: drawn.game,
+    ...tableOf(drawn),
     against: "practice",
     own: "0",
     seed: 1,
-    at: of.at,
+    at: drawn.at,
   });
   d.play = next;
-  d.drawn = of;
-  d.shot = of.cue && d.carom.simulate(next.table, next.balls, cueOf(d, of.cue), OPTIONS);
-  for (const one of [after, path]) one.root.hidden = d.shot === undefined;
-  after.input.checked = of.after === true;
-  path.input.checked = of.path === true;
+  d.drawn = drawn;
+  d.shot = drawn.cue && d.carom.simulate(next.table, next.balls, cueOf(d, drawn.cue), OPTIONS);
+  for (const part of [final, path]) part.root.hidden = d.shot === undefined;
+  final.input.checked = drawn.after === true;
+  path.input.checked = drawn.path === true;
   d.film.canvas.setAttribute(
     "aria-label",
     texts.diagramOfBallsFrom(next.balls.filter(({ state }) => onTable(state)).length),
   );
-  words.textContent = `${(next.played ?? GAMES[of.game]!).text}. ${of.cue ? wordsOfCue(cueOf(d, of.cue)) : ""}`;
+  words.textContent = `${(next.played ?? GAMES[drawn.game]!).text}. ${drawn.cue ? wordsOfCue(cueOf(d, drawn.cue)) : ""}`;
   draw(d);
 }
 /** Draws a source. */
@@ -169,34 +170,38 @@ function take(d: Diagram, k: number): void {
     lay(d, { ...still, ...stroke });
   } catch (error) {
     if (!(error instanceof CaromError)) throw error;
-    d.parts.said.textContent = texts.thisStrokeCannotBe(error.message);
+    d.parts.message.textContent = texts.thisStrokeCannotBe(error.message);
     lay(d, still);
   }
 }
 function show(
-  { parts: { said, notes, printed, which }, sources }: Diagram,
+  { parts: { message, notes, printed, sourceChoice }, sources }: Diagram,
   root: HTMLDialogElement,
   text: string,
 ): void {
-  said.textContent = "";
+  message.textContent = "";
   notes.value = text;
   printed.textContent = text;
-  which.root.hidden = sources.length < 2;
+  sourceChoice.root.hidden = sources.length < 2;
   if (!root.open) root.showModal();
 }
 /** The diagram of a link. Throws where it is damaged. */
 async function unpacked(packed: string): Promise<Drawn> {
-  const of = JSON.parse(await unpack(packed)) as Drawn;
+  const drawn = JSON.parse(await unpack(packed)) as Drawn;
   if (
-    of.cue !== undefined &&
-    !(Array.isArray(of.cue) && of.cue.length === SET.length && of.cue.every(Number.isFinite))
+    drawn.cue !== undefined &&
+    !(
+      Array.isArray(drawn.cue) &&
+      drawn.cue.length === SET.length &&
+      drawn.cue.every(Number.isFinite)
+    )
   )
     throw new TypeError(texts.cueNumbersAreNeeded(SET.length));
-  if (of.ball !== undefined && !Number.isInteger(of.ball))
+  if (drawn.ball !== undefined && !Number.isInteger(drawn.ball))
     throw new TypeError(texts.aBallIsAWholeNumber);
-  if (typeof of.notes !== "string" || typeof of.at !== "string")
+  if (typeof drawn.notes !== "string" || typeof drawn.at !== "string")
     throw new TypeError(texts.notesAndAtTexts);
-  return of;
+  return drawn;
 }
 
 export function diagramPage(
@@ -211,7 +216,7 @@ export function diagramPage(
   const parts = partsOf(
     (k) => take(d, k),
     () => {
-      d.drawn = { ...d.drawn, after: parts.after.input.checked, path: parts.path.input.checked };
+      d.drawn = { ...d.drawn, after: parts.final.input.checked, path: parts.path.input.checked };
       draw(d);
     },
   );
@@ -229,7 +234,7 @@ export function diagramPage(
   };
   const link = async (): Promise<void> => {
     const text = JSON.stringify({ ...d.drawn, notes: parts.notes.value });
-    parts.said.textContent = await send(
+    parts.message.textContent = await send(
       `${location.href.split("#")[0]}#view=play&d=${await pack(text)}`,
       texts.aDiagramOfBilliards,
       coarse,
@@ -239,26 +244,26 @@ export function diagramPage(
   const root = dialogOf(d, () => void link());
   return {
     root,
-    open(setup, of) {
-      d.sources = of;
+    open(setup, sources) {
+      d.sources = sources;
       d.drawn = { game: setup.game, ...tableOf(setup), at: "", notes: "" };
-      parts.which.select.replaceChildren(
-        ...of.map(([name], k) => el("option", { value: String(k) }, name)),
+      parts.sourceChoice.select.replaceChildren(
+        ...sources.map(([name], k) => el("option", { value: String(k) }, name)),
       );
       show(d, root, "");
       take(d, 0);
     },
     async read(packed) {
-      const of = await unpacked(packed);
+      const drawn = await unpacked(packed);
       d.sources = [];
       try {
-        lay(d, of);
+        lay(d, drawn);
       } catch (error) {
         throw error instanceof CaromError
           ? new TypeError(texts.theStrokeCannotBe(error.message))
           : error;
       }
-      show(d, root, of.notes);
+      show(d, root, drawn.notes);
       draw(d);
     },
     theme: () => draw(d),

@@ -20,7 +20,7 @@ function waysOf({ goal, balls }: Drill): Way[] {
     if (word === "clear") return [...balls.keys()].filter((k) => k > 0).map((k) => ({ ball: k }));
     if (word !== "pot") return [];
     const others = [...balls.keys()].filter((k) => k > 0 && k !== ball);
-    return [{ ball, into }, ...others.map((one) => ({ ball, into, via: [one] }))];
+    return [{ ball, into }, ...others.map((stop) => ({ ball, into, via: [stop] }))];
   });
 }
 
@@ -73,10 +73,10 @@ export function* strokesFor(
   }
 }
 
-export interface DrillStroke {
+interface DrillStroke {
   cue: Cue;
   /** The share of `plays` with the player's errors that made the drill, or went on with it. */
-  made: number;
+  chance: number;
   plays: number;
 }
 const SEARCHED = 200;
@@ -114,5 +114,5 @@ export function drillStroke(
     .map(({ cue }) => ({ cue, share: shareOf(cue, PLAYS, 2) }))
     .sort((a, b) => b.share - a.share);
   if (best === undefined) return undefined;
-  return { cue: best.cue, made: shareOf(best.cue, PLAYS, 3), plays: PLAYS };
+  return { cue: best.cue, chance: shareOf(best.cue, PLAYS, 3), plays: PLAYS };
 }

@@ -11,7 +11,7 @@
 import type { Shot } from "carom";
 import { pocketName } from "../../../player/words.js";
 import { onTable } from "../table/filmed.js";
-import { texts, told } from "../texts/texts.js";
+import { texts, translate } from "../texts/texts.js";
 
 export interface Drill {
   name: string;
@@ -53,12 +53,14 @@ export function drillsOf(csv: string): Drill[] {
         text,
         rating: Number(rating),
         balls: new Map(
-          balls.split(" ").map((one) => {
-            const [ball, x, y] = one.split(/[:,]/).map(Number) as [number, number, number];
+          balls.split(" ").map((word) => {
+            const [ball, x, y] = word.split(/[:,]/).map(Number) as [number, number, number];
             return [ball, [x, y] as const];
           }),
         ),
-        goal: goal.split(" ").map((one) => [one.split("=")[0]!, one.split("=")[1] ?? ""] as const),
+        goal: goal
+          .split(" ")
+          .map((part) => [part.split("=")[0]!, part.split("=")[1] ?? ""] as const),
       };
     });
 }
@@ -76,29 +78,32 @@ function wordsOfPlace(
   [x, y, far]: readonly [number, number, number],
 ): string {
   const end = final[0]!.r;
-  const met = firstContact && firstContact.event.before[firstContact.event.a === 0 ? 0 : 1];
-  const [vx, vy] = met
-    ? ([0, 1].map((c) => met.v[c]! / Math.hypot(met.v[0], met.v[1])) as [number, number])
+  const incoming = firstContact && firstContact.event.before[firstContact.event.a === 0 ? 0 : 1];
+  const [vx, vy] = incoming
+    ? ([0, 1].map((c) => incoming.v[c]! / Math.hypot(incoming.v[0], incoming.v[1])) as [
+        number,
+        number,
+      ])
     : [0, 0];
-  const along = (at: readonly number[]): number =>
-    (at[0]! - met!.r[0]) * vx + (at[1]! - met!.r[1]) * vy;
-  if (!met || Math.abs((x - met.r[0]) * vy - (y - met.r[1]) * vx) > 0.1)
+  const along = (place: readonly number[]): number =>
+    (place[0]! - incoming!.r[0]) * vx + (place[1]! - incoming!.r[1]) * vy;
+  if (!incoming || Math.abs((x - incoming.r[0]) * vy - (y - incoming.r[1]) * vx) > 0.1)
     return texts.theCueBallEnded(cm(Math.hypot(end[0] - x, end[1] - y)), cm(far));
-  const wanted = along([x, y]);
+  const goal = along([x, y]);
   const came = along(end);
-  if (Math.abs(wanted) < 0.1)
+  if (Math.abs(goal) < 0.1)
     return texts.theCueBallBy(
       came > 0 ? texts.rolledOn : texts.cameBack,
       cm(came),
       came > 0 ? texts.lower : texts.higher,
     );
-  const share = came / wanted;
-  const harder = wanted > 0 ? texts.higherOrFaster : texts.lowerOrFaster;
-  const way = wanted > 0 ? texts.rolledOn : texts.cameBack;
+  const share = came / goal;
+  const harder = goal > 0 ? texts.higherOrFaster : texts.lowerOrFaster;
+  const way = goal > 0 ? texts.rolledOn : texts.cameBack;
   return texts.theCueBallOf(
     way,
-    cm(Math.max(share, 0) * wanted),
-    cm(wanted),
+    cm(Math.max(share, 0) * goal),
+    cm(goal),
     share > 1 ? texts.softer : harder,
   );
 }
@@ -113,16 +118,18 @@ export function judge(
   if (final.some(({ label }) => label === "off"))
     return { outcome: "missed", why: [texts.aBallLeftThe] };
   const meets = events.filter(({ type, a, b }) => type === "ball_ball" && (a === 0 || b === 0));
-  const other = ({ a, b }: (typeof events)[number]): number => (a === 0 ? b : a);
+  const partner = ({ a, b }: (typeof events)[number]): number => (a === 0 ? b : a);
   const isCushion = ({ type }: (typeof events)[number]): boolean =>
     type === "ball_linear_cushion" || type === "ball_circular_cushion";
   const fell = (ball: number): (typeof events)[number] | undefined =>
     events.find(({ type, a }) => type === "ball_pocket" && a === ball);
-  const met = new Set(meets.map(other)).size;
+  const hits = new Set(meets.map(partner)).size;
   const kicks = events.filter(
-    (one) => isCushion(one) && one.a === 0 && meets[0] && one.time < meets[0].time,
+    (event) => isCushion(event) && event.a === 0 && meets[0] && event.time < meets[0].time,
   ).length;
-  const rails = events.filter((one) => one.type === "ball_linear_cushion" && one.a === 0).length;
+  const rails = events.filter(
+    (event) => event.type === "ball_linear_cushion" && event.a === 0,
+  ).length;
   const checks: Record<string, (value: string) => boolean> = {
     pot(value) {
       const [ball, pocket] = value.split("@");
@@ -137,14 +144,16 @@ export function judge(
       return (
         event !== undefined &&
         events.some(
-          (one) =>
-            one.type === "ball_linear_cushion" && one.a === Number(value) && one.time < event.time,
+          (impact) =>
+            impact.type === "ball_linear_cushion" &&
+            impact.a === Number(value) &&
+            impact.time < event.time,
         )
       );
     },
-    first: (value) => meets[0] !== undefined && other(meets[0]) === Number(value),
+    first: (value) => meets[0] !== undefined && partner(meets[0]) === Number(value),
     kick: (value) => meets[0] !== undefined && kicks >= Number(value),
-    hit: (value) => met >= Number(value),
+    hit: (value) => hits >= Number(value),
     cushions: (value) => rails >= Number(value),
     cue(value) {
       const [x, y, far] = value.split(",").map(Number) as [number, number, number];
@@ -154,13 +163,15 @@ export function judge(
   const words: Record<string, (value: string) => string> = {
     pot(value) {
       const [ball = "", pocket] = value.split("@");
-      return pocket === undefined ? texts.didNotFall(ball) : texts.didNotFallIn(ball, told(pocket));
+      return pocket === undefined
+        ? texts.didNotFall(ball)
+        : texts.didNotFallIn(ball, translate(pocket));
     },
     bank: (value) =>
       fell(Number(value)) ? texts.fellWithoutCushion(value) : texts.didNotFall(value),
-    first: (value) => (meets[0] ? texts.metFirst(other(meets[0]), value) : texts.metNone(value)),
+    first: (value) => (meets[0] ? texts.metFirst(partner(meets[0]), value) : texts.metNone(value)),
     kick: (value) => texts.itMetOfCushions(kicks, value),
-    hit: (value) => texts.itMetOfBalls(met, value),
+    hit: (value) => texts.itMetOfBalls(hits, value),
     cushions: (value) => texts.theCueBallMetOf(rails, value),
     cue: (value) => wordsOfPlace(shot, value.split(",").map(Number) as [number, number, number]),
   };

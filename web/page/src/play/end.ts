@@ -5,28 +5,28 @@ import { wordsOfPot } from "../table/words.js";
 import { button, el } from "../ui.js";
 import { type Deed, OPTIONS, type Play } from "./game.js";
 import { isRaceOver, racksOf } from "./keep.js";
-import { levels } from "./ladder.js";
+import { levels, wordsOfRung } from "./ladder.js";
 import type { EndView, Session } from "./parts.js";
 import { nameOf, wordsOfEnd, wordsOfScore } from "./state.js";
 import { texts } from "../texts/texts.js";
 
 /** By how many degrees the aim of a pot could have turned; none where the pot was no plain one. */
-function roomOf({ carom, table }: Play, { balls, cue, met, pots }: Deed): number | undefined {
+function roomOf({ carom, table }: Play, { balls, cue, hitBall, pots }: Deed): number | undefined {
   const [pot] = pots;
-  if (!pot || pot.ball !== met) return undefined;
+  if (!pot || pot.ball !== hitBall) return undefined;
   const { outcome, phi } = carom.aim(table, balls, cue, pot, OPTIONS);
   const off = (angle: number): number => ((angle - cue.phi + 540) % 360) - 180;
   const isInside = off(phi[0]) <= 0.01 && off(phi[1]) >= -0.01;
   return outcome === "falls" && isInside ? phi[1] - phi[0] : undefined;
 }
 /** The best stroke of a player: the pot with the least room for its aim, or the most cushions. */
-function bestOf(play: Play, who: 0 | 1): string {
-  const own = play.deeds.filter((deed) => deed.who === who);
+function bestOf(play: Play, player: 0 | 1): string {
+  const deeds = play.deeds.filter((deed) => deed.player === player);
   if (!play.hasPockets) {
-    const most = Math.max(0, ...own.map(({ cushions }) => cushions));
+    const most = Math.max(0, ...deeds.map(({ cushions }) => cushions));
     return most > 0 ? texts.aPointOffCushions(most) : "";
   }
-  const rooms = own.flatMap((deed) => {
+  const rooms = deeds.flatMap((deed) => {
     const room = roomOf(play, deed);
     return room === undefined ? [] : [{ ...deed.pots[0]!, room }];
   });
@@ -38,10 +38,10 @@ function bestOf(play: Play, who: 0 | 1): string {
 /** The ball that the game ended with, as an emblem; `isWon` puts a wreath of light around it. */
 function emblem({ last, names, balls, winner }: Play, isWon: boolean): HTMLElement {
   const fallen = last?.shot?.events.filter(({ type }) => type === "ball_pocket") ?? [];
-  const ball = winner === last?.who ? (fallen.at(-1)?.a ?? last?.cue.ball ?? 0) : 0;
+  const ball = winner === last?.player ? (fallen.at(-1)?.a ?? last?.cue.ball ?? 0) : 0;
   const name = names[ball] ?? "";
   const colour = colourOf(name, ball, balls[ball]?.kind.radius ?? 0);
-  const root = el("div", { class: "emblem", "aria-hidden": "true" });
+  const root = el("div.emblem", { "aria-hidden": "true" });
   root.classList.toggle("won", isWon);
   const number = Number(name) > 0 ? name : "";
   const disc = number && '<circle r="17" fill="#fbfaf5"/>';
@@ -62,24 +62,24 @@ function emblem({ last, names, balls, winner }: Play, isWon: boolean): HTMLEleme
 }
 
 /** What a game against the computer did to one's rating, and to one's level. */
-function wordsOfRating(s: Session, before: EndView["rated"]): string[] {
-  if (!before) return [];
-  const now = s.training.rating();
-  const changed = before.isGuess
-    ? texts.firstRating(now.rating)
-    : texts.ratingChanged(before.rating, now.rating);
+function wordsOfRating(s: Session, previous: EndView["rated"]): string[] {
+  if (!previous) return [];
+  const current = s.training.rating();
+  const changed = previous.isGuess
+    ? texts.firstRating(current.rating)
+    : texts.ratingChanged(previous.rating, current.rating);
   const { against } = s.play.setup;
   const level = levels().find(({ rating }) => rating === against);
-  return level ? [changed, texts.levelStands(against, level.won, level.needed)] : [changed];
+  return level ? [changed, wordsOfRung(level)] : [changed];
 }
 
-export function endView(s: Session, again: () => void, list: () => void): EndView {
-  const root = el("section", { id: "end", "aria-label": texts.endOfTheGame, hidden: "" });
+export function endView(s: Session, restart: () => void, list: () => void): EndView {
+  const root = el("section#end", { "aria-label": texts.endOfTheGame, hidden: "" });
   const hide = (): void => void (root.hidden = true);
   function show(): void {
     const { play, seat } = s;
     // Of a drawn game the last stroke drew level.
-    const winner = play.winner ?? play.last!.who;
+    const winner = play.winner ?? play.last!.player;
     const name = nameOf(play, winner, seat);
     const isShared = play.setup.against === "person";
     const isWon = !play.isDrawn && (isShared || winner === seat);
@@ -90,31 +90,30 @@ export function endView(s: Session, again: () => void, list: () => void): EndVie
       play.setup.race !== undefined && isRaceOver(play)
         ? texts.theRaceIsWon(Math.max(...racks), Math.min(...racks))
         : "";
-    const who = isShared ? winner : seat;
-    const best = bestOf(play, who);
+    const player = isShared ? winner : seat;
+    const best = bestOf(play, player);
     const isRace = play.setup.race !== undefined;
     const reasons = [race, wordsOfEnd(play) && `${wordsOfEnd(play)}.`];
     const lines = [
       race === "" ? wordsOfScore(play, seat, racks) : "",
-      best && texts.bestStrokeOf(nameOf(play, who, seat), !isShared, best),
+      best && texts.bestStrokeOf(!isShared, nameOf(play, player, seat), best),
       ...wordsOfRating(s, s.end.rated),
     ];
-    const told = (words: readonly string[], attributes = {}): HTMLElement[] =>
+    const paragraphs = (words: readonly string[], attributes = {}): HTMLElement[] =>
       words
         .filter((line) => line !== "")
         .map((line) => el("p", attributes, `${line[0]!.toUpperCase()}${line.slice(1)}`));
     const next = isRace && race === "" ? texts.nextRack : texts.playAgain;
     root.replaceChildren(
-      button("×", hide, { class: "close", "aria-label": texts.close }),
+      button("×", hide, ".close", { "aria-label": texts.close }),
       emblem(play, isWon),
-      el("h2", {}, title),
-      ...told(reasons, { class: "why" }),
-      ...told(lines),
+      el("h2", title),
+      ...paragraphs(reasons, { class: "why" }),
+      ...paragraphs(lines),
       el(
-        "div",
-        { class: "row" },
-        button(next, again, { id: "play-again", class: "main" }),
-        button(texts.yourGames, list, { id: "end-games" }),
+        "div.row",
+        button(next, restart, "#play-again.main"),
+        button(texts.yourGames, list, "#end-games"),
       ),
     );
     root.hidden = false;

@@ -21,7 +21,7 @@ import {
   why,
 } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfTurn } from "./state.js";
-import { texts, told } from "../texts/texts.js";
+import { texts, translate } from "../texts/texts.js";
 
 type Film = NonNullable<Session["filmed"]>;
 function show(s: Pick<Session, "filmed" | "film" | "space">, film: Film): void {
@@ -33,7 +33,7 @@ function show(s: Pick<Session, "filmed" | "film" | "space">, film: Film): void {
 export function moved(s: Session): void {
   const { film, shown, sound } = s;
   s.space.draw();
-  if (shown?.shot && film.playing) sound.between(shown.shot.events, s.sounded, film.time);
+  if (shown?.shot && film.playing) sound.play(shown.shot.events, s.sounded, film.time);
   s.sounded = film.time;
 }
 
@@ -73,21 +73,22 @@ function update(s: Session): void {
   showContact(s);
   showButtons(s);
   const { play, film, words } = s;
-  const { text } = GAMES[play.played?.of ?? play.setup.game]!;
+  const { text } = GAMES[play.played?.base ?? play.setup.game]!;
   film.canvas.setAttribute("aria-label", texts.tableFromAbove(text, words.turn.textContent));
 }
 
 /** Who plays the stroke that is filmed; its result is told after the film. */
-function playerOnFilm({ play, seat, shown, then }: Session): string | undefined {
-  const isFilmed = then !== undefined && shown && !play.practice;
-  return isFilmed ? nameOf(play, shown.who, seat) : undefined;
+function playerOnFilm({ play, seat, shown, continuation }: Session): string | undefined {
+  const isFilmed = continuation !== undefined && shown && !play.practice;
+  return isFilmed ? nameOf(play, shown.player, seat) : undefined;
 }
 /** What is called for the stroke that is aimed. */
 function wordsOfCall(s: Session): string {
   const { names, table } = s.play;
   if (!free(s) || !needsCall(s.play)) return "";
   const call = called(s);
-  if (call) return texts.callThe(told(names[call.ball]!), told(pocketName(table, call.pocket)));
+  if (call)
+    return texts.callThe(translate(names[call.ball]!), translate(pocketName(table, call.pocket)));
   if (isSafety(s)) return texts.callASafety;
   return texts.nothingIsCalledAim;
 }
@@ -108,26 +109,26 @@ function showContact(s: Session): void {
   const { play, first, stroke } = s;
   const meetsBall = free(s) && first !== undefined && first.ball >= 0;
   const isShown = meetsBall && (play.practice || linesOf(s) !== "none");
-  stroke.met(isShown ? first : undefined, told(play.names[first?.ball ?? 0]!));
+  stroke.showContact(isShown ? first : undefined, translate(play.names[first?.ball ?? 0]!));
 }
 
 /** Shows the buttons that have a meaning now. */
 function showButtons(s: Session): void {
   const { play, buttons, choices, film, stroke } = s;
   const mayAim = free(s);
-  const mayPush = play.may.includes("push");
+  const mayPush = play.acts.includes("push");
   const isFreePractice = play.practice && !play.setup.drill;
-  const isOver = play.isOver && s.then === undefined;
+  const isOver = play.isOver && s.continuation === undefined;
   const hasSafety = play.played?.calls === true && !play.practice;
   const hasPockets = play.table.pockets.length > 0;
   const spotText = hasPockets ? texts.spotTheNearestBall : texts.spotTheTouchingBalls;
-  for (const [may, one] of choices) if (may === "spot") one.textContent = spotText;
+  for (const [act, button] of choices) if (act === "spot") button.textContent = spotText;
   const visible: (readonly [HTMLElement, boolean])[] = [
     [buttons.hint, play.played !== undefined],
     [buttons.undo, isFreePractice],
     [buttons.rack, isFreePractice || isOver],
     [buttons.push, (mayAim && mayPush) || hasSafety],
-    ...choices.map(([may, one]) => [one, mayAim && play.may.includes(may)] as const),
+    ...choices.map(([act, button]) => [button, mayAim && play.acts.includes(act)] as const),
     [buttons.skip, film.playing],
     [stroke.shoot, !film.playing],
     [buttons.link, play.setup.against === "link"],
@@ -155,10 +156,10 @@ function showButtons(s: Session): void {
 // ---- Films --------------------------------------------------------------------------------------
 
 /** Shows a stroke that was played, and what comes after it. */
-function perform(s: Session, stroke: Stroke, after: () => void): void {
+function perform(s: Session, stroke: Stroke, next: () => void): void {
   s.end.hide();
   s.turnedBefore = s.turned;
-  s.then = after;
+  s.continuation = next;
   s.shown = stroke;
   s.sounded = -1;
   if (!stroke.shot) return finish(s);
@@ -168,14 +169,14 @@ function perform(s: Session, stroke: Stroke, after: () => void): void {
   s.film.start();
   update(s);
 }
-export function finish(s: Pick<Session, "then" | "shown" | "turned">): void {
-  const after = s.then;
+export function finish(s: Pick<Session, "continuation" | "shown" | "turned">): void {
+  const next = s.continuation;
   if (s.shown?.shot) {
     const end = s.shown.shot.orientations(lasts(s.shown.shot));
     s.turned = s.turned.map((q, k) => product(end.subarray(4 * k, 4 * k + 4), q));
   }
-  s.then = undefined;
-  after?.();
+  s.continuation = undefined;
+  next?.();
 }
 function skip(s: Session): void {
   if (!s.film.playing) return;
@@ -196,7 +197,7 @@ function replay(s: Session): void {
 
 export const showing = (s: Session): Showing => ({
   rest: () => rest(s),
-  perform: (stroke, after) => perform(s, stroke, after),
+  perform: (stroke, next) => perform(s, stroke, next),
   skip: () => skip(s),
   replay: () => replay(s),
 });

@@ -4,7 +4,7 @@ import * as THREE from "three";
 import { arcOf, markingsOf, WOOD } from "../../../player/table.js";
 import type { Table } from "../../../player/words.js";
 
-export interface Furnished {
+interface Furnished {
   table: Table;
   cloth: string;
   wood: string;
@@ -22,8 +22,8 @@ const FACING = 0.3;
 const FLOOR = -0.8;
 
 const distance = (a: Point, b: Point): number => Math.hypot(a[0] - b[0], a[1] - b[1]);
-const angleFrom = (centre: Point, at: Point): number =>
-  Math.atan2(at[1] - centre[1], at[0] - centre[0]);
+const angleFrom = (centre: Point, point: Point): number =>
+  Math.atan2(point[1] - centre[1], point[0] - centre[0]);
 const onCircle = (centre: Point, radius: number, angle: number): Point => [
   centre[0] + radius * Math.cos(angle),
   centre[1] + radius * Math.sin(angle),
@@ -33,13 +33,13 @@ const turned = (angle: number): number => Math.atan2(Math.sin(angle), Math.cos(a
 
 /** Parts of one material as one mesh: each mesh that is drawn costs a frame some time. */
 function joined(geometries: THREE.BufferGeometry[], material: THREE.Material): THREE.Mesh {
-  const parts = geometries.map((one) => (one.index ? one.toNonIndexed() : one));
+  const parts = geometries.map((geometry) => (geometry.index ? geometry.toNonIndexed() : geometry));
   const geometry = new THREE.BufferGeometry();
   for (const name of ["position", "normal"])
     geometry.setAttribute(
       name,
       new THREE.Float32BufferAttribute(
-        parts.flatMap((one) => [...one.getAttribute(name)!.array]),
+        parts.flatMap((part) => [...part.getAttribute(name)!.array]),
         3,
       ),
     );
@@ -92,7 +92,7 @@ function cushionsOf(table: Table): Cushion[] {
       const normal: Point = [(q[1] - p[1]) / along, (p[0] - q[0]) / along];
       const side = Math.sign(normal[0] * (p[0] - middle[0]) + normal[1] * (p[1] - middle[1])) || 1;
       const outward: Point = [side * normal[0], side * normal[1]];
-      const endAt = (nose: Point, other: Point): End => {
+      const endAt = (nose: Point, back: Point): End => {
         const pocket = table.pockets.find(
           ({ centre, radius }) => distance(centre, nose) < 3 * radius,
         );
@@ -104,8 +104,8 @@ function cushionsOf(table: Table): Cushion[] {
         const slant = pocket ? 0 : CUSHION / along;
         if (more > 0)
           edge.push([
-            last[0] + more * outward[0] + slant * (nose[0] - other[0]),
-            last[1] + more * outward[1] + slant * (nose[1] - other[1]),
+            last[0] + more * outward[0] + slant * (nose[0] - back[0]),
+            last[1] + more * outward[1] + slant * (nose[1] - back[1]),
           ]);
         return { edge, pocket };
       };
@@ -126,15 +126,16 @@ function woodAt(table: Table, { edge, pocket }: End): Point[] {
   const last = edge.at(-1)!;
   if (!pocket) {
     // A mitre goes on to the corner of the frame.
-    const corner = (at: number, size: number): number => (at < size / 2 ? -FRAME : size + FRAME);
+    const corner = (coordinate: number, size: number): number =>
+      coordinate < size / 2 ? -FRAME : size + FRAME;
     return [last, [corner(last[0], table.width), corner(last[1], table.length)]];
   }
   const { centre, radius } = pocket;
   const out = wayOut(table, pocket);
-  const from = angleFrom(centre, last);
-  const sweep = turned(angleFrom(centre, out) - from);
+  const start = angleFrom(centre, last);
+  const sweep = turned(angleFrom(centre, out) - start);
   const arc = Array.from({ length: 13 }, (_, k) =>
-    onCircle(centre, radius + 0.004, from + (sweep * k) / 12),
+    onCircle(centre, radius + 0.004, start + (sweep * k) / 12),
   );
   return [last, ...arc, out];
 }
@@ -249,12 +250,12 @@ function drawnOn(table: Table): THREE.BufferGeometry[] {
   const { lines, spots } = markingsOf(table);
   const high = 0.0006;
   const parts = lines.flatMap((points) =>
-    points.slice(1).map((to, k) => {
-      const from = points[k]!;
-      const part = new THREE.PlaneGeometry(distance(from, to) + 0.002, 0.003);
+    points.slice(1).map((end, k) => {
+      const start = points[k]!;
+      const part = new THREE.PlaneGeometry(distance(start, end) + 0.002, 0.003);
       return part
-        .rotateZ(angleFrom(from, to))
-        .translate((from[0] + to[0]) / 2, (from[1] + to[1]) / 2, high);
+        .rotateZ(angleFrom(start, end))
+        .translate((start[0] + end[0]) / 2, (start[1] + end[1]) / 2, high);
     }),
   );
   const dots = spots.map(([x, y]) => new THREE.CircleGeometry(0.005, 12).translate(x, y, high));

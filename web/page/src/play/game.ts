@@ -57,7 +57,7 @@ export interface Setup {
 }
 /** A stroke that was played, for its film; or what was instead of one, which has no shot. */
 export interface Stroke {
-  who: 0 | 1;
+  player: 0 | 1;
   /** Whether the time for the stroke was over. */
   isLate?: boolean;
   balls: ShotBall[];
@@ -69,23 +69,23 @@ export interface Stroke {
 }
 /** A stroke that kept the turn, as a look back at the game needs it. */
 export interface Deed {
-  who: 0 | 1;
+  player: 0 | 1;
   balls: ShotBall[];
   cue: Cue;
   /** The ball that was met first, and those that fell, each with its pocket. */
-  met: number;
+  hitBall: number;
   pots: { ball: number; pocket: number }[];
   /** How many cushions the struck ball met. */
   cushions: number;
 }
-function deedOf({ who, balls, cue, shot }: Stroke): Deed {
+function deedOf({ player, balls, cue, shot }: Stroke): Deed {
   const { events = [], firstContact } = shot ?? {};
   const { a = -1, b = -1 } = firstContact?.event ?? {};
   return {
-    who,
+    player,
     balls,
     cue,
-    met: a === cue.ball ? b : a,
+    hitBall: a === cue.ball ? b : a,
     pots: events.flatMap(({ type, a, b }) =>
       type === "ball_pocket" && a !== cue.ball ? [{ ball: a, pocket: b }] : [],
     ),
@@ -118,7 +118,7 @@ export function tableOf({
 /** The balls of a game on its cloth, with its cushions. Throws where there are no such ones. */
 function kindOf(carom: Carom, game: Game, { cloth, cushion }: Setup): BallKind {
   const numbers = cushion?.includes(",") ? cushion.split(",").map(Number) : undefined;
-  const named = [cloth, numbers ? undefined : cushion].filter((one) => one !== undefined);
+  const named = [cloth, numbers ? undefined : cushion].filter((name) => name !== undefined);
   if (game !== "pool" && (named.length > 0 || numbers)) throw new TypeError(texts.onlyTablesOfPool);
   const kind = carom.kind(game, OPTIONS.cushionModel, named as Condition[]);
   if (!numbers) return kind;
@@ -128,11 +128,11 @@ function kindOf(carom: Carom, game: Game, { cloth, cushion }: Setup): BallKind {
   return { ...kind, restitutionCushion, muCushion };
 }
 /** The table of a game. Throws where there is no such one. */
-function tableNamed(carom: Carom, of: GameOf, name: string | undefined): Table {
-  const isPool = of.table === "9ft";
+function tableNamed(carom: Carom, base: GameOf, name: string | undefined): Table {
+  const isPool = base.table === "9ft";
   const chosen = POOL_TABLES[name ?? "9ft"];
   if (!chosen || (name !== undefined && !isPool)) throw new TypeError(texts.tableThereIsNo(name!));
-  return isPool ? carom.table(chosen[1], chosen[2]) : carom.table(of.table);
+  return isPool ? carom.table(chosen[1], chosen[2]) : carom.table(base.table);
 }
 /** Whether the next stroke of a new game is one that its rules tell from others. */
 const isOpening = (rules: GameState["rules"], { at }: Setup): boolean =>
@@ -184,13 +184,13 @@ export class Play {
   ) {
     this.practice = setup.against === "practice";
     this.played = PLAYED[setup.game];
-    const of = GAMES[this.played?.of ?? setup.game];
-    if (!of || (!this.practice && !this.played))
+    const base = GAMES[this.played?.base ?? setup.game];
+    if (!base || (!this.practice && !this.played))
       throw new TypeError(texts.gameThereIsNo(setup.game));
     if (lines.length > 0 && !this.practice) this.#match = matchRead(carom, lines);
-    this.table = this.#match?.table ?? tableNamed(carom, of, setup.table);
-    this.balls = this.#match?.balls ?? this.#laid(of);
-    this.names = this.balls.map((_, k) => of.names(k));
+    this.table = this.#match?.table ?? tableNamed(carom, base, setup.table);
+    this.balls = this.#match?.balls ?? this.#laid(base);
+    this.names = this.balls.map((_, k) => base.names(k));
     const rules = this.practice && this.hasPockets ? "potting" : this.played!.rules;
     this.#practised = { rules, group: "open", opening: isOpening(rules, setup) };
     if (!this.practice) this.#match ??= matchOf(this, this.played!);
@@ -237,15 +237,15 @@ export class Play {
     return this.#match?.bounds;
   }
   /** The choices besides a stroke. */
-  get may(): readonly Choice[] {
+  get acts(): readonly Choice[] {
     return this.#match?.may ?? [];
   }
   /** The points of each. */
   get points(): [number, number] {
     const { score = [0, 0], lost = [0, 0] } = this.state;
-    const own = score[0]! - lost[0]!;
-    const other = score[1]! - lost[1]!;
-    return this.turn === 0 ? [own, other] : [other, own];
+    const mine = score[0]! - lost[0]!;
+    const theirs = score[1]! - lost[1]!;
+    return this.turn === 0 ? [mine, theirs] : [theirs, mine];
   }
   /**
    * Whether the next stroke is the first of a rack, whether or not the rules tell it from others.
@@ -267,14 +267,14 @@ export class Play {
     return this.#match?.lines ?? [];
   }
   /** The text of `at` for the layout. */
-  at(): string {
+  places(): string {
     return placesText(this.balls, (x) => Number(x.toFixed(5)));
   }
   /** The game as text. */
   text(): string {
     return JSON.stringify({
       ...this.setup,
-      ...(this.practice && !this.setup.drill ? { at: this.at() } : {}),
+      ...(this.practice && !this.setup.drill ? { at: this.places() } : {}),
       lines: this.lines,
     });
   }
@@ -293,9 +293,9 @@ export class Play {
     this.past.push(this.balls);
   }
   undo(): boolean {
-    const before = this.past.pop();
-    if (!before) return false;
-    this.balls = before;
+    const previous = this.past.pop();
+    if (!previous) return false;
+    this.balls = previous;
     this.last = undefined;
     return true;
   }
@@ -309,7 +309,7 @@ export class Play {
   stroke(cue: Cue, call?: Call): Stroke {
     const match = this.#match;
     if (!match) return this.#practise(cue);
-    const before = this.#before(cue, call);
+    const situation = this.#situation(cue, call);
     if (match.bounds) {
       const [x, y] = this.balls[this.cueBall]!.state.r;
       match.place(x, y);
@@ -317,26 +317,26 @@ export class Play {
     if (call === "push") match.choose("push");
     else if (typeof call === "object" && this.played!.calls) match.call(call.ball!, call.pocket);
     match.stroke(cue);
-    return this.#ruled(before, true);
+    return this.#ruled(situation, true);
   }
   /** Takes a choice instead of a stroke. */
   choose(what: Choice): Stroke {
-    const before = this.#before(this.carom.cue(), what === "pass" ? what : undefined);
+    const situation = this.#situation(this.carom.cue(), what === "pass" ? what : undefined);
     this.#match!.choose(what);
-    return this.#ruled(before, false);
+    return this.#ruled(situation, false);
   }
 
   /** The time for a stroke is over, which is a foul. */
   clock(): Stroke {
-    const before = this.#before(this.carom.cue());
+    const situation = this.#situation(this.carom.cue());
     this.#match!.clock();
-    return this.#ruled({ ...before, isLate: true }, false);
+    return this.#ruled({ ...situation, isLate: true }, false);
   }
   /** A player gives the game to the other. */
-  concede(who: 0 | 1): Stroke {
-    const before = this.#before(this.carom.cue());
-    this.#match!.concede(who);
-    return this.#ruled({ ...before, who }, false);
+  concede(player: 0 | 1): Stroke {
+    const situation = this.#situation(this.carom.cue());
+    this.#match!.concede(player);
+    return this.#ruled({ ...situation, player }, false);
   }
 
   /**
@@ -348,7 +348,7 @@ export class Play {
     const match = this.#match!;
     try {
       while (lines.length > 0) {
-        const before = this.#before(this.carom.cue());
+        const situation = this.#situation(this.carom.cue());
         const known = match.lines.length;
         const line = lines.shift()!;
         match.read(line);
@@ -357,7 +357,7 @@ export class Play {
         for (const rest of lines.splice(0, ruled)) match.read(rest);
         if (ruled > 0)
           return this.#ruled(
-            { ...before, isLate: line.startsWith(LATE) },
+            { ...situation, isLate: line.startsWith(LATE) },
             line.startsWith('{"shot"'),
           );
       }
@@ -368,11 +368,11 @@ export class Play {
   }
 
   /** The balls of a new game on its cloth, with its cushions, or those of `at`. */
-  #laid(of: GameOf): ShotBall[] {
+  #laid(base: GameOf): ShotBall[] {
     const { carom, setup, table } = this;
-    const kind = kindOf(carom, of.game, setup);
+    const kind = kindOf(carom, base.game, setup);
     const rack = carom
-      .rack(of.rack, table, { seed: setup.seed })
+      .rack(base.rack, table, { seed: setup.seed })
       .map(({ state }) => ({ kind, state }));
     return setup.at === undefined ? rack : placesOf(setup.at, table, rack).balls;
   }
@@ -382,10 +382,10 @@ export class Play {
     const isPut = bounds && isWithin(bounds, this.balls[cueBall]!.state);
     if (bounds && !isPut) this.balls = atHead(this.carom, this.table, this.balls, bounds, cueBall);
   }
-  #before(cue: Cue, call?: Call): Omit<Stroke, "shot" | "ruling"> {
-    return { who: this.turn, balls: this.balls, cue, call, state: this.state };
+  #situation(cue: Cue, call?: Call): Omit<Stroke, "shot" | "ruling"> {
+    return { player: this.turn, balls: this.balls, cue, call, state: this.state };
   }
-  #ruled(before: Omit<Stroke, "shot" | "ruling">, isPlayed: boolean): Stroke {
+  #ruled(situation: Omit<Stroke, "shot" | "ruling">, isPlayed: boolean): Stroke {
     const match = this.#match!;
     this.#struck = undefined;
     this.strokes++;
@@ -394,9 +394,9 @@ export class Play {
     const { last: shot, cue, ruling } = match;
     // Lines that were read have put a cue ball in hand, and have the cue.
     const played = isPlayed && shot && cue ? { balls: [...shot.balls], cue, shot, ruling } : {};
-    this.last = { shot: undefined, ruling: undefined, ...before, ...played };
-    const { who } = before;
-    const isKept = this.isDrawn || (this.winner ?? this.turn) === who;
+    this.last = { shot: undefined, ruling: undefined, ...situation, ...played };
+    const { player } = situation;
+    const isKept = this.isDrawn || (this.winner ?? this.turn) === player;
     if (isPlayed && isKept && !ruling?.foul) this.deeds.push(deedOf(this.last));
     return this.last;
   }
@@ -411,7 +411,7 @@ export class Play {
     if (!onTable(this.balls[this.cueBall]!.state))
       this.balls = atHead(this.carom, this.table, this.balls);
     this.#practised = { ...state, opening: false };
-    this.last = { who: 0, balls, cue, call: undefined, state, shot, ruling: undefined };
+    this.last = { player: 0, balls, cue, call: undefined, state, shot, ruling: undefined };
     return this.last;
   }
 }

@@ -40,11 +40,11 @@ export function gamesList(
   s: Session,
   close: () => void,
 ): { root: HTMLElement; refresh(): Promise<void> } {
-  const list = el("ul", { class: "saved", id: "saved-games" });
-  const file = el("input", { type: "file", id: "open-game", accept: ".jsonl", hidden: "" });
+  const list = el("ul#saved-games.saved");
+  const file = el("input#open-game", { type: "file", accept: ".jsonl", hidden: "" });
   file.addEventListener("change", () => void openFile());
   const open = button(texts.openFile, () => file.click());
-  const root = el("section", {}, el("h3", {}, texts.yourGames), list, open, file);
+  const root = el("section", el("h3", texts.yourGames), list, open, file);
 
   async function goOn(game: SavedGame): Promise<void> {
     close();
@@ -56,11 +56,11 @@ export function gamesList(
   }
   /** A file that a page saved, or `carom match` wrote: two players at this page go on with it. */
   async function openFile(): Promise<void> {
-    const [given] = file.files!;
-    if (!given) return;
+    const [recording] = file.files!;
+    if (!recording) return;
     close();
     try {
-      goOnWith(s, imported(s.carom, await given.text()));
+      goOnWith(s, imported(s.carom, await recording.text()));
     } catch (error) {
       says(s, texts.theGameWasNot(wrong(error)));
     }
@@ -69,16 +69,16 @@ export function gamesList(
   /** The first press says what the second one does. */
   function deleteButton(game: SavedGame): HTMLButtonElement {
     const question = isLostByLeaving(game) ? texts.deleteItCountsAs : texts.deleteForGood;
-    const made = button(texts.deleteWord, async () => {
-      if (made.textContent !== question) {
-        made.textContent = question;
+    const deletion = button(texts.deleteWord, async () => {
+      if (deletion.textContent !== question) {
+        deletion.textContent = question;
         return;
       }
       if (isLostByLeaving(game)) countGame(game.setup, 1);
       await deleteGame(game.id);
       await refresh();
     });
-    return made;
+    return deletion;
   }
   function save(game: SavedGame): void {
     try {
@@ -93,7 +93,9 @@ export function gamesList(
     const title = titleOf(game);
     // Practice has no recording, and the game on the table is not deleted under the player's hands.
     const isPractice = game.setup.against === "practice";
-    const goes = button(texts.goOn, () => void goOn(game), { "aria-label": texts.goOnWith(title) });
+    const goes = button(texts.goOn, () => void goOn(game), "", {
+      "aria-label": texts.goOnWith(title),
+    });
     const buttons = [
       ...(isOpen ? [] : [goes]),
       ...(isPractice ? [] : [button(texts.saveFile, () => save(game))]),
@@ -102,9 +104,8 @@ export function gamesList(
     const mark = isOpen ? texts.onTheTable : "";
     return el(
       "li",
-      {},
-      el("div", {}, el("strong", {}, title + mark), el("p", { class: "note" }, detailsOf(game))),
-      el("div", { class: "row" }, ...buttons),
+      el("div", el("strong", title + mark), el("p.note", detailsOf(game))),
+      el("div.row", ...buttons),
     );
   }
   async function refresh(): Promise<void> {
@@ -112,7 +113,7 @@ export function gamesList(
       const games = await savedGames();
       list.replaceChildren(...games.map(rowOf));
     } catch (error) {
-      list.replaceChildren(el("li", {}, texts.thisBrowserShowsNo(wrong(error))));
+      list.replaceChildren(el("li", texts.thisBrowserShowsNo(wrong(error))));
     }
   }
   return { root, refresh };

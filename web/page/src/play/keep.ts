@@ -6,7 +6,7 @@ import { wrong } from "../ui.js";
 import { texts } from "../texts/texts.js";
 
 /** What was kept under a key; undefined where the browser keeps nothing. */
-export function kept(key: string): string | undefined {
+export function stored(key: string): string | undefined {
   try {
     return localStorage.getItem(key) ?? undefined;
   } catch {
@@ -34,7 +34,7 @@ export function keptValue<T>(
   otherwise: T,
   fits: (value: unknown) => boolean = isObject,
 ): T {
-  const text = kept(key);
+  const text = stored(key);
   if (text === undefined) return otherwise;
   try {
     const value: unknown = JSON.parse(text);
@@ -65,9 +65,9 @@ export function count(
   more: readonly [number, number],
 ): [number, number] {
   const [first, second] = countsOf(key, name);
-  const now: [number, number] = [first + more[0], second + more[1]];
-  keepText(JSON.stringify({ ...tally(key), [name]: now }), key);
-  return now;
+  const sums: [number, number] = [first + more[0], second + more[1]];
+  keepText(JSON.stringify({ ...tally(key), [name]: sums }), key);
+  return sums;
 }
 /** The racks that each has won of a race, or of a game against the same one. */
 export function racksOf({ setup, winner }: Pick<Play, "setup" | "winner">): [number, number] {
@@ -83,10 +83,10 @@ export const countRack = ({ game, against }: Setup, winner: 0 | 1): unknown =>
 
 async function through(
   bytes: Uint8Array<ArrayBuffer>,
-  by: ReadableWritablePair<Uint8Array, BufferSource>,
+  transform: ReadableWritablePair<Uint8Array, BufferSource>,
 ): Promise<Uint8Array> {
   return new Uint8Array(
-    await new Response(new Blob([bytes]).stream().pipeThrough(by)).arrayBuffer(),
+    await new Response(new Blob([bytes]).stream().pipeThrough(transform)).arrayBuffer(),
   );
 }
 /** A text for an address: deflated, in the letters of base 64 that addresses leave as they are. */

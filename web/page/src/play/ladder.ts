@@ -22,7 +22,7 @@ export const countGame = (setup: Setup, winner: 0 | 1): unknown =>
 
 /** So many games won against a rating climb its level of the ladder. */
 const CLIMBED = 3;
-export interface Level {
+interface Level {
   rating: string;
   won: number;
   lost: number;
@@ -36,17 +36,20 @@ export function levels(): Level[] {
     return { rating, won, lost, needed: Math.max(CLIMBED - won, 0) };
   });
 }
+/** How far one has climbed. */
+export const wordsOfRung = ({ rating, won, needed }: Level): string =>
+  needed === 0 ? texts.levelClimbed(rating, won) : texts.levelWon(rating, won);
 /** The stars of a drill: for one try that made it, for half of six, and for four fifths of ten. */
-export function starsOf(made: number, tries: number): number {
-  const share = made / Math.max(tries, 1);
-  const earned = [made >= 1, made >= 3 && share >= 0.5, made >= 8 && share >= 0.8];
+export function starsOf(hits: number, tries: number): number {
+  const share = hits / Math.max(tries, 1);
+  const earned = [hits >= 1, hits >= 3 && share >= 0.5, hits >= 8 && share >= 0.8];
   return earned.filter(Boolean).length;
 }
 
 /** What is kept in this browser: games, and tries of drills. */
 function results(drills: readonly Drill[]): { games: Score[]; tries: Score[] } {
   const games = tally(GAMES);
-  const made = tally(DRILLS_MADE);
+  const hits = tally(DRILLS_MADE);
   return {
     games: Object.entries(games).map(([against, [won, lost]]) => ({
       against: Number(against),
@@ -54,8 +57,8 @@ function results(drills: readonly Drill[]): { games: Score[]; tries: Score[] } {
       lost,
     })),
     tries: drills.flatMap(({ name, rating }) =>
-      made[name]
-        ? { against: rating, won: made[name][0], lost: made[name][1] - made[name][0] }
+      hits[name]
+        ? { against: rating, won: hits[name][0], lost: hits[name][1] - hits[name][0] }
         : [],
     ),
   };
@@ -68,19 +71,19 @@ export interface OwnRating {
 }
 export function ownRating(carom: Carom, drills: readonly Drill[]): OwnRating {
   const { games, tries } = results(drills);
-  const own = carom.rating([...games, ...tries]);
-  const rating = Math.round(own.mean);
-  const low = Math.round(own.low);
-  const high = Math.round(own.high);
-  const made = tries.reduce((sum, { won }) => sum + won, 0);
+  const estimate = carom.rating([...games, ...tries]);
+  const rating = Math.round(estimate.mean);
+  const low = Math.round(estimate.low);
+  const high = Math.round(estimate.high);
+  const hits = tries.reduce((sum, { won }) => sum + won, 0);
   const missed = tries.reduce((sum, { lost }) => sum + lost, 0);
   const isGuess = [...games, ...tries].every(({ won, lost }) => won + lost === 0);
-  const from = [
-    ...games.map((one) => texts.wonAgainst(one.won, one.lost, one.against)),
-    ...(made + missed > 0 ? [texts.ofTriesOfDrills(made, made + missed)] : []),
+  const sources = [
+    ...games.map((game) => texts.wonAgainst(game.won, game.lost, game.against)),
+    ...(hits + missed > 0 ? [texts.ofTriesOfDrills(hits, hits + missed)] : []),
   ];
   const words = isGuess
     ? texts.youAreUnratedUntil(rating)
-    : texts.yourRatingIsAbout(rating, low, high, from.join(", "));
+    : texts.yourRatingIsAbout(rating, low, high, sources.join(", "));
   return { rating, isGuess, words };
 }

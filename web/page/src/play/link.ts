@@ -23,7 +23,7 @@ export function byLink(s: Session): Link {
     if (known.some((line, k) => line !== lines[k])) return says(s, texts.theOtherPageHas);
     queue = lines.slice(known.length);
     // After a film the next stroke follows.
-    if (!s.film.playing && s.then === undefined) onward();
+    if (!s.film.playing && s.continuation === undefined) onward();
   }
   function onward(): void {
     try {
@@ -43,7 +43,7 @@ export function byLink(s: Session): Link {
     const { play, seat } = s;
     if (play.isOver) return "";
     if (play.turn === seat) return texts.youAreStillAt;
-    const hasPlayed = play.last?.who === seat;
+    const hasPlayed = play.last?.player === seat;
     return hasPlayed ? "" : texts.itHasNothingNew;
   }
   /** Pages of this machine send the text of a game when it has changed, or ask for it. */

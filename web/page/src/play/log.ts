@@ -4,7 +4,7 @@ import { GAMES, PLAYED } from "../table/games.js";
 import { percent } from "../table/words.js";
 import { button, dialog, el } from "../ui.js";
 import { keepText, keptValue } from "./keep.js";
-import { texts, told } from "../texts/texts.js";
+import { texts, translate } from "../texts/texts.js";
 
 const LOG = "carom-log";
 const MOST = 500;
@@ -35,7 +35,7 @@ export const costOf = ({ value, bestValue }: Row): number | undefined =>
   value === undefined ? undefined : Math.max(bestValue! - value, 0);
 
 /** The game or the drill of a row. */
-const nameOfGame = (game: string): string => (PLAYED[game] ?? GAMES[game])?.text ?? told(game);
+const nameOfGame = (game: string): string => (PLAYED[game] ?? GAMES[game])?.text ?? translate(game);
 
 const rows = (): Row[] => keptValue<Row[]>(LOG, [], Array.isArray);
 export const keepRow = (row: Row): void =>
@@ -44,7 +44,7 @@ export const keepRow = (row: Row): void =>
 /** The log as a page to print. */
 export function logPage(plan: () => string): { root: HTMLDialogElement; open(): void } {
   const body = el("tbody");
-  const sum = el("p", { id: "log-sum" });
+  const sum = el("p#log-sum");
   const head = [
     texts.when,
     texts.game,
@@ -59,10 +59,9 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
     texts.cost,
   ];
   const table = el(
-    "table",
-    { class: "numbers log" },
-    el("caption", {}, texts.strokesTheLastOne),
-    el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))),
+    "table.numbers.log",
+    el("caption", texts.strokesTheLastOne),
+    el("thead", el("tr", ...head.map((text) => el("th", { scope: "col" }, text)))),
     body,
   );
   const clear = button(texts.deleteAll, () => {
@@ -73,34 +72,28 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
     "log",
     texts.whatYourStrokesCost,
     sum,
+    el("div.scrolls", { tabindex: "0", role: "region", "aria-label": texts.strokes }, table),
     el(
-      "div",
-      { class: "scrolls", tabindex: "0", role: "region", "aria-label": texts.strokes },
-      table,
-    ),
-    el(
-      "div",
-      { class: "row no-print" },
-      button(texts.print, () => window.print(), { id: "print-log" }),
+      "div.row.no-print",
+      button(texts.print, () => window.print(), "#print-log"),
       clear,
     ),
   );
   function fill(): void {
-    const all = rows();
+    const entries = rows();
     const fixed = (x: number | undefined, places: number): string =>
       x === undefined ? "–" : x.toFixed(places).replace(/^-(?=[0.]*$)/, "");
     const share = (x: number | undefined): string => (x === undefined ? "–" : percent(x));
     body.replaceChildren(
-      ...[...all]
+      ...[...entries]
         .reverse()
         .map((row) =>
           el(
             "tr",
-            {},
             ...[
               row.when.replace("T", " "),
               nameOfGame(row.game),
-              told(row.meant),
+              translate(row.meant),
               fixed(row.phi, 2),
               fixed(row.speed, 1),
               fixed(row.side, 2),
@@ -118,7 +111,7 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
       value: (row: Row) => number | undefined,
       words: (mean: number) => string,
     ): string => {
-      const known = all.flatMap((row) => value(row) ?? []);
+      const known = entries.flatMap((row) => value(row) ?? []);
       if (known.length === 0) return "";
       const sum = known.reduce((total, x) => total + x, 0);
       return texts.meanOf(words(sum / known.length), known.length);
@@ -129,9 +122,9 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
       (x) => texts.theAimWasOff(x.toFixed(2)),
     );
     sum.textContent =
-      all.length === 0
+      entries.length === 0
         ? texts.noStrokeYetThe(plan())
-        : `${texts.strokesCounted(all.length)}.${cost}${aim} ${plan()}`;
+        : `${texts.strokesCounted(entries.length)}.${cost}${aim} ${plan()}`;
   }
   return {
     root,

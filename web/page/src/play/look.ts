@@ -4,9 +4,9 @@ import type { Carom, Cue, EventType, Shot, ShotBall, ShotOptions, Table } from "
 
 export interface Look {
   /** Where the cue ball is then, m; the ball that it meets, or -1, and the way of that ball. */
-  at: readonly number[];
+  place: readonly number[];
   ball: number;
-  from: readonly number[];
+  start: readonly number[];
   way: readonly number[];
   /**
    * The share of its diameter that is met, and on which side as whoever aims sees it, 1: the right
@@ -31,15 +31,19 @@ const MEETS: EventType[] = [
 const OFF = 25;
 
 /** The way of a ball after an event, to the next thing that it meets, m. */
-function wayOf(shot: Shot, ball: number, from: number): (readonly number[])[] {
-  const to =
+function wayOf(shot: Shot, ball: number, start: number): (readonly number[])[] {
+  const end =
     shot.events.find(
       ({ time, type, a, b }) =>
-        time > from && MEETS.includes(type) && (a === ball || (type === "ball_ball" && b === ball)),
+        time > start &&
+        MEETS.includes(type) &&
+        (a === ball || (type === "ball_ball" && b === ball)),
     )?.time ?? shot.time;
-  const all = shot.positionsAt(Array.from({ length: 13 }, (_, k) => from + ((to - from) * k) / 12));
+  const coordinates = shot.positionsAt(
+    Array.from({ length: 13 }, (_, k) => start + ((end - start) * k) / 12),
+  );
   return Array.from({ length: 13 }, (_, k) => [
-    ...all.subarray(3 * (k * shot.balls.length + ball)).subarray(0, 2),
+    ...coordinates.subarray(3 * (k * shot.balls.length + ball)).subarray(0, 2),
   ]);
 }
 
@@ -58,24 +62,24 @@ export function lookAlong(
       MEETS.includes(type) && (a === cueBall || (type === "ball_ball" && b === cueBall)),
   );
   if (!event) return undefined;
-  const own = event.a === cueBall ? 0 : 1;
-  const { r: at, v } = event.before[own]!;
+  const side = event.a === cueBall ? 0 : 1;
+  const { r: place, v } = event.before[side]!;
   if (event.type !== "ball_ball")
-    return { at, ball: -1, from: [], way: [], share: 0, side: 1, ways: [] };
-  const ball = own === 0 ? event.b : event.a;
-  const { r: from, v: way } = event.after[1 - own]!;
+    return { place, ball: -1, start: [], way: [], share: 0, side: 1, ways: [] };
+  const ball = side === 0 ? event.b : event.a;
+  const { r: start, v: way } = event.after[1 - side]!;
   // How far the ball lies to the left of the aim, in distances of the middles.
   const left =
-    (v[0] * (from[1] - at[1]) - v[1] * (from[0] - at[0])) /
-    (Math.hypot(v[0], v[1]) * Math.hypot(from[0] - at[0], from[1] - at[1]) || 1);
+    (v[0] * (start[1] - place[1]) - v[1] * (start[0] - place[0])) /
+    (Math.hypot(v[0], v[1]) * Math.hypot(start[0] - place[0], start[1] - place[1]) || 1);
   return {
-    at,
+    place,
     ball,
-    from,
+    start,
     way,
     share: 1 - Math.abs(left),
     side: Math.sign(left) || 1,
-    ways: full ? [ball, cueBall].map((one) => wayOf(shot, one, event.time)) : [],
+    ways: full ? [ball, cueBall].map((mover) => wayOf(shot, mover, event.time)) : [],
   };
 }
 
@@ -87,15 +91,16 @@ export function lookAlong(
 export function guessOf(
   { pockets }: Table,
   look: Look | undefined,
-  on: readonly number[],
+  targets: readonly number[],
 ): { ball: number; pocket: number } {
-  if (!look || !on.includes(look.ball)) return { ball: on.length === 1 ? on[0]! : -1, pocket: -1 };
-  const { from, way } = look;
+  if (!look || !targets.includes(look.ball))
+    return { ball: targets.length === 1 ? targets[0]! : -1, pocket: -1 };
+  const { start, way } = look;
   let pocket = -1;
   let most = Math.cos((OFF * Math.PI) / 180);
   pockets.forEach(({ centre }, k) => {
-    const x = centre[0] - from[0]!;
-    const y = centre[1] - from[1]!;
+    const x = centre[0] - start[0]!;
+    const y = centre[1] - start[1]!;
     const cosine =
       (x * way[0]! + y * way[1]!) / (Math.hypot(x, y) * Math.hypot(way[0]!, way[1]!) || 1);
     if (cosine > most) [pocket, most] = [k, cosine];

@@ -1,6 +1,6 @@
 // The dialog of a new game: which one, against whom, and how the page plays it.
 import { words } from "carom";
-import { GAMES, hasMember, PLAYED, POOL_TABLES } from "../table/games.js";
+import { GAMES, hasMember, PLAYED, POOL_TABLE_NAMES } from "../table/games.js";
 import { RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
 import { CLOCKS } from "./clock.js";
@@ -9,9 +9,9 @@ import { type Against, isComputer, tableOf } from "./game.js";
 import { keepText, keptValue } from "./keep.js";
 import type { Session, Settings } from "./parts.js";
 import { gamesList } from "./games_list.js";
-import { levels } from "./ladder.js";
+import { levels, wordsOfRung } from "./ladder.js";
 import { begin } from "./opening.js";
-import { chooseLanguage, language, LANGUAGE_NAMES, texts, told } from "../texts/texts.js";
+import { chooseLanguage, language, LANGUAGE_NAMES, texts, translate } from "../texts/texts.js";
 
 const KEY = "carom-settings";
 const LINES: readonly (readonly [Settings["lines"], string])[] = [
@@ -24,7 +24,7 @@ const LINES: readonly (readonly [Settings["lines"], string])[] = [
 const USUAL = "";
 const conditionsOf = (part: string): (readonly [string, string])[] =>
   words.condition.filter(([word]) => word.endsWith(part) && word !== "medium_cloth");
-const nameOfCondition = (word: string): string => told(word.split("_")[0]!);
+const nameOfCondition = (word: string): string => translate(word.split("_")[0]!);
 const choicesOf = (conditions: readonly (readonly [string, string])[]) => [
   [USUAL, texts.usual] as const,
   ...conditions.map(([word]) => [word, nameOfCondition(word)] as const),
@@ -41,7 +41,7 @@ function areSettings(value: unknown): boolean {
     numbers = true,
   } = value as Partial<Settings>;
   const isKnown = LINES.some(([name]) => name === lines);
-  return isKnown && [sound, coach, numbers].every((one) => typeof one === "boolean");
+  return isKnown && [sound, coach, numbers].every((flag) => typeof flag === "boolean");
 }
 /** The settings that the browser has kept. Sound is on after the first touch, unless it was muted. */
 export const settingsOf = (): Settings => ({
@@ -63,18 +63,19 @@ function ladderOf(choose: (rating: string) => void): {
   root: HTMLElement;
   mark(chosen: string): void;
 } {
-  const root = el("ol", { id: "ladder", "aria-label": texts.ladder });
+  const root = el("ol#ladder", { "aria-label": texts.ladder });
   /** Shows how far one has climbed, and which opponent is chosen. */
   function mark(chosen: string): void {
-    const rungs = levels().map(({ rating, won, lost, needed }) => {
+    const rungs = levels().map((level) => {
+      const { rating, won, lost, needed } = level;
       const games = won + lost > 0 ? `${won} : ${lost}` : "–";
       const stands = needed === 0 ? "★" : games;
-      const rung = button(rating, () => choose(rating), {
+      const rung = button(rating, () => choose(rating), "", {
         "aria-pressed": String(rating === chosen),
-        title: texts.levelStands(rating, won, needed),
+        title: wordsOfRung(level),
       });
-      rung.append(el("small", {}, stands));
-      return el("li", {}, rung);
+      rung.append(el("small", stands));
+      return el("li", rung);
     });
     root.replaceChildren(...rungs);
   }
@@ -123,7 +124,7 @@ export function menu(
     against.select.value = rating;
     chooseErrors();
   });
-  const own = choice(
+  const errors = choice(
     "new-own",
     texts.yourStrokes,
     [
@@ -132,29 +133,26 @@ export function menu(
     ],
     () => undefined,
   );
-  const table = choice(
-    "new-table",
-    texts.table,
-    Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const),
-    () => undefined,
-  );
+  const table = choice("new-table", texts.table, POOL_TABLE_NAMES, () => undefined);
   const cloth = choice("new-cloth", texts.cloth, CLOTHS, describe);
   const cushion = choice("new-cushion", texts.cushions, [], describe);
-  const effect = el("p", { class: "note", id: "new-effect" });
+  const effect = el("p#new-effect.note");
   /** The cushions to choose from: those of the player's own table are calibrated. */
   function listCushions(chosen: string): void {
-    const own = ownCushion();
-    const all = [
+    const pair = ownCushion();
+    const options = [
       ...CUSHIONS,
-      ...(own === undefined ? [] : [[own, texts.mine(wordsOfCushion(own))] as const]),
+      ...(pair === undefined ? [] : [[pair, texts.mine(wordsOfCushion(pair))] as const]),
     ];
-    const isListed = all.some(([value]) => value === chosen);
-    if (!isListed) all.push([chosen, wordsOfCushion(chosen)]);
-    cushion.select.replaceChildren(...all.map(([value, text]) => el("option", { value }, text)));
+    const isListed = options.some(([value]) => value === chosen);
+    if (!isListed) options.push([chosen, wordsOfCushion(chosen)]);
+    cushion.select.replaceChildren(
+      ...options.map(([value, text]) => el("option", { value }, text)),
+    );
     cushion.select.value = chosen;
   }
-  const calibration = calibrationPage(s.carom, (own) => {
-    listCushions(own);
+  const calibration = calibrationPage(s.carom, (pair) => {
+    listCushions(pair);
     root.showModal();
   });
   const calibrate = button(
@@ -163,16 +161,16 @@ export function menu(
       root.close();
       calibration.open(table.select.value);
     },
-    { id: "open-calibration" },
+    "#open-calibration",
   );
   const ofPool = [table.root, cloth.root, cushion.root, effect, calibrate];
   const lines = choice("lines", texts.lines, LINES, changeSettings);
-  const note = el("p", { class: "note", id: "new-note" });
-  const rules = el("p", { id: "new-rules" });
-  const rulesOf = el("details", {}, el("summary", {}, texts.theRules), rules);
+  const note = el("p#new-note.note");
+  const rules = el("p#new-rules");
+  const rulesOf = el("details", el("summary", texts.theRules), rules);
   /** Strokes against the page's player err a little, if nothing else is chosen. */
   function chooseErrors(): void {
-    own.select.value = isComputer(against.select.value as Against) ? "800" : "0";
+    errors.select.value = isComputer(against.select.value as Against) ? "800" : "0";
     describe();
   }
   function changeSettings(): void {
@@ -199,21 +197,21 @@ export function menu(
     return rules !== undefined && hasMember(rules, "innings");
   };
   const isPool = (): boolean =>
-    GAMES[PLAYED[game.select.value]?.of ?? game.select.value]!.table === "9ft";
+    GAMES[PLAYED[game.select.value]?.base ?? game.select.value]!.table === "9ft";
   function describe(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
-    own.root.hidden = against.select.value === "practice";
+    errors.root.hidden = against.select.value === "practice";
     const isHere = !["practice", "link"].includes(against.select.value);
-    for (const one of [race, clock]) one.root.hidden = !isHere;
+    for (const control of [race, clock]) control.root.hidden = !isHere;
     equal.root.hidden = against.select.value === "practice" || !knowsInnings();
     ladder.mark(against.select.value);
     rules.textContent = texts.rules[game.select.value] ?? "";
     rulesOf.hidden = rules.textContent === "";
-    for (const one of ofPool) one.hidden = !isPool();
+    for (const control of ofPool) control.hidden = !isPool();
     effect.textContent = CONDITIONS.filter(([word]) =>
       [cloth.select.value, cushion.select.value].includes(word),
     )
-      .map(([word, does]) => texts.conditionDoes(nameOfCondition(word), told(does)))
+      .map(([word, does]) => texts.conditionDoes(nameOfCondition(word), translate(does)))
       .join(" ");
     const notes: Record<string, string> = {
       practice: texts.thereAreNoRules,
@@ -237,7 +235,7 @@ export function menu(
       begin(s, {
         game: game.select.value,
         against: against.select.value as Against,
-        own: against.select.value === "practice" ? "0" : own.select.value,
+        own: against.select.value === "practice" ? "0" : errors.select.value,
         seed: Math.floor(Math.random() * 2 ** 31),
         ...(isPool() ? chosenTable() : {}),
         ...(race.root.hidden || race.select.value === RACES[0]
@@ -248,25 +246,25 @@ export function menu(
           clock.select.value !== CLOCKS[0] && { clock: Number(clock.select.value) }),
       });
     },
-    { id: "start", class: "main" },
+    "#start.main",
   );
   const games = gamesList(s, () => root.close());
   const root: HTMLDialogElement = dialog(
     "menu",
     texts.newGame,
-    el("div", { class: "fields" }, game.root, ...ofPool, against.root),
+    el("div.fields", game.root, ...ofPool, against.root),
     ladder.root,
-    el("div", { class: "fields" }, own.root, race.root, clock.root, equal.root),
+    el("div.fields", errors.root, race.root, clock.root, equal.root),
     note,
     rulesOf,
     start,
     games.root,
-    el("h3", {}, texts.settings),
+    el("h3", texts.settings),
     speech.root,
     lines.root,
     coach.root,
     numbers.root,
-    el("div", { class: "row" }, el("span", {}, texts.speedOfTheFilm), s.film.pace),
+    el("div.row", el("span", texts.speedOfTheFilm), s.film.pace),
     ...more,
   );
   return {
@@ -276,7 +274,7 @@ export function menu(
       const { setup } = s.play;
       game.select.value = setup.game;
       against.select.value = setup.against;
-      own.select.value = setup.own;
+      errors.select.value = setup.own;
       race.select.value = String(setup.race ?? RACES[0]);
       equal.input.checked = setup.equalInnings ?? false;
       clock.select.value = String(setup.clock ?? CLOCKS[0]);

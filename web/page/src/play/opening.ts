@@ -28,7 +28,7 @@ export function start(s: Session, play: Play, id: string, seat: 0 | 1 = 0): void
   const turned = play.balls.map(() => [1, 0, 0, 0] as const);
   Object.assign(s, {
     searchGeneration: s.searchGeneration + 1,
-    then: undefined,
+    continuation: undefined,
     theirs: undefined,
     thinks: false,
     play,
@@ -121,11 +121,11 @@ function wordsOfDamage(): string {
 }
 /** The game of the address, the one that this tab had open or that was saved last, or a new one. */
 export async function resume(s: Session): Promise<void> {
-  const given = parameters();
-  const packed = given.get("g");
+  const query = parameters();
+  const packed = query.get("g");
   const ways = [
     takeOver,
-    async () => packed && openLink(s, packed, given.get("seat") === "1" ? 1 : 0),
+    async () => packed && openLink(s, packed, query.get("seat") === "1" ? 1 : 0),
     async () => {
       const id = idOfTab() ?? (await savedGames())[0]?.id;
       if (id !== undefined) await openGame(s, id);
@@ -139,6 +139,6 @@ export async function resume(s: Session): Promise<void> {
       failure += texts.theGameWasNotOpened(wrong(error));
     }
   if (s.id === "") begin(s, { ...FIRST, seed: Math.floor(Math.random() * 2 ** 31) });
-  const said = failure || s.words.said.textContent!;
-  if (failure || damaged.size > 0) says(s, said.trim() + wordsOfDamage());
+  const message = failure || s.words.message.textContent!;
+  if (failure || damaged.size > 0) says(s, message.trim() + wordsOfDamage());
 }

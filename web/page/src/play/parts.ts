@@ -18,7 +18,7 @@ import type { Sound } from "./sound.js";
 export interface Chosen {
   ball: number;
   pocket: number;
-  met: number;
+  hitBall: number;
   phi?: number;
 }
 
@@ -43,7 +43,7 @@ export interface Controls {
    * Shows which part of a ball is met, as whoever aims sees both: its share of the diameter, and
    * the side of it, 1 the right one; or none.
    */
-  met(contact: { share: number; side: number } | undefined, name?: string): void;
+  showContact(contact: { share: number; side: number } | undefined, name?: string): void;
 }
 
 /** A game by link (link.ts). */
@@ -66,7 +66,7 @@ export interface Training {
   wordsOfStart(name: string): string;
   drill(name: string): Drill;
   /** Counts a try of a drill. */
-  played(name: string, stroke: Stroke): { text: string; again: boolean };
+  played(name: string, stroke: Stroke): { text: string; repeats: boolean };
   rating(): OwnRating;
   /** What to practise next. */
   plan(): string;
@@ -74,7 +74,7 @@ export interface Training {
 
 /** The view from behind the cue (space.ts). */
 export interface SpaceView {
-  readonly on: boolean;
+  readonly isOn: boolean;
   /** Shows it, or the flat view again. */
   toggle(): Promise<void>;
   draw(): void;
@@ -86,7 +86,7 @@ export interface Showing {
   /** Shows the balls as they lie, with the stroke that is aimed. */
   rest(): void;
   /** Shows the film of a stroke, and then calls `after`. */
-  perform(stroke: Stroke, after: () => void): void;
+  perform(stroke: Stroke, next: () => void): void;
   /** Ends the film that is shown. */
   skip(): void;
   replay(): void;
@@ -117,7 +117,7 @@ interface Parts {
   readonly coarse: boolean;
   readonly settings: Settings;
   readonly sound: Sound;
-  readonly words: Record<"turn" | "score" | "said", HTMLElement>;
+  readonly words: Record<"turn" | "score" | "message", HTMLElement>;
   readonly buttons: Record<
     "menu" | "hint" | "replay" | "undo" | "rack" | "push" | "skip" | "link" | "space" | "sound",
     HTMLButtonElement
@@ -157,7 +157,7 @@ export interface Progress {
   /** The stroke of the page's player that is shown before it plays. */
   theirs: Cue | undefined;
   /** What follows the film that is shown. */
-  then: (() => void) | undefined;
+  continuation: (() => void) | undefined;
   shown: Stroke | undefined;
   /** What the player of films shows. */
   filmed: ReturnType<typeof filmOf> | undefined;

@@ -36,9 +36,9 @@ function solve(rows: number[][]): number[] | undefined {
 }
 
 /** The homography that takes four points to four others. */
-function homography(from: readonly Pixel[], to: readonly Pixel[]): Matrix | undefined {
-  const rows = from.flatMap(([x, y], k) => {
-    const [u, v] = to[k]!;
+function homography(sources: readonly Pixel[], targets: readonly Pixel[]): Matrix | undefined {
+  const rows = sources.flatMap(([x, y], k) => {
+    const [u, v] = targets[k]!;
     return [
       [x, y, 1, 0, 0, 0, -u * x, -u * y, u],
       [0, 0, 0, x, y, 1, -v * x, -v * y, v],
@@ -68,7 +68,7 @@ function apply(m: Matrix, [x, y]: Pixel): Pixel {
 
 export interface Camera {
   /** Where a ball lies whose middle is seen at a pixel, m. */
-  place(at: Pixel): Pixel;
+  place(pixel: Pixel): Pixel;
   /** Where the middle of a ball at a place is seen. */
   pixel(place: Pixel): Pixel;
   /** The focal length, pixels; undefined where the picture does not tell it. */
@@ -144,7 +144,7 @@ export function cameraOf(
   }
   const back = inverse(M);
   return {
-    place: (at) => apply(back, unit(at)),
+    place: (pixel) => apply(back, unit(pixel)),
     pixel(place) {
       const [u, v] = apply(M, place);
       return [u * wide + wide / 2, v * wide + high / 2];
@@ -191,10 +191,10 @@ export function suggest(patch: ArrayLike<number>, colours: readonly string[]): n
     const light = r! + g! + b! + 60;
     return [r! / light, g! / light, b! / light, light / 1500];
   };
-  const own = chroma(mean);
+  const tint = chroma(mean);
   const apart = colours.map((hex) => {
-    const other = chroma([1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16)));
-    return own.map((x, c) => x - other[c]!);
+    const reference = chroma([1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16)));
+    return tint.map((x, c) => x - reference[c]!);
   });
   const far = apart.map((parts) => Math.hypot(...parts));
   const least = Math.min(...far);
@@ -202,12 +202,12 @@ export function suggest(patch: ArrayLike<number>, colours: readonly string[]): n
   const hues = apart.map((parts) => Math.hypot(...parts.slice(0, 3)));
   const hue = Math.min(...hues) + SAME_HUE;
   // Ball k + 1 and ball k + 9 have one colour; ball 8 has no stripe.
-  const near = [...far.keys()]
+  const ranked = [...far.keys()]
     .filter((k) => far[k]! < 1.3 * least + 0.01 || hues[k]! < hue)
     .sort((a, b) => far[a]! - far[b]!);
   // A stripe whose white end is up is nearly as white as the cue ball.
-  if (share > 0.8) return [0, ...near.filter((k) => k < 7).map((k) => k + 9)];
-  const balls = near.flatMap((k) => {
+  if (share > 0.8) return [0, ...ranked.filter((k) => k < 7).map((k) => k + 9)];
+  const balls = ranked.flatMap((k) => {
     const solid = k + 1;
     const stripe = k + 9;
     if (solid === 8) return [8];

@@ -5,7 +5,7 @@ import { ARROWS, pixelsOf } from "../table/grip.js";
 import { button, choice, dialog, drags, el, wrong } from "../ui.js";
 import { type Camera, cameraOf, type Pixel, radiusAt, suggest } from "./photo.js";
 import { discOf, snapCorners, snapDisc } from "./snap.js";
-import { texts, told } from "../texts/texts.js";
+import { texts, translate } from "../texts/texts.js";
 
 const CORNERS = [texts.headLeft, texts.headRight, texts.footRight, texts.footLeft];
 /** The noses of cushions, above the middles of balls, m. */
@@ -19,7 +19,7 @@ const LENS = 50;
 /** The radius of the balls that may lie there, m. */
 const POOL_BALL = 0.028575;
 
-export interface Host {
+interface Host {
   /** Names of the balls that may lie there, and the size of their table, m. */
   names: readonly string[];
   size: readonly [number, number];
@@ -37,16 +37,16 @@ interface Photo {
   readonly inputs: Record<"wide" | "long", HTMLInputElement>;
   readonly ball: HTMLSelectElement;
   readonly done: HTMLButtonElement;
-  readonly said: HTMLElement;
+  readonly message: HTMLElement;
   readonly ask: HTMLElement;
   picture: ImageBitmap | undefined;
   /** Its pixels, for what marks snap to. */
   pixels: ImageData | undefined;
   corners: Pixel[];
   /** Marks of balls; where the colour does not tell which one, those that it may be. */
-  balls: { ball: number; at: Pixel; candidates?: number[] | undefined }[];
+  balls: { ball: number; pixel: Pixel; candidates?: number[] | undefined }[];
   cross: Pixel;
-  held: ((at: Pixel) => void) | undefined;
+  held: ((pixel: Pixel) => void) | undefined;
 }
 
 /** Pixels of the picture for a pixel of the page. */
@@ -67,17 +67,17 @@ function wordsOfMarks(corners: number, balls: number): string {
 }
 
 function draw(p: Photo): void {
-  const { corners, balls, said } = p;
-  const asked = balls.find(({ candidates }) => candidates);
-  p.done.disabled = balls.length === 0 || asked !== undefined;
-  const answers = (asked?.candidates ?? []).map((ball) =>
-    button(told(p.host.names[ball]!), () => {
-      Object.assign(asked!, { ball, candidates: undefined });
+  const { corners, balls, message } = p;
+  const unsure = balls.find(({ candidates }) => candidates);
+  p.done.disabled = balls.length === 0 || unsure !== undefined;
+  const answers = (unsure?.candidates ?? []).map((ball) =>
+    button(translate(p.host.names[ball]!), () => {
+      Object.assign(unsure!, { ball, candidates: undefined });
       draw(p);
     }),
   );
-  p.ask.replaceChildren(...(asked ? [texts.whichBallHasThe, ...answers] : []));
-  if (!p.picture) return void (said.textContent = texts.chooseOrTakeA);
+  p.ask.replaceChildren(...(unsure ? [texts.whichBallHasThe, ...answers] : []));
+  if (!p.picture) return void (message.textContent = texts.chooseOrTakeA);
   const g = p.canvas.getContext("2d")!;
   g.drawImage(p.picture, 0, 0);
   const unit = scaleOf(p);
@@ -97,7 +97,7 @@ function draw(p: Photo): void {
     g.textAlign = left ? "end" : "start";
     g.fillText(text, x + (left ? -10 : 10) * unit, y - 8 * unit);
   };
-  corners.forEach((at, k) => mark(at, CORNERS[k]!));
+  corners.forEach((pixel, k) => mark(pixel, CORNERS[k]!));
   try {
     const camera = cameraOn(p);
     const [w, l] = sizeOf(p);
@@ -127,11 +127,11 @@ function draw(p: Photo): void {
       );
       g.stroke();
     }
-    said.textContent = wordsOfMarks(corners.length, balls.length);
+    message.textContent = wordsOfMarks(corners.length, balls.length);
   } catch (error) {
-    said.textContent = wrong(error);
+    message.textContent = wrong(error);
   }
-  for (const one of balls) mark(one.at, one.candidates ? "?" : p.host.names[one.ball]!);
+  for (const ball of balls) mark(ball.pixel, ball.candidates ? "?" : p.host.names[ball.ball]!);
 }
 /** The picture around a finger, four times as large, above it, or below where there is no room. */
 function magnify(p: Photo, [x, y]: Pixel): void {
@@ -163,37 +163,41 @@ function magnify(p: Photo, [x, y]: Pixel): void {
 }
 
 /** The ball of a tap: the one that was chosen, or the free ones that its colour suggests. */
-function ballAt(p: Photo, at: Pixel): number[] {
+function ballAt(p: Photo, pixel: Pixel): number[] {
   const { names } = p.host;
-  const free = names.map((_, k) => k).filter((k) => !p.balls.some((one) => one.ball === k));
-  const asked = Number(p.ball.value);
-  if (p.ball.value !== "auto" && free.includes(asked)) {
+  const free = names.map((_, k) => k).filter((k) => !p.balls.some((placed) => placed.ball === k));
+  const choice = Number(p.ball.value);
+  if (p.ball.value !== "auto" && free.includes(choice)) {
     p.ball.value = "auto";
-    return [asked];
+    return [choice];
   }
   const candidates = suggest(
-    discOf(p.pixels!, at, radiusAt(cameraOn(p)!, at)),
+    discOf(p.pixels!, pixel, radiusAt(cameraOn(p)!, pixel)),
     names.slice(1, 9).map((name, k) => colourOf(name, k + 1, POOL_BALL)),
   );
-  const left = candidates.filter((one) => free.includes(one));
+  const left = candidates.filter((candidate) => free.includes(candidate));
   // Stripe for solid, else the next that is free.
   const [first = -1] = candidates;
   return left.length > 0
     ? left
-    : [[first > 8 ? first - 8 : first + 8, ...free].find((one) => free.includes(one)) ?? -1];
+    : [
+        [first > 8 ? first - 8 : first + 8, ...free].find((candidate) =>
+          free.includes(candidate),
+        ) ?? -1,
+      ];
 }
-function tap(p: Photo, at: Pixel): void {
+function tap(p: Photo, pixel: Pixel): void {
   if (!p.picture) return;
   if (p.corners.length < 4) {
-    p.corners.push(at);
+    p.corners.push(pixel);
     if (p.corners.length === 4) snap(p);
   } else {
-    const to = snapped(p, at);
-    const [ball, ...others] = ballAt(p, to);
+    const target = snapped(p, pixel);
+    const [ball, ...others] = ballAt(p, target);
     if (ball! >= 0)
       p.balls.push({
         ball: ball!,
-        at: to,
+        pixel: target,
         candidates: others.length > 0 ? [ball!, ...others] : undefined,
       });
   }
@@ -202,15 +206,15 @@ function tap(p: Photo, at: Pixel): void {
 /** Moves the corners to the edge of the cloth, and a mark to the disc that it is on. */
 function snap(p: Photo): void {
   try {
-    const to = snapCorners(p.pixels!, p.corners, 1.2 * OFF * scaleOf(p), sizeOf(p));
-    cameraOf([p.picture!.width, p.picture!.height], to, sizeOf(p));
-    p.corners = to;
+    const targets = snapCorners(p.pixels!, p.corners, 1.2 * OFF * scaleOf(p), sizeOf(p));
+    cameraOf([p.picture!.width, p.picture!.height], targets, sizeOf(p));
+    p.corners = targets;
   } catch {
     return; // the marks are no table yet: draw() says so
   }
 }
-const snapped = (p: Photo, at: Pixel): Pixel =>
-  snapDisc(p.pixels!, at, radiusAt(cameraOn(p)!, at), OFF * scaleOf(p));
+const snapped = (p: Photo, pixel: Pixel): Pixel =>
+  snapDisc(p.pixels!, pixel, radiusAt(cameraOn(p)!, pixel), OFF * scaleOf(p));
 /** Gives the places of the balls, where all lie on the table; tells whether they do. */
 function finish(p: Photo): boolean {
   const { size, names, use } = p.host;
@@ -218,52 +222,57 @@ function finish(p: Photo): boolean {
   if (!camera) return false;
   // A table of another size: the same shares of width and length.
   const [sx, sy] = [0, 1].map((k) => size[k]! / sizeOf(p)[k]!) as [number, number];
-  const places = p.balls.map((one) => {
-    const [x, y] = camera.place(one.at);
-    return [one.ball, [x * sx, y * sy] as const] as const;
+  const places = p.balls.map((ball) => {
+    const [x, y] = camera.place(ball.pixel);
+    return [ball.ball, [x * sx, y * sy] as const] as const;
   });
   const out = places.find(
     ([, [x, y]]) => !(x > -0.03 && x < size[0] + 0.03 && y > -0.03 && y < size[1] + 0.03),
   );
-  if (out) p.said.textContent = texts.ballLiesOutsideOf(told(names[out[0]]!));
+  if (out) p.message.textContent = texts.ballLiesOutsideOf(translate(names[out[0]]!));
   else use(new Map(places));
   return !out;
 }
 
 /** A pointer takes hold of a mark, or of a new one, and shows what is under it. */
-function down(p: Photo, at: Pixel): void {
+function down(p: Photo, touched: Pixel): void {
   const {
     canvas,
     host: { names },
   } = p;
-  const near = ([x, y]: Pixel): boolean => Math.hypot(x - at[0], y - at[1]) < REACH * scaleOf(p);
-  const corner = p.corners.findIndex(near);
-  const one = p.balls.find(({ at }) => near(at));
+  const isNear = ([x, y]: Pixel): boolean =>
+    Math.hypot(x - touched[0], y - touched[1]) < REACH * scaleOf(p);
+  const corner = p.corners.findIndex(isNear);
+  const ball = p.balls.find(({ pixel }) => isNear(pixel));
   let moved = false;
-  let last = at;
-  p.held = (to) => {
-    moved ||= Math.hypot(to[0] - at[0], to[1] - at[1]) > 4 * scaleOf(p);
-    last = to;
-    if (moved && one) one.at = to;
-    else if (moved && corner >= 0) p.corners[corner] = to;
+  let last = touched;
+  p.held = (target) => {
+    moved ||= Math.hypot(target[0] - touched[0], target[1] - touched[1]) > 4 * scaleOf(p);
+    last = target;
+    if (moved && ball) ball.pixel = target;
+    else if (moved && corner >= 0) p.corners[corner] = target;
     draw(p);
-    if (p.picture) magnify(p, to);
+    if (p.picture) magnify(p, target);
   };
-  p.held(at);
+  p.held(touched);
   const up = (): void => {
     const held = p.held;
     p.held = undefined;
     if (!held) return draw(p); // a second finger came
     // What is dragged stays where it was put, which mends what snapped to something else. A tap
     // beside a mark is another ball.
-    if (!moved && one && Math.hypot(one.at[0] - at[0], one.at[1] - at[1]) < TAP * scaleOf(p))
-      Object.assign(one, {
+    if (
+      !moved &&
+      ball &&
+      Math.hypot(ball.pixel[0] - touched[0], ball.pixel[1] - touched[1]) < TAP * scaleOf(p)
+    )
+      Object.assign(ball, {
         candidates: undefined,
         ball: names
-          .map((_, k) => (one.ball + 1 + k) % names.length)
-          .find((k) => !p.balls.some((other) => other !== one && other.ball === k))!,
+          .map((_, k) => (ball.ball + 1 + k) % names.length)
+          .find((k) => !p.balls.some((second) => second !== ball && second.ball === k))!,
       });
-    else if (!moved || !(one || corner >= 0)) return tap(p, last);
+    else if (!moved || !(ball || corner >= 0)) return tap(p, last);
     draw(p);
   };
   canvas.addEventListener("pointerup", up, { once: true });
@@ -290,14 +299,17 @@ function pinches(p: Photo): void {
   canvas.addEventListener("pointermove", ({ pointerId, clientX, clientY }) => {
     if (!fingers.has(pointerId)) return;
     if (fingers.size !== 2) return void fingers.set(pointerId, [clientX, clientY]);
-    const [far, ...from] = both();
+    const [far, ...starts] = both();
     fingers.set(pointerId, [clientX, clientY]);
-    const [now, ...to] = both();
+    const [current, ...ends] = both();
     const frame = canvas.parentElement!.getBoundingClientRect();
-    const more = Math.min(Math.max((zoom * now) / far, 1), 6) / zoom;
+    const more = Math.min(Math.max((zoom * current) / far, 1), 6) / zoom;
     zoom *= more;
-    const stay = (at: number, start: number, k: number, size: number): number =>
-      Math.min(Math.max(to[k]! - start - (from[k]! - start - at) * more, size * (1 - zoom)), 0);
+    const stay = (offset: number, start: number, k: number, size: number): number =>
+      Math.min(
+        Math.max(ends[k]! - start - (starts[k]! - start - offset) * more, size * (1 - zoom)),
+        0,
+      );
     [x, y] = [
       stay(x, frame.left, 0, canvas.clientWidth),
       stay(y, frame.top, 1, canvas.clientHeight),
@@ -313,22 +325,22 @@ function key(p: Photo, event: KeyboardEvent): void {
   if (!p.picture || (!arrow && event.key !== "Enter")) return;
   event.preventDefault();
   const unit = scaleOf(p);
-  const by = (event.shiftKey ? 20 : 2) * unit;
+  const step = (event.shiftKey ? 20 : 2) * unit;
   if (!arrow) return tap(p, p.cross);
   p.cross = [
-    Math.min(Math.max(p.cross[0] + by * arrow[0], 0), p.picture.width),
-    Math.min(Math.max(p.cross[1] + by * arrow[1], 0), p.picture.height),
+    Math.min(Math.max(p.cross[0] + step * arrow[0], 0), p.picture.width),
+    Math.min(Math.max(p.cross[1] + step * arrow[1], 0), p.picture.height),
   ];
   draw(p);
   const g = p.canvas.getContext("2d")!;
   g.strokeStyle = "#fff";
   g.strokeRect(p.cross[0] - 6 * unit, p.cross[1] - 6 * unit, 12 * unit, 12 * unit);
 }
-async function open(p: Photo, given: File): Promise<void> {
+async function open(p: Photo, file: File): Promise<void> {
   try {
-    p.picture = await createImageBitmap(given);
+    p.picture = await createImageBitmap(file);
   } catch {
-    return void (p.said.textContent = texts.thisBrowserCannotRead(given.name));
+    return void (p.message.textContent = texts.thisBrowserCannotRead(file.name));
   }
   const { width, height } = p.picture;
   [p.canvas.width, p.canvas.height] = [width, height];
@@ -354,17 +366,15 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
       value: String(value),
     });
     input.addEventListener("change", () => draw(p));
-    return { root: el("label", { class: "inline" }, text, input), input };
+    return { root: el("label.inline", text, input), input };
   };
-  const canvas = el("canvas", {
-    id: "photo",
+  const canvas = el("canvas#photo", {
     tabindex: "0",
     role: "img",
     "aria-label": texts.thePhotoArrowKeys,
   });
-  const file = el("input", {
+  const file = el("input#photo-file", {
     type: "file",
-    id: "photo-file",
     accept: "image/*",
     "aria-label": texts.aPhotoOfA,
   });
@@ -376,22 +386,19 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
     [
       ["auto", texts.byItsColour],
       ...host.names.map(
-        (name, k) => [String(k), name === "cue" ? texts.cueBallName : told(name)] as const,
+        (name, k) => [String(k), name === "cue" ? texts.cueBallName : translate(name)] as const,
       ),
     ],
     () => undefined,
   );
-  const done = button(texts.layTheBalls, () => finish(p) && root.close(), {
-    id: "photo-use",
-    class: "main",
-  });
-  const said = el("p", { id: "photo-said", role: "status" });
-  const ask = el("div", { id: "photo-ask", class: "row", role: "status" });
+  const done = button(texts.layTheBalls, () => finish(p) && root.close(), "#photo-use.main");
+  const message = el("p#photo-said", { role: "status" });
+  const ask = el("div#photo-ask.row", { role: "status" });
   const p: Photo = {
     host,
     canvas,
     done,
-    said,
+    message,
     ask,
     pixels: undefined,
     ball: ball.select,
@@ -409,17 +416,11 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
   const root = dialog(
     "photo-page",
     texts.aTableFromA,
-    el("div", { class: "row" }, file, wide.root, long.root),
-    said,
-    el("div", { class: "photo-frame" }, canvas),
+    el("div.row", file, wide.root, long.root),
+    message,
+    el("div.photo-frame", canvas),
     ask,
-    el(
-      "div",
-      { class: "row" },
-      ball.root,
-      button(texts.takeBack, back, { id: "photo-back" }),
-      done,
-    ),
+    el("div.row", ball.root, button(texts.takeBack, back, "#photo-back"), done),
   );
 
   const pixel = (event: PointerEvent): Pixel =>

@@ -10,7 +10,7 @@ import { DRILLS_MADE as KEY, ownRating, starsOf } from "./ladder.js";
 import { keepRow, type Row } from "./log.js";
 import type { Training } from "./parts.js";
 import { photoPage } from "./photo_page.js";
-import { texts, told } from "../texts/texts.js";
+import { texts, translate } from "../texts/texts.js";
 
 declare const DRILLS: string;
 
@@ -20,12 +20,12 @@ const SIZE = [1.27, 2.54] as const;
  * Practice with the balls of eight-ball. Strokes of a drill, which count for the rating, err as
  * those of a game do.
  */
-const setupOf = (at: string, drill?: string): Setup => ({
+const setupOf = (places: string, drill?: string): Setup => ({
   game: "eightball",
   against: "practice",
   own: "0",
   seed: 1,
-  at,
+  at: places,
   ...(drill === undefined ? {} : { drill, own: "800", seed: Math.floor(Math.random() * 2 ** 31) }),
 });
 
@@ -45,24 +45,24 @@ function wordsOfChange({ phi = 0, speed = 0 }: Pick<Row, "phi" | "speed">): stri
 export function practice(carom: Carom, begin: (setup: Setup) => void): Training {
   const drills = drillsOf(DRILLS);
   const drillOf = (name: string): (typeof drills)[number] => {
-    const drill = drills.find((one) => one.name === name);
+    const drill = drills.find((drill) => drill.name === name);
     if (!drill) throw new TypeError(texts.drillThereIsNo(name));
     return drill;
   };
-  const note = el("p", { class: "note", id: "drill-note" });
-  const which = choice(
+  const note = el("p#drill-note.note");
+  const drillChoice = choice(
     "drill",
     texts.drill,
-    drills.map(({ name }) => [name, told(name)] as const),
+    drills.map(({ name }) => [name, translate(name)] as const),
     describe,
   );
   /** Stars of each drill; one that nobody has tried has a dash. */
   function listStars(): void {
-    for (const option of which.select.options) {
+    for (const option of drillChoice.select.options) {
       const [good, tries] = countsOf(KEY, option.value);
       const stars = starsOf(good, tries);
       const shown = tries === 0 ? "–" : "★".repeat(stars) + "☆".repeat(3 - stars);
-      option.textContent = `${told(option.value)} ${shown}`;
+      option.textContent = `${translate(option.value)} ${shown}`;
     }
   }
   function wordsOfTries(name: string): string {
@@ -71,16 +71,16 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
   }
   function describe(): void {
     listStars();
-    note.textContent = `${told(drillOf(which.select.value).text)}${wordsOfTries(which.select.value)}`;
+    note.textContent = `${translate(drillOf(drillChoice.select.value).text)}${wordsOfTries(drillChoice.select.value)}`;
   }
   const close = (): void => start.closest("dialog")!.close();
   const start: HTMLButtonElement = button(
     texts.startDrill,
     () => {
       close();
-      begin(setupOf(atOf(drillOf(which.select.value), BALLS), which.select.value));
+      begin(setupOf(atOf(drillOf(drillChoice.select.value), BALLS), drillChoice.select.value));
     },
-    { id: "start-drill" },
+    "#start-drill",
   );
   const photo = photoPage({
     names: Array.from({ length: BALLS }, (_, k) => (k === 0 ? "cue" : String(k))),
@@ -102,12 +102,11 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
   describe();
   return {
     parts: [
-      el("h3", {}, texts.practice),
-      el("div", { class: "fields" }, which.root),
+      el("h3", texts.practice),
+      el("div.fields", drillChoice.root),
       note,
       el(
-        "div",
-        { class: "row" },
+        "div.row",
         start,
         button(
           texts.aTableFromA,
@@ -115,27 +114,28 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
             close();
             photo.open();
           },
-          { id: "open-photo" },
+          "#open-photo",
         ),
       ),
     ],
     photo: photo.root,
     rating: () => ownRating(carom, drills),
     drill: drillOf,
-    wordsOfStart: (name) => texts.itCountsForYour(told(drillOf(name).text), wordsOfTries(name)),
+    wordsOfStart: (name) =>
+      texts.itCountsForYour(translate(drillOf(name).text), wordsOfTries(name)),
     /** What to practise next: what was made least, beside how often one's rating makes it. */
     plan() {
       const { rating } = ownRating(carom, drills);
-      const rows = drills.map((one) => {
-        const [good, tries] = countsOf(KEY, one.name);
+      const rows = drills.map((drill) => {
+        const [good, tries] = countsOf(KEY, drill.name);
         return {
-          text: `${told(one.name)} (${tries ? texts.ofTries(good, tries) : texts.notTried})`,
-          at: (good + 1) / (tries + 2) - 1 / (1 + 2 ** ((one.rating - rating) / 100)),
+          text: `${translate(drill.name)} (${tries ? texts.ofTries(good, tries) : texts.notTried})`,
+          surplus: (good + 1) / (tries + 2) - 1 / (1 + 2 ** ((drill.rating - rating) / 100)),
         };
       });
       return texts.practiseNext(
         rows
-          .sort((a, b) => a.at - b.at)
+          .sort((a, b) => a.surplus - b.surplus)
           .slice(0, 3)
           .map(({ text }) => text)
           .join(", "),
@@ -145,7 +145,8 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
       const { goal, text } = drillOf(name);
       const { outcome, why } = judge(drillOf(name), shot!);
       // The aim at the ball that was to fall, in the pocket that it was nearest to.
-      const value = (word: string): string | undefined => goal.find((one) => one[0] === word)?.[1];
+      const value = (word: string): string | undefined =>
+        goal.find((part) => part[0] === word)?.[1];
       const [ball, into] = (value("pot") ?? "").split("@");
       const way = {
         ball: Number(ball),
@@ -166,7 +167,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
         side: -cue.a || 0,
         best: outcome === "missed" ? review.trim() : texts.made,
       });
-      if (outcome === "on") return { text: texts.goOnWithThe, again: false };
+      if (outcome === "on") return { text: texts.goOnWithThe, repeats: false };
       const [good, tries] = count(KEY, name, [Number(outcome === "made"), 1]);
       describe();
       return {
@@ -176,7 +177,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): Training 
           tries,
           review,
         ),
-        again: true,
+        repeats: true,
       };
     },
   };

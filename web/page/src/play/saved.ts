@@ -3,7 +3,7 @@
 // same game.
 import { createStore, del, get, set, values } from "idb-keyval";
 import type { Setup } from "./game.js";
-import { kept, keepText } from "./keep.js";
+import { stored, keepText } from "./keep.js";
 
 export interface SavedGame {
   id: string;
@@ -74,7 +74,7 @@ export async function holdGame(id: string): Promise<boolean> {
 
 /** Takes over the only game that version 0.3 kept. */
 export async function takeOver(): Promise<void> {
-  const text = kept(OLD_KEY);
+  const text = stored(OLD_KEY);
   if (text === undefined) return;
   const { entries = [], ...setup } = JSON.parse(text) as Setup & { entries?: unknown[] };
   const strokes = entries.length;

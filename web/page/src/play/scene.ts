@@ -7,7 +7,7 @@ import { WOOD } from "../../../player/table.js";
 import { furnish } from "./furniture.js";
 import { IVORY, type Pose, type Table } from "../../../player/words.js";
 
-export interface SceneOf {
+interface SceneOf {
   table: Table;
   balls: { name: string; radius: number; colour: string }[];
   cloth: string;
@@ -17,7 +17,7 @@ export interface SceneOf {
  * The cue, how far its tip is from the cue ball's middle, and where the cue ball first meets
  * something, m.
  */
-export interface Stick {
+interface Stick {
   cue: Cue;
   gap: number;
   first: readonly number[] | undefined;
@@ -55,8 +55,8 @@ function surface({ name, colour }: SceneOf["balls"][number]): THREE.CanvasTextur
       const x = -Math.cos(around) * Math.sin(down);
       const y = -Math.sin(around) * Math.sin(down);
       const z = Math.cos(down);
-      let of = base;
-      if (number > 8 && Math.abs(x) > Math.cos(0.9)) of = ivory;
+      let colour = base;
+      if (number > 8 && Math.abs(x) > Math.cos(0.9)) colour = ivory;
       if (number > 0 && Math.abs(z) > Math.cos(0.52)) {
         // The square on the ball: whoever sees the lower end has x to the left.
         const [u, v] = [64 + 160 * x * Math.sign(z), 64 - 160 * y].map(Math.floor) as [
@@ -64,11 +64,11 @@ function surface({ name, colour }: SceneOf["balls"][number]): THREE.CanvasTextur
           number,
         ];
         const black = (ink[4 * (128 * v + u) + 3] ?? 0) / 255;
-        of = ivory.map((part, k) => part + black * (NUMBER[k]! - part));
+        colour = ivory.map((part, k) => part + black * (NUMBER[k]! - part));
       }
       if (!(number > 0) && Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) > Math.cos(0.2))
-        of = dot;
-      pixels.data.set([...of, 255], 4 * (512 * row + column));
+        colour = dot;
+      pixels.data.set([...colour, 255], 4 * (512 * row + column));
     }
   g.putImageData(pixels, 0, 0);
   return Object.assign(new THREE.CanvasTexture(canvas), {
@@ -104,12 +104,12 @@ function cueOf(): THREE.Group {
     [0.75, 0.79, 0.0105, 0.011, "#1a1a1c"],
     [0.79, 1.42, 0.011, 0.0148, "#5a2a1c"],
   ] as const;
-  for (const [from, to, thin, thick, colour] of parts) {
+  for (const [start, end, thin, thick, colour] of parts) {
     const part = new THREE.Mesh(
-      new THREE.CylinderGeometry(thin, thick, to - from, 20),
+      new THREE.CylinderGeometry(thin, thick, end - start, 20),
       new THREE.MeshPhongMaterial({ color: colour, shininess: 50, specular: "#444444" }),
     );
-    part.position.y = -(from + to) / 2;
+    part.position.y = -(start + end) / 2;
     part.castShadow = true;
     cue.add(part);
   }
@@ -144,20 +144,20 @@ export class Scene {
   readonly #ghost: THREE.Mesh;
   readonly #within: readonly [number, number];
 
-  constructor(of: SceneOf) {
+  constructor(parts: SceneOf) {
     this.#renderer = new THREE.WebGLRenderer({ antialias: true });
     this.canvas = this.#renderer.domElement;
     this.#renderer.shadowMap.enabled = true;
     this.#renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     this.#renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
-    const { width, length } = of.table;
+    const { width, length } = parts.table;
     const scene = this.#scene;
     const around = surroundings();
     this.#camera.up.set(0, 0, 1);
     scene.background = new THREE.Color("#0e0f11");
 
-    furnish(scene, of);
-    this.#balls = of.balls.map((ball) => ballOf(ball, around));
+    furnish(scene, parts);
+    this.#balls = parts.balls.map((ball) => ballOf(ball, around));
     scene.add(...this.#balls);
     this.#stick = cueOf();
     // The aim on the cloth: a line to the place of the cue ball at its first contact, and a ring
@@ -167,7 +167,7 @@ export class Scene {
       transparent: true,
       opacity: 0.7,
     });
-    const R = of.balls[0]!.radius;
+    const R = parts.balls[0]!.radius;
     this.#aim = new THREE.Mesh(new THREE.BoxGeometry(1, 0.007, 0.001), light);
     this.#ghost = new THREE.Mesh(new THREE.RingGeometry(0.88 * R, R, 32), light);
     this.#within = [width, length];
@@ -183,7 +183,7 @@ export class Scene {
   }
 
   /** Looks along the cue from behind a place, m. */
-  look(at: readonly number[], phi: number): void {
+  look(target: readonly number[], phi: number): void {
     const along = [Math.cos(phi / DEGREES), Math.sin(phi / DEGREES)] as const;
     // A tall screen sees the table from higher, or it would show the room above it.
     const high = this.#camera.aspect > 1 ? 0.48 : 0.95;
@@ -194,7 +194,7 @@ export class Scene {
         ...along.map((d, c) =>
           Math.abs(d) < 1e-9
             ? Infinity
-            : ((sign * d > 0 ? this.#within[c]! + WOOD : -WOOD) - at[c]!) / (sign * d),
+            : ((sign * d > 0 ? this.#within[c]! + WOOD : -WOOD) - target[c]!) / (sign * d),
         ),
       );
     const far = wood(1);
@@ -206,8 +206,8 @@ export class Scene {
         half - 2.2 + Math.atan2(high, back + far) * DEGREES,
         0.5 * half + Math.atan2(high, back) * DEGREES,
       ) / DEGREES;
-    const x = at[0]! - back * along[0];
-    const y = at[1]! - back * along[1];
+    const x = target[0]! - back * along[0];
+    const y = target[1]! - back * along[1];
     this.#camera.position.set(x, y, high);
     this.#camera.lookAt(
       x + along[0] * Math.cos(down),
@@ -223,19 +223,19 @@ export class Scene {
       ball.position.set(r[0]!, r[1]!, r[2]!);
       ball.quaternion.set(q[1]!, q[2]!, q[3]!, q[0]!);
     });
-    const to = stick?.first;
+    const tip = stick?.first;
     const { r } = poses[stick?.cue.ball ?? 0]!;
     this.#stick.visible = stick !== undefined;
-    this.#aim.visible = to !== undefined;
-    this.#ghost.visible = to !== undefined;
-    if (to) {
-      const dx = to[0]! - r[0]!;
-      const dy = to[1]! - r[1]!;
+    this.#aim.visible = tip !== undefined;
+    this.#ghost.visible = tip !== undefined;
+    if (tip) {
+      const dx = tip[0]! - r[0]!;
+      const dy = tip[1]! - r[1]!;
       const gone = Math.hypot(dx, dy);
       this.#aim.scale.x = Math.max(gone, 1e-3);
       this.#aim.rotation.z = Math.atan2(dy, dx);
       this.#aim.position.set(r[0]! + dx / 2, r[1]! + dy / 2, 0.001);
-      this.#ghost.position.set(to[0]!, to[1]!, 0.002);
+      this.#ghost.position.set(tip[0]!, tip[1]!, 0.002);
     }
     if (stick) {
       const R = r[2]!;
@@ -262,24 +262,27 @@ export class Scene {
 
   /** Where a place is seen, pixels of the page; NaN: behind the camera. */
   place(x: number, y: number, z: number): [number, number] {
-    const at = new THREE.Vector3(x, y, z).project(this.#camera);
-    return at.z > 1
+    const point = new THREE.Vector3(x, y, z).project(this.#camera);
+    return point.z > 1
       ? [NaN, NaN]
-      : [((at.x + 1) * this.canvas.clientWidth) / 2, ((1 - at.y) * this.canvas.clientHeight) / 2];
+      : [
+          ((point.x + 1) * this.canvas.clientWidth) / 2,
+          ((1 - point.y) * this.canvas.clientHeight) / 2,
+        ];
   }
 
   /** The place at a height that is seen at a pixel of the page; none above the horizon. */
   unplace(px: number, py: number, z: number): [number, number] | undefined {
-    const from = this.#camera.position;
+    const eye = this.#camera.position;
     const way = new THREE.Vector3(
       (2 * px) / this.canvas.clientWidth - 1,
       1 - (2 * py) / this.canvas.clientHeight,
       0.5,
     )
       .unproject(this.#camera)
-      .sub(from);
+      .sub(eye);
     return way.z < -1e-6
-      ? [from.x - (way.x * (from.z - z)) / way.z, from.y - (way.y * (from.z - z)) / way.z]
+      ? [eye.x - (way.x * (eye.z - z)) / way.z, eye.y - (way.y * (eye.z - z)) / way.z]
       : undefined;
   }
 

@@ -10,7 +10,7 @@ import { guessOf, lookAlong } from "./look.js";
 import type { Chosen, Lines, Progress, Session } from "./parts.js";
 import { texts } from "../texts/texts.js";
 
-export const NONE: Chosen = { ball: -1, pocket: -1, met: -1 };
+export const NONE: Chosen = { ball: -1, pocket: -1, hitBall: -1 };
 export const SAFETY = -2;
 
 /** How a game is on its way before anything was played. */
@@ -27,7 +27,7 @@ export const progressOf = (play: Play): Progress => ({
   turnedBefore: [],
   thinks: false,
   theirs: undefined,
-  then: undefined,
+  continuation: undefined,
   shown: undefined,
   filmed: undefined,
   sounded: 0,
@@ -38,7 +38,7 @@ export const progressOf = (play: Play): Progress => ({
 export const mine = ({ play, seat }: Session): boolean =>
   !play.isOver && (play.practice || play.setup.against === "person" || play.turn === seat);
 export function stateOf(s: Session): "aiming" | "thinking" | "film" | "waiting" | "over" {
-  if (s.film.playing || s.then !== undefined) return "film";
+  if (s.film.playing || s.continuation !== undefined) return "film";
   if (s.thinks) return "thinking";
   if (mine(s)) return "aiming";
   return s.play.isOver ? "over" : "waiting";
@@ -46,11 +46,11 @@ export function stateOf(s: Session): "aiming" | "thinking" | "film" | "waiting" 
 /** Whether whoever is at this page may aim now. */
 export const free = (s: Session): boolean => stateOf(s) === "aiming";
 export const says = (s: Pick<Session, "words">, text: string): void =>
-  void (s.words.said.textContent = text);
+  void (s.words.message.textContent = text);
 
 /** The stroke that the controls set. */
 export function cueOf({ carom, play, stroke }: Pick<Session, "carom" | "play" | "stroke">): Cue {
-  const { game } = GAMES[play.played?.of ?? play.setup.game]!;
+  const { game } = GAMES[play.played?.base ?? play.setup.game]!;
   return cueWith(carom.cue({ ball: play.cueBall }, game), stroke.value());
 }
 export const aimAt = ({ stroke }: Pick<Session, "stroke">, cue: Cue): void =>
@@ -69,10 +69,10 @@ export function valid({
   chosen,
   stroke,
 }: Pick<Session, "first" | "chosen" | "stroke">): Chosen {
-  const met = first?.ball ?? -1;
+  const hitBall = first?.ball ?? -1;
   const { phi } = stroke.value();
   const turnedBy = Math.abs(((phi - (chosen.phi ?? phi) + 540) % 360) - 180);
-  const meetsTheSame = met === -1 || met === chosen.met;
+  const meetsTheSame = hitBall === -1 || hitBall === chosen.hitBall;
   return turnedBy < 2 && meetsTheSame ? chosen : NONE;
 }
 /** Whether a safety is called: what falls keeps no turn. */
@@ -130,7 +130,7 @@ export function why(s: Pick<Session, "play" | "seat" | "thinks">): string {
   if (s.thinks) return texts.theOtherPlayerThinks;
   if (play.isOver) return texts.thisGameIsOver;
   if (play.setup.against !== "link") return texts.notNowAStroke;
-  if (play.last?.who === s.seat) return texts.theOtherPlayerIs;
+  if (play.last?.player === s.seat) return texts.theOtherPlayerIs;
   return texts.theOtherPlayerIsAt;
 }
 

@@ -13,7 +13,7 @@ import { cameraOf, type Pixel } from "./photo.js";
 export type Picture = Pick<ImageData, "data" | "width" | "height">;
 
 /** The colour at a place, of the nearest pixel. */
-function at(
+function colourOf(
   { data, width, height }: Picture,
   x: number,
   y: number,
@@ -54,29 +54,29 @@ type Line = readonly [number, number];
 /** The strip of a picture along a side, outwards from the table: colours by place and distance. */
 class Strip {
   readonly #picture: Picture;
-  readonly #from: Pixel;
+  readonly #start: Pixel;
   readonly #along: Pixel;
   readonly #outward: Pixel;
 
-  constructor(picture: Picture, from: Pixel, to: Pixel, inside: Pixel) {
-    const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
-    const dx = (to[0] - from[0]) / length;
-    const dy = (to[1] - from[1]) / length;
-    const isInside = (inside[0] - from[0]) * -dy + (inside[1] - from[1]) * dx > 0;
+  constructor(picture: Picture, start: Pixel, end: Pixel, inside: Pixel) {
+    const length = Math.hypot(end[0] - start[0], end[1] - start[1]);
+    const dx = (end[0] - start[0]) / length;
+    const dy = (end[1] - start[1]) / length;
+    const isInside = (inside[0] - start[0]) * -dy + (inside[1] - start[1]) * dx > 0;
     this.#picture = picture;
-    this.#from = from;
-    this.#along = [to[0] - from[0], to[1] - from[1]];
+    this.#start = start;
+    this.#along = [end[0] - start[0], end[1] - start[1]];
     this.#outward = isInside ? [dy, -dx] : [-dy, dx];
   }
   /** A place at a share of the side, and so far outwards. */
   place(share: number, off: number): Pixel {
     return [
-      this.#from[0] + share * this.#along[0] + off * this.#outward[0],
-      this.#from[1] + share * this.#along[1] + off * this.#outward[1],
+      this.#start[0] + share * this.#along[0] + off * this.#outward[0],
+      this.#start[1] + share * this.#along[1] + off * this.#outward[1],
     ];
   }
   offOf([x, y]: Pixel): number {
-    return (x - this.#from[0]) * this.#outward[0] + (y - this.#from[1]) * this.#outward[1];
+    return (x - this.#start[0]) * this.#outward[0] + (y - this.#start[1]) * this.#outward[1];
   }
   /**
    * The mean change of colour outwards across a line: how much there is, and of the light, whose
@@ -87,12 +87,12 @@ class Strip {
     for (let k = 0; k < PLACES; k++) {
       const share = MARGIN + ((1 - 2 * MARGIN) * k) / (PLACES - 1);
       const off = first + (last - first) * share;
-      const inner = at(this.#picture, ...this.place(share, off - BESIDE));
-      const outer = at(this.#picture, ...this.place(share, off + BESIDE));
+      const inner = colourOf(this.#picture, ...this.place(share, off - BESIDE));
+      const outer = colourOf(this.#picture, ...this.place(share, off + BESIDE));
       const factor = Math.min(1, MOST / (apart(inner, outer) + 1));
       for (let c = 0; c < 3; c++) sum[c]! += (factor * (outer[c]! - inner[c]!)) / PLACES;
     }
-    const much = sum.reduce((all, one) => all + Math.abs(one), 0);
+    const much = sum.reduce((total, change) => total + Math.abs(change), 0);
     return { much, light: sum[0]! + sum[1]! + sum[2]! };
   }
 }
@@ -125,8 +125,8 @@ function centred(strip: Strip, line: Line): Line {
     const mean = (shifted: (off: number) => Line): number => {
       const much = offs.map((off) => strip.change(shifted(off)).much);
       const most = Math.max(...much);
-      const on = offs.filter((_, k) => much[k]! > 0.8 * most);
-      return on.reduce((sum, off) => sum + off, 0) / on.length;
+      const plateau = offs.filter((_, k) => much[k]! > 0.8 * most);
+      return plateau.reduce((sum, off) => sum + off, 0) / plateau.length;
     };
     const both = mean((off) => [first + off, last + off]);
     [first, last] = [first + both, last + both];
@@ -195,17 +195,17 @@ export function snapCorners(
     ] as const
   ).map(camera.pixel);
   const middle = camera.pixel([width / 2, length / 2]);
-  const sides = corners.map((from, k) => {
-    const to = corners[(k + 1) % 4]!;
-    const strip = new Strip(picture, from, to, middle);
+  const sides = corners.map((start, k) => {
+    const end = corners[(k + 1) % 4]!;
+    const strip = new Strip(picture, start, end, middle);
     const face: Line = [strip.offOf(bed[k]!), strip.offOf(bed[(k + 1) % 4]!)];
     const [first, last] = noseOf(strip, face, reach) ?? [0, 0];
     return [strip.place(0, first), strip.place(1, last)];
   });
   return sides.map((side, k) => {
-    const to = meeting(side, sides[(k + 3) % 4]!);
-    const isNear = Math.hypot(to[0] - corners[k]![0], to[1] - corners[k]![1]) < 2 * reach;
-    return isNear ? to : corners[k]!;
+    const corner = meeting(side, sides[(k + 3) % 4]!);
+    const isNear = Math.hypot(corner[0] - corners[k]![0], corner[1] - corners[k]![1]) < 2 * reach;
+    return isNear ? corner : corners[k]!;
   });
 }
 
@@ -223,7 +223,7 @@ const AROUND = circles([1.2, 1.4]);
 export function snapDisc(picture: Picture, mark: Pixel, radius: number, reach: number): Pixel {
   // The cloth: the middle of the colours around.
   const ring = circles([2, 2.6]).map(([x, y]) =>
-    at(picture, mark[0] + radius * x, mark[1] + radius * y),
+    colourOf(picture, mark[0] + radius * x, mark[1] + radius * y),
   );
   const cloth = [0, 1, 2].map(
     (c) => ring.map((rgb) => rgb[c]!).sort((a, b) => a - b)[ring.length >> 1]!,
@@ -231,7 +231,7 @@ export function snapDisc(picture: Picture, mark: Pixel, radius: number, reach: n
   const differs = (x: number, y: number, points: readonly Pixel[]): number =>
     points.reduce(
       (sum, [u, v]) =>
-        sum + Math.min(apart(at(picture, x + radius * u, y + radius * v), cloth) / 60, 1),
+        sum + Math.min(apart(colourOf(picture, x + radius * u, y + radius * v), cloth) / 60, 1),
       0,
     ) / points.length;
   let best = mark;
@@ -255,7 +255,9 @@ export function snapDisc(picture: Picture, mark: Pixel, radius: number, reach: n
   for (let i = -radius; most > 0.3 && i <= radius; i += 0.5)
     for (let j = -radius; j <= radius; j += 0.5) {
       const weight =
-        Math.hypot(i, j) < 1.1 * radius && apart(at(picture, x + i, y + j), cloth) > 60 ? 1 : 0;
+        Math.hypot(i, j) < 1.1 * radius && apart(colourOf(picture, x + i, y + j), cloth) > 60
+          ? 1
+          : 0;
       [sum, u, v] = [sum + weight, u + weight * i, v + weight * j];
     }
   return sum > 0 ? [x + u / sum, y + v / sum] : best;
@@ -263,6 +265,6 @@ export function snapDisc(picture: Picture, mark: Pixel, radius: number, reach: n
 /** Red, green, blue and alpha of the pixels of a disc. */
 export const discOf = (picture: Picture, [x, y]: Pixel, radius: number): number[] =>
   circles([0.3, 0.45, 0.55, 0.65, 0.73, 0.8]).flatMap(([u, v]) => [
-    ...at(picture, x + radius * u, y + radius * v),
+    ...colourOf(picture, x + radius * u, y + radius * v),
     255,
   ]);

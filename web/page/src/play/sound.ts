@@ -93,17 +93,17 @@ export class Sound {
   #context: AudioContext | undefined;
   readonly #buffers = new Map<Voice, AudioBuffer>();
 
-  constructor(public on: boolean) {}
+  constructor(public isOn: boolean) {}
   /** To be called when the reader has pressed something: browsers let pages sound only then. */
   wake(): void {
-    if (!this.on) return;
+    if (!this.isOn) return;
     this.#context ??= new AudioContext();
     void this.#context.resume();
   }
   /** Sounds what happens after one time of a film and until another, s. */
-  between(events: readonly ShotEvent[], after: number, until: number): void {
-    if (!this.on || !this.#context) return;
-    for (const event of events) if (event.time > after && event.time <= until) this.#play(event);
+  play(events: readonly ShotEvent[], start: number, end: number): void {
+    if (!this.isOn || !this.#context) return;
+    for (const event of events) if (event.time > start && event.time <= end) this.#play(event);
   }
   #play(event: ShotEvent): void {
     const voice = VOICES[event.type];

@@ -30,10 +30,10 @@ async function load(): Promise<typeof import("./scene.js")> {
 export class Space implements SpaceView {
   #module: typeof import("./scene.js") | undefined;
   #scene: Scene | undefined;
-  #of: Play | undefined;
+  #play: Play | undefined;
   /** What is drawn over the scene: lines, and the numbers of balls. */
-  readonly #over = el("canvas", { class: "over-scene" });
-  on = false;
+  readonly #over = el("canvas.over-scene");
+  isOn = false;
   /** Whether the cue ball is being moved. */
   #moves = false;
 
@@ -44,11 +44,11 @@ export class Space implements SpaceView {
 
   /** Rejects where the browser has no WebGL: the flat view stays. */
   async toggle(): Promise<void> {
-    if (this.on) return this.#hide();
+    if (this.isOn) return this.#hide();
     if (!document.createElement("canvas").getContext("webgl2")) throw new Error(texts.itHasNoWebgl);
     this.#module ??= await load();
     this.#make();
-    this.on = true;
+    this.isOn = true;
     this.s.film.canvas.classList.add("behind");
     this.draw();
   }
@@ -68,7 +68,7 @@ export class Space implements SpaceView {
       wood: color("rail"),
     });
     this.#scene = scene;
-    this.#of = play;
+    this.#play = play;
     const { canvas } = scene;
     for (const [name, value] of Object.entries({
       id: "scene",
@@ -96,36 +96,36 @@ export class Space implements SpaceView {
   #handle(scene: Scene): void {
     const { s } = this;
     const { canvas } = scene;
-    let from: Point = [0, 0];
+    let start: Point = [0, 0];
     let last: Point = [0, 0];
     let taps = false;
     let grip: Grip = { kind: "cloth" };
-    const at = ([x, y]: Point): Point | undefined =>
+    const placeOf = ([x, y]: Point): Point | undefined =>
       scene.unplace(x, y, s.play.balls[0]!.kind.radius);
     drags(canvas, (event, first) => {
-      const now = pixelsOf(canvas, event);
+      const pixel = pixelsOf(canvas, event);
       if (first) {
         taps = !s.film.playing;
         if (!taps) s.showing.skip();
-        from = now;
-        grip = this.#under(scene, now);
+        start = pixel;
+        grip = this.#under(scene, pixel);
       } else if (free(s)) {
-        taps &&= Math.hypot(now[0] - from[0], now[1] - from[1]) < 6;
-        const to = at(now);
+        taps &&= Math.hypot(pixel[0] - start[0], pixel[1] - start[1]) < 6;
+        const target = placeOf(pixel);
         this.#moves =
           !taps && grip.kind === "ball" && grip.ball === s.play.cueBall && movable(s, grip.ball);
-        if (this.#moves && to) move(s, s.play.cueBall, to);
+        if (this.#moves && target) move(s, s.play.cueBall, target);
         else if (!this.#moves && !taps) {
-          s.stroke.set({ phi: (s.stroke.value().phi + (last[0] - now[0]) * 0.08 + 360) % 360 });
+          s.stroke.set({ phi: (s.stroke.value().phi + (last[0] - pixel[0]) * 0.08 + 360) % 360 });
           s.changed();
         }
       }
-      last = now;
+      last = pixel;
     });
     for (const type of ["pointerup", "pointercancel"])
       canvas.addEventListener(type, () => {
-        const to = at(from);
-        if (type === "pointerup" && taps && to && free(s)) tap(s, grip, to);
+        const target = placeOf(start);
+        if (type === "pointerup" && taps && target && free(s)) tap(s, grip, target);
         this.#moves = false;
         taps = false;
         s.changed();
@@ -135,7 +135,7 @@ export class Space implements SpaceView {
   #under(scene: Scene, [x, y]: Point): Grip {
     const { balls, table } = this.s.play;
     const far = (px: number, py: number): number => Math.hypot(px - x, py - y);
-    const near = [
+    const grips = [
       ...balls.map(({ state: { r } }, ball) => ({
         grip: { kind: "ball", ball } as Grip,
         d: onTable(balls[ball]!.state) ? far(...scene.place(r[0], r[1], r[2])) : 99,
@@ -147,29 +147,29 @@ export class Space implements SpaceView {
     ]
       .filter(({ d }) => d < 24)
       .sort((a, b) => a.d - b.d);
-    return near[0]?.grip ?? { kind: "cloth" };
+    return grips[0]?.grip ?? { kind: "cloth" };
   }
 
   draw(): void {
-    if (!this.on || !this.#scene) return;
-    if (this.#of !== this.s.play) this.#make();
+    if (!this.isOn || !this.#scene) return;
+    if (this.#play !== this.s.play) this.#make();
     const { clientWidth, clientHeight } = this.s.film.canvas;
     const { canvas } = this.#scene;
     if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight)
       this.#scene.size(clientWidth, clientHeight);
-    const poses = this.s.filmed!.shots[0]!.at(this.s.film.time);
-    const of = aimed(this.s);
+    const poses = this.s.filmed!.shots[0]!.poses(this.s.film.time);
+    const cue = aimed(this.s);
     // The camera stays where it was while the balls roll, or the cue ball is moved.
-    if (of && !this.#moves) this.#scene.look(poses[of.ball]!.r, of.phi);
+    if (cue && !this.#moves) this.#scene.look(poses[cue.ball]!.r, cue.phi);
     this.#scene.draw(
       poses,
-      of && {
-        cue: of,
-        gap: stickEnd(this.#of!.balls[0]!.kind.radius, of.speed),
-        first: this.s.first?.at,
+      cue && {
+        cue,
+        gap: stickEnd(this.#play!.balls[0]!.kind.radius, cue.speed),
+        first: this.s.first?.place,
       },
     );
-    this.#label(poses, of !== undefined);
+    this.#label(poses, cue !== undefined);
   }
   /**
    * Draws the way of a ball that is aimed at; and, if the settings ask for it, the label of each
@@ -178,7 +178,7 @@ export class Space implements SpaceView {
   #label(poses: readonly Pose[], aims: boolean): void {
     const over = this.#over;
     const scene = this.#scene!;
-    const balls = this.#of!.balls;
+    const balls = this.#play!.balls;
     const { clientWidth: width, clientHeight: height } = scene.canvas;
     const sharp = Math.min(window.devicePixelRatio || 1, 2);
     Object.assign(over, { width: width * sharp, height: height * sharp });
@@ -205,12 +205,12 @@ export class Space implements SpaceView {
       };
     });
     if (!this.s.settings.numbers) return;
-    const labels = labelsOf(this.#of!.names, texts.letters);
+    const labels = labelsOf(this.#play!.names, texts.letters);
     drawLabels({ g, scale: 1, place: (x, y) => [x, y] }, seen, labels);
   }
 
   #hide(): void {
-    this.on = false;
+    this.isOn = false;
     this.s.film.canvas.classList.remove("behind");
     this.s.film.draw();
     this.close();

@@ -2,29 +2,29 @@
 import { onTable } from "../table/filmed.js";
 import { ballOf } from "../table/words.js";
 import type { Play, Stroke } from "./game.js";
-import { texts, told } from "../texts/texts.js";
+import { texts, translate } from "../texts/texts.js";
 
 /** The name of who is at the table: 0 breaks, 1 is the other one. */
-export function nameOf(play: Play, who: 0 | 1, seat: 0 | 1): string {
+export function nameOf(play: Play, player: 0 | 1, seat: 0 | 1): string {
   const { against } = play.setup;
-  if (against === "person") return texts.player(who + 1);
-  if (who === seat) return texts.you;
+  if (against === "person") return texts.player(player + 1);
+  if (player === seat) return texts.you;
   return against === "link" ? texts.theOtherPlayer : texts.theRated(against);
 }
-const groupOf = (play: Play, who: 0 | 1): string => {
+const groupOf = (play: Play, player: 0 | 1): string => {
   const { group } = play.state;
-  if (group === "open" || who === play.turn) return group;
+  if (group === "open" || player === play.turn) return group;
   return group === "solids" ? "stripes" : "solids";
 };
-const ballsLeft = (play: Play, from: number, to: number): number =>
-  play.balls.filter(({ state }, k) => k >= from && k <= to && onTable(state)).length;
+const ballsLeft = (play: Play, first: number, last: number): number =>
+  play.balls.filter(({ state }, k) => k >= first && k <= last && onTable(state)).length;
 
 /** What has just happened, as far as it is not a plain change of turns. */
-function wordsOfFoul(play: Play, { who, ruling, isLate }: Stroke, seat: 0 | 1): string {
-  const name = nameOf(play, who, seat);
+function wordsOfFoul(play: Play, { player, ruling, isLate }: Stroke, seat: 0 | 1): string {
+  const name = nameOf(play, player, seat);
   if (isLate) return texts.fouls(name, name === texts.you, texts.theTimeIsOver);
   if (!ruling?.foul) return "";
-  return texts.fouls(name, name === texts.you, told(ruling.why));
+  return texts.fouls(name, name === texts.you, translate(ruling.why));
 }
 
 const fell = ({ shot }: Stroke, ball: number): boolean =>
@@ -36,10 +36,10 @@ const isEight = ({ setup }: Play): boolean =>
 /** Why the eight lost the game. */
 function wordsOfEight({ state, ruling, balls, shot, call }: Stroke): string {
   if (shot?.final[8]?.label === "off") return texts.the8LeftThe;
-  const [from, to] = state.group === "solids" ? [1, 7] : [9, 15];
-  const hasOwn = balls.some((ball, k) => k >= from && k <= to && onTable(ball.state));
+  const [first, last] = state.group === "solids" ? [1, 7] : [9, 15];
+  const hasOwn = balls.some((ball, k) => k >= first && k <= last && onTable(ball.state));
   if (state.group === "open" || hasOwn) return texts.the8FellBefore;
-  if (ruling?.foul) return texts.the8FellWith(told(ruling.why));
+  if (ruling?.foul) return texts.the8FellWith(translate(ruling.why));
   const isCalled = typeof call === "object" && call.ball === 8;
   return isCalled ? texts.the8FellInto : texts.the8WasNot;
 }
@@ -49,7 +49,7 @@ export function wordsOfEnd(play: Play): string {
   if (winner !== undefined && last && !last.shot)
     return last.isLate ? texts.theTimeIsOver : texts.theOtherGaveUp;
   if (!last?.ruling) return "";
-  const hasLost = winner !== last.who;
+  const hasLost = winner !== last.player;
   const deciding = isEight(play) ? 8 : { nineball: 9, tenball: 10 }[setup.game];
   if (deciding === undefined) {
     const score = play.points.join(" : ").replaceAll("-", "−");
@@ -58,20 +58,20 @@ export function wordsOfEnd(play: Play): string {
   if (!hasLost) return fell(last, deciding) ? texts.theFell(deciding) : "";
   const isEightGone = fell(last, 8) || last.shot?.final[8]?.label === "off";
   if (deciding === 8 && isEightGone) return wordsOfEight(last);
-  return last.ruling.foul ? texts.theThirdFoulIn(told(last.ruling.why)) : "";
+  return last.ruling.foul ? texts.theThirdFoulIn(translate(last.ruling.why)) : "";
 }
 
 /** Where balls count for whoever plays. */
 function pocketOf(play: Play): string {
   const [pocket = 5] = play.state.pocket ?? [];
-  return texts.thePocket(told(play.carom.pocketNames(play.table)[pocket] ?? "own"));
+  return texts.thePocket(translate(play.carom.pocketNames(play.table)[pocket] ?? "own"));
 }
 /** Of snooker: what is to be met. */
 function onOf(play: Play): string {
-  const on = play.carom.ballsOn(play.state, play.balls);
-  if (on.length === 0) return "nothing";
-  if (on.every((ball) => ball < 16)) return texts.aRed;
-  return on.length === 1 ? told(play.names[on[0]!]!) : texts.aColour;
+  const targets = play.carom.ballsOn(play.state, play.balls);
+  if (targets.length === 0) return "nothing";
+  if (targets.every((ball) => ball < 16)) return texts.aRed;
+  return targets.length === 1 ? translate(play.names[targets[0]!]!) : texts.aColour;
 }
 
 /** Whether whoever is at the table has the equalizing inning. */
@@ -84,7 +84,7 @@ function aimOf(play: Play): string {
   if (game === "snooker") return texts.onBall(onOf(play));
   if (play.played?.pockets) return texts.intoPocket(pocketOf(play));
   if (!isEight(play) || play.breaks) return "";
-  return play.state.group === "open" ? texts.openTable : `, ${told(play.state.group)}`;
+  return play.state.group === "open" ? texts.openTable : `, ${translate(play.state.group)}`;
 }
 const PLACES: Record<string, string> = {
   kitchen: texts.behindTheLine,
@@ -105,8 +105,9 @@ function wordsOfTable(play: Play, name: string): string {
 
 export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = false): string {
   const struck = short ? "" : wordsOfStruck(play);
-  if (play.practice) return told(play.setup.drill ?? texts.practice) + (struck && `.${struck}`);
-  const before = play.last && !short ? wordsOfFoul(play, play.last, seat) : "";
+  if (play.practice)
+    return translate(play.setup.drill ?? texts.practice) + (struck && `.${struck}`);
+  const prefix = play.last && !short ? wordsOfFoul(play, play.last, seat) : "";
   const end = play.isOver ? wordsOfEnd(play) : "";
   const why = end && `: ${end}`;
   if (play.isDrawn) return texts.isDrawn(why);
@@ -116,24 +117,24 @@ export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = fa
   }
   const name = nameOf(play, play.turn, seat);
   const aim = aimOf(play);
-  if (thinks) return texts.thinks(before, name, aim);
+  if (thinks) return texts.thinks(prefix, name, aim);
   // Whoever has played has something to send; who has not waits for a link.
   if (name !== texts.you && play.setup.against === "link") {
-    const sends = play.last?.who === seat;
-    return texts.playsByLink(before, name, aim, sends ? texts.sendTheLink : texts.waitForTheLink);
+    const sends = play.last?.player === seat;
+    return texts.playsByLink(prefix, name, aim, sends ? texts.sendTheLink : texts.waitForTheLink);
   }
-  return `${before}${wordsOfTable(play, name)}${aim}.${wordsOfHand(play)}${struck}`;
+  return `${prefix}${wordsOfTable(play, name)}${aim}.${wordsOfHand(play)}${struck}`;
 }
 
 /** What fell in a stroke. */
 export function wordsOfStroke(play: Play, stroke: Stroke, seat: 0 | 1): string {
-  const { who, shot, cue, ruling, isLate } = stroke;
-  const name = nameOf(play, who, seat);
+  const { player, shot, cue, ruling, isLate } = stroke;
+  const name = nameOf(play, player, seat);
   if (isLate) return wordsOfFoul(play, stroke, seat).trim();
   if (!shot) return texts.passed(name);
   const fallen = shot.events.flatMap(({ type, a }) =>
     type === "ball_pocket" && (a !== cue.ball || !ruling?.foul)
-      ? texts.theBallNamed(told(play.names[a]!))
+      ? texts.theBallNamed(translate(play.names[a]!))
       : [],
   );
   return texts.whoPocketed(name, fallen.length > 0 ? fallen.join(texts.andWord) : texts.noBall);
@@ -145,7 +146,7 @@ export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, n
     const count = ballsLeft(play, 1, play.balls.length);
     return texts.ballsCounted(count);
   }
-  const names = ([0, 1] as const).map((who) => nameOf(play, who, seat));
+  const names = ([0, 1] as const).map((player) => nameOf(play, player, seat));
   const wordsOfPoints = (parts: readonly (string | number)[]): string =>
     parts.map((part, k) => `${names[k]}: ${part}`.replace(": -", ": −")).join(" · ");
   const { race } = play.setup;
@@ -155,8 +156,8 @@ export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, n
     return wordsOfPoints(play.points) + (race === undefined ? "" : ` · ${won}`);
   if (isEight(play)) {
     if (play.state.group === "open") return won;
-    const balls = ([0, 1] as const).map((who) =>
-      groupOf(play, who) === "solids" ? ballsLeft(play, 1, 7) : ballsLeft(play, 9, 15),
+    const balls = ([0, 1] as const).map((player) =>
+      groupOf(play, player) === "solids" ? ballsLeft(play, 1, 7) : ballsLeft(play, 9, 15),
     );
     return `${wordsOfPoints(balls.map((count) => (count === 0 ? texts.onThe8 : texts.countLeft(count))))}${won && ` · ${won}`}`;
   }

@@ -75,7 +75,7 @@ export function togglePush(s: Session): void {
   if (!free(s)) return says(s, why(s));
   if (needsCall(s.play)) {
     // A safety holds as long as the aim meets the same ball.
-    const safety = { ball: -1, pocket: SAFETY, met: s.first?.ball ?? -1 };
+    const safety = { ball: -1, pocket: SAFETY, hitBall: s.first?.ball ?? -1 };
     s.chosen = isSafety(s) ? NONE : safety;
   } else if (s.play.breaks) {
     says(s, texts.aBreakCallsNothing);
@@ -142,10 +142,10 @@ export function aimAtNearest({ play, stroke }: Pick<Session, "play" | "stroke">)
 function judgeDrill({ play, training, words, carom }: Session): void {
   const { drill, at } = play.setup;
   if (drill === undefined || !play.last) return;
-  const { text, again } = training.played(drill, play.last);
+  const { text, repeats } = training.played(drill, play.last);
   says({ words }, text);
   // The next try begins where this one began.
-  if (again) play.lay(new Play(carom, { ...play.setup, at }).balls);
+  if (repeats) play.lay(new Play(carom, { ...play.setup, at }).balls);
 }
 /** Begins the turn of the player who is now at the table. */
 export function next(s: Session): void {
@@ -155,7 +155,7 @@ export function next(s: Session): void {
   // Words about the last stroke, and about a game that it ended.
   const { last, setup, isOver } = play;
   const isAgainstComputer = isComputer(setup.against);
-  const wasTheirs = last !== undefined && last.who !== seat;
+  const wasTheirs = last !== undefined && last.player !== seat;
   if (wasTheirs && play.hasPockets && isAgainstComputer)
     says(s, `${wordsOfStroke(play, last, seat)} ${s.verdict}`.trim());
   if (isOver && isRated(setup)) says(s, training.rating().words);

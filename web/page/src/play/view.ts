@@ -24,23 +24,23 @@ import { Sound } from "./sound.js";
 import { Space } from "./space.js";
 import { begin, FIRST, resume, start } from "./opening.js";
 import { choose, concede, mayConcede, togglePush, undo } from "./turns.js";
-import { texts, told } from "../texts/texts.js";
+import { texts, translate } from "../texts/texts.js";
 
 const wordsOf = (): Session["words"] => ({
-  turn: el("p", { id: "turn", role: "status" }),
-  score: el("p", { id: "score" }),
-  said: el("p", { id: "said", role: "status" }),
+  turn: el("p#turn", { role: "status" }),
+  score: el("p#score"),
+  message: el("p#said", { role: "status" }),
 });
 /** The balls on the table in words, for whoever does not see them; read anew at each opening. */
 function listOfBalls(s: Session): HTMLDetailsElement {
-  const list = el("ul", { id: "ball-list" });
-  const root = el("details", {}, el("summary", {}, texts.whereBallsLie), list);
+  const list = el("ul#ball-list");
+  const root = el("details", el("summary", texts.whereBallsLie), list);
   root.addEventListener("toggle", () => {
     const { balls, names } = s.play;
     const rows = balls.flatMap(({ state }, k) => {
       if (!onTable(state)) return [];
       const [across, up] = [state.r[0], state.r[1]].map((x) => (100 * x).toFixed(0));
-      return el("li", {}, texts.ballLiesAt(told(names[k]!), across!, up!));
+      return el("li", texts.ballLiesAt(translate(names[k]!), across!, up!));
     });
     list.replaceChildren(...rows);
   });
@@ -50,9 +50,9 @@ function listOfBalls(s: Session): HTMLDetailsElement {
 function beginAgain(s: Session): void {
   const { setup } = s.play;
   const racks = isRaceOver(s.play) ? ([0, 0] as const) : racksOf(s.play);
-  const again = { ...setup, seed: setup.seed + 1, ...(setup.race !== undefined && { racks }) };
-  delete again.at; // the balls lie as in a rack
-  begin(s, again);
+  const rematch = { ...setup, seed: setup.seed + 1, ...(setup.race !== undefined && { racks }) };
+  delete rematch.at; // the balls lie as in a rack
+  begin(s, rematch);
 }
 /** The buttons of the bar; `session` is complete before the first of them is pressed. */
 function buttonsOf(session: () => Session): Session["buttons"] {
@@ -61,7 +61,7 @@ function buttonsOf(session: () => Session): Session["buttons"] {
     text: string,
     press: (s: Session) => unknown,
     more: Record<string, string> = {},
-  ): HTMLButtonElement => button(text, () => void press(session()), { id, ...more });
+  ): HTMLButtonElement => button(text, () => void press(session()), `#${id}`, { ...more });
   return {
     menu: named("new-game", texts.newGame, () => undefined),
     hint: named("hint", texts.hint, (s) => s.coach.advise()),
@@ -97,11 +97,11 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
   const coarse = window.matchMedia("(pointer: coarse)").matches;
   const settings = settingsOf();
   const changed = eachFrame(() => {
-    if (!s.film.playing && s.then === undefined) s.showing.rest();
+    if (!s.film.playing && s.continuation === undefined) s.showing.rest();
     if (settings.coach) void s.coach.chances();
   });
   const film = filmPlayer({
-    hidden: () => s.space?.on,
+    hidden: () => s.space?.isOn,
     over: (g) => drawAim(s, g),
     moved: () => moved(s),
     ended: () => finish(s),
@@ -117,9 +117,9 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
     sound: new Sound(settings.sound),
     words: wordsOf(),
     buttons: buttonsOf(() => s),
-    choices: CHOICES.map(([may, text]) => [may, button(text, () => choose(s, may), { id: may })]),
+    choices: CHOICES.map(([act, text]) => [act, button(text, () => choose(s, act), `#${act}`)]),
   });
-  const made = Object.assign(s, {
+  const session = Object.assign(s, {
     showing: showing(s),
     coach: coaching(s),
     end: endView(
@@ -132,13 +132,13 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
     training: practice(carom, (setup) => begin(s, setup)),
     space: new Space(s, felt),
   });
-  felt.append(film.canvas, made.end.root);
-  return made;
+  felt.append(film.canvas, session.end.root);
+  return session;
 }
 function toggleSound(s: Session): void {
   const isOn = !s.settings.sound;
   s.settings.sound = isOn;
-  s.sound.on = isOn;
+  s.sound.isOn = isOn;
   s.sound.wake();
   keepSettings(s);
   s.buttons.sound.setAttribute("aria-pressed", String(isOn));
@@ -149,19 +149,19 @@ async function toggle(s: Session): Promise<void> {
   } catch (error) {
     says(s, texts.thisBrowserDoesNotShow(wrong(error)));
   }
-  s.buttons.space.setAttribute("aria-pressed", String(s.space.on));
+  s.buttons.space.setAttribute("aria-pressed", String(s.space.isOn));
 }
 
 /** The dialogs of a game: a new one with its settings, the log of strokes, diagrams. */
-function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof diagramPage> } {
+function dialogs(s: Session): { overlays: HTMLElement[]; diagram: ReturnType<typeof diagramPage> } {
   const log = logPage(s.training.plan);
   const diagram = diagramPage(s.carom, s.coarse);
-  const shut = (text: string, id: string, then: () => void): HTMLElement => {
+  const shut = (text: string, id: string, action: () => void): HTMLElement => {
     const press = (): void => {
       games.root.close();
-      then();
+      action();
     };
-    return button(text, press, { id });
+    return button(text, press, `#${id}`);
   };
   const draw = (): void => {
     const { play } = s;
@@ -184,7 +184,7 @@ function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof d
       games.root.close();
       concede(s);
     },
-    { id: "concede" },
+    "#concede",
   );
   const rows = [
     shut(texts.linkToThisGame, "copy-game", () => void s.link.send()),
@@ -192,19 +192,14 @@ function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof d
     shut(texts.diagramToPrint, "open-diagram", draw),
     give,
   ];
-  const games = menu(
-    s,
-    ...s.training.parts,
-    el("h3", {}, texts.thisGame),
-    el("div", { class: "row" }, ...rows),
-  );
+  const games = menu(s, ...s.training.parts, el("h3", texts.thisGame), el("div.row", ...rows));
   s.buttons.menu.addEventListener("click", () => {
     give.textContent = texts.concede;
     give.hidden = !mayConcede(s.play);
     games.open();
   });
   return {
-    all: [games.root, games.calibration, log.root, diagram.root, s.training.photo],
+    overlays: [games.root, games.calibration, log.root, diagram.root, s.training.photo],
     diagram,
   };
 }
@@ -213,24 +208,18 @@ export function playView(
   carom: Carom,
   main: HTMLElement,
 ): { update(): void; theme(): void; close(): void } {
-  const felt = el("section", { class: "felt", "aria-label": texts.table });
+  const felt = el("section.felt", { "aria-label": texts.table });
   const s = sessionOf(carom, felt);
   const { words, buttons, stroke } = s;
   aiming(s);
-  const { all, diagram } = dialogs(s);
+  const { overlays, diagram } = dialogs(s);
   const clock = shotClock(s);
   const bar = el(
-    "section",
-    { class: "play-bar", "aria-label": texts.game },
+    "section.play-bar",
+    { "aria-label": texts.game },
+    el("div.words", el("div.row.state", words.turn, words.score, clock.root), words.message),
     el(
-      "div",
-      { class: "words" },
-      el("div", { class: "row state" }, words.turn, words.score, clock.root),
-      words.said,
-    ),
-    el(
-      "div",
-      { class: "row tools" },
+      "div.row.tools",
       buttons.menu,
       buttons.hint,
       buttons.replay,
@@ -238,28 +227,22 @@ export function playView(
       buttons.undo,
       buttons.rack,
       buttons.push,
-      ...s.choices.map(([, one]) => one),
+      ...s.choices.map(([, button]) => button),
       buttons.link,
     ),
-    el(
-      "div",
-      { class: "row strike" },
-      ...stroke.row.slice(0, -1),
-      buttons.skip,
-      ...stroke.row.slice(-1),
-    ),
+    el("div.row.strike", ...stroke.row.slice(0, -1), buttons.skip, ...stroke.row.slice(-1)),
   );
   main.replaceChildren(
-    el("div", { class: "play" }, felt, stroke.side, bar, stroke.numbers, listOfBalls(s), ...all),
+    el("div.play", felt, stroke.side, bar, stroke.numbers, listOfBalls(s), ...overlays),
   );
 
   start(s, s.play, "");
   buttons.sound.setAttribute("aria-pressed", String(s.settings.sound));
   document.querySelector("header")!.append(buttons.sound);
   s.showing.rest();
-  const asked = parameters().get("d");
+  const packed = parameters().get("d");
   const ready = resume(s)
-    .then(() => (asked ? diagram.read(asked) : undefined))
+    .then(() => (packed ? diagram.read(packed) : undefined))
     .catch((error: unknown) => says(s, texts.theDiagramWasNot(wrong(error))));
   main.setAttribute("aria-busy", "true");
   void ready.then(() => main.setAttribute("aria-busy", "false"));

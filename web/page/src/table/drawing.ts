@@ -28,28 +28,28 @@ export function path(
 }
 export const stroke = (
   pen: Pen,
-  from: readonly number[],
-  to: readonly number[],
+  start: readonly number[],
+  end: readonly number[],
   width: number,
   style: string,
-): void => path(pen, [from, to], width, style);
+): void => path(pen, [start, end], width, style);
 
 /** A circle of a radius, m, and some pixels more. */
 export function ring(
   { g, scale, place }: Pen,
-  at: readonly number[],
+  centre: readonly number[],
   radius: number,
   more: number,
 ): void {
   g.beginPath();
-  g.arc(...place(at[0]!, at[1]!), radius * scale + more, 0, 7);
+  g.arc(...place(centre[0]!, centre[1]!), radius * scale + more, 0, 7);
   g.stroke();
 }
 
 /** A circle on the cloth of a radius, m, as it is seen from anywhere. */
 export const circle = (
   pen: Pen,
-  at: readonly number[],
+  place: readonly number[],
   radius: number,
   width: number,
   style: string,
@@ -57,8 +57,8 @@ export const circle = (
   path(
     pen,
     Array.from({ length: 33 }, (_, k) => (k * Math.PI) / 16).map((turn) => [
-      at[0]! + radius * Math.cos(turn),
-      at[1]! + radius * Math.sin(turn),
+      place[0]! + radius * Math.cos(turn),
+      place[1]! + radius * Math.sin(turn),
     ]),
     width,
     style,
@@ -100,12 +100,18 @@ export function drawStick(pen: Pen, cueBall: ShotBall, { phi, theta, speed }: Cu
   const { r } = cueBall.state;
   const dx = Math.cos(phi / DEGREES);
   const dy = Math.sin(phi / DEGREES);
-  const at = (s: number): [number, number] => [r[0] - dx * s, r[1] - dy * s];
+  const point = (s: number): [number, number] => [r[0] - dx * s, r[1] - dy * s];
   const gap = stickEnd(cueBall.kind.radius, speed);
   const thick = Math.max(0.012 * pen.scale, 3);
   pen.g.lineCap = "round";
-  stroke(pen, at(gap), at(gap + 1.3 * Math.max(Math.cos(theta / DEGREES), 0.15)), thick, "#d9b077");
-  stroke(pen, at(gap), at(gap + 0.017), 0.8 * thick, "#3f7fbf");
+  stroke(
+    pen,
+    point(gap),
+    point(gap + 1.3 * Math.max(Math.cos(theta / DEGREES), 0.15)),
+    thick,
+    "#d9b077",
+  );
+  stroke(pen, point(gap), point(gap + 0.017), 0.8 * thick, "#3f7fbf");
 }
 
 /**
@@ -144,7 +150,7 @@ export function drawLabels(
   };
   // What a label does not cover: the middle and half the size of each ball, and of the labels
   // that are drawn already.
-  const taken = balls.flatMap(({ state, kind }) =>
+  const occupied = balls.flatMap(({ state, kind }) =>
     onTable(state)
       ? [[...place(state.r[0], state.r[1]), kind.radius * scale, kind.radius * scale]]
       : [],
@@ -158,10 +164,12 @@ export function drawLabels(
     const half = g.measureText(label).width / 2;
     const high = 5;
     const away = radius + 2;
-    const near = taken.filter(([bx, by]) => Math.abs(bx! - x) < 80 && Math.abs(by! - y) < 80);
+    const neighbors = occupied.filter(
+      ([bx, by]) => Math.abs(bx! - x) < 80 && Math.abs(by! - y) < 80,
+    );
     // Of twelve places around the ball the one that covers least; the first is at the upper right.
     const covers = ([px, py]: readonly [number, number]): number =>
-      near.reduce(
+      neighbors.reduce(
         (sum, [bx, by, bw, bh]) =>
           sum +
           Math.max(half + bw! - Math.abs(px - bx!), 0) *
@@ -171,9 +179,11 @@ export function drawLabels(
     const around = Array.from({ length: 12 }, (_, k) => ((1.5 + k) * Math.PI) / 6).map(
       (turn) => [x + (away + half) * Math.cos(turn), y - (away + high) * Math.sin(turn)] as const,
     );
-    const best = around.reduce((one, other) => (covers(other) < covers(one) - 0.5 ? other : one));
+    const best = around.reduce((best, candidate) =>
+      covers(candidate) < covers(best) - 0.5 ? candidate : best,
+    );
     if (covers(best) > 4) return;
-    taken.push([...best, half + 6, high]); // two labels are not read as one
+    occupied.push([...best, half + 6, high]); // two labels are not read as one
     write(label, ...best);
   });
   g.restore();

@@ -28,19 +28,19 @@ export function pathsOf(shot: Shot, often = 25, most = 500): Path[] {
   );
   const found = [...moving].map((ball) => ({ ball, xyz: new Float64Array(3 * times.length) }));
   const end = lasts(shot);
-  const all = shot.positionsAt(
+  const coordinates = shot.positionsAt(
     times.map((t) => Math.min(t, end)),
     true,
   );
   times.forEach((_, k) => {
     for (const path of found)
       for (let c = 0; c < 3; c++)
-        path.xyz[3 * k + c] = all[3 * (k * shot.balls.length + path.ball) + c]!;
+        path.xyz[3 * k + c] = coordinates[3 * (k * shot.balls.length + path.ball) + c]!;
   });
   return found;
 }
 
-export interface Layout {
+interface Layout {
   table: Table;
   balls: readonly ShotBall[];
   names: readonly string[];
@@ -70,7 +70,7 @@ export function filmOf(
     shots: [
       {
         time: shot ? lasts(shot) : 0,
-        at(time: number): Pose[] {
+        poses(time: number): Pose[] {
           if (last?.time === time) return last.poses;
           // Balls that fall in their pockets lie elsewhere than in the frame.
           const places = shot?.positionsAt([time], true);

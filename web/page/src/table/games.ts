@@ -11,7 +11,7 @@ import {
   type TableName,
   words,
 } from "carom";
-import { texts, told } from "../texts/texts.js";
+import { texts, translate } from "../texts/texts.js";
 
 export interface GameOf {
   text: string;
@@ -59,7 +59,7 @@ for (const [name, text] of words.rules) {
     cowboy: (k) => ["cue", "1", "3", "5"][k] ?? String(k),
   };
   const names = namesOf[rack] ?? pool;
-  GAMES[name] = { text: told(titleOf(text)), table, rack, game: balls, names };
+  GAMES[name] = { text: translate(titleOf(text)), table, rack, game: balls, names };
 }
 /** The tables of pool, by the key that a game keeps; without one it is that of nine feet. */
 export const POOL_TABLES: Record<
@@ -71,6 +71,9 @@ export const POOL_TABLES: Record<
   "7ft": [texts.sevenFeet, "7ft"],
   tight: [texts.nineFeetCornersOf, "9ft", { cornerMouth: 0.10795 }],
 };
+export const POOL_TABLE_NAMES = Object.entries(POOL_TABLES).map(
+  ([key, [text]]) => [key, text] as const,
+);
 export const TABLES: readonly TableName[] = words.table.map(([word]) => word);
 
 /** A line that was read, and its game, in which ball k of the list is ball k. */
@@ -87,7 +90,7 @@ export interface Read<L> {
  * such games it is the one that is asked for, or the one all of whose balls are there; where it is
  * neither, the line is refused.
  */
-export function gameOf<L extends Line>(line: L, asked: string): Read<L> {
+export function gameOf<L extends Line>(line: L, preferred: string): Read<L> {
   // snooker, threecushion
   if (line.tableName in GAMES) return { name: line.tableName, line, also: undefined };
   const fitting: Record<string, L> = {};
@@ -104,17 +107,17 @@ export function gameOf<L extends Line>(line: L, asked: string): Read<L> {
       if (line.id === name) throw error;
     }
   const names = Object.keys(fitting);
-  const whole = names.find((one) => fitting[one]!.balls.length === line.balls.length);
-  const name = names.includes(asked) ? asked : (whole ?? names[0]);
+  const whole = names.find((name) => fitting[name]!.balls.length === line.balls.length);
+  const name = names.includes(preferred) ? preferred : (whole ?? names[0]);
   if (name === undefined) return { name: "nineball", line, also: undefined };
-  if (names.length > 1 && name !== asked && name !== whole)
+  if (names.length > 1 && name !== preferred && name !== whole)
     throw new TypeError(
-      texts.ballsTheyFitChoose(names.map((one) => GAMES[one]!.text).join(texts.andWord)),
+      texts.ballsTheyFitChoose(names.map((name) => GAMES[name]!.text).join(texts.andWord)),
     );
   return {
     name,
     line: fitting[name]!,
-    also: name === whole ? undefined : names.find((one) => one !== name),
+    also: name === whole ? undefined : names.find((key) => key !== name),
   };
 }
 
@@ -122,7 +125,7 @@ export function gameOf<L extends Line>(line: L, asked: string): Read<L> {
 export interface Played {
   text: string;
   /** Its key in GAMES: table, rack, names. */
-  of: string;
+  base: string;
   rules: GameState["rules"];
   /**
    * Whether ball and pocket are called, the score is points or balls, each has a pocket of his own;
@@ -175,8 +178,8 @@ export const PLAYED: Record<string, Played> = Object.fromEntries(
           [
             name,
             {
-              text: told(titleOf(text)),
-              of: name in GAMES ? name : rack,
+              text: translate(titleOf(text)),
+              base: name in GAMES ? name : rack,
               rules: name,
               calls,
               points,

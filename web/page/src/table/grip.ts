@@ -41,19 +41,19 @@ export function gripAt(
   cue: Cue,
   ofPocket: number,
 ): Grip {
-  const near = ([px, py]: readonly number[]): number => Math.hypot(px! - x, py! - y);
+  const distance = ([px, py]: readonly number[]): number => Math.hypot(px! - x, py! - y);
   let ball = -1;
   places.forEach((place, k) => {
     if (
       place &&
-      near(place) < Math.max(1.2 * balls[k]!.kind.radius, reach) &&
-      (ball < 0 || near(place) < near(places[ball]!))
+      distance(place) < Math.max(1.2 * balls[k]!.kind.radius, reach) &&
+      (ball < 0 || distance(place) < distance(places[ball]!))
     )
       ball = k;
   });
   if (ball >= 0) return { kind: "ball", ball };
   const pocket = pockets.findIndex(
-    ({ centre, radius }) => near(centre) < Math.max(radius + 0.01, ofPocket),
+    ({ centre, radius }) => distance(centre) < Math.max(radius + 0.01, ofPocket),
   );
   if (pocket >= 0) return { kind: "pocket", pocket };
   const cueBall = balls[cue.ball]!;
@@ -76,9 +76,14 @@ export const direction = (phi: number): number =>
 export const within = (speed: number, steps = 100): number =>
   Math.round(Math.min(Math.max(speed, 0.1), 10) * steps) / steps;
 /** The speed of a stick that is drawn back from one place to another. */
-export function drawnTo({ state: { r } }: ShotBall, speed: number, from: Point, at: Point): number {
+export function drawnTo(
+  { state: { r } }: ShotBall,
+  speed: number,
+  start: Point,
+  place: Point,
+): number {
   const back = ([x, y]: Point): number => Math.hypot(x - r[0], y - r[1]);
-  return within(speed + (back(at) - back(from)) / PULL);
+  return within(speed + (back(place) - back(start)) / PULL);
 }
 /** Where a ball lies that is moved by so many pixels. */
 export function movedBy(
@@ -108,12 +113,12 @@ export function put(
     Math.min(Math.max(v, R + 1e-4), most - R - 1e-4);
   let px = inside(x, table.width);
   let py = Math.min(inside(y, table.length), highest);
-  const other = balls.find(
+  const neighbor = balls.find(
     ({ state }, k) =>
       k !== ball && onTable(state) && Math.hypot(state.r[0] - px, state.r[1] - py) < 2 * R + 1e-5,
   );
-  if (other) {
-    const [ox, oy] = other.state.r;
+  if (neighbor) {
+    const [ox, oy] = neighbor.state.r;
     const far = (2 * R + 2e-5) / (Math.hypot(px - ox, py - oy) || 1);
     [px, py] = [ox + (px - ox) * far, oy + (py - oy) * far];
   }

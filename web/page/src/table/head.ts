@@ -26,12 +26,12 @@ export function atHead(
   const half = bounds?.radius || 0.45 * width;
   for (let k = 0; ; k++) {
     const x = (k / 40) % 1;
-    const at = [
+    const place = [
       width / 2 + half * (x < 0.5 ? 2 * x : 1 - 2 * x),
       line - 1e-3 * Math.floor(k / 40),
     ] as const;
     try {
-      const laid = carom.placeBall(table, balls, ball, ...at);
+      const laid = carom.placeBall(table, balls, ball, ...place);
       if (k >= 4000 || !bounds || isWithin(bounds, laid[ball]!.state)) return laid;
     } catch (error) {
       if (k >= 4000) throw error;

@@ -5,10 +5,10 @@ import { onTable } from "./filmed.js";
 import { texts } from "../texts/texts.js";
 
 /** A ball that waits in the first pocket. */
-export function pocketed({ pockets: [pocket] }: Table, from: BallState): BallState {
+export function pocketed({ pockets: [pocket] }: Table, state: BallState): BallState {
   return pocket
     ? { r: [...pocket.centre, -pocket.depth], v: [0, 0, 0], w: [0, 0, 0], label: "pocketed" }
-    : from;
+    : state;
 }
 
 /** The balls at the places of a text. */

@@ -1,7 +1,7 @@
 // Plans in words: what a choice is, and chances.
 import type { PlanStroke, Table } from "carom";
 import { pocketName } from "../../../player/words.js";
-import { texts, told } from "../texts/texts.js";
+import { texts, translate } from "../texts/texts.js";
 
 /** Fargo ratings that one can choose. */
 export const RATINGS = ["200", "300", "400", "500", "600", "700", "800"];
@@ -46,10 +46,10 @@ export function wordsOfPot(
   how = "",
 ): string {
   const name = names[ball]!;
-  const into = told(pocketName(table, pocket));
+  const into = translate(pocketName(table, pocket));
   return Number(name) > 0
     ? texts.ballNumberInto(name, into, how)
-    : texts.intoThe(told(name), into, how);
+    : texts.intoThe(translate(name), into, how);
 }
 interface WhatMayBeStruck {
   table: Table;
@@ -69,10 +69,10 @@ export function wordsOfPlan(
 /** A ball in words: "ball 7", "the yellow". */
 export function ballOf(names: readonly string[], ball: number): string {
   const name = names[ball]!;
-  return Number(name) > 0 ? texts.ballNumber(name) : texts.theBallNamed(told(name));
+  return Number(name) > 0 ? texts.ballNumber(name) : texts.theBallNamed(translate(name));
 }
 /** What a choice is, by which the cue ball may be known to meet a cushion first. */
-export function wordsOfChoice(
+function wordsOfChoice(
   table: Table,
   names: readonly string[],
   choice: PlanStroke,
@@ -85,7 +85,7 @@ export function wordsOfChoice(
     if (named !== undefined) return named;
     return hasPockets ? texts.aStrokeWithoutA : texts.aStrokeAfterWhich;
   }
-  if (!hasPockets) return texts.theBallFirst(told(names[ball]!));
+  if (!hasPockets) return texts.theBallFirst(translate(names[ball]!));
   const first = cushionFirst && kind !== "kick" ? texts.offACushionFirst : "";
   return wordsOfPot(table, names, choice, `${BY[kind] ?? ""}${first}`);
 }

@@ -1,10 +1,24 @@
 // The texts of the page in its language: the one that was chosen in the settings, or else the
 // browser's. A page keeps its language; another choice loads it again.
-import { DICTIONARY, told } from "../../../player/words.js";
-import { GERMAN } from "./de.js";
-import { ENGLISH } from "./en.js";
+//
+// A language is a file with the keys of the English one: `plain` has texts without parts, and
+// `filled` has texts with parts. A call hands the parts over in the order in which the English text
+// names them. "{count}" is a part, and "{count:ball|balls}" is the first word where the part is 1 or
+// true, else the second. `rules` describes each game by the library's word for it, `letters` tells
+// the colours of balls apart, and `known` has what the library says in words of the language.
+import { DICTIONARY, translate } from "../../../player/words.js";
+import german from "./de.json" with { type: "json" };
+import english from "./en.json" with { type: "json" };
 
-/** A language is a file of texts with the keys of the English one. */
+type Part = string | number | boolean;
+type Lists = Record<"rules" | "letters" | "known", Record<string, string>>;
+type LanguageFile = Pick<typeof english, "plain" | "filled"> & Lists;
+type Texts = LanguageFile["plain"] &
+  Record<keyof LanguageFile["filled"], (...parts: Part[]) => string> &
+  Lists;
+
+const ENGLISH: LanguageFile = english;
+const GERMAN: LanguageFile = german;
 export const LANGUAGES = { en: ENGLISH, de: GERMAN } as const;
 export type Language = keyof typeof LANGUAGES;
 export const LANGUAGE_NAMES: readonly (readonly [Language, string])[] = [
@@ -14,8 +28,8 @@ export const LANGUAGE_NAMES: readonly (readonly [Language, string])[] = [
 const KEY = "carom-language";
 
 function languageOfReader(): Language {
-  const asked = [chosenLanguage() ?? "", ...(globalThis.navigator?.languages ?? [])];
-  const known = asked.map((one) => one.slice(0, 2)).find((one) => one in LANGUAGES);
+  const preferences = [chosenLanguage() ?? "", ...(globalThis.navigator?.languages ?? [])];
+  const known = preferences.map((code) => code.slice(0, 2)).find((code) => code in LANGUAGES);
   return (known as Language | undefined) ?? "en";
 }
 /** What was chosen; workers, and browsers that keep nothing, know of none. */
@@ -32,7 +46,30 @@ export function chooseLanguage(language: string): void {
   location.reload();
 }
 
+/** The names of a text's parts, in the order of the text. */
+export const partsOf = (text: string): string[] => [
+  ...new Set(Array.from(text.matchAll(/\{(\w+)/g), ([, name]) => name!)),
+];
+function fill(text: string, names: readonly string[], parts: readonly Part[]): string {
+  const valueOf = (name: string): Part => parts[names.indexOf(name)]!;
+  return text
+    .replaceAll(
+      /\{(\w+):((?:[^{}|]|\{\w+\})*)\|((?:[^{}|]|\{\w+\})*)\}/g,
+      (_, name: string, first: string, second: string) =>
+        [1, true].includes(valueOf(name) as number) ? first : second,
+    )
+    .replaceAll(/\{(\w+)\}/g, (_, name: string) => String(valueOf(name)));
+}
+export function textsOf(language: Language): Texts {
+  const { plain, filled, ...lists } = LANGUAGES[language];
+  const functions = Object.entries(filled).map(([key, text]) => {
+    const names = partsOf(ENGLISH.filled[key as keyof typeof filled]);
+    return [key, (...parts: Part[]): string => fill(text, names, parts)];
+  });
+  return { ...plain, ...lists, ...Object.fromEntries(functions) } as Texts;
+}
+
 export const language = languageOfReader();
-export const texts: typeof ENGLISH = LANGUAGES[language];
+export const texts = textsOf(language);
 Object.assign(DICTIONARY, texts.known);
-export { told };
+export { translate };
