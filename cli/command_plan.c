@@ -272,10 +272,9 @@ static carom_status ask(const plan_job *job, const carom_plan_job *asked, const 
   if (!job->hand)
     return carom_plan(asked, choices, BEST, n);
   const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)job->game.rules);
-  const int leave = job->game.opening ? about->opening : about->hand;
-  carom_bounds bounds;
-  carom_hand_bounds((carom_leave)leave, asked->table, asked->balls[0].kind.radius, &bounds);
-  return carom_plan_hand(asked, bounds.low, bounds.high, choices, BEST, n);
+  carom_plan_job placed = *asked;
+  placed.leave = job->game.opening ? about->opening : about->hand;
+  return carom_plan_hand(&placed, NULL, NULL, choices, BEST, n);
 }
 
 /* Of a layout without an eight there is no eight-ball: where no game was asked for, all balls

@@ -33,6 +33,7 @@ static carom_plan_job job_after(const carom_plan_job *job, const carom_ruling *r
   rules->state = ruling->state;
   next.rules = rules;
   next.balls = ruling->balls;
+  next.leave = (int64_t)ruling->turn.leave;
   return next;
 }
 
@@ -41,13 +42,10 @@ static carom_status plan_next(const carom_plan_job *job, const carom_ruling *rul
                               carom_choice *choice) {
   carom_plan_rules rules;
   const carom_plan_job next = job_after(job, ruling, &rules);
-  const double radius = job->balls[job->cue->ball].kind.radius;
-  carom_bounds bounds;
   int found;
   if (!ruling->hand)
     return carom_plan(&next, choice, 1, &found);
-  carom_hand_bounds(ruling->turn.leave, job->table, radius, &bounds);
-  return carom_plan_hand(&next, bounds.low, bounds.high, choice, 1, &found);
+  return carom_plan_hand(&next, NULL, NULL, choice, 1, &found);
 }
 
 /* Where the cue ball stops, and the best shot from there. */

@@ -176,6 +176,7 @@ static void make_rack(lab_rack *rack, carom_rules_kind game, lab_random *draw) {
   } while (carom_place_ball(&rack->table, rack->balls, (int)rack->plan.count, 0, x, y, NULL) !=
            CAROM_OK);
   rack->hand = lab_bits(draw) % 8 == 0 && !snooker;
+  rack->plan.leave = rack->hand ? CAROM_LEAVE_HAND : CAROM_LEAVE_AFTER;
 }
 
 static bool keeps(const carom_turn *turn) {

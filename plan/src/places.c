@@ -3,7 +3,6 @@
 
 #include "platform/elementary.h"
 #include "rows.h"
-#include "table/spots.h"
 
 #include <math.h>
 
@@ -11,33 +10,26 @@ typedef carom_search search;
 
 enum { PLACES = 120 }; /* that are tried */
 
-/* Where the cue ball may be; low and high are the caller's bounds, or NULL. False where there is no
- * place: the range is empty, or has NaN. */
+/* Where the cue ball may be: within the bounds of its leave, and those of the caller, low and high,
+ * or NULL. False where there is no place: the range is empty, or has NaN. */
 static bool find_range(search *plan, const double low[2], const double high[2]) {
+  const carom_plan_job *job = &plan->job;
   const double R = plan->view.radius[plan->view.cue_ball];
-  const double size[2] = {plan->view.width, plan->view.length};
-  carom_hand_range *range = &plan->range;
+  carom_leave leave = (carom_leave)job->leave;
+  if (job->rules->rack == CAROM_RACK_SNOOKER)
+    leave = CAROM_LEAVE_D;
+  carom_bounds *range = &plan->range;
+  if (carom_hand_bounds(leave, job->table, R, range) != CAROM_OK)
+    return false;
   for (int x = 0; x < 2; x++) {
-    range->low[x] = R;
-    range->high[x] = size[x] - R;
-    if (low != NULL && !(low[x] <= R))
+    if (low != NULL && !(low[x] <= range->low[x]))
       range->low[x] = low[x];
-    if (high != NULL && !(high[x] >= size[x] - R))
+    if (high != NULL && !(high[x] >= range->high[x]))
       range->high[x] = high[x];
-  }
-
-  /* in snooker the box around the D */
-  if (plan->job.rules->rack == CAROM_RACK_SNOOKER) {
-    const carom_d d = carom_d_of(size[0], size[1]);
-    const double d_low[2] = {d.x - d.radius, d.y - d.radius}, d_high[2] = {d.x + d.radius, d.y};
-    for (int x = 0; x < 2; x++) {
-      range->low[x] = fmax(range->low[x], d_low[x]);
-      range->high[x] = fmin(range->high[x], d_high[x]);
-    }
   }
   /* a game is opened from the head line, if the caller has no upper bound */
   if (plan->breaks && high == NULL)
-    range->high[1] = fmin(range->high[1], 0.25 * size[1]);
+    range->high[1] = fmin(range->high[1], 0.25 * plan->view.length);
   return range->low[0] <= range->high[0] && range->low[1] <= range->high[1];
 }
 
@@ -77,7 +69,7 @@ static bool draw_place_of_pot(const search *plan, uint64_t k, double r[2]) {
 static void draw_place(const search *plan, uint64_t k, double r[2]) {
   if (k % 2 == 1 && draw_place_of_pot(plan, k, r))
     return;
-  const carom_hand_range *range = &plan->range;
+  const carom_bounds *range = &plan->range;
   for (int x = 0; x < 2; x++) {
     const double share = carom_uniform(plan->options.seed, DRAW_PLACES, k, (uint32_t)x);
     r[x] = range->low[x] + (range->high[x] - range->low[x]) * share;
@@ -88,7 +80,7 @@ enum { BREAK_PLACES = 6 };
 /* The place number k of a break: one of six across, where the range ends. */
 static void break_place(const search *plan, uint64_t k, double r[2]) {
   static const double across[BREAK_PLACES] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
-  const carom_hand_range *range = &plan->range;
+  const carom_bounds *range = &plan->range;
   r[0] = range->low[0] + (range->high[0] - range->low[0]) * across[k % BREAK_PLACES];
   r[1] = range->high[1];
 }
@@ -96,12 +88,8 @@ static void break_place(const search *plan, uint64_t k, double r[2]) {
 /* Puts the cue ball in hand on a place. */
 static bool place_in_hand(search *plan, const double r[2]) {
   const carom_plan_job *job = &plan->job;
-  for (int x = 0; x < 2; x++)
-    if (!(r[x] >= plan->range.low[x] && r[x] <= plan->range.high[x]))
-      return false;
-  if (job->rules->rack == CAROM_RACK_SNOOKER && !carom_is_in_d(job->table, r[0], r[1]))
-    return false;
-  return carom_place_ball(job->table, plan->hand, (int)job->count, plan->view.cue_ball, r[0], r[1],
+  return carom_is_within(&plan->range, r[0], r[1]) &&
+         carom_place_ball(job->table, plan->hand, (int)job->count, plan->view.cue_ball, r[0], r[1],
                           NULL) == CAROM_OK;
 }
 

@@ -238,14 +238,6 @@ static void spread(const search *plan, shot_result *with) {
   }
 }
 
-/* Whether the stroke is from behind the head string: the cue ball was placed there, or is in hand
- * there, by where it may be put. */
-static bool is_from_kitchen(const search *plan) {
-  if (plan->job.leave == CAROM_LEAVE_KITCHEN)
-    return true;
-  return plan->places > 0 && fabs(plan->range.high[1] - 0.25 * plan->view.length) < 1e-9;
-}
-
 static size_t play_rows(const void *context, size_t first, size_t end) {
   const search *plan = context;
   const carom_stage *s = &plan->stage;
@@ -263,7 +255,7 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
     if (plan->plays < plan->view.count)
       spread(plan, &result);
-    if (is_from_kitchen(plan))
+    if (plan->job.leave == CAROM_LEAVE_KITCHEN)
       result.facts.barred =
           carom_barred(&result.facts, plan->view.length, plan->job.balls, plan->view.count);
     int met = -1;

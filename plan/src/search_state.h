@@ -5,6 +5,7 @@
 #ifndef CAROM_PLAN_SEARCH_STATE_H
 #define CAROM_PLAN_SEARCH_STATE_H
 
+#include "carom_match.h"
 #include "platform/clock.h"
 #include "platform/threads.h"
 #include "shot/shot.h"
@@ -85,12 +86,6 @@ typedef struct carom_place_in_hand {
   double r[2], value;
 } carom_place_in_hand;
 
-/* Where a cue ball in hand may be put: the rectangle within the cushions that the caller and the
- * rules allow. */
-typedef struct carom_hand_range {
-  double low[2], high[2];
-} carom_hand_range;
-
 /* A table as it may be, where the player does not know it; the kinds are those of the balls in
  * play. */
 enum { TABLES = 32 };
@@ -131,7 +126,7 @@ typedef struct carom_search {
   carom_pot_found pot[CAROM_BALLS_MOST * CAROM_POCKETS_MOST];
   carom_brief_event event[128];                    /* of a stroke whose kind is asked */
   carom_place_in_hand best_place[PLACES_MOST + 1]; /* the best first */
-  carom_hand_range range;                          /* where the cue ball in hand may be put */
+  carom_bounds range;                              /* where the cue ball in hand may be put */
   const carom_cue *cues;                           /* `tries` strokes of the caller, */
   carom_choice *choices;                           /* and the room for their choices */
   int places, tries;                               /* places 0: the cue ball is not in hand */

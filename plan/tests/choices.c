@@ -295,11 +295,11 @@ TEST(ball_behind_the_head_string) {
   make_memory();
   carom_place_ball(&table, balls, BALLS, 1, 0.15, 0.15, NULL);
   carom_place_ball(&table, balls, BALLS, 2, 0.635, 2.5, NULL);
-  carom_bounds bounds;
   carom_choice best;
   int found;
-  carom_hand_bounds(CAROM_LEAVE_KITCHEN, &table, balls[0].kind.radius, &bounds);
-  ck_assert_int_eq(carom_plan_hand(&job, bounds.low, bounds.high, &best, 1, &found), CAROM_OK);
+  job.leave = CAROM_LEAVE_KITCHEN;
+  ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
+  ck_assert(best.place[1] <= 0.25 * table.length);
   ck_assert_msg(best.ball != 1 || best.cue.phi < 180.0, "ball %d, %g degrees", best.ball,
                 best.cue.phi);
 
@@ -310,6 +310,60 @@ TEST(ball_behind_the_head_string) {
     ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
     const bool direct = best.ball == 1 && best.cue.phi > 180.0;
     ck_assert_msg(direct == (leave == 0), "ball %d, %g degrees", best.ball, best.cue.phi);
+  }
+  job.leave = 0;
+  edge_free(&memory);
+}
+
+/* The leave says whether a stroke is from behind the head string, and a bound does not: an upper
+ * bound on that string, or 1 um beside it, has one plan. The only target lies behind the string. */
+TEST(leave_and_not_a_bound) {
+  static const double places[][2] = {{0.6, 0.6}, {0.35, 0.30}, {0.9, 2.1}};
+  make_layout(1, 1);
+  rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+  options.shots = 2000;
+  for (int k = 0; k < 3; k++)
+    carom_place_ball(&table, balls, BALLS, k, places[k][0], places[k][1], NULL);
+  make_memory();
+  const double low[2] = {0.03, 0.03};
+  double foul[2];
+  for (int barred = 0; barred < 2; barred++) {
+    carom_choice best[3];
+    job.leave = barred != 0 ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_HAND;
+    for (int k = 0; k < 3; k++) {
+      const double high[2] = {1.24, 0.25 * table.length + 1e-6 * (k - 1)};
+      int found;
+      ck_assert_int_eq(carom_plan_hand(&job, low, high, &best[k], 1, &found), CAROM_OK);
+      ck_assert_msg(best[k].kind == best[0].kind && best[k].ball == best[0].ball,
+                    "leave %d, bound %d: %s of ball %d", (int)job.leave, k,
+                    carom_plan_kind_name((carom_plan_kind)best[k].kind), best[k].ball);
+      ck_assert_double_eq_tol(best[k].cue.phi, best[0].cue.phi, 0.1);
+      ck_assert_double_eq_tol(best[k].value, best[0].value, 0.01);
+    }
+    foul[barred] = best[0].cue.phi;
+  }
+  ck_assert(fabs(foul[0] - foul[1]) > 1.0); /* the barred ball is not met directly */
+  job.leave = 0;
+  edge_free(&memory);
+}
+
+/* Every leave bounds the place of a ball in hand, with the plan's place on or within its bounds. */
+TEST(bounds_of_every_leave) {
+  static const double high[] = {1.0, 1.0, 1.0, 0.25, 0.2, 0.2}; /* of the length, from the head */
+  make_layout(3, 4);
+  make_memory();
+  for (int leave = CAROM_LEAVE_AFTER; leave <= CAROM_LEAVE_BAULK; leave++) {
+    const double radius = balls[0].kind.radius;
+    carom_bounds bounds;
+    carom_choice best;
+    int found;
+    job.leave = leave;
+    ck_assert_int_eq(carom_hand_bounds((carom_leave)leave, &table, radius, &bounds), CAROM_OK);
+    ck_assert((bounds.radius > 0.0) == (leave == CAROM_LEAVE_D));
+    ck_assert_double_le(bounds.high[1], high[leave] * table.length + 0.02);
+    ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
+    ck_assert_msg(carom_is_within(&bounds, best.place[0], best.place[1]), "leave %d: %g, %g", leave,
+                  best.place[0], best.place[1]);
   }
   job.leave = 0;
   edge_free(&memory);

@@ -1,0 +1,53 @@
+/* The bounds of a ball in hand: one rectangle for each leave, and the D of snooker within its box.
+ * The planner, the match and their callers read them here. */
+#include "carom_match.h"
+#include "rules.h"
+#include "table/spots.h"
+
+#include <math.h>
+#include <string.h>
+
+carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, double radius,
+                               carom_bounds *bounds) {
+  if (table == NULL || bounds == NULL)
+    return CAROM_ERROR_NULL;
+  if ((uint32_t)leave > CAROM_LEAVE_BAULK)
+    return CAROM_ERROR_ACT;
+  if (!(radius >= 0.0) || isinf(radius))
+    return CAROM_ERROR_RADIUS;
+
+  /* the table, up to where balls touch its cushions */
+  memset(bounds, 0, sizeof *bounds);
+  bounds->low[0] = bounds->low[1] = radius;
+  bounds->high[0] = table->width - radius;
+  bounds->high[1] = table->length - radius;
+  if (leave == CAROM_LEAVE_KITCHEN)
+    bounds->high[1] = 0.25 * table->length;
+  if (leave == CAROM_LEAVE_BAULK)
+    bounds->high[1] = 0.2 * table->length;
+
+  /* the box around the D */
+  if (leave == CAROM_LEAVE_D) {
+    const carom_d d = carom_d_of(table->width, table->length);
+    bounds->centre[0] = d.x;
+    bounds->centre[1] = d.y;
+    bounds->radius = d.radius;
+    bounds->low[0] = d.x - d.radius;
+    bounds->low[1] = d.y - d.radius;
+    bounds->high[0] = d.x + d.radius;
+    bounds->high[1] = d.y;
+  }
+  return CAROM_OK;
+}
+
+int carom_is_within(const carom_bounds *bounds, double x, double y) {
+  if (bounds == NULL)
+    return 0;
+  const double at[2] = {x, y};
+  for (int axis = 0; axis < 2; axis++)
+    if (!(at[axis] >= bounds->low[axis] && at[axis] <= bounds->high[axis]))
+      return 0;
+  /* an arc that is touched is within, to the width of its line */
+  const double reach = bounds->radius + 1e-9;
+  return bounds->radius <= 0.0 || carom_square(at, bounds->centre) <= reach * reach;
+}
