@@ -19,7 +19,7 @@
 enum { MOST_STROKES = 64, BLOCK = 64, DRAWN = 40 };
 
 typedef struct break_job {
-  shoot_flags from;
+  shoot_flags flags;
   const char *plot;
   int racks;
   bool csv, falls, nine_on_spot;
@@ -29,7 +29,7 @@ static const option_row option_rules = {.name = "rules",
                                         .help = "the rack, on the table of its game",
                                         .else_usual = "eightball",
                                         .set = set_named,
-                                        .field = offsetof(break_job, from.balls.rack),
+                                        .field = offsetof(break_job, flags.balls.rack),
                                         .least = CAROM_WORDS_RACK};
 
 /* --rack nineball is short for --racks. */
@@ -101,8 +101,8 @@ static bool rules_of(carom_rack_kind rack, carom_plan_rules *rules) {
 
 /* The direction from the cue ball to the ball in front, degrees. */
 static double direction_of_front(const carom_shot_ball *ball, int count) {
-  const double *from = ball[0].state.r, *to = ball[ball_in_front(ball, count)].state.r;
-  return atan2(to[1] - from[1], to[0] - from[0]) / degree;
+  const double *start = ball[0].state.r, *end = ball[ball_in_front(ball, count)].state.r;
+  return atan2(end[1] - start[1], end[0] - start[0]) / degree;
 }
 
 typedef struct breaker {
@@ -117,7 +117,7 @@ typedef struct breaker {
 /* Rack number k and its stroke; number -1 is the first one without errors. */
 static void set_up(const breaker *b, const shot_line *line, double gap, int number,
                    carom_shot_ball *ball, carom_cue *cue) {
-  const int seed = (int)b->job->from.seed.at[0].x;
+  const int seed = (int)b->job->flags.seed.at[0].x;
   const int k = number < 0 ? 0 : number;
   carom_rack(b->rack, &line->table->table, gap, (uint64_t)(seed + k), ball, CAROM_BALLS_MOST);
   for (int n = 0; n < line->count; n++)
@@ -171,12 +171,12 @@ static bool play(const breaker *b, const shot_line *line, double gap, counts *c)
   static carom_facts facts[BLOCK];
   static carom_ball_state final[BLOCK][CAROM_BALLS_MOST];
   *c = (counts){0};
-  for (int from = 0; from < b->job->racks; from += BLOCK) {
-    int n = b->job->racks - from;
+  for (int start = 0; start < b->job->racks; start += BLOCK) {
+    int n = b->job->racks - start;
     if (n > BLOCK)
       n = BLOCK;
     for (int k = 0; k < n; k++) {
-      set_up(b, line, gap, from + k, ball[k], &cue[k]);
+      set_up(b, line, gap, start + k, ball[k], &cue[k]);
       shot[k] = (carom_shot){.facts = &facts[k], .final = final[k]};
     }
     const carom_shot_job job = {.table = &line->table->table,
@@ -196,7 +196,7 @@ static bool play(const breaker *b, const shot_line *line, double gap, counts *c)
     }
     for (int k = 0; k < n; k++) /* the seed draws which balls lie there */
       count_break(b, &facts[k], final[k], wings_of(&line->table->table, ball[k], line->count), c);
-    progress_show("racks", from + n, b->job->racks);
+    progress_show("racks", start + n, b->job->racks);
   }
   progress_clear();
   return true;
@@ -221,15 +221,15 @@ static void tell_falls(FILE *out, const shot_line *line, const counts *c) {
     fprintf(out, "%12s", carom_pocket_name(t, p));
   fprintf(out, "%12s\n", "any");
   for (int k = 0; k < line->count; k++) {
-    int all = 0;
+    int total = 0;
     for (int p = 0; p < t->pockets; p++)
-      all += c->fell[k][p];
-    if (all == 0)
+      total += c->fell[k][p];
+    if (total == 0)
       continue;
     fprintf(out, "  %-10s", line->name[k]);
     for (int p = 0; p < t->pockets; p++)
       fprintf(out, "%12.1f", 100.0 * share(c->fell[k][p], c));
-    fprintf(out, "%12.1f\n", 100.0 * share(all, c));
+    fprintf(out, "%12.1f\n", 100.0 * share(total, c));
   }
 }
 
@@ -237,19 +237,19 @@ static void tell_falls(FILE *out, const shot_line *line, const counts *c) {
 static void tell_most_falls(FILE *out, const shot_line *line, const counts *c) {
   enum { TOLD = 3 };
   const carom_table *t = &line->table->table;
-  bool told[CAROM_BALLS_MOST][CAROM_POCKETS_MOST] = {{false}};
+  bool is_listed[CAROM_BALLS_MOST][CAROM_POCKETS_MOST] = {{false}};
   for (int n = 0; n < TOLD; n++) {
     int ball = 0, pocket = 0, most = 0;
     for (int k = 0; k < line->count; k++)
       for (int p = 0; p < t->pockets; p++)
-        if (!told[k][p] && c->fell[k][p] > most) {
+        if (!is_listed[k][p] && c->fell[k][p] > most) {
           most = c->fell[k][p];
           ball = k;
           pocket = p;
         }
     if (most == 0)
       break;
-    told[ball][pocket] = true;
+    is_listed[ball][pocket] = true;
     fprintf(out, "%s%s into %s in %.1f %%", n == 0 ? "  most often    " : ", ", line->name[ball],
             carom_pocket_name(t, pocket), 100.0 * share(most, c));
   }
@@ -347,8 +347,8 @@ static bool plot(const breaker *b, const shot_line *line, double gap, const char
     shot[k].final = final[k];
     shot_line_play(&each, &b->options, &shot[k]);
   }
-  const drawn_break all = {{&each, &shot[0], NULL, &shot[1], drawn}, words};
-  const bool good = svg_draw(b->job->plot, draw, &all);
+  const drawn_break drawing = {{&each, &shot[0], NULL, &shot[1], drawn}, words};
+  const bool good = svg_draw(b->job->plot, draw, &drawing);
   for (int k = 0; k <= drawn; k++)
     free(shot[k].events);
   return good;
@@ -428,9 +428,9 @@ static bool tell_all(breaker *b, const shot_line *first, const carom_cue *stroke
         tell(out, b, &line, gap, &c);
       if (*words == NULL) {
         size_t size;
-        FILE *said = open_text(words, &size);
-        tell(said, b, &line, gap, &c);
-        close_text(said, words);
+        FILE *stream = open_text(words, &size);
+        tell(stream, b, &line, gap, &c);
+        close_text(stream, words);
       }
     }
   return true;
@@ -454,7 +454,7 @@ static bool take_gaps(shoot_flags *f, values *gaps) {
 static int run(breaker *b, const shot_line *line, const carom_cue *stroke, int strokes,
                const values *gaps) {
   const break_job *job = b->job;
-  FILE *out = output_open(job->from.shared.output);
+  FILE *out = output_open(job->flags.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
   char *words = NULL;
@@ -475,11 +475,11 @@ int command_break(int argc, char **argv) {
   static shot_line line;
   static values gaps;
   job = (break_job){
-      .from = {.shared = {.options = COMMAND_OPTIONS}, .balls = {.rack = CAROM_RACK_EIGHTBALL}}};
+      .flags = {.shared = {.options = COMMAND_OPTIONS}, .balls = {.rack = CAROM_RACK_EIGHTBALL}}};
   const int parsed = parse_arguments(&form, argc, argv, &job, NULL);
   if (parsed >= 0)
     return parsed;
-  shoot_flags *f = &job.from;
+  shoot_flags *f = &job.flags;
   breaker b = {.job = &job,
                .options = f->shared.shot,
                .rack = (carom_rack_kind)f->balls.rack,

@@ -88,7 +88,8 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
 /* What came of strokes with errors. */
 typedef struct strokes {
   int keeps, misses, fouls, lost;
-  double worth, squares, other; /* sums: to the player, and of their squares; of the misses to the
+  double worth, squares,
+      opponent; /* sums: to the player, and of their squares; of the misses to the
                                    other */
 } strokes;
 
@@ -103,7 +104,7 @@ static int left_of(const carom_plan_job *job, const carom_shot_ball *balls) {
 
 /* What a stroke is worth to the player, by the value of what it leaves: the chance to win, or the
  * share of the balls before it. */
-static double worth_of(const carom_plan_job *job, const carom_ruling *ruling, double *other) {
+static double worth_of(const carom_plan_job *job, const carom_ruling *ruling, double *opponent) {
   const bool alone = job->rules->race == CAROM_RACE_ALONE, passes = ruling->next == 1;
   if (ruling->next < 0)
     return ruling->winner != 1;
@@ -115,7 +116,7 @@ static double worth_of(const carom_plan_job *job, const carom_ruling *ruling, do
   if (alone)
     return fmin(1.0, (ruling->turn.points + chance * left_of(&next, ruling->balls)) /
                          left_of(job, job->balls));
-  *other = passes ? chance : 0.0;
+  *opponent = passes ? chance : 0.0;
   return passes ? 1.0 - chance : chance;
 }
 
@@ -127,13 +128,13 @@ static strokes play_with(const carom_plan_job *job, const carom_player *player,
   for (int n = 0; n < WHY_STROKES; n++) {
     carom_cue stroke = *cue;
     carom_shot shot = {.events = NULL};
-    double other = 0.0;
+    double opponent = 0.0;
     carom_player_strike(player, job->options->seed, (uint64_t)n, &stroke);
     play(job, &stroke, call, &shot, &ruling);
-    const double worth = worth_of(job, &ruling, &other);
+    const double worth = worth_of(job, &ruling, &opponent);
     s.worth += worth;
     s.squares += worth * worth;
-    s.other += other;
+    s.opponent += opponent;
     s.keeps += ruling.next == 0 || ruling.winner == 0 || ruling.winner == CAROM_DRAWN;
     s.misses += ruling.next == 1;
     s.fouls += ruling.turn.foul != CAROM_FOUL_NONE;
@@ -171,15 +172,15 @@ static const char *percent(double share, char text[16]) {
 static void tell_misses(FILE *out, const carom_plan_job *job, const carom_choice *choice) {
   const carom_cue *cue = &choice->cue;
   const carom_call call = {choice->ball, choice->pocket};
-  const strokes all = play_with(job, job->player, cue, call);
+  const strokes played = play_with(job, job->player, cue, call);
   char text[16];
   /* a safety is meant to pass the turn */
   fprintf(out, "   %s       %s", plan_names_ball(choice) ? "misses" : "passes",
-          percent((double)all.misses / WHY_STROKES, text));
-  if (all.misses > 0 && job->rules->race != CAROM_RACE_ALONE)
-    fprintf(out, ", and the other then wins %.0f %%", 100.0 * all.other / all.misses);
-  if (all.lost > 0)
-    fprintf(out, "; loses the game %s", percent((double)all.lost / WHY_STROKES, text));
+          percent((double)played.misses / WHY_STROKES, text));
+  if (played.misses > 0 && job->rules->race != CAROM_RACE_ALONE)
+    fprintf(out, ", and the other then wins %.0f %%", 100.0 * played.opponent / played.misses);
+  if (played.lost > 0)
+    fprintf(out, "; loses the game %s", percent((double)played.lost / WHY_STROKES, text));
   fputc('\n', out);
 
   carom_player aims = *job->player, times = *job->player;
@@ -188,8 +189,8 @@ static void tell_misses(FILE *out, const carom_plan_job *job, const carom_choice
   const double without_speed = play_with(job, &aims, cue, call).worth,
                without_aim = play_with(job, &times, cue, call).worth;
   fprintf(out, "   errors       those of speed cost %.1f %%, those of aim %.1f %%\n",
-          fmax(0.0, 100.0 * (without_speed - all.worth) / WHY_STROKES),
-          fmax(0.0, 100.0 * (without_aim - all.worth) / WHY_STROKES));
+          fmax(0.0, 100.0 * (without_speed - played.worth) / WHY_STROKES),
+          fmax(0.0, 100.0 * (without_aim - played.worth) / WHY_STROKES));
 }
 
 /* ---- The stroke in the words of a coach */
@@ -227,33 +228,33 @@ static bool tell_aim(FILE *out, const shot_line *line, const carom_cue *cue,
                      const carom_shot *shot) {
   const carom_event *meets = NULL;
   char rail[WHERE_TEXT];
-  bool before = false;
+  bool has_rails = false;
   for (int64_t k = 0; k < shot->count && k < shot->room && meets == NULL; k++) {
     const carom_event *e = &shot->events[k];
     if (e->type == CAROM_EVENT_BALL_BALL && (e->a == cue->ball || e->b == cue->ball))
       meets = e;
     else if (counts_as_rail(line, shot, k, (int)cue->ball)) {
-      fprintf(out, "%s %s at diamond %.2f", before ? ", then" : "off",
+      fprintf(out, "%s %s at diamond %.2f", has_rails ? ", then" : "off",
               rail_words(line->table, (int)e->b, rail),
               diamonds_at(&line->table->table, (int)e->b, e->after[0].r));
-      before = true;
+      has_rails = true;
     }
   }
   if (meets != NULL) {
-    const int own = meets->a == cue->ball ? 0 : 1;
-    const carom_ball_state *c = &meets->before[own], *o = &meets->before[1 - own];
+    const int striker = meets->a == cue->ball ? 0 : 1;
+    const carom_ball_state *c = &meets->before[striker], *o = &meets->before[1 - striker];
     const double x = o->r[0] - c->r[0], y = o->r[1] - c->r[1];
     const double cross = c->v[0] * y - c->v[1] * x, dot = c->v[0] * x + c->v[1] * y;
     const double cut = atan2(cross, dot), part = 1.0 - fabs(sin(cut));
     const double degrees = round(fabs(cut) / degree);
-    fputs(text_if(before, "; "), out);
+    fputs(text_if(has_rails, "; "), out);
     if (degrees == 0.0)
       fprintf(out, "straight, %s", part_words(part));
     else
       fprintf(out, "cut of %.0f degree%s to the %s, %s", degrees, text_if(degrees != 1.0, "s"),
               left_or_right(cut), part_words(part));
   }
-  return before || meets != NULL;
+  return has_rails || meets != NULL;
 }
 
 /* "at 6 o'clock, 30 % of the way to the edge" */
@@ -282,14 +283,14 @@ void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
   static carom_event events[EVENTS];
   static carom_shot_ball balls[CAROM_BALLS_MOST];
   static carom_ruling ruling;
-  carom_plan_job own = *job;
+  carom_plan_job placed = *job;
   memcpy(balls, job->balls, (size_t)job->count * sizeof *balls);
-  own.balls = balls;
+  placed.balls = balls;
   carom_place_ball(job->table, balls, (int)job->count, (int)choice->cue.ball, choice->place[0],
                    choice->place[1], NULL);
   const carom_call call = {choice->ball, choice->pocket};
   carom_shot shot = {.events = events, .room = EVENTS};
-  play(&own, &choice->cue, call, &shot, &ruling);
+  play(&placed, &choice->cue, call, &shot, &ruling);
   fputs("   aim          ", out);
   fputs(tell_aim(out, line, &choice->cue, &shot) ? "; tip " : "tip ", out);
   tell_tip(out, &choice->cue);
@@ -300,9 +301,9 @@ void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
   /* a stroke that is not meant to pot leaves what it mostly does, even if it pots without errors */
   for (int n = 0; !plan_names_ball(choice) && ruling.next != 1 && n < WHY_STROKES; n++) {
     carom_cue stroke = choice->cue;
-    carom_player_strike(own.player, own.options->seed, (uint64_t)n, &stroke);
-    play(&own, &stroke, call, &(carom_shot){.events = NULL}, &ruling);
+    carom_player_strike(placed.player, placed.options->seed, (uint64_t)n, &stroke);
+    play(&placed, &stroke, call, &(carom_shot){.events = NULL}, &ruling);
   }
-  tell_next(out, &own, line, &ruling, (int)choice->cue.ball);
-  tell_misses(out, &own, choice);
+  tell_next(out, &placed, line, &ruling, (int)choice->cue.ball);
+  tell_misses(out, &placed, choice);
 }

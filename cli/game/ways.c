@@ -21,15 +21,15 @@ const char *way_name(const ways_search *s, const way *w) {
   return s->aim == TO_SCORE ? "point" : "place";
 }
 
-bool player_of(const given_player *given, carom_player *player) {
-  if (given->rated && given->errs) {
+bool player_of(const given_player *options, carom_player *player) {
+  if (options->rated && options->errs) {
     complain("--player is a rating, --errors are errors: give only one of them");
     return false;
   }
-  if (given->rated)
-    *player = carom_player_fargo(given->rating);
+  if (options->rated)
+    *player = carom_player_fargo(options->rating);
   else
-    *player = carom_player_of(given->errs ? given->scale : 1.0);
+    *player = carom_player_of(options->errs ? options->scale : 1.0);
 
   /* a player who is advised thinks of all strokes */
   player->only_pots = player->shots = 0.0;
@@ -102,8 +102,8 @@ bool ways_chance(const ways_search *s, way *w) {
 /* The first rail of a name, or -1. */
 static int first_rail(const carom_table *t, const char *name) {
   for (int k = 0; k < t->rails; k++) {
-    const char *own = carom_rail_name(t, k);
-    if (own != NULL && strcmp(own, name) == 0)
+    const char *rail_name = carom_rail_name(t, k);
+    if (rail_name != NULL && strcmp(rail_name, name) == 0)
       return k;
   }
   return -1;
@@ -151,7 +151,7 @@ enum { LINKS_MOST = 4 };
 typedef struct pot_chain {
   int links; /* ball[links] is the cue ball */
   int ball[LINKS_MOST + 1];
-  double from[LINKS_MOST + 1];
+  double start[LINKS_MOST + 1];
 } pot_chain;
 
 /* False where a ball was met by none, or the chain is too long. */
@@ -162,11 +162,11 @@ static bool find_chain(const carom_shot *shot, int ball, int cue, pot_chain *cha
     if (links == LINKS_MOST || e == NULL)
       return false;
     chain->ball[links] = ball;
-    chain->from[links] = e->time;
+    chain->start[links] = e->time;
     ball = e->a == ball ? e->b : e->a;
   }
   chain->ball[links] = cue;
-  chain->from[links] = 0.0;
+  chain->start[links] = 0.0;
   chain->links = links;
   return true;
 }
@@ -182,7 +182,7 @@ static bool is_neighbour(const pot_chain *chain, int n, int ball) {
 /* Rails of a way, and the last ones of them, beside the pocket, that the ball touches as it
  * falls. */
 typedef struct rail_count {
-  int all, beside;
+  int total, at_pocket;
 } rail_count;
 
 /* Adds to a way the rails and other balls that ball n of the chain meets from its first contact on,
@@ -191,26 +191,26 @@ static bool add_link(const ways_search *s, const carom_shot *shot, const pot_cha
                      way *w, rail_count *rails) {
   const carom_table *t = &s->line->table->table;
   const int ball = chain->ball[n], cue = (int)s->line->cue.ball;
-  const double until = n > 0 ? chain->from[n - 1] : shot->facts->pocket_time[ball];
+  const double end = n > 0 ? chain->start[n - 1] : shot->facts->pocket_time[ball];
   int last = -1; /* rail */
-  for (int64_t k = 0; k < shot->count && shot->events[k].time <= until; k++) {
+  for (int64_t k = 0; k < shot->count && shot->events[k].time <= end; k++) {
     const carom_event *e = &shot->events[k];
-    if (e->time < chain->from[n])
+    if (e->time < chain->start[n])
       continue;
     if (is_of(e, CAROM_EVENT_RAIL, ball)) {
-      const int before = w->parts;
-      if (!add_rail(s, e, e->b == last, w, &rails->all))
+      const int parts = w->parts;
+      if (!add_rail(s, e, e->b == last, w, &rails->total))
         return false;
       last = e->b;
       const bool falls_by = n == 0 && carom_is_beside(t, e->b, w->pocket);
-      rails->beside = falls_by ? rails->beside + w->parts - before : 0;
+      rails->at_pocket = falls_by ? rails->at_pocket + w->parts - parts : 0;
     } else if (is_of(e, CAROM_EVENT_BALL_BALL, ball)) {
-      const int other = e->a == ball ? e->b : e->a;
-      if (other == cue || is_neighbour(chain, n, other))
+      const int partner = e->a == ball ? e->b : e->a;
+      if (partner == cue || is_neighbour(chain, n, partner))
         continue;
-      if (!add_part(w, (carom_part){CAROM_PART_BALL, other}))
+      if (!add_part(w, (carom_part){CAROM_PART_BALL, partner}))
         return false;
-      rails->beside = 0;
+      rails->at_pocket = 0;
     }
   }
   return true;
@@ -230,29 +230,30 @@ static bool read_pot(const ways_search *s, const carom_shot *shot, way *w) {
     if (n > 1 && !add_part(w, (carom_part){CAROM_PART_BALL, chain.ball[n - 1]}))
       return false;
   }
-  w->parts -= rails.beside;
+  w->parts -= rails.at_pocket;
   w->kind = carom_pot_kind(&s->line->table->table, shot, cue, w->ball, w->pocket);
-  return w->kind >= 0 && rails.all - rails.beside <= s->rails;
+  return w->kind >= 0 && rails.total - rails.at_pocket <= s->rails;
 }
 
 /* The way of a point or to a place: what the cue ball meets, of a point up to the second ball. */
 static bool read_point(const ways_search *s, const carom_shot *shot, way *w) {
   const int cue = (int)s->line->cue.ball;
-  int balls = 0, rails = 0, met[2] = {-1, -1};
+  int balls = 0, rails = 0, hit_balls[2] = {-1, -1};
   const carom_event *last = NULL;
   for (int64_t k = 0; k < shot->count; k++) {
     const carom_event *e = &shot->events[k];
-    const int other = e->a == cue ? e->b : e->a;
+    const int partner = e->a == cue ? e->b : e->a;
     if (is_of(e, CAROM_EVENT_RAIL, cue)) {
       const bool hop = last != NULL && last->b == e->b && e->time - last->time < SAME_CONTACT;
       if (!add_rail(s, e, hop, w, &rails))
         return false;
       last = e;
     }
-    if (is_of(e, CAROM_EVENT_BALL_BALL, cue) && other != met[0] && other != met[1]) {
-      if (balls == 2 || !add_part(w, (carom_part){CAROM_PART_BALL, other}))
+    if (is_of(e, CAROM_EVENT_BALL_BALL, cue) && partner != hit_balls[0] &&
+        partner != hit_balls[1]) {
+      if (balls == 2 || !add_part(w, (carom_part){CAROM_PART_BALL, partner}))
         return false;
-      met[balls++] = other;
+      hit_balls[balls++] = partner;
       if (s->aim == TO_SCORE && balls == 2)
         return rails >= 3;
     }
@@ -267,9 +268,10 @@ static double cut_of(const carom_shot *shot, int cue) {
     const carom_event *e = &shot->events[k];
     if (!is_of(e, CAROM_EVENT_BALL_BALL, cue))
       continue;
-    const carom_ball_state *own = &e->before[e->a != cue], *other = &e->before[e->a == cue];
-    const double x = other->r[0] - own->r[0], y = other->r[1] - own->r[1];
-    return atan2(own->v[0] * y - own->v[1] * x, own->v[0] * x + own->v[1] * y) * 57.29577951308232;
+    const carom_ball_state *striker = &e->before[e->a != cue], *object = &e->before[e->a == cue];
+    const double x = object->r[0] - striker->r[0], y = object->r[1] - striker->r[1];
+    return atan2(striker->v[0] * y - striker->v[1] * x, striker->v[0] * x + striker->v[1] * y) *
+           57.29577951308232;
   }
   return NAN;
 }
@@ -306,16 +308,17 @@ static bool is_same(const way *a, const way *b) {
 /* Counts a way of direction k of a stroke. Of pots each window of a stroke is a way. */
 static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, double step) {
   const bool pots = s->aim == TO_POT;
-  int at = 0;
-  while (at < s->ways && !(is_same(&s->way[at], seen) &&
-                           (!pots || (s->way[at].stroke == stroke && s->way[at].last == k - 1))))
-    at++;
-  if (at == MOST_WAYS) {
+  int index = 0;
+  while (index < s->ways &&
+         !(is_same(&s->way[index], seen) &&
+           (!pots || (s->way[index].stroke == stroke && s->way[index].last == k - 1))))
+    index++;
+  if (index == MOST_WAYS) {
     s->left_out++;
     return;
   }
-  way *w = &s->way[at];
-  if (at == s->ways) {
+  way *w = &s->way[index];
+  if (index == s->ways) {
     *w = *seen;
     w->stroke = stroke;
     w->last = -2;
@@ -354,12 +357,12 @@ static void read_shot(ways_search *s, const carom_shot *shot, const carom_cue *c
 }
 
 /* Whether the way is that of its stroke with another value of *field, of its cue. */
-static bool holds(const ways_search *s, way *w, double *field, double at) {
+static bool holds(const ways_search *s, way *w, double *field, double number) {
   way seen = {.kind = -1, .ball = w->ball, .pocket = w->pocket};
-  const double own = *field;
-  *field = at;
+  const double original = *field;
+  *field = number;
   const bool same = read_stroke(s, &w->cue, &seen) == A_WAY && is_same(&seen, w);
-  *field = own;
+  *field = original;
   return same;
 }
 
@@ -393,9 +396,9 @@ static bool finish_way(ways_search *s, way *w, double step) {
   w->cue.phi = w->end - step * (double)((w->longest - 1) / 2);
   if (holds(s, w, &w->cue.phi, middle))
     w->cue.phi = middle;
-  way there = {.kind = -1, .ball = w->ball, .pocket = w->pocket};
-  if (read_stroke(s, &w->cue, &there) == A_WAY)
-    w->cut = there.cut;
+  way probe = {.kind = -1, .ball = w->ball, .pocket = w->pocket};
+  if (read_stroke(s, &w->cue, &probe) == A_WAY)
+    w->cut = probe.cut;
   w->speed[0] = w->speed[1] = w->cue.speed;
   const bool pots = s->aim == TO_POT, narrow = pots && w->phi[1] - w->phi[0] < WINDOW_LEAST;
   for (int end = 0; end < 2 && pots && !narrow; end++)
@@ -407,20 +410,20 @@ static bool finish_way(ways_search *s, way *w, double step) {
 /* Of the ways of pots those that are wide enough stay, each once where directions end; and of those
  * that differ by the stroke alone, unless each is asked for, that with the best chance. */
 static void keep_best(ways_search *s, double step) {
-  int kept = 0;
+  int retained = 0;
   for (int k = 0; k < s->ways; k++) {
     const way w = s->way[k];
-    int at = kept;
+    int index = retained;
     if (w.phi[1] - w.phi[0] < WINDOW_LEAST || w.phi[0] <= -step)
       continue;
-    for (int n = 0; n < kept && !s->each; n++)
+    for (int n = 0; n < retained && !s->each; n++)
       if (is_same(&s->way[n], &w))
-        at = n;
-    if (at == kept || w.chance > s->way[at].chance)
-      s->way[at] = w;
-    kept += at == kept;
+        index = n;
+    if (index == retained || w.chance > s->way[index].chance)
+      s->way[index] = w;
+    retained += index == retained;
   }
-  s->ways = kept;
+  s->ways = retained;
 }
 
 /* Whether a shot pots a ball that is asked for into a pocket that is. */
@@ -461,9 +464,9 @@ static bool scan(ways_search *s) {
   const double step = 360.0 / (double)each;
   bool fine = true;
   for (int stroke = 0; stroke < s->strokes && fine; stroke++)
-    for (int64_t from = 0; from < each && fine; from += BLOCK) {
-      const int64_t left = each - from;
-      fine = scan_block(s, stroke, from, left < BLOCK ? (int)left : BLOCK, step);
+    for (int64_t start = 0; start < each && fine; start += BLOCK) {
+      const int64_t left = each - start;
+      fine = scan_block(s, stroke, start, left < BLOCK ? (int)left : BLOCK, step);
       progress_show("strokes", (double)s->scanned, (double)(each * s->strokes));
     }
   for (int k = 0; k < s->ways && fine; k++) {

@@ -55,7 +55,7 @@ const char *way_name(const ways_search *s, const way *w);
 
 /* Makes the player; complains and returns false where both are given. Without either, errors of
  * scale 1. */
-bool player_of(const given_player *given, carom_player *player);
+bool player_of(const given_player *options, carom_player *player);
 
 /* Lets a player strike as slowly, as hard and as far from the centre as he is asked to. */
 void without_bounds(carom_player *player);

@@ -43,11 +43,11 @@ carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, doub
 int carom_is_within(const carom_bounds *bounds, double x, double y) {
   if (bounds == NULL)
     return 0;
-  const double at[2] = {x, y};
+  const double place[2] = {x, y};
   for (int axis = 0; axis < 2; axis++)
-    if (!(at[axis] >= bounds->low[axis] && at[axis] <= bounds->high[axis]))
+    if (!(place[axis] >= bounds->low[axis] && place[axis] <= bounds->high[axis]))
       return 0;
   /* an arc that is touched is within, to the width of its line */
   const double reach = bounds->radius + 1e-9;
-  return bounds->radius <= 0.0 || carom_square(at, bounds->centre) <= reach * reach;
+  return bounds->radius <= 0.0 || carom_square(place, bounds->centre) <= reach * reach;
 }

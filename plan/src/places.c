@@ -37,18 +37,18 @@ static bool find_range(search *plan, const double low[2], const double high[2]) 
  * and a cut of at most 50 degrees. Ball, pocket, cut and distance are drawn. False: the ball does
  * not get into that pocket. */
 static bool draw_place_of_pot(const search *plan, uint64_t k, double r[2]) {
-  static const double cut_most = 50.0 * degree, near = 0.12, farther = 0.6; /* rad, m */
+  static const double cut_most = 50.0 * degree, nearest = 0.12, farther = 0.6; /* rad, m */
   double u[4];
   for (uint32_t n = 0; n < 4; n++)
     u[n] = carom_uniform(plan->options.seed, DRAW_PLACES, k, n);
   /* the ball and the pocket */
-  int on[CAROM_BALLS_MOST], count = 0;
+  int targets[CAROM_BALLS_MOST], count = 0;
   for (int n = 0; n < plan->view.count; n++)
     if (plan->targets >> n & 1)
-      on[count++] = n;
+      targets[count++] = n;
   if (count == 0 || plan->view.pockets == 0)
     return false;
-  const int ball = on[(int)(count * u[0])], pocket = (int)(plan->view.pockets * u[1]);
+  const int ball = targets[(int)(count * u[0])], pocket = (int)(plan->view.pockets * u[1]);
   const carom_window *window = &plan->view.window[ball][pocket];
   if (!(window->half > 0.0))
     return false;
@@ -56,9 +56,9 @@ static bool draw_place_of_pot(const search *plan, uint64_t k, double r[2]) {
   /* the place */
   double sine, cosine;
   carom_sincos(window->psi + (2.0 * u[2] - 1.0) * cut_most, &sine, &cosine);
-  const double far = near + farther * u[3];
-  r[0] = plan->view.at[ball][0] - far * cosine;
-  r[1] = plan->view.at[ball][1] - far * sine;
+  const double far = nearest + farther * u[3];
+  r[0] = plan->view.place[ball][0] - far * cosine;
+  r[1] = plan->view.place[ball][1] - far * sine;
   return true;
 }
 
@@ -98,12 +98,12 @@ static void keep_place(search *plan, const double r[2]) {
   const int cue_ball = plan->view.cue_ball;
   plan->state[cue_ball] = plan->hand[cue_ball].state;
   const double value = carom_value_of(&plan->view, &plan->job.rules->state, plan->state, 0, false);
-  int at = PLACES_MOST;
+  int index = PLACES_MOST;
   if (plan->places < PLACES_MOST)
-    at = plan->places++;
-  for (; at > 0 && plan->best_place[at - 1].value < value; at--)
-    plan->best_place[at] = plan->best_place[at - 1];
-  plan->best_place[at] = (carom_place_in_hand){{r[0], r[1]}, value};
+    index = plan->places++;
+  for (; index > 0 && plan->best_place[index - 1].value < value; index--)
+    plan->best_place[index] = plan->best_place[index - 1];
+  plan->best_place[index] = (carom_place_in_hand){{r[0], r[1]}, value};
 }
 
 /* Tries the next place. False: there is none. */

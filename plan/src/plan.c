@@ -238,13 +238,13 @@ static bool is_packed(const search *plan) {
   enum { BALLS_LEAST = 10, NEIGHBOURS = 2 };
   static const double apart = 1e-3; /* m */
   for (int k = 0; k < plan->view.count; k++) {
-    int near = 0;
+    int neighbours = 0;
     for (int n = 0; n < plan->view.count && (plan->targets >> k & 1); n++) {
       const double reach = plan->view.radius[k] + plan->view.radius[n] + apart;
       const bool touches = carom_square(plan->state[k].r, plan->state[n].r) < reach * reach;
-      near += n != k && (plan->targets >> n & 1) && touches;
+      neighbours += n != k && (plan->targets >> n & 1) && touches;
     }
-    if ((plan->targets >> k & 1) && near < NEIGHBOURS)
+    if ((plan->targets >> k & 1) && neighbours < NEIGHBOURS)
       return false;
   }
   return carom_count_of(plan->targets) >= BALLS_LEAST;
@@ -325,7 +325,7 @@ static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand)
 
 /* Prepares a job once for all that is played of it: its plan, in the job's memory, from which shots
  * can be played. */
-static carom_status prepare_job(const carom_plan_job *job, bool in_hand, int wanted,
+static carom_status prepare_job(const carom_plan_job *job, bool in_hand, int choices,
                                 search **prepared) {
   search *plan = place(job);
   if (plan == NULL)
@@ -335,7 +335,7 @@ static carom_status prepare_job(const carom_plan_job *job, bool in_hand, int wan
     return status;
   plan->late = plan->joins = false;
   plan->places = plan->place = 0;
-  plan->wanted = (int)carom_min(wanted, LISTED_MOST);
+  plan->choices_most = (int)carom_min(choices, LISTED_MOST);
   plan->seconds = plan->options.seconds;
   if (plan->options.unsure > 0.0)
     carom_search_tables(plan, (carom_drawn_table *)(plan->outcome + plan->room));

@@ -122,7 +122,7 @@ typedef struct carom_search {
   /* the balls in play, which alone take part in shots: which they are, and their set in shots
    * of the balls that are on, where the first contact decides */
   carom_shot_ball played[CAROM_BALLS_MOST];
-  int32_t plays, which[CAROM_BALLS_MOST], cue_ball;
+  int32_t plays, layout_ball[CAROM_BALLS_MOST], cue_ball;
   carom_pot_found pot[CAROM_BALLS_MOST * CAROM_POCKETS_MOST];
   carom_brief_event event[128];                    /* of a stroke whose kind is asked */
   carom_place_in_hand best_place[PLACES_MOST + 1]; /* the best first */
@@ -147,11 +147,11 @@ typedef struct carom_search {
   int64_t scan, scan_end, tried; /* those of the scan; where its candidates end; tried so far */
   int64_t better;                /* the candidate that is looked at again */
   int64_t entered;               /* candidates of that round from the one before, */
-  int64_t near;                  /* and strokes near the best that join it; -1: none yet */
+  int64_t neighbours;            /* and strokes near the best that join it; -1: none yet */
   int round, look, duels;        /* that have begun */
   int place, raced;              /* from which candidates are made; how many places are tried */
-  int wanted, listed;            /* choices that the caller has room for; that stand first */
-  int64_t asked;                 /* candidates that have been asked whether they are listed */
+  int choices_most, listed;      /* choices that the caller has room for; that stand first */
+  int64_t examined;              /* candidates that have been asked whether they are listed */
   uint64_t drawn_places;         /* places of a cue ball in hand that have been drawn */
   int tried_places;              /* and those of them that could be tried */
   carom_candidate best;          /* of the rounds of doubling before */

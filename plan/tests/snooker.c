@@ -6,16 +6,16 @@ TEST(snooker_on) {
   static const struct {
     uint32_t in_play;
     int colour, after_foul;
-    uint32_t on;
-  } given[] = {
+    uint32_t targets;
+  } cases[] = {
       {ALL, 0, 0, 0xfffe},          {ALL & ~R1, 1, 0, COLOURS},      {ALL, 0, FREE, ALL & ~1},
       {COLOURS | 1, 1, 0, COLOURS}, {COLOURS | 1, 0, 0, Y},          {PI | BK | 1, 0, MAY, PI},
       {BK | 1, 0, 0, BK},           {COLOURS | 1, 0, FREE, COLOURS}, {COLOURS | R2 | 1, 0, 0, R2}};
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
-    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-    of.state.on = given[k].colour;
-    of.state.may = given[k].after_foul;
-    ck_assert_uint_eq(of.on(&of.state, given[k].in_play), given[k].on);
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
+    game_rules.state.on = cases[k].colour;
+    game_rules.state.may = cases[k].after_foul;
+    ck_assert_uint_eq(game_rules.on(&game_rules.state, cases[k].in_play), cases[k].targets);
   }
 }
 
@@ -26,7 +26,7 @@ TEST(double_hits) {
     const char *what;
     uint32_t frozen, pushed;
     int touches, pool, snooker, three;
-  } given[] = {{"as usual", 0, 0, 1, LEGAL, LEGAL, LEGAL},
+  } cases[] = {{"as usual", 0, 0, 1, LEGAL, LEGAL, LEGAL},
                {"through a frozen ball", R1, R1, 1, LEGAL, DOUBLE_HIT, DOUBLE_HIT},
                {"the same, touched twice", R1, R1, 2, LEGAL, DOUBLE_HIT, DOUBLE_HIT},
                {"away from it", R1, 0, 1, LEGAL, LEGAL, LEGAL},
@@ -35,34 +35,34 @@ TEST(double_hits) {
                {"a near ball beside a frozen one", R2, R1, 1, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT},
                {"one of each", R2, R1 | R2, 1, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT},
                {"touched twice, with no ball", 0, 0, 2, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT}};
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
-    carom_facts f = facts_of(1, 2, 0, 0), other = f;
-    f.frozen = given[k].frozen;
-    f.pushed = given[k].pushed;
-    f.touches = given[k].touches;
-    ck_assert_msg((int)carom_foul_of(&f, R1, 0) == given[k].pool, "%s", given[k].what);
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    carom_facts f = facts_of(1, 2, 0, 0), second = f;
+    f.frozen = cases[k].frozen;
+    f.pushed = cases[k].pushed;
+    f.touches = cases[k].touches;
+    ck_assert_msg((int)carom_foul_of(&f, R1, 0) == cases[k].pool, "%s", cases[k].what);
     for (int game = 0; carom_rules_about_of((carom_rules_kind)game) != NULL; game++) {
       if (game == CAROM_RULES_FOURBALL)
         continue; /* ball 1 may not be met */
       carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)game);
-      int foul = given[k].pool;
+      int foul = cases[k].pool;
       if (game == CAROM_RULES_SNOOKER || game == CAROM_RULES_BLACKBALL)
-        foul = given[k].snooker;
+        foul = cases[k].snooker;
       else if (game == CAROM_RULES_THREECUSHION || game == CAROM_RULES_STRAIGHTRAIL)
-        foul = given[k].three;
+        foul = cases[k].three;
       const carom_turn turn = rules.judge(&rules.state, 0xffff, 0, &f, (carom_call){NONE, -1});
       ck_assert_msg((int)turn.foul == foul, "%s: %s", carom_word(CAROM_WORDS_RULES, game),
-                    given[k].what);
+                    cases[k].what);
     }
 
     /* before a cushion, after a ball that is not on, and in a push-out too */
-    f.cushions_after = other.cushions_after = 0;
-    ck_assert_int_eq(carom_foul_of(&f, R1, 0), given[k].pool == LEGAL ? CUSHION : DOUBLE_HIT);
+    f.cushions_after = second.cushions_after = 0;
+    ck_assert_int_eq(carom_foul_of(&f, R1, 0), cases[k].pool == LEGAL ? CUSHION : DOUBLE_HIT);
     ck_assert_int_eq(carom_foul_of(&f, R2, 0), FIRST);
     carom_plan_rules nine = carom_plan_rules_of(CAROM_RULES_NINEBALL);
     nine.state.may = CAROM_MAY_PUSH;
     ck_assert_int_eq(nine.judge(&nine.state, 0x3ff, 0, &f, (carom_call){CAROM_CALL_PUSH, -1}).foul,
-                     given[k].pool);
+                     cases[k].pool);
   }
 }
 
@@ -71,37 +71,38 @@ TEST(double_hits) {
 TEST(snooker_jumps) {
   static const struct {
     const char *what;
-    double theta, speed, x, at[2]; /* how far beside the way the blue is; of the red and the blue */
+    double theta, speed, x,
+        place[2]; /* how far beside the way the blue is; of the red and the blue */
     uint32_t jumped;
-    int foul, other;
-  } given[] = {{"over the blue", 30.0, 4.0, 0.0, {1.0, 0.35}, UINT32_C(1) << BLUE, JUMP, 5},
+    int foul, second;
+  } cases[] = {{"over the blue", 30.0, 4.0, 0.0, {1.0, 0.35}, UINT32_C(1) << BLUE, JUMP, 5},
                {"beside it", 30.0, 4.0, 0.06, {1.0, 0.35}, 0, LEGAL, 0},
                {"level, with the blue behind", 0.0, 4.0, 0.0, {0.3, 0.9}, 0, LEGAL, 0}};
   carom_table_make(CAROM_TABLE_SNOOKER, &table);
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     carom_rack(CAROM_RACK_SNOOKER, &table, 1e-4, 1, balls, 22);
     for (int ball = 2; ball < 22; ball++)
       balls[ball].state.label = CAROM_BALL_POCKETED;
     const double x = 0.5 * table.width;
     carom_place_ball(&table, balls, 22, 0, x, 1.0, NULL);
-    carom_place_ball(&table, balls, 22, 1, x, 1.0 + given[k].at[0], NULL);
-    carom_place_ball(&table, balls, 22, BLUE, x + given[k].x, 1.0 + given[k].at[1], NULL);
+    carom_place_ball(&table, balls, 22, 1, x, 1.0 + cases[k].place[0], NULL);
+    carom_place_ball(&table, balls, 22, BLUE, x + cases[k].x, 1.0 + cases[k].place[1], NULL);
     carom_cue cue = carom_cue_of(CAROM_GAME_SNOOKER);
-    cue.speed = given[k].speed;
-    cue.theta = given[k].theta;
+    cue.speed = cases[k].speed;
+    cue.theta = cases[k].theta;
     cue.a = cue.b = 0.0;
     carom_facts facts;
     carom_ball_state final[22];
     carom_shot shot = {.facts = &facts, .final = final};
     ck_assert_int_eq(carom_shoot(&table, balls, 22, &cue, NULL, &shot), CAROM_OK);
-    ck_assert_msg(facts.jumped == given[k].jumped && facts.first[0] == 1, "%s: %x, %d",
-                  given[k].what, facts.jumped, (int)facts.first[0]);
+    ck_assert_msg(facts.jumped == cases[k].jumped && facts.first[0] == 1, "%s: %x, %d",
+                  cases[k].what, facts.jumped, (int)facts.first[0]);
     const carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
     carom_ruling ruling;
     carom_referee(&rules, &table, balls, 22, 0, &shot, (carom_call){NONE, -1}, &ruling);
-    ck_assert_msg(ruling.turn.foul == given[k].foul, "%s: %d", given[k].what,
+    ck_assert_msg(ruling.turn.foul == cases[k].foul, "%s: %d", cases[k].what,
                   (int)ruling.turn.foul);
-    ck_assert_int_eq(ruling.state.score[0], given[k].other);
+    ck_assert_int_eq(ruling.state.score[0], cases[k].second);
   }
 }
 
@@ -149,9 +150,10 @@ TEST(snooker_spots) {
   /* two colours at once: the higher one goes first, to its own spot that is free */
   lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, 1 | R1);
   put(1, spot[YELLOW][0], spot[YELLOW][1]);
-  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
+  carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
   carom_turn turn = {.outcome = CAROM_TURN_PASS, .foul = CAROM_FOUL_POT, .spot = Y | BK};
-  ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
+  ck_assert_int_eq(carom_turn_settle(&game_rules, &game_rules.state, &table, balls, count, &turn),
+                   CAROM_OK);
   ck_assert(is_at(BLACK, spot[BLACK][0], spot[BLACK][1]) &&
             is_at(YELLOW, spot[PINK][0], spot[PINK][1]));
 
@@ -160,15 +162,17 @@ TEST(snooker_spots) {
   put(1, spot[BLACK][0], spot[BLACK][1]);
   put(2, spot[PINK][0], spot[PINK][1]);
   turn.spot = BL | BK;
-  ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
+  ck_assert_int_eq(carom_turn_settle(&game_rules, &game_rules.state, &table, balls, count, &turn),
+                   CAROM_OK);
   ck_assert(is_at(BLUE, spot[BLUE][0], spot[BLUE][1]) &&
             is_at(BLACK, spot[BROWN][0], spot[BROWN][1]));
   ck_assert_int_eq(carom_spot_of(CAROM_RACK_SNOOKER, &table, 22, spot[0]), CAROM_ERROR_RACK);
   ck_assert_int_eq(carom_spot_of(CAROM_RACK_NINEBALL, &table, -1, spot[0]), CAROM_ERROR_RACK);
   ck_assert_int_eq(carom_spot_of(CAROM_RACK_NINEBALL, NULL, 1, spot[0]), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_turn_settle(&of, NULL, &table, balls, count, &turn), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_turn_settle(&game_rules, NULL, &table, balls, count, &turn),
+                   CAROM_ERROR_NULL);
   turn.spot = 1u << 22;
-  ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn),
+  ck_assert_int_eq(carom_turn_settle(&game_rules, &game_rules.state, &table, balls, count, &turn),
                    CAROM_ERROR_BALLS);
 }
 
@@ -181,7 +185,7 @@ TEST(free_balls) {
     const char *what;
     double red[2], blocker[2];
     bool hand, snookered;
-  } given[] = {
+  } cases[] = {
       {"nothing in the way", {0.9, 2.0}, {0.2, 2.0}, false, false},
       {"full behind the black", {0.9, 2.0}, {0.9, 1.5}, false, true},
       {"one edge behind it", {0.9, 2.0}, {0.9 + 1.2 * R, 1.9}, false, true},
@@ -189,44 +193,44 @@ TEST(free_balls) {
       {"behind the red", {0.9, 2.0}, {0.9, 2.2}, false, false},
       {"in hand, from elsewhere in the D", {0.9, 2.0}, {0.9, 1.5}, true, false},
   };
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     const int count = lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, 1 | R1 | BK);
     put(0, 0.9, 1.0);
-    put(1, given[k].red[0], given[k].red[1]);
-    put(BLACK, given[k].blocker[0], given[k].blocker[1]);
+    put(1, cases[k].red[0], cases[k].red[1]);
+    put(BLACK, cases[k].blocker[0], cases[k].blocker[1]);
     for (int foul = 0; foul < 2; foul++) {
-      carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-      of.state.may = foul ? MAY : 0;
+      carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
+      game_rules.state.may = foul ? MAY : 0;
       carom_turn turn = {.outcome = CAROM_TURN_PASS,
-                         .leave = given[k].hand ? CAROM_LEAVE_D : CAROM_LEAVE_AFTER,
+                         .leave = cases[k].hand ? CAROM_LEAVE_D : CAROM_LEAVE_AFTER,
                          .foul = foul ? CAROM_FOUL_NO_BALL : 0};
-      carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
-      ck_assert_msg(((of.state.may & FREE) != 0) == (foul && given[k].snookered), "%s, foul %d",
-                    given[k].what, foul);
+      carom_turn_settle(&game_rules, &game_rules.state, &table, balls, count, &turn);
+      ck_assert_msg(((game_rules.state.may & FREE) != 0) == (foul && cases[k].snookered),
+                    "%s, foul %d", cases[k].what, foul);
     }
   }
 
   /* in hand, with a wall of colours close to the D */
   int count = lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, R1 | COLOURS);
-  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-  of.state.may = MAY | HAND;
+  carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
+  game_rules.state.may = MAY | HAND;
   carom_turn turn = {
       .outcome = CAROM_TURN_PASS, .leave = CAROM_LEAVE_D, .foul = CAROM_FOUL_CUE_BALL};
   put(1, 1.3, 3.4);
-  carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
-  ck_assert(!(of.state.may & FREE));
+  carom_turn_settle(&game_rules, &game_rules.state, &table, balls, count, &turn);
+  ck_assert(!(game_rules.state.may & FREE));
   for (int k = YELLOW; k <= BLACK; k++)
     put(k, 1.3 + 2.0 * R * (k - 18.5), 3.2);
-  of.state.may = MAY | HAND;
-  carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
-  ck_assert(of.state.may & FREE);
+  game_rules.state.may = MAY | HAND;
+  carom_turn_settle(&game_rules, &game_rules.state, &table, balls, count, &turn);
+  ck_assert(game_rules.state.may & FREE);
 
   /* a second red that is free ends it */
   balls[2] = balls[1];
   put(2, 0.2, 2.0);
-  of.state.may = MAY | HAND;
-  carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
-  ck_assert(!(of.state.may & FREE));
+  game_rules.state.may = MAY | HAND;
+  carom_turn_settle(&game_rules, &game_rules.state, &table, balls, count, &turn);
+  ck_assert(!(game_rules.state.may & FREE));
 
   /* to leave the other behind the free ball is a foul; behind another it is not, nor with pink and
    * black alone; of two in one way the nearer one is it, of those before two reds none */
@@ -247,13 +251,13 @@ TEST(free_balls) {
       put(YELLOW, behind[k].yellow[0], behind[k].yellow[1]);
     if (behind[k].lie & R2)
       put(2, 0.3, 1.6);
-    of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-    of.state.free_ball = behind[k].named;
+    game_rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
+    game_rules.state.free_ball = behind[k].named;
     turn = (carom_turn){.outcome = CAROM_TURN_PASS};
-    carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
-    ck_assert_msg((turn.foul != 0) == (behind[k].points > 0) && of.state.free_ball == 0 &&
-                      of.state.score[0] == behind[k].points &&
-                      of.state.may == (behind[k].points > 0 ? MAY | FREE : 0),
-                  "%d: foul %d, %d points", k, turn.foul, of.state.score[0]);
+    carom_turn_settle(&game_rules, &game_rules.state, &table, balls, count, &turn);
+    ck_assert_msg((turn.foul != 0) == (behind[k].points > 0) && game_rules.state.free_ball == 0 &&
+                      game_rules.state.score[0] == behind[k].points &&
+                      game_rules.state.may == (behind[k].points > 0 ? MAY | FREE : 0),
+                  "%d: foul %d, %d points", k, turn.foul, game_rules.state.score[0]);
   }
 }

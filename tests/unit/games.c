@@ -39,12 +39,12 @@ static void take_out(carom_table *t, int part) {
 
 /* Plays some shots of a lone ball: how many lose it, and how often it meets a rail. */
 static int lost_balls(const carom_table *t, double R, int rail, int shots, random_source *r,
-                      int *met) {
+                      int *contacts) {
   int lost = 0;
   carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
   ball.kind.radius = R;
   const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_MIRROR};
-  *met = 0;
+  *contacts = 0;
   for (int k = 0; k < shots; k++) {
     carom_place_ball(t, &ball, 1, 0, 0.5 * t->width, 0.5 * t->length, NULL);
     carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
@@ -54,7 +54,7 @@ static int lost_balls(const carom_table *t, double R, int rail, int shots, rando
     carom_shot shot = {.brief = events, .room = 100};
     lost += carom_shoot(t, &ball, 1, &cue, &options, &shot) == CAROM_ERROR_LEFT_TABLE;
     for (int64_t e = 0; e < shot.count && e < shot.room; e++)
-      *met += events[e].type == CAROM_EVENT_RAIL && events[e].b == rail;
+      *contacts += events[e].type == CAROM_EVENT_RAIL && events[e].b == rail;
   }
   return lost;
 }
@@ -79,8 +79,9 @@ TEST(tables_are_checked) {
       ck_assert_msg(status == CAROM_OK || status == CAROM_ERROR_TABLE_OPEN,
                     "%s without part %d: %s", carom_table_name((carom_table_kind)kind), part,
                     carom_status_name(status));
-      int met;
-      const int lost = lost_balls(&t, R, -1, kind == CAROM_TABLE_POOL_9FT ? 1000 : 100, &r, &met);
+      int contacts;
+      const int lost =
+          lost_balls(&t, R, -1, kind == CAROM_TABLE_POOL_9FT ? 1000 : 100, &r, &contacts);
       ck_assert_msg(status == CAROM_ERROR_TABLE_OPEN || lost == 0,
                     "%s without part %d: %d balls are lost, and it is ok",
                     carom_table_name((carom_table_kind)kind), part, lost);
@@ -106,9 +107,9 @@ TEST(tables_are_checked) {
       const carom_status status = carom_table_check(&t, R, &fault);
       if (status == CAROM_OK) { /* some facings of snooker's pockets are never met, so that their
                                    side does not matter */
-        int met;
-        lost_balls(&sound, R, k, 400, &r, &met);
-        ck_assert_int_eq(met, 0);
+        int contacts;
+        lost_balls(&sound, R, k, 400, &r, &contacts);
+        ck_assert_int_eq(contacts, 0);
         continue;
       }
       ck_assert_msg(status == CAROM_ERROR_RAIL_SIDE && fault.part.kind == CAROM_PART_RAIL &&
@@ -240,7 +241,7 @@ TEST(places) {
   int free_ones = 0, seen[5] = {0};
   for (int kind = 0; kind < TABLES; kind++) {
     carom_table t;
-    carom_shot_ball balls[10], before[10];
+    carom_shot_ball balls[10], original[10];
     carom_table_make((carom_table_kind)kind, &t);
     for (int n = 0; n < 3000; n++) {
       carom_rack(CAROM_RACK_NINEBALL, &t, 1e-4, 1, balls, 10);
@@ -258,15 +259,15 @@ TEST(places) {
         x = balls[(ball + 1) % 10].state.r[0] + random_between(&r, -0.07, 0.07);
         y = balls[(ball + 1) % 10].state.r[1] + random_between(&r, -0.07, 0.07);
       }
-      memcpy(before, balls, sizeof balls);
+      memcpy(original, balls, sizeof balls);
       carom_part part;
       const carom_status status = carom_place_ball(&t, balls, 10, ball, x, y, &part);
       /* the ball with each of the others, or alone */
-      carom_shot_ball pair[2] = {before[ball]};
+      carom_shot_ball pair[2] = {original[ball]};
       pair[0].state = (carom_ball_state){.r = {x, y, radius_on(kind)}};
       bool stands = carom_shot_check(&t, pair, 1, NULL, NULL, NULL) == CAROM_OK, overlaps = false;
       for (int k = 0; k < 10 && stands; k++) {
-        pair[1] = before[k];
+        pair[1] = original[k];
         overlaps |=
             k != ball && carom_shot_check(&t, pair, 2, NULL, NULL, NULL) == CAROM_ERROR_OVERLAP;
       }
@@ -277,10 +278,10 @@ TEST(places) {
         ck_assert(balls[ball].state.r[0] == x && balls[ball].state.r[1] == y &&
                   balls[ball].state.w[0] == 0.0);
         ck_assert(balls[ball].state.label == CAROM_BALL_STATIONARY && part.kind == CAROM_PART_NONE);
-        balls[ball].state = before[ball].state;
+        balls[ball].state = original[ball].state;
         free_ones++;
       }
-      ck_assert_int_eq(memcmp(balls, before, sizeof balls), 0);
+      ck_assert_int_eq(memcmp(balls, original, sizeof balls), 0);
       if (part.kind == CAROM_PART_BALL)
         ck_assert(hypot(x - balls[part.index].state.r[0], y - balls[part.index].state.r[1]) <
                   2.0 * radius_on(kind));
@@ -293,13 +294,13 @@ TEST(places) {
   for (int k = 0; k < 5; k++)
     ck_assert_int_gt(seen[k], 20);
   carom_table t;
-  carom_shot_ball one = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  carom_shot_ball single = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
   carom_table_make(CAROM_TABLE_POOL_9FT, &t);
-  ck_assert_int_eq(carom_place_ball(&t, &one, 1, 1, 0.5, 0.5, NULL), CAROM_ERROR_BALLS);
-  ck_assert_int_eq(carom_place_ball(&t, &one, 1, 0, NAN, 0.5, NULL), CAROM_ERROR_POSITION);
-  ck_assert_int_eq(carom_place_ball(NULL, &one, 1, 0, 0.5, 0.5, NULL), CAROM_ERROR_NULL);
-  one.kind.radius = -1.0;
-  ck_assert_int_eq(carom_place_ball(&t, &one, 1, 0, 0.5, 0.5, NULL), CAROM_ERROR_RADIUS);
+  ck_assert_int_eq(carom_place_ball(&t, &single, 1, 1, 0.5, 0.5, NULL), CAROM_ERROR_BALLS);
+  ck_assert_int_eq(carom_place_ball(&t, &single, 1, 0, NAN, 0.5, NULL), CAROM_ERROR_POSITION);
+  ck_assert_int_eq(carom_place_ball(NULL, &single, 1, 0, 0.5, 0.5, NULL), CAROM_ERROR_NULL);
+  single.kind.radius = -1.0;
+  ck_assert_int_eq(carom_place_ball(&t, &single, 1, 0, 0.5, 0.5, NULL), CAROM_ERROR_RADIUS);
 }
 
 /* ---- Places on tables of one's own */
@@ -340,21 +341,21 @@ static const double margin = 0.3; /* m: of the grid, beyond the table */
 
 /* Finds the places of a grid to which a ball can be rolled from one of them, by flooding; n
  * becomes their numbers. */
-static void flood(const carom_table *t, double R, double step, const double from[2], int n[2]) {
+static void flood(const carom_table *t, double R, double step, const double start[2], int n[2]) {
   static int queue[MOST_PLACES * MOST_PLACES];
   int waiting = 0;
   n[0] = (int)((t->width + 2.0 * margin) / step);
   n[1] = (int)((t->length + 2.0 * margin) / step);
   ck_assert(n[0] < MOST_PLACES && n[1] < MOST_PLACES);
   memset(reached, 0, sizeof reached);
-  const int i0 = (int)((from[0] + margin) / step), j0 = (int)((from[1] + margin) / step);
+  const int i0 = (int)((start[0] + margin) / step), j0 = (int)((start[1] + margin) / step);
   queue[waiting++] = i0 * MOST_PLACES + j0;
   reached[i0][j0] = 1;
   while (waiting > 0) {
-    const int at = queue[--waiting];
+    const int index = queue[--waiting];
     for (int way = 0; way < 4; way++) {
-      const int i = at / MOST_PLACES + (way == 0) - (way == 1),
-                j = at % MOST_PLACES + (way == 2) - (way == 3);
+      const int i = index / MOST_PLACES + (way == 0) - (way == 1),
+                j = index % MOST_PLACES + (way == 2) - (way == 3);
       const double x = i * step - margin, y = j * step - margin;
       ck_assert_msg(i > 0 && i < n[0] && j > 0 && j < n[1], "the table has a hole");
       if (!reached[i][j] && room_at(t, R, x, y) > 0.0 && off_pockets(t, x, y) >= 0.0) {
@@ -377,9 +378,9 @@ static void expect_place(const carom_table *t, double R, double x, double y, boo
 }
 
 /* A ball may stand at all places of a grid to which it can be rolled, and nowhere else. */
-static void expect_flooded(const carom_table *t, double R, double step, const double from[2]) {
+static void expect_flooded(const carom_table *t, double R, double step, const double start[2]) {
   int n[2];
-  flood(t, R, step, from, n);
+  flood(t, R, step, start, n);
   for (int i = 0; i < n[0]; i++)
     for (int j = 0; j < n[1]; j++) {
       const double x = i * step - margin, y = j * step - margin;
@@ -420,22 +421,22 @@ TEST(polygon_tables) {
   static const carom_corner pool[6] = {{0, 0, 0.118},       {1.27, 0, 0.118}, {1.27, 1.27, 0.137},
                                        {1.27, 2.54, 0.118}, {0, 2.54, 0.118}, {0, 1.27, 0.137}};
   static const double R = 0.028575, r = 0.01;
-  carom_corner other[6];
+  carom_corner reversed[6];
   for (int k = 0; k < 6; k++)
-    other[k] = pool[5 - k];
+    reversed[k] = pool[5 - k];
   carom_table t, turned;
   carom_table_fault fault;
   ck_assert_int_eq(carom_table_polygon(pool, 6, 0.0366, r, R, &t, &fault), CAROM_OK);
-  ck_assert_int_eq(carom_table_polygon(other, 6, 0.0366, r, R, &turned, NULL), CAROM_OK);
+  ck_assert_int_eq(carom_table_polygon(reversed, 6, 0.0366, r, R, &turned, NULL), CAROM_OK);
   ck_assert_int_eq(t.rails + t.jaws + t.pockets, 6 + 12 + 6);
   ck_assert(t.width == 1.27 && t.length == 2.54 && t.ball_radius == R);
   for (int k = 0; k < 6; k++) {
-    const double *before = t.jaw[2 * k].centre, *after = t.jaw[2 * k + 1].centre;
-    const carom_rail *one = &t.rail[(k + 5) % 6], *two = &t.rail[k];
-    ck_assert_double_eq_tol(hypot(after[0] - before[0], after[1] - before[1]),
+    const double *previous = t.jaw[2 * k].centre, *next = t.jaw[2 * k + 1].centre;
+    const carom_rail *rail = &t.rail[(k + 5) % 6], *two = &t.rail[k];
+    ck_assert_double_eq_tol(hypot(next[0] - previous[0], next[1] - previous[1]),
                             pool[k].mouth + 2.0 * r, 1e-12);
-    ck_assert_double_eq_tol(hypot(after[0] - two->p[0], after[1] - two->p[1]), r, 1e-12);
-    ck_assert_double_eq_tol(hypot(before[0] - one->q[0], before[1] - one->q[1]), r, 1e-12);
+    ck_assert_double_eq_tol(hypot(next[0] - two->p[0], next[1] - two->p[1]), r, 1e-12);
+    ck_assert_double_eq_tol(hypot(previous[0] - rail->q[0], previous[1] - rail->q[1]), r, 1e-12);
     bool found = false;
     for (int i = 0; i < 6; i++)
       found |= hypot(t.pocket[k].centre[0] - turned.pocket[i].centre[0],
@@ -456,10 +457,11 @@ TEST(polygon_tables) {
       break;
     }
     carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
-    static const double at[4][2] = {{0.5, 2.0}, {2.5, 2.0}, {1.5, 0.5}, {1.5, 1.8}};
+    static const double corners[4][2] = {{0.5, 2.0}, {2.5, 2.0}, {1.5, 0.5}, {1.5, 1.8}};
     carom_part part;
     for (int k = 0; k < 4; k++)
-      ck_assert_int_eq(carom_place_ball(&t, &ball, 1, 0, at[k][0], at[k][1], &part) == CAROM_OK,
+      ck_assert_int_eq(carom_place_ball(&t, &ball, 1, 0, corners[k][0], corners[k][1], &part) ==
+                           CAROM_OK,
                        k < 3);
     for (int k = 0; k < t.rails; k++)
       ck_assert_ptr_null(carom_rail_name(&t, k));
@@ -485,7 +487,7 @@ TEST(faults_of_polygons) {
   carom_table t;
   carom_table_fault fault;
   const struct {
-    int at;
+    int position;
     carom_corner corner;
     carom_status status;
     int first, second; /* -1: none */
@@ -499,7 +501,7 @@ TEST(faults_of_polygons) {
       /* the same corners the other way round, in which a fault has another place */
       carom_corner corner[4];
       for (int n = 0; n < 4; n++)
-        corner[turned ? 3 - n : n] = n == wrong[k].at ? wrong[k].corner : square[n];
+        corner[turned ? 3 - n : n] = n == wrong[k].position ? wrong[k].corner : square[n];
       ck_assert_int_eq(carom_table_polygon(corner, 4, 0.0366, r, R, &t, &fault), wrong[k].status);
       ck_assert_int_eq(fault.part.kind, CAROM_PART_CORNER);
       if (turned)
@@ -529,7 +531,7 @@ TEST(faults_of_polygons) {
 
 /* A polygon from any origin is the same table. */
 TEST(polygons_take_any_origin) {
-  static const double R = 0.028575, from[3][2] = {{-1.0, -2.0}, {-8.0, 4.0}, {16.0, 32.0}};
+  static const double R = 0.028575, origin[3][2] = {{-1.0, -2.0}, {-8.0, 4.0}, {16.0, 32.0}};
   static const carom_corner square[4] = {{0, 0, 0.125}, {2, 0, 0}, {2, 4, 0}, {0, 4, 0.125}};
   carom_table at_origin, t;
   ck_assert_int_eq(carom_table_polygon(square, 4, 0.0366, 0.01, R, &at_origin, NULL), CAROM_OK);
@@ -537,7 +539,7 @@ TEST(polygons_take_any_origin) {
     carom_corner moved[4];
     for (int n = 0; n < 4; n++)
       moved[n] =
-          (carom_corner){square[n].x + from[k][0], square[n].y + from[k][1], square[n].mouth};
+          (carom_corner){square[n].x + origin[k][0], square[n].y + origin[k][1], square[n].mouth};
     ck_assert_int_eq(carom_table_polygon(moved, 4, 0.0366, 0.01, R, &t, NULL), CAROM_OK);
     ck_assert_mem_eq(&t, &at_origin, sizeof t);
   }
@@ -608,10 +610,10 @@ TEST(places_in_space) {
   balls[0].kind.radius = 0.0302;
   balls[1].state = (carom_ball_state){.r = {0.5, 0.5, R}};
   const double h = t.rail[0].height, shift = R - sqrt(h * (2.0 * R - h)),
-               beside = 2.0 * sqrt(R * 0.0302), nose = shift + sqrt(h * (2.0 * 0.0302 - h));
+               distance = 2.0 * sqrt(R * 0.0302), nose = shift + sqrt(h * (2.0 * 0.0302 - h));
   for (int k = -1; k <= 1; k += 2) {
     const carom_status expected = k < 0 ? CAROM_ERROR_OVERLAP : CAROM_OK;
-    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5 + beside + 2e-6 * k, 0.5, &part),
+    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5 + distance + 2e-6 * k, 0.5, &part),
                      expected);
     ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, nose + 2e-6 * k, 0.7, &part),
                      k < 0 ? CAROM_ERROR_OFF_TABLE : CAROM_OK);
@@ -623,10 +625,10 @@ TEST(places_in_space) {
   ck_assert_int_eq(carom_table_check(&t, 0.0302, NULL), CAROM_OK);
   ck_assert_int_eq(carom_table_check(&t, 0.0262, NULL), CAROM_OK);
   for (int k = 0; k < 3; k++) {
-    carom_table bad = t;
-    (&bad.ball_radius)[k] = -0.01;
+    carom_table wrong = t;
+    (&wrong.ball_radius)[k] = -0.01;
     carom_table_fault fault;
-    ck_assert_int_eq(carom_table_check(&bad, R, &fault), CAROM_ERROR_TABLE);
+    ck_assert_int_eq(carom_table_check(&wrong, R, &fault), CAROM_ERROR_TABLE);
     ck_assert_int_eq(fault.part.kind, CAROM_PART_NONE);
   }
 }
@@ -637,9 +639,9 @@ TEST(places_in_space) {
  * the library does in closed form.
  */
 static void by_steps(const carom_shot_ball *balls, int count, const carom_shot *shot, int ball,
-                     double from, double to, double q[4]) {
-  const int steps = 2000 + (int)(5000.0 * (to - from));
-  const double h = (to - from) / steps;
+                     double start, double end, double q[4]) {
+  const int steps = 2000 + (int)(5000.0 * (end - start));
+  const double h = (end - start) / steps;
   carom_ball_state s[CAROM_BALLS_MOST];
   for (int n = 0; n < steps; n++) {
     double k[4][4];
@@ -647,7 +649,7 @@ static void by_steps(const carom_shot_ball *balls, int count, const carom_shot *
       /* just inside the interval, as the spin jumps at events */
       static const double parts[4] = {1e-6, 0.5, 0.5, 1.0 - 1e-6}, shares[4] = {0.0, 0.5, 0.5, 1.0};
       const double part = parts[stage];
-      carom_shot_at(balls, count, shot, from + (n + part) * h, s);
+      carom_shot_at(balls, count, shot, start + (n + part) * h, s);
       const double *w = s[ball].w;
       double p[4];
       for (int c = 0; c < 4; c++)
@@ -692,23 +694,23 @@ TEST(turns_agree_with_steps) {
     carom_shot shot = {.events = events, .room = 200};
     ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
     ck_assert_int_le(shot.count, 200);
-    double at = 0.0;
+    double time = 0.0;
     for (int64_t k = 0; k < shot.count; k++) {
       const double end = events[k].time;
       const double side = k == 0 ? ball.state.w[2] : events[k - 1].after[0].w[2];
       /* reference steps do not cross the end of the side spin */
       const double kink =
-          at + fabs(side) / (2.5 * ball.kind.mu_spin * ball.kind.gravity / ball.kind.radius);
-      double from[1][4], to[1][4], q[4];
-      carom_shot_orientation(&ball, 1, &shot, at, from);
-      carom_shot_orientation(&ball, 1, &shot, end, to);
-      memcpy(q, from[0], sizeof q);
-      const double cut = kink > at && kink < end ? kink : end;
-      by_steps(&ball, 1, &shot, 0, at, cut, q);
+          time + fabs(side) / (2.5 * ball.kind.mu_spin * ball.kind.gravity / ball.kind.radius);
+      double start[1][4], turned[1][4], q[4];
+      carom_shot_orientation(&ball, 1, &shot, time, start);
+      carom_shot_orientation(&ball, 1, &shot, end, turned);
+      memcpy(q, start[0], sizeof q);
+      const double cut = kink > time && kink < end ? kink : end;
+      by_steps(&ball, 1, &shot, 0, time, cut, q);
       if (cut < end)
         by_steps(&ball, 1, &shot, 0, cut, end, q);
-      worst = fmax(worst, angle_between(q, to[0]));
-      at = end;
+      worst = fmax(worst, angle_between(q, turned[0]));
+      time = end;
     }
   }
   printf("largest difference from steps of 0.2 ms: %.2g rad\n", worst);
@@ -764,12 +766,12 @@ TEST(turns_in_closed_form) {
 /* A frame of a film has the bits of single calls. */
 static void same_frame(const carom_shot_ball *balls, const carom_shot *shot, double time,
                        carom_frames *film) {
-  carom_ball_state one[16], other[16];
+  carom_ball_state first[16], second[16];
   double q[16][4], turned[16][4];
-  ck_assert_int_eq(carom_shot_frames(balls, 16, shot, &time, 1, film, other, turned), CAROM_OK);
-  ck_assert_int_eq(carom_shot_at(balls, 16, shot, time, one), CAROM_OK);
+  ck_assert_int_eq(carom_shot_frames(balls, 16, shot, &time, 1, film, second, turned), CAROM_OK);
+  ck_assert_int_eq(carom_shot_at(balls, 16, shot, time, first), CAROM_OK);
   ck_assert_int_eq(carom_shot_orientation(balls, 16, shot, time, q), CAROM_OK);
-  ck_assert(memcmp(one, other, sizeof one) == 0 && memcmp(q, turned, sizeof q) == 0);
+  ck_assert(memcmp(first, second, sizeof first) == 0 && memcmp(q, turned, sizeof q) == 0);
 }
 
 /* Frames have the bits of single calls, however they are cut, also where a shot goes on, where time
@@ -781,7 +783,7 @@ TEST(frames) {
   carom_table t;
   carom_shot_ball balls[16];
   carom_event events[2000];
-  carom_ball_state final[16], one[16], other[3 * 16];
+  carom_ball_state final[16], first[16], second[3 * 16];
   double q[16][4], turned[3 * 16][4];
   carom_table_make(CAROM_TABLE_POOL_9FT, &t);
   carom_shot_options options = {0};
@@ -802,12 +804,12 @@ TEST(frames) {
         time += 0.08 * random_between(&r, 0.0, 1.0);
       }
       const size_t many = 1 + (size_t)(3 * random_between(&r, 0.0, 1.0));
-      ck_assert_int_eq(carom_shot_frames(balls, 16, &shot, times, many, &film, other, turned),
+      ck_assert_int_eq(carom_shot_frames(balls, 16, &shot, times, many, &film, second, turned),
                        CAROM_OK);
       for (size_t k = 0; k < many; k++) {
-        ck_assert_int_eq(carom_shot_at(balls, 16, &shot, times[k], one), CAROM_OK);
+        ck_assert_int_eq(carom_shot_at(balls, 16, &shot, times[k], first), CAROM_OK);
         ck_assert_int_eq(carom_shot_orientation(balls, 16, &shot, times[k], q), CAROM_OK);
-        ck_assert(memcmp(one, &other[k * 16], sizeof one) == 0);
+        ck_assert(memcmp(first, &second[k * 16], sizeof first) == 0);
         ck_assert(memcmp(q, &turned[k * 16], sizeof q) == 0);
       }
       /* back now and then, and on with the shot */
@@ -824,7 +826,7 @@ TEST(frames) {
     for (double time = shot.time; time > 0.0; time -= 0.04)
       same_frame(balls, &shot, time, &film);
   }
-  ck_assert_int_eq(carom_shot_frames(balls, 16, NULL, NULL, 0, &film, other, turned),
+  ck_assert_int_eq(carom_shot_frames(balls, 16, NULL, NULL, 0, &film, second, turned),
                    CAROM_ERROR_NULL);
 }
 
@@ -859,11 +861,11 @@ TEST(sources) {
   ck_assert(!cites(&o, "stronge2000") && !cites(&o, "alciatore-throw"));
   ck_assert(!cites(&o, "joris-accelerating"));
 
-  char all[10000], few[100];
-  const size_t length = carom_cite(NULL, all, sizeof all);
+  char text[10000], few[100];
+  const size_t length = carom_cite(NULL, text, sizeof text);
   ck_assert_uint_eq(carom_cite(NULL, NULL, 0), length);
   ck_assert_uint_eq(carom_cite(NULL, few, sizeof few), length);
-  ck_assert(strlen(few) == sizeof few - 1 && strncmp(few, all, sizeof few - 1) == 0);
+  ck_assert(strlen(few) == sizeof few - 1 && strncmp(few, text, sizeof few - 1) == 0);
   o.reserved[0] = 1;
   ck_assert_uint_eq(carom_cite(&o, few, sizeof few), 0);
   ck_assert_str_eq(few, "");
@@ -894,10 +896,10 @@ TEST(names) {
     ck_assert_ptr_null(carom_rail_name(&t, k));
     ck_assert_ptr_null(carom_pocket_name(&t, k));
   }
-  for (int which = 0; which < 2; which++)
+  for (int index = 0; index < 2; index++)
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
       carom_table_make(CAROM_TABLE_POOL_9FT, &t);
-      *(which == 0 ? &t.rails : &t.pockets) = numbers[k];
+      *(index == 0 ? &t.rails : &t.pockets) = numbers[k];
       for (int part = 0; part < 2000000; part += 99999) {
         ck_assert_ptr_null(carom_rail_name(&t, part + 40));
         ck_assert_ptr_null(carom_pocket_name(&t, part + 40));
