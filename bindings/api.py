@@ -25,6 +25,7 @@ HEADERS = (
     "carom_plan.h",
     "carom_record.h",
     "carom_match.h",
+    "carom_coach.h",
 )
 SIZES = {
     "double": 8,
@@ -52,6 +53,9 @@ READ_AND_WRITTEN = {
     ("carom_match_stroke", "shot"),
     ("carom_match_continue", "shot"),
     ("carom_match_plan", "job"),
+    ("carom_plan_replay", "choices"),
+    ("carom_way_chance", "way"),
+    ("carom_break_play", "counts"),
 }
 # Macros without a value of their own: guards, marks, and expressions of other constants.
 NO_VALUE = {"CAROM_API", "CAROM_VERSION_NUMBER", "CAROM_STOP_AT", "CAROM_KIND_NUMBERS"}

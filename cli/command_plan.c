@@ -17,7 +17,7 @@
 #include "shots/shot_story.h"
 #include "subcommands.h"
 
-#include "carom_match.h"
+#include "carom_coach.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -87,7 +87,7 @@ static const char *words_without_ball(const shot_line *line, const carom_choice 
   static const double often = 0.15; /* fouls of a stroke that is no safe one */
   if (line->table->table.pockets == 0)
     return "no point";
-  if (c->keep >= PLAN_LUCK)
+  if (c->keep >= 0.1) /* below it balls fall by luck, as for carom_names_ball() */
     return "no sure pot: which ball falls is luck";
   if (c->foul >= often)
     return "a risky safety: it often fouls";
@@ -112,7 +112,7 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
     snprintf(text, 200, "pass: the other plays");
   else if (c->kind == CAROM_PLAN_PUSH || c->kind == CAROM_PLAN_BREAK)
     snprintf(text, 200, "a %s", carom_plan_kind_name((carom_plan_kind)c->kind));
-  else if (!plan_names_ball(c))
+  else if (!carom_names_ball(c))
     snprintf(text, 200, "%s", words_without_ball(line, c));
   else if (line->table->table.pockets == 0)
     snprintf(text, 200,
@@ -157,26 +157,6 @@ static void tell(FILE *out, const plan_job *job, const carom_plan_job *request,
             (long long)c->seen);
     if (job->why)
       plan_tell_why(out, request, line, c);
-  }
-}
-
-/* Plays all choices as often once more, and sorts them by that: the chances of those that a plan
- * gave few strokes are those of their luck. */
-static void play_again(const carom_plan_job *request, carom_choice *choices, int n) {
-  carom_shot_ball balls[CAROM_BALLS_MOST];
-  memcpy(balls, request->balls, (size_t)request->count * sizeof *balls);
-  carom_plan_job job = *request;
-  job.balls = balls;
-  for (int k = 0; k < n; k++) {
-    carom_choice c = choices[k];
-    carom_place_ball(request->table, balls, (int)request->count, (int)request->cue->ball,
-                     c.place[0], c.place[1], NULL);
-    if (c.kind != CAROM_PLAN_PASS)
-      plan_play_again(&job, &c);
-    int index = k;
-    for (; index > 0 && choices[index - 1].value < c.value; index--)
-      choices[index] = choices[index - 1];
-    choices[index] = c;
   }
 }
 
@@ -334,7 +314,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   }
 
   if (job->why && tried == 0)
-    play_again(&request, choices, n);
+    carom_plan_replay(&request, choices, n);
   if (job->csv && !job->value)
     write_rows(out, line, choices, n);
   else

@@ -121,7 +121,7 @@ static json_t *way_line(const ways_search *s, const way *w) {
                             parts_text(s, w, parts), "chance", w->chance, "error", w->error,
                             "window", w->phi[0], w->phi[1]);
   if (w->ball < 0)
-    json_object_set_new(about, "share", json_real((double)w->found / (double)s->scanned));
+    json_object_set_new(about, "share", json_real((double)w->found / (double)s->result.scanned));
   else
     json_object_set_new(about, "ball", json_string(s->line->name[w->ball]));
   if (!isnan(w->cut))
@@ -130,28 +130,20 @@ static json_t *way_line(const ways_search *s, const way *w) {
   return written;
 }
 
-static int by_chance(const void *a, const void *b) {
-  const way *first = a, *second = b;
-  const double chances = first->chance - second->chance;
-  const double wide = first->phi[1] - first->phi[0], others = second->phi[1] - second->phi[0];
-  if (chances != 0.0)
-    return (chances < 0.0) - (chances > 0.0);
-  return (wide < others) - (wide > others);
-}
-
-static void tell(FILE *out, const ways_search *s, int most) {
-  const bool counted = s->aim != TO_POT;
+static void tell(FILE *out, const ways_search *s) {
+  const bool counted = s->job.goal != CAROM_WAY_POT;
   char text[WAY_TEXT];
-  if (s->ways == 0)
+  if (s->result.ways == 0)
     fputs("There is no way.\n", out);
   else
     fprintf(out, "    chance   window  %s   speed   tip           aim  way\n",
             counted ? "    of all" : "       cut");
-  for (int k = 0; k < s->ways && k < most; k++) {
+  for (int k = 0; k < s->result.ways; k++) {
     const way *w = &s->way[k];
     char middle[CUT_TEXT];
     if (counted)
-      snprintf(middle, sizeof middle, "%.3f %%", 100.0 * (double)w->found / (double)s->scanned);
+      snprintf(middle, sizeof middle, "%.3f %%",
+               100.0 * (double)w->found / (double)s->result.scanned);
     else
       cut_text(w, middle);
     fprintf(out, "%8.1f %% %8.2f  %10s %7.3g  %+.2f,%+.2f  %7.2f  %s\n", 100.0 * w->chance,
@@ -159,9 +151,10 @@ static void tell(FILE *out, const ways_search *s, int most) {
             way_text(s, w, text));
   }
   if (counted)
-    fprintf(out, "%lld of %lld strokes %s, %.2f %%, by %d ways.\n", (long long)s->good,
-            (long long)s->scanned, s->aim == TO_SCORE ? "score" : "get there",
-            100.0 * (double)s->good / (double)(s->scanned + !s->scanned), s->ways);
+    fprintf(out, "%lld of %lld strokes %s, %.2f %%, by %lld ways.\n", (long long)s->result.good,
+            (long long)s->result.scanned, s->job.goal == CAROM_WAY_SCORE ? "score" : "get there",
+            100.0 * (double)s->result.good / (double)(s->result.scanned + !s->result.scanned),
+            (long long)s->result.ways);
 }
 
 static void write_rows(FILE *out, const ways_search *s) {
@@ -169,7 +162,7 @@ static void write_rows(FILE *out, const ways_search *s) {
   fputs("rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,phi_low,phi_high,speed_low,speed_high,"
         "chance,error,found,scanned\n",
         out);
-  for (int k = 0; k < s->ways; k++) {
+  for (int k = 0; k < s->result.ways; k++) {
     const way *w = &s->way[k];
     const char *ball = "", *pocket = "";
     if (w->ball >= 0)
@@ -183,7 +176,7 @@ static void write_rows(FILE *out, const ways_search *s) {
     for (size_t n = 0; n < sizeof more / sizeof more[0]; n++)
       fprintf(out, isnan(more[n]) ? "," : "%.10g,", more[n]);
     fprintf(out, "%.6f,%.6f,%lld,%lld\n", w->chance, w->error, (long long)w->found,
-            (long long)s->scanned);
+            (long long)s->result.scanned);
   }
 }
 
@@ -203,9 +196,9 @@ static bool plot(const ways_search *s, const char *path) {
   static carom_shot shot[MOST_DRAWN];
   static carom_ball_state final[MOST_DRAWN][CAROM_BALLS_MOST];
   static played drawn[MOST_DRAWN];
-  int count = s->ways;
-  if (count > MOST_DRAWN)
-    count = MOST_DRAWN;
+  int count = MOST_DRAWN;
+  if (s->result.ways < MOST_DRAWN)
+    count = (int)s->result.ways;
   if (count == 0) {
     complain("nothing to draw: there is no way");
     return false;
@@ -275,19 +268,19 @@ static bool read_pocket(const ways_search *s, const char *name, int *pocket) {
 static bool find(const ways_job *job, ways_search *s) {
   const carom_table *t = &s->line->table->table;
   char fault[FAULT_TEXT];
-  if (!read_ball(s, job->ball, &s->ball) || !read_pocket(s, job->pocket, &s->pocket))
+  if (!read_ball(s, job->ball, &s->job.ball) || !read_pocket(s, job->pocket, &s->job.pocket))
     return false;
-  s->aim = TO_POT;
+  s->job.goal = CAROM_WAY_POT;
   if (job->leave.is_set && s->line->count == 1)
-    s->aim = TO_PLACE;
+    s->job.goal = CAROM_WAY_PLACE;
   else if (t->pockets == 0)
-    s->aim = TO_SCORE;
+    s->job.goal = CAROM_WAY_SCORE;
   leave_into(&job->leave, s);
-  if (s->aim == TO_SCORE && s->line->count < 3) {
+  if (s->job.goal == CAROM_WAY_SCORE && s->line->count < 3) {
     complain("to score, three balls are needed");
     return false;
   }
-  if (s->aim == TO_POT && s->line->count < 2) {
+  if (s->job.goal == CAROM_WAY_POT && s->line->count < 2) {
     complain("the cue ball and one more are needed, or --leave");
     return false;
   }
@@ -295,11 +288,7 @@ static bool find(const ways_job *job, ways_search *s) {
     complain("the layout cannot be played: %s", fault);
     return false;
   }
-  if (!ways_find(s))
-    return false;
-  if (!s->each)
-    qsort(s->way, (size_t)s->ways, sizeof *s->way, by_chance);
-  return true;
+  return ways_find(s);
 }
 
 #define SPEEDS_TO_POT "1.5,2.5,4"
@@ -406,7 +395,7 @@ static void fill_strokes(ways_job *job) {
 
 /* Writes each way as the line of its stroke. */
 static void write_lines(FILE *out, const ways_search *s) {
-  for (int k = 0; k < s->ways; k++)
+  for (int k = 0; k < s->result.ways; k++)
     shot_json_write(out, way_line(s, &s->way[k]));
 }
 
@@ -421,12 +410,12 @@ static int write_ways(const ways_job *job, ways_search *s, FILE *out) {
   else if (job->json)
     write_lines(out, s);
   else
-    tell(out, s, s->ways);
+    tell(out, s);
   if (!output_commit())
     return EXIT_USAGE;
   if (job->plot != NULL && !plot(s, job->plot))
     return EXIT_SOME;
-  return exit_of(s->ways > 0);
+  return exit_of(s->result.ways > 0);
 }
 
 /* The ways of the layout and the strokes of a file; an exit code. */
@@ -434,17 +423,18 @@ static int ways_of_file(const ways_job *job, ways_search *s, shot_file *file) {
   static carom_cue stroke[MOST_STROKES];
   static shot_line line;
   s->line = &line;
-  s->stroke = stroke;
-  s->strokes = strokes_read(file, &job->flags.shared, &line, stroke, MOST_STROKES);
-  if (s->strokes == 0)
+  const int strokes = strokes_read(file, &job->flags.shared, &line, stroke, MOST_STROKES);
+  if (strokes == 0)
     return EXIT_USAGE;
   int code = EXIT_USAGE;
   FILE *out = output_open(job->flags.shared.output);
   if (out != NULL) {
-    s->scan = scan_of(job, &line, s->strokes);
+    ways_begin(s, stroke, strokes, MOST_WAYS);
+    s->job.scan = scan_of(job, &line, strokes);
     s->way = allocate(MOST_WAYS, sizeof *s->way);
     code = write_ways(job, s, out);
     free(s->way);
+    free(s->job.memory);
   }
   shot_line_free(&line);
   return code;
@@ -457,7 +447,7 @@ int command_ways(int argc, char **argv) {
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
-  ways_search s = {.options = job.flags.shared.shot, .rails = job.rails, .each = job.each};
+  ways_search s = {.options = job.flags.shared.shot, .job = {.rails = job.rails, .each = job.each}};
   s.options.threads = job.flags.shared.options.threads;
   if (!player_of(&job.flags.shared.player, &s.player) || !svg_possible(job.plot))
     return EXIT_USAGE;

@@ -61,7 +61,7 @@ typedef struct every_room {
       before[EVERY_EVENTS * 2 * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST],
       reach[CAROM_DIRECTIONS_MOST];
   carom_tangent tangent[EVERY_SHOTS];
-  double plan[32768], choice[27 * EVERY_FEW]; /* of every_plan.h */
+  double plan[65536], choice[27 * EVERY_FEW], coach[400000]; /* of every_plan.h */
   carom_record record;
   char line[CAROM_RECORD_TEXT];
 #ifndef CAROM_WITHOUT_PLAN

@@ -31,9 +31,9 @@ OPTION_SET(set_leave) {
 
 void leave_into(const leave *target, ways_search *s) {
   const carom_table *t = &s->line->table->table;
-  s->radius = target->is_set ? place_along(&target->radius, 0.125 * t->length) : 0.0;
-  s->place[0] = place_along(&target->x, 0.25 * t->width);
-  s->place[1] = place_along(&target->y, 0.125 * t->length);
+  s->job.radius = target->is_set ? place_along(&target->radius, 0.125 * t->length) : 0.0;
+  s->job.place[0] = place_along(&target->x, 0.25 * t->width);
+  s->job.place[1] = place_along(&target->y, 0.125 * t->length);
 }
 
 /* The strokes of all values, without those by which the ball cannot be aimed. NULL after a
@@ -75,11 +75,11 @@ static double miss_of(const ways_search *s, const way *w, bool *good) {
   carom_shot shot = {.facts = &facts, .final = final};
   const carom_status status = carom_shoot(&s->line->table->table, s->line->ball, s->line->count,
                                           &w->cue, &s->options, &shot);
-  *good = status >= 0 && way_is_good(s, &facts, final, w);
+  *good = status >= 0 && carom_way_succeeds(&s->job, &shot, w);
   const carom_ball_state *cue = &final[s->line->cue.ball];
   if (status < 0 || cue->label != CAROM_BALL_STATIONARY)
     return INFINITY;
-  return hypot(cue->r[0] - s->place[0], cue->r[1] - s->place[1]);
+  return hypot(cue->r[0] - s->job.place[0], cue->r[1] - s->job.place[1]);
 }
 
 /* Gives the flags the one stroke. */
@@ -166,15 +166,15 @@ static void tell_best(const ways_search *s, const trial *t, char text[LEFT_TEXT]
            "leave  within %.3g m of x = %.3f, y = %.3f m: %.1f %% of this player's strokes, the "
            "best of %d, of which %d do it\n       with this tip from %.3g to %.3g m/s of the cue "
            "without errors\n",
-           s->radius, s->place[0], s->place[1], 100.0 * t->chance, t->count, t->arrivals,
-           t->cue[low].speed, t->cue[high].speed);
+           s->job.radius, s->job.place[0], s->job.place[1], 100.0 * t->chance, t->count,
+           t->arrivals, t->cue[low].speed, t->cue[high].speed);
 }
 
 /* Chooses among the strokes of `t`, and gives the flags the best; false after a complaint. */
 static bool choose(const leave *target, shoot_flags *f, ways_search *s, trial *t,
                    char text[LEFT_TEXT]) {
   way w = {.kind = -1, .ball = -1, .pocket = -1};
-  s->aim = f->pocket != NULL ? TO_POT : TO_PLACE;
+  s->job.goal = f->pocket != NULL ? CAROM_WAY_POT : CAROM_WAY_PLACE;
   leave_into(target, s);
   if (f->pocket != NULL)
     name_pot(f->pocket, s->line, &w);
@@ -202,9 +202,15 @@ bool leave_choose(const leave *target, shoot_flags *f, const carom_shot_options 
   strokes.cue = cue;
   f->shared.with.in_lines = true; /* those of the strokes have them */
   strokes.count = file != NULL ? strokes_read(file, &f->shared, &line, cue, MOST_ROWS) : 0;
-  const bool found = strokes.count > 0 && choose(target, f, &s, &strokes, text);
-  if (strokes.count > 0)
+  bool found = false;
+  if (strokes.count > 0) {
+    ways_begin(&s, cue, strokes.count, 1);
+    s.job.scan = strokes.count;
+    s.job.ball = s.job.pocket = -1;
+    found = choose(target, f, &s, &strokes, text);
+    free(s.job.memory);
     shot_line_free(&line);
+  }
   if (file != NULL)
     shot_file_close(file);
   return found;

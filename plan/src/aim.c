@@ -130,7 +130,7 @@ static bool is_next_link(const way *w, const progress *p, const carom_brief_even
   return e->type == CAROM_EVENT_RAIL && is_on(w, next, e->b);
 }
 
-/* Whether the ball on its way, of index `index`, meets the one before it again: in the instant of the
+/* Whether the ball on its way, of this index, meets the one before it again: in the instant of the
  * last link; or the cue ball follows a ball that it touched from the start. */
 static bool meets_last_again(const progress *p, const int *ball, int index,
                              const carom_brief_event *e) {

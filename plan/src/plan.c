@@ -45,32 +45,13 @@ typedef carom_search search;
 static const carom_plan_options no_options = {0};
 static const carom_shot_options no_shot = {0};
 /* FIRST: of the first round of doubling; IN_HAND_LEAST: of a plan whose places race */
-enum {
-  SHOTS_LEAST = 100,
-  IN_HAND_LEAST = 600,
-  SHOTS_USUAL = 2000,
-  SHOTS_IN_TIME = 200000,
-  FIRST = 100,
-  SPARE = 160
-};
-static const double player_most = 1000.0; /* of each number of a player */
+enum { IN_HAND_LEAST = 600, SHOTS_USUAL = 2000, SHOTS_IN_TIME = 200000, FIRST = 100, SPARE = 160 };
 
 static carom_status check_options(const carom_plan_options *o) {
   CAROM_PLAN_OPTIONS(CAROM_CHECK_OPTION)
   if (o->slice < 0 || o->unused != 0 || !CAROM_RESERVED_IS_ZERO(o))
     return CAROM_ERROR_OPTIONS;
   return CAROM_OK;
-}
-
-static bool good_player(const carom_player *p) {
-  const double numbers[] = {p->speed,    p->speed_share, p->phi,         p->theta,
-                            p->a,        p->b,           p->speed_least, p->speed_most,
-                            p->tip_most, p->growth,      p->only_pots};
-  bool good = p->tip_most <= 1.0 && (p->speed_most == 0.0 || p->speed_most >= p->speed_least);
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    good &= numbers[k] >= 0.0 && numbers[k] <= player_most;
-  const bool has_shots = p->shots >= (double)SHOTS_LEAST && p->shots <= (double)SHOTS_USUAL;
-  return good && p->only_pots <= 1.0 && (p->shots == 0.0 || has_shots);
 }
 
 static int64_t shots_of(const carom_plan_options *o) {
@@ -179,8 +160,8 @@ static carom_status check_job(const carom_plan_job *job) {
   if (!is_whole(job))
     return CAROM_ERROR_NULL;
   const carom_plan_options *options = or_usual(job->options);
-  const bool good_players =
-      good_player(job->player) && (options->opponent == NULL || good_player(options->opponent));
+  const bool good_players = carom_player_is_good(job->player) &&
+                            (options->opponent == NULL || carom_player_is_good(options->opponent));
   if (check_options(options) != CAROM_OK || !good_players || !good_rules(job->rules) ||
       (uint64_t)job->leave > CAROM_LEAVE_BAULK || !CAROM_RESERVED_IS_ZERO(job))
     return CAROM_ERROR_OPTIONS;

@@ -266,8 +266,8 @@ static bool is_snookered_at(const carom_shot_ball *balls, uint32_t targets, uint
   return true;
 }
 
-/* Whether `ball` snookers the cue ball: of the others that bar the way to each ball of `targets`, it is
- * the nearest one. */
+/* Whether `ball` snookers the cue ball: of the others that bar the way to each ball of `targets`,
+ * it is the nearest one. */
 static bool is_behind(const carom_shot_ball *balls, uint32_t targets, uint32_t others, int ball) {
   const double *c = balls[0].state.r;
   uint32_t nearer = 0;

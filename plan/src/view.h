@@ -192,6 +192,10 @@ double carom_least_elevation(const carom_table *table, const carom_shot_ball *ba
                              const carom_cue *cue);
 
 /* player.c */
+/* The least and the greatest number of shots of a player's plans. */
+enum { PLAYER_SHOTS_LEAST = 100, PLAYER_SHOTS_MOST = 2000 };
+/* Whether the numbers of a player are within their ranges. */
+bool carom_player_is_good(const carom_player *p);
 /* The player with his bounds: 0 becomes the value it stands for. */
 carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue);
 /* A stroke by a player with bounds; z are his errors in standard deviations. */

@@ -1,13 +1,20 @@
 /* Ways: each window of directions that a sweep finds is listed, with its kind, and direct aims find
  * those at rails. The kind is read off the events here too, from the ball's side. */
-#include "game/ways.h"
+#include "carom_coach.h"
 #include "plan_support.h"
 
 enum { SWEPT = 18000, LEAST = 10, ROOM = 300, SPEEDS = 3 };
 static const double speed[SPEEDS] = {1.0, 1.5, 2.5};
 
-static shot_line line;
-static named_table named;
+enum { MOST_WAYS = 20000 };
+typedef carom_shot_way way;
+
+/* What was found. */
+typedef struct found_ways {
+  const way *way;
+  int64_t ways;
+} found_ways;
+
 static way room[MOST_WAYS];
 static carom_cue stroke[SPEEDS];
 
@@ -65,29 +72,35 @@ static void make_balls(random_source *r, int layout, bool at_rail) {
 }
 
 /* Finds the ways of the layout by the first `strokes` speeds. */
-static ways_search find(int strokes) {
+static found_ways find(int strokes) {
   const carom_player exact = carom_player_of(1.0);
-  named.table = table;
-  line.table = &named;
-  line.count = BALLS;
-  memcpy(line.ball, balls, sizeof balls);
   for (int k = 0; k < SPEEDS; k++) {
     stroke[k] = cue;
     stroke[k].speed = speed[k];
   }
-  ways_search s = {
-      .line = &line, .player = exact, .stroke = stroke, .strokes = strokes, .way = room};
-  s.aim = TO_POT;
-  s.ball = s.pocket = -1;
-  s.rails = MOST_PARTS;
-  s.scan = 1800 * strokes;
-  s.each = true;
-  ck_assert(ways_find(&s) && s.left_out == 0);
-  return s;
+  carom_ways_job search = {.table = &table,
+                           .balls = balls,
+                           .count = BALLS,
+                           .cues = stroke,
+                           .strokes = strokes,
+                           .player = &exact,
+                           .scan = 1800 * strokes,
+                           .ball = -1,
+                           .pocket = -1,
+                           .rails = CAROM_WAY_PARTS,
+                           .each = 1,
+                           .memory_size = carom_ways_memory(MOST_WAYS)};
+  edge space = edge_make(search.memory_size, true);
+  carom_ways_result result;
+  search.memory = space.memory;
+  ck_assert_int_eq(carom_ways(&search, room, MOST_WAYS, &result), CAROM_OK);
+  ck_assert(result.left_out == 0);
+  edge_free(&space);
+  return (found_ways){room, result.ways};
 }
 
 /* Sweeps the directions of a stroke for a ball: counts the windows, and those that are listed. */
-static void compare(const ways_search *s, int number, int ball, int *windows, int *listed) {
+static void compare(const found_ways *s, int number, int ball, int *windows, int *listed) {
   int pocket[SWEPT + 1], kind[SWEPT + 1], run = 0;
   pocket[SWEPT] = -1;
   for (int k = 0; k < SWEPT; k++) {
@@ -130,7 +143,7 @@ TEST(every_window_is_a_way) {
   int windows = 0, listed = 0;
   for (int layout = 0; layout < layouts; layout++) {
     make_balls(&r, layout, layout % 2);
-    const ways_search s = find(SPEEDS);
+    const found_ways s = find(SPEEDS);
     for (int ball = 1; ball < BALLS; ball++)
       for (int k = 0; k < SPEEDS && balls[ball].state.label != CAROM_BALL_POCKETED; k++)
         compare(&s, k, ball, &windows, &listed);
@@ -146,7 +159,7 @@ TEST(a_pot_has_one_name) {
   int of_kind[CAROM_PLAN_KISS + 1] = {0}, ways = 0;
   for (int layout = 0; layout < draws_of_each(FEWER(12)); layout++) {
     make_balls(&r, layout, false);
-    const ways_search s = find(SPEEDS);
+    const found_ways s = find(SPEEDS);
     for (int n = 0; n < s.ways; n++) {
       const way *w = &s.way[n];
       static carom_brief_event event[ROOM];
@@ -190,7 +203,7 @@ TEST(a_window_across_zero_degrees) {
   make_layout(1, 1);
   ck_assert_int_eq(carom_place_ball(&table, balls, BALLS, 0, 0.4, y, NULL), CAROM_OK);
   ck_assert_int_eq(carom_place_ball(&table, balls, BALLS, 1, 0.7, y, NULL), CAROM_OK);
-  const ways_search s = find(1);
+  const found_ways s = find(1);
   const way *only = NULL;
   for (int n = 0; n < s.ways; n++) {
     const way *w = &s.way[n];
@@ -226,7 +239,7 @@ TEST(pots_at_rails) {
   int ways = 0, found = 0;
   for (int layout = 0; layout < draws_of_each(FEWER(60)); layout++) {
     make_balls(&r, layout, true);
-    const ways_search s = find(1);
+    const found_ways s = find(1);
     for (int n = 0; n < s.ways; n++) {
       const way *w = &s.way[n];
       carom_pot pot = {.ball = 8, .pocket = w->pocket};
