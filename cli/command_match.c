@@ -240,7 +240,7 @@ static bool play_stroke(players *p) {
 
   /* the stroke, and what comes before it */
   int found;
-  carom_choice best;
+  carom_plan_stroke best;
   const carom_status status = carom_match_plan(&match, &job, &best, 1, &found);
   if (status != CAROM_OK) {
     complain("%s", text_or(match.fault, carom_status_string(status)));
@@ -248,12 +248,12 @@ static bool play_stroke(players *p) {
   }
   const int64_t rulings = match.rulings;
   if (best.kind == CAROM_PLAN_PASS)
-    return keep(p, carom_match_choose(&match, who, CAROM_MAY_PASS), who, rulings);
+    return keep(p, carom_match_choose(&match, who, CAROM_CHOICE_PASS), who, rulings);
   if (match.phase == CAROM_MATCH_PLACE &&
       !keep(p, carom_match_place(&match, who, best.place[0], best.place[1]), who, rulings))
     return false;
   if (best.kind == CAROM_PLAN_PUSH &&
-      !keep(p, carom_match_choose(&match, who, CAROM_MAY_PUSH), who, rulings))
+      !keep(p, carom_match_choose(&match, who, CAROM_CHOICE_PUSH), who, rulings))
     return false;
   const carom_call call = {best.ball, best.pocket};
   if (match.rules.calls != 0 && best.ball >= 0 &&

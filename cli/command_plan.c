@@ -83,7 +83,7 @@ OPTION(
     "draw the best shot: its paths without errors, thin lines with errors, and what can go wrong");
 
 /* What a choice that names no ball does. */
-static const char *words_without_ball(const shot_line *line, const carom_choice *c) {
+static const char *words_without_ball(const shot_line *line, const carom_plan_stroke *c) {
   static const double often = 0.15; /* fouls of a stroke that is no safe one */
   if (line->table->table.pockets == 0)
     return "no point";
@@ -95,7 +95,7 @@ static const char *words_without_ball(const shot_line *line, const carom_choice 
 }
 
 /* By which kind of stroke a ball falls: ", by a bank"; nothing where it is direct. */
-static void kind_words(const carom_choice *c, char text[40]) {
+static void kind_words(const carom_plan_stroke *c, char text[40]) {
   text[0] = '\0';
   if (c->kind == CAROM_PLAN_SCAN)
     snprintf(text, 40, ", by several ways");
@@ -104,7 +104,7 @@ static void kind_words(const carom_choice *c, char text[40]) {
 }
 
 /* What a choice does, by the names of the file. */
-static void describe(const shot_line *line, const carom_choice *c, char text[200]) {
+static void describe(const shot_line *line, const carom_plan_stroke *c, char text[200]) {
   char pocket[WHERE_TEXT], ball[BALL_TEXT], way_words[40];
   if (c->kind == CAROM_PLAN_FOUL)
     snprintf(text, 200, "no shot without a foul was found");
@@ -138,9 +138,9 @@ static const char *value_words(const plan_job *job) {
 }
 
 static void tell(FILE *out, const plan_job *job, const carom_plan_job *request,
-                 const shot_line *line, const carom_choice *choices, int n) {
+                 const shot_line *line, const carom_plan_stroke *choices, int n) {
   for (int k = 0; k < n; k++) {
-    const carom_choice *c = &choices[k];
+    const carom_plan_stroke *c = &choices[k];
     char text[200];
     describe(line, c, text);
     fprintf(out, "%d. %s\n", k + 1, text);
@@ -160,10 +160,10 @@ static void tell(FILE *out, const plan_job *job, const carom_plan_job *request,
   }
 }
 
-static void write_rows(FILE *out, const shot_line *line, const carom_choice *choices, int n) {
+static void write_rows(FILE *out, const shot_line *line, const carom_plan_stroke *choices, int n) {
   fputs("rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n", out);
   for (int k = 0; k < n; k++) {
-    const carom_choice *c = &choices[k];
+    const carom_plan_stroke *c = &choices[k];
     const char *pocket = c->pocket >= 0 ? line->table->pocket[c->pocket] : NULL;
     fprintf(out,
             "%d,%s,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.6f,%.6f,%.6f,%.6f,%.6f,%lld\n",
@@ -243,7 +243,7 @@ static void put_cue_ball_first(shot_line *line) {
 /* Asks the library for the estimate, the chances of the strokes that were given, or the best
  * shots: n of them. */
 static carom_status ask(const plan_job *job, const carom_plan_job *request,
-                        const carom_cue *strokes, int tried, carom_choice *choices, int *n,
+                        const carom_cue *strokes, int tried, carom_plan_stroke *choices, int *n,
                         FILE *out) {
   *n = tried;
   if (job->value)
@@ -294,7 +294,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
                             .options = &options,
                             .memory_size = carom_plan_memory(&options)};
   request.memory = allocate(1, request.memory_size);
-  static carom_choice choices[TRIED_MOST];
+  static carom_plan_stroke choices[TRIED_MOST];
   int n;
   const carom_status status = ask(job, &request, strokes, tried, choices, &n, out);
   char fault[FAULT_TEXT];

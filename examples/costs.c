@@ -34,7 +34,7 @@ static carom_plan_rules rules;
 static carom_plan_job job;
 static carom_record record;
 static char text[CAROM_RECORD_TEXT];
-static carom_choice choice;
+static carom_plan_stroke choice;
 static int found;
 
 /* ---- The calls: each tells whether it was served. */

@@ -406,7 +406,7 @@ inline carom_plan_job job(const carom_table &on, span<const carom_shot_ball> bal
 /* A plan that is made in slices, for an opponent who thinks between the frames of a game.
  * Everything that the job points to must stay unchanged until the end. The memory of the job is
  * allocated here. `in_hand` says whether the cue ball is in hand: 0: no; 1 or true: within the
- * bounds that the game sets after a foul; or a carom_leave from CAROM_LEAVE_HAND on. The rules do
+ * bounds that the game sets after a foul; or a carom_leave from CAROM_LEAVE_ANYWHERE on. The rules do
  * not know of the stroke before, so after a scratch on the break of eight-ball, where the cue ball
  * stays behind the head string, give the `leave` of its ruling. */
 class thinking {
@@ -444,7 +444,7 @@ public:
     return ended_;
   }
   /* The best strokes, best first; empty until the end, and after an error. */
-  span<const carom_choice> choices() const {
+  span<const carom_plan_stroke> choices() const {
     return {choices_.data(), static_cast<std::size_t>(found_)};
   }
 
@@ -464,10 +464,10 @@ private:
   carom_bounds hand_bounds() const {
     carom_bounds bounds{};
     int leave = in_hand_;
-    if (leave < CAROM_LEAVE_HAND) {
+    if (leave < CAROM_LEAVE_ANYWHERE) {
       const auto kind = static_cast<carom_rules_kind>(job_.rules->learned - 1);
       const carom_rules_about *about = carom_rules_about_of(kind);
-      leave = about != nullptr ? about->hand : CAROM_LEAVE_HAND;
+      leave = about != nullptr ? about->hand : CAROM_LEAVE_ANYWHERE;
     }
     carom_hand_bounds(static_cast<carom_leave>(leave), job_.table, 0.0, &bounds);
     return bounds;
@@ -479,12 +479,13 @@ private:
   carom_match *match_ = nullptr;
   bool begun_ = false, ended_ = false;
   int found_ = 0;
-  std::vector<carom_choice> choices_;
+  std::vector<carom_plan_stroke> choices_;
   std::vector<double> memory_;
 };
 
 /* The best strokes, best first, at most `most`. The memory of the job is allocated here. */
-inline std::vector<carom_choice> plan(const carom_plan_job &job, int most = 1, int in_hand = 0) {
+inline std::vector<carom_plan_stroke> plan(const carom_plan_job &job, int most = 1,
+                                           int in_hand = 0) {
   thinking all(job, 0, most, in_hand);
   all.go_on();
   return {all.choices().begin(), all.choices().end()};
@@ -654,7 +655,7 @@ public:
     return told(carom_match_begin_at(match_.get(), rules, of, &on, balls.data(),
                                      static_cast<int>(balls.size()), &options, leave, player));
   }
-  carom_status choose(carom_may choice) {
+  carom_status choose(carom_choice choice) {
     return told(carom_match_choose(match_.get(), player(), choice));
   }
   carom_status place(double x, double y) {
@@ -683,8 +684,8 @@ public:
 
   /* The best strokes of the player at the table, whose errors are those of `by`, with the usual cue
    * of the game. */
-  std::vector<carom_choice> plan(const carom_player &by, const carom_plan_options &wanted = {},
-                                 int most = 1) {
+  std::vector<carom_plan_stroke> plan(const carom_player &by, const carom_plan_options &wanted = {},
+                                      int most = 1) {
     const auto kind = static_cast<carom_rules_kind>(match_->record.rules);
     const carom_rules_about *about = carom_rules_about_of(kind);
     carom_cue cue =
@@ -700,7 +701,7 @@ public:
   }
   /* Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the stroke as
    * the player makes it. */
-  carom_status take(const carom_choice &best, const carom_cue &cue) {
+  carom_status take(const carom_plan_stroke &best, const carom_cue &cue) {
     const carom_status code = told(carom_match_prepare(match_.get(), player(), &best));
     return code < 0 || best.kind == CAROM_PLAN_PASS ? code : stroke(cue);
   }

@@ -87,7 +87,7 @@ typedef struct carom_record {
   int64_t foul;    /* the foul of the last stroke, a carom_foul of carom_plan.h. */
   int64_t act;     /* the last act that was decided, a carom_act of carom_match.h, */
   int64_t actor;   /* the player who decided it, 0 or 1, */
-  int64_t choice;  /* the choice, a carom_may, */
+  int64_t choice;  /* the choice, a carom_choice, */
   int64_t call[2]; /* and the ball and the pocket that were called. */
   uint64_t seal;   /* the hash in the last line that has one. */
   int64_t match;   /* 1: the recording is of a match. Set it before the first line is written. */

@@ -884,7 +884,7 @@ typedef struct carom_rules_state {
   int32_t lost[2];   /* points that fouls cost, or balls that are owed, 0 to 1,000,000. */
   int32_t pocket[2]; /* indices of the pockets in which balls count for each of them, 0 to
                         CAROM_POCKETS_MOST - 1. */
-  int32_t may;       /* the sum of the carom_may of the player. */
+  int32_t may;       /* the sum of the carom_choice of the player. */
   int32_t on;        /* 1: a colour is on after a red; in blackball the player is snookered. Else
                         0. */
   int32_t free_ball; /* in snooker the ball that the opponent has just named as a free ball,

@@ -124,8 +124,8 @@ bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
 
 void plan_game_state(const plan_game *game, const shot_line *line, carom_plan_rules *rules) {
   enum { LAST_INNING = 3 }; /* of carom_rules_state.innings */
-  static const int32_t permissions[] = {0, CAROM_MAY_PUSH, CAROM_MAY_PASS,
-                                        CAROM_MAY_PASS | CAROM_MAY_FREE_BALL};
+  static const int32_t permissions[] = {0, CAROM_CHOICE_PUSH, CAROM_CHOICE_PASS,
+                                        CAROM_CHOICE_PASS | CAROM_CHOICE_FREE_BALL};
   *rules = carom_plan_rules_of((carom_rules_kind)game->rules);
   carom_rules_state *state = &rules->state;
   state->opening = game->opening;

@@ -81,7 +81,7 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
                       const carom_why *why) {
   const carom_ruling *ruling = &why->ruling;
   const carom_ball_state *cue = &ruling->balls[job->cue->ball].state;
-  const carom_choice *c = &why->next;
+  const carom_plan_stroke *c = &why->next;
   const bool passes = ruling->next == 1;
   char pocket[WHERE_TEXT], ball[BALL_TEXT];
   fputs("   leaves       ", out);
@@ -113,7 +113,7 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
 }
 
 /* How often a stroke with errors misses, and what that leaves the other; and what errors cost. */
-static void tell_misses(FILE *out, const carom_choice *choice, const carom_why *why) {
+static void tell_misses(FILE *out, const carom_plan_stroke *choice, const carom_why *why) {
   char text[16];
   /* a safety is meant to pass the turn */
   fprintf(out, "   %s       %s", carom_names_ball(choice) ? "misses" : "passes",
@@ -127,7 +127,7 @@ static void tell_misses(FILE *out, const carom_choice *choice, const carom_why *
 }
 
 void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
-                   const carom_choice *choice) {
+                   const carom_plan_stroke *choice) {
   static carom_why why;
   if (choice->kind == CAROM_PLAN_PASS)
     return;

@@ -9,6 +9,6 @@
 /* Tells how to strike a choice, what it leaves, what a miss leaves, and what the errors of the
  * player cost. `job` is that of the plan, whose memory is used again. */
 void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
-                   const carom_choice *choice);
+                   const carom_plan_stroke *choice);
 
 #endif

@@ -90,7 +90,7 @@ static void say_failures(const planned *p, const shot_line *line, uint64_t seed,
 
 bool plan_draw(const char *path, shot_line *line, const planned *p, uint64_t seed,
                const char *what) {
-  const carom_choice *c = &p->best;
+  const carom_plan_stroke *c = &p->best;
   static carom_ball_state final[DRAWN + 1][CAROM_BALLS_MOST];
   carom_shot shot = {.final = final[DRAWN]}, strokes[DRAWN] = {0};
   line->cue = c->cue;

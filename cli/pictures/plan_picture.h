@@ -10,7 +10,7 @@
 typedef struct planned {
   carom_player player;
   carom_plan_rules rules;
-  carom_choice best;
+  carom_plan_stroke best;
 } planned;
 
 /* Draws it, with `what` it is; its stroke becomes the line's. False after a complaint. */

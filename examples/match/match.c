@@ -56,7 +56,7 @@ int main(int count, char **arguments) {
   }
   for (int k = atoi(arguments[2]); k > 0 && match.phase != CAROM_MATCH_OVER; k--) {
     const int me = (int)match.record.player;
-    carom_choice best;
+    carom_plan_stroke best;
     int found;
     job.player = &players[me];
     keep(carom_match_plan(&match, &job, &best, 1, &found));

@@ -20,7 +20,7 @@ int main(int count, char **arguments) try {
     game.load(lines.substr(0, lines.rfind('\n') + 1)); // half a line is what a crash leaves
   for (int k = std::atoi(arguments[2]); k > 0 && !game.over(); k--) {
     const int me = game.player();
-    const carom_choice best = game.plan(players[me], options)[0];
+    const carom_plan_stroke best = game.plan(players[me], options)[0];
     game.take(best, carom::strike(players[me], 9, game.state().record.shots, best.cue));
     std::printf("%d: %s\n", me + 1, game.words().c_str());
     if (game.over())

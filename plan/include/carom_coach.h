@@ -142,7 +142,7 @@ typedef struct carom_why {
   carom_ruling ruling;         /* what the stroke leaves without errors. If luck alone makes its
                                      balls fall, it is the first stroke with errors that ends the
                                      turn. */
-  carom_choice next;           /* the best stroke of the player who plays next, */
+  carom_plan_stroke next;      /* the best stroke of the player who plays next, */
   int32_t has_next;            /* 1 if there is one, otherwise 0. */
   double misses, loses;        /* shares of the strokes with errors that pass the turn, and that
                                      lose the game. */
@@ -157,19 +157,20 @@ typedef struct carom_why {
  * errors of the player cost. The job is that of the plan; its memory is overwritten. Returns
  * CAROM_OK; CAROM_ERROR_NULL as in carom_plan(); CAROM_ERROR_OPTIONS for a choice to pass, which
  * has no stroke; or an error of carom_place_ball(). */
-CAROM_API carom_status carom_why_of(const carom_plan_job *job, const carom_choice *choice,
+CAROM_API carom_status carom_why_of(const carom_plan_job *job, const carom_plan_stroke *choice,
                                     carom_why *why);
 
 /* 1 if the ball that a choice names is meant to fall; 0 if the choice names none, or if that ball
  * falls by luck: the player plays on in less than a tenth of the strokes. */
-CAROM_API int carom_names_ball(const carom_choice *choice);
+CAROM_API int carom_names_ball(const carom_plan_stroke *choice);
 
 /* Plays n choices of a plan CAROM_WHY_STROKES times each, with the same errors for all, and sorts
  * them by the values of these strokes, best first. value, error, keep, foul, lose and seen become
  * those of these strokes. A choice to pass keeps its value. The chances of a plan are partly lucky
  * for choices that were seldom played; these are not. Returns CAROM_OK; CAROM_ERROR_NULL as in
  * carom_plan(); or CAROM_ERROR_OPTIONS if n is below 0. */
-CAROM_API carom_status carom_plan_replay(const carom_plan_job *job, carom_choice *choices, int n);
+CAROM_API carom_status carom_plan_replay(const carom_plan_job *job, carom_plan_stroke *choices,
+                                         int n);
 
 /* ---- Breaks ---------------------------------------------------------------------------------- */
 

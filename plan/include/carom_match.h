@@ -109,7 +109,7 @@ typedef struct carom_match {
   carom_plan_rules rules; /* their state is that of the player at the table. */
   int32_t phase;          /* a carom_match_phase. */
   int32_t winner;         /* 0 or 1; CAROM_DRAWN; -1: none yet. */
-  int32_t may;            /* the choices: the sum of the carom_may for carom_match_choose(). */
+  int32_t may;            /* the choices: the sum of the carom_choice for carom_match_choose(). */
   int32_t cue_ball;       /* of the player at the table. */
   uint32_t on;            /* balls that may be met first in the next stroke, as a set. */
   uint32_t touching;      /* balls that touch the cue ball, as a set. */
@@ -155,7 +155,7 @@ CAROM_API carom_status carom_match_begin_at(carom_match *match, carom_rules_kind
 /* All return CAROM_OK, CAROM_ERROR_NULL or CAROM_ERROR_ACT. `player` is who acts.
  *
  * carom_match_choose: one of match->may: PUSH for the next stroke, the others instead of it. */
-CAROM_API carom_status carom_match_choose(carom_match *match, int player, carom_may choice);
+CAROM_API carom_status carom_match_choose(carom_match *match, int player, carom_choice choice);
 
 /* Puts the cue ball in hand, m; until the stroke it may be put elsewhere. The choice to leave it
  * where it lies is then gone. */
@@ -170,7 +170,7 @@ CAROM_API carom_status carom_match_call(carom_match *match, int player, carom_ca
  * out and calls. The choice PASS passes, and no stroke follows. match->text has the lines of all
  * these acts; if one is refused, those of the acts before it, which stand. */
 CAROM_API carom_status carom_match_prepare(carom_match *match, int player,
-                                           const carom_choice *choice);
+                                           const carom_plan_stroke *choice);
 
 /* Plays a stroke of match->cue_ball, and rules. `stop` says when to stop the shot, by time_most,
  * stop_at, first_of and events_most, and may be NULL: at its end. `shot` may be NULL; else events,
@@ -209,7 +209,7 @@ CAROM_API carom_status carom_match_read(carom_match *match, carom_record *scratc
  * its bounds. As carom_plan() and carom_plan_hand(); goes on by carom_plan_continue(), with the
  * match unchanged. CAROM_ERROR_ACT where no stroke may be played. */
 CAROM_API carom_status carom_match_plan(carom_match *match, carom_plan_job *job,
-                                        carom_choice *choices, int room, int *found);
+                                        carom_plan_stroke *choices, int room, int *found);
 
 #ifdef __cplusplus
 }

@@ -13,7 +13,7 @@
  *     job.rules = &rules;
  *     job.memory_size = carom_plan_memory(NULL);
  *     job.memory = malloc(job.memory_size);
- *     carom_choice best[5];
+ *     carom_plan_stroke best[5];
  *     int found;
  *     // best[0].cue is the shot, best[0].value the chance to win
  *     carom_status status = carom_plan(&job, best, 5, &found);
@@ -54,7 +54,7 @@ typedef struct carom_player {
                          but potting, 0 to 1. carom_plan() and carom_plan_hand() draw from their
                          seed whether the stroke is one of them. They then plan as if the opponent
                          made every ball and the player 90 % of the later pots, and
-                         carom_choice.value is the chance that this pays. 0 for advice to a
+                         carom_plan_stroke.value is the chance that this pays. 0 for advice to a
                          player. */
   double shots; /* of this player's plans, if the options have neither shots nor seconds: 100 to
                          2000. 0: 2000. */
@@ -118,11 +118,11 @@ enum { CAROM_DRAWN = 2 };
 
 /* The layout of the next stroke. */
 typedef enum carom_leave {
-  CAROM_LEAVE_AFTER = 0,   /* as the balls lie */
-  CAROM_LEAVE_BEFORE = 1,  /* as the balls lay before: the shot is taken back */
-  CAROM_LEAVE_HAND = 2,    /* as the balls lie, but the cue ball is in hand, anywhere */
-  CAROM_LEAVE_KITCHEN = 3, /* the same behind the head string; carom_plan() values it as HAND */
-  CAROM_LEAVE_D = 4,       /* the same in the D of a snooker table */
+  CAROM_LEAVE_AFTER = 0,    /* as the balls lie */
+  CAROM_LEAVE_BEFORE = 1,   /* as the balls lay before: the shot is taken back */
+  CAROM_LEAVE_ANYWHERE = 2, /* as the balls lie, but the cue ball is in hand, anywhere */
+  CAROM_LEAVE_KITCHEN = 3,  /* the same behind the head string; carom_plan() values it as HAND */
+  CAROM_LEAVE_D = 4,        /* the same in the D of a snooker table */
   CAROM_LEAVE_BAULK = 5 /* the same behind the baulk line, a fifth of the length from the head; any
                               ball may be met from there */
 } carom_leave;
@@ -175,7 +175,7 @@ typedef struct carom_call {
 enum {
   CAROM_CALL_PUSH = -2, /* the stroke is a push-out */
   CAROM_CALL_PASS = -3, /* the player does not play: the opponent gets the table as it is */
-  CAROM_CALL_RACK = -4, /* the other choices of carom_may, likewise: the player breaks again, */
+  CAROM_CALL_RACK = -4, /* the other choices of carom_choice, likewise: the player breaks again, */
   CAROM_CALL_OTHER_RACK = -5, /* the opponent breaks again, */
   CAROM_CALL_STAY = -6,       /* the cue ball stays where it lies, */
   CAROM_CALL_SPOT = -7        /* touching balls go to their spots; or a ball to the foot spot, the
@@ -184,22 +184,22 @@ enum {
 };
 
 /* What the rules let a player do besides a stroke; a sum. */
-typedef enum carom_may {
-  CAROM_MAY_PASS = 1,      /* leave the table to the opponent, with the call CAROM_CALL_PASS */
-  CAROM_MAY_PUSH = 2,      /* push out, with the call CAROM_CALL_PUSH */
-  CAROM_MAY_FREE_BALL = 4, /* name any ball as one that is on */
-  CAROM_MAY_PLACE = 8,     /* place the cue ball in the D, where it is after the foul. A player who
+typedef enum carom_choice {
+  CAROM_CHOICE_PASS = 1,      /* leave the table to the opponent, with the call CAROM_CALL_PASS */
+  CAROM_CHOICE_PUSH = 2,      /* push out, with the call CAROM_CALL_PUSH */
+  CAROM_CHOICE_FREE_BALL = 4, /* name any ball as one that is on */
+  CAROM_CHOICE_PLACE = 8, /* place the cue ball in the D, where it is after the foul. A player who
                                 passes leaves it in hand */
-  CAROM_MAY_RACK = 16,     /* have the balls racked and break, with the call CAROM_CALL_RACK */
-  CAROM_MAY_OTHER_RACK = 32, /* have the balls racked and let the opponent break, with the call
+  CAROM_CHOICE_RACK = 16, /* have the balls racked and break, with the call CAROM_CALL_RACK */
+  CAROM_CHOICE_OTHER_RACK = 32, /* have the balls racked and let the opponent break, with the call
                                 CAROM_CALL_OTHER_RACK */
-  CAROM_MAY_STAY = 64,       /* leave the cue ball, which is in hand, where it lies, with the call
+  CAROM_CHOICE_STAY = 64, /* leave the cue ball, which is in hand, where it lies, with the call
                                 CAROM_CALL_STAY */
-  CAROM_MAY_SPOT = 128       /* have the balls that touch put on their spots; or, with the cue ball
+  CAROM_CHOICE_SPOT = 128 /* have the balls that touch put on their spots; or, with the cue ball
                                 in hand behind the head string and all balls that are on behind it
                                 too, the nearest one on the foot spot (WPA 1.5). The call is
                                 CAROM_CALL_SPOT */
-} carom_may;
+} carom_choice;
 
 /* The group of a player in eight-ball. */
 typedef enum carom_group {
@@ -578,7 +578,7 @@ typedef enum carom_stroke_mark {
 CAROM_API uint32_t carom_stroke_marks(const carom_facts *facts, int cue_ball);
 
 /* A stroke that a plan proposes, and its results. */
-typedef struct carom_choice {
+typedef struct carom_plan_stroke {
   carom_cue cue;     /* the cue, raised just enough for its stick to clear cushions and balls,
                            unless `level` is set */
   double place[2];   /* the place where the cue ball lies or is put, m. */
@@ -611,7 +611,7 @@ typedef struct carom_choice {
   int64_t seen;      /* how often the shot was played with errors. 0 if the plan was stopped
                            before that; the value is then that of the shot without errors. */
   uint64_t reserved[4]; /* 0. */
-} carom_choice;
+} carom_plan_stroke;
 
 /* The position for which a plan is made. */
 typedef struct carom_plan_job {
@@ -652,7 +652,7 @@ CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
  * in play; or an error of the layout, as in carom_shot_check(). With an error nothing is written.
  * The choice depends only on the arguments, not on the number of threads. Unless shot->fast is set,
  * it is the same on all machines. */
-CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int room,
+CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_plan_stroke *choices, int room,
                                   int *found);
 
 /* The same with ball in hand: places of the cue ball and strokes are compared together, by at least
@@ -662,7 +662,7 @@ CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_choice *choic
  * down.
  * Also returns CAROM_ERROR_OFF_TABLE if the plan finds no free place. */
 CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double low[2],
-                                       const double high[2], carom_choice *choices, int room,
+                                       const double high[2], carom_plan_stroke *choices, int room,
                                        int *found);
 
 /* Goes on with a plan in slices, for an opponent who thinks between the frames of a game: plays
@@ -678,7 +678,7 @@ CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double l
  *     while (status == CAROM_OK && found == 0)
  *       status = carom_plan_continue(&job, best, 5, &found);  // a frame
  */
-CAROM_API carom_status carom_plan_continue(const carom_plan_job *job, carom_choice *choices,
+CAROM_API carom_status carom_plan_continue(const carom_plan_job *job, carom_plan_stroke *choices,
                                            int room, int *found);
 
 /* Estimates the chances of `n` strokes of the caller. Each of them is played options->shots / n
@@ -687,7 +687,7 @@ CAROM_API carom_status carom_plan_continue(const carom_plan_job *job, carom_choi
  * else is that of job->cue. Statuses are those of carom_plan(), and the error of the first bad
  * stroke, with nothing written. */
 CAROM_API carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, int n,
-                                      carom_choice *choices);
+                                      carom_plan_stroke *choices);
 
 /* Estimates the chance that the player at the table wins from the layout, with the rules' value()
  * and without playing a shot. in_hand: 1 with ball in hand, otherwise 0. Statuses are those of

@@ -176,7 +176,7 @@ static void make_rack(lab_rack *rack, carom_rules_kind game, lab_random *draw) {
   } while (carom_place_ball(&rack->table, rack->balls, (int)rack->plan.count, 0, x, y, NULL) !=
            CAROM_OK);
   rack->hand = lab_bits(draw) % 8 == 0 && !snooker;
-  rack->plan.leave = rack->hand ? CAROM_LEAVE_HAND : CAROM_LEAVE_AFTER;
+  rack->plan.leave = rack->hand ? CAROM_LEAVE_ANYWHERE : CAROM_LEAVE_AFTER;
 }
 
 static bool keeps(const carom_turn *turn) {
@@ -208,7 +208,7 @@ static void play(const learn_job *job, int number, visit *played) {
   make_rack(&rack, game, &draw);
 
   carom_turn turn = {.outcome = CAROM_TURN_KEEP};
-  carom_choice choice;
+  carom_plan_stroke choice;
   played->count = 0;
   while (turn.outcome == CAROM_TURN_KEEP && played->count < STROKES_MOST) {
     sample s = look(&rack);
@@ -330,7 +330,7 @@ static void print_row(const learn_job *job, const sample *s, size_t count) {
   printf("    {/* of %ld strokes: carom-lab learn --rules %s --racks %d --shots %d --seed %d */\n",
          strokes, game, job->racks, job->shots, job->seed);
   const int hand = carom_rules_about_of((carom_rules_kind)job->rules)->hand;
-  print_numbers(s, count, NEXT, NEXT_NUMBERS, "next", hand == CAROM_LEAVE_HAND);
+  print_numbers(s, count, NEXT, NEXT_NUMBERS, "next", hand == CAROM_LEAVE_ANYWHERE);
   print_numbers(s, count, LATER, LATER_NUMBERS, "later", false);
   print_numbers(s, count, FIRST, FIRST_NUMBERS, "first", false);
   carom_table table;

@@ -110,7 +110,7 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
   double visit = 0.0;
   while (n < STROKES_MOST &&
          (turn.outcome == CAROM_TURN_KEEP || (job->games && turn.outcome == CAROM_TURN_PASS))) {
-    carom_choice best;
+    carom_plan_stroke best;
     const double begin = processor_ns();
     striker = turn.outcome == CAROM_TURN_PASS ? 1 - striker : striker;
     seat(job, striker, rack);

@@ -40,7 +40,7 @@ void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
   rack->plan.count = carom_rack_size(kind);
   rack->plan.options = &rack->options;
   rack->hand = true;
-  rack->plan.leave = CAROM_LEAVE_HAND;
+  rack->plan.leave = CAROM_LEAVE_ANYWHERE;
   const int count = (int)rack->plan.count;
   if (rack->rules.breaks != 1) {
     if (about->opening == CAROM_LEAVE_KITCHEN)
@@ -90,7 +90,7 @@ void lab_rack_end(lab_rack *rack, int left) {
   }
 }
 
-bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
+bool lab_rack_stroke(lab_rack *rack, carom_plan_stroke *choice, carom_turn *turn) {
   const carom_plan_job *job = &rack->plan;
   const int count = (int)job->count;
   int found;

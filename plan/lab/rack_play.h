@@ -40,6 +40,6 @@ void lab_rack_end(lab_rack *rack, int left);
 /* One stroke by a plan. Gives the choice and the turn; where neither has won, the rack is that of
  * the next stroke, of the other player after a CAROM_TURN_PASS. False: the plan was refused, which
  * is told. */
-bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn);
+bool lab_rack_stroke(lab_rack *rack, carom_plan_stroke *choice, carom_turn *turn);
 
 #endif

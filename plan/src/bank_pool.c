@@ -21,7 +21,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
   const uint32_t balls = in_play & object_balls, remain = balls & ~(facts->down | facts->off);
   const bool opening = game->opening != 0,
-             passes = (game->may & CAROM_MAY_PASS) != 0 && call.ball == CAROM_CALL_PASS;
+             passes = (game->may & CAROM_CHOICE_PASS) != 0 && call.ball == CAROM_CALL_PASS;
   game->opening = passes;
   game->may = 0;
   if (passes)
@@ -61,7 +61,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if (turn.outcome == CAROM_TURN_PASS || (turn.outcome == CAROM_TURN_KEEP && remain == 0))
     turn.spot = carom_back_of(game, object_balls & ~remain, balls & ~remain & ~stays);
   if (bad_break)
-    game->may = CAROM_MAY_PASS;
+    game->may = CAROM_CHOICE_PASS;
   return carom_end_turn(game, turn);
 }
 

@@ -384,7 +384,7 @@ bool carom_search_scan(search *plan) {
     if (plan->places > 0 && plan->tried % 2 == 1)
       phi = towards(plan, row);
     int16_t kind = CAROM_PLAN_SCAN;
-    if ((plan->permissions & CAROM_MAY_PUSH) && plan->tried % 2 == 1)
+    if ((plan->permissions & CAROM_CHOICE_PUSH) && plan->tried % 2 == 1)
       kind = CAROM_PLAN_PUSH;
     carom_search_add(plan, (candidate){.speed = carom_tip_gain(plan->job.cue) * scan_speed[speed],
                                        .phi = phi,

@@ -84,7 +84,7 @@ static carom_turn reach_target(carom_rules_state *game, uint32_t in_play, carom_
 /* A point: before the cue ball meets the second ball, it meets so many cushions. */
 static carom_turn judge_point(carom_rules_state *game, uint32_t in_play, const carom_facts *facts,
                               carom_call call, int cushions) {
-  if ((game->may & CAROM_MAY_SPOT) && call.ball == CAROM_CALL_SPOT)
+  if ((game->may & CAROM_CHOICE_SPOT) && call.ball == CAROM_CALL_SPOT)
     return carom_keep; /* settle() spots, and takes the choice back */
   const uint32_t may_meet = targets_of(game, in_play), first = carom_met_first(facts);
   const bool opening = game->opening != 0;
@@ -147,7 +147,7 @@ static int32_t foul_of_four(const carom_facts *facts, uint32_t targets, uint32_t
 static carom_turn judge_four(carom_rules_state *game, uint32_t in_play, int cue_ball,
                              const carom_facts *facts, carom_call call) {
   (void)cue_ball;
-  if ((game->may & CAROM_MAY_SPOT) && call.ball == CAROM_CALL_SPOT)
+  if ((game->may & CAROM_CHOICE_SPOT) && call.ball == CAROM_CALL_SPOT)
     return carom_keep; /* settle() spots, and takes the choice back */
   uint32_t hit_balls = 0;
   for (int k = 0; k < BALLS_OF_FOUR && facts->first[0] >= 0; k++)
@@ -204,7 +204,7 @@ static void put_on_spot(const carom_table *table, carom_shot_ball *balls, int co
 static int32_t may_spot(const carom_shot_ball *balls, int count, int cue_ball) {
   if (carom_touching(balls, count, cue_ball) == 0)
     return 0;
-  return CAROM_MAY_SPOT;
+  return CAROM_CHOICE_SPOT;
 }
 
 /* All balls go to the places of the opening of the player who comes to the table. */
@@ -213,7 +213,7 @@ static void settle_rack(carom_rack_kind rack, carom_rules_state *game, const car
   const int cue_ball = cue_ball_of(game), count_of_balls = carom_rack_size(rack);
   if (count < count_of_balls)
     return;
-  const bool is_requested = (game->may & CAROM_MAY_SPOT) && turn->outcome == CAROM_TURN_KEEP;
+  const bool is_requested = (game->may & CAROM_CHOICE_SPOT) && turn->outcome == CAROM_TURN_KEEP;
   if (is_requested || turn->spot != 0) {
     turn->spot = (UINT32_C(1) << count_of_balls) - 1;
     for (int k = 0; k < count_of_balls; k++)
@@ -242,7 +242,7 @@ static void settle_one(carom_rules_state *game, const carom_table *table, carom_
     settle_rack(CAROM_RACK_THREECUSHION, game, table, balls, count, turn);
     return;
   }
-  if ((game->may & CAROM_MAY_SPOT) && turn->outcome == CAROM_TURN_KEEP)
+  if ((game->may & CAROM_CHOICE_SPOT) && turn->outcome == CAROM_TURN_KEEP)
     turn->spot = carom_touching(balls, count, cue_ball) | UINT32_C(1) << cue_ball;
   for (int k = 0; k < BALLS_OF_THREE; k++)
     if (turn->spot >> k & 1)

@@ -17,7 +17,7 @@ static int32_t point_kind(const carom_facts *facts, int ball) {
 }
 
 /* The kind by which a stroke of the scan pots the ball that a choice names. */
-static int32_t seen_kind(search *plan, const carom_candidate *c, const carom_choice *choice) {
+static int32_t seen_kind(search *plan, const carom_candidate *c, const carom_plan_stroke *choice) {
   enum { TRIES = 8, EVENTS = sizeof plan->event / sizeof plan->event[0] };
   int ball = 0;
   while (plan->layout_ball[ball] != choice->ball)
@@ -45,7 +45,7 @@ static int32_t seen_kind(search *plan, const carom_candidate *c, const carom_cho
   return CAROM_PLAN_SCAN;
 }
 
-int32_t carom_search_kind(search *plan, carom_candidate *c, const carom_choice *choice) {
+int32_t carom_search_kind(search *plan, carom_candidate *c, const carom_plan_stroke *choice) {
   if (choice->kind != CAROM_PLAN_SCAN)
     return choice->kind;
   if (choice->ball < 0)

@@ -96,7 +96,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     turn.points = -game->lost[0];
     game->score[0] -= (int32_t)carom_min(game->lost[0], game->score[0]);
     if (opening && (carom_met_first(facts) & may_meet) == 0)
-      game->may = CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK;
+      game->may = CAROM_CHOICE_RACK | CAROM_CHOICE_OTHER_RACK;
   } else {
     if (gain > 0)
       turn.outcome = CAROM_TURN_KEEP;
@@ -125,7 +125,7 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
                    int count, carom_turn *turn) {
   if (count < carom_rack_size(CAROM_RACK_COWBOY))
     return;
-  if (turn->leave >= CAROM_LEAVE_HAND) /* it takes no spot */
+  if (turn->leave >= CAROM_LEAVE_ANYWHERE) /* it takes no spot */
     balls[0].state.label = CAROM_BALL_POCKETED;
   put_back(table, balls, count, turn->spot);
   if (game->score[0] < LAST || balls[ONE].state.label != CAROM_BALL_POCKETED)

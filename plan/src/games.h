@@ -1,7 +1,7 @@
 /* The games, a row each, and what games by them taught. Names, checks and tables of the command and
  * of other languages are made of these rows.
  *
- * GAME(NAME, rules, word, text, BALLS, TABLE, RACK, last, OPENING, HAND, calls, members, may):
+ * GAME(NAME, rules, word, text, BALLS, TABLE, RACK, last, OPENING, ANYWHERE, calls, members, may):
  * `rules` is the object that its file defines by CAROM_RULES_OBJECT, `members` are those of its
  * state, by the names of CAROM_ALL_MEMBERS of schema/numbers.h, and carom_rules_about has the
  * rest. */
@@ -13,46 +13,49 @@
 
 #define CAROM_GAMES(GAME)                                                                          \
   GAME(EIGHTBALL, carom_eightball, "eightball", "eight-ball by the WPA", POOL, POOL_9FT,           \
-       EIGHTBALL, 15, KITCHEN, HAND, 1, OPENING | GROUP | MAY,                                     \
-       CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK | CAROM_MAY_STAY | CAROM_MAY_SPOT)                    \
+       EIGHTBALL, 15, KITCHEN, ANYWHERE, 1, OPENING | GROUP | MAY,                                 \
+       CAROM_CHOICE_RACK | CAROM_CHOICE_OTHER_RACK | CAROM_CHOICE_STAY | CAROM_CHOICE_SPOT)        \
   GAME(NINEBALL, carom_nineball, "nineball", "nine-ball by the WPA", POOL, POOL_9FT, NINEBALL, 9,  \
-       KITCHEN, HAND, 0, OPENING | FOULS | MAY | TARGET, CAROM_MAY_PASS | CAROM_MAY_PUSH)          \
+       KITCHEN, ANYWHERE, 0, OPENING | FOULS | MAY | TARGET,                                       \
+       CAROM_CHOICE_PASS | CAROM_CHOICE_PUSH)                                                      \
   GAME(POTTING, carom_potting, "potting", "a drill: all balls count", POOL, POOL_9FT, EIGHTBALL,   \
-       0, HAND, HAND, 0, NO_MEMBER, 0)                                                             \
+       0, ANYWHERE, ANYWHERE, 0, NO_MEMBER, 0)                                                     \
   GAME(THREECUSHION, carom_threecushion, "threecushion", "three-cushion", BILLIARD, THREECUSHION,  \
        THREECUSHION, 0, AFTER, AFTER, 0, OPENING | GROUP | SCORE | TARGET | MAY | INNINGS,         \
-       CAROM_MAY_SPOT)                                                                             \
+       CAROM_CHOICE_SPOT)                                                                          \
   GAME(STRAIGHT, carom_straight, "straight", "straight pool by the WPA", POOL, POOL_9FT,           \
        EIGHTBALL, 15, KITCHEN, KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY | TARGET,          \
-       CAROM_MAY_PASS | CAROM_MAY_SPOT)                                                            \
+       CAROM_CHOICE_PASS | CAROM_CHOICE_SPOT)                                                      \
   GAME(SNOOKER, carom_snooker, "snooker", "snooker by the WPBSA", SNOOKER, SNOOKER, SNOOKER, 21,   \
        D, D, 1, SCORE | MAY | ON | FREE_BALL,                                                      \
-       CAROM_MAY_PASS | CAROM_MAY_FREE_BALL | CAROM_MAY_PLACE)                                     \
+       CAROM_CHOICE_PASS | CAROM_CHOICE_FREE_BALL | CAROM_CHOICE_PLACE)                            \
   GAME(ONEPOCKET, carom_onepocket, "onepocket", "one-pocket by the BCA", POOL, POOL_9FT,           \
-       EIGHTBALL, 15, KITCHEN, KITCHEN, 0, FOULS | SCORE | LOST | POCKET | MAY, CAROM_MAY_SPOT)    \
+       EIGHTBALL, 15, KITCHEN, KITCHEN, 0, FOULS | SCORE | LOST | POCKET | MAY, CAROM_CHOICE_SPOT) \
   GAME(BANK, carom_bank_pool, "bank", "bank pool by the BCA", POOL, POOL_9FT, EIGHTBALL, 15,       \
-       KITCHEN, KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY, CAROM_MAY_PASS | CAROM_MAY_SPOT) \
+       KITCHEN, KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY,                                  \
+       CAROM_CHOICE_PASS | CAROM_CHOICE_SPOT)                                                      \
   GAME(TENBALL, carom_ten_ball, "tenball", "ten-ball by the WPA", POOL, POOL_9FT, TENBALL, 10,     \
-       KITCHEN, HAND, 2, OPENING | FOULS | MAY | TARGET, CAROM_MAY_PASS | CAROM_MAY_PUSH)          \
+       KITCHEN, ANYWHERE, 2, OPENING | FOULS | MAY | TARGET,                                       \
+       CAROM_CHOICE_PASS | CAROM_CHOICE_PUSH)                                                      \
   GAME(STRAIGHTRAIL, carom_straight_rail, "straightrail", "straight rail by the UMB", BILLIARD,    \
        THREECUSHION, THREECUSHION, 0, AFTER, AFTER, 0,                                             \
-       OPENING | GROUP | SCORE | TARGET | MAY | INNINGS, CAROM_MAY_SPOT)                           \
+       OPENING | GROUP | SCORE | TARGET | MAY | INNINGS, CAROM_CHOICE_SPOT)                        \
   GAME(BLACKBALL, carom_blackball, "blackball", "blackball by the WPA", BLACKBALL, BLACKBALL,      \
        BLACKBALL, 15, BAULK, BAULK, 0, OPENING | GROUP | MAY | ON | FREE_BALL,                     \
-       CAROM_MAY_RACK | CAROM_MAY_STAY)                                                            \
+       CAROM_CHOICE_RACK | CAROM_CHOICE_STAY)                                                      \
   GAME(HEYBALL, carom_heyball, "heyball", "heyball, Chinese eight-ball", POOL, HEYBALL, EIGHTBALL, \
-       15, KITCHEN, HAND, 0, OPENING | GROUP | FOULS | MAY,                                        \
-       CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK | CAROM_MAY_STAY | CAROM_MAY_SPOT)                    \
+       15, KITCHEN, ANYWHERE, 0, OPENING | GROUP | FOULS | MAY,                                    \
+       CAROM_CHOICE_RACK | CAROM_CHOICE_OTHER_RACK | CAROM_CHOICE_STAY | CAROM_CHOICE_SPOT)        \
   GAME(ROTATION, carom_rotation, "rotation", "rotation by the BCA", POOL, POOL_9FT, ROTATION, 15,  \
-       KITCHEN, KITCHEN, 0, OPENING | FOULS | SCORE | MAY, CAROM_MAY_RACK | CAROM_MAY_SPOT)        \
+       KITCHEN, KITCHEN, 0, OPENING | FOULS | SCORE | MAY, CAROM_CHOICE_RACK | CAROM_CHOICE_SPOT)  \
   GAME(PYRAMID, carom_pyramid, "pyramid", "free pyramid, Russian billiards", PYRAMID, PYRAMID,     \
-       PYRAMID, 15, KITCHEN, AFTER, 0, OPENING | SCORE | MAY, CAROM_MAY_RACK)                      \
+       PYRAMID, 15, KITCHEN, AFTER, 0, OPENING | SCORE | MAY, CAROM_CHOICE_RACK)                   \
   GAME(FOURBALL, carom_four_ball, "fourball", "four-ball, as in Korea", FOURBALL, FOURBALL,        \
        FOURBALL, 0, AFTER, AFTER, 0, OPENING | GROUP | SCORE | LOST | TARGET | MAY,                \
-       CAROM_MAY_SPOT)                                                                             \
+       CAROM_CHOICE_SPOT)                                                                          \
   GAME(COWBOY, carom_cowboy, "cowboy", "cowboy by the BCA", POOL, POOL_9FT, COWBOY, 0, KITCHEN,    \
        KITCHEN, 1, OPENING | SCORE | LOST | MAY,                                                   \
-       CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK | CAROM_MAY_SPOT)
+       CAROM_CHOICE_RACK | CAROM_CHOICE_OTHER_RACK | CAROM_CHOICE_SPOT)
 
 #define CAROM_GAME_RULES(NAME, rules, ...) extern const carom_plan_rules rules;
 CAROM_GAMES(CAROM_GAME_RULES)

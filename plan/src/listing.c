@@ -88,7 +88,7 @@ static int kind_of(const candidate *c, const named_pot *pot) {
   return c->kind;
 }
 
-carom_choice carom_search_choice(const search *plan, const candidate *c) {
+carom_plan_stroke carom_search_choice(const search *plan, const candidate *c) {
   const named_pot pot = pot_of(c);
   const shot_chances chances = told_of(c);
 
@@ -100,17 +100,17 @@ carom_choice carom_search_choice(const search *plan, const candidate *c) {
     value -= 0.75 * chances.error;
   if (value < 0.0)
     value = 0.0;
-  carom_choice choice = {.cue = *plan->job.cue,
-                         .place = {c->r[0], c->r[1]},
-                         .kind = kind_of(c, &pot),
-                         .ball = pot.ball,
-                         .pocket = pot.pocket,
-                         .cushions = pot.cushions,
-                         .value = value,
-                         .error = chances.error,
-                         .keep = chances.keep,
-                         .foul = chances.foul,
-                         .lose = chances.lose};
+  carom_plan_stroke choice = {.cue = *plan->job.cue,
+                              .place = {c->r[0], c->r[1]},
+                              .kind = kind_of(c, &pot),
+                              .ball = pot.ball,
+                              .pocket = pot.pocket,
+                              .cushions = pot.cushions,
+                              .value = value,
+                              .error = chances.error,
+                              .keep = chances.keep,
+                              .foul = chances.foul,
+                              .lose = chances.lose};
   if (strikes)
     choice.seen = c->fresh.seen;
   if (strikes && c->round > 0)
@@ -125,12 +125,12 @@ carom_choice carom_search_choice(const search *plan, const candidate *c) {
   return choice;
 }
 
-static bool is_same(const carom_choice *a, const carom_choice *b) {
+static bool is_same(const carom_plan_stroke *a, const carom_plan_stroke *b) {
   return a->ball == b->ball && a->pocket == b->pocket && a->kind == b->kind;
 }
 
 /* Whether n choices hold one of the same ball, pocket and kind. */
-static bool has_same(const carom_choice *choices, int n, const carom_choice *choice) {
+static bool has_same(const carom_plan_stroke *choices, int n, const carom_plan_stroke *choice) {
   for (int k = 0; k < n; k++)
     if (is_same(&choices[k], choice))
       return true;
@@ -138,8 +138,8 @@ static bool has_same(const carom_choice *choices, int n, const carom_choice *cho
 }
 
 /* What a candidate tells, with its kind. */
-static carom_choice with_kind(search *plan, candidate *c) {
-  carom_choice choice = carom_search_choice(plan, c);
+static carom_plan_stroke with_kind(search *plan, candidate *c) {
+  carom_plan_stroke choice = carom_search_choice(plan, c);
   choice.kind = carom_search_kind(plan, c, &choice);
   return choice;
 }
@@ -185,7 +185,7 @@ static void list_safeties(search *plan) {
 }
 
 bool carom_search_list(search *plan) {
-  carom_choice listed[LISTED_MOST];
+  carom_plan_stroke listed[LISTED_MOST];
   for (int k = 0; k < plan->listed; k++)
     listed[k] = with_kind(plan, &plan->found[k]);
   for (; plan->examined < plan->count && plan->listed < plan->choices_most; plan->examined++) {
@@ -210,10 +210,10 @@ bool carom_search_list(search *plan) {
 
 /* Sorts a choice in behind n choices, the best first; of two of one value the one that keeps the
  * turn more often, then the earlier, is first. */
-static void sort_in(carom_choice *choices, int n, const carom_choice *choice) {
+static void sort_in(carom_plan_stroke *choices, int n, const carom_plan_stroke *choice) {
   int index = n;
   for (; index > 1; index--) {
-    const carom_choice *previous = &choices[index - 1];
+    const carom_plan_stroke *previous = &choices[index - 1];
     const bool better = choice->value > previous->value ||
                         (choice->value == previous->value && choice->keep > previous->keep);
     if (!better)
@@ -225,19 +225,19 @@ static void sort_in(carom_choice *choices, int n, const carom_choice *choice) {
 
 /* A first choice that was worth nothing in its fresh shots gives its place to one that was worth
  * something in its own: small plans of carom games chose strokes that make no point. */
-static void promote(carom_choice *first, carom_choice *second) {
+static void promote(carom_plan_stroke *first, carom_plan_stroke *second) {
   if (first->value > 0.0 || second->value <= 0.0)
     return;
-  const carom_choice demoted = *first;
+  const carom_plan_stroke demoted = *first;
   *first = *second;
   *second = demoted;
 }
 
-int carom_search_give(search *plan, carom_choice *choices, int room) {
-  carom_choice choice_list[LISTED_MOST + SAFETIES];
+int carom_search_give(search *plan, carom_plan_stroke *choices, int room) {
+  carom_plan_stroke choice_list[LISTED_MOST + SAFETIES];
   int n = 0, written = 0;
   for (int k = 0; k < carom_max(plan->listed, 1) && !(n > 0 && carom_is_stopped(plan)); k++) {
-    carom_choice choice = with_kind(plan, &plan->found[k]);
+    carom_plan_stroke choice = with_kind(plan, &plan->found[k]);
     if (n > 0) {
       bool risky = choice.kind == CAROM_PLAN_SAFETY && choice.foul > foul_most;
       if (plan->breaks && choice.kind != CAROM_PLAN_BREAK)

@@ -156,7 +156,7 @@ static void give_hand(carom_match *match, int32_t leave) {
   carom_record *record = &match->record;
   const int cue_ball = carom_match_cue_ball(match);
   match->leave = leave;
-  if (leave < CAROM_LEAVE_HAND || record->winner != 0)
+  if (leave < CAROM_LEAVE_ANYWHERE || record->winner != 0)
     return;
   carom_record_hand(record, cue_ball);
   record->bounds = leave;
@@ -199,7 +199,7 @@ carom_status carom_match_begin_at(carom_match *match, carom_rules_kind kind,
   if (count < 2 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
   memcpy(lies, balls, (size_t)count * sizeof *balls);
-  if (leave >= CAROM_LEAVE_HAND)
+  if (leave >= CAROM_LEAVE_ANYWHERE)
     lies[carom_match_cue_ball(match)].state.label = CAROM_BALL_POCKETED;
   const carom_status error = carom_shot_check(table, lies, count, NULL, options, NULL);
   if (error != CAROM_OK)
@@ -282,12 +282,12 @@ static void keep_in_hand(carom_match *match) {
   const bool down = label == CAROM_BALL_POCKETED || label == CAROM_BALL_OFF;
   if (!down)
     return;
-  ruling->state.may &= ~CAROM_MAY_STAY;
+  ruling->state.may &= ~CAROM_CHOICE_STAY;
   match->rules.state.may = match->record.standing.may = ruling->state.may;
-  if (ruling->turn.leave >= CAROM_LEAVE_HAND || ruling->next < 0)
+  if (ruling->turn.leave >= CAROM_LEAVE_ANYWHERE || ruling->next < 0)
     return;
-  ruling->turn.leave = CAROM_LEAVE_HAND;
-  if (match->leave >= CAROM_LEAVE_HAND)
+  ruling->turn.leave = CAROM_LEAVE_ANYWHERE;
+  if (match->leave >= CAROM_LEAVE_ANYWHERE)
     ruling->turn.leave = (carom_leave)match->leave;
   ruling->hand = 1;
 }
@@ -427,7 +427,7 @@ static carom_status place_cue_ball(carom_match *match, int player, double x, dou
   const carom_status error = check_turn(match, player, "place");
   if (error != CAROM_OK)
     return error;
-  if (match->leave < CAROM_LEAVE_HAND)
+  if (match->leave < CAROM_LEAVE_ANYWHERE)
     return carom_match_refuse(match, CAROM_REFUSED_NO_HAND, "place", "the cue ball is not in hand");
   if (!carom_is_within(&match->bounds, x, y)) {
     const carom_bounds *b = &match->bounds;
@@ -454,7 +454,7 @@ static carom_status place_cue_ball(carom_match *match, int player, double x, dou
   }
   put_line(match, CAROM_RECORD_PLACE);
   match->phase = CAROM_MATCH_STROKE;
-  match->may &= ~CAROM_MAY_STAY; /* it lies elsewhere now */
+  match->may &= ~CAROM_CHOICE_STAY; /* it lies elsewhere now */
   match->touching = carom_touching(record->balls, (int)record->count, match->cue_ball);
   return CAROM_OK;
 }
@@ -471,7 +471,7 @@ static carom_status call_pocket(carom_match *match, int player, carom_call call)
   if (error != CAROM_OK)
     return error;
   const bool calls = match->rules.calls != 0;
-  if (!calls && (match->may & CAROM_MAY_SPOT) == 0) /* a call names the ball that is spotted */
+  if (!calls && (match->may & CAROM_CHOICE_SPOT) == 0) /* a call names the ball that is spotted */
     return carom_match_refuse(match, CAROM_REFUSED_CALL, "call", "nothing is called in this game");
   uint32_t may_call = in_play(&match->record) & ~(UINT32_C(1) << match->cue_ball);
   if (match->rules.calls == 1)
@@ -506,26 +506,26 @@ carom_status carom_match_call(carom_match *match, int player, carom_call call) {
 
 /* The call of a choice: of a push-out, or of one that is taken instead of a stroke; 0 of another
  * one. */
-static int32_t call_of(carom_may choice) {
+static int32_t call_of(carom_choice choice) {
   switch (choice) {
-  case CAROM_MAY_PUSH:
+  case CAROM_CHOICE_PUSH:
     return CAROM_CALL_PUSH;
-  case CAROM_MAY_PASS:
+  case CAROM_CHOICE_PASS:
     return CAROM_CALL_PASS;
-  case CAROM_MAY_RACK:
+  case CAROM_CHOICE_RACK:
     return CAROM_CALL_RACK;
-  case CAROM_MAY_OTHER_RACK:
+  case CAROM_CHOICE_OTHER_RACK:
     return CAROM_CALL_OTHER_RACK;
-  case CAROM_MAY_STAY:
+  case CAROM_CHOICE_STAY:
     return CAROM_CALL_STAY;
-  case CAROM_MAY_SPOT:
+  case CAROM_CHOICE_SPOT:
     return CAROM_CALL_SPOT;
   default:
     return 0;
   }
 }
 
-static carom_status take_choice(carom_match *match, int player, carom_may choice) {
+static carom_status take_choice(carom_match *match, int player, carom_choice choice) {
   const carom_status error = check_turn(match, player, "choose");
   if (error != CAROM_OK)
     return error;
@@ -534,29 +534,29 @@ static carom_status take_choice(carom_match *match, int player, carom_may choice
   if (!is_one || call_of(choice) == 0) {
     char text[128], right[200];
     const char *named = "";
-    if ((match->may & CAROM_MAY_FREE_BALL) != 0)
+    if ((match->may & CAROM_CHOICE_FREE_BALL) != 0)
       named = "; a free ball is named by a call";
-    const int32_t others = match->may & ~(CAROM_MAY_FREE_BALL | CAROM_MAY_PLACE);
+    const int32_t others = match->may & ~(CAROM_CHOICE_FREE_BALL | CAROM_CHOICE_PLACE);
     snprintf(right, sizeof right, "the choices are: %s%s", list_choices(others, text), named);
     return carom_match_refuse(match, CAROM_REFUSED_CHOICE, "choose", right);
   }
   const carom_call none = {-1, -1};
   carom_call call = {call_of(choice), -1};
-  if (choice == CAROM_MAY_SPOT)
+  if (choice == CAROM_CHOICE_SPOT)
     call.pocket = match->call.ball;
   put_act(match, CAROM_ACT_CHOOSE, player, (int32_t)choice, none);
-  if (choice == CAROM_MAY_PUSH) {
+  if (choice == CAROM_CHOICE_PUSH) {
     match->call = call;
     return CAROM_OK;
   }
   rule(match, true, call);
-  if (choice == CAROM_MAY_STAY)
+  if (choice == CAROM_CHOICE_STAY)
     match->ruling.balls[match->cue_ball].state.label = CAROM_BALL_STATIONARY;
   apply(match);
   return CAROM_OK;
 }
 
-carom_status carom_match_choose(carom_match *match, int player, carom_may choice) {
+carom_status carom_match_choose(carom_match *match, int player, carom_choice choice) {
   if (match == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
@@ -564,21 +564,21 @@ carom_status carom_match_choose(carom_match *match, int player, carom_may choice
 }
 
 /* The acts before the stroke, up to one that is refused. */
-static carom_status prepare(carom_match *match, int player, const carom_choice *choice) {
+static carom_status prepare(carom_match *match, int player, const carom_plan_stroke *choice) {
   if (choice->kind == CAROM_PLAN_PASS)
-    return take_choice(match, player, CAROM_MAY_PASS);
+    return take_choice(match, player, CAROM_CHOICE_PASS);
   carom_status status = check_turn(match, player, "prepare");
   if (status == CAROM_OK && match->phase == CAROM_MATCH_PLACE)
     status = place_cue_ball(match, player, choice->place[0], choice->place[1]);
   if (status == CAROM_OK && choice->kind == CAROM_PLAN_PUSH)
-    status = take_choice(match, player, CAROM_MAY_PUSH);
+    status = take_choice(match, player, CAROM_CHOICE_PUSH);
   const bool calls = match->rules.calls != 0 && choice->ball >= 0;
   if (status != CAROM_OK || !calls)
     return status;
   return call_pocket(match, player, (carom_call){choice->ball, choice->pocket});
 }
 
-carom_status carom_match_prepare(carom_match *match, int player, const carom_choice *choice) {
+carom_status carom_match_prepare(carom_match *match, int player, const carom_plan_stroke *choice) {
   if (match == NULL || choice == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
@@ -650,7 +650,7 @@ static void choose_ball(carom_match *match, carom_plan_job *job) {
   cue->ball = ball;
 }
 
-carom_status carom_match_plan(carom_match *match, carom_plan_job *job, carom_choice *choices,
+carom_status carom_match_plan(carom_match *match, carom_plan_job *job, carom_plan_stroke *choices,
                               int room, int *found) {
   if (match == NULL || job == NULL || job->cue == NULL)
     return CAROM_ERROR_NULL;

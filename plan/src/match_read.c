@@ -92,7 +92,7 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
   match->rules.state = record->standing;
   match->leave = 0;
   if (record->hand != 0) {
-    match->leave = CAROM_LEAVE_HAND;
+    match->leave = CAROM_LEAVE_ANYWHERE;
     if (record->bounds != 0)
       match->leave = (int32_t)record->bounds;
     carom_hand_bounds((carom_leave)match->leave, &record->table,
@@ -124,7 +124,7 @@ static carom_status do_line(carom_match *match, const carom_record *read) {
   }
   switch (read->act) {
   case CAROM_ACT_CHOOSE:
-    return carom_match_choose(match, (int)read->actor, (carom_may)read->choice);
+    return carom_match_choose(match, (int)read->actor, (carom_choice)read->choice);
   case CAROM_ACT_CALL:
     return carom_match_call(match, (int)read->actor, call);
   case CAROM_ACT_CONCEDE:

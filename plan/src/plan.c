@@ -253,7 +253,7 @@ static carom_status ask_rules(search *plan, bool in_hand) {
     plan->breaks |= is_packed(plan);
   plan->permissions = (uint32_t)rules->state.may;
   plan->pockets = carom_pockets_of(rules, &rules->state);
-  plan->first_decides = rules->first_decides && !(plan->permissions & CAROM_MAY_PUSH);
+  plan->first_decides = rules->first_decides && !(plan->permissions & CAROM_CHOICE_PUSH);
   carom_search_lay_out(plan, plan->job.balls);
 
   /* the balls that are left to the player, at least one */
@@ -271,7 +271,7 @@ static double foul_value_of(const search *plan) {
                                        (carom_call){-1, -1});
   if (turn.outcome == CAROM_TURN_LOSE || rules->race == CAROM_RACE_ALONE)
     return 0.0;
-  const bool in_hand = turn.leave >= CAROM_LEAVE_HAND;
+  const bool in_hand = turn.leave >= CAROM_LEAVE_ANYWHERE;
   if (turn.outcome == CAROM_TURN_KEEP)
     return carom_value_of(&plan->view, &game, plan->state, 0, in_hand);
   return carom_search_foul(1.0 - carom_value_of(&plan->view, &game, plan->state, 1, in_hand));
@@ -400,7 +400,7 @@ static void try_all(void *context, carom_crew *crew) {
 }
 
 /* Plays a slice of a plan, or what is left of it; and gives what it found if that is the end. */
-static carom_status play_slice(search *plan, carom_choice *choices, int room, int *found) {
+static carom_status play_slice(search *plan, carom_plan_stroke *choices, int room, int *found) {
   plan->slice = INT64_MAX;
   if (plan->options.slice > 0)
     plan->slice = plan->options.slice;
@@ -412,7 +412,8 @@ static carom_status play_slice(search *plan, carom_choice *choices, int room, in
   return CAROM_OK;
 }
 
-carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int room, int *found) {
+carom_status carom_plan(const carom_plan_job *job, carom_plan_stroke *choices, int room,
+                        int *found) {
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
   search *plan;
@@ -426,7 +427,7 @@ carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int ro
   return play_slice(plan, choices, room, found);
 }
 
-carom_status carom_plan_continue(const carom_plan_job *job, carom_choice *choices, int room,
+carom_status carom_plan_continue(const carom_plan_job *job, carom_plan_stroke *choices, int room,
                                  int *found) {
   if (choices == NULL || found == NULL || room < 1 || !is_whole(job))
     return CAROM_ERROR_NULL;
@@ -439,7 +440,7 @@ carom_status carom_plan_continue(const carom_plan_job *job, carom_choice *choice
 }
 
 carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], const double high[2],
-                             carom_choice *choices, int room, int *found) {
+                             carom_plan_stroke *choices, int room, int *found) {
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
   search *plan;
@@ -463,7 +464,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
 }
 
 carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, int n,
-                            carom_choice *choices) {
+                            carom_plan_stroke *choices) {
   enum { MOST = 1000 };
   if (choices == NULL || cues == NULL)
     return CAROM_ERROR_NULL;

@@ -72,7 +72,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     if (game->score[1] >= WINS)
       turn.outcome = CAROM_TURN_LOSE;
     if (foul == CAROM_FOUL_BREAK)
-      game->may = CAROM_MAY_RACK;
+      game->may = CAROM_CHOICE_RACK;
     return carom_give(game, turn);
   }
   if (fell == 0)

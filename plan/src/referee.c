@@ -87,14 +87,14 @@ static uint32_t balls_on(const carom_plan_rules *rules, const carom_ruling *ruli
 }
 
 /* WPA 1.5: with the cue ball in hand behind the head string, and all balls that are on behind it
- * too, the player may have the nearest one spotted. On a table without pockets CAROM_MAY_SPOT is
+ * too, the player may have the nearest one spotted. On a table without pockets CAROM_CHOICE_SPOT is
  * another rule. The call's pocket is the ball, where several are equally near. */
 static bool spots_nearest(const carom_plan_rules *rules, const carom_table *table, carom_call call,
                           int count, int cue_ball, carom_ruling *ruling) {
   if (table->pockets == 0)
     return false;
-  const bool is_allowed = (ruling->state.may & CAROM_MAY_SPOT) != 0;
-  ruling->state.may &= ~CAROM_MAY_SPOT;
+  const bool is_allowed = (ruling->state.may & CAROM_CHOICE_SPOT) != 0;
+  ruling->state.may &= ~CAROM_CHOICE_SPOT;
   if (!is_allowed || call.ball != CAROM_CALL_SPOT)
     return false;
   const uint32_t nearest =
@@ -142,7 +142,7 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
   ruling->put = moved_by_referee(balls, count, shot, ruling);
 
   /* who plays next, and how */
-  ruling->hand = ruling->turn.leave >= CAROM_LEAVE_HAND;
+  ruling->hand = ruling->turn.leave >= CAROM_LEAVE_ANYWHERE;
   name_players(ruling);
   if (ruling->hand == 0)
     ruling->touching = carom_touching(ruling->balls, count, cue_ball);
@@ -150,7 +150,7 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
     ruling->on = balls_on(rules, ruling, count, cue_ball);
   const bool behind = ruling->turn.leave == CAROM_LEAVE_KITCHEN && table->pockets > 0;
   if (behind && carom_nearest_behind(table, ruling->balls, count, ruling->on) != 0)
-    ruling->state.may |= CAROM_MAY_SPOT;
+    ruling->state.may |= CAROM_CHOICE_SPOT;
   return status;
 }
 
@@ -162,13 +162,13 @@ static void write_choices(int32_t permitted, carom_leave leave, char *text, size
   const struct {
     int32_t choice;
     const char *words;
-  } choices[] = {{CAROM_MAY_PASS, "may pass"},
-                 {CAROM_MAY_PUSH, "may push out"},
-                 {CAROM_MAY_FREE_BALL, "has a free ball"},
-                 {CAROM_MAY_RACK, "may have the balls racked and break"},
-                 {CAROM_MAY_OTHER_RACK, "may have the balls racked for the other"},
-                 {CAROM_MAY_STAY, "may leave the cue ball where it lies"},
-                 {CAROM_MAY_SPOT, spots}};
+  } choices[] = {{CAROM_CHOICE_PASS, "may pass"},
+                 {CAROM_CHOICE_PUSH, "may push out"},
+                 {CAROM_CHOICE_FREE_BALL, "has a free ball"},
+                 {CAROM_CHOICE_RACK, "may have the balls racked and break"},
+                 {CAROM_CHOICE_OTHER_RACK, "may have the balls racked for the other"},
+                 {CAROM_CHOICE_STAY, "may leave the cue ball where it lies"},
+                 {CAROM_CHOICE_SPOT, spots}};
   size_t size = 0;
   text[0] = '\0';
   for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)

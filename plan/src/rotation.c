@@ -59,7 +59,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     if (foul == CAROM_FOUL_CUE_BALL || failed)
       turn.leave = CAROM_LEAVE_KITCHEN;
     if (failed)
-      game->may = CAROM_MAY_RACK;
+      game->may = CAROM_CHOICE_RACK;
     return turn;
   }
   game->fouls[0] = 0;

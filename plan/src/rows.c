@@ -163,7 +163,7 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
           .label = CAROM_BALL_STATIONARY};
   }
   /* any ball may be struck: about as good as the cue ball in hand */
-  const bool in_hand = turn.leave >= CAROM_LEAVE_HAND || rules->any_cue_ball != 0;
+  const bool in_hand = turn.leave >= CAROM_LEAVE_ANYWHERE || rules->any_cue_ball != 0;
   const bool passes = turn.outcome == CAROM_TURN_PASS;
   o.worth = carom_value_of(&plan->view, &game, final, passes, in_hand);
   if (passes)

@@ -12,7 +12,7 @@ static const uint32_t balls_of[] = {0xfefe, 0xfe, 0xfe00}, eight = 0x100;
 static const carom_turn win = {CAROM_TURN_WIN, CAROM_LEAVE_AFTER, 0, 0, 0.0};
 
 static carom_turn foul_for(int32_t why) {
-  return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_HAND, why, 0, 0.0};
+  return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_ANYWHERE, why, 0, 0.0};
 }
 
 /* ---- Eight-ball */
@@ -68,7 +68,7 @@ static carom_turn give(carom_rules_state *game, carom_turn turn) {
 static int32_t may_stay(const carom_facts *facts, int cue_ball) {
   if ((facts->down | facts->off) >> cue_ball & 1)
     return 0;
-  return CAROM_MAY_STAY;
+  return CAROM_CHOICE_STAY;
 }
 
 /* The turn after a foul in blackball: the cue ball comes in baulk or stays, balls that left the
@@ -87,9 +87,9 @@ static carom_turn eightball_break(carom_rules_state *game, const carom_facts *fa
   const bool legal = carom_is_break(facts, cue_ball);
   carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, eight_gone, 0.0};
   if (eight_gone != 0)
-    game->may = CAROM_MAY_RACK;
+    game->may = CAROM_CHOICE_RACK;
   if (!legal)
-    game->may = CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK;
+    game->may = CAROM_CHOICE_RACK | CAROM_CHOICE_OTHER_RACK;
 
   /* a break that is not legal: the other has the table as it is, or a new rack, 3.3(d); that it
    * meets no cushion, or no ball, adds nothing to that */
@@ -124,7 +124,7 @@ static carom_turn blackball_break(carom_rules_state *game, const carom_facts *fa
   if (foul == CAROM_FOUL_CUSHION)
     foul = CAROM_FOUL_NONE;
   if (!pots && carom_count_of(facts->past_middle & 0xfffe) < PAST_MIDDLE) {
-    choices = CAROM_MAY_RACK;
+    choices = CAROM_CHOICE_RACK;
     if (foul == CAROM_FOUL_NONE)
       foul = CAROM_FOUL_BREAK;
   }
@@ -282,7 +282,7 @@ CAROM_RULES_OBJECT(carom_eightball) = {.on = eightball_on,
  * A cue ball in hand is not. */
 static int32_t is_snookered(const carom_rules_state *game, const carom_shot_ball *balls, int count,
                             const carom_turn *turn) {
-  if (turn->leave >= CAROM_LEAVE_HAND || turn->outcome >= CAROM_TURN_WIN)
+  if (turn->leave >= CAROM_LEAVE_ANYWHERE || turn->outcome >= CAROM_TURN_WIN)
     return 0;
   const uint32_t others = carom_on_table(balls, count) & 0xfffe;
   const uint32_t targets = eightball_on(game, others);
@@ -378,8 +378,8 @@ carom_turn carom_give_hand(carom_rules_state *game, int32_t foul, uint32_t spot)
 static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                  const carom_facts *facts, carom_call call) {
   const bool opening = game->opening != 0;
-  const bool pushes = (game->may & CAROM_MAY_PUSH) && call.ball == CAROM_CALL_PUSH;
-  const bool passes = (game->may & CAROM_MAY_PASS) && call.ball == CAROM_CALL_PASS;
+  const bool pushes = (game->may & CAROM_CHOICE_PUSH) && call.ball == CAROM_CALL_PUSH;
+  const bool passes = (game->may & CAROM_CHOICE_PASS) && call.ball == CAROM_CALL_PASS;
   game->opening = game->may = 0;
   if (passes)
     return carom_give(game, carom_pass);
@@ -394,7 +394,7 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
   if (pushes) {
     carom_turn turn = carom_pass;
     turn.spot = facts->down & wins;
-    game->may = CAROM_MAY_PASS;
+    game->may = CAROM_CHOICE_PASS;
     return carom_give(game, turn);
   }
 
@@ -402,13 +402,13 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
   if (opening && carom_is_below_target(game, facts, in_play & 0x3fe)) {
     carom_turn turn = carom_pass;
     turn.spot = facts->down & wins;
-    game->may = CAROM_MAY_PASS;
+    game->may = CAROM_CHOICE_PASS;
     return carom_give(game, turn);
   }
   if ((facts->down & wins) != 0)
     return win;
   if (opening)
-    game->may = CAROM_MAY_PUSH;
+    game->may = CAROM_CHOICE_PUSH;
   if (facts->down != 0)
     return carom_keep;
   return carom_give(game, carom_pass);

@@ -35,9 +35,9 @@ bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t object_ba
                        carom_turn *turn) {
   static const struct {
     int32_t call, choice;
-  } choices[] = {{CAROM_CALL_RACK, CAROM_MAY_RACK},
-                 {CAROM_CALL_OTHER_RACK, CAROM_MAY_OTHER_RACK},
-                 {CAROM_CALL_STAY, CAROM_MAY_STAY}};
+  } choices[] = {{CAROM_CALL_RACK, CAROM_CHOICE_RACK},
+                 {CAROM_CALL_OTHER_RACK, CAROM_CHOICE_OTHER_RACK},
+                 {CAROM_CALL_STAY, CAROM_CHOICE_STAY}};
   bool chosen = false;
   for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
     chosen |= call == choices[k].call && (game->may & choices[k].choice) != 0;

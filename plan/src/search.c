@@ -118,7 +118,7 @@ static void replay(search *plan) {
   plan->next = NEXT_ENDED;
   if (carom_is_stopped(plan))
     return;
-  if (plan->permissions & CAROM_MAY_PASS && plan->places == 0)
+  if (plan->permissions & CAROM_CHOICE_PASS && plan->places == 0)
     pass(plan);
   carom_search_stage(plan, 0, 1, carom_max(plan->shots / SHARE, LEAST), DRAW_REPLAY);
   plan->next = NEXT_REPLAY;

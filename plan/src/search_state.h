@@ -105,7 +105,7 @@ typedef struct carom_search {
   carom_view view;
   carom_player player;
   uint32_t in_play, targets;                /* balls in play; those of them that may be met first */
-  uint32_t permissions;                     /* of the stroke: the bits CAROM_MAY_... */
+  uint32_t permissions;                     /* of the stroke: the bits CAROM_CHOICE_... */
   uint32_t pockets;                         /* that count */
   bool breaks;                              /* the stroke is a break */
   bool blind;                               /* no pot is direct */
@@ -128,7 +128,7 @@ typedef struct carom_search {
   carom_place_in_hand best_place[PLACES_MOST + 1]; /* the best first */
   carom_bounds range;                              /* where the cue ball in hand may be put */
   const carom_cue *cues;                           /* `tries` strokes of the caller, */
-  carom_choice *choices;                           /* and the room for their choices */
+  carom_plan_stroke *choices;                      /* and the room for their choices */
   int places, tries;                               /* places 0: the cue ball is not in hand */
   /* The state of a plan in slices between two calls. */
   uint64_t fingerprint;  /* of the job; 0: no plan */

@@ -42,7 +42,7 @@ static uint32_t due_of(const carom_rules_state *game, uint32_t in_play) {
 }
 
 static uint32_t targets_of(const carom_rules_state *game, uint32_t in_play) {
-  if (game->may & CAROM_MAY_FREE_BALL)
+  if (game->may & CAROM_CHOICE_FREE_BALL)
     return in_play & (reds | colours);
   return due_of(game, in_play);
 }
@@ -198,9 +198,9 @@ static carom_turn judge_foul(carom_rules_state *game, uint32_t balls, int cost, 
   /* a black that comes back is a new beginning */
   if (balls == black)
     return carom_end_turn(game, finish(game, turn));
-  game->may = CAROM_MAY_PASS;
+  game->may = CAROM_CHOICE_PASS;
   if (scratch)
-    game->may |= CAROM_MAY_PLACE;
+    game->may |= CAROM_CHOICE_PLACE;
   return carom_give(game, turn);
 }
 
@@ -211,9 +211,9 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   const int32_t after_foul = game->may;
   const bool colour = game->on != 0;
   game->may = game->free_ball = 0;
-  if ((after_foul & CAROM_MAY_PASS) && call.ball == CAROM_CALL_PASS) {
+  if ((after_foul & CAROM_CHOICE_PASS) && call.ball == CAROM_CALL_PASS) {
     carom_turn turn = carom_pass;
-    if (after_foul & CAROM_MAY_PLACE)
+    if (after_foul & CAROM_CHOICE_PLACE)
       turn.leave = CAROM_LEAVE_D;
     return carom_give(game, turn);
   }
@@ -334,15 +334,15 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
     if (in_play != (black | black >> 1) &&
         is_behind(balls, targets, in_play & ~targets, free_ball)) {
       carom_add(&game->score[0], (int)carom_max(highest(targets), LEAST));
-      game->may = CAROM_MAY_PASS;
+      game->may = CAROM_CHOICE_PASS;
       turn->foul = CAROM_FOUL_OTHER;
     }
   }
 
   /* A free ball; a black that came back gives none. */
-  if (game->may & CAROM_MAY_PASS &&
+  if (game->may & CAROM_CHOICE_PASS &&
       is_snookered(table, balls, in_play, targets, in_play & ~targets, hand))
-    game->may |= CAROM_MAY_FREE_BALL;
+    game->may |= CAROM_CHOICE_FREE_BALL;
 }
 
 CAROM_RULES_OBJECT(carom_snooker) = {.on = targets_of,

@@ -38,7 +38,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
   const uint32_t balls = in_play & object_balls, gone = (facts->down | facts->off) & balls;
   const bool opening = game->opening != 0,
-             passes = (game->may & CAROM_MAY_PASS) != 0 && call.ball == CAROM_CALL_PASS;
+             passes = (game->may & CAROM_CHOICE_PASS) != 0 && call.ball == CAROM_CALL_PASS;
   game->opening = game->may = 0;
   if (passes)
     return carom_give(game, racked(game, CAROM_TURN_PASS, 0));
@@ -55,7 +55,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
       turn.foul = CAROM_FOUL_BREAK;
     carom_add(&game->lost[0], BAD_BREAK);
     carom_give(game, turn);
-    game->may = CAROM_MAY_PASS;
+    game->may = CAROM_CHOICE_PASS;
     return turn;
   }
   if (foul != CAROM_FOUL_NONE) {

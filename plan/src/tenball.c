@@ -29,8 +29,8 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
   const uint32_t balls = in_play & object_balls, ten = carom_highest_of(balls);
   const bool opening = game->opening != 0;
-  const bool pushes = (game->may & CAROM_MAY_PUSH) && call.ball == CAROM_CALL_PUSH;
-  const bool passes = (game->may & CAROM_MAY_PASS) && call.ball == CAROM_CALL_PASS;
+  const bool pushes = (game->may & CAROM_CHOICE_PUSH) && call.ball == CAROM_CALL_PUSH;
+  const bool passes = (game->may & CAROM_CHOICE_PASS) && call.ball == CAROM_CALL_PASS;
   game->opening = game->may = 0;
   if (passes)
     return carom_give(game, carom_pass);
@@ -46,18 +46,18 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   const bool pots = (facts->down & balls) != 0;
   carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, CAROM_FOUL_NONE, back, 0.0};
   if (pushes) {
-    game->may = CAROM_MAY_PASS;
+    game->may = CAROM_CHOICE_PASS;
     return carom_give(game, turn);
   }
   game->fouls[0] = 0;
 
   /* the break, on which nothing is called */
   if (opening && carom_is_below_target(game, facts, balls)) {
-    game->may = CAROM_MAY_PASS;
+    game->may = CAROM_CHOICE_PASS;
     return carom_give(game, turn);
   }
   if (opening) {
-    game->may = CAROM_MAY_PUSH;
+    game->may = CAROM_CHOICE_PUSH;
     if (pots)
       turn.outcome = CAROM_TURN_KEEP;
     return carom_end_turn(game, turn);
@@ -73,7 +73,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     return turn;
   }
   if (pots)
-    game->may = CAROM_MAY_PASS;
+    game->may = CAROM_CHOICE_PASS;
   return carom_give(game, turn);
 }
 

@@ -152,12 +152,12 @@ double carom_value_of(const carom_view *view, const carom_rules_state *game,
   const carom_plan_rules *rules = view->rules;
   const uint32_t in_play = carom_in_play(balls, view->count) | UINT32_C(1) << view->cue_ball;
   double plays = value_of_playing(view, game, balls, in_play, seat, in_hand);
-  if (game->may & CAROM_MAY_PUSH && view->set_chance[1] == 0.0) {
+  if (game->may & CAROM_CHOICE_PUSH && view->set_chance[1] == 0.0) {
     int32_t left[2];
     rules->left(game, in_play, left);
     plays = fmax(plays, carom_even(view, seat, (int)carom_max(carom_min(left[0], MOST_LEFT), 1)));
   }
-  if (!(game->may & CAROM_MAY_PASS))
+  if (!(game->may & CAROM_CHOICE_PASS))
     return plays;
 
   /* he may leave the table to the other */

@@ -36,7 +36,7 @@ static void play(const carom_plan_job *job, const carom_cue *cue, carom_call cal
 
 /* The stroke of a choice with the errors of number n. */
 static carom_cue stroke_of(const carom_plan_job *job, const carom_player *player,
-                           const carom_choice *choice, int n) {
+                           const carom_plan_stroke *choice, int n) {
   carom_cue stroke = choice->cue;
   const uint64_t seed = job->options != NULL ? job->options->seed : 0;
   carom_player_strike(player, seed, (uint64_t)n, &stroke);
@@ -57,7 +57,7 @@ static carom_plan_job job_after(const carom_plan_job *job, const carom_ruling *r
 
 /* The best stroke from what is left. */
 static carom_status plan_next(const carom_plan_job *job, const carom_ruling *ruling,
-                              carom_choice *choice) {
+                              carom_plan_stroke *choice) {
   carom_plan_rules rules;
   const carom_plan_job next = job_after(job, ruling, &rules);
   int found;
@@ -104,7 +104,7 @@ static double worth_of(const carom_plan_job *job, const carom_ruling *ruling, do
 
 /* Plays the stroke with the errors of a player. All players have the same luck. */
 static stroke_sums play_with(const carom_plan_job *job, const carom_player *player,
-                             const carom_choice *choice) {
+                             const carom_plan_stroke *choice) {
   const carom_call call = {choice->ball, choice->pocket};
   carom_ruling *ruling = &((workspace *)job->memory)->ruling;
   stroke_sums s = {0};
@@ -125,7 +125,7 @@ static stroke_sums play_with(const carom_plan_job *job, const carom_player *play
   return s;
 }
 
-int carom_names_ball(const carom_choice *choice) {
+int carom_names_ball(const carom_plan_stroke *choice) {
   if (choice == NULL || choice->ball < 0)
     return 0;
   const bool is_meant = choice->kind == CAROM_PLAN_POT || choice->kind == CAROM_PLAN_GIVEN;
@@ -171,7 +171,7 @@ static void find_aim(const carom_plan_job *job, const carom_cue *cue, const caro
 }
 
 /* What strokes with errors come to, and what the errors cost. */
-static void find_costs(const carom_plan_job *job, const carom_choice *choice, carom_why *why) {
+static void find_costs(const carom_plan_job *job, const carom_plan_stroke *choice, carom_why *why) {
   const double n = CAROM_WHY_STROKES;
   const stroke_sums sums = play_with(job, job->player, choice);
   why->strokes = CAROM_WHY_STROKES;
@@ -196,7 +196,7 @@ static bool is_whole(const carom_plan_job *job) {
 }
 
 /* The layout of a choice: that of the job, with the cue ball on the choice's place. */
-static carom_plan_job job_of(const carom_plan_job *job, const carom_choice *choice,
+static carom_plan_job job_of(const carom_plan_job *job, const carom_plan_stroke *choice,
                              carom_shot_ball balls[CAROM_BALLS_MOST], carom_status *status) {
   carom_plan_job placed = *job;
   memcpy(balls, job->balls, (size_t)job->count * sizeof *balls);
@@ -206,7 +206,8 @@ static carom_plan_job job_of(const carom_plan_job *job, const carom_choice *choi
   return placed;
 }
 
-carom_status carom_why_of(const carom_plan_job *job, const carom_choice *choice, carom_why *why) {
+carom_status carom_why_of(const carom_plan_job *job, const carom_plan_stroke *choice,
+                          carom_why *why) {
   if (!is_whole(job) || choice == NULL || why == NULL)
     return CAROM_ERROR_NULL;
   if (job->count < 2 || job->count > CAROM_BALLS_MOST)
@@ -236,7 +237,7 @@ carom_status carom_why_of(const carom_plan_job *job, const carom_choice *choice,
 }
 
 /* Gives a choice the chances of strokes that are played anew. */
-static void replay(const carom_plan_job *job, carom_choice *choice) {
+static void replay(const carom_plan_job *job, carom_plan_stroke *choice) {
   const stroke_sums s = play_with(job, job->player, choice);
   const double n = CAROM_WHY_STROKES, mean = s.worth / n;
   choice->value = mean;
@@ -247,7 +248,7 @@ static void replay(const carom_plan_job *job, carom_choice *choice) {
   choice->seen = CAROM_WHY_STROKES;
 }
 
-carom_status carom_plan_replay(const carom_plan_job *job, carom_choice *choices, int n) {
+carom_status carom_plan_replay(const carom_plan_job *job, carom_plan_stroke *choices, int n) {
   if (!is_whole(job) || choices == NULL)
     return CAROM_ERROR_NULL;
   if (job->count < 2 || job->count > CAROM_BALLS_MOST)
@@ -255,7 +256,7 @@ carom_status carom_plan_replay(const carom_plan_job *job, carom_choice *choices,
   if (n < 0)
     return CAROM_ERROR_OPTIONS;
   for (int k = 0; k < n; k++) {
-    carom_choice choice = choices[k];
+    carom_plan_stroke choice = choices[k];
     carom_shot_ball balls[CAROM_BALLS_MOST];
     carom_status status;
     const carom_plan_job placed = job_of(job, &choice, balls, &status);

@@ -20,7 +20,7 @@ static uint32_t none_is_on(const carom_rules_state *state, uint32_t in_play) {
   } while (0)
 
 TEST(arguments_of_plans) {
-  carom_choice best;
+  carom_plan_stroke best;
   int found;
   REFUSED(job.table, NULL, CAROM_ERROR_NULL);
   REFUSED(job.player, NULL, CAROM_ERROR_NULL);
@@ -68,7 +68,7 @@ TEST(arguments_of_plans) {
   make_memory();
 
   /* the stroke of the job's cue is not read, and those to be tried are */
-  carom_choice same;
+  carom_plan_stroke same;
   ck_assert_int_eq(carom_plan(&job, &same, 1, &found), CAROM_OK);
   cue.phi = NAN;
   cue.speed = 0.0;

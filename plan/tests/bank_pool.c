@@ -28,7 +28,7 @@ TEST(a_bank_is_planned) {
   const carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_BANK);
   const carom_plan_options options = {.shots = 4000};
   carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
-  carom_choice best;
+  carom_plan_stroke best;
   int found;
   ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
   ck_assert_msg(best.kind == CAROM_PLAN_BANK && best.cushions > 0 && best.keep > 0.4,

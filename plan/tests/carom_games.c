@@ -2,7 +2,7 @@
 #include "carom_match.h"
 #include "game_support.h"
 
-enum { WHITE = 0, YELLOW_CUE = 1, RED = 2, SPOTS = CAROM_MAY_SPOT };
+enum { WHITE = 0, YELLOW_CUE = 1, RED = 2, SPOTS = CAROM_CHOICE_SPOT };
 
 static void begin(carom_match *match, carom_rules_kind kind, int player) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &table);
@@ -83,7 +83,7 @@ TEST(a_point_is_planned) {
   const carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_STRAIGHTRAIL);
   const carom_plan_options options = {.shots = 1000};
   carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
-  carom_choice best;
+  carom_plan_stroke best;
   int found;
   ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
   ck_assert_msg(best.keep > 0.9, "keeps %g", best.keep);
@@ -180,7 +180,7 @@ TEST(plans_of_equal_innings) {
   const carom_cue cue = carom_cue_of(CAROM_GAME_BILLIARD);
   const carom_player player = carom_player_of(4.0);
   const carom_plan_options options = {.shots = 1000};
-  carom_choice best[4];
+  carom_plan_stroke best[4];
   for (int innings = 0; innings <= 3; innings++) {
     const int count = lay_out(CAROM_RACK_THREECUSHION, CAROM_TABLE_THREECUSHION, 7);
     put(0, 0.5, 0.8);
@@ -193,7 +193,7 @@ TEST(plans_of_equal_innings) {
     int found;
     ck_assert_int_eq(carom_plan(&job, &best[innings], 1, &found), CAROM_OK);
     free(job.memory);
-    const carom_choice *c = &best[innings];
+    const carom_plan_stroke *c = &best[innings];
     ck_assert_msg(c->ball >= 0 && c->kind != CAROM_PLAN_SAFETY, "innings %d", innings);
     ck_assert(c->value == best[0].value && c->keep == best[0].keep);
   }

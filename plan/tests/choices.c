@@ -10,7 +10,7 @@ TEST(golden_choices) {
   uint64_t h = UINT64_C(0xcbf29ce484222325);
   int pots = 0;
   for (int k = 0; k < 20; k++) {
-    carom_choice choices[2][3];
+    carom_plan_stroke choices[2][3];
     int found[2];
     make_layout((uint64_t)k + 1, 2 + k % 8);
     options.seed = (uint64_t)k;
@@ -26,7 +26,7 @@ TEST(golden_choices) {
     }
     ck_assert_int_eq(found[0], found[1]);
     ck_assert_int_eq(memcmp(choices[0], choices[1], (size_t)found[0] * sizeof choices[0][0]), 0);
-    const carom_choice *best = &choices[0][0];
+    const carom_plan_stroke *best = &choices[0][0];
     ck_assert(best->value >= 0.0 && best->value <= 1.0 && best->error >= 0.0 && best->seen > 0);
     ck_assert(found[0] == 1 || best->value >= choices[0][1].value);
     pots += best->ball > 0;
@@ -50,7 +50,7 @@ TEST(told_is_what_comes) {
     player = carom_player_of(3.0);
     options.shots = k % 2 == 0 ? 300 : 1000;
     make_memory();
-    carom_choice best, repeated;
+    carom_plan_stroke best, repeated;
     int found;
     const bool hand = k < PLACED;
     ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, &best, 1, &found)
@@ -103,7 +103,7 @@ TEST(the_first_ball_that_falls) {
       in_play |= (uint32_t)(balls[i].state.label != CAROM_BALL_POCKETED) << i;
     const uint32_t targets = rules.on(&rules.state, in_play);
     carom_cue cues[CUES];
-    carom_choice chosen[CUES];
+    carom_plan_stroke chosen[CUES];
     for (int k = 0; k < CUES; k++) {
       cues[k] = cue;
       cues[k].speed = 7.0;
@@ -152,7 +152,7 @@ TEST(the_first_ball_that_falls) {
  * no direct pot. A choice that keeps the turn in most strokes names a ball, but for a break. The
  * choices are of different pots, and sorted by their values. */
 TEST(what_is_named_falls) {
-  carom_choice best[5];
+  carom_plan_stroke best[5];
   int found;
   make_layout(1, 1);
   rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
@@ -213,7 +213,7 @@ TEST(three_cushion) {
   random_source r = {3};
   double sum = 0.0;
   for (int k = 0; k < 4; k++) {
-    carom_choice best[5], repeated;
+    carom_plan_stroke best[5], repeated;
     int found;
     make_layout(1, 1);
     carom_table_make(CAROM_TABLE_THREECUSHION, &table);
@@ -268,7 +268,7 @@ static void make_break(carom_rules_kind kind, carom_rack_kind rack, uint64_t see
  * and about full, and few are fouls, also of a weak player, who cannot want one. */
 TEST(breaks) {
   for (int k = 0; k < 4; k++) {
-    carom_choice best[5];
+    carom_plan_stroke best[5];
     int found;
     if (k % 2 == 1)
       make_break(CAROM_RULES_NINEBALL, CAROM_RACK_NINEBALL, 1, 400.0);
@@ -295,7 +295,7 @@ TEST(ball_behind_the_head_string) {
   make_memory();
   carom_place_ball(&table, balls, BALLS, 1, 0.15, 0.15, NULL);
   carom_place_ball(&table, balls, BALLS, 2, 0.635, 2.5, NULL);
-  carom_choice best;
+  carom_plan_stroke best;
   int found;
   job.leave = CAROM_LEAVE_KITCHEN;
   ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
@@ -328,8 +328,8 @@ TEST(leave_and_not_a_bound) {
   const double low[2] = {0.03, 0.03};
   double foul[2];
   for (int barred = 0; barred < 2; barred++) {
-    carom_choice best[3];
-    job.leave = barred != 0 ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_HAND;
+    carom_plan_stroke best[3];
+    job.leave = barred != 0 ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_ANYWHERE;
     for (int k = 0; k < 3; k++) {
       const double high[2] = {1.24, 0.25 * table.length + 1e-6 * (k - 1)};
       int found;
@@ -355,7 +355,7 @@ TEST(bounds_of_every_leave) {
   for (int leave = CAROM_LEAVE_AFTER; leave <= CAROM_LEAVE_BAULK; leave++) {
     const double radius = balls[0].kind.radius;
     carom_bounds bounds;
-    carom_choice best;
+    carom_plan_stroke best;
     int found;
     job.leave = leave;
     ck_assert_int_eq(carom_hand_bounds((carom_leave)leave, &table, radius, &bounds), CAROM_OK);
@@ -373,7 +373,7 @@ TEST(bounds_of_every_leave) {
  * Strokes at 6 to 9 m/s were chosen, which open it, up to a fifth of them fouls. */
 TEST(openings) {
   for (uint64_t seed = 1; seed < 6; seed++) {
-    carom_choice best;
+    carom_plan_stroke best;
     carom_ball_state final[BALLS];
     carom_shot shot = {.final = final};
     int found, moved = 0;
@@ -393,13 +393,13 @@ TEST(openings) {
 /* Where six balls are around the one, the player pushes out if he may; if he may pass, he does.
  * Where the one is before a pocket and another ball free, he plays. */
 TEST(what_one_may_do) {
-  carom_choice best;
+  carom_plan_stroke best;
   int found;
   for (int easy = 0; easy < 2; easy++)
     for (int permission = 1; permission <= 2; permission++) {
       make_layout(1, 1);
       rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
-      rules.state.may = permission == 1 ? CAROM_MAY_PUSH : CAROM_MAY_PASS;
+      rules.state.may = permission == 1 ? CAROM_CHOICE_PUSH : CAROM_CHOICE_PASS;
       put_ring(easy ? 1 : 6);
       if (easy)
         carom_place_ball(&table, balls, BALLS, 1, 0.1, 0.1, NULL);
@@ -422,7 +422,7 @@ TEST(what_one_may_do) {
 /* A plan that is stopped at once has a choice still; one without a legal shot says so. */
 TEST(little_to_choose) {
   const volatile int32_t at_once = 1;
-  carom_choice best;
+  carom_plan_stroke best;
   int found;
   make_layout(3, 6);
   options.stop = &at_once;
@@ -471,7 +471,7 @@ TEST(soft_openings) {
                            .options = &options};
     carom_rack(games[game].rack, &table, 1e-4, (uint64_t)k, rack, (int)job.count);
     make_memory();
-    carom_choice listed[5];
+    carom_plan_stroke listed[5];
     int found;
     const double high[2] = {table.width, 0.25 * table.length};
     ck_assert_int_eq(carom_plan_hand(&job, NULL, high, listed, 5, &found), CAROM_OK);
@@ -496,7 +496,7 @@ TEST(what_is_worth_nothing_is_not_first) {
     rules.state.opening = 1;
     options = (carom_plan_options){.shots = 200, .seed = seed};
     make_memory();
-    carom_choice choices[ROOM];
+    carom_plan_stroke choices[ROOM];
     int found;
     ck_assert_int_eq(carom_plan(&job, choices, ROOM, &found), CAROM_OK);
     for (int k = 1; k < found; k++)

@@ -3,7 +3,7 @@
 #include "carom_coach.h"
 #include "plan_support.h"
 
-static carom_choice best[5];
+static carom_plan_stroke best[5];
 static int found;
 
 /* The choices of a plan of a layout. */
@@ -17,11 +17,11 @@ static void plan_layout(uint64_t seed, int in_play) {
 TEST(choices_are_replayed) {
   for (uint64_t seed = 1; seed <= 4; seed++) {
     plan_layout(seed, 5);
-    carom_choice again[5];
+    carom_plan_stroke again[5];
     memcpy(again, best, sizeof best);
     ck_assert_int_eq(carom_plan_replay(&job, again, found), CAROM_OK);
     for (int k = 0; k < found; k++) {
-      const carom_choice *c = &again[k];
+      const carom_plan_stroke *c = &again[k];
       ck_assert(c->seen == CAROM_WHY_STROKES && c->error < 0.05);
       ck_assert(c->value >= 0.0 && c->value <= 1.0 && c->keep + c->lose <= 1.0);
       ck_assert(k == 0 || c->value <= again[k - 1].value);
@@ -53,7 +53,8 @@ TEST(a_pot_is_explained) {
   ck_assert_int_eq(why.strokes, CAROM_WHY_STROKES);
 
   /* the cushion of a kick is named, and its place lies at that rail */
-  carom_choice kick = {.kind = CAROM_PLAN_GIVEN, .ball = -1, .pocket = -1, .place = {0.5, 0.5}};
+  carom_plan_stroke kick = {
+      .kind = CAROM_PLAN_GIVEN, .ball = -1, .pocket = -1, .place = {0.5, 0.5}};
   kick.cue = cue;
   kick.cue.speed = 2.0;
   kick.cue.phi = 0.0;

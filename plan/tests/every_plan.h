@@ -5,7 +5,7 @@
 
 #include "carom_coach.h"
 
-_Static_assert(sizeof(carom_choice) == 27 * sizeof(double), "the room for choices");
+_Static_assert(sizeof(carom_plan_stroke) == 27 * sizeof(double), "the room for choices");
 
 /* A plan for the rack, with few shots. */
 static inline carom_plan_job plan_of(const every_input *in, every_room *room,
@@ -22,7 +22,7 @@ static inline carom_plan_job plan_of(const every_input *in, every_room *room,
                           .memory_size = sizeof room->plan};
 }
 static inline carom_status every_why(const carom_plan_job *job, every_room *room) {
-  carom_choice choice = {.cue = *job->cue, .ball = -1, .pocket = -1};
+  carom_plan_stroke choice = {.cue = *job->cue, .ball = -1, .pocket = -1};
   carom_why why;
   memset(&why, 0, sizeof why);
   choice.place[0] = job->balls[job->cue->ball].state.r[0];
@@ -43,18 +43,18 @@ static inline carom_status every_why(const carom_plan_job *job, every_room *room
     HASH(found);                                                               \
     return HASH(room->choice);                                                 \
   }
-EVERY_PLAN(plan, carom_plan(&job, (carom_choice *)room->choice, EVERY_FEW, &found))
+EVERY_PLAN(plan, carom_plan(&job, (carom_plan_stroke *)room->choice, EVERY_FEW, &found))
 EVERY_PLAN(plan_continue,
-           carom_plan(&job, (carom_choice *)room->choice, EVERY_FEW, &found) < 0
+           carom_plan(&job, (carom_plan_stroke *)room->choice, EVERY_FEW, &found) < 0
                ? CAROM_ERROR_NULL
-               : carom_plan_continue(&job, (carom_choice *)room->choice, EVERY_FEW, &found))
+               : carom_plan_continue(&job, (carom_plan_stroke *)room->choice, EVERY_FEW, &found))
 EVERY_PLAN(plan_hand,
-           carom_plan_hand(&job, NULL, NULL, (carom_choice *)room->choice, EVERY_FEW, &found))
-EVERY_PLAN(plan_try, carom_plan_try(&job, in->cue, 2, (carom_choice *)room->choice))
+           carom_plan_hand(&job, NULL, NULL, (carom_plan_stroke *)room->choice, EVERY_FEW, &found))
+EVERY_PLAN(plan_try, carom_plan_try(&job, in->cue, 2, (carom_plan_stroke *)room->choice))
 EVERY_PLAN(plan_value, carom_plan_value(&job, 1, &room->choice[0]))
-EVERY_PLAN(plan_replay, carom_plan(&job, (carom_choice *)room->choice, EVERY_FEW, &found) < 0
+EVERY_PLAN(plan_replay, carom_plan(&job, (carom_plan_stroke *)room->choice, EVERY_FEW, &found) < 0
                             ? CAROM_ERROR_NULL
-                            : carom_plan_replay(&job, (carom_choice *)room->choice, 1))
+                            : carom_plan_replay(&job, (carom_plan_stroke *)room->choice, 1))
 EVERY_PLAN(why_of, every_why(&job, room))
 EVERY_BODY(aim) {
   for (int pocket = 0; pocket < 6; pocket++) {
@@ -105,7 +105,7 @@ EVERY_WAYS(way_succeeds, (carom_status)carom_way_succeeds(&job, NULL, ways))
 EVERY_VALUE(ways_memory, carom_ways_memory(EVERY_FEW))
 EVERY_VALUE(break_memory, carom_break_memory())
 EVERY_VALUE(break_has_rules, carom_break_has_rules(CAROM_RACK_EIGHTBALL))
-EVERY_VALUE(names_ball, carom_names_ball(&(carom_choice){.ball = 1}))
+EVERY_VALUE(names_ball, carom_names_ball(&(carom_plan_stroke){.ball = 1}))
 static inline carom_break_job break_of(const every_input *in, every_room *room,
                                        const carom_player *player,
                                        const carom_shot_options *options) {
@@ -270,9 +270,9 @@ EVERY_BODY(match_begin_to) {
 }
 EVERY_ACT(match_place, carom_match_place(&room->match, 0, 0.7, 0.5))
 EVERY_ACT(match_call, carom_match_call(&room->match, 0, (carom_call){3, 1}))
-EVERY_ACT(match_choose, carom_match_choose(&room->match, 0, CAROM_MAY_PASS))
+EVERY_ACT(match_choose, carom_match_choose(&room->match, 0, CAROM_CHOICE_PASS))
 EVERY_ACT(match_prepare,
-          carom_match_prepare(&room->match, 0, &(carom_choice){.ball = 3, .pocket = 1}))
+          carom_match_prepare(&room->match, 0, &(carom_plan_stroke){.ball = 3, .pocket = 1}))
 EVERY_ACT(match_stroke, carom_match_stroke(&room->match, 0, &in->cue[0], NULL, NULL))
 EVERY_ACT(match_continue, carom_match_continue(&room->match, NULL, NULL))
 EVERY_ACT(match_concede, carom_match_concede(&room->match, 1))
@@ -294,7 +294,7 @@ EVERY_BODY(match_plan) {
                         .options = &options,
                         .memory = room->plan,
                         .memory_size = carom_plan_memory(&options)};
-  carom_choice choice;
+  carom_plan_stroke choice;
   int found = 0;
   STATUS(carom_match_plan(&room->match, &job, &choice, 1, &found));
   return HASH(choice);

@@ -33,7 +33,7 @@ enum { BALLS_MOST = 22, NONE = -1 };
 enum { R1 = 1 << 1, R2 = 1 << 2, Y = 1 << 16, G = 1 << 17, BR = 1 << 18, BL = 1 << 19 };
 enum { PI = 1 << 20, BK = 1 << 21, COLOURS = Y | G | BR | BL | PI | BK, ALL = 0x3fffff };
 enum { YELLOW = 16, GREEN, BROWN, BLUE, PINK, BLACK };
-enum { MAY = CAROM_MAY_PASS, FREE = CAROM_MAY_FREE_BALL, HAND = CAROM_MAY_PLACE };
+enum { MAY = CAROM_CHOICE_PASS, FREE = CAROM_CHOICE_FREE_BALL, HAND = CAROM_CHOICE_PLACE };
 
 /* The pockets of the player and of the other. */
 enum { MINE = 5, HIS = 2 };

@@ -87,7 +87,7 @@ TEST(acts_that_are_refused) {
   refused(carom_match_place(&match, 0, 0.6, 0.6), CAROM_REFUSED_TURN, "player 1");
   refused(carom_match_place(&match, 1, 0.6, 1.0), CAROM_REFUSED_BOUNDS, "0.635");
   refused(carom_match_stroke(&match, 1, &cue, NULL, NULL), CAROM_REFUSED_IN_HAND, "place");
-  refused(carom_match_choose(&match, 1, CAROM_MAY_PASS), CAROM_REFUSED_CHOICE, "none");
+  refused(carom_match_choose(&match, 1, CAROM_CHOICE_PASS), CAROM_REFUSED_CHOICE, "none");
   ck_assert_int_eq(carom_match_place(&match, 1, 0.6, 0.6), CAROM_OK);
   ck_assert_int_eq(carom_match_place(&match, 1, 0.635, 0.6),
                    CAROM_OK); /* it may be put elsewhere */
@@ -123,11 +123,12 @@ TEST(acts_that_are_refused) {
 TEST(what_is_no_choice) {
   const int count = lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, ALL);
   carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-  rules.state.may = CAROM_MAY_PASS | CAROM_MAY_FREE_BALL | CAROM_MAY_PLACE;
+  rules.state.may = CAROM_CHOICE_PASS | CAROM_CHOICE_FREE_BALL | CAROM_CHOICE_PLACE;
   ck_assert_int_eq(carom_match_begin_at(&match, CAROM_RULES_SNOOKER, &rules, &table, balls, count,
                                         NULL, CAROM_LEAVE_D, 0),
                    CAROM_OK);
-  static const carom_may none[] = {CAROM_MAY_FREE_BALL, CAROM_MAY_PLACE, CAROM_MAY_RACK};
+  static const carom_choice none[] = {CAROM_CHOICE_FREE_BALL, CAROM_CHOICE_PLACE,
+                                      CAROM_CHOICE_RACK};
   for (size_t k = 0; k < sizeof none / sizeof none[0]; k++)
     refused(carom_match_choose(&match, 0, none[k]), CAROM_REFUSED_CHOICE,
             "choices are: pass; a free ball is named by a call");
@@ -139,17 +140,18 @@ TEST(a_place_before_the_choice_to_stay) {
   ck_assert_int_eq(carom_rack(CAROM_RACK_EIGHTBALL, &table, 1e-4, 1, balls, 16), CAROM_OK);
   balls[0].state.r[1] = 1.2;
   carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
-  rules.state.may = CAROM_MAY_RACK | CAROM_MAY_STAY;
+  rules.state.may = CAROM_CHOICE_RACK | CAROM_CHOICE_STAY;
   ck_assert_int_eq(carom_match_begin_at(&match, CAROM_RULES_EIGHTBALL, &rules, &table, balls, 16,
                                         NULL, CAROM_LEAVE_KITCHEN, 0),
                    CAROM_OK);
   const carom_match begun = match;
   ck_assert_int_eq(carom_match_place(&match, 0, 0.9, 0.2), CAROM_OK);
-  ck_assert_int_eq(match.may, CAROM_MAY_RACK);
-  refused(carom_match_choose(&match, 0, CAROM_MAY_STAY), CAROM_REFUSED_CHOICE, "choices are: rack");
+  ck_assert_int_eq(match.may, CAROM_CHOICE_RACK);
+  refused(carom_match_choose(&match, 0, CAROM_CHOICE_STAY), CAROM_REFUSED_CHOICE,
+          "choices are: rack");
 
   match = begun;
-  ck_assert_int_eq(carom_match_choose(&match, 0, CAROM_MAY_STAY), CAROM_OK);
+  ck_assert_int_eq(carom_match_choose(&match, 0, CAROM_CHOICE_STAY), CAROM_OK);
   ck_assert(match.phase == CAROM_MATCH_STROKE && match.record.balls[0].state.r[1] == 1.2);
 }
 
@@ -164,7 +166,7 @@ TEST(a_clock_before_the_place) {
       ck_assert_int_eq(match.record.balls[0].state.label, CAROM_BALL_STATIONARY);
     else
       ck_assert_int_eq(match.phase, CAROM_MATCH_PLACE);
-    refused(carom_match_choose(&match, (int)match.record.player, CAROM_MAY_STAY),
+    refused(carom_match_choose(&match, (int)match.record.player, CAROM_CHOICE_STAY),
             CAROM_REFUSED_CHOICE, "the choices are");
   }
 }
@@ -174,24 +176,24 @@ TEST(a_clock_before_the_place) {
 /* A break so soft that it fails, in each game that has a rule for that: what the other may do. He
  * breaks a new rack himself, or has the player do so. */
 TEST(breaks_that_fail) {
-  enum { RACK = CAROM_MAY_RACK, BOTH = CAROM_MAY_RACK | CAROM_MAY_OTHER_RACK };
+  enum { RACK = CAROM_CHOICE_RACK, BOTH = CAROM_CHOICE_RACK | CAROM_CHOICE_OTHER_RACK };
   static const struct {
     carom_rules_kind kind;
     int32_t options, phase, leave;
   } cases[] = {
       {CAROM_RULES_EIGHTBALL, BOTH, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
       {CAROM_RULES_HEYBALL, BOTH, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
-      {CAROM_RULES_NINEBALL, 0, CAROM_MATCH_PLACE, CAROM_LEAVE_HAND},
-      {CAROM_RULES_TENBALL, 0, CAROM_MATCH_PLACE, CAROM_LEAVE_HAND},
-      {CAROM_RULES_STRAIGHT, CAROM_MAY_PASS, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
-      {CAROM_RULES_BANK, CAROM_MAY_PASS, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
-      {CAROM_RULES_BLACKBALL, RACK | CAROM_MAY_STAY, CAROM_MATCH_PLACE, CAROM_LEAVE_BAULK},
+      {CAROM_RULES_NINEBALL, 0, CAROM_MATCH_PLACE, CAROM_LEAVE_ANYWHERE},
+      {CAROM_RULES_TENBALL, 0, CAROM_MATCH_PLACE, CAROM_LEAVE_ANYWHERE},
+      {CAROM_RULES_STRAIGHT, CAROM_CHOICE_PASS, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
+      {CAROM_RULES_BANK, CAROM_CHOICE_PASS, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
+      {CAROM_RULES_BLACKBALL, RACK | CAROM_CHOICE_STAY, CAROM_MATCH_PLACE, CAROM_LEAVE_BAULK},
       {CAROM_RULES_ROTATION, RACK, CAROM_MATCH_PLACE, CAROM_LEAVE_KITCHEN},
       {CAROM_RULES_PYRAMID, RACK, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
   };
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
     for (int choice = 0; choice < 3; choice++) {
-      static const int32_t choices[] = {0, CAROM_MAY_RACK, CAROM_MAY_OTHER_RACK};
+      static const int32_t choices[] = {0, CAROM_CHOICE_RACK, CAROM_CHOICE_OTHER_RACK};
       begin(cases[k].kind, 1, 0);
       const double y = match.bounds.high[1];
       ck_assert_int_eq(carom_match_place(&match, 0, 0.5 * table.width, y), CAROM_OK);
@@ -206,9 +208,9 @@ TEST(breaks_that_fail) {
                     match.phase, match.leave, match.ruling.turn.foul);
       if ((cases[k].options & choices[choice]) == 0)
         continue;
-      ck_assert_int_eq(carom_match_choose(&match, 1, (carom_may)choices[choice]), CAROM_OK);
+      ck_assert_int_eq(carom_match_choose(&match, 1, (carom_choice)choices[choice]), CAROM_OK);
       ck_assert(match.phase == CAROM_MATCH_PLACE && match.rules.state.opening == 1 &&
-                match.record.player == (choices[choice] == CAROM_MAY_RACK));
+                match.record.player == (choices[choice] == CAROM_CHOICE_RACK));
       ck_assert(fabs(match.record.balls[1].state.r[1] - 0.75 * table.length) < 0.3);
     }
 }
@@ -236,13 +238,13 @@ TEST(the_eight_on_the_break) {
       ck_assert_msg(down == (falls ? 0x101U : 0x100U), "down %x", down);
       ck_assert_int_eq(match.record.player, falls);
       ck_assert_int_eq(match.phase, falls ? CAROM_MATCH_PLACE : CAROM_MATCH_STROKE);
-      ck_assert_int_eq(match.may, CAROM_MAY_RACK);
+      ck_assert_int_eq(match.may, CAROM_CHOICE_RACK);
       ck_assert_int_eq(match.record.balls[8].state.label, CAROM_BALL_STATIONARY);
       if (falls)
         ck_assert_double_eq(match.bounds.high[1], 0.25 * table.length);
       if (racks == 0)
         continue;
-      ck_assert_int_eq(carom_match_choose(&match, falls, CAROM_MAY_RACK), CAROM_OK);
+      ck_assert_int_eq(carom_match_choose(&match, falls, CAROM_CHOICE_RACK), CAROM_OK);
       ck_assert(match.rules.state.opening == 1 && match.record.player == falls &&
                 match.phase == CAROM_MATCH_PLACE);
     }
@@ -252,7 +254,7 @@ TEST(the_eight_on_the_break) {
  * balls that are on lie behind it too, the player may have the nearest one spotted, and of those
  * that are equally near the one that was named, else the lowest. */
 TEST(balls_behind_the_head_string) {
-  enum { SPOT = CAROM_MAY_SPOT };
+  enum { SPOT = CAROM_CHOICE_SPOT };
   static const struct {
     carom_rules_kind kind;
     double y[3]; /* of the balls 1 to 3 */
@@ -293,7 +295,8 @@ TEST(balls_behind_the_head_string) {
     ck_assert_int_eq(match.ruling.turn.foul, CAROM_FOUL_CUE_BALL);
     ck_assert_msg(match.may == cases[k].choices, "row %d: may %d", (int)k, match.may);
     if (cases[k].choices == 0) {
-      refused(carom_match_choose(&match, 1, CAROM_MAY_SPOT), CAROM_REFUSED_CHOICE, "the choices");
+      refused(carom_match_choose(&match, 1, CAROM_CHOICE_SPOT), CAROM_REFUSED_CHOICE,
+              "the choices");
       continue;
     }
 
@@ -302,7 +305,7 @@ TEST(balls_behind_the_head_string) {
       ck_assert_int_eq(carom_match_call(&match, 1, (carom_call){cases[k].named, 1}), CAROM_OK);
       keep();
     }
-    ck_assert_int_eq(carom_match_choose(&match, 1, CAROM_MAY_SPOT), CAROM_OK);
+    ck_assert_int_eq(carom_match_choose(&match, 1, CAROM_CHOICE_SPOT), CAROM_OK);
     keep();
     const int ball = cases[k].spotted;
     memcpy(balls, match.record.balls, sizeof balls);
@@ -416,7 +419,8 @@ static carom_status act(random_source *r, carom_rules_kind kind) {
     return carom_match_call(&match, player, (carom_call){ball, (int)random_between(r, -1.0, 7.0)});
   }
   if (what < 0.25)
-    return carom_match_choose(&match, player, (carom_may)(1 << (int)random_between(r, 0.0, 8.999)));
+    return carom_match_choose(&match, player,
+                              (carom_choice)(1 << (int)random_between(r, 0.0, 8.999)));
   if (what < 0.255)
     return carom_match_clock(&match, player);
   if (what < 0.2552)

@@ -5,7 +5,7 @@
  * the same choices, by cues that are faster by 2/(1 + e). */
 TEST(players_of_any_tip) {
   static const double gain = 2.0 / (1.0 + CAROM_TIP_LEATHER);
-  carom_choice choices[2][3];
+  carom_plan_stroke choices[2][3];
   int found[2];
   for (int tip = 0; tip < 2; tip++) {
     make_layout(17, 3);
@@ -15,7 +15,7 @@ TEST(players_of_any_tip) {
     edge_free(&memory);
   }
   ck_assert_int_eq(found[0], found[1]);
-  const carom_choice *a = &choices[0][0], *b = &choices[1][0];
+  const carom_plan_stroke *a = &choices[0][0], *b = &choices[1][0];
   ck_assert_double_eq_tol(b->cue.speed, gain * a->cue.speed, 1e-12);
   /* This stroke is raised by 0.9 degrees: the slate acts while the tip does, and tips of other
    * restitution share the time otherwise. */
@@ -87,7 +87,7 @@ TEST(players_choose) {
   player = carom_player_fargo(400.0);
   player.shots = 300.0;
   options = (carom_plan_options){.seed = 5};
-  carom_choice choice[2];
+  carom_plan_stroke choice[2];
   int found;
   int64_t differ = 0;
   for (uint64_t seed = 0; seed < 8; seed++) {
@@ -136,7 +136,7 @@ TEST(who_only_pots_takes_the_sure_ball) {
     player.only_pots = 1.0;
     options = (carom_plan_options){.shots = 500, .seed = seed};
     make_memory();
-    carom_choice choice;
+    carom_plan_stroke choice;
     int found;
     ck_assert_int_eq(carom_plan(&job, &choice, 1, &found), CAROM_OK);
     ck_assert_int_ne(choice.kind, CAROM_PLAN_SAFETY);

@@ -79,7 +79,7 @@ TEST(pocket_of_ones_own) {
   for (int k = 0; k < 5; k++) {
     const bool mine = states[k].pocket[0] == MINE;
     game_rules.state = states[k];
-    carom_choice best;
+    carom_plan_stroke best;
     int found;
     ck_assert_int_eq(carom_plan_value(&job, 0, &value[k]), CAROM_OK);
     ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
@@ -110,7 +110,7 @@ TEST(colours_by_value_and_position) {
     const carom_player player = carom_player_of(0.3);
     const carom_plan_options options = {.shots = 2000};
     carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
-    carom_choice best;
+    carom_plan_stroke best;
     int found;
     ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
     ck_assert_msg(best.ball == (k == 0 ? BLACK : YELLOW), "%d: ball %d", k, best.ball);

@@ -16,7 +16,7 @@ static void check_ruling(const carom_ruling *r) {
   }
   ck_assert(down == r->facts.down);
   ck_assert_int_eq(r->next, r->winner >= 0 ? -1 : r->turn.outcome == CAROM_TURN_PASS);
-  ck_assert_int_eq(r->hand, r->turn.leave >= CAROM_LEAVE_HAND);
+  ck_assert_int_eq(r->hand, r->turn.leave >= CAROM_LEAVE_ANYWHERE);
   ck_assert((r->on != 0) == (r->next >= 0));
   const size_t length = carom_ruling_string(r, words, sizeof words);
   ck_assert(length == strlen(words) && carom_ruling_string(r, words, 5) == length && words[4] == 0);
@@ -36,7 +36,7 @@ static carom_status play_planned(carom_plan_job *job, random_source *r, uint64_t
       carom_cue_of((carom_game)carom_rules_about_of((carom_rules_kind)match.record.rules)->balls);
   cue.ball = match.cue_ball;
   job->cue = &cue;
-  carom_choice best;
+  carom_plan_stroke best;
   int found = 0;
   const carom_status planned = carom_match_plan(&match, job, &best, 1, &found);
   if (planned != CAROM_OK || found == 0) {
@@ -47,9 +47,9 @@ static carom_status play_planned(carom_plan_job *job, random_source *r, uint64_t
       carom_match_place(&match, player, best.place[0], best.place[1]) != CAROM_OK)
     place_anywhere(r);
   if (best.kind == CAROM_PLAN_PASS)
-    return carom_match_choose(&match, player, CAROM_MAY_PASS);
+    return carom_match_choose(&match, player, CAROM_CHOICE_PASS);
   if (best.kind == CAROM_PLAN_PUSH)
-    carom_match_choose(&match, player, CAROM_MAY_PUSH);
+    carom_match_choose(&match, player, CAROM_CHOICE_PUSH);
   else if (match.rules.calls != 0 && best.ball >= 0)
     carom_match_call(&match, player, (carom_call){best.ball, best.pocket});
   carom_player_strike(job->player, 7, number, &best.cue);

@@ -20,7 +20,7 @@ typedef struct situation {
 } situation;
 
 /* Words in place of numbers: a choice is the negative of its carom_call, a right a bit of
- * carom_may. */
+ * carom_choice. */
 static const char *const choices[] = {"",           "",     "push", "pass", "rack",
                                       "other_rack", "stay", "spot", NULL};
 static const char *const rights[] = {"pass",       "push", "free_ball", "place", "rack",

@@ -16,7 +16,7 @@ static carom_turn judge_and_stop(carom_rules_state *state, uint32_t in_play, int
 TEST(stopped_plans) {
   enum { PLAN, HAND, TRY };
   for (int kind = PLAN; kind <= TRY; kind++) {
-    carom_choice best[2];
+    carom_plan_stroke best[2];
     int found = 1;
     double value = 0.0;
     make_layout(3, 6);
@@ -60,14 +60,14 @@ TEST(plans_in_slices) {
   static const int64_t slices[] = {1, 37, 1000};
   for (int kind = 0; kind < 6; kind++) {
     const bool hand = kind % 2 == 1;
-    carom_choice whole[3], best[3];
+    carom_plan_stroke whole[3], best[3];
     int found, found_whole;
     make_layout((uint64_t)kind + 1, kind < 4 ? 6 : 1);
     rules = carom_plan_rules_of(kind < 2 ? CAROM_RULES_EIGHTBALL : CAROM_RULES_NINEBALL);
     if (kind >= 4) { /* nothing is to be hit, or the player may pass */
       put_ring(6);
       job.count = 10;
-      rules.state.may = kind == 5 ? CAROM_MAY_PASS : 0;
+      rules.state.may = kind == 5 ? CAROM_CHOICE_PASS : 0;
     }
     stopped_rules = rules;
     rules.judge = judge_and_stop;
@@ -120,7 +120,7 @@ static double count_values(const carom_rules_state *state, const carom_ball_stat
 
 /* No slice tries all places of a cue ball in hand, which would take longer than its shots. */
 TEST(places_in_slices) {
-  carom_choice best;
+  carom_plan_stroke best;
   int found;
   make_layout(3, 6);
   rules.value = count_values;
@@ -148,7 +148,7 @@ TEST(stopped_plans_are_worth_their_shots) {
     stopped_rules = rules;
     options.seed = seed;
     make_memory();
-    carom_choice best[STOPS + 1], worth[STOPS + 1];
+    carom_plan_stroke best[STOPS + 1], worth[STOPS + 1];
     int found;
     ck_assert_int_eq(carom_plan(&job, best, 1, &found), CAROM_OK);
     edge_free(&memory);
@@ -185,7 +185,7 @@ TEST(stopped_plans_are_worth_their_shots) {
 
 /* A plan that goes on with something else is refused; one that is stopped between slices ends. */
 TEST(slices_of_other_plans) {
-  carom_choice best;
+  carom_plan_stroke best;
   int found;
   make_layout(3, 6);
   options.slice = 50;

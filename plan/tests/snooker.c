@@ -43,7 +43,7 @@ TEST(double_hits) {
     ck_assert_int_eq(carom_foul_of(&f, R1, 0), cases[k].pool == LEGAL ? CUSHION : DOUBLE_HIT);
     ck_assert_int_eq(carom_foul_of(&f, R2, 0), FIRST);
     carom_plan_rules nine = carom_plan_rules_of(CAROM_RULES_NINEBALL);
-    nine.state.may = CAROM_MAY_PUSH;
+    nine.state.may = CAROM_CHOICE_PUSH;
     ck_assert_int_eq(nine.judge(&nine.state, 0x3ff, 0, &f, (carom_call){CAROM_CALL_PUSH, -1}).foul,
                      cases[k].pool);
   }

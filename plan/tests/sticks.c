@@ -88,7 +88,7 @@ TEST(kinds_and_sticks) {
   enum { KINDS = CAROM_PLAN_KISS + 1 };
   int of_kind[KINDS] = {0}, raised = 0, seldom = 0;
   for (int k = 0; k < 24; k++) {
-    carom_choice best[5];
+    carom_plan_stroke best[5];
     int found;
     make_layout((uint64_t)k + 1, 10);
     if (k % 2 == 0)
@@ -101,7 +101,7 @@ TEST(kinds_and_sticks) {
     make_memory();
     ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
     for (int n = 0; n < found; n++) {
-      const carom_choice *c = &best[n];
+      const carom_plan_stroke *c = &best[n];
       carom_facts facts;
       carom_brief_event events[64];
       carom_shot shot = {.brief = events, .room = 64, .facts = &facts};
@@ -147,7 +147,7 @@ TEST(kinds_and_sticks) {
 TEST(a_level_cue) {
   int raised = 0;
   for (int k = 0; k < 8; k++) {
-    carom_choice best[5];
+    carom_plan_stroke best[5];
     int found;
     make_layout((uint64_t)k + 1, 10);
     carom_place_ball(&table, balls, BALLS, 0, 0.4, 0.03, NULL);

@@ -31,7 +31,7 @@ TEST(a_combination_is_planned) {
   const carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_TENBALL);
   const carom_plan_options options = {.shots = 2000};
   carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
-  carom_choice best[5];
+  carom_plan_stroke best[5];
   int found;
   ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
   bool calls_five = false;

@@ -24,8 +24,8 @@ static carom_cue put_pot(bool bank) {
   return stroke;
 }
 
-static carom_choice tried(const carom_cue *stroke, double unsure) {
-  carom_choice c;
+static carom_plan_stroke tried(const carom_cue *stroke, double unsure) {
+  carom_plan_stroke c;
   options.unsure = unsure;
   make_memory();
   ck_assert_int_eq(carom_plan_try(&job, stroke, 1, &c), CAROM_OK);
@@ -42,7 +42,7 @@ TEST(tables_that_are_not_known) {
   for (int bank = 0; bank < 2; bank++)
     for (int k = 0; k < 4; k++) {
       const carom_cue stroke = put_pot(bank);
-      const carom_choice c = tried(&stroke, unsure[k]);
+      const carom_plan_stroke c = tried(&stroke, unsure[k]);
       keep[bank][k] = c.keep;
 
       /* facings and jaws have numbers of their own already */
@@ -52,7 +52,7 @@ TEST(tables_that_are_not_known) {
         table.rail[r].restitution = balls[0].kind.restitution_cushion;
         table.rail[r].mu_cushion = balls[0].kind.mu_cushion;
       }
-      const carom_choice known = tried(&stroke, unsure[k]);
+      const carom_plan_stroke known = tried(&stroke, unsure[k]);
       ck_assert_mem_eq(&known, &c, sizeof c);
     }
   printf("kept with all, much, some and little known: a pot %.2f %.2f %.2f %.2f, a bank %.2f %.2f "

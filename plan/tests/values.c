@@ -78,7 +78,7 @@ TEST(values_of_push_outs) {
     player = carom_player_of(3.0);
     job.count = 10;
     ck_assert_int_eq(carom_plan_value(&job, 0, &plays), CAROM_OK);
-    rules.state.may = CAROM_MAY_PUSH;
+    rules.state.may = CAROM_CHOICE_PUSH;
     ck_assert_int_eq(carom_plan_value(&job, 0, &pushes), CAROM_OK);
     ck_assert_double_eq_tol(pushes, fmax(plays, 0.5), 1e-12);
     options.chance_opponent = 1.0;

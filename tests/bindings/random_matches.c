@@ -90,7 +90,7 @@ static carom_status choose(void) {
   const int allowed = match.may != 0 && between(0.0, 1.0) < 0.8;
   const int bit = allowed ? member_of((uint32_t)match.may) : one_of(8);
   fprintf(acts, "choose %d\n", bit);
-  return carom_match_choose(&match, (int)match.record.player, (carom_may)(1 << bit));
+  return carom_match_choose(&match, (int)match.record.player, (carom_choice)(1 << bit));
 }
 
 static carom_status place(void) {

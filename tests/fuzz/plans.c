@@ -83,7 +83,7 @@ static void make_inputs(void) {
   RESERVE(options);
 }
 
-static void check_choices(const carom_choice *c, int n) {
+static void check_choices(const carom_plan_stroke *c, int n) {
   for (int k = 0; k < n; k++) {
     const double chances[] = {c[k].value, c[k].keep, c[k].foul, c[k].lose};
     const double finite[] = {c[k].cue.speed, c[k].cue.phi,  c[k].cue.theta, c[k].cue.a,
@@ -99,7 +99,7 @@ static void check_choices(const carom_choice *c, int n) {
 /* One of the three plans, in memory of its own that was filled with a byte; in slices, as the
  * options say. */
 static carom_status plan(int which, int fill, const carom_cue *cues, const double *low,
-                         const double *high, carom_choice *choices, int *found) {
+                         const double *high, carom_plan_stroke *choices, int *found) {
   carom_plan_job own = job;
   own.memory_size = carom_plan_memory(job.options);
   own.memory = malloc(own.memory_size + 1);
@@ -132,7 +132,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   }
   const double low[2] = {number(0, 1), number(0, 1)}, high[2] = {number(0, 1), number(0, 2)};
   const int which = choice(3);
-  carom_choice choices[ROOM + 1], again[ROOM + 1];
+  carom_plan_stroke choices[ROOM + 1], again[ROOM + 1];
   int found, found_again;
   const carom_status status = plan(which, 0, cues, low, high, choices, &found);
   if (status > 0 || carom_status_string(status)[0] == '\0')

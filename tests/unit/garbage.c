@@ -78,7 +78,7 @@ static carom_ruling ruling;
 static carom_record record;
 static carom_shot_job job;
 static carom_tangent_job tangent_job;
-static carom_choice choices[4];
+static carom_plan_stroke choices[4];
 static carom_match match;
 static carom_bounds bounds;
 static carom_bank bank;
@@ -169,7 +169,7 @@ static carom_match *moving(void) {
   carom_match_stroke(ready(), 0, &cue, &half, NULL);
   return &match;
 }
-static const carom_choice safety = {.ball = -1};
+static const carom_plan_stroke safety = {.ball = -1};
 /* The jobs of a coach, of the same layout. */
 static carom_shot_way ways[4];
 static carom_ways_result ways_result;
@@ -207,8 +207,8 @@ static const carom_break_job *break_job(void) {
                              .memory_size = MEMORY};
   return &breaks;
 }
-static const carom_choice *stroke_choice(void) {
-  choices[0] = (carom_choice){.cue = cue, .ball = -1, .pocket = -1};
+static const carom_plan_stroke *stroke_choice(void) {
+  choices[0] = (carom_plan_stroke){.cue = cue, .ball = -1, .pocket = -1};
   memcpy(choices[0].place, balls[0].state.r, sizeof choices[0].place);
   return choices;
 }
@@ -260,11 +260,12 @@ static const carom_options *no_options;
   F(match_begin_at,                                                                                \
     carom_match_begin_at(PTR(&match), ANYENUM(carom_rules_kind, CAROM_RULES_NINEBALL),             \
                          MAYBE(&rules), PTR(&table), PTR(balls), INT(BALLS), NULL,                 \
-                         ENUM(carom_leave, CAROM_LEAVE_HAND), INT(0)))                             \
+                         ENUM(carom_leave, CAROM_LEAVE_ANYWHERE), INT(0)))                         \
   F(match_call,                                                                                    \
     (carom_match_call(MAYBE(ready()), ANYINT(0), ((carom_call){ANYINT(1), ANYINT(1)})), ACCEPTED)) \
   F(match_choose,                                                                                  \
-    (carom_match_choose(MAYBE(ready()), ANYINT(0), ANYENUM(carom_may, CAROM_MAY_PUSH)), ACCEPTED)) \
+    (carom_match_choose(MAYBE(ready()), ANYINT(0), ANYENUM(carom_choice, CAROM_CHOICE_PUSH)),      \
+     ACCEPTED))                                                                                    \
   F(match_clock, carom_match_clock(PTR(ready()), INT(0)))                                          \
   F(match_concede, carom_match_concede(PTR(ready()), INT(0)))                                      \
   F(match_continue, carom_match_continue(PTR(moving()), NULL, MAYBE(&other)))                      \
@@ -396,7 +397,8 @@ static const carom_options *no_options;
   F(break_spread, (carom_break_spread(MAYBE(&break_counts), MAYBE(numbers)), ACCEPTED))            \
   F(break_stroke, carom_break_stroke(PTR(break_job()), ANYINT(0), PTR(placed), PTR(&aimed)))       \
   F(names_ball, (carom_names_ball(MAYBE(choices)), ACCEPTED))                                      \
-  F(plan_replay, carom_plan_replay(PTR(&plan), PTR((carom_choice *)stroke_choice()), ROOM(1)))     \
+  F(plan_replay,                                                                                   \
+    carom_plan_replay(PTR(&plan), PTR((carom_plan_stroke *)stroke_choice()), ROOM(1)))             \
   F(way_chance, carom_way_chance(PTR(ways_job()), PTR(stroke_way())))                              \
   F(way_succeeds, (carom_way_succeeds(MAYBE(ways_job()), MAYBE(whole()), MAYBE(ways)), ACCEPTED))  \
   F(ways, carom_ways(PTR(ways_job()), PTR(ways), ROOM(4), PTR(&ways_result)))                      \

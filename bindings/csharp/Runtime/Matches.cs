@@ -128,7 +128,7 @@ namespace Carom {
     }
 
     /// <summary>Makes one of the choices that the rules allow now.</summary>
-    public void Choose(May choice) {
+    public void Choose(Choice choice) {
       Told(Native.carom_match_choose(Open, Player, choice));
     }
     /// <summary>Puts the cue ball in hand at a place, m, within the bounds.</summary>
@@ -172,7 +172,7 @@ namespace Carom {
 
     /// <summary>Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is
     /// the stroke as the player makes it.</summary>
-    public void Take(Choice best, Cue cue) {
+    public void Take(PlanStroke best, Cue cue) {
       Told(Native.carom_match_prepare(Open, Player, &best));
       if (best.kind != (int)PlanKind.Pass)
         Stroke(cue);

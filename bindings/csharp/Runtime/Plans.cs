@@ -231,7 +231,7 @@ namespace Carom {
 
     /// <summary>The best strokes, best first, at most `most`; in hand, with the places of the cue
     /// ball.</summary>
-    public Choice[] Plan(int most = 1, bool inHand = false) {
+    public PlanStroke[] Plan(int most = 1, bool inHand = false) {
       using (var all = Think(0, most, inHand)) {
         all.GoOn();
         return all.Choices;
@@ -245,9 +245,9 @@ namespace Carom {
     }
 
     /// <summary>The chances of strokes of the caller's, in their order.</summary>
-    public Choice[] Chances(Cue[] cues) {
-      var told = new Choice[cues.Length];
-      using (var held = new Held(this, 0)) fixed(Cue * of = cues) fixed(Choice * to = told)
+    public PlanStroke[] Chances(Cue[] cues) {
+      var told = new PlanStroke[cues.Length];
+      using (var held = new Held(this, 0)) fixed(Cue * of = cues) fixed(PlanStroke * to = told)
           held.Rules.Check(Native.carom_plan_try(held.Job, of, cues.Length, to));
       return told;
     }
@@ -321,7 +321,7 @@ namespace Carom {
   /// <summary>A plan on its way.</summary>
   public sealed unsafe class Thinking : IDisposable {
     readonly Held held;
-    readonly Choice[] room;
+    readonly PlanStroke[] room;
     HandBounds bounds;
     readonly bool inHand;
     bool begun;
@@ -329,11 +329,11 @@ namespace Carom {
     /// <summary>Whether it has ended, also by an error.</summary>
     public bool Ended { get; private set; }
     /// <summary>The best strokes, best first; empty until the end.</summary>
-    public Choice[] Choices { get; private set; } = new Choice[0];
+    public PlanStroke[] Choices { get; private set; } = new PlanStroke[0];
 
     internal Thinking(Position of, long slice, int most, bool inHand) {
       held = new Held(of, slice);
-      room = new Choice[most];
+      room = new PlanStroke[most];
       this.inHand = inHand;
       bounds = of.Bounds ?? BoundsAfterFoul(of);
     }
@@ -341,7 +341,7 @@ namespace Carom {
     static HandBounds BoundsAfterFoul(Position of) {
       HandBounds bounds;
       var about = Native.carom_rules_about_of((RulesKind)(of.Rules.learned - 1));
-      var leave = about != null ? (Leave)about->hand : Leave.Hand;
+      var leave = about != null ? (Leave)about->hand : Leave.Anywhere;
       fixed(Table *table = &of.Table)
           Billiards.Check(Native.carom_hand_bounds(leave, table, 0.0, &bounds));
       return bounds;
@@ -354,7 +354,7 @@ namespace Carom {
       int found = 0;
       Status status;
       var within = bounds;
-      fixed(Choice *to = room) {
+      fixed(PlanStroke *to = room) {
         if (begun)
           status = Native.carom_plan_continue(held.Job, to, room.Length, &found);
         else if (inHand)
@@ -366,7 +366,7 @@ namespace Carom {
       begun = true;
       Ended = status < 0 || found > 0 || held.Rules.Failure != null;
       held.Rules.Check(status);
-      Choices = new Choice[found];
+      Choices = new PlanStroke[found];
       Array.Copy(room, Choices, found);
       return Ended;
     }

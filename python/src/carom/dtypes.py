@@ -108,7 +108,7 @@ event: Record = _record("carom_event")
 brief_event: Record = _record("carom_brief_event")
 # How the strokes of a player differ from those that he means: standard deviations, and bounds.
 player: Record = _record("carom_player")
-choice: Record = _record("carom_choice")  # A shot that `carom.plan` proposes.
+choice: Record = _record("carom_plan_stroke")  # A shot that `carom.plan` proposes.
 facts: Record = _record("carom_facts")  # What happened in a shot, which `carom.Features` shows.
 # How a game stands for the player at the table: opening, group, fouls, score, lost, pocket, may,
 # on, free_ball, target, innings; user is of one's own rules.

@@ -35,7 +35,7 @@ import type {
   Bank,
   Calibration,
   Call,
-  Choice,
+  PlanStroke,
   Collided,
   CollideOptions,
   Condition,
@@ -1215,7 +1215,7 @@ export class Carom {
    * worker is the place for large plans. The choice
    * depends on the arguments alone.
    */
-  plan(table: Table, balls: readonly ShotBall[], options: PlanOptions = {}): Choice[] {
+  plan(table: Table, balls: readonly ShotBall[], options: PlanOptions = {}): PlanStroke[] {
     return this.#plans.plan(table, balls, undefined, options);
   }
 
@@ -1229,7 +1229,7 @@ export class Carom {
     balls: readonly ShotBall[],
     options: PlanOptions = {},
     slice = 1000,
-  ): Generator<undefined, Choice[]> {
+  ): Generator<undefined, PlanStroke[]> {
     if (whole(slice, "slice") < 1) throw new RangeError("slice: at least 1 event is needed, not 0");
     return this.#plans.think(table, balls, undefined, options, slice, 0);
   }
@@ -1243,7 +1243,7 @@ export class Carom {
     balls: readonly ShotBall[],
     cues: readonly Partial<Cue>[],
     options: PlanOptions = {},
-  ): Choice[] {
+  ): PlanStroke[] {
     return this.#plans.plan(table, balls, cues, options);
   }
 

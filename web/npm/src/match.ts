@@ -20,7 +20,7 @@ import {
   writeTable,
 } from "./structs.js";
 import type {
-  Choice,
+  PlanStroke,
   Cue,
   GameState,
   MatchOptions,
@@ -40,7 +40,7 @@ const OWN = 1000;
 /** What a match waits for; "over": nothing. */
 export type Phase = "none" | "stroke" | "place" | "moving" | "over";
 /** A choice besides a stroke. */
-export type May = (typeof names.carom_may)[number];
+export type Choice = (typeof names.carom_choice)[number];
 
 /** Where a cue ball in hand may be put, m. */
 export interface Bounds {
@@ -68,7 +68,7 @@ export interface Host extends RecordingHost {
     options: PlanOptions,
     slice: number,
     leave: number,
-  ): Generator<undefined, Choice[]>;
+  ): Generator<undefined, PlanStroke[]>;
 }
 
 /**
@@ -201,9 +201,9 @@ export class Match extends Owner<Host> {
     return this.#recorded("shots");
   }
   /** The choices for `choose`; a "free_ball" is named by a call. */
-  get may(): May[] {
+  get may(): Choice[] {
     const may = this.#number("may");
-    return names.carom_may.filter((_, k) => (may >> k) & 1) as May[];
+    return names.carom_choice.filter((_, k) => (may >> k) & 1) as Choice[];
   }
   /** The ball that the player at the table strikes. */
   get cueBall(): number {
@@ -253,8 +253,8 @@ export class Match extends Owner<Host> {
   // ---- Acts
 
   /** Takes a choice: "push" for the next stroke, the others instead of it. */
-  choose(what: May): void {
-    const bit = 1 << value("carom_may", what, "what");
+  choose(what: Choice): void {
+    const bit = 1 << value("carom_choice", what, "what");
     this.#act((at, call) => call.carom_match_choose(at, this.player, bit));
   }
   /** Puts the cue ball in hand within `bounds`, m; until the stroke it may be put elsewhere. */
@@ -322,11 +322,11 @@ export class Match extends Owner<Host> {
   // ---- Plans
 
   /** The best strokes of the player at the table, with a cue ball in hand within `bounds`. */
-  plan(options: PlanOptions = {}): Choice[] {
-    return this.think(options, 0).next().value as Choice[];
+  plan(options: PlanOptions = {}): PlanStroke[] {
+    return this.think(options, 0).next().value as PlanStroke[];
   }
   /** The same in slices, as `carom.think`. */
-  think(options: PlanOptions = {}, slice = 1000): Generator<undefined, Choice[]> {
+  think(options: PlanOptions = {}, slice = 1000): Generator<undefined, PlanStroke[]> {
     if (this.phase === "over") throw new RangeError("plan: the match is over");
     if (this.phase === "moving") throw new RangeError("plan: balls move: continue() the shot");
     const wanted: PlanOptions = {
@@ -341,7 +341,7 @@ export class Match extends Owner<Host> {
    * Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the stroke as
    * the player makes it.
    */
-  take({ kind, place, ball, pocket, ...best }: Choice, cue: Partial<Cue> = best.cue): void {
+  take({ kind, place, ball, pocket, ...best }: PlanStroke, cue: Partial<Cue> = best.cue): void {
     if (kind === "pass") return this.choose("pass");
     if (this.phase === "place") this.place(place[0]!, place[1]!);
     if (kind === "push") this.choose("push");

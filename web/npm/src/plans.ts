@@ -22,7 +22,7 @@ import type {
   Aim,
   AimOf,
   Call,
-  Choice,
+  PlanStroke,
   Cue,
   EventType,
   GameState,
@@ -40,12 +40,12 @@ const PLAYER = layout.carom_player;
 const RULES = layout.carom_plan_rules;
 const OPTIONS = layout.carom_plan_options;
 const JOB = layout.carom_plan_job;
-const CHOICE = layout.carom_choice;
+const CHOICE = layout.carom_plan_stroke;
 const RULING = layout.carom_ruling.offset;
 const POT = layout.carom_pot;
 const PART = layout.carom_part;
 
-const MAY = names.carom_may;
+const MAY = names.carom_choice;
 /** Where the cue ball may be put, by its carom_leave. */
 export const HANDS = ["no", "no", "anywhere", "kitchen", "d", "baulk"] as const;
 /** The members of a state that are numbers here, too. */
@@ -209,7 +209,7 @@ export class Plans {
     balls: readonly ShotBall[],
     cues: readonly Partial<Cue>[] | undefined,
     options: PlanOptions,
-  ): Choice[] {
+  ): PlanStroke[] {
     const { done, value } = this.think(table, balls, cues, options, 0, 0).next();
     if (!done) throw new RangeError("carom: a plan at once has not ended");
     return value;
@@ -226,7 +226,7 @@ export class Plans {
     given: PlanOptions,
     slice: number,
     leave: number,
-  ): Generator<undefined, Choice[]> {
+  ): Generator<undefined, PlanStroke[]> {
     refuseUnknown(given, KEYS.plan);
     const { best = 5, inHand = "no" } = given;
     const options = this.#withCueBall(table, balls, cues, given);
@@ -624,8 +624,8 @@ export class Plans {
     });
   }
 
-  #readChoice(at: Pointer): Choice {
-    const { kind, ...choice } = readStruct<C.Choice>(this.#memory, at, "carom_choice");
+  #readChoice(at: Pointer): PlanStroke {
+    const { kind, ...choice } = readStruct<C.PlanStroke>(this.#memory, at, "carom_plan_stroke");
     return { ...choice, kind: names.carom_plan_kind[kind]! };
   }
 }

@@ -237,7 +237,7 @@ export interface GameState
   /** Whether the next stroke is the break. Default false. */
   opening: boolean;
   /** What the player may do besides a stroke. Default: nothing. */
-  may?: readonly C.May[];
+  may?: readonly C.Choice[];
   /** Rules of your own; then nothing else but `user` is read. */
   own?: GameRules;
   /** Up to seven words of the state of your own rules, whole numbers, at least 0. */
@@ -384,7 +384,7 @@ export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
 }
 
 /** A stroke, and what is known of it. */
-export interface Choice extends Omit<C.Choice, "kind"> {
+export interface PlanStroke extends Omit<C.PlanStroke, "kind"> {
   /**
    * What happens: "pot" is a direct one; "scan": by several ways; "foul": nothing better was found;
    * "given" was asked for; "push", "pass": as of a call.

@@ -25,9 +25,9 @@ pub use plan::{built_in_rules, rules, spot, strike, words, GameRules, Position, 
 pub use record::Recording;
 pub use sys::words::*;
 pub use sys::{
-    carom_ball_state as BallState, carom_bounds as Bounds, carom_call as Call,
-    carom_choice as Choice, carom_cue as Cue, carom_event as Event, carom_facts as Facts,
-    carom_measures as Measures, carom_plan_options as PlanOptions, carom_plan_rules as Rules,
+    carom_ball_state as BallState, carom_bounds as Bounds, carom_call as Call, carom_cue as Cue,
+    carom_event as Event, carom_facts as Facts, carom_measures as Measures,
+    carom_plan_options as PlanOptions, carom_plan_rules as Rules, carom_plan_stroke as PlanStroke,
     carom_player as Player, carom_pot as Pot, carom_rules_state as RulesState,
     carom_ruling as Ruling, carom_shot_ball as ShotBall, carom_shot_options as Options,
     carom_table as Table, carom_turn as Turn,

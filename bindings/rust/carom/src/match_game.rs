@@ -1,7 +1,7 @@
 //! Matches: one object that knows the rules, and writes its recording.
 use crate::{
-    check, count_of, status_of, sys, text, words, Choice, Cue, Error, Leave, MatchPhase, May,
-    Options, Position, RulesKind, Ruling, Shot, ShotBall, Table,
+    check, count_of, status_of, sys, text, words, Choice, Cue, Error, Leave, MatchPhase, Options,
+    PlanStroke, Position, RulesKind, Ruling, Shot, ShotBall, Table,
 };
 use std::os::raw::c_char;
 
@@ -179,7 +179,7 @@ impl Match {
     }
 
     /// Takes one of the choices, a sum of which is `state().may`.
-    pub fn choose(&mut self, choice: May) -> Result<(), Error> {
+    pub fn choose(&mut self, choice: Choice) -> Result<(), Error> {
         let status =
             unsafe { sys::carom_match_choose(&mut *self.of, self.at_table(), choice.into()) };
         self.told(status)
@@ -251,7 +251,7 @@ impl Match {
 
     /// Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the
     /// stroke as the player makes it.
-    pub fn take(&mut self, best: &Choice, cue: &Cue) -> Result<(), Error> {
+    pub fn take(&mut self, best: &PlanStroke, cue: &Cue) -> Result<(), Error> {
         let player = self.at_table();
         let status = unsafe { sys::carom_match_prepare(&mut *self.of, player, best) };
         self.told(status)?;

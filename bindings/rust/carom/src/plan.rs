@@ -1,8 +1,8 @@
 //! Plans: which stroke to play, by built-in rules or by those of the caller.
 use crate::{
-    check, count_of, sys, text, BallState, Bounds, Call, Choice, Cue, Error, Facts, Leave, Options,
-    PlanOptions, Player, RackKind, Rules, RulesKind, RulesState, Ruling, ShotBall, Status, Table,
-    Turn,
+    check, count_of, sys, text, BallState, Bounds, Call, Cue, Error, Facts, Leave, Options,
+    PlanOptions, PlanStroke, Player, RackKind, Rules, RulesKind, RulesState, Ruling, ShotBall,
+    Status, Table, Turn,
 };
 use std::any::{type_name, TypeId};
 use std::os::raw::{c_char, c_int};
@@ -260,7 +260,7 @@ impl Position {
     }
 
     /// The best strokes, best first, at most `most`; in hand, with the places of the cue ball.
-    pub fn plan(&self, most: usize, in_hand: bool) -> Result<Vec<Choice>, Error> {
+    pub fn plan(&self, most: usize, in_hand: bool) -> Result<Vec<PlanStroke>, Error> {
         let mut all = self.clone().think(0, most, in_hand)?;
         all.go_on()?;
         Ok(all.choices)
@@ -291,8 +291,8 @@ impl Position {
     }
 
     /// The chances of strokes of the caller's, in their order.
-    pub fn chances(&self, cues: &[Cue]) -> Result<Vec<Choice>, Error> {
-        let mut told = vec![Choice::default(); cues.len()];
+    pub fn chances(&self, cues: &[Cue]) -> Result<Vec<PlanStroke>, Error> {
+        let mut told = vec![PlanStroke::default(); cues.len()];
         let bytes = self.with_job(&mut [], |job| unsafe {
             sys::carom_plan_memory(job.options)
         });
@@ -356,7 +356,7 @@ unsafe fn bounds_in_hand(job: &sys::carom_plan_job) -> Bounds {
     let mut bounds = Bounds::default();
     let about = sys::carom_rules_about_of((*job.rules).learned - 1);
     let leave = if about.is_null() {
-        sys::CAROM_LEAVE_HAND
+        sys::CAROM_LEAVE_ANYWHERE
     } else {
         (*about).hand
     };
@@ -371,7 +371,7 @@ pub struct Thinking {
     wanted: Box<PlanOptions>,
     watch: Watch,
     memory: Vec<f64>,
-    choices: Vec<Choice>,
+    choices: Vec<PlanStroke>,
     most: usize,
     in_hand: bool,
     begun: bool,
@@ -389,7 +389,7 @@ impl Thinking {
         }
         let job = self.of.job(&self.wanted, &mut self.memory);
         let mut found = 0;
-        let mut choices = vec![Choice::default(); self.most];
+        let mut choices = vec![PlanStroke::default(); self.most];
         let (to, room) = (choices.as_mut_ptr(), self.most as c_int);
         let status = unsafe {
             if self.begun {
@@ -412,7 +412,7 @@ impl Thinking {
     }
 
     /// The best strokes, best first; empty until the end.
-    pub fn choices(&self) -> &[Choice] {
+    pub fn choices(&self) -> &[PlanStroke] {
         &self.choices
     }
 }

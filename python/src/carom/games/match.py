@@ -242,7 +242,7 @@ class Match:
     @property
     def bounds(self) -> Bounds | None:
         """Where the cue ball in hand may be put, until the stroke."""
-        if self._c.leave < lib.CAROM_LEAVE_HAND:
+        if self._c.leave < lib.CAROM_LEAVE_ANYWHERE:
             return None
         of = self._c.bounds
         return Bounds((*of.low,), (*of.high,), (*of.centre,), of.radius)
@@ -391,7 +391,7 @@ class Match:
 
         `cue` is the stroke as the player makes it; by default that of the choice.
         """
-        choice = pointer("carom_choice *", copied(best))
+        choice = pointer("carom_plan_stroke *", copied(best))
         self._act(lambda: lib.carom_match_prepare(self._c, self.player, choice), "best")
         if best["kind"] != Kind.PASS:
             self.stroke(best["cue"] if cue is None else cue)

@@ -322,7 +322,7 @@ def _corners(in_hand: Hand | npt.ArrayLike, table: Table, radius: float) -> tupl
         leave = choice({word: LEAVES.get(word, 0) for word in get_args(Hand)}, in_hand, "in_hand")
         if leave == 0:
             return None
-        if leave == lib.CAROM_LEAVE_HAND:
+        if leave == lib.CAROM_LEAVE_ANYWHERE:
             return ffi.NULL, ffi.NULL
         bounds = ffi.new("carom_bounds *")
         lib.carom_hand_bounds(leave, pointer("carom_table *", table.record), radius, bounds)
@@ -572,7 +572,7 @@ def plan(
     )
     choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
     found = ffi.new("int *")
-    rows = pointer("carom_choice[]", choices)
+    rows = pointer("carom_plan_stroke[]", choices)
     if _by is not None:
         job.call(_by.call, rows, len(choices), found)
     elif corners is not None:
@@ -651,7 +651,7 @@ def chances(
         lib.carom_plan_try,
         pointer("carom_cue[]", strokes),
         strokes.size,
-        pointer("carom_choice[]", choices),
+        pointer("carom_plan_stroke[]", choices),
         field="cues",
     )
     return choices

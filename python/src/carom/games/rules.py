@@ -293,7 +293,7 @@ def _check_settled(table: Any, balls: Any, count: int, turn: Any) -> None:
     """Refuses balls that settle() laid where none can lie; a cue ball in hand may lie anywhere."""
     where = ffi.new("int *")
     code = lib.carom_shot_check(table, balls, count, ffi.NULL, ffi.NULL, where)
-    in_hand = turn.leave >= lib.CAROM_LEAVE_HAND and where[0] == 0
+    in_hand = turn.leave >= lib.CAROM_LEAVE_ANYWHERE and where[0] == 0
     if code < 0 and not in_hand:
         raise CaromError(code, f"settle: balls[{where[0]}]")
 

@@ -1,6 +1,6 @@
 // The coach at the table: the hint and the chances of the stroke that is aimed, and what a stroke
 // cost once it was played.
-import type { AimOf, Call, Carom, Choice, Cue, PlanOptions, ShotBall, Table } from "carom";
+import type { AimOf, Call, Carom, PlanStroke, Cue, PlanOptions, ShotBall, Table } from "carom";
 import { drop, far } from "../far.js";
 import { onTable } from "../table/filmed.js";
 import { isSafe, percent, wordsOfChances, wordsOfPlan } from "../table/words.js";
@@ -60,11 +60,14 @@ function requestOf(play: Play, level: number): Request {
   };
 }
 
-async function best({ table, balls, options }: Request, more: PlanOptions = {}): Promise<Choice> {
+async function best(
+  { table, balls, options }: Request,
+  more: PlanOptions = {},
+): Promise<PlanStroke> {
   const [choice] = await far("plan", table, balls, { ...options, ...more, best: 1, shots: PLAN });
   return choice!;
 }
-async function chancesOf({ table, balls, options }: Request, cue: Cue): Promise<Choice> {
+async function chancesOf({ table, balls, options }: Request, cue: Cue): Promise<PlanStroke> {
   const struck = { ...options, cue: { ball: cue.ball }, shots: TRY };
   const [choice] = await far("chances", table, balls, [cue], struck);
   return choice!;
@@ -102,7 +105,7 @@ function wordsOfCue({ a, b, speed }: Cue): string {
   const tip = [height, side].filter(Boolean).join(texts.andWord);
   return texts.atMS(speed.toFixed(1), tip && texts.withTip(tip));
 }
-function wordsOfHint(s: Session, choice: Choice): string {
+function wordsOfHint(s: Session, choice: PlanStroke): string {
   const { play, first } = s;
   const stroke = wordsOfPlan(play, choice, first?.ball === -1);
   const cue = choice.kind === "pass" ? "" : wordsOfCue(choice.cue);
@@ -112,7 +115,7 @@ function wordsOfHint(s: Session, choice: Choice): string {
 }
 
 /** Puts the stroke of a hint on the table: the cue ball in hand, the aim and the call. */
-function setHint(s: Session, choice: Choice): void {
+function setHint(s: Session, choice: PlanStroke): void {
   const { play } = s;
   if (play.bounds) play.put(play.cueBall, ...(choice.place as [number, number]));
   play.strike(choice.cue.ball);
@@ -185,7 +188,7 @@ async function chances(s: Session): Promise<void> {
 }
 
 /** What a stroke was meant as: the pot that was called, or what it does most often. */
-function intentionOf(request: Request, choice: Choice, call: Call | undefined): string {
+function intentionOf(request: Request, choice: PlanStroke, call: Call | undefined): string {
   const kind = choice.ball < 0 ? "safety" : choice.kind;
   const meant = isPot(call) ? { ...choice, ...call } : { ...choice, kind };
   return wordsOfPlan(request, meant);

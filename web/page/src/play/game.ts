@@ -12,7 +12,7 @@ import {
   type Game,
   type GameState,
   type Match,
-  type May,
+  type Choice,
   type Ruling,
   type Shot,
   type ShotBall,
@@ -237,7 +237,7 @@ export class Play {
     return this.#match?.bounds;
   }
   /** The choices besides a stroke. */
-  get may(): readonly May[] {
+  get may(): readonly Choice[] {
     return this.#match?.may ?? [];
   }
   /** The points of each. */
@@ -320,7 +320,7 @@ export class Play {
     return this.#ruled(before, true);
   }
   /** Takes a choice instead of a stroke. */
-  choose(what: May): Stroke {
+  choose(what: Choice): Stroke {
     const before = this.#before(this.carom.cue(), what === "pass" ? what : undefined);
     this.#match!.choose(what);
     return this.#ruled(before, false);

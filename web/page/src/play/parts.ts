@@ -1,6 +1,6 @@
 // What a game at the page is played by, and how it stands: the types of the session, which the
 // files of its parts share.
-import type { Call, Carom, Cue, May } from "carom";
+import type { Call, Carom, Cue, Choice } from "carom";
 import type { player as filmPlayer } from "../../../player/player.js";
 import type { filmOf, Quaternion } from "../table/filmed.js";
 import type { Stroke as StrokeValues } from "../table/stroke.js";
@@ -123,7 +123,7 @@ interface Parts {
     HTMLButtonElement
   >;
   /** The choices of the rules besides a stroke. */
-  readonly choices: readonly (readonly [May, HTMLButtonElement])[];
+  readonly choices: readonly (readonly [Choice, HTMLButtonElement])[];
   readonly stroke: Controls;
   readonly film: ReturnType<typeof filmPlayer>;
   readonly space: SpaceView;

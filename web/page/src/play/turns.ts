@@ -1,6 +1,6 @@
 // The turns of a game. Either the person at the page or the page's player plays a stroke. The page
 // then saves the game, shows the film of the stroke, and the next player comes to the table.
-import type { Call, Choice, May } from "carom";
+import type { Call, PlanStroke, Choice } from "carom";
 import { far } from "../far.js";
 import { angleFrom, direction } from "../table/grip.js";
 import { wordsOfPlan } from "../table/words.js";
@@ -58,7 +58,7 @@ export function shoot(s: Session): void {
   }
 }
 /** Takes a choice that the rules offer instead of a stroke, such as to pass. */
-export function choose(s: Session, what: May): void {
+export function choose(s: Session, what: Choice): void {
   if (!free(s)) return says(s, why(s));
   s.searchGeneration++; // a search for a hint ends here
   try {
@@ -174,7 +174,7 @@ export function next(s: Session): void {
 // ---- The page's player --------------------------------------------------------------------------
 
 /** Plans a stroke for the page's player. A worker computes the plan. */
-async function choiceOf(play: Play): Promise<Choice> {
+async function choiceOf(play: Play): Promise<PlanStroke> {
   const { against, own, seed } = play.setup;
   const options = {
     ...wantedOf(play),
@@ -187,12 +187,12 @@ async function choiceOf(play: Play): Promise<Choice> {
   return choice!;
 }
 /** The call of a planned stroke. */
-function callOfChoice({ kind, ball, pocket }: Choice): Call | undefined {
+function callOfChoice({ kind, ball, pocket }: PlanStroke): Call | undefined {
   if (kind === "push") return kind;
   return ball > 0 && pocket >= 0 ? { ball, pocket } : undefined;
 }
 /** Shows for a moment what the page's player will do: the cue ball, the stick, and words. */
-async function announce(s: Session, choice: Choice): Promise<void> {
+async function announce(s: Session, choice: PlanStroke): Promise<void> {
   const { play, seat, film } = s;
   if (play.bounds) play.put(play.cueBall, ...(choice.place as [number, number]));
   play.strike(choice.cue.ball);

@@ -1,6 +1,6 @@
 // The view Play: a game on the table, one bar for all that a stroke needs, and its film where one
 // looks.
-import type { Carom, May } from "carom";
+import type { Carom, Choice } from "carom";
 import { player as filmPlayer } from "../../../player/player.js";
 import { drop } from "../far.js";
 import { button, eachFrame, el, parameters, wrong } from "../ui.js";
@@ -83,7 +83,7 @@ function buttonsOf(session: () => Session): Session["buttons"] {
   };
 }
 
-const CHOICES: readonly (readonly [May, string])[] = [
+const CHOICES: readonly (readonly [Choice, string])[] = [
   ["pass", texts.pass],
   ["place", texts.takeTheCueBall],
   ["stay", texts.leaveTheCueBall],

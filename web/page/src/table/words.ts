@@ -1,5 +1,5 @@
 // Plans in words: what a choice is, and chances.
-import type { Choice, Table } from "carom";
+import type { PlanStroke, Table } from "carom";
 import { pocketName } from "../../../player/words.js";
 import { texts, told } from "../texts/texts.js";
 
@@ -7,7 +7,7 @@ import { texts, told } from "../texts/texts.js";
 export const RATINGS = ["200", "300", "400", "500", "600", "700", "800"];
 export const percent = (x: number): string => `${(100 * x).toFixed(0)} %`;
 
-const BY: Partial<Record<Choice["kind"], string>> = {
+const BY: Partial<Record<PlanStroke["kind"], string>> = {
   bank: texts.byABank,
   kick: texts.byAKick,
   combination: texts.byACombination,
@@ -15,7 +15,7 @@ const BY: Partial<Record<Choice["kind"], string>> = {
   kiss: texts.byAKiss,
 };
 /** Choices in which no ball is named. */
-const WITHOUT: Partial<Record<Choice["kind"], string>> = {
+const WITHOUT: Partial<Record<PlanStroke["kind"], string>> = {
   foul: texts.aFoulBecauseNo,
   break: texts.aBreak,
   push: texts.aPushOut,
@@ -28,7 +28,7 @@ const WITHOUT: Partial<Record<Choice["kind"], string>> = {
  * to win is not known.
  */
 export function wordsOfChances(
-  { keep, value, foul }: Pick<Choice, "keep" | "value" | "foul">,
+  { keep, value, foul }: Pick<PlanStroke, "keep" | "value" | "foul">,
   alone: boolean,
 ): string {
   return alone
@@ -36,13 +36,13 @@ export function wordsOfChances(
     : texts.chancesOf(percent(keep), percent(value), percent(foul));
 }
 
-export const isSafe = ({ kind, ball, keep }: Choice): boolean =>
+export const isSafe = ({ kind, ball, keep }: PlanStroke): boolean =>
   ball < 0 && (kind === "safety" || keep < 0.005);
 /** A pot in words: "ball 7 into the side-left pocket". */
 export function wordsOfPot(
   table: Table,
   names: readonly string[],
-  { ball, pocket }: Pick<Choice, "ball" | "pocket">,
+  { ball, pocket }: Pick<PlanStroke, "ball" | "pocket">,
   how = "",
 ): string {
   const name = names[ball]!;
@@ -59,7 +59,7 @@ interface WhatMayBeStruck {
 /** What a choice is, with the ball that it strikes where the player has chosen it. */
 export function wordsOfPlan(
   { table, names, strikable }: WhatMayBeStruck,
-  choice: Choice,
+  choice: PlanStroke,
   cushionFirst = false,
 ): string {
   const words = wordsOfChoice(table, names, choice, cushionFirst);
@@ -75,7 +75,7 @@ export function ballOf(names: readonly string[], ball: number): string {
 export function wordsOfChoice(
   table: Table,
   names: readonly string[],
-  choice: Choice,
+  choice: PlanStroke,
   cushionFirst = false,
 ): string {
   const { kind, ball } = choice;
