@@ -25,6 +25,7 @@ HEADERS = (
     "carom_record.h",
     "carom_plan.h",
     "carom_match.h",
+    "carom_coach.h",
 )
 SIZES = {
     "double": 8,
@@ -61,6 +62,9 @@ READ_AND_WRITTEN = {
     ("carom_turn_settle", "balls"),
     ("carom_turn_settle", "state"),
     ("carom_turn_settle", "turn"),
+    ("carom_plan_replay", "choices"),
+    ("carom_way_chance", "way"),
+    ("carom_break_play", "counts"),
 }
 # Objects that functions change, as carom_match_place() changes a match.
 OBJECTS = ("match", "record")

@@ -19,7 +19,7 @@
 enum { MOST_STROKES = 64, BLOCK = 64, DRAWN = 40 };
 
 typedef struct break_job {
-  shoot_flags from;
+  shoot_flags flags;
   const char *plot;
   int racks;
   bool csv, falls, nine_on_spot;
@@ -29,7 +29,7 @@ static const option_row option_rules = {.name = "rules",
                                         .help = "the rack, on the table of its game",
                                         .else_usual = "eightball",
                                         .set = set_named,
-                                        .field = offsetof(break_job, from.balls.rack),
+                                        .field = offsetof(break_job, flags.balls.rack),
                                         .least = CAROM_WORDS_RACK};
 
 /* --rack nineball is short for --racks. */
@@ -56,54 +56,7 @@ OPTION(break_job, option_break_plot, "plot", plot, 0, "OUT", set_picture, 0,
        "draw the break without errors, forty breaks with errors as thin lines, and the results of "
        "all breaks");
 
-/* What came of the breaks of one stroke and gap: how many, and sums over the cue balls that stayed
- * on the table. */
-typedef struct counts {
-  int breaks, makes, plays_on, fouls, scratch, off, wing, balls, stay;
-  int fell[CAROM_BALLS_MOST][CAROM_POCKETS_MOST];
-  double x, y, squares;
-} counts;
-
-/* The balls that lie farthest to either side of the rack, as a set. */
-static uint32_t wings_of(const carom_table *t, const carom_shot_ball *ball, int count) {
-  double most = 0.0;
-  uint32_t wings = 0;
-  for (int k = 1; k < count; k++)
-    most = fmax(most, fabs(ball[k].state.r[0] - 0.5 * t->width));
-  for (int k = 1; k < count; k++)
-    if (fabs(ball[k].state.r[0] - 0.5 * t->width) > most - 0.5 * ball[k].kind.radius)
-      wings |= (uint32_t)1 << k;
-  return wings;
-}
-
-/* The game of a rack, the first of those that have it; false where carom has none. */
-static bool game_of(carom_rack_kind rack, carom_rules_kind *kind) {
-  const carom_rules_about *about;
-  if (rack == CAROM_RACK_NINEONSPOT)
-    rack = CAROM_RACK_NINEBALL;
-  for (int k = 0; (about = carom_rules_about_of((carom_rules_kind)k)) != NULL; k++)
-    if (about->rack == (int32_t)rack) {
-      *kind = (carom_rules_kind)k;
-      return true;
-    }
-  return false;
-}
-
-/* The rules of a rack's game, at a break; false where carom has none. */
-static bool rules_of(carom_rack_kind rack, carom_plan_rules *rules) {
-  carom_rules_kind kind;
-  if (!game_of(rack, &kind))
-    return false;
-  *rules = carom_plan_rules_of(kind);
-  rules->state.opening = 1;
-  return rules->breaks == 1;
-}
-
-/* The direction from the cue ball to the ball in front, degrees. */
-static double direction_of_front(const carom_shot_ball *ball, int count) {
-  const double *from = ball[0].state.r, *to = ball[ball_in_front(ball, count)].state.r;
-  return atan2(to[1] - from[1], to[0] - from[0]) / degree;
-}
+typedef carom_break_counts counts;
 
 typedef struct breaker {
   const break_job *job;
@@ -114,103 +67,47 @@ typedef struct breaker {
   bool cut;   /* or --cut; else the middle of the ball in front */
 } breaker;
 
-/* Rack number k and its stroke; number -1 is the first one without errors. */
-static void set_up(const breaker *b, const shot_line *line, double gap, int number,
-                   carom_shot_ball *ball, carom_cue *cue) {
-  const int seed = (int)b->job->from.seed.item[0].x;
-  const int k = number < 0 ? 0 : number;
-  carom_rack(b->rack, &line->table->table, gap, (uint64_t)(seed + k), ball, CAROM_BALLS_MOST);
-  for (int n = 0; n < line->count; n++)
-    ball[n].kind = line->ball[n].kind;
-  ball[0].state = line->ball[0].state;
-  *cue = line->cue;
-
-  /* A cut is that in the line's own rack; others have the cue as far beside the ball in front. */
-  if (!b->aimed)
-    cue->phi = direction_of_front(ball, line->count);
+/* The library's job for a stroke and a gap; its memory is to be freed. */
+static carom_break_job job_of(const breaker *b, const shot_line *line, double gap) {
+  carom_break_job job = {.table = &line->table->table,
+                         .balls = line->ball,
+                         .count = line->count,
+                         .cue = &line->cue,
+                         .player = &b->player,
+                         .shot = &b->options,
+                         .rack = (int32_t)b->rack,
+                         .gap = gap,
+                         .seed = (uint64_t)b->job->flags.seed.item[0].x,
+                         .memory_size = carom_break_memory()};
   if (b->cut)
-    cue->phi += line->cue.phi - direction_of_front(line->ball, line->count);
-  if (number >= 0)
-    carom_player_strike(&b->player, (uint64_t)seed, (uint64_t)k, cue);
-}
-
-static void count_break(const breaker *b, const carom_facts *f, const carom_ball_state *final,
-                        uint32_t wings, counts *c) {
-  int potted = 0;
-  for (int k = 0; f->down >> k != 0; k++)
-    if ((f->down >> k & 1) != 0) {
-      potted += k > 0;
-      c->fell[k][f->pocket[k]]++;
-    }
-  c->breaks++;
-  c->balls += potted;
-  c->makes += potted > 0;
-  c->scratch += (carom_stroke_marks(f, 0) & CAROM_MARK_SCRATCH) != 0;
-  c->off += f->off != 0;
-  c->wing += (f->down & wings) != 0;
-  carom_plan_rules rules;
-  if (rules_of(b->rack, &rules)) {
-    const uint32_t in_play = ((uint32_t)1 << carom_rack_size(b->rack)) - 1;
-    const carom_turn turn = rules.judge(&rules.state, in_play, 0, f, (carom_call){-1, -1});
-    c->plays_on += turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN;
-    c->fouls += turn.foul != 0;
-  }
-  if (((f->down | f->off) & 1) == 0) {
-    c->stay++;
-    c->x += final[0].r[0];
-    c->y += final[0].r[1];
-    c->squares += final[0].r[0] * final[0].r[0] + final[0].r[1] * final[0].r[1];
-  }
+    job.aim = CAROM_BREAK_CUT;
+  else if (b->aimed)
+    job.aim = CAROM_BREAK_DIRECTION;
+  job.memory = allocate(1, job.memory_size);
+  return job;
 }
 
 /* Plays the breaks of one stroke and gap; false after a complaint. */
 static bool play(const breaker *b, const shot_line *line, double gap, counts *c) {
-  static carom_shot_ball ball[BLOCK][CAROM_BALLS_MOST];
-  static carom_cue cue[BLOCK];
-  static carom_shot shot[BLOCK];
-  static carom_facts facts[BLOCK];
-  static carom_ball_state final[BLOCK][CAROM_BALLS_MOST];
+  const carom_break_job job = job_of(b, line, gap);
+  carom_status status = CAROM_OK;
   *c = (counts){0};
-  for (int from = 0; from < b->job->racks; from += BLOCK) {
-    int n = b->job->racks - from;
+  for (int first = 0; first < b->job->racks && status >= 0; first += BLOCK) {
+    int n = b->job->racks - first;
     if (n > BLOCK)
       n = BLOCK;
-    for (int k = 0; k < n; k++) {
-      set_up(b, line, gap, from + k, ball[k], &cue[k]);
-      shot[k] = (carom_shot){.facts = &facts[k], .final = final[k]};
-    }
-    const carom_shot_job job = {.table = &line->table->table,
-                                .balls = ball[0],
-                                .cues = cue,
-                                .count = line->count,
-                                .ball_stride = CAROM_BALLS_MOST,
-                                .cue_stride = 1,
-                                .n = (uint64_t)n,
-                                .options = &b->options,
-                                .shots = shot};
-    const carom_status status = carom_shoot_batch(&job);
-    if (status < 0) {
-      progress_clear();
-      complain("the break cannot be played: %s", carom_status_string(status));
-      return false;
-    }
-    for (int k = 0; k < n; k++) /* the seed draws which balls lie there */
-      count_break(b, &facts[k], final[k], wings_of(&line->table->table, ball[k], line->count), c);
-    progress_show("racks", from + n, b->job->racks);
+    status = carom_break_play(&job, first, n, c);
+    progress_show("racks", first + n, b->job->racks);
   }
   progress_clear();
-  return true;
+  free(job.memory);
+  if (status < 0)
+    complain("the break cannot be played: %s", carom_status_string(status));
+  return status >= 0;
 }
 
-static double share(int times, const counts *c) {
-  return (double)times / c->breaks;
-}
-
-/* How far cue balls end from their mean place, m, a standard deviation; NAN where none stays. */
-static double around(const counts *c, double *x, double *y) {
-  *x = c->x / c->stay;
-  *y = c->y / c->stay;
-  return c->stay > 0 ? sqrt(fmax(c->squares / c->stay - *x * *x - *y * *y, 0.0)) : NAN;
+static double share(int64_t times, const counts *c) {
+  return (double)times / (double)c->breaks;
 }
 
 /* The balls that fell in rows, pockets in columns: in how many of the breaks. */
@@ -221,15 +118,15 @@ static void tell_falls(FILE *out, const shot_line *line, const counts *c) {
     fprintf(out, "%12s", carom_pocket_name(t, p));
   fprintf(out, "%12s\n", "any");
   for (int k = 0; k < line->count; k++) {
-    int all = 0;
+    int64_t total = 0;
     for (int p = 0; p < t->pockets; p++)
-      all += c->fell[k][p];
-    if (all == 0)
+      total += c->fell[k][p];
+    if (total == 0)
       continue;
     fprintf(out, "  %-10s", line->name[k]);
     for (int p = 0; p < t->pockets; p++)
       fprintf(out, "%12.1f", 100.0 * share(c->fell[k][p], c));
-    fprintf(out, "%12.1f\n", 100.0 * share(all, c));
+    fprintf(out, "%12.1f\n", 100.0 * share(total, c));
   }
 }
 
@@ -237,49 +134,49 @@ static void tell_falls(FILE *out, const shot_line *line, const counts *c) {
 static void tell_most_falls(FILE *out, const shot_line *line, const counts *c) {
   enum { TOLD = 3 };
   const carom_table *t = &line->table->table;
-  bool told[CAROM_BALLS_MOST][CAROM_POCKETS_MOST] = {{false}};
+  bool is_listed[CAROM_BALLS_MOST][CAROM_POCKETS_MOST] = {{false}};
   for (int n = 0; n < TOLD; n++) {
-    int ball = 0, pocket = 0, most = 0;
+    int ball = 0, pocket = 0;
+    int64_t most = 0;
     for (int k = 0; k < line->count; k++)
       for (int p = 0; p < t->pockets; p++)
-        if (!told[k][p] && c->fell[k][p] > most) {
+        if (!is_listed[k][p] && c->fell[k][p] > most) {
           most = c->fell[k][p];
           ball = k;
           pocket = p;
         }
     if (most == 0)
       break;
-    told[ball][pocket] = true;
+    is_listed[ball][pocket] = true;
     fprintf(out, "%s%s into %s in %.1f %%", n == 0 ? "  most often    " : ", ", line->name[ball],
             carom_pocket_name(t, pocket), 100.0 * share(most, c));
   }
-  if (c->balls + c->scratch > 0)
+  if (c->balls + c->scratches > 0)
     fputs("; --falls lists all\n", out);
 }
 
 static void tell(FILE *out, const breaker *b, const shot_line *line, double gap, const counts *c) {
-  carom_plan_rules rules;
-  double x, y;
-  const double far = around(c, &x, &y), p = share(c->makes, c);
+  double r[2];
+  const double far = carom_break_spread(c, r), p = share(c->makes, c);
   fprintf(out, "%s on the %s table, cue at %.3g m/s, ", carom_rack_name(b->rack), line->table->id,
           line->cue.speed);
   if (b->aimed || b->cut)
     fprintf(out, "aim %.2f degrees, ", line->cue.phi);
   if (line->cue.theta != 0.0)
     fprintf(out, "elevation %.3g degrees, ", line->cue.theta);
-  fprintf(out, "tip %.2f right and %.2f above, gap %.3g mm: %d breaks\n", 0.0 - line->cue.a,
-          line->cue.b, 1e3 * gap, c->breaks);
+  fprintf(out, "tip %.2f right and %.2f above, gap %.3g mm: %lld breaks\n", 0.0 - line->cue.a,
+          line->cue.b, 1e3 * gap, (long long)c->breaks);
   fprintf(out, "  make a ball   %5.1f %% (error %.1f); %.2f balls a break\n", 100.0 * p,
-          100.0 * sqrt(p * (1.0 - p) / c->breaks), (double)c->balls / c->breaks);
-  if (rules_of(b->rack, &rules))
+          100.0 * sqrt(p * (1.0 - p) / (double)c->breaks), share(c->balls, c));
+  if (carom_break_has_rules(b->rack))
     fprintf(out, "  play on       %5.1f %% by the rules; fouls %.1f %%\n",
             100.0 * share(c->plays_on, c), 100.0 * share(c->fouls, c));
   fprintf(out, "  cue ball      falls in %.1f %%; a ball leaves the table in %.1f %%\n",
-          100.0 * share(c->scratch, c), 100.0 * share(c->off, c));
+          100.0 * share(c->scratches, c), 100.0 * share(c->off, c));
   fprintf(out, "  wing balls    one falls in %.1f %%\n", 100.0 * share(c->wing, c));
-  if (c->stay > 0)
-    fprintf(out, "  cue ball      rests about x = %.2f, y = %.2f m, give or take %.2f m\n", x, y,
-            far);
+  if (c->stays > 0)
+    fprintf(out, "  cue ball      rests about x = %.2f, y = %.2f m, give or take %.2f m\n", r[0],
+            r[1], far);
   if (b->job->falls)
     tell_falls(out, line, c);
   else
@@ -300,7 +197,7 @@ static void write_falls(FILE *out, const breaker *b, const shot_line *line, doub
   for (int k = 0; k < line->count; k++)
     for (int p = 0; p < line->table->table.pockets; p++) {
       begin_row(out, b, line, gap);
-      fprintf(out, "%d,%s,%s,%.6f\n", c->breaks, line->name[k],
+      fprintf(out, "%lld,%s,%s,%.6f\n", (long long)c->breaks, line->name[k],
               carom_pocket_name(&line->table->table, p), share(c->fell[k][p], c));
     }
 }
@@ -311,18 +208,17 @@ static void write_row(FILE *out, const breaker *b, const shot_line *line, double
     write_falls(out, b, line, gap, c);
     return;
   }
-  double x, y;
-  const double far = around(c, &x, &y), p = share(c->makes, c);
-  carom_plan_rules rules;
+  double r[2];
+  const double far = carom_break_spread(c, r), p = share(c->makes, c);
   begin_row(out, b, line, gap);
-  fprintf(out, "%d,%.6f,%.6f,%.6f,", c->breaks, p, sqrt(p * (1.0 - p) / c->breaks),
-          (double)c->balls / c->breaks);
-  if (rules_of(b->rack, &rules))
+  fprintf(out, "%lld,%.6f,%.6f,%.6f,", (long long)c->breaks, p,
+          sqrt(p * (1.0 - p) / (double)c->breaks), share(c->balls, c));
+  if (carom_break_has_rules(b->rack))
     fprintf(out, "%.6f,%.6f,", share(c->plays_on, c), share(c->fouls, c));
   else
     fputs(",,", out);
-  fprintf(out, "%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n", share(c->scratch, c), share(c->off, c),
-          share(c->wing, c), x, y, far);
+  fprintf(out, "%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n", share(c->scratches, c), share(c->off, c),
+          share(c->wing, c), r[0], r[1], far);
 }
 
 typedef struct drawn_break {
@@ -339,18 +235,20 @@ static void draw(FILE *out, const void *data) {
 static bool plot(const breaker *b, const shot_line *line, double gap, const char *words) {
   static carom_ball_state final[DRAWN + 1][CAROM_BALLS_MOST];
   static shot_line each;
+  const carom_break_job job = job_of(b, line, gap);
   carom_shot shot[DRAWN + 1] = {0};
   const int drawn = b->job->racks < DRAWN ? b->job->racks : DRAWN;
   for (int k = drawn; k >= 0; k--) { /* the one without errors comes last, and stays in `each` */
     each = *line;
-    set_up(b, line, gap, k - 1, each.ball, &each.cue);
+    carom_break_stroke(&job, k - 1, each.ball, &each.cue);
     shot[k].final = final[k];
     shot_line_play(&each, &b->options, &shot[k]);
   }
-  const drawn_break all = {{&each, &shot[0], NULL, &shot[1], drawn}, words};
-  const bool good = svg_draw(b->job->plot, draw, &all);
+  const drawn_break drawing = {{&each, &shot[0], NULL, &shot[1], drawn}, words};
+  const bool good = svg_draw(b->job->plot, draw, &drawing);
   for (int k = 0; k <= drawn; k++)
     free(shot[k].events);
+  free(job.memory);
   return good;
 }
 
@@ -428,9 +326,9 @@ static bool tell_all(breaker *b, const shot_line *first, const carom_cue *stroke
         tell(out, b, &line, gap, &c);
       if (*words == NULL) {
         size_t size;
-        FILE *said = open_text(words, &size);
-        tell(said, b, &line, gap, &c);
-        close_text(said, words);
+        FILE *stream = open_text(words, &size);
+        tell(stream, b, &line, gap, &c);
+        close_text(stream, words);
       }
     }
   return true;
@@ -454,7 +352,7 @@ static bool take_gaps(shoot_flags *f, values *gaps) {
 static int run(breaker *b, const shot_line *line, const carom_cue *stroke, int strokes,
                const values *gaps) {
   const break_job *job = b->job;
-  FILE *out = output_open(job->from.shared.output);
+  FILE *out = output_open(job->flags.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
   char *words = NULL;
@@ -475,11 +373,11 @@ int command_break(int argc, char **argv) {
   static shot_line line;
   static values gaps;
   job = (break_job){
-      .from = {.shared = {.options = COMMAND_OPTIONS}, .balls = {.rack = CAROM_RACK_EIGHTBALL}}};
+      .flags = {.shared = {.options = COMMAND_OPTIONS}, .balls = {.rack = CAROM_RACK_EIGHTBALL}}};
   const int parsed = parse_arguments(&form, argc, argv, &job, NULL);
   if (parsed >= 0)
     return parsed;
-  shoot_flags *f = &job.from;
+  shoot_flags *f = &job.flags;
   breaker b = {.job = &job,
                .options = f->shared.shot,
                .rack = (carom_rack_kind)f->balls.rack,

@@ -17,7 +17,7 @@
 #include "shots/shot_story.h"
 #include "subcommands.h"
 
-#include "carom_match.h"
+#include "carom_coach.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,7 +26,7 @@
 enum { BEST = 5, TRIED_MOST = 1000 };
 
 typedef struct plan_job {
-  shoot_flags from;        /* --threads, --output; and a layout from words */
+  shoot_flags flags;       /* --threads, --output; and a layout from words */
   carom_plan_options plan; /* --shots, --seed */
   plan_game game;
   bool hand, csv, tries, value, why, run_out;
@@ -87,7 +87,7 @@ static const char *words_without_ball(const shot_line *line, const carom_plan_st
   static const double often = 0.15; /* fouls of a stroke that is no safe one */
   if (line->table->table.pockets == 0)
     return "no point";
-  if (c->keep >= PLAN_LUCK)
+  if (c->keep >= 0.1) /* below it balls fall by luck, as for carom_names_ball() */
     return "no sure pot: which ball falls is luck";
   if (c->foul >= often)
     return "a risky safety: it often fouls";
@@ -105,23 +105,23 @@ static void kind_words(const carom_plan_stroke *c, char text[40]) {
 
 /* What a choice does, by the names of the file. */
 static void describe(const shot_line *line, const carom_plan_stroke *c, char text[200]) {
-  char pocket[WHERE_TEXT], ball[BALL_TEXT], by[40];
+  char pocket[WHERE_TEXT], ball[BALL_TEXT], way_words[40];
   if (c->kind == CAROM_PLAN_FOUL)
     snprintf(text, 200, "no shot without a foul was found");
   else if (c->kind == CAROM_PLAN_PASS)
     snprintf(text, 200, "pass: the other plays");
   else if (c->kind == CAROM_PLAN_PUSH || c->kind == CAROM_PLAN_BREAK)
     snprintf(text, 200, "a %s", carom_plan_kind_name((carom_plan_kind)c->kind));
-  else if (!plan_names_ball(c))
+  else if (!carom_names_ball(c))
     snprintf(text, 200, "%s", words_without_ball(line, c));
   else if (line->table->table.pockets == 0)
     snprintf(text, 200,
              c->kind == CAROM_PLAN_KICK ? "a point, off a cushion, %s first" : "a point, %s first",
              named_ball(line->name[c->ball], ball));
   else {
-    kind_words(c, by);
+    kind_words(c, way_words);
     snprintf(text, 200, "%s into %s%s", named_ball(line->name[c->ball], ball),
-             pocket_words(line->table, c->pocket, pocket), by);
+             pocket_words(line->table, c->pocket, pocket), way_words);
   }
 }
 
@@ -137,8 +137,8 @@ static const char *value_words(const plan_job *job) {
   return is_carom(job) ? "scores" : "wins";
 }
 
-static void tell(FILE *out, const plan_job *job, const carom_plan_job *asked, const shot_line *line,
-                 const carom_plan_stroke *choices, int n) {
+static void tell(FILE *out, const plan_job *job, const carom_plan_job *request,
+                 const shot_line *line, const carom_plan_stroke *choices, int n) {
   for (int k = 0; k < n; k++) {
     const carom_plan_stroke *c = &choices[k];
     char text[200];
@@ -156,27 +156,7 @@ static void tell(FILE *out, const plan_job *job, const carom_plan_job *asked, co
             value_words(job), 100.0 * c->value, 100.0 * c->error, 100.0 * c->keep, 100.0 * c->foul,
             (long long)c->seen);
     if (job->why)
-      plan_tell_why(out, asked, line, c);
-  }
-}
-
-/* Plays all choices as often once more, and sorts them by that: the chances of those that a plan
- * gave few strokes are those of their luck. */
-static void play_again(const carom_plan_job *asked, carom_plan_stroke *choices, int n) {
-  carom_shot_ball balls[CAROM_BALLS_MOST];
-  memcpy(balls, asked->balls, (size_t)asked->count * sizeof *balls);
-  carom_plan_job job = *asked;
-  job.balls = balls;
-  for (int k = 0; k < n; k++) {
-    carom_plan_stroke c = choices[k];
-    carom_place_ball(asked->table, balls, (int)asked->count, (int)asked->cue->ball, c.place[0],
-                     c.place[1], NULL);
-    if (c.kind != CAROM_PLAN_PASS)
-      plan_play_again(&job, &c);
-    int at = k;
-    for (; at > 0 && choices[at - 1].value < c.value; at--)
-      choices[at] = choices[at - 1];
-    choices[at] = c;
+      plan_tell_why(out, request, line, c);
   }
 }
 
@@ -197,7 +177,7 @@ static void write_rows(FILE *out, const shot_line *line, const carom_plan_stroke
 /* Whether the options go together; complains where they do not. */
 static bool are_together(const plan_job *job) {
   carom_player player;
-  if (!player_of(&job->from.shared.player, &player))
+  if (!player_of(&job->flags.shared.player, &player))
     return false;
   if (!plan_game_fits(&job->game))
     return false;
@@ -217,9 +197,9 @@ static bool are_together(const plan_job *job) {
 }
 
 /* The chance of a layout, as words or a row. */
-static carom_status tell_value(const plan_job *job, const carom_plan_job *asked, FILE *out) {
+static carom_status tell_value(const plan_job *job, const carom_plan_job *request, FILE *out) {
   double chance;
-  const carom_status status = carom_plan_value(asked, job->hand, &chance);
+  const carom_status status = carom_plan_value(request, job->hand, &chance);
   if (status == CAROM_OK && job->csv)
     fprintf(out, "value\n%.6f\n", chance);
   else if (status == CAROM_OK)
@@ -262,20 +242,20 @@ static void put_cue_ball_first(shot_line *line) {
 
 /* Asks the library for the estimate, the chances of the strokes that were given, or the best
  * shots: n of them. */
-static carom_status ask(const plan_job *job, const carom_plan_job *asked, const carom_cue *strokes,
-                        int tried, carom_plan_stroke *choices, int *n, FILE *out) {
+static carom_status ask(const plan_job *job, const carom_plan_job *request,
+                        const carom_cue *strokes, int tried, carom_plan_stroke *choices, int *n,
+                        FILE *out) {
   *n = tried;
   if (job->value)
-    return tell_value(job, asked, out);
+    return tell_value(job, request, out);
   if (tried > 0)
-    return carom_plan_try(asked, strokes, tried, choices);
+    return carom_plan_try(request, strokes, tried, choices);
   if (!job->hand)
-    return carom_plan(asked, choices, BEST, n);
+    return carom_plan(request, choices, BEST, n);
   const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)job->game.rules);
-  const int leave = job->game.opening ? about->opening : about->hand;
-  carom_bounds bounds;
-  carom_hand_bounds((carom_leave)leave, asked->table, asked->balls[0].kind.radius, &bounds);
-  return carom_plan_hand(asked, bounds.low, bounds.high, choices, BEST, n);
+  carom_plan_job placed = *request;
+  placed.leave = job->game.opening ? about->opening : about->hand;
+  return carom_plan_hand(&placed, NULL, NULL, choices, BEST, n);
 }
 
 /* Of a layout without an eight there is no eight-ball: where no game was asked for, all balls
@@ -298,33 +278,33 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     return EXIT_USAGE;
   if (line->cue.ball != 0)
     put_cue_ball_first(line);
-  player_of(&job->from.shared.player, &p->player);
+  player_of(&job->flags.shared.player, &p->player);
   plan_game_state(&job->game, line, &p->rules);
 
   carom_plan_options options = job->plan;
-  options.threads = job->from.shared.options.threads;
+  options.threads = job->flags.shared.options.threads;
   options.chance_opponent = job->run_out ? 1.0 : 0.0;
-  carom_plan_job asked = {.table = &line->table->table,
-                          .balls = line->ball,
-                          .count = line->count,
-                          .cue = &line->cue,
-                          .player = &p->player,
-                          .rules = &p->rules,
-                          .shot = &job->from.shared.shot,
-                          .options = &options,
-                          .memory_size = carom_plan_memory(&options)};
-  asked.memory = allocate(1, asked.memory_size);
+  carom_plan_job request = {.table = &line->table->table,
+                            .balls = line->ball,
+                            .count = line->count,
+                            .cue = &line->cue,
+                            .player = &p->player,
+                            .rules = &p->rules,
+                            .shot = &job->flags.shared.shot,
+                            .options = &options,
+                            .memory_size = carom_plan_memory(&options)};
+  request.memory = allocate(1, request.memory_size);
   static carom_plan_stroke choices[TRIED_MOST];
   int n;
-  const carom_status status = ask(job, &asked, strokes, tried, choices, &n, out);
+  const carom_status status = ask(job, &request, strokes, tried, choices, &n, out);
   char fault[FAULT_TEXT];
-  if (status != CAROM_OK && shot_fault(line, &job->from.shared.shot, fault)) {
-    free(asked.memory);
+  if (status != CAROM_OK && shot_fault(line, &job->flags.shared.shot, fault)) {
+    free(request.memory);
     complain("%s:%zu: %s", file, line->number, fault);
     return EXIT_USAGE;
   }
   if (status != CAROM_OK) {
-    free(asked.memory);
+    free(request.memory);
     const char *advice = "; a ball that is not given counts as potted: add it, such as 8=2d,6d, or "
                          "give --rules potting, in which all balls count";
     complain("%s:%zu: by --rules %s: %s%s", file, line->number,
@@ -334,12 +314,12 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   }
 
   if (job->why && tried == 0)
-    play_again(&asked, choices, n);
+    carom_plan_replay(&request, choices, n);
   if (job->csv && !job->value)
     write_rows(out, line, choices, n);
   else
-    tell(out, job, &asked, line, choices, n);
-  free(asked.memory);
+    tell(out, job, &request, line, choices, n);
+  free(request.memory);
   p->best = choices[0];
   for (int k = 1; k < n; k++)
     if (choices[k].value > p->best.value)
@@ -402,7 +382,7 @@ static const command_form form = {
 int command_plan(int argc, char **argv) {
   static plan_job job;
   const char *path;
-  job = (plan_job){.from = {.shared = {.options = COMMAND_OPTIONS}},
+  job = (plan_job){.flags = {.shared = {.options = COMMAND_OPTIONS}},
                    .game = {.rules = NOT_GIVEN, .pocket = NOT_GIVEN}};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
@@ -410,11 +390,11 @@ int command_plan(int argc, char **argv) {
   const bool any_rules = job.game.rules == NOT_GIVEN;
   if (any_rules)
     job.game.rules = CAROM_RULES_EIGHTBALL;
-  else if (path == NULL && job.from.table.kind == 0)
-    job.from.table.kind = 1 + (int)carom_rules_about_of((carom_rules_kind)job.game.rules)->table;
+  else if (path == NULL && job.flags.table.kind == 0)
+    job.flags.table.kind = 1 + (int)carom_rules_about_of((carom_rules_kind)job.game.rules)->table;
   if (!are_together(&job) || !svg_possible(job.plot))
     return EXIT_USAGE;
-  shot_file *file = layout_open(&job.from, path, &job.from.shared.shot, 1);
+  shot_file *file = layout_open(&job.flags, path, &job.flags.shared.shot, 1);
   if (file == NULL)
     return EXIT_USAGE;
   static shot_line line;
@@ -422,12 +402,12 @@ int command_plan(int argc, char **argv) {
   int code = EXIT_USAGE;
   static carom_cue strokes[TRIED_MOST];
   const int strokes_of_file =
-      strokes_read(file, &job.from.shared, &line, strokes, job.tries ? TRIED_MOST : 1);
+      strokes_read(file, &job.flags.shared, &line, strokes, job.tries ? TRIED_MOST : 1);
   if (strokes_of_file > 0) {
     if (any_rules)
       choose_rules(&job, &line);
     const int tried = job.tries ? strokes_of_file : 0;
-    FILE *out = output_open(job.from.shared.output);
+    FILE *out = output_open(job.flags.shared.output);
     if (out != NULL) {
       code = plan(&job, &line, shot_file_name(file), out, strokes, tried, &result);
       if (code == EXIT_USAGE)

@@ -449,12 +449,12 @@ static bool go_together(const shoot_job *job, bool words, const char *path) {
 /* Chooses the stroke of --leave; false after a complaint. */
 static bool chooses(shoot_job *job, const carom_shot_options *options) {
   const given_player *player = &job->flags.shared.player;
-  if (!job->leave.given && (player->rated || player->errs))
+  if (!job->leave.is_set && (player->rated || player->errs))
     complain("--player and --errors belong to --leave; `carom ways` reports how often a player "
              "pots a ball, and --spread what errors make of a shot");
-  else if (job->leave.given && !job->together)
+  else if (job->leave.is_set && !job->together)
     complain("--leave is of a shot by options: --cue, --balls and the like");
-  else if (!job->leave.given)
+  else if (!job->leave.is_set)
     return true;
   else
     return leave_choose(&job->leave, &job->flags, options, job->left);

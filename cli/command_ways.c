@@ -26,7 +26,7 @@ enum { MOST_STROKES = 320, MOST_DRAWN = 8 };
 enum { SCANNED = 20000, SCANNED_EACH = 1800, SCANNED_TO_SCORE = 100000 };
 
 typedef struct ways_job {
-  shoot_flags from;
+  shoot_flags flags;
   leave leave;
   const char *ball, *pocket, *plot;
   int rails, scanned;
@@ -103,9 +103,9 @@ static const char *cut_text(const way *w, char text[CUT_TEXT]) {
 static json_t *way_line(const ways_search *s, const way *w) {
   char text[WAY_TEXT], parts[PARTS_TEXT];
   json_t *cue = json_object();
-  const json_t *given = json_object_get(s->line->json, "cue");
-  if (given != NULL)
-    json_object_update(cue, (json_t *)given);
+  const json_t *line_cue = json_object_get(s->line->json, "cue");
+  if (line_cue != NULL)
+    json_object_update(cue, (json_t *)line_cue);
   const carom_number *n;
   for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
     double x = 0.0;
@@ -115,42 +115,35 @@ static json_t *way_line(const ways_search *s, const way *w) {
       json_object_set_new(cue, n->key, json_real(x + 0.0));
   }
   json_t *balls = json_deep_copy(json_object_get(s->line->json, "balls"));
-  json_t *to = shot_json(json_string(way_text(s, w, text)), NULL, s->line->table->id, cue, balls);
+  json_t *written =
+      shot_json(json_string(way_text(s, w, text)), NULL, s->line->table->id, cue, balls);
   json_t *about = json_pack("{s: s, s: s, s: f, s: f, s: [f, f]}", "kind", way_name(s, w), "by",
                             parts_text(s, w, parts), "chance", w->chance, "error", w->error,
                             "window", w->phi[0], w->phi[1]);
   if (w->ball < 0)
-    json_object_set_new(about, "share", json_real((double)w->found / (double)s->scanned));
+    json_object_set_new(about, "share", json_real((double)w->found / (double)s->result.scanned));
   else
     json_object_set_new(about, "ball", json_string(s->line->name[w->ball]));
   if (!isnan(w->cut))
     json_object_set_new(about, "cut", json_real(w->cut));
-  json_object_set_new(to, "way", about);
-  return to;
+  json_object_set_new(written, "way", about);
+  return written;
 }
 
-static int by_chance(const void *a, const void *b) {
-  const way *first = a, *second = b;
-  const double chances = first->chance - second->chance;
-  const double wide = first->phi[1] - first->phi[0], others = second->phi[1] - second->phi[0];
-  if (chances != 0.0)
-    return (chances < 0.0) - (chances > 0.0);
-  return (wide < others) - (wide > others);
-}
-
-static void tell(FILE *out, const ways_search *s, int most) {
-  const bool counted = s->aim != TO_POT;
+static void tell(FILE *out, const ways_search *s) {
+  const bool counted = s->job.goal != CAROM_WAY_POT;
   char text[WAY_TEXT];
-  if (s->ways == 0)
+  if (s->result.ways == 0)
     fputs("There is no way.\n", out);
   else
     fprintf(out, "    chance   window  %s   speed   tip           aim  way\n",
             counted ? "    of all" : "       cut");
-  for (int k = 0; k < s->ways && k < most; k++) {
+  for (int k = 0; k < s->result.ways; k++) {
     const way *w = &s->way[k];
     char middle[CUT_TEXT];
     if (counted)
-      snprintf(middle, sizeof middle, "%.3f %%", 100.0 * (double)w->found / (double)s->scanned);
+      snprintf(middle, sizeof middle, "%.3f %%",
+               100.0 * (double)w->found / (double)s->result.scanned);
     else
       cut_text(w, middle);
     fprintf(out, "%8.1f %% %8.2f  %10s %7.3g  %+.2f,%+.2f  %7.2f  %s\n", 100.0 * w->chance,
@@ -158,9 +151,10 @@ static void tell(FILE *out, const ways_search *s, int most) {
             way_text(s, w, text));
   }
   if (counted)
-    fprintf(out, "%lld of %lld strokes %s, %.2f %%, by %d ways.\n", (long long)s->good,
-            (long long)s->scanned, s->aim == TO_SCORE ? "score" : "get there",
-            100.0 * (double)s->good / (double)(s->scanned + !s->scanned), s->ways);
+    fprintf(out, "%lld of %lld strokes %s, %.2f %%, by %lld ways.\n", (long long)s->result.good,
+            (long long)s->result.scanned, s->job.goal == CAROM_WAY_SCORE ? "score" : "get there",
+            100.0 * (double)s->result.good / (double)(s->result.scanned + !s->result.scanned),
+            (long long)s->result.ways);
 }
 
 static void write_rows(FILE *out, const ways_search *s) {
@@ -168,7 +162,7 @@ static void write_rows(FILE *out, const ways_search *s) {
   fputs("rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,phi_low,phi_high,speed_low,speed_high,"
         "chance,error,found,scanned\n",
         out);
-  for (int k = 0; k < s->ways; k++) {
+  for (int k = 0; k < s->result.ways; k++) {
     const way *w = &s->way[k];
     const char *ball = "", *pocket = "";
     if (w->ball >= 0)
@@ -182,7 +176,7 @@ static void write_rows(FILE *out, const ways_search *s) {
     for (size_t n = 0; n < sizeof more / sizeof more[0]; n++)
       fprintf(out, isnan(more[n]) ? "," : "%.10g,", more[n]);
     fprintf(out, "%.6f,%.6f,%lld,%lld\n", w->chance, w->error, (long long)w->found,
-            (long long)s->scanned);
+            (long long)s->result.scanned);
   }
 }
 
@@ -202,20 +196,20 @@ static bool plot(const ways_search *s, const char *path) {
   static carom_shot shot[MOST_DRAWN];
   static carom_ball_state final[MOST_DRAWN][CAROM_BALLS_MOST];
   static played drawn[MOST_DRAWN];
-  int count = s->ways;
-  if (count > MOST_DRAWN)
-    count = MOST_DRAWN;
+  int count = MOST_DRAWN;
+  if (s->result.ways < MOST_DRAWN)
+    count = (int)s->result.ways;
   if (count == 0) {
     complain("nothing to draw: there is no way");
     return false;
   }
   char *words;
   size_t size;
-  FILE *said = open_text(&words, &size);
+  FILE *stream = open_text(&words, &size);
   for (int k = 0; k < count; k++)
-    fprintf(said, "%d: chance %.1f %%, window %.2f degrees, %.3g m/s\n", k + 1,
+    fprintf(stream, "%d: chance %.1f %%, window %.2f degrees, %.3g m/s\n", k + 1,
             100.0 * s->way[k].chance, s->way[k].phi[1] - s->way[k].phi[0], s->way[k].cue.speed);
-  close_text(said, &words);
+  close_text(stream, &words);
   for (int k = 0; k < count; k++) {
     line[k] = *s->line;
     line[k].cue = s->way[k].cue;
@@ -224,8 +218,8 @@ static bool plot(const ways_search *s, const char *path) {
     shot_line_play(&line[k], &s->options, &shot[k]);
     drawn[k] = (played){.line = &line[k], .shot = &shot[k]};
   }
-  const drawn_ways all = {drawn, count, words};
-  const bool good = svg_draw(path, draw, &all);
+  const drawn_ways drawing = {drawn, count, words};
+  const bool good = svg_draw(path, draw, &drawing);
   for (int k = 0; k < count; k++) {
     free(shot[k].events);
     json_decref(line[k].json);
@@ -274,19 +268,19 @@ static bool read_pocket(const ways_search *s, const char *name, int *pocket) {
 static bool find(const ways_job *job, ways_search *s) {
   const carom_table *t = &s->line->table->table;
   char fault[FAULT_TEXT];
-  if (!read_ball(s, job->ball, &s->ball) || !read_pocket(s, job->pocket, &s->pocket))
+  if (!read_ball(s, job->ball, &s->job.ball) || !read_pocket(s, job->pocket, &s->job.pocket))
     return false;
-  s->aim = TO_POT;
-  if (job->leave.given && s->line->count == 1)
-    s->aim = TO_PLACE;
+  s->job.goal = CAROM_WAY_POT;
+  if (job->leave.is_set && s->line->count == 1)
+    s->job.goal = CAROM_WAY_PLACE;
   else if (t->pockets == 0)
-    s->aim = TO_SCORE;
+    s->job.goal = CAROM_WAY_SCORE;
   leave_into(&job->leave, s);
-  if (s->aim == TO_SCORE && s->line->count < 3) {
+  if (s->job.goal == CAROM_WAY_SCORE && s->line->count < 3) {
     complain("to score, three balls are needed");
     return false;
   }
-  if (s->aim == TO_POT && s->line->count < 2) {
+  if (s->job.goal == CAROM_WAY_POT && s->line->count < 2) {
     complain("the cue ball and one more are needed, or --leave");
     return false;
   }
@@ -294,11 +288,7 @@ static bool find(const ways_job *job, ways_search *s) {
     complain("the layout cannot be played: %s", fault);
     return false;
   }
-  if (!ways_find(s))
-    return false;
-  if (!s->each)
-    qsort(s->way, (size_t)s->ways, sizeof *s->way, by_chance);
-  return true;
+  return ways_find(s);
 }
 
 #define SPEEDS_TO_POT "1.5,2.5,4"
@@ -365,7 +355,7 @@ static const char *usual_speeds(const ways_job *job, bool alone, bool points) {
     return SPEEDS_ALONE;
   if (points)
     return SPEEDS_TO_SCORE;
-  if (job->leave.given)
+  if (job->leave.is_set)
     return SPEEDS_TO_LEAVE;
   return SPEEDS_TO_POT;
 }
@@ -386,26 +376,26 @@ static int scan_of(const ways_job *job, const shot_line *line, int strokes) {
 
 /* Fills in the strokes that are usual in the game, where the options give none. */
 static void fill_strokes(ways_job *job) {
-  shoot_flags *from = &job->from;
-  const bool points = from->table.kind == 1 + CAROM_TABLE_THREECUSHION;
-  const bool alone = job->leave.given && from->balls.count == 0 && from->balls.rack == 0;
-  const bool by_options = has_flags(from);
-  if (by_options && from->speed.count == 0 && from->ball_speed.count == 0)
-    values_default(&from->speed, MEASURE_SPEED, usual_speeds(job, alone, points));
-  if (from->tip.count > 0)
+  shoot_flags *flags = &job->flags;
+  const bool points = flags->table.kind == 1 + CAROM_TABLE_THREECUSHION;
+  const bool alone = job->leave.is_set && flags->balls.count == 0 && flags->balls.rack == 0;
+  const bool by_options = has_flags(flags);
+  if (by_options && flags->speed.count == 0 && flags->ball_speed.count == 0)
+    values_default(&flags->speed, MEASURE_SPEED, usual_speeds(job, alone, points));
+  if (flags->tip.count > 0)
     return;
   if (points) {
     char tips[] = TIPS_TO_SCORE;
-    option_tip.set(&option_tip, tips, &from->tip);
-  } else if (by_options && job->leave.given && !alone) {
+    option_tip.set(&option_tip, tips, &flags->tip);
+  } else if (by_options && job->leave.is_set && !alone) {
     char tips[] = TIPS_TO_LEAVE;
-    option_tip.set(&option_tip, tips, &from->tip);
+    option_tip.set(&option_tip, tips, &flags->tip);
   }
 }
 
 /* Writes each way as the line of its stroke. */
 static void write_lines(FILE *out, const ways_search *s) {
-  for (int k = 0; k < s->ways; k++)
+  for (int k = 0; k < s->result.ways; k++)
     shot_json_write(out, way_line(s, &s->way[k]));
 }
 
@@ -420,12 +410,12 @@ static int write_ways(const ways_job *job, ways_search *s, FILE *out) {
   else if (job->json)
     write_lines(out, s);
   else
-    tell(out, s, s->ways);
+    tell(out, s);
   if (!output_commit())
     return EXIT_USAGE;
   if (job->plot != NULL && !plot(s, job->plot))
     return EXIT_SOME;
-  return exit_of(s->ways > 0);
+  return exit_of(s->result.ways > 0);
 }
 
 /* The ways of the layout and the strokes of a file; an exit code. */
@@ -433,17 +423,18 @@ static int ways_of_file(const ways_job *job, ways_search *s, shot_file *file) {
   static carom_cue stroke[MOST_STROKES];
   static shot_line line;
   s->line = &line;
-  s->stroke = stroke;
-  s->strokes = strokes_read(file, &job->from.shared, &line, stroke, MOST_STROKES);
-  if (s->strokes == 0)
+  const int strokes = strokes_read(file, &job->flags.shared, &line, stroke, MOST_STROKES);
+  if (strokes == 0)
     return EXIT_USAGE;
   int code = EXIT_USAGE;
-  FILE *out = output_open(job->from.shared.output);
+  FILE *out = output_open(job->flags.shared.output);
   if (out != NULL) {
-    s->scan = scan_of(job, &line, s->strokes);
+    ways_begin(s, stroke, strokes, MOST_WAYS);
+    s->job.scan = scan_of(job, &line, strokes);
     s->way = allocate(MOST_WAYS, sizeof *s->way);
     code = write_ways(job, s, out);
     free(s->way);
+    free(s->job.memory);
   }
   shot_line_free(&line);
   return code;
@@ -452,13 +443,13 @@ static int ways_of_file(const ways_job *job, ways_search *s, shot_file *file) {
 int command_ways(int argc, char **argv) {
   static ways_job job;
   const char *path;
-  job = (ways_job){.from = {.shared = {.options = COMMAND_OPTIONS}}};
+  job = (ways_job){.flags = {.shared = {.options = COMMAND_OPTIONS}}};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
-  ways_search s = {.options = job.from.shared.shot, .rails = job.rails, .each = job.each};
-  s.options.threads = job.from.shared.options.threads;
-  if (!player_of(&job.from.shared.player, &s.player) || !svg_possible(job.plot))
+  ways_search s = {.options = job.flags.shared.shot, .job = {.rails = job.rails, .each = job.each}};
+  s.options.threads = job.flags.shared.options.threads;
+  if (!player_of(&job.flags.shared.player, &s.player) || !svg_possible(job.plot))
     return EXIT_USAGE;
   without_bounds(&s.player);
   if (job.csv && job.json) {
@@ -466,10 +457,10 @@ int command_ways(int argc, char **argv) {
     return EXIT_USAGE;
   }
 
-  if (job.from.table.kind == 0 && job.from.balls.rack > 0)
-    job.from.table.kind = 1 + (int)table_of_rack((carom_rack_kind)(job.from.balls.rack - 1));
+  if (job.flags.table.kind == 0 && job.flags.balls.rack > 0)
+    job.flags.table.kind = 1 + (int)table_of_rack((carom_rack_kind)(job.flags.balls.rack - 1));
   fill_strokes(&job);
-  shot_file *file = layout_open(&job.from, path, &s.options, MOST_STROKES);
+  shot_file *file = layout_open(&job.flags, path, &s.options, MOST_STROKES);
   if (file == NULL)
     return EXIT_USAGE;
   const int code = ways_of_file(&job, &s, file);

@@ -5,6 +5,7 @@
 #define CAROM_TESTS_EVERY_FUNCTION_H
 
 #ifndef CAROM_WITHOUT_PLAN
+#include "carom_coach.h"
 #include "carom_match.h"
 #endif
 #include "carom_record.h"
@@ -61,11 +62,14 @@ typedef struct every_room {
       before[EVERY_EVENTS * 2 * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST],
       reach[CAROM_DIRECTIONS_MOST];
   carom_tangent tangent[EVERY_SHOTS];
-  double plan[32768], choice[27 * EVERY_FEW]; /* of every_plan.h */
+  double plan[65536], choice[27 * EVERY_FEW], coach[400000]; /* of every_plan.h */
   carom_record record;
   char line[CAROM_RECORD_TEXT];
 #ifndef CAROM_WITHOUT_PLAN
   carom_match match, reader;
+  carom_break_counts counts;
+  carom_shot_way ways[EVERY_FEW];
+  carom_why why;
 #endif
 } every_room;
 

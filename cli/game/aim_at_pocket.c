@@ -19,13 +19,13 @@ static void say_way(const layout *l, const carom_pot *pot, char words[AIMED_TEXT
     const carom_part *part = &pot->via[k];
     char *end = words + strlen(words);
     const size_t room = (size_t)(words + AIMED_TEXT - end);
-    const char *before = " off";
+    const char *link = " off";
     if (k > 0 && part[-1].kind == CAROM_PART_RAIL)
-      before = ",";
+      link = ",";
     else if (k < first && first < pot->vias)
-      before = " by a kick off";
+      link = " by a kick off";
     if (part->kind == CAROM_PART_RAIL)
-      snprintf(end, room, "%s the %s rail", before, carom_rail_name(&l->table, part->index));
+      snprintf(end, room, "%s the %s rail", link, carom_rail_name(&l->table, part->index));
     else if (part->index != pot->ball)
       snprintf(end, room, " by ball %s", l->name[part->index]);
   }
@@ -69,15 +69,15 @@ static bool read_via(const layout *l, const char *via, carom_pot *pot) {
 /* Says why there is no aim. */
 static void complain_of(const char *pocket, const char *via, const layout *l, const carom_pot *pot,
                         double speed) {
-  const carom_brief_event *met = &pot->met;
+  const carom_brief_event *contact = &pot->met;
   char text[BALL_TEXT], more[BALL_TEXT], why[160] = "the jaws send the ball back at this speed";
   const char *what = pot->vias > 0 ? "by this way" : "there directly";
   /* of two balls that meet the one on its way comes first, unless both are */
-  const bool first = met->a == 0 || met->a == pot->ball;
-  const int own = first ? met->a : met->b, other = first ? met->b : met->a;
-  bool twice = other == 0 || other == pot->ball;
+  const bool first = contact->a == 0 || contact->a == pot->ball;
+  const int first_ball = first ? contact->a : contact->b, second = first ? contact->b : contact->a;
+  bool twice = second == 0 || second == pot->ball;
   for (int k = 0; k < pot->vias; k++)
-    twice |= pot->via[k].kind == CAROM_PART_BALL && pot->via[k].index == other;
+    twice |= pot->via[k].kind == CAROM_PART_BALL && pot->via[k].index == second;
   if (pot->outcome == CAROM_POT_STICK)
     snprintf(why, sizeof why,
              "the stick would be raised by %.4g degrees over what is behind the cue ball, and "
@@ -88,13 +88,13 @@ static void complain_of(const char *pocket, const char *via, const layout *l, co
   else if (pot->outcome == CAROM_POT_SHORT)
     snprintf(why, sizeof why,
              "%s comes to rest on its way, with the cue at %.3g m/s; give a higher --speed",
-             ball_words(l, met->a, text), speed);
-  else if (pot->outcome == CAROM_POT_BARRED && met->type == CAROM_EVENT_BALL_BALL && twice)
-    snprintf(why, sizeof why, "%s and %s meet twice", ball_words(l, own, text),
-             ball_words(l, other, more));
+             ball_words(l, contact->a, text), speed);
+  else if (pot->outcome == CAROM_POT_BARRED && contact->type == CAROM_EVENT_BALL_BALL && twice)
+    snprintf(why, sizeof why, "%s and %s meet twice", ball_words(l, first_ball, text),
+             ball_words(l, second, more));
   else if (pot->outcome == CAROM_POT_BARRED)
-    snprintf(why, sizeof why, "%s is in the way of %s", obstacle(l, met->type, other, text),
-             ball_words(l, own, more));
+    snprintf(why, sizeof why, "%s is in the way of %s", obstacle(l, contact->type, second, text),
+             ball_words(l, first_ball, more));
   complain("--pocket %s%s%s: no such aim: %s", pocket, text_if(via != NULL, " --via "),
            text_if(via != NULL, via), why);
 }
@@ -102,7 +102,7 @@ static void complain_of(const char *pocket, const char *via, const layout *l, co
 bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
                    const carom_shot_options *options, carom_cue *cue, char report[AIMED_TEXT]) {
   const char *colon = strchr(pocket, ':'), *name = colon != NULL ? colon + 1 : "";
-  char known[NAMES_TEXT] = "", balls[NAMES_TEXT], by[AIMED_TEXT], hint[HINT_TEXT];
+  char known[NAMES_TEXT] = "", balls[NAMES_TEXT], way_words[AIMED_TEXT], hint[HINT_TEXT];
   char ball[PLACE_NAME];
   named_table *t = built_in_table(l->table_name, &(json_fault){{0}});
   carom_pot pot = {.pocket = pocket_named(&l->table, t->pocket, name, known),
@@ -132,7 +132,7 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
       complain_of(pocket, via, l, &pot, cue->speed);
   } else {
     char margin[80] = "the ball touches a jaw", raise[96] = "";
-    say_way(l, &pot, by);
+    say_way(l, &pot, way_words);
     if (pot.margin > 0.0)
       snprintf(margin, sizeof margin, "the ball has %.2f degrees to either jaw", pot.margin);
     if (cue->theta < pot.elevation)
@@ -147,7 +147,7 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
             "aim    %s to the %s pocket%s: cut %.1f degrees to the %s; %s\n       falls with aims "
             "of %.2f to %.2f degrees at this speed, and with %.3g to %.3g m/s of the cue at this "
             "aim\n%s",
-            l->name[pot.ball], carom_pocket_name(&l->table, pot.pocket), by, fabs(pot.cut),
+            l->name[pot.ball], carom_pocket_name(&l->table, pot.pocket), way_words, fabs(pot.cut),
             pot.cut < 0.0 ? "right" : "left", margin, pot.phi[0], pot.phi[1], pot.speed[0],
             pot.speed[1], raise) > 0;
   }

@@ -49,7 +49,7 @@ typedef struct numbered_balls {
 
 /* Puts each ball where its number is; false after a complaint. */
 static bool number_balls(const shot_line *line, const char *file, const carom_rules_about *about,
-                         numbered_balls *to) {
+                         numbered_balls *numbered) {
   const bool snooker = about->rack == CAROM_RACK_SNOOKER;
   const char *known = about->last == 9 ? "1 to 9" : "1 to 15";
   if (snooker)
@@ -58,13 +58,13 @@ static bool number_balls(const shot_line *line, const char *file, const carom_ru
     const bool cue = k == line->cue.ball;
     const int number = cue ? 0 : number_of(line->name[k], snooker);
     const bool good = cue || (number >= 1 && number <= about->last);
-    if (!good || to->name[number] != NULL) {
+    if (!good || numbered->name[number] != NULL) {
       complain("%s:%zu: ball '%s': the balls of this game are the cue ball and %s, each once", file,
                line->number, line->name[k], known);
       return false;
     }
-    to->ball[number] = line->ball[k];
-    to->name[number] = line->name[k];
+    numbered->ball[number] = line->ball[k];
+    numbered->name[number] = line->name[k];
   }
   return true;
 }
@@ -91,15 +91,15 @@ bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
              about->name);
     return false;
   }
-  numbered_balls all = {.name = {NULL}};
-  if (!number_balls(line, file, about, &all))
+  numbered_balls numbered = {.name = {NULL}};
+  if (!number_balls(line, file, about, &numbered))
     return false;
 
   /* where balls count, those are down */
   int scored = 0;
-  for (int who = 0; who < 2; who++)
-    if (game->score[who] > 0)
-      scored += game->score[who];
+  for (int seat = 0; seat < 2; seat++)
+    if (game->score[seat] > 0)
+      scored += game->score[seat];
   const int down = last + 1 - line->count;
   if (rules.race == CAROM_RACE_OWN && scored > down) {
     complain("%s:%zu: --score: %d balls count, but %d of %d are down", file, line->number, scored,
@@ -109,13 +109,14 @@ bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
 
   /* missing balls are down */
   for (int k = 0; k <= last; k++)
-    if (all.name[k] == NULL) {
-      all.name[k] = name_of(k, about->rack == CAROM_RACK_SNOOKER);
-      all.ball[k] = line->ball[0];
-      all.ball[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+    if (numbered.name[k] == NULL) {
+      numbered.name[k] = name_of(k, about->rack == CAROM_RACK_SNOOKER);
+      numbered.ball[k] = line->ball[0];
+      numbered.ball[k].state =
+          (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
     }
-  memcpy(line->ball, all.ball, sizeof all.ball);
-  memcpy(line->name, all.name, sizeof all.name);
+  memcpy(line->ball, numbered.ball, sizeof numbered.ball);
+  memcpy(line->name, numbered.name, sizeof numbered.name);
   line->count = last + 1;
   line->cue.ball = 0;
   return true;
@@ -134,12 +135,12 @@ void plan_game_state(const plan_game *game, const shot_line *line, carom_plan_ru
   state->innings = game->last_inning ? LAST_INNING : 0;
   if (game->target > 0)
     state->target = game->target;
-  for (int who = 0; who < 2; who++) {
-    const int score = game->score[who];
-    state->score[who] = score > 0 ? score : 0;
-    state->lost[who] = score < 0 ? -score : 0;
+  for (int seat = 0; seat < 2; seat++) {
+    const int score = game->score[seat];
+    state->score[seat] = score > 0 ? score : 0;
+    state->lost[seat] = score < 0 ? -score : 0;
     if (rules->pockets != NULL || game->pocket >= 0)
-      state->pocket[who] = line != NULL ? foot_of(line, (game->pocket == 1) == (who == 0)) : 1;
+      state->pocket[seat] = line != NULL ? foot_of(line, (game->pocket == 1) == (seat == 0)) : 1;
   }
 }
 

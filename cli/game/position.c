@@ -11,43 +11,43 @@
 #include <string.h>
 
 OPTION_SET(set_leave) {
-  leave *to = field;
+  leave *target = field;
   char copy[128], *rest = NULL;
-  value *part[] = {&to->x, &to->y, &to->radius};
+  value *part[] = {&target->x, &target->y, &target->radius};
   bool good = strlen(text) < sizeof copy;
-  const char *others = place_named(text, &to->x, &to->y);
-  int parts = others == text ? 0 : 2;
-  snprintf(copy, sizeof copy, "%s", others);
-  value_of(MEASURE_LENGTH, "0.15", &to->radius);
+  const char *radius = place_named(text, &target->x, &target->y);
+  int parts = radius == text ? 0 : 2;
+  snprintf(copy, sizeof copy, "%s", radius);
+  value_of(MEASURE_LENGTH, "0.15", &target->radius);
   for (char *token = strtok_r(copy, ",", &rest); token != NULL && good;
        token = strtok_r(NULL, ",", &rest), parts++)
     good = parts < 3 && value_of(MEASURE_PLACE, token, part[parts]);
-  to->given = good && parts >= 2 && to->radius.x > 0.0;
-  if (!to->given)
+  target->is_set = good && parts >= 2 && target->radius.x > 0.0;
+  if (!target->is_set)
     complain("--%s is X,Y or X,Y,R in m, or with units: 2d,4d,20cm, or PLACE or PLACE,R: " PLACES
              "; not '%.60s'",
              row->name, text);
-  return to->given;
+  return target->is_set;
 }
 
-void leave_into(const leave *to, ways_search *s) {
+void leave_into(const leave *target, ways_search *s) {
   const carom_table *t = &s->line->table->table;
-  s->radius = to->given ? place_along(&to->radius, 0.125 * t->length) : 0.0;
-  s->place[0] = place_along(&to->x, 0.25 * t->width);
-  s->place[1] = place_along(&to->y, 0.125 * t->length);
+  s->job.radius = target->is_set ? place_along(&target->radius, 0.125 * t->length) : 0.0;
+  s->job.place[0] = place_along(&target->x, 0.25 * t->width);
+  s->job.place[1] = place_along(&target->y, 0.125 * t->length);
 }
 
 /* The strokes of all values, without those by which the ball cannot be aimed. NULL after a
  * complaint. */
 static shot_file *strokes_of(const shoot_flags *f, const carom_shot_options *options) {
-  static shoot_flags all; /* what is not given becomes what is usual */
-  all = *f;
-  all.tries = true;
+  static shoot_flags usual; /* what is not given becomes what is usual */
+  usual = *f;
+  usual.tries = true;
   if (f->speed.count == 0 && f->ball_speed.count == 0)
-    values_default(&all.speed, MEASURE_SPEED, "0.5:4:0.1");
+    values_default(&usual.speed, MEASURE_SPEED, "0.5:4:0.1");
   if (f->tip.count == 0)
-    option_tip.set(&option_tip, (char[]){TIPS_TO_LEAVE}, &all.tip);
-  json_t *shots = flags_shots(&all, options, MOST_ROWS);
+    option_tip.set(&option_tip, (char[]){TIPS_TO_LEAVE}, &usual.tip);
+  json_t *shots = flags_shots(&usual, options, MOST_ROWS);
   if (shots == NULL)
     return NULL;
   if (json_array_size(shots) > 0)
@@ -76,11 +76,11 @@ static double miss_of(const ways_search *s, const way *w, bool *good) {
   carom_shot shot = {.facts = &facts, .final = final};
   const carom_status status = carom_shoot(&s->line->table->table, s->line->ball, s->line->count,
                                           &w->cue, &s->options, &shot);
-  *good = status >= 0 && way_is_good(s, &facts, final, w);
+  *good = status >= 0 && carom_way_succeeds(&s->job, &shot, w);
   const carom_ball_state *cue = &final[s->line->cue.ball];
   if (status < 0 || cue->label != CAROM_BALL_STATIONARY)
     return INFINITY;
-  return hypot(cue->r[0] - s->place[0], cue->r[1] - s->place[1]);
+  return hypot(cue->r[0] - s->job.place[0], cue->r[1] - s->job.place[1]);
 }
 
 /* Gives the flags the one stroke. */
@@ -111,7 +111,7 @@ typedef struct trial {
   bool good[MOST_ROWS]; /* whether the cue ball ends there without errors */
   int best;             /* that with the best chance of those; -1: there is none */
   int nearest;          /* -1: by none the cue ball stays on the table */
-  int there;            /* how many end there */
+  int arrivals;         /* how many end there */
   double miss;          /* of the nearest one, m */
   double chance;        /* of the best one */
 } trial;
@@ -119,7 +119,7 @@ typedef struct trial {
 /* Plays the strokes, each as `w` but for its cue; false after a complaint. */
 static bool try_strokes(const ways_search *s, way w, trial *t) {
   t->best = t->nearest = -1;
-  t->there = 0;
+  t->arrivals = 0;
   t->miss = INFINITY;
   t->chance = -1.0;
   bool fine = true;
@@ -132,7 +132,7 @@ static bool try_strokes(const ways_search *s, way w, trial *t) {
     }
     if (!t->good[k])
       continue;
-    t->there++;
+    t->arrivals++;
     fine = ways_chance(s, &w);
     if (w.chance > t->chance) {
       t->best = k;
@@ -167,16 +167,16 @@ static void tell_best(const ways_search *s, const trial *t, char text[LEFT_TEXT]
            "leave  within %.3g m of x = %.3f, y = %.3f m: %.1f %% of this player's strokes, the "
            "best of %d, of which %d do it\n       with this tip from %.3g to %.3g m/s of the cue "
            "without errors\n",
-           s->radius, s->place[0], s->place[1], 100.0 * t->chance, t->count, t->there,
-           t->cue[low].speed, t->cue[high].speed);
+           s->job.radius, s->job.place[0], s->job.place[1], 100.0 * t->chance, t->count,
+           t->arrivals, t->cue[low].speed, t->cue[high].speed);
 }
 
 /* Chooses among the strokes of `t`, and gives the flags the best; false after a complaint. */
-static bool choose(const leave *to, shoot_flags *f, ways_search *s, trial *t,
+static bool choose(const leave *target, shoot_flags *f, ways_search *s, trial *t,
                    char text[LEFT_TEXT]) {
   way w = {.kind = -1, .ball = -1, .pocket = -1};
-  s->aim = f->pocket != NULL ? TO_POT : TO_PLACE;
-  leave_into(to, s);
+  s->job.goal = f->pocket != NULL ? CAROM_WAY_POT : CAROM_WAY_PLACE;
+  leave_into(target, s);
   if (f->pocket != NULL)
     name_pot(f->pocket, s->line, &w);
   if (!try_strokes(s, w, t))
@@ -190,7 +190,7 @@ static bool choose(const leave *to, shoot_flags *f, ways_search *s, trial *t,
   return true;
 }
 
-bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *options,
+bool leave_choose(const leave *target, shoot_flags *f, const carom_shot_options *options,
                   char text[LEFT_TEXT]) {
   static carom_cue cue[MOST_ROWS];
   static shot_line line;
@@ -203,9 +203,15 @@ bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *opt
   strokes.cue = cue;
   f->shared.with.in_lines = true; /* those of the strokes have them */
   strokes.count = file != NULL ? strokes_read(file, &f->shared, &line, cue, MOST_ROWS) : 0;
-  const bool found = strokes.count > 0 && choose(to, f, &s, &strokes, text);
-  if (strokes.count > 0)
+  bool found = false;
+  if (strokes.count > 0) {
+    ways_begin(&s, cue, strokes.count, 1);
+    s.job.scan = strokes.count;
+    s.job.ball = s.job.pocket = -1;
+    found = choose(target, f, &s, &strokes, text);
+    free(s.job.memory);
     shot_line_free(&line);
+  }
   if (file != NULL)
     shot_file_close(file);
   return found;

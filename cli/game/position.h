@@ -8,7 +8,7 @@ struct ways_search;
 
 /* Where the cue ball shall end: within a radius of a place. */
 typedef struct leave {
-  bool given;
+  bool is_set;
   value x, y, radius;
 } leave;
 
@@ -20,13 +20,13 @@ typedef struct leave {
 OPTION_SET(set_leave);
 
 /* Puts the place and the radius, or none, into a search. */
-void leave_into(const leave *to, struct ways_search *s);
+void leave_into(const leave *target, struct ways_search *s);
 
 /* Leaves the flags the one speed, tip, elevation and direction, of those given or of the usual
  * ones, with which most strokes of the player bring the cue ball there, and pot the ball of
  * --pocket; and what is to be told of it. False after a complaint. */
 enum { LEFT_TEXT = 400 };
-bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *options,
+bool leave_choose(const leave *target, shoot_flags *f, const carom_shot_options *options,
                   char text[LEFT_TEXT]);
 
 #endif

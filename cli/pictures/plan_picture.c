@@ -44,8 +44,8 @@ static void say_failure(FILE *out, int failure, int times, bool points) {
 
 /* Plays the best shot with the player's errors, and says how often which failure comes of it, the
  * most frequent first. The first of the shots are kept, with their events. */
-static void say_failures(const planned *p, const shot_line *line, uint64_t seed, carom_shot *kept,
-                         FILE *out) {
+static void say_failures(const planned *p, const shot_line *line, uint64_t seed,
+                         carom_shot *strokes, FILE *out) {
   int times[WAYS] = {0}, good = 0;
   uint32_t in_play = 0;
   for (int k = 0; k < line->count && k < CAROM_BALLS_MOST; k++)
@@ -53,7 +53,7 @@ static void say_failures(const planned *p, const shot_line *line, uint64_t seed,
   for (int n = 0; n < TRIED; n++) {
     carom_facts facts;
     carom_ball_state final[CAROM_BALLS_MOST];
-    carom_shot unkept = {.final = final}, *shot = n < DRAWN ? &kept[n] : &unkept;
+    carom_shot unkept = {.final = final}, *shot = n < DRAWN ? &strokes[n] : &unkept;
     shot_line stroke = *line;
     carom_player_strike(&p->player, seed, (uint64_t)n, &stroke.cue);
     shot->facts = &facts;
@@ -76,7 +76,7 @@ static void say_failures(const planned *p, const shot_line *line, uint64_t seed,
 
   const bool points = line->table->table.pockets == 0;
   fprintf(out, "Of %d strokes with errors %d %s.", TRIED, good, points ? "score" : "play on");
-  for (int said = 0; said < 3; said++) {
+  for (int count = 0; count < 3; count++) {
     int most = 0;
     for (int k = 1; k < WAYS; k++)
       if (times[k] > times[most])
@@ -92,7 +92,7 @@ bool plan_draw(const char *path, shot_line *line, const planned *p, uint64_t see
                const char *what) {
   const carom_plan_stroke *c = &p->best;
   static carom_ball_state final[DRAWN + 1][CAROM_BALLS_MOST];
-  carom_shot shot = {.final = final[DRAWN]}, kept[DRAWN] = {0};
+  carom_shot shot = {.final = final[DRAWN]}, strokes[DRAWN] = {0};
   line->cue = c->cue;
   line->cue.speed = c->kind == CAROM_PLAN_PASS ? 0.0 : c->cue.speed;
   line->ball[0].state.r[0] = c->place[0];
@@ -102,18 +102,18 @@ bool plan_draw(const char *path, shot_line *line, const planned *p, uint64_t see
   shot_line_play(line, NULL, &shot);
   char *words;
   size_t size;
-  FILE *said = open_text(&words, &size);
-  fprintf(said, "The best: %s.\n", what);
+  FILE *stream = open_text(&words, &size);
+  fprintf(stream, "The best: %s.\n", what);
   const int drawn = c->kind == CAROM_PLAN_PASS ? 0 : DRAWN;
   for (int n = 0; n < drawn; n++)
-    kept[n].final = final[n];
+    strokes[n].final = final[n];
   if (drawn > 0)
-    say_failures(p, line, seed, kept, said);
-  close_text(said, &words);
-  const best_shot best = {{line, &shot, NULL, kept, drawn}, words};
+    say_failures(p, line, seed, strokes, stream);
+  close_text(stream, &words);
+  const best_shot best = {{line, &shot, NULL, strokes, drawn}, words};
   const bool good = svg_draw(path, draw, &best);
   for (int n = 0; n < drawn; n++)
-    free(kept[n].events);
+    free(strokes[n].events);
   free(shot.events);
   free(words);
   return good;

@@ -44,8 +44,9 @@ typedef struct carom_bounds {
 } carom_bounds;
 
 /* The bounds that a leave sets on a table for balls of this radius, m: ANYWHERE the whole table,
- * KITCHEN behind the head string or on it, D the D of snooker. AFTER and BEFORE, where no ball is
- * in hand, are as ANYWHERE. CAROM_ERROR_NULL; CAROM_ERROR_ACT for a value not listed;
+ * KITCHEN behind the head string or on it, D the D of snooker, BAULK behind the baulk line of
+ * blackball or on it, a fifth of the length from the head. AFTER and BEFORE, where no ball is in
+ * hand, are as ANYWHERE. CAROM_ERROR_NULL; CAROM_ERROR_ACT for a value not listed;
  * CAROM_ERROR_RADIUS for a radius that is not 0 or more and finite. */
 CAROM_API carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, double radius,
                                          carom_bounds *bounds);
@@ -139,7 +140,8 @@ CAROM_API carom_status carom_match_begin_to(carom_match *match, carom_rules_kind
 
 /* The same from any layout. `of` NULL: the rules of this kind, as they stand at the beginning; else
  * these, with their state: of a caller's own rules the reader needs the same in match->rules. With
- * `leave` ANYWHERE, KITCHEN or D the cue ball is in hand. `options`, which may be NULL, has the models.
+ * `leave` ANYWHERE, KITCHEN, D or BAULK the cue ball is in hand. `options`, which may be NULL, has the
+ * models.
  * Also an error of carom_shot_check(). */
 CAROM_API carom_status carom_match_begin_at(carom_match *match, carom_rules_kind rules,
                                             const carom_plan_rules *of, const carom_table *table,

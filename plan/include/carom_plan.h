@@ -635,10 +635,14 @@ typedef struct carom_plan_job {
   const carom_plan_options *options; /* NULL: the defaults. */
   void *memory;                      /* room for the plan, aligned as by malloc(). */
   size_t memory_size;                /* bytes of `memory`, at least carom_plan_memory(). */
-  int64_t leave;                     /* a carom_leave: the bounds within which the cue ball was
-                                        placed for this stroke. Behind the head string, it may not
-                                        first meet balls that lie there too (WPA 6.11). 0: it was
-                                        not placed. carom_match_plan() sets it. */
+  int64_t leave;                     /* a carom_leave: how the cue ball came to its place for this
+                                        stroke, in every game. Only this member decides it, and no
+                                        place or corner does. AFTER and BEFORE: it was not in hand.
+                                        HAND, KITCHEN, D and BAULK: it is in hand, or was, within
+                                        the bounds of carom_hand_bounds(), in which
+                                        carom_plan_hand() places it. With KITCHEN, the stroke may
+                                        not first meet a ball behind the head string (WPA 6.11).
+                                        carom_match_plan() sets it. */
   uint64_t reserved[3];              /* must be 0. */
 } carom_plan_job;
 
@@ -660,8 +664,10 @@ CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_plan_stroke *
                                   int *found);
 
 /* The same with ball in hand: places of the cue ball and strokes are compared together, by at least
- * 600 shots, and each choice has a place of its own. The place is within low[0] <= x <= high[0] and
- * low[1] <= y <= high[1], m; NULL: no bound on that side. The cue ball of job->balls may be down.
+ * 600 shots, and each choice has a place of its own. The place is within the bounds of job->leave,
+ * of which AFTER and BEFORE have those of HAND. It is also within low[0] <= x <= high[0] and
+ * low[1] <= y <= high[1], m; NULL: no further bound on that side. The cue ball of job->balls may be
+ * down.
  * Also returns CAROM_ERROR_OFF_TABLE if the plan finds no free place. */
 CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double low[2],
                                        const double high[2], carom_plan_stroke *choices, int room,

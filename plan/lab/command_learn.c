@@ -46,7 +46,7 @@ typedef enum chance_of { NEXT, LATER, FIRST } chance_of;
 typedef struct sample {
   double x[NEXT_NUMBERS];
   chance_of what;
-  int kept, left;
+  int keeps, left;
 } sample;
 
 /* The layouts of a rack. */
@@ -71,7 +71,7 @@ static int objects_of(uint32_t in_play) {
 }
 
 static sample look(const lab_rack *rack) {
-  static const int who = 0;
+  static const int seat = 0;
   carom_view view;
   carom_view_make(&view, &rack->plan, &rack->options);
   carom_ball_state state[RACK_BALLS];
@@ -79,9 +79,9 @@ static sample look(const lab_rack *rack) {
   for (int k = 0; k < count; k++)
     state[k] = rack->balls[k].state;
   const uint32_t in_play = carom_in_play(state, count) | 1;
-  sample s = {.kept = 0};
+  sample s = {.keeps = 0};
   carom_plan_features(&view, state, in_play, rack->rules.on(&rack->rules.state, in_play),
-                      carom_pockets_of(&rack->rules, &rack->rules.state), who, rack->hand, NULL,
+                      carom_pockets_of(&rack->rules, &rack->rules.state), seat, rack->hand, NULL,
                       s.x);
   int32_t left[2];
   rack->rules.left(&rack->rules.state, in_play, left);
@@ -132,9 +132,9 @@ static void share_out(lab_rack *rack, lab_random *draw) {
   for (int k = 1; k < (int)rack->plan.count; k++)
     down += rack->balls[k].state.label == CAROM_BALL_POCKETED;
   const int least = down > MOST ? down - MOST : 0, most = down > MOST ? MOST : down;
-  const int own = least + (int)lab_uniform(draw, 0.0, most - least + 1);
-  rack->rules.state.score[0] = own;
-  rack->rules.state.score[1] = down - own;
+  const int player_balls = least + (int)lab_uniform(draw, 0.0, most - least + 1);
+  rack->rules.state.score[0] = player_balls;
+  rack->rules.state.score[1] = down - player_balls;
 }
 
 /* Begins a rack of the game as its players find it in the middle of a game: some balls are down,
@@ -176,6 +176,7 @@ static void make_rack(lab_rack *rack, carom_rules_kind game, lab_random *draw) {
   } while (carom_place_ball(&rack->table, rack->balls, (int)rack->plan.count, 0, x, y, NULL) !=
            CAROM_OK);
   rack->hand = lab_bits(draw) % 8 == 0 && !snooker;
+  rack->plan.leave = rack->hand ? CAROM_LEAVE_ANYWHERE : CAROM_LEAVE_AFTER;
 }
 
 static bool keeps(const carom_turn *turn) {
@@ -183,20 +184,20 @@ static bool keeps(const carom_turn *turn) {
 }
 
 /* Of each pair of strokes of a visit the later one, by the mean before the first one. */
-static void add_pairs(visit *to) {
-  const int strokes = to->count;
+static void add_pairs(visit *added) {
+  const int strokes = added->count;
   for (int k = 0; k < strokes; k++)
     for (int j = k + 1; j < strokes; j++) {
-      sample s = to->samples[j];
+      sample s = added->samples[j];
       s.what = LATER;
       s.x[2] = 1.0 / s.left;
-      s.x[3] = to->samples[k].x[2];
-      to->samples[to->count++] = s;
+      s.x[3] = added->samples[k].x[2];
+      added->samples[added->count++] = s;
     }
 }
 
 /* Plays a visit until the turn ends, and the other's first stroke. */
-static void play(const learn_job *job, int number, visit *to) {
+static void play(const learn_job *job, int number, visit *played) {
   static const double errors[] = {0.25, 0.5, 1.0, 2.0, 3.0, 4.5};
   enum { PLAYERS = sizeof errors / sizeof errors[0] };
   lab_random draw = {((uint64_t)job->seed << 32) + 104729 * ((uint64_t)number + 1)};
@@ -208,30 +209,30 @@ static void play(const learn_job *job, int number, visit *to) {
 
   carom_turn turn = {.outcome = CAROM_TURN_KEEP};
   carom_plan_stroke choice;
-  to->count = 0;
-  while (turn.outcome == CAROM_TURN_KEEP && to->count < STROKES_MOST) {
+  played->count = 0;
+  while (turn.outcome == CAROM_TURN_KEEP && played->count < STROKES_MOST) {
     sample s = look(&rack);
     if (!lab_rack_stroke(&rack, &choice, &turn))
       break;
-    s.kept = keeps(&turn);
-    to->samples[to->count++] = s;
+    s.keeps = keeps(&turn);
+    played->samples[played->count++] = s;
   }
-  add_pairs(to);
+  add_pairs(played);
   if (turn.outcome == CAROM_TURN_PASS) {
     sample s = look(&rack);
     s.what = FIRST;
     s.x[2] = 1.0 / s.left;
     if (lab_rack_stroke(&rack, &choice, &turn)) {
-      s.kept = keeps(&turn);
-      to->samples[to->count++] = s;
+      s.keeps = keeps(&turn);
+      played->samples[played->count++] = s;
     }
   }
   free(rack.plan.memory);
 }
 
-static size_t play_some(const void *context, size_t from, size_t end) {
+static size_t play_some(const void *context, size_t start, size_t end) {
   const block *b = context;
-  for (size_t k = from; k < end; k++)
+  for (size_t k = start; k < end; k++)
     play(b->job, b->first + (int)k, &b->visit[k]);
   return end;
 }
@@ -273,7 +274,7 @@ static void fit(const sample *s, size_t count, chance_of what, int n, double *w)
     for (size_t k = 0; k < count; k++) {
       if (s[k].what != what)
         continue;
-      const double *x = s[k].x, p = chance(w, x, n), off = s[k].kept - p, weight = p * (1.0 - p);
+      const double *x = s[k].x, p = chance(w, x, n), off = s[k].keeps - p, weight = p * (1.0 - p);
       for (int i = 0; i < n; i++) {
         g[i] += off * x[i];
         for (int j = 0; j < n; j++)
@@ -290,15 +291,15 @@ static void fit(const sample *s, size_t count, chance_of what, int n, double *w)
 
 /* The logarithm of the likelihood of a trial. */
 static double likelihood(const sample *s, size_t count, chance_of what, int n, const double *w) {
-  double sum = 0.0, all = 0.0;
+  double sum = 0.0, total = 0.0;
   for (size_t k = 0; k < count; k++) {
     const double p = chance(w, s[k].x, n);
     if (s[k].what == what) {
-      sum += log(s[k].kept ? p : 1.0 - p);
-      all += 1.0;
+      sum += log(s[k].keeps ? p : 1.0 - p);
+      total += 1.0;
     }
   }
-  return sum / all;
+  return sum / total;
 }
 
 static void print_numbers(const sample *s, size_t count, chance_of what, int n, const char *name,
@@ -365,21 +366,21 @@ int command_learn(int argc, char **argv) {
     return EXIT_USAGE;
   }
   block b = {.job = &job, .visit = allocate(BLOCK, sizeof *b.visit)};
-  sample *all = NULL;
+  sample *samples = NULL;
   size_t count = 0, room = 0;
   for (; b.first < job.racks; b.first += BLOCK) {
     const int many = job.racks - b.first < BLOCK ? job.racks - b.first : BLOCK;
     carom_in_threads(play_some, &b, (size_t)many, job.shared.options.threads, 1);
     for (int k = 0; k < many; k++) {
-      all = grow(all, &room, count + (size_t)b.visit[k].count, sizeof *all);
-      memcpy(all + count, b.visit[k].samples, (size_t)b.visit[k].count * sizeof *all);
+      samples = grow(samples, &room, count + (size_t)b.visit[k].count, sizeof *samples);
+      memcpy(samples + count, b.visit[k].samples, (size_t)b.visit[k].count * sizeof *samples);
       count += (size_t)b.visit[k].count;
     }
     progress_show("racks", (double)(b.first + many), job.racks);
   }
   progress_clear();
-  print_row(&job, all, count);
-  free(all);
+  print_row(&job, samples, count);
+  free(samples);
   free(b.visit);
   return EXIT_GOOD;
 }

@@ -54,7 +54,7 @@ OPTION(strength_job, option_target, "target", target, 0, "N", set_count, 1,
  * predicted of them. They are not independent, so the variance adds up off^2 rack by rack. */
 typedef struct bin {
   double predicted, variance, off;
-  long shots, kept;
+  long shots, keeps;
 } bin;
 
 typedef struct tally {
@@ -76,7 +76,7 @@ static void count(bin *b, double chance, bool came) {
   b->predicted += chance;
   b->off += (double)came - chance;
   b->shots++;
-  b->kept += came;
+  b->keeps += came;
 }
 
 static void end_rack(bin *bins, int count) {
@@ -87,16 +87,16 @@ static void end_rack(bin *bins, int count) {
 }
 
 /* The players of a stroke: the one at the table, and the opponent. */
-static void seat(const strength_job *job, int who, lab_rack *rack) {
+static void seat(const strength_job *job, int striker, lab_rack *rack) {
   static carom_player opponent;
   const double errors[2] = {job->errors, job->against > 0.0 ? job->against : job->errors};
-  rack->player = carom_player_of(errors[who]);
-  opponent = carom_player_of(errors[1 - who]);
+  rack->player = carom_player_of(errors[striker]);
+  opponent = carom_player_of(errors[1 - striker]);
   rack->options.opponent = &opponent;
 }
 
 /* One rack: strokes until the turn is not kept, or until the game is won. */
-static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally *to) {
+static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally *sums) {
   const carom_rules_kind rules = (carom_rules_kind)job->rules;
   lab_rack_make(rack, rules, ((uint64_t)job->seed << 32) + 7919 * (number + 1));
   if (rules == CAROM_RULES_STRAIGHT)
@@ -104,55 +104,55 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
   if (job->left > 0)
     lab_rack_end(rack, job->left);
   carom_turn turn = {.outcome = CAROM_TURN_KEEP};
-  int who = 0, n = 0;
-  static int by[STROKES_MOST];
+  int striker = 0, n = 0;
+  static int player_of[STROKES_MOST];
   static double value[STROKES_MOST];
   double visit = 0.0;
   while (n < STROKES_MOST &&
          (turn.outcome == CAROM_TURN_KEEP || (job->games && turn.outcome == CAROM_TURN_PASS))) {
     carom_plan_stroke best;
     const double begin = processor_ns();
-    who = turn.outcome == CAROM_TURN_PASS ? 1 - who : who;
-    seat(job, who, rack);
+    striker = turn.outcome == CAROM_TURN_PASS ? 1 - striker : striker;
+    seat(job, striker, rack);
     if (!lab_rack_stroke(rack, &best, &turn))
       return;
-    to->seconds += 1e-9 * (processor_ns() - begin);
-    to->plans++;
+    sums->seconds += 1e-9 * (processor_ns() - begin);
+    sums->plans++;
 
     /* what was predicted beside what came */
     visit += turn.points;
     if (turn.outcome != CAROM_TURN_KEEP) {
-      to->visits++;
-      to->points += visit;
-      to->best = fmax(to->best, visit);
+      sums->visits++;
+      sums->points += visit;
+      sums->best = fmax(sums->best, visit);
       visit = 0.0;
     }
-    const bool kept = turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN;
-    count(&to->bins[bin_of(best.keep)], best.keep, kept);
-    count(&to->kinds[best.kind], best.keep, kept);
-    by[n] = who;
+    const bool keeps = turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN;
+    count(&sums->bins[bin_of(best.keep)], best.keep, keeps);
+    count(&sums->kinds[best.kind], best.keep, keeps);
+    player_of[n] = striker;
     value[n++] = best.value;
-    to->strokes++;
-    to->pots += kept;
-    to->fouls += best.foul > 0.5;
+    sums->strokes++;
+    sums->pots += keeps;
+    sums->fouls += best.foul > 0.5;
   }
   int winner = -1;
   if (turn.outcome == CAROM_TURN_WIN)
-    winner = who;
+    winner = striker;
   else if (turn.outcome == CAROM_TURN_LOSE)
-    winner = 1 - who;
-  to->wins += winner == 0;
+    winner = 1 - striker;
+  sums->wins += winner == 0;
   for (int k = 0; k < n && winner >= 0; k++) {
     const double v = fmin(fmax(value[k], 1e-6), 1.0 - 1e-6);
-    count(&to->games[bin_of(value[k])], value[k], by[k] == winner);
-    to->odds = grow(to->odds, &to->odds_room, to->values + 1, sizeof *to->odds);
-    to->won = grow(to->won, &to->won_room, to->values + 1, sizeof *to->won);
-    to->odds[to->values] = log(v / (1.0 - v));
-    to->won[to->values++] = by[k] == winner;
+    count(&sums->games[bin_of(value[k])], value[k], player_of[k] == winner);
+    sums->odds = grow(sums->odds, &sums->odds_room, sums->values + 1, sizeof *sums->odds);
+    sums->won = grow(sums->won, &sums->won_room, sums->values + 1, sizeof *sums->won);
+    sums->odds[sums->values] = log(v / (1.0 - v));
+    sums->won[sums->values++] = player_of[k] == winner;
   }
-  end_rack(to->bins, BINS);
-  end_rack(to->games, BINS);
-  end_rack(to->kinds, KINDS);
+  end_rack(sums->bins, BINS);
+  end_rack(sums->games, BINS);
+  end_rack(sums->kinds, KINDS);
 }
 
 static void tell_bins(const bin *bins, int count, const char *const names[], const char *came) {
@@ -164,7 +164,7 @@ static void tell_bins(const bin *bins, int count, const char *const names[], con
       continue;
     if (names != NULL)
       printf("%s,", names[k]);
-    printf("%.3f,%ld,%.3f,%.3f\n", b->predicted / n, b->shots, (double)b->kept / n,
+    printf("%.3f,%ld,%.3f,%.3f\n", b->predicted / n, b->shots, (double)b->keeps / n,
            sqrt(b->variance) / n);
   }
 }

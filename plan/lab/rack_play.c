@@ -40,9 +40,11 @@ void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
   rack->plan.count = carom_rack_size(kind);
   rack->plan.options = &rack->options;
   rack->hand = true;
+  rack->plan.leave = CAROM_LEAVE_ANYWHERE;
   const int count = (int)rack->plan.count;
   if (rack->rules.breaks != 1) {
-    rack->kitchen = about->opening == CAROM_LEAVE_KITCHEN;
+    if (about->opening == CAROM_LEAVE_KITCHEN)
+      rack->plan.leave = CAROM_LEAVE_KITCHEN;
     const char *range;
     rack->rules.state.opening = 1;
     if (carom_rules_fault(game, &rack->rules.state, &range) != NULL)
@@ -74,6 +76,7 @@ void lab_rack_end(lab_rack *rack, int left) {
   left = left < GROUP ? left : GROUP - 1;
   rack->rules.state.group = groups ? CAROM_GROUP_SOLIDS : 0;
   rack->hand = false;
+  rack->plan.leave = CAROM_LEAVE_AFTER;
   for (int k = 0; k < count; k++)
     rack->balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
   for (int k = 0; k < count; k++) {
@@ -92,11 +95,7 @@ bool lab_rack_stroke(lab_rack *rack, carom_plan_stroke *choice, carom_turn *turn
   const int count = (int)job->count;
   int found;
   rack->options.seed = rack->state.state;
-  carom_marks marks;
-  carom_table_marks(job->table, &marks);
-  const double high[2] = {job->table->width, marks.head_spot[1]};
-  const double *bound = rack->kitchen ? high : NULL;
-  const carom_status status = rack->hand ? carom_plan_hand(job, NULL, bound, choice, 1, &found)
+  const carom_status status = rack->hand ? carom_plan_hand(job, NULL, NULL, choice, 1, &found)
                                          : carom_plan(job, choice, 1, &found);
   if (status < 0) {
     complain("a plan: %s", carom_status_string(status));
@@ -130,6 +129,6 @@ bool lab_rack_stroke(lab_rack *rack, carom_plan_stroke *choice, carom_turn *turn
   }
   carom_turn_settle(&rack->rules, &rack->rules.state, job->table, rack->balls, count, turn);
   rack->hand = turn->leave != CAROM_LEAVE_AFTER;
-  rack->kitchen = turn->leave == CAROM_LEAVE_KITCHEN;
+  rack->plan.leave = (int64_t)turn->leave;
   return true;
 }

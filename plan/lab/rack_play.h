@@ -25,8 +25,7 @@ typedef struct lab_rack {
   carom_plan_rules rules;
   carom_plan_options options;
   lab_random state;
-  bool hand;    /* whether the cue ball is in hand, */
-  bool kitchen; /* and behind the head string */
+  bool hand; /* whether the cue ball is in hand, by the leave of the plan */
 } lab_rack;
 
 /* The job for a game, by the options of the rack and the errors of a player; its memory is to be

@@ -64,8 +64,9 @@ typedef struct way {
 /* How far a shot came on its way. */
 typedef struct progress {
   int links;
-  double first, since, until; /* s: of the first link, of the last one, of what ended the rest */
-  carom_brief_event end;      /* that; of type 0: nothing did */
+  double first, last_contact,
+      end_time;          /* s: of the first link, of the last one, of what ended the rest */
+  carom_brief_event end; /* that; of type 0: nothing did */
 } progress;
 
 /* An angle of less than three half turns, as one of at most half a turn. */
@@ -80,9 +81,9 @@ static double wrapped(double angle) {
 /* Whether two rails are on one line. */
 static bool in_line(const carom_rail *r, const carom_rail *s) {
   const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1], length = x * x + y * y;
-  const double from = x * (s->p[1] - r->p[1]) - y * (s->p[0] - r->p[0]);
-  const double to = x * (s->q[1] - r->p[1]) - y * (s->q[0] - r->p[0]);
-  return fmax(fabs(from), fabs(to)) < 1e-6 * length;
+  const double start = x * (s->p[1] - r->p[1]) - y * (s->p[0] - r->p[0]);
+  const double end = x * (s->q[1] - r->p[1]) - y * (s->q[0] - r->p[0]);
+  return fmax(fabs(start), fabs(end)) < 1e-6 * length;
 }
 
 /* ---- A shot and its way */
@@ -95,8 +96,8 @@ static bool is_on(const way *w, const carom_part *link, int rail) {
 
 /* Whether the cue ball meets the first ball right after event k. */
 static bool meets_soon(const int *ball, const carom_brief_event *events, int64_t count, int64_t k) {
-  const double until = events[k].time + same_contact;
-  while (++k < count && events[k].time < until)
+  const double deadline = events[k].time + same_contact;
+  while (++k < count && events[k].time < deadline)
     if (events[k].type == CAROM_EVENT_BALL_BALL && events[k].a + events[k].b == ball[0] + ball[1] &&
         (events[k].a == ball[0] || events[k].b == ball[0]))
       return true;
@@ -129,14 +130,14 @@ static bool is_next_link(const way *w, const progress *p, const carom_brief_even
   return e->type == CAROM_EVENT_RAIL && is_on(w, next, e->b);
 }
 
-/* Whether the ball on its way, of index `at`, meets the one before it again: in the instant of the
+/* Whether the ball on its way, of this index, meets the one before it again: in the instant of the
  * last link; or the cue ball follows a ball that it touched from the start. */
-static bool meets_last_again(const progress *p, const int *ball, int at,
+static bool meets_last_again(const progress *p, const int *ball, int index,
                              const carom_brief_event *e) {
-  if (e->type != CAROM_EVENT_BALL_BALL || at == 0)
+  if (e->type != CAROM_EVENT_BALL_BALL || index == 0)
     return false;
-  const bool touched = at == 1 && p->since == 0.0;
-  return other_of(e, ball[at]) == ball[at - 1] && (e->time == p->since || touched);
+  const bool touched = index == 1 && p->last_contact == 0.0;
+  return other_of(e, ball[index]) == ball[index - 1] && (e->time == p->last_contact || touched);
 }
 
 /* Whether event k is a contact with a rail that may be: a hop along the rail of the last link; or,
@@ -146,7 +147,8 @@ static bool may_touch_rail(const way *w, const progress *p, const int *ball,
   const carom_brief_event *e = &events[k];
   if (e->type != CAROM_EVENT_RAIL)
     return false;
-  if (p->links > 0 && is_on(w, &w->link[p->links - 1], e->b) && e->time - p->since < same_contact)
+  if (p->links > 0 && is_on(w, &w->link[p->links - 1], e->b) &&
+      e->time - p->last_contact < same_contact)
     return true;
   return w->swept && p->links == 0 && meets_soon(ball, events, count, k);
 }
@@ -163,35 +165,35 @@ static int64_t first_of_instant(const carom_brief_event *events, int64_t k) {
 static progress follow(const way *w, const int *ball, const carom_brief_event *events,
                        int64_t count) {
   progress p = {0};
-  int at = 0; /* of the ball that is on its way */
+  int index = 0; /* of the ball that is on its way */
   int64_t k = 0;
   while (k < count && p.end.type == 0) {
     const carom_brief_event *e = &events[k];
     int64_t next = k + 1;
-    if (!concerns(e, ball[at])) {
+    if (!concerns(e, ball[index])) {
       k = next;
       continue;
     }
     int target = -1;
-    if (at + 1 < w->balls)
-      target = ball[at + 1];
-    if (is_next_link(w, &p, e, ball[at], target)) {
-      p.since = e->time;
+    if (index + 1 < w->balls)
+      target = ball[index + 1];
+    if (is_next_link(w, &p, e, ball[index], target)) {
+      p.last_contact = e->time;
       p.links++;
       if (e->type == CAROM_EVENT_BALL_BALL) {
         /* the next ball is on its way; the contacts of one instant are in any order */
-        if (at == 0)
+        if (index == 0)
           p.first = e->time;
-        at++;
+        index++;
         next = first_of_instant(events, k);
       }
-    } else if (!meets_last_again(&p, ball, at, e) &&
+    } else if (!meets_last_again(&p, ball, index, e) &&
                !may_touch_rail(w, &p, ball, events, count, k)) {
       p.end = *e;
     }
     k = next;
   }
-  p.until = p.end.time;
+  p.end_time = p.end.time;
   return p;
 }
 
@@ -206,13 +208,13 @@ static void states_at(const way *w, const carom_cue *cue, double time,
 
 /* How far the balls of the way come alone, and the time of their shot. */
 static progress alone(const way *w, const carom_cue *cue, double *time) {
-  static const int own[LINKS + 1] = {0, 1, 2, 3, 4, 5};
+  static const int indices[LINKS + 1] = {0, 1, 2, 3, 4, 5};
   carom_shot_options options = w->options;
   carom_shot shot = {.brief = w->events, .room = EVENTS};
   options.stop_at = CAROM_STOP_AT(CAROM_EVENT_POCKET);
   carom_shoot(w->table, w->alone, w->balls, cue, &options, &shot);
   *time = shot.time;
-  return follow(w, own, w->events, carom_min(shot.count, EVENTS));
+  return follow(w, indices, w->events, carom_min(shot.count, EVENTS));
 }
 
 /* The least elevation of the stick of a cue of the way in its direction, degrees. */
@@ -244,11 +246,11 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
   /* Where the last link left the ball, and where it went just before the end. */
   const double *c = w->mouth.centre;
   const carom_ball_state *s = &states[w->balls - 1];
-  states_at(w, &cue, p.since, states);
+  states_at(w, &cue, p.last_contact, states);
   const double x = c[0] - s->r[0], y = c[1] - s->r[1], far = sqrt(x * x + y * y);
   if (p.end.type != 0)
-    time = p.until;
-  states_at(w, &cue, fmax(p.since, time * (1.0 - just_before)), states);
+    time = p.end_time;
+  states_at(w, &cue, fmax(p.last_contact, time * (1.0 - just_before)), states);
   const double speed = sqrt(s->v[0] * s->v[0] + s->v[1] * s->v[1]);
   if (!(speed > 0.0))
     return p;
@@ -281,14 +283,14 @@ static bool is_beside(const way *w, const carom_brief_event *e) {
 
 /* What comes of a cue, of the whole layout. */
 static carom_pot_outcome fate(const way *w, const carom_shot_ball *balls, int count,
-                              const carom_cue *cue, carom_brief_event *met) {
+                              const carom_cue *cue, carom_brief_event *contact) {
   carom_facts facts;
   carom_shot shot = {.brief = w->events, .room = EVENTS, .facts = &facts};
   carom_shoot(w->table, balls, count, cue, &w->options, &shot);
   const progress p = follow(w, w->ball, w->events, carom_min(shot.count, EVENTS));
   const int last = w->ball[w->balls - 1];
   const bool falls = facts.pocket[last] >= 0 && &w->table->pocket[facts.pocket[last]] == w->pocket;
-  *met = p.end;
+  *contact = p.end;
 
   /* After the last link it may touch what is beside the pocket, and nothing else. */
   const int type = p.end.type;
@@ -307,8 +309,8 @@ static carom_pot_outcome fate(const way *w, const carom_shot_ball *balls, int co
  * by steps that grow, until one misses, then by halvings. */
 static double last_good(const way *w, const carom_shot_ball *balls, int count, const carom_cue *cue,
                         double *field, double step, double growth, double end) {
-  const double own = *field;
-  double falls, misses = own;
+  const double original = *field;
+  double falls, misses = original;
   carom_brief_event unused;
   do {
     falls = misses;
@@ -325,7 +327,7 @@ static double last_good(const way *w, const carom_shot_ball *balls, int count, c
     else
       misses = *field;
   }
-  *field = own;
+  *field = original;
   return falls;
 }
 
@@ -333,9 +335,9 @@ static double last_good(const way *w, const carom_shot_ball *balls, int count, c
 
 /* The stroke and half width of a root of e between two directions, in the first of which it has the
  * value e0; false for a jump. */
-static bool root_of(const way *w, const carom_cue *cue, const double between[2], double e0,
+static bool root_of(const way *w, const carom_cue *cue, const double bracket[2], double e0,
                     carom_cue *found, double *half) {
-  double e = e0, low = between[0], high = between[1];
+  double e = e0, low = bracket[0], high = bracket[1];
   *found = *cue;
   for (int k = 0; k < HALVINGS && !isnan(e); k++) {
     found->phi = 0.5 * (low + high);
@@ -403,14 +405,14 @@ static void judge(const way *w, const carom_shot_ball *balls, int count, const c
 /* Searches mid - wide to mid + wide, degrees, for directions with which the ball falls. */
 static void search(const way *w, const carom_shot_ball *balls, int count, double mid, double wide,
                    carom_pot *pot, carom_cue *cue) {
-  const carom_cue given = *cue;
+  const carom_cue stroke = *cue;
   int best = -1;
   pot->outcome = CAROM_POT_NO_WAY;
 
   /* as long as links are gained, and once more for the roots */
   for (bool gains = true; gains;) {
     const bool roots = best == w->links;
-    double low = 0.0, high = 0.0, last = mid - wide, before = (double)NAN;
+    double low = 0.0, high = 0.0, last = mid - wide, previous = (double)NAN;
     int most = -1;
     bool short_of = true; /* whether all that do most come to rest */
     progress at_rest = {0};
@@ -420,7 +422,7 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
       double sine, cosine, e, half, phi;
       carom_sincos(pi * k / (double)SAMPLES - 0.5 * pi, &sine, &cosine);
       phi = mid + wide * sine;
-      const progress p = attempt(w, phi, given, &e, &half);
+      const progress p = attempt(w, phi, stroke, &e, &half);
       const bool rests = p.end.type == CAROM_EVENT_ROLLING_STATIONARY ||
                          p.end.type == CAROM_EVENT_ROLLING_SPINNING;
 
@@ -441,13 +443,13 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
       /* a root between this direction and the last one, where the ball may fall */
       carom_cue root;
       double width = 0.0;
-      if (roots && (e > 0.0) != (before > 0.0) && fabs(e - before) < step_most &&
-          root_of(w, &given, (double[]){last, phi}, before, &root, &width)) {
+      if (roots && (e > 0.0) != (previous > 0.0) && fabs(e - previous) < step_most &&
+          root_of(w, &stroke, (double[]){last, phi}, previous, &root, &width)) {
         judge(w, balls, count, &root, width, pot, cue);
         if (pot->outcome == CAROM_POT_FALLS)
           return;
       }
-      before = e;
+      previous = e;
       last = phi;
     }
 
@@ -467,14 +469,14 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
 /* Whether the first ball is near a rail, by way of which it may be met. */
 static bool is_near_rail(const way *w) {
   const carom_shot_ball *first = &w->alone[1];
-  bool near = false;
+  bool is_near = false;
   for (int k = 0; k < w->table->rails; k++) {
     double l[3];
     carom_rail_line(&w->table->rail[k], l);
-    near |=
+    is_near |=
         fabs(l[0] * first->state.r[0] + l[1] * first->state.r[1] + l[2]) < 5.0 * first->kind.radius;
   }
-  return near;
+  return is_near;
 }
 
 /* Plays directions of this range, for a ball that runs along a rail or is met by way of one: e has
@@ -483,27 +485,27 @@ static bool is_near_rail(const way *w) {
 static void sweep(way *w, const carom_shot_ball *balls, int count, double mid, double wide,
                   carom_pot *pot, carom_cue *cue) {
   carom_cue c;
-  double from = 0.0, last = 0.0, low = 0.0, high = 0.0, unused, half;
+  double start = 0.0, last = 0.0, low = 0.0, high = 0.0, unused, half;
   bool fell = false, found = false;
   w->swept = w->links == 1;
   for (int k = 0; k <= SWEPT; k++) {
     double sine, cosine;
-    carom_brief_event met;
+    carom_brief_event contact;
     carom_sincos(pi * k / (double)SWEPT - 0.5 * pi, &sine, &cosine);
     c = *cue;
     c.phi = mid + wide * sine;
     c.theta = elevation_of(w, &c);
     /* the whole layout where the balls of the way alone come so far */
-    carom_cue own = c;
-    own.ball = 0;
-    const bool falls = alone(w, &own, &unused).links == w->links &&
-                       fate(w, balls, count, &c, &met) == CAROM_POT_FALLS;
+    carom_cue single = c;
+    single.ball = 0;
+    const bool falls = alone(w, &single, &unused).links == w->links &&
+                       fate(w, balls, count, &c, &contact) == CAROM_POT_FALLS;
     if (falls && !fell)
-      from = c.phi;
+      start = c.phi;
     if (falls)
       last = c.phi;
-    if (falls && last - from >= high - low) {
-      low = from;
+    if (falls && last - start >= high - low) {
+      low = start;
       high = last;
     }
     fell = falls;
@@ -515,11 +517,11 @@ static void sweep(way *w, const carom_shot_ball *balls, int count, double mid, d
   c.phi = 0.5 * (low + high);
   c.theta = elevation_of(w, &c);
   attempt(w, c.phi, *cue, &unused, &half);
-  carom_pot there = *pot;
-  judge(w, balls, count, &c, half, &there, &c);
-  if (there.outcome != CAROM_POT_FALLS)
+  carom_pot attempted = *pot;
+  judge(w, balls, count, &c, half, &attempted, &c);
+  if (attempted.outcome != CAROM_POT_FALLS)
     return;
-  *pot = there;
+  *pot = attempted;
   *cue = c;
 }
 
@@ -566,8 +568,8 @@ static bool take_alone(const carom_shot_ball *balls, int count, way *w) {
   for (int k = 0; k < w->balls; k++) {
     if (!is_there(balls, count, w->ball[k]))
       return false;
-    for (int other = 0; other < k; other++)
-      if (w->ball[other] == w->ball[k])
+    for (int earlier = 0; earlier < k; earlier++)
+      if (w->ball[earlier] == w->ball[k])
         return false;
     w->alone[k] = balls[w->ball[k]];
   }
@@ -620,14 +622,14 @@ typedef struct directions {
 /* The directions in which a straight path meets the first ball, or its image. No rail reflects as a
  * mirror does, and a raised cue's path curves. `along` gets the greatest elevation of the stick. */
 static directions directions_of(const way *w, carom_cue *along) {
-  const carom_shot_ball *own = &w->alone[0], *first = &w->alone[1];
+  const carom_shot_ball *striker = &w->alone[0], *first = &w->alone[1];
   double image[2];
   int rails;
   image_of_first(w, image, &rails);
 
   /* to either side of the middle, by the size of the balls */
-  const double x = image[0] - own->state.r[0], y = image[1] - own->state.r[1];
-  const double sine = (own->kind.radius + first->kind.radius) / sqrt(x * x + y * y);
+  const double x = image[0] - striker->state.r[0], y = image[1] - striker->state.r[1];
+  const double sine = (striker->kind.radius + first->kind.radius) / sqrt(x * x + y * y);
   directions range;
   range.half = carom_asin(fmin(sine, 1.0)) / degree;
   for (int side = -1; side <= 1 && w->raised; side++) {
@@ -638,7 +640,7 @@ static directions directions_of(const way *w, carom_cue *along) {
   /* the squirt turns the middle; the curve and rails widen the range */
   carom_motion struck = {.v = {1.0}};
   along->phi = 0.0;
-  carom_strike(along, &own->kind, &struck);
+  carom_strike(along, &striker->kind, &struck);
   range.mid = (carom_angle_of(x, y) - carom_angle_of(struck.v[0], struck.v[1])) / degree;
   range.half += kick_wide * rails;
   if (along->theta > 0.0)

@@ -10,7 +10,7 @@
 #include "rules.h"
 
 enum { DRIVEN = 2 };
-static const uint32_t all = 0xfffe;
+static const uint32_t object_balls = 0xfffe;
 
 static bool is_banked(const carom_facts *facts, carom_call call) {
   return carom_is_called(facts, call) && facts->first[0] == call.ball &&
@@ -19,46 +19,47 @@ static bool is_banked(const carom_facts *facts, carom_call call) {
 
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
-  const uint32_t balls = in_play & all, remain = balls & ~(facts->down | facts->off);
+  const uint32_t balls = in_play & object_balls, remain = balls & ~(facts->down | facts->off);
   const bool opening = game->opening != 0,
              passes = (game->may & CAROM_CHOICE_PASS) != 0 && call.ball == CAROM_CALL_PASS;
   game->opening = passes;
   game->may = 0;
   if (passes)
-    return carom_give(game, (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_KITCHEN, 0, all, 0.0});
+    return carom_give(game,
+                      (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_KITCHEN, 0, object_balls, 0.0});
 
-  int32_t bad = (int32_t)carom_foul_of(facts, balls, cue_ball);
-  if (bad == CAROM_FOUL_OFF)
-    bad = CAROM_FOUL_NONE;
-  if (bad == CAROM_FOUL_NONE && carom_is_double_hit(facts))
-    bad = CAROM_FOUL_DOUBLE_HIT;
-  const bool foul = bad != CAROM_FOUL_NONE, pots = (facts->down & balls) != 0;
+  int32_t fault = (int32_t)carom_foul_of(facts, balls, cue_ball);
+  if (fault == CAROM_FOUL_OFF)
+    fault = CAROM_FOUL_NONE;
+  if (fault == CAROM_FOUL_NONE && carom_is_double_hit(facts))
+    fault = CAROM_FOUL_DOUBLE_HIT;
+  const bool foul = fault != CAROM_FOUL_NONE, pots = (facts->down & balls) != 0;
   const bool bad_break = opening && !pots && carom_driven(facts, cue_ball) < DRIVEN;
-  carom_turn turn = carom_pass_by(bad);
+  carom_turn turn = carom_pass_by(fault);
   if (bad_break && !foul)
     turn.foul = CAROM_FOUL_BREAK;
 
   /* the ball that counts, or the one that a foul costs */
-  const bool made = !foul && !opening && is_banked(facts, call);
-  if (made)
+  const bool counts = !foul && !opening && is_banked(facts, call);
+  if (counts)
     carom_count_ball(game, 0);
   else if (foul)
     carom_pay_ball(game);
-  turn.points = made;
+  turn.points = counts;
   const bool third = carom_is_third_foul(game, foul);
 
   /* who plays, and what comes back: the ball that was made stays down */
   uint32_t stays = 0;
-  if (made)
+  if (counts)
     stays = carom_only(call.ball);
   if (game->score[0] >= CAROM_BALLS_THAT_WIN)
     turn.outcome = CAROM_TURN_WIN;
   else if (third)
     turn.outcome = CAROM_TURN_LOSE;
-  else if (made || (opening && !foul && pots))
+  else if (counts || (opening && !foul && pots))
     turn.outcome = CAROM_TURN_KEEP;
   if (turn.outcome == CAROM_TURN_PASS || (turn.outcome == CAROM_TURN_KEEP && remain == 0))
-    turn.spot = carom_back_of(game, all & ~remain, balls & ~remain & ~stays);
+    turn.spot = carom_back_of(game, object_balls & ~remain, balls & ~remain & ~stays);
   if (bad_break)
     game->may = CAROM_CHOICE_PASS;
   return carom_end_turn(game, turn);

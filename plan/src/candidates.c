@@ -53,14 +53,14 @@ void carom_search_add(search *plan, candidate c) {
   const double *r = plan->played[plan->cue_ball].state.r;
   c.r[0] = r[0];
   c.r[1] = r[1];
-  const bool given = c.kind == CAROM_PLAN_GIVEN || c.kind == CAROM_PLAN_PASS;
-  if (!given)
+  const bool is_fixed = c.kind == CAROM_PLAN_GIVEN || c.kind == CAROM_PLAN_PASS;
+  if (!is_fixed)
     bound(plan, &c);
-  if (!given && c.kind != CAROM_PLAN_POT) {
+  if (!is_fixed && c.kind != CAROM_PLAN_POT) {
     c.theta = raised(plan, &c);
     carom_search_spend(plan, RAISE_COST);
   }
-  const bool played = given || c.kind == CAROM_PLAN_FOUL || c.theta <= STICK_MOST;
+  const bool played = is_fixed || c.kind == CAROM_PLAN_FOUL || c.theta <= STICK_MOST;
   if (plan->count < plan->most && played) {
     c.order = (int32_t)plan->count;
     plan->found[plan->count++] = c;
@@ -96,10 +96,10 @@ static bool aim(const search *plan, candidate *c) {
   const double both = pair[0].kind.radius + pair[1].kind.radius, *r = pair[0].state.r,
                *o = pair[1].state.r;
   const double squirt = squirt_of(&alone, &pair[0].kind), psi = c->phi * degree;
-  double to = psi;
+  double direction = psi;
   for (int step = 0; step < STEPS; step++) {
     double sine, cosine;
-    carom_sincos(to, &sine, &cosine);
+    carom_sincos(direction, &sine, &cosine);
     alone.phi =
         carom_angle_of(o[0] - both * cosine - r[0], o[1] - both * sine - r[1]) / degree - squirt;
     c->phi = alone.phi;
@@ -121,7 +121,7 @@ static bool aim(const search *plan, candidate *c) {
     else if (off < -180.0 * degree)
       back = 360.0 * degree;
     off += back;
-    to += off;
+    direction += off;
   }
   c->phi = carom_turned(c->phi);
   return true;
@@ -163,9 +163,9 @@ static void step_aside(candidate *c, int number, bool more) {
 
 /* Moves the cue ball in hand to one of four sides. */
 static void move_aside(candidate *c, int side) {
-  static const double to[4][2] = {{-0.03, 0.0}, {0.03, 0.0}, {0.0, -0.03}, {0.0, 0.03}}; /* m */
-  c->r[0] += to[side][0];
-  c->r[1] += to[side][1];
+  static const double offset[4][2] = {{-0.03, 0.0}, {0.03, 0.0}, {0.0, -0.03}, {0.0, 0.03}}; /* m */
+  c->r[0] += offset[side][0];
+  c->r[1] += offset[side][1];
 }
 
 /* Strokes near the best `parents` ones, between those of the grid: one of speed, both places of the
@@ -208,9 +208,9 @@ void carom_search_near(search *plan, int64_t parents) {
 /* The numbers below `count` in an order that is drawn. */
 static void draw_order(const search *plan, uint32_t stage, int *order, int count) {
   for (int n = 0; n < count; n++) {
-    const int other = (int)(carom_uniform(plan->options.seed, stage, (uint64_t)n, 0) * (n + 1));
-    order[n] = order[other];
-    order[other] = n;
+    const int partner = (int)(carom_uniform(plan->options.seed, stage, (uint64_t)n, 0) * (n + 1));
+    order[n] = order[partner];
+    order[partner] = n;
   }
 }
 
@@ -227,10 +227,10 @@ void carom_search_pots(search *plan, int64_t most) {
           carom_way_of(&plan->view, plan->state, plan->in_play, k, p, 0, false, 0.03);
       if (w.chance == 0.0)
         continue;
-      int at = ways++; /* sorted in */
-      for (; at > 0 && way[at - 1].way.chance < w.chance; at--)
-        way[at] = way[at - 1];
-      way[at] = (carom_pot_found){w, k, p};
+      int index = ways++; /* sorted in */
+      for (; index > 0 && way[index - 1].way.chance < w.chance; index--)
+        way[index] = way[index - 1];
+      way[index] = (carom_pot_found){w, k, p};
     }
 
   /* The strokes in an order that is drawn, so that few of them are of all kinds. */
@@ -283,28 +283,28 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
 
   /* the nearest balls, or the outermost as seen from the cue ball, sorted in */
   struct {
-    double key, to, far, outer; /* direction, distance in both radii, side: 1 or -1 */
+    double key, direction, far, outer; /* direction, distance in both radii, side: 1 or -1 */
   } ball[TARGETS + 1];
   int balls = 0;
   for (int k = 0; k < plan->view.count; k++) {
     const double *r = plan->job.balls[k].state.r, x = r[0] - c[0], y = r[1] - c[1];
     if (!(plan->targets >> k & 1))
       continue;
-    const double to = carom_angle_of(x, y), far = sqrt(x * x + y * y);
+    const double direction = carom_angle_of(x, y), far = sqrt(x * x + y * y);
     double key = far;
     if (thin)
-      key = -fabs(to - foot);
-    int at = TARGETS;
+      key = -fabs(direction - foot);
+    int index = TARGETS;
     if (balls < TARGETS)
-      at = balls++;
-    for (; at > 0 && ball[at - 1].key > key; at--)
-      ball[at] = ball[at - 1];
-    ball[at].key = key;
-    ball[at].to = to;
-    ball[at].far = far / (plan->view.radius[plan->view.cue_ball] + plan->view.radius[k]);
-    ball[at].outer = 1.0;
-    if (thin && to < foot)
-      ball[at].outer = -1.0;
+      index = balls++;
+    for (; index > 0 && ball[index - 1].key > key; index--)
+      ball[index] = ball[index - 1];
+    ball[index].key = key;
+    ball[index].direction = direction;
+    ball[index].far = far / (plan->view.radius[plan->view.cue_ball] + plan->view.radius[k]);
+    ball[index].outer = 1.0;
+    if (thin && direction < foot)
+      ball[index].outer = -1.0;
   }
 
   /* strokes in an order that is drawn: a number stands for ball, side, speed and tip */
@@ -314,7 +314,8 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
   for (int n = 0; n < strokes && n < most; n++) {
     const int target = order[n] % balls, stroke = order[n] / balls;
     const double sine = ball[target].outer * side[thin][stroke % SIDES] / ball[target].far;
-    const double phi = (ball[target].to + carom_asin(carom_within(sine, -1.0, 1.0))) / degree;
+    const double phi =
+        (ball[target].direction + carom_asin(carom_within(sine, -1.0, 1.0))) / degree;
     const double off = tip[thin][stroke / SIDES / SPEEDS];
     candidate strike = {.speed = share[thin][stroke / SIDES % SPEEDS] * plan->player.speed_most,
                         .phi = carom_turned(phi)};
@@ -332,11 +333,11 @@ void carom_search_breaks(carom_search *plan, int64_t most) {
 /* A direction in which the cue ball meets a ball that is on, if nothing is between them; both are
  * drawn. */
 static double towards(const search *plan, uint64_t row) {
-  int on[CAROM_BALLS_MOST], count = 0;
+  int target[CAROM_BALLS_MOST], count = 0;
   for (int n = 0; n < plan->view.count; n++)
     if (plan->targets >> n & 1)
-      on[count++] = n;
-  const int k = on[(int)(count * carom_uniform(plan->options.seed, DRAW_SCAN, row, 2))];
+      target[count++] = n;
+  const int k = target[(int)(count * carom_uniform(plan->options.seed, DRAW_SCAN, row, 2))];
   const double *c = plan->played[plan->cue_ball].state.r, *r = plan->job.balls[k].state.r;
   const double x = r[0] - c[0], y = r[1] - c[1];
   const double both = plan->view.radius[plan->view.cue_ball] + plan->view.radius[k];

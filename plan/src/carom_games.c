@@ -36,7 +36,7 @@ static int cue_ball_of(const carom_rules_state *game) {
   return WHITE;
 }
 
-static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
+static uint32_t targets_of(const carom_rules_state *game, uint32_t in_play) {
   const uint32_t others = in_play & ~(UINT32_C(1) << cue_ball_of(game));
   if (game->opening != 0)
     return others & UINT32_C(1) << RED;
@@ -87,7 +87,7 @@ static carom_turn judge_point(carom_rules_state *game, uint32_t in_play, const c
                               carom_call call, int cushions) {
   if ((game->may & CAROM_CHOICE_SPOT) && call.ball == CAROM_CALL_SPOT)
     return carom_keep; /* settle() spots, and takes the choice back */
-  const uint32_t may_meet = on(game, in_play), first = carom_met_first(facts);
+  const uint32_t may_meet = targets_of(game, in_play), first = carom_met_first(facts);
   const bool opening = game->opening != 0;
   game->opening = game->may = 0;
   int32_t foul = CAROM_FOUL_NONE;
@@ -131,16 +131,16 @@ static uint32_t on_four(const carom_rules_state *game, uint32_t in_play) {
   return in_play & both_reds;
 }
 
-static int32_t foul_of_four(const carom_facts *facts, uint32_t on, uint32_t met) {
-  if (met == 0)
+static int32_t foul_of_four(const carom_facts *facts, uint32_t targets, uint32_t hit_balls) {
+  if (hit_balls == 0)
     return CAROM_FOUL_NO_BALL;
-  if ((carom_met_first(facts) & on) == 0)
+  if ((carom_met_first(facts) & targets) == 0)
     return CAROM_FOUL_FIRST;
   if (facts->off != 0)
     return CAROM_FOUL_OFF;
   if (facts->pushed != 0 || facts->touches > 1)
     return CAROM_FOUL_DOUBLE_HIT;
-  if ((met & ~both_reds) != 0)
+  if ((hit_balls & ~both_reds) != 0)
     return CAROM_FOUL_OTHER;
   return CAROM_FOUL_NONE;
 }
@@ -150,11 +150,11 @@ static carom_turn judge_four(carom_rules_state *game, uint32_t in_play, int cue_
   (void)cue_ball;
   if ((game->may & CAROM_CHOICE_SPOT) && call.ball == CAROM_CALL_SPOT)
     return carom_keep; /* settle() spots, and takes the choice back */
-  uint32_t met = 0;
+  uint32_t hit_balls = 0;
   for (int k = 0; k < BALLS_OF_FOUR && facts->first[0] >= 0; k++)
-    met |= carom_only(facts->order[k]);
+    hit_balls |= carom_only(facts->order[k]);
   carom_turn turn = carom_pass;
-  turn.foul = foul_of_four(facts, on_four(game, in_play), met);
+  turn.foul = foul_of_four(facts, on_four(game, in_play), hit_balls);
   game->opening = game->may = 0;
   if (turn.foul != CAROM_FOUL_NONE) {
     turn.spot = facts->off;
@@ -162,7 +162,7 @@ static carom_turn judge_four(carom_rules_state *game, uint32_t in_play, int cue_
     carom_add(&game->lost[0], 1);
     return give(game, turn);
   }
-  if (carom_count_of(met) < 2)
+  if (carom_count_of(hit_balls) < 2)
     return give(game, turn);
   turn = carom_keep;
   turn.points = 1.0;
@@ -176,30 +176,28 @@ static carom_turn judge_four(carom_rules_state *game, uint32_t in_play, int cue_
 
 /* The spots of three-cushion: of the red the foot spot, of the cue ball of the player who comes to
  * the table the head spot, of the other one the centre. */
-static void spot_of(const carom_table *table, int cue_ball, int ball, double at[2]) {
-  const carom_marks marks = carom_marks_of(table->width, table->length);
-  const double *spot = marks.centre_spot;
+static void spot_of(const carom_table *table, int cue_ball, int ball, double place[2]) {
+  place[0] = 0.5 * table->width;
+  place[1] = 0.5 * table->length;
   if (ball == RED)
-    spot = marks.foot_spot;
+    place[1] = 0.75 * table->length;
   if (ball == cue_ball)
-    spot = marks.head_spot;
-  at[0] = spot[0];
-  at[1] = spot[1];
+    place[1] = 0.25 * table->length;
 }
 
 /* Puts a ball on its spot, or where that is taken on the spot of the ball that is in the way. */
 static void put_on_spot(const carom_table *table, carom_shot_ball *balls, int count, int cue_ball,
                         int ball) {
-  double at[2];
-  int of = ball;
+  double place[2];
+  int spot = ball;
   for (int tried = 0; tried < BALLS_OF_THREE; tried++) {
-    carom_part there;
-    spot_of(table, cue_ball, of, at);
-    if (carom_place_ball(table, balls, count, ball, at[0], at[1], &there) == CAROM_OK)
+    carom_part obstacle;
+    spot_of(table, cue_ball, spot, place);
+    if (carom_place_ball(table, balls, count, ball, place[0], place[1], &obstacle) == CAROM_OK)
       return;
-    if (there.kind != CAROM_PART_BALL)
+    if (obstacle.kind != CAROM_PART_BALL)
       return;
-    of = there.index;
+    spot = obstacle.index;
   }
 }
 
@@ -213,22 +211,22 @@ static int32_t may_spot(const carom_shot_ball *balls, int count, int cue_ball) {
 /* All balls go to the places of the opening of the player who comes to the table. */
 static void settle_rack(carom_rack_kind rack, carom_rules_state *game, const carom_table *table,
                         carom_shot_ball *balls, int count, carom_turn *turn) {
-  const int cue_ball = cue_ball_of(game), all = carom_rack_size(rack);
-  if (count < all)
+  const int cue_ball = cue_ball_of(game), count_of_balls = carom_rack_size(rack);
+  if (count < count_of_balls)
     return;
-  const bool asked = (game->may & CAROM_CHOICE_SPOT) && turn->outcome == CAROM_TURN_KEEP;
-  if (asked || turn->spot != 0) {
-    turn->spot = (UINT32_C(1) << all) - 1;
-    for (int k = 0; k < all; k++)
+  const bool is_requested = (game->may & CAROM_CHOICE_SPOT) && turn->outcome == CAROM_TURN_KEEP;
+  if (is_requested || turn->spot != 0) {
+    turn->spot = (UINT32_C(1) << count_of_balls) - 1;
+    for (int k = 0; k < count_of_balls; k++)
       balls[k].state.label = CAROM_BALL_OFF;
-    for (int k = 0; k < all; k++) {
+    for (int k = 0; k < count_of_balls; k++) {
       /* the rack has the white as the cue ball */
-      double at[2] = {0.0, 0.0};
+      double place[2] = {0.0, 0.0};
       int spot = k;
       if (k < RED)
         spot = k != cue_ball;
-      carom_spot_of(rack, table, spot, at);
-      carom_place_ball(table, balls, count, k, at[0], at[1], NULL);
+      carom_spot_of(rack, table, spot, place);
+      carom_place_ball(table, balls, count, k, place[0], place[1], NULL);
     }
   }
   game->may = may_spot(balls, count, cue_ball);
@@ -277,7 +275,7 @@ static double value(const carom_rules_state *game, const carom_ball_state *layou
 
 /* 40 points, as in the world championship of the UMB. */
 CAROM_RULES_OBJECT(carom_threecushion) = {.state = {.target = 40},
-                                          .on = on,
+                                          .on = targets_of,
                                           .judge = judge_three,
                                           .settle = settle_one,
                                           .left = left,
@@ -286,7 +284,7 @@ CAROM_RULES_OBJECT(carom_threecushion) = {.state = {.target = 40},
                                           .rack = CAROM_RACK_THREECUSHION};
 
 CAROM_RULES_OBJECT(carom_straight_rail) = {.state = {.target = 100},
-                                           .on = on,
+                                           .on = targets_of,
                                            .judge = judge_any,
                                            .settle = settle_three,
                                            .left = left,

@@ -17,8 +17,8 @@ static double chance(const double *w, const double *x, int n) {
 }
 
 bool carom_is_learned(const carom_view *view) {
-  const int own = view->rules->learned - 1, games = sizeof learned_of / sizeof learned_of[0];
-  return own >= 0 && own < games && learned_of[own].stretch > 0.0;
+  const int kind = view->rules->learned - 1, games = sizeof learned_of / sizeof learned_of[0];
+  return kind >= 0 && kind < games && learned_of[kind].stretch > 0.0;
 }
 
 /* Those of the game, or of one with the same race. */
@@ -49,24 +49,24 @@ double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]) {
 static const double least_chance = 1e-3; /* between two who never pot the chain has no end */
 
 /* a_n, of a layout with this mean over the balls. */
-double carom_chance_later(const carom_view *view, int who, double mean, int n) {
-  const double x[LATER_NUMBERS] = {1.0, view->log_miss[who], 1.0 / n, mean};
-  double a = view->given[who];
+double carom_chance_later(const carom_view *view, int seat, double mean, int n) {
+  const double x[LATER_NUMBERS] = {1.0, view->log_miss[seat], 1.0 / n, mean};
+  double a = view->set_chance[seat];
   if (!(a > 0.0))
     a = chance(numbers_of(view)->later, x, LATER_NUMBERS);
   return fmax(a, least_chance);
 }
 
 /* e_n; that of an opponent who makes every ball is 1. */
-double carom_chance_first(const carom_view *view, int who, int n) {
-  const double x[FIRST_NUMBERS] = {1.0, view->log_miss[who], 1.0 / n};
-  if (who == 1 && view->given[1] == 1.0)
+double carom_chance_first(const carom_view *view, int seat, int n) {
+  const double x[FIRST_NUMBERS] = {1.0, view->log_miss[seat], 1.0 / n};
+  if (seat == 1 && view->set_chance[1] == 1.0)
     return 1.0;
   return fmax(chance(numbers_of(view)->first, x, FIRST_NUMBERS), least_chance);
 }
 
 void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
-                         uint32_t targets, uint32_t pockets, int who, bool in_hand,
+                         uint32_t targets, uint32_t pockets, int seat, bool in_hand,
                          double each[CAROM_BALLS_MOST], double x[NEXT_NUMBERS]) {
   /* the best pot of each ball */
   double best = 0.0, second = 0.0, sum = 0.0;
@@ -80,7 +80,7 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
     for (int p = 0; p < view->pockets; p++) {
       if (!(pockets >> p & 1))
         continue;
-      const carom_way way = carom_way_of(view, balls, in_play, k, p, who, in_hand, likeliest);
+      const carom_way way = carom_way_of(view, balls, in_play, k, p, seat, in_hand, likeliest);
       if (way.chance > likeliest)
         likeliest = way.chance;
     }
@@ -99,8 +99,8 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
   }
 
   const double mean = sum / (double)carom_max(count, 1);
-  const double numbers[NEXT_NUMBERS] = {1.0,    view->log_error[who], mean,   best,
-                                        second, count == 1,           in_hand};
+  const double numbers[NEXT_NUMBERS] = {
+      1.0, view->log_error[seat], mean, best, second, count == 1, in_hand};
   memcpy(x, numbers, sizeof numbers);
 }
 
@@ -111,23 +111,23 @@ static double log_odds_of(double chance) {
 
 void carom_find_edges(carom_view *view) {
   /* chances that the caller gives, as for a run-out, are no player's, and so make no edge */
-  const bool given = view->given[0] > 0.0 || view->given[1] > 0.0;
+  const bool is_set = view->set_chance[0] > 0.0 || view->set_chance[1] > 0.0;
   for (int n = 1; n <= MOST_LEFT; n++) {
     const double win = log_odds_of(view->win[0][n][n]), lose = log_odds_of(view->win[1][n][n]);
-    view->edge[n] = given ? 0.0 : 0.5 * (win - lose);
+    view->edge[n] = is_set ? 0.0 : 0.5 * (win - lose);
   }
 }
 
-double carom_stretched(const carom_view *view, double value, int who, int n) {
+double carom_stretched(const carom_view *view, double value, int seat, int n) {
   const learned *numbers = numbers_of(view);
-  const double edge = who == 0 ? view->edge[n] : -view->edge[n];
+  const double edge = seat == 0 ? view->edge[n] : -view->edge[n];
   const double odds = numbers->edge * edge + numbers->stretch * (log_odds_of(value) - edge);
   return 1.0 / (1.0 + carom_exp(-odds));
 }
 
-double carom_even(const carom_view *view, int who, int n) {
+double carom_even(const carom_view *view, int seat, int n) {
   double edge = numbers_of(view)->edge * view->edge[n];
-  if (who == 1)
+  if (seat == 1)
     edge = -edge;
   return 1.0 / (1.0 + carom_exp(-edge));
 }

@@ -20,7 +20,7 @@ static int32_t point_kind(const carom_facts *facts, int ball) {
 static int32_t seen_kind(search *plan, const carom_candidate *c, const carom_plan_stroke *choice) {
   enum { TRIES = 8, EVENTS = sizeof plan->event / sizeof plan->event[0] };
   int ball = 0;
-  while (plan->which[ball] != choice->ball)
+  while (plan->layout_ball[ball] != choice->ball)
     ball++;
   for (int64_t n = 0; n < TRIES; n++) {
     carom_facts facts;

@@ -15,21 +15,21 @@
 #include "rules.h"
 
 enum { ONE = 1, THREE = 2, CAROMS_ONLY = 90, LAST = 100, WINS = 101 };
-static const uint32_t all = 0xe;
+static const uint32_t object_balls = 0xe;
 static const int32_t number_of[] = {0, 1, 3, 5};
 
-static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
+static uint32_t targets_of(const carom_rules_state *game, uint32_t in_play) {
   if (game->opening != 0)
     return in_play & UINT32_C(1) << THREE;
   if (game->score[0] >= LAST)
     return in_play & UINT32_C(1) << ONE;
-  return in_play & all;
+  return in_play & object_balls;
 }
 
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
-  for (int who = 0; who < 2; who++)
-    needed[who] = (int32_t)carom_max(WINS - game->score[who], 0);
+  for (int seat = 0; seat < 2; seat++)
+    needed[seat] = (int32_t)carom_max(WINS - game->score[seat], 0);
 }
 
 static double points(const carom_rules_state *game, uint32_t in_play, int ball) {
@@ -42,7 +42,7 @@ static double points(const carom_rules_state *game, uint32_t in_play, int ball) 
 }
 
 /* The object balls that the cue ball met. */
-static int met(const carom_facts *facts) {
+static int count_hits(const carom_facts *facts) {
   int count = 0;
   while (count < 3 && facts->first[0] >= 0 && facts->order[count] >= 0)
     count++;
@@ -50,10 +50,10 @@ static int met(const carom_facts *facts) {
 }
 
 /* The points of a stroke without a foul. */
-static int32_t made(const carom_rules_state *game, const carom_facts *facts) {
+static int32_t points_of(const carom_rules_state *game, const carom_facts *facts) {
   if (game->score[0] >= LAST)
     return 0;
-  int32_t points = (int32_t)carom_max(met(facts) - 1, 0);
+  int32_t points = (int32_t)carom_max(count_hits(facts) - 1, 0);
   for (int k = ONE; k <= 3 && game->score[0] < CAROMS_ONLY; k++)
     if (facts->down >> k & 1)
       points += number_of[k];
@@ -62,7 +62,7 @@ static int32_t made(const carom_rules_state *game, const carom_facts *facts) {
 
 /* The last stroke: off the 1 alone into the pocket that is called. */
 static bool is_last(const carom_facts *facts, int cue_ball, carom_call call) {
-  return facts->first[0] == ONE && met(facts) == 1 && facts->off == 0 &&
+  return facts->first[0] == ONE && count_hits(facts) == 1 && facts->off == 0 &&
          facts->down == UINT32_C(1) && call.ball == ONE && facts->pocket[cue_ball] == call.pocket &&
          !carom_is_double_hit(facts);
 }
@@ -71,9 +71,9 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
   carom_turn turn;
   const bool opening = game->opening != 0;
-  if (carom_racks_again(game, call.ball, all, &turn))
+  if (carom_racks_again(game, call.ball, object_balls, &turn))
     return turn;
-  const uint32_t may_meet = on(game, in_play);
+  const uint32_t may_meet = targets_of(game, in_play);
   game->opening = game->may = 0;
   if (game->score[0] >= LAST && is_last(facts, cue_ball, call)) {
     carom_add(&game->score[0], 1);
@@ -81,7 +81,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   }
 
   /* fouls; a stroke that scores needs no cushion */
-  const int32_t gain = made(game, facts);
+  const int32_t gain = points_of(game, facts);
   int32_t most = LAST;
   if (game->score[0] < CAROMS_ONLY)
     most = CAROMS_ONLY;
@@ -91,7 +91,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if (foul == CAROM_FOUL_NONE && game->score[0] + gain > most)
     foul = CAROM_FOUL_OTHER;
   turn = carom_pass_by(foul);
-  turn.spot = (facts->down | facts->off | ~in_play) & all;
+  turn.spot = (facts->down | facts->off | ~in_play) & object_balls;
   if (foul != CAROM_FOUL_NONE) {
     turn.points = -game->lost[0];
     game->score[0] -= (int32_t)carom_min(game->lost[0], game->score[0]);
@@ -114,10 +114,10 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
 static void put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set) {
   for (int k = ONE; k <= 3; k++)
     if (set >> k & 1) {
-      double at[2] = {0.0, 0.0};
+      double spot[2] = {0.0, 0.0};
       balls[k].state.label = CAROM_BALL_POCKETED;
-      carom_spot_of(CAROM_RACK_COWBOY, table, k, at);
-      carom_place_ball(table, balls, count, k, at[0], at[1], NULL);
+      carom_spot_of(CAROM_RACK_COWBOY, table, k, spot);
+      carom_place_ball(table, balls, count, k, spot[0], spot[1], NULL);
     }
 }
 
@@ -130,13 +130,13 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
   put_back(table, balls, count, turn->spot);
   if (game->score[0] < LAST || balls[ONE].state.label != CAROM_BALL_POCKETED)
     return;
-  turn->spot = all;
+  turn->spot = object_balls;
   turn->leave = CAROM_LEAVE_KITCHEN;
   balls[0].state.label = CAROM_BALL_POCKETED;
-  put_back(table, balls, count, all);
+  put_back(table, balls, count, object_balls);
 }
 
-CAROM_RULES_OBJECT(carom_cowboy) = {.on = on,
+CAROM_RULES_OBJECT(carom_cowboy) = {.on = targets_of,
                                     .judge = judge,
                                     .settle = settle,
                                     .left = left,

@@ -37,23 +37,23 @@ void carom_search_tables(carom_search *plan, carom_drawn_table *room) {
 
     /* the numbers of the balls; and those that a rail or a jaw has of its own, which are 0 where it
      * has none */
-    carom_drawn_table *to = &room[k];
+    carom_drawn_table *drawn = &room[k];
     for (int ball = 0; ball < plan->plays; ball++) {
-      carom_ball_kind *kind = &to->kind[ball];
+      carom_ball_kind *kind = &drawn->kind[ball];
       *kind = plan->played[ball].kind;
       kind->restitution_cushion = times(kind->restitution_cushion, factor[RESTITUTION]);
       kind->mu_cushion = times(kind->mu_cushion, factor[FRICTION]);
       kind->mu_roll = times(kind->mu_roll, factor[ROLLING]);
       kind->mu_slide = times(kind->mu_slide, factor[SLIDING]);
     }
-    to->table = *plan->job.table;
-    for (int r = 0; r < to->table.rails; r++) {
-      carom_rail *rail = &to->table.rail[r];
+    drawn->table = *plan->job.table;
+    for (int r = 0; r < drawn->table.rails; r++) {
+      carom_rail *rail = &drawn->table.rail[r];
       rail->restitution = times(rail->restitution, factor[RESTITUTION]);
       rail->mu_cushion = times(rail->mu_cushion, factor[FRICTION]);
     }
-    for (int j = 0; j < to->table.jaws; j++) {
-      carom_jaw *jaw = &to->table.jaw[j];
+    for (int j = 0; j < drawn->table.jaws; j++) {
+      carom_jaw *jaw = &drawn->table.jaw[j];
       jaw->restitution = times(jaw->restitution, factor[RESTITUTION]);
       jaw->mu_cushion = times(jaw->mu_cushion, factor[FRICTION]);
     }

@@ -30,7 +30,7 @@ static const struct {
 static const struct {
   carom_rules_about about;
   const carom_plan_rules *rules;
-  int calls, members, may;
+  int calls, members, choices;
 } games[] = {CAROM_GAMES(GAME)};
 #undef GAME
 
@@ -79,7 +79,7 @@ static bool may_be(carom_rules_kind kind, size_t member, int32_t value) {
       games[kind].rules->race == CAROM_RACE_ALONE || games[kind].rules->race == CAROM_RACE_SHARED;
   if (optional && member == PLACE_OF_TARGET && value == 0)
     return true;
-  if (member == PLACE_OF_MAY && (value & ~games[kind].may) != 0)
+  if (member == PLACE_OF_MAY && (value & ~games[kind].choices) != 0)
     return false;
   return value >= members[member].low && value <= members[member].high;
 }

@@ -19,9 +19,9 @@ enum { SAFETIES = 3 }; /* that are played anew, of which the best is listed */
 enum { TOLD_LEAST = 20 };
 
 /* What the shots of a candidate tell. */
-typedef struct told {
+typedef struct shot_chances {
   double value, error, keep, foul, lose;
-} told;
+} shot_chances;
 
 static double mean_of(const carom_tally *t) {
   return t->sum / (double)t->seen;
@@ -38,27 +38,28 @@ static double error_of(const carom_tally *t) {
 }
 
 /* Some shots; NaN stays NaN. */
-static told told_by(const carom_tally *t) {
+static shot_chances told_by(const carom_tally *t) {
   const double n = (double)t->seen;
-  return (told){mean_of(t), error_of(t), (double)t->keep / n, (double)t->foul / n,
-                (double)t->lose / n};
+  return (shot_chances){mean_of(t), error_of(t), (double)t->keep / n, (double)t->foul / n,
+                        (double)t->lose / n};
 }
 
 /* The shots of a candidate. Fresh ones are few, so as many of those that chose as count `shots`
  * stand beside them. */
-static told told_of(const candidate *c) {
+static shot_chances told_of(const candidate *c) {
   static const double shots = 10.0;
-  const told chose = told_by(&c->chose);
+  const shot_chances chose = told_by(&c->chose);
   if (c->fresh.seen == 0)
     return chose;
-  const told fresh = told_by(&c->fresh);
+  const shot_chances fresh = told_by(&c->fresh);
   double used = 0.0;
   if (c->round > 0)
     used = fmin((double)c->chose.seen, shots);
   const double part = used / ((double)c->fresh.seen + used), rest = 1.0 - part;
-  return (told){part * chose.value + rest * fresh.value, rest * fresh.error,
-                part * chose.keep + rest * fresh.keep, part * chose.foul + rest * fresh.foul,
-                part * chose.lose + rest * fresh.lose};
+  return (shot_chances){part * chose.value + rest * fresh.value, rest * fresh.error,
+                        part * chose.keep + rest * fresh.keep,
+                        part * chose.foul + rest * fresh.foul,
+                        part * chose.lose + rest * fresh.lose};
 }
 
 /* A pot that a choice names; ball and pocket -1: none. */
@@ -89,7 +90,7 @@ static int kind_of(const candidate *c, const named_pot *pot) {
 
 carom_plan_stroke carom_search_choice(const search *plan, const candidate *c) {
   const named_pot pot = pot_of(c);
-  const told chances = told_of(c);
+  const shot_chances chances = told_of(c);
 
   /* by about so many standard errors a plan that was stopped overestimates what it has chosen */
   const bool strikes = c->kind != CAROM_PLAN_PASS;
@@ -158,9 +159,9 @@ static bool is_listed(const search *plan, const candidate *c) {
 }
 
 static void swap(candidate *a, candidate *b) {
-  const candidate kept = *a;
+  const candidate first = *a;
   *a = *b;
-  *b = kept;
+  *b = first;
 }
 
 static bool is_safety(const candidate *c) {
@@ -187,10 +188,10 @@ bool carom_search_list(search *plan) {
   carom_plan_stroke listed[LISTED_MOST];
   for (int k = 0; k < plan->listed; k++)
     listed[k] = with_kind(plan, &plan->found[k]);
-  for (; plan->asked < plan->count && plan->listed < plan->wanted; plan->asked++) {
+  for (; plan->examined < plan->count && plan->listed < plan->choices_most; plan->examined++) {
     if (plan->slice == 0)
       return false;
-    candidate *c = &plan->found[plan->asked];
+    candidate *c = &plan->found[plan->examined];
     if (!is_listed(plan, c))
       continue;
     listed[plan->listed] = with_kind(plan, c);
@@ -202,7 +203,7 @@ bool carom_search_list(search *plan) {
   for (int k = 0; k < plan->listed; k++)
     safe |= listed[k].kind == CAROM_PLAN_SAFETY;
   const bool alone = plan->job.rules->race == CAROM_RACE_ALONE;
-  if (plan->wanted > 1 && !safe && !alone && !plan->breaks && plan->view.pockets > 0)
+  if (plan->choices_most > 1 && !safe && !alone && !plan->breaks && plan->view.pockets > 0)
     list_safeties(plan);
   return true;
 }
@@ -210,31 +211,31 @@ bool carom_search_list(search *plan) {
 /* Sorts a choice in behind n choices, the best first; of two of one value the one that keeps the
  * turn more often, then the earlier, is first. */
 static void sort_in(carom_plan_stroke *choices, int n, const carom_plan_stroke *choice) {
-  int at = n;
-  for (; at > 1; at--) {
-    const carom_plan_stroke *before = &choices[at - 1];
-    const bool better = choice->value > before->value ||
-                        (choice->value == before->value && choice->keep > before->keep);
+  int index = n;
+  for (; index > 1; index--) {
+    const carom_plan_stroke *previous = &choices[index - 1];
+    const bool better = choice->value > previous->value ||
+                        (choice->value == previous->value && choice->keep > previous->keep);
     if (!better)
       break;
-    choices[at] = *before;
+    choices[index] = *previous;
   }
-  choices[at] = *choice;
+  choices[index] = *choice;
 }
 
 /* A first choice that was worth nothing in its fresh shots gives its place to one that was worth
  * something in its own: small plans of carom games chose strokes that make no point. */
-static void promote(carom_plan_stroke *first, carom_plan_stroke *other) {
-  if (first->value > 0.0 || other->value <= 0.0)
+static void promote(carom_plan_stroke *first, carom_plan_stroke *second) {
+  if (first->value > 0.0 || second->value <= 0.0)
     return;
-  const carom_plan_stroke kept = *first;
-  *first = *other;
-  *other = kept;
+  const carom_plan_stroke demoted = *first;
+  *first = *second;
+  *second = demoted;
 }
 
 int carom_search_give(search *plan, carom_plan_stroke *choices, int room) {
-  carom_plan_stroke all[LISTED_MOST + SAFETIES];
-  int n = 0, given = 0;
+  carom_plan_stroke choice_list[LISTED_MOST + SAFETIES];
+  int n = 0, written = 0;
   for (int k = 0; k < carom_max(plan->listed, 1) && !(n > 0 && carom_is_stopped(plan)); k++) {
     carom_plan_stroke choice = with_kind(plan, &plan->found[k]);
     if (n > 0) {
@@ -243,23 +244,24 @@ int carom_search_give(search *plan, carom_plan_stroke *choices, int room) {
         risky = choice.foul > opening_foul_most;
       if ((choice.seen < TOLD_LEAST && choice.kind != CAROM_PLAN_PASS) || risky)
         continue;
-      promote(&all[0], &choice);
-      choice.value = fmin(choice.value, all[0].value);
+      promote(&choice_list[0], &choice);
+      choice.value = fmin(choice.value, choice_list[0].value);
     }
-    sort_in(all, n++, &choice);
+    sort_in(choice_list, n++, &choice);
   }
 
   /* the best of each ball, pocket and kind; the best safety takes the last place at least, and a
    * player who may pass is told so */
   for (int k = 0; k < n; k++) {
-    const bool safety = all[k].kind == CAROM_PLAN_SAFETY;
-    const bool near = all[k].value >= all[0].value - points_most || all[k].kind == CAROM_PLAN_PASS;
-    if (has_same(choices, given, &all[k]) || !(near || safety))
+    const bool safety = choice_list[k].kind == CAROM_PLAN_SAFETY;
+    const bool is_close = choice_list[k].value >= choice_list[0].value - points_most ||
+                          choice_list[k].kind == CAROM_PLAN_PASS;
+    if (has_same(choices, written, &choice_list[k]) || !(is_close || safety))
       continue;
-    if (given < room)
-      choices[given++] = all[k];
+    if (written < room)
+      choices[written++] = choice_list[k];
     else if (safety && room > 1)
-      choices[room - 1] = all[k];
+      choices[room - 1] = choice_list[k];
   }
-  return given;
+  return written;
 }

@@ -8,57 +8,10 @@
  * reads them back. */
 #include "match.h"
 #include "rules.h"
-#include "table/marks.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-/* ---- Ball in hand */
-
-carom_status carom_hand_bounds(carom_leave leave, const carom_table *table, double radius,
-                               carom_bounds *bounds) {
-  if (table == NULL || bounds == NULL)
-    return CAROM_ERROR_NULL;
-  if ((uint32_t)leave > CAROM_LEAVE_BAULK)
-    return CAROM_ERROR_ACT;
-  if (!(radius >= 0.0) || isinf(radius))
-    return CAROM_ERROR_RADIUS;
-
-  /* the table, up to where balls touch its cushions */
-  memset(bounds, 0, sizeof *bounds);
-  bounds->low[0] = bounds->low[1] = radius;
-  bounds->high[0] = table->width - radius;
-  bounds->high[1] = table->length - radius;
-  const carom_marks marks = carom_marks_of(table->width, table->length);
-  if (leave == CAROM_LEAVE_KITCHEN)
-    bounds->high[1] = marks.head_spot[1];
-  if (leave == CAROM_LEAVE_BAULK)
-    bounds->high[1] = marks.baulk_line;
-
-  /* the box around the D */
-  if (leave == CAROM_LEAVE_D) {
-    memcpy(bounds->centre, marks.d_centre, sizeof bounds->centre);
-    bounds->radius = marks.d_radius;
-    bounds->low[0] = marks.d_centre[0] - marks.d_radius;
-    bounds->low[1] = marks.d_centre[1] - marks.d_radius;
-    bounds->high[0] = marks.d_centre[0] + marks.d_radius;
-    bounds->high[1] = marks.d_centre[1];
-  }
-  return CAROM_OK;
-}
-
-int carom_is_within(const carom_bounds *bounds, double x, double y) {
-  if (bounds == NULL)
-    return 0;
-  const double at[2] = {x, y};
-  for (int axis = 0; axis < 2; axis++)
-    if (!(at[axis] >= bounds->low[axis] && at[axis] <= bounds->high[axis]))
-      return 0;
-  /* an arc that is touched is within, to the width of its line */
-  const double reach = bounds->radius + 1e-9;
-  return bounds->radius <= 0.0 || carom_square(at, bounds->centre) <= reach * reach;
-}
 
 /* ---- Refusals */
 
@@ -81,27 +34,27 @@ carom_status carom_match_refuse(carom_match *match, carom_refusal why, const cha
 
 /* A set of balls as text, such as "1, 2, 9". */
 static const char *list_balls(uint32_t set, char text[128]) {
-  size_t at = 0;
+  size_t size = 0;
   const char *comma = "";
   text[0] = '\0';
-  for (int k = 0; k < CAROM_BALLS_MOST && at + 5 < 128; k++)
+  for (int k = 0; k < CAROM_BALLS_MOST && size + 5 < 128; k++)
     if (set >> k & 1) {
-      at += (size_t)snprintf(text + at, 128 - at, "%s%d", comma, k);
+      size += (size_t)snprintf(text + size, 128 - size, "%s%d", comma, k);
       comma = ", ";
     }
   return text;
 }
 
 /* The choices as text. */
-static const char *list_choices(int32_t may, char text[128]) {
+static const char *list_choices(int32_t choices, char text[128]) {
   static const char *const names[] = {
       "pass", "push", "free ball", "place in the D", "rack", "rack for the other", "stay", "spot"};
-  size_t at = 0;
+  size_t size = 0;
   const char *comma = "";
   snprintf(text, 128, "none");
   for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
-    if (may >> k & 1) {
-      at += (size_t)snprintf(text + at, 128 - at, "%s%s", comma, names[k]);
+    if (choices >> k & 1) {
+      size += (size_t)snprintf(text + size, 128 - size, "%s%s", comma, names[k]);
       comma = ", ";
     }
   return text;
@@ -137,9 +90,9 @@ static void begin_act(carom_match *match) {
 }
 
 static void put_line(carom_match *match, carom_record_kind kind) {
-  const size_t at = (size_t)match->size;
-  match->size +=
-      (int64_t)carom_record_write(&match->record, kind, match->text + at, sizeof match->text - at);
+  const size_t size = (size_t)match->size;
+  match->size += (int64_t)carom_record_write(&match->record, kind, match->text + size,
+                                             sizeof match->text - size);
 }
 
 static void put_act(carom_match *match, carom_act act, int player, int32_t choice,
@@ -247,9 +200,9 @@ carom_status carom_match_begin_at(carom_match *match, carom_rules_kind kind,
   memcpy(lies, balls, (size_t)count * sizeof *balls);
   if (leave >= CAROM_LEAVE_ANYWHERE)
     lies[carom_match_cue_ball(match)].state.label = CAROM_BALL_POCKETED;
-  const carom_status bad = carom_shot_check(table, lies, count, NULL, options, NULL);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status error = carom_shot_check(table, lies, count, NULL, options, NULL);
+  if (error != CAROM_OK)
+    return error;
 
   /* the record, and its first lines */
   record->match = 1;
@@ -299,9 +252,9 @@ carom_status carom_match_begin_to(carom_match *match, carom_rules_kind kind, int
   /* the rack, which a break opens in the games that have one */
   carom_shot_ball balls[CAROM_BALLS_MOST];
   const carom_rack_kind rack = (carom_rack_kind)about->rack;
-  const carom_status bad = carom_rack(rack, table, 1e-4, seed, balls, CAROM_BALLS_MOST);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status error = carom_rack(rack, table, 1e-4, seed, balls, CAROM_BALLS_MOST);
+  if (error != CAROM_OK)
+    return error;
   carom_plan_rules rules = carom_plan_rules_of(kind);
   rules.state.opening = carom_has_opening(kind);
   rules.state.innings = equal_innings;
@@ -448,9 +401,9 @@ carom_status carom_match_stroke(carom_match *match, int player, const carom_cue 
   if (match == NULL || cue == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
-  const carom_status bad = check_turn(match, player, "stroke");
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status error = check_turn(match, player, "stroke");
+  if (error != CAROM_OK)
+    return error;
   if (match->phase == CAROM_MATCH_PLACE)
     return carom_match_refuse(
         match, CAROM_REFUSED_IN_HAND, "stroke",
@@ -480,9 +433,9 @@ carom_status carom_match_continue(carom_match *match, const carom_shot_options *
 /* ---- Places, calls and choices */
 
 static carom_status place_cue_ball(carom_match *match, int player, double x, double y) {
-  const carom_status bad = check_turn(match, player, "place");
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status error = check_turn(match, player, "place");
+  if (error != CAROM_OK)
+    return error;
   if (match->leave < CAROM_LEAVE_ANYWHERE)
     return carom_match_refuse(match, CAROM_REFUSED_NO_HAND, "place", "the cue ball is not in hand");
   if (!carom_is_within(&match->bounds, x, y)) {
@@ -498,14 +451,14 @@ static carom_status place_cue_ball(carom_match *match, int player, double x, dou
 
   /* the ball is taken from where it was put before */
   carom_record *record = &match->record;
-  carom_part there;
-  const carom_status status = carom_record_place(record, match->cue_ball, x, y, &there);
+  carom_part obstacle;
+  const carom_status status = carom_record_place(record, match->cue_ball, x, y, &obstacle);
   if (status != CAROM_OK) {
     char right[128];
     const char *part = "part";
-    if (there.kind == CAROM_PART_BALL)
+    if (obstacle.kind == CAROM_PART_BALL)
       part = "ball";
-    snprintf(right, sizeof right, "%s: %s %d", carom_status_string(status), part, there.index);
+    snprintf(right, sizeof right, "%s: %s %d", carom_status_string(status), part, obstacle.index);
     return carom_match_refuse(match, CAROM_REFUSED_OCCUPIED, "place", right);
   }
   put_line(match, CAROM_RECORD_PLACE);
@@ -523,9 +476,9 @@ carom_status carom_match_place(carom_match *match, int player, double x, double 
 }
 
 static carom_status call_pocket(carom_match *match, int player, carom_call call) {
-  const carom_status bad = check_turn(match, player, "call");
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status error = check_turn(match, player, "call");
+  if (error != CAROM_OK)
+    return error;
   const bool calls = match->rules.calls != 0;
   if (!calls && (match->may & CAROM_CHOICE_SPOT) == 0) /* a call names the ball that is spotted */
     return carom_match_refuse(match, CAROM_REFUSED_CALL, "call", "nothing is called in this game");
@@ -582,9 +535,9 @@ static int32_t call_of(carom_choice choice) {
 }
 
 static carom_status take_choice(carom_match *match, int player, carom_choice choice) {
-  const carom_status bad = check_turn(match, player, "choose");
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status error = check_turn(match, player, "choose");
+  if (error != CAROM_OK)
+    return error;
   const int32_t bits = (int32_t)choice;
   const bool is_one = bits > 0 && (bits & (bits - 1)) == 0 && (match->may & bits) != 0;
   if (!is_one || call_of(choice) == 0) {
@@ -665,9 +618,9 @@ carom_status carom_match_clock(carom_match *match, int player) {
   if (match == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
-  const carom_status bad = check_turn(match, player, "clock");
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status error = check_turn(match, player, "clock");
+  if (error != CAROM_OK)
+    return error;
   put_act(match, CAROM_ACT_CLOCK, player, 0, (carom_call){-1, -1});
   rule(match, true, (carom_call){-1, -1});
   apply(match);
@@ -712,9 +665,9 @@ carom_status carom_match_plan(carom_match *match, carom_plan_job *job, carom_pla
     return CAROM_ERROR_NULL;
   const carom_record *record = &match->record;
   begin_act(match);
-  const carom_status bad = check_turn(match, (int)record->player, "plan");
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status error = check_turn(match, (int)record->player, "plan");
+  if (error != CAROM_OK)
+    return error;
   if (!may_strike(match, job->cue->ball))
     return carom_match_refuse(match, CAROM_REFUSED_CUE_BALL, "plan",
                               "job.cue->ball must be match.cue_ball, or a ball in play where any "

@@ -44,12 +44,13 @@ static bool is_kind(const char *line, size_t size, const char *kind) {
 
 /* A line that is not by the rules: what is due, and why. Nothing is read behind it. */
 static carom_status refuse_line(carom_match *match, int64_t line, const char *what) {
-  char act[40], right[300], due[64] = "";
+  char act[40], right[300], pending[64] = "";
   const int length = (int)line_due(match);
   if (length > 0)
-    snprintf(due, sizeof due, "; due is %.*s...", (int)carom_min(length - 1, 40), match->text);
+    snprintf(pending, sizeof pending, "; due is %.*s...", (int)carom_min(length - 1, 40),
+             match->text);
   snprintf(act, sizeof act, "line %lld", (long long)line);
-  snprintf(right, sizeof right, "%s%s", what, due);
+  snprintf(right, sizeof right, "%s%s", what, pending);
   match->record.kind = CAROM_RECORD_WRONG;
   return carom_match_refuse(match, CAROM_REFUSED_LINE, act, right);
 }
@@ -151,9 +152,9 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
     return CAROM_OK; /* the shot tells its events */
 
   /* a line that the rules have made already */
-  size_t due = line_due(match);
+  size_t pending = line_due(match);
   const int64_t number = record->line + 1;
-  if (due == 0) {
+  if (pending == 0) {
     *scratch = *record;
     const carom_status status = carom_record_read(scratch, line, size);
     if (status != CAROM_OK) {
@@ -169,13 +170,13 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
       return refuse_line(match, number, why);
     }
     match->due = match->size;
-    due = line_due(match);
+    pending = line_due(match);
   }
-  if (due != size + 1 || memcmp(line, match->text, size) != 0) {
+  if (pending != size + 1 || memcmp(line, match->text, size) != 0) {
     char words[200] = "the line has other values";
     carom_ruling_string(&match->ruling, words, sizeof words);
     return refuse_line(match, number, words);
   }
-  take_line(match, due);
+  take_line(match, pending);
   return CAROM_OK;
 }

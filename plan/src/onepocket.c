@@ -11,7 +11,7 @@
 #include "rules.h"
 
 enum { BALLS = 15 };
-static const uint32_t all = 0xfffe;
+static const uint32_t object_balls = 0xfffe;
 
 static uint32_t pockets(const carom_rules_state *game) {
   return UINT32_C(1) << (game->pocket[0] & (CAROM_POCKETS_MOST - 1));
@@ -20,19 +20,19 @@ static uint32_t pockets(const carom_rules_state *game) {
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
   (void)call;
-  const uint32_t balls = in_play & all, gone = (facts->down | facts->off) & balls;
-  const int32_t bad = (int32_t)carom_foul_of(facts, balls, cue_ball);
-  const bool foul = bad != CAROM_FOUL_NONE, scratch = bad == CAROM_FOUL_CUE_BALL;
-  carom_turn turn = carom_pass_by(bad);
+  const uint32_t balls = in_play & object_balls, gone = (facts->down | facts->off) & balls;
+  const int32_t fault = (int32_t)carom_foul_of(facts, balls, cue_ball);
+  const bool foul = fault != CAROM_FOUL_NONE, scratch = fault == CAROM_FOUL_CUE_BALL;
+  carom_turn turn = carom_pass_by(fault);
 
   /* balls in the pockets of both, where these count; one that is owed is paid first */
   const bool none_count[2] = {foul, scratch};
   uint32_t in[2] = {0, 0};
-  for (int who = 0; who < 2; who++)
-    for (int k = 1; k <= BALLS && !none_count[who]; k++)
-      if ((facts->down & balls) >> k & 1 && facts->pocket[k] == game->pocket[who]) {
-        in[who] |= UINT32_C(1) << k;
-        carom_count_ball(game, who);
+  for (int seat = 0; seat < 2; seat++)
+    for (int k = 1; k <= BALLS && !none_count[seat]; k++)
+      if ((facts->down & balls) >> k & 1 && facts->pocket[k] == game->pocket[seat]) {
+        in[seat] |= UINT32_C(1) << k;
+        carom_count_ball(game, seat);
       }
   turn.points = carom_count_of(in[0]);
 
@@ -50,7 +50,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   else if (in[0] != 0)
     turn.outcome = CAROM_TURN_KEEP;
   if (turn.outcome == CAROM_TURN_PASS || (turn.outcome == CAROM_TURN_KEEP && remain == 0))
-    turn.spot = carom_back_of(game, all & ~remain, gone & ~(in[0] | in[1]));
+    turn.spot = carom_back_of(game, object_balls & ~remain, gone & ~(in[0] | in[1]));
   return carom_end_turn(game, turn);
 }
 

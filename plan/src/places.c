@@ -3,7 +3,6 @@
 
 #include "platform/elementary.h"
 #include "rows.h"
-#include "table/marks.h"
 
 #include <math.h>
 
@@ -11,34 +10,26 @@ typedef carom_search search;
 
 enum { PLACES = 120 }; /* that are tried */
 
-/* Where the cue ball may be; low and high are the caller's bounds, or NULL. False where there is no
- * place: the range is empty, or has NaN. */
+/* Where the cue ball may be: within the bounds of its leave, and those of the caller, low and high,
+ * or NULL. False where there is no place: the range is empty, or has NaN. */
 static bool find_range(search *plan, const double low[2], const double high[2]) {
+  const carom_plan_job *job = &plan->job;
   const double R = plan->view.radius[plan->view.cue_ball];
-  const double size[2] = {plan->view.width, plan->view.length};
-  carom_hand_range *range = &plan->range;
+  carom_leave leave = (carom_leave)job->leave;
+  if (job->rules->rack == CAROM_RACK_SNOOKER)
+    leave = CAROM_LEAVE_D;
+  carom_bounds *range = &plan->range;
+  if (carom_hand_bounds(leave, job->table, R, range) != CAROM_OK)
+    return false;
   for (int x = 0; x < 2; x++) {
-    range->low[x] = R;
-    range->high[x] = size[x] - R;
-    if (low != NULL && !(low[x] <= R))
+    if (low != NULL && !(low[x] <= range->low[x]))
       range->low[x] = low[x];
-    if (high != NULL && !(high[x] >= size[x] - R))
+    if (high != NULL && !(high[x] >= range->high[x]))
       range->high[x] = high[x];
-  }
-
-  /* in snooker the box around the D */
-  const carom_marks marks = carom_marks_of(size[0], size[1]);
-  if (plan->job.rules->rack == CAROM_RACK_SNOOKER) {
-    const double *d = marks.d_centre, radius = marks.d_radius;
-    const double d_low[2] = {d[0] - radius, d[1] - radius}, d_high[2] = {d[0] + radius, d[1]};
-    for (int x = 0; x < 2; x++) {
-      range->low[x] = fmax(range->low[x], d_low[x]);
-      range->high[x] = fmin(range->high[x], d_high[x]);
-    }
   }
   /* a game is opened from the head line, if the caller has no upper bound */
   if (plan->breaks && high == NULL)
-    range->high[1] = fmin(range->high[1], marks.head_spot[1]);
+    range->high[1] = fmin(range->high[1], 0.25 * plan->view.length);
   return range->low[0] <= range->high[0] && range->low[1] <= range->high[1];
 }
 
@@ -46,18 +37,18 @@ static bool find_range(search *plan, const double low[2], const double high[2]) 
  * and a cut of at most 50 degrees. Ball, pocket, cut and distance are drawn. False: the ball does
  * not get into that pocket. */
 static bool draw_place_of_pot(const search *plan, uint64_t k, double r[2]) {
-  static const double cut_most = 50.0 * degree, near = 0.12, farther = 0.6; /* rad, m */
+  static const double cut_most = 50.0 * degree, nearest = 0.12, farther = 0.6; /* rad, m */
   double u[4];
   for (uint32_t n = 0; n < 4; n++)
     u[n] = carom_uniform(plan->options.seed, DRAW_PLACES, k, n);
   /* the ball and the pocket */
-  int on[CAROM_BALLS_MOST], count = 0;
+  int targets[CAROM_BALLS_MOST], count = 0;
   for (int n = 0; n < plan->view.count; n++)
     if (plan->targets >> n & 1)
-      on[count++] = n;
+      targets[count++] = n;
   if (count == 0 || plan->view.pockets == 0)
     return false;
-  const int ball = on[(int)(count * u[0])], pocket = (int)(plan->view.pockets * u[1]);
+  const int ball = targets[(int)(count * u[0])], pocket = (int)(plan->view.pockets * u[1]);
   const carom_window *window = &plan->view.window[ball][pocket];
   if (!(window->half > 0.0))
     return false;
@@ -65,9 +56,9 @@ static bool draw_place_of_pot(const search *plan, uint64_t k, double r[2]) {
   /* the place */
   double sine, cosine;
   carom_sincos(window->psi + (2.0 * u[2] - 1.0) * cut_most, &sine, &cosine);
-  const double far = near + farther * u[3];
-  r[0] = plan->view.at[ball][0] - far * cosine;
-  r[1] = plan->view.at[ball][1] - far * sine;
+  const double far = nearest + farther * u[3];
+  r[0] = plan->view.place[ball][0] - far * cosine;
+  r[1] = plan->view.place[ball][1] - far * sine;
   return true;
 }
 
@@ -78,7 +69,7 @@ static bool draw_place_of_pot(const search *plan, uint64_t k, double r[2]) {
 static void draw_place(const search *plan, uint64_t k, double r[2]) {
   if (k % 2 == 1 && draw_place_of_pot(plan, k, r))
     return;
-  const carom_hand_range *range = &plan->range;
+  const carom_bounds *range = &plan->range;
   for (int x = 0; x < 2; x++) {
     const double share = carom_uniform(plan->options.seed, DRAW_PLACES, k, (uint32_t)x);
     r[x] = range->low[x] + (range->high[x] - range->low[x]) * share;
@@ -89,7 +80,7 @@ enum { BREAK_PLACES = 6 };
 /* The place number k of a break: one of six across, where the range ends. */
 static void break_place(const search *plan, uint64_t k, double r[2]) {
   static const double across[BREAK_PLACES] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
-  const carom_hand_range *range = &plan->range;
+  const carom_bounds *range = &plan->range;
   r[0] = range->low[0] + (range->high[0] - range->low[0]) * across[k % BREAK_PLACES];
   r[1] = range->high[1];
 }
@@ -97,13 +88,8 @@ static void break_place(const search *plan, uint64_t k, double r[2]) {
 /* Puts the cue ball in hand on a place. */
 static bool place_in_hand(search *plan, const double r[2]) {
   const carom_plan_job *job = &plan->job;
-  for (int x = 0; x < 2; x++)
-    if (!(r[x] >= plan->range.low[x] && r[x] <= plan->range.high[x]))
-      return false;
-  const carom_marks marks = carom_marks_of(job->table->width, job->table->length);
-  if (job->rules->rack == CAROM_RACK_SNOOKER && !carom_is_in_d(&marks, r[0], r[1]))
-    return false;
-  return carom_place_ball(job->table, plan->hand, (int)job->count, plan->view.cue_ball, r[0], r[1],
+  return carom_is_within(&plan->range, r[0], r[1]) &&
+         carom_place_ball(job->table, plan->hand, (int)job->count, plan->view.cue_ball, r[0], r[1],
                           NULL) == CAROM_OK;
 }
 
@@ -112,12 +98,12 @@ static void keep_place(search *plan, const double r[2]) {
   const int cue_ball = plan->view.cue_ball;
   plan->state[cue_ball] = plan->hand[cue_ball].state;
   const double value = carom_value_of(&plan->view, &plan->job.rules->state, plan->state, 0, false);
-  int at = PLACES_MOST;
+  int index = PLACES_MOST;
   if (plan->places < PLACES_MOST)
-    at = plan->places++;
-  for (; at > 0 && plan->best_place[at - 1].value < value; at--)
-    plan->best_place[at] = plan->best_place[at - 1];
-  plan->best_place[at] = (carom_place_in_hand){{r[0], r[1]}, value};
+    index = plan->places++;
+  for (; index > 0 && plan->best_place[index - 1].value < value; index--)
+    plan->best_place[index] = plan->best_place[index - 1];
+  plan->best_place[index] = (carom_place_in_hand){{r[0], r[1]}, value};
 }
 
 /* Tries the next place. False: there is none. */

@@ -45,32 +45,13 @@ typedef carom_search search;
 static const carom_plan_options no_options = {0};
 static const carom_shot_options no_shot = {0};
 /* FIRST: of the first round of doubling; IN_HAND_LEAST: of a plan whose places race */
-enum {
-  SHOTS_LEAST = 100,
-  IN_HAND_LEAST = 600,
-  SHOTS_USUAL = 2000,
-  SHOTS_IN_TIME = 200000,
-  FIRST = 100,
-  SPARE = 160
-};
-static const double player_most = 1000.0; /* of each number of a player */
+enum { IN_HAND_LEAST = 600, SHOTS_USUAL = 2000, SHOTS_IN_TIME = 200000, FIRST = 100, SPARE = 160 };
 
 static carom_status check_options(const carom_plan_options *o) {
   CAROM_PLAN_OPTIONS(CAROM_CHECK_OPTION)
   if (o->slice < 0 || o->unused != 0 || !CAROM_RESERVED_IS_ZERO(o))
     return CAROM_ERROR_OPTIONS;
   return CAROM_OK;
-}
-
-static bool good_player(const carom_player *p) {
-  const double numbers[] = {p->speed,    p->speed_share, p->phi,         p->theta,
-                            p->a,        p->b,           p->speed_least, p->speed_most,
-                            p->tip_most, p->growth,      p->only_pots};
-  bool good = p->tip_most <= 1.0 && (p->speed_most == 0.0 || p->speed_most >= p->speed_least);
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    good &= numbers[k] >= 0.0 && numbers[k] <= player_most;
-  const bool has_shots = p->shots >= (double)SHOTS_LEAST && p->shots <= (double)SHOTS_USUAL;
-  return good && p->only_pots <= 1.0 && (p->shots == 0.0 || has_shots);
 }
 
 static int64_t shots_of(const carom_plan_options *o) {
@@ -179,8 +160,8 @@ static carom_status check_job(const carom_plan_job *job) {
   if (!is_whole(job))
     return CAROM_ERROR_NULL;
   const carom_plan_options *options = or_usual(job->options);
-  const bool good_players =
-      good_player(job->player) && (options->opponent == NULL || good_player(options->opponent));
+  const bool good_players = carom_player_is_good(job->player) &&
+                            (options->opponent == NULL || carom_player_is_good(options->opponent));
   if (check_options(options) != CAROM_OK || !good_players || !good_rules(job->rules) ||
       (uint64_t)job->leave > CAROM_LEAVE_BAULK || !CAROM_RESERVED_IS_ZERO(job))
     return CAROM_ERROR_OPTIONS;
@@ -238,13 +219,13 @@ static bool is_packed(const search *plan) {
   enum { BALLS_LEAST = 10, NEIGHBOURS = 2 };
   static const double apart = 1e-3; /* m */
   for (int k = 0; k < plan->view.count; k++) {
-    int near = 0;
+    int neighbours = 0;
     for (int n = 0; n < plan->view.count && (plan->targets >> k & 1); n++) {
       const double reach = plan->view.radius[k] + plan->view.radius[n] + apart;
       const bool touches = carom_square(plan->state[k].r, plan->state[n].r) < reach * reach;
-      near += n != k && (plan->targets >> n & 1) && touches;
+      neighbours += n != k && (plan->targets >> n & 1) && touches;
     }
-    if ((plan->targets >> k & 1) && near < NEIGHBOURS)
+    if ((plan->targets >> k & 1) && neighbours < NEIGHBOURS)
       return false;
   }
   return carom_count_of(plan->targets) >= BALLS_LEAST;
@@ -325,7 +306,7 @@ static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand)
 
 /* Prepares a job once for all that is played of it: its plan, in the job's memory, from which shots
  * can be played. */
-static carom_status prepare_job(const carom_plan_job *job, bool in_hand, int wanted,
+static carom_status prepare_job(const carom_plan_job *job, bool in_hand, int choices,
                                 search **prepared) {
   search *plan = place(job);
   if (plan == NULL)
@@ -335,7 +316,7 @@ static carom_status prepare_job(const carom_plan_job *job, bool in_hand, int wan
     return status;
   plan->late = plan->joins = false;
   plan->places = plan->place = 0;
-  plan->wanted = (int)carom_min(wanted, LISTED_MOST);
+  plan->choices_most = (int)carom_min(choices, LISTED_MOST);
   plan->seconds = plan->options.seconds;
   if (plan->options.unsure > 0.0)
     carom_search_tables(plan, (carom_drawn_table *)(plan->outcome + plan->room));
@@ -504,15 +485,20 @@ carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, in
   return CAROM_OK;
 }
 
-carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *value) {
-  if (value == NULL)
-    return CAROM_ERROR_NULL;
-  search plan;
-  const carom_status status = begin(&plan, job, in_hand != 0);
+carom_status carom_search_value(search *plan, const carom_plan_job *job, int in_hand,
+                                double *value) {
+  const carom_status status = begin(plan, job, in_hand != 0);
   if (status != CAROM_OK)
     return status;
-  *value = carom_value_of(&plan.view, &job->rules->state, plan.state, 0, in_hand != 0);
+  *value = carom_value_of(&plan->view, &job->rules->state, plan->state, 0, in_hand != 0);
   if (job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL)
-    *value = carom_search_share(&plan, *value);
+    *value = carom_search_share(plan, *value);
   return CAROM_OK;
+}
+
+carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *value) {
+  search plan;
+  if (value == NULL)
+    return CAROM_ERROR_NULL;
+  return carom_search_value(&plan, job, in_hand, value);
 }

@@ -94,3 +94,16 @@ void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t num
   carom_normals(seed, DRAW_PLAYED, number, z);
   carom_player_errs(&bounded, z, cue);
 }
+
+bool carom_player_is_good(const carom_player *p) {
+  static const double most = 1000.0; /* of each number */
+  const double numbers[] = {p->speed,    p->speed_share, p->phi,         p->theta,
+                            p->a,        p->b,           p->speed_least, p->speed_most,
+                            p->tip_most, p->growth,      p->only_pots};
+  bool good = p->tip_most <= 1.0 && (p->speed_most == 0.0 || p->speed_most >= p->speed_least);
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
+    good &= numbers[k] >= 0.0 && numbers[k] <= most;
+  const bool has_shots =
+      p->shots >= (double)PLAYER_SHOTS_LEAST && p->shots <= (double)PLAYER_SHOTS_MOST;
+  return good && p->only_pots <= 1.0 && (p->shots == 0.0 || has_shots);
+}

@@ -31,14 +31,14 @@
 
 typedef struct visits {
   double later, first; /* a, e */
-  double made;         /* V */
+  double mean_points;  /* V */
 } visits;
 
-static visits visits_of(const carom_view *view, int who, double mean, int balls, double each) {
+static visits visits_of(const carom_view *view, int seat, double mean, int balls, double each) {
   visits v;
-  v.later = fmin(carom_chance_later(view, who, mean, balls), 0.999);
-  v.first = carom_chance_first(view, who, balls);
-  v.made = each * v.first / (1.0 - v.later);
+  v.later = fmin(carom_chance_later(view, seat, mean, balls), 0.999);
+  v.first = carom_chance_first(view, seat, balls);
+  v.mean_points = each * v.first / (1.0 - v.later);
   return v;
 }
 
@@ -53,7 +53,7 @@ static double normal(double x) {
 
 /* From where the cue ball lies, or as pots.c has a cue ball in hand. */
 static double value_from(const carom_view *view, const carom_rules_state *game,
-                         const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand) {
+                         const carom_ball_state *balls, uint32_t in_play, int seat, bool in_hand) {
   const carom_plan_rules *rules = view->rules;
   const uint32_t targets = rules->on(game, in_play) & in_play;
   const uint32_t pockets = carom_pockets_of(rules, game);
@@ -62,14 +62,14 @@ static double value_from(const carom_view *view, const carom_rules_state *game,
   rules->left(game, in_play, left);
   if (left[0] < 1 || left[1] < 1)
     return left[0] < 1; /* one of them has won already */
-  const bool runs_out = view->given[1] == 1.0;
-  if (runs_out && who == 1)
+  const bool runs_out = view->set_chance[1] == 1.0;
+  if (runs_out && seat == 1)
     return 1.0;
   const double n = left[0], m = left[1];
 
   /* the pot of each ball; the most is made by the one of `chosen` */
   double x[NEXT_NUMBERS], pot[CAROM_BALLS_MOST], chosen = 0.0, w = each, most = -1.0;
-  carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, pot, x);
+  carom_plan_features(view, balls, in_play, targets, pockets, seat, in_hand, pot, x);
   for (int k = 0; targets >> k != 0; k++) {
     if (!(targets >> k & 1))
       continue;
@@ -87,30 +87,32 @@ static double value_from(const carom_view *view, const carom_rules_state *game,
     p *= chosen / best;
 
   /* this visit */
-  const visits own = visits_of(view, who, mean, objects, each),
-               other = visits_of(view, 1 - who, mean, objects, each);
-  const double later_pots = ceil(fmax(n - w, 0.0) / each), all = power(own.later, later_pots);
-  const double later = own.later * (1.0 - all) / (1.0 - own.later);
-  const double wins = p * all, made = p * (w + each * later);
+  const visits player = visits_of(view, seat, mean, objects, each),
+               opponent = visits_of(view, 1 - seat, mean, objects, each);
+  const double later_pots = ceil(fmax(n - w, 0.0) / each),
+               complete = power(player.later, later_pots);
+  const double later = player.later * (1.0 - complete) / (1.0 - player.later);
+  const double wins = p * complete, visit_points = p * (w + each * later);
   if (runs_out)
-    return fmin(made / fmin(n, each * fmax(objects, 1)), 1.0);
-  const double needed = fmax(n - made, 0.5);
+    return fmin(visit_points / fmin(n, each * fmax(objects, 1)), 1.0);
+  const double needed = fmax(n - visit_points, 0.5);
 
   /* what follows it */
-  const double needs = needed / own.made, others = m / other.made;
-  const double his = other.first * power(other.later, ceil(m / each) - 1.0);
+  const double needs = needed / player.mean_points, others = m / opponent.mean_points;
+  const double his = opponent.first * power(opponent.later, ceil(m / each) - 1.0);
   const double rest = fmax(others - 1.0, 0.5 * others);
-  const double variance = 0.25 + needs * (1.0 + each / own.made) + rest * (1.0 + each / other.made);
-  const double then = normal((rest - needs + 0.5) / sqrt(variance));
-  const double value = wins + (1.0 - wins) * (1.0 - his) * then;
+  const double variance =
+      0.25 + needs * (1.0 + each / player.mean_points) + rest * (1.0 + each / opponent.mean_points);
+  const double later_win = normal((rest - needs + 0.5) / sqrt(variance));
+  const double value = wins + (1.0 - wins) * (1.0 - his) * later_win;
   CAROM_PROMISE(value >= 0.0 && value <= 1.0);
   return value;
 }
 
 double carom_points_value(const carom_view *view, const carom_rules_state *game,
-                          const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand) {
+                          const carom_ball_state *balls, uint32_t in_play, int seat, bool in_hand) {
   if (!in_hand || view->rules->rack != CAROM_RACK_SNOOKER)
-    return value_from(view, game, balls, in_play, who, in_hand);
+    return value_from(view, game, balls, in_play, seat, in_hand);
 
   /* in the D: the best of some places on its line */
   carom_ball_state placed[CAROM_BALLS_MOST];
@@ -122,7 +124,7 @@ double carom_points_value(const carom_view *view, const carom_rules_state *game,
     placed[view->cue_ball].r[1] = marks.d_centre[1];
     if (k == 0)
       placed[view->cue_ball].r[1] -= 0.5 * marks.d_radius;
-    best = fmax(best, value_from(view, game, placed, in_play, who, false));
+    best = fmax(best, value_from(view, game, placed, in_play, seat, false));
   }
   return best;
 }

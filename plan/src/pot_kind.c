@@ -78,8 +78,8 @@ const char *carom_plan_kind_name(carom_plan_kind kind) {
 /* ---- What a shot tells beside its pots */
 
 bool carom_is_double_hit(const carom_facts *facts) {
-  const bool again = facts->touches > 1 && (facts->pushed == 0 || facts->second_time > 0.0);
-  return again || (facts->pushed & ~facts->frozen) != 0;
+  const bool is_repeated = facts->touches > 1 && (facts->pushed == 0 || facts->second_time > 0.0);
+  return is_repeated || (facts->pushed & ~facts->frozen) != 0;
 }
 
 int carom_driven(const carom_facts *facts, int cue_ball) {
@@ -124,9 +124,9 @@ int carom_is_beside(const carom_table *table, int rail, int pocket) {
     return 0;
   const carom_rail *r = &table->rail[rail];
   const carom_pocket *hole = &table->pocket[pocket];
-  const double near = BESIDE * hole->radius;
-  return square_of_distance(r->p, hole->centre) < near * near ||
-         square_of_distance(r->q, hole->centre) < near * near;
+  const double reach = BESIDE * hole->radius;
+  return square_of_distance(r->p, hole->centre) < reach * reach ||
+         square_of_distance(r->q, hole->centre) < reach * reach;
 }
 
 /* Event k of a shot, from whichever of its lists is kept. */
@@ -159,17 +159,17 @@ static int64_t fall_of(const carom_shot *shot, int ball, int pocket) {
 }
 
 /* The ball whose contact drives a ball first, or -1, and when; of one instant the cue ball. */
-static int driver_of(const carom_shot *shot, int64_t end, int cue_ball, int ball, double *at) {
+static int driver_of(const carom_shot *shot, int64_t end, int cue_ball, int ball, double *time) {
   int driver = -1;
-  *at = INFINITY;
+  *time = INFINITY;
   for (int64_t k = 0; k < end; k++) {
     const carom_brief_event e = event_of(shot, k);
-    const int other = met_by(&e, ball);
-    if (other < 0)
+    const int partner = met_by(&e, ball);
+    if (partner < 0)
       continue;
-    if (driver < 0 || (e.time == *at && other == cue_ball)) {
-      driver = other;
-      *at = e.time;
+    if (driver < 0 || (e.time == *time && partner == cue_ball)) {
+      driver = partner;
+      *time = e.time;
     }
   }
   return driver;
@@ -179,9 +179,9 @@ int32_t carom_pot_kind(const carom_table *table, const carom_shot *shot, int cue
                        int pocket) {
   if (table == NULL || shot == NULL || (shot->brief == NULL && shot->events == NULL))
     return -1;
-  double at;
+  double time;
   const int64_t end = fall_of(shot, ball, pocket);
-  const int driver = driver_of(shot, end, cue_ball, ball, &at);
+  const int driver = driver_of(shot, end, cue_ball, ball, &time);
   if (driver < 0)
     return -1;
   if (driver != cue_ball)
@@ -190,17 +190,17 @@ int32_t carom_pot_kind(const carom_table *table, const carom_shot *shot, int cue
   bool caroms = false, kisses = false, kicks = false, banks = false;
   for (int64_t k = 0; k < end; k++) {
     const carom_brief_event e = event_of(shot, k);
-    const bool before = e.time <= at, after = e.time >= at;
+    const bool is_earlier = e.time <= time, is_later = e.time >= time;
 
     /* other balls that the cue ball meets before the ball, and the ball on its way */
     const int by_cue = met_by(&e, cue_ball), by_ball = met_by(&e, ball);
-    caroms |= before && by_cue >= 0 && by_cue != ball;
-    kisses |= after && by_ball >= 0 && by_ball != cue_ball;
+    caroms |= is_earlier && by_cue >= 0 && by_cue != ball;
+    kisses |= is_later && by_ball >= 0 && by_ball != cue_ball;
 
     /* cushions that they meet then */
     if (e.type == CAROM_EVENT_RAIL && !carom_is_cut(table, e.b)) {
-      kicks |= before && e.a == cue_ball;
-      banks |= after && e.a == ball && !carom_is_beside(table, e.b, pocket);
+      kicks |= is_earlier && e.a == cue_ball;
+      banks |= is_later && e.a == ball && !carom_is_beside(table, e.b, pocket);
     }
   }
   if (caroms)

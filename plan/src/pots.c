@@ -24,18 +24,18 @@ carom_mouth carom_mouth_of(const carom_table *table, int index) {
     const double x = table->jaw[k].centre[0] - pocket->centre[0],
                  y = table->jaw[k].centre[1] - pocket->centre[1];
     const double square = x * x + y * y;
-    int at = 2; /* among the two nearest, or behind them */
+    int slot = 2; /* among the two nearest, or behind them */
     if (square < least[0])
-      at = 0;
+      slot = 0;
     else if (square < least[1])
-      at = 1;
-    if (at == 0) {
+      slot = 1;
+    if (slot == 0) {
       least[1] = least[0];
       nearest[1] = nearest[0];
     }
-    if (at < 2) {
-      least[at] = square;
-      nearest[at] = k;
+    if (slot < 2) {
+      least[slot] = square;
+      nearest[slot] = k;
     }
   }
 
@@ -61,8 +61,8 @@ static bool is_clear(const carom_view *view, const carom_ball_state *balls, uint
   d[1] /= length;
   in_play &= ~(UINT32_C(1) << i | UINT32_C(1) << j);
   for (int k = 0; in_play >> k != 0; k++) {
-    const double to[2] = {balls[k].r[0] - p[0], balls[k].r[1] - p[1]};
-    if ((in_play >> k & 1) && carom_is_near_way(to, d, length, R + view->radius[k]))
+    const double offset[2] = {balls[k].r[0] - p[0], balls[k].r[1] - p[1]};
+    if ((in_play >> k & 1) && carom_is_near_way(offset, d, length, R + view->radius[k]))
       return false;
   }
   return true;
@@ -78,11 +78,11 @@ carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double
   } else {
     /* Where the jaws are from the middle, and how far their tangents are turned. */
     double turn[2], tangent[2];
-    bool between = false;
-    for (int side = 0; side < 2 && !between; side++) {
+    bool has_jaws = false;
+    for (int side = 0; side < 2 && !has_jaws; side++) {
       const double jx = mouth->jaw[side][0] - o[0], jy = mouth->jaw[side][1] - o[1];
       const double sine = (mouth->jaw[side][2] + 0.93 * R) / sqrt(jx * jx + jy * jy);
-      between = sine >= 1.0;
+      has_jaws = sine >= 1.0;
       turn[side] = carom_angle_of(jx, jy) - mid;
       double back = 0.0;
       if (turn[side] > pi)
@@ -95,7 +95,7 @@ carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double
 
     /* Between the left one and the right one; from the side both may be on one side of the
      * pocket's centre. */
-    if (!between) {
+    if (!has_jaws) {
       const int left = turn[1] > turn[0];
       const double high = turn[left] - tangent[left], low = turn[1 - left] + tangent[1 - left];
       window.psi = mid + 0.5 * (low + high);
@@ -107,13 +107,13 @@ carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double
 }
 
 carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
-                       int k, int pocket, int who, bool in_hand, double least) {
+                       int k, int pocket, int seat, bool in_hand, double least) {
   const carom_mouth *mouth = &view->mouth[pocket];
   const double *o = balls[k].r, *c = balls[view->cue_ball].r;
   const double R = view->radius[view->cue_ball], both = R + view->radius[k];
-  const bool there = o[0] == view->at[k][0] && o[1] == view->at[k][1];
+  const bool is_unmoved = o[0] == view->place[k][0] && o[1] == view->place[k][1];
   carom_window window;
-  if (there)
+  if (is_unmoved)
     window = view->window[k][pocket];
   else
     window = carom_window_of(mouth, o, view->radius[k]);
@@ -141,7 +141,7 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
     return way;
 
   /* Whether something is in the way takes longest, and is asked last. */
-  const double aim = view->sigma[who] * d / (both * cut), by_throw = 1.5 * pi / 180.0;
+  const double aim = view->sigma[seat] * d / (both * cut), by_throw = 1.5 * pi / 180.0;
   const double error = sqrt(aim * aim + by_throw * by_throw * (1.2 - cut));
   const double chance = carom_erf(way.half / (error * 1.4142135623730951));
   if (chance > least &&

@@ -15,18 +15,18 @@
 #include "rules.h"
 
 enum { WINS = 8, DRIVEN = 2, CUSHIONS = 2 };
-static const uint32_t all = 0xffff;
+static const uint32_t object_balls = 0xffff;
 
-static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
+static uint32_t targets_of(const carom_rules_state *game, uint32_t in_play) {
   if (game->opening != 0)
-    return in_play & all & ~UINT32_C(1);
-  return in_play & all;
+    return in_play & object_balls & ~UINT32_C(1);
+  return in_play & object_balls;
 }
 
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
-  for (int who = 0; who < 2; who++)
-    needed[who] = (int32_t)carom_max(WINS - game->score[who], 1);
+  for (int seat = 0; seat < 2; seat++)
+    needed[seat] = (int32_t)carom_max(WINS - game->score[seat], 1);
 }
 
 /* Whether a stroke that pots none is legal: two cushions were met, or one by a ball that was on
@@ -50,10 +50,10 @@ static int32_t foul_of(const carom_facts *facts, uint32_t balls, int cue_ball) {
 
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
-  const uint32_t balls = in_play & all, fell = facts->down & balls;
+  const uint32_t balls = in_play & object_balls, fell = facts->down & balls;
   const bool opening = game->opening != 0;
   carom_turn turn;
-  if (carom_racks_again(game, call.ball, all & ~UINT32_C(1), &turn))
+  if (carom_racks_again(game, call.ball, object_balls & ~UINT32_C(1), &turn))
     return turn;
   int32_t foul = foul_of(facts, balls, cue_ball);
   game->opening = game->may = 0;
@@ -85,7 +85,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   return turn;
 }
 
-CAROM_RULES_OBJECT(carom_pyramid) = {.on = on,
+CAROM_RULES_OBJECT(carom_pyramid) = {.on = targets_of,
                                      .judge = judge,
                                      .left = left,
                                      .race = CAROM_RACE_OWN,

@@ -83,10 +83,10 @@ void carom_search_sort(const search *plan, int64_t n) {
   for (int64_t gap = n / 2; gap > 0; gap = next_gap(gap))
     for (int64_t k = gap; k < n && !carom_is_stopped(plan); k++) {
       const candidate moved = c[k];
-      int64_t at = k;
-      for (; at >= gap && is_better(&moved, &c[at - gap]); at -= gap)
-        c[at] = c[at - gap];
-      c[at] = moved;
+      int64_t index = k;
+      for (; index >= gap && is_better(&moved, &c[index - gap]); index -= gap)
+        c[index] = c[index - gap];
+      c[index] = moved;
     }
 }
 

@@ -16,10 +16,10 @@ static int64_t list_falls(const carom_facts *facts, int count, carom_fall *fall)
   for (int k = 0; k < count; k++) {
     if (!(facts->down >> k & 1))
       continue;
-    int64_t at = falls++;
-    for (; at > 0 && fall[at - 1].time > facts->pocket_time[k]; at--)
-      fall[at] = fall[at - 1];
-    fall[at] = (carom_fall){facts->pocket_time[k], k, facts->pocket[k]};
+    int64_t index = falls++;
+    for (; index > 0 && fall[index - 1].time > facts->pocket_time[k]; index--)
+      fall[index] = fall[index - 1];
+    fall[index] = (carom_fall){facts->pocket_time[k], k, facts->pocket[k]};
   }
   return falls;
 }
@@ -76,14 +76,14 @@ static bool spots_nearest(const carom_plan_rules *rules, const carom_table *tabl
                           int count, int cue_ball, carom_ruling *ruling) {
   if (table->pockets == 0)
     return false;
-  const bool may = (ruling->state.may & CAROM_CHOICE_SPOT) != 0;
+  const bool is_allowed = (ruling->state.may & CAROM_CHOICE_SPOT) != 0;
   ruling->state.may &= ~CAROM_CHOICE_SPOT;
-  if (!may || call.ball != CAROM_CALL_SPOT)
+  if (!is_allowed || call.ball != CAROM_CALL_SPOT)
     return false;
-  const uint32_t near =
+  const uint32_t nearest =
       carom_nearest_behind(table, ruling->balls, count, balls_on(rules, ruling, count, cue_ball));
-  uint32_t ball = carom_lowest_of(near);
-  if (call.pocket >= 0 && call.pocket < count && (near >> call.pocket & 1))
+  uint32_t ball = carom_lowest_of(nearest);
+  if (call.pocket >= 0 && call.pocket < count && (nearest >> call.pocket & 1))
     ball = carom_only(call.pocket);
   ruling->turn = (carom_turn){CAROM_TURN_KEEP, CAROM_LEAVE_KITCHEN, CAROM_FOUL_NONE, ball, 0.0};
   return true;
@@ -137,12 +137,12 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
 }
 
 /* What the next player may do besides a stroke, in words, each behind "; ". */
-static void write_choices(int32_t may, carom_leave leave, char *text, size_t room) {
+static void write_choices(int32_t permitted, carom_leave leave, char *text, size_t room) {
   const char *spots = "may have the touching balls spotted";
   if (leave == CAROM_LEAVE_KITCHEN)
     spots = "may have the ball nearest to the head string spotted";
   const struct {
-    int32_t may;
+    int32_t choice;
     const char *words;
   } choices[] = {{CAROM_CHOICE_PASS, "may pass"},
                  {CAROM_CHOICE_PUSH, "may push out"},
@@ -151,11 +151,11 @@ static void write_choices(int32_t may, carom_leave leave, char *text, size_t roo
                  {CAROM_CHOICE_OTHER_RACK, "may have the balls racked for the other"},
                  {CAROM_CHOICE_STAY, "may leave the cue ball where it lies"},
                  {CAROM_CHOICE_SPOT, spots}};
-  size_t at = 0;
+  size_t size = 0;
   text[0] = '\0';
   for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
-    if ((may & choices[k].may) != 0)
-      at += (size_t)snprintf(text + at, room - at, "; %s", choices[k].words);
+    if ((permitted & choices[k].choice) != 0)
+      size += (size_t)snprintf(text + size, room - size, "; %s", choices[k].words);
 }
 
 size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) {

@@ -11,11 +11,11 @@
 #include "rules.h"
 
 enum { WINS = 61, OPEN_BREAK = 4 };
-static const uint32_t all = 0xfffe;
+static const uint32_t object_balls = 0xfffe;
 
-static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
+static uint32_t targets_of(const carom_rules_state *game, uint32_t in_play) {
   (void)game;
-  return carom_lowest_of(in_play & all);
+  return carom_lowest_of(in_play & object_balls);
 }
 
 static int32_t points_of_set(uint32_t set) {
@@ -28,13 +28,13 @@ static int32_t points_of_set(uint32_t set) {
 
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
-  for (int who = 0; who < 2; who++)
-    needed[who] = (int32_t)carom_max(WINS - game->score[who], 0);
+  for (int seat = 0; seat < 2; seat++)
+    needed[seat] = (int32_t)carom_max(WINS - game->score[seat], 0);
 }
 
 static double points(const carom_rules_state *game, uint32_t in_play, int ball) {
   (void)game;
-  const uint32_t balls = in_play & all;
+  const uint32_t balls = in_play & object_balls;
   if (ball >= 0)
     return ball;
   if (balls == 0)
@@ -44,12 +44,13 @@ static double points(const carom_rules_state *game, uint32_t in_play, int ball) 
 
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
-  const uint32_t balls = in_play & all, fell = facts->down & balls;
+  const uint32_t balls = in_play & object_balls, fell = facts->down & balls;
   const bool opening = game->opening != 0;
   carom_turn turn;
-  if (carom_racks_again(game, call.ball, all, &turn))
+  if (carom_racks_again(game, call.ball, object_balls, &turn))
     return turn;
-  const int32_t foul = carom_rotation_foul_of(facts, on(game, in_play), cue_ball, opening, false);
+  const int32_t foul =
+      carom_rotation_foul_of(facts, targets_of(game, in_play), cue_ball, opening, false);
   game->opening = game->may = 0;
   if (foul != CAROM_FOUL_NONE) {
     turn = carom_give_hand(game, foul, (facts->down | facts->off) & balls);
@@ -78,7 +79,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   return turn;
 }
 
-CAROM_RULES_OBJECT(carom_rotation) = {.on = on,
+CAROM_RULES_OBJECT(carom_rotation) = {.on = targets_of,
                                       .judge = judge,
                                       .left = left,
                                       .points = points,

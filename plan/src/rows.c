@@ -45,7 +45,7 @@ carom_prepared carom_search_layout(const search *plan, const candidate *c, uint3
 }
 
 /* A ball of the layout before the stroke of a candidate. */
-static carom_ball_state before(const search *plan, const candidate *c, int k) {
+static carom_ball_state state_at_stroke(const search *plan, const candidate *c, int k) {
   carom_ball_state state = plan->job.balls[k].state;
   if (k == plan->view.cue_ball) {
     state.r[0] = c->r[0];
@@ -90,7 +90,7 @@ __attribute__((noinline)) static void settle(const search *plan, carom_rules_sta
     balls[k] = plan->job.balls[k];
     balls[k].state = final[k];
     if (taken_back)
-      balls[k].state = before(plan, c, k);
+      balls[k].state = state_at_stroke(plan, c, k);
   }
   carom_turn_settle(plan->job.rules, game, plan->job.table, balls, plan->view.count, turn);
   for (int k = 0; k < plan->view.count; k++)
@@ -99,9 +99,9 @@ __attribute__((noinline)) static void settle(const search *plan, carom_rules_sta
 
 /* Whether the player plays on, wins or draws, or has made the last point before an equalizing
  * inning. */
-static bool is_good(const carom_rules_state *after, const carom_turn *turn) {
+static bool is_good(const carom_rules_state *state, const carom_turn *turn) {
   if (turn->outcome == CAROM_TURN_PASS)
-    return after->innings == CAROM_LAST_INNING;
+    return state->innings == CAROM_LAST_INNING;
   return turn->outcome != CAROM_TURN_LOSE;
 }
 
@@ -158,7 +158,7 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   const carom_marks marks = carom_marks_of(plan->view.width, plan->view.length);
   for (int k = 0; k < plan->view.count; k++) {
     if (taken_back && rules->settle == NULL)
-      final[k] = before(plan, c, k);
+      final[k] = state_at_stroke(plan, c, k);
     if (rules->settle == NULL && (turn.spot >> k & 1))
       final[k] =
           (carom_ball_state){.r = {marks.foot_spot[0], marks.foot_spot[1], plan->view.radius[k]},
@@ -194,7 +194,7 @@ void carom_search_lay_out(search *plan, const carom_shot_ball *balls) {
       if (k == plan->view.cue_ball)
         plan->cue_ball = plan->plays;
       plan->played[plan->plays] = balls[k];
-      plan->which[plan->plays++] = k;
+      plan->layout_ball[plan->plays++] = k;
     }
   }
 }
@@ -203,7 +203,7 @@ void carom_search_lay_out(search *plan, const carom_shot_ball *balls) {
 static int32_t in_layout(const search *plan, int32_t ball) {
   if (ball < 0)
     return ball;
-  return plan->which[ball];
+  return plan->layout_ball[ball];
 }
 
 /* From the balls of a shot to those of the layout. */
@@ -214,10 +214,10 @@ static void spread(const search *plan, shot_result *with) {
                            &f->pushed,  &f->banked,        &f->first_set, &f->past_middle,
                            &f->at_head, &f->beyond_middle, &f->jumped};
   for (int s = 0; s < (int)(sizeof set / sizeof set[0]); s++) {
-    uint32_t all = 0;
+    uint32_t layout_set = 0;
     for (int n = 0; n < plan->plays; n++)
-      all |= (*set[s] >> n & 1) << plan->which[n];
-    *set[s] = all;
+      layout_set |= (*set[s] >> n & 1) << plan->layout_ball[n];
+    *set[s] = layout_set;
   }
   for (int n = 0; n < 2; n++)
     f->first[n] = in_layout(plan, f->first[n]);
@@ -225,7 +225,7 @@ static void spread(const search *plan, shot_result *with) {
     f->order[m] = in_layout(plan, f->order[m]);
   int n = plan->plays - 1;
   for (int k = plan->view.count - 1; k >= 0; k--) {
-    if (n >= 0 && plan->which[n] == k) {
+    if (n >= 0 && plan->layout_ball[n] == k) {
       with->final[k] = with->final[n];
       f->pocket[k] = of_shot.pocket[n];
       f->pocket_time[k] = of_shot.pocket_time[n];
@@ -238,15 +238,6 @@ static void spread(const search *plan, shot_result *with) {
       f->cushions[k] = 0;
     }
   }
-}
-
-/* Whether the stroke is from behind the head string: the cue ball was placed there, or is in hand
- * there, by where it may be put. */
-static bool is_from_kitchen(const search *plan) {
-  if (plan->job.leave == CAROM_LEAVE_KITCHEN)
-    return true;
-  return plan->places > 0 &&
-         fabs(plan->range.high[1] - carom_marks_of(0.0, plan->view.length).head_spot[1]) < 1e-9;
 }
 
 static size_t play_rows(const void *context, size_t first, size_t end) {
@@ -266,17 +257,17 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
     if (plan->plays < plan->view.count)
       spread(plan, &result);
-    if (is_from_kitchen(plan))
+    if (plan->job.leave == CAROM_LEAVE_KITCHEN)
       result.facts.barred =
           carom_barred(&result.facts, plan->view.length, plan->job.balls, plan->view.count);
-    int met = -1;
+    int first_hit = -1;
     if (status >= 0)
-      met = result.facts.first[0];
+      first_hit = result.facts.first[0];
 
     /* a stroke of the scan that begins with a foul is dropped: its layout is not judged */
     outcome *o = &plan->outcome[row];
-    if (s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(plan, met))
-      *o = (outcome){.first = (int8_t)met};
+    if (s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(plan, first_hit))
+      *o = (outcome){.first = (int8_t)first_hit};
     else
       *o = judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
     o->events = (uint8_t)carom_min(shot.count, UINT8_MAX);

@@ -26,12 +26,12 @@ static uint32_t own_of(const carom_rules_state *game) {
 
 /* Of a game that is not over. In blackball, free_ball says that the stroke is free. */
 static uint32_t eightball_targets(const carom_rules_state *game, uint32_t in_play) {
-  const uint32_t own = in_play & own_of(game);
+  const uint32_t group = in_play & own_of(game);
   if (game->opening != 0 || game->free_ball != 0)
     return in_play & 0xfffe;
-  if (own == 0)
+  if (group == 0)
     return in_play & eight;
-  return own;
+  return group;
 }
 
 static uint32_t eightball_on(const carom_rules_state *game, uint32_t in_play) {
@@ -74,9 +74,9 @@ static int32_t may_stay(const carom_facts *facts, int cue_ball) {
 /* The turn after a foul in blackball: the cue ball comes in baulk or stays, balls that left the
  * table come back, and the next stroke is free. */
 static carom_turn free_stroke_for(carom_rules_state *game, const carom_facts *facts, int cue_ball,
-                                  int32_t foul, int32_t may) {
+                                  int32_t foul, int32_t choices) {
   game->free_ball = 1;
-  game->may = may | may_stay(facts, cue_ball);
+  game->may = choices | may_stay(facts, cue_ball);
   return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_BAULK, foul, facts->off & 0xfffe, 0.0};
 }
 
@@ -120,16 +120,16 @@ static carom_turn blackball_break(carom_rules_state *game, const carom_facts *fa
     return (carom_turn){CAROM_TURN_KEEP, CAROM_LEAVE_BAULK, CAROM_FOUL_NONE, 0xfffe, 0.0};
   }
   const bool pots = (facts->down & 0xfffe) != 0;
-  int32_t may = 0;
+  int32_t choices = 0;
   if (foul == CAROM_FOUL_CUSHION)
     foul = CAROM_FOUL_NONE;
   if (!pots && carom_count_of(facts->past_middle & 0xfffe) < PAST_MIDDLE) {
-    may = CAROM_CHOICE_RACK;
+    choices = CAROM_CHOICE_RACK;
     if (foul == CAROM_FOUL_NONE)
       foul = CAROM_FOUL_BREAK;
   }
   if (foul != CAROM_FOUL_NONE)
-    return free_stroke_for(game, facts, cue_ball, foul, may);
+    return free_stroke_for(game, facts, cue_ball, foul, choices);
   if (pots)
     return carom_keep;
   return carom_pass;
@@ -165,20 +165,20 @@ static uint32_t eight_made(const eight_game *as, const carom_facts *facts, carom
 
 /* The foul of a stroke. In blackball a ball that touches is not played towards, none is jumped, and
  * a ball of the other group may fall with one's own alone, or in a free stroke. */
-static int32_t eight_foul_of(const eight_game *as, const carom_rules_state *game, uint32_t on,
+static int32_t eight_foul_of(const eight_game *as, const carom_rules_state *game, uint32_t targets,
                              int cue_ball, const carom_facts *facts) {
   if (!as->free_strokes)
-    return (int32_t)carom_foul_of(facts, on, cue_ball);
+    return (int32_t)carom_foul_of(facts, targets, cue_ball);
 
   /* a ball on that touches is met by playing away from it */
   carom_facts played = *facts;
-  const int first = carom_first_of(facts, on);
+  const int first = carom_first_of(facts, targets);
   if (first != facts->first[0]) {
     played.first[0] = first;
     played.first_set = carom_only(first);
     played.cushions_after += facts->cushions[cue_ball];
   }
-  const int32_t foul = (int32_t)carom_foul_of(&played, on, cue_ball);
+  const int32_t foul = (int32_t)carom_foul_of(&played, targets, cue_ball);
   const bool excused = foul == CAROM_FOUL_CUSHION && game->on != 0; /* snookered, 5g */
   if (foul != CAROM_FOUL_NONE && !excused)
     return foul;
@@ -214,9 +214,9 @@ static carom_turn judge_eight(const eight_game *as, carom_rules_state *game, uin
       turn.leave = CAROM_LEAVE_BAULK;
     return turn;
   }
-  const uint32_t on = eightball_targets(game, in_play), own = own_of(game);
+  const uint32_t targets = eightball_targets(game, in_play), group = own_of(game);
   const bool opening = game->opening != 0, is_free = game->free_ball != 0;
-  const int32_t foul = eight_foul_of(as, game, on, cue_ball, facts);
+  const int32_t foul = eight_foul_of(as, game, targets, cue_ball, facts);
   game->opening = game->may = game->free_ball = game->on = 0;
   if (opening && as->free_strokes)
     return blackball_break(game, facts, cue_ball, foul);
@@ -228,20 +228,21 @@ static carom_turn judge_eight(const eight_game *as, carom_rules_state *game, uin
   if (!as->free_strokes)
     gone |= facts->off;
   if ((gone & eight) != 0)
-    return eight_ends(as, in_play & own, facts, call, foul);
+    return eight_ends(as, in_play & group, facts, call, foul);
   if (foul != CAROM_FOUL_NONE)
     return eight_foul(as, game, facts, cue_ball, foul);
 
   /* the first balls that are made decide the groups, where they are of one */
   game->fouls[0] = 0;
-  uint32_t counts = own;
+  uint32_t counts = group;
   if (as->calls)
-    counts = on;
-  const uint32_t made = eight_made(as, facts, call) & counts;
-  if (made == 0 && !is_free)
+    counts = targets;
+  const uint32_t counted = eight_made(as, facts, call) & counts;
+  if (counted == 0 && !is_free)
     return give(game, carom_pass);
   if (game->group == OPEN && !is_free) {
-    const bool solids = (made & balls_of[SOLIDS]) != 0, stripes = (made & balls_of[STRIPES]) != 0;
+    const bool solids = (counted & balls_of[SOLIDS]) != 0,
+               stripes = (counted & balls_of[STRIPES]) != 0;
     if (solids && !stripes)
       game->group = SOLIDS;
     else if (!solids)
@@ -284,11 +285,11 @@ static int32_t is_snookered(const carom_rules_state *game, const carom_shot_ball
   if (turn->leave >= CAROM_LEAVE_ANYWHERE || turn->outcome >= CAROM_TURN_WIN)
     return 0;
   const uint32_t others = carom_on_table(balls, count) & 0xfffe;
-  const uint32_t on = eightball_on(game, others);
-  for (int k = 1; on >> k != 0; k++)
-    if ((on >> k & 1) && carom_is_seen(balls, others, balls[0].state.r, k))
+  const uint32_t targets = eightball_on(game, others);
+  for (int k = 1; targets >> k != 0; k++)
+    if ((targets >> k & 1) && carom_is_seen(balls, others, balls[0].state.r, k))
       return 0;
-  return on != 0;
+  return targets != 0;
 }
 
 static void blackball_settle(carom_rules_state *game, const carom_table *table,
@@ -350,9 +351,9 @@ static carom_foul push_out_foul_of(const carom_facts *facts) {
   return CAROM_FOUL_NONE;
 }
 
-int32_t carom_rotation_foul_of(const carom_facts *facts, uint32_t on, int cue_ball, bool opening,
-                               bool pushes) {
-  int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
+int32_t carom_rotation_foul_of(const carom_facts *facts, uint32_t targets, int cue_ball,
+                               bool opening, bool pushes) {
+  int32_t foul = (int32_t)carom_foul_of(facts, targets, cue_ball);
   if (pushes && foul != CAROM_FOUL_CUE_BALL)
     foul = (int32_t)push_out_foul_of(facts);
   const bool so_far = foul == CAROM_FOUL_NONE || foul == CAROM_FOUL_CUSHION;
@@ -435,20 +436,20 @@ static void potting_left(const carom_rules_state *game, uint32_t in_play, int32_
 static carom_turn potting_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                 const carom_facts *facts, carom_call call) {
   (void)call;
-  const uint32_t on = potting_on(game, in_play);
-  const int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
+  const uint32_t targets = potting_on(game, in_play);
+  const int32_t foul = (int32_t)carom_foul_of(facts, targets, cue_ball);
   if (foul != CAROM_FOUL_NONE && foul != CAROM_FOUL_CUSHION) {
     carom_turn turn = foul_for(foul);
-    if ((on & ~(facts->down | facts->off)) == 0) /* no ball is left to be played */
+    if ((targets & ~(facts->down | facts->off)) == 0) /* no ball is left to be played */
       turn.outcome = CAROM_TURN_LOSE;
     return turn;
   }
   carom_turn turn = carom_pass;
   if (facts->down != 0)
     turn = carom_keep;
-  if (facts->down != 0 && (facts->down & on) == on)
+  if (facts->down != 0 && (facts->down & targets) == targets)
     turn = win;
-  turn.points = carom_count_of(facts->down & on);
+  turn.points = carom_count_of(facts->down & targets);
   return turn;
 }
 

@@ -56,7 +56,7 @@ uint32_t carom_barred(const carom_facts *facts, double length, const carom_shot_
  * 1.5); 0 where one does not. Balls whose distances differ by less than CAROM_RULES_TOUCH are
  * equally near. */
 uint32_t carom_nearest_behind(const carom_table *table, const carom_shot_ball *balls, int count,
-                              uint32_t on);
+                              uint32_t targets);
 /* The balls in play that touch a ball for the rules, as a set; 0 of one that is out of play. */
 uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball);
 /* sight.c: whether others bar the way of the cue ball from c to an edge of ball k; and whether it
@@ -81,17 +81,18 @@ carom_rules_on carom_on_any;
 /* Whether a call is a choice after a break that the state allows: to have all balls of the set
  * racked and break from behind the head string, to have the other do so, or to leave the cue ball
  * where it lies. Then *turn is what comes of it. */
-bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t all, carom_turn *turn);
+bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t object_balls,
+                       carom_turn *turn);
 
 /* Adds points, or fouls; none of a state that no game has. */
-static inline void carom_add(int32_t *to, int more) {
-  *to = (int32_t)carom_min((int64_t)*to + more, INT32_MAX);
+static inline void carom_add(int32_t *sum, int more) {
+  *sum = (int32_t)carom_min((int64_t)*sum + more, INT32_MAX);
 }
 
 /* Nine-ball and ten-ball: the foul of a break, of a push-out or of another stroke; and the turn
  * after a foul, with the cue ball in hand. The third foul in a row loses. */
-int32_t carom_rotation_foul_of(const carom_facts *facts, uint32_t on, int cue_ball, bool opening,
-                               bool pushes);
+int32_t carom_rotation_foul_of(const carom_facts *facts, uint32_t targets, int cue_ball,
+                               bool opening, bool pushes);
 carom_turn carom_give_hand(carom_rules_state *game, int32_t foul, uint32_t spot);
 /* Whether a break pots or drives to the head string fewer balls than the state asks for: by the
  * three-point rule (WPA, regulation 18) three. Then the other may hand the table back, without a
@@ -101,7 +102,7 @@ bool carom_is_below_target(const carom_rules_state *game, const carom_facts *fac
 /* Games in which eight balls win: a ball that counts, or is no more owed; one that a foul costs, or
  * is owed; what each player needs; and the balls that come back after a stroke. */
 enum { CAROM_BALLS_THAT_WIN = 8 };
-void carom_count_ball(carom_rules_state *game, int who);
+void carom_count_ball(carom_rules_state *game, int seat);
 void carom_pay_ball(carom_rules_state *game);
 carom_rules_left carom_left_of_eight;
 uint32_t carom_back_of(const carom_rules_state *game, uint32_t down, uint32_t first);

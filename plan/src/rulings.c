@@ -6,9 +6,9 @@
 #include <stddef.h>
 
 static void swap(int32_t pair[2]) {
-  const int32_t kept = pair[0];
+  const int32_t first = pair[0];
   pair[0] = pair[1];
-  pair[1] = kept;
+  pair[1] = first;
 }
 
 uint32_t carom_on_any(const carom_rules_state *game, uint32_t in_play) {
@@ -32,15 +32,16 @@ carom_turn carom_pass_by(int32_t foul) {
   return turn;
 }
 
-bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t all, carom_turn *turn) {
+bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t object_balls,
+                       carom_turn *turn) {
   static const struct {
-    int32_t call, may;
+    int32_t call, choice;
   } choices[] = {{CAROM_CALL_RACK, CAROM_CHOICE_RACK},
                  {CAROM_CALL_OTHER_RACK, CAROM_CHOICE_OTHER_RACK},
                  {CAROM_CALL_STAY, CAROM_CHOICE_STAY}};
   bool chosen = false;
   for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
-    chosen |= call == choices[k].call && (game->may & choices[k].may) != 0;
+    chosen |= call == choices[k].call && (game->may & choices[k].choice) != 0;
   if (!chosen)
     return false;
   game->may = 0;
@@ -50,7 +51,7 @@ bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t all, caro
   game->opening = 1;
   game->free_ball = 0;
   turn->leave = CAROM_LEAVE_KITCHEN;
-  turn->spot = all;
+  turn->spot = object_balls;
   if (call == CAROM_CALL_OTHER_RACK) {
     turn->outcome = CAROM_TURN_PASS;
     carom_give(game, *turn);
@@ -59,9 +60,9 @@ bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t all, caro
 }
 
 int carom_cue_ball_of(const carom_plan_rules *rules) {
-  const bool own = rules != NULL &&
-                   (rules->rack == CAROM_RACK_THREECUSHION || rules->rack == CAROM_RACK_FOURBALL);
-  return own && rules->state.group == 2;
+  const bool is_personal = rules != NULL && (rules->rack == CAROM_RACK_THREECUSHION ||
+                                             rules->rack == CAROM_RACK_FOURBALL);
+  return is_personal && rules->state.group == 2;
 }
 
 uint32_t carom_met_first(const carom_facts *facts) {
@@ -80,16 +81,16 @@ uint32_t carom_barred(const carom_facts *facts, double length, const carom_shot_
 }
 
 uint32_t carom_nearest_behind(const carom_table *table, const carom_shot_ball *balls, int count,
-                              uint32_t on) {
-  const double head = carom_marks_of(table->width, table->length).head_spot[1];
+                              uint32_t targets) {
+  const double head = 0.25 * table->length;
   double nearest = -INFINITY;
   for (int k = 0; k < count; k++)
-    if (on >> k & 1)
+    if (targets >> k & 1)
       nearest = fmax(nearest, balls[k].state.r[1]);
   uint32_t set = 0;
   for (int k = 0; k < count && nearest < head; k++)
     if (balls[k].state.r[1] > nearest - CAROM_RULES_TOUCH)
-      set |= on & carom_only(k);
+      set |= targets & carom_only(k);
   return set;
 }
 
@@ -117,8 +118,8 @@ uint32_t carom_touching(const carom_shot_ball *balls, int count, int ball) {
   uint32_t set = 0;
   for (int k = 0; k < count && !is_out(&balls[ball]); k++) {
     const double reach = balls[k].kind.radius + balls[ball].kind.radius + CAROM_RULES_TOUCH;
-    const bool near = carom_square(balls[k].state.r, balls[ball].state.r) < reach * reach;
-    if (k != ball && !is_out(&balls[k]) && near)
+    const bool is_near = carom_square(balls[k].state.r, balls[ball].state.r) < reach * reach;
+    if (k != ball && !is_out(&balls[k]) && is_near)
       set |= UINT32_C(1) << k;
   }
   return set;
@@ -169,41 +170,42 @@ const char *carom_foul_string(int foul) {
 /* How far from a ball another one is put that comes beside it, m: a ball of pool is frozen to an
  * object ball (WPA 1.4); beside the cue ball, in snooker (WPBSA, section 3, spotting colours) and
  * in pyramid it must not touch, so it stands as near as balls that clearly do not. */
-static double room_beside(carom_rack_kind kind, int other) {
-  if (kind != CAROM_RACK_SNOOKER && kind != CAROM_RACK_PYRAMID && other != 0)
+static double room_beside(carom_rack_kind kind, int neighbour) {
+  if (kind != CAROM_RACK_SNOOKER && kind != CAROM_RACK_PYRAMID && neighbour != 0)
     return 0.0;
   return 2.0 * CAROM_RULES_TOUCH;
 }
 
 /* Where a ball at x on the long string stands behind another one on a side, y: their centres are
  * then at least the sum of the radii and a gap apart, by as little as doubles allow. */
-static double beside(const carom_shot_ball *ball, const carom_shot_ball *other, double x, int side,
-                     double gap) {
-  const double both = ball->kind.radius + other->kind.radius + gap;
-  const double across = x - other->state.r[0], at = other->state.r[1];
-  const double y = at + side * sqrt(fmax(both * both - across * across, 0.0));
+static double place_beside(const carom_shot_ball *ball, const carom_shot_ball *neighbour, double x,
+                           int side, double gap) {
+  const double both = ball->kind.radius + neighbour->kind.radius + gap;
+  const double across = x - neighbour->state.r[0], centre = neighbour->state.r[1];
+  const double y = centre + side * sqrt(fmax(both * both - across * across, 0.0));
   return y + side * 4e-16 * (1.0 + fabs(y));
 }
 
 /* As near to a place as there is room, towards y = length, else away from it. */
 static carom_status put_near(carom_rack_kind kind, const carom_table *table, carom_shot_ball *balls,
-                             int count, int ball, const double at[2]) {
+                             int count, int ball, const double place[2]) {
   const double step = fmax(1e-4 * table->length, 1e-3);
   carom_status status = CAROM_ERROR_OFF_TABLE;
   for (int side = 1; side >= -1; side -= 2) {
-    double y = at[1];
+    double y = place[1];
     while (y > 0.0 && y < table->length) {
-      carom_part there;
-      status = carom_place_ball(table, balls, count, ball, at[0], y, &there);
+      carom_part obstacle;
+      status = carom_place_ball(table, balls, count, ball, place[0], y, &obstacle);
       if (status != CAROM_ERROR_OVERLAP && status != CAROM_ERROR_OFF_TABLE)
         return status;
 
       /* to behind a ball that is there, or past a part of the table */
-      const double before = y;
-      if (status == CAROM_ERROR_OVERLAP && there.kind == CAROM_PART_BALL)
-        y = beside(&balls[ball], &balls[there.index], at[0], side, room_beside(kind, there.index));
-      if (!((y - before) * side > 0.0))
-        y = before + side * step;
+      const double previous = y;
+      if (status == CAROM_ERROR_OVERLAP && obstacle.kind == CAROM_PART_BALL)
+        y = place_beside(&balls[ball], &balls[obstacle.index], place[0], side,
+                         room_beside(kind, obstacle.index));
+      if (!((y - previous) * side > 0.0))
+        y = previous + side * step;
     }
   }
   return status;
@@ -220,13 +222,13 @@ carom_status carom_spot_ball(const carom_table *table, carom_shot_ball *balls, i
 carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
                                 carom_shot_ball *balls, int count, int ball) {
   /* in pyramid the ball that opens comes back as the others do */
-  int of = ball;
+  int spot_ball = ball;
   if (kind == CAROM_RACK_PYRAMID && ball == 0)
-    of = 1;
-  double own[2], at[2];
-  const carom_status bad = carom_spot_of(kind, table, of, own);
-  if (bad != CAROM_OK)
-    return bad;
+    spot_ball = 1;
+  double home[2], place[2];
+  const carom_status error = carom_spot_of(kind, table, spot_ball, home);
+  if (error != CAROM_OK)
+    return error;
 
   /* a colour: its own spot, then the others, the highest first */
   enum { YELLOW = 16, BLACK = 21 };
@@ -235,12 +237,13 @@ carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
     int spot = tried;
     if (tried > BLACK)
       spot = ball;
-    carom_spot_of(kind, table, spot, at);
-    const carom_status status = carom_place_ball(table, balls, count, ball, at[0], at[1], NULL);
+    carom_spot_of(kind, table, spot, place);
+    const carom_status status =
+        carom_place_ball(table, balls, count, ball, place[0], place[1], NULL);
     if (status != CAROM_ERROR_OVERLAP)
       return status;
   }
-  return put_near(kind, table, balls, count, ball, own);
+  return put_near(kind, table, balls, count, ball, home);
 }
 
 /* All balls of a rack stand as at first, and keep their kinds. The cue ball is in hand. */
@@ -248,9 +251,9 @@ static carom_status rack_again(carom_rack_kind rack, const carom_table *table,
                                carom_shot_ball *balls, int count) {
   const double gap = 1e-4; /* that of a match */
   carom_shot_ball racked[CAROM_BALLS_MOST];
-  const carom_status bad = carom_rack(rack, table, gap, 1, racked, CAROM_BALLS_MOST);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status error = carom_rack(rack, table, gap, 1, racked, CAROM_BALLS_MOST);
+  if (error != CAROM_OK)
+    return error;
   for (int k = 0; k < count && k < carom_rack_size(rack); k++)
     balls[k].state = racked[k].state;
   return CAROM_OK;
@@ -283,11 +286,11 @@ carom_status carom_turn_settle(const carom_plan_rules *rules, carom_rules_state 
 
 /* ---- Games of eight balls of fifteen */
 
-void carom_count_ball(carom_rules_state *game, int who) {
-  if (game->lost[who] > 0)
-    game->lost[who]--;
+void carom_count_ball(carom_rules_state *game, int seat) {
+  if (game->lost[seat] > 0)
+    game->lost[seat]--;
   else
-    carom_add(&game->score[who], 1);
+    carom_add(&game->score[seat], 1);
 }
 
 void carom_pay_ball(carom_rules_state *game) {
@@ -316,10 +319,10 @@ static int32_t clamped(int32_t x, int32_t most) {
 /* With those that are owed; of states that no game has, at least one and at most 16. */
 void carom_left_of_eight(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
-  for (int who = 0; who < 2; who++) {
-    const int32_t own = clamped(game->score[who], CAROM_BALLS_THAT_WIN - 1);
-    const int32_t owed = clamped(game->lost[who], CAROM_BALLS_THAT_WIN);
-    needed[who] = CAROM_BALLS_THAT_WIN - own + owed;
+  for (int seat = 0; seat < 2; seat++) {
+    const int32_t score = clamped(game->score[seat], CAROM_BALLS_THAT_WIN - 1);
+    const int32_t owed = clamped(game->lost[seat], CAROM_BALLS_THAT_WIN);
+    needed[seat] = CAROM_BALLS_THAT_WIN - score + owed;
   }
 }
 
@@ -329,10 +332,10 @@ uint32_t carom_back_of(const carom_rules_state *game, uint32_t down, uint32_t fi
   const int64_t counted = (int64_t)game->score[0] + game->score[1];
   uint32_t back = 0;
   for (int64_t n = carom_count_of(down); n > counted && n > 0; n--) {
-    uint32_t from = first & ~back;
-    if (from == 0)
-      from = down & ~back;
-    back |= carom_lowest_of(from);
+    uint32_t source = first & ~back;
+    if (source == 0)
+      source = down & ~back;
+    back |= carom_lowest_of(source);
   }
   return back;
 }

@@ -41,9 +41,9 @@ static int64_t first_round(search *plan, int64_t keep) {
       stays = true;
     }
     if (stays) {
-      const candidate kept = *c;
+      const candidate candidate_copy = *c;
       *c = plan->found[good];
-      plan->found[good++] = kept;
+      plan->found[good++] = candidate_copy;
     }
   }
   CAROM_PROMISE(good >= 1 && good <= n);
@@ -127,10 +127,10 @@ static void replay(search *plan) {
 /* The other choices of the list are looked for. A plan that a greater one follows has no list. */
 static void begin_list(search *plan) {
   plan->next = NEXT_ENDED;
-  if (carom_is_stopped(plan) || plan->wanted == 1 || plan->rest > 0)
+  if (carom_is_stopped(plan) || plan->choices_most == 1 || plan->rest > 0)
     return;
   carom_search_sort(plan, plan->count);
-  plan->asked = 1;
+  plan->examined = 1;
   carom_search_stage(plan, 0, 0, 1, 0);
   plan->next = NEXT_LIST;
 }
@@ -179,8 +179,9 @@ static void look_again(search *plan) {
   plan->better = 0;
   for (int64_t k = 1; k < plan->count; k++) {
     const candidate *c = &plan->found[k];
-    const bool other = c->ball != best->ball || c->pocket != best->pocket;
-    if (other && c->round > 0 && c->round < ROUNDS && c->chose.sum / (double)c->chose.seen > most) {
+    const bool is_different = c->ball != best->ball || c->pocket != best->pocket;
+    if (is_different && c->round > 0 && c->round < ROUNDS &&
+        c->chose.sum / (double)c->chose.seen > most) {
       plan->better = k;
       most = c->chose.sum / (double)c->chose.seen;
     }
@@ -218,7 +219,7 @@ static bool add_near(search *plan) {
   int64_t parents = 1;
   if (plan->blind)
     parents = BLIND_PARENTS;
-  plan->near = 0;
+  plan->neighbours = 0;
   plan->entered = in_round(plan);
   carom_search_near(plan, carom_min(plan->entered, parents));
   if (plan->count == first)
@@ -239,10 +240,10 @@ static void take_near(search *plan) {
     candidate c = plan->found[first + k];
     c.chose = (carom_tally){0};
     c.round = (int16_t)plan->round;
-    plan->found[first + plan->near] = plan->found[plan->entered + plan->near];
-    plan->found[plan->entered + plan->near++] = c;
+    plan->found[first + plan->neighbours] = plan->found[plan->entered + plan->neighbours];
+    plan->found[plan->entered + plan->neighbours++] = c;
   }
-  plan->count = first + plan->near;
+  plan->count = first + plan->neighbours;
 }
 
 static void next_round(search *plan) {
@@ -252,18 +253,18 @@ static void next_round(search *plan) {
     return;
   }
   const bool joined = plan->round == NEAR_ROUND || (plan->blind && plan->round > 0);
-  if (joined && plan->near < 0 && add_near(plan))
+  if (joined && plan->neighbours < 0 && add_near(plan))
     return;
   int64_t n;
   if (joined)
-    n = plan->entered + plan->near;
+    n = plan->entered + plan->neighbours;
   else
     n = in_round(plan);
   const int64_t share = carom_max(left_for_rounds(plan) / ROUNDS / n, 2);
   const int64_t each = carom_min(share, plan->room / n);
   carom_search_stage(plan, 0, n, each, DRAW_ROUND + (uint32_t)plan->round);
   plan->round++;
-  plan->near = -1;
+  plan->neighbours = -1;
   plan->next = NEXT_ROUND;
 }
 
@@ -378,7 +379,7 @@ void carom_search_begin(search *plan, int64_t shots) {
   plan->scan = (int64_t)(scan_share(plan) * (double)shots);
   plan->count = plan->tried = 0;
   plan->round = plan->look = plan->duels = 0;
-  plan->near = -1;
+  plan->neighbours = -1;
   plan->listed = 1;
 
   /* the first place */

@@ -5,6 +5,7 @@
 #ifndef CAROM_PLAN_SEARCH_STATE_H
 #define CAROM_PLAN_SEARCH_STATE_H
 
+#include "carom_match.h"
 #include "platform/clock.h"
 #include "platform/threads.h"
 #include "shot/shot.h"
@@ -85,12 +86,6 @@ typedef struct carom_place_in_hand {
   double r[2], value;
 } carom_place_in_hand;
 
-/* Where a cue ball in hand may be put: the rectangle within the cushions that the caller and the
- * rules allow. */
-typedef struct carom_hand_range {
-  double low[2], high[2];
-} carom_hand_range;
-
 /* A table as it may be, where the player does not know it; the kinds are those of the balls in
  * play. */
 enum { TABLES = 32 };
@@ -127,11 +122,11 @@ typedef struct carom_search {
   /* the balls in play, which alone take part in shots: which they are, and their set in shots
    * of the balls that are on, where the first contact decides */
   carom_shot_ball played[CAROM_BALLS_MOST];
-  int32_t plays, which[CAROM_BALLS_MOST], cue_ball;
+  int32_t plays, layout_ball[CAROM_BALLS_MOST], cue_ball;
   carom_pot_found pot[CAROM_BALLS_MOST * CAROM_POCKETS_MOST];
   carom_brief_event event[128];                    /* of a stroke whose kind is asked */
   carom_place_in_hand best_place[PLACES_MOST + 1]; /* the best first */
-  carom_hand_range range;                          /* where the cue ball in hand may be put */
+  carom_bounds range;                              /* where the cue ball in hand may be put */
   const carom_cue *cues;                           /* `tries` strokes of the caller, */
   carom_plan_stroke *choices;                      /* and the room for their choices */
   int places, tries;                               /* places 0: the cue ball is not in hand */
@@ -152,15 +147,19 @@ typedef struct carom_search {
   int64_t scan, scan_end, tried; /* those of the scan; where its candidates end; tried so far */
   int64_t better;                /* the candidate that is looked at again */
   int64_t entered;               /* candidates of that round from the one before, */
-  int64_t near;                  /* and strokes near the best that join it; -1: none yet */
+  int64_t neighbours;            /* and strokes near the best that join it; -1: none yet */
   int round, look, duels;        /* that have begun */
   int place, raced;              /* from which candidates are made; how many places are tried */
-  int wanted, listed;            /* choices that the caller has room for; that stand first */
-  int64_t asked;                 /* candidates that have been asked whether they are listed */
+  int choices_most, listed;      /* choices that the caller has room for; that stand first */
+  int64_t examined;              /* candidates that have been asked whether they are listed */
   uint64_t drawn_places;         /* places of a cue ball in hand that have been drawn */
   int tried_places;              /* and those of them that could be tried */
   carom_candidate best;          /* of the rounds of doubling before */
 } carom_search;
+
+/* carom_plan_value() of a job, in room of the caller; *value stays where there is an error. */
+carom_status carom_search_value(carom_search *plan, const carom_plan_job *job, int in_hand,
+                                double *value);
 
 static inline bool carom_is_stopped(const carom_search *plan) {
   return plan->late || (plan->options.stop != NULL && *plan->options.stop != 0);

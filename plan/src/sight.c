@@ -31,13 +31,13 @@ static double direction_of(const carom_shot_ball *balls, const double c[2], int 
   return length;
 }
 
-/* Whether a ball of `by` is in the way, so far in the direction u. */
-static bool is_barred(const carom_shot_ball *balls, uint32_t by, const double c[2],
+/* Whether a ball of `obstacles` is in the way, so far in the direction u. */
+static bool is_barred(const carom_shot_ball *balls, uint32_t obstacles, const double c[2],
                       const double u[2], double length) {
-  for (int k = 1; by >> k != 0; k++) {
-    const double to[2] = {balls[k].state.r[0] - c[0], balls[k].state.r[1] - c[1]};
+  for (int k = 1; obstacles >> k != 0; k++) {
+    const double offset[2] = {balls[k].state.r[0] - c[0], balls[k].state.r[1] - c[1]};
     const double least = balls[0].kind.radius + balls[k].kind.radius - GRAZE;
-    if ((by >> k & 1) && carom_is_near_way(to, u, length, least))
+    if ((obstacles >> k & 1) && carom_is_near_way(offset, u, length, least))
       return true;
   }
   return false;

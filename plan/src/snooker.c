@@ -41,7 +41,7 @@ static uint32_t due_of(const carom_rules_state *game, uint32_t in_play) {
   return carom_lowest_of(colour);
 }
 
-static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
+static uint32_t targets_of(const carom_rules_state *game, uint32_t in_play) {
   if (game->may & CAROM_CHOICE_FREE_BALL)
     return in_play & (reds | colours);
   return due_of(game, in_play);
@@ -126,15 +126,15 @@ typedef struct nomination {
   int value;          /* of the ball on */
 } nomination;
 
-static nomination nominate(bool colour, uint32_t choice, uint32_t due, const carom_facts *facts,
+static nomination nominate(bool colour, uint32_t choice, uint32_t targets, const carom_facts *facts,
                            carom_call call) {
   /* the balls that the stroke aims at: the one that is called, where it may be */
   const bool calls = call.ball >= 0 && call.ball <= BLACK && choice >> call.ball & 1;
   uint32_t aimed_at = choice;
   if (calls)
     aimed_at = carom_only(call.ball);
-  if (!colour && (aimed_at & due) != 0)
-    aimed_at = due;
+  if (!colour && (aimed_at & targets) != 0)
+    aimed_at = targets;
   nomination n = {.first = carom_first_of(facts, aimed_at), .named = -1};
   if (n.first >= 0 && choice >> n.first & 1)
     n.named = n.first;
@@ -143,16 +143,16 @@ static nomination nominate(bool colour, uint32_t choice, uint32_t due, const car
 
   /* what may be met and may fall, and what it is worth */
   const uint32_t named = carom_only(n.named);
-  n.to_meet = n.allowed = due;
-  n.value = highest(due);
+  n.to_meet = n.allowed = targets;
+  n.value = highest(targets);
   if (colour) {
     n.to_meet = n.allowed = named;
     n.value = MOST;
     if (n.named >= 0)
       n.value = worth(n.named);
-  } else if ((named & ~due) != 0) {
+  } else if ((named & ~targets) != 0) {
     n.free_ball = n.to_meet = named;
-    n.allowed = due | named;
+    n.allowed = targets | named;
   }
   return n;
 }
@@ -206,8 +206,8 @@ static carom_turn judge_foul(carom_rules_state *game, uint32_t balls, int cost, 
 
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
-  const uint32_t balls = in_play & (reds | colours), due = due_of(game, in_play);
-  const uint32_t choice = on(game, in_play);
+  const uint32_t balls = in_play & (reds | colours), targets = due_of(game, in_play);
+  const uint32_t choice = targets_of(game, in_play);
   const int32_t after_foul = game->may;
   const bool colour = game->on != 0;
   game->may = game->free_ball = 0;
@@ -219,7 +219,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   }
 
   /* a foul */
-  const nomination n = nominate(colour, choice, due, facts, call);
+  const nomination n = nominate(colour, choice, targets, facts, call);
   uint32_t concerned;
   carom_turn turn = carom_pass;
   turn.foul = foul_of(&n, balls, cue_ball, facts, &concerned);
@@ -239,55 +239,55 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   }
 
   /* Reds count one each, and a free ball beside them as one; of others the ball on counts alone. */
-  const bool red = !colour && (due & reds) != 0;
-  int made = n.value;
+  const bool red = !colour && (targets & reds) != 0;
+  int points = n.value;
   turn.spot = fell & colours;
   if (red)
-    made = carom_count_of(fell);
+    points = carom_count_of(fell);
   else if (!colour)
-    turn.spot = fell & ~due;
-  carom_add(&game->score[0], made);
+    turn.spot = fell & ~targets;
+  carom_add(&game->score[0], points);
   game->on = red;
   turn.outcome = CAROM_TURN_KEEP;
   if (balls == black || is_claimed(lead_of(game), (balls & ~fell) | turn.spot))
     turn = finish(game, turn);
-  turn.points = made;
+  turn.points = points;
   return carom_end_turn(game, turn);
 }
 
 /* ---- Where balls lie */
 
-/* Whether no ball of `due` can be hit at both of its edges from c: others bar the way. */
-static bool is_snookered_at(const carom_shot_ball *balls, uint32_t due, uint32_t others,
+/* Whether no ball of `targets` can be hit at both of its edges from c: others bar the way. */
+static bool is_snookered_at(const carom_shot_ball *balls, uint32_t targets, uint32_t others,
                             const double c[2]) {
-  for (int k = 1; due >> k != 0; k++)
-    if ((due >> k & 1) && !carom_is_hidden(balls, others, c, k))
+  for (int k = 1; targets >> k != 0; k++)
+    if ((targets >> k & 1) && !carom_is_hidden(balls, others, c, k))
       return false;
   return true;
 }
 
-/* Whether `ball` snookers the cue ball: of the others that bar the way to each ball of `due`, it is
- * the nearest one. */
-static bool is_behind(const carom_shot_ball *balls, uint32_t due, uint32_t others, int ball) {
+/* Whether `ball` snookers the cue ball: of the others that bar the way to each ball of `targets`,
+ * it is the nearest one. */
+static bool is_behind(const carom_shot_ball *balls, uint32_t targets, uint32_t others, int ball) {
   const double *c = balls[0].state.r;
   uint32_t nearer = 0;
   for (int n = 1; others >> n != 0; n++)
     nearer |= (uint32_t)((others >> n & 1) &&
                          carom_square(balls[n].state.r, c) < carom_square(balls[ball].state.r, c))
               << n;
-  for (int k = 1; due >> k != 0; k++)
-    if ((due >> k & 1) && (!carom_is_hidden(balls, UINT32_C(1) << ball, c, k) ||
-                           carom_is_hidden(balls, nearer, c, k)))
+  for (int k = 1; targets >> k != 0; k++)
+    if ((targets >> k & 1) && (!carom_is_hidden(balls, UINT32_C(1) << ball, c, k) ||
+                               carom_is_hidden(balls, nearer, c, k)))
       return false;
   return true;
 }
 
 /* Whether the cue ball is snookered; in hand from all free places of the D: some are tried. */
 static bool is_snookered(const carom_table *table, const carom_shot_ball *balls, uint32_t in_play,
-                         uint32_t due, uint32_t others, bool hand) {
+                         uint32_t targets, uint32_t others, bool hand) {
   enum { STEPS = 6 };
   if (!hand)
-    return is_snookered_at(balls, due, others, balls[0].state.r);
+    return is_snookered_at(balls, targets, others, balls[0].state.r);
   const carom_marks marks = carom_marks_of(table->width, table->length);
   const double *d = marks.d_centre, radius = marks.d_radius;
   for (int i = -STEPS; i <= STEPS; i++)
@@ -298,7 +298,7 @@ static bool is_snookered(const carom_table *table, const carom_shot_ball *balls,
         const double least = balls[0].kind.radius + balls[k].kind.radius;
         is_free = !(in_play >> k & 1) || carom_square(balls[k].state.r, c) > least * least;
       }
-      if (is_free && !is_snookered_at(balls, due, others, c))
+      if (is_free && !is_snookered_at(balls, targets, others, c))
         return false;
     }
   return true;
@@ -307,10 +307,10 @@ static bool is_snookered(const carom_table *table, const carom_shot_ball *balls,
 /* Colours come back: first those whose own spots are free, then the others, the highest first. */
 static void put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set) {
   for (int k = YELLOW; k <= BLACK; k++) {
-    double own[2];
-    carom_spot_of(CAROM_RACK_SNOOKER, table, k, own);
+    double spot[2];
+    carom_spot_of(CAROM_RACK_SNOOKER, table, k, spot);
     if ((set >> k & 1) &&
-        carom_place_ball(table, balls, count, k, own[0], own[1], NULL) == CAROM_OK)
+        carom_place_ball(table, balls, count, k, spot[0], spot[1], NULL) == CAROM_OK)
       set &= ~carom_only(k);
   }
   for (int k = BLACK; k >= YELLOW; k--)
@@ -325,15 +325,16 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
     return;
 
   const uint32_t in_play = carom_on_table(balls, count) & (reds | colours);
-  const uint32_t due = due_of(game, in_play);
+  const uint32_t targets = due_of(game, in_play);
   const bool hand = turn->leave == CAROM_LEAVE_D;
 
   /* Behind the free ball, but for pink and black alone: a foul. */
   if (game->free_ball > 0 && game->free_ball <= BLACK) {
-    const int its = game->free_ball;
+    const int free_ball = game->free_ball;
     game->free_ball = 0;
-    if (in_play != (black | black >> 1) && is_behind(balls, due, in_play & ~due, its)) {
-      carom_add(&game->score[0], (int)carom_max(highest(due), LEAST));
+    if (in_play != (black | black >> 1) &&
+        is_behind(balls, targets, in_play & ~targets, free_ball)) {
+      carom_add(&game->score[0], (int)carom_max(highest(targets), LEAST));
       game->may = CAROM_CHOICE_PASS;
       turn->foul = CAROM_FOUL_OTHER;
     }
@@ -341,11 +342,11 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
 
   /* A free ball; a black that came back gives none. */
   if (game->may & CAROM_CHOICE_PASS &&
-      is_snookered(table, balls, in_play, due, in_play & ~due, hand))
+      is_snookered(table, balls, in_play, targets, in_play & ~targets, hand))
     game->may |= CAROM_CHOICE_FREE_BALL;
 }
 
-CAROM_RULES_OBJECT(carom_snooker) = {.on = on,
+CAROM_RULES_OBJECT(carom_snooker) = {.on = targets_of,
                                      .judge = judge,
                                      .left = left,
                                      .race = CAROM_RACE_POINTS,

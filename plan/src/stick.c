@@ -26,12 +26,12 @@ static const double stick_end = 1.47, tip_radius = 0.0065, radius_growth = 0.005
 /* A stick, before it is raised: the cue ball's radius, the tip's place above its centre in radii,
  * and the direction in the plane of the table of the axis, with a point of it. */
 typedef struct stick {
-  double R, b, u[2], at[2];
+  double R, b, u[2], origin[2];
 } stick;
 
 /* How far a place is beside the axis, and behind the cue ball. */
 static void seen_from(const stick *s, const double place[2], double *L, double *D) {
-  const double x = place[0] - s->at[0], y = place[1] - s->at[1];
+  const double x = place[0] - s->origin[0], y = place[1] - s->origin[1];
   *L = s->u[0] * y - s->u[1] * x;
   *D = -(s->u[0] * x + s->u[1] * y);
 }
@@ -77,24 +77,24 @@ static double needed_at(const stick *axis, const nose *n, double place) {
 static double most_between(const stick *axis, const nose *n, double low, double high) {
   enum { STEPS = 30 };
   const double golden = 0.6180339887498949;
-  double at[2], theta[2];
+  double place[2], theta[2];
   for (int step = -2; step < STEPS; step++) {
     /* two places; then the worse one is an end, and a place comes on the other side */
     int next = step + 2;
     if (step >= 0) {
       next = theta[0] < theta[1];
       if (next == 1)
-        low = at[0];
+        low = place[0];
       else
-        high = at[1];
-      at[1 - next] = at[next];
+        high = place[1];
+      place[1 - next] = place[next];
       theta[1 - next] = theta[next];
     }
     if (next == 1)
-      at[1] = low + golden * (high - low);
+      place[1] = low + golden * (high - low);
     else
-      at[0] = high - golden * (high - low);
-    theta[next] = needed_at(axis, n, at[next]);
+      place[0] = high - golden * (high - low);
+    theta[next] = needed_at(axis, n, place[next]);
   }
   return carom_greater(theta[0], theta[1]);
 }
@@ -135,8 +135,9 @@ static double over_jaw(const stick *axis, const carom_jaw *jaw, double least) {
   nose n = {.rho = rho, .h = jaw->height};
   seen_from(axis, jaw->centre, &n.L, &n.D);
   /* no point of it needs more than one at its front that is as near to the axis as any */
-  const double beside = carom_greater(fabs(n.L) - rho, 0.0), front = carom_greater(n.D - rho, 1e-9);
-  if (n.D + rho <= 0.0 || needed(axis, beside, front, n.h, radius_at(n.D + rho)) <= least)
+  const double distance = carom_greater(fabs(n.L) - rho, 0.0),
+               front = carom_greater(n.D - rho, 1e-9);
+  if (n.D + rho <= 0.0 || needed(axis, distance, front, n.h, radius_at(n.D + rho)) <= least)
     return least;
   least = carom_greater(most_between(axis, &n, -wide, wide), least);
   if (least > 0.05)
@@ -146,12 +147,12 @@ static double over_jaw(const stick *axis, const carom_jaw *jaw, double least) {
 
 double carom_least_elevation(const carom_table *table, const carom_shot_ball *balls, int count,
                              const carom_cue *cue) {
-  const carom_shot_ball *own = &balls[cue->ball];
-  stick axis = {.R = own->kind.radius, .b = cue->b};
+  const carom_shot_ball *striker = &balls[cue->ball];
+  stick axis = {.R = striker->kind.radius, .b = cue->b};
   double most = 0.0;
   carom_sincos(cue->phi * degree, &axis.u[1], &axis.u[0]);
-  axis.at[0] = own->state.r[0] - cue->a * axis.R * axis.u[1];
-  axis.at[1] = own->state.r[1] + cue->a * axis.R * axis.u[0];
+  axis.origin[0] = striker->state.r[0] - cue->a * axis.R * axis.u[1];
+  axis.origin[1] = striker->state.r[1] + cue->a * axis.R * axis.u[0];
 
   for (int k = 0; k < table->rails; k++)
     most = carom_greater(most, over_rail(&axis, &table->rail[k]));

@@ -10,22 +10,22 @@
 #include "table/marks.h"
 
 enum { MANY_FOULS = 15, BAD_BREAK = 2, RACKED = 14, LAST_BALL = 15 };
-static const uint32_t all = 0xfffe;
+static const uint32_t object_balls = 0xfffe;
 
-static int64_t score(const carom_rules_state *game, int who) {
-  return (int64_t)game->score[who] - game->lost[who];
+static int64_t score(const carom_rules_state *game, int seat) {
+  return (int64_t)game->score[seat] - game->lost[seat];
 }
 
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
-  for (int who = 0; who < 2; who++)
-    needed[who] = (int32_t)carom_min(carom_max(game->target - score(game, who), 1), INT32_MAX);
+  for (int seat = 0; seat < 2; seat++)
+    needed[seat] = (int32_t)carom_min(carom_max(game->target - score(game, seat), 1), INT32_MAX);
 }
 
 /* A break: all balls are racked, and the cue ball is in hand. */
 static carom_turn racked(carom_rules_state *game, carom_turn_outcome outcome, int32_t foul) {
   game->opening = 1;
-  return (carom_turn){outcome, CAROM_LEAVE_KITCHEN, foul, all, 0.0};
+  return (carom_turn){outcome, CAROM_LEAVE_KITCHEN, foul, object_balls, 0.0};
 }
 
 /* Whether an opening break drove the cue ball and two others to cushions. */
@@ -37,7 +37,7 @@ static bool is_open(const carom_facts *facts, int cue_ball) {
 
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
-  const uint32_t balls = in_play & all, gone = (facts->down | facts->off) & balls;
+  const uint32_t balls = in_play & object_balls, gone = (facts->down | facts->off) & balls;
   const bool opening = game->opening != 0,
              passes = (game->may & CAROM_CHOICE_PASS) != 0 && call.ball == CAROM_CALL_PASS;
   game->opening = game->may = 0;
@@ -77,7 +77,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if (score(game, 0) >= game->target)
     turn.outcome = CAROM_TURN_WIN;
   if (carom_count_of(balls & ~gone) <= 1)
-    turn.spot = all & ~(balls & ~gone);
+    turn.spot = object_balls & ~(balls & ~gone);
   return turn;
 }
 
@@ -131,12 +131,12 @@ static void take_up(carom_shot_ball *ball) {
 
 /* Puts a ball on the head spot, or on the centre where the head spot is taken. */
 static void place_at_head(const carom_table *table, carom_shot_ball *balls, int count, int ball,
-                          const double head[2], bool taken) {
-  const carom_marks marks = carom_marks_of(table->width, table->length);
-  const double *at = head;
-  if (taken)
-    at = marks.centre_spot;
-  carom_place_ball(table, balls, count, ball, at[0], at[1], NULL);
+                          const double head[2], bool is_occupied) {
+  const double centre[2] = {0.5 * table->width, 0.5 * table->length};
+  const double *spot = head;
+  if (is_occupied)
+    spot = centre;
+  carom_place_ball(table, balls, count, ball, spot[0], spot[1], NULL);
 }
 
 /* Puts the balls of the set on the places of the triangle: all 15 as in eight-ball, with the eight
@@ -144,10 +144,10 @@ static void place_at_head(const carom_table *table, carom_shot_ball *balls, int 
 static void rack_up(const carom_table *table, carom_shot_ball *balls, int count, uint32_t spot,
                     double place[LAST_BALL][2]) {
   static const int of_place[LAST_BALL] = {1, 9, 2, 10, 8, 3, 11, 7, 14, 4, 5, 13, 15, 6, 12};
-  int n = spot != all; /* with 14 balls the front place stays free */
+  int n = spot != object_balls; /* with 14 balls the front place stays free */
   for (int k = 1; k <= LAST_BALL; k++) {
     int ball = k;
-    if (spot == all)
+    if (spot == object_balls)
       ball = of_place[n];
     if (spot >> ball & 1) {
       carom_place_ball(table, balls, count, ball, place[n][0], place[n][1], NULL);
@@ -184,7 +184,7 @@ void carom_settle_rack(carom_rules_state *game, const carom_table *table, carom_
   const bool cue_in_rack = is_in_rack(&balls[0], place);
   const bool fifteenth_in_rack = fifteenth > 0 && is_in_rack(&balls[fifteenth], place);
   if (cue_in_rack && fifteenth_in_rack)
-    spot = turn->spot = all;
+    spot = turn->spot = object_balls;
 
   /* all that is racked, and a cue ball that is in hand, make room */
   if (in_hand || cue_in_rack || spot & 1)
@@ -193,8 +193,8 @@ void carom_settle_rack(carom_rules_state *game, const carom_table *table, carom_
     if (spot >> k & 1)
       take_up(&balls[k]);
   if (fifteenth_in_rack && !cue_in_rack) {
-    const bool taken = is_near(balls[0].state.r, head, R) && !in_hand;
-    place_at_head(table, balls, count, fifteenth, head, taken);
+    const bool is_occupied = is_near(balls[0].state.r, head, R) && !in_hand;
+    place_at_head(table, balls, count, fifteenth, head, is_occupied);
   }
   rack_up(table, balls, count, spot, place);
 
@@ -202,8 +202,8 @@ void carom_settle_rack(carom_rules_state *game, const carom_table *table, carom_
   if (!cue_in_rack || in_hand)
     return;
   const double *last = balls[fifteenth].state.r;
-  const bool behind = spot != all && last[1] < head[1];
-  const bool on_head = spot != all && is_near(last, head, R);
+  const bool behind = spot != object_balls && last[1] < head[1];
+  const bool on_head = spot != object_balls && is_near(last, head, R);
   if (on_head || behind)
     place_at_head(table, balls, count, 0, head, on_head);
   else

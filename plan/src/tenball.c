@@ -13,21 +13,21 @@
 #include "games.h"
 #include "rules.h"
 
-static const uint32_t all = 0x7fe;
+static const uint32_t object_balls = 0x7fe;
 
-static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
+static uint32_t targets_of(const carom_rules_state *game, uint32_t in_play) {
   (void)game;
-  return carom_lowest_of(in_play & all);
+  return carom_lowest_of(in_play & object_balls);
 }
 
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)game;
-  needed[0] = needed[1] = carom_count_of(in_play & all);
+  needed[0] = needed[1] = carom_count_of(in_play & object_balls);
 }
 
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
-  const uint32_t balls = in_play & all, ten = carom_highest_of(balls);
+  const uint32_t balls = in_play & object_balls, ten = carom_highest_of(balls);
   const bool opening = game->opening != 0;
   const bool pushes = (game->may & CAROM_CHOICE_PUSH) && call.ball == CAROM_CALL_PUSH;
   const bool passes = (game->may & CAROM_CHOICE_PASS) && call.ball == CAROM_CALL_PASS;
@@ -37,7 +37,8 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
 
   /* fouls */
   const uint32_t back = (facts->down | facts->off) & ten;
-  const int32_t foul = carom_rotation_foul_of(facts, on(game, in_play), cue_ball, opening, pushes);
+  const int32_t foul =
+      carom_rotation_foul_of(facts, targets_of(game, in_play), cue_ball, opening, pushes);
   if (foul != CAROM_FOUL_NONE)
     return carom_give_hand(game, foul, back);
 
@@ -76,7 +77,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   return carom_give(game, turn);
 }
 
-CAROM_RULES_OBJECT(carom_ten_ball) = {.on = on,
+CAROM_RULES_OBJECT(carom_ten_ball) = {.on = targets_of,
                                       .judge = judge,
                                       .left = left,
                                       .race = CAROM_RACE_SHARED,

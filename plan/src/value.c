@@ -60,7 +60,7 @@ void carom_view_make(carom_view *view, const carom_plan_job *job,
   const carom_player *players[2] = {job->player, job->player};
   if (options->opponent != NULL)
     players[1] = options->opponent;
-  const double given[2] = {options->chance_me, options->chance_opponent};
+  const double chances[2] = {options->chance_me, options->chance_opponent};
   view->rules = job->rules;
   view->pockets = (int)job->table->pockets;
   view->count = (int)job->count;
@@ -73,43 +73,43 @@ void carom_view_make(carom_view *view, const carom_plan_job *job,
     view->radius[k] = job->balls[k].kind.radius;
     for (int p = 0; p < view->pockets; p++)
       view->window[k][p] = carom_window_of(&view->mouth[p], job->balls[k].state.r, view->radius[k]);
-    memcpy(view->at[k], job->balls[k].state.r, sizeof view->at[k]);
+    memcpy(view->place[k], job->balls[k].state.r, sizeof view->place[k]);
   }
-  for (int who = 0; who < 2; who++) {
+  for (int seat = 0; seat < 2; seat++) {
     /* the error of a usual pot */
     static const double usual_speed = 2.0;
-    const double phi = players[who]->phi * carom_player_growth(players[who], usual_speed);
-    view->sigma[who] = phi * (pi / 180.0);
-    view->log_error[who] = carom_log(fmax(phi / 0.1, 0.1));
-    view->log_miss[who] = view->log_error[who] + carom_log_size(view);
-    view->given[who] = given[who];
+    const double phi = players[seat]->phi * carom_player_growth(players[seat], usual_speed);
+    view->sigma[seat] = phi * (pi / 180.0);
+    view->log_error[seat] = carom_log(fmax(phi / 0.1, 0.1));
+    view->log_miss[seat] = view->log_error[seat] + carom_log_size(view);
+    view->set_chance[seat] = chances[seat];
   }
   const double mean = carom_chance_usual(view);
   double a[2][MOST_LEFT + 1] = {{0.0}}, e[2][MOST_LEFT + 1] = {{0.0}};
-  for (int who = 0; who < 2; who++)
+  for (int seat = 0; seat < 2; seat++)
     for (int n = 1; n <= MOST_LEFT; n++) {
-      a[who][n] = carom_chance_later(view, who, mean, n);
-      e[who][n] = carom_chance_first(view, who, n);
+      a[seat][n] = carom_chance_later(view, seat, mean, n);
+      e[seat][n] = carom_chance_first(view, seat, n);
     }
   chain(view, a, e);
   carom_find_edges(view);
 }
 
 static double with_targets(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
-                           uint32_t targets, uint32_t pockets, const int32_t given[2], int who,
+                           uint32_t targets, uint32_t pockets, const int32_t needed[2], int seat,
                            bool in_hand) {
   const bool alone = view->rules->race == CAROM_RACE_ALONE;
-  if (!alone && who == 1 && view->given[1] == 1.0)
+  if (!alone && seat == 1 && view->set_chance[1] == 1.0)
     return 1.0;
   const bool shared = view->rules->race == CAROM_RACE_SHARED;
   int32_t most = MOST_LEFT, left[2];
   if (alone)
     most = CAROM_BALLS_MOST;
   for (int k = 0; k < 2; k++)
-    left[k] = (int32_t)carom_max(carom_min(given[k], most), 1);
+    left[k] = (int32_t)carom_max(carom_min(needed[k], most), 1);
   CAROM_PROMISE(who == 0 || who == 1);
   double x[NEXT_NUMBERS];
-  carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, NULL, x);
+  carom_plan_features(view, balls, in_play, targets, pockets, seat, in_hand, NULL, x);
   const double p = carom_chance_next(view, x);
 
   /* the visit, ball by ball: how likely it is to come so far, and what a miss there is worth */
@@ -121,41 +121,41 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
     if (alone)
       worth += so_far * next;
     else
-      worth += so_far * (1.0 - next) * (1.0 - view->win[1 - who][others][n]);
+      worth += so_far * (1.0 - next) * (1.0 - view->win[1 - seat][others][n]);
     so_far *= next;
     if (n > 1)
-      next = carom_chance_later(view, who, x[2], n - 1);
+      next = carom_chance_later(view, seat, x[2], n - 1);
   }
   CAROM_PROMISE(worth >= 0.0 && so_far >= 0.0 && so_far <= 1.0 && (alone || worth <= 1.0));
   if (alone)
     return worth;
-  return carom_stretched(view, worth + so_far, who, left[0]);
+  return carom_stretched(view, worth + so_far, seat, left[0]);
 }
 
 /* The value to one who plays. */
 static double value_of_playing(const carom_view *view, const carom_rules_state *game,
-                               const carom_ball_state *balls, uint32_t in_play, int who,
+                               const carom_ball_state *balls, uint32_t in_play, int seat,
                                bool in_hand) {
   const carom_plan_rules *rules = view->rules;
   if (rules->value != NULL)
     return rules->value(game, balls, view->count, in_hand);
   if (rules->race == CAROM_RACE_POINTS)
-    return carom_points_value(view, game, balls, in_play, who, in_hand);
+    return carom_points_value(view, game, balls, in_play, seat, in_hand);
   const uint32_t pockets = carom_pockets_of(rules, game);
   int32_t left[2];
   rules->left(game, in_play, left);
-  return with_targets(view, balls, in_play, rules->on(game, in_play), pockets, left, who, in_hand);
+  return with_targets(view, balls, in_play, rules->on(game, in_play), pockets, left, seat, in_hand);
 }
 
 double carom_value_of(const carom_view *view, const carom_rules_state *game,
-                      const carom_ball_state *balls, int who, bool in_hand) {
+                      const carom_ball_state *balls, int seat, bool in_hand) {
   const carom_plan_rules *rules = view->rules;
   const uint32_t in_play = carom_in_play(balls, view->count) | UINT32_C(1) << view->cue_ball;
-  double plays = value_of_playing(view, game, balls, in_play, who, in_hand);
-  if (game->may & CAROM_CHOICE_PUSH && view->given[1] == 0.0) {
+  double plays = value_of_playing(view, game, balls, in_play, seat, in_hand);
+  if (game->may & CAROM_CHOICE_PUSH && view->set_chance[1] == 0.0) {
     int32_t left[2];
     rules->left(game, in_play, left);
-    plays = fmax(plays, carom_even(view, who, (int)carom_max(carom_min(left[0], MOST_LEFT), 1)));
+    plays = fmax(plays, carom_even(view, seat, (int)carom_max(carom_min(left[0], MOST_LEFT), 1)));
   }
   if (!(game->may & CAROM_CHOICE_PASS))
     return plays;
@@ -164,5 +164,5 @@ double carom_value_of(const carom_view *view, const carom_rules_state *game,
   carom_rules_state passed = *game;
   rules->judge(&passed, in_play, view->cue_ball, &carom_no_facts,
                (carom_call){CAROM_CALL_PASS, -1});
-  return fmax(plays, 1.0 - value_of_playing(view, &passed, balls, in_play, 1 - who, in_hand));
+  return fmax(plays, 1.0 - value_of_playing(view, &passed, balls, in_play, 1 - seat, in_hand));
 }

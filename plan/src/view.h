@@ -55,12 +55,12 @@ static inline double carom_points_of(const carom_plan_rules *rules, const carom_
   return rules->points(game, in_play, ball);
 }
 
-/* Whether a point, `to` from where a way begins, is nearer than `least` to the way: so long, in the
- * direction u. */
-static inline bool carom_is_near_way(const double to[2], const double u[2], double length,
+/* Whether a point, `offset` from where a way begins, is nearer than `least` to the way: so long, in
+ * the direction u. */
+static inline bool carom_is_near_way(const double offset[2], const double u[2], double length,
                                      double least) {
-  const double along = carom_within(to[0] * u[0] + to[1] * u[1], 0.0, length);
-  const double off[2] = {to[0] - along * u[0], to[1] - along * u[1]};
+  const double along = carom_within(offset[0] * u[0] + offset[1] * u[1], 0.0, length);
+  const double off[2] = {offset[0] - along * u[0], offset[1] - along * u[1]};
   return off[0] * off[0] + off[1] * off[1] < least * least;
 }
 
@@ -88,7 +88,7 @@ typedef struct carom_view {
   double radius[CAROM_BALLS_MOST];
   /* of the player and of his opponent: error of the direction, rad; the logarithm of that in 0.1
    * degrees, at least 0.01 degrees; the caller's chance of a pot, or 0 */
-  double sigma[2], log_error[2], given[2];
+  double sigma[2], log_error[2], set_chance[2];
   double
       log_miss[2]; /* log_error, larger on a table whose ways are longer than where racks taught */
   /* chance to win at one's turn, by the balls left to oneself and to the other: of the player,
@@ -98,7 +98,7 @@ typedef struct carom_view {
    * difference of their log-odds to win at their turns */
   double edge[MOST_LEFT + 1];
   /* of the balls where they are before the shot; most of them stay there */
-  double at[CAROM_BALLS_MOST][2];
+  double place[CAROM_BALLS_MOST][2];
   carom_window window[CAROM_BALLS_MOST][CAROM_POCKETS_MOST];
 } carom_view;
 
@@ -116,10 +116,10 @@ extern const carom_facts carom_no_facts;
 carom_mouth carom_mouth_of(const carom_table *table, int pocket);
 /* Of a ball of radius R at o. */
 carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double R);
-/* The pot of ball k into a pocket by the player `who`, 0 or 1; in_hand: the cue ball may be put
+/* The pot of ball k into a pocket by the player `seat`, 0 or 1; in_hand: the cue ball may be put
  * anywhere. A chance of at most `least` is told as 0. */
 carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
-                       int k, int pocket, int who, bool in_hand, double least);
+                       int k, int pocket, int seat, bool in_hand, double least);
 /* chances.c */
 /* What a chance to pot is made of, the numbers of games.h: 1; view->log_error; the mean
  * of the best pots of the balls of `targets`; the best pot; that of the next best ball; whether one
@@ -128,13 +128,13 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
  * the other those but the mean. each[k] becomes the best pot of ball k, where it is not NULL. */
 enum { NEXT_NUMBERS = 7, LATER_NUMBERS = 4, FIRST_NUMBERS = 3 };
 void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
-                         uint32_t targets, uint32_t pockets, int who, bool in_hand,
+                         uint32_t targets, uint32_t pockets, int seat, bool in_hand,
                          double each[CAROM_BALLS_MOST], double x[NEXT_NUMBERS]);
 /* Chances of the next pot, by carom_plan_features(); of a later one with n balls left, in a layout
  * with this mean; of the first of a visit. */
 double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]);
-double carom_chance_later(const carom_view *view, int who, double mean, int n);
-double carom_chance_first(const carom_view *view, int who, int n);
+double carom_chance_later(const carom_view *view, int seat, double mean, int n);
+double carom_chance_first(const carom_view *view, int seat, int n);
 /* Whether games of these rules taught their chances, not those of others. */
 bool carom_is_learned(const carom_view *view);
 /* The logarithm of the table's width in that of the racks that taught. */
@@ -142,22 +142,22 @@ double carom_log_size(const carom_view *view);
 /* The mean over the balls of a usual layout. */
 double carom_chance_usual(const carom_view *view);
 void carom_find_edges(carom_view *view);
-/* A value to `who`, who has n balls left, with its log-odds stretched about the edge of that
+/* A value to `seat`, who has n balls left, with its log-odds stretched about the edge of that
  * player. */
-double carom_stretched(const carom_view *view, double value, int who, int n);
-/* The value to `who` of a layout that both would as soon play as leave, as after a push-out. */
-double carom_even(const carom_view *view, int who, int n);
+double carom_stretched(const carom_view *view, double value, int seat, int n);
+/* The value to `seat` of a layout that both would as soon play as leave, as after a push-out. */
+double carom_even(const carom_view *view, int seat, int n);
 
 /* value.c */
 void carom_view_make(carom_view *view, const carom_plan_job *job,
                      const carom_plan_options *options);
-/* The chance that player `who`, who is at the table, wins; alone: balls that he pots yet. */
+/* The chance that player `seat`, who is at the table, wins; alone: balls that he pots yet. */
 double carom_value_of(const carom_view *view, const carom_rules_state *game,
-                      const carom_ball_state *balls, int who, bool in_hand);
+                      const carom_ball_state *balls, int seat, bool in_hand);
 uint32_t carom_in_play(const carom_ball_state *balls, int count);
-/* points.c: the chance that player `who` wins a race for points. */
+/* points.c: the chance that player `seat` wins a race for points. */
 double carom_points_value(const carom_view *view, const carom_rules_state *game,
-                          const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand);
+                          const carom_ball_state *balls, uint32_t in_play, int seat, bool in_hand);
 
 /* games.c: whether a game begins with a break. */
 bool carom_has_opening(carom_rules_kind kind);
@@ -192,6 +192,10 @@ double carom_least_elevation(const carom_table *table, const carom_shot_ball *ba
                              const carom_cue *cue);
 
 /* player.c */
+/* The least and the greatest number of shots of a player's plans. */
+enum { PLAYER_SHOTS_LEAST = 100, PLAYER_SHOTS_MOST = 2000 };
+/* Whether the numbers of a player are within their ranges. */
+bool carom_player_is_good(const carom_player *p);
 /* The player with his bounds: 0 becomes the value it stands for. */
 carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue);
 /* A stroke by a player with bounds; z are his errors in standard deviations. */

@@ -12,23 +12,23 @@ static bool way_of(double phi, carom_pot *pot) {
   c.phi = phi;
   carom_shoot(&table, balls, BALLS, &c, &shot_options, &shot);
   *pot = (carom_pot){.ball = 8};
-  int on = 0; /* the ball whose turn it is */
+  int moving = 0; /* the ball whose turn it is */
   for (int64_t k = 0; k < shot.count && k < EVENTS; k++) {
     const carom_event *e = &events[k];
     const bool contact = e->type == CAROM_EVENT_BALL_BALL;
-    if (e->a != on && !(contact && e->b == on))
+    if (e->a != moving && !(contact && e->b == moving))
       continue;
-    if (contact && on != 8) {
-      on = e->a == on ? e->b : e->a;
-      if (on == 0)
+    if (contact && moving != 8) {
+      moving = e->a == moving ? e->b : e->a;
+      if (moving == 0)
         return false;
       /* ball 8 is named after a kick only */
-      if (on == 2 || (pot->vias > 0 && pot->via[pot->vias - 1].kind == CAROM_PART_RAIL))
-        pot->via[pot->vias++] = (carom_part){CAROM_PART_BALL, on};
-    } else if (e->type == CAROM_EVENT_RAIL && on != 2 && pot->vias < 2 &&
+      if (moving == 2 || (pot->vias > 0 && pot->via[pot->vias - 1].kind == CAROM_PART_RAIL))
+        pot->via[pot->vias++] = (carom_part){CAROM_PART_BALL, moving};
+    } else if (e->type == CAROM_EVENT_RAIL && moving != 2 && pot->vias < 2 &&
                carom_rail_name(&table, e->b) != NULL) {
       pot->via[pot->vias++] = (carom_part){CAROM_PART_RAIL, e->b};
-    } else if (e->type == CAROM_EVENT_POCKET && on == 8) {
+    } else if (e->type == CAROM_EVENT_POCKET && moving == 8) {
       pot->pocket = e->b;
       return true;
     } else if (contact || e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW) {
@@ -56,7 +56,7 @@ static int kind_of(const carom_pot *pot) {
 
 /* Counts the strokes at the middle and just within both bounds of an aim that falls: of the
  * direction, then of the speed. */
-static void try_bounds(const carom_pot *pot, const carom_cue *aimed, uint64_t seed, int *asked,
+static void try_bounds(const carom_pot *pot, const carom_cue *aimed, uint64_t seed, int *tries,
                        int *inside) {
   for (int side = -1; side <= 1; side++)
     for (int number = 0; number < 2; number++) {
@@ -72,7 +72,7 @@ static void try_bounds(const carom_pot *pot, const carom_cue *aimed, uint64_t se
         printf("layout %llu, side %d of %d: does not fall\n", (unsigned long long)seed, side,
                number);
       *inside += facts.pocket[8] == pot->pocket;
-      ++*asked;
+      ++*tries;
     }
 }
 
@@ -82,7 +82,7 @@ TEST(aims) {
   random_source r = {test_seed()};
   int found[WAYS][CAROM_POT_REJECTED + 1] = {0};
   const int most = draws_of_each(FEWER(24));
-  int asked = 0, inside = 0;
+  int tries = 0, inside = 0;
   for (uint64_t seed = 1; seed < 200000; seed++) {
     carom_pot pot;
     make_stroke(&r, test_seed() + seed);
@@ -104,10 +104,10 @@ TEST(aims) {
       continue;
 
     ck_assert(pot.margin >= 0.0 && fabs(pot.cut) < 90.0 && pot.phi[0] < pot.phi[1]);
-    try_bounds(&pot, &aimed, seed, &asked, &inside);
+    try_bounds(&pot, &aimed, seed, &tries, &inside);
   }
   /* beside the bounds a jaw may yet send the ball back, once in a thousand */
-  ck_assert_int_ge(inside, asked - 1 - asked / 1000);
+  ck_assert_int_ge(inside, tries - 1 - tries / 1000);
   int good = 0, others = 0;
   for (int kind = 0; kind < WAYS; kind++) {
     const int *n = found[kind];
@@ -140,15 +140,15 @@ TEST(rows_before_a_pocket) {
       if (ball > 1)
         pot.via[others - k] = (carom_part){CAROM_PART_BALL, ball};
     }
-    carom_cue one = cue;
-    one.speed = 4.0;
-    one.follow = 0.0; /* the tip would touch the cue ball again */
-    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
+    carom_cue stroke = cue;
+    stroke.speed = 4.0;
+    stroke.follow = 0.0; /* the tip would touch the cue ball again */
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke), CAROM_OK);
     ck_assert_msg(pot.outcome == CAROM_POT_FALLS, "%d others: %d", others, pot.outcome);
     ck_assert_double_eq_tol(pot.margin, asin(pocket->radius / 0.3) / per_degree, 0.01);
 
-    one.speed = 0.1;
-    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
+    stroke.speed = 0.1;
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke), CAROM_OK);
     ck_assert_msg(pot.outcome == CAROM_POT_SHORT, "%d others: %d", others, pot.outcome);
     ck_assert(pot.met.type == CAROM_EVENT_ROLLING_STATIONARY ||
               pot.met.type == CAROM_EVENT_ROLLING_SPINNING);
@@ -174,8 +174,8 @@ TEST(ways_that_cannot_be) {
       {.ball = 8, .pocket = 1, .vias = 3, .via = {rail, ball, ball}}};
   for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
     carom_pot pot = wrong[k];
-    carom_cue one = cue;
-    ck_assert_int_eq(carom_aim(&table, balls, BALLS, NULL, &pot, &one), CAROM_ERROR_BALLS);
+    carom_cue stroke = cue;
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, NULL, &pot, &stroke), CAROM_ERROR_BALLS);
     ck_assert_mem_eq(&pot, &wrong[k], sizeof pot);
   }
 }

@@ -5,13 +5,14 @@
 /* A bad break may be played again: then all balls are racked. Without that right none is. */
 TEST(a_break_is_played_again) {
   for (int asks = 0; asks < 2; asks++) {
-    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_BANK);
-    of.state.may = asks ? MAY : 0;
+    carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_BANK);
+    game_rules.state.may = asks ? MAY : 0;
     const carom_facts facts = facts_of(1, 1, 0, 0);
-    carom_turn turn = of.judge(&of.state, 0xffff, 0, &facts, (carom_call){CAROM_CALL_PASS, -1});
+    carom_turn turn =
+        game_rules.judge(&game_rules.state, 0xffff, 0, &facts, (carom_call){CAROM_CALL_PASS, -1});
     lay_out(CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 0xfffe);
     put(5, 0.3, 0.3);
-    carom_turn_settle(&of, &of.state, &table, balls, 16, &turn);
+    carom_turn_settle(&game_rules, &game_rules.state, &table, balls, 16, &turn);
     ck_assert_int_eq(balls[5].state.r[1] > 0.74 * table.length, asks);
   }
 }
@@ -24,9 +25,9 @@ TEST(a_bank_is_planned) {
   put(2, 0.08, 0.08);
   const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
   const carom_player player = carom_player_of(0.2);
-  const carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_BANK);
+  const carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_BANK);
   const carom_plan_options options = {.shots = 4000};
-  carom_plan_job job = job_of(count, &cue, &player, &of, &options);
+  carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
   carom_plan_stroke best;
   int found;
   ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);

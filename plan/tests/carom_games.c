@@ -41,32 +41,33 @@ TEST(cue_balls_of_straight_rail) {
 TEST(balls_are_spotted) {
   static const carom_rules_kind kinds[] = {CAROM_RULES_STRAIGHTRAIL, CAROM_RULES_THREECUSHION};
   for (int k = 0; k < 8; k++) {
-    const bool all = k % 2 == 0, asks = k / 2 % 2 == 1, yellow = k / 4 == 1;
-    carom_plan_rules of = carom_plan_rules_of(kinds[k % 2]);
+    const bool is_whole = k % 2 == 0, asks = k / 2 % 2 == 1, yellow = k / 4 == 1;
+    carom_plan_rules game_rules = carom_plan_rules_of(kinds[k % 2]);
     const int count = lay_out(CAROM_RACK_THREECUSHION, CAROM_TABLE_THREECUSHION, 7);
     const double R = balls[0].kind.radius;
-    const int own = yellow ? YELLOW_CUE : WHITE, other = 1 - own;
-    of.state.group = 1 + own;
-    of.state.may = asks ? SPOTS : 0;
-    put(own, 0.3, 0.9);
-    put(other, 1.1, 2.5);
+    const int struck = yellow ? YELLOW_CUE : WHITE, opponent = 1 - struck;
+    game_rules.state.group = 1 + struck;
+    game_rules.state.may = asks ? SPOTS : 0;
+    put(struck, 0.3, 0.9);
+    put(opponent, 1.1, 2.5);
     put(RED, 0.3 + 2.0 * R, 0.9);
 
     /* the player whose cue ball touches the red asks; or the red leaves the table */
     carom_facts facts = facts_of(NONE, 0, 0, asks ? 0 : 1 << RED);
     if (!asks)
-      of.state.group = 1 + other;
+      game_rules.state.group = 1 + opponent;
     const carom_call call = {asks ? CAROM_CALL_SPOT : NONE, -1};
-    carom_turn turn = of.judge(&of.state, 7, own, &facts, call);
+    carom_turn turn = game_rules.judge(&game_rules.state, 7, struck, &facts, call);
     ck_assert_int_eq(turn.outcome, asks ? KEEP : PASS);
-    carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
-    ck_assert_msg(lies_at(&balls[RED], 0.5, 0.75) && of.state.may == 0, "case %d: red", k);
-    if (all) {
-      ck_assert_msg(lies_at(&balls[own], 0.5 + 0.1825 / 1.42, 0.25), "case %d: own", k);
-      ck_assert_msg(lies_at(&balls[other], 0.5, 0.25), "case %d: other", k);
+    carom_turn_settle(&game_rules, &game_rules.state, &table, balls, count, &turn);
+    ck_assert_msg(lies_at(&balls[RED], 0.5, 0.75) && game_rules.state.may == 0, "case %d: red", k);
+    if (is_whole) {
+      ck_assert_msg(lies_at(&balls[struck], 0.5 + 0.1825 / 1.42, 0.25), "case %d: own", k);
+      ck_assert_msg(lies_at(&balls[opponent], 0.5, 0.25), "case %d: other", k);
     } else {
-      ck_assert_msg(is_at(other, 1.1, 2.5), "case %d: the other stays", k);
-      ck_assert_msg(asks ? lies_at(&balls[own], 0.5, 0.25) : is_at(own, 0.3, 0.9), "case %d", k);
+      ck_assert_msg(is_at(opponent, 1.1, 2.5), "case %d: the other stays", k);
+      ck_assert_msg(asks ? lies_at(&balls[struck], 0.5, 0.25) : is_at(struck, 0.3, 0.9), "case %d",
+                    k);
     }
   }
 }
@@ -79,9 +80,9 @@ TEST(a_point_is_planned) {
   put(2, 0.8, 1.25);
   const carom_cue cue = carom_cue_of(CAROM_GAME_BILLIARD);
   const carom_player player = carom_player_of(0.5);
-  const carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_STRAIGHTRAIL);
+  const carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_STRAIGHTRAIL);
   const carom_plan_options options = {.shots = 1000};
-  carom_plan_job job = job_of(count, &cue, &player, &of, &options);
+  carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
   carom_plan_stroke best;
   int found;
   ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
@@ -184,10 +185,10 @@ TEST(plans_of_equal_innings) {
     put(0, 0.5, 0.8);
     put(1, 0.7, 1.2);
     put(2, 0.8, 1.25);
-    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_STRAIGHTRAIL);
-    of.state.score[0] = of.state.target - 1;
-    of.state.innings = innings;
-    carom_plan_job job = job_of(count, &cue, &player, &of, &options);
+    carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_STRAIGHTRAIL);
+    game_rules.state.score[0] = game_rules.state.target - 1;
+    game_rules.state.innings = innings;
+    carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
     int found;
     ck_assert_int_eq(carom_plan(&job, &best[innings], 1, &found), CAROM_OK);
     free(job.memory);

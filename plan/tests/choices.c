@@ -50,7 +50,7 @@ TEST(told_is_what_comes) {
     player = carom_player_of(3.0);
     options.shots = k % 2 == 0 ? 300 : 1000;
     make_memory();
-    carom_plan_stroke best, again;
+    carom_plan_stroke best, repeated;
     int found;
     const bool hand = k < PLACED;
     ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, &best, 1, &found)
@@ -62,13 +62,13 @@ TEST(told_is_what_comes) {
     edge_free(&memory);
     options.shots = 1000;
     make_memory();
-    ck_assert_int_eq(carom_plan_try(&job, &best.cue, 1, &again), CAROM_OK);
-    ck_assert(again.ball == best.ball && again.pocket == best.pocket);
-    ck_assert(again.kind == CAROM_PLAN_GIVEN && again.seen == options.shots);
+    ck_assert_int_eq(carom_plan_try(&job, &best.cue, 1, &repeated), CAROM_OK);
+    ck_assert(repeated.ball == best.ball && repeated.pocket == best.pocket);
+    ck_assert(repeated.kind == CAROM_PLAN_GIVEN && repeated.seen == options.shots);
     const double n = hand ? PLACED : LAYOUTS - PLACED;
-    more[hand][0] += (best.value - again.value) / n;
-    more[hand][1] += (best.keep - again.keep) / n;
-    more[hand][2] += (best.foul - again.foul) / n;
+    more[hand][0] += (best.value - repeated.value) / n;
+    more[hand][1] += (best.keep - repeated.keep) / n;
+    more[hand][2] += (best.foul - repeated.foul) / n;
     edge_free(&memory);
   }
   for (int hand = 0; hand < 2; hand++)
@@ -101,9 +101,9 @@ TEST(the_first_ball_that_falls) {
     uint32_t in_play = 0;
     for (int i = 0; i < BALLS; i++)
       in_play |= (uint32_t)(balls[i].state.label != CAROM_BALL_POCKETED) << i;
-    const uint32_t on = rules.on(&rules.state, in_play);
+    const uint32_t targets = rules.on(&rules.state, in_play);
     carom_cue cues[CUES];
-    carom_plan_stroke told[CUES];
+    carom_plan_stroke chosen[CUES];
     for (int k = 0; k < CUES; k++) {
       cues[k] = cue;
       cues[k].speed = 7.0;
@@ -118,28 +118,28 @@ TEST(the_first_ball_that_falls) {
       carom_facts facts;
       carom_ball_state final[BALLS];
       carom_shot shot = {.final = final, .facts = &facts};
-      ck_assert_int_eq(carom_plan_try(&job, &cues[k], 1, &told[k]), CAROM_OK);
+      ck_assert_int_eq(carom_plan_try(&job, &cues[k], 1, &chosen[k]), CAROM_OK);
       ck_assert_int_eq(carom_shoot(&table, balls, BALLS, &cues[k], &shot_options, &shot), CAROM_OK);
       if (facts.first[0] >= 0 &&
-          (on >> facts.first[0] & 1)) /* else the shot may have been stopped */
+          (targets >> facts.first[0] & 1)) /* else the shot may have been stopped */
         ck_assert_mem_eq(&seen, &facts, sizeof facts);
-      const uint32_t down = facts.down & (rules.calls ? on : 0xfffe);
+      const uint32_t down = facts.down & (rules.calls ? targets : 0xfffe);
       int first = -1;
       for (int i = 1; i < BALLS; i++)
         if ((down >> i & 1) && (first < 0 || facts.pocket_time[i] < facts.pocket_time[first]))
           first = i;
       const carom_call call = {first, first < 0 ? -1 : facts.pocket[first]};
-      carom_plan_rules of = played_rules;
-      const carom_turn turn = of.judge(&of.state, in_play, 0, &facts, call);
+      carom_plan_rules game_rules = played_rules;
+      const carom_turn turn = game_rules.judge(&game_rules.state, in_play, 0, &facts, call);
       const bool keeps = turn.outcome == CAROM_TURN_KEEP || turn.outcome == CAROM_TURN_WIN;
       const int ball = keeps ? first : -1;
-      ck_assert_msg(told[k].ball == ball && told[k].pocket == (ball < 0 ? -1 : call.pocket),
+      ck_assert_msg(chosen[k].ball == ball && chosen[k].pocket == (ball < 0 ? -1 : call.pocket),
                     "layout %d, stroke %d: ball %d is named, %d fell first", layout, k,
-                    told[k].ball, ball);
-      ck_assert(told[k].keep == keeps);
+                    chosen[k].ball, ball);
+      ck_assert(chosen[k].keep == keeps);
       named += ball >= 0;
       second += ball >= 0 && (down & ((UINT32_C(1) << ball) - 1)) != 0;
-      others += ball >= 0 && !(on >> ball & 1);
+      others += ball >= 0 && !(targets >> ball & 1);
     }
     edge_free(&memory);
   }
@@ -191,29 +191,29 @@ TEST(what_is_named_falls) {
  * of another seed, and whose ball is the one that is met first. */
 TEST(three_cushion) {
   static const struct {
-    int second, before;
+    int second, cushions;
     uint32_t off;
     int outcome;
-  } given[] = {{2, 3, 0, CAROM_TURN_KEEP},
+  } cases[] = {{2, 3, 0, CAROM_TURN_KEEP},
                {2, 7, 0, CAROM_TURN_KEEP},
                {2, 2, 0, CAROM_TURN_PASS},
                {-1, 0, 0, CAROM_TURN_PASS},
                {2, 3, 4, CAROM_TURN_PASS}};
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
-    const carom_facts facts = {.first = {1, given[k].second},
-                               .cushions_before = {1, given[k].before},
-                               .off = given[k].off};
-    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_THREECUSHION);
-    const carom_turn turn = of.judge(&of.state, 7, 0, &facts, (carom_call){-1, -1});
-    ck_assert((int)turn.outcome == given[k].outcome &&
-              turn.points == (given[k].outcome == CAROM_TURN_KEEP));
-    ck_assert_int_eq(turn.foul, given[k].off ? CAROM_FOUL_OFF : CAROM_FOUL_NONE);
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    const carom_facts facts = {.first = {1, cases[k].second},
+                               .cushions_before = {1, cases[k].cushions},
+                               .off = cases[k].off};
+    carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_THREECUSHION);
+    const carom_turn turn = game_rules.judge(&game_rules.state, 7, 0, &facts, (carom_call){-1, -1});
+    ck_assert((int)turn.outcome == cases[k].outcome &&
+              turn.points == (cases[k].outcome == CAROM_TURN_KEEP));
+    ck_assert_int_eq(turn.foul, cases[k].off ? CAROM_FOUL_OFF : CAROM_FOUL_NONE);
   }
 
   random_source r = {3};
   double sum = 0.0;
   for (int k = 0; k < 4; k++) {
-    carom_plan_stroke best[5], again;
+    carom_plan_stroke best[5], repeated;
     int found;
     make_layout(1, 1);
     carom_table_make(CAROM_TABLE_THREECUSHION, &table);
@@ -232,10 +232,10 @@ TEST(three_cushion) {
     make_memory();
     ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
     options.seed = 77;
-    ck_assert_int_eq(carom_plan_try(&job, &best[0].cue, 1, &again), CAROM_OK);
-    const double p = again.keep, n = (double)best[0].seen;
+    ck_assert_int_eq(carom_plan_try(&job, &best[0].cue, 1, &repeated), CAROM_OK);
+    const double p = repeated.keep, n = (double)best[0].seen;
     ck_assert(fabs(best[0].value - best[0].keep) < 1e-12 && best[0].pocket == -1);
-    ck_assert(again.value == again.keep);
+    ck_assert(repeated.value == repeated.keep);
     ck_assert(fabs(best[0].keep - p) < 0.05 + 4.0 * sqrt((p * (1.0 - p) + 0.5 / n) / n));
     for (int i = 0; i < found; i++) {
       carom_facts facts;
@@ -295,11 +295,11 @@ TEST(ball_behind_the_head_string) {
   make_memory();
   carom_place_ball(&table, balls, BALLS, 1, 0.15, 0.15, NULL);
   carom_place_ball(&table, balls, BALLS, 2, 0.635, 2.5, NULL);
-  carom_bounds bounds;
   carom_plan_stroke best;
   int found;
-  carom_hand_bounds(CAROM_LEAVE_KITCHEN, &table, balls[0].kind.radius, &bounds);
-  ck_assert_int_eq(carom_plan_hand(&job, bounds.low, bounds.high, &best, 1, &found), CAROM_OK);
+  job.leave = CAROM_LEAVE_KITCHEN;
+  ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
+  ck_assert(best.place[1] <= 0.25 * table.length);
   ck_assert_msg(best.ball != 1 || best.cue.phi < 180.0, "ball %d, %g degrees", best.ball,
                 best.cue.phi);
 
@@ -310,6 +310,60 @@ TEST(ball_behind_the_head_string) {
     ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
     const bool direct = best.ball == 1 && best.cue.phi > 180.0;
     ck_assert_msg(direct == (leave == 0), "ball %d, %g degrees", best.ball, best.cue.phi);
+  }
+  job.leave = 0;
+  edge_free(&memory);
+}
+
+/* The leave says whether a stroke is from behind the head string, and a bound does not: an upper
+ * bound on that string, or 1 um beside it, has one plan. The only target lies behind the string. */
+TEST(leave_and_not_a_bound) {
+  static const double places[][2] = {{0.6, 0.6}, {0.35, 0.30}, {0.9, 2.1}};
+  make_layout(1, 1);
+  rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+  options.shots = 2000;
+  for (int k = 0; k < 3; k++)
+    carom_place_ball(&table, balls, BALLS, k, places[k][0], places[k][1], NULL);
+  make_memory();
+  const double low[2] = {0.03, 0.03};
+  double foul[2];
+  for (int barred = 0; barred < 2; barred++) {
+    carom_plan_stroke best[3];
+    job.leave = barred != 0 ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_ANYWHERE;
+    for (int k = 0; k < 3; k++) {
+      const double high[2] = {1.24, 0.25 * table.length + 1e-6 * (k - 1)};
+      int found;
+      ck_assert_int_eq(carom_plan_hand(&job, low, high, &best[k], 1, &found), CAROM_OK);
+      ck_assert_msg(best[k].kind == best[0].kind && best[k].ball == best[0].ball,
+                    "leave %d, bound %d: %s of ball %d", (int)job.leave, k,
+                    carom_plan_kind_name((carom_plan_kind)best[k].kind), best[k].ball);
+      ck_assert_double_eq_tol(best[k].cue.phi, best[0].cue.phi, 0.1);
+      ck_assert_double_eq_tol(best[k].value, best[0].value, 0.01);
+    }
+    foul[barred] = best[0].cue.phi;
+  }
+  ck_assert(fabs(foul[0] - foul[1]) > 1.0); /* the barred ball is not met directly */
+  job.leave = 0;
+  edge_free(&memory);
+}
+
+/* Every leave bounds the place of a ball in hand, with the plan's place on or within its bounds. */
+TEST(bounds_of_every_leave) {
+  static const double high[] = {1.0, 1.0, 1.0, 0.25, 0.2, 0.2}; /* of the length, from the head */
+  make_layout(3, 4);
+  make_memory();
+  for (int leave = CAROM_LEAVE_AFTER; leave <= CAROM_LEAVE_BAULK; leave++) {
+    const double radius = balls[0].kind.radius;
+    carom_bounds bounds;
+    carom_plan_stroke best;
+    int found;
+    job.leave = leave;
+    ck_assert_int_eq(carom_hand_bounds((carom_leave)leave, &table, radius, &bounds), CAROM_OK);
+    ck_assert((bounds.radius > 0.0) == (leave == CAROM_LEAVE_D));
+    ck_assert_double_le(bounds.high[1], high[leave] * table.length + 0.02);
+    ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
+    ck_assert_msg(carom_is_within(&bounds, best.place[0], best.place[1]), "leave %d: %g, %g", leave,
+                  best.place[0], best.place[1]);
   }
   job.leave = 0;
   edge_free(&memory);
@@ -342,10 +396,10 @@ TEST(what_one_may_do) {
   carom_plan_stroke best;
   int found;
   for (int easy = 0; easy < 2; easy++)
-    for (int may = 1; may <= 2; may++) {
+    for (int permission = 1; permission <= 2; permission++) {
       make_layout(1, 1);
       rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
-      rules.state.may = may == 1 ? CAROM_CHOICE_PUSH : CAROM_CHOICE_PASS;
+      rules.state.may = permission == 1 ? CAROM_CHOICE_PUSH : CAROM_CHOICE_PASS;
       put_ring(easy ? 1 : 6);
       if (easy)
         carom_place_ball(&table, balls, BALLS, 1, 0.1, 0.1, NULL);
@@ -353,12 +407,12 @@ TEST(what_one_may_do) {
       job.count = 10;
       make_memory();
       ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
-      const int kind = may == 1 ? CAROM_PLAN_PUSH : CAROM_PLAN_PASS;
-      int ball = may == 1 ? CAROM_CALL_PUSH : CAROM_CALL_PASS;
+      const int kind = permission == 1 ? CAROM_PLAN_PUSH : CAROM_PLAN_PASS;
+      int ball = permission == 1 ? CAROM_CALL_PUSH : CAROM_CALL_PASS;
       if (easy)
         ball = 1;
       ck_assert_msg((easy || best.kind == kind) && best.ball == ball,
-                    "easy %d, may %d: kind %d, ball %d, %g", easy, may, best.kind, best.ball,
+                    "easy %d, may %d: kind %d, ball %d, %g", easy, permission, best.kind, best.ball,
                     best.value);
       ck_assert(best.kind != CAROM_PLAN_PASS || (best.foul == 0.0 && best.seen == 0));
       edge_free(&memory);

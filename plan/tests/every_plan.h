@@ -3,7 +3,7 @@
 #ifndef CAROM_TESTS_EVERY_PLAN_H
 #define CAROM_TESTS_EVERY_PLAN_H
 
-#include "carom_plan.h"
+#include "carom_coach.h"
 
 _Static_assert(sizeof(carom_plan_stroke) == 27 * sizeof(double), "the room for choices");
 
@@ -20,6 +20,15 @@ static inline carom_plan_job plan_of(const every_input *in, every_room *room,
                           .options = options,
                           .memory = room->plan,
                           .memory_size = sizeof room->plan};
+}
+static inline carom_status every_why(const carom_plan_job *job, every_room *room) {
+  carom_plan_stroke choice = {.cue = *job->cue, .ball = -1, .pocket = -1};
+  memset(&room->why, 0, sizeof room->why);
+  choice.place[0] = job->balls[job->cue->ball].state.r[0];
+  choice.place[1] = job->balls[job->cue->ball].state.r[1];
+  const carom_status status = carom_why_of(job, &choice, &room->why);
+  room->choice[0] = room->why.speed + room->why.misses;
+  return status;
 }
 #define EVERY_PLAN(name, call)                                                 \
   EVERY_BODY(name) {                                                           \
@@ -42,6 +51,10 @@ EVERY_PLAN(plan_hand,
            carom_plan_hand(&job, NULL, NULL, (carom_plan_stroke *)room->choice, EVERY_FEW, &found))
 EVERY_PLAN(plan_try, carom_plan_try(&job, in->cue, 2, (carom_plan_stroke *)room->choice))
 EVERY_PLAN(plan_value, carom_plan_value(&job, 1, &room->choice[0]))
+EVERY_PLAN(plan_replay, carom_plan(&job, (carom_plan_stroke *)room->choice, EVERY_FEW, &found) < 0
+                            ? CAROM_ERROR_NULL
+                            : carom_plan_replay(&job, (carom_plan_stroke *)room->choice, 1))
+EVERY_PLAN(why_of, every_why(&job, room))
 EVERY_BODY(aim) {
   for (int pocket = 0; pocket < 6; pocket++) {
     carom_cue cue = in->cue[0];
@@ -53,6 +66,81 @@ EVERY_BODY(aim) {
     HASH(pot);
   }
   return h;
+}
+/* The ways of two strokes in few directions. */
+static inline carom_ways_job ways_of(const every_input *in, every_room *room,
+                                     const carom_player *player,
+                                     const carom_shot_options *options) {
+  return (carom_ways_job){.table = &in->table,
+                          .balls = in->balls,
+                          .count = EVERY_BALLS,
+                          .cues = in->cue,
+                          .strokes = 1,
+                          .player = player,
+                          .shot = options,
+                          .scan = 180,
+                          .ball = -1,
+                          .pocket = -1,
+                          .rails = 2,
+                          .memory = room->coach,
+                          .memory_size = sizeof room->coach};
+}
+#define EVERY_WAYS(name, call)                                       \
+  EVERY_BODY(name) {                                                 \
+    const carom_player player = carom_player_of(1.0);                \
+    const carom_shot_options options = {.threads = in->threads};     \
+    const carom_ways_job job = ways_of(in, room, &player, &options); \
+    carom_ways_result result = {0};                                  \
+    memset(room->ways, 0, sizeof room->ways);                        \
+    room->ways[0] = (carom_shot_way){.cue = in->cue[0], .ball = 1};  \
+    STATUS(call);                                                    \
+    HASH(result);                                                    \
+    return HASH(room->ways[0].chance);                               \
+  }
+EVERY_WAYS(ways, carom_ways(&job, room->ways, EVERY_FEW, &result))
+EVERY_WAYS(way_chance, carom_way_chance(&job, room->ways))
+EVERY_WAYS(way_succeeds, (carom_status)carom_way_succeeds(&job, NULL, room->ways))
+EVERY_VALUE(ways_memory, carom_ways_memory(EVERY_FEW))
+EVERY_VALUE(break_memory, carom_break_memory())
+EVERY_VALUE(break_has_rules, carom_break_has_rules(CAROM_RACK_EIGHTBALL))
+EVERY_VALUE(names_ball, carom_names_ball(&(carom_plan_stroke){.ball = 1}))
+static inline carom_break_job break_of(const every_input *in, every_room *room,
+                                       const carom_player *player,
+                                       const carom_shot_options *options) {
+  return (carom_break_job){.table = &in->table,
+                           .balls = in->balls,
+                           .count = EVERY_BALLS,
+                           .cue = &in->cue[0],
+                           .player = player,
+                           .shot = options,
+                           .rack = CAROM_RACK_EIGHTBALL,
+                           .gap = 1e-4,
+                           .seed = 1,
+                           .memory = room->coach,
+                           .memory_size = sizeof room->coach};
+}
+#define EVERY_BREAK(name, call)                                        \
+  EVERY_BODY(name) {                                                   \
+    const carom_player player = carom_player_of(1.0);                  \
+    const carom_shot_options options = {.threads = in->threads};       \
+    const carom_break_job job = break_of(in, room, &player, &options); \
+    carom_cue cue;                                                     \
+    memset(&room->counts, 0, sizeof room->counts);                     \
+    memset(room->balls, 0, sizeof room->balls);                        \
+    memset(&cue, 0, sizeof cue);                                       \
+    STATUS(call);                                                      \
+    HASH(room->counts);                                                \
+    HASH(room->balls);                                                 \
+    return HASH(cue);                                                  \
+  }
+EVERY_BREAK(break_stroke, carom_break_stroke(&job, 1, room->balls, &cue))
+EVERY_BREAK(break_play, carom_break_play(&job, 0, 2, &room->counts))
+EVERY_BODY(break_spread) {
+  const carom_break_counts counts = {.stays = 2, .x = 1.0, .y = 2.0, .squares = 3.0};
+  double place[2];
+  const double spread = carom_break_spread(&counts, place);
+  HASH(place);
+  return HASH(spread);
 }
 EVERY_VALUE(plan_memory, carom_plan_memory(NULL))
 EVERY_VALUE(rules_about_of, carom_rules_about_of(CAROM_RULES_SNOOKER)->last)
@@ -215,7 +303,9 @@ EVERY_BODY(match_plan) {
   F(cue_ball_of) F(plan_kind_name) F(plan_memory) F(plan_rules_of) F(plan_try) F(plan_value) \
   F(player_fargo) F(player_of) F(player_strike) F(pot_kind) \
   F(rating_of) F(referee) F(rules_about_of) F(rules_fault) F(ruling_string) F(spot_ball) \
-  F(spot_ball_of) F(stroke_marks) F(turn_settle)
+  F(spot_ball_of) F(stroke_marks) F(turn_settle) \
+  F(break_has_rules) F(break_memory) F(break_play) F(break_spread) F(break_stroke) F(names_ball) \
+  F(plan_replay) F(way_chance) F(way_succeeds) F(ways) F(ways_memory) F(why_of)
 /* clang-format on */
 
 #endif

@@ -50,9 +50,9 @@ CK_ATTRIBUTE_UNUSED static carom_table table;
 CK_ATTRIBUTE_UNUSED static carom_shot_ball balls[CAROM_BALLS_MOST];
 
 /* All balls of a rack, of which those that are not in play are down. */
-static inline int lay_out(carom_rack_kind kind, carom_table_kind of, uint32_t in_play) {
+static inline int lay_out(carom_rack_kind kind, carom_table_kind table_kind, uint32_t in_play) {
   const int count = carom_rack_size(kind);
-  carom_table_make(of, &table);
+  carom_table_make(table_kind, &table);
   ck_assert_int_eq(carom_rack(kind, &table, 1e-4, 1, balls, CAROM_BALLS_MOST), CAROM_OK);
   for (int k = 0; k < count; k++)
     if (!(in_play >> k & 1))
@@ -83,14 +83,15 @@ static inline bool knows_equal_innings(carom_rules_kind kind) {
 
 /* A plan for the balls that lie here, with memory of its own. */
 static inline carom_plan_job job_of(int count, const carom_cue *cue, const carom_player *player,
-                                    const carom_plan_rules *of, const carom_plan_options *options) {
+                                    const carom_plan_rules *game_rules,
+                                    const carom_plan_options *options) {
   const size_t size = carom_plan_memory(options);
   return (carom_plan_job){.table = &table,
                           .balls = balls,
                           .count = count,
                           .cue = cue,
                           .player = player,
-                          .rules = of,
+                          .rules = game_rules,
                           .options = options,
                           .memory = malloc(size),
                           .memory_size = size};

@@ -40,11 +40,11 @@ static carom_cue cue_of(carom_rules_kind kind) {
 }
 
 /* Reads text[size] by lines; returns the first status that is no CAROM_OK. */
-static carom_status read_all(const char *from, size_t size) {
+static carom_status read_all(const char *text, size_t size) {
   memset(&reader, 0, sizeof reader);
-  for (const char *line = from; line < from + size;) {
-    const char *end = memchr(line, '\n', (size_t)(from + size - line));
-    const char *next = end != NULL ? end + 1 : from + size;
+  for (const char *line = text; line < text + size;) {
+    const char *end = memchr(line, '\n', (size_t)(text + size - line));
+    const char *next = end != NULL ? end + 1 : text + size;
     const carom_status status = carom_match_read(&reader, &scratch, line, (size_t)(next - line));
     if (status != CAROM_OK)
       return status;
@@ -56,16 +56,16 @@ static carom_status read_all(const char *from, size_t size) {
 /* ---- Refusals */
 
 /* What an act that is refused may change. */
-static void forget_refusal(carom_match *of) {
-  of->refusal = 0;
-  of->size = of->due = 0;
-  memset(of->fault, 0, sizeof of->fault);
-  memset(of->text, 0, sizeof of->text);
+static void forget_refusal(carom_match *target) {
+  target->refusal = 0;
+  target->size = target->due = 0;
+  memset(target->fault, 0, sizeof target->fault);
+  memset(target->text, 0, sizeof target->text);
 }
 
-static void check_refusal(carom_status status, carom_refusal why, const char *said) {
+static void check_refusal(carom_status status, carom_refusal why, const char *words) {
   ck_assert_int_eq(status, CAROM_ERROR_ACT);
-  ck_assert_msg(match.refusal == (int32_t)why && strstr(match.fault, said) != NULL, "%s: %s",
+  ck_assert_msg(match.refusal == (int32_t)why && strstr(match.fault, words) != NULL, "%s: %s",
                 carom_refusal_name(match.refusal), match.fault);
   ck_assert_int_eq(match.size, 0);
   reader = match;
@@ -179,8 +179,8 @@ TEST(breaks_that_fail) {
   enum { RACK = CAROM_CHOICE_RACK, BOTH = CAROM_CHOICE_RACK | CAROM_CHOICE_OTHER_RACK };
   static const struct {
     carom_rules_kind kind;
-    int32_t may, phase, leave;
-  } given[] = {
+    int32_t options, phase, leave;
+  } cases[] = {
       {CAROM_RULES_EIGHTBALL, BOTH, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
       {CAROM_RULES_HEYBALL, BOTH, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
       {CAROM_RULES_NINEBALL, 0, CAROM_MATCH_PLACE, CAROM_LEAVE_ANYWHERE},
@@ -191,22 +191,22 @@ TEST(breaks_that_fail) {
       {CAROM_RULES_ROTATION, RACK, CAROM_MATCH_PLACE, CAROM_LEAVE_KITCHEN},
       {CAROM_RULES_PYRAMID, RACK, CAROM_MATCH_STROKE, CAROM_LEAVE_AFTER},
   };
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++)
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
     for (int choice = 0; choice < 3; choice++) {
       static const int32_t choices[] = {0, CAROM_CHOICE_RACK, CAROM_CHOICE_OTHER_RACK};
-      begin(given[k].kind, 1, 0);
+      begin(cases[k].kind, 1, 0);
       const double y = match.bounds.high[1];
       ck_assert_int_eq(carom_match_place(&match, 0, 0.5 * table.width, y), CAROM_OK);
-      carom_cue cue = cue_of(given[k].kind);
+      carom_cue cue = cue_of(cases[k].kind);
       cue.phi = 90.0;
       cue.speed = 0.24 * table.length;
       ck_assert_int_eq(carom_match_stroke(&match, 0, &cue, NULL, NULL), CAROM_OK);
-      ck_assert_msg(match.record.player == 1 && match.may == given[k].may &&
-                        match.phase == given[k].phase && match.leave == given[k].leave,
+      ck_assert_msg(match.record.player == 1 && match.may == cases[k].options &&
+                        match.phase == cases[k].phase && match.leave == cases[k].leave,
                     "%s: player %d, may %d, phase %d, leave %d, foul %d",
-                    carom_rules_about_of(given[k].kind)->name, (int)match.record.player, match.may,
+                    carom_rules_about_of(cases[k].kind)->name, (int)match.record.player, match.may,
                     match.phase, match.leave, match.ruling.turn.foul);
-      if ((given[k].may & choices[choice]) == 0)
+      if ((cases[k].options & choices[choice]) == 0)
         continue;
       ck_assert_int_eq(carom_match_choose(&match, 1, (carom_choice)choices[choice]), CAROM_OK);
       ck_assert(match.phase == CAROM_MATCH_PLACE && match.rules.state.opening == 1 &&
@@ -222,13 +222,13 @@ TEST(the_eight_on_the_break) {
     for (int racks = 0; racks < 2; racks++) {
       const carom_rules_kind kind = CAROM_RULES_EIGHTBALL;
       const int count = lay_out(CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 0xffff);
-      carom_plan_rules of = carom_plan_rules_of(kind);
-      of.state.opening = 1;
+      carom_plan_rules game_rules = carom_plan_rules_of(kind);
+      game_rules.state.opening = 1;
       put(8, 0.04, 0.04);
       put(0, 0.3, 0.3);
-      ck_assert_int_eq(
-          carom_match_begin_at(&match, kind, &of, &table, balls, count, NULL, CAROM_LEAVE_AFTER, 0),
-          CAROM_OK);
+      ck_assert_int_eq(carom_match_begin_at(&match, kind, &game_rules, &table, balls, count, NULL,
+                                            CAROM_LEAVE_AFTER, 0),
+                       CAROM_OK);
       carom_cue cue = cue_of(kind);
       cue.phi = 225.0;
       cue.speed = 2.0;
@@ -258,8 +258,8 @@ TEST(balls_behind_the_head_string) {
   static const struct {
     carom_rules_kind kind;
     double y[3]; /* of the balls 1 to 3 */
-    int32_t may, named, spotted;
-  } given[] = {
+    int32_t choices, named, spotted;
+  } cases[] = {
       {CAROM_RULES_STRAIGHT, {0.2, 0.4, 0.6}, SPOT, NONE, 3},
       {CAROM_RULES_STRAIGHT, {0.2, 0.4, 0.635}, 0, NONE, NONE}, /* on the head string */
       {CAROM_RULES_STRAIGHT, {0.2, 0.4, 1.6}, 0, NONE, NONE},
@@ -271,43 +271,43 @@ TEST(balls_behind_the_head_string) {
       {CAROM_RULES_ROTATION, {0.7, 0.5, 0.3}, 0, NONE, NONE},
       {CAROM_RULES_EIGHTBALL, {0.2, 0.4, 0.6}, 0, NONE, NONE}, /* in hand anywhere */
   };
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
-    const carom_rules_about *about = carom_rules_about_of(given[k].kind);
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    const carom_rules_about *about = carom_rules_about_of(cases[k].kind);
     const int count = lay_out((carom_rack_kind)about->rack, CAROM_TABLE_POOL_9FT, 0);
-    carom_plan_rules of = carom_plan_rules_of(given[k].kind);
-    if (given[k].kind == CAROM_RULES_ONEPOCKET || given[k].kind == CAROM_RULES_BANK)
-      of.state.score[1] = 7; /* the balls that are down */
+    carom_plan_rules game_rules = carom_plan_rules_of(cases[k].kind);
+    if (cases[k].kind == CAROM_RULES_ONEPOCKET || cases[k].kind == CAROM_RULES_BANK)
+      game_rules.state.score[1] = 7; /* the balls that are down */
     put(0, 1.1, 0.17);
     for (int i = 0; i < 3; i++)
-      put(i + 1, 0.3 + 0.2 * i, given[k].y[i]);
+      put(i + 1, 0.3 + 0.2 * i, cases[k].y[i]);
     for (int i = 4; i <= 8; i++)
       put(i, 0.1 * i, 0.1);
-    ck_assert_int_eq(carom_match_begin_at(&match, given[k].kind, &of, &table, balls, count, NULL,
-                                          CAROM_LEAVE_AFTER, 0),
+    ck_assert_int_eq(carom_match_begin_at(&match, cases[k].kind, &game_rules, &table, balls, count,
+                                          NULL, CAROM_LEAVE_AFTER, 0),
                      CAROM_OK);
     length = 0;
     keep();
-    carom_cue cue = cue_of(given[k].kind);
+    carom_cue cue = cue_of(cases[k].kind);
     cue.phi = 315.0;
     cue.speed = 1.0;
     ck_assert_int_eq(carom_match_stroke(&match, 0, &cue, NULL, NULL), CAROM_OK);
     keep();
     ck_assert_int_eq(match.ruling.turn.foul, CAROM_FOUL_CUE_BALL);
-    ck_assert_msg(match.may == given[k].may, "row %d: may %d", (int)k, match.may);
-    if (given[k].may == 0) {
+    ck_assert_msg(match.may == cases[k].choices, "row %d: may %d", (int)k, match.may);
+    if (cases[k].choices == 0) {
       refused(carom_match_choose(&match, 1, CAROM_CHOICE_SPOT), CAROM_REFUSED_CHOICE,
               "the choices");
       continue;
     }
 
     /* the choice; then the ball is in the way of nobody, and the cue ball is still in hand */
-    if (given[k].named > 0) {
-      ck_assert_int_eq(carom_match_call(&match, 1, (carom_call){given[k].named, 1}), CAROM_OK);
+    if (cases[k].named > 0) {
+      ck_assert_int_eq(carom_match_call(&match, 1, (carom_call){cases[k].named, 1}), CAROM_OK);
       keep();
     }
     ck_assert_int_eq(carom_match_choose(&match, 1, CAROM_CHOICE_SPOT), CAROM_OK);
     keep();
-    const int ball = given[k].spotted;
+    const int ball = cases[k].spotted;
     memcpy(balls, match.record.balls, sizeof balls);
     ck_assert_msg(is_at(ball, 0.5 * table.width, 0.75 * table.length), "row %d: ball %d", (int)k,
                   ball);
@@ -360,12 +360,12 @@ TEST(recordings_are_judged) {
   int lines = 0, refused_lines = 0;
   for (char *line = file; line < file + length;) {
     char *end = memchr(line, '\n', (size_t)(file + length - line));
-    const size_t before = (size_t)(line - file), size_of_line = (size_t)(end + 1 - line);
+    const size_t offset = (size_t)(line - file), size_of_line = (size_t)(end + 1 - line);
     char *digit = line + strcspn(line, "123456789");
     for (int how = 0; how < 3; how++) {
       if (how == 0 && end + 1 == file + length)
         continue; /* it is cut off, which carom verify tells */
-      size_t n = before;
+      size_t n = offset;
       memcpy(forged, file, length);
       if (how == 2 && digit < end)
         forged[digit - file] = *digit == '1' ? '2' : '1';
@@ -442,9 +442,10 @@ static carom_status act(random_source *r, carom_rules_kind kind) {
 TEST(random_matches) {
   const uint64_t seed = test_seed();
   const long most = draws_of_each(4000);
-  long acts = 0, taken = 0, over = 0, drawn = 0, games = 0, refusals[CAROM_REFUSED_LINE + 1] = {0};
+  long acts = 0, accepted = 0, over = 0, drawn = 0, games = 0,
+       refusals[CAROM_REFUSED_LINE + 1] = {0};
   printf("random matches: seed %llu\n", (unsigned long long)seed);
-  static carom_match before;
+  static carom_match saved;
   int kinds = 0;
   while (carom_rules_about_of((carom_rules_kind)kinds) != NULL)
     kinds++;
@@ -458,7 +459,7 @@ TEST(random_matches) {
     games++;
     int idle = 0;
     for (int n = 0; n < 120 && match.phase != CAROM_MATCH_OVER; n++, acts++) {
-      before = match;
+      saved = match;
       const carom_status status = act(&r, kind);
       if (status >= 0) {
         const char *range = "", *wrong = carom_rules_fault(kind, &match.rules.state, &range);
@@ -467,7 +468,7 @@ TEST(random_matches) {
         ck_assert_msg(match.size > 0, "seed %llu: no line", (unsigned long long)(seed + game));
         ck_assert(match.phase == CAROM_MATCH_OVER || match.on != 0);
         keep();
-        taken++;
+        accepted++;
         idle = 0;
         continue;
       }
@@ -476,8 +477,8 @@ TEST(random_matches) {
       refusals[match.refusal]++;
       ck_assert_msg(match.refusal != CAROM_REFUSED_STROKE, "seed %llu: no stroke can be played: %s",
                     (unsigned long long)(seed + game), match.fault);
-      ck_assert(match.record.hash == before.record.hash && match.phase == before.phase &&
-                match.record.player == before.record.player && match.may == before.may);
+      ck_assert(match.record.hash == saved.record.hash && match.phase == saved.phase &&
+                match.record.player == saved.record.player && match.may == saved.may);
       ck_assert_msg(++idle < 100, "seed %llu: a dead end: %s", (unsigned long long)(seed + game),
                     match.fault);
     }
@@ -488,7 +489,7 @@ TEST(random_matches) {
     ck_assert_int_eq(reader.size, 0);
     ck_assert_uint_eq(reader.record.hash, match.record.hash);
   }
-  printf("%ld acts, %ld taken, %ld games, %ld of them over, %ld drawn; refused:\n", acts, taken,
+  printf("%ld acts, %ld taken, %ld games, %ld of them over, %ld drawn; refused:\n", acts, accepted,
          games, over, drawn);
   for (int why = 1; why <= CAROM_REFUSED_LINE; why++)
     printf("%s %ld\n", carom_refusal_name(why), refusals[why]);

@@ -3,18 +3,18 @@
 
 TEST(left_in_onepocket) {
   for (int k = 0; k < 8 * 3; k++) {
-    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_ONEPOCKET);
-    of.state.score[0] = k / 3;
-    of.state.lost[1] = k % 3;
+    carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_ONEPOCKET);
+    game_rules.state.score[0] = k / 3;
+    game_rules.state.lost[1] = k % 3;
     int32_t needs[2];
-    of.left(&of.state, 0xffff, needs);
+    game_rules.left(&game_rules.state, 0xffff, needs);
     ck_assert(needs[0] == 8 - k / 3 && needs[1] == 8 + k % 3);
-    ck_assert_uint_eq(of.on(&of.state, 0xff03), 0xff02);
+    ck_assert_uint_eq(game_rules.on(&game_rules.state, 0xff03), 0xff02);
 
     /* a miss gives the table, and with it the pocket, to the other */
-    ck_assert_uint_eq(of.pockets(&of.state), 1U << MINE);
+    ck_assert_uint_eq(game_rules.pockets(&game_rules.state), 1U << MINE);
     const carom_facts miss = facts_of(3, 1, 0, 0);
-    of.judge(&of.state, 0xffff, 0, &miss, (carom_call){NONE, -1});
-    ck_assert_uint_eq(of.pockets(&of.state), 1U << HIS);
+    game_rules.judge(&game_rules.state, 0xffff, 0, &miss, (carom_call){NONE, -1});
+    ck_assert_uint_eq(game_rules.pockets(&game_rules.state), 1U << HIS);
   }
 }

@@ -66,10 +66,10 @@ TEST(errors_grow) {
     const carom_player errs = {.phi = 0.1, .a = 0.001, .growth = grows ? 0.25 : 0.0};
     double off[4], side[4];
     for (int k = 0; k < 4; k++) {
-      carom_cue made = {.speed = speed[k % 2], .theta = theta[k / 2], .tip_restitution = 1.0};
-      carom_player_strike(&errs, 3, 8, &made);
-      off[k] = made.phi;
-      side[k] = made.a;
+      carom_cue stroke = {.speed = speed[k % 2], .theta = theta[k / 2], .tip_restitution = 1.0};
+      carom_player_strike(&errs, 3, 8, &stroke);
+      off[k] = stroke.phi;
+      side[k] = stroke.a;
     }
     const double more = grows ? sqrt((1.0 + 1.0) / (1.0 + 0.0625)) : 1.0;
     ck_assert_double_eq_tol(off[1] / off[0], more, 1e-12);
@@ -123,7 +123,7 @@ TEST(players_choose) {
  * the jaws: values that were the chance of all points were 0, and safeties were as good. */
 TEST(who_only_pots_takes_the_sure_ball) {
   enum { SEEDS = 8 };
-  int taken = 0;
+  int sure = 0;
   for (uint64_t seed = 0; seed < SEEDS; seed++) {
     make_layout(1, 2);
     carom_table_make(CAROM_TABLE_POOL_9FT, &table);
@@ -140,10 +140,10 @@ TEST(who_only_pots_takes_the_sure_ball) {
     int found;
     ck_assert_int_eq(carom_plan(&job, &choice, 1, &found), CAROM_OK);
     ck_assert_int_ne(choice.kind, CAROM_PLAN_SAFETY);
-    taken += choice.ball == 1 && choice.keep > 0.9;
+    sure += choice.ball == 1 && choice.keep > 0.9;
     edge_free(&memory);
   }
-  ck_assert_int_gt(taken, SEEDS / 4);
+  ck_assert_int_gt(sure, SEEDS / 4);
 }
 
 /* A player's strokes have his errors, and stay within his bounds. */
@@ -152,14 +152,14 @@ TEST(strokes_err) {
   const carom_player wild = {.speed = 0.3, .speed_share = 0.2, .phi = 2.0, .b = 0.4};
   double sum = 0.0, squares = 0.0;
   for (int k = 0; k < STROKES; k++) {
-    carom_cue made = {.speed = 2.0, .phi = 30.0, .theta = 5.0, .a = 0.1, .b = 0.2}, again = made;
-    carom_player_strike(&wild, test_seed(), (uint64_t)k, &made);
-    carom_player_strike(&wild, test_seed(), (uint64_t)k, &again);
-    ck_assert(memcmp(&made, &again, sizeof made) == 0);
-    ck_assert(made.speed >= 0.5 && made.speed <= 8.0 && fabs(made.b) <= 0.5);
-    ck_assert(made.theta == 5.0 && made.a == 0.1);
-    sum += made.phi - 30.0;
-    squares += (made.speed - 2.0) * (made.speed - 2.0);
+    carom_cue first = {.speed = 2.0, .phi = 30.0, .theta = 5.0, .a = 0.1, .b = 0.2}, second = first;
+    carom_player_strike(&wild, test_seed(), (uint64_t)k, &first);
+    carom_player_strike(&wild, test_seed(), (uint64_t)k, &second);
+    ck_assert(memcmp(&first, &second, sizeof first) == 0);
+    ck_assert(first.speed >= 0.5 && first.speed <= 8.0 && fabs(first.b) <= 0.5);
+    ck_assert(first.theta == 5.0 && first.a == 0.1);
+    sum += first.phi - 30.0;
+    squares += (first.speed - 2.0) * (first.speed - 2.0);
   }
   /* 0.3 and 0.2 of 2 m/s make 0.5; five standard errors */
   ck_assert(fabs(sum / STROKES) < 5.0 * 2.0 / sqrt(STROKES));
@@ -167,10 +167,10 @@ TEST(strokes_err) {
 
   /* a bound that is beyond the other one's default */
   const carom_player slow = {.speed_most = 0.3}, fast = {.speed_least = 9.0};
-  carom_cue made[2] = {{.speed = 0.1}, {.speed = 10.0}};
-  carom_player_strike(&slow, 1, 1, &made[0]);
-  carom_player_strike(&fast, 1, 1, &made[1]);
-  ck_assert(made[0].speed == 0.3 && made[1].speed == 9.0);
+  carom_cue first[2] = {{.speed = 0.1}, {.speed = 10.0}};
+  carom_player_strike(&slow, 1, 1, &first[0]);
+  carom_player_strike(&fast, 1, 1, &first[1]);
+  ck_assert(first[0].speed == 0.3 && first[1].speed == 9.0);
 }
 
 /* Ratings by games, beside sums over 2,000,001 ratings, by NumPy: none, few, half of the games won

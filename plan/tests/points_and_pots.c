@@ -6,31 +6,31 @@
 TEST(values_of_points) {
   for (int game = 0; game < 2; game++) {
     const carom_rules_kind kind = game == 0 ? CAROM_RULES_STRAIGHT : CAROM_RULES_SNOOKER;
-    carom_plan_rules of = carom_plan_rules_of(kind);
+    carom_plan_rules game_rules = carom_plan_rules_of(kind);
     const int count = lay_out(game == 0 ? CAROM_RACK_EIGHTBALL : CAROM_RACK_SNOOKER,
                               game == 0 ? CAROM_TABLE_POOL_9FT : CAROM_TABLE_SNOOKER, ALL);
     carom_cue cue = carom_cue_of(game == 0 ? CAROM_GAME_POOL : CAROM_GAME_SNOOKER);
     const carom_player player = carom_player_of(1.0);
-    carom_plan_job job = job_of(count, &cue, &player, &of, NULL);
+    carom_plan_job job = job_of(count, &cue, &player, &game_rules, NULL);
     double last = -1.0, value;
-    for (int own = 0; own <= 99; own += 9) {
-      of.state.score[0] = own;
-      of.state.score[1] = 40;
+    for (int score = 0; score <= 99; score += 9) {
+      game_rules.state.score[0] = score;
+      game_rules.state.score[1] = 40;
       ck_assert_int_eq(carom_plan_value(&job, 0, &value), CAROM_OK);
-      ck_assert_msg(value >= last && value >= 0.0 && value <= 1.0, "%d: %g after %g", own, value,
+      ck_assert_msg(value >= last && value >= 0.0 && value <= 1.0, "%d: %g after %g", score, value,
                     last);
       last = value;
     }
     last = 2.0;
-    for (int other = 0; other <= 99; other += 9) {
-      of.state.score[0] = 40;
-      of.state.score[1] = other;
+    for (int opponent = 0; opponent <= 99; opponent += 9) {
+      game_rules.state.score[0] = 40;
+      game_rules.state.score[1] = opponent;
       ck_assert_int_eq(carom_plan_value(&job, 0, &value), CAROM_OK);
       ck_assert(value <= last);
       last = value;
     }
     ck_assert(last < 0.25);
-    of.state.score[1] = 40;
+    game_rules.state.score[1] = 40;
     ck_assert_int_eq(carom_plan_value(&job, 1, &value), CAROM_OK);
     ck_assert(value > 0.3 && value < 0.95);
     free(job.memory);
@@ -44,10 +44,10 @@ TEST(values_of_a_claim) {
   const carom_cue cue = carom_cue_of(CAROM_GAME_SNOOKER);
   const carom_player player = carom_player_of(1.0);
   for (int lead = -9; lead <= 9; lead++) {
-    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-    of.state.score[0] = 50 + lead;
-    of.state.score[1] = 50;
-    carom_plan_job job = job_of(count, &cue, &player, &of, NULL);
+    carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
+    game_rules.state.score[0] = 50 + lead;
+    game_rules.state.score[1] = 50;
+    carom_plan_job job = job_of(count, &cue, &player, &game_rules, NULL);
     double value;
     ck_assert_int_eq(carom_plan_value(&job, 0, &value), CAROM_OK);
     if (lead > 7 || lead < -7)
@@ -68,8 +68,8 @@ TEST(pocket_of_ones_own) {
   carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
   const carom_player player = carom_player_of(1.0);
   const carom_plan_options options = {.shots = 1000};
-  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_ONEPOCKET);
-  carom_plan_job job = job_of(count, &cue, &player, &of, &options);
+  carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_ONEPOCKET);
+  carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
   const carom_rules_state states[] = {{.pocket = {MINE, HIS}, .score = {7, 6}},
                                       {.pocket = {MINE, HIS}, .score = {6, 6}},
                                       {.pocket = {MINE, HIS}, .score = {7, 7}},
@@ -78,7 +78,7 @@ TEST(pocket_of_ones_own) {
   double value[5];
   for (int k = 0; k < 5; k++) {
     const bool mine = states[k].pocket[0] == MINE;
-    of.state = states[k];
+    game_rules.state = states[k];
     carom_plan_stroke best;
     int found;
     ck_assert_int_eq(carom_plan_value(&job, 0, &value[k]), CAROM_OK);
@@ -95,8 +95,8 @@ TEST(pocket_of_ones_own) {
  * where the black is out of reach. */
 TEST(colours_by_value_and_position) {
   for (int k = 0; k < 2; k++) {
-    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-    of.state.on = 1;
+    carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
+    game_rules.state.on = 1;
     const int count = lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, 1 | R1 | Y | BK);
     const double w = table.width, l = table.length;
     put(0, 0.5 * w, 0.5 * l);
@@ -109,7 +109,7 @@ TEST(colours_by_value_and_position) {
     carom_cue cue = carom_cue_of(CAROM_GAME_SNOOKER);
     const carom_player player = carom_player_of(0.3);
     const carom_plan_options options = {.shots = 2000};
-    carom_plan_job job = job_of(count, &cue, &player, &of, &options);
+    carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
     carom_plan_stroke best;
     int found;
     ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);

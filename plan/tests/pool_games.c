@@ -27,10 +27,11 @@ TEST(spots) {
   const double second = balls[1].state.r[1] - (30.0 + 2.0 * 0.028575);
   ck_assert(balls[0].state.r[1] == 30.0 && second > -1e-6 && second < 4e-3);
   /* what a turn brings back */
-  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+  carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
   carom_turn turn = {.spot = 0x200};
   lay_out(CAROM_RACK_NINEBALL, CAROM_TABLE_POOL_9FT, 1);
-  ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, 10, &turn), CAROM_OK);
+  ck_assert_int_eq(carom_turn_settle(&game_rules, &game_rules.state, &table, balls, 10, &turn),
+                   CAROM_OK);
   ck_assert(is_at(9, 0.5 * table.width, 0.75 * table.length));
   ck_assert_int_eq(carom_spot_ball(NULL, balls, BALLS, 1), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, BALLS), CAROM_ERROR_BALLS);
@@ -40,12 +41,13 @@ TEST(spots) {
 TEST(spots_of_pyramid) {
   const int count = lay_out(CAROM_RACK_PYRAMID, CAROM_TABLE_PYRAMID, 4);
   const double foot[2] = {0.5 * table.width, 0.75 * table.length}, R = balls[0].kind.radius;
-  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_PYRAMID);
+  carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_PYRAMID);
   put(0, 0.4, 0.4);
   for (int k = 1; k <= 3; k++)
     put(k, 0.3 * k, 1.5);
   carom_turn turn = {.spot = 0x3};
-  ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
+  ck_assert_int_eq(carom_turn_settle(&game_rules, &game_rules.state, &table, balls, count, &turn),
+                   CAROM_OK);
   ck_assert(is_at(0, foot[0], foot[1]) && balls[1].state.r[0] == foot[0]);
   const double gap = balls[1].state.r[1] - foot[1] - 2.0 * R;
   ck_assert_msg(gap > CAROM_RULES_TOUCH && gap < 3.0 * CAROM_RULES_TOUCH, "gap %g m", gap);
@@ -58,9 +60,9 @@ TEST(a_ball_frozen_to_a_cushion) {
                                            CAROM_RULES_STRAIGHT,  CAROM_RULES_ONEPOCKET,
                                            CAROM_RULES_BANK,      CAROM_RULES_TENBALL};
   for (int k = 0; k < 24; k++) {
-    carom_plan_rules of = carom_plan_rules_of(kinds[k / 4]);
+    carom_plan_rules game_rules = carom_plan_rules_of(kinds[k / 4]);
     const bool off = k & 1, hard = k & 2;
-    const int count = lay_out((carom_rack_kind)of.rack, CAROM_TABLE_POOL_9FT, 0xffff);
+    const int count = lay_out((carom_rack_kind)game_rules.rack, CAROM_TABLE_POOL_9FT, 0xffff);
     const double R = balls[1].kind.radius, x[] = {0.3, off ? R + 1e-3 : R};
     for (int i = 0; i < 2; i++)
       ck_assert_int_eq(carom_place_ball(&table, balls, count, i, x[i], 0.8, NULL), CAROM_OK);
@@ -69,13 +71,14 @@ TEST(a_ball_frozen_to_a_cushion) {
     cue.speed = hard ? 3.0 : 0.5;
     carom_facts facts;
     carom_ball_state final[BALLS_MOST];
-    static carom_ruling made;
+    static carom_ruling ruling;
     carom_shot shot = {.final = final, .facts = &facts};
     ck_assert_int_eq(carom_shoot(&table, balls, count, &cue, NULL, &shot), CAROM_OK);
     ck_assert_int_eq(
-        carom_referee(&of, &table, balls, count, 0, &shot, (carom_call){-1, -1}, &made), CAROM_OK);
-    ck_assert_msg(made.turn.foul == (off || hard ? LEGAL : CUSHION) && facts.cushions[1] > 0,
+        carom_referee(&game_rules, &table, balls, count, 0, &shot, (carom_call){-1, -1}, &ruling),
+        CAROM_OK);
+    ck_assert_msg(ruling.turn.foul == (off || hard ? LEGAL : CUSHION) && facts.cushions[1] > 0,
                   "rules %d, off %d, hard %d: foul %d, cushions %d", kinds[k / 4], off, hard,
-                  made.turn.foul, facts.cushions[1]);
+                  ruling.turn.foul, facts.cushions[1]);
   }
 }

@@ -10,8 +10,8 @@ static int left_rail, right_rail, foot_rail, pocket, cut;
 /* The first rail of a name; NULL: a cut of a pocket. */
 static int rail_of(const char *name) {
   for (int k = 0; k < table.rails; k++) {
-    const char *own = carom_rail_name(&table, k);
-    if (own == NULL ? name == NULL : name != NULL && strcmp(own, name) == 0)
+    const char *rail_name = carom_rail_name(&table, k);
+    if (rail_name == NULL ? name == NULL : name != NULL && strcmp(rail_name, name) == 0)
       return k;
   }
   return -1;
@@ -37,8 +37,8 @@ static carom_brief_event contact(double time, int a, int b) {
   return (carom_brief_event){.time = time, .type = CAROM_EVENT_BALL_BALL, .a = a, .b = b};
 }
 
-static carom_brief_event rail(double time, int ball, int which) {
-  return (carom_brief_event){.time = time, .type = CAROM_EVENT_RAIL, .a = ball, .b = which};
+static carom_brief_event rail(double time, int ball, int rail_index) {
+  return (carom_brief_event){.time = time, .type = CAROM_EVENT_RAIL, .a = ball, .b = rail_index};
 }
 
 static carom_brief_event fall(double time, int ball) {

@@ -57,7 +57,7 @@ static carom_status play_planned(carom_plan_job *job, random_source *r, uint64_t
 
 /* The strokes of one game, with equal innings or without; 0 where it did not end. *all: a hash of
  * strokes, states and layouts. */
-static int strokes_of_game(carom_rules_kind kind, uint64_t seed, bool equal, uint64_t *all) {
+static int strokes_of_game(carom_rules_kind kind, uint64_t seed, bool equal, uint64_t *total) {
   enum { STROKES_MOST = 2000, SHOTS = 100, EQUAL_TARGET = 10 };
   const carom_player player = carom_player_of(0.5);
   const carom_plan_options options = {.shots = SHOTS, .seed = seed};
@@ -74,7 +74,7 @@ static int strokes_of_game(carom_rules_kind kind, uint64_t seed, bool equal, uin
   int strokes = 0;
   uint64_t hash = UINT64_C(0xcbf29ce484222325);
   while (match.phase != CAROM_MATCH_OVER && strokes < STROKES_MOST) {
-    const int64_t who = match.record.player;
+    const int64_t seat = match.record.player;
     const carom_status status = play_planned(&job, &r, (uint64_t)strokes++);
     char text[300] = "";
     carom_ruling_string(&match.ruling, text, sizeof text);
@@ -86,7 +86,7 @@ static int strokes_of_game(carom_rules_kind kind, uint64_t seed, bool equal, uin
       hash = hash_of(hash, match.record.balls[k].state.r, sizeof match.record.balls[k].state.r);
     if (tells)
       printf("%d. player %d, ball %d, met %d, down %x: %s; score %d, %d, lost %d\n", strokes,
-             (int)who, (int)match.record.cue.ball, match.ruling.facts.first[0],
+             (int)seat, (int)match.record.cue.ball, match.ruling.facts.first[0],
              match.ruling.facts.down, text, match.rules.state.score[0], match.rules.state.score[1],
              match.rules.state.lost[0]);
     ck_assert_msg(status >= 0 || match.phase == CAROM_MATCH_STROKE, "%s, seed %llu: %s: %s",
@@ -94,13 +94,13 @@ static int strokes_of_game(carom_rules_kind kind, uint64_t seed, bool equal, uin
                   carom_status_name(status), match.fault);
   }
   free(job.memory);
-  *all = hash;
+  *total = hash;
   return match.phase == CAROM_MATCH_OVER ? strokes : 0;
 }
 
 TEST(games_end) {
-  const char *given = getenv("CAROM_TEST_GAMES"), *only = getenv("CAROM_TEST_GAME");
-  const int games = given != NULL ? atoi(given) : 1;
+  const char *setting = getenv("CAROM_TEST_GAMES"), *only = getenv("CAROM_TEST_GAME");
+  const int games = setting != NULL ? atoi(setting) : 1;
   for (int kind = 0; carom_rules_about_of((carom_rules_kind)kind) != NULL; kind++) {
     const char *name = carom_rules_about_of((carom_rules_kind)kind)->name;
     const bool equal = knows_equal_innings((carom_rules_kind)kind);
@@ -126,15 +126,15 @@ TEST(golden_games) {
   static const struct {
     carom_rules_kind kind;
     uint64_t hash;
-  } given[] = {{CAROM_RULES_SNOOKER, UINT64_C(0xa09cb16c4ff8b881)},
+  } cases[] = {{CAROM_RULES_SNOOKER, UINT64_C(0xa09cb16c4ff8b881)},
                {CAROM_RULES_ONEPOCKET, UINT64_C(0xc4d8a90910ec627e)},
                {CAROM_RULES_COWBOY, UINT64_C(0x6144661d55b6bb4a)}};
-  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     uint64_t hash;
-    const int strokes = strokes_of_game(given[k].kind, 5, false, &hash);
-    printf("%s: 0x%016llx; %d strokes\n", carom_rules_about_of(given[k].kind)->name,
+    const int strokes = strokes_of_game(cases[k].kind, 5, false, &hash);
+    printf("%s: 0x%016llx; %d strokes\n", carom_rules_about_of(cases[k].kind)->name,
            (unsigned long long)hash, strokes);
     ck_assert(strokes >= 6);
-    ck_assert_uint_eq(hash, given[k].hash);
+    ck_assert_uint_eq(hash, cases[k].hash);
   }
 }

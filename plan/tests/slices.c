@@ -15,7 +15,7 @@ static carom_turn judge_and_stop(carom_rules_state *state, uint32_t in_play, int
  * the best so far: of ball in hand no worse a place than it had before. */
 TEST(stopped_plans) {
   enum { PLAN, HAND, TRY };
-  for (int which = PLAN; which <= TRY; which++) {
+  for (int kind = PLAN; kind <= TRY; kind++) {
     carom_plan_stroke best[2];
     int found = 1;
     double value = 0.0;
@@ -29,9 +29,9 @@ TEST(stopped_plans) {
     for (judged_most = 1; judged_most <= 2900; judged_most += judged_most < 3 ? 1 : 289) {
       judged = stop = 0;
       carom_status status;
-      if (which == PLAN)
+      if (kind == PLAN)
         status = carom_plan(&job, best, 2, &found);
-      else if (which == HAND)
+      else if (kind == HAND)
         status = carom_plan_hand(&job, NULL, NULL, best, 2, &found);
       else
         status = carom_plan_try(&job, cues, 2, best);
@@ -40,15 +40,15 @@ TEST(stopped_plans) {
         break;
       ck_assert_int_le(judged, judged_most + 2);
       ck_assert(found == 1 && best[0].seen <= judged);
-      ck_assert((best[0].value >= 0.0 && best[0].value <= 1.0) || (which == TRY && judged == 1));
-      if (which == HAND && best[0].seen > 0) {
+      ck_assert((best[0].value >= 0.0 && best[0].value <= 1.0) || (kind == TRY && judged == 1));
+      if (kind == HAND && best[0].seen > 0) {
         ck_assert(best[0].value > value - 0.05);
         value = best[0].value;
       }
     }
-    if (which == TRY)
+    if (kind == TRY)
       ck_assert(best[0].seen == 1500 && best[1].seen > 0 && best[1].seen < 1500);
-    printf("plan %d: stopped until %lld, %lld seen\n", which, (long long)judged_most,
+    printf("plan %d: stopped until %lld, %lld seen\n", kind, (long long)judged_most,
            (long long)best[0].seen);
     edge_free(&memory);
   }
@@ -58,23 +58,23 @@ TEST(stopped_plans) {
  * it has events. */
 TEST(plans_in_slices) {
   static const int64_t slices[] = {1, 37, 1000};
-  for (int which = 0; which < 6; which++) {
-    const bool hand = which % 2 == 1;
+  for (int kind = 0; kind < 6; kind++) {
+    const bool hand = kind % 2 == 1;
     carom_plan_stroke whole[3], best[3];
     int found, found_whole;
-    make_layout((uint64_t)which + 1, which < 4 ? 6 : 1);
-    rules = carom_plan_rules_of(which < 2 ? CAROM_RULES_EIGHTBALL : CAROM_RULES_NINEBALL);
-    if (which >= 4) { /* nothing is to be hit, or the player may pass */
+    make_layout((uint64_t)kind + 1, kind < 4 ? 6 : 1);
+    rules = carom_plan_rules_of(kind < 2 ? CAROM_RULES_EIGHTBALL : CAROM_RULES_NINEBALL);
+    if (kind >= 4) { /* nothing is to be hit, or the player may pass */
       put_ring(6);
       job.count = 10;
-      rules.state.may = which == 5 ? CAROM_CHOICE_PASS : 0;
+      rules.state.may = kind == 5 ? CAROM_CHOICE_PASS : 0;
     }
     stopped_rules = rules;
     rules.judge = judge_and_stop;
-    options.unsure = which == 1 || which == 2 ? 0.5 : 0.0;
-    options.threads = which % 3;
-    options.seconds = which < 2 ? 1e5 : 0.0; /* these double */
-    options.shots = which < 2 ? 1500 : 300;
+    options.unsure = kind == 1 || kind == 2 ? 0.5 : 0.0;
+    options.threads = kind % 3;
+    options.seconds = kind < 2 ? 1e5 : 0.0; /* these double */
+    options.shots = kind < 2 ? 1500 : 300;
     make_memory();
     judged_most = -1;
     ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, whole, 3, &found_whole)
@@ -89,21 +89,21 @@ TEST(plans_in_slices) {
       ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, best, 3, &found)
                             : carom_plan(&job, best, 3, &found),
                        CAROM_OK);
-      int64_t before = judged;
+      int64_t previous = judged;
       for (; found == 0; calls++) {
-        before = judged;
+        previous = judged;
         ck_assert_int_eq(carom_plan_continue(&job, best, 3, &found), CAROM_OK);
-        ck_assert_int_le(judged - before, slices[k] + 1); /* one is not to play */
+        ck_assert_int_le(judged - previous, slices[k] + 1); /* one is not to play */
       }
       ck_assert_int_eq(found, found_whole);
       ck_assert_mem_eq(best, whole, (size_t)found * sizeof *best);
       ck_assert(calls >= judged / slices[k]);
 
       /* what has ended stays as it is */
-      before = judged;
+      previous = judged;
       ck_assert_int_eq(carom_plan_continue(&job, best, 3, &found), CAROM_OK);
       ck_assert_mem_eq(best, whole, (size_t)found * sizeof *best);
-      ck_assert_int_eq(judged, before);
+      ck_assert_int_eq(judged, previous);
     }
     edge_free(&memory);
   }
@@ -199,10 +199,10 @@ TEST(slices_of_other_plans) {
   double *numbers[] = {&balls[8].state.r[0], &table.width, &cue.mass, &player.phi,
                        &options.chance_me};
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
-    const double kept = *numbers[k];
+    const double original = *numbers[k];
     *numbers[k] += 1e-9;
     ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_ERROR_STATE);
-    *numbers[k] = kept;
+    *numbers[k] = original;
   }
   ck_assert_int_eq(carom_plan_continue(NULL, &best, 1, &found), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_plan_continue(&job, NULL, 1, &found), CAROM_ERROR_NULL);

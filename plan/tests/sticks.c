@@ -60,9 +60,9 @@ static double over_points(const carom_cue *c, const carom_rail *rail, const caro
     }
   }
   for (int k = 0; k < 80; k++) {
-    const double one = low + (high - low) / 3.0, two = high - (high - low) / 3.0;
-    const double at_one = over_nose(c, rail, jaw, one), at_two = over_nose(c, rail, jaw, two);
-    *(at_one < at_two ? &low : &high) = at_one < at_two ? one : two;
+    const double third = low + (high - low) / 3.0, two = high - (high - low) / 3.0;
+    const double at_one = over_nose(c, rail, jaw, third), at_two = over_nose(c, rail, jaw, two);
+    *(at_one < at_two ? &low : &high) = at_one < at_two ? third : two;
     worst = fmax(worst, fmax(at_one, at_two));
   }
   return worst;
@@ -183,7 +183,7 @@ static bool is_least(double elevation, carom_cue c) {
  * the same; but a very thin cut may slip through the directions that are tried. Returns whether the
  * stroke falls. */
 static bool aims_raised(int pocket, carom_cue *c) {
-  carom_pot pot = {.ball = 8, .pocket = pocket}, given = pot;
+  carom_pot pot = {.ball = 8, .pocket = pocket}, request = pot;
   carom_cue same;
   carom_facts facts;
   carom_shot shot = {.facts = &facts};
@@ -198,13 +198,13 @@ static bool aims_raised(int pocket, carom_cue *c) {
   for (int level = 0; level < 2; level++) {
     same = *c;
     same.theta = level ? 0.0 : c->theta;
-    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &given, &same), CAROM_OK);
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &request, &same), CAROM_OK);
     ck_assert(same.theta == (level ? 0.0 : c->theta));
-    if (!level && given.outcome == CAROM_POT_NO_WAY && fabs(pot.cut) > 80.0)
+    if (!level && request.outcome == CAROM_POT_NO_WAY && fabs(pot.cut) > 80.0)
       continue;
-    ck_assert(level || (given.outcome == CAROM_POT_FALLS && fabs(same.phi - c->phi) < 1e-3));
-    if (given.outcome == CAROM_POT_FALLS)
-      ck_assert(is_least(given.elevation, same));
+    ck_assert(level || (request.outcome == CAROM_POT_FALLS && fabs(same.phi - c->phi) < 1e-3));
+    if (request.outcome == CAROM_POT_FALLS)
+      ck_assert(is_least(request.elevation, same));
   }
   return true;
 }
@@ -221,13 +221,13 @@ TEST(noses_under_the_stick) {
     carom_place_ball(&table, balls, BALLS, 0, random_between(&r, 0.05, 0.6),
                      random_between(&r, 0.04, 0.4), NULL);
     balls[2].state.label = balls[8].state.label = CAROM_BALL_POCKETED;
-    carom_cue one = cue;
-    one.phi = random_between(&r, 3.0, 177.0);
-    one.a = random_between(&r, -0.6, 0.6);
-    one.b = large ? random_between(&r, 0.25, 0.5) : random_between(&r, -0.6, 0.5);
-    const double least = carom_least_elevation(&table, balls, BALLS, &one);
-    ck_assert_msg(least > 60.0 || fabs(least - least_of_all(&one)) < 1e-4,
-                  "raised by %.12g degrees, not %.12g", least, least_of_all(&one));
+    carom_cue stroke = cue;
+    stroke.phi = random_between(&r, 3.0, 177.0);
+    stroke.a = random_between(&r, -0.6, 0.6);
+    stroke.b = large ? random_between(&r, 0.25, 0.5) : random_between(&r, -0.6, 0.5);
+    const double least = carom_least_elevation(&table, balls, BALLS, &stroke);
+    ck_assert_msg(least > 60.0 || fabs(least - least_of_all(&stroke)) < 1e-4,
+                  "raised by %.12g degrees, not %.12g", least, least_of_all(&stroke));
     raised += least > 1.0 && least < 60.0;
   }
   ck_assert_int_gt(raised, 100);
@@ -242,30 +242,30 @@ TEST(where_the_stick_begins_to_touch) {
     carom_place_ball(&table, balls, BALLS, 8, 0.4, 2.2, NULL);
     carom_place_ball(&table, balls, BALLS, 0, 0.62, k % 3 == 0 ? 1.6 : 1.7828 + 1e-5 * k, NULL);
     const double R = balls[0].kind.radius, D = 0.1 + 0.002 * k;
-    carom_cue one = cue;
-    one.speed = 2.5;
-    one.a = k % 3 == 0 ? 0.0 : 0.3;
-    one.b = k % 2 == 0 ? -0.2 : 0.1;
-    ck_assert(aims_raised(2, &one));
-    held += one.theta > least_of_all(&one) + 0.1;
+    carom_cue stroke = cue;
+    stroke.speed = 2.5;
+    stroke.a = k % 3 == 0 ? 0.0 : 0.3;
+    stroke.b = k % 2 == 0 ? -0.2 : 0.1;
+    ck_assert(aims_raised(2, &stroke));
+    held += stroke.theta > least_of_all(&stroke) + 0.1;
     if (k % 3 != 0)
       continue;
 
     /* the cue ball is too far from the head cushion; then a ball beside the stick */
-    ck_assert(one.theta == 0.0);
-    const carom_cue level = one;
+    ck_assert(stroke.theta == 0.0);
+    const carom_cue level = stroke;
     for (int inside = 0; inside < 2; inside++) {
       const double f = level.phi * per_degree,
                    L = R + 0.0065 + 0.0055 * D + (inside ? -1e-9 : 1e-9);
       carom_place_ball(&table, balls, BALLS, 2, balls[0].state.r[0] - D * cos(f) - L * sin(f),
                        balls[0].state.r[1] - D * sin(f) + L * cos(f), NULL);
       carom_pot pot = {.ball = 8, .pocket = 2};
-      one = level;
-      ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
-      ck_assert(pot.outcome == CAROM_POT_FALLS && one.phi == level.phi);
-      ck_assert(inside == (pot.elevation > 0.0) || (inside && one.b > 0.0));
+      stroke = level;
+      ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke), CAROM_OK);
+      ck_assert(pot.outcome == CAROM_POT_FALLS && stroke.phi == level.phi);
+      ck_assert(inside == (pot.elevation > 0.0) || (inside && stroke.b > 0.0));
       jumps += pot.elevation > 0.5;
-      ck_assert(aims_raised(2, &one));
+      ck_assert(aims_raised(2, &stroke));
     }
   }
   printf("%d jumps, held %d times\n", jumps, held);
@@ -281,17 +281,17 @@ TEST(no_stick_reaches) {
   carom_pot pot = {.ball = 8, .pocket = 2};
   const double R = balls[0].kind.radius;
   for (int k = 0; k < 3; k++) {
-    carom_cue one = cue;
-    one.speed = k == 2 ? 8.0 : 2.5;
-    one.a = 0.0;
-    one.b = k == 0 ? 0.1 : -0.5;
-    ck_assert(aims_raised(2, &one));
+    carom_cue stroke = cue;
+    stroke.speed = k == 2 ? 8.0 : 2.5;
+    stroke.a = 0.0;
+    stroke.b = k == 0 ? 0.1 : -0.5;
+    ck_assert(aims_raised(2, &stroke));
     carom_place_ball(&table, balls, BALLS, 2,
-                     balls[0].state.r[0] - 2.0 * R * cos(one.phi * per_degree),
-                     balls[0].state.r[1] - 2.0 * R * sin(one.phi * per_degree), NULL);
-    one.theta = (double)NAN;
-    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
-    const double least = asin((R + 0.0065 + 0.011 * R - one.b * R) / (2.0 * R)) / per_degree;
+                     balls[0].state.r[0] - 2.0 * R * cos(stroke.phi * per_degree),
+                     balls[0].state.r[1] - 2.0 * R * sin(stroke.phi * per_degree), NULL);
+    stroke.theta = (double)NAN;
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke), CAROM_OK);
+    const double least = asin((R + 0.0065 + 0.011 * R - stroke.b * R) / (2.0 * R)) / per_degree;
     ck_assert_msg(pot.outcome == (k == 0 ? CAROM_POT_FALLS : CAROM_POT_STICK), "%d: %d", k,
                   pot.outcome);
     ck_assert_double_eq_tol(pot.elevation, least, 1.0);

@@ -28,9 +28,9 @@ TEST(a_combination_is_planned) {
   put(10, 1.0, 2.2);
   const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
   const carom_player player = carom_player_of(0.2);
-  const carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_TENBALL);
+  const carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_TENBALL);
   const carom_plan_options options = {.shots = 2000};
-  carom_plan_job job = job_of(count, &cue, &player, &of, &options);
+  carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
   carom_plan_stroke best[5];
   int found;
   ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);

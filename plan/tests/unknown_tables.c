@@ -52,8 +52,8 @@ TEST(tables_that_are_not_known) {
         table.rail[r].restitution = balls[0].kind.restitution_cushion;
         table.rail[r].mu_cushion = balls[0].kind.mu_cushion;
       }
-      const carom_plan_stroke own = tried(&stroke, unsure[k]);
-      ck_assert_mem_eq(&own, &c, sizeof c);
+      const carom_plan_stroke known = tried(&stroke, unsure[k]);
+      ck_assert_mem_eq(&known, &c, sizeof c);
     }
   printf("kept with all, much, some and little known: a pot %.2f %.2f %.2f %.2f, a bank %.2f %.2f "
          "%.2f %.2f\n",

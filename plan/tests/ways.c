@@ -1,13 +1,20 @@
 /* Ways: each window of directions that a sweep finds is listed, with its kind, and direct aims find
  * those at rails. The kind is read off the events here too, from the ball's side. */
-#include "game/ways.h"
+#include "carom_coach.h"
 #include "plan_support.h"
 
 enum { SWEPT = 18000, LEAST = 10, ROOM = 300, SPEEDS = 3 };
 static const double speed[SPEEDS] = {1.0, 1.5, 2.5};
 
-static shot_line line;
-static named_table named;
+enum { MOST_WAYS = 20000 };
+typedef carom_shot_way way;
+
+/* What was found. */
+typedef struct found_ways {
+  const way *way;
+  int64_t ways;
+} found_ways;
+
 static way room[MOST_WAYS];
 static carom_cue stroke[SPEEDS];
 
@@ -21,32 +28,32 @@ static bool is_beside(int rail, int pocket) {
 
 /* The kind of the pot of a ball: who met it first, and what they met before and after. */
 static int kind_of(const carom_shot *shot, int ball, int pocket) {
-  const double met = shot->facts->first_time[0];
-  double at = INFINITY;
-  int by = -1, before = 0, balls_before = 0, kisses = 0, banks = 0;
+  const double contact_time = shot->facts->first_time[0];
+  double time = INFINITY;
+  int driver = -1, earlier = 0, balls_before = 0, kisses = 0, banks = 0;
   for (int64_t k = 0; k < shot->count && k < ROOM; k++) {
     const carom_brief_event *e = &shot->brief[k];
     const bool contact = e->type == CAROM_EVENT_BALL_BALL, ours = e->a == ball || e->b == ball;
     const bool rail = e->type == CAROM_EVENT_RAIL && carom_rail_name(&table, e->b) != NULL;
     if (e->type == CAROM_EVENT_POCKET && e->a == ball)
       break;
-    if (contact && ours && (by < 0 || (e->time == at && e->a == 0))) {
-      kisses += by > 0; /* that was met at the same time */
-      by = e->a == ball ? e->b : e->a;
-      at = e->time;
-    } else if (contact && ours && e->a != 0 && e->b != 0 && e->time >= at)
+    if (contact && ours && (driver < 0 || (e->time == time && e->a == 0))) {
+      kisses += driver > 0; /* that was met at the same time */
+      driver = e->a == ball ? e->b : e->a;
+      time = e->time;
+    } else if (contact && ours && e->a != 0 && e->b != 0 && e->time >= time)
       kisses++;
-    before += rail && e->a == 0 && e->time <= met;
-    balls_before += contact && !ours && (e->a == 0 || e->b == 0) && e->time <= at;
-    banks += rail && e->a == ball && by >= 0 && !is_beside(e->b, pocket);
+    earlier += rail && e->a == 0 && e->time <= contact_time;
+    balls_before += contact && !ours && (e->a == 0 || e->b == 0) && e->time <= time;
+    banks += rail && e->a == ball && driver >= 0 && !is_beside(e->b, pocket);
   }
-  if (by != 0)
+  if (driver != 0)
     return CAROM_PLAN_COMBINATION;
   if (balls_before > 0)
     return CAROM_PLAN_CAROM;
   if (kisses > 0)
     return CAROM_PLAN_KISS;
-  if (before > 0)
+  if (earlier > 0)
     return CAROM_PLAN_KICK;
   return banks > 0 ? CAROM_PLAN_BANK : CAROM_PLAN_POT;
 }
@@ -65,40 +72,46 @@ static void make_balls(random_source *r, int layout, bool at_rail) {
 }
 
 /* Finds the ways of the layout by the first `strokes` speeds. */
-static ways_search find(int strokes) {
+static found_ways find(int strokes) {
   const carom_player exact = carom_player_of(1.0);
-  named.table = table;
-  line.table = &named;
-  line.count = BALLS;
-  memcpy(line.ball, balls, sizeof balls);
   for (int k = 0; k < SPEEDS; k++) {
     stroke[k] = cue;
     stroke[k].speed = speed[k];
   }
-  ways_search s = {
-      .line = &line, .player = exact, .stroke = stroke, .strokes = strokes, .way = room};
-  s.aim = TO_POT;
-  s.ball = s.pocket = -1;
-  s.rails = MOST_PARTS;
-  s.scan = 1800 * strokes;
-  s.each = true;
-  ck_assert(ways_find(&s) && s.left_out == 0);
-  return s;
+  carom_ways_job search = {.table = &table,
+                           .balls = balls,
+                           .count = BALLS,
+                           .cues = stroke,
+                           .strokes = strokes,
+                           .player = &exact,
+                           .scan = 1800 * strokes,
+                           .ball = -1,
+                           .pocket = -1,
+                           .rails = CAROM_WAY_PARTS,
+                           .each = 1,
+                           .memory_size = carom_ways_memory(MOST_WAYS)};
+  edge space = edge_make(search.memory_size, true);
+  carom_ways_result result;
+  search.memory = space.memory;
+  ck_assert_int_eq(carom_ways(&search, room, MOST_WAYS, &result), CAROM_OK);
+  ck_assert(result.left_out == 0);
+  edge_free(&space);
+  return (found_ways){room, result.ways};
 }
 
 /* Sweeps the directions of a stroke for a ball: counts the windows, and those that are listed. */
-static void compare(const ways_search *s, int by, int ball, int *windows, int *listed) {
+static void compare(const found_ways *s, int number, int ball, int *windows, int *listed) {
   int pocket[SWEPT + 1], kind[SWEPT + 1], run = 0;
   pocket[SWEPT] = -1;
   for (int k = 0; k < SWEPT; k++) {
     static carom_brief_event event[ROOM];
     carom_facts f;
     carom_shot shot = {.brief = event, .room = ROOM, .facts = &f};
-    carom_cue one = stroke[by];
-    one.phi = 360.0 / SWEPT * k;
-    carom_shoot(&table, balls, BALLS, &one, &shot_options, &shot);
-    const bool again = f.touches > 1 && (f.pushed == 0 || f.second_time > 0.0);
-    const bool good = !((f.down | f.off) & 1) && !again && (f.pushed & ~f.frozen) == 0;
+    carom_cue aimed = stroke[number];
+    aimed.phi = 360.0 / SWEPT * k;
+    carom_shoot(&table, balls, BALLS, &aimed, &shot_options, &shot);
+    const bool is_repeated = f.touches > 1 && (f.pushed == 0 || f.second_time > 0.0);
+    const bool good = !((f.down | f.off) & 1) && !is_repeated && (f.pushed & ~f.frozen) == 0;
     pocket[k] = good ? f.pocket[ball] : -1;
     kind[k] = pocket[k] >= 0 ? kind_of(&shot, ball, pocket[k]) : -1;
   }
@@ -112,14 +125,14 @@ static void compare(const ways_search *s, int by, int ball, int *windows, int *l
     for (int n = 0; n < s->ways; n++) {
       const way *w = &s->way[n];
       for (double turn = -360.0; turn <= 360.0; turn += 360.0)
-        outcome |= w->ball == ball && w->pocket == pocket[k] && w->stroke == by &&
+        outcome |= w->ball == ball && w->pocket == pocket[k] && w->stroke == number &&
                    w->kind == kind[k] && w->phi[0] + turn <= high && w->phi[1] + turn >= low;
     }
     ++*windows;
     *listed += outcome;
     if (!outcome)
       printf("ball %d to pocket %d by %s, %.1f m/s, %.2f to %.2f degrees: not listed\n", ball,
-             pocket[k], carom_plan_kind_name((carom_plan_kind)kind[k]), stroke[by].speed, low,
+             pocket[k], carom_plan_kind_name((carom_plan_kind)kind[k]), stroke[number].speed, low,
              high);
   }
 }
@@ -130,7 +143,7 @@ TEST(every_window_is_a_way) {
   int windows = 0, listed = 0;
   for (int layout = 0; layout < layouts; layout++) {
     make_balls(&r, layout, layout % 2);
-    const ways_search s = find(SPEEDS);
+    const found_ways s = find(SPEEDS);
     for (int ball = 1; ball < BALLS; ball++)
       for (int k = 0; k < SPEEDS && balls[ball].state.label != CAROM_BALL_POCKETED; k++)
         compare(&s, k, ball, &windows, &listed);
@@ -146,7 +159,7 @@ TEST(a_pot_has_one_name) {
   int of_kind[CAROM_PLAN_KISS + 1] = {0}, ways = 0;
   for (int layout = 0; layout < draws_of_each(FEWER(12)); layout++) {
     make_balls(&r, layout, false);
-    const ways_search s = find(SPEEDS);
+    const found_ways s = find(SPEEDS);
     for (int n = 0; n < s.ways; n++) {
       const way *w = &s.way[n];
       static carom_brief_event event[ROOM];
@@ -177,9 +190,9 @@ TEST(a_pot_has_one_name) {
 static bool pots_at(double phi, int pocket) {
   carom_facts f;
   carom_shot shot = {.facts = &f};
-  carom_cue one = stroke[0];
-  one.phi = phi;
-  carom_shoot(&table, balls, BALLS, &one, &shot_options, &shot);
+  carom_cue aimed = stroke[0];
+  aimed.phi = phi;
+  carom_shoot(&table, balls, BALLS, &aimed, &shot_options, &shot);
   return f.pocket[1] == pocket && (f.down & 1) == 0;
 }
 
@@ -190,7 +203,7 @@ TEST(a_window_across_zero_degrees) {
   make_layout(1, 1);
   ck_assert_int_eq(carom_place_ball(&table, balls, BALLS, 0, 0.4, y, NULL), CAROM_OK);
   ck_assert_int_eq(carom_place_ball(&table, balls, BALLS, 1, 0.7, y, NULL), CAROM_OK);
-  const ways_search s = find(1);
+  const found_ways s = find(1);
   const way *only = NULL;
   for (int n = 0; n < s.ways; n++) {
     const way *w = &s.way[n];
@@ -208,11 +221,11 @@ TEST(a_window_across_zero_degrees) {
 }
 
 /* Whether the cue ball meets a ball directly, or right off one rail. */
-static bool is_met_soon(const carom_cue *one) {
+static bool is_met_soon(const carom_cue *aimed) {
   carom_brief_event event[ROOM];
   carom_facts f;
   carom_shot shot = {.brief = event, .room = ROOM, .facts = &f};
-  carom_shoot(&table, balls, BALLS, one, &shot_options, &shot);
+  carom_shoot(&table, balls, BALLS, aimed, &shot_options, &shot);
   for (int64_t k = 0; k < shot.count && event[k].time < f.first_time[0] - 0.1; k++)
     if (event[k].type == CAROM_EVENT_RAIL)
       return false;
@@ -226,16 +239,16 @@ TEST(pots_at_rails) {
   int ways = 0, found = 0;
   for (int layout = 0; layout < draws_of_each(FEWER(60)); layout++) {
     make_balls(&r, layout, true);
-    const ways_search s = find(1);
+    const found_ways s = find(1);
     for (int n = 0; n < s.ways; n++) {
       const way *w = &s.way[n];
       carom_pot pot = {.ball = 8, .pocket = w->pocket};
-      carom_cue one = stroke[0];
+      carom_cue aimed = stroke[0];
       const bool direct =
           w->kind == CAROM_PLAN_POT || (w->kind == CAROM_PLAN_KICK && w->parts == 1);
       if (!direct || w->phi[1] - w->phi[0] < 0.25 || !is_met_soon(&w->cue))
         continue;
-      ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
+      ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &aimed), CAROM_OK);
       ways++;
       found += pot.outcome == CAROM_POT_FALLS;
       if (pot.outcome != CAROM_POT_FALLS)

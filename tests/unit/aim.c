@@ -14,7 +14,7 @@ enum { LAYOUTS = 2000, MOST_BALLS = 8, DIRECTIONS = 720, HALVINGS = 50 };
 typedef struct problem {
   carom_table table;
   carom_shot_ball ball[MOST_BALLS];
-  int count, at;
+  int count, offset;
   carom_cue cue;
   carom_shot_options options;
   double cut;
@@ -34,17 +34,17 @@ static double cut_at(const problem *p, double phi) {
   const carom_event *e = events, *end = events + shot.count;
   while (e < end && (e->type != CAROM_EVENT_BALL_BALL || (e->a != 0 && e->b != 0)))
     e++;
-  if (e == end || (e->a != p->at && e->b != p->at))
+  if (e == end || (e->a != p->offset && e->b != p->offset))
     return (double)NAN;
-  const carom_ball_state *own = &e->before[e->a == 0 ? 0 : 1],
-                         *other = &e->before[e->a == 0 ? 1 : 0];
+  const carom_ball_state *striker = &e->before[e->a == 0 ? 0 : 1],
+                         *object = &e->before[e->a == 0 ? 1 : 0];
   /* met while the cue pushes: the cut at which the ball would come alone, straight on */
   if (events[0].cluster > 0 && e->time == 0.0) {
     carom_shot_ball alone = p->ball[0];
     carom_ball_state left;
     carom_shot strike = {.final = &left};
-    const double x = other->r[0] - own->r[0], y = other->r[1] - own->r[1],
-                 touch = alone.kind.radius + p->ball[p->at].kind.radius;
+    const double x = object->r[0] - striker->r[0], y = object->r[1] - striker->r[1],
+                 touch = alone.kind.radius + p->ball[p->offset].kind.radius;
     options.stop_at = CAROM_STOP_AT(CAROM_EVENT_STRIKE);
     carom_shoot(&p->table, &alone, 1, &cue, &options, &strike);
     const double v = hypot(left.v[0], left.v[1]), along = (x * left.v[0] + y * left.v[1]) / v,
@@ -52,7 +52,8 @@ static double cut_at(const problem *p, double phi) {
     const double t = (along - sqrt(fmax(touch * touch - across * across, 0.0))) / v;
     return angle_between(left.v, (const double[]){x - t * left.v[0], y - t * left.v[1]});
   }
-  return angle_between(own->v, (const double[]){other->r[0] - own->r[0], other->r[1] - own->r[1]});
+  return angle_between(
+      striker->v, (const double[]){object->r[0] - striker->r[0], object->r[1] - striker->r[1]});
 }
 
 /* Whether some direction has the cut, by trial: neighbours with a lesser and a greater cut are
@@ -62,12 +63,12 @@ static bool exists(const problem *p) {
   double last = cut_at(p, 0.0);
   for (int k = 1; k <= directions; k++) {
     double low = 360.0 * (k - 1) / directions, high = 360.0 * k / directions;
-    const double before = last, after = last = cut_at(p, high);
-    if (!((before - p->cut) * (after - p->cut) < 0.0))
+    const double previous = last, next = last = cut_at(p, high);
+    if (!((previous - p->cut) * (next - p->cut) < 0.0))
       continue;
     for (int halving = 0; halving < HALVINGS; halving++) {
       const double middle = 0.5 * (low + high);
-      *((cut_at(p, middle) - p->cut) * (before - p->cut) > 0.0 ? &low : &high) = middle;
+      *((cut_at(p, middle) - p->cut) * (previous - p->cut) > 0.0 ? &low : &high) = middle;
     }
     if (fabs(cut_at(p, low) - p->cut) < 1e-3 && fabs(cut_at(p, high) - p->cut) < 1e-3)
       return true;
@@ -109,7 +110,7 @@ static problem random_problem(random_source *random) {
     p.cut = fmax(fmin(random_between(random, -100.0, 100.0), 85.0), -85.0);
     p.options.space = world < 3.0 ? CAROM_SPACE_FLAT : CAROM_SPACE_3D;
     p.options.world = world < 1.0 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM;
-    p.at = 1;
+    p.offset = 1;
   } while (carom_shot_check(&p.table, p.ball, p.count, &p.cue, &p.options, NULL) != CAROM_OK);
   return p;
 }
@@ -122,7 +123,7 @@ TEST(the_ball_is_met_at_the_cut_or_cannot_be) {
     carom_cue cue = p.cue;
     carom_event first = {0};
     const aim_result result =
-        aim_at(&p.table, p.ball, p.count, &p.options, p.at, p.cut, &cue, &first);
+        aim_at(&p.table, p.ball, p.count, &p.options, p.offset, p.cut, &cue, &first);
     found[result]++;
     /* Whether a ball that touches is met at once or after the slate depends on rounding. */
     const double allowed =
@@ -139,7 +140,7 @@ TEST(the_ball_is_met_at_the_cut_or_cannot_be) {
                     result, p.cut);
     if (result == AIM_BARRED)
       ck_assert_msg(first.time >= 0.0 && first.type != 0 &&
-                        (first.type != CAROM_EVENT_BALL_BALL || first.a + first.b != p.at),
+                        (first.type != CAROM_EVENT_BALL_BALL || first.a + first.b != p.offset),
                     "layout %d: barred by event %d", k, first.type);
   }
   printf("%d found, %d barred, %d not reached, %d without direction\n", found[AIM_FOUND],

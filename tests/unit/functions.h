@@ -5,6 +5,7 @@
 #define CAROM_TESTS_FUNCTIONS_H
 
 #ifndef CAROM_WITHOUT_PLAN
+#include "carom_coach.h"
 #include "carom_match.h"
 #include "carom_plan.h"
 #endif
@@ -56,7 +57,7 @@ static const int wrong_integers[] = {INT_MIN, -1, 1000000, INT_MAX};
 
 /* ---- Arguments that are right */
 
-enum { BALLS = 10, MEMORY = 1 << 21 };
+enum { BALLS = 10, MEMORY = 1 << 22 };
 static carom_table table;
 static carom_measures measures;
 static carom_shot_ball balls[CAROM_BALLS_MOST];
@@ -365,6 +366,48 @@ static carom_rating rating;
 static carom_pot pot;
 static const carom_score score = {500.0, 3.0, 2.0};
 static const carom_plan_stroke safety = {.ball = -1};
+/* The jobs of a coach, of the same layout. */
+static carom_shot_way ways[4];
+static carom_ways_result ways_result;
+static carom_break_counts break_counts;
+static carom_why why;
+static const carom_ways_job *ways_job(void) {
+  static carom_ways_job searched;
+  searched = (carom_ways_job){.table = &table,
+                              .balls = balls,
+                              .count = BALLS,
+                              .cues = &cue,
+                              .strokes = 1,
+                              .player = &player,
+                              .scan = 90,
+                              .ball = -1,
+                              .pocket = -1,
+                              .memory = memory,
+                              .memory_size = MEMORY};
+  return &searched;
+}
+static carom_shot_way *stroke_way(void) {
+  ways[0] = (carom_shot_way){.cue = cue, .ball = 1};
+  return ways;
+}
+static const carom_break_job *break_job(void) {
+  static carom_break_job breaks;
+  breaks = (carom_break_job){.table = &table,
+                             .balls = balls,
+                             .count = BALLS,
+                             .cue = &cue,
+                             .player = &player,
+                             .rack = CAROM_RACK_NINEBALL,
+                             .gap = 1e-4,
+                             .memory = memory,
+                             .memory_size = MEMORY};
+  return &breaks;
+}
+static const carom_plan_stroke *stroke_choice(void) {
+  choices[0] = (carom_plan_stroke){.cue = cue, .ball = -1, .pocket = -1};
+  memcpy(choices[0].place, balls[0].state.r, sizeof choices[0].place);
+  return choices;
+}
 
 static void set_up_games(void) {
   rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
@@ -441,6 +484,19 @@ static carom_match *moving(void) {
   F(plan_continue, carom_plan_continue(PTR(sliced_plan()), PTR(choices), LENGTH(4), PTR(&found)))  \
   F(plan_hand,                                                                                     \
     carom_plan_hand(PTR(&plan), MAYBE(zeros), NULL, PTR(choices), LENGTH(4), PTR(&found)))         \
+  F(break_has_rules, (carom_break_has_rules(ANYENUM(carom_rack_kind, 0)), ACCEPTED))               \
+  F(break_memory, (carom_break_memory(), ACCEPTED))                                                \
+  F(break_play, carom_break_play(PTR(break_job()), ANYINT(0), LENGTH(1), PTR(&break_counts)))      \
+  F(break_spread, (carom_break_spread(MAYBE(&break_counts), MAYBE(numbers)), ACCEPTED))            \
+  F(break_stroke, carom_break_stroke(PTR(break_job()), ANYINT(0), PTR(balls), PTR(&aimed)))        \
+  F(names_ball, (carom_names_ball(MAYBE(choices)), ACCEPTED))                                      \
+  F(plan_replay,                                                                                   \
+    carom_plan_replay(PTR(&plan), PTR((carom_plan_stroke *)stroke_choice()), LENGTH(1)))           \
+  F(way_chance, carom_way_chance(PTR(ways_job()), PTR(stroke_way())))                              \
+  F(way_succeeds, (carom_way_succeeds(MAYBE(ways_job()), MAYBE(whole()), MAYBE(ways)), ACCEPTED))  \
+  F(ways, carom_ways(PTR(ways_job()), PTR(ways), LENGTH(4), PTR(&ways_result)))                    \
+  F(ways_memory, (carom_ways_memory(ANYINT(4)), ACCEPTED))                                         \
+  F(why_of, carom_why_of(PTR(&plan), PTR(stroke_choice()), PTR(&why)))                             \
   F(plan_kind_name, is_text(carom_plan_kind_name(ANYENUM(carom_plan_kind, 0))))                    \
   F(plan_memory, (carom_plan_memory(MAYBE(&plan_options)), ACCEPTED))                              \
   F(plan_rules_of, (carom_plan_rules_of(ANYENUM(carom_rules_kind, 0)), ACCEPTED))                  \

@@ -1,0 +1,243 @@
+/* carom_coach.h: advice for a player: every way to pot, to score or to reach a place; why a
+ * stroke of a plan is good, and what it leaves; and what comes of many breaks of a rack.
+ *
+ *     carom_player player = carom_player_fargo(550.0);
+ *     static carom_shot_way ways[1000];
+ *     carom_ways_job job = {.table = &table, .balls = balls, .count = 16, .player = &player};
+ *     job.cues = &cue;  // a stroke, which is tried in all directions
+ *     job.strokes = 1;
+ *     job.scan = 1800;
+ *     job.ball = job.pocket = -1;  // any
+ *     job.rails = 2;
+ *     job.memory_size = carom_ways_memory(1000);
+ *     job.memory = malloc(job.memory_size);
+ *     carom_ways_result result;
+ *     // ways[0].cue is the stroke with the best chance, ways[0].chance
+ *     carom_status status = carom_ways(&job, ways, 1000, &result);
+ *
+ * Units, axes and statuses are those of carom.h, carom_shot.h and carom_plan.h. Like them, nothing
+ * here allocates or prints. docs/using/plan.md shows the same by the command. */
+#ifndef CAROM_COACH_H
+#define CAROM_COACH_H
+
+#include "carom_plan.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Ways ------------------------------------------------------------------------------------ */
+
+/* Reports how far a call has come: `done` of `total` of a stage, "strokes" or "ways". */
+typedef void carom_coach_progress(void *context, const char *stage, double done, double total);
+
+/* What a way is for. */
+typedef enum carom_way_goal {
+  CAROM_WAY_POT = 0,   /* a ball falls, and the cue ball does not */
+  CAROM_WAY_SCORE = 1, /* the cue ball meets three cushions before the second ball */
+  CAROM_WAY_PLACE = 2  /* the cue ball comes to rest at a place */
+} carom_way_goal;
+
+enum {
+  CAROM_WAY_PARTS = 12,  /* the largest number of rails and balls of a way. */
+  CAROM_WAY_EVENTS = 300 /* the largest number of events of a shot whose way is read. */
+};
+
+/* A way: the rails and balls that are met, in their order, and the best stroke for it. */
+typedef struct carom_shot_way {
+  carom_cue cue; /* the stroke: one of the job's cues, in the best direction. */
+  carom_part part[CAROM_WAY_PARTS];
+  double cut;       /* degrees: the cut of the cue ball on its first ball, as in carom_pot; NaN if
+                       it meets none. */
+  double phi[2];    /* degrees: the directions between which the stroke succeeds. */
+  double speed[2];  /* m/s: the speeds of the cue between which a pot succeeds in this direction,
+                       within 0.05 to 15. */
+  double chance;    /* share of 400 strokes with the errors of the player that succeed, 0 to 1, */
+  double error;     /* and its standard error. */
+  int64_t found;    /* how many of the strokes in all directions took this way. */
+  int32_t kind;     /* a carom_plan_kind; -1 unless the goal is a pot. */
+  int32_t ball;     /* the ball that falls; -1 unless the goal is a pot, */
+  int32_t pocket;   /* and its pocket, or -1. */
+  int32_t parts;    /* number of elements of part[]. */
+  int32_t stroke;   /* index of its stroke among the job's cues. */
+  int32_t reserved; /* 0. */
+} carom_shot_way;
+
+/* What to look for. The caller sets all members but those that may be NULL or 0. */
+typedef struct carom_ways_job {
+  const carom_table *table;
+  const carom_shot_ball *balls; /* the layout, at rest. */
+  int64_t count;                /* number of balls, 1 to CAROM_BALLS_MOST. */
+  const carom_cue *cues;        /* strokes of one ball, each of which is tried in all directions; */
+  int64_t strokes;              /* how many, at least 1. */
+  const carom_player *player;   /* whose errors the chances have. */
+  const carom_shot_options *shot; /* models, space, fast and threads; NULL: the defaults. */
+  int64_t scan;                   /* how many directions of all strokes together, at least one for
+                                     each stroke. 1800 for a stroke are steps of 0.2 degrees. */
+  int32_t goal;                   /* a carom_way_goal. */
+  int32_t ball;                   /* for pots: the ball, or -1 for any; */
+  int32_t pocket;                 /* the pocket, or -1 for any. */
+  int32_t rails;                  /* for pots and places: the largest number of rails. */
+  int32_t each;     /* 1: a pot has a way for each stroke that makes it, in the order of
+                                     the strokes; 0: only the stroke with the best chance. */
+  int32_t reserved; /* must be 0. */
+  double place[2];  /* m: where the cue ball must come to rest, for all goals, */
+  double radius;    /* m: so near to it; 0: anywhere. */
+  carom_coach_progress *progress; /* NULL: nothing is reported. */
+  void *context;                  /* of progress(). */
+  void *memory;                   /* room for the search, aligned as by malloc(), */
+  size_t memory_size;             /* of at least carom_ways_memory() bytes. */
+} carom_ways_job;
+
+/* How the search ended. */
+typedef struct carom_ways_result {
+  int64_t ways;     /* number of ways that were written. */
+  int64_t scanned;  /* strokes that were played in all directions, */
+  int64_t good;     /* and those that succeeded, by all ways together. */
+  int64_t left_out; /* strokes that succeeded, but for which there was no room: for a way, for its
+                       parts, or for the events of the shot. */
+} carom_ways_result;
+
+/* The number of bytes that a search for up to `room` ways needs: about 3 MB, and 40 bytes a way. 0
+ * if room is below 1. */
+CAROM_API size_t carom_ways_memory(int64_t room);
+
+/* Finds the ways to the goal, and writes up to `room` of them to ways[]: those with the best
+ * chance first, and of equal chances the widest. With `each` 1 they are in the order of the
+ * strokes. A pot whose directions are less than 0.04 degrees apart is left out. Returns CAROM_OK;
+ * CAROM_ERROR_NULL if a pointer is NULL or there is too little memory; CAROM_ERROR_OPTIONS for a
+ * number out of its range, a bad player, or cues of different balls; or an error of carom_shoot(),
+ * with *result as far as the search came. The ways depend only on the arguments, not on the number
+ * of threads. */
+CAROM_API carom_status carom_ways(const carom_ways_job *job, carom_shot_way *ways, int64_t room,
+                                  carom_ways_result *result);
+
+/* Plays a way's stroke 400 times with the errors of the player, and sets way->chance and
+ * way->error. The caller may change way->cue first. Statuses are those of carom_ways(). */
+CAROM_API carom_status carom_way_chance(const carom_ways_job *job, carom_shot_way *way);
+
+/* 1 if a shot reaches the goal: it pots way->ball into way->pocket, scores, or brings the cue ball
+ * to the place; the cue ball stays on the table; and there is no double hit. Otherwise 0. The shot
+ * has facts and final states. */
+CAROM_API int carom_way_succeeds(const carom_ways_job *job, const carom_shot *shot,
+                                 const carom_shot_way *way);
+
+/* ---- Reasons --------------------------------------------------------------------------------- */
+
+enum {
+  CAROM_WHY_STROKES = 300, /* strokes with errors that are played for a choice. */
+  CAROM_WHY_RAILS = 16     /* the largest number of rails that carom_why lists. */
+};
+
+/* Why a choice of a plan is good. */
+typedef struct carom_why {
+  int32_t rails;                      /* cushions that the cue ball meets before any ball: */
+  int32_t rail[CAROM_WHY_RAILS];      /* these, */
+  double contact[CAROM_WHY_RAILS][2]; /* m: with the cue ball at these places. */
+  int32_t first;                      /* the ball that the cue ball meets first; -1: none. */
+  double cut;                         /* degrees: the cut on that ball, above 0 to its left, as in
+                                     carom_pot; NaN: none is met. */
+  double part;                        /* how much of that ball is hit, 0 to 1; NaN: none is met. */
+  double speed;                       /* m/s: of the cue ball, just after the stroke. */
+  carom_ruling ruling;         /* what the stroke leaves without errors. If luck alone makes its
+                                     balls fall, it is the first stroke with errors that ends the
+                                     turn. */
+  carom_plan_stroke next;      /* the best stroke of the player who plays next, */
+  int32_t has_next;            /* 1 if there is one, otherwise 0. */
+  double misses, loses;        /* shares of the strokes with errors that pass the turn, and that
+                                     lose the game. */
+  double opponent;             /* the opponent's chance to win after those that pass; NaN if none
+                                     do, and without an opponent. */
+  double speed_cost, aim_cost; /* how much more the choice would be worth, in value, without the
+                                     player's errors of speed, and without those of aim. */
+  int64_t strokes;             /* CAROM_WHY_STROKES. */
+} carom_why;
+
+/* Explains a choice of a plan: how it is aimed, what it leaves, how often it misses and what the
+ * errors of the player cost. The job is that of the plan; its memory is overwritten. Returns
+ * CAROM_OK; CAROM_ERROR_NULL as in carom_plan(); CAROM_ERROR_OPTIONS for a choice to pass, which
+ * has no stroke; or an error of carom_place_ball(). */
+CAROM_API carom_status carom_why_of(const carom_plan_job *job, const carom_plan_stroke *choice,
+                                    carom_why *why);
+
+/* 1 if the ball that a choice names is meant to fall; 0 if the choice names none, or if that ball
+ * falls by luck: the player plays on in less than a tenth of the strokes. */
+CAROM_API int carom_names_ball(const carom_plan_stroke *choice);
+
+/* Plays n choices of a plan CAROM_WHY_STROKES times each, with the same errors for all, and sorts
+ * them by the values of these strokes, best first. value, error, keep, foul, lose and seen become
+ * those of these strokes. A choice to pass keeps its value. The chances of a plan are partly lucky
+ * for choices that were seldom played; these are not. Returns CAROM_OK; CAROM_ERROR_NULL as in
+ * carom_plan(); or CAROM_ERROR_OPTIONS if n is below 0. */
+CAROM_API carom_status carom_plan_replay(const carom_plan_job *job, carom_plan_stroke *choices,
+                                         int n);
+
+/* ---- Breaks ---------------------------------------------------------------------------------- */
+
+/* How a break is aimed. */
+typedef enum carom_break_aim {
+  CAROM_BREAK_FULL = 0,      /* at the middle of the ball in front */
+  CAROM_BREAK_DIRECTION = 1, /* in the direction cue->phi */
+  CAROM_BREAK_CUT = 2        /* as far beside the middle of the ball in front as cue->phi is in the
+                                layout of the job */
+} carom_break_aim;
+
+/* Breaks of one stroke. */
+typedef struct carom_break_job {
+  const carom_table *table;
+  const carom_shot_ball *balls;   /* the rack, ball 0 the cue ball: its place, and the kinds of all
+                                     balls; */
+  int64_t count;                  /* how many: carom_rack_size(). */
+  const carom_cue *cue;           /* the stroke. */
+  const carom_player *player;     /* whose errors each stroke has. */
+  const carom_shot_options *shot; /* NULL: the defaults. */
+  int32_t rack;                   /* a carom_rack_kind. */
+  int32_t aim;                    /* a carom_break_aim. */
+  double gap;                     /* m: between the balls, as in carom_rack(). */
+  uint64_t seed;                  /* of the first rack, and of the errors. */
+  void *memory;                   /* room for the shots, aligned as by malloc(), */
+  size_t memory_size;             /* of at least carom_break_memory() bytes. */
+} carom_break_job;
+
+/* Results of breaks: how many of them, or sums. All zero before the first one. */
+typedef struct carom_break_counts {
+  int64_t breaks;                                     /* that were played, */
+  int64_t makes, balls;                               /* that pot a ball; balls that fell in all. */
+  int64_t plays_on, fouls;                            /* by the rules of the rack's game; 0 for a
+                                                         rack of no game with a break. */
+  int64_t scratches, off, wing;                       /* in which the cue ball falls, a ball leaves
+                                                         the table, a ball at a wing falls. */
+  int64_t stays;                                      /* in which the cue ball stays. */
+  int64_t fell[CAROM_BALLS_MOST][CAROM_POCKETS_MOST]; /* how often each ball fell where. */
+  double x, y, squares;                               /* m, m^2: sums over the cue balls that stay:
+                                                         of their places, and of x^2 + y^2. */
+} carom_break_counts;
+
+/* The number of bytes that carom_break_play() needs. */
+CAROM_API size_t carom_break_memory(void);
+
+/* The rack and the stroke of break `number`, from 0 on, with the errors of the player; of number
+ * -1 the first rack, and the stroke without errors. Writes job->count balls, and *cue. Returns
+ * CAROM_OK, CAROM_ERROR_NULL, or an error of carom_rack(). */
+CAROM_API carom_status carom_break_stroke(const carom_break_job *job, int64_t number,
+                                          carom_shot_ball *balls, carom_cue *cue);
+
+/* Plays the breaks of numbers `first` to first + n - 1, and adds their results to *counts. Each
+ * break has a rack and errors of its own. Returns CAROM_OK; CAROM_ERROR_NULL if a pointer is NULL
+ * or there is too little memory; CAROM_ERROR_OPTIONS for a number out of its range; or an error of
+ * carom_rack() or carom_shoot(). */
+CAROM_API carom_status carom_break_play(const carom_break_job *job, int64_t first, int64_t n,
+                                        carom_break_counts *counts);
+
+/* 1 if the rack is that of a game with a break, by whose rules breaks are judged, otherwise 0. */
+CAROM_API int carom_break_has_rules(carom_rack_kind rack);
+
+/* The mean place of the cue balls that stay, m, and the standard deviation of their places, m; all
+ * NaN if none stays. If a pointer is NULL, the call returns NaN. */
+CAROM_API double carom_break_spread(const carom_break_counts *counts, double place[2]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* CAROM_COACH_H */

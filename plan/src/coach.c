@@ -1,0 +1,25 @@
+/* The cushions of a table, and cuts. */
+#include "coach.h"
+#include "view.h"
+
+#include <math.h>
+
+static double length_of(const carom_rail *rail) {
+  const double x = rail->q[0] - rail->p[0], y = rail->q[1] - rail->p[1];
+  return sqrt(x * x + y * y);
+}
+
+bool carom_is_cushion(const carom_table *table, int rail) {
+  double longest = 0.0;
+  for (int k = 0; k < table->rails; k++)
+    longest = fmax(longest, length_of(&table->rail[k]));
+  return length_of(&table->rail[rail]) > 0.2 * longest;
+}
+
+double carom_cut_at(const carom_event *contact, int cue_ball) {
+  const int side = contact->a != cue_ball;
+  const carom_ball_state *striker = &contact->before[side], *object = &contact->before[1 - side];
+  const double x = object->r[0] - striker->r[0], y = object->r[1] - striker->r[1];
+  const double cross = striker->v[0] * y - striker->v[1] * x;
+  return carom_angle_of(striker->v[0] * x + striker->v[1] * y, cross) / degree;
+}

@@ -1,0 +1,128 @@
+/* What the coach finds: choices are replayed and explained, and breaks add up in any parts. ways.c
+ * tests the ways. */
+#include "carom_coach.h"
+#include "plan_support.h"
+
+static carom_plan_stroke best[5];
+static int found;
+
+/* The choices of a plan of a layout. */
+static void plan_layout(uint64_t seed, int in_play) {
+  make_layout(seed, in_play);
+  make_memory();
+  ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
+}
+
+/* Replayed choices have the chances of 300 strokes each, best first; what they are stays. */
+TEST(choices_are_replayed) {
+  for (uint64_t seed = 1; seed <= 4; seed++) {
+    plan_layout(seed, 5);
+    carom_plan_stroke again[5];
+    memcpy(again, best, sizeof best);
+    ck_assert_int_eq(carom_plan_replay(&job, again, found), CAROM_OK);
+    for (int k = 0; k < found; k++) {
+      const carom_plan_stroke *c = &again[k];
+      ck_assert(c->seen == CAROM_WHY_STROKES && c->error < 0.05);
+      ck_assert(c->value >= 0.0 && c->value <= 1.0 && c->keep + c->lose <= 1.0);
+      ck_assert(k == 0 || c->value <= again[k - 1].value);
+      int same = 0;
+      for (int n = 0; n < found; n++)
+        if (memcmp(&best[n].cue, &c->cue, sizeof c->cue) == 0) {
+          same++;
+          ck_assert_double_eq_tol(best[n].value, c->value, 0.25);
+        }
+      ck_assert_int_ge(same, 1);
+    }
+    edge_free(&memory);
+  }
+}
+
+/* A straight pot of the eight is explained: no cushion, a full hit, and the game is won. */
+TEST(a_pot_is_explained) {
+  make_layout(1, 1);
+  carom_place_ball(&table, balls, BALLS, 8, 0.2, 0.2, NULL);
+  carom_place_ball(&table, balls, BALLS, 0, 0.5, 0.5, NULL);
+  make_memory();
+  ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
+  static carom_why why;
+  ck_assert_int_eq(carom_why_of(&job, &best[0], &why), CAROM_OK);
+  ck_assert(carom_names_ball(&best[0]) == 1);
+  ck_assert(why.rails == 0 && why.first == 8 && fabs(why.cut) < 10.0 && why.part > 0.8);
+  ck_assert(why.ruling.turn.outcome == CAROM_TURN_WIN && why.has_next == 0 && why.speed > 0.3);
+  ck_assert(why.misses < 0.2 && why.speed_cost >= 0.0 && why.aim_cost >= 0.0);
+  ck_assert_int_eq(why.strokes, CAROM_WHY_STROKES);
+
+  /* the cushion of a kick is named, and its place lies at that rail */
+  carom_plan_stroke kick = {
+      .kind = CAROM_PLAN_GIVEN, .ball = -1, .pocket = -1, .place = {0.5, 0.5}};
+  kick.cue = cue;
+  kick.cue.speed = 2.0;
+  kick.cue.phi = 0.0;
+  ck_assert_int_eq(carom_why_of(&job, &kick, &why), CAROM_OK);
+  ck_assert(why.rails >= 1 && why.first == -1 && isnan(why.cut) && isnan(why.part));
+  ck_assert_double_eq_tol(why.contact[0][0], table.width - balls[0].kind.radius, 0.005);
+  ck_assert(why.misses > 0.9 && why.opponent > 0.0 && why.has_next == 1);
+  ck_assert(carom_names_ball(&kick) == 0);
+  kick.kind = CAROM_PLAN_PASS;
+  ck_assert_int_eq(carom_why_of(&job, &kick, &why), CAROM_ERROR_OPTIONS);
+  edge_free(&memory);
+}
+
+/* Breaks: two parts add up to the whole, the counts fit each other, and a wider error makes the cue
+ * ball end elsewhere. */
+TEST(breaks_add_up) {
+  enum { BREAKS = 40, FIRST = 13, RACK = 16 };
+  make_layout(1, 1);
+  carom_rack(CAROM_RACK_EIGHTBALL, &table, 1e-4, 1, balls, BALLS);
+  cue.speed = 9.0;
+  carom_break_job breaks = {.table = &table,
+                            .balls = balls,
+                            .count = RACK,
+                            .cue = &cue,
+                            .player = &player,
+                            .rack = CAROM_RACK_EIGHTBALL,
+                            .gap = 1e-4,
+                            .seed = 1,
+                            .memory_size = carom_break_memory()};
+  edge space = edge_make(breaks.memory_size, true);
+  carom_break_counts whole = {0}, parts = {0};
+  breaks.memory = space.memory;
+  ck_assert_int_eq(carom_break_play(&breaks, 0, BREAKS, &whole), CAROM_OK);
+  ck_assert_int_eq(carom_break_play(&breaks, FIRST, BREAKS - FIRST, &parts), CAROM_OK);
+  ck_assert_int_eq(carom_break_play(&breaks, 0, FIRST, &parts), CAROM_OK);
+  ck_assert_double_eq_tol(whole.squares, parts.squares, 1e-9);
+  parts.x = whole.x, parts.y = whole.y, parts.squares = whole.squares;
+  ck_assert_int_eq(memcmp(&whole, &parts, sizeof whole), 0);
+
+  int64_t fell = 0;
+  for (int ball = 1; ball < RACK; ball++)
+    for (int pocket = 0; pocket < table.pockets; pocket++)
+      fell += whole.fell[ball][pocket];
+  ck_assert(whole.breaks == BREAKS && whole.balls == fell && whole.makes <= whole.balls);
+  ck_assert(whole.makes > 5 && whole.makes < BREAKS && whole.plays_on <= whole.makes);
+  ck_assert(whole.stays >= BREAKS - whole.scratches - whole.off && whole.wing <= whole.makes);
+  double place[2];
+  const double spread = carom_break_spread(&whole, place);
+  ck_assert(spread > 0.1 && spread < 1.5 && place[0] > 0.0 && place[0] < table.width);
+  ck_assert(isnan(carom_break_spread(&(carom_break_counts){0}, place)) && isnan(place[0]));
+
+  /* the stroke without errors goes at the middle of the ball in front */
+  carom_shot_ball rack[RACK];
+  carom_cue stroke;
+  ck_assert_int_eq(carom_break_stroke(&breaks, -1, rack, &stroke), CAROM_OK);
+  ck_assert_double_eq_tol(stroke.phi, 90.0, 0.1);
+  breaks.aim = CAROM_BREAK_DIRECTION;
+  cue.phi = 77.0;
+  ck_assert_int_eq(carom_break_stroke(&breaks, -1, rack, &stroke), CAROM_OK);
+  ck_assert(stroke.phi == 77.0);
+  breaks.aim = CAROM_BREAK_CUT;
+  ck_assert_int_eq(carom_break_stroke(&breaks, -1, rack, &stroke), CAROM_OK);
+  ck_assert_double_eq_tol(stroke.phi, 77.0, 1e-9); /* in the job's own rack */
+  breaks.aim = CAROM_BREAK_CUT + 1;
+  ck_assert_int_eq(carom_break_play(&breaks, 0, 1, &whole), CAROM_ERROR_OPTIONS);
+  breaks.memory_size--;
+  ck_assert_int_eq(carom_break_play(&breaks, 0, 1, &whole), CAROM_ERROR_NULL);
+  ck_assert(carom_break_has_rules(CAROM_RACK_NINEONSPOT) == 1);
+  ck_assert(carom_break_has_rules(CAROM_RACK_SNOOKER) == 0);
+  edge_free(&space);
+}
