@@ -45,19 +45,19 @@ enum {
 
 /* A way: the rails and balls that are met, in their order, and the best stroke for it. */
 typedef struct carom_shot_way {
-  carom_cue cue; /* the stroke: one of the job's cues, in the best direction. */
-  carom_part part[CAROM_WAY_PARTS];
+  carom_cue cue;                    /* the stroke: one of the job's cues, in the best direction. */
+  carom_part part[CAROM_WAY_PARTS]; /* the rails and balls that are met, in their order. */
   double cut;       /* degrees: the cut of the cue ball on its first ball, as in carom_pot; NaN if
                        it meets none. */
   double phi[2];    /* degrees: the directions between which the stroke succeeds. */
   double speed[2];  /* m/s: the speeds of the cue between which a pot succeeds in this direction,
                        within 0.05 to 15. */
-  double chance;    /* share of 400 strokes with the errors of the player that succeed, 0 to 1, */
-  double error;     /* and its standard error. */
+  double chance;    /* share of 400 strokes with the errors of the player that succeed, 0 to 1. */
+  double error;     /* the standard error of `chance`. */
   int64_t found;    /* how many of the strokes in all directions took this way. */
   int32_t kind;     /* a carom_plan_kind; -1 unless the goal is a pot. */
-  int32_t ball;     /* the ball that falls; -1 unless the goal is a pot, */
-  int32_t pocket;   /* and its pocket, or -1. */
+  int32_t ball;     /* the ball that falls; -1 unless the goal is a pot. */
+  int32_t pocket;   /* the pocket of that ball, or -1. */
   int32_t parts;    /* number of elements of part[]. */
   int32_t stroke;   /* index of its stroke among the job's cues. */
   int32_t reserved; /* 0. */
@@ -65,35 +65,35 @@ typedef struct carom_shot_way {
 
 /* What to look for. The caller sets all members but those that may be NULL or 0. */
 typedef struct carom_ways_job {
-  const carom_table *table;
+  const carom_table *table;     /* the table. */
   const carom_shot_ball *balls; /* the layout, at rest. */
   int64_t count;                /* number of balls, 1 to CAROM_BALLS_MOST. */
-  const carom_cue *cues;        /* strokes of one ball, each of which is tried in all directions; */
-  int64_t strokes;              /* how many, at least 1. */
+  const carom_cue *cues;        /* strokes of one ball, each of which is tried in all directions. */
+  int64_t strokes;              /* number of strokes, at least 1. */
   const carom_player *player;   /* whose errors the chances have. */
   const carom_shot_options *shot; /* models, space, fast and threads; NULL: the defaults. */
   int64_t scan;                   /* how many directions of all strokes together, at least one for
                                      each stroke. 1800 for a stroke are steps of 0.2 degrees. */
   int32_t goal;                   /* a carom_way_goal. */
-  int32_t ball;                   /* for pots: the ball, or -1 for any; */
-  int32_t pocket;                 /* the pocket, or -1 for any. */
+  int32_t ball;                   /* for pots: the ball, or -1 for any. */
+  int32_t pocket;                 /* for pots: the pocket, or -1 for any. */
   int32_t rails;                  /* for pots and places: the largest number of rails. */
   int32_t each;     /* 1: a pot has a way for each stroke that makes it, in the order of
                                      the strokes; 0: only the stroke with the best chance. */
   int32_t reserved; /* must be 0. */
-  double place[2];  /* m: where the cue ball must come to rest, for all goals, */
-  double radius;    /* m: so near to it; 0: anywhere. */
+  double place[2];  /* m: where the cue ball must come to rest, for all goals. */
+  double radius;    /* m: the largest distance to that place; 0: anywhere. */
   carom_coach_progress *progress; /* NULL: nothing is reported. */
   void *context;                  /* of progress(). */
-  void *memory;                   /* room for the search, aligned as by malloc(), */
-  size_t memory_size;             /* of at least carom_ways_memory() bytes. */
+  void *memory;                   /* room for the search, aligned as by malloc(). */
+  size_t memory_size;             /* bytes of `memory`, at least carom_ways_memory(). */
 } carom_ways_job;
 
 /* How the search ended. */
 typedef struct carom_ways_result {
   int64_t ways;     /* number of ways that were written. */
-  int64_t scanned;  /* strokes that were played in all directions, */
-  int64_t good;     /* and those that succeeded, by all ways together. */
+  int64_t scanned;  /* strokes that were played in all directions. */
+  int64_t good;     /* strokes that succeeded, by all ways together. */
   int64_t left_out; /* strokes that succeeded, but for which there was no room: for a way, for its
                        parts, or for the events of the shot. */
 } carom_ways_result;
@@ -131,9 +131,9 @@ enum {
 
 /* Why a choice of a plan is good. */
 typedef struct carom_why {
-  int32_t rails;                      /* cushions that the cue ball meets before any ball: */
-  int32_t rail[CAROM_WHY_RAILS];      /* these, */
-  double contact[CAROM_WHY_RAILS][2]; /* m: with the cue ball at these places. */
+  int32_t rails;                 /* number of cushions that the cue ball meets before any ball. */
+  int32_t rail[CAROM_WHY_RAILS]; /* the rails of these cushions. */
+  double contact[CAROM_WHY_RAILS][2]; /* m: the places of the cue ball there. */
   int32_t first;                      /* the ball that the cue ball meets first; -1: none. */
   double cut;                         /* degrees: the cut on that ball, above 0 to its left, as in
                                      carom_pot; NaN: none is met. */
@@ -142,8 +142,8 @@ typedef struct carom_why {
   carom_ruling ruling;         /* what the stroke leaves without errors. If luck alone makes its
                                      balls fall, it is the first stroke with errors that ends the
                                      turn. */
-  carom_plan_stroke next;      /* the best stroke of the player who plays next, */
-  int32_t has_next;            /* 1 if there is one, otherwise 0. */
+  carom_plan_stroke next;      /* the best stroke of the player who plays next. */
+  int32_t has_next;            /* 1 if `next` has a stroke, otherwise 0. */
   double misses, loses;        /* shares of the strokes with errors that pass the turn, and that
                                      lose the game. */
   double opponent;             /* the opponent's chance to win after those that pass; NaN if none
@@ -177,17 +177,17 @@ CAROM_API carom_status carom_plan_replay(const carom_plan_job *job, carom_plan_s
 /* How a break is aimed. */
 typedef enum carom_break_aim {
   CAROM_BREAK_FULL = 0,      /* at the middle of the ball in front */
-  CAROM_BREAK_DIRECTION = 1, /* in the direction cue->phi */
+  CAROM_BREAK_DIRECTION = 1, /* the direction is cue->phi */
   CAROM_BREAK_CUT = 2        /* as far beside the middle of the ball in front as cue->phi is in the
                                 layout of the job */
 } carom_break_aim;
 
 /* Breaks of one stroke. */
 typedef struct carom_break_job {
-  const carom_table *table;
+  const carom_table *table;       /* the table. */
   const carom_shot_ball *balls;   /* the rack, ball 0 the cue ball: its place, and the kinds of all
-                                     balls; */
-  int64_t count;                  /* how many: carom_rack_size(). */
+                                     balls. */
+  int64_t count;                  /* number of balls: carom_rack_size(). */
   const carom_cue *cue;           /* the stroke. */
   const carom_player *player;     /* whose errors each stroke has. */
   const carom_shot_options *shot; /* NULL: the defaults. */
@@ -195,13 +195,13 @@ typedef struct carom_break_job {
   int32_t aim;                    /* a carom_break_aim. */
   double gap;                     /* m: between the balls, as in carom_rack(). */
   uint64_t seed;                  /* of the first rack, and of the errors. */
-  void *memory;                   /* room for the shots, aligned as by malloc(), */
-  size_t memory_size;             /* of at least carom_break_memory() bytes. */
+  void *memory;                   /* room for the shots, aligned as by malloc(). */
+  size_t memory_size;             /* bytes of `memory`, at least carom_break_memory(). */
 } carom_break_job;
 
 /* Results of breaks: how many of them, or sums. All zero before the first one. */
 typedef struct carom_break_counts {
-  int64_t breaks;                                     /* that were played, */
+  int64_t breaks;                                     /* number of breaks that were played. */
   int64_t makes, balls;                               /* that pot a ball; balls that fell in all. */
   int64_t plays_on, fouls;                            /* by the rules of the rack's game; 0 for a
                                                          rack of no game with a break. */
