@@ -123,8 +123,12 @@ def numbers():
 def words():
     """The words of each enumeration, (word, text), by the names of carom_words."""
     found = {}
-    for _, (of, _value, word, text) in rows("schema/words.h", "CAROM_WORD_ROWS"):
-        found.setdefault(of, []).append((text_of(word), text_of(text)))
+    for file, macro in (
+        ("schema/words.h", "CAROM_WORD_ROWS"),
+        ("../plan/src/words.h", "CAROM_GAME_WORD_ROWS"),
+    ):
+        for _, (of, _value, word, text) in rows(file, macro):
+            found.setdefault(of, []).append((text_of(word), text_of(text)))
     models = [
         (text_of(row[1]), text_of(row[-1]))
         for _, row in rows("cushion/list.h", "CAROM_CUSHION_MODELS")
@@ -259,7 +263,7 @@ def options():
     return found
 
 
-OF_PYTHON = "WORLD BALL_MODEL SHOT_CUSHION BALL_FRICTION SPACE SIMULTANEOUS CUSHION_MODEL CUSHION_CONVENTION CUSHION_LAW GAME SOLVER SLIP RULES CONDITION".split()
+OF_PYTHON = "WORLD BALL_MODEL SHOT_CUSHION BALL_FRICTION SPACE SIMULTANEOUS CUSHION_MODEL CUSHION_CONVENTION CUSHION_LAW GAME SOLVER SLIP RULES CONDITION TURN LEAVE CHOICE PHASE".split()
 # Options of shots that Python has in another form: their types, defaults, texts.
 OWN = [
     (

@@ -487,6 +487,26 @@ CAROM_API carom_status carom_referee(const carom_plan_rules *rules, const carom_
  * whole text without the 0, or 0 for an invalid ruling. */
 CAROM_API size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room);
 
+/* ---- Words of games -------------------------------------------------------------------------- */
+
+/* Enumerations of games whose values have words. carom_words has those of the physics, and that of
+ * carom_rules_kind. */
+typedef enum carom_game_words {
+  CAROM_GAME_WORDS_TURN = 0,   /* carom_turn_outcome */
+  CAROM_GAME_WORDS_LEAVE = 1,  /* carom_leave */
+  CAROM_GAME_WORDS_FOUL = 2,   /* carom_foul; the text of NONE is "" */
+  CAROM_GAME_WORDS_CHOICE = 3, /* carom_choice */
+  CAROM_GAME_WORDS_GROUP = 4,  /* carom_group */
+  CAROM_GAME_WORDS_PHASE = 5,  /* carom_match_phase of carom_match.h */
+  CAROM_GAME_WORDS_ACT = 6,    /* carom_act of carom_match.h */
+  CAROM_GAME_WORDS_REFUSAL = 7 /* carom_refusal of carom_match.h; the text of NOT is "" */
+} carom_game_words;
+
+/* The word of a value ("double_hit"), which all languages share, and its meaning in a few words;
+ * NULL if there is none. */
+CAROM_API const char *carom_game_word(carom_game_words of, int value);
+CAROM_API const char *carom_game_word_text(carom_game_words of, int value);
+
 /* ---- Plans ----------------------------------------------------------------------------------- */
 
 /* All zero means the defaults. */

@@ -16,13 +16,10 @@
 /* ---- Refusals */
 
 const char *carom_refusal_name(int refusal) {
-  static const char *const names[] = {
-      "",       "not begun", "over",   "turn", "moving",   "at rest", "in hand", "not in hand",
-      "bounds", "occupied",  "choice", "call", "cue ball", "stroke",  "begin",   "line"};
-  const int known = sizeof names / sizeof names[0];
-  if (refusal < 0 || refusal >= known)
+  const char *word = carom_game_word(CAROM_GAME_WORDS_REFUSAL, refusal);
+  if (word == NULL || refusal == CAROM_REFUSED_NOT)
     return "";
-  return names[refusal];
+  return word;
 }
 
 carom_status carom_match_refuse(carom_match *match, carom_refusal why, const char *act,
@@ -47,14 +44,13 @@ static const char *list_balls(uint32_t set, char text[128]) {
 
 /* The choices as text. */
 static const char *list_choices(int32_t choices, char text[128]) {
-  static const char *const names[] = {
-      "pass", "push", "free ball", "place in the D", "rack", "rack for the other", "stay", "spot"};
   size_t size = 0;
   const char *comma = "";
   snprintf(text, 128, "none");
-  for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
-    if (choices >> k & 1) {
-      size += (size_t)snprintf(text + size, 128 - size, "%s%s", comma, names[k]);
+  for (int32_t choice = 1; choice <= CAROM_CHOICE_SPOT; choice *= 2)
+    if ((choices & choice) != 0) {
+      const char *word = carom_game_word(CAROM_GAME_WORDS_CHOICE, choice);
+      size += (size_t)snprintf(text + size, 128 - size, "%s%s", comma, word);
       comma = ", ";
     }
   return text;

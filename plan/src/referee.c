@@ -136,48 +136,34 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
   return status;
 }
 
-/* What the next player may do besides a stroke, in words, each behind "; ". */
-static void write_choices(int32_t permitted, carom_leave leave, char *text, size_t room) {
-  const char *spots = "may have the touching balls spotted";
-  if (leave == CAROM_LEAVE_KITCHEN)
-    spots = "may have the ball nearest to the head string spotted";
-  const struct {
-    int32_t choice;
-    const char *words;
-  } choices[] = {{CAROM_CHOICE_PASS, "may pass"},
-                 {CAROM_CHOICE_PUSH, "may push out"},
-                 {CAROM_CHOICE_FREE_BALL, "has a free ball"},
-                 {CAROM_CHOICE_RACK, "may have the balls racked and break"},
-                 {CAROM_CHOICE_OTHER_RACK, "may have the balls racked for the other"},
-                 {CAROM_CHOICE_STAY, "may leave the cue ball where it lies"},
-                 {CAROM_CHOICE_SPOT, spots}};
+/* What the next player may do besides a stroke, in words, each behind "; ". A cue ball that may be
+ * placed in the D is in hand, which the leave says. */
+static void write_choices(int32_t choices, carom_leave leave, char *text, size_t room) {
   size_t size = 0;
   text[0] = '\0';
-  for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
-    if ((permitted & choices[k].choice) != 0)
-      size += (size_t)snprintf(text + size, room - size, "; %s", choices[k].words);
+  for (int32_t choice = 1; choice <= CAROM_CHOICE_SPOT; choice *= 2) {
+    const char *words = carom_game_word_text(CAROM_GAME_WORDS_CHOICE, choice);
+    if (choice == CAROM_CHOICE_SPOT && leave == CAROM_LEAVE_KITCHEN)
+      words = "may have the ball nearest to the head string spotted";
+    if (choice != CAROM_CHOICE_PLACE && (choices & choice) != 0)
+      size += (size_t)snprintf(text + size, room - size, "; %s", words);
+  }
 }
 
 size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) {
-  static const char *const turns[] = {"plays on", "the other plays", "has won", "has lost",
-                                      "has drawn"};
-  static const char *const leaves[] = {"",
-                                       ", with the balls as before",
-                                       ", cue ball in hand",
-                                       ", cue ball in hand behind the head string",
-                                       ", cue ball in hand in the D",
-                                       ", cue ball in hand behind the baulk line"};
   if (ruling == NULL || (uint32_t)ruling->turn.outcome > CAROM_TURN_DRAW ||
       (uint32_t)ruling->turn.leave > CAROM_LEAVE_BAULK)
     return 0;
-  char foul[200] = "", choices[200] = "";
-  const char *leave = "", *turn = turns[ruling->turn.outcome];
+  char foul[200] = "", leave[80] = "", choices[200] = "";
+  const char *turn = carom_game_word_text(CAROM_GAME_WORDS_TURN, ruling->turn.outcome);
   if (ruling->turn.outcome == CAROM_TURN_PASS && ruling->state.innings == CAROM_LAST_INNING)
     turn = "the other has the equalizing inning";
   if (ruling->turn.foul != CAROM_FOUL_NONE)
     snprintf(foul, sizeof foul, "foul: %s; ", carom_foul_string(ruling->turn.foul));
   if (goes_on(&ruling->turn)) {
-    leave = leaves[ruling->turn.leave];
+    if (ruling->turn.leave != CAROM_LEAVE_AFTER)
+      snprintf(leave, sizeof leave, ", %s",
+               carom_game_word_text(CAROM_GAME_WORDS_LEAVE, ruling->turn.leave));
     write_choices(ruling->state.may, ruling->turn.leave, choices, sizeof choices);
   }
   if (text == NULL)

@@ -148,21 +148,10 @@ carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
 }
 
 const char *carom_foul_string(int foul) {
-  static const char *const words[] = {
-      "",
-      "the cue ball fell or left the table",
-      "the cue ball met no ball",
-      "the cue ball met another ball first than one that is on",
-      "a ball left the table",
-      "nothing fell, and nothing met a cushion after the first contact",
-      "the break potted nothing, and drove too few balls to cushions",
-      "another rule",
-      "a ball fell that was not on",
-      "the tip was still on the cue ball, or touched it again, as it met a ball",
-      "the cue ball jumped over a ball"};
-  if (foul < 0 || foul >= (int)(sizeof words / sizeof words[0]))
+  const char *text = carom_game_word_text(CAROM_GAME_WORDS_FOUL, foul);
+  if (text == NULL)
     return "";
-  return words[foul];
+  return text;
 }
 
 /* ---- Balls that are put back */

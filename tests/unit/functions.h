@@ -479,6 +479,8 @@ static carom_match *moving(void) {
   F(aim, carom_aim(PTR(&table), PTR(balls), INT(count), NULL, PTR(&pot), PTR(&aimed)))             \
   F(foul_of, (carom_foul_of(MAYBE(&facts), 2, ANYINT(0)), ACCEPTED))                               \
   F(foul_string, is_text(carom_foul_string(ANYINT(0))))                                            \
+  F(game_word, (carom_game_word(ANYENUM(carom_game_words, 0), ANYINT(0)), ACCEPTED))               \
+  F(game_word_text, (carom_game_word_text(ANYENUM(carom_game_words, 0), ANYINT(0)), ACCEPTED))     \
   F(is_beside, (carom_is_beside(MAYBE(&table), ANYINT(0), ANYINT(0)), ACCEPTED))                   \
   F(plan, carom_plan(PTR(&plan), PTR(choices), LENGTH(4), PTR(&found)))                            \
   F(plan_continue, carom_plan_continue(PTR(sliced_plan()), PTR(choices), LENGTH(4), PTR(&found)))  \

@@ -22,6 +22,10 @@ Solver = Literal["exact", "euler", "fast"]
 Slip = Literal["paper", "pooltool"]
 Rules = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket", "bank", "tenball", "straightrail", "blackball", "heyball", "rotation", "pyramid", "fourball", "cowboy"]
 Condition = Literal["slow_cloth", "medium_cloth", "fast_cloth", "old_cushion", "new_cushion", "humid_cushion"]
+Turn = Literal["keep", "pass", "win", "lose", "draw"]
+Leave = Literal["after", "before", "anywhere", "kitchen", "d", "baulk"]
+Choice = Literal["pass", "push", "free_ball", "place", "rack", "other_rack", "stay", "spot"]
+Phase = Literal["none", "stroke", "place", "moving", "over"]
 StopAt = Literal[
     "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",
     "spinning_stationary", "slate", "rail_top", "left_table",

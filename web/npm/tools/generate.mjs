@@ -59,9 +59,10 @@ const values = Object.fromEntries(
 /** The words of an enumeration, or else the ends of its names: ["stationary", "spinning", ...]. */
 const worded = new Map(
   api.enums
-    .find(({ name }) => name === "carom_words")
-    .values.map(({ name, comment }) => [
-      name.replace("CAROM_WORDS_", ""),
+    .filter(({ name }) => name === "carom_words" || name === "carom_game_words")
+    .flatMap(({ values }) => values)
+    .map(({ name, comment }) => [
+      name.replace(/CAROM_(GAME_)?WORDS_/, ""),
       comment.match(/carom_\w+/)[0],
     ]),
 );

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast, get_args
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from carom._shot_options import Options, StopAt, chosen, options_of, shot_option
 from carom.dtypes import Records
 from carom.games.plans import ByMatch, Kind, plan
 from carom.games.rules import GivenState, Hand, Made, Rules, Ruling, of_set, ruling_of, words_of
+from carom._described import Choice, Phase
 from carom.games.rules import GAMES, LEAVES, Game, hand_of
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
@@ -32,8 +33,8 @@ __all__ = ["Bounds", "Match"]
 __dir__ = listing(__name__)
 
 _USUAL = Options()
-_PHASES = ("none", "stroke", "place", "moving", "over")
-_MAY = ("pass", "push", "free_ball", "place", "rack", "other_rack", "stay", "spot")
+_PHASES = get_args(Phase)
+_CHOICES = get_args(Choice)
 _OWN = 1000  # the number of a game of one's own in recordings
 
 
@@ -223,7 +224,7 @@ class Match:
         """The choices for `choose`, of "pass", "push", "rack", "other_rack", "stay" and "spot"; a
         "free_ball" is named by a call, and with "place" the cue ball is in hand.
         """
-        return tuple(word for k, word in enumerate(_MAY) if self._c.may >> k & 1)
+        return tuple(word for k, word in enumerate(_CHOICES) if self._c.may >> k & 1)
 
     @property
     def cue_ball(self) -> int:
@@ -300,7 +301,7 @@ class Match:
 
     def choose(self, what: str) -> None:
         """Take a choice of `may`: "push" for the next stroke, the others instead of it."""
-        bit = choice({word: 1 << k for k, word in enumerate(_MAY)}, what, "what")
+        bit = choice({word: 1 << k for k, word in enumerate(_CHOICES)}, what, "what")
         self._act(lambda: lib.carom_match_choose(self._c, self.player, bit), "what")
 
     def place(self, x: float, y: float) -> None:

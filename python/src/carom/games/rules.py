@@ -14,7 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom import dtypes
 from carom._carom import ffi, lib
+from carom._described import Leave as LeaveWord
 from carom._described import Rules as RulesWord
+from carom._described import Turn as TurnWord
 from carom._rows import (
     Array,
     Arrays,
@@ -50,8 +52,8 @@ GivenState = Mapping[str, Any] | ArrayLike
 Hand = Literal["no", "anywhere", "kitchen", "d", "baulk"]
 GAMES = {word: k for k, word in enumerate(get_args(RulesWord))}
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
-_TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3, "draw": 4}
-LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4, "baulk": 5}
+_TURNS = {word: k for k, word in enumerate(get_args(TurnWord))}
+LEAVES = {word: k for k, word in enumerate(get_args(LeaveWord))}
 _RACES = {"own": 0, "shared": 1, "alone": 2, "points": 3}
 _WORDS = 8  # of the state of rules of one's own
 _USUAL = Options()
@@ -161,8 +163,8 @@ class Turn:
     the shot; a plan reads them without an opponent only.
     """
 
-    turn: Literal["keep", "pass", "win", "lose", "draw"]
-    leave: Literal["after", "before", "anywhere", "kitchen", "d", "baulk"] = "after"
+    turn: TurnWord
+    leave: LeaveWord = "after"
     foul: int = 0
     spot: Collection[int] = ()
     points: float = 0.0
