@@ -132,6 +132,17 @@ for of in enums["carom_words"]:
     if seen != [word for word, _ in expected]:
         faults.append(f"{of['name']}: the library tells {seen}, bindings/rows.py {expected}")
 
+# The same of games: all values have words, which are the ends of their names, in the order of the rows.
+library.carom_game_word.restype = ctypes.c_char_p
+for of in enums["carom_game_words"]:
+    values = enums[re.search(r"carom_\w+", of["comment"])[0]]
+    ends = [word for word, _ in words()[of["name"].removeprefix("CAROM_GAME_WORDS_")]]
+    seen = [library.carom_game_word(of["value"], value["value"]) for value in values]
+    if [word and word.decode() for word in seen] != ends or not all(
+        value["name"].lower().endswith(f"_{end}") for value, end in zip(values, ends)
+    ):
+        faults.append(f"{of['name']}: the library has {seen}, bindings/rows.py {ends}")
+
 # What is made of the rows, and kept.
 kept, text = ROOT / "python/src/carom/_described.py", python()
 if os.environ.get("UPDATE"):
