@@ -140,9 +140,8 @@ CAROM_API carom_status carom_match_begin_to(carom_match *match, carom_rules_kind
 
 /* The same from any layout. `of` NULL: the rules of this kind, as they stand at the beginning; else
  * these, with their state: of a caller's own rules the reader needs the same in match->rules. With
- * `leave` ANYWHERE, KITCHEN, D or BAULK the cue ball is in hand. `options`, which may be NULL, has the
- * models.
- * Also an error of carom_shot_check(). */
+ * `leave` ANYWHERE, KITCHEN, D or BAULK the cue ball is in hand. `options`, which may be NULL, has
+ * the models. Also an error of carom_shot_check(). */
 CAROM_API carom_status carom_match_begin_at(carom_match *match, carom_rules_kind rules,
                                             const carom_plan_rules *of, const carom_table *table,
                                             const carom_shot_ball *balls, int count,

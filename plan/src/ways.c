@@ -544,23 +544,37 @@ size_t carom_ways_memory(int64_t room) {
   return sizeof(workspace) + (size_t)room * sizeof(way_run);
 }
 
+static bool has_pointers(const carom_ways_job *job) {
+  return job != NULL && job->table != NULL && job->balls != NULL && job->cues != NULL &&
+         job->player != NULL && job->memory != NULL;
+}
+
+/* Whether all numbers of a job are in their ranges, except those of its cues. */
+static bool has_good_numbers(const carom_ways_job *job) {
+  const bool counts = job->count >= 1 && job->count <= CAROM_BALLS_MOST && job->strokes >= 1 &&
+                      job->scan >= job->strokes && job->rails >= 0 && job->reserved == 0;
+  const bool names = job->ball >= -1 && job->ball < job->count && job->pocket >= -1;
+  return counts && names && (uint32_t)job->goal <= CAROM_WAY_PLACE && job->radius >= 0.0;
+}
+
+/* Whether all strokes are of one ball of the layout. */
+static bool has_one_cue_ball(const carom_ways_job *job) {
+  const int64_t ball = job->cues->ball;
+  if (ball < 0 || ball >= job->count)
+    return false;
+  for (int64_t k = 0; k < job->strokes; k++)
+    if (job->cues[k].ball != ball)
+      return false;
+  return true;
+}
+
 /* Checks a job, and begins its search with memory for `room` ways. */
 static carom_status begin(ways_search *s, const carom_ways_job *job, int64_t room) {
   static const carom_shot_options usual = {0};
-  if (job == NULL || job->table == NULL || job->balls == NULL || job->cues == NULL ||
-      job->player == NULL || job->memory == NULL || room < 1 ||
-      job->memory_size < carom_ways_memory(room))
+  if (!has_pointers(job) || room < 1 || job->memory_size < carom_ways_memory(room))
     return CAROM_ERROR_NULL;
-  const bool names = job->ball >= -1 && job->ball < job->count && job->pocket >= -1;
-  if (job->count < 1 || job->count > CAROM_BALLS_MOST || job->strokes < 1 ||
-      job->scan < job->strokes || (uint32_t)job->goal > CAROM_WAY_PLACE || !names ||
-      job->rails < 0 || job->reserved != 0 || !(job->radius >= 0.0) ||
-      !carom_player_is_good(job->player))
+  if (!has_good_numbers(job) || !carom_player_is_good(job->player) || !has_one_cue_ball(job))
     return CAROM_ERROR_OPTIONS;
-  for (int64_t k = 0; k < job->strokes; k++)
-    if (job->cues[k].ball != job->cues->ball || job->cues[k].ball < 0 ||
-        job->cues[k].ball >= job->count)
-      return CAROM_ERROR_OPTIONS;
   *s = (ways_search){.job = job, .options = usual, .work = job->memory, .room = room};
   if (job->shot != NULL)
     s->options = *job->shot;

@@ -1,8 +1,9 @@
 /* The words of a game, a row each. The texts of the library, the command, recordings and other
  * languages are made of these rows; the headers have the numbers, and what each means to a caller.
  *
- * WORD(OF, VALUE, word, text): OF is the end of a carom_game_words, CAROM_VALUE the value. The word is the end
- * of the enumerator's name, so that all languages share it. games.h has the rows of RULES. */
+ * WORD(OF, VALUE, word, text): OF is the end of a carom_game_words, CAROM_VALUE the value. The word
+ * is the end of the enumerator's name, so that all languages share it. games.h has those of
+ * games. */
 #ifndef CAROM_PLAN_WORDS_H
 #define CAROM_PLAN_WORDS_H
 

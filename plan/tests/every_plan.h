@@ -305,7 +305,8 @@ EVERY_BODY(match_plan) {
   F(hand_bounds) F(is_within) F(match_begin) F(match_begin_at) F(match_begin_to) F(match_call) \
   F(match_choose) F(match_clock) F(match_concede) F(match_continue) F(match_end) F(match_place) \
   F(match_plan) F(match_prepare) F(match_read) F(match_stroke) F(refusal_name) \
-  F(aim) F(foul_of) F(foul_string) F(game_word) F(game_word_text) F(is_beside) F(plan) F(plan_continue) F(plan_hand) \
+  F(aim) F(foul_of) F(foul_string) F(game_word) F(game_word_text) F(is_beside) \
+  F(plan) F(plan_continue) F(plan_hand) \
   F(cue_ball_of) F(plan_kind_name) F(plan_memory) F(plan_rules_of) F(plan_try) F(plan_value) \
   F(player_fargo) F(player_of) F(player_strike) F(pot_kind) \
   F(rating_of) F(referee) F(rules_about_of) F(rules_fault) F(ruling_string) F(spot_ball) \
