@@ -155,7 +155,7 @@ size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) 
       (uint32_t)ruling->turn.leave > CAROM_LEAVE_BAULK)
     return 0;
   char foul[200] = "", leave[80] = "", choices[200] = "";
-  const char *turn = carom_game_word_text(CAROM_GAME_WORDS_TURN, ruling->turn.outcome);
+  const char *turn = carom_game_word_text(CAROM_GAME_WORDS_TURN, (int)ruling->turn.outcome);
   if (ruling->turn.outcome == CAROM_TURN_PASS && ruling->state.innings == CAROM_LAST_INNING)
     turn = "the other has the equalizing inning";
   if (ruling->turn.foul != CAROM_FOUL_NONE)
@@ -163,7 +163,7 @@ size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) 
   if (goes_on(&ruling->turn)) {
     if (ruling->turn.leave != CAROM_LEAVE_AFTER)
       snprintf(leave, sizeof leave, ", %s",
-               carom_game_word_text(CAROM_GAME_WORDS_LEAVE, ruling->turn.leave));
+               carom_game_word_text(CAROM_GAME_WORDS_LEAVE, (int)ruling->turn.leave));
     write_choices(ruling->state.may, ruling->turn.leave, choices, sizeof choices);
   }
   if (text == NULL)

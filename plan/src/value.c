@@ -107,7 +107,7 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
     most = CAROM_BALLS_MOST;
   for (int k = 0; k < 2; k++)
     left[k] = (int32_t)carom_max(carom_min(needed[k], most), 1);
-  CAROM_PROMISE(who == 0 || who == 1);
+  CAROM_PROMISE(seat == 0 || seat == 1);
   double x[NEXT_NUMBERS];
   carom_plan_features(view, balls, in_play, targets, pockets, seat, in_hand, NULL, x);
   const double p = carom_chance_next(view, x);

@@ -397,7 +397,7 @@ static inline void begin_step(bool flat, state *c, pushes *pushed) {
   for (int k = 0; c->on_slate && k < c->balls; k++)
     if (c->slate[k].J > 0.0)
       list_pushed(c, pushed, &c->ball[k]);
-  CAROM_PROMISE(now->contacts <= now->pressed && now->balls <= c->balls);
+  CAROM_PROMISE(pushed->contacts <= pushed->pressed && pushed->balls <= c->balls);
 
   /* all normal impulses, when all of that is known */
   for (int a = 0; a < pushed->contacts; a++) {
