@@ -118,7 +118,7 @@ class Header:
                 break
         return ""
 
-    def beside(self, line):
+    def trailing_comment(self, line):
         """The comment that begins on a line, after code."""
         return next((words for first, _, words in self.comments if first == line), "")
 
@@ -190,7 +190,7 @@ class Api:
                 name,
                 comment,
                 returns=type_of(inner.type),
-                arguments=[self.argument(name, one) for one in self.arguments(inner)],
+                arguments=[self.argument(name, entry) for entry in self.arguments(inner)],
             )
         elif isinstance(inner, c_ast.Enum):
             self.constants(header, inner.values)
@@ -224,9 +224,9 @@ class Api:
     def arguments(function):
         found = function.args.params if function.args else []
         return [
-            one
-            for one in found
-            if not (isinstance(one.type, c_ast.TypeDecl) and one.type.type.names == ["void"])
+            entry
+            for entry in found
+            if not (isinstance(entry.type, c_ast.TypeDecl) and entry.type.type.names == ["void"])
         ]
 
     def argument(self, function, node):
@@ -235,7 +235,7 @@ class Api:
             found["length"] = self.value(found.pop("array")[0])
             found["pointer"] = 1
         if "to_array" in found:
-            found["to_array"] = [self.value(one) for one in found["to_array"]]
+            found["to_array"] = [self.value(entry) for entry in found["to_array"]]
         written = found.get("pointer") and not found.get("const")
         both = (function, node.name) in READ_AND_WRITTEN or (
             node.name in OBJECTS and function.startswith(f"carom_{node.name}_")
@@ -250,21 +250,25 @@ class Api:
 
     def enumerators(self, header, values):
         found, following = [], 0
-        for one in values.enumerators:
-            self.values[one.name] = value = self.value(one.value) if one.value else following
+        for entry in values.enumerators:
+            self.values[entry.name] = value = self.value(entry.value) if entry.value else following
             following = value + 1
             found.append(
-                {"name": one.name, "value": value, "comment": header.beside(one.coord.line)}
+                {
+                    "name": entry.name,
+                    "value": value,
+                    "comment": header.trailing_comment(entry.coord.line),
+                }
             )
         return found
 
     def constants(self, header, values):
-        for one in self.enumerators(header, values):
+        for entry in self.enumerators(header, values):
             self.add(
                 "constants",
-                one["name"],
-                one["comment"] or header.above(values.enumerators[0].coord.line, over=1),
-                value=one["value"],
+                entry["name"],
+                entry["comment"] or header.above(values.enumerators[0].coord.line, over=1),
+                value=entry["value"],
             )
 
     def macros(self, header):
@@ -280,9 +284,9 @@ class Api:
 
     def struct(self, header, name, comment, node):
         fields = []
-        for one in node.decls:
-            words = header.beside(one.coord.line) or header.above(one.coord.line)
-            found = {"name": one.name, **type_of(one.type)}
+        for entry in node.decls:
+            words = header.trailing_comment(entry.coord.line) or header.above(entry.coord.line)
+            found = {"name": entry.name, **type_of(entry.type)}
             if "array" in found:
                 found["array"] = [self.value(length) for length in found["array"]]
             if UNITS.fullmatch(words) and "," in words:
@@ -346,35 +350,35 @@ def abi(api, bits=None):
     those of that system.
     """
     lines = []
-    for one in types(api):
-        if "values" in one:
-            lines.append(f"{one['name']}: 4 bytes, aligned to 4")
+    for entry in types(api):
+        if "values" in entry:
+            lines.append(f"{entry['name']}: 4 bytes, aligned to 4")
             continue
-        here = one[bits] if bits else one
-        lines.append(f"{one['name']}: {here['size']} bytes, aligned to {here['align']}")
-        offsets = here["offsets"] if bits else [field["offset"] for field in one["fields"]]
-        sizes = here["sizes"] if bits else [field["size"] for field in one["fields"]]
+        layout = entry[bits] if bits else entry
+        lines.append(f"{entry['name']}: {layout['size']} bytes, aligned to {layout['align']}")
+        offsets = layout["offsets"] if bits else [field["offset"] for field in entry["fields"]]
+        sizes = layout["sizes"] if bits else [field["size"] for field in entry["fields"]]
         lines += [
             f"  {offset:3} {field['name']}: {size}"
-            for field, offset, size in zip(one["fields"], offsets, sizes)
+            for field, offset, size in zip(entry["fields"], offsets, sizes)
         ]
     return "\n".join([*lines, *(f"{name} = {value}" for name, value in values(api)), ""])
 
 
 def types(api):
     """Structs and enumerations in the order of the headers."""
-    return sorted(api["structs"] + api["enums"], key=lambda one: one["place"])
+    return sorted(api["structs"] + api["enums"], key=lambda entry: entry["place"])
 
 
 def values(api):
     """Names and values of enumerators and whole constants but for the version, in the order of
     their names.
     """
-    found = [one for enum in api["enums"] for one in enum["values"]] + api["constants"]
+    found = [entry for enum in api["enums"] for entry in enum["values"]] + api["constants"]
     return sorted(
-        (one["name"], one["value"])
-        for one in found
-        if isinstance(one["value"], int) and "_VERSION_" not in one["name"]
+        (entry["name"], entry["value"])
+        for entry in found
+        if isinstance(entry["value"], int) and "_VERSION_" not in entry["name"]
     )
 
 
@@ -382,12 +386,12 @@ def c_program(api):
     """A program that prints the same as its compiler sees it."""
     lines = [f"#include <{name}>" for name in api["headers"]]
     lines += ["#include <stdio.h>", "int main(void) {"]
-    for one in types(api):
-        name = one["name"]
+    for entry in types(api):
+        name = entry["name"]
         lines.append(
             f'  printf("{name}: %zu bytes, aligned to %zu\\n", sizeof({name}), _Alignof({name}));'
         )
-        for field in one.get("fields", ()):
+        for field in entry.get("fields", ()):
             member = field["name"]
             lines.append(
                 f'  printf("  %3zu {member}: %zu\\n", offsetof({name}, {member}), sizeof((({name} *)0)->{member}));'
@@ -397,17 +401,19 @@ def c_program(api):
 
 
 def main():
-    made = {
+    outputs = {
         "json": lambda api: json.dumps(api, indent=1, ensure_ascii=False) + "\n",
-        "functions": lambda api: "".join(sorted(f"{one['name']}\n" for one in api["functions"])),
+        "functions": lambda api: "".join(
+            sorted(f"{entry['name']}\n" for entry in api["functions"])
+        ),
         "abi": abi,
         "abi-wasm32": lambda api: abi(api, "wasm32"),
         "c": c_program,
     }
     what, include = sys.argv[1:]
-    if what not in made:
-        raise SystemExit(f"{what}: must be one of {', '.join(made)}")
-    sys.stdout.write(made[what](describe(include)))
+    if what not in outputs:
+        raise SystemExit(f"{what}: must be one of {', '.join(outputs)}")
+    sys.stdout.write(outputs[what](describe(include)))
 
 
 if __name__ == "__main__":

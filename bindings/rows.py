@@ -19,19 +19,19 @@ def arguments(text):
     """The arguments of a call of a macro, of which `text` begins behind the bracket; and where it
     ends.
     """
-    found, begin, depth, at = [], 0, 0, 0
+    found, begin, depth, position = [], 0, 0, 0
     for match in re.finditer(r'"(?:[^"\\]|\\.)*"|[(),]', text):
-        at, sign = match.start(), match[0]
+        position, sign = match.start(), match[0]
         if sign == "(":
             depth += 1
         elif depth == 0 and sign in ",)":
-            found.append(" ".join(text[begin:at].split()))
-            begin = at + 1
+            found.append(" ".join(text[begin:position].split()))
+            begin = position + 1
         if sign == ")":
             if depth == 0:
                 break
             depth -= 1
-    return found, at + 1
+    return found, position + 1
 
 
 def rows(file, macro):
@@ -41,16 +41,17 @@ def rows(file, macro):
     body, calls = head[2].replace("\\\n", "\n"), head[1].replace(" ", "").split(",")
     body = re.sub(
         r"\bCAROM_\w+_OPTIONS\(\w+\)",
-        lambda of: "".join(
-            f"{calls[0]}({', '.join(row)})" for _, row in rows(file, of[0][: -len(calls[0]) - 2])
+        lambda call_match: "".join(
+            f"{calls[0]}({', '.join(row)})"
+            for _, row in rows(file, call_match[0][: -len(calls[0]) - 2])
         ),
         body,
     )
-    call_of, found, at = re.compile(rf"\b({'|'.join(calls)})\("), [], 0
-    while call := call_of.search(body, at):
+    call_of, found, position = re.compile(rf"\b({'|'.join(calls)})\("), [], 0
+    while call := call_of.search(body, position):
         values, size = arguments(body[call.end() :])
         found.append((call[1], values))
-        at = call.end() + size
+        position = call.end() + size
     return found
 
 
@@ -77,22 +78,26 @@ def digits(x):
     return re.sub(r"e\+?(-?)0*", r"e\1", f"{x:.0e}" if abs(x) >= 1e5 else f"{x:g}")
 
 
-def range_of(unit, low, high, other):
+def range_of(unit, low, high, alternative):
     """A range in the words of carom_number_range()."""
-    (low, from_), (high, to), (other, _) = end_of(low), end_of(high), end_of(other)
-    begin = "" if other is None else f"{digits(other)}, or "
+    (low, from_), (high, is_end_open), (alternative, _) = (
+        end_of(low),
+        end_of(high),
+        end_of(alternative),
+    )
+    begin = "" if alternative is None else f"{digits(alternative)}, or "
     if low is None:
         words = "finite" if high is None else f"at most {digits(high)}"
     elif high is None:
         words = f"{digits(low)} or more and finite" if from_ else f"above {digits(low)} and finite"
-    elif from_ and to:
+    elif from_ and is_end_open:
         words = f"{digits(low)} to {digits(high)}"
-    elif not from_ and not to:
+    elif not from_ and not is_end_open:
         words = f"between {digits(low)} and {digits(high)}"
     else:
         words = (
             f"above {digits(low)} and at most {digits(high)}"
-            if to
+            if is_end_open
             else f"{digits(low)} or more and below {digits(high)}"
         )
     return begin + words + (f", in {unit}" if unit else "")
@@ -101,7 +106,7 @@ def range_of(unit, low, high, other):
 def numbers():
     """The numbers of a ball, in the order of carom_ball_kind."""
     found = []
-    for kind, (name, key, unit, low, high, other, error, reader, text) in rows(
+    for kind, (name, key, unit, low, high, alternative, error, reader, text) in rows(
         "schema/numbers.h", "CAROM_NUMBERS"
     ):
         found.append(
@@ -109,8 +114,8 @@ def numbers():
                 "name": name,
                 "key": text_of(key),
                 "unit": text_of(unit),
-                "range": range_of(text_of(unit), low, high, other),
-                "ends": ends_of(low, high, other),
+                "range": range_of(text_of(unit), low, high, alternative),
+                "ends": ends_of(low, high, alternative),
                 "error": f"CAROM_ERROR_{error}",
                 "reader": reader,
                 "of_cushion": kind == "CUSHION",
@@ -127,8 +132,8 @@ def words():
         ("schema/words.h", "CAROM_WORD_ROWS"),
         ("../plan/src/words.h", "CAROM_GAME_WORD_ROWS"),
     ):
-        for _, (of, _value, word, text) in rows(file, macro):
-            found.setdefault(of, []).append((text_of(word), text_of(text)))
+        for _, (word_set, _value, word, text) in rows(file, macro):
+            found.setdefault(word_set, []).append((text_of(word), text_of(text)))
     models = [
         (text_of(row[1]), text_of(row[-1]))
         for _, row in rows("cushion/list.h", "CAROM_CUSHION_MODELS")
@@ -157,13 +162,13 @@ def parts():
                 "key": text_of(key),
                 "unit": text_of(unit),
                 "range": range_of(
-                    text_of(unit), low, high.replace("CAROM_BALLS_MOST - 1", "31"), other
+                    text_of(unit), low, high.replace("CAROM_BALLS_MOST - 1", "31"), alternative
                 ),
-                "ends": ends_of(low, high, other) if kind == "ROW" else [],
+                "ends": ends_of(low, high, alternative) if kind == "ROW" else [],
                 "error": f"CAROM_ERROR_{error}",
                 "text": text_of(text),
             }
-            for kind, (name, key, unit, low, high, other, error, text) in rows(
+            for kind, (name, key, unit, low, high, alternative, error, text) in rows(
                 "schema/numbers.h", f"CAROM_{struct.removeprefix('ball_').upper()}_NUMBERS"
             )
         ]
@@ -225,13 +230,13 @@ def options():
             "../plan/src/plan_options.h" if group == "PLAN" else "schema/options.h",
             f"CAROM_{group}_OPTIONS",
         ):
-            kind, of = re.fullmatch(r"(\w+)(?:\((.*)\))?", form).groups()
+            kind, word_set = re.fullmatch(r"(\w+)(?:\((.*)\))?", form).groups()
             words_of, unit = (
-                (of if kind in ("WORDS", "SET") and of != "BALLS" else None),
-                text_of(of or ""),
+                (word_set if kind in ("WORDS", "SET") and word_set != "BALLS" else None),
+                text_of(word_set or ""),
             )
             if kind == "WORDS":
-                several = [word for word, _ in words()[of]]
+                several = [word for word, _ in words()[word_set]]
                 range_ = " or ".join([", ".join(several[:-1]), several[-1]])
             elif kind in ("SET", "SEED"):
                 range_ = f"a set of bits 0 to {63 if high == 'UINT64_MAX' else int(high).bit_length() - 1}"
@@ -299,38 +304,40 @@ def shot_options():
     """The options of shots in Python, (name, type, default, text, enumeration or bound): models,
     then counts, then its own.
     """
-    given = [
-        one
-        for one in options()["carom_shot_options"]
-        if one["form"] in ("words", "count", "flag") and one["name"] != "threads"
+    chosen_options = [
+        option
+        for option in options()["carom_shot_options"]
+        if option["form"] in ("words", "count", "flag") and option["name"] != "threads"
     ]
-    given.sort(
-        key=lambda one: (
-            one["form"] == "flag",
-            one["group"] == "stop",
-            one["form"] == "count",
-            one["name"] if one["form"] == "count" else "",
+    chosen_options.sort(
+        key=lambda option: (
+            option["form"] == "flag",
+            option["group"] == "stop",
+            option["form"] == "count",
+            option["name"] if option["form"] == "count" else "",
         )
     )
-    for one in given:
-        if one["form"] == "words":
+    for option in chosen_options:
+        if option["form"] == "words":
             yield (
-                one["name"],
-                name_of(one["words"]),
-                json.dumps(words()[one["words"]][0][0]),
-                one["text"],
-                one["words"],
+                option["name"],
+                name_of(option["words"]),
+                json.dumps(words()[option["words"]][0][0]),
+                option["text"],
+                option["words"],
             )
         else:
             yield (
-                one["name"],
-                "bool" if one["form"] == "flag" else "int",
-                "False" if one["form"] == "flag" else "0",
-                one["text"],
-                int(most[1]) if (most := re.fullmatch(r"0 to (\d+)", one["range"])) else 2**31 - 1,
+                option["name"],
+                "bool" if option["form"] == "flag" else "int",
+                "False" if option["form"] == "flag" else "0",
+                option["text"],
+                int(most[1])
+                if (most := re.fullmatch(r"0 to (\d+)", option["range"]))
+                else 2**31 - 1,
             )
-    for one in OWN:
-        yield *one, None
+    for option in OWN:
+        yield *option, None
 
 
 def wrapped(text, indent, width=140):
@@ -390,13 +397,13 @@ def python_event_types():
     """Labels and types of events as enumerations, and the literal type of the latter."""
     every_word = [row for _, row in rows("schema/words.h", "CAROM_WORD_ROWS")]
     lines = []
-    for name, of, text in (
+    for name, word_set, text in (
         ("Label", "LABEL", "How a ball moves."),
         ("EventType", "EVENT", "What happened: to ball a, and to ball, rail, jaw or pocket b."),
     ):
-        values = [row[1].partition("_")[2] for row in every_word if row[0] == of]
+        values = [row[1].partition("_")[2] for row in every_word if row[0] == word_set]
         lines.append(EVENTS.format(name, text))
-        lines += [f"    {value} = {k}" for k, value in enumerate(values, of == "EVENT")]
+        lines += [f"    {value} = {k}" for k, value in enumerate(values, word_set == "EVENT")]
     events = quoted(["contact", *map(str.lower, values)])
     return ["StopAt = Literal[", *wrapped(f"{events},", "    "), "]  # fmt: skip", *lines]
 
@@ -406,33 +413,41 @@ def python():
     impact on a cushion.
     """
     lines, chosen = [HEAD], list(shot_options())
-    for of in OF_PYTHON:
-        lines.append(f"{name_of(of)} = Literal[{quoted(word for word, _ in words()[of])}]")
+    for word_set in OF_PYTHON:
+        lines.append(
+            f"{name_of(word_set)} = Literal[{quoted(word for word, _ in words()[word_set])}]"
+        )
     lines += [*python_event_types(), OPTIONS]
-    for name, kind, _, text, of in chosen:
-        several = f"{{{quoted(word for word, _ in words()[of])}}}" if of in words() else kind
+    for name, kind, _, text, word_set in chosen:
+        several = (
+            f"{{{quoted(word for word, _ in words()[word_set])}}}" if word_set in words() else kind
+        )
         lines += [f"    {name} : {several}", *wrapped(text[0].upper() + text[1:], "        ")]
     lines += ['    """', ""]
     lines += [f"    {name}: {kind} = {default}" for name, kind, default, *_ in chosen]
     lines += [CHANGES, *(f"    {name}: {kind}" for name, kind, *_ in chosen), KINDS]
-    kinds = ", ".join(f'"{name}": "{of}"' for name, *_, of in chosen if of in words())
-    counts = ", ".join(f'"{name}": {of}' for name, *_, of in chosen if isinstance(of, int))
+    kinds = ", ".join(
+        f'"{name}": "{word_set}"' for name, *_, word_set in chosen if word_set in words()
+    )
+    counts = ", ".join(
+        f'"{name}": {word_set}' for name, *_, word_set in chosen if isinstance(word_set, int)
+    )
     lines += [*wrapped(f"{kinds},", "    "), "}  # fmt: skip", f"COUNTS = {{{counts}}}", CUSHIONS]
-    for one in numbers():
-        if one["of_cushion"]:
-            reader = re.match(r"(?:BY_CUSHION|WITH)\((\w+)", one["reader"])
+    for option in numbers():
+        if option["of_cushion"]:
+            reader = re.match(r"(?:BY_CUSHION|WITH)\((\w+)", option["reader"])
             model = reader[1].lower() if reader else "any model"
-            lines.append(f"    {one['name']}: float")
-            lines.append(f'    """{model}: {one["text"]}; {one["range"]}"""')
+            lines.append(f"    {option['name']}: float")
+            lines.append(f'    """{model}: {option["text"]}; {option["range"]}"""')
     lines.append(BALLS)
-    for one in numbers():
-        lines.append(f"    {one['name']}: npt.ArrayLike | None")
-        lines.append(f'    """{one["text"]}; {one["range"]}"""')
+    for option in numbers():
+        lines.append(f"    {option['name']}: npt.ArrayLike | None")
+        lines.append(f'    """{option["text"]}; {option["range"]}"""')
     return "\n".join([*lines, ""])
 
 
 if __name__ == "__main__":
-    made = {
+    outputs = {
         "json": lambda: json.dumps(
             {
                 "numbers": numbers(),
@@ -446,4 +461,4 @@ if __name__ == "__main__":
         + "\n",
         "python": python,
     }
-    sys.stdout.write(made[sys.argv[1]]())
+    sys.stdout.write(outputs[sys.argv[1]]())

@@ -65,19 +65,23 @@ def has_pointer(name, structs):
     )
 
 
-def role_of(one, following, last_role, function, structs):
+def role_of(entry, following, last_role, function, structs):
     """The role of an argument, or None."""
-    if not one.get("pointer"):
-        if one["name"] in COUNTS:
+    if not entry.get("pointer"):
+        if entry["name"] in COUNTS:
             return {"list": "count", "changed list": "count", "words": "room"}.get(last_role)
-        fields = structs[one["type"]]["fields"] if one["type"] in structs else []
+        fields = structs[entry["type"]]["fields"] if entry["type"] in structs else []
         return "members" if {field["type"] for field in fields} == {"int32_t"} else "value"
-    counted = following in COUNTS and not one["type"].endswith("_options")
-    if one["type"] == "char" and one["direction"] == "out" and counted:
+    counted = following in COUNTS and not entry["type"].endswith("_options")
+    if entry["type"] == "char" and entry["direction"] == "out" and counted:
         return "words"
-    if one["type"] not in structs or one["name"] in FAULTS or has_pointer(one["type"], structs):
+    if (
+        entry["type"] not in structs
+        or entry["name"] in FAULTS
+        or has_pointer(entry["type"], structs)
+    ):
         return None
-    role = ROLES.get((one["direction"], counted))
+    role = ROLES.get((entry["direction"], counted))
     is_status = function["returns"]["type"] == "carom_status"
     return "changed" if role == "result" and not is_status else role
 
@@ -89,9 +93,9 @@ def roles_of(function, structs):
     if function["returns"].get("pointer") and function["returns"]["type"] != "char":
         return None
     found, last_role = [], None
-    for one, following in zip(function["arguments"], [*function["arguments"][1:], {"name": ""}]):
-        last_role = role_of(one, following["name"], last_role, function, structs)
-        found.append((one, last_role))
+    for entry, following in zip(function["arguments"], [*function["arguments"][1:], {"name": ""}]):
+        last_role = role_of(entry, following["name"], last_role, function, structs)
+        found.append((entry, last_role))
     roles = [role for _, role in found]
     return found if None not in roles and roles.count("result") < 2 else None
 
@@ -110,38 +114,38 @@ class Layer:
 
     def __init__(self, api):
         self.api = api
-        self.callbacks = {one["name"] for one in api["callbacks"]}
-        self.enums = {one["name"] for one in api["enums"]}
-        self.structs = {one["name"]: one for one in api["structs"]}
+        self.callbacks = {entry["name"] for entry in api["callbacks"]}
+        self.enums = {entry["name"] for entry in api["enums"]}
+        self.structs = {entry["name"]: entry for entry in api["structs"]}
         self.by_hand = called_by(self.HAND, self.CALL)
 
     def listed(self, several, indent, form):
         """Entries of the description, each with its comment above it."""
         lines = []
-        for one in several:
-            lines += [*self.about(one["comment"], indent), *f"{indent}{form(one)}".split("\n")]
+        for entry in several:
+            lines += [*self.about(entry["comment"], indent), *f"{indent}{form(entry)}".split("\n")]
         return lines
 
-    def made(self, of_match):
+    def wrapped_functions(self, of_match):
         """The functions that are made, with the roles of their arguments: those of a match, or all
         others.
         """
-        for one in self.api["functions"]:
-            is_of_match = one["name"].startswith("carom_match_")
-            is_beginning = one["name"].startswith("carom_match_begin")
-            if is_of_match != of_match or is_beginning or one["name"] in self.by_hand:
+        for entry in self.api["functions"]:
+            is_of_match = entry["name"].startswith("carom_match_")
+            is_beginning = entry["name"].startswith("carom_match_begin")
+            if is_of_match != of_match or is_beginning or entry["name"] in self.by_hand:
                 continue
-            arguments = one["arguments"][is_of_match:]
-            roles = roles_of({**one, "arguments": arguments}, self.structs)
+            arguments = entry["arguments"][is_of_match:]
+            roles = roles_of({**entry, "arguments": arguments}, self.structs)
             if roles is not None:
-                yield one, roles
+                yield entry, roles
 
     def lines(self, of_match):
         """The lines of these functions."""
         found = []
-        for one, roles in self.made(of_match):
-            found += ["", *self.about(one["comment"], self.INDENT)]
-            found += self.function(one, roles, of_match)
+        for entry, roles in self.wrapped_functions(of_match):
+            found += ["", *self.about(entry["comment"], self.INDENT)]
+            found += self.function(entry, roles, of_match)
         return found[1:]
 
     def calls(self):
@@ -151,43 +155,45 @@ class Layer:
 
     def called(self):
         """The functions of C that the layer without pointers calls."""
-        return self.by_hand | {one["name"] for kind in (0, 1) for one, _ in self.made(kind)}
+        return self.by_hand | {
+            entry["name"] for kind in (0, 1) for entry, _ in self.wrapped_functions(kind)
+        }
 
     def arguments_of(self, roles):
         """What the caller gives, and what C gets."""
-        given, passed, last = [], [], ""
-        for one, role in roles:
-            name, type_ = self.name(one["name"]), self.value_type(one)
-            fields = self.structs[one["type"]]["fields"] if role == "members" else []
+        parameters, passed, last = [], [], ""
+        for entry, role in roles:
+            name, type_ = self.name(entry["name"]), self.value_type(entry)
+            fields = self.structs[entry["type"]]["fields"] if role == "members" else []
             if role == "members":
-                given += [
+                parameters += [
                     self.GIVEN["value"][0].format(name=field["name"], type=self.value_type(field))
                     for field in fields
                 ]
             elif self.GIVEN[role][0]:
-                given.append(self.GIVEN[role][0].format(name=name, type=type_))
-            is_word = one["type"] in self.enums and role == "value"
+                parameters.append(self.GIVEN[role][0].format(name=name, type=type_))
+            is_word = entry["type"] in self.enums and role == "value"
             passed.append(
                 self.GIVEN["word" if is_word else role][1].format(
                     name=name,
                     type=type_,
                     last=last,
-                    count=self.type(one).replace("c_int", "i32"),
+                    count=self.type(entry).replace("c_int", "i32"),
                     members=", ".join(self.MEMBER.format(field["name"]) for field in fields),
                 )
             )
             last = name
-        return given, passed
+        return parameters, passed
 
 
-def wrapped(words, before, width=100):
+def wrapped(words, prefix, width=100):
     """Lines of a comment."""
     lines = [""]
     for word in words.split():
-        if len(before) + len(lines[-1]) + len(word) + 1 > width and lines[-1]:
+        if len(prefix) + len(lines[-1]) + len(word) + 1 > width and lines[-1]:
             lines.append("")
         lines[-1] += f" {word}" if lines[-1] else word
-    return [before + line for line in lines if line]
+    return [prefix + line for line in lines if line]
 
 
 class CSharp(Layer):
@@ -314,18 +320,18 @@ namespace Carom {"""
 
     def text(self):
         lines = [NOTE.format(version=self.api["version"]) + self.HEAD]
-        for one in self.api["enums"]:
+        for entry in self.api["enums"]:
             lines += self.listed(
-                [one], "  ", lambda one: f"public enum {self.type_name(one['name'])} {{"
+                [entry], "  ", lambda entry: f"public enum {self.type_name(entry['name'])} {{"
             )
-            for name, value in enumerators(one):
+            for name, value in enumerators(entry):
                 lines += self.listed(
                     [value], "    ", lambda value, name=name: f"{name} = {value['value']},"
                 )
             lines += ["  }", ""]
-        for one in self.api["structs"]:
-            lines += self.listed([one], "  ", self.struct_head)
-            lines += [*self.listed(one["fields"], "    ", self.field), "  }", ""]
+        for entry in self.api["structs"]:
+            lines += self.listed([entry], "  ", self.struct_head)
+            lines += [*self.listed(entry["fields"], "    ", self.field), "  }", ""]
         for (struct, count), size in self.arrays.items():
             lines.append(
                 self.ARRAY.format(
@@ -336,21 +342,23 @@ namespace Carom {"""
         lines += self.listed(self.api["constants"], "    ", self.constant)
         for kind, form in (("callbacks", self.CALLBACK), ("functions", self.FUNCTION)):
             lines += self.listed(
-                self.api[kind], "    ", lambda one, form=form: form.format(self.signature(one))
+                self.api[kind], "    ", lambda entry, form=form: form.format(self.signature(entry))
             )
         return "\n".join([*lines, "  }", "}", ""])
 
-    def struct_head(self, one):
-        name = self.type_name(one["name"])
+    def struct_head(self, entry):
+        name = self.type_name(entry["name"])
         return f"[StructLayout(LayoutKind.Sequential)]\n  public unsafe struct {name} {{"
 
     @staticmethod
-    def constant(one):
-        kind = "double" if isinstance(one["value"], float) else "int"
-        return f"public const {kind} {one['name']} = {one['value']};"
+    def constant(entry):
+        kind = "double" if isinstance(entry["value"], float) else "int"
+        return f"public const {kind} {entry['name']} = {entry['value']};"
 
     def signature(self, function):
-        arguments = (f"{self.type(one)} {self.name(one['name'])}" for one in function["arguments"])
+        arguments = (
+            f"{self.type(entry)} {self.name(entry['name'])}" for entry in function["arguments"]
+        )
         return f"{self.type(function['returns'])} {function['name']}({', '.join(arguments)})"
 
     def value_type(self, about):
@@ -363,29 +371,29 @@ namespace Carom {"""
     def function(self, function, roles, of_match):
         """A function without pointers."""
         roles = [
-            (one, "changed" if role == "object" and self.is_large(one) else role)
-            for one, role in roles
+            (entry, "changed" if role == "object" and self.is_large(entry) else role)
+            for entry, role in roles
         ]
-        given, passed = self.arguments_of(roles)
+        parameters, passed = self.arguments_of(roles)
         name = pascal(function["name"].removeprefix("carom_match_" if of_match else "carom_"))
         if of_match:
-            of_player = ["Player" if one == "player" else one for one in passed]
-            given = [one for one in given if one != "int player"]
+            of_player = ["Player" if entry == "player" else entry for entry in passed]
+            parameters = [entry for entry in parameters if entry != "int player"]
             call = f"Native.{function['name']}({', '.join(['Open', *of_player])})"
             return [
-                f"    public void {name}({', '.join(given)}) {{",
+                f"    public void {name}({', '.join(parameters)}) {{",
                 f"      Told({call});",
                 "    }",
             ]
 
         pinned = "".join(
-            f"fixed ({self.type(one)} {self.name(one['name'])}At = {place}) "
-            for one, role in roles
+            f"fixed ({self.type(entry)} {self.name(entry['name'])}At = {place}) "
+            for entry, role in roles
             if role in self.FIXED
-            for place in [self.FIXED[role].format(name=self.name(one["name"]))]
+            for place in [self.FIXED[role].format(name=self.name(entry["name"]))]
         )
         call = f"Native.{function['name']}({', '.join(passed)})"
-        result = next((self.value_type(one) for one, role in roles if role == "result"), None)
+        result = next((self.value_type(entry) for entry, role in roles if role == "result"), None)
         returned = function["returns"]
         if result:
             lines = [f"{result} made;", f"{pinned}Billiards.Check({call});", "return made;"]
@@ -408,7 +416,7 @@ namespace Carom {"""
         else:
             result = self.type(returned)
             lines = [f"{pinned}{'' if result == 'void' else 'return '}{call};"]
-        head = f"    public static {result} {name}({', '.join(given)}) {{"
+        head = f"    public static {result} {name}({', '.join(parameters)}) {{"
         return [head, *(f"      {line}" for line in lines), "    }"]
 
     CALLS = """using System;
@@ -443,12 +451,12 @@ static class Layout {{
     def layout_test(self):
         """A program that compares sizes and offsets with those of C."""
         lines = []
-        for one in self.api["structs"]:
-            struct = self.type_name(one["name"])
-            lines.append(f'    Same("{struct}", sizeof({struct}), {one["size"]});')
+        for entry in self.api["structs"]:
+            struct = self.type_name(entry["name"])
+            lines.append(f'    Same("{struct}", sizeof({struct}), {entry["size"]});')
             lines += [
                 f'    Same("{struct}.{name}", (long)Marshal.OffsetOf(typeof({struct}), "{name.lstrip("@")}"), {field["offset"]});'
-                for field in one["fields"]
+                for field in entry["fields"]
                 for name in [self.name(field["name"])]
             ]
         return self.LAYOUT.format(tests="\n".join(lines), count=len(self.api["structs"]))
@@ -507,7 +515,7 @@ class Rust(Layer):
 
     def signature(self, function):
         arguments = ", ".join(
-            f"{self.name(one['name'])}: {self.type(one)}" for one in function["arguments"]
+            f"{self.name(entry['name'])}: {self.type(entry)}" for entry in function["arguments"]
         )
         returns = self.type(function["returns"])
         return f"({arguments})" + ("" if returns == "c_void" else f" -> {returns}")
@@ -535,42 +543,44 @@ impl Default for {0} {{
     def text(self):
         lines = [NOTE.format(version=self.api["version"]) + self.HEAD]
         lines += self.listed(self.api["constants"], "", self.constant)
-        for one in self.api["enums"]:
-            lines += self.listed([one], "", lambda one: f"pub type {one['name']} = c_int;")
+        for entry in self.api["enums"]:
+            lines += self.listed([entry], "", lambda entry: f"pub type {entry['name']} = c_int;")
             lines += self.listed(
-                one["values"],
+                entry["values"],
                 "",
                 lambda value,
-                of=one["name"]: f"pub const {value['name']}: {of} = {value['value']};",
+                enumeration=entry[
+                    "name"
+                ]: f"pub const {value['name']}: {enumeration} = {value['value']};",
             )
-        for one in self.api["structs"]:
-            lines += ["", *self.listed([one], "", self.struct_head)]
-            lines += self.listed(one["fields"], "    ", self.field)
-            lines.append(self.DEFAULT.format(one["name"]))
-        for one in self.api["callbacks"]:
-            lines += ["", *self.listed([one], "", self.callback)]
+        for entry in self.api["structs"]:
+            lines += ["", *self.listed([entry], "", self.struct_head)]
+            lines += self.listed(entry["fields"], "    ", self.field)
+            lines.append(self.DEFAULT.format(entry["name"]))
+        for entry in self.api["callbacks"]:
+            lines += ["", *self.listed([entry], "", self.callback)]
         lines += ["", 'extern "C" {']
         lines += self.listed(
             self.api["functions"],
             "    ",
-            lambda one: f"pub fn {one['name']}{self.signature(one)};",
+            lambda entry: f"pub fn {entry['name']}{self.signature(entry)};",
         )
         return "\n".join([*lines, "}", ""])
 
     @staticmethod
-    def constant(one):
-        kind = "f64" if isinstance(one["value"], float) else "c_int"
-        return f"pub const {one['name']}: {kind} = {one['value']};"
+    def constant(entry):
+        kind = "f64" if isinstance(entry["value"], float) else "c_int"
+        return f"pub const {entry['name']}: {kind} = {entry['value']};"
 
     @staticmethod
-    def struct_head(one):
-        return f"#[repr(C)]\n#[derive(Clone, Copy, Debug)]\npub struct {one['name']} {{"
+    def struct_head(entry):
+        return f"#[repr(C)]\n#[derive(Clone, Copy, Debug)]\npub struct {entry['name']} {{"
 
-    def field(self, one):
-        return f"pub {self.name(one['name'])}: {self.type(one)},"
+    def field(self, entry):
+        return f"pub {self.name(entry['name'])}: {self.type(entry)},"
 
-    def callback(self, one):
-        return f'pub type {one["name"]} = unsafe extern "C" fn{self.signature(one)};'
+    def callback(self, entry):
+        return f'pub type {entry["name"]} = unsafe extern "C" fn{self.signature(entry)};'
 
     def value_type(self, about):
         """A type of the safe layer: enumerations are those of words.rs."""
@@ -581,30 +591,33 @@ impl Default for {0} {{
 
     def function(self, function, roles, of_match):
         """A function without pointers."""
-        given, passed = self.arguments_of(roles)
+        parameters, passed = self.arguments_of(roles)
         name = self.name(function["name"].removeprefix("carom_match_" if of_match else "carom_"))
         call = f"sys::{function['name']}({', '.join(['&mut *self.of'] * of_match + passed)})"
         if of_match:
             player = ["let player = self.at_table();"] if "player" in passed else []
-            given = ["&mut self", *(one for one in given if not one.startswith("player:"))]
+            parameters = [
+                "&mut self",
+                *(entry for entry in parameters if not entry.startswith("player:")),
+            ]
             result = "Result<(), Error>"
             lines = [*player, f"let status = unsafe {{ {call} }};", "self.told(status)"]
         else:
             result, lines = self.result(function["returns"], roles, f"unsafe {{ {call} }}")
         arrow = f" -> {result}" if result else ""
         lines = [
-            f"pub fn {name}({', '.join(given)}){arrow} {{",
-            *(f"    {one}" for one in lines),
+            f"pub fn {name}({', '.join(parameters)}){arrow} {{",
+            *(f"    {entry}" for entry in lines),
             "}",
         ]
         return [f"    {line}" for line in lines] if of_match else lines
 
     def result(self, returned, roles, call):
         """What a function returns, and its lines."""
-        made = [self.value_type(one) for one, role in roles if role == "result"]
-        if made:
+        outputs = [self.value_type(entry) for entry, role in roles if role == "result"]
+        if outputs:
             lines = ["let mut made = Default::default();", f"check({call})?;", "Ok(made)"]
-            return f"Result<{made[0]}, Error>", lines
+            return f"Result<{outputs[0]}, Error>", lines
         if "words" in (role for _, role in roles):
             return "String", [f"written(|to, room| {call})"]
         if returned.get("pointer"):
@@ -668,9 +681,9 @@ words! {
         """carom-sys/src/words.rs: the enumerations as those of Rust."""
         about = "//! The enumerations as types of Rust. Structs and functions have their values as i32.\n"
         lines = [NOTE.format(version=self.api["version"]) + about + self.WORDS.rstrip()]
-        for one in self.api["enums"]:
-            lines += [*self.about(one["comment"], "    "), f"    {type_name(one['name'])} {{"]
-            for name, value in enumerators(one):
+        for entry in self.api["enums"]:
+            lines += [*self.about(entry["comment"], "    "), f"    {type_name(entry['name'])} {{"]
+            for name, value in enumerators(entry):
                 lines += self.about(value["comment"], "        ")
                 lines.append(f"        {name} = {value['value']},")
             lines.append("    }")
@@ -684,14 +697,14 @@ words! {
             "use core::ptr::addr_of;",
             "",
         ]
-        for one in self.api["structs"]:
+        for entry in self.api["structs"]:
             lines += [
                 "#[test]",
-                f"fn {one['name']}() {{",
-                f"    assert_eq!(size_of::<carom_sys::{one['name']}>(), {one['size']});",
+                f"fn {entry['name']}() {{",
+                f"    assert_eq!(size_of::<carom_sys::{entry['name']}>(), {entry['size']});",
             ]
-            lines.append(f"    let one = MaybeUninit::<carom_sys::{one['name']}>::uninit();")
-            for field in one["fields"]:
+            lines.append(f"    let one = MaybeUninit::<carom_sys::{entry['name']}>::uninit();")
+            for field in entry["fields"]:
                 place = f"unsafe {{ addr_of!((*one.as_ptr()).{self.name(field['name'])}) }} as usize - one.as_ptr() as usize"
                 lines.append(f'    assert_eq!({place}, {field["offset"]}, "{field["name"]}");')
             lines += ["}", ""]
@@ -701,7 +714,7 @@ words! {
 def main():
     out = Path(sys.argv[1])
     api = describe(HERE.parent / "include")
-    made = {
+    texts = {
         "api.json": json.dumps(api, indent=1, ensure_ascii=False) + "\n",
         "csharp/Runtime/Native.cs": CSharp(api).text(),
         "csharp/Runtime/Calls.cs": CSharp(api).calls(),
@@ -725,7 +738,7 @@ def main():
                     part.read_text(encoding="utf-8").replace("VERSION", api["version"]),
                     encoding="utf-8",
                 )
-    for name, text in made.items():
+    for name, text in texts.items():
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         (out / name).write_text(text, encoding="utf-8")
     subprocess.run(

@@ -15,7 +15,7 @@ from math import atan2, cos, degrees, inf, isnan, radians, sqrt, tan
 from random import Random
 
 from lab import published
-from lab.published import GAME_POOL, GAME_SNOOKER, LIBRARY, OF, Triple, ball, by
+from lab.published import GAME_POOL, GAME_SNOOKER, LIBRARY, OF, Triple, ball, reference
 
 # Of the library: SHOT_CUSHION_HAN and so on are made by published.types().
 from lab.published import (
@@ -54,7 +54,7 @@ def rms(errors):
 def systems():
     head("table", *"PGVCF", "T, degrees", "all")
     for name, kind in (("9ft", TABLE_POOL_9FT), ("8ft", TABLE_POOL_8FT), ("7ft", TABLE_POOL_7FT)):
-        sets = [f"{published.system(one, kind):.2f}" for one in "PGVCF"]
+        sets = [f"{published.system(letter, kind):.2f}" for letter in "PGVCF"]
         across = max(map(abs, published.twice_across(kind)))
         row(name, *sets, f"{across:.1f}", f"{published.systems(kind):.2f}")
 
@@ -85,7 +85,7 @@ def pockets():
 
 def kind_for(game, model):
     kind = OF["carom_ball_kind"]()
-    LIBRARY.carom_ball_kind_for(game, model, by(kind))
+    LIBRARY.carom_ball_kind_for(game, model, reference(kind))
     return kind
 
 
@@ -98,11 +98,11 @@ def impact(kind, model, v, w):
     nose = kind.nose_height or 1.4 * kind.radius
     numbers = (nose, kind.radius, kind.mass, kind.mu_slide, kind.mu_cushion)
     along = (ctypes.c_double * 2)(0, 1)
-    one = OF["carom_cushion_impact"](
+    contact = OF["carom_cushion_impact"](
         Triple(*v), Triple(*w), along, *numbers, kind.restitution_cushion
     )
     out = OF["carom_motion"]()
-    LIBRARY.carom_cushion(by(one), by(options), by(out))
+    LIBRARY.carom_cushion(reference(contact), reference(options), reference(out))
     return out
 
 
@@ -120,9 +120,9 @@ def direction(name, across, angle, roll, side):
     along, R = across * tan(radians(angle)), kind.radius
     speed = across / cos(radians(angle))
     spin = (-roll * across / R, roll * along / R, side * speed / R)
-    after = impact(kind, model, (along, across, 0), spin)
+    rebound = impact(kind, model, (along, across, 0), spin)
     v = Triple()
-    LIBRARY.carom_rolling_velocity(after.v, after.w, ctypes.c_double(R), v)
+    LIBRARY.carom_rolling_velocity(rebound.v, rebound.w, ctypes.c_double(R), v)
     return degrees(atan2(v[0], -v[1]))
 
 
@@ -187,7 +187,7 @@ def banks_of_calibration():
     found = []
     for k in range(BANKS):
         bank = OF["carom_bank"]()
-        LIBRARY.carom_bank_of(k, by(bank))
+        LIBRARY.carom_bank_of(k, reference(bank))
         line = {"set": "P", "start": 0, "aim": bank.aim, "roll": bank.roll}
         found.append(published.bank(TABLE_POOL_9FT, line, bank.speed, 0))
     return found
@@ -198,7 +198,10 @@ def calibrated(readings):
     found = OF["carom_calibration"]()
     read = (ctypes.c_double * BANKS)(*readings)
     status = LIBRARY.carom_calibrate(
-        by(published.table(TABLE_POOL_9FT)), by(ball(GAME_POOL)), read, by(found)
+        reference(published.table(TABLE_POOL_9FT)),
+        reference(ball(GAME_POOL)),
+        read,
+        reference(found),
     )
     if status != 0:
         return None
@@ -240,9 +243,9 @@ def drawn(usual, deviations, random):
 
 def calibrations():
     smooth = numbers_of(SHOT_CUSHION_DEFAULT)
-    before = smooth | {name: 0 for name in smooth if name.startswith(("smooth_", "roll_loss"))}
-    before |= {"nose_height": 0, "restitution_cushion": 0.85, "mu_cushion": 0.2}
-    on_table(before, SHOT_CUSHION_HAN)
+    rough = smooth | {name: 0 for name in smooth if name.startswith(("smooth_", "roll_loss"))}
+    rough |= {"nose_height": 0, "restitution_cushion": 0.85, "mu_cushion": 0.2}
+    on_table(rough, SHOT_CUSHION_HAN)
     by_han = other_places()
     on_table(smooth, SHOT_CUSHION_DEFAULT)
     by_usual = other_places()
@@ -260,13 +263,13 @@ def calibrations():
                 continue
             played += 1
             on_table(smooth | found, SHOT_CUSHION_DEFAULT)
-            for of_one, told in zip(errors, (by_han, by_usual, other_places())):
+            for of_one, estimates in zip(errors, (by_han, by_usual, other_places())):
                 of_one += [
                     min(abs(a - b), published.MOST_OFF)
-                    for a, b in zip(truth, told)
+                    for a, b in zip(truth, estimates)
                     if not isnan(a - b)
                 ]
-        row(name, TABLES, *(f"{rms(one):.3f}" for one in errors))
+        row(name, TABLES, *(f"{rms(series):.3f}" for series in errors))
 
 
 if __name__ == "__main__":

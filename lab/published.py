@@ -26,22 +26,24 @@ import api  # noqa: E402
 def types():
     """{name: type} of what the headers declare."""
     found = {name: getattr(ctypes, f"c_{name.removesuffix('_t')}") for name in api.SIZES}
-    for one in api.types(api.describe(ROOT / "include")):
+    for declaration in api.types(api.describe(ROOT / "include")):
         fields = []
-        for field in one.get("fields", ()):
+        for field in declaration.get("fields", ()):
             kind = (
                 ctypes.c_void_p if field.get("pointer") else found.get(field["type"], ctypes.c_int)
             )
             for length in reversed(field.get("array", [])):
                 kind *= length
             fields.append((field["name"], kind))
-        found[one["name"]] = (
-            type(one["name"], (ctypes.Structure,), {"_fields_": fields}) if fields else ctypes.c_int
+        found[declaration["name"]] = (
+            type(declaration["name"], (ctypes.Structure,), {"_fields_": fields})
+            if fields
+            else ctypes.c_int
         )
         globals().update(
             {
                 value["name"].removeprefix("CAROM_"): value["value"]
-                for value in one.get("values", ())
+                for value in declaration.get("values", ())
             }
         )
     return found
@@ -56,7 +58,7 @@ for name, kind in {
     "mu_ball": "double",
 }.items():
     getattr(LIBRARY, f"carom_{name}").restype = OF[kind]
-by = ctypes.byref
+reference = ctypes.byref
 
 
 @cache
@@ -71,9 +73,9 @@ def cue(game=0):
 
 @cache
 def table(kind):
-    made = OF["carom_table"]()
-    LIBRARY.carom_table_make(kind, by(made))
-    return made
+    shape = OF["carom_table"]()
+    LIBRARY.carom_table_make(kind, reference(shape))
+    return shape
 
 
 # What all balls have instead of the numbers of their game, and the model of the cushion that they
@@ -83,17 +85,17 @@ CUSHION_MODEL = [0]
 
 
 def shot_ball(r, v=(0, 0, 0), w=(0, 0, 0), game=0, **numbers):
-    one = OF["carom_shot_ball"](ball(game), (Triple(*r), Triple(*v), Triple(*w)))
+    placed_ball = OF["carom_shot_ball"](ball(game), (Triple(*r), Triple(*v), Triple(*w)))
     for name, value in (PLAYED_ON | numbers).items():
-        setattr(one.kind, name, value)
-    return one
+        setattr(placed_ball.kind, name, value)
+    return placed_ball
 
 
 def shoot(kind, balls, stroke=None, room=100):
     """The events of a shot on a table or on one of a kind, its facts, and where the first ball
     ends.
     """
-    made = table(kind) if isinstance(kind, int) else kind
+    table_shape = table(kind) if isinstance(kind, int) else kind
     events, facts, final = (
         (OF["carom_event"] * room)(),
         OF["carom_facts"](),
@@ -101,16 +103,16 @@ def shoot(kind, balls, stroke=None, room=100):
     )
     shot = OF["carom_shot"](room=room)
     shot.events, shot.facts, shot.final = (
-        ctypes.cast(one, ctypes.c_void_p) for one in (events, by(facts), final)
+        ctypes.cast(output, ctypes.c_void_p) for output in (events, reference(facts), final)
     )
     options = OF["carom_shot_options"](cushion_model=CUSHION_MODEL[0])
     LIBRARY.carom_shoot(
-        by(made),
+        reference(table_shape),
         (OF["carom_shot_ball"] * len(balls))(*balls),
         len(balls),
-        by(stroke) if stroke else None,
-        by(options) if CUSHION_MODEL[0] else None,
-        by(shot),
+        reference(stroke) if stroke else None,
+        reference(options) if CUSHION_MODEL[0] else None,
+        reference(shot),
     )
     return events[: min(shot.count, room)], facts, final[0].r
 
@@ -135,17 +137,17 @@ def friction_of(game, slip):
 def hit(cut, speed, roll=0, friction=0, side=0):
     R, v = ball().radius, (speed * sin(radians(cut)), speed * cos(radians(cut)))
     w = (-roll * v[1] / R, roll * v[0] / R, side * speed / R)
-    one = (R, ball().mass, ball().mu_slide)
+    numbers_of_ball = (R, ball().mass, ball().mu_slide)
     pair = OF["carom_impact"](
-        (Triple(), Triple(*v, 0), Triple(*w), *one),
-        (Triple(0, 2 * R, 0), Triple(), Triple(), *one),
+        (Triple(), Triple(*v, 0), Triple(*w), *numbers_of_ball),
+        (Triple(0, 2 * R, 0), Triple(), Triple(), *numbers_of_ball),
         friction,
         ball().restitution,
     )
     if friction == 0:
-        pair.mu_ball = LIBRARY.carom_mu_ball(by(pair), LIBRARY.carom_alciatore())
+        pair.mu_ball = LIBRARY.carom_mu_ball(reference(pair), LIBRARY.carom_alciatore())
     out = OF["carom_result"]()
-    LIBRARY.carom_collide(by(pair), None, by(out))
+    LIBRARY.carom_collide(reference(pair), None, reference(out))
     return out.a, out.b
 
 
@@ -155,7 +157,7 @@ def throw(*numbers):
 
 
 def speeds(*numbers):
-    return [hypot(*one.v[:2]) for one in hit(*numbers)]
+    return [hypot(*motion.v[:2]) for motion in hit(*numbers)]
 
 
 def rolling(motion):
@@ -169,12 +171,12 @@ def deflection(cut, *numbers):
     return angle(rolling(hit(cut, *numbers)[0])) - cut
 
 
-def found(of, low, high, wanted):
+def found(function, low, high, value):
     """Where a function between two numbers has a value."""
-    rises = of(high) > of(low)
+    rises = function(high) > function(low)
     for _ in range(60):
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if (of(middle) > wanted) == rises else (middle, high)
+        low, high = (low, middle) if (function(middle) > value) == rises else (middle, high)
     return 0.5 * (low + high)
 
 
@@ -203,7 +205,7 @@ def distance_ratio(*numbers):
     """of the object ball over the cue ball: of the distances that they roll, which grow with the
     square of the speed
     """
-    a, b = (hypot(*rolling(one)) for one in hit(*numbers))
+    a, b = (hypot(*rolling(motion)) for motion in hit(*numbers))
     return (b / a) ** 2
 
 
@@ -226,15 +228,15 @@ def kiss_share(angle, speed):
 # place, another ball, its friction (0: the law of pool), the cue's numbers
 
 
-def strike(theta, speed, tip=(0, 0), other=None, friction=0, phi=90, **numbers):
+def strike(theta, speed, tip=(0, 0), object_place=None, friction=0, phi=90, **numbers):
     stroke, balls = (
         LIBRARY.carom_cue_of(GAME_POOL),
-        [shot_ball(place) for place in [(0.635, 0.635, ball().radius), other] if place],
+        [shot_ball(place) for place in [(0.635, 0.635, ball().radius), object_place] if place],
     )
     for name, value in dict(numbers, phi=phi, theta=theta, speed=speed, a=tip[0], b=tip[1]).items():
         setattr(stroke, name, value)
-    for one in balls if friction else ():
-        one.kind.law_a, one.kind.law_b = friction, 0
+    for struck_ball in balls if friction else ():
+        struck_ball.kind.law_a, struck_ball.kind.law_b = friction, 0
     return shoot(TABLE_POOL_9FT, balls, stroke)[0]
 
 
@@ -252,16 +254,20 @@ def rise(ahead, *numbers, **of_cue):
 
 def in_the_air(*numbers):
     """the share of the time from the head spot to a ball on the foot spot, %"""
-    events = strike(*numbers, other=(0.635, 1.905, ball().radius))
-    met = next(k for k, e in enumerate(events) if e.type == EVENT_BALL_BALL)
+    events = strike(*numbers, object_place=(0.635, 1.905, ball().radius))
+    impact_index = next(k for k, e in enumerate(events) if e.type == EVENT_BALL_BALL)
     return (
         100
-        * sum(b.time - a.time for a, b in zip(events[:met], events[1:]) if a.after[0].v[2] > 0)
-        / events[met].time
+        * sum(
+            b.time - a.time
+            for a, b in zip(events[:impact_index], events[1:])
+            if a.after[0].v[2] > 0
+        )
+        / events[impact_index].time
     )
 
 
-def inside(beside, friction, speed):
+def inside(offset_angle, friction, speed):
     """how far the tip is from the centre where a frozen ball leaves in the direction of the cue,
     that angle beside the line of centres, in R
     """
@@ -273,12 +279,12 @@ def inside(beside, friction, speed):
             (-a, 0),
             (0.635, 0.635 + 2 * ball().radius, ball().radius),
             friction,
-            90 + beside,
+            90 + offset_angle,
         )
-        met = next(e for e in events if e.type == EVENT_BALL_BALL)
-        return -angle(met.after[(met.a, met.b).index(1)].v)
+        impact = next(e for e in events if e.type == EVENT_BALL_BALL)
+        return -angle(impact.after[(impact.a, impact.b).index(1)].v)
 
-    return found(to_the_left, 0, 0.5, beside)
+    return found(to_the_left, 0, 0.5, offset_angle)
 
 
 # ---- Cushions and slate
@@ -303,20 +309,20 @@ def rebound(game, speed, **numbers):
         events, _, _ = shoot(
             kind, [shot_ball((x, 0.7, R), (-speed, 0, 0), (0, -speed / R, 0), game, **numbers)]
         )
-        met = next(e for e in events if e.type == EVENT_RAIL)
-        x = met.before[0].r[0] + 1e-6
-    return -met.after[0].v[0] / met.before[0].v[0]
+        contact = next(e for e in events if e.type == EVENT_RAIL)
+        x = contact.before[0].r[0] + 1e-6
+    return -contact.after[0].v[0] / contact.before[0].v[0]
 
 
 def lengths_of_travel(speed):
     """lengths of a 9 ft table that a ball goes from the head spot through the foot spot"""
-    made = table(TABLE_POOL_9FT)
-    at = 0.25 * made.length
+    shape = table(TABLE_POOL_9FT)
+    head_spot = 0.25 * shape.length
     events, _, _ = shoot(
-        TABLE_POOL_9FT, [shot_ball((0.5 * made.width, at, ball().radius), (0, speed, 0))]
+        TABLE_POOL_9FT, [shot_ball((0.5 * shape.width, head_spot, ball().radius), (0, speed, 0))]
     )
-    places = [at] + [e.before[0].r[1] for e in events]
-    return sum(abs(b - a) for a, b in zip(places, places[1:])) / made.length
+    places = [head_spot] + [e.before[0].r[1] for e in events]
+    return sum(abs(b - a) for a, b in zip(places, places[1:])) / shape.length
 
 
 def diamond(kind, game, start, aim, speed, side, nth, **numbers):
@@ -324,18 +330,19 @@ def diamond(kind, game, start, aim, speed, side, nth, **numbers):
     other, with side spin R w_z / v to run on. Diamonds count from the end that it nears, 94 mm
     behind the noses. Of the rail `nth`, which is that from which it came.
     """
-    made, R, back, x = table(kind), ball(game).radius, 0.094, 0.3
-    one, across = made.length / 8, made.width + 2 * back
-    along = (start - aim) * one
+    shape, R, back, x = table(kind), ball(game).radius, 0.094, 0.3
+    diamond_length, across = shape.length / 8, shape.width + 2 * back
+    along = (start - aim) * diamond_length
     v = speed * across / hypot(across, along), speed * along / hypot(across, along)
-    place = (x, made.length - start * one + (x + back) * along / across, R)
+    place = (x, shape.length - start * diamond_length + (x + back) * along / across, R)
     events, _, _ = shoot(
         kind, [shot_ball(place, (*v, 0), (-v[1] / R, v[0] / R, -side * speed / R), game, **numbers)]
     )
-    met = [e for e in events if e.type == EVENT_RAIL][nth - 1].before[0]
+    contact = [e for e in events if e.type == EVENT_RAIL][nth - 1].before[0]
     return (
-        (made.length - met.r[1] + (met.r[0] + back) * met.v[1] / met.v[0]) / one
-        if met.r[0] < 0.5 * made.width
+        (shape.length - contact.r[1] + (contact.r[0] + back) * contact.v[1] / contact.v[0])
+        / diamond_length
+        if contact.r[0] < 0.5 * shape.width
         else nan
     )
 
@@ -371,9 +378,9 @@ def flight(kind, place, direction, speed, roll, side, nth):
             )
         ],
     )
-    met = [e for e in events if e.type in (EVENT_RAIL, EVENT_JAW, EVENT_POCKET)]
-    before = met[nth - 1].before[0] if len(met) >= nth else None
-    return (before.r, before.v) if before else ((nan, nan), (nan, nan))
+    contacts = [e for e in events if e.type in (EVENT_RAIL, EVENT_JAW, EVENT_POCKET)]
+    last_motion = contacts[nth - 1].before[0] if len(contacts) >= nth else None
+    return (last_motion.r, last_motion.v) if last_motion else ((nan, nan), (nan, nan))
 
 
 def place_at(motion, x):
@@ -392,9 +399,9 @@ def bank(kind, row, speed, side):
     """P: from a sight of the long rail to one of the other; read where it comes back to the nose.
     F: the same along the grooves, and towards the corner at 0.
     """
-    made, groove = table(kind), row["set"] == "F"
-    diamond_, back = made.length / 8, -ball().radius if groove else SIGHT
-    start, end = (-back, row["start"] * diamond_), (made.width + back, row["aim"] * diamond_)
+    shape, groove = table(kind), row["set"] == "F"
+    diamond_, back = shape.length / 8, -ball().radius if groove else SIGHT
+    start, end = (-back, row["start"] * diamond_), (shape.width + back, row["aim"] * diamond_)
     if row["set"] == "P" and row["start"] == 0:
         start = (-back, -back)
     length = hypot(end[0] - start[0], end[1] - start[1])
@@ -407,8 +414,8 @@ def two_rails(kind, row, speed, side):
     """G, V: from a sight of the long rail to one of the short rail y = 0, counted from the far
     corner; read through the sights of the first rail, which it meets third.
     """
-    made = table(kind)
-    diamond_ = made.length / 8
+    shape = table(kind)
+    diamond_ = shape.length / 8
     start = (-SIGHT, row["start"] * diamond_)
     end = ((4 - row["aim"]) * diamond_, -SIGHT)
     place, direction = through(start, end, 0.06)
@@ -418,10 +425,10 @@ def two_rails(kind, row, speed, side):
 
 def corner_five(kind, row, speed, side):
     """C: from an origin, 5 in the corner, to the first rail; read on the third, from the far end."""
-    made = table(kind)
-    diamond_ = made.length / 8
+    shape = table(kind)
+    diamond_ = shape.length / 8
     start = (-SIGHT, (5 - row["start"]) * 2 * diamond_ if row["start"] < 5 else -SIGHT)
-    end = (made.width + SIGHT, (8 - row["aim"]) * diamond_)
+    end = (shape.width + SIGHT, (8 - row["aim"]) * diamond_)
     place, direction = through(start, end, 0.06)
     place = (place[0], max(place[1], ball().radius + 1e-4))
     motion = flight(kind, place, direction, speed, row["roll"], -side, 3)
@@ -485,14 +492,24 @@ def twice_across(kind=2):
 @cache
 def pockets_of_tp():
     inch = 0.0254
-    of = OF["carom_measures"]()
-    LIBRARY.carom_table_measures(TABLE_POOL_9FT, by(of))
-    of.corner_mouth, of.corner_shelf, of.corner_hole = 4.5875 * inch, 1.125 * inch, 2.75 * inch
-    of.side_mouth, of.side_shelf, of.side_hole = 5.0625 * inch, 0.1875 * inch, 3 * inch
-    of.corner_jaw = of.side_jaw = 0.0005
-    made = OF["carom_table"]()
-    LIBRARY.carom_table_measured(by(of), ctypes.c_double(ball().radius), by(made), None)
-    return made
+    measures = OF["carom_measures"]()
+    LIBRARY.carom_table_measures(TABLE_POOL_9FT, reference(measures))
+    measures.corner_mouth, measures.corner_shelf, measures.corner_hole = (
+        4.5875 * inch,
+        1.125 * inch,
+        2.75 * inch,
+    )
+    measures.side_mouth, measures.side_shelf, measures.side_hole = (
+        5.0625 * inch,
+        0.1875 * inch,
+        3 * inch,
+    )
+    measures.corner_jaw = measures.side_jaw = 0.0005
+    shape = OF["carom_table"]()
+    LIBRARY.carom_table_measured(
+        reference(measures), ctypes.c_double(ball().radius), reference(shape), None
+    )
+    return shape
 
 
 def size(side_pocket, angle, speed, kind=None, step=0.001):
@@ -500,10 +517,10 @@ def size(side_pocket, angle, speed, kind=None, step=0.001):
     farther than half a meter: at an angle to the rail of a corner, or to the line across the table.
     Paths lie `step` apart, m.
     """
-    made = kind if kind is not None else pockets_of_tp()
-    made = table(made) if isinstance(made, int) else made
+    shape = kind if kind is not None else pockets_of_tp()
+    shape = table(shape) if isinstance(shape, int) else shape
     R, away = ball().radius, 0.45
-    middle = (0, 0.5 * made.length) if side_pocket else (0, 0)
+    middle = (0, 0.5 * shape.length) if side_pocket else (0, 0)
     along, across = cos(radians(angle)), sin(radians(angle))
     way = (-along, -across) if side_pocket else (-across, -along)
     fall = 0
@@ -513,7 +530,7 @@ def size(side_pocket, angle, speed, kind=None, step=0.001):
         if min(x, y) <= R:
             continue
         events, _, _ = shoot(
-            made,
+            shape,
             [
                 shot_ball(
                     (x, y, R),
@@ -549,20 +566,22 @@ def back_of(events):
     """The velocity of the cue ball along the table once it has met the rack, over that before:
     contacts within a millisecond are one.
     """
-    met = [
+    impacts = [
         (e, (e.a, e.b).index(0)) for e in events if e.type == EVENT_BALL_BALL and 0 in (e.a, e.b)
     ]
-    last, own = [one for one in met if one[0].time <= met[0][0].time + 1e-3][-1]
-    return last.after[own].v[1] / met[0][0].before[met[0][1]].v[1]
+    last, cue_side = [impact for impact in impacts if impact[0].time <= impacts[0][0].time + 1e-3][
+        -1
+    ]
+    return last.after[cue_side].v[1] / impacts[0][0].before[impacts[0][1]].v[1]
 
 
 @cache
-def breaks(rack, kind, gap, beside, speed, above=0):
+def breaks(rack, kind, gap, offset, speed, above=0):
     """Of each break: the places of the balls that fell, in rows from the cue ball and from the
     left; what is counted; the cue ball's velocity back, and how far from the middle of the table it
     stops, m. The errors are those of a good player: 0.2 degrees, 3 % of the speed, 0.03 R.
     """
-    count, made, draw, all_of_them = LIBRARY.carom_rack_size(rack), table(kind), Random(1), []
+    count, shape, draw, all_of_them = LIBRARY.carom_rack_size(rack), table(kind), Random(1), []
 
     def normal(deviation):
         return deviation * (sum(draw.random() for _ in range(12)) - 6)
@@ -570,27 +589,29 @@ def breaks(rack, kind, gap, beside, speed, above=0):
     for k in range(BREAKS):
         balls = (OF["carom_shot_ball"] * count)()
         LIBRARY.carom_rack(
-            rack, by(made), ctypes.c_double(1e-3 * gap), ctypes.c_uint64(k), balls, count
+            rack, reference(shape), ctypes.c_double(1e-3 * gap), ctypes.c_uint64(k), balls, count
         )
-        balls[0].state.r[0], balls[0].state.r[1] = 0.5 * made.width + beside, 0.25 * made.length
-        R, at = ball().radius, [tuple(one.state.r) for one in balls]
+        balls[0].state.r[0], balls[0].state.r[1] = 0.5 * shape.width + offset, 0.25 * shape.length
+        R, places = ball().radius, [tuple(placed_ball.state.r) for placed_ball in balls]
         order = [
-            sum(b[0] < a[0] if abs(b[1] - a[1]) < R else b[1] < a[1] for b in at[1:]) for a in at
+            sum(b[0] < a[0] if abs(b[1] - a[1]) < R else b[1] < a[1] for b in places[1:])
+            for a in places
         ]
-        front = at[1 + order[1:].index(0)]
+        front = places[1 + order[1:].index(0)]
         stroke = LIBRARY.carom_cue_of(GAME_POOL)
         stroke.b, stroke.a = above + normal(0.03), normal(0.03)
-        stroke.phi = degrees(atan2(front[1] - at[0][1], front[0] - at[0][0])) + normal(0.2)
+        stroke.phi = degrees(atan2(front[1] - places[0][1], front[0] - places[0][0])) + normal(0.2)
         stroke.speed = speed * cue().speed / struck(0, above).v[1] * (1 + normal(0.03))
         events, facts, end = shoot(kind, balls, stroke, 64)
         fell = [b for b in range(1, count) if facts.down >> b & 1]
         side = [
             b
             for b in fell
-            if abs(made.pocket[facts.pocket[b]].centre[1] - 0.5 * made.length) < 0.25 * made.length
+            if abs(shape.pocket[facts.pocket[b]].centre[1] - 0.5 * shape.length)
+            < 0.25 * shape.length
         ]
         scratch = bool((facts.down | facts.off) & 1)
-        rest = nan if scratch else hypot(end[0] - 0.5 * made.width, end[1] - 0.5 * made.length)
+        rest = nan if scratch else hypot(end[0] - 0.5 * shape.width, end[1] - 0.5 * shape.length)
         all_of_them.append(
             {
                 "places": [order[b] for b in fell],
@@ -607,32 +628,32 @@ def breaks(rack, kind, gap, beside, speed, above=0):
 
 def share(name, *numbers):
     """In %, of the breaks that count."""
-    p = sum(one[name] for one in breaks(*numbers)) / BREAKS
+    p = sum(result[name] for result in breaks(*numbers)) / BREAKS
     return 100 * p, 100 * sqrt(p * (1 - p) / BREAKS)
 
 
 def balls_of_a_break(*numbers):
     """that made one"""
-    made = [len(one["places"]) for one in breaks(*numbers) if one["places"]]
-    mean = sum(made) / len(made)
-    return mean, sqrt((sum(n * n for n in made) / len(made) - mean * mean) / len(made))
+    counts = [len(result["places"]) for result in breaks(*numbers) if result["places"]]
+    mean = sum(counts) / len(counts)
+    return mean, sqrt((sum(n * n for n in counts) / len(counts) - mean * mean) / len(counts))
 
 
 def wings(*numbers):
     """how often the likelier wing ball of nine-ball falls over how often the likeliest other ball
     does; the error is that of both
     """
-    count = [sum(k in one["places"] for one in breaks(*numbers)) for k in range(16)]
-    wing, other = (
+    count = [sum(k in result["places"] for result in breaks(*numbers)) for k in range(16)]
+    wing, likeliest = (
         max(count[3], count[5]),
         max([1] + [n for k, n in enumerate(count) if k not in (3, 5)]),
     )
-    return wing / other, wing / other * sqrt(1 / (wing + 1) + 1 / other)
+    return wing / likeliest, wing / likeliest * sqrt(1 / (wing + 1) + 1 / likeliest)
 
 
 def median_of(name, *numbers):
     """Of what is a number; the error as of a normal distribution."""
-    sample = [one[name] for one in breaks(*numbers) if not isnan(one[name])]
+    sample = [result[name] for result in breaks(*numbers) if not isnan(result[name])]
     m = median(sample)
     return m, 1.86 * median(abs(x - m) for x in sample) / sqrt(len(sample))
 

@@ -57,9 +57,9 @@ class Value(float):
     """A number with its uncertainty, which is relative."""
 
     def __new__(cls, number, uncertainty=0.0):
-        made = super().__new__(cls, number)
-        made.uncertainty = uncertainty
-        return made
+        value = super().__new__(cls, number)
+        value.uncertainty = uncertainty
+        return value
 
 
 class Run:
@@ -80,15 +80,15 @@ class Run:
             raise Missing(f"there is no {name}.csv in this run")
         return self.sheets[name]
 
-    def row(self, sheet, **wanted):
-        found = self.sheet(sheet).first(**wanted)
+    def row(self, sheet, **conditions):
+        found = self.sheet(sheet).first(**conditions)
         if not found:
-            words = ", ".join(f"{name} {value}" for name, value in wanted.items())
+            words = ", ".join(f"{name} {value}" for name, value in conditions.items())
             raise Missing(f"{sheet}.csv has no row of {words}")
         return found
 
-    def number(self, sheet, column, **wanted):
-        text = self.row(sheet, **wanted).get(column)
+    def number(self, sheet, column, **conditions):
+        text = self.row(sheet, **conditions).get(column)
         value = number(text)
         if math.isnan(value):
             raise Missing(f"{column} of {sheet}.csv is {text}")
@@ -126,13 +126,16 @@ class Run:
         row = self.row(sheet, kernel=name, config=config)
         return Value(number(row["speedup"]), self.uncertainty(row, sheet))
 
-    def faster(self, kernel, other):
+    def faster(self, kernel, second):
         """How many times as fast as the other kernel."""
-        one, two = self.speedup(kernel), self.speedup(other)
-        return Value(one / two, math.hypot(one.uncertainty, two.uncertainty))
+        first_speedup, second_speedup = self.speedup(kernel), self.speedup(second)
+        return Value(
+            first_speedup / second_speedup,
+            math.hypot(first_speedup.uncertainty, second_speedup.uncertainty),
+        )
 
-    def slower(self, kernel, other):
-        return self.faster(other, kernel)
+    def slower(self, kernel, second):
+        return self.faster(second, kernel)
 
     def builds(self, rungs):
         """Rows of these kernels in the paper's configurations by the first compiler, fastest first."""
@@ -165,8 +168,8 @@ class Run:
         for row in self.sheet("configs").rows:
             mine, config = row["config"].split("-", 1)
             if row["kernel"] in rungs.split() and mine == "clang" and config != "zen2":
-                other = self.row("configs", kernel=row["kernel"], config=f"{compiler}-{config}")
-                pairs.append(number(row["speedup"]) > number(other["speedup"]))
+                partner = self.row("configs", kernel=row["kernel"], config=f"{compiler}-{config}")
+                pairs.append(number(row["speedup"]) > number(partner["speedup"]))
         if not pairs:
             raise Missing("it needs clang and gcc")
         return sum(pairs) / len(pairs)
@@ -244,8 +247,8 @@ class Run:
 
     def latency(self, row):
         """Cycles of this processor, measured by a chain of such instructions."""
-        said = self.sheet("bounds").notes.get(f"latency {row}", "")
-        cycles = number(said.split(" ")[0])
+        note = self.sheet("bounds").notes.get(f"latency {row}", "")
+        cycles = number(note.split(" ")[0])
         if math.isnan(cycles):
             raise Missing(f"the latency {row} of this processor was not measured")
         return cycles
@@ -256,10 +259,10 @@ class Run:
         row = self.row("cycles", kernel=kernel, config=config, steps="1000")
         self.compare_modules(config)
         counted = number(row.get("cycles"))
-        taken = number(row.get("core_cycles")) if math.isnan(counted) else counted
-        if math.isnan(taken):
+        cycles = number(row.get("core_cycles")) if math.isnan(counted) else counted
+        if math.isnan(cycles):
             raise Missing("neither the processor nor a chain of additions counts its cycles")
-        return Value(taken, number(row["ns_spread"]) / number(row["ns_median"]))
+        return Value(cycles, number(row["ns_spread"]) / number(row["ns_median"]))
 
     def compare_modules(self, config):
         """What was timed must be what was counted."""
@@ -306,37 +309,37 @@ class Run:
 # ---- The rules
 
 
-def rule_gain(here, value):
-    gained, wanted = here - 1.0, value - 1.0
-    if gained >= 0.9 * wanted:
+def rule_gain(measured, value):
+    gained, expected = measured - 1.0, value - 1.0
+    if gained >= 0.9 * expected:
         return HOLDS
-    return WEAKER if gained > here * here.uncertainty else FAILS
+    return WEAKER if gained > measured * measured.uncertainty else FAILS
 
 
-def rule_more(here, _):
-    if here - 1.0 > here.uncertainty:
+def rule_more(measured, _):
+    if measured - 1.0 > measured.uncertainty:
         return HOLDS
-    return WEAKER if here - 1.0 >= -here.uncertainty else FAILS
+    return WEAKER if measured - 1.0 >= -measured.uncertainty else FAILS
 
 
-def rule_little(here, _):
-    if here > 1.1:
+def rule_little(measured, _):
+    if measured > 1.1:
         return FAILS
-    return rule_more(here, None)
+    return rule_more(measured, None)
 
 
-def rule_near(here, value, per_cent):
-    return HOLDS if abs(here / value - 1.0) <= float(per_cent) / 100.0 else FAILS
+def rule_near(measured, value, per_cent):
+    return HOLDS if abs(measured / value - 1.0) <= float(per_cent) / 100.0 else FAILS
 
 
-def rule_at(here, value, which):
-    if which == "most":
-        return HOLDS if here <= value else FAILS
-    return HOLDS if here >= value else FAILS
+def rule_at(measured, value, direction):
+    if direction == "most":
+        return HOLDS if measured <= value else FAILS
+    return HOLDS if measured >= value else FAILS
 
 
-def rule_equals(here, value):
-    return HOLDS if here == value else FAILS
+def rule_equals(measured, value):
+    return HOLDS if measured == value else FAILS
 
 
 RULES = {
@@ -384,13 +387,13 @@ def judge_claim(claim, names):
             row["paper"] = f"{value:.6g}"
         else:
             value = None
-        here = evaluate(claim["measure"], names)
+        measured = evaluate(claim["measure"], names)
     except Missing as why:
         return row | {"cause": str(why)}
     name, *more = claim["rule"].split()
-    row |= {"here": f"{here:.6g}", "verdict": RULES[name](here, value, *more)}
-    if here.uncertainty:
-        row["uncertainty"] = f"{here * here.uncertainty:.2g}"
+    row |= {"here": f"{measured:.6g}", "verdict": RULES[name](measured, value, *more)}
+    if measured.uncertainty:
+        row["uncertainty"] = f"{measured * measured.uncertainty:.2g}"
     if row["verdict"] != HOLDS:
         row["cause"] = fill(claim["cause"], names)
     return row
@@ -409,7 +412,7 @@ def conclude(folder, rows):
     """Sentences that compare the paper's result with this run's."""
     run = Run(folder)
     counts = Counter(row["verdict"] for row in rows)
-    said = [
+    findings = [
         f"claims of the paper: {len(rows)}; "
         + ", ".join(
             f"{counts[verdict]} {verdict}" for verdict in (HOLDS, WEAKER, FAILS, UNMEASURED)
@@ -418,21 +421,21 @@ def conclude(folder, rows):
     try:
         best = run.best_build(SCALAR)
         kernel, config = run.build(best)
-        said.append(
+        findings.append(
             f"paper: 1.93 x (float, clang-archnative, Zen 2); here {run.speedup('float@archnative'):.2f} x "
             f"(float, {run.build('float@archnative')[1]}); fastest of these kernels here: "
             f"{run.speedup(best):.2f} x ({kernel}, {config})"
         )
         exact = run.row("ladder", kernel="exact", isa="scalar")
         single = run.row("ladder", kernel="float", config=run.reference())
-        said.append(
+        findings.append(
             f"exact, the solver without steps: {number(exact['speedup']):.0f} x at an error of "
             f"{number(exact['pair_error_max']):.1e} from the limit of infinitely many steps; "
             f"float is {number(single['pair_error_max']):.1e} from pooltool's 1000 steps"
         )
     except Missing as why:
-        said.append(f"no speedup to conclude from: {why}")
-    return said
+        findings.append(f"no speedup to conclude from: {why}")
+    return findings
 
 
 def print_row(row, out):
@@ -440,10 +443,10 @@ def print_row(row, out):
     *first, last = textwrap.wrap(row["claim"], CLAIM_WIDTH)
     for line in first:
         print(f"  {line}", file=out)
-    paper, here = (row[name] and f"{float(row[name]):.5g}" for name in ("paper", "here"))
+    paper, measured = (row[name] and f"{float(row[name]):.5g}" for name in ("paper", "here"))
     if row["uncertainty"]:
-        here += f" ± {row['uncertainty']}"
-    numbers = f"{paper or '-':>8} {here or '-':>15} {row['unit']:<10}"
+        measured += f" ± {row['uncertainty']}"
+    numbers = f"{paper or '-':>8} {measured or '-':>15} {row['unit']:<10}"
     print(f"  {last:<{CLAIM_WIDTH}} {numbers} {row['verdict']}", file=out)
     for line in textwrap.wrap(row["cause"], CLAIM_WIDTH + 34):
         print(f"      {line}", file=out)

@@ -37,17 +37,11 @@ int command_published(int argc, char **argv) {
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;
-  FILE *out = output_open(job.shared.output);
-  if (out == NULL)
-    return EXIT_USAGE;
   const char *module = "lab.published";
   if (job.cushions)
     module = "lab.cushions";
   char measured[PATH_MAX];
   snprintf(measured, sizeof measured, "%s/measured.csv", data_folder(job.shared.folder));
   const char *const words[] = {LAB_LIBRARY, measured, text_if(job.csv, "csv"), NULL};
-  const int ended = python_run("jinja2 pycparser", module, words, out);
-  if (ended < 0 || ended > EXIT_SOME || !output_commit())
-    return EXIT_USAGE;
-  return ended;
+  return python_command("jinja2 pycparser", module, words, job.shared.output);
 }

@@ -93,9 +93,9 @@ def code_of(module, kernel):
 
 
 def parse_callgrind(text):
-    """(counts, taken): executions by address, and how often the conditional jump at an address was taken. The line after `calls=`
+    """(counts, jump_counts): executions by address, and how often the conditional jump at an address was taken. The line after `calls=`
     is the cost of what was called, and not counted here."""
-    counts, taken = Counter(), Counter()
+    counts, jump_counts = Counter(), Counter()
     skip, jump = False, None
     if "positions: instr" not in text:
         raise ValueError(
@@ -110,13 +110,13 @@ def parse_callgrind(text):
             words = line.split()
             address = int(words[0], 16)
             if jump is not None:
-                taken[address] += jump
+                jump_counts[address] += jump
                 jump = None
             elif skip:
                 skip = False
             elif len(words) > 2:
                 counts[address] += int(words[2])
-    return counts, taken
+    return counts, jump_counts
 
 
 def data_accesses(text, code):
@@ -179,7 +179,7 @@ def flops(total, fma=1):
     return sum(total[kind] for kind in ("add", "mul", "div", "sqrt")) + fma * total["fma"]
 
 
-def hot_loops(code, counts, taken, threshold):
+def hot_loops(code, counts, jump_counts, threshold):
     """[(executions, [Instruction, ...])], most executed first: the instructions of one iteration on the path that is taken most.
 
     Beginning with the instruction executed most often, the path follows every jump in the direction taken more often until it comes
@@ -191,17 +191,17 @@ def hot_loops(code, counts, taken, threshold):
     for start in sorted(
         (a for a in addresses if counts[a] >= threshold), key=lambda a: (-counts[a], a)
     ):
-        path, here = {}, start
-        while start not in seen and here in code and here not in path and counts[here] > 0:
-            path[here] = instruction = code[here]
+        path, address = {}, start
+        while start not in seen and address in code and address not in path and counts[address] > 0:
+            path[address] = instruction = code[address]
             jumps = (
                 instruction.mnemonic == "jmp"
                 or instruction.target is not None
-                and 2 * taken[here] > counts[here]
+                and 2 * jump_counts[address] > counts[address]
             )
-            here = instruction.target if jumps else following.get(here)
+            address = instruction.target if jumps else following.get(address)
         seen.update(path)
-        if path and here == start:
+        if path and address == start:
             first = list(path).index(min(path))
             loops.append(
                 (
@@ -267,7 +267,10 @@ def mca_cycles(path, model, iterations=100):
     """Cycles an iteration of a loop by llvm-mca; None where it is missing or does not know the model. Jumps of the path are
     branches to one label, since llvm-mca follows none."""
     program = mca()
-    lines = [f"{one.mnemonic} loop" if one.target is not None else one.text for one in path]
+    lines = [
+        f"{instruction.mnemonic} loop" if instruction.target is not None else instruction.text
+        for instruction in path
+    ]
     if program is None:
         return None
     words = [
@@ -303,11 +306,11 @@ def module_of(options):
     )
 
 
-def kernels_of(wanted):
+def kernels_of(choice):
     """The kernels to count, in the order of kernels.def: {name: what it needs of the processor}."""
     text = (ROOT / "study" / "ladder" / "kernels.def").read_text()
     found = dict(re.findall(r"^RUNG\((\w+),\s*\w+,\s*\w+,\s*(\w+),", text, re.M))
-    names = list(found) if wanted == "all" else wanted.split(",")
+    names = list(found) if choice == "all" else choice.split(",")
     for name in names:
         if name not in found:
             fail(f"no kernel '{name}' in kernels.def; there are {', '.join(found)}, or all")

@@ -42,25 +42,10 @@ int command_bounds(int argc, char **argv) {
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;
-  FILE *out = output_open(job.shared.output);
-  if (out == NULL)
-    return EXIT_USAGE;
   char steps[16];
   snprintf(steps, sizeof steps, "%d", job.steps);
   const char *words[10] = {"--build", STUDY_BUILD, "--steps", steps};
-  int count = 4;
-  if (job.kernels != NULL) {
-    words[count++] = "--kernel";
-    words[count++] = job.kernels;
-  }
-  if (job.config != NULL) {
-    words[count++] = "--config";
-    words[count++] = job.config;
-  }
-  const int ended = python_run("jinja2", "study.bounds", words, out);
-  if (ended < 0 || ended > EXIT_SOME) {
-    output_abandon();
-    return EXIT_USAGE;
-  }
-  return output_commit() ? ended : EXIT_USAGE;
+  python_option(words, "--kernel", job.kernels);
+  python_option(words, "--config", job.config);
+  return python_command("jinja2", "study.bounds", words, job.shared.output);
 }

@@ -45,27 +45,12 @@ int command_paper(int argc, char **argv) {
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;
-  FILE *out = output_open(job.shared.output);
-  if (out == NULL)
-    return EXIT_USAGE;
   char budget[32];
   snprintf(budget, sizeof budget, "%.17g", job.budget);
   const char *words[10] = {"--build", STUDY_BUILD, "--budget", budget};
-  int count = 4;
   if (job.csv)
-    words[count++] = "--csv";
-  if (job.source != NULL) {
-    words[count++] = "--from";
-    words[count++] = job.source;
-  }
-  if (job.record != NULL) {
-    words[count++] = "--record";
-    words[count++] = job.record;
-  }
-  const int ended = python_run("jinja2", "study.paper", words, out);
-  if (ended < 0 || ended > EXIT_SOME) {
-    output_abandon();
-    return EXIT_USAGE;
-  }
-  return output_commit() ? ended : EXIT_USAGE;
+    words[4] = "--csv";
+  python_option(words, "--from", job.source);
+  python_option(words, "--record", job.record);
+  return python_command("jinja2", "study.paper", words, job.shared.output);
 }

@@ -1,5 +1,6 @@
 /* Subcommands that are programs in Python, run by the shell. */
 #include "python.h"
+#include "program/program.h"
 
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -15,7 +16,8 @@ static void add_quoted(FILE *line, const char *word) {
   fputc('\'', line);
 }
 
-int python_run(const char *needs, const char *module, const char *const words[], FILE *out) {
+/* The exit code of the program, or -1 if it could not be run or did not exit. */
+static int run(const char *needs, const char *module, const char *const words[], FILE *out) {
   char *text = NULL;
   size_t length = 0;
   FILE *line = open_memstream(&text, &length);
@@ -37,4 +39,26 @@ int python_run(const char *needs, const char *module, const char *const words[],
   if (!WIFEXITED(status))
     return -1;
   return WEXITSTATUS(status);
+}
+
+int python_command(const char *needs, const char *module, const char *const words[],
+                   const char *output) {
+  FILE *out = output_open(output);
+  if (out == NULL)
+    return EXIT_USAGE;
+  const int code = run(needs, module, words, out);
+  if (code < 0 || code > EXIT_SOME) {
+    output_abandon();
+    return EXIT_USAGE;
+  }
+  return output_commit() ? code : EXIT_USAGE;
+}
+
+void python_option(const char *words[], const char *option, const char *value) {
+  if (value == NULL)
+    return;
+  while (*words != NULL)
+    words++;
+  words[0] = option;
+  words[1] = value;
 }

@@ -120,26 +120,26 @@ def derive_performance(options, data):
         if not same.get(row["config"], False):
             continue
         steps, a_step = number(row["steps"]), number(count.get("per_step_flops_amd"))
-        flops, taken = (
+        flops, cycle_count = (
             number(count.get("flops_amd")) + (steps - 1000) * a_step,
             number(row.get("core_cycles")),
         )
-        bound, here = (
+        bound, local_bound = (
             1000 * a_step / number(count.get(f"chain_cycles_{machine}"))
             for machine in ("zen2", "native")
         )
         if counted["flops"]:
             flops = number(row["flops"])
         if counted["cycles"]:
-            taken = number(row["cycles"])
+            cycle_count = number(row["cycles"])
         named = {
             "flops": flops,
-            "cycles": taken,
-            "flops_per_cycle": flops / taken,
+            "cycles": cycle_count,
+            "flops_per_cycle": flops / cycle_count,
             "bound_flops_per_cycle": bound,
-            "share_of_bound": flops / taken / bound,
-            "bound_here_flops_per_cycle": here,
-            "share_of_bound_here": flops / taken / here,
+            "share_of_bound": flops / cycle_count / bound,
+            "bound_here_flops_per_cycle": local_bound,
+            "share_of_bound_here": flops / cycle_count / local_bound,
         }
         if bound == bound and flops == flops:
             rows.append(
@@ -155,7 +155,7 @@ def operations(data):
     """
     rows = []
     for row in data["bounds"].rows:
-        flops, bound, taken = PAPER_BOUNDS.get(row["kernel"], (math.nan,) * 3)
+        flops, bound, paper_cycles = PAPER_BOUNDS.get(row["kernel"], (math.nan,) * 3)
         timed = data["performance"].first(kernel=row["kernel"], config=row["config"], steps="1000")
         rows.append(
             {
@@ -163,7 +163,7 @@ def operations(data):
                 "paper_flops": flops,
                 "paper_bound": bound,
                 "share": 100 * number(timed.get("share_of_bound")) if timed else "NA",
-                "paper_share": 100 * bound / taken,
+                "paper_share": 100 * bound / paper_cycles,
             }
         )
     return [
@@ -326,8 +326,8 @@ def arguments(words):
 def main(words):
     options = arguments(words)
     options.folder.mkdir(parents=True, exist_ok=True)
-    wanted = [name for name in FIGURES if not options.docs or name in OF_DOCS]
-    drawn_from = {FIGURES[figure][0] for figure in wanted}
+    figures = [name for name in FIGURES if not options.docs or name in OF_DOCS]
+    drawn_from = {FIGURES[figure][0] for figure in figures}
     sources = [
         name
         for name in DATA
@@ -344,7 +344,7 @@ def main(words):
         derive_speedup(options, data),
         derive_performance(options, data),
     )
-    for name in wanted:
+    for name in figures:
         source, title = FIGURES[name]
         draw(options.folder, name, source, title, HERE.parent / "figures" / f"{name}.gp")
     if options.docs:
