@@ -25,7 +25,7 @@ __all__ = [
     "ball_kind",
     "ball_state",
     "brief_event",
-    "choice",
+    "plan_stroke",
     "columns",
     "cue",
     "cushion_impact",
@@ -108,7 +108,7 @@ event: Record = _record("carom_event")
 brief_event: Record = _record("carom_brief_event")
 # How the strokes of a player differ from those that he means: standard deviations, and bounds.
 player: Record = _record("carom_player")
-choice: Record = _record("carom_plan_stroke")  # A shot that `carom.plan` proposes.
+plan_stroke: Record = _record("carom_plan_stroke")  # A shot that `carom.plan` proposes.
 facts: Record = _record("carom_facts")  # What happened in a shot, which `carom.Features` shows.
 # How a game stands for the player at the table: opening, group, fouls, score, lost, pocket, may,
 # on, free_ball, target, innings; user is of one's own rules.

@@ -35,7 +35,7 @@ def test_plan():
     best = carom.plan(TABLE, LAYOUT, rules="potting", shots=300)
     repeat = carom.plan(TABLE, LAYOUT, rules="potting", shots=300, threads=2)
     assert (
-        best.dtype == carom.dtypes.choice
+        best.dtype == carom.dtypes.plan_stroke
         and 1 <= len(best) <= 5
         and best.tobytes() == repeat.tobytes()
     )
@@ -186,7 +186,7 @@ def test_chances_of_strokes():
     chances = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7)
     repeat = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7, threads=2)
     assert (
-        chances.dtype == carom.dtypes.choice
+        chances.dtype == carom.dtypes.plan_stroke
         and chances.shape == (2,)
         and chances.tobytes() == repeat.tobytes()
         and chances["seen"].tolist() == [1000, 1000]

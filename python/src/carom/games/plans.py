@@ -541,7 +541,7 @@ def plan(
 
     Returns
     -------
-    ndarray of `carom.dtypes.choice`, shape (up to best,)
+    ndarray of `carom.dtypes.plan_stroke`, shape (up to best,)
         The best first: `cue` is the stroke, `value` the chance to win, and `kind` what the stroke
         is, as `carom.plans.Kind`.
 
@@ -573,7 +573,7 @@ def plan(
         seconds,
         run_out,
     )
-    choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
+    choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.plan_stroke)
     found = ffi.new("int *")
     rows = pointer("carom_plan_stroke[]", choices)
     if _by is not None:
@@ -622,7 +622,7 @@ def chances(
 
     Returns
     -------
-    ndarray of `carom.dtypes.choice`, of the shape of `cues`
+    ndarray of `carom.dtypes.plan_stroke`, of the shape of `cues`
         In their order. `value` is the chance to win, `keep` that to play on; `ball` and `pocket`
         are what falls without errors.
 
@@ -649,7 +649,7 @@ def chances(
         stop,
         chosen(options, changes),
     )
-    choices: Array = np.zeros(strokes.shape, dtypes.choice)
+    choices: Array = np.zeros(strokes.shape, dtypes.plan_stroke)
     job.call(
         lib.carom_plan_try,
         pointer("carom_cue[]", strokes),
