@@ -98,8 +98,7 @@ typedef struct carom_ways_result {
                        parts, or for the events of the shot. */
 } carom_ways_result;
 
-/* The number of bytes that a search for up to `room` ways needs: about 3 MB, and 40 bytes a way. 0
- * if room is below 1. */
+/* The number of bytes that a search for up to `room` ways needs. 0 if room is below 1. */
 CAROM_API size_t carom_ways_memory(int64_t room);
 
 /* Finds the ways to the goal, and writes up to `room` of them to ways[]: those with the best

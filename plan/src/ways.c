@@ -107,8 +107,9 @@ static bool find_chance(ways_search *s, way *w) {
     for (int k = 0; k < n; k++)
       good += is_good(s->job, &s->work->facts[k], s->work->final[k], w);
   }
-  w->chance = (double)good / TRIES;
-  w->error = sqrt(w->chance * (1.0 - w->chance) / TRIES);
+  const double tries = TRIES;
+  w->chance = good / tries;
+  w->error = sqrt(w->chance * (1.0 - w->chance) / tries);
   return true;
 }
 

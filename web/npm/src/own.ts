@@ -22,7 +22,7 @@ import type { GameRules, OwnTurn } from "./types.js";
 const RULES = layout.carom_plan_rules;
 const STATE = layout.carom_rules_state.offset;
 const TURN = layout.carom_turn.offset;
-const HAND = names.carom_leave.indexOf("hand");
+const HAND = names.carom_leave.indexOf("anywhere");
 /** The words of a state that are the rules'; the one behind them is the number of the rules. */
 const WORDS = 7;
 /** The methods that rules may leave to the library, as own.c numbers them. */

@@ -197,7 +197,7 @@ class Match:
         """What the match waits for: a "stroke", a "place" of the cue ball in hand, the rest of a
         shot that was stopped ("moving"), or nothing ("over").
         """
-        return _PHASES[self._c.phase]
+        return str(_PHASES[self._c.phase])
 
     @property
     def player(self) -> int:
