@@ -457,20 +457,17 @@ private:
       return carom_match_plan(match_, &job_, choices_.data(), room(), &found_);
     if (in_hand_ == 0)
       return carom_plan(&job_, choices_.data(), room(), &found_);
-    const carom_bounds bounds = hand_bounds();
-    return carom_plan_hand(&job_, bounds.low, bounds.high, choices_.data(), room(), &found_);
+    if (job_.leave < CAROM_LEAVE_ANYWHERE)
+      job_.leave = leave_in_hand();
+    return carom_plan_hand(&job_, nullptr, nullptr, choices_.data(), room(), &found_);
   }
-  /* Those of the leave; else of the game by its rules. */
-  carom_bounds hand_bounds() const {
-    carom_bounds bounds{};
-    int leave = in_hand_;
-    if (leave < CAROM_LEAVE_ANYWHERE) {
-      const auto kind = static_cast<carom_rules_kind>(job_.rules->learned - 1);
-      const carom_rules_about *about = carom_rules_about_of(kind);
-      leave = about != nullptr ? about->hand : CAROM_LEAVE_ANYWHERE;
-    }
-    carom_hand_bounds(static_cast<carom_leave>(leave), job_.table, 0.0, &bounds);
-    return bounds;
+  /* That of the caller; else of the game by its rules. */
+  int leave_in_hand() const {
+    if (in_hand_ >= CAROM_LEAVE_ANYWHERE)
+      return in_hand_;
+    const auto kind = static_cast<carom_rules_kind>(job_.rules->learned - 1);
+    const carom_rules_about *about = carom_rules_about_of(kind);
+    return about != nullptr ? about->hand : CAROM_LEAVE_ANYWHERE;
   }
 
   carom_plan_job job_;

@@ -335,13 +335,16 @@ namespace Carom {
       held = new Held(of, slice);
       room = new PlanStroke[most];
       this.inHand = inHand;
-      bounds = of.Bounds ?? BoundsAfterFoul(of);
+      var leave = of.Leave;
+      if (inHand && of.Bounds == null && leave < Leave.Anywhere)
+        leave = LeaveAfterFoul(of);
+      held.Job->leave = (long)leave;
+      bounds = of.Bounds ?? Calls.HandBounds(leave, of.Table, 0.0);
     }
 
-    static HandBounds BoundsAfterFoul(Position of) {
+    static Leave LeaveAfterFoul(Position of) {
       var about = Native.carom_rules_about_of((RulesKind)(of.Rules.learned - 1));
-      var leave = about != null ? (Leave)about->hand : Leave.Anywhere;
-      return Calls.HandBounds(leave, of.Table, 0.0);
+      return about != null ? (Leave)about->hand : Leave.Anywhere;
     }
 
     /// <summary>Plays a slice. Returns whether the plan has ended.</summary>

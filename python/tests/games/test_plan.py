@@ -47,6 +47,19 @@ def test_plan():
     assert len(weak) == 1 and weak["value"][0] < best["value"][0] - 0.1
 
 
+def test_kitchen_bars_balls_behind_it():
+    """From behind the head string the stroke may not first meet a ball there, whichever the game;
+    within the same corners, without that leave, it may.
+    """
+    balls = carom.balls([[0.6, 0.6], [0.35, 0.30], [0.9, 2.1]])
+    corners = [[0.0, 0.0], [TABLE.width, TABLE.length / 4]]
+    values = [
+        carom.plan(TABLE, balls, rules="nineball", in_hand=in_hand, shots=600, best=1)["value"][0]
+        for in_hand in ("kitchen", corners)
+    ]
+    assert values[0] < values[1] - 0.2
+
+
 class Points(carom.Rules):
     """Three-cushion by its facts."""
 

@@ -240,6 +240,7 @@ export class Plans {
     refuseUnknown(request, KEYS.plan);
     const { best = 5, inHand = "no" } = request;
     const options = this.#withCueBall(table, balls, cues, request);
+    const placed = inHand === "no" || typeof inHand !== "string" ? 0 : HANDS.lastIndexOf(inHand);
     const memory = this.#memory;
     const most = cues?.length ?? best;
     if (!Number.isInteger(most) || most < 1 || most > 1000)
@@ -259,7 +260,7 @@ export class Plans {
         // Other calls since the last slice have used the memory of arguments.
         const job = this.#writeJob(table, balls, options);
         setStruct(memory, this.#addresses.options, "carom_plan_options", { slice }, false);
-        const more = { memory: room, memorySize: size, leave };
+        const more = { memory: room, memorySize: size, leave: leave || placed };
         setStruct(memory, job, "carom_plan_job", more, false);
         memory.i32[found / 4] = most;
         let code: number;

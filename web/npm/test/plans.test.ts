@@ -531,6 +531,17 @@ test("straight pool and snooker: points, colours on their own spots, a foul, the
   expect(Math.hypot(first!.place[0] - table.width / 2, first!.place[1] - 0.737)).toBeLessThan(
     0.2921,
   );
+
+  // From behind the head string, a ball there may not be met first; in the same corners it may.
+  const behind = [carom.ball(0.6, 0.6), carom.ball(0.35, 0.3), carom.ball(0.9, 2.1)];
+  const corners = [
+    [0, 0],
+    [pool.width, pool.length / 4],
+  ] as const;
+  const [barred, free] = (["kitchen", corners] as const).map(
+    (inHand) => carom.plan(pool, behind, { rules: "nineball", inHand, shots: 600, best: 1 })[0]!,
+  );
+  expect(barred!.value).toBeLessThan(free!.value - 0.2);
 });
 
 test("a rating grows with what is won, by both builds; a score in error is named", () => {

@@ -256,6 +256,10 @@ impl Position {
     pub fn think(self, slice: i64, most: usize, in_hand: bool) -> Result<Thinking, Error> {
         let mut of = Box::new(self);
         of.options.slice = slice;
+        let is_placed = of.leave != Leave::After && of.leave != Leave::Before;
+        if in_hand && of.bounds.is_none() && !is_placed {
+            of.leave = leave_in_hand(&of);
+        }
         let bytes = of.with_job(&mut [], |job| unsafe {
             sys::carom_plan_memory(job.options)
         });
@@ -336,11 +340,11 @@ unsafe impl Sync for Position {}
 unsafe impl Send for Thinking {}
 unsafe impl Sync for Thinking {}
 
-/// Where the game lets a cue ball in hand be put after a foul.
-fn bounds_in_hand(of: &Position) -> Bounds {
+/// The leave of the game after a foul that leaves the cue ball in hand.
+fn leave_in_hand(of: &Position) -> Leave {
     let about = unsafe { sys::carom_rules_about_of(of.rules.learned - 1).as_ref() };
-    let leave = about.and_then(|one| one.hand.try_into().ok());
-    calls::hand_bounds(leave.unwrap_or(Leave::Anywhere), &of.table, 0.0).unwrap_or_default()
+    let leave = about.and_then(|game| game.hand.try_into().ok());
+    leave.unwrap_or(Leave::Anywhere)
 }
 
 /// A plan on its way.
@@ -374,7 +378,10 @@ impl Thinking {
             if self.begun {
                 sys::carom_plan_continue(&job, to, room, &mut found)
             } else if self.in_hand {
-                let bounds = self.of.bounds.unwrap_or_else(|| bounds_in_hand(&self.of));
+                let of = &self.of;
+                let bounds = of.bounds.unwrap_or_else(|| {
+                    calls::hand_bounds(of.leave, &of.table, 0.0).unwrap_or_default()
+                });
                 let (low, high) = (bounds.low.as_ptr(), bounds.high.as_ptr());
                 sys::carom_plan_hand(&job, low, high, to, room, &mut found)
             } else {

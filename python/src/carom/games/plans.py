@@ -319,17 +319,15 @@ def _one_player(player: Records, name: str = "player") -> Any:
     return pointer("carom_player[]", record)
 
 
-def _corners(in_hand: Hand | ArrayLike, table: Table, radius: float) -> tuple[Any, Any] | None:
-    """The corners for C between which the cue ball is put; NULL: anywhere. None: not in hand."""
+def _corners(in_hand: Hand | ArrayLike) -> tuple[int, Any, Any] | None:
+    """The leave within whose bounds the cue ball is put, and corners for C; NULL: no further bound.
+    None: not in hand.
+    """
     if isinstance(in_hand, str):
         leave = choice({word: LEAVES.get(word, 0) for word in get_args(Hand)}, in_hand, "in_hand")
         if leave == 0:
             return None
-        if leave == lib.CAROM_LEAVE_ANYWHERE:
-            return ffi.NULL, ffi.NULL
-        bounds = ffi.new("carom_bounds *")
-        lib.carom_hand_bounds(leave, pointer("carom_table *", table.record), radius, bounds)
-        in_hand = [[*bounds.low], [*bounds.high]]
+        return leave, ffi.NULL, ffi.NULL
     corners = as_array(in_hand, "in_hand", np.float64)
     if corners.shape != (2, 2) or not (corners[0] <= corners[1]).all():
         raise ValueError(
@@ -337,7 +335,7 @@ def _corners(in_hand: Hand | ArrayLike, table: Table, radius: float) -> tuple[An
             f"[[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}"
         )
     low, high = np.ascontiguousarray(corners)
-    return pointer("double[]", low), pointer("double[]", high)
+    return 0, pointer("double[]", low), pointer("double[]", high)
 
 
 def _stoppable(call: Callable[[], int], flag: Any, stop: threading.Event | None) -> int:
@@ -552,8 +550,7 @@ def plan(
     """
     check_table(table)
     layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
-    radius = float(layout["kind"]["radius"].flat[0]) if layout.size else 0.0
-    corners = _corners(in_hand, table, radius)
+    corners = _corners(in_hand)
     game = (_by and _by.game_record) or Made(rules, state, group, opening)
     game.stop[0] = 0
     job = _Job(
@@ -579,7 +576,8 @@ def plan(
     if _by is not None:
         job.call(_by.call, rows, len(choices), found)
     elif corners is not None:
-        job.call(lib.carom_plan_hand, *corners, rows, len(choices), found)
+        job.c.leave, *bounds = corners
+        job.call(lib.carom_plan_hand, *bounds, rows, len(choices), found)
     else:
         job.call(lib.carom_plan, rows, len(choices), found)
     return choices[: found[0]]
