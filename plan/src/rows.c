@@ -105,28 +105,24 @@ static bool is_good(const carom_rules_state *state, const carom_turn *turn) {
   return turn->outcome != CAROM_TURN_LOSE;
 }
 
-/* The worth of a shot for the player: its turn, and the value of the layout that it leaves.
- * `final` is changed. */
-static outcome judge(const search *plan, const carom_facts *facts, carom_ball_state *final,
-                     carom_status status, const candidate *c, bool errors) {
-  const carom_plan_rules *rules = plan->job.rules;
-  if (status < 0) /* an error tells nothing: a foul */
-    facts = &carom_no_facts;
-  carom_call call = {CAROM_CALL_PUSH, -1};
-  if (c->kind != CAROM_PLAN_PUSH && errors && rules->calls)
-    call = (carom_call){c->ball, c->pocket};
-  else if (c->kind != CAROM_PLAN_PUSH)
-    call = call_of(plan, facts);
-  carom_rules_state game = rules->state; /* rules change it as they judge */
-  carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, facts, call);
-  const bool alone = rules->race == CAROM_RACE_ALONE, good = is_good(&game, &turn);
-  outcome o = {.turn = (int8_t)(good ? CAROM_TURN_KEEP : turn.outcome),
-               .foul = turn.foul != 0,
+/* The call of a shot: that of the candidate with errors, and without them what the shot makes. */
+static carom_call call_for(const search *plan, const carom_facts *facts, const candidate *c,
+                           bool errors) {
+  if (c->kind == CAROM_PLAN_PUSH)
+    return (carom_call){CAROM_CALL_PUSH, -1};
+  if (errors && plan->job.rules->calls)
+    return (carom_call){c->ball, c->pocket};
+  return call_of(plan, facts);
+}
+
+/* What an outcome tells of a turn and its call, without the worth. */
+static outcome outcome_of(const carom_facts *facts, carom_call call, const carom_turn *turn,
+                          bool good) {
+  outcome o = {.turn = (int8_t)(good ? CAROM_TURN_KEEP : turn->outcome),
+               .foul = turn->foul != 0,
                .ball = -1,
                .pocket = -1,
                .first = (int8_t)facts->first[0]};
-
-  /* its call */
   if (call.ball == CAROM_CALL_PUSH)
     o.ball = CAROM_CALL_PUSH;
   if (call.ball >= 0 && good) {
@@ -134,46 +130,80 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
     o.pocket = (int8_t)call.pocket;
     o.cushions = (int16_t)facts->cushions[call.ball];
   }
-  if (turn.outcome == CAROM_TURN_WIN || turn.outcome == CAROM_TURN_LOSE) {
-    o.worth = turn.outcome == CAROM_TURN_WIN;
-    return o;
-  }
-  if (turn.outcome == CAROM_TURN_DRAW && !alone) {
-    o.worth = 0.5;
-    return o;
-  }
-  if (alone && (turn.outcome == CAROM_TURN_PASS || turn.outcome == CAROM_TURN_DRAW)) {
-    o.worth = carom_search_share(plan, turn.points);
-    return o;
-  }
+  return o;
+}
 
-  /* A shot that was stopped at a wrong ball, and one in error, have left no layout. */
-  if (status != CAROM_OK && turn.outcome == CAROM_TURN_PASS) {
-    o.worth = plan->foul_value;
-    return o;
+/* Whether a turn has a worth of its own, whatever the layout: it ends the game or the visit, or a
+ * shot that was stopped at a wrong ball or is in error has left no layout. */
+static bool has_worth(const search *plan, const carom_turn *turn, carom_status status,
+                      double *worth) {
+  const bool alone = plan->job.rules->race == CAROM_RACE_ALONE;
+  const bool passes = turn->outcome == CAROM_TURN_PASS, draws = turn->outcome == CAROM_TURN_DRAW;
+  if (turn->outcome == CAROM_TURN_WIN || turn->outcome == CAROM_TURN_LOSE)
+    *worth = turn->outcome == CAROM_TURN_WIN;
+  else if (draws && !alone)
+    *worth = 0.5;
+  else if (alone && (passes || draws))
+    *worth = carom_search_share(plan, turn->points);
+  else if (status != CAROM_OK && passes)
+    *worth = plan->foul_value;
+  else
+    return false;
+  return true;
+}
+
+/* The layout of the next stroke, from that which the shot left. */
+static void leave_layout(const search *plan, carom_rules_state *game, const candidate *c,
+                         carom_ball_state *final, bool taken_back, carom_turn *turn) {
+  if (plan->job.rules->settle != NULL) {
+    if (taken_back || turn->spot != 0 || turn->outcome == CAROM_TURN_PASS)
+      settle(plan, game, c, final, taken_back, turn);
+    return;
   }
-  const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
-  if (rules->settle != NULL && (taken_back || turn.spot != 0 || turn.outcome == CAROM_TURN_PASS))
-    settle(plan, &game, c, final, taken_back, &turn);
   const carom_marks marks = carom_marks_of(plan->view.width, plan->view.length);
   for (int k = 0; k < plan->view.count; k++) {
-    if (taken_back && rules->settle == NULL)
+    if (taken_back)
       final[k] = state_at_stroke(plan, c, k);
-    if (rules->settle == NULL && (turn.spot >> k & 1))
+    if (turn->spot >> k & 1)
       final[k] =
           (carom_ball_state){.r = {marks.foot_spot[0], marks.foot_spot[1], plan->view.radius[k]},
                              .label = CAROM_BALL_STATIONARY};
   }
+}
+
+/* The worth of a layout, and of the points that the turn made without an opponent. */
+static double worth_of_layout(const search *plan, const carom_rules_state *game,
+                              const carom_ball_state *layout, const carom_turn *turn) {
+  const carom_plan_rules *rules = plan->job.rules;
   /* any ball may be struck: about as good as the cue ball in hand */
-  const bool in_hand = turn.leave >= CAROM_LEAVE_ANYWHERE || rules->any_cue_ball != 0;
-  const bool passes = turn.outcome == CAROM_TURN_PASS;
-  o.worth = carom_value_of(&plan->view, &game, final, passes, in_hand);
+  const bool in_hand = turn->leave >= CAROM_LEAVE_ANYWHERE || rules->any_cue_ball != 0;
+  const bool passes = turn->outcome == CAROM_TURN_PASS;
+  double worth = carom_value_of(&plan->view, game, layout, passes, in_hand);
   if (passes)
-    o.worth = 1.0 - o.worth;
-  if (passes && turn.foul != 0)
-    o.worth = carom_search_foul(o.worth);
-  if (alone && !passes)
-    o.worth = carom_search_share(plan, turn.points + o.worth);
+    worth = 1.0 - worth;
+  if (passes && turn->foul != 0)
+    worth = carom_search_foul(worth);
+  if (rules->race == CAROM_RACE_ALONE && !passes)
+    worth = carom_search_share(plan, turn->points + worth);
+  return worth;
+}
+
+/* The worth of a shot for the player: its turn, and the value of the layout that it leaves.
+ * `final` is changed. */
+static outcome judge(const search *plan, const carom_facts *facts, carom_ball_state *final,
+                     carom_status status, const candidate *c, bool errors) {
+  const carom_plan_rules *rules = plan->job.rules;
+  if (status < 0) /* an error tells nothing: a foul */
+    facts = &carom_no_facts;
+  const carom_call call = call_for(plan, facts, c, errors);
+  carom_rules_state game = rules->state; /* rules change it as they judge */
+  carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, facts, call);
+  outcome o = outcome_of(facts, call, &turn, is_good(&game, &turn));
+  if (has_worth(plan, &turn, status, &o.worth))
+    return o;
+  const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
+  leave_layout(plan, &game, c, final, taken_back, &turn);
+  o.worth = worth_of_layout(plan, &game, final, &turn);
   return o;
 }
 

@@ -48,6 +48,9 @@ const PART = layout.carom_part;
 const MAY = names.carom_choice;
 /** Where the cue ball may be put, by its carom_leave. */
 export const HANDS = ["no", "no", "anywhere", "kitchen", "d", "baulk"] as const;
+/** The leave within whose bounds the cue ball is put, by the word of `inHand`; 0: none. */
+const leaveOf = (inHand: PlanOptions["inHand"]): number =>
+  typeof inHand === "string" && inHand !== "no" ? HANDS.lastIndexOf(inHand) : 0;
 /** The members of a state that are numbers here, too. */
 const MEMBERS = [
   "fouls",
@@ -240,7 +243,6 @@ export class Plans {
     refuseUnknown(request, KEYS.plan);
     const { best = 5, inHand = "no" } = request;
     const options = this.#withCueBall(table, balls, cues, request);
-    const placed = inHand === "no" || typeof inHand !== "string" ? 0 : HANDS.lastIndexOf(inHand);
     const memory = this.#memory;
     const most = cues?.length ?? best;
     if (!Number.isInteger(most) || most < 1 || most > 1000)
@@ -260,7 +262,7 @@ export class Plans {
         // Other calls since the last slice have used the memory of arguments.
         const job = this.#writeJob(table, balls, options);
         setStruct(memory, this.#addresses.options, "carom_plan_options", { slice }, false);
-        const more = { memory: room, memorySize: size, leave: leave || placed };
+        const more = { memory: room, memorySize: size, leave: Math.max(leave, leaveOf(inHand)) };
         setStruct(memory, job, "carom_plan_job", more, false);
         memory.i32[found / 4] = most;
         let code: number;

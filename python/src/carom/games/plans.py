@@ -549,7 +549,6 @@ def plan(
         The layout, the cue or an option is in error.
     """
     check_table(table)
-    layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     corners = _corners(in_hand)
     game = (_by and _by.game_record) or Made(rules, state, group, opening)
     game.stop[0] = 0
