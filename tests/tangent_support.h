@@ -124,12 +124,17 @@ static double ends[LAYOUT_BALLS * NUMBERS * LAYOUT_DIRECTIONS], times[ROOM * LAY
 static int32_t event_flags[ROOM];
 static double largest_error; /* of all derivatives so far that were found by differences */
 
+/* By seeds, the derivatives of the shot that was played last. */
+static inline carom_status shot_tangent(const layout *l, const carom_tangent_seeds *seeds,
+                                        carom_tangent *t) {
+  return carom_shot_tangent(table_of(l), l->ball, l->count, &l->cue, &l->options, &shot, seeds, t);
+}
+
 /* The derivatives of the shot that was played last, with all its flags. */
 static inline carom_status tangent_of(const layout *l, const direction *by, int m, int64_t *flags) {
   const carom_tangent_seeds seeds = seeds_of(by, m);
   carom_tangent t = {.final = ends, .time = times, .flags = event_flags, .reach = reach};
-  const carom_status status =
-      carom_shot_tangent(table_of(l), l->ball, l->count, &l->cue, &l->options, &shot, &seeds, &t);
+  const carom_status status = shot_tangent(l, &seeds, &t);
   *flags = t.all_flags;
   const double most = (t.all_flags & CAROM_TANGENT_DIFFERENCES) ? 1e-4 : 0.0;
   ck_assert((t.all_flags & CAROM_TANGENT_KINK) || t.error <= most);

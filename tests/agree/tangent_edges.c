@@ -342,9 +342,7 @@ TEST(overflow) {
   const double cue[CAROM_CUE_NUMBERS] = {0.0, DBL_MAX};
   const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
   carom_tangent t = {.final = ends};
-  ck_assert_int_eq(
-      carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
-      CAROM_ERROR_OVERFLOW);
+  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_ERROR_OVERFLOW);
   for (int k = 0; k < NUMBERS * l.count; k++)
     ck_assert(isnan(ends[k]));
 }
@@ -360,14 +358,10 @@ TEST(times_after_the_end) {
   const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
   double at[2 * LAYOUT_BALLS * NUMBERS];
   carom_tangent t = {.final = ends, .at = at, .times = within, .times_count = 2};
-  ck_assert_int_eq(
-      carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
-      CAROM_OK);
+  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_OK);
   ck_assert_mem_eq(&at[NUMBERS * l.count], ends, (size_t)(NUMBERS * l.count) * sizeof *ends);
   t.times = after;
-  ck_assert_int_eq(
-      carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
-      CAROM_ERROR_TIME);
+  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_ERROR_TIME);
   for (int k = 0; k < NUMBERS * l.count; k++)
     ck_assert(isnan(ends[k]));
 }
@@ -395,8 +389,7 @@ TEST(times_that_are_refused) {
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     double at[2 * LAYOUT_BALLS * NUMBERS];
     carom_tangent t = {.final = ends, .at = at, .times = cases[k].times, .times_count = 2};
-    const carom_status status =
-        carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t);
+    const carom_status status = shot_tangent(&l, &seeds, &t);
     ck_assert_msg(status == cases[k].status, "times %g and %g: %s", cases[k].times[0],
                   cases[k].times[1], carom_status_name(status));
   }
@@ -435,9 +428,7 @@ TEST(rows_end_where_the_header_says) {
                      .flags = flags.memory,
                      .times = at_times,
                      .times_count = TIMES};
-  ck_assert_int_eq(
-      carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
-      CAROM_OK);
+  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_OK);
   for (int k = 0; k < ROWS; k++) {
     const double *row = block[k].memory;
     for (size_t x = 0; x < n[k]; x++)
@@ -1141,9 +1132,7 @@ static void follow_clusters(random_source *random, int kind) {
     carom_tangent t = {
         .final = ends, .time = times, .before = before, .after = after, .reach = reach};
     const carom_tangent_seeds seeds = seeds_of(ways, m);
-    ck_assert_int_eq(
-        carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
-        CAROM_OK);
+    ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_OK);
     check_rows(k, m, before, after);
     /* one rack in a thousand is so near to a kink that its derivative is not found */
     kinks += (t.all_flags & CAROM_TANGENT_KINK) != 0;

@@ -238,7 +238,7 @@ static double cost_of(const layout *l, bool reaching) {
     for (int i = 0; i < 4; i++)
       shoot(l, &shot);
     const double played = seconds();
-    carom_shot_tangent(table_of(l), l->ball, l->count, &l->cue, &l->options, &shot, &all, &tangent);
+    shot_tangent(l, &all, &tangent);
     least[0] = fmin(least[0], (played - start) / 4.0);
     least[1] = fmin(least[1], seconds() - played);
   }
@@ -627,9 +627,7 @@ START_TEST(states_at_times) {
     const carom_tangent_seeds seeds = seeds_of(&by_speed, 1);
     carom_tangent tangent = {.final = ends, .at = states, .times = at, .times_count = 3};
     const int numbers = l.count * NUMBERS;
-    ck_assert_int_eq(carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot,
-                                        &seeds, &tangent),
-                     CAROM_OK);
+    ck_assert_int_eq(shot_tangent(&l, &seeds, &tangent), CAROM_OK);
     for (int x = 0; x < numbers; x++)
       ck_assert_double_eq(states[2 * numbers + x], ends[x]);
     for (int n = 0; n < 2; n++) {
