@@ -716,14 +716,11 @@ TEST(ends_of_flights) {
       /* the best of three steps */
       for (double h = 1e-5 * by[j].unit; h > 1e-8 * by[j].unit; h *= 0.1) {
         for (int s = 0; s < 2; s++) {
-          static carom_event other[ROOM];
-          layout changed = l;
-          change(&changed, &by[j], s == 0 ? -h : h);
-          carom_shot t = {.events = other, .room = ROOM};
-          shoot(&changed, &t);
+          carom_shot t;
+          shoot_changed(&l, &by[j], s == 0 ? -h : h, &t);
           same &= each_alike(&t, 1);
           for (int64_t e = 0; e < t.count; e++)
-            f[s][e] = other[e].time;
+            f[s][e] = t.events[e].time;
         }
         for (int64_t e = 0; e < shot.count && same; e++) {
           const double off = fabs((f[1][e] - f[0][e]) / (2.0 * h) - times[e * 4 + j]);
@@ -787,13 +784,10 @@ TEST(centre_hit_of_a_cluster) {
 
 /* The least change at which a ball's events are others, in steps of 10 % from 1e-9 on. */
 static double change_of_events(const layout *l, const direction *by) {
-  static carom_event other[ROOM];
   for (double h = 1e-9 * by->unit; h < by->unit; h *= 1.1)
     for (int s = -1; s <= 1; s += 2) {
-      layout changed = *l;
-      change(&changed, by, s * h);
-      carom_shot t = {.events = other, .room = ROOM};
-      if (shoot(&changed, &t) != CAROM_OK || !each_alike(&t, l->count))
+      carom_shot t;
+      if (shoot_changed(l, by, s * h, &t) != CAROM_OK || !each_alike(&t, l->count))
         return h;
     }
   return INFINITY;
@@ -1210,15 +1204,12 @@ static layout draw_double_hit(random_source *random) {
   return l;
 }
 
-/* How many of both changes by a thirtieth of the reach give a ball other events. */
-static int changed_within(const layout *l, const direction *by, double reach_of) {
-  static carom_event other[ROOM];
+/* How many of both changes by a number give a ball other events. */
+static int changed_within(const layout *l, const direction *by, double most) {
   int changed = 0;
   for (int side = -1; side <= 1; side += 2) {
-    layout moved = *l;
-    change(&moved, by, side * reach_of / 30.0);
-    carom_shot s = {.events = other, .room = ROOM};
-    changed += shoot(&moved, &s) < CAROM_OK || !each_alike(&s, l->count);
+    carom_shot s;
+    changed += shoot_changed(l, by, side * most, &s) < CAROM_OK || !each_alike(&s, l->count);
   }
   return changed;
 }
@@ -1243,7 +1234,7 @@ TEST(second_touches) {
     for (int j = 0; j < BY; j++)
       if (reach[j] < 0.1 * by[j].unit) {
         tried += 2;
-        changed += changed_within(&l, &by[j], reach[j]);
+        changed += changed_within(&l, &by[j], reach[j] / 30.0);
       }
     if (again && (flags & ~CAROM_TANGENT_CLUSTER) != 0)
       flagged++;
@@ -1301,7 +1292,6 @@ TEST(piles_by_pairs) {
   random_source random = {test_seed()};
   int changed = 0, off = 0;
   for (int n = 0; n < 2 * SHOTS; n++) {
-    static carom_event other[ROOM];
     const bool pile = n < SHOTS;
     layout l = by_models(pile ? cluster_of(&random, 2) : draw(&random, 4),
                          (carom_shot_options){.simultaneous = CAROM_SIMULTANEOUS_PAIRS,
@@ -1313,12 +1303,7 @@ TEST(piles_by_pairs) {
     ck_assert_int_eq((flags & CAROM_TANGENT_CLUSTER) != 0, pile);
     for (int j = 0; j < BY; j++) {
       double error, plateau;
-      for (int s = -1; s <= 1 && !pile; s += 2) {
-        layout moved = l;
-        change(&moved, &ways[j], s * fmin(reach[j] / 30.0, 0.05));
-        carom_shot t = {.events = other, .room = ROOM};
-        changed += shoot(&moved, &t) < CAROM_OK || !each_alike(&t, l.count);
-      }
+      changed += pile ? 0 : changed_within(&l, &ways[j], fmin(reach[j] / 30.0, 0.05));
       off += pile && !(flags & (CAROM_TANGENT_KINK | CAROM_TANGENT_SIMULTANEOUS)) &&
              compare(&l, &ways[j], ends, j, BY, &error, &plateau) &&
              error > 3e-3 * largest(ends, NUMBERS * l.count, j, BY) + plateau;
@@ -1340,7 +1325,6 @@ TEST(reach_at_frozen_balls) {
   static const direction by[BY] = {{OF_CUE, 0, 0, 2},   {OF_CUE, 0, 1, 57},  {OF_CUE, 0, 3, 1},
                                    {OF_CUE, 0, 4, 1},   {OF_STATE, 0, 0, 1}, {OF_STATE, 0, 1, 1},
                                    {OF_STATE, 1, 0, 1}, {OF_STATE, 1, 1, 1}};
-  static carom_event other[ROOM];
   random_source random = {test_seed()};
   int changes[2] = {0}, others[2] = {0}, flagged = 0;
   for (int n = 0; n < SHOTS; n++) {
@@ -1358,10 +1342,8 @@ TEST(reach_at_frozen_balls) {
       const int of_place = part > 0;
       for (int j = 0; j < OF_CUES; j++)
         for (int side = -1; side <= 1 && reach[j] < INFINITY; side += 2) {
-          layout changed = l;
-          change(&changed, &by[part + j], side * reach[j] / OF_REACH);
-          carom_shot s = {.events = other, .room = ROOM};
-          if (shoot(&changed, &s) < CAROM_OK)
+          carom_shot s;
+          if (shoot_changed(&l, &by[part + j], side * reach[j] / OF_REACH, &s) < CAROM_OK)
             continue;
           changes[of_place]++;
           /* near the time at which both are stopped an event may come or go */
