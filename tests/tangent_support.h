@@ -124,12 +124,17 @@ static double ends[LAYOUT_BALLS * NUMBERS * LAYOUT_DIRECTIONS], times[ROOM * LAY
 static int32_t event_flags[ROOM];
 static double largest_error; /* of all derivatives so far that were found by differences */
 
+/* By seeds, the derivatives of the shot that was played last. */
+static inline carom_status shot_tangent(const layout *l, const carom_tangent_seeds *seeds,
+                                        carom_tangent *t) {
+  return carom_shot_tangent(table_of(l), l->ball, l->count, &l->cue, &l->options, &shot, seeds, t);
+}
+
 /* The derivatives of the shot that was played last, with all its flags. */
 static inline carom_status tangent_of(const layout *l, const direction *by, int m, int64_t *flags) {
   const carom_tangent_seeds seeds = seeds_of(by, m);
   carom_tangent t = {.final = ends, .time = times, .flags = event_flags, .reach = reach};
-  const carom_status status =
-      carom_shot_tangent(table_of(l), l->ball, l->count, &l->cue, &l->options, &shot, &seeds, &t);
+  const carom_status status = shot_tangent(l, &seeds, &t);
   *flags = t.all_flags;
   const double most = (t.all_flags & CAROM_TANGENT_DIFFERENCES) ? 1e-4 : 0.0;
   ck_assert((t.all_flags & CAROM_TANGENT_KINK) || t.error <= most);
@@ -151,21 +156,29 @@ static inline int64_t differentiate(const layout *l, const direction *by, int m)
   return derive(l, by, m);
 }
 
+/* Plays a layout of which a number is changed; its events and its end stand until the next call. */
+static inline carom_status shoot_changed(const layout *l, const direction *by, double change_of,
+                                         carom_shot *s) {
+  static carom_event other[ROOM];
+  static carom_ball_state end[LAYOUT_BALLS];
+  layout changed = *l;
+  change(&changed, by, change_of);
+  *s = (carom_shot){.events = other, .room = ROOM, .final = end};
+  return shoot(&changed, s);
+}
+
 /* The final numbers of a layout of which one is changed, if it has the same events as the shot
  * that was played last. */
 static inline bool plays_alike(const layout *l, const direction *by, double change_of, double *to) {
-  static carom_event other[ROOM];
-  carom_ball_state end[LAYOUT_BALLS];
-  layout changed = *l;
-  change(&changed, by, change_of);
-  carom_shot s = {.events = other, .room = ROOM, .final = end};
-  if (shoot(&changed, &s) < CAROM_OK || s.count != shot.count)
+  carom_shot s;
+  if (shoot_changed(l, by, change_of, &s) < CAROM_OK || s.count != shot.count)
     return false;
   for (int64_t k = 0; k < s.count; k++)
-    if (other[k].type != events[k].type || other[k].a != events[k].a || other[k].b != events[k].b)
+    if (s.events[k].type != events[k].type || s.events[k].a != events[k].a ||
+        s.events[k].b != events[k].b)
       return false;
   for (int i = 0; i < l->count; i++)
-    numbers_of(&end[i], to + NUMBERS * i);
+    numbers_of(&s.final[i], to + NUMBERS * i);
   return true;
 }
 

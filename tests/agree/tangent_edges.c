@@ -342,9 +342,7 @@ TEST(overflow) {
   const double cue[CAROM_CUE_NUMBERS] = {0.0, DBL_MAX};
   const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
   carom_tangent t = {.final = ends};
-  ck_assert_int_eq(
-      carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
-      CAROM_ERROR_OVERFLOW);
+  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_ERROR_OVERFLOW);
   for (int k = 0; k < NUMBERS * l.count; k++)
     ck_assert(isnan(ends[k]));
 }
@@ -360,14 +358,10 @@ TEST(times_after_the_end) {
   const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
   double at[2 * LAYOUT_BALLS * NUMBERS];
   carom_tangent t = {.final = ends, .at = at, .times = within, .times_count = 2};
-  ck_assert_int_eq(
-      carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
-      CAROM_OK);
+  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_OK);
   ck_assert_mem_eq(&at[NUMBERS * l.count], ends, (size_t)(NUMBERS * l.count) * sizeof *ends);
   t.times = after;
-  ck_assert_int_eq(
-      carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
-      CAROM_ERROR_TIME);
+  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_ERROR_TIME);
   for (int k = 0; k < NUMBERS * l.count; k++)
     ck_assert(isnan(ends[k]));
 }
@@ -395,8 +389,7 @@ TEST(times_that_are_refused) {
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     double at[2 * LAYOUT_BALLS * NUMBERS];
     carom_tangent t = {.final = ends, .at = at, .times = cases[k].times, .times_count = 2};
-    const carom_status status =
-        carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t);
+    const carom_status status = shot_tangent(&l, &seeds, &t);
     ck_assert_msg(status == cases[k].status, "times %g and %g: %s", cases[k].times[0],
                   cases[k].times[1], carom_status_name(status));
   }
@@ -435,9 +428,7 @@ TEST(rows_end_where_the_header_says) {
                      .flags = flags.memory,
                      .times = at_times,
                      .times_count = TIMES};
-  ck_assert_int_eq(
-      carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
-      CAROM_OK);
+  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_OK);
   for (int k = 0; k < ROWS; k++) {
     const double *row = block[k].memory;
     for (size_t x = 0; x < n[k]; x++)
@@ -725,14 +716,11 @@ TEST(ends_of_flights) {
       /* the best of three steps */
       for (double h = 1e-5 * by[j].unit; h > 1e-8 * by[j].unit; h *= 0.1) {
         for (int s = 0; s < 2; s++) {
-          static carom_event other[ROOM];
-          layout changed = l;
-          change(&changed, &by[j], s == 0 ? -h : h);
-          carom_shot t = {.events = other, .room = ROOM};
-          shoot(&changed, &t);
+          carom_shot t;
+          shoot_changed(&l, &by[j], s == 0 ? -h : h, &t);
           same &= each_alike(&t, 1);
           for (int64_t e = 0; e < t.count; e++)
-            f[s][e] = other[e].time;
+            f[s][e] = t.events[e].time;
         }
         for (int64_t e = 0; e < shot.count && same; e++) {
           const double off = fabs((f[1][e] - f[0][e]) / (2.0 * h) - times[e * 4 + j]);
@@ -796,13 +784,10 @@ TEST(centre_hit_of_a_cluster) {
 
 /* The least change at which a ball's events are others, in steps of 10 % from 1e-9 on. */
 static double change_of_events(const layout *l, const direction *by) {
-  static carom_event other[ROOM];
   for (double h = 1e-9 * by->unit; h < by->unit; h *= 1.1)
     for (int s = -1; s <= 1; s += 2) {
-      layout changed = *l;
-      change(&changed, by, s * h);
-      carom_shot t = {.events = other, .room = ROOM};
-      if (shoot(&changed, &t) != CAROM_OK || !each_alike(&t, l->count))
+      carom_shot t;
+      if (shoot_changed(l, by, s * h, &t) != CAROM_OK || !each_alike(&t, l->count))
         return h;
     }
   return INFINITY;
@@ -1141,9 +1126,7 @@ static void follow_clusters(random_source *random, int kind) {
     carom_tangent t = {
         .final = ends, .time = times, .before = before, .after = after, .reach = reach};
     const carom_tangent_seeds seeds = seeds_of(ways, m);
-    ck_assert_int_eq(
-        carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
-        CAROM_OK);
+    ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_OK);
     check_rows(k, m, before, after);
     /* one rack in a thousand is so near to a kink that its derivative is not found */
     kinks += (t.all_flags & CAROM_TANGENT_KINK) != 0;
@@ -1221,15 +1204,12 @@ static layout draw_double_hit(random_source *random) {
   return l;
 }
 
-/* How many of both changes by a thirtieth of the reach give a ball other events. */
-static int changed_within(const layout *l, const direction *by, double reach_of) {
-  static carom_event other[ROOM];
+/* How many of both changes by a number give a ball other events. */
+static int changed_within(const layout *l, const direction *by, double most) {
   int changed = 0;
   for (int side = -1; side <= 1; side += 2) {
-    layout moved = *l;
-    change(&moved, by, side * reach_of / 30.0);
-    carom_shot s = {.events = other, .room = ROOM};
-    changed += shoot(&moved, &s) < CAROM_OK || !each_alike(&s, l->count);
+    carom_shot s;
+    changed += shoot_changed(l, by, side * most, &s) < CAROM_OK || !each_alike(&s, l->count);
   }
   return changed;
 }
@@ -1254,7 +1234,7 @@ TEST(second_touches) {
     for (int j = 0; j < BY; j++)
       if (reach[j] < 0.1 * by[j].unit) {
         tried += 2;
-        changed += changed_within(&l, &by[j], reach[j]);
+        changed += changed_within(&l, &by[j], reach[j] / 30.0);
       }
     if (again && (flags & ~CAROM_TANGENT_CLUSTER) != 0)
       flagged++;
@@ -1312,7 +1292,6 @@ TEST(piles_by_pairs) {
   random_source random = {test_seed()};
   int changed = 0, off = 0;
   for (int n = 0; n < 2 * SHOTS; n++) {
-    static carom_event other[ROOM];
     const bool pile = n < SHOTS;
     layout l = by_models(pile ? cluster_of(&random, 2) : draw(&random, 4),
                          (carom_shot_options){.simultaneous = CAROM_SIMULTANEOUS_PAIRS,
@@ -1324,12 +1303,7 @@ TEST(piles_by_pairs) {
     ck_assert_int_eq((flags & CAROM_TANGENT_CLUSTER) != 0, pile);
     for (int j = 0; j < BY; j++) {
       double error, plateau;
-      for (int s = -1; s <= 1 && !pile; s += 2) {
-        layout moved = l;
-        change(&moved, &ways[j], s * fmin(reach[j] / 30.0, 0.05));
-        carom_shot t = {.events = other, .room = ROOM};
-        changed += shoot(&moved, &t) < CAROM_OK || !each_alike(&t, l.count);
-      }
+      changed += pile ? 0 : changed_within(&l, &ways[j], fmin(reach[j] / 30.0, 0.05));
       off += pile && !(flags & (CAROM_TANGENT_KINK | CAROM_TANGENT_SIMULTANEOUS)) &&
              compare(&l, &ways[j], ends, j, BY, &error, &plateau) &&
              error > 3e-3 * largest(ends, NUMBERS * l.count, j, BY) + plateau;
@@ -1351,7 +1325,6 @@ TEST(reach_at_frozen_balls) {
   static const direction by[BY] = {{OF_CUE, 0, 0, 2},   {OF_CUE, 0, 1, 57},  {OF_CUE, 0, 3, 1},
                                    {OF_CUE, 0, 4, 1},   {OF_STATE, 0, 0, 1}, {OF_STATE, 0, 1, 1},
                                    {OF_STATE, 1, 0, 1}, {OF_STATE, 1, 1, 1}};
-  static carom_event other[ROOM];
   random_source random = {test_seed()};
   int changes[2] = {0}, others[2] = {0}, flagged = 0;
   for (int n = 0; n < SHOTS; n++) {
@@ -1369,10 +1342,8 @@ TEST(reach_at_frozen_balls) {
       const int of_place = part > 0;
       for (int j = 0; j < OF_CUES; j++)
         for (int side = -1; side <= 1 && reach[j] < INFINITY; side += 2) {
-          layout changed = l;
-          change(&changed, &by[part + j], side * reach[j] / OF_REACH);
-          carom_shot s = {.events = other, .room = ROOM};
-          if (shoot(&changed, &s) < CAROM_OK)
+          carom_shot s;
+          if (shoot_changed(&l, &by[part + j], side * reach[j] / OF_REACH, &s) < CAROM_OK)
             continue;
           changes[of_place]++;
           /* near the time at which both are stopped an event may come or go */

@@ -16,6 +16,8 @@ enum { WAYS = 3 };
 
 #include <time.h>
 
+static const double R = 0.028575;
+
 /* ---- Random shots ---- */
 
 enum { DIRECTIONS = 14, SPACE_DIRECTIONS = 23, MOST_BALLS = 9 };
@@ -238,7 +240,7 @@ static double cost_of(const layout *l, bool reaching) {
     for (int i = 0; i < 4; i++)
       shoot(l, &shot);
     const double played = seconds();
-    carom_shot_tangent(table_of(l), l->ball, l->count, &l->cue, &l->options, &shot, &all, &tangent);
+    shot_tangent(l, &all, &tangent);
     least[0] = fmin(least[0], (played - start) / 4.0);
     least[1] = fmin(least[1], seconds() - played);
   }
@@ -328,7 +330,6 @@ START_TEST(collisions_agree_with_differences) {
   static double errors[20000];
   int n = 0;
   for (int k = 0; k < 500; k++) {
-    const double R = 0.028575;
     carom_impact in = {.mu_ball = random_between(&random, 0.02, 0.15),
                        .restitution = random_between(&random, 0.85, 0.98)};
     in.a = (carom_ball){
@@ -377,7 +378,7 @@ END_TEST
 START_TEST(directions_that_leave_a_roll) {
   static const double units[] = {1.0, 1e-8, 1e-14};
   for (int k = 0; k < 3; k++) {
-    const double R = 0.028575, V = 2.0 * units[k];
+    const double V = 2.0 * units[k];
     carom_impact in = {.mu_ball = 0.06, .restitution = 0.95};
     in.a = (carom_ball){.v = {0.3 * V, V, 0},
                         .w = {0, 0, 20 * units[k]},
@@ -461,7 +462,6 @@ START_TEST(cushions_agree_with_differences) {
   if (cushion_options.model == CAROM_CUSHION_EULER) /* its steps are counted */
     return;
   for (int k = 0; k < FEWER(400); k++) {
-    const double R = 0.028575;
     carom_cushion_impact in = {
         .v = {random_between(&random, -2.0, 2.0), random_between(&random, 0.2, 3.0), 0.0},
         .normal = {random_between(&random, -0.3, 0.3), 1.0},
@@ -502,7 +502,7 @@ END_TEST
  * whatever the friction: of a change of v across the line of centres, the balls exchange 1/7,
  * and of W_z 1/7 of it. */
 START_TEST(stop_shots) {
-  const double R = 0.028575, across[] = {0.0, 1e-17, 1e-12, 1e-9, 2e-9, 1e-6};
+  const double across[] = {0.0, 1e-17, 1e-12, 1e-9, 2e-9, 1e-6};
   for (size_t k = 0; k < sizeof across / sizeof across[0]; k++) {
     const carom_impact in = {
         .a = {.v = {2.0 * across[k], 2.0, 0.0}, .radius = R, .mass = 0.17, .mu_slide = 0.2},
@@ -553,7 +553,7 @@ START_TEST(cushions_without_slip_at_the_nose) {
   int right = 0, wrong = 0, bends = 0, without_flag = 0;
   cushion_options = (carom_cushion_options){.model = CAROM_CUSHION_MATHAVAN};
   for (int k = 0; k < FEWER(400); k++) {
-    const double R = 0.028575, sine = heights[k % 5] - 1.0, cosine = sqrt(1.0 - sine * sine);
+    const double sine = heights[k % 5] - 1.0, cosine = sqrt(1.0 - sine * sine);
     const double v_x = random_between(&random, -2.0, 2.0), v_y = random_between(&random, 0.3, 4.0);
     const double W_y = k % 2 == 0 ? 0.0 : random_between(&random, -2.0, 2.0);
     const carom_cushion_impact in = {
@@ -627,9 +627,7 @@ START_TEST(states_at_times) {
     const carom_tangent_seeds seeds = seeds_of(&by_speed, 1);
     carom_tangent tangent = {.final = ends, .at = states, .times = at, .times_count = 3};
     const int numbers = l.count * NUMBERS;
-    ck_assert_int_eq(carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot,
-                                        &seeds, &tangent),
-                     CAROM_OK);
+    ck_assert_int_eq(shot_tangent(&l, &seeds, &tangent), CAROM_OK);
     for (int x = 0; x < numbers; x++)
       ck_assert_double_eq(states[2 * numbers + x], ends[x]);
     for (int n = 0; n < 2; n++) {
