@@ -73,8 +73,11 @@ static void complain_of(const char *pocket, const char *via, const layout *l, co
   char text[BALL_TEXT], more[BALL_TEXT], why[160] = "the jaws send the ball back at this speed";
   const char *what = pot->vias > 0 ? "by this way" : "there directly";
   /* of two balls that meet the one on its way comes first, unless both are */
-  const bool first = contact->a == 0 || contact->a == pot->ball;
-  const int first_ball = first ? contact->a : contact->b, second = first ? contact->b : contact->a;
+  int first_ball = contact->b, second = contact->a;
+  if (contact->a == 0 || contact->a == pot->ball) {
+    first_ball = contact->a;
+    second = contact->b;
+  }
   bool twice = second == 0 || second == pot->ball;
   for (int k = 0; k < pot->vias; k++)
     twice |= pot->via[k].kind == CAROM_PART_BALL && pot->via[k].index == second;

@@ -50,7 +50,12 @@ static const char *point_of_rail(const char *text, value *x, value *y) {
   const char *digits = text + size + 1, *rest = digits + strcspn(digits, ",");
   snprintf(number, sizeof number, "%.*s", (int)(rest - digits), digits);
   set_diamonds(noses[rail], x, y);
-  return value_of(MEASURE_PLACE, number, rail == LEFT || rail == RIGHT ? y : x) ? rest : text;
+  value *along = x;
+  if (rail == LEFT || rail == RIGHT)
+    along = y;
+  if (!value_of(MEASURE_PLACE, number, along))
+    return text;
+  return rest;
 }
 
 const char *place_named(const char *text, value *x, value *y) {

@@ -62,7 +62,10 @@ static double over_points(const carom_cue *c, const carom_rail *rail, const caro
   for (int k = 0; k < 80; k++) {
     const double third = low + (high - low) / 3.0, two = high - (high - low) / 3.0;
     const double at_one = over_nose(c, rail, jaw, third), at_two = over_nose(c, rail, jaw, two);
-    *(at_one < at_two ? &low : &high) = at_one < at_two ? third : two;
+    if (at_one < at_two)
+      low = third;
+    else
+      high = two;
     worst = fmax(worst, fmax(at_one, at_two));
   }
   return worst;
