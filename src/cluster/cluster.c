@@ -32,8 +32,8 @@
  * and ball, so momentum is kept.
  */
 #include "cluster/cluster.h"
+#include "cluster/closing.h"
 #include "cluster/hertz.h"
-#include "cluster/tip.h"
 #include "cluster/vectors.h"
 #include "friction/laws.h"
 #include "platform/promise.h"
@@ -229,6 +229,20 @@ static inline double find_pressed(bool flat, state *c, double h, pushes *pushed)
   return step_of(norm, c->steps);
 }
 
+/* A contact touches, d deep by now. */
+static inline void begin_contact(bool flat, state *c, contact *x, double d, double tau) {
+  const double v = closing_of(flat, x);
+  double s[3];
+  cluster_minus(flat, x->p->s, x->q->s, s);
+  x->U = -1.0; /* less than any slip: the first one sets mu */
+  x->f[0] = x->f[1] = 0.0;
+  const double time = carom_greater(tau - (v > 0.0 ? d / v : 0.0), 0.0);
+  x->touch = carom_cluster_begin_touch(c, (int)(x - c->contact), x->time < 0.0 ? -1 : x->touch,
+                                       time, cluster_dot(flat, s, x->n) - d);
+  if (x->time < 0.0)
+    x->time = time;
+}
+
 /* Those of the pressed contacts that act, and their impulses. *norm becomes that of all that
  * overlap. Returns whether any does. */
 static inline bool find_acting(bool flat, state *c, double h, double tau, pushes *pushed,
@@ -241,20 +255,21 @@ static inline bool find_acting(bool flat, state *c, double h, double tau, pushes
     const double d = overlap_of(flat, x);
     if (d <= open_overlap)
       continue;
-    x->touched = overlap = true;
-    if (x->d_max == 0.0) { /* it touches now */
-      const double v = closing_of(flat, x);
-      x->U = -1.0; /* less than any slip: the first one sets mu */
-      x->f[0] = x->f[1] = 0.0;
-      if (x->time < 0.0)
-        x->time = carom_greater(tau - (v > 0.0 ? d / v : 0.0), 0.0);
-    }
+    x->touched = true;
+    if (x->d_max == 0.0)
+      begin_contact(flat, c, x, d, tau);
 
     /* its force, by the overlap at half a step */
     x->d = d;
     x->size = d >= x->d_max ? carom_greater(x->size, d) : x->size;
     x->J = h * carom_hertz_force(x->K, x->e, d, &x->d_max);
+    c->touch[x->touch].P[0] += x->J;
+    c->touch[x->touch].moment += x->J * tau;
 
+    /* one without a force acts where it closes */
+    if (!(x->J > 0.0) && closing_of(flat, x) < c->slow)
+      continue;
+    overlap = true;
     *norm += quickness(x, x->size);
     if (x->J > 0.0)
       pushed->push[pushed->contacts++] = pushed->press[k];
@@ -444,18 +459,16 @@ static inline void end_step(bool flat, state *c, double h, const pushes *pushed)
     const double each = 1.0 / x->J;
     for (int k = 0; k < 2; k++) {
       x->rubbed[k] += x->f[k];
+      c->touch[x->touch].P[1 + k] += x->f[k];
       x->f[k] *= each;
     }
     x->d_max = carom_hertz_vertex(x->d, x->d_max, h, x->closing, closing_of(flat, x));
   }
-  /* where the force has reached 0 the rest of the overlap is forgotten */
+  /* where the force has reached 0 the set recovers as the overlap falls */
   for (int k = 0; k < pushed->pressed; k++) {
     contact *x = &c->contact[pushed->press[k]];
-    const double rest = (1.0 - x->e * x->e) * x->d_max;
-    if (overlap_of(flat, x) <= rest) {
-      x->offset -= rest;
-      x->d_max = 0.0;
-    }
+    const double d = overlap_of(flat, x);
+    x->d_max = d > open_overlap ? carom_set_left(x->e, d, x->d_max) : (double)0.0;
   }
   if (c->struck)
     tip_parts(c, h);
@@ -468,6 +481,8 @@ static inline void end_step(bool flat, state *c, double h, const pushes *pushed)
 static double energy_of(const state *c) {
   const carom_cluster_tip *x = &c->tip;
   double sum = c->struck ? 0.5 * x->V * x->V / x->inverse_mass : (double)0.0;
+  if (c->struck && x->slides)
+    sum += 0.5 * cluster_dot(false, x->y, x->y) / x->end;
   for (int k = 0; k < c->balls; k++) {
     const ball *p = &c->ball[k];
     sum += (0.5 * cluster_dot(false, p->v, p->v) + 0.2 * cluster_dot(false, p->W, p->W)) /
@@ -515,20 +530,28 @@ static void take_back(state *c, double energy) {
       c->ball[k].v[axis] = centre[axis] + share * (c->ball[k].v[axis] - centre[axis]);
 }
 
-/* The same of a strike: by an impulse -J of the tip, which takes J |b| - J^2 k/2. */
+/* The same of a strike: by an impulse -J of the tip, which takes J |b| - J^2 k/2. A tip that slides
+ * gives it along n. */
 static void take_back_from_tip(bool flat, state *c, double energy) {
   carom_cluster_tip *x = &c->tip;
-  const ball *p = &c->ball[x->ball];
+  ball *p = &c->ball[x->ball];
+  const double *way = x->slides ? x->n : x->along, none[3] = {0.0, 0.0, 0.0},
+               *arm = x->slides ? none : x->arm, kappa = x->slides ? x->kappa : (double)1.0;
   const double more = energy_of(c) - energy;
-  const double b = x->V - cluster_dot(flat, p->v, x->along) - cluster_dot(false, p->W, x->arm);
+  const double b = kappa * x->V - cluster_dot(flat, p->v, way) - cluster_dot(false, p->W, arm);
   if (!(more > 0.0 && b < 0.0))
     return;
-  const double k = x->inverse_mass + p->inverse_mass * (cluster_dot(flat, x->along, x->along) +
-                                                        2.5 * cluster_dot(false, x->arm, x->arm));
+  const double m = p->inverse_mass, of_cue = kappa * x->inverse_mass,
+               k = kappa * of_cue +
+                   m * (cluster_dot(flat, way, way) + 2.5 * cluster_dot(false, arm, arm));
   const double left = sqrt(carom_greater(b * b - 2.0 * k * more, 0.0));
-  x->J = (b + left) / k * (1.0 + 1e-12); /* a little more, so that rounding adds nothing */
-  x->impulse += x->J;
-  tip_push(flat, c);
+  const double J =
+      (b + left) / k * (1.0 + 1e-12); /* a little more, so that rounding adds nothing */
+  x->V -= of_cue * J;
+  x->impulse += kappa * J;
+  cluster_add(flat, p->v, J * m, way);
+  cluster_add(false, p->W, 2.5 * J * m, arm);
+  cluster_add(flat, c->touch[x->touch].P, J, way);
 }
 
 /* The duration of a step before any contact has acted: by those that touch and close. */
@@ -609,7 +632,10 @@ static inline bool solve(bool flat, state *c) {
     /* where no contact acts, one may touch again, from where the balls are; else all is over */
     tau += 0.5 * h;
     const bool balls = find_acting(flat, c, h, tau, &pushed, &norm),
-               cue = c->struck && tip_acts(c, h, tau), slate = c->on_slate && slate_acts(c, h);
+               cue = c->struck && tip_acts(c, h, tau);
+    bool slate = c->on_slate && slate_acts(c, h);
+    if (slate && !balls && !cue && slate_ends(c))
+      slate = false;
     if (!balls && !cue && !slate) {
       if (!touch_again(flat, c) && !(c->struck && go_on(flat, c, &tau)))
         break;
@@ -636,7 +662,14 @@ static inline bool solve(bool flat, state *c) {
 
 bool carom_cluster_solve(carom_cluster_state *c) {
   CAROM_PROMISE((c->struck || c->contacts >= 1) && c->balls >= 1 && c->slow > 0.0);
+  c->touches = c->repeated = 0;
   for (int k = 0; k < c->balls; k++)
-    c->ball[k].s[0] = c->ball[k].s[1] = c->ball[k].s[2] = 0.0;
-  return c->in_space ? solve(false, c) : solve(true, c);
+    for (int n = 0; n < 3; n++) {
+      c->ball[k].s[n] = 0.0;
+      c->ball[k].v0[n] = c->ball[k].v[n];
+    }
+  if (!(c->in_space ? solve(false, c) : solve(true, c)))
+    return false;
+  carom_cluster_find_places(c);
+  return true;
 }

@@ -15,8 +15,11 @@
  *     m v' = sum(-F n + f)      (2/5) m W' = sum(n x f)
  *
  * d_max and U are the greatest since the touch. Both branches of F together give back e^2 of the
- * work of compression, for any course. Where F reaches 0 the rest of the overlap is forgotten. One
- * contact alone has the law of carom_collide() on the cloth, and that of carom_impact3() in space.
+ * work of compression, for any course. Where F has reached 0 the set that is left recovers as d
+ * falls: d_max = d/(1 - e^2). A contact that closes before loads along the line of unloading, so
+ * that e is paid once for each compression; one at d < 0 is open, and touches anew. A contact
+ * without a force acts only while it closes at `slow` or faster. One contact alone has the law of
+ * carom_collide() on the cloth, and that of carom_impact3() in space.
  *
  * ON THE CLOTH v_z = 0 and u has no part of v_z. The friction's vertical part presses one ball
  * of a contact on the cloth:
@@ -71,7 +74,10 @@ static inline double carom_freedom_of_balls(double height, double n_z) {
 
 enum {
   CAROM_CLUSTER_BALLS = 32,
-  CAROM_CLUSTER_CONTACTS = 76,    /* that 32 balls of one radius have on the cloth at most */
+  CAROM_CLUSTER_CONTACTS = 76, /* that 32 balls of one radius have on the cloth at most */
+  CAROM_CLUSTER_REPEATED = 15, /* touches of contacts that have touched: further ones count with
+                                     the last one of theirs */
+  CAROM_CLUSTER_TOUCHES = CAROM_CLUSTER_CONTACTS + 1 + CAROM_CLUSTER_REPEATED,
   CAROM_CLUSTER_STEPS = 25,       /* of a contact's duration, where the caller does not say */
   CAROM_CLUSTER_STEPS_MOST = 4000 /* of a cluster, for each of a contact's duration */
 };
@@ -88,7 +94,8 @@ typedef struct carom_cluster_ball {
   int8_t index;                /* the caller's index */
   int8_t acting;               /* its contacts that act in this step, at most 2 */
   /* of the integrator */
-  double s[3];                /* int v dtau, m */
+  double v0[3], s[3];         /* v at the start; int v dtau, m */
+  double shift[3];            /* m: from where it was to where it starts: places.c */
   double base[2], g[2], load; /* slip on the cloth as a step begins; impulses of the cloth's
                                  friction and of the load */
 } carom_cluster_ball;
@@ -109,21 +116,37 @@ typedef struct carom_cluster_contact_state {
                                 third; between steps f/J */
   double u[2], closing;      /* slip and closing speed as a step begins */
   double time;               /* tau of the first touch */
+  int touch;                 /* its last one, in touch[] */
   double impulse, rubbed[2]; /* sums of J and f */
 } carom_cluster_contact_state;
 
+/* One touch of two balls or, as contact -1, of the tip. */
+typedef struct carom_cluster_touch {
+  int contact;
+  double time, approach; /* tau at which it begins, s; how far the two have come together, m */
+  double P[3];           /* of balls, sums of J and f; of the tip, the impulse on the ball */
+  double moment;         /* sum of J tau */
+} carom_cluster_touch;
+
 /* A cue that pushes a ball, tip.h. The caller sets it up to e. */
 typedef struct carom_cluster_tip {
+  double axis[3];          /* c */
   double along[3], arm[3]; /* c' and q */
   double inverse_mass, V;  /* 1/M; the speed of the cue, m/s */
   double T, k, e;          /* duration with the ball alone, s; stiffness, N/m; restitution */
   double reach;            /* m: how far the cue goes on after it has parted; the caller sets it */
   int ball;                /* of ball[] */
+  bool slides;             /* a further touch: n, kappa, mu and end are read, c' and q are not */
+  double n[3], kappa;      /* from the place of the touch to the centre; n . c */
+  double mu, end;          /* friction; 1/m_e */
   /* of the integrator */
   double d, d_max, J, closing, lost;
+  double y[3];          /* of the end mass across the axis, m/s */
+  double travel, delay; /* int V dtau, m; how far the ball is behind, along the axis, as contacts of
+                           balls last, m: places.c */
   double impulse;       /* sum of J */
   bool gone;            /* it has parted, and does not go on */
-  int touches;          /* how many times it has touched */
+  int touches, touch;   /* how many times it has touched; its last one, in touch[] */
   double first, second; /* closing speeds of the first and the second of them, m/s */
   double last;          /* tau at which it acts last */
 } carom_cluster_tip;
@@ -147,8 +170,10 @@ typedef struct carom_cluster_state {
   double slow;      /* m/s: contacts that close slower are none, and do not prolong a cluster */
   double duration;  /* of the integration, s */
   int steps_done;   /* steps */
+  int touches, repeated; /* in touch[]; those of them that are repeated */
   carom_cluster_ball ball[CAROM_CLUSTER_BALLS];
   carom_cluster_contact_state contact[CAROM_CLUSTER_CONTACTS];
+  carom_cluster_touch touch[CAROM_CLUSTER_TOUCHES];
   carom_cluster_tip tip;
   carom_cluster_slate *slate; /* CAROM_CLUSTER_BALLS of the caller's, where a cue strikes */
 } carom_cluster_state;
@@ -173,6 +198,9 @@ int carom_cluster_members_of_tip(carom_cluster_state *c, double most);
  * numbers of carom_cue from speed to tip_restitution, in their order. */
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T);
 
+/* push.c: makes that a further touch, of a tip with the friction mu; `end_mass` is that of cue[]. */
+void carom_cluster_tip_slides(carom_cluster_state *c, const double cue[8], double mu);
+
 /* push.c: a push of a ball that nothing else touches, in closed form. */
 void carom_cluster_push_alone(carom_cluster_state *c);
 
@@ -181,7 +209,16 @@ void carom_cluster_push_alone(carom_cluster_state *c);
 void carom_cluster_put_on_slate(carom_cluster_state *c);
 double carom_cluster_slate_impulse(const carom_cluster_state *c, int ball);
 
-/* cluster.c: v and W of ball[]; time, impulse and friction of contact[]. False where it takes
+/* places.c: takes note of a touch of a contact that begins, -1 of the tip, and returns its place in
+ * touch[], which for one too many is that of the `last` touch of the contact, -1 where it is the first; what the
+ * touches move the balls by, their `shift`; and how far the tip of a push is ahead of the ball
+ * then, if both are seen to move from the start as they do after it. */
+int carom_cluster_begin_touch(carom_cluster_state *c, int contact, int last, double time,
+                              double approach);
+void carom_cluster_find_places(carom_cluster_state *c);
+double carom_cluster_tip_lead(const carom_cluster_state *c);
+
+/* cluster.c: v, W and shift of ball[]; time, impulse and friction of contact[]. False where it takes
  * too many steps. */
 bool carom_cluster_solve(carom_cluster_state *c);
 

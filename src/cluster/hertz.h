@@ -37,6 +37,11 @@ static inline double carom_linear_stiffness(double time, double e) {
   return rate * rate;
 }
 
+/* The centroid in time of the impulse of a contact with linear branches that lasts so long alone. */
+static inline double carom_linear_lag(double time, double e) {
+  return time / (1.0 + e) * (0.63661977236758134 * (1.0 - e) + e);
+}
+
 /* Hertz's force with linear branches. */
 static inline double carom_linear_force(double k, double e, double d, double *d_max) {
   CAROM_PROMISE(!(d <= 0.0 || *d_max < 0.0) && e > 0.0 && e <= 1.0);

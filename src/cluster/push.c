@@ -23,6 +23,7 @@ void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8
   for (int k = 0; k < 3; k++) {
     x->along[k] = (ahead * axis[k] + aside * left[k]) / size;
     x->arm[k] = b * left[k] - a * above[k];
+    x->axis[k] = axis[k];
   }
 
   x->ball = struck;
@@ -41,15 +42,41 @@ void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8
              cluster_dot(false, c->ball[struck].W, x->arm);
 }
 
+void carom_cluster_tip_slides(carom_cluster_state *c, const double cue[8], double mu) {
+  carom_cluster_tip *x = &c->tip;
+  double left[3], above[3];
+  carom_cue_axes(cue[1], cue[2], x->axis, left, above);
+  x->slides = true;
+  x->mu = mu;
+  x->end = 1.0 / cue[6];
+  x->kappa = sqrt(1.0 - cue[3] * cue[3] - cue[4] * cue[4]);
+  for (int k = 0; k < 3; k++)
+    x->n[k] = x->kappa * x->axis[k] - cue[3] * left[k] - cue[4] * above[k];
+  x->first = tip_closing(x, &c->ball[x->ball]);
+}
+
 void carom_cluster_push_alone(carom_cluster_state *c) {
   carom_cluster_tip *x = &c->tip;
-  const carom_cluster_ball *p = &c->ball[x->ball];
+  carom_cluster_ball *p = &c->ball[x->ball];
   const double arm2 = cluster_dot(false, x->arm, x->arm);
   const double mobility = x->inverse_mass + (1.0 + 2.5 * arm2) * p->inverse_mass;
   x->J = x->impulse = (1.0 + x->e) * x->first / mobility;
   x->touches = 1;
   x->last = x->T;
-  tip_push(!c->in_space, c);
+
+  /* as where the integrator ends: the tip opens, and the ball is where it was pushed to */
+  const double rest = x->T - carom_linear_lag(x->T, x->e);
+  c->duration = x->T;
+  x->travel = x->V * x->T - x->J * x->inverse_mass * rest;
+  for (int k = 0; k < 3; k++) {
+    p->v0[k] = p->v[k];
+    p->s[k] = x->T * p->v[k];
+    p->shift[k] = 0.0;
+  }
+  cluster_add(!c->in_space, p->s, rest * x->J * p->inverse_mass, x->along);
+  x->V -= x->J * x->inverse_mass;
+  cluster_add(!c->in_space, p->v, x->J * p->inverse_mass, x->along);
+  cluster_add(false, p->W, 2.5 * x->J * p->inverse_mass, x->arm);
 }
 
 void carom_cluster_put_on_slate(carom_cluster_state *c) {

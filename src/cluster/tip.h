@@ -1,10 +1,9 @@
-/* The contacts of a strike, as members of a cluster: the tip of a cue with one ball, and of a
- * raised cue the slate with every ball on it.
+/* The tip of a cue as a contact of a cluster, with one ball.
  *
- * TIP. The cue is a body of mass M that moves along its axis c at V, and has no other freedom. Its
- * tip touches the ball at p from the centre, and pushes along c', which is c turned by the squirt
- * of the end mass. With q = p x c / R, the arm of the axis, W = R w and delta the compression of
- * the tip,
+ * FIRST TOUCH. The cue is a body of mass M that moves along its axis c at V, and has no other
+ * freedom. Its tip touches the ball at p from the centre, and pushes along c', which is c turned by
+ * the squirt of the end mass. With q = p x c / R, the arm of the axis, W = R w and delta the
+ * compression of the tip,
  *
  *     delta' = V - v . c' - W . q
  *     F = k delta                                        while delta > delta_max: loading
@@ -20,17 +19,22 @@
  * touches anew. So no speed jumps where a force reaches 0. In flat play the part of the push that
  * goes down is lost, with the speed that it would give.
  *
- * A cue goes on for a `reach` after it has parted. Without one it never touches anew. Where nothing
- * acts, balls that touch before the set has recovered still do so within the push. A raised cue
- * goes on to its next touch, and a ball above the slate down to it. Contacts that close slower than
- * 1e-9 of the speed of the cue are none.
+ * FURTHER TOUCH. The ball moves and turns by itself, so that the tip may slide on it. With n the
+ * unit vector from the place of the touch to the centre, kappa = n . c, and y the velocity of the
+ * end mass m_e across c, which begins at 0,
  *
- * SLATE. A linear contact of the slate and the foot of a ball, per unit of its mass, with the same
- * set and the restitution e of both; friction |g| <= mu F against the slip of the foot, as on the
- * cloth (cluster.h) with F for L. It lasts CAROM_SLATE_TIME alone. Contacts of balls are the more
- * those of space the steeper the push: phi grows by min(1, (c'_z / 0.1)^2), cluster.h. So a cue
- * that is raised by a hair pushes as a level one. A ball that nothing else touches
- * has the same law in phases: shot/raised.c. */
+ *     r = V c + y - v - W x p,  p = -n         of the tip and the place that it touches
+ *     delta' = r . n / kappa
+ *     P = N n + f per time, with P . c = k delta,  |f| <= mu N
+ *     u = r - delta' c, across n;  f stops it in a step, or is mu N
+ *     M V' = -P . c      m_e y' = -(P - (P . c) c)      m v' = P      (2/5) m W' = p x P
+ *
+ * and mu = a/sqrt(1 - a^2), a the offset of a miscue. The power P . r is that of the spring and of
+ * friction. A tip that does not slide has r = delta' c, as the first touch has it, whose push goes
+ * along c' too. Where friction holds back as much as it pushes, N is at most 2 k delta/kappa: the
+ * rest would wedge the tip. The end gives way, but the shaft holds it where friction would draw it
+ * into the ball. It springs back where the force has reached 0. If the axis
+ * closes then, the tip has been pushed aside: it slides off the ball, as in a miscue, and is gone. */
 #ifndef CAROM_SRC_CLUSTER_TIP_H
 #define CAROM_SRC_CLUSTER_TIP_H
 
@@ -42,13 +46,12 @@
 /* Steps of the duration of tip or slate, for each of a contact of balls: 200 by default, which are
  * 5 us of a leather tip, with errors of 2e-4, and 9e-4 at most. Fewer are not taken. */
 enum { CAROM_TIP_STEPS = 200, CAROM_TIP_STEPS_EACH = 8 };
-static const double long_tip = 1e-4;   /* s: a shorter tip that is open takes steps of this one */
-static const double far_behind = 20.0; /* of how far the cue goes in the duration of the tip */
-static const double too_slow = 1e-9;   /* of the speed of the cue */
-
-/* ---- The tip */
+static const double too_slow = 1e-9; /* of the speed of the cue: contacts that close slower are
+                                        none */
 
 static inline double tip_closing(const carom_cluster_tip *x, const carom_cluster_ball *p) {
+  if (x->slides)
+    return x->V + (cluster_dot(false, x->y, x->n) - cluster_dot(false, p->v, x->n)) / x->kappa;
   return x->V - cluster_dot(false, p->v, x->along) - x->lost * x->along[2] -
          cluster_dot(false, p->W, x->arm);
 }
@@ -58,20 +61,6 @@ static inline double push_step(const carom_cluster_state *c, double T, double e)
   const double steps =
       carom_greater((double)CAROM_TIP_STEPS, c->steps * (double)CAROM_TIP_STEPS_EACH);
   return 2.0 * e / (1.0 + e) * T / steps;
-}
-
-/* The longest step of a strike. A cue that is far behind does not count, as contacts of balls may
- * last long where they are slow. */
-static inline double strike_step(const carom_cluster_state *c) {
-  const carom_cluster_tip *x = &c->tip;
-  const bool open = x->touches > 0 && x->d <= 0.0;
-  const double T = open ? carom_greater(x->T, long_tip) : x->T;
-  const bool far = open && x->d < -far_behind * T * x->first;
-  double h = far ? (double)INFINITY : push_step(c, T, x->e);
-  for (int k = 0; c->on_slate && k < c->balls; k++)
-    if (c->slate[k].e > 0.0 && (!far || c->slate[k].J > 0.0))
-      h = carom_lesser(h, push_step(c, (double)CAROM_SLATE_TIME, c->slate[k].e) / c->steepness);
-  return h;
 }
 
 /* The longest step in which an open tip that is to touch goes no deeper than one of its own steps.
@@ -85,21 +74,35 @@ static inline double step_to_touch(const carom_cluster_state *c, double h) {
   return closing > 0.0 ? carom_lesser(h, free_step - x->d / closing) : h;
 }
 
+/* The force has reached 0. */
+static inline void end_springs_back(carom_cluster_tip *x, const carom_cluster_ball *p) {
+  if (!x->slides)
+    return;
+  x->y[0] = x->y[1] = x->y[2] = 0.0;
+  x->closing = tip_closing(x, p);
+  x->gone |= x->closing > 0.0;
+}
+
 /* Half a step of its compression, and its impulse; whether it acts. */
 static inline bool tip_acts(carom_cluster_state *c, double h, double tau) {
   carom_cluster_tip *x = &c->tip;
+  const bool pressed = x->J > 0.0;
   x->J = 0.0;
   x->closing = tip_closing(x, &c->ball[x->ball]);
   x->d += 0.5 * h * x->closing;
+  x->travel += 0.5 * h * x->V;
   if (x->d <= 0.0 || x->gone)
     return false;
   if (x->d_max == 0.0) { /* it touches */
+    x->touch = carom_cluster_begin_touch(c, -1, x->touches > 0 ? x->touch : -1, tau, 0.0);
     x->touches++;
     if (x->touches == 2)
       x->second = x->closing;
   }
   x->J = h * carom_linear_force(x->k, x->e, x->d, &x->d_max);
   x->impulse += x->J;
+  if (pressed && !(x->J > 0.0))
+    end_springs_back(x, &c->ball[x->ball]);
 
   /* a tip without a force acts where it closes */
   const bool acts = x->J > 0.0 || x->closing > too_slow * x->first;
@@ -107,14 +110,88 @@ static inline bool tip_acts(carom_cluster_state *c, double h, double tau) {
   return acts;
 }
 
+/* FURTHER TOUCH: the impulse P of which J is the part along the axis. With g = 1/m_e + 1/m, u after a
+ * step is u0 - (1/m_e + 7/2/m) f + g (N/kappa) c_t, c_t the part of c across n. */
+static inline void slide(const carom_cluster_tip *x, const carom_cluster_ball *p, double P[3]) {
+  const double *n = x->n, *c = x->axis, kappa = x->kappa;
+  const double m = p->inverse_mass,
+               turn[3] = {p->W[2] * n[1] - p->W[1] * n[2], p->W[0] * n[2] - p->W[2] * n[0],
+                          p->W[1] * n[0] - p->W[0] * n[1]};
+  double v[3], u[3], aside[3], f[3]; /* v of the ball against the end; aside: c_t */
+  cluster_minus(false, p->v, x->y, v);
+  const double closing = cluster_dot(false, v, n) / kappa;
+  for (int k = 0; k < 3; k++) {
+    aside[k] = c[k] - kappa * n[k];
+    u[k] = closing * c[k] - v[k] - turn[k];
+  }
+
+  /* the friction that stops the slip: along c_t it counts more, as N does too */
+  const double across = x->end + 3.5 * m, gain = (m + x->end) / (kappa * kappa);
+  const double share = gain * (x->J - cluster_dot(false, u, aside) / across) /
+                       (across + gain * cluster_dot(false, aside, aside));
+  for (int k = 0; k < 3; k++)
+    f[k] = u[k] / across + share * aside[k];
+  const double f_c = cluster_dot(false, f, aside), size = sqrt(cluster_dot(false, f, f));
+  double N = (x->J - f_c) / kappa;
+
+  /* or as large as N lets it be */
+  if (size > 0.0 && !(size <= x->mu * N)) {
+    const double part = f_c / size, push = kappa + x->mu * part;
+    const bool wedges = push < 0.5 * kappa;
+    N = wedges ? 2.0 * x->J / kappa : x->J / push;
+    const double rub = wedges ? -x->J / part : x->mu * N;
+    for (int k = 0; k < 3; k++)
+      f[k] *= rub / size;
+  }
+  for (int k = 0; k < 3; k++)
+    P[k] = N * n[k] + f[k];
+}
+
+/* The end mass after an impulse -P: it gives way, and is not drawn into the ball. */
+static inline void end_gives_way(carom_cluster_tip *x, const double P[3]) {
+  cluster_add(false, x->y, -x->end, P);
+  cluster_add(false, x->y, x->end * x->J, x->axis);
+  const double inward = cluster_dot(false, x->y, x->n), across = 1.0 - x->kappa * x->kappa;
+  if (!(inward > 0.0 && across > 0.0))
+    return;
+  cluster_add(false, x->y, -inward / across, x->n);
+  cluster_add(false, x->y, inward / across * x->kappa, x->axis);
+}
+
+/* Pushes the ball with J. */
 static inline void tip_push(bool flat, carom_cluster_state *c) {
   carom_cluster_tip *x = &c->tip;
   carom_cluster_ball *p = &c->ball[x->ball];
-  const double J = x->J * p->inverse_mass;
+  carom_cluster_touch *l = &c->touch[x->touch];
+  const double m = p->inverse_mass;
   x->V -= x->J * x->inverse_mass;
-  cluster_add(flat, p->v, J, x->along);
-  x->lost += flat ? J * x->along[2] : 0.0;
-  cluster_add(false, p->W, 2.5 * J, x->arm);
+  if (!(x->J > 0.0))
+    return;
+  if (!x->slides) {
+    const double J = x->J * m;
+    cluster_add(flat, p->v, J, x->along);
+    x->lost += flat ? J * x->along[2] : 0.0;
+    cluster_add(false, p->W, 2.5 * J, x->arm);
+    cluster_add(false, l->P, x->J, x->along);
+    return;
+  }
+  const double *n = x->n;
+  double P[3];
+  slide(x, p, P);
+  cluster_add(flat, p->v, m, P);
+  const double turn[3] = {P[1] * n[2] - P[2] * n[1], P[2] * n[0] - P[0] * n[2],
+                          P[0] * n[1] - P[1] * n[0]};
+  cluster_add(false, p->W, 2.5 * m, turn);
+  end_gives_way(x, P);
+  cluster_add(false, l->P, 1.0, P);
+}
+
+/* The set recovers; the tip is open where none is left. */
+static inline void tip_recovers(carom_cluster_tip *x) {
+  x->d_max = carom_set_left(x->e, x->d, x->d_max);
+  if (x->d_max > 0.0)
+    return;
+  x->gone |= !(x->reach > 0.0); /* without follow-through it is over */
 }
 
 /* The other half of the step. */
@@ -122,11 +199,19 @@ static inline void tip_parts(carom_cluster_state *c, double h) {
   carom_cluster_tip *x = &c->tip;
   const double closing = tip_closing(x, &c->ball[x->ball]), middle = x->d;
   x->d += 0.5 * h * closing;
+  x->travel += 0.5 * h * x->V;
   if (x->d_max == 0.0)
     return;
   x->d_max = carom_hertz_vertex(middle, x->d_max, h, x->closing, closing);
-  x->d_max = carom_set_left(x->e, x->d, x->d_max);
-  x->gone = x->d_max == 0.0 && !(x->reach > 0.0);
+  tip_recovers(x);
+}
+
+/* A wait of the push, in which nothing acts; `touches` at its end. */
+static inline void tip_waits(carom_cluster_tip *x, const carom_cluster_ball *p, double wait,
+                             bool touches) {
+  x->d = touches ? (double)CAROM_LEAST_OVERLAP : x->d + wait * tip_closing(x, p);
+  x->travel += wait * x->V;
+  tip_recovers(x);
 }
 
 /* How long the cue needs to its next touch, where nothing acts; infinite: it does not touch. */
@@ -137,94 +222,6 @@ static inline double wait_of_tip(const carom_cluster_state *c) {
     return INFINITY;
   const double wait = -x->d / closing;
   return wait * x->V <= x->reach ? wait : (double)INFINITY;
-}
-
-/* ---- The slate */
-
-/* The same of a ball above the slate. */
-static inline double wait_of_slate(const carom_cluster_state *c, int ball) {
-  const carom_cluster_slate *x = &c->slate[ball];
-  const double down = -c->ball[ball].v[2];
-  const bool comes = x->e > 0.0 && x->d <= 0.0 && down > too_slow * c->tip.first;
-  return comes ? -x->d / down : (double)INFINITY;
-}
-
-/* How long a contact at d needs until its set has recovered. */
-static inline double recovery(double d, double closing) {
-  return d > 0.0 && closing < 0.0 ? -d / closing : (double)0.0;
-}
-
-/* The longest recovery of tip and slate. */
-static inline double longest_recovery(const carom_cluster_state *c) {
-  const carom_cluster_tip *x = &c->tip;
-  double longest = recovery(x->d, tip_closing(x, &c->ball[x->ball]));
-  for (int k = 0; c->on_slate && k < c->balls; k++)
-    longest = carom_greater(longest, recovery(c->slate[k].d, -c->ball[k].v[2]));
-  return longest;
-}
-
-/* Nothing acts: all goes on to the next touch of balls, which need `of_balls`, or under a raised
- * cue of tip or slate. Balls that touch after the last recovery are met later, unless tip or slate
- * touch behind them. Returns whether there is a touch. */
-static inline bool go_to_touch(bool flat, carom_cluster_state *c, double of_balls, double *tau) {
-  const double of_tip = c->on_slate ? wait_of_tip(c) : (double)INFINITY;
-  double wait = of_tip;
-  for (int k = 0; c->on_slate && k < c->balls; k++)
-    wait = carom_lesser(wait, wait_of_slate(c, k));
-  if (of_balls < (wait < INFINITY ? wait : longest_recovery(c)))
-    wait = of_balls;
-  if (!(wait < INFINITY))
-    return false;
-
-  /* a set recovers meanwhile */
-  carom_cluster_tip *tip = &c->tip;
-  tip->d += wait * tip_closing(tip, &c->ball[tip->ball]);
-  tip->d = of_tip <= wait ? (double)CAROM_LEAST_OVERLAP : tip->d;
-  tip->d_max = carom_set_left(tip->e, tip->d, tip->d_max);
-  /* without follow-through it is over once it is not pressed any more */
-  tip->gone |= tip->d_max == 0.0 && !(tip->reach > 0.0);
-  for (int k = 0; c->on_slate && k < c->balls; k++) {
-    carom_cluster_slate *x = &c->slate[k];
-    const bool touches = wait_of_slate(c, k) <= wait;
-    x->d -= wait * c->ball[k].v[2];
-    x->d = touches ? (double)CAROM_LEAST_OVERLAP : x->d;
-    x->d_max = carom_set_left(x->e, x->d, x->d_max);
-  }
-  for (int k = 0; k < c->balls; k++)
-    cluster_add(flat, c->ball[k].s, wait, c->ball[k].v);
-  *tau += wait;
-  return true;
-}
-
-/* Half a step of the overlaps of all, and their impulses; whether one acts. */
-static inline bool slate_acts(carom_cluster_state *c, double h) {
-  bool any = false;
-  for (int k = 0; k < c->balls; k++) {
-    carom_cluster_slate *x = &c->slate[k];
-    const carom_cluster_ball *p = &c->ball[k];
-    x->J = 0.0;
-    x->closing = -p->v[2];
-    x->d += 0.5 * h * x->closing;
-    if (x->d <= 0.0 || !(x->e > 0.0))
-      continue;
-    const double stiff = carom_linear_stiffness((double)CAROM_SLATE_TIME, x->e);
-    x->J = h * carom_linear_force(stiff, x->e, x->d, &x->d_max) / p->inverse_mass;
-    x->impulse += x->J;
-    any |= x->J > 0.0 || x->closing > too_slow * c->tip.first;
-  }
-  return any;
-}
-
-static inline void slate_parts(carom_cluster_state *c, double h) {
-  for (int k = 0; k < c->balls; k++) {
-    carom_cluster_slate *x = &c->slate[k];
-    const double closing = -c->ball[k].v[2], middle = x->d;
-    x->d += 0.5 * h * closing;
-    if (x->d_max == 0.0)
-      continue;
-    x->d_max = carom_hertz_vertex(middle, x->d_max, h, x->closing, closing);
-    x->d_max = carom_set_left(x->e, x->d, x->d_max);
-  }
 }
 
 #endif

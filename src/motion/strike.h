@@ -5,6 +5,7 @@
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
+#include <math.h>
 #include <stdbool.h>
 
 /* The restitution of the tip. Where it is 0, which stands for 1, its derivative is that of 1. */
@@ -20,6 +21,13 @@ static inline double carom_tip_time(const carom_cue *cue) {
 /* How much faster a cue is than one whose tip loses nothing, and which strikes as hard. */
 static inline double carom_tip_gain(const carom_cue *cue) {
   return 2.0 / (1.0 + carom_tip_of(cue));
+}
+
+/* The friction of the tip and a ball that it touches again, by the offset a at which the tip slips:
+ * a/sqrt(1 - a^2). A cue without a miscue, up to 0.9, has the offset of a chalked tip. */
+static inline double carom_tip_friction(const carom_cue *cue) {
+  const double chalked = 0.55, a = cue->miscue > 0.0 && cue->miscue < 0.9 ? cue->miscue : chalked;
+  return a / sqrt(1.0 - a * a);
 }
 
 /* Whether a cue is raised, and not level. */

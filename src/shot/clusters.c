@@ -180,11 +180,13 @@ static void put_on_slate(const carom_sim *sim, carom_cluster_state *c) {
 }
 
 /* The tip of a cue at ball[struck]. */
-static void put_tip(const carom_cue *cue, int struck, carom_cluster_state *c) {
+static void put_tip(const carom_cue *cue, int struck, bool again, carom_cluster_state *c) {
   const double numbers[8] = {cue->speed, cue->phi,  cue->theta,    cue->a,
                              cue->b,     cue->mass, cue->end_mass, cue->tip_restitution};
   carom_cluster_tip_of(c, struck, numbers, carom_tip_time(cue));
   c->tip.reach = cue->follow;
+  if (again)
+    carom_cluster_tip_slides(c, numbers, carom_tip_friction(cue));
 }
 
 /* A ball as it is now, as one of a cluster. */
@@ -211,12 +213,14 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
   }
 
   /* those that the ball can reach, and of a raised cue the slate */
-  put_tip(cue, struck, c);
+  const bool again = sim->shot->count > 0;
+  put_tip(cue, struck, again, c);
   if (carom_cluster_members_of_tip(c, most) < 0)
     return -1;
   if (slate)
     put_on_slate(sim, c);
-  if ((slate || c->contacts > 0) && !carom_cluster_solve(c))
+  const bool alone = c->contacts == 0 && !slate && !again;
+  if (!alone && !carom_cluster_solve(c))
     return -1;
   int count = 0;
   if (c->contacts > 0)
@@ -226,7 +230,7 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
   if (count == 0 && !slate) {
     struck = c->tip.ball;
     c->ball[struck] = member_now(sim, sim->struck);
-    put_tip(cue, struck, c);
+    put_tip(cue, struck, again, c);
     carom_cluster_push_alone(c);
   }
   return count;
@@ -242,6 +246,8 @@ void carom_cluster_rest(const carom_sim *sim, const carom_cluster_state *c, int 
 
 void carom_cluster_take(const carom_cluster_ball *b, carom_ball_state *s) {
   motion_of(b, s->v, s->w);
+  for (int k = 0; k < (b->flies ? 3 : 2); k++)
+    s->r[k] += b->shift[k];
 }
 
 /* ---- The public entry */

@@ -19,7 +19,7 @@
 
 #include <math.h>
 
-void carom_follow_on(carom_play *play, double V, double behind) {
+void carom_follow_on(carom_play *play, double V, double lead) {
   const carom_sim *sim = &play->sim;
   const carom_cue *cue = sim->cue;
   carom_follow *f = &play->follow;
@@ -30,7 +30,7 @@ void carom_follow_on(carom_play *play, double V, double behind) {
     return;
   f->start = sim->time;
   f->end = sim->time + left / V;
-  f->along -= behind;
+  f->along += lead;
   f->V = V;
 }
 

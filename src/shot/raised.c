@@ -68,6 +68,7 @@ typedef struct push_state {
   double V, mass_ratio;  /* of the cue: speed before the strike, m/s; m/M */
   double follow;         /* m: how far the cue goes on */
   push_spring spring[2]; /* of tip and slate */
+  double time;           /* s since the touch */
   double slip;           /* s, m/s */
   bool slips;            /* else the foot holds */
   bool lets_go;          /* it has just begun to slip */
@@ -387,6 +388,7 @@ static void end_phase(push_state *p, const push_phase *f, swing q, double elapse
   double off = rate != 0.0 ? -value / rate : (double)0.0;
   off = fabs(off) < 0.2 * h ? carom_greater(off, -elapsed) : (double)0.0;
   const swing change = swing_by(f, off), total = swing_on(f, &q, &change);
+  p->time = p->time + elapsed + off;
   p->stuck = elapsed + off > 1e-9 * h ? 0 : p->stuck + 1;
   instant_at(p, f, &total, &values);
 
@@ -492,6 +494,7 @@ static bool fly(push_state *p) {
                first = carom_lesser(wait[TIP], wait[SLATE]);
   if (!(first < INFINITY))
     return false;
+  p->time = p->time + first;
   for (int i = 0; i < 2; i++) {
     push_spring *x = &p->spring[i];
     x->d += first * x->v;
@@ -569,7 +572,7 @@ bool carom_push_alone(const carom_ball_kind *kind, const carom_cue *cue, carom_b
   const double part = P * over;
   out->impulse = P * kind->mass;
   out->V = p.V - p.mass_ratio * P;
-  out->behind = carom_greater(-tip->d, 0.0);
+  out->lead = tip->d - tip->v * (p.time - carom_linear_lag(carom_tip_time(cue), tip->e));
   for (int k = 0; k < 3; k++) {
     s->v[k] *= part;
     s->w[k] *= part;

@@ -1,5 +1,6 @@
 /* The loop of a shot: find the next event, bring the balls in it there, resolve it, and look for
  * their next meetings. */
+#include "cluster/hertz.h"
 #include "motion/strike.h"
 #include "platform/promise.h"
 #include "platform/threads.h"
@@ -219,7 +220,9 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   const carom_status of_contacts = note_contacts(sim, &c, order, count, changed, contact);
   if (*status == CAROM_OK)
     *status = of_contacts;
-  carom_follow_on(play, c.tip.V, carom_greater(-c.tip.d, 0.0));
+  if (c.tip.gone)
+    c.tip.V = 0.0;
+  carom_follow_on(play, c.tip.V, carom_cluster_tip_lead(&c));
   return true;
 }
 
@@ -346,7 +349,8 @@ static carom_status strike(carom_play *play, carom_due *contact) {
   /* alone: a level strike has a closed form, a raised one presses the ball on the slate, unless
    * the strike takes no time */
   carom_ball_state alone = sim->path[i].from;
-  carom_raised raised = {.touches = 1, .behind = 0.0};
+  carom_raised raised = {.touches = 1};
+  raised.lead = cue->speed * carom_linear_lag(carom_tip_time(cue), carom_tip_of(cue));
   raised.V = cue->speed - kind->mass / cue->mass * carom_strike_speed(cue, kind);
   memcpy(alone.v, motion.v, sizeof alone.v);
   memcpy(alone.w, motion.w, sizeof alone.w);
@@ -355,7 +359,7 @@ static carom_status strike(carom_play *play, carom_due *contact) {
     push(play, cue, most, down, PUSH_OF_ONE, contact, &together);
     return together;
   }
-  carom_follow_on(play, raised.V, raised.behind);
+  carom_follow_on(play, raised.V, raised.lead);
   note_strike(sim, &alone, &raised, down, is_push);
   return CAROM_OK;
 }
@@ -398,7 +402,8 @@ __attribute__((noinline, cold)) static carom_status touch_again(carom_play *play
   carom_cue cue;
   carom_status status = CAROM_OK;
   const bool touches = carom_follow_cue(play, &cue);
-  const bool raised = carom_is_raised(&cue) && sim->opt->space != CAROM_SPACE_FLAT;
+  /* its force has a part down or up under a level cue too */
+  const bool raised = sim->opt->space != CAROM_SPACE_FLAT;
   f->along += f->V * (sim->time - f->start);
   f->end = -1.0;
   f->time = INFINITY;

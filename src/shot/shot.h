@@ -107,12 +107,12 @@ void carom_hit_slate(const carom_ball_kind *kind, carom_ball_state *state);
 
 /* What a raised cue leaves behind its strike. */
 typedef struct carom_raised {
-  double impulse;   /* of the tip, N s */
-  double V, behind; /* of the cue: speed, m/s; how far its tip is behind the ball, m */
-  double second;    /* closing speed of the second touch, m/s */
-  double leaves;    /* the speed at which the slate lets the ball go, but for the end of hops */
-  int touches;      /* of the tip */
-  unsigned course;  /* a hash of the phases: which ended, and by what */
+  double impulse;  /* of the tip, N s */
+  double V, lead;  /* of the cue: speed, m/s; of its tip, m: cluster/places.c */
+  double second;   /* closing speed of the second touch, m/s */
+  double leaves;   /* the speed at which the slate lets the ball go, but for the end of hops */
+  int touches;     /* of the tip */
+  unsigned course; /* a hash of the phases: which ended, and by what */
 } carom_raised;
 
 /* raised.c: a raised cue, cue->tip_time >= 0, strikes a ball at rest on the slate that nothing else

@@ -12,6 +12,7 @@ namespace text {
 
 #include "dual/cluster/cluster.c"
 #include "dual/cluster/members.c"
+#include "dual/cluster/places.c"
 #include "dual/cluster/push.c"
 #include "tangent/elementary.h"
 

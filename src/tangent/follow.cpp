@@ -520,6 +520,8 @@ CAROM_APART text::carom_status strike(scene *s) {
   const text::carom_ball_kind *kind = &s->ball[0].kind;
   carom_ball_state *state = &s->ball[0].state;
   text::carom_raised raised = {};
+  raised.lead =
+      cue.speed * text::carom_linear_lag(text::carom_tip_time(&cue), text::carom_tip_of(&cue));
   raised.V = cue.speed - kind->mass / cue.mass * text::carom_strike_speed(&cue, kind);
   memcpy(state->v, motion.v, sizeof motion.v);
   memcpy(state->w, motion.w, sizeof motion.w);
@@ -539,8 +541,8 @@ CAROM_APART text::carom_status strike(scene *s) {
   w->note.flags |= level ? CAROM_TANGENT_KINK : 0;
   w->tip.V = raised.V.x;
   store(raised.V, w->tip.V_row);
-  w->tip.along = -raised.behind.x;
-  store(-raised.behind, w->tip.along_row);
+  w->tip.along = raised.lead.x;
+  store(raised.lead, w->tip.along_row);
   return text::CAROM_OK;
 }
 
@@ -853,7 +855,8 @@ bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS + 1],
 
 void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS + 1],
           const real d[CAROM_MOTION_NUMBERS + 1]) {
-  static const int row_of[CAROM_MOTION_NUMBERS] = {S_V_X, S_V_Y, S_V_Z, S_W_X, S_W_Y, S_W_Z};
+  static const int row_of[CAROM_MOTION_NUMBERS] = {S_V_X, S_V_Y, S_V_Z, S_W_X, S_W_Y,
+                                                   S_W_Z, S_X,   S_Y,   S_Z};
   cluster *c = (cluster *)context;
   const carom_tangent_work *w = c->w;
   const int i = c->members[k].ball;
@@ -861,11 +864,12 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS + 1],
   text::carom_ball_kind kind;
   load_kind(w, i, &kind);
   carom_ball_state s = {};
-  number *to[CAROM_MOTION_NUMBERS] = {&s.v[0], &s.v[1], &s.v[2], &s.w[0], &s.w[1], &s.w[2]};
+  number *to[CAROM_MOTION_NUMBERS] = {&s.v[0], &s.v[1], &s.v[2], &s.w[0], &s.w[1],
+                                      &s.w[2], &s.r[0], &s.r[1], &s.r[2]};
   for (int n = 0; n < CAROM_MOTION_NUMBERS; n++) {
     to[n]->x = x[n];
     to[n]->d[c->direction] = d[n];
-    if (n >= 3)
+    if (n >= 3 && n < 6)
       *to[n] /= kind.radius;
   }
   if (c->on_slate) {
@@ -875,7 +879,12 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS + 1],
   }
   for (int n = 0; n < CAROM_MOTION_NUMBERS; n++) {
     const int64_t at = (int64_t)i * CAROM_STATE_NUMBERS + row_of[n];
-    carom_tangent_columns(&w->pass, w->tangent->final, at)[c->direction] = to[n]->d[c->direction];
+    real *rate = &carom_tangent_columns(&w->pass, w->tangent->final, at)[c->direction];
+    if (n >= 6) { /* a shift, of places that are known to a rounding error */
+      *rate += to[n]->d[c->direction];
+      continue;
+    }
+    *rate = to[n]->d[c->direction];
     if (n == 2) /* the label may end it */
       continue;
     const real scale = n < 3 ? 1 : kind.radius.x,
@@ -899,14 +908,16 @@ CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
                                 .on_slate = c->on_slate,
                                 .tip_time = w->cue != nullptr ? ::carom_tip_time(w->cue) : 0,
                                 .reach = w->cue != nullptr ? w->cue->follow - w->tip.along : 0,
+                                .tip_friction =
+                                    carom_touches_again(first) ? ::carom_tip_friction(w->cue) : 0,
                                 .give_cue = give_cue,
                                 .give = give,
                                 .take = take,
                                 .context = c,
                                 .V = 0,
                                 .V_rate = 0,
-                                .behind = 0,
-                                .behind_rate = 0};
+                                .lead = 0,
+                                .lead_rate = 0};
   carom_tangent_tip *tip = &w->tip;
   const real along = tip->along;
   bool kink = false;
@@ -915,9 +926,9 @@ CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
       return false;
     if (task.second < 0) {
       tip->V = task.V;
-      tip->along = along - task.behind;
+      tip->along = along + task.lead;
       tip->V_row[c->direction] = task.V_rate;
-      tip->along_row[c->direction] -= task.behind_rate;
+      tip->along_row[c->direction] += task.lead_rate;
     }
   }
   if (kink || !(c->apart <= 1e-6 * c->most))
@@ -952,7 +963,7 @@ carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_eve
   watched = {false, {0, 0}};
   find_members(w, events, count, &c);
   c.on_slate = events[0].type == CAROM_EVENT_STRIKE && w->opt->space != CAROM_SPACE_FLAT &&
-               ::carom_is_raised(w->cue);
+               (::carom_is_raised(w->cue) || carom_touches_again(&events[0]));
   const row dT = begin_cluster(w, &events[0], &c);
   for (int k = 0; k < c.count; k++) {
     const member *m = &c.members[k];

@@ -16,13 +16,13 @@ bool is_level(const text::carom_cluster_contact_state &x, real most) {
              1e-9 * (__builtin_fabs(x.impulse.d[0]) + __builtin_fabs(level.d[0]));
 }
 
-/* The cue behind a push, and how far it is behind the ball. */
+/* The cue after a push, and the lead of its tip. */
 void tell_tip(const text::carom_cluster_state &state, carom_tangent_cluster *c) {
-  const number behind = text::carom_greater(-state.tip.d, 0.0);
+  const number lead = text::carom_cluster_tip_lead(&state);
   c->V = state.tip.V.x;
   c->V_rate = state.tip.V.d[0];
-  c->behind = behind.x;
-  c->behind_rate = behind.d[0];
+  c->lead = lead.x;
+  c->lead_rate = lead.d[0];
 }
 
 row row_of(real d) {
@@ -71,6 +71,8 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
     for (int n = 0; n < 8; n++)
       cue[n] = number(x[n], row_of(d[n]));
     text::carom_cluster_tip_of(&state, c->first, cue, c->tip_time);
+    if (c->tip_friction > 0)
+      text::carom_cluster_tip_slides(&state, cue, c->tip_friction);
     state.tip.reach = c->reach;
     contacts = text::carom_cluster_members_of_tip(&state, 1e3);
     if (c->on_slate)
@@ -80,7 +82,7 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
   } else {
     contacts = text::carom_cluster_members(&state, c->first, c->second);
   }
-  const bool alone = contacts == 0 && state.struck && !c->on_slate;
+  const bool alone = contacts == 0 && state.struck && !c->on_slate && !(c->tip_friction > 0);
   const bool all = contacts >= !state.struck && state.balls == c->balls;
   if (all && alone)
     text::carom_cluster_push_alone(&state);
@@ -98,13 +100,14 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
              (!state.in_space && x.p->radius.d[0] != x.q->radius.d[0]);
   }
 
-  /* their motion behind it */
+  /* their motion after it */
   for (int k = 0; k < c->balls; k++) {
-    const number *from = state.ball[k].v;
+    const text::carom_cluster_ball &ball = state.ball[k];
     real x[CAROM_MOTION_NUMBERS + 1], d[CAROM_MOTION_NUMBERS + 1];
     for (int n = 0; n < CAROM_MOTION_NUMBERS; n++) {
-      x[n] = from[n].x;
-      d[n] = from[n].d[0];
+      const number &from = n < 3 ? ball.v[n] : n < 6 ? ball.W[n - 3] : ball.shift[n - 6];
+      x[n] = from.x;
+      d[n] = from.d[0];
     }
     const number J = text::carom_cluster_slate_impulse(&state, k);
     x[CAROM_MOTION_NUMBERS] = J.x;

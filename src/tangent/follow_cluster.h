@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 /* The numbers of a carom_cluster_ball that its caller sets; v and W are those from 3 on. */
-enum { CAROM_MEMBER_NUMBERS = 17, CAROM_MEMBER_MOTION = 3, CAROM_MOTION_NUMBERS = 6 };
+enum { CAROM_MEMBER_NUMBERS = 17, CAROM_MEMBER_MOTION = 3, CAROM_MOTION_NUMBERS = 9 };
 
 typedef struct carom_tangent_cluster {
   int balls, first, second; /* members; the places of the two of the contact that starts it; of a
@@ -16,18 +16,19 @@ typedef struct carom_tangent_cluster {
   bool on_slate;
   double tip_time, reach; /* of the cue that pushes ball `first`, where `second` is below 0; how far
                              it goes on, m; */
+  double tip_friction;    /* of a further touch; 0: it is the first */
   /* gives the numbers of the cue and their tangents, in the order of carom_cue; */
   void (*give_cue)(void *context, double x[8], double d[8]);
   /* gives numbers and tangents of member k, the last one e of its slate, and whether it flies; */
   bool (*give)(void *context, int k, double x[CAROM_MEMBER_NUMBERS + 1],
                double d[CAROM_MEMBER_NUMBERS + 1]);
-  /* takes those of its motion, v and W, and of the impulse of the slate. */
+  /* takes those of its motion, v, W and shift, and of the impulse of the slate. */
   void (*take)(void *context, int k, const double x[CAROM_MOTION_NUMBERS + 1],
                const double d[CAROM_MOTION_NUMBERS + 1]);
   void *context;
-  /* written: of a push the speed of the cue behind it, and how far its tip is behind the ball, with
-     their tangents */
-  double V, V_rate, behind, behind_rate;
+  /* written: of a push the speed of the cue after it, and the lead of its tip, with their
+     tangents */
+  double V, V_rate, lead, lead_rate;
 } carom_tangent_cluster;
 
 /* False where it is not the cluster of all these balls, or takes too many steps. *kink becomes
