@@ -247,7 +247,10 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
   const double *c = w->mouth.centre;
   const carom_ball_state *s = &states[w->balls - 1];
   states_at(w, &cue, p.last_contact, states);
-  const double x = c[0] - s->r[0], y = c[1] - s->r[1], far = sqrt(x * x + y * y);
+  /* a ball that lay still was met there, and starts from another place where contacts last */
+  const bool lay = w->link[w->links - 1].kind == CAROM_PART_BALL;
+  const double *from = lay ? w->alone[w->balls - 1].state.r : s->r;
+  const double x = c[0] - from[0], y = c[1] - from[1], far = sqrt(x * x + y * y);
   if (p.end.type != 0)
     time = p.end_time;
   states_at(w, &cue, fmax(p.last_contact, time * (1.0 - just_before)), states);

@@ -27,7 +27,7 @@ static inline double strike_step(const carom_cluster_state *c) {
   const bool far = open && x->d < -far_behind * T * x->first;
   double h = far ? (double)INFINITY : push_step(c, T, x->e);
   for (int k = 0; c->on_slate && k < c->balls; k++)
-    if (c->slate[k].e > 0.0 && (!far || c->slate[k].J > 0.0))
+    if (c->slate[k].e > 0.0 && ((k == x->ball && !far) || c->slate[k].J > 0.0))
       h = carom_lesser(h, push_step(c, (double)CAROM_SLATE_TIME, c->slate[k].e) / c->steepness);
   return h;
 }

@@ -155,8 +155,8 @@ void carom_cluster_find_places(carom_cluster_state *c) {
     add(c, l, 1.0, instant, &sum);
   }
   for (int k = 0; k < c->balls; k++)
-    for (int n = 0; n < 3; n++)
-      c->ball[k].shift[n] = -sum.moment[k][n];
+    for (int n = 0; n < 3; n++) /* one on the slate starts from there */
+      c->ball[k].shift[n] = n < 2 || c->ball[k].flies ? -sum.moment[k][n] : (double)0.0;
 }
 
 double carom_cluster_tip_lead(const carom_cluster_state *c) {

@@ -246,7 +246,7 @@ void carom_cluster_rest(const carom_sim *sim, const carom_cluster_state *c, int 
 
 void carom_cluster_take(const carom_cluster_ball *b, carom_ball_state *s) {
   motion_of(b, s->v, s->w);
-  for (int k = 0; k < (b->flies ? 3 : 2); k++)
+  for (int k = 0; k < 3; k++)
     s->r[k] += b->shift[k];
 }
 

@@ -37,6 +37,8 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
 /* follow_through.c. The cue goes on from now at the speed V, its tip `lead` m ahead of where the ball
  * has it, as places.c has it. */
 void carom_follow_on(carom_play *play, double V, double lead);
+/* Ends the follow-through, after a further touch, if the tip goes on into the ball. */
+void carom_follow_leave(carom_play *play);
 /* Sets play->follow.time: when its tip touches the struck ball again. */
 void carom_follow_find(carom_play *play);
 /* *moved_cue becomes the cue with the place of its tip and its speed. Returns whether that is a

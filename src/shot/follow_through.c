@@ -9,8 +9,9 @@
  * (gap.c). There it pushes as tip.h has it, with the (a, b) of p, and goes on at the speed that is
  * left. It is looked for from the first contact of the cue ball with another ball or a cushion on:
  * before that the ball runs away from the cue, but in slow draws, in which an arm stops. A tip that
- * closes slower than CAROM_LEAST_TOUCH has come to lie at the ball, and one that comes past its
- * middle misses: there the follow-through ends.
+ * closes slower than CAROM_LEAST_TOUCH has come to lie at the ball, one that comes past its middle
+ * misses, and one that is pushed aside (cluster/tip.h), or goes on into the ball after a further
+ * touch, slides off it: there the follow-through ends.
  */
 #include "cluster/cue.h"
 #include "motion/gap.h"
@@ -23,6 +24,7 @@ void carom_follow_on(carom_play *play, double V, double lead) {
   const carom_sim *sim = &play->sim;
   const carom_cue *cue = sim->cue;
   carom_follow *f = &play->follow;
+  f->along += lead;
   const double left = cue->follow - f->along;
   f->end = -1.0;
   if (!(left > 0.0 && V > 0.0) || cue->tip_time < 0.0 || !sim->rules->clusters ||
@@ -30,7 +32,6 @@ void carom_follow_on(carom_play *play, double V, double lead) {
     return;
   f->start = sim->time;
   f->end = sim->time + left / V;
-  f->along += lead;
   f->V = V;
 }
 
@@ -40,6 +41,32 @@ static void tip_of(const carom_play *play, const double r[3], double axes[3][3],
   const carom_follow *f = &play->follow;
   carom_tip_from(sim->cue, sim->rates[sim->struck].radius, f->origin,
                  f->along + f->V * (sim->time - f->start), r, axes, p);
+}
+
+/* The struck ball from now on, in axes[0] the axis of the cue, and the way from the ball to the tip. */
+static void begin(const carom_play *play, double axes[3][3], carom_separation *d) {
+  const carom_sim *sim = &play->sim;
+  const int i = sim->struck;
+  carom_ball_state s;
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &s);
+  tip_of(play, s.r, axes, d->d0);
+  for (int k = 0; k < 3; k++) {
+    d->d1[k] = play->follow.V * axes[0][k] - s.v[k];
+    d->d2[k] = -sim->path[i].a[k];
+  }
+}
+
+void carom_follow_leave(carom_play *play) {
+  carom_separation d;
+  double axes[3][3], square = 0.0, closing = 0.0;
+  begin(play, axes, &d);
+  for (int k = 0; k < 3; k++) {
+    square += d.d0[k] * d.d0[k];
+    closing -= d.d0[k] * d.d1[k];
+  }
+  const double R = play->sim.rates[play->sim.struck].radius;
+  if (square < R * R && closing > 0.0)
+    play->follow.end = -1.0;
 }
 
 void carom_follow_find(carom_play *play) {
@@ -54,16 +81,9 @@ void carom_follow_find(carom_play *play) {
   if (out || !sim->turned)
     return;
 
-  /* the ball as it moves from now on, and the tip from there */
-  carom_ball_state s;
   carom_separation d;
   double axes[3][3];
-  carom_path_at(path, &sim->rates[i], sim->time, &s);
-  tip_of(play, s.r, axes, d.d0);
-  for (int k = 0; k < 3; k++) {
-    d.d1[k] = f->V * axes[0][k] - s.v[k];
-    d.d2[k] = -path->a[k];
-  }
+  begin(play, axes, &d);
   const double horizon = carom_lesser(f->end, path->end) - sim->time;
   if (horizon >= 0.0)
     f->time = sim->time + carom_first_contact_in_space(&d, sim->rates[i].radius, horizon);

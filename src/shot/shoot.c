@@ -223,6 +223,8 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   if (c.tip.gone)
     c.tip.V = 0.0;
   carom_follow_on(play, c.tip.V, carom_cluster_tip_lead(&c));
+  if (kind == PUSH_AGAIN && play->follow.end >= 0.0)
+    carom_follow_leave(play);
   return true;
 }
 

@@ -751,6 +751,8 @@ CAROM_APART void take_cue(const scene *s, const row &dT, cluster *c) {
       add_time(dT, x);
     tip->along = along.x;
     store(along, tip->along_row);
+    tip->left = s->w->cue->follow - along.x;
+    store(-along, tip->left_row);
     tip->start_time = s->event->time;
     memcpy(tip->start, &dT, sizeof dT);
   }
@@ -809,11 +811,14 @@ CAROM_APART void load_member(const carom_tangent_work *w, int i, const ::carom_b
 }
 
 /* A further contact of balls that touch already, of which a change opens the gap. */
-CAROM_APART void note_gap(carom_tangent_work *w, const carom_event *e) {
+CAROM_APART void note_gap(const cluster *c, const carom_event *e) {
+  carom_tangent_work *w = c->w;
   text::carom_ball_kind kind[2];
   carom_ball_state s[2];
-  load_member(w, e->a, e->before[0], &kind[0], &s[0]);
-  load_member(w, e->b, e->before[1], &kind[1], &s[1]);
+  for (int side = 0; side < 2; side++) { /* as they come to their first contact */
+    const member *m = &c->members[place_of(c, side == 0 ? e->a : e->b)];
+    load_member(w, m->ball, m->event->before[m->side], &kind[side], &s[side]);
+  }
   number square = 0.0;
   for (int k = 0; k < 3; k++)
     square += (s[1].r[k] - s[0].r[k]) * (s[1].r[k] - s[0].r[k]);
@@ -971,7 +976,7 @@ carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_eve
     tell_before(w, m->ball, 2 * (at + (m->event - events)) + m->side);
   }
   for (int k = 1; k < count; k++)
-    note_gap(w, &events[k]);
+    note_gap(&c, &events[k]);
   if (!solve_cluster(&c, &events[0]))
     return CAROM_ERROR_TANGENT;
   for (int k = 0; k < c.count; k++)

@@ -429,12 +429,9 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) 
     take_rails(reach, event, d[0]);
 
   /* a further touch before the end of its way */
-  carom_tangent_row end;
-  if (carom_touches_again(event)) {
-    const double left = end_of_tip(w, end) - event->time;
+  if (carom_touches_again(event))
     for (int j = 0; j < m; j++)
-      take(reach, j, left, end[j] - w->time[j]);
-  }
+      take(reach, j, w->tip.left, w->tip.left_row[j]);
 
   /* of a cluster the contact that starts it, and a ball that leaves it quite otherwise */
   if (w->note.flags & CAROM_TANGENT_CLUSTER)

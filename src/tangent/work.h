@@ -43,6 +43,8 @@ typedef struct carom_tangent_ball {
 typedef struct carom_tangent_tip {
   double V, along, start_time, origin[2];
   carom_tangent_row V_row, along_row, start;
+  double left; /* m, of the way of the cue as its tip touched last */
+  carom_tangent_row left_row;
   bool turned; /* the struck ball has met another, or a cushion */
 } carom_tangent_tip;
 

@@ -43,7 +43,7 @@ static double cut_at(const problem *p, double phi) {
     carom_shot_ball alone = p->ball[0];
     carom_ball_state left;
     carom_shot strike = {.final = &left};
-    const double x = object->r[0] - striker->r[0], y = object->r[1] - striker->r[1],
+    const double *from = p->ball[0].state.r, x = object->r[0] - from[0], y = object->r[1] - from[1],
                  touch = alone.kind.radius + p->ball[p->offset].kind.radius;
     options.stop_at = CAROM_STOP_AT(CAROM_EVENT_STRIKE);
     carom_shoot(&p->table, &alone, 1, &cue, &options, &strike);
