@@ -390,7 +390,7 @@ static inline void begin_step(bool flat, state *c, pushes *pushed) {
     contact *x = &c->contact[pushed->push[a]];
     /* speeds, and mu, which falls only where the slip is the greatest so far */
     x->closing = closing_of(flat, x);
-    slip_of(flat, x, x->u);
+    slip_of(flat, x, x->u); /* with the freedom of the step before */
     const double u = sqrt(x->u[0] * x->u[0] + x->u[1] * x->u[1]);
     if (u > x->U) {
       x->U = u;
@@ -399,6 +399,8 @@ static inline void begin_step(bool flat, state *c, pushes *pushed) {
       x->mu = carom_friction_at(x->p->friction, law, u);
     }
 
+    if (c->on_slate)
+      x->freedom = carom_lesser(x->tilted + share_of_tip(c, x->i, x->j, x->mu * x->J), 1.0);
     x->may_stick = u <= 7.0 * mobility(x) * x->mu * x->J;
     x->impulse += x->J;
 

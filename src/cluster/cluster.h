@@ -102,15 +102,15 @@ typedef struct carom_cluster_ball {
 
 typedef struct carom_cluster_contact_state {
   carom_cluster_ball *p, *q;
-  int8_t i, j;        /* of these in ball[] */
-  bool touched;       /* now or before: n is known */
-  bool may_stick;     /* within this step */
-  double n[3];        /* unit vector from i to j */
-  double offset;      /* d = offset + (s_i - s_j) . n */
-  double d, d_max;    /* d_max: 0 while open */
-  double size;        /* the compression that it has, or will have */
-  double K, e, quick; /* quick: (e T)^-4 of a compression of 1 m */
-  double freedom;     /* phi; read in space */
+  int8_t i, j;            /* of these in ball[] */
+  bool touched;           /* now or before: n is known */
+  bool may_stick;         /* within this step */
+  double n[3];            /* unit vector from i to j */
+  double offset;          /* d = offset + (s_i - s_j) . n */
+  double d, d_max;        /* d_max: 0 while open */
+  double size;            /* the compression that it has, or will have */
+  double K, e, quick;     /* quick: (e T)^-4 of a compression of 1 m */
+  double tilted, freedom; /* phi by height and tilt, and with what the slate bears; read in space */
   double mu, U;
   double J, f[2];            /* impulses of a step along n, and of friction along t and the
                                 third; between steps f/J */

@@ -152,7 +152,7 @@ static void make_contact(carom_cluster_state *c, int i, int j, const two_balls *
   x->quick = 1.0 / (pace * pace * (pace * pace));
   x->time = -1.0;
   const double height = carom_greater(height_of(a), height_of(b));
-  x->freedom = carom_freedom_of_balls(height, two->n[2]);
+  x->tilted = x->freedom = carom_freedom_of_balls(height, two->n[2]);
 }
 
 /* The contacts of all balls that are nearer than so many delta, and what they close; -1 where there

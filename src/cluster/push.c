@@ -85,10 +85,6 @@ void carom_cluster_put_on_slate(carom_cluster_state *c) {
   /* the more the cue is raised, the more the slate itself holds a ball, not its share of the cloth;
    * under a level cue contacts are those of the cloth */
   c->steepness = carom_freedom_of_balls(0.0, c->tip.along[2]);
-  for (int k = 0; k < c->contacts; k++) {
-    carom_cluster_contact_state *x = &c->contact[k];
-    x->freedom = carom_lesser(x->freedom + c->steepness, 1.0);
-  }
 }
 
 double carom_cluster_slate_impulse(const carom_cluster_state *c, int ball) {

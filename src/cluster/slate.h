@@ -31,6 +31,17 @@ static inline bool slate_acts(carom_cluster_state *c, double h) {
   return any;
 }
 
+/* The share of the friction `most` of two balls that the tip presses the struck one on the slate by. */
+static inline double share_of_tip(const carom_cluster_state *c, int i, int j, double most) {
+  const carom_cluster_tip *x = &c->tip;
+  if (x->ball != i && x->ball != j)
+    return 0.0;
+  const double down = -(x->slides ? x->n[2] / x->kappa : x->along[2]) * x->J;
+  if (!(down > 0.0))
+    return 0.0;
+  return down < most ? down / most : (double)1.0;
+}
+
 static inline void slate_parts(carom_cluster_state *c, double h) {
   for (int k = 0; k < c->balls; k++) {
     carom_cluster_slate *x = &c->slate[k];
