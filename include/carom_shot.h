@@ -361,7 +361,9 @@ typedef struct carom_rail {
   double mu_cushion, restitution; /* of this rail, 0 to 1; 0: those of the ball. */
 } carom_rail;
 
-/* A rounded end of a cushion: a vertical cylinder, whose outside balls touch. radius >= 0. */
+/* A rounded end of a cushion: a vertical cylinder, whose outside balls touch. radius >= 0. Where a
+ * rail ends on it and is tangent to it, within 0.1 mm, it has the friction and the restitution of
+ * the rail; its own begin at a chord of 8 mm from there, but for CAROM_WORLD_POOLTOOL. */
 typedef struct carom_jaw {
   double centre[2], radius, height; /* m; height of the nose above the cloth, between 0 and 2 R. */
   double mu_cushion, restitution;   /* 0 to 1, as of a rail. */

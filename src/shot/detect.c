@@ -17,6 +17,8 @@
 
 #include <math.h>
 
+_Static_assert((int)CAROM_COLUMN == (int)CAROM_BALLS_MOST, "a column has a place for each ball");
+
 /* A path seen from now on: r + v t + a t^2. */
 typedef struct line_of_motion {
   double r[2], v[2], a[2];

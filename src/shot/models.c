@@ -257,13 +257,21 @@ __attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim,
   return status;
 }
 
-carom_nose carom_nose_of(const carom_table *table, const carom_due *pending_event) {
+carom_nose carom_nose_of(const carom_sim *sim, const carom_due *pending_event,
+                         const carom_ball_state *s) {
+  const carom_table *table = sim->table;
+  const carom_ball_kind *kind = sim->layout->kind[pending_event->a];
   if (pending_event->type == CAROM_EVENT_RAIL) {
     const carom_rail *rail = &table->rail[pending_event->b];
-    return (carom_nose){rail->height, 0.0, rail->mu_cushion, rail->restitution};
+    return (carom_nose){rail->height, 0.0, carom_or_usual(rail->mu_cushion, kind->mu_cushion),
+                        carom_or_usual(rail->restitution, kind->restitution_cushion)};
   }
   const carom_jaw *jaw = &table->jaw[pending_event->b];
-  return (carom_nose){jaw->height, jaw->radius, jaw->mu_cushion, jaw->restitution};
+  carom_nose nose = {jaw->height, jaw->radius, carom_or_usual(jaw->mu_cushion, kind->mu_cushion),
+                     carom_or_usual(jaw->restitution, kind->restitution_cushion)};
+  if (!sim->rules->abrupt_jaws)
+    carom_blend_jaw(table, pending_event->b, kind, s->r, &nose.mu_cushion, &nose.restitution);
+  return nose;
 }
 
 #define AGREES(NAME, ...)                                                    \
@@ -306,8 +314,8 @@ static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const
   /* restitution and friction by the closing speed; of a ball on the cloth it is v_y cos(theta) */
   const double sine = carom_nose_height(kind, nose->height) / kind->radius - 1.0;
   carom_contact c = {.v_y = touch.closing / sqrt((1.0 - sine) * (1.0 + sine)),
-                     .mu_w = carom_or_usual(nose->mu_cushion, kind->mu_cushion),
-                     .e = carom_or_usual(nose->restitution, kind->restitution_cushion)};
+                     .mu_w = nose->mu_cushion,
+                     .e = nose->restitution};
   carom_apply_law(&c, &options);
 
   const double J_t = friction_in_flight(&c, touch.closing, touch.slip, &options);
@@ -325,9 +333,8 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
                                    .radius = kind->radius,
                                    .mass = kind->mass,
                                    .mu_slide = kind->mu_slide,
-                                   .mu_cushion = carom_or_usual(nose->mu_cushion, kind->mu_cushion),
-                                   .restitution =
-                                       carom_or_usual(nose->restitution, kind->restitution_cushion),
+                                   .mu_cushion = nose->mu_cushion,
+                                   .restitution = nose->restitution,
                                    .jaw_radius = nose->jaw_radius};
   carom_cushion_options options = cushion_options(sim, kind);
   carom_motion out;
@@ -351,7 +358,7 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
 carom_status carom_model_cushion(const carom_sim *sim, const carom_due *pending_event,
                                  const double n[3], carom_ball_state *s) {
   const carom_ball_kind *kind = sim->layout->kind[pending_event->a];
-  const carom_nose nose = carom_nose_of(sim->table, pending_event);
+  const carom_nose nose = carom_nose_of(sim, pending_event, s);
   if (!carom_flies(s))
     return impact_on_cloth(sim, kind, n, &nose, s);
   const double chi = carom_freedom_of_height(s->r[2] - kind->radius);

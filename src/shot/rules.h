@@ -12,6 +12,7 @@ typedef struct carom_rules {
   bool one_mass;       /* all balls have equal masses */
   bool clusters;       /* contacts of several balls at one instant may last: options.simultaneous */
   bool contacts_slide; /* after a strike or a contact a ball slides, even where it would roll */
+  bool abrupt_jaws;    /* jaws have their own friction right from their seams on */
   double simultaneous; /* s: events this much later than the earliest are simultaneous with it */
   /* numbers that models read besides the options */
   carom_slip euler_slip;               /* of Euler's model of two balls */

@@ -281,6 +281,7 @@ static const carom_rules rules = {
     .flat = true,
     .one_mass = true,
     .contacts_slide = true,
+    .abrupt_jaws = true,
     .simultaneous = 0.0,
     .euler_slip = CAROM_SLIP_POOLTOOL,
     .convention = CAROM_CONVENTION_POOLTOOL,

@@ -24,6 +24,9 @@ typedef struct carom_follow {
   carom_cue cue;    /* of a stopped shot */
 } carom_follow;
 
+/* How long a column of balls is; derivatives have no columns. */
+enum { CAROM_COLUMN = 32 };
+
 typedef struct carom_sim {
   /* of a state that is kept, state.c */
   uint64_t can_go_on, seal;
@@ -50,11 +53,10 @@ typedef struct carom_sim {
   carom_ball_rates rates[CAROM_BALLS_MOST];
   carom_path path[CAROM_BALLS_MOST];
   /* the paths once more, in columns: those of pairs are searched many at a time */
-  double x[CAROM_BALLS_MOST], y[CAROM_BALLS_MOST], v_x[CAROM_BALLS_MOST], v_y[CAROM_BALLS_MOST],
-      a_x[CAROM_BALLS_MOST], a_y[CAROM_BALLS_MOST], start[CAROM_BALLS_MOST],
-      horizon[CAROM_BALLS_MOST];
+  double x[CAROM_COLUMN], y[CAROM_COLUMN], v_x[CAROM_COLUMN], v_y[CAROM_COLUMN], a_x[CAROM_COLUMN],
+      a_y[CAROM_COLUMN], start[CAROM_COLUMN], horizon[CAROM_COLUMN];
   /* R, 0 and 0 but for airborne balls */
-  double z[CAROM_BALLS_MOST], v_z[CAROM_BALLS_MOST], a_z[CAROM_BALLS_MOST];
+  double z[CAROM_COLUMN], v_z[CAROM_COLUMN], a_z[CAROM_COLUMN];
   carom_meeting meeting[CAROM_BALLS_MOST]; /* with the table */
   /* when i < j meet; infinite where not before a path ends */
   double pair[CAROM_BALLS_MOST][CAROM_BALLS_MOST];
@@ -140,10 +142,10 @@ double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const
 /* The speed below which contacts are slow, after so many instants that had one. */
 double carom_slow_speed(int64_t instants);
 
-/* The nose of a rail or a jaw. */
+/* The nose of a rail or a jaw where a ball touches it. */
 typedef struct carom_nose {
-  double height, jaw_radius;      /* jaw_radius: 0 of a rail */
-  double mu_cushion, restitution; /* 0: those of the ball */
+  double height, jaw_radius; /* jaw_radius: 0 of a rail */
+  double mu_cushion, restitution;
 } carom_nose;
 
 /* models.c: v and w after a collision by the model asked for. n: unit vector from ball i to ball
@@ -162,7 +164,8 @@ carom_status carom_model_cushion(const carom_sim *sim, const carom_due *pending_
 /* The unit vector from ball a to ball b, in space. A ball on the cloth is at z = R exactly. */
 void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a,
                            const carom_ball_kind *kind_b, const carom_ball_state *b, double n[3]);
-carom_nose carom_nose_of(const carom_table *table, const carom_due *pending_event);
+carom_nose carom_nose_of(const carom_sim *sim, const carom_due *pending_event,
+                         const carom_ball_state *state);
 /* resolve.c: the phase of a ball after a contact, which may have lifted it or pushed it down if
  * it was in space. */
 void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_state *s);

@@ -49,6 +49,19 @@ void carom_rail_line(const carom_rail *rail, double line[3]);
 void carom_features_of(const carom_table *table, double radius, double reference,
                        carom_features *features);
 
+/* seams.c: a jaw that continues a rail. */
+enum { CAROM_SEAMS_MOST = 2 }; /* an arc has two ends */
+typedef struct carom_seam {
+  int rail;
+  double end[2]; /* of the rail */
+} carom_seam;
+/* The seams of a jaw, by the numbers of the table alone, and how many. */
+int carom_seams_of(const carom_table *table, int index, carom_seam seam[CAROM_SEAMS_MOST]);
+/* Changes the friction and the restitution of a jaw, for a ball of a kind, to those at the place
+ * that the ball at r touches. */
+void carom_blend_jaw(const carom_table *table, int index, const carom_ball_kind *kind,
+                     const double r[3], double *mu, double *e);
+
 /* part_names.c: whether a rail is the cut of a pocket, and no cushion: those are short. */
 bool carom_is_cut(const carom_table *table, int rail);
 

@@ -185,6 +185,23 @@ void take_nose(const carom_tangent_work *w, const plain &from, type *to) {
   }
 }
 
+/* The rails that a jaw continues, as the only ones. */
+void take_seams(scene *s, int index) {
+  const carom_table *table = s->w->table;
+  ::carom_seam seam[CAROM_SEAMS_MOST];
+  const int count = ::carom_seams_of(table, index, seam);
+  s->table.rails = count;
+  for (int k = 0; k < count; k++) {
+    const carom_rail *from = &table->rail[seam[k].rail];
+    text::carom_rail *to = &s->table.rail[k];
+    for (int axis = 0; axis < 2; axis++) {
+      to->p[axis] = from->p[axis];
+      to->q[axis] = from->q[axis];
+    }
+    take_nose(s->w, *from, to);
+  }
+}
+
 /* The part of the table that an event has, as the only one. */
 CAROM_APART void take_part(scene *s) {
   const carom_tangent_work *w = s->w;
@@ -222,6 +239,7 @@ CAROM_APART void take_part(scene *s) {
       s->table.jaw[0].centre[k] = jaw->centre[k];
     s->table.jaw[0].radius = jaw->radius;
     take_nose(w, *jaw, &s->table.jaw[0]);
+    take_seams(s, b);
   }
 }
 

@@ -92,6 +92,7 @@ number carom_cluster_slate_impulse(const carom_cluster_state *, int) {
 #include "dual/shot/slate.c"
 #include "dual/shot/spheres.c"
 #include "dual/table/nose.c"
+#include "dual/table/seams.c"
 
 } // namespace text
 } // namespace

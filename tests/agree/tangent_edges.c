@@ -1,6 +1,7 @@
 /* Where derivatives of shots end: each flag of carom_tangent.h by itself, the reach beside the
  * change at which a ball's events really change, and the derivatives by the frictions of the
  * cloth beside closed forms. */
+#include "table/table.h"
 #include "tangent_support.h"
 
 static const carom_shot_options closed = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
@@ -941,6 +942,78 @@ TEST(reach_at_a_nose) {
       ck_assert_double_eq_tol(reach[0], fabs(off), 0.1 * fabs(off));
     }
   }
+}
+
+/* A ball that meets a jaw up to 8 mm from its seams, where friction and restitution change with the
+ * place (seams.c), also with arcs so short that both passages overlap. */
+static layout towards_a_jaw(const carom_table *table, random_source *random) {
+  const int index = (int)random_between(random, 0.0, (double)table->jaws - 1e-3);
+  const carom_jaw *jaw = &table->jaw[index];
+  carom_seam seam[CAROM_SEAMS_MOST];
+  ck_assert_int_eq(carom_seams_of(table, index, seam), 2);
+
+  /* a place between the seams, and a way to it */
+  const double share = random_between(random, 0.02, 0.98),
+               swing = random_between(random, -1.0, 1.0);
+  double out[2], way[2];
+  for (int k = 0; k < 2; k++)
+    out[k] = (1.0 - share) * seam[0].end[k] + share * seam[1].end[k] - jaw->centre[k];
+  const double size = hypot(out[0], out[1]);
+  way[0] = -(cos(swing) * out[0] - sin(swing) * out[1]) / size;
+  way[1] = -(sin(swing) * out[0] + cos(swing) * out[1]) / size;
+
+  layout l = {.count = 1, .ball = {ball_at(0.0, 0.0)}, .table = table};
+  carom_ball_state *s = &l.ball[0].state;
+  l.ball[0].kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  random_vector(random, 3, -30.0, 30.0, s->w);
+  for (int k = 0; k < 2; k++) {
+    s->v[k] = 2.0 * way[k];
+    s->r[k] = jaw->centre[k] + (jaw->radius + R) * out[k] / size - 6e-3 * way[k];
+  }
+  s->r[2] = R;
+  if (random_between(random, 0.0, 1.0) < 0.5) {
+    s->r[2] += random_between(random, 1e-4, 6e-3);
+    s->label = CAROM_BALL_AIRBORNE;
+  }
+  l.options.time_most = 0.015;
+  return l;
+}
+
+TEST(passages_of_jaws) {
+  enum { DIRECTIONS = 8 };
+  static const direction by[DIRECTIONS] = {
+      {OF_STATE, 0, 0, 1e-2}, {OF_STATE, 0, 1, 1e-2}, {OF_STATE, 0, 2, 1},   {OF_STATE, 0, 3, 1},
+      {OF_STATE, 0, 6, 50},   {OF_KIND, 0, 1, 1e-2},  {OF_NOSES, 0, 1, 0.1}, {OF_NOSES, 0, 2, 0.1}};
+  random_source random = {test_seed()};
+  static double errors[2 * DIRECTIONS * 100];
+  int count = 0, met = 0;
+  for (int n = 0; n < FEWER(200); n++) {
+    carom_measures m;
+    carom_table table;
+    carom_table_measures(CAROM_TABLE_POOL_9FT, &m);
+    if (n % 2 == 1)
+      m.corner_jaw = m.side_jaw = 4e-3;
+    ck_assert_int_eq(carom_table_measured(&m, R, &table, NULL), CAROM_OK);
+    for (int k = 0; k < table.rails; k++)
+      if (!carom_is_cut(&table, k)) {
+        table.rail[k].mu_cushion = 0.3;
+        table.rail[k].restitution = 0.9;
+      }
+    const layout l = towards_a_jaw(&table, &random);
+    if (differentiate(&l, by, DIRECTIONS) != 0 || shot.count < 1 ||
+        events[0].type != CAROM_EVENT_JAW)
+      continue;
+    met++;
+    for (int j = 0; j < DIRECTIONS; j++) {
+      const double error = error_of(&l, &by[j], j, DIRECTIONS);
+      if (error < INFINITY)
+        errors[count++] = error;
+    }
+  }
+  printf("%d jaws\n", met);
+  ck_assert_int_gt(count, FEWER(200) * DIRECTIONS / 2);
+  tell(errors, count, 0.99, "passages of jaws");
+  ck_assert_double_lt(errors[count - 1], 1e-7);
 }
 
 /* English that a change brings about ends before the contact, unless the change is above the
