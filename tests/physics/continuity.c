@@ -12,7 +12,8 @@
  * is a jump beyond the bound of its kind. The size of a jump is its greatest change of a speed, R w
  * too, `shortly` after that event; places may jump as far as that speed goes by then.
  *
- * ./test --release has CAROM_TEST_DRAWS=10000, where a row that does not occur is an error too. */
+ * CAROM_SHOW="tip alone" prints all jumps of a kind. ./test --release has CAROM_TEST_DRAWS=10000,
+ * where a row that does not occur is an error too. */
 #include "jumps.h"
 #include "random.h"
 #include "support.h"

@@ -278,10 +278,15 @@ static verdict name_two(two_shots *s, const carom_event *x, const carom_event *y
     return name_same(s->a, x, s->b, y, name) ? NAMED : AGREED;
   }
 
+  /* a ball falls at that instant in one shot alone */
+  const bool falls = word_of(x) == out || word_of(y) == out;
+  if (falls && is_now(x, y) && x->a == y->a)
+    return EXPLAINED;
+
   /* at one instant, both in both shots, or one in place of the other */
   const bool x_in_b = find_now(s->b, s->j, x) != NULL, y_in_a = find_now(s->a, s->i, y) != NULL;
   const bool instead = !x_in_b && !y_in_a && is_now(x, y) && x->a == y->a;
-  if (word_of(x) != out && word_of(y) != out && (instead || (x_in_b && y_in_a))) {
+  if (!falls && (instead || (x_in_b && y_in_a))) {
     name_pair(instead ? "%s or %s" : "order of %s, %s", x, y, name);
     return NAMED;
   }
