@@ -32,16 +32,16 @@ static inline double strike_step(const carom_cluster_state *c) {
   return h;
 }
 
-/* Where neither tip nor balls act, whether the slate has let the balls go. */
-static inline bool slate_ends(carom_cluster_state *c) {
+/* Where neither tip nor balls act in a step of h, whether the slate has let the balls go. */
+static inline bool slate_ends(carom_cluster_state *c, double h) {
   const carom_cluster_tip *tip = &c->tip;
   const carom_cluster_ball *b = &c->ball[tip->ball];
   const double least = too_slow * tip->first, closing = tip_closing(tip, b),
-               up = slate_releases(&c->slate[tip->ball], b->v[2]) - b->v[2];
+               up = slate_releases(&c->slate[tip->ball], b->v[2], h) - b->v[2];
   const double upward = tip->slides ? tip->n[2] / tip->kappa : tip->along[2];
   if (!tip->gone && closing <= least && closing - upward * up > least)
     return false;
-  slate_lets_go(c);
+  slate_lets_go(c, h);
   return true;
 }
 

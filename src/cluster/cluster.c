@@ -601,8 +601,11 @@ static bool go_on(bool flat, state *c, double *tau) {
     return false;
   for (int k = 0; k < c->contacts; k++) {
     contact *x = &c->contact[k];
-    if (x->touched)
-      x->offset -= carom_greater(overlap_of(flat, x), 0.0);
+    const double d = overlap_of(flat, x);
+    if (x->d_max > 0.0)
+      x->d_max = d > open_overlap ? carom_set_left(x->e, d, x->d_max) : (double)0.0;
+    else if (x->touched)
+      x->offset -= carom_greater(d, 0.0);
   }
   return true;
 }
@@ -636,7 +639,7 @@ static inline bool solve(bool flat, state *c) {
     const bool balls = find_acting(flat, c, h, tau, &pushed, &norm),
                cue = c->struck && tip_acts(c, h, tau);
     bool slate = c->on_slate && slate_acts(c, h);
-    if (slate && !balls && !cue && slate_ends(c))
+    if (slate && !balls && !cue && slate_ends(c, h))
       slate = false;
     if (!balls && !cue && !slate) {
       if (!touch_again(flat, c) && !(c->struck && go_on(flat, c, &tau)))

@@ -139,6 +139,7 @@ typedef struct carom_cluster_tip {
   bool slides;             /* a further touch: n, kappa, mu and end are read, c' and q are not */
   double n[3], kappa;      /* from the place of the touch to the centre; n . c */
   double mu, end;          /* friction; 1/m_e */
+  double place[3];         /* of the touch, from the centre, R */
   /* of the integrator */
   double d, d_max, J, closing, lost;
   double y[3];          /* of the end mass across the axis, m/s */

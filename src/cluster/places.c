@@ -101,9 +101,9 @@ static void begin(const carom_cluster_state *c, changes *sum) {
   for (int k = 0; k < c->balls; k++)
     for (int n = 0; n < 3; n++) {
       sum->moment[k][n] = 0.0;
-      sum->v[k][n] = c->on_slate ? c->ball[k].v[n] - c->ball[k].v0[n] : (double)0.0;
+      sum->v[k][n] = c->ball[k].v[n] - c->ball[k].v0[n];
     }
-  for (int k = 0; c->on_slate && k < c->touches; k++)
+  for (int k = 0; k < c->touches; k++)
     add(c, &c->touch[k], -1.0, 0.0, sum);
 }
 
@@ -154,9 +154,13 @@ void carom_cluster_find_places(carom_cluster_state *c) {
     }
     add(c, l, 1.0, instant, &sum);
   }
-  for (int k = 0; k < c->balls; k++)
-    for (int n = 0; n < 3; n++) /* one on the slate starts from there */
-      c->ball[k].shift[n] = n < 2 || c->ball[k].flies ? -sum.moment[k][n] : (double)0.0;
+  for (int k = 0; k < c->balls; k++) {
+    carom_cluster_ball *p = &c->ball[k];
+    for (int n = 0; n < 3; n++)
+      p->shift[n] = -sum.moment[k][n];
+    /* one on the slate starts from there, and none from below it */
+    p->shift[2] = p->flies ? carom_greater(p->shift[2], p->radius - p->r[2]) : (double)0.0;
+  }
 }
 
 double carom_cluster_tip_lead(const carom_cluster_state *c) {

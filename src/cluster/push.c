@@ -52,6 +52,8 @@ void carom_cluster_tip_slides(carom_cluster_state *c, const double cue[8], doubl
   x->kappa = sqrt(1.0 - cue[3] * cue[3] - cue[4] * cue[4]);
   for (int k = 0; k < 3; k++)
     x->n[k] = x->kappa * x->axis[k] - cue[3] * left[k] - cue[4] * above[k];
+  for (int k = 0; k < 3; k++)
+    x->place[k] = -x->n[k];
   x->first = tip_closing(x, &c->ball[x->ball]);
 }
 

@@ -67,31 +67,32 @@ static inline void slate_waits(carom_cluster_slate *x, double down, double wait,
   x->d_max = carom_set_left(x->e, x->d, x->d_max);
 }
 
-/* The speed upwards at which the slate lets a ball go that moves at v_z, if nothing else acts: by
- * the energy that is stored along the branch it is on. */
-static inline double slate_releases(const carom_cluster_slate *x, double v_z) {
-  if (!(x->d > 0.0 && x->e > 0.0))
+/* The speed upwards at which the slate lets a ball go that moves at v_z, as a step of h begins, if
+ * nothing else acts: by the energy that is stored along the branch it is on. */
+static inline double slate_releases(const carom_cluster_slate *x, double v_z, double h) {
+  const double d = x->d - 0.5 * h * x->closing;
+  if (!(d > 0.0 && x->e > 0.0))
     return v_z;
   const double k = carom_linear_stiffness((double)CAROM_SLATE_TIME, x->e), e2 = x->e * x->e;
-  if (x->d >= x->d_max && v_z < 0.0)
-    return x->e * sqrt(k * x->d * x->d + v_z * v_z);
-  const double top = carom_greater(x->d, x->d_max), y = carom_greater(x->d - (1.0 - e2) * top, 0.0);
+  if (d >= x->d_max && v_z < 0.0)
+    return x->e * sqrt(k * d * d + v_z * v_z);
+  const double top = carom_greater(d, x->d_max), y = carom_greater(d - (1.0 - e2) * top, 0.0);
   const double square = v_z * v_z + k / e2 * y * y, most = k * e2 * top * top;
   if (v_z < 0.0 && square > most) /* it loads again beyond its greatest overlap */
     return x->e * sqrt(k * top * top + square - most);
   return y > 0.0 || v_z < 0.0 ? sqrt(square) : v_z;
 }
 
-/* Lets all balls go at once; the cloth rubs their feet meanwhile. */
-static inline void slate_lets_go(carom_cluster_state *c) {
+/* Lets all balls go at once, before a step of h; the cloth rubs their feet meanwhile. */
+static inline void slate_lets_go(carom_cluster_state *c, double h) {
   for (int k = 0; k < c->balls; k++) {
     carom_cluster_slate *x = &c->slate[k];
     carom_cluster_ball *p = &c->ball[k];
     if (!(x->d > 0.0 && x->e > 0.0))
       continue;
-    const double up = slate_releases(x, p->v[2]), J = up - p->v[2];
+    const double up = slate_releases(x, p->v[2], h), J = up - p->v[2];
     p->v[2] = up;
-    x->impulse += J / p->inverse_mass;
+    x->impulse += J / p->inverse_mass - x->J;
     x->d = x->d_max = x->J = 0.0;
     const double u_x = p->v[0] - p->W[1], u_y = p->v[1] + p->W[0], u = sqrt(u_x * u_x + u_y * u_y);
     const double g = carom_lesser(p->mu_slide * J, u / 3.5);

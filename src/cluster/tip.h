@@ -33,8 +33,9 @@
  * friction. A tip that does not slide has r = delta' c, as the first touch has it, whose push goes
  * along c' too. Where friction holds back as much as it pushes, N is at most 2 k delta/kappa: the
  * rest would wedge the tip. The end gives way, but the shaft holds it where friction would draw it
- * into the ball. It springs back where the force has reached 0. If the axis
- * closes then, the tip has been pushed aside: it slides off the ball, as in a miscue, and is gone. */
+ * into the ball. It springs back where the force
+ * has reached 0. If the axis closes from the place that the tip has slid to, the light end would
+ * bounce until it does not: one impulse stands for these. */
 #ifndef CAROM_SRC_CLUSTER_TIP_H
 #define CAROM_SRC_CLUSTER_TIP_H
 
@@ -46,8 +47,9 @@
 /* Steps of the duration of tip or slate, for each of a contact of balls: 200 by default, which are
  * 5 us of a leather tip, with errors of 2e-4, and 9e-4 at most. Fewer are not taken. */
 enum { CAROM_TIP_STEPS = 200, CAROM_TIP_STEPS_EACH = 8 };
-static const double too_slow = 1e-9; /* of the speed of the cue: contacts that close slower are
+static const double too_slow = 1e-9;   /* of the speed of the cue: contacts that close slower are
                                         none */
+static const double least_kappa = 0.1; /* a tip that slides past it misses */
 
 static inline double tip_closing(const carom_cluster_tip *x, const carom_cluster_ball *p) {
   if (x->slides)
@@ -72,42 +74,6 @@ static inline double step_to_touch(const carom_cluster_state *c, double h) {
     return h;
   const double closing = tip_closing(x, &c->ball[x->ball]);
   return closing > 0.0 ? carom_lesser(h, free_step - x->d / closing) : h;
-}
-
-/* The force has reached 0. */
-static inline void end_springs_back(carom_cluster_tip *x, const carom_cluster_ball *p) {
-  if (!x->slides)
-    return;
-  x->y[0] = x->y[1] = x->y[2] = 0.0;
-  x->closing = tip_closing(x, p);
-  x->gone |= x->closing > 0.0;
-}
-
-/* Half a step of its compression, and its impulse; whether it acts. */
-static inline bool tip_acts(carom_cluster_state *c, double h, double tau) {
-  carom_cluster_tip *x = &c->tip;
-  const bool pressed = x->J > 0.0;
-  x->J = 0.0;
-  x->closing = tip_closing(x, &c->ball[x->ball]);
-  x->d += 0.5 * h * x->closing;
-  x->travel += 0.5 * h * x->V;
-  if (x->d <= 0.0 || x->gone)
-    return false;
-  if (x->d_max == 0.0) { /* it touches */
-    x->touch = carom_cluster_begin_touch(c, -1, x->touches > 0 ? x->touch : -1, tau, 0.0);
-    x->touches++;
-    if (x->touches == 2)
-      x->second = x->closing;
-  }
-  x->J = h * carom_linear_force(x->k, x->e, x->d, &x->d_max);
-  x->impulse += x->J;
-  if (pressed && !(x->J > 0.0))
-    end_springs_back(x, &c->ball[x->ball]);
-
-  /* a tip without a force acts where it closes */
-  const bool acts = x->J > 0.0 || x->closing > too_slow * x->first;
-  x->last = acts ? tau : x->last;
-  return acts;
 }
 
 /* FURTHER TOUCH: the impulse P of which J is the part along the axis. With g = 1/m_e + 1/m, u after a
@@ -158,32 +124,103 @@ static inline void end_gives_way(carom_cluster_tip *x, const double P[3]) {
   cluster_add(false, x->y, inward / across * x->kappa, x->axis);
 }
 
+/* Gives the ball an impulse P of a tip that slides. */
+static inline void slide_on(carom_cluster_state *c, const double P[3]) {
+  carom_cluster_tip *x = &c->tip;
+  carom_cluster_ball *p = &c->ball[x->ball];
+  const double *n = x->n, m = p->inverse_mass;
+  const double turn[3] = {P[1] * n[2] - P[2] * n[1], P[2] * n[0] - P[0] * n[2],
+                          P[0] * n[1] - P[1] * n[0]};
+  cluster_add(!c->in_space, p->v, m, P);
+  cluster_add(false, p->W, 2.5 * m, turn);
+  cluster_add(false, c->touch[x->touch].P, 1.0, P);
+}
+
 /* Pushes the ball with J. */
 static inline void tip_push(bool flat, carom_cluster_state *c) {
   carom_cluster_tip *x = &c->tip;
   carom_cluster_ball *p = &c->ball[x->ball];
-  carom_cluster_touch *l = &c->touch[x->touch];
-  const double m = p->inverse_mass;
   x->V -= x->J * x->inverse_mass;
   if (!(x->J > 0.0))
     return;
-  if (!x->slides) {
-    const double J = x->J * m;
-    cluster_add(flat, p->v, J, x->along);
-    x->lost += flat ? J * x->along[2] : 0.0;
-    cluster_add(false, p->W, 2.5 * J, x->arm);
-    cluster_add(false, l->P, x->J, x->along);
+  if (x->slides) {
+    double P[3];
+    slide(x, p, P);
+    end_gives_way(x, P);
+    slide_on(c, P);
     return;
   }
-  const double *n = x->n;
-  double P[3];
+  const double J = x->J * p->inverse_mass;
+  cluster_add(flat, p->v, J, x->along);
+  x->lost += flat ? J * x->along[2] : 0.0;
+  cluster_add(false, p->W, 2.5 * J, x->arm);
+  cluster_add(false, c->touch[x->touch].P, x->J, x->along);
+}
+
+/* The force has reached 0: the end springs back, and the tip has slid on. If the axis closes from
+ * there, the end would press again, and bounce: all of that is one impulse, after which it does not
+ * close. */
+static inline void end_springs_back(carom_cluster_state *c) {
+  carom_cluster_tip *x = &c->tip;
+  const carom_cluster_ball *p = &c->ball[x->ball];
+  double n[3], P[3];
+  for (int k = 0; k < 3; k++) {
+    x->y[k] = 0.0;
+    n[k] = -x->place[k] - (x->travel * x->axis[k] - p->s[k]) / p->radius;
+  }
+  const double over = 1.0 / sqrt(cluster_dot(false, n, n)),
+               kappa = over * cluster_dot(false, n, x->axis);
+  x->gone |= kappa < least_kappa;
+  if (x->gone)
+    return;
+  x->kappa = kappa;
+  for (int k = 0; k < 3; k++)
+    x->n[k] = over * n[k];
+
+  /* J by its response, which is linear in it unless the slip ends */
+  const double closing = tip_closing(x, p), m = p->inverse_mass, end = x->end;
+  x->closing = carom_lesser(closing, 0.0);
+  if (!(closing > 0.0))
+    return;
+  x->end = 0.0;
+  x->J = closing / (x->inverse_mass + m / (kappa * kappa));
+  for (int k = 0; k < 3; k++) {
+    slide(x, p, P);
+    x->J *= closing / (x->J * x->inverse_mass + m * cluster_dot(!c->in_space, P, x->n) / kappa);
+  }
   slide(x, p, P);
-  cluster_add(flat, p->v, m, P);
-  const double turn[3] = {P[1] * n[2] - P[2] * n[1], P[2] * n[0] - P[0] * n[2],
-                          P[0] * n[1] - P[1] * n[0]};
-  cluster_add(false, p->W, 2.5 * m, turn);
-  end_gives_way(x, P);
-  cluster_add(false, l->P, 1.0, P);
+  x->end = end;
+  x->V -= x->J * x->inverse_mass;
+  x->impulse += x->J;
+  slide_on(c, P);
+  x->J = 0.0;
+}
+
+/* Half a step of its compression, and its impulse; whether it acts. */
+static inline bool tip_acts(carom_cluster_state *c, double h, double tau) {
+  carom_cluster_tip *x = &c->tip;
+  const bool pressed = x->J > 0.0;
+  x->J = 0.0;
+  x->closing = tip_closing(x, &c->ball[x->ball]);
+  x->d += 0.5 * h * x->closing;
+  x->travel += 0.5 * h * x->V;
+  if (x->d <= 0.0 || x->gone)
+    return false;
+  if (x->d_max == 0.0) { /* it touches */
+    x->touch = carom_cluster_begin_touch(c, -1, x->touches > 0 ? x->touch : -1, tau, 0.0);
+    x->touches++;
+    if (x->touches == 2)
+      x->second = x->closing;
+  }
+  x->J = h * carom_linear_force(x->k, x->e, x->d, &x->d_max);
+  x->impulse += x->J;
+  if (x->slides && pressed && !(x->J > 0.0))
+    end_springs_back(c);
+
+  /* a tip without a force acts where it closes */
+  const bool acts = x->J > 0.0 || x->closing > too_slow * x->first;
+  x->last = acts ? tau : x->last;
+  return acts;
 }
 
 /* The set recovers; the tip is open where none is left. */

@@ -227,7 +227,7 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
     count = in_order(c, order);
 
   /* none of those near was touched: all is as if it were alone */
-  if (count == 0 && !slate) {
+  if (count == 0 && !slate && !again) {
     struck = c->tip.ball;
     c->ball[struck] = member_now(sim, sim->struck);
     put_tip(cue, struck, again, c);

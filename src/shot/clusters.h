@@ -30,15 +30,13 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
  * that it meets meanwhile; of a raised one on the slate. cue->follow is what is left of it. Returns
  * how many contacts of balls had an impulse, in the order of order[]; -1 where there are too many
  * contacts or steps. */
-#define CAROM_LEAST_TOUCH 0.01 /* m/s: a further touch that is slower is none */
+#define CAROM_LEAST_TOUCH 0.001 /* m/s: a further touch that is slower is none */
 int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
                          carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
 /* follow_through.c. The cue goes on from now at the speed V, its tip `lead` m ahead of where the ball
  * has it, as places.c has it. */
 void carom_follow_on(carom_play *play, double V, double lead);
-/* Ends the follow-through, after a further touch, if the tip goes on into the ball. */
-void carom_follow_leave(carom_play *play);
 /* Sets play->follow.time: when its tip touches the struck ball again. */
 void carom_follow_find(carom_play *play);
 /* *moved_cue becomes the cue with the place of its tip and its speed. Returns whether that is a

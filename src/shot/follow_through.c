@@ -7,11 +7,10 @@
  *     |p| = R,   p = p0 + t V c - v t - a t^2
  *
  * (gap.c). There it pushes as tip.h has it, with the (a, b) of p, and goes on at the speed that is
- * left. It is looked for from the first contact of the cue ball with another ball or a cushion on:
- * before that the ball runs away from the cue, but in slow draws, in which an arm stops. A tip that
- * closes slower than CAROM_LEAST_TOUCH has come to lie at the ball, one that comes past its middle
- * misses, and one that is pushed aside (cluster/tip.h), or goes on into the ball after a further
- * touch, slides off it: there the follow-through ends.
+ * left. It is looked for from the first contact of the cue ball with another ball or a cushion after a
+ * touch on: before that the ball runs away from the cue, but in slow draws, in which an arm stops. A tip that
+ * closes slower than CAROM_LEAST_TOUCH lies at the ball until the next event; one that comes past
+ * its middle misses: there the follow-through ends.
  */
 #include "cluster/cue.h"
 #include "motion/gap.h"
@@ -54,19 +53,6 @@ static void begin(const carom_play *play, double axes[3][3], carom_separation *d
     d->d1[k] = play->follow.V * axes[0][k] - s.v[k];
     d->d2[k] = -sim->path[i].a[k];
   }
-}
-
-void carom_follow_leave(carom_play *play) {
-  carom_separation d;
-  double axes[3][3], square = 0.0, closing = 0.0;
-  begin(play, axes, &d);
-  for (int k = 0; k < 3; k++) {
-    square += d.d0[k] * d.d0[k];
-    closing -= d.d0[k] * d.d1[k];
-  }
-  const double R = play->sim.rates[play->sim.struck].radius;
-  if (square < R * R && closing > 0.0)
-    play->follow.end = -1.0;
 }
 
 void carom_follow_find(carom_play *play) {

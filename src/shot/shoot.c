@@ -223,8 +223,6 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   if (c.tip.gone)
     c.tip.V = 0.0;
   carom_follow_on(play, c.tip.V, carom_cluster_tip_lead(&c));
-  if (kind == PUSH_AGAIN && play->follow.end >= 0.0)
-    carom_follow_leave(play);
   return true;
 }
 
@@ -396,11 +394,12 @@ static bool stops_at(carom_sim *sim, int type, int a, int b) {
 }
 
 /* The tip touches the struck ball again, or the follow-through ends. *pending_event becomes what
- * happens. */
-__attribute__((noinline, cold)) static carom_status touch_again(carom_play *play,
-                                                                carom_due *pending_event) {
+ * happens; *lies whether the tip closes too slowly, and lies at the ball. */
+__attribute__((noinline, cold)) static carom_status
+touch_again(carom_play *play, carom_due *pending_event, bool *lies) {
   carom_sim *sim = &play->sim;
   carom_follow *f = &play->follow;
+  const carom_follow until_now = *f;
   carom_cue cue;
   carom_status status = CAROM_OK;
   const bool touches = carom_follow_cue(play, &cue);
@@ -410,10 +409,17 @@ __attribute__((noinline, cold)) static carom_status touch_again(carom_play *play
   f->end = -1.0;
   f->time = INFINITY;
   pending_event->type = CAROM_DUE_NOTHING;
-  if (touches && push(play, &cue, 2.0 * cue.speed, raised, PUSH_AGAIN, pending_event, &status)) {
+  const bool pushes =
+      touches && push(play, &cue, 2.0 * cue.speed, raised, PUSH_AGAIN, pending_event, &status);
+  *lies = touches && !pushes;
+  if (pushes) {
+    sim->turned = false;
     carom_detect_all(sim);
     if (status == CAROM_OK && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1))
       status = CAROM_STOPPED_AT_EVENT;
+  } else if (touches) { /* the cue goes on */
+    *f = until_now;
+    f->time = INFINITY;
   }
   /* whether the shot stops at the strike is decided here; at a contact beside it, in go_on() */
   if (pending_event->type == CAROM_DUE_NOTHING)
@@ -472,13 +478,14 @@ static carom_status go_on(carom_play *play) {
     /* the time of an event that is simultaneous with the last one may be a rounding error less */
     sim->time = carom_greater(sim->time, pending_event.time);
     sim->round++;
+    bool lies = false;
     if (touches_again)
-      status = touch_again(play, &pending_event);
+      status = touch_again(play, &pending_event, &lies);
     else
       status = step(sim, &pending_event);
     if (status == CAROM_OK && stops_at(sim, pending_event.type, pending_event.a, pending_event.b))
       status = CAROM_STOPPED_AT_EVENT;
-    if (sim->time < play->follow.end)
+    if (!lies && sim->time < play->follow.end)
       carom_follow_find(play);
   }
   return status;

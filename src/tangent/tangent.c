@@ -238,6 +238,8 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
     if (status < 0)
       return status;
     tell(w, k, event, &reach);
+    if (carom_touches_again(event))
+      w->tip.turned = false;
     w->tip.turned |= w->cue != NULL && turns_to_tip(event, (int)w->cue->ball);
     if (tangent->flags != NULL && w->pass.first == 0)
       tangent->flags[k] = 0;
