@@ -766,8 +766,8 @@ TEST(no_room_for_all_contacts) {
 
 /* ---- Slow contacts */
 
-/* Three balls on the cloth, one of them light, that are not quite in line. A cluster of them that
- * begins, whatever `slow` is, and then goes on while contacts close at `slow` or faster. Returns
+/* Three balls on the cloth that are not quite in line, the light one in the middle with a gap to the
+ * last: it has parted from the first as it comes back. A cluster of them that begins, whatever `slow` is, and then goes on while contacts close at `slow` or faster. Returns
  * the largest speed at which a contact that has touched still closes in the end, 0 for none. */
 static double closes_at_the_end(carom_cluster_state *c, uint64_t seed, double slow) {
   random_source random = {seed};
@@ -782,7 +782,8 @@ static double closes_at_the_end(carom_cluster_state *c, uint64_t seed, double sl
     b->r[2] = R;
     b->inverse_mass = 1.0 / (k == 1 ? random_between(&random, 0.02, 0.1) : 0.17);
   }
-  c->ball[2].r[0] = 2.0 * R + sqrt(4.0 * R * R - c->ball[2].r[1] * c->ball[2].r[1]);
+  const double far = 2.0 * R + random_between(&random, 0.0, 3e-4);
+  c->ball[2].r[0] = 2.0 * R + sqrt(far * far - c->ball[2].r[1] * c->ball[2].r[1]);
   c->ball[0].v[0] = random_between(&random, 1.0, 4.0);
 
   c->slow = 1e-3;
@@ -819,5 +820,6 @@ TEST(slow_is_fast_enough) {
     ck_assert_double_lt(closes_at_the_end(&other, seed, v), v);
     ck_assert_int_gt(other.steps_done, c.steps_done);
   }
+  printf("%d of 2000 clusters end with a contact that closes\n", found);
   ck_assert_int_ge(found, 20);
 }

@@ -1,7 +1,9 @@
 /* Strikes: pushes of balls that touch or nearly touch the cue ball against an integrator of its own
  * (strike_reference.h), limits in closed form and symmetries; a raised cue at a ball alone against
  * the same integrator; hops. docs/understanding/clusters.md has the law. */
-#include "shot/shot.h"
+#include "cluster/cluster.h"
+#include "cluster/hertz.h"
+#include "shot/sim.h"
 #include "shot_support.h"
 #include "strike_reference.h"
 
@@ -15,6 +17,7 @@ static const carom_shot_options gripping = {.friction = CAROM_FRICTION_CONSTANT,
                                             .stop_at = CAROM_STOP_AT(CAROM_EVENT_STRIKE)};
 static carom_shot_ball balls[REF_BALLS];
 static carom_facts facts;
+static carom_shot_state stopped_state;
 
 /* The cue ball in the middle, and `count` balls in all. */
 static void begin(int count) {
@@ -43,7 +46,8 @@ static carom_cue cue_at(double speed, double phi) {
 /* Plays the strike alone: final[] are the balls as it leaves them. */
 static carom_shot strike_with(const carom_cue *cue, int count, const carom_shot_options *options) {
   const carom_table table = empty_table(table_size);
-  carom_shot shot = {.events = events, .room = ROOM, .final = final, .facts = &facts};
+  carom_shot shot = {
+      .events = events, .room = ROOM, .final = final, .facts = &facts, .state = &stopped_state};
   ck_assert_int_eq(carom_shoot(&table, balls, count, cue, options, &shot), CAROM_STOPPED_AT_EVENT);
   return shot;
 }
@@ -114,10 +118,27 @@ static bool meet_others(const ref_strike *ref) {
   return other;
 }
 
+/* How far the balls start from the places of the reference, and how far off its lead the tip is, over
+ * the way of the cue in the push of a ball alone. */
+static void place_errors(const ref_strike *ref, const carom_cue *cue, double errors[2]) {
+  num places[REF_BALLS][3];
+  carom_play play;
+  const num lead = ref_places(ref, cue->tip_time, places);
+  memcpy(&play, &stopped_state, sizeof play);
+  errors[0] = 0.0;
+  errors[1] = play.follow.end > 0.0 ? fabs(play.follow.along - (double)lead) : 0.0;
+  for (int k = 0; k < ref->count; k++)
+    for (int axis = 0; axis < 2; axis++)
+      errors[0] = fmax(errors[0], fabs(final[k].r[axis] - (double)places[k][axis]));
+  for (int k = 0; k < 2; k++)
+    errors[k] /= cue->speed * cue->tip_time;
+}
+
 TEST(pushes_are_those_of_the_reference) {
   random_source r = {test_seed()};
   const int each = draws_of_each(100);
-  double *error = calloc((size_t)each, sizeof *error);
+  double *error = calloc((size_t)each, sizeof *error), *place = calloc((size_t)each, sizeof *place),
+         *lead = calloc((size_t)each, sizeof *lead);
   for (int raised = 0; raised < 2; raised++) {
     int others = 0, twice = 0, at = 0;
     while (at < each) {
@@ -128,13 +149,17 @@ TEST(pushes_are_those_of_the_reference) {
         continue; /* as alone */
       ref_strike ref;
       ref_begin(&ref, balls, count, &cue);
-      ref_solve(&ref, 3e-7L);
+      ref_solve(&ref, raised ? 1e-7L : 3e-7L);
       twice += ref.touches > 1;
       if (meet_others(&ref)) { /* met just before or just after the end of the push */
         others++;
         continue;
       }
       ck_assert_int_eq(ref.touches, facts.touches);
+      double off[2];
+      place_errors(&ref, &cue, off);
+      place[at] = off[0];
+      lead[at] = off[1];
       error[at++] = error_of(&ref, cue.speed);
       if (getenv("CAROM_SHOW") != NULL && error[at - 1] > 3e-3)
         printf("raised %d, %d balls, %g m/s, theta %g, T %g, touches %d %d: %g\n", raised, count,
@@ -145,11 +170,21 @@ TEST(pushes_are_those_of_the_reference) {
            "%.1e, 99 in 100 %.1e, at most %.1e\n",
            raised ? "raised" : "level", each, twice, others, part_of(error, each, 0.5),
            part_of(error, each, 0.9), part_of(error, each, 0.99), error[each - 1]);
+    qsort(place, (size_t)each, sizeof *place, by_size);
+    qsort(lead, (size_t)each, sizeof *lead, by_size);
+    printf("places %.1e, 9 in 10 %.1e, at most %.1e; lead %.1e, 9 in 10 %.1e, at most %.1e\n",
+           part_of(place, each, 0.5), part_of(place, each, 0.9), place[each - 1],
+           part_of(lead, each, 0.5), part_of(lead, each, 0.9), lead[each - 1]);
     ck_assert_int_le(others, 2 + each / 50);
     ck_assert(part_of(error, each, 0.5) < 2e-4);
     ck_assert(part_of(error, each, 0.9) < 5e-4);
     ck_assert(part_of(error, each, 0.98) < 2e-3);
+    ck_assert(part_of(place, each, 0.5) < 2e-4);
+    ck_assert(part_of(place, each, 0.9) < (raised ? 1e-4 : 6e-3));
+    ck_assert(part_of(lead, each, 0.9) < 5e-3);
   }
+  free(lead);
+  free(place);
   free(error);
 }
 
@@ -269,10 +304,7 @@ static int follow_in_steps(const carom_cue *cue, num gap, num until, num v[2], n
   const num h = 2e-7L, m = kind->mass, rub = kind->mu_slide * kind->gravity,
             e = cue->tip_restitution;
   const num rate = acosl(-1.0L) / 2 * (1 + e) / cue->tip_time;
-  ref_press tip = {.k = rate * rate / (1 / (num)cue->mass + 1 / m),
-                   .e = e,
-                   .power = 1,
-                   .recovers = true},
+  ref_press tip = {.k = rate * rate / (1 / (num)cue->mass + 1 / m), .e = e, .power = 1},
             pair = {.e = kind->restitution, .power = 1.5L, .d = -gap};
   pair.k = 4.0L / 3 * 3.3e9L * sqrtl(kind->radius / 2);
   num V = cue->speed, W[2] = {0, 0}, far = 0;
@@ -302,6 +334,24 @@ static int follow_in_steps(const carom_cue *cue, num gap, num until, num v[2], n
   return touches;
 }
 
+/* How much later than in the shot the second touch begins, as contacts last: the clock of a shot
+ * begins at the centroid of the push; and where the cue ball meets the other, it loses its speed at
+ * the centroid of that contact, and so is farther ahead of the tip. Of the halves of the contact,
+ * loading lasts q = 1.4716 delta/v and unloading e q. */
+static double delay_of_touch(const carom_cue *cue) {
+  const carom_ball_kind *kind = &balls[0].kind;
+  const carom_event *e = events;
+  while (e->type != CAROM_EVENT_BALL_BALL)
+    e++;
+  const double closing = e->before[0].v[1] - e->before[1].v[1],
+               slowed = e->before[0].v[1] - e->after[0].v[1];
+  const double K = 4.0 / 3.0 * 3.3e9 * sqrt(0.5 * kind->radius), B = 2.0 / kind->mass,
+               delta = carom_cluster_compression(K, B, closing), r = kind->restitution;
+  const double centroid = delta / closing * (0.5 * CAROM_HERTZ_DURATION * r + 1.0 - r);
+  return carom_linear_lag(cue->tip_time, cue->tip_restitution) +
+         slowed * centroid / facts.second_speed;
+}
+
 /* Counts of touches, when and how fast the second comes, and the speeds behind it; beyond the
  * length there is one. Where no tip follows, none comes. */
 TEST(second_touches) {
@@ -309,6 +359,7 @@ TEST(second_touches) {
   static const int told[3][10] = {{1, 1, 1, 2, 2, 2, 2, 2, 2, 1},
                                   {1, 1, 1, 2, 2, 2, 2, 2, 2, 1},
                                   {1, 1, 1, 1, 1, 2, 2, 2, 2, 1}};
+  double latest = 0.0;
   for (int n = 0; n < 3; n++)
     for (int k = 0; k < 10; k++) {
       begin(2);
@@ -324,11 +375,16 @@ TEST(second_touches) {
              (double)v[0], final[1].v[1], (double)v[1]);
       ck_assert_int_eq(touches, told[n][k]);
       ck_assert_int_eq(facts.touches, touches);
-      ck_assert(touches < 2 || fabs(facts.second_time - (double)second[0]) < 5e-4);
+      if (touches > 1) {
+        const double shown = facts.second_time + delay_of_touch(&cue);
+        latest = fmax(latest, fabs(shown - (double)second[0]));
+        NEAR(shown, (double)second[0], 1e-4);
+      }
       NEAR(facts.second_speed, (double)second[1], 0.01);
       for (int i = 0; i < 2; i++)
         NEAR(final[i].v[1], (double)v[i], 0.01);
     }
+  printf("second touches: off by %.1e s at most\n", latest);
 }
 
 /* The mirror image of a layout. */
@@ -339,14 +395,38 @@ static void mirror(int count, carom_cue *cue) {
   cue->a = -cue->a;
 }
 
+/* What the speed that a level cue gives a ball lacks along its axis of what the cue loses: the
+ * friction of the slate under it. */
+static double off_axis(const carom_cue *cue, const carom_event *e) {
+  const double *u = e->before[0].v, *w = e->after[0].v, phi = cue->phi * PI / 180.0;
+  return e->impulse / balls[0].kind.mass - cos(phi) * (w[0] - u[0]) - sin(phi) * (w[1] - u[1]);
+}
+
+/* On smooth cloth, the sine of the angle of a push from the normal of its place. The turn that it
+ * gives, 5/2 p x P/m, is at right angles to P, which gives the part of P upwards, of which the slate
+ * gives some back. 0 where that cannot be told. */
+static double cone_of(const carom_event *e) {
+  double P[3], turn[3];
+  for (int k = 0; k < 3; k++) {
+    P[k] = e->after[0].v[k] - e->before[0].v[k];
+    turn[k] = 0.4 * R * (e->after[0].w[k] - e->before[0].w[k]);
+  }
+  const double size = sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]);
+  if (fabs(turn[2]) < 0.05 * size)
+    return 0.0;
+  P[2] = -(P[0] * turn[0] + P[1] * turn[1]) / turn[2];
+  return size / sqrt(P[0] * P[0] + P[1] * P[1] + P[2] * P[2]);
+}
+
 /* Of balls ahead, at angles, level and raised: up to the second touch all is as without a
- * follow-through, there the balls get what the cue loses and no energy, the mirror image is that of
- * the shot, and a shot that is stopped on the way goes on to the same end. */
+ * follow-through, there the ball gets along the axis what the cue loses, within the cone of
+ * friction and without energy, the mirror image is that of the shot, and a shot that is stopped on the way goes on to the same end. */
 TEST(second_touches_at_angles) {
   static carom_event stopped[ROOM];
   static carom_shot_state state;
   random_source r = {test_seed()};
   int seconds = 0, bare = 0;
+  double most[2] = {0.0}, widest = 0.0; /* of most: on cloth, on smooth cloth */
   for (int n = 0; n < draws_of_each(400); n++) {
     begin(2);
     beside(1, 0, random_between(&r, 5e-4, 0.03), 90.0 + random_between(&r, -25.0, 25.0));
@@ -356,13 +436,16 @@ TEST(second_touches_at_angles) {
     cue.b = random_between(&r, -0.5, 0.3);
     carom_facts whole;
     carom_ball_state end[2];
+    const bool smooth = n % 4 == 1;
+    for (int k = 0; k < 2 && smooth; k++)
+      balls[k].kind.mu_slide = 1e-15;
     const carom_shot shot = follow_with(&cue, 2, 0.1);
     const int64_t count = shot.count;
     whole = facts;
     memcpy(end, final, sizeof end);
     memcpy(stopped, events, (size_t)count * sizeof *events);
 
-    /* impulse and energy of the touches that are alone */
+    /* energy of the touches that are alone */
     const double m = balls[0].kind.mass;
     double V = cue.speed;
     int touches = 0;
@@ -370,10 +453,12 @@ TEST(second_touches_at_angles) {
       const carom_event *e = &events[k];
       if (e->type != CAROM_EVENT_STRIKE)
         continue;
-      const double *u = e->before[0].v, *w = e->after[0].v, next = V - e->impulse / cue.mass;
+      const double next = V - e->impulse / cue.mass;
       if (k > 0 && e->cluster == 0 && cue.theta == 0.0) {
         bare++;
-        NEAR(hypot(w[0] - u[0], w[1] - u[1]), e->impulse / m, 1e-9);
+        const double of_slate = off_axis(&cue, e);
+        most[smooth] = fmax(most[smooth], fabs(of_slate) * m / e->impulse);
+        widest = fmax(widest, smooth * cone_of(e));
         ck_assert_double_le(state_energy(&balls[0].kind, &e->after[0]) +
                                 0.5 * cue.mass * next * next,
                             state_energy(&balls[0].kind, &e->before[0]) + 0.5 * cue.mass * V * V);
@@ -409,7 +494,11 @@ TEST(second_touches_at_angles) {
       for (int axis = 0; axis < 2; axis++)
         NEAR(final[k].v[axis], (axis == 0 ? -1.0 : 1.0) * end[k].v[axis], 1e-7 * cue.speed);
   }
-  printf("%d second touches, %d alone\n", seconds, bare);
+  printf("%d second touches, %d alone: the slate takes %.3f at most, if smooth %.1e; %.4f off "
+         "the normal\n",
+         seconds, bare, most[0], most[1], widest);
+  ck_assert(most[0] < 0.5 && most[1] < 1e-9);
+  ck_assert(widest > 0.3 && widest < 0.55 * (1.0 + 1e-9));
   ck_assert_int_gt(bare, draws_of_each(400) / 8);
 }
 

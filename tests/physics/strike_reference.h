@@ -1,7 +1,7 @@
-/* A strike by the equations of src/cluster/tip.h and cluster.h, in long double and short even
- * steps, written from the equations alone. All balls are of one kind, with a constant friction. A
- * step moves the overlaps, then the velocities by the forces there; friction is found ball by ball,
- * as the impulse within its cone that ends the slip. */
+/* A strike of balls at rest by the equations of src/cluster/tip.h, cluster.h, closing.h and places.c,
+ * in long double and short even steps, written from the equations alone. All balls are of one kind,
+ * with a constant friction. A step moves the overlaps, then the velocities by the forces there;
+ * friction is found ball by ball, as the impulse within its cone that ends the slip. */
 #ifndef CAROM_TESTS_STRIKE_REFERENCE_H
 #define CAROM_TESTS_STRIKE_REFERENCE_H
 
@@ -12,20 +12,33 @@
 #include <string.h>
 
 typedef long double num;
-enum { REF_BALLS = 6 };
+enum { REF_BALLS = 6, REF_TOUCHES = 64 };
 
 /* A contact that is pressed d deep, F = k d^power as it loads, 1 or 1.5, and gives back e^2
- * of the work. Where F has reached 0 the rest is forgotten, or recovers as d falls. */
+ * of the work. Where F has reached 0 the rest recovers as d falls. */
 typedef struct ref_press {
   num k, e, power, d, most;
-  bool met, acted, recovers; /* acted: it has had a force */
+  bool met, acted; /* acted: it has had a force */
+  int touch;       /* its last one */
 } ref_press;
+
+/* A touch of two balls, or of the tip and ball i, where j is -1. */
+typedef struct ref_touch {
+  int i, j;
+  num time, approach, n[3]; /* when; how far the two came together before; from i to j */
+  num P[3];                 /* the impulse on i */
+  num normal, moment;       /* sums of the normal impulses, and of these by their times */
+} ref_touch;
 
 typedef struct ref_strike {
   int count;
   num m, R, mu, mu_slide, M, V, first; /* first: V before the strike */
   num axis[3], push[3], arm[3];
   num v[REF_BALLS][3], W[REF_BALLS][3], r[REF_BALLS][3]; /* W = R w */
+  num from[REF_BALLS][3], time, went;                    /* r at the start; s; m, of the cue */
+  num lifted[REF_BALLS], lift[REF_BALLS];                /* by the slate, N s: all, of a step */
+  ref_touch touch[REF_TOUCHES];
+  int count_of_touches; /* of all, and in touches of the tip */
   bool slate;
   num phi; /* how free of the cloth contacts of balls are */
   ref_press tip, under[REF_BALLS], pair[REF_BALLS][REF_BALLS];
@@ -63,10 +76,7 @@ static inline num ref_force(ref_press *x) {
   const num y = x->d - (1 - x->e * x->e) * x->most;
   if (y > 0) /* k / e^(2 power) of the spring, and e^2 of the work */
     return x->k / ref_power(x, x->e * x->e) * ref_power(x, y);
-  if (x->recovers && x->e < 1)
-    x->most = x->d / (1 - x->e * x->e);
-  else
-    x->d = x->most = 0;
+  x->most = x->d / (1 - x->e * x->e);
   return 0;
 }
 
@@ -131,28 +141,44 @@ static inline void ref_begin(ref_strike *s, const carom_shot_ball *balls, int co
   ref_cross(p, c, s->arm);
   const num e = cue->tip_restitution, T = cue->tip_time;
   const num mass = 1 / (1 / s->M + (1 + 2.5L * (a * a + b * b)) / s->m);
-  s->tip =
-      (ref_press){.k = mass * powl(pi / 2 * (1 + e) / T, 2), .e = e, .power = 1, .recovers = true};
+  s->tip = (ref_press){.k = mass * powl(pi / 2 * (1 + e) / T, 2), .e = e, .power = 1};
   s->phi = fminl(powl(s->push[2] / 0.1L, 2), 1);
 
   /* the slate lasts 1 ms; balls by Hertz: delta = (5 v^2 / (4 K/m))^0.4 */
   const num E = 6.6e9L / 2, given = kind->restitution_table, e_s = given > 0 ? given : 0.5L;
   for (int i = 0; i < count; i++) {
-    s->under[i] = (ref_press){
-        .k = s->m * powl(pi / 2 * (1 + e_s) / 1e-3L, 2), .e = e_s, .power = 1, .recovers = true};
+    s->under[i] =
+        (ref_press){.k = s->m * powl(pi / 2 * (1 + e_s) / 1e-3L, 2), .e = e_s, .power = 1};
     for (int k = 0; k < 3; k++)
-      s->r[i][k] = balls[i].state.r[k];
+      s->r[i][k] = s->from[i][k] = balls[i].state.r[k];
     for (int j = 0; j < i; j++)
       s->pair[j][i] =
           (ref_press){.k = 4 / 3.0L * E * sqrtl(s->R / 2), .e = kind->restitution, .power = 1.5L};
   }
 }
 
+/* How fast the tip closes, and how two balls do. */
+static inline num ref_closing(const ref_strike *s) {
+  return s->V - ref_dot(s->v[0], s->push) - ref_dot(s->W[0], s->arm);
+}
+
+static inline num ref_closing_of(const ref_strike *s, int i, int j) {
+  return ref_dot(s->v[i], s->n[i][j]) - ref_dot(s->v[j], s->n[i][j]);
+}
+
+/* Contacts that close slower are none: of tip and slate, m/s, and of balls. */
+static inline num ref_slow(const ref_strike *s) {
+  return 1e-9L * s->first;
+}
+static const num ref_slow_balls = 1e-6L;
+
 /* Positions and overlaps after h; those of balls that have touched go on along the normal that they
  * had then. */
 static inline void ref_move(ref_strike *s, num h, bool first) {
-  num u[3], w[3];
-  s->tip.d += h * (s->V - ref_dot(s->v[0], s->push) - ref_dot(s->W[0], s->arm));
+  num w[3];
+  s->time += h;
+  s->went += h * s->V;
+  s->tip.d += h * ref_closing(s);
   for (int i = 0; i < s->count; i++) {
     s->under[i].d -= h * s->v[i][2];
     for (int k = 0; k < 3; k++)
@@ -162,59 +188,91 @@ static inline void ref_move(ref_strike *s, num h, bool first) {
     for (int j = i + 1; j < s->count; j++) {
       ref_press *x = &s->pair[i][j];
       for (int k = 0; k < 3; k++)
-        u[k] = s->v[i][k] - s->v[j][k];
-      for (int k = 0; k < 3; k++)
         w[k] = s->r[j][k] - s->r[i][k];
       if (x->met && !x->acted && x->d < 0 && ref_dot(w, w) > powl(2 * s->R + 1e-9L, 2))
         x->met = false; /* it has parted before a force */
       if (x->met) {
-        x->d += h * ref_dot(u, s->n[i][j]);
+        x->d += h * ref_closing_of(s, i, j);
         continue;
       }
+      const num far = sqrtl(ref_dot(w, w)), gap = far - 2 * s->R;
       for (int k = 0; k < 3; k++)
-        u[k] = s->r[j][k] - s->r[i][k];
-      const num far = sqrtl(ref_dot(u, u)), gap = far - 2 * s->R;
-      for (int k = 0; k < 3; k++)
-        s->n[i][j][k] = u[k] / far;
+        s->n[i][j][k] = w[k] / far;
       x->met = first && gap < 1e-9L;
       x->d = x->met ? 0 : -gap;
     }
 }
 
-/* The velocities after h by the forces at these overlaps. Whether any acts. */
-static inline bool ref_push(ref_strike *s, num h) {
+/* The force of a contact, which may touch in this step. */
+static inline num ref_press_on(ref_strike *s, ref_press *x, int i, int j) {
+  const bool open = !(x->most > 0);
+  const num F = ref_force(x);
+  if (!open || !(x->most > 0))
+    return F;
+  ref_touch l = {.i = i, .j = j, .time = s->time};
+  if (j >= 0) {
+    const num closing = ref_closing_of(s, i, j);
+    if (closing > 0)
+      l.time = fmaxl(s->time - x->d / closing, 0);
+    l.approach = -x->d;
+    for (int k = 0; k < 3; k++) {
+      l.n[k] = s->n[i][j][k];
+      l.approach += (s->r[i][k] - s->from[i][k] - s->r[j][k] + s->from[j][k]) * l.n[k];
+    }
+    l.approach = fmaxl(l.approach, 0);
+  }
+  x->touch = s->count_of_touches < REF_TOUCHES ? s->count_of_touches++ : x->touch;
+  s->touch[x->touch] = l;
+  return F;
+}
+
+/* Whether the tip has parted for good. */
+static inline bool ref_gone(const ref_strike *s) {
+  return s->touches > 0 && !(s->tip.most > 0) && !(s->reach > 0);
+}
+
+/* The velocities after h by the forces at these overlaps. Whether tip or balls act; and the slate. */
+static inline bool ref_push(ref_strike *s, num h, bool *slate) {
   static const num foot[3] = {0, 0, -1};
   num J[REF_BALLS][REF_BALLS], load[REF_BALLS] = {0}, g[REF_BALLS][REF_BALLS][3],
                                cloth[REF_BALLS][3], f[3], u[3], w[3], back[3];
   bool any = false;
+  *slate = false;
   memset(g, 0, sizeof g);
   memset(cloth, 0, sizeof cloth);
 
-  /* normal forces */
-  const bool was = s->tip.most > 0, gone = s->touches > 0 && !was && !(s->reach > 0);
-  const num F = gone ? 0 : h * ref_force(&s->tip);
-  s->touches += !was && s->tip.most > 0;
+  /* normal forces, and what their touches give */
+  const bool gone = ref_gone(s), open = !(s->tip.most > 0);
+  const num F = gone ? 0 : h * ref_press_on(s, &s->tip, 0, -1);
+  s->touches += open && s->tip.most > 0;
   s->V -= F / s->M;
   s->impulse += F;
   for (int k = 0; k < 3; k++) {
     s->v[0][k] += F * s->push[k] / s->m;
     s->W[0][k] += 2.5L * F * s->arm[k] / s->m;
+    s->touch[s->tip.touch].P[k] += F * s->push[k];
   }
-  const num comes = gone ? 0 : s->V - ref_dot(s->v[0], s->push) - ref_dot(s->W[0], s->arm);
-  any |= F > 0 || (s->tip.d > 0 && comes > 0);
-  bool slate = false;
+  any |= F > 0;
   for (int i = 0; i < s->count; i++) {
     if (s->slate) {
       load[i] = h * ref_force(&s->under[i]);
+      s->lifted[i] += s->lift[i] = load[i];
       s->v[i][2] += load[i] / s->m;
-      slate |= load[i] > 0 || (s->under[i].d > 0 && s->v[i][2] < 0);
+      *slate |= load[i] > 0 || (s->under[i].d > 0 && -s->v[i][2] > ref_slow(s));
     }
     for (int j = i + 1; j < s->count; j++) {
-      J[i][j] = h * ref_force(&s->pair[i][j]);
-      any |= s->pair[i][j].most > 0;
+      ref_press *x = &s->pair[i][j];
+      J[i][j] = h * ref_press_on(s, x, i, j);
+      any |= J[i][j] > 0 || (x->d > 0 && ref_closing_of(s, i, j) >= ref_slow_balls);
+      if (!(J[i][j] > 0))
+        continue;
+      ref_touch *l = &s->touch[x->touch];
+      l->normal += J[i][j];
+      l->moment += J[i][j] * s->time;
       for (int k = 0; k < 3; k++) {
         s->v[i][k] -= J[i][j] * s->n[i][j][k] / s->m;
         s->v[j][k] += J[i][j] * s->n[i][j][k] / s->m;
+        l->P[k] -= J[i][j] * s->n[i][j][k];
       }
     }
   }
@@ -240,8 +298,10 @@ static inline bool ref_push(ref_strike *s, num h) {
         ref_hit(s, i, n, f);
         s->v[i][2] -= (1 - s->phi) * f[2] / s->m;
         s->v[j][2] += (1 - s->phi) * f[2] / s->m;
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++) {
+          s->touch[s->pair[i][j].touch].P[k] += k < 2 ? f[k] : s->phi * f[k];
           f[k] = -f[k];
+        }
         ref_hit(s, j, back, f);
       }
     for (int i = 0; i < s->count; i++) {
@@ -257,7 +317,57 @@ static inline bool ref_push(ref_strike *s, num h) {
       ref_hit(s, i, foot, f);
     }
   }
-  return any || slate;
+  return any || (!ref_gone(s) && s->tip.d > 0 && ref_closing(s) > ref_slow(s));
+}
+
+/* The speed upwards at which the slate lets ball i go if nothing else acts. The energy above the
+ * greatest compression so far is loaded anew, of which the speed is e times. The compression is that
+ * in the middle of the last impulse. */
+static inline num ref_release(const ref_strike *s, int i) {
+  const ref_press *x = &s->under[i];
+  const num v = s->v[i][2] - s->lift[i] / s->m / 2, k = x->k / s->m, e = x->e;
+  if (!(x->d > 0))
+    return s->v[i][2];
+  const num y = fmaxl(x->d - (1 - e * e) * x->most, 0), line = v * v + k / (e * e) * y * y;
+  if (y == 0 && v >= 0)
+    return s->v[i][2];
+  const num beyond = line - k * powl(e * x->most, 2);
+  return v < 0 && beyond > 0 ? e * sqrtl(k * x->most * x->most + beyond) : sqrtl(line);
+}
+
+/* Neither tip nor balls act. Whether the slate lets the balls go, at once and with the friction of
+ * their feet: unless its release would bring the struck ball back to the tip. */
+static inline bool ref_slate_ends(ref_strike *s) {
+  static const num foot[3] = {0, 0, -1};
+  const num closing = ref_closing(s), by_slate = -s->push[2] * (ref_release(s, 0) - s->v[0][2]),
+            slow = ref_slow(s);
+  if (!ref_gone(s) && closing <= slow && closing + by_slate > slow)
+    return false;
+  for (int i = 0; i < s->count; i++) {
+    num u[3], g[3] = {0, 0, 0}, f[3];
+    const num J = s->m * (ref_release(s, i) - s->v[i][2]);
+    s->lifted[i] += J;
+    s->v[i][2] += J / s->m;
+    s->under[i].d = fminl(s->under[i].d, 0);
+    s->under[i].most = 0;
+    ref_surface(s, i, foot, u);
+    u[2] = 0;
+    ref_rub(u, 3.5L / s->m, s->mu_slide * J, g, f);
+    ref_hit(s, i, foot, f);
+  }
+  return true;
+}
+
+/* Balls that have had a force and close again do so at once, as their places stay. */
+static inline bool ref_touch_again(ref_strike *s) {
+  bool any = false;
+  for (int i = 0; i < s->count; i++)
+    for (int j = i + 1; j < s->count; j++)
+      if (s->pair[i][j].acted && ref_closing_of(s, i, j) >= ref_slow_balls) {
+        s->pair[i][j].d = 0;
+        any = true;
+      }
+  return any;
 }
 
 /* How long until balls touch that have not. */
@@ -272,8 +382,8 @@ static inline num ref_wait_of_balls(const ref_strike *s) {
       const num A = ref_dot(v, v), B = ref_dot(d, v),
                 D = B * B - A * (ref_dot(d, d) - 4 * s->R * s->R);
       const ref_press *x = &s->pair[i][j];
-      const num closing = -ref_dot(v, s->n[i][j]);
-      if (x->met && closing > 1e-6L)
+      const num closing = ref_closing_of(s, i, j);
+      if (x->met && closing >= ref_slow_balls)
         first = fminl(first, fmaxl(-x->d / closing, 0));
       else if (!x->met && B < 0 && D > 0)
         first = fminl(first, (-B - sqrtl(D)) / A);
@@ -281,24 +391,23 @@ static inline num ref_wait_of_balls(const ref_strike *s) {
   return first;
 }
 
-/* Where nothing acts: on to the next touch of balls, of a tip whose set recovers, or under a raised
- * cue to the next one of tip or slate, if there is one. */
+/* Where nothing acts: under a raised cue on to the next touch of tip or slate, unless the tip would
+ * close without the slate too; and to one of balls that comes before that and within the recovery of
+ * the tip. Whether there is one. */
 static inline bool ref_go_to_touch(ref_strike *s) {
-  const num closing = s->V - ref_dot(s->v[0], s->push) - ref_dot(s->W[0], s->arm),
-            least = 1e-9L * s->first;
-  const bool comes =
-      s->slate && s->tip.d <= 0 && closing > least && -s->tip.d / closing * s->V <= s->reach;
-  const num of_tip = comes ? -s->tip.d / closing : INFINITY;
-  num wait = of_tip, recovery = s->tip.d > 0 && closing < 0 ? -s->tip.d / closing : 0;
-  for (int i = 0; s->slate && i < s->count; i++) {
-    if (s->under[i].d <= 0 && -s->v[i][2] > least)
+  const num closing = ref_closing(s), slow = ref_slow(s);
+  const bool follows = closing + s->push[2] * s->lifted[0] / s->m > slow,
+             comes = s->slate && !follows && s->tip.d <= 0 && closing > slow &&
+                     -s->tip.d / closing * s->V <= s->reach;
+  const num of_tip = comes ? -s->tip.d / closing : INFINITY, of_balls = ref_wait_of_balls(s),
+            recovery = s->tip.d > 0 && closing < 0 ? -s->tip.d / closing : 0;
+  num wait = of_tip;
+  for (int i = 0; s->slate && i < s->count; i++)
+    if (s->under[i].d <= 0 && -s->v[i][2] > slow)
       wait = fminl(wait, s->under[i].d / s->v[i][2]);
-    if (s->under[i].d > 0 && s->v[i][2] > 0)
-      recovery = fmaxl(recovery, s->under[i].d / s->v[i][2]);
-  }
-  const num balls = ref_wait_of_balls(s);
-  if (balls < (wait < INFINITY ? wait : recovery))
-    wait = balls;
+  if (of_balls < wait && of_balls >= recovery)
+    return false;
+  wait = fminl(wait, of_balls);
   if (!(wait < INFINITY))
     return false;
   ref_move(s, wait, false);
@@ -310,20 +419,81 @@ static inline bool ref_go_to_touch(ref_strike *s) {
 /* From the touch of the tip until nothing acts. */
 static inline void ref_solve(ref_strike *s, num h) {
   for (bool go_on = true, first = true; go_on; first = false) {
+    bool slate;
     ref_move(s, h, first);
-    go_on = ref_push(s, h);
-    for (int i = 0; !go_on && i < s->count; i++)
-      for (int j = i + 1; j < s->count; j++) {
-        num u[3];
-        for (int k = 0; k < 3; k++)
-          u[k] = s->v[i][k] - s->v[j][k];
-        if (s->pair[i][j].acted && ref_dot(u, s->n[i][j]) > 1e-6L) {
-          s->pair[i][j].d = 0;
-          go_on = true;
-        }
-      }
-    go_on |= !go_on && ref_go_to_touch(s);
+    go_on = ref_push(s, h, &slate) || (slate && !ref_slate_ends(s)) || ref_touch_again(s) ||
+            ref_go_to_touch(s);
   }
+}
+
+/* ---- Places */
+
+/* The centroid in time of the impulse of the tip at a ball alone. */
+static inline num ref_lag(const ref_strike *s, num T) {
+  const num e = s->tip.e;
+  return T / (1 + e) * (2 / acosl(-1.0L) * (1 - e) + e);
+}
+
+/* The change of velocity of ball i by a touch. */
+static inline void ref_change(const ref_strike *s, const ref_touch *l, int i, num dv[3]) {
+  const int side = (l->i == i) - (l->j == i);
+  for (int k = 0; k < 3; k++)
+    dv[k] = side * l->P[k] / s->m;
+}
+
+/* Where balls start, r', and how far the tip is ahead of its ball then; T is that of the tip. The
+ * balls were at rest before. */
+static inline num ref_places(const ref_strike *s, num T, num places[REF_BALLS][3]) {
+  num v[REF_BALLS][3], moment[REF_BALLS][3] = {{0}}, dv[3], delay = 0;
+  bool done[REF_TOUCHES] = {false};
+
+  /* all that touches do not give counts at the start */
+  memcpy(v, s->v, sizeof v);
+  for (int i = 0; i < s->count; i++)
+    for (int n = 0; n < s->count_of_touches; n++) {
+      ref_change(s, &s->touch[n], i, dv);
+      for (int k = 0; k < 3; k++)
+        v[i][k] -= dv[k];
+    }
+
+  /* the touches in their order, each at the instant at which the two have come so near */
+  for (int n = 0; n < s->count_of_touches; n++) {
+    int next = -1;
+    for (int q = 0; q < s->count_of_touches; q++)
+      if (!done[q] && (next < 0 || s->touch[q].time < s->touch[next].time))
+        next = q;
+    const ref_touch *l = &s->touch[next];
+    done[next] = true;
+    num t = fmaxl(l->time - ref_lag(s, T), 0);
+    if (l->j >= 0) {
+      const num rate = ref_dot(v[l->i], l->n) - ref_dot(v[l->j], l->n),
+                way = l->approach + ref_dot(moment[l->i], l->n) - ref_dot(moment[l->j], l->n);
+      t = way <= 0 ? 0 : l->time;
+      if (way > 0 && rate > 0)
+        t = fminl(way / rate, l->time);
+      if (l->normal > 0) {
+        ref_change(s, l, 0, dv);
+        delay += ref_dot(dv, s->axis) * (l->moment / l->normal - l->time);
+      }
+    }
+    for (int i = 0; i < s->count; i++) {
+      ref_change(s, l, i, dv);
+      for (int k = 0; k < 3; k++) {
+        v[i][k] += dv[k];
+        moment[i][k] += dv[k] * t;
+      }
+    }
+  }
+
+  /* r' = r - sum of dv t; the tip */
+  num ball[3];
+  const num since = s->time - ref_lag(s, T);
+  for (int i = 0; i < s->count; i++)
+    for (int k = 0; k < 3; k++)
+      places[i][k] = s->from[i][k] - moment[i][k];
+  for (int k = 0; k < 3; k++)
+    ball[k] = places[0][k] + since * s->v[0][k] - s->r[0][k];
+  return s->went - since * s->V + ref_dot(ball, s->axis) - delay;
 }
 
 #endif

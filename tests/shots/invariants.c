@@ -95,6 +95,9 @@ typedef struct follower {
   shot_measures m;
   double energy, most_energy;
   int last_type;
+  /* m: how deep two balls that a cluster or a push has moved into each other still are, as they
+   * part */
+  double left[CAROM_BALLS_MOST][CAROM_BALLS_MOST];
 } follower;
 
 static void go(follower *f, double time) {
@@ -162,6 +165,18 @@ static void deepen(follower *f, double *deepest, double depth) {
   }
 }
 
+static double overlap_of(const follower *f, int i, int j) {
+  return f->balls[i].kind.radius + f->balls[j].kind.radius - distance(f, i, j);
+}
+
+/* The overlap of two balls beyond that in which they part, which only falls. */
+static void measure_overlap(follower *f, int i, int j) {
+  double *left = &f->left[i][j];
+  const double overlap = overlap_of(f, i, j);
+  deepen(f, &f->m.overlap, overlap - *left);
+  *left = fmax(fmin(*left, overlap), 0.0);
+}
+
 static void measure_places(follower *f) {
   for (int i = 0; i < f->count; i++) {
     if (is_out(&f->at[i]))
@@ -172,7 +187,7 @@ static void measure_places(follower *f) {
     for (int j = 0; j < i; j++) {
       if (is_out(&f->at[j]))
         continue;
-      deepen(f, &f->m.overlap, R + f->balls[j].kind.radius - distance(f, i, j));
+      measure_overlap(f, i, j);
     }
     for (int k = 0; k < f->table->rails; k++) {
       const carom_rail *rail = &f->table->rail[k];
@@ -229,6 +244,52 @@ static double momentum_change(const follower *f, const carom_event *e) {
            (allowed + 1e-9 * (a->mass + b->mass));
   }
   return length2(change[0], change[1]) / allowed;
+}
+
+/* Whether two balls move away from each other. */
+static bool part(const follower *f, int i, int j) {
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; axis++)
+    if (axis < 2 || flies(&f->at[i]) || flies(&f->at[j]))
+      sum += (f->at[i].r[axis] - f->at[j].r[axis]) * (f->at[i].v[axis] - f->at[j].v[axis]);
+  return sum > 0.0;
+}
+
+/* A cluster or a push starts its balls from where their contacts would have left them, each at an
+ * instant (src/cluster/places.c). Two of them may overlap then, if they part. Without a cue their
+ * centre of mass stays. */
+static void measure_start(follower *f, const carom_event *e) {
+  double moved[2] = {0.0}, mass = 0.0;
+  bool changed[CAROM_BALLS_MOST] = {false};
+  for (int side = 0; side < 2 * e->cluster; side++) {
+    const carom_event *one = &e[side / 2];
+    const int i = side % 2 == 0 ? one->a : one->b;
+    if (i < 0 || changed[i])
+      continue;
+    changed[i] = true;
+    mass += f->balls[i].kind.mass;
+    for (int axis = 0; axis < 2; axis++)
+      moved[axis] +=
+          f->balls[i].kind.mass * (one->after[side % 2].r[axis] - one->before[side % 2].r[axis]);
+  }
+  if (e->type == CAROM_EVENT_BALL_BALL)
+    f->m.jump = fmax(f->m.jump, length2(moved[0], moved[1]) / mass);
+  for (int i = 0; i < f->count; i++)
+    for (int j = 0; j < i; j++)
+      if ((changed[i] || changed[j]) && !is_out(&f->at[i]) && !is_out(&f->at[j])) {
+        f->left[i][j] = fmax(overlap_of(f, i, j), 0.0);
+        f->m.start = fmax(f->m.start, f->left[i][j]);
+        if (!part(f, i, j))
+          f->m.again = fmax(f->m.again, f->left[i][j]);
+      }
+}
+
+/* An event by itself leaves its balls where they are, but for one that falls into a pocket. */
+static double way_of(const carom_event *e, int side) {
+  const double *r = e->before[side].r, *q = e->after[side].r;
+  if (e->cluster > 0 || e->type == CAROM_EVENT_STRIKE || e->type == CAROM_EVENT_POCKET)
+    return 0.0;
+  return hypot(length2(q[0] - r[0], q[1] - r[1]), q[2] - r[2]);
 }
 
 /* The same for the contacts of a cluster together; of a push, by how much their momentum is above
@@ -351,9 +412,14 @@ shot_measures shot_measure(const carom_table *table, const carom_shot_ball *ball
         continue;
       const int i = side % 2 == 0 ? one->a : one->b;
       f.m.jump = fmax(f.m.jump, jump_of(&f.at[i], &one->before[side % 2], balls[i].kind.radius));
+      f.m.jump = fmax(f.m.jump, way_of(one, side % 2));
+      if (side % 2 == 1)
+        f.m.again = fmax(f.m.again, f.left[one->b][one->a]);
       f.from[i] = f.at[i] = one->after[side % 2];
       f.since[i] = now;
     }
+    if (e->cluster > 0)
+      measure_start(&f, e);
     if (e->cluster > 0)
       f.m.momentum = fmax(f.m.momentum, momentum_change_of_cluster(&f, e));
     else if (e->type == CAROM_EVENT_BALL_BALL)
