@@ -19,6 +19,7 @@
 
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
+#include "platform/ranges.h"
 
 #include <math.h>
 
@@ -75,8 +76,8 @@ typedef struct carom_cushion_frame {
 /* Of an impact that has been checked. */
 static inline carom_cushion_frame carom_cushion_frame_of(const carom_cushion_impact *in) {
   /* over the larger of the two first, so that no square leaves the range */
-  const double most = fmax(fabs(in->normal[0]), fabs(in->normal[1])), x = in->normal[0] / most,
-               y = in->normal[1] / most;
+  const double most = carom_greater(fabs(in->normal[0]), fabs(in->normal[1]));
+  const double x = in->normal[0] / most, y = in->normal[1] / most;
   const double length = sqrt(x * x + y * y);
   return (carom_cushion_frame){x / length, y / length};
 }

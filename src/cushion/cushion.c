@@ -22,7 +22,8 @@ static carom_status by_model(carom_contact *c, const carom_cushion_options *opt,
 
 void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt) {
   if (!carom_absent(opt->restitution_log) || !carom_absent(opt->restitution_log2) ||
-      !carom_absent(opt->mu_log) || opt->model == CAROM_CUSHION_SMOOTH)
+      !carom_absent(opt->mu_log) || !carom_absent(opt->roll_loss_log) ||
+      opt->model == CAROM_CUSHION_SMOOTH)
     contact->log_v = carom_log_of_speed(contact->v_y);
   if (opt->law == CAROM_CUSHION_LAW_HAN)
     carom_apply_han(contact);
@@ -31,15 +32,14 @@ void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt) {
 }
 
 void carom_lose_roll(const carom_cushion_options *opt, double R, const carom_cushion_frame *frame,
-                     const double v[3], double w[3]) {
+                     double log_v, const double v[3], double w[3]) {
   if (carom_absent(opt->roll_loss) && carom_absent(opt->roll_loss_log))
     return;
   const double n[2] = {frame->y_x, frame->y_y};
   const double v_t = v[0] * n[1] - v[1] * n[0], roll = R * (w[0] * n[0] + w[1] * n[1]);
-  const double v_y = v[0] * n[0] + v[1] * n[1];
   const double share = carom_absent(opt->roll_loss_log)
                            ? opt->roll_loss
-                           : opt->roll_loss + opt->roll_loss_log * carom_log_of_speed(v_y);
+                           : opt->roll_loss + opt->roll_loss_log * log_v;
   /* a share of 0 has derivatives by the numbers that make it */
   const double pull = carom_limited(opt->roll_loss, share) * v_t;
   const double loss = share == 0.0 && v_t * roll > 0.0 ? pull : carom_minmod(pull, roll);
@@ -63,7 +63,7 @@ carom_status carom_cushion_solve(const carom_cushion_impact *in, const carom_cus
     status = by_model(&contact, opt, in->mass);
     if (status == CAROM_OK) {
       carom_from_cushion(&frame, &contact, in->radius, out);
-      carom_lose_roll(opt, in->radius, &frame, in->v, out->w);
+      carom_lose_roll(opt, in->radius, &frame, contact.log_v, in->v, out->w);
       status = carom_is_finite(out->v) && carom_is_finite(out->w) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
     }
   }

@@ -55,9 +55,9 @@ carom_status carom_mirror(carom_contact *contact);
 
 /* Takes roll_loss, at 1 m/s across a cushion, of the speed v_t along it, before the impact, from
  * the roll along it, if the options have such a loss. Along t = (n_y, -n_x) a ball rolls at
- * R w . n. The roll does not change sign, so the energy falls. */
+ * R w . n. The roll does not change sign, so the energy falls. log_v: that of the contact. */
 void carom_lose_roll(const carom_cushion_options *opt, double R, const carom_cushion_frame *frame,
-                     const double v[3], double w[3]);
+                     double log_v, const double v[3], double w[3]);
 
 /* carom_cushion() with options that have been checked. See cushion.c. */
 carom_status carom_cushion_solve(const carom_cushion_impact *in, const carom_cushion_options *opt,

@@ -118,7 +118,7 @@ carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cus
       status = CAROM_ERROR_CUSHION_MODEL;
     /* the roll is lost behind the last point of the impact itself */
     if (status == CAROM_OK)
-      carom_lose_roll(opt, in->radius, &s.frame, in->v, points[n - 1].state.w);
+      carom_lose_roll(opt, in->radius, &s.frame, s.start.log_v, in->v, points[n - 1].state.w);
   }
   if (status < 0)
     fill_nan(n, points);

@@ -39,6 +39,11 @@ double carom_first_contact_in_space(const carom_separation *d, double reach, dou
 /* The same for a gap of g[0] + g[1] t + g[2] t^2, the first time when it is <= 0 and falling,
  * with `slack`, m, instead. */
 static inline double carom_first_touch(const double g[3], double slack, double horizon) {
+  if (g[0] <= slack && g[1] < -CAROM_NO_SPEED)
+    return 0.0;
+  /* a gap that bends down and is open at the horizon has no zero before it */
+  if (g[2] <= 0.0 && g[0] + horizon * (g[1] + horizon * g[2]) > CAROM_SLACK)
+    return INFINITY;
   double t;
   if (g[0] > slack) {
     /* of the two forms of this zero the one whose sum does not cancel: a gap of 2e-9 m that opens
@@ -49,8 +54,6 @@ static inline double carom_first_touch(const double g[3], double slack, double h
     t = D >= 0.0 ? over / under : INFINITY;
     return t >= 0.0 && t <= horizon ? t : INFINITY;
   }
-  if (g[1] < -CAROM_NO_SPEED)
-    return 0.0;
   if (!(g[2] < 0.0))
     return INFINITY;
   /* touching and not closing: where it falls to 0 again; see PRESSED */

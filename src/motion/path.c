@@ -156,32 +156,33 @@ static double spun_down(double w, double fall) {
 
 void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double time,
                    carom_ball_state *state) {
-  *state = path->from;
+  const carom_ball_state *start = &path->from;
   const double tau = time - path->start;
-  if (state->label == CAROM_BALL_STATIONARY || carom_is_out(state->label) || !(tau > 0.0))
+  *state = *start;
+  if (start->label == CAROM_BALL_STATIONARY || carom_is_out(start->label) || !(tau > 0.0))
     return;
-  if (carom_flies(state)) {
+  if (carom_flies(start)) {
     for (int k = 0; k < 3; k++) {
-      state->r[k] += tau * (state->v[k] + tau * path->a[k]);
-      state->v[k] += 2.0 * tau * path->a[k];
+      state->r[k] = start->r[k] + tau * (start->v[k] + tau * path->a[k]);
+      state->v[k] = start->v[k] + 2.0 * tau * path->a[k];
     }
     state->r[2] = carom_greater(state->r[2], rates->radius); /* not into the cloth by rounding */
     return;
   }
-  state->w[2] = spun_down(state->w[2], rates->spin * tau);
-  if (state->label == CAROM_BALL_SPINNING)
+  state->w[2] = spun_down(start->w[2], rates->spin * tau);
+  if (start->label == CAROM_BALL_SPINNING)
     return;
   for (int k = 0; k < 2; k++) {
-    state->r[k] += tau * (state->v[k] + tau * path->a[k]);
-    state->v[k] += 2.0 * tau * path->a[k];
+    state->r[k] = start->r[k] + tau * (start->v[k] + tau * path->a[k]);
+    state->v[k] = start->v[k] + 2.0 * tau * path->a[k];
   }
-  if (state->label == CAROM_BALL_ROLLING) {
+  if (start->label == CAROM_BALL_ROLLING) {
     state->w[0] = -state->v[1] / rates->radius;
     state->w[1] = state->v[0] / rates->radius;
   } else {
     const double turn = 2.5 * rates->slide * tau / rates->radius;
-    state->w[0] -= turn * path->e[1];
-    state->w[1] += turn * path->e[0];
+    state->w[0] = start->w[0] - turn * path->e[1];
+    state->w[1] = start->w[1] + turn * path->e[0];
   }
 }
 

@@ -91,7 +91,7 @@ void carom_path_go_on(carom_path *path, const carom_ball_rates *rates);
  * have no length. */
 bool carom_path_go_to(carom_path *path, const carom_ball_rates *rates, double time);
 
-/* The state at a time within the path. */
+/* The state at a time within the path; *state may be path->from. */
 void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double time,
                    carom_ball_state *state);
 
@@ -123,7 +123,7 @@ void carom_path_land(const carom_path *path, const carom_ball_rates *rates, doub
                      carom_ball_state *state);
 
 /* The phase that follows the path's own at its end, and the state there; a velocity that has
- * come to its end is exactly 0. */
+ * come to its end is exactly 0. *state may be path->from. */
 void carom_path_end(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state);
 
 #endif

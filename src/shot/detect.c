@@ -126,14 +126,14 @@ static inline int list_near(const carom_features *f, const double box[4],
   CAROM_PROMISE(f->count == f->rails + f->jaws + f->pockets && f->count <= MOST_FEATURES);
   const float low_x = (float)box[0], high_x = (float)box[1];
   const float low_y = (float)box[2], high_y = (float)box[3];
-  uint8_t is_near[MOST_FEATURES];
+  uint32_t is_near[MOST_FEATURES]; /* as wide as the numbers that are compared */
   for (int k = 0; k < f->count; k++)
     is_near[k] = (f->low_x[k] <= high_x) & (f->high_x[k] >= low_x) & (f->low_y[k] <= high_y) &
                  (f->high_y[k] >= low_y);
   int count = 0;
   for (int k = 0; k < f->count; k++) {
     neighbors[count] = (uint8_t)k;
-    count += is_near[k];
+    count += (int)is_near[k];
   }
   return count;
 }

@@ -254,6 +254,9 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
   /* of the parts beside the track only; their tops from above */
   float box[4];
   box_of(f, *T, features->reference, box); /* noses are inside their walls, by less than that */
+  /* of the height of the last part, which most parts share */
+  double height = -1.0, shift = 0.0, top = INFINITY;
+  bool lies = false;
   for (int k = 0; k < features->rails + features->jaws; k++) {
     const bool is_near = is_beside(features, k, box);
     if (!above && !is_near)
@@ -263,7 +266,12 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
     /* its nose, or the circle of that */
     const double h =
         carom_nose_height(kind, j < 0 ? sim->table->rail[k].height : sim->table->jaw[j].height);
-    const double shift = carom_nose_shift(h, features->reference);
+    if (h != height) {
+      height = h;
+      shift = carom_nose_shift(h, features->reference);
+      lies = false;
+      top = above ? fall_on(f, h + f->radius, &lies) : INFINITY;
+    }
     circle c = {.height = h};
     if (j >= 0) {
       const carom_jaw *jaw = &sim->table->jaw[j];
@@ -271,8 +279,6 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
     }
 
     /* its top, on which a ball that rests has left the table; then the nose */
-    bool lies = false;
-    const double top = above ? fall_on(f, h + f->radius, &lies) : INFINITY;
     if (top <= *T && (j < 0 ? over_rail(features, k, shift, f, top) : over_jaw(&c, f, top)))
       take_earlier(first, top, lies ? CAROM_EVENT_LEFT_TABLE : CAROM_EVENT_RAIL_TOP, lies ? -1 : k,
                    T);

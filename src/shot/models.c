@@ -280,16 +280,20 @@ carom_nose carom_nose_of(const carom_sim *sim, const carom_due *pending_event,
 CAROM_CUSHION_MODELS(AGREES)
 #undef AGREES
 
-static carom_cushion_options cushion_options(const carom_sim *sim, const carom_ball_kind *kind) {
-  carom_cushion_options options = {.model = carom_cushion_model_of(sim->opt, kind),
-                                   .convention = sim->rules->convention,
-                                   .steps = sim->opt->steps,
-                                   .plain = !sim->opt->fast,
-                                   .least_step = sim->rules->least_step};
-#define COPY(member, ...) options.member = kind->member;
+/* Number by number, where they are read: each copy of the whole costs 1 % of a shot. */
+static void take_cushion_options(const carom_sim *sim, const carom_ball_kind *kind,
+                                 carom_cushion_options *options) {
+  options->model = carom_cushion_model_of(sim->opt, kind);
+  options->convention = sim->rules->convention;
+  options->law = CAROM_CUSHION_LAW_CONSTANT;
+  options->steps = sim->opt->steps;
+  options->threads = 0;
+  options->plain = !sim->opt->fast;
+  options->least_step = sim->rules->least_step;
+  options->reserved[0] = options->reserved[1] = 0;
+#define COPY(member, ...) options->member = kind->member;
   CAROM_NUMBERS(CAROM_NO_ROW, COPY)
 #undef COPY
-  return options;
 }
 
 /* Friction's impulse over the mass on a ball in flight. */
@@ -308,7 +312,8 @@ static double friction_in_flight(carom_contact *c, double v_n, double slip,
 /* A ball in flight, by the model without the cloth. */
 static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const double N[3],
                         const carom_nose *nose, carom_ball_state *s) {
-  const carom_cushion_options options = cushion_options(sim, kind);
+  carom_cushion_options options;
+  take_cushion_options(sim, kind, &options);
   const carom_touch touch = carom_touch_of(N, kind->radius, s);
 
   /* restitution and friction by the closing speed; of a ball on the cloth it is v_y cos(theta) */
@@ -336,7 +341,8 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
                                    .mu_cushion = nose->mu_cushion,
                                    .restitution = nose->restitution,
                                    .jaw_radius = nose->jaw_radius};
-  carom_cushion_options options = cushion_options(sim, kind);
+  carom_cushion_options options;
+  take_cushion_options(sim, kind, &options);
   carom_motion out;
   carom_status status = carom_cushion_solve(&in, &options, &out);
 

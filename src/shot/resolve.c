@@ -287,23 +287,23 @@ double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const
 }
 
 /* Which things touch, along which line, and what the cloth holds. */
-static contact contact_of(const carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
-                          carom_ball_state *b) {
-  contact c = {.kind_a = sim->layout->kind[pending_event->a], .a = a, .b = b};
-  c.in_space = carom_flies(a);
-  carom_contact_normal(sim, pending_event, a, b, c.n);
-  CAROM_PROMISE(!(fabs(c.n[0] * c.n[0] + c.n[1] * c.n[1] + c.n[2] * c.n[2] - 1.0) > 1e-9));
+static void find_contact(const carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
+                         carom_ball_state *b, contact *c) {
+  *c = (contact){.kind_a = sim->layout->kind[pending_event->a], .a = a, .b = b};
+  c->in_space = carom_flies(a);
+  carom_contact_normal(sim, pending_event, a, b, c->n);
+  CAROM_PROMISE(!(fabs(c->n[0] * c->n[0] + c->n[1] * c->n[1] + c->n[2] * c->n[2] - 1.0) > 1e-9));
   if (b == NULL) {
-    c.freedom = c.in_space ? carom_lesser(carom_freedom_of_height(a->r[2] - c.kind_a->radius), 1.0)
-                           : (double)0.0;
-    return c;
+    c->freedom = c->in_space
+                     ? carom_lesser(carom_freedom_of_height(a->r[2] - c->kind_a->radius), 1.0)
+                     : (double)0.0;
+    return;
   }
-  c.kind_b = sim->layout->kind[pending_event->b];
-  c.in_space = c.in_space || carom_flies(b) || c.kind_a->radius != c.kind_b->radius;
-  c.freedom = carom_freedom_of_pair(sim, pending_event, c.n, a, b);
-  c.held_a = c.in_space && !carom_flies(a) && c.n[2] > 0.0;
-  c.held_b = c.in_space && !carom_flies(b) && c.n[2] < 0.0;
-  return c;
+  c->kind_b = sim->layout->kind[pending_event->b];
+  c->in_space = c->in_space || carom_flies(b) || c->kind_a->radius != c->kind_b->radius;
+  c->freedom = carom_freedom_of_pair(sim, pending_event, c->n, a, b);
+  c->held_a = c->in_space && !carom_flies(a) && c->n[2] > 0.0;
+  c->held_b = c->in_space && !carom_flies(b) && c->n[2] < 0.0;
 }
 
 /* The motion by the model, which leaves what the cloth holds to the slate. *closing becomes how
@@ -326,7 +326,8 @@ static bool has_finite_motion(const carom_ball_state *s) {
 
 carom_status carom_resolve(carom_sim *sim, const carom_due *pending_event, carom_ball_state *a,
                            carom_ball_state *b) {
-  contact c = contact_of(sim, pending_event, a, b);
+  contact c;
+  find_contact(sim, pending_event, a, b, &c);
   const bool above = b != NULL && fabs(c.n[2]) > steep;
   const double usual = carom_slow_speed(sim->slow_instants), speed = carom_closing(a, b, c.n),
                slow = above ? carom_greater(usual, slow_steep) : usual;

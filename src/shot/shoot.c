@@ -83,12 +83,9 @@ static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
     *state = (carom_ball_state){.label = CAROM_BALL_OFF};
     memcpy(state->r, event->before[0].r, sizeof state->r);
     return CAROM_OK;
-  default: { /* the end of a phase */
-    carom_ball_state end;
-    carom_path_end(&sim->path[i], &sim->rates[i], &end);
-    *state = end;
+  default: /* the end of a phase */
+    carom_path_end(&sim->path[i], &sim->rates[i], state);
     return CAROM_OK;
-  }
   }
 }
 

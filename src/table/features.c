@@ -23,7 +23,7 @@ static inline float greater(float a, float b) {
 
 /* The box of feature k: around two points, with a margin. The hull grows to hold it. */
 static inline void enclose(carom_features *f, int k, const double p[2], const double q[2],
-                           double margin, double reach) {
+                           double margin, double reach, double hull[4]) {
   const double low_x = carom_lesser(p[0], q[0]) - margin,
                high_x = carom_greater(p[0], q[0]) + margin;
   const double low_y = carom_lesser(p[1], q[1]) - margin,
@@ -34,10 +34,10 @@ static inline void enclose(carom_features *f, int k, const double p[2], const do
   f->high_x[k] = (float)(high_x + room);
   f->low_y[k] = (float)(low_y - room);
   f->high_y[k] = (float)(high_y + room);
-  f->hull[0] = carom_lesser(f->hull[0], low_x);
-  f->hull[1] = carom_greater(f->hull[1], high_x);
-  f->hull[2] = carom_lesser(f->hull[2], low_y);
-  f->hull[3] = carom_greater(f->hull[3], high_y);
+  hull[0] = carom_lesser(hull[0], low_x);
+  hull[1] = carom_greater(hull[1], high_x);
+  hull[2] = carom_lesser(hull[2], low_y);
+  hull[3] = carom_greater(hull[3], high_y);
 }
 
 void carom_rail_line(const carom_rail *rail, double line[3]) {
@@ -121,8 +121,7 @@ void carom_features_of(const carom_table *table, double radius, double reference
   f->jaws = (int)table->jaws;
   f->pockets = (int)table->pockets;
   f->count = f->rails + f->jaws + f->pockets;
-  f->hull[0] = f->hull[2] = INFINITY;
-  f->hull[1] = f->hull[3] = -INFINITY;
+  double hull[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
   double low = INFINITY, high = 0.0; /* of the noses */
 
   /* a part that the ball's surface meets reaches as far as its radius, for a ball larger than
@@ -136,17 +135,19 @@ void carom_features_of(const carom_table *table, double radius, double reference
     prepare_rail(&table->rail[k], k, f);
     low = carom_lesser(low, table->rail[k].height);
     high = carom_greater(high, table->rail[k].height);
-    enclose(f, index, table->rail[k].p, table->rail[k].q, 0.0, radius);
+    enclose(f, index, table->rail[k].p, table->rail[k].q, 0.0, radius, hull);
   }
   for (int k = 0; k < f->jaws; k++, index++) {
-    enclose(f, index, table->jaw[k].centre, table->jaw[k].centre, table->jaw[k].radius, radius);
+    enclose(f, index, table->jaw[k].centre, table->jaw[k].centre, table->jaw[k].radius, radius,
+            hull);
     low = carom_lesser(low, table->jaw[k].height);
     high = carom_greater(high, table->jaw[k].height);
   }
   for (int k = 0; k < f->pockets; k++, index++)
     enclose(f, index, table->pocket[k].centre, table->pocket[k].centre, table->pocket[k].radius,
-            0.0);
+            0.0, hull);
   CAROM_PROMISE(index == f->count && index <= MOST_FEATURES);
+  memcpy(f->hull, hull, sizeof hull);
 
   /* defaults of the table */
   f->nose_low = low;
