@@ -45,11 +45,11 @@ static inline bool slate_ends(carom_cluster_state *c, double h) {
   return true;
 }
 
-/* How long the tip needs until its set has recovered. */
+/* How long the tip needs until its set has recovered, and no longer than it touches. */
 static inline double recovery(const carom_cluster_state *c) {
   const carom_cluster_tip *x = &c->tip;
   const double closing = tip_closing(x, &c->ball[x->ball]);
-  return x->d > 0.0 && closing < 0.0 ? -x->d / closing : (double)0.0;
+  return x->d > 0.0 && closing < 0.0 ? carom_lesser(-x->d / closing, x->T) : (double)0.0;
 }
 
 /* Whether the tip would close without the slate too. */

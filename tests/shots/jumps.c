@@ -297,8 +297,34 @@ static verdict name_two(two_shots *s, const carom_event *x, const carom_event *y
   return name_single(s, e, in_a, name);
 }
 
-verdict name_jump(const recipe *low, const recipe *high, const played *a, const played *b,
-                  char name[JUMP_NAME], double *time) {
+/* Whether the struck ball has met a cushion and the tip at that time, or within `meanwhile` before. */
+static bool is_pinched(const played *p, double time) {
+  bool tip = false, cushion = false;
+  for (int k = 0; k < p->count; k++) {
+    const carom_event *e = &p->event[k];
+    if (e->a != 0 || e->time > time + instant || e->time < time - meanwhile)
+      continue;
+    tip |= e->type == CAROM_EVENT_STRIKE;
+    cushion |= e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW;
+  }
+  return tip && cushion;
+}
+
+/* Names of touches of the tip, or of a cushion, that are those of a ball between both; and of touches
+ * of a raised cue, which presses the ball on the slate. */
+static void name_company(const recipe *r, const played *a, const played *b, double time,
+                         char name[JUMP_NAME]) {
+  const bool tip = strstr(name, "tip") != NULL;
+  const bool free = strstr(name, "order") == NULL && strstr(name, "end") == NULL;
+  if (r->speed > 0.0 && (tip || (free && strstr(name, "cushion") != NULL)) &&
+      (is_pinched(a, time) || is_pinched(b, time)))
+    snprintf(name, JUMP_NAME, "pinched ball");
+  else if (tip && r->theta > CAROM_LEAST_ELEVATION)
+    snprintf(name, JUMP_NAME, "raised tip");
+}
+
+static verdict find_jump(const recipe *low, const recipe *high, const played *a, const played *b,
+                         char name[JUMP_NAME], double *time) {
   *time = 0.0;
   if ((low->theta < CAROM_LEAST_ELEVATION) != (high->theta < CAROM_LEAST_ELEVATION)) {
     snprintf(name, JUMP_NAME, "level tip");
@@ -324,4 +350,12 @@ verdict name_jump(const recipe *low, const recipe *high, const played *a, const 
   snprintf(name, JUMP_NAME, "no event");
   *time = low->time;
   return NAMED;
+}
+
+verdict name_jump(const recipe *low, const recipe *high, const played *a, const played *b,
+                  char name[JUMP_NAME], double *time) {
+  const verdict found = find_jump(low, high, a, b, name, time);
+  if (found == NAMED && strcmp(name, "level tip") != 0)
+    name_company(low, a, b, *time, name);
+  return found;
 }
