@@ -229,16 +229,19 @@ static double part_of_step(const ending *e, double step) {
 /* ---- A phase */
 
 /* C and U of an eigenvalue at a time up to STEP of the faster mode, to 1e-15, by sums and products
- * alone. */
+ * alone: C is the sum of q^n/(2n)!, and U/t that of q^n/(2n + 1)!, each by its even and its odd
+ * powers, which are computed at one time. */
 static void swing_of(double lambda, double t, double *C, double *U) {
-  const double q = -lambda * t * t;
-  double c = 1.0, u = 1.0;
-  for (int n = 7; n > 0; n--) {
-    c = 1.0 + q / (double)(2 * n * (2 * n - 1)) * c;
-    u = 1.0 + q / (double)(2 * n * (2 * n + 1)) * u;
-  }
-  *C = c;
-  *U = t * u;
+  const double q = -lambda * t * t, q2 = q * q;
+  const double c_even = 1.0 + q2 * (1.0 / 24.0 + q2 * (1.0 / 40320.0 + q2 * (1.0 / 479001600.0)));
+  const double c_odd =
+      1.0 / 2.0 + q2 * (1.0 / 720.0 + q2 * (1.0 / 3628800.0 + q2 * (1.0 / 87178291200.0)));
+  const double u_even =
+      1.0 + q2 * (1.0 / 120.0 + q2 * (1.0 / 362880.0 + q2 * (1.0 / 6227020800.0)));
+  const double u_odd =
+      1.0 / 6.0 + q2 * (1.0 / 5040.0 + q2 * (1.0 / 39916800.0 + q2 * (1.0 / 1307674368000.0)));
+  *C = c_even + q * c_odd;
+  *U = t * (u_even + q * u_odd);
 }
 
 static swing swing_by(const push_phase *f, double t) {
