@@ -812,7 +812,8 @@ CAROM_API const char *carom_event_name(carom_event_type type);
  * all zero. Each contact of a cluster is an event; the events are in the order in which the balls
  * touched. A ball changes its state at its first event of the cluster. At its other events it has
  * its final state before and after. Momentum and energy therefore balance over all events of a
- * cluster, but not over a single one. */
+ * cluster, but not over a single one. A ball may start from another place than it came to, and
+ * overlap another that it leaves: docs/understanding/clusters.md, Places. */
 typedef struct carom_event {
   double time;                          /* when it happened, s. */
   int32_t type, a, b;                   /* a carom_event_type, and the indices of what it names. */
@@ -874,8 +875,7 @@ typedef struct carom_facts {
                                            touched it again within the push. */
   int32_t touches;                      /* how often the tip touched the cue ball: 0 without a
                                            strike, 1, or 2 and more in a double hit. A second touch
-                                           occurs within the push, during which positions stay, or
-                                           later because of cue.follow. */
+                                           occurs within the push, or later because of cue.follow. */
   uint32_t banked;                      /* the set of the balls that met a cushion outside of the
                                            jaws and cuts of pockets. */
   double second_time;                   /* time of the second touch of the tip, s; infinite if there

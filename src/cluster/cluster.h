@@ -1,7 +1,7 @@
 /* Several balls that touch, or nearly touch, at one instant: contacts that last.
  *
- * The rigid limit of Hertz's contacts with Coulomb's friction. Positions stay; an inner time tau
- * orders the impulses. A contact of balls i and j has an overlap d, which starts at minus its
+ * The rigid limit of Hertz's contacts with Coulomb's friction. An inner time tau orders the
+ * impulses; places.c has from where the balls start then. A contact of balls i and j has an overlap d, which starts at minus its
  * gap, the unit vector n from i to j, B = 1/m_i + 1/m_j, and the slip u of the surface of i on
  * that of j. With ' = d/dtau and W = R w:
  *
