@@ -10,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BALLS = 16, SOLIDS = 1, STRIPES = 2 };
+enum { BALLS = 16, ROOM_OF_BALLS = 22, SOLIDS = 1, STRIPES = 2 };
 CK_ATTRIBUTE_UNUSED static const double per_degree = 3.14159265358979323846 / 180.0;
 
 CK_ATTRIBUTE_UNUSED static carom_table table;
-CK_ATTRIBUTE_UNUSED static carom_shot_ball balls[BALLS];
+CK_ATTRIBUTE_UNUSED static carom_shot_ball balls[ROOM_OF_BALLS];
 CK_ATTRIBUTE_UNUSED static carom_cue cue;
 CK_ATTRIBUTE_UNUSED static carom_player player;
 CK_ATTRIBUTE_UNUSED static carom_plan_rules rules;
@@ -58,6 +58,39 @@ static inline void make_memory(void) {
   job.memory_size = carom_plan_memory(&options);
   memory = edge_make(job.memory_size, true);
   job.memory = memory.memory;
+}
+
+/* Plans, of a cue ball in hand or not, in memory of its own. Returns how many choices there are. */
+static inline int plan(bool in_hand, carom_plan_stroke *choices, int most) {
+  int found = 0;
+  make_memory();
+  ck_assert_int_eq(in_hand ? carom_plan_hand(&job, NULL, NULL, choices, most, &found)
+                           : carom_plan(&job, choices, most, &found),
+                   CAROM_OK);
+  edge_free(&memory);
+  return found;
+}
+
+/* What strokes with errors of another seed make of a cue. */
+static inline carom_plan_stroke repeat(const carom_cue *tried) {
+  carom_plan_stroke repeated;
+  options.seed = 77;
+  make_memory();
+  ck_assert_int_eq(carom_plan_try(&job, tried, 1, &repeated), CAROM_OK);
+  edge_free(&memory);
+  return repeated;
+}
+
+/* The table, the rack, the cue and the rules of a game. */
+static inline void lay_out_game(carom_rules_kind kind, uint64_t seed) {
+  const carom_rules_about *about = carom_rules_about_of(kind);
+  make_layout(1, 2);
+  carom_table_make((carom_table_kind)about->table, &table);
+  job.count = carom_rack_size((carom_rack_kind)about->rack);
+  ck_assert_int_eq(
+      carom_rack((carom_rack_kind)about->rack, &table, 1e-4, seed, balls, ROOM_OF_BALLS), CAROM_OK);
+  cue = carom_cue_of((carom_game)about->balls);
+  rules = carom_plan_rules_of(kind);
 }
 
 static inline void make_stroke(random_source *r, uint64_t seed) {
