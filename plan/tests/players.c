@@ -181,5 +181,4 @@ TEST(rating_by_games) {
     ck_assert_int_eq(carom_rating_of(scores, 2, &rating), CAROM_ERROR_SCORE);
     ck_assert(rating.row == 1 && rating.mean != rating.mean);
   }
-  ck_assert_int_eq(carom_rating_of(NULL, 1, &rating), CAROM_ERROR_NULL);
 }

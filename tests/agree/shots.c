@@ -44,19 +44,15 @@ static results *make_results(void) {
   return r;
 }
 
-/* Plays the layouts with balls[] and the cues with cues[], each for all shots or for its own. */
-static carom_status play_batch(int count, bool one_layout, bool one_cue, int from, int n,
-                               const carom_shot_options *options, results *r) {
-  const carom_shot_job job = {.table = &table,
-                              .balls = balls + (one_layout ? 0 : count * from),
-                              .cues = cues + (one_cue ? 0 : from),
-                              .count = count,
-                              .ball_stride = one_layout ? 0 : (uint64_t)count,
-                              .cue_stride = one_cue ? 0 : 1,
-                              .n = (uint64_t)n,
-                              .options = options,
-                              .shots = r->shot + from,
-                              .status = r->status + from};
+/* Plays n shots as a batch like this one, from one of its shots on. */
+static carom_status play_batch(const carom_shot_job *like, int from, int n, results *r) {
+  carom_shot_job job = *like;
+  job.table = &table;
+  job.balls = balls + like->ball_stride * (uint64_t)from;
+  job.cues = cues + like->cue_stride * (uint64_t)from;
+  job.n = (uint64_t)n;
+  job.shots = r->shot + from;
+  job.status = r->status + from;
   return carom_shoot_batch(&job);
 }
 
@@ -70,43 +66,54 @@ static void same_results(const results *a, const results *b) {
   ck_assert_mem_eq(a->events, b->events, (size_t)SHOTS * ROOM * sizeof *a->events);
 }
 
-/* Shots 0 to n - 1 by themselves. */
-static void play_singles(int count, bool one_layout, bool one_cue, int n,
-                         const carom_shot_options *options, results *r) {
-  for (int k = 0; k < n; k++)
-    r->status[k] = (int8_t)carom_shoot(&table, balls + (one_layout ? 0 : count * k), count,
-                                       &cues[one_cue ? 0 : k], options, &r->shot[k]);
-}
-
 static void free_results(results *r) {
   free(r->events);
   free(r);
 }
 
+/* Plays n shots by themselves, and as batches like this one by any number of threads, which have the
+ * same results; a batch has the status of its first error. Returns the results. */
+static results *play_both(const carom_shot_job *like, int n) {
+  static const int threads[] = {0, 1, 2, 3, 7, CAROM_ALL_THREADS};
+  results *single = make_results();
+  carom_status first = CAROM_OK;
+  for (int k = 0; k < n; k++) {
+    const carom_status status =
+        carom_shoot(&table, balls + like->ball_stride * (uint64_t)k, (int)like->count,
+                    &cues[like->cue_stride * (uint64_t)k], like->options, &single->shot[k]);
+    single->status[k] = (int8_t)status;
+    first = first < 0 ? first : status;
+  }
+  for (size_t t = 0; t < COUNT_OF(threads); t += SANITIZED ? 3 : 1) {
+    results *batch = make_results();
+    carom_shot_options options = *like->options;
+    carom_shot_job job = *like;
+    options.threads = threads[t];
+    job.options = &options;
+    ck_assert_int_eq(play_batch(&job, 0, n, batch), first);
+    same_results(single, batch);
+    free_results(batch);
+  }
+  return single;
+}
+
 TEST(batch_is_singles) {
   make_breaks();
   for (int world = 0; world < 2; world++) {
-    carom_shot_options options = {.world = (carom_world)world,
-                                  .cushion_model = CAROM_SHOT_CUSHION_HAN};
-    results *single = make_results();
-    play_singles(16, false, false, SHOTS, &options, single);
+    const carom_shot_options options = {.world = (carom_world)world,
+                                        .cushion_model = CAROM_SHOT_CUSHION_HAN};
+    const carom_shot_job job = {
+        .count = 16, .ball_stride = 16, .cue_stride = 1, .options = &options};
+    results *single = play_both(&job, SHOTS);
     ck_assert_int_eq(single->status[4], CAROM_ERROR_MISCUE);
     ck_assert_int_eq(single->status[5], CAROM_OK);
-    static const int threads[] = {0, 1, 2, 3, 7, CAROM_ALL_THREADS};
-    for (size_t t = 0; t < COUNT_OF(threads); t += SANITIZED ? 3 : 1) {
-      results *batch = make_results();
-      options.threads = threads[t];
-      ck_assert_int_eq(play_batch(16, false, false, 0, SHOTS, &options, batch), CAROM_ERROR_MISCUE);
-      same_results(single, batch);
-      free_results(batch);
-    }
     /* any cut */
     lab_random r = {test_seed()};
     results *cut = make_results();
     for (int from = 0, size; from < SHOTS; from += size) {
       size = (int)lab_uniform(&r, 1.0, 9.0);
       size = from + size <= SHOTS ? size : SHOTS - from;
-      play_batch(16, false, false, from, size, &options, cut);
+      play_batch(&job, from, size, cut);
     }
     same_results(single, cut);
     free_results(cut);
@@ -121,12 +128,12 @@ TEST(radii) {
   enum { LAYOUTS = 144, BALLS = 2 };
   static const double factor[] = {1.0, 1.0, 1.1, 0.7, 1.0, 1.95, 0.4, 1.1, 0.0};
   const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
-  static const int threads[] = {0, 3, CAROM_ALL_THREADS};
+  const carom_shot_job job = {
+      .count = BALLS, .ball_stride = BALLS, .cue_stride = 1, .options = &options};
   carom_table_make(CAROM_TABLE_THREECUSHION, &table);
   int played = 0, refused = 0;
   const int step = SANITIZED ? 4 : 1;
   for (int from = 0; from < 9; from += step) { /* each may be the first */
-    results *single = make_results();
     for (int k = 0; k < LAYOUTS; k++) {
       for (int i = 0; i < BALLS; i++) {
         carom_shot_ball *b = &balls[BALLS * k + i];
@@ -139,23 +146,12 @@ TEST(radii) {
       }
       cues[k] = carom_cue_of(CAROM_GAME_BILLIARD);
       cues[k].phi = 37.0 + 10.0 * k;
-      single->status[k] = (int8_t)carom_shoot(&table, balls + BALLS * k, BALLS, &cues[k], &options,
-                                              &single->shot[k]);
+    }
+    results *single = play_both(&job, LAYOUTS);
+    for (int k = 0; k < LAYOUTS; k++) {
       played += single->status[k] == CAROM_OK;
       refused += single->status[k] == CAROM_ERROR_NOSE_HEIGHT ||
                  single->status[k] == CAROM_ERROR_OFF_TABLE;
-    }
-    for (size_t t = 0; t < COUNT_OF(threads); t++) {
-      carom_shot_options threaded = options;
-      threaded.threads = threads[t];
-      results *batch = make_results();
-      const carom_status first = play_batch(BALLS, false, false, 0, LAYOUTS, &threaded, batch);
-      same_results(single, batch);
-      int bad = 0;
-      while (batch->status[bad] >= 0)
-        bad++;
-      ck_assert_int_eq(first, batch->status[bad]);
-      free_results(batch);
     }
     free_results(single);
   }
@@ -169,33 +165,20 @@ TEST(one_for_all) {
   make_breaks();
   cues[4].a = 0.0;
   const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
-  for (int which = 0; which < 2; which++) {
-    results *single = make_results(), *batch = make_results();
-    play_singles(16, which == 0, which == 1, SHOTS, &options, single);
-    ck_assert_int_eq(play_batch(16, which == 0, which == 1, 0, SHOTS, &options, batch), CAROM_OK);
-    same_results(single, batch);
-    free_results(single);
-    free_results(batch);
-  }
-  enum { EVERY = 3, FEW = SHOTS / EVERY };
-  results *single = make_results(), *batch = make_results();
-  const carom_shot_job job = {.table = &table,
-                              .balls = balls,
-                              .cues = cues,
-                              .count = 11,
-                              .ball_stride = (uint64_t)EVERY * 16,
-                              .cue_stride = EVERY - 1,
-                              .n = FEW,
-                              .options = &options,
-                              .shots = batch->shot,
-                              .status = batch->status};
-  ck_assert_int_eq(carom_shoot_batch(&job), CAROM_OK);
-  for (int k = 0; k < FEW; k++)
-    single->status[k] = (int8_t)carom_shoot(&table, balls + EVERY * 16 * k, 11,
-                                            &cues[(EVERY - 1) * k], &options, &single->shot[k]);
-  same_results(single, batch);
-  free_results(single);
-  free_results(batch);
+  const carom_shot_job jobs[] = {
+      {.count = 16, .cue_stride = 1, .options = &options},
+      {.count = 16, .ball_stride = 16, .options = &options},
+      {.count = 11, .ball_stride = 48, .cue_stride = 2, .options = &options}};
+  for (int k = 0; k < 3; k++)
+    free_results(play_both(&jobs[k], k < 2 ? SHOTS : SHOTS / 3));
+}
+
+/* Whether all bytes are as they were set before the shot. */
+static bool is_untouched(const void *from, const void *end) {
+  const unsigned char *byte = from;
+  while (byte != end && *byte == 0x55)
+    byte++;
+  return byte == end;
 }
 
 /* Brief events tell what full ones do, in place of them and beside them, and no more of them
@@ -220,12 +203,7 @@ TEST(brief_events) {
       ck_assert(memcmp(&beside[k], &told, sizeof told) == 0 &&
                 memcmp(&others[k], &full[k], sizeof full[k]) == 0);
   }
-  for (const unsigned char *p = (const void *)&beside[FEW];
-       p < (const unsigned char *)(beside + ROOM); p++)
-    ck_assert_int_eq(*p, 0x55);
-  for (const unsigned char *p = (const void *)&others[FEW];
-       p < (const unsigned char *)(others + ROOM); p++)
-    ck_assert_int_eq(*p, 0x55);
+  ck_assert(is_untouched(beside + FEW, beside + ROOM) && is_untouched(others + FEW, others + ROOM));
   /* states at a time need the full ones */
   carom_ball_state states[16];
   ck_assert_int_eq(carom_shot_at(balls, 16, &b, 0.5, states), CAROM_ERROR_EVENTS_LOST);
@@ -452,7 +430,8 @@ TEST(first_contact) {
   results *single = make_results(), *batch = make_results();
   for (int k = 0; k < FEW; k++)
     batch->shot[k].state = &state[k];
-  ck_assert_int_eq(play_batch(16, false, false, 0, FEW, &options, batch), CAROM_OK);
+  const carom_shot_job job = {.count = 16, .ball_stride = 16, .cue_stride = 1, .options = &options};
+  ck_assert_int_eq(play_batch(&job, 0, FEW, batch), CAROM_OK);
   for (int k = 0; k < FEW; k++) {
     ck_assert_int_eq(batch->status[k], CAROM_STOPPED_AT_EVENT);
     const carom_event *last = &batch->shot[k].events[batch->shot[k].count - 1];

@@ -21,20 +21,21 @@ static double radius_on(int kind) {
 
 /* ---- Tables */
 
+/* Takes the part out: rails come first, then jaws, then pockets. */
 static void take_out(carom_table *t, int part) {
-  if (part < t->rails) {
-    memmove(&t->rail[part], &t->rail[part + 1], (size_t)(t->rails - part - 1) * sizeof *t->rail);
-    t->rails--;
-  } else if (part < t->rails + t->jaws) {
-    part -= (int)t->rails;
-    memmove(&t->jaw[part], &t->jaw[part + 1], (size_t)(t->jaws - part - 1) * sizeof *t->jaw);
-    t->jaws--;
-  } else {
-    part -= (int)(t->rails + t->jaws);
-    memmove(&t->pocket[part], &t->pocket[part + 1],
-            (size_t)(t->pockets - part - 1) * sizeof *t->pocket);
-    t->pockets--;
-  }
+  const struct {
+    void *parts;
+    int64_t *count;
+    size_t size;
+  } lists[] = {{t->rail, &t->rails, sizeof *t->rail},
+               {t->jaw, &t->jaws, sizeof *t->jaw},
+               {t->pocket, &t->pockets, sizeof *t->pocket}};
+  int k = 0;
+  for (; part >= *lists[k].count; k++)
+    part -= (int)*lists[k].count;
+  char *const place = (char *)lists[k].parts + (size_t)part * lists[k].size;
+  *lists[k].count -= 1;
+  memmove(place, place + lists[k].size, (size_t)(*lists[k].count - part) * lists[k].size);
 }
 
 /* Plays some shots of a lone ball: how many lose it, and how often it meets a rail. */
@@ -509,28 +510,29 @@ TEST(turns_agree_with_steps) {
   ck_assert_msg(worst < 1e-7, "%g rad", worst);
 }
 
-/* A frame of a film has the bits of single calls. */
-static void same_frame(const carom_shot_ball *balls, const carom_shot *shot, double time,
-                       carom_frames *film) {
-  carom_ball_state one[16], other[16];
-  double q[16][4], turned[16][4];
-  ck_assert_int_eq(carom_shot_frames(balls, 16, shot, &time, 1, film, other, turned), CAROM_OK);
-  ck_assert_int_eq(carom_shot_at(balls, 16, shot, time, one), CAROM_OK);
-  ck_assert_int_eq(carom_shot_orientation(balls, 16, shot, time, q), CAROM_OK);
-  ck_assert(memcmp(one, other, sizeof one) == 0 && memcmp(q, turned, sizeof q) == 0);
+/* Frames of a film have the bits of single calls. */
+static void same_frames(const carom_shot_ball *balls, const carom_shot *shot, const double *times,
+                        size_t many, carom_frames *film) {
+  carom_ball_state one[16], frames[3][16];
+  double q[16][4], turned[3][16][4];
+  ck_assert_int_eq(carom_shot_frames(balls, 16, shot, times, many, film, frames[0], turned[0]),
+                   CAROM_OK);
+  for (size_t k = 0; k < many; k++) {
+    ck_assert_int_eq(carom_shot_at(balls, 16, shot, times[k], one), CAROM_OK);
+    ck_assert_int_eq(carom_shot_orientation(balls, 16, shot, times[k], q), CAROM_OK);
+    ck_assert(memcmp(one, frames[k], sizeof one) == 0 && memcmp(q, turned[k], sizeof q) == 0);
+  }
 }
 
-/* Frames have the bits of single calls, however they are cut, also where a shot goes on, where time
- * goes back, jumps or runs back to the beginning, and where the memory is that of another shot's
- * film. */
+/* However frames are cut, also where a shot goes on, where time goes back, jumps or runs back to
+ * the beginning, and where the memory is that of another shot's film. */
 TEST(frames) {
   static carom_shot_state state;
   static carom_frames film;
   carom_table t;
   carom_shot_ball balls[16];
   carom_event events[2000];
-  carom_ball_state final[16], one[16], other[3 * 16];
-  double q[16][4], turned[3 * 16][4];
+  carom_ball_state final[16];
   carom_table_make(CAROM_TABLE_POOL_9FT, &t);
   carom_shot_options options = {0};
   carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
@@ -549,15 +551,7 @@ TEST(frames) {
         times[k] = fmin(time, shot.time);
         time += 0.08 * random_between(&r, 0.0, 1.0);
       }
-      const size_t many = 1 + (size_t)(3 * random_between(&r, 0.0, 1.0));
-      ck_assert_int_eq(carom_shot_frames(balls, 16, &shot, times, many, &film, other, turned),
-                       CAROM_OK);
-      for (size_t k = 0; k < many; k++) {
-        ck_assert_int_eq(carom_shot_at(balls, 16, &shot, times[k], one), CAROM_OK);
-        ck_assert_int_eq(carom_shot_orientation(balls, 16, &shot, times[k], q), CAROM_OK);
-        ck_assert(memcmp(one, &other[k * 16], sizeof one) == 0);
-        ck_assert(memcmp(q, &turned[k * 16], sizeof q) == 0);
-      }
+      same_frames(balls, &shot, times, 1 + (size_t)(3 * random_between(&r, 0.0, 1.0)), &film);
       /* back now and then, and on with the shot */
       if (random_between(&r, 0.0, 1.0) < 0.1 && time > 0.2)
         time -= 0.2;
@@ -567,10 +561,12 @@ TEST(frames) {
       }
     }
     ck_assert(options.time_most == 0.0);
-    for (int k = 0; k < 50; k++)
-      same_frame(balls, &shot, shot.time * random_between(&r, 0.0, 1.0), &film);
+    for (int k = 0; k < 50; k++) {
+      const double time = shot.time * random_between(&r, 0.0, 1.0);
+      same_frames(balls, &shot, &time, 1, &film);
+    }
     for (double time = shot.time; time > 0.0; time -= 0.04)
-      same_frame(balls, &shot, time, &film);
+      same_frames(balls, &shot, &time, 1, &film);
   }
 }
 
@@ -674,6 +670,4 @@ TEST(marks_of_tables) {
   carom_table_make(CAROM_TABLE_SNOOKER, &t);
   carom_table_marks(&t, &marks);
   ck_assert(fabs(marks.d_centre[1] - 0.737) < 1e-3 && fabs(marks.d_radius - 0.292) < 1e-3);
-  ck_assert_int_eq(carom_table_marks(NULL, &marks), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_table_marks(&t, NULL), CAROM_ERROR_NULL);
 }

@@ -134,17 +134,15 @@ static void write_game(void) {
 static uint64_t told;
 static int differing;
 
+#define SEEN(member) \
+  { &again.member, sizeof again.member }
 static uint64_t tell(uint64_t h) {
   const struct {
     const void *at;
     size_t size;
-  } seen[] = {{&again.kind, sizeof again.kind},         {&again.table, sizeof again.table},
-              {again.balls, sizeof again.balls},        {&again.options, sizeof again.options},
-              {&again.cue, sizeof again.cue},           {&again.placed, sizeof again.placed},
-              {&again.hand, sizeof again.hand},         {again.place, sizeof again.place},
-              {&again.recorded, sizeof again.recorded}, {&again.event, sizeof again.event},
-              {&again.before, sizeof again.before},     {&again.revision, sizeof again.revision},
-              {&again.format, sizeof again.format}};
+  } seen[] = {SEEN(kind),   SEEN(table),    SEEN(balls), SEEN(options),  SEEN(cue),
+              SEEN(placed), SEEN(hand),     SEEN(place), SEEN(recorded), SEEN(event),
+              SEEN(before), SEEN(revision), SEEN(format)};
   for (size_t k = 0; k < COUNT_OF(seen); k++)
     h = carom_fingerprint(h, seen[k].at, seen[k].size);
   return h;
@@ -225,7 +223,7 @@ TEST(lines_that_are_refused) {
   ck_assert_int_lt(replay(text, (size_t)(next - text)), 5);
   ck_assert_int_ne(again.kind, CAROM_RECORD_END);
 
-  /* another revision; NULL; a shot that was not played, or cannot be */
+  /* another revision; a shot that was not played, or cannot be */
   char head[100];
   n = snprintf(head, sizeof head, "{\"recording\":{\"format\":2,\"revision\":%d}}",
                carom_physics_revision() + 1);
@@ -233,9 +231,7 @@ TEST(lines_that_are_refused) {
   ck_assert_int_eq(again.revision, carom_physics_revision() + 1);
   ck_assert_int_eq(carom_record_read(&again, "\n", 1), CAROM_OK);
   ck_assert_int_eq(carom_record_read(&again, "{", 1), CAROM_ERROR_RECORD);
-  ck_assert_int_eq(carom_record_read(NULL, "{}", 2), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_record_play(&again, CAROM_RECORD_SHOT, NULL), CAROM_ERROR_RECORD);
-  ck_assert_int_eq(carom_record_play(NULL, CAROM_RECORD_SHOT, NULL), CAROM_ERROR_NULL);
   ck_assert_uint_eq(carom_record_write(&game, CAROM_RECORD_SHOT, text, ROOM), 0);
   memset(&game, 0, sizeof game);
   ck_assert_uint_eq(carom_record_write(&game, CAROM_RECORD_TABLE, text, ROOM), 0);
@@ -287,8 +283,6 @@ TEST(records_that_cannot_be) {
     ck_assert_int_eq(carom_record_settle(&again), CAROM_ERROR_BALLS);
     ck_assert_int_eq(carom_record_place(&again, 0, 0.5, 0.5, NULL), CAROM_ERROR_BALLS);
   }
-  ck_assert_int_eq(carom_record_settle(NULL), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_record_place(NULL, 0, 0.5, 0.5, NULL), CAROM_ERROR_NULL);
 }
 
 /* A shot with a wrong argument changes nothing. */
