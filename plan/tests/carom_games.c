@@ -1,24 +1,29 @@
-/* Three-cushion and straight rail: plans, and equal innings. situations.txt and matches.txt have their
- * rulings. */
+/* Three-cushion and straight rail: plans, and equal innings. situations.txt and matches.txt have
+ * their rulings. */
 #include "carom_match.h"
-#include "game_support.h"
+#include "plan_support.h"
+
+/* Plans a stroke of straight rail with all balls near each other, by a player whose errors are so
+ * many times as large; equal innings are those of the rules. */
+static carom_plan_stroke plan_straight_rail(double errors, int innings) {
+  static const double places[][2] = {{0.5, 0.8}, {0.7, 1.2}, {0.8, 1.25}};
+  carom_plan_stroke best;
+  lay_out_game(CAROM_RULES_STRAIGHTRAIL, 1);
+  for (int k = 0; k < 3; k++)
+    memcpy(balls[k].state.r, places[k], sizeof places[k]);
+  player = carom_player_of(errors);
+  options = (carom_plan_options){.shots = 1000};
+  if (innings >= 0)
+    rules.state.score[0] = rules.state.target - 1;
+  rules.state.innings = innings > 0 ? innings : 0;
+  plan(false, &best, 1);
+  return best;
+}
 
 /* A plan finds a point of straight rail that three-cushion would not count. */
 TEST(a_point_is_planned) {
-  const int count = lay_out(CAROM_RACK_THREECUSHION, CAROM_TABLE_THREECUSHION, 7);
-  put(0, 0.5, 0.8);
-  put(1, 0.7, 1.2);
-  put(2, 0.8, 1.25);
-  const carom_cue cue = carom_cue_of(CAROM_GAME_BILLIARD);
-  const carom_player player = carom_player_of(0.5);
-  const carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_STRAIGHTRAIL);
-  const carom_plan_options options = {.shots = 1000};
-  carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
-  carom_plan_stroke best;
-  int found;
-  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  const carom_plan_stroke best = plan_straight_rail(0.5, -1);
   ck_assert_msg(best.keep > 0.9, "keeps %g", best.keep);
-  free(job.memory);
 }
 
 /* Other games have no equal innings, and some no target. */
@@ -44,25 +49,11 @@ TEST(games_without_equal_innings) {
 /* Plans know the last points: the one of who began, who then plays no more, and those of the
  * equalizing inning, whose misses lose the game. */
 TEST(plans_of_equal_innings) {
-  const carom_cue cue = carom_cue_of(CAROM_GAME_BILLIARD);
-  const carom_player player = carom_player_of(4.0);
-  const carom_plan_options options = {.shots = 1000};
-  carom_plan_stroke best[4];
+  const carom_plan_stroke first = plan_straight_rail(4.0, 0);
+  ck_assert_msg(first.keep > 0.3 && first.keep < 1.0, "keeps %g", first.keep);
   for (int innings = 0; innings <= 3; innings++) {
-    const int count = lay_out(CAROM_RACK_THREECUSHION, CAROM_TABLE_THREECUSHION, 7);
-    put(0, 0.5, 0.8);
-    put(1, 0.7, 1.2);
-    put(2, 0.8, 1.25);
-    carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_STRAIGHTRAIL);
-    game_rules.state.score[0] = game_rules.state.target - 1;
-    game_rules.state.innings = innings;
-    carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
-    int found;
-    ck_assert_int_eq(carom_plan(&job, &best[innings], 1, &found), CAROM_OK);
-    free(job.memory);
-    const carom_plan_stroke *c = &best[innings];
-    ck_assert_msg(c->ball >= 0 && c->kind != CAROM_PLAN_SAFETY, "innings %d", innings);
-    ck_assert(c->value == best[0].value && c->keep == best[0].keep);
+    const carom_plan_stroke best = plan_straight_rail(4.0, innings);
+    ck_assert_msg(best.ball >= 0 && best.kind != CAROM_PLAN_SAFETY, "innings %d", innings);
+    ck_assert(best.value == first.value && best.keep == first.keep);
   }
-  ck_assert_msg(best[0].keep > 0.3 && best[0].keep < 1.0, "keeps %g", best[0].keep);
 }

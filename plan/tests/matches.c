@@ -69,21 +69,14 @@ TEST(recordings_are_judged) {
     for (int how = 0; how < 3; how++) {
       if (how == 0 && end + 1 == file + file_size)
         continue; /* it is cut off, which carom verify tells */
-      size_t n = offset;
-      memcpy(forged, file, file_size);
+      /* the lines before it, twice this one or its digit, and the lines behind it */
+      const char *const rest = how == 1 ? line : end + 1;
+      size_t n = offset + (how == 0 ? 0 : size_of_line);
+      memcpy(forged, file, n);
+      memcpy(forged + n, rest, (size_t)(file + file_size - rest));
+      n += (size_t)(file + file_size - rest);
       if (how == 2 && digit < end)
         forged[digit - file] = *digit == '1' ? '2' : '1';
-      if (how == 1) {
-        memcpy(forged + n, line, size_of_line);
-        n += size_of_line;
-      }
-      const char *rest = how == 0 ? end + 1 : line;
-      if (how < 2) {
-        memcpy(forged + n, rest, (size_t)(file + file_size - rest));
-        n += (size_t)(file + file_size - rest);
-      } else {
-        n = file_size;
-      }
       const bool same = how == 2 && digit >= end;
       const bool plain = lines < 3 && how == 1; /* a second line of a table or of options */
       const carom_status status = read_all(forged, n);

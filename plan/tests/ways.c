@@ -18,6 +18,15 @@ typedef struct found_ways {
 static way room[MOST_WAYS];
 static carom_cue stroke[SPEEDS];
 
+/* Plays a stroke from the layout; its events and facts are kept until the next one. */
+static carom_shot play(const carom_cue *cue_of_stroke) {
+  static carom_brief_event events[ROOM];
+  static carom_facts facts;
+  carom_shot shot = {.brief = events, .room = ROOM, .facts = &facts};
+  carom_shoot(&table, balls, BALLS, cue_of_stroke, &shot_options, &shot);
+  return shot;
+}
+
 /* Whether a rail ends within three radii of the pocket. */
 static bool is_beside(int rail, int pocket) {
   const carom_rail *r = &table.rail[rail];
@@ -104,15 +113,13 @@ static void compare(const found_ways *s, int number, int ball, int *windows, int
   int pocket[SWEPT + 1], kind[SWEPT + 1], run = 0;
   pocket[SWEPT] = -1;
   for (int k = 0; k < SWEPT; k++) {
-    static carom_brief_event event[ROOM];
-    carom_facts f;
-    carom_shot shot = {.brief = event, .room = ROOM, .facts = &f};
     carom_cue aimed = stroke[number];
     aimed.phi = 360.0 / SWEPT * k;
-    carom_shoot(&table, balls, BALLS, &aimed, &shot_options, &shot);
-    const bool is_repeated = f.touches > 1 && (f.pushed == 0 || f.second_time > 0.0);
-    const bool good = !((f.down | f.off) & 1) && !is_repeated && (f.pushed & ~f.frozen) == 0;
-    pocket[k] = good ? f.pocket[ball] : -1;
+    const carom_shot shot = play(&aimed);
+    const carom_facts *f = shot.facts;
+    const bool is_repeated = f->touches > 1 && (f->pushed == 0 || f->second_time > 0.0);
+    const bool good = !((f->down | f->off) & 1) && !is_repeated && (f->pushed & ~f->frozen) == 0;
+    pocket[k] = good ? f->pocket[ball] : -1;
     kind[k] = pocket[k] >= 0 ? kind_of(&shot, ball, pocket[k]) : -1;
   }
   for (int k = 1; k <= SWEPT; k++) {
@@ -162,10 +169,7 @@ TEST(a_pot_has_one_name) {
     const found_ways s = find(SPEEDS);
     for (int n = 0; n < s.ways; n++) {
       const way *w = &s.way[n];
-      static carom_brief_event event[ROOM];
-      carom_facts f;
-      carom_shot shot = {.brief = event, .room = ROOM, .facts = &f};
-      carom_shoot(&table, balls, BALLS, &w->cue, &shot_options, &shot);
+      const carom_shot shot = play(&w->cue);
       const int planned = carom_pot_kind(&table, &shot, 0, w->ball, w->pocket);
       const int read = kind_of(&shot, w->ball, w->pocket);
       ck_assert_msg(w->kind == planned && w->kind == read,
@@ -188,12 +192,10 @@ TEST(a_pot_has_one_name) {
 
 /* Whether the stroke of this direction pots ball 1 into the right side pocket. */
 static bool pots_at(double phi, int pocket) {
-  carom_facts f;
-  carom_shot shot = {.facts = &f};
   carom_cue aimed = stroke[0];
   aimed.phi = phi;
-  carom_shoot(&table, balls, BALLS, &aimed, &shot_options, &shot);
-  return f.pocket[1] == pocket && (f.down & 1) == 0;
+  const carom_facts *f = play(&aimed).facts;
+  return f->pocket[1] == pocket && (f->down & 1) == 0;
 }
 
 /* Directions end at 360 degrees, where a sweep begins anew: a window across is one way, and its
@@ -222,11 +224,9 @@ TEST(a_window_across_zero_degrees) {
 
 /* Whether the cue ball meets a ball directly, or right off one rail. */
 static bool is_met_soon(const carom_cue *aimed) {
-  carom_brief_event event[ROOM];
-  carom_facts f;
-  carom_shot shot = {.brief = event, .room = ROOM, .facts = &f};
-  carom_shoot(&table, balls, BALLS, aimed, &shot_options, &shot);
-  for (int64_t k = 0; k < shot.count && event[k].time < f.first_time[0] - 0.1; k++)
+  const carom_shot shot = play(aimed);
+  const carom_brief_event *event = shot.brief;
+  for (int64_t k = 0; k < shot.count && event[k].time < shot.facts->first_time[0] - 0.1; k++)
     if (event[k].type == CAROM_EVENT_RAIL)
       return false;
   return true;

@@ -28,6 +28,16 @@ static void make_breaks(void) {
   cues[4].a = 2.0;
 }
 
+/* Plays the first rack, and goes on with it. */
+static carom_status shoot(const carom_cue *cue, const carom_shot_options *options,
+                          carom_shot *shot) {
+  return carom_shoot(&table, balls, 16, cue, options, shot);
+}
+
+static carom_status go_on(const carom_shot_options *options, carom_shot *shot) {
+  return carom_shot_continue(&table, balls, 16, options, shot);
+}
+
 typedef struct results {
   carom_shot shot[SHOTS];
   carom_event *events;
@@ -194,7 +204,7 @@ TEST(brief_events) {
   memset(others, 0x55, sizeof others);
   carom_shot *const each[] = {&a, &b, &c};
   for (int k = 0; k < 3; k++)
-    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], NULL, each[k]), CAROM_OK);
+    ck_assert_int_eq(shoot(&cues[0], NULL, each[k]), CAROM_OK);
   ck_assert(a.count > FEW && a.count <= ROOM && a.count == b.count && a.count == c.count);
   for (int64_t k = 0; k < a.count; k++) {
     const carom_brief_event told = {full[k].time, full[k].type, full[k].a, full[k].b, 0};
@@ -490,23 +500,22 @@ TEST(bad_states) {
   make_breaks();
   broken *b = make_broken();
   carom_shot_options options = {.time_most = 0.2};
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
-  b->status = carom_shoot(&table, balls, 16, &cues[0], &options, &b->shot);
+  ck_assert_int_eq(go_on(&options, &b->shot), CAROM_ERROR_STATE);
+  b->status = shoot(&cues[0], &options, &b->shot);
   ck_assert_int_eq(b->status, CAROM_STOPPED_AT_TIME);
   broken *before = malloc(sizeof *before);
   memcpy(before, b, sizeof *before);
   options.time_most = 0.3;
   b->shot.state = NULL;
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_NULL);
+  ck_assert_int_eq(go_on(&options, &b->shot), CAROM_ERROR_NULL);
   b->shot.state = &b->state;
   for (size_t bit = 0; bit < 8 * sizeof b->state; bit += bit < 4096 ? 1 : 61) {
     b->state.opaque[bit / 64] ^= UINT64_C(1) << bit % 64;
-    ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
+    ck_assert_int_eq(go_on(&options, &b->shot), CAROM_ERROR_STATE);
     b->state.opaque[bit / 64] ^= UINT64_C(1) << bit % 64;
   }
   ck_assert_mem_eq(b, before, sizeof *b);
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot),
-                   CAROM_STOPPED_AT_TIME);
+  ck_assert_int_eq(go_on(&options, &b->shot), CAROM_STOPPED_AT_TIME);
   free(before);
   free(b);
 }
@@ -745,8 +754,7 @@ TEST(facts_of_shots) {
   ck_assert(down > 5 && second > 5 && pushes > 5 && jumps > 0);
   carom_facts facts;
   const carom_facts nothing = facts_of(events, 0, 0);
-  ck_assert_int_lt(carom_shoot(&table, balls, 16, &cues[4], NULL, &(carom_shot){.facts = &facts}),
-                   0);
+  ck_assert_int_lt(shoot(&cues[4], NULL, &(carom_shot){.facts = &facts}), 0);
   ck_assert_mem_eq(&nothing, &facts, sizeof facts);
 }
 
@@ -762,16 +770,16 @@ TEST(stops_unless_the_first_is_of_a_set) {
     carom_cue cue = cues[k];
     cue.phi = 80.0 + 0.3 * k;
     carom_shot whole = {.facts = &facts, .final = final[0]};
-    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cue, NULL, &whole), CAROM_OK);
+    ck_assert_int_eq(shoot(&cue, NULL, &whole), CAROM_OK);
     const carom_shot_options options = {.first_of = UINT64_C(0x0a0a)}; /* balls 1, 3, 9, 11 */
     carom_shot shot = {.facts = &part, .final = final[1], .state = &state};
-    carom_status status = carom_shoot(&table, balls, 16, &cue, &options, &shot);
+    carom_status status = shoot(&cue, &options, &shot);
     const bool stops = facts.first[0] >= 0 && !(options.first_of >> facts.first[0] & 1);
     ck_assert_int_eq(status, stops ? CAROM_STOPPED_AT_EVENT : CAROM_OK);
     if (stops) {
       ck_assert(part.first[0] == facts.first[0] && part.first_time[0] == facts.first_time[0] &&
                 shot.time == part.first_time[0]);
-      status = carom_shot_continue(&table, balls, 16, &options, &shot);
+      status = go_on(&options, &shot);
     }
     ck_assert_int_eq(status, CAROM_OK);
     ck_assert(memcmp(&part, &facts, sizeof facts) == 0 &&
@@ -804,7 +812,7 @@ TEST(slips) {
     cue.phi = 90.0 + k;
     cue.a = 0.3;
     carom_shot shot = {.events = events, .room = ROOM};
-    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cue, NULL, &shot), CAROM_OK);
+    ck_assert_int_eq(shoot(&cue, NULL, &shot), CAROM_OK);
     for (int i = 0; i < shot.count; i++) {
       const carom_event *e = &events[i];
       const carom_ball_state *s = &e->before[0], *o = &e->before[1];
@@ -857,10 +865,10 @@ static void expect_same_by_all_sets(carom_shot_cushion cushion, bool same_if_fas
   const carom_shot_options fast = {.cushion_model = cushion, .fast = 1};
   carom_shot_options options = {.cushion_model = cushion};
   carom_shot plain = {.events = events, .room = ROOM};
-  ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &plain), CAROM_OK);
+  ck_assert_int_eq(shoot(&cues[0], &options, &plain), CAROM_OK);
   FOR_EACH_ISA(isa) {
     carom_shot shot = {.events = others, .room = ROOM};
-    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &fast, &shot), CAROM_OK);
+    ck_assert_int_eq(shoot(&cues[0], &fast, &shot), CAROM_OK);
     for (int k = 0; k < 8; k++) {
       ck_assert_int_eq(others[k].type, events[k].type);
       ck_assert_double_eq_tol(others[k].time, events[k].time, 1e-6);
@@ -874,10 +882,9 @@ static void expect_same_by_all_sets(carom_shot_cushion cushion, bool same_if_fas
     options.time_most = 0.7;
     shot.state = &state;
     memset(others, 0, sizeof others);
-    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot),
-                     CAROM_STOPPED_AT_TIME);
+    ck_assert_int_eq(shoot(&cues[0], &options, &shot), CAROM_STOPPED_AT_TIME);
     options.time_most = 0.0;
-    ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &shot), CAROM_OK);
+    ck_assert_int_eq(go_on(&options, &shot), CAROM_OK);
     ck_assert_int_eq(shot.count, plain.count);
     ck_assert_mem_eq(events, others, (size_t)plain.count * sizeof *events);
   }

@@ -94,7 +94,7 @@ static void check_batch(carom_precision precision, const void *in, const carom_o
                     (status >= 0 && memcmp((char *)many + (size_t)at * result, &out, result) != 0))
     fail("a batch differs from a call");
   unwritten((char *)many + (size_t)n * result, result, "a batch writes beside its results");
-  unwritten(&statuses[n], sizeof statuses[n], "a batch writes beside its statuses");
+  UNWRITTEN(statuses, n, "a batch writes beside its statuses");
 }
 
 static void two_balls(void) {
@@ -227,9 +227,8 @@ static void cushion(void) {
   const carom_cushion_impact rows[3] = {in, in, in};
   memset(many, GUARD, sizeof many);
   carom_cushion_batch(rows, 3, &o, many, statuses);
-  unwritten(&many[3], sizeof many[3], "a batch of impacts on a cushion writes beside its results");
-  unwritten(&statuses[3], sizeof statuses[3],
-            "a batch of impacts on a cushion writes beside its statuses");
+  UNWRITTEN(many, 3, "a batch of impacts on a cushion writes beside its results");
+  UNWRITTEN(statuses, 3, "a batch of impacts on a cushion writes beside its statuses");
   if (status == CAROM_OK && (statuses[1] != status || memcmp(&many[1], &out, sizeof out) != 0))
     fail("a batch of impacts on a cushion differs from a call");
   carom_cushion_point points[POINTS];

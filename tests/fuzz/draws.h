@@ -121,4 +121,8 @@ static inline void unwritten(const void *from, size_t size, const char *what) {
       fail(what);
 }
 
+/* The same of the elements of an array behind those that are used. */
+#define UNWRITTEN(array, used, what) \
+  unwritten((array) + (used), sizeof(array) - (size_t)(used) * sizeof *(array), what)
+
 #endif

@@ -401,7 +401,7 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
   const carom_tangent_job derivatives = {
       .played = job, .seeds = &seeds, .tangents = tangents, .status = statuses};
   carom_shot_tangent_batch(&derivatives);
-  unwritten(&statuses[SHOTS], 1, "a batch of derivatives writes beside its statuses");
+  UNWRITTEN(statuses, SHOTS, "a batch of derivatives writes beside its statuses");
   if (status >= 0 && job->status[0] >= 0 && tangent.at == NULL &&
       (statuses[0] != status || memcmp(final_of[0], single, finals * sizeof *single) != 0))
     fail("a batch of derivatives differs from those of one shot");
@@ -439,8 +439,7 @@ static void check_damage(const carom_shot *shot, const carom_shot_options *on) {
   const carom_status status = carom_shot_continue(&table, balls, count, on, &again);
   if (!forged && !same && status != CAROM_ERROR_STATE)
     fail("carom_shot_continue takes a damaged state");
-  unwritten(&events[EVENTS], sizeof *events,
-            "a shot with a damaged state writes beside its events");
+  UNWRITTEN(events, EVENTS, "a shot with a damaged state writes beside its events");
 }
 
 /* Plays the rest of a shot that was stopped, and the whole at once. */
@@ -502,12 +501,9 @@ static void shots(void) {
       fail("events are not in order");
   if (carom_shot_check(&table, balls, count, &cues[0], &options, NULL) != CAROM_OK && one.count > 0)
     fail("carom_shot_check refuses what carom_shoot plays");
-  unwritten(events[SHOTS] + kept, sizeof events[SHOTS] - (size_t)kept * sizeof **events,
-            "events beside their place");
-  unwritten(final[SHOTS] + count, sizeof final[SHOTS] - (size_t)count * sizeof **final,
-            "final states beside their place");
-  unwritten(brief + kept, sizeof brief - (size_t)kept * sizeof *brief,
-            "brief events beside their place");
+  UNWRITTEN(events[SHOTS], kept, "events beside their place");
+  UNWRITTEN(final[SHOTS], count, "final states beside their place");
+  UNWRITTEN(brief, kept, "brief events beside their place");
   for (int64_t k = 0; k < kept && one.brief != NULL; k++)
     if (memcmp(&brief[k], &events[SHOTS][k], offsetof(carom_brief_event, reserved)) != 0)
       fail("brief events tell something else");
@@ -546,12 +542,10 @@ static void shots(void) {
   const carom_shot single = one;
   for (int k = 0; k < SHOTS; k++) {
     const int64_t told = many[k].count < room ? many[k].count : room;
-    unwritten(events[k] + told, sizeof events[k] - (size_t)told * sizeof **events,
-              "the events of a batch beside their place");
-    unwritten(final[k] + count, sizeof final[k] - (size_t)count * sizeof **final,
-              "the ends of a batch beside their place");
+    UNWRITTEN(events[k], told, "the events of a batch beside their place");
+    UNWRITTEN(final[k], count, "the ends of a batch beside their place");
   }
-  unwritten(&statuses[SHOTS], 1, "a batch of shots writes beside its statuses");
+  UNWRITTEN(statuses, SHOTS, "a batch of shots writes beside its statuses");
   if (played && (statuses[0] != (int8_t)status || many[0].count != single.count ||
                  memcmp(&many[0].time, &single.time, sizeof single.time) != 0 ||
                  memcmp(final[0], final[SHOTS], (size_t)count * sizeof **final) != 0 ||
