@@ -59,6 +59,9 @@ int read_rows(const char *name, int columns, double *numbers);
 enum { TEXT = 120 };
 int read_texts(const char *name, int columns, char texts[][TEXT]);
 
+/* A call that has a result. */
+#define expect_ok(status) ck_assert_int_eq(status, CAROM_OK)
+
 /* Each number of an array is within so much of that of another. */
 #define NEAR_EACH(is, says, count, within)         \
   for (int k_near = 0; k_near < (count); k_near++) \

@@ -53,7 +53,7 @@ TEST(told_is_what_comes) {
     const bool hand = k < PLACED;
     plan(hand, &best, 1);
     ck_assert_int_ge(best.seen, (options.shots > 300 ? options.shots / 10 : 30) + 10);
-    carom_place_ball(&table, balls, BALLS, 0, best.place[0], best.place[1], NULL);
+    place_ball(0, best.place[0], best.place[1]);
     options.shots = 1000;
     const carom_plan_stroke repeated = repeat(&best.cue);
     ck_assert(repeated.ball == best.ball && repeated.pocket == best.pocket);
@@ -110,8 +110,8 @@ TEST(the_first_ball_that_falls) {
       carom_facts facts;
       carom_ball_state final[BALLS];
       carom_shot shot = {.final = final, .facts = &facts};
-      ck_assert_int_eq(carom_plan_try(&job, &cues[k], 1, &chosen[k]), CAROM_OK);
-      ck_assert_int_eq(carom_shoot(&table, balls, BALLS, &cues[k], &shot_options, &shot), CAROM_OK);
+      expect_ok(carom_plan_try(&job, &cues[k], 1, &chosen[k]));
+      expect_ok(carom_shoot(&table, balls, BALLS, &cues[k], &shot_options, &shot));
       if (facts.first[0] >= 0 &&
           (targets >> facts.first[0] & 1)) /* else the shot may have been stopped */
         ck_assert_mem_eq(&seen, &facts, sizeof facts);
@@ -147,9 +147,9 @@ TEST(what_is_named_falls) {
   carom_plan_stroke best[5];
   make_layout(1, 1);
   rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
-  carom_place_ball(&table, balls, BALLS, 0, 0.6, 0.6, NULL);
-  carom_place_ball(&table, balls, BALLS, 1, 0.2, 0.2, NULL);
-  carom_place_ball(&table, balls, BALLS, 9, 0.12, 0.12, NULL);
+  place_ball(0, 0.6, 0.6);
+  place_ball(1, 0.2, 0.2);
+  place_ball(9, 0.12, 0.12);
   job.count = 10;
   plan(false, best, 5);
   ck_assert_msg(best[0].ball == 9 && best[0].kind == CAROM_PLAN_COMBINATION && best[0].keep > 0.5,
@@ -239,8 +239,8 @@ TEST(breaks) {
 TEST(ball_behind_the_head_string) {
   make_layout(1, 1);
   rules = carom_plan_rules_of(CAROM_RULES_STRAIGHT);
-  carom_place_ball(&table, balls, BALLS, 1, 0.15, 0.15, NULL);
-  carom_place_ball(&table, balls, BALLS, 2, 0.635, 2.5, NULL);
+  place_ball(1, 0.15, 0.15);
+  place_ball(2, 0.635, 2.5);
   carom_plan_stroke best;
   job.leave = CAROM_LEAVE_KITCHEN;
   plan(true, &best, 1);
@@ -250,7 +250,7 @@ TEST(ball_behind_the_head_string) {
 
   /* nor where it has been placed there, 0.3 m from that ball */
   for (int64_t leave = 0; leave <= CAROM_LEAVE_KITCHEN; leave += CAROM_LEAVE_KITCHEN) {
-    carom_place_ball(&table, balls, BALLS, 0, 0.36, 0.36, NULL);
+    place_ball(0, 0.36, 0.36);
     job.leave = leave;
     plan(false, &best, 1);
     const bool direct = best.ball == 1 && best.cue.phi > 180.0;
@@ -266,7 +266,7 @@ TEST(leave_and_not_a_bound) {
   rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
   options.shots = 2000;
   for (int k = 0; k < 3; k++)
-    carom_place_ball(&table, balls, BALLS, k, places[k][0], places[k][1], NULL);
+    place_ball(k, places[k][0], places[k][1]);
   make_memory();
   const double low[2] = {0.03, 0.03};
   double foul[2];
@@ -276,7 +276,7 @@ TEST(leave_and_not_a_bound) {
     for (int k = 0; k < 3; k++) {
       const double high[2] = {1.24, 0.25 * table.length + 1e-6 * (k - 1)};
       int found;
-      ck_assert_int_eq(carom_plan_hand(&job, low, high, &best[k], 1, &found), CAROM_OK);
+      expect_ok(carom_plan_hand(&job, low, high, &best[k], 1, &found));
       ck_assert_msg(best[k].kind == best[0].kind && best[k].ball == best[0].ball,
                     "leave %d, bound %d: %s of ball %d", (int)job.leave, k,
                     carom_plan_kind_name((carom_plan_kind)best[k].kind), best[k].ball);
@@ -298,7 +298,7 @@ TEST(bounds_of_every_leave) {
     carom_bounds bounds;
     carom_plan_stroke best;
     job.leave = leave;
-    ck_assert_int_eq(carom_hand_bounds((carom_leave)leave, &table, radius, &bounds), CAROM_OK);
+    expect_ok(carom_hand_bounds((carom_leave)leave, &table, radius, &bounds));
     ck_assert((bounds.radius > 0.0) == (leave == CAROM_LEAVE_D));
     ck_assert_double_le(bounds.high[1], high[leave] * table.length + 0.02);
     plan(true, &best, 1);
@@ -317,8 +317,8 @@ TEST(openings) {
     int moved = 0;
     make_break(CAROM_RULES_STRAIGHT, seed, 600.0);
     plan(true, &best, 1);
-    carom_place_ball(&table, balls, BALLS, 0, best.place[0], best.place[1], NULL);
-    ck_assert_int_eq(carom_shoot(&table, balls, BALLS, &best.cue, NULL, &shot), CAROM_OK);
+    place_ball(0, best.place[0], best.place[1]);
+    expect_ok(carom_shoot(&table, balls, BALLS, &best.cue, NULL, &shot));
     for (int n = 1; n < BALLS; n++)
       moved += fabs(final[n].r[0] - balls[n].state.r[0]) > 0.05;
     ck_assert_msg(best.cue.speed < 5.0 && best.foul < 0.1 && moved < 10,
@@ -338,7 +338,7 @@ TEST(what_one_may_do) {
       rules.state.may = permission == 1 ? CAROM_CHOICE_PUSH : CAROM_CHOICE_PASS;
       put_ring(easy ? 1 : 6);
       if (easy)
-        carom_place_ball(&table, balls, BALLS, 1, 0.1, 0.1, NULL);
+        place_ball(1, 0.1, 0.1);
       options.shots = 1000;
       job.count = 10;
       plan(false, &best, 1);
@@ -381,7 +381,7 @@ TEST(soft_openings) {
     carom_plan_stroke listed[5];
     int found;
     const double high[2] = {table.width, 0.25 * table.length};
-    ck_assert_int_eq(carom_plan_hand(&job, NULL, high, listed, 5, &found), CAROM_OK);
+    expect_ok(carom_plan_hand(&job, NULL, high, listed, 5, &found));
     for (int n = 0; n < found; n++)
       ck_assert(listed[n].cue.speed < 4.5 && listed[n].foul <= 0.1 && listed[n].seen >= 20);
     ck_assert(found >= 1 && listed[0].seen >= 40);

@@ -18,8 +18,7 @@ static inline void keep(void) {
 /* To so many points with equal innings, where there is a target. */
 static inline void begin(carom_rules_kind kind, uint64_t seed, int player, int target) {
   carom_table_make((carom_table_kind)carom_rules_about_of(kind)->table, &table);
-  ck_assert_int_eq(carom_match_begin_to(&match, kind, target, target > 0, &table, seed, player),
-                   CAROM_OK);
+  expect_ok(carom_match_begin_to(&match, kind, target, target > 0, &table, seed, player));
   file_size = 0;
   keep();
 }

@@ -15,7 +15,7 @@ TEST(a_clock_before_the_place) {
     begin((carom_rules_kind)kind, 1, 0, 0);
     if (match.phase != CAROM_MATCH_PLACE)
       continue;
-    ck_assert_int_eq(carom_match_clock(&match, 0), CAROM_OK);
+    expect_ok(carom_match_clock(&match, 0));
     if (match.rules.any_cue_ball != 0)
       ck_assert_int_eq(match.record.balls[0].state.label, CAROM_BALL_STATIONARY);
     else
@@ -44,10 +44,10 @@ static void play_some(carom_rules_kind kind, uint64_t seed, int strokes) {
     carom_cue cue = cue_of(kind);
     cue.phi = random_between(&r, 0.0, 360.0);
     cue.speed = random_between(&r, 0.5, 6.0);
-    ck_assert_int_eq(carom_match_stroke(&match, player, &cue, NULL, NULL), CAROM_OK);
+    expect_ok(carom_match_stroke(&match, player, &cue, NULL, NULL));
     keep();
   }
-  ck_assert_int_eq(carom_match_end(&match), CAROM_OK);
+  expect_ok(carom_match_end(&match));
   keep();
 }
 
@@ -95,7 +95,7 @@ TEST(cut_off_behind_a_shot) {
   play_some(CAROM_RULES_STRAIGHT, 3, 1);
   const char *shot = strstr(file, "{\"shot\"");
   const char *end = strchr(shot, '\n') + 1;
-  ck_assert_int_eq(read_all(file, (size_t)(end - file)), CAROM_OK);
+  expect_ok(read_all(file, (size_t)(end - file)));
   ck_assert(reader.size > 0 && memcmp(reader.text, end, (size_t)reader.size) == 0);
   ck_assert_int_eq(reader.record.player, match.record.player);
 }

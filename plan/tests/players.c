@@ -168,7 +168,7 @@ TEST(rating_by_games) {
   const int rows =
       read_rows("rating", sizeof known[0] / sizeof(double), &known[0].scores[0].against);
   for (int k = 0; k < rows; k++) {
-    ck_assert_int_eq(carom_rating_of(known[k].scores, 2, &rating), CAROM_OK);
+    expect_ok(carom_rating_of(known[k].scores, 2, &rating));
     ck_assert_double_eq_tol(rating.mean, known[k].mean, 2e-5);
     ck_assert_double_eq_tol(rating.low, known[k].low, 2e-5);
     ck_assert_double_eq_tol(rating.high, known[k].high, 2e-5);

@@ -219,7 +219,7 @@ static const char *read_place(carom_rack_kind rack, const char *text, int *ball,
   if (sscanf(text, "%d@%lf,%lf%n", ball, &place[0], &place[1], &size) < 3) {
     const int read = sscanf(text, "%d#%d,%lf,%lf%n", ball, &spot, &place[0], &place[1], &size);
     ck_assert_msg(read == 4, "no place: %s", text);
-    ck_assert_int_eq(carom_spot_of(rack, &table, spot, origin), CAROM_OK);
+    expect_ok(carom_spot_of(rack, &table, spot, origin));
   }
   place[0] += origin[0];
   place[1] += origin[1];
@@ -275,7 +275,7 @@ static void check_layout(const char *title, const carom_rules_about *about, int 
   ck_assert_msg(racked == expected->racked && front == expected->front,
                 "%s: %d racked, %d in front", title, racked, front);
   if (balls[0].state.label == CAROM_BALL_STATIONARY)
-    ck_assert_int_eq(carom_shot_check(&table, balls, count, NULL, NULL, NULL), CAROM_OK);
+    expect_ok(carom_shot_check(&table, balls, count, NULL, NULL, NULL));
 }
 
 /* Settles a turn on a layout: the turn and the state, and how balls lie then. */
@@ -285,8 +285,7 @@ static void check_settling(const char *title, const carom_rules_about *about,
   const int count = lay_out_row(about, row);
   carom_turn turn = {(carom_turn_outcome)row->turn, (carom_leave)row->leave, row->foul, row->spot,
                      0.0};
-  ck_assert_int_eq(carom_turn_settle(game_rules, &game_rules->state, &table, balls, count, &turn),
-                   CAROM_OK);
+  expect_ok(carom_turn_settle(game_rules, &game_rules->state, &table, balls, count, &turn));
   check_turn(title, game_rules, &turn, expected);
   check_layout(title, about, count, expected);
 }
@@ -472,9 +471,8 @@ static void begin_row(carom_rules_kind kind, char *text) {
     return;
   }
   const int count = lay_out_row(about, &row);
-  ck_assert_int_eq(carom_match_begin_at(&match, kind, &game_rules, &table, balls, count, NULL,
-                                        (carom_leave)row.leave, row.player),
-                   CAROM_OK);
+  expect_ok(carom_match_begin_at(&match, kind, &game_rules, &table, balls, count, NULL,
+                                 (carom_leave)row.leave, row.player));
   file_size = 0;
   keep();
 }
@@ -537,8 +535,7 @@ TEST(spotted_balls_touch) {
       double place[2];
       carom_spot_of(cases[k].rack, &table, cases[k].ball, place);
       put(cases[k].is_present, place[0] + 0.001 * n, place[1] + 0.0004 * n);
-      ck_assert_int_eq(carom_spot_ball_of(cases[k].rack, &table, balls, count, cases[k].ball),
-                       CAROM_OK);
+      expect_ok(carom_spot_ball_of(cases[k].rack, &table, balls, count, cases[k].ball));
       const double *a = balls[cases[k].ball].state.r, *b = balls[cases[k].is_present].state.r;
       const double gap = hypot(a[0] - b[0], a[1] - b[1]) - balls[0].kind.radius * 2.0;
       ck_assert_msg(cases[k].frozen ? gap >= 0.0 && gap < 1e-12
@@ -561,7 +558,7 @@ TEST(facts_of_a_split_hit) {
   cue.speed = 2.0;
   carom_facts facts;
   carom_shot shot = {.facts = &facts};
-  ck_assert_int_eq(carom_shoot(&table, balls, count, &cue, NULL, &shot), CAROM_OK);
+  expect_ok(carom_shoot(&table, balls, count, &cue, NULL, &shot));
   ck_assert_uint_eq(facts.first_set, 1U << 1 | 1U << 9);
   ck_assert_uint_eq(facts.frozen, 1U << 4);
   ck_assert((facts.order[0] == 1 && facts.order[1] == 9) ||
@@ -635,9 +632,8 @@ TEST(snookered_in_blackball) {
     carom_facts facts = facts_of(9, 1, 0, 0);
     const carom_shot shot = {.facts = &facts, .final = final};
     carom_ruling ruling;
-    ck_assert_int_eq(
-        carom_referee(&game_rules, &table, balls, count, 0, &shot, (carom_call){-1, -1}, &ruling),
-        CAROM_OK);
+    expect_ok(
+        carom_referee(&game_rules, &table, balls, count, 0, &shot, (carom_call){-1, -1}, &ruling));
     const bool seen = is_met_somewhere(count, 1) || is_met_somewhere(count, 2);
     ck_assert_msg(ruling.turn.outcome == CAROM_TURN_PASS && ruling.state.on == !seen,
                   "draw %d: on %d, seen %d", n, ruling.state.on, seen);

@@ -35,7 +35,7 @@ TEST(stopped_plans) {
         status = carom_plan_hand(&job, NULL, NULL, best, 2, &found);
       else
         status = carom_plan_try(&job, cues, 2, best);
-      ck_assert_int_eq(status, CAROM_OK);
+      expect_ok(status);
       if (stop == 0)
         break;
       ck_assert_int_le(judged, judged_most + 2);
@@ -77,22 +77,20 @@ TEST(plans_in_slices) {
     options.shots = kind < 2 ? 1500 : 300;
     make_memory();
     judged_most = -1;
-    ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, whole, 3, &found_whole)
-                          : carom_plan(&job, whole, 3, &found_whole),
-                     CAROM_OK);
-    for (size_t k = 0; k < sizeof slices / sizeof slices[0]; k++) {
+    expect_ok(hand ? carom_plan_hand(&job, NULL, NULL, whole, 3, &found_whole)
+                   : carom_plan(&job, whole, 3, &found_whole));
+    for (size_t k = 0; k < COUNT_OF(slices); k++) {
       options.slice = slices[k];
       options.threads = 0; /* the judge counts */
       judged = 0;
       int64_t calls = 1;
       memset(job.memory, 0x55, job.memory_size);
-      ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, best, 3, &found)
-                            : carom_plan(&job, best, 3, &found),
-                       CAROM_OK);
+      expect_ok(hand ? carom_plan_hand(&job, NULL, NULL, best, 3, &found)
+                     : carom_plan(&job, best, 3, &found));
       int64_t previous = judged;
       for (; found == 0; calls++) {
         previous = judged;
-        ck_assert_int_eq(carom_plan_continue(&job, best, 3, &found), CAROM_OK);
+        expect_ok(carom_plan_continue(&job, best, 3, &found));
         ck_assert_int_le(judged - previous, slices[k] + 1); /* one is not to play */
       }
       ck_assert_int_eq(found, found_whole);
@@ -101,7 +99,7 @@ TEST(plans_in_slices) {
 
       /* what has ended stays as it is */
       previous = judged;
-      ck_assert_int_eq(carom_plan_continue(&job, best, 3, &found), CAROM_OK);
+      expect_ok(carom_plan_continue(&job, best, 3, &found));
       ck_assert_mem_eq(best, whole, (size_t)found * sizeof *best);
       ck_assert_int_eq(judged, previous);
     }
@@ -127,11 +125,11 @@ TEST(places_in_slices) {
   options.slice = 100;
   make_memory();
   values = 0;
-  ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
+  expect_ok(carom_plan_hand(&job, NULL, NULL, &best, 1, &found));
   while (found == 0) {
     ck_assert_int_le(values, options.slice / 5);
     values = 0;
-    ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_OK);
+    expect_ok(carom_plan_continue(&job, &best, 1, &found));
   }
   edge_free(&memory);
 }
@@ -150,7 +148,7 @@ TEST(stopped_plans_are_worth_their_shots) {
     make_memory();
     carom_plan_stroke best[STOPS + 1], worth[STOPS + 1];
     int found;
-    ck_assert_int_eq(carom_plan(&job, best, 1, &found), CAROM_OK);
+    expect_ok(carom_plan(&job, best, 1, &found));
     edge_free(&memory);
     options.shots = 20000;
     options.stop = &stop;
@@ -159,12 +157,12 @@ TEST(stopped_plans_are_worth_their_shots) {
     for (int k = 0; k < STOPS; k++) {
       judged = stop = 0;
       judged_most = stops[k];
-      ck_assert_int_eq(carom_plan(&job, &best[k + 1], 1, &found), CAROM_OK);
+      expect_ok(carom_plan(&job, &best[k + 1], 1, &found));
       ck_assert(stop && found == 1 && best[k + 1].seen > 0);
     }
     stop = 0;
     options.seconds = 1e-9;
-    ck_assert_int_eq(carom_plan(&job, worth, 1, &found), CAROM_OK);
+    expect_ok(carom_plan(&job, worth, 1, &found));
     ck_assert(found == 1 && worth[0].seen == 0);
 
     /* fresh strokes */
@@ -173,7 +171,7 @@ TEST(stopped_plans_are_worth_their_shots) {
     carom_cue cues[STOPS + 1];
     for (int k = 0; k <= STOPS; k++)
       cues[k] = best[k].cue;
-    ck_assert_int_eq(carom_plan_try(&job, cues, STOPS + 1, worth), CAROM_OK);
+    expect_ok(carom_plan_try(&job, cues, STOPS + 1, worth));
     for (int k = 0; k < STOPS; k++)
       less[k] += (worth[0].value - worth[k + 1].value) / LAYOUTS;
     edge_free(&memory);
@@ -194,25 +192,25 @@ TEST(slices_of_other_plans) {
   memset(job.memory, 0, job.memory_size);
   ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_ERROR_STATE);
   stop = 0;
-  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  expect_ok(carom_plan(&job, &best, 1, &found));
   ck_assert_int_eq(found, 0);
   double *numbers[] = {&balls[8].state.r[0], &table.width, &cue.mass, &player.phi,
                        &options.chance_me};
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(numbers); k++) {
     const double original = *numbers[k];
     *numbers[k] += 1e-9;
     ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_ERROR_STATE);
     *numbers[k] = original;
   }
-  ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_OK);
+  expect_ok(carom_plan_continue(&job, &best, 1, &found));
   ck_assert_int_eq(found, 0);
   stop = 1;
-  ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_OK);
+  expect_ok(carom_plan_continue(&job, &best, 1, &found));
   ck_assert_int_eq(found, 1);
 
   /* a plan that was refused leaves nothing to go on with */
   stop = 0;
-  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  expect_ok(carom_plan(&job, &best, 1, &found));
   balls[8].state.v[0] = 1.0;
   ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_ERROR_IN_MOTION);
   balls[8].state.v[0] = 0.0;

@@ -75,8 +75,7 @@ static void make_balls(random_source *r, int layout, bool at_rail) {
   carom_status placed = at_rail ? CAROM_ERROR_BALLS : CAROM_OK;
   while (placed != CAROM_OK) {
     const double along = random_between(r, R, table.width - R);
-    placed = carom_place_ball(&table, balls, BALLS, 8, side ? R * (1.0 + gap) : along,
-                              side ? 2.0 * along : R * (1.0 + gap), NULL);
+    placed = place_ball(8, side ? R * (1.0 + gap) : along, side ? 2.0 * along : R * (1.0 + gap));
   }
 }
 
@@ -102,7 +101,7 @@ static found_ways find(int strokes) {
   edge space = edge_make(search.memory_size, true);
   carom_ways_result result;
   search.memory = space.memory;
-  ck_assert_int_eq(carom_ways(&search, room, MOST_WAYS, &result), CAROM_OK);
+  expect_ok(carom_ways(&search, room, MOST_WAYS, &result));
   ck_assert(result.left_out == 0);
   edge_free(&space);
   return (found_ways){room, result.ways};
@@ -203,8 +202,8 @@ static bool pots_at(double phi, int pocket) {
 TEST(a_window_across_zero_degrees) {
   const double side = 1e-3, y = 1.27;
   make_layout(1, 1);
-  ck_assert_int_eq(carom_place_ball(&table, balls, BALLS, 0, 0.4, y, NULL), CAROM_OK);
-  ck_assert_int_eq(carom_place_ball(&table, balls, BALLS, 1, 0.7, y, NULL), CAROM_OK);
+  expect_ok(place_ball(0, 0.4, y));
+  expect_ok(place_ball(1, 0.7, y));
   const found_ways s = find(1);
   const way *only = NULL;
   for (int n = 0; n < s.ways; n++) {
@@ -248,7 +247,7 @@ TEST(pots_at_rails) {
           w->kind == CAROM_PLAN_POT || (w->kind == CAROM_PLAN_KICK && w->parts == 1);
       if (!direct || w->phi[1] - w->phi[0] < 0.25 || !is_met_soon(&w->cue))
         continue;
-      ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &aimed), CAROM_OK);
+      expect_ok(carom_aim(&table, balls, BALLS, &shot_options, &pot, &aimed));
       ways++;
       found += pot.outcome == CAROM_POT_FALLS;
       if (pot.outcome != CAROM_POT_FALLS)

@@ -71,7 +71,7 @@ TEST(tables_are_checked) {
     carom_table sound, t;
     carom_table_fault fault;
     carom_table_make((carom_table_kind)kind, &sound);
-    ck_assert_int_eq(carom_table_check(&sound, R, &fault), CAROM_OK);
+    expect_ok(carom_table_check(&sound, R, &fault));
     ck_assert(fault.part.kind == CAROM_PART_NONE && fault.gap == 0.0);
     for (int part = 0; part < sound.rails + sound.jaws + sound.pockets; part++) {
       t = sound;
@@ -339,8 +339,8 @@ TEST(polygon_tables) {
     other[k] = pool[5 - k];
   carom_table t, turned;
   carom_table_fault fault;
-  ck_assert_int_eq(carom_table_polygon(pool, 6, 0.0366, r, R, &t, &fault), CAROM_OK);
-  ck_assert_int_eq(carom_table_polygon(other, 6, 0.0366, r, R, &turned, NULL), CAROM_OK);
+  expect_ok(carom_table_polygon(pool, 6, 0.0366, r, R, &t, &fault));
+  expect_ok(carom_table_polygon(other, 6, 0.0366, r, R, &turned, NULL));
   ck_assert_int_eq(t.rails + t.jaws + t.pockets, 6 + 12 + 6);
   ck_assert(t.width == 1.27 && t.length == 2.54 && t.ball_radius == R);
   for (int k = 0; k < 6; k++) {
@@ -359,7 +359,7 @@ TEST(polygon_tables) {
   /* no rail of a U has a name */
   carom_corner u[8];
   read_rows("wide_u", 3, &u[0].x);
-  ck_assert_int_eq(carom_table_polygon(u, 8, 0.0366, r, R, &t, &fault), CAROM_OK);
+  expect_ok(carom_table_polygon(u, 8, 0.0366, r, R, &t, &fault));
   for (int k = 0; k < t.rails; k++)
     ck_assert_ptr_null(carom_rail_name(&t, k));
 }
@@ -370,13 +370,13 @@ TEST(polygons_take_any_origin) {
   carom_corner square[4];
   read_rows("square", 3, &square[0].x);
   carom_table at_origin, t;
-  ck_assert_int_eq(carom_table_polygon(square, 4, 0.0366, 0.01, R, &at_origin, NULL), CAROM_OK);
+  expect_ok(carom_table_polygon(square, 4, 0.0366, 0.01, R, &at_origin, NULL));
   for (int k = 0; k < 3; k++) {
     carom_corner moved[4];
     for (int n = 0; n < 4; n++)
       moved[n] =
           (carom_corner){square[n].x + from[k][0], square[n].y + from[k][1], square[n].mouth};
-    ck_assert_int_eq(carom_table_polygon(moved, 4, 0.0366, 0.01, R, &t, NULL), CAROM_OK);
+    expect_ok(carom_table_polygon(moved, 4, 0.0366, 0.01, R, &t, NULL));
     ck_assert_mem_eq(&t, &at_origin, sizeof t);
   }
 }
@@ -397,8 +397,7 @@ TEST(places_on_odd_shapes) {
     carom_corner corners[9];
     carom_table t;
     const int count = read_rows(shapes[k].name, 3, &corners[0].x);
-    ck_assert_int_eq(carom_table_polygon(corners, count, 0.0365, shapes[k].jaw_radius, R, &t, NULL),
-                     CAROM_OK);
+    expect_ok(carom_table_polygon(corners, count, 0.0365, shapes[k].jaw_radius, R, &t, NULL));
     expect_flooded(&t, R, 0.01, shapes[k].inside);
   }
 }
@@ -485,7 +484,7 @@ TEST(turns_agree_with_steps) {
     /* half of them fly, with a constant spin */
     ball.state.v[2] = n % 2 * random_between(&r, -2.0, 2.0);
     carom_shot shot = {.events = events, .room = 200};
-    ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
+    expect_ok(carom_shoot(&t, &ball, 1, NULL, NULL, &shot));
     ck_assert_int_le(shot.count, 200);
     double at = 0.0;
     for (int64_t k = 0; k < shot.count; k++) {
@@ -515,11 +514,10 @@ static void same_frames(const carom_shot_ball *balls, const carom_shot *shot, co
                         size_t many, carom_frames *film) {
   carom_ball_state one[16], frames[3][16];
   double q[16][4], turned[3][16][4];
-  ck_assert_int_eq(carom_shot_frames(balls, 16, shot, times, many, film, frames[0], turned[0]),
-                   CAROM_OK);
+  expect_ok(carom_shot_frames(balls, 16, shot, times, many, film, frames[0], turned[0]));
   for (size_t k = 0; k < many; k++) {
-    ck_assert_int_eq(carom_shot_at(balls, 16, shot, times[k], one), CAROM_OK);
-    ck_assert_int_eq(carom_shot_orientation(balls, 16, shot, times[k], q), CAROM_OK);
+    expect_ok(carom_shot_at(balls, 16, shot, times[k], one));
+    expect_ok(carom_shot_orientation(balls, 16, shot, times[k], q));
     ck_assert(memcmp(one, frames[k], sizeof one) == 0 && memcmp(q, turned[k], sizeof q) == 0);
   }
 }
@@ -557,7 +555,7 @@ TEST(frames) {
         time -= 0.2;
       if (options.time_most > 0.0 && time > 1.4) {
         options.time_most = 0.0;
-        ck_assert_int_eq(carom_shot_continue(&t, balls, 16, &options, &shot), CAROM_OK);
+        expect_ok(carom_shot_continue(&t, balls, 16, &options, &shot));
       }
     }
     ck_assert(options.time_most == 0.0);
@@ -635,7 +633,7 @@ TEST(names) {
   ck_assert_str_eq(carom_rail_name(&t, 0), "left");
   ck_assert_str_eq(carom_rail_name(&t, 5), "foot");
   ck_assert_str_eq(carom_pocket_name(&t, 0), "head-left");
-  ck_assert_int_eq(carom_table_polygon(bent, 6, 0.0365, 0.02, 0.028575, &t, NULL), CAROM_OK);
+  expect_ok(carom_table_polygon(bent, 6, 0.0365, 0.02, 0.028575, &t, NULL));
   for (int k = 0; k < 6; k++) {
     ck_assert_ptr_null(carom_rail_name(&t, k));
     ck_assert_ptr_null(carom_pocket_name(&t, k));
@@ -659,7 +657,7 @@ TEST(marks_of_tables) {
   for (int kind = 0; kind < TABLES; kind++) {
     double head[2], foot[2];
     carom_table_make((carom_table_kind)kind, &t);
-    ck_assert_int_eq(carom_table_marks(&t, &marks), CAROM_OK);
+    expect_ok(carom_table_marks(&t, &marks));
     carom_spot_of(CAROM_RACK_EIGHTBALL, &t, 0, head);
     carom_spot_of(CAROM_RACK_EIGHTBALL, &t, 1, foot);
     ck_assert_mem_eq(marks.head_spot, head, sizeof head);

@@ -113,10 +113,10 @@ static void write_game(void) {
   game.options.time_most = 0.0;
   play(CAROM_RECORD_CONTINUE, CAROM_OK);
   ck_assert_int_eq(carom_record_hand(&game, 10), CAROM_ERROR_BALLS);
-  ck_assert_int_eq(carom_record_hand(&game, 0), CAROM_OK);
+  expect_ok(carom_record_hand(&game, 0));
   put(CAROM_RECORD_PLACE);
   ck_assert(strstr(text, "\n{\"place\":{\"ball\":0,\"hand\":1}}\n") != NULL);
-  ck_assert_int_eq(carom_record_place(&game, 0, 0.6, 0.5, NULL), CAROM_OK);
+  expect_ok(carom_record_place(&game, 0, 0.6, 0.5, NULL));
   put(CAROM_RECORD_PLACE);
   game.options.cushion_model = CAROM_SHOT_CUSHION_STRONGE;
   put(CAROM_RECORD_OPTIONS);
@@ -229,7 +229,7 @@ TEST(lines_that_are_refused) {
                carom_physics_revision() + 1);
   ck_assert_int_eq(replay(head, (size_t)n), CAROM_ERROR_REVISION);
   ck_assert_int_eq(again.revision, carom_physics_revision() + 1);
-  ck_assert_int_eq(carom_record_read(&again, "\n", 1), CAROM_OK);
+  expect_ok(carom_record_read(&again, "\n", 1));
   ck_assert_int_eq(carom_record_read(&again, "{", 1), CAROM_ERROR_RECORD);
   ck_assert_int_eq(carom_record_play(&again, CAROM_RECORD_SHOT, NULL), CAROM_ERROR_RECORD);
   ck_assert_uint_eq(carom_record_write(&game, CAROM_RECORD_SHOT, text, ROOM), 0);
@@ -343,15 +343,15 @@ TEST(no_stroke_while_balls_move) {
   for (int settled = 0; settled < 2; settled++) {
     again = game;
     if (settled)
-      ck_assert_int_eq(carom_record_settle(&again), CAROM_OK);
+      expect_ok(carom_record_settle(&again));
     ck_assert_int_eq(carom_record_play(&again, CAROM_RECORD_SHOT, NULL), CAROM_ERROR_RECORD);
     ck_assert_ptr_nonnull(strstr(again.fault, "balls move"));
     ck_assert_uint_eq(again.hash, game.hash);
     ck_assert_int_eq(again.pending, game.pending);
   }
   game.options.time_most = 0.0;
-  ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL), CAROM_OK);
-  ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_SHOT, NULL), CAROM_OK);
+  expect_ok(carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL));
+  expect_ok(carom_record_play(&game, CAROM_RECORD_SHOT, NULL));
 }
 
 /* A step of the hash of lines, as files.md has it. */
@@ -398,14 +398,14 @@ static void write_small_game(void) {
   game.before = game.after = 1;
   put(CAROM_RECORD_EVENT);
   game.options.time_most = 0.0;
-  ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL), CAROM_OK);
+  expect_ok(carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL));
   put(CAROM_RECORD_CONTINUE);
   game.standing = (carom_rules_state){.group = 1, .fouls = {0, 1}, .may = 2, .user = {0, 7}};
   game.rules = game.player = 1;
   put(CAROM_RECORD_GAME);
   carom_record_hand(&game, 0);
   put(CAROM_RECORD_PLACE);
-  ck_assert_int_eq(carom_record_place(&game, 0, 0.6, 0.5, NULL), CAROM_OK);
+  expect_ok(carom_record_place(&game, 0, 0.6, 0.5, NULL));
   put(CAROM_RECORD_PLACE);
   put(CAROM_RECORD_OPTIONS);
   put(CAROM_RECORD_END);

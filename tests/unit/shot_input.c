@@ -72,15 +72,15 @@ TEST(many_parts_and_few) {
     table.jaw[table.jaws++] = table.jaw[0];
   while (table.pockets < CAROM_POCKETS_MOST)
     table.pocket[table.pockets++] = table.pocket[0];
-  ck_assert_int_eq(carom_shot_check(&table, balls, count, &cue, &options, &where), CAROM_OK);
+  expect_ok(carom_shot_check(&table, balls, count, &cue, &options, &where));
   ck_assert_int_eq(where, -1);
-  ck_assert_int_eq(carom_shoot(&table, balls, count, &cue, &options, &shot), CAROM_OK);
-  ck_assert_int_eq(shoot_pair(), CAROM_OK);
+  expect_ok(carom_shoot(&table, balls, count, &cue, &options, &shot));
+  expect_ok(shoot_pair());
   table = (carom_table){
       .jaws = 2, .pockets = 1, .jaw = {{.centre = {-5.0, -5.0}, .radius = 0.1, .height = 0.036}}};
   table.jaw[1] = (carom_jaw){.centre = {5.0, 5.0}, .radius = 0.1, .height = 0.036};
   table.pocket[0] = (carom_pocket){{3.0, -2.0}, 1.0, 0.08};
-  ck_assert_int_eq(carom_shot_check(&table, balls, count, NULL, NULL, NULL), CAROM_OK);
+  expect_ok(carom_shot_check(&table, balls, count, NULL, NULL, NULL));
 }
 
 /* Room for events that are nowhere, and less than none; a batch without a part, without shots, and
@@ -106,7 +106,7 @@ TEST(calls) {
     ck_assert_int_eq(carom_shoot_batch(&job), CAROM_ERROR_NULL);
     ck_assert_int_eq(status, 77);
   }
-  ck_assert_int_eq(carom_shoot_batch(&(carom_shot_job){0}), CAROM_OK);
+  expect_ok(carom_shoot_batch(&(carom_shot_job){0}));
   ck_assert_ptr_nonnull(strstr(carom_status_string(CAROM_ERROR_BALLS), "count"));
   ck_assert_ptr_nonnull(strstr(carom_status_string(CAROM_ERROR_SHOT_OPTIONS), "reserved"));
 }
@@ -128,7 +128,7 @@ static carom_status state_at(double time, carom_ball_state *at) {
 static void expect_end(void) {
   carom_ball_state at[10], untouched[10];
   memset(untouched, 77, sizeof untouched);
-  ck_assert_int_eq(state_at(shot.time, at), CAROM_OK);
+  expect_ok(state_at(shot.time, at));
   for (int k = 0; k < count; k++)
     NEAR_EACH(final[k].r, at[k].r, 3, 1e-15);
   const double later[] = {nextafter(shot.time, INFINITY), shot.time + 1.0, INFINITY, NAN};
@@ -155,20 +155,20 @@ TEST(bounded_shots) {
   expect_end();
   /* a shot that came to rest is known for ever, but not at no time */
   shot.room = ROOM;
-  ck_assert_int_eq(shoot(NULL), CAROM_OK);
-  ck_assert_int_eq(state_at(INFINITY, at), CAROM_OK);
+  expect_ok(shoot(NULL));
+  expect_ok(state_at(INFINITY, at));
   ck_assert_mem_eq(at, final, sizeof at);
   ck_assert_int_eq(state_at(NAN, at), CAROM_ERROR_TIME);
   /* more events than there is room for: the state is known up to the last one kept */
   shot.room = 10;
-  ck_assert_int_eq(shoot(NULL), CAROM_OK);
+  expect_ok(shoot(NULL));
   ck_assert_int_gt(shot.count, 10);
-  ck_assert_int_eq(state_at(events[9].time, at), CAROM_OK);
+  expect_ok(state_at(events[9].time, at));
   ck_assert_int_eq(state_at(shot.time, at), CAROM_ERROR_EVENTS_LOST);
   cue.speed = 0.0;
-  ck_assert_int_eq(shoot(NULL), CAROM_OK);
+  expect_ok(shoot(NULL));
   ck_assert_int_eq(shot.count, 0);
-  ck_assert_int_eq(carom_shoot(&table, balls, 10, NULL, NULL, &shot), CAROM_OK);
+  expect_ok(carom_shoot(&table, balls, 10, NULL, NULL, &shot));
   ck_assert_int_eq(shot.count, 0);
 }
 
@@ -182,7 +182,7 @@ TEST(many_times) {
     set_up();
     for (int i = 0; i < 10; i++)
       balls[i].kind.drag = 0.02 * drag;
-    ck_assert_int_eq(shoot(NULL), CAROM_OK);
+    expect_ok(shoot(NULL));
     ck_assert(shot.count > 20 && shot.count < ROOM);
     for (int order = 0; order < 3; order++) { /* forwards with every event among them, backwards,
                                                  to and fro */
@@ -193,9 +193,9 @@ TEST(many_times) {
       }
       for (int k = 0; order == 0 && k < 20; k++)
         looks[10 * k] = events[k].time;
-      ck_assert_int_eq(states_at(looks, TIMES, together[0]), CAROM_OK);
+      expect_ok(states_at(looks, TIMES, together[0]));
       for (int k = 0; k < TIMES; k++) {
-        ck_assert_int_eq(state_at(looks[k], alone), CAROM_OK);
+        expect_ok(state_at(looks[k], alone));
         ck_assert_mem_eq(alone, together[k], sizeof alone);
       }
     }
@@ -203,10 +203,10 @@ TEST(many_times) {
     looks[1] = NAN;
     memset(together, 0, sizeof together);
     ck_assert_int_eq(states_at(looks, 2, together[0]), CAROM_ERROR_TIME);
-    ck_assert_int_eq(state_at(0.5, alone), CAROM_OK);
+    expect_ok(state_at(0.5, alone));
     ck_assert_mem_eq(alone, together[0], sizeof alone);
     ck_assert_double_eq(together[1][0].r[2], 0.0);
-    ck_assert_int_eq(states_at(NULL, 0, NULL), CAROM_OK);
+    expect_ok(states_at(NULL, 0, NULL));
     ck_assert_int_eq(states_at(NULL, 1, alone), CAROM_ERROR_NULL);
   }
 }
@@ -220,12 +220,12 @@ TEST(damaged_events) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &table);
   carom_shot_ball two[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_BILLIARD)}};
   two[1].kind = two[0].kind;
-  ck_assert_int_eq(carom_place_ball(&table, two, 2, 0, 0.7, 0.5, NULL), CAROM_OK);
-  ck_assert_int_eq(carom_place_ball(&table, two, 2, 1, 0.72, 1.5, NULL), CAROM_OK);
+  expect_ok(carom_place_ball(&table, two, 2, 0, 0.7, 0.5, NULL));
+  expect_ok(carom_place_ball(&table, two, 2, 1, 0.72, 1.5, NULL));
   carom_cue stroke = carom_cue_of(CAROM_GAME_BILLIARD);
   stroke.a = 0.2;
   shot.room = 64;
-  ck_assert_int_eq(carom_shoot(&table, two, 2, &stroke, NULL, &shot), CAROM_OK);
+  expect_ok(carom_shoot(&table, two, 2, &stroke, NULL, &shot));
   ck_assert_int_gt(shot.count, 6);
   const double seed[CAROM_CUE_NUMBERS] = {1.0};
   const carom_tangent_seeds by_speed = {.directions = 1, .cue = seed};
@@ -355,8 +355,8 @@ TEST(measures_of_tables) {
   random_source r = {test_seed()};
   carom_measures m;
   for (int size = CAROM_TABLE_POOL_7FT; size <= CAROM_TABLE_POOLTOOL; size++) {
-    ck_assert_int_eq(carom_table_measures((carom_table_kind)size, &m), CAROM_OK);
-    ck_assert_int_eq(carom_table_make((carom_table_kind)size, &table), CAROM_OK);
+    expect_ok(carom_table_measures((carom_table_kind)size, &m));
+    expect_ok(carom_table_make((carom_table_kind)size, &table));
     if (size == CAROM_TABLE_THREECUSHION)
       continue;
     measure(&m, size == CAROM_TABLE_POOLTOOL ? 0.07 : 1e-9);
