@@ -6,6 +6,7 @@
 #include "platform/enumerations.h"
 
 #include <check.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -44,6 +45,11 @@ int draws_of_each(int usual);
 typedef struct random_source {
   uint64_t state;
 } random_source;
+
+/* Of two places in the plane, m. */
+static inline double distance(const double a[2], const double b[2]) {
+  return hypot(a[0] - b[0], a[1] - b[1]);
+}
 
 double random_between(random_source *source, double low, double high);
 

@@ -537,7 +537,7 @@ TEST(spotted_balls_touch) {
       put(cases[k].is_present, place[0] + 0.001 * n, place[1] + 0.0004 * n);
       expect_ok(carom_spot_ball_of(cases[k].rack, &table, balls, count, cases[k].ball));
       const double *a = balls[cases[k].ball].state.r, *b = balls[cases[k].is_present].state.r;
-      const double gap = hypot(a[0] - b[0], a[1] - b[1]) - balls[0].kind.radius * 2.0;
+      const double gap = distance(a, b) - balls[0].kind.radius * 2.0;
       ck_assert_msg(cases[k].frozen ? gap >= 0.0 && gap < 1e-12
                                     : gap > CAROM_RULES_TOUCH && gap < 4.0 * CAROM_RULES_TOUCH,
                     "%d, %d: %g m", k, n, gap);

@@ -31,8 +31,7 @@ static carom_shot play(const carom_cue *cue_of_stroke) {
 static bool is_beside(int rail, int pocket) {
   const carom_rail *r = &table.rail[rail];
   const double *c = table.pocket[pocket].centre;
-  return fmin(hypot(r->p[0] - c[0], r->p[1] - c[1]), hypot(r->q[0] - c[0], r->q[1] - c[1])) <
-         3.0 * table.pocket[pocket].radius;
+  return fmin(distance(r->p, c), distance(r->q, c)) < 3.0 * table.pocket[pocket].radius;
 }
 
 /* The kind of the pot of a ball: who met it first, and what they met before and after. */

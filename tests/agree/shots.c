@@ -604,7 +604,7 @@ static uint32_t jumped_over(const carom_event *events, int64_t count, int cue,
     const double *to = e->before[side].r;
     for (int i = 0; from != NULL && from->label == CAROM_BALL_AIRBORNE && i < on_table; i++) {
       const double *at = lie[i].state.r, both = lie[i].kind.radius + lie[cue].kind.radius;
-      const double way = hypot(to[0] - from->r[0], to[1] - from->r[1]);
+      const double way = distance(to, from->r);
       const double x = (to[0] - from->r[0]) / way, y = (to[1] - from->r[1]) / way;
       const double along = (at[0] - from->r[0]) * x + (at[1] - from->r[1]) * y;
       const double apart = hypot(from->r[0] + along * x - at[0], from->r[1] + along * y - at[1]);
@@ -693,7 +693,7 @@ TEST(facts_of_shots) {
     const double reach = 2.0 * lie[0].kind.radius + CAROM_RULES_TOUCH;
     for (int i = 0; i < 16; i++) {
       const double *a = lie[i].state.r, *b = lie[cue.ball].state.r;
-      if (i != cue.ball && hypot(a[0] - b[0], a[1] - b[1]) < reach)
+      if (i != cue.ball && distance(a, b) < reach)
         found.frozen |= 1U << i;
     }
     add_places(&found, events, shot.count, lie);

@@ -78,8 +78,8 @@ static void check_batch(carom_precision precision, const void *in, const carom_o
       ((carom_impact *)to)->a.v[k % 2] += 0.01 * k;
   }
   memset(&out, 0xFF, sizeof out); /* NaN, as in rows in error */
-  memset(many, GUARD, sizeof many);
-  memset(statuses, GUARD, sizeof statuses);
+  FILL(many);
+  FILL(statuses);
   const carom_status status = carom_collide_one(precision, in, o, &out);
   for (int k = 0; k < 12; k++)
     if (isfinite(single ? (double)((float *)&out)[k] : ((double *)&out)[k]) != (status >= 0))
@@ -157,7 +157,7 @@ static void two_balls(void) {
   double seeds[26 * DIRECTIONS], tangent[12 * (DIRECTIONS + 1)];
   const int64_t directions = make_seeds(seeds, 26);
   int32_t flags = 0;
-  memset(tangent, GUARD, sizeof tangent);
+  FILL(tangent);
   const carom_status derived =
       carom_collide_tangent(&in, &o, directions, seeds, tangent, choice(8) == 0 ? NULL : &flags);
   check_tangent(tangent, 12, directions, derived, status,
@@ -225,7 +225,7 @@ static void cushion(void) {
           energy(in.mass, in.radius, in.v, in.w) * (1 + 1e-4))
     fail("the energy of a ball at a cushion rises");
   const carom_cushion_impact rows[3] = {in, in, in};
-  memset(many, GUARD, sizeof many);
+  FILL(many);
   carom_cushion_batch(rows, 3, &o, many, statuses);
   UNWRITTEN(many, 3, "a batch of impacts on a cushion writes beside its results");
   UNWRITTEN(statuses, 3, "a batch of impacts on a cushion writes beside its statuses");
@@ -242,7 +242,7 @@ static void cushion(void) {
   double seeds[15 * DIRECTIONS], tangent[6 * (DIRECTIONS + 1)];
   const int64_t directions = make_seeds(seeds, 15);
   int32_t flags = 0;
-  memset(tangent, GUARD, sizeof tangent);
+  FILL(tangent);
   const carom_status derived =
       carom_cushion_tangent(&in, &o, directions, seeds, tangent, choice(8) == 0 ? NULL : &flags);
   check_tangent(tangent, 6, directions, derived, status,

@@ -115,6 +115,7 @@ static inline bool moderate(const double *x, size_t n) {
 
 /* What results are surrounded with, and whether all of it is still there. */
 enum { GUARD = 0x55 };
+#define FILL(array) memset(array, GUARD, sizeof(array))
 static inline void unwritten(const void *from, size_t size, const char *what) {
   for (size_t k = 0; k < size; k++)
     if (((const unsigned char *)from)[k] != GUARD)

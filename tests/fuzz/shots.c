@@ -319,8 +319,8 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
                finals = (size_t)count * CAROM_STATE_NUMBERS * each;
 
   /* The first shot by itself. */
-  memset(final_of, GUARD, sizeof final_of);
-  memset(reach_of, GUARD, sizeof reach_of);
+  FILL(final_of);
+  FILL(reach_of);
   int32_t flags[EVENTS];
   double times[2] = {number(0, 5), 0};
   times[1] = choice(2) ? times[0] : number(0, 5);
@@ -395,7 +395,7 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
   /* All as a batch. */
   carom_tangent tangents[SHOTS];
   int8_t statuses[SHOTS + 1];
-  memset(statuses, GUARD, sizeof statuses);
+  FILL(statuses);
   for (int k = 0; k < SHOTS; k++)
     tangents[k] = (carom_tangent){.final = final_of[k]};
   const carom_tangent_job derivatives = {
@@ -417,7 +417,7 @@ static void check_damage(const carom_shot *shot, const carom_shot_options *on) {
   enum { SEALED = 2, WORDS = 2960 }; /* of those that are sealed, without the last */
   carom_shot again = *shot;
   memcpy(&damaged, shot->state, sizeof damaged);
-  memset(events, GUARD, sizeof events);
+  FILL(events);
   again.events = events;
   again.brief = NULL;
   again.room = EVENTS;
@@ -442,6 +442,11 @@ static void check_damage(const carom_shot *shot, const carom_shot_options *on) {
   UNWRITTEN(events, EVENTS, "a shot with a damaged state writes beside its events");
 }
 
+static bool has_same_end(const carom_shot *a, const carom_shot *b) {
+  return a->count == b->count && memcmp(&a->time, &b->time, sizeof a->time) == 0 &&
+         memcmp(a->final, b->final, (size_t)count * sizeof *a->final) == 0;
+}
+
 /* Plays the rest of a shot that was stopped, and the whole at once. */
 static void check_parts(carom_shot *shot, const carom_shot *room) {
   carom_shot_options on = options;
@@ -461,9 +466,7 @@ static void check_parts(carom_shot *shot, const carom_shot *room) {
   if (then == CAROM_ERROR_STATE || shot->count < before)
     fail("carom_shot_continue refuses the state of a shot that was stopped");
   const carom_status at_once = carom_shoot(&table, balls, count, &cues[0], &on, &whole);
-  if (at_once != then || whole.count != shot->count ||
-      memcmp(&whole.time, &shot->time, sizeof whole.time) != 0 ||
-      memcmp(whole.final, shot->final, (size_t)count * sizeof *whole.final) != 0)
+  if (at_once != then || !has_same_end(&whole, shot))
     fail("a shot in parts differs from the whole");
   const int64_t kept = shot->room < shot->count ? shot->room : shot->count;
   if (kept > 0 && memcmp(whole.events, shot->events, (size_t)kept * sizeof *whole.events) != 0)
@@ -480,9 +483,9 @@ static void shots(void) {
 
   /* One shot. */
   const int room = choice(2) ? EVENTS : choice(EVENTS + 1);
-  memset(events, GUARD, sizeof events);
-  memset(final, GUARD, sizeof final);
-  memset(brief, GUARD, sizeof brief);
+  FILL(events);
+  FILL(final);
+  FILL(brief);
   carom_shot one = {.events = events[SHOTS], .room = room, .final = final[SHOTS], .state = &state};
   one.brief = choice(4) == 0 ? brief : NULL;
   const carom_status status = carom_shoot(&table, balls, count, &cues[0], &options, &one);
@@ -490,10 +493,7 @@ static void shots(void) {
       status >= 0 || status == CAROM_ERROR_TOO_MANY_EVENTS || status == CAROM_ERROR_TOO_LONG;
   const int64_t kept = one.count < room ? one.count : room;
   for (int k = 0; k < count && played; k++)
-    for (int c = 0; c < 3; c++)
-      if (!isfinite(final[SHOTS][k].r[c]) || !isfinite(final[SHOTS][k].v[c]) ||
-          !isfinite(final[SHOTS][k].w[c]))
-        fail("the end of a shot is not finite");
+    expect(final[SHOTS][k].r, 9, true, "the end of a shot is not finite");
   if (played && (!isfinite(one.time) || one.count < 0))
     fail("the time of a shot is not finite");
   for (int64_t k = 1; k < kept; k++)
@@ -529,7 +529,7 @@ static void shots(void) {
   /* A batch of it and two others. */
   carom_shot many[SHOTS];
   int8_t statuses[SHOTS + 1];
-  memset(statuses, GUARD, sizeof statuses);
+  FILL(statuses);
   for (int k = 0; k < SHOTS; k++)
     many[k] = (carom_shot){.events = events[k], .room = room, .final = final[k]};
   carom_shot_job job = {.table = &table, .balls = balls, .cues = cues, .count = count, .n = SHOTS};
@@ -539,16 +539,13 @@ static void shots(void) {
   job.shots = many;
   job.status = statuses;
   carom_shoot_batch(&job);
-  const carom_shot single = one;
   for (int k = 0; k < SHOTS; k++) {
     const int64_t told = many[k].count < room ? many[k].count : room;
     UNWRITTEN(events[k], told, "the events of a batch beside their place");
     UNWRITTEN(final[k], count, "the ends of a batch beside their place");
   }
   UNWRITTEN(statuses, SHOTS, "a batch of shots writes beside its statuses");
-  if (played && (statuses[0] != (int8_t)status || many[0].count != single.count ||
-                 memcmp(&many[0].time, &single.time, sizeof single.time) != 0 ||
-                 memcmp(final[0], final[SHOTS], (size_t)count * sizeof **final) != 0 ||
+  if (played && (statuses[0] != (int8_t)status || !has_same_end(&many[0], &one) ||
                  memcmp(events[0], events[SHOTS], (size_t)kept * sizeof **events) != 0))
     fail("a batch of shots differs from a shot");
 

@@ -88,7 +88,7 @@ TEST(tables_are_checked) {
       /* a long rail is a hole as wide as itself but for its jaws */
       if (part < sound.rails) {
         const carom_rail *rail = &sound.rail[part];
-        const double length = hypot(rail->q[0] - rail->p[0], rail->q[1] - rail->p[1]);
+        const double length = distance(rail->q, rail->p);
         const double off = hypot(fault.place[0] - 0.5 * (rail->p[0] + rail->q[0]),
                                  fault.place[1] - 0.5 * (rail->p[1] + rail->q[1]));
         if (length > 0.3) {
@@ -346,14 +346,12 @@ TEST(polygon_tables) {
   for (int k = 0; k < 6; k++) {
     const double *before = t.jaw[2 * k].centre, *after = t.jaw[2 * k + 1].centre;
     const carom_rail *one = &t.rail[(k + 5) % 6], *two = &t.rail[k];
-    ck_assert_double_eq_tol(hypot(after[0] - before[0], after[1] - before[1]),
-                            pool[k].mouth + 2.0 * r, 1e-12);
-    ck_assert_double_eq_tol(hypot(after[0] - two->p[0], after[1] - two->p[1]), r, 1e-12);
-    ck_assert_double_eq_tol(hypot(before[0] - one->q[0], before[1] - one->q[1]), r, 1e-12);
+    ck_assert_double_eq_tol(distance(after, before), pool[k].mouth + 2.0 * r, 1e-12);
+    ck_assert_double_eq_tol(distance(after, two->p), r, 1e-12);
+    ck_assert_double_eq_tol(distance(before, one->q), r, 1e-12);
     bool found = false;
     for (int i = 0; i < 6; i++)
-      found |= hypot(t.pocket[k].centre[0] - turned.pocket[i].centre[0],
-                     t.pocket[k].centre[1] - turned.pocket[i].centre[1]) < 1e-12;
+      found |= distance(t.pocket[k].centre, turned.pocket[i].centre) < 1e-12;
     ck_assert(found);
   }
   /* no rail of a U has a name */
