@@ -4,6 +4,8 @@
 #ifndef CAROM_FUZZ_DRAWS_H
 #define CAROM_FUZZ_DRAWS_H
 
+#include "carom_tangent.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -62,6 +64,12 @@ static inline double number(double low, double high) {
     x = 0.5 * (low + high);
   last = x;
   return x;
+}
+
+/* A number of directions of derivatives, up to `most`: rarely one that is refused. */
+static inline int64_t directions(int most) {
+  static const int64_t refused[] = {0, -1, CAROM_DIRECTIONS_MOST + 1, INT64_MAX, INT64_MIN};
+  return choice(32) == 31 ? refused[choice(5)] : 1 + choice(most);
 }
 
 /* The next draws are made of these bytes. */

@@ -283,8 +283,7 @@ static double cue_seed[CAROM_CUE_NUMBERS * DIRECTIONS],
 
 /* A few seeds that are not 0; `wild` becomes whether one of them is beyond 1e4. */
 static carom_tangent_seeds make_tangent_seeds(bool *wild) {
-  static const int64_t refused[] = {0, -1, CAROM_DIRECTIONS_MOST + 1, INT64_MAX, INT64_MIN};
-  const int64_t m = choice(32) == 31 ? refused[choice(5)] : 1 + choice(DIRECTIONS);
+  const int64_t m = directions(DIRECTIONS);
   struct {
     double *seeds;
     int size;
