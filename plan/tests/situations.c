@@ -19,24 +19,26 @@ typedef struct situation {
   const char *put, *place;
 } situation;
 
-/* Words in place of numbers: a choice is the negative of its carom_call, a right a bit of
- * carom_choice. */
-static const char *const choices[] = {"",           "",     "push", "pass", "rack",
-                                      "other_rack", "stay", "spot", NULL};
-static const char *const rights[] = {"pass",       "push", "free_ball", "place", "rack",
-                                     "other_rack", "stay", "spot",      NULL};
-static const char *const turns[] = {"keep", "pass", "win", "lose", "draw", NULL};
-static const char *const leaves[] = {"after", "before", "hand", "kitchen", "d", "baulk", NULL};
-static const char *const fouls[] = {"none",  "cue_ball", "no_ball", "first",      "off",  "cushion",
-                                    "break", "other",    "pot",     "double_hit", "jump", NULL};
-static const char *const phases[] = {"none", "stroke", "place", "moving", "over", NULL};
+/* Words of the library in place of numbers; those of choices are places of their bits. */
+enum words {
+  NO_WORDS,
+  TURNS = CAROM_GAME_WORDS_TURN + 1,
+  LEAVES = CAROM_GAME_WORDS_LEAVE + 1,
+  FOULS = CAROM_GAME_WORDS_FOUL + 1,
+  CHOICES = CAROM_GAME_WORDS_CHOICE + 1,
+  PHASES = CAROM_GAME_WORDS_PHASE + 1
+};
+
+static const char *word_of(enum words words, int k) {
+  return carom_game_word((carom_game_words)(words - 1), words == CHOICES ? 1 << k : k);
+}
 
 typedef enum form { NUMBER, PAIR, SET, WORDS_FORM } form;
 typedef struct member {
   const char *name;
   size_t offset;
   form form;
-  const char *const *words;
+  enum words words;
 } member;
 
 /* A member of a situation, of its state, and of its facts: its form, and its words if it has some.
@@ -54,7 +56,7 @@ static const member members[] = {
     OF_STATE(score, PAIR),
     OF_STATE(lost, PAIR),
     OF_STATE(pocket, PAIR),
-    OF_STATE(may, SET, rights),
+    OF_STATE(may, SET, CHOICES),
     OF_STATE(on, NUMBER),
     OF_STATE(free_ball, NUMBER),
     OF_STATE(target, NUMBER),
@@ -84,10 +86,10 @@ static const member members[] = {
     MEMBER(down[4], SET),
     MEMBER(down[5], SET),
     MEMBER(call, PAIR),
-    MEMBER(choice, NUMBER, choices),
-    MEMBER(turn, NUMBER, turns),
-    MEMBER(leave, NUMBER, leaves),
-    MEMBER(foul, NUMBER, fouls),
+    MEMBER(choice, NUMBER, CHOICES),
+    MEMBER(turn, NUMBER, TURNS),
+    MEMBER(leave, NUMBER, LEAVES),
+    MEMBER(foul, NUMBER, FOULS),
     MEMBER(points, NUMBER),
     MEMBER(spot, SET),
     MEMBER(lie, SET),
@@ -99,7 +101,7 @@ static const member members[] = {
     MEMBER(racked, NUMBER),
     MEMBER(front, NUMBER),
     MEMBER(player, NUMBER),
-    MEMBER(phase, NUMBER, phases),
+    MEMBER(phase, NUMBER, PHASES),
     MEMBER(cue_ball, NUMBER),
     MEMBER(winner, NUMBER),
     MEMBER(rulings, NUMBER),
@@ -109,14 +111,14 @@ enum { MEMBERS = sizeof members / sizeof members[0] };
 enum { LINE = 1000 };
 
 /* A number, or the place of a word; *text goes behind it. */
-static int number_at(const char **text, const char *const *words) {
+static int number_at(const char **text, enum words words) {
   const size_t length = strcspn(*text, ",- ");
   const char *begin = *text;
   char *end;
   const int number = (int)strtol(begin, &end, 10);
   *text = end > begin ? end : begin + length;
-  for (int k = 0; words != NULL && words[k] != NULL; k++)
-    if (strlen(words[k]) == length && strncmp(words[k], begin, length) == 0)
+  for (int k = 0; words != NO_WORDS && word_of(words, k) != NULL; k++)
+    if (strlen(word_of(words, k)) == length && strncmp(word_of(words, k), begin, length) == 0)
       return k;
   ck_assert_msg(end > begin, "no word of situations: %s", begin);
   return number;
@@ -189,8 +191,9 @@ static void check_turn(const char *title, const carom_plan_rules *game_rules,
   ck_assert_msg((int)turn->outcome == expected->turn && (int)turn->leave == expected->leave &&
                     turn->foul == expected->foul && turn->spot == expected->spot &&
                     turn->points == (double)expected->points,
-                "%s: turn %s, leave %s, foul %s, spot %x, points %g", title, turns[turn->outcome],
-                leaves[turn->leave], fouls[turn->foul], turn->spot, turn->points);
+                "%s: turn %s, leave %s, foul %s, spot %x, points %g", title,
+                word_of(TURNS, (int)turn->outcome), word_of(LEAVES, (int)turn->leave),
+                word_of(FOULS, turn->foul), turn->spot, turn->points);
   for (int k = 0; k < MEMBERS && members[k].offset < sizeof game_rules->state; k++) {
     const int32_t *is = (const int32_t *)((const char *)&game_rules->state + members[k].offset);
     const int32_t *must = (const int32_t *)((const char *)&expected->state + members[k].offset);
@@ -204,8 +207,10 @@ static void check_turn(const char *title, const carom_plan_rules *game_rules,
 static void check_row(const char *title, carom_plan_rules *game_rules, const situation *row,
                       const situation *expected) {
   const carom_facts facts = facts_in(row);
-  const carom_call call =
-      row->choice > 0 ? (carom_call){-row->choice, -1} : (carom_call){row->call[0], row->call[1]};
+  static const int calls[] = {
+      CAROM_CALL_PASS,       CAROM_CALL_PUSH, NONE,           NONE, CAROM_CALL_RACK,
+      CAROM_CALL_OTHER_RACK, CAROM_CALL_STAY, CAROM_CALL_SPOT};
+  const carom_call call = {row->choice < 0 ? row->call[0] : calls[row->choice], row->call[1]};
   const carom_turn turn = game_rules->judge(&game_rules->state, row->in_play, 0, &facts, call);
   check_turn(title, game_rules, &turn, expected);
 }
@@ -358,7 +363,8 @@ TEST(situations) {
     situation row = {.state = game_rules.state,
                      .in_play = (UINT32_C(1) << carom_rack_size((carom_rack_kind)about->rack)) - 1,
                      .facts.first = {-1, -1},
-                     .call = {-1, -1}};
+                     .call = {-1, -1},
+                     .choice = -1};
     situation expected = {.state = game_rules.state, .turn = -1};
     read_situation(column[2], &row);
     read_situation(column[3], &expected);
@@ -413,7 +419,7 @@ static carom_status do_act(const char *act) {
   if (strncmp(verb, " stroke", 7) == 0)
     return stroke(act, player);
   if (strncmp(verb, " choose", 7) == 0)
-    return carom_match_choose(&match, player, (carom_choice)(1 << number_at(&choice, rights)));
+    return carom_match_choose(&match, player, (carom_choice)(1 << number_at(&choice, CHOICES)));
   if (strncmp(verb, " call", 5) == 0)
     return carom_match_call(&match, player, call);
   if (strncmp(verb, " continue", 9) == 0)
