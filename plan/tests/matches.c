@@ -139,8 +139,7 @@ static carom_status act(random_source *r, carom_rules_kind kind) {
 TEST(random_matches) {
   const uint64_t seed = test_seed();
   const long most = draws_of_each(4000);
-  long acts = 0, accepted = 0, over = 0, drawn = 0, games = 0,
-       refusals[CAROM_REFUSED_LINE + 1] = {0};
+  long acts = 0, over = 0, refusals[CAROM_REFUSED_LINE + 1] = {0};
   printf("random matches: seed %llu\n", (unsigned long long)seed);
   static carom_match saved;
   int kinds = 0;
@@ -151,7 +150,6 @@ TEST(random_matches) {
     const carom_rules_kind kind = (carom_rules_kind)(game % (uint64_t)kinds);
     const bool is_short = game / (uint64_t)kinds % 2 != 0 && knows_equal_innings(kind);
     begin(kind, seed + game, (int)(game & 1), is_short);
-    games++;
     int idle = 0;
     for (int n = 0; n < 120 && match.phase != CAROM_MATCH_OVER; n++, acts++) {
       saved = match;
@@ -163,7 +161,6 @@ TEST(random_matches) {
         ck_assert_msg(match.size > 0, "seed %llu: no line", (unsigned long long)(seed + game));
         ck_assert(match.phase == CAROM_MATCH_OVER || match.on != 0);
         keep();
-        accepted++;
         idle = 0;
         continue;
       }
@@ -178,14 +175,9 @@ TEST(random_matches) {
                     match.fault);
     }
     over += match.phase == CAROM_MATCH_OVER;
-    drawn += match.winner == CAROM_DRAWN;
-    ck_assert_msg(read_all(file, file_size) == CAROM_OK, "seed %llu, game %d: %s",
-                  (unsigned long long)(seed + game), (int)kind, reader.fault);
-    ck_assert_int_eq(reader.size, 0);
-    ck_assert_uint_eq(reader.record.hash, match.record.hash);
+    check_recording(carom_rules_about_of(kind)->name);
   }
-  printf("%ld acts, %ld taken, %ld games, %ld of them over, %ld drawn; refused:\n", acts, accepted,
-         games, over, drawn);
+  printf("%ld acts, %ld games are over; refused:\n", acts, over);
   for (int why = 1; why <= CAROM_REFUSED_LINE; why++)
     printf("%s %ld\n", carom_refusal_name(why), refusals[why]);
 }

@@ -92,7 +92,6 @@ TEST(kinds_and_sticks) {
   int of_kind[KINDS] = {0}, raised = 0, seldom = 0;
   for (int k = 0; k < 24; k++) {
     carom_plan_stroke best[5];
-    int found;
     make_layout((uint64_t)k + 1, 10);
     if (k % 2 == 0)
       rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
@@ -100,8 +99,7 @@ TEST(kinds_and_sticks) {
       place_ball(0, 0.4, 0.03);
     if (k % 3 == 1)
       place_ball(7, balls[0].state.r[0] + 0.07, balls[0].state.r[1] - 0.04);
-    make_memory();
-    expect_ok(carom_plan(&job, best, 5, &found));
+    const int found = plan(false, best, 5);
     for (int n = 0; n < found; n++) {
       const carom_plan_stroke *c = &best[n];
       carom_facts facts;
@@ -120,7 +118,6 @@ TEST(kinds_and_sticks) {
                     "layout %d, choice %d: raised by %g, not %g", k, n, c->cue.theta, least);
       raised += c->cue.theta > 5.0;
     }
-    edge_free(&memory);
   }
   for (int kind = 0; kind < KINDS; kind++)
     printf("kind %d: %d\n", kind, of_kind[kind]);
@@ -137,17 +134,15 @@ TEST(a_level_cue) {
   int raised = 0;
   for (int k = 0; k < 8; k++) {
     carom_plan_stroke best[5];
-    int found;
     make_layout((uint64_t)k + 1, 10);
     place_ball(0, 0.4, 0.03);
     for (options.level = 0; options.level < 2; options.level++) {
-      make_memory();
-      ck_assert(carom_plan(&job, best, 5, &found) == CAROM_OK && found > 0);
+      const int found = plan(false, best, 5);
+      ck_assert_int_gt(found, 0);
       for (int n = 0; n < found; n++) {
         raised += best[n].cue.theta > 1.0;
         ck_assert(best[n].cue.theta == 0.0 || !options.level);
       }
-      edge_free(&memory);
     }
     options.level = 0;
   }

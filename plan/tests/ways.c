@@ -9,13 +9,9 @@ static const double speed[SPEEDS] = {1.0, 1.5, 2.5};
 enum { MOST_WAYS = 20000 };
 typedef carom_shot_way way;
 
-/* What was found. */
-typedef struct found_ways {
-  const way *way;
-  int64_t ways;
-} found_ways;
-
-static way room[MOST_WAYS];
+/* What was found, and how many. */
+static way found[MOST_WAYS];
+static int64_t ways;
 static carom_cue stroke[SPEEDS];
 
 /* Plays a stroke from the layout; its events and facts are kept until the next one. */
@@ -79,7 +75,7 @@ static void make_balls(random_source *r, int layout, bool at_rail) {
 }
 
 /* Finds the ways of the layout by the first `strokes` speeds. */
-static found_ways find(int strokes) {
+static void find(int strokes) {
   const carom_player exact = carom_player_of(1.0);
   for (int k = 0; k < SPEEDS; k++) {
     stroke[k] = cue;
@@ -100,14 +96,14 @@ static found_ways find(int strokes) {
   edge space = edge_make(search.memory_size, true);
   carom_ways_result result;
   search.memory = space.memory;
-  expect_ok(carom_ways(&search, room, MOST_WAYS, &result));
+  expect_ok(carom_ways(&search, found, MOST_WAYS, &result));
   ck_assert(result.left_out == 0);
   edge_free(&space);
-  return (found_ways){room, result.ways};
+  ways = result.ways;
 }
 
 /* Sweeps the directions of a stroke for a ball: counts the windows, and those that are listed. */
-static void compare(const found_ways *s, int number, int ball, int *windows, int *listed) {
+static void compare(int number, int ball, int *windows, int *listed) {
   int pocket[SWEPT + 1], kind[SWEPT + 1], run = 0;
   pocket[SWEPT] = -1;
   for (int k = 0; k < SWEPT; k++) {
@@ -127,8 +123,8 @@ static void compare(const found_ways *s, int number, int ball, int *windows, int
       continue;
     const double high = 360.0 / SWEPT * k, low = high - 360.0 / SWEPT * run;
     bool outcome = false;
-    for (int n = 0; n < s->ways; n++) {
-      const way *w = &s->way[n];
+    for (int n = 0; n < ways; n++) {
+      const way *w = &found[n];
       for (double turn = -360.0; turn <= 360.0; turn += 360.0)
         outcome |= w->ball == ball && w->pocket == pocket[k] && w->stroke == number &&
                    w->kind == kind[k] && w->phi[0] + turn <= high && w->phi[1] + turn >= low;
@@ -148,10 +144,10 @@ TEST(every_window_is_a_way) {
   int windows = 0, listed = 0;
   for (int layout = 0; layout < layouts; layout++) {
     make_balls(&r, layout, layout % 2);
-    const found_ways s = find(SPEEDS);
+    find(SPEEDS);
     for (int ball = 1; ball < BALLS; ball++)
       for (int k = 0; k < SPEEDS && balls[ball].state.label != CAROM_BALL_POCKETED; k++)
-        compare(&s, k, ball, &windows, &listed);
+        compare(k, ball, &windows, &listed);
   }
   printf("%d of %d windows are listed\n", listed, windows);
   ck_assert(windows > layouts && listed == windows);
@@ -161,12 +157,12 @@ TEST(every_window_is_a_way) {
  * reads brief events, say the same, as does the reading of this test. */
 TEST(a_pot_has_one_name) {
   random_source r = {test_seed()};
-  int of_kind[CAROM_PLAN_KISS + 1] = {0}, ways = 0;
+  int of_kind[CAROM_PLAN_KISS + 1] = {0}, all = 0;
   for (int layout = 0; layout < draws_of_each(FEWER(12)); layout++) {
     make_balls(&r, layout, false);
-    const found_ways s = find(SPEEDS);
-    for (int n = 0; n < s.ways; n++) {
-      const way *w = &s.way[n];
+    find(SPEEDS);
+    for (int n = 0; n < ways; n++) {
+      const way *w = &found[n];
       const carom_shot shot = play(&w->cue);
       const int planned = carom_pot_kind(&table, &shot, 0, w->ball, w->pocket);
       const int read = kind_of(&shot, w->ball, w->pocket);
@@ -176,10 +172,10 @@ TEST(a_pot_has_one_name) {
                     carom_plan_kind_name((carom_plan_kind)planned),
                     carom_plan_kind_name((carom_plan_kind)read));
       of_kind[w->kind]++;
-      ways++;
+      all++;
     }
   }
-  printf("%d ways", ways);
+  printf("%d ways", all);
   for (int kind = 0; kind <= CAROM_PLAN_KISS; kind++)
     if (of_kind[kind] > 0)
       printf(", %s %d", carom_plan_kind_name((carom_plan_kind)kind), of_kind[kind]);
@@ -203,10 +199,10 @@ TEST(a_window_across_zero_degrees) {
   make_layout(1, 1);
   expect_ok(place_ball(0, 0.4, y));
   expect_ok(place_ball(1, 0.7, y));
-  const found_ways s = find(1);
+  find(1);
   const way *only = NULL;
-  for (int n = 0; n < s.ways; n++) {
-    const way *w = &s.way[n];
+  for (int n = 0; n < ways; n++) {
+    const way *w = &found[n];
     if (w->ball != 1 || w->kind != CAROM_PLAN_POT || fabs(remainder(w->cue.phi, 360.0)) > 20.0)
       continue;
     ck_assert_msg(only == NULL, "the window is listed twice");
@@ -234,12 +230,12 @@ static bool is_met_soon(const carom_cue *aimed) {
  * or right off a rail, and touches at most rails beside its pocket, but for one in 30. */
 TEST(pots_at_rails) {
   random_source r = {test_seed()};
-  int ways = 0, found = 0;
+  int pots = 0, falls = 0;
   for (int layout = 0; layout < draws_of_each(FEWER(60)); layout++) {
     make_balls(&r, layout, true);
-    const found_ways s = find(1);
-    for (int n = 0; n < s.ways; n++) {
-      const way *w = &s.way[n];
+    find(1);
+    for (int n = 0; n < ways; n++) {
+      const way *w = &found[n];
       carom_pot pot = {.ball = 8, .pocket = w->pocket};
       carom_cue aimed = stroke[0];
       const bool direct =
@@ -247,13 +243,13 @@ TEST(pots_at_rails) {
       if (!direct || w->phi[1] - w->phi[0] < 0.25 || !is_met_soon(&w->cue))
         continue;
       expect_ok(carom_aim(&table, balls, BALLS, &shot_options, &pot, &aimed));
-      ways++;
-      found += pot.outcome == CAROM_POT_FALLS;
+      pots++;
+      falls += pot.outcome == CAROM_POT_FALLS;
       if (pot.outcome != CAROM_POT_FALLS)
         printf("layout %d: pocket %d at %.1f degrees is not aimed at\n", layout, w->pocket,
                w->cue.phi);
     }
   }
-  printf("%d of %d pots of balls near a rail are aimed at\n", found, ways);
-  ck_assert(ways > 5 && found >= ways - 1 - ways / 30);
+  printf("%d of %d pots of balls near a rail are aimed at\n", falls, pots);
+  ck_assert(pots > 5 && falls >= pots - 1 - pots / 30);
 }

@@ -183,38 +183,20 @@ TEST(one_for_all) {
     free_results(play_both(&jobs[k], k < 2 ? SHOTS : SHOTS / 3));
 }
 
-/* Whether all bytes are as they were set before the shot. */
-static bool is_untouched(const void *from, const void *end) {
-  const unsigned char *byte = from;
-  while (byte != end && *byte == 0x55)
-    byte++;
-  return byte == end;
-}
-
-/* Brief events tell what full ones do, in place of them and beside them, and no more of them
- * than there is room for. */
+/* Brief events in place of full ones tell what those do; the fuzzer has both beside each other, and
+ * less room. States at a time need the full ones. */
 TEST(brief_events) {
-  enum { FEW = 7 };
-  static carom_brief_event in_place[ROOM], beside[ROOM];
-  static carom_event full[ROOM], others[ROOM];
+  static carom_brief_event brief[ROOM];
+  static carom_event full[ROOM];
   make_breaks();
-  carom_shot a = {.events = full, .room = ROOM}, b = {.brief = in_place, .room = ROOM};
-  carom_shot c = {.events = others, .brief = beside, .room = FEW};
-  memset(beside, 0x55, sizeof beside);
-  memset(others, 0x55, sizeof others);
-  carom_shot *const each[] = {&a, &b, &c};
-  for (int k = 0; k < 3; k++)
-    expect_ok(shoot(&cues[0], NULL, each[k]));
-  ck_assert(a.count > FEW && a.count <= ROOM && a.count == b.count && a.count == c.count);
+  carom_shot a = {.events = full, .room = ROOM}, b = {.brief = brief, .room = ROOM};
+  expect_ok(shoot(&cues[0], NULL, &a));
+  expect_ok(shoot(&cues[0], NULL, &b));
+  ck_assert(a.count > 0 && a.count <= ROOM && a.count == b.count);
   for (int64_t k = 0; k < a.count; k++) {
     const carom_brief_event told = {full[k].time, full[k].type, full[k].a, full[k].b, 0};
-    ck_assert_mem_eq(&in_place[k], &told, sizeof told);
-    if (k < FEW)
-      ck_assert(memcmp(&beside[k], &told, sizeof told) == 0 &&
-                memcmp(&others[k], &full[k], sizeof full[k]) == 0);
+    ck_assert_mem_eq(&brief[k], &told, sizeof told);
   }
-  ck_assert(is_untouched(beside + FEW, beside + ROOM) && is_untouched(others + FEW, others + ROOM));
-  /* states at a time need the full ones */
   carom_ball_state states[16];
   ck_assert_int_eq(carom_shot_at(balls, 16, &b, 0.5, states), CAROM_ERROR_EVENTS_LOST);
 }
