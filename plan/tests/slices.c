@@ -59,8 +59,6 @@ TEST(stopped_plans) {
     }
     if (kind == TRY)
       ck_assert(best[0].seen == 1500 && best[1].seen > 0 && best[1].seen < 1500);
-    printf("plan %d: stopped until %lld, %lld seen\n", kind, (long long)judged_most,
-           (long long)best[0].seen);
     edge_free(&memory);
   }
 }

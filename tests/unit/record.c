@@ -6,7 +6,6 @@
 #include "recorded_game.h"
 #include "support.h"
 
-#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdbool.h>
@@ -37,11 +36,10 @@ static void round_trip(double x) {
 }
 
 TEST(numbers_come_back) {
-  static const double given[] = {0.0,     -0.0,    1.0,    -1.0,    0.1,       0.028575, 1e15,
-                                 1e22,    1e-22,   1e300,  -1e-300, 5e-324,    DBL_MAX,  DBL_MIN,
-                                 1.0 / 3, 123.456, 2e-320, 0x1p53,  0x1p53 + 2};
+  double given[30];
+  const int rows = read_rows("written_number", 1, given);
   random_source r = {test_seed()};
-  for (size_t k = 0; k < COUNT_OF(given); k++)
+  for (int k = 0; k < rows; k++)
     round_trip(given[k]);
   for (int k = 0; k < FEWER(200000); k++) {
     /* any bits; and what people type */
