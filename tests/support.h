@@ -6,6 +6,7 @@
 #include "platform/enumerations.h"
 
 #include <check.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -45,6 +46,11 @@ typedef struct random_source {
   uint64_t state;
 } random_source;
 
+/* Of two places in the plane, m. */
+static inline double distance(const double a[2], const double b[2]) {
+  return hypot(a[0] - b[0], a[1] - b[1]);
+}
+
 double random_between(random_source *source, double low, double high);
 
 /* The same for each number of a vector. */
@@ -58,6 +64,9 @@ int read_rows(const char *name, int columns, double *numbers);
 /* The same of texts, from tests/texts.txt; a row's fields are behind each other. */
 enum { TEXT = 120 };
 int read_texts(const char *name, int columns, char texts[][TEXT]);
+
+/* A call that has a result. */
+#define expect_ok(status) ck_assert_int_eq(status, CAROM_OK)
 
 /* Each number of an array is within so much of that of another. */
 #define NEAR_EACH(is, says, count, within)         \

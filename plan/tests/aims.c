@@ -98,7 +98,7 @@ TEST(aims) {
     if (kind < 0 || so_far >= most)
       continue;
     carom_cue aimed = cue;
-    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &aimed), CAROM_OK);
+    expect_ok(carom_aim(&table, balls, BALLS, &shot_options, &pot, &aimed));
     found[kind][pot.outcome]++;
     if (pot.outcome != CAROM_POT_FALLS)
       continue;
@@ -134,21 +134,19 @@ TEST(rows_before_a_pocket) {
       const double far = 0.3 + 0.06 * k - (k > others && others == 0 ? 0.06 - 2.0 * 0.028575 : 0.0);
       const double side = far * sqrt(0.5);
       const int ball = k > others ? 0 : k + 1;
-      ck_assert_int_eq(carom_place_ball(&table, balls, BALLS, ball, pocket->centre[0] + side,
-                                        pocket->centre[1] + side, NULL),
-                       CAROM_OK);
+      expect_ok(place_ball(ball, pocket->centre[0] + side, pocket->centre[1] + side));
       if (ball > 1)
         pot.via[others - k] = (carom_part){CAROM_PART_BALL, ball};
     }
     carom_cue stroke = cue;
     stroke.speed = 4.0;
     stroke.follow = 0.0; /* the tip would touch the cue ball again */
-    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke), CAROM_OK);
+    expect_ok(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke));
     ck_assert_msg(pot.outcome == CAROM_POT_FALLS, "%d others: %d", others, pot.outcome);
     ck_assert_double_eq_tol(pot.margin, asin(pocket->radius / 0.3) / per_degree, 0.01);
 
     stroke.speed = 0.1;
-    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke), CAROM_OK);
+    expect_ok(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke));
     ck_assert_msg(pot.outcome == CAROM_POT_SHORT, "%d others: %d", others, pot.outcome);
     ck_assert(pot.met.type == CAROM_EVENT_ROLLING_STATIONARY ||
               pot.met.type == CAROM_EVENT_ROLLING_SPINNING);
@@ -172,7 +170,7 @@ TEST(ways_that_cannot_be) {
       {.ball = 8, .pocket = 1, .vias = 1, .via = {{CAROM_PART_JAW, 0}}},
       {.ball = 8, .pocket = 1, .vias = 2, .via = {ball, ball}},
       {.ball = 8, .pocket = 1, .vias = 3, .via = {rail, ball, ball}}};
-  for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(wrong); k++) {
     carom_pot pot = wrong[k];
     carom_cue stroke = cue;
     ck_assert_int_eq(carom_aim(&table, balls, BALLS, NULL, &pot, &stroke), CAROM_ERROR_BALLS);

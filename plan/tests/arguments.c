@@ -69,22 +69,22 @@ TEST(arguments_of_plans) {
 
   /* the stroke of the job's cue is not read, and those to be tried are */
   carom_plan_stroke same;
-  ck_assert_int_eq(carom_plan(&job, &same, 1, &found), CAROM_OK);
+  expect_ok(carom_plan(&job, &same, 1, &found));
   cue.phi = NAN;
   cue.speed = 0.0;
   cue.theta = 30.0;
   cue.a = cue.b = 0.2;
-  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  expect_ok(carom_plan(&job, &best, 1, &found));
   ck_assert_mem_eq(&best, &same, sizeof best);
   ck_assert_int_eq(carom_plan_try(&job, &cue, 1, &best), CAROM_ERROR_CUE_PHI);
   const double low[2] = {0.9, 0.9}, high[2] = {0.5, 2.0}, no[2] = {NAN, 0.0};
   ck_assert_int_eq(carom_plan_hand(&job, low, high, &best, 1, &found), CAROM_ERROR_OFF_TABLE);
   ck_assert_int_eq(carom_plan_hand(&job, no, NULL, &best, 1, &found), CAROM_ERROR_OFF_TABLE);
   const double point[2] = {0.5, 0.6}; /* a range of one place */
-  ck_assert_int_eq(carom_plan_hand(&job, point, point, &best, 1, &found), CAROM_OK);
+  expect_ok(carom_plan_hand(&job, point, point, &best, 1, &found));
   ck_assert(best.place[0] == point[0] && best.place[1] == point[1]);
   balls[0].state.v[0] = 1.0; /* in hand, it may move */
-  ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
+  expect_ok(carom_plan_hand(&job, NULL, NULL, &best, 1, &found));
   edge_free(&memory);
   ck_assert_int_eq(carom_plan(&job, NULL, 1, &found), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_plan(NULL, &best, 1, &found), CAROM_ERROR_NULL);

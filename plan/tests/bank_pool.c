@@ -30,7 +30,7 @@ TEST(a_bank_is_planned) {
   carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
   carom_plan_stroke best;
   int found;
-  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  expect_ok(carom_plan(&job, &best, 1, &found));
   ck_assert_msg(best.kind == CAROM_PLAN_BANK && best.cushions > 0 && best.keep > 0.4,
                 "kind %d, ball %d, keeps %g", best.kind, best.ball, best.keep);
   free(job.memory);

@@ -49,27 +49,19 @@ TEST(told_is_what_comes) {
     make_layout(k + 1, 7);
     player = carom_player_of(3.0);
     options.shots = k % 2 == 0 ? 300 : 1000;
-    make_memory();
-    carom_plan_stroke best, repeated;
-    int found;
+    carom_plan_stroke best;
     const bool hand = k < PLACED;
-    ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, &best, 1, &found)
-                          : carom_plan(&job, &best, 1, &found),
-                     CAROM_OK);
+    plan(hand, &best, 1);
     ck_assert_int_ge(best.seen, (options.shots > 300 ? options.shots / 10 : 30) + 10);
-    carom_place_ball(&table, balls, BALLS, 0, best.place[0], best.place[1], NULL);
-    options.seed = 77;
-    edge_free(&memory);
+    place_ball(0, best.place[0], best.place[1]);
     options.shots = 1000;
-    make_memory();
-    ck_assert_int_eq(carom_plan_try(&job, &best.cue, 1, &repeated), CAROM_OK);
+    const carom_plan_stroke repeated = repeat(&best.cue);
     ck_assert(repeated.ball == best.ball && repeated.pocket == best.pocket);
     ck_assert(repeated.kind == CAROM_PLAN_GIVEN && repeated.seen == options.shots);
     const double n = hand ? PLACED : LAYOUTS - PLACED;
     more[hand][0] += (best.value - repeated.value) / n;
     more[hand][1] += (best.keep - repeated.keep) / n;
     more[hand][2] += (best.foul - repeated.foul) / n;
-    edge_free(&memory);
   }
   for (int hand = 0; hand < 2; hand++)
     ck_assert_msg(fabs(more[hand][0]) < 0.01 && fabs(more[hand][1]) < 0.015 &&
@@ -118,8 +110,8 @@ TEST(the_first_ball_that_falls) {
       carom_facts facts;
       carom_ball_state final[BALLS];
       carom_shot shot = {.final = final, .facts = &facts};
-      ck_assert_int_eq(carom_plan_try(&job, &cues[k], 1, &chosen[k]), CAROM_OK);
-      ck_assert_int_eq(carom_shoot(&table, balls, BALLS, &cues[k], &shot_options, &shot), CAROM_OK);
+      expect_ok(carom_plan_try(&job, &cues[k], 1, &chosen[k]));
+      expect_ok(carom_shoot(&table, balls, BALLS, &cues[k], &shot_options, &shot));
       if (facts.first[0] >= 0 &&
           (targets >> facts.first[0] & 1)) /* else the shot may have been stopped */
         ck_assert_mem_eq(&seen, &facts, sizeof facts);
@@ -153,25 +145,21 @@ TEST(the_first_ball_that_falls) {
  * choices are of different pots, and sorted by their values. */
 TEST(what_is_named_falls) {
   carom_plan_stroke best[5];
-  int found;
   make_layout(1, 1);
   rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
-  carom_place_ball(&table, balls, BALLS, 0, 0.6, 0.6, NULL);
-  carom_place_ball(&table, balls, BALLS, 1, 0.2, 0.2, NULL);
-  carom_place_ball(&table, balls, BALLS, 9, 0.12, 0.12, NULL);
+  place_ball(0, 0.6, 0.6);
+  place_ball(1, 0.2, 0.2);
+  place_ball(9, 0.12, 0.12);
   job.count = 10;
-  make_memory();
-  ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
+  plan(false, best, 5);
   ck_assert_msg(best[0].ball == 9 && best[0].kind == CAROM_PLAN_COMBINATION && best[0].keep > 0.5,
                 "ball %d, kind %d, keep %g", best[0].ball, best[0].kind, best[0].keep);
-  edge_free(&memory);
 
   int without = 0, pots = 0;
   for (int k = 0; k < 12; k++) {
     make_layout((uint64_t)k + 1, 10);
     rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
-    make_memory();
-    ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
+    const int found = plan(false, best, 5);
     for (int n = 0; n < found; n++) {
       const bool aimed = best[n].kind == CAROM_PLAN_POT;
       ck_assert(best[n].seen > 0 && (n == 0 || best[n].value <= best[n - 1].value));
@@ -181,43 +169,19 @@ TEST(what_is_named_falls) {
       without += best[n].ball < 0 && best[n].keep > 0.5;
       pots += aimed && best[n].ball < 0;
     }
-    edge_free(&memory);
   }
   ck_assert_msg(without == 0 && pots == 0, "%d keep the turn and name no ball, %d pots of none",
                 without, pots);
 }
 
-/* Three-cushion: what is a point; and plans of it, whose chances are those of strokes with errors
+/* Three-cushion: plans, whose chances are those of strokes with errors
  * of another seed, and whose ball is the one that is met first. */
 TEST(three_cushion) {
-  static const struct {
-    int second, cushions;
-    uint32_t off;
-    int outcome;
-  } cases[] = {{2, 3, 0, CAROM_TURN_KEEP},
-               {2, 7, 0, CAROM_TURN_KEEP},
-               {2, 2, 0, CAROM_TURN_PASS},
-               {-1, 0, 0, CAROM_TURN_PASS},
-               {2, 3, 4, CAROM_TURN_PASS}};
-  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-    const carom_facts facts = {.first = {1, cases[k].second},
-                               .cushions_before = {1, cases[k].cushions},
-                               .off = cases[k].off};
-    carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_THREECUSHION);
-    const carom_turn turn = game_rules.judge(&game_rules.state, 7, 0, &facts, (carom_call){-1, -1});
-    ck_assert((int)turn.outcome == cases[k].outcome &&
-              turn.points == (cases[k].outcome == CAROM_TURN_KEEP));
-    ck_assert_int_eq(turn.foul, cases[k].off ? CAROM_FOUL_OFF : CAROM_FOUL_NONE);
-  }
-
   random_source r = {3};
   double sum = 0.0;
   for (int k = 0; k < 4; k++) {
-    carom_plan_stroke best[5], repeated;
-    int found;
-    make_layout(1, 1);
-    carom_table_make(CAROM_TABLE_THREECUSHION, &table);
-    carom_rack(CAROM_RACK_THREECUSHION, &table, 0.0, 0, balls, 3);
+    carom_plan_stroke best[5];
+    lay_out_game(CAROM_RULES_THREECUSHION, 0);
     for (int ball = 0; ball < 3 && k > 0; ball++) {
       double x, y;
       do {
@@ -225,14 +189,9 @@ TEST(three_cushion) {
         y = random_between(&r, 0.05, 2.79);
       } while (carom_place_ball(&table, balls, 3, ball, x, y, NULL) != CAROM_OK);
     }
-    cue = carom_cue_of(CAROM_GAME_BILLIARD);
-    rules = carom_plan_rules_of(CAROM_RULES_THREECUSHION);
-    job.count = 3;
     options.shots = 1000;
-    make_memory();
-    ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
-    options.seed = 77;
-    ck_assert_int_eq(carom_plan_try(&job, &best[0].cue, 1, &repeated), CAROM_OK);
+    const int found = plan(false, best, 5);
+    const carom_plan_stroke repeated = repeat(&best[0].cue);
     const double p = repeated.keep, n = (double)best[0].seen;
     ck_assert(fabs(best[0].value - best[0].keep) < 1e-12 && best[0].pocket == -1);
     ck_assert(repeated.value == repeated.keep);
@@ -247,21 +206,16 @@ TEST(three_cushion) {
       ck_assert(best[i].ball >= 0 || best[i].kind == CAROM_PLAN_SAFETY);
     }
     sum += p;
-    edge_free(&memory);
   }
   printf("three-cushion: %g of four strokes score\n", sum);
   ck_assert(sum > 1.5);
 }
 
-static void make_break(carom_rules_kind kind, carom_rack_kind rack, uint64_t seed, double fargo) {
-  make_layout(1, 1);
-  rules = carom_plan_rules_of(kind);
+static void make_break(carom_rules_kind kind, uint64_t seed, double fargo) {
+  lay_out_game(kind, seed);
   rules.state.opening = 1;
-  job.count = carom_rack_size(rack);
-  carom_rack(rack, &table, 1e-4, seed, balls, BALLS);
   player = carom_player_fargo(fargo);
   options.shots = 1000;
-  make_memory();
 }
 
 /* Breaks: the cue ball in hand is put on the head string, a ball that may be met is struck, hard
@@ -269,21 +223,14 @@ static void make_break(carom_rules_kind kind, carom_rack_kind rack, uint64_t see
 TEST(breaks) {
   for (int k = 0; k < 4; k++) {
     carom_plan_stroke best[5];
-    int found;
-    if (k % 2 == 1)
-      make_break(CAROM_RULES_NINEBALL, CAROM_RACK_NINEBALL, 1, 400.0);
-    else
-      make_break(CAROM_RULES_EIGHTBALL, CAROM_RACK_EIGHTBALL, 1, 400.0);
-    ck_assert_int_eq(k < 2 ? carom_plan_hand(&job, NULL, NULL, best, 5, &found)
-                           : carom_plan(&job, best, 5, &found),
-                     CAROM_OK);
+    make_break(k % 2 == 1 ? CAROM_RULES_NINEBALL : CAROM_RULES_EIGHTBALL, 1, 400.0);
+    const int found = plan(k < 2, best, 5);
     for (int n = 0; n < found; n++) {
       ck_assert(best[n].kind == CAROM_PLAN_BREAK && best[n].ball == -1 && best[n].pocket == -1);
       ck_assert(best[n].cue.speed > 5.0 && (k >= 2 || best[n].place[1] == 0.25 * table.length));
       ck_assert(best[n].cue.phi > 45.0 && best[n].cue.phi < 135.0);
     }
     ck_assert_msg(best[0].foul < 0.5, "break %d: foul %g", k, best[0].foul);
-    edge_free(&memory);
   }
 }
 
@@ -292,27 +239,23 @@ TEST(breaks) {
 TEST(ball_behind_the_head_string) {
   make_layout(1, 1);
   rules = carom_plan_rules_of(CAROM_RULES_STRAIGHT);
-  make_memory();
-  carom_place_ball(&table, balls, BALLS, 1, 0.15, 0.15, NULL);
-  carom_place_ball(&table, balls, BALLS, 2, 0.635, 2.5, NULL);
+  place_ball(1, 0.15, 0.15);
+  place_ball(2, 0.635, 2.5);
   carom_plan_stroke best;
-  int found;
   job.leave = CAROM_LEAVE_KITCHEN;
-  ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
+  plan(true, &best, 1);
   ck_assert(best.place[1] <= 0.25 * table.length);
   ck_assert_msg(best.ball != 1 || best.cue.phi < 180.0, "ball %d, %g degrees", best.ball,
                 best.cue.phi);
 
   /* nor where it has been placed there, 0.3 m from that ball */
   for (int64_t leave = 0; leave <= CAROM_LEAVE_KITCHEN; leave += CAROM_LEAVE_KITCHEN) {
-    carom_place_ball(&table, balls, BALLS, 0, 0.36, 0.36, NULL);
+    place_ball(0, 0.36, 0.36);
     job.leave = leave;
-    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+    plan(false, &best, 1);
     const bool direct = best.ball == 1 && best.cue.phi > 180.0;
     ck_assert_msg(direct == (leave == 0), "ball %d, %g degrees", best.ball, best.cue.phi);
   }
-  job.leave = 0;
-  edge_free(&memory);
 }
 
 /* The leave says whether a stroke is from behind the head string, and a bound does not: an upper
@@ -323,7 +266,7 @@ TEST(leave_and_not_a_bound) {
   rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
   options.shots = 2000;
   for (int k = 0; k < 3; k++)
-    carom_place_ball(&table, balls, BALLS, k, places[k][0], places[k][1], NULL);
+    place_ball(k, places[k][0], places[k][1]);
   make_memory();
   const double low[2] = {0.03, 0.03};
   double foul[2];
@@ -333,7 +276,7 @@ TEST(leave_and_not_a_bound) {
     for (int k = 0; k < 3; k++) {
       const double high[2] = {1.24, 0.25 * table.length + 1e-6 * (k - 1)};
       int found;
-      ck_assert_int_eq(carom_plan_hand(&job, low, high, &best[k], 1, &found), CAROM_OK);
+      expect_ok(carom_plan_hand(&job, low, high, &best[k], 1, &found));
       ck_assert_msg(best[k].kind == best[0].kind && best[k].ball == best[0].ball,
                     "leave %d, bound %d: %s of ball %d", (int)job.leave, k,
                     carom_plan_kind_name((carom_plan_kind)best[k].kind), best[k].ball);
@@ -343,7 +286,6 @@ TEST(leave_and_not_a_bound) {
     foul[barred] = best[0].cue.phi;
   }
   ck_assert(fabs(foul[0] - foul[1]) > 1.0); /* the barred ball is not met directly */
-  job.leave = 0;
   edge_free(&memory);
 }
 
@@ -351,22 +293,18 @@ TEST(leave_and_not_a_bound) {
 TEST(bounds_of_every_leave) {
   static const double high[] = {1.0, 1.0, 1.0, 0.25, 0.2, 0.2}; /* of the length, from the head */
   make_layout(3, 4);
-  make_memory();
   for (int leave = CAROM_LEAVE_AFTER; leave <= CAROM_LEAVE_BAULK; leave++) {
     const double radius = balls[0].kind.radius;
     carom_bounds bounds;
     carom_plan_stroke best;
-    int found;
     job.leave = leave;
-    ck_assert_int_eq(carom_hand_bounds((carom_leave)leave, &table, radius, &bounds), CAROM_OK);
+    expect_ok(carom_hand_bounds((carom_leave)leave, &table, radius, &bounds));
     ck_assert((bounds.radius > 0.0) == (leave == CAROM_LEAVE_D));
     ck_assert_double_le(bounds.high[1], high[leave] * table.length + 0.02);
-    ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
+    plan(true, &best, 1);
     ck_assert_msg(carom_is_within(&bounds, best.place[0], best.place[1]), "leave %d: %g, %g", leave,
                   best.place[0], best.place[1]);
   }
-  job.leave = 0;
-  edge_free(&memory);
 }
 
 /* Straight pool is opened thinly and softly, hardly ever by a foul, and much of the rack stays.
@@ -376,17 +314,16 @@ TEST(openings) {
     carom_plan_stroke best;
     carom_ball_state final[BALLS];
     carom_shot shot = {.final = final};
-    int found, moved = 0;
-    make_break(CAROM_RULES_STRAIGHT, CAROM_RACK_EIGHTBALL, seed, 600.0);
-    ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
-    carom_place_ball(&table, balls, BALLS, 0, best.place[0], best.place[1], NULL);
-    ck_assert_int_eq(carom_shoot(&table, balls, BALLS, &best.cue, NULL, &shot), CAROM_OK);
+    int moved = 0;
+    make_break(CAROM_RULES_STRAIGHT, seed, 600.0);
+    plan(true, &best, 1);
+    place_ball(0, best.place[0], best.place[1]);
+    expect_ok(carom_shoot(&table, balls, BALLS, &best.cue, NULL, &shot));
     for (int n = 1; n < BALLS; n++)
       moved += fabs(final[n].r[0] - balls[n].state.r[0]) > 0.05;
     ck_assert_msg(best.cue.speed < 5.0 && best.foul < 0.1 && moved < 10,
                   "seed %d: %g m/s, foul %g, %d balls moved", (int)seed, best.cue.speed, best.foul,
                   moved);
-    edge_free(&memory);
   }
 }
 
@@ -394,7 +331,6 @@ TEST(openings) {
  * Where the one is before a pocket and another ball free, he plays. */
 TEST(what_one_may_do) {
   carom_plan_stroke best;
-  int found;
   for (int easy = 0; easy < 2; easy++)
     for (int permission = 1; permission <= 2; permission++) {
       make_layout(1, 1);
@@ -402,11 +338,10 @@ TEST(what_one_may_do) {
       rules.state.may = permission == 1 ? CAROM_CHOICE_PUSH : CAROM_CHOICE_PASS;
       put_ring(easy ? 1 : 6);
       if (easy)
-        carom_place_ball(&table, balls, BALLS, 1, 0.1, 0.1, NULL);
+        place_ball(1, 0.1, 0.1);
       options.shots = 1000;
       job.count = 10;
-      make_memory();
-      ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+      plan(false, &best, 1);
       const int kind = permission == 1 ? CAROM_PLAN_PUSH : CAROM_PLAN_PASS;
       int ball = permission == 1 ? CAROM_CALL_PUSH : CAROM_CALL_PASS;
       if (easy)
@@ -415,7 +350,6 @@ TEST(what_one_may_do) {
                     "easy %d, may %d: kind %d, ball %d, %g", easy, permission, best.kind, best.ball,
                     best.value);
       ck_assert(best.kind != CAROM_PLAN_PASS || (best.foul == 0.0 && best.seen == 0));
-      edge_free(&memory);
     }
 }
 
@@ -423,58 +357,31 @@ TEST(what_one_may_do) {
 TEST(little_to_choose) {
   const volatile int32_t at_once = 1;
   carom_plan_stroke best;
-  int found;
   make_layout(3, 6);
   options.stop = &at_once;
-  make_memory();
-  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
-  ck_assert(found == 1 && best.seen == 0);
-  ck_assert_int_eq(carom_plan_try(&job, &best.cue, 1, &best), CAROM_OK);
+  ck_assert(plan(false, &best, 1) == 1 && best.seen == 0);
+  best = repeat(&best.cue);
   ck_assert(best.seen == 0 && isnan(best.value));
-  edge_free(&memory);
 
   /* six balls are around the only one that is on */
   make_layout(1, 1);
   rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
   put_ring(6);
   job.count = 10;
-  make_memory();
-  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
-  ck_assert(found == 1 && best.kind == CAROM_PLAN_FOUL && best.foul == 1.0 && best.ball == -1 &&
-            best.pocket == -1);
-  edge_free(&memory);
+  ck_assert(plan(false, &best, 1) == 1 && best.kind == CAROM_PLAN_FOUL && best.foul == 1.0 &&
+            best.ball == -1 && best.pocket == -1);
 }
 
 /* A game of safe play is opened by a soft stroke that fouls seldom; so are others of the list. */
 TEST(soft_openings) {
-  static const struct {
-    carom_rules_kind rules;
-    carom_game cue;
-    carom_table_kind table;
-    carom_rack_kind rack;
-  } games[] = {{CAROM_RULES_ONEPOCKET, CAROM_GAME_POOL, CAROM_TABLE_POOL_9FT, CAROM_RACK_EIGHTBALL},
-               {CAROM_RULES_SNOOKER, CAROM_GAME_SNOOKER, CAROM_TABLE_SNOOKER, CAROM_RACK_SNOOKER}};
-  carom_shot_ball rack[22];
-  for (int k = 0; k < 4; k++) {
-    const int game = k % 2;
-    carom_table_make(games[game].table, &table);
-    cue = carom_cue_of(games[game].cue);
-    player = carom_player_of(1.0);
-    rules = carom_plan_rules_of(games[game].rules);
-    options = (carom_plan_options){.shots = 300, .seed = (uint64_t)k};
-    job = (carom_plan_job){.table = &table,
-                           .balls = rack,
-                           .count = carom_rack_size(games[game].rack),
-                           .cue = &cue,
-                           .player = &player,
-                           .rules = &rules,
-                           .options = &options};
-    carom_rack(games[game].rack, &table, 1e-4, (uint64_t)k, rack, (int)job.count);
+  for (uint64_t k = 0; k < 4; k++) {
+    lay_out_game(k % 2 == 0 ? CAROM_RULES_ONEPOCKET : CAROM_RULES_SNOOKER, k);
+    options = (carom_plan_options){.shots = 300, .seed = k};
     make_memory();
     carom_plan_stroke listed[5];
     int found;
     const double high[2] = {table.width, 0.25 * table.length};
-    ck_assert_int_eq(carom_plan_hand(&job, NULL, high, listed, 5, &found), CAROM_OK);
+    expect_ok(carom_plan_hand(&job, NULL, high, listed, 5, &found));
     for (int n = 0; n < found; n++)
       ck_assert(listed[n].cue.speed < 4.5 && listed[n].foul <= 0.1 && listed[n].seen >= 20);
     ck_assert(found >= 1 && listed[0].seen >= 40);
@@ -487,23 +394,15 @@ TEST(what_is_worth_nothing_is_not_first) {
   enum { SEEDS = 12, ROOM = 5 };
   int points = 0;
   for (uint64_t seed = 0; seed < SEEDS; seed++) {
-    make_layout(1, 2);
-    carom_table_make(CAROM_TABLE_THREECUSHION, &table);
-    job.count = carom_rack_size(CAROM_RACK_THREECUSHION);
-    ck_assert_int_eq(carom_rack(CAROM_RACK_THREECUSHION, &table, 0.0, 1, balls, BALLS), CAROM_OK);
-    cue = carom_cue_of(CAROM_GAME_BILLIARD);
-    rules = carom_plan_rules_of(CAROM_RULES_THREECUSHION);
+    lay_out_game(CAROM_RULES_THREECUSHION, 1);
     rules.state.opening = 1;
     options = (carom_plan_options){.shots = 200, .seed = seed};
-    make_memory();
     carom_plan_stroke choices[ROOM];
-    int found;
-    ck_assert_int_eq(carom_plan(&job, choices, ROOM, &found), CAROM_OK);
+    const int found = plan(false, choices, ROOM);
     for (int k = 1; k < found; k++)
       ck_assert_msg(choices[0].value > 0.0 || choices[k].keep == 0.0, "seed %d: choice %d keeps %g",
                     (int)seed, k, choices[k].keep);
     points += choices[0].value > 0.0;
-    edge_free(&memory);
   }
   ck_assert_int_gt(points, SEEDS / 2);
 }

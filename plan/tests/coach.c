@@ -10,7 +10,7 @@ static int found;
 static void plan_layout(uint64_t seed, int in_play) {
   make_layout(seed, in_play);
   make_memory();
-  ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
+  expect_ok(carom_plan(&job, best, 5, &found));
 }
 
 /* Replayed choices have the chances of 300 strokes each, best first; what they are stays. */
@@ -19,7 +19,7 @@ TEST(choices_are_replayed) {
     plan_layout(seed, 5);
     carom_plan_stroke again[5];
     memcpy(again, best, sizeof best);
-    ck_assert_int_eq(carom_plan_replay(&job, again, found), CAROM_OK);
+    expect_ok(carom_plan_replay(&job, again, found));
     for (int k = 0; k < found; k++) {
       const carom_plan_stroke *c = &again[k];
       ck_assert(c->seen == CAROM_WHY_STROKES && c->error < 0.05);
@@ -40,12 +40,12 @@ TEST(choices_are_replayed) {
 /* A straight pot of the eight is explained: no cushion, a full hit, and the game is won. */
 TEST(a_pot_is_explained) {
   make_layout(1, 1);
-  carom_place_ball(&table, balls, BALLS, 8, 0.2, 0.2, NULL);
-  carom_place_ball(&table, balls, BALLS, 0, 0.5, 0.5, NULL);
+  place_ball(8, 0.2, 0.2);
+  place_ball(0, 0.5, 0.5);
   make_memory();
-  ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
+  expect_ok(carom_plan(&job, best, 5, &found));
   static carom_why why;
-  ck_assert_int_eq(carom_why_of(&job, &best[0], &why), CAROM_OK);
+  expect_ok(carom_why_of(&job, &best[0], &why));
   ck_assert(carom_names_ball(&best[0]) == 1);
   ck_assert(why.rails == 0 && why.first == 8 && fabs(why.cut) < 10.0 && why.part > 0.8);
   ck_assert(why.ruling.turn.outcome == CAROM_TURN_WIN && why.has_next == 0 && why.speed > 0.3);
@@ -58,7 +58,7 @@ TEST(a_pot_is_explained) {
   kick.cue = cue;
   kick.cue.speed = 2.0;
   kick.cue.phi = 0.0;
-  ck_assert_int_eq(carom_why_of(&job, &kick, &why), CAROM_OK);
+  expect_ok(carom_why_of(&job, &kick, &why));
   ck_assert(why.rails >= 1 && why.first == -1 && isnan(why.cut) && isnan(why.part));
   ck_assert_double_eq_tol(why.contact[0][0], table.width - balls[0].kind.radius, 0.005);
   ck_assert(why.misses > 0.9 && why.opponent > 0.0 && why.has_next == 1);
@@ -87,9 +87,9 @@ TEST(breaks_add_up) {
   edge space = edge_make(breaks.memory_size, true);
   carom_break_counts whole = {0}, parts = {0};
   breaks.memory = space.memory;
-  ck_assert_int_eq(carom_break_play(&breaks, 0, BREAKS, &whole), CAROM_OK);
-  ck_assert_int_eq(carom_break_play(&breaks, FIRST, BREAKS - FIRST, &parts), CAROM_OK);
-  ck_assert_int_eq(carom_break_play(&breaks, 0, FIRST, &parts), CAROM_OK);
+  expect_ok(carom_break_play(&breaks, 0, BREAKS, &whole));
+  expect_ok(carom_break_play(&breaks, FIRST, BREAKS - FIRST, &parts));
+  expect_ok(carom_break_play(&breaks, 0, FIRST, &parts));
   ck_assert_double_eq_tol(whole.squares, parts.squares, 1e-9);
   parts.x = whole.x, parts.y = whole.y, parts.squares = whole.squares;
   ck_assert_int_eq(memcmp(&whole, &parts, sizeof whole), 0);
@@ -109,14 +109,14 @@ TEST(breaks_add_up) {
   /* the stroke without errors goes at the middle of the ball in front */
   carom_shot_ball rack[RACK];
   carom_cue stroke;
-  ck_assert_int_eq(carom_break_stroke(&breaks, -1, rack, &stroke), CAROM_OK);
+  expect_ok(carom_break_stroke(&breaks, -1, rack, &stroke));
   ck_assert_double_eq_tol(stroke.phi, 90.0, 0.1);
   breaks.aim = CAROM_BREAK_DIRECTION;
   cue.phi = 77.0;
-  ck_assert_int_eq(carom_break_stroke(&breaks, -1, rack, &stroke), CAROM_OK);
+  expect_ok(carom_break_stroke(&breaks, -1, rack, &stroke));
   ck_assert(stroke.phi == 77.0);
   breaks.aim = CAROM_BREAK_CUT;
-  ck_assert_int_eq(carom_break_stroke(&breaks, -1, rack, &stroke), CAROM_OK);
+  expect_ok(carom_break_stroke(&breaks, -1, rack, &stroke));
   ck_assert_double_eq_tol(stroke.phi, 77.0, 1e-9); /* in the job's own rack */
   breaks.aim = CAROM_BREAK_CUT + 1;
   ck_assert_int_eq(carom_break_play(&breaks, 0, 1, &whole), CAROM_ERROR_OPTIONS);

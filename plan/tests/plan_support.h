@@ -10,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BALLS = 16, SOLIDS = 1, STRIPES = 2 };
+enum { BALLS = 16, ROOM_OF_BALLS = 22, SOLIDS = 1, STRIPES = 2 };
 CK_ATTRIBUTE_UNUSED static const double per_degree = 3.14159265358979323846 / 180.0;
 
 CK_ATTRIBUTE_UNUSED static carom_table table;
-CK_ATTRIBUTE_UNUSED static carom_shot_ball balls[BALLS];
+CK_ATTRIBUTE_UNUSED static carom_shot_ball balls[ROOM_OF_BALLS];
 CK_ATTRIBUTE_UNUSED static carom_cue cue;
 CK_ATTRIBUTE_UNUSED static carom_player player;
 CK_ATTRIBUTE_UNUSED static carom_plan_rules rules;
@@ -22,6 +22,10 @@ CK_ATTRIBUTE_UNUSED static carom_plan_options options;
 CK_ATTRIBUTE_UNUSED static carom_shot_options shot_options;
 CK_ATTRIBUTE_UNUSED static carom_plan_job job;
 CK_ATTRIBUTE_UNUSED static edge memory;
+
+static inline carom_status place_ball(int ball, double x, double y) {
+  return carom_place_ball(&table, balls, BALLS, ball, x, y, NULL);
+}
 
 /* Balls of eight-ball at random places of which some are down; the seed is the layout's. */
 static inline void make_layout(uint64_t seed, int in_play) {
@@ -36,7 +40,7 @@ static inline void make_layout(uint64_t seed, int in_play) {
     do { /* one draw after the other: the order of arguments is the compiler's */
       y = random_between(&r, 0.05, 2.49);
       x = random_between(&r, 0.05, 1.22);
-    } while (carom_place_ball(&table, balls, BALLS, k, x, y, NULL) != CAROM_OK);
+    } while (place_ball(k, x, y) != CAROM_OK);
   }
   cue = carom_cue_of(CAROM_GAME_POOL);
   player = carom_player_of(1.0);
@@ -60,6 +64,37 @@ static inline void make_memory(void) {
   job.memory = memory.memory;
 }
 
+/* Plans, of a cue ball in hand or not, in memory of its own. Returns how many choices there are. */
+static inline int plan(bool in_hand, carom_plan_stroke *choices, int most) {
+  int found = 0;
+  make_memory();
+  expect_ok(in_hand ? carom_plan_hand(&job, NULL, NULL, choices, most, &found)
+                    : carom_plan(&job, choices, most, &found));
+  edge_free(&memory);
+  return found;
+}
+
+/* What strokes with errors of another seed make of a cue. */
+static inline carom_plan_stroke repeat(const carom_cue *tried) {
+  carom_plan_stroke repeated;
+  options.seed = 77;
+  make_memory();
+  expect_ok(carom_plan_try(&job, tried, 1, &repeated));
+  edge_free(&memory);
+  return repeated;
+}
+
+/* The table, the rack, the cue and the rules of a game. */
+static inline void lay_out_game(carom_rules_kind kind, uint64_t seed) {
+  const carom_rules_about *about = carom_rules_about_of(kind);
+  make_layout(1, 2);
+  carom_table_make((carom_table_kind)about->table, &table);
+  job.count = carom_rack_size((carom_rack_kind)about->rack);
+  expect_ok(carom_rack((carom_rack_kind)about->rack, &table, 1e-4, seed, balls, ROOM_OF_BALLS));
+  cue = carom_cue_of((carom_game)about->balls);
+  rules = carom_plan_rules_of(kind);
+}
+
 static inline void make_stroke(random_source *r, uint64_t seed) {
   make_layout(seed, 3);
   cue.tip_restitution = 1.0;
@@ -72,11 +107,10 @@ static inline void make_stroke(random_source *r, uint64_t seed) {
 static inline void put_ring(int most) {
   static const double ring[6][2] = {{2, 0},  {1, 1.7320508},   {-1, 1.7320508},
                                     {-2, 0}, {-1, -1.7320508}, {1, -1.7320508}};
-  carom_place_ball(&table, balls, BALLS, 0, 0.3, 0.3, NULL);
-  carom_place_ball(&table, balls, BALLS, 1, 0.6, 1.0, NULL);
+  place_ball(0, 0.3, 0.3);
+  place_ball(1, 0.6, 1.0);
   for (int k = 0; k < most; k++)
-    carom_place_ball(&table, balls, BALLS, k + 2, 0.6 + 0.0287 * ring[k][0],
-                     1.0 + 0.0287 * ring[k][1], NULL);
+    place_ball(k + 2, 0.6 + 0.0287 * ring[k][0], 1.0 + 0.0287 * ring[k][1]);
 }
 
 #endif

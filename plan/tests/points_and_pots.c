@@ -16,7 +16,7 @@ TEST(values_of_points) {
     for (int score = 0; score <= 99; score += 9) {
       game_rules.state.score[0] = score;
       game_rules.state.score[1] = 40;
-      ck_assert_int_eq(carom_plan_value(&job, 0, &value), CAROM_OK);
+      expect_ok(carom_plan_value(&job, 0, &value));
       ck_assert_msg(value >= last && value >= 0.0 && value <= 1.0, "%d: %g after %g", score, value,
                     last);
       last = value;
@@ -25,13 +25,13 @@ TEST(values_of_points) {
     for (int opponent = 0; opponent <= 99; opponent += 9) {
       game_rules.state.score[0] = 40;
       game_rules.state.score[1] = opponent;
-      ck_assert_int_eq(carom_plan_value(&job, 0, &value), CAROM_OK);
+      expect_ok(carom_plan_value(&job, 0, &value));
       ck_assert(value <= last);
       last = value;
     }
     ck_assert(last < 0.25);
     game_rules.state.score[1] = 40;
-    ck_assert_int_eq(carom_plan_value(&job, 1, &value), CAROM_OK);
+    expect_ok(carom_plan_value(&job, 1, &value));
     ck_assert(value > 0.3 && value < 0.95);
     free(job.memory);
   }
@@ -49,7 +49,7 @@ TEST(values_of_a_claim) {
     game_rules.state.score[1] = 50;
     carom_plan_job job = job_of(count, &cue, &player, &game_rules, NULL);
     double value;
-    ck_assert_int_eq(carom_plan_value(&job, 0, &value), CAROM_OK);
+    expect_ok(carom_plan_value(&job, 0, &value));
     if (lead > 7 || lead < -7)
       ck_assert_msg(value == (lead > 0 ? 1.0 : 0.0), "%d ahead: %g", lead, value);
     else
@@ -81,8 +81,8 @@ TEST(pocket_of_ones_own) {
     game_rules.state = states[k];
     carom_plan_stroke best;
     int found;
-    ck_assert_int_eq(carom_plan_value(&job, 0, &value[k]), CAROM_OK);
-    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+    expect_ok(carom_plan_value(&job, 0, &value[k]));
+    expect_ok(carom_plan(&job, &best, 1, &found));
     ck_assert_msg(!mine || (best.ball == 1 && best.pocket == MINE), "%d: ball %d", k, best.ball);
   }
   ck_assert_msg(value[0] > value[4] + 0.2 && value[0] > value[1] + 0.01 && value[0] > value[2] &&
@@ -112,7 +112,7 @@ TEST(colours_by_value_and_position) {
     carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
     carom_plan_stroke best;
     int found;
-    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+    expect_ok(carom_plan(&job, &best, 1, &found));
     ck_assert_msg(best.ball == (k == 0 ? BLACK : YELLOW), "%d: ball %d", k, best.ball);
     free(job.memory);
   }

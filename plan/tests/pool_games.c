@@ -8,7 +8,7 @@ TEST(spots) {
   carom_place_ball(&table, balls, BALLS, 0, 0.2, 0.2, NULL);
   double least = INFINITY, most = 0.0;
   for (int k = 1; k < BALLS; k++) {
-    ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, k), CAROM_OK);
+    expect_ok(carom_spot_ball(&table, balls, BALLS, k));
     ck_assert(balls[k].state.r[0] == 0.5 * table.width);
     least = fmin(least, balls[k].state.r[1]);
     most = fmax(most, balls[k].state.r[1]);
@@ -21,17 +21,16 @@ TEST(spots) {
   const carom_corner corner[] = {
       {0.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {2.0, 40.0, 0.0}, {0.0, 40.0, 0.0}};
   carom_table alley;
-  ck_assert_int_eq(carom_table_polygon(corner, 4, 0.0365, 0.0, 0.028575, &alley, NULL), CAROM_OK);
+  expect_ok(carom_table_polygon(corner, 4, 0.0365, 0.0, 0.028575, &alley, NULL));
   for (int k = 0; k < BALLS; k++)
-    ck_assert_int_eq(carom_spot_ball(&alley, balls, BALLS, k), CAROM_OK);
+    expect_ok(carom_spot_ball(&alley, balls, BALLS, k));
   const double second = balls[1].state.r[1] - (30.0 + 2.0 * 0.028575);
   ck_assert(balls[0].state.r[1] == 30.0 && second > -1e-6 && second < 4e-3);
   /* what a turn brings back */
   carom_plan_rules game_rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
   carom_turn turn = {.spot = 0x200};
   lay_out(CAROM_RACK_NINEBALL, CAROM_TABLE_POOL_9FT, 1);
-  ck_assert_int_eq(carom_turn_settle(&game_rules, &game_rules.state, &table, balls, 10, &turn),
-                   CAROM_OK);
+  expect_ok(carom_turn_settle(&game_rules, &game_rules.state, &table, balls, 10, &turn));
   ck_assert(is_at(9, 0.5 * table.width, 0.75 * table.length));
   ck_assert_int_eq(carom_spot_ball(NULL, balls, BALLS, 1), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, BALLS), CAROM_ERROR_BALLS);
@@ -46,8 +45,7 @@ TEST(spots_of_pyramid) {
   for (int k = 1; k <= 3; k++)
     put(k, 0.3 * k, 1.5);
   carom_turn turn = {.spot = 0x3};
-  ck_assert_int_eq(carom_turn_settle(&game_rules, &game_rules.state, &table, balls, count, &turn),
-                   CAROM_OK);
+  expect_ok(carom_turn_settle(&game_rules, &game_rules.state, &table, balls, count, &turn));
   ck_assert(is_at(0, foot[0], foot[1]) && balls[1].state.r[0] == foot[0]);
   const double gap = balls[1].state.r[1] - foot[1] - 2.0 * R;
   ck_assert_msg(gap > CAROM_RULES_TOUCH && gap < 3.0 * CAROM_RULES_TOUCH, "gap %g m", gap);
@@ -65,7 +63,7 @@ TEST(a_ball_frozen_to_a_cushion) {
     const int count = lay_out((carom_rack_kind)game_rules.rack, CAROM_TABLE_POOL_9FT, 0xffff);
     const double R = balls[1].kind.radius, x[] = {0.3, off ? R + 1e-3 : R};
     for (int i = 0; i < 2; i++)
-      ck_assert_int_eq(carom_place_ball(&table, balls, count, i, x[i], 0.8, NULL), CAROM_OK);
+      expect_ok(carom_place_ball(&table, balls, count, i, x[i], 0.8, NULL));
     carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
     cue.phi = 180.0;
     cue.speed = hard ? 3.0 : 0.5;
@@ -73,10 +71,9 @@ TEST(a_ball_frozen_to_a_cushion) {
     carom_ball_state final[BALLS_MOST];
     static carom_ruling ruling;
     carom_shot shot = {.final = final, .facts = &facts};
-    ck_assert_int_eq(carom_shoot(&table, balls, count, &cue, NULL, &shot), CAROM_OK);
-    ck_assert_int_eq(
-        carom_referee(&game_rules, &table, balls, count, 0, &shot, (carom_call){-1, -1}, &ruling),
-        CAROM_OK);
+    expect_ok(carom_shoot(&table, balls, count, &cue, NULL, &shot));
+    expect_ok(
+        carom_referee(&game_rules, &table, balls, count, 0, &shot, (carom_call){-1, -1}, &ruling));
     ck_assert_msg(ruling.turn.foul == (off || hard ? LEGAL : CUSHION) && facts.cushions[1] > 0,
                   "rules %d, off %d, hard %d: foul %d, cushions %d", kinds[k / 4], off, hard,
                   ruling.turn.foul, facts.cushions[1]);

@@ -11,6 +11,21 @@ static carom_turn judge_and_stop(carom_rules_state *state, uint32_t in_play, int
   return stopped_rules.judge(state, in_play, cue_ball, facts, call);
 }
 
+/* Plans, of a cue ball in hand or not, in the memory of the job. Returns how many choices there are,
+ * 0 if the plan goes on. */
+static int start_plan(bool in_hand, carom_plan_stroke *choices, int most) {
+  int found = 0;
+  expect_ok(in_hand ? carom_plan_hand(&job, NULL, NULL, choices, most, &found)
+                    : carom_plan(&job, choices, most, &found));
+  return found;
+}
+
+static int continue_plan(carom_plan_stroke *choices, int most) {
+  int found = 0;
+  expect_ok(carom_plan_continue(&job, choices, most, &found));
+  return found;
+}
+
 /* A plan that is stopped judges no other shot, but for one of a stage that has not begun. It gives
  * the best so far: of ball in hand no worse a place than it had before. */
 TEST(stopped_plans) {
@@ -28,14 +43,10 @@ TEST(stopped_plans) {
     const carom_cue cues[2] = {{.speed = 2.0, .phi = 80.0}, {.speed = 3.0, .phi = 100.0}};
     for (judged_most = 1; judged_most <= 2900; judged_most += judged_most < 3 ? 1 : 289) {
       judged = stop = 0;
-      carom_status status;
-      if (kind == PLAN)
-        status = carom_plan(&job, best, 2, &found);
-      else if (kind == HAND)
-        status = carom_plan_hand(&job, NULL, NULL, best, 2, &found);
+      if (kind == TRY)
+        expect_ok(carom_plan_try(&job, cues, 2, best));
       else
-        status = carom_plan_try(&job, cues, 2, best);
-      ck_assert_int_eq(status, CAROM_OK);
+        found = start_plan(kind == HAND, best, 2);
       if (stop == 0)
         break;
       ck_assert_int_le(judged, judged_most + 2);
@@ -48,8 +59,6 @@ TEST(stopped_plans) {
     }
     if (kind == TRY)
       ck_assert(best[0].seen == 1500 && best[1].seen > 0 && best[1].seen < 1500);
-    printf("plan %d: stopped until %lld, %lld seen\n", kind, (long long)judged_most,
-           (long long)best[0].seen);
     edge_free(&memory);
   }
 }
@@ -61,7 +70,6 @@ TEST(plans_in_slices) {
   for (int kind = 0; kind < 6; kind++) {
     const bool hand = kind % 2 == 1;
     carom_plan_stroke whole[3], best[3];
-    int found, found_whole;
     make_layout((uint64_t)kind + 1, kind < 4 ? 6 : 1);
     rules = carom_plan_rules_of(kind < 2 ? CAROM_RULES_EIGHTBALL : CAROM_RULES_NINEBALL);
     if (kind >= 4) { /* nothing is to be hit, or the player may pass */
@@ -77,22 +85,18 @@ TEST(plans_in_slices) {
     options.shots = kind < 2 ? 1500 : 300;
     make_memory();
     judged_most = -1;
-    ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, whole, 3, &found_whole)
-                          : carom_plan(&job, whole, 3, &found_whole),
-                     CAROM_OK);
-    for (size_t k = 0; k < sizeof slices / sizeof slices[0]; k++) {
+    const int found_whole = start_plan(hand, whole, 3);
+    for (size_t k = 0; k < COUNT_OF(slices); k++) {
       options.slice = slices[k];
       options.threads = 0; /* the judge counts */
       judged = 0;
       int64_t calls = 1;
       memset(job.memory, 0x55, job.memory_size);
-      ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, best, 3, &found)
-                            : carom_plan(&job, best, 3, &found),
-                       CAROM_OK);
+      int found = start_plan(hand, best, 3);
       int64_t previous = judged;
       for (; found == 0; calls++) {
         previous = judged;
-        ck_assert_int_eq(carom_plan_continue(&job, best, 3, &found), CAROM_OK);
+        found = continue_plan(best, 3);
         ck_assert_int_le(judged - previous, slices[k] + 1); /* one is not to play */
       }
       ck_assert_int_eq(found, found_whole);
@@ -101,7 +105,7 @@ TEST(plans_in_slices) {
 
       /* what has ended stays as it is */
       previous = judged;
-      ck_assert_int_eq(carom_plan_continue(&job, best, 3, &found), CAROM_OK);
+      found = continue_plan(best, 3);
       ck_assert_mem_eq(best, whole, (size_t)found * sizeof *best);
       ck_assert_int_eq(judged, previous);
     }
@@ -127,11 +131,11 @@ TEST(places_in_slices) {
   options.slice = 100;
   make_memory();
   values = 0;
-  ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
+  found = start_plan(true, &best, 1);
   while (found == 0) {
     ck_assert_int_le(values, options.slice / 5);
     values = 0;
-    ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_OK);
+    found = continue_plan(&best, 1);
   }
   edge_free(&memory);
 }
@@ -150,7 +154,7 @@ TEST(stopped_plans_are_worth_their_shots) {
     make_memory();
     carom_plan_stroke best[STOPS + 1], worth[STOPS + 1];
     int found;
-    ck_assert_int_eq(carom_plan(&job, best, 1, &found), CAROM_OK);
+    expect_ok(carom_plan(&job, best, 1, &found));
     edge_free(&memory);
     options.shots = 20000;
     options.stop = &stop;
@@ -159,12 +163,12 @@ TEST(stopped_plans_are_worth_their_shots) {
     for (int k = 0; k < STOPS; k++) {
       judged = stop = 0;
       judged_most = stops[k];
-      ck_assert_int_eq(carom_plan(&job, &best[k + 1], 1, &found), CAROM_OK);
+      expect_ok(carom_plan(&job, &best[k + 1], 1, &found));
       ck_assert(stop && found == 1 && best[k + 1].seen > 0);
     }
     stop = 0;
     options.seconds = 1e-9;
-    ck_assert_int_eq(carom_plan(&job, worth, 1, &found), CAROM_OK);
+    expect_ok(carom_plan(&job, worth, 1, &found));
     ck_assert(found == 1 && worth[0].seen == 0);
 
     /* fresh strokes */
@@ -173,7 +177,7 @@ TEST(stopped_plans_are_worth_their_shots) {
     carom_cue cues[STOPS + 1];
     for (int k = 0; k <= STOPS; k++)
       cues[k] = best[k].cue;
-    ck_assert_int_eq(carom_plan_try(&job, cues, STOPS + 1, worth), CAROM_OK);
+    expect_ok(carom_plan_try(&job, cues, STOPS + 1, worth));
     for (int k = 0; k < STOPS; k++)
       less[k] += (worth[0].value - worth[k + 1].value) / LAYOUTS;
     edge_free(&memory);
@@ -194,27 +198,22 @@ TEST(slices_of_other_plans) {
   memset(job.memory, 0, job.memory_size);
   ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_ERROR_STATE);
   stop = 0;
-  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
-  ck_assert_int_eq(found, 0);
+  ck_assert_int_eq(start_plan(false, &best, 1), 0);
   double *numbers[] = {&balls[8].state.r[0], &table.width, &cue.mass, &player.phi,
                        &options.chance_me};
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(numbers); k++) {
     const double original = *numbers[k];
     *numbers[k] += 1e-9;
     ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_ERROR_STATE);
     *numbers[k] = original;
   }
-  ck_assert_int_eq(carom_plan_continue(NULL, &best, 1, &found), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_plan_continue(&job, NULL, 1, &found), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_OK);
-  ck_assert_int_eq(found, 0);
+  ck_assert_int_eq(continue_plan(&best, 1), 0);
   stop = 1;
-  ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_OK);
-  ck_assert_int_eq(found, 1);
+  ck_assert_int_eq(continue_plan(&best, 1), 1);
 
   /* a plan that was refused leaves nothing to go on with */
   stop = 0;
-  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  expect_ok(carom_plan(&job, &best, 1, &found));
   balls[8].state.v[0] = 1.0;
   ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_ERROR_IN_MOTION);
   balls[8].state.v[0] = 0.0;

@@ -18,7 +18,7 @@ TEST(double_hits) {
                {"a near ball beside a frozen one", R2, R1, 1, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT},
                {"one of each", R2, R1 | R2, 1, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT},
                {"touched twice, with no ball", 0, 0, 2, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT}};
-  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(cases); k++) {
     carom_facts f = facts_of(1, 2, 0, 0), second = f;
     f.frozen = cases[k].frozen;
     f.pushed = cases[k].pushed;
@@ -62,7 +62,7 @@ TEST(snooker_jumps) {
                {"beside it", 30.0, 4.0, 0.06, {1.0, 0.35}, 0, LEGAL, 0},
                {"level, with the blue behind", 0.0, 4.0, 0.0, {0.3, 0.9}, 0, LEGAL, 0}};
   carom_table_make(CAROM_TABLE_SNOOKER, &table);
-  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+  for (size_t k = 0; k < COUNT_OF(cases); k++) {
     carom_rack(CAROM_RACK_SNOOKER, &table, 1e-4, 1, balls, 22);
     for (int ball = 2; ball < 22; ball++)
       balls[ball].state.label = CAROM_BALL_POCKETED;
@@ -77,7 +77,7 @@ TEST(snooker_jumps) {
     carom_facts facts;
     carom_ball_state final[22];
     carom_shot shot = {.facts = &facts, .final = final};
-    ck_assert_int_eq(carom_shoot(&table, balls, 22, &cue, NULL, &shot), CAROM_OK);
+    expect_ok(carom_shoot(&table, balls, 22, &cue, NULL, &shot));
     ck_assert_msg(facts.jumped == cases[k].jumped && facts.first[0] == 1, "%s: %x, %d",
                   cases[k].what, facts.jumped, (int)facts.first[0]);
     const carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
@@ -95,12 +95,12 @@ TEST(snooker_spots) {
   const double l = table.length;
   double spot[BALLS_MOST][2];
   for (int k = 0; k < BALLS_MOST; k++)
-    ck_assert_int_eq(carom_spot_of(CAROM_RACK_SNOOKER, &table, k, spot[k]), CAROM_OK);
+    expect_ok(carom_spot_of(CAROM_RACK_SNOOKER, &table, k, spot[k]));
   ck_assert(spot[YELLOW][0] > spot[BROWN][0] && spot[GREEN][0] < spot[BROWN][0]);
   ck_assert(spot[BLUE][1] == 0.5 * l && spot[PINK][1] == 0.75 * l);
   ck_assert(fabs(l - spot[BLACK][1] - 0.324) < 1e-3);
   for (int k = YELLOW; k <= BLACK; k++) {
-    ck_assert_int_eq(carom_spot_ball_of(CAROM_RACK_SNOOKER, &table, balls, count, k), CAROM_OK);
+    expect_ok(carom_spot_ball_of(CAROM_RACK_SNOOKER, &table, balls, count, k));
     ck_assert(is_at(k, spot[k][0], spot[k][1]));
   }
   ck_assert_int_eq(carom_spot_of(CAROM_RACK_SNOOKER, &table, 22, spot[0]), CAROM_ERROR_RACK);

@@ -6,15 +6,15 @@
 TEST(a_match_of_tenball) {
   static carom_match match;
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
-  ck_assert_int_eq(carom_match_begin(&match, CAROM_RULES_TENBALL, &table, 1, 0), CAROM_OK);
+  expect_ok(carom_match_begin(&match, CAROM_RULES_TENBALL, &table, 1, 0));
   const carom_shot_ball *lies = match.record.balls;
   const double pitch = 2.0 * lies[1].kind.radius + 1e-4;
   ck_assert(match.record.count == 11 && match.on == 2 && match.rules.state.opening == 1);
   ck_assert(fabs(lies[1].state.r[1] - 0.75 * table.length) < 1e-4);
   ck_assert(fabs(lies[10].state.r[0] - 0.5 * table.width) < 1e-4 &&
             fabs(lies[10].state.r[1] - 0.75 * table.length - 2.0 * pitch * sqrt(0.75)) < 1e-4);
-  ck_assert_int_eq(carom_match_place(&match, 0, 0.6, 0.6), CAROM_OK);
-  ck_assert_int_eq(carom_match_call(&match, 0, (carom_call){7, 1}), CAROM_OK);
+  expect_ok(carom_match_place(&match, 0, 0.6, 0.6));
+  expect_ok(carom_match_call(&match, 0, (carom_call){7, 1}));
   ck_assert_int_eq(carom_match_call(&match, 0, (carom_call){0, 1}), CAROM_ERROR_ACT);
   ck_assert_int_eq(carom_match_call(&match, 0, (carom_call){11, 1}), CAROM_ERROR_ACT);
 }
@@ -33,7 +33,7 @@ TEST(a_combination_is_planned) {
   carom_plan_job job = job_of(count, &cue, &player, &game_rules, &options);
   carom_plan_stroke best[5];
   int found;
-  ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
+  expect_ok(carom_plan(&job, best, 5, &found));
   bool calls_five = false;
   for (int k = 0; k < found; k++)
     calls_five |= best[k].ball == 5 && best[k].pocket >= 0 && best[k].keep > 0.3;

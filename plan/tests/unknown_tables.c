@@ -6,8 +6,8 @@ static carom_cue put_pot(bool bank) {
   make_layout(1, 1);
   rules = carom_plan_rules_of(CAROM_RULES_POTTING);
   player = carom_player_of(0.3);
-  carom_place_ball(&table, balls, BALLS, 8, bank ? 0.9 : 0.3, bank ? 1.2 : 0.3, NULL);
-  carom_place_ball(&table, balls, BALLS, 0, bank ? 1.0 : 0.6, bank ? 0.75 : 0.62, NULL);
+  place_ball(8, bank ? 0.9 : 0.3, bank ? 1.2 : 0.3);
+  place_ball(0, bank ? 1.0 : 0.6, bank ? 0.75 : 0.62);
   carom_pot pot = {.ball = 8, .vias = bank, .via = {{CAROM_PART_RAIL, 0}}};
   for (int p = 0; p < table.pockets; p++)
     if (table.pocket[p].centre[0] + table.pocket[p].centre[1] < 0.2)
@@ -18,7 +18,7 @@ static carom_cue put_pot(bool bank) {
   carom_cue stroke = cue;
   stroke.speed = bank ? 4.0 : 1.5;
   stroke.b = 0.25;
-  ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke), CAROM_OK);
+  expect_ok(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke));
   ck_assert_msg(pot.outcome == CAROM_POT_FALLS, "%s: %d", bank ? "bank" : "pot", pot.outcome);
   options.shots = 600;
   return stroke;
@@ -28,7 +28,7 @@ static carom_plan_stroke tried(const carom_cue *stroke, double unsure) {
   carom_plan_stroke c;
   options.unsure = unsure;
   make_memory();
-  ck_assert_int_eq(carom_plan_try(&job, stroke, 1, &c), CAROM_OK);
+  expect_ok(carom_plan_try(&job, stroke, 1, &c));
   edge_free(&memory);
   return c;
 }

@@ -10,22 +10,22 @@ static uint32_t one_pocket(const carom_rules_state *state) {
 TEST(values) {
   double easy, blocked, hand, corner;
   make_layout(1, 2);
-  carom_place_ball(&table, balls, BALLS, 8, 0.12, 0.12, NULL);
-  carom_place_ball(&table, balls, BALLS, 0, 0.5, 0.5, NULL);
-  ck_assert_int_eq(carom_plan_value(&job, 0, &easy), CAROM_OK);
-  carom_place_ball(&table, balls, BALLS, 9, 0.35, 0.35, NULL);
-  ck_assert_int_eq(carom_plan_value(&job, 0, &blocked), CAROM_OK);
-  ck_assert_int_eq(carom_plan_value(&job, 1, &hand), CAROM_OK);
+  place_ball(8, 0.12, 0.12);
+  place_ball(0, 0.5, 0.5);
+  expect_ok(carom_plan_value(&job, 0, &easy));
+  place_ball(9, 0.35, 0.35);
+  expect_ok(carom_plan_value(&job, 0, &blocked));
+  expect_ok(carom_plan_value(&job, 1, &hand));
   ck_assert(easy > 0.85 && easy <= 1.0 && blocked < easy - 0.1 && hand > blocked);
 
   /* a pocket that does not count is worth nothing */
   make_layout(1, 2);
-  carom_place_ball(&table, balls, BALLS, 8, 0.12, 0.12, NULL);
-  carom_place_ball(&table, balls, BALLS, 0, 0.5, 0.5, NULL);
+  place_ball(8, 0.12, 0.12);
+  place_ball(0, 0.5, 0.5);
   rules.pockets = one_pocket;
   for (uint64_t pocket = 0; pocket < 6; pocket++) {
     rules.state.user[7] = pocket;
-    ck_assert_int_eq(carom_plan_value(&job, 0, &corner), CAROM_OK);
+    expect_ok(carom_plan_value(&job, 0, &corner));
     const double *centre = table.pocket[pocket].centre;
     if (centre[0] < 0.5 && centre[1] < 0.5)
       ck_assert_double_gt(corner, 0.9);
@@ -35,9 +35,9 @@ TEST(values) {
 
   /* players who pot next to nothing; to one who makes every ball a miss is worth nothing */
   options.chance_me = options.chance_opponent = 1e-17;
-  ck_assert_int_eq(carom_plan_value(&job, 0, &blocked), CAROM_OK);
+  expect_ok(carom_plan_value(&job, 0, &blocked));
   options.chance_opponent = 1.0;
-  ck_assert_int_eq(carom_plan_value(&job, 0, &hand), CAROM_OK);
+  expect_ok(carom_plan_value(&job, 0, &hand));
   ck_assert(hand >= 0.0 && hand < blocked && blocked <= 1.0);
 }
 
@@ -53,7 +53,7 @@ static double nineball(double errors, double against) {
     player = carom_player_of(errors);
     options.opponent = &opponent;
     job.count = 10;
-    ck_assert_int_eq(carom_plan_value(&job, 1, &value), CAROM_OK);
+    expect_ok(carom_plan_value(&job, 1, &value));
     sum += value / LAYOUTS;
   }
   return sum;
@@ -77,14 +77,14 @@ TEST(values_of_push_outs) {
     rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
     player = carom_player_of(3.0);
     job.count = 10;
-    ck_assert_int_eq(carom_plan_value(&job, 0, &plays), CAROM_OK);
+    expect_ok(carom_plan_value(&job, 0, &plays));
     rules.state.may = CAROM_CHOICE_PUSH;
-    ck_assert_int_eq(carom_plan_value(&job, 0, &pushes), CAROM_OK);
+    expect_ok(carom_plan_value(&job, 0, &pushes));
     ck_assert_double_eq_tol(pushes, fmax(plays, 0.5), 1e-12);
     options.chance_opponent = 1.0;
-    ck_assert_int_eq(carom_plan_value(&job, 0, &pushes), CAROM_OK);
+    expect_ok(carom_plan_value(&job, 0, &pushes));
     rules.state.may = 0;
-    ck_assert_int_eq(carom_plan_value(&job, 0, &plays), CAROM_OK);
+    expect_ok(carom_plan_value(&job, 0, &plays));
     ck_assert_double_eq_tol(pushes, plays, 1e-12);
   }
 }
@@ -100,7 +100,7 @@ TEST(values_on_larger_tables) {
     make_layout(seed, 8);
     rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
     job.count = 10;
-    ck_assert_int_eq(carom_plan_value(&job, 1, &large), CAROM_OK);
+    expect_ok(carom_plan_value(&job, 1, &large));
     const double width = table.width;
     carom_table_make(CAROM_TABLE_POOL_7FT, &table);
     for (int k = 0; k < BALLS; k++)

@@ -9,21 +9,25 @@ static const double speed[SPEEDS] = {1.0, 1.5, 2.5};
 enum { MOST_WAYS = 20000 };
 typedef carom_shot_way way;
 
-/* What was found. */
-typedef struct found_ways {
-  const way *way;
-  int64_t ways;
-} found_ways;
-
-static way room[MOST_WAYS];
+/* What was found, and how many. */
+static way found[MOST_WAYS];
+static int64_t ways;
 static carom_cue stroke[SPEEDS];
+
+/* Plays a stroke from the layout; its events and facts are kept until the next one. */
+static carom_shot play(const carom_cue *cue_of_stroke) {
+  static carom_brief_event events[ROOM];
+  static carom_facts facts;
+  carom_shot shot = {.brief = events, .room = ROOM, .facts = &facts};
+  carom_shoot(&table, balls, BALLS, cue_of_stroke, &shot_options, &shot);
+  return shot;
+}
 
 /* Whether a rail ends within three radii of the pocket. */
 static bool is_beside(int rail, int pocket) {
   const carom_rail *r = &table.rail[rail];
   const double *c = table.pocket[pocket].centre;
-  return fmin(hypot(r->p[0] - c[0], r->p[1] - c[1]), hypot(r->q[0] - c[0], r->q[1] - c[1])) <
-         3.0 * table.pocket[pocket].radius;
+  return fmin(distance(r->p, c), distance(r->q, c)) < 3.0 * table.pocket[pocket].radius;
 }
 
 /* The kind of the pot of a ball: who met it first, and what they met before and after. */
@@ -66,13 +70,12 @@ static void make_balls(random_source *r, int layout, bool at_rail) {
   carom_status placed = at_rail ? CAROM_ERROR_BALLS : CAROM_OK;
   while (placed != CAROM_OK) {
     const double along = random_between(r, R, table.width - R);
-    placed = carom_place_ball(&table, balls, BALLS, 8, side ? R * (1.0 + gap) : along,
-                              side ? 2.0 * along : R * (1.0 + gap), NULL);
+    placed = place_ball(8, side ? R * (1.0 + gap) : along, side ? 2.0 * along : R * (1.0 + gap));
   }
 }
 
 /* Finds the ways of the layout by the first `strokes` speeds. */
-static found_ways find(int strokes) {
+static void find(int strokes) {
   const carom_player exact = carom_player_of(1.0);
   for (int k = 0; k < SPEEDS; k++) {
     stroke[k] = cue;
@@ -93,26 +96,24 @@ static found_ways find(int strokes) {
   edge space = edge_make(search.memory_size, true);
   carom_ways_result result;
   search.memory = space.memory;
-  ck_assert_int_eq(carom_ways(&search, room, MOST_WAYS, &result), CAROM_OK);
+  expect_ok(carom_ways(&search, found, MOST_WAYS, &result));
   ck_assert(result.left_out == 0);
   edge_free(&space);
-  return (found_ways){room, result.ways};
+  ways = result.ways;
 }
 
 /* Sweeps the directions of a stroke for a ball: counts the windows, and those that are listed. */
-static void compare(const found_ways *s, int number, int ball, int *windows, int *listed) {
+static void compare(int number, int ball, int *windows, int *listed) {
   int pocket[SWEPT + 1], kind[SWEPT + 1], run = 0;
   pocket[SWEPT] = -1;
   for (int k = 0; k < SWEPT; k++) {
-    static carom_brief_event event[ROOM];
-    carom_facts f;
-    carom_shot shot = {.brief = event, .room = ROOM, .facts = &f};
     carom_cue aimed = stroke[number];
     aimed.phi = 360.0 / SWEPT * k;
-    carom_shoot(&table, balls, BALLS, &aimed, &shot_options, &shot);
-    const bool is_repeated = f.touches > 1 && (f.pushed == 0 || f.second_time > 0.0);
-    const bool good = !((f.down | f.off) & 1) && !is_repeated && (f.pushed & ~f.frozen) == 0;
-    pocket[k] = good ? f.pocket[ball] : -1;
+    const carom_shot shot = play(&aimed);
+    const carom_facts *f = shot.facts;
+    const bool is_repeated = f->touches > 1 && (f->pushed == 0 || f->second_time > 0.0);
+    const bool good = !((f->down | f->off) & 1) && !is_repeated && (f->pushed & ~f->frozen) == 0;
+    pocket[k] = good ? f->pocket[ball] : -1;
     kind[k] = pocket[k] >= 0 ? kind_of(&shot, ball, pocket[k]) : -1;
   }
   for (int k = 1; k <= SWEPT; k++) {
@@ -122,8 +123,8 @@ static void compare(const found_ways *s, int number, int ball, int *windows, int
       continue;
     const double high = 360.0 / SWEPT * k, low = high - 360.0 / SWEPT * run;
     bool outcome = false;
-    for (int n = 0; n < s->ways; n++) {
-      const way *w = &s->way[n];
+    for (int n = 0; n < ways; n++) {
+      const way *w = &found[n];
       for (double turn = -360.0; turn <= 360.0; turn += 360.0)
         outcome |= w->ball == ball && w->pocket == pocket[k] && w->stroke == number &&
                    w->kind == kind[k] && w->phi[0] + turn <= high && w->phi[1] + turn >= low;
@@ -143,10 +144,10 @@ TEST(every_window_is_a_way) {
   int windows = 0, listed = 0;
   for (int layout = 0; layout < layouts; layout++) {
     make_balls(&r, layout, layout % 2);
-    const found_ways s = find(SPEEDS);
+    find(SPEEDS);
     for (int ball = 1; ball < BALLS; ball++)
       for (int k = 0; k < SPEEDS && balls[ball].state.label != CAROM_BALL_POCKETED; k++)
-        compare(&s, k, ball, &windows, &listed);
+        compare(k, ball, &windows, &listed);
   }
   printf("%d of %d windows are listed\n", listed, windows);
   ck_assert(windows > layouts && listed == windows);
@@ -156,16 +157,13 @@ TEST(every_window_is_a_way) {
  * reads brief events, say the same, as does the reading of this test. */
 TEST(a_pot_has_one_name) {
   random_source r = {test_seed()};
-  int of_kind[CAROM_PLAN_KISS + 1] = {0}, ways = 0;
+  int of_kind[CAROM_PLAN_KISS + 1] = {0}, all = 0;
   for (int layout = 0; layout < draws_of_each(FEWER(12)); layout++) {
     make_balls(&r, layout, false);
-    const found_ways s = find(SPEEDS);
-    for (int n = 0; n < s.ways; n++) {
-      const way *w = &s.way[n];
-      static carom_brief_event event[ROOM];
-      carom_facts f;
-      carom_shot shot = {.brief = event, .room = ROOM, .facts = &f};
-      carom_shoot(&table, balls, BALLS, &w->cue, &shot_options, &shot);
+    find(SPEEDS);
+    for (int n = 0; n < ways; n++) {
+      const way *w = &found[n];
+      const carom_shot shot = play(&w->cue);
       const int planned = carom_pot_kind(&table, &shot, 0, w->ball, w->pocket);
       const int read = kind_of(&shot, w->ball, w->pocket);
       ck_assert_msg(w->kind == planned && w->kind == read,
@@ -174,10 +172,10 @@ TEST(a_pot_has_one_name) {
                     carom_plan_kind_name((carom_plan_kind)planned),
                     carom_plan_kind_name((carom_plan_kind)read));
       of_kind[w->kind]++;
-      ways++;
+      all++;
     }
   }
-  printf("%d ways", ways);
+  printf("%d ways", all);
   for (int kind = 0; kind <= CAROM_PLAN_KISS; kind++)
     if (of_kind[kind] > 0)
       printf(", %s %d", carom_plan_kind_name((carom_plan_kind)kind), of_kind[kind]);
@@ -188,12 +186,10 @@ TEST(a_pot_has_one_name) {
 
 /* Whether the stroke of this direction pots ball 1 into the right side pocket. */
 static bool pots_at(double phi, int pocket) {
-  carom_facts f;
-  carom_shot shot = {.facts = &f};
   carom_cue aimed = stroke[0];
   aimed.phi = phi;
-  carom_shoot(&table, balls, BALLS, &aimed, &shot_options, &shot);
-  return f.pocket[1] == pocket && (f.down & 1) == 0;
+  const carom_facts *f = play(&aimed).facts;
+  return f->pocket[1] == pocket && (f->down & 1) == 0;
 }
 
 /* Directions end at 360 degrees, where a sweep begins anew: a window across is one way, and its
@@ -201,12 +197,12 @@ static bool pots_at(double phi, int pocket) {
 TEST(a_window_across_zero_degrees) {
   const double side = 1e-3, y = 1.27;
   make_layout(1, 1);
-  ck_assert_int_eq(carom_place_ball(&table, balls, BALLS, 0, 0.4, y, NULL), CAROM_OK);
-  ck_assert_int_eq(carom_place_ball(&table, balls, BALLS, 1, 0.7, y, NULL), CAROM_OK);
-  const found_ways s = find(1);
+  expect_ok(place_ball(0, 0.4, y));
+  expect_ok(place_ball(1, 0.7, y));
+  find(1);
   const way *only = NULL;
-  for (int n = 0; n < s.ways; n++) {
-    const way *w = &s.way[n];
+  for (int n = 0; n < ways; n++) {
+    const way *w = &found[n];
     if (w->ball != 1 || w->kind != CAROM_PLAN_POT || fabs(remainder(w->cue.phi, 360.0)) > 20.0)
       continue;
     ck_assert_msg(only == NULL, "the window is listed twice");
@@ -222,11 +218,9 @@ TEST(a_window_across_zero_degrees) {
 
 /* Whether the cue ball meets a ball directly, or right off one rail. */
 static bool is_met_soon(const carom_cue *aimed) {
-  carom_brief_event event[ROOM];
-  carom_facts f;
-  carom_shot shot = {.brief = event, .room = ROOM, .facts = &f};
-  carom_shoot(&table, balls, BALLS, aimed, &shot_options, &shot);
-  for (int64_t k = 0; k < shot.count && event[k].time < f.first_time[0] - 0.1; k++)
+  const carom_shot shot = play(aimed);
+  const carom_brief_event *event = shot.brief;
+  for (int64_t k = 0; k < shot.count && event[k].time < shot.facts->first_time[0] - 0.1; k++)
     if (event[k].type == CAROM_EVENT_RAIL)
       return false;
   return true;
@@ -236,26 +230,26 @@ static bool is_met_soon(const carom_cue *aimed) {
  * or right off a rail, and touches at most rails beside its pocket, but for one in 30. */
 TEST(pots_at_rails) {
   random_source r = {test_seed()};
-  int ways = 0, found = 0;
+  int pots = 0, falls = 0;
   for (int layout = 0; layout < draws_of_each(FEWER(60)); layout++) {
     make_balls(&r, layout, true);
-    const found_ways s = find(1);
-    for (int n = 0; n < s.ways; n++) {
-      const way *w = &s.way[n];
+    find(1);
+    for (int n = 0; n < ways; n++) {
+      const way *w = &found[n];
       carom_pot pot = {.ball = 8, .pocket = w->pocket};
       carom_cue aimed = stroke[0];
       const bool direct =
           w->kind == CAROM_PLAN_POT || (w->kind == CAROM_PLAN_KICK && w->parts == 1);
       if (!direct || w->phi[1] - w->phi[0] < 0.25 || !is_met_soon(&w->cue))
         continue;
-      ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &aimed), CAROM_OK);
-      ways++;
-      found += pot.outcome == CAROM_POT_FALLS;
+      expect_ok(carom_aim(&table, balls, BALLS, &shot_options, &pot, &aimed));
+      pots++;
+      falls += pot.outcome == CAROM_POT_FALLS;
       if (pot.outcome != CAROM_POT_FALLS)
         printf("layout %d: pocket %d at %.1f degrees is not aimed at\n", layout, w->pocket,
                w->cue.phi);
     }
   }
-  printf("%d of %d pots of balls near a rail are aimed at\n", found, ways);
-  ck_assert(ways > 5 && found >= ways - 1 - ways / 30);
+  printf("%d of %d pots of balls near a rail are aimed at\n", falls, pots);
+  ck_assert(pots > 5 && falls >= pots - 1 - pots / 30);
 }

@@ -28,6 +28,16 @@ static void make_breaks(void) {
   cues[4].a = 2.0;
 }
 
+/* Plays the first rack, and goes on with it. */
+static carom_status shoot(const carom_cue *cue, const carom_shot_options *options,
+                          carom_shot *shot) {
+  return carom_shoot(&table, balls, 16, cue, options, shot);
+}
+
+static carom_status go_on(const carom_shot_options *options, carom_shot *shot) {
+  return carom_shot_continue(&table, balls, 16, options, shot);
+}
+
 typedef struct results {
   carom_shot shot[SHOTS];
   carom_event *events;
@@ -44,19 +54,15 @@ static results *make_results(void) {
   return r;
 }
 
-/* Plays the layouts with balls[] and the cues with cues[], each for all shots or for its own. */
-static carom_status play_batch(int count, bool one_layout, bool one_cue, int from, int n,
-                               const carom_shot_options *options, results *r) {
-  const carom_shot_job job = {.table = &table,
-                              .balls = balls + (one_layout ? 0 : count * from),
-                              .cues = cues + (one_cue ? 0 : from),
-                              .count = count,
-                              .ball_stride = one_layout ? 0 : (uint64_t)count,
-                              .cue_stride = one_cue ? 0 : 1,
-                              .n = (uint64_t)n,
-                              .options = options,
-                              .shots = r->shot + from,
-                              .status = r->status + from};
+/* Plays n shots as a batch like this one, from one of its shots on. */
+static carom_status play_batch(const carom_shot_job *like, int from, int n, results *r) {
+  carom_shot_job job = *like;
+  job.table = &table;
+  job.balls = balls + like->ball_stride * (uint64_t)from;
+  job.cues = cues + like->cue_stride * (uint64_t)from;
+  job.n = (uint64_t)n;
+  job.shots = r->shot + from;
+  job.status = r->status + from;
   return carom_shoot_batch(&job);
 }
 
@@ -70,43 +76,54 @@ static void same_results(const results *a, const results *b) {
   ck_assert_mem_eq(a->events, b->events, (size_t)SHOTS * ROOM * sizeof *a->events);
 }
 
-/* Shots 0 to n - 1 by themselves. */
-static void play_singles(int count, bool one_layout, bool one_cue, int n,
-                         const carom_shot_options *options, results *r) {
-  for (int k = 0; k < n; k++)
-    r->status[k] = (int8_t)carom_shoot(&table, balls + (one_layout ? 0 : count * k), count,
-                                       &cues[one_cue ? 0 : k], options, &r->shot[k]);
-}
-
 static void free_results(results *r) {
   free(r->events);
   free(r);
 }
 
+/* Plays n shots by themselves, and as batches like this one by any number of threads, which have the
+ * same results; a batch has the status of its first error. Returns the results. */
+static results *play_both(const carom_shot_job *like, int n) {
+  static const int threads[] = {0, 1, 2, 3, 7, CAROM_ALL_THREADS};
+  results *single = make_results();
+  carom_status first = CAROM_OK;
+  for (int k = 0; k < n; k++) {
+    const carom_status status =
+        carom_shoot(&table, balls + like->ball_stride * (uint64_t)k, (int)like->count,
+                    &cues[like->cue_stride * (uint64_t)k], like->options, &single->shot[k]);
+    single->status[k] = (int8_t)status;
+    first = first < 0 ? first : status;
+  }
+  for (size_t t = 0; t < COUNT_OF(threads); t += SANITIZED ? 3 : 1) {
+    results *batch = make_results();
+    carom_shot_options options = *like->options;
+    carom_shot_job job = *like;
+    options.threads = threads[t];
+    job.options = &options;
+    ck_assert_int_eq(play_batch(&job, 0, n, batch), first);
+    same_results(single, batch);
+    free_results(batch);
+  }
+  return single;
+}
+
 TEST(batch_is_singles) {
   make_breaks();
   for (int world = 0; world < 2; world++) {
-    carom_shot_options options = {.world = (carom_world)world,
-                                  .cushion_model = CAROM_SHOT_CUSHION_HAN};
-    results *single = make_results();
-    play_singles(16, false, false, SHOTS, &options, single);
+    const carom_shot_options options = {.world = (carom_world)world,
+                                        .cushion_model = CAROM_SHOT_CUSHION_HAN};
+    const carom_shot_job job = {
+        .count = 16, .ball_stride = 16, .cue_stride = 1, .options = &options};
+    results *single = play_both(&job, SHOTS);
     ck_assert_int_eq(single->status[4], CAROM_ERROR_MISCUE);
-    ck_assert_int_eq(single->status[5], CAROM_OK);
-    static const int threads[] = {0, 1, 2, 3, 7, CAROM_ALL_THREADS};
-    for (size_t t = 0; t < COUNT_OF(threads); t += SANITIZED ? 3 : 1) {
-      results *batch = make_results();
-      options.threads = threads[t];
-      ck_assert_int_eq(play_batch(16, false, false, 0, SHOTS, &options, batch), CAROM_ERROR_MISCUE);
-      same_results(single, batch);
-      free_results(batch);
-    }
+    expect_ok(single->status[5]);
     /* any cut */
     lab_random r = {test_seed()};
     results *cut = make_results();
     for (int from = 0, size; from < SHOTS; from += size) {
       size = (int)lab_uniform(&r, 1.0, 9.0);
       size = from + size <= SHOTS ? size : SHOTS - from;
-      play_batch(16, false, false, from, size, &options, cut);
+      play_batch(&job, from, size, cut);
     }
     same_results(single, cut);
     free_results(cut);
@@ -121,12 +138,12 @@ TEST(radii) {
   enum { LAYOUTS = 144, BALLS = 2 };
   static const double factor[] = {1.0, 1.0, 1.1, 0.7, 1.0, 1.95, 0.4, 1.1, 0.0};
   const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
-  static const int threads[] = {0, 3, CAROM_ALL_THREADS};
+  const carom_shot_job job = {
+      .count = BALLS, .ball_stride = BALLS, .cue_stride = 1, .options = &options};
   carom_table_make(CAROM_TABLE_THREECUSHION, &table);
   int played = 0, refused = 0;
   const int step = SANITIZED ? 4 : 1;
   for (int from = 0; from < 9; from += step) { /* each may be the first */
-    results *single = make_results();
     for (int k = 0; k < LAYOUTS; k++) {
       for (int i = 0; i < BALLS; i++) {
         carom_shot_ball *b = &balls[BALLS * k + i];
@@ -139,23 +156,12 @@ TEST(radii) {
       }
       cues[k] = carom_cue_of(CAROM_GAME_BILLIARD);
       cues[k].phi = 37.0 + 10.0 * k;
-      single->status[k] = (int8_t)carom_shoot(&table, balls + BALLS * k, BALLS, &cues[k], &options,
-                                              &single->shot[k]);
+    }
+    results *single = play_both(&job, LAYOUTS);
+    for (int k = 0; k < LAYOUTS; k++) {
       played += single->status[k] == CAROM_OK;
       refused += single->status[k] == CAROM_ERROR_NOSE_HEIGHT ||
                  single->status[k] == CAROM_ERROR_OFF_TABLE;
-    }
-    for (size_t t = 0; t < COUNT_OF(threads); t++) {
-      carom_shot_options threaded = options;
-      threaded.threads = threads[t];
-      results *batch = make_results();
-      const carom_status first = play_batch(BALLS, false, false, 0, LAYOUTS, &threaded, batch);
-      same_results(single, batch);
-      int bad = 0;
-      while (batch->status[bad] >= 0)
-        bad++;
-      ck_assert_int_eq(first, batch->status[bad]);
-      free_results(batch);
     }
     free_results(single);
   }
@@ -169,64 +175,28 @@ TEST(one_for_all) {
   make_breaks();
   cues[4].a = 0.0;
   const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
-  for (int which = 0; which < 2; which++) {
-    results *single = make_results(), *batch = make_results();
-    play_singles(16, which == 0, which == 1, SHOTS, &options, single);
-    ck_assert_int_eq(play_batch(16, which == 0, which == 1, 0, SHOTS, &options, batch), CAROM_OK);
-    same_results(single, batch);
-    free_results(single);
-    free_results(batch);
-  }
-  enum { EVERY = 3, FEW = SHOTS / EVERY };
-  results *single = make_results(), *batch = make_results();
-  const carom_shot_job job = {.table = &table,
-                              .balls = balls,
-                              .cues = cues,
-                              .count = 11,
-                              .ball_stride = (uint64_t)EVERY * 16,
-                              .cue_stride = EVERY - 1,
-                              .n = FEW,
-                              .options = &options,
-                              .shots = batch->shot,
-                              .status = batch->status};
-  ck_assert_int_eq(carom_shoot_batch(&job), CAROM_OK);
-  for (int k = 0; k < FEW; k++)
-    single->status[k] = (int8_t)carom_shoot(&table, balls + EVERY * 16 * k, 11,
-                                            &cues[(EVERY - 1) * k], &options, &single->shot[k]);
-  same_results(single, batch);
-  free_results(single);
-  free_results(batch);
+  const carom_shot_job jobs[] = {
+      {.count = 16, .cue_stride = 1, .options = &options},
+      {.count = 16, .ball_stride = 16, .options = &options},
+      {.count = 11, .ball_stride = 48, .cue_stride = 2, .options = &options}};
+  for (int k = 0; k < 3; k++)
+    free_results(play_both(&jobs[k], k < 2 ? SHOTS : SHOTS / 3));
 }
 
-/* Brief events tell what full ones do, in place of them and beside them, and no more of them
- * than there is room for. */
+/* Brief events in place of full ones tell what those do; the fuzzer has both beside each other, and
+ * less room. States at a time need the full ones. */
 TEST(brief_events) {
-  enum { FEW = 7 };
-  static carom_brief_event in_place[ROOM], beside[ROOM];
-  static carom_event full[ROOM], others[ROOM];
+  static carom_brief_event brief[ROOM];
+  static carom_event full[ROOM];
   make_breaks();
-  carom_shot a = {.events = full, .room = ROOM}, b = {.brief = in_place, .room = ROOM};
-  carom_shot c = {.events = others, .brief = beside, .room = FEW};
-  memset(beside, 0x55, sizeof beside);
-  memset(others, 0x55, sizeof others);
-  carom_shot *const each[] = {&a, &b, &c};
-  for (int k = 0; k < 3; k++)
-    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], NULL, each[k]), CAROM_OK);
-  ck_assert(a.count > FEW && a.count <= ROOM && a.count == b.count && a.count == c.count);
+  carom_shot a = {.events = full, .room = ROOM}, b = {.brief = brief, .room = ROOM};
+  expect_ok(shoot(&cues[0], NULL, &a));
+  expect_ok(shoot(&cues[0], NULL, &b));
+  ck_assert(a.count > 0 && a.count <= ROOM && a.count == b.count);
   for (int64_t k = 0; k < a.count; k++) {
     const carom_brief_event told = {full[k].time, full[k].type, full[k].a, full[k].b, 0};
-    ck_assert_mem_eq(&in_place[k], &told, sizeof told);
-    if (k < FEW)
-      ck_assert(memcmp(&beside[k], &told, sizeof told) == 0 &&
-                memcmp(&others[k], &full[k], sizeof full[k]) == 0);
+    ck_assert_mem_eq(&brief[k], &told, sizeof told);
   }
-  for (const unsigned char *p = (const void *)&beside[FEW];
-       p < (const unsigned char *)(beside + ROOM); p++)
-    ck_assert_int_eq(*p, 0x55);
-  for (const unsigned char *p = (const void *)&others[FEW];
-       p < (const unsigned char *)(others + ROOM); p++)
-    ck_assert_int_eq(*p, 0x55);
-  /* states at a time need the full ones */
   carom_ball_state states[16];
   ck_assert_int_eq(carom_shot_at(balls, 16, &b, 0.5, states), CAROM_ERROR_EVENTS_LOST);
 }
@@ -270,12 +240,10 @@ static void same_frame(const random_shot *s, const broken *whole, const broken *
                        carom_frames *film) {
   carom_ball_state states[2][CAROM_BALLS_MOST];
   double turned[2][CAROM_BALLS_MOST][4];
-  ck_assert_int_eq(
-      carom_shot_frames(s->ball, s->count, &parts->shot, &time, 1, film, states[0], turned[0]),
-      CAROM_OK);
-  ck_assert_int_eq(carom_shot_at(s->ball, s->count, &whole->shot, time, states[1]), CAROM_OK);
-  ck_assert_int_eq(carom_shot_orientation(s->ball, s->count, &whole->shot, time, turned[1]),
-                   CAROM_OK);
+  expect_ok(
+      carom_shot_frames(s->ball, s->count, &parts->shot, &time, 1, film, states[0], turned[0]));
+  expect_ok(carom_shot_at(s->ball, s->count, &whole->shot, time, states[1]));
+  expect_ok(carom_shot_orientation(s->ball, s->count, &whole->shot, time, turned[1]));
   ck_assert_mem_eq(states[0], states[1], (size_t)s->count * sizeof *states[0]);
   ck_assert_mem_eq(turned[0], turned[1], (size_t)s->count * sizeof *turned[0]);
 }
@@ -388,8 +356,7 @@ TEST(stopped_and_continued) {
           ck_assert_double_eq(parts->shot.time, o.time_most);
           /* as the unbroken shot was then, and nothing is known of later */
           carom_ball_state then[CAROM_BALLS_MOST];
-          ck_assert_int_eq(carom_shot_at(s.ball, s.count, &whole->shot, o.time_most, then),
-                           CAROM_OK);
+          expect_ok(carom_shot_at(s.ball, s.count, &whole->shot, o.time_most, then));
           ck_assert_mem_eq(then, parts->final, (size_t)s.count * sizeof *then);
           ck_assert_int_eq(carom_shot_at(s.ball, s.count, &parts->shot, o.time_most + 1e-9, then),
                            CAROM_ERROR_TIME);
@@ -440,41 +407,6 @@ TEST(stopped_and_continued) {
   ck_assert_int_gt(stops, 2000);
 }
 
-/* The first contact of the cue ball is that of the whole shot; in a batch too, and each shot of
- * a batch can go on. */
-TEST(first_contact) {
-  enum { FEW = 20 };
-  static carom_shot_state state[FEW];
-  make_breaks();
-  cues[4].a = 0.0;
-  carom_shot_options options = {.stop_at = CAROM_STOP_AT_CONTACT,
-                                .cushion_model = CAROM_SHOT_CUSHION_HAN};
-  results *single = make_results(), *batch = make_results();
-  for (int k = 0; k < FEW; k++)
-    batch->shot[k].state = &state[k];
-  ck_assert_int_eq(play_batch(16, false, false, 0, FEW, &options, batch), CAROM_OK);
-  for (int k = 0; k < FEW; k++) {
-    ck_assert_int_eq(batch->status[k], CAROM_STOPPED_AT_EVENT);
-    const carom_event *last = &batch->shot[k].events[batch->shot[k].count - 1];
-    /* the first of a cluster */
-    const int64_t contact = batch->shot[k].count - (last->cluster > 0 ? last->cluster : 1);
-    ck_assert(last->type == CAROM_EVENT_BALL_BALL && batch->shot[k].events[contact].a == 0);
-    for (int64_t e = 0; e < contact; e++)
-      ck_assert_int_ne(batch->shot[k].events[e].type, CAROM_EVENT_BALL_BALL);
-    options.stop_at = 0;
-    batch->status[k] =
-        (int8_t)carom_shot_continue(&table, balls + 16 * k, 16, &options, &batch->shot[k]);
-    single->status[k] =
-        (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);
-    ck_assert_int_eq(batch->status[k], single->status[k]);
-    ck_assert_int_eq(batch->shot[k].count, single->shot[k].count);
-    ck_assert_mem_eq(batch->final[k], single->final[k], sizeof batch->final[k]);
-  }
-  ck_assert_mem_eq(batch->events, single->events, (size_t)FEW * ROOM * sizeof *batch->events);
-  free_results(single);
-  free_results(batch);
-}
-
 /* A ball that is stopped right before any cushion, jaw or pocket goes on to it. */
 TEST(stopped_before_every_part) {
   static carom_event events[2][ROOM];
@@ -485,10 +417,10 @@ TEST(stopped_before_every_part) {
     carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
     carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
     cue.phi = phi;
-    ck_assert_int_eq(carom_place_ball(&table, &ball, 1, 0, 0.6, 1.2, NULL), CAROM_OK);
+    expect_ok(carom_place_ball(&table, &ball, 1, 0, 0.6, 1.2, NULL));
     carom_shot whole = {.events = events[0], .room = ROOM},
                parts = {.events = events[1], .room = ROOM, .state = &state};
-    ck_assert_int_eq(carom_shoot(&table, &ball, 1, &cue, NULL, &whole), CAROM_OK);
+    expect_ok(carom_shoot(&table, &ball, 1, &cue, NULL, &whole));
     const carom_event *met = events[0];
     while (met->type < CAROM_EVENT_RAIL || met->type > CAROM_EVENT_POCKET)
       ck_assert_int_lt(++met - events[0], whole.count);
@@ -496,7 +428,7 @@ TEST(stopped_before_every_part) {
     carom_shot_options options = {.time_most = met->time - 1e-6};
     ck_assert_int_eq(carom_shoot(&table, &ball, 1, &cue, &options, &parts), CAROM_STOPPED_AT_TIME);
     options.time_most = 0.0;
-    ck_assert_int_eq(carom_shot_continue(&table, &ball, 1, &options, &parts), CAROM_OK);
+    expect_ok(carom_shot_continue(&table, &ball, 1, &options, &parts));
     ck_assert_int_eq(parts.count, whole.count);
     ck_assert_mem_eq(events[1], events[0], (size_t)whole.count * sizeof *events[0]);
   }
@@ -511,23 +443,22 @@ TEST(bad_states) {
   make_breaks();
   broken *b = make_broken();
   carom_shot_options options = {.time_most = 0.2};
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
-  b->status = carom_shoot(&table, balls, 16, &cues[0], &options, &b->shot);
+  ck_assert_int_eq(go_on(&options, &b->shot), CAROM_ERROR_STATE);
+  b->status = shoot(&cues[0], &options, &b->shot);
   ck_assert_int_eq(b->status, CAROM_STOPPED_AT_TIME);
   broken *before = malloc(sizeof *before);
   memcpy(before, b, sizeof *before);
   options.time_most = 0.3;
   b->shot.state = NULL;
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_NULL);
+  ck_assert_int_eq(go_on(&options, &b->shot), CAROM_ERROR_NULL);
   b->shot.state = &b->state;
   for (size_t bit = 0; bit < 8 * sizeof b->state; bit += bit < 4096 ? 1 : 61) {
     b->state.opaque[bit / 64] ^= UINT64_C(1) << bit % 64;
-    ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
+    ck_assert_int_eq(go_on(&options, &b->shot), CAROM_ERROR_STATE);
     b->state.opaque[bit / 64] ^= UINT64_C(1) << bit % 64;
   }
   ck_assert_mem_eq(b, before, sizeof *b);
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot),
-                   CAROM_STOPPED_AT_TIME);
+  ck_assert_int_eq(go_on(&options, &b->shot), CAROM_STOPPED_AT_TIME);
   free(before);
   free(b);
 }
@@ -554,6 +485,7 @@ TEST(bytes_of_states) {
     for (int k = 0; k < count && n % 4 == 3; k++)
       layout[k].kind.drag = 0.01;
     carom_shot_options options = {.time_most = 0.1 * (1 + n % 5),
+                                  .stop_at = n % 3 == 1 ? CAROM_STOP_AT_CONTACT : 0,
                                   .world = n % 4 == 2 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM};
     for (int k = 0; k < TIMES; k++) {
       memset(&state[k], 0x11 * k, sizeof state[k]);
@@ -654,7 +586,7 @@ static uint32_t jumped_over(const carom_event *events, int64_t count, int cue,
     const double *to = e->before[side].r;
     for (int i = 0; from != NULL && from->label == CAROM_BALL_AIRBORNE && i < on_table; i++) {
       const double *at = lie[i].state.r, both = lie[i].kind.radius + lie[cue].kind.radius;
-      const double way = hypot(to[0] - from->r[0], to[1] - from->r[1]);
+      const double way = distance(to, from->r);
       const double x = (to[0] - from->r[0]) / way, y = (to[1] - from->r[1]) / way;
       const double along = (at[0] - from->r[0]) * x + (at[1] - from->r[1]) * y;
       const double apart = hypot(from->r[0] + along * x - at[0], from->r[1] + along * y - at[1]);
@@ -743,7 +675,7 @@ TEST(facts_of_shots) {
     const double reach = 2.0 * lie[0].kind.radius + CAROM_RULES_TOUCH;
     for (int i = 0; i < 16; i++) {
       const double *a = lie[i].state.r, *b = lie[cue.ball].state.r;
-      if (i != cue.ball && hypot(a[0] - b[0], a[1] - b[1]) < reach)
+      if (i != cue.ball && distance(a, b) < reach)
         found.frozen |= 1U << i;
     }
     add_places(&found, events, shot.count, lie);
@@ -766,40 +698,41 @@ TEST(facts_of_shots) {
   ck_assert(down > 5 && second > 5 && pushes > 5 && jumps > 0);
   carom_facts facts;
   const carom_facts nothing = facts_of(events, 0, 0);
-  ck_assert_int_lt(carom_shoot(&table, balls, 16, &cues[4], NULL, &(carom_shot){.facts = &facts}),
-                   0);
+  ck_assert_int_lt(shoot(&cues[4], NULL, &(carom_shot){.facts = &facts}), 0);
   ck_assert_mem_eq(&nothing, &facts, sizeof facts);
 }
 
-/* A shot stops at the first contact of the cue ball if the other is not in the set, and else is
- * as without the option; it goes on as if it had not stopped. */
-TEST(stops_unless_the_first_is_of_a_set) {
+/* A shot stops at the first contact of the cue ball, or only if the other ball is not in the set,
+ * and else is as without the option; it goes on as if it had not stopped. */
+TEST(stops_at_the_first_contact) {
   static carom_shot_state state;
+  static const carom_shot_options rows[] = {{.first_of = UINT64_C(0x0a0a)}, /* balls 1, 3, 9, 11 */
+                                            {.stop_at = CAROM_STOP_AT_CONTACT}};
   make_breaks();
   int stopped = 0, played = 0;
-  for (int k = 5; k < 60; k++) {
+  for (int k = 10; k < 120; k++) {
+    const carom_shot_options *options = &rows[k % 2];
     carom_ball_state final[2][16];
     carom_facts facts, part;
-    carom_cue cue = cues[k];
-    cue.phi = 80.0 + 0.3 * k;
+    carom_cue cue = cues[k / 2];
+    cue.phi = 80.0 + 0.3 * (k / 2);
     carom_shot whole = {.facts = &facts, .final = final[0]};
-    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cue, NULL, &whole), CAROM_OK);
-    const carom_shot_options options = {.first_of = UINT64_C(0x0a0a)}; /* balls 1, 3, 9, 11 */
+    expect_ok(shoot(&cue, NULL, &whole));
     carom_shot shot = {.facts = &part, .final = final[1], .state = &state};
-    carom_status status = carom_shoot(&table, balls, 16, &cue, &options, &shot);
-    const bool stops = facts.first[0] >= 0 && !(options.first_of >> facts.first[0] & 1);
+    carom_status status = shoot(&cue, options, &shot);
+    const bool stops = facts.first[0] >= 0 && !(options->first_of >> facts.first[0] & 1);
     ck_assert_int_eq(status, stops ? CAROM_STOPPED_AT_EVENT : CAROM_OK);
     if (stops) {
       ck_assert(part.first[0] == facts.first[0] && part.first_time[0] == facts.first_time[0] &&
                 shot.time == part.first_time[0]);
-      status = carom_shot_continue(&table, balls, 16, &options, &shot);
+      status = go_on(NULL, &shot);
     }
-    ck_assert_int_eq(status, CAROM_OK);
+    expect_ok(status);
     ck_assert(memcmp(&part, &facts, sizeof facts) == 0 &&
               memcmp(final[0], final[1], sizeof final[0]) == 0);
     *(stops ? &stopped : &played) += 1;
   }
-  ck_assert(stopped > 10 && played > 10);
+  ck_assert(stopped > 60 && played > 10);
 }
 
 /* |u| of the surfaces of a ball that moves with v and w, as it meets what lies along n. */
@@ -825,7 +758,7 @@ TEST(slips) {
     cue.phi = 90.0 + k;
     cue.a = 0.3;
     carom_shot shot = {.events = events, .room = ROOM};
-    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cue, NULL, &shot), CAROM_OK);
+    expect_ok(shoot(&cue, NULL, &shot));
     for (int i = 0; i < shot.count; i++) {
       const carom_event *e = &events[i];
       const carom_ball_state *s = &e->before[0], *o = &e->before[1];
@@ -878,10 +811,10 @@ static void expect_same_by_all_sets(carom_shot_cushion cushion, bool same_if_fas
   const carom_shot_options fast = {.cushion_model = cushion, .fast = 1};
   carom_shot_options options = {.cushion_model = cushion};
   carom_shot plain = {.events = events, .room = ROOM};
-  ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &plain), CAROM_OK);
+  expect_ok(shoot(&cues[0], &options, &plain));
   FOR_EACH_ISA(isa) {
     carom_shot shot = {.events = others, .room = ROOM};
-    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &fast, &shot), CAROM_OK);
+    expect_ok(shoot(&cues[0], &fast, &shot));
     for (int k = 0; k < 8; k++) {
       ck_assert_int_eq(others[k].type, events[k].type);
       ck_assert_double_eq_tol(others[k].time, events[k].time, 1e-6);
@@ -895,10 +828,9 @@ static void expect_same_by_all_sets(carom_shot_cushion cushion, bool same_if_fas
     options.time_most = 0.7;
     shot.state = &state;
     memset(others, 0, sizeof others);
-    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot),
-                     CAROM_STOPPED_AT_TIME);
+    ck_assert_int_eq(shoot(&cues[0], &options, &shot), CAROM_STOPPED_AT_TIME);
     options.time_most = 0.0;
-    ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &shot), CAROM_OK);
+    expect_ok(go_on(&options, &shot));
     ck_assert_int_eq(shot.count, plain.count);
     ck_assert_mem_eq(events, others, (size_t)plain.count * sizeof *events);
   }

@@ -31,8 +31,7 @@ static double energy(double mass, double radius, const double v[3], const double
 /* Seeds for derivatives in up to DIRECTIONS directions, and how many: rarely a number that is
  * refused. */
 static int64_t make_seeds(double *seeds, int numbers) {
-  static const int64_t refused[] = {0, -1, CAROM_DIRECTIONS_MOST + 1, INT64_MAX, INT64_MIN};
-  const int64_t m = choice(32) == 31 ? refused[choice(5)] : 1 + choice(DIRECTIONS);
+  const int64_t m = directions(DIRECTIONS);
   memset(seeds, 0, (size_t)numbers * DIRECTIONS * sizeof *seeds);
   for (int k = 0; k < 4; k++) {
     const int place = choice(numbers * DIRECTIONS);
@@ -78,8 +77,8 @@ static void check_batch(carom_precision precision, const void *in, const carom_o
       ((carom_impact *)to)->a.v[k % 2] += 0.01 * k;
   }
   memset(&out, 0xFF, sizeof out); /* NaN, as in rows in error */
-  memset(many, GUARD, sizeof many);
-  memset(statuses, GUARD, sizeof statuses);
+  FILL(many);
+  FILL(statuses);
   const carom_status status = carom_collide_one(precision, in, o, &out);
   for (int k = 0; k < 12; k++)
     if (isfinite(single ? (double)((float *)&out)[k] : ((double *)&out)[k]) != (status >= 0))
@@ -94,7 +93,7 @@ static void check_batch(carom_precision precision, const void *in, const carom_o
                     (status >= 0 && memcmp((char *)many + (size_t)at * result, &out, result) != 0))
     fail("a batch differs from a call");
   unwritten((char *)many + (size_t)n * result, result, "a batch writes beside its results");
-  unwritten(&statuses[n], sizeof statuses[n], "a batch writes beside its statuses");
+  UNWRITTEN(statuses, n, "a batch writes beside its statuses");
 }
 
 static void two_balls(void) {
@@ -155,13 +154,12 @@ static void two_balls(void) {
   check_batch(CAROM_F32, &narrow, &o);
   /* derivatives */
   double seeds[26 * DIRECTIONS], tangent[12 * (DIRECTIONS + 1)];
-  const int64_t directions = make_seeds(seeds, 26);
+  const int64_t m = make_seeds(seeds, 26);
   int32_t flags = 0;
-  memset(tangent, GUARD, sizeof tangent);
+  FILL(tangent);
   const carom_status derived =
-      carom_collide_tangent(&in, &o, directions, seeds, tangent, choice(8) == 0 ? NULL : &flags);
-  check_tangent(tangent, 12, directions, derived, status,
-                plays && within(seeds, 26 * DIRECTIONS, 1e4));
+      carom_collide_tangent(&in, &o, m, seeds, tangent, choice(8) == 0 ? NULL : &flags);
+  check_tangent(tangent, 12, m, derived, status, plays && within(seeds, 26 * DIRECTIONS, 1e4));
   if ((flags & ~(CAROM_TANGENT_KINK | CAROM_TANGENT_DIFFERENCES)) != 0)
     fail("the flags of carom_collide_tangent");
   /* as spheres in space */
@@ -225,11 +223,10 @@ static void cushion(void) {
           energy(in.mass, in.radius, in.v, in.w) * (1 + 1e-4))
     fail("the energy of a ball at a cushion rises");
   const carom_cushion_impact rows[3] = {in, in, in};
-  memset(many, GUARD, sizeof many);
+  FILL(many);
   carom_cushion_batch(rows, 3, &o, many, statuses);
-  unwritten(&many[3], sizeof many[3], "a batch of impacts on a cushion writes beside its results");
-  unwritten(&statuses[3], sizeof statuses[3],
-            "a batch of impacts on a cushion writes beside its statuses");
+  UNWRITTEN(many, 3, "a batch of impacts on a cushion writes beside its results");
+  UNWRITTEN(statuses, 3, "a batch of impacts on a cushion writes beside its statuses");
   if (status == CAROM_OK && (statuses[1] != status || memcmp(&many[1], &out, sizeof out) != 0))
     fail("a batch of impacts on a cushion differs from a call");
   carom_cushion_point points[POINTS];
@@ -241,13 +238,12 @@ static void cushion(void) {
     expect(&points[k].normal, 1, traced >= 0, "the impulse of carom_cushion_trace");
   }
   double seeds[15 * DIRECTIONS], tangent[6 * (DIRECTIONS + 1)];
-  const int64_t directions = make_seeds(seeds, 15);
+  const int64_t m = make_seeds(seeds, 15);
   int32_t flags = 0;
-  memset(tangent, GUARD, sizeof tangent);
+  FILL(tangent);
   const carom_status derived =
-      carom_cushion_tangent(&in, &o, directions, seeds, tangent, choice(8) == 0 ? NULL : &flags);
-  check_tangent(tangent, 6, directions, derived, status,
-                plays && within(seeds, 15 * DIRECTIONS, 1e4));
+      carom_cushion_tangent(&in, &o, m, seeds, tangent, choice(8) == 0 ? NULL : &flags);
+  check_tangent(tangent, 6, m, derived, status, plays && within(seeds, 15 * DIRECTIONS, 1e4));
   if ((flags & ~(CAROM_TANGENT_KINK | CAROM_TANGENT_EULER | CAROM_TANGENT_DIFFERENCES)) != 0)
     fail("the flags of carom_cushion_tangent");
 }

@@ -4,6 +4,8 @@
 #ifndef CAROM_FUZZ_DRAWS_H
 #define CAROM_FUZZ_DRAWS_H
 
+#include "carom_tangent.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -64,6 +66,12 @@ static inline double number(double low, double high) {
   return x;
 }
 
+/* A number of directions of derivatives, up to `most`: rarely one that is refused. */
+static inline int64_t directions(int most) {
+  static const int64_t refused[] = {0, -1, CAROM_DIRECTIONS_MOST + 1, INT64_MAX, INT64_MIN};
+  return choice(32) == 31 ? refused[choice(5)] : 1 + choice(most);
+}
+
 /* The next draws are made of these bytes. */
 static inline void begin(const uint8_t *data, size_t size) {
   bytes = data;
@@ -115,10 +123,15 @@ static inline bool moderate(const double *x, size_t n) {
 
 /* What results are surrounded with, and whether all of it is still there. */
 enum { GUARD = 0x55 };
+#define FILL(array) memset(array, GUARD, sizeof(array))
 static inline void unwritten(const void *from, size_t size, const char *what) {
   for (size_t k = 0; k < size; k++)
     if (((const unsigned char *)from)[k] != GUARD)
       fail(what);
 }
+
+/* The same of the elements of an array behind those that are used. */
+#define UNWRITTEN(array, used, what) \
+  unwritten((array) + (used), sizeof(array) - (size_t)(used) * sizeof *(array), what)
 
 #endif

@@ -53,18 +53,16 @@ static void fail(const char *what) {
 static char *output_of(size_t k, const char *file, const char *threads, int *code) {
   static int memory = -1;
   /* argv may be written to and is put into another order */
-  const char *given[MOST_ARGUMENTS + 1] = {0};
+  const char *const last[] = {"--threads", threads, file};
   static char text_of[MOST_ARGUMENTS][64];
   char *argument[MOST_ARGUMENTS + 1] = {0};
-  int count = 0;
-  for (; commands[k].arguments[count] != NULL; count++)
-    given[count] = commands[k].arguments[count];
-  given[count++] = "--threads";
-  given[count++] = threads;
-  given[count++] = file;
-  for (int n = 0; n < count; n++) {
-    snprintf(text_of[n], sizeof text_of[n], "%s", given[n]);
-    argument[n] = text_of[n];
+  int count = 0, own = 0;
+  while (commands[k].arguments[own] != NULL)
+    own++;
+  for (; count < own + 3; count++) {
+    argument[count] = text_of[count];
+    snprintf(argument[count], sizeof *text_of, "%s",
+             count < own ? commands[k].arguments[count] : last[count - own]);
   }
   if (memory < 0)
     memory = memfd_create("output", 0);

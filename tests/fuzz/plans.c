@@ -142,7 +142,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   else if (found < 1 || found > ROOM)
     fail("the number of choices");
   check_choices(choices, found);
-  unwritten(&choices[found], (size_t)(ROOM + 1 - found) * sizeof *choices, "a plan writes beside");
+  UNWRITTEN(choices, found, "a plan writes beside");
 
   /* Neither threads nor slices nor what was in the memory count. */
   if (status == CAROM_OK) {

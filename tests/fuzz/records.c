@@ -5,7 +5,7 @@
  * - a line that was read and is written again, then read by a record like the one before it, says
  *   something else,
  * - a shot that is played ends otherwise when it is played once more. */
-#include "carom_record.h"
+#include "../unit/recorded_game.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -37,43 +37,6 @@ static void add_line(carom_record *game, carom_record_kind kind) {
   to->size = carom_record_write(game, kind, to->at, sizeof to->at);
   if (to->size == 0)
     fail("a line cannot be written");
-}
-
-/* A game with every kind of line: 3 balls, a stopped shot that goes on, events, ball in hand. */
-static void record_game(void) {
-  static carom_record game;
-  static carom_event events[100];
-  carom_shot shot = {0};
-  shot.events = events;
-  shot.room = 100;
-  carom_table_make(CAROM_TABLE_POOL_7FT, &game.table);
-  game.count = 3;
-  carom_rack(CAROM_RACK_THREECUSHION, &game.table, 1e-4, 1, game.balls, 3);
-  for (int kind = CAROM_RECORD_HEAD; kind <= CAROM_RECORD_BALLS; kind++)
-    add_line(&game, (carom_record_kind)kind);
-
-  /* a shot up to its first contact, two of its events, and the rest of it */
-  game.cue = carom_cue_of(CAROM_GAME_POOL);
-  game.cue.speed = 2.0;
-  game.options.stop_at = CAROM_STOP_AT_CONTACT;
-  carom_record_play(&game, CAROM_RECORD_SHOT, &shot);
-  add_line(&game, CAROM_RECORD_SHOT);
-  for (int k = 0; k < 2 && k < shot.count; k++) {
-    game.event = events[k];
-    game.before = game.after = events[k].type == CAROM_EVENT_BALL_BALL ? 2 : 1;
-    add_line(&game, CAROM_RECORD_EVENT);
-  }
-  game.options.stop_at = 0;
-  carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL);
-  add_line(&game, CAROM_RECORD_CONTINUE);
-  game.standing = (carom_rules_state){.fouls = {0, 1}, .may = 2, .user = {0, 7}};
-  game.rules = game.player = 1;
-  add_line(&game, CAROM_RECORD_GAME);
-  carom_record_place(&game, 0, 0.3, 0.4, NULL);
-  add_line(&game, CAROM_RECORD_PLACE);
-  carom_record_play(&game, CAROM_RECORD_SHOT, NULL);
-  add_line(&game, CAROM_RECORD_SHOT);
-  add_line(&game, CAROM_RECORD_END);
 }
 
 /* Puts `size` bytes in the place of `old` ones of a line. */
@@ -167,9 +130,12 @@ static void check_written(carom_record *record, carom_record *before) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-  static carom_record record, before, twice;
-  if (good_lines == 0)
-    record_game();
+  static carom_record game, record, before, twice;
+  if (good_lines == 0) {
+    carom_table_make(CAROM_TABLE_POOL_7FT, &game.table);
+    record_game(&game);
+    add_line(&game, CAROM_RECORD_END);
+  }
   if (size == 0)
     return 0;
   memcpy(edited, good, sizeof good);

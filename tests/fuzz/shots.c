@@ -283,8 +283,7 @@ static double cue_seed[CAROM_CUE_NUMBERS * DIRECTIONS],
 
 /* A few seeds that are not 0; `wild` becomes whether one of them is beyond 1e4. */
 static carom_tangent_seeds make_tangent_seeds(bool *wild) {
-  static const int64_t refused[] = {0, -1, CAROM_DIRECTIONS_MOST + 1, INT64_MAX, INT64_MIN};
-  const int64_t m = choice(32) == 31 ? refused[choice(5)] : 1 + choice(DIRECTIONS);
+  const int64_t m = directions(DIRECTIONS);
   struct {
     double *seeds;
     int size;
@@ -319,8 +318,8 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
                finals = (size_t)count * CAROM_STATE_NUMBERS * each;
 
   /* The first shot by itself. */
-  memset(final_of, GUARD, sizeof final_of);
-  memset(reach_of, GUARD, sizeof reach_of);
+  FILL(final_of);
+  FILL(reach_of);
   int32_t flags[EVENTS];
   double times[2] = {number(0, 5), 0};
   times[1] = choice(2) ? times[0] : number(0, 5);
@@ -395,13 +394,13 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
   /* All as a batch. */
   carom_tangent tangents[SHOTS];
   int8_t statuses[SHOTS + 1];
-  memset(statuses, GUARD, sizeof statuses);
+  FILL(statuses);
   for (int k = 0; k < SHOTS; k++)
     tangents[k] = (carom_tangent){.final = final_of[k]};
   const carom_tangent_job derivatives = {
       .played = job, .seeds = &seeds, .tangents = tangents, .status = statuses};
   carom_shot_tangent_batch(&derivatives);
-  unwritten(&statuses[SHOTS], 1, "a batch of derivatives writes beside its statuses");
+  UNWRITTEN(statuses, SHOTS, "a batch of derivatives writes beside its statuses");
   if (status >= 0 && job->status[0] >= 0 && tangent.at == NULL &&
       (statuses[0] != status || memcmp(final_of[0], single, finals * sizeof *single) != 0))
     fail("a batch of derivatives differs from those of one shot");
@@ -417,7 +416,7 @@ static void check_damage(const carom_shot *shot, const carom_shot_options *on) {
   enum { SEALED = 2, WORDS = 2960 }; /* of those that are sealed, without the last */
   carom_shot again = *shot;
   memcpy(&damaged, shot->state, sizeof damaged);
-  memset(events, GUARD, sizeof events);
+  FILL(events);
   again.events = events;
   again.brief = NULL;
   again.room = EVENTS;
@@ -439,8 +438,12 @@ static void check_damage(const carom_shot *shot, const carom_shot_options *on) {
   const carom_status status = carom_shot_continue(&table, balls, count, on, &again);
   if (!forged && !same && status != CAROM_ERROR_STATE)
     fail("carom_shot_continue takes a damaged state");
-  unwritten(&events[EVENTS], sizeof *events,
-            "a shot with a damaged state writes beside its events");
+  UNWRITTEN(events, EVENTS, "a shot with a damaged state writes beside its events");
+}
+
+static bool has_same_end(const carom_shot *a, const carom_shot *b) {
+  return a->count == b->count && memcmp(&a->time, &b->time, sizeof a->time) == 0 &&
+         memcmp(a->final, b->final, (size_t)count * sizeof *a->final) == 0;
 }
 
 /* Plays the rest of a shot that was stopped, and the whole at once. */
@@ -462,9 +465,7 @@ static void check_parts(carom_shot *shot, const carom_shot *room) {
   if (then == CAROM_ERROR_STATE || shot->count < before)
     fail("carom_shot_continue refuses the state of a shot that was stopped");
   const carom_status at_once = carom_shoot(&table, balls, count, &cues[0], &on, &whole);
-  if (at_once != then || whole.count != shot->count ||
-      memcmp(&whole.time, &shot->time, sizeof whole.time) != 0 ||
-      memcmp(whole.final, shot->final, (size_t)count * sizeof *whole.final) != 0)
+  if (at_once != then || !has_same_end(&whole, shot))
     fail("a shot in parts differs from the whole");
   const int64_t kept = shot->room < shot->count ? shot->room : shot->count;
   if (kept > 0 && memcmp(whole.events, shot->events, (size_t)kept * sizeof *whole.events) != 0)
@@ -481,9 +482,9 @@ static void shots(void) {
 
   /* One shot. */
   const int room = choice(2) ? EVENTS : choice(EVENTS + 1);
-  memset(events, GUARD, sizeof events);
-  memset(final, GUARD, sizeof final);
-  memset(brief, GUARD, sizeof brief);
+  FILL(events);
+  FILL(final);
+  FILL(brief);
   carom_shot one = {.events = events[SHOTS], .room = room, .final = final[SHOTS], .state = &state};
   one.brief = choice(4) == 0 ? brief : NULL;
   const carom_status status = carom_shoot(&table, balls, count, &cues[0], &options, &one);
@@ -491,10 +492,7 @@ static void shots(void) {
       status >= 0 || status == CAROM_ERROR_TOO_MANY_EVENTS || status == CAROM_ERROR_TOO_LONG;
   const int64_t kept = one.count < room ? one.count : room;
   for (int k = 0; k < count && played; k++)
-    for (int c = 0; c < 3; c++)
-      if (!isfinite(final[SHOTS][k].r[c]) || !isfinite(final[SHOTS][k].v[c]) ||
-          !isfinite(final[SHOTS][k].w[c]))
-        fail("the end of a shot is not finite");
+    expect(final[SHOTS][k].r, 9, true, "the end of a shot is not finite");
   if (played && (!isfinite(one.time) || one.count < 0))
     fail("the time of a shot is not finite");
   for (int64_t k = 1; k < kept; k++)
@@ -502,12 +500,9 @@ static void shots(void) {
       fail("events are not in order");
   if (carom_shot_check(&table, balls, count, &cues[0], &options, NULL) != CAROM_OK && one.count > 0)
     fail("carom_shot_check refuses what carom_shoot plays");
-  unwritten(events[SHOTS] + kept, sizeof events[SHOTS] - (size_t)kept * sizeof **events,
-            "events beside their place");
-  unwritten(final[SHOTS] + count, sizeof final[SHOTS] - (size_t)count * sizeof **final,
-            "final states beside their place");
-  unwritten(brief + kept, sizeof brief - (size_t)kept * sizeof *brief,
-            "brief events beside their place");
+  UNWRITTEN(events[SHOTS], kept, "events beside their place");
+  UNWRITTEN(final[SHOTS], count, "final states beside their place");
+  UNWRITTEN(brief, kept, "brief events beside their place");
   for (int64_t k = 0; k < kept && one.brief != NULL; k++)
     if (memcmp(&brief[k], &events[SHOTS][k], offsetof(carom_brief_event, reserved)) != 0)
       fail("brief events tell something else");
@@ -533,7 +528,7 @@ static void shots(void) {
   /* A batch of it and two others. */
   carom_shot many[SHOTS];
   int8_t statuses[SHOTS + 1];
-  memset(statuses, GUARD, sizeof statuses);
+  FILL(statuses);
   for (int k = 0; k < SHOTS; k++)
     many[k] = (carom_shot){.events = events[k], .room = room, .final = final[k]};
   carom_shot_job job = {.table = &table, .balls = balls, .cues = cues, .count = count, .n = SHOTS};
@@ -543,18 +538,13 @@ static void shots(void) {
   job.shots = many;
   job.status = statuses;
   carom_shoot_batch(&job);
-  const carom_shot single = one;
   for (int k = 0; k < SHOTS; k++) {
     const int64_t told = many[k].count < room ? many[k].count : room;
-    unwritten(events[k] + told, sizeof events[k] - (size_t)told * sizeof **events,
-              "the events of a batch beside their place");
-    unwritten(final[k] + count, sizeof final[k] - (size_t)count * sizeof **final,
-              "the ends of a batch beside their place");
+    UNWRITTEN(events[k], told, "the events of a batch beside their place");
+    UNWRITTEN(final[k], count, "the ends of a batch beside their place");
   }
-  unwritten(&statuses[SHOTS], 1, "a batch of shots writes beside its statuses");
-  if (played && (statuses[0] != (int8_t)status || many[0].count != single.count ||
-                 memcmp(&many[0].time, &single.time, sizeof single.time) != 0 ||
-                 memcmp(final[0], final[SHOTS], (size_t)count * sizeof **final) != 0 ||
+  UNWRITTEN(statuses, SHOTS, "a batch of shots writes beside its statuses");
+  if (played && (statuses[0] != (int8_t)status || !has_same_end(&many[0], &one) ||
                  memcmp(events[0], events[SHOTS], (size_t)kept * sizeof **events) != 0))
     fail("a batch of shots differs from a shot");
 

@@ -21,20 +21,21 @@ static double radius_on(int kind) {
 
 /* ---- Tables */
 
+/* Takes the part out: rails come first, then jaws, then pockets. */
 static void take_out(carom_table *t, int part) {
-  if (part < t->rails) {
-    memmove(&t->rail[part], &t->rail[part + 1], (size_t)(t->rails - part - 1) * sizeof *t->rail);
-    t->rails--;
-  } else if (part < t->rails + t->jaws) {
-    part -= (int)t->rails;
-    memmove(&t->jaw[part], &t->jaw[part + 1], (size_t)(t->jaws - part - 1) * sizeof *t->jaw);
-    t->jaws--;
-  } else {
-    part -= (int)(t->rails + t->jaws);
-    memmove(&t->pocket[part], &t->pocket[part + 1],
-            (size_t)(t->pockets - part - 1) * sizeof *t->pocket);
-    t->pockets--;
-  }
+  const struct {
+    void *parts;
+    int64_t *count;
+    size_t size;
+  } lists[] = {{t->rail, &t->rails, sizeof *t->rail},
+               {t->jaw, &t->jaws, sizeof *t->jaw},
+               {t->pocket, &t->pockets, sizeof *t->pocket}};
+  int k = 0;
+  for (; part >= *lists[k].count; k++)
+    part -= (int)*lists[k].count;
+  char *const place = (char *)lists[k].parts + (size_t)part * lists[k].size;
+  *lists[k].count -= 1;
+  memmove(place, place + lists[k].size, (size_t)(*lists[k].count - part) * lists[k].size);
 }
 
 /* Plays some shots of a lone ball: how many lose it, and how often it meets a rail. */
@@ -70,7 +71,7 @@ TEST(tables_are_checked) {
     carom_table sound, t;
     carom_table_fault fault;
     carom_table_make((carom_table_kind)kind, &sound);
-    ck_assert_int_eq(carom_table_check(&sound, R, &fault), CAROM_OK);
+    expect_ok(carom_table_check(&sound, R, &fault));
     ck_assert(fault.part.kind == CAROM_PART_NONE && fault.gap == 0.0);
     for (int part = 0; part < sound.rails + sound.jaws + sound.pockets; part++) {
       t = sound;
@@ -87,9 +88,9 @@ TEST(tables_are_checked) {
       /* a long rail is a hole as wide as itself but for its jaws */
       if (part < sound.rails) {
         const carom_rail *rail = &sound.rail[part];
-        const double length = hypot(rail->q[0] - rail->p[0], rail->q[1] - rail->p[1]);
-        const double off = hypot(fault.place[0] - 0.5 * (rail->p[0] + rail->q[0]),
-                                 fault.place[1] - 0.5 * (rail->p[1] + rail->q[1]));
+        const double length = distance(rail->q, rail->p);
+        const double middle[2] = {0.5 * (rail->p[0] + rail->q[0]), 0.5 * (rail->p[1] + rail->q[1])};
+        const double off = distance(fault.place, middle);
         if (length > 0.3) {
           ck_assert_int_eq(status, CAROM_ERROR_TABLE_OPEN);
           ck_assert_msg(off < 0.1 * length &&
@@ -338,27 +339,25 @@ TEST(polygon_tables) {
     other[k] = pool[5 - k];
   carom_table t, turned;
   carom_table_fault fault;
-  ck_assert_int_eq(carom_table_polygon(pool, 6, 0.0366, r, R, &t, &fault), CAROM_OK);
-  ck_assert_int_eq(carom_table_polygon(other, 6, 0.0366, r, R, &turned, NULL), CAROM_OK);
+  expect_ok(carom_table_polygon(pool, 6, 0.0366, r, R, &t, &fault));
+  expect_ok(carom_table_polygon(other, 6, 0.0366, r, R, &turned, NULL));
   ck_assert_int_eq(t.rails + t.jaws + t.pockets, 6 + 12 + 6);
   ck_assert(t.width == 1.27 && t.length == 2.54 && t.ball_radius == R);
   for (int k = 0; k < 6; k++) {
     const double *before = t.jaw[2 * k].centre, *after = t.jaw[2 * k + 1].centre;
     const carom_rail *one = &t.rail[(k + 5) % 6], *two = &t.rail[k];
-    ck_assert_double_eq_tol(hypot(after[0] - before[0], after[1] - before[1]),
-                            pool[k].mouth + 2.0 * r, 1e-12);
-    ck_assert_double_eq_tol(hypot(after[0] - two->p[0], after[1] - two->p[1]), r, 1e-12);
-    ck_assert_double_eq_tol(hypot(before[0] - one->q[0], before[1] - one->q[1]), r, 1e-12);
+    ck_assert_double_eq_tol(distance(after, before), pool[k].mouth + 2.0 * r, 1e-12);
+    ck_assert_double_eq_tol(distance(after, two->p), r, 1e-12);
+    ck_assert_double_eq_tol(distance(before, one->q), r, 1e-12);
     bool found = false;
     for (int i = 0; i < 6; i++)
-      found |= hypot(t.pocket[k].centre[0] - turned.pocket[i].centre[0],
-                     t.pocket[k].centre[1] - turned.pocket[i].centre[1]) < 1e-12;
+      found |= distance(t.pocket[k].centre, turned.pocket[i].centre) < 1e-12;
     ck_assert(found);
   }
   /* no rail of a U has a name */
   carom_corner u[8];
   read_rows("wide_u", 3, &u[0].x);
-  ck_assert_int_eq(carom_table_polygon(u, 8, 0.0366, r, R, &t, &fault), CAROM_OK);
+  expect_ok(carom_table_polygon(u, 8, 0.0366, r, R, &t, &fault));
   for (int k = 0; k < t.rails; k++)
     ck_assert_ptr_null(carom_rail_name(&t, k));
 }
@@ -369,13 +368,13 @@ TEST(polygons_take_any_origin) {
   carom_corner square[4];
   read_rows("square", 3, &square[0].x);
   carom_table at_origin, t;
-  ck_assert_int_eq(carom_table_polygon(square, 4, 0.0366, 0.01, R, &at_origin, NULL), CAROM_OK);
+  expect_ok(carom_table_polygon(square, 4, 0.0366, 0.01, R, &at_origin, NULL));
   for (int k = 0; k < 3; k++) {
     carom_corner moved[4];
     for (int n = 0; n < 4; n++)
       moved[n] =
           (carom_corner){square[n].x + from[k][0], square[n].y + from[k][1], square[n].mouth};
-    ck_assert_int_eq(carom_table_polygon(moved, 4, 0.0366, 0.01, R, &t, NULL), CAROM_OK);
+    expect_ok(carom_table_polygon(moved, 4, 0.0366, 0.01, R, &t, NULL));
     ck_assert_mem_eq(&t, &at_origin, sizeof t);
   }
 }
@@ -396,8 +395,7 @@ TEST(places_on_odd_shapes) {
     carom_corner corners[9];
     carom_table t;
     const int count = read_rows(shapes[k].name, 3, &corners[0].x);
-    ck_assert_int_eq(carom_table_polygon(corners, count, 0.0365, shapes[k].jaw_radius, R, &t, NULL),
-                     CAROM_OK);
+    expect_ok(carom_table_polygon(corners, count, 0.0365, shapes[k].jaw_radius, R, &t, NULL));
     expect_flooded(&t, R, 0.01, shapes[k].inside);
   }
 }
@@ -484,7 +482,7 @@ TEST(turns_agree_with_steps) {
     /* half of them fly, with a constant spin */
     ball.state.v[2] = n % 2 * random_between(&r, -2.0, 2.0);
     carom_shot shot = {.events = events, .room = 200};
-    ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
+    expect_ok(carom_shoot(&t, &ball, 1, NULL, NULL, &shot));
     ck_assert_int_le(shot.count, 200);
     double at = 0.0;
     for (int64_t k = 0; k < shot.count; k++) {
@@ -509,28 +507,28 @@ TEST(turns_agree_with_steps) {
   ck_assert_msg(worst < 1e-7, "%g rad", worst);
 }
 
-/* A frame of a film has the bits of single calls. */
-static void same_frame(const carom_shot_ball *balls, const carom_shot *shot, double time,
-                       carom_frames *film) {
-  carom_ball_state one[16], other[16];
-  double q[16][4], turned[16][4];
-  ck_assert_int_eq(carom_shot_frames(balls, 16, shot, &time, 1, film, other, turned), CAROM_OK);
-  ck_assert_int_eq(carom_shot_at(balls, 16, shot, time, one), CAROM_OK);
-  ck_assert_int_eq(carom_shot_orientation(balls, 16, shot, time, q), CAROM_OK);
-  ck_assert(memcmp(one, other, sizeof one) == 0 && memcmp(q, turned, sizeof q) == 0);
+/* Frames of a film have the bits of single calls. */
+static void same_frames(const carom_shot_ball *balls, const carom_shot *shot, const double *times,
+                        size_t many, carom_frames *film) {
+  carom_ball_state one[16], frames[3][16];
+  double q[16][4], turned[3][16][4];
+  expect_ok(carom_shot_frames(balls, 16, shot, times, many, film, frames[0], turned[0]));
+  for (size_t k = 0; k < many; k++) {
+    expect_ok(carom_shot_at(balls, 16, shot, times[k], one));
+    expect_ok(carom_shot_orientation(balls, 16, shot, times[k], q));
+    ck_assert(memcmp(one, frames[k], sizeof one) == 0 && memcmp(q, turned[k], sizeof q) == 0);
+  }
 }
 
-/* Frames have the bits of single calls, however they are cut, also where a shot goes on, where time
- * goes back, jumps or runs back to the beginning, and where the memory is that of another shot's
- * film. */
+/* However frames are cut, also where a shot goes on, where time goes back, jumps or runs back to
+ * the beginning, and where the memory is that of another shot's film. */
 TEST(frames) {
   static carom_shot_state state;
   static carom_frames film;
   carom_table t;
   carom_shot_ball balls[16];
   carom_event events[2000];
-  carom_ball_state final[16], one[16], other[3 * 16];
-  double q[16][4], turned[3 * 16][4];
+  carom_ball_state final[16];
   carom_table_make(CAROM_TABLE_POOL_9FT, &t);
   carom_shot_options options = {0};
   carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
@@ -549,28 +547,22 @@ TEST(frames) {
         times[k] = fmin(time, shot.time);
         time += 0.08 * random_between(&r, 0.0, 1.0);
       }
-      const size_t many = 1 + (size_t)(3 * random_between(&r, 0.0, 1.0));
-      ck_assert_int_eq(carom_shot_frames(balls, 16, &shot, times, many, &film, other, turned),
-                       CAROM_OK);
-      for (size_t k = 0; k < many; k++) {
-        ck_assert_int_eq(carom_shot_at(balls, 16, &shot, times[k], one), CAROM_OK);
-        ck_assert_int_eq(carom_shot_orientation(balls, 16, &shot, times[k], q), CAROM_OK);
-        ck_assert(memcmp(one, &other[k * 16], sizeof one) == 0);
-        ck_assert(memcmp(q, &turned[k * 16], sizeof q) == 0);
-      }
+      same_frames(balls, &shot, times, 1 + (size_t)(3 * random_between(&r, 0.0, 1.0)), &film);
       /* back now and then, and on with the shot */
       if (random_between(&r, 0.0, 1.0) < 0.1 && time > 0.2)
         time -= 0.2;
       if (options.time_most > 0.0 && time > 1.4) {
         options.time_most = 0.0;
-        ck_assert_int_eq(carom_shot_continue(&t, balls, 16, &options, &shot), CAROM_OK);
+        expect_ok(carom_shot_continue(&t, balls, 16, &options, &shot));
       }
     }
     ck_assert(options.time_most == 0.0);
-    for (int k = 0; k < 50; k++)
-      same_frame(balls, &shot, shot.time * random_between(&r, 0.0, 1.0), &film);
+    for (int k = 0; k < 50; k++) {
+      const double time = shot.time * random_between(&r, 0.0, 1.0);
+      same_frames(balls, &shot, &time, 1, &film);
+    }
     for (double time = shot.time; time > 0.0; time -= 0.04)
-      same_frame(balls, &shot, time, &film);
+      same_frames(balls, &shot, &time, 1, &film);
   }
 }
 
@@ -639,7 +631,7 @@ TEST(names) {
   ck_assert_str_eq(carom_rail_name(&t, 0), "left");
   ck_assert_str_eq(carom_rail_name(&t, 5), "foot");
   ck_assert_str_eq(carom_pocket_name(&t, 0), "head-left");
-  ck_assert_int_eq(carom_table_polygon(bent, 6, 0.0365, 0.02, 0.028575, &t, NULL), CAROM_OK);
+  expect_ok(carom_table_polygon(bent, 6, 0.0365, 0.02, 0.028575, &t, NULL));
   for (int k = 0; k < 6; k++) {
     ck_assert_ptr_null(carom_rail_name(&t, k));
     ck_assert_ptr_null(carom_pocket_name(&t, k));
@@ -663,7 +655,7 @@ TEST(marks_of_tables) {
   for (int kind = 0; kind < TABLES; kind++) {
     double head[2], foot[2];
     carom_table_make((carom_table_kind)kind, &t);
-    ck_assert_int_eq(carom_table_marks(&t, &marks), CAROM_OK);
+    expect_ok(carom_table_marks(&t, &marks));
     carom_spot_of(CAROM_RACK_EIGHTBALL, &t, 0, head);
     carom_spot_of(CAROM_RACK_EIGHTBALL, &t, 1, foot);
     ck_assert_mem_eq(marks.head_spot, head, sizeof head);
@@ -674,6 +666,4 @@ TEST(marks_of_tables) {
   carom_table_make(CAROM_TABLE_SNOOKER, &t);
   carom_table_marks(&t, &marks);
   ck_assert(fabs(marks.d_centre[1] - 0.737) < 1e-3 && fabs(marks.d_radius - 0.292) < 1e-3);
-  ck_assert_int_eq(carom_table_marks(NULL, &marks), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_table_marks(&t, NULL), CAROM_ERROR_NULL);
 }

@@ -72,15 +72,15 @@ TEST(many_parts_and_few) {
     table.jaw[table.jaws++] = table.jaw[0];
   while (table.pockets < CAROM_POCKETS_MOST)
     table.pocket[table.pockets++] = table.pocket[0];
-  ck_assert_int_eq(carom_shot_check(&table, balls, count, &cue, &options, &where), CAROM_OK);
+  expect_ok(carom_shot_check(&table, balls, count, &cue, &options, &where));
   ck_assert_int_eq(where, -1);
-  ck_assert_int_eq(carom_shoot(&table, balls, count, &cue, &options, &shot), CAROM_OK);
-  ck_assert_int_eq(shoot_pair(), CAROM_OK);
+  expect_ok(carom_shoot(&table, balls, count, &cue, &options, &shot));
+  expect_ok(shoot_pair());
   table = (carom_table){
       .jaws = 2, .pockets = 1, .jaw = {{.centre = {-5.0, -5.0}, .radius = 0.1, .height = 0.036}}};
   table.jaw[1] = (carom_jaw){.centre = {5.0, 5.0}, .radius = 0.1, .height = 0.036};
   table.pocket[0] = (carom_pocket){{3.0, -2.0}, 1.0, 0.08};
-  ck_assert_int_eq(carom_shot_check(&table, balls, count, NULL, NULL, NULL), CAROM_OK);
+  expect_ok(carom_shot_check(&table, balls, count, NULL, NULL, NULL));
 }
 
 /* Room for events that are nowhere, and less than none; a batch without a part, without shots, and
@@ -106,9 +106,21 @@ TEST(calls) {
     ck_assert_int_eq(carom_shoot_batch(&job), CAROM_ERROR_NULL);
     ck_assert_int_eq(status, 77);
   }
-  ck_assert_int_eq(carom_shoot_batch(&(carom_shot_job){0}), CAROM_OK);
+  expect_ok(carom_shoot_batch(&(carom_shot_job){0}));
   ck_assert_ptr_nonnull(strstr(carom_status_string(CAROM_ERROR_BALLS), "count"));
   ck_assert_ptr_nonnull(strstr(carom_status_string(CAROM_ERROR_SHOT_OPTIONS), "reserved"));
+}
+
+static carom_status shoot(const carom_shot_options *with) {
+  return carom_shoot(&table, balls, count, &cue, with, &shot);
+}
+
+static carom_status states_at(const double *looks, size_t many, carom_ball_state *at) {
+  return carom_shot_at_times(balls, count, &shot, looks, many, at);
+}
+
+static carom_status state_at(double time, carom_ball_state *at) {
+  return carom_shot_at(balls, count, &shot, time, at);
 }
 
 /* What a shot ended with is known up to its end, and nothing after it where balls still move:
@@ -116,13 +128,13 @@ TEST(calls) {
 static void expect_end(void) {
   carom_ball_state at[10], untouched[10];
   memset(untouched, 77, sizeof untouched);
-  ck_assert_int_eq(carom_shot_at(balls, count, &shot, shot.time, at), CAROM_OK);
+  expect_ok(state_at(shot.time, at));
   for (int k = 0; k < count; k++)
     NEAR_EACH(final[k].r, at[k].r, 3, 1e-15);
   const double later[] = {nextafter(shot.time, INFINITY), shot.time + 1.0, INFINITY, NAN};
   for (int n = 0; n < 4; n++) {
     memset(at, 77, sizeof at);
-    ck_assert_int_eq(carom_shot_at(balls, count, &shot, later[n], at), CAROM_ERROR_TIME);
+    ck_assert_int_eq(state_at(later[n], at), CAROM_ERROR_TIME);
     ck_assert_mem_eq(at, untouched, sizeof at);
   }
 }
@@ -133,31 +145,30 @@ TEST(bounded_shots) {
   carom_ball_state at[10];
   shot.room = 40;
   options.events_most = 30;
-  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, &options, &shot),
-                   CAROM_ERROR_TOO_MANY_EVENTS);
+  ck_assert_int_eq(shoot(&options), CAROM_ERROR_TOO_MANY_EVENTS);
   ck_assert_int_eq(shot.count, 30);
   ck_assert_double_eq(shot.time, events[29].time);
   expect_end();
   options = (carom_shot_options){.time_most = 0.15};
-  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, &options, &shot), CAROM_STOPPED_AT_TIME);
+  ck_assert_int_eq(shoot(&options), CAROM_STOPPED_AT_TIME);
   ck_assert_double_eq(shot.time, 0.15);
   expect_end();
   /* a shot that came to rest is known for ever, but not at no time */
   shot.room = ROOM;
-  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_OK);
-  ck_assert_int_eq(carom_shot_at(balls, 10, &shot, INFINITY, at), CAROM_OK);
+  expect_ok(shoot(NULL));
+  expect_ok(state_at(INFINITY, at));
   ck_assert_mem_eq(at, final, sizeof at);
-  ck_assert_int_eq(carom_shot_at(balls, 10, &shot, NAN, at), CAROM_ERROR_TIME);
+  ck_assert_int_eq(state_at(NAN, at), CAROM_ERROR_TIME);
   /* more events than there is room for: the state is known up to the last one kept */
   shot.room = 10;
-  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_OK);
+  expect_ok(shoot(NULL));
   ck_assert_int_gt(shot.count, 10);
-  ck_assert_int_eq(carom_shot_at(balls, 10, &shot, events[9].time, at), CAROM_OK);
-  ck_assert_int_eq(carom_shot_at(balls, 10, &shot, shot.time, at), CAROM_ERROR_EVENTS_LOST);
+  expect_ok(state_at(events[9].time, at));
+  ck_assert_int_eq(state_at(shot.time, at), CAROM_ERROR_EVENTS_LOST);
   cue.speed = 0.0;
-  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_OK);
+  expect_ok(shoot(NULL));
   ck_assert_int_eq(shot.count, 0);
-  ck_assert_int_eq(carom_shoot(&table, balls, 10, NULL, NULL, &shot), CAROM_OK);
+  expect_ok(carom_shoot(&table, balls, 10, NULL, NULL, &shot));
   ck_assert_int_eq(shot.count, 0);
 }
 
@@ -171,7 +182,7 @@ TEST(many_times) {
     set_up();
     for (int i = 0; i < 10; i++)
       balls[i].kind.drag = 0.02 * drag;
-    ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_OK);
+    expect_ok(shoot(NULL));
     ck_assert(shot.count > 20 && shot.count < ROOM);
     for (int order = 0; order < 3; order++) { /* forwards with every event among them, backwards,
                                                  to and fro */
@@ -182,40 +193,39 @@ TEST(many_times) {
       }
       for (int k = 0; order == 0 && k < 20; k++)
         looks[10 * k] = events[k].time;
-      ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, looks, TIMES, together[0]), CAROM_OK);
+      expect_ok(states_at(looks, TIMES, together[0]));
       for (int k = 0; k < TIMES; k++) {
-        ck_assert_int_eq(carom_shot_at(balls, 10, &shot, looks[k], alone), CAROM_OK);
+        expect_ok(state_at(looks[k], alone));
         ck_assert_mem_eq(alone, together[k], sizeof alone);
       }
     }
     looks[0] = 0.5;
     looks[1] = NAN;
     memset(together, 0, sizeof together);
-    ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, looks, 2, together[0]),
-                     CAROM_ERROR_TIME);
-    ck_assert_int_eq(carom_shot_at(balls, 10, &shot, 0.5, alone), CAROM_OK);
+    ck_assert_int_eq(states_at(looks, 2, together[0]), CAROM_ERROR_TIME);
+    expect_ok(state_at(0.5, alone));
     ck_assert_mem_eq(alone, together[0], sizeof alone);
     ck_assert_double_eq(together[1][0].r[2], 0.0);
-    ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, NULL, 0, NULL), CAROM_OK);
-    ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, NULL, 1, alone), CAROM_ERROR_NULL);
+    expect_ok(states_at(NULL, 0, NULL));
+    ck_assert_int_eq(states_at(NULL, 1, alone), CAROM_ERROR_NULL);
   }
 }
 
 /* Events and balls that were damaged end in an error, or in some state, after bounded work. */
 TEST(damaged_events) {
-  static const double bad[] = {-1.0,  1e3, 1e9,    1e12, 1e15, 1e18,     1e45,     1e100,
-                               1e300, NAN, -1e300, 1e-8, 0.0,  INFINITY, -INFINITY};
+  double bad[20];
+  const int bads = read_rows("damage", 1, bad);
   static carom_event good[64];
   set_up();
   carom_table_make(CAROM_TABLE_THREECUSHION, &table);
   carom_shot_ball two[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_BILLIARD)}};
   two[1].kind = two[0].kind;
-  ck_assert_int_eq(carom_place_ball(&table, two, 2, 0, 0.7, 0.5, NULL), CAROM_OK);
-  ck_assert_int_eq(carom_place_ball(&table, two, 2, 1, 0.72, 1.5, NULL), CAROM_OK);
+  expect_ok(carom_place_ball(&table, two, 2, 0, 0.7, 0.5, NULL));
+  expect_ok(carom_place_ball(&table, two, 2, 1, 0.72, 1.5, NULL));
   carom_cue stroke = carom_cue_of(CAROM_GAME_BILLIARD);
   stroke.a = 0.2;
   shot.room = 64;
-  ck_assert_int_eq(carom_shoot(&table, two, 2, &stroke, NULL, &shot), CAROM_OK);
+  expect_ok(carom_shoot(&table, two, 2, &stroke, NULL, &shot));
   ck_assert_int_gt(shot.count, 6);
   const double seed[CAROM_CUE_NUMBERS] = {1.0};
   const carom_tangent_seeds by_speed = {.directions = 1, .cue = seed};
@@ -224,7 +234,7 @@ TEST(damaged_events) {
   int refused = 0, unresolved = 0;
   tangent = (carom_tangent){.final = ends[0]};
   for (size_t word = 0; word < 4 * sizeof *good / sizeof(double); word++)
-    for (size_t k = 0; k < COUNT_OF(bad); k++) {
+    for (int k = 0; k < bads; k++) {
       memcpy(events, good, sizeof good);
       memcpy((char *)events + word * sizeof(double), &bad[k], sizeof(double));
       unresolved += carom_shot_at(two, 2, &shot, time, states) == CAROM_ERROR_UNRESOLVED;
@@ -242,7 +252,7 @@ TEST(damaged_events) {
   /* constants of a ball */
   memcpy(events, good, sizeof good);
   for (size_t word = 0; word < sizeof(carom_ball_kind) / sizeof(double); word++)
-    for (size_t k = 0; k < COUNT_OF(bad); k++) {
+    for (int k = 0; k < bads; k++) {
       carom_shot_ball other[2] = {two[0], two[1]};
       memcpy((char *)&other[0].kind + word * sizeof(double), &bad[k], sizeof(double));
       carom_shot_at(other, 2, &shot, 2.0, states);
@@ -262,7 +272,7 @@ TEST(lost_ball) {
   cue = carom_cue_of(CAROM_GAME_BILLIARD);
   cue.phi = 0.0;
   count = 1;
-  ck_assert_int_eq(carom_shoot(&table, balls, 1, &cue, NULL, &shot), CAROM_ERROR_LEFT_TABLE);
+  ck_assert_int_eq(shoot(NULL), CAROM_ERROR_LEFT_TABLE);
   ck_assert_double_eq_tol(final[0].r[0], table.width, 1e-9);
   expect_end();
 }
@@ -345,8 +355,8 @@ TEST(measures_of_tables) {
   random_source r = {test_seed()};
   carom_measures m;
   for (int size = CAROM_TABLE_POOL_7FT; size <= CAROM_TABLE_POOLTOOL; size++) {
-    ck_assert_int_eq(carom_table_measures((carom_table_kind)size, &m), CAROM_OK);
-    ck_assert_int_eq(carom_table_make((carom_table_kind)size, &table), CAROM_OK);
+    expect_ok(carom_table_measures((carom_table_kind)size, &m));
+    expect_ok(carom_table_make((carom_table_kind)size, &table));
     if (size == CAROM_TABLE_THREECUSHION)
       continue;
     measure(&m, size == CAROM_TABLE_POOLTOOL ? 0.07 : 1e-9);
@@ -379,9 +389,4 @@ TEST(measures_of_tables) {
     }
     ck_assert_int_gt(closed, 10);
   }
-  carom_table_make(CAROM_TABLE_THREECUSHION, &table);
-  ck_assert(table.width == 1.42 && table.length == 2.84 && table.rails == 4 && table.jaws == 0 &&
-            table.pockets == 0);
-  for (int k = 0; k < 4; k++)
-    ck_assert_double_eq(table.rail[k].height, 0.037);
 }
