@@ -1,8 +1,8 @@
 /* Where derivatives of shots end: each flag of carom_tangent.h by itself, the reach beside the
  * change at which a ball's events really change, and the derivatives by the frictions of the
  * cloth beside closed forms. */
+#include "paths.h"
 #include "table/table.h"
-#include "tangent_support.h"
 
 static const carom_shot_options closed = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
                                           .cushion_model = CAROM_SHOT_CUSHION_HAN};
@@ -97,59 +97,6 @@ static bool each_alike(const carom_shot *s, int count) {
 
 /* ---- Flags ---- */
 
-/* Derivatives of a hit that is thinner than a full one by s = 2 R (1 - eps) grow like
- * 1/sqrt(eps). */
-TEST(grazing) {
-  double last = 0.0;
-  for (int k = 0; k < 3; k++) {
-    const double eps = (double[]){0.3, 1e-5, 1e-6}[k];
-    const double thin = asin(2.0 * R * (1.0 - eps) / hypot(0.15, 0.8));
-    const layout l =
-        of_two(0.55, 1.4, 3.0, 57.29577951308232 * (atan2(0.8, 0.15) + thin), 0.0, 0.0);
-    int64_t contact = 0;
-    ck_assert_int_eq(differentiate(&l, &by_phi, 1), k == 0 ? 0 : CAROM_TANGENT_GRAZING);
-    ck_assert_int_eq(count_of(CAROM_TANGENT_GRAZING, &contact), k == 0 ? 0 : 1);
-    ck_assert_double_lt(error_of(&l, &by_phi, 0, 1), k < 2 ? 1e-6 : 1e-4);
-    /* the time of the contact */
-    if (k == 2)
-      ck_assert_double_eq_tol(times[contact] / last, sqrt(10.0), 0.02);
-    last = times[contact];
-    if (k > 0)
-      ck_assert_double_lt(reach[0], 1e-3);
-  }
-}
-
-/* The same in flight: balls that pass each other upright graze by all of their speed. A ball that
- * falls steeply comes to the far side of a pocket by its level speed alone. */
-TEST(grazing_in_flight) {
-  const direction by_z = {OF_STATE, 0, 7, 0.1};
-  for (int k = 0; k < 2; k++) {
-    layout l = of_one(0.4, 1.0, (double[]){0.0, 0.0}, (double[]){0.0, 0.0, 0.0});
-    l.ball[0] = flying(0.4, 1.0, 0.5, 0.0, 0.0, -2.0);
-    l.ball[1] = flying(0.4 + 2.0 * R * (k == 0 ? 1.0 - 1e-5 : 0.999), 1.0, 0.4, 0.0, 0.0, 0.0);
-    l.count = 2;
-    differentiate(&l, &by_z, 1);
-    ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
-    ck_assert_int_eq(event_flags[0], k == 0 ? CAROM_TANGENT_GRAZING : 0);
-  }
-
-  /* thrown up at the corner, 4 mm above the slate where it comes to the far side */
-  layout l = of_one(0.0, 0.0, (double[]){0.0, 0.0}, (double[]){0.0, 0.0, 0.0});
-  const carom_pocket *pocket = &table_of(&l)->pocket[0];
-  const double g = l.ball[0].kind.gravity, up = 10.0, speed = 0.08,
-               time = (up + sqrt(up * up - 8e-3 * g)) / g, side = sqrt(0.5);
-  for (int k = 0; k < 2; k++) {
-    const double out = pocket->centre[k] < 0.5 ? -side : side;
-    l.ball[0].state.r[k] = pocket->centre[k] + out * (pocket->radius - speed * time);
-    l.ball[0].state.v[k] = out * speed;
-  }
-  l.ball[0].state.v[2] = up;
-  differentiate(&l, &by_z, 1);
-  ck_assert_int_eq(events[0].type, CAROM_EVENT_POCKET);
-  ck_assert_double_eq_tol(events[0].before[0].r[2], R + 4e-3, 1e-6);
-  ck_assert_int_eq(event_flags[0], 0);
-}
-
 /* Racks whose balls touch have the flag, whatever the rack; with gaps they have not, and then
  * derivatives are right. */
 TEST(simultaneous) {
@@ -172,62 +119,6 @@ TEST(simultaneous) {
     ck_assert_msg(frozen || error < 1e-5, "rack %d: %g", k, error);
   }
   ck_assert_int_gt(apart, 0); /* so the flag says something */
-}
-
-/* A number of a stroke, the flags of the shot, those of one event, and how exact the derivatives
- * are.
- *
- * The place of a ball that touches another one at the start counts on one side only: a change opens
- * a gap, or there is none. By what moves neither there is no such flag, and the strike has its own
- * derivatives at the instant of the contact: side spin that a change brings about goes on into it;
- * phi changes it before slip between the balls can begin. Where that contact has no vertical slip,
- * a change presses one or the other ball on the cloth: by b there is a kink, by a and phi there is
- * none. By theta, at no elevation, the derivative is that upward, which the cloth takes a part of
- * at once; in flat play there is no kink. */
-TEST(strokes) {
-  enum { ANY = -1, TWICE = CAROM_TANGENT_SIMULTANEOUS, KINK = CAROM_TANGENT_KINK };
-  const carom_shot_options exact = {0}, flat = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
-                                                .cushion_model = CAROM_SHOT_CUSHION_HAN,
-                                                .space = CAROM_SPACE_FLAT};
-  const double y = 0.6 + 2.0 * R; /* balls touch, and event 1 is their contact */
-  const layout straight = of_two(0.4, y, 2.0, 90.0, 0.0, 0.0),
-               slow = of_two(0.4, y, 1.5, 90.0, 0.0, 0.0),
-               oblique = by_models(of_two(0.4, y, 2.0, 70.0, 0.2, 0.0), exact),
-               apart = of_two(0.55, 1.4, 2.0, 80.0, 0.2, 0.1);
-  const struct {
-    layout l;
-    direction by;
-    int all, event, of_event;
-    double within;
-  } cases[] = {
-      {straight, {OF_STATE, 1, 1, 1}, TWICE, 1, ANY, INFINITY},
-      {straight, {OF_CUE, 0, 0, 1}, 0, 1, 0, 1e-5},
-      {straight, {OF_CUE, 0, 3, 1}, 0, 1, 0, 1e-5},
-      {slow, {OF_CUE, 0, 1, 57}, ANY, 1, ANY, 1e-6},
-      /* the differences of carom_collide() itself are noisy */
-      {by_models(slow, exact), {OF_CUE, 0, 1, 57}, ANY, 1, ANY, 1e-3},
-      {oblique, {OF_CUE, 0, 4, 1}, ANY, 1, KINK, INFINITY},
-      {oblique, {OF_CUE, 0, 3, 1}, ANY, 1, 0, INFINITY},
-      {oblique, {OF_CUE, 0, 1, 57}, ANY, 1, 0, INFINITY},
-      {apart, {OF_CUE, 0, 3, 1}, 0, 0, 0, INFINITY},
-      {by_models(apart, flat), {OF_CUE, 0, 2, 30}, 0, 0, 0, INFINITY},
-      {apart, {OF_CUE, 0, 2, 30}, KINK, 0, KINK, INFINITY},
-  };
-  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-    const int64_t all =
-        differentiate(&cases[k].l, &cases[k].by, 1) & ~(int64_t)CAROM_TANGENT_CLUSTER;
-    const int32_t of_event = event_flags[cases[k].event] & ~CAROM_TANGENT_CLUSTER;
-    ck_assert_msg(cases[k].event == 0 ||
-                      (events[1].type == CAROM_EVENT_BALL_BALL && events[1].time == 0.0),
-                  "case %zu: event %d at %g s", k, (int)events[1].type, events[1].time);
-    ck_assert_msg((cases[k].all == ANY || all == cases[k].all) &&
-                      (cases[k].of_event == ANY || of_event == cases[k].of_event),
-                  "case %zu: flags %d, of the event %d", k, (int)all, of_event);
-    if (cases[k].within < INFINITY)
-      ck_assert_double_lt(error_of(&cases[k].l, &cases[k].by, 0, 1), cases[k].within);
-  }
-  /* the last, upward */
-  ck_assert_double_lt(off_slope(&apart, &(direction){OF_CUE, 0, 2, 30}, 0, 1, 0.0, 1e-5), 1e-4);
 }
 
 /* A ball with topspin right before another ball, or before a rail: the contacts that close at
@@ -441,24 +332,17 @@ TEST(rows_end_where_the_header_says) {
   edge_free(&flags);
 }
 
-/* A cushion in steps, and one that the exact model refuses, so that its steps take its place. */
+/* The derivatives of a cushion in steps are about those of the exact model, to which the steps
+ * converge. */
 TEST(euler) {
+  direction by[3];
+  read_directions("0.v[0] 1 0.w[2] 50 0.mu_cushion 0.2", by);
   const carom_shot_options steps = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
-                                    .cushion_model = CAROM_SHOT_CUSHION_EULER};
-  const carom_shot_options exact = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
-                                    .cushion_model = CAROM_SHOT_CUSHION_MATHAVAN};
-  const int32_t all = CAROM_TANGENT_EULER | CAROM_TANGENT_DIFFERENCES | CAROM_TANGENT_KINK;
-  layout l = by_models(of_two(0.9, 0.2, 2.0, 80.0, 0.0, 0.0), steps);
-  ck_assert_int_eq(differentiate(&l, &by_phi, 1), all);
-  l.options = exact;
-  ck_assert_int_eq(differentiate(&l, &by_phi, 1), 0);
-
-  /* the derivatives of the steps are about those of the exact model, to which the steps converge */
-  static const direction by[3] = {{OF_STATE, 0, 2, 1}, {OF_STATE, 0, 6, 50}, {OF_KIND, 0, 7, 0.2}};
+                                    .cushion_model = CAROM_SHOT_CUSHION_EULER,
+                                    .time_most = 0.5,
+                                    .steps = 10000};
+  layout l = by_models(of_one(0.6, 2.4, (double[]){0.5, 1.0}, (double[]){-20.0, 5.0, 30.0}), steps);
   double of_steps[NUMBERS * 3];
-  l = by_models(of_one(0.6, 2.4, (double[]){0.5, 1.0}, (double[]){-20.0, 5.0, 30.0}), steps);
-  l.options.time_most = 0.5;
-  l.options.steps = 10000;
   differentiate(&l, by, 3);
   memcpy(of_steps, ends, sizeof of_steps);
   l.options.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN;
@@ -467,55 +351,6 @@ TEST(euler) {
     for (int x = 0; x < NUMBERS; x++)
       ck_assert_double_eq_tol(of_steps[x * 3 + j], ends[x * 3 + j],
                               0.2 * largest(ends, NUMBERS, j, 3));
-
-  /* at the cushion at the start, with frictions so high that the ball jams */
-  static const double v[2] = {-0.89101410989132246, 1.5801067791159522},
-                      w[3] = {85.794122277663121, 50.245987554195324, -5.8093137134841299};
-  l = by_models(of_one(0.6, 2.54 - R, v, w), exact);
-  l.ball[0].kind.mu_slide = 0.78381552071488259;
-  l.ball[0].kind.mu_cushion = 0.83267709744753182;
-  l.ball[0].kind.restitution_cushion = 0.62421693509640952;
-  const direction by_v = {OF_STATE, 0, 3, 1};
-  ck_assert_int_ne(differentiate(&l, &by_v, 1) & CAROM_TANGENT_EULER, 0);
-  ck_assert_int_eq(event_flags[0], all);
-}
-
-/* At a kink the derivatives of both sides differ, and the tangent is one of them. Here the
- * friction just stops the slip: of two balls that meet head on, by side spin, and of a ball on
- * Han's cushion. */
-TEST(kink) {
-  const carom_shot_options options = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
-                                      .cushion_model = CAROM_SHOT_CUSHION_HAN,
-                                      .friction = CAROM_FRICTION_CONSTANT};
-  for (int k = 0; k < 4; k++) {
-    const double v[2] = {0.0, 1.0}, e = 0.95, mu = 0.05;
-    const double sine = 0.036576 / R - 1.0, cosine = sqrt(1.0 - sine * sine);
-    /* spin by which a slip of 7 mu e v stops just so; of the cushion 7/2 mu (1 + e) v cos */
-    const double slip = k < 2 ? 7.0 * mu * e * v[1] : 3.5 * 0.2 * 1.85 * v[1] * cosine;
-    double w[3] = {0.0, 0.0, slip / R};
-    if (k >= 2) { /* rolling, W_x = -v_y: no slip up the nose where W_x cos... is balanced by the
-                     spin about z alone */
-      w[0] = 0.0;
-      const double up = v[1] * sine; /* of the surface along the nose, from v_y */
-      w[2] = sqrt(slip * slip - up * up) / (R * cosine);
-    }
-    w[2] += k % 2 == 0 ? 0.0 : 1e-3 / R; /* a little beside it there is none */
-    layout l = by_models(of_one(0.4, k < 2 ? 1.0 : 2.54 - R, v, w), options);
-    if (k < 2) {
-      l.count = 2;
-      l.ball[1] = ball_at(0.4, 1.0 + 2.0 * R);
-    }
-    const direction by_w = {OF_STATE, 0, 6, 100};
-    differentiate(&l, &by_w, 1);
-    ck_assert_int_eq(events[0].type, k < 2 ? CAROM_EVENT_BALL_BALL : CAROM_EVENT_RAIL);
-    ck_assert_int_eq(event_flags[0], k % 2 == 0 ? CAROM_TANGENT_KINK : 0);
-    if (k % 2 == 1)
-      continue;
-    const double below = off_slope(&l, &by_w, 0, 1, -1e-4, 0.0),
-                 above = off_slope(&l, &by_w, 0, 1, 0.0, 1e-4);
-    ck_assert_double_lt(fmin(below, above), 1e-4);
-    ck_assert_double_gt(fmax(below, above), 1e-2);
-  }
 }
 
 /* Shots square at a cushion, by draw, stun and follow: a ball has neither speed nor roll along it,
@@ -556,89 +391,6 @@ TEST(square_at_a_cushion) {
         }
   }
   ck_assert_double_gt(largest_error, 0.0); /* of those that were found by differences */
-}
-
-/* By the restitution of the tip, with other numbers of the cue, of two balls; where it is 0, which
- * stands for 1, the derivative is that of 1. */
-TEST(tip) {
-  static const direction by[3] = {{OF_CUE, 0, 7, 1}, {OF_CUE, 0, 0, 1}, {OF_CUE, 0, 3, 1}};
-  static const double restitution[3] = {0.4, CAROM_TIP_LEATHER, 0.85};
-  double of_1[NUMBERS * 2];
-  for (int k = 0; k < 3 * 4; k++) {
-    layout l = of_two(0.45, 1.1, 1.0 + k / 3, 87.0, 0.2, -0.1);
-    l.cue.tip_restitution = restitution[k % 3];
-    ck_assert_int_eq(differentiate(&l, by, 3), 0);
-    for (int j = 0; j < 3; j++)
-      ck_assert_double_lt(error_of(&l, &by[j], j, 3), 1e-6);
-  }
-  for (int k = 0; k < 2; k++) {
-    layout l = of_two(0.45, 1.1, 2.0, 87.0, 0.0, 0.0);
-    l.cue.tip_restitution = k == 0 ? 1.0 : 0.0;
-    differentiate(&l, by, 1);
-    ck_assert_double_gt(largest(ends, NUMBERS * 2, 0, 1), 0.1);
-    if (k == 0)
-      memcpy(of_1, ends, sizeof of_1);
-    ck_assert_int_eq(memcmp(of_1, ends, sizeof of_1), 0);
-  }
-}
-
-/* A hop that is nearly none, since the ball falls little faster than it has to, is a grazing
- * contact; and a ball that meets the slate and another ball at one instant meets them
- * simultaneously. */
-TEST(edges_of_flights) {
-  const double v[2] = {0.5, 0.0}, w[3] = {0.0, 10.0, 0.0};
-  static const direction by_v_z = {OF_STATE, 0, 8, 1};
-  for (int k = 0; k < 3; k++) { /* the least fall that is followed by a hop is 0.04 m/s */
-    layout l = of_one(0.4, 1.0, v, w);
-    l.ball[0].state.v[2] = (double[]){-0.04 - 1e-7, -0.04 + 1e-7, -0.045}[k];
-    ck_assert_int_eq(differentiate(&l, &by_v_z, 1), k < 2 ? CAROM_TANGENT_GRAZING : 0);
-    ck_assert_int_eq(event_flags[0], k < 2 ? CAROM_TANGENT_GRAZING : 0);
-    ck_assert_double_eq_tol(reach[0], k < 2 ? 1e-7 : 5e-3, 1e-6);
-  }
-  for (int k = 0; k < 2; k++) {
-    layout l = of_two(0.4 + 2.0 * R + 0.01 * k, 0.6, 2.0, 0.0, 0.0, 0.0);
-    l.cue.theta = 30.0;
-    l.cue.tip_time = -1.0;
-    ck_assert_int_eq((differentiate(&l, &by_phi, 1) & CAROM_TANGENT_SIMULTANEOUS) != 0, k == 0);
-  }
-}
-
-/* A flight that begins on the cloth without vertical speed lands at once, and a level contact in
- * flight leaves both balls on the cloth. A change could lift a ball from both: a kink. A change of
- * the speed along the contact lifts none; one of the place gives the ball time to fall before. */
-TEST(kinks_of_flights) {
-  static const direction by[3] = {{OF_STATE, 0, 0, 1}, {OF_STATE, 0, 8, 1}, {OF_STATE, 0, 2, 1}};
-  const double v[2] = {0.5, 0.0}, w[3] = {0.0, 0.0, 0.0};
-  for (int k = 0; k < 3; k++) {
-    layout l = of_one(0.4, 1.0, v, w);
-    l.ball[0].state.label = CAROM_BALL_AIRBORNE;
-    ck_assert_int_eq(differentiate(&l, &by[k], 1), CAROM_TANGENT_KINK);
-    ck_assert_int_eq(events[0].type, CAROM_EVENT_SLATE);
-    ck_assert_int_eq(event_flags[0], CAROM_TANGENT_KINK);
-
-    /* whichever of the two balls flies */
-    for (int flies = 0; flies < 2; flies++) {
-      const carom_shot_ball flier = l.ball[0];
-      layout two = l;
-      direction of = by[k];
-      two.count = 2;
-      two.ball[flies] = flier;
-      two.ball[1 - flies] = ball_at(0.4 + 2.0 * R, 1.0);
-      of.ball = flies;
-      differentiate(&two, &of, 1);
-      ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
-      ck_assert_int_eq(event_flags[0] & CAROM_TANGENT_KINK, k < 2 ? CAROM_TANGENT_KINK : 0);
-    }
-  }
-
-  /* balls of nearly one radius, of which a larger one lifts the other */
-  layout l = of_one(0.4, 1.0, v, w);
-  l.count = 2;
-  l.ball[1] = ball_at(0.4 + 2.0 * R, 1.0);
-  l.ball[1].kind.radius = l.ball[1].state.r[2] = nextafter(R, 1.0);
-  differentiate(&l, &(direction){OF_KIND, 0, 1, 0.03}, 1);
-  ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
-  ck_assert_int_ne(event_flags[0] & CAROM_TANGENT_KINK, 0);
 }
 
 /* Strikes of raised cues at a ball alone, by all numbers of the cue, beside differences. Where a
@@ -759,28 +511,6 @@ TEST(ends_of_flights) {
   }
 }
 
-/* A level centre hit on two balls that touch the cue ball or nearly do, and on a row: by b, to one
- * side, the contacts press other balls on the cloth than to the other side. By a there is no kink
- * where they touch. */
-TEST(centre_hit_of_a_cluster) {
-  static const double along[3][2] = {{60.0, 120.0}, {80.0, 150.0}, {90.0, 90.0}};
-  static const direction by[2] = {{OF_CUE, 0, 3, 1}, {OF_CUE, 0, 4, 1}};
-  for (int k = 0; k < 12; k++) {
-    layout l = by_models(of_two(0.4, 0.6, 2.0, k / 2 % 3 == 1 ? 95.0 : 90.0, 0.0, 0.0),
-                         (carom_shot_options){.time_most = 0.02});
-    l.count = 3;
-    for (int i = 1; i < 3; i++) {
-      const double q = 0.017453292519943295 * along[k / 2 % 3][i - 1],
-                   far = (k / 2 % 3 < 2 ? 1.0 : i) * (k < 6 ? 2.0 * R : 2.0 * R + 1e-6);
-      l.ball[i] = ball_at(0.4 + far * cos(q), 0.6 + far * sin(q));
-    }
-    const int64_t all = differentiate(&l, &by[k % 2], 1);
-    ck_assert_int_eq(events[1].cluster, 3); /* with the tip */
-    if (k < 6 || k % 2 == 1)
-      ck_assert_int_eq(all & CAROM_TANGENT_KINK, k % 2 == 0 ? 0 : CAROM_TANGENT_KINK);
-  }
-}
-
 /* ---- Reach ---- */
 
 /* The least change at which a ball's events are others, in steps of 10 % from 1e-9 on. */
@@ -841,31 +571,6 @@ TEST(reach_of_near_misses) {
     if (!(found > 0.9 && found < 1.2))
       ck_abort_msg("gap %g m, speed %g m/s, side %g: found %g of the reach %g", gap, l.cue.speed,
                    side, found, reach[0]);
-  }
-}
-
-/* Of a ball that passes another one far from where it began, almost at rest, and with the speed
- * that its topspin gave it. */
-TEST(reach_of_a_ball_that_gathers_speed) {
-  const direction by = {OF_STATE, 1, 0, 1};
-  layout l = of_one(0.635, 0.3, (double[]){0.0, 0.1}, (double[]){-300.0, 0.0, 0.0});
-  l.options.stop_at = CAROM_STOP_AT(CAROM_EVENT_RAIL) | CAROM_STOP_AT(CAROM_EVENT_SLIDING_ROLLING);
-  l.count = 2;
-  l.ball[1] = ball_at(0.635 + 2.0 * R + 1e-3, 1.3);
-  differentiate(&l, &by, 1);
-  ck_assert_int_eq(shot.count, 1);
-  ck_assert_double_gt(final[0].r[1], 1.35);
-  ck_assert_double_eq_tol(reach[0], 1e-3, 1e-5);
-}
-
-/* Of a ball that just touches another one, which smaller balls would not. */
-TEST(reach_of_thin_hits) {
-  static const double overlaps[] = {1e-7, 1e-6, 1e-5};
-  const direction by_radii = {OF_KIND, -1, 1, 0.02};
-  for (int k = 0; k < 3; k++) {
-    const layout l = of_two(0.4 + 2.0 * R - overlaps[k], 1.0, 2.0, 90.0, 0.0, 0.0);
-    differentiate(&l, &by_radii, 1);
-    ck_assert_double_eq_tol(reach[0], 0.5 * overlaps[k], 0.05 * overlaps[k]);
   }
 }
 
@@ -1014,30 +719,6 @@ TEST(passages_of_jaws) {
   ck_assert_int_gt(count, FEWER(200) * DIRECTIONS / 2);
   tell(errors, count, 0.99, "passages of jaws");
   ck_assert_double_lt(errors[count - 1], 1e-7);
-}
-
-/* English that a change brings about ends before the contact, unless the change is above the
- * reach. */
-TEST(reach_of_english) {
-  static const double gaps[] = {1e-7, 1e-6, 1e-5, 1e-4};
-  const direction by = {OF_CUE, 0, 3, 1};
-  for (int k = 0; k < 4; k++) {
-    const layout l = of_two(0.4, 0.6 + 2.0 * R + gaps[k], 1.5, 90.0, 0.0, 0.0);
-    differentiate(&l, &by, 1);
-    const double d = 0.5 * reach[0], far = 2.0 * reach[0];
-    ck_assert_double_lt(reach[0], 0.1 * gaps[k]);
-    ck_assert_double_lt(off_slope(&l, &by, 0, 1, -d, d), 1e-2);
-    ck_assert_double_gt(off_slope(&l, &by, 0, 1, far, 2.0 * far), 1.0);
-  }
-  /* and of a ball that spins a little */
-  layout l = of_two(0.4, 0.6 + 2.0 * R + 1e-5, 0.0, 0.0, 0.0, 0.0);
-  const direction by_w = {OF_STATE, 0, 6, 1};
-  l.ball[0].state.v[1] = 1.5;
-  l.ball[0].state.w[2] = 2e-4;
-  differentiate(&l, &by_w, 1);
-  ck_assert_double_lt(reach[0], 2e-4);
-  ck_assert_double_lt(off_slope(&l, &by_w, 0, 1, -0.5 * reach[0], 0.5 * reach[0]), 1e-2);
-  ck_assert_double_gt(off_slope(&l, &by_w, 0, 1, -1.4 * reach[0], -1.1 * reach[0]), 0.9);
 }
 
 /* ---- The cloth ---- */
@@ -1324,16 +1005,6 @@ TEST(second_touches) {
   ck_assert_double_lt(most, 1e-3);
 }
 
-/* A ball that falls into a corner pocket would meet the rail first, 0.1 mm to its side. */
-TEST(reach_of_a_rail_beside_a_pocket) {
-  static const direction by_x = {OF_STATE, 0, 0, 0.1};
-  const double v[2] = {0.0, 2.0}, w[3] = {-2.0 / R, 0.0, 0.0};
-  layout l = of_one(R + 1e-4, 2.2, v, w);
-  differentiate(&l, &by_x, 1);
-  ck_assert_int_eq(events[0].type, CAROM_EVENT_POCKET);
-  ck_assert_double_eq_tol(change_of_events(&l, &by_x) / reach[0], 1.05, 0.06);
-}
-
 /* The reach of a follow-through that nearly touches, and of one that touches at its very end. */
 TEST(last_touches) {
   static const direction by[] = {{OF_STATE, 1, 0, 0.1}, {OF_STATE, 0, 0, 0.1}, {OF_CUE, 0, 5, 0.5}};
@@ -1436,4 +1107,154 @@ TEST(reach_at_frozen_balls) {
     ck_assert_int_gt(changes[k], SHOTS);
     ck_assert_int_le(100 * others[k], changes[k]);
   }
+}
+
+/* ---- Rows ----
+ *
+ * Each case of edges.txt is a line and the indented lines behind it. It begins with an empty table
+ * and the models `closed`. A comma or a semicolon is a space. Statements:
+ *
+ *   ball X Y                a further ball at rest on the cloth
+ *   cue SPEED PHI A B       a level cue
+ *   set PATH VALUE
+ *   by PATH UNIT            plays the shot and derives it; UNIT is a typical size of the number
+ *   event K TYPE            event K has this type, and flags behind it are its own
+ *   flags, with, without F  all flags, those that are among them, those that are not
+ *   NAME ... LEAST MOST     a measured number, by its name in `measures`, is in this range
+ *
+ * CAROM_TANGENT_CLUSTER is no flag of a row, since most hits beside a cue that follows have it. */
+
+static layout scene;
+static direction scene_by;
+static int64_t scene_event, scene_flags;
+static double ends_before[LAYOUT_BALLS * NUMBERS];
+
+/* The flags that come next, joined by +. */
+static int64_t read_flags(void) {
+  static const char *const names[] = {"grazing", "slow",  "simultaneous",
+                                      "kink",    "euler", "differences"};
+  const char *const word = read_word();
+  int64_t flags = 0;
+  for (int k = 0; k < (int)COUNT_OF(names); k++)
+    flags |= strstr(word, names[k]) != NULL ? 1 << k : 0;
+  if (flags == 0 && strcmp(word, "none") != 0)
+    reject("no flag");
+  return flags;
+}
+
+static double error_of_scene(void) {
+  return error_of(&scene, &scene_by, 0, 1);
+}
+static double reach_of_scene(void) {
+  return reach[0];
+}
+/* The change that is found by trial, over the reach. */
+static double found_over_reach(void) {
+  return change_of_events(&scene, &scene_by) / reach[0];
+}
+static double size_of_scene(void) {
+  return largest(ends, NUMBERS * scene.count, 0, 1);
+}
+static double time_of_scene(void) {
+  return times[scene_event];
+}
+static double place_of_scene(void) {
+  return events[scene_event].before[0].r[(int)read_number()];
+}
+static double instant_of_scene(void) {
+  return events[scene_event].time;
+}
+static double contacts_of_scene(void) {
+  return events[scene_event].cluster;
+}
+/* The distance from the slope between two changes. */
+static double slope_of_scene(void) {
+  const double from = read_number();
+  return off_slope(&scene, &scene_by, 0, 1, from, read_number());
+}
+
+/* The largest difference from the derivatives before. */
+static double move_of_scene(void) {
+  double most = 0.0;
+  for (int k = 0; k < NUMBERS * scene.count; k++)
+    most = fmax(most, fabs(ends[k] - ends_before[k]));
+  return most;
+}
+/* The events that have a flag. */
+static double flagged_events(void) {
+  int64_t first;
+  return count_of((int32_t)read_flags(), &first);
+}
+
+static const struct {
+  const char *name;
+  double (*value)(void);
+} measures[] = {
+    {"error", error_of_scene},     {"reach", reach_of_scene},       {"found", found_over_reach},
+    {"size", size_of_scene},       {"time", time_of_scene},         {"place", place_of_scene},
+    {"instant", instant_of_scene}, {"contacts", contacts_of_scene}, {"slope", slope_of_scene},
+    {"moved", move_of_scene},      {"flagged", flagged_events}};
+
+static void expect_measure(void) {
+  for (size_t k = 0; k < COUNT_OF(measures); k++)
+    if (skip(measures[k].name)) {
+      const double value = measures[k].value(), least = read_number();
+      ck_assert_msg(value >= least && value <= read_number(), "edges.txt:%d: %s is %.17g",
+                    line_index, measures[k].name, value);
+      return;
+    }
+  reject("no such statement");
+}
+
+static void run_statement(void) {
+  if (skip("ball")) {
+    const double x = read_number();
+    scene.ball[scene.count++] = ball_at(x, read_number());
+  } else if (skip("cue")) {
+    scene.cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
+    scene.cue.speed = read_number();
+    scene.cue.phi = read_number();
+    scene.cue.a = read_number();
+    scene.cue.b = read_number();
+  } else if (skip("set")) {
+    set_number(read_path(&scene));
+  } else if (skip("by")) {
+    scene_by = read_path(&scene).by;
+    scene_by.unit = read_number();
+    memcpy(ends_before, ends, sizeof ends_before);
+    scene_flags = differentiate(&scene, &scene_by, 1);
+  } else if (skip("event")) {
+    scene_event = (int64_t)read_number();
+    scene_flags = event_flags[scene_event];
+    if (scene_event >= shot.count || events[scene_event].type != read_value(CAROM_WORDS_EVENT))
+      reject("another event");
+  } else if (skip("flags")) {
+    if ((scene_flags & ~CAROM_TANGENT_CLUSTER) != read_flags())
+      reject("other flags");
+  } else if (skip("with")) {
+    if ((scene_flags & read_flags()) == 0)
+      reject("without the flag");
+  } else if (skip("without")) {
+    if ((scene_flags & read_flags()) != 0)
+      reject("with the flag");
+  } else {
+    expect_measure();
+  }
+}
+
+TEST(edges) {
+  FILE *const file = fopen(CAROM_TEST_DATA "/../tests/agree/edges.txt", "r");
+  char line[400];
+  ck_assert_ptr_nonnull(file);
+  for (line_index = 1; fgets(line, sizeof line, file) != NULL; line_index++) {
+    line[strcspn(line, "#\n")] = '\0';
+    for (char *sign = line; (sign = strpbrk(sign, ",;")) != NULL;)
+      *sign = ' ';
+    if (line[0] != ' ' && line[0] != '\0')
+      scene = (layout){.options = closed};
+    cursor = line;
+    while (cursor += strspn(cursor, " "), *cursor != '\0')
+      run_statement();
+  }
+  fclose(file);
 }
