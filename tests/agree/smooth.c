@@ -4,7 +4,7 @@
  * A collision may be solved by another kind or number of steps on the two sides of a place, where
  * the result jumps by an error of the solver (carom.h). Such places are rare, so a line of a
  * millionth of the speed meets one in a few of 100,000 lines; the tests leave out none. */
-#include "tangent_support.h"
+#include "paths.h"
 
 /* ---- Collisions along a line of inputs ---- */
 
@@ -196,8 +196,8 @@ TEST(final_places_lie_on_a_parabola) {
   static const carom_shot_cushion cushions[] = {
       CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_SMOOTH, CAROM_SHOT_CUSHION_MATHAVAN,
       CAROM_SHOT_CUSHION_STRONGE, CAROM_SHOT_CUSHION_MIRROR};
-  static const direction by[] = {
-      {OF_CUE, 0, 0, 2}, {OF_CUE, 0, 1, 57}, {OF_CUE, 0, 3, 1}, {OF_CUE, 0, 4, 1}};
+  direction by[4];
+  read_directions("cue.speed 2 cue.phi 57 cue.a 1 cue.b 1", by);
   carom_table table;
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
   layout l = {.count = 3, .cue = carom_cue_of(CAROM_GAME_POOL), .table = &table};

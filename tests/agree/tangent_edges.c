@@ -126,7 +126,8 @@ TEST(simultaneous) {
  * flag, and no others. */
 TEST(slow) {
   random_source random = {4};
-  static const direction by[2] = {{OF_STATE, 0, 4, 100}, {OF_STATE, 0, 5, 100}};
+  direction by[2];
+  read_directions("0.w[0] 100 0.w[1] 100", by);
   static double errors[400];
   int compared = 0, cushions = 0;
   for (int k = 0; k < 100; k++) {
@@ -185,8 +186,8 @@ TEST(slow) {
 /* The same in space: a ball that lies on another, or on a nose, and rolls off it. */
 TEST(slow_in_space) {
   random_source random = {8};
-  static const direction by[4] = {
-      {OF_STATE, 0, 0, 0.1}, {OF_STATE, 0, 2, 0.1}, {OF_STATE, 0, 4, 100}, {OF_KIND, 0, 0, 0.2}};
+  direction by[4];
+  read_directions("0.r[0] 0.1 0.v[0] 0.1 0.w[0] 100 0.mass 0.2", by);
   static double errors[1000];
   const double shift = R - sqrt(0.036576 * (2.0 * R - 0.036576));
   int compared = 0, of_noses = 0, of_balls = 0;
@@ -357,7 +358,8 @@ TEST(euler) {
  * and a change brings about both. The derivatives are those of both sides, for every table, kind
  * of ball and model but Euler's steps, which have none. */
 static void shoot_squarely(const carom_table *table, carom_game game, carom_shot_options o) {
-  static const direction by[3] = {{OF_CUE, 0, 1, 57}, {OF_STATE, 0, 0, 1}, {OF_STATE, 0, 1, 1}};
+  direction by[3];
+  read_directions("cue.phi 57 0.r[0] 1 0.r[1] 1", by);
   static const double tips[3] = {-0.3, 0.0, 0.3};
   for (int k = 0; k < 4 * 3; k++) {
     layout l = {.count = 1, .table = table, .cue = carom_cue_of(game), .options = o};
@@ -397,9 +399,11 @@ TEST(square_at_a_cushion) {
  * change of a hundredth has other phases, a flag says so. */
 TEST(phases_of_a_strike) {
   enum { SHOTS = 300, BY = 7 };
-  static const direction by[BY] = {{OF_CUE, 0, 0, 1},   {OF_CUE, 0, 2, 20},  {OF_CUE, 0, 3, 0.1},
-                                   {OF_CUE, 0, 4, 0.1}, {OF_CUE, 0, 5, 0.5}, {OF_CUE, 0, 7, 0.5},
-                                   {OF_KIND, 0, 0, 0.1}};
+  direction by[BY];
+  read_directions(
+      "cue.speed 1 cue.theta 20 cue.a 0.1 cue.b 0.1 cue.mass 0.5 cue.tip_restitution 0.5 "
+      "0.mass 0.1",
+      by);
   static double errors[SHOTS * BY];
   random_source random = {test_seed()};
   int flagged = 0, n = 0, off = 0;
@@ -433,8 +437,8 @@ TEST(ends_of_flights) {
   enum { SLATE, TOP, LANDS_IN, FAR_SIDE, LIES, BEYOND, EDGE, ENDS };
   static const char *const name[ENDS] = {
       "slate", "top", "pocket by landing", "its far side", "lies on a rail", "beyond", "edge"};
-  static const direction by[4] = {
-      {OF_STATE, 0, 1, 1}, {OF_STATE, 0, 8, 1}, {OF_STATE, 0, 7, 0.1}, {OF_KIND, 0, 9, 9.8}};
+  direction by[4];
+  read_directions("0.r[1] 1 0.v[2] 1 0.r[2] 0.1 0.gravity 9.8", by);
   random_source random = {21};
   int seen[ENDS] = {0};
   double worst[ENDS] = {0.0};
@@ -528,7 +532,8 @@ static double change_of_events(const layout *l, const direction *by) {
  * elevated cues. */
 TEST(reach_beside_trial) {
   enum { SHOTS = 120, BY = 3 };
-  static const direction by[BY] = {{OF_CUE, 0, 1, 57}, {OF_CUE, 0, 0, 2}, {OF_STATE, 1, 0, 1}};
+  direction by[BY];
+  read_directions("cue.phi 57 cue.speed 2 1.r[0] 1", by);
   static const char *const name[BY] = {"phi", "speed", "x of ball 1"};
   for (int elevated = 0; elevated < 2; elevated++) {
     random_source random = {11};
@@ -571,81 +576,6 @@ TEST(reach_of_near_misses) {
     if (!(found > 0.9 && found < 1.2))
       ck_abort_msg("gap %g m, speed %g m/s, side %g: found %g of the reach %g", gap, l.cue.speed,
                    side, found, reach[0]);
-  }
-}
-
-/* Rails along x and along y, which end before the corners and in the middle. */
-static carom_table parted_rails(void) {
-  carom_table table = empty_table(4.0);
-  table.rails = 8;
-  for (int k = 0; k < 8; k++) {
-    carom_rail *rail = &table.rail[k];
-    const double from = k % 2 == 0 ? 0.5 : 2.5;
-    *rail = table.rail[0];
-    for (int axis = 0; axis < 2; axis++) {
-      const bool along = axis == k / 4;
-      const double across = k / 2 % 2 == 0 ? 0.0 : 4.0;
-      rail->p[axis] = along ? from : across;
-      rail->q[axis] = along ? from + 1.0 : rail->p[axis];
-    }
-    rail->side = (k / 2 % 2 == 0) == (k / 4 == 0);
-  }
-  return table;
-}
-
-/* A ball that flies towards a rail from z, along x or y, at a place beside it. */
-static layout towards_a_rail(const carom_table *table, int axis, double place, double z) {
-  layout l = of_one(0.0, 0.0, (double[]){0.0, 0.0}, (double[]){0.0, 0.0, 0.0});
-  l.table = table;
-  l.ball[0] = flying(0.3, 0.3, z, 0.0, 0.0, 0.0);
-  l.ball[0].state.r[axis] = place;
-  l.ball[0].state.v[1 - axis] = -4.0;
-  return l;
-}
-
-/* Of a ball that flies over the nose of a rail, by its height, and of one that leaves the table
- * where there is no rail. */
-TEST(reach_over_a_rail) {
-  const direction by_z = {OF_STATE, 0, 7, 0.05};
-  const carom_table table = parted_rails();
-  for (int k = 0; k < 2 * 3; k++) {
-    static const double place[3] = {1.0, 2.0, 3.0};
-    const layout l = towards_a_rail(&table, k / 3, place[k % 3], 0.1);
-    differentiate(&l, &by_z, 1);
-    const double found = change_of_events(&l, &by_z);
-    if (k % 3 == 1)
-      ck_assert_double_gt(reach[0], 0.05);
-    else
-      ck_assert_msg(found > 0.9 * reach[0] && found < 1.2 * reach[0], "place %d: %g, reach %g", k,
-                    found, reach[0]);
-  }
-}
-
-/* Of a ball that rises and meets a nose by 15 mm or by 20 um, or misses it by as little, however
- * fast it moves along the rail. */
-TEST(reach_at_a_nose) {
-  const direction by_z = {OF_STATE, 0, 7, 0.05};
-  const carom_table table = parted_rails();
-  for (int k = 0; k < 2 * 2; k++) {
-    double meets = 0.03, misses = 0.08;
-    layout l = towards_a_rail(&table, k / 2, 1.0, 0.0);
-    l.ball[0].state.r[1 - k / 2] = 0.15;
-    l.ball[0].state.v[k / 2] = k % 2 == 0 ? 0.0 : 3.0;
-    l.ball[0].state.v[2] = 0.45;
-    for (int n = 0; n < 40; n++) {
-      l.ball[0].state.r[2] = 0.5 * (meets + misses);
-      shot = (carom_shot){.events = events, .room = ROOM};
-      ck_assert_int_eq(shoot(&l, &shot), CAROM_OK);
-      *(events[0].type == CAROM_EVENT_RAIL ? &meets : &misses) = l.ball[0].state.r[2];
-    }
-    l.options.stop_at = CAROM_STOP_AT(CAROM_EVENT_RAIL);
-    for (int n = 0; n < 3; n++) {
-      const double off = (double[]){-0.015, -2e-5, 2e-5}[n];
-      l.ball[0].state.r[2] = meets + off;
-      differentiate(&l, &by_z, 1);
-      ck_assert_int_eq(events[0].type == CAROM_EVENT_RAIL, off < 0.0);
-      ck_assert_double_eq_tol(reach[0], fabs(off), 0.1 * fabs(off));
-    }
   }
 }
 
@@ -738,8 +668,8 @@ static void way_of(const carom_ball_kind *kind, double v, double w, double to[4]
 /* Changes by which a ball that rolls, whichever way, slides for a time of the first order: the
  * derivatives of the roll behind that, beside differences. */
 TEST(changes_that_leave_a_roll) {
-  static const direction by[4] = {
-      {OF_STATE, 0, 2, 1}, {OF_STATE, 0, 3, 1}, {OF_STATE, 0, 4, 30}, {OF_STATE, 0, 5, 30}};
+  direction by[4];
+  read_directions("0.v[0] 1 0.v[1] 1 0.w[0] 30 0.w[1] 30", by);
   for (int k = 0; k < 8; k++) {
     const double turn = 0.3 + 0.8 * k, v[2] = {cos(turn), sin(turn)},
                  w[3] = {-v[1] / R, v[0] / R, 0.0};
@@ -750,11 +680,10 @@ TEST(changes_that_leave_a_roll) {
     for (int j = 0; j < 4; j++) {
       const double h = 1e-6 * by[j].unit;
       double f[2][NUMBERS];
-      for (int s = 0; s < 2; s++) {
-        layout changed = l;
-        change(&changed, &by[j], s == 0 ? -h : h);
-        play(table_of(&l), changed.ball, 1, NULL, &l.options, CAROM_STOPPED_AT_TIME);
-        numbers_of(&final[0], f[s]);
+      for (int side = 0; side < 2; side++) {
+        carom_shot s;
+        ck_assert_int_ge(shoot_changed(&l, &by[j], side == 0 ? -h : h, &s), CAROM_OK);
+        numbers_of(s.final, f[side]);
       }
       for (int x = 0; x < NUMBERS; x++)
         ck_assert_double_eq_tol(ends[x * 4 + j], (f[1][x] - f[0][x]) / (2.0 * h),
@@ -765,8 +694,8 @@ TEST(changes_that_leave_a_roll) {
 
 /* By the constants of the cloth, drag among them, beside differences of the closed form. */
 TEST(frictions_of_the_cloth) {
-  static const direction by[] = {
-      {OF_KIND, 0, 2, 0.2}, {OF_KIND, 0, 3, 0.01}, {OF_KIND, 0, 4, 0.0127}, {OF_KIND, 0, 10, 0.05}};
+  direction by[4];
+  read_directions("0.mu_slide 0.2 0.mu_roll 0.01 0.mu_spin 0.0127 0.drag 0.05", by);
   const double v[2] = {0.0, 0.4}, w[3] = {0.0, 0.0, 60.0};
   layout l = of_one(0.6, 0.5, v, w);
   l.ball[0].kind.drag = 0.05;
@@ -801,12 +730,10 @@ enum { CLUSTERS = FEWER(8), WAYS = 15, FROZEN_WAYS = 13 };
 /* Of the cue: speed, phi, a, b; x of the cue ball; of all balls: mass, mu_slide, restitution,
  * law_a, modulus; of one among equals: the mass of ball 1, restitution and modulus of ball 2; and
  * the place of ball 1, by which balls that touch come apart. */
-static const direction ways[WAYS] = {
-    {OF_CUE, 0, 0, 2},       {OF_CUE, 0, 1, 57},       {OF_CUE, 0, 3, 1},     {OF_CUE, 0, 4, 1},
-    {OF_STATE, 0, 0, 1},     {OF_KIND, -1, 0, 0.2},    {OF_KIND, -1, 2, 0.2}, {OF_KIND, -1, 6, 1},
-    {OF_KIND, -1, 12, 0.05}, {OF_KIND, -1, 18, 6.6e9}, {OF_KIND, 1, 0, 0.2},  {OF_KIND, 2, 6, 1},
-    {OF_KIND, 2, 18, 6.6e9}, {OF_STATE, 1, 0, 1},      {OF_STATE, 1, 1, 1},
-};
+static const char *const ways_of_clusters =
+    "cue.speed 2 cue.phi 57 cue.a 1 cue.b 1 0.r[0] 1 all.mass 0.2 all.mu_slide 0.2 "
+    "all.restitution 1 all.law_a 0.05 all.modulus 6.6e9 1.mass 0.2 2.restitution 1 "
+    "2.modulus 6.6e9 1.r[0] 1 1.r[1] 1";
 
 /* A cue ball and two others that it meets at once, or all but; or a rack of eight-ball. Odd
  * kinds have gaps. */
@@ -866,6 +793,8 @@ static void follow_clusters(random_source *random, int kind) {
   static double errors[CLUSTERS * WAYS], before[2 * ROOM * NUMBERS * WAYS],
       after[2 * ROOM * NUMBERS * WAYS];
   const bool touching = kind % 2 == 0;
+  direction ways[WAYS];
+  read_directions(ways_of_clusters, ways);
   const int m = touching ? FROZEN_WAYS : WAYS;
   int n = 0, kinks = 0;
   for (int c = 0; c < CLUSTERS; c++) {
@@ -913,31 +842,6 @@ TEST(clusters) {
   random_source random = {test_seed()};
   for (int kind = 0; kind < 4; kind++)
     follow_clusters(&random, kind);
-}
-
-/* By the radius of all balls, through a cluster of three that spin, beside differences. */
-TEST(radius_through_a_cluster) {
-  const direction by = {OF_KIND, -1, 1, 0.03};
-  const double v[2] = {4.0, 0.0}, w[3] = {0.0, 40.0, 30.0};
-  layout l = by_models(of_one(0.4, 1.51, v, w),
-                       (carom_shot_options){.time_most = 0.1, .space = CAROM_SPACE_FLAT});
-  l.count = 3;
-  l.ball[1] = ball_at(0.6, 1.5);
-  l.ball[2] = ball_at(0.6 + 2.0 * R + 1e-4, 1.5);
-  differentiate(&l, &by, 1);
-  ck_assert_int_eq(events[0].cluster, 2);
-  ck_assert_double_lt(off_slope(&l, &by, 0, 1, -1e-8, 1e-8), 1e-4);
-
-  /* the time of its first contact, which both have */
-  double when[2];
-  for (int s = 0; s < 2; s++) {
-    layout changed = l;
-    change(&changed, &by, s == 0 ? -1e-6 : 1e-6);
-    play(table_of(&l), changed.ball, 3, NULL, &l.options, CAROM_STOPPED_AT_TIME);
-    when[s] = events[0].time;
-  }
-  ck_assert_double_eq_tol(times[0], (when[1] - when[0]) / 2e-6, 1e-4 * fabs(times[0]));
-  ck_assert_double_eq(times[0], times[1]);
 }
 
 /* A ball close ahead of the cue ball, which the tip touches again as the cue follows through. */
@@ -1034,6 +938,8 @@ TEST(last_touches) {
 TEST(piles_by_pairs) {
   enum { SHOTS = 30, BY = 4 };
   random_source random = {test_seed()};
+  direction ways[WAYS];
+  read_directions(ways_of_clusters, ways);
   int changed = 0, off = 0;
   for (int n = 0; n < 2 * SHOTS; n++) {
     const bool pile = n < SHOTS;
@@ -1066,9 +972,8 @@ TEST(piles_by_pairs) {
  * a flag: of the cue's numbers, and of the places of both balls. */
 TEST(reach_at_frozen_balls) {
   enum { SHOTS = 400, OF_REACH = 30, BY = 8, OF_CUES = 4 };
-  static const direction by[BY] = {{OF_CUE, 0, 0, 2},   {OF_CUE, 0, 1, 57},  {OF_CUE, 0, 3, 1},
-                                   {OF_CUE, 0, 4, 1},   {OF_STATE, 0, 0, 1}, {OF_STATE, 0, 1, 1},
-                                   {OF_STATE, 1, 0, 1}, {OF_STATE, 1, 1, 1}};
+  direction by[BY];
+  read_directions("cue.speed 2 cue.phi 57 cue.a 1 cue.b 1 0.r[0] 1 0.r[1] 1 1.r[0] 1 1.r[1] 1", by);
   random_source random = {test_seed()};
   int changes[2] = {0}, others[2] = {0}, flagged = 0;
   for (int n = 0; n < SHOTS; n++) {
@@ -1114,6 +1019,7 @@ TEST(reach_at_frozen_balls) {
  * Each case of edges.txt is a line and the indented lines behind it. It begins with an empty table
  * and the models `closed`. A comma or a semicolon is a space. Statements:
  *
+ *   parted                  rails that end before the corners and in the middle
  *   ball X Y                a further ball at rest on the cloth
  *   cue SPEED PHI A B       a level cue
  *   set PATH VALUE
@@ -1206,8 +1112,30 @@ static void expect_measure(void) {
   reject("no such statement");
 }
 
+/* Rails along x and along y, which end before the corners and in the middle. */
+static const carom_table *parted_rails(void) {
+  static carom_table table;
+  table = empty_table(4.0);
+  table.rails = 8;
+  for (int k = 0; k < 8; k++) {
+    carom_rail *rail = &table.rail[k];
+    const double from = k % 2 == 0 ? 0.5 : 2.5;
+    *rail = table.rail[0];
+    for (int axis = 0; axis < 2; axis++) {
+      const bool along = axis == k / 4;
+      const double across = k / 2 % 2 == 0 ? 0.0 : 4.0;
+      rail->p[axis] = along ? from : across;
+      rail->q[axis] = along ? from + 1.0 : rail->p[axis];
+    }
+    rail->side = (k / 2 % 2 == 0) == (k / 4 == 0);
+  }
+  return &table;
+}
+
 static void run_statement(void) {
-  if (skip("ball")) {
+  if (skip("parted")) {
+    scene.table = parted_rails();
+  } else if (skip("ball")) {
     const double x = read_number();
     scene.ball[scene.count++] = ball_at(x, read_number());
   } else if (skip("cue")) {

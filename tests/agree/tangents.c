@@ -7,6 +7,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "contact_law/variation.h"
 #include "cushion/models.h"
+#include "paths.h"
 #include "precise_solver.h"
 #include "schema/numbers.h"
 #include "tangent_support.h"
@@ -22,13 +23,10 @@ static const double R = 0.028575;
 
 enum { DIRECTIONS = 14, SPACE_DIRECTIONS = 23, MOST_BALLS = 9 };
 
-/* Speed, phi, a, b; x of ball 0, x and y of ball 1; constants of all balls. */
-static const direction directions[DIRECTIONS] = {
-    {OF_CUE, 0, 0, 2},      {OF_CUE, 0, 1, 57},       {OF_CUE, 0, 3, 1},   {OF_CUE, 0, 4, 1},
-    {OF_STATE, 0, 0, 1},    {OF_STATE, 1, 0, 1},      {OF_STATE, 1, 1, 1}, {OF_KIND, -1, 2, 0.2},
-    {OF_KIND, -1, 3, 0.01}, {OF_KIND, -1, 4, 0.127},  {OF_KIND, -1, 6, 1}, {OF_KIND, -1, 8, 0.85},
-    {OF_KIND, -1, 7, 0.2},  {OF_KIND, -1, 1, 0.0286},
-};
+static const char *const directions =
+    "cue.speed 2 cue.phi 57 cue.a 1 cue.b 1 0.r[0] 1 1.r[0] 1 1.r[1] 1 "
+    "all.mu_slide 0.2 all.mu_roll 0.01 all.mu_spin 0.127 all.restitution 1 "
+    "all.restitution_cushion 0.85 all.mu_cushion 0.2 all.radius 0.0286";
 
 /* Of the shots that the tables report. Tolerances of src/contact_law/variation_step.h were found on
  * those of seeds 7 and 28. */
@@ -51,16 +49,12 @@ static layout draw_with(random_source *random, bool terms) {
 
 /* ---- Whole shots ---- */
 
-/* In space. Of the cue; places of two balls, and the rest of the state of ball 0, which may fly;
- * constants of all balls. */
-static const direction in_space[SPACE_DIRECTIONS] = {
-    {OF_CUE, 0, 0, 2},      {OF_CUE, 0, 1, 57},     {OF_CUE, 0, 2, 30},    {OF_CUE, 0, 3, 1},
-    {OF_CUE, 0, 4, 1},      {OF_STATE, 0, 0, 1},    {OF_STATE, 0, 1, 1},   {OF_STATE, 1, 0, 1},
-    {OF_STATE, 1, 1, 1},    {OF_STATE, 0, 7, 0.1},  {OF_STATE, 0, 2, 1},   {OF_STATE, 0, 8, 1},
-    {OF_STATE, 0, 4, 50},   {OF_STATE, 0, 6, 50},   {OF_KIND, -1, 2, 0.2}, {OF_KIND, -1, 4, 0.1},
-    {OF_KIND, -1, 6, 1},    {OF_KIND, -1, 7, 0.2},  {OF_KIND, -1, 8, 1},   {OF_KIND, -1, 9, 10},
-    {OF_KIND, -1, 1, 0.03}, {OF_KIND, -1, 15, 0.5}, {OF_KIND, 0, 0, 0.2},
-};
+/* Ball 0 may fly. */
+static const char *const in_space =
+    "cue.speed 2 cue.phi 57 cue.theta 30 cue.a 1 cue.b 1 0.r[0] 1 0.r[1] 1 1.r[0] 1 "
+    "1.r[1] 1 0.r[2] 0.1 0.v[0] 1 0.v[2] 1 0.w[0] 50 0.w[2] 50 all.mu_slide 0.2 "
+    "all.mu_spin 0.1 all.restitution 1 all.mu_cushion 0.2 all.restitution_cushion 1 "
+    "all.gravity 10 all.radius 0.03 all.nose_height 0.5 0.mass 0.2";
 
 /* How shots start: level ones, without the terms of measured tables or with them, and in space. */
 typedef enum { LEVEL, TERMS, ELEVATED, JUMPS, FLYING, UNLIKE, NOSES } start_kind;
@@ -162,9 +156,9 @@ static bool has_exact_balls(int kind) {
 START_TEST(shots_agree_with_differences) {
   const bool space = _i >= LEVEL_KINDS;
   const bool exact = has_exact_balls(_i);
-  const int m = space ? SPACE_DIRECTIONS : DIRECTIONS, draws = draws_of_each(FEWER(40)),
-            most_shots = space ? draws * 4 / 5 : draws;
-  const direction *by = space ? in_space : directions;
+  direction by[SPACE_DIRECTIONS];
+  const int m = read_directions(space ? in_space : directions, by),
+            draws = draws_of_each(FEWER(40)), most_shots = space ? draws * 4 / 5 : draws;
   random_source random = {space ? 3 : SEED};
   double *const errors = malloc((size_t)(draws * SPACE_DIRECTIONS) * sizeof *errors);
   int pairs = 0, without = 0, wrong = 0, by_differences = 0, shots = 0;
@@ -231,7 +225,9 @@ static double seconds(void) {
 
 /* Over the cost of the shot; `reaching`: with reach. */
 static double cost_of(const layout *l, bool reaching) {
-  const carom_tangent_seeds all = seeds_of(directions, DIRECTIONS);
+  direction by[DIRECTIONS];
+  read_directions(directions, by);
+  const carom_tangent_seeds all = seeds_of(by, DIRECTIONS);
   double least[2] = {INFINITY, INFINITY};
   for (int repeat = 0; repeat < 5; repeat++) {
     carom_tangent tangent = {
@@ -602,7 +598,8 @@ END_TEST
 /* ---- Other results ---- */
 
 START_TEST(pocketed_balls_do_not_change) {
-  static const direction by_aim[2] = {{OF_CUE, 0, 1, 57}, {OF_CUE, 0, 0, 2}};
+  direction by_aim[2];
+  read_directions("cue.phi 57 cue.speed 2", by_aim);
   layout l = {.count = 1, .ball = {ball_at(0.3, 0.3)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
   l.cue.phi = 225.0;
   differentiate(&l, by_aim, 2);
