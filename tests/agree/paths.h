@@ -102,7 +102,9 @@ static inline path read_path(layout *l) {
 
 /* Gives a number of a layout the value that comes next. */
 static inline void set_number(path to) {
-  const bool is_word = isalpha((unsigned char)cursor[strspn(cursor, " ")]);
+  const char *const word = cursor + strspn(cursor, " ");
+  const char behind = word[strspn(word, "0123456789.e+-RX")];
+  const bool is_word = behind != ' ' && behind != '\0';
   const double value = is_word ? read_value((carom_words)to.row->words) : read_number();
   if (to.row->type == CAROM_TYPE_DOUBLE)
     *(double *)(void *)to.place = value;
@@ -110,6 +112,20 @@ static inline void set_number(path to) {
     *(int32_t *)(void *)to.place = (int32_t)value;
   else
     *(int64_t *)(void *)to.place = (int64_t)value;
+}
+
+/* Sets numbers of a layout with its balls, as "cue.a 0.1 all.drag 0.0129". */
+static inline void set_numbers(layout *l, const char *words) {
+  for (cursor = words; *cursor != '\0';) {
+    const path to = read_path(l);
+    const char *const value = cursor;
+    for (int i = 0; i < (to.by.ball < 0 && to.by.of >= OF_STATE ? l->count : 1); i++) {
+      path next = to;
+      next.place += i * (int)sizeof *l->ball;
+      cursor = value;
+      set_number(next);
+    }
+  }
 }
 
 /* Directions and their units, as "cue.phi 57 0.r[0] 1". Returns how many. */

@@ -204,10 +204,7 @@ TEST(final_places_lie_on_a_parabola) {
   l.ball[0] = ball_at(0.4, 0.5);
   l.ball[1] = ball_at(0.6, 1.5);
   l.ball[2] = ball_at(0.9, 1.9);
-  l.cue.speed = 1.6;
-  l.cue.phi = 79.0;
-  l.cue.a = 0.1;
-  l.cue.b = -0.1;
+  set_numbers(&l, "cue.speed 1.6 cue.phi 79 cue.a 0.1 cue.b -0.1");
   for (size_t m = 0; m < COUNT_OF(cushions); m++)
     for (int d = 0; d < 4; d++) {
       static double place[PLACES][MOVES];

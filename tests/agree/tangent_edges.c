@@ -751,12 +751,7 @@ static layout cluster_of(random_source *random, int kind) {
     carom_rack(CAROM_RACK_EIGHTBALL, table_of(&l), gap, 1, l.ball, LAYOUT_BALLS);
     l.cue.phi += random_between(random, -0.4, 0.4);
   }
-  for (int i = 0; i < l.count; i++) {
-    carom_ball_kind *k = &l.ball[i].kind;
-    k->law_a = k->law_b = 0.05;
-    k->law_c = 1.0;
-    k->modulus = 6.6e9;
-  }
+  set_numbers(&l, "all.law_a 0.05 all.law_b 0.05 all.law_c 1 all.modulus 6.6e9");
   l.cue.speed = random_between(random, 2.0, 9.0);
   l.cue.a = random_between(random, -0.2, 0.2);
   l.cue.b = random_between(random, -0.3, 0.3);
@@ -1067,6 +1062,9 @@ static double time_of_scene(void) {
 static double place_of_scene(void) {
   return events[scene_event].before[0].r[(int)read_number()];
 }
+static double label_of_scene(void) {
+  return (double) final[0].label;
+}
 static double instant_of_scene(void) {
   return events[scene_event].time;
 }
@@ -1096,10 +1094,10 @@ static const struct {
   const char *name;
   double (*value)(void);
 } measures[] = {
-    {"error", error_of_scene},     {"reach", reach_of_scene},       {"found", found_over_reach},
-    {"size", size_of_scene},       {"time", time_of_scene},         {"place", place_of_scene},
-    {"instant", instant_of_scene}, {"contacts", contacts_of_scene}, {"slope", slope_of_scene},
-    {"moved", move_of_scene},      {"flagged", flagged_events}};
+    {"error", error_of_scene},     {"reach", reach_of_scene}, {"found", found_over_reach},
+    {"size", size_of_scene},       {"time", time_of_scene},   {"place", place_of_scene},
+    {"instant", instant_of_scene}, {"label", label_of_scene}, {"contacts", contacts_of_scene},
+    {"slope", slope_of_scene},     {"moved", move_of_scene},  {"flagged", flagged_events}};
 
 static void expect_measure(void) {
   for (size_t k = 0; k < COUNT_OF(measures); k++)
