@@ -240,54 +240,6 @@ TEST(overflow) {
     ck_assert(isnan(ends[k]));
 }
 
-/* After the end of a shot that was stopped while balls moved, states are not known; at its end they
- * are those of the end. */
-TEST(times_after_the_end) {
-  carom_shot_options options = closed;
-  options.time_most = 0.4;
-  const layout l = by_models(of_two(0.9, 0.2, 5.0, 80.0, 0.0, 0.5), options);
-  differentiate(&l, &by_phi, 1);
-  const double cue[CAROM_CUE_NUMBERS] = {0.0, 1.0}, within[] = {0.2, 0.4}, after[] = {0.2, 0.5};
-  const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
-  double at[2 * LAYOUT_BALLS * NUMBERS];
-  carom_tangent t = {.final = ends, .at = at, .times = within, .times_count = 2};
-  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_OK);
-  ck_assert_mem_eq(&at[NUMBERS * l.count], ends, (size_t)(NUMBERS * l.count) * sizeof *ends);
-  t.times = after;
-  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_ERROR_TIME);
-  for (int k = 0; k < NUMBERS * l.count; k++)
-    ck_assert(isnan(ends[k]));
-}
-
-/* Times that carom_tangent.h refuses: each makes the call an error, wherever it stands, also of a
- * shot that ended at rest, whose states are known ever after. */
-TEST(times_that_are_refused) {
-  const layout l = of_two(0.9, 0.2, 2.0, 80.0, 0.0, 0.5);
-  differentiate(&l, &by_phi, 1);
-  const double cue[CAROM_CUE_NUMBERS] = {0.0, 1.0};
-  const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
-  static const struct {
-    double times[2];
-    carom_status status;
-  } cases[] = {
-      {{0.0, 0.0}, CAROM_OK},
-      {{0.3, DBL_MAX}, CAROM_OK},
-      {{-DBL_TRUE_MIN, 0.3}, CAROM_ERROR_TIME},
-      {{0.3, 0.2}, CAROM_ERROR_TIME},
-      {{0.3, INFINITY}, CAROM_ERROR_TIME},
-      {{INFINITY, INFINITY}, CAROM_ERROR_TIME},
-      {{NAN, 0.3}, CAROM_ERROR_TIME},
-      {{0.3, NAN}, CAROM_ERROR_TIME},
-  };
-  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-    double at[2 * LAYOUT_BALLS * NUMBERS];
-    carom_tangent t = {.final = ends, .at = at, .times = cases[k].times, .times_count = 2};
-    const carom_status status = shot_tangent(&l, &seeds, &t);
-    ck_assert_msg(status == cases[k].status, "times %g and %g: %s", cases[k].times[0],
-                  cases[k].times[1], carom_status_name(status));
-  }
-}
-
 /* Every row that a caller asks for is written, and no number beyond the last: all are as many as
  * the header says, whatever stood there before. The passes take a part of the directions each,
  * so more are asked for than fit in one. */
@@ -1019,6 +971,9 @@ TEST(reach_at_frozen_balls) {
  *   cue SPEED PHI A B       a level cue
  *   set PATH VALUE
  *   by PATH UNIT            plays the shot and derives it; UNIT is a typical size of the number
+ *   play STATUS             plays the shot
+ *   derive STATUS           derives the shot that was played last
+ *   at TIME TIME STATUS     the same, at two times
  *   event K TYPE            event K has this type, and flags behind it are its own
  *   flags, with, without F  all flags, those that are among them, those that are not
  *   NAME ... LEAST MOST     a measured number, by its name in `measures`, is in this range
@@ -1065,6 +1020,12 @@ static double place_of_scene(void) {
 static double label_of_scene(void) {
   return (double) final[0].label;
 }
+static double nans_of_scene(void) {
+  int nans = 0;
+  for (int k = 0; k < NUMBERS * scene.count; k++)
+    nans += isnan(ends[k]) != 0;
+  return nans;
+}
 static double instant_of_scene(void) {
   return events[scene_event].time;
 }
@@ -1094,10 +1055,11 @@ static const struct {
   const char *name;
   double (*value)(void);
 } measures[] = {
-    {"error", error_of_scene},     {"reach", reach_of_scene}, {"found", found_over_reach},
-    {"size", size_of_scene},       {"time", time_of_scene},   {"place", place_of_scene},
-    {"instant", instant_of_scene}, {"label", label_of_scene}, {"contacts", contacts_of_scene},
-    {"slope", slope_of_scene},     {"moved", move_of_scene},  {"flagged", flagged_events}};
+    {"error", error_of_scene},       {"reach", reach_of_scene}, {"found", found_over_reach},
+    {"size", size_of_scene},         {"time", time_of_scene},   {"place", place_of_scene},
+    {"instant", instant_of_scene},   {"label", label_of_scene}, {"nans", nans_of_scene},
+    {"contacts", contacts_of_scene}, {"slope", slope_of_scene}, {"moved", move_of_scene},
+    {"flagged", flagged_events}};
 
 static void expect_measure(void) {
   for (size_t k = 0; k < COUNT_OF(measures); k++)
@@ -1130,6 +1092,26 @@ static const carom_table *parted_rails(void) {
   return &table;
 }
 
+static void expect_status(carom_status status) {
+  const char *const name = carom_status_name(status);
+  if (!skip(name))
+    reject(name);
+}
+
+/* Derivatives of the shot that was played last; at two times, unless they are NULL. Those at the end
+ * of the shot and behind it are those of the end. */
+static void expect_derived(const double *at_times) {
+  static double at[2 * LAYOUT_BALLS * NUMBERS];
+  const int numbers = NUMBERS * scene.count;
+  const carom_tangent_seeds seeds = seeds_of(&scene_by, 1);
+  carom_tangent t = {
+      .final = ends, .at = at, .times = at_times, .times_count = at_times == NULL ? 0 : 2};
+  const carom_status status = shot_tangent(&scene, &seeds, &t);
+  expect_status(status);
+  if (status == CAROM_OK && at_times != NULL && at_times[1] >= shot.time)
+    ck_assert_mem_eq(at + numbers, ends, (size_t)numbers * sizeof *ends);
+}
+
 static void run_statement(void) {
   if (skip("parted")) {
     scene.table = parted_rails();
@@ -1149,6 +1131,13 @@ static void run_statement(void) {
     scene_by.unit = read_number();
     memcpy(ends_before, ends, sizeof ends_before);
     scene_flags = differentiate(&scene, &scene_by, 1);
+  } else if (skip("play")) {
+    expect_status(shoot(&scene, &shot));
+  } else if (skip("derive")) {
+    expect_derived(NULL);
+  } else if (skip("at")) {
+    const double first = read_number();
+    expect_derived((double[]){first, read_number()});
   } else if (skip("event")) {
     scene_event = (int64_t)read_number();
     scene_flags = event_flags[scene_event];
@@ -1168,6 +1157,12 @@ static void run_statement(void) {
   }
 }
 
+static void begin_case(void) {
+  scene = (layout){.options = closed};
+  scene_by = by_phi;
+  shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+}
+
 TEST(edges) {
   FILE *const file = fopen(CAROM_TEST_DATA "/../tests/agree/edges.txt", "r");
   char line[400];
@@ -1177,7 +1172,7 @@ TEST(edges) {
     for (char *sign = line; (sign = strpbrk(sign, ",;")) != NULL;)
       *sign = ' ';
     if (line[0] != ' ' && line[0] != '\0')
-      scene = (layout){.options = closed};
+      begin_case();
     cursor = line;
     while (cursor += strspn(cursor, " "), *cursor != '\0')
       run_statement();
