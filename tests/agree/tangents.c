@@ -304,6 +304,26 @@ static double error_of(solver *solve, const double *in, int ins, int outs, int k
   return best / fmax(most, 1e-2);
 }
 
+enum { INPUTS = 16 };
+
+/* Numbers of an impact, by the names of the library, each with the step of its differences. */
+typedef struct inputs {
+  int count, index[INPUTS];
+  double step[INPUTS];
+} inputs;
+
+static inputs read_inputs(const char *(*name_of)(int), const char *words) {
+  inputs in = {0};
+  for (cursor = words; *cursor != '\0'; in.count++) {
+    const char *const word = read_word();
+    int *const index = &in.index[in.count];
+    while (strcmp(name_of(*index), word) != 0)
+      ++*index;
+    in.step[in.count] = read_number();
+  }
+  return in;
+}
+
 START_TEST(collisions_agree_with_differences) {
   random_source random = {test_seed()};
   static double errors[20000];
@@ -338,13 +358,15 @@ START_TEST(collisions_agree_with_differences) {
       continue;
     /* places, motion of a that slides, its spin about the vertical, masses, frictions,
      * restitution */
-    static const int asked[] = {0, 1, 3, 4, 6, 7, 8, 10, 11, 12, 13, 22, 24, 25};
-    static const double steps[] = {1e-4, 1e-4, 3e-3, 3e-3, 0.1,  0.1,  0.1,
-                                   1e-3, 5e-4, 1e-4, 1e-4, 1e-3, 3e-4, 1e-3};
-    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++)
-      if (!(rolls && (asked[i] == 3 || asked[i] == 4 || asked[i] == 6 || asked[i] == 7)))
-        errors[n++] =
-            error_of(collide, (const double *)&in, 26, 12, asked[i], steps[i], &tangent[0][0], 26);
+    const inputs asked = read_inputs(
+        carom_field_name, "a.r[0] 1e-4 a.r[1] 1e-4 a.v[0] 3e-3 a.v[1] 3e-3 a.w[0] 0.1 a.w[1] 0.1 "
+                          "a.w[2] 0.1 a.mass 1e-3 a.mu_slide 5e-4 b.r[0] 1e-4 b.r[1] 1e-4 "
+                          "b.mass 1e-3 mu_ball 3e-4 restitution 1e-3");
+    for (int i = 0; i < asked.count; i++)
+      if (!(rolls && (asked.index[i] == 3 || asked.index[i] == 4 || asked.index[i] == 6 ||
+                      asked.index[i] == 7)))
+        errors[n++] = error_of(collide, (const double *)&in, 26, 12, asked.index[i], asked.step[i],
+                               &tangent[0][0], 26);
   }
   ck_assert_int_gt(n, 4000);
   ck_assert_double_lt(tell(errors, n, 0.99, "collisions"), 1e-6);
@@ -463,46 +485,19 @@ START_TEST(cushions_agree_with_differences) {
     ck_assert_int_ge(status, CAROM_OK);
     if (status == CAROM_SEPARATING || (flags & CAROM_TANGENT_KINK))
       continue;
-    static const int asked[] = {0, 1, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13};
-    static const double steps[] = {3e-3, 3e-3, 0.1,  0.1,  0.1,  1e-3,
-                                   1e-3, 3e-5, 3e-5, 5e-4, 5e-4, 1e-3};
-    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++)
-      errors[n++] =
-          error_of(cushion, (const double *)&in, 15, 6, asked[i], steps[i], &tangent[0][0], 15);
+    const inputs asked =
+        read_inputs(carom_cushion_field_name,
+                    "v[0] 3e-3 v[1] 3e-3 w[0] 0.1 w[1] 0.1 w[2] 0.1 normal[0] 1e-3 "
+                    "normal[1] 1e-3 height 3e-5 radius 3e-5 mu_slide 5e-4 mu_cushion 5e-4 "
+                    "restitution 1e-3");
+    for (int i = 0; i < asked.count; i++)
+      errors[n++] = error_of(cushion, (const double *)&in, 15, 6, asked.index[i], asked.step[i],
+                             &tangent[0][0], 15);
   }
   printf("%s%s, ", carom_cushion_model_name(cushion_options.model), way[_i % WAYS]);
   ck_assert_int_gt(n, FEWER(3000));
   ck_assert_double_lt(tell(errors, n, 0.99, "a cushion"),
                       cushion_options.model == CAROM_CUSHION_MATHAVAN ? 1e-6 : 1e-7);
-}
-END_TEST
-
-/* A straight stop shot begins without slip between the balls. A small slip ends at once,
- * whatever the friction: of a change of v across the line of centres, the balls exchange 1/7,
- * and of W_z 1/7 of it. */
-START_TEST(stop_shots) {
-  const double across[] = {0.0, 1e-17, 1e-12, 1e-9, 2e-9, 1e-6};
-  for (size_t k = 0; k < sizeof across / sizeof across[0]; k++) {
-    const carom_impact in = {
-        .a = {.v = {2.0 * across[k], 2.0, 0.0}, .radius = R, .mass = 0.17, .mu_slide = 0.2},
-        .b = {.r = {0.0, 2.0 * R, 0.0}, .radius = R, .mass = 0.17, .mu_slide = 0.2},
-        .mu_ball = 0.06,
-        .restitution = 0.95,
-    };
-    double seeds[26][2] = {{0}}, tangent[12][2];
-    seeds[3][0] = seeds[8][1] = 1.0; /* v_x and w_z of ball a */
-    int32_t flags;
-    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 2, &seeds[0][0], &tangent[0][0], &flags),
-                     CAROM_OK);
-    ck_assert_int_eq(flags, 0);
-    const double expected[2][4] = {{6.0 / 7.0, 2.5 / (7.0 * R), 1.0 / 7.0, 2.5 / (7.0 * R)},
-                                   {R / 7.0, 4.5 / 7.0, -R / 7.0, -2.5 / 7.0}};
-    static const int row[4] = {0, 5, 6, 11};
-    for (int j = 0; j < 2; j++)
-      for (int i = 0; i < 4; i++)
-        ck_assert_double_eq_tol(tangent[row[i]][j], expected[j][i],
-                                1e-5 * fmax(1.0, fabs(expected[j][i])));
-  }
 }
 END_TEST
 
@@ -546,25 +541,28 @@ START_TEST(cushions_without_slip_at_the_nose) {
         .mu_cushion = random_between(&random, 0.05, 0.3),
         .restitution = random_between(&random, 0.7, 0.95)};
     /* one direction a call, since a flag is that of all directions */
-    static const int asked[] = {0, 1, 3, 4, 5, 6, 9, 11, 12, 13};
-    static const double steps[] = {1e-4, 1e-4, 3e-3, 3e-3, 3e-3, 1e-4, 1e-6, 1e-4, 1e-4, 1e-4};
-    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {
+    const inputs asked =
+        read_inputs(carom_cushion_field_name,
+                    "v[0] 1e-4 v[1] 1e-4 w[0] 3e-3 w[1] 3e-3 w[2] 3e-3 normal[0] 1e-4 "
+                    "radius 1e-6 mu_slide 1e-4 mu_cushion 1e-4 restitution 1e-4");
+    for (int i = 0; i < asked.count; i++) {
       double seeds[15] = {0.0}, tangent[6], all[6][15] = {{0}};
       int32_t flags;
-      seeds[asked[i]] = 1.0;
+      seeds[asked.index[i]] = 1.0;
       ck_assert_int_eq(carom_cushion_tangent(&in, &cushion_options, 1, seeds, tangent, &flags),
                        CAROM_OK);
       for (int r = 0; r < 6; r++)
-        all[r][asked[i]] = tangent[r];
-      const double bend = bend_of(&in, asked[i], steps[i]);
+        all[r][asked.index[i]] = tangent[r];
+      const double bend = bend_of(&in, asked.index[i], asked.step[i]);
       /* where it bends by less, a derivative is as near as is asked below to both slopes */
-      const bool kink = bend > 2e-3 && bend_of(&in, asked[i], 0.1 * steps[i]) > 0.5 * bend;
+      const bool kink =
+          bend > 2e-3 && bend_of(&in, asked.index[i], 0.1 * asked.step[i]) > 0.5 * bend;
       bends += kink;
       without_flag += kink && !(flags & CAROM_TANGENT_KINK);
       if (flags & CAROM_TANGENT_KINK)
         continue;
-      const bool agrees =
-          error_of(cushion, (const double *)&in, 15, 6, asked[i], steps[i], &all[0][0], 15) < 1e-3;
+      const bool agrees = error_of(cushion, (const double *)&in, 15, 6, asked.index[i],
+                                   asked.step[i], &all[0][0], 15) < 1e-3;
       right += agrees;
       wrong += !agrees;
     }
@@ -580,8 +578,7 @@ END_TEST
 
 /* ---- Other results ---- */
 
-/* Derivatives at a time are those of the end of a shot that is stopped then; after the end all is
- * as at the end. */
+/* Derivatives at a time are those of the end of a shot that is stopped then. */
 START_TEST(states_at_times) {
   static const direction by_speed = {OF_CUE, 0, 0, 2};
   random_source random = {5};
@@ -589,14 +586,12 @@ START_TEST(states_at_times) {
     layout l = draw(&random, MOST_BALLS);
     l.options = (carom_shot_options){INELASTIC, HAN};
     differentiate(&l, &by_speed, 1);
-    const double at[3] = {0.1 * shot.time, 0.2 * shot.time, 2.0 * shot.time};
-    static double states[3 * MOST_BALLS * NUMBERS];
+    const double at[2] = {0.1 * shot.time, 0.2 * shot.time};
+    static double states[2 * MOST_BALLS * NUMBERS];
     const carom_tangent_seeds seeds = seeds_of(&by_speed, 1);
-    carom_tangent tangent = {.final = ends, .at = states, .times = at, .times_count = 3};
+    carom_tangent tangent = {.final = ends, .at = states, .times = at, .times_count = 2};
     const int numbers = l.count * NUMBERS;
     ck_assert_int_eq(shot_tangent(&l, &seeds, &tangent), CAROM_OK);
-    for (int x = 0; x < numbers; x++)
-      ck_assert_double_eq(states[2 * numbers + x], ends[x]);
     for (int n = 0; n < 2; n++) {
       l.options.time_most = at[n];
       shot = (carom_shot){.events = events, .room = ROOM, .final = final};
@@ -721,7 +716,6 @@ int main(void) {
       {cushions_agree_with_differences, WAYS * CAROM_CUSHION_MODEL_COUNT},
       {collisions_agree_with_differences, 1},
       {directions_that_leave_a_roll, 1},
-      {stop_shots, 1},
       {cushions_without_slip_at_the_nose, 1},
       {states_at_times, 1},
       {nothing_is_read_before_it_is_set, 1},
