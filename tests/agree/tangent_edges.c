@@ -169,10 +169,9 @@ TEST(slow_in_space) {
   int compared = 0, of_noses = 0, of_balls = 0;
   for (int k = 0; k < 60; k++) {
     const bool at_nose = k % 2 == 0;
-    const double v[2] = {random_between(&random, -0.05, 0.05),
-                         random_between(&random, -0.05, 0.05)};
-    const double w[3] = {random_between(&random, -5.0, 5.0), random_between(&random, -5.0, 5.0),
-                         random_between(&random, -5.0, 5.0)};
+    double v[2], w[3];
+    random_vector(&random, 2, -0.05, 0.05, v);
+    random_vector(&random, 3, -5.0, 5.0, w);
     const double up = random_between(&random, 0.4, 1.2), turn = random_between(&random, -3.0, 3.0);
     const double away = (at_nose ? R : 2.0 * R) + random_between(&random, 1e-9, 2e-8);
     layout l = of_one(0.4, 1.0, v, w);
@@ -975,17 +974,16 @@ static const carom_table *parted_rails(void) {
   static carom_table table;
   table = empty_table(4.0);
   table.rails = 8;
-  for (int k = 0; k < 8; k++) {
-    carom_rail *rail = &table.rail[k];
-    const double from = k % 2 == 0 ? 0.5 : 2.5;
-    *rail = table.rail[0];
+  for (int k = 0; k < 4; k++) {
+    carom_rail *const first = &table.rail[k], *const second = &table.rail[k + 4];
+    *second = *first;
     for (int axis = 0; axis < 2; axis++) {
-      const bool along = axis == k / 4;
-      const double across = k / 2 % 2 == 0 ? 0.0 : 4.0;
-      rail->p[axis] = along ? from : across;
-      rail->q[axis] = along ? from + 1.0 : rail->p[axis];
+      const double start = first->p[axis], eighth = (first->q[axis] - start) / 8.0;
+      first->p[axis] = start + eighth;
+      first->q[axis] = start + 3.0 * eighth;
+      second->p[axis] = start + 5.0 * eighth;
+      second->q[axis] = start + 7.0 * eighth;
     }
-    rail->side = (k / 2 % 2 == 0) == (k / 4 == 0);
   }
   return &table;
 }
