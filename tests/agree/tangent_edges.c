@@ -539,35 +539,6 @@ TEST(passages_of_jaws) {
   ck_assert_double_lt(errors[count - 1], 1e-7);
 }
 
-/* ---- The cloth ---- */
-
-/* Changes by which a ball that rolls, whichever way, slides for a time of the first order: the
- * derivatives of the roll behind that, beside differences. */
-TEST(changes_that_leave_a_roll) {
-  direction by[4];
-  read_directions("0.v[0] 1 0.v[1] 1 0.w[0] 30 0.w[1] 30", by);
-  for (int k = 0; k < 8; k++) {
-    const double turn = 0.3 + 0.8 * k, v[2] = {cos(turn), sin(turn)},
-                 w[3] = {-v[1] / R, v[0] / R, 0.0};
-    layout l = by_models(of_one(0.6, 1.2, v, w), (carom_shot_options){.time_most = 0.3});
-    differentiate(&l, by, 4);
-    ck_assert_int_eq(final[0].label, CAROM_BALL_ROLLING);
-    ck_assert_int_eq(shot.count, 0);
-    for (int j = 0; j < 4; j++) {
-      const double h = 1e-6 * by[j].unit;
-      double f[2][NUMBERS];
-      for (int side = 0; side < 2; side++) {
-        carom_shot s;
-        ck_assert_int_ge(shoot_changed(&l, &by[j], side == 0 ? -h : h, &s), CAROM_OK);
-        numbers_of(s.final, f[side]);
-      }
-      for (int x = 0; x < NUMBERS; x++)
-        ck_assert_double_eq_tol(ends[x * 4 + j], (f[1][x] - f[0][x]) / (2.0 * h),
-                                1e-4 * largest(ends, NUMBERS, j, 4));
-    }
-  }
-}
-
 /* ---- Clusters ---- */
 
 enum { CLUSTERS = FEWER(8), WAYS = 15, FROZEN_WAYS = 13 };
@@ -935,6 +906,23 @@ static double slope_of_scene(void) {
   return off_slope(&scene, &scene_by, 0, 1, from, read_number());
 }
 
+/* The distance from the difference of two changes, of which each may change events. */
+static double difference_of_scene(void) {
+  double change_of[2], f[2][NUMBERS * LAYOUT_BALLS], off = 0.0;
+  for (int side = 0; side < 2; side++) {
+    carom_shot s;
+    change_of[side] = read_number();
+    ck_assert_int_ge(shoot_changed(&scene, &scene_by, change_of[side], &s), CAROM_OK);
+    for (int i = 0; i < scene.count; i++)
+      numbers_of(&s.final[i], f[side] + NUMBERS * i);
+  }
+  for (int x = 0; x < NUMBERS * scene.count; x++)
+    off = fmax(off, fabs((f[1][x] - f[0][x]) / (change_of[1] - change_of[0]) - ends[x]));
+  return off / size_of_scene();
+}
+static double events_of_scene(void) {
+  return (double)shot.count;
+}
 /* The largest difference from the derivatives before, over the largest of them. */
 static double move_of_scene(void) {
   double most = 0.0;
@@ -951,12 +939,14 @@ static double flagged_events(void) {
 static const struct {
   const char *name;
   double (*value)(void);
-} measures[] = {
-    {"error", error_of_scene},     {"reach", reach_of_scene},       {"found", found_over_reach},
-    {"size", size_of_scene},       {"time", time_of_scene},         {"place", place_of_scene},
-    {"instant", instant_of_scene}, {"label", label_of_scene},       {"nans", nans_of_scene},
-    {"end", end_of_scene},         {"contacts", contacts_of_scene}, {"slope", slope_of_scene},
-    {"moved", move_of_scene},      {"flagged", flagged_events}};
+} measures[] = {{"error", error_of_scene},       {"reach", reach_of_scene},
+                {"found", found_over_reach},     {"size", size_of_scene},
+                {"time", time_of_scene},         {"place", place_of_scene},
+                {"instant", instant_of_scene},   {"label", label_of_scene},
+                {"nans", nans_of_scene},         {"difference", difference_of_scene},
+                {"events", events_of_scene},     {"end", end_of_scene},
+                {"contacts", contacts_of_scene}, {"slope", slope_of_scene},
+                {"moved", move_of_scene},        {"flagged", flagged_events}};
 
 static void expect_measure(void) {
   for (size_t k = 0; k < COUNT_OF(measures); k++)
