@@ -29,17 +29,6 @@ static double off_slope(const layout *l, const direction *by, int j, int m, doub
   return off / largest(ends, NUMBERS * l->count, j, m);
 }
 
-/* The events with a flag, and the first of them. */
-static int count_of(int32_t flag, int64_t *first) {
-  int n = 0;
-  for (int64_t k = shot.count; k-- > 0;)
-    if (event_flags[k] & flag) {
-      *first = k;
-      n++;
-    }
-  return n;
-}
-
 /* A cue ball, another one, and a stroke. */
 static layout of_two(double x, double y, double speed, double phi, double a, double b) {
   layout l = {.count = 2,
@@ -120,32 +109,29 @@ TEST(slow) {
     double last = -1.0;
     for (int64_t e = 0; e < shot.count; e++) {
       const carom_event *event = &events[e];
-      const double *moves = event->before[0].v;
-      double n[2] = {0.0, 0.0}, closing = 0.0, leaves = 0.0;
-      if (event->type == CAROM_EVENT_BALL_BALL)
-        for (int i = 0; i < 2; i++) {
-          n[i] = (event->before[1].r[i] - event->before[0].r[i]) / (2.0 * R);
-          closing += (moves[i] - event->before[1].v[i]) * n[i];
-        }
-      else if (event->type == CAROM_EVENT_RAIL)
-        for (int i = 0; i < 2; i++) {
-          const double size = i == 0 ? 1.27 : 2.54, place = event->before[0].r[i];
-          n[i] = (place > size - 0.03) - (place < 0.03);
-          closing += moves[i] * n[i];
-          leaves += event->after[0].v[i] * n[i];
-        }
-      else
+      const bool of_balls = event->type == CAROM_EVENT_BALL_BALL;
+      if (!of_balls && event->type != CAROM_EVENT_RAIL)
         continue;
+      double closing = 0.0, leaves = 0.0;
+      for (int i = 0; i < 2; i++) {
+        const double size = i == 0 ? 1.27 : 2.54, place = event->before[0].r[i];
+        double n = (place > size - 0.03) - (place < 0.03), rate = event->before[0].v[i];
+        if (of_balls) {
+          n = (event->before[1].r[i] - place) / (2.0 * R);
+          rate -= event->before[1].v[i];
+        }
+        closing += rate * n;
+        leaves += event->after[0].v[i] * n;
+      }
       /* the speed at which contacts are slow grows with their number */
       const double speed =
           fmin(1e-3 / ((1.0 - instants / 1500.0) * (1.0 - instants / 1500.0)), 0.2);
-      const bool is_slow =
-          closing < speed || (event->type == CAROM_EVENT_RAIL && fabs(leaves + speed) < 1e-9);
+      const bool is_slow = closing < speed || (!of_balls && fabs(leaves + speed) < 1e-9);
       instants += is_slow && event->time > last;
       last = is_slow ? event->time : last;
       ck_assert_int_eq((event_flags[e] & CAROM_TANGENT_SLOW) != 0, is_slow);
       expected += is_slow;
-      of_cushions += is_slow && event->type == CAROM_EVENT_RAIL;
+      of_cushions += is_slow && !of_balls;
     }
     ck_assert_int_eq((all & CAROM_TANGENT_SLOW) != 0, expected > 0);
     cushions += of_cushions > 0;
@@ -203,18 +189,6 @@ TEST(slow_in_space) {
   ck_assert_double_lt(at_90, 1e-5);
 }
 
-/* A derivative beyond the range of double is an error, and no number of the end is given. */
-TEST(overflow) {
-  const layout l = by_models(of_two(0.9, 0.2, 5.0, 80.0, 0.0, 0.5), (carom_shot_options){0});
-  differentiate(&l, &by_phi, 1);
-  const double cue[CAROM_CUE_NUMBERS] = {0.0, DBL_MAX};
-  const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
-  carom_tangent t = {.final = ends};
-  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_ERROR_OVERFLOW);
-  for (int k = 0; k < NUMBERS * l.count; k++)
-    ck_assert(isnan(ends[k]));
-}
-
 /* Every row that a caller asks for is written, and no number beyond the last: all are as many as
  * the header says, whatever stood there before. The passes take a part of the directions each,
  * so more are asked for than fit in one. */
@@ -234,20 +208,13 @@ TEST(rows_end_where_the_header_says) {
   const size_t n[ROWS] = {
       count * 2 * NUMBERS * M, count * 2 * NUMBERS * M, count * M, all, TIMES * all, M};
   edge block[ROWS], flags = edge_make(count * sizeof(int32_t), false);
+  memset(flags.memory, 0xff, count * sizeof(int32_t)); /* negative */
+  carom_tangent t = {.flags = flags.memory, .times = at_times, .times_count = TIMES};
+  double **const rows[ROWS] = {&t.before, &t.after, &t.time, &t.final, &t.at, &t.reach};
   for (int k = 0; k < ROWS; k++) {
     block[k] = edge_make(n[k] * sizeof(double), false);
-    memset(block[k].memory, 0xff, n[k] * sizeof(double)); /* NaN throughout */
+    *rows[k] = memset(block[k].memory, 0xff, n[k] * sizeof(double)); /* NaN throughout */
   }
-  memset(flags.memory, 0xff, count * sizeof(int32_t)); /* negative */
-  carom_tangent t = {.before = block[0].memory,
-                     .after = block[1].memory,
-                     .time = block[2].memory,
-                     .final = block[3].memory,
-                     .at = block[4].memory,
-                     .reach = block[5].memory,
-                     .flags = flags.memory,
-                     .times = at_times,
-                     .times_count = TIMES};
   ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_OK);
   for (int k = 0; k < ROWS; k++) {
     const double *row = block[k].memory;
@@ -837,8 +804,8 @@ TEST(reach_at_frozen_balls) {
  *   set PATH VALUE
  *   by PATH UNIT            plays the shot and derives it; UNIT is a typical size of the number
  *   play STATUS             plays the shot
- *   derive STATUS           derives the shot that was played last
- *   at TIME TIME STATUS     the same, at two times
+ *   derive SCALE STATUS     derives the shot that was played last by SCALE times its phi
+ *   at TIME TIME STATUS     derives it by its phi, at two times
  *   event K TYPE            event K has this type, and flags behind it are its own
  *   flags, with, without F  all flags, those that are among them, those that are not
  *   NAME ... LEAST MOST     a measured number, by its name in `measures`, is in this range
@@ -863,43 +830,30 @@ static int64_t read_flags(void) {
   return flags;
 }
 
-static double error_of_scene(void) {
-  return error_of(&scene, &scene_by, 0, 1);
-}
-static double reach_of_scene(void) {
-  return reach[0];
-}
+/* A number of the shot that was played last, by its name in rows. */
+#define MEASURE(name, value)            \
+  static double name##_of_scene(void) { \
+    return value;                       \
+  }
+MEASURE(error, error_of(&scene, &scene_by, 0, 1))
+MEASURE(reach, reach[0])
 /* The change that is found by trial, over the reach. */
 static double found_over_reach(void) {
   return change_of_events(&scene, &scene_by) / reach[0];
 }
-static double size_of_scene(void) {
-  return largest(ends, NUMBERS * scene.count, 0, 1);
-}
-static double time_of_scene(void) {
-  return times[scene_event];
-}
-static double place_of_scene(void) {
-  return events[scene_event].before[0].r[(int)read_number()];
-}
-static double label_of_scene(void) {
-  return (double) final[0].label;
-}
-static double end_of_scene(void) {
-  return ends[(int)read_number()];
-}
+MEASURE(size, largest(ends, scene.count *NUMBERS, 0, 1))
+MEASURE(time, times[scene_event])
+MEASURE(place, events[scene_event].before[0].r[(int)read_number()])
+MEASURE(label, (double) final[0].label)
+MEASURE(end, ends[(int)read_number()])
 static double nans_of_scene(void) {
   int nans = 0;
   for (int k = 0; k < NUMBERS * scene.count; k++)
     nans += isnan(ends[k]) != 0;
   return nans;
 }
-static double instant_of_scene(void) {
-  return events[scene_event].time;
-}
-static double contacts_of_scene(void) {
-  return events[scene_event].cluster;
-}
+MEASURE(instant, events[scene_event].time)
+MEASURE(contacts, events[scene_event].cluster)
 /* The distance from the slope between two changes. */
 static double slope_of_scene(void) {
   const double from = read_number();
@@ -920,9 +874,7 @@ static double difference_of_scene(void) {
     off = fmax(off, fabs((f[1][x] - f[0][x]) / (change_of[1] - change_of[0]) - ends[x]));
   return off / size_of_scene();
 }
-static double events_of_scene(void) {
-  return (double)shot.count;
-}
+MEASURE(events, (double)shot.count)
 /* The largest difference from the derivatives before, over the largest of them. */
 static double move_of_scene(void) {
   double most = 0.0;
@@ -932,8 +884,11 @@ static double move_of_scene(void) {
 }
 /* The events that have a flag. */
 static double flagged_events(void) {
-  int64_t first;
-  return count_of((int32_t)read_flags(), &first);
+  const int64_t flag = read_flags();
+  int count = 0;
+  for (int64_t k = 0; k < shot.count; k++)
+    count += (event_flags[k] & flag) != 0;
+  return count;
 }
 
 static const struct {
@@ -984,12 +939,13 @@ static void expect_status(carom_status status) {
     reject(name);
 }
 
-/* Derivatives of the shot that was played last; at two times, unless they are NULL. Those at the end
- * of the shot and behind it are those of the end. */
+/* Derivatives of the shot that was played last by its phi, whose scale comes next; or at two times,
+ * which are not NULL. Those at the end of the shot and behind it are those of the end. */
 static void expect_derived(const double *at_times) {
   static double at[2 * LAYOUT_BALLS * NUMBERS];
   const int numbers = NUMBERS * scene.count;
-  const carom_tangent_seeds seeds = seeds_of(&scene_by, 1);
+  const double cue[CAROM_CUE_NUMBERS] = {0.0, at_times == NULL ? read_number() : 1.0};
+  const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
   carom_tangent t = {
       .final = ends, .at = at, .times = at_times, .times_count = at_times == NULL ? 0 : 2};
   const carom_status status = shot_tangent(&scene, &seeds, &t);
@@ -1010,10 +966,9 @@ static void run_statement(void) {
     carom_rack((carom_rack_kind)kind, table_of(&scene), read_number(), 4, scene.ball, LAYOUT_BALLS);
   } else if (skip("cue")) {
     scene.cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
-    scene.cue.speed = read_number();
-    scene.cue.phi = read_number();
-    scene.cue.a = read_number();
-    scene.cue.b = read_number();
+    double *const numbers[] = {&scene.cue.speed, &scene.cue.phi, &scene.cue.a, &scene.cue.b};
+    for (size_t k = 0; k < COUNT_OF(numbers); k++)
+      *numbers[k] = read_number();
   } else if (skip("set")) {
     set_number(read_path(&scene));
   } else if (skip("by")) {
