@@ -50,14 +50,17 @@ static carom_impact good_row(random_source *source, size_t k) {
   return random_impact(source);
 }
 
+static size_t draw_index(random_source *source, size_t count) {
+  return (size_t)random_between(source, 0.0, (double)count);
+}
+
 /* Good rows, separating rows, and rows in which one of the 26 numbers is spoilt. */
 static carom_impact mixed_row(random_source *source, size_t k) {
   static const double spoilt[] = {NAN, INFINITY, -INFINITY, -1.0, 0.0, 1e300, 1e-300, -0.0};
   carom_impact in = random_impact(source);
   double *number = (double *)&in;
   if (k % 3 == 1)
-    number[(size_t)random_between(source, 0.0, 26.0)] =
-        spoilt[(size_t)random_between(source, 0.0, 8.0)];
+    number[draw_index(source, 26)] = spoilt[draw_index(source, 8)];
   if (k % 7 == 2)
     for (int c = 0; c < 3; c++) {
       in.a.v[c] = -in.a.v[c];
@@ -83,12 +86,12 @@ static carom_impact zero_row(random_source *source, size_t k) {
   const double reach = in.a.radius + in.b.radius, along = k % 2 == 0 ? reach : -reach,
                zero = k % 4 < 2 ? 0.0 : -0.0;
   for (int c = 0; c < 3; c++) {
-    in.a.r[c] = zeros[(size_t)random_between(source, 0.0, 2.0)];
+    in.a.r[c] = zeros[draw_index(source, 2)];
     in.b.r[c] = zero;
-    in.a.w[c] = zeros[(size_t)random_between(source, 0.0, 6.0)];
-    in.b.w[c] = zeros[(size_t)random_between(source, 0.0, 6.0)];
-    in.a.v[c] = c == 2 ? zeros[k % 2] : zeros[(size_t)random_between(source, 0.0, 6.0)];
-    in.b.v[c] = c == 2 ? zeros[k % 2] : zeros[(size_t)random_between(source, 0.0, 4.0)];
+    in.a.w[c] = zeros[draw_index(source, 6)];
+    in.b.w[c] = zeros[draw_index(source, 6)];
+    in.a.v[c] = c == 2 ? zeros[k % 2] : zeros[draw_index(source, 6)];
+    in.b.v[c] = c == 2 ? zeros[k % 2] : zeros[draw_index(source, 4)];
   }
   const int axis = k % 3 == 0;
   in.b.r[axis] = along;
@@ -221,8 +224,7 @@ TEST(cut_anywhere_in_any_order) {
     }
     alone(precision, t.in, n, &options, t.out, t.status);
     for (size_t k = 0; k < n; k++) { /* Fisher and Yates */
-      const size_t other = k + (size_t)random_between(&source, 0.0, (double)(n - k)),
-                   kept = order[k];
+      const size_t other = k + draw_index(&source, n - k), kept = order[k];
       order[k] = order[other];
       order[other] = kept;
       copy_row(precision, &t, order[k], &mixed, k);
@@ -236,7 +238,7 @@ TEST(cut_anywhere_in_any_order) {
       end = from + (size_t)random_between(
                        &source, 0.0, random_between(&source, 0.0, 1.0) < 0.5 ? 100.0 : (double)n);
       end = end < n ? end : n;
-      options.threads = threads[(size_t)random_between(&source, 0.0, 4.0)];
+      options.threads = threads[draw_index(&source, 4)];
       expect_batch(precision, (char *)mixed.in + from * in_size[precision], end - from, &options,
                    (char *)mixed.out + from * out_size[precision], mixed.status + from);
     }

@@ -122,9 +122,11 @@ TEST(speeds_scale) {
     ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
     for (size_t j = 0; j < COUNT_OF(powers); j++) {
       carom_impact other = in;
-      for (int c = 0; c < 3; c++) {
-        other.a.v[c] = ldexp(in.a.v[c], powers[j]), other.b.v[c] = ldexp(in.b.v[c], powers[j]);
-        other.a.w[c] = ldexp(in.a.w[c], powers[j]), other.b.w[c] = ldexp(in.b.w[c], powers[j]);
+      /* velocities and spins, those of b 12 numbers behind those of a */
+      for (int c = 3; c < 9; c++) {
+        double *const number = (double *)&other + c;
+        number[0] = ldexp(number[0], powers[j]);
+        number[12] = ldexp(number[12], powers[j]);
       }
       ck_assert_int_eq(carom_collide(&other, NULL, &scaled), CAROM_OK);
       for (int c = 0; c < 12; c++)

@@ -4,7 +4,7 @@
  * A collision may be solved by another kind or number of steps on the two sides of a place, where
  * the result jumps by an error of the solver (carom.h). Such places are rare, so a line of a
  * millionth of the speed meets one in a few of 100,000 lines; the tests leave out none. */
-#include "tangent_support.h"
+#include "paths.h"
 
 /* ---- Collisions along a line of inputs ---- */
 
@@ -139,15 +139,12 @@ TEST(differences_by_any_step) {
         numbers_of(&final[i], before + i * NUMBERS);
       const double size = largest(ends, 2 * NUMBERS, 0, 1);
       for (int k = 0; k < STEPS; k++) {
-        layout moved = l;
-        carom_ball_state end[2];
-        change(&moved, &by_phi, steps[k]);
-        const double step = moved.cue.phi - l.cue.phi;
-        carom_shot s = {.final = end};
-        ck_assert_int_eq(shoot(&moved, &s), CAROM_STOPPED_AT_TIME);
+        const double step = l.cue.phi + steps[k] - l.cue.phi;
+        carom_shot s;
+        ck_assert_int_eq(shoot_changed(&l, &by_phi, steps[k], &s), CAROM_STOPPED_AT_TIME);
         double after[2 * NUMBERS], off = 0.0;
         for (int i = 0; i < 2; i++)
-          numbers_of(&end[i], after + i * NUMBERS);
+          numbers_of(&s.final[i], after + i * NUMBERS);
         for (int x = 0; x < 2 * NUMBERS; x++)
           off = fmax(off, fabs((after[x] - before[x]) / step - ends[x]));
         errors[k][n] = off / size;
@@ -196,18 +193,15 @@ TEST(final_places_lie_on_a_parabola) {
   static const carom_shot_cushion cushions[] = {
       CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_SMOOTH, CAROM_SHOT_CUSHION_MATHAVAN,
       CAROM_SHOT_CUSHION_STRONGE, CAROM_SHOT_CUSHION_MIRROR};
-  static const direction by[] = {
-      {OF_CUE, 0, 0, 2}, {OF_CUE, 0, 1, 57}, {OF_CUE, 0, 3, 1}, {OF_CUE, 0, 4, 1}};
+  direction by[4];
+  read_directions("cue.speed 2 cue.phi 57 cue.a 1 cue.b 1", by);
   carom_table table;
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
   layout l = {.count = 3, .cue = carom_cue_of(CAROM_GAME_POOL), .table = &table};
   l.ball[0] = ball_at(0.4, 0.5);
   l.ball[1] = ball_at(0.6, 1.5);
   l.ball[2] = ball_at(0.9, 1.9);
-  l.cue.speed = 1.6;
-  l.cue.phi = 79.0;
-  l.cue.a = 0.1;
-  l.cue.b = -0.1;
+  set_numbers(&l, "cue.speed 1.6 cue.phi 79 cue.a 0.1 cue.b -0.1");
   for (size_t m = 0; m < COUNT_OF(cushions); m++)
     for (int d = 0; d < 4; d++) {
       static double place[PLACES][MOVES];

@@ -1,8 +1,8 @@
 /* Where derivatives of shots end: each flag of carom_tangent.h by itself, the reach beside the
  * change at which a ball's events really change, and the derivatives by the frictions of the
  * cloth beside closed forms. */
+#include "paths.h"
 #include "table/table.h"
-#include "tangent_support.h"
 
 static const carom_shot_options closed = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
                                           .cushion_model = CAROM_SHOT_CUSHION_HAN};
@@ -27,17 +27,6 @@ static double off_slope(const layout *l, const direction *by, int j, int m, doub
   for (int x = 0; x < NUMBERS * l->count; x++)
     off = fmax(off, fabs((f[1][x] - f[0][x]) / (to - from) - ends[x * m + j]));
   return off / largest(ends, NUMBERS * l->count, j, m);
-}
-
-/* The events with a flag, and the first of them. */
-static int count_of(int32_t flag, int64_t *first) {
-  int n = 0;
-  for (int64_t k = shot.count; k-- > 0;)
-    if (event_flags[k] & flag) {
-      *first = k;
-      n++;
-    }
-  return n;
 }
 
 /* A cue ball, another one, and a stroke. */
@@ -97,145 +86,13 @@ static bool each_alike(const carom_shot *s, int count) {
 
 /* ---- Flags ---- */
 
-/* Derivatives of a hit that is thinner than a full one by s = 2 R (1 - eps) grow like
- * 1/sqrt(eps). */
-TEST(grazing) {
-  double last = 0.0;
-  for (int k = 0; k < 3; k++) {
-    const double eps = (double[]){0.3, 1e-5, 1e-6}[k];
-    const double thin = asin(2.0 * R * (1.0 - eps) / hypot(0.15, 0.8));
-    const layout l =
-        of_two(0.55, 1.4, 3.0, 57.29577951308232 * (atan2(0.8, 0.15) + thin), 0.0, 0.0);
-    int64_t contact = 0;
-    ck_assert_int_eq(differentiate(&l, &by_phi, 1), k == 0 ? 0 : CAROM_TANGENT_GRAZING);
-    ck_assert_int_eq(count_of(CAROM_TANGENT_GRAZING, &contact), k == 0 ? 0 : 1);
-    ck_assert_double_lt(error_of(&l, &by_phi, 0, 1), k < 2 ? 1e-6 : 1e-4);
-    /* the time of the contact */
-    if (k == 2)
-      ck_assert_double_eq_tol(times[contact] / last, sqrt(10.0), 0.02);
-    last = times[contact];
-    if (k > 0)
-      ck_assert_double_lt(reach[0], 1e-3);
-  }
-}
-
-/* The same in flight: balls that pass each other upright graze by all of their speed. A ball that
- * falls steeply comes to the far side of a pocket by its level speed alone. */
-TEST(grazing_in_flight) {
-  const direction by_z = {OF_STATE, 0, 7, 0.1};
-  for (int k = 0; k < 2; k++) {
-    layout l = of_one(0.4, 1.0, (double[]){0.0, 0.0}, (double[]){0.0, 0.0, 0.0});
-    l.ball[0] = flying(0.4, 1.0, 0.5, 0.0, 0.0, -2.0);
-    l.ball[1] = flying(0.4 + 2.0 * R * (k == 0 ? 1.0 - 1e-5 : 0.999), 1.0, 0.4, 0.0, 0.0, 0.0);
-    l.count = 2;
-    differentiate(&l, &by_z, 1);
-    ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
-    ck_assert_int_eq(event_flags[0], k == 0 ? CAROM_TANGENT_GRAZING : 0);
-  }
-
-  /* thrown up at the corner, 4 mm above the slate where it comes to the far side */
-  layout l = of_one(0.0, 0.0, (double[]){0.0, 0.0}, (double[]){0.0, 0.0, 0.0});
-  const carom_pocket *pocket = &table_of(&l)->pocket[0];
-  const double g = l.ball[0].kind.gravity, up = 10.0, speed = 0.08,
-               time = (up + sqrt(up * up - 8e-3 * g)) / g, side = sqrt(0.5);
-  for (int k = 0; k < 2; k++) {
-    const double out = pocket->centre[k] < 0.5 ? -side : side;
-    l.ball[0].state.r[k] = pocket->centre[k] + out * (pocket->radius - speed * time);
-    l.ball[0].state.v[k] = out * speed;
-  }
-  l.ball[0].state.v[2] = up;
-  differentiate(&l, &by_z, 1);
-  ck_assert_int_eq(events[0].type, CAROM_EVENT_POCKET);
-  ck_assert_double_eq_tol(events[0].before[0].r[2], R + 4e-3, 1e-6);
-  ck_assert_int_eq(event_flags[0], 0);
-}
-
-/* Racks whose balls touch have the flag, whatever the rack; with gaps they have not, and then
- * derivatives are right. */
-TEST(simultaneous) {
-  static const carom_rack_kind racks[] = {CAROM_RACK_NINEBALL, CAROM_RACK_EIGHTBALL,
-                                          CAROM_RACK_TENBALL};
-  int apart = 0;
-  for (int k = 0; k < 6; k++) {
-    const bool frozen = k < 3;
-    layout l = {.count = carom_rack_size(racks[k % 3]),
-                .cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL),
-                .options = closed};
-    carom_rack(racks[k % 3], table_of(&l), frozen ? 0.0 : 1e-3, 4, l.ball, LAYOUT_BALLS);
-    l.cue.speed = 8.0;
-    int64_t first;
-    const int64_t all = differentiate(&l, &by_phi, 1);
-    ck_assert_int_eq((all & CAROM_TANGENT_SIMULTANEOUS) != 0, frozen);
-    ck_assert(!frozen || count_of(CAROM_TANGENT_SIMULTANEOUS, &first) > 1);
-    const double error = error_of(&l, &by_phi, 0, 1);
-    apart += frozen && !(error < 1e-5);
-    ck_assert_msg(frozen || error < 1e-5, "rack %d: %g", k, error);
-  }
-  ck_assert_int_gt(apart, 0); /* so the flag says something */
-}
-
-/* A number of a stroke, the flags of the shot, those of one event, and how exact the derivatives
- * are.
- *
- * The place of a ball that touches another one at the start counts on one side only: a change opens
- * a gap, or there is none. By what moves neither there is no such flag, and the strike has its own
- * derivatives at the instant of the contact: side spin that a change brings about goes on into it;
- * phi changes it before slip between the balls can begin. Where that contact has no vertical slip,
- * a change presses one or the other ball on the cloth: by b there is a kink, by a and phi there is
- * none. By theta, at no elevation, the derivative is that upward, which the cloth takes a part of
- * at once; in flat play there is no kink. */
-TEST(strokes) {
-  enum { ANY = -1, TWICE = CAROM_TANGENT_SIMULTANEOUS, KINK = CAROM_TANGENT_KINK };
-  const carom_shot_options exact = {0}, flat = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
-                                                .cushion_model = CAROM_SHOT_CUSHION_HAN,
-                                                .space = CAROM_SPACE_FLAT};
-  const double y = 0.6 + 2.0 * R; /* balls touch, and event 1 is their contact */
-  const layout straight = of_two(0.4, y, 2.0, 90.0, 0.0, 0.0),
-               slow = of_two(0.4, y, 1.5, 90.0, 0.0, 0.0),
-               oblique = by_models(of_two(0.4, y, 2.0, 70.0, 0.2, 0.0), exact),
-               apart = of_two(0.55, 1.4, 2.0, 80.0, 0.2, 0.1);
-  const struct {
-    layout l;
-    direction by;
-    int all, event, of_event;
-    double within;
-  } cases[] = {
-      {straight, {OF_STATE, 1, 1, 1}, TWICE, 1, ANY, INFINITY},
-      {straight, {OF_CUE, 0, 0, 1}, 0, 1, 0, 1e-5},
-      {straight, {OF_CUE, 0, 3, 1}, 0, 1, 0, 1e-5},
-      {slow, {OF_CUE, 0, 1, 57}, ANY, 1, ANY, 1e-6},
-      /* the differences of carom_collide() itself are noisy */
-      {by_models(slow, exact), {OF_CUE, 0, 1, 57}, ANY, 1, ANY, 1e-3},
-      {oblique, {OF_CUE, 0, 4, 1}, ANY, 1, KINK, INFINITY},
-      {oblique, {OF_CUE, 0, 3, 1}, ANY, 1, 0, INFINITY},
-      {oblique, {OF_CUE, 0, 1, 57}, ANY, 1, 0, INFINITY},
-      {apart, {OF_CUE, 0, 3, 1}, 0, 0, 0, INFINITY},
-      {by_models(apart, flat), {OF_CUE, 0, 2, 30}, 0, 0, 0, INFINITY},
-      {apart, {OF_CUE, 0, 2, 30}, KINK, 0, KINK, INFINITY},
-  };
-  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-    const int64_t all =
-        differentiate(&cases[k].l, &cases[k].by, 1) & ~(int64_t)CAROM_TANGENT_CLUSTER;
-    const int32_t of_event = event_flags[cases[k].event] & ~CAROM_TANGENT_CLUSTER;
-    ck_assert_msg(cases[k].event == 0 ||
-                      (events[1].type == CAROM_EVENT_BALL_BALL && events[1].time == 0.0),
-                  "case %zu: event %d at %g s", k, (int)events[1].type, events[1].time);
-    ck_assert_msg((cases[k].all == ANY || all == cases[k].all) &&
-                      (cases[k].of_event == ANY || of_event == cases[k].of_event),
-                  "case %zu: flags %d, of the event %d", k, (int)all, of_event);
-    if (cases[k].within < INFINITY)
-      ck_assert_double_lt(error_of(&cases[k].l, &cases[k].by, 0, 1), cases[k].within);
-  }
-  /* the last, upward */
-  ck_assert_double_lt(off_slope(&apart, &(direction){OF_CUE, 0, 2, 30}, 0, 1, 0.0, 1e-5), 1e-4);
-}
-
 /* A ball with topspin right before another ball, or before a rail: the contacts that close at
  * less than 1 mm/s, or after which the model leaves the ball moving into the cushion, have the
  * flag, and no others. */
 TEST(slow) {
   random_source random = {4};
-  static const direction by[2] = {{OF_STATE, 0, 4, 100}, {OF_STATE, 0, 5, 100}};
+  direction by[2];
+  read_directions("0.w[0] 100 0.w[1] 100", by);
   static double errors[400];
   int compared = 0, cushions = 0;
   for (int k = 0; k < 100; k++) {
@@ -252,32 +109,29 @@ TEST(slow) {
     double last = -1.0;
     for (int64_t e = 0; e < shot.count; e++) {
       const carom_event *event = &events[e];
-      const double *moves = event->before[0].v;
-      double n[2] = {0.0, 0.0}, closing = 0.0, leaves = 0.0;
-      if (event->type == CAROM_EVENT_BALL_BALL)
-        for (int i = 0; i < 2; i++) {
-          n[i] = (event->before[1].r[i] - event->before[0].r[i]) / (2.0 * R);
-          closing += (moves[i] - event->before[1].v[i]) * n[i];
-        }
-      else if (event->type == CAROM_EVENT_RAIL)
-        for (int i = 0; i < 2; i++) {
-          const double size = i == 0 ? 1.27 : 2.54, place = event->before[0].r[i];
-          n[i] = (place > size - 0.03) - (place < 0.03);
-          closing += moves[i] * n[i];
-          leaves += event->after[0].v[i] * n[i];
-        }
-      else
+      const bool of_balls = event->type == CAROM_EVENT_BALL_BALL;
+      if (!of_balls && event->type != CAROM_EVENT_RAIL)
         continue;
+      double closing = 0.0, leaves = 0.0;
+      for (int i = 0; i < 2; i++) {
+        const double size = i == 0 ? 1.27 : 2.54, place = event->before[0].r[i];
+        double n = (place > size - 0.03) - (place < 0.03), rate = event->before[0].v[i];
+        if (of_balls) {
+          n = (event->before[1].r[i] - place) / (2.0 * R);
+          rate -= event->before[1].v[i];
+        }
+        closing += rate * n;
+        leaves += event->after[0].v[i] * n;
+      }
       /* the speed at which contacts are slow grows with their number */
       const double speed =
           fmin(1e-3 / ((1.0 - instants / 1500.0) * (1.0 - instants / 1500.0)), 0.2);
-      const bool is_slow =
-          closing < speed || (event->type == CAROM_EVENT_RAIL && fabs(leaves + speed) < 1e-9);
+      const bool is_slow = closing < speed || (!of_balls && fabs(leaves + speed) < 1e-9);
       instants += is_slow && event->time > last;
       last = is_slow ? event->time : last;
       ck_assert_int_eq((event_flags[e] & CAROM_TANGENT_SLOW) != 0, is_slow);
       expected += is_slow;
-      of_cushions += is_slow && event->type == CAROM_EVENT_RAIL;
+      of_cushions += is_slow && !of_balls;
     }
     ck_assert_int_eq((all & CAROM_TANGENT_SLOW) != 0, expected > 0);
     cushions += of_cushions > 0;
@@ -294,17 +148,16 @@ TEST(slow) {
 /* The same in space: a ball that lies on another, or on a nose, and rolls off it. */
 TEST(slow_in_space) {
   random_source random = {8};
-  static const direction by[4] = {
-      {OF_STATE, 0, 0, 0.1}, {OF_STATE, 0, 2, 0.1}, {OF_STATE, 0, 4, 100}, {OF_KIND, 0, 0, 0.2}};
+  direction by[4];
+  read_directions("0.r[0] 0.1 0.v[0] 0.1 0.w[0] 100 0.mass 0.2", by);
   static double errors[1000];
   const double shift = R - sqrt(0.036576 * (2.0 * R - 0.036576));
   int compared = 0, of_noses = 0, of_balls = 0;
   for (int k = 0; k < 60; k++) {
     const bool at_nose = k % 2 == 0;
-    const double v[2] = {random_between(&random, -0.05, 0.05),
-                         random_between(&random, -0.05, 0.05)};
-    const double w[3] = {random_between(&random, -5.0, 5.0), random_between(&random, -5.0, 5.0),
-                         random_between(&random, -5.0, 5.0)};
+    double v[2], w[3];
+    random_vector(&random, 2, -0.05, 0.05, v);
+    random_vector(&random, 3, -5.0, 5.0, w);
     const double up = random_between(&random, 0.4, 1.2), turn = random_between(&random, -3.0, 3.0);
     const double away = (at_nose ? R : 2.0 * R) + random_between(&random, 1e-9, 2e-8);
     layout l = of_one(0.4, 1.0, v, w);
@@ -336,66 +189,6 @@ TEST(slow_in_space) {
   ck_assert_double_lt(at_90, 1e-5);
 }
 
-/* A derivative beyond the range of double is an error, and no number of the end is given. */
-TEST(overflow) {
-  const layout l = by_models(of_two(0.9, 0.2, 5.0, 80.0, 0.0, 0.5), (carom_shot_options){0});
-  differentiate(&l, &by_phi, 1);
-  const double cue[CAROM_CUE_NUMBERS] = {0.0, DBL_MAX};
-  const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
-  carom_tangent t = {.final = ends};
-  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_ERROR_OVERFLOW);
-  for (int k = 0; k < NUMBERS * l.count; k++)
-    ck_assert(isnan(ends[k]));
-}
-
-/* After the end of a shot that was stopped while balls moved, states are not known; at its end they
- * are those of the end. */
-TEST(times_after_the_end) {
-  carom_shot_options options = closed;
-  options.time_most = 0.4;
-  const layout l = by_models(of_two(0.9, 0.2, 5.0, 80.0, 0.0, 0.5), options);
-  differentiate(&l, &by_phi, 1);
-  const double cue[CAROM_CUE_NUMBERS] = {0.0, 1.0}, within[] = {0.2, 0.4}, after[] = {0.2, 0.5};
-  const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
-  double at[2 * LAYOUT_BALLS * NUMBERS];
-  carom_tangent t = {.final = ends, .at = at, .times = within, .times_count = 2};
-  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_OK);
-  ck_assert_mem_eq(&at[NUMBERS * l.count], ends, (size_t)(NUMBERS * l.count) * sizeof *ends);
-  t.times = after;
-  ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_ERROR_TIME);
-  for (int k = 0; k < NUMBERS * l.count; k++)
-    ck_assert(isnan(ends[k]));
-}
-
-/* Times that carom_tangent.h refuses: each makes the call an error, wherever it stands, also of a
- * shot that ended at rest, whose states are known ever after. */
-TEST(times_that_are_refused) {
-  const layout l = of_two(0.9, 0.2, 2.0, 80.0, 0.0, 0.5);
-  differentiate(&l, &by_phi, 1);
-  const double cue[CAROM_CUE_NUMBERS] = {0.0, 1.0};
-  const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
-  static const struct {
-    double times[2];
-    carom_status status;
-  } cases[] = {
-      {{0.0, 0.0}, CAROM_OK},
-      {{0.3, DBL_MAX}, CAROM_OK},
-      {{-DBL_TRUE_MIN, 0.3}, CAROM_ERROR_TIME},
-      {{0.3, 0.2}, CAROM_ERROR_TIME},
-      {{0.3, INFINITY}, CAROM_ERROR_TIME},
-      {{INFINITY, INFINITY}, CAROM_ERROR_TIME},
-      {{NAN, 0.3}, CAROM_ERROR_TIME},
-      {{0.3, NAN}, CAROM_ERROR_TIME},
-  };
-  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-    double at[2 * LAYOUT_BALLS * NUMBERS];
-    carom_tangent t = {.final = ends, .at = at, .times = cases[k].times, .times_count = 2};
-    const carom_status status = shot_tangent(&l, &seeds, &t);
-    ck_assert_msg(status == cases[k].status, "times %g and %g: %s", cases[k].times[0],
-                  cases[k].times[1], carom_status_name(status));
-  }
-}
-
 /* Every row that a caller asks for is written, and no number beyond the last: all are as many as
  * the header says, whatever stood there before. The passes take a part of the directions each,
  * so more are asked for than fit in one. */
@@ -415,20 +208,13 @@ TEST(rows_end_where_the_header_says) {
   const size_t n[ROWS] = {
       count * 2 * NUMBERS * M, count * 2 * NUMBERS * M, count * M, all, TIMES * all, M};
   edge block[ROWS], flags = edge_make(count * sizeof(int32_t), false);
+  memset(flags.memory, 0xff, count * sizeof(int32_t)); /* negative */
+  carom_tangent t = {.flags = flags.memory, .times = at_times, .times_count = TIMES};
+  double **const rows[ROWS] = {&t.before, &t.after, &t.time, &t.final, &t.at, &t.reach};
   for (int k = 0; k < ROWS; k++) {
     block[k] = edge_make(n[k] * sizeof(double), false);
-    memset(block[k].memory, 0xff, n[k] * sizeof(double)); /* NaN throughout */
+    *rows[k] = memset(block[k].memory, 0xff, n[k] * sizeof(double)); /* NaN throughout */
   }
-  memset(flags.memory, 0xff, count * sizeof(int32_t)); /* negative */
-  carom_tangent t = {.before = block[0].memory,
-                     .after = block[1].memory,
-                     .time = block[2].memory,
-                     .final = block[3].memory,
-                     .at = block[4].memory,
-                     .reach = block[5].memory,
-                     .flags = flags.memory,
-                     .times = at_times,
-                     .times_count = TIMES};
   ck_assert_int_eq(shot_tangent(&l, &seeds, &t), CAROM_OK);
   for (int k = 0; k < ROWS; k++) {
     const double *row = block[k].memory;
@@ -441,88 +227,12 @@ TEST(rows_end_where_the_header_says) {
   edge_free(&flags);
 }
 
-/* A cushion in steps, and one that the exact model refuses, so that its steps take its place. */
-TEST(euler) {
-  const carom_shot_options steps = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
-                                    .cushion_model = CAROM_SHOT_CUSHION_EULER};
-  const carom_shot_options exact = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
-                                    .cushion_model = CAROM_SHOT_CUSHION_MATHAVAN};
-  const int32_t all = CAROM_TANGENT_EULER | CAROM_TANGENT_DIFFERENCES | CAROM_TANGENT_KINK;
-  layout l = by_models(of_two(0.9, 0.2, 2.0, 80.0, 0.0, 0.0), steps);
-  ck_assert_int_eq(differentiate(&l, &by_phi, 1), all);
-  l.options = exact;
-  ck_assert_int_eq(differentiate(&l, &by_phi, 1), 0);
-
-  /* the derivatives of the steps are about those of the exact model, to which the steps converge */
-  static const direction by[3] = {{OF_STATE, 0, 2, 1}, {OF_STATE, 0, 6, 50}, {OF_KIND, 0, 7, 0.2}};
-  double of_steps[NUMBERS * 3];
-  l = by_models(of_one(0.6, 2.4, (double[]){0.5, 1.0}, (double[]){-20.0, 5.0, 30.0}), steps);
-  l.options.time_most = 0.5;
-  l.options.steps = 10000;
-  differentiate(&l, by, 3);
-  memcpy(of_steps, ends, sizeof of_steps);
-  l.options.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN;
-  differentiate(&l, by, 3);
-  for (int j = 0; j < 3; j++)
-    for (int x = 0; x < NUMBERS; x++)
-      ck_assert_double_eq_tol(of_steps[x * 3 + j], ends[x * 3 + j],
-                              0.2 * largest(ends, NUMBERS, j, 3));
-
-  /* at the cushion at the start, with frictions so high that the ball jams */
-  static const double v[2] = {-0.89101410989132246, 1.5801067791159522},
-                      w[3] = {85.794122277663121, 50.245987554195324, -5.8093137134841299};
-  l = by_models(of_one(0.6, 2.54 - R, v, w), exact);
-  l.ball[0].kind.mu_slide = 0.78381552071488259;
-  l.ball[0].kind.mu_cushion = 0.83267709744753182;
-  l.ball[0].kind.restitution_cushion = 0.62421693509640952;
-  const direction by_v = {OF_STATE, 0, 3, 1};
-  ck_assert_int_ne(differentiate(&l, &by_v, 1) & CAROM_TANGENT_EULER, 0);
-  ck_assert_int_eq(event_flags[0], all);
-}
-
-/* At a kink the derivatives of both sides differ, and the tangent is one of them. Here the
- * friction just stops the slip: of two balls that meet head on, by side spin, and of a ball on
- * Han's cushion. */
-TEST(kink) {
-  const carom_shot_options options = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
-                                      .cushion_model = CAROM_SHOT_CUSHION_HAN,
-                                      .friction = CAROM_FRICTION_CONSTANT};
-  for (int k = 0; k < 4; k++) {
-    const double v[2] = {0.0, 1.0}, e = 0.95, mu = 0.05;
-    const double sine = 0.036576 / R - 1.0, cosine = sqrt(1.0 - sine * sine);
-    /* spin by which a slip of 7 mu e v stops just so; of the cushion 7/2 mu (1 + e) v cos */
-    const double slip = k < 2 ? 7.0 * mu * e * v[1] : 3.5 * 0.2 * 1.85 * v[1] * cosine;
-    double w[3] = {0.0, 0.0, slip / R};
-    if (k >= 2) { /* rolling, W_x = -v_y: no slip up the nose where W_x cos... is balanced by the
-                     spin about z alone */
-      w[0] = 0.0;
-      const double up = v[1] * sine; /* of the surface along the nose, from v_y */
-      w[2] = sqrt(slip * slip - up * up) / (R * cosine);
-    }
-    w[2] += k % 2 == 0 ? 0.0 : 1e-3 / R; /* a little beside it there is none */
-    layout l = by_models(of_one(0.4, k < 2 ? 1.0 : 2.54 - R, v, w), options);
-    if (k < 2) {
-      l.count = 2;
-      l.ball[1] = ball_at(0.4, 1.0 + 2.0 * R);
-    }
-    const direction by_w = {OF_STATE, 0, 6, 100};
-    differentiate(&l, &by_w, 1);
-    ck_assert_int_eq(events[0].type, k < 2 ? CAROM_EVENT_BALL_BALL : CAROM_EVENT_RAIL);
-    ck_assert_int_eq(event_flags[0], k % 2 == 0 ? CAROM_TANGENT_KINK : 0);
-    if (k % 2 == 1)
-      continue;
-    const double below = off_slope(&l, &by_w, 0, 1, -1e-4, 0.0),
-                 above = off_slope(&l, &by_w, 0, 1, 0.0, 1e-4);
-    ck_assert_double_lt(fmin(below, above), 1e-4);
-    ck_assert_double_gt(fmax(below, above), 1e-2);
-  }
-}
-
 /* Shots square at a cushion, by draw, stun and follow: a ball has neither speed nor roll along it,
  * and a change brings about both. The derivatives are those of both sides, for every table, kind
  * of ball and model but Euler's steps, which have none. */
 static void shoot_squarely(const carom_table *table, carom_game game, carom_shot_options o) {
-  static const direction by[3] = {{OF_CUE, 0, 1, 57}, {OF_STATE, 0, 0, 1}, {OF_STATE, 0, 1, 1}};
+  direction by[3];
+  read_directions("cue.phi 57 0.r[0] 1 0.r[1] 1", by);
   static const double tips[3] = {-0.3, 0.0, 0.3};
   for (int k = 0; k < 4 * 3; k++) {
     layout l = {.count = 1, .table = table, .cue = carom_cue_of(game), .options = o};
@@ -558,96 +268,15 @@ TEST(square_at_a_cushion) {
   ck_assert_double_gt(largest_error, 0.0); /* of those that were found by differences */
 }
 
-/* By the restitution of the tip, with other numbers of the cue, of two balls; where it is 0, which
- * stands for 1, the derivative is that of 1. */
-TEST(tip) {
-  static const direction by[3] = {{OF_CUE, 0, 7, 1}, {OF_CUE, 0, 0, 1}, {OF_CUE, 0, 3, 1}};
-  static const double restitution[3] = {0.4, CAROM_TIP_LEATHER, 0.85};
-  double of_1[NUMBERS * 2];
-  for (int k = 0; k < 3 * 4; k++) {
-    layout l = of_two(0.45, 1.1, 1.0 + k / 3, 87.0, 0.2, -0.1);
-    l.cue.tip_restitution = restitution[k % 3];
-    ck_assert_int_eq(differentiate(&l, by, 3), 0);
-    for (int j = 0; j < 3; j++)
-      ck_assert_double_lt(error_of(&l, &by[j], j, 3), 1e-6);
-  }
-  for (int k = 0; k < 2; k++) {
-    layout l = of_two(0.45, 1.1, 2.0, 87.0, 0.0, 0.0);
-    l.cue.tip_restitution = k == 0 ? 1.0 : 0.0;
-    differentiate(&l, by, 1);
-    ck_assert_double_gt(largest(ends, NUMBERS * 2, 0, 1), 0.1);
-    if (k == 0)
-      memcpy(of_1, ends, sizeof of_1);
-    ck_assert_int_eq(memcmp(of_1, ends, sizeof of_1), 0);
-  }
-}
-
-/* A hop that is nearly none, since the ball falls little faster than it has to, is a grazing
- * contact; and a ball that meets the slate and another ball at one instant meets them
- * simultaneously. */
-TEST(edges_of_flights) {
-  const double v[2] = {0.5, 0.0}, w[3] = {0.0, 10.0, 0.0};
-  static const direction by_v_z = {OF_STATE, 0, 8, 1};
-  for (int k = 0; k < 3; k++) { /* the least fall that is followed by a hop is 0.04 m/s */
-    layout l = of_one(0.4, 1.0, v, w);
-    l.ball[0].state.v[2] = (double[]){-0.04 - 1e-7, -0.04 + 1e-7, -0.045}[k];
-    ck_assert_int_eq(differentiate(&l, &by_v_z, 1), k < 2 ? CAROM_TANGENT_GRAZING : 0);
-    ck_assert_int_eq(event_flags[0], k < 2 ? CAROM_TANGENT_GRAZING : 0);
-    ck_assert_double_eq_tol(reach[0], k < 2 ? 1e-7 : 5e-3, 1e-6);
-  }
-  for (int k = 0; k < 2; k++) {
-    layout l = of_two(0.4 + 2.0 * R + 0.01 * k, 0.6, 2.0, 0.0, 0.0, 0.0);
-    l.cue.theta = 30.0;
-    l.cue.tip_time = -1.0;
-    ck_assert_int_eq((differentiate(&l, &by_phi, 1) & CAROM_TANGENT_SIMULTANEOUS) != 0, k == 0);
-  }
-}
-
-/* A flight that begins on the cloth without vertical speed lands at once, and a level contact in
- * flight leaves both balls on the cloth. A change could lift a ball from both: a kink. A change of
- * the speed along the contact lifts none; one of the place gives the ball time to fall before. */
-TEST(kinks_of_flights) {
-  static const direction by[3] = {{OF_STATE, 0, 0, 1}, {OF_STATE, 0, 8, 1}, {OF_STATE, 0, 2, 1}};
-  const double v[2] = {0.5, 0.0}, w[3] = {0.0, 0.0, 0.0};
-  for (int k = 0; k < 3; k++) {
-    layout l = of_one(0.4, 1.0, v, w);
-    l.ball[0].state.label = CAROM_BALL_AIRBORNE;
-    ck_assert_int_eq(differentiate(&l, &by[k], 1), CAROM_TANGENT_KINK);
-    ck_assert_int_eq(events[0].type, CAROM_EVENT_SLATE);
-    ck_assert_int_eq(event_flags[0], CAROM_TANGENT_KINK);
-
-    /* whichever of the two balls flies */
-    for (int flies = 0; flies < 2; flies++) {
-      const carom_shot_ball flier = l.ball[0];
-      layout two = l;
-      direction of = by[k];
-      two.count = 2;
-      two.ball[flies] = flier;
-      two.ball[1 - flies] = ball_at(0.4 + 2.0 * R, 1.0);
-      of.ball = flies;
-      differentiate(&two, &of, 1);
-      ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
-      ck_assert_int_eq(event_flags[0] & CAROM_TANGENT_KINK, k < 2 ? CAROM_TANGENT_KINK : 0);
-    }
-  }
-
-  /* balls of nearly one radius, of which a larger one lifts the other */
-  layout l = of_one(0.4, 1.0, v, w);
-  l.count = 2;
-  l.ball[1] = ball_at(0.4 + 2.0 * R, 1.0);
-  l.ball[1].kind.radius = l.ball[1].state.r[2] = nextafter(R, 1.0);
-  differentiate(&l, &(direction){OF_KIND, 0, 1, 0.03}, 1);
-  ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
-  ck_assert_int_ne(event_flags[0] & CAROM_TANGENT_KINK, 0);
-}
-
 /* Strikes of raised cues at a ball alone, by all numbers of the cue, beside differences. Where a
  * change of a hundredth has other phases, a flag says so. */
 TEST(phases_of_a_strike) {
   enum { SHOTS = 300, BY = 7 };
-  static const direction by[BY] = {{OF_CUE, 0, 0, 1},   {OF_CUE, 0, 2, 20},  {OF_CUE, 0, 3, 0.1},
-                                   {OF_CUE, 0, 4, 0.1}, {OF_CUE, 0, 5, 0.5}, {OF_CUE, 0, 7, 0.5},
-                                   {OF_KIND, 0, 0, 0.1}};
+  direction by[BY];
+  read_directions(
+      "cue.speed 1 cue.theta 20 cue.a 0.1 cue.b 0.1 cue.mass 0.5 cue.tip_restitution 0.5 "
+      "0.mass 0.1",
+      by);
   static double errors[SHOTS * BY];
   random_source random = {test_seed()};
   int flagged = 0, n = 0, off = 0;
@@ -681,8 +310,8 @@ TEST(ends_of_flights) {
   enum { SLATE, TOP, LANDS_IN, FAR_SIDE, LIES, BEYOND, EDGE, ENDS };
   static const char *const name[ENDS] = {
       "slate", "top", "pocket by landing", "its far side", "lies on a rail", "beyond", "edge"};
-  static const direction by[4] = {
-      {OF_STATE, 0, 1, 1}, {OF_STATE, 0, 8, 1}, {OF_STATE, 0, 7, 0.1}, {OF_KIND, 0, 9, 9.8}};
+  direction by[4];
+  read_directions("0.r[1] 1 0.v[2] 1 0.r[2] 0.1 0.gravity 9.8", by);
   random_source random = {21};
   int seen[ENDS] = {0};
   double worst[ENDS] = {0.0};
@@ -759,28 +388,6 @@ TEST(ends_of_flights) {
   }
 }
 
-/* A level centre hit on two balls that touch the cue ball or nearly do, and on a row: by b, to one
- * side, the contacts press other balls on the cloth than to the other side. By a there is no kink
- * where they touch. */
-TEST(centre_hit_of_a_cluster) {
-  static const double along[3][2] = {{60.0, 120.0}, {80.0, 150.0}, {90.0, 90.0}};
-  static const direction by[2] = {{OF_CUE, 0, 3, 1}, {OF_CUE, 0, 4, 1}};
-  for (int k = 0; k < 12; k++) {
-    layout l = by_models(of_two(0.4, 0.6, 2.0, k / 2 % 3 == 1 ? 95.0 : 90.0, 0.0, 0.0),
-                         (carom_shot_options){.time_most = 0.02});
-    l.count = 3;
-    for (int i = 1; i < 3; i++) {
-      const double q = 0.017453292519943295 * along[k / 2 % 3][i - 1],
-                   far = (k / 2 % 3 < 2 ? 1.0 : i) * (k < 6 ? 2.0 * R : 2.0 * R + 1e-6);
-      l.ball[i] = ball_at(0.4 + far * cos(q), 0.6 + far * sin(q));
-    }
-    const int64_t all = differentiate(&l, &by[k % 2], 1);
-    ck_assert_int_eq(events[1].cluster, 3); /* with the tip */
-    if (k < 6 || k % 2 == 1)
-      ck_assert_int_eq(all & CAROM_TANGENT_KINK, k % 2 == 0 ? 0 : CAROM_TANGENT_KINK);
-  }
-}
-
 /* ---- Reach ---- */
 
 /* The least change at which a ball's events are others, in steps of 10 % from 1e-9 on. */
@@ -798,7 +405,8 @@ static double change_of_events(const layout *l, const direction *by) {
  * elevated cues. */
 TEST(reach_beside_trial) {
   enum { SHOTS = 120, BY = 3 };
-  static const direction by[BY] = {{OF_CUE, 0, 1, 57}, {OF_CUE, 0, 0, 2}, {OF_STATE, 1, 0, 1}};
+  direction by[BY];
+  read_directions("cue.phi 57 cue.speed 2 1.r[0] 1", by);
   static const char *const name[BY] = {"phi", "speed", "x of ball 1"};
   for (int elevated = 0; elevated < 2; elevated++) {
     random_source random = {11};
@@ -822,124 +430,6 @@ TEST(reach_beside_trial) {
       ck_assert_double_eq_tol(r[SHOTS / 4], 1.0, 0.1);
       ck_assert_double_eq_tol(r[SHOTS / 2], 1.1, 0.1);
       ck_assert_double_lt(r[SHOTS * 3 / 4], 3.0);
-    }
-  }
-}
-
-/* Of a ball that passes another one at 10 nm to 1 mm, on its right or left, fast or slow. */
-TEST(reach_of_near_misses) {
-  static const double gaps[] = {1e-8, 1e-7, 1e-6, 1e-5, 5e-5, 1e-4, 1.9e-4, 2.1e-4, 1e-3},
-                      speeds[] = {0.6, 2.0, 5.0};
-  for (int k = 0; k < 9 * 3 * 2; k++) {
-    const double gap = gaps[k % 9], side = k / 27 == 0 ? 1.0 : -1.0;
-    layout l = of_two(0.635 + side * (2.0 * R + gap), 1.4, speeds[k / 9 % 3], 90.0, 0.0, 0.25);
-    l.ball[0] = ball_at(0.635, 0.5);
-    const direction by = {OF_CUE, 0, 1, 1};
-    differentiate(&l, &by, 1);
-    const double found = change_of_events(&l, &by) / reach[0];
-    /* changes are tried in steps of 10 % */
-    if (!(found > 0.9 && found < 1.2))
-      ck_abort_msg("gap %g m, speed %g m/s, side %g: found %g of the reach %g", gap, l.cue.speed,
-                   side, found, reach[0]);
-  }
-}
-
-/* Of a ball that passes another one far from where it began, almost at rest, and with the speed
- * that its topspin gave it. */
-TEST(reach_of_a_ball_that_gathers_speed) {
-  const direction by = {OF_STATE, 1, 0, 1};
-  layout l = of_one(0.635, 0.3, (double[]){0.0, 0.1}, (double[]){-300.0, 0.0, 0.0});
-  l.options.stop_at = CAROM_STOP_AT(CAROM_EVENT_RAIL) | CAROM_STOP_AT(CAROM_EVENT_SLIDING_ROLLING);
-  l.count = 2;
-  l.ball[1] = ball_at(0.635 + 2.0 * R + 1e-3, 1.3);
-  differentiate(&l, &by, 1);
-  ck_assert_int_eq(shot.count, 1);
-  ck_assert_double_gt(final[0].r[1], 1.35);
-  ck_assert_double_eq_tol(reach[0], 1e-3, 1e-5);
-}
-
-/* Of a ball that just touches another one, which smaller balls would not. */
-TEST(reach_of_thin_hits) {
-  static const double overlaps[] = {1e-7, 1e-6, 1e-5};
-  const direction by_radii = {OF_KIND, -1, 1, 0.02};
-  for (int k = 0; k < 3; k++) {
-    const layout l = of_two(0.4 + 2.0 * R - overlaps[k], 1.0, 2.0, 90.0, 0.0, 0.0);
-    differentiate(&l, &by_radii, 1);
-    ck_assert_double_eq_tol(reach[0], 0.5 * overlaps[k], 0.05 * overlaps[k]);
-  }
-}
-
-/* Rails along x and along y, which end before the corners and in the middle. */
-static carom_table parted_rails(void) {
-  carom_table table = empty_table(4.0);
-  table.rails = 8;
-  for (int k = 0; k < 8; k++) {
-    carom_rail *rail = &table.rail[k];
-    const double from = k % 2 == 0 ? 0.5 : 2.5;
-    *rail = table.rail[0];
-    for (int axis = 0; axis < 2; axis++) {
-      const bool along = axis == k / 4;
-      const double across = k / 2 % 2 == 0 ? 0.0 : 4.0;
-      rail->p[axis] = along ? from : across;
-      rail->q[axis] = along ? from + 1.0 : rail->p[axis];
-    }
-    rail->side = (k / 2 % 2 == 0) == (k / 4 == 0);
-  }
-  return table;
-}
-
-/* A ball that flies towards a rail from z, along x or y, at a place beside it. */
-static layout towards_a_rail(const carom_table *table, int axis, double place, double z) {
-  layout l = of_one(0.0, 0.0, (double[]){0.0, 0.0}, (double[]){0.0, 0.0, 0.0});
-  l.table = table;
-  l.ball[0] = flying(0.3, 0.3, z, 0.0, 0.0, 0.0);
-  l.ball[0].state.r[axis] = place;
-  l.ball[0].state.v[1 - axis] = -4.0;
-  return l;
-}
-
-/* Of a ball that flies over the nose of a rail, by its height, and of one that leaves the table
- * where there is no rail. */
-TEST(reach_over_a_rail) {
-  const direction by_z = {OF_STATE, 0, 7, 0.05};
-  const carom_table table = parted_rails();
-  for (int k = 0; k < 2 * 3; k++) {
-    static const double place[3] = {1.0, 2.0, 3.0};
-    const layout l = towards_a_rail(&table, k / 3, place[k % 3], 0.1);
-    differentiate(&l, &by_z, 1);
-    const double found = change_of_events(&l, &by_z);
-    if (k % 3 == 1)
-      ck_assert_double_gt(reach[0], 0.05);
-    else
-      ck_assert_msg(found > 0.9 * reach[0] && found < 1.2 * reach[0], "place %d: %g, reach %g", k,
-                    found, reach[0]);
-  }
-}
-
-/* Of a ball that rises and meets a nose by 15 mm or by 20 um, or misses it by as little, however
- * fast it moves along the rail. */
-TEST(reach_at_a_nose) {
-  const direction by_z = {OF_STATE, 0, 7, 0.05};
-  const carom_table table = parted_rails();
-  for (int k = 0; k < 2 * 2; k++) {
-    double meets = 0.03, misses = 0.08;
-    layout l = towards_a_rail(&table, k / 2, 1.0, 0.0);
-    l.ball[0].state.r[1 - k / 2] = 0.15;
-    l.ball[0].state.v[k / 2] = k % 2 == 0 ? 0.0 : 3.0;
-    l.ball[0].state.v[2] = 0.45;
-    for (int n = 0; n < 40; n++) {
-      l.ball[0].state.r[2] = 0.5 * (meets + misses);
-      shot = (carom_shot){.events = events, .room = ROOM};
-      ck_assert_int_eq(shoot(&l, &shot), CAROM_OK);
-      *(events[0].type == CAROM_EVENT_RAIL ? &meets : &misses) = l.ball[0].state.r[2];
-    }
-    l.options.stop_at = CAROM_STOP_AT(CAROM_EVENT_RAIL);
-    for (int n = 0; n < 3; n++) {
-      const double off = (double[]){-0.015, -2e-5, 2e-5}[n];
-      l.ball[0].state.r[2] = meets + off;
-      differentiate(&l, &by_z, 1);
-      ck_assert_int_eq(events[0].type == CAROM_EVENT_RAIL, off < 0.0);
-      ck_assert_double_eq_tol(reach[0], fabs(off), 0.1 * fabs(off));
     }
   }
 }
@@ -1016,103 +506,6 @@ TEST(passages_of_jaws) {
   ck_assert_double_lt(errors[count - 1], 1e-7);
 }
 
-/* English that a change brings about ends before the contact, unless the change is above the
- * reach. */
-TEST(reach_of_english) {
-  static const double gaps[] = {1e-7, 1e-6, 1e-5, 1e-4};
-  const direction by = {OF_CUE, 0, 3, 1};
-  for (int k = 0; k < 4; k++) {
-    const layout l = of_two(0.4, 0.6 + 2.0 * R + gaps[k], 1.5, 90.0, 0.0, 0.0);
-    differentiate(&l, &by, 1);
-    const double d = 0.5 * reach[0], far = 2.0 * reach[0];
-    ck_assert_double_lt(reach[0], 0.1 * gaps[k]);
-    ck_assert_double_lt(off_slope(&l, &by, 0, 1, -d, d), 1e-2);
-    ck_assert_double_gt(off_slope(&l, &by, 0, 1, far, 2.0 * far), 1.0);
-  }
-  /* and of a ball that spins a little */
-  layout l = of_two(0.4, 0.6 + 2.0 * R + 1e-5, 0.0, 0.0, 0.0, 0.0);
-  const direction by_w = {OF_STATE, 0, 6, 1};
-  l.ball[0].state.v[1] = 1.5;
-  l.ball[0].state.w[2] = 2e-4;
-  differentiate(&l, &by_w, 1);
-  ck_assert_double_lt(reach[0], 2e-4);
-  ck_assert_double_lt(off_slope(&l, &by_w, 0, 1, -0.5 * reach[0], 0.5 * reach[0]), 1e-2);
-  ck_assert_double_gt(off_slope(&l, &by_w, 0, 1, -1.4 * reach[0], -1.1 * reach[0]), 0.9);
-}
-
-/* ---- The cloth ---- */
-
-/* Where a ball that starts at v without spin along its way, and with w about the vertical, comes
- * to rest, and when: how far it slides; when it rolls; how far it has gone at the end of its
- * roll, whose exact motion against drag is x' = -(A + k v^2); when that is; when its spin ends. */
-static void way_of(const carom_ball_kind *kind, double v, double w, double to[4]) {
-  const double g = kind->gravity, s = kind->mu_slide * g, A = kind->mu_roll * g, k = kind->drag;
-  const double slides = 2.0 * v / (7.0 * s), rolls = 5.0 / 7.0 * v;
-  to[0] = 12.0 / 49.0 * v * v / s + log(1.0 + k * rolls * rolls / A) / (2.0 * k);
-  to[1] = slides;
-  to[2] = slides + atan(rolls * sqrt(k / A)) / sqrt(k * A);
-  to[3] = 2.0 * kind->radius * w / (5.0 * kind->mu_spin * g);
-}
-
-/* Changes by which a ball that rolls, whichever way, slides for a time of the first order: the
- * derivatives of the roll behind that, beside differences. */
-TEST(changes_that_leave_a_roll) {
-  static const direction by[4] = {
-      {OF_STATE, 0, 2, 1}, {OF_STATE, 0, 3, 1}, {OF_STATE, 0, 4, 30}, {OF_STATE, 0, 5, 30}};
-  for (int k = 0; k < 8; k++) {
-    const double turn = 0.3 + 0.8 * k, v[2] = {cos(turn), sin(turn)},
-                 w[3] = {-v[1] / R, v[0] / R, 0.0};
-    layout l = by_models(of_one(0.6, 1.2, v, w), (carom_shot_options){.time_most = 0.3});
-    differentiate(&l, by, 4);
-    ck_assert_int_eq(final[0].label, CAROM_BALL_ROLLING);
-    ck_assert_int_eq(shot.count, 0);
-    for (int j = 0; j < 4; j++) {
-      const double h = 1e-6 * by[j].unit;
-      double f[2][NUMBERS];
-      for (int s = 0; s < 2; s++) {
-        layout changed = l;
-        change(&changed, &by[j], s == 0 ? -h : h);
-        play(table_of(&l), changed.ball, 1, NULL, &l.options, CAROM_STOPPED_AT_TIME);
-        numbers_of(&final[0], f[s]);
-      }
-      for (int x = 0; x < NUMBERS; x++)
-        ck_assert_double_eq_tol(ends[x * 4 + j], (f[1][x] - f[0][x]) / (2.0 * h),
-                                1e-4 * largest(ends, NUMBERS, j, 4));
-    }
-  }
-}
-
-/* By the constants of the cloth, drag among them, beside differences of the closed form. */
-TEST(frictions_of_the_cloth) {
-  static const direction by[] = {
-      {OF_KIND, 0, 2, 0.2}, {OF_KIND, 0, 3, 0.01}, {OF_KIND, 0, 4, 0.0127}, {OF_KIND, 0, 10, 0.05}};
-  const double v[2] = {0.0, 0.4}, w[3] = {0.0, 0.0, 60.0};
-  layout l = of_one(0.6, 0.5, v, w);
-  l.ball[0].kind.drag = 0.05;
-  ck_assert_int_eq(differentiate(&l, by, 4), 0);
-  ck_assert_int_eq(shot.count, 3);
-  double there[4];
-  way_of(&l.ball[0].kind, v[1], w[2], there);
-  ck_assert_double_eq_tol(final[0].r[1] - 0.5, there[0], 1e-9);
-  for (int j = 0; j < 4; j++) {
-    const double h = 1e-5 * by[j].unit;
-    double f[2][4];
-    for (int s = 0; s < 2; s++) {
-      layout changed = l;
-      change(&changed, &by[j], s == 0 ? -h : h);
-      way_of(&changed.ball[0].kind, v[1], w[2], f[s]);
-    }
-    const double found[4] = {ends[1 * 4 + j], times[j], times[4 + j], times[8 + j]};
-    int depends = 0;
-    for (int k = 0; k < 4; k++) {
-      const double expected = (f[1][k] - f[0][k]) / (2.0 * h);
-      ck_assert_double_eq_tol(found[k], expected, 1e-8 * fmax(fabs(expected), 1.0));
-      depends += fabs(expected) * by[j].unit > 1e-3;
-    }
-    ck_assert_int_gt(depends, 0);
-  }
-}
-
 /* ---- Clusters ---- */
 
 enum { CLUSTERS = FEWER(8), WAYS = 15, FROZEN_WAYS = 13 };
@@ -1120,12 +513,10 @@ enum { CLUSTERS = FEWER(8), WAYS = 15, FROZEN_WAYS = 13 };
 /* Of the cue: speed, phi, a, b; x of the cue ball; of all balls: mass, mu_slide, restitution,
  * law_a, modulus; of one among equals: the mass of ball 1, restitution and modulus of ball 2; and
  * the place of ball 1, by which balls that touch come apart. */
-static const direction ways[WAYS] = {
-    {OF_CUE, 0, 0, 2},       {OF_CUE, 0, 1, 57},       {OF_CUE, 0, 3, 1},     {OF_CUE, 0, 4, 1},
-    {OF_STATE, 0, 0, 1},     {OF_KIND, -1, 0, 0.2},    {OF_KIND, -1, 2, 0.2}, {OF_KIND, -1, 6, 1},
-    {OF_KIND, -1, 12, 0.05}, {OF_KIND, -1, 18, 6.6e9}, {OF_KIND, 1, 0, 0.2},  {OF_KIND, 2, 6, 1},
-    {OF_KIND, 2, 18, 6.6e9}, {OF_STATE, 1, 0, 1},      {OF_STATE, 1, 1, 1},
-};
+static const char *const ways_of_clusters =
+    "cue.speed 2 cue.phi 57 cue.a 1 cue.b 1 0.r[0] 1 all.mass 0.2 all.mu_slide 0.2 "
+    "all.restitution 1 all.law_a 0.05 all.modulus 6.6e9 1.mass 0.2 2.restitution 1 "
+    "2.modulus 6.6e9 1.r[0] 1 1.r[1] 1";
 
 /* A cue ball and two others that it meets at once, or all but; or a rack of eight-ball. Odd
  * kinds have gaps. */
@@ -1143,12 +534,7 @@ static layout cluster_of(random_source *random, int kind) {
     carom_rack(CAROM_RACK_EIGHTBALL, table_of(&l), gap, 1, l.ball, LAYOUT_BALLS);
     l.cue.phi += random_between(random, -0.4, 0.4);
   }
-  for (int i = 0; i < l.count; i++) {
-    carom_ball_kind *k = &l.ball[i].kind;
-    k->law_a = k->law_b = 0.05;
-    k->law_c = 1.0;
-    k->modulus = 6.6e9;
-  }
+  set_numbers(&l, "all.law_a 0.05 all.law_b 0.05 all.law_c 1 all.modulus 6.6e9");
   l.cue.speed = random_between(random, 2.0, 9.0);
   l.cue.a = random_between(random, -0.2, 0.2);
   l.cue.b = random_between(random, -0.3, 0.3);
@@ -1185,6 +571,8 @@ static void follow_clusters(random_source *random, int kind) {
   static double errors[CLUSTERS * WAYS], before[2 * ROOM * NUMBERS * WAYS],
       after[2 * ROOM * NUMBERS * WAYS];
   const bool touching = kind % 2 == 0;
+  direction ways[WAYS];
+  read_directions(ways_of_clusters, ways);
   const int m = touching ? FROZEN_WAYS : WAYS;
   int n = 0, kinks = 0;
   for (int c = 0; c < CLUSTERS; c++) {
@@ -1232,31 +620,6 @@ TEST(clusters) {
   random_source random = {test_seed()};
   for (int kind = 0; kind < 4; kind++)
     follow_clusters(&random, kind);
-}
-
-/* By the radius of all balls, through a cluster of three that spin, beside differences. */
-TEST(radius_through_a_cluster) {
-  const direction by = {OF_KIND, -1, 1, 0.03};
-  const double v[2] = {4.0, 0.0}, w[3] = {0.0, 40.0, 30.0};
-  layout l = by_models(of_one(0.4, 1.51, v, w),
-                       (carom_shot_options){.time_most = 0.1, .space = CAROM_SPACE_FLAT});
-  l.count = 3;
-  l.ball[1] = ball_at(0.6, 1.5);
-  l.ball[2] = ball_at(0.6 + 2.0 * R + 1e-4, 1.5);
-  differentiate(&l, &by, 1);
-  ck_assert_int_eq(events[0].cluster, 2);
-  ck_assert_double_lt(off_slope(&l, &by, 0, 1, -1e-8, 1e-8), 1e-4);
-
-  /* the time of its first contact, which both have */
-  double when[2];
-  for (int s = 0; s < 2; s++) {
-    layout changed = l;
-    change(&changed, &by, s == 0 ? -1e-6 : 1e-6);
-    play(table_of(&l), changed.ball, 3, NULL, &l.options, CAROM_STOPPED_AT_TIME);
-    when[s] = events[0].time;
-  }
-  ck_assert_double_eq_tol(times[0], (when[1] - when[0]) / 2e-6, 1e-4 * fabs(times[0]));
-  ck_assert_double_eq(times[0], times[1]);
 }
 
 /* A ball close ahead of the cue ball, which the tip touches again as the cue follows through. */
@@ -1324,16 +687,6 @@ TEST(second_touches) {
   ck_assert_double_lt(most, 1e-3);
 }
 
-/* A ball that falls into a corner pocket would meet the rail first, 0.1 mm to its side. */
-TEST(reach_of_a_rail_beside_a_pocket) {
-  static const direction by_x = {OF_STATE, 0, 0, 0.1};
-  const double v[2] = {0.0, 2.0}, w[3] = {-2.0 / R, 0.0, 0.0};
-  layout l = of_one(R + 1e-4, 2.2, v, w);
-  differentiate(&l, &by_x, 1);
-  ck_assert_int_eq(events[0].type, CAROM_EVENT_POCKET);
-  ck_assert_double_eq_tol(change_of_events(&l, &by_x) / reach[0], 1.05, 0.06);
-}
-
 /* The reach of a follow-through that nearly touches, and of one that touches at its very end. */
 TEST(last_touches) {
   static const direction by[] = {{OF_STATE, 1, 0, 0.1}, {OF_STATE, 0, 0, 0.1}, {OF_CUE, 0, 5, 0.5}};
@@ -1363,6 +716,8 @@ TEST(last_touches) {
 TEST(piles_by_pairs) {
   enum { SHOTS = 30, BY = 4 };
   random_source random = {test_seed()};
+  direction ways[WAYS];
+  read_directions(ways_of_clusters, ways);
   int changed = 0, off = 0;
   for (int n = 0; n < 2 * SHOTS; n++) {
     const bool pile = n < SHOTS;
@@ -1395,9 +750,8 @@ TEST(piles_by_pairs) {
  * a flag: of the cue's numbers, and of the places of both balls. */
 TEST(reach_at_frozen_balls) {
   enum { SHOTS = 400, OF_REACH = 30, BY = 8, OF_CUES = 4 };
-  static const direction by[BY] = {{OF_CUE, 0, 0, 2},   {OF_CUE, 0, 1, 57},  {OF_CUE, 0, 3, 1},
-                                   {OF_CUE, 0, 4, 1},   {OF_STATE, 0, 0, 1}, {OF_STATE, 0, 1, 1},
-                                   {OF_STATE, 1, 0, 1}, {OF_STATE, 1, 1, 1}};
+  direction by[BY];
+  read_directions("cue.speed 2 cue.phi 57 cue.a 1 cue.b 1 0.r[0] 1 0.r[1] 1 1.r[0] 1 1.r[1] 1", by);
   random_source random = {test_seed()};
   int changes[2] = {0}, others[2] = {0}, flagged = 0;
   for (int n = 0; n < SHOTS; n++) {
@@ -1436,4 +790,237 @@ TEST(reach_at_frozen_balls) {
     ck_assert_int_gt(changes[k], SHOTS);
     ck_assert_int_le(100 * others[k], changes[k]);
   }
+}
+
+/* ---- Rows ----
+ *
+ * Each case of edges.txt is a line and the indented lines behind it. It begins with an empty table
+ * and the models `closed`. A comma or a semicolon is a space. Statements:
+ *
+ *   parted                  rails that end before the corners and in the middle
+ *   ball X Y                a further ball at rest on the cloth
+ *   rack KIND GAP           a rack instead, with gaps up to this
+ *   cue SPEED PHI A B       a level cue
+ *   set PATH VALUE
+ *   by PATH UNIT            plays the shot and derives it; UNIT is a typical size of the number
+ *   play STATUS             plays the shot
+ *   derive SCALE STATUS     derives the shot that was played last by SCALE times its phi
+ *   at TIME TIME STATUS     derives it by its phi, at two times
+ *   event K TYPE            event K has this type, and flags behind it are its own
+ *   flags, with, without F  all flags, those that are among them, those that are not
+ *   NAME ... LEAST MOST     a measured number, by its name in `measures`, is in this range
+ *
+ * CAROM_TANGENT_CLUSTER is no flag of a row, since most hits beside a cue that follows have it. */
+
+static layout scene;
+static direction scene_by;
+static int64_t scene_event, scene_flags;
+static double ends_before[LAYOUT_BALLS * NUMBERS];
+
+/* The flags that come next, joined by +. */
+static int64_t read_flags(void) {
+  static const char *const names[] = {"grazing", "slow",  "simultaneous",
+                                      "kink",    "euler", "differences"};
+  const char *const word = read_word();
+  int64_t flags = 0;
+  for (int k = 0; k < (int)COUNT_OF(names); k++)
+    flags |= strstr(word, names[k]) != NULL ? 1 << k : 0;
+  if (flags == 0 && strcmp(word, "none") != 0)
+    reject("no flag");
+  return flags;
+}
+
+/* A number of the shot that was played last, by its name in rows. */
+#define MEASURE(name, value)            \
+  static double name##_of_scene(void) { \
+    return value;                       \
+  }
+MEASURE(error, error_of(&scene, &scene_by, 0, 1))
+MEASURE(reach, reach[0])
+/* The change that is found by trial, over the reach. */
+static double found_over_reach(void) {
+  return change_of_events(&scene, &scene_by) / reach[0];
+}
+MEASURE(size, largest(ends, scene.count *NUMBERS, 0, 1))
+MEASURE(time, times[scene_event])
+MEASURE(place, events[scene_event].before[0].r[(int)read_number()])
+MEASURE(label, (double) final[0].label)
+MEASURE(end, ends[(int)read_number()])
+static double nans_of_scene(void) {
+  int nans = 0;
+  for (int k = 0; k < NUMBERS * scene.count; k++)
+    nans += isnan(ends[k]) != 0;
+  return nans;
+}
+MEASURE(instant, events[scene_event].time)
+MEASURE(contacts, events[scene_event].cluster)
+/* The distance from the slope between two changes. */
+static double slope_of_scene(void) {
+  const double from = read_number();
+  return off_slope(&scene, &scene_by, 0, 1, from, read_number());
+}
+
+/* The distance from the difference of two changes, of which each may change events. */
+static double difference_of_scene(void) {
+  double change_of[2], f[2][NUMBERS * LAYOUT_BALLS], off = 0.0;
+  for (int side = 0; side < 2; side++) {
+    carom_shot s;
+    change_of[side] = read_number();
+    ck_assert_int_ge(shoot_changed(&scene, &scene_by, change_of[side], &s), CAROM_OK);
+    for (int i = 0; i < scene.count; i++)
+      numbers_of(&s.final[i], f[side] + NUMBERS * i);
+  }
+  for (int x = 0; x < NUMBERS * scene.count; x++)
+    off = fmax(off, fabs((f[1][x] - f[0][x]) / (change_of[1] - change_of[0]) - ends[x]));
+  return off / size_of_scene();
+}
+MEASURE(events, (double)shot.count)
+/* The largest difference from the derivatives before, over the largest of them. */
+static double move_of_scene(void) {
+  double most = 0.0;
+  for (int k = 0; k < NUMBERS * scene.count; k++)
+    most = fmax(most, fabs(ends[k] - ends_before[k]));
+  return most / size_of_scene();
+}
+/* The events that have a flag. */
+static double flagged_events(void) {
+  const int64_t flag = read_flags();
+  int count = 0;
+  for (int64_t k = 0; k < shot.count; k++)
+    count += (event_flags[k] & flag) != 0;
+  return count;
+}
+
+static const struct {
+  const char *name;
+  double (*value)(void);
+} measures[] = {{"error", error_of_scene},       {"reach", reach_of_scene},
+                {"found", found_over_reach},     {"size", size_of_scene},
+                {"time", time_of_scene},         {"place", place_of_scene},
+                {"instant", instant_of_scene},   {"label", label_of_scene},
+                {"nans", nans_of_scene},         {"difference", difference_of_scene},
+                {"events", events_of_scene},     {"end", end_of_scene},
+                {"contacts", contacts_of_scene}, {"slope", slope_of_scene},
+                {"moved", move_of_scene},        {"flagged", flagged_events}};
+
+static void expect_measure(void) {
+  for (size_t k = 0; k < COUNT_OF(measures); k++)
+    if (skip(measures[k].name)) {
+      const double value = measures[k].value(), least = read_number();
+      ck_assert_msg(value >= least && value <= read_number(), "edges.txt:%d: %s is %.17g",
+                    line_index, measures[k].name, value);
+      return;
+    }
+  reject("no such statement");
+}
+
+/* Rails along x and along y, which end before the corners and in the middle. */
+static const carom_table *parted_rails(void) {
+  static carom_table table;
+  table = empty_table(4.0);
+  table.rails = 8;
+  for (int k = 0; k < 4; k++) {
+    carom_rail *const first = &table.rail[k], *const second = &table.rail[k + 4];
+    *second = *first;
+    for (int axis = 0; axis < 2; axis++) {
+      const double start = first->p[axis], eighth = (first->q[axis] - start) / 8.0;
+      first->p[axis] = start + eighth;
+      first->q[axis] = start + 3.0 * eighth;
+      second->p[axis] = start + 5.0 * eighth;
+      second->q[axis] = start + 7.0 * eighth;
+    }
+  }
+  return &table;
+}
+
+static void expect_status(carom_status status) {
+  const char *const name = carom_status_name(status);
+  if (!skip(name))
+    reject(name);
+}
+
+/* Derivatives of the shot that was played last by its phi, whose scale comes next; or at two times,
+ * which are not NULL. Those at the end of the shot and behind it are those of the end. */
+static void expect_derived(const double *at_times) {
+  static double at[2 * LAYOUT_BALLS * NUMBERS];
+  const int numbers = NUMBERS * scene.count;
+  const double cue[CAROM_CUE_NUMBERS] = {0.0, at_times == NULL ? read_number() : 1.0};
+  const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
+  carom_tangent t = {
+      .final = ends, .at = at, .times = at_times, .times_count = at_times == NULL ? 0 : 2};
+  const carom_status status = shot_tangent(&scene, &seeds, &t);
+  expect_status(status);
+  if (status == CAROM_OK && at_times != NULL && at_times[1] >= shot.time)
+    ck_assert_mem_eq(at + numbers, ends, (size_t)numbers * sizeof *ends);
+}
+
+static void run_statement(void) {
+  if (skip("parted")) {
+    scene.table = parted_rails();
+  } else if (skip("ball")) {
+    const double x = read_number();
+    scene.ball[scene.count++] = ball_at(x, read_number());
+  } else if (skip("rack")) {
+    const int kind = read_value(CAROM_WORDS_RACK);
+    scene.count = carom_rack_size((carom_rack_kind)kind);
+    carom_rack((carom_rack_kind)kind, table_of(&scene), read_number(), 4, scene.ball, LAYOUT_BALLS);
+  } else if (skip("cue")) {
+    scene.cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
+    double *const numbers[] = {&scene.cue.speed, &scene.cue.phi, &scene.cue.a, &scene.cue.b};
+    for (size_t k = 0; k < COUNT_OF(numbers); k++)
+      *numbers[k] = read_number();
+  } else if (skip("set")) {
+    set_number(read_path(&scene));
+  } else if (skip("by")) {
+    scene_by = read_path(&scene).by;
+    scene_by.unit = read_number();
+    memcpy(ends_before, ends, sizeof ends_before);
+    scene_flags = differentiate(&scene, &scene_by, 1);
+  } else if (skip("play")) {
+    expect_status(shoot(&scene, &shot));
+  } else if (skip("derive")) {
+    expect_derived(NULL);
+  } else if (skip("at")) {
+    const double first = read_number();
+    expect_derived((double[]){first, read_number()});
+  } else if (skip("event")) {
+    scene_event = (int64_t)read_number();
+    scene_flags = event_flags[scene_event];
+    if (scene_event >= shot.count || events[scene_event].type != read_value(CAROM_WORDS_EVENT))
+      reject("another event");
+  } else if (skip("flags")) {
+    if ((scene_flags & ~CAROM_TANGENT_CLUSTER) != read_flags())
+      reject("other flags");
+  } else if (skip("with")) {
+    if ((scene_flags & read_flags()) == 0)
+      reject("without the flag");
+  } else if (skip("without")) {
+    if ((scene_flags & read_flags()) != 0)
+      reject("with the flag");
+  } else {
+    expect_measure();
+  }
+}
+
+static void begin_case(void) {
+  scene = (layout){.options = closed};
+  scene_by = by_phi;
+  shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+}
+
+TEST(edges) {
+  FILE *const file = fopen(CAROM_TEST_DATA "/../tests/agree/edges.txt", "r");
+  char line[400];
+  ck_assert_ptr_nonnull(file);
+  for (line_index = 1; fgets(line, sizeof line, file) != NULL; line_index++) {
+    line[strcspn(line, "#\n")] = '\0';
+    for (char *sign = line; (sign = strpbrk(sign, ",;")) != NULL;)
+      *sign = ' ';
+    if (line[0] != ' ' && line[0] != '\0')
+      begin_case();
+    cursor = line;
+    while (cursor += strspn(cursor, " "), *cursor != '\0')
+      run_statement();
+  }
+  fclose(file);
 }

@@ -11,9 +11,9 @@
  * taken. At an end of the range the tangent is that of the side within. Where the sides differ it
  * is one of them, with CAROM_TANGENT_KINK. Where 0 stands for a default it is that at the
  * default. */
+#include "paths.h"
 #include "precise_solver.h"
 #include "schema/numbers.h"
-#include "tangent_support.h"
 
 #include <stddef.h>
 
@@ -39,65 +39,44 @@ static const number numbers[] = {
 enum { ALL = (int)(sizeof numbers / sizeof *numbers) };
 
 /* Scenes whose first events are of each kind; they stop before small changes grow. */
-enum { ON_CLOTH, SMOOTH, BILLIARD, IN_SPACE, CLUSTER, PAIRS, CONSTANT, USUAL, STRONGE, SCENES };
-static const char *const scene_name[] = {"on the cloth", "smooth",       "billiard",
-                                         "in space",     "cluster",      "pairs",
-                                         "constant",     "usual smooth", "stronge"};
+static const struct scene {
+  const char *name;
+  carom_game game;
+  int count;
+  const char *numbers;
+} scenes[] = {
+    {"on the cloth", CAROM_GAME_POOL, 2, ""},
+    {"smooth", CAROM_GAME_POOL, 2,
+     "all.smooth_q 0.35 all.roll_loss 0.09 all.smooth_x 1.2 all.smooth_t 1.2"},
+    {"billiard", CAROM_GAME_BILLIARD, 2, ""},
+    {"in space", CAROM_GAME_POOL, 2, "options.space 3d cue.theta 35 cue.speed 4"},
+    {"cluster", CAROM_GAME_POOL, 3, "all.law_a 0.05 all.law_c 1"},
+    {"pairs", CAROM_GAME_POOL, 3, "options.simultaneous pairs"},
+    {"constant", CAROM_GAME_POOL, 2, "options.friction constant"},
+    {"usual smooth", CAROM_GAME_POOL, 2, "options.cushion_model smooth"},
+    {"stronge", CAROM_GAME_POOL, 2, "options.cushion_model stronge"},
+};
 
-static layout scene(int of) {
-  const carom_game game = of == BILLIARD ? CAROM_GAME_BILLIARD : CAROM_GAME_POOL;
+static layout layout_of(const struct scene *of) {
   static carom_table billiard;
-  layout l = {.count = 2, .cue = carom_cue_of(game)};
+  layout l = {.count = of->count, .cue = carom_cue_of(of->game)};
   for (int i = 0; i < 3; i++) {
     l.ball[i] = ball_at(0.5 + 0.31 * i, 0.5 + 0.4 * i);
-    l.ball[i].kind = carom_ball_kind_of(game);
+    l.ball[i].kind = carom_ball_kind_of(of->game);
     l.ball[i].state.r[2] = l.ball[i].kind.radius;
   }
-  l.cue.speed = 1.7;
-  l.cue.phi = 57.29577951308232 * atan2(0.4, 0.31) + 0.7;
-  l.cue.a = 0.12;
-  l.cue.b = 0.21;
-  l.cue.theta = 3.0;
-  l.options.space = of == IN_SPACE ? CAROM_SPACE_3D : CAROM_SPACE_FLAT;
-  switch (of) {
-  case SMOOTH:
-    for (int i = 0; i < 3; i++) {
-      l.ball[i].kind.smooth_q = 0.35;
-      l.ball[i].kind.roll_loss = 0.09;
-      l.ball[i].kind.smooth_x = l.ball[i].kind.smooth_t = 1.2;
-    }
-    break;
-  case BILLIARD:
+  if (of->game == CAROM_GAME_BILLIARD) {
     carom_table_make(CAROM_TABLE_THREECUSHION, &billiard);
     l.table = &billiard;
-    break;
-  case IN_SPACE:
-    l.cue.theta = 35.0;
-    l.cue.speed = 4.0;
-    break;
-  case CLUSTER:
-  case PAIRS:
-    l.count = 3;
-    for (int i = 0; i < 3 && of == CLUSTER; i++) {
-      l.ball[i].kind.law_a = 0.05;
-      l.ball[i].kind.law_c = 1.0;
-    }
-    l.ball[2].state.r[0] = l.ball[1].state.r[0] + 1.2 * l.ball[0].kind.radius;
-    l.ball[2].state.r[1] = l.ball[1].state.r[1] + 1.6 * l.ball[0].kind.radius + 1e-9;
-    l.options.simultaneous = of == PAIRS ? CAROM_SIMULTANEOUS_PAIRS : CAROM_SIMULTANEOUS_CLUSTER;
-    break;
-  case CONSTANT:
-    l.options.friction = CAROM_FRICTION_CONSTANT;
-    break;
-  case USUAL:
-    l.options.cushion_model = CAROM_SHOT_CUSHION_SMOOTH;
-    break;
-  case STRONGE:
-    l.options.cushion_model = CAROM_SHOT_CUSHION_STRONGE;
-    break;
-  default:
-    break;
   }
+
+  /* of three balls two touch, but for 1 nm */
+  l.ball[2].state.r[0] = l.ball[1].state.r[0] + 1.2 * l.ball[0].kind.radius;
+  l.ball[2].state.r[1] = l.ball[1].state.r[1] + 1.6 * l.ball[0].kind.radius + 1e-9;
+  l.cue.phi = 57.29577951308232 * atan2(0.4, 0.31) + 0.7;
+  set_numbers(&l, "cue.speed 1.7 cue.a 0.12 cue.b 0.21 cue.theta 3 options.space flat");
+  set_numbers(&l, of->numbers);
+
   /* of few events, so that differences are exact */
   l.options.time_most = 2.0;
   for (shot.count = ROOM; shot.count > 8; l.options.time_most *= 0.8) {
@@ -115,38 +94,41 @@ static double *number_in(layout *l, const direction *by) {
   return by->of == OF_KIND ? (double *)&l->ball[0].kind + by->row : &l->nose[by->row];
 }
 
+/* What a number that is 0 stands for. */
+static const struct {
+  const char *name, *numbers;
+} defaults[] = {
+    {"omega_ratio", "all.omega_ratio 1.8"},
+    {"restitution_table", "all.restitution_table 0.5"},
+    {"modulus", "all.modulus 6.6e9"},
+    {"tip_restitution", "cue.tip_restitution 1"},
+};
+
 /* Puts in the place of a number that is 0 what this 0 stands for, if it stands for something. */
 static void stand_for_zero(layout *l, const char *name) {
   const carom_speed_law law = carom_alciatore();
-  const carom_rail *rail = &table_of(l)->rail[0];
 #define IS(word) (strcmp(name, word) == 0)
+  for (size_t k = 0; k < COUNT_OF(defaults); k++)
+    if (IS(defaults[k].name))
+      set_numbers(l, defaults[k].numbers);
+  const carom_ball_kind *kind = &l->ball[0].kind;
+  if (strncmp(name, "smooth_", 7) == 0 && kind->smooth_q == 0.0 &&
+      l->options.cushion_model == CAROM_SHOT_CUSHION_SMOOTH)
+    set_numbers(l, "all.smooth_q 0.35 all.smooth_x 1.3 all.smooth_t 1.18 all.smooth_a 0.25 "
+                   "all.smooth_g 0.067 all.smooth_g_log -0.059 all.smooth_e 0.06");
   for (int i = 0; i < l->count; i++) {
     carom_ball_kind *k = &l->ball[i].kind;
-    k->omega_ratio = IS("omega_ratio") ? 1.8 : k->omega_ratio;
-    k->restitution_table = IS("restitution_table") ? 0.5 : k->restitution_table;
-    k->modulus = IS("modulus") ? 6.6e9 : k->modulus;
-    k->nose_height = IS("nose_height") ? rail->height : k->nose_height;
+    k->nose_height = IS("nose_height") ? table_of(l)->rail[0].height : k->nose_height;
     if (strncmp(name, "law_", 4) == 0 && k->law_a + k->law_b + k->law_c == 0.0) {
       k->law_a = law.a;
       k->law_b = law.b;
       k->law_c = law.c;
     }
-    if (strncmp(name, "smooth_", 7) == 0 && k->smooth_q == 0.0 &&
-        l->options.cushion_model == CAROM_SHOT_CUSHION_SMOOTH) {
-      k->smooth_q = 0.35;
-      k->smooth_x = 1.3;
-      k->smooth_t = 1.18;
-      k->smooth_a = 0.25;
-      k->smooth_g = 0.067;
-      k->smooth_g_log = -0.059;
-      k->smooth_e = 0.06;
-    }
   }
   if (IS("theta"))
     l->cue.theta = CAROM_LEAST_ELEVATION; /* below it the cue is level */
-  l->cue.tip_restitution = IS("tip_restitution") ? 1.0 : l->cue.tip_restitution;
-  l->nose[1] += IS("nose.mu_cushion") ? l->ball[0].kind.mu_cushion : 0.0;
-  l->nose[2] += IS("nose.restitution") ? l->ball[0].kind.restitution_cushion : 0.0;
+  l->nose[1] += IS("nose.mu_cushion") ? kind->mu_cushion : 0.0;
+  l->nose[2] += IS("nose.restitution") ? kind->restitution_cushion : 0.0;
 #undef IS
 }
 
@@ -220,8 +202,8 @@ static bool is_compared(const layout *l, const number *row, const char *where) {
 
 TEST(every_number) {
   precisely = true;
-  for (int of = 0; of < SCENES; of++) {
-    const layout l = scene(of);
+  for (size_t of = 0; of < COUNT_OF(scenes); of++) {
+    const layout l = layout_of(&scenes[of]);
     int compared = 0;
     for (int n = 0; n < ALL; n++) {
       const number *row = &numbers[n];
@@ -235,10 +217,10 @@ TEST(every_number) {
       for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
         layout at = l;
         change(&at, &row->by, values[k] - was);
-        compared += is_compared(&at, row, scene_name[of]);
+        compared += is_compared(&at, row, scenes[of].name);
       }
     }
-    printf("%s: %d derivatives\n", scene_name[of], compared);
+    printf("%s: %d derivatives\n", scenes[of].name, compared);
     ck_assert_int_gt(compared, 60);
   }
 }

@@ -7,6 +7,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "contact_law/variation.h"
 #include "cushion/models.h"
+#include "paths.h"
 #include "precise_solver.h"
 #include "schema/numbers.h"
 #include "tangent_support.h"
@@ -22,13 +23,10 @@ static const double R = 0.028575;
 
 enum { DIRECTIONS = 14, SPACE_DIRECTIONS = 23, MOST_BALLS = 9 };
 
-/* Speed, phi, a, b; x of ball 0, x and y of ball 1; constants of all balls. */
-static const direction directions[DIRECTIONS] = {
-    {OF_CUE, 0, 0, 2},      {OF_CUE, 0, 1, 57},       {OF_CUE, 0, 3, 1},   {OF_CUE, 0, 4, 1},
-    {OF_STATE, 0, 0, 1},    {OF_STATE, 1, 0, 1},      {OF_STATE, 1, 1, 1}, {OF_KIND, -1, 2, 0.2},
-    {OF_KIND, -1, 3, 0.01}, {OF_KIND, -1, 4, 0.127},  {OF_KIND, -1, 6, 1}, {OF_KIND, -1, 8, 0.85},
-    {OF_KIND, -1, 7, 0.2},  {OF_KIND, -1, 1, 0.0286},
-};
+static const char *const directions =
+    "cue.speed 2 cue.phi 57 cue.a 1 cue.b 1 0.r[0] 1 1.r[0] 1 1.r[1] 1 "
+    "all.mu_slide 0.2 all.mu_roll 0.01 all.mu_spin 0.127 all.restitution 1 "
+    "all.restitution_cushion 0.85 all.mu_cushion 0.2 all.radius 0.0286";
 
 /* Of the shots that the tables report. Tolerances of src/contact_law/variation_step.h were found on
  * those of seeds 7 and 28. */
@@ -38,29 +36,22 @@ static const double NOTHING = 1e-10; /* a derivative that is rounding errors */
 /* With the terms of measured tables, or without. */
 static layout draw_with(random_source *random, bool terms) {
   layout l = draw(random, MOST_BALLS);
-  for (int i = 0; i < l.count && terms; i++) {
-    carom_ball_kind *kind = &l.ball[i].kind;
-    kind->roll_loss = 0.087;
-    kind->drag = 0.0129;
-    kind->law_a = kind->law_b = 0.05;
-    kind->law_c = 1.0;
-    kind->nose_height = 1.25 * kind->radius;
-  }
+  for (int i = 0; i < l.count && terms; i++)
+    l.ball[i].kind.nose_height = 1.25 * l.ball[i].kind.radius;
+  if (terms)
+    set_numbers(&l,
+                "all.roll_loss 0.087 all.drag 0.0129 all.law_a 0.05 all.law_b 0.05 all.law_c 1");
   return l;
 }
 
 /* ---- Whole shots ---- */
 
-/* In space. Of the cue; places of two balls, and the rest of the state of ball 0, which may fly;
- * constants of all balls. */
-static const direction in_space[SPACE_DIRECTIONS] = {
-    {OF_CUE, 0, 0, 2},      {OF_CUE, 0, 1, 57},     {OF_CUE, 0, 2, 30},    {OF_CUE, 0, 3, 1},
-    {OF_CUE, 0, 4, 1},      {OF_STATE, 0, 0, 1},    {OF_STATE, 0, 1, 1},   {OF_STATE, 1, 0, 1},
-    {OF_STATE, 1, 1, 1},    {OF_STATE, 0, 7, 0.1},  {OF_STATE, 0, 2, 1},   {OF_STATE, 0, 8, 1},
-    {OF_STATE, 0, 4, 50},   {OF_STATE, 0, 6, 50},   {OF_KIND, -1, 2, 0.2}, {OF_KIND, -1, 4, 0.1},
-    {OF_KIND, -1, 6, 1},    {OF_KIND, -1, 7, 0.2},  {OF_KIND, -1, 8, 1},   {OF_KIND, -1, 9, 10},
-    {OF_KIND, -1, 1, 0.03}, {OF_KIND, -1, 15, 0.5}, {OF_KIND, 0, 0, 0.2},
-};
+/* Ball 0 may fly. */
+static const char *const in_space =
+    "cue.speed 2 cue.phi 57 cue.theta 30 cue.a 1 cue.b 1 0.r[0] 1 0.r[1] 1 1.r[0] 1 "
+    "1.r[1] 1 0.r[2] 0.1 0.v[0] 1 0.v[2] 1 0.w[0] 50 0.w[2] 50 all.mu_slide 0.2 "
+    "all.mu_spin 0.1 all.restitution 1 all.mu_cushion 0.2 all.restitution_cushion 1 "
+    "all.gravity 10 all.radius 0.03 all.nose_height 0.5 0.mass 0.2";
 
 /* How shots start: level ones, without the terms of measured tables or with them, and in space. */
 typedef enum { LEVEL, TERMS, ELEVATED, JUMPS, FLYING, UNLIKE, NOSES } start_kind;
@@ -162,9 +153,9 @@ static bool has_exact_balls(int kind) {
 START_TEST(shots_agree_with_differences) {
   const bool space = _i >= LEVEL_KINDS;
   const bool exact = has_exact_balls(_i);
-  const int m = space ? SPACE_DIRECTIONS : DIRECTIONS, draws = draws_of_each(FEWER(40)),
-            most_shots = space ? draws * 4 / 5 : draws;
-  const direction *by = space ? in_space : directions;
+  direction by[SPACE_DIRECTIONS];
+  const int m = read_directions(space ? in_space : directions, by),
+            draws = draws_of_each(FEWER(40)), most_shots = space ? draws * 4 / 5 : draws;
   random_source random = {space ? 3 : SEED};
   double *const errors = malloc((size_t)(draws * SPACE_DIRECTIONS) * sizeof *errors);
   int pairs = 0, without = 0, wrong = 0, by_differences = 0, shots = 0;
@@ -207,20 +198,6 @@ START_TEST(shots_agree_with_differences) {
 }
 END_TEST
 
-/* Two balls in the air that meet head-on without slip, up to the contact; friction holds them,
- * whatever the change is. */
-START_TEST(head_on_without_slip) {
-  static const direction by = {OF_STATE, 0, 3, 1.0};
-  layout l = {.count = 2,
-              .ball = {flying(0.5, 1.2, 0.2, 2.0, 0.0, 0.0), flying(0.7, 1.2, 0.2, 0.0, 0.0, 0.0)},
-              .options = {.stop_at = CAROM_STOP_AT(CAROM_EVENT_BALL_BALL)}};
-  double error, plateau;
-  differentiate(&l, &by, 1);
-  ck_assert(compare(&l, &by, ends, 0, 1, &error, &plateau));
-  ck_assert_double_lt(error / largest(ends, 2 * NUMBERS, 0, 1), 1e-6);
-}
-END_TEST
-
 /* ---- Costs, over that of the shot ---- */
 
 static double seconds(void) {
@@ -231,7 +208,9 @@ static double seconds(void) {
 
 /* Over the cost of the shot; `reaching`: with reach. */
 static double cost_of(const layout *l, bool reaching) {
-  const carom_tangent_seeds all = seeds_of(directions, DIRECTIONS);
+  direction by[DIRECTIONS];
+  read_directions(directions, by);
+  const carom_tangent_seeds all = seeds_of(by, DIRECTIONS);
   double least[2] = {INFINITY, INFINITY};
   for (int repeat = 0; repeat < 5; repeat++) {
     carom_tangent tangent = {
@@ -300,29 +279,55 @@ static carom_status cushion(const double *in, double *out) {
   return status;
 }
 
-/* The error of a solver's tangent, by m numbers, in column k beside the best differences of three
+/* Solves an impact of which number k is changed. */
+static bool solves_changed(solver *solve, const double *in, int ins, int k, double by,
+                           double *out) {
+  double changed[26];
+  memcpy(changed, in, sizeof *in * (size_t)ins);
+  changed[k] += by;
+  return solve(changed, out) == CAROM_OK;
+}
+
+/* The error of a solver's tangent, by number k, a column of m, beside the best differences of three
  * steps; spins count by the radius. */
 static double error_of(solver *solve, const double *in, int ins, int outs, int k, double step,
                        const double *tangent, int m) {
   double best = INFINITY, most = 0.0;
   for (int r = 0; r < outs; r++)
-    most = fmax(most, fabs(tangent[r * m + k]) * (r % 6 < 3 ? 1.0 : 0.0286));
+    most = fmax(most, fabs(tangent[r * m]) * (r % 6 < 3 ? 1.0 : 0.0286));
   for (int attempt = 0; attempt < 3; attempt++, step *= 0.2) {
     static const double steps[4] = {-2, -1, 1, 2};
-    double f[4][12], there[26], error = 0.0;
+    double f[4][12], error = 0.0;
     bool fine = true;
-    for (int s = 0; s < 4; s++) {
-      memcpy(there, in, sizeof *in * (size_t)ins);
-      there[k] += steps[s] * step;
-      fine &= solve(there, f[s]) == CAROM_OK;
-    }
+    for (int s = 0; s < 4; s++)
+      fine &= solves_changed(solve, in, ins, k, steps[s] * step, f[s]);
     for (int r = 0; r < outs && fine; r++) {
       const double d = slope_of_four(f[0][r], f[1][r], f[2][r], f[3][r], step);
-      error = fmax(error, fabs(d - tangent[r * m + k]) * (r % 6 < 3 ? 1.0 : 0.0286));
+      error = fmax(error, fabs(d - tangent[r * m]) * (r % 6 < 3 ? 1.0 : 0.0286));
     }
     best = fine ? fmin(best, error) : best;
   }
   return best / fmax(most, 1e-2);
+}
+
+enum { INPUTS = 16 };
+
+/* Numbers of an impact, by the names of the library, each with the step of its differences. */
+typedef struct inputs {
+  int count, index[INPUTS];
+  double step[INPUTS];
+} inputs;
+
+static inputs read_inputs(const char *(*name_of)(int), const char *words) {
+  inputs in = {0};
+  for (cursor = words; *cursor != '\0'; in.count++) {
+    const char *const word = read_word();
+    int *const index = &in.index[in.count];
+    while (strcmp(name_of(*index), word) != 0)
+      ++*index;
+    in.step[in.count] = read_number();
+  }
+  return in;
 }
 
 START_TEST(collisions_agree_with_differences) {
@@ -338,8 +343,7 @@ START_TEST(collisions_agree_with_differences) {
         .mass = random_between(&random, 0.15, 0.2),
         .mu_slide = random_between(&random, 0.15, 0.25)};
     in.b = (carom_ball){.r = {2.0 * R, 0.01, 0.0}, .radius = R, .mass = 0.17, .mu_slide = 0.2};
-    for (int i = 0; i < 3; i++)
-      in.a.w[i] = random_between(&random, -60.0, 60.0);
+    random_vector(&random, 3, -60.0, 60.0, in.a.w);
     const bool rolls = k % 2 == 1;
     if (rolls) {
       in.a.w[0] = -in.a.v[1] / R;
@@ -357,20 +361,29 @@ START_TEST(collisions_agree_with_differences) {
                      CAROM_OK);
     if (carom_collide(&in, NULL, &(carom_result){0}) == CAROM_SEPARATING || flags != 0)
       continue;
-    /* places, motion of a that slides, its spin about the vertical, masses, frictions,
-     * restitution */
-    static const int asked[] = {0, 1, 3, 4, 6, 7, 8, 10, 11, 12, 13, 22, 24, 25};
-    static const double steps[] = {1e-4, 1e-4, 3e-3, 3e-3, 0.1,  0.1,  0.1,
-                                   1e-3, 5e-4, 1e-4, 1e-4, 1e-3, 3e-4, 1e-3};
-    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++)
-      if (!(rolls && (asked[i] == 3 || asked[i] == 4 || asked[i] == 6 || asked[i] == 7)))
-        errors[n++] =
-            error_of(collide, (const double *)&in, 26, 12, asked[i], steps[i], &tangent[0][0], 26);
+    const inputs asked = read_inputs(
+        carom_field_name, "a.r[0] 1e-4 a.r[1] 1e-4 a.w[2] 0.1 a.mass 1e-3 a.mu_slide 5e-4 "
+                          "b.r[0] 1e-4 b.r[1] 1e-4 b.mass 1e-3 mu_ball 3e-4 restitution 1e-3 "
+                          "a.v[0] 3e-3 a.v[1] 3e-3 a.w[0] 0.1 a.w[1] 0.1");
+    /* the last four take a ball that rolls from its roll */
+    for (int i = 0; i < asked.count - (rolls ? 4 : 0); i++)
+      errors[n++] = error_of(collide, (const double *)&in, 26, 12, asked.index[i], asked.step[i],
+                             &tangent[0][asked.index[i]], 26);
   }
   ck_assert_int_gt(n, 4000);
   ck_assert_double_lt(tell(errors, n, 0.99, "collisions"), 1e-6);
 }
 END_TEST
+
+/* A ball that meets another one, which lies along y. */
+static carom_impact pair(double v_x, double v_y) {
+  const carom_ball ball = {.radius = R, .mass = 0.17, .mu_slide = 0.2};
+  carom_impact in = {.a = ball, .b = ball, .mu_ball = 0.06, .restitution = 0.95};
+  in.a.v[0] = v_x;
+  in.a.v[1] = v_y;
+  in.b.r[1] = 2.0 * R;
+  return in;
+}
 
 /* A ball that rolls and is pressed into the cloth: directions along the roll have a derivative,
  * those that leave it a flag. What the other ball's spin changes has one too, also where that
@@ -379,16 +392,11 @@ START_TEST(directions_that_leave_a_roll) {
   static const double units[] = {1.0, 1e-8, 1e-14};
   for (int k = 0; k < 3; k++) {
     const double V = 2.0 * units[k];
-    carom_impact in = {.mu_ball = 0.06, .restitution = 0.95};
-    in.a = (carom_ball){.v = {0.3 * V, V, 0},
-                        .w = {0, 0, 20 * units[k]},
-                        .radius = R,
-                        .mass = 0.17,
-                        .mu_slide = 0.2};
-    in.b = (carom_ball){.r = {0, 2 * R, 0}, .radius = R, .mass = 0.17, .mu_slide = 0.2};
+    carom_impact in = pair(0.3 * V, V);
     /* backwards, so that a is pressed */
     in.a.w[0] = -in.a.v[1] / R;
     in.a.w[1] = in.a.v[0] / R;
+    in.a.w[2] = 20.0 * units[k];
     in.b.w[0] = 2.5 * V / R;
     double seeds[26][4] = {{0}}, tangent[12][4];
     int32_t flags = -1;
@@ -421,15 +429,8 @@ START_TEST(directions_that_leave_a_roll) {
                      CAROM_OK);
     ck_assert_int_eq(flags & CAROM_TANGENT_KINK, CAROM_TANGENT_KINK);
     /* the same on a cushion */
-    carom_cushion_impact rail = {.normal = {0, 1},
-                                 .height = 1.28 * R,
-                                 .radius = R,
-                                 .mass = 0.17,
-                                 .mu_slide = 0.2,
-                                 .mu_cushion = 0.2,
-                                 .restitution = 0.85};
-    memcpy(rail.v, in.a.v, sizeof rail.v);
-    memcpy(rail.w, in.a.w, sizeof rail.w);
+    const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
+    const carom_cushion_impact rail = at_cushion(&kind, in.a.v, in.a.w, 0.0, 1.0);
     double nose[15] = {0}, out[6];
     nose[1] = 1.0;
     nose[3] = -1.0 / R;
@@ -471,8 +472,7 @@ START_TEST(cushions_agree_with_differences) {
         .mu_slide = random_between(&random, 0.15, 0.25),
         .mu_cushion = random_between(&random, 0.1, 0.3),
         .restitution = random_between(&random, 0.7, 0.95)};
-    for (int i = 0; i < 3; i++)
-      in.w[i] = random_between(&random, -60.0, 60.0);
+    random_vector(&random, 3, -60.0, 60.0, in.w);
     if (_i % WAYS == 2)
       draw_numbers(&random, &cushion_options);
     double seeds[15][15] = {{0}}, tangent[6][15];
@@ -484,12 +484,14 @@ START_TEST(cushions_agree_with_differences) {
     ck_assert_int_ge(status, CAROM_OK);
     if (status == CAROM_SEPARATING || (flags & CAROM_TANGENT_KINK))
       continue;
-    static const int asked[] = {0, 1, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13};
-    static const double steps[] = {3e-3, 3e-3, 0.1,  0.1,  0.1,  1e-3,
-                                   1e-3, 3e-5, 3e-5, 5e-4, 5e-4, 1e-3};
-    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++)
-      errors[n++] =
-          error_of(cushion, (const double *)&in, 15, 6, asked[i], steps[i], &tangent[0][0], 15);
+    const inputs asked =
+        read_inputs(carom_cushion_field_name,
+                    "v[0] 3e-3 v[1] 3e-3 w[0] 0.1 w[1] 0.1 w[2] 0.1 normal[0] 1e-3 "
+                    "normal[1] 1e-3 height 3e-5 radius 3e-5 mu_slide 5e-4 mu_cushion 5e-4 "
+                    "restitution 1e-3");
+    for (int i = 0; i < asked.count; i++)
+      errors[n++] = error_of(cushion, (const double *)&in, 15, 6, asked.index[i], asked.step[i],
+                             &tangent[0][asked.index[i]], 15);
   }
   printf("%s%s, ", carom_cushion_model_name(cushion_options.model), way[_i % WAYS]);
   ck_assert_int_gt(n, FEWER(3000));
@@ -498,49 +500,15 @@ START_TEST(cushions_agree_with_differences) {
 }
 END_TEST
 
-/* A straight stop shot begins without slip between the balls. A small slip ends at once,
- * whatever the friction: of a change of v across the line of centres, the balls exchange 1/7,
- * and of W_z 1/7 of it. */
-START_TEST(stop_shots) {
-  const double across[] = {0.0, 1e-17, 1e-12, 1e-9, 2e-9, 1e-6};
-  for (size_t k = 0; k < sizeof across / sizeof across[0]; k++) {
-    const carom_impact in = {
-        .a = {.v = {2.0 * across[k], 2.0, 0.0}, .radius = R, .mass = 0.17, .mu_slide = 0.2},
-        .b = {.r = {0.0, 2.0 * R, 0.0}, .radius = R, .mass = 0.17, .mu_slide = 0.2},
-        .mu_ball = 0.06,
-        .restitution = 0.95,
-    };
-    double seeds[26][2] = {{0}}, tangent[12][2];
-    seeds[3][0] = seeds[8][1] = 1.0; /* v_x and w_z of ball a */
-    int32_t flags;
-    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 2, &seeds[0][0], &tangent[0][0], &flags),
-                     CAROM_OK);
-    ck_assert_int_eq(flags, 0);
-    const double expected[2][4] = {{6.0 / 7.0, 2.5 / (7.0 * R), 1.0 / 7.0, 2.5 / (7.0 * R)},
-                                   {R / 7.0, 4.5 / 7.0, -R / 7.0, -2.5 / 7.0}};
-    static const int row[4] = {0, 5, 6, 11};
-    for (int j = 0; j < 2; j++)
-      for (int i = 0; i < 4; i++)
-        ck_assert_double_eq_tol(tangent[row[i]][j], expected[j][i],
-                                1e-5 * fmax(1.0, fabs(expected[j][i])));
-  }
-}
-END_TEST
-
 /* What the slopes to both sides differ by, over the larger, at a step h. */
 static double bend_of(const carom_cushion_impact *in, int k, double h) {
-  double here[6], there[26], f[2][6], bend = 0.0, most = 1e-3;
-  memcpy(there, in, sizeof *in);
-  cushion(there, here);
-  for (int s = 0; s < 2; s++) {
-    memcpy(there, in, sizeof *in);
-    there[k] += s == 0 ? -h : h;
-    cushion(there, f[s]);
-  }
+  double f[3][6], bend = 0.0, most = 1e-3;
+  for (int s = 0; s < 3; s++)
+    solves_changed(cushion, (const double *)in, 15, k, (s - 1) * h, f[s]);
   for (int r = 0; r < 6; r++) {
     const double unit = r < 3 ? 1.0 : 0.0286;
-    bend = fmax(bend, unit * fabs(f[0][r] + f[1][r] - 2.0 * here[r]) / h);
-    most = fmax(most, unit * fabs(f[1][r] - f[0][r]) / (2.0 * h));
+    bend = fmax(bend, unit * fabs(f[0][r] + f[2][r] - 2.0 * f[1][r]) / h);
+    most = fmax(most, unit * fabs(f[2][r] - f[0][r]) / (2.0 * h));
   }
   return bend / most;
 }
@@ -567,25 +535,26 @@ START_TEST(cushions_without_slip_at_the_nose) {
         .mu_cushion = random_between(&random, 0.05, 0.3),
         .restitution = random_between(&random, 0.7, 0.95)};
     /* one direction a call, since a flag is that of all directions */
-    static const int asked[] = {0, 1, 3, 4, 5, 6, 9, 11, 12, 13};
-    static const double steps[] = {1e-4, 1e-4, 3e-3, 3e-3, 3e-3, 1e-4, 1e-6, 1e-4, 1e-4, 1e-4};
-    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {
-      double seeds[15] = {0.0}, tangent[6], all[6][15] = {{0}};
+    const inputs asked =
+        read_inputs(carom_cushion_field_name,
+                    "v[0] 1e-4 v[1] 1e-4 w[0] 3e-3 w[1] 3e-3 w[2] 3e-3 normal[0] 1e-4 "
+                    "radius 1e-6 mu_slide 1e-4 mu_cushion 1e-4 restitution 1e-4");
+    for (int i = 0; i < asked.count; i++) {
+      double seeds[15] = {0.0}, tangent[6];
       int32_t flags;
-      seeds[asked[i]] = 1.0;
+      seeds[asked.index[i]] = 1.0;
       ck_assert_int_eq(carom_cushion_tangent(&in, &cushion_options, 1, seeds, tangent, &flags),
                        CAROM_OK);
-      for (int r = 0; r < 6; r++)
-        all[r][asked[i]] = tangent[r];
-      const double bend = bend_of(&in, asked[i], steps[i]);
+      const double bend = bend_of(&in, asked.index[i], asked.step[i]);
       /* where it bends by less, a derivative is as near as is asked below to both slopes */
-      const bool kink = bend > 2e-3 && bend_of(&in, asked[i], 0.1 * steps[i]) > 0.5 * bend;
+      const bool kink =
+          bend > 2e-3 && bend_of(&in, asked.index[i], 0.1 * asked.step[i]) > 0.5 * bend;
       bends += kink;
       without_flag += kink && !(flags & CAROM_TANGENT_KINK);
       if (flags & CAROM_TANGENT_KINK)
         continue;
-      const bool agrees =
-          error_of(cushion, (const double *)&in, 15, 6, asked[i], steps[i], &all[0][0], 15) < 1e-3;
+      const bool agrees = error_of(cushion, (const double *)&in, 15, 6, asked.index[i],
+                                   asked.step[i], tangent, 1) < 1e-3;
       right += agrees;
       wrong += !agrees;
     }
@@ -601,20 +570,7 @@ END_TEST
 
 /* ---- Other results ---- */
 
-START_TEST(pocketed_balls_do_not_change) {
-  static const direction by_aim[2] = {{OF_CUE, 0, 1, 57}, {OF_CUE, 0, 0, 2}};
-  layout l = {.count = 1, .ball = {ball_at(0.3, 0.3)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
-  l.cue.phi = 225.0;
-  differentiate(&l, by_aim, 2);
-  ck_assert_int_eq(final[0].label, CAROM_BALL_POCKETED);
-  for (int k = 0; k < NUMBERS * 2; k++)
-    ck_assert_double_eq(ends[k], 0.0);
-  ck_assert_double_lt(times[(shot.count - 1) * 2 + 1], 0.0); /* faster: earlier */
-}
-END_TEST
-
-/* Derivatives at a time are those of the end of a shot that is stopped then; after the end all is
- * as at the end. */
+/* Derivatives at a time are those of the end of a shot that is stopped then. */
 START_TEST(states_at_times) {
   static const direction by_speed = {OF_CUE, 0, 0, 2};
   random_source random = {5};
@@ -622,14 +578,12 @@ START_TEST(states_at_times) {
     layout l = draw(&random, MOST_BALLS);
     l.options = (carom_shot_options){INELASTIC, HAN};
     differentiate(&l, &by_speed, 1);
-    const double at[3] = {0.1 * shot.time, 0.2 * shot.time, 2.0 * shot.time};
-    static double states[3 * MOST_BALLS * NUMBERS];
+    const double at[2] = {0.1 * shot.time, 0.2 * shot.time};
+    static double states[2 * MOST_BALLS * NUMBERS];
     const carom_tangent_seeds seeds = seeds_of(&by_speed, 1);
-    carom_tangent tangent = {.final = ends, .at = states, .times = at, .times_count = 3};
+    carom_tangent tangent = {.final = ends, .at = states, .times = at, .times_count = 2};
     const int numbers = l.count * NUMBERS;
     ck_assert_int_eq(shot_tangent(&l, &seeds, &tangent), CAROM_OK);
-    for (int x = 0; x < numbers; x++)
-      ck_assert_double_eq(states[2 * numbers + x], ends[x]);
     for (int n = 0; n < 2; n++) {
       l.options.time_most = at[n];
       shot = (carom_shot){.events = events, .room = ROOM, .final = final};
@@ -674,6 +628,7 @@ START_TEST(nothing_is_read_before_it_is_set) {
 }
 END_TEST
 
+/* edges.txt has more that is refused. */
 START_TEST(what_is_not_known_is_refused) {
   carom_shot_ball two[2] = {ball_at(0.4, 0.6), ball_at(0.55, 1.4)};
   const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
@@ -682,56 +637,31 @@ START_TEST(what_is_not_known_is_refused) {
                             many = {.directions = 65, .cue = cue_seeds};
   carom_tangent tangent = {.final = ends};
   const carom_table *table = table_of(&(layout){0});
-  const carom_shot_options pooltool = {.world = CAROM_WORLD_POOLTOOL},
-                           euler = {.ball_model = CAROM_BALL_MODEL_EULER};
-  const carom_shot none = {.events = events, .room = ROOM};
-#define IS(status, count, cue, options, shot, seeds, tangent)                                 \
-  ck_assert_int_eq(carom_shot_tangent(table, two, count, cue, options, shot, seeds, tangent), \
-                   status)
   carom_shot played = play(table, two, 2, &cue, NULL, CAROM_OK), lost = played;
-  IS(CAROM_ERROR_TANGENT, 2, &cue, &pooltool, &played, &seeds, &tangent);
-  ck_assert(isnan(ends[0]));
-  IS(CAROM_ERROR_TANGENT, 2, &cue, &euler, &played, &seeds, &tangent);
-  IS(CAROM_ERROR_NULL, 2, &cue, NULL, &played, &seeds, NULL);
-  IS(CAROM_ERROR_DIRECTIONS, 2, &cue, NULL, &played, &many, &tangent);
   lost.room = 1;
-  IS(CAROM_ERROR_EVENTS_LOST, 2, &cue, NULL, &lost, &seeds, &tangent);
-  IS(CAROM_ERROR_STATE, 1, NULL, NULL, &played, &seeds, &tangent);
-  /* a shot that was refused, and one that was never played */
-  two[1].state.r[0] = two[0].state.r[0] + 0.01;
-  two[1].state.r[1] = two[0].state.r[1];
-  carom_shot refused = none;
-  ck_assert_int_eq(carom_shoot(table, two, 2, &cue, NULL, &refused), CAROM_ERROR_OVERLAP);
-  IS(CAROM_ERROR_STATE, 2, &cue, NULL, &refused, &seeds, &tangent);
-  two[1] = ball_at(0.55, 1.4);
-  two[1].state.v[0] = 0.5;
-  IS(CAROM_ERROR_STATE, 2, &cue, NULL, &none, &seeds, &tangent);
-  IS(CAROM_ERROR_STATE, 2, NULL, NULL, &none, &seeds, &tangent);
-  two[1].state.v[0] = 0.0; /* nothing happens where nothing moves */
-  IS(CAROM_OK, 2, NULL, NULL, &none, &seeds, &tangent);
-  played = play(table, two, 2, &cue, NULL, CAROM_OK);
+#define IS(status, count, cue, shot, seeds) \
+  ck_assert_int_eq(carom_shot_tangent(table, two, count, cue, NULL, shot, seeds, &tangent), status)
+  IS(CAROM_ERROR_DIRECTIONS, 2, &cue, &played, &many);
+  IS(CAROM_ERROR_EVENTS_LOST, 2, &cue, &lost, &seeds);
+  IS(CAROM_ERROR_STATE, 1, NULL, &played, &seeds);
   /* a kind of event that there is not */
   events[1].type = CAROM_EVENT_LEFT_TABLE + 1;
-  IS(CAROM_ERROR_STATE, 2, &cue, NULL, &played, &seeds, &tangent);
+  IS(CAROM_ERROR_STATE, 2, &cue, &played, &seeds);
+  /* a shot that was never played: nothing happens where nothing moves */
+  const carom_shot none = {.events = events, .room = ROOM};
+  IS(CAROM_OK, 2, NULL, &none, &seeds);
+  two[1].state.v[0] = 0.5;
+  IS(CAROM_ERROR_STATE, 2, NULL, &none, &seeds);
+  two[1].state.v[0] = 0.0;
 #undef IS
-  /* single contacts by other solvers and conventions */
-  const carom_impact in = {
-      .a = {.v = {1.0, 0.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_slide = 0.2},
-      .b = {.r = {0.06, 0.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_slide = 0.2},
-      .mu_ball = 0.05,
-      .restitution = 0.9};
+  /* a single contact by another solver */
+  const carom_impact in = pair(0.0, 1.0);
   const carom_options steps = {.solver = CAROM_SOLVER_EULER};
   double contact_seeds[26] = {0}, out[12];
   ck_assert_int_eq(carom_collide_tangent(&in, &steps, 1, contact_seeds, out, NULL),
                    CAROM_ERROR_TANGENT);
   for (int k = 0; k < 12; k++)
     ck_assert(isnan(out[k]));
-  const carom_cushion_impact cushions = {.radius = -1.0};
-  double nose_seeds[15] = {0};
-  memset(out, 0, sizeof out);
-  ck_assert_int_lt(carom_cushion_tangent(&cushions, NULL, 1, nose_seeds, out, NULL), 0);
-  for (int k = 0; k < 12; k++)
-    ck_assert_int_eq(isnan(out[k]) != 0, k < 6);
 
   /* of many, the status is that of the first in error, and the others are derived */
   enum { MANY = 6 };
@@ -765,13 +695,10 @@ END_TEST
 int main(void) {
   const looped_test tests[] = {
       {shots_agree_with_differences, KINDS},
-      {head_on_without_slip, 1},
       {cushions_agree_with_differences, WAYS * CAROM_CUSHION_MODEL_COUNT},
       {collisions_agree_with_differences, 1},
       {directions_that_leave_a_roll, 1},
-      {stop_shots, 1},
       {cushions_without_slip_at_the_nose, 1},
-      {pocketed_balls_do_not_change, 1},
       {states_at_times, 1},
       {nothing_is_read_before_it_is_set, 1},
       {what_is_not_known_is_refused, 1},
