@@ -125,7 +125,7 @@ typedef struct carom_tangent {
  * event, on the cloth and in flight. Only clusters are played again, once for each direction. All
  * events of a cluster have the flags and the tangent of the time of its first one, and
  * CAROM_TANGENT_CLUSTER. A touch inside it that begins to stick has no flag. Nothing is allocated.
- * Stack: 59 KiB; a batch 60. Cost: docs/using/derivatives.md.
+ * Stack: 65 KiB; a batch 68. Cost: docs/using/derivatives.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS;
  * CAROM_ERROR_DIRECTIONS if there are not 1 to 64; CAROM_ERROR_EVENTS_LOST if shot->room was too

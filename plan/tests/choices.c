@@ -6,7 +6,7 @@
  * two. Where a change of the method or of the physics is meant to change them, the new hash is
  * the one that this test prints. */
 TEST(golden_choices) {
-  static const uint64_t golden = UINT64_C(0xc9e2d390fb5f3366);
+  static const uint64_t golden = UINT64_C(0xff01ae94bebdd2b7);
   uint64_t h = UINT64_C(0xcbf29ce484222325);
   int pots = 0;
   for (int k = 0; k < 20; k++) {
@@ -261,7 +261,7 @@ TEST(ball_behind_the_head_string) {
 /* The leave says whether a stroke is from behind the head string, and a bound does not: an upper
  * bound on that string, or 1 um beside it, has one plan. The only target lies behind the string. */
 TEST(leave_and_not_a_bound) {
-  static const double places[][2] = {{0.6, 0.6}, {0.35, 0.30}, {0.9, 2.1}};
+  static const double places[][2] = {{0.6, 0.6}, {0.4, 0.35}, {0.9, 2.1}};
   make_layout(1, 1);
   rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
   options.shots = 2000;

@@ -8,7 +8,7 @@ TEST(players_of_any_tip) {
   carom_plan_stroke choices[2][3];
   int found[2];
   for (int tip = 0; tip < 2; tip++) {
-    make_layout(17, 3);
+    make_layout(18, 3);
     cue.tip_restitution = tip == 0 ? 1.0 : CAROM_TIP_LEATHER;
     found[tip] = plan(false, choices[tip], 3);
   }
@@ -81,7 +81,7 @@ TEST(errors_grow) {
  * of strokes is drawn by the seed; the player's shots count where the options have none, and a
  * player whose errors grow never smashes. */
 TEST(players_choose) {
-  make_layout(17, 3);
+  make_layout(18, 3);
   player = carom_player_fargo(400.0);
   carom_plan_stroke choice[2];
   int64_t differ = 0;

@@ -461,7 +461,7 @@ static inline void end_step(bool flat, state *c, double h, const pushes *pushed)
     const double each = 1.0 / x->J;
     for (int k = 0; k < 2; k++) {
       x->rubbed[k] += x->f[k];
-      c->touch[x->touch].P[1 + k] += x->f[k];
+      c->touch[x->touch].P[1 + k] += k == 1 && !flat ? x->freedom * x->f[k] : x->f[k];
       x->f[k] *= each;
     }
     x->d_max = carom_hertz_vertex(x->d, x->d_max, h, x->closing, closing_of(flat, x));
@@ -610,6 +610,17 @@ static bool go_on(bool flat, state *c, double *tau) {
   return true;
 }
 
+/* The contacts that act at half a step of h, at tau. Returns whether any does; *balls whether one of
+ * balls does. */
+static inline bool act(bool flat, state *c, double h, double tau, pushes *pushed, double *norm,
+                       bool *balls) {
+  *balls = find_acting(flat, c, h, tau, pushed, norm);
+  const bool cue = c->struck && tip_acts(c, h, tau), slate = c->on_slate && slate_acts(c, h);
+  if (*balls || cue)
+    return true;
+  return slate && !slate_ends(c, h);
+}
+
 /* Step by step, until no contact acts. */
 static inline bool solve(bool flat, state *c) {
   const double energy = energy_of(c);
@@ -636,12 +647,8 @@ static inline bool solve(bool flat, state *c) {
 
     /* where no contact acts, one may touch again, from where the balls are; else all is over */
     tau += 0.5 * h;
-    const bool balls = find_acting(flat, c, h, tau, &pushed, &norm),
-               cue = c->struck && tip_acts(c, h, tau);
-    bool slate = c->on_slate && slate_acts(c, h);
-    if (slate && !balls && !cue && slate_ends(c, h))
-      slate = false;
-    if (!balls && !cue && !slate) {
+    bool balls;
+    if (!act(flat, c, h, tau, &pushed, &norm, &balls)) {
       if (!touch_again(flat, c) && !(c->struck && go_on(flat, c, &tau)))
         break;
       if (c->struck)

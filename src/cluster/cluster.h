@@ -124,8 +124,8 @@ typedef struct carom_cluster_contact_state {
 typedef struct carom_cluster_touch {
   int contact;
   double time, approach; /* tau at which it begins, s; how far the two have come together, m */
-  double P[3];           /* of balls, sums of J and f; of the tip, the impulse on the ball */
-  double moment;         /* sum of J tau */
+  double P[3];   /* of balls, sums of J and of f on v; of the tip, the impulse on the ball */
+  double moment; /* sum of J tau */
 } carom_cluster_touch;
 
 /* A cue that pushes a ball, tip.h. The caller sets it up to e. */

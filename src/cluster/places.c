@@ -69,7 +69,7 @@ static void impulse_of(const carom_cluster_state *c, const carom_cluster_touch *
   cluster_add(flat, P, -l->P[0], x->n);
   cluster_add(flat, P, l->P[1], t);
   if (!flat)
-    cluster_add(false, P, x->freedom * l->P[2], third);
+    cluster_add(false, P, l->P[2], third);
 }
 
 /* The changes of velocity so far, and of the sums of them with their instants. */

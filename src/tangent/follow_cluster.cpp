@@ -105,7 +105,8 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
     const text::carom_cluster_ball &ball = state.ball[k];
     real x[CAROM_MOTION_NUMBERS + 1], d[CAROM_MOTION_NUMBERS + 1];
     for (int n = 0; n < CAROM_MOTION_NUMBERS; n++) {
-      const number &from = n < 3 ? ball.v[n] : n < 6 ? ball.W[n - 3] : ball.shift[n - 6];
+      const number *const of[] = {ball.v, ball.W, ball.shift};
+      const number &from = of[n / 3][n % 3];
       x[n] = from.x;
       d[n] = from.d[0];
     }

@@ -157,7 +157,7 @@ static double slope_to(const layout *l, const direction *by, double side, double
   return best;
 }
 
-static double distance(const double *a, const double *b, int n) {
+static double greatest_change(const double *a, const double *b, int n) {
   double most = 0.0;
   for (int x = 0; x < n; x++)
     most = fmax(most, fabs(a[x] - b[x]));
@@ -187,12 +187,12 @@ static bool is_compared(const layout *l, const number *row, const char *where) {
     const double apart = slope_to(&at, &by, 2.0 * side - 1.0, slope[side]);
     has[side] = apart < 1e-4 * fmax(1e-3, largest(slope[side], n, 0, 1));
     most = has[side] ? fmax(most, largest(slope[side], n, 0, 1)) : most;
-    off = has[side] ? fmin(off, distance(ends, slope[side], n)) : off;
+    off = has[side] ? fmin(off, greatest_change(ends, slope[side], n)) : off;
   }
   if (!has[0] && !has[1])
     return false;
 
-  const bool kink = has[0] && has[1] && distance(slope[0], slope[1], n) > 3e-3 * most;
+  const bool kink = has[0] && has[1] && greatest_change(slope[0], slope[1], n) > 3e-3 * most;
   const bool told = flags & (CAROM_TANGENT_KINK | CAROM_TANGENT_SIMULTANEOUS);
   ck_assert_msg(told || (off < 3e-3 * most && !kink), "%s, by %s at %g: %g off of %g%s, flags %d",
                 where, row->name, *number_in(&at, &by), off, most, kink ? ", a kink" : "",

@@ -180,7 +180,7 @@ TEST(pushes_are_those_of_the_reference) {
     ck_assert(part_of(error, each, 0.9) < 5e-4);
     ck_assert(part_of(error, each, 0.98) < 2e-3);
     ck_assert(part_of(place, each, 0.5) < 2e-4);
-    ck_assert(part_of(place, each, 0.9) < (raised ? 1e-4 : 6e-3));
+    ck_assert(part_of(place, each, 0.9) < 2e-4);
     ck_assert(part_of(lead, each, 0.9) < 5e-3);
   }
   free(lead);

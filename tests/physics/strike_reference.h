@@ -40,13 +40,20 @@ typedef struct ref_strike {
   ref_touch touch[REF_TOUCHES];
   int count_of_touches; /* of all, and in touches of the tip */
   bool slate;
-  num phi; /* how free of the cloth contacts of balls are */
+  num phi[REF_BALLS]; /* how free of the cloth contacts of ball 0 with these are */
   ref_press tip, under[REF_BALLS], pair[REF_BALLS][REF_BALLS];
   num n[REF_BALLS][REF_BALLS][3];
   num impulse; /* of the tip, N s */
   num reach;   /* m: how far the cue goes on */
+  num T;       /* s: how long the tip touches a ball alone */
   int touches;
 } ref_strike;
+
+static inline num ref_phi(const ref_strike *s, int i, int j) {
+  if (i == 0)
+    return s->phi[j];
+  return j == 0 ? s->phi[i] : 0;
+}
 
 static inline num ref_dot(const num a[3], const num b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -140,9 +147,9 @@ static inline void ref_begin(ref_strike *s, const carom_shot_ball *balls, int co
   }
   ref_cross(p, c, s->arm);
   const num e = cue->tip_restitution, T = cue->tip_time;
+  s->T = T;
   const num mass = 1 / (1 / s->M + (1 + 2.5L * (a * a + b * b)) / s->m);
   s->tip = (ref_press){.k = mass * powl(pi / 2 * (1 + e) / T, 2), .e = e, .power = 1};
-  s->phi = fminl(powl(s->push[2] / 0.1L, 2), 1);
 
   /* the slate lasts 1 ms; balls by Hertz: delta = (5 v^2 / (4 K/m))^0.4 */
   const num E = 6.6e9L / 2, given = kind->restitution_table, e_s = given > 0 ? given : 0.5L;
@@ -277,6 +284,12 @@ static inline bool ref_push(ref_strike *s, num h, bool *slate) {
     }
   }
 
+  /* the tip's load frees contacts of its ball from the cloth */
+  for (int j = 1; j < s->count; j++) {
+    const num down = s->slate ? fmaxl(-s->push[2] * F, 0) : 0;
+    s->phi[j] = down > 0 && J[0][j] > 0 ? fminl(down / (s->mu * J[0][j]), 1) : 0;
+  }
+
   /* friction, of balls and of the cloth, until both are as they should be */
   for (int round = 0; round < 8; round++) {
     for (int i = 0; i < s->count; i++)
@@ -290,16 +303,16 @@ static inline bool ref_push(ref_strike *s, num h, bool *slate) {
         ref_surface(s, j, back, w);
         for (int k = 0; k < 3; k++)
           u[k] -= w[k];
-        u[2] -= (1 - s->phi) * (s->v[i][2] - s->v[j][2]);
+        u[2] -= (1 - ref_phi(s, i, j)) * (s->v[i][2] - s->v[j][2]);
         const num along = ref_dot(u, n);
         for (int k = 0; k < 3; k++)
           u[k] -= along * n[k];
         ref_rub(u, 7 / s->m, s->mu * J[i][j], g[i][j], f);
         ref_hit(s, i, n, f);
-        s->v[i][2] -= (1 - s->phi) * f[2] / s->m;
-        s->v[j][2] += (1 - s->phi) * f[2] / s->m;
+        s->v[i][2] -= (1 - ref_phi(s, i, j)) * f[2] / s->m;
+        s->v[j][2] += (1 - ref_phi(s, i, j)) * f[2] / s->m;
         for (int k = 0; k < 3; k++) {
-          s->touch[s->pair[i][j].touch].P[k] += k < 2 ? f[k] : s->phi * f[k];
+          s->touch[s->pair[i][j].touch].P[k] += k < 2 ? f[k] : ref_phi(s, i, j) * f[k];
           f[k] = -f[k];
         }
         ref_hit(s, j, back, f);
@@ -307,7 +320,7 @@ static inline bool ref_push(ref_strike *s, num h, bool *slate) {
     for (int i = 0; i < s->count; i++) {
       num most = load[i];
       for (int j = 0; j < s->count; j++) /* what friction presses on the cloth */
-        most += (1 - s->phi) * (j > i ? -g[i][j][2] : g[j][i][2]);
+        most += (1 - ref_phi(s, i, j)) * (j > i ? -g[i][j][2] : g[j][i][2]);
       most = fmaxl(most, 0);
       if (!s->slate)
         s->v[i][2] = 0;
@@ -400,7 +413,7 @@ static inline bool ref_go_to_touch(ref_strike *s) {
              comes = s->slate && !follows && s->tip.d <= 0 && closing > slow &&
                      -s->tip.d / closing * s->V <= s->reach;
   const num of_tip = comes ? -s->tip.d / closing : INFINITY, of_balls = ref_wait_of_balls(s),
-            recovery = s->tip.d > 0 && closing < 0 ? -s->tip.d / closing : 0;
+            recovery = s->tip.d > 0 && closing < 0 ? fminl(-s->tip.d / closing, s->T) : 0;
   num wait = of_tip;
   for (int i = 0; s->slate && i < s->count; i++)
     if (s->under[i].d <= 0 && -s->v[i][2] > slow)
@@ -485,12 +498,12 @@ static inline num ref_places(const ref_strike *s, num T, num places[REF_BALLS][3
     }
   }
 
-  /* r' = r - sum of dv t; the tip */
+  /* r' = r - sum of dv t, on the slate; the tip */
   num ball[3];
   const num since = s->time - ref_lag(s, T);
   for (int i = 0; i < s->count; i++)
     for (int k = 0; k < 3; k++)
-      places[i][k] = s->from[i][k] - moment[i][k];
+      places[i][k] = s->from[i][k] - (k < 2 ? moment[i][k] : 0);
   for (int k = 0; k < 3; k++)
     ball[k] = places[0][k] + since * s->v[0][k] - s->r[0][k];
   return s->went - since * s->V + ref_dot(ball, s->axis) - delay;
