@@ -875,7 +875,8 @@ typedef struct carom_facts {
                                            touched it again within the push. */
   int32_t touches;                      /* how often the tip touched the cue ball: 0 without a
                                            strike, 1, or 2 and more in a double hit. A second touch
-                                           occurs within the push, or later because of cue.follow. */
+                                           occurs within the push, or later because of
+                                           cue.follow. */
   uint32_t banked;                      /* the set of the balls that met a cushion outside of the
                                            jaws and cuts of pockets. */
   double second_time;                   /* time of the second touch of the tip, s; infinite if there

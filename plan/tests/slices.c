@@ -11,8 +11,8 @@ static carom_turn judge_and_stop(carom_rules_state *state, uint32_t in_play, int
   return stopped_rules.judge(state, in_play, cue_ball, facts, call);
 }
 
-/* Plans, of a cue ball in hand or not, in the memory of the job. Returns how many choices there are,
- * 0 if the plan goes on. */
+/* Plans, of a cue ball in hand or not, in the memory of the job. Returns how many choices there
+ * are, 0 if the plan goes on. */
 static int start_plan(bool in_hand, carom_plan_stroke *choices, int most) {
   int found = 0;
   expect_ok(in_hand ? carom_plan_hand(&job, NULL, NULL, choices, most, &found)

@@ -5,11 +5,11 @@
  *
  *     delta' <= 0  and  delta' - c'_z (v_z' - v_z) > 0.
  *
- * Otherwise the slate lets go at once. So its part goes to 0 with c'_z, and a level cue is the limit
- * of a raised one. Then only what touches within the recovery of the tip belongs to the push, and
- * balls above the slate come down to it. A tip that would close without the impulse of the slate
- * too touches again as it follows through (shot/follow_through.c). All else is met in flight, from
- * places that make both the same: places.c. */
+ * Otherwise the slate lets go at once. So its part goes to 0 with c'_z, and a level cue is the
+ * limit of a raised one. Then only what touches within the recovery of the tip belongs to the push,
+ * and balls above the slate come down to it. A tip that would close without the impulse of the
+ * slate too touches again as it follows through (shot/follow_through.c). All else is met in flight,
+ * from places that make both the same: places.c. */
 #ifndef CAROM_SRC_CLUSTER_CLOSING_H
 #define CAROM_SRC_CLUSTER_CLOSING_H
 

@@ -610,8 +610,8 @@ static bool go_on(bool flat, state *c, double *tau) {
   return true;
 }
 
-/* The contacts that act at half a step of h, at tau. Returns whether any does; *balls whether one of
- * balls does. */
+/* The contacts that act at half a step of h, at tau. Returns whether any does; *balls whether one
+ * of balls does. */
 static inline bool act(bool flat, state *c, double h, double tau, pushes *pushed, double *norm,
                        bool *balls) {
   *balls = find_acting(flat, c, h, tau, pushed, norm);

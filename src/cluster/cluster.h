@@ -1,9 +1,9 @@
 /* Several balls that touch, or nearly touch, at one instant: contacts that last.
  *
  * The rigid limit of Hertz's contacts with Coulomb's friction. An inner time tau orders the
- * impulses; places.c has from where the balls start then. A contact of balls i and j has an overlap d, which starts at minus its
- * gap, the unit vector n from i to j, B = 1/m_i + 1/m_j, and the slip u of the surface of i on
- * that of j. With ' = d/dtau and W = R w:
+ * impulses; places.c has from where the balls start then. A contact of balls i and j has an overlap
+ * d, which starts at minus its gap, the unit vector n from i to j, B = 1/m_i + 1/m_j, and the slip
+ * u of the surface of i on that of j. With ' = d/dtau and W = R w:
  *
  *     d' = (v_i - v_j) . n
  *     K  = (4/3) E sqrt(R),  1/E = 1/E_i + 1/E_j,  1/R = 1/R_i + 1/R_j
@@ -199,7 +199,8 @@ int carom_cluster_members_of_tip(carom_cluster_state *c, double most);
  * numbers of carom_cue from speed to tip_restitution, in their order. */
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T);
 
-/* push.c: makes that a further touch, of a tip with the friction mu; `end_mass` is that of cue[]. */
+/* push.c: makes that a further touch, of a tip with the friction mu; `end_mass` is that of cue[].
+ */
 void carom_cluster_tip_slides(carom_cluster_state *c, const double cue[8], double mu);
 
 /* push.c: a push of a ball that nothing else touches, in closed form. */
@@ -211,16 +212,16 @@ void carom_cluster_put_on_slate(carom_cluster_state *c);
 double carom_cluster_slate_impulse(const carom_cluster_state *c, int ball);
 
 /* places.c: takes note of a touch of a contact that begins, -1 of the tip, and returns its place in
- * touch[], which for one too many is that of the `last` touch of the contact, -1 where it is the first; what the
- * touches move the balls by, their `shift`; and how far the tip of a push is ahead of the ball
- * then, if both are seen to move from the start as they do after it. */
+ * touch[], which for one too many is that of the `last` touch of the contact, -1 where it is the
+ * first; what the touches move the balls by, their `shift`; and how far the tip of a push is ahead
+ * of the ball then, if both are seen to move from the start as they do after it. */
 int carom_cluster_begin_touch(carom_cluster_state *c, int contact, int last, double time,
                               double approach);
 void carom_cluster_find_places(carom_cluster_state *c);
 double carom_cluster_tip_lead(const carom_cluster_state *c);
 
-/* cluster.c: v, W and shift of ball[]; time, impulse and friction of contact[]. False where it takes
- * too many steps. */
+/* cluster.c: v, W and shift of ball[]; time, impulse and friction of contact[]. False where it
+ * takes too many steps. */
 bool carom_cluster_solve(carom_cluster_state *c);
 
 #endif

@@ -37,7 +37,8 @@ static inline double carom_linear_stiffness(double time, double e) {
   return rate * rate;
 }
 
-/* The centroid in time of the impulse of a contact with linear branches that lasts so long alone. */
+/* The centroid in time of the impulse of a contact with linear branches that lasts so long alone.
+ */
 static inline double carom_linear_lag(double time, double e) {
   return time / (1.0 + e) * (0.63661977236758134 * (1.0 - e) + e);
 }

@@ -2,10 +2,10 @@
  *
  * A linear contact of the slate and the foot of a ball, per unit of its mass, with the set and the
  * restitution e of the tip (tip.h); friction |g| <= mu F against the slip of the foot, as on the
- * cloth (cluster.h) with F for L. It lasts CAROM_SLATE_TIME alone. Contacts of balls are the more
- * those of space the steeper the push: phi grows by min(1, (c'_z / 0.1)^2), cluster.h. So a cue that
- * is raised by a hair pushes as a level one. A ball that nothing else touches has the same law in
- * phases: shot/raised.c. */
+ * cloth (cluster.h) with F for L. It lasts CAROM_SLATE_TIME alone. The load of the tip frees a
+ * contact of the struck ball from the cloth: phi grows by min(1, F_down / (mu F)), F_down the part
+ * of the tip's force that presses that ball on the slate. So a cue that is raised by a hair pushes
+ * as a level one. A ball that nothing else touches has the same law in phases: shot/raised.c. */
 #ifndef CAROM_SRC_CLUSTER_SLATE_H
 #define CAROM_SRC_CLUSTER_SLATE_H
 
@@ -31,7 +31,8 @@ static inline bool slate_acts(carom_cluster_state *c, double h) {
   return any;
 }
 
-/* The share of the friction `most` of two balls that the tip presses the struck one on the slate by. */
+/* The share of the friction `most` of two balls that the tip presses the struck one on the slate
+ * by. */
 static inline double share_of_tip(const carom_cluster_state *c, int i, int j, double most) {
   const carom_cluster_tip *x = &c->tip;
   if (x->ball != i && x->ball != j)

@@ -76,8 +76,8 @@ static inline double step_to_touch(const carom_cluster_state *c, double h) {
   return closing > 0.0 ? carom_lesser(h, free_step - x->d / closing) : h;
 }
 
-/* FURTHER TOUCH: the impulse P of which J is the part along the axis. With g = 1/m_e + 1/m, u after a
- * step is u0 - (1/m_e + 7/2/m) f + g (N/kappa) c_t, c_t the part of c across n. */
+/* FURTHER TOUCH: the impulse P of which J is the part along the axis. With g = 1/m_e + 1/m, u after
+ * a step is u0 - (1/m_e + 7/2/m) f + g (N/kappa) c_t, c_t the part of c across n. */
 static inline void slide(const carom_cluster_tip *x, const carom_cluster_ball *p, double P[3]) {
   const double *n = x->n, *c = x->axis, kappa = x->kappa;
   const double m = p->inverse_mass,

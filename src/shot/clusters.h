@@ -34,8 +34,8 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
 int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
                          carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
-/* follow_through.c. The cue goes on from now at the speed V, its tip `lead` m ahead of where the ball
- * has it, as places.c has it. */
+/* follow_through.c. The cue goes on from now at the speed V, its tip `lead` m ahead of where the
+ * ball has it, as places.c has it. */
 void carom_follow_on(carom_play *play, double V, double lead);
 /* Sets play->follow.time: when its tip touches the struck ball again. */
 void carom_follow_find(carom_play *play);

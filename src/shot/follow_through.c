@@ -7,11 +7,10 @@
  *     |p| = R,   p = p0 + t V c - v t - a t^2
  *
  * (gap.c). There it pushes as tip.h has it, with the (a, b) of p, and goes on at the speed that is
- * left. It is looked for from the first contact of the cue ball with another ball or a cushion after a
- * touch on: before that the ball runs away from the cue, but in slow draws, in which an arm stops. A tip that
- * closes slower than CAROM_LEAST_TOUCH lies at the ball until the next event; one that comes past
- * its middle misses: there the follow-through ends.
- */
+ * left. It is looked for from the first contact of the cue ball with another ball or a cushion
+ * after a touch on: before that the ball runs away from the cue, but in slow draws, in which an arm
+ * stops. A tip that closes slower than CAROM_LEAST_TOUCH lies at the ball until the next event; one
+ * that comes past its middle misses: there the follow-through ends. */
 #include "cluster/cue.h"
 #include "motion/gap.h"
 #include "shot/clusters.h"
@@ -42,7 +41,8 @@ static void tip_of(const carom_play *play, const double r[3], double axes[3][3],
                  f->along + f->V * (sim->time - f->start), r, axes, p);
 }
 
-/* The struck ball from now on, in axes[0] the axis of the cue, and the way from the ball to the tip. */
+/* The struck ball from now on, in axes[0] the axis of the cue, and the way from the ball to the
+ * tip. */
 static void begin(const carom_play *play, double axes[3][3], carom_separation *d) {
   const carom_sim *sim = &play->sim;
   const int i = sim->struck;

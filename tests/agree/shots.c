@@ -81,8 +81,8 @@ static void free_results(results *r) {
   free(r);
 }
 
-/* Plays n shots by themselves, and as batches like this one by any number of threads, which have the
- * same results; a batch has the status of its first error. Returns the results. */
+/* Plays n shots by themselves, and as batches like this one by any number of threads, which have
+ * the same results; a batch has the status of its first error. Returns the results. */
 static results *play_both(const carom_shot_job *like, int n) {
   static const int threads[] = {0, 1, 2, 3, 7, CAROM_ALL_THREADS};
   results *single = make_results();

@@ -766,9 +766,10 @@ TEST(no_room_for_all_contacts) {
 
 /* ---- Slow contacts */
 
-/* Three balls on the cloth that are not quite in line, the light one in the middle with a gap to the
- * last: it has parted from the first as it comes back. A cluster of them that begins, whatever `slow` is, and then goes on while contacts close at `slow` or faster. Returns
- * the largest speed at which a contact that has touched still closes in the end, 0 for none. */
+/* Three balls on the cloth that are not quite in line, the light one in the middle with a gap to
+ * the last: it has parted from the first as it comes back. A cluster of them that begins, whatever
+ * `slow` is, and then goes on while contacts close at `slow` or faster. Returns the largest speed
+ * at which a contact that has touched still closes in the end, 0 for none. */
 static double closes_at_the_end(carom_cluster_state *c, uint64_t seed, double slow) {
   random_source random = {seed};
   memset(c, 0, sizeof *c);

@@ -118,8 +118,8 @@ static bool meet_others(const ref_strike *ref) {
   return other;
 }
 
-/* How far the balls start from the places of the reference, and how far off its lead the tip is, over
- * the way of the cue in the push of a ball alone. */
+/* How far the balls start from the places of the reference, and how far off its lead the tip is,
+ * over the way of the cue in the push of a ball alone. */
 static void place_errors(const ref_strike *ref, const carom_cue *cue, double errors[2]) {
   num places[REF_BALLS][3];
   carom_play play;
@@ -403,8 +403,8 @@ static double off_axis(const carom_cue *cue, const carom_event *e) {
 }
 
 /* On smooth cloth, the sine of the angle of a push from the normal of its place. The turn that it
- * gives, 5/2 p x P/m, is at right angles to P, which gives the part of P upwards, of which the slate
- * gives some back. 0 where that cannot be told. */
+ * gives, 5/2 p x P/m, is at right angles to P, which gives the part of P upwards, of which the
+ * slate gives some back. 0 where that cannot be told. */
 static double cone_of(const carom_event *e) {
   double P[3], turn[3];
   for (int k = 0; k < 3; k++) {
@@ -420,7 +420,8 @@ static double cone_of(const carom_event *e) {
 
 /* Of balls ahead, at angles, level and raised: up to the second touch all is as without a
  * follow-through, there the ball gets along the axis what the cue loses, within the cone of
- * friction and without energy, the mirror image is that of the shot, and a shot that is stopped on the way goes on to the same end. */
+ * friction and without energy, the mirror image is that of the shot, and a shot that is stopped on
+ * the way goes on to the same end. */
 TEST(second_touches_at_angles) {
   static carom_event stopped[ROOM];
   static carom_shot_state state;

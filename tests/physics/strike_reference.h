@@ -1,7 +1,7 @@
-/* A strike of balls at rest by the equations of src/cluster/tip.h, cluster.h, closing.h and places.c,
- * in long double and short even steps, written from the equations alone. All balls are of one kind,
- * with a constant friction. A step moves the overlaps, then the velocities by the forces there;
- * friction is found ball by ball, as the impulse within its cone that ends the slip. */
+/* A strike of balls at rest by the equations of src/cluster/tip.h, cluster.h, closing.h and
+ * places.c, in long double and short even steps, written from the equations alone. All balls are of
+ * one kind, with a constant friction. A step moves the overlaps, then the velocities by the forces
+ * there; friction is found ball by ball, as the impulse within its cone that ends the slip. */
 #ifndef CAROM_TESTS_STRIKE_REFERENCE_H
 #define CAROM_TESTS_STRIKE_REFERENCE_H
 
@@ -238,7 +238,8 @@ static inline bool ref_gone(const ref_strike *s) {
   return s->touches > 0 && !(s->tip.most > 0) && !(s->reach > 0);
 }
 
-/* The velocities after h by the forces at these overlaps. Whether tip or balls act; and the slate. */
+/* The velocities after h by the forces at these overlaps. Whether tip or balls act; and the slate.
+ */
 static inline bool ref_push(ref_strike *s, num h, bool *slate) {
   static const num foot[3] = {0, 0, -1};
   num J[REF_BALLS][REF_BALLS], load[REF_BALLS] = {0}, g[REF_BALLS][REF_BALLS][3],
@@ -334,8 +335,8 @@ static inline bool ref_push(ref_strike *s, num h, bool *slate) {
 }
 
 /* The speed upwards at which the slate lets ball i go if nothing else acts. The energy above the
- * greatest compression so far is loaded anew, of which the speed is e times. The compression is that
- * in the middle of the last impulse. */
+ * greatest compression so far is loaded anew, of which the speed is e times. The compression is
+ * that in the middle of the last impulse. */
 static inline num ref_release(const ref_strike *s, int i) {
   const ref_press *x = &s->under[i];
   const num v = s->v[i][2] - s->lift[i] / s->m / 2, k = x->k / s->m, e = x->e;
@@ -405,8 +406,8 @@ static inline num ref_wait_of_balls(const ref_strike *s) {
 }
 
 /* Where nothing acts: under a raised cue on to the next touch of tip or slate, unless the tip would
- * close without the slate too; and to one of balls that comes before that and within the recovery of
- * the tip. Whether there is one. */
+ * close without the slate too; and to one of balls that comes before that and within the recovery
+ * of the tip. Whether there is one. */
 static inline bool ref_go_to_touch(ref_strike *s) {
   const num closing = ref_closing(s), slow = ref_slow(s);
   const bool follows = closing + s->push[2] * s->lifted[0] / s->m > slow,

@@ -297,7 +297,8 @@ static verdict name_two(two_shots *s, const carom_event *x, const carom_event *y
   return name_single(s, e, in_a, name);
 }
 
-/* Whether the struck ball has met a cushion and the tip at that time, or within `meanwhile` before. */
+/* Whether the struck ball has met a cushion and the tip at that time, or within `meanwhile` before.
+ */
 static bool is_pinched(const played *p, double time) {
   bool tip = false, cushion = false;
   for (int k = 0; k < p->count; k++) {
@@ -310,8 +311,8 @@ static bool is_pinched(const played *p, double time) {
   return tip && cushion;
 }
 
-/* Names of touches of the tip, or of a cushion, that are those of a ball between both; and of touches
- * of a raised cue, which presses the ball on the slate. */
+/* Names of touches of the tip, or of a cushion, that are those of a ball between both; and of
+ * touches of a raised cue, which presses the ball on the slate. */
 static void name_company(const recipe *r, const played *a, const played *b, double time,
                          char name[JUMP_NAME]) {
   const bool tip = strstr(name, "tip") != NULL;
