@@ -167,7 +167,7 @@ typedef struct carom_cluster_state {
   bool on_slate; /* and slate[], one for each of ball[] */
   int balls, contacts;
   double steps;     /* of a contact's duration */
-  double steepness; /* of the cue, 0 to 1, push.c; read where it is on_slate */
+  double steepness; /* of the cue, 0 to 1: how short steps of the slate are; push.c */
   double slow;      /* m/s: contacts that close slower are none, and do not prolong a cluster */
   double duration;  /* of the integration, s */
   int steps_done;   /* steps */

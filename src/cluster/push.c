@@ -84,8 +84,7 @@ void carom_cluster_push_alone(carom_cluster_state *c) {
 void carom_cluster_put_on_slate(carom_cluster_state *c) {
   c->on_slate = c->in_space = true;
   memset(c->slate, 0, (size_t)c->balls * sizeof *c->slate);
-  /* the more the cue is raised, the more the slate itself holds a ball, not its share of the cloth;
-   * under a level cue contacts are those of the cloth */
+  /* the less a cue is raised, the less the slate does, and the longer its steps may be */
   c->steepness = carom_freedom_of_balls(0.0, c->tip.along[2]);
 }
 
