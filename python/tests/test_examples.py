@@ -36,7 +36,7 @@ def test_notebooks(capsys, name, pictures):
     rounding) and gives its pictures.
 
     Pictures are not stored in the file, of which no reader can read them, but for the site, in
-    docs/figures: UPDATE=1 writes them.
+    docs/figures: UPDATE=1 writes them and the texts.
     """
     from matplotlib import pyplot
 
@@ -74,12 +74,19 @@ def test_notebooks(capsys, name, pictures):
             for text in output["text"]
         )
         printed = capsys.readouterr().out
+        if os.environ.get("UPDATE") and printed != "":
+            streams = [o for o in cell["outputs"] if o["output_type"] == "stream"]
+            streams[0]["text"] = printed
+            continue
         assert number.sub("#", printed) == number.sub("#", expected)
         np.testing.assert_allclose(
             [*map(float, number.findall(printed))],
             [*map(float, number.findall(expected))],
             rtol=0.02,
         )
+    if os.environ.get("UPDATE"):
+        text = json.dumps(book, indent=1, ensure_ascii=False) + "\n"
+        (EXAMPLES / f"{name}.ipynb").write_text(text, encoding="utf-8")
     for path in drawn if os.environ.get("UPDATE") else ():
         path.write_bytes(drawn[path])
     assert len(drawn) == pictures and sorted(drawn) == sorted(FIGURES.glob(f"notebook-{name}-*"))

@@ -68,6 +68,8 @@ int carom_cluster_members_of_tip(carom_cluster_state *, number) {
 }
 void carom_cluster_tip_of(carom_cluster_state *, int, const number *, number) {
 }
+void carom_cluster_tip_slides(carom_cluster_state *, const number *, number) {
+}
 void carom_cluster_push_alone(carom_cluster_state *) {
 }
 void carom_cluster_put_on_slate(carom_cluster_state *) {

@@ -83,7 +83,7 @@ def test_ppo_is_trained(tmp_path):
     curve = np.loadtxt(tmp_path / "games.csv", delimiter=",", skiprows=1, usecols=(1, 2))
     assert (
         curve[:, 0].tolist() == [0, 4096] * 5 + [0, 1024] * 2
-        and (curve[::2, 1] != curve[1::2, 1]).sum() >= 3
+        and (curve[::2, 1] != curve[1::2, 1]).sum() >= 2
     )
     assert (tmp_path / "games.md").read_text(encoding="utf-8").count("|") == 8 * 9 and (
         tmp_path / "games.svg"
