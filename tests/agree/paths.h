@@ -114,12 +114,18 @@ static inline void set_number(path to) {
     *(int64_t *)(void *)to.place = (int64_t)value;
 }
 
+/* Whether a path names a number of all balls. */
+static inline bool is_of_all(const path *p) {
+  const bool of_ball = p->by.of == OF_STATE || p->by.of == OF_KIND;
+  return of_ball && p->by.ball < 0;
+}
+
 /* Sets numbers of a layout with its balls, as "cue.a 0.1 all.drag 0.0129". */
 static inline void set_numbers(layout *l, const char *words) {
   for (cursor = words; *cursor != '\0';) {
     const path to = read_path(l);
     const char *const value = cursor;
-    for (int i = 0; i < (to.by.ball < 0 && to.by.of >= OF_STATE ? l->count : 1); i++) {
+    for (int i = 0; i < (is_of_all(&to) ? l->count : 1); i++) {
       path next = to;
       next.place += i * (int)sizeof *l->ball;
       cursor = value;
