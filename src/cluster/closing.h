@@ -38,8 +38,7 @@ static inline bool slate_ends(carom_cluster_state *c, double h) {
   const carom_cluster_ball *b = &c->ball[tip->ball];
   const double least = too_slow * tip->first, closing = tip_closing(tip, b),
                up = slate_releases(&c->slate[tip->ball], b->v[2], h) - b->v[2];
-  const double upward = tip->slides ? tip->n[2] / tip->kappa : tip->along[2];
-  if (!tip->gone && closing <= least && closing - upward * up > least)
+  if (!tip->gone && closing <= least && closing - tip_upward(tip) * up > least)
     return false;
   slate_lets_go(c, h);
   return true;
@@ -56,8 +55,7 @@ static inline double recovery(const carom_cluster_state *c) {
 static inline bool follows_through(const carom_cluster_state *c) {
   const carom_cluster_tip *x = &c->tip;
   const carom_cluster_ball *p = &c->ball[x->ball];
-  const double upward = x->slides ? x->n[2] / x->kappa : x->along[2],
-               by_slate = -upward * c->slate[x->ball].impulse * p->inverse_mass;
+  const double by_slate = -tip_upward(x) * c->slate[x->ball].impulse * p->inverse_mass;
   return tip_closing(x, p) - by_slate > too_slow * x->first;
 }
 

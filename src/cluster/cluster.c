@@ -229,6 +229,11 @@ static inline double find_pressed(bool flat, state *c, double h, pushes *pushed)
   return step_of(norm, c->steps);
 }
 
+/* The set of a contact that is d deep, where its force has reached 0. */
+static inline void recover(contact *x, double d) {
+  x->d_max = d > open_overlap ? carom_set_left(x->e, d, x->d_max) : (double)0.0;
+}
+
 /* A contact touches, d deep by now. */
 static inline void begin_contact(bool flat, state *c, contact *x, double d, double tau) {
   const double v = closing_of(flat, x);
@@ -469,8 +474,7 @@ static inline void end_step(bool flat, state *c, double h, const pushes *pushed)
   /* where the force has reached 0 the set recovers as the overlap falls */
   for (int k = 0; k < pushed->pressed; k++) {
     contact *x = &c->contact[pushed->press[k]];
-    const double d = overlap_of(flat, x);
-    x->d_max = d > open_overlap ? carom_set_left(x->e, d, x->d_max) : (double)0.0;
+    recover(x, overlap_of(flat, x));
   }
   if (c->struck)
     tip_parts(c, h);
@@ -603,7 +607,7 @@ static bool go_on(bool flat, state *c, double *tau) {
     contact *x = &c->contact[k];
     const double d = overlap_of(flat, x);
     if (x->d_max > 0.0)
-      x->d_max = d > open_overlap ? carom_set_left(x->e, d, x->d_max) : (double)0.0;
+      recover(x, d);
     else if (x->touched)
       x->offset -= carom_greater(d, 0.0);
   }

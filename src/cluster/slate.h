@@ -2,10 +2,10 @@
  *
  * A linear contact of the slate and the foot of a ball, per unit of its mass, with the set and the
  * restitution e of the tip (tip.h); friction |g| <= mu F against the slip of the foot, as on the
- * cloth (cluster.h) with F for L. It lasts CAROM_SLATE_TIME alone. The load of the tip frees a
- * contact of the struck ball from the cloth: phi grows by min(1, F_down / (mu F)), F_down the part
- * of the tip's force that presses that ball on the slate. So a cue that is raised by a hair pushes
- * as a level one. A ball that nothing else touches has the same law in phases: shot/raised.c. */
+ * cloth (cluster.h) with F for L. It lasts CAROM_SLATE_TIME alone. The tip presses the struck ball
+ * on the slate with the part F_down of its force. That frees a contact of the ball from the cloth:
+ * phi grows by min(1, F_down / (mu F)). So a cue that is raised by a hair pushes as a level one. A
+ * ball that nothing else touches has the same law in phases: shot/raised.c. */
 #ifndef CAROM_SRC_CLUSTER_SLATE_H
 #define CAROM_SRC_CLUSTER_SLATE_H
 
@@ -37,7 +37,7 @@ static inline double share_of_tip(const carom_cluster_state *c, int i, int j, do
   const carom_cluster_tip *x = &c->tip;
   if (x->ball != i && x->ball != j)
     return 0.0;
-  const double down = -(x->slides ? x->n[2] / x->kappa : x->along[2]) * x->J;
+  const double down = -tip_upward(x) * x->J;
   if (!(down > 0.0))
     return 0.0;
   return down < most ? down / most : (double)1.0;

@@ -33,9 +33,9 @@
  * friction. A tip that does not slide has r = delta' c, as the first touch has it, whose push goes
  * along c' too. Where friction holds back as much as it pushes, N is at most 2 k delta/kappa: the
  * rest would wedge the tip. The end gives way, but the shaft holds it where friction would draw it
- * into the ball. It springs back where the force
- * has reached 0. If the axis closes from the place that the tip has slid to, the light end would
- * bounce until it does not: one impulse stands for these. */
+ * into the ball. It springs back where the force has reached 0. If the axis closes from the place
+ * that the tip has slid to, the light end would bounce until it does not: one impulse stands for
+ * these. */
 #ifndef CAROM_SRC_CLUSTER_TIP_H
 #define CAROM_SRC_CLUSTER_TIP_H
 
@@ -56,6 +56,11 @@ static inline double tip_closing(const carom_cluster_tip *x, const carom_cluster
     return x->V + (cluster_dot(false, x->y, x->n) - cluster_dot(false, p->v, x->n)) / x->kappa;
   return x->V - cluster_dot(false, p->v, x->along) - x->lost * x->along[2] -
          cluster_dot(false, p->W, x->arm);
+}
+
+/* By how much the tip closes less for each m/s that the ball rises. */
+static inline double tip_upward(const carom_cluster_tip *x) {
+  return x->slides ? x->n[2] / x->kappa : x->along[2];
 }
 
 /* The longest step that suits a contact of tip or slate: unloading is shorter than loading by e. */

@@ -217,9 +217,8 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   const carom_status of_contacts = note_contacts(sim, &c, order, count, changed, contact);
   if (*status == CAROM_OK)
     *status = of_contacts;
-  if (c.tip.gone)
-    c.tip.V = 0.0;
-  carom_follow_on(play, c.tip.V, carom_cluster_tip_lead(&c));
+  /* a tip that is gone stands still */
+  carom_follow_on(play, c.tip.gone ? (double)0.0 : c.tip.V, carom_cluster_tip_lead(&c));
   return true;
 }
 

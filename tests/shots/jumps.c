@@ -12,6 +12,8 @@
  *     split of X at Y  the same, where the balls meet Y within `meanwhile`
  *     level tip        the cue is level in one shot alone
  *     unseen before X  states differ before X, behind events that agree
+ *     pinched ball     the struck ball has met the tip and a cushion just before
+ *     raised tip       a kind of the tip, under a raised cue
  *
  * A contact that one shot has alone and that changes nothing explains nothing: a ball that just
  * touches gets no impulse. Explained is what an event makes: it comes just before the stop of the
