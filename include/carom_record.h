@@ -59,6 +59,9 @@ typedef struct carom_record_end {
                      2^64. It is no signature. */
 } carom_record_end;
 
+/* The largest number of seats of a match. */
+enum { CAROM_SEATS_MOST = 8 };
+
 /* The state of a game for the player at the table. The first number of a pair belongs to this
  * player, the second to the opponent. A game of carom_plan.h reads the members that
  * carom_rules_kind names; the others are 0. */
@@ -82,8 +85,15 @@ typedef struct carom_rules_state {
   int32_t innings; /* equal innings, in three-cushion and straight rail: 1 if the player began, 2 if
                         the opponent did, 3 in the equalizing inning of the player. 0: the first who
                         has the target wins. */
-  int32_t unused;  /* must be 0. */
-  uint64_t user[8]; /* eight words for rules of the caller; no game here reads them. */
+  int32_t seat;    /* in matches of more than two seats the seat at the table, 0 to
+                        CAROM_SEATS_MOST - 1, else 0. In games that each plays for itself, behind
+                        the last stroke the seat that has won. */
+  uint64_t user[8]; /* words. In games that each plays for itself: what the seat of this index has
+                        left, such as lives or a set of balls; 0: it is out, or nobody sits there.
+                        In English billiards, runs of hazards and cannons. Else words for rules of
+                        the caller. */
+  uint64_t context; /* of the rules of the caller, such as the address of an object. It goes with
+                        the state wherever that goes, but not into lines; no game here reads it. */
 } carom_rules_state;
 
 /* A game in progress: its state after the lines so far. All zero before the first line. */

@@ -117,7 +117,7 @@ typedef enum carom_turn_outcome {
 } carom_turn_outcome;
 
 /* The winner of a drawn game. A winner is 1 + a player, CAROM_DRAWN, or 0: none yet. */
-enum { CAROM_DRAWN = 3 };
+enum { CAROM_DRAWN = 1 + CAROM_SEATS_MOST };
 
 /* The layout of the next stroke. */
 typedef enum carom_leave {
@@ -218,7 +218,11 @@ typedef enum carom_race {
   CAROM_RACE_SHARED = 1, /* the balls are shared by both players */
   CAROM_RACE_ALONE = 2,  /* there is no opponent: the value is the share of the balls that the
                             player pots in a visit */
-  CAROM_RACE_POINTS = 3  /* players make points: left() says how many each of them needs */
+  CAROM_RACE_POINTS = 3, /* players make points: left() says how many each of them needs */
+  CAROM_RACE_SEATS = 4   /* each of 2 to 8 seats plays for itself: state.seat is at the table, and
+                            state.user says what each seat has left. judge() sets state.seat to the
+                            one that plays next, or that has won with CAROM_TURN_WIN; value() is
+                            the chance that state.seat wins */
 } carom_race;
 
 /* The functions of rules. A set of balls has bit k for ball k; `in_play` is the set of the balls on

@@ -91,7 +91,7 @@ const char *carom_rules_fault(carom_rules_kind kind, const carom_rules_state *st
   const int32_t *value = &state->opening; /* all members, one behind the other */
   for (size_t k = 0; k < MEMBERS; k++)
     for (size_t i = 0; i < members[k].count; i++, value++) {
-      const bool has = games[kind].members >> k & 1;
+      const bool has = k == PLACE_OF_SEAT || (games[kind].members >> k & 1);
       if ((has && may_be(kind, k, *value)) || (!has && *value == 0))
         continue;
       *range = "0, as the game has none";
@@ -99,8 +99,5 @@ const char *carom_rules_fault(carom_rules_kind kind, const carom_rules_state *st
         *range = members[k].range;
       return members[k].name;
     }
-  *range = "0";
-  if (state->unused != 0)
-    return "unused";
   return NULL;
 }

@@ -150,9 +150,10 @@ static uint64_t fingerprint_of(const carom_plan_job *job) {
 static bool good_rules(const carom_plan_rules *rules) {
   if (rules->on == NULL || rules->judge == NULL || rules->left == NULL)
     return false;
-  return (uint32_t)rules->breaks <= 2 && (uint32_t)rules->race <= CAROM_RACE_POINTS &&
+  return (uint32_t)rules->breaks <= 2 && (uint32_t)rules->race <= CAROM_RACE_SEATS &&
+         (rules->race != CAROM_RACE_SEATS || rules->value != NULL) &&
          carom_rack_size((carom_rack_kind)rules->rack) > 0 && rules->learned >= 0 &&
-         rules->unused == 0 && rules->state.unused == 0 && CAROM_RESERVED_IS_ZERO(rules);
+         rules->unused == 0 && CAROM_RESERVED_IS_ZERO(rules);
 }
 
 /* Checks what a job says of itself; the table and the balls are checked with the layout. */

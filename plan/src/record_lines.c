@@ -39,18 +39,18 @@ static const char *find_fault_of_game(const carom_record *record, const char **k
   if (record->rules < 0 || record->rules > RULES_MOST)
     return "must be a carom_rules_kind";
   *key = "winner";
-  if (record->winner < 0 || record->winner > 3)
-    return "must be 0, 1, 2 or 3";
+  if (record->winner < 0 || record->winner > CAROM_DRAWN)
+    return "must be 0 to 9";
   *key = "player";
-  if (record->player < 0 || record->player > 1)
-    return "must be 0 or 1";
+  if (record->player < 0 || record->player >= CAROM_SEATS_MOST)
+    return "must be 0 to 7";
   return NULL;
 }
 
 static const char *find_fault_of_act(const carom_record *record, const char **key) {
   *key = "player";
-  if (record->actor < 0 || record->actor > 1)
-    return "must be 0 or 1";
+  if (record->actor < 0 || record->actor >= CAROM_SEATS_MOST)
+    return "must be 0 to 7";
   return NULL;
 }
 

@@ -17,7 +17,9 @@
 
 /* Members that came later. Their keys stand behind the others of a line, so that the hashes of
  * older recordings stay. */
-#define CAROM_LATER_MEMBERS(MEMBER) MEMBER(INNINGS, innings, 0, 3, "0 to 3")
+#define CAROM_LATER_MEMBERS(MEMBER)        \
+  MEMBER(INNINGS, innings, 0, 3, "0 to 3") \
+  MEMBER(SEAT, seat, 0, 7, "0 to 7")
 #define CAROM_ALL_MEMBERS(MEMBER) CAROM_STATE_MEMBERS(MEMBER) CAROM_LATER_MEMBERS(MEMBER)
 
 #endif

@@ -81,7 +81,7 @@ static int strokes_of_game(carom_rules_kind kind, uint64_t seed, bool equal, uin
     if (match.rulings > 0)
       check_ruling(&match.ruling);
     hash = hash_of(hash, &match.record.cue, sizeof match.record.cue);
-    hash = hash_of(hash, &match.rules.state, sizeof match.rules.state);
+    hash = hash_of(hash, &match.rules.state, offsetof(carom_rules_state, context));
     for (int k = 0; k < match.record.count; k++)
       hash = hash_of(hash, match.record.balls[k].state.r, sizeof match.record.balls[k].state.r);
     if (tells)
