@@ -376,10 +376,12 @@ namespace Carom {"""
         ]
         parameters, passed = self.arguments_of(roles)
         name = pascal(function["name"].removeprefix("carom_match_" if of_match else "carom_"))
+        asks = {"result", "words"} & {role for _, role in roles}
         if of_match:
-            of_player = ["Player" if entry == "player" else entry for entry in passed]
+            passed = ["Open", *("Seat" if entry == "player" else entry for entry in passed)]
+        if of_match and not asks:
             parameters = [entry for entry in parameters if entry != "int player"]
-            call = f"Native.{function['name']}({', '.join(['Open', *of_player])})"
+            call = f"Native.{function['name']}({', '.join(passed)})"
             return [
                 f"    public void {name}({', '.join(parameters)}) {{",
                 f"      Told({call});",
@@ -416,7 +418,8 @@ namespace Carom {"""
         else:
             result = self.type(returned)
             lines = [f"{pinned}{'' if result == 'void' else 'return '}{call};"]
-        head = f"    public static {result} {name}({', '.join(parameters)}) {{"
+        static = "" if of_match else "static "
+        head = f"    public {static}{result} {name}({', '.join(parameters)}) {{"
         return [head, *(f"      {line}" for line in lines), "    }"]
 
     CALLS = """using System;
@@ -593,8 +596,10 @@ impl Default for {0} {{
         """A function without pointers."""
         parameters, passed = self.arguments_of(roles)
         name = self.name(function["name"].removeprefix("carom_match_" if of_match else "carom_"))
-        call = f"sys::{function['name']}({', '.join(['&mut *self.of'] * of_match + passed)})"
-        if of_match:
+        asks = {"result", "words"} & {role for _, role in roles}
+        own = "&*self.of" if asks else "&mut *self.of"
+        call = f"sys::{function['name']}({', '.join([own] * of_match + passed)})"
+        if of_match and not asks:
             player = ["let player = self.at_table();"] if "player" in passed else []
             parameters = [
                 "&mut self",
@@ -604,6 +609,7 @@ impl Default for {0} {{
             lines = [*player, f"let status = unsafe {{ {call} }};", "self.told(status)"]
         else:
             result, lines = self.result(function["returns"], roles, f"unsafe {{ {call} }}")
+            parameters = ["&self"] * of_match + parameters
         arrow = f" -> {result}" if result else ""
         lines = [
             f"pub fn {name}({', '.join(parameters)}){arrow} {{",

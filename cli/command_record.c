@@ -173,6 +173,7 @@ typedef struct recording {
   FILE *in;
   char *text;
   size_t space, size; /* bytes of text, and of the line in it */
+  int64_t shots;      /* of the matches of a set that are over */
   bool stands;        /* a line told how a game stands */
   bool open; /* a shot ended otherwise, and is told: hashes of lines behind it differ too */
 } recording;
@@ -186,6 +187,16 @@ static void recording_close(recording *r) {
   free(r->text);
   if (r->in != stdin)
     fclose(r->in);
+}
+
+/* Behind the end of a match of a set its next match begins, in the same file. */
+static void begin_next_match(recording *r, carom_record *game) {
+  const bool begins = strncmp(r->text, "{\"recording\"", 12) == 0;
+  if (game->kind != CAROM_RECORD_END || game->set.race == 0 || !begins)
+    return;
+  const int64_t line = game->line;
+  r->shots += game->shots;
+  *game = (carom_record){.line = line};
 }
 
 /* Reads the next line; false at the end of the file, or after a complaint, which *bad says. */
@@ -203,6 +214,7 @@ static bool next_line(recording *r, carom_record *game, bool *failed) {
     return false;
   }
   r->size = (size_t)size;
+  begin_next_match(r, game);
   const carom_status status = carom_record_read(game, r->text, r->size);
   *failed = status < 0;
   if (status == CAROM_ERROR_REVISION)
@@ -426,7 +438,7 @@ static int tell_good(const recording *r, const carom_record *game) {
   if (game->match != 1 && r->stands)
     snprintf(what, sizeof what, "its rulings are not judged, as it is no match (format 3)");
   printf("%s: %" PRId64 " shots, every bit agrees (revision %" PRId64 " of the physics)%s%s\n",
-         r->path, game->shots, game->revision, text_if(what[0] != '\0', "; "), what);
+         r->path, r->shots + game->shots, game->revision, text_if(what[0] != '\0', "; "), what);
   if (!whole)
     printf("%s: cut off: lines of the last ruling are missing\n", r->path);
   return exit_of(whole);

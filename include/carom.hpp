@@ -618,9 +618,13 @@ public:
   bool over() const {
     return match_->phase == CAROM_MATCH_OVER;
   }
-  /* Who is at the table. */
+  /* The side at the table; in games that each plays for itself, the seat. */
   int player() const {
     return static_cast<int>(match_->record.player);
+  }
+  /* The seat at the table. */
+  int seat() const {
+    return match_->seat;
   }
   /* The recording so far, with the lines that were missing in a text that was read and cut off. */
   const std::string &lines() const {
@@ -653,18 +657,17 @@ public:
                                      static_cast<int>(balls.size()), &options, leave, player));
   }
   carom_status choose(carom_choice choice) {
-    return told(carom_match_choose(match_.get(), player(), choice));
+    return told(carom_match_choose(match_.get(), seat(), choice));
   }
   carom_status place(double x, double y) {
-    return told(carom_match_place(match_.get(), player(), x, y));
+    return told(carom_match_place(match_.get(), seat(), x, y));
   }
   carom_status call(int ball, int pocket) {
-    return told(carom_match_call(match_.get(), player(), {ball, pocket}));
+    return told(carom_match_call(match_.get(), seat(), {ball, pocket}));
   }
   carom_status stroke(const carom_cue &cue, const carom_shot_options &stop = {}) {
-    return play(true, [&] {
-      return carom_match_stroke(match_.get(), player(), &cue, &stop, &last_.shot_);
-    });
+    return play(
+        true, [&] { return carom_match_stroke(match_.get(), seat(), &cue, &stop, &last_.shot_); });
   }
   carom_status go_on(const carom_shot_options &stop = {}) {
     return play(false, [&] { return carom_match_continue(match_.get(), &stop, &last_.shot_); });
@@ -673,7 +676,7 @@ public:
     return told(carom_match_concede(match_.get(), who));
   }
   carom_status clock() {
-    return told(carom_match_clock(match_.get(), player()));
+    return told(carom_match_clock(match_.get(), seat()));
   }
   carom_status end() {
     return told(carom_match_end(match_.get()));
@@ -699,7 +702,7 @@ public:
   /* Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the stroke as
    * the player makes it. */
   carom_status take(const carom_plan_stroke &best, const carom_cue &cue) {
-    const carom_status code = told(carom_match_prepare(match_.get(), player(), &best));
+    const carom_status code = told(carom_match_prepare(match_.get(), seat(), &best));
     return code < 0 || best.kind == CAROM_PLAN_PASS ? code : stroke(cue);
   }
 

@@ -43,7 +43,9 @@ typedef enum carom_record_kind {
   CAROM_RECORD_END = 9,      /* "end": the last line; a recording without it was cut off */
   CAROM_RECORD_GAME = 10,    /* "game": the rules, who is at the table, and how the game stands */
   CAROM_RECORD_WRONG = 11,   /* a line that was refused; nothing is read after it */
-  CAROM_RECORD_ACT = 12 /* "act", of a match: what a player decided besides strokes and places */
+  CAROM_RECORD_ACT = 12,   /* "act", of a match: what a player decided besides strokes and places */
+  CAROM_RECORD_SEATS = 13, /* "seats", of a match: who plays, with what, and what a stroke may be */
+  CAROM_RECORD_SET = 14    /* "set", of a match: the set that it belongs to */
 } carom_record_kind;
 
 /* The bytes that any line fits into, even that of 32 balls that have nothing in common. */
@@ -59,8 +61,57 @@ typedef struct carom_record_end {
                      2^64. It is no signature. */
 } carom_record_end;
 
-/* The largest number of seats of a match. */
-enum { CAROM_SEATS_MOST = 8 };
+/* The largest number of seats of a match, and the bytes of a name with its closing 0. */
+enum { CAROM_SEATS_MOST = 8, CAROM_SEAT_NAME = 32 };
+
+/* A seat of a match: who sits there, and with what. */
+typedef struct carom_seat {
+  char name[CAROM_SEAT_NAME]; /* UTF-8 without control characters, quotes and backslashes; "": the
+                                 seat has none. */
+  int64_t side;               /* 0 to 7: seats of one side play together, in their order. */
+  int64_t handicap; /* of the first seat of a side, 0 to 1,000,000: in games of points the points
+                       with which the side begins, so that who needs 25 of 40 points begins with 15;
+                       in nine-ball, up to 8, how many balls below the nine win too; in killer, up to 97, lives beyond the usual ones; in other games 0. */
+  double rating;    /* a Fargo rating, 200 to 850; 0: unknown. */
+  carom_cue cue;    /* the stick and the tip; of the stroke itself, nothing is read. */
+} carom_seat;
+
+/* Bounds of a fair stroke. 0: no bound. */
+typedef struct carom_stroke_limits {
+  double speed;                 /* m/s, at most. */
+  double theta;                 /* degrees, at most. */
+  double tip;                   /* radii of the ball: sqrt(a^2 + b^2) at most. */
+  double mass_least, mass_most; /* kg. */
+  double end_mass_least;        /* kg. */
+  double tip_restitution_most;  /* of a stroke in which 0 stands for 1. */
+  int64_t own_cue;              /* 1: stick and tip are those of the seat, bit by bit. */
+} carom_stroke_limits;
+
+/* The seats of a match. */
+typedef struct carom_seating {
+  int64_t count;                     /* 2 to CAROM_SEATS_MOST. */
+  carom_seat seat[CAROM_SEATS_MOST]; /* the seats, in the order in which they play. */
+  int64_t alternate;                 /* seats of one side take turns: 0: by visits; 1: by strokes,
+                                          as in Scotch doubles. */
+  carom_stroke_limits limits;        /* of all strokes. */
+} carom_seating;
+
+/* A set: matches that are played one after the other, until a side has won `race` of them. */
+typedef struct carom_set {
+  int64_t race;                  /* 1 to 1000; 0: the match belongs to no set. Best of n is a race
+                                    to n / 2 + 1. */
+  int64_t order;                 /* who breaks: a carom_break_order of carom_match.h. */
+  int64_t first;                 /* the side that breaks first, such as by the lag. */
+  int64_t number;                /* of this match, from 1. */
+  int64_t won[CAROM_SEATS_MOST]; /* how many matches each side had won before it. */
+  int64_t seed;            /* of the rack of match 1, 0 to 2^53 - 1; match n has seed + n - 1. */
+  int64_t target;          /* as in carom_match_begin_to(). */
+  int64_t equal_innings;   /* 1: the match may have an equalizing inning, else 0. */
+  double clock, extension; /* s: the time for a stroke, and by how much an extension lengthens
+                                    it. The caller measures; 0: there is none. */
+  int64_t extensions, timeouts; /* how many extensions a side has in a match, and how many timeouts
+                                    in the set. */
+} carom_set;
 
 /* The state of a game for the player at the table. The first number of a pair belongs to this
  * player, the second to the opponent. A game of carom_plan.h reads the members that
@@ -123,18 +174,21 @@ typedef struct carom_record {
                                                carom_plan.h; 0: anywhere. */
   int64_t rules;                            /* the rules of the game, a carom_rules_kind of
                                                carom_plan.h. */
-  int64_t player;                           /* who is at the table, 0 or 1. */
-  int64_t winner;  /* 1 + the player who has won; CAROM_DRAWN of carom_plan.h; 0: none yet. */
-  int64_t foul;    /* the foul of the last stroke, a carom_foul of
+  int64_t player;                           /* the side at the table: 0 or 1, or the seat in games
+                                               that each plays for itself. */
+  int64_t winner;        /* 1 + the player who has won; CAROM_DRAWN of carom_plan.h; 0: none yet. */
+  int64_t foul;          /* the foul of the last stroke, a carom_foul of
                                                carom_plan.h. */
-  int64_t act;     /* the last act that was decided, a carom_act of
+  int64_t act;           /* the last act that was decided, a carom_act of
                                                carom_match.h. */
-  int64_t actor;   /* the player who decided the last act, 0 or 1. */
-  int64_t choice;  /* the choice of the last act, a carom_choice. */
-  int64_t call[2]; /* indices of the ball and the pocket that were called
+  int64_t actor;         /* the seat that decided the last act. */
+  int64_t choice;        /* the choice of the last act, a carom_choice. */
+  int64_t call[2];       /* indices of the ball and the pocket that were called
                                                in the last act. */
-  uint64_t seal;   /* the hash in the last line that has one. */
-  int64_t match;   /* 1: the recording is of a match. Set it before the
+  uint64_t seal;         /* the hash in the last line that has one. */
+  carom_seating seating; /* of a match with a line "seats"; else all zero. */
+  carom_set set;         /* of a match with a line "set"; else all zero. */
+  int64_t match;         /* 1: the recording is of a match. Set it before the
                                                first line is written. */
   /* The state of the game for this player; carom_rules_fault() checks it. */
   carom_rules_state standing;

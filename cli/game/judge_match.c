@@ -15,9 +15,19 @@ bool judge_line(const char *line, size_t size, char why[JUDGED_TEXT]) {
 }
 
 bool judge_end(char what[JUDGED_TEXT]) {
-  static const char *const ends[] = {"nobody has won", "player 1 has won", "player 2 has won",
-                                     "the match is drawn"};
-  snprintf(what, JUDGED_TEXT, "%lld rulings by the rules; %s", (long long)match.rulings,
-           ends[match.winner]);
+  char winner[128] = "nobody has won", set[64] = "";
+  if (match.winner == CAROM_DRAWN)
+    snprintf(winner, sizeof winner, "the match is drawn");
+  else if (match.winner > 0 && match.seating.seat[match.winner - 1].name[0] != '\0')
+    carom_match_string(&match, winner, sizeof winner);
+  else if (match.winner > 0)
+    snprintf(winner, sizeof winner, "player %d has won", (int)match.winner);
+  carom_standing standing;
+  carom_match_standing(&match, &standing);
+  if (match.record.set.race > 0)
+    snprintf(set, sizeof set, "; match %d of a set, which stands %d : %d",
+             (int)match.record.set.number, (int)standing.won[0], (int)standing.won[1]);
+  snprintf(what, JUDGED_TEXT, "%lld rulings by the rules; %s%s", (long long)match.rulings, winner,
+           set);
   return match.size == 0;
 }

@@ -1,18 +1,20 @@
-/* carom_match.h: a match between two players: the table, the balls, the rules and the recording in
- * one object, which takes one act after another.
+/* carom_match.h: a match of 2 to 8 seats: the table, the balls, the rules, the players with their
+ * cues, the last shot and the recording in one object, which takes one act after another.
  *
  *     static carom_match match;  // all zero
  *     carom_table_make(CAROM_TABLE_POOL_9FT, &table);
  *     carom_match_begin(&match, CAROM_RULES_EIGHTBALL, &table, 1, 0);
  *     while (match.phase != CAROM_MATCH_OVER) {
  *       fwrite(match.text, 1, (size_t)match.size, file);  // the lines of the last act
- *       int player = (int)match.record.player;
+ *       int seat = match.seat;
  *       if (match.phase == CAROM_MATCH_PLACE)
- *         status = carom_match_place(&match, player, x, y);
+ *         status = carom_match_place(&match, seat, x, y);
  *       else if (wants to call)
- *         status = carom_match_call(&match, player, (carom_call){ball, pocket});
- *       else
- *         status = carom_match_stroke(&match, player, &cue, NULL, NULL);
+ *         status = carom_match_call(&match, seat, (carom_call){ball, pocket});
+ *       else {
+ *         carom_cue cue = match.cue;  // of this seat, at the cue ball: aim it
+ *         status = carom_match_stroke(&match, seat, &cue, NULL, NULL);
+ *       }
  *       if (status == CAROM_ERROR_ACT)
  *         printf("%s\n", match.fault);  // such as "place: the cue ball must be within ..."
  *     }
@@ -66,12 +68,21 @@ typedef enum carom_match_phase {
   CAROM_MATCH_OVER = 4    /* nothing: match.winner has won, or the match is drawn */
 } carom_match_phase;
 
+/* Who breaks in a set. */
+typedef enum carom_break_order {
+  CAROM_BREAKS_ALTERNATE = 0, /* the sides in turn */
+  CAROM_BREAKS_WINNER = 1,    /* the side that has won the match before; of a drawn one, in turn */
+  CAROM_BREAKS_LOSER = 2      /* the side after it */
+} carom_break_order;
+
 /* The acts of lines "act". */
 typedef enum carom_act {
   CAROM_ACT_CHOOSE = 1,  /* one of the choices */
   CAROM_ACT_CALL = 2,    /* a ball and a pocket */
   CAROM_ACT_CONCEDE = 3, /* the player gives the game to the other */
-  CAROM_ACT_CLOCK = 4    /* the time for a stroke is over: a foul */
+  CAROM_ACT_CLOCK = 4,   /* the time for a stroke is over: a foul */
+  CAROM_ACT_EXTEND = 5,  /* the player takes an extension of the time for this stroke */
+  CAROM_ACT_TIMEOUT = 6  /* the player takes a timeout */
 } carom_act;
 
 /* Why an act was refused. */
@@ -79,7 +90,7 @@ typedef enum carom_refusal {
   CAROM_REFUSED_NOT = 0,       /* the act was not refused */
   CAROM_REFUSED_NOT_BEGUN = 1, /* the match has not begun */
   CAROM_REFUSED_OVER = 2,      /* the match is over */
-  CAROM_REFUSED_TURN = 3,      /* the other player is at the table */
+  CAROM_REFUSED_TURN = 3,      /* another seat is at the table, or sent the line */
   CAROM_REFUSED_MOVING = 4,    /* balls move */
   CAROM_REFUSED_AT_REST = 5,   /* no ball moves, so no shot goes on */
   CAROM_REFUSED_IN_HAND = 6,   /* the cue ball must be placed first */
@@ -91,7 +102,9 @@ typedef enum carom_refusal {
   CAROM_REFUSED_CUE_BALL = 12, /* another ball than the cue ball would be struck */
   CAROM_REFUSED_STROKE = 13,   /* the stroke cannot be played: its status is in match.fault */
   CAROM_REFUSED_BEGIN = 14,    /* a match cannot begin so */
-  CAROM_REFUSED_LINE = 15      /* a line that was read is not by the rules */
+  CAROM_REFUSED_LINE = 15,     /* a line that was read is not by the rules */
+  CAROM_REFUSED_LIMIT = 16,    /* the stroke is beyond the limits of the match */
+  CAROM_REFUSED_TIME = 17      /* no extension or timeout is left */
 } carom_refusal;
 
 /* The word for a refusal, such as "bounds"; "" for NOT and a value not listed. */
@@ -107,21 +120,31 @@ typedef struct carom_match {
                                   are of the last shot. */
   carom_plan_rules rules; /* their state is that of the player at the table. */
   int32_t phase;          /* a carom_match_phase. */
-  int32_t winner;         /* 1 + the player who has won; CAROM_DRAWN; 0: none yet. */
+  int32_t seat;           /* the seat at the table. */
+  int32_t winner;         /* 1 + the side that has won; CAROM_DRAWN; 0: none yet. */
   int32_t may;            /* the choices: the sum of the carom_choice for carom_match_choose(). */
   int32_t cue_ball;       /* of the player at the table. */
-  uint32_t on;            /* balls that may be met first in the next stroke, as a set. */
-  uint32_t touching;      /* balls that touch the cue ball, as a set. */
-  carom_bounds bounds;    /* of a cue ball in hand, until the stroke. */
-  int32_t leave;          /* the carom_leave of these bounds. */
-  int32_t refusal;        /* of the last act: a carom_refusal. */
-  carom_call call;        /* of the next stroke; {-1, -1}: none. */
-  carom_ruling ruling;    /* the last one; all zero before it. */
-  int64_t rulings;        /* how many there were. */
-  int64_t size;           /* bytes of text[]: the lines of the last act; behind lines that were
+  carom_cue cue;         /* of the seat at the table, for the cue ball; the stroke is the usual one,
+                             as of carom_cue_of(). */
+  carom_seating seating; /* who plays, and the limits of strokes. */
+  int32_t turns[CAROM_SEATS_MOST];      /* of each side: whose turn it is, of its seats from 0. */
+  int32_t extensions[CAROM_SEATS_MOST]; /* of each side: how many it has taken in this match. */
+  int32_t timeouts[CAROM_SEATS_MOST];   /* of each side: how many it has taken in the set. */
+  carom_shot_ball before[CAROM_BALLS_MOST]; /* the balls before the last stroke. */
+  carom_cue stroke;            /* the last stroke, whose shot carom_match_replay() gives. */
+  carom_player player;         /* of the seat at the table, by its rating. */
+  uint32_t on;                 /* balls that may be met first in the next stroke, as a set. */
+  uint32_t touching;           /* balls that touch the cue ball, as a set. */
+  carom_bounds bounds;         /* of a cue ball in hand, until the stroke. */
+  int32_t leave;               /* the carom_leave of these bounds. */
+  int32_t refusal;             /* of the last act: a carom_refusal. */
+  carom_call call;             /* of the next stroke; {-1, -1}: none. */
+  carom_ruling ruling;         /* the last one; all zero before it. */
+  int64_t rulings;             /* how many there were. */
+  int64_t size;                /* bytes of text[]: the lines of the last act; behind lines that were
                                   read: those that are still missing. */
-  int64_t due;            /* of these, the bytes that carom_match_read() awaits. */
-  char fault[256];        /* of the last act, why it was refused. */
+  int64_t due;                 /* of these, the bytes that carom_match_read() awaits. */
+  char fault[256];             /* of the last act, why it was refused. */
   char text[CAROM_MATCH_TEXT]; /* lines: `size` bytes of them. */
 } carom_match;
 
@@ -148,9 +171,60 @@ CAROM_API carom_status carom_match_begin_at(carom_match *match, carom_rules_kind
                                             const carom_shot_options *options, carom_leave leave,
                                             int player);
 
+/* ---- Seats and sets -------------------------------------------------------------------------- */
+
+/* The usual seats of a game: each a side of its own, without name and handicap, with the game's cue
+ * and these limits: 15 m/s, 90 degrees, 0.75 radii, sticks of 0.2 to 1.2 kg whose end has 1 g or
+ * more. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT for a number of seats that the game does not
+ * have. */
+CAROM_API carom_status carom_seating_make(carom_rules_kind rules, int count,
+                                          carom_seating *seating);
+
+/* How a match begins. All zero but `table`: eight-ball of two, with a rack. */
+typedef struct carom_match_setup {
+  carom_rules_kind rules;            /* the game. */
+  const carom_plan_rules *of;        /* as in carom_match_begin_at(); NULL: of this kind. */
+  const carom_table *table;          /* the table. */
+  const carom_shot_ball *balls;      /* a layout; NULL: the rack of the game. */
+  int64_t count;                     /* how many balls the layout has. */
+  const carom_shot_options *options; /* NULL: the defaults. */
+  carom_leave leave;                 /* of a layout. */
+  int32_t target, equal_innings;     /* as in carom_match_begin_to(). */
+  int64_t side;                      /* which breaks, or plays first. */
+  uint64_t seed;                     /* of the rack. */
+  const carom_seating *seating;      /* NULL: the usual two seats. */
+  const carom_set *set;              /* race, order, clock, extension, extensions and timeouts of a
+                                         set; the rest is set here. NULL: none. */
+} carom_match_setup;
+
+/* Begins a match of any seats. As carom_match_begin_at(), or carom_match_begin_to() without balls.
+ * CAROM_ERROR_ACT also for seats or a set that cannot be; a set needs a rack. */
+CAROM_API carom_status carom_match_begin_with(carom_match *match, const carom_match_setup *setup);
+
+/* Begins the next match of the set, with the same seats; match->text has the end of this one, unless
+ * that was written, and the beginning. CAROM_ERROR_ACT where the match is not over, belongs to no
+ * set, or where the set is over. */
+CAROM_API carom_status carom_match_next(carom_match *match);
+
+/* How the match stands, by sides and seats, whoever is at the table. */
+typedef struct carom_standing {
+  int64_t sides;                     /* how many sides play. */
+  int64_t points[CAROM_SEATS_MOST];  /* of each side, with its handicap; in games that each plays
+                                        for itself what it has left, as lives or number of balls; 0
+                                        in games without points. */
+  int64_t won[CAROM_SEATS_MOST];     /* of each side: matches of the set, with this one. */
+  int64_t side_of[CAROM_SEATS_MOST]; /* of each seat. */
+  int64_t set_winner;                /* 1 + the side that has won the set; 0: none yet. */
+} carom_standing;
+CAROM_API carom_status carom_match_standing(const carom_match *match, carom_standing *standing);
+
+/* What the match waits for, or how it ended, in words with names of seats, such as "Ann (seat 0)
+ * has won". As carom_ruling_string(). */
+CAROM_API size_t carom_match_string(const carom_match *match, char *text, size_t room);
+
 /* ---- Acts ------------------------------------------------------------------------------------ */
 
-/* All return CAROM_OK, CAROM_ERROR_NULL or CAROM_ERROR_ACT. `player` is who acts.
+/* All return CAROM_OK, CAROM_ERROR_NULL or CAROM_ERROR_ACT. `player` is the seat that acts.
  *
  * carom_match_choose: one of match->may: PUSH for the next stroke, the others instead of it. */
 CAROM_API carom_status carom_match_choose(carom_match *match, int player, carom_choice choice);
@@ -182,7 +256,19 @@ CAROM_API carom_status carom_match_stroke(carom_match *match, int player, const 
 CAROM_API carom_status carom_match_continue(carom_match *match, const carom_shot_options *stop,
                                             carom_shot *shot);
 
-/* The player gives the game to the other, at any time. */
+/* The last stroke again, from its beginning: events, path and film of a shot that was played, read
+ * or loaded, up to where it is, if it still moves; then it is this `shot` with which
+ * carom_match_continue() goes on. `shot` has room for what is wanted. Balls are match->before. As
+ * carom_shoot(); CAROM_ERROR_STATE before the first stroke. */
+CAROM_API carom_status carom_match_replay(carom_match *match, carom_shot *shot);
+
+/* An extension of the time for this stroke, or a timeout: the caller measures, the match counts.
+ * Refused where none is left. */
+CAROM_API carom_status carom_match_extend(carom_match *match, int player);
+CAROM_API carom_status carom_match_timeout(carom_match *match, int player);
+
+/* The player gives the game to the other side, or leaves a game that each plays for itself, at any
+ * time. */
 CAROM_API carom_status carom_match_concede(carom_match *match, int player);
 
 /* The time of the player at the table is over: ruled as a stroke that met no ball. */
@@ -202,9 +288,20 @@ CAROM_API carom_status carom_match_end(carom_match *match);
 CAROM_API carom_status carom_match_read(carom_match *match, carom_record *scratch, const char *line,
                                         size_t size);
 
-/* A plan for the player at the table: sets table, balls, count, rules, shot and leave of the job,
- * whose player, cue, options and memory are the caller's, and plans, with a cue ball in hand within
- * its bounds. As carom_plan() and carom_plan_hand(); goes on by carom_plan_continue(), with the
+/* The same of a line that `seat` has sent, such as another player over a network: an act of another
+ * seat is refused, with nothing changed, and so is a stroke that is none by match->seating.limits.
+ * The lines of the ruling come from the seat that acted. seat -1: a judge, or a file. */
+CAROM_API carom_status carom_match_read_from(carom_match *match, carom_record *scratch,
+                                             const char *line, size_t size, int seat);
+
+/* How many bytes of lines of a match are left where its last act is undone: those before that act.
+ * Reading these gives the match before it, and reading the others does the act again. A copy of a
+ * match is an undo too. */
+CAROM_API size_t carom_match_undone(const char *lines, size_t size);
+
+/* A plan for the seat at the table: sets table, balls, count, rules, shot and leave of the job, cue
+ * where it is NULL, to match->cue, and player where it is NULL and the seat has a rating. Options
+ * and memory are the caller's. Plans with a cue ball in hand within its bounds. As carom_plan() and carom_plan_hand(); goes on by carom_plan_continue(), with the
  * match unchanged. CAROM_ERROR_ACT where no stroke may be played. */
 CAROM_API carom_status carom_match_plan(carom_match *match, carom_plan_job *job,
                                         carom_plan_stroke *choices, int room, int *found);

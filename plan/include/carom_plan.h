@@ -117,7 +117,7 @@ typedef enum carom_turn_outcome {
 } carom_turn_outcome;
 
 /* The winner of a drawn game. A winner is 1 + a player, CAROM_DRAWN, or 0: none yet. */
-enum { CAROM_DRAWN = 1 + CAROM_SEATS_MOST };
+enum { CAROM_DRAWN = 9 }; /* beyond 1 + the last seat */
 
 /* The layout of the next stroke. */
 typedef enum carom_leave {

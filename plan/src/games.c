@@ -59,6 +59,39 @@ const carom_rules_about *carom_rules_about_of(carom_rules_kind kind) {
   return &games[kind].about;
 }
 
+int64_t carom_handicap_most(carom_rules_kind kind) {
+  enum { POINTS = 1000000, MONEY_BALLS = 8 };
+  if (kind == CAROM_RULES_NINEBALL)
+    return MONEY_BALLS;
+  if (!is_game(kind) || (games[kind].members & SCORE) != 0)
+    return POINTS;
+  return 0;
+}
+
+uint32_t carom_needed_balls(carom_rules_kind kind) {
+  switch (kind) {
+  case CAROM_RULES_EIGHTBALL:
+  case CAROM_RULES_BLACKBALL:
+  case CAROM_RULES_HEYBALL:
+    return UINT32_C(1) << 8;
+  case CAROM_RULES_SNOOKER:
+    return UINT32_C(1) << 21;
+  case CAROM_RULES_THREECUSHION:
+  case CAROM_RULES_STRAIGHTRAIL:
+    return 0x7;
+  case CAROM_RULES_FOURBALL:
+  case CAROM_RULES_COWBOY:
+    return 0xf;
+  default:
+    return 0;
+  }
+}
+
+int64_t carom_seat_points(carom_rules_kind kind, uint64_t word) {
+  (void)kind;
+  return (int64_t)word;
+}
+
 bool carom_has_opening(carom_rules_kind kind) {
   return is_game(kind) && (games[kind].members & OPENING) != 0;
 }

@@ -16,7 +16,7 @@
        EIGHTBALL, 15, KITCHEN, ANYWHERE, 1, OPENING | GROUP | MAY,                                 \
        CAROM_CHOICE_RACK | CAROM_CHOICE_OTHER_RACK | CAROM_CHOICE_STAY | CAROM_CHOICE_SPOT)        \
   GAME(NINEBALL, carom_nineball, "nineball", "nine-ball by the WPA", POOL, POOL_9FT, NINEBALL, 9,  \
-       KITCHEN, ANYWHERE, 0, OPENING | FOULS | MAY | TARGET,                                       \
+       KITCHEN, ANYWHERE, 0, OPENING | FOULS | LOST | MAY | TARGET,                                \
        CAROM_CHOICE_PASS | CAROM_CHOICE_PUSH)                                                      \
   GAME(POTTING, carom_potting, "potting", "a drill: all balls count", POOL, POOL_9FT, EIGHTBALL,   \
        0, ANYWHERE, ANYWHERE, 0, NO_MEMBER, 0)                                                     \

@@ -8,6 +8,7 @@
  * reads them back. */
 #include "match.h"
 #include "rules.h"
+#include "seats.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -62,10 +63,11 @@ static carom_status check_player(carom_match *match, int player, const char *act
     return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, act, "the match has not begun");
   if (match->phase == CAROM_MATCH_OVER)
     return carom_match_refuse(match, CAROM_REFUSED_OVER, act, "the match is over");
-  if (player == match->record.player)
+  if (player == match->seat)
     return CAROM_OK;
-  static const char *const at_table[] = {"player 0 is at the table", "player 1 is at the table"};
-  return carom_match_refuse(match, CAROM_REFUSED_TURN, act, at_table[match->record.player != 0]);
+  char right[64];
+  snprintf(right, sizeof right, "player %d is at the table", (int)match->seat);
+  return carom_match_refuse(match, CAROM_REFUSED_TURN, act, right);
 }
 
 /* The same, and no ball may move. */
@@ -102,6 +104,17 @@ static void put_act(carom_match *match, carom_act act, int player, int32_t choic
   put_line(match, CAROM_RECORD_ACT);
 }
 
+/* When the next shot stops. */
+static void set_stops(carom_record *record, const carom_shot_options *stop) {
+  static const carom_shot_options none = {0};
+  if (stop == NULL)
+    stop = &none;
+  record->options.time_most = stop->time_most;
+  record->options.stop_at = stop->stop_at;
+  record->options.first_of = stop->first_of;
+  record->options.events_most = stop->events_most;
+}
+
 /* ---- How a match stands */
 
 static uint32_t in_play(const carom_record *record) {
@@ -133,6 +146,16 @@ void carom_match_look(carom_match *match) {
   match->call = (carom_call){-1, -1};
   match->may = match->rules.state.may;
   match->winner = (int32_t)record->winner;
+  const carom_seat *seat = &match->seating.seat[match->seat];
+  match->cue = seat->cue;
+  match->cue.ball = match->cue_ball;
+  const carom_cue usual = carom_cue_of(CAROM_GAME_POOL);
+  match->cue.speed = usual.speed;
+  match->cue.phi = usual.phi;
+  match->cue.b = usual.b;
+  memset(&match->player, 0, sizeof match->player);
+  if (seat->rating != 0.0)
+    match->player = carom_player_fargo(seat->rating);
   match->on =
       match->rules.on(&match->rules.state, in_play(record)) & ~(UINT32_C(1) << match->cue_ball);
   match->touching = 0;
@@ -163,61 +186,211 @@ static void give_hand(carom_match *match, int32_t leave) {
 
 /* ---- Beginning */
 
+/* Refuses to begin, with the match all zero but for the fault. */
+static carom_status refuse_beginning(carom_match *match, const char *right) {
+  memset(match, 0, sizeof *match);
+  return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin", right);
+}
+
+/* The rules, which may be the caller's, and their state. */
+static carom_status begin_rules(carom_match *match, const carom_match_setup *setup) {
+  match->rules = carom_plan_rules_of(setup->rules);
+  if (setup->of != NULL)
+    match->rules = *setup->of;
+  if (match->rules.on == NULL || match->rules.judge == NULL)
+    return CAROM_ERROR_NULL;
+  const char *range = "", *wrong = carom_rules_fault(setup->rules, &match->rules.state, &range);
+  if (wrong == NULL)
+    return CAROM_OK;
+  char right[128];
+  snprintf(right, sizeof right, "%s must be %s", wrong, range);
+  return refuse_beginning(match, right);
+}
+
+/* Those who sit there: the caller's, which the record then has too, or the usual two. */
+static carom_status begin_seats(carom_match *match, const carom_match_setup *setup) {
+  carom_seating_make(setup->rules, 2, &match->seating);
+  if (setup->seating != NULL)
+    match->seating = match->record.seating = *setup->seating;
+  const char *key = "", *fault = carom_seating_fault(&match->seating, &key);
+  if (fault != NULL) {
+    char right[160];
+    snprintf(right, sizeof right, "seats: %s %s", key, fault);
+    return refuse_beginning(match, right);
+  }
+  fault = carom_seats_fault(&match->rules, setup->rules, &match->seating);
+  if (fault != NULL)
+    return refuse_beginning(match, fault);
+  if (setup->side < 0 || setup->side >= carom_sides_of(&match->seating))
+    return refuse_beginning(match, "the player must be a side, 0 or 1 in games of two");
+  match->record.player = setup->side;
+  return CAROM_OK;
+}
+
+/* The set, of which this is a match. */
+static carom_status begin_set(carom_match *match, const carom_match_setup *setup) {
+  carom_set *set = &match->record.set;
+  if (setup->set == NULL)
+    return CAROM_OK;
+  *set = *setup->set;
+  if (set->number == 0) { /* the first match of it */
+    set->number = 1;
+    set->first = setup->side;
+    set->seed = (int64_t)setup->seed;
+    set->target = setup->target;
+    set->equal_innings = setup->equal_innings;
+  }
+  const char *key = "", *fault = carom_set_fault(set, &key);
+  if (fault == NULL && setup->balls == NULL)
+    return CAROM_OK;
+  if (fault == NULL)
+    return refuse_beginning(match, "the matches of a set begin with a rack");
+  char right[160];
+  snprintf(right, sizeof right, "set.%s %s", key, fault);
+  return refuse_beginning(match, right);
+}
+
+/* Whether the rules can have this layout. */
+static carom_status begin_layout(carom_match *match, const carom_match_setup *setup,
+                                 const carom_shot_ball *balls, int count) {
+  carom_record *record = &match->record;
+  if (count < 2 || count > CAROM_BALLS_MOST)
+    return CAROM_ERROR_BALLS;
+  record->match = 1;
+  record->table = *setup->table;
+  if (setup->options != NULL)
+    record->options = *setup->options;
+  record->count = count;
+  memcpy(record->balls, balls, (size_t)count * sizeof *balls);
+
+  /* a shot can be played from it, but for a cue ball in hand */
+  carom_shot_ball lies[CAROM_BALLS_MOST];
+  memcpy(lies, balls, (size_t)count * sizeof *balls);
+  if (setup->leave >= CAROM_LEAVE_ANYWHERE)
+    lies[carom_match_cue_ball(match)].state.label = CAROM_BALL_POCKETED;
+  const carom_status error =
+      carom_shot_check(setup->table, lies, count, NULL, setup->options, NULL);
+  if (error != CAROM_OK)
+    return error;
+
+  /* the balls without which the game is none are there, and one is on */
+  const uint32_t own_ball = UINT32_C(1) << carom_match_cue_ball(match);
+  const uint32_t there = in_play(record) | own_ball;
+  uint32_t needed = 0;
+  if (setup->of == NULL || carom_rules_about_of(setup->rules) != NULL)
+    needed = carom_needed_balls(setup->rules);
+  char right[256], text[128];
+  if ((needed & ~there) != 0) {
+    snprintf(right, sizeof right,
+             "the game needs ball %s on the table; the rules CAROM_RULES_POTTING play any layout",
+             list_balls(needed & ~there, text));
+    return refuse_beginning(match, right);
+  }
+  if ((match->rules.on(&match->rules.state, there) & ~own_ball) == 0)
+    return refuse_beginning(match, "no ball of the layout is on");
+  return CAROM_OK;
+}
+
+/* Everything but the balls; then the first lines. */
+static carom_status begin_with(carom_match *match, const carom_match_setup *setup,
+                               const carom_shot_ball *balls, int count) {
+  carom_record *record = &match->record;
+  const bool known = setup->of != NULL || carom_rules_about_of(setup->rules) != NULL;
+  if (!known || (uint32_t)setup->leave > CAROM_LEAVE_BAULK)
+    return refuse_beginning(match, "the rules must be a carom_rules_kind, leave a carom_leave");
+  carom_status status = begin_rules(match, setup);
+  if (status == CAROM_OK)
+    status = begin_seats(match, setup);
+  if (status == CAROM_OK)
+    status = begin_set(match, setup);
+  if (status == CAROM_OK)
+    carom_seats_begin(&match->seating, setup->rules, setup->side, &match->rules);
+  if (status == CAROM_OK)
+    status = begin_layout(match, setup, balls, count);
+  if (status != CAROM_OK)
+    return status;
+  record->rules = (int64_t)setup->rules;
+  record->standing = match->rules.state;
+  carom_take_seat(match);
+  put_line(match, CAROM_RECORD_HEAD);
+  put_line(match, CAROM_RECORD_TABLE);
+  put_line(match, CAROM_RECORD_OPTIONS);
+  if (record->seating.count > 0)
+    put_line(match, CAROM_RECORD_SEATS);
+  if (record->set.race > 0)
+    put_line(match, CAROM_RECORD_SET);
+  put_line(match, CAROM_RECORD_BALLS);
+  give_hand(match, (int32_t)setup->leave);
+  put_line(match, CAROM_RECORD_GAME);
+  carom_match_look(match);
+  return CAROM_OK;
+}
+
+/* The rack of the game and the state before its break. */
+static carom_status begin_rack(carom_match *match, const carom_match_setup *setup) {
+  const carom_rules_about *about = carom_rules_about_of(setup->rules);
+  if (about == NULL || (setup->equal_innings >> 1) != 0)
+    return refuse_beginning(match, "the rules must be a carom_rules_kind, equal_innings 0 or 1");
+  const bool is_carom = about->balls == CAROM_GAME_BILLIARD || about->balls == CAROM_GAME_FOURBALL;
+  if (is_carom != (setup->table->pockets == 0)) {
+    const char *right = "the table must have pockets for this game";
+    if (is_carom)
+      right = "the table must have no pockets for this game";
+    return refuse_beginning(match, right);
+  }
+  carom_shot_ball balls[CAROM_BALLS_MOST];
+  const carom_rack_kind rack = (carom_rack_kind)about->rack;
+  const carom_status error =
+      carom_rack(rack, setup->table, 1e-4, setup->seed, balls, CAROM_BALLS_MOST);
+  if (error != CAROM_OK)
+    return error;
+  carom_plan_rules rules = carom_plan_rules_of(setup->rules);
+  rules.state.opening = carom_has_opening(setup->rules);
+  rules.state.innings = setup->equal_innings;
+  if (setup->target != 0)
+    rules.state.target = setup->target;
+  if (setup->table->pockets == 0)
+    rules.state.group = 1 + (int32_t)setup->side;
+  if (carom_cue_ball_of(&rules) == 1) { /* the white spot is that of who opens */
+    const carom_ball_state white = balls[0].state;
+    balls[0].state = balls[1].state;
+    balls[1].state = white;
+  }
+  carom_match_setup racked = *setup;
+  racked.of = &rules;
+  racked.leave = (carom_leave)about->opening;
+  return begin_with(match, &racked, balls, carom_rack_size(rack));
+}
+
+carom_status carom_match_begin_with(carom_match *match, const carom_match_setup *setup) {
+  if (match == NULL || setup == NULL || setup->table == NULL)
+    return CAROM_ERROR_NULL;
+  memset(match, 0, sizeof *match);
+  carom_status status;
+  if (setup->balls == NULL)
+    status = begin_rack(match, setup);
+  else
+    status = begin_with(match, setup, setup->balls, (int)setup->count);
+  if (status != CAROM_OK && status != CAROM_ERROR_ACT)
+    memset(match, 0, sizeof *match);
+  return status;
+}
+
 carom_status carom_match_begin_at(carom_match *match, carom_rules_kind kind,
                                   const carom_plan_rules *of, const carom_table *table,
                                   const carom_shot_ball *balls, int count,
                                   const carom_shot_options *options, carom_leave leave,
                                   int player) {
-  if (match == NULL || table == NULL || balls == NULL)
+  if (balls == NULL)
     return CAROM_ERROR_NULL;
-  memset(match, 0, sizeof *match);
-  const bool known = of != NULL || carom_rules_about_of(kind) != NULL;
-  if (!known || (player >> 1) != 0 || (uint32_t)leave > CAROM_LEAVE_BAULK)
-    return carom_match_refuse(
-        match, CAROM_REFUSED_BEGIN, "begin",
-        "the rules must be a carom_rules_kind, the player 0 or 1, leave a carom_leave");
-  match->rules = carom_plan_rules_of(kind);
-  if (of != NULL)
-    match->rules = *of;
-  if (match->rules.on == NULL || match->rules.judge == NULL)
-    return CAROM_ERROR_NULL;
-  const char *range = "", *wrong = carom_rules_fault(kind, &match->rules.state, &range);
-  if (wrong != NULL) {
-    char right[128];
-    snprintf(right, sizeof right, "%s must be %s", wrong, range);
-    return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin", right);
-  }
-
-  /* the layout must be one that a shot can be played from, but for a cue ball in hand */
-  carom_record *record = &match->record;
-  carom_shot_ball lies[CAROM_BALLS_MOST];
-  if (count < 2 || count > CAROM_BALLS_MOST)
-    return CAROM_ERROR_BALLS;
-  memcpy(lies, balls, (size_t)count * sizeof *balls);
-  if (leave >= CAROM_LEAVE_ANYWHERE)
-    lies[carom_match_cue_ball(match)].state.label = CAROM_BALL_POCKETED;
-  const carom_status error = carom_shot_check(table, lies, count, NULL, options, NULL);
-  if (error != CAROM_OK)
-    return error;
-
-  /* the record, and its first lines */
-  record->match = 1;
-  record->table = *table;
-  if (options != NULL)
-    record->options = *options;
-  record->count = count;
-  memcpy(record->balls, balls, (size_t)count * sizeof *balls);
-  record->rules = (int64_t)kind;
-  record->player = player;
-  record->standing = match->rules.state;
-  put_line(match, CAROM_RECORD_HEAD);
-  put_line(match, CAROM_RECORD_TABLE);
-  put_line(match, CAROM_RECORD_OPTIONS);
-  put_line(match, CAROM_RECORD_BALLS);
-  give_hand(match, (int32_t)leave);
-  put_line(match, CAROM_RECORD_GAME);
-  carom_match_look(match);
-  return CAROM_OK;
+  return carom_match_begin_with(match, &(carom_match_setup){.rules = kind,
+                                                            .of = of,
+                                                            .table = table,
+                                                            .balls = balls,
+                                                            .count = count,
+                                                            .options = options,
+                                                            .leave = leave,
+                                                            .side = player});
 }
 
 carom_status carom_match_begin(carom_match *match, carom_rules_kind kind, const carom_table *table,
@@ -228,43 +401,73 @@ carom_status carom_match_begin(carom_match *match, carom_rules_kind kind, const 
 carom_status carom_match_begin_to(carom_match *match, carom_rules_kind kind, int32_t target,
                                   int equal_innings, const carom_table *table, uint64_t seed,
                                   int player) {
-  if (match == NULL || table == NULL)
-    return CAROM_ERROR_NULL;
-  const carom_rules_about *about = carom_rules_about_of(kind);
-  if (about == NULL || (equal_innings >> 1) != 0) {
-    memset(match, 0, sizeof *match);
-    return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin",
-                              "the rules must be a carom_rules_kind, equal_innings 0 or 1");
-  }
-  const bool is_carom = about->balls == CAROM_GAME_BILLIARD || about->balls == CAROM_GAME_FOURBALL;
-  if (is_carom != (table->pockets == 0)) {
-    const char *right = "the table must have pockets for this game";
-    if (is_carom)
-      right = "the table must have no pockets for this game";
-    memset(match, 0, sizeof *match);
-    return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin", right);
-  }
+  return carom_match_begin_with(match, &(carom_match_setup){.rules = kind,
+                                                            .target = target,
+                                                            .equal_innings = equal_innings,
+                                                            .table = table,
+                                                            .seed = seed,
+                                                            .side = player});
+}
 
-  /* the rack, which a break opens in the games that have one */
-  carom_shot_ball balls[CAROM_BALLS_MOST];
-  const carom_rack_kind rack = (carom_rack_kind)about->rack;
-  const carom_status error = carom_rack(rack, table, 1e-4, seed, balls, CAROM_BALLS_MOST);
-  if (error != CAROM_OK)
-    return error;
-  carom_plan_rules rules = carom_plan_rules_of(kind);
-  rules.state.opening = carom_has_opening(kind);
-  rules.state.innings = equal_innings;
-  if (target != 0)
-    rules.state.target = target;
-  if (table->pockets == 0)
-    rules.state.group = 1 + player;
-  if (carom_cue_ball_of(&rules) == 1) { /* the white spot is that of who opens */
-    const carom_ball_state white = balls[0].state;
-    balls[0].state = balls[1].state;
-    balls[1].state = white;
-  }
-  return carom_match_begin_at(match, kind, &rules, table, balls, carom_rack_size(rack), NULL,
-                              (carom_leave)about->opening, player);
+/* ---- Sets */
+
+/* The side that breaks the next match. */
+static int64_t next_side(const carom_match *match) {
+  const carom_set *set = &match->record.set;
+  const int64_t sides = carom_sides_of(&match->seating);
+  if (set->order == CAROM_BREAKS_ALTERNATE || match->winner == CAROM_DRAWN)
+    return (set->first + set->number) % sides;
+  if (set->order == CAROM_BREAKS_WINNER)
+    return match->winner - 1;
+  return match->winner % sides;
+}
+
+carom_status carom_match_next(carom_match *match) {
+  if (match == NULL)
+    return CAROM_ERROR_NULL;
+  const bool is_ended = match->record.kind == CAROM_RECORD_END;
+  carom_standing standing;
+  begin_act(match);
+  carom_match_standing(match, &standing);
+  if (match->phase != CAROM_MATCH_OVER || match->winner == 0)
+    return carom_match_refuse(match, CAROM_REFUSED_NOT_BEGUN, "next", "no match has been won");
+  if (match->record.set.race == 0 || standing.set_winner != 0)
+    return carom_match_refuse(match, CAROM_REFUSED_OVER, "next",
+                              "the match belongs to no set, or the set has been won");
+
+  /* everything that stays, and what the next match has */
+  if (!is_ended)
+    put_line(match, CAROM_RECORD_END);
+  int32_t timeouts[CAROM_SEATS_MOST];
+  char end[128];
+  const size_t end_size = (size_t)carom_min(match->size, (int64_t)sizeof end);
+  memcpy(end, match->text, end_size);
+  memcpy(timeouts, match->timeouts, sizeof timeouts);
+  set_stops(&match->record, NULL);
+  const carom_table table = match->record.table;
+  const carom_shot_options options = match->record.options;
+  const carom_seating seating = match->record.seating;
+  carom_set set = match->record.set;
+  carom_match_setup setup = {.rules = (carom_rules_kind)match->record.rules,
+                             .table = &table,
+                             .options = &options,
+                             .target = (int32_t)set.target,
+                             .equal_innings = (int32_t)set.equal_innings,
+                             .side = next_side(match),
+                             .seed = (uint64_t)(set.seed + set.number),
+                             .set = &set};
+  if (seating.count > 0)
+    setup.seating = &seating;
+  set.number++;
+  memcpy(set.won, standing.won, sizeof set.won);
+  const carom_status status = carom_match_begin_with(match, &setup);
+  if (status != CAROM_OK)
+    return status;
+  memcpy(match->timeouts, timeouts, sizeof timeouts);
+  memmove(match->text + end_size, match->text, (size_t)match->size);
+  memcpy(match->text, end, end_size);
+  match->size += (int64_t)end_size;
+  return CAROM_OK;
 }
 
 /* ---- Rulings */
@@ -287,8 +490,9 @@ static void keep_in_hand(carom_match *match) {
   ruling->hand = 1;
 }
 
-/* Takes the ruling over: the layout, who plays and how the game stands. */
-static void apply(carom_match *match) {
+/* Takes the ruling over: the layout, who plays and how the game stands. `struck`: of a stroke, or of
+ * one for which the time was over. */
+static void apply(carom_match *match, bool struck) {
   carom_record *record = &match->record;
   carom_ruling *ruling = &match->ruling;
 
@@ -313,14 +517,17 @@ static void apply(carom_match *match) {
   match->rulings++;
   match->rules.state = record->standing = ruling->state;
   record->foul = ruling->turn.foul;
+  carom_end_visit(match, struck, ruling->turn.outcome == CAROM_TURN_PASS);
   switch (ruling->turn.outcome) {
   case CAROM_TURN_KEEP:
     break;
   case CAROM_TURN_PASS:
-    record->player = 1 - player;
+    record->player = 1 - player; /* of seats that play each for itself, the state says it */
     break;
   case CAROM_TURN_WIN:
     record->winner = 1 + player;
+    if (match->rules.race == CAROM_RACE_SEATS)
+      record->winner = 1 + (int64_t)ruling->state.seat;
     break;
   case CAROM_TURN_LOSE:
     record->winner = 1 + (1 - player);
@@ -329,6 +536,7 @@ static void apply(carom_match *match) {
     record->winner = CAROM_DRAWN;
     break;
   }
+  carom_take_seat(match);
   record->hand = 0;
   keep_in_hand(match);
   give_hand(match, (int32_t)ruling->turn.leave);
@@ -352,17 +560,6 @@ static void rule(carom_match *match, bool none, carom_call call) {
 
 /* ---- Strokes */
 
-/* When the next shot stops. */
-static void set_stops(carom_record *record, const carom_shot_options *stop) {
-  static const carom_shot_options none = {0};
-  if (stop == NULL)
-    stop = &none;
-  record->options.time_most = stop->time_most;
-  record->options.stop_at = stop->stop_at;
-  record->options.first_of = stop->first_of;
-  record->options.events_most = stop->events_most;
-}
-
 /* Plays a shot or a part of one, of this cue, and rules where it has ended. */
 static carom_status play(carom_match *match, carom_record_kind kind, const carom_cue *cue,
                          const carom_shot_options *stop, carom_shot *shot, const char *act) {
@@ -382,13 +579,17 @@ static carom_status play(carom_match *match, carom_record_kind kind, const carom
     record->pending = pending;
     return carom_match_refuse(match, CAROM_REFUSED_STROKE, act, carom_status_string(status));
   }
+  if (kind == CAROM_RECORD_SHOT) {
+    memcpy(match->before, record->balls, sizeof match->before);
+    match->stroke = *cue;
+  }
   match->cue_ball = (int32_t)cue->ball;
   put_line(match, kind);
   match->phase = CAROM_MATCH_MOVING;
   if (status > 0)
     return status;
   rule(match, status < 0, match->call);
-  apply(match);
+  apply(match, true);
   return CAROM_OK;
 }
 
@@ -411,6 +612,9 @@ carom_status carom_match_stroke(carom_match *match, int player, const carom_cue 
   if (!(cue->speed > 0.0))
     return carom_match_refuse(match, CAROM_REFUSED_STROKE, "stroke",
                               "cue.speed must be above 0 m/s");
+  char right[128];
+  if (carom_is_beyond(match, cue, right, sizeof right))
+    return carom_match_refuse(match, CAROM_REFUSED_LIMIT, "stroke", right);
   return play(match, CAROM_RECORD_SHOT, cue, stop, shot, "stroke");
 }
 
@@ -424,6 +628,28 @@ carom_status carom_match_continue(carom_match *match, const carom_shot_options *
                               "no ball moves: play a stroke");
   const carom_cue cue = match->record.cue;
   return play(match, CAROM_RECORD_CONTINUE, &cue, stop, shot, "continue");
+}
+
+carom_status carom_match_replay(carom_match *match, carom_shot *shot) {
+  if (match == NULL || shot == NULL)
+    return CAROM_ERROR_NULL;
+  carom_record *record = &match->record;
+  if (!(match->stroke.mass > 0.0))
+    return CAROM_ERROR_STATE;
+  carom_shot_options options = record->options;
+  options.time_most = 0.0;
+  options.stop_at = 0;
+  options.first_of = 0;
+  options.events_most = 0;
+  options.fast = 0;
+  options.threads = 0;
+  if (match->phase == CAROM_MATCH_MOVING) {
+    options.time_most = record->played.time;
+    options.events_most = (int32_t)record->played.events;
+    shot->state = &record->state; /* which knows the events of the caller */
+  }
+  return carom_shoot(&record->table, match->before, (int)record->count, &match->stroke, &options,
+                     shot);
 }
 
 /* ---- Places, calls and choices */
@@ -557,7 +783,7 @@ static carom_status take_choice(carom_match *match, int player, carom_choice cho
   rule(match, true, call);
   if (choice == CAROM_CHOICE_STAY)
     match->ruling.balls[match->cue_ball].state.label = CAROM_BALL_STATIONARY;
-  apply(match);
+  apply(match, false);
   return CAROM_OK;
 }
 
@@ -592,22 +818,79 @@ carom_status carom_match_prepare(carom_match *match, int player, const carom_pla
 
 /* ---- Concessions, clocks, the end */
 
+/* A seat leaves a game that each plays for itself: the next one plays, or the last one has won. */
+static void leave_game(carom_match *match, int player) {
+  carom_rules_state *state = &match->rules.state;
+  const int count = (int)match->seating.count;
+  int remain = 0;
+  state->user[player] = 0;
+  for (int k = 0; k < count; k++)
+    remain += state->user[k] != 0;
+  while (remain > 0 && state->user[state->seat] == 0)
+    state->seat = (state->seat + 1) % count;
+  if (remain == 1)
+    match->record.winner = 1 + state->seat;
+}
+
 carom_status carom_match_concede(carom_match *match, int player) {
   if (match == NULL)
     return CAROM_ERROR_NULL;
   begin_act(match);
   if (match->phase == CAROM_MATCH_NONE || match->phase == CAROM_MATCH_OVER)
     return check_player(match, player, "concede");
-  if ((player >> 1) != 0)
-    return carom_match_refuse(match, CAROM_REFUSED_TURN, "concede", "the player must be 0 or 1");
+  const bool is_own = match->rules.race == CAROM_RACE_SEATS;
+  uint64_t *left = match->rules.state.user;
+  if (player < 0 || player >= match->seating.count || (is_own && left[player] == 0))
+    return carom_match_refuse(match, CAROM_REFUSED_TURN, "concede",
+                              "the player must be a seat that plays");
+  if (is_own && match->phase == CAROM_MATCH_MOVING)
+    return check_turn(match, (int)match->seat, "concede");
   put_act(match, CAROM_ACT_CONCEDE, player, 0, (carom_call){-1, -1});
   carom_record *record = &match->record;
-  record->winner = 1 + (1 - player);
-  record->hand = 0;
+  if (is_own)
+    leave_game(match, player);
+  else
+    record->winner = 2 - match->seating.seat[player].side;
+  if (record->winner != 0)
+    record->hand = 0;
   record->standing = match->rules.state;
+  carom_take_seat(match);
   put_line(match, CAROM_RECORD_GAME);
   carom_match_look(match);
   return CAROM_OK;
+}
+
+/* What is counted of the time of a stroke. */
+static carom_status take_time(carom_match *match, int player, carom_act act) {
+  if (match == NULL)
+    return CAROM_ERROR_NULL;
+  const bool extends = act == CAROM_ACT_EXTEND;
+  const char *name = carom_game_word(CAROM_GAME_WORDS_ACT, (int)act);
+  begin_act(match);
+  const carom_status error = check_turn(match, player, name);
+  if (error != CAROM_OK)
+    return error;
+  const carom_set *set = &match->record.set;
+  const int64_t side = match->record.player;
+  int32_t *taken = &match->timeouts[side];
+  int64_t most = set->timeouts;
+  if (extends) {
+    taken = &match->extensions[side];
+    most = set->extensions;
+  }
+  if (*taken >= most)
+    return carom_match_refuse(match, CAROM_REFUSED_TIME, name, "none is left");
+  ++*taken;
+  put_act(match, act, player, 0, (carom_call){-1, -1});
+  return CAROM_OK;
+}
+
+carom_status carom_match_extend(carom_match *match, int player) {
+  return take_time(match, player, CAROM_ACT_EXTEND);
+}
+
+carom_status carom_match_timeout(carom_match *match, int player) {
+  return take_time(match, player, CAROM_ACT_TIMEOUT);
 }
 
 carom_status carom_match_clock(carom_match *match, int player) {
@@ -619,7 +902,7 @@ carom_status carom_match_clock(carom_match *match, int player) {
     return error;
   put_act(match, CAROM_ACT_CLOCK, player, 0, (carom_call){-1, -1});
   rule(match, true, (carom_call){-1, -1});
-  apply(match);
+  apply(match, true);
   return CAROM_OK;
 }
 
@@ -655,15 +938,27 @@ static void choose_ball(carom_match *match, carom_plan_job *job) {
   cue->ball = ball;
 }
 
+/* Whether a cue is one that a plan before took from the match. */
+static bool is_of_match(const carom_match *match, const carom_cue *cue) {
+  return cue == &match->cue || cue == &match->record.cue;
+}
+
 carom_status carom_match_plan(carom_match *match, carom_plan_job *job, carom_plan_stroke *choices,
                               int room, int *found) {
-  if (match == NULL || job == NULL || job->cue == NULL)
+  if (match == NULL || job == NULL)
     return CAROM_ERROR_NULL;
   const carom_record *record = &match->record;
   begin_act(match);
-  const carom_status error = check_turn(match, (int)record->player, "plan");
+  const carom_status error = check_turn(match, (int)match->seat, "plan");
   if (error != CAROM_OK)
     return error;
+  if (job->cue == NULL || is_of_match(match, job->cue))
+    job->cue = &match->cue;
+  if (job->player == NULL || job->player == &match->player) {
+    job->player = NULL;
+    if (match->player.speed_most > 0.0 || match->player.phi > 0.0)
+      job->player = &match->player;
+  }
   if (!may_strike(match, job->cue->ball))
     return carom_match_refuse(match, CAROM_REFUSED_CUE_BALL, "plan",
                               "job.cue->ball must be match.cue_ball, or a ball in play where any "

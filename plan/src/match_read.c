@@ -5,6 +5,7 @@
  * be these, byte for byte. */
 #include "match.h"
 #include "rules.h"
+#include "seats.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -89,7 +90,19 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
       return refuse_line(match, record->line, what);
     }
   }
+  const uint64_t context = match->rules.state.context;
   match->rules.state = record->standing;
+  match->rules.state.context = context;
+  carom_seating_make((carom_rules_kind)record->rules, 2, &match->seating);
+  if (record->seating.count > 0)
+    match->seating = record->seating;
+  const char *fault =
+      carom_seats_fault(&match->rules, (carom_rules_kind)record->rules, &match->seating);
+  if (fault == NULL && record->player >= carom_sides_of(&match->seating))
+    fault = "game.player must be a side";
+  if (fault != NULL)
+    return refuse_line(match, record->line, fault);
+  carom_take_seat(match);
   match->leave = 0;
   if (record->hand != 0) {
     match->leave = CAROM_LEAVE_ANYWHERE;
@@ -105,7 +118,7 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
 /* Does what a line says, as the player would; its own line is then due. `read` is the record behind
  * it. */
 static carom_status do_line(carom_match *match, const carom_record *read) {
-  const int player = (int)match->record.player;
+  const int player = (int)match->seat;
   const carom_call call = {(int32_t)read->call[0], (int32_t)read->call[1]};
   switch (read->kind) {
   case CAROM_RECORD_SHOT:
@@ -131,13 +144,63 @@ static carom_status do_line(carom_match *match, const carom_record *read) {
     return carom_match_concede(match, (int)read->actor);
   case CAROM_ACT_CLOCK:
     return carom_match_clock(match, (int)read->actor);
+  case CAROM_ACT_EXTEND:
+    return carom_match_extend(match, (int)read->actor);
+  case CAROM_ACT_TIMEOUT:
+    return carom_match_timeout(match, (int)read->actor);
   default:
     return carom_match_refuse(match, CAROM_REFUSED_LINE, "act", "must be a carom_act");
   }
 }
 
-carom_status carom_match_read(carom_match *match, carom_record *scratch, const char *line,
-                              size_t size) {
+/* Whether a seat may have sent the line of an act, of which `read` is the record. */
+static bool may_send(carom_match *match, const carom_record *read, int seat) {
+  int64_t acts = match->seat;
+  if (read->kind == CAROM_RECORD_ACT)
+    acts = read->actor;
+  if (seat < 0 || seat == acts || read->kind == CAROM_RECORD_END)
+    return true;
+  char act[40], right[80];
+  snprintf(act, sizeof act, "line %lld", (long long)match->record.line + 1);
+  snprintf(right, sizeof right, "seat %d has sent an act of seat %d", seat, (int)acts);
+  carom_match_refuse(match, CAROM_REFUSED_TURN, act, right);
+  return false;
+}
+
+/* The line of an act, or the head of the next match of a set: it is done again, and its lines are
+ * due. */
+static carom_status read_act(carom_match *match, carom_record *scratch, const char *line,
+                             size_t size, int seat) {
+  carom_record *record = &match->record;
+  const int64_t number = record->line + 1;
+  carom_status status;
+  if (record->kind == CAROM_RECORD_END && is_kind(line, size, "recording"))
+    status = carom_match_next(match);
+  else {
+    *scratch = *record;
+    status = carom_record_read(scratch, line, size);
+    if (status != CAROM_OK) {
+      snprintf(match->fault, sizeof match->fault, "line %lld: %s", (long long)number,
+               scratch->fault);
+      match->refusal = CAROM_REFUSED_LINE;
+      record->kind = CAROM_RECORD_WRONG;
+      return status;
+    }
+    if (!may_send(match, scratch, seat))
+      return CAROM_ERROR_ACT;
+    status = do_line(match, scratch);
+  }
+  if (status < 0) {
+    char why[200];
+    snprintf(why, sizeof why, "%.199s", match->fault);
+    return refuse_line(match, number, why);
+  }
+  match->due = match->size;
+  return CAROM_OK;
+}
+
+carom_status carom_match_read_from(carom_match *match, carom_record *scratch, const char *line,
+                                   size_t size, int seat) {
   if (match == NULL || scratch == NULL || line == NULL)
     return CAROM_ERROR_NULL;
   line = trimmed(line, &size);
@@ -151,27 +214,14 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
   if (is_kind(line, size, "event") && record->kind != CAROM_RECORD_WRONG)
     return CAROM_OK; /* the shot tells its events */
 
-  /* a line that the rules have made already */
-  size_t pending = line_due(match);
+  /* a line that the rules have made already, or an act */
   const int64_t number = record->line + 1;
-  if (pending == 0) {
-    *scratch = *record;
-    const carom_status status = carom_record_read(scratch, line, size);
-    if (status != CAROM_OK) {
-      snprintf(match->fault, sizeof match->fault, "line %lld: %s", (long long)number,
-               scratch->fault);
-      match->refusal = CAROM_REFUSED_LINE;
-      record->kind = CAROM_RECORD_WRONG;
+  if (line_due(match) == 0) {
+    const carom_status status = read_act(match, scratch, line, size, seat);
+    if (status != CAROM_OK)
       return status;
-    }
-    if (do_line(match, scratch) < 0) {
-      char why[200];
-      snprintf(why, sizeof why, "%.199s", match->fault);
-      return refuse_line(match, number, why);
-    }
-    match->due = match->size;
-    pending = line_due(match);
   }
+  const size_t pending = line_due(match);
   if (pending != size + 1 || memcmp(line, match->text, size) != 0) {
     char words[200] = "the line has other values";
     carom_ruling_string(&match->ruling, words, sizeof words);
@@ -179,4 +229,38 @@ carom_status carom_match_read(carom_match *match, carom_record *scratch, const c
   }
   take_line(match, pending);
   return CAROM_OK;
+}
+
+carom_status carom_match_read(carom_match *match, carom_record *scratch, const char *line,
+                              size_t size) {
+  return carom_match_read_from(match, scratch, line, size, -1);
+}
+
+/* ---- Undo */
+
+/* Whether a line is one that a player caused: an act. A cue ball that comes in hand is none. */
+static bool is_act(const char *line, size_t size) {
+  static const char in_hand[] = "\"hand\":1";
+  if (is_kind(line, size, "act") || is_kind(line, size, "shot") ||
+      is_kind(line, size, "continue") || is_kind(line, size, "end"))
+    return true;
+  if (!is_kind(line, size, "place"))
+    return false;
+  for (size_t k = 0; k + sizeof in_hand - 1 <= size; k++)
+    if (memcmp(line + k, in_hand, sizeof in_hand - 1) == 0)
+      return false;
+  return true;
+}
+
+size_t carom_match_undone(const char *lines, size_t size) {
+  size_t end = size;
+  while (lines != NULL && end > 0) {
+    size_t begin = end - 1;
+    while (begin > 0 && lines[begin - 1] != '\n')
+      begin--;
+    if (is_act(lines + begin, end - begin))
+      return begin;
+    end = begin;
+  }
+  return size;
 }

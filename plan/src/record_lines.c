@@ -2,6 +2,8 @@
 #include "carom_plan.h"
 #include "platform/arithmetic.h"
 #include "record/lines.h"
+#include "schema/numbers.h"
+#include "seats.h"
 #include "state_members.h"
 
 #include <string.h>
@@ -21,6 +23,21 @@ static const carom_field act_fields[] = {CAROM_RECORD_FIELD("act", INT64, true, 
                                          CAROM_RECORD_FIELD("call", INT64, false, 2, call),
                                          CAROM_SEAL_FIELD,
                                          CAROM_NO_FIELD};
+
+#define SEAT_FIELD(member) CAROM_MEMBER_FIELD(#member, carom_seat, member)
+#define STICK_FIELD(member, ...) CAROM_MEMBER_FIELD(#member, carom_seat, cue.member)
+static const carom_field seat_fields[] = {
+    {"name", CAROM_VALUE_TEXT, false, 1, offsetof(carom_seat, name), 0, 0, NULL},
+    SEAT_FIELD(side) SEAT_FIELD(handicap) SEAT_FIELD(rating)
+        CAROM_CUE_NUMBERS(STICK_FIELD, STICK_FIELD) CAROM_NO_FIELD};
+#define LIMIT_FIELD(member) CAROM_MEMBER_FIELD(#member, carom_record, seating.limits.member)
+static const carom_field seats_fields[] = {
+    {"list", CAROM_VALUE_LIST, true, CAROM_SEATS_MOST, offsetof(carom_record, seating.seat),
+     sizeof(carom_seat), offsetof(carom_record, seating.count), seat_fields},
+    CAROM_RECORD_FIELD("alternate", INT64, false, 1, seating.alternate),
+    CAROM_STROKE_LIMITS(LIMIT_FIELD) CAROM_NO_FIELD};
+#define SET_FIELD(member) CAROM_MEMBER_FIELD(#member, carom_record, set.member)
+static const carom_field set_fields[] = {CAROM_SET_NUMBERS(SET_FIELD) CAROM_NO_FIELD};
 
 enum { RULES_MOST = 1000 }; /* more kinds of rules than there will be */
 
@@ -54,6 +71,14 @@ static const char *find_fault_of_act(const carom_record *record, const char **ke
   return NULL;
 }
 
+static const char *find_fault_of_seats(const carom_record *record, const char **key) {
+  return carom_seating_fault(&record->seating, key);
+}
+
+static const char *find_fault_of_set(const carom_record *record, const char **key) {
+  return carom_set_fault(&record->set, key);
+}
+
 /* Where a ball in hand may be placed. */
 static const char *find_fault_of_place(const carom_record *record, const char **key) {
   *key = "bounds";
@@ -72,4 +97,12 @@ const carom_line carom_upper_lines[CAROM_LINE_KINDS] = {
                           .is_sealed = true,
                           .is_of_match = true,
                           .find_fault = find_fault_of_act},
+    [CAROM_RECORD_SEATS] = {.key = "seats",
+                            .fields = seats_fields,
+                            .is_of_match = true,
+                            .find_fault = find_fault_of_seats},
+    [CAROM_RECORD_SET] = {.key = "set",
+                          .fields = set_fields,
+                          .is_of_match = true,
+                          .find_fault = find_fault_of_set},
     [CAROM_RECORD_PLACE] = {.find_fault = find_fault_of_place}};

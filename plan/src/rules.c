@@ -375,6 +375,13 @@ carom_turn carom_give_hand(carom_rules_state *game, int32_t foul, uint32_t spot)
   return carom_give(game, turn);
 }
 
+/* The balls just below the nine that win too, by a handicap. */
+static uint32_t money_balls(const carom_rules_state *game) {
+  enum { NINE = 9 };
+  const int count = (int)carom_min(game->lost[0], NINE - 1);
+  return (UINT32_C(1) << NINE) - (UINT32_C(1) << (NINE - count));
+}
+
 static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                  const carom_facts *facts, carom_call call) {
   const bool opening = game->opening != 0;
@@ -405,7 +412,7 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
     game->may = CAROM_CHOICE_PASS;
     return carom_give(game, turn);
   }
-  if ((facts->down & wins) != 0)
+  if ((facts->down & (wins | money_balls(game))) != 0)
     return win;
   if (opening)
     game->may = CAROM_CHOICE_PUSH;

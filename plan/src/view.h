@@ -161,6 +161,11 @@ double carom_points_value(const carom_view *view, const carom_rules_state *game,
 
 /* games.c: whether a game begins with a break. */
 bool carom_has_opening(carom_rules_kind kind);
+/* The largest handicap that a seat may have, and what the word of a seat counts. */
+int64_t carom_handicap_most(carom_rules_kind kind);
+int64_t carom_seat_points(carom_rules_kind kind, uint64_t word);
+/* The balls without which a game of this kind cannot be played, as a set. */
+uint32_t carom_needed_balls(carom_rules_kind kind);
 
 /* draws.c: elementary functions beyond platform/elementary.h, and random numbers that are a
  * function of where they stand. */

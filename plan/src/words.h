@@ -59,11 +59,13 @@
   WORD(ACT, ACT_CALL, "call", "the ball and the pocket of the next stroke")                        \
   WORD(ACT, ACT_CONCEDE, "concede", "the player gives the game to the opponent")                   \
   WORD(ACT, ACT_CLOCK, "clock", "the time for the stroke is over")                                 \
+  WORD(ACT, ACT_EXTEND, "extend", "the player takes an extension of the time")                     \
+  WORD(ACT, ACT_TIMEOUT, "timeout", "the player takes a timeout")                                  \
   /* why an act was refused */                                                                     \
   WORD(REFUSAL, REFUSED_NOT, "not", "")                                                            \
   WORD(REFUSAL, REFUSED_NOT_BEGUN, "not_begun", "the match has not begun")                         \
   WORD(REFUSAL, REFUSED_OVER, "over", "the match is over")                                         \
-  WORD(REFUSAL, REFUSED_TURN, "turn", "the other player is at the table")                          \
+  WORD(REFUSAL, REFUSED_TURN, "turn", "another seat is at the table, or sent the line")            \
   WORD(REFUSAL, REFUSED_MOVING, "moving", "balls move")                                            \
   WORD(REFUSAL, REFUSED_AT_REST, "at_rest", "no ball moves, so no shot goes on")                   \
   WORD(REFUSAL, REFUSED_IN_HAND, "in_hand", "the cue ball must be placed first")                   \
@@ -75,6 +77,8 @@
   WORD(REFUSAL, REFUSED_CUE_BALL, "cue_ball", "another ball than the cue ball would be struck")    \
   WORD(REFUSAL, REFUSED_STROKE, "stroke", "the stroke cannot be played")                           \
   WORD(REFUSAL, REFUSED_BEGIN, "begin", "a match cannot begin so")                                 \
-  WORD(REFUSAL, REFUSED_LINE, "line", "a line that was read is not by the rules")
+  WORD(REFUSAL, REFUSED_LINE, "line", "a line that was read is not by the rules")                  \
+  WORD(REFUSAL, REFUSED_LIMIT, "limit", "the stroke is beyond the limits of the match")            \
+  WORD(REFUSAL, REFUSED_TIME, "time", "no extension or timeout is left")
 
 #endif

@@ -246,6 +246,18 @@ static inline void every_match(const every_input *in, every_room *room) {
     h = every_text(h, room->match.fault); \
     return HASH(room->match.record.hash); \
   }
+static inline carom_seating every_seating(void) {
+  carom_seating seating;
+  carom_seating_make(CAROM_RULES_SNOOKER, 4, &seating);
+  return seating;
+}
+static inline carom_status every_replay(carom_match *match) {
+  carom_cue cue = match->cue;
+  cue.phi = 80.0;
+  carom_match_stroke(match, 0, &cue, NULL, NULL);
+  carom_shot shot = {.room = 0};
+  return carom_match_replay(match, &shot);
+}
 EVERY_BODY(hand_bounds) {
   carom_bounds bounds;
   STATUS(carom_hand_bounds(CAROM_LEAVE_D, &in->table, 0.028, &bounds));
@@ -267,6 +279,39 @@ EVERY_BODY(match_begin_at) {
 EVERY_BODY(match_begin_to) {
   STATUS(carom_match_begin_to(&room->match, CAROM_RULES_STRAIGHT, 30, 0, &in->table, 3, 1));
   return HASH(room->match.record.hash);
+}
+EVERY_BODY(match_begin_with) {
+  const carom_match_setup setup = {.rules = CAROM_RULES_SNOOKER, .table = &in->table, .seed = 3};
+  STATUS(carom_match_begin_with(&room->match, &setup));
+  return HASH(room->match.record.hash);
+}
+EVERY_OBJECT(seating_make, carom_seating, every_seating())
+EVERY_ACT(match_extend, carom_match_extend(&room->match, 0))
+EVERY_ACT(match_timeout, carom_match_timeout(&room->match, 0))
+EVERY_ACT(match_next, carom_match_next(&room->match))
+EVERY_ACT(match_replay, every_replay(&room->match))
+EVERY_BODY(match_standing) {
+  every_match(in, room);
+  carom_standing standing;
+  STATUS(carom_match_standing(&room->match, &standing));
+  return HASH(standing);
+}
+EVERY_BODY(match_string) {
+  every_match(in, room);
+  char text[200] = "";
+  carom_match_string(&room->match, text, sizeof text);
+  return every_text(h, text);
+}
+EVERY_BODY(match_undone) {
+  every_match(in, room);
+  return h + carom_match_undone(room->match.text, (size_t)room->match.size);
+}
+EVERY_BODY(match_read_from) {
+  every_match(in, room);
+  memset(&room->reader, 0, sizeof room->reader);
+  const char *line = room->match.text;
+  STATUS(carom_match_read_from(&room->reader, &room->record, line, strcspn(line, "\n"), 1));
+  return HASH(room->reader.record.hash);
 }
 EVERY_ACT(match_place, carom_match_place(&room->match, 0, 0.7, 0.5))
 EVERY_ACT(match_call, carom_match_call(&room->match, 0, (carom_call){3, 1}))

@@ -15,6 +15,7 @@ typedef enum carom_value_type {
   CAROM_VALUE_INT32,
   CAROM_VALUE_INT64,
   CAROM_VALUE_HASH,
+  CAROM_VALUE_TEXT, /* CAROM_SEAT_NAME bytes with a closing 0 */
   CAROM_VALUE_LIST
 } carom_value_type;
 
@@ -62,7 +63,7 @@ typedef struct carom_line {
   const char *(*find_fault)(const carom_record *record, const char **key);
 } carom_line;
 
-enum { CAROM_LINE_KINDS = CAROM_RECORD_ACT + 1 };
+enum { CAROM_LINE_KINDS = CAROM_RECORD_SET + 1 };
 
 /* Lines that a layer above this one has, by their carom_record_kind. A row without a key, of a
  * kind that record.c has, adds its find_fault to that. */

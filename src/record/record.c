@@ -132,6 +132,8 @@ static size_t size_of(const carom_field *f) {
     return f->size;
   if (f->type == CAROM_VALUE_INT32)
     return sizeof(int32_t);
+  if (f->type == CAROM_VALUE_TEXT)
+    return CAROM_SEAT_NAME;
   return sizeof(int64_t);
 }
 
@@ -141,6 +143,16 @@ static const int64_t MOST_WHOLE = 9007199254740991; /* of a double, 2^53 - 1 */
 
 /* Of recordings of shots, and of matches. */
 enum { FORMAT = 2, FORMAT_OF_MATCH = 3 };
+
+/* Adds a text, by words of 8 bytes. */
+static uint64_t stir_text(uint64_t hash, const unsigned char *text) {
+  for (int k = 0; k < CAROM_SEAT_NAME; k += 8) {
+    uint64_t word;
+    memcpy(&word, text + k, sizeof word);
+    hash = carom_stir(hash, word);
+  }
+  return hash;
+}
 
 /* Adds an object to a hash: each of its numbers that is not 0, behind its place among them, counted
  * from 1; of a list the number of its objects and these; and 0 as its end. So a key that a later
@@ -161,6 +173,12 @@ static uint64_t stir_object(uint64_t hash, const carom_field *fields, const unsi
       int32_t half = 0;
       if (f->type == CAROM_VALUE_LIST) {
         hash = stir_object(hash, f->fields, element);
+        continue;
+      }
+      if (f->type == CAROM_VALUE_TEXT) {
+        place++;
+        if (element[0] != '\0')
+          hash = stir_text(carom_stir(hash, place), element);
         continue;
       }
       memcpy(f->type == CAROM_VALUE_INT32 ? (void *)&half : (void *)&word, element, size_of(f));
@@ -248,6 +266,11 @@ static bool expect(reader *in, char c, const char *what) {
   return wrong(in, what);
 }
 
+/* Whether a text may have a character. */
+static bool is_in_text(char c) {
+  return (unsigned char)c >= ' ' && c != '"' && c != '\\' && c != 127;
+}
+
 /* A key with its colon, into `key`, cut where it is longer than any. */
 enum { KEY_TEXT = 32 };
 static bool read_key(reader *in, char key[KEY_TEXT]) {
@@ -291,9 +314,25 @@ static bool read_hash(reader *in, uint64_t *hash) {
   return (good && next_is(in, '"')) || wrong(in, "must be 16 hexadecimal digits in quotes");
 }
 
+/* A text in quotes. */
+static bool read_text(reader *in, unsigned char *text) {
+  int n = 0;
+  memset(text, 0, CAROM_SEAT_NAME);
+  if (!next_is(in, '"'))
+    return wrong(in, "must be a text in quotes");
+  for (; in->position < in->end && *in->position != '"'; in->position++) {
+    if (n == CAROM_SEAT_NAME - 1 || !is_in_text(*in->position))
+      return wrong(in, "must have at most 31 bytes, without control characters and backslashes");
+    text[n++] = (unsigned char)*in->position;
+  }
+  return expect(in, '"', "");
+}
+
 /* One value of a field that is no list. */
 static bool read_value(reader *in, const carom_field *f, unsigned char *value) {
   double x;
+  if (f->type == CAROM_VALUE_TEXT)
+    return read_text(in, value);
   if (f->type == CAROM_VALUE_HASH) {
     uint64_t hash;
     if (!read_hash(in, &hash))
@@ -844,6 +883,12 @@ static void write_number(writer *out, const carom_field *f, const unsigned char 
 }
 
 static void write_value(writer *out, const carom_field *f, const unsigned char *value) {
+  if (f->type == CAROM_VALUE_TEXT) {
+    write_text(out, "\"");
+    write_text(out, (const char *)value);
+    write_text(out, "\"");
+    return;
+  }
   if (f->type != CAROM_VALUE_HASH) {
     write_number(out, f, value);
     return;
@@ -857,7 +902,7 @@ static void write_object(writer *out, const carom_field *fields, const unsigned 
                          const unsigned char *previous);
 
 static void write_list(writer *out, const carom_field *f, const unsigned char *object, int64_t n) {
-  static const unsigned char nothing[sizeof(carom_shot_ball)] = {0};
+  static const unsigned char nothing[sizeof(carom_shot_ball) + sizeof(carom_seat)] = {0};
   const unsigned char *previous = nothing;
   write_text(out, "[");
   for (int64_t k = 0; k < n; k++) {

@@ -356,6 +356,9 @@ static carom_plan_options plan_options;
 static carom_plan_job plan;
 static carom_ruling ruling;
 static carom_plan_stroke choices[4];
+static carom_match_setup setup;
+static carom_seating seating;
+static carom_standing standing;
 static carom_match match;
 static carom_bounds bounds;
 static carom_marks marks;
@@ -414,6 +417,7 @@ static void set_up_games(void) {
   player = carom_player_of(1.0);
   plan_options = (carom_plan_options){.shots = 100};
   pot = (carom_pot){.ball = 1};
+  setup = (carom_match_setup){.rules = CAROM_RULES_NINEBALL, .table = &table};
   plan = (carom_plan_job){.table = &table,
                           .balls = balls,
                           .count = BALLS,
@@ -460,6 +464,7 @@ static carom_match *moving(void) {
     carom_match_begin_at(PTR(&match), ANYENUM(carom_rules_kind, CAROM_RULES_NINEBALL),             \
                          MAYBE(&rules), PTR(&table), PTR(balls), INT(count), NULL,                 \
                          ENUM(carom_leave, CAROM_LEAVE_ANYWHERE), INT(0)))                         \
+  F(match_begin_with, carom_match_begin_with(PTR(&match), PTR(&setup)))                            \
   F(match_call,                                                                                    \
     (carom_match_call(MAYBE(ready()), ANYINT(0), ((carom_call){ANYINT(1), ANYINT(1)})), ACCEPTED)) \
   F(match_choose,                                                                                  \
@@ -469,10 +474,21 @@ static carom_match *moving(void) {
   F(match_concede, carom_match_concede(PTR(ready()), INT(0)))                                      \
   F(match_continue, carom_match_continue(PTR(moving()), NULL, MAYBE(&second_shot)))                \
   F(match_end, carom_match_end(PTR(ready())))                                                      \
+  F(match_extend, (carom_match_extend(MAYBE(ready()), ANYINT(0)), ACCEPTED))                       \
+  F(match_next, (carom_match_next(MAYBE(ready())), ACCEPTED))                                      \
   F(match_place, carom_match_place(PTR(begun()), INT(0), NUM(0.6), NUM(0.5)))                      \
   F(match_plan, carom_match_plan(PTR(ready()), PTR(&plan), PTR(choices), LENGTH(4), PTR(&found)))  \
   F(match_prepare, carom_match_prepare(PTR(ready()), INT(0), PTR(&safety)))                        \
   F(match_read, (carom_match_read(MAYBE(&match), MAYBE(&record), MAYBE("{}"), 2), ACCEPTED))       \
+  F(match_read_from,                                                                               \
+    (carom_match_read_from(MAYBE(&match), MAYBE(&record), MAYBE("{}"), 2, ANYINT(0)), ACCEPTED))   \
+  F(match_replay, carom_match_replay(PTR(moving()), PTR(&second_shot)))                            \
+  F(match_standing, carom_match_standing(PTR(&match), PTR(&standing)))                             \
+  F(match_string, (carom_match_string(MAYBE(&match), NULL, 0), ACCEPTED))                          \
+  F(match_timeout, (carom_match_timeout(MAYBE(ready()), ANYINT(0)), ACCEPTED))                     \
+  F(match_undone, (carom_match_undone(MAYBE("{}"), 2), ACCEPTED))                                  \
+  F(seating_make,                                                                                  \
+    carom_seating_make(ANYENUM(carom_rules_kind, CAROM_RULES_NINEBALL), INT(2), PTR(&seating)))    \
   F(match_stroke, carom_match_stroke(PTR(ready()), INT(0), PTR(&cue), NULL, MAYBE(&second_shot)))  \
   F(refusal_name, (carom_refusal_name(ANYINT(1)), ACCEPTED))                                       \
   F(cue_ball_of, (carom_cue_ball_of(MAYBE(&rules)), ACCEPTED))                                     \

@@ -312,7 +312,7 @@ TEST(standings_that_are_not_written) {
     game.player = k == 2 ? 77 : 0;
     game.standing.group = k == 3 ? 9 : 0;
     game.standing.fouls[0] = k == 4 ? 50 : 0;
-    game.winner = k == 5 ? 4 : 0;
+    game.winner = k == 5 ? 10 : 0;
     game.standing.innings = k == 6 ? 4 : 0;
     const size_t length = carom_record_write(&game, CAROM_RECORD_GAME, text, ROOM);
     ck_assert_msg((length > 0) == (k == 0), "%d: %zu", k, length);

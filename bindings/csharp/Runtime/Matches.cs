@@ -74,11 +74,15 @@ namespace Carom {
     public Match State {
       get { return *Open; }
     }
-    /// <summary>Who is at the table, 0 or 1.</summary>
+    /// <summary>The side at the table, 0 or 1; in games that each plays for itself, the seat.</summary>
     public int Player {
       get { return (int)Open->record.player; }
     }
-    /// <summary>0 or 1; -1: nobody has won.</summary>
+    /// <summary>The seat at the table.</summary>
+    public int Seat {
+      get { return Open->seat; }
+    }
+    /// <summary>The side that has won; -1: none.</summary>
     public int Winner {
       get { return Drawn ? -1 : Open->winner - 1; }
     }
@@ -132,7 +136,7 @@ namespace Carom {
     public bool Stroke(Cue cue, ShotOptions stop = default(ShotOptions)) {
       Cue *by = &cue;
       ShotOptions *until = &stop;
-      return Play(false, to => Native.carom_match_stroke(match, Player, by, until, to));
+      return Play(false, to => Native.carom_match_stroke(match, Seat, by, until, to));
     }
     /// <summary>Goes on with a stopped shot, likewise.</summary>
     public bool GoOn(ShotOptions stop = default(ShotOptions)) {

@@ -120,16 +120,21 @@ impl Match {
         &self.of
     }
 
-    /// Who is at the table, 0 or 1.
+    /// The side at the table, 0 or 1; in games that each plays for itself, the seat.
     pub fn player(&self) -> usize {
         self.of.record.player as usize
     }
 
-    /// The player who has won.
+    /// The seat at the table.
+    pub fn seat(&self) -> usize {
+        self.of.seat as usize
+    }
+
+    /// The side that has won.
     pub fn winner(&self) -> Option<usize> {
         usize::try_from(self.of.winner - 1)
             .ok()
-            .filter(|&who| who < 2)
+            .filter(|_| !self.is_drawn())
     }
 
     /// Whether the match is over without a winner.
@@ -235,7 +240,7 @@ impl Match {
     }
 
     pub(crate) fn at_table(&self) -> i32 {
-        self.of.record.player as i32
+        self.of.seat
     }
 }
 
