@@ -618,6 +618,21 @@ public:
   bool over() const {
     return match_->phase == CAROM_MATCH_OVER;
   }
+  /* The cue of the seat at the table, for the cue ball: aim it. */
+  const carom_cue &cue() const {
+    return match_->cue;
+  }
+  carom_standing standing() const {
+    carom_standing made{};
+    checked(carom_match_standing(match_.get(), &made));
+    return made;
+  }
+  /* What the match waits for, or how it ended, with names of seats. */
+  std::string title() const {
+    std::string text(carom_match_string(match_.get(), nullptr, 0), ' ');
+    carom_match_string(match_.get(), text.data(), text.size() + 1);
+    return text;
+  }
   /* The side at the table; in games that each plays for itself, the seat. */
   int player() const {
     return static_cast<int>(match_->record.player);
@@ -656,6 +671,15 @@ public:
     return told(carom_match_begin_at(match_.get(), rules, of, &on, balls.data(),
                                      static_cast<int>(balls.size()), &options, leave, player));
   }
+  /* With seats, limits or a set: as carom_match_begin_with(). */
+  carom_status begin(const carom_match_setup &setup) {
+    lines_.clear();
+    return told(carom_match_begin_with(match_.get(), &setup));
+  }
+  /* The next match of the set. */
+  carom_status next() {
+    return told(carom_match_next(match_.get()));
+  }
   carom_status choose(carom_choice choice) {
     return told(carom_match_choose(match_.get(), seat(), choice));
   }
@@ -675,6 +699,12 @@ public:
   carom_status concede(int who) {
     return told(carom_match_concede(match_.get(), who));
   }
+  carom_status extend() {
+    return told(carom_match_extend(match_.get(), seat()));
+  }
+  carom_status timeout() {
+    return told(carom_match_timeout(match_.get(), seat()));
+  }
   carom_status clock() {
     return told(carom_match_clock(match_.get(), seat()));
   }
@@ -682,33 +712,78 @@ public:
     return told(carom_match_end(match_.get()));
   }
 
-  /* The best strokes of the player at the table, whose errors are those of `by`, with the usual cue
-   * of the game. */
+  /* The best strokes of the seat at the table with its cue, whose errors are those of `by`. */
   std::vector<carom_plan_stroke> plan(const carom_player &by, const carom_plan_options &wanted = {},
                                       int most = 1) {
-    const auto kind = static_cast<carom_rules_kind>(match_->record.rules);
-    const carom_rules_about *about = carom_rules_about_of(kind);
-    carom_cue cue =
-        carom_cue_of(about != nullptr ? static_cast<carom_game>(about->balls) : CAROM_GAME_POOL);
-    cue.ball = match_->cue_ball;
     carom_plan_job job{};
-    job.cue = &cue;
     job.player = &by;
     job.options = &wanted;
     thinking all(*match_, job, 0, most);
     all.go_on();
     return {all.choices().begin(), all.choices().end()};
   }
+  /* The acts that a choice of a plan asks for before its stroke. */
+  carom_status prepare(const carom_plan_stroke &best) {
+    return told(carom_match_prepare(match_.get(), seat(), &best));
+  }
   /* Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the stroke as
-   * the player makes it. */
-  carom_status take(const carom_plan_stroke &best, const carom_cue &cue) {
-    const carom_status code = told(carom_match_prepare(match_.get(), seat(), &best));
-    return code < 0 || best.kind == CAROM_PLAN_PASS ? code : stroke(cue);
+   * the player makes it; `stop` as of a stroke. */
+  carom_status take(const carom_plan_stroke &best, const carom_cue &cue,
+                    const carom_shot_options &stop = {}) {
+    const carom_status code = prepare(best);
+    return code < 0 || best.kind == CAROM_PLAN_PASS ? code : stroke(cue, stop);
   }
 
-  /* Reads and judges the lines of a match. */
-  carom_status load(std::string_view text) {
+  /* Reads and judges the lines of a match, of a caller's own rules by `of`. Its last shot has all its
+   * events, also where it still moves and goes on. */
+  carom_status load(std::string_view text, const carom_plan_rules &of = {}) {
+    if (text.empty())
+      return checked(CAROM_ERROR_RECORD, "the text is empty: a match begins with a recording line");
+    undone_.clear();
+    return read_all(text, of);
+  }
+  /* Reads a line that a seat has sent, as carom_match_read_from() does; -1: anyone. */
+  carom_status read(std::string_view line, int sender = -1) {
+    const std::int64_t shots = match_->record.shots;
+    const carom_status code =
+        carom_match_read_from(match_.get(), scratch_.get(), line.data(), line.size(), sender);
+    if (code < 0)
+      return checked(code, match_->fault);
+    lines_ += line;
+    if (!line.empty() && line.back() != '\n')
+      lines_ += '\n';
+    return match_->record.shots != shots ? replay() : code;
+  }
+  /* Undoes the last act, by the lines before it; does it again. False: there is none. */
+  bool undo() {
+    const std::size_t size = carom_match_undone(lines_.data(), lines_.size());
+    if (size == lines_.size())
+      return false;
+    undone_.push_back(lines_.substr(size));
+    read_all(std::string(lines_, 0, size), match_->rules);
+    return true;
+  }
+  bool redo() {
+    if (undone_.empty())
+      return false;
+    const std::string text = lines_ + undone_.back();
+    undone_.pop_back();
+    read_all(text, match_->rules);
+    return true;
+  }
+  /* The same match, which goes on alone. */
+  match copy() const {
+    match made;
+    *made.match_ = *match_;
+    made.lines_ = lines_;
+    made.replay();
+    return made;
+  }
+
+private:
+  carom_status read_all(std::string_view text, carom_plan_rules rules) {
     *match_ = {};
+    match_->rules = rules;
     lines_ = text;
     if (!text.empty() && text.back() != '\n')
       lines_ += '\n';
@@ -718,13 +793,23 @@ public:
       if (code < 0)
         return checked(code, match_->fault);
     }
-    return told(CAROM_OK);
+    lines_.append(match_->text, static_cast<std::size_t>(match_->size));
+    return replay();
   }
-
-private:
+  /* The last shot of a match that was read, with all its events. */
+  carom_status replay() {
+    last_.shot_ = {};
+    if (match_->stroke.mass <= 0)
+      return CAROM_OK;
+    last_.table_ = match_->record.table;
+    last_.balls_.assign(match_->before, match_->before + match_->record.count);
+    return last_.with_room([&] { return carom_match_replay(match_.get(), &last_.shot_); });
+  }
   /* Keeps the lines of an act; throws what was refused. */
   carom_status told(carom_status code) {
     lines_.append(match_->text, static_cast<std::size_t>(match_->size));
+    if (match_->size > 0)
+      undone_.clear();
     return checked(code, match_->fault);
   }
   /* Plays, with room for all events. */
@@ -747,6 +832,7 @@ private:
     return told(code);
   }
 
+  std::vector<std::string> undone_;
   std::string lines_;
   std::unique_ptr<carom_match> match_;
   std::unique_ptr<carom_record> scratch_;

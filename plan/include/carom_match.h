@@ -299,10 +299,12 @@ CAROM_API carom_status carom_match_read_from(carom_match *match, carom_record *s
  * match is an undo too. */
 CAROM_API size_t carom_match_undone(const char *lines, size_t size);
 
-/* A plan for the seat at the table: sets table, balls, count, rules, shot and leave of the job, cue
- * where it is NULL, to match->cue, and player where it is NULL and the seat has a rating. Options
- * and memory are the caller's. Plans with a cue ball in hand within its bounds. As carom_plan() and carom_plan_hand(); goes on by carom_plan_continue(), with the
- * match unchanged. CAROM_ERROR_ACT where no stroke may be played. */
+/* A plan for the seat at the table: sets table, balls, count, rules, shot and leave of the job; its
+ * cue to match->cue where that is NULL, and the ball of the cue to the cue ball where another one may
+ * not be struck; its player by the rating of the seat where that is NULL. Options and memory are the
+ * caller's. Plans with a cue ball in hand within its bounds. As carom_plan() and carom_plan_hand();
+ * goes on by carom_plan_continue(), with the match unchanged. CAROM_ERROR_ACT where no stroke may be
+ * played. */
 CAROM_API carom_status carom_match_plan(carom_match *match, carom_plan_job *job,
                                         carom_plan_stroke *choices, int room, int *found);
 

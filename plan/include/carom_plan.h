@@ -293,8 +293,9 @@ typedef struct carom_plan_rules {
                                    learned. 0, or if no games of this kind were played: a kind with
                                    the same race. */
   int32_t any_cue_ball;         /* 1: but for the opening, a player may strike any ball. */
-  int32_t unused;               /* must be 0. */
-  uint64_t reserved[3];         /* must be 0. */
+  int32_t own_cue_balls; /* 1: each of two players has a cue ball: ball 1 where state.group is 2,
+                                   else ball 0, as in three-cushion, whose rack says it too. */
+  uint64_t reserved[3];  /* must be 0. */
 } carom_plan_rules;
 
 /* The ball that the player at the table strikes: in carom games each player has one. Where any ball

@@ -959,10 +959,11 @@ carom_status carom_match_plan(carom_match *match, carom_plan_job *job, carom_pla
     if (match->player.speed_most > 0.0 || match->player.phi > 0.0)
       job->player = &match->player;
   }
-  if (!may_strike(match, job->cue->ball))
-    return carom_match_refuse(match, CAROM_REFUSED_CUE_BALL, "plan",
-                              "job.cue->ball must be match.cue_ball, or a ball in play where any "
-                              "may be struck");
+  if (!may_strike(match, job->cue->ball)) {
+    match->record.cue = *job->cue;
+    match->record.cue.ball = match->cue_ball;
+    job->cue = &match->record.cue;
+  }
   set_stops(&match->record, NULL);
   job->table = &record->table;
   job->balls = record->balls;

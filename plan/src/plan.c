@@ -153,7 +153,7 @@ static bool good_rules(const carom_plan_rules *rules) {
   return (uint32_t)rules->breaks <= 2 && (uint32_t)rules->race <= CAROM_RACE_SEATS &&
          (rules->race != CAROM_RACE_SEATS || rules->value != NULL) &&
          carom_rack_size((carom_rack_kind)rules->rack) > 0 && rules->learned >= 0 &&
-         rules->unused == 0 && CAROM_RESERVED_IS_ZERO(rules);
+         (uint32_t)rules->own_cue_balls <= 1 && CAROM_RESERVED_IS_ZERO(rules);
 }
 
 /* Checks what a job says of itself; the table and the balls are checked with the layout. */

@@ -60,8 +60,9 @@ bool carom_racks_again(carom_rules_state *game, int32_t call, uint32_t object_ba
 }
 
 int carom_cue_ball_of(const carom_plan_rules *rules) {
-  const bool is_personal = rules != NULL && (rules->rack == CAROM_RACK_THREECUSHION ||
-                                             rules->rack == CAROM_RACK_FOURBALL);
+  const bool is_personal =
+      rules != NULL && (rules->own_cue_balls != 0 || rules->rack == CAROM_RACK_THREECUSHION ||
+                        rules->rack == CAROM_RACK_FOURBALL);
   return is_personal && rules->state.group == 2;
 }
 

@@ -46,12 +46,11 @@ namespace Carom {
 
     internal delegate Status Playing(Shot *to);
 
-    /// <summary>Plays a stroke of a recording or a match, with room for all its events: `takeBack`
-    /// undoes a try that had too little. `last` becomes the shot.</summary>
-    internal static Status Recorded(Record *of, ref PlayedShot last, bool goesOn, Playing play,
-                                    Action takeBack) {
-      var shot =
-          new PlayedShot(of->table, Billiards.Copy((ShotBall *)&of->balls, of->count), false);
+    /// <summary>Plays a stroke of a recording or a match from `balls`, with room for all its events:
+    /// `takeBack` undoes a try that had too little. `last` becomes the shot.</summary>
+    internal static Status Recorded(Record *of, ShotBall *balls, ref PlayedShot last, bool goesOn,
+                                    Playing play, Action takeBack) {
+      var shot = new PlayedShot(of->table, Billiards.Copy(balls, of->count), false);
       var first = goesOn && last != null ? last.Events : shot.Events;
       for (long room = first.Length + 256;;) {
         var events = new ShotEvent[room];
@@ -439,9 +438,9 @@ namespace Carom {
 
     Status Play(RecordKind kind) {
       var before = new[] { *Open };
-      return PlayedShot.Recorded(record, ref last, kind == RecordKind.Continue,
-                                 to => Native.carom_record_play(record, kind, to),
-                                 () => *record = before[0]);
+      return PlayedShot.Recorded(
+          record, (ShotBall *)&record->balls, ref last, kind == RecordKind.Continue,
+          to => Native.carom_record_play(record, kind, to), () => *record = before[0]);
     }
 
     /// <summary>Puts a ball at x, y (m), at rest, and returns the line.</summary>

@@ -1,5 +1,6 @@
 // Matches: one object that knows the rules, and writes its recording.
 using System;
+using System.Collections.Generic;
 using System.Runtime.InteropServices;
 using System.Text;
 
@@ -10,6 +11,7 @@ namespace Carom {
     Match *match;
     Record *scratch;
     readonly StringBuilder lines = new StringBuilder();
+    readonly Stack<string> undone = new Stack<string>();
 
     LiveMatch() {
       match = (Match *)Zeros(sizeof(Match));
@@ -26,9 +28,14 @@ namespace Carom {
       get { return match != null ? match : throw new ObjectDisposedException("LiveMatch"); }
     }
 
+    string Text() {
+      return Encoding.UTF8.GetString(match->text, (int)match->size);
+    }
     /// Keeps the lines of an act; throws what was refused.
     Status Told(Status status) {
-      lines.Append(Marshal.PtrToStringAnsi((IntPtr)match->text, (int)match->size));
+      if (match->size > 0)
+        undone.Clear();
+      lines.Append(Text());
       return Refused(status);
     }
     Status Refused(Status status) {
@@ -57,16 +64,83 @@ namespace Carom {
       return made;
     }
 
-    /// <summary>Reads and judges the lines of a match.</summary>
-    public static LiveMatch Load(string lines) {
+    /// <summary>The same of any seats, which carom_seating_make() begins: with names, sides,
+    /// handicaps, cues and limits; and of a set, where there is one.</summary>
+    public static LiveMatch Begin(RulesKind rules, Table table, ulong seed, Seating seating,
+                                  Set? set = null, int side = 0, int target = 0,
+                                  bool equalInnings = false) {
       var made = new LiveMatch();
-      foreach (var line in lines.Split(new[] { '\n' }, StringSplitOptions.RemoveEmptyEntries)) {
-        var bytes = Encoding.ASCII.GetBytes(line);
-        fixed(byte *at = bytes) made.Refused(
-            Native.carom_match_read(made.match, made.scratch, at, (UIntPtr)bytes.Length));
-        made.lines.Append(line).Append('\n');
-      }
-      made.Told(Status.Ok);
+      var of = set ?? default(Set);
+      var setup = new MatchSetup { rules = rules,
+                                   table = &table,
+                                   seed = seed,
+                                   seating = &seating,
+                                   side = side,
+                                   target = target,
+                                   set = set == null ? null : &of,
+                                   equalInnings = equalInnings ? 1 : 0 };
+      made.Told(Native.carom_match_begin_with(made.match, &setup));
+      return made;
+    }
+
+    /// <summary>Reads and judges the lines of a match. Its last shot has all its events, also where
+    /// it still moves and goes on.</summary>
+    public static LiveMatch Load(string lines) {
+      if (lines.Length == 0)
+        throw new CaromException(Status.ErrorRecord,
+                                 "the text is empty: a match begins with a recording line");
+      var made = new LiveMatch();
+      made.ReadAll(lines);
+      return made;
+    }
+    void ReadAll(string text) {
+      *match = default(Match);
+      lines.Clear();
+      foreach (var line in text.Split(new[] { '\n' }, StringSplitOptions.RemoveEmptyEntries))
+        ReadLine(line, -1);
+      lines.Append(Text());
+      Replay();
+    }
+    void ReadLine(string line, int sender) {
+      var bytes = Encoding.UTF8.GetBytes(line);
+      fixed(byte *at = bytes)
+          Refused(Native.carom_match_read_from(match, scratch, at, (UIntPtr)bytes.Length, sender));
+      lines.Append(line.TrimEnd('\n')).Append('\n');
+    }
+
+    /// <summary>Reads a line that a seat has sent, as carom_match_read_from() does; -1:
+    /// anyone.</summary>
+    public void Read(string line, int sender = -1) {
+      var shots = Shots;
+      ReadLine(line, sender);
+      if (Shots != shots)
+        Replay();
+    }
+
+    /// <summary>Undoes the last act. False: there is none.</summary>
+    public bool Undo() {
+      var bytes = Encoding.UTF8.GetBytes(Lines);
+      int size;
+      fixed(byte *at = bytes) size = (int)Native.carom_match_undone(at, (UIntPtr)bytes.Length);
+      if (Open->phase == 0 || size == bytes.Length)
+        return false;
+      undone.Push(Encoding.UTF8.GetString(bytes, size, bytes.Length - size));
+      ReadAll(Encoding.UTF8.GetString(bytes, 0, size));
+      return true;
+    }
+    /// <summary>Does the act again that was undone last. False: there is none.</summary>
+    public bool Redo() {
+      if (Open->phase == 0 || undone.Count == 0)
+        return false;
+      ReadAll(Lines + undone.Pop());
+      return true;
+    }
+    /// <summary>The same match, which goes on alone.</summary>
+    public LiveMatch Copy() {
+      var made = new LiveMatch();
+      *made.match = *Open;
+      made.lines.Append(Lines);
+      made.Replay();
       return made;
     }
 
@@ -81,6 +155,10 @@ namespace Carom {
     /// <summary>The seat at the table.</summary>
     public int Seat {
       get { return Open->seat; }
+    }
+    /// <summary>The cue of the seat at the table, for the cue ball: aim it.</summary>
+    public Cue Cue {
+      get { return Open->cue; }
     }
     /// <summary>The side that has won; -1: none.</summary>
     public int Winner {
@@ -145,20 +223,27 @@ namespace Carom {
     }
     bool Play(bool goesOn, PlayedShot.Playing once) {
       var before = new[] { *Open };
-      var status =
-          PlayedShot.Recorded(&match->record, ref last, goesOn, once, () => *match = before[0]);
+      var status = PlayedShot.Recorded(&match->record, (ShotBall *)&match->record.balls, ref last,
+                                       goesOn, once, () => *match = before[0]);
       return Told(status) == Status.Ok;
+    }
+    /// The last shot of a match that was read, with all its events.
+    void Replay() {
+      last = null;
+      if (match->stroke.mass > 0)
+        PlayedShot.Recorded(&match->record, (ShotBall *)&match->before, ref last, false,
+                            to => Native.carom_match_replay(match, to), () => {});
     }
     /// <summary>A player, 0 or 1, gives the game to the other.</summary>
     public void Concede(int player) {
       Told(Native.carom_match_concede(Open, player));
     }
     /// <summary>Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is
-    /// the stroke as the player makes it.</summary>
-    public void Take(PlanStroke best, Cue cue) {
+    /// the stroke as the player makes it; `stop` as of a stroke.</summary>
+    public void Take(PlanStroke best, Cue cue, ShotOptions stop = default(ShotOptions)) {
       Prepare(best);
       if (best.kind != (int)PlanKind.Pass)
-        Stroke(cue);
+        Stroke(cue, stop);
     }
 
     public void Dispose() {

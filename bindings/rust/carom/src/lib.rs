@@ -363,6 +363,7 @@ impl Shot {
     /// again, and begins from the record as it was. `last` becomes the shot.
     unsafe fn of_record(
         record: *const sys::carom_record,
+        balls: *const ShotBall,
         last: &mut Option<Shot>,
         goes_on: bool,
         play: impl Fn(*mut sys::carom_shot) -> sys::carom_status,
@@ -370,8 +371,10 @@ impl Shot {
         let before = &*record;
         let count = before.count.clamp(0, i64::from(sys::CAROM_BALLS_MOST)) as usize;
         let begun = last.take().filter(|_| goes_on);
-        let mut shot =
-            begun.unwrap_or_else(|| Shot::begun(&before.table, &before.balls[..count], false));
+        let mut shot = begun.unwrap_or_else(|| {
+            let balls = unsafe { std::slice::from_raw_parts(balls, count) };
+            Shot::begun(&before.table, balls, false)
+        });
         let room = shot.events.len() + 256;
         let played = shot.follow(room, |_, _, to| play(to));
         let after = &*record;

@@ -1,7 +1,7 @@
 //! Matches: one object that knows the rules, and writes its recording.
 use crate::{
     check, count_of, status_of, sys, text, words, Cue, Error, Leave, MatchPhase, Options,
-    PlanStroke, Position, RulesKind, Ruling, Shot, ShotBall, Table,
+    PlanStroke, Position, RulesKind, Ruling, Shot, ShotBall, Status, Table,
 };
 use std::os::raw::c_char;
 
@@ -11,6 +11,7 @@ pub struct Match {
     pub(crate) of: Box<sys::carom_match>,
     scratch: Box<sys::carom_record>,
     lines: String,
+    undone: Vec<String>,
     last: Option<Shot>,
 }
 
@@ -73,20 +74,126 @@ impl Match {
         Ok(made)
     }
 
-    /// Reads and judges the lines of a match.
-    pub fn load(lines: &str) -> Result<Match, Error> {
+    /// The same of any seats, which `seating_make` begins: with names, sides, handicaps, cues and
+    /// limits; and of a set, where there is one. The side `player` breaks.
+    pub fn begin_seats(
+        rules: RulesKind,
+        table: &Table,
+        seed: u64,
+        seating: &sys::carom_seating,
+        set: Option<&sys::carom_set>,
+        player: usize,
+    ) -> Result<Match, Error> {
         let mut made = Match::empty();
+        let setup = sys::carom_match_setup {
+            rules: rules.into(),
+            table,
+            seed,
+            seating,
+            set: set.map_or(std::ptr::null(), |of| of),
+            side: player as i64,
+            ..Default::default()
+        };
+        let status = unsafe { sys::carom_match_begin_with(&mut *made.of, &setup) };
+        made.told(status)?;
+        Ok(made)
+    }
+
+    /// Reads and judges the lines of a match. Its last shot has all its events, also where it still
+    /// moves and goes on.
+    pub fn load(lines: &str) -> Result<Match, Error> {
+        if lines.is_empty() {
+            let fault = "the text is empty: a match begins with a recording line".to_string();
+            let status = Status::ErrorRecord;
+            return Err(Error { status, fault });
+        }
+        let mut made = Match::empty();
+        made.read_all(lines)?;
+        Ok(made)
+    }
+
+    fn read_all(&mut self, lines: &str) -> Result<(), Error> {
+        *self.of = Default::default();
+        self.lines.clear();
         for line in lines.split_inclusive('\n') {
-            let at = line.as_ptr() as *const c_char;
-            let status =
-                unsafe { sys::carom_match_read(&mut *made.of, &mut *made.scratch, at, line.len()) };
-            made.refused(status)?;
-            made.lines += line;
+            self.read_line(line, None)?;
         }
-        if !lines.is_empty() && !lines.ends_with('\n') {
-            made.lines.push('\n');
+        self.lines += &self.pending();
+        self.replay()
+    }
+
+    fn read_line(&mut self, line: &str, sender: Option<usize>) -> Result<(), Error> {
+        let (at, sender) = (
+            line.as_ptr() as *const c_char,
+            sender.map_or(-1, |seat| seat as i32),
+        );
+        let status = unsafe {
+            sys::carom_match_read_from(&mut *self.of, &mut *self.scratch, at, line.len(), sender)
+        };
+        self.refused(status)?;
+        self.lines += line.trim_end_matches('\n');
+        self.lines.push('\n');
+        Ok(())
+    }
+
+    /// Reads a line that a seat has sent, as `carom_match_read_from` does; `None`: anyone.
+    pub fn read(&mut self, line: &str, sender: Option<usize>) -> Result<(), Error> {
+        let shots = self.shots();
+        self.read_line(line, sender)?;
+        if self.shots() == shots {
+            return Ok(());
         }
-        made.told(sys::CAROM_OK)?;
+        self.replay()
+    }
+
+    /// The last shot of a match that was read, with all its events.
+    fn replay(&mut self) -> Result<(), Error> {
+        self.last = None;
+        if self.of.stroke.mass <= 0.0 {
+            return Ok(());
+        }
+        let of: *mut sys::carom_match = &mut *self.of;
+        let status = unsafe {
+            Shot::of_record(
+                &(*of).record,
+                (*of).before.as_ptr(),
+                &mut self.last,
+                false,
+                |to| sys::carom_match_replay(of, to),
+            )
+        };
+        check(status).map(|_| ())
+    }
+
+    /// Undoes the last act. False: there is none.
+    pub fn undo(&mut self) -> Result<bool, Error> {
+        let (at, length) = (self.lines.as_ptr() as *const c_char, self.lines.len());
+        let size = unsafe { sys::carom_match_undone(at, length) };
+        if size == length {
+            return Ok(false);
+        }
+        let lines = self.lines.clone();
+        self.read_all(&lines[..size])?;
+        self.undone.push(lines[size..].to_string());
+        Ok(true)
+    }
+
+    /// Does the act again that was undone last. False: there is none.
+    pub fn redo(&mut self) -> Result<bool, Error> {
+        let Some(act) = self.undone.pop() else {
+            return Ok(false);
+        };
+        let lines = format!("{}{act}", self.lines);
+        self.read_all(&lines)?;
+        Ok(true)
+    }
+
+    /// The same match, which goes on alone.
+    pub fn copy(&self) -> Result<Match, Error> {
+        let mut made = Match::empty();
+        made.of = self.of.clone();
+        made.lines = self.lines.clone();
+        made.replay()?;
         Ok(made)
     }
 
@@ -95,16 +202,24 @@ impl Match {
             of: Box::default(),
             scratch: Box::default(),
             lines: String::new(),
+            undone: Vec::new(),
             last: None,
         }
     }
 
     /// Keeps the lines of an act; an error is what was refused.
     pub(crate) fn told(&mut self, status: sys::carom_status) -> Result<(), Error> {
-        let bytes = &self.of.text[..self.of.size as usize];
-        self.lines
-            .extend(bytes.iter().map(|&one| char::from(one as u8)));
+        if self.of.size > 0 {
+            self.undone.clear();
+        }
+        self.lines += &self.pending();
         self.refused(status)
+    }
+
+    /// The lines of the last act, or those that are still missing.
+    fn pending(&self) -> String {
+        let bytes = self.of.text[..self.of.size as usize].iter();
+        String::from_utf8_lossy(&bytes.map(|&one| one as u8).collect::<Vec<_>>()).into_owned()
     }
 
     fn refused(&self, status: sys::carom_status) -> Result<(), Error> {
@@ -128,6 +243,11 @@ impl Match {
     /// The seat at the table.
     pub fn seat(&self) -> usize {
         self.of.seat as usize
+    }
+
+    /// The cue of the seat at the table, for the cue ball: aim it.
+    pub fn cue(&self) -> Cue {
+        self.of.cue
     }
 
     /// The side that has won.
@@ -208,7 +328,8 @@ impl Match {
     ) -> Result<bool, Error> {
         let (before, of): (_, *mut sys::carom_match) = (self.of.clone(), &mut *self.of);
         let status = unsafe {
-            Shot::of_record(&(*of).record, &mut self.last, goes_on, |to| {
+            let balls = (*of).record.balls.as_ptr();
+            Shot::of_record(&(*of).record, balls, &mut self.last, goes_on, |to| {
                 *of = *before;
                 once(of, to)
             })
@@ -225,7 +346,7 @@ impl Match {
     }
 
     /// Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the
-    /// stroke as the player makes it.
+    /// stroke as the player makes it. `prepare` and `stroke` can stop its shot.
     pub fn take(&mut self, best: &PlanStroke, cue: &Cue) -> Result<(), Error> {
         self.prepare(best)?;
         if best.kind != sys::CAROM_PLAN_PASS {

@@ -87,10 +87,16 @@ impl Recording {
         let (before, goes_on) = (self.record.clone(), kind == sys::CAROM_RECORD_CONTINUE);
         let record: *mut sys::carom_record = &mut *self.record;
         unsafe {
-            Shot::of_record(record, &mut self.last, goes_on, |to| {
-                *record = *before;
-                sys::carom_record_play(record, kind, to)
-            })
+            Shot::of_record(
+                record,
+                (*record).balls.as_ptr(),
+                &mut self.last,
+                goes_on,
+                |to| {
+                    *record = *before;
+                    sys::carom_record_play(record, kind, to)
+                },
+            )
         }
     }
 
