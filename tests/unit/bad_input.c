@@ -13,18 +13,18 @@ TEST(each_option_is_checked) {
     const carom_number *n;
     for (int k = 0; (n = carom_number_of(parts[side], k)) != NULL; k++)
       for (int way = 0; set_up(), set_bad(object, n, way); way++) {
-        const carom_status statuses[] = {
-            is_cushion ? carom_cushion(&rail, &cushion_options, motion)
-                       : carom_collide(&impact, &impact_options, &result),
-            is_cushion ? carom_cushion_check(&rail, &cushion_options, &where)
-                       : carom_check(&impact, &impact_options, &where),
-            is_cushion ? carom_cushion_batch(&rail, 1, &cushion_options, motion, &status)
-                       : carom_collide_batch(&impact, 1, &impact_options, &result, &status)};
+        const carom_status returned[] = {
+            is_cushion ? carom_cushion(rails, &cushion_options, motion)
+                       : carom_collide(impacts, &impact_options, results),
+            is_cushion ? carom_cushion_check(rails, &cushion_options, &where)
+                       : carom_check(impacts, &impact_options, &where),
+            is_cushion ? carom_cushion_batch(rails, 1, &cushion_options, motion, statuses)
+                       : carom_collide_batch(impacts, 1, &impact_options, results, statuses)};
         for (int call = 0; call < 3; call++)
-          ck_assert_int_eq(statuses[call], n->error);
+          ck_assert_int_eq(returned[call], n->error);
         ck_assert_int_eq(where, -1);
-        ck_assert_int_eq(status, 77);
-        ck_assert(isnan(is_cushion ? motion[0].w[2] : result.b.w[2]));
+        ck_assert_int_eq(statuses[0], 77);
+        ck_assert(isnan(is_cushion ? motion[0].w[2] : results[0].b.w[2]));
       }
   }
 }
@@ -39,9 +39,9 @@ TEST(noise_in_the_radii_passes) {
     carom_impact in[ROWS];
     carom_result out[ROWS], expected, alone;
     int8_t said[ROWS];
-    ck_assert_int_eq(carom_collide(&impact, &solving, &expected), CAROM_OK);
+    ck_assert_int_eq(carom_collide(impacts, &solving, &expected), CAROM_OK);
     for (int k = 0; k < ROWS; k++) {
-      in[k] = impact;
+      in[k] = impacts[0];
       in[k].b.radius *= 1.0 + (k - ROWS / 2) * 1e-10; /* from 2e-9 below */
     }
     carom_collide_batch(in, ROWS, &solving, out, said);
@@ -78,17 +78,17 @@ TEST(zero_is_the_default) {
                                           .slip = CAROM_SLIP_PAPER,
                                           .steps = 1000,
                                           .threads = 1};
-  expect_same(&impact, NULL, &zero);
-  expect_same(&impact, &zero, &said);
+  expect_same(impacts, NULL, &zero);
+  expect_same(impacts, &zero, &said);
   const carom_options euler = {.solver = CAROM_SOLVER_EULER},
                       of_1000 = {.solver = CAROM_SOLVER_EULER, .steps = 1000};
-  expect_same(&impact, &euler, &of_1000);
+  expect_same(impacts, &euler, &of_1000);
   carom_trace_point point[2], other[2];
-  ck_assert_int_eq(carom_trace(&impact, &euler, 2, point), CAROM_OK);
-  ck_assert_int_eq(carom_trace(&impact, &of_1000, 2, other), CAROM_OK);
+  ck_assert_int_eq(carom_trace(impacts, &euler, 2, point), CAROM_OK);
+  ck_assert_int_eq(carom_trace(impacts, &of_1000, 2, other), CAROM_OK);
   ck_assert_double_eq(point[1].normal, other[1].normal);
   const carom_options all = {.threads = CAROM_ALL_THREADS};
-  expect_same(&impact, &zero, &all);
+  expect_same(impacts, &zero, &all);
 }
 
 static void expect_unchanged(const carom_impact *in) {
@@ -109,7 +109,7 @@ static void expect_unchanged(const carom_impact *in) {
 
 TEST(separating_pairs_are_unchanged) {
   set_up();
-  carom_impact in = impact;
+  carom_impact in = impacts[0];
   in.a.v[1] = -1.0;
   expect_unchanged(&in);
   memcpy(in.b.v, in.a.v, sizeof in.b.v); /* equal velocities */
@@ -125,6 +125,6 @@ TEST(nothing_to_solve) {
   ck_assert_int_eq(carom_collide_batch(NULL, 0, NULL, NULL, NULL), CAROM_OK);
   ck_assert_int_eq(carom_cushion_batch(NULL, 0, NULL, NULL, NULL), CAROM_OK);
   detail.steps = 7;
-  ck_assert_int_eq(carom_collide_detail(&impact, NULL, NULL, &detail), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_collide_detail(impacts, NULL, NULL, &detail), CAROM_ERROR_NULL);
   ck_assert_int_eq(detail.steps, 0);
 }

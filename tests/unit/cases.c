@@ -192,10 +192,10 @@ static const struct {
     OBJECT(states, STRUCT_ball_state),
     OBJECT(shot, STRUCT_shot),
     OBJECT(facts, STRUCT_facts),
-    OBJECT(impact, STRUCT_impact),
+    {"impact", impacts, STRUCT_impact},
     OBJECT(impact_options, STRUCT_options),
-    OBJECT(result, STRUCT_result),
-    OBJECT(rail, STRUCT_cushion_impact),
+    {"result", results, STRUCT_result},
+    {"rail", rails, STRUCT_cushion_impact},
     OBJECT(cushion_options, STRUCT_cushion_options),
     OBJECT(motion, STRUCT_motion),
     OBJECT(measures, STRUCT_measures),
@@ -435,7 +435,7 @@ static uint64_t shot_hash(void) {
   hash = hash_of(hash, final, sizeof final);
   hash = hash_of(hash, &shot, sizeof shot);
   hash = hash_of(hash, &facts, sizeof facts);
-  hash = hash_of(hash, &status, sizeof status);
+  hash = hash_of(hash, statuses, 1);
   return hash_of(hash, &state, sizeof state);
 }
 

@@ -91,9 +91,9 @@ static int64_t with_number(carom_part_kind of, const carom_number *row, int inde
                            [CAROM_PART_MEASURES] = &measures};
   memcpy((char *)objects[of] + row->offset + sizeof number * (size_t)index, &number, sizeof number);
   if (of == CAROM_PART_IMPACT_OPTIONS)
-    return carom_collide(&impact, &impact_options, &result);
+    return carom_collide(impacts, &impact_options, results);
   if (of == CAROM_PART_CUSHION_OPTIONS)
-    return carom_cushion(&rail, &cushion_options, motion);
+    return carom_cushion(rails, &cushion_options, motion);
   if (of == CAROM_PART_PLAN_OPTIONS)
     return carom_plan_memory(&plans) > 0 ? ACCEPTED : -1;
   if (of == CAROM_PART_MEASURES)

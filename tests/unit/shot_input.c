@@ -90,12 +90,12 @@ TEST(calls) {
   for (int k = 0; k < 2; k++) {
     set_up();
     shot = (carom_shot){.room = rooms[k], .count = 77, .state = &state};
-    const carom_status statuses[] = {carom_shoot(&table, balls, count, &cue, NULL, &shot),
+    const carom_status returned[] = {carom_shoot(&table, balls, count, &cue, NULL, &shot),
                                      carom_shoot_batch(&job),
                                      carom_shot_continue(&table, balls, count, NULL, &shot),
-                                     carom_shot_at(balls, count, &shot, 0.0, states), status};
+                                     carom_shot_at(balls, count, &shot, 0.0, states), statuses[0]};
     for (int call = 0; call < 5; call++)
-      ck_assert_int_eq(statuses[call], CAROM_ERROR_ROOM);
+      ck_assert_int_eq(returned[call], CAROM_ERROR_ROOM);
     ck_assert_int_eq(shot.count, 77);
   }
   for (int k = 0; k < 3; k++) {
@@ -104,7 +104,7 @@ TEST(calls) {
     job.balls = k == 1 ? NULL : balls;
     job.shots = k == 2 ? NULL : &shot;
     ck_assert_int_eq(carom_shoot_batch(&job), CAROM_ERROR_NULL);
-    ck_assert_int_eq(status, 77);
+    ck_assert_int_eq(statuses[0], 77);
   }
   expect_ok(carom_shoot_batch(&(carom_shot_job){0}));
   ck_assert_ptr_nonnull(strstr(carom_status_string(CAROM_ERROR_BALLS), "count"));
@@ -232,7 +232,7 @@ TEST(damaged_events) {
   memcpy(good, events, sizeof good);
   const double time = 0.5 * (good[3].time + good[4].time);
   int refused = 0, unresolved = 0;
-  tangent = (carom_tangent){.final = ends[0]};
+  tangents[0] = (carom_tangent){.final = heap->ends[0]};
   for (size_t word = 0; word < 4 * sizeof *good / sizeof(double); word++)
     for (int k = 0; k < bads; k++) {
       memcpy(events, good, sizeof good);
@@ -240,14 +240,14 @@ TEST(damaged_events) {
       unresolved += carom_shot_at(two, 2, &shot, time, states) == CAROM_ERROR_UNRESOLVED;
       refused += carom_shot_orientation(two, 2, &shot, time, turned) < 0;
       carom_shot_drawn(&table, two, 2, &shot, &time, 1, states);
-      carom_shot_tangent(&table, two, 2, &stroke, NULL, &shot, &by_speed, &tangent);
+      carom_shot_tangent(&table, two, 2, &stroke, NULL, &shot, &by_speed, tangents);
     }
   printf("%d states and %d turns are refused\n", unresolved, refused);
   ck_assert(unresolved > 50 && refused > unresolved);
   /* a number of contacts that cannot be */
   memcpy(events, good, sizeof good);
   events[0].cluster = -1;
-  ck_assert_int_eq(carom_shot_tangent(&table, two, 2, &stroke, NULL, &shot, &by_speed, &tangent),
+  ck_assert_int_eq(carom_shot_tangent(&table, two, 2, &stroke, NULL, &shot, &by_speed, tangents),
                    CAROM_ERROR_STATE);
   /* constants of a ball */
   memcpy(events, good, sizeof good);

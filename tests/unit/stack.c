@@ -3,8 +3,7 @@
  * it; what lost its paint was used. */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
 #include "draws.h"
-#include "every_function.h"
-#include "support.h"
+#include "functions.h"
 
 #include <pthread.h>
 #include <stdio.h>
@@ -20,37 +19,34 @@ enum { STACK = 72 * 1024 };
 #else
 enum { STACK = 1024 * 1024 };
 #endif
-enum { PAINT = 0xA5 };
+enum { PAINT = 0xA5, VARIANTS = 6 };
 
-static void *nothing(void *argument) {
-  return argument;
+static void *nothing(void *unused) {
+  return unused;
 }
 
-/* One of every_function.h; a call for one collision of each that there are, of all regimes. */
-static every_input input;
-static every_room *room;
-static const struct every_function *one;
+/* One of functions.h; a call for one collision of each that there are, of all regimes. */
+static int function;
 static bool of_one_collision;
+static carom_impact regimes[BATCH];
 
-static void *any_function(void *argument) {
-  one->body(&input, room, 1);
-  for (int k = EVERY_FEW; k < EVERY_ROWS && of_one_collision; k++) {
-    input.impact[k % EVERY_FEW] = input.impact[k];
-    input.impact_f32[k % EVERY_FEW] = input.impact_f32[k];
-    if (k % EVERY_FEW == EVERY_FEW - 1)
-      one->body(&input, room, 1);
+static void *any_function(void *unused) {
+  functions[function].call();
+  for (int k = 0; k < BATCH && of_one_collision; k++) {
+    impacts[0] = regimes[k];
+    functions[function].call();
   }
-  return argument;
+  return unused;
 }
 
 /* A batch that is worth threads. */
 enum { MANY = 20000 };
 static carom_impact many[MANY];
-static carom_result results[MANY];
+static carom_result many_results[MANY];
 
-static void *many_rows(void *argument) {
-  carom_collide_batch(many, MANY, &(carom_options){.threads = input.threads}, results, NULL);
-  return argument;
+static void *many_rows(void *unused) {
+  carom_collide_batch(many, MANY, &(carom_options){.threads = threads}, many_results, NULL);
+  return unused;
 }
 
 /* Bytes of a thread's stack that `body` takes. */
@@ -79,41 +75,45 @@ static size_t stack_used(void *(*body)(void *)) {
 /* Measures what a body uses besides `own` bytes, by each instruction set, and prints the most. */
 static void measure(void *(*body)(void *), const char *name, size_t own) {
   size_t most = 0;
-  FOR_EACH_ISA(isa) {
-    carom_isa_limit((carom_isa)isa); /* which one of the functions lifts */
-    const size_t used = stack_used(body);
-    ck_assert_msg(used < STACK, "%s", name);
-    most = used > most ? used : most;
+  carom_isa_limit(CAROM_ISA_ANY);
+  const int best = (int)carom_isa_in_force();
+  for (variant = 1; variant <= VARIANTS; variant++) {
+    set_up();
+    for (int k = 0; k < BATCH; k++) {
+      impacts[k] = regimes[k];
+      impacts_f32[k] = narrowed(&regimes[k]);
+    }
+    FOR_EACH_ISA(isa) {
+      if (variant > 2 && isa != best)
+        continue;
+      carom_isa_limit((carom_isa)isa); /* which one of the functions lifts */
+      const size_t used = stack_used(body);
+      ck_assert_msg(used < STACK, "%s", name);
+      most = used > most ? used : most;
+    }
   }
   if (most - own >= 2048)
-    printf("  %s with %d threads: %zu\n", name, input.threads, most - own);
+    printf("  %s with %d threads: %zu\n", name, threads, most - own);
 }
 
 /* Every function that the library exports, without threads of its own and with some. */
 TEST(every_function_fits) {
-  every_function_is_there();
-  every_input_make(&input, 0, 0);
   random_source source = {test_seed()};
   lab_random rng = {test_seed()};
-  for (int k = 0; k < EVERY_ROWS; k++) {
-    input.impact[k] = regimes_draw(k % regimes_count(), -1.0, &rng);
-    input.impact_f32[k] = narrowed(&input.impact[k]);
-  }
+  for (int k = 0; k < BATCH; k++)
+    regimes[k] = regimes_draw(k % regimes_count(), -1.0, &rng);
   for (int k = 0; k < MANY; k++)
     many[k] = random_impact(&source);
-  room = calloc(1, sizeof *room);
   const size_t own = stack_used(nothing);
   printf("a thread that does nothing uses %zu bytes of its stack of %d; the functions besides\n",
          own, STACK);
-  for (input.threads = 0; input.threads <= 7; input.threads += 7) {
-    for (int k = 0; k < EVERY_COUNT; k++) {
-      one = &every_functions[k];
-      of_one_collision =
-          strncmp(one->name, "carom_collide", 13) == 0 && strstr(one->name, "batch") == NULL;
-      of_one_collision |= strcmp(one->name, "carom_trace") == 0;
-      measure(any_function, one->name, own);
+  for (threads = 0; threads <= 7; threads += 7) {
+    for (function = 0; function < COUNT; function++) {
+      const char *name = functions[function].name;
+      of_one_collision = strncmp(name, "carom_collide", 13) == 0 && strstr(name, "batch") == NULL;
+      of_one_collision |= strcmp(name, "carom_trace") == 0;
+      measure(any_function, name, own);
     }
     measure(many_rows, "carom_collide_batch", own);
   }
-  free(room);
 }

@@ -1,10 +1,7 @@
 /* Threads of the library: each row is worked on once, the first error is found wherever it is,
- * and no signal handler of the process runs on a thread that the process has not made. And
- * threads of the caller: every function may be called at once with all others, also in children
- * forked meanwhile. */
+ * and no signal handler of the process runs on a thread that the process has not made. */
 #define _GNU_SOURCE
 #include "platform/threads.h"
-#include "every_function.h"
 #include "support.h"
 
 #include <pthread.h>
@@ -166,83 +163,4 @@ TEST(signals_stay_with_the_caller) {
   pthread_join(caller, NULL);
   ck_assert_int_gt(atomic_load(&handled), 10);
   ck_assert_int_eq(atomic_load(&elsewhere), 0);
-}
-
-/* ---- Every public function at once */
-
-/* The sanitizer of threads lets none start in a child of a process with threads; that of
- * addresses may wait there for ever for a lock that another thread held at the fork. */
-enum {
-  CHILD_THREADS = SANITIZED ? 0 : 3,
-  CALLERS = FEWER(16),
-  FORKS = FEWER(12),
-  INPUTS = SANITIZED ? 2 : 4
-};
-static every_input shared[INPUTS];
-static uint64_t alone[INPUTS][EVERY_COUNT];
-static atomic_int others[EVERY_COUNT], calling;
-
-static void *call_all(void *argument) {
-  const int number = *(const int *)argument, with = number % INPUTS;
-  random_source r = {test_seed() + (uint64_t)number};
-  every_room *room = calloc(1, sizeof *room);
-  for (int n = 0; n < EVERY_COUNT; n++) {
-    const int k = (int)random_between(&r, 0.0, EVERY_COUNT);
-    if (every_functions[k].body(&shared[with], room, 1) != alone[with][k])
-      atomic_fetch_add(&others[k], 1);
-  }
-  free(room);
-  atomic_fetch_sub(&calling, 1);
-  return NULL;
-}
-
-/* How many functions have other results in a child that is made while the threads are at work. */
-static int in_a_child(every_room *room, every_input *copy) {
-  const pid_t child = fork();
-  ck_assert_int_ge(child, 0);
-  if (child == 0) {
-    int bad = 0;
-    copy->threads = CHILD_THREADS;
-    for (int k = 0; k < EVERY_COUNT; k++)
-      bad += every_functions[k].body(copy, room, 1) != alone[0][k];
-    _exit(bad);
-  }
-  int status;
-  ck_assert_int_eq(waitpid(child, &status, 0), child);
-  ck_assert_msg(WIFEXITED(status), "the child ended by signal %d", WTERMSIG(status));
-  return WEXITSTATUS(status);
-}
-
-/* Threads call all functions in random order, and get what each call gives alone; so do
- * children forked in between. */
-TEST(every_function_at_once) {
-  every_function_is_there();
-  every_room *room = calloc(1, sizeof *room);
-  every_input *copy = malloc(sizeof *copy);
-  for (int with = 0; with < INPUTS; with++) {
-    every_input_make(&shared[with], with, 0);
-    for (int k = 0; k < EVERY_COUNT; k++)
-      alone[with][k] = every_functions[k].body(&shared[with], room, 1);
-    shared[with].threads = 3;
-  }
-  memcpy(copy, &shared[0], sizeof *copy);
-  pthread_t thread[CALLERS];
-  int number[CALLERS];
-  atomic_store(&calling, CALLERS);
-  for (int k = 0; k < CALLERS; k++) {
-    number[k] = k;
-    ck_assert_int_eq(pthread_create(&thread[k], NULL, call_all, &number[k]), 0);
-  }
-  int children = 0;
-  for (; children < FORKS && atomic_load(&calling) > 0; children++)
-    ck_assert_int_eq(in_a_child(room, copy), 0);
-  for (int k = 0; k < CALLERS; k++)
-    pthread_join(thread[k], NULL);
-  for (int k = 0; k < EVERY_COUNT; k++)
-    ck_assert_msg(atomic_load(&others[k]) == 0, "%s had other results %d times",
-                  every_functions[k].name, atomic_load(&others[k]));
-  ck_assert_int_gt(children, 0);
-  printf("%d threads called %d functions; %d children between\n", CALLERS, EVERY_COUNT, children);
-  free(copy);
-  free(room);
 }
