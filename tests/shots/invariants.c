@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* m, m/s: what the cloth does to balls in the time of a cluster */
-static const double rubbed = 1e-5, rubbed_speed = 2e-3;
+static const double rubbed = 1e-5, rubbed_speed = 4e-3;
 
 static double length2(double x, double y) {
   return sqrt(x * x + y * y);
