@@ -15,8 +15,8 @@ typedef struct carom_turn_ball {
   int index; /* the caller's */
 } carom_turn_ball;
 typedef struct carom_turn_touch {
-  float impulse;
-  int8_t a, b; /* of ball[] */
+  float impulse; /* single, to save stack */
+  int8_t a, b;   /* of ball[] */
 } carom_turn_touch;
 enum { CAROM_TURN_TOUCHES = 10 + CAROM_CLUSTER_REPEATED }; /* every pair of 5 balls, and further */
 typedef struct carom_turn {

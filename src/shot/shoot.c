@@ -143,7 +143,7 @@ static carom_status unresolved(carom_sim *sim) {
 }
 
 /* Those contacts by the cluster; false where its touches have to be taken in turn first. *count
- * becomes that of its contacts. This is a function of its own because a cluster needs 44 KiB of
+ * becomes that of its contacts. This is a function of its own because a cluster needs 30 KiB of
  * stack. */
 __attribute__((noinline, cold)) static bool step_cluster(carom_sim *sim, carom_due *pending_event,
                                                          carom_turn *turn, int *count,
