@@ -231,8 +231,8 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
  * Bits: a shot has the same bits on every machine, with every model and in both worlds, unless
  * options.fast asks for the instruction set in use. A batch has the bits of single calls, for any
  * number of threads and any split. Cost: docs/using/shots.md has the times of shots, and
- * docs/understanding/cushion.md those of impacts on cushions. Stack: 61 KiB; a batch 66, with
- * threads 66. Nothing is allocated, except for the threads of a batch. */
+ * docs/understanding/cushion.md those of impacts on cushions. Stack: 61 KiB; a batch 67, with
+ * threads 67. Nothing is allocated, except for the threads of a batch. */
 
 /* ---- Balls ----------------------------------------------------------------------------------- */
 

@@ -135,7 +135,7 @@ typedef struct carom_tangent {
  * option. CAROM_ERROR_NO_TANGENTS from a library that was built without derivatives.
  * CAROM_ERROR_TANGENT if derivatives are not known: in CAROM_WORLD_POOLTOOL, whose spacers are not
  * differentiable, with CAROM_BALL_MODEL_EULER, and through clusters that are not those of the
- * events, or have more than 40 contacts. Three errors set every number of `final` to NaN, and may
+ * events, or have more than 38 contacts. Three errors set every number of `final` to NaN, and may
  * write others: CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved,
  * CAROM_ERROR_OVERFLOW if a number of `final` is not finite, and an error of a collision. */
 CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls,

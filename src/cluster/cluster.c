@@ -391,6 +391,7 @@ static inline void begin_step(bool flat, state *c, pushes *pushed) {
   for (int k = 0; k < c->balls; k++)
     c->ball[k].acting = 0;
   pushed->balls = 0;
+  double pressing[CAROM_CLUSTER_BALLS]; /* sums of J */
   for (int a = 0; a < pushed->contacts; a++) {
     contact *x = &c->contact[pushed->push[a]];
     /* speeds, and mu, which falls only where the slip is the greatest so far */
@@ -413,6 +414,7 @@ static inline void begin_step(bool flat, state *c, pushes *pushed) {
     for (int side = 0; side < 2; side++) {
       ball *p = side == 0 ? x->p : x->q;
       list_pushed(c, pushed, p);
+      pressing[p - c->ball] = p->acting > 0 ? pressing[p - c->ball] + x->J : x->J;
       p->acting = (int8_t)(p->acting < 2 ? p->acting + 1 : 2);
     }
   }
@@ -424,6 +426,8 @@ static inline void begin_step(bool flat, state *c, pushes *pushed) {
   /* all normal impulses, when all of that is known */
   for (int a = 0; a < pushed->contacts; a++) {
     const contact *x = &c->contact[pushed->push[a]];
+    const double others = carom_greater(pressing[x->i], pressing[x->j]) - x->J;
+    c->shared += carom_lesser(x->J, others);
     cluster_add(flat, x->p->v, -x->J * x->p->inverse_mass, x->n);
     cluster_add(flat, x->q->v, x->J * x->q->inverse_mass, x->n);
   }
@@ -679,6 +683,7 @@ static inline bool solve(bool flat, state *c) {
 bool carom_cluster_solve(carom_cluster_state *c) {
   CAROM_PROMISE((c->struck || c->contacts >= 1) && c->balls >= 1 && c->slow > 0.0);
   c->touches = c->repeated = 0;
+  c->shared = 0.0;
   for (int k = 0; k < c->balls; k++)
     for (int n = 0; n < 3; n++) {
       c->ball[k].s[n] = 0.0;

@@ -54,6 +54,7 @@
 
 #include "platform/arithmetic.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -74,6 +75,7 @@ static inline double carom_freedom_of_balls(double height, double n_z) {
 
 enum {
   CAROM_CLUSTER_BALLS = 32,
+  CAROM_CLUSTER_IN_TURN = 5,   /* balls of a cluster whose touches may be taken in turn */
   CAROM_CLUSTER_CONTACTS = 76, /* that 32 balls of one radius have on the cloth at most */
   CAROM_CLUSTER_REPEATED = 15, /* touches of contacts that have touched: further ones count with
                                      the last one of theirs */
@@ -105,6 +107,7 @@ typedef struct carom_cluster_contact_state {
   int8_t i, j;            /* of these in ball[] */
   bool touched;           /* now or before: n is known */
   bool may_stick;         /* within this step */
+  int touch;              /* its last one, in touch[] */
   double n[3];            /* unit vector from i to j */
   double offset;          /* d = offset + (s_i - s_j) . n */
   double d, d_max;        /* d_max: 0 while open */
@@ -116,7 +119,6 @@ typedef struct carom_cluster_contact_state {
                                 third; between steps f/J */
   double u[2], closing;      /* slip and closing speed as a step begins */
   double time;               /* tau of the first touch */
-  int touch;                 /* its last one, in touch[] */
   double impulse, rubbed[2]; /* sums of J and f */
 } carom_cluster_contact_state;
 
@@ -170,6 +172,7 @@ typedef struct carom_cluster_state {
   double steepness; /* of the cue, 0 to 1: how short steps of the slate are; push.c */
   double slow;      /* m/s: contacts that close slower are none, and do not prolong a cluster */
   double duration;  /* of the integration, s */
+  double shared;    /* sum of the impulses in steps in which other contacts of a ball act too */
   int steps_done;   /* steps */
   int touches, repeated; /* in touch[]; those of them that are repeated */
   carom_cluster_ball ball[CAROM_CLUSTER_BALLS];
@@ -219,6 +222,15 @@ int carom_cluster_begin_touch(carom_cluster_state *c, int contact, int last, dou
                               double approach);
 void carom_cluster_find_places(carom_cluster_state *c);
 double carom_cluster_tip_lead(const carom_cluster_state *c);
+
+/* The impulse of a contact, friction's share with it. */
+static inline double carom_cluster_size_of_impulse(const carom_cluster_contact_state *x) {
+  return sqrt(x->impulse * x->impulse + x->rubbed[0] * x->rubbed[0] + x->rubbed[1] * x->rubbed[1]);
+}
+
+/* places.c: 1 of a cluster whose touches do not overlap; 0 of one in which they share more than a
+ * 500th of the largest impulse, of a push, and of more than CAROM_CLUSTER_IN_TURN balls. */
+double carom_cluster_separation(const carom_cluster_state *c);
 
 /* cluster.c: v, W and shift of ball[]; time, impulse and friction of contact[]. False where it
  * takes too many steps. */

@@ -47,12 +47,13 @@ int carom_cluster_begin_touch(carom_cluster_state *c, int contact_index, int las
 }
 
 /* Touches in the order of their times; those of one time as they were noted. */
-static void sort(const carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_TOUCHES]) {
-  for (int k = 0; k < c->touches; k++) {
+static void sort(carom_cluster_state *c) {
+  for (int k = 1; k < c->touches; k++) {
+    const carom_cluster_touch touch = c->touch[k];
     int place = k;
-    for (; place > 0 && c->touch[k].time < c->touch[order[place - 1]].time; place--)
-      order[place] = order[place - 1];
-    order[place] = (uint8_t)k;
+    for (; place > 0 && touch.time < c->touch[place - 1].time; place--)
+      c->touch[place] = c->touch[place - 1];
+    c->touch[place] = touch;
   }
 }
 
@@ -139,12 +140,11 @@ static double delay_of(const carom_cluster_state *c, const carom_cluster_touch *
 
 void carom_cluster_find_places(carom_cluster_state *c) {
   changes sum;
-  uint8_t order[CAROM_CLUSTER_TOUCHES];
-  sort(c, order);
+  sort(c);
   begin(c, &sum);
   c->tip.delay = 0.0;
   for (int k = 0; k < c->touches; k++) {
-    const carom_cluster_touch *l = &c->touch[order[k]];
+    const carom_cluster_touch *l = &c->touch[k];
     double instant;
     if (l->contact < 0) {
       instant = carom_greater(l->time - carom_linear_lag(c->tip.T, c->tip.e), 0.0);
@@ -173,4 +173,15 @@ double carom_cluster_tip_lead(const carom_cluster_state *c) {
   for (int k = 0; k < 3; k++)
     place[k] = b->shift[k] + t * b->v[k] - b->s[k];
   return x->travel - t * x->V - x->delay + cluster_dot(false, place, x->axis);
+}
+
+double carom_cluster_separation(const carom_cluster_state *c) {
+  static const double overlap = 2e-3; /* of the largest impulse */
+  if (c->struck || c->balls > CAROM_CLUSTER_IN_TURN)
+    return 0.0;
+  double most = 0.0;
+  for (int k = 0; k < c->contacts; k++)
+    most = carom_greater(most, c->contact[k].impulse);
+  const double left = 1.0 - c->shared / (overlap * most);
+  return left > 0.0 ? left * left : (double)0.0;
 }

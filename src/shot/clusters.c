@@ -103,7 +103,161 @@ bool carom_third_is_near(const carom_sim *sim, int i, int j) {
   return near_them > 2;
 }
 
-int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
+/* ---- In turn
+ *
+ * Touches that do not overlap are what events in turn are. Each has its contact by the model of two
+ * balls, where their paths bring them together. A ball then starts now, from where and as fast as
+ * its last path was, followed back to now; so friction with the cloth counts from the touch on. If
+ * that would raise the energy, speeds are followed back by a share. With f the separation of a
+ * cluster (places.c), its balls get f of that and 1 - f of what the integrator has. So a cluster
+ * that falls into two leaves no jump. */
+
+void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball_state *a,
+                         carom_ball_state *b, double last, double since[2], double *impulse) {
+  enum { ITERATIONS = 6 };
+  carom_ball_state *const ball[2] = {a, b}, now[2];
+  const carom_ball_kind *const kind[2] = {sim->layout->kind[pair->a], sim->layout->kind[pair->b]};
+  carom_ball_rates rates[2];
+  carom_path path[2];
+  for (int side = 0; side < 2; side++) {
+    rates[side] = carom_rates_of(kind[side]);
+    path[side].from = *ball[side];
+    carom_path_begin(&path[side], &rates[side], since[side]);
+  }
+
+  /* the time of the touch, by Newton's method */
+  const double first = carom_greater(since[0], since[1]);
+  double time = first, gap = 0.0, closing = 0.0, n[3];
+  for (int k = 0; k <= ITERATIONS; k++) {
+    time = carom_greater(time + (k > 0 ? gap / closing : (double)0.0), first);
+    for (int side = 0; side < 2; side++)
+      carom_path_at(&path[side], &rates[side], time, &now[side]);
+    carom_line_of_centres(kind[0], &now[0], kind[1], &now[1], n);
+    closing = carom_closing(&now[0], &now[1], n);
+    if (!(closing >= carom_slow_speed(sim->slow_instants)))
+      return;
+    double d[3];
+    cluster_minus(false, now[1].r, now[0].r, d);
+    gap = cluster_dot(false, d, n) - kind[0]->radius - kind[1]->radius;
+  }
+
+  const bool in_space = carom_flies(a) || carom_flies(b) || kind[0]->radius != kind[1]->radius;
+  const double v[3] = {now[0].v[0], now[0].v[1], now[0].v[2]};
+  if (!(gap < CAROM_TOUCHING && time <= last) ||
+      carom_model_balls(sim, pair, n, in_space, &now[0], &now[1]) < 0)
+    return;
+  double change[3];
+  cluster_minus(false, now[0].v, v, change);
+  *impulse += kind[0]->mass * sqrt(cluster_dot(false, change, change));
+  for (int side = 0; side < 2; side++) {
+    carom_label_after(in_space, kind[side], &now[side]);
+    *ball[side] = now[side];
+    since[side] = time;
+  }
+}
+
+double carom_energy_in_turn(const carom_ball_kind *kind, const carom_ball_state *s) {
+  const double spin = kind->radius * kind->radius * cluster_dot(false, s->w, s->w);
+  return kind->mass * (0.5 * cluster_dot(false, s->v, s->v) + 0.2 * spin +
+                       carom_rates_of(kind).gravity * s->r[2]);
+}
+
+double carom_share_in_turn(double before, double touched, double started) {
+  static const double rounding = 1e-12;
+  const double most = (1.0 - rounding) * before;
+  if (!(started > most))
+    return 1.0;
+  return touched < most ? (most - touched) / (started - touched) : (double)0.0;
+}
+
+void carom_start_in_turn(const carom_ball_kind *kind, double since, double share,
+                         carom_ball_state *s) {
+  const carom_ball_rates rates = carom_rates_of(kind);
+  carom_ball_state later;
+  carom_path path;
+  path.from = *s;
+  carom_path_begin(&path, &rates, 0.0);
+  carom_path_at(&path, &rates, since, &later);
+  for (int k = 0; k < 3; k++) {
+    s->r[k] = later.r[k] - 2.0 * since * s->v[k];
+    s->v[k] += share * (s->v[k] - later.v[k]);
+    s->w[k] += share * (s->w[k] - later.w[k]);
+  }
+}
+
+/* The touches of a cluster, to be taken in turn. */
+static void note_touches(const carom_cluster_state *c, carom_turn *turn) {
+  turn->balls = c->balls;
+  turn->touches = c->touches;
+  turn->duration = c->duration;
+  for (int k = 0; k < c->balls; k++)
+    turn->ball[k].index = c->ball[k].index;
+  for (int k = 0; k < c->touches; k++) {
+    const carom_cluster_contact_state *x = &c->contact[c->touch[k].contact];
+    turn->touch[k] = (carom_turn_touch){0, x->i, x->j};
+  }
+}
+
+void carom_take_in_turn(const carom_sim *sim, carom_turn *turn) {
+  double since[CAROM_CLUSTER_IN_TURN], before = 0.0, touched = 0.0, started = 0.0;
+  for (int k = 0; k < turn->balls; k++) {
+    const int i = turn->ball[k].index;
+    carom_path_at(&sim->path[i], &sim->rates[i], sim->time, &turn->ball[k].state);
+    before += carom_energy_in_turn(sim->layout->kind[i], &turn->ball[k].state);
+    since[k] = 0.0;
+  }
+  for (int k = 0; k < turn->touches; k++) {
+    carom_turn_touch *touch = &turn->touch[k];
+    carom_turn_ball *a = &turn->ball[touch->a], *b = &turn->ball[touch->b];
+    const carom_due pair = {sim->time, CAROM_EVENT_BALL_BALL, a->index, b->index};
+    double times[2] = {since[touch->a], since[touch->b]}, impulse = 0.0;
+    carom_touch_in_turn(sim, &pair, &a->state, &b->state, turn->duration, times, &impulse);
+    touch->impulse = (float)impulse;
+    since[touch->a] = times[0];
+    since[touch->b] = times[1];
+  }
+  for (int k = 0; k < turn->balls; k++) {
+    const carom_ball_kind *kind = sim->layout->kind[turn->ball[k].index];
+    carom_ball_state s = turn->ball[k].state;
+    touched += carom_energy_in_turn(kind, &s);
+    carom_start_in_turn(kind, since[k], 1.0, &s);
+    started += carom_energy_in_turn(kind, &s);
+  }
+  const double share = carom_share_in_turn(before, touched, started);
+  for (int k = 0; k < turn->balls; k++)
+    carom_start_in_turn(sim->layout->kind[turn->ball[k].index], since[k], share,
+                        &turn->ball[k].state);
+  turn->known = true;
+}
+
+/* Gives balls and contacts so much of what touches in turn have. */
+static void pass_on(const carom_sim *sim, const carom_turn *turn, double share,
+                    carom_cluster_state *c) {
+  double impulse[CAROM_CLUSTER_CONTACTS] = {0.0};
+  for (int k = 0; k < c->balls; k++) {
+    carom_cluster_ball *p = &c->ball[k];
+    const carom_ball_state *to = &turn->ball[k].state;
+    carom_ball_state from;
+    carom_path_at(&sim->path[p->index], &sim->rates[p->index], sim->time, &from);
+    for (int axis = 0; axis < 3; axis++) {
+      p->v[axis] += share * (to->v[axis] - p->v[axis]);
+      p->W[axis] += share * (p->radius * to->w[axis] - p->W[axis]);
+      p->shift[axis] += share * (to->r[axis] - from.r[axis] - p->shift[axis]);
+    }
+  }
+  for (int k = 0; k < c->touches; k++)
+    impulse[c->touch[k].contact] += (double)turn->touch[k].impulse;
+  for (int k = 0; k < c->contacts; k++) {
+    carom_cluster_contact_state *x = &c->contact[k];
+    const double size = carom_cluster_size_of_impulse(x);
+    const double factor = size > 0.0 ? 1.0 + share * (impulse[k] - size) / size : (double)1.0;
+    x->impulse *= factor;
+    x->rubbed[0] *= factor;
+    x->rubbed[1] *= factor;
+  }
+}
+
+int carom_cluster_now(carom_sim *sim, int i, int j, carom_turn *turn, carom_cluster_state *c,
                       uint8_t order[CAROM_CLUSTER_CONTACTS]) {
   CAROM_PROMISE(i < j);
 
@@ -136,8 +290,18 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
   if (size < 0 || !carom_cluster_solve(c))
     return -1;
 
+  int count = in_order(c, order);
+  const double share = count > 1 ? carom_cluster_separation(c) : (double)0.0;
+  if (share > 0.0 && !turn->known) {
+    note_touches(c, turn);
+    return CAROM_TAKE_IN_TURN;
+  }
+  if (share > 0.0) {
+    pass_on(sim, turn, share, c);
+    count = in_order(c, order);
+  }
+
   /* the contact that is due goes first */
-  const int count = in_order(c, order);
   for (int k = 1; k < count; k++) {
     const carom_cluster_contact_state *x = &c->contact[order[k]];
     if (c->ball[x->i].index != i || c->ball[x->j].index != j)

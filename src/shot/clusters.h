@@ -9,15 +9,49 @@
  * them. */
 bool carom_third_is_near(const carom_sim *sim, int i, int j);
 
+/* What touches of a cluster in turn leave, clusters.c. */
+typedef struct carom_turn_ball {
+  carom_ball_state state;
+  int index; /* the caller's */
+} carom_turn_ball;
+typedef struct carom_turn_touch {
+  float impulse; /* single, to save stack */
+  int8_t a, b;   /* of ball[] */
+} carom_turn_touch;
+enum { CAROM_TURN_TOUCHES = 10 + CAROM_CLUSTER_REPEATED }; /* every pair of 5 balls, and further */
+typedef struct carom_turn {
+  bool known; /* what they leave, and not only which they are */
+  int balls, touches;
+  double duration; /* of the cluster, s: those that are later are events of their own */
+  carom_turn_ball ball[CAROM_CLUSTER_IN_TURN];
+  carom_turn_touch touch[CAROM_TURN_TOUCHES];
+} carom_turn;
+void carom_take_in_turn(const carom_sim *sim, carom_turn *turn);
+
 /* The cluster around balls i < j, which touch now and close at the speed of slow contacts or
  * faster. Returns how many contacts had an impulse, in the order of order[]; 0 where the contact
  * of i and j is one of two balls alone; -1 where the cluster has too many contacts, or takes too
- * many steps. */
-int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
+ * many steps; CAROM_TAKE_IN_TURN where its touches have to be taken in turn first. The caller does
+ * that, and asks again, because a cluster and a contact together need too much stack. */
+enum { CAROM_TAKE_IN_TURN = -2 };
+int carom_cluster_now(carom_sim *sim, int i, int j, carom_turn *turn, carom_cluster_state *c,
                       uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
 /* The motion of a ball after its cluster. */
 void carom_cluster_take(const carom_cluster_ball *b, carom_ball_state *s);
+
+/* The contact of two balls, each of which is as given at a time of its own, s from now on: they
+ * become as they are after it, these times that of the touch, and the impulse counts it. Nothing
+ * changes where they do not touch by the `last` time. */
+void carom_touch_in_turn(const carom_sim *sim, const carom_due *pair, carom_ball_state *a,
+                         carom_ball_state *b, double last, double since[2], double *impulse);
+/* A ball becomes as it has to start now in order to be as given then; of the change of its motion
+ * meanwhile, a share counts: all, unless the energy of all balls, which is `started` then and was
+ * `touched` at their touches, would be above that before. */
+void carom_start_in_turn(const carom_ball_kind *kind, double since, double share,
+                         carom_ball_state *s);
+double carom_share_in_turn(double before, double touched, double started);
+double carom_energy_in_turn(const carom_ball_kind *kind, const carom_ball_state *s);
 
 /* Whether contacts of several balls last by these options. */
 bool carom_lasts(const carom_shot_options *opt);

@@ -110,8 +110,7 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
 
     carom_event spare, *event = note(sim, &spare, &contact);
     event->cluster = count + c->struck; /* the strike is one of them */
-    event->impulse =
-        sqrt(x->impulse * x->impulse + x->rubbed[0] * x->rubbed[0] + x->rubbed[1] * x->rubbed[1]);
+    event->impulse = carom_cluster_size_of_impulse(x);
     for (int side = 0; side < 2; side++) {
       const int i = two[side]->index;
       carom_path *path = &sim->path[i];
@@ -143,24 +142,41 @@ static carom_status unresolved(carom_sim *sim) {
   return CAROM_ERROR_UNRESOLVED;
 }
 
-/* Resolves the contact that is due together with the contacts that last at the same time. Returns
- * false where there are no others. *pending_event becomes the first contact of the struck ball,
- * where it has one. This is a function of its own because a cluster needs 20 KiB of stack. */
-__attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *pending_event,
-                                                          carom_status *status) {
+/* Those contacts by the cluster; false where its touches have to be taken in turn first. *count
+ * becomes that of its contacts. This is a function of its own because a cluster needs 30 KiB of
+ * stack. */
+__attribute__((noinline, cold)) static bool step_cluster(carom_sim *sim, carom_due *pending_event,
+                                                         carom_turn *turn, int *count,
+                                                         carom_status *status) {
   carom_cluster_state c;
   uint8_t order[CAROM_CLUSTER_CONTACTS];
-  const int count = carom_cluster_now(sim, pending_event->a, pending_event->b, &c, order);
-  if (count == 0)
+  *count = carom_cluster_now(sim, pending_event->a, pending_event->b, turn, &c, order);
+  if (*count == CAROM_TAKE_IN_TURN)
     return false;
-  if (count < 0) {
-    *status = unresolved(sim);
+  if (*count <= 0)
     return true;
-  }
   bool changed[CAROM_BALLS_MOST] = {false};
-  *status = note_contacts(sim, &c, order, count, changed, pending_event);
-  carom_detect_all(sim);
+  *status = note_contacts(sim, &c, order, *count, changed, pending_event);
   return true;
+}
+
+/* Resolves the contact that is due together with the contacts that last at the same time. Returns
+ * false where there are no others. *pending_event becomes the first contact of the struck ball,
+ * where it has one. */
+__attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *pending_event,
+                                                          carom_status *status) {
+  carom_turn turn;
+  int count;
+  turn.known = false;
+  if (!step_cluster(sim, pending_event, &turn, &count, status)) {
+    carom_take_in_turn(sim, &turn);
+    step_cluster(sim, pending_event, &turn, &count, status);
+  }
+  if (count < 0)
+    *status = unresolved(sim);
+  else if (count > 0)
+    carom_detect_all(sim);
+  return count != 0;
 }
 
 /* Which strike a push is: the first strike of a ball that has others near, the first strike of a

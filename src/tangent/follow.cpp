@@ -723,6 +723,11 @@ struct cluster {
   number cue[CAROM_CUE_NUMBERS];
   double apart, most; /* values from those of the shot, and the largest of these */
   member members[CAROM_BALLS_MOST];
+  const carom_tangent_cluster *task;
+  bool in_turn; /* turn[] is read: members as touches in turn leave them, */
+  struct {
+    real x[CAROM_MOTION_NUMBERS], d[CAROM_MOTION_NUMBERS]; /* v, w, shift; in this direction */
+  } turn[text::CAROM_CLUSTER_IN_TURN];
 };
 
 /* The balls of the events of a cluster, in the caller's order. */
@@ -876,11 +881,62 @@ bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS + 1],
   return ball.flies;
 }
 
+/* The members by their touches in turn, as shot/clusters.c has them. */
+CAROM_APART void take_in_turn(cluster *c) {
+  carom_tangent_work *w = c->w;
+  scene s;
+  begin_scene(w, &s);
+  s.sim.slow_instants = w->slow_instants;
+  carom_ball_state state[text::CAROM_CLUSTER_IN_TURN], before;
+  number since[text::CAROM_CLUSTER_IN_TURN], energy = 0, touched = 0, started = 0;
+  text::carom_ball_kind *const kind[2] = {&s.ball[0].kind, &s.ball[1].kind};
+  for (int k = 0; k < c->count; k++) {
+    const member *m = &c->members[k];
+    load_member(w, m->ball, m->event->before[m->side], kind[0], &state[k]);
+    energy += text::carom_energy_in_turn(kind[0], &state[k]);
+    since[k] = 0;
+  }
+
+  for (int t = 0; t < c->task->touches; t++) {
+    const int8_t *two = c->task->touch[t];
+    for (int side = 0; side < 2; side++)
+      load_kind(w, c->members[two[side]].ball, kind[side]);
+    const text::carom_due pair = {0, CAROM_EVENT_BALL_BALL, 0, 1};
+    number impulse = 0, times[2] = {since[two[0]], since[two[1]]};
+    text::carom_touch_in_turn(&s.sim, &pair, &state[two[0]], &state[two[1]], c->task->duration,
+                              times, &impulse);
+    for (int side = 0; side < 2; side++)
+      since[two[side]] = times[side];
+  }
+
+  for (int k = 0; k < c->count; k++) {
+    load_kind(w, c->members[k].ball, kind[0]);
+    carom_ball_state start = state[k];
+    touched += text::carom_energy_in_turn(kind[0], &start);
+    text::carom_start_in_turn(kind[0], since[k], 1, &start);
+    started += text::carom_energy_in_turn(kind[0], &start);
+  }
+  const number share = text::carom_share_in_turn(energy, touched, started);
+  for (int k = 0; k < c->count; k++) {
+    const member *m = &c->members[k];
+    load_member(w, m->ball, m->event->before[m->side], kind[0], &before);
+    text::carom_start_in_turn(kind[0], since[k], share, &state[k]);
+    for (int n = 0; n < CAROM_MOTION_NUMBERS; n++) {
+      const number *const of[] = {state[k].v, state[k].w, state[k].r};
+      const number x = n < 6 ? of[n / 3][n % 3] : of[2][n - 6] - before.r[n - 6];
+      c->turn[k].x[n] = x.x;
+      c->turn[k].d[n] = x.d[c->direction];
+    }
+  }
+}
+
 void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS + 1],
           const real d[CAROM_MOTION_NUMBERS + 1]) {
   static const int row_of[CAROM_MOTION_NUMBERS] = {S_V_X, S_V_Y, S_V_Z, S_W_X, S_W_Y,
                                                    S_W_Z, S_X,   S_Y,   S_Z};
   cluster *c = (cluster *)context;
+  if (c->task->separation > 0 && !c->in_turn)
+    return; /* it is solved again, with turn[] */
   const carom_tangent_work *w = c->w;
   const int i = c->members[k].ball;
   const ::carom_ball_state *after = &c->members[k].event->after[c->members[k].side];
@@ -894,6 +950,12 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS + 1],
     to[n]->d[c->direction] = d[n];
     if (n >= 3 && n < 6)
       *to[n] /= kind.radius;
+  }
+  for (int n = 0; n < CAROM_MOTION_NUMBERS && c->in_turn; n++) {
+    number turn = c->turn[k].x[n], share = c->task->separation;
+    turn.d[c->direction] = c->turn[k].d[n];
+    share.d[c->direction] = c->task->separation_rate;
+    *to[n] += share * (turn - *to[n]);
   }
   if (c->on_slate) {
     number J = x[CAROM_MOTION_NUMBERS];
@@ -937,16 +999,30 @@ CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
                                 .give = give,
                                 .take = take,
                                 .context = c,
+                                .separation = 0,
+                                .separation_rate = 0,
+                                .duration = 0,
+                                .touches = 0,
+                                .touch = {},
                                 .V = 0,
                                 .V_rate = 0,
                                 .lead = 0,
                                 .lead_rate = 0};
+  c->task = &task;
   carom_tangent_tip *tip = &w->tip;
   const real along = tip->along;
   bool kink = false;
+  c->in_turn = false;
   for (c->direction = 0; c->direction < w->pass.columns; c->direction++) {
+    if (c->in_turn)
+      take_in_turn(c);
     if (!carom_tangent_solve_cluster(&task, &kink))
       return false;
+    if (task.separation > 0 && !c->in_turn) {
+      c->in_turn = true;
+      c->direction--;
+      continue;
+    }
     if (task.second < 0) {
       tip->V = task.V;
       tip->along = along + task.lead;

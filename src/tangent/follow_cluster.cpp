@@ -25,6 +25,22 @@ void tell_tip(const text::carom_cluster_state &state, carom_tangent_cluster *c) 
   c->lead_rate = lead.d[0];
 }
 
+/* How far the touches are apart, and in which order they come. */
+void tell_touches(const text::carom_cluster_state &state, carom_tangent_cluster *c) {
+  static_assert((int)text::CAROM_CLUSTER_TOUCHES == (int)CAROM_TANGENT_TOUCHES,
+                "there is room for each");
+  const number separation = text::carom_cluster_separation(&state);
+  c->separation = separation.x;
+  c->separation_rate = separation.d[0];
+  c->duration = state.duration.x;
+  c->touches = state.struck ? 0 : state.touches;
+  for (int k = 0; k < c->touches; k++) {
+    const text::carom_cluster_contact_state &x = state.contact[state.touch[k].contact];
+    c->touch[k][0] = x.i;
+    c->touch[k][1] = x.j;
+  }
+}
+
 row row_of(real d) {
   row r = {};
   r[0] = d;
@@ -101,6 +117,7 @@ bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
   }
 
   /* their motion after it */
+  tell_touches(state, c);
   for (int k = 0; k < c->balls; k++) {
     const text::carom_cluster_ball &ball = state.ball[k];
     real x[CAROM_MOTION_NUMBERS + 1], d[CAROM_MOTION_NUMBERS + 1];

@@ -4,9 +4,11 @@
 #define CAROM_SRC_TANGENT_FOLLOW_CLUSTER_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 /* The numbers of a carom_cluster_ball that its caller sets; v and W are those from 3 on. */
 enum { CAROM_MEMBER_NUMBERS = 17, CAROM_MEMBER_MOTION = 3, CAROM_MOTION_NUMBERS = 9 };
+enum { CAROM_TANGENT_TOUCHES = 54 }; /* of a cluster, at most */
 
 typedef struct carom_tangent_cluster {
   int balls, first, second; /* members; the places of the two of the contact that starts it; of a
@@ -26,6 +28,12 @@ typedef struct carom_tangent_cluster {
   void (*take)(void *context, int k, const double x[CAROM_MOTION_NUMBERS + 1],
                const double d[CAROM_MOTION_NUMBERS + 1]);
   void *context;
+  /* written before `take` is called: how far its touches are apart, places.c, and how long the
+     integration lasts, with their tangents; the
+     touches in their order, each by the places of its two balls */
+  double separation, separation_rate, duration;
+  int touches;
+  int8_t touch[CAROM_TANGENT_TOUCHES][2];
   /* written: of a push the speed of the cue after it, and the lead of its tip, with their
      tangents */
   double V, V_rate, lead, lead_rate;

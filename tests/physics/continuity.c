@@ -51,7 +51,7 @@ static const jump_kind known[] = {
     {"order of slate, tip", 0.3, 0.0, "the same"},
     {"slow tip", 0.0, 0.01, "a tip that closes at less than 1 mm/s lies at the ball"},
     {"unseen before tip", 0.0, 0.02, "the same"},
-    {"split of ball", 0.03, 0.0, "a step of the integrator: a pair alone has a closed form"},
+    {"split of ball", 0.02, 0.0, "a step of the integrator, beside touches that overlap"},
     {"unseen before ball", 0.0, 1e-3, "the same"},
     {"after ball", 0.05, 0.0, "a step of the integrator, in which a contact sticks or slips"},
     {"after cushion", 0.05, 0.0, "a nose near the cloth that hardly closes"},

@@ -194,6 +194,51 @@ TEST(mirror_and_turns) {
   ck_assert_int_gt(clusters, 1000);
 }
 
+/* ---- Splitting */
+
+/* A ball rolls into one that has another behind it, at a gap and `aside` m off their line. Returns
+ * whether the contacts are one cluster; final[] has the balls shortly after. */
+static bool play_three(double speed, double aside, double gap) {
+  const carom_table t = empty_table(50.0);
+  carom_shot_ball b[3] = {ball_at(20.0, 20.0), ball_at(20.1, 20.0), ball_at(0.0, 0.0)};
+  const double R = b[0].kind.radius, y = 4.0 * aside;
+  b[1].state.r[1] += aside;
+  b[2].state.r[0] = 20.1 + sqrt((2.0 * R + gap) * (2.0 * R + gap) - y * y);
+  b[2].state.r[1] = b[1].state.r[1] + y;
+  b[0].state.v[0] = speed;
+  b[0].state.w[1] = speed / R;
+  b[0].state.w[2] = 30.0;
+  const carom_shot_options options = {.time_most = 0.1 / speed};
+  play(&t, b, 3, NULL, &options, CAROM_STOPPED_AT_TIME);
+  for (int k = 0;; k++)
+    if (events[k].type == CAROM_EVENT_BALL_BALL)
+      return events[k].cluster > 0;
+}
+
+/* At the gap at which a cluster falls into two events, nothing jumps. */
+TEST(splitting) {
+  static const double speeds[] = {0.5, 2.0, 6.0};
+  for (int n = 0; n < 9; n++) {
+    const double speed = speeds[n / 3], aside = n % 3 * 0.005;
+    double one = 0.0, two = 2e-3;
+    ck_assert(play_three(speed, aside, one) && !play_three(speed, aside, two));
+    for (int k = 0; k < 60; k++) {
+      const double gap = 0.5 * (one + two);
+      *(play_three(speed, aside, gap) ? &one : &two) = gap;
+    }
+    carom_ball_state together[3];
+    play_three(speed, aside, one);
+    memcpy(together, final, sizeof together);
+    play_three(speed, aside, two);
+    for (int k = 0; k < 3; k++)
+      for (int axis = 0; axis < 3; axis++) {
+        ck_assert_double_eq_tol(together[k].r[axis], final[k].r[axis], 1e-12);
+        ck_assert_double_eq_tol(together[k].v[axis], final[k].v[axis], 1e-11);
+        ck_assert_double_eq_tol(together[k].w[axis], final[k].w[axis], 1e-9);
+      }
+  }
+}
+
 /* ---- Small changes */
 
 /* Whether a shot's first contact of balls is a cluster with no cushion before it, hit at more than

@@ -7,6 +7,9 @@
 #include <stdbool.h>
 #include <string.h>
 
+/* m, m/s: what the cloth does to balls in the time of a cluster */
+static const double rubbed = 1e-5, rubbed_speed = 4e-3;
+
 static double length2(double x, double y) {
   return sqrt(x * x + y * y);
 }
@@ -257,7 +260,7 @@ static bool part(const follower *f, int i, int j) {
 
 /* A cluster or a push starts its balls from where their contacts would have left them, each at an
  * instant (src/cluster/places.c). Two of them may overlap then, if they part. Without a cue their
- * centre of mass stays. */
+ * centre of mass stays, unless the cloth rubs balls between touches that are taken in turn. */
 static void measure_start(follower *f, const carom_event *e) {
   double moved[2] = {0.0}, mass = 0.0;
   bool changed[CAROM_BALLS_MOST] = {false};
@@ -273,7 +276,7 @@ static void measure_start(follower *f, const carom_event *e) {
           f->balls[i].kind.mass * (one->after[side % 2].r[axis] - one->before[side % 2].r[axis]);
   }
   if (e->type == CAROM_EVENT_BALL_BALL)
-    f->m.jump = fmax(f->m.jump, length2(moved[0], moved[1]) / mass);
+    f->m.jump = fmax(f->m.jump, length2(moved[0], moved[1]) / mass - rubbed);
   for (int i = 0; i < f->count; i++)
     for (int j = 0; j < i; j++)
       if ((changed[i] || changed[j]) && !is_out(&f->at[i]) && !is_out(&f->at[j])) {
@@ -322,7 +325,8 @@ static double momentum_change_of_cluster(const follower *f, const carom_event *e
   }
   const double given = e->type == CAROM_EVENT_STRIKE ? e->impulse : 0.0,
                size = fmax(hypot(length2(change[0], change[1]), change[2]) - given, 0.0);
-  const double cloth = mu * 0.12 * e->cluster * sum;
+  const double meanwhile = e->type == CAROM_EVENT_BALL_BALL ? rubbed_speed * mass : 0.0,
+               cloth = mu * 0.12 * e->cluster * sum + meanwhile;
   return size / (1e-13 + (space ? 1e-9 * mass + share * cloth : cloth));
 }
 
@@ -371,7 +375,8 @@ static double impulse_error(const follower *f, const carom_event *e, int togethe
   for (int i = 0; i < f->count; i++) {
     const double off = contacts[i] == 1 ? fabs(shown[i] - sum[i]) : shown[i] - sum[i];
     const double hidden = 0.015 + 0.12 * f->balls[i].kind.mu_slide;
-    worst = fmax(worst, off / (1e-12 + hidden * sum[i]));
+    const double meanwhile = e->type == CAROM_EVENT_BALL_BALL ? rubbed_speed : 0.0;
+    worst = fmax(worst, off / (1e-12 + meanwhile * f->balls[i].kind.mass + hidden * sum[i]));
   }
   return worst;
 }
