@@ -177,7 +177,7 @@ CAROM_API carom_status carom_match_begin_at(carom_match *match, carom_rules_kind
  * and these limits: 15 m/s, 90 degrees, 0.75 radii, sticks of 0.2 to 1.2 kg whose end has 1 g or
  * more. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT for a number of seats that the game does not
  * have. */
-CAROM_API carom_status carom_seating_make(carom_rules_kind rules, int count,
+CAROM_API carom_status carom_seating_make(carom_rules_kind rules, int seats,
                                           carom_seating *seating);
 
 /* How a match begins. All zero but `table`: eight-ball of two, with a rack. */

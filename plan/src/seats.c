@@ -128,7 +128,7 @@ const char *carom_seats_fault(const carom_plan_rules *rules, carom_rules_kind ki
 
 /* ---- Beginning */
 
-carom_status carom_seating_make(carom_rules_kind kind, int count, carom_seating *seating) {
+carom_status carom_seating_make(carom_rules_kind kind, int seats, carom_seating *seating) {
   if (seating == NULL)
     return CAROM_ERROR_NULL;
   const carom_rules_about *about = carom_rules_about_of(kind);
@@ -136,12 +136,12 @@ carom_status carom_seating_make(carom_rules_kind kind, int count, carom_seating 
   if (about != NULL)
     game = (carom_game)about->balls;
   memset(seating, 0, sizeof *seating);
-  if (count < 2 || count > CAROM_SEATS_MOST)
+  if (seats < 2 || seats > CAROM_SEATS_MOST)
     return CAROM_ERROR_ACT;
   carom_cue cue = carom_cue_of(game);
   cue.speed = cue.phi = cue.theta = cue.a = cue.b = 0.0;
-  seating->count = count;
-  for (int k = 0; k < count; k++) {
+  seating->count = seats;
+  for (int k = 0; k < seats; k++) {
     seating->seat[k].side = k;
     seating->seat[k].cue = cue;
   }
@@ -152,9 +152,9 @@ carom_status carom_seating_make(carom_rules_kind kind, int count, carom_seating 
                                           .mass_most = 1.2,
                                           .end_mass_least = 0.001};
   const carom_plan_rules rules = carom_plan_rules_of(kind);
-  const bool seats = about != NULL && rules.race == CAROM_RACE_SEATS;
-  if (about != NULL && !seats && count != 2) /* partners: every other seat */
-    for (int k = 0; k < count; k++)
+  const bool is_own = about != NULL && rules.race == CAROM_RACE_SEATS;
+  if (about != NULL && !is_own && seats != 2) /* partners: every other seat */
+    for (int k = 0; k < seats; k++)
       seating->seat[k].side = k % 2;
   return CAROM_OK;
 }

@@ -186,7 +186,7 @@ void carom_start_in_turn(const carom_ball_kind *kind, double since, double share
 }
 
 /* The touches of a cluster, to be taken in turn. */
-static void note_touches(const carom_cluster_state *c, carom_turn *turn) {
+static void note_touches(const carom_cluster_state *c, carom_in_turn *turn) {
   turn->balls = c->balls;
   turn->touches = c->touches;
   turn->duration = c->duration;
@@ -194,11 +194,11 @@ static void note_touches(const carom_cluster_state *c, carom_turn *turn) {
     turn->ball[k].index = c->ball[k].index;
   for (int k = 0; k < c->touches; k++) {
     const carom_cluster_contact_state *x = &c->contact[c->touch[k].contact];
-    turn->touch[k] = (carom_turn_touch){0, x->i, x->j};
+    turn->touch[k] = (carom_in_turn_touch){0, x->i, x->j};
   }
 }
 
-void carom_take_in_turn(const carom_sim *sim, carom_turn *turn) {
+void carom_take_in_turn(const carom_sim *sim, carom_in_turn *turn) {
   double since[CAROM_CLUSTER_IN_TURN], before = 0.0, touched = 0.0, started = 0.0;
   for (int k = 0; k < turn->balls; k++) {
     const int i = turn->ball[k].index;
@@ -207,8 +207,8 @@ void carom_take_in_turn(const carom_sim *sim, carom_turn *turn) {
     since[k] = 0.0;
   }
   for (int k = 0; k < turn->touches; k++) {
-    carom_turn_touch *touch = &turn->touch[k];
-    carom_turn_ball *a = &turn->ball[touch->a], *b = &turn->ball[touch->b];
+    carom_in_turn_touch *touch = &turn->touch[k];
+    carom_in_turn_ball *a = &turn->ball[touch->a], *b = &turn->ball[touch->b];
     const carom_due pair = {sim->time, CAROM_EVENT_BALL_BALL, a->index, b->index};
     double times[2] = {since[touch->a], since[touch->b]}, impulse = 0.0;
     carom_touch_in_turn(sim, &pair, &a->state, &b->state, turn->duration, times, &impulse);
@@ -231,7 +231,7 @@ void carom_take_in_turn(const carom_sim *sim, carom_turn *turn) {
 }
 
 /* Gives balls and contacts so much of what touches in turn have. */
-static void pass_on(const carom_sim *sim, const carom_turn *turn, double share,
+static void pass_on(const carom_sim *sim, const carom_in_turn *turn, double share,
                     carom_cluster_state *c) {
   double impulse[CAROM_CLUSTER_CONTACTS] = {0.0};
   for (int k = 0; k < c->balls; k++) {
@@ -257,7 +257,7 @@ static void pass_on(const carom_sim *sim, const carom_turn *turn, double share,
   }
 }
 
-int carom_cluster_now(carom_sim *sim, int i, int j, carom_turn *turn, carom_cluster_state *c,
+int carom_cluster_now(carom_sim *sim, int i, int j, carom_in_turn *turn, carom_cluster_state *c,
                       uint8_t order[CAROM_CLUSTER_CONTACTS]) {
   CAROM_PROMISE(i < j);
 

@@ -10,23 +10,23 @@
 bool carom_third_is_near(const carom_sim *sim, int i, int j);
 
 /* What touches of a cluster in turn leave, clusters.c. */
-typedef struct carom_turn_ball {
+typedef struct carom_in_turn_ball {
   carom_ball_state state;
   int index; /* the caller's */
-} carom_turn_ball;
-typedef struct carom_turn_touch {
+} carom_in_turn_ball;
+typedef struct carom_in_turn_touch {
   float impulse; /* single, to save stack */
   int8_t a, b;   /* of ball[] */
-} carom_turn_touch;
+} carom_in_turn_touch;
 enum { CAROM_TURN_TOUCHES = 10 + CAROM_CLUSTER_REPEATED }; /* every pair of 5 balls, and further */
-typedef struct carom_turn {
+typedef struct carom_in_turn {
   bool known; /* what they leave, and not only which they are */
   int balls, touches;
   double duration; /* of the cluster, s: those that are later are events of their own */
-  carom_turn_ball ball[CAROM_CLUSTER_IN_TURN];
-  carom_turn_touch touch[CAROM_TURN_TOUCHES];
-} carom_turn;
-void carom_take_in_turn(const carom_sim *sim, carom_turn *turn);
+  carom_in_turn_ball ball[CAROM_CLUSTER_IN_TURN];
+  carom_in_turn_touch touch[CAROM_TURN_TOUCHES];
+} carom_in_turn;
+void carom_take_in_turn(const carom_sim *sim, carom_in_turn *turn);
 
 /* The cluster around balls i < j, which touch now and close at the speed of slow contacts or
  * faster. Returns how many contacts had an impulse, in the order of order[]; 0 where the contact
@@ -34,7 +34,7 @@ void carom_take_in_turn(const carom_sim *sim, carom_turn *turn);
  * many steps; CAROM_TAKE_IN_TURN where its touches have to be taken in turn first. The caller does
  * that, and asks again, because a cluster and a contact together need too much stack. */
 enum { CAROM_TAKE_IN_TURN = -2 };
-int carom_cluster_now(carom_sim *sim, int i, int j, carom_turn *turn, carom_cluster_state *c,
+int carom_cluster_now(carom_sim *sim, int i, int j, carom_in_turn *turn, carom_cluster_state *c,
                       uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
 /* The motion of a ball after its cluster. */

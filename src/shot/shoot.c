@@ -146,7 +146,7 @@ static carom_status unresolved(carom_sim *sim) {
  * becomes that of its contacts. This is a function of its own because a cluster needs 30 KiB of
  * stack. */
 __attribute__((noinline, cold)) static bool step_cluster(carom_sim *sim, carom_due *pending_event,
-                                                         carom_turn *turn, int *count,
+                                                         carom_in_turn *turn, int *count,
                                                          carom_status *status) {
   carom_cluster_state c;
   uint8_t order[CAROM_CLUSTER_CONTACTS];
@@ -165,7 +165,7 @@ __attribute__((noinline, cold)) static bool step_cluster(carom_sim *sim, carom_d
  * where it has one. */
 __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *pending_event,
                                                           carom_status *status) {
-  carom_turn turn;
+  carom_in_turn turn;
   int count;
   turn.known = false;
   if (!step_cluster(sim, pending_event, &turn, &count, status)) {

@@ -19,8 +19,25 @@ static class RandomMatches {
     case "clock":
       game.Clock();
       break;
+    case "extend":
+      game.Extend();
+      break;
+    case "timeout":
+      game.Timeout();
+      break;
+    case "next":
+      game.Next();
+      break;
+    case "undo":
+      game.Undo();
+      break;
+    case "redo":
+      game.Redo();
+      break;
     case "concede":
       game.Concede((int)x[0]);
+      break;
+    case "again":
       break;
     default:
       var cue = Billiards.Cue(Game.Pool);
@@ -43,7 +60,8 @@ static class RandomMatches {
       return refused.Message.Replace(Calls.StatusString(refused.Status) + ": ", "");
     }
     var state = game.State;
-    return $"taken: phase {state.phase}, player {game.Player}, winner {state.winner - 1}, " +
+    var again = words[0] == "again" ? $"{game.Last?.Events.Length ?? 0} events\n" : "";
+    return again + $"taken: phase {state.phase}, seat {game.Seat}, winner {state.winner - 1}, " +
            $"may {state.may}, ball {state.cueBall}, on {state.on}, touching {state.touching}: " +
            (state.rulings > 0 ? game.Words : "");
   }
@@ -64,7 +82,13 @@ static class RandomMatches {
           if (game == null)
             ruled.Write((game = LiveMatch.Load(begin)).Lines);
           known = game.Lines.Length;
+          if (line == "again") {
+            var copy = game.Copy();
+            game.Dispose();
+            game = copy;
+          }
           var outcome = Outcome(game, line.Split(' '));
+          known = Math.Min(known, game.Lines.Length);
           ruled.Write(game.Lines.Substring(known) + outcome + "\n");
         }
       }

@@ -16,7 +16,8 @@ static carom_record scratch;
 static FILE *acts, *ruled;
 static uint64_t random_state;
 static char recording[1 << 22];
-static size_t written;
+static int adds;               /* whether the last act is one of which the match has lines */
+static size_t written, undone; /* bytes of the recording; with the acts that were undone, or 0 */
 
 static double between(double low, double high) {
   random_state = random_state * 6364136223846793005u + 1442695040888963407u;
@@ -58,10 +59,25 @@ static void shuffle_state(carom_rules_kind kind, carom_rules_state *state) {
     *state = equal;
 }
 
+/* Any seats that the game can have, and a set of some matches. */
+static void seat_players(carom_rules_kind kind, carom_match_setup *setup) {
+  static carom_seating seating;
+  static carom_set set;
+  const int seats = 2 + one_of(CAROM_SEATS_MOST - 1);
+  if (between(0.0, 1.0) < 0.5 || carom_seating_make(kind, seats, &seating) != CAROM_OK)
+    return;
+  seating.alternate = one_of(2);
+  snprintf(seating.seat[1].name, CAROM_SEAT_NAME, "Zo\xc3\xab %d", seats);
+  setup->seating = &seating;
+  set = (carom_set){.race = 1 + one_of(3), .order = one_of(3), .extensions = 1, .timeouts = 1};
+  if (setup->balls == NULL && between(0.0, 1.0) < 0.7)
+    setup->set = &set;
+}
+
 /* Begins with the rack, or with some of its balls anywhere in any state. */
 static void begin(carom_rules_kind kind, uint64_t seed) {
   const carom_rules_about *about = carom_rules_about_of(kind);
-  carom_table table;
+  static carom_table table;
   carom_shot_ball balls[CAROM_BALLS_MOST];
   carom_table_make((carom_table_kind)about->table, &table);
   const int count = carom_rack_size((carom_rack_kind)about->rack);
@@ -78,26 +94,37 @@ static void begin(carom_rules_kind kind, uint64_t seed) {
       s->r[1] = between(R, table.length - R);
       s->r[2] = gone ? -2.0 * R : R;
     }
-    if (carom_match_begin_at(&match, kind, &rules, &table, balls, count, NULL, CAROM_LEAVE_AFTER,
-                             (int)(seed & 1)) == CAROM_OK &&
-        match.on != 0)
+    carom_match_setup setup = {.rules = kind,
+                               .of = &rules,
+                               .table = &table,
+                               .balls = balls,
+                               .count = count,
+                               .side = (int64_t)(seed & 1)};
+    seat_players(kind, &setup);
+    if (carom_match_begin_with(&match, &setup) == CAROM_OK)
       return;
   }
-  carom_match_begin(&match, kind, &table, seed, (int)(seed & 1));
+  carom_match_setup setup = {
+      .rules = kind, .table = &table, .seed = seed, .side = (int64_t)(seed & 1)};
+  seat_players(kind, &setup);
+  if (carom_match_begin_with(&match, &setup) != CAROM_OK) {
+    fprintf(stderr, "%s: %s\n", about->name, match.fault);
+    exit(1);
+  }
 }
 
 static carom_status choose(void) {
   const int allowed = match.may != 0 && between(0.0, 1.0) < 0.8;
   const int bit = allowed ? member_of((uint32_t)match.may) : one_of(8);
   fprintf(acts, "choose %d\n", bit);
-  return carom_match_choose(&match, (int)match.record.player, (carom_choice)(1 << bit));
+  return carom_match_choose(&match, match.seat, (carom_choice)(1 << bit));
 }
 
 static carom_status place(void) {
   const carom_bounds *b = &match.bounds;
   const double x = between(b->low[0], b->high[0]), y = between(b->low[1], b->high[1] + 0.05);
   fprintf(acts, "place %.17g %.17g\n", x, y);
-  return carom_match_place(&match, (int)match.record.player, x, y);
+  return carom_match_place(&match, match.seat, x, y);
 }
 
 static carom_status call(void) {
@@ -105,7 +132,7 @@ static carom_status call(void) {
   if (between(0.0, 1.0) < 0.2)
     of = (carom_call){one_of(24) - 1, -1};
   fprintf(acts, "call %d %d\n", of.ball, of.pocket);
-  return carom_match_call(&match, (int)match.record.player, of);
+  return carom_match_call(&match, match.seat, of);
 }
 
 /* Half of the strokes go about towards a ball that is on. */
@@ -125,32 +152,124 @@ static carom_status stroke(void) {
   cue.b = between(-0.3, 0.3);
   fprintf(acts, "stroke %d %.17g %.17g %.17g %.17g %.17g\n", (int)cue.ball, cue.speed, cue.phi,
           cue.theta, cue.a, cue.b);
-  return carom_match_stroke(&match, (int)match.record.player, &cue, NULL, NULL);
+  return carom_match_stroke(&match, match.seat, &cue, NULL, NULL);
+}
+
+/* Reads so many bytes of the recording into a match. */
+static int read_to(carom_match *to, size_t size) {
+  memset(to, 0, sizeof *to);
+  for (size_t at = 0; at < size;) {
+    const char *end = memchr(recording + at, '\n', size - at);
+    const size_t line = (size_t)(end - (recording + at)) + 1;
+    if (carom_match_read(to, &scratch, recording + at, line) < 0)
+      return 0;
+    at += line;
+  }
+  return 1;
+}
+
+/* Takes the last act back, or does it again; or reads all lines, and plays the last shot again. */
+static carom_status undo(void) {
+  adds = 0;
+  fputs("undo\n", acts);
+  const size_t size = carom_match_undone(recording, written);
+  if (size == written)
+    return CAROM_OK;
+  undone = written;
+  written = size;
+  return read_to(&match, written) ? CAROM_OK : CAROM_ERROR_ACT;
+}
+static carom_status redo(void) {
+  adds = 0;
+  fputs("redo\n", acts);
+  if (undone == 0)
+    return CAROM_OK;
+  fwrite(recording + written, 1, undone - written, ruled);
+  written = undone;
+  undone = 0;
+  return read_to(&match, written) ? CAROM_OK : CAROM_ERROR_ACT;
+}
+static carom_status read_again(void) {
+  static carom_event events[4096];
+  carom_shot shot = {.events = events, .room = 4096};
+  adds = 0;
+  fputs("again\n", acts);
+  undone = 0;
+  if (!read_to(&match, written))
+    return CAROM_ERROR_ACT;
+  if (match.stroke.mass > 0.0)
+    carom_match_replay(&match, &shot);
+  fprintf(ruled, "%d events\n", (int)shot.count);
+  return CAROM_OK;
 }
 
 static carom_status act(void) {
   const double what = between(0.0, 1.0);
+  const int player = match.seat;
+  adds = 1;
+  if (match.phase == CAROM_MATCH_OVER) {
+    fputs("next\n", acts);
+    return carom_match_next(&match);
+  }
   if (what < 0.01) {
     fputs("clock\n", acts);
-    return carom_match_clock(&match, (int)match.record.player);
+    return carom_match_clock(&match, player);
   }
-  if (what < 0.012) {
-    fprintf(acts, "concede %d\n", (int)match.record.player);
-    return carom_match_concede(&match, (int)match.record.player);
+  if (what < 0.015) {
+    fprintf(acts, "concede %d\n", player);
+    return carom_match_concede(&match, player);
   }
-  if (what < (match.may != 0 ? 0.4 : 0.05))
+  if (what < 0.02) {
+    fputs("extend\n", acts);
+    return carom_match_extend(&match, player);
+  }
+  if (what < 0.025) {
+    fputs("timeout\n", acts);
+    return carom_match_timeout(&match, player);
+  }
+  if (what < 0.045)
+    return undo();
+  if (what < 0.06)
+    return redo();
+  if (what < 0.07)
+    return read_again();
+  if (what < (match.may != 0 ? 0.4 : 0.1))
     return choose();
   if (match.phase == CAROM_MATCH_PLACE && what < 0.9)
     return place();
-  if (match.on != 0 && what < (match.rules.calls != 0 ? 0.6 : 0.1))
+  if (match.on != 0 && what < (match.rules.calls != 0 ? 0.6 : 0.15))
     return call();
   return stroke();
 }
 
 static void keep(void) {
+  undone = 0;
   fwrite(match.text, 1, (size_t)match.size, ruled);
   memcpy(recording + written, match.text, (size_t)match.size);
   written += (size_t)match.size;
+}
+
+/* The reader refuses the line of an act from another seat, with nothing changed, and takes it from
+ * the seat that acted. */
+static int is_sent_by(int seat, size_t from) {
+  static carom_match kept;
+  const char *line = recording + from;
+  while (line < recording + written) {
+    const char *end = strchr(line, '\n') + 1;
+    const size_t size = (size_t)(end - line);
+    const int acts_here = reader.due == 0 && reader.phase != CAROM_MATCH_NONE &&
+                          strncmp(line, "{\"end\"", 6) != 0 &&
+                          strncmp(line, "{\"recording\"", 12) != 0;
+    kept = reader;
+    if (acts_here &&
+        (carom_match_read_from(&reader, &scratch, line, size, (seat + 1) % 8) != CAROM_ERROR_ACT ||
+         reader.refusal != CAROM_REFUSED_TURN || reader.record.hash != kept.record.hash))
+      return 0;
+    if (carom_match_read_from(&reader, &scratch, line, size, acts_here ? seat : -1) < 0)
+      return 0;
+    line = end;
+  }
+  return 1;
 }
 
 /* What came of an act. */
@@ -159,9 +278,8 @@ static void tell(carom_status status) {
   if (match.rulings > 0)
     carom_ruling_string(&match.ruling, words, sizeof words);
   if (status >= 0)
-    fprintf(ruled,
-            "taken: phase %d, player %d, winner %d, may %d, ball %d, on %u, touching %u: %s\n",
-            (int)match.phase, (int)match.record.player, (int)match.winner - 1, (int)match.may,
+    fprintf(ruled, "taken: phase %d, seat %d, winner %d, may %d, ball %d, on %u, touching %u: %s\n",
+            (int)match.phase, match.seat, (int)match.winner - 1, (int)match.may,
             (int)match.cue_ball, match.on, match.touching, words);
   else
     fprintf(ruled, "%s\n", match.fault);
@@ -169,14 +287,8 @@ static void tell(carom_status status) {
 
 /* Whether the recording is judged to the same end. */
 static int is_read_again(void) {
-  for (size_t at = 0; at < written;) {
-    const char *end = memchr(recording + at, '\n', written - at);
-    const size_t size = (size_t)(end - (recording + at)) + 1;
-    if (carom_match_read(&reader, &scratch, recording + at, size) < 0)
-      return 0;
-    at += size;
-  }
-  return reader.record.hash == match.record.hash && reader.rulings == match.rulings;
+  return read_to(&reader, written) && reader.record.hash == match.record.hash &&
+         reader.rulings == match.rulings;
 }
 
 int main(int count, char **arguments) {
@@ -192,17 +304,26 @@ int main(int count, char **arguments) {
     kinds++;
   for (int game = 0; game < games; game++) {
     random_state = seed + (uint64_t)game;
-    written = 0;
-    reader = (carom_match){0};
+    written = undone = 0;
     begin((carom_rules_kind)(game % kinds), seed + (uint64_t)(game / kinds));
     fprintf(acts, "match\n%.*s", (int)match.size, match.text);
     keep();
-    for (int n = 0; n < ACTS && match.phase != CAROM_MATCH_OVER; n++) {
+    read_to(&reader, written);
+    for (int n = 0; n < ACTS; n++) {
+      const int seat = match.seat;
+      const size_t known = written;
       const carom_status status = act();
       taken += status >= 0;
       refused += status < 0;
-      if (status >= 0)
+      if (status >= 0 && adds)
         keep();
+      if (!adds)
+        read_to(&reader, written);
+      if (status >= 0 && adds && !is_sent_by(seat, known)) {
+        fprintf(stderr, "match %d, act %d: another seat may send it, or not its own: %s\n", game, n,
+                reader.fault);
+        return 1;
+      }
       tell(status);
     }
     over += match.phase == CAROM_MATCH_OVER;

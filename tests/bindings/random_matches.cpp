@@ -1,6 +1,7 @@
 // random_matches ACTS RULED: the acts that random_matches.c wrote, judged by carom.hpp.
 #include <carom.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -20,6 +21,18 @@ static void act(carom::match &game, std::istringstream &words) {
     game.call(static_cast<int>(x[0]), static_cast<int>(x[1]));
   else if (name == "clock")
     game.clock();
+  else if (name == "extend")
+    game.extend();
+  else if (name == "timeout")
+    game.timeout();
+  else if (name == "next")
+    game.next();
+  else if (name == "undo")
+    game.undo();
+  else if (name == "redo")
+    game.redo();
+  else if (name == "again")
+    game = game.copy();
   else if (name == "concede")
     game.concede(static_cast<int>(x[0]));
   else {
@@ -36,17 +49,19 @@ static void act(carom::match &game, std::istringstream &words) {
 
 /* What came of an act. */
 static std::string outcome(carom::match &game, const std::string &line) {
-  const carom_match &of = game.state();
   std::istringstream words(line);
+  std::ostringstream text;
   try {
     act(game, words);
+    if (line == "again")
+      text << game.last().events().size() << " events\n";
   } catch (const carom::error &) {
-    return of.fault;
+    return game.state().fault;
   }
-  std::ostringstream text;
-  text << "taken: phase " << of.phase << ", player " << game.player() << ", winner "
-       << of.winner - 1 << ", may " << of.may << ", ball " << of.cue_ball << ", on " << of.on
-       << ", touching " << of.touching << ": " << (of.rulings > 0 ? game.words() : "");
+  const carom_match &of = game.state();
+  text << "taken: phase " << of.phase << ", seat " << game.seat() << ", winner " << of.winner - 1
+       << ", may " << of.may << ", ball " << of.cue_ball << ", on " << of.on << ", touching "
+       << of.touching << ": " << (of.rulings > 0 ? game.words() : "");
   return text.str();
 }
 
@@ -69,7 +84,7 @@ int main(int, char **arguments) {
       }
       const std::size_t known = game->lines().size();
       const std::string text = outcome(*game, line);
-      ruled << game->lines().substr(known) << text << "\n";
+      ruled << game->lines().substr(std::min(known, game->lines().size())) << text << "\n";
     }
   }
   return 0;

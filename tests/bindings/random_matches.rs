@@ -7,6 +7,12 @@ fn act(game: &mut Match, name: &str, x: &[f64]) -> Result<(), Error> {
         "place" => game.place(x[0], x[1]),
         "call" => game.call(x[0] as i32, x[1] as i32),
         "clock" => game.clock(),
+        "extend" => game.extend(),
+        "timeout" => game.timeout(),
+        "next" => game.next(),
+        "undo" => game.undo().map(|_| ()),
+        "redo" => game.redo().map(|_| ()),
+        "again" => game.copy().map(|copy| *game = copy),
         "concede" => game.concede(x[0] as usize),
         _ => {
             let cue = Cue {
@@ -31,12 +37,16 @@ fn outcome(game: &mut Match, line: &str) -> String {
     if let Err(refused) = act(game, name, &numbers) {
         return refused.fault;
     }
+    let again = match (name, game.last()) {
+        ("again", last) => format!("{} events\n", last.map_or(0, |shot| shot.events().len())),
+        _ => String::new(),
+    };
     let (of, words) = (game.state(), game.words());
     let words = if of.rulings > 0 { words } else { String::new() };
     format!(
-        "taken: phase {}, player {}, winner {}, may {}, ball {}, on {}, touching {}: {words}",
+        "{again}taken: phase {}, seat {}, winner {}, may {}, ball {}, on {}, touching {}: {words}",
         of.phase,
-        game.player(),
+        game.seat(),
         of.winner - 1,
         of.may,
         of.cue_ball,
@@ -62,7 +72,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let of = game.as_mut().expect("a match that has begun");
             let known = of.lines().len();
             let outcome = outcome(of, line);
-            ruled += &format!("{}{outcome}\n", &of.lines()[known..]);
+            ruled += &format!("{}{outcome}\n", &of.lines()[known.min(of.lines().len())..]);
         }
     }
     Ok(std::fs::write(&arguments[2], ruled)?)

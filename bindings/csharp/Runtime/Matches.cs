@@ -186,6 +186,11 @@ namespace Carom {
       get { return Open->ruling; }
     }
 
+    /// <summary>The balls as they lie; of a shot that moves, those before it.</summary>
+    public ShotBall[] Layout() {
+      return Billiards.Copy((ShotBall *)&Open->record.balls, match->record.count);
+    }
+
     /// <summary>The last ruling in words.</summary>
     public string Words {
       get { return Billiards.Words(ref Open->ruling); }
