@@ -231,12 +231,12 @@ bool set_bad(void *to, const carom_number *n, int way) {
   const double most = n->type == CAROM_TYPE_INT32 ? INT32_MAX : 0x1p63;
   const double beyond[] = {whole ? n->low - 1 : nextafter(n->low, -INFINITY),
                            whole ? n->high + 1 : nextafter(n->high, INFINITY), NAN};
-  for (int k = 0; k < 3; k++) {
+  for (int k = 0; k < 3 * n->count; k++) {
+    const int side = k % 3;
     const bool none =
-        whole && (k == 2 || (k == 0 && n->type == CAROM_TYPE_UINT64) || beyond[k] >= most);
-    if (!none && beyond[k] != n->other && way-- == 0) {
-      for (int at = 0; at < n->count; at++)
-        put_number(to, n, at, beyond[k]);
+        whole && (side == 2 || (side == 0 && n->type == CAROM_TYPE_UINT64) || beyond[side] >= most);
+    if (!none && beyond[side] != n->other && way-- == 0) {
+      put_number(to, n, k / 3, beyond[side]);
       return true;
     }
   }

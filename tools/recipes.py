@@ -65,58 +65,17 @@ for path in OUT.rglob("*"):
         )
 
 npm = json.loads((ROOT / "web/page/package.json").read_text(encoding="utf-8"))["devDependencies"]
-PARTS = [  # what is inside packages, and what packages ask for
-    ("uplot", npm["uplot"], "MIT", "required", "in the page and in the site's explorer"),
-    (
-        "three",
-        npm["three"],
-        "MIT",
-        "required",
-        "in the page and in the site's explorer: the view from behind the cue",
-    ),
-    (
-        "musl",
-        None,
-        "MIT",
-        "required",
-        "functions in the WebAssembly of the npm package, the page and the site",
-    ),
-    (
-        "emscripten",
-        None,
-        "MIT",
-        "required",
-        "functions in the WebAssembly of the npm package, the page and the site",
-    ),
-    ("mkdocs-material", None, "MIT", "required", "style and search of the site"),
-    (
-        "mingw-w64",
-        None,
-        "ZPL-2.1",
-        "required",
-        "its runtime, in the library for Windows of the NuGet package and of the wheel",
-    ),
-    (
-        "libcsv",
-        None,
-        "LGPL-2.1-or-later",
-        "optional",
-        "the command asks for it as a shared library",
-    ),
-    ("jansson", None, "MIT", "optional", "the command asks for it as a shared library"),
-    ("numpy", None, "BSD-3-Clause", "optional", "the Python package asks for it"),
-    ("cffi", None, "MIT", "optional", "the Python package asks for it"),
-]
+PARTS = (ROOT / "tools/parts.txt").read_text(encoding="utf-8")
 parts = [
     {
         "type": "library",
         "name": name,
-        **({"version": number} if number else {}),
+        **({"version": npm[name]} if name in npm else {}),
         "scope": scope,
         "description": use,
         "licenses": [{"license": {"id": licence}}],
     }
-    for name, number, licence, scope, use in PARTS
+    for name, licence, scope, use in re.findall(r"^(\w\S*) +(\S+) +(\S+) +(.+)$", PARTS, re.M)
 ]
 carom = {
     "type": "library",

@@ -24,50 +24,9 @@ SOURCE, WORK = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 PAGES, LINK = WORK / "pages", re.compile(r"\[([^]]*)\]\(([^)\s]+)\)")
 # The navigation: what a reader wants to do, and the pages for it. A page of docs/ that no group names
 # ends the making of the site.
+ROWS = (SOURCE / "tools/site_pages.txt").read_text(encoding="utf-8")
 GROUPS = {
-    "Play and ask": [
-        "docs/start/player.md",
-        "docs/using/play.md",
-        "docs/using/command.md",
-        "docs/using/questions.md",
-        "docs/using/diamonds.md",
-        "docs/using/glossary.md",
-    ],
-    "Write programs": [
-        "docs/start/python.md",
-        "docs/using/python.md",
-        "docs/using/pooltool.md",
-        "docs/using/scale.md",
-        "docs/start/javascript.md",
-        "docs/using/javascript.md",
-        "docs/start/c.md",
-        "docs/using/games.md",
-        "docs/using/building.md",
-        "docs/using/languages.md",
-        "docs/using/examples.md",
-    ],
-    "Plan, fit, differentiate": [
-        "docs/using/plan.md",
-        "docs/using/fit.md",
-        "docs/using/derivatives.md",
-    ],
-    "How it works": [
-        "docs/understanding/physics.md",
-        "docs/understanding/cushion.md",
-        "docs/using/shots.md",
-        "docs/understanding/clusters.md",
-        "docs/understanding/method.md",
-        "docs/understanding/accuracy.md",
-        "docs/understanding/plan.md",
-        "docs/understanding/reality.md",
-        "docs/understanding/published.md",
-    ],
-    "Study": ["docs/study/paper.md", "docs/study/measuring.md", "study/README.md"],
-    "Reference": [
-        "docs/reference/files.md",
-        "docs/reference/constants.md",
-        "docs/reference/compatibility.md",
-    ],
+    group: pages_of.split() for group, pages_of in re.findall(r"^(\w.*)\n((?:  .+\n)+)", ROWS, re.M)
 }
 CONTRIBUTE = ["CONTRIBUTING.md", "docs/contributing/extending.md", "CHANGELOG.md"]
 ROOMS = sorted(

@@ -1,9 +1,9 @@
 /* What a stroke was: the kind of a pot by the order of precedence, the marks of a stroke, and the
- * terms. The shots are lists of events, made by hand. */
+ * terms. The shots are lists of events of texts.txt. */
 #include "pot_kind.h"
 #include "plan_support.h"
 
-enum { CUE, BALL, OTHER, THIRD, EVENTS_MOST = 8 };
+enum { CUE, BALL, EVENTS_MOST = 8 };
 /* of a 9-foot table: rails by their names, and the pocket at the end of two of them */
 static int left_rail, right_rail, foot_rail, pocket, cut;
 
@@ -33,30 +33,49 @@ static void make_table(void) {
   ck_assert(left_rail >= 0 && foot_rail >= 0 && right_rail >= 0);
 }
 
-static carom_brief_event contact(double time, int a, int b) {
-  return (carom_brief_event){.time = time, .type = CAROM_EVENT_BALL_BALL, .a = a, .b = b};
+/* A ball by its letter; -1: a rail, or a fall. */
+static int ball_of(char letter) {
+  static const char letters[] = "cbot";
+  const char *const found = strchr(letters, letter);
+  return found == NULL ? -1 : (int)(found - letters);
 }
 
-static carom_brief_event rail(double time, int ball, int rail_index) {
-  return (carom_brief_event){.time = time, .type = CAROM_EVENT_RAIL, .a = ball, .b = rail_index};
+/* The part that a ball meets: another ball, a rail, or a pocket. */
+static carom_brief_event event_of(double time, const char *word) {
+  const struct {
+    char sign;
+    int32_t type, part;
+  } parts[] = {{'R', CAROM_EVENT_RAIL, right_rail}, {'L', CAROM_EVENT_RAIL, left_rail},
+               {'F', CAROM_EVENT_RAIL, foot_rail},  {'x', CAROM_EVENT_RAIL, cut},
+               {'.', CAROM_EVENT_POCKET, pocket},   {',', CAROM_EVENT_POCKET, pocket + 1}};
+  carom_brief_event event = {.time = time, .type = CAROM_EVENT_BALL_BALL, .a = ball_of(word[0])};
+  event.b = ball_of(word[1]);
+  for (size_t k = 0; k < COUNT_OF(parts) && event.b < 0; k++)
+    if (parts[k].sign == word[1]) {
+      event.type = parts[k].type;
+      event.b = parts[k].part;
+      return event;
+    }
+  ck_assert_msg(event.a >= 0 && event.b >= 0, "no event: %s", word);
+  return event;
 }
 
-static carom_brief_event fall(double time, int ball) {
-  return (carom_brief_event){.time = time, .type = CAROM_EVENT_POCKET, .a = ball, .b = pocket};
-}
-
-/* A shot of these events, up to the first of no time. */
-static int kind_of(const carom_brief_event list[EVENTS_MOST]) {
+/* The kind of a shot of these events, one a second; = is at the instant of the one before. */
+static int kind_of(const char *list) {
   carom_brief_event brief[EVENTS_MOST];
   carom_event events[EVENTS_MOST];
   int count = 0;
+  double time = 0.0;
   memset(events, 0, sizeof events);
-  for (; count < EVENTS_MOST && list[count].time > 0.0; count++) {
-    brief[count] = list[count];
-    events[count].time = list[count].time;
-    events[count].type = list[count].type;
-    events[count].a = list[count].a;
-    events[count].b = list[count].b;
+  for (const char *word = list; *word != '\0'; word += strcspn(word, " "), word += *word == ' ') {
+    const bool at_once = *word == '=';
+    word += at_once;
+    time += at_once ? 0.0 : 1.0;
+    const carom_brief_event event = brief[count] = event_of(time, word);
+    events[count].time = event.time;
+    events[count].type = event.type;
+    events[count].a = event.a;
+    events[count++].b = event.b;
   }
   const carom_shot shot = {.brief = brief, .room = EVENTS_MOST, .count = count};
   const carom_shot with_states = {.events = events, .room = EVENTS_MOST, .count = count};
@@ -65,58 +84,22 @@ static int kind_of(const carom_brief_event list[EVENTS_MOST]) {
   return kind;
 }
 
-#define KIND(expected, ...) \
-  ck_assert_int_eq(kind_of((const carom_brief_event[EVENTS_MOST]){__VA_ARGS__}), expected)
-
-TEST(one_departure_names_a_pot) {
+TEST(kinds_of_pots) {
+  static char rows[20][3][TEXT];
   make_table();
-  KIND(CAROM_PLAN_POT, contact(1, CUE, BALL), fall(2, BALL));
-  KIND(CAROM_PLAN_BANK, contact(1, CUE, BALL), rail(2, BALL, right_rail), fall(3, BALL));
-  KIND(CAROM_PLAN_KICK, rail(1, CUE, right_rail), contact(2, BALL, CUE), fall(3, BALL));
-  KIND(CAROM_PLAN_KISS, contact(1, CUE, BALL), contact(2, OTHER, BALL), fall(3, BALL));
-  KIND(CAROM_PLAN_CAROM, contact(1, CUE, OTHER), contact(2, CUE, BALL), fall(3, BALL));
-  KIND(CAROM_PLAN_COMBINATION, contact(1, CUE, OTHER), contact(2, OTHER, BALL), fall(3, BALL));
+  const int count = read_texts("pot_kind", 3, rows[0]);
+  for (int k = 0; k < count; k++) {
+    if (cut < 0 && strchr(rows[k][2], 'x') != NULL)
+      continue;
+    const int kind = kind_of(rows[k][2]);
+    ck_assert_msg(strcmp(carom_plan_kind_name((carom_plan_kind)kind), rows[k][1]) == 0,
+                  "%s: %s is a %s", rows[k][0], rows[k][2],
+                  carom_plan_kind_name((carom_plan_kind)kind));
+  }
 }
 
-/* Each before the next one: combination, carom, kiss, kick, bank. */
-TEST(precedence) {
+TEST(what_is_no_shot) {
   make_table();
-  KIND(CAROM_PLAN_COMBINATION, contact(1, CUE, THIRD), rail(2, CUE, right_rail),
-       contact(3, CUE, OTHER), contact(4, OTHER, BALL), contact(5, BALL, THIRD),
-       rail(6, BALL, right_rail), fall(7, BALL));
-  KIND(CAROM_PLAN_CAROM, rail(1, CUE, right_rail), contact(2, CUE, OTHER), contact(3, CUE, BALL),
-       contact(4, BALL, THIRD), rail(5, BALL, right_rail), fall(6, BALL));
-  KIND(CAROM_PLAN_KISS, rail(1, CUE, right_rail), contact(2, CUE, BALL), contact(3, BALL, THIRD),
-       rail(4, BALL, right_rail), fall(5, BALL));
-  KIND(CAROM_PLAN_KICK, rail(1, CUE, right_rail), contact(2, CUE, BALL), rail(3, BALL, right_rail),
-       fall(4, BALL));
-}
-
-TEST(what_does_not_count) {
-  make_table();
-  /* cushions beside the pocket, unless another cushion is met too */
-  KIND(CAROM_PLAN_POT, contact(1, CUE, BALL), rail(2, BALL, left_rail), rail(3, BALL, foot_rail),
-       fall(4, BALL));
-  KIND(CAROM_PLAN_BANK, contact(1, CUE, BALL), rail(2, BALL, left_rail), rail(3, BALL, right_rail),
-       fall(4, BALL));
-  /* the cut of a pocket, of which some tables have none */
-  if (cut >= 0)
-    KIND(CAROM_PLAN_POT, rail(1, CUE, cut), contact(2, CUE, BALL), rail(3, BALL, cut),
-         fall(4, BALL));
-  /* the cue ball once more, and what it meets after the ball */
-  KIND(CAROM_PLAN_POT, contact(1, CUE, BALL), contact(2, CUE, BALL), contact(3, CUE, OTHER),
-       rail(4, CUE, right_rail), fall(5, BALL));
-  /* of two contacts of one instant the cue ball's drives */
-  KIND(CAROM_PLAN_KISS, contact(1, OTHER, BALL), contact(1, CUE, BALL), fall(2, BALL));
-  /* what the ball meets after its fall */
-  KIND(CAROM_PLAN_POT, contact(1, CUE, BALL), fall(2, BALL), contact(3, BALL, OTHER));
-  /* no pot: not met, not fallen, another pocket */
-  KIND(-1, fall(1, BALL));
-  KIND(-1, contact(1, CUE, BALL));
-  pocket++;
-  const carom_brief_event elsewhere = fall(2, BALL);
-  pocket--;
-  KIND(-1, contact(1, CUE, BALL), elsewhere);
   const carom_shot none = {.events = NULL};
   ck_assert_int_eq(carom_pot_kind(&table, &none, CUE, BALL, pocket), -1);
   ck_assert_int_eq(carom_pot_kind(NULL, &none, CUE, BALL, pocket), -1);

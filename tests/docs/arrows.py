@@ -12,65 +12,9 @@ from pathlib import Path
 
 ROOT = Path(sys.argv[1]).resolve()
 ROOMS = ("include", "src", "plan", "cli", "study", "lab", "python", "examples")
-# What a room may include besides itself; a room not named here may include everything.
-ALLOWED = {
-    "include": (),
-    "src/platform": ("include",),
-    "src/schema": ("include",),
-    "src/friction": ("include", "src/platform", "src/schema"),
-    "src/contact_law": ("include", "src/platform"),
-    "src/ball_ball": ("include", "src/platform", "src/schema", "src/friction", "src/contact_law"),
-    "src/cushion": ("include", "src/platform", "src/schema", "src/contact_law"),
-    "src/cluster": ("include", "src/platform", "src/schema", "src/friction"),
-    "src/motion": ("include", "src/platform", "src/schema"),
-    "src/table": ("include", "src/platform"),
-    "src/shot": (
-        "include",
-        "src/platform",
-        "src/schema",
-        "src/friction",
-        "src/ball_ball",
-        "src/cluster",
-        "src/cushion",
-        "src/motion",
-        "src/table",
-    ),
-    "src/tangent": (
-        "include",
-        "src/platform",
-        "src/schema",
-        "src/friction",
-        "src/contact_law",
-        "src/ball_ball",
-        "src/cluster",
-        "src/cushion",
-        "src/motion",
-        "src/shot",
-        "src/table",
-    ),
-    "plan/include": ("include",),
-    "plan/src": (
-        "include",
-        "plan/include",
-        "src/platform",
-        "src/record",
-        "src/schema",
-        "src/shot",
-        "src/table",
-    ),
-    "src/record": ("include", "src/platform", "src/schema"),
-    "src": ("include", "src/platform", "src/schema", "src/cushion", "src/friction"),
-    "cli": (
-        "include",
-        "plan/include",
-        "cli/program",
-        "cli/rows",
-        "cli/shots",
-        "cli/pictures",
-        "cli/game",
-    ),
-    "examples": ("include", "plan/include"),
-}
+# What a room may include besides itself.
+ROWS = Path(__file__).with_suffix(".txt").read_text(encoding="utf-8")
+ALLOWED = {room: others.split() for room, others in re.findall(r"^(\w\S*):(.*)$", ROWS, re.M)}
 # Of a room that has a header for the others, they may include that alone; except the text of
 # derivatives, which includes copies of sources in dual/.
 HEADER, TEXT = {"src/shot": "shot.h"}, "src/tangent/text.h"

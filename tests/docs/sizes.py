@@ -3,7 +3,7 @@ headers tell is that of what has been built.
 
 native: structs, the stack and the shared library of an optimised build by gcc. installed: the
 library that tests/docs/readme.py has installed. web: the package. A figure in bytes
-that stands in no row below fails. UPDATE=1 writes the measured figures.
+that stands in no row of sizes.txt fails. UPDATE=1 writes the measured figures.
 """
 
 import gzip
@@ -16,89 +16,25 @@ from pathlib import Path
 
 from blocks import pages
 
-MOST, EXACT = (
-    "most",
-    0.0,
-)  # a bound of what is measured; and else by which share of itself a figure may be off
-KB, KIB, MB = 1000, 1024, 1000000
+MOST = "most"
+UNITS = {"bytes": 1, "kB of 10": 100, "kB": 1000, "KiB": 1024, "MB": 1000000}
 
-# Page, the words around the figure, its unit in bytes, what is measured, how far off.
-FIGURES = [
-    ("include/carom.h", r"single call takes at most (\d+) KiB", KIB, "stack carom_collide", MOST),
-    ("include/carom.h", r"a trace (\d+), a batch", KIB, "stack carom_trace", MOST),
-    ("include/carom.h", r"a trace \d+, a batch (\d+), and", KIB, "stack carom_collide_batch", MOST),
-    (
-        "include/carom.h",
-        r"a batch with threads (\d+) in the",
-        KIB,
-        "threads carom_collide_batch",
-        MOST,
-    ),
-    ("include/carom_shot.h", r"Stack: (\d+) KiB; a batch", KIB, "stack carom_shot_continue", MOST),
-    ("include/carom_shot.h", r"KiB; a batch (\d+), with", KIB, "stack carom_shoot_batch", MOST),
-    (
-        "include/carom_shot.h",
-        r"a batch \d+, with threads (\d+)\.",
-        KIB,
-        "threads carom_shoot_batch",
-        MOST,
-    ),
-    (
-        "include/carom_shot.h",
-        r"Instead of `balls`, with (\d+) bytes a ball",
-        1,
-        "carom_shot_ball",
-        EXACT,
-    ),
-    (
-        "include/carom_shot.h",
-        r"and `states`, with (\d+) bytes a ball",
-        1,
-        "carom_ball_state",
-        EXACT,
-    ),
-    (
-        "include/carom_tangent.h",
-        r"Stack: (\d+) KiB; a batch",
-        KIB,
-        "stack carom_shot_tangent",
-        MOST,
-    ),
-    (
-        "include/carom_tangent.h",
-        r"KiB; a batch (\d+)\.",
-        KIB,
-        "threads carom_shot_tangent_batch",
-        MOST,
-    ),
-    (
-        "docs/using/shots.md",
-        r"takes about (\d+) KiB of stack",
-        KIB,
-        "stack carom_shot_continue",
-        MOST,
-    ),
-    ("docs/using/games.md", r"`shot\.brief`, (\d+) bytes each", 1, "carom_brief_event", EXACT),
-    ("docs/using/games.md", r"bytes each instead of (\d+)\)", 1, "carom_event", EXACT),
-    ("docs/using/games.md", r"of `states` takes (\d+) bytes", 1, "carom_ball_state", EXACT),
-    ("docs/using/games.md", r"bytes for each ball, not (\d+)\.", 1, "carom_shot_ball", EXACT),
-    ("docs/using/games.md", r"(\d+) KiB: all that the shot needs", KIB, "carom_shot_state", EXACT),
-    ("docs/using/python.md", r"an event is (\d+) bytes", 1, "carom_brief_event", EXACT),
-    ("docs/using/python.md", r"only states: (\d+) bytes a ball", 1, "carom_ball_state", EXACT),
-    ("docs/using/python.md", r"bytes a ball\s+instead of (\d+)\.", 1, "carom_shot_ball", EXACT),
-    (
-        "docs/using/scale.md",
-        r"layout of 10 balls\s+has ([\d.]+) kB",
-        KB / 10,
-        "carom_shot_ball",
-        0.02,
-    ),
-    ("docs/using/scale.md", r"its final states ([\d.]+) kB", KB / 10, "carom_ball_state", 0.02),
-    ("docs/using/building.md", r"library takes ([\d.]+) MB with all", MB, "library", 0.15),
-    ("docs/using/building.md", r"([\d.]+) MB with `none`", MB, "library with none", 0.15),
-    ("docs/using/javascript.md", r"loads one of them: (\d+) kB", KB, "package simd", 0.05),
-    ("docs/using/javascript.md", r"with vectors, (\d+) kB", KB, "package plain", 0.05),
-]
+
+def figures():
+    """Of each page the rows (words, unit in bytes, what is measured, how far off) of sizes.txt."""
+    found, page = {}, None
+    row = re.compile(rf"  (\S+) +({'|'.join(UNITS)}) +(\S+(?: \S+)*)  +(\S.*)")
+    for line in Path(__file__).with_suffix(".txt").read_text(encoding="utf-8").splitlines():
+        if match := row.fullmatch(line):
+            off, unit, what, words = match.groups()
+            off = MOST if off == MOST else float(off.replace("exact", "0"))
+            found[page].append((words, UNITS[unit], what, off))
+        elif not line.startswith("#"):
+            page = line
+            found[page] = []
+    return found
+
+
 # Figures in bytes that are no size of anything that is built: the promise of unit/stack, a double,
 # and what follows from other figures.
 OTHERS = ["72 KiB", "8 bytes, or text", "92 MB/s"]
@@ -158,7 +94,7 @@ def check(source, mode, *where):
         ),
     ]:
         text, covered = Path(source, name).read_text(encoding="utf-8"), set()
-        for words, unit, what, off in [row for page, *row in FIGURES if page == name]:
+        for words, unit, what, off in figures().get(name, []):
             match = re.search(words.replace(" ", r"(?: |\n(?: \*)? *)"), text)
             assert match, f"{name} does not tell the size of {what} in the words '{words}'"
             covered.add(match.start(1))
@@ -180,7 +116,7 @@ def check(source, mode, *where):
             if size.start() not in covered and not any(
                 text.startswith(other, size.start()) for other in OTHERS
             ):
-                wrong.append(f"{name}: '{size[0]}' stands in no row of tests/docs/sizes.py")
+                wrong.append(f"{name}: '{size[0]}' stands in no row of tests/docs/sizes.txt")
     assert count >= {"native": 21, "installed": 1, "web": 2}[mode], count
     if wrong and os.environ.get("UPDATE") != "1":
         sys.exit("\n".join(wrong) + "\nUPDATE=1 writes the measured figures")

@@ -1,4 +1,5 @@
 // The 204 reference collisions, cushions, and what is refused.
+import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
 import {
   CaromError,
@@ -16,6 +17,7 @@ import {
   references,
   refusal,
   refuses,
+  root,
   run,
   thereIsACommand,
 } from "./support.js";
@@ -207,107 +209,61 @@ describe("what is refused", () => {
     );
   });
 
-  // Every object that a call takes, with one key that it does not have.
+  // Every object that a call takes, with one key that it does not have: unknown_keys.txt.
   const table = carom.table("9ft");
   const ball = carom.ball(0.6, 0.6);
   const cue = carom.cue();
-  /** The methods of the library, and of what it makes, by name. */
-  const calls = {
+  const v = [1, 0, 0] as const;
+  const motion = { v, w: [0, 0, 0] } as const;
+  const wall = { v, normal: [1, 0] } as const;
+  /** Arguments that are right, of the methods of the library and of what it makes. */
+  const right: Record<string, readonly unknown[]> = {
+    collide: [good, {}],
+    collideDetail: [good, {}],
+    trace: [good, 3, {}],
+    collideBatch: [carom.collisions(1), {}],
+    set: [good],
+    muBall: [good],
+    rollingVelocity: [motion, 0.03],
+    cushion: [wall, {}],
+    rack: ["nineball", table, {}],
+    checkTable: [table],
+    ball: [0.5, 0.5, ball.kind],
+    cue: [{}],
+    strike: [{}, ball.kind],
+    simulate: [table, [ball, ball], {}, {}],
+    firstContact: [table, [ball], {}, {}],
+    continue: [carom.simulate(table, [ball]), {}],
+    placeBall: [table, [ball], 0, 0.5, 0.5],
+    shots: [table, [ball], 1, {}],
+    setCue: [cue],
+    simulateBatch: [carom.shots(table, [ball], 1), {}],
+    toLine: [{ table: "9ft", balls: [ball], cue }],
+  };
+  const calls: Record<string, (...args: never[]) => unknown> = {
     set: (impact: Impact) => carom.collisions(1).set(0, impact),
     setCue: (struck: typeof cue) => carom.shots(table, [ball], 1).setCue(0, struck),
     toLine,
   };
-  const callOf = (method: string, args: unknown[]): unknown => {
-    const library = method in calls ? calls : carom;
-    return (library as unknown as Record<string, (...args: unknown[]) => unknown>)[method]!(
-      ...args,
-    );
-  };
-  test.each([
-    ["collide", [{ ...good, mu_ball: 0.1 }], "impact.mu_ball", "muBall"],
-    ["collide", [{ ...good, b: { ...good.b, raduis: 0.03 } }], "b.raduis", "radius"],
-    ["collide", [{ ...good, a: { speed: 3 } }], "a.speed", undefined],
-    ["collide", [good, { step: 10 }], "step", "steps"],
-    ["collideDetail", [good, { solvr: "exact" }], "solvr", "solver"],
-    ["trace", [good, 3, { Slip: "paper" }], "Slip", "slip"],
-    ["collideBatch", [carom.collisions(1), { threads: 2 }], "threads", undefined],
-    ["set", [{ ...good, restitutoin: 0.9 }], "impact.restitutoin", "restitution"],
-    ["muBall", [{ ...good, c: 1 }], "impact.c", undefined],
-    [
-      "rollingVelocity",
-      [{ v: [1, 0, 0], w: [0, 0, 0], r: [0, 0, 0] }, 0.03],
-      "motion.r",
-      undefined,
-    ],
-    [
-      "cushion",
-      [{ v: [1, 0, 0], normal: [1, 0], mu_cushion: 0.2 }],
-      "impact.mu_cushion",
-      "muCushion",
-    ],
-    ["cushion", [{ v: [1, 0, 0], normal: [1, 0] }, { modle: "han" }], "modle", "model"],
-    ["rack", ["nineball", table, { sed: 3 }], "sed", "seed"],
-    ["rack", ["nineball", { ...table, ball_radius: 0.03 }], "table.ball_radius", "ballRadius"],
-    [
-      "checkTable",
-      [{ ...table, rails: [{ ...table.rails[0]!, heigth: 0.03 }] }],
-      "table.rails[0].heigth",
-      "height",
-    ],
-    [
-      "checkTable",
-      [{ ...table, jaws: [{ ...table.jaws[0]!, center: [0, 0] }] }],
-      "table.jaws[0].center",
-      "centre",
-    ],
-    [
-      "checkTable",
-      [{ ...table, pockets: [{ ...table.pockets[0]!, side: 1 }] }],
-      "table.pockets[0].side",
-      undefined,
-    ],
-    ["ball", [0.5, 0.5, { ...ball.kind, muRol: 0.01 }], "kind.muRol", "muRoll"],
-    ["cue", [{ spead: 3 }], "cue.spead", "speed"],
-    ["strike", [{ tipradius: 3 }, ball.kind], "cue.tipradius", "tipRadius"],
-    ["strike", [{}, { ...ball.kind, gravty: 9.81 }], "kind.gravty", "gravity"],
-    ["simulate", [table, [ball], { V0: 3 }], "cue.V0", undefined],
-    ["simulate", [table, [ball], {}, { cushion: "han" }], "cushion", "cushionModel"],
-    ["simulate", [table, [ball], {}, { stopAtContact: true }], "stopAtContact", "stopAt"],
-    ["simulate", [table, [{ ...ball, name: "eight" }]], "balls[0].name", undefined],
-    [
-      "simulate",
-      [table, [ball, { ...ball, state: { ...ball.state, lable: "off" } }]],
-      "balls[1].state.lable",
-      "label",
-    ],
-    [
-      "simulate",
-      [table, [{ ...ball, kind: { ...ball.kind, mu_slide: 0.2 } }]],
-      "balls[0].kind.mu_slide",
-      "muSlide",
-    ],
-    ["firstContact", [table, [ball], {}, { timemost: 1 }], "timemost", "timeMost"],
-    ["continue", [carom.simulate(table, [ball]), { tiemMost: 1 }], "tiemMost", "timeMost"],
-    ["placeBall", [table, [{ ...ball, stat: 1 }], 0, 0.5, 0.5], "balls[0].stat", "state"],
-    ["shots", [table, [ball], 1, { events: 5 }], "events", undefined],
-    ["setCue", [{ ...cue, endmass: 0.005 }], "cue.endmass", "endMass"],
-    ["simulateBatch", [carom.shots(table, [ball], 1), { eventMost: 5 }], "eventMost", "eventsMost"],
-    [
-      "toLine",
-      [{ table: "9ft", balls: [ball], cue, tablename: "9ft" }],
-      "shot.tablename",
-      "tableName",
-    ],
-  ] as [string, unknown[], string, string | undefined][])(
-    "an unknown key of %s: %#",
-    (method, args, key, better) => {
-      const { message } = refusal(() => callOf(method, args));
-      expect(
-        message.startsWith(
-          `${key}: there is no such key${better === undefined ? "; there are " : `; did you mean "${better}"?`}`,
-        ),
-        message,
-      ).toBe(true);
+  /** A copy that has one more key at the end of a path. */
+  function spoilt(value: unknown, [step, ...path]: string[], key: string): unknown {
+    if (step === undefined) return { ...(value as object), [key]: 1 };
+    const copy = (Array.isArray(value) ? [...value] : { ...(value as object) }) as Record<
+      string,
+      unknown
+    >;
+    copy[step] = spoilt(copy[step], path, key);
+    return copy;
+  }
+  const keys = readFileSync(`${root}web/npm/test/unknown_keys.txt`, "utf8");
+  test.each(keys.split("\n").flatMap((line) => (/^\w/.test(line) ? [line.split(/ +/)] : [])))(
+    "an unknown key of %s %s: %s",
+    (method, path, told, better) => {
+      const wrong = spoilt(right[method!], path!.split("."), told!.split(".").at(-1)!);
+      const library = (method! in calls ? calls : carom) as typeof calls;
+      const { message } = refusal(() => library[method!]!(...(wrong as never[])));
+      const end = better === undefined ? "; there are " : `; did you mean "${better}"?`;
+      expect(message.startsWith(`${told}: there is no such key${end}`), message).toBe(true);
     },
   );
 

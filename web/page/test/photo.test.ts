@@ -199,7 +199,8 @@ function photo(
   return { data, width: w, height: h };
 }
 
-test.each([
+/** Where phones are and what they look at, their focal length in pixels, and the light. */
+const PHONES = [
   [[0.5, -1.0, 1.3], [0.635, 1.1, 0], 1200, [1, 1, 1]],
   [[0.5, -1.0, 1.5], [0.635, 1.1, 0], 1250, [0.7, 0.7, 0.7]],
   [[2.1, -0.7, 1.4], [0.6, 1.2, 0], 1100, [1.05, 1, 0.85]],
@@ -210,7 +211,9 @@ test.each([
   [[2.4, 3.1, 1.8], [0.6, 1.2, 0], 1300, [0.6, 0.6, 0.6]],
   [[0.2, -1.4, 1.7], [0.635, 1.1, 0], 1500, [0.9, 0.85, 0.8]],
   [[2.9, 0.4, 1.5], [0.6, 1.2, 0], 1300, [1, 1, 0.95]],
-] as const)(
+] as const;
+
+test.each(PHONES)(
   "a finger that errs by 2 pixels of a phone lays balls within 1 cm, and no ball gets a wrong number in silence: from %j",
   (eye, target, focal, light) => {
     const size: Pixel = [1600, 1200];
@@ -256,12 +259,7 @@ test.each([
   },
 );
 
-test.each([
-  [[0.5, -1.0, 1.3], [0.635, 1.1, 0], 1200],
-  [[2.1, -0.7, 1.4], [0.6, 1.2, 0], 1100],
-  [[-1.2, 1.3, 1.6], [0.6, 1.25, 0], 950],
-  [[0.635, 1.27, 3], [0.635, 1.27, 0], 1000],
-] as const)(
+test.each([0, 2, 5, 6].map((k) => PHONES[k]!))(
   "on a table with cushions no corner moves away from the nose, and balls lie within 5 mm in the median and 10 mm at worst, by marks off by 3 pixels: from %j",
   (eye, target, focal) => {
     for (const share of [1, 0.75]) {
