@@ -72,6 +72,28 @@ carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
   return rules;
 }
 
+carom_status carom_begin_seats(carom_rules_kind kind, int seats, carom_rules_state *state) {
+  enum { LIVES = 3, BALLS = 15 };
+  if (state == NULL)
+    return CAROM_ERROR_NULL;
+  const bool of_seats = is_game(kind) && games[kind].rules->race == CAROM_RACE_SEATS;
+  const bool cut_throat = kind == CAROM_RULES_CUTTHROAT;
+  const bool good = seats == 2 || (of_seats && seats > 2 && seats <= CAROM_SEATS_MOST);
+  if (cut_throat ? seats != 3 && seats != 5 : !good)
+    return CAROM_ERROR_OPTIONS;
+  for (int seat = 0; seat < CAROM_SEATS_MOST && of_seats; seat++) {
+    uint64_t has = 0;
+    if (seat < seats)
+      has = LIVES;
+    if (seat < seats && cut_throat)
+      has = ((UINT64_C(1) << BALLS / seats) - 1) << (1 + BALLS / seats * seat);
+    state->user[seat] = has;
+  }
+  if (cut_throat)
+    state->target = BALLS / seats;
+  return CAROM_OK;
+}
+
 /* Whether a game that has a member may stand so: carom games, and the breaks of others, may have no
  * target. */
 static bool may_be(carom_rules_kind kind, size_t member, int32_t value) {
