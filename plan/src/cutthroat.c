@@ -102,8 +102,8 @@ static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed
   needed[1] = 1;
 }
 
-/* A visit pots balls of others with a usual chance each. Behind it each seat wins by its share of
- * the balls, as if they fell in any order. */
+/* A visit pots balls of others with a usual chance each, a guess. Behind it each seat wins by its
+ * share of the balls, as if they fell in any order. */
 static double value(const carom_rules_state *game, const carom_ball_state *layout, int count,
                     int in_hand) {
   (void)layout, (void)count, (void)in_hand;

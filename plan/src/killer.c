@@ -44,8 +44,8 @@ static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed
   needed[0] = needed[1] = 1;
 }
 
-/* The chance that a seat which loses a life in each round with the chance `usual` has lost all in
- * the first n rounds. It is binomial: one[i] is the chance of i misses. */
+/* The chance that a seat which loses a life in each round with the chance `usual`, a guess, has
+ * lost all in the first n rounds. It is binomial: one[i] is the chance of i misses. */
 static double chance_out(uint64_t lives, int rounds) {
   static const double usual = 0.4;
   enum { LIVES_MOST = 16 };
