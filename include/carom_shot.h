@@ -548,8 +548,10 @@ typedef enum carom_rack_kind {
                                  the corners, 15 in the middle. */
   CAROM_RACK_PYRAMID = 8,   /* 16 balls of 68 mm: the yellow one, then 15 white ones. */
   CAROM_RACK_FOURBALL = 9,  /* 4 balls of 65.5 mm: white, yellow, two reds, as for the opening. */
-  CAROM_RACK_COWBOY = 10    /* 4 balls: cue ball; 1 on the head spot, 3 on the foot spot, 5 on the
+  CAROM_RACK_COWBOY = 10,   /* 4 balls: cue ball; 1 on the head spot, 3 on the foot spot, 5 on the
                                  centre. */
+  CAROM_RACK_BILLIARDS = 11 /* 3 balls of snooker: white, yellow, which is in a pocket, and the red
+                                 on the spot of the black. */
 } carom_rack_kind;
 
 /* The name of a rack ("eightball"), or NULL for a value not listed. */

@@ -179,7 +179,8 @@ static void name_rack(layout *l, carom_rack_kind kind) {
     const char *names[4];
   } named[] = {{CAROM_RACK_THREECUSHION, {"white", "yellow", "red"}},
                {CAROM_RACK_FOURBALL, {"white", "yellow", "red1", "red2"}},
-               {CAROM_RACK_COWBOY, {"cue", "1", "3", "5"}}};
+               {CAROM_RACK_COWBOY, {"cue", "1", "3", "5"}},
+               {CAROM_RACK_BILLIARDS, {"white", "yellow", "red"}}};
   for (size_t n = 0; n < COUNT_OF(named); n++)
     if (named[n].rack == kind) {
       for (int k = 0; k < l->count; k++)

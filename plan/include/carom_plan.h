@@ -288,7 +288,8 @@ typedef struct carom_plan_rules {
   carom_rules_points *points;   /* NULL: each ball is worth one. */
   carom_rules_settle *settle;   /* NULL: balls go back to their spots, and nothing else happens. */
   int32_t rack;                 /* a carom_rack_kind, whose spots the balls have. 0: those of pool.
-                                   With the rack of snooker, a cue ball in hand is in the D. */
+                                   With the rack of snooker or billiards, a cue ball in
+                                   hand is in the D. */
   int32_t learned;              /* 1 + the carom_rules_kind from whose played games the chances were
                                    learned. 0, or if no games of this kind were played: a kind with
                                    the same race. */
@@ -395,13 +396,29 @@ typedef enum carom_rules_kind {
                                    scores a point if the cue ball meets both reds, and loses one if
                                    it meets no red or the other cue ball. State: as in STRAIGHTRAIL,
                                    and lost; target 10 to begin with. */
-  CAROM_RULES_COWBOY = 15     /* cowboy, BCA: balls 1, 2 and 3 have the numbers 1, 3 and 5. Up to 90
+  CAROM_RULES_COWBOY = 15,    /* cowboy, BCA: balls 1, 2 and 3 have the numbers 1, 3 and 5. Up to 90
                                    points, exactly, a ball that falls counts its number, and two or
                                    three balls that are met count 1 or 2; up to 100 only the latter.
                                    The last point is the cue ball off the 1 into the pocket that is
                                    called with it. State: opening; score; lost: the points of this
                                    visit, which a foul costs; may, after an opening that did not
                                    meet the 3 first: to break, or to have the opponent break. */
+  CAROM_RULES_KILLER = 16,    /* killer, by clubs: 2 to 8 seats, each for itself, play one stroke in
+                                   turn, and lose one of three lives by a stroke without a pot or by
+                                   a foul. The last seat with a life wins. State: opening, seat;
+                                   user: lives, 3 of two seats to begin with. */
+  CAROM_RULES_CUTTHROAT = 17, /* cut-throat, BCA: 3 or 5 seats with five or three of 15 balls each,
+                                   by their numbers. The balls of the others are on, and the last
+                                   seat with a ball wins. A foul brings back a ball of each other
+                                   seat. State: opening, seat; target: the balls of a seat at first,
+                                   5 to begin with; user: the sets that are left; may, after
+                                   a break that was not legal: to have a new rack and break. */
+  CAROM_RULES_BILLIARDS = 18  /* English billiards, WPBSA: cue balls 0 and 1, red 2, on any table.
+                                   Cannons count 2, hazards 2 or 3. State: group: 1 + the cue ball
+                                   of the player; score; target, 100 to begin with; on: 1 where a
+                                   miss is no foul; user: runs of hazards and cannons, and what
+                                   spots the red; may, after a foul: CAROM_CHOICE_RACK, the balls
+                                   placed on their spots, and the cue ball in the D. */
 } carom_rules_kind;
 
 /* The description of a game. */

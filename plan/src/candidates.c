@@ -382,7 +382,8 @@ bool carom_search_scan(search *plan) {
       tip = drawn;
     }
     double phi = 360.0 * turn;
-    if (plan->places > 0 && plan->tried % 2 == 1)
+    const bool is_caroms = plan->job.rules->rack == CAROM_RACK_BILLIARDS; /* and in-offs */
+    if ((plan->places > 0 || is_caroms) && plan->tried % 2 == 1)
       phi = towards(plan, row);
     int16_t kind = CAROM_PLAN_SCAN;
     if ((plan->permissions & CAROM_CHOICE_PUSH) && plan->tried % 2 == 1)

@@ -26,7 +26,8 @@ static const learned *numbers_of(const carom_view *view) {
   static const int with_race[] = {[CAROM_RACE_OWN] = CAROM_RULES_EIGHTBALL,
                                   [CAROM_RACE_SHARED] = CAROM_RULES_NINEBALL,
                                   [CAROM_RACE_ALONE] = CAROM_RULES_EIGHTBALL,
-                                  [CAROM_RACE_POINTS] = CAROM_RULES_STRAIGHT};
+                                  [CAROM_RACE_POINTS] = CAROM_RULES_STRAIGHT,
+                                  [CAROM_RACE_SEATS] = CAROM_RULES_EIGHTBALL};
   if (carom_is_learned(view))
     return &learned_of[view->rules->learned - 1];
   if (view->rules->learned == CAROM_RULES_ROTATION + 1) /* one ball is on, as in nine-ball */

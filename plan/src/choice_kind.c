@@ -35,7 +35,7 @@ static int32_t seen_kind(search *plan, const carom_candidate *c, const carom_pla
     carom_shoot_prepared(&layout, &cue, &shot);
     carom_search_spend(plan, shot.count);
     int32_t kind;
-    if (plan->view.pockets > 0)
+    if (plan->view.pockets > 0 && choice->pocket >= 0)
       kind = carom_pot_kind(plan->job.table, &shot, plan->cue_ball, ball, choice->pocket);
     else
       kind = point_kind(&facts, ball);

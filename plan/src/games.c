@@ -1,5 +1,6 @@
 /* The games by their rows, for programs that ask; and whether a state is one of a game. */
 #include "games.h"
+#include "rules.h"
 
 #include <stddef.h>
 
@@ -60,9 +61,11 @@ const carom_rules_about *carom_rules_about_of(carom_rules_kind kind) {
 }
 
 int64_t carom_handicap_most(carom_rules_kind kind) {
-  enum { POINTS = 1000000, MONEY_BALLS = 8 };
+  enum { POINTS = 1000000, MONEY_BALLS = 8, LIVES = 97 };
   if (kind == CAROM_RULES_NINEBALL)
     return MONEY_BALLS;
+  if (kind == CAROM_RULES_KILLER)
+    return LIVES;
   if (!is_game(kind) || (games[kind].members & SCORE) != 0)
     return POINTS;
   return 0;
@@ -76,6 +79,8 @@ uint32_t carom_needed_balls(carom_rules_kind kind) {
     return UINT32_C(1) << 8;
   case CAROM_RULES_SNOOKER:
     return UINT32_C(1) << 21;
+  case CAROM_RULES_BILLIARDS:
+    return UINT32_C(1) << 2;
   case CAROM_RULES_THREECUSHION:
   case CAROM_RULES_STRAIGHTRAIL:
     return 0x7;
@@ -88,8 +93,15 @@ uint32_t carom_needed_balls(carom_rules_kind kind) {
 }
 
 int64_t carom_seat_points(carom_rules_kind kind, uint64_t word) {
-  (void)kind;
+  if (kind == CAROM_RULES_CUTTHROAT)
+    return carom_count_of((uint32_t)word);
   return (int64_t)word;
+}
+
+int carom_usual_seats(carom_rules_kind kind) {
+  if (kind == CAROM_RULES_CUTTHROAT)
+    return 3;
+  return 2;
 }
 
 bool carom_has_opening(carom_rules_kind kind) {
@@ -103,6 +115,28 @@ carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
   rules.calls = games[kind].calls;
   rules.learned = (int32_t)kind + 1;
   return rules;
+}
+
+carom_status carom_begin_seats(carom_rules_kind kind, int seats, carom_rules_state *state) {
+  enum { LIVES = 3, BALLS = 15 };
+  if (state == NULL)
+    return CAROM_ERROR_NULL;
+  const bool of_seats = is_game(kind) && games[kind].rules->race == CAROM_RACE_SEATS;
+  const bool cut_throat = kind == CAROM_RULES_CUTTHROAT;
+  const bool good = seats == 2 || (of_seats && seats > 2 && seats <= CAROM_SEATS_MOST);
+  if (cut_throat ? seats != 3 && seats != 5 : !good)
+    return CAROM_ERROR_OPTIONS;
+  for (int seat = 0; seat < CAROM_SEATS_MOST && of_seats; seat++) {
+    uint64_t has = 0;
+    if (seat < seats)
+      has = LIVES;
+    if (seat < seats && cut_throat)
+      has = ((UINT64_C(1) << BALLS / seats) - 1) << (1 + BALLS / seats * seat);
+    state->user[seat] = has;
+  }
+  if (cut_throat)
+    state->target = BALLS / seats;
+  return CAROM_OK;
 }
 
 /* Whether a game that has a member may stand so: carom games, and the breaks of others, may have no

@@ -55,10 +55,21 @@
        CAROM_CHOICE_SPOT)                                                                          \
   GAME(COWBOY, carom_cowboy, "cowboy", "cowboy by the BCA", POOL, POOL_9FT, COWBOY, 0, KITCHEN,    \
        KITCHEN, 1, OPENING | SCORE | LOST | MAY,                                                   \
-       CAROM_CHOICE_RACK | CAROM_CHOICE_OTHER_RACK | CAROM_CHOICE_SPOT)
+       CAROM_CHOICE_RACK | CAROM_CHOICE_OTHER_RACK | CAROM_CHOICE_SPOT)                            \
+  GAME(KILLER, carom_killer, "killer", "killer, by clubs", POOL, POOL_9FT, EIGHTBALL, 15, KITCHEN, \
+       ANYWHERE, 0, OPENING, 0)                                                                    \
+  GAME(CUTTHROAT, carom_cut_throat, "cutthroat", "cut-throat by the BCA", POOL, POOL_9FT,          \
+       EIGHTBALL, 15, KITCHEN, KITCHEN, 0, OPENING | MAY | TARGET,                                 \
+       CAROM_CHOICE_RACK | CAROM_CHOICE_SPOT)                                                      \
+  GAME(BILLIARDS, carom_billiards, "billiards", "English billiards", SNOOKER, SNOOKER, BILLIARDS,  \
+       0, D, D, 0, GROUP | SCORE | TARGET | MAY | ON, CAROM_CHOICE_RACK)
 
 #define CAROM_GAME_RULES(NAME, rules, ...) extern const carom_plan_rules rules;
 CAROM_GAMES(CAROM_GAME_RULES)
+
+/* The state of a match of so many seats as it begins. CAROM_ERROR_OPTIONS where the game cannot
+ * have them: killer has 2 to 8, cut-throat 3 or 5, and all others 2. */
+carom_status carom_begin_seats(carom_rules_kind kind, int seats, carom_rules_state *state);
 
 /* Begins the definition of the rules of a game. An object that no row names does not compile. */
 #define CAROM_GAME_ROW(NAME, rules, ...) CAROM_ROW_OF_##rules = CAROM_RULES_##NAME,

@@ -7,6 +7,7 @@
  * left them, "place" where the cue ball comes in hand, and "game" with the standing. match_read.c
  * reads them back. */
 #include "match.h"
+#include "games.h"
 #include "rules.h"
 #include "seats.h"
 
@@ -192,6 +193,18 @@ static carom_status refuse_beginning(carom_match *match, const char *right) {
   return carom_match_refuse(match, CAROM_REFUSED_BEGIN, "begin", right);
 }
 
+/* What each seat has at the beginning, in a game that each plays for itself. */
+static carom_status begin_state(carom_match *match, const carom_match_setup *setup,
+                                carom_rules_state *state) {
+  int seats = carom_usual_seats(setup->rules);
+  if (setup->seating != NULL)
+    seats = (int)setup->seating->count;
+  const bool of_seats = carom_plan_rules_of(setup->rules).race == CAROM_RACE_SEATS;
+  if (!of_seats || carom_begin_seats(setup->rules, seats, state) == CAROM_OK)
+    return CAROM_OK;
+  return refuse_beginning(match, "this game is not played by so many seats");
+}
+
 /* The rules, which may be the caller's, and their state. */
 static carom_status begin_rules(carom_match *match, const carom_match_setup *setup) {
   match->rules = carom_plan_rules_of(setup->rules);
@@ -199,6 +212,8 @@ static carom_status begin_rules(carom_match *match, const carom_match_setup *set
     match->rules = *setup->of;
   if (match->rules.on == NULL || match->rules.judge == NULL)
     return CAROM_ERROR_NULL;
+  if (setup->of == NULL && begin_state(match, setup, &match->rules.state) != CAROM_OK)
+    return CAROM_ERROR_ACT;
   const char *range = "", *wrong = carom_rules_fault(setup->rules, &match->rules.state, &range);
   if (wrong == NULL)
     return CAROM_OK;
@@ -209,7 +224,7 @@ static carom_status begin_rules(carom_match *match, const carom_match_setup *set
 
 /* Those who sit there: the caller's, which the record then has too, or the usual two. */
 static carom_status begin_seats(carom_match *match, const carom_match_setup *setup) {
-  carom_seating_make(setup->rules, 2, &match->seating);
+  carom_seating_make(setup->rules, carom_usual_seats(setup->rules), &match->seating);
   if (setup->seating != NULL)
     match->seating = match->record.seating = *setup->seating;
   const char *key = "", *fault = carom_seating_fault(&match->seating, &key);
@@ -286,6 +301,9 @@ static carom_status begin_layout(carom_match *match, const carom_match_setup *se
              list_balls(needed & ~there, text));
     return refuse_beginning(match, right);
   }
+  for (int k = 0; k < CAROM_SEATS_MOST && setup->rules == CAROM_RULES_CUTTHROAT; k++)
+    if (match->rules.state.user[k] != 0 && (match->rules.state.user[k] & there) == 0)
+      return refuse_beginning(match, "each seat of cut-throat needs a ball on the table");
   if ((match->rules.on(&match->rules.state, there) & ~own_ball) == 0)
     return refuse_beginning(match, "no ball of the layout is on");
   return CAROM_OK;
@@ -349,6 +367,8 @@ static carom_status begin_rack(carom_match *match, const carom_match_setup *setu
   rules.state.innings = setup->equal_innings;
   if (setup->target != 0)
     rules.state.target = setup->target;
+  if (begin_state(match, setup, &rules.state) != CAROM_OK)
+    return CAROM_ERROR_ACT;
   if (setup->table->pockets == 0)
     rules.state.group = 1 + (int32_t)setup->side;
   if (carom_cue_ball_of(&rules) == 1) { /* the white spot is that of who opens */
@@ -549,8 +569,8 @@ static void apply(carom_match *match, bool struck) {
 static void rule(carom_match *match, bool none, carom_call call) {
   carom_record *record = &match->record;
   carom_facts facts = record->facts;
-  if (match->leave == CAROM_LEAVE_KITCHEN)
-    facts.barred = carom_barred(&facts, record->table.length, record->balls, (int)record->count);
+  facts.barred = carom_barred_from(&match->rules, (carom_leave)match->leave, &facts, &record->table,
+                                   record->balls, (int)record->count);
   const carom_shot shot = {.facts = &facts, .final = record->final}, *played = &shot;
   if (none)
     played = NULL;

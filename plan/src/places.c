@@ -16,7 +16,7 @@ static bool find_range(search *plan, const double low[2], const double high[2]) 
   const carom_plan_job *job = &plan->job;
   const double R = plan->view.radius[plan->view.cue_ball];
   carom_leave leave = (carom_leave)job->leave;
-  if (job->rules->rack == CAROM_RACK_SNOOKER)
+  if (carom_has_d(job->rules))
     leave = CAROM_LEAVE_D;
   carom_bounds *range = &plan->range;
   if (carom_hand_bounds(leave, job->table, R, range) != CAROM_OK)

@@ -268,8 +268,9 @@ static carom_status ask_rules(search *plan, bool in_hand) {
 static double foul_value_of(const search *plan) {
   const carom_plan_rules *rules = plan->job.rules;
   carom_rules_state game = rules->state; /* rules change it as they judge */
-  const carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts,
-                                       (carom_call){-1, -1});
+  carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts,
+                                 (carom_call){-1, -1});
+  turn = carom_turn_seen(rules, &game, turn);
   if (turn.outcome == CAROM_TURN_LOSE || rules->race == CAROM_RACE_ALONE)
     return 0.0;
   const bool in_hand = turn.leave >= CAROM_LEAVE_ANYWHERE;
@@ -486,12 +487,13 @@ carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, in
   return CAROM_OK;
 }
 
-carom_status carom_search_value(search *plan, const carom_plan_job *job, int in_hand,
+carom_status carom_search_value(search *plan, const carom_plan_job *job,
+                                const carom_rules_state *game, int seat, int in_hand,
                                 double *value) {
   const carom_status status = begin(plan, job, in_hand != 0);
   if (status != CAROM_OK)
     return status;
-  *value = carom_value_of(&plan->view, &job->rules->state, plan->state, 0, in_hand != 0);
+  *value = carom_value_of(&plan->view, game, plan->state, seat, in_hand != 0);
   if (job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL)
     *value = carom_search_share(plan, *value);
   return CAROM_OK;
@@ -501,5 +503,7 @@ carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *va
   search plan;
   if (value == NULL)
     return CAROM_ERROR_NULL;
-  return carom_search_value(&plan, job, in_hand, value);
+  if (!is_whole(job))
+    return CAROM_ERROR_NULL;
+  return carom_search_value(&plan, job, &job->rules->state, 0, in_hand, value);
 }

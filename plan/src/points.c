@@ -111,7 +111,7 @@ static double value_from(const carom_view *view, const carom_rules_state *game,
 
 double carom_points_value(const carom_view *view, const carom_rules_state *game,
                           const carom_ball_state *balls, uint32_t in_play, int seat, bool in_hand) {
-  if (!in_hand || view->rules->rack != CAROM_RACK_SNOOKER)
+  if (!in_hand || !carom_has_d(view->rules))
     return value_from(view, game, balls, in_play, seat, in_hand);
 
   /* in the D: the best of some places on its line */

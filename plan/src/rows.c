@@ -71,6 +71,8 @@ static carom_call call_of(const search *plan, const carom_facts *facts) {
       call = (carom_call){k, facts->pocket[k]};
   if (call.ball < 0 && (facts->down >> cue_ball & 1) != 0) /* off a ball: cowboy's last point */
     call = (carom_call){facts->first[0], facts->pocket[cue_ball]};
+  if (call.ball < 0 && plan->job.rules->rack == CAROM_RACK_BILLIARDS && facts->first[1] >= 0)
+    call.ball = facts->first[0]; /* a cannon */
   return call;
 }
 
@@ -98,8 +100,12 @@ __attribute__((noinline)) static void settle(const search *plan, carom_rules_sta
 }
 
 /* Whether the player plays on, wins or draws, or has made the last point before an equalizing
- * inning. */
-static bool is_good(const carom_rules_state *state, const carom_turn *turn) {
+ * inning; or in killer a ball, behind which the next seat plays. */
+static bool is_good(const search *plan, const carom_facts *facts, const carom_rules_state *state,
+                    const carom_turn *turn) {
+  const bool seats = plan->job.rules->race == CAROM_RACE_SEATS;
+  if (turn->outcome == CAROM_TURN_PASS && seats)
+    return turn->foul == CAROM_FOUL_NONE && (facts->down & plan->targets) != 0;
   if (turn->outcome == CAROM_TURN_PASS)
     return state->innings == CAROM_LAST_INNING;
   return turn->outcome != CAROM_TURN_LOSE;
@@ -197,8 +203,9 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
     facts = &carom_no_facts;
   const carom_call call = call_for(plan, facts, c, errors);
   carom_rules_state game = rules->state; /* rules change it as they judge */
-  carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, facts, call);
-  outcome o = outcome_of(facts, call, &turn, is_good(&game, &turn));
+  carom_turn turn = carom_turn_seen(
+      rules, &game, rules->judge(&game, plan->in_play, plan->view.cue_ball, facts, call));
+  outcome o = outcome_of(facts, call, &turn, is_good(plan, facts, &game, &turn));
   if (has_worth(plan, &turn, status, &o.worth))
     return o;
   const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
@@ -287,9 +294,9 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
     if (plan->plays < plan->view.count)
       spread(plan, &result);
-    if (plan->job.leave == CAROM_LEAVE_KITCHEN)
-      result.facts.barred =
-          carom_barred(&result.facts, plan->view.length, plan->job.balls, plan->view.count);
+    result.facts.barred =
+        carom_barred_from(plan->job.rules, (carom_leave)plan->job.leave, &result.facts,
+                          plan->job.table, plan->job.balls, plan->view.count);
     int first_hit = -1;
     if (status >= 0)
       first_hit = result.facts.first[0];

@@ -49,9 +49,11 @@ uint32_t carom_on_table(const carom_shot_ball *balls, int count);
  * cue ball, where it is played away from, else the one that it meets; -1: none. */
 int carom_first_of(const carom_facts *facts, uint32_t choice);
 /* Balls behind the head string, which from there may not be met first before the cue ball has
- * crossed it (WPA 6.11), as a set; 0 of a shot in which it has. */
-uint32_t carom_barred(const carom_facts *facts, double length, const carom_shot_ball *balls,
-                      int count);
+ * crossed it (WPA 6.11), by the leave with which it came in hand; in English billiards balls in
+ * baulk, from the D. As a set; 0 of a shot in which it has crossed the line. */
+uint32_t carom_barred_from(const carom_plan_rules *rules, carom_leave leave,
+                           const carom_facts *facts, const carom_table *table,
+                           const carom_shot_ball *balls, int count);
 /* Of the balls that are on, those nearest to the head string, where all of them lie behind it (WPA
  * 1.5); 0 where one does not. Balls whose distances differ by less than CAROM_RULES_TOUCH are
  * equally near. */
@@ -69,6 +71,20 @@ carom_turn carom_give(carom_rules_state *game, carom_turn turn);
 static inline carom_turn carom_end_turn(carom_rules_state *game, carom_turn turn) {
   if (turn.outcome == CAROM_TURN_PASS)
     carom_give(game, turn);
+  return turn;
+}
+/* In games that each plays for itself: the seat at the table; the turn goes to the next seat that
+ * has something left, or that seat has won if no other has; and the turn as its player sees it, who
+ * has lost where another seat has won. */
+static inline int carom_seat_of(const carom_rules_state *game) {
+  return (int)((uint32_t)game->seat % CAROM_SEATS_MOST);
+}
+carom_turn carom_give_seat(carom_rules_state *game, carom_turn turn);
+static inline carom_turn carom_turn_seen(const carom_plan_rules *rules,
+                                         const carom_rules_state *after, carom_turn turn) {
+  if (rules->race == CAROM_RACE_SEATS && turn.outcome == CAROM_TURN_WIN &&
+      after->seat != rules->state.seat)
+    turn.outcome = CAROM_TURN_LOSE;
   return turn;
 }
 /* A turn that passes with a foul, or none. After a scratch the cue ball is in hand behind the head

@@ -24,6 +24,22 @@ carom_turn carom_give(carom_rules_state *game, carom_turn turn) {
   return turn;
 }
 
+carom_turn carom_give_seat(carom_rules_state *game, carom_turn turn) {
+  int seats = 0, next = carom_seat_of(game);
+  for (int step = CAROM_SEATS_MOST; step > 0; step--) {
+    const int seat = (carom_seat_of(game) + step) % CAROM_SEATS_MOST;
+    if (game->user[seat] != 0) {
+      seats++;
+      next = seat;
+    }
+  }
+  if (seats <= 1)
+    turn = (carom_turn){CAROM_TURN_WIN, CAROM_LEAVE_AFTER, turn.foul, 0, 0.0};
+  if (turn.outcome != CAROM_TURN_KEEP)
+    game->seat = next;
+  return turn;
+}
+
 carom_turn carom_pass_by(int32_t foul) {
   carom_turn turn = carom_pass;
   turn.foul = foul;
@@ -72,13 +88,24 @@ uint32_t carom_met_first(const carom_facts *facts) {
   return facts->first_set | UINT32_C(1) << facts->first[0];
 }
 
-uint32_t carom_barred(const carom_facts *facts, double length, const carom_shot_ball *balls,
-                      int count) {
-  const double head = carom_marks_of(0.0, length).head_spot[1];
+/* Balls up to a line that the cue ball has not crossed, as a set. */
+static uint32_t behind_line(const carom_facts *facts, double line, const carom_shot_ball *balls,
+                            int count) {
   uint32_t set = 0;
-  for (int k = 0; k < count && !(facts->first_high[1] > head); k++)
-    set |= (uint32_t)(balls[k].state.r[1] < head) << k;
+  for (int k = 0; k < count && !(facts->first_high[1] > line); k++)
+    set |= (uint32_t)(balls[k].state.r[1] < line) << k;
   return set;
+}
+
+uint32_t carom_barred_from(const carom_plan_rules *rules, carom_leave leave,
+                           const carom_facts *facts, const carom_table *table,
+                           const carom_shot_ball *balls, int count) {
+  const carom_marks marks = carom_marks_of(table->width, table->length);
+  if (leave == CAROM_LEAVE_KITCHEN)
+    return behind_line(facts, marks.head_spot[1], balls, count);
+  if (leave == CAROM_LEAVE_D && rules->rack == CAROM_RACK_BILLIARDS)
+    return behind_line(facts, marks.d_centre[1], balls, count);
+  return 0;
 }
 
 uint32_t carom_nearest_behind(const carom_table *table, const carom_shot_ball *balls, int count,

@@ -157,8 +157,10 @@ typedef struct carom_search {
   carom_candidate best;          /* of the rounds of doubling before */
 } carom_search;
 
-/* carom_plan_value() of a job, in room of the caller; *value stays where there is an error. */
-carom_status carom_search_value(carom_search *plan, const carom_plan_job *job, int in_hand,
+/* carom_plan_value() of a job, in room of the caller, for another state of its game and to a player
+ * as of carom_value_of(); *value stays where there is an error. */
+carom_status carom_search_value(carom_search *plan, const carom_plan_job *job,
+                                const carom_rules_state *game, int seat, int in_hand,
                                 double *value);
 
 static inline bool carom_is_stopped(const carom_search *plan) {

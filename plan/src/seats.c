@@ -151,8 +151,10 @@ carom_status carom_seating_make(carom_rules_kind kind, int seats, carom_seating 
                                           .mass_least = 0.2,
                                           .mass_most = 1.2,
                                           .end_mass_least = 0.001};
-  const carom_plan_rules rules = carom_plan_rules_of(kind);
+  carom_plan_rules rules = carom_plan_rules_of(kind);
   const bool is_own = about != NULL && rules.race == CAROM_RACE_SEATS;
+  if (is_own && carom_begin_seats(kind, seats, &rules.state) != CAROM_OK)
+    return CAROM_ERROR_ACT;
   if (about != NULL && !is_own && seats != 2) /* partners: every other seat */
     for (int k = 0; k < seats; k++)
       seating->seat[k].side = k % 2;

@@ -147,10 +147,72 @@ static double value_of_playing(const carom_view *view, const carom_rules_state *
   return with_targets(view, balls, in_play, rules->on(game, in_play), pockets, left, seat, in_hand);
 }
 
+/* ---- Games that each plays for itself
+ *
+ * As in the method max^n each seat plays for its own chance, and none against one seat. The value
+ * of a game has the chance v of the seat at the table. The others share 1 - v by the chances that
+ * they would have at the table. */
+
+static double share_of(const carom_view *view, const carom_rules_state *game,
+                       const carom_ball_state *balls, int player, bool in_hand) {
+  carom_rules_state asked = *game;
+  const double value = view->rules->value(game, balls, view->count, in_hand);
+  if (game->seat == player)
+    return value;
+  double sum = 0.0, share = 0.0;
+  for (asked.seat = 0; asked.seat < CAROM_SEATS_MOST; asked.seat++) {
+    if (asked.seat == game->seat || game->user[asked.seat] == 0)
+      continue;
+    const double chance = view->rules->value(&asked, balls, view->count, in_hand);
+    sum += chance;
+    if (asked.seat == player)
+      share = chance;
+  }
+  if (sum > 0.0)
+    share *= (1.0 - value) / sum;
+  return share;
+}
+
+/* The chance of the seat that plans. The values of the games here know what each seat has left, and
+ * no layout: they are asked behind the next stroke, which pots the likeliest ball or misses. */
+static double value_to_planner(const carom_view *view, const carom_rules_state *game,
+                               const carom_ball_state *balls, uint32_t in_play, int seat,
+                               bool in_hand) {
+  const carom_plan_rules *rules = view->rules;
+  const int player = rules->state.seat;
+  const uint32_t targets = rules->on(game, in_play) & in_play;
+  if (rules->learned == 0 || targets == 0)
+    return share_of(view, game, balls, player, in_hand);
+  double each[CAROM_BALLS_MOST], x[NEXT_NUMBERS], sum = 0.0;
+  carom_plan_features(view, balls, in_play, targets, carom_pockets_of(rules, game), seat, in_hand,
+                      each, x);
+  int ball = -1;
+  for (int k = 0; targets >> k != 0; k++)
+    if ((targets >> k & 1) && (ball < 0 || each[k] > each[ball]))
+      ball = k;
+  const double pots = carom_chance_next(view, x), chance[2] = {1.0 - pots, pots};
+  for (int falls = 0; falls < 2; falls++) {
+    carom_rules_state after = *game;
+    const carom_facts facts = {
+        .first = {ball, -1}, .cushions_after = 1, .down = (uint32_t)falls << ball};
+    const carom_turn turn =
+        rules->judge(&after, in_play, view->cue_ball, &facts, (carom_call){-1, -1});
+    double worth = after.seat == player;
+    if (turn.outcome != CAROM_TURN_WIN)
+      worth = share_of(view, &after, balls, player, turn.leave >= CAROM_LEAVE_ANYWHERE);
+    sum += chance[falls] * worth;
+  }
+  return sum;
+}
+
 double carom_value_of(const carom_view *view, const carom_rules_state *game,
                       const carom_ball_state *balls, int seat, bool in_hand) {
   const carom_plan_rules *rules = view->rules;
   const uint32_t in_play = carom_in_play(balls, view->count) | UINT32_C(1) << view->cue_ball;
+  if (rules->race == CAROM_RACE_SEATS) {
+    const double value = value_to_planner(view, game, balls, in_play, seat, in_hand);
+    return seat == 0 ? value : 1.0 - value;
+  }
   double plays = value_of_playing(view, game, balls, in_play, seat, in_hand);
   if (game->may & CAROM_CHOICE_PUSH && view->set_chance[1] == 0.0) {
     int32_t left[2];

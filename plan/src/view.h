@@ -46,6 +46,11 @@ static inline uint32_t carom_pockets_of(const carom_plan_rules *rules,
   return rules->pockets(game);
 }
 
+/* Whether a cue ball in hand is always in the D. */
+static inline bool carom_has_d(const carom_plan_rules *rules) {
+  return rules->rack == CAROM_RACK_SNOOKER || rules->rack == CAROM_RACK_BILLIARDS;
+}
+
 /* The points of a ball if it falls in the next stroke, or with ball -1 the mean of a later pot; 1
  * in games without points. */
 static inline double carom_points_of(const carom_plan_rules *rules, const carom_rules_state *game,
@@ -151,7 +156,8 @@ double carom_even(const carom_view *view, int seat, int n);
 /* value.c */
 void carom_view_make(carom_view *view, const carom_plan_job *job,
                      const carom_plan_options *options);
-/* The chance that player `seat`, who is at the table, wins; alone: balls that he pots yet. */
+/* The chance that player `seat`, who is at the table, wins; alone: balls that he pots yet. In games
+ * that each plays for itself, seat 0 is that of the view's rules, and seat 1 all others. */
 double carom_value_of(const carom_view *view, const carom_rules_state *game,
                       const carom_ball_state *balls, int seat, bool in_hand);
 uint32_t carom_in_play(const carom_ball_state *balls, int count);
@@ -163,6 +169,7 @@ double carom_points_value(const carom_view *view, const carom_rules_state *game,
 bool carom_has_opening(carom_rules_kind kind);
 /* The largest handicap that a seat may have, and what the word of a seat counts. */
 int64_t carom_handicap_most(carom_rules_kind kind);
+int carom_usual_seats(carom_rules_kind kind);
 int64_t carom_seat_points(carom_rules_kind kind, uint64_t word);
 /* The balls without which a game of this kind cannot be played, as a set. */
 uint32_t carom_needed_balls(carom_rules_kind kind);

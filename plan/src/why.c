@@ -38,6 +38,7 @@ static void play(const carom_plan_job *job, const carom_cue *cue, carom_call cal
     played = NULL;
   carom_referee(job->rules, job->table, job->balls, (int)job->count, (int)cue->ball, played, call,
                 ruling);
+  ruling->turn = carom_turn_seen(job->rules, &ruling->state, ruling->turn);
 }
 
 /* The stroke of a choice with the errors of number n. */
@@ -96,10 +97,14 @@ static double worth_of(const carom_plan_job *job, const carom_ruling *ruling, do
   if (ruling->turn.outcome >= CAROM_TURN_WIN)
     return ruling->turn.outcome != CAROM_TURN_LOSE;
   carom_plan_rules rules;
-  const carom_plan_job next = job_after(job, ruling, &rules);
+  carom_plan_job next = job_after(job, ruling, &rules);
+  const bool seats = job->rules->race == CAROM_RACE_SEATS;
+  if (seats)
+    next.rules = job->rules; /* the seat that has played asks */
   double chance = 0.0;
   if (!(alone && passes))
-    carom_search_value(&((workspace *)job->memory)->search, &next, ruling->hand, &chance);
+    carom_search_value(&((workspace *)job->memory)->search, &next, &ruling->state, seats && passes,
+                       ruling->hand, &chance);
   if (alone)
     return fmin(1.0, (ruling->turn.points + chance * left_of(&next, ruling->balls)) /
                          left_of(job, job->balls));

@@ -33,7 +33,7 @@ static const char *word_of(enum words words, int k) {
   return carom_game_word((carom_game_words)(words - 1), words == CHOICES ? 1 << k : k);
 }
 
-typedef enum form { NUMBER, PAIR, SET, WORDS_FORM } form;
+typedef enum form { NUMBER, PAIR, SET, WORDS_FORM, SEATS, SETS } form;
 typedef struct member {
   const char *name;
   size_t offset;
@@ -61,6 +61,9 @@ static const member members[] = {
     OF_STATE(free_ball, NUMBER),
     OF_STATE(target, NUMBER),
     OF_STATE(innings, NUMBER),
+    OF_STATE(seat, NUMBER),
+    OF_STATE(user, SEATS),
+    {.name = "sets", .offset = offsetof(situation, state.user), .form = SETS},
     OF_FACTS(first, PAIR),
     OF_FACTS(cushions_before, PAIR),
     OF_FACTS(cushions_after, NUMBER),
@@ -124,6 +127,24 @@ static int number_at(const char **text, enum words words) {
   return number;
 }
 
+/* Words of the seats, between them ";": a number each, or a set of balls. */
+static void read_seats(const member *m, const char *text, uint64_t word[CAROM_SEATS_MOST]) {
+  memset(word, 0, CAROM_SEATS_MOST * sizeof *word);
+  for (int seat = 0; *text != '\0'; text += *text != '\0') {
+    const int low = number_at(&text, NO_WORDS);
+    int high = low;
+    if (*text == '-') {
+      text++;
+      high = number_at(&text, NO_WORDS);
+    }
+    for (int bit = low; m->form == SETS && bit <= high && low > 0; bit++)
+      word[seat] |= UINT64_C(1) << bit;
+    if (m->form == SEATS)
+      word[seat] = (uint64_t)low;
+    seat += *text == ';';
+  }
+}
+
 /* The numbers of a list, in which a-b stands for a to b: into `value`, or as bits of *value. */
 static void read_value(const member *m, const char *text, int32_t *value) {
   if (m->form == SET)
@@ -153,6 +174,8 @@ static void read_situation(char *text, situation *into) {
       k++;
     if (k < MEMBERS && value != NULL && members[k].form == WORDS_FORM)
       memcpy((char *)into + members[k].offset, &value, sizeof value);
+    else if (k < MEMBERS && value != NULL && members[k].form >= SEATS)
+      read_seats(&members[k], value, (uint64_t *)((char *)into + members[k].offset));
     else if (k < MEMBERS && value != NULL)
       read_value(&members[k], value, (int32_t *)((char *)into + members[k].offset));
     else
@@ -197,7 +220,9 @@ static void check_turn(const char *title, const carom_plan_rules *game_rules,
   for (int k = 0; k < MEMBERS && members[k].offset < sizeof game_rules->state; k++) {
     const int32_t *is = (const int32_t *)((const char *)&game_rules->state + members[k].offset);
     const int32_t *must = (const int32_t *)((const char *)&expected->state + members[k].offset);
-    const size_t size = members[k].form == PAIR ? 2 * sizeof *is : sizeof *is;
+    size_t size = members[k].form == PAIR ? 2 * sizeof *is : sizeof *is;
+    if (members[k].form >= SEATS)
+      size = sizeof expected->state.user;
     ck_assert_msg(memcmp(is, must, size) == 0,
                   "%s: %s is %d, not %d (or the second number differs)", title, members[k].name,
                   *is, *must);
@@ -298,8 +323,9 @@ static void check_settling(const char *title, const carom_rules_about *about,
 /* How the section that a title names was read: 0 where it names none, 1 for its text, and so on, as
  * the head of situations.txt says. */
 static int source_of(const char *title, const char *column) {
-  static const char *const names[] = {"WPA",       "WPBSA",   "BCA",     "UMB",       "one-pocket",
-                                      "blackball", "heyball", "pyramid", "four-ball", NULL};
+  static const char *const names[] = {"WPA",        "WPBSA",     "BCA",     "UMB",
+                                      "one-pocket", "blackball", "heyball", "pyramid",
+                                      "four-ball",  "killer",    NULL};
   static const char *const sources[] = {"", "text", "title", "club", "none", NULL};
   bool names_text = false;
   for (int k = 0; names[k] != NULL; k++)

@@ -28,6 +28,7 @@ TEST(double_hits) {
       if (game == CAROM_RULES_FOURBALL)
         continue; /* ball 1 may not be met */
       carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)game);
+      rules.state.seat = rules.race == CAROM_RACE_SEATS; /* ball 1 is that of seat 0 */
       int foul = cases[k].pool;
       if (game == CAROM_RULES_SNOOKER || game == CAROM_RULES_BLACKBALL)
         foul = cases[k].snooker;

@@ -80,6 +80,7 @@
   WORD(RACK, RACK_PYRAMID, "pyramid", "the yellow ball, then 15 white ones")                       \
   WORD(RACK, RACK_FOURBALL, "fourball", "white, yellow and two reds, as for the opening")          \
   WORD(RACK, RACK_COWBOY, "cowboy", "cue ball, and the balls 1, 3 and 5 on their spots")           \
+  WORD(RACK, RACK_BILLIARDS, "billiards", "white, yellow, which is down, and red on the spot")     \
   WORD(SOLVER, SOLVER_EXACT, "exact", "the limit of infinitely many steps")                        \
   WORD(SOLVER, SOLVER_EULER, "euler", "N steps of equal impulse")                                  \
   WORD(SOLVER, SOLVER_FAST, "fast", "exact in less time, but not smooth")                          \

@@ -59,7 +59,8 @@ static const rack_row racks[] = {
                              .fixed = {[0] = 1, [4] = 15, [10] = 3, [14] = 2}},
     [CAROM_RACK_PYRAMID] = {.game = CAROM_GAME_PYRAMID, .size = 16, .rows = 5, .spot = 0},
     [CAROM_RACK_FOURBALL] = {.game = CAROM_GAME_FOURBALL, .size = 4},
-    [CAROM_RACK_COWBOY] = {.game = CAROM_GAME_POOL, .size = 4}};
+    [CAROM_RACK_COWBOY] = {.game = CAROM_GAME_POOL, .size = 4},
+    [CAROM_RACK_BILLIARDS] = {.game = CAROM_GAME_SNOOKER, .size = 3}};
 
 static const rack_row *row_of(carom_rack_kind kind) {
   if ((uint32_t)kind >= sizeof racks / sizeof *racks)
@@ -166,7 +167,8 @@ static void pack(rack *k, const rack_row *row, double front) {
 /* Places of balls on the middle line, as shares of the length, for racks without a pack. */
 static const double middle_spots[][4] = {[CAROM_RACK_THREECUSHION] = {0.25, 0.25, 0.75},
                                          [CAROM_RACK_FOURBALL] = {0.25, 0.875, 0.25, 0.75},
-                                         [CAROM_RACK_COWBOY] = {0.125, 0.25, 0.75, 0.5}};
+                                         [CAROM_RACK_COWBOY] = {0.125, 0.25, 0.75, 0.5},
+                                         [CAROM_RACK_BILLIARDS] = {0.2, 0.2, 1.0 - 0.324 / 3.569}};
 
 /* The spot of the cue ball of snooker, or of a colour. */
 static void find_snooker_spot(const carom_table *table, int ball, double place[2]) {
@@ -253,5 +255,7 @@ carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double g
     front += 2.0 * R + fmax(gap, red_gap);
   if (row->rows > 0)
     pack(&k, row, front);
+  if (kind == CAROM_RACK_BILLIARDS) /* its player has not begun */
+    balls[1].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
   return CAROM_OK;
 }

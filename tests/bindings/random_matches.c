@@ -28,8 +28,10 @@ static int one_of(int count) {
   return (int)between(0.0, count - 1e-9);
 }
 
-/* A ball of a set, which is not empty. */
+/* A ball of a set; 0 of an empty one. */
 static int member_of(uint32_t set) {
+  if (set == 0)
+    return 0;
   int ball = one_of(CAROM_BALLS_MOST);
   while ((set >> ball & 1) == 0)
     ball = (ball + 1) % CAROM_BALLS_MOST;

@@ -49,9 +49,11 @@ export const GAMES: Record<string, GameOf> = {
     names: (k) => ["white", "yellow", "red"][k] ?? String(k),
   },
 };
+/** The drill, and games that the page has no seats or no balls for. */
+const LEFT_OUT: readonly string[] = ["potting", "killer", "cutthroat", "billiards"];
 for (const [name, text] of words.rules) {
   const { balls, rack, table } = games[name];
-  if (GAMES[rack]?.table === table) continue;
+  if (name === "billiards" || GAMES[rack]?.table === table) continue;
   const fourball = ["white", "yellow", "red 1", "red 2"];
   const namesOf: Record<string, (k: number) => string> = {
     fourball: (k) => fourball[k] ?? String(k),
@@ -165,14 +167,14 @@ const OWN: Record<string, Partial<Played>> = {
 /** Whether the state of a game has a member, such as "innings". */
 export const hasMember = (rules: GameState["rules"], member: string): boolean =>
   (games[rules].members as readonly string[]).includes(member);
-/** The games whose rules the library has, but for its drill. */
+/** The games whose rules the library has, but for those left out. */
 export const PLAYED: Record<string, Played> = Object.fromEntries(
   words.rules.flatMap(([name, text]) => {
     const { rack, calls, opening } = games[name];
     const points = hasMember(name, "score");
     const pockets = hasMember(name, "pocket");
     const begin = pockets ? { ...BREAK, speed: 2.5, phi: 79.5, b: -0.3 } : BREAK;
-    return name === "potting"
+    return LEFT_OUT.includes(name)
       ? []
       : [
           [
