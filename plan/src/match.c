@@ -546,11 +546,11 @@ static void apply(carom_match *match, bool struck) {
     break;
   case CAROM_TURN_WIN:
     record->winner = 1 + player;
-    if (match->rules.race == CAROM_RACE_SEATS)
-      record->winner = 1 + (int64_t)ruling->state.seat;
     break;
   case CAROM_TURN_LOSE:
     record->winner = 1 + (1 - player);
+    if (match->rules.race == CAROM_RACE_SEATS)
+      record->winner = 1 + (int64_t)ruling->state.seat;
     break;
   case CAROM_TURN_DRAW:
     record->winner = CAROM_DRAWN;

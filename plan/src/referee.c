@@ -113,6 +113,7 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
   if (!spots)
     ruling->turn =
         rules->judge(&ruling->state, carom_on_table(balls, count), cue_ball, &ruling->facts, call);
+  ruling->turn = carom_turn_seen(rules, &ruling->state, ruling->turn);
 
   /* the layout, with balls that come back */
   lay_out(balls, count, shot, ruling);
