@@ -9,27 +9,33 @@
 #include <errno.h>
 #include <inttypes.h>
 
+enum { USUAL_RATING = 600 };
+
 typedef struct match_job {
   shared_options shared; /* --output */
   int rules;             /* a carom_rules_kind; -1: eight-ball, or the game of the file */
   int table;             /* a carom_table_kind; -1: that of the game */
   bool shows;
-  double rating[2];
-  int breaks, seed, shots, strokes, target;
-  bool equal;
+  double rating[CAROM_SEATS_MOST]; /* 0: not given */
+  int breaks, seed, shots, strokes, target, race;
+  bool equal, winner_breaks;
 } match_job;
 
 static bool set_ratings(const option_row *row, char *text, void *field) {
   double *rating = field;
-  char end;
-  const bool read = sscanf(text, "%lf,%lf%c", &rating[0], &rating[1], &end) == 2;
-  bool good = read;
-  for (int k = 0; k < 2; k++)
-    good = good && rating[k] >= 200.0 && rating[k] <= 850.0;
-  if (good)
+  int count = 0, length = 0;
+  bool good = true;
+  for (const char *at = text; good; at += length + 1) {
+    good = count < CAROM_SEATS_MOST && sscanf(at, "%lf%n", &rating[count], &length) == 1 &&
+           rating[count] >= 200.0 && rating[count] <= 850.0;
+    count++;
+    if (at[length] != ',')
+      break;
+  }
+  if (good && count >= 2 && strspn(text, "0123456789.,") == strlen(text))
     return true;
-  complain("--%s: two Fargo ratings from 200 to 850 are needed, such as 600,500, not %s", row->name,
-           text);
+  complain("--%s: 2 to 8 Fargo ratings from 200 to 850 are needed, such as 600,500, not %s",
+           row->name, text);
   return false;
 }
 
@@ -37,8 +43,16 @@ OPTION(match_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_
        .else_usual = "eightball, or the game of the file");
 OPTION(match_job, option_table, "table", table, 0, NULL, set_named, CAROM_WORDS_TABLE, "the table",
        .else_usual = "that of the game");
-OPTION(match_job, option_players, "players", rating, 0, "A,B", set_ratings, 0,
-       "the Fargo ratings of both players, 200 to 850", .usual = "600,600");
+OPTION(
+    match_job, option_players, "players", rating, 0, "A,B,...", set_ratings, 0,
+    "the Fargo ratings of 2 to 8 players, 200 to 850; in games of two sides every other one is a "
+    "partner",
+    .else_usual = "600 each");
+OPTION(match_job, option_race, "race", race, 0, "N", set_count, 1,
+       "play a set, until a side has won so many matches; the sides break in turn",
+       .else_usual = "one match");
+OPTION(match_job, option_winner_breaks, "winner-breaks", winner_breaks, 0, NULL, set_flag, 0,
+       "in a set, who has won a match breaks the next one");
 OPTION(match_job, option_breaks, "breaks", breaks, 0, "1|2", set_choice, 0, "the player who breaks",
        .usual = "1");
 OPTION(match_job, option_seed, "seed", seed, 0, "N", set_count, 0,
@@ -58,14 +72,15 @@ OPTION(match_job, option_show, "show", shows, 0, NULL, set_flag, 0,
 static const command_form match_form = {
     .name = "match",
     .usage = "[OPTIONS] [GAME]",
-    .about = "Plays a match between two players who err as their ratings say, by the rules of a "
+    .about = "Plays a match between players who err as their ratings say, by the rules of a "
              "game, and writes its recording, which `carom verify` judges. With GAME it goes on "
              "with a match that was saved: give the ratings, the seed and the shots again, and the "
              "match ends as if it had not been interrupted. GAME may be -.\n",
     .options =
         (const option_row *const[]){&option_rules, &option_table, &option_players, &option_breaks,
-                                    &option_target, &option_equal, &option_seed, &option_shots,
-                                    &option_strokes, &option_show, &option_output, NULL},
+                                    &option_race, &option_winner_breaks, &option_target,
+                                    &option_equal, &option_seed, &option_shots, &option_strokes,
+                                    &option_show, &option_output, NULL},
     .details = "exit code: 0 for success; 1 if a line of GAME is not by the rules, which carom "
                "names; 2 for bad usage or unreadable input\n",
     .example = "carom match --players 650,500 -o game.jsonl",
@@ -175,7 +190,7 @@ static int read_match(const char *path, FILE *text, FILE *words) {
   ssize_t size;
   int code = EXIT_GOOD;
   while (code == EXIT_GOOD && (size = getline(&line, &space, in)) >= 0) {
-    const int64_t player = match.record.player, rulings = match.rulings;
+    const int64_t player = match.seat, rulings = match.rulings;
     const bool goes_on = match.phase != CAROM_MATCH_NONE && match.phase != CAROM_MATCH_OVER;
     if (carom_match_read(&match, &scratch, line, (size_t)size) != CAROM_OK) {
       complain("%s: %s", path, match.fault);
@@ -201,7 +216,7 @@ static int read_match(const char *path, FILE *text, FILE *words) {
 
 typedef struct players {
   const match_job *job;
-  carom_player player[2];
+  carom_player player[CAROM_SEATS_MOST];
   carom_plan_options options;
   void *memory;
   FILE *text, *words;
@@ -220,12 +235,9 @@ static bool keep(const players *p, carom_status status, int player, int64_t ruli
 
 /* Plays the best stroke of the player at the table, or passes. */
 static bool play_stroke(players *p) {
-  const int player = (int)match.record.player;
-  const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)match.record.rules);
-  carom_cue cue = carom_cue_of((carom_game)about->balls);
-  cue.ball = match.cue_ball;
-  p->options.opponent = &p->player[1 - player];
-  carom_plan_job job = {.player = &p->player[player], .cue = &cue, .options = &p->options};
+  const int player = match.seat;
+  p->options.opponent = &p->player[(player + 1) % (int)match.seating.count];
+  carom_plan_job job = {.player = &p->player[player], .options = &p->options};
   job.memory = p->memory;
   job.memory_size = carom_plan_memory(&p->options);
 
@@ -255,6 +267,14 @@ static bool play_stroke(players *p) {
   return keep(p, carom_match_stroke(&match, player, &best.cue, NULL, NULL), player, rulings);
 }
 
+/* How many players were named; 0: none. */
+static int count_players(const match_job *job) {
+  int count = 0;
+  while (count < CAROM_SEATS_MOST && job->rating[count] > 0.0)
+    count++;
+  return count;
+}
+
 /* Begins the match, unless one was read, and plays it; an exit code. */
 static int play_match(players *p) {
   const match_job *job = p->job;
@@ -266,8 +286,26 @@ static int play_match(players *p) {
     if (job->table >= 0)
       kind = (carom_table_kind)job->table;
     carom_table_make(kind, &table);
-    const carom_status status = carom_match_begin_to(&match, rules, job->target, job->equal, &table,
-                                                     (uint64_t)job->seed, job->breaks);
+    const carom_set set = {.race = job->race, .order = job->winner_breaks};
+    carom_seating seating;
+    carom_match_setup setup = {.rules = rules,
+                               .target = job->target,
+                               .equal_innings = job->equal,
+                               .table = &table,
+                               .seed = (uint64_t)job->seed,
+                               .side = job->breaks};
+    const int seats = count_players(job);
+    if (seats != 2 && seats != 0) {
+      setup.seating = &seating;
+      if (carom_seating_make(rules, seats, &seating) != CAROM_OK) {
+        complain("--players: %s is not played by %d", carom_word(CAROM_WORDS_RULES, (int)rules),
+                 seats);
+        return EXIT_USAGE;
+      }
+    }
+    if (job->race > 0)
+      setup.set = &set;
+    const carom_status status = carom_match_begin_with(&match, &setup);
     if (status != CAROM_OK) {
       complain("%s", text_or(match.fault, carom_status_string(status)));
       return EXIT_USAGE;
@@ -279,6 +317,8 @@ static int play_match(players *p) {
       return EXIT_GOOD;
     if (!play_stroke(p))
       return EXIT_USAGE;
+    if (match.phase == CAROM_MATCH_OVER && carom_match_next(&match) == CAROM_OK)
+      fwrite(match.text, 1, (size_t)match.size, p->text);
   }
   if (carom_match_end(&match) == CAROM_OK)
     fwrite(match.text, 1, (size_t)match.size, p->text);
@@ -287,11 +327,18 @@ static int play_match(players *p) {
 
 /* Whether the match that was read, if any, is of the game that was asked for; complains if not. */
 static bool is_of_rules(const match_job *job, const char *path) {
-  if (path != NULL && (job->target > 0 || job->equal)) {
-    complain("--%s: %s has begun: leave the option out", job->equal ? "equal-innings" : "target",
-             path);
-    return false;
-  }
+  const struct {
+    bool given;
+    const char *name;
+  } first[] = {{job->equal, "equal-innings"},
+               {job->target > 0, "target"},
+               {job->race > 0, "race"},
+               {job->winner_breaks, "winner-breaks"}};
+  for (size_t k = 0; path != NULL && k < sizeof first / sizeof *first; k++)
+    if (first[k].given) {
+      complain("--%s: %s has begun: leave the option out", first[k].name, path);
+      return false;
+    }
   if (path == NULL || job->rules < 0 || job->rules == match.record.rules)
     return true;
   complain("--rules: %s is a match of %s: leave the option out", path,
@@ -329,8 +376,8 @@ int command_match(int argc, char **argv) {
     code = EXIT_USAGE;
   if (!job.shows && code == EXIT_GOOD) {
     players p = {.job = &job, .text = text};
-    for (int k = 0; k < 2; k++)
-      p.player[k] = carom_player_fargo(job.rating[k]);
+    for (int k = 0; k < CAROM_SEATS_MOST; k++)
+      p.player[k] = carom_player_fargo(job.rating[k] > 0.0 ? job.rating[k] : USUAL_RATING);
     p.options.shots = job.shots;
     p.memory = allocate(carom_plan_memory(&p.options), 1);
     if (strcmp(job.shared.output, "-") != 0)

@@ -7,9 +7,13 @@
 
 static carom_match match;
 static carom_record scratch;
+static int64_t rulings; /* of all matches of a set */
 
 bool judge_line(const char *line, size_t size, char why[JUDGED_TEXT]) {
+  const int64_t known = match.rulings;
   const carom_status status = carom_match_read(&match, &scratch, line, size);
+  if (match.rulings > known)
+    rulings += match.rulings - known;
   snprintf(why, JUDGED_TEXT, "%s", match.fault);
   return status == CAROM_OK;
 }
@@ -27,7 +31,7 @@ bool judge_end(char what[JUDGED_TEXT]) {
   if (match.record.set.race > 0)
     snprintf(set, sizeof set, "; match %d of a set, which stands %d : %d",
              (int)match.record.set.number, (int)standing.won[0], (int)standing.won[1]);
-  snprintf(what, JUDGED_TEXT, "%lld rulings by the rules; %s%s", (long long)match.rulings, winner,
+  snprintf(what, JUDGED_TEXT, "%lld rulings by the rules; %s%s", (long long)rulings, winner,
            set);
   return match.size == 0;
 }

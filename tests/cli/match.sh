@@ -18,6 +18,16 @@ for seed in 1 3 6; do
   carom match --rules straightrail --target 1 --equal-innings --fargo 800,800 --shots 100 --seed $seed -o rail.jsonl
   try carom verify rail.jsonl
 done
+echo "--- more than two players, and a set"
+try carom match --rules killer --players 700,600,500 --shots 100 -o killer.jsonl
+try carom verify killer.jsonl
+try carom match --rules cutthroat --shots 100 --strokes 3 -o cut.jsonl
+try carom match --rules billiards --shots 100 --strokes 3 -o billiards.jsonl
+try carom match --rules nineball --players 700,500,400,650 --race 2 --shots 100 -o set.jsonl > /dev/null
+try carom verify set.jsonl
+carom match --show -o /dev/null set.jsonl
+try carom match --race 2 set.jsonl
+try carom match --rules cutthroat --players 500,600
 echo "--- a game whose rules do not agree"
 "${CAROM%/*}/tests/forge" > forged.jsonl
 try carom verify forged.jsonl
