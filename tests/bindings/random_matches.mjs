@@ -39,10 +39,10 @@ function outcome(match, words) {
   }
   const may = bits(match.may.map((word) => MAY.indexOf(word)));
   const sets = `on ${bits(match.on)}, touching ${bits(match.touching)}`;
-  const winner = match.drawn ? 2 : (match.winner ?? -1);
+  const winner = match.drawn ? 8 : (match.winner ?? -1);
   const who = `player ${match.player}, winner ${winner}`;
   const at = `phase ${PHASES.indexOf(match.phase)}, ${who}, may ${may}`;
-  return `taken: ${at}, ball ${match.cueBall}, ${sets}: ${match.ruling?.text ?? ""}`;
+  return `taken: ${at}, ball ${match.cueBall}, ${sets}: ${match.ruling?.words ?? ""}`;
 }
 
 let match;
