@@ -126,7 +126,11 @@ def replayed(table: Table, balls: Records, cue: Records, options: Options, match
     """The last shot of a match of C, as far as it was played."""
     layout = frozen(balls)
     begun = Shot(table, layout, Status.OK, 0.0, 0, _NO_EVENTS, layout["state"], cue, options, None)
-    return _run(begun, lambda shot: lib.carom_match_replay(match, shot))
+    shot = _run(begun, lambda shot: lib.carom_match_replay(match, shot))
+    if shot.status > 0:
+        state = ffi.buffer(ffi.addressof(match.record, "state"))
+        shot.state = np.frombuffer(state, np.uint64).copy()
+    return shot
 
 
 def _check_first_of(options: Options, balls: int, cues: Records | None) -> None:

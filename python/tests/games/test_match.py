@@ -45,9 +45,11 @@ def test_a_shot_in_parts_is_ruled_at_its_end():
         match.stroke(BREAK)
     half = carom.Match.load("".join(match.lines))
     assert half.phase == "moving" and half.shot.events.tobytes() == match.shot.events.tobytes()
+    moving = half.shot
     assert match.resume() and half.resume() and parts.resume()
-    for other in (half, parts, carom.Match.load(match.lines)):
-        assert other.shot.events.tobytes() == match.shot.events.tobytes()
+    others = [other.shot for other in (half, parts, carom.Match.load(match.lines))]
+    for shot in (carom.resume(moving), *others):
+        assert shot.events.tobytes() == match.shot.events.tobytes()
     assert half.lines == match.lines and half.ruling.words == match.ruling.words
     assert match.ruling.shot.count == match.shot.count > 100
     assert match.ruling.balls.tobytes() == match.balls.tobytes()
@@ -184,7 +186,9 @@ def test_partners_play_a_set_with_handicaps_limits_and_time():
     assert match.seats[1][1:4] == (1, 15, 600.0) and match.limits["tip"] == 0.0
     assert match.standing == ((0, 1, 0, 1), (0, 15), (0, 0), None)
     assert match.words == "Ann (seat 0): a place of the cue ball in hand, or a choice"
-    match.place(0.6, 0.6)
+    match.take(match.plan(shots=100, best=1)[0], seat=0)
+    assert match.seat in (1, 2) and match.state["seat"] == match.seat
+    assert len(match.plan(shots=100, best=1)) == 1 and match.undo()
     match.extend()
     cue = match.cue
     for field, wrong, message in [

@@ -58,7 +58,9 @@ _RACES = {"own": 0, "shared": 1, "alone": 2, "points": 3, "seats": 4}
 _WORDS = 8  # of the state of rules of one's own
 _USUAL = Options()
 _NO_ROOM = "there is no room for a ball that comes back"
-_MEMBERS = tuple(name for name in dtypes.rules_state.names or () if name not in ("user", "unused"))
+_MEMBERS = tuple(
+    name for name in dtypes.rules_state.names or () if name not in ("user", "unused", "context")
+)
 _POCKETED, _OFF = int(Label.POCKETED), int(Label.OFF)  # with which NumPy compares in half the time
 
 
