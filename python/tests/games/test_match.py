@@ -332,6 +332,9 @@ def test_killer_of_five_seats():
     assert turns == [0, 1, 2, 3, 4] + [0, 1, 2, 3] and match.winner == 4
     assert match.standing == ((0, 1, 2, 3, 4), (0, 0, 0, 0, 1), (0,) * 5, None)
     assert match.ruling.facts.cue_ball == 0 and match.words == "seat 4 has won"
+    state = carom.rules.Words(lives, seat=3)
+    assert carom.plan(TABLE, layout, rules=rules, state=state, shots=100)["value"][0] > 0.0
+    assert carom.referee(TABLE, layout, cue, rules=rules, state=state).seat == 4
     again = carom.Match.load(match.lines, rules=rules)
     assert again.winner == 4 and again.undo() and again.seat == 3 and again.redo()
     match = carom.Match(rules, TABLE, balls=layout, state=lives, seats=5)

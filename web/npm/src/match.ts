@@ -140,19 +140,19 @@ export class Match extends Owner<Host> {
         const { memory } = this.#host;
         const ballsAt = memory.allocate(values.CAROM_BALLS_MOST * layout.carom_shot_ball.size);
         try {
-          writeTable(memory, tableAt!, table);
+          writeTable(memory, tableAt, table);
           writeBalls(memory, ballsAt, balls ?? []);
-          const hasSeats = this.#writeSeats(seating!, rules, game, options);
+          const hasSeats = this.#writeSeats(seating, rules, game, options);
           if (options.set) {
             const order = value("carom_break_order", options.set.order ?? "alternate", "set.order");
-            this.#fill(set!, "carom_set", { ...options.set, order }, "set");
+            this.#fill(set, "carom_set", { ...options.set, order }, "set");
           }
           const of =
             balls && this.#host.writeState(game, balls) - layout.carom_plan_rules.offset.state;
-          setStruct(memory, setup!, "carom_match_setup", {
+          setStruct(memory, setup, "carom_match_setup", {
             rules,
             of,
-            table: tableAt!,
+            table: tableAt,
             balls: balls && ballsAt,
             count: balls?.length,
             options: this.#host.writeShotOptions(shot),
@@ -164,7 +164,7 @@ export class Match extends Owner<Host> {
             seating: hasSeats ? seating : 0,
             set: options.set && set,
           });
-          this.#act((pointer, call) => call.carom_match_begin_with(pointer, setup!));
+          this.#act((pointer, call) => call.carom_match_begin_with(pointer, setup));
         } finally {
           memory.free(ballsAt);
         }
@@ -231,7 +231,7 @@ export class Match extends Owner<Host> {
     this.#withText(line, (text, bytes) =>
       this.#using(["carom_record"], ([scratch]) =>
         this.#called((pointer, call) =>
-          call.carom_match_read_from(pointer, scratch!, text, bytes, seat),
+          call.carom_match_read_from(pointer, scratch, text, bytes, seat),
         ),
       ),
     );
@@ -345,8 +345,8 @@ export class Match extends Owner<Host> {
   get standing(): Standing {
     return this.#using(["carom_standing"], ([standing]) => {
       const { memory } = this.#host;
-      memory.exports.carom_match_standing(this.#pointer, standing!);
-      const read = readStruct<C.Standing>(memory, standing!, "carom_standing");
+      memory.exports.carom_match_standing(this.#pointer, standing);
+      const read = readStruct<C.Standing>(memory, standing, "carom_standing");
       const count = memory.i64[(this.#pointer + MATCH.seating + SEATING.count) / 8];
       return {
         sides: read.sideOf.slice(0, Number(count)),
@@ -463,8 +463,8 @@ export class Match extends Owner<Host> {
       if ((number | 0) !== number)
         throw new TypeError(`${name}: it must be a whole number, not ${JSON.stringify(number)}`);
     this.#using(["carom_call"], ([called]) => {
-      this.#host.memory.i32.set([ball, pocket], called! / 4);
-      this.#act((pointer, call) => call.carom_match_call(pointer, this.#seatOf(seat), called!));
+      this.#host.memory.i32.set([ball, pocket], called / 4);
+      this.#act((pointer, call) => call.carom_match_call(pointer, this.#seatOf(seat), called));
     });
   }
   /**
@@ -473,10 +473,10 @@ export class Match extends Owner<Host> {
    */
   stroke(cue: Partial<Cue>, { seat, ...stop }: StrokeOptions = {}): boolean {
     return this.#using(["carom_cue"], ([struck]) => {
-      this.#fillCue(struck!, cue);
+      this.#fillCue(struck, cue);
       const stops = this.#host.writeShotOptions(stop);
       return this.#act((pointer, call) =>
-        call.carom_match_stroke(pointer, this.#seatOf(seat), struck!, stops, 0),
+        call.carom_match_stroke(pointer, this.#seatOf(seat), struck, stops, 0),
       );
     });
   }
@@ -496,9 +496,9 @@ export class Match extends Owner<Host> {
     this.#using(["carom_plan_stroke"], ([choice]) => {
       const { memory } = this.#host;
       const numbers = { kind: value("carom_plan_kind", kind, "kind"), ball, pocket };
-      setStruct(memory, choice!, "carom_plan_stroke", numbers);
-      memory.f64.set(place, (choice! + layout.carom_plan_stroke.offset.place) / 8);
-      this.#act((pointer, call) => call.carom_match_prepare(pointer, this.#seatOf(seat), choice!));
+      setStruct(memory, choice, "carom_plan_stroke", numbers);
+      memory.f64.set(place, (choice + layout.carom_plan_stroke.offset.place) / 8);
+      this.#act((pointer, call) => call.carom_match_prepare(pointer, this.#seatOf(seat), choice));
     });
   }
   /**
@@ -594,11 +594,14 @@ export class Match extends Owner<Host> {
     return seat === undefined ? this.seat : whole(seat, "seat", values.CAROM_SEATS_MOST - 1);
   }
   /** Room for structs, all zero, while a function runs. */
-  #using<T>(structs: readonly StructName[], run: (pointers: Pointer[]) => T): T {
+  #using<const S extends readonly StructName[], T>(
+    structs: S,
+    run: (pointers: { [K in keyof S]: Pointer }) => T,
+  ): T {
     const { memory } = this.#host;
     const pointers = structs.map((struct) => memory.allocate(layout[struct].size));
     try {
-      return run(pointers);
+      return run(pointers as { [K in keyof S]: Pointer });
     } finally {
       for (const pointer of pointers) memory.free(pointer);
     }
@@ -643,7 +646,7 @@ export class Match extends Owner<Host> {
       throw error;
     }
   }
-  #refuse(code: number): never | void {
+  #refuse(code: number): void {
     const fault = this.#host.memory.text(this.#pointer + MATCH.fault)!;
     if (fault === "") return this.#host.refuse(code);
     const [act, ...right] = inJavaScript(fault).split(": ");

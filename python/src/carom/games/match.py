@@ -374,7 +374,7 @@ class Match:
     @property
     def words(self) -> str:
         """What the match waits for, or how it ended; `match.ruling.words` says the last ruling."""
-        return words_of(lib.carom_match_string, self._c)
+        return words_of(lambda *text: lib.carom_match_string(self._c, *text))
 
     @property
     def winner(self) -> int | None:
@@ -580,8 +580,9 @@ class Match:
             Whether the shot has ended, and is ruled.
         """
         struck, stop = pointer("carom_cue[]", copied(one_cue(cue))), _stop(t_final, stop_at)
-        stroke = lib.carom_match_stroke
-        return self._act(lambda: stroke(self._c, self._seat(seat), struck, stop, ffi.NULL), "cue")
+        return self._act(
+            lambda: lib.carom_match_stroke(self._c, self._seat(seat), struck, stop, ffi.NULL), "cue"
+        )
 
     def resume(
         self, *, t_final: float | None = None, stop_at: StopAt | Iterable[StopAt] = ()

@@ -5,7 +5,7 @@ drill, or by those of a game of one's own.
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, cast, get_args
 
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
     from carom._shot_options import Changes
 
-__all__ = ["Facts", "Foul", "Rules", "Ruling", "Turn", "referee"]
+__all__ = ["Facts", "Foul", "Rules", "Ruling", "Turn", "Words", "referee"]
 __dir__ = listing(__name__)
 
 Game = RulesWord
@@ -177,13 +177,13 @@ class Turn:
 class Words(list[int]):
     """The state of a game of one's own: eight numbers, and the seat at the table."""
 
-    seat: int = 0
+    def __init__(self, numbers: Iterable[int], seat: int = 0) -> None:
+        super().__init__(numbers)
+        self.seat = seat
 
 
 def _words(game: Any) -> Words:
-    words = Words(game.user)
-    words.seat = game.seat
-    return words
+    return Words(game.user, game.seat)
 
 
 class Rules:
@@ -392,7 +392,7 @@ class Made:
                 raise ValueError(
                     f"state: {_WORDS} whole numbers, at least 0, are needed, not {values!r}"
                 )
-            members = {"user": words}
+            members = {"user": words, "seat": getattr(values, "seat", 0)}
         elif not isinstance(values, Mapping):
             record = of_record(values, dtypes.rules_state, "state", "referee().state")
             members = {name: record[name] for name in _MEMBERS}
@@ -622,6 +622,7 @@ class Ruling(Arrays):
     # (): How the game stands for the next player, `carom.dtypes.rules_state`; of rules of one's own
     # eight numbers
     state: State
+    seat: int  # The next seat in a race of seats: Words(state, seat) is the state of own rules
     score: tuple[
         int, int
     ]  # Points, or balls, of the next player and of the other, less those that they lost or owe
@@ -720,10 +721,10 @@ def referee(
     return ruling_of(ruling, len(layout), isinstance(rules, Rules), shots[0], cue_ball)
 
 
-def words_of(string: Callable[[Any, Any, int], int], judged: Any) -> str:
-    """A ruling or a match of C in words, by `string`."""
+def words_of(write: Callable[[Any, int], int]) -> str:
+    """The words of a ruling or a match that C writes to a text with room."""
     words = ffi.new("char[]", 1024)
-    string(judged, words, 1024)
+    write(words, 1024)
     return text_of(words)
 
 
@@ -747,8 +748,9 @@ def ruling_of(ruling: Any, count: int, is_own: bool, shot: Shot, cue_ball: int) 
         layout,
         of_set(ruling.put),
         state["user"] if is_own else state,
+        int(state["seat"]),
         tuple((state["score"] - state["lost"]).tolist()),
         facts,
-        words_of(lib.carom_ruling_string, ruling),
+        words_of(lambda *text: lib.carom_ruling_string(ruling, *text)),
         shot,
     )
