@@ -24,7 +24,7 @@ function act(match, [what, ...words]) {
       return match.concede(...numbers);
     default: {
       const [ball, speed, phi, theta, a, b] = numbers;
-      return match.stroke({ ball, speed, phi, theta, a, b });
+      return match.stroke(carom.cue({ ball, speed, phi, theta, a, b }));
     }
   }
 }
