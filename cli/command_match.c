@@ -295,7 +295,8 @@ static int play_match(players *p) {
                                .seed = (uint64_t)job->seed,
                                .side = job->breaks};
     const int seats = count_players(job);
-    if (seats != 2 && seats != 0) {
+    const bool of_seats = carom_plan_rules_of(rules).race == CAROM_RACE_SEATS;
+    if (seats > 2 || (seats == 2 && of_seats)) {
       setup.seating = &seating;
       if (carom_seating_make(rules, seats, &seating) != CAROM_OK) {
         complain("--players: %s is not played by %d", carom_word(CAROM_WORDS_RULES, (int)rules),

@@ -13,7 +13,7 @@ for (let k = 0; k < strokes && !ended && game.phase !== "over"; k++) {
   const player = carom.player({ fargo: [550, 650][me] });
   const [best] = game.plan({ player, shots: 300 });
   game.take(best, carom.withErrors(best.cue, player, 9, game.shots));
-  console.log(`${me + 1}: ${game.ruling.text}`);
+  console.log(`${me + 1}: ${game.ruling.words}`);
   if (game.phase === "over") ended = game.end();
 }
 writeFileSync(file, ended ?? game.lines.join(""));

@@ -16,7 +16,7 @@ while strokes > 0 and game.phase != "over":
     me = game.player
     best = game.plan(player=players[me], shots=300)[0]
     game.take(best, carom.with_errors(best["cue"], players[me], 9, game.shots))
-    print(f"{me + 1}: {game.text}")
+    print(f"{me + 1}: {game.ruling.words}")
     strokes -= 1
     if game.phase == "over":
         game.end()

@@ -24,7 +24,7 @@ function act(match, [what, ...words]) {
       return match.concede(...numbers);
     default: {
       const [ball, speed, phi, theta, a, b] = numbers;
-      return match.stroke({ ball, speed, phi, theta, a, b });
+      return match.stroke(carom.cue({ ball, speed, phi, theta, a, b }));
     }
   }
 }
@@ -39,10 +39,10 @@ function outcome(match, words) {
   }
   const may = bits(match.may.map((word) => MAY.indexOf(word)));
   const sets = `on ${bits(match.on)}, touching ${bits(match.touching)}`;
-  const winner = match.drawn ? 2 : (match.winner ?? -1);
+  const winner = match.drawn ? 8 : (match.winner ?? -1);
   const who = `player ${match.player}, winner ${winner}`;
   const at = `phase ${PHASES.indexOf(match.phase)}, ${who}, may ${may}`;
-  return `taken: ${at}, ball ${match.cueBall}, ${sets}: ${match.ruling?.text ?? ""}`;
+  return `taken: ${at}, ball ${match.cueBall}, ${sets}: ${match.ruling?.words ?? ""}`;
 }
 
 let match;

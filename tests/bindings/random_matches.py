@@ -38,10 +38,11 @@ def outcome(match, words):
         return str(refused)
     may = bits(MAY.index(word) for word in match.may)
     winner = -1 if match.winner is None else match.winner
+    words = match.ruling.words if match.ruling else ""
     return (
         f"taken: phase {PHASES.index(match.phase)}, player {match.player}, "
-        f"winner {2 if match.drawn else winner}, may {may}, "
-        f"ball {match.cue_ball}, on {bits(match.on)}, touching {bits(match.touching)}: {match.text}"
+        f"winner {8 if match.drawn else winner}, may {may}, "
+        f"ball {match.cue_ball}, on {bits(match.on)}, touching {bits(match.touching)}: {words}"
     )
 
 

@@ -76,8 +76,8 @@ def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replay
 
     Parameters
     ----------
-    recording : path, or lines
-        A file, or its lines, as they come.
+    recording : path, text, or lines
+        A file; a text of several lines; or the lines, as they come.
 
     Raises
     ------
@@ -86,7 +86,7 @@ def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replay
         it is cut off.
     """
     game = ffi.new("carom_record *")
-    for text in lines_of(recording, []):
+    for text in lines_of(recording):
         line = text.encode()
         _refuse(game, lib.carom_record_read(game, line, len(line)))
         if game.pending != 1:
@@ -103,13 +103,12 @@ def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replay
         )
 
 
-def lines_of(
-    recording: str | os.PathLike[str] | Iterable[str], read_lines: list[str]
-) -> Iterator[str]:
-    if isinstance(recording, (str, os.PathLike)):
+def lines_of(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[str]:
+    """The lines of a recording; a text without any character is no path."""
+    if isinstance(recording, str) and (recording == "" or "\n" in recording):
+        yield from recording.splitlines()
+    elif isinstance(recording, (str, os.PathLike)):
         with Path(recording).open(encoding="utf-8") as lines:
-            yield from lines_of(lines, read_lines)
-        return
-    for text in recording:
-        read_lines.append(text.rstrip() + "\n")
-        yield text
+            yield from lines
+    else:
+        yield from recording

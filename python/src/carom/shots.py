@@ -122,6 +122,17 @@ def simulate(
     return _run(begun, lambda shot: lib.carom_shoot(*arguments, shot))
 
 
+def replayed(table: Table, balls: Records, cue: Records, options: Options, match: Any) -> Shot:
+    """The last shot of a match of C, as far as it was played."""
+    layout = frozen(balls)
+    begun = Shot(table, layout, Status.OK, 0.0, 0, _NO_EVENTS, layout["state"], cue, options, None)
+    shot = _run(begun, lambda shot: lib.carom_match_replay(match, shot))
+    if shot.status > 0:
+        state = ffi.buffer(ffi.addressof(match.record, "state"))
+        shot.state = np.frombuffer(state, np.uint64).copy()
+    return shot
+
+
 def _check_first_of(options: Options, balls: int, cues: Records | None) -> None:
     """Refuses indices of no ball, and of the cue ball, which does not meet itself."""
     struck = {0} if cues is None else set(np.unique(cues["ball"]).tolist())

@@ -3,9 +3,33 @@
 from __future__ import annotations
 
 import enum
+import re
 from typing import TYPE_CHECKING, Any
 
 from carom._carom import ffi, lib
+
+
+# Of faults of matches, which name calls of C and constants.
+_NAMES = {
+    "carom_match_continue()": "resume()",
+    "carom_record_read()": "carom.record.replay()",
+    "carom_rules_kind": "game of carom.plan()",
+}
+
+
+def in_python(text: str) -> str:
+    """A text of C with the names of Python: place() for carom_match_place(), "potting" for
+    CAROM_RULES_POTTING.
+    """
+
+    def named(name: re.Match[str]) -> str:
+        if name[0] in _NAMES:
+            return _NAMES[name[0]]
+        if name[0].startswith("CAROM_"):
+            return f'"{name[0].split("_", 2)[-1].lower()}"'
+        return name[0].removeprefix("carom_").removeprefix("match_")
+
+    return re.sub(r"\bcarom_\w+(?:\(\))?|\bCAROM_\w+", named, text)
 
 
 class _Status(enum.IntEnum):

@@ -213,7 +213,8 @@ export class Carom {
       readRuling: (...rest) => this.#plans.readRuling(...rest),
       think: (table, balls, options, slice, leave) =>
         this.#plans.think(table, balls, undefined, options, slice, leave),
-      film: (table, balls, cue, options) => this.#shoot(table, balls, cue, options),
+      film: (match, table, balls, cue) => this.#replay(match, table, balls, cue),
+      player: (of) => this.#plans.player(of),
       refuse: (code, field) => this.#refuse(code, field),
     };
   }
@@ -862,8 +863,30 @@ export class Carom {
     return this.#shoot(table, balls, struck, this.#writeShotOptions(options));
   }
 
+  /** The last shot of a match, as far as it was played. */
+  #replay(match: Pointer, table: Table, balls: readonly ShotBall[], cue: Cue): Shot {
+    const { options, state, shot } = this.#addresses;
+    const record = match + layout.carom_match.offset.record;
+    const take = (target: Pointer, part: "options" | "state", size: number): void => {
+      const begin = record + layout.carom_record.offset[part];
+      this.#memory.u8.copyWithin(target, begin, begin + size);
+    };
+    take(options, "options", SHOT_OPTIONS.size);
+    return this.#shoot(table, balls, cue, options, () => {
+      const code = this.#call.carom_match_replay(match, shot);
+      take(state, "state", layout.carom_shot_state.size);
+      return code;
+    });
+  }
+
   /** Plays a shot by options in the module's memory. */
-  #shoot(table: Table, balls: readonly ShotBall[], struck: Cue | undefined, opt: Pointer): Shot {
+  #shoot(
+    table: Table,
+    balls: readonly ShotBall[],
+    struck: Cue | undefined,
+    opt: Pointer,
+    play?: () => number,
+  ): Shot {
     const addresses = this.#addresses;
     this.#writeLayout(table, balls);
     if (struck !== undefined) writeStruct(this.#memory, addresses.cue, "carom_cue", struck, "cue");
@@ -874,14 +897,16 @@ export class Carom {
     // the same bits.
     for (;;) {
       this.#writeShot(0);
-      code = this.#call.carom_shoot(
-        addresses.table,
-        addresses.balls,
-        balls.length,
-        cueAt,
-        opt,
-        addresses.shot,
-      );
+      code =
+        play?.() ??
+        this.#call.carom_shoot(
+          addresses.table,
+          addresses.balls,
+          balls.length,
+          cueAt,
+          opt,
+          addresses.shot,
+        );
       if (this.#count() <= this.#room) break;
       this.#needRoom(this.#count());
     }
@@ -891,6 +916,7 @@ export class Carom {
       table,
       balls.map((ball) => ({ ...ball, kind: { ...ball.kind }, state: { ...ball.state } })),
       code,
+      struck,
     );
   }
 
@@ -931,14 +957,14 @@ export class Carom {
       if (this.#count() <= this.#room) break;
       this.#needRoom(this.#count());
     }
-    return this.#ended(shot.table, shot.balls, code);
+    return this.#ended(shot.table, shot.balls, code, shot.cue);
   }
 
   /**
    * The shot that has just been played or continued in the module's memory. Throws where it ended
    * in an error.
    */
-  #ended(table: Table, balls: readonly ShotBall[], code: number): Shot {
+  #ended(table: Table, balls: readonly ShotBall[], code: number, cue: Cue | undefined): Shot {
     const { shot: pointer, final } = this.#addresses;
     let retained: Kept | undefined;
     if (
@@ -963,6 +989,7 @@ export class Carom {
       this.#events,
       this.#addresses.facts,
       retained,
+      cue,
     );
     this.#resident = shot;
     if (code < 0) throw this.#error(code, undefined, shot);
@@ -1018,6 +1045,7 @@ export class Carom {
     events: Pointer,
     facts?: Pointer,
     retained?: Kept,
+    cue?: Cue,
   ): Shot {
     const count = Number(this.#memory.i64[(shot + SHOT.offset.count) / 8]);
     const bytes = this.#memory.u8.slice(events, events + count * EVENT.size);
@@ -1033,6 +1061,7 @@ export class Carom {
       bytes,
       facts ? this.#memory.u8.slice(facts, facts + layout.carom_facts.size) : undefined,
       retained,
+      cue,
     );
   }
 
@@ -1174,8 +1203,8 @@ export class Carom {
   }
 
   /**
-   * Begins a match between two players by the rules of a game, or of a state of it; without a table
-   * one whose lines are read at first, of a game of your own with its rules.
+   * Begins a match of 2 to 8 seats by the rules of a game, or of a state of it; without a table one
+   * whose lines are read at first, of a game of your own with its rules.
    */
   match(game?: OwnGame): Match;
   match(

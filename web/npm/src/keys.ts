@@ -32,6 +32,7 @@ const GAME: Record<keyof GameState, 1> = {
   innings: 1,
   own: 1,
   user: 1,
+  seat: 1,
 };
 const optionKeys = (struct: keyof typeof options): string[] =>
   options[struct].map(({ key }) => key);
@@ -49,7 +50,17 @@ export const KEYS = {
   line: keysOf<Line>({ id: 1, tableName: 1, table: 1, names: 1, balls: 1, cue: 1 }),
   game: keysOf<GameState>(GAME),
   turn: keysOf<OwnTurn>({ turn: 1, leave: 1, reason: 1, spot: 1, points: 1 }),
-  match: keysOf<MatchOptions>({ seed: 1, player: 1, balls: 1, hand: 1, shot: 1 }),
+  match: keysOf<MatchOptions>({
+    seed: 1,
+    player: 1,
+    seats: 1,
+    alternate: 1,
+    limits: 1,
+    set: 1,
+    balls: 1,
+    hand: 1,
+    shot: 1,
+  }),
   aim: keysOf<AimOf>({ ball: 1, pocket: 1, via: 1 }),
   plan: [
     ...optionKeys("carom_plan_options"),

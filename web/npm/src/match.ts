@@ -1,4 +1,4 @@
-// Matches between two players: the calls of carom_match.h.
+// Matches of 2 to 8 seats: the calls of carom_match.h.
 import { Owner } from "./batches.js";
 import { CaromError } from "./error.js";
 import { layout, names, values } from "./generated/layout.js";
@@ -13,27 +13,38 @@ import {
   readBalls,
   readStruct,
   readTable,
+  setStruct,
+  type StructName,
   value,
   whole,
   writeBalls,
   writeStruct,
   writeTable,
 } from "./structs.js";
+import type * as C from "./generated/structs.js";
 import type {
   PlanStroke,
   Cue,
   GameState,
   MatchOptions,
+  MatchSet,
   PlanOptions,
+  Player,
   Ruling,
+  Seat,
   ShotBall,
   ShotOptions,
+  Standing,
   StopOptions,
   Table,
   Vec2,
 } from "./types.js";
 
 const MATCH = layout.carom_match.offset;
+const SEATING = layout.carom_seating.offset;
+const SEAT = layout.carom_seat;
+/** When a stroke is stopped, and the seat that plays it: by default the one at the table. */
+export type StrokeOptions = StopOptions & { seat?: number };
 /** The number of a game of the caller's in recordings. */
 const OWN = 1000;
 
@@ -59,8 +70,9 @@ export interface Host extends RecordingHost {
   /** Throws what rules of the caller's threw in the last call. */
   checkOwn(): void;
   writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer;
-  /** Plays a shot with its events, by options in the module's memory. */
-  film(table: Table, balls: readonly ShotBall[], cue: Cue, options: Pointer): Shot;
+  /** The last shot of a match, with its events. */
+  film(match: Pointer, table: Table, balls: readonly ShotBall[], cue: Cue): Shot;
+  player(of: { fargo: number }): Player;
   readRuling(pointer: Pointer, game: Rules, balls: readonly ShotBall[]): Ruling;
   think(
     table: Table,
@@ -71,16 +83,29 @@ export interface Host extends RecordingHost {
   ): Generator<undefined, PlanStroke[]>;
 }
 
+/** A text of C with the names of JavaScript: place() for carom_match_place(). */
+function inJavaScript(text: string): string {
+  return text
+    .replaceAll("carom_record_read()", "replay()")
+    .replace(/CAROM_[A-Z]+_(\w+)/g, (_, word: string) => `"${word.toLowerCase()}"`)
+    .replace(/carom_(?:match_)?(\w+)/g, "$1")
+    .replace(/\b(cue|match|set)\.(\w+)/g, (_, of: string, name: string) => {
+      return `${of}.${name.replace(/_(.)/g, (_, letter: string) => letter.toUpperCase())}`;
+    });
+}
+
 /**
- * A game between two players: the table, the balls, the rules and the recording in one object,
- * which takes one act after another: `carom.match("eightball", table)`. An act that the rules
- * forbid throws a CaromError, whose text says what would be right, and changes nothing.
+ * A game of 2 to 8 seats: the table, the balls, the rules, the players with their cues, the last
+ * shot and the recording in one object, which takes one act after another:
+ * `carom.match("eightball", table)`. An act that the rules forbid throws a CaromError, whose text
+ * says what would be right, and changes nothing. The seat that acts is by default the one at the
+ * table.
  */
 export class Match extends Owner<Host> {
+  /** But those in the text of C, of the last act. */
   readonly #lines: string[] = [];
-  /** The last stroke, for its film. */
-  #struck: { balls: ShotBall[]; cue: Cue } | undefined;
-  #film: Shot | undefined;
+  readonly #undone: string[][] = [];
+  #film: { hash: bigint; shot: Shot | undefined } | undefined;
   #customRules: GameState["own"];
 
   /** @internal */
@@ -102,62 +127,158 @@ export class Match extends Owner<Host> {
   /** @internal */
   begin(game: Partial<GameState>, table: Table, options: MatchOptions): void {
     refuseUnknown(options, KEYS.match, "options");
-    const { memory } = this.#host;
     const { seed, player, balls, hand = "no", shot = {} } = options;
     this.#customRules = game.own;
     const rules = game.own ? OWN : value("carom_rules_kind", game.rules ?? "eightball", "rules");
     if (game.own && balls === undefined)
       throw new TypeError("balls: rules of your own have no rack; a layout is needed");
-    const opener = whole(player, "player", 1);
-    const tableAt = memory.allocate(layout.carom_table.size);
-    const ballsAt = memory.allocate(values.CAROM_BALLS_MOST * layout.carom_shot_ball.size);
-    try {
-      writeTable(memory, tableAt, table);
-      if (balls === undefined) {
-        const draws = BigInt(whole(seed, "seed", Number.MAX_SAFE_INTEGER));
-        const { target = 0, innings = 0 } = game;
-        this.#act((pointer, call) =>
-          call.carom_match_begin_to(pointer, rules, target, innings, tableAt, draws, opener),
-        );
-        return;
-      }
-      writeBalls(memory, ballsAt, balls);
-      const rulesPointer =
-        this.#host.writeState(game, balls) - layout.carom_plan_rules.offset.state;
-      const models = this.#host.writeShotOptions(shot);
-      const leave = Math.max(indexOf(HANDS, hand, "hand"), 0);
-      const rest = [tableAt, ballsAt, balls.length, models, leave, opener];
-      this.#act((pointer, call) =>
-        call.carom_match_begin_at(pointer, rules, rulesPointer, ...rest),
+    const side = whole(player, "player", values.CAROM_SEATS_MOST - 1);
+    const draws = whole(seed, "seed", Number.MAX_SAFE_INTEGER);
+    this.#using(
+      ["carom_match_setup", "carom_table", "carom_seating", "carom_set"],
+      ([setup, tableAt, seating, set]) => {
+        const { memory } = this.#host;
+        const ballsAt = memory.allocate(values.CAROM_BALLS_MOST * layout.carom_shot_ball.size);
+        try {
+          writeTable(memory, tableAt, table);
+          writeBalls(memory, ballsAt, balls ?? []);
+          const hasSeats = this.#writeSeats(seating, rules, game, options);
+          if (options.set) {
+            const order = value("carom_break_order", options.set.order ?? "alternate", "set.order");
+            this.#fill(set, "carom_set", { ...options.set, order }, "set");
+          }
+          const of =
+            balls && this.#host.writeState(game, balls) - layout.carom_plan_rules.offset.state;
+          setStruct(memory, setup, "carom_match_setup", {
+            rules,
+            of,
+            table: tableAt,
+            balls: balls && ballsAt,
+            count: balls?.length,
+            options: this.#host.writeShotOptions(shot),
+            leave: balls && Math.max(indexOf(HANDS, hand, "hand"), 0),
+            target: game.target,
+            equalInnings: game.innings,
+            side,
+            seed: draws,
+            seating: hasSeats ? seating : 0,
+            set: options.set && set,
+          });
+          this.#act((pointer, call) => call.carom_match_begin_with(pointer, setup));
+        } finally {
+          memory.free(ballsAt);
+        }
+      },
+    );
+  }
+
+  /** Writes who plays. Returns whether they are others than the usual two without names. */
+  #writeSeats(
+    seating: Pointer,
+    rules: number,
+    { own }: Partial<GameState>,
+    { seats, alternate = false, limits }: MatchOptions,
+  ): boolean {
+    if (seats === undefined && !alternate && limits === undefined) return false;
+    const { memory } = this.#host;
+    const given = typeof seats === "object" ? seats : Array<string>(seats ?? 2).fill("");
+    if (memory.exports.carom_seating_make(rules, given.length, seating) < 0)
+      throw new RangeError(
+        `seats: 2 to ${values.CAROM_SEATS_MOST} are needed, not ${given.length}`,
       );
-    } finally {
-      memory.free(tableAt);
-      memory.free(ballsAt);
+    for (const [k, one] of given.entries()) {
+      const seat = seating + SEATING.seat + k * SEAT.size;
+      const name = `seats[${k}]`;
+      const { name: text, cue, ...rest } = typeof one === "string" ? { name: one } : one;
+      const side = own && own.race !== "seats" ? { side: k % 2 } : {};
+      refuseUnknown(rest, ["name", "side", "handicap", "rating", "cue"], name);
+      for (const [key, number] of Object.entries({ ...side, ...rest }))
+        if (!Number.isFinite(number))
+          throw new TypeError(`${name}.${key}: a number is needed, not ${JSON.stringify(number)}`);
+      setStruct(memory, seat, "carom_seat", { ...side, ...rest }, false);
+      const bytes = new TextEncoder().encode(text).slice(0, SEAT.bytes.name);
+      memory.u8.set(bytes, seat + SEAT.offset.name);
+      const stick = { ...cue, speed: 0, phi: 0, theta: 0, a: 0, b: 0, ball: 0 };
+      this.#fill(seat + SEAT.offset.cue, "carom_cue", stick, `${name}.cue`);
     }
+    setStruct(memory, seating, "carom_seating", { alternate: Number(alternate) }, false);
+    this.#fill(seating + SEATING.limits, "carom_stroke_limits", limits ?? {}, "limits");
+    return true;
+  }
+
+  /** Sets some fields of a struct. */
+  #fill(pointer: Pointer, struct: StructName, fields: object, name: string): void {
+    const { memory } = this.#host;
+    writeStruct(memory, pointer, struct, fields, name, readStruct<object>(memory, pointer, struct));
   }
 
   /**
-   * Reads a line of a match and judges it again. Throws a CaromError where it is not by the rules,
-   * or has other bits; nothing is read behind it.
+   * Reads a line of another program and judges it: an act, or a line of the ruling of the last act.
+   * With `seat` the act must be one of that seat. Throws a CaromError where the line is not by the
+   * rules, has other bits, or is an act of another seat; then nothing has changed.
    */
-  read(line: string): void {
-    const { memory } = this.#host;
-    if (this.#number("due") === 0) this.#lines.push(...this.#written);
-    const bytes = new TextEncoder().encode(line);
-    const text = memory.allocate(bytes.length);
-    const scratch = memory.allocate(layout.carom_record.size);
-    const balls = line.startsWith('{"shot"') ? this.balls : undefined;
+  read(line: string, seat?: number): void {
+    this.#read(line, seat === undefined ? -1 : this.#seatOf(seat));
+    this.#undone.length = 0;
+  }
+
+  #read(line: string, seat: number): void {
+    const state = (): string => `${this.#record64("line")} ${this.#record64("hash")}`;
+    const known = this.#written;
+    const isDue = this.#number("due") > 0;
+    const size = this.#number("size");
+    const before = state();
+    this.#withText(line, (text, bytes) =>
+      this.#using(["carom_record"], ([scratch]) =>
+        this.#called((pointer, call) =>
+          call.carom_match_read_from(pointer, scratch, text, bytes, seat),
+        ),
+      ),
+    );
+    if (isDue && this.#number("size") < size) this.#lines.push(known[0]!);
+    else if (!isDue && state() !== before) this.#lines.push(...known, `${line.trim()}\n`);
+  }
+
+  /** Another match that stands as this one, and goes on by itself. */
+  copy(): Match {
+    const twin = new Match(this.#host);
+    twin.#take(this, this.#lines);
+    twin.#undone.push(...this.#undone);
+    return twin;
+  }
+
+  #take(other: Match, lines: readonly string[]): void {
+    const pointer = other.#pointer;
+    this.#host.memory.u8.copyWithin(this.#pointer, pointer, pointer + layout.carom_match.size);
+    this.#customRules = other.#customRules;
+    this.#lines.splice(0, Infinity, ...lines);
+  }
+
+  /** Takes the last act back, by judging the lines before it again. Returns whether there was one. */
+  undo(): boolean {
+    const { lines } = this;
+    const kept = this.#withText(lines.join(""), (text, bytes) => {
+      const { memory } = this.#host;
+      const size = memory.exports.carom_match_undone(text, bytes);
+      return new TextDecoder().decode(memory.u8.slice(text, text + size)).match(/.*\n/g) ?? [];
+    });
+    if (kept.length === lines.length) return false;
+    const before = new Match(this.#host);
+    if (this.#customRules) before.readBy({ own: this.#customRules });
     try {
-      memory.u8.set(bytes, text);
-      const code = memory.exports.carom_match_read(this.#pointer, scratch, text, bytes.length);
-      this.#host.checkOwn();
-      this.#checked(code);
+      for (const line of kept) before.#read(line, -1);
+      this.#take(before, before.#lines);
     } finally {
-      memory.free(text);
-      memory.free(scratch);
+      before.free();
     }
-    if (balls) this.#keep(balls);
-    if (line.trim() !== "") this.#lines.push(`${line.trim()}\n`);
+    this.#undone.push(lines.slice(kept.length));
+    return true;
+  }
+  /** Does the act again that was undone last, unless another act followed. */
+  redo(): boolean {
+    const lines = this.#undone.pop();
+    for (const line of lines ?? []) this.#read(line, -1);
+    return lines !== undefined;
   }
 
   // ---- How the match stands
@@ -186,11 +307,67 @@ export class Match extends Owner<Host> {
   get phase(): Phase {
     return names.carom_match_phase[this.#number("phase")] as Phase;
   }
-  /** Who is at the table, 0 or 1. */
+  /** The side at the table: 0 or 1, or the seat in games that each plays for itself. */
   get player(): number {
     return this.#recorded("player");
   }
-  /** Who has won, 0 or 1. */
+  /** The seat at the table. */
+  get seat(): number {
+    return this.#number("seat");
+  }
+  /** Who plays. */
+  get seats(): Seat[] {
+    const { memory } = this.#host;
+    const first = this.#pointer + MATCH.seating + SEATING.seat;
+    return Array.from({ length: this.standing.sides.length }, (_, k) => {
+      const seat = first + k * SEAT.size;
+      const name = memory.text(seat + SEAT.offset.name)!;
+      return { name, ...readStruct<Omit<Seat, "name">>(memory, seat, "carom_seat") };
+    });
+  }
+  /** The bounds of strokes; 0: none. */
+  get limits(): C.StrokeLimits {
+    const limits = this.#pointer + MATCH.seating + SEATING.limits;
+    return readStruct(this.#host.memory, limits, "carom_stroke_limits");
+  }
+  /** The set that the match belongs to, with its `number` and how many each side had `won`. */
+  get set(): MatchSet | undefined {
+    const { order, won, ...set } = readStruct<C.Set>(
+      this.#host.memory,
+      this.#record("set"),
+      "carom_set",
+    );
+    const word = names.carom_break_order[order] as C.BreakOrder;
+    const sides = this.standing.won.length;
+    return set.race === 0 ? undefined : { ...set, order: word, won: won.slice(0, sides) };
+  }
+  /** How the match stands, by sides. */
+  get standing(): Standing {
+    return this.#using(["carom_standing"], ([standing]) => {
+      const { memory } = this.#host;
+      memory.exports.carom_match_standing(this.#pointer, standing);
+      const read = readStruct<C.Standing>(memory, standing, "carom_standing");
+      const count = memory.i64[(this.#pointer + MATCH.seating + SEATING.count) / 8];
+      return {
+        sides: read.sideOf.slice(0, Number(count)),
+        points: read.points.slice(0, read.sides),
+        won: read.won.slice(0, read.sides),
+        setWinner: read.setWinner === 0 ? undefined : read.setWinner - 1,
+      };
+    });
+  }
+  /** What the match waits for, or how it ended; `ruling.words` says the last ruling. */
+  get words(): string {
+    const { memory } = this.#host;
+    const text = memory.allocate(1024);
+    try {
+      memory.exports.carom_match_string(this.#pointer, text, 1024);
+      return memory.text(text)!;
+    } finally {
+      memory.free(text);
+    }
+  }
+  /** The side that has won. */
   get winner(): number | undefined {
     const winner = this.#number("winner");
     return winner === 0 || this.drawn ? undefined : winner - 1;
@@ -242,77 +419,115 @@ export class Match extends Owner<Host> {
     if (this.#number("rulings") === 0) return undefined;
     return this.#host.readRuling(this.#pointer + MATCH.ruling, this.#rules, this.balls);
   }
-  /** The cue of the last stroke. */
-  get cue(): Cue | undefined {
-    return this.#struck?.cue;
+  /** The cue of the seat at the table, at the cue ball: of `stroke`, what is not given. */
+  get cue(): Cue {
+    return readStruct(this.#host.memory, this.#pointer + MATCH.cue, "carom_cue");
   }
-  /** The last shot, or what was played of it, with its events. */
-  get last(): Shot | undefined {
-    if (this.#struck === undefined) return undefined;
-    const { balls, cue } = this.#struck;
-    return (this.#film ??= this.#host.film(this.table, balls, cue, this.#record("options")));
+  /** The last shot, or what was played of it, with its events: played here or read. */
+  get shot(): Shot | undefined {
+    const { memory } = this.#host;
+    const cue = readStruct<Cue>(memory, this.#pointer + MATCH.stroke, "carom_cue");
+    if (cue.mass === 0) return undefined;
+    const end = this.#record("played") + layout.carom_record_end.offset.hash;
+    const hash = memory.i64[end / 8]!;
+    if (this.#film?.hash !== hash) {
+      const before = this.#pointer + MATCH.before;
+      const balls = readBalls(memory, before, this.#recorded("count"));
+      this.#film = { hash, shot: this.#replay(balls, cue) };
+    }
+    return this.#film.shot;
+  }
+  #replay(balls: ShotBall[], cue: Cue): Shot | undefined {
+    try {
+      return this.#host.film(this.#pointer, this.table, balls, cue);
+    } catch (error) {
+      if (error instanceof CaromError) return error.shot;
+      throw error;
+    }
   }
 
   // ---- Acts
 
   /** Takes a choice: "push" for the next stroke, the others instead of it. */
-  choose(what: Choice): void {
+  choose(what: Choice, seat?: number): void {
     const bit = 1 << value("carom_choice", what, "what");
-    this.#act((pointer, call) => call.carom_match_choose(pointer, this.player, bit));
+    this.#act((pointer, call) => call.carom_match_choose(pointer, this.#seatOf(seat), bit));
   }
   /** Puts the cue ball in hand within `bounds`, m; until the stroke it may be put elsewhere. */
-  place(x: number, y: number): void {
-    this.#act((pointer, call) => call.carom_match_place(pointer, this.player, x, y));
+  place(x: number, y: number, seat?: number): void {
+    this.#act((pointer, call) => call.carom_match_place(pointer, this.#seatOf(seat), x, y));
   }
   /** Calls the ball and the pocket of the next stroke; ball -1: a safety. */
-  call(ball: number, pocket = -1): void {
+  call(ball: number, pocket = -1, seat?: number): void {
     for (const [name, number] of Object.entries({ ball, pocket }))
       if ((number | 0) !== number)
         throw new TypeError(`${name}: it must be a whole number, not ${JSON.stringify(number)}`);
-    const { memory } = this.#host;
-    const called = memory.allocate(8);
-    memory.i32.set([ball, pocket], called / 4);
-    try {
-      this.#act((pointer, call) => call.carom_match_call(pointer, this.player, called));
-    } finally {
-      memory.free(called);
-    }
+    this.#using(["carom_call"], ([called]) => {
+      this.#host.memory.i32.set([ball, pocket], called / 4);
+      this.#act((pointer, call) => call.carom_match_call(pointer, this.#seatOf(seat), called));
+    });
   }
   /**
-   * Plays a stroke of `cueBall`, or of another `strikable` ball that the cue names, up to where
-   * the options stop it. Returns whether the shot has ended, and is ruled.
+   * Plays a stroke of `cue`, but for what is given, up to where the options stop it. The ball may be
+   * another `strikable` one. Returns whether the shot has ended, and is ruled.
    */
-  stroke(cue: Partial<Cue>, stop: StopOptions = {}): boolean {
-    const { memory } = this.#host;
-    const { balls } = this;
-    const cueAt = memory.allocate(layout.carom_cue.size);
-    const struck = this.#host.cue({ ball: this.cueBall, ...cue });
-    try {
-      writeStruct(memory, cueAt, "carom_cue", struck, "cue");
-      const stopOptions = this.#host.writeShotOptions(stop);
-      const isEnded = this.#act((pointer, call) =>
-        call.carom_match_stroke(pointer, this.player, cueAt, stopOptions, 0),
+  stroke(cue: Partial<Cue>, { seat, ...stop }: StrokeOptions = {}): boolean {
+    return this.#using(["carom_cue"], ([struck]) => {
+      this.#fillCue(struck, cue);
+      const stops = this.#host.writeShotOptions(stop);
+      return this.#act((pointer, call) =>
+        call.carom_match_stroke(pointer, this.#seatOf(seat), struck, stops, 0),
       );
-      this.#keep(balls);
-      return isEnded;
-    } finally {
-      memory.free(cueAt);
-    }
+    });
+  }
+  #fillCue(pointer: Pointer, cue: Partial<Cue>): void {
+    writeStruct(this.#host.memory, pointer, "carom_cue", cue, "cue", this.cue);
   }
   /** Goes on with a shot that was stopped, likewise. */
   continue(stop: StopOptions = {}): boolean {
-    this.#film = undefined;
     const stopOptions = this.#host.writeShotOptions(stop);
     return this.#act((pointer, call) => call.carom_match_continue(pointer, stopOptions, 0));
   }
-  /** A player gives the game to the other. */
-  concede(player: number): void {
-    const seat = whole(player, "player", 1);
-    this.#act((pointer, call) => call.carom_match_concede(pointer, seat));
+  /**
+   * Does what a choice of a plan asks for before its stroke: places, pushes out and calls; or
+   * passes, and no stroke follows.
+   */
+  prepare({ kind, place, ball, pocket }: PlanStroke, seat?: number): void {
+    this.#using(["carom_plan_stroke"], ([choice]) => {
+      const { memory } = this.#host;
+      const numbers = { kind: value("carom_plan_kind", kind, "kind"), ball, pocket };
+      setStruct(memory, choice, "carom_plan_stroke", numbers);
+      memory.f64.set(place, (choice + layout.carom_plan_stroke.offset.place) / 8);
+      this.#act((pointer, call) => call.carom_match_prepare(pointer, this.#seatOf(seat), choice));
+    });
   }
-  /** The time of the player at the table is over: a foul. */
-  clock(): void {
-    this.#act((pointer, call) => call.carom_match_clock(pointer, this.player));
+  /**
+   * Takes a choice of a plan: prepares it, and plays its stroke unless it is a pass. `cue` is the
+   * stroke as the player makes it.
+   */
+  take(choice: PlanStroke, cue: Partial<Cue> = choice.cue, options: StrokeOptions = {}): boolean {
+    this.prepare(choice, options.seat);
+    return choice.kind === "pass" || this.stroke(cue, options);
+  }
+  /** A seat gives the game to the other side, or leaves a game that each plays for itself. */
+  concede(seat?: number): void {
+    this.#act((pointer, call) => call.carom_match_concede(pointer, this.#seatOf(seat)));
+  }
+  /** The time of the seat at the table is over: a foul. */
+  clock(seat?: number): void {
+    this.#act((pointer, call) => call.carom_match_clock(pointer, this.#seatOf(seat)));
+  }
+  /** Takes an extension of the time for this stroke; `set` says how many a side has. */
+  extend(seat?: number): void {
+    this.#act((pointer, call) => call.carom_match_extend(pointer, this.#seatOf(seat)));
+  }
+  /** Takes a timeout; `set` says how many a side has. */
+  timeout(seat?: number): void {
+    this.#act((pointer, call) => call.carom_match_timeout(pointer, this.#seatOf(seat)));
+  }
+  /** Begins the next match of the set, with the same seats. */
+  next(): void {
+    this.#act((pointer, call) => call.carom_match_next(pointer));
   }
   /** The whole text, with its last line: nothing follows, and the memory is given back. */
   end(): string {
@@ -324,7 +539,10 @@ export class Match extends Owner<Host> {
 
   // ---- Plans
 
-  /** The best strokes of the player at the table, with a cue ball in hand within `bounds`. */
+  /**
+   * The best strokes of the seat at the table, with a cue ball in hand within `bounds`. By default
+   * the cue is that of the seat, and the player one of its rating.
+   */
   plan(options: PlanOptions = {}): PlanStroke[] {
     return this.think(options, 0).next().value as PlanStroke[];
   }
@@ -332,26 +550,16 @@ export class Match extends Owner<Host> {
   think(options: PlanOptions = {}, slice = 1000): Generator<undefined, PlanStroke[]> {
     if (this.phase === "over") throw new RangeError("plan: the match is over");
     if (this.phase === "moving") throw new RangeError("plan: balls move: continue() the shot");
+    const { ball, ...stick } = this.cue;
+    const { rating } = this.seats[this.seat]!;
     const request: PlanOptions = {
+      ...(rating > 0 && { player: this.#host.player({ fargo: rating }) }),
       ...options,
       ...this.game,
-      cue: { ...options.cue, ...(this.strikable.length === 1 && { ball: this.cueBall }) },
+      cue: { ...stick, ...options.cue, ...(this.strikable.length === 1 && { ball }) },
       inHand: this.phase === "place" ? this.hand : "no",
     };
     return this.#host.think(this.table, this.balls, request, slice, this.#number("leave"));
-  }
-  /**
-   * Takes a choice of a plan: places, calls and plays its stroke, or passes. `cue` is the stroke as
-   * the player makes it.
-   */
-  take({ kind, place, ball, pocket, ...best }: PlanStroke, cue: Partial<Cue> = best.cue): void {
-    if (kind === "pass") return this.choose("pass");
-    if (this.phase === "place") this.place(place[0]!, place[1]!);
-    if (kind === "push") this.choose("push");
-    const { calls } = layout.carom_plan_rules.offset;
-    if (ball >= 0 && this.#host.memory.i32[(this.#pointer + MATCH.rules + calls) / 4] !== 0)
-      this.call(ball, pocket);
-    this.stroke(cue);
   }
 
   // ---- Memory
@@ -376,8 +584,38 @@ export class Match extends Owner<Host> {
     const rules = names.carom_rules_kind[this.#recorded("rules")] ?? "eightball";
     return { rules, own: this.#customRules };
   }
+  #record64(field: keyof typeof layout.carom_record.offset): bigint {
+    return this.#host.memory.i64[this.#record(field) / 8]!;
+  }
   #recorded(field: "count" | "rules" | "player" | "shots"): number {
-    return Number(this.#host.memory.i64[this.#record(field) / 8]);
+    return Number(this.#record64(field));
+  }
+  #seatOf(seat: number | undefined): number {
+    return seat === undefined ? this.seat : whole(seat, "seat", values.CAROM_SEATS_MOST - 1);
+  }
+  /** Room for structs, all zero, while a function runs. */
+  #using<const S extends readonly StructName[], T>(
+    structs: S,
+    run: (pointers: { [K in keyof S]: Pointer }) => T,
+  ): T {
+    const { memory } = this.#host;
+    const pointers = structs.map((struct) => memory.allocate(layout[struct].size));
+    try {
+      return run(pointers as { [K in keyof S]: Pointer });
+    } finally {
+      for (const pointer of pointers) memory.free(pointer);
+    }
+  }
+  #withText<T>(text: string, run: (pointer: Pointer, bytes: number) => T): T {
+    const { memory } = this.#host;
+    const bytes = new TextEncoder().encode(text);
+    const pointer = memory.allocate(bytes.length);
+    try {
+      memory.u8.set(bytes, pointer);
+      return run(pointer, bytes.length);
+    } finally {
+      memory.free(pointer);
+    }
   }
   /** The lines of the last act. */
   get #written(): string[] {
@@ -385,34 +623,33 @@ export class Match extends Owner<Host> {
     const bytes = this.#host.memory.u8.slice(text, text + this.#number("size"));
     return new TextDecoder().decode(bytes).match(/.*\n/g) ?? [];
   }
+  /** Does what C does. Returns whether a shot has ended. */
   #act(act: (pointer: Pointer, call: Exports) => number): boolean {
+    const known = this.#written;
+    const code = this.#called(act);
+    this.#lines.push(...known);
+    this.#undone.length = 0;
+    return code === 0;
+  }
+  /** What C returns. What it or rules of the caller's refuse is thrown, and changes nothing. */
+  #called(act: (pointer: Pointer, call: Exports) => number): number {
     const { memory } = this.#host;
-    this.#lines.push(...this.#written);
     const pointer = this.#pointer;
-    const size = layout.carom_match.size;
-    const backup = this.#customRules && memory.u8.slice(pointer, pointer + size);
-    const code = act(pointer, memory.exports);
+    const previous = memory.u8.slice(pointer, pointer + layout.carom_match.size);
     try {
+      const code = act(pointer, memory.exports);
       this.#host.checkOwn();
+      if (code < 0) this.#refuse(code);
+      return code;
     } catch (error) {
-      memory.u8.set(backup!, pointer); // an act whose rules threw has not been
-      memory.i64[(pointer + MATCH.size) / 8] = 0n;
+      memory.u8.set(previous, pointer);
       throw error;
     }
-    return this.#checked(code);
   }
-  /** Throws what was refused; else whether a shot has ended. */
-  #checked(code: number): boolean {
-    const { memory } = this.#host;
-    if (code >= 0) return code === 0;
-    const fault = memory.text(this.#pointer + MATCH.fault)!;
-    if (fault === "") this.#host.refuse(code);
-    const [act, ...right] = fault.split(": ");
+  #refuse(code: number): void {
+    const fault = this.#host.memory.text(this.#pointer + MATCH.fault)!;
+    if (fault === "") return this.#host.refuse(code);
+    const [act, ...right] = inJavaScript(fault).split(": ");
     throw new CaromError(code, this.#host.statusName(code), right.join(": "), act);
-  }
-  #keep(balls: ShotBall[]): void {
-    this.#film = undefined;
-    const cue = readStruct<Cue>(this.#host.memory, this.#record("cue"), "carom_cue");
-    this.#struck = { balls, cue };
   }
 }

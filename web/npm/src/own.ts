@@ -17,14 +17,14 @@ import {
   whole,
   writeBalls,
 } from "./structs.js";
-import type { GameRules, OwnTurn } from "./types.js";
+import type { GameRules, OwnTurn, Words } from "./types.js";
 
 const RULES = layout.carom_plan_rules;
 const STATE = layout.carom_rules_state.offset;
 const TURN = layout.carom_turn.offset;
 const HAND = names.carom_leave.indexOf("anywhere");
-/** The words of a state that are the rules'; the one behind them is the number of the rules. */
-const WORDS = 7;
+/** The words of a state that are the rules'; its context is the number of the rules. */
+const WORDS = 8;
 /** The methods that rules may leave to the library, as own.c numbers them. */
 const OPTIONAL = ["value", "pockets", "points", "settle"] as const;
 /** What is returned of a method that threw. */
@@ -36,6 +36,8 @@ export class OwnRules {
   readonly #numbers = new WeakMap<GameRules, number>();
   readonly #known: WeakRef<GameRules>[] = [];
   #failure: { error: unknown } | undefined;
+  /** Of the last stroke that was judged. */
+  #cueBall = 0;
 
   constructor(memory: Memory) {
     this.#memory = memory;
@@ -51,6 +53,7 @@ export class OwnRules {
         call: Pointer,
       ) => {
         memory.u8.fill(0, target, target + layout.carom_turn.size);
+        this.#cueBall = cueBall;
         const seen = readFacts(memory, facts);
         const called = readStruct<C.Call>(memory, call, "carom_call");
         const foul = (targets: readonly number[]): C.Foul =>
@@ -131,13 +134,13 @@ export class OwnRules {
   }
 
   /** Writes rules with a state that is 0 but for its words. */
-  write(pointer: Pointer, rules: GameRules, user: readonly number[]): void {
+  write(pointer: Pointer, rules: GameRules, user: readonly number[], seat = 0): void {
     const memory = this.#memory;
     for (const method of ["on", "judge", "left"] as const)
       if (typeof rules[method] !== "function") throw new TypeError(`own: ${method}() is missing`);
     const has = OPTIONAL.reduce((set, name, k) => set | (Number(name in rules) << k), 0);
     memory.exports.carom_own_rules(pointer, has);
-    const { race = "own", calls = false, firstDecides = false } = rules;
+    const { race = "own", calls = false, firstDecides = false, anyCueBall = false } = rules;
     setStruct(
       memory,
       pointer,
@@ -146,6 +149,7 @@ export class OwnRules {
         race: value("carom_race", race, "race"),
         calls: Number(calls),
         firstDecides: Number(firstDecides),
+        anyCueBall: Number(anyCueBall),
       },
       false,
     );
@@ -154,14 +158,16 @@ export class OwnRules {
       number = this.#known.push(new WeakRef(rules)) - 1;
       this.#numbers.set(rules, number);
     }
-    this.#writeUser(pointer + RULES.offset.state, user, "user");
-    memory.i64[(pointer + RULES.offset.state + STATE.user) / 8 + WORDS] = BigInt(number);
+    const state = pointer + RULES.offset.state;
+    this.#writeUser(state, Object.assign([...user], { seat }), "user");
+    memory.i64[(state + STATE.context) / 8] = BigInt(number);
   }
 
   /** The words of a state in the module's memory. */
-  user(state: Pointer): number[] {
+  user(state: Pointer): Words {
     const pointer = (state + STATE.user) / 8;
-    return Array.from(this.#memory.i64.slice(pointer, pointer + WORDS), Number);
+    const words = Array.from(this.#memory.i64.slice(pointer, pointer + WORDS), Number);
+    return Object.assign(words, { seat: this.#memory.i32[(state + STATE.seat) / 4]! });
   }
 
   /** Throws what rules threw in the call that has ended. */
@@ -175,12 +181,12 @@ export class OwnRules {
   #guarded<T>(
     state: Pointer,
     method: keyof GameRules,
-    call: (rules: GameRules, user: number[]) => T,
+    call: (rules: GameRules, user: Words) => T,
     keep?: (result: T) => void,
   ): T | typeof NOTHING {
     if (this.#failure) return NOTHING;
     const memory = this.#memory;
-    const number = Number(memory.i64[(state + STATE.user) / 8 + WORDS]);
+    const number = Number(memory.i64[(state + STATE.context) / 8]);
     const user = this.user(state);
     try {
       const result = memory.paused(() => call(this.#known[number]!.deref()!, user));
@@ -193,13 +199,15 @@ export class OwnRules {
     }
   }
 
-  #writeUser(state: Pointer, user: readonly number[], name: string): void {
+  #writeUser(state: Pointer, user: Words, name: string): void {
     if (user.length > WORDS)
       throw new RangeError(`${name}: a state has ${WORDS} words, not ${user.length}`);
     for (let k = 0; k < WORDS; k++)
       this.#memory.i64[(state + STATE.user) / 8 + k] = BigInt(
         whole(user[k], `${name}: user[${k}]`, Number.MAX_SAFE_INTEGER),
       );
+    const seat = whole(user.seat, `${name}: user.seat`, values.CAROM_SEATS_MOST - 1);
+    this.#memory.i32[(state + STATE.seat) / 4] = seat;
   }
 
   /** Refuses balls that lie where none can; a cue ball in hand may lie anywhere. */
@@ -210,7 +218,7 @@ export class OwnRules {
     const code = memory.exports.carom_shot_fault(table, balls, count, 0, 0, fault, fault + size, 8);
     const ball = memory.i32[(fault + offset.part + layout.carom_part.offset.index) / 4]!;
     memory.free(fault);
-    const inHand = memory.i32[(turn + TURN.leave) / 4]! >= HAND && ball === 0;
+    const inHand = memory.i32[(turn + TURN.leave) / 4]! >= HAND && ball === this.#cueBall;
     if (code < 0 && !inHand)
       throw new RangeError(
         `settle: balls[${ball}]: ${memory.text(memory.exports.carom_status_string(code))}`,

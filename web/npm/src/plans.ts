@@ -25,6 +25,7 @@ import type {
   PlanStroke,
   Cue,
   EventType,
+  GameRules,
   GameState,
   PlanOptions,
   Player,
@@ -537,7 +538,7 @@ export class Plans {
       why: memory.text(memory.exports.carom_foul_string(turn.foul))!,
       hand: HANDS[turn.leave]!,
       points: turn.points,
-      text: memory.text(text)!,
+      words: memory.text(text)!,
       score: [score[0] - lost[0], score[1] - lost[1]],
       facts: readFacts(memory, ruling + RULING.facts, balls.length),
       balls: readBalls(memory, ruling + RULING.balls, balls.length).map((ball, k) => ({
@@ -564,10 +565,13 @@ export class Plans {
       group: names.carom_group[group]!,
       opening: opening !== 0,
       may: MAY.filter((_, k) => (permitted >> k) & 1),
-      ...(custom
-        ? { own: custom, user: this.customRules.user(pointer) }
-        : fieldsOf(state, MEMBERS)),
+      ...(custom ? this.#ownState(custom, pointer) : fieldsOf(state, MEMBERS)),
     };
+  }
+
+  #ownState(own: GameRules, pointer: Pointer): Pick<GameState, "own" | "user" | "seat"> {
+    const user = this.customRules.user(pointer);
+    return { own, user: [...user], seat: user.seat };
   }
 
   writeState(game: Partial<GameState>, balls: readonly ShotBall[]): Pointer {
@@ -594,7 +598,7 @@ export class Plans {
     const { rules = "eightball", group = "open", opening = false, may: permitted = [] } = game;
     const { rules: pointer } = this.#addresses;
     const memory = this.#memory;
-    if (game.own) return this.customRules.write(pointer, game.own, game.user ?? []);
+    if (game.own) return this.customRules.write(pointer, game.own, game.user ?? [], game.seat);
     refuseOrder(balls, rules);
     const kind = value("carom_rules_kind", rules, "rules");
     memory.exports.carom_plan_rules_of(pointer, kind);
@@ -618,6 +622,7 @@ export class Plans {
         ...fieldsOf(game, MEMBERS),
         ...words,
         user: Array(8).fill(0),
+        context: 0,
       },
       "game",
     );
@@ -639,6 +644,8 @@ export class Plans {
     this.#writePlayer(player, options.player ?? this.player({}), "player");
     const shot = this.#host.writeShotOptions(options.shot ?? {});
     this.#writeRules(options, balls);
+    if (options.own?.race === "seats" && !options.own.value)
+      throw new TypeError("own: a plan in a race of seats needs value()");
     if (!options.own) refuseLayout(table, balls, options.rules ?? "eightball");
     writeOptions(memory, optionsAt, "carom_plan_options", options);
     if (options.runOut)

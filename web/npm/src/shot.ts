@@ -1,5 +1,5 @@
 // One shot that was played: its events, and where the balls are at any time.
-import type { BallState, Contact, Frame, ShotBall, ShotEvent, Table } from "./types.js";
+import type { BallState, Contact, Cue, Frame, ShotBall, ShotEvent, Table } from "./types.js";
 
 /** What a shot needs of the library. */
 export interface Reader {
@@ -40,6 +40,8 @@ export class Shot {
     readonly facts?: Uint8Array,
     /** @internal What `continue` needs. */
     readonly retained?: Kept,
+    /** The stroke. */
+    readonly cue?: Cue,
   ) {
     this.#reader = reader;
   }

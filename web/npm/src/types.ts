@@ -238,18 +238,27 @@ export interface GameState
   opening: boolean;
   /** What the player may do besides a stroke. Default: nothing. */
   may?: readonly C.Choice[];
-  /** Rules of your own; then nothing else but `user` is read. */
+  /** Rules of your own; then nothing else but `user` and `seat` is read. */
   own?: GameRules;
-  /** Up to seven words of the state of your own rules, whole numbers, at least 0. */
+  /** Up to eight words of the state of your own rules, whole numbers, at least 0. */
   user?: readonly number[];
+  /** The seat at the table in a race of seats. Default 0. */
+  seat?: number;
 }
 
 /** A game of your own: `carom.plan(table, balls, { own: rules, user })`. */
-export interface OwnGame extends Required<Pick<GameState, "own">>, Pick<GameState, "user"> {}
+export interface OwnGame
+  extends Required<Pick<GameState, "own">>,
+    Pick<GameState, "user" | "seat"> {}
+
+/** The words of a state of your own rules, and the seat at the table. */
+export interface Words extends Array<number> {
+  seat: number;
+}
 
 /** What a stroke amounts to by rules of your own. */
 export interface OwnTurn {
-  /** Who plays next, or how the game ends. */
+  /** Who plays next, or how the game ends; in a race of seats by `user.seat`, which may have won. */
   turn: C.TurnOutcome;
   /** The layout of the next stroke. Default "after": as the balls lie. */
   leave?: C.Leave;
@@ -263,8 +272,10 @@ export interface OwnTurn {
 
 /**
  * Rules of a game of your own. Lists of balls have their indices. The results depend on the
- * arguments alone; `user` are seven numbers that are the rules', as the player at the table has
- * them. What a method throws ends the call that needed it. The methods cannot call the library,
+ * arguments alone; `user` are eight numbers that are the rules', as the player at the table has
+ * them. In a race of "seats" `user[k]` says what seat k has left, such as its lives; 0: it is out.
+ * The seat at the table is `user.seat`, and `judge` sets it to the one that plays next. What a
+ * method throws ends the call that needed it. The methods cannot call the library,
  * which waits for them.
  */
 export interface GameRules {
@@ -272,16 +283,18 @@ export interface GameRules {
   race?: C.Race;
   /** Whether ball and pocket are called. */
   calls?: boolean;
+  /** Whether a player may strike any ball. */
+  anyCueBall?: boolean;
   /** Whether a shot that first meets a ball that is not on is a foul, whatever else happens. */
   firstDecides?: boolean;
   /** The balls that may be met first, and potted. */
-  on(user: readonly number[], inPlay: number[]): readonly number[];
+  on(user: Words, inPlay: number[]): readonly number[];
   /**
    * The outcome of a shot; `inPlay` were the balls before it. `user` may be changed, and is left as
    * the next player has it. `foul` finds the foul that it is in any game with these balls on.
    */
   judge(
-    user: number[],
+    user: Words,
     inPlay: number[],
     cueBall: number,
     facts: ShotFacts,
@@ -289,29 +302,29 @@ export interface GameRules {
     foul: (targets: readonly number[]) => C.Foul,
   ): OwnTurn;
   /** How many balls, or points, the player at the table and the other need to win. */
-  left(user: readonly number[], inPlay: number[]): readonly [number, number];
+  left(user: Words, inPlay: number[]): readonly [number, number];
 
   // The library has its own of those that are missing.
 
   /** The pockets in which balls count, by index. */
-  pockets?(user: readonly number[]): readonly number[];
+  pockets?(user: Words): readonly number[];
   /**
    * The chance that the player at the table wins, 0 to 1; without an opponent, how many balls this
-   * player is still going to pot.
+   * player is still going to pot. A plan in a race of seats needs it.
    */
-  value?(user: readonly number[], layout: BallState[], inHand: boolean): number;
+  value?(user: Words, layout: BallState[], inHand: boolean): number;
   /**
    * In a race for points, those of a ball that falls in the next stroke; of ball -1, the mean of a
    * later pot.
    */
-  points?(user: readonly number[], inPlay: number[], ball: number): number;
+  points?(user: Words, inPlay: number[], ball: number): number;
   /**
    * Does what depends on the places of the balls after a stroke that was judged, and returns the
    * turn, changed or not. `balls` and `user` may be changed. `spot` puts a ball on the foot spot, or
    * behind it: those of `turn.spot` come back by it alone.
    */
   settle?(
-    user: number[],
+    user: Words,
     table: Table,
     balls: ShotBall[],
     turn: Required<OwnTurn>,
@@ -449,7 +462,7 @@ export interface Ruling {
   /** The balls that lie elsewhere than the shot left them. */
   put: number[];
   /** All of that in words. */
-  text: string;
+  words: string;
   /** The game as whoever plays next sees it. */
   game: GameState;
 }
@@ -466,13 +479,46 @@ export interface Line {
   cue: Cue;
 }
 
+/** A seat: who sits there, and with what. A rating of 0 is unknown. */
+export interface Seat extends Omit<C.Seat, "name"> {
+  name: string;
+}
+/** How a match stands, by sides, whoever is at the table. */
+export interface Standing {
+  /** The side of each seat. */
+  sides: number[];
+  /** With the handicap; or what each seat has left, such as lives. */
+  points: number[];
+  /** Matches of the set, with this one. */
+  won: number[];
+  /** The side that has won the set. */
+  setWinner: number | undefined;
+}
+/** A set: matches that are played until a side has won `race` of them. */
+export interface MatchSet extends Omit<C.Set, "order"> {
+  /** Who breaks next: the sides in turn, or who has won or lost. */
+  order: C.BreakOrder;
+}
+
 /** How a match begins. */
 export interface MatchOptions {
   /** Of the gaps of the rack, 0.1 mm at most. */
   seed?: number;
-  /** Who plays first, 0 or 1. */
+  /** The side that plays first. */
   player?: number;
-  /** Another layout than the rack of the game. Only then the keys below are read. */
+  /**
+   * Who plays: how many, or their names, or what differs from the usual. Two sides play in turn: of
+   * four seats, 0 and 2 are partners. Of the cue its stick and tip are read. Default: two seats.
+   */
+  seats?: number | readonly (string | (Partial<Omit<Seat, "cue">> & { cue?: Partial<Cue> }))[];
+  /** Whether partners take turns by strokes, as in Scotch doubles, and not by visits. */
+  alternate?: boolean;
+  /** Bounds of strokes; 0 is none, and of `ownCue` 1 demands the stick of the seat. */
+  limits?: Partial<C.StrokeLimits>;
+  /** The match is one of a set. You measure its times. */
+  set?: Pick<MatchSet, "race"> &
+    Partial<Pick<MatchSet, "order" | "clock" | "extension" | "extensions" | "timeouts">>;
+  /** Another layout than the rack of the game. Only then `hand` is read. */
   balls?: readonly ShotBall[];
   /** Whether the cue ball is in hand. */
   hand?: Ruling["hand"];

@@ -62,7 +62,7 @@ for (const { carom, name } of builds)
     // a ruling: the ball that fell comes back, the state and the points are those of settle()
     const ruling = carom.rule(shot, { own: asking, user: [3] });
     expect([ruling.put, ruling.turn, ruling.points]).toEqual([[1], "pass", table.length]);
-    expect(ruling.game.user).toEqual([7, 0, 0, 0, 0, 0, 0]);
+    expect(ruling.game.user).toEqual([7, 0, 0, 0, 0, 0, 0, 0]);
     expect(ruling.reason).toBe("none");
     const settled = every(new Set(), throws, false);
     delete settled.settle; // the library puts it back in the same place
@@ -104,6 +104,50 @@ for (const { carom, name } of builds)
     expect(replay.balls).toEqual(match.balls);
     expect(replay.game).toEqual(match.game);
   });
+
+test.each(builds)("killer of five seats, by $name", ({ carom }) => {
+  const table = carom.table("9ft");
+  const own: GameRules = {
+    race: "seats",
+    anyCueBall: true,
+    on: (_user, inPlay) => inPlay.filter((ball) => ball > 0),
+    left: () => [1, 1],
+    value: (user) => user[user.seat]! / user.reduce((sum, lives) => sum + lives),
+    judge(user, _inPlay, cueBall, { potted }) {
+      if (!potted.some(({ ball }) => ball !== cueBall)) user[user.seat]!--;
+      const alive = [...user.keys()].filter((k) => user[k]! > 0);
+      user.seat = alive.find((k) => k > user.seat) ?? alive[0]!;
+      return { turn: alive.length === 1 ? "win" : "pass" };
+    },
+  };
+  const balls = carom.rack("nineball", table);
+  const game = { own, user: [2, 2, 2, 2, 2] };
+  const match = carom.match(game, table, { balls, seats: ["Ann", "Bo", "Cy", "Di", "Eve"] });
+  const [best] = match.plan({ shots: 100, best: 1 });
+  expect(best!.value).toBeGreaterThan(0);
+  const turns: number[] = [];
+  while (match.phase !== "over") {
+    turns.push(match.seat);
+    match.stroke({ speed: 0.1, phi: 270, ball: turns.length % 2 ? match.cueBall : 1 });
+  }
+  expect(turns).toEqual([0, 1, 2, 3, 4, 0, 1, 2, 3]);
+  expect([match.winner, match.words]).toEqual([4, "Eve (seat 4) has won"]);
+  expect(match.standing.points).toEqual([0, 0, 0, 0, 1]);
+  expect(match.game.user).toEqual([0, 0, 0, 0, 1, 0, 0, 0]);
+  const again = carom.match({ own });
+  for (const line of match.lines) again.read(line);
+  expect([again.winner, again.undo(), again.seat, again.redo(), again.winner]).toEqual([
+    4,
+    true,
+    3,
+    true,
+    4,
+  ]);
+  refuses([
+    () => carom.plan(table, balls, { own: { ...own, value: undefined! }, shots: 100 }),
+    "a plan in a race of seats needs value()",
+  ]);
+});
 
 test("what rules cannot say, and that they cannot call the library", () => {
   const { table, balls } = nineball(carom);

@@ -3,6 +3,7 @@ import { expect, test } from "vitest";
 import {
   type Carom,
   CaromError,
+  type Cue,
   type GameState,
   type Match,
   type ShotBall,
@@ -25,7 +26,7 @@ function aGame(carom: Carom): Match {
 
 test.each(builds)("a game is replayed with the same bits, by $name", ({ carom }) => {
   const game = aGame(carom);
-  const { final } = game.last!;
+  const { final } = game.shot!;
   const text = game.end();
   const shots = [...carom.replay(text)];
   expect(shots.map(({ shot, same, continues }) => [shot, same, continues])).toEqual([
@@ -84,10 +85,13 @@ test.each(builds)("a match refuses, rules and is judged again, by $name", ({ car
   ]);
   for (const [act, message] of [
     [() => match.place(0.6, 1), /place: .*0\.635/],
-    [() => match.stroke({ speed: 9 }), /stroke: .*in hand/],
+    [
+      () => match.stroke({ speed: 9 }),
+      "stroke: the cue ball is in hand: place() puts it within match.bounds",
+    ],
     [() => match.call(16), /call: ball 16 .* may: 1, 2/],
     [() => match.choose("pass"), /choose: the choices are: none/],
-    [() => match.continue(), /continue: no ball moves/],
+    [() => match.continue(), "continue: no ball moves: play a stroke"],
   ] as const)
     expect(act).toThrow(message);
   expect(match.lines).toEqual(begun);
@@ -95,11 +99,19 @@ test.each(builds)("a match refuses, rules and is judged again, by $name", ({ car
   // A stroke while balls move is refused; one that goes on is ruled.
   match.place(0.6, 0.6);
   expect(match.stroke({ speed: 1.5, phi: 90 }, { timeMost: 0.3 })).toBe(false);
-  expect([match.phase, match.ruling, match.last?.time]).toEqual(["moving", undefined, 0.3]);
-  expect(() => match.stroke({ speed: 9 })).toThrow(/balls move/);
-  expect(match.continue()).toBe(true);
+  expect([match.phase, match.ruling, match.shot?.time]).toEqual(["moving", undefined, 0.3]);
+  expect(() => match.stroke({ speed: 9 })).toThrow("balls move: continue() goes on");
+
+  // A match that was read while balls move has its shot, and goes on with all events.
+  const half = carom.match();
+  for (const line of match.lines) half.read(line);
+  const moving = half.shot!;
+  expect(moving.events).toEqual(match.shot!.events);
+  expect(match.continue() && half.continue()).toBe(true);
+  for (const { events } of [half.shot!, carom.continue(moving)])
+    expect(events).toEqual(match.shot!.events);
   expect([match.player, match.may]).toEqual([0, expect.arrayContaining(["rack", "other_rack"])]);
-  expect(match.ruling?.facts.first[0]).toBe(match.last?.firstContact?.ball);
+  expect(match.ruling?.facts.first[0]).toBe(match.shot?.firstContact?.ball);
   const { length } = match.lines;
   match.choose("other_rack");
   expect([match.player, match.game.opening]).toEqual([1, true]);
@@ -140,6 +152,120 @@ test.each(builds)("a match with equal innings is drawn, by $name", ({ carom }) =
   expect([match.phase, match.drawn, match.winner]).toEqual(["over", true, undefined]);
   expect(match.ruling?.turn).toBe("draw");
   if (thereIsACommand) expect(run(["verify", "-"], match.end())).toContain("the match is drawn");
+});
+
+test.each(builds)("partners, a set, limits and time, by $name", ({ carom }) => {
+  const match = carom.match("straight", carom.table("9ft"), {
+    seats: ["Ann", { name: "Bo", handicap: 15, rating: 600 }, "Cy", "Di"],
+    alternate: true,
+    limits: { speed: 12, ownCue: 1, tip: 0 },
+    set: { race: 2, order: "winner", clock: 30, extensions: 1 },
+  });
+  expect(match.seats.map(({ name, side }) => name + side)).toEqual(["Ann0", "Bo1", "Cy0", "Di1"]);
+  expect([match.seats[1]!.rating, match.limits.tip]).toEqual([600, 0]);
+  expect(match.standing).toEqual({
+    sides: [0, 1, 0, 1],
+    points: [0, 15],
+    won: [0, 0],
+    setWinner: undefined,
+  });
+  expect(match.words).toBe("Ann (seat 0): a place of the cue ball in hand, or a choice");
+  match.place(0.6, 0.6);
+  match.extend();
+  refuses(
+    [() => match.stroke({ speed: 12.5 }), "stroke: cue.speed must be at most 12 m/s in this match"],
+    [() => match.stroke({ mass: 0.5 }), "stroke: the stick must be that of seat 0"],
+    [() => match.extend(), "extend: none is left"],
+    [() => match.timeout(), "timeout: none is left"],
+    [() => match.next(), "next: no match has been won"],
+    [() => match.clock(2), "clock: player 0 is at the table"],
+  );
+  match.stroke({ phi: 200, speed: 1 });
+  expect([match.seat, match.player]).toEqual([1, 1]);
+  match.concede(3);
+  expect([match.winner, match.words]).toEqual([0, "Ann (seat 0) and Cy (seat 2) have won"]);
+  match.next();
+  expect([match.set?.number, match.set?.won, match.set?.order]).toEqual([2, [1, 0], "winner"]);
+  match.concede();
+  match.next();
+  match.concede(0);
+  expect([match.standing.setWinner, match.standing.won]).toEqual([1, [1, 2]]);
+  const replay = carom.match();
+  for (const line of match.lines) replay.read(line);
+  expect(replay.lines).toEqual(match.lines);
+});
+
+test("beginnings that are refused", () => {
+  const begin = (options: object) => () => carom.match("eightball", carom.table("9ft"), options);
+  refuses(
+    [begin({ seats: 1 }), "seats: 2 to 8 are needed, not 1"],
+    [begin({ seats: [{ nam: "Ann" }, "Bo"] }), "seats[0].nam: there is no such key"],
+    [begin({ seats: [{ side: 1 }, { side: 3 }] }), "begin: seats: side must be 0, 1 and so on"],
+    [begin({ seats: [{ side: "a" }, "Bo"] }), 'seats[0].side: a number is needed, not "a"'],
+    [begin({ limits: { speeds: 1 } }), "limits.speeds: there is no such key"],
+    [begin({ set: { race: 1001 } }), "begin: set.race must be 1 to 1000"],
+    [begin({ set: { race: 1, order: "loosers" } }), "set.order: it must be one of alternate"],
+  );
+});
+
+test.each(builds)("a peer sends its own acts alone, by $name", ({ carom }) => {
+  const ann = carom.match("eightball", carom.table("9ft"), { seed: 7 });
+  const bob = carom.match();
+  for (const line of ann.lines) bob.read(line);
+  for (const act of [() => ann.place(0.6, 0.6), () => ann.stroke({ speed: 9, phi: 90.2 })]) {
+    const known = ann.lines.length;
+    act();
+    const sent = ann.lines.slice(known);
+    const { lines } = bob;
+    refuses(
+      [() => bob.read(sent[0]!, 1), "seat 1 has sent an act of seat 0"],
+      [() => bob.read(sent[0]!.replace("0.6", "0.7").replace("90.2", "90.3"), 0), CaromError],
+    );
+    expect(bob.lines).toEqual(lines);
+    for (const line of ["", ...sent]) bob.read(line, 0);
+    expect(bob.lines).toEqual(ann.lines);
+  }
+  expect(bob.shot!.events).toEqual(ann.shot!.events);
+
+  // Acts are undone and done again.
+  const { lines } = ann;
+  const twin = ann.copy();
+  expect([ann.undo(), ann.phase, ann.undo(), ann.phase, ann.undo()]).toEqual([
+    true,
+    "stroke",
+    true,
+    "place",
+    false,
+  ]);
+  expect([ann.redo(), ann.redo(), ann.redo(), ann.lines]).toEqual([true, true, false, lines]);
+  expect([twin.undo(), twin.undo()]).toEqual([true, true]);
+  twin.place(0.5, 0.5);
+  expect([twin.redo(), twin.balls[0]!.state.r[0], ann.lines]).toEqual([false, 0.5, lines]);
+});
+
+test("a game is planned with its own cue", () => {
+  for (const [game, name] of [
+    ["nineball", "9ft"],
+    ["snooker", "snooker"],
+    ["threecushion", "threecushion"],
+    ["fourball", "fourball"],
+  ] as const) {
+    const table = carom.table(name);
+    const match = carom.match(game, table, { seed: 1, player: 1, seats: ["", { rating: 500 }] });
+    const [best] = match.plan({ shots: 100, best: 1 });
+    const stick = ({ mass, endMass, tipRadius }: Cue) => [mass, endMass, tipRadius];
+    expect(stick(best!.cue), game).toEqual(stick(match.seats[1]!.cue));
+    match.prepare(best!);
+    expect(match.phase, game).toBe("stroke");
+    expect(match.take(best!, undefined, { timeMost: 1e-3 }), game).toBe(false);
+    expect([match.phase, match.shot!.time, match.shot!.cue], game).toEqual([
+      "moving",
+      1e-3,
+      best!.cue,
+    ]);
+    match.free();
+  }
+  expect(carom.match("snooker", carom.table("snooker")).cue.mass).toBe(0.478);
 });
 
 test.each(builds)("in pyramid a plan strikes the ball that wins most, by $name", ({ carom }) => {
@@ -209,7 +335,7 @@ test.each(builds)("plans of a match are by its rules, by $name", ({ carom }) => 
   expect(frame.lines[length]).toMatch(/^{"act"/);
   refuses(
     [() => frame.call("2" as unknown as number), 'ball: it must be a whole number, not "2"'],
-    [() => frame.concede(2), "player: it must be a whole number, 0 to 1, not 2"],
+    [() => frame.concede(2), "concede: the player must be a seat that plays"],
   );
   frame.concede(0);
   expect(() => frame.plan()).toThrow("the match is over");

@@ -230,7 +230,7 @@ describe.runIf(browserPath !== undefined)("kept games", () => {
       .trim()
       .split("\n");
     const isGame = (line: string) => line.startsWith('{"game"');
-    expect(lines.filter(isGame).at(-1)).toContain('"winner":3');
+    expect(lines.filter(isGame).at(-1)).toContain('"winner":9');
     const head = lines.slice(0, lines.map((line) => line.startsWith('{"shot"')).lastIndexOf(true));
     const page = await open("");
     const give = (content: readonly string[]) =>

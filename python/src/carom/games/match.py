@@ -1,41 +1,53 @@
-"""A match between two players, as `carom_match.h` has it."""
+"""A match of 2 to 8 seats, as `carom_match.h` has it."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple, cast, get_args
 
 import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Seed, choice, copied, listing, number, pointer, seed_of, whole
+from carom._described import Choice, Phase
+from carom._rows import Seed, choice, copied, listing, number, pointer, seed_of, several, whole
 from carom._shot_options import Options, StopAt, chosen, options_of, shot_options
 from carom.dtypes import Records
-from carom.games.plans import ByMatch, Kind, plan
-from carom.games.rules import GivenState, Hand, Made, Rules, Ruling, of_set, ruling_of, words_of
-from carom._described import Choice, Phase
-from carom.games.rules import GAMES, LEAVES, Game, hand_of
+from carom.games.plans import ByMatch, Kind, plan, player
+from carom.games.rules import (
+    GAMES,
+    LEAVES,
+    Game,
+    GivenState,
+    Hand,
+    Made,
+    Rules,
+    Ruling,
+    hand_of,
+    of_set,
+    ruling_of,
+    words_of,
+)
 from carom.layouts import Table, check_table, of_record, one_cue
-from carom.layouts import cue as usual_cue
 from carom.record import lines_of
 from carom.results import Shot
-from carom.shots import simulate
-from carom.status import CaromError, Status
+from carom.shots import replayed
+from carom.status import CaromError, Status, in_python
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from carom._shot_options import Changes
 
-__all__ = ["Bounds", "Match"]
+__all__ = ["Bounds", "Match", "Seat", "Standing"]
 __dir__ = listing(__name__)
 
 _USUAL = Options()
 _PHASES = get_args(Phase)
 _CHOICES = get_args(Choice)
 _OWN = 1000  # the number of a game of one's own in recordings
+_ORDERS = {"alternate": 0, "winner": 1, "loser": 2}
 
 
 class Bounds(NamedTuple):
@@ -49,9 +61,88 @@ class Bounds(NamedTuple):
     radius: float
 
 
+class Seat(NamedTuple):
+    """A seat of a match: who sits there, and with what. A `rating` of 0 is unknown."""
+
+    name: str
+    side: int  # Seats of one side play together
+    handicap: int  # Of a side, which its first seat has: points, or as the game has it
+    rating: float  # A Fargo rating
+    cue: Records  # Its stick and tip, `carom.dtypes.cue`; of the stroke itself nothing is read
+
+
+class Standing(NamedTuple):
+    """How a match stands, by sides, whoever is at the table."""
+
+    sides: tuple[int, ...]  # The side of each seat
+    points: tuple[int, ...]  # With the handicap; or what each seat has left, such as lives
+    won: tuple[int, ...]  # Matches of the set, with this one
+    set_winner: int | None  # The side that has won the set
+
+
+def _members(struct: Any) -> dict[str, Any]:
+    """The members of a struct of C."""
+    values = {name: getattr(struct, name) for name, _ in ffi.typeof(struct).fields}
+    return {
+        name: (*value,) if isinstance(value, ffi.CData) else value for name, value in values.items()
+    }
+
+
+def _fill(struct: Any, values: Mapping[str, Any], name: str) -> None:
+    """Sets members of a struct of C, by their names."""
+    known = [member for member, _ in ffi.typeof(struct).fields]
+    for member, value in values.items():
+        if member not in known:
+            raise TypeError(f"{name}: there is no {member!r}; there are {', '.join(known)}")
+        try:
+            if member == "cue":
+                stick = copied(one_cue(value))
+                for stroke in ("speed", "phi", "theta", "a", "b", "ball"):
+                    stick[stroke] = 0
+                ffi.buffer(ffi.addressof(struct, member))[:] = stick.tobytes()
+            elif member == "order":
+                struct.order = choice(_ORDERS, value, f"{name}: order")
+            else:
+                setattr(struct, member, value.encode() if isinstance(value, str) else value or 0)
+        except (TypeError, OverflowError, IndexError) as wrong:
+            raise ValueError(f"{name}: {member}: {wrong}") from None
+
+
+def _seating(
+    game: int,
+    partners: bool,
+    seats: int | Iterable[str | Mapping[str, Any] | Seat] | None,
+    alternate: bool,
+    limits: Mapping[str, Any] | None,
+) -> Any:
+    """The seats of a match for C; NULL: the usual two. `partners`: two sides of own rules."""
+    if seats is None and not alternate and limits is None:
+        return ffi.NULL
+    needed = "a number is needed, or names, or mappings with name, side, handicap, rating, cue"
+    each: list[Any] = [{}] * 2 if seats is None else []
+    if isinstance(seats, int):
+        each = [{}] * seats
+    elif seats is not None:
+        each = several(seats, "seats", needed)
+    seating = ffi.new("carom_seating *")
+    if lib.carom_seating_make(game, len(each), seating) < 0:
+        raise ValueError(f"seats: 2 to {lib.CAROM_SEATS_MOST} are needed, not {len(each)}")
+    for k, given in enumerate(each):
+        if partners:
+            seating.seat[k].side = k % 2
+        one = {"name": given} if isinstance(given, str) else given
+        one = one._asdict() if isinstance(one, Seat) else one
+        if not isinstance(one, Mapping):
+            raise TypeError(f"seats[{k}]: {needed}, not {given!r}")
+        _fill(seating.seat[k], one, f"seats[{k}]")
+    seating.alternate = bool(alternate)
+    _fill(seating.limits, limits or {}, "limits")
+    return seating
+
+
 class Match:
-    """A game between two players: the table, the balls, the rules and the recording in one object,
-    which takes one act after another.
+    """A game of 2 to 8 seats: the table, the balls, the rules, the players with their cues, the last
+    shot and the recording in one object, which takes one act after another.
 
     An act that the rules forbid raises `CaromError`, whose text says what would be right, and
     changes nothing. `lines` is the recording so far, which `carom verify` judges again.
@@ -69,6 +160,10 @@ class Match:
         *,
         seed: Seed = 0,
         player: int = 0,
+        seats: int | Iterable[str | Mapping[str, Any] | Seat] | None = None,
+        alternate: bool = False,
+        limits: Mapping[str, Any] | None = None,
+        set: Mapping[str, Any] | None = None,
         balls: Records | None = None,
         state: GivenState | None = None,
         hand: Hand = "no",
@@ -85,9 +180,23 @@ class Match:
         seed : int
             Of the gaps of the rack, 0.1 mm at most.
         player : int
-            Who plays first, 0 or 1.
+            The side that plays first.
+        seats : int, or list of str, dict or Seat
+            Who plays: how many, or their names, or what differs from the usual of `name`, `side`,
+            `handicap`, `rating` and `cue`. Two sides play in turn: of four seats, 0 and 2 are
+            partners. Default: two seats.
+        alternate : bool
+            Whether partners take turns by strokes, as in Scotch doubles, and not by visits.
+        limits : dict
+            Bounds of strokes, of which None is no bound: `speed` (15 m/s), `theta` (90 degrees),
+            `tip` (0.75 radii), `mass_least`, `mass_most`, `end_mass_least` (0.2, 1.2, 0.001 kg),
+            `tip_restitution_most`, and `own_cue`: whether the stick must be that of the seat.
+        set : dict
+            The match is one of a set: `race`, how many a side needs; `order`, whether the next
+            break is "alternate", or that of the "winner" or the "loser"; `clock` and `extension`, s,
+            which you measure; `extensions` of a side in a match, and `timeouts` in the set.
         balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,), optional
-            Another layout than the rack. Only then `hand` and options are read.
+            Another layout than the rack. Only then `hand` is read.
         state : dict or ndarray of `carom.dtypes.rules_state`, optional
             How the game stands, as for `carom.plan`. With the rack `target` and `innings` are read:
             `{"innings": 1}` gives equal innings, and the match may be drawn.
@@ -98,47 +207,50 @@ class Match:
         """
         check_table(table)
         self._make(rules, state)
+        game = _OWN if isinstance(rules, Rules) else GAMES[rules]
+        partners = isinstance(rules, Rules) and rules.race != "seats"
+        models = shot_options(chosen(options, changes))
         pointed = pointer("carom_table *", table.record)
-        if balls is None:
-            if isinstance(rules, Rules):
-                raise ValueError("balls: rules of one's own have no rack: give a layout")
-            begins = self._made.c.state
-            code = lib.carom_match_begin_to(
-                self._c,
-                GAMES[rules],
-                begins.target,
-                begins.innings,
-                pointed,
-                seed_of(seed),
-                whole(player, "player", most=1),
-            )
-        else:
+        seating = _seating(game, partners, seats, alternate, limits)
+        setup = ffi.new(
+            "carom_match_setup *",
+            {
+                "rules": game,
+                "table": pointed,
+                "options": models,
+                "side": whole(player, "player", most=lib.CAROM_SEATS_MOST - 1),
+                "seed": seed_of(seed),
+                "seating": seating,
+            },
+        )
+        if set is not None:
+            setup.set = series = ffi.new("carom_set *")
+            _fill(series[0], set, "set")
+        if balls is not None:
             layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
-            code = lib.carom_match_begin_at(
-                self._c,
-                _OWN if isinstance(rules, Rules) else GAMES[rules],
-                self._made.c,
-                pointed,
-                pointer("carom_shot_ball[]", layout),
-                layout.size,
-                shot_options(chosen(options, changes)),
-                choice(LEAVES, "after" if hand == "no" else hand, "hand"),
-                whole(player, "player", most=1),
-            )
-        self._act(lambda: code, "balls")
+            setup.of, setup.count = self._made.c, layout.size
+            setup.balls = pointer("carom_shot_ball[]", layout)
+            setup.leave = choice(LEAVES, "after" if hand == "no" else hand, "hand")
+        elif isinstance(rules, Rules):
+            raise ValueError("balls: rules of one's own have no rack: give a layout")
+        else:
+            begins = self._made.c.state
+            setup.target, setup.equal_innings = begins.target, begins.innings
+        self._act(lambda: lib.carom_match_begin_with(self._c, setup), "balls")
 
     def _make(self, rules: Game | Rules, state: GivenState | None = None) -> None:
         self.rules = rules
-        self.lines: list[str] = []
         self._made = Made(rules, state)
         self._c: Any = ffi.new("carom_match *")
-        self._struck: tuple[Records, Records] | None = None
+        self._lines: list[str] = []  # but those in the text of C, of the last act
+        self._undone: list[list[str]] = []
+        self._shot: tuple[int, Shot | None] = 0, None  # by the hash of its end
 
     @classmethod
     def load(
         cls, recording: str | os.PathLike[str] | Iterable[str], *, rules: Rules | None = None
     ) -> Match:
-        """Read the lines of a match, from a file or as they come, and judge them again.
+        """Read a match, from a file, a text or lines as they come, and judge it again.
 
         `rules` are those of a game of your own.
 
@@ -151,28 +263,38 @@ class Match:
         match._make("eightball" if rules is None else rules)
         if rules is not None:
             match._c.rules = match._made.c[0]
-        scratch = ffi.new("carom_record *")
-        for text in lines_of(recording, match.lines):
-            line, previous = text.encode(), match.balls
-            match._told(lib.carom_match_read(match._c, scratch, line, len(line)), "line")
-            match._made.check()
-            if text.startswith('{"shot"'):
-                cue = ffi.buffer(ffi.addressof(match._c.record, "cue"))
-                match._struck = previous, np.frombuffer(cue, dtypes.cue).copy().reshape(())
+        for line in lines_of(recording):
+            match._read(line, -1)
+        if match.phase == "none":
+            text = "cut off: there is no line game" if match._lines else "the text is empty"
+            right = f'{text}: a match begins with a line "recording", and lines up to "game"'
+            raise CaromError(Status.ERROR_RECORD, f"line {len(match._lines) + 1}", text=right)
         if rules is None:
             match.rules = list(GAMES)[match._c.record.rules]
-        match._act(lambda: 0, "line")  # the lines that are missing, of a text that was cut off
         return match
 
     def __reduce__(self) -> tuple[object, ...]:
         return _loaded, (self.lines, self.rules if isinstance(self.rules, Rules) else None)
 
-    def _told(self, code: int, field: str) -> None:
-        if code < 0:
-            act, _, right = ffi.string(self._c.fault).decode().partition(": ")
-            raise CaromError(code, act or field, text=right or None)
+    def copy(self) -> Match:
+        """Another match that stands as this one, and goes on by itself."""
+        twin = type(self).__new__(type(self))
+        twin.__dict__.update(self.__dict__)
+        twin._c = ffi.new("carom_match *")
+        ffi.buffer(twin._c)[:] = ffi.buffer(self._c)[:]
+        twin._lines, twin._undone = [*self._lines], [*self._undone]
+        return twin
 
     # ---- How the match stands
+
+    @property
+    def lines(self) -> list[str]:
+        """The recording so far. Behind a line that was read, it has those of its ruling."""
+        return [*self._lines, *self._written()]
+
+    def _written(self) -> list[str]:
+        text: bytes = ffi.unpack(self._c.text, self._c.size)
+        return text.decode().splitlines(keepends=True)
 
     @property
     def table(self) -> Table:
@@ -201,13 +323,64 @@ class Match:
 
     @property
     def player(self) -> int:
-        """Who is at the table, 0 or 1."""
+        """The side at the table: 0 or 1, or the seat in games that each plays for itself."""
         return int(self._c.record.player)
 
     @property
+    def seat(self) -> int:
+        """The seat at the table."""
+        return int(self._c.seat)
+
+    @property
+    def seats(self) -> tuple[Seat, ...]:
+        """Who plays."""
+        seats = self._c.seating.seat[0 : self._c.seating.count]
+        return tuple(
+            Seat(
+                ffi.string(seat.name).decode(),
+                seat.side,
+                seat.handicap,
+                seat.rating,
+                _cue(ffi.addressof(seat, "cue")),
+            )
+            for seat in seats
+        )
+
+    @property
+    def limits(self) -> dict[str, Any]:
+        """The bounds of strokes; 0: none."""
+        return _members(self._c.seating.limits)
+
+    @property
+    def set(self) -> dict[str, Any] | None:
+        """The set that the match belongs to, with its `number` and how many each side had `won`."""
+        values = _members(self._c.record.set)
+        won = values["won"][: len(self.standing.won)]
+        is_one = values["race"] > 0
+        return {**values, "order": [*_ORDERS][values["order"]], "won": won} if is_one else None
+
+    @property
+    def standing(self) -> Standing:
+        """How the match stands, by sides."""
+        standing = ffi.new("carom_standing *")
+        lib.carom_match_standing(self._c, standing)
+        points, won = (
+            (*numbers[0 : standing.sides],) for numbers in (standing.points, standing.won)
+        )
+        sides = (*standing.side_of[0 : self._c.seating.count],)
+        set_winner = standing.set_winner - 1 if standing.set_winner else None
+        return Standing(sides, points, won, set_winner)
+
+    @property
+    def words(self) -> str:
+        """What the match waits for, or how it ended; `match.ruling.words` says the last ruling."""
+        return words_of(lambda *text: lib.carom_match_string(self._c, *text))
+
+    @property
     def winner(self) -> int | None:
-        """Who has won, 0 or 1."""
-        return int(self._c.winner) - 1 if self._c.winner in (1, 2) else None
+        """The side that has won."""
+        is_won = 0 < self._c.winner < lib.CAROM_DRAWN
+        return int(self._c.winner) - 1 if is_won else None
 
     @property
     def drawn(self) -> bool:
@@ -230,6 +403,11 @@ class Match:
     def cue_ball(self) -> int:
         """The ball that the player at the table strikes."""
         return int(self._c.cue_ball)
+
+    @property
+    def cue(self) -> Records:
+        """The cue of the seat at the table, at the cue ball: aim it, `cue["phi"] = 90.0`."""
+        return _cue(ffi.addressof(self._c, "cue"))
 
     @property
     def on(self) -> frozenset[int]:
@@ -255,20 +433,21 @@ class Match:
         return "no" if self.phase == "over" else hand_of(self._c.leave)
 
     @property
-    def text(self) -> str:
-        """The last ruling in words; "" before it."""
-        return words_of(ffi.addressof(self._c, "ruling")) if self._c.rulings else ""
-
-    @property
     def shot(self) -> Shot | None:
-        """The last shot, or what was played of it, with its events."""
-        if self._struck is None:
+        """The last shot, or what was played of it, with its events: played here or read."""
+        key: int = self._c.record.played.hash
+        if not self._c.stroke.mass > 0.0:
             return None
-        balls, cue = self._struck
-        try:
-            return simulate(self.table, balls, cue, options=self.options)
-        except CaromError as failed:
-            return cast("Shot | None", failed.shot)
+        if self._shot[0] != key:
+            size = self._c.record.count * dtypes.shot_ball.itemsize
+            before = np.frombuffer(ffi.buffer(self._c.before, size), dtypes.shot_ball)
+            cue = _cue(ffi.addressof(self._c, "stroke"))
+            try:
+                shot = replayed(self.table, before, cue, self.options, self._c)
+            except CaromError as failed:
+                shot = cast("Shot", failed.shot)
+            self._shot = key, shot
+        return self._shot[1]
 
     @property
     def options(self) -> Options:
@@ -277,47 +456,113 @@ class Match:
 
     @property
     def ruling(self) -> Ruling | None:
-        """The last ruling, and its shot."""
-        if not self._c.rulings or (shot := self.shot) is None:
+        """The last ruling, and the last shot, which is None before the first stroke."""
+        if not self._c.rulings:
             return None
-        is_own = isinstance(self.rules, Rules)
-        return ruling_of(ffi.addressof(self._c, "ruling"), self._c.record.count, is_own, shot)
+        shot = cast("Shot", self.shot)
+        is_own, cue_ball = isinstance(self.rules, Rules), self._c.stroke.ball
+        ruling = ffi.addressof(self._c, "ruling")
+        return ruling_of(ruling, self._c.record.count, is_own, shot, cue_ball)
 
     # ---- Acts
 
-    def _act(self, call: Callable[[], int], field: str) -> bool:
-        """Does what C does; an act that C or a method of the rules refuses changes nothing."""
-        is_own = isinstance(self.rules, Rules)
-        previous = bytes(ffi.buffer(self._c)) if is_own else b""
+    def _called(self, call: Callable[[], int], field: str) -> int:
+        """What C returns; what it or a method of the rules refuses changes nothing."""
+        previous = bytes(ffi.buffer(self._c))
         code = call()
-        raised, self._made.raised = self._made.raised, None
-        if raised is not None:
+        try:
+            self._made.check()
+            _refuse(self._c, code, field)
+        except BaseException:
             ffi.buffer(self._c)[:] = previous
-            raise raised
-        self._told(code, field)
-        text = ffi.unpack(self._c.text, self._c.size).decode()
-        self.lines += text.splitlines(keepends=True)
+            raise
+        return code
+
+    def _act(self, call: Callable[[], int], field: str) -> bool:
+        """Does what C does. Returns whether a shot has ended."""
+        known = self._written()
+        code = self._called(call, field)
+        self._lines += known
+        self._undone.clear()
         return code == 0
 
-    def choose(self, what: str) -> None:
+    def _read(self, line: str, seat: int) -> None:
+        record = self._c.record
+        known, is_due, previous = self._written(), self._c.due > 0, (record.line, record.hash)
+        scratch, text = ffi.new("carom_record *"), line.encode()
+        self._called(
+            lambda: lib.carom_match_read_from(self._c, scratch, text, len(text), seat), "line"
+        )
+        if is_due and self._c.size < sum(len(one.encode()) for one in known):
+            self._lines.append(known[0])
+        elif not is_due and (record.line, record.hash) != previous:  # no blank line, no event
+            self._lines += [*known, line.rstrip() + "\n"]
+
+    def read(self, line: str, seat: int | None = None) -> None:
+        """Read a line of another program and judge it: an act, or a line of the ruling of the last
+        act. With `seat` the act must be one of that seat.
+
+        Raises
+        ------
+        CaromError
+            The line is not by the rules, has other bits, or is an act of another seat. Then nothing
+            has changed.
+        """
+        self._read(line, -1 if seat is None else self._seat(seat))
+        self._undone.clear()
+
+    def undo(self) -> bool:
+        """Take the last act back, by judging the lines before it again.
+
+        Returns
+        -------
+        bool
+            Whether there was one.
+        """
+        lines = self.lines
+        text = "".join(lines).encode()
+        kept = text[: lib.carom_match_undone(text, len(text))].decode().splitlines(keepends=True)
+        if len(kept) == len(lines):
+            return False
+        undone = [*self._undone, lines[len(kept) :]]
+        before = self.load(kept, rules=self.rules if isinstance(self.rules, Rules) else None)
+        self.__dict__.update(before.__dict__, _undone=undone)
+        return True
+
+    def redo(self) -> bool:
+        """Do the act again that was undone last, unless another act followed. Returns whether there
+        was one.
+        """
+        if not self._undone:
+            return False
+        for line in self._undone.pop():
+            self._read(line, -1)
+        return True
+
+    def _seat(self, seat: int | None) -> int:
+        return self.seat if seat is None else whole(seat, "seat", most=lib.CAROM_SEATS_MOST - 1)
+
+    # The seat that acts is by default the one at the table.
+
+    def choose(self, what: str, *, seat: int | None = None) -> None:
         """Take a choice of `may`: "push" for the next stroke, the others instead of it."""
         bit = choice({word: 1 << k for k, word in enumerate(_CHOICES)}, what, "what")
-        self._act(lambda: lib.carom_match_choose(self._c, self.player, bit), "what")
+        self._act(lambda: lib.carom_match_choose(self._c, self._seat(seat), bit), "what")
 
-    def place(self, x: float, y: float) -> None:
+    def place(self, x: float, y: float, *, seat: int | None = None) -> None:
         """Put the cue ball in hand to a place within `bounds`, m; until the stroke it may be put
         elsewhere.
         """
         point = number(x, "x"), number(y, "y")
-        self._act(lambda: lib.carom_match_place(self._c, self.player, *point), "place")
+        self._act(lambda: lib.carom_match_place(self._c, self._seat(seat), *point), "place")
 
-    def call(self, ball: int, pocket: int = -1) -> None:
+    def call(self, ball: int, pocket: int = -1, *, seat: int | None = None) -> None:
         """Call the ball and the pocket of the next stroke; ball -1: a safety. In snooker it names a
         colour or a free ball.
         """
         numbers = [whole(ball, "ball", least=-1), whole(pocket, "pocket", least=-1)]
         call = ffi.new("carom_call *", numbers)[0]
-        self._act(lambda: lib.carom_match_call(self._c, self.player, call), "call")
+        self._act(lambda: lib.carom_match_call(self._c, self._seat(seat), call), "call")
 
     def stroke(
         self,
@@ -325,6 +570,7 @@ class Match:
         *,
         t_final: float | None = None,
         stop_at: StopAt | Iterable[StopAt] = (),
+        seat: int | None = None,
     ) -> bool:
         """Play a stroke of `cue_ball`, up to when `carom.simulate` would stop it.
 
@@ -333,13 +579,10 @@ class Match:
         bool
             Whether the shot has ended, and is ruled.
         """
-        balls, strike, stop = self.balls, copied(one_cue(cue)), _stop(t_final, stop_at)
-        struck_cue = pointer("carom_cue[]", strike)
-        is_ended = self._act(
-            lambda: lib.carom_match_stroke(self._c, self.player, struck_cue, stop, ffi.NULL), "cue"
+        struck, stop = pointer("carom_cue[]", copied(one_cue(cue))), _stop(t_final, stop_at)
+        return self._act(
+            lambda: lib.carom_match_stroke(self._c, self._seat(seat), struck, stop, ffi.NULL), "cue"
         )
-        self._struck = balls, strike
-        return is_ended
 
     def resume(
         self, *, t_final: float | None = None, stop_at: StopAt | Iterable[StopAt] = ()
@@ -348,39 +591,81 @@ class Match:
         stop = _stop(t_final, stop_at)
         return self._act(lambda: lib.carom_match_continue(self._c, stop, ffi.NULL), "t_final")
 
-    def concede(self, player: int) -> None:
-        """A player, 0 or 1, gives the game to the other."""
-        seat = whole(player, "player", most=1)
-        self._act(lambda: lib.carom_match_concede(self._c, seat), "player")
+    def prepare(self, best: Records, *, seat: int | None = None) -> None:
+        """Do what a choice of `plan` asks for before its stroke: place, push out and call; or pass,
+        and no stroke follows.
+        """
+        choice = pointer("carom_plan_stroke *", copied(best))
+        self._act(lambda: lib.carom_match_prepare(self._c, self._seat(seat), choice), "best")
 
-    def clock(self) -> None:
-        """The time of the player at the table is over: a foul."""
-        self._act(lambda: lib.carom_match_clock(self._c, self.player), "clock")
+    def take(
+        self,
+        best: Records,
+        cue: Records | None = None,
+        *,
+        t_final: float | None = None,
+        stop_at: StopAt | Iterable[StopAt] = (),
+        seat: int | None = None,
+    ) -> bool:
+        """Take a choice of `plan`: `prepare` it, and play its `stroke` unless it is a pass.
+
+        `cue` is the stroke as the player makes it; by default that of the choice.
+        """
+        self.prepare(best, seat=seat)
+        if best["kind"] == Kind.PASS:
+            return True
+        stroke = best["cue"] if cue is None else cue
+        return self.stroke(stroke, t_final=t_final, stop_at=stop_at, seat=seat)
+
+    def concede(self, seat: int | None = None) -> None:
+        """A seat gives the game to the other side, or leaves a game that each plays for itself."""
+        self._act(lambda: lib.carom_match_concede(self._c, self._seat(seat)), "seat")
+
+    def clock(self, *, seat: int | None = None) -> None:
+        """The time of the seat at the table is over: a foul."""
+        self._act(lambda: lib.carom_match_clock(self._c, self._seat(seat)), "clock")
+
+    def extend(self, *, seat: int | None = None) -> None:
+        """Take an extension of the time for this stroke; `set` says how many a side has."""
+        self._act(lambda: lib.carom_match_extend(self._c, self._seat(seat)), "extend")
+
+    def timeout(self, *, seat: int | None = None) -> None:
+        """Take a timeout; `set` says how many a side has."""
+        self._act(lambda: lib.carom_match_timeout(self._c, self._seat(seat)), "timeout")
+
+    def next(self) -> None:
+        """Begin the next match of the set, with the same seats."""
+        self._act(lambda: lib.carom_match_next(self._c), "next")
 
     def end(self) -> str:
-        """The whole recording, with its last line: nothing follows."""
+        """The whole recording, with its last line: nothing follows but the next match of a set."""
         self._act(lambda: lib.carom_match_end(self._c), "end")
         return "".join(self.lines)
 
     # ---- Plans
 
     def plan(self, **wanted: Any) -> Records:
-        """The best strokes of the player at the table, with a cue ball in hand within `bounds`.
+        """The best strokes of the seat at the table, with a cue ball in hand within `bounds`.
 
-        `wanted` is as for `carom.plan`: player, opponent, shots, best, seed, ...
+        `wanted` is as for `carom.plan`: player, opponent, shots, best, seed, ... By default the cue
+        is that of the seat, and the player one of its rating.
         """
 
+        c = self.copy()._c  # whose text and cue a plan changes
+
         def call(*job: Any) -> int:
-            code: int = lib.carom_match_plan(self._c, *job)
+            code: int = lib.carom_match_plan(c, *job)
             if code == Status.ERROR_ACT:
-                self._told(code, "plan")
+                _refuse(c, code, "plan")
             return code
 
         is_own = isinstance(self.rules, Rules)
+        if rating := self._c.seating.seat[self.seat].rating:
+            wanted = {"player": player(fargo=rating), **wanted}
         return plan(
             self.table,
             self.balls,
-            usual_cue(ball=self.cue_ball),
+            wanted.pop("cue", self.cue),
             rules=self.rules,
             state=None if is_own else self.state,
             options=self.options,
@@ -388,15 +673,17 @@ class Match:
             **wanted,
         )
 
-    def take(self, best: Records, cue: Records | None = None) -> None:
-        """Take a choice of `plan`: place, call and play its stroke, or pass.
 
-        `cue` is the stroke as the player makes it; by default that of the choice.
-        """
-        choice = pointer("carom_plan_stroke *", copied(best))
-        self._act(lambda: lib.carom_match_prepare(self._c, self.player, choice), "best")
-        if best["kind"] != Kind.PASS:
-            self.stroke(best["cue"] if cue is None else cue)
+def _refuse(match: Any, code: int, field: str) -> None:
+    """Raises what C refuses, in its words."""
+    if code < 0:
+        act, _, right = in_python(ffi.string(match.fault).decode()).partition(": ")
+        act = "resume" if act == "continue" else act
+        raise CaromError(code, act or field, text=right or None)
+
+
+def _cue(cue: Any) -> Records:
+    return np.frombuffer(ffi.buffer(cue), dtypes.cue).copy().reshape(())
 
 
 def _stop(t_final: float | None, stop_at: StopAt | Iterable[StopAt]) -> Any:

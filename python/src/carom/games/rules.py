@@ -5,7 +5,7 @@ drill, or by those of a game of one's own.
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, cast, get_args
 
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
     from carom._shot_options import Changes
 
-__all__ = ["Facts", "Foul", "Rules", "Ruling", "Turn", "referee"]
+__all__ = ["Facts", "Foul", "Rules", "Ruling", "Turn", "Words", "referee"]
 __dir__ = listing(__name__)
 
 Game = RulesWord
@@ -54,11 +54,13 @@ GAMES = {word: k for k, word in enumerate(get_args(RulesWord))}
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
 _TURNS = {word: k for k, word in enumerate(get_args(TurnWord))}
 LEAVES = {word: k for k, word in enumerate(get_args(LeaveWord))}
-_RACES = {"own": 0, "shared": 1, "alone": 2, "points": 3}
+_RACES = {"own": 0, "shared": 1, "alone": 2, "points": 3, "seats": 4}
 _WORDS = 8  # of the state of rules of one's own
 _USUAL = Options()
 _NO_ROOM = "there is no room for a ball that comes back"
-_MEMBERS = tuple(name for name in dtypes.rules_state.names or () if name not in ("user", "unused"))
+_MEMBERS = tuple(
+    name for name in dtypes.rules_state.names or () if name not in ("user", "unused", "context")
+)
 _POCKETED, _OFF = int(Label.POCKETED), int(Label.OFF)  # with which NumPy compares in half the time
 
 
@@ -113,18 +115,18 @@ class Facts:
     pushed: frozenset[int]  # Balls that it met before the tip left it
     jumped: frozenset[int]  # Balls that it flew over before it met one
     touches: int  # Of the tip: 1, or 2 and more of a double hit within the push; 0 without a strike
+    cue_ball: int  # The ball that the cue struck
     _record: bytes = field(repr=False)  # Of C, which copies and pickles as they are
 
     def foul(self, on: Collection[int]) -> Foul:
         """The foul that it is in any game whose balls `on` may be met first: up to `Foul.CUSHION`,
         or `Foul.NONE`.
         """
-        return Foul(
-            lib.carom_foul_of(ffi.from_buffer("carom_facts[]", self._record), _set_of(on), 0)
-        )
+        facts = ffi.from_buffer("carom_facts[]", self._record)
+        return Foul(lib.carom_foul_of(facts, _set_of(on), self.cue_ball))
 
 
-def _facts(record: Any) -> Facts:
+def _facts(record: Any, cue_ball: int) -> Facts:
     down = sorted(of_set(record.down), key=lambda ball: record.pocket_time[ball])
     potted = {ball: int(record.pocket[ball]) for ball in down}
     first, second = record.first
@@ -142,6 +144,7 @@ def _facts(record: Any) -> Facts:
         sets[2],
         sets[3],
         record.touches,
+        cue_ball,
         bytes(ffi.buffer(record)),
     )
 
@@ -156,7 +159,8 @@ def hand_of(leave: int) -> Hand:
 class Turn:
     """What a shot amounts to, from `Rules.judge`: the fields are its arguments.
 
-    `turn`: who plays, or how the game ends; "pass": the other plays. `leave`: his layout: as it is
+    `turn`: who plays, or how the game ends; "pass": the other plays, or in a race of seats the one
+    of `state.seat`, which with "win" has won. `leave`: his layout: as it is
     "after" the shot, as "before" it, or with the cue ball in hand, "anywhere", in the "kitchen"
     behind the head string, in the "d" of a snooker table or behind the "baulk" line. `foul`: a `Foul`. `spot`: balls that
     come back to the foot spot: any that are down or off the table, but the cue ball. `points`: of
@@ -170,20 +174,38 @@ class Turn:
     points: float = 0.0
 
 
-class Rules:
-    """A game of one's own, for `plan` and `referee`: a subclass says its rules.
+class Words(list[int]):
+    """The state of a game of one's own: eight numbers, and the seat at the table."""
 
-    The cue ball is ball 0.
+    def __init__(self, numbers: Iterable[int], seat: int = 0) -> None:
+        super().__init__(numbers)
+        self.seat = seat
+
+
+def _words(game: Any) -> Words:
+    return Words(game.user, game.seat)
+
+
+class Rules:
+    """A game of one's own, for `plan`, `referee` and `Match`: a subclass says its rules.
+
+    The cue ball is ball 0, or that of `facts.cue_ball`.
 
     `state` are eight numbers, as a list, for whatever the rules have to know: always as the player
     at the table has them. `judge` may change them, and leaves them as the next player has them.
     Balls in play are a frozenset of their indices.
+
+    In a race of "seats" `state[k]` says what seat k has left, such as its lives; 0: it is out. The
+    seat at the table is `state.seat`, and `judge` sets it to the one that plays next.
     """
 
-    race: Literal["own", "shared", "alone", "points"] = "own"
+    race: Literal["own", "shared", "alone", "points", "seats"] = "own"
     """Whose balls are to be potted: each player has his own, both have the same, or there is no
-    opponent. "points": both make points, and `left` says how many each needs.
+    opponent. "points": both make points, and `left` says how many each needs. "seats": 2 to 8 seats
+    play each for itself.
     """
+    any_cue_ball: bool = False
+    """Whether a player may strike any ball."""
     calls: bool = False
     """Whether ball and pocket are called."""
     first_decides: bool = False
@@ -191,12 +213,12 @@ class Rules:
     not played to its end.
     """
 
-    def on(self, state: list[int], in_play: frozenset[int]) -> Collection[int]:
+    def on(self, state: Words, in_play: frozenset[int]) -> Collection[int]:
         """The balls that may be met first, and potted."""
         raise NotImplementedError(f"{type(self).__name__} needs the method on(state, in_play)")
 
     def judge(
-        self, state: list[int], in_play: frozenset[int], facts: Facts, call: tuple[int, int]
+        self, state: Words, in_play: frozenset[int], facts: Facts, call: tuple[int, int]
     ) -> Turn:
         """What a shot amounts to; `in_play` were the balls before it, `call` is a ball and its
         pocket, or (-1, -1).
@@ -205,27 +227,28 @@ class Rules:
             f"{type(self).__name__} needs the method judge(state, in_play, facts, call)"
         )
 
-    def left(self, state: list[int], in_play: frozenset[int]) -> tuple[int, int]:
+    def left(self, state: Words, in_play: frozenset[int]) -> tuple[int, int]:
         """How many balls the player at the table, and the other, have to pot to win."""
         raise NotImplementedError(f"{type(self).__name__} needs the method left(state, in_play)")
 
-    def pockets(self, state: list[int]) -> Collection[int]:
+    def pockets(self, state: Words) -> Collection[int]:
         """The pockets in which balls count, by their indices in `table.pocket_names`.
 
         Default: all.
         """
         return range(8)
 
-    def value(self, state: list[int], layout: Records, in_hand: bool) -> float:
+    def value(self, state: Words, layout: Records, in_hand: bool) -> float:
         """The chance that the player at the table wins from a layout, 0 to 1: an array of
         `carom.dtypes.ball_state`, shape (balls,). Without an opponent: how many balls the player is
         still going to pot.
 
-        Default: an estimate from the two best pots and from `left`.
+        Default: an estimate from the two best pots and from `left`. A plan in a race of seats needs
+        yours.
         """
         raise NotImplementedError
 
-    def points(self, state: list[int], in_play: frozenset[int], ball: int) -> float:
+    def points(self, state: Words, in_play: frozenset[int], ball: int) -> float:
         """In a race for points: the points of a ball that falls in the next stroke; for ball -1 the
         mean points of a later pot.
 
@@ -233,7 +256,7 @@ class Rules:
         """
         raise NotImplementedError
 
-    def settle(self, state: list[int], table: Table, balls: Records, turn: Turn) -> Turn:
+    def settle(self, state: Words, table: Table, balls: Records, turn: Turn) -> Turn:
         """Do what depends on the places of the balls after a stroke that was judged: return the
         turn, changed or not. `balls` is an array of `carom.dtypes.shot_ball`, shape (balls,); what
         is written to it and to `state` stays.
@@ -293,11 +316,11 @@ def _finite(value: object, name: str, needed: str) -> float:
     return finite
 
 
-def _check_settled(table: Any, balls: Any, count: int, turn: Any) -> None:
+def _check_settled(table: Any, balls: Any, count: int, turn: Any, cue_ball: int) -> None:
     """Refuses balls that settle() laid where none can lie; a cue ball in hand may lie anywhere."""
     where = ffi.new("int *")
     code = lib.carom_shot_check(table, balls, count, ffi.NULL, ffi.NULL, where)
-    in_hand = turn.leave >= lib.CAROM_LEAVE_ANYWHERE and where[0] == 0
+    in_hand = turn.leave >= lib.CAROM_LEAVE_ANYWHERE and where[0] == cue_ball
     if code < 0 and not in_hand:
         raise CaromError(code, f"settle: balls[{where[0]}]")
 
@@ -314,6 +337,8 @@ class Made:
     ) -> None:
         self.raised: BaseException | None = None
         self.callbacks: list[Any] = []
+        self.cue_ball = 0
+        """Of the last stroke that rules of one's own judged."""
         self.rules = rules
         self.stop = ffi.new("int32_t *")
         """Of plans; set by an exception."""
@@ -324,11 +349,9 @@ class Made:
         if isinstance(rules, Rules):
             self.c = ffi.new("carom_plan_rules *")
             self._functions(rules)
-            self.c.race, self.c.calls, self.c.first_decides = (
-                choice(_RACES, rules.race, "rules.race"),
-                bool(rules.calls),
-                bool(rules.first_decides),
-            )
+            self.c.race = choice(_RACES, rules.race, "rules.race")
+            for name in ("calls", "first_decides", "any_cue_ball"):
+                setattr(self.c, name, bool(getattr(rules, name)))
         else:
             self.c = ffi.new(
                 "carom_plan_rules *", lib.carom_plan_rules_of(choice(GAMES, rules, "rules"))
@@ -369,7 +392,7 @@ class Made:
                 raise ValueError(
                     f"state: {_WORDS} whole numbers, at least 0, are needed, not {values!r}"
                 )
-            members = {"user": words}
+            members = {"user": words, "seat": getattr(values, "seat", 0)}
         elif not isinstance(values, Mapping):
             record = of_record(values, dtypes.rules_state, "state", "referee().state")
             members = {name: record[name] for name in _MEMBERS}
@@ -397,18 +420,21 @@ class Made:
 
             return ffi.callback(kind, call, error=otherwise, onerror=failed)
 
-        def keep(game: Any, state: list[int], method: str) -> None:
+        def keep(game: Any, state: Words, method: str) -> None:
+            game.seat = whole(state.seat, f"{method}: state.seat", most=lib.CAROM_SEATS_MOST - 1)
             game.user = [
                 whole(word, f"{method}: state[{k}]", most=2**64 - 1) for k, word in enumerate(state)
             ]
 
         def judge(game: Any, in_play: int, cue_ball: int, facts: Any, call: Any) -> Any:
-            state = list(game.user)
-            turn = rules.judge(state, of_set(in_play), _facts(facts), (call.ball, call.pocket))
+            state, self.cue_ball = _words(game), cue_ball
+            turn = rules.judge(
+                state, of_set(in_play), _facts(facts, cue_ball), (call.ball, call.pocket)
+            )
             keep(game, state, "judge")
             c_turn = ffi.new("carom_turn *")
             _write_turn(c_turn, turn, "judge")
-            spots = of_set(c_turn.spot & (in_play & ~(facts.down | facts.off) | 1))
+            spots = of_set(c_turn.spot & (in_play & ~(facts.down | facts.off) | 1 << cue_ball))
             if spots:
                 raise ValueError(
                     f"Turn.spot: balls come back that are down or off the table, not the cue ball, and not {sorted(spots)}"
@@ -416,38 +442,38 @@ class Made:
             return c_turn[0]
 
         def left(game: Any, in_play: int, out: Any) -> None:
-            both = several(rules.left(list(game.user), of_set(in_play)), "left", _A_LIST)
+            both = several(rules.left(_words(game), of_set(in_play)), "left", _A_LIST)
             if len(both) != 2:
                 raise ValueError(f"left: two numbers are needed, not {both}")
             out[0:2] = whole(both[0], "left"), whole(both[1], "left")
 
         def on(game: Any, in_play: int) -> int:
-            return _set_of(rules.on(list(game.user), of_set(in_play)))
+            return _set_of(rules.on(_words(game), of_set(in_play)))
 
         def pockets(game: Any) -> int:
-            return _set_of(rules.pockets(list(game.user)), "pockets", lib.CAROM_POCKETS_MOST - 1)
+            return _set_of(rules.pockets(_words(game)), "pockets", lib.CAROM_POCKETS_MOST - 1)
 
         def value(game: Any, layout: Any, count: int, in_hand: int) -> float:
             states = _array_of(layout, count, dtypes.ball_state).copy()
-            worth = _finite(rules.value(list(game.user), states, bool(in_hand)), "value", _CHANCE)
+            worth = _finite(rules.value(_words(game), states, bool(in_hand)), "value", _CHANCE)
             if not 0.0 <= worth <= (count if rules.race == "alone" else 1.0):
                 raise ValueError(f"value: {_CHANCE}, not {worth}")
             return worth
 
         def points(game: Any, in_play: int, ball: int) -> float:
-            points = rules.points(list(game.user), of_set(in_play), ball)
+            points = rules.points(_words(game), of_set(in_play), ball)
             return _finite(points, "points", "points are needed")
 
         def settle(game: Any, table: Any, balls: Any, count: int, turn: Any) -> None:
             if self.raised is not None:
                 return  # judge() has no turn that could be settled
-            state = list(game.user)
+            state = _words(game)
             on_table = Table.from_record(_array_of(table, 1, dtypes.table)[0])
             layout = _array_of(balls, count, dtypes.shot_ball)
             word = rules.settle(state, on_table, layout, _turn_of(turn))
             keep(game, state, "settle")
             _write_turn(turn, word, "settle")
-            _check_settled(table, balls, count, turn)
+            _check_settled(table, balls, count, turn, self.cue_ball)
 
         lost = ffi.new("carom_turn *", {"outcome": lib.CAROM_TURN_LOSE})[0]
         methods: dict[str, tuple[Callable[..., Any], Any]] = {
@@ -489,6 +515,8 @@ class Made:
                 raise ValueError(
                     f"balls: the balls of {self.rules} are the cue ball and 1 to {self.last}, not {ball}"
                 )
+        if self.c.race == lib.CAROM_RACE_SEATS and self.c.value == ffi.NULL:
+            raise ValueError("rules: a plan in a race of seats needs the method value()")
         self.check_count(len(layout))
 
     def check_count(self, count: int) -> None:
@@ -502,9 +530,10 @@ class Made:
             )
 
     def check(self) -> None:
-        """Raises what a method of the rules raised."""
-        if self.raised is not None:
-            raise self.raised
+        """Raises what a method of the rules raised, once."""
+        raised, self.raised = self.raised, None
+        if raised is not None:
+            raise raised
 
 
 _bits: NDArray[np.uint32] = np.uint32(1) << np.arange(32, dtype=np.uint32)
@@ -593,13 +622,14 @@ class Ruling(Arrays):
     # (): How the game stands for the next player, `carom.dtypes.rules_state`; of rules of one's own
     # eight numbers
     state: State
+    seat: int  # The next seat in a race of seats: Words(state, seat) is the state of own rules
     score: tuple[
         int, int
     ]  # Points, or balls, of the next player and of the other, less those that they lost or owe
     # Of the shot: both balls that the cue ball met, its cushions before each, and more; no ball was
     # met in one that ended in an error
     facts: Facts
-    text: str  # All of that in words
+    words: str  # All of that in words
     shot: Shot
 
 
@@ -622,7 +652,7 @@ def referee(
     ----------
     table : Table
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
-        As for `plan`; the cue ball is ball 0.
+        As for `plan`; the cue ball is that of the cue.
     cue : ndarray of `carom.dtypes.cue`, shape ()
     rules, group, opening, state
         As for `plan`. The `state` of a ruling is that for the next stroke.
@@ -645,6 +675,7 @@ def referee(
     game = Made(rules, state, group, opening)
     game.check_count(layout.shape[-1])
     strike = one_cue(cue).copy()
+    cue_ball = int(strike["ball"])
     if call[0] <= lib.CAROM_CALL_PASS:  # a choice without a stroke
         strike["speed"] = 0.0
     shots = simulate_batch(
@@ -676,7 +707,7 @@ def referee(
         pointer("carom_table *", table.record),
         pointer("carom_shot_ball[]", layout),
         len(layout),
-        0,
+        cue_ball,
         ffi.NULL if failed else seen,
         called[0],
         ruling,
@@ -687,19 +718,19 @@ def referee(
         raise ValueError(f"Turn.spot: there are {len(layout)} balls, none is {beyond[0]}")
     if code < 0:
         raise CaromError(code, "Turn.spot", text=_NO_ROOM)
-    return ruling_of(ruling, len(layout), isinstance(rules, Rules), shots[0])
+    return ruling_of(ruling, len(layout), isinstance(rules, Rules), shots[0], cue_ball)
 
 
-def words_of(ruling: Any) -> str:
-    """A ruling of C in words."""
-    words = ffi.new("char[]", 256)
-    lib.carom_ruling_string(ruling, words, 256)
+def words_of(write: Callable[[Any, int], int]) -> str:
+    """The words of a ruling or a match that C writes to a text with room."""
+    words = ffi.new("char[]", 1024)
+    write(words, 1024)
     return text_of(words)
 
 
-def ruling_of(ruling: Any, count: int, is_own: bool, shot: Shot) -> Ruling:
+def ruling_of(ruling: Any, count: int, is_own: bool, shot: Shot, cue_ball: int) -> Ruling:
     """A ruling of C for so many balls."""
-    facts, turn = _facts(ffi.addressof(ruling, "facts")), ruling.turn
+    facts, turn = _facts(ffi.addressof(ruling, "facts"), cue_ball), ruling.turn
     size = count * dtypes.shot_ball.itemsize
     layout = np.frombuffer(ffi.buffer(ruling.balls, size), dtypes.shot_ball).copy()
     state = (
@@ -717,8 +748,9 @@ def ruling_of(ruling: Any, count: int, is_own: bool, shot: Shot) -> Ruling:
         layout,
         of_set(ruling.put),
         state["user"] if is_own else state,
+        int(state["seat"]),
         tuple((state["score"] - state["lost"]).tolist()),
         facts,
-        words_of(ruling),
+        words_of(lambda *text: lib.carom_ruling_string(ruling, *text)),
         shot,
     )

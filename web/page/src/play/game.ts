@@ -391,7 +391,8 @@ export class Play {
     this.strokes++;
     this.balls = match.balls;
     this.#putInHand();
-    const { last: shot, cue, ruling } = match;
+    const { shot, ruling } = match;
+    const cue = shot?.cue;
     // Lines that were read have put a cue ball in hand, and have the cue.
     const played = isPlayed && shot && cue ? { balls: [...shot.balls], cue, shot, ruling } : {};
     this.last = { shot: undefined, ruling: undefined, ...situation, ...played };
