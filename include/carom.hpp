@@ -734,8 +734,8 @@ public:
     return code < 0 || best.kind == CAROM_PLAN_PASS ? code : stroke(cue, stop);
   }
 
-  /* Reads and judges the lines of a match, of a caller's own rules by `of`. Its last shot has all its
-   * events, also where it still moves and goes on. */
+  /* Reads and judges the lines of a match, of a caller's own rules by `of`. Its last shot has all
+   * its events, also where it still moves and goes on. */
   carom_status load(std::string_view text, const carom_plan_rules &of = {}) {
     if (text.empty())
       return checked(CAROM_ERROR_RECORD, "the text is empty: a match begins with a recording line");

@@ -71,7 +71,8 @@ typedef struct carom_seat {
   int64_t side;               /* 0 to 7: seats of one side play together, in their order. */
   int64_t handicap; /* of the first seat of a side, 0 to 1,000,000: in games of points the points
                        with which the side begins, so that who needs 25 of 40 points begins with 15;
-                       in nine-ball, up to 8, how many balls below the nine win too; in killer, up to 97, lives beyond the usual ones; in other games 0. */
+                       in nine-ball, up to 8, how many balls below the nine win too; in killer,
+                       up to 97, lives beyond the usual ones; in other games 0. */
   double rating;    /* a Fargo rating, 200 to 850; 0: unknown. */
   carom_cue cue;    /* the stick and the tip; of the stroke itself, nothing is read. */
 } carom_seat;

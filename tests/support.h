@@ -136,8 +136,8 @@ int run_tests(const char *name, const TTest *const *tests, size_t count);
 /* Goes on with an FNV-1a hash, h, over bytes. */
 uint64_t hash_of(uint64_t h, const void *bytes, size_t size);
 
-/* Sets a number, or one of an array, just beyond its range, in way 0, 1, ...; false where there is no
- * such way. */
+/* Sets a number, or one of an array, just beyond its range, in way 0, 1, ...; false where there is
+ * no such way. */
 bool set_bad(void *to, const carom_number *number, int way);
 #define RUN_TESTS(name, ...)                           \
   run_tests(name, (const TTest *const[]){__VA_ARGS__}, \

@@ -31,7 +31,6 @@ bool judge_end(char what[JUDGED_TEXT]) {
   if (match.record.set.race > 0)
     snprintf(set, sizeof set, "; match %d of a set, which stands %d : %d",
              (int)match.record.set.number, (int)standing.won[0], (int)standing.won[1]);
-  snprintf(what, JUDGED_TEXT, "%lld rulings by the rules; %s%s", (long long)rulings, winner,
-           set);
+  snprintf(what, JUDGED_TEXT, "%lld rulings by the rules; %s%s", (long long)rulings, winner, set);
   return match.size == 0;
 }

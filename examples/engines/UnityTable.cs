@@ -1,6 +1,6 @@
-// A match of two in Unity: put this script on an empty object, give it 16 spheres, of which the first
-// is the cue ball, and press the space bar to play along the camera. The opponent thinks between
-// frames. Unity's axes are (x, z, y) of carom's; sounds come from the impulses of events.
+// A match of two in Unity: put this script on an empty object, give it 16 spheres, of which the
+// first is the cue ball, and press the space bar to play along the camera. The opponent thinks
+// between frames. Unity's axes are (x, z, y) of carom's; sounds come from the impulses of events.
 using Carom;
 using UnityEngine;
 

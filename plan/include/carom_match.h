@@ -173,10 +173,10 @@ CAROM_API carom_status carom_match_begin_at(carom_match *match, carom_rules_kind
 
 /* ---- Seats and sets -------------------------------------------------------------------------- */
 
-/* The usual seats of a game: each a side of its own, without name and handicap, with the game's cue
- * and these limits: 15 m/s, 90 degrees, 0.75 radii, sticks of 0.2 to 1.2 kg whose end has 1 g or
- * more. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_ACT for a number of seats that the game does not
- * have. */
+/* So many seats of a game, 0: as many as usual. In games of two sides every other one is a partner;
+ * else each is a side. They have no names and handicaps, the game's cue, and these limits: 15 m/s,
+ * 90 degrees, 0.75 radii, sticks of 0.2 to 1.2 kg whose end has 1 g or more. CAROM_OK;
+ * CAROM_ERROR_NULL; CAROM_ERROR_ACT for a number of seats that the game does not have. */
 CAROM_API carom_status carom_seating_make(carom_rules_kind rules, int seats,
                                           carom_seating *seating);
 
@@ -201,9 +201,9 @@ typedef struct carom_match_setup {
  * CAROM_ERROR_ACT also for seats or a set that cannot be; a set needs a rack. */
 CAROM_API carom_status carom_match_begin_with(carom_match *match, const carom_match_setup *setup);
 
-/* Begins the next match of the set, with the same seats; match->text has the end of this one, unless
- * that was written, and the beginning. CAROM_ERROR_ACT where the match is not over, belongs to no
- * set, or where the set is over. */
+/* Begins the next match of the set, with the same seats; match->text has the end of this one,
+ * unless that was written, and the beginning. CAROM_ERROR_ACT where the match is not over, belongs
+ * to no set, or where the set is over. */
 CAROM_API carom_status carom_match_next(carom_match *match);
 
 /* How the match stands, by sides and seats, whoever is at the table. */
@@ -300,11 +300,11 @@ CAROM_API carom_status carom_match_read_from(carom_match *match, carom_record *s
 CAROM_API size_t carom_match_undone(const char *lines, size_t size);
 
 /* A plan for the seat at the table: sets table, balls, count, rules, shot and leave of the job; its
- * cue to match->cue where that is NULL, and the ball of the cue to the cue ball where another one may
- * not be struck; its player by the rating of the seat where that is NULL. Options and memory are the
- * caller's. Plans with a cue ball in hand within its bounds. As carom_plan() and carom_plan_hand();
- * goes on by carom_plan_continue(), with the match unchanged. CAROM_ERROR_ACT where no stroke may be
- * played. */
+ * cue to match->cue where that is NULL, and the ball of the cue to the cue ball where another one
+ * may not be struck; its player by the rating of the seat where that is NULL. Options and memory
+ * are the caller's. Plans with a cue ball in hand within its bounds. As carom_plan() and
+ * carom_plan_hand(); goes on by carom_plan_continue(), with the match unchanged. CAROM_ERROR_ACT
+ * where no stroke may be played. */
 CAROM_API carom_status carom_match_plan(carom_match *match, carom_plan_job *job,
                                         carom_plan_stroke *choices, int room, int *found);
 

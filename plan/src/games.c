@@ -1,6 +1,5 @@
 /* The games by their rows, for programs that ask; and whether a state is one of a game. */
 #include "games.h"
-#include "rules.h"
 
 #include <stddef.h>
 
@@ -93,8 +92,11 @@ uint32_t carom_needed_balls(carom_rules_kind kind) {
 }
 
 int64_t carom_seat_points(carom_rules_kind kind, uint64_t word) {
+  int64_t balls = 0;
+  for (uint64_t set = word; set != 0; set &= set - 1)
+    balls++;
   if (kind == CAROM_RULES_CUTTHROAT)
-    return carom_count_of((uint32_t)word);
+    return balls;
   return (int64_t)word;
 }
 

@@ -224,7 +224,7 @@ static carom_status begin_rules(carom_match *match, const carom_match_setup *set
 
 /* Those who sit there: the caller's, which the record then has too, or the usual two. */
 static carom_status begin_seats(carom_match *match, const carom_match_setup *setup) {
-  carom_seating_make(setup->rules, carom_usual_seats(setup->rules), &match->seating);
+  carom_seating_make(setup->rules, 0, &match->seating);
   if (setup->seating != NULL)
     match->seating = match->record.seating = *setup->seating;
   const char *key = "", *fault = carom_seating_fault(&match->seating, &key);
@@ -510,8 +510,8 @@ static void keep_in_hand(carom_match *match) {
   ruling->hand = 1;
 }
 
-/* Takes the ruling over: the layout, who plays and how the game stands. `struck`: of a stroke, or of
- * one for which the time was over. */
+/* Takes the ruling over: the layout, who plays and how the game stands. `struck`: of a stroke, or
+ * of one for which the time was over. */
 static void apply(carom_match *match, bool struck) {
   carom_record *record = &match->record;
   carom_ruling *ruling = &match->ruling;

@@ -93,8 +93,7 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
   const uint64_t context = match->rules.state.context;
   match->rules.state = record->standing;
   match->rules.state.context = context;
-  carom_seating_make((carom_rules_kind)record->rules,
-                     carom_usual_seats((carom_rules_kind)record->rules), &match->seating);
+  carom_seating_make((carom_rules_kind)record->rules, 0, &match->seating);
   if (record->seating.count > 0)
     match->seating = record->seating;
   const char *fault =

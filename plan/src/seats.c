@@ -136,6 +136,8 @@ carom_status carom_seating_make(carom_rules_kind kind, int seats, carom_seating 
   if (about != NULL)
     game = (carom_game)about->balls;
   memset(seating, 0, sizeof *seating);
+  if (seats == 0)
+    seats = carom_usual_seats(kind);
   if (seats < 2 || seats > CAROM_SEATS_MOST)
     return CAROM_ERROR_ACT;
   carom_cue cue = carom_cue_of(game);

@@ -1,113 +1,88 @@
-/* Whole games of the planner by the referee alone: killer and cut-throat with all numbers of seats,
- * and English billiards. CAROM_TEST_GAMES: how many of each; CAROM_TEST_TELL: each stroke of one.
- */
-#include "game_support.h"
+/* Whole matches of the planner: killer and cut-throat with several numbers of seats, and English
+ * billiards. CAROM_TEST_GAMES: how many of each; CAROM_TEST_TELL: each stroke. */
 #include "games.h"
-#include "rules.h"
+#include "match_support.h"
 
 /* What holds after each stroke: sets are the balls on the table, at most one life is lost, and the
  * next seat has something left. */
-static void check_state(carom_rules_kind kind, const carom_rules_state *before,
+static void check_state(carom_rules_kind kind, const carom_rules_state *earlier,
                         const carom_ruling *ruling, uint32_t in_play) {
   const carom_rules_state *after = &ruling->state;
   uint64_t sets = 0;
   int lost = 0, others = 0;
   for (int seat = 0; seat < CAROM_SEATS_MOST; seat++) {
     sets |= after->user[seat];
-    lost += (int)(before->user[seat] - after->user[seat]);
+    lost += (int)(earlier->user[seat] - after->user[seat]);
     others += seat != after->seat && after->user[seat] != 0;
   }
   if (kind == CAROM_RULES_CUTTHROAT)
     ck_assert_uint_eq(sets, in_play & 0xfffe);
   if (kind == CAROM_RULES_KILLER)
     ck_assert(lost == 0 ||
-              (lost == 1 && after->user[before->seat] + 1 == before->user[before->seat]));
+              (lost == 1 && after->user[earlier->seat] + 1 == earlier->user[earlier->seat]));
   if (kind == CAROM_RULES_BILLIARDS)
     return;
   ck_assert(after->user[after->seat] != 0);
   ck_assert_int_eq(ruling->turn.outcome >= CAROM_TURN_WIN, others == 0);
   if (ruling->turn.outcome == CAROM_TURN_KEEP)
-    ck_assert_int_eq(after->seat, before->seat);
+    ck_assert_int_eq(after->seat, earlier->seat);
 }
 
-static void tell(int number, const carom_rules_state *state, const carom_plan_stroke *stroke,
-                 const carom_ruling *ruling, int count) {
-  char words[300];
-  carom_ruling_string(ruling, words, sizeof words);
-  printf(
-      "%d. seat %d group %d: %s ball %d value %.2f; met %d,%d down %x: %s; points %g score %d,%d "
-      "seat %d:",
-      number, state->seat, state->group, carom_plan_kind_name(stroke->kind), stroke->ball,
-      stroke->value, ruling->facts.first[0], ruling->facts.first[1], ruling->facts.down, words,
-      ruling->turn.points, ruling->state.score[0], ruling->state.score[1], ruling->state.seat);
-  for (int seat = 0; seat < CAROM_SEATS_MOST; seat++)
-    printf(" %llx", (unsigned long long)ruling->state.user[seat]);
-  for (int k = 0; k < count && count < 5; k++)
-    printf(" %d@%.3f,%.3f%s", k, ruling->balls[k].state.r[0], ruling->balls[k].state.r[1],
-           ruling->balls[k].state.label == CAROM_BALL_POCKETED ? " down" : "");
+static void tell(int number, const carom_plan_stroke *stroke) {
+  char words[300], who[200];
+  carom_ruling_string(&match.ruling, words, sizeof words);
+  carom_match_string(&match, who, sizeof who);
+  printf("%d. %s ball %d value %.2f; met %d,%d down %x: %s; points %g; %s:", number,
+         carom_plan_kind_name(stroke->kind), stroke->ball, stroke->value,
+         match.ruling.facts.first[0], match.ruling.facts.first[1], match.ruling.facts.down, words,
+         match.ruling.turn.points, who);
+  carom_standing standing;
+  carom_match_standing(&match, &standing);
+  for (int side = 0; side < standing.sides; side++)
+    printf(" %d", (int)standing.points[side]);
   printf("\n");
 }
 
-/* Plays a game to its end, and returns its strokes; *winner is the seat, or the cue ball, that has
- * won. */
-static int play_game(carom_rules_kind kind, int seats, uint64_t seed, int *winner) {
-  enum { STROKES_MOST = 3000 };
-  const carom_rules_about *about = carom_rules_about_of(kind);
-  const carom_rack_kind rack = (carom_rack_kind)about->rack;
+/* Plays a match to its end, and returns its strokes. */
+static int play_game(carom_rules_kind kind, int seats, uint64_t seed) {
+  enum { STROKES_MOST = 3000, BILLIARDS_TARGET = 50 };
   const carom_player player = carom_player_of(kind == CAROM_RULES_KILLER ? 1.5 : 1.0);
   const carom_plan_options options = {.shots = 100, .seed = seed};
-  carom_plan_rules rules = carom_plan_rules_of(kind);
-  expect_ok(carom_begin_seats(kind, seats, &rules.state));
-  rules.state.opening = carom_has_opening(kind);
-  rules.state.target = (int32_t)carom_min(rules.state.target, 50);
-  carom_table_make((carom_table_kind)about->table, &table);
-  const int count = carom_rack_size(rack);
-  expect_ok(carom_rack(rack, &table, 1e-4, seed, balls, CAROM_BALLS_MOST));
-  carom_cue cue = carom_cue_of((carom_game)about->balls);
-  carom_plan_job job = job_of(count, &cue, &player, &rules, &options);
-  job.leave = about->opening;
-  static carom_ruling ruling;
-  bool hand = true;
-  for (int strokes = 1; strokes <= STROKES_MOST; strokes++) {
+  carom_seating seating;
+  carom_match_setup setup = {.rules = kind, .table = &table, .seed = seed, .seating = &seating};
+  carom_plan_job job = {.player = &player, .options = &options};
+  carom_table_make((carom_table_kind)carom_rules_about_of(kind)->table, &table);
+  expect_ok(carom_seating_make(kind, seats, &seating));
+  if (kind == CAROM_RULES_BILLIARDS)
+    setup.target = BILLIARDS_TARGET;
+  expect_ok(carom_match_begin_with(&match, &setup));
+  file_size = 0;
+  keep();
+  job.memory_size = carom_plan_memory(&options);
+  job.memory = malloc(job.memory_size);
+  int strokes = 0;
+  while (match.phase != CAROM_MATCH_OVER && strokes < STROKES_MOST) {
     carom_plan_stroke best;
     int found = 0;
-    cue.ball = carom_cue_ball_of(&rules);
-    carom_status status;
-    if (hand)
-      status = carom_plan_hand(&job, NULL, NULL, &best, 1, &found);
-    else
-      status = carom_plan(&job, &best, 1, &found);
-    ck_assert_msg(status >= 0 && found == 1, "%s: %s", about->name, carom_status_name(status));
-    if (hand)
-      expect_ok(carom_place_ball(&table, balls, count, (int)cue.ball, best.place[0], best.place[1],
-                                 NULL));
-    cue = best.cue;
-    carom_player_strike(&player, seed, (uint64_t)strokes, &cue);
-    carom_facts facts;
-    carom_ball_state final[CAROM_BALLS_MOST];
-    carom_shot shot = {.facts = &facts, .final = final};
-    ck_assert(carom_shoot(&table, balls, count, &cue, NULL, &shot) >= 0);
-    facts.barred = carom_barred_from(&rules, (carom_leave)job.leave, &facts, &table, balls, count);
-    expect_ok(carom_referee(&rules, &table, balls, count, (int)cue.ball, &shot,
-                            (carom_call){best.ball, best.pocket}, &ruling));
+    const carom_rules_state state = match.rules.state;
+    const carom_status status = carom_match_plan(&match, &job, &best, 1, &found);
+    ck_assert_msg(status >= 0 && found == 1, "%s: %s", match.fault, carom_status_name(status));
+    expect_ok(carom_match_prepare(&match, match.seat, &best));
+    keep();
+    carom_player_strike(&player, seed, (uint64_t)++strokes, &best.cue);
+    ck_assert_msg(carom_match_stroke(&match, match.seat, &best.cue, NULL, NULL) >= 0, "%s",
+                  match.fault);
+    keep();
     if (getenv("CAROM_TEST_TELL") != NULL)
-      tell(strokes, &rules.state, &best, &ruling, count);
-    memcpy(balls, ruling.balls, sizeof balls);
-    hand = ruling.hand != 0;
-    job.leave = ruling.turn.leave;
-    check_state(kind, &rules.state, &ruling, carom_on_table(balls, count));
-    const int32_t group = rules.state.group;
-    rules.state = ruling.state;
-    *winner = rules.state.seat;
-    if (kind == CAROM_RULES_BILLIARDS)
-      *winner = (ruling.turn.outcome == CAROM_TURN_WIN) == (group == 2);
-    if (ruling.turn.outcome >= CAROM_TURN_WIN) {
-      free(job.memory);
-      return strokes;
-    }
+      tell(strokes, &best);
+    uint32_t in_play = 0;
+    for (int k = 0; k < match.record.count; k++)
+      in_play |= (uint32_t)(match.record.balls[k].state.label != CAROM_BALL_POCKETED) << k;
+    check_state(kind, &state, &match.ruling, in_play);
   }
   free(job.memory);
-  return 0;
+  check_recording("a game of seats");
+  return match.phase == CAROM_MATCH_OVER ? strokes : 0;
 }
 
 TEST(games_end) {
@@ -121,12 +96,10 @@ TEST(games_end) {
   for (size_t k = 0; k < COUNT_OF(rows); k++) {
     int total = 0, won[CAROM_SEATS_MOST] = {0};
     for (int game = 0; game < games; game++) {
-      int winner = 0;
-      const int strokes =
-          play_game(rows[k].kind, rows[k].seats, test_seed() + (uint64_t)game, &winner);
+      const int strokes = play_game(rows[k].kind, rows[k].seats, test_seed() + (uint64_t)game);
       ck_assert_int_gt(strokes, 0);
       total += strokes;
-      won[winner]++;
+      won[match.winner - 1]++;
     }
     printf("%s, %d seats: %d games, %d strokes; won by seat:",
            carom_rules_about_of(rows[k].kind)->name, rows[k].seats, games, total);
@@ -149,7 +122,8 @@ TEST(numbers_of_seats) {
       const carom_status status = carom_begin_seats((carom_rules_kind)kind, seats, &state);
       ck_assert_int_eq(status == CAROM_OK, may);
       for (int seat = 0; seat < CAROM_SEATS_MOST && may && kind == CAROM_RULES_CUTTHROAT; seat++)
-        ck_assert_int_eq(carom_count_of((uint32_t)state.user[seat]), seat < seats ? 15 / seats : 0);
+        ck_assert_int_eq(carom_seat_points((carom_rules_kind)kind, state.user[seat]),
+                         seat < seats ? 15 / seats : 0);
     }
 }
 

@@ -22,6 +22,14 @@ function act(match, [what, ...words]) {
       return match.clock();
     case "concede":
       return match.concede(...numbers);
+    case "extend":
+    case "timeout":
+    case "next":
+    case "undo":
+    case "redo":
+      return match[what]();
+    case "again":
+      return undefined;
     default: {
       const [ball, speed, phi, theta, a, b] = numbers;
       return match.stroke(carom.cue({ ball, speed, phi, theta, a, b }));
@@ -40,9 +48,10 @@ function outcome(match, words) {
   const may = bits(match.may.map((word) => MAY.indexOf(word)));
   const sets = `on ${bits(match.on)}, touching ${bits(match.touching)}`;
   const winner = match.drawn ? 8 : (match.winner ?? -1);
-  const who = `player ${match.player}, winner ${winner}`;
+  const again = words[0] === "again" ? `${match.shot?.events.length ?? 0} events\n` : "";
+  const who = `seat ${match.seat}, winner ${winner}`;
   const at = `phase ${PHASES.indexOf(match.phase)}, ${who}, may ${may}`;
-  return `taken: ${at}, ball ${match.cueBall}, ${sets}: ${match.ruling?.words ?? ""}`;
+  return `${again}taken: ${at}, ball ${match.cueBall}, ${sets}: ${match.ruling?.words ?? ""}`;
 }
 
 let match;
@@ -54,6 +63,11 @@ for (const line of readFileSync(process.argv[2], "utf8").trimEnd().split("\n")) 
     match = carom.match();
     known = 0;
     continue;
+  }
+  if (line === "again") {
+    const copy = match.copy();
+    match.free();
+    match = copy;
   }
   const said = line.startsWith("{") ? match.read(line) : `${outcome(match, line.split(" "))}\n`;
   ruled += match.lines.slice(known).join("") + (said ?? "");

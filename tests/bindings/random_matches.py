@@ -25,7 +25,9 @@ def act(match, words):
         match.clock()
     elif what == "concede":
         match.concede(int(words[1]))
-    else:
+    elif what in ("extend", "timeout", "next", "undo", "redo"):
+        getattr(match, what)()
+    elif what != "again":
         ball, speed, phi, theta, a, b = numbers
         match.stroke(carom.cue(speed=speed, phi=phi, theta=theta, tip=(-a, b), ball=int(ball)))
 
@@ -38,9 +40,11 @@ def outcome(match, words):
         return str(refused)
     may = bits(MAY.index(word) for word in match.may)
     winner = -1 if match.winner is None else match.winner
+    events = len(match.shot.events) if match.shot else 0
+    again = f"{events} events\n" if words == ["again"] else ""
     words = match.ruling.words if match.ruling else ""
-    return (
-        f"taken: phase {PHASES.index(match.phase)}, player {match.player}, "
+    return again + (
+        f"taken: phase {PHASES.index(match.phase)}, seat {match.seat}, "
         f"winner {8 if match.drawn else winner}, may {may}, "
         f"ball {match.cue_ball}, on {bits(match.on)}, touching {bits(match.touching)}: {words}"
     )
@@ -58,6 +62,8 @@ with open(sys.argv[1]) as acts, open(sys.argv[2], "w") as ruled:
                 match = carom.Match.load(begins)
                 ruled.writelines(match.lines)
                 known = len(match.lines)
+            if line == "again\n":
+                match = match.copy()
             said = outcome(match, line.split())
             ruled.writelines(match.lines[known:])
             known = len(match.lines)

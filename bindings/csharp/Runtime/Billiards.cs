@@ -46,8 +46,8 @@ namespace Carom {
 
     internal delegate Status Playing(Shot *to);
 
-    /// <summary>Plays a stroke of a recording or a match from `balls`, with room for all its events:
-    /// `takeBack` undoes a try that had too little. `last` becomes the shot.</summary>
+    /// <summary>Plays a stroke of a recording or a match from `balls`, with room for all its
+    /// events: `takeBack` undoes a try that had too little. `last` becomes the shot.</summary>
     internal static Status Recorded(Record *of, ShotBall *balls, ref PlayedShot last, bool goesOn,
                                     Playing play, Action takeBack) {
       var shot = new PlayedShot(of->table, Billiards.Copy(balls, of->count), false);

@@ -148,7 +148,8 @@ namespace Carom {
     public Match State {
       get { return *Open; }
     }
-    /// <summary>The side at the table, 0 or 1; in games that each plays for itself, the seat.</summary>
+    /// <summary>The side at the table, 0 or 1; in games that each plays for itself, the
+    /// seat.</summary>
     public int Player {
       get { return (int)Open->record.player; }
     }

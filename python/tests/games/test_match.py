@@ -224,7 +224,7 @@ def test_partners_play_a_set_with_handicaps_limits_and_time():
 @pytest.mark.parametrize(
     "begins, message",
     [
-        ({"seats": 1}, "seats: 2 to 8 are needed, not 1"),
+        ({"seats": 1}, "seats: this game is not played by 1"),
         ({"seats": "Ann"}, "seats: a number is needed, or names"),
         ({"seats": [{"nam": "Ann"}, "Bo"]}, r"seats\[0\]: there is no 'nam'; there are name, side"),
         ({"seats": [{"side": 1}, {"side": 3}]}, "begin: seats: side must be 0, 1 and so on"),
@@ -283,11 +283,12 @@ def test_every_game_is_planned_with_its_own_cue():
     # match.cue_ball is ball 1 of the second player of three-cushion, straight rail and four-ball.
     tables = {"snooker": "snooker", "blackball": "blackball", "pyramid": "pyramid"}
     tables |= {"threecushion": "threecushion", "straightrail": "threecushion"}
-    tables["fourball"] = "fourball"
+    tables |= {"fourball": "fourball", "billiards": "snooker"}
     stick = ["mass", "end_mass", "tip_radius"]
     for game in GAMES:
         table = getattr(carom.tables, tables.get(game, "pool_9ft"))()
-        match = carom.Match(game, table, seed=1, player=1, seats=["", {"rating": 500}])
+        seats = ["", {"rating": 500}, ""][: 3 if game == "cutthroat" else 2]
+        match = carom.Match(game, table, seed=1, player=1, seats=seats)
         best = match.plan(shots=100, best=1)[0]
         assert best["cue"][stick] == match.cue[stick] == match.seats[1].cue[stick], game
         match.prepare(best)

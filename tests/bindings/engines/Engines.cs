@@ -1,5 +1,5 @@
-// What the examples of Unity and Godot ask of their engines, as far as Mono shows it, and scenes that
-// play: frames pass until a stroke has been played, and balls lie on the cloth.
+// What the examples of Unity and Godot ask of their engines, as far as Mono shows it, and scenes
+// that play: frames pass until a stroke has been played, and balls lie on the cloth.
 using System;
 using System.Collections.Generic;
 

@@ -181,11 +181,9 @@ export class Match extends Owner<Host> {
   ): boolean {
     if (seats === undefined && !alternate && limits === undefined) return false;
     const { memory } = this.#host;
-    const given = typeof seats === "object" ? seats : Array<string>(seats ?? 2).fill("");
+    const given = typeof seats === "object" ? seats : Array<string>(seats ?? 0).fill("");
     if (memory.exports.carom_seating_make(rules, given.length, seating) < 0)
-      throw new RangeError(
-        `seats: 2 to ${values.CAROM_SEATS_MOST} are needed, not ${given.length}`,
-      );
+      throw new RangeError(`seats: this game is not played by ${given.length}`);
     for (const [k, one] of given.entries()) {
       const seat = seating + SEATING.seat + k * SEAT.size;
       const name = `seats[${k}]`;

@@ -198,7 +198,7 @@ test.each(builds)("partners, a set, limits and time, by $name", ({ carom }) => {
 test("beginnings that are refused", () => {
   const begin = (options: object) => () => carom.match("eightball", carom.table("9ft"), options);
   refuses(
-    [begin({ seats: 1 }), "seats: 2 to 8 are needed, not 1"],
+    [begin({ seats: 1 }), "seats: this game is not played by 1"],
     [begin({ seats: [{ nam: "Ann" }, "Bo"] }), "seats[0].nam: there is no such key"],
     [begin({ seats: [{ side: 1 }, { side: 3 }] }), "begin: seats: side must be 0, 1 and so on"],
     [begin({ seats: [{ side: "a" }, "Bo"] }), 'seats[0].side: a number is needed, not "a"'],

@@ -36,7 +36,11 @@ impl Match {
         player: usize,
     ) -> Result<Match, Error> {
         let mut made = Match::empty();
-        let (kind, equal, player) = (rules.into(), equal_innings.into(), player.min(2) as i32);
+        let (kind, equal, player) = (
+            rules.into(),
+            equal_innings.into(),
+            player.min(sys::CAROM_SEATS_MOST as usize) as i32,
+        );
         let status = unsafe {
             sys::carom_match_begin_to(&mut *made.of, kind, target, equal, table, seed, player)
         };
@@ -55,7 +59,11 @@ impl Match {
     ) -> Result<Match, Error> {
         let mut made = Match::empty();
         let (kind, of, options) = (rules.into(), std::ptr::null(), std::ptr::null());
-        let (at, count, player) = (balls.as_ptr(), count_of(balls), player.min(2) as i32);
+        let (at, count, player) = (
+            balls.as_ptr(),
+            count_of(balls),
+            player.min(sys::CAROM_SEATS_MOST as usize) as i32,
+        );
         let status = unsafe {
             let to = &mut *made.of;
             sys::carom_match_begin_at(
@@ -340,7 +348,7 @@ impl Match {
 
     /// A player gives the game to the other.
     pub fn concede(&mut self, player: usize) -> Result<(), Error> {
-        let player = player.min(2) as i32;
+        let player = player.min(sys::CAROM_SEATS_MOST as usize) as i32;
         let status = unsafe { sys::carom_match_concede(&mut *self.of, player) };
         self.told(status)
     }

@@ -119,14 +119,15 @@ def _seating(
     if seats is None and not alternate and limits is None:
         return ffi.NULL
     needed = "a number is needed, or names, or mappings with name, side, handicap, rating, cue"
-    each: list[Any] = [{}] * 2 if seats is None else []
+    each: list[Any] = []
     if isinstance(seats, int):
         each = [{}] * seats
     elif seats is not None:
         each = several(seats, "seats", needed)
     seating = ffi.new("carom_seating *")
     if lib.carom_seating_make(game, len(each), seating) < 0:
-        raise ValueError(f"seats: 2 to {lib.CAROM_SEATS_MOST} are needed, not {len(each)}")
+        raise ValueError(f"seats: this game is not played by {len(each)}")
+    each = each or [{}] * int(seating.count)
     for k, given in enumerate(each):
         if partners:
             seating.seat[k].side = k % 2
