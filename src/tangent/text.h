@@ -77,6 +77,9 @@ void carom_cluster_put_on_slate(carom_cluster_state *) {
 number carom_cluster_slate_impulse(const carom_cluster_state *, int) {
   return 0.0;
 }
+number carom_cluster_separation(const carom_cluster_state *) {
+  return 0.0;
+}
 
 #include "tangent/exact.h"
 
