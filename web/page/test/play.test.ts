@@ -232,22 +232,23 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     });
     await pace(page, "4");
     await act(page, "#shoot");
-    // The break of full power may keep the turn, and so may a slow stroke after it.
-    for (;;) {
-      await comesToSay(page, "turn", /^[^…]*Your turn|The 300 (thinks|plays)/);
-      await act(page, "#power=1");
-      if (!/Your turn/.test(await turn(page))) break;
-      await act(page, "#shoot");
-      await comesToSay(page, "turn", /…/);
+    const sticks = () => page.evaluate(() => (window as unknown as { sticks: number }).sticks);
+    // Of a stick behind a ball near the cushion the picture has the tip alone, or nothing.
+    for (let stroke = 0; stroke < 8 && (await sticks()) <= 40; stroke++) {
+      // The break of full power may keep the turn, and so may a slow stroke after it.
+      for (;;) {
+        await comesToSay(page, "turn", /^[^…]*Your turn|The 300 (thinks|plays)/);
+        await act(page, "#power=1");
+        if (!/Your turn/.test(await turn(page))) break;
+        await act(page, "#shoot");
+        await comesToSay(page, "turn", /…/);
+      }
+      await comesToSay(page, "turn", /Your turn|won/);
     }
-    // Of a stick behind a ball near the cushion the picture has the tip alone.
-    await expect
-      .poll(() => page.evaluate(() => (window as unknown as { sticks: number }).sticks))
-      .toBeGreaterThan(40);
-    await comesToSay(page, "turn", /Your turn|won/);
+    expect(await sticks()).toBeGreaterThan(40);
     expect(await page.evaluate(() => (window as unknown as { left: number }).left)).toBe(0);
     expect(await valueOf(page, "power")).toBe("1");
-    await says(page, "said", /^The 300 pocketed (no ball|the \d+( and the \d+)*)\.$/);
+    await says(page, "said", /^The 300 /);
   }, 180_000);
 
   test.each(sizes)(
