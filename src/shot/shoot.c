@@ -89,6 +89,38 @@ static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
   }
 }
 
+/* A cluster that hands on places may move a ball on the cloth beyond a nose that it had not reached:
+ * it stays at the nose, whose impact then follows. */
+static void stay_before_noses(const carom_sim *sim, int i, const carom_ball_state *before,
+                              carom_ball_state *s) {
+  const carom_features *f = sim->features;
+  const carom_ball_kind *kind = sim->layout->kind[i];
+  if (carom_flies(s) || (s->r[0] == before->r[0] && s->r[1] == before->r[1]))
+    return;
+  for (int k = 0; k < f->rails; k++) {
+    const double *n = f->line[k], *along = f->along[k];
+    const double reach = carom_reach_on_cloth(kind, sim->table->rail[k].height, f->reference);
+    const double gap = n[0] * s->r[0] + n[1] * s->r[1] + n[2] - reach;
+    const double was = n[0] * before->r[0] + n[1] * before->r[1] + n[2] - reach;
+    const double place = along[0] * s->r[0] + along[1] * s->r[1] + along[2];
+    if (gap < 0.0 && was >= -CAROM_BEHIND && place >= 0.0 && place <= 1.0) {
+      s->r[0] -= gap * n[0];
+      s->r[1] -= gap * n[1];
+    }
+  }
+  for (int k = 0; k < f->jaws; k++) {
+    const carom_jaw *jaw = &sim->table->jaw[k];
+    const double reach = jaw->radius + carom_reach_on_cloth(kind, jaw->height, f->reference);
+    const double x = s->r[0] - jaw->centre[0], y = s->r[1] - jaw->centre[1];
+    const double distance = sqrt(x * x + y * y);
+    const double from_x = before->r[0] - jaw->centre[0], from_y = before->r[1] - jaw->centre[1];
+    if (distance < reach && sqrt(from_x * from_x + from_y * from_y) >= reach - CAROM_BEHIND) {
+      s->r[0] = jaw->centre[0] + x * (reach / distance);
+      s->r[1] = jaw->centre[1] + y * (reach / distance);
+    }
+  }
+}
+
 /* Each contact of a cluster is an event. A ball changes at its first one, unless it is among
  * changed[], and has the same state before and after the others. *pending_event becomes the first
  * contact of the struck ball, where it has one. */
@@ -123,6 +155,7 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
         path->from = event->before[side];
         carom_cluster_rest(sim, c, (int)(two[side] - c->ball), &path->from);
         carom_label_after(c->in_space, sim->layout->kind[i], &path->from);
+        stay_before_noses(sim, i, &event->before[side], &path->from);
         /* a motion that overflows is not taken: the shot ends there */
         if (!carom_is_finite(path->from.v) || !carom_is_finite(path->from.w)) {
           status = CAROM_ERROR_OVERFLOW;
@@ -213,6 +246,7 @@ __attribute__((noinline, cold)) static bool push(carom_play *play, const carom_c
   carom_facts_push(sim, &c, order, count);
   carom_cluster_rest(sim, &c, c.tip.ball, state);
   carom_label_after(c.in_space, sim->layout->kind[i], state);
+  stay_before_noses(sim, i, &event->before[0], state);
   event->after[0] = *state;
   event->impulse = c.tip.impulse;
   if (count > 0)
