@@ -77,7 +77,7 @@ static carom_status check_turn(carom_match *match, int player, const char *act) 
   if (status != CAROM_OK || match->phase != CAROM_MATCH_MOVING)
     return status;
   return carom_match_refuse(match, CAROM_REFUSED_MOVING, act,
-                            "balls move: carom_match_continue() goes on with the shot");
+                            "balls move: continue the shot first");
 }
 
 /* ---- Lines */
@@ -297,7 +297,7 @@ static carom_status begin_layout(carom_match *match, const carom_match_setup *se
   char right[256], text[128];
   if ((needed & ~there) != 0) {
     snprintf(right, sizeof right,
-             "the game needs ball %s on the table; the rules CAROM_RULES_POTTING play any layout",
+             "the game needs ball %s on the table; the drill of potting plays any layout",
              list_balls(needed & ~there, text));
     return refuse_beginning(match, right);
   }
@@ -622,9 +622,8 @@ carom_status carom_match_stroke(carom_match *match, int player, const carom_cue 
   if (error != CAROM_OK)
     return error;
   if (match->phase == CAROM_MATCH_PLACE)
-    return carom_match_refuse(
-        match, CAROM_REFUSED_IN_HAND, "stroke",
-        "the cue ball is in hand: carom_match_place() puts it within match.bounds");
+    return carom_match_refuse(match, CAROM_REFUSED_IN_HAND, "stroke",
+                              "the cue ball is in hand: place it within match.bounds first");
   if (!may_strike(match, cue->ball))
     return carom_match_refuse(match, CAROM_REFUSED_CUE_BALL, "stroke",
                               "cue.ball must be match.cue_ball, or a ball in play where any may be "

@@ -70,9 +70,8 @@ static carom_status read_beginning(carom_match *match, const char *line, size_t 
       kind == CAROM_RECORD_END)
     return refuse_line(match, record->line, "a line \"game\" must come before it");
   if (kind == CAROM_RECORD_HEAD && record->match != 1)
-    return refuse_line(
-        match, record->line,
-        "this is no match, but a recording of format 2: carom_record_read() reads it");
+    return refuse_line(match, record->line,
+                       "this is a recording of format 2, and no match: replay it");
   if (kind != CAROM_RECORD_GAME)
     return CAROM_OK;
 

@@ -87,7 +87,7 @@ test.each(builds)("a match refuses, rules and is judged again, by $name", ({ car
     [() => match.place(0.6, 1), /place: .*0\.635/],
     [
       () => match.stroke({ speed: 9 }),
-      "stroke: the cue ball is in hand: place() puts it within match.bounds",
+      "stroke: the cue ball is in hand: place it within match.bounds first",
     ],
     [() => match.call(16), /call: ball 16 .* may: 1, 2/],
     [() => match.choose("pass"), /choose: the choices are: none/],
