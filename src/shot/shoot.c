@@ -89,8 +89,8 @@ static carom_status resolve(carom_sim *sim, const carom_due *pending_event,
   }
 }
 
-/* A cluster that hands on places may move a ball on the cloth beyond a nose that it had not reached:
- * it stays at the nose, whose impact then follows. */
+/* A cluster that hands on places may move a ball on the cloth beyond a nose that it had not
+ * reached: it stays at the nose, whose impact then follows. */
 static void stay_before_noses(const carom_sim *sim, int i, const carom_ball_state *before,
                               carom_ball_state *s) {
   const carom_features *f = sim->features;
