@@ -100,7 +100,7 @@ test.each(builds)("a match refuses, rules and is judged again, by $name", ({ car
   match.place(0.6, 0.6);
   expect(match.stroke({ speed: 1.5, phi: 90 }, { timeMost: 0.3 })).toBe(false);
   expect([match.phase, match.ruling, match.shot?.time]).toEqual(["moving", undefined, 0.3]);
-  expect(() => match.stroke({ speed: 9 })).toThrow("balls move: continue() goes on");
+  expect(() => match.stroke({ speed: 9 })).toThrow("balls move: continue the shot");
 
   // A match that was read while balls move has its shot, and goes on with all events.
   const half = carom.match();
