@@ -289,8 +289,8 @@ CAROM_API carom_status carom_match_read(carom_match *match, carom_record *scratc
                                         size_t size);
 
 /* The same of a line that `seat` has sent, such as another player over a network: an act of another
- * seat is refused, with nothing changed, and so is a stroke that is none by match->seating.limits.
- * The lines of the ruling come from the seat that acted. seat -1: a judge, or a file. */
+ * seat is refused, with nothing changed. A stroke beyond match->seating.limits is refused as a line
+ * that is not by the rules. seat -1: a judge, or a file. */
 CAROM_API carom_status carom_match_read_from(carom_match *match, carom_record *scratch,
                                              const char *line, size_t size, int seat);
 

@@ -92,12 +92,12 @@ uint32_t carom_needed_balls(carom_rules_kind kind) {
 }
 
 int64_t carom_seat_points(carom_rules_kind kind, uint64_t word) {
+  if (kind != CAROM_RULES_CUTTHROAT)
+    return (int64_t)word;
   int64_t balls = 0;
-  for (uint64_t set = word; set != 0; set &= set - 1)
+  for (; word != 0; word &= word - 1)
     balls++;
-  if (kind == CAROM_RULES_CUTTHROAT)
-    return balls;
-  return (int64_t)word;
+  return balls;
 }
 
 int carom_usual_seats(carom_rules_kind kind) {
@@ -125,8 +125,10 @@ carom_status carom_begin_seats(carom_rules_kind kind, int seats, carom_rules_sta
     return CAROM_ERROR_NULL;
   const bool of_seats = is_game(kind) && games[kind].rules->race == CAROM_RACE_SEATS;
   const bool cut_throat = kind == CAROM_RULES_CUTTHROAT;
-  const bool good = seats == 2 || (of_seats && seats > 2 && seats <= CAROM_SEATS_MOST);
-  if (cut_throat ? seats != 3 && seats != 5 : !good)
+  bool good = seats == 2 || (of_seats && seats > 2 && seats <= CAROM_SEATS_MOST);
+  if (cut_throat)
+    good = seats == 3 || seats == 5;
+  if (!good)
     return CAROM_ERROR_OPTIONS;
   for (int seat = 0; seat < CAROM_SEATS_MOST && of_seats; seat++) {
     uint64_t has = 0;

@@ -67,8 +67,8 @@
 #define CAROM_GAME_RULES(NAME, rules, ...) extern const carom_plan_rules rules;
 CAROM_GAMES(CAROM_GAME_RULES)
 
-/* The state of a match of so many seats as it begins. CAROM_ERROR_OPTIONS where the game cannot
- * have them: killer has 2 to 8, cut-throat 3 or 5, and all others 2. */
+/* Sets what each of so many seats has as a match begins. Killer has 2 to 8 seats, cut-throat 3 or
+ * 5, each other game 2; else CAROM_ERROR_OPTIONS. */
 carom_status carom_begin_seats(carom_rules_kind kind, int seats, carom_rules_state *state);
 
 /* Begins the definition of the rules of a game. An object that no row names does not compile. */

@@ -106,14 +106,14 @@ static void put_act(carom_match *match, carom_act act, int player, int32_t choic
 }
 
 /* When the next shot stops. */
-static void set_stops(carom_record *record, const carom_shot_options *stop) {
+static void set_stops(carom_shot_options *options, const carom_shot_options *stop) {
   static const carom_shot_options none = {0};
   if (stop == NULL)
     stop = &none;
-  record->options.time_most = stop->time_most;
-  record->options.stop_at = stop->stop_at;
-  record->options.first_of = stop->first_of;
-  record->options.events_most = stop->events_most;
+  options->time_most = stop->time_most;
+  options->stop_at = stop->stop_at;
+  options->first_of = stop->first_of;
+  options->events_most = stop->events_most;
 }
 
 /* ---- How a match stands */
@@ -463,7 +463,7 @@ carom_status carom_match_next(carom_match *match) {
   const size_t end_size = (size_t)carom_min(match->size, (int64_t)sizeof end);
   memcpy(end, match->text, end_size);
   memcpy(timeouts, match->timeouts, sizeof timeouts);
-  set_stops(&match->record, NULL);
+  set_stops(&match->record.options, NULL);
   const carom_table table = match->record.table;
   const carom_shot_options options = match->record.options;
   const carom_seating seating = match->record.seating;
@@ -589,7 +589,7 @@ static carom_status play(carom_match *match, carom_record_kind kind, const carom
   const carom_cue last = record->cue;
   const int64_t pending = record->pending;
   record->cue = *cue;
-  set_stops(record, stop);
+  set_stops(&record->options, stop);
   record->pending = 0;
   const carom_status status = carom_record_play(record, kind, shot);
   if (record->pending != 2) {
@@ -656,10 +656,7 @@ carom_status carom_match_replay(carom_match *match, carom_shot *shot) {
   if (!(match->stroke.mass > 0.0))
     return CAROM_ERROR_STATE;
   carom_shot_options options = record->options;
-  options.time_most = 0.0;
-  options.stop_at = 0;
-  options.first_of = 0;
-  options.events_most = 0;
+  set_stops(&options, NULL);
   options.fast = 0;
   options.threads = 0;
   if (match->phase == CAROM_MATCH_MOVING) {
@@ -983,7 +980,7 @@ carom_status carom_match_plan(carom_match *match, carom_plan_job *job, carom_pla
     match->record.cue.ball = match->cue_ball;
     job->cue = &match->record.cue;
   }
-  set_stops(&match->record, NULL);
+  set_stops(&match->record.options, NULL);
   job->table = &record->table;
   job->balls = record->balls;
   job->count = record->count;

@@ -2,6 +2,7 @@
  * by sides. */
 #include "seats.h"
 #include "games.h"
+#include "record/lines.h"
 #include "rules.h"
 
 #include <math.h>
@@ -19,14 +20,10 @@ int carom_sides_of(const carom_seating *seating) {
 }
 
 static bool is_name(const char name[CAROM_SEAT_NAME]) {
-  for (int k = 0; k < CAROM_SEAT_NAME; k++) {
-    const unsigned char c = (unsigned char)name[k];
-    if (c == '\0')
-      return true;
-    if (c < ' ' || c == '"' || c == '\\' || c == 127)
-      return false;
-  }
-  return false;
+  int size = 0;
+  while (size < CAROM_SEAT_NAME && carom_is_in_text(name[size]))
+    size++;
+  return size < CAROM_SEAT_NAME && name[size] == '\0';
 }
 
 /* The cue is one of which a stroke can be played, and says no stroke. */
@@ -282,7 +279,7 @@ carom_status carom_match_standing(const carom_match *match, carom_standing *stan
   return CAROM_OK;
 }
 
-/* The name of a seat, or of the seats of a side. */
+/* A seat in words, such as "Ann (seat 0)". */
 static void put_name(const carom_match *match, int64_t seat, char *text, size_t room) {
   const char *name = match->seating.seat[seat].name;
   if (name[0] != '\0')

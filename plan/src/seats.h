@@ -27,7 +27,7 @@
 const char *carom_seating_fault(const carom_seating *seating, const char **key);
 const char *carom_set_fault(const carom_set *set, const char **key);
 
-/* Whether the rules can be played by these seats: else what must be. */
+/* What keeps the rules from being played by these seats; NULL: nothing. */
 const char *carom_seats_fault(const carom_plan_rules *rules, carom_rules_kind kind,
                               const carom_seating *seating);
 
@@ -38,10 +38,12 @@ void carom_seats_begin(const carom_seating *seating, carom_rules_kind kind, int6
 /* The limit that a stroke is beyond, in words; false: none. */
 bool carom_is_beyond(const carom_match *match, const carom_cue *cue, char *text, size_t room);
 
-/* The seat whose turn it is becomes that at the table: after a ruling, `struck` or not. */
-void carom_take_seat(carom_match *match);
+/* Whose turn of a side it is behind a ruling: of a stroke or not, which passes the table or not. */
 void carom_end_visit(carom_match *match, bool struck, bool passes);
+/* The seat whose turn it is comes to the table. */
+void carom_take_seat(carom_match *match);
 
+/* How many sides there are. */
 int carom_sides_of(const carom_seating *seating);
 
 #endif

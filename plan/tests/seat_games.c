@@ -131,9 +131,11 @@ TEST(numbers_of_seats) {
 TEST(values_of_seats) {
   for (int kind = CAROM_RULES_KILLER; kind <= CAROM_RULES_CUTTHROAT; kind++) {
     carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)kind);
-    const bool lives = kind == CAROM_RULES_KILLER;
-    const uint64_t more[] = {lives ? 3 : 0x3e, lives ? 2 : 0xc0, lives ? 2 : 0x1800};
-    memcpy(rules.state.user, more, sizeof more);
+    static const uint64_t lives[] = {3, 2, 2}, sets[] = {0x3e, 0xc0, 0x1800};
+    const uint64_t *more = sets;
+    if (kind == CAROM_RULES_KILLER)
+      more = lives;
+    memcpy(rules.state.user, more, sizeof lives);
     const double first = rules.value(&rules.state, &balls->state, 0, 0);
     rules.state.seat = 1;
     const double second = rules.value(&rules.state, &balls->state, 0, 0);

@@ -63,6 +63,11 @@ typedef struct carom_line {
   const char *(*find_fault)(const carom_record *record, const char **key);
 } carom_line;
 
+/* Whether a text may have a character. */
+static inline bool carom_is_in_text(char c) {
+  return (unsigned char)c >= ' ' && c != '"' && c != '\\' && c != 127;
+}
+
 enum { CAROM_LINE_KINDS = CAROM_RECORD_SET + 1 };
 
 /* Lines that a layer above this one has, by their carom_record_kind. A row without a key, of a

@@ -266,11 +266,6 @@ static bool expect(reader *in, char c, const char *what) {
   return wrong(in, what);
 }
 
-/* Whether a text may have a character. */
-static bool is_in_text(char c) {
-  return (unsigned char)c >= ' ' && c != '"' && c != '\\' && c != 127;
-}
-
 /* A key with its colon, into `key`, cut where it is longer than any. */
 enum { KEY_TEXT = 32 };
 static bool read_key(reader *in, char key[KEY_TEXT]) {
@@ -321,7 +316,7 @@ static bool read_text(reader *in, unsigned char *text) {
   if (!next_is(in, '"'))
     return wrong(in, "must be a text in quotes");
   for (; in->position < in->end && *in->position != '"'; in->position++) {
-    if (n == CAROM_SEAT_NAME - 1 || !is_in_text(*in->position))
+    if (n == CAROM_SEAT_NAME - 1 || !carom_is_in_text(*in->position))
       return wrong(in, "must have at most 31 bytes, without control characters and backslashes");
     text[n++] = (unsigned char)*in->position;
   }
