@@ -159,7 +159,7 @@ def test_the_struck_ball_is_told_from_one_that_it_touches_at_once():
     the struck one.
     """
     random, wrong = np.random.default_rng(5), 0
-    values = _constants.complete({}, "han")
+    values = _constants.usual("han")
     world = _constants.rectangle(TABLE, values["nose_height"])
     for gap, rate, noise in (
         (0.002, 50.0, 0.35e-3),

@@ -80,20 +80,22 @@ class Plays:
     """Recorded shots of the same number of balls, ready to be played with given constants: all of
     them, for all shots.
 
-    `table` has the extents of x and y, m; `radius` is that of the balls, m; `threads` is as in
-    `carom.simulate_batch`.
+    `table` is the word of a table or has the extents of x and y, m; `radius` is that of the balls,
+    m; `threads` is as in `carom.simulate_batch`.
     """
 
     def __init__(
         self,
         recordings: Sequence[Recording],
-        table: tuple[float, float],
+        table: str | tuple[float, float],
         radius: float,
         constants: Mapping[str, float],
         cushion_model: ShotCushion,
         threads: int = 0,
     ) -> None:
         self.recordings = recordings
+        self.kind, self.ground = table, _constants.ground(table, radius)
+        self.table_size = self.ground.size
         self.radius = radius
         self.threads, self.workers = threads, workers(threads) if threads else 1
         # the clock of a play begins with the last row at rest of the struck ball, wherever that is
@@ -104,14 +106,13 @@ class Plays:
             for shot, begin in zip(recordings, self.origins)
         ]
         tracks = [track for shot in self.tracks for track in shot]
-        self.centres = np.array([apart(shot.rest, table, radius) for shot in recordings])
+        self.centres = np.array([apart(shot.rest, self.table_size, radius) for shot in recordings])
         self.struck = np.array([shot.cue for shot in recordings], np.int32)
         self.ends = np.array([shot.end for shot in recordings]) - self.origins
         self.counts = np.array([sum(map(len, shot)) for shot in self.tracks])
         self.samples = np.ascontiguousarray(np.concatenate(tracks))
         self.first = np.cumsum([0, *map(len, tracks)]).astype(np.int64)
         self.cushion_model: ShotCushion = cushion_model
-        self.table_size = table
         self.set(constants)
 
     def set(self, constants: Mapping[str, float], steps: Mapping[str, float] | None = None) -> None:
@@ -121,7 +122,7 @@ class Plays:
         steps = steps or {}
         self.constants = dict(constants)
         self.steps = np.array(list(steps.values()), np.float64)
-        self.table = _constants.rectangle(self.table_size, constants["nose_height"])
+        self.table = self.ground.table
         changed = [
             self.constants,
             *({**self.constants, name: constants[name] + step} for name, step in steps.items()),
@@ -134,7 +135,7 @@ class Plays:
         """Some of the shots."""
         shots = [self.recordings[row] for row in np.asarray(rows)]
         return Plays(
-            shots, self.table_size, self.radius, self.constants, self.cushion_model, self.threads
+            shots, self.kind, self.radius, self.constants, self.cushion_model, self.threads
         )
 
     def _of_c(self, strikes: Doubles, stride: int = 1, huber: float = HUBER) -> Any:

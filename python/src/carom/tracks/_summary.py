@@ -46,7 +46,7 @@ class Fit:
     """Recorded shots, and what they were fitted by."""
 
     recordings: list[Recording]
-    table: tuple[float, float]  # Extents of x and y, m
+    table: str | tuple[float, float]  # The word of a table, or the extents of x and y, m
     radius: float  # m
     cushion_model: ShotCushion
     constants: dict[
@@ -77,6 +77,11 @@ class Fit:
         # What holds of all shots: a crooked table, constants at their bounds, a misfit far above the
         # noise
     ] = ()
+
+    @property
+    def ground(self) -> _constants.Ground:
+        """The table, its game, and the radius of the balls."""
+        return _constants.ground(self.table, self.radius)
 
     @property
     def noise(self) -> float:
@@ -136,7 +141,7 @@ class Fit:
         if not np.isfinite(self.strikes[i]).all():
             raise ValueError(f"shot {recording.id}: no strike was found: {self.status[i]}")
         centres = [
-            _strikes.apart(places, self.table, self.radius)
+            _strikes.apart(places, self.ground.size, self.radius)
             for places in recording.rest + np.zeros((len(strikes), 1, 1)) + moved
         ]
         balls = _constants.layout(np.array(centres), self.radius, self.constants)
@@ -144,7 +149,7 @@ class Fit:
             balls["kind"][name] = values[:, None]
         balls["state"]["v"][:, recording.cue, :2] = strikes[:, :2]
         balls["state"]["w"][:, recording.cue] = strikes[:, 2:5] / self.radius
-        return _constants.rectangle(self.table, self.constants["nose_height"]), balls
+        return self.ground.table, balls
 
     def strike_covariance(self, i: int) -> Doubles:
         """The covariance of the six numbers of `strikes[i]`, shape (6, 6), the constants being
@@ -398,7 +403,7 @@ class Fit:
             if self.covariance is None
             else {"constants": list(self.fitted), "matrix": self.covariance.tolist()},
             "cushion_model": self.cushion_model,
-            "table": list(self.table),
+            "table": self.table if isinstance(self.table, str) else list(self.table),
             "radius": self.radius,
             "shots": shots,
             "median_rmse": self.median_rmse if len(self.counted()) else None,
@@ -527,7 +532,7 @@ def bands(fit: Fit) -> str:
 
 def laws(fit: Fit) -> list[tuple[str, str]]:
     """Pictures of what single events say, over what the fit plays with; each with its text."""
-    seen, constants = events(fit.recordings, fit.table, fit.radius), fit.constants
+    seen, constants = events(fit.recordings, fit.ground.size, fit.radius), fit.constants
     gravity = constants["gravity"]
     rolls = seen.pieces[seen.pieces["rolling"] & (seen.pieces["a_error"] < 0.03)]
     speed = np.hypot(*rolls["v"].T)
