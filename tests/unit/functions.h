@@ -331,8 +331,7 @@ static int64_t read_line(carom_record *of, const char *line) {
   F(ball_kind_for, GIVES(carom_ball_kind_for(ANYENUM(carom_game, 0),                               \
                                              ANYENUM(carom_shot_cushion, 0), MAYBE(&kind))))       \
   F(ball_kind_of, (kind = carom_ball_kind_of(ANYENUM(carom_game, 0)), ACCEPTED))                   \
-  F(ball_kind_resolve,                                                                             \
-    carom_ball_kind_resolve(MAYBE(&table), MAYBE(&options), PTR(&kind)))                           \
+  F(ball_kind_resolve, carom_ball_kind_resolve(MAYBE(&table), MAYBE(&options), PTR(&kind)))        \
   F(check, carom_check(PTR(impacts), MAYBE(&impact_options), MAYBE(&where)))                       \
   F(cite, GIVES(carom_cite(NULL, MAYBE(text), 10)))                                                \
   F(collide, carom_collide(PTR(impacts), MAYBE(&impact_options), PTR(results)))                    \

@@ -1054,9 +1054,7 @@ def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name()
     ):
         with pytest.raises(ValueError, match=message):
             fit._priors([name], {}, {**usual, "law_c": 0.0})
-    assert fit._priors(["law_c"], {}, usual) == {
-        "law_c": (usual["law_c"], 0.5 * usual["law_c"])
-    }
+    assert fit._priors(["law_c"], {}, usual) == {"law_c": (usual["law_c"], 0.5 * usual["law_c"])}
 
 
 def test_a_number_of_the_cushion_is_found_by_whole_shots():

@@ -36,8 +36,6 @@ def seen(shot, names, start=1.0, rate=50.0, noise=NOISE, seed=0):
 # ---- One reading of a game's numbers
 
 
-
-
 @pytest.mark.filterwarnings("ignore:cushion_model", "ignore:balls")
 @pytest.mark.parametrize("friction", get_args(_described.BallFriction))
 @pytest.mark.parametrize("game", GAMES)

@@ -52,9 +52,7 @@ def _built_in(kind: int) -> Table:
     return Table.from_record(record)
 
 
-def ground(
-    table: str | Extents, radius: float | None = None, game: Game | None = None
-) -> Ground:
+def ground(table: str | Extents, radius: float | None = None, game: Game | None = None) -> Ground:
     """The table of a kind, such as "9ft", or one without pockets, 0 to W along x and 0 to L along
     y, m; the game, which is that of the table, or "billiard"; and the radius of its balls, m.
     """
@@ -108,7 +106,9 @@ def _resolved(
     )
     record = ffi.NULL if table is None else pointer("carom_table[]", table.record)
     kind = np.array(kind)
-    if (code := lib.carom_ball_kind_resolve(record, options, pointer("carom_ball_kind[]", kind))) < 0:
+    if (
+        code := lib.carom_ball_kind_resolve(record, options, pointer("carom_ball_kind[]", kind))
+    ) < 0:
         raise CaromError(code)
     values = {name: float(kind[name]) for name in KINDS if name != "mu_ball"}
     return values, options_of(options).cushion_model
