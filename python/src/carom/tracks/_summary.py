@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom import pictures
 from carom._carom import lib
+from carom._described import Game
 from carom._rows import Seed, seed_of
 from carom._rows import whole as _whole
 from carom._shot_options import ShotCushion
@@ -77,11 +78,12 @@ class Fit:
         # What holds of all shots: a crooked table, constants at their bounds, a misfit far above the
         # noise
     ] = ()
+    game: Game | None = None  # Whose constants stand for those that were not given
 
     @property
     def ground(self) -> _constants.Ground:
         """The table, its game, and the radius of the balls."""
-        return _constants.ground(self.table, self.radius)
+        return _constants.ground(self.table, self.radius, self.game)
 
     @property
     def noise(self) -> float:
@@ -141,7 +143,7 @@ class Fit:
         if not np.isfinite(self.strikes[i]).all():
             raise ValueError(f"shot {recording.id}: no strike was found: {self.status[i]}")
         centres = [
-            _strikes.apart(places, self.ground.size, self.radius)
+            _strikes.apart(places, self.ground.table, self.radius)
             for places in recording.rest + np.zeros((len(strikes), 1, 1)) + moved
         ]
         balls = _constants.layout(np.array(centres), self.radius, self.constants)
@@ -230,6 +232,7 @@ class Fit:
             No strike was found, or no row is known after the first.
         """
         whole = self.recordings[shot] if isinstance(shot, int) else shot
+        whole = _strikes.until_pocketed(whole, self.ground.table)
         if not 0.0 < after < np.inf:
             raise ValueError(f"after: it must be positive and finite, in s, not {after!r}")
         draws, seed = _whole(draws, "draws", least=10), seed_of(seed)
@@ -405,6 +408,7 @@ class Fit:
             "cushion_model": self.cushion_model,
             "table": self.table if isinstance(self.table, str) else list(self.table),
             "radius": self.radius,
+            "game": self.ground.game,
             "shots": shots,
             "median_rmse": self.median_rmse if len(self.counted()) else None,
             "p90_rmse": self.p90_rmse if len(self.counted()) else None,
@@ -584,6 +588,7 @@ def summary_lines(fit: Fit) -> list[str]:
     that are not ok.
     """
     lines = [
+        f"balls of {fit.ground.game}, radius {1e3 * fit.radius:.5g} mm; cushions: {fit.cushion_model}",
         f"noise of a coordinate: {1e3 * fit.noise:.2f} mm",
         *(f"warning: {text}" for text in fit.warnings),
     ]

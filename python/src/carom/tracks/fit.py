@@ -30,7 +30,7 @@ from carom.layouts import GAMES
 from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
 from carom.tracks import _recordings, _strikes, _summary
 from carom.tracks import Recording, TrackError, events, read
-from carom.tracks._forecast import ROUGH, Forecast
+from carom.tracks._forecast import ROUGH, Forecast, first_seconds
 from carom.tracks._kicks import Kicks, contact
 from carom.tracks._summary import Fit
 
@@ -40,6 +40,7 @@ __dir__ = listing(__name__)
 Progress = Callable[[str, float], None]
 _FASTEST = 8.0  # m/s: no ball is faster
 _CROOKED = 8e-3  # m: tracks that are farther off are told
+_BREAK = 1.0  # s from the first motion: later rows of a break tell nothing of its strike
 _MANY = 5.0  # standard deviations of a coordinate: an RMSE above is not that of the noise
 _LAW = {
     "law_a",
@@ -175,13 +176,6 @@ def _sound(
             for shot in recordings
         ]
         lie = _recordings.lie_of(recordings, table, radius)
-    counts = {len(shot.balls) for shot in recordings}
-    if len(counts) > 1:
-        odd = next(shot for shot in recordings if len(shot.balls) != len(recordings[0].balls))
-        raise ValueError(
-            f"recordings: shot {odd.id} has {len(odd.balls)} balls, shot {recordings[0].id} {len(recordings[0].balls)}; "
-            f"all shots must have the same number"
-        )
     return recordings, notes, noise, remarks
 
 
@@ -255,7 +249,14 @@ def _fit_to_events(
     shots = [job.recordings[k] for k in fitted]
 
     def measured() -> Any:
-        found = events(shots, _constants.ground(job.table, job.radius).size, job.radius)
+        ground = _constants.ground(job.table, job.radius)
+        found = events(shots, ground.size, job.radius)
+        # near a pocket a ball may have met a jaw, a facing or the hole
+        gaps = found.impacts["r"][:, None] - ground.table.pockets["centre"]
+        near = np.hypot(gaps[..., 0], gaps[..., 1]) < (
+            ground.table.pockets["radius"] + 3.0 * job.radius
+        )
+        found = replace(found, impacts=found.impacts[~near.any(axis=1)])
         return _from_events.measured(found, job.radius, job.cushion_model, job.seed, values)
 
     return _told_by_events(values, remarks, *job.saved.get("events", measured))
@@ -342,7 +343,8 @@ def fit(
     Parameters
     ----------
     recordings : sequence of Recording
-        From `carom.tracks.read`, all of the same number of balls.
+        From `carom.tracks.read`. Shots may have different numbers of balls, and a track may end
+        before the shot does: where its ball falls into a pocket, its later rows do not count.
     table : str or (float, float)
         The word of a table with its pockets and facings, such as "9ft" or "snooker", x along its
         width and y along its length; or the extents of x and y of one without pockets, m.
@@ -394,6 +396,11 @@ def fit(
     ground = _constants.ground(table, radius, game)
     radius = ground.radius
     recordings, notes, noise, remarks = _sound(recordings, ground.size, radius, train, calibrate)
+    recordings = [_strikes.until_pocketed(shot, ground.table) for shot in recordings]
+    for k, shot in enumerate(recordings):
+        if _strikes.is_break(shot):
+            recordings[k] = first_seconds(shot, _BREAK)
+            notes[k].append(f"a break, of which the first {_BREAK:g} s count")
     free = [free] if isinstance(free, str) else list(free)
     values, cushion_model = _constants.complete(
         {} if constants is None else constants,
@@ -456,6 +463,7 @@ def fit(
         names,
         covariance,
         remarks,
+        ground.game,
     )
     if found.median_rmse > _MANY * noise:
         remarks.append(
