@@ -499,9 +499,26 @@ static void kick(const carom_table *table, const carom_event *e, const double k[
     b->w[2] += V / R * k[4];
 }
 
+/* A ball that falls goes on for the radius of the pocket and stays there, in the middle or nearby:
+ * so its place is continuous, and a descent sees samples on both sides of the fall. Returns when it
+ * stops. */
+static double fall(const carom_table *table, const carom_event *e, carom_ball_state *state,
+                   way *w) {
+  const carom_ball_state *before = &e->before[0];
+  const double speed = hypot(before->v[0], before->v[1]);
+  if (speed < 1e-3 || w->pieces == PIECES_MOST)
+    return e->time;
+  const double wait = table->pocket[e->b].radius / speed;
+  w->piece[w->pieces++] =
+      (piece){.start = e->time, .c = {{before->r[0], before->r[1]}, {before->v[0], before->v[1]}}};
+  for (int k = 0; k < 2; k++)
+    state->r[k] = before->r[k] + wait * before->v[k];
+  return e->time + wait;
+}
+
 /* Appends the ways up to some events of all balls, which are at `balls` at the times starts[]. */
-static bool follow(const carom_event *events, int many, carom_shot_ball *balls, double *starts,
-                   way *ways) {
+static bool follow(const carom_table *table, const carom_event *events, int many,
+                   carom_shot_ball *balls, double *starts, way *ways) {
   bool good = true;
   for (const carom_event *e = events; e < events + many; e++)
     for (int side = 0; side < (e->type == CAROM_EVENT_BALL_BALL ? 2 : 1); side++) {
@@ -509,6 +526,8 @@ static bool follow(const carom_event *events, int many, carom_shot_ball *balls, 
       good = good && go(&ways[i], &balls[i], starts[i], e->time, &e->before[side]);
       starts[i] = e->time;
       balls[i].state = e->after[side];
+      if (e->type == CAROM_EVENT_POCKET)
+        starts[i] = fall(table, e, &balls[i].state, &ways[i]);
     }
   return good;
 }
@@ -564,7 +583,7 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
       contact += parts && is_contact(&first[e]);
     }
     *many += (int)played.count;
-    good = good && follow(first, (int)played.count, balls, starts, ways);
+    good = good && follow(table, first, (int)played.count, balls, starts, ways);
     begin += played.time;
     if (status != CAROM_STOPPED_AT_EVENT || begin >= end)
       break;
@@ -582,8 +601,9 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
   }
 
   /* What follows a ball's last event goes to the end of the time. */
-  for (int i = 0; i < count; i++)
-    good = good && go(&ways[i], &balls[i], starts[i], end, NULL);
+  for (int i = 0; i < count && good; i++)
+    if (starts[i] < end)
+      good = go(&ways[i], &balls[i], starts[i], end, NULL);
   return good ? CAROM_OK : CAROM_ERROR_ROOM;
 }
 

@@ -1128,10 +1128,6 @@ def test_shots_that_are_no_shots_have_a_status(sample):
     with pytest.raises(ValueError, match="shot 1: no strike was found: no ball moves"):
         found.shot(0)
     assert json.loads(json.dumps(found.to_dict()))["shots"][0]["cue"] is None
-    first = sample.recordings[0]
-    message = f"shot 9 has 2 balls, shot {first.id} {len(first.balls)}; all shots must have the same number"
-    with pytest.raises(ValueError, match=message):
-        fitted([first, tracks.Recording(9, (1, 2), still[:2])])
 
 
 def test_the_command_splits_goes_on_and_writes_a_page(sample, tmp_path, capsys, monkeypatch):
