@@ -427,9 +427,11 @@ static void roll(const carom_ball_kind *kind, double t, carom_ball_state *s) {
 }
 
 /* Appends the way from a state to an end, whose state may be NULL: then it follows from the
- * motion. */
+ * motion. An end before the start, of a ball that is falling into its pocket, adds nothing. */
 static bool go(way *w, const carom_shot_ball *ball, double start, double end,
                const carom_ball_state *target) {
+  if (end < start)
+    return true;
   carom_ball_state state = ball->state, next;
   const bool cuts = ball->kind.drag > 0.0 && state.label == CAROM_BALL_ROLLING;
   const int parts =
@@ -601,9 +603,8 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
   }
 
   /* What follows a ball's last event goes to the end of the time. */
-  for (int i = 0; i < count && good; i++)
-    if (starts[i] < end)
-      good = go(&ways[i], &balls[i], starts[i], end, NULL);
+  for (int i = 0; i < count; i++)
+    good = good && go(&ways[i], &balls[i], starts[i], end, NULL);
   return good ? CAROM_OK : CAROM_ERROR_ROOM;
 }
 

@@ -315,8 +315,8 @@ def inward(table: Table) -> Doubles:
     """The unit normals of the rails of a table, (rails, 2), to the side where balls are."""
     along = table.rails["q"] - table.rails["p"]
     line = table.rails["line"][:, :2]
-    derived = ~table.rails["line"].any(axis=1)
-    normals = np.where(derived[:, None], np.stack([-along[:, 1], along[:, 0]], axis=1), line)
+    known = (table.rails["line"] != 0.0).any(axis=1, keepdims=True)
+    normals = np.where(known, line, np.stack([-along[:, 1], along[:, 0]], axis=1))
     normals = normals * np.where(table.rails["side"], 1.0, -1.0)[:, None]
     return np.asarray(normals / np.hypot(*normals.T)[:, None])
 
@@ -338,8 +338,9 @@ def _within(centres: Doubles, table: Table, radius: float) -> Doubles:
     for circles, reach in ((table.jaws, radius), (table.pockets, 0.0)):
         for circle in circles:
             way = centres - circle["centre"]
-            distance, least = np.hypot(*way.T), circle["radius"] + reach + 1e-9
-            inside = (distance < least) & (distance > 0.0)
+            distance: Doubles = np.hypot(way[:, 0], way[:, 1])
+            least = float(circle["radius"]) + reach + 1e-9
+            inside = np.flatnonzero((distance < least) & (distance > 0.0))
             centres[inside] += way[inside] * (least / distance[inside] - 1.0)[:, None]
     return centres
 
