@@ -163,6 +163,7 @@ typedef struct shared_options {
   int precision;               /* enum precision */
   const char *folder, *output; /* --data, --output */
   bool summary, strict, derived;
+  int layout; /* --from: a layout_moment */
 } shared_options;
 
 /* Puts the numbers of --with into those of cushions, where the rows are impacts. Complains and
