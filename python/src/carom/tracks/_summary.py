@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import functools
 import html
 import math
 from collections.abc import Mapping, Sequence
@@ -32,6 +33,8 @@ BANDS, _CONTACTS = (
     (0.68, 0.95),
     (0, 1, 2, 3, 4, 6, 8, 11),
 )  # shares of the samples, and contacts from which a row of bands holds
+# of `model_error`: the least share of a kick that a track tells, how many kicks tell it, and its least
+_KNOWN, _KICKS_LEAST, _ERROR_LEAST = 0.3, 20, 0.01
 _WIDTH, _HEIGHT, _LEFT, _BELOW, _ABOVE = 460.0, 300.0, 60.0, 45.0, 12.0  # of a chart, pixels
 _INK, _MARK, _LINE = "#333333", "#1f5fae", "#c0392b"
 _STYLE = (
@@ -196,6 +199,27 @@ class Fit:
         )
         moved = moved.reshape(count, -1, 2)
         return (*self._struck(i, strikes, moved, self.changed(changes)), strikes[:, 5])
+
+    @functools.cached_property
+    def model_error(self) -> float:
+        """The errors of the models over those that recorded matches have, at most 1: by the kicks
+        of the shots that constants were fitted to, as far as their tracks tell them; 1 where fewer
+        than 20 kicks are told.
+        """
+        kicks = self.kicks().contacts
+        if self.train is not None:
+            kicks = kicks[np.array(self.train)[kicks["shot"]]]
+        scale = np.where((kicks["rail"] >= 0)[:, np.newaxis], _kicks.CUSHION, _kicks.BALLS)
+        size, error, share = kicks["kick"] / scale, kicks["error"] / scale, kicks["share"]
+        # a kick comes out too small by its share, and has the error of the noise besides
+        known = (share > _KNOWN) & (error < 1.0)
+        if known.sum() < _KICKS_LEAST:
+            return 1.0
+        square, told = np.where(known, size**2 - error**2, 0.0), np.where(known, share**2, 0.0)
+        # shot by shot, as one that misses an event has large kicks
+        shots = [kicks["shot"] == k for k in np.unique(kicks["shot"][known.any(axis=1)])]
+        each = [square[shot].sum() / told[shot].sum() for shot in shots]
+        return float(np.sqrt(np.clip(np.median(each), _ERROR_LEAST**2, 1.0)))
 
     def forecast(
         self, shot: int | Recording, *, after: float, draws: int = 200, seed: Seed = 0
@@ -599,12 +623,19 @@ def summary_lines(fit: Fit) -> list[str]:
 
 
 def told_forecasts(seen: Sequence[Forecast]) -> str:
-    """How many of the later places lie in the regions of forecasts."""
-    counts = [len(item.later()[0]) for item in seen]
-    inside = 100.0 * np.average([item.covered() for item in seen], axis=0, weights=counts)
+    """How many of the later places lie in the regions of forecasts: all, and those that tell a
+    motion.
+    """
+    told = []
+    for moving, places in ((False, "later places"), (True, "places of moving balls")):
+        counts = [len(item.later(moving=moving)[0]) for item in seen]
+        some = [item.covered(moving=moving) for item, count in zip(seen, counts) if count]
+        if some:
+            inside = 100.0 * np.average(some, axis=0, weights=[count for count in counts if count])
+            told.append(f"{inside[0]:.0f} and {inside[1]:.0f} % of {sum(counts)} {places}")
     return (
-        f"forecasts from the first {seen[0].after:g} s of {len(seen)} shots: {inside[0]:.0f} and "
-        f"{inside[1]:.0f} % of {sum(counts)} later places lie in the regions of 68 and 95 %"
+        f"forecasts from the first {seen[0].after:g} s of {len(seen)} shots: {', '.join(told)} "
+        "lie in the regions of 68 and 95 %"
     )
 
 
