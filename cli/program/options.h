@@ -140,10 +140,11 @@ typedef struct friction_law {
   carom_speed_law law;
 } friction_law;
 
-/* A player that --player or --errors gives. */
+/* A player that --player or --errors gives; one of a film has a rating and errors. */
 typedef struct given_player {
-  bool rated, errs;
+  bool rated, errs, filmed;
   double rating, scale;
+  double speed_share, phi, theta, a, b, growth; /* as of carom_player */
 } given_player;
 
 enum precision { ANY_PRECISION = -1, DOUBLE_PRECISION, SINGLE_PRECISION };

@@ -97,8 +97,7 @@ class Forecast(Arrays):
         """
         shot = self.recording
         parts = [
-            track[rows if moving else slice(None)]
-            for track, rows in zip(shot.tracks, shot.moving)
+            track[rows if moving else slice(None)] for track, rows in zip(shot.tracks, shot.moving)
         ]
         parts = [part[part[:, 0] > self.until] for part in parts]
         return np.concatenate(parts), np.repeat(np.arange(len(parts)), list(map(len, parts)))

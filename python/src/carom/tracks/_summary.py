@@ -26,6 +26,7 @@ from carom.tracks import _constants, _covariance, _joint, _kicks, _strikes
 from carom.tracks._events import events
 from carom.tracks._forecast import Forecast, forecast
 from carom.tracks._kicks import Kicks
+from carom.tracks._player import Player, player_of
 from carom.tracks._recordings import Recording
 
 _ROUGH_MOST = 8  # so many are told one by one
@@ -199,6 +200,23 @@ class Fit:
         )
         moved = moved.reshape(count, -1, 2)
         return (*self._struck(i, strikes, moved, self.changed(changes)), strikes[:, 5])
+
+    def player(self, groups: Sequence[Sequence[int]] | None = None) -> Player:
+        """The errors of the player, by strokes that were meant alike, with intervals; as a rating,
+        and as the player of plans (`record`).
+
+        Parameters
+        ----------
+        groups : sequence of sequences of int, optional
+            The shots of each kind, from 0. Without: those whose balls lie within 30 mm and whose
+            strikes go within 6 degrees and 30 % of the speed of the first one's.
+
+        Raises
+        ------
+        ValueError
+            Too few strokes repeat others, or one has no strike.
+        """
+        return player_of(self, groups)
 
     @functools.cached_property
     def model_error(self) -> float:

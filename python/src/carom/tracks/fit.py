@@ -606,6 +606,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--kicks", action="store_true", help="tell what the models get wrong at each contact"
     )
     parser.add_argument(
+        "--player",
+        action="store_true",
+        help="the player's errors and rating, by strokes that were meant alike",
+    )
+    parser.add_argument(
         "--forecast",
         type=float,
         metavar="T",
@@ -658,6 +663,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 _summary.page(found, options.tracks.name, kicks, seen), encoding="utf-8"
             )
         written = found.to_dict(kicks)
+        player = found.player() if options.player else None
+        if player is not None:
+            written["player"] = player.to_dict()
         if options.forecast:
             written["forecasts"] = [forecast.to_dict() for forecast in seen]
         options.output.write_text(json.dumps(written, indent=1) + "\n", encoding="utf-8")
@@ -680,6 +688,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             f"of their samples, with strikes fitted to whole shots, {within[0]:.0f} and {within[1]:.0f} % "
             "are within the residuals of 68 and 95 % of the shots that were fitted"
         )
+    if player is not None:
+        print(player)
     if seen:
         print(_summary.told_forecasts(seen))
     print("\n".join(_summary.summary_lines(found)))
