@@ -295,7 +295,7 @@ static void lay_table(const shoot_flags *f, layout *l) {
   named_table *t = built_in_table(l->table_name, &(json_fault){{0}});
   l->table = t->table;
   free_table(t);
-  l->game = game_of_table(kind);
+  l->game = carom_game_of_table(kind);
 }
 
 /* The cue ball at its usual place, and the balls of a rack, number `shot` of those that gaps and

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom import pictures
 from carom._carom import lib
+from carom._described import Game
 from carom._rows import Seed, seed_of
 from carom._rows import whole as _whole
 from carom._shot_options import ShotCushion
@@ -50,7 +51,7 @@ class Fit:
     """Recorded shots, and what they were fitted by."""
 
     recordings: list[Recording]
-    table: tuple[float, float]  # Extents of x and y, m
+    table: str | tuple[float, float]  # The word of a table, or the extents of x and y, m
     radius: float  # m
     cushion_model: ShotCushion
     constants: dict[
@@ -81,6 +82,12 @@ class Fit:
         # What holds of all shots: a crooked table, constants at their bounds, a misfit far above the
         # noise
     ] = ()
+    game: Game | None = None  # Whose constants stand for those that were not given
+
+    @property
+    def ground(self) -> _constants.Ground:
+        """The table, its game, and the radius of the balls."""
+        return _constants.ground(self.table, self.radius, self.game)
 
     @property
     def noise(self) -> float:
@@ -140,7 +147,7 @@ class Fit:
         if not np.isfinite(self.strikes[i]).all():
             raise ValueError(f"shot {recording.id}: no strike was found: {self.status[i]}")
         centres = [
-            _strikes.apart(places, self.table, self.radius)
+            _strikes.apart(places, self.ground.table, self.radius)
             for places in recording.rest + np.zeros((len(strikes), 1, 1)) + moved
         ]
         balls = _constants.layout(np.array(centres), self.radius, self.constants)
@@ -148,7 +155,7 @@ class Fit:
             balls["kind"][name] = values[:, None]
         balls["state"]["v"][:, recording.cue, :2] = strikes[:, :2]
         balls["state"]["w"][:, recording.cue] = strikes[:, 2:5] / self.radius
-        return _constants.rectangle(self.table, self.constants["nose_height"]), balls
+        return self.ground.table, balls
 
     def strike_covariance(self, i: int) -> Doubles:
         """The covariance of the six numbers of `strikes[i]`, shape (6, 6), the constants being
@@ -267,6 +274,7 @@ class Fit:
             No strike was found, or no row is known after the first.
         """
         whole = self.recordings[shot] if isinstance(shot, int) else shot
+        whole = _strikes.until_pocketed(whole, self.ground.table)
         if not 0.0 < after < np.inf:
             raise ValueError(f"after: it must be positive and finite, in s, not {after!r}")
         draws, seed = _whole(draws, "draws", least=10), seed_of(seed)
@@ -440,8 +448,9 @@ class Fit:
             if self.covariance is None
             else {"constants": list(self.fitted), "matrix": self.covariance.tolist()},
             "cushion_model": self.cushion_model,
-            "table": list(self.table),
+            "table": self.table if isinstance(self.table, str) else list(self.table),
             "radius": self.radius,
+            "game": self.ground.game,
             "shots": shots,
             "median_rmse": self.median_rmse if len(self.counted()) else None,
             "p90_rmse": self.p90_rmse if len(self.counted()) else None,
@@ -569,7 +578,7 @@ def bands(fit: Fit) -> str:
 
 def laws(fit: Fit) -> list[tuple[str, str]]:
     """Pictures of what single events say, over what the fit plays with; each with its text."""
-    seen, constants = events(fit.recordings, fit.table, fit.radius), fit.constants
+    seen, constants = events(fit.recordings, fit.ground.size, fit.radius), fit.constants
     gravity = constants["gravity"]
     rolls = seen.pieces[seen.pieces["rolling"] & (seen.pieces["a_error"] < 0.03)]
     speed = np.hypot(*rolls["v"].T)
@@ -621,6 +630,7 @@ def summary_lines(fit: Fit) -> list[str]:
     that are not ok.
     """
     lines = [
+        f"balls of {fit.ground.game}, radius {1e3 * fit.radius:.5g} mm; cushions: {fit.cushion_model}",
         f"noise of a coordinate: {1e3 * fit.noise:.2f} mm",
         *(f"warning: {text}" for text in fit.warnings),
     ]
