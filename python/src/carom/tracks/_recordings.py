@@ -42,6 +42,9 @@ _NOISES = 5.5
 _FASTER = 1.5  # a ball goes so many times as fast as it was seen to, at most
 _THINNED = 0.03  # m: a ball goes so far without a row, at most
 _SLIDING = 2.0  # m/s^2: about how fast a ball that slides away from a cushion slows down
+# m: a centre that is farther outside its bounds was measured in other units or on another table; a
+# crooked one is nearer
+OUTSIDE = 0.06
 _BLOCK = 3  # false detections one after another, at most
 
 
@@ -146,6 +149,21 @@ class Recording:
             still = max(int(np.argmax(away)), 1) if away.any() else len(track)
             rest, most = track[: min(still, 12), 1:].mean(axis=0), self.away
         return still
+
+
+# ---- Places
+
+
+def is_inside(places: Doubles, table: Sequence[float], radius: float) -> NDArray[np.bool_]:
+    """Whether centres lie on the table, or hardly outside."""
+    low, high = radius - OUTSIDE, np.array(table) - radius + OUTSIDE
+    return np.asarray(((low <= places) & (places <= high)).all(axis=-1))
+
+
+def exchanged(places: Doubles, table: tuple[float, float], radius: float) -> bool:
+    """Whether the extents of a table are those of y and x."""
+    shares = [is_inside(places, size, radius).mean() for size in (table, table[::-1])]
+    return bool(shares[0] < 0.95 < 0.99 < shares[1])
 
 
 # ---- Noise
