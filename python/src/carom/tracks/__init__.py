@@ -31,6 +31,7 @@ from carom.results import Shot
 from carom.shots import simulate
 from carom.tracks import _constants
 from carom.tracks._events import Events, events, hit, impact, piece
+from carom.tracks._examination import Examination, Finding, examine
 from carom.tracks._reading import Reading, read
 from carom.tracks._recordings import MOVED, NOISE, Recording, TrackError
 
@@ -38,11 +39,14 @@ __all__ = [
     "MOVED",
     "NOISE",
     "Events",
+    "Examination",
+    "Finding",
     "Reading",
     "Recording",
     "Synthetic",
     "TrackError",
     "events",
+    "examine",
     "hit",
     "impact",
     "piece",
