@@ -28,8 +28,8 @@ from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
 from carom.layouts import GAMES
 from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
-from carom.tracks import _recordings, _strikes, _summary
-from carom.tracks import Recording, TrackError, events, read
+from carom.tracks import _strikes, _summary
+from carom.tracks import Recording, TrackError, events, examine, read
 from carom.tracks._forecast import ROUGH, Forecast, first_seconds
 from carom.tracks._kicks import Kicks, contact
 from carom.tracks._summary import Fit
@@ -39,9 +39,9 @@ __dir__ = listing(__name__)
 
 Progress = Callable[[str, float], None]
 _FASTEST = 8.0  # m/s: no ball is faster
-_CROOKED = 8e-3  # m: tracks that are farther off are told
 _BREAK = 1.0  # s from the first motion: later rows of a break tell nothing of its strike
 _MANY = 5.0  # standard deviations of a coordinate: an RMSE above is not that of the noise
+_WORSE = 1.02  # times the median RMSE of the start, from which it is kept
 _LAW = {
     "law_a",
     "law_b",
@@ -146,50 +146,7 @@ class _Saved:
             self.path.unlink(missing_ok=True)
 
 
-def _sound(
-    recordings: list[Recording],
-    table: tuple[float, float],
-    radius: float,
-    train: Sequence[int] | None,
-    calibrate: bool,
-) -> tuple[list[Recording], list[list[str]], float, list[str]]:
-    """The recordings of a fit without what is wrong in them, what was mended in each, the noise, m,
-    and what is to be told.
-    """
-    noise = _recordings.noise_of(recordings if train is None else [recordings[k] for k in train])
-    recordings, notes = _recordings.sound(recordings, noise)
-    lie, remarks = _recordings.lie_of(recordings, table, radius), list[str]()
-    if lie.far > max(_CROOKED, 4.0 * lie.error):
-        remarks.append(
-            f"the tracks lie {lie}: {'put right' if calibrate else '--calibrate puts them right'}"
-        )
-    for _ in range(2 if calibrate else 0):
-        # the second time finds impacts that were too far from their cushions
-        recordings = [
-            replace(
-                shot,
-                tracks=tuple(
-                    np.column_stack([track[:, 0], lie.places(track[:, 1:])])
-                    for track in shot.tracks
-                ),
-            )
-            for shot in recordings
-        ]
-        lie = _recordings.lie_of(recordings, table, radius)
-    return recordings, notes, noise, remarks
-
-
-def _seek_again(
-    plays: _strikes.Plays, played: list[int], strikes: Doubles, rmse: Doubles, rough: float
-) -> None:
-    """Seeks strikes that may have stuck once more, by way of kicks."""
-    stuck = np.array(played)[rmse[played] > rough]
-    if len(stuck):
-        some = plays.some(np.searchsorted(played, stuck))
-        trial = _kicks.eased(some, strikes[stuck])
-        repeat = some.rmse(trial)
-        better = repeat < rmse[stuck]
-        strikes[stuck[better]], rmse[stuck[better]] = trial[better], repeat[better]
+_BREAK = 1.0  # s from the first motion: later rows of a break tell nothing of its strike
 
 
 def _told_by_events(
@@ -239,6 +196,25 @@ class _Job:
     def report(self, what: str, part: float) -> None:
         if self.progress:
             self.progress(what, part)
+
+
+def _strike(
+    job: _Job, played: list[int], values: dict[str, float]
+) -> tuple[_strikes.Plays, Doubles, Doubles]:
+    """The strikes of these shots with these constants, and their RMSE; those that may have stuck
+    are sought once more, by way of kicks.
+    """
+    plays = job.plays(played, values)
+    strikes, _ = _strikes.find(plays, job.seed, job.progress, squares=True)
+    rmse = plays.rmse(strikes)
+    stuck = np.flatnonzero(rmse > ROUGH * job.recordings[0].noise * math.sqrt(2.0))
+    if len(stuck):
+        some = plays.some(stuck)
+        trial = _kicks.eased(some, strikes[stuck])
+        repeat = some.rmse(trial)
+        better = repeat < rmse[stuck]
+        strikes[stuck[better]], rmse[stuck[better]] = trial[better], repeat[better]
+    return plays, strikes, rmse
 
 
 def _fit_to_events(
@@ -390,12 +366,16 @@ def fit(
     ValueError
         An argument is wrong: which, and what would be right.
     """
-    recordings, seed = list(recordings), seed_of(seed, 2**64 - 1)
-    if not recordings:
+    seed = seed_of(seed, 2**64 - 1)
+    if not len(recordings):
         raise ValueError("recordings: at least one shot is needed")
     ground = _constants.ground(table, radius, game)
     radius = ground.radius
-    recordings, notes, noise, remarks = _sound(recordings, ground.size, radius, train, calibrate)
+    examination = examine(recordings, ground.size, radius, train=train, calibrate=calibrate)
+    recordings, notes = examination.recordings, examination.mended
+    noise, remarks = examination.noise.value, examination.sentences
+    if train is not None:
+        train = [k for k, index in enumerate(examination.indices) if index in {*train}]
     recordings = [_strikes.until_pocketed(shot, ground.table) for shot in recordings]
     for k, shot in enumerate(recordings):
         if _strikes.is_break(shot):
@@ -433,14 +413,26 @@ def fit(
             progress,
             saved,
         )
+        start = dict(values)
         if free[0] in ("events", "default"):
             values, spread = _fit_to_events(job, fitted, values, remarks)
         if free[0] not in ("none", "events") and fitted:
             values, spread, names, covariance = _fit_to_shots(job, fitted, values, spread, remarks)
-        plays = job.plays(played, values)
-        strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
-        rmse[played] = plays.rmse(strikes[played])
-        _seek_again(plays, played, strikes, rmse, ROUGH * noise * math.sqrt(2.0))
+        plays, strikes[played], rmse[played] = _strike(job, played, values)
+        if values != start and fitted:
+            # constants that play the shots worse than those that were given are not taken
+            begun = _strike(job, played, start)
+            medians = [
+                float(np.median(rmses[np.isin(played, fitted)])) for rmses in (begun[2], rmse[played])
+            ]
+            if _WORSE * medians[0] < medians[1]:
+                plays, strikes[played], rmse[played] = begun
+                values, spread, names, covariance = start, {}, (), None
+                remarks.append(
+                    f"the constants that were found play the shots worse, to a median RMSE of "
+                    f"{1e3 * medians[1]:.2f} mm, than those that were given, {1e3 * medians[0]:.2f} mm: "
+                    f"these are kept"
+                )
         for k in played:
             if not np.isfinite(rmse[k]):
                 status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
@@ -466,9 +458,14 @@ def fit(
         ground.game,
     )
     if found.median_rmse > _MANY * noise:
+        causes = " and ".join(examination.causes)
         remarks.append(
-            f"the median RMSE is {found.median_rmse / noise / math.sqrt(2.0):.0f} times that of the noise: the constants or the "
-            f"models are off by more than the camera"
+            f"the median RMSE is {found.median_rmse / noise / math.sqrt(2.0):.0f} times that of the noise: "
+            + (
+                f"what is said of the {causes} comes first"
+                if causes
+                else "the constants or the models are off by more than the camera"
+            )
         )
     return found
 
@@ -514,6 +511,22 @@ _extents = _two_numbers(
     f"one of {', '.join(_constants.TABLES)}, or W,L, the extents of x and y in m, such as 2.84,1.42"
 )
 _place = _two_numbers("X,Y, a place in the unit of the file, such as 4.5,3")
+
+
+def _unit(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def _corners(text: str) -> list[tuple[float, float]]:
+    """Four places of an argument."""
+    try:
+        a, b, c, d, e, f, g, h = map(float, text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} must be eight numbers, X,Y of each") from None
+    return [(a, b), (c, d), (e, f), (g, h)]
 
 
 def _read_object(path: Path, such: str) -> dict[str, Any]:
@@ -568,7 +581,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "tracks",
         type=Path,
-        help="recorded tracks: a CSV with shot,ball,t,x,y, or JSON Lines; .xz and .gz too",
+        help="recorded tracks: a table with shot,ball,t,x,y or as trackers write it, or JSON Lines",
     )
     parser.add_argument(
         "--table",
@@ -582,17 +595,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--radius", type=float, metavar="R", help="of the balls, m; without: of those of the game"
     )
     parser.add_argument(
-        "--unit", type=float, default=1.0, metavar="M", help="unit of x and y, m: 0.0254 for inches"
+        "--unit",
+        type=_unit,
+        metavar="m|cm|mm|inches|px|M",
+        help="unit of x and y, or its length, m; without, by the titles of columns or the extents",
     )
     parser.add_argument(
         "--origin",
         type=_place,
-        default=(0.0, 0.0),
         metavar="X,Y",
         help="where the corner of the noses lies in the file, in its unit",
     )
     parser.add_argument(
-        "--rate", type=float, default=1.0, metavar="HZ", help="frames a second, if t counts frames"
+        "--rate", type=float, metavar="HZ", help="pictures a second, if t counts pictures"
+    )
+    parser.add_argument(
+        "--corners",
+        type=_corners,
+        metavar="X,Y,X,Y,X,Y,X,Y",
+        help="where the corners (0, 0), (W, 0), (W, L), (0, L) of the noses lie in pictures",
     )
     parser.add_argument(
         "--cushion-model", default="default", choices=_constants.CUSHIONS, help="as of carom shoot"
@@ -666,6 +687,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             unit=options.unit,
             origin=options.origin,
             rate=options.rate,
+            corners=options.corners,
         )
         found = fit(
             recordings,
