@@ -133,9 +133,7 @@ def _time_scale(recordings: Sequence[Recording]) -> float:
     return scale
 
 
-def _in_seconds(
-    recordings: list[Recording], findings: list[Finding]
-) -> list[Recording]:
+def _in_seconds(recordings: list[Recording], findings: list[Finding]) -> list[Recording]:
     """Recordings whose t counts pictures or milliseconds, in seconds."""
     t = np.concatenate([track[:, 0] for shot in recordings for track in shot.tracks])
     if len(t) < 40 or np.abs(t - np.round(t)).max() > 1e-6 or np.ptp(t) < 20.0:
@@ -227,9 +225,7 @@ def _by_film(recordings: list[Recording], findings: list[Finding]) -> list[Recor
     new, held = (
         sum(int(getattr(p, name).sum()) for p in pictures) for name in ("is_new", "is_held")
     )
-    steps = np.concatenate(
-        [np.diff(p.times)[p.is_new[1:] & p.is_new[:-1]] for p in pictures]
-    )
+    steps = np.concatenate([np.diff(p.times)[p.is_new[1:] & p.is_new[:-1]] for p in pictures])
     if new < 40:
         return recordings
     repeats = held > max(_HELD * new, 8)
