@@ -188,7 +188,11 @@
   X(smooth_q, 0.35)           \
   X(smooth_x, 1.3)            \
   X(smooth_t, 1.18)           \
-  X(smooth_a, 0.25) X(smooth_k, 0.0) X(smooth_g, 0.067) X(smooth_g_log, -0.059) X(smooth_e, 0.06)
+  X(smooth_a, 0.25)           \
+  X(smooth_k, 0.0)            \
+  X(smooth_g, 0.067)          \
+  X(smooth_g_log, -0.059)     \
+  X(smooth_e, 0.06)
 
 /* For the rows that are not wanted. */
 #define CAROM_NO_ROW(...)

@@ -234,6 +234,11 @@ def test_forecasts_hold_on_shots_with_known_constants(sample):
         inside.append(seen.covered())
     inside = np.mean(inside, axis=0)
     assert 0.6 < inside[0] < inside[1] <= 1.0 and inside[1] > 0.9
+    # where the laws of carom played, the models have no error, and a recording's noise is the fit's
+    assert known.model_error < 0.05
+    again = known.forecast(replace(shot, noise=2e-3), after=2.0, draws=60)
+    assert np.array_equal(again.regions(rows[:, 0])[1], radii)
+    assert len(again.later(moving=True)[0]) < len(rows) and (again.covered(moving=True) > 0.3).all()
     # what comes later changes nothing, and the seed everything
     shot = some[0]
     cut = [track[track[:, 0] <= shot.moves.min() + 2.0] for track in shot.tracks]

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import copy
+import functools
 import html
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -23,9 +24,11 @@ from carom.layouts import Table
 from carom.results import Shot
 from carom.shots import simulate
 from carom.tracks import _constants, _covariance, _joint, _kicks, _strikes
+from carom.tracks._design import Design, design
 from carom.tracks._events import events
 from carom.tracks._forecast import Forecast, forecast
 from carom.tracks._kicks import Kicks
+from carom.tracks._player import Player, player_of
 from carom.tracks._recordings import Recording
 
 _ROUGH_MOST = 8  # so many are told one by one
@@ -33,6 +36,8 @@ BANDS, _CONTACTS = (
     (0.68, 0.95),
     (0, 1, 2, 3, 4, 6, 8, 11),
 )  # shares of the samples, and contacts from which a row of bands holds
+# of `model_error`: the least share of a kick that a track tells, how many kicks tell it, and its least
+_KNOWN, _KICKS_LEAST, _ERROR_LEAST = 0.3, 20, 0.01
 _WIDTH, _HEIGHT, _LEFT, _BELOW, _ABOVE = 460.0, 300.0, 60.0, 45.0, 12.0  # of a chart, pixels
 _INK, _MARK, _LINE = "#333333", "#1f5fae", "#c0392b"
 _STYLE = (
@@ -79,6 +84,9 @@ class Fit:
         # noise
     ] = ()
     game: Game | None = None  # Whose constants stand for those that were not given
+    # Of each constant that whole shots were to tell: its 95 % interval by the profile of the cost;
+    # None where these shots do not tell it
+    intervals: dict[str, tuple[float, float] | None] = field(default_factory=dict)
 
     @property
     def ground(self) -> _constants.Ground:
@@ -203,6 +211,55 @@ class Fit:
         )
         moved = moved.reshape(count, -1, 2)
         return (*self._struck(i, strikes, moved, self.changed(changes)), strikes[:, 5])
+
+    def design(self, count: int = 3, *, seed: Seed = 0) -> list[Design]:
+        """Further shots to play and to film, each the one of 60 drawn ones that would tell the
+        constants best after those before it; as text they say what to play.
+
+        Raises
+        ------
+        ValueError
+            No constant was fitted by whole shots.
+        """
+        return design(self, _whole(count, "count", least=1), seed_of(seed))
+
+    def player(self, groups: Sequence[Sequence[int]] | None = None) -> Player:
+        """The errors of the player, by strokes that were meant alike, with intervals; as a rating,
+        and as the player of plans (`record`).
+
+        Parameters
+        ----------
+        groups : sequence of sequences of int, optional
+            The shots of each kind, from 0. Without: those whose balls lie within 30 mm and whose
+            strikes go within 6 degrees and 30 % of the speed of the first one's.
+
+        Raises
+        ------
+        ValueError
+            Too few strokes repeat others, or one has no strike.
+        """
+        return player_of(self, groups)
+
+    @functools.cached_property
+    def model_error(self) -> float:
+        """The errors of the models over those that recorded matches have, at most 1: by the kicks
+        of the shots that constants were fitted to, as far as their tracks tell them; 1 where fewer
+        than 20 kicks are told.
+        """
+        kicks = self.kicks().contacts
+        if self.train is not None:
+            kicks = kicks[np.array(self.train)[kicks["shot"]]]
+        scale = np.where((kicks["rail"] >= 0)[:, np.newaxis], _kicks.CUSHION, _kicks.BALLS)
+        size, error, share = kicks["kick"] / scale, kicks["error"] / scale, kicks["share"]
+        # a kick comes out too small by its share, and has the error of the noise besides
+        known = (share > _KNOWN) & (error < 1.0)
+        if known.sum() < _KICKS_LEAST:
+            return 1.0
+        square, told = np.where(known, size**2 - error**2, 0.0), np.where(known, share**2, 0.0)
+        # shot by shot, as one that misses an event has large kicks
+        shots = [kicks["shot"] == k for k in np.unique(kicks["shot"][known.any(axis=1)])]
+        each = [square[shot].sum() / told[shot].sum() for shot in shots]
+        return float(np.sqrt(np.clip(np.median(each), _ERROR_LEAST**2, 1.0)))
 
     def forecast(
         self, shot: int | Recording, *, after: float, draws: int = 200, seed: Seed = 0
@@ -402,6 +459,7 @@ class Fit:
         return {
             "constants": self.constants,
             "spread": self.spread,
+            "intervals": self.intervals,
             "covariance": None
             if self.covariance is None
             else {"constants": list(self.fitted), "matrix": self.covariance.tolist()},
@@ -609,12 +667,19 @@ def summary_lines(fit: Fit) -> list[str]:
 
 
 def told_forecasts(seen: Sequence[Forecast]) -> str:
-    """How many of the later places lie in the regions of forecasts."""
-    counts = [len(item.later()[0]) for item in seen]
-    inside = 100.0 * np.average([item.covered() for item in seen], axis=0, weights=counts)
+    """How many of the later places lie in the regions of forecasts: all, and those that tell a
+    motion.
+    """
+    told = []
+    for moving, places in ((False, "later places"), (True, "places of moving balls")):
+        counts = [len(item.later(moving=moving)[0]) for item in seen]
+        some = [item.covered(moving=moving) for item, count in zip(seen, counts) if count]
+        if some:
+            inside = 100.0 * np.average(some, axis=0, weights=[count for count in counts if count])
+            told.append(f"{inside[0]:.0f} and {inside[1]:.0f} % of {sum(counts)} {places}")
     return (
-        f"forecasts from the first {seen[0].after:g} s of {len(seen)} shots: {inside[0]:.0f} and "
-        f"{inside[1]:.0f} % of {sum(counts)} later places lie in the regions of 68 and 95 %"
+        f"forecasts from the first {seen[0].after:g} s of {len(seen)} shots: {', '.join(told)} "
+        "lie in the regions of 68 and 95 %"
     )
 
 

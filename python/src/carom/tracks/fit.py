@@ -18,7 +18,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, cast, get_args
+from typing import Any, NamedTuple, cast, get_args
 
 import numpy as np
 
@@ -28,10 +28,11 @@ from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
 from carom.layouts import GAMES
 from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
-from carom.tracks import _recordings, _strikes, _summary
-from carom.tracks import Recording, TrackError, events, read
+from carom.tracks import _strikes, _summary
+from carom.tracks import Recording, TrackError, events, examine, read
 from carom.tracks._forecast import ROUGH, Forecast, first_seconds
 from carom.tracks._kicks import Kicks, contact
+from carom.tracks._profile import light, profiles
 from carom.tracks._summary import Fit
 
 __all__ = ["Fit", "Kicks", "contact", "fit", "main"]
@@ -39,9 +40,10 @@ __dir__ = listing(__name__)
 
 Progress = Callable[[str, float], None]
 _FASTEST = 8.0  # m/s: no ball is faster
-_CROOKED = 8e-3  # m: tracks that are farther off are told
 _BREAK = 1.0  # s from the first motion: later rows of a break tell nothing of its strike
 _MANY = 5.0  # standard deviations of a coordinate: an RMSE above is not that of the noise
+_STARTS, _NAMED = 3, 8  # searches from better points of profiles; shots that are named
+_WORSE = 1.02  # times the median RMSE of the start, from which it is kept
 _LAW = {
     "law_a",
     "law_b",
@@ -146,50 +148,7 @@ class _Saved:
             self.path.unlink(missing_ok=True)
 
 
-def _sound(
-    recordings: list[Recording],
-    table: tuple[float, float],
-    radius: float,
-    train: Sequence[int] | None,
-    calibrate: bool,
-) -> tuple[list[Recording], list[list[str]], float, list[str]]:
-    """The recordings of a fit without what is wrong in them, what was mended in each, the noise, m,
-    and what is to be told.
-    """
-    noise = _recordings.noise_of(recordings if train is None else [recordings[k] for k in train])
-    recordings, notes = _recordings.sound(recordings, noise)
-    lie, remarks = _recordings.lie_of(recordings, table, radius), list[str]()
-    if lie.far > max(_CROOKED, 4.0 * lie.error):
-        remarks.append(
-            f"the tracks lie {lie}: {'put right' if calibrate else '--calibrate puts them right'}"
-        )
-    for _ in range(2 if calibrate else 0):
-        # the second time finds impacts that were too far from their cushions
-        recordings = [
-            replace(
-                shot,
-                tracks=tuple(
-                    np.column_stack([track[:, 0], lie.places(track[:, 1:])])
-                    for track in shot.tracks
-                ),
-            )
-            for shot in recordings
-        ]
-        lie = _recordings.lie_of(recordings, table, radius)
-    return recordings, notes, noise, remarks
-
-
-def _seek_again(
-    plays: _strikes.Plays, played: list[int], strikes: Doubles, rmse: Doubles, rough: float
-) -> None:
-    """Seeks strikes that may have stuck once more, by way of kicks."""
-    stuck = np.array(played)[rmse[played] > rough]
-    if len(stuck):
-        some = plays.some(np.searchsorted(played, stuck))
-        trial = _kicks.eased(some, strikes[stuck])
-        repeat = some.rmse(trial)
-        better = repeat < rmse[stuck]
-        strikes[stuck[better]], rmse[stuck[better]] = trial[better], repeat[better]
+_BREAK = 1.0  # s from the first motion: later rows of a break tell nothing of its strike
 
 
 def _told_by_events(
@@ -241,6 +200,25 @@ class _Job:
             self.progress(what, part)
 
 
+def _strike(
+    job: _Job, played: list[int], values: dict[str, float]
+) -> tuple[_strikes.Plays, Doubles, Doubles]:
+    """The strikes of these shots with these constants, and their RMSE; those that may have stuck
+    are sought once more, by way of kicks.
+    """
+    plays = job.plays(played, values)
+    strikes, _ = _strikes.find(plays, job.seed, job.progress, squares=True)
+    rmse = plays.rmse(strikes)
+    stuck = np.flatnonzero(rmse > ROUGH * job.recordings[0].noise * math.sqrt(2.0))
+    if len(stuck):
+        some = plays.some(stuck)
+        trial = _kicks.eased(some, strikes[stuck])
+        repeat = some.rmse(trial)
+        better = repeat < rmse[stuck]
+        strikes[stuck[better]], rmse[stuck[better]] = trial[better], repeat[better]
+    return plays, strikes, rmse
+
+
 def _fit_to_events(
     job: _Job, fitted: Sequence[int], values: dict[str, float], remarks: list[str]
 ) -> tuple[dict[str, float], dict[str, float]]:
@@ -283,16 +261,43 @@ def _search(job: _Job, first: _joint.Search) -> _joint.Search:
     return search
 
 
+class _Told(NamedTuple):
+    """What shots tell of the constants."""
+
+    values: dict[str, float]
+    spread: dict[str, float]  # their errors
+    names: tuple[str, ...] = ()  # of those that whole shots told
+    covariance: Doubles | None = None  # of these
+    intervals: Mapping[str, tuple[float, float] | None] = {}  # of 95 %, of these
+
+
+def _profiled(job: _Job, search: _joint.Search) -> dict[str, tuple[float, float] | None]:
+    """The intervals of the constants by their profiles; the search goes on from a point of these
+    that is better than where it ended.
+    """
+    for number in range(_STARTS):
+        found = profiles(search)
+        if found.best is None:
+            break
+        search.values, search.strikes = found.best
+        search.weigh()
+        for stage in (_joint.STAGES - 2, _joint.STAGES - 1):
+            job.report("constants", stage / (_joint.STAGES + 2))
+            work = functools.partial(search.stage, stage, job.seed + number + 1)
+            search.resume(job.saved.get(f"start {number}, constants {stage}", work))
+        finish = functools.partial(search.finish, job.seed, _joint.ROUNDS)
+        search.resume(job.saved.get(f"start {number}, end", finish))
+    return found.intervals
+
+
 def _fit_to_shots(
     job: _Job,
     fitted: Sequence[int],
     values: dict[str, float],
     spread: dict[str, float],
     remarks: list[str],
-) -> tuple[dict[str, float], dict[str, float], tuple[str, ...], Doubles | None]:
-    """The constants that these shots as a whole tell, the errors of all, and the names and the
-    covariance of those that were fitted.
-    """
+) -> _Told:
+    """The constants that these shots as a whole tell."""
     plays = job.plays(fitted, values)
     found = job.saved.get(
         "strikes", lambda: _strikes.find(plays, job.seed, job.progress)[0].tolist()
@@ -304,8 +309,16 @@ def _fit_to_shots(
         remarks.append(
             "half of the shots are off by centimetres: whole shots tell no constants, which stay as they were before"
         )
-        return values, spread, (), None
+        return _Told(values, spread)
 
+    intervals = _profiled(job, search)
+    shots = [(job.recordings[fitted[row]].id, weight) for row, weight in light(search)]
+    if shots:
+        remarks.append(
+            f"{len(shots)} of {len(fitted)} shots misfit and count less for the constants: "
+            + ", ".join(f"shot {shot} {100.0 * weight:.0f} %" for shot, weight in shots[:_NAMED])
+            + (" and others" if len(shots) > _NAMED else "")
+        )
     values, names = search.constants(search.values), tuple(search.names)
     evidence = {name: error for name, error in spread.items() if name not in job.priors}
     covariance = _covariance.of_constants(search, evidence)
@@ -317,7 +330,12 @@ def _fit_to_shots(
         for name in names
         if values[name] in _joint.prior(name)[1:]
     ]
-    return values, spread, names, covariance
+    if unknown := [name for name, interval in intervals.items() if interval is None]:
+        remarks.append(
+            f"not told by these shots: {', '.join(unknown)}, which could be anywhere that they are on "
+            f"other tables; more shots would tell them, such as those of --next"
+        )
+    return _Told(values, spread, names, covariance, intervals)
 
 
 def fit(
@@ -390,12 +408,16 @@ def fit(
     ValueError
         An argument is wrong: which, and what would be right.
     """
-    recordings, seed = list(recordings), seed_of(seed, 2**64 - 1)
-    if not recordings:
+    seed = seed_of(seed, 2**64 - 1)
+    if not len(recordings):
         raise ValueError("recordings: at least one shot is needed")
     ground = _constants.ground(table, radius, game)
     radius = ground.radius
-    recordings, notes, noise, remarks = _sound(recordings, ground.size, radius, train, calibrate)
+    examination = examine(recordings, ground.size, radius, train=train, calibrate=calibrate)
+    recordings, notes = examination.recordings, examination.mended
+    noise, remarks = examination.noise.value, examination.sentences
+    if train is not None:
+        train = [k for k, index in enumerate(examination.indices) if index in {*train}]
     recordings = [_strikes.until_pocketed(shot, ground.table) for shot in recordings]
     for k, shot in enumerate(recordings):
         if _strikes.is_break(shot):
@@ -410,9 +432,7 @@ def fit(
         table=ground.table,
     )
     _priors([] if free[0] in ("none", "events") else free, priors or {}, values)
-    spread: dict[str, float] = {}
-    names: tuple[str, ...] = ()
-    covariance: Doubles | None = None
+    told = _Told(values, {})
     status = [_status(shot, radius) for shot in recordings]
     played = [k for k, text in enumerate(status) if text != "no ball moves"]
     fitted = [k for k in played if status[k] == "ok" and (train is None or k in set(train))]
@@ -434,13 +454,25 @@ def fit(
             saved,
         )
         if free[0] in ("events", "default"):
-            values, spread = _fit_to_events(job, fitted, values, remarks)
+            told = _Told(*_fit_to_events(job, fitted, values, remarks))
         if free[0] not in ("none", "events") and fitted:
-            values, spread, names, covariance = _fit_to_shots(job, fitted, values, spread, remarks)
-        plays = job.plays(played, values)
-        strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
-        rmse[played] = plays.rmse(strikes[played])
-        _seek_again(plays, played, strikes, rmse, ROUGH * noise * math.sqrt(2.0))
+            told = _fit_to_shots(job, fitted, told.values, told.spread, remarks)
+        plays, strikes[played], rmse[played] = _strike(job, played, told.values)
+        if told.values != values and fitted:
+            # constants that play the shots worse than those that were given are not taken
+            begun = _strike(job, played, values)
+            medians = [
+                float(np.median(rmses[np.isin(played, fitted)]))
+                for rmses in (begun[2], rmse[played])
+            ]
+            if _WORSE * medians[0] < medians[1]:
+                plays, strikes[played], rmse[played] = begun
+                told = _Told(values, {})
+                remarks.append(
+                    f"the constants that were found play the shots worse, to a median RMSE of "
+                    f"{1e3 * medians[1]:.2f} mm, than those that were given, {1e3 * medians[0]:.2f} mm: "
+                    f"these are kept"
+                )
         for k in played:
             if not np.isfinite(rmse[k]):
                 status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
@@ -454,21 +486,27 @@ def fit(
         table,
         radius,
         cushion_model,
-        values,
-        spread,
+        told.values,
+        told.spread,
         strikes,
         status,
         rmse,
         part,
-        names,
-        covariance,
+        told.names,
+        told.covariance,
         remarks,
         ground.game,
+        dict(told.intervals),
     )
     if found.median_rmse > _MANY * noise:
+        causes = " and ".join(examination.causes)
         remarks.append(
-            f"the median RMSE is {found.median_rmse / noise / math.sqrt(2.0):.0f} times that of the noise: the constants or the "
-            f"models are off by more than the camera"
+            f"the median RMSE is {found.median_rmse / noise / math.sqrt(2.0):.0f} times that of the noise: "
+            + (
+                f"what is said of the {causes} comes first"
+                if causes
+                else "the constants or the models are off by more than the camera"
+            )
         )
     return found
 
@@ -514,6 +552,22 @@ _extents = _two_numbers(
     f"one of {', '.join(_constants.TABLES)}, or W,L, the extents of x and y in m, such as 2.84,1.42"
 )
 _place = _two_numbers("X,Y, a place in the unit of the file, such as 4.5,3")
+
+
+def _unit(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def _corners(text: str) -> list[tuple[float, float]]:
+    """Four places of an argument."""
+    try:
+        a, b, c, d, e, f, g, h = map(float, text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} must be eight numbers, X,Y of each") from None
+    return [(a, b), (c, d), (e, f), (g, h)]
 
 
 def _read_object(path: Path, such: str) -> dict[str, Any]:
@@ -568,7 +622,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "tracks",
         type=Path,
-        help="recorded tracks: a CSV with shot,ball,t,x,y, or JSON Lines; .xz and .gz too",
+        help="recorded tracks: a table with shot,ball,t,x,y or as trackers write it, or JSON Lines",
     )
     parser.add_argument(
         "--table",
@@ -582,17 +636,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--radius", type=float, metavar="R", help="of the balls, m; without: of those of the game"
     )
     parser.add_argument(
-        "--unit", type=float, default=1.0, metavar="M", help="unit of x and y, m: 0.0254 for inches"
+        "--unit",
+        type=_unit,
+        metavar="m|cm|mm|inches|px|M",
+        help="unit of x and y, or its length, m; without, by the titles of columns or the extents",
     )
     parser.add_argument(
         "--origin",
         type=_place,
-        default=(0.0, 0.0),
         metavar="X,Y",
         help="where the corner of the noses lies in the file, in its unit",
     )
     parser.add_argument(
-        "--rate", type=float, default=1.0, metavar="HZ", help="frames a second, if t counts frames"
+        "--rate", type=float, metavar="HZ", help="pictures a second, if t counts pictures"
+    )
+    parser.add_argument(
+        "--corners",
+        type=_corners,
+        metavar="X,Y,X,Y,X,Y,X,Y",
+        help="where the corners (0, 0), (W, 0), (W, L), (0, L) of the noses lie in pictures",
     )
     parser.add_argument(
         "--cushion-model", default="default", choices=_constants.CUSHIONS, help="as of carom shoot"
@@ -635,6 +697,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--kicks", action="store_true", help="tell what the models get wrong at each contact"
     )
     parser.add_argument(
+        "--next",
+        type=int,
+        default=0,
+        metavar="N",
+        help="the N shots that would tell the constants best, to play and to film next",
+    )
+    parser.add_argument(
+        "--player",
+        action="store_true",
+        help="the player's errors and rating, by strokes that were meant alike",
+    )
+    parser.add_argument(
         "--forecast",
         type=float,
         metavar="T",
@@ -661,6 +735,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             unit=options.unit,
             origin=options.origin,
             rate=options.rate,
+            corners=options.corners,
         )
         found = fit(
             recordings,
@@ -688,6 +763,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 _summary.page(found, options.tracks.name, kicks, seen), encoding="utf-8"
             )
         written = found.to_dict(kicks)
+        further = found.design(options.next, seed=options.seed) if options.next else []
+        player = found.player() if options.player else None
+        if player is not None:
+            written["player"] = player.to_dict()
         if options.forecast:
             written["forecasts"] = [forecast.to_dict() for forecast in seen]
         options.output.write_text(json.dumps(written, indent=1) + "\n", encoding="utf-8")
@@ -710,6 +789,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
             f"of their samples, with strikes fitted to whole shots, {within[0]:.0f} and {within[1]:.0f} % "
             "are within the residuals of 68 and 95 % of the shots that were fitted"
         )
+    for name, interval in found.intervals.items():
+        if interval is not None:
+            print(f"{name} {found.constants[name]:.4g} ({interval[0]:.4g} to {interval[1]:.4g})")
+    for number, shot in enumerate(further, 1):
+        print(f"next {number}: {shot}")
+    if player is not None:
+        print(player)
     if seen:
         print(_summary.told_forecasts(seen))
     print("\n".join(_summary.summary_lines(found)))
