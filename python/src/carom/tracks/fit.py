@@ -148,9 +148,6 @@ class _Saved:
             self.path.unlink(missing_ok=True)
 
 
-_BREAK = 1.0  # s from the first motion: later rows of a break tell nothing of its strike
-
-
 def _told_by_events(
     values: dict[str, float],
     remarks: list[str],
