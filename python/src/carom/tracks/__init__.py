@@ -55,6 +55,7 @@ __all__ = [
 ]
 __dir__ = listing(__name__)
 
+
 @dataclass(frozen=True, eq=False)
 class Synthetic:
     """Recordings of played shots, and the truth about them."""

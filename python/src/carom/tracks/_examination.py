@@ -35,7 +35,8 @@ from carom.tracks._recordings import (
 
 _RATES = (25.0, 30.0, 24.0, 50.0, 60.0, 100.0, 120.0, 240.0, 23.976, 29.97, 48.0, 59.94)  # 1/s
 _SLIDING = 1.95  # m/s^2: mu_slide g of most cloths, 0.17 to 0.22 times g
-_ROWS = 7  # that tell how a ball slides, of 25 pictures a second
+_ROWS = (7, 14, 28, 56)  # that tell how a ball slides, of 25 to 240 pictures a second
+_SLIDES = 0.18  # s: it slides so long
 _CLOCK = 1.18  # a clock that is wrong by less is no other than a cloth that is unlike most
 _HELD = 0.03  # share of repeated pictures among those of moving balls, above chance
 _SMOOTHER = 0.6  # of the scatter that a right clock leaves, at most
@@ -110,37 +111,44 @@ def _slowing(recordings: Sequence[Recording], rows: int) -> Doubles:
             t = first[:, 0] - first[0, 0]
             if t[-1] > 1.3 * rows * np.diff(t).min():
                 continue
-            a, v = np.polyfit(t, first[:, 1:], 2)[:2]
+            coefficients = np.polyfit(t, first[:, 1:], 2)
+            a, v = coefficients[:2]
+            left = np.vander(t, 3) @ coefficients - first[:, 1:]
             speed = float(np.hypot(*v))
             end = float(np.hypot(*(v + 2.0 * a * t[-1])))
+            slowing = -2.0 * float(a @ v) / speed
+            error = math.sqrt(720.0 / rows * float((left**2).mean())) / float(t[-1]) ** 2
             # a ball that rolls has lost two sevenths of its speed
-            if 0.02 * speed < speed - end < 0.29 * speed:
-                found.append(-2.0 * float(a @ v) / speed)
+            if 0.02 * speed < speed - end < 0.29 * speed and error < 0.1 * slowing:
+                found.append(slowing)
     return np.array(found)
 
 
-def _time_scale(recordings: Sequence[Recording]) -> float:
-    """How many units of t a second has, by sliding; NaN where fewer than four balls tell."""
-    scale, rows = math.nan, _ROWS
-    for _ in range(3):
-        slowing = _slowing(recordings, rows)
-        if len(slowing) < 4:
-            break
-        scale = math.sqrt(_SLIDING / float(np.quantile(slowing, 0.7)))
-        steps = [np.diff(track[:, 0]) for shot in recordings for track in shot.tracks]
-        rate = scale / float(np.median(np.concatenate(steps)))
-        rows = int(np.clip(_ROWS * rate / 25.0, _ROWS, 80))
-    return scale
+def _time_scale(recordings: Sequence[Recording], least: int) -> float:
+    """How many units of t a second has, by sliding; NaN where fewer balls than `least` tell."""
+    steps = [np.diff(track[:, 0]) for shot in recordings for track in shot.tracks]
+    picture = float(np.median(np.concatenate(steps)))
+    for rows in _ROWS:
+        slowing = np.sort(_slowing(recordings, rows))
+        half = len(slowing) // 2 + 1
+        if len(slowing) < least:
+            continue
+        # the half that lies closest together slides alone; of others some hit or roll meanwhile
+        widths = slowing[half - 1 :] - slowing[: len(slowing) - half + 1]
+        first = int(np.argmin(widths))
+        middle = float(slowing[first : first + half].mean())
+        scale = math.sqrt(_SLIDING / middle)
+        if widths[first] < 0.4 * middle and rows * picture > _SLIDES * scale:
+            return scale
+    return math.nan
 
 
-def _in_seconds(
-    recordings: list[Recording], findings: list[Finding]
-) -> list[Recording]:
+def _in_seconds(recordings: list[Recording], findings: list[Finding]) -> list[Recording]:
     """Recordings whose t counts pictures or milliseconds, in seconds."""
     t = np.concatenate([track[:, 0] for shot in recordings for track in shot.tracks])
     if len(t) < 40 or np.abs(t - np.round(t)).max() > 1e-6 or np.ptp(t) < 20.0:
         return recordings
-    scale = _time_scale(recordings)
+    scale = _time_scale(recordings, 4)
     units = np.array([*_RATES[:8], 1000.0])
     unit = float(units[np.argmin(np.abs(np.log(units / scale)))])
     if not abs(math.log(unit / scale)) < math.log(_CLOCK):
@@ -175,7 +183,8 @@ class _Pictures:
     is_held: NDArray[np.bool_]
 
 
-def _pictures(shot: Recording) -> _Pictures:
+def _pictures(shot: Recording, least: float = _MOVES) -> _Pictures:
+    """The pictures of a shot, in which a ball is new that moved by more than `least`, m."""
     times = np.unique(np.concatenate([track[:, 0] for track in shot.tracks]))
     is_new, is_repeated = np.zeros(len(times), np.bool_), np.zeros(len(times), np.bool_)
     for track in shot.tracks:
@@ -187,8 +196,8 @@ def _pictures(shot: Recording) -> _Pictures:
         windows = np.lib.stride_tricks.sliding_window_view(padded, 3)
         way = np.minimum(windows[: len(steps)].max(axis=1), windows[4:].max(axis=1))
         rows = np.searchsorted(times, track[1:, 0])
-        is_new[rows[steps > np.maximum(0.05 * way, _MOVES)]] = True
-        is_repeated[rows[(way > _MOVES) & (steps <= 0.05 * way)]] = True
+        is_new[rows[steps > np.maximum(0.05 * way, least)]] = True
+        is_repeated[rows[(way > 4.0 * _MOVES) & (steps <= 0.05 * way)]] = True
     return _Pictures(times, is_new, is_repeated & ~is_new)
 
 
@@ -227,15 +236,17 @@ def _by_film(recordings: list[Recording], findings: list[Finding]) -> list[Recor
     new, held = (
         sum(int(getattr(p, name).sum()) for p in pictures) for name in ("is_new", "is_held")
     )
-    steps = np.concatenate(
-        [np.diff(p.times)[p.is_new[1:] & p.is_new[:-1]] for p in pictures]
-    )
+    steps = np.concatenate([np.diff(p.times)[p.is_new[1:] & p.is_new[:-1]] for p in pictures])
     if new < 40:
         return recordings
     repeats = held > max(_HELD * new, 8)
     uneven = len(steps) > 0 and np.mean(np.abs(steps / np.median(steps) - 1.0) > 0.15) > 0.08
     if not repeats and not uneven:
         return recordings
+    # where repeated pictures are the same to a hair, those of slow balls are known, too
+    exact = [_pictures(shot, 1e-9) for shot in recordings]
+    if repeats and sum(int(p.is_held.sum()) for p in exact) > 0.9 * held:
+        pictures = exact
     # the rate of the file, and below it that whose ways are the smoothest
     fastest = 1.0 / float(np.quantile(np.concatenate([np.diff(p.times) for p in pictures]), 0.02))
     before, best = moving_scatter(recordings), None
@@ -580,7 +591,7 @@ def examine(
     shots, indices = _on_table(list(recordings), table, radius, findings)
     told_by = None if train is None else [k for k, index in enumerate(indices) if index in {*train}]
     shots = _by_film(_in_seconds(shots, findings), findings)
-    scale = _time_scale(shots)
+    scale = _time_scale(shots, 8)
     if not any(finding.kind == "clock" for finding in findings) and (
         abs(math.log(scale)) > math.log(_CLOCK)
     ):

@@ -305,9 +305,15 @@ def _json_rows(path: Path, text: str, notes: _Notes) -> Iterator[_Row]:
         try:
             shot = json.loads(line)
         except json.JSONDecodeError as error:
-            notes.leave_out("no JSON; each line must be one object", f"{place}, column {error.colno}")
+            notes.leave_out(
+                "no JSON; each line must be one object", f"{place}, column {error.colno}"
+            )
             continue
-        if not isinstance(shot, dict) or not isinstance(shot.get("tracks"), dict) or "id" not in shot:
+        if (
+            not isinstance(shot, dict)
+            or not isinstance(shot.get("tracks"), dict)
+            or "id" not in shot
+        ):
             notes.leave_out(
                 'each line must be {"id": ..., "tracks": {"ball": [[t, x, y], ...], ...}}', place
             )

@@ -423,7 +423,10 @@ class Lie:
         return np.asarray(q * (self.bend[0] * (q * q).sum(axis=-1) + q @ self.bend[1:])[..., None])
 
     def __str__(self) -> str:
-        bent = f", bent by up to {1e3 * self.bent:.1f} mm," if self.bent else ""
+        reach = math.hypot(*self.middle)
+        is_lens = abs(self.bend[0]) * reach > math.hypot(*self.bend[1:])
+        cause = "a lens" if is_lens else "a camera that looks askew"
+        bent = f", bent by up to {1e3 * self.bent:.1f} mm as by {cause}," if self.bent else ""
         return (
             f"turned by {self.angle:.2f} degrees, {self.scale:.4f} times as large as the table{bent} and moved by "
             f"{1e3 * self.shift[0]:.1f}, {1e3 * self.shift[1]:.1f} mm"

@@ -405,7 +405,8 @@ def fit(
             # constants that play the shots worse than those that were given are not taken
             begun = _strike(job, played, start)
             medians = [
-                float(np.median(rmses[np.isin(played, fitted)])) for rmses in (begun[2], rmse[played])
+                float(np.median(rmses[np.isin(played, fitted)]))
+                for rmses in (begun[2], rmse[played])
             ]
             if _WORSE * medians[0] < medians[1]:
                 plays, strikes[played], rmse[played] = begun
