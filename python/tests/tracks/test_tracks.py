@@ -14,9 +14,25 @@ from carom import simulate, tracks
 from carom.tracks import _constants, fit
 
 TABLE, RADIUS = (2.84, 1.42), 0.03075
-# most tests play the cushion of Han, whose constants differ from the usual ones of the game
-synthetic = functools.partial(tracks.synthetic, cushion_model="han")
-fitted = functools.partial(fit.fit, table=TABLE, radius=RADIUS, cushion_model="han")
+# most tests play the cushion of Han, with cloth and balls unlike those of the game
+CLOTH = {"mu_slide": 2.02 / 9.81, "mu_roll": 0.0418 / 9.81, "drag": 0.0129, "mu_spin": 0.004}
+BALLS = {"restitution": 0.951, "law_a": 0.0448, "law_b": 0.486, "law_c": 1.088}
+
+
+def _on_a_cloth(call, **usual):
+    """A call whose constants are these where none are given; those of Han's cushion alone."""
+
+    @functools.wraps(call)
+    def played(first, *, constants=(), cushion_model="han", **how):
+        base = {**CLOTH, **BALLS} if cushion_model == "han" else {}
+        constants = {**base, **dict(constants)}
+        return call(first, constants=constants, cushion_model=cushion_model, **{**usual, **how})
+
+    return played
+
+
+synthetic = _on_a_cloth(tracks.synthetic)
+fitted = _on_a_cloth(fit.fit, table=TABLE, radius=RADIUS)
 
 
 def struck(sample, recordings=None, **how):
@@ -124,7 +140,7 @@ def test_the_struck_ball_is_told_from_one_that_it_touches_at_once():
     the struck one.
     """
     random, wrong = np.random.default_rng(5), 0
-    values = _constants.complete({}, "han")
+    values = _constants.usual("han")
     world = _constants.rectangle(TABLE, values["nose_height"])
     for gap, rate, noise in (
         (0.002, 50.0, 0.35e-3),

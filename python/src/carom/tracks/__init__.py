@@ -116,7 +116,7 @@ def synthetic(
     """
     whole(shots, "shots")
     random = np.random.default_rng(seed_of(seed, 2**64 - 1))
-    values = _constants.complete({} if constants is None else constants, cushion_model)
+    values, model = _constants.complete({} if constants is None else constants, cushion_model)
     radius, noise, rate, thin = (
         number(radius, "radius"),
         number(noise, "noise"),
@@ -167,7 +167,7 @@ def synthetic(
         # the shot, its clock beginning at the strike
         balls = _constants.layout(centres, radius, values)
         balls["state"]["v"][0, :2], balls["state"]["w"][0] = strike[:2], strike[2:5] / radius
-        shot = simulate(world, balls, cushion_model=cushion_model)
+        shot = simulate(world, balls, cushion_model=model)
         tracks = _record(
             lambda times, shot=shot, start=start: shot.positions(np.maximum(times - start, 0.0))[
                 ..., :2

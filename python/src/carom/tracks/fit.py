@@ -1,8 +1,8 @@
 """Fitting carom to recorded shots: each shot's strike, and the constants of a table.
 
-    python -m carom.fit TRACKS.csv --table 2.84,1.42 --radius 0.03075 -o fit.json
+    python -m carom.fit TRACKS.csv --table snooker -o fit.json
 
-or, in Python, `carom.fit.fit(carom.tracks.read("TRACKS.csv"), (2.84, 1.42), 0.03075)`.
+or, in Python, `carom.fit.fit(carom.tracks.read("TRACKS.csv"), "snooker")`.
 docs/using/fit.md explains the method and what the numbers mean.
 """
 
@@ -18,10 +18,11 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, cast, get_args
 
 import numpy as np
 
+from carom._described import BallFriction, Game
 from carom._rows import Seed, listing, seed_of
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
@@ -29,7 +30,7 @@ from carom.layouts import GAMES
 from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
 from carom.tracks import _strikes, _summary
 from carom.tracks import Recording, TrackError, events, examine, read
-from carom.tracks._forecast import ROUGH, Forecast
+from carom.tracks._forecast import ROUGH, Forecast, first_seconds
 from carom.tracks._kicks import Kicks, contact
 from carom.tracks._summary import Fit
 
@@ -38,6 +39,7 @@ __dir__ = listing(__name__)
 
 Progress = Callable[[str, float], None]
 _FASTEST = 8.0  # m/s: no ball is faster
+_BREAK = 1.0  # s from the first motion: later rows of a break tell nothing of its strike
 _MANY = 5.0  # standard deviations of a coordinate: an RMSE above is not that of the noise
 _WORSE = 1.02  # times the median RMSE of the start, from which it is kept
 _LAW = {
@@ -73,17 +75,13 @@ def _priors(
     free: Sequence[str],
     priors: Mapping[str, tuple[float, float]],
     values: Mapping[str, float],
-    cushion_model: ShotCushion,
 ) -> dict[str, tuple[float, float]]:
     """Mean and deviation of each constant that whole shots are to tell."""
-    # a change with the speed is not sought where the usual cushion has none, nor a height where it
-    # has no friction
-    usual, some = (
-        _constants.usual(cushion_model),
-        ("mu_cushion", "roll_loss", "restitution_log", "mu_log"),
-    )
-    left_out = {name for name in some if not usual[name]} | (
-        {"nose_height"} if not usual["mu_cushion"] else set()
+    # a change with the speed is not sought where the cushion begins without one, nor a height where
+    # it has no friction
+    some = ("mu_cushion", "roll_loss", "restitution_log", "mu_log")
+    left_out = {name for name in some if not values[name]} | (
+        {"nose_height"} if not values["mu_cushion"] else set()
     )
     wider = _joint.TABLE if list(free) == ["table"] else {}
     usually = [name for name in wider or _joint.PRIORS if name not in left_out]
@@ -148,14 +146,7 @@ class _Saved:
             self.path.unlink(missing_ok=True)
 
 
-def _check_counts(recordings: Sequence[Recording]) -> None:
-    counts = {len(shot.balls) for shot in recordings}
-    if len(counts) > 1:
-        odd = next(shot for shot in recordings if len(shot.balls) != len(recordings[0].balls))
-        raise ValueError(
-            f"recordings: shot {odd.id} has {len(odd.balls)} balls, shot {recordings[0].id} {len(recordings[0].balls)}; "
-            f"all shots must have the same number"
-        )
+_BREAK = 1.0  # s from the first motion: later rows of a break tell nothing of its strike
 
 
 def _told_by_events(
@@ -185,7 +176,7 @@ class _Job:
     """What is asked of a fit, and what it keeps of its work."""
 
     recordings: list[Recording]
-    table: tuple[float, float]
+    table: str | tuple[float, float]
     radius: float
     cushion_model: ShotCushion
     free: list[str]
@@ -234,7 +225,14 @@ def _fit_to_events(
     shots = [job.recordings[k] for k in fitted]
 
     def measured() -> Any:
-        found = events(shots, job.table, job.radius)
+        ground = _constants.ground(job.table, job.radius)
+        found = events(shots, ground.size, job.radius)
+        # near a pocket a ball may have met a jaw, a facing or the hole
+        gaps = found.impacts["r"][:, None] - ground.table.pockets["centre"]
+        near = np.hypot(gaps[..., 0], gaps[..., 1]) < (
+            ground.table.pockets["radius"] + 3.0 * job.radius
+        )
+        found = replace(found, impacts=found.impacts[~near.any(axis=1)])
         return _from_events.measured(found, job.radius, job.cushion_model, job.seed, values)
 
     return _told_by_events(values, remarks, *job.saved.get("events", measured))
@@ -275,7 +273,7 @@ def _fit_to_shots(
     found = job.saved.get(
         "strikes", lambda: _strikes.find(plays, job.seed, job.progress)[0].tolist()
     )
-    expected = _priors(job.free, job.priors, values, job.cushion_model)
+    expected = _priors(job.free, job.priors, values)
     search = _search(job, _joint.Search(plays, np.array(found), range(len(fitted)), expected))
     job.report("spread", _joint.STAGES / (_joint.STAGES + 2))
     if search.middle >= _joint.MOST:
@@ -300,10 +298,12 @@ def _fit_to_shots(
 
 def fit(
     recordings: Sequence[Recording],
-    table: tuple[float, float],
-    radius: float,
+    table: str | tuple[float, float],
+    radius: float | None = None,
     *,
-    cushion_model: ShotCushion = "smooth",
+    game: Game | None = None,
+    cushion_model: ShotCushion = "default",
+    friction: BallFriction = "alciatore",
     constants: Mapping[str, float] | Records | np.void | None = None,
     free: str | Sequence[str] = "default",
     priors: Mapping[str, tuple[float, float]] | None = None,
@@ -319,14 +319,20 @@ def fit(
     Parameters
     ----------
     recordings : sequence of Recording
-        From `carom.tracks.read`, all of the same number of balls.
-    table, radius
-        Extents (float, float) of x and y, and the radius of the balls, m.
-    cushion_model : str
-        A model with which a fit can begin: `python -m carom.fit --help` lists them.
+        From `carom.tracks.read`. Shots may have different numbers of balls, and a track may end
+        before the shot does: where its ball falls into a pocket, its later rows do not count.
+    table : str or (float, float)
+        The word of a table with its pockets and facings, such as "9ft" or "snooker", x along its
+        width and y along its length; or the extents of x and y of one without pockets, m.
+    radius : float, optional
+        Of the balls, m. Without: that of the game's balls.
+    game : str, optional
+        Whose constants stand for those that are not given. Without: that of the table, and
+        "billiard" for extents.
+    cushion_model, friction : str
+        As in `carom.simulate`.
     constants : mapping or `carom.dtypes.ball_kind`, optional
-        Known constants. Those of game="billiard" stand for those that are not given: a film of
-        pool needs `carom.balls([[0, 0]])["kind"][0]`.
+        Known constants.
     free : "none", "events", "table", "default", or names of constants
         What is fitted besides each shot's strike. "none": nothing. "events": the constants that
         single events tell: mu_slide, mu_roll, drag, restitution, and those of the cushion. What too
@@ -363,15 +369,27 @@ def fit(
     seed = seed_of(seed, 2**64 - 1)
     if not len(recordings):
         raise ValueError("recordings: at least one shot is needed")
-    examination = examine(recordings, table, radius, train=train, calibrate=calibrate)
+    ground = _constants.ground(table, radius, game)
+    radius = ground.radius
+    examination = examine(recordings, ground.size, radius, train=train, calibrate=calibrate)
     recordings, notes = examination.recordings, examination.mended
     noise, remarks = examination.noise.value, examination.sentences
     if train is not None:
         train = [k for k, index in enumerate(examination.indices) if index in {*train}]
-    _check_counts(recordings)
+    recordings = [_strikes.until_pocketed(shot, ground.table) for shot in recordings]
+    for k, shot in enumerate(recordings):
+        if _strikes.is_break(shot):
+            recordings[k] = first_seconds(shot, _BREAK)
+            notes[k].append(f"a break, of which the first {_BREAK:g} s count")
     free = [free] if isinstance(free, str) else list(free)
-    values = _constants.complete({} if constants is None else constants, cushion_model)
-    _priors([] if free[0] in ("none", "events") else free, priors or {}, values, cushion_model)
+    values, cushion_model = _constants.complete(
+        {} if constants is None else constants,
+        cushion_model,
+        game=ground.game,
+        friction=friction,
+        table=ground.table,
+    )
+    _priors([] if free[0] in ("none", "events") else free, priors or {}, values)
     spread: dict[str, float] = {}
     names: tuple[str, ...] = ()
     covariance: Doubles | None = None
@@ -438,6 +456,7 @@ def fit(
         names,
         covariance,
         remarks,
+        ground.game,
     )
     if found.median_rmse > _MANY * noise:
         causes = " and ".join(examination.causes)
@@ -489,7 +508,9 @@ def _two_numbers(form: str) -> Callable[[str], tuple[float, float]]:
     return read
 
 
-_extents = _two_numbers("W,L, the extents of x and y in m, such as 2.84,1.42")
+_extents = _two_numbers(
+    f"one of {', '.join(_constants.TABLES)}, or W,L, the extents of x and y in m, such as 2.84,1.42"
+)
 _place = _two_numbers("X,Y, a place in the unit of the file, such as 4.5,3")
 
 
@@ -564,9 +585,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         help="recorded tracks: a table with shot,ball,t,x,y or as trackers write it, or JSON Lines",
     )
     parser.add_argument(
-        "--table", type=_extents, required=True, metavar="W,L", help="extents of x and y, m"
+        "--table",
+        type=lambda text: text if text in _constants.TABLES else _extents(text),
+        required=True,
+        metavar="TABLE|W,L",
+        help=f"{', '.join(_constants.TABLES)}, x along the width; or the extents of x and y, m, of "
+        "a table without pockets",
     )
-    parser.add_argument("--radius", type=float, required=True, metavar="R", help="of the balls, m")
+    parser.add_argument(
+        "--radius", type=float, metavar="R", help="of the balls, m; without: of those of the game"
+    )
     parser.add_argument(
         "--unit",
         type=_unit,
@@ -588,18 +616,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
         metavar="X,Y,X,Y,X,Y,X,Y",
         help="where the corners (0, 0), (W, 0), (W, L), (0, L) of the noses lie in pictures",
     )
-    parser.add_argument("--cushion-model", default="smooth", choices=list(_constants.STARTS))
+    parser.add_argument(
+        "--cushion-model", default="default", choices=_constants.CUSHIONS, help="as of carom shoot"
+    )
+    parser.add_argument(
+        "--friction", default="alciatore", choices=get_args(BallFriction), help="as of carom shoot"
+    )
     parser.add_argument(
         "--game",
-        default="billiard",
         choices=list(GAMES),
-        help="whose usual constants the fit begins with, such as pool",
+        help="whose constants the fit begins with; without: that of the table, or billiard",
     )
     parser.add_argument(
         "--constants",
         type=Path,
         metavar="IN.json",
-        help="known constants; those of --game otherwise",
+        help="known constants; those of the game otherwise",
     )
     parser.add_argument(
         "--free",
@@ -625,6 +657,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--kicks", action="store_true", help="tell what the models get wrong at each contact"
     )
     parser.add_argument(
+        "--player",
+        action="store_true",
+        help="the player's errors and rating, by strokes that were meant alike",
+    )
+    parser.add_argument(
         "--forecast",
         type=float,
         metavar="T",
@@ -643,12 +680,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
             _read_object(options.constants, '{"mu_slide": 0.2}') if options.constants else {}
         )
         _constants.complete(constants, options.cushion_model, str(options.constants))
-        if options.game != "billiard":
-            constants = {**_constants.of_game(options.game), **constants}
+        ground = _constants.ground(options.table, options.radius, options.game)
         recordings = read(
             options.tracks,
-            table=options.table,
-            radius=options.radius,
+            table=ground.size,
+            radius=ground.radius,
             unit=options.unit,
             origin=options.origin,
             rate=options.rate,
@@ -658,7 +694,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             recordings,
             options.table,
             options.radius,
+            game=options.game,
             cushion_model=options.cushion_model,
+            friction=options.friction,
             constants=constants,
             free=options.free,
             priors=_read_object(options.priors, '{"mu_spin": [0.004, 0.001]}')
@@ -678,6 +716,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 _summary.page(found, options.tracks.name, kicks, seen), encoding="utf-8"
             )
         written = found.to_dict(kicks)
+        player = found.player() if options.player else None
+        if player is not None:
+            written["player"] = player.to_dict()
         if options.forecast:
             written["forecasts"] = [forecast.to_dict() for forecast in seen]
         options.output.write_text(json.dumps(written, indent=1) + "\n", encoding="utf-8")
@@ -700,6 +741,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             f"of their samples, with strikes fitted to whole shots, {within[0]:.0f} and {within[1]:.0f} % "
             "are within the residuals of 68 and 95 % of the shots that were fitted"
         )
+    if player is not None:
+        print(player)
     if seen:
         print(_summary.told_forecasts(seen))
     print("\n".join(_summary.summary_lines(found)))
