@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dtypes import Doubles
+from carom.tracks import _constants
 from carom.tracks._recordings import (
     Noise,
     Recording,
@@ -289,12 +290,10 @@ def _by_film(recordings: list[Recording], findings: list[Finding]) -> list[Recor
 
 
 def _on_table(
-    recordings: list[Recording],
-    table: tuple[float, float],
-    radius: float,
-    findings: list[Finding],
+    recordings: list[Recording], ground: _constants.Ground, findings: list[Finding]
 ) -> tuple[list[Recording], list[int]]:
     """Recordings without the rows whose places are off the table, and their indices."""
+    table, radius, pockets = ground.size, ground.radius, ground.table.pockets["centre"]
     places = np.concatenate([track[:, 1:] for shot in recordings for track in shot.tracks])
     low, high = radius, np.array(table) - radius
     extents = (
@@ -302,7 +301,7 @@ def _on_table(
         f"be {low:g} to {high[0]:g} and {high[1]:g} m"
     )
     is_exchanged = exchanged(places, table, radius)
-    if is_exchanged or is_inside(places, table, radius).mean() < 0.5:
+    if is_exchanged or is_inside(places, table, radius, pockets).mean() < 0.5:
         raise TrackError(
             f"table: {extents}, and most are not: "
             + (
@@ -313,7 +312,7 @@ def _on_table(
         )
     found, indices = [], []
     for index, shot in enumerate(recordings):
-        inside = [is_inside(track[:, 1:], table, radius) for track in shot.tracks]
+        inside = [is_inside(track[:, 1:], table, radius, pockets) for track in shot.tracks]
         for ball, track, rows in zip(shot.balls, shot.tracks, inside):
             if not rows.all():
                 t, x, y = track[np.argmin(rows)]
@@ -552,8 +551,8 @@ def _say_rails(
 
 def examine(
     recordings: Sequence[Recording],
-    table: tuple[float, float],
-    radius: float,
+    table: str | tuple[float, float],
+    radius: float | None = None,
     *,
     train: Sequence[int] | None = None,
     calibrate: bool = False,
@@ -571,7 +570,7 @@ def examine(
     recordings : sequence of Recording
         From `carom.tracks.read`, whose notes come first in the findings.
     table, radius
-        Extents (float, float) of x and y, and the radius of the balls, m.
+        As in `carom.fit.fit`.
     train : sequence of int, optional
         The shots that tell the noise; all without.
     calibrate : bool
@@ -582,13 +581,10 @@ def examine(
     ValueError
         The table's extents or the radius are wrong, or the rows do not tell the unit of time.
     """
-    if not (min(table) > 4.0 * radius > 0.0):
-        raise ValueError(
-            f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, "
-            f"and those above 0"
-        )
+    ground = _constants.ground(table, radius)
+    size, radius = ground.size, ground.radius
     findings = [Finding("file", note) for note in getattr(recordings, "notes", ())]
-    shots, indices = _on_table(list(recordings), table, radius, findings)
+    shots, indices = _on_table(list(recordings), ground, findings)
     told_by = None if train is None else [k for k, index in enumerate(indices) if index in {*train}]
     shots = _by_film(_in_seconds(shots, findings), findings)
     scale = _time_scale(shots, 8)
@@ -604,7 +600,7 @@ def examine(
         )
     shots, noise = _noise(shots, told_by, findings)
     shots, mended = sound(shots, noise.value)
-    lie = lie_of(shots, table, radius)
+    lie = lie_of(shots, size, radius)
     if lie.far > max(_CROOKED, 4.0 * lie.error):
         findings.append(
             Finding(
@@ -615,7 +611,7 @@ def examine(
             )
         )
     elif not lie.impacts:
-        _say_rails(shots, table, radius, findings)
+        _say_rails(shots, size, radius, findings)
     for _ in range(2 if calibrate else 0):
         # the second time finds impacts that were too far from their cushions
         shots = [
@@ -628,7 +624,7 @@ def examine(
             )
             for shot in shots
         ]
-        lie = lie_of(shots, table, radius)
+        lie = lie_of(shots, size, radius)
     _say_shots(shots, radius, findings)
     findings.sort(key=lambda finding: _KINDS.index(finding.kind))
     return Examination(shots, findings, mended, indices, noise)

@@ -47,6 +47,7 @@ _FROZEN = 0.05  # share of steps without motion above which a film repeats place
 # m: a centre that is farther outside its bounds was measured in other units or on another table; a
 # crooked one is nearer
 OUTSIDE = 0.06
+_HOLE = 0.1  # m: a centre that is nearer to that of a pocket is in it
 _DEPTH = 2.5e-3  # s: a nose gives way by so much times the speed
 _SCATTER = 4e-3  # m: of where balls turn at a rail, at least
 _BLOCK = 3  # false detections one after another, at most
@@ -158,10 +159,18 @@ class Recording:
 # ---- Places
 
 
-def is_inside(places: Doubles, table: Sequence[float], radius: float) -> NDArray[np.bool_]:
-    """Whether centres lie on the table, or hardly outside."""
+def is_inside(
+    places: Doubles, table: Sequence[float], radius: float, pockets: Doubles | None = None
+) -> NDArray[np.bool_]:
+    """Whether centres lie on the table, or hardly outside, or in a pocket; (n, 2) are their
+    centres.
+    """
     low, high = radius - OUTSIDE, np.array(table) - radius + OUTSIDE
-    return np.asarray(((low <= places) & (places <= high)).all(axis=-1))
+    inside = ((low <= places) & (places <= high)).all(axis=-1)
+    if pockets is not None and len(pockets):
+        gaps = places[..., None, :] - pockets
+        inside |= (np.hypot(gaps[..., 0], gaps[..., 1]) < _HOLE).any(axis=-1)
+    return np.asarray(inside)
 
 
 def exchanged(places: Doubles, table: tuple[float, float], radius: float) -> bool:
