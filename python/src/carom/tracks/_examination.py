@@ -300,7 +300,7 @@ def _on_table(
         f"centres of balls of radius {radius:g} m on a table of {table[0]:g} x {table[1]:g} m must "
         f"be {low:g} to {high[0]:g} and {high[1]:g} m"
     )
-    is_exchanged = exchanged(places, table, radius)
+    is_exchanged = exchanged(places, table, radius, pockets)
     if is_exchanged or is_inside(places, table, radius, pockets).mean() < 0.5:
         raise TrackError(
             f"table: {extents}, and most are not: "

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from carom.dtypes import Doubles
 from carom.tracks import _constants
-from carom.tracks._recordings import Recording, TrackError, exchanged, is_inside
+from carom.tracks._recordings import ON_TABLE, Recording, TrackError, exchanged, is_inside
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inches": 0.0254}
 _UNIT_NAMES = {"in": "inches", "inch": "inches", "metres": "m", "meters": "m", "pixels": "px"}
@@ -43,7 +43,6 @@ _SYNONYMS = {
 _UNSEEN = {"", "nan", "na", "n/a", "null", "none", "-", "?"}
 _ABSENT = set("hidden occluded lost missing invisible pocketed potted out false no 0".split())
 _PRESENT = set("visible seen moving rolling sliding still rest stationary true yes 1 ok".split())
-_MOST = 0.9  # share of the places that a unit or an origin must bring onto the table
 _WIDE = 0.3  # share of an extent that places of a right unit reach, at least
 _RADIUS = 0.028  # m: of a ball where none is given
 _ORDERED = 0.8  # share of a ball's rows in order, below which all are sorted
@@ -376,8 +375,8 @@ class _Area:
     def share(self, places: Doubles) -> float:
         """Which share of places is on the table, which may lie along x or y."""
         return max(
-            float(np.mean(is_inside(places, size, self.radius)))
-            for size in (self.size, self.size[::-1])
+            float(np.mean(is_inside(turned, self.size, self.radius, self.pockets)))
+            for turned in (places, places[:, ::-1])
         )
 
 
@@ -396,7 +395,7 @@ def _found_scale(
     Of several units that fit, the one is taken in which balls come as near as two radii; else the
     largest, which leaves the least of the table empty.
     """
-    if area.share(places) >= _MOST:
+    if area.share(places) >= ON_TABLE:
         return 1.0, np.zeros(2)
     candidates = []
     closest = _closest(rows, places) / (2.0 * area.radius)
@@ -405,7 +404,7 @@ def _found_scale(
         for name, unit in UNITS.items():
             tried = places * unit - origin
             reach = np.ptp(np.percentile(tried, (2, 98), axis=0), axis=0).max()
-            if area.share(tried) >= _MOST and reach > _WIDE * max(area.size):
+            if area.share(tried) >= ON_TABLE and reach > _WIDE * max(area.size):
                 candidates.append((not 0.85 < closest * unit < 1.3, -unit, text, name, origin))
     if not candidates:
         return 1.0, np.zeros(2)
@@ -422,7 +421,7 @@ def _on_table(
 ) -> tuple[list[_Row], Doubles]:
     """The rows whose places are on the table, turned where it lies along the other axis."""
     size, radius = area.size, area.radius
-    if exchanged(places, size, radius):
+    if exchanged(places, size, radius, area.pockets):
         if not area.is_named:
             raise TrackError(
                 f"{path}: the places fit a table of {size[1]:g} x {size[0]:g} m: are the table's "

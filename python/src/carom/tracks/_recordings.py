@@ -47,6 +47,7 @@ _FROZEN = 0.05  # share of steps without motion above which a film repeats place
 # m: a centre that is farther outside its bounds was measured in other units or on another table; a
 # crooked one is nearer
 OUTSIDE = 0.06
+ON_TABLE = 0.9  # share of the places that lie on the right table, at least
 _HOLE = 0.1  # m: a centre that is nearer to that of a pocket is in it
 _DEPTH = 2.5e-3  # s: a nose gives way by so much times the speed
 _SCATTER = 4e-3  # m: of where balls turn at a rail, at least
@@ -173,10 +174,14 @@ def is_inside(
     return np.asarray(inside)
 
 
-def exchanged(places: Doubles, table: tuple[float, float], radius: float) -> bool:
+def exchanged(
+    places: Doubles, table: tuple[float, float], radius: float, pockets: Doubles
+) -> bool:
     """Whether the extents of a table are those of y and x."""
-    shares = [is_inside(places, size, radius).mean() for size in (table, table[::-1])]
-    return bool(shares[0] < 0.95 < 0.99 < shares[1])
+    return bool(
+        is_inside(places, table, radius, pockets).mean() < ON_TABLE
+        and is_inside(places[:, ::-1], table, radius, pockets).mean() >= ON_TABLE
+    )
 
 
 # ---- Noise
