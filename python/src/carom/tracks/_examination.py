@@ -462,12 +462,12 @@ def _say_shots(recordings: list[Recording], radius: float, findings: list[Findin
     """What single shots show: gaps, drifts, strikes that were not filmed, another radius."""
     gaps = {shot.id: found for shot in recordings if (found := _gaps(shot))}
     if gaps:
-        shot, (begin, end, way) = next((shot, found[0]) for shot, found in gaps.items())
+        first, (begin, end, way) = next((shot, found[0]) for shot, found in gaps.items())
         count = sum(map(len, gaps.values()))
         findings.append(
             Finding(
                 "gap",
-                f"pictures are missing {count} times in {_names(list(gaps))}, first in shot {shot} "
+                f"pictures are missing {count} times in {_names(list(gaps))}, first in shot {first} "
                 f"from {begin:.2f} to {end:.2f} s, while a ball went {100.0 * way:.0f} cm: what "
                 f"happens meanwhile is not fitted",
                 tuple(gaps),
