@@ -99,14 +99,14 @@ void carom_python_cuts(const double *samples, const double *weight, int n, int l
  * `shots` layouts and `tables` the table, and after them, for each of `constants` constants, the
  * same with that constant changed by steps[]. */
 typedef struct carom_python_tracks {
-  const carom_table *tables; /* 1 + constants */
+  const carom_table *tables;         /* 1 + constants */
   const carom_shot_options *options; /* time_most and events_most are not read */
   const carom_shot_ball *balls;
   const int32_t *struck, *counts;
   const double *samples;
   const int64_t *first;
   const double *steps; /* of the constants */
-  int32_t count; /* the most balls of a shot */
+  int32_t count;       /* the most balls of a shot */
   int32_t shots, constants;
   int32_t kicks;  /* contacts of a play, from its first on, that have kicks: at most 16 */
   int32_t stride; /* one of so many samples of a ball is compared, the first among them */

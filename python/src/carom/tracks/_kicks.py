@@ -383,6 +383,8 @@ def _side_of(normals: Doubles) -> NDArray[np.intp]:
     """Which of _RAILS has a normal, each of (n, 2)."""
     along = normals @ _NORMALS.T
     return np.where(along.max(axis=1) > 1.0 - 1e-9, along.argmax(axis=1), len(_NORMALS))
+
+
 _SPEEDS, _ANGLES = (0.0, 0.5, 1.0, 2.0, np.inf), (0.0, 30.0, 60.0, 90.0)
 
 

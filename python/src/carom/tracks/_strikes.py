@@ -135,9 +135,7 @@ class Plays:
         )
         self.tables = np.array([self.table.record for constants in changed], dtypes.table)
 
-    def _samples(
-        self, tracks: Sequence[Sequence[Doubles]]
-    ) -> tuple[Doubles, NDArray[np.int64]]:
+    def _samples(self, tracks: Sequence[Sequence[Doubles]]) -> tuple[Doubles, NDArray[np.int64]]:
         """The samples of all balls of all shots, one after the other, and where those of each begin,
         balls that a shot does not have among them.
         """
@@ -270,10 +268,7 @@ class Plays:
         moving = copy.copy(self)
         moving.samples, moving.first = self._samples(
             [
-                [
-                    track[rows] - (begin, 0.0, 0.0)
-                    for track, rows in zip(shot.tracks, shot.moving)
-                ]
+                [track[rows] - (begin, 0.0, 0.0) for track, rows in zip(shot.tracks, shot.moving)]
                 for shot, begin in zip(self.recordings, self.origins)
             ]
         )
@@ -331,7 +326,9 @@ def _within(centres: Doubles, table: Table, radius: float) -> Doubles:
     pockets.
     """
     if len(table.pockets) == 0:
-        return np.clip(centres, radius + 1e-9, np.array([table.width, table.length]) - radius - 1e-9)
+        return np.clip(
+            centres, radius + 1e-9, np.array([table.width, table.length]) - radius - 1e-9
+        )
     centres = centres.copy()
     for rail, normal in zip(table.rails, inward(table)):
         p, along = rail["p"], rail["q"] - rail["p"]

@@ -7,7 +7,7 @@ import functools
 import html
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from carom.layouts import Table
 from carom.results import Shot
 from carom.shots import simulate
 from carom.tracks import _constants, _covariance, _joint, _kicks, _strikes
+from carom.tracks._design import Design, design
 from carom.tracks._events import events
 from carom.tracks._forecast import Forecast, forecast
 from carom.tracks._kicks import Kicks
@@ -83,6 +84,9 @@ class Fit:
         # noise
     ] = ()
     game: Game | None = None  # Whose constants stand for those that were not given
+    # Of each constant that whole shots were to tell: its 95 % interval by the profile of the cost;
+    # None where these shots do not tell it
+    intervals: dict[str, tuple[float, float] | None] = field(default_factory=dict)
 
     @property
     def ground(self) -> _constants.Ground:
@@ -207,6 +211,17 @@ class Fit:
         )
         moved = moved.reshape(count, -1, 2)
         return (*self._struck(i, strikes, moved, self.changed(changes)), strikes[:, 5])
+
+    def design(self, count: int = 3, *, seed: Seed = 0) -> list[Design]:
+        """Further shots to play and to film, each the one of 60 drawn ones that would tell the
+        constants best after those before it; as text they say what to play.
+
+        Raises
+        ------
+        ValueError
+            No constant was fitted by whole shots.
+        """
+        return design(self, _whole(count, "count", least=1), seed_of(seed))
 
     def player(self, groups: Sequence[Sequence[int]] | None = None) -> Player:
         """The errors of the player, by strokes that were meant alike, with intervals; as a rating,
@@ -444,6 +459,7 @@ class Fit:
         return {
             "constants": self.constants,
             "spread": self.spread,
+            "intervals": self.intervals,
             "covariance": None
             if self.covariance is None
             else {"constants": list(self.fitted), "matrix": self.covariance.tolist()},

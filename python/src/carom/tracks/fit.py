@@ -18,7 +18,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, cast, get_args
+from typing import Any, NamedTuple, cast, get_args
 
 import numpy as np
 
@@ -32,6 +32,7 @@ from carom.tracks import _strikes, _summary
 from carom.tracks import Recording, TrackError, events, examine, read
 from carom.tracks._forecast import ROUGH, Forecast, first_seconds
 from carom.tracks._kicks import Kicks, contact
+from carom.tracks._profile import light, profiles
 from carom.tracks._summary import Fit
 
 __all__ = ["Fit", "Kicks", "contact", "fit", "main"]
@@ -41,6 +42,7 @@ Progress = Callable[[str, float], None]
 _FASTEST = 8.0  # m/s: no ball is faster
 _BREAK = 1.0  # s from the first motion: later rows of a break tell nothing of its strike
 _MANY = 5.0  # standard deviations of a coordinate: an RMSE above is not that of the noise
+_STARTS, _NAMED = 3, 8  # searches from better points of profiles; shots that are named
 _WORSE = 1.02  # times the median RMSE of the start, from which it is kept
 _LAW = {
     "law_a",
@@ -259,16 +261,43 @@ def _search(job: _Job, first: _joint.Search) -> _joint.Search:
     return search
 
 
+class _Told(NamedTuple):
+    """What shots tell of the constants."""
+
+    values: dict[str, float]
+    spread: dict[str, float]  # their errors
+    names: tuple[str, ...] = ()  # of those that whole shots told
+    covariance: Doubles | None = None  # of these
+    intervals: Mapping[str, tuple[float, float] | None] = {}  # of 95 %, of these
+
+
+def _profiled(job: _Job, search: _joint.Search) -> dict[str, tuple[float, float] | None]:
+    """The intervals of the constants by their profiles; the search goes on from a point of these
+    that is better than where it ended.
+    """
+    for number in range(_STARTS):
+        found = profiles(search)
+        if found.best is None:
+            break
+        search.values, search.strikes = found.best
+        search.weigh()
+        for stage in (_joint.STAGES - 2, _joint.STAGES - 1):
+            job.report("constants", stage / (_joint.STAGES + 2))
+            work = functools.partial(search.stage, stage, job.seed + number + 1)
+            search.resume(job.saved.get(f"start {number}, constants {stage}", work))
+        finish = functools.partial(search.finish, job.seed, _joint.ROUNDS)
+        search.resume(job.saved.get(f"start {number}, end", finish))
+    return found.intervals
+
+
 def _fit_to_shots(
     job: _Job,
     fitted: Sequence[int],
     values: dict[str, float],
     spread: dict[str, float],
     remarks: list[str],
-) -> tuple[dict[str, float], dict[str, float], tuple[str, ...], Doubles | None]:
-    """The constants that these shots as a whole tell, the errors of all, and the names and the
-    covariance of those that were fitted.
-    """
+) -> _Told:
+    """The constants that these shots as a whole tell."""
     plays = job.plays(fitted, values)
     found = job.saved.get(
         "strikes", lambda: _strikes.find(plays, job.seed, job.progress)[0].tolist()
@@ -280,8 +309,16 @@ def _fit_to_shots(
         remarks.append(
             "half of the shots are off by centimetres: whole shots tell no constants, which stay as they were before"
         )
-        return values, spread, (), None
+        return _Told(values, spread)
 
+    intervals = _profiled(job, search)
+    shots = [(job.recordings[fitted[row]].id, weight) for row, weight in light(search)]
+    if shots:
+        remarks.append(
+            f"{len(shots)} of {len(fitted)} shots misfit and count less for the constants: "
+            + ", ".join(f"shot {shot} {100.0 * weight:.0f} %" for shot, weight in shots[:_NAMED])
+            + (" and others" if len(shots) > _NAMED else "")
+        )
     values, names = search.constants(search.values), tuple(search.names)
     evidence = {name: error for name, error in spread.items() if name not in job.priors}
     covariance = _covariance.of_constants(search, evidence)
@@ -293,7 +330,12 @@ def _fit_to_shots(
         for name in names
         if values[name] in _joint.prior(name)[1:]
     ]
-    return values, spread, names, covariance
+    if unknown := [name for name, interval in intervals.items() if interval is None]:
+        remarks.append(
+            f"not told by these shots: {', '.join(unknown)}, which could be anywhere that they are on "
+            f"other tables; more shots would tell them, such as those of --next"
+        )
+    return _Told(values, spread, names, covariance, intervals)
 
 
 def fit(
@@ -390,9 +432,7 @@ def fit(
         table=ground.table,
     )
     _priors([] if free[0] in ("none", "events") else free, priors or {}, values)
-    spread: dict[str, float] = {}
-    names: tuple[str, ...] = ()
-    covariance: Doubles | None = None
+    told = _Told(values, {})
     status = [_status(shot, radius) for shot in recordings]
     played = [k for k, text in enumerate(status) if text != "no ball moves"]
     fitted = [k for k in played if status[k] == "ok" and (train is None or k in set(train))]
@@ -413,22 +453,21 @@ def fit(
             progress,
             saved,
         )
-        start = dict(values)
         if free[0] in ("events", "default"):
-            values, spread = _fit_to_events(job, fitted, values, remarks)
+            told = _Told(*_fit_to_events(job, fitted, values, remarks))
         if free[0] not in ("none", "events") and fitted:
-            values, spread, names, covariance = _fit_to_shots(job, fitted, values, spread, remarks)
-        plays, strikes[played], rmse[played] = _strike(job, played, values)
-        if values != start and fitted:
+            told = _fit_to_shots(job, fitted, told.values, told.spread, remarks)
+        plays, strikes[played], rmse[played] = _strike(job, played, told.values)
+        if told.values != values and fitted:
             # constants that play the shots worse than those that were given are not taken
-            begun = _strike(job, played, start)
+            begun = _strike(job, played, values)
             medians = [
                 float(np.median(rmses[np.isin(played, fitted)]))
                 for rmses in (begun[2], rmse[played])
             ]
             if _WORSE * medians[0] < medians[1]:
                 plays, strikes[played], rmse[played] = begun
-                values, spread, names, covariance = start, {}, (), None
+                told = _Told(values, {})
                 remarks.append(
                     f"the constants that were found play the shots worse, to a median RMSE of "
                     f"{1e3 * medians[1]:.2f} mm, than those that were given, {1e3 * medians[0]:.2f} mm: "
@@ -447,16 +486,17 @@ def fit(
         table,
         radius,
         cushion_model,
-        values,
-        spread,
+        told.values,
+        told.spread,
         strikes,
         status,
         rmse,
         part,
-        names,
-        covariance,
+        told.names,
+        told.covariance,
         remarks,
         ground.game,
+        dict(told.intervals),
     )
     if found.median_rmse > _MANY * noise:
         causes = " and ".join(examination.causes)
@@ -657,6 +697,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--kicks", action="store_true", help="tell what the models get wrong at each contact"
     )
     parser.add_argument(
+        "--next",
+        type=int,
+        default=0,
+        metavar="N",
+        help="the N shots that would tell the constants best, to play and to film next",
+    )
+    parser.add_argument(
         "--player",
         action="store_true",
         help="the player's errors and rating, by strokes that were meant alike",
@@ -716,6 +763,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 _summary.page(found, options.tracks.name, kicks, seen), encoding="utf-8"
             )
         written = found.to_dict(kicks)
+        further = found.design(options.next, seed=options.seed) if options.next else []
         player = found.player() if options.player else None
         if player is not None:
             written["player"] = player.to_dict()
@@ -741,6 +789,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
             f"of their samples, with strikes fitted to whole shots, {within[0]:.0f} and {within[1]:.0f} % "
             "are within the residuals of 68 and 95 % of the shots that were fitted"
         )
+    for name, interval in found.intervals.items():
+        if interval is not None:
+            print(f"{name} {found.constants[name]:.4g} ({interval[0]:.4g} to {interval[1]:.4g})")
+    for number, shot in enumerate(further, 1):
+        print(f"next {number}: {shot}")
     if player is not None:
         print(player)
     if seen:
