@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dtypes import Doubles
+from carom.tracks import _constants
 from carom.tracks._recordings import (
     Noise,
     Recording,
@@ -35,7 +36,8 @@ from carom.tracks._recordings import (
 
 _RATES = (25.0, 30.0, 24.0, 50.0, 60.0, 100.0, 120.0, 240.0, 23.976, 29.97, 48.0, 59.94)  # 1/s
 _SLIDING = 1.95  # m/s^2: mu_slide g of most cloths, 0.17 to 0.22 times g
-_ROWS = 7  # that tell how a ball slides, of 25 pictures a second
+_ROWS = (7, 14, 28, 56)  # that tell how a ball slides, of 25 to 240 pictures a second
+_SLIDES = 0.18  # s: it slides so long
 _CLOCK = 1.18  # a clock that is wrong by less is no other than a cloth that is unlike most
 _HELD = 0.03  # share of repeated pictures among those of moving balls, above chance
 _SMOOTHER = 0.6  # of the scatter that a right clock leaves, at most
@@ -110,27 +112,36 @@ def _slowing(recordings: Sequence[Recording], rows: int) -> Doubles:
             t = first[:, 0] - first[0, 0]
             if t[-1] > 1.3 * rows * np.diff(t).min():
                 continue
-            a, v = np.polyfit(t, first[:, 1:], 2)[:2]
+            coefficients = np.polyfit(t, first[:, 1:], 2)
+            a, v = coefficients[:2]
+            left = np.vander(t, 3) @ coefficients - first[:, 1:]
             speed = float(np.hypot(*v))
             end = float(np.hypot(*(v + 2.0 * a * t[-1])))
+            slowing = -2.0 * float(a @ v) / speed
+            error = math.sqrt(720.0 / rows * float((left**2).mean())) / float(t[-1]) ** 2
             # a ball that rolls has lost two sevenths of its speed
-            if 0.02 * speed < speed - end < 0.29 * speed:
-                found.append(-2.0 * float(a @ v) / speed)
+            if 0.02 * speed < speed - end < 0.29 * speed and error < 0.1 * slowing:
+                found.append(slowing)
     return np.array(found)
 
 
-def _time_scale(recordings: Sequence[Recording]) -> float:
-    """How many units of t a second has, by sliding; NaN where fewer than four balls tell."""
-    scale, rows = math.nan, _ROWS
-    for _ in range(3):
-        slowing = _slowing(recordings, rows)
-        if len(slowing) < 4:
-            break
-        scale = math.sqrt(_SLIDING / float(np.quantile(slowing, 0.7)))
-        steps = [np.diff(track[:, 0]) for shot in recordings for track in shot.tracks]
-        rate = scale / float(np.median(np.concatenate(steps)))
-        rows = int(np.clip(_ROWS * rate / 25.0, _ROWS, 80))
-    return scale
+def _time_scale(recordings: Sequence[Recording], least: int) -> float:
+    """How many units of t a second has, by sliding; NaN where fewer balls than `least` tell."""
+    steps = [np.diff(track[:, 0]) for shot in recordings for track in shot.tracks]
+    picture = float(np.median(np.concatenate(steps)))
+    for rows in _ROWS:
+        slowing = np.sort(_slowing(recordings, rows))
+        half = len(slowing) // 2 + 1
+        if len(slowing) < least:
+            continue
+        # the half that lies closest together slides alone; of others some hit or roll meanwhile
+        widths = slowing[half - 1 :] - slowing[: len(slowing) - half + 1]
+        first = int(np.argmin(widths))
+        middle = float(slowing[first : first + half].mean())
+        scale = math.sqrt(_SLIDING / middle)
+        if widths[first] < 0.4 * middle and rows * picture > _SLIDES * scale:
+            return scale
+    return math.nan
 
 
 def _in_seconds(recordings: list[Recording], findings: list[Finding]) -> list[Recording]:
@@ -138,7 +149,7 @@ def _in_seconds(recordings: list[Recording], findings: list[Finding]) -> list[Re
     t = np.concatenate([track[:, 0] for shot in recordings for track in shot.tracks])
     if len(t) < 40 or np.abs(t - np.round(t)).max() > 1e-6 or np.ptp(t) < 20.0:
         return recordings
-    scale = _time_scale(recordings)
+    scale = _time_scale(recordings, 4)
     units = np.array([*_RATES[:8], 1000.0])
     unit = float(units[np.argmin(np.abs(np.log(units / scale)))])
     if not abs(math.log(unit / scale)) < math.log(_CLOCK):
@@ -173,7 +184,8 @@ class _Pictures:
     is_held: NDArray[np.bool_]
 
 
-def _pictures(shot: Recording) -> _Pictures:
+def _pictures(shot: Recording, least: float = _MOVES) -> _Pictures:
+    """The pictures of a shot, in which a ball is new that moved by more than `least`, m."""
     times = np.unique(np.concatenate([track[:, 0] for track in shot.tracks]))
     is_new, is_repeated = np.zeros(len(times), np.bool_), np.zeros(len(times), np.bool_)
     for track in shot.tracks:
@@ -185,8 +197,8 @@ def _pictures(shot: Recording) -> _Pictures:
         windows = np.lib.stride_tricks.sliding_window_view(padded, 3)
         way = np.minimum(windows[: len(steps)].max(axis=1), windows[4:].max(axis=1))
         rows = np.searchsorted(times, track[1:, 0])
-        is_new[rows[steps > np.maximum(0.05 * way, _MOVES)]] = True
-        is_repeated[rows[(way > _MOVES) & (steps <= 0.05 * way)]] = True
+        is_new[rows[steps > np.maximum(0.05 * way, least)]] = True
+        is_repeated[rows[(way > 4.0 * _MOVES) & (steps <= 0.05 * way)]] = True
     return _Pictures(times, is_new, is_repeated & ~is_new)
 
 
@@ -232,6 +244,10 @@ def _by_film(recordings: list[Recording], findings: list[Finding]) -> list[Recor
     uneven = len(steps) > 0 and np.mean(np.abs(steps / np.median(steps) - 1.0) > 0.15) > 0.08
     if not repeats and not uneven:
         return recordings
+    # where repeated pictures are the same to a hair, those of slow balls are known, too
+    exact = [_pictures(shot, 1e-9) for shot in recordings]
+    if repeats and sum(int(p.is_held.sum()) for p in exact) > 0.9 * held:
+        pictures = exact
     # the rate of the file, and below it that whose ways are the smoothest
     fastest = 1.0 / float(np.quantile(np.concatenate([np.diff(p.times) for p in pictures]), 0.02))
     before, best = moving_scatter(recordings), None
@@ -274,20 +290,18 @@ def _by_film(recordings: list[Recording], findings: list[Finding]) -> list[Recor
 
 
 def _on_table(
-    recordings: list[Recording],
-    table: tuple[float, float],
-    radius: float,
-    findings: list[Finding],
+    recordings: list[Recording], ground: _constants.Ground, findings: list[Finding]
 ) -> tuple[list[Recording], list[int]]:
     """Recordings without the rows whose places are off the table, and their indices."""
+    table, radius, pockets = ground.size, ground.radius, ground.table.pockets["centre"]
     places = np.concatenate([track[:, 1:] for shot in recordings for track in shot.tracks])
     low, high = radius, np.array(table) - radius
     extents = (
         f"centres of balls of radius {radius:g} m on a table of {table[0]:g} x {table[1]:g} m must "
         f"be {low:g} to {high[0]:g} and {high[1]:g} m"
     )
-    is_exchanged = exchanged(places, table, radius)
-    if is_exchanged or is_inside(places, table, radius).mean() < 0.5:
+    is_exchanged = exchanged(places, table, radius, pockets)
+    if is_exchanged or is_inside(places, table, radius, pockets).mean() < 0.5:
         raise TrackError(
             f"table: {extents}, and most are not: "
             + (
@@ -298,7 +312,7 @@ def _on_table(
         )
     found, indices = [], []
     for index, shot in enumerate(recordings):
-        inside = [is_inside(track[:, 1:], table, radius) for track in shot.tracks]
+        inside = [is_inside(track[:, 1:], table, radius, pockets) for track in shot.tracks]
         for ball, track, rows in zip(shot.balls, shot.tracks, inside):
             if not rows.all():
                 t, x, y = track[np.argmin(rows)]
@@ -448,12 +462,12 @@ def _say_shots(recordings: list[Recording], radius: float, findings: list[Findin
     """What single shots show: gaps, drifts, strikes that were not filmed, another radius."""
     gaps = {shot.id: found for shot in recordings if (found := _gaps(shot))}
     if gaps:
-        shot, (begin, end, way) = next((shot, found[0]) for shot, found in gaps.items())
+        first, (begin, end, way) = next((shot, found[0]) for shot, found in gaps.items())
         count = sum(map(len, gaps.values()))
         findings.append(
             Finding(
                 "gap",
-                f"pictures are missing {count} times in {_names(list(gaps))}, first in shot {shot} "
+                f"pictures are missing {count} times in {_names(list(gaps))}, first in shot {first} "
                 f"from {begin:.2f} to {end:.2f} s, while a ball went {100.0 * way:.0f} cm: what "
                 f"happens meanwhile is not fitted",
                 tuple(gaps),
@@ -537,8 +551,8 @@ def _say_rails(
 
 def examine(
     recordings: Sequence[Recording],
-    table: tuple[float, float],
-    radius: float,
+    table: str | tuple[float, float],
+    radius: float | None = None,
     *,
     train: Sequence[int] | None = None,
     calibrate: bool = False,
@@ -556,7 +570,7 @@ def examine(
     recordings : sequence of Recording
         From `carom.tracks.read`, whose notes come first in the findings.
     table, radius
-        Extents (float, float) of x and y, and the radius of the balls, m.
+        As in `carom.fit.fit`.
     train : sequence of int, optional
         The shots that tell the noise; all without.
     calibrate : bool
@@ -567,16 +581,13 @@ def examine(
     ValueError
         The table's extents or the radius are wrong, or the rows do not tell the unit of time.
     """
-    if not (min(table) > 4.0 * radius > 0.0):
-        raise ValueError(
-            f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, "
-            f"and those above 0"
-        )
+    ground = _constants.ground(table, radius)
+    size, radius = ground.size, ground.radius
     findings = [Finding("file", note) for note in getattr(recordings, "notes", ())]
-    shots, indices = _on_table(list(recordings), table, radius, findings)
+    shots, indices = _on_table(list(recordings), ground, findings)
     told_by = None if train is None else [k for k, index in enumerate(indices) if index in {*train}]
     shots = _by_film(_in_seconds(shots, findings), findings)
-    scale = _time_scale(shots)
+    scale = _time_scale(shots, 8)
     if not any(finding.kind == "clock" for finding in findings) and (
         abs(math.log(scale)) > math.log(_CLOCK)
     ):
@@ -589,7 +600,7 @@ def examine(
         )
     shots, noise = _noise(shots, told_by, findings)
     shots, mended = sound(shots, noise.value)
-    lie = lie_of(shots, table, radius)
+    lie = lie_of(shots, size, radius)
     if lie.far > max(_CROOKED, 4.0 * lie.error):
         findings.append(
             Finding(
@@ -600,7 +611,7 @@ def examine(
             )
         )
     elif not lie.impacts:
-        _say_rails(shots, table, radius, findings)
+        _say_rails(shots, size, radius, findings)
     for _ in range(2 if calibrate else 0):
         # the second time finds impacts that were too far from their cushions
         shots = [
@@ -613,7 +624,7 @@ def examine(
             )
             for shot in shots
         ]
-        lie = lie_of(shots, table, radius)
+        lie = lie_of(shots, size, radius)
     _say_shots(shots, radius, findings)
     findings.sort(key=lambda finding: _KINDS.index(finding.kind))
     return Examination(shots, findings, mended, indices, noise)

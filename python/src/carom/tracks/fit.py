@@ -410,7 +410,7 @@ def fit(
         raise ValueError("recordings: at least one shot is needed")
     ground = _constants.ground(table, radius, game)
     radius = ground.radius
-    examination = examine(recordings, ground.size, radius, train=train, calibrate=calibrate)
+    examination = examine(recordings, table, radius, train=train, calibrate=calibrate)
     recordings, notes = examination.recordings, examination.mended
     noise, remarks = examination.noise.value, examination.sentences
     if train is not None:
@@ -727,7 +727,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         ground = _constants.ground(options.table, options.radius, options.game)
         recordings = read(
             options.tracks,
-            table=ground.size,
+            table=options.table,
             radius=ground.radius,
             unit=options.unit,
             origin=options.origin,
