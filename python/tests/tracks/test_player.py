@@ -15,7 +15,7 @@ RADIUS, TABLE = 0.03075, (2.84, 1.42)
 def filmed(player, kinds, times, seed):
     """Recordings of strokes that a player repeats, each on a layout put up again by hand."""
     random = np.random.default_rng(seed)
-    nose = _constants.STARTS["smooth"]["nose_height"]
+    nose = _constants.usual("smooth")["nose_height"]
     table = _constants.rectangle(TABLE, nose)
     shots = []
     for kind in range(kinds):
