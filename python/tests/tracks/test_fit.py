@@ -729,7 +729,8 @@ def test_unknown_constants_are_found_within_their_spread():
 
 def billiard(seed):
     """A match of balls whose friction between each other does not change with the slip."""
-    return synthetic(24, constants={"mu_ball": 0.08}, noise=0.5e-3, seed=seed)
+    law = {"law_a": 0.08, "law_b": 0.0, "law_c": 0.0}
+    return synthetic(24, constants=law, noise=0.5e-3, seed=seed)
 
 
 @pytest.mark.parametrize("seed", [5, 7])

@@ -169,8 +169,6 @@ def complete(
     kind = _kind_of(game, cushion_model)
     if "mu_ball" in constants and not any(name in constants for name in _LAW):
         friction, kind["mu_ball"] = "constant", constants["mu_ball"]
-        for name in _LAW:
-            kind[name] = 0.0
     # the game's own law, where single numbers of it are given
     for values in (_resolved(kind, cushion_model, friction, None)[0], constants):
         for name, value in values.items():
