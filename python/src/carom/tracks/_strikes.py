@@ -21,7 +21,6 @@ import copy
 import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -343,27 +342,6 @@ def _within(centres: Doubles, table: Table, radius: float) -> Doubles:
             inside = np.flatnonzero((distance < least) & (distance > 0.0))
             centres[inside] += way[inside] * (least / distance[inside] - 1.0)[:, None]
     return centres
-
-
-def until_pocketed(shot: Recording, table: Table) -> Recording:
-    """A recording in which the track of a ball ends where it falls: at its first row in a pocket,
-    or behind the pockets, that is the last or followed by another such row. A ball without rows
-    before is left out.
-    """
-    if len(table.pockets) == 0:
-        return shot
-    holes, kept = table.pockets["centre"], []
-    for name, track in zip(shot.balls, shot.tracks):
-        r = track[:, 1:]
-        gaps = np.hypot(*np.moveaxis(r[:, None] - holes, 2, 0)) - table.pockets["radius"]
-        behind = (r < holes.min(axis=0)) | (r > holes.max(axis=0))
-        inside = np.append((gaps < 0.0).any(axis=1) | behind.any(axis=1), True)
-        falls = np.flatnonzero(inside[:-1] & inside[1:])
-        rows = track[: falls[0]] if len(falls) else track
-        if len(rows):
-            kept.append((name, rows))
-    names, tracks = zip(*(kept or [(shot.balls[0], shot.tracks[0][:1])]))
-    return replace(shot, balls=names, tracks=tracks)
 
 
 # A break: so many balls beside the struck one begin to move within a time, s. The samples of its

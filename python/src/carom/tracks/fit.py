@@ -415,7 +415,6 @@ def fit(
     noise, remarks = examination.noise.value, examination.sentences
     if train is not None:
         train = [k for k, index in enumerate(examination.indices) if index in {*train}]
-    recordings = [_strikes.until_pocketed(shot, ground.table) for shot in recordings]
     for k, shot in enumerate(recordings):
         if _strikes.is_break(shot):
             recordings[k] = first_seconds(shot, _BREAK)
