@@ -174,9 +174,7 @@ def is_inside(
     return np.asarray(inside)
 
 
-def exchanged(
-    places: Doubles, table: tuple[float, float], radius: float, pockets: Doubles
-) -> bool:
+def exchanged(places: Doubles, table: tuple[float, float], radius: float, pockets: Doubles) -> bool:
     """Whether the extents of a table are those of y and x."""
     return bool(
         is_inside(places, table, radius, pockets).mean() < ON_TABLE
