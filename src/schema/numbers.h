@@ -123,7 +123,9 @@
   ROW(rail_width, "rail_width", "m", 0, DBL_MAX, NAN, TABLE,                             \
       "width of the tops of rails; 0: 0.12")                                             \
   ROW(pocket_back, "pocket_back", "m", 0, DBL_MAX, NAN, TABLE,                           \
-      "height of the backs of pockets; 0: that of the highest nose")
+      "height of the backs of pockets; 0: that of the highest nose")                     \
+  ROW(slope_x, "slope_x", "", -1, 1, NAN, SLOPE, "rise of the cloth along x")            \
+  ROW(slope_y, "slope_y", "", -1, 1, NAN, SLOPE, "rise of the cloth along y")
 
 #define CAROM_MEASURES_NUMBERS(ROW, LATER)                                                         \
   LATER(width, "width", "m", 0.1, 100, NAN, TABLE, "width of the playing area, between the noses") \
