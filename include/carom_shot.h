@@ -498,6 +498,7 @@ typedef struct carom_measures {
   double side_mouth, side_cut, side_shelf, side_jaw, side_hole;
   double facing_restitution, facing_friction; /* of facings and jaws, as restitution and mu_cushion
                            of a carom_rail, 0 to 1; 0: those of the ball. */
+  double slope_x, slope_y; /* of the cloth, as of a carom_table. */
 } carom_measures;
 
 /* The measures of a built-in table. Statuses are those of carom_table_make(). */

@@ -86,6 +86,8 @@ static bool look_at_shot(looking *with, size_t k, const double *times, size_t m,
   const carom_shot_job *job = with->job;
   const size_t count = (size_t)job->count;
   carom_shot *source = &job->shots[k], shot = *source;
+  shot.slope_x = job->table->slope_x;
+  shot.slope_y = job->table->slope_y;
   carom_status played = (carom_status)job->status[k], look = CAROM_OK;
 
   /* The shot with all of its events; none of one whose arguments were refused. */

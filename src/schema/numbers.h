@@ -147,7 +147,9 @@
   LATER(facing_restitution, "facing_restitution", "", 0, 1, NAN, TABLE,                            \
         "restitution of ball and facing or jaw; 0: that of the ball")                              \
   LATER(facing_friction, "facing_friction", "", 0, 1, NAN, TABLE,                                  \
-        "friction of ball and facing or jaw; 0: that of the ball")
+        "friction of ball and facing or jaw; 0: that of the ball")                                 \
+  LATER(slope_x, "slope_x", "", -1, 1, NAN, TABLE, "rise of the cloth along x")                    \
+  LATER(slope_y, "slope_y", "", -1, 1, NAN, TABLE, "rise of the cloth along y")
 
 #define CAROM_RAIL_NUMBERS(ROW, LATER)                                                           \
   ROW(p, "", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "one end")                                      \

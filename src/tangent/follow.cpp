@@ -139,7 +139,7 @@ CAROM_APART void begin_ball(const carom_tangent_work *w, int i, int side, scene 
   load_kind(w, i, kind);
   number slope[] = {w->table->slope_x, w->table->slope_y};
   for (int k = 0; k < 2; k++)
-    load(w->pass, w->seeds->table, 3 + k, &slope[k]);
+    load(w->pass, w->seeds->slope, k, &slope[k]);
   s->sim.rates[side] = text::carom_rates_on_slope(kind, slope[0], slope[1]);
   text::carom_path *path = &s->sim.path[side];
   set(ball->origin, &path->from);
