@@ -149,7 +149,9 @@ __attribute__((noinline, cold)) static void begin_on_slope(carom_path *path,
   for (int k = 0; k < 2; k++)
     f.c[k] = (slides ? 1.0 : 5.0 / 7.0) * rates->downhill[k];
   const double c2 = dot_product(f.c, f.c), A = f.A, slows = A + f.k * q * q;
-  const double c = c2 > 0.0 ? sqrt(c2) : c2; /* has derivatives where it is 0 */
+  /* less slope has the pieces of 1e-3, so that derivatives by it are as good */
+  const double least = carom_lesser(1e-3 * rates->gravity, 0.5 * A),
+               c = c2 > least * least ? sqrt(c2) : least;
 
   /* to the end, if the place is good enough there; otherwise h, by J T^3 / 324 as with drag, where
    * the part of J that turns grows like 1/(1 - h) */
