@@ -37,11 +37,11 @@ static double rough_cube_root(double x) {
   return y;
 }
 
-/* The first piece of a pair, of a ball that rolls at v against drag: its deceleration. DRAG in
- * path.h has the equations. Apart and cold, so that balls without drag do not pay for it:
- * inlined, it costs their shots 1 to 2 % (carom-lab bench --shots). */
-__attribute__((noinline, cold)) static double begin_pair(carom_path *path,
-                                                         const carom_ball_rates *rates, double v) {
+/* A pair of a ball that rolls at v against drag. DRAG in path.h has the equations. Apart and cold,
+ * so that balls without drag do not pay for it: inlined, it costs their shots 1 to 2 % (carom-lab
+ * bench --shots). */
+__attribute__((noinline, cold)) static void begin_pair(carom_path *path,
+                                                       const carom_ball_rates *rates, double v) {
   /* J0 T^3 / 324 = 1e-5 m with T = fall / (A + k v^2), and 0.6 of it, since T is longer than
    * that */
   static const double most = 324.0 * 1e-5 / 2.0 * 0.6;
@@ -64,11 +64,13 @@ __attribute__((noinline, cold)) static double begin_pair(carom_path *path,
       y *
       (1.0 + y2 * (1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (1.0 / 7.0 + y2 * (1.0 / 9.0 + y2 / 11.0)))));
   const double mean = fall_of_pair / T, first = 4.0 * (v * T - S) / (T * T) - mean;
-  for (int axis = 0; axis < 2; axis++)
-    path->second[axis] = -0.5 * (2.0 * mean - first) * path->e[axis];
-  path->second[2] = 0.5 * T;
+  for (int axis = 0; axis < 2; axis++) {
+    path->a[axis] = -0.5 * first * path->e[axis];
+    path->e[axis] *= -0.5 * (2.0 * mean - first);
+  }
+  path->second = 0.5 * T;
+  path->end = path->start + path->second;
   path->goes_on = true;
-  return first;
 }
 
 /* ---- SLOPE in path.h */
@@ -128,12 +130,6 @@ static void run_on(const curve *f, double T, double u[2], double way[2]) {
   }
 }
 
-/* Friction as what a slope leaves of the acceleration. */
-static void take_friction(carom_path *path, const carom_ball_rates *rates) {
-  for (int k = 0; k < 2; k++)
-    path->e[k] = (rates->downhill[k] - 2.0 * path->a[k]) / rates->slide;
-}
-
 /* A pair of a ball that slides with the slip u0, or rolls at that velocity. */
 __attribute__((noinline, cold)) static void begin_on_slope(carom_path *path,
                                                            const carom_ball_rates *rates,
@@ -173,13 +169,11 @@ __attribute__((noinline, cold)) static void begin_on_slope(carom_path *path,
     const double mean = (u[k] - u0[k]) / T, first = 4.0 * (way[k] - u0[k] * T) / (T * T) - mean;
     const double slope = (1.0 - share) * f.c[k];
     path->a[k] = 0.5 * (share * first + slope);
-    path->second[k] = 0.5 * (share * (2.0 * mean - first) + slope);
+    path->e[k] = 0.5 * (share * (2.0 * mean - first) + slope);
   }
-  path->second[2] = 0.5 * T;
-  path->end = path->start + path->second[2];
+  path->second = 0.5 * T;
+  path->end = path->start + path->second;
   path->goes_on = true;
-  if (slides)
-    take_friction(path, rates);
 }
 
 void carom_path_go_on(carom_path *path, const carom_ball_rates *rates) {
@@ -191,18 +185,16 @@ void carom_path_go_on(carom_path *path, const carom_ball_rates *rates) {
     carom_path_begin(path, rates, time);
     return;
   }
-  carom_path_second(path, rates, time);
+  carom_path_second(path, time);
 }
 
-void carom_path_second(carom_path *path, const carom_ball_rates *rates, double start) {
+void carom_path_second(carom_path *path, double start) {
   path->ends_pair = true;
   path->goes_on = !path->last_pair;
   path->start = start;
-  path->end = start + path->second[2];
+  path->end = start + path->second;
   for (int k = 0; k < 2; k++)
-    path->a[k] = path->second[k];
-  if (path->from.label == CAROM_BALL_SLIDING)
-    take_friction(path, rates);
+    path->a[k] = path->e[k];
 }
 
 bool carom_path_go_to(carom_path *path, const carom_ball_rates *rates, double time) {
@@ -228,7 +220,7 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double st
   case CAROM_BALL_ROLLING:
   case CAROM_BALL_SLIDING: {
     const bool slides = s->label == CAROM_BALL_SLIDING;
-    double friction = slides ? rates->slide : rates->roll;
+    const double friction = slides ? rates->slide : rates->roll;
     /* friction acts against the slip, or against the velocity */
     double x = s->v[0], y = s->v[1];
     if (slides) {
@@ -241,19 +233,16 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double st
       path->e[1] = y / size;
     }
     const double turning[2] = {x, y};
+    const bool drags = rates->drag * size * size > 1e-16 * rates->roll || carom_varies(rates->drag);
     if (carom_is_sloped(rates) && size > 0.0) {
       begin_on_slope(path, rates, turning, size);
-      break;
+    } else if (!slides && drags) {
+      begin_pair(path, rates, size);
+    } else {
+      path->a[0] = -0.5 * friction * path->e[0];
+      path->a[1] = -0.5 * friction * path->e[1];
+      path->end = start + (slides ? 2.0 * size / (7.0 * friction) : size / friction);
     }
-    /* with drag the path begins with the first piece of a pair */
-    if (!slides && (rates->drag * size * size > 1e-16 * rates->roll || carom_varies(rates->drag)))
-      friction = begin_pair(path, rates, size);
-    path->a[0] = -0.5 * friction * path->e[0];
-    path->a[1] = -0.5 * friction * path->e[1];
-    if (slides)
-      path->end = start + 2.0 * size / (7.0 * friction);
-    else
-      path->end = start + (path->goes_on ? path->second[2] : size / friction);
     break;
   }
   case CAROM_BALL_AIRBORNE:
@@ -311,6 +300,10 @@ void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double
   if (start->label == CAROM_BALL_ROLLING) {
     state->w[0] = -state->v[1] / rates->radius;
     state->w[1] = state->v[0] / rates->radius;
+  } else if (carom_is_sloped(rates)) { /* friction is what the slope leaves */
+    const double turn = 2.5 * tau / rates->radius;
+    state->w[0] = start->w[0] - turn * (rates->downhill[1] - 2.0 * path->a[1]);
+    state->w[1] = start->w[1] + turn * (rates->downhill[0] - 2.0 * path->a[0]);
   } else {
     const double turn = 2.5 * rates->slide * tau / rates->radius;
     state->w[0] = start->w[0] - turn * path->e[1];

@@ -88,12 +88,13 @@ typedef struct carom_path {
   double start, end;     /* of the phase, on the clock; end is infinite where nothing changes */
   double a[3];           /* half the acceleration: r(tau) = r0 + v0 tau + a tau^2; a[2] is 0 but
                             for an airborne ball */
-  double e[2];           /* of a ball that slides, friction over -mu_s g; of one that rolls, v/|v| */
+  double e[2];           /* on a level cloth, the direction of the friction: of the slip, or of v; in
+                            a pair, a[0] and a[1] of its second piece */
   carom_ball_state from; /* at the start; its label is that of the phase */
   bool goes_on;          /* at the end another piece of the same phase begins: carom_path_go_on() */
   bool ends_pair;        /* the piece is the second of its pair */
   bool last_pair;        /* which ends at rest */
-  double second[3];      /* a[0], a[1] and the duration, s, of the second piece of the pair */
+  double second;         /* duration of the second piece of the pair, s */
 } carom_path;
 
 /* Whether the centre moves in the phase. */
@@ -114,7 +115,7 @@ double carom_fall_time(double height, double v_z, double gravity);
 void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double start);
 
 /* The second piece of a pair, from the state in path->from. */
-void carom_path_second(carom_path *path, const carom_ball_rates *rates, double start);
+void carom_path_second(carom_path *path, double start);
 /* At the end of a path that goes on: the next piece. */
 void carom_path_go_on(carom_path *path, const carom_ball_rates *rates);
 

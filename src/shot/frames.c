@@ -33,7 +33,7 @@ typedef struct replay {
 /* What a caller keeps: the replay at the last time, and before. */
 typedef struct film {
   replay current;
-  uint64_t slots[13904];
+  uint64_t slots[13968];
 } film;
 _Static_assert(sizeof(film) <= sizeof(carom_frames), "a film fits in the words of callers");
 
