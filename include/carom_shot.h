@@ -418,6 +418,9 @@ typedef enum carom_table_kind {
  * not listed. */
 CAROM_API const char *carom_table_name(carom_table_kind kind);
 
+/* The game whose balls a table is for: CAROM_GAME_POOL unless it is that of another game. */
+CAROM_API carom_game carom_game_of_table(carom_table_kind table);
+
 /* Fills *table. Returns CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_TABLE if there is no such
  * kind. */
 CAROM_API carom_status carom_table_make(carom_table_kind kind, carom_table *table);
@@ -1305,6 +1308,17 @@ typedef struct carom_calibration {
  * shots of one ball. docs/using/fit.md shows how to play the banks. */
 CAROM_API carom_status carom_calibrate(const carom_table *table, const carom_ball_kind *ball,
                                        const double *reading, carom_calibration *out);
+
+/* Writes into `kind` what a shot on the table by the options reads where a number is a default, and
+ * into `options` the models and the law of friction. law_a, law_b and law_c become the law of
+ * friction between balls, also one that is constant; smooth_q and what belongs to it, omega_ratio,
+ * restitution_table and modulus become the usual numbers that the models read; and nose_height
+ * becomes the height of the table's noses where all have one. A shot of the result has the same
+ * bits. NULL for the table leaves nose_height as it is; NULL for the options stands for all
+ * defaults. CAROM_OK, CAROM_ERROR_NULL without a kind, or what is wrong with options or table, and
+ * then nothing is written. */
+CAROM_API carom_status carom_ball_kind_resolve(const carom_table *table,
+                                               carom_shot_options *options, carom_ball_kind *kind);
 
 /* The start of a fit of recorded shots for a model of the cushion: writes the restitution_cushion,
  * mu_cushion and nose_height that the model needs for single impacts on the table of

@@ -377,7 +377,7 @@ void carom_python_cuts(const double *samples, const double *weight, int n, int l
  * docs/reference/constants.md, and 2e-5 m at 5 m/s. */
 
 enum {
-  EVENTS_MOST = 400,
+  EVENTS_MOST = 1000, /* of a break of 15 balls some 500 */
   PIECES_MOST = 800,
   STRIKE = 6,
   KICKS = 5, /* of a contact */
@@ -525,11 +525,12 @@ static bool is_contact(const carom_event *e) {
 static carom_status play(const carom_python_tracks *tracks, int32_t shot, int variant,
                          const double *strike, double end, carom_event *events, int *many,
                          way *ways) {
-  const int count = tracks->count;
+  const int count = tracks->counts[shot];
+  const carom_table *table = &tracks->tables[variant];
   carom_shot_ball balls[CAROM_BALLS_MOST], current[CAROM_BALLS_MOST];
   carom_ball_state final[CAROM_BALLS_MOST];
   const size_t layout = (size_t)variant * (size_t)tracks->shots + (size_t)shot;
-  memcpy(balls, &tracks->balls[layout * (size_t)count], (size_t)count * sizeof *balls);
+  memcpy(balls, &tracks->balls[layout * (size_t)tracks->count], (size_t)count * sizeof *balls);
 
   /* The struck ball moves as it does just after the strike. */
   carom_shot_ball *struck = &balls[tracks->struck[shot]];
@@ -555,7 +556,7 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
     options.time_most = end - begin;
     carom_event *first = &events[*many];
     carom_shot played = {.events = first, .room = EVENTS_MOST - *many, .final = final};
-    const carom_status status = carom_shoot(tracks->table, current, count, NULL, &options, &played);
+    const carom_status status = carom_shoot(table, current, count, NULL, &options, &played);
     if (status < 0)
       return status;
     if (played.count > played.room)
@@ -576,7 +577,7 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
     const carom_event *last = &events[*many - 1];
     if (contact > tracks->kicks)
       continue;
-    kick(tracks->table, last, &strike[STRIKE + KICKS * (contact - 1)], current);
+    kick(table, last, &strike[STRIKE + KICKS * (contact - 1)], current);
     balls[last->a].state = current[last->a].state;
     if (last->type == CAROM_EVENT_BALL_BALL)
       balls[last->b].state = current[last->b].state;
@@ -609,11 +610,11 @@ static void place(const way *w, double time, int *index, double r[2]) {
 static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *ways,
                    const double *start, int plays, const double *step, const double *onset,
                    double end, double *sums) {
-  const int count = tracks->count;
+  const int count = tracks->count, in_play = tracks->counts[shot];
   const double c2 = tracks->huber * tracks->huber;
   double *gradient = &sums[3], *square = &gradient[plays - 1];
   memset(sums, 0, (size_t)(3 + (plays - 1) + (plays - 1) * plays / 2) * sizeof *sums);
-  for (int i = 0; i < count; i++) {
+  for (int i = 0; i < in_play; i++) {
     const int64_t *first = &tracks->first[(size_t)shot * (size_t)count + (size_t)i];
     int indices[PLAYS_MOST] = {0};
     for (int64_t m = first[0]; m < first[1]; m += tracks->stride) {
@@ -708,7 +709,7 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
         continue;
       if (d == STRIKE - 1) {
         /* struck later, the balls go the same way */
-        for (int i = 0; i < count; i++)
+        for (int i = 0; i < tracks->counts[shots[k]]; i++)
           copy(&ways[(d + 1) * count + i], &ways[i]);
         continue;
       }
@@ -732,7 +733,7 @@ carom_status carom_python_kicked(const carom_python_tracks *tracks, int32_t shot
   if (ways != NULL)
     status = play(tracks, shot, 0, strike, end - strike[5], events, &happened, ways);
   *many = happened;
-  for (int i = 0; i < tracks->count && status >= 0; i++) {
+  for (int i = 0; i < tracks->counts[shot] && status >= 0; i++) {
     int index = 0;
     for (size_t k = 0; k < n; k++)
       place(&ways[i], times[k] - strike[5], &index, &places[2 * ((size_t)i * n + k)]);

@@ -182,6 +182,18 @@
   LATER(w, "", "rad/s", -1e6, 1e6, NAN, SPIN, "angular velocity") \
   LATER(label, "", "", 0, 6, NAN, LABEL, "how it moves, a carom_label")
 
+/* What a number of a ball stands for where it is 0 and 0 is a default: carom_ball_kind_resolve()
+ * writes these, and whoever reads a number takes them from here. That of the law of friction is
+ * carom_alciatore(). */
+#define CAROM_USUAL_OMEGA_RATIO 1.8
+#define CAROM_USUAL_RESTITUTION_TABLE 0.5
+#define CAROM_USUAL_MODULUS 6.6e9 /* phenolic resin, docs/understanding/clusters.md */
+#define CAROM_USUAL_SMOOTH(X)                                                                     \
+  X(smooth_q, 0.35)                                                                               \
+  X(smooth_x, 1.3)                                                                                \
+  X(smooth_t, 1.18) X(smooth_a, 0.25) X(smooth_k, 0.0) X(smooth_g, 0.067) X(smooth_g_log, -0.059) \
+      X(smooth_e, 0.06)
+
 /* For the rows that are not wanted. */
 #define CAROM_NO_ROW(...)
 

@@ -269,19 +269,18 @@ _CUSHION = [
 ]
 
 
-def radius_on(table: str) -> float:
-    """The radius of the balls of a built-in table, m."""
-    game = table if table in GAMES else "billiard" if table == "threecushion" else "pool"
-    return float(lib.carom_ball_kind_of(GAMES[game]).radius)
+def radius_on(kind: int) -> float:
+    """The radius of the balls of a built-in table, a carom_table_kind, m."""
+    return float(lib.carom_ball_kind_of(lib.carom_game_of_table(kind)).radius)
 
 
 def _sizes() -> dict[tuple[float, float], list[float]]:
     """The radii of the balls that are played on built-in tables of a size."""
     found: dict[tuple[float, float], list[float]] = {}
     measures = ffi.new("carom_measures *")
-    for table, kind in worded("TABLE").items():
+    for kind in worded("TABLE").values():
         lib.carom_table_measures(kind, measures)
-        found.setdefault((measures.width, measures.length), []).append(radius_on(table))
+        found.setdefault((measures.width, measures.length), []).append(radius_on(kind))
     return found
 
 

@@ -377,7 +377,7 @@ def without_slip(search: Search) -> Search:
     kind = balls([[0.0, 0.0]], game="billiard")["kind"][0]
     priors["law_a"] = (float(kind["mu_ball"]), PRIORS["law_a"][0])
     plays = search.plays.some(range(len(search.plays.recordings)))
-    plays.set({**plays.constants, "law_a": priors["law_a"][0], "law_b": 0.0, "law_c": 0.0})
+    plays.set({**plays.constants, "law_a": priors["law_a"][0], "law_b": 0.0})
     strikes = np.full((len(plays.recordings), 6), np.nan)
     strikes[search.rows] = search.strikes
     return Search(plays, strikes, range(len(strikes)), priors)
