@@ -125,7 +125,7 @@ class Plays:
         steps = steps or {}
         self.constants = dict(constants)
         self.steps = np.array(list(steps.values()), np.float64)
-        self.table = self.ground.table
+        self.table = _constants.sloped(self.ground.table, constants)
         changed = [
             self.constants,
             *({**self.constants, name: constants[name] + step} for name, step in steps.items()),
@@ -133,7 +133,9 @@ class Plays:
         self.layouts = np.array(
             [_constants.layout(self.centres, self.radius, constants) for constants in changed]
         )
-        self.tables = np.array([self.table.record for constants in changed], dtypes.table)
+        self.tables = np.array(
+            [_constants.sloped(self.table, constants).record for constants in changed], dtypes.table
+        )
 
     def _samples(self, tracks: Sequence[Sequence[Doubles]]) -> tuple[Doubles, NDArray[np.int64]]:
         """The samples of all balls of all shots, one after the other, and where those of each begin,
