@@ -186,6 +186,11 @@ def _give(kinds: Array, constants: Mapping[str, float]) -> None:
             kinds[name] = value
 
 
+def path(name: str) -> str:
+    """The name of a constant as `carom.tangents` takes it."""
+    return f"{'table' if name in SLOPE else 'kind'}.{name}"
+
+
 def sloped(table: Table, constants: Mapping[str, float]) -> Table:
     """The table with the slope of some constants."""
     slope = {name: constants.get(name, 0.0) for name in SLOPE}

@@ -85,8 +85,8 @@ _SHAPE = {
     "nose_height": 8e-5,
     "restitution_log": 2e-3,
     "mu_log": 2e-3,
-    "slope_x": 2e-5,
-    "slope_y": 2e-5,
+    "slope_x": 3e-6,
+    "slope_y": 3e-6,
 }
 _WIDE = 10.0  # a range that is wider says nothing of the deviation of a constant
 # the deviation of a prior of other constants over the width of their range, and _SHAPE over the

@@ -710,7 +710,7 @@ def derivatives(
     # the tangents at all times of samples, on the clock of the play
     times = np.unique(np.concatenate([track[:, 0] for track in tracks]))
     moments = np.maximum(times - strike[5], 0.0)
-    wrt = [f"balls[{struck}].v", f"balls[{struck}].w", *(f"kind.{name}" for name in names)]
+    wrt = [f"balls[{struck}].v", f"balls[{struck}].w", *map(_constants.path, names)]
     wrt += [f"balls[{ball}].r" for ball in range(len(balls)) if rest]
     found = tangents(played, wrt, times=moments).at["r"]
     states = played.states(moments)
