@@ -1021,6 +1021,17 @@ def test_a_number_of_the_cushion_is_found_by_whole_shots():
     )
 
 
+def test_the_slope_of_a_table_is_found():
+    slope = {"slope_x": 1.2e-3, "slope_y": -7e-4}
+    sample = synthetic(8, seed=6, constants=slope)
+    found = fitted(sample.recordings, free=["slope_x", "slope_y"], seed=1)
+    level = fitted(sample.recordings, free="none", seed=1)
+    assert found.median_rmse < 0.1 * level.median_rmse
+    for name, value in slope.items():
+        assert abs(found.constants[name] - value) < 4.0 * found.spread[name] < 2e-4
+        assert found.ground.table.slope[name] == found.constants[name]
+
+
 def test_an_impact_loses_roll_as_in_a_shot():
     usual = _constants.usual("smooth")
     impact = carom.cushion_impacts(

@@ -88,7 +88,7 @@ def _priors(
     wider = _joint.TABLE if list(free) == ["table"] else {}
     usually = [name for name in wider or _joint.PRIORS if name not in left_out]
     names = usually if list(free) in (["default"], ["table"]) else list(free)
-    known = [name for name in _constants.KINDS if name in values]
+    known = [name for name in _constants.NAMES if name in values]
     unknown = [name for name in [*names, *priors] if name not in known]
     if unknown:
         raise ValueError(
