@@ -392,6 +392,10 @@ typedef struct carom_table {
   double pocket_back; /* height of the backs of pockets, m: an airborne ball over a pocket falls
                          into it if its centre is at most this high above the cloth where it leaves
                          the circle; 0: the greatest height of a nose. */
+  /* Always read. */
+  double slope_x, slope_y; /* by how much the cloth rises for each metre along x and y; 0: level.
+                              Its size must be below mu_roll and mu_slide of every ball, so that
+                              balls come to rest. Contacts neglect it. */
 } carom_table;
 
 /* Built-in tables, with their playing areas. The pool tables have the pockets of the WPA's rules,
@@ -497,6 +501,7 @@ typedef struct carom_measures {
   double side_mouth, side_cut, side_shelf, side_jaw, side_hole;
   double facing_restitution, facing_friction; /* of facings and jaws, as restitution and mu_cushion
                            of a carom_rail, 0 to 1; 0: those of the ball. */
+  double slope_x, slope_y; /* of the cloth, as of a carom_table. */
 } carom_measures;
 
 /* The measures of a built-in table. Statuses are those of carom_table_make(). */
@@ -944,7 +949,8 @@ typedef struct carom_shot {
   carom_shot_state *state;  /* the state in which the shot stopped, for carom_shot_continue(); may
                                be NULL. */
   carom_facts *facts;       /* of the whole shot, also after carom_shot_continue(); may be NULL. */
-  uint64_t reserved[3];     /* not read or written yet. */
+  double slope_x, slope_y;  /* written: those of the table, which carom_shot_at() and the like read. */
+  uint64_t reserved[1];     /* not read or written yet. */
 } carom_shot;
 
 /* The collision of two spheres in space along any line of centres: one impulse in closed form, for

@@ -86,6 +86,8 @@ static bool look_at_shot(looking *with, size_t k, const double *times, size_t m,
   const carom_shot_job *job = with->job;
   const size_t count = (size_t)job->count;
   carom_shot *source = &job->shots[k], shot = *source;
+  shot.slope_x = job->table->slope_x;
+  shot.slope_y = job->table->slope_y;
   carom_status played = (carom_status)job->status[k], look = CAROM_OK;
 
   /* The shot with all of its events; none of one whose arguments were refused. */
@@ -428,24 +430,28 @@ static void roll(const carom_ball_kind *kind, double t, carom_ball_state *s) {
 
 /* Appends the way from a state to an end, whose state may be NULL: then it follows from the
  * motion. An end before the start, of a ball that is falling into its pocket, adds nothing. */
-static bool go(way *w, const carom_shot_ball *ball, double start, double end,
-               const carom_ball_state *target) {
+static bool go(way *w, const carom_table *table, const carom_shot_ball *ball, double start,
+               double end, const carom_ball_state *target) {
   if (end < start)
     return true;
   carom_ball_state state = ball->state, next;
-  const bool cuts = ball->kind.drag > 0.0 && state.label == CAROM_BALL_ROLLING;
-  const int parts =
-      cuts && end - start > piece_most ? (int)fmin(ceil((end - start) / piece_most), 64.0) : 1;
+  const bool sloped = table->slope_x != 0.0 || table->slope_y != 0.0;
+  const bool rolls = state.label == CAROM_BALL_ROLLING, slides = state.label == CAROM_BALL_SLIDING;
+  const bool cuts = (rolls && ball->kind.drag > 0.0) || (sloped && (rolls || slides));
+  const double most = sloped ? 0.5 * piece_most : piece_most;
+  const int parts = cuts && end - start > most ? (int)fmin(ceil((end - start) / most), 64.0) : 1;
   for (int k = 1; k <= parts; k++) {
     const double elapsed = (end - start) * k / parts;
-    if (k < parts) {
-      next = state;
-      roll(&ball->kind, (end - start) / parts, &next);
-    } else if (target == NULL) {
-      if (carom_shot_at(ball, 1, &(carom_shot){.time = elapsed}, elapsed, &next) < 0)
+    const carom_shot shot = {
+        .time = elapsed, .slope_x = table->slope_x, .slope_y = table->slope_y};
+    if (k == parts && target != NULL) {
+      next = *target;
+    } else if (k == parts || sloped) {
+      if (carom_shot_at(ball, 1, &shot, elapsed, &next) < 0)
         return false;
     } else {
-      next = *target;
+      next = state;
+      roll(&ball->kind, (end - start) / parts, &next);
     }
     if (w->pieces == PIECES_MOST)
       return false;
@@ -525,7 +531,7 @@ static bool follow(const carom_table *table, const carom_event *events, int many
   for (const carom_event *e = events; e < events + many; e++)
     for (int side = 0; side < (e->type == CAROM_EVENT_BALL_BALL ? 2 : 1); side++) {
       const int i = side == 0 ? e->a : e->b;
-      good = good && go(&ways[i], &balls[i], starts[i], e->time, &e->before[side]);
+      good = good && go(&ways[i], table, &balls[i], starts[i], e->time, &e->before[side]);
       starts[i] = e->time;
       balls[i].state = e->after[side];
       if (e->type == CAROM_EVENT_POCKET)
@@ -604,7 +610,7 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
 
   /* What follows a ball's last event goes to the end of the time. */
   for (int i = 0; i < count; i++)
-    good = good && go(&ways[i], &balls[i], starts[i], end, NULL);
+    good = good && go(&ways[i], table, &balls[i], starts[i], end, NULL);
   return good ? CAROM_OK : CAROM_ERROR_ROOM;
 }
 

@@ -123,7 +123,9 @@
   ROW(rail_width, "rail_width", "m", 0, DBL_MAX, NAN, TABLE,                             \
       "width of the tops of rails; 0: 0.12")                                             \
   ROW(pocket_back, "pocket_back", "m", 0, DBL_MAX, NAN, TABLE,                           \
-      "height of the backs of pockets; 0: that of the highest nose")
+      "height of the backs of pockets; 0: that of the highest nose")                     \
+  ROW(slope_x, "slope_x", "", -1, 1, NAN, SLOPE, "rise of the cloth along x")            \
+  ROW(slope_y, "slope_y", "", -1, 1, NAN, SLOPE, "rise of the cloth along y")
 
 #define CAROM_MEASURES_NUMBERS(ROW, LATER)                                                         \
   LATER(width, "width", "m", 0.1, 100, NAN, TABLE, "width of the playing area, between the noses") \
@@ -145,7 +147,9 @@
   LATER(facing_restitution, "facing_restitution", "", 0, 1, NAN, TABLE,                            \
         "restitution of ball and facing or jaw; 0: that of the ball")                              \
   LATER(facing_friction, "facing_friction", "", 0, 1, NAN, TABLE,                                  \
-        "friction of ball and facing or jaw; 0: that of the ball")
+        "friction of ball and facing or jaw; 0: that of the ball")                                 \
+  LATER(slope_x, "slope_x", "", -1, 1, NAN, TABLE, "rise of the cloth along x")                    \
+  LATER(slope_y, "slope_y", "", -1, 1, NAN, TABLE, "rise of the cloth along y")
 
 #define CAROM_RAIL_NUMBERS(ROW, LATER)                                                           \
   ROW(p, "", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "one end")                                      \

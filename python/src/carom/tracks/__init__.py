@@ -142,7 +142,7 @@ def synthetic(
     for name, value in (("noise", noise), ("thin", thin)):
         if not 0.0 <= value < np.inf:
             raise ValueError(f"{name}: it must be finite and at least 0, in m, not {value:g}")
-    world = _constants.rectangle(table, values["nose_height"])
+    world = _constants.sloped(_constants.rectangle(table, values["nose_height"]), values)
     low, high = radius, np.array(table) - radius
     recordings: list[Recording] = []
     shots_played: list[Shot] = []

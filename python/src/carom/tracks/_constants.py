@@ -1,7 +1,8 @@
 """What recorded shots are played with: named constants, and the table and balls that follow from
 them.
 
-A constant is a field of `carom.dtypes.ball_kind` without the radius. carom_ball_kind_resolve() says
+A constant is a field of `carom.dtypes.ball_kind` without the radius, or the slope of the table along
+x or y. carom_ball_kind_resolve() says
 what a number stands for where it is 0, so a fit plays the balls of a shot. Friction between balls
 is always the law of law_a, law_b and law_c, also where it is constant: a given mu_ball without one
 of these stands for that.
@@ -26,6 +27,8 @@ Constants = dict[str, float]
 Extents = tuple[float, float]
 
 KINDS = tuple(name for name in dtypes.ball_kind.names or () if name != "radius")
+SLOPE = ("slope_x", "slope_y")
+NAMES = KINDS + SLOPE
 _LAW = ("law_a", "law_b", "law_c")
 CUSHIONS = tuple(worded("SHOT_CUSHION"))
 # the words of the command, and the names of `carom.tables`
@@ -111,6 +114,7 @@ def _resolved(
     ) < 0:
         raise CaromError(code)
     values = {name: float(kind[name]) for name in KINDS if name != "mu_ball"}
+    values |= dict.fromkeys(SLOPE, 0.0)
     return values, options_of(options).cushion_model
 
 
@@ -160,9 +164,9 @@ def complete(
             f"{where}: numbers by the names of constants are needed, such as {{'mu_slide': 0.2}}, not {constants!r}"
         )
     for name, value in constants.items():
-        if name not in KINDS:
+        if name not in NAMES:
             raise ValueError(
-                f"{where}: there is no constant {name!r}; known are {', '.join(KINDS)}"
+                f"{where}: there is no constant {name!r}; known are {', '.join(NAMES)}"
             )
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value):
             raise ValueError(f"{where}: {name} must be a finite number, not {value!r}")
@@ -171,9 +175,26 @@ def complete(
         friction, kind["mu_ball"] = "constant", constants["mu_ball"]
     # the game's own law, where single numbers of it are given
     for values in (_resolved(kind, cushion_model, friction, None)[0], constants):
-        for name, value in values.items():
-            kind[name] = value
-    return _resolved(kind, cushion_model, "alciatore", table)
+        _give(kind, values)
+    found, model = _resolved(kind, cushion_model, "alciatore", table)
+    return found | {name: float(constants.get(name, 0.0)) for name in SLOPE}, model
+
+
+def _give(kinds: Array, constants: Mapping[str, float]) -> None:
+    for name, value in constants.items():
+        if name in KINDS:
+            kinds[name] = value
+
+
+def path(name: str) -> str:
+    """The name of a constant as `carom.tangents` takes it."""
+    return f"{'table' if name in SLOPE else 'kind'}.{name}"
+
+
+def sloped(table: Table, constants: Mapping[str, float]) -> Table:
+    """The table with the slope of some constants."""
+    slope = {name: constants.get(name, 0.0) for name in SLOPE}
+    return table if table.slope == slope else table.changed(**slope)
 
 
 def layout(
@@ -181,6 +202,5 @@ def layout(
 ) -> dtypes.Records:
     """Balls at rest at centres of shape (..., balls, 2), of shape (..., balls)."""
     layout = balls(centres, game="billiard", radius=radius)
-    for name, value in constants.items():
-        layout["kind"][name] = value
+    _give(layout["kind"], constants)
     return layout

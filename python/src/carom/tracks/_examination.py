@@ -65,6 +65,18 @@ class Finding:
     is_mended: bool = False  # whether the recordings are put right
 
 
+class _Findings(list[Finding]):
+    def say(
+        self,
+        kind: str,
+        text: str,
+        shots: Sequence[int | str] = (),
+        rows: int = 0,
+        is_mended: bool = False,
+    ) -> None:
+        self.append(Finding(kind, text, tuple(shots), rows, is_mended))
+
+
 @dataclass(frozen=True, eq=False)
 class Examination:
     """Recordings that are put right, and what was found in them."""
@@ -85,12 +97,6 @@ class Examination:
     def sentences(self) -> list[str]:
         """What was found of all shots, a sentence each."""
         return [finding.text for finding in self.findings]
-
-
-def _timed(shot: Recording, times: Sequence[Doubles]) -> Recording:
-    """A recording with other times."""
-    tracks = [np.column_stack([t, track[:, 1:]]) for t, track in zip(times, shot.tracks)]
-    return replace(shot, tracks=tuple(tracks))
 
 
 def _names(shots: Sequence[int | str]) -> str:
@@ -145,7 +151,7 @@ def _time_scale(recordings: Sequence[Recording], least: int) -> float:
     return math.nan
 
 
-def _in_seconds(recordings: list[Recording], findings: list[Finding]) -> list[Recording]:
+def _in_seconds(recordings: list[Recording], findings: _Findings) -> list[Recording]:
     """Recordings whose t counts pictures or milliseconds, in seconds."""
     t = np.concatenate([track[:, 0] for shot in recordings for track in shot.tracks])
     if len(t) < 40 or np.abs(t - np.round(t)).max() > 1e-6 or np.ptp(t) < 20.0:
@@ -159,16 +165,17 @@ def _in_seconds(recordings: list[Recording], findings: list[Finding]) -> list[Re
             "tell how many there are in a second: rate is needed"
         )
     what = "milliseconds" if unit == 1000.0 else "pictures"
-    findings.append(
-        Finding(
-            "clock",
-            f"t counts {what}, as it has whole numbers alone: taken as {unit:g} a second, the usual "
-            f"rate nearest to the {scale:.3g} that sliding balls tell; rate says otherwise",
-            rows=len(t),
-            is_mended=True,
-        )
+    findings.say(
+        "clock",
+        f"t counts {what}, as it has whole numbers alone: taken as {unit:g} a second, the usual "
+        f"rate nearest to the {scale:.3g} that sliding balls tell; rate says otherwise",
+        rows=len(t),
+        is_mended=True,
     )
-    return [_timed(shot, [track[:, 0] / unit for track in shot.tracks]) for shot in recordings]
+    return [
+        replace(shot, tracks=tuple(track / (unit, 1.0, 1.0) for track in shot.tracks))
+        for shot in recordings
+    ]
 
 
 # ---- Pictures
@@ -232,7 +239,7 @@ def _retimed(shot: Recording, pictures: _Pictures, rate: float) -> tuple[Recordi
     return replace(shot, tracks=tuple(tracks)), int((~chosen).sum()), lost
 
 
-def _by_film(recordings: list[Recording], findings: list[Finding]) -> list[Recording]:
+def _by_film(recordings: list[Recording], findings: _Findings) -> list[Recording]:
     """Recordings by the clock of their film, where the file's is another."""
     pictures = [_pictures(shot) for shot in recordings]
     new, held = (
@@ -260,29 +267,25 @@ def _by_film(recordings: list[Recording], findings: list[Finding]) -> list[Recor
             best = scatter, rate, tried
     if best is None or not best[0] < _SMOOTHER * before:
         if repeats:
-            findings.append(
-                Finding(
-                    "clock",
-                    f"{held} pictures of moving balls repeat the one before, which no usual rate of "
-                    f"a film explains: leave them out, and give the times of the others",
-                    rows=held,
-                )
+            findings.say(
+                "clock",
+                f"{held} pictures of moving balls repeat the one before, which no usual rate of "
+                f"a film explains: leave them out, and give the times of the others",
+                rows=held,
             )
         return recordings
     _, rate, tried = best
     shots = tuple(shot.id for shot, (_, repeated, _) in zip(recordings, tried) if repeated)
     rows = sum(repeated for _, repeated, _ in tried)
     dropped = f"{rows} repeated pictures are left out of {_names(shots)}, and " if rows else ""
-    findings.append(
-        Finding(
-            "clock",
-            f"the film has {rate:g} pictures a second and the file another clock: {dropped}"
-            f"all times are set by the film's, which makes the ways of balls "
-            f"{before / best[0]:.2g} times as smooth",
-            shots,
-            rows,
-            is_mended=True,
-        )
+    findings.say(
+        "clock",
+        f"the film has {rate:g} pictures a second and the file another clock: {dropped}"
+        f"all times are set by the film's, which makes the ways of balls "
+        f"{before / best[0]:.2g} times as smooth",
+        shots,
+        rows,
+        is_mended=True,
     )
     return [shot for shot, _, _ in tried]
 
@@ -291,7 +294,7 @@ def _by_film(recordings: list[Recording], findings: list[Finding]) -> list[Recor
 
 
 def _on_table(
-    recordings: list[Recording], ground: _constants.Ground, findings: list[Finding]
+    recordings: list[Recording], ground: _constants.Ground, findings: _Findings
 ) -> tuple[list[Recording], list[int]]:
     """Recordings without the rows of balls that have fallen and those whose places are off the
     table, and their indices.
@@ -320,15 +323,13 @@ def _on_table(
         for ball, track, rows in zip(shot.balls, shot.tracks, inside):
             if not rows.all():
                 t, x, y = track[np.argmin(rows)]
-                findings.append(
-                    Finding(
-                        "table",
-                        f"shot {shot.id}, ball {ball}: {(~rows).sum()} rows are left out, the first "
-                        f"at t = {t:g} s in {x:g}, {y:g} m: {extents}",
-                        (shot.id,),
-                        int((~rows).sum()),
-                        is_mended=True,
-                    )
+                findings.say(
+                    "table",
+                    f"shot {shot.id}, ball {ball}: {(~rows).sum()} rows are left out, the first "
+                    f"at t = {t:g} s in {x:g}, {y:g} m: {extents}",
+                    (shot.id,),
+                    int((~rows).sum()),
+                    is_mended=True,
                 )
         kept = [(ball, track[rows]) for ball, track, rows in zip(shot.balls, shot.tracks, inside)]
         balls = [(ball, track) for ball, track in kept if len(track)]
@@ -351,18 +352,16 @@ def _thawed(track: Doubles, noise: float) -> Doubles:
 
 
 def _noise(
-    recordings: list[Recording], train: Sequence[int] | None, findings: list[Finding]
+    recordings: list[Recording], train: Sequence[int] | None, findings: _Findings
 ) -> tuple[list[Recording], Noise]:
     """Recordings with their noise, and without what a film repeats of balls at rest."""
     noise = noise_of(recordings if train is None else [recordings[k] for k in train])
     if noise.is_frozen:
-        findings.append(
-            Finding(
-                "noise",
-                f"the film freezes balls at rest, which scatter by {1e3 * noise.rest:.2f} mm, those "
-                f"that move by {1e3 * noise.value:.2f} mm: the latter counts, and of rows that "
-                f"repeat a place the first and the last",
-            )
+        findings.say(
+            "noise",
+            f"the film freezes balls at rest, which scatter by {1e3 * noise.rest:.2f} mm, those "
+            f"that move by {1e3 * noise.value:.2f} mm: the latter counts, and of rows that "
+            f"repeat a place the first and the last",
         )
         recordings = [
             replace(shot, tracks=tuple(_thawed(track, noise.value) for track in shot.tracks))
@@ -370,13 +369,11 @@ def _noise(
         ]
     low, high = sorted(noise.axes)
     if high > _UNLIKE * low and high > 3e-4:
-        findings.append(
-            Finding(
-                "noise",
-                f"the noise is {1e3 * noise.axes[0]:.2f} mm along x and {1e3 * noise.axes[1]:.2f} mm "
-                f"along y, as of a camera that looks along the table: both count as "
-                f"{1e3 * noise.value:.2f} mm",
-            )
+        findings.say(
+            "noise",
+            f"the noise is {1e3 * noise.axes[0]:.2f} mm along x and {1e3 * noise.axes[1]:.2f} mm "
+            f"along y, as of a camera that looks along the table: both count as "
+            f"{1e3 * noise.value:.2f} mm",
         )
     return recordings, noise
 
@@ -462,51 +459,45 @@ def _diameters(shot: Recording) -> list[float]:
     return found
 
 
-def _say_shots(recordings: list[Recording], radius: float, findings: list[Finding]) -> None:
+def _say_shots(recordings: list[Recording], radius: float, findings: _Findings) -> None:
     """What single shots show: gaps, drifts, strikes that were not filmed, another radius."""
     gaps = {shot.id: found for shot in recordings if (found := _gaps(shot))}
     if gaps:
         first, (begin, end, way) = next((shot, found[0]) for shot, found in gaps.items())
         count = sum(map(len, gaps.values()))
-        findings.append(
-            Finding(
-                "gap",
-                f"pictures are missing {count} times in {_names(list(gaps))}, first in shot {first} "
-                f"from {begin:.2f} to {end:.2f} s, while a ball went {100.0 * way:.0f} cm: what "
-                f"happens meanwhile is not fitted",
-                tuple(gaps),
-                count,
-            )
+        findings.say(
+            "gap",
+            f"pictures are missing {count} times in {_names(list(gaps))}, first in shot {first} "
+            f"from {begin:.2f} to {end:.2f} s, while a ball went {100.0 * way:.0f} cm: what "
+            f"happens meanwhile is not fitted",
+            tuple(gaps),
+            count,
         )
     for shot in recordings:
         drifts = _drifts(shot)
         if drifts:
             ball, drift, rows = max(drifts, key=lambda found: found[1])
             all_alike = len(drifts) == len(shot.tracks) > 1
-            findings.append(
-                Finding(
-                    "rest",
-                    f"shot {shot.id}, ball {ball}: it moves by {1e3 * drift:.1f} mm in the {rows} "
-                    f"rows before it is struck or hit; "
-                    + (
-                        "so do all balls: the camera moves"
-                        if all_alike
-                        else "a shot begins with all balls at rest"
-                    ),
-                    (shot.id,),
-                    rows,
-                )
+            findings.say(
+                "rest",
+                f"shot {shot.id}, ball {ball}: it moves by {1e3 * drift:.1f} mm in the {rows} "
+                f"rows before it is struck or hit; "
+                + (
+                    "so do all balls: the camera moves"
+                    if all_alike
+                    else "a shot begins with all balls at rest"
+                ),
+                (shot.id,),
+                rows,
             )
     late = [shot.id for shot in recordings if _begins_late(shot)]
     if len(late) >= max(3, 0.4 * len(recordings)):
-        findings.append(
-            Finding(
-                "rest",
-                f"the struck ball moves from its first row on in {len(late)} of {len(recordings)} "
-                f"shots ({_names(late)}): the strike is not in the recording, which must begin "
-                f"with the balls at rest",
-                tuple(late),
-            )
+        findings.say(
+            "rest",
+            f"the struck ball moves from its first row on in {len(late)} of {len(recordings)} "
+            f"shots ({_names(late)}): the strike is not in the recording, which must begin "
+            f"with the balls at rest",
+            tuple(late),
         )
     diameters = np.array([size for shot in recordings for size in _diameters(shot)])
     if len(diameters) >= 6:
@@ -514,14 +505,12 @@ def _say_shots(recordings: list[Recording], radius: float, findings: list[Findin
         low, high = np.quantile(diameters, (0.25, 0.75)) / (2.0 * radius)
         error = 1.9 * float(high - low) / math.sqrt(len(diameters))
         if not 0.94 - error < ratio < 1.12 + error:
-            findings.append(
-                Finding(
-                    "radius",
-                    f"{len(diameters)} hits say that centres of balls that touch are about "
-                    f"{2e3 * radius * ratio:.0f} mm apart, while the radius is {radius:g} m: is it "
-                    f"right, and the scale of the places?",
-                    rows=len(diameters),
-                )
+            findings.say(
+                "radius",
+                f"{len(diameters)} hits say that centres of balls that touch are about "
+                f"{2e3 * radius * ratio:.0f} mm apart, while the radius is {radius:g} m: is it "
+                f"right, and the scale of the places?",
+                rows=len(diameters),
             )
 
 
@@ -529,7 +518,7 @@ def _say_rails(
     recordings: list[Recording],
     table: tuple[float, float],
     radius: float,
-    findings: list[Finding],
+    findings: _Findings,
 ) -> None:
     """Where balls turn that meet cushions, if it is not at them: for few impacts."""
     found = beyond_rails(recordings, table, radius)
@@ -543,13 +532,11 @@ def _say_rails(
     )
     sizes = [off / (table[rail // 2] - radius) for rail, (off, _) in found.items() if rail % 2]
     scale = f", about {1.0 + np.median(sizes):.3f} times too large," if sizes else ""
-    findings.append(
-        Finding(
-            "table",
-            f"balls turn {rails}: the places{scale} do not fit the table's extents, its origin or "
-            f"the radius",
-            rows=sum(count for _, count in found.values()),
-        )
+    findings.say(
+        "table",
+        f"balls turn {rails}: the places{scale} do not fit the table's extents, its origin or "
+        f"the radius",
+        rows=sum(count for _, count in found.values()),
     )
 
 
@@ -587,7 +574,7 @@ def examine(
     """
     ground = _constants.ground(table, radius)
     size, radius = ground.size, ground.radius
-    findings = [Finding("file", note) for note in getattr(recordings, "notes", ())]
+    findings = _Findings(Finding("file", note) for note in getattr(recordings, "notes", ()))
     shots, indices = _on_table(list(recordings), ground, findings)
     told_by = None if train is None else [k for k, index in enumerate(indices) if index in {*train}]
     shots = _by_film(_in_seconds(shots, findings), findings)
@@ -595,24 +582,19 @@ def examine(
     if not any(finding.kind == "clock" for finding in findings) and (
         abs(math.log(scale)) > math.log(_CLOCK)
     ):
-        findings.append(
-            Finding(
-                "clock",
-                f"sliding balls slow down as if a second had {scale:.2g} units of t: is the rate of "
-                f"the pictures right?",
-            )
+        findings.say(
+            "clock",
+            f"sliding balls slow down as if a second had {scale:.2g} units of t: is the rate of "
+            f"the pictures right?",
         )
     shots, noise = _noise(shots, told_by, findings)
     shots, mended = sound(shots, noise.value)
     lie = lie_of(shots, size, radius)
     if lie.far > max(_CROOKED, 4.0 * lie.error):
-        findings.append(
-            Finding(
-                "table",
-                f"the tracks lie {lie}: "
-                f"{'put right' if calibrate else '--calibrate puts them right'}",
-                is_mended=calibrate,
-            )
+        findings.say(
+            "table",
+            f"the tracks lie {lie}: {'put right' if calibrate else '--calibrate puts them right'}",
+            is_mended=calibrate,
         )
     elif not lie.impacts:
         _say_rails(shots, size, radius, findings)

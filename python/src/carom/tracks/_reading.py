@@ -65,6 +65,7 @@ class _Notes:
     """
 
     unit: str = ""  # of the places, as the titles name it
+    picture: str = ""  # the column of the numbers of pictures, where they are the times
     sentences: list[str] = field(default_factory=list)
     rows: dict[str, list[str]] = field(default_factory=dict)
 
@@ -264,11 +265,8 @@ def _table_rows(path: Path, text: str, notes: _Notes) -> Iterator[_Row]:
         yield from _samples(columns, row, title, place, notes)
     if states:
         notes.sentences.append(f"states {', '.join(sorted(states))}: their rows are taken")
-    if columns and columns.time_unit == "" and "t" not in columns.places:
-        notes.sentences.append(
-            f"times are numbers of pictures (column {columns.titles[columns.places['picture']]}): "
-            f"rate says how many a second"
-        )
+    if columns and "t" not in columns.places:
+        notes.picture = columns.titles[columns.places["picture"]]
 
 
 def _samples(
@@ -465,7 +463,9 @@ def _ordered(times: Doubles) -> NDArray[np.intp]:
     return np.array(rows[::-1], np.intp)
 
 
-def _recordings_of(rows: Sequence[_Row], places: Doubles, notes: _Notes) -> list[Recording]:
+def _recordings_of(
+    rows: Sequence[_Row], places: Doubles, rate: float, notes: _Notes
+) -> list[Recording]:
     """The recordings of samples, in the order of the file; rows out of the order of time are left
     out, or sorted where they are many.
     """
@@ -477,18 +477,18 @@ def _recordings_of(rows: Sequence[_Row], places: Doubles, notes: _Notes) -> list
         tracks = []
         for ball, indices in balls.items():
             order = np.array(indices)
-            times = np.array([rows[k].t for k in indices])
+            times = np.array([rows[k].t for k in indices]) / rate
             ordered = _ordered(times)
             if len(ordered) < _ORDERED * len(np.unique(times)):
                 order = order[np.argsort(times, kind="stable")]
                 times = np.sort(times)
                 ordered, is_sorted = _ordered(times), is_sorted + 1
             for k in np.setdiff1d(np.arange(len(order)), ordered).tolist():
-                row, first = rows[order[k]], rows[order[max(k - 1, 0)]]
+                row, first = rows[order[k]], times[max(k - 1, 0)]
                 notes.leave_out(
                     "the rows of a ball come in the order of time, each time once",
-                    f"{row.place}: shot {shot}, ball {ball}: t = {row.t:g} s comes after "
-                    f"t = {first.t:g} s",
+                    f"{row.place}: shot {shot}, ball {ball}: t = {times[k]:g} s comes after "
+                    f"t = {first:g} s",
                 )
             tracks.append(np.column_stack([times[ordered], places[order[ordered]]]))
         found.append(Recording(_name(shot), tuple(map(_name, balls)), tuple(tracks)))
@@ -609,6 +609,8 @@ def read(
         places = (places - shift) * (length or 1.0)
     if area is not None:
         rows, places = _on_table(path, rows, places, area, notes)
-    if rate is not None:
-        rows = [_Row(row.place, row.shot, row.ball, row.t / rate, row.x, row.y) for row in rows]
-    return Reading(_recordings_of(rows, places, notes), notes.lines())
+    if rate is None and notes.picture:
+        notes.sentences.append(
+            f"times are numbers of pictures (column {notes.picture}): rate says how many a second"
+        )
+    return Reading(_recordings_of(rows, places, rate or 1.0, notes), notes.lines())

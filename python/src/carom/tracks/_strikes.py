@@ -124,7 +124,7 @@ class Plays:
         steps = steps or {}
         self.constants = dict(constants)
         self.steps = np.array(list(steps.values()), np.float64)
-        self.table = self.ground.table
+        self.table = _constants.sloped(self.ground.table, constants)
         changed = [
             self.constants,
             *({**self.constants, name: constants[name] + step} for name, step in steps.items()),
@@ -132,7 +132,9 @@ class Plays:
         self.layouts = np.array(
             [_constants.layout(self.centres, self.radius, constants) for constants in changed]
         )
-        self.tables = np.array([self.table.record for constants in changed], dtypes.table)
+        self.tables = np.array(
+            [_constants.sloped(self.table, constants).record for constants in changed], dtypes.table
+        )
 
     def _samples(self, tracks: Sequence[Sequence[Doubles]]) -> tuple[Doubles, NDArray[np.int64]]:
         """The samples of all balls of all shots, one after the other, and where those of each begin,
@@ -687,7 +689,7 @@ def derivatives(
     # the tangents at all times of samples, on the clock of the play
     times = np.unique(np.concatenate([track[:, 0] for track in tracks]))
     moments = np.maximum(times - strike[5], 0.0)
-    wrt = [f"balls[{struck}].v", f"balls[{struck}].w", *(f"kind.{name}" for name in names)]
+    wrt = [f"balls[{struck}].v", f"balls[{struck}].w", *map(_constants.path, names)]
     wrt += [f"balls[{ball}].r" for ball in range(len(balls)) if rest]
     found = tangents(played, wrt, times=moments).at["r"]
     states = played.states(moments)

@@ -57,7 +57,7 @@ class Fit:
     cushion_model: ShotCushion
     constants: dict[
         str, float
-    ]  # What the shots are played with: fields of `carom.dtypes.ball_kind`, and nose_height (m)
+    ]  # What the shots are played with: fields of `carom.dtypes.ball_kind`, and slope_x, slope_y
     spread: dict[
         str, float
         # Of each constant that was fitted, how far it is off by the evidence itself: a standard
@@ -91,7 +91,8 @@ class Fit:
     @property
     def ground(self) -> _constants.Ground:
         """The table, its game, and the radius of the balls."""
-        return _constants.ground(self.table, self.radius, self.game)
+        ground = _constants.ground(self.table, self.radius, self.game)
+        return ground._replace(table=_constants.sloped(ground.table, self.constants))
 
     @property
     def noise(self) -> float:
@@ -156,7 +157,8 @@ class Fit:
         ]
         balls = _constants.layout(np.array(centres), self.radius, self.constants)
         for name, values in changed.items():
-            balls["kind"][name] = values[:, None]
+            if name in _constants.KINDS:  # all plays have one table, so its slope stays
+                balls["kind"][name] = values[:, None]
         balls["state"]["v"][:, recording.cue, :2] = strikes[:, :2]
         balls["state"]["w"][:, recording.cue] = strikes[:, 2:5] / self.radius
         return self.ground.table, balls

@@ -88,7 +88,7 @@ def _priors(
     wider = _joint.TABLE if list(free) == ["table"] else {}
     usually = [name for name in wider or _joint.PRIORS if name not in left_out]
     names = usually if list(free) in (["default"], ["table"]) else list(free)
-    known = [name for name in _constants.KINDS if name in values]
+    known = [name for name in _constants.NAMES if name in values]
     unknown = [name for name in [*names, *priors] if name not in known]
     if unknown:
         raise ValueError(
@@ -531,23 +531,29 @@ def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
     )
 
 
-def _two_numbers(form: str) -> Callable[[str], tuple[float, float]]:
-    """What reads an argument of two numbers, and says its form where it is wrong."""
+def _numbers(count: int, form: str) -> Callable[[str], tuple[float, ...]]:
+    """What reads an argument of some numbers, and says its form where it is wrong."""
 
-    def read(text: str) -> tuple[float, float]:
+    def read(text: str) -> tuple[float, ...]:
         try:
-            first, second = map(float, text.split(","))
+            numbers = tuple(map(float, text.split(",")))
         except ValueError:
-            raise argparse.ArgumentTypeError(f"{text!r} must be {form}") from None
-        return first, second
+            numbers = ()
+        if len(numbers) != count:
+            raise argparse.ArgumentTypeError(f"{text!r} must be {form}")
+        return numbers
 
     return read
 
 
-_extents = _two_numbers(
-    f"one of {', '.join(_constants.TABLES)}, or W,L, the extents of x and y in m, such as 2.84,1.42"
+_extents = _numbers(
+    2,
+    f"one of {', '.join(_constants.TABLES)}, or W,L, the extents of x and y in m, such as 2.84,1.42",
 )
-_place = _two_numbers("X,Y, a place in the unit of the file, such as 4.5,3")
+_place = _numbers(2, "X,Y, a place in the unit of the file, such as 4.5,3")
+
+
+_corners = _numbers(8, "X,Y of each of four corners")
 
 
 def _unit(text: str) -> float | str:
@@ -555,15 +561,6 @@ def _unit(text: str) -> float | str:
         return float(text)
     except ValueError:
         return text
-
-
-def _corners(text: str) -> list[tuple[float, float]]:
-    """Four places of an argument."""
-    try:
-        a, b, c, d, e, f, g, h = map(float, text.split(","))
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} must be eight numbers, X,Y of each") from None
-    return [(a, b), (c, d), (e, f), (g, h)]
 
 
 def _read_object(path: Path, such: str) -> dict[str, Any]:
@@ -731,7 +728,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             unit=options.unit,
             origin=options.origin,
             rate=options.rate,
-            corners=options.corners,
+            corners=options.corners and np.reshape(options.corners, (4, 2)).tolist(),
         )
         found = fit(
             recordings,
