@@ -45,7 +45,7 @@ _MOVES = 2e-3  # m: least step of a ball that moves, for its clock
 _CROOKED = 8e-3  # m: tracks that are farther off are told
 _BEYOND = 15e-3  # m: a ball that turns farther off a cushion tells of another table
 _GAP, _GAP_WAY = 2.5, 0.04  # pictures, and m that a ball goes meanwhile: more is said
-_DRIFT = 2e-3  # m: of a ball at rest
+_DRIFT, _BEFORE = 2e-3, 0.05  # m and s: of a ball at rest, so long before the strike
 _UNLIKE = 1.6  # the noise of one coordinate over the other's, above which it is said
 
 
@@ -397,10 +397,11 @@ def _gaps(shot: Recording) -> list[tuple[float, float, float]]:
 
 
 def _drifts(shot: Recording) -> list[tuple[int | str, float, int]]:
-    """Balls that move before they are struck: how far, m, and in how many rows."""
+    """Balls that move before the strike: how far, m, and in how many rows."""
     found = []
     for ball, track, still in zip(shot.balls, shot.tracks, shot.still):
         rows = track[: max(still - 3, 0)]
+        rows = rows[rows[:, 0] < shot.moves.min() - _BEFORE]
         if len(rows) < 8:
             continue
         t = rows[:, 0] - rows[:, 0].mean()
@@ -477,7 +478,7 @@ def _say_shots(recordings: list[Recording], radius: float, findings: _Findings) 
             findings.say(
                 "rest",
                 f"shot {shot.id}, ball {ball}: it moves by {1e3 * drift:.1f} mm in the {rows} "
-                f"rows before it is struck or hit; "
+                f"rows before the strike; "
                 + (
                     "so do all balls: the camera moves"
                     if all_alike
