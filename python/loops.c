@@ -427,9 +427,11 @@ static void roll(const carom_ball_kind *kind, double t, carom_ball_state *s) {
 }
 
 /* Appends the way from a state to an end, whose state may be NULL: then it follows from the
- * motion. */
+ * motion. An end before the start, of a ball that is falling into its pocket, adds nothing. */
 static bool go(way *w, const carom_shot_ball *ball, double start, double end,
                const carom_ball_state *target) {
+  if (end < start)
+    return true;
   carom_ball_state state = ball->state, next;
   const bool cuts = ball->kind.drag > 0.0 && state.label == CAROM_BALL_ROLLING;
   const int parts =
@@ -499,9 +501,26 @@ static void kick(const carom_table *table, const carom_event *e, const double k[
     b->w[2] += V / R * k[4];
 }
 
+/* A ball that falls goes on for the radius of the pocket and stays there, in the middle or nearby:
+ * so its place is continuous, and a descent sees samples on both sides of the fall. Returns when it
+ * stops. */
+static double fall(const carom_table *table, const carom_event *e, carom_ball_state *state,
+                   way *w) {
+  const carom_ball_state *before = &e->before[0];
+  const double speed = hypot(before->v[0], before->v[1]);
+  if (speed < 1e-3 || w->pieces == PIECES_MOST)
+    return e->time;
+  const double wait = table->pocket[e->b].radius / speed;
+  w->piece[w->pieces++] =
+      (piece){.start = e->time, .c = {{before->r[0], before->r[1]}, {before->v[0], before->v[1]}}};
+  for (int k = 0; k < 2; k++)
+    state->r[k] = before->r[k] + wait * before->v[k];
+  return e->time + wait;
+}
+
 /* Appends the ways up to some events of all balls, which are at `balls` at the times starts[]. */
-static bool follow(const carom_event *events, int many, carom_shot_ball *balls, double *starts,
-                   way *ways) {
+static bool follow(const carom_table *table, const carom_event *events, int many,
+                   carom_shot_ball *balls, double *starts, way *ways) {
   bool good = true;
   for (const carom_event *e = events; e < events + many; e++)
     for (int side = 0; side < (e->type == CAROM_EVENT_BALL_BALL ? 2 : 1); side++) {
@@ -509,6 +528,8 @@ static bool follow(const carom_event *events, int many, carom_shot_ball *balls, 
       good = good && go(&ways[i], &balls[i], starts[i], e->time, &e->before[side]);
       starts[i] = e->time;
       balls[i].state = e->after[side];
+      if (e->type == CAROM_EVENT_POCKET)
+        starts[i] = fall(table, e, &balls[i].state, &ways[i]);
     }
   return good;
 }
@@ -564,7 +585,7 @@ static carom_status play(const carom_python_tracks *tracks, int32_t shot, int va
       contact += parts && is_contact(&first[e]);
     }
     *many += (int)played.count;
-    good = good && follow(first, (int)played.count, balls, starts, ways);
+    good = good && follow(table, first, (int)played.count, balls, starts, ways);
     begin += played.time;
     if (status != CAROM_STOPPED_AT_EVENT || begin >= end)
       break;

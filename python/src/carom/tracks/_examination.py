@@ -32,6 +32,7 @@ from carom.tracks._recordings import (
     moving_scatter,
     noise_of,
     sound,
+    until_pocketed,
 )
 
 _RATES = (25.0, 30.0, 24.0, 50.0, 60.0, 100.0, 120.0, 240.0, 23.976, 29.97, 48.0, 59.94)  # 1/s
@@ -295,7 +296,9 @@ def _by_film(recordings: list[Recording], findings: _Findings) -> list[Recording
 def _on_table(
     recordings: list[Recording], ground: _constants.Ground, findings: _Findings
 ) -> tuple[list[Recording], list[int]]:
-    """Recordings without the rows whose places are off the table, and their indices."""
+    """Recordings without the rows of balls that have fallen and those whose places are off the
+    table, and their indices.
+    """
     table, radius, pockets = ground.size, ground.radius, ground.table.pockets["centre"]
     places = np.concatenate([track[:, 1:] for shot in recordings for track in shot.tracks])
     low, high = radius, np.array(table) - radius
@@ -315,6 +318,7 @@ def _on_table(
         )
     found, indices = [], []
     for index, shot in enumerate(recordings):
+        shot = until_pocketed(shot, ground.table)
         inside = [is_inside(track[:, 1:], table, radius, pockets) for track in shot.tracks]
         for ball, track, rows in zip(shot.balls, shot.tracks, inside):
             if not rows.all():

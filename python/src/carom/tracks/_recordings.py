@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dtypes import Doubles
+from carom.layouts import Table
 
 NOISE = 0.35e-3
 """m: standard deviation of a coordinate that a good camera gives for a slow ball, as found on real
@@ -263,6 +264,30 @@ def noise_of(recordings: Sequence[Recording]) -> Noise:
     axes = tuple(_spread((moving if is_frozen else sample)[:, axis]) for axis in (0, 1))
     value = math.hypot(*axes) / math.sqrt(2.0) if is_frozen else _spread(sample)
     return Noise(max(value, 5e-5), (axes[0], axes[1]), rest, is_frozen)
+
+
+# ---- Balls that fall
+
+
+def until_pocketed(shot: Recording, table: Table) -> Recording:
+    """A recording in which the track of a ball ends where it falls: at its first row in a pocket,
+    or behind the pockets, that is the last or followed by another such row. A ball without rows
+    before is left out.
+    """
+    if len(table.pockets) == 0:
+        return shot
+    holes, kept = table.pockets["centre"], []
+    for name, track in zip(shot.balls, shot.tracks):
+        r = track[:, 1:]
+        gaps = np.hypot(*np.moveaxis(r[:, None] - holes, 2, 0)) - table.pockets["radius"]
+        behind = (r < holes.min(axis=0)) | (r > holes.max(axis=0))
+        inside = np.append((gaps < 0.0).any(axis=1) | behind.any(axis=1), True)
+        falls = np.flatnonzero(inside[:-1] & inside[1:])
+        rows = track[: falls[0]] if len(falls) else track
+        if len(rows):
+            kept.append((name, rows))
+    names, tracks = zip(*(kept or [(shot.balls[0], shot.tracks[0][:1])]))
+    return replace(shot, balls=names, tracks=tracks)
 
 
 # ---- False detections and swapped names

@@ -148,9 +148,6 @@ class _Saved:
             self.path.unlink(missing_ok=True)
 
 
-_BREAK = 1.0  # s from the first motion: later rows of a break tell nothing of its strike
-
-
 def _told_by_events(
     values: dict[str, float],
     remarks: list[str],
@@ -418,7 +415,6 @@ def fit(
     noise, remarks = examination.noise.value, examination.sentences
     if train is not None:
         train = [k for k, index in enumerate(examination.indices) if index in {*train}]
-    recordings = [_strikes.until_pocketed(shot, ground.table) for shot in recordings]
     for k, shot in enumerate(recordings):
         if _strikes.is_break(shot):
             recordings[k] = first_seconds(shot, _BREAK)
