@@ -108,16 +108,19 @@ def _names(shots: Sequence[int | str]) -> str:
 # ---- The unit of time
 
 
-def _slowing(recordings: Sequence[Recording], rows: int) -> Doubles:
-    """The decelerations of balls in their first rows of motion, in which they slide."""
+def _slowing(recordings: Sequence[Recording], rows: int, with_struck: bool) -> Doubles:
+    """The decelerations of balls that lay at rest in their first rows of motion, in which those
+    slide that were hit, and usually those that were struck.
+    """
     found = []
     for shot in recordings:
-        for track, still, moves in zip(shot.tracks, shot.still, shot.moves):
+        for ball, (track, still) in enumerate(zip(shot.tracks, shot.still)):
             first = track[still : still + rows]
-            if not math.isfinite(moves) or len(first) < rows:
+            if len(first) < rows or (ball == shot.cue and not with_struck):
                 continue
             t = first[:, 0] - first[0, 0]
-            if t[-1] > 1.3 * rows * np.diff(t).min():
+            picture = float(np.diff(t).min())
+            if t[-1] > 1.3 * rows * picture or first[0, 0] - track[0, 0] < 1.5 * picture:
                 continue
             coefficients = np.polyfit(t, first[:, 1:], 2)
             a, v = coefficients[:2]
@@ -132,12 +135,12 @@ def _slowing(recordings: Sequence[Recording], rows: int) -> Doubles:
     return np.array(found)
 
 
-def _time_scale(recordings: Sequence[Recording], least: int) -> float:
+def _time_scale(recordings: Sequence[Recording], least: int, with_struck: bool = False) -> float:
     """How many units of t a second has, by sliding; NaN where fewer balls than `least` tell."""
     steps = [np.diff(track[:, 0]) for shot in recordings for track in shot.tracks]
     picture = float(np.median(np.concatenate(steps)))
     for rows in _ROWS:
-        slowing = np.sort(_slowing(recordings, rows))
+        slowing = np.sort(_slowing(recordings, rows, with_struck))
         half = len(slowing) // 2 + 1
         if len(slowing) < least:
             continue
@@ -157,6 +160,8 @@ def _in_seconds(recordings: list[Recording], findings: _Findings) -> list[Record
     if len(t) < 40 or np.abs(t - np.round(t)).max() > 1e-6 or np.ptp(t) < 20.0:
         return recordings
     scale = _time_scale(recordings, 4)
+    if math.isnan(scale):
+        scale = _time_scale(recordings, 4, with_struck=True)
     units = np.array([*_RATES[:8], 1000.0])
     unit = float(units[np.argmin(np.abs(np.log(units / scale)))])
     if not abs(math.log(unit / scale)) < math.log(_CLOCK):
@@ -579,7 +584,7 @@ def examine(
     shots, indices = _on_table(list(recordings), ground, findings)
     told_by = None if train is None else [k for k, index in enumerate(indices) if index in {*train}]
     shots = _by_film(_in_seconds(shots, findings), findings)
-    scale = _time_scale(shots, 8)
+    scale = _time_scale(shots, 6)
     if not any(finding.kind == "clock" for finding in findings) and (
         abs(math.log(scale)) > math.log(_CLOCK)
     ):
