@@ -46,7 +46,7 @@ _MOVES = 2e-3  # m: least step of a ball that moves, for its clock
 _CROOKED = 8e-3  # m: tracks that are farther off are told
 _BEYOND = 15e-3  # m: a ball that turns farther off a cushion tells of another table
 _GAP, _GAP_WAY = 2.5, 0.04  # pictures, and m that a ball goes meanwhile: more is said
-_DRIFT = 2e-3  # m: of a ball at rest
+_DRIFT, _BEFORE = 2e-3, 0.05  # m and s: of a ball at rest, so long before the strike
 _UNLIKE = 1.6  # the noise of one coordinate over the other's, above which it is said
 
 
@@ -108,16 +108,19 @@ def _names(shots: Sequence[int | str]) -> str:
 # ---- The unit of time
 
 
-def _slowing(recordings: Sequence[Recording], rows: int) -> Doubles:
-    """The decelerations of balls in their first rows of motion, in which they slide."""
+def _slowing(recordings: Sequence[Recording], rows: int, with_struck: bool) -> Doubles:
+    """The decelerations of balls that lay at rest in their first rows of motion, in which those
+    slide that were hit, and usually those that were struck.
+    """
     found = []
     for shot in recordings:
-        for track, still, moves in zip(shot.tracks, shot.still, shot.moves):
+        for ball, (track, still) in enumerate(zip(shot.tracks, shot.still)):
             first = track[still : still + rows]
-            if not math.isfinite(moves) or len(first) < rows:
+            if len(first) < rows or (ball == shot.cue and not with_struck):
                 continue
             t = first[:, 0] - first[0, 0]
-            if t[-1] > 1.3 * rows * np.diff(t).min():
+            picture = float(np.diff(t).min())
+            if t[-1] > 1.3 * rows * picture or first[0, 0] - track[0, 0] < 1.5 * picture:
                 continue
             coefficients = np.polyfit(t, first[:, 1:], 2)
             a, v = coefficients[:2]
@@ -132,12 +135,12 @@ def _slowing(recordings: Sequence[Recording], rows: int) -> Doubles:
     return np.array(found)
 
 
-def _time_scale(recordings: Sequence[Recording], least: int) -> float:
+def _time_scale(recordings: Sequence[Recording], least: int, with_struck: bool = False) -> float:
     """How many units of t a second has, by sliding; NaN where fewer balls than `least` tell."""
     steps = [np.diff(track[:, 0]) for shot in recordings for track in shot.tracks]
     picture = float(np.median(np.concatenate(steps)))
     for rows in _ROWS:
-        slowing = np.sort(_slowing(recordings, rows))
+        slowing = np.sort(_slowing(recordings, rows, with_struck))
         half = len(slowing) // 2 + 1
         if len(slowing) < least:
             continue
@@ -157,6 +160,8 @@ def _in_seconds(recordings: list[Recording], findings: _Findings) -> list[Record
     if len(t) < 40 or np.abs(t - np.round(t)).max() > 1e-6 or np.ptp(t) < 20.0:
         return recordings
     scale = _time_scale(recordings, 4)
+    if math.isnan(scale):
+        scale = _time_scale(recordings, 4, with_struck=True)
     units = np.array([*_RATES[:8], 1000.0])
     unit = float(units[np.argmin(np.abs(np.log(units / scale)))])
     if not abs(math.log(unit / scale)) < math.log(_CLOCK):
@@ -401,10 +406,11 @@ def _gaps(shot: Recording) -> list[tuple[float, float, float]]:
 
 
 def _drifts(shot: Recording) -> list[tuple[int | str, float, int]]:
-    """Balls that move before they are struck: how far, m, and in how many rows."""
+    """Balls that move before the strike: how far, m, and in how many rows."""
     found = []
     for ball, track, still in zip(shot.balls, shot.tracks, shot.still):
         rows = track[: max(still - 3, 0)]
+        rows = rows[rows[:, 0] < shot.moves.min() - _BEFORE]
         if len(rows) < 8:
             continue
         t = rows[:, 0] - rows[:, 0].mean()
@@ -481,7 +487,7 @@ def _say_shots(recordings: list[Recording], radius: float, findings: _Findings) 
             findings.say(
                 "rest",
                 f"shot {shot.id}, ball {ball}: it moves by {1e3 * drift:.1f} mm in the {rows} "
-                f"rows before it is struck or hit; "
+                f"rows before the strike; "
                 + (
                     "so do all balls: the camera moves"
                     if all_alike
@@ -578,7 +584,7 @@ def examine(
     shots, indices = _on_table(list(recordings), ground, findings)
     told_by = None if train is None else [k for k, index in enumerate(indices) if index in {*train}]
     shots = _by_film(_in_seconds(shots, findings), findings)
-    scale = _time_scale(shots, 8)
+    scale = _time_scale(shots, 6)
     if not any(finding.kind == "clock" for finding in findings) and (
         abs(math.log(scale)) > math.log(_CLOCK)
     ):
