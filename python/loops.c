@@ -429,9 +429,11 @@ static void roll(const carom_ball_kind *kind, double t, carom_ball_state *s) {
 }
 
 /* Appends the way from a state to an end, whose state may be NULL: then it follows from the
- * motion. */
+ * motion. An end before the start, of a ball that is falling into its pocket, adds nothing. */
 static bool go(way *w, const carom_table *table, const carom_shot_ball *ball, double start,
                double end, const carom_ball_state *target) {
+  if (end < start)
+    return true;
   carom_ball_state state = ball->state, next;
   const bool sloped = table->slope_x != 0.0 || table->slope_y != 0.0;
   const bool rolls = state.label == CAROM_BALL_ROLLING, slides = state.label == CAROM_BALL_SLIDING;
@@ -505,6 +507,23 @@ static void kick(const carom_table *table, const carom_event *e, const double k[
     b->w[2] += V / R * k[4];
 }
 
+/* A ball that falls goes on for the radius of the pocket and stays there, in the middle or nearby:
+ * so its place is continuous, and a descent sees samples on both sides of the fall. Returns when it
+ * stops. */
+static double fall(const carom_table *table, const carom_event *e, carom_ball_state *state,
+                   way *w) {
+  const carom_ball_state *before = &e->before[0];
+  const double speed = hypot(before->v[0], before->v[1]);
+  if (speed < 1e-3 || w->pieces == PIECES_MOST)
+    return e->time;
+  const double wait = table->pocket[e->b].radius / speed;
+  w->piece[w->pieces++] =
+      (piece){.start = e->time, .c = {{before->r[0], before->r[1]}, {before->v[0], before->v[1]}}};
+  for (int k = 0; k < 2; k++)
+    state->r[k] = before->r[k] + wait * before->v[k];
+  return e->time + wait;
+}
+
 /* Appends the ways up to some events of all balls, which are at `balls` at the times starts[]. */
 static bool follow(const carom_table *table, const carom_event *events, int many,
                    carom_shot_ball *balls, double *starts, way *ways) {
@@ -515,6 +534,8 @@ static bool follow(const carom_table *table, const carom_event *events, int many
       good = good && go(&ways[i], table, &balls[i], starts[i], e->time, &e->before[side]);
       starts[i] = e->time;
       balls[i].state = e->after[side];
+      if (e->type == CAROM_EVENT_POCKET)
+        starts[i] = fall(table, e, &balls[i].state, &ways[i]);
     }
   return good;
 }

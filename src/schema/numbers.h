@@ -188,11 +188,15 @@
 #define CAROM_USUAL_OMEGA_RATIO 1.8
 #define CAROM_USUAL_RESTITUTION_TABLE 0.5
 #define CAROM_USUAL_MODULUS 6.6e9 /* phenolic resin, docs/understanding/clusters.md */
-#define CAROM_USUAL_SMOOTH(X)                                                                     \
-  X(smooth_q, 0.35)                                                                               \
-  X(smooth_x, 1.3)                                                                                \
-  X(smooth_t, 1.18) X(smooth_a, 0.25) X(smooth_k, 0.0) X(smooth_g, 0.067) X(smooth_g_log, -0.059) \
-      X(smooth_e, 0.06)
+#define CAROM_USUAL_SMOOTH(X) \
+  X(smooth_q, 0.35)           \
+  X(smooth_x, 1.3)            \
+  X(smooth_t, 1.18)           \
+  X(smooth_a, 0.25)           \
+  X(smooth_k, 0.0)            \
+  X(smooth_g, 0.067)          \
+  X(smooth_g_log, -0.059)     \
+  X(smooth_e, 0.06)
 
 /* For the rows that are not wanted. */
 #define CAROM_NO_ROW(...)

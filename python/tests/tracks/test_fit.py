@@ -401,7 +401,7 @@ def test_a_bent_picture_is_told_and_calibrated(bend):
     """By a lens or a camera that looks askew, as it bends the edges; corners are up to 2 cm off."""
     notes, mended = told_and_mended(angle=0.2, bend=bend)
     assert re.match(
-        r"the tracks lie turned by .* times as large as the table, bent by up to (1|2)\d\.\d mm, and",
+        r"the tracks lie turned by .* times as large as the table, bent by up to (1|2)\d\.\d mm as by a lens, and",
         notes.warnings[0],
     )
     assert notes.median_rmse > 5e-3
@@ -515,59 +515,6 @@ def test_no_shot_is_ok_whose_rmse_is_three_times_the_noise():
     assert [line for line in _summary.summary_lines(found) if "rough" in line][0].startswith(
         "12 of 12 shots are rough: RMSE "
     )
-
-
-@pytest.mark.parametrize("model", ["smooth", "han", "mathavan"])
-def test_shots_of_a_game_are_fitted_by_the_recipe_of_the_page(model):
-    """Which has no constants for the smooth cushion, and those of the balls for others; the figure
-    is the page's.
-    """
-    page = (Path(__file__).parents[3] / "docs/using/fit.md").read_text(encoding="utf-8")
-    page = " ".join(page.split())
-    recipe = 'carom.balls([[0, 0]], game="billiard", cushion_model="han")["kind"][0]'
-    assert (
-        f"constants={recipe}`. For `smooth` the defaults are right. With noise of 0.5 mm, the median RMSE is 0.71 mm for both"
-        in page
-        and "mu_ball" not in page
-    )
-    random, recordings = np.random.default_rng(4), []
-    kind = eval(recipe.replace("han", model))
-    table = carom.tables.polygon(
-        [(0, 0), (2.84, 0), TABLE, (0, 1.42)],
-        nose_height=float(kind["nose_height"]),
-        ball_radius=RADIUS,
-    )
-    for shot in range(4):
-        balls = carom.balls(
-            [[0.7, 0.7], [2.0, 0.4 + 0.2 * shot], [2.3, 1.2]], game="billiard", cushion_model=model
-        )
-        way = balls["state"]["r"][1] - balls["state"]["r"][0]
-        cue = carom.cue(
-            speed=2.5,
-            phi=float(np.degrees(np.arctan2(way[1], way[0]))) + 0.7,
-            b=0.2,
-            a=0.1,
-            game="billiard",
-        )
-        shot = carom.simulate(table, balls, cue, cushion_model=model)
-        times = np.arange(-0.5, shot.time + 0.1, 0.02)
-        seen = shot.positions(np.maximum(times, 0.0))[..., :2] + random.normal(
-            0.0, 0.5e-3, (len(times), 3, 2)
-        )
-        recordings.append(
-            tracks.Recording(
-                len(recordings),
-                (1, 2, 3),
-                tuple(np.column_stack([times, seen[:, ball]]) for ball in range(3)),
-            )
-        )
-    found = fitted(
-        recordings,
-        cushion_model=model,
-        free="none",
-        **({} if model == "smooth" else {"constants": kind}),
-    )
-    assert 0.65e-3 < found.median_rmse < 0.8e-3 and found.status == ["ok"] * 4
 
 
 def test_an_rmse_does_not_depend_on_how_long_balls_are_seen_at_rest(sample, plays):
@@ -782,7 +729,8 @@ def test_unknown_constants_are_found_within_their_spread():
 
 def billiard(seed):
     """A match of balls whose friction between each other does not change with the slip."""
-    return synthetic(24, constants={"mu_ball": 0.08}, noise=0.5e-3, seed=seed)
+    law = {"law_a": 0.08, "law_b": 0.0}
+    return synthetic(24, constants=law, noise=0.5e-3, seed=seed)
 
 
 @pytest.mark.parametrize("seed", [5, 7])
@@ -791,9 +739,7 @@ def test_a_friction_without_slip_is_found(seed):
     sample = billiard(seed)
     found = fitted(sample.recordings, seed=1)
     assert found.median_rmse < 1.5 * np.sqrt(2) * 0.5e-3
-    assert (
-        "law_b" not in found.fitted and found.constants["law_b"] == found.constants["law_c"] == 0.0
-    )
+    assert "law_b" not in found.fitted and found.constants["law_b"] == 0.0
     assert found.constants["law_a"] == pytest.approx(0.08, abs=0.002)
 
 
@@ -1110,8 +1056,9 @@ def test_an_impact_loses_roll_as_in_a_shot():
 
 
 def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given(sample):
+    mirrored = synthetic(2, cushion_model="mirror", constants={"mu_slide": 0.21}, seed=2)
     few = fitted(
-        sample.recordings[:2],
+        mirrored.recordings,
         cushion_model="mirror",
         constants={"mu_slide": 0.19, "mu_ball": 0.05},
         free="events",
@@ -1144,10 +1091,6 @@ def test_shots_that_are_no_shots_have_a_status(sample):
     with pytest.raises(ValueError, match="shot 1: no strike was found: no ball moves"):
         found.shot(0)
     assert json.loads(json.dumps(found.to_dict()))["shots"][0]["cue"] is None
-    first = sample.recordings[0]
-    message = f"shot 9 has 2 balls, shot {first.id} {len(first.balls)}; all shots must have the same number"
-    with pytest.raises(ValueError, match=message):
-        fitted([first, tracks.Recording(9, (1, 2), still[:2])])
 
 
 def test_the_command_splits_goes_on_and_writes_a_page(sample, tmp_path, capsys, monkeypatch):
@@ -1255,7 +1198,7 @@ def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatc
     )
     names = sorted(path.name for path in (tmp_path / "p").iterdir())
     assert names == [
-        f"reality-{name}.svg" for name in ("cushion", "hits", "rmse", "rolling", "sliding")
+        f"reality-{name}.svg" for name in ("bands", "cushion", "hits", "rmse", "rolling", "sliding")
     ]
     assert all((tmp_path / "p" / name).read_text().startswith("<svg") for name in names)
 

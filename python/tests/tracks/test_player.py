@@ -15,8 +15,7 @@ RADIUS, TABLE = 0.03075, (2.84, 1.42)
 def filmed(player, kinds, times, seed):
     """Recordings of strokes that a player repeats, each on a layout put up again by hand."""
     random = np.random.default_rng(seed)
-    nose = _constants.STARTS["smooth"]["nose_height"]
-    table = _constants.rectangle(TABLE, nose)
+    table = _constants.ground(TABLE, RADIUS).table
     shots = []
     for kind in range(kinds):
         places = np.array([[0.5, 0.4], [1.2, 0.7], [2.3, 1.1]]) + random.uniform(

@@ -23,9 +23,9 @@ def _on_a_cloth(call, **usual):
     """A call whose constants are these where none are given; those of Han's cushion alone."""
 
     @functools.wraps(call)
-    def played(first, *, constants=(), cushion_model="han", **how):
-        base = {**CLOTH, **BALLS} if cushion_model == "han" else {}
-        constants = {**base, **dict(constants)}
+    def played(first, *, constants=None, cushion_model="han", **how):
+        if cushion_model == "han" and (constants is None or isinstance(constants, dict)):
+            constants = {**CLOTH, **BALLS, **(constants or {})}
         return call(first, constants=constants, cushion_model=cushion_model, **{**usual, **how})
 
     return played

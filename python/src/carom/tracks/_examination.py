@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dtypes import Doubles
+from carom.tracks import _constants
 from carom.tracks._recordings import (
     Noise,
     Recording,
@@ -31,11 +32,13 @@ from carom.tracks._recordings import (
     moving_scatter,
     noise_of,
     sound,
+    until_pocketed,
 )
 
 _RATES = (25.0, 30.0, 24.0, 50.0, 60.0, 100.0, 120.0, 240.0, 23.976, 29.97, 48.0, 59.94)  # 1/s
 _SLIDING = 1.95  # m/s^2: mu_slide g of most cloths, 0.17 to 0.22 times g
-_ROWS = 7  # that tell how a ball slides, of 25 pictures a second
+_ROWS = (7, 14, 28, 56)  # that tell how a ball slides, of 25 to 240 pictures a second
+_SLIDES = 0.18  # s: it slides so long
 _CLOCK = 1.18  # a clock that is wrong by less is no other than a cloth that is unlike most
 _HELD = 0.03  # share of repeated pictures among those of moving balls, above chance
 _SMOOTHER = 0.6  # of the scatter that a right clock leaves, at most
@@ -62,6 +65,18 @@ class Finding:
     is_mended: bool = False  # whether the recordings are put right
 
 
+class _Findings(list[Finding]):
+    def say(
+        self,
+        kind: str,
+        text: str,
+        shots: Sequence[int | str] = (),
+        rows: int = 0,
+        is_mended: bool = False,
+    ) -> None:
+        self.append(Finding(kind, text, tuple(shots), rows, is_mended))
+
+
 @dataclass(frozen=True, eq=False)
 class Examination:
     """Recordings that are put right, and what was found in them."""
@@ -84,12 +99,6 @@ class Examination:
         return [finding.text for finding in self.findings]
 
 
-def _timed(shot: Recording, times: Sequence[Doubles]) -> Recording:
-    """A recording with other times."""
-    tracks = [np.column_stack([t, track[:, 1:]]) for t, track in zip(times, shot.tracks)]
-    return replace(shot, tracks=tuple(tracks))
-
-
 def _names(shots: Sequence[int | str]) -> str:
     """Which shots, in words."""
     some = ", ".join(map(str, shots[:4])) + (" and others" if len(shots) > 4 else "")
@@ -110,35 +119,44 @@ def _slowing(recordings: Sequence[Recording], rows: int) -> Doubles:
             t = first[:, 0] - first[0, 0]
             if t[-1] > 1.3 * rows * np.diff(t).min():
                 continue
-            a, v = np.polyfit(t, first[:, 1:], 2)[:2]
+            coefficients = np.polyfit(t, first[:, 1:], 2)
+            a, v = coefficients[:2]
+            left = np.vander(t, 3) @ coefficients - first[:, 1:]
             speed = float(np.hypot(*v))
             end = float(np.hypot(*(v + 2.0 * a * t[-1])))
+            slowing = -2.0 * float(a @ v) / speed
+            error = math.sqrt(720.0 / rows * float((left**2).mean())) / float(t[-1]) ** 2
             # a ball that rolls has lost two sevenths of its speed
-            if 0.02 * speed < speed - end < 0.29 * speed:
-                found.append(-2.0 * float(a @ v) / speed)
+            if 0.02 * speed < speed - end < 0.29 * speed and error < 0.1 * slowing:
+                found.append(slowing)
     return np.array(found)
 
 
-def _time_scale(recordings: Sequence[Recording]) -> float:
-    """How many units of t a second has, by sliding; NaN where fewer than four balls tell."""
-    scale, rows = math.nan, _ROWS
-    for _ in range(3):
-        slowing = _slowing(recordings, rows)
-        if len(slowing) < 4:
-            break
-        scale = math.sqrt(_SLIDING / float(np.quantile(slowing, 0.7)))
-        steps = [np.diff(track[:, 0]) for shot in recordings for track in shot.tracks]
-        rate = scale / float(np.median(np.concatenate(steps)))
-        rows = int(np.clip(_ROWS * rate / 25.0, _ROWS, 80))
-    return scale
+def _time_scale(recordings: Sequence[Recording], least: int) -> float:
+    """How many units of t a second has, by sliding; NaN where fewer balls than `least` tell."""
+    steps = [np.diff(track[:, 0]) for shot in recordings for track in shot.tracks]
+    picture = float(np.median(np.concatenate(steps)))
+    for rows in _ROWS:
+        slowing = np.sort(_slowing(recordings, rows))
+        half = len(slowing) // 2 + 1
+        if len(slowing) < least:
+            continue
+        # the half that lies closest together slides alone; of others some hit or roll meanwhile
+        widths = slowing[half - 1 :] - slowing[: len(slowing) - half + 1]
+        first = int(np.argmin(widths))
+        middle = float(slowing[first : first + half].mean())
+        scale = math.sqrt(_SLIDING / middle)
+        if widths[first] < 0.4 * middle and rows * picture > _SLIDES * scale:
+            return scale
+    return math.nan
 
 
-def _in_seconds(recordings: list[Recording], findings: list[Finding]) -> list[Recording]:
+def _in_seconds(recordings: list[Recording], findings: _Findings) -> list[Recording]:
     """Recordings whose t counts pictures or milliseconds, in seconds."""
     t = np.concatenate([track[:, 0] for shot in recordings for track in shot.tracks])
     if len(t) < 40 or np.abs(t - np.round(t)).max() > 1e-6 or np.ptp(t) < 20.0:
         return recordings
-    scale = _time_scale(recordings)
+    scale = _time_scale(recordings, 4)
     units = np.array([*_RATES[:8], 1000.0])
     unit = float(units[np.argmin(np.abs(np.log(units / scale)))])
     if not abs(math.log(unit / scale)) < math.log(_CLOCK):
@@ -147,16 +165,17 @@ def _in_seconds(recordings: list[Recording], findings: list[Finding]) -> list[Re
             "tell how many there are in a second: rate is needed"
         )
     what = "milliseconds" if unit == 1000.0 else "pictures"
-    findings.append(
-        Finding(
-            "clock",
-            f"t counts {what}, as it has whole numbers alone: taken as {unit:g} a second, the usual "
-            f"rate nearest to the {scale:.3g} that sliding balls tell; rate says otherwise",
-            rows=len(t),
-            is_mended=True,
-        )
+    findings.say(
+        "clock",
+        f"t counts {what}, as it has whole numbers alone: taken as {unit:g} a second, the usual "
+        f"rate nearest to the {scale:.3g} that sliding balls tell; rate says otherwise",
+        rows=len(t),
+        is_mended=True,
     )
-    return [_timed(shot, [track[:, 0] / unit for track in shot.tracks]) for shot in recordings]
+    return [
+        replace(shot, tracks=tuple(track / (unit, 1.0, 1.0) for track in shot.tracks))
+        for shot in recordings
+    ]
 
 
 # ---- Pictures
@@ -173,7 +192,8 @@ class _Pictures:
     is_held: NDArray[np.bool_]
 
 
-def _pictures(shot: Recording) -> _Pictures:
+def _pictures(shot: Recording, least: float = _MOVES) -> _Pictures:
+    """The pictures of a shot, in which a ball is new that moved by more than `least`, m."""
     times = np.unique(np.concatenate([track[:, 0] for track in shot.tracks]))
     is_new, is_repeated = np.zeros(len(times), np.bool_), np.zeros(len(times), np.bool_)
     for track in shot.tracks:
@@ -185,8 +205,8 @@ def _pictures(shot: Recording) -> _Pictures:
         windows = np.lib.stride_tricks.sliding_window_view(padded, 3)
         way = np.minimum(windows[: len(steps)].max(axis=1), windows[4:].max(axis=1))
         rows = np.searchsorted(times, track[1:, 0])
-        is_new[rows[steps > np.maximum(0.05 * way, _MOVES)]] = True
-        is_repeated[rows[(way > _MOVES) & (steps <= 0.05 * way)]] = True
+        is_new[rows[steps > np.maximum(0.05 * way, least)]] = True
+        is_repeated[rows[(way > 4.0 * _MOVES) & (steps <= 0.05 * way)]] = True
     return _Pictures(times, is_new, is_repeated & ~is_new)
 
 
@@ -219,7 +239,7 @@ def _retimed(shot: Recording, pictures: _Pictures, rate: float) -> tuple[Recordi
     return replace(shot, tracks=tuple(tracks)), int((~chosen).sum()), lost
 
 
-def _by_film(recordings: list[Recording], findings: list[Finding]) -> list[Recording]:
+def _by_film(recordings: list[Recording], findings: _Findings) -> list[Recording]:
     """Recordings by the clock of their film, where the file's is another."""
     pictures = [_pictures(shot) for shot in recordings]
     new, held = (
@@ -232,6 +252,10 @@ def _by_film(recordings: list[Recording], findings: list[Finding]) -> list[Recor
     uneven = len(steps) > 0 and np.mean(np.abs(steps / np.median(steps) - 1.0) > 0.15) > 0.08
     if not repeats and not uneven:
         return recordings
+    # where repeated pictures are the same to a hair, those of slow balls are known, too
+    exact = [_pictures(shot, 1e-9) for shot in recordings]
+    if repeats and sum(int(p.is_held.sum()) for p in exact) > 0.9 * held:
+        pictures = exact
     # the rate of the file, and below it that whose ways are the smoothest
     fastest = 1.0 / float(np.quantile(np.concatenate([np.diff(p.times) for p in pictures]), 0.02))
     before, best = moving_scatter(recordings), None
@@ -243,29 +267,25 @@ def _by_film(recordings: list[Recording], findings: list[Finding]) -> list[Recor
             best = scatter, rate, tried
     if best is None or not best[0] < _SMOOTHER * before:
         if repeats:
-            findings.append(
-                Finding(
-                    "clock",
-                    f"{held} pictures of moving balls repeat the one before, which no usual rate of "
-                    f"a film explains: leave them out, and give the times of the others",
-                    rows=held,
-                )
+            findings.say(
+                "clock",
+                f"{held} pictures of moving balls repeat the one before, which no usual rate of "
+                f"a film explains: leave them out, and give the times of the others",
+                rows=held,
             )
         return recordings
     _, rate, tried = best
     shots = tuple(shot.id for shot, (_, repeated, _) in zip(recordings, tried) if repeated)
     rows = sum(repeated for _, repeated, _ in tried)
     dropped = f"{rows} repeated pictures are left out of {_names(shots)}, and " if rows else ""
-    findings.append(
-        Finding(
-            "clock",
-            f"the film has {rate:g} pictures a second and the file another clock: {dropped}"
-            f"all times are set by the film's, which makes the ways of balls "
-            f"{before / best[0]:.2g} times as smooth",
-            shots,
-            rows,
-            is_mended=True,
-        )
+    findings.say(
+        "clock",
+        f"the film has {rate:g} pictures a second and the file another clock: {dropped}"
+        f"all times are set by the film's, which makes the ways of balls "
+        f"{before / best[0]:.2g} times as smooth",
+        shots,
+        rows,
+        is_mended=True,
     )
     return [shot for shot, _, _ in tried]
 
@@ -274,20 +294,20 @@ def _by_film(recordings: list[Recording], findings: list[Finding]) -> list[Recor
 
 
 def _on_table(
-    recordings: list[Recording],
-    table: tuple[float, float],
-    radius: float,
-    findings: list[Finding],
+    recordings: list[Recording], ground: _constants.Ground, findings: _Findings
 ) -> tuple[list[Recording], list[int]]:
-    """Recordings without the rows whose places are off the table, and their indices."""
+    """Recordings without the rows of balls that have fallen and those whose places are off the
+    table, and their indices.
+    """
+    table, radius, pockets = ground.size, ground.radius, ground.table.pockets["centre"]
     places = np.concatenate([track[:, 1:] for shot in recordings for track in shot.tracks])
     low, high = radius, np.array(table) - radius
     extents = (
         f"centres of balls of radius {radius:g} m on a table of {table[0]:g} x {table[1]:g} m must "
         f"be {low:g} to {high[0]:g} and {high[1]:g} m"
     )
-    is_exchanged = exchanged(places, table, radius)
-    if is_exchanged or is_inside(places, table, radius).mean() < 0.5:
+    is_exchanged = exchanged(places, table, radius, pockets)
+    if is_exchanged or is_inside(places, table, radius, pockets).mean() < 0.5:
         raise TrackError(
             f"table: {extents}, and most are not: "
             + (
@@ -298,19 +318,18 @@ def _on_table(
         )
     found, indices = [], []
     for index, shot in enumerate(recordings):
-        inside = [is_inside(track[:, 1:], table, radius) for track in shot.tracks]
+        shot = until_pocketed(shot, ground.table)
+        inside = [is_inside(track[:, 1:], table, radius, pockets) for track in shot.tracks]
         for ball, track, rows in zip(shot.balls, shot.tracks, inside):
             if not rows.all():
                 t, x, y = track[np.argmin(rows)]
-                findings.append(
-                    Finding(
-                        "table",
-                        f"shot {shot.id}, ball {ball}: {(~rows).sum()} rows are left out, the first "
-                        f"at t = {t:g} s in {x:g}, {y:g} m: {extents}",
-                        (shot.id,),
-                        int((~rows).sum()),
-                        is_mended=True,
-                    )
+                findings.say(
+                    "table",
+                    f"shot {shot.id}, ball {ball}: {(~rows).sum()} rows are left out, the first "
+                    f"at t = {t:g} s in {x:g}, {y:g} m: {extents}",
+                    (shot.id,),
+                    int((~rows).sum()),
+                    is_mended=True,
                 )
         kept = [(ball, track[rows]) for ball, track, rows in zip(shot.balls, shot.tracks, inside)]
         balls = [(ball, track) for ball, track in kept if len(track)]
@@ -333,18 +352,16 @@ def _thawed(track: Doubles, noise: float) -> Doubles:
 
 
 def _noise(
-    recordings: list[Recording], train: Sequence[int] | None, findings: list[Finding]
+    recordings: list[Recording], train: Sequence[int] | None, findings: _Findings
 ) -> tuple[list[Recording], Noise]:
     """Recordings with their noise, and without what a film repeats of balls at rest."""
     noise = noise_of(recordings if train is None else [recordings[k] for k in train])
     if noise.is_frozen:
-        findings.append(
-            Finding(
-                "noise",
-                f"the film freezes balls at rest, which scatter by {1e3 * noise.rest:.2f} mm, those "
-                f"that move by {1e3 * noise.value:.2f} mm: the latter counts, and of rows that "
-                f"repeat a place the first and the last",
-            )
+        findings.say(
+            "noise",
+            f"the film freezes balls at rest, which scatter by {1e3 * noise.rest:.2f} mm, those "
+            f"that move by {1e3 * noise.value:.2f} mm: the latter counts, and of rows that "
+            f"repeat a place the first and the last",
         )
         recordings = [
             replace(shot, tracks=tuple(_thawed(track, noise.value) for track in shot.tracks))
@@ -352,13 +369,11 @@ def _noise(
         ]
     low, high = sorted(noise.axes)
     if high > _UNLIKE * low and high > 3e-4:
-        findings.append(
-            Finding(
-                "noise",
-                f"the noise is {1e3 * noise.axes[0]:.2f} mm along x and {1e3 * noise.axes[1]:.2f} mm "
-                f"along y, as of a camera that looks along the table: both count as "
-                f"{1e3 * noise.value:.2f} mm",
-            )
+        findings.say(
+            "noise",
+            f"the noise is {1e3 * noise.axes[0]:.2f} mm along x and {1e3 * noise.axes[1]:.2f} mm "
+            f"along y, as of a camera that looks along the table: both count as "
+            f"{1e3 * noise.value:.2f} mm",
         )
     return recordings, noise
 
@@ -444,51 +459,45 @@ def _diameters(shot: Recording) -> list[float]:
     return found
 
 
-def _say_shots(recordings: list[Recording], radius: float, findings: list[Finding]) -> None:
+def _say_shots(recordings: list[Recording], radius: float, findings: _Findings) -> None:
     """What single shots show: gaps, drifts, strikes that were not filmed, another radius."""
     gaps = {shot.id: found for shot in recordings if (found := _gaps(shot))}
     if gaps:
-        shot, (begin, end, way) = next((shot, found[0]) for shot, found in gaps.items())
+        first, (begin, end, way) = next((shot, found[0]) for shot, found in gaps.items())
         count = sum(map(len, gaps.values()))
-        findings.append(
-            Finding(
-                "gap",
-                f"pictures are missing {count} times in {_names(list(gaps))}, first in shot {shot} "
-                f"from {begin:.2f} to {end:.2f} s, while a ball went {100.0 * way:.0f} cm: what "
-                f"happens meanwhile is not fitted",
-                tuple(gaps),
-                count,
-            )
+        findings.say(
+            "gap",
+            f"pictures are missing {count} times in {_names(list(gaps))}, first in shot {first} "
+            f"from {begin:.2f} to {end:.2f} s, while a ball went {100.0 * way:.0f} cm: what "
+            f"happens meanwhile is not fitted",
+            tuple(gaps),
+            count,
         )
     for shot in recordings:
         drifts = _drifts(shot)
         if drifts:
             ball, drift, rows = max(drifts, key=lambda found: found[1])
             all_alike = len(drifts) == len(shot.tracks) > 1
-            findings.append(
-                Finding(
-                    "rest",
-                    f"shot {shot.id}, ball {ball}: it moves by {1e3 * drift:.1f} mm in the {rows} "
-                    f"rows before it is struck or hit; "
-                    + (
-                        "so do all balls: the camera moves"
-                        if all_alike
-                        else "a shot begins with all balls at rest"
-                    ),
-                    (shot.id,),
-                    rows,
-                )
+            findings.say(
+                "rest",
+                f"shot {shot.id}, ball {ball}: it moves by {1e3 * drift:.1f} mm in the {rows} "
+                f"rows before it is struck or hit; "
+                + (
+                    "so do all balls: the camera moves"
+                    if all_alike
+                    else "a shot begins with all balls at rest"
+                ),
+                (shot.id,),
+                rows,
             )
     late = [shot.id for shot in recordings if _begins_late(shot)]
     if len(late) >= max(3, 0.4 * len(recordings)):
-        findings.append(
-            Finding(
-                "rest",
-                f"the struck ball moves from its first row on in {len(late)} of {len(recordings)} "
-                f"shots ({_names(late)}): the strike is not in the recording, which must begin "
-                f"with the balls at rest",
-                tuple(late),
-            )
+        findings.say(
+            "rest",
+            f"the struck ball moves from its first row on in {len(late)} of {len(recordings)} "
+            f"shots ({_names(late)}): the strike is not in the recording, which must begin "
+            f"with the balls at rest",
+            tuple(late),
         )
     diameters = np.array([size for shot in recordings for size in _diameters(shot)])
     if len(diameters) >= 6:
@@ -496,14 +505,12 @@ def _say_shots(recordings: list[Recording], radius: float, findings: list[Findin
         low, high = np.quantile(diameters, (0.25, 0.75)) / (2.0 * radius)
         error = 1.9 * float(high - low) / math.sqrt(len(diameters))
         if not 0.94 - error < ratio < 1.12 + error:
-            findings.append(
-                Finding(
-                    "radius",
-                    f"{len(diameters)} hits say that centres of balls that touch are about "
-                    f"{2e3 * radius * ratio:.0f} mm apart, while the radius is {radius:g} m: is it "
-                    f"right, and the scale of the places?",
-                    rows=len(diameters),
-                )
+            findings.say(
+                "radius",
+                f"{len(diameters)} hits say that centres of balls that touch are about "
+                f"{2e3 * radius * ratio:.0f} mm apart, while the radius is {radius:g} m: is it "
+                f"right, and the scale of the places?",
+                rows=len(diameters),
             )
 
 
@@ -511,7 +518,7 @@ def _say_rails(
     recordings: list[Recording],
     table: tuple[float, float],
     radius: float,
-    findings: list[Finding],
+    findings: _Findings,
 ) -> None:
     """Where balls turn that meet cushions, if it is not at them: for few impacts."""
     found = beyond_rails(recordings, table, radius)
@@ -525,20 +532,18 @@ def _say_rails(
     )
     sizes = [off / (table[rail // 2] - radius) for rail, (off, _) in found.items() if rail % 2]
     scale = f", about {1.0 + np.median(sizes):.3f} times too large," if sizes else ""
-    findings.append(
-        Finding(
-            "table",
-            f"balls turn {rails}: the places{scale} do not fit the table's extents, its origin or "
-            f"the radius",
-            rows=sum(count for _, count in found.values()),
-        )
+    findings.say(
+        "table",
+        f"balls turn {rails}: the places{scale} do not fit the table's extents, its origin or "
+        f"the radius",
+        rows=sum(count for _, count in found.values()),
     )
 
 
 def examine(
     recordings: Sequence[Recording],
-    table: tuple[float, float],
-    radius: float,
+    table: str | tuple[float, float],
+    radius: float | None = None,
     *,
     train: Sequence[int] | None = None,
     calibrate: bool = False,
@@ -556,7 +561,7 @@ def examine(
     recordings : sequence of Recording
         From `carom.tracks.read`, whose notes come first in the findings.
     table, radius
-        Extents (float, float) of x and y, and the radius of the balls, m.
+        As in `carom.fit.fit`.
     train : sequence of int, optional
         The shots that tell the noise; all without.
     calibrate : bool
@@ -567,40 +572,32 @@ def examine(
     ValueError
         The table's extents or the radius are wrong, or the rows do not tell the unit of time.
     """
-    if not (min(table) > 4.0 * radius > 0.0):
-        raise ValueError(
-            f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, "
-            f"and those above 0"
-        )
-    findings = [Finding("file", note) for note in getattr(recordings, "notes", ())]
-    shots, indices = _on_table(list(recordings), table, radius, findings)
+    ground = _constants.ground(table, radius)
+    size, radius = ground.size, ground.radius
+    findings = _Findings(Finding("file", note) for note in getattr(recordings, "notes", ()))
+    shots, indices = _on_table(list(recordings), ground, findings)
     told_by = None if train is None else [k for k, index in enumerate(indices) if index in {*train}]
     shots = _by_film(_in_seconds(shots, findings), findings)
-    scale = _time_scale(shots)
+    scale = _time_scale(shots, 8)
     if not any(finding.kind == "clock" for finding in findings) and (
         abs(math.log(scale)) > math.log(_CLOCK)
     ):
-        findings.append(
-            Finding(
-                "clock",
-                f"sliding balls slow down as if a second had {scale:.2g} units of t: is the rate of "
-                f"the pictures right?",
-            )
+        findings.say(
+            "clock",
+            f"sliding balls slow down as if a second had {scale:.2g} units of t: is the rate of "
+            f"the pictures right?",
         )
     shots, noise = _noise(shots, told_by, findings)
     shots, mended = sound(shots, noise.value)
-    lie = lie_of(shots, table, radius)
+    lie = lie_of(shots, size, radius)
     if lie.far > max(_CROOKED, 4.0 * lie.error):
-        findings.append(
-            Finding(
-                "table",
-                f"the tracks lie {lie}: "
-                f"{'put right' if calibrate else '--calibrate puts them right'}",
-                is_mended=calibrate,
-            )
+        findings.say(
+            "table",
+            f"the tracks lie {lie}: {'put right' if calibrate else '--calibrate puts them right'}",
+            is_mended=calibrate,
         )
     elif not lie.impacts:
-        _say_rails(shots, table, radius, findings)
+        _say_rails(shots, size, radius, findings)
     for _ in range(2 if calibrate else 0):
         # the second time finds impacts that were too far from their cushions
         shots = [
@@ -613,7 +610,7 @@ def examine(
             )
             for shot in shots
         ]
-        lie = lie_of(shots, table, radius)
+        lie = lie_of(shots, size, radius)
     _say_shots(shots, radius, findings)
     findings.sort(key=lambda finding: _KINDS.index(finding.kind))
     return Examination(shots, findings, mended, indices, noise)

@@ -151,6 +151,7 @@ def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
             layouts["state"]["r"][:, ball, axis] += steps[:, ball, axis]
             moved.append(layouts)
     variations.layouts, variations.steps = np.array(moved), np.full(2 * balls, _REST)
+    variations.tables = np.repeat(plays.tables[:1], len(moved))
     rows = np.arange(len(numbers), dtype=np.int32)
     sums = variations.misfit(rows, numbers, plays.ends, np.inf)
     square, gradient = _strikes.normal(sums)

@@ -25,7 +25,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dtypes import Doubles
-from carom.tracks._recordings import OUTSIDE, Recording, TrackError, exchanged, is_inside
+from carom.tracks import _constants
+from carom.tracks._recordings import ON_TABLE, Recording, TrackError, exchanged, is_inside
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inches": 0.0254}
 _UNIT_NAMES = {"in": "inches", "inch": "inches", "metres": "m", "meters": "m", "pixels": "px"}
@@ -42,7 +43,6 @@ _SYNONYMS = {
 _UNSEEN = {"", "nan", "na", "n/a", "null", "none", "-", "?"}
 _ABSENT = set("hidden occluded lost missing invisible pocketed potted out false no 0".split())
 _PRESENT = set("visible seen moving rolling sliding still rest stationary true yes 1 ok".split())
-_MOST = 0.9  # share of the places that a unit or an origin must bring onto the table
 _WIDE = 0.3  # share of an extent that places of a right unit reach, at least
 _RADIUS = 0.028  # m: of a ball where none is given
 _ORDERED = 0.8  # share of a ball's rows in order, below which all are sorted
@@ -65,6 +65,7 @@ class _Notes:
     """
 
     unit: str = ""  # of the places, as the titles name it
+    picture: str = ""  # the column of the numbers of pictures, where they are the times
     sentences: list[str] = field(default_factory=list)
     rows: dict[str, list[str]] = field(default_factory=dict)
 
@@ -264,11 +265,8 @@ def _table_rows(path: Path, text: str, notes: _Notes) -> Iterator[_Row]:
         yield from _samples(columns, row, title, place, notes)
     if states:
         notes.sentences.append(f"states {', '.join(sorted(states))}: their rows are taken")
-    if columns and columns.time_unit == "" and "t" not in columns.places:
-        notes.sentences.append(
-            f"times are numbers of pictures (column {columns.titles[columns.places['picture']]}): "
-            f"rate says how many a second"
-        )
+    if columns and "t" not in columns.places:
+        notes.picture = columns.titles[columns.places["picture"]]
 
 
 def _samples(
@@ -363,38 +361,51 @@ def _closest(rows: Sequence[_Row], places: Doubles) -> float:
     return least
 
 
+@dataclass(frozen=True)
+class _Area:
+    """A table on which places lie."""
+
+    size: tuple[float, float]  # extents of x and y, m
+    radius: float  # of the balls, m
+    pockets: Doubles  # their centres
+    is_named: bool  # whether the word of the table gives its extents
+
+    def share(self, places: Doubles) -> float:
+        """Which share of places is on the table, which may lie along x or y."""
+        return max(
+            float(np.mean(is_inside(turned, self.size, self.radius, self.pockets)))
+            for turned in (places, places[:, ::-1])
+        )
+
+
+def _area(table: str | tuple[float, float] | None, radius: float | None) -> _Area | None:
+    if table is None:
+        return None
+    ground = _constants.ground(table, radius or (None if isinstance(table, str) else _RADIUS))
+    return _Area(ground.size, ground.radius, ground.table.pockets["centre"], isinstance(table, str))
+
+
 def _found_scale(
-    path: Path,
-    places: Doubles,
-    rows: Sequence[_Row],
-    table: tuple[float, float],
-    radius: float,
-    notes: _Notes,
+    places: Doubles, rows: Sequence[_Row], area: _Area, notes: _Notes
 ) -> tuple[float, Doubles]:
     """The unit of places, m, and where their origin lies, in that unit, by the table's extents.
 
     Of several units that fit, the one is taken in which balls come as near as two radii; else the
     largest, which leaves the least of the table empty.
     """
-    corner, middle = np.zeros(2), -0.5 * np.array(table)
-    if float(np.mean(is_inside(places, table, radius))) >= _MOST:
-        return 1.0, corner
+    if area.share(places) >= ON_TABLE:
+        return 1.0, np.zeros(2)
     candidates = []
-    closest = _closest(rows, places)
-    for origin, text in ((corner, "a corner"), (middle, "the middle")):
+    closest = _closest(rows, places) / (2.0 * area.radius)
+    middles = (np.array(area.size), np.array(area.size[::-1]))
+    for origin, text in ((np.zeros(2), "a corner"), *((-0.5 * m, "the middle") for m in middles)):
         for name, unit in UNITS.items():
             tried = places * unit - origin
-            reach = np.ptp(np.percentile(tried, (2, 98), axis=0), axis=0) / np.array(table)
-            if np.mean(is_inside(tried, table, radius)) >= _MOST and reach.max() > _WIDE:
-                ratio = closest * unit / (2.0 * radius)
-                candidates.append((not 0.85 < ratio < 1.3, -unit, text, name, origin))
-    if exchanged(places, table, radius):
-        raise TrackError(
-            f"{path}: the places fit a table of {table[1]:g} x {table[0]:g} m: are the table's "
-            f"extents in the order of x and y?"
-        )
+            reach = np.ptp(np.percentile(tried, (2, 98), axis=0), axis=0).max()
+            if area.share(tried) >= ON_TABLE and reach > _WIDE * max(area.size):
+                candidates.append((not 0.85 < closest * unit < 1.3, -unit, text, name, origin))
     if not candidates:
-        return 1.0, corner
+        return 1.0, np.zeros(2)
     _, _, text, name, origin = min(candidates, key=lambda candidate: candidate[:2])
     notes.sentences.append(
         f"places are taken in {name} from {text} of the table, by their extents; unit and origin "
@@ -404,17 +415,22 @@ def _found_scale(
 
 
 def _on_table(
-    rows: Sequence[_Row],
-    places: Doubles,
-    table: tuple[float, float],
-    radius: float,
-    notes: _Notes,
+    path: Path, rows: Sequence[_Row], places: Doubles, area: _Area, notes: _Notes
 ) -> tuple[list[_Row], Doubles]:
-    """The rows whose places are on the table."""
-    on_table = is_inside(places, table, radius)
+    """The rows whose places are on the table, turned where it lies along the other axis."""
+    size, radius = area.size, area.radius
+    if exchanged(places, size, radius, area.pockets):
+        if not area.is_named:
+            raise TrackError(
+                f"{path}: the places fit a table of {size[1]:g} x {size[0]:g} m: are the table's "
+                f"extents in the order of x and y?"
+            )
+        places = np.column_stack([size[0] - places[:, 1], places[:, 0]])
+        notes.sentences.append("places are turned by 90 degrees, as their x runs along the table")
+    on_table = is_inside(places, size, radius, area.pockets)
     for k in np.flatnonzero(~on_table).tolist():
-        axis = int(is_inside(places[k, :1], table[:1], radius))
-        name, value, extent = "xy"[axis], places[k, axis], table[axis]
+        axis = int(is_inside(places[k, :1], size[:1], radius))
+        name, value, extent = "xy"[axis], places[k, axis], size[axis]
         text = (
             f"centres of balls of radius {radius:g} m must be {radius:g} to {extent - radius:g} m"
         )
@@ -447,7 +463,9 @@ def _ordered(times: Doubles) -> NDArray[np.intp]:
     return np.array(rows[::-1], np.intp)
 
 
-def _recordings_of(rows: Sequence[_Row], places: Doubles, notes: _Notes) -> list[Recording]:
+def _recordings_of(
+    rows: Sequence[_Row], places: Doubles, rate: float, notes: _Notes
+) -> list[Recording]:
     """The recordings of samples, in the order of the file; rows out of the order of time are left
     out, or sorted where they are many.
     """
@@ -459,18 +477,18 @@ def _recordings_of(rows: Sequence[_Row], places: Doubles, notes: _Notes) -> list
         tracks = []
         for ball, indices in balls.items():
             order = np.array(indices)
-            times = np.array([rows[k].t for k in indices])
+            times = np.array([rows[k].t for k in indices]) / rate
             ordered = _ordered(times)
             if len(ordered) < _ORDERED * len(np.unique(times)):
                 order = order[np.argsort(times, kind="stable")]
                 times = np.sort(times)
                 ordered, is_sorted = _ordered(times), is_sorted + 1
             for k in np.setdiff1d(np.arange(len(order)), ordered).tolist():
-                row, first = rows[order[k]], rows[order[max(k - 1, 0)]]
+                row, first = rows[order[k]], times[max(k - 1, 0)]
                 notes.leave_out(
                     "the rows of a ball come in the order of time, each time once",
-                    f"{row.place}: shot {shot}, ball {ball}: t = {row.t:g} s comes after "
-                    f"t = {first.t:g} s",
+                    f"{row.place}: shot {shot}, ball {ball}: t = {times[k]:g} s comes after "
+                    f"t = {first:g} s",
                 )
             tracks.append(np.column_stack([times[ordered], places[order[ordered]]]))
         found.append(Recording(_name(shot), tuple(map(_name, balls)), tuple(tracks)))
@@ -510,7 +528,7 @@ def _check(rate: float | None, origin: Any, corners: Any, table: Any, unit: Any)
 def read(
     path: str | Path,
     *,
-    table: tuple[float, float] | None = None,
+    table: str | tuple[float, float] | None = None,
     radius: float | None = None,
     unit: float | str | None = None,
     origin: tuple[float, float] | None = None,
@@ -530,9 +548,10 @@ def read(
         (x1, y1, ... or cue_x, cue_y, ...); with a state (visible, hidden, pocketed); and exports of
         Tracker, whose first line names the track. Without a column of shots, all rows are one.
     table, radius : optional
-        The extents (W, L) of x and y, and the radius of the balls, m: with the table, a centre that
-        is more than 60 mm outside its bounds is left out, and the file's unit and origin are found
-        where none is given.
+        The word of a table, such as "9ft", or the extents (W, L) of x and y, and the radius of the
+        balls, m: with the table, a centre that is more than 60 mm outside its bounds is left out,
+        and the file's unit and origin are found where none is given. Places whose x runs along the
+        table of a word are turned by 90 degrees.
     unit : float or str, optional
         Length of the unit of x and y, m, or "m", "cm", "mm", "inches" or "px".
     origin : (float, float), optional
@@ -559,6 +578,7 @@ def read(
         The file cannot be read.
     """
     _check(rate, origin, corners, table, unit)
+    area = _area(table, radius)
     length, path, notes = _unit_of(unit), Path(path), _Notes()
     is_json = any(suffix in (".jsonl", ".ndjson") for suffix in path.suffixes)
     text = _text(path)
@@ -569,8 +589,8 @@ def read(
     if not rows:
         raise TrackError("; ".join([f"{path}: no samples are usable", *notes.lines()]))
     places = np.array([(row.x, row.y) for row in rows])
-    if corners is not None and table is not None:
-        q = np.column_stack([places, np.ones(len(places))]) @ _homography(corners, table).T
+    if corners is not None and area is not None:
+        q = np.column_stack([places, np.ones(len(places))]) @ _homography(corners, area.size).T
         places = q[:, :2] / q[:, 2:]
         notes.sentences.append(
             "places are mapped by the corners onto the plane of the noses; a centre lies lower by "
@@ -584,11 +604,13 @@ def read(
             if length != 1.0:
                 notes.sentences.append(f"places are in {notes.unit}, by the titles of columns")
         shift: Any = np.zeros(2) if origin is None else np.array(origin)
-        if length is None and origin is None and table is not None:
-            length, shift = _found_scale(path, places, rows, table, radius or _RADIUS, notes)
+        if length is None and origin is None and area is not None:
+            length, shift = _found_scale(places, rows, area, notes)
         places = (places - shift) * (length or 1.0)
-    if table is not None:
-        rows, places = _on_table(rows, places, table, radius or _RADIUS, notes)
-    if rate is not None:
-        rows = [_Row(row.place, row.shot, row.ball, row.t / rate, row.x, row.y) for row in rows]
-    return Reading(_recordings_of(rows, places, notes), notes.lines())
+    if area is not None:
+        rows, places = _on_table(path, rows, places, area, notes)
+    if rate is None and notes.picture:
+        notes.sentences.append(
+            f"times are numbers of pictures (column {notes.picture}): rate says how many a second"
+        )
+    return Reading(_recordings_of(rows, places, rate or 1.0, notes), notes.lines())

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dtypes import Doubles
+from carom.layouts import Table
 
 NOISE = 0.35e-3
 """m: standard deviation of a coordinate that a good camera gives for a slow ball, as found on real
@@ -47,6 +48,8 @@ _FROZEN = 0.05  # share of steps without motion above which a film repeats place
 # m: a centre that is farther outside its bounds was measured in other units or on another table; a
 # crooked one is nearer
 OUTSIDE = 0.06
+ON_TABLE = 0.9  # share of the places that lie on the right table, at least
+_HOLE = 0.1  # m: a centre that is nearer to that of a pocket is in it
 _DEPTH = 2.5e-3  # s: a nose gives way by so much times the speed
 _SCATTER = 4e-3  # m: of where balls turn at a rail, at least
 _BLOCK = 3  # false detections one after another, at most
@@ -158,16 +161,26 @@ class Recording:
 # ---- Places
 
 
-def is_inside(places: Doubles, table: Sequence[float], radius: float) -> NDArray[np.bool_]:
-    """Whether centres lie on the table, or hardly outside."""
+def is_inside(
+    places: Doubles, table: Sequence[float], radius: float, pockets: Doubles | None = None
+) -> NDArray[np.bool_]:
+    """Whether centres lie on the table, or hardly outside, or in a pocket; (n, 2) are their
+    centres.
+    """
     low, high = radius - OUTSIDE, np.array(table) - radius + OUTSIDE
-    return np.asarray(((low <= places) & (places <= high)).all(axis=-1))
+    inside = ((low <= places) & (places <= high)).all(axis=-1)
+    if pockets is not None and len(pockets):
+        gaps = places[..., None, :] - pockets
+        inside |= (np.hypot(gaps[..., 0], gaps[..., 1]) < _HOLE).any(axis=-1)
+    return np.asarray(inside)
 
 
-def exchanged(places: Doubles, table: tuple[float, float], radius: float) -> bool:
+def exchanged(places: Doubles, table: tuple[float, float], radius: float, pockets: Doubles) -> bool:
     """Whether the extents of a table are those of y and x."""
-    shares = [is_inside(places, size, radius).mean() for size in (table, table[::-1])]
-    return bool(shares[0] < 0.95 < 0.99 < shares[1])
+    return bool(
+        is_inside(places, table, radius, pockets).mean() < ON_TABLE
+        and is_inside(places[:, ::-1], table, radius, pockets).mean() >= ON_TABLE
+    )
 
 
 # ---- Noise
@@ -251,6 +264,30 @@ def noise_of(recordings: Sequence[Recording]) -> Noise:
     axes = tuple(_spread((moving if is_frozen else sample)[:, axis]) for axis in (0, 1))
     value = math.hypot(*axes) / math.sqrt(2.0) if is_frozen else _spread(sample)
     return Noise(max(value, 5e-5), (axes[0], axes[1]), rest, is_frozen)
+
+
+# ---- Balls that fall
+
+
+def until_pocketed(shot: Recording, table: Table) -> Recording:
+    """A recording in which the track of a ball ends where it falls: at its first row in a pocket,
+    or behind the pockets, that is the last or followed by another such row. A ball without rows
+    before is left out.
+    """
+    if len(table.pockets) == 0:
+        return shot
+    holes, kept = table.pockets["centre"], []
+    for name, track in zip(shot.balls, shot.tracks):
+        r = track[:, 1:]
+        gaps = np.hypot(*np.moveaxis(r[:, None] - holes, 2, 0)) - table.pockets["radius"]
+        behind = (r < holes.min(axis=0)) | (r > holes.max(axis=0))
+        inside = np.append((gaps < 0.0).any(axis=1) | behind.any(axis=1), True)
+        falls = np.flatnonzero(inside[:-1] & inside[1:])
+        rows = track[: falls[0]] if len(falls) else track
+        if len(rows):
+            kept.append((name, rows))
+    names, tracks = zip(*(kept or [(shot.balls[0], shot.tracks[0][:1])]))
+    return replace(shot, balls=names, tracks=tracks)
 
 
 # ---- False detections and swapped names
@@ -423,7 +460,10 @@ class Lie:
         return np.asarray(q * (self.bend[0] * (q * q).sum(axis=-1) + q @ self.bend[1:])[..., None])
 
     def __str__(self) -> str:
-        bent = f", bent by up to {1e3 * self.bent:.1f} mm," if self.bent else ""
+        reach = math.hypot(*self.middle)
+        is_lens = abs(self.bend[0]) * reach > math.hypot(*self.bend[1:])
+        cause = "a lens" if is_lens else "a camera that looks askew"
+        bent = f", bent by up to {1e3 * self.bent:.1f} mm as by {cause}," if self.bent else ""
         return (
             f"turned by {self.angle:.2f} degrees, {self.scale:.4f} times as large as the table{bent} and moved by "
             f"{1e3 * self.shift[0]:.1f}, {1e3 * self.shift[1]:.1f} mm"

@@ -21,7 +21,6 @@ import copy
 import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -317,8 +316,8 @@ def inward(table: Table) -> Doubles:
     """The unit normals of the rails of a table, (rails, 2), to the side where balls are."""
     along = table.rails["q"] - table.rails["p"]
     line = table.rails["line"][:, :2]
-    derived = ~table.rails["line"].any(axis=1)
-    normals = np.where(derived[:, None], np.stack([-along[:, 1], along[:, 0]], axis=1), line)
+    known = (table.rails["line"] != 0.0).any(axis=1, keepdims=True)
+    normals = np.where(known, line, np.stack([-along[:, 1], along[:, 0]], axis=1))
     normals = normals * np.where(table.rails["side"], 1.0, -1.0)[:, None]
     return np.asarray(normals / np.hypot(*normals.T)[:, None])
 
@@ -340,31 +339,11 @@ def _within(centres: Doubles, table: Table, radius: float) -> Doubles:
     for circles, reach in ((table.jaws, radius), (table.pockets, 0.0)):
         for circle in circles:
             way = centres - circle["centre"]
-            distance, least = np.hypot(*way.T), circle["radius"] + reach + 1e-9
-            inside = (distance < least) & (distance > 0.0)
+            distance: Doubles = np.hypot(way[:, 0], way[:, 1])
+            least = float(circle["radius"]) + reach + 1e-9
+            inside = np.flatnonzero((distance < least) & (distance > 0.0))
             centres[inside] += way[inside] * (least / distance[inside] - 1.0)[:, None]
     return centres
-
-
-def until_pocketed(shot: Recording, table: Table) -> Recording:
-    """A recording in which the track of a ball ends where it falls: at its first row in a pocket,
-    or behind the pockets, that is the last or followed by another such row. A ball without rows
-    before is left out.
-    """
-    if len(table.pockets) == 0:
-        return shot
-    holes, kept = table.pockets["centre"], []
-    for name, track in zip(shot.balls, shot.tracks):
-        r = track[:, 1:]
-        gaps = np.hypot(*np.moveaxis(r[:, None] - holes, 2, 0)) - table.pockets["radius"]
-        behind = (r < holes.min(axis=0)) | (r > holes.max(axis=0))
-        inside = np.append((gaps < 0.0).any(axis=1) | behind.any(axis=1), True)
-        falls = np.flatnonzero(inside[:-1] & inside[1:])
-        rows = track[: falls[0]] if len(falls) else track
-        if len(rows):
-            kept.append((name, rows))
-    names, tracks = zip(*(kept or [(shot.balls[0], shot.tracks[0][:1])]))
-    return replace(shot, balls=names, tracks=tracks)
 
 
 # A break: so many balls beside the struck one begin to move within a time, s. The samples of its

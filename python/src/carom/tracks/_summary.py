@@ -29,7 +29,7 @@ from carom.tracks._events import events
 from carom.tracks._forecast import Forecast, forecast
 from carom.tracks._kicks import Kicks
 from carom.tracks._player import Player, player_of
-from carom.tracks._recordings import Recording
+from carom.tracks._recordings import Recording, until_pocketed
 
 _ROUGH_MOST = 8  # so many are told one by one
 BANDS, _CONTACTS = (
@@ -291,7 +291,7 @@ class Fit:
             No strike was found, or no row is known after the first.
         """
         whole = self.recordings[shot] if isinstance(shot, int) else shot
-        whole = _strikes.until_pocketed(whole, self.ground.table)
+        whole = until_pocketed(whole, self.ground.table)
         if not 0.0 < after < np.inf:
             raise ValueError(f"after: it must be positive and finite, in s, not {after!r}")
         draws, seed = _whole(draws, "draws", least=10), seed_of(seed)

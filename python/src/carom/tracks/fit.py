@@ -149,9 +149,6 @@ class _Saved:
             self.path.unlink(missing_ok=True)
 
 
-_BREAK = 1.0  # s from the first motion: later rows of a break tell nothing of its strike
-
-
 def _told_by_events(
     values: dict[str, float],
     remarks: list[str],
@@ -414,12 +411,11 @@ def fit(
         raise ValueError("recordings: at least one shot is needed")
     ground = _constants.ground(table, radius, game)
     radius = ground.radius
-    examination = examine(recordings, ground.size, radius, train=train, calibrate=calibrate)
+    examination = examine(recordings, table, radius, train=train, calibrate=calibrate)
     recordings, notes = examination.recordings, examination.mended
     noise, remarks = examination.noise.value, examination.sentences
     if train is not None:
         train = [k for k, index in enumerate(examination.indices) if index in {*train}]
-    recordings = [_strikes.until_pocketed(shot, ground.table) for shot in recordings]
     for k, shot in enumerate(recordings):
         if _strikes.is_break(shot):
             recordings[k] = first_seconds(shot, _BREAK)
@@ -537,23 +533,29 @@ def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
     )
 
 
-def _two_numbers(form: str) -> Callable[[str], tuple[float, float]]:
-    """What reads an argument of two numbers, and says its form where it is wrong."""
+def _numbers(count: int, form: str) -> Callable[[str], tuple[float, ...]]:
+    """What reads an argument of some numbers, and says its form where it is wrong."""
 
-    def read(text: str) -> tuple[float, float]:
+    def read(text: str) -> tuple[float, ...]:
         try:
-            first, second = map(float, text.split(","))
+            numbers = tuple(map(float, text.split(",")))
         except ValueError:
-            raise argparse.ArgumentTypeError(f"{text!r} must be {form}") from None
-        return first, second
+            numbers = ()
+        if len(numbers) != count:
+            raise argparse.ArgumentTypeError(f"{text!r} must be {form}")
+        return numbers
 
     return read
 
 
-_extents = _two_numbers(
-    f"one of {', '.join(_constants.TABLES)}, or W,L, the extents of x and y in m, such as 2.84,1.42"
+_extents = _numbers(
+    2,
+    f"one of {', '.join(_constants.TABLES)}, or W,L, the extents of x and y in m, such as 2.84,1.42",
 )
-_place = _two_numbers("X,Y, a place in the unit of the file, such as 4.5,3")
+_place = _numbers(2, "X,Y, a place in the unit of the file, such as 4.5,3")
+
+
+_corners = _numbers(8, "X,Y of each of four corners")
 
 
 def _unit(text: str) -> float | str:
@@ -561,15 +563,6 @@ def _unit(text: str) -> float | str:
         return float(text)
     except ValueError:
         return text
-
-
-def _corners(text: str) -> list[tuple[float, float]]:
-    """Four places of an argument."""
-    try:
-        a, b, c, d, e, f, g, h = map(float, text.split(","))
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} must be eight numbers, X,Y of each") from None
-    return [(a, b), (c, d), (e, f), (g, h)]
 
 
 def _read_object(path: Path, such: str) -> dict[str, Any]:
@@ -732,12 +725,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         ground = _constants.ground(options.table, options.radius, options.game)
         recordings = read(
             options.tracks,
-            table=ground.size,
+            table=options.table,
             radius=ground.radius,
             unit=options.unit,
             origin=options.origin,
             rate=options.rate,
-            corners=options.corners,
+            corners=options.corners and np.reshape(options.corners, (4, 2)).tolist(),
         )
         found = fit(
             recordings,
