@@ -501,7 +501,7 @@ typedef struct carom_measures {
   double side_mouth, side_cut, side_shelf, side_jaw, side_hole;
   double facing_restitution, facing_friction; /* of facings and jaws, as restitution and mu_cushion
                            of a carom_rail, 0 to 1; 0: those of the ball. */
-  double slope_x, slope_y; /* of the cloth, as of a carom_table. */
+  double slope_x, slope_y;                    /* of the cloth, as of a carom_table. */
 } carom_measures;
 
 /* The measures of a built-in table. Statuses are those of carom_table_make(). */
@@ -949,7 +949,7 @@ typedef struct carom_shot {
   carom_shot_state *state;  /* the state in which the shot stopped, for carom_shot_continue(); may
                                be NULL. */
   carom_facts *facts;       /* of the whole shot, also after carom_shot_continue(); may be NULL. */
-  double slope_x, slope_y;  /* written: those of the table, which carom_shot_at() and the like read. */
+  double slope_x, slope_y;  /* written: those of the table, for carom_shot_at() and the like. */
   uint64_t reserved[1];     /* not read or written yet. */
 } carom_shot;
 

@@ -442,8 +442,7 @@ static bool go(way *w, const carom_table *table, const carom_shot_ball *ball, do
   const int parts = cuts && end - start > most ? (int)fmin(ceil((end - start) / most), 64.0) : 1;
   for (int k = 1; k <= parts; k++) {
     const double elapsed = (end - start) * k / parts;
-    const carom_shot shot = {
-        .time = elapsed, .slope_x = table->slope_x, .slope_y = table->slope_y};
+    const carom_shot shot = {.time = elapsed, .slope_x = table->slope_x, .slope_y = table->slope_y};
     if (k == parts && target != NULL) {
       next = *target;
     } else if (k == parts || sloped) {

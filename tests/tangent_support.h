@@ -112,8 +112,12 @@ static inline carom_tangent_seeds seeds_of(const direction *d, int m) {
         state[(i * NUMBERS + d[j].row) * m + j] = 1.0;
       else
         kind[(i * CAROM_KIND_NUMBERS + d[j].row) * m + j] = 1.0;
-  return (carom_tangent_seeds){
-      .directions = m, .cue = cue, .kind = kind, .state = state, .table = noses, .slope = noses + SLOPE * m};
+  return (carom_tangent_seeds){.directions = m,
+                               .cue = cue,
+                               .kind = kind,
+                               .state = state,
+                               .table = noses,
+                               .slope = noses + SLOPE * m};
 }
 
 static inline carom_status shoot(const layout *l, carom_shot *s) {

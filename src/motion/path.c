@@ -104,8 +104,7 @@ static double run_out(const curve *f, const double u[2], double q, double way[2]
   const double c2 = dot_product(f->c, f->c), along = dot_product(f->c, u) / q;
   const double D = A * A - c2, B = 4.0 * A * A - c2, part = (2.0 * A + along) / B;
   for (int k = 0; k < 2; k++)
-    way[k] = farther * q *
-             (u[k] * part + q * f->c[k] * (1.0 + 3.0 * along * part) / (4.0 * D));
+    way[k] = farther * q * (u[k] * part + q * f->c[k] * (1.0 + 3.0 * along * part) / (4.0 * D));
   return longer * q * (A + along) / D;
 }
 
@@ -131,9 +130,8 @@ static void run_on(const curve *f, double T, double u[2], double way[2]) {
 }
 
 /* A pair of a ball that slides with the slip u0, or rolls at that velocity. */
-__attribute__((noinline, cold)) static void begin_on_slope(carom_path *path,
-                                                           const carom_ball_rates *rates,
-                                                           const double u0[2], double q) {
+__attribute__((noinline, cold)) static void
+begin_on_slope(carom_path *path, const carom_ball_rates *rates, const double u0[2], double q) {
   static const double most = 8e-6; /* m, as both bounds below err by a fifth on steep slopes */
   const bool slides = path->from.label == CAROM_BALL_SLIDING;
   const double share = slides ? 2.0 / 7.0 : (double)1.0; /* of u' in v' */
@@ -153,13 +151,14 @@ __attribute__((noinline, cold)) static void begin_on_slope(carom_path *path,
    * the part of J that turns grows like 1/(1 - h) */
   const double turns = share * c, drags = 2.0 * f.k * q * q, square = q * q / (A * A);
   double u[2] = {u0[0], u0[1]}, way[2], T;
-  path->last_pair =
-      square * (0.035 * turns * A / (A - c) + drags / 324.0) < most && c * f.k * square * q * q < most * A;
+  path->last_pair = square * (0.035 * turns * A / (A - c) + drags / 324.0) < most &&
+                    c * f.k * square * q * q < most * A;
   if (path->last_pair) {
     T = run_out(&f, u0, q, way);
     u[0] = u[1] = 0.0;
   } else {
-    const double h = rough_cube_root(0.9 * 324.0 * most * slows * slows / (q * q * (turns + drags)));
+    const double h =
+        rough_cube_root(0.9 * 324.0 * most * slows * slows / (q * q * (turns + drags)));
     T = carom_lesser(h / (1.0 + 0.4 * h), 0.5) * q / slows;
     run_on(&f, T, u, way);
   }

@@ -85,10 +85,10 @@ static inline bool carom_is_sloped(const carom_ball_rates *rates) {
 }
 
 typedef struct carom_path {
-  double start, end;     /* of the phase, on the clock; end is infinite where nothing changes */
-  double a[3];           /* half the acceleration: r(tau) = r0 + v0 tau + a tau^2; a[2] is 0 but
+  double start, end; /* of the phase, on the clock; end is infinite where nothing changes */
+  double a[3];       /* half the acceleration: r(tau) = r0 + v0 tau + a tau^2; a[2] is 0 but
                             for an airborne ball */
-  double e[2];           /* on a level cloth, the direction of the friction: of the slip, or of v; in
+  double e[2];       /* on a level cloth, the direction of the friction: of the slip, or of v; in
                             a pair, a[0] and a[1] of its second piece */
   carom_ball_state from; /* at the start; its label is that of the phase */
   bool goes_on;          /* at the end another piece of the same phase begins: carom_path_go_on() */

@@ -200,11 +200,10 @@ static double meet_rail(const carom_features *features, int k, double height, do
   if (!while_beside(features->along[k], f, T, window))
     return INFINITY;
   const double *line = features->line[k], start = window[0], z = height_at(f, start) - height;
-  const carom_separation d = {
-      {across(line, f, start) - shift, z, 0.0},
-      {line[0] * speed_at(f, 0, start) + line[1] * speed_at(f, 1, start), f->v[2] - f->g * start,
-       0.0},
-      {line[0] * f->a[0] + line[1] * f->a[1], -0.5 * f->g, 0.0}};
+  const carom_separation d = {{across(line, f, start) - shift, z, 0.0},
+                              {line[0] * speed_at(f, 0, start) + line[1] * speed_at(f, 1, start),
+                               f->v[2] - f->g * start, 0.0},
+                              {line[0] * f->a[0] + line[1] * f->a[1], -0.5 * f->g, 0.0}};
   const double reach = f->radius - CAROM_BEHIND;
   if (d.d0[0] * d.d0[0] + z * z < reach * reach)
     return INFINITY;
@@ -354,12 +353,8 @@ carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3
                                    const double v[3], double landing) {
   const carom_ball_kind *kind = sim->layout->kind[i];
   const double *a = sim->path[i].a;
-  const flight f = {{r[0], r[1], r[2]},
-                    {v[0], v[1], v[2]},
-                    kind->gravity,
-                    kind->radius,
-                    {a[0], a[1]},
-                    2.0 * (fabs(a[0]) + fabs(a[1]))};
+  const flight f = {{r[0], r[1], r[2]}, {v[0], v[1], v[2]}, kind->gravity,
+                    kind->radius,       {a[0], a[1]},       2.0 * (fabs(a[0]) + fabs(a[1]))};
   carom_meeting first = {INFINITY, CAROM_DUE_NOTHING, 0};
   double T = landing;
   take_earlier(&first, leave(sim->features, &f), CAROM_EVENT_LEFT_TABLE, -1, &T);

@@ -161,9 +161,10 @@ static bool restore_path(carom_sim *sim, int i) {
   }
   /* the second piece has what was known of it, and the state that was known there */
   carom_path_second(path, path->start);
-  const bool rolls = state->label == CAROM_BALL_ROLLING, slides = state->label == CAROM_BALL_SLIDING;
-  const bool in_pairs = (rolls && sim->rates[i].drag > 0.0) ||
-                        ((rolls || slides) && carom_is_sloped(&sim->rates[i]));
+  const bool rolls = state->label == CAROM_BALL_ROLLING,
+             slides = state->label == CAROM_BALL_SLIDING;
+  const bool in_pairs =
+      (rolls && sim->rates[i].drag > 0.0) || ((rolls || slides) && carom_is_sloped(&sim->rates[i]));
   return in_pairs && path->second >= 0.0 && fabs(path->e[0]) <= 1e9 && fabs(path->e[1]) <= 1e9;
 }
 

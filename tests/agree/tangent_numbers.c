@@ -1,5 +1,5 @@
-/* The derivative by every number of a ball, a cue, a nose and a slope, at its default, at 0 and at the ends
- * of its range: right, or with a flag.
+/* The derivative by every number of a ball, a cue, a nose and a slope, at its default, at 0 and at
+ * the ends of its range: right, or with a flag.
  *
  * Numbers are rows of schema/numbers.h, so one that is added is here too. Each scene, on the cloth
  * and in space, with pairs and clusters, is differentiated by it, and compared with differences of

@@ -167,8 +167,8 @@ START_TEST(shots_agree_with_differences) {
   int pairs = 0, without = 0, wrong = 0, by_differences = 0, shots = 0;
   precisely = exact;
   for (int k = 0; k < (space ? 2 * most_shots : draws) && shots < most_shots; k++) {
-    layout l = space ? draw_in_space(&random, kinds[_i].start)
-                     : draw_with(&random, kinds[_i].start);
+    layout l =
+        space ? draw_in_space(&random, kinds[_i].start) : draw_with(&random, kinds[_i].start);
     l.options = kinds[_i].options;
     shot = (carom_shot){.events = events, .room = ROOM, .final = final};
     if (shoot(&l, &shot) != CAROM_OK)

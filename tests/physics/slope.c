@@ -29,8 +29,8 @@ static carom_shot_ball moving(random_source *random, double size, double speed, 
 /* ---- Beside small steps */
 
 /* Rates of x, y, v_x, v_y, R w_x, R w_y, on the cloth or in the air. */
-static void rates_at(const carom_ball_kind *k, const carom_table *t, int64_t label, const double y[6],
-                     double rate[6]) {
+static void rates_at(const carom_ball_kind *k, const carom_table *t, int64_t label,
+                     const double y[6], double rate[6]) {
   const double g = k->gravity, down[2] = {-g * t->slope_x, -g * t->slope_y};
   const double u[2] = {y[2] - y[5], y[3] + y[4]};
   const double slip = hypot(u[0], u[1]), speed = hypot(y[2], y[3]);
@@ -102,8 +102,8 @@ static double follow(const carom_table *table, const carom_shot_ball *ball, cons
   return worst;
 }
 
-/* A ball that slides, rolls, and flies: places within 1e-5 m of fine steps, the states at the ends of
- * its phases within 1e-6 m, and then rest. */
+/* A ball that slides, rolls, and flies: places within 1e-5 m of fine steps, the states at the ends
+ * of its phases within 1e-6 m, and then rest. */
 TEST(slope_beside_small_steps) {
   enum { BALLS = 150 };
   static const double size = 4e3;
@@ -136,8 +136,8 @@ TEST(slope_beside_small_steps) {
       const int64_t label = from->label;
       double end = 0.0, speed = 0.0;
       if (events[k].time > start && label <= CAROM_BALL_AIRBORNE && phases[label] != NULL)
-        place[label] = fmax(place[label], follow(&table, &ball, &shot, from, start, &events[k],
-                                                 &end, &speed));
+        place[label] =
+            fmax(place[label], follow(&table, &ball, &shot, from, start, &events[k], &end, &speed));
       ends[label] = fmax(ends[label], end);
       speeds[label] = fmax(speeds[label], speed);
       from = &events[k].after[0];
@@ -166,7 +166,8 @@ static double energy_of(const carom_shot_ball *ball, const carom_table *t,
 }
 
 /* A cue ball on a table of 9 ft that slopes, with others to meet. */
-static int lay(random_source *random, const carom_table *t, carom_shot_ball *balls, carom_cue *cue) {
+static int lay(random_source *random, const carom_table *t, carom_shot_ball *balls,
+               carom_cue *cue) {
   enum { BALLS = 4 };
   for (int k = 0; k < BALLS; k++) {
     balls[k] = ball_at(0.2 + 0.27 * k, random_between(random, 0.2, t->length - 0.2));
@@ -224,7 +225,8 @@ TEST(slope_in_a_mirror) {
     carom_shot_ball ball[2];
     carom_ball_state ends[2];
     carom_table_make(CAROM_TABLE_THREECUSHION, &t);
-    const double slope = random_between(&random, -3e-3, 3e-3), y = random_between(&random, 0.3, 2.5);
+    const double slope = random_between(&random, -3e-3, 3e-3),
+                 y = random_between(&random, 0.3, 2.5);
     ball[0] = ball_at(0.4, y);
     ball[0].kind = carom_ball_kind_of(CAROM_GAME_BILLIARD);
     ball[0].state.r[2] = ball[0].kind.radius;
@@ -261,8 +263,8 @@ TEST(slope_of_nearly_nothing) {
       times[k] = play(&t, &ball, 1, NULL, NULL, CAROM_OK).time;
       memcpy(ends[k], final[0].r, sizeof ends[k]);
     }
-    const double whole = distance(ends[0], ends[2]), middle[2] = {0.5 * (ends[0][0] + ends[2][0]),
-                                                                  0.5 * (ends[0][1] + ends[2][1])};
+    const double whole = distance(ends[0], ends[2]),
+                 middle[2] = {0.5 * (ends[0][0] + ends[2][0]), 0.5 * (ends[0][1] + ends[2][1])};
     moved += whole > 1e-5;
     ck_assert_msg(distance(middle, ends[1]) < 1e-6 + 0.01 * whole, "%g of %g m",
                   distance(middle, ends[1]), whole);

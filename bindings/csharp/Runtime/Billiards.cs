@@ -148,8 +148,11 @@ namespace Carom {
 
     /// <summary>What the library reads of it.</summary>
     internal Shot Data(ShotEvent *events) {
-      return new Shot { events = events,          room = Events.Length,    count = Events.Length,
-                        time = Time,              slope_x = table.slope_x, slope_y = table.slope_y };
+      var shot = new Shot { events = events, room = Events.Length, count = Events.Length };
+      shot.time = Time;
+      shot.slope_x = table.slope_x;
+      shot.slope_y = table.slope_y;
+      return shot;
     }
 
     /// <summary>The states of all balls at a time, s.</summary>

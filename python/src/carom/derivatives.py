@@ -508,7 +508,9 @@ def hessian(
             shot.table, shot.balls, shot.cue, room=shot.count, options=shot.options
         )
     for direction in directions:
-        if direction.array in ("table", "slope") or (direction.array == "cue" and shot.cues is None):
+        if direction.array in ("table", "slope") or (
+            direction.array == "cue" and shot.cues is None
+        ):
             raise ValueError(
                 f"wrt: {direction.name} has no second derivatives here: numbers of a cue that strikes, and of balls, have"
             )

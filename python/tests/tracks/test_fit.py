@@ -842,7 +842,8 @@ def test_few_shots_tell_a_table():
     sample = tracks.synthetic(5, constants=table, noise=0.5e-3, seed=3)
     found = fit.fit(sample.recordings, TABLE, RADIUS, free="table")
     usual = _constants.usual("smooth")
-    assert found.cushion_model == "smooth" and set(found.fitted) == set(table)
+    assert found.cushion_model == "smooth" and set(found.fitted) == {*table, *_constants.SLOPE}
+    assert all(abs(found.constants[name]) < 1e-4 for name in _constants.SLOPE)
     assert all(found.constants[name] == usual[name] for name in usual if name not in table)
     # half as far from the table as the usual one, all of them
     assert all(

@@ -2,7 +2,7 @@
 them.
 
 A constant is a field of `carom.dtypes.ball_kind` without the radius, or the slope of the table along
-x or y. carom_ball_kind_resolve() says
+x or y, which is among the constants where it is given or fitted. carom_ball_kind_resolve() says
 what a number stands for where it is 0, so a fit plays the balls of a shot. Friction between balls
 is always the law of law_a, law_b and law_c, also where it is constant: a given mu_ball without one
 of these stands for that.
@@ -114,7 +114,6 @@ def _resolved(
     ) < 0:
         raise CaromError(code)
     values = {name: float(kind[name]) for name in KINDS if name != "mu_ball"}
-    values |= dict.fromkeys(SLOPE, 0.0)
     return values, options_of(options).cushion_model
 
 
@@ -177,7 +176,7 @@ def complete(
     for values in (_resolved(kind, cushion_model, friction, None)[0], constants):
         _give(kind, values)
     found, model = _resolved(kind, cushion_model, "alciatore", table)
-    return found | {name: float(constants.get(name, 0.0)) for name in SLOPE}, model
+    return found | {name: float(constants[name]) for name in SLOPE if name in constants}, model
 
 
 def _give(kinds: Array, constants: Mapping[str, float]) -> None:

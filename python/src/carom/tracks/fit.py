@@ -88,6 +88,7 @@ def _priors(
     wider = _joint.TABLE if list(free) == ["table"] else {}
     usually = [name for name in wider or _joint.PRIORS if name not in left_out]
     names = usually if list(free) in (["default"], ["table"]) else list(free)
+    values = {**dict.fromkeys(_constants.SLOPE, 0.0), **values}
     known = [name for name in _constants.NAMES if name in values]
     unknown = [name for name in [*names, *priors] if name not in known]
     if unknown:
@@ -427,7 +428,8 @@ def fit(
         friction=friction,
         table=ground.table,
     )
-    _priors([] if free[0] in ("none", "events") else free, priors or {}, values)
+    sought = _priors([] if free[0] in ("none", "events") else free, priors or {}, values)
+    values |= {name: values.get(name, 0.0) for name in _constants.SLOPE if name in sought}
     told = _Told(values, {})
     status = [_status(shot, radius) for shot in recordings]
     played = [k for k, text in enumerate(status) if text != "no ball moves"]
