@@ -27,7 +27,7 @@ from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
 from carom.layouts import GAMES
 from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
-from carom.tracks import _recordings, _strikes, _summary
+from carom.tracks import _recordings, _search, _strikes, _summary
 from carom.tracks import Recording, TrackError, events, read
 from carom.tracks._forecast import ROUGH, Forecast
 from carom.tracks._kicks import Kicks, contact
@@ -192,19 +192,6 @@ def _sound(
     return recordings, notes, noise, remarks
 
 
-def _seek_again(
-    plays: _strikes.Plays, played: list[int], strikes: Doubles, rmse: Doubles, rough: float
-) -> None:
-    """Seeks strikes that may have stuck once more, by way of kicks."""
-    stuck = np.array(played)[rmse[played] > rough]
-    if len(stuck):
-        some = plays.some(np.searchsorted(played, stuck))
-        trial = _kicks.eased(some, strikes[stuck])
-        repeat = some.rmse(trial)
-        better = repeat < rmse[stuck]
-        strikes[stuck[better]], rmse[stuck[better]] = trial[better], repeat[better]
-
-
 def _told_by_events(
     values: dict[str, float],
     remarks: list[str],
@@ -268,7 +255,7 @@ def _fit_to_events(
     return _told_by_events(values, remarks, *job.saved.get("events", measured))
 
 
-def _search(job: _Job, first: _joint.Search) -> _joint.Search:
+def _search_constants(job: _Job, first: _joint.Search) -> _joint.Search:
     """Searches the constants, at first also without a change of the friction with the slip; returns
     the search at its end.
     """
@@ -301,10 +288,10 @@ def _fit_to_shots(
     """
     plays = job.plays(fitted, values)
     found = job.saved.get(
-        "strikes", lambda: _strikes.find(plays, job.seed, job.progress)[0].tolist()
+        "strikes", lambda: _search.find(plays, job.seed, job.progress)[0].tolist()
     )
     expected = _priors(job.free, job.priors, values, job.cushion_model)
-    search = _search(job, _joint.Search(plays, np.array(found), range(len(fitted)), expected))
+    search = _search_constants(job, _joint.Search(plays, np.array(found), range(len(fitted)), expected))
     job.report("spread", _joint.STAGES / (_joint.STAGES + 2))
     if search.middle >= _joint.MOST:
         remarks.append(
@@ -423,9 +410,8 @@ def fit(
         if free[0] not in ("none", "events") and fitted:
             values, spread, names, covariance = _fit_to_shots(job, fitted, values, spread, remarks)
         plays = job.plays(played, values)
-        strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
+        strikes[played], _ = _search.find(plays, progress=progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])
-        _seek_again(plays, played, strikes, rmse, ROUGH * noise * math.sqrt(2.0))
         for k in played:
             if not np.isfinite(rmse[k]):
                 status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
