@@ -142,16 +142,6 @@ def test_rows_that_are_not_better_have_no_derivatives_and_threads_change_no_bit(
     assert np.array_equal(threads.misfit(shots, strikes, plays.ends[shots], most), some)
 
 
-def test_strikes_that_stuck_are_found_by_way_of_kicks(sample, plays):
-    true = sample.strikes - np.column_stack([np.zeros((len(sample.strikes), 5)), plays.origins])
-    off = true + np.random.default_rng(0).normal(0, 0.1, true.shape) * [1, 1, 1, 1, 1, 0.1]
-    stuck, _ = _strikes.descend(plays, np.arange(len(off), dtype=np.int32), off, plays.ends, 60)
-    stuck_rmse, eased_rmse = plays.rmse(stuck), plays.rmse(_kicks.eased(plays, stuck))
-    # the better of both: some are mended to the noise
-    assert (stuck_rmse > 5e-3).sum() >= 4
-    assert np.exp(np.log(np.fmin(eased_rmse, stuck_rmse) / stuck_rmse).mean()) < 0.6
-
-
 @pytest.mark.parametrize("rows", [1, 2, 3, 5])
 def test_a_start_is_near_the_strike_however_few_rows_tell_it(sample, rows):
     """Where another ball moves so soon that few rows of the cue ball are its own."""

@@ -34,7 +34,7 @@ from carom.tracks._strikes import HUBER, Integers, Plays, allowed, descend
 _FIRST = 0.9  # s: samples of the starts' descent
 _TURNED = 0.15  # of the speed: the starts' spins are moved by so much, which leaves their grid
 # starts of moved spins that are candidates, after so many iterations
-_STARTS, _START_STEPS = {False: 8, True: 30}, 2
+_STARTS, _START_STEPS = {False: 6, True: 30}, 2
 # Horizons (s), how many candidates descend by its samples, and how many survive; iterations, and
 # offspring of each survivor of the horizon before.
 _HORIZONS = {
@@ -43,15 +43,17 @@ _HORIZONS = {
 }
 _HORIZON_STEPS, _HORIZON_OFFSPRING = 4, 30
 # How many descend by the whole shot, and iterations
-_CONTEST = {False: ((10, 3), (4, 4)), True: ((40, 3), (15, 4), (8, 6))}
+_CONTEST = {False: ((8, 2), (3, 4)), True: ((30, 3), (10, 4), (6, 6))}
 # Rounds, at most; parents of a shot, offspring of each, and how many of all descend, with iterations
-_ROUNDS, _PARENTS, _OFFSPRING = {False: 0, True: 8}, 6, 60
-_ROUND = ((18, 2), (6, 6))
+_ROUNDS, _PARENTS, _OFFSPRING = {False: 0, True: 12}, 6, 60
+_ROUND = ((24, 1), (12, 2), (4, 6))
 # Deviations of offspring are 10^x of those by the normal equations, x uniform in a range
-_BY_HORIZON, _BY_ALL, _BY_FIRST = (0.0, 1.0), (-0.5, 1.3), (-1.0, 0.7)
-_SETTLED, _BETTER = 2, 0.99  # rounds in a row without a cost that is so many times the one before
+_BY_HORIZON, _BY_ALL, _BY_FIRST = (0.0, 1.0), (-0.4, 1.5), (-1.0, 0.7)
+_BETTER = 0.99  # a shot is settled after a round whose least cost is not so many times that before
 _NOISE = 1.2  # times its noise: a shot that is fitted so well is settled
-_FINALISTS, _LAST = {False: 1, True: 4}, 20  # strikes of a shot, and iterations, of the last descent
+_ALIKE = 4  # of so many times the chosen, the best of a shot, each is asked whether it is another
+# Strikes of a shot that descend at last, and iterations; iterations at the change to squares
+_FINALISTS, _LAST, _SQUARES = {False: 1, True: 4}, {False: 10, True: 20}, 10
 
 
 @dataclass
@@ -88,7 +90,8 @@ def _best(shots: Integers, strikes: Doubles, costs: Doubles, keep: int) -> NDArr
     in the order of the shots.
     """
     rows = np.lexsort((costs, shots))
-    rows = rows[np.isfinite(costs[rows])]
+    ranks = np.arange(len(rows)) - np.searchsorted(shots[rows], shots[rows])
+    rows = rows[(ranks < _ALIKE * keep) & np.isfinite(costs[rows])]
     chosen = [np.zeros(0, np.intp)]
     while len(rows) and len(chosen) <= keep:
         # the first of each shot is its best; what is near it goes, and it too
@@ -113,10 +116,13 @@ def _survivors(
     a shot descend so many iterations.
     """
     costs = plays.misfit(shots, strikes, end[shots], -np.inf, huber=huber)[:, 0]
+    sums = None
     for descending, iterations in stages:
         rows = _best(shots, strikes, costs, descending)
-        shots = shots[rows]
-        strikes, sums = descend(plays, shots, strikes[rows], end[shots], iterations, huber=huber)
+        shots, known = shots[rows], None if sums is None else sums[rows]
+        strikes, sums = descend(
+            plays, shots, strikes[rows], end[shots], iterations, huber=huber, sums=known
+        )
         costs = sums[:, 0]
     return _Candidates(shots, strikes, sums)
 
@@ -209,32 +215,29 @@ def find(
     count, huber, rounds = len(plays.recordings), HUBER, _ROUNDS[squares]
     candidates = _by_horizons(plays, squares, random)
     known = _survivors(plays, *candidates, plays.ends, _CONTEST[squares]).best(_PARENTS)
-    noise = np.array([shot.noise for shot in plays.recordings])
-    least, idle = np.full(count, np.inf), np.zeros(count, int)
+    noise = np.array([2.0 * (_NOISE * shot.noise) ** 2 for shot in plays.recordings])
+    active = np.ones(count, bool)
     for number in range(rounds):
         if progress:
             progress("strikes", (number + 1) / (rounds + 1))
         if number == 1:  # from here on by squares
-            huber = 0.0
-            strikes, sums = descend(
-                plays, known.shots, known.strikes, plays.ends[known.shots], _LAST // 2, huber=huber
-            )
-            known, idle = _Candidates(known.shots, strikes, sums), np.zeros(count, int)
-            least[:] = np.inf
-        at_noise = known.sums[:, 0] < 2.0 * known.sums[:, 2] * (_NOISE * noise[known.shots]) ** 2
-        idle[known.shots[at_noise]] = _SETTLED
-        parents = known[idle[known.shots] < _SETTLED]
-        if len(parents.shots) == 0:
-            continue
-        known = _join([known, _next_round(plays, parents, huber, random)]).best(_PARENTS)
-        new = known.least(count)
-        idle = np.where(new < _BETTER * least, 0, idle + 1)
-        least = np.fmin(least, new)
+            active[:], huber = True, 0.0
+            end = plays.ends[known.shots]
+            strikes, sums = descend(plays, known.shots, known.strikes, end, _SQUARES, huber=huber)
+            known = _Candidates(known.shots, strikes, sums)
+        active[known.shots[known.sums[:, 0] < known.sums[:, 2] * noise[known.shots]]] = False
+        parents = known[active[known.shots]]
+        if len(parents.shots):
+            before = known.least(count)
+            known = _join([known, _next_round(plays, parents, huber, random)]).best(_PARENTS)
+            active &= known.least(count) < _BETTER * before
 
     # the last descent
     known = known.best(_FINALISTS[squares])
-    shots, huber = known.shots, 0.0 if squares else HUBER
-    strikes, sums = descend(plays, shots, known.strikes, plays.ends[shots], _LAST, huber=huber)
+    shots, end = known.shots, plays.ends[known.shots]
+    strikes, sums = descend(
+        plays, shots, known.strikes, end, _LAST[squares], huber=huber, sums=known.sums
+    )
     known = _Candidates(shots, strikes, sums).best(1)
     found, cost = np.full((count, strikes.shape[1]), np.nan), np.full(count, np.inf)
     found[known.shots], cost[known.shots] = known.strikes, known.sums[:, 0]

@@ -422,18 +422,22 @@ def descend(
     huber: float = HUBER,
     stride: int = 1,
     held: Doubles | None = None,
+    sums: Doubles | None = None,
 ) -> tuple[Doubles, Doubles]:
     """Levenberg and Marquardt's method from each strike: the strikes found, (n, numbers), and the
     sums of `misfit` there.
 
     An iteration is one play of each start that is not done; where the cost falls, one more of each
     number for the next step. `held`, (n, numbers), is what the square of a number costs, as kicks
-    that follow the six of a strike do; without, nothing does.
+    that follow the six of a strike do; without, nothing does. `sums` are those of `misfit` at the
+    strikes, where they are known.
     """
     strikes = allowed(strikes)
     n, numbers = strikes.shape
     held = np.zeros((n, numbers)) if held is None else held
-    sums = plays.misfit(shots, strikes, end, np.inf, huber=huber, stride=stride)
+    if sums is None:
+        sums = plays.misfit(shots, strikes, end, np.inf, huber=huber, stride=stride)
+    sums = sums.copy()
     costs = sums[:, 0] + (held * strikes**2).sum(axis=1)
     damping, failed = np.full(n, 1e-2), np.zeros(n, int)
     active = np.isfinite(costs)
