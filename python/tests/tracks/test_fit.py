@@ -27,7 +27,6 @@ from carom.tracks import (
     _constants,
     _from_events,
     _joint,
-    _kicks,
     _recordings,
     _strikes,
     _summary,
