@@ -45,7 +45,9 @@ def test_strikes_of_long_shots_are_those_that_were_played(seed):
     assert (ratio < 1.02).all(), f"seed {seed}: RMSE over that of the true strikes {ratio.round(3)}"
     same = ratio > 0.98
     off = np.abs(found - best)[same].max(axis=0)
-    assert same.sum() >= 8 and (off < [0.02, 0.02, 0.1, 0.1, 0.1, 5e-3]).all(), f"seed {seed}: {off}"
+    assert same.sum() >= 8 and (off < [0.02, 0.02, 0.1, 0.1, 0.1, 5e-3]).all(), (
+        f"seed {seed}: {off}"
+    )
 
 
 @pytest.mark.parametrize("seed", range(2))

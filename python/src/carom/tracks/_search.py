@@ -1,22 +1,22 @@
-"""Which of its many minima is the strike of a recorded shot: a search over all of them.
+"""The search for the strike of a recorded shot among the many minima of its cost.
 
 A small change makes a ball miss another, so the cost of `_strikes` has many minima. The models are
-off by centimetres besides, so a strike that follows the first second best need not lead to the one
-that follows the whole shot best, and a search that narrows its choice with the time of the samples
-loses it. Therefore three kinds of candidates meet in one contest over the whole shot:
+off by centimetres besides. So the strike that follows the first second best need not lead to the
+one that follows the whole shot best, and a search loses that one if it narrows its choice as more
+and more samples count. Therefore candidates of three kinds meet in contests over the whole shot:
 
-1. starts of many spins, the samples of the first second descended into;
-2. the survivors of each horizon: the samples of the first 0.9, 2, 4 and 8 s, where the offspring of
-   the survivors of one horizon are candidates of the next;
-3. offspring of the best strikes that are known, in rounds, until a shot is settled: rounds no longer
-   improve it, or it is at the noise.
+1. starts of many spins, after a short descent by the samples of the first second;
+2. the survivors of each horizon, the samples of the first 0.9, 2, 4 and 8 s: offspring of the
+   survivors of one horizon are candidates of the next;
+3. offspring of the best strikes so far, in rounds, until a round no longer improves the shot or the
+   shot is fitted to its noise.
 
-In a contest all candidates are played, the best descend a few steps, and the best of these go on to
-more steps. Offspring are drawn from the normal distribution that the normal equations of a parent
-give, by the whole shot or by its first second alone, narrower and wider.
+In a contest all candidates are played, the best of them descend a few iterations, and the best of
+these descend further. Offspring are drawn from the normal distribution that the normal equations of
+a parent give, by the whole shot or by its first second alone, at many widths.
 
-The draws are the same for every shot and every call, so the strike of a shot depends neither on a
-seed nor on the shots beside it.
+All shots have the same draws. So a strike does not depend on the shots beside it, and those of a
+result do not depend on the seed of a fit, which the search for constants alone takes.
 """
 
 from __future__ import annotations
@@ -31,29 +31,54 @@ from carom.dtypes import Doubles
 from carom.tracks import _strikes
 from carom.tracks._strikes import HUBER, Integers, Plays, allowed, descend
 
-_FIRST = 0.9  # s: samples of the starts' descent
-_TURNED = 0.15  # of the speed: the starts' spins are moved by so much, which leaves their grid
-# starts of moved spins that are candidates, after so many iterations
-_STARTS, _START_STEPS = {False: 6, True: 30}, 2
-# Horizons (s), how many candidates descend by its samples, and how many survive; iterations, and
-# offspring of each survivor of the horizon before.
-_HORIZONS = {
-    False: ((_FIRST, 8, 8), (2.0, 3, 3), (4.0, 3, 3), (8.0, 3, 3)),
-    True: ((_FIRST, 14, 14), (2.0, 8, 8), (4.0, 7, 6), (8.0, 6, 4)),
-}
-_HORIZON_STEPS, _HORIZON_OFFSPRING = 4, 30
-# How many descend by the whole shot, and iterations
-_CONTEST = {False: ((8, 2), (3, 4)), True: ((30, 3), (10, 4), (6, 6))}
-# Rounds, at most; parents of a shot, offspring of each, and how many of all descend, with iterations
-_ROUNDS, _PARENTS, _OFFSPRING = {False: 0, True: 12}, 6, 60
-_ROUND = ((24, 1), (12, 2), (4, 6))
+Stages = tuple[tuple[int, int], ...]  # how many candidates of a shot descend, and iterations
+
+
+@dataclass(frozen=True)
+class _Effort:
+    """How many candidates of a shot a search takes."""
+
+    starts: int  # whose spins lie between those of the grid
+    horizons: tuple[tuple[float, int, int], ...]  # s, how many descend, and how many survive
+    contest: Stages
+    rounds: int  # at most
+    finalists: int  # that descend at last
+    iterations: int  # of this descent
+
+
+# Found by trial on the shots of docs/understanding/reality.md: where the contest, the offspring or
+# the parents of a round are halved or doubled, the RMSE change by 1 % in the mean. Where _BY_ALL
+# ends at 1.0, they rise by 4 %; without the starts, or without the horizons of 4 and 8 s, by 8
+# and 4 %.
+_QUICK = _Effort(
+    starts=6,
+    horizons=((0.9, 8, 8), (2.0, 3, 3), (4.0, 3, 3), (8.0, 3, 3)),
+    contest=((8, 2), (3, 4)),
+    rounds=0,
+    finalists=1,
+    iterations=10,
+)
+_THOROUGH = _Effort(
+    starts=30,
+    horizons=((0.9, 14, 14), (2.0, 8, 8), (4.0, 7, 6), (8.0, 6, 4)),
+    contest=((30, 3), (10, 4), (6, 6)),
+    rounds=12,
+    finalists=4,
+    iterations=20,
+)
+_FIRST = 0.9  # s: the first second
+_START_STEPS, _HORIZON_STEPS, _SQUARES_STEPS = 2, 4, 10  # iterations of one descent
+_TURNED = 0.15  # of the speed: how far the spins of starts are moved off their grid
+# Parents of a shot in a round, offspring of each, and the contest of these; and offspring of each
+# survivor of a horizon
+_PARENTS, _OFFSPRING, _ROUND, _HORIZON_OFFSPRING = 6, 60, ((24, 1), (12, 2), (4, 6)), 30
 # Deviations of offspring are 10^x of those by the normal equations, x uniform in a range
 _BY_HORIZON, _BY_ALL, _BY_FIRST = (0.0, 1.0), (-0.4, 1.5), (-1.0, 0.7)
-_BETTER = 0.99  # a shot is settled after a round whose least cost is not so many times that before
-_NOISE = 1.2  # times its noise: a shot that is fitted so well is settled
-_ALIKE = 4  # of so many times the chosen, the best of a shot, each is asked whether it is another
-# Strikes of a shot that descend at last, and iterations; iterations at the change to squares
-_FINALISTS, _LAST, _SQUARES = {False: 1, True: 4}, {False: 10, True: 20}, 10
+_RANKS = max(kept for _, _, kept in _THOROUGH.horizons)  # most parents of a shot
+_BETTER = 0.99  # of the least cost before: a round that leaves more is the last of a shot
+_NOISE = 1.2  # times its noise: a shot that is fitted so well needs no round
+_NEAR = 1e-2  # m/s: strikes that differ by less are one
+_ASKED = 4  # times as many as are chosen: so many of the best are asked whether they are one
 
 
 @dataclass
@@ -91,17 +116,17 @@ def _best(shots: Integers, strikes: Doubles, costs: Doubles, keep: int) -> NDArr
     """
     rows = np.lexsort((costs, shots))
     ranks = np.arange(len(rows)) - np.searchsorted(shots[rows], shots[rows])
-    rows = rows[(ranks < _ALIKE * keep) & np.isfinite(costs[rows])]
+    rows = rows[(ranks < _ASKED * keep) & np.isfinite(costs[rows])]
     chosen = [np.zeros(0, np.intp)]
     while len(rows) and len(chosen) <= keep:
-        # the first of each shot is its best; what is near it goes, and it too
+        # the first row of each shot is its best; that row and those near it leave the list
         begins = np.append(True, np.diff(shots[rows]) > 0)
         leaders = rows[begins]
         gaps = strikes[rows] - strikes[leaders[np.cumsum(begins) - 1]]
-        rows = rows[np.abs(gaps[:, :5]).max(axis=1) > 1e-2]
+        rows = rows[np.abs(gaps[:, :5]).max(axis=1) > _NEAR]
         chosen.append(leaders)
     rows = np.concatenate(chosen)
-    return rows[np.lexsort((rows, shots[rows]))]
+    return np.asarray(rows[np.lexsort((rows, shots[rows]))])
 
 
 def _survivors(
@@ -109,21 +134,20 @@ def _survivors(
     shots: Integers,
     strikes: Doubles,
     end: Doubles,
-    stages: tuple[tuple[int, int], ...],
+    stages: Stages,
     huber: float = HUBER,
 ) -> _Candidates:
     """Of strikes in any order, by the samples up to end[shot]: in each stage so many of the best of
     a shot descend so many iterations.
     """
-    costs = plays.misfit(shots, strikes, end[shots], -np.inf, huber=huber)[:, 0]
-    sums = None
+    sums = screened = plays.misfit(shots, strikes, end[shots], -np.inf, huber=huber)
     for descending, iterations in stages:
-        rows = _best(shots, strikes, costs, descending)
-        shots, known = shots[rows], None if sums is None else sums[rows]
+        rows = _best(shots, strikes, sums[:, 0], descending)
+        known = None if sums is screened else sums[rows]  # a screening has no derivatives
+        shots = shots[rows]
         strikes, sums = descend(
             plays, shots, strikes[rows], end[shots], iterations, huber=huber, sums=known
         )
-        costs = sums[:, 0]
     return _Candidates(shots, strikes, sums)
 
 
@@ -141,7 +165,7 @@ def _offspring(
     deviation = np.minimum(np.sqrt(variance / np.maximum(values, 1e-12)), most)
 
     ranks = np.arange(len(speed)) - np.searchsorted(parents.shots, parents.shots)
-    shape = _HORIZONS[True][0][2], each
+    shape = _RANKS, each
     wide = 10.0 ** random.uniform(*widths, size=(*shape, 1))
     drawn = (wide * random.normal(size=(*shape, axes.shape[1])))[ranks]
     moved = np.einsum("nij,nmj->nmi", axes * deviation[:, None, :], drawn)
@@ -164,14 +188,14 @@ def _starts(plays: Plays) -> tuple[Integers, Doubles, Doubles]:
 
 
 def _by_horizons(
-    plays: Plays, squares: bool, random: np.random.Generator
+    plays: Plays, effort: _Effort, random: np.random.Generator
 ) -> tuple[Integers, Doubles]:
     """The candidates of kinds 1 and 2."""
     shots, strikes, moved = _starts(plays)
     end = np.minimum(_FIRST, plays.ends)
-    front = _survivors(plays, shots, moved, end, ((_STARTS[squares], _START_STEPS),))
+    front = _survivors(plays, shots, moved, end, ((effort.starts, _START_STEPS),))
     pool = [front]
-    for horizon, descending, kept in _HORIZONS[squares]:
+    for horizon, descending, kept in effort.horizons:
         if horizon > _FIRST:
             drawn_of, drawn = _offspring(front, _HORIZON_OFFSPRING, _BY_HORIZON, random)
             shots = np.concatenate([front.shots, drawn_of])
@@ -208,22 +232,24 @@ def find(
     """The strikes of all shots, (shots, 6), and their costs, (shots,): infinite where no start
     could be played.
 
-    With `squares`, those of the least plain squares, which the RMSE is made of, where it counts
-    that none of the worst stays bad: the rounds are for these. Without, those of the least cost.
+    With `squares`, those of the least plain squares, which the RMSE is made of, by a thorough
+    search; without, those of the least cost, by a quick one. `seed` gives other draws.
     """
     random = np.random.default_rng(seed)
-    count, huber, rounds = len(plays.recordings), HUBER, _ROUNDS[squares]
-    candidates = _by_horizons(plays, squares, random)
-    known = _survivors(plays, *candidates, plays.ends, _CONTEST[squares]).best(_PARENTS)
+    count, huber, effort = len(plays.recordings), HUBER, _THOROUGH if squares else _QUICK
+    candidates = _by_horizons(plays, effort, random)
+    known = _survivors(plays, *candidates, plays.ends, effort.contest).best(_PARENTS)
     noise = np.array([2.0 * (_NOISE * shot.noise) ** 2 for shot in plays.recordings])
     active = np.ones(count, bool)
-    for number in range(rounds):
+    for number in range(effort.rounds):
         if progress:
-            progress("strikes", (number + 1) / (rounds + 1))
+            progress("strikes", (number + 1) / (effort.rounds + 1))
         if number == 1:  # from here on by squares
             active[:], huber = True, 0.0
             end = plays.ends[known.shots]
-            strikes, sums = descend(plays, known.shots, known.strikes, end, _SQUARES, huber=huber)
+            strikes, sums = descend(
+                plays, known.shots, known.strikes, end, _SQUARES_STEPS, huber=huber
+            )
             known = _Candidates(known.shots, strikes, sums)
         active[known.shots[known.sums[:, 0] < known.sums[:, 2] * noise[known.shots]]] = False
         parents = known[active[known.shots]]
@@ -233,10 +259,10 @@ def find(
             active &= known.least(count) < _BETTER * before
 
     # the last descent
-    known = known.best(_FINALISTS[squares])
+    known = known.best(effort.finalists)
     shots, end = known.shots, plays.ends[known.shots]
     strikes, sums = descend(
-        plays, shots, known.strikes, end, _LAST[squares], huber=huber, sums=known.sums
+        plays, shots, known.strikes, end, effort.iterations, huber=huber, sums=known.sums
     )
     known = _Candidates(shots, strikes, sums).best(1)
     found, cost = np.full((count, strikes.shape[1]), np.nan), np.full(count, np.inf)

@@ -7,8 +7,8 @@ c^2 (sqrt(1 + d^2/c^2) - 1) of the distance d between recorded and played place,
 quadratic for small distances, linear for large ones, which are those after an event that the play
 misses. Levenberg and Marquardt's step is dp = -(J^T W J + l diag(J^T W J))^-1 J^T W d.
 
-Where a descent starts, and which of the many minima is the shot's, is `_search`. The plays of all
-strikes of all shots are one batch, in C.
+`starts` has the strikes that the first rows allow, and `_search` the way from these to the least of
+the many minima. The plays of all strikes of all shots are one batch, in C.
 """
 
 from __future__ import annotations

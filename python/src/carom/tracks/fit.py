@@ -26,7 +26,7 @@ from carom._rows import Seed, listing, seed_of
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles, Records
 from carom.layouts import GAMES
-from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
+from carom.tracks import _constants, _covariance, _from_events, _joint
 from carom.tracks import _recordings, _search, _strikes, _summary
 from carom.tracks import Recording, TrackError, events, read
 from carom.tracks._forecast import ROUGH, Forecast
@@ -291,7 +291,9 @@ def _fit_to_shots(
         "strikes", lambda: _search.find(plays, job.seed, job.progress)[0].tolist()
     )
     expected = _priors(job.free, job.priors, values, job.cushion_model)
-    search = _search_constants(job, _joint.Search(plays, np.array(found), range(len(fitted)), expected))
+    search = _search_constants(
+        job, _joint.Search(plays, np.array(found), range(len(fitted)), expected)
+    )
     job.report("spread", _joint.STAGES / (_joint.STAGES + 2))
     if search.middle >= _joint.MOST:
         remarks.append(
@@ -357,7 +359,8 @@ def fit(
         The shots, from 0, that constants are fitted to; all without. The others then tell how well
         the constants predict.
     seed : int or numpy.random.Generator
-        Of what is drawn. In one environment the bits depend on the seed alone.
+        Of what the search for constants draws; strikes by known constants do not depend on it. In
+        one environment the bits depend on the seed alone.
     threads : int
         Most threads: 0 is the calling one alone, -1 all processors.
     progress : callable(what, part), optional
