@@ -307,8 +307,10 @@ typedef enum carom_status {
   CAROM_ERROR_POCKETS = -116,           /* a table has more than CAROM_POCKETS_MOST pockets. */
   CAROM_ERROR_JAWS = -117,              /* a table has more than CAROM_JAWS_MOST jaws. */
   CAROM_ERROR_RAILS = -118,             /* a table has more than CAROM_RAILS_MOST rails. */
-  CAROM_ERROR_ACT = -119                /* carom_match.h: match.fault says what the rules do not
+  CAROM_ERROR_ACT = -119,               /* carom_match.h: match.fault says what the rules do not
                                            allow, and what would be right. */
+  CAROM_ERROR_SLOPE = -120              /* the slope of a table is not below mu_roll and mu_slide of
+                                           every ball, or a number of it is not -1 to 1. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output; "unknown" for a value not

@@ -135,6 +135,28 @@ ROW(option_json, "json", json, NULL, set_flag, 0,
     "print the shot as a line of JSON for a file, instead of playing it. The line has pooltool's "
     "sign: a > 0 is left");
 
+/* layout_moment */
+static bool set_layout(const option_row *row, char *text, void *field) {
+  int place;
+  if (!set_place(row, text, row->argument, &place))
+    return false;
+  *(int *)field = (int)LAYOUT_START + place;
+  return true;
+}
+
+const option_row option_layout = {
+    .name = "from",
+    .argument = "start|final",
+    .help = "with a file of shots: take the balls as they lay before each shot, or its final "
+            "states, in which they came to rest",
+    .else_usual = "start where carom plays shots again; else a line with final states is an error",
+    .set = set_layout,
+    .field = offsetof(shared_options, layout)};
+
+layout_moment played_again(const shared_options *shared) {
+  return shared->layout == LAYOUT_FINAL ? LAYOUT_FINAL : LAYOUT_START;
+}
+
 #define GAP_HELP                                                                               \
   "gap between neighbours of a rack, m, or with a unit; 0 is a frozen rack", .usual = "0.1mm", \
                                                                              .is_list = true
@@ -273,7 +295,7 @@ static void lay_table(const shoot_flags *f, layout *l) {
   named_table *t = built_in_table(l->table_name, &(json_fault){{0}});
   l->table = t->table;
   free_table(t);
-  l->game = game_of_table(kind);
+  l->game = carom_game_of_table(kind);
 }
 
 /* The cue ball at its usual place, and the balls of a rack, number `shot` of those that gaps and
@@ -777,7 +799,7 @@ shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_option
   else if (f->shared.with.lists > 0)
     complain(WITH_LISTS);
   else
-    return shot_file_open(path, options->cushion_model);
+    return shot_file_open(path, options->cushion_model, (layout_moment)f->shared.layout);
   return NULL;
 }
 

@@ -104,7 +104,7 @@ def floor(fit: carom.tracks.fit.Fit, shots: int, seed: int) -> None:
     """
     sample = carom.tracks.synthetic(
         shots,
-        table=fit.table,
+        table=fit.ground.size,
         radius=fit.radius,
         cushion_model=fit.cushion_model,
         constants=fit.constants,

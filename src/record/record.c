@@ -52,6 +52,8 @@ static const carom_field table[] = {
     CAROM_RECORD_FIELD("ball_radius", DOUBLE, false, 1, table.ball_radius),
     CAROM_RECORD_FIELD("rail_width", DOUBLE, false, 1, table.rail_width),
     CAROM_RECORD_FIELD("pocket_back", DOUBLE, false, 1, table.pocket_back),
+    CAROM_RECORD_FIELD("slope_x", DOUBLE, false, 1, table.slope_x),
+    CAROM_RECORD_FIELD("slope_y", DOUBLE, false, 1, table.slope_y),
     LISTED("rails", CAROM_RAILS_MOST, table.rail, table.rails, rail_fields),
     LISTED("jaws", CAROM_JAWS_MOST, table.jaw, table.jaws, jaw_fields),
     LISTED("pockets", CAROM_POCKETS_MOST, table.pocket, table.pockets, pocket_fields),

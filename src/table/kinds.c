@@ -1,6 +1,7 @@
 /* Balls and cues of the games. docs/reference/constants.md has the source of each number. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
+#include "schema/numbers.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -21,20 +22,17 @@ carom_cue carom_cue_of(carom_game game) {
 
 /* What the smooth law has in every game: its form was read off one billiard table. */
 static void take_smooth_law(carom_ball_kind *kind) {
-  kind->smooth_q = 0.35;
-  kind->smooth_x = 1.3;
-  kind->smooth_t = 1.18;
-  kind->smooth_a = 0.25;
-  kind->smooth_g = 0.067;
-  kind->smooth_g_log = -0.059;
-  kind->smooth_e = 0.06;
+#define TAKE(member, usual) kind->member = (usual);
+  CAROM_USUAL_SMOOTH(TAKE)
+#undef TAKE
   kind->roll_loss_log = 0.034;
 }
 
 /* Takes away what the default's model of the cushion has beside friction and restitution. */
 static void drop_smooth_law(carom_ball_kind *kind) {
-  kind->smooth_q = kind->smooth_x = kind->smooth_t = kind->smooth_a = 0.0;
-  kind->smooth_g = kind->smooth_g_log = kind->smooth_e = 0.0;
+#define DROP(member, usual) kind->member = 0.0;
+  CAROM_USUAL_SMOOTH(DROP)
+#undef DROP
   kind->mu_log = kind->restitution_log = kind->restitution_log2 = 0.0;
   kind->roll_loss = kind->roll_loss_log = kind->nose_height = 0.0;
 }
@@ -109,6 +107,23 @@ static void resize(carom_ball_kind *kind, const struct sized *row) {
   kind->mass = row->mass;
   kind->mu_spin *= ratio;
   kind->nose_height *= ratio;
+}
+
+carom_game carom_game_of_table(carom_table_kind table) {
+  switch (table) {
+  case CAROM_TABLE_SNOOKER:
+    return CAROM_GAME_SNOOKER;
+  case CAROM_TABLE_THREECUSHION:
+    return CAROM_GAME_BILLIARD;
+  case CAROM_TABLE_BLACKBALL:
+    return CAROM_GAME_BLACKBALL;
+  case CAROM_TABLE_PYRAMID:
+    return CAROM_GAME_PYRAMID;
+  case CAROM_TABLE_FOURBALL:
+    return CAROM_GAME_FOURBALL;
+  default:
+    return CAROM_GAME_POOL;
+  }
 }
 
 carom_ball_kind carom_ball_kind_of(carom_game game) {

@@ -232,6 +232,8 @@ static void make(const carom_measures *m, const openings *f, carom_table *table)
   memset(table, 0, sizeof *table);
   table->width = m->width;
   table->length = m->length;
+  table->slope_x = m->slope_x;
+  table->slope_y = m->slope_y;
   if (m->corner_mouth == 0.0) {
     add_plain_rails(table, m->nose_height);
     return;
@@ -310,7 +312,7 @@ carom_status carom_table_measured(const carom_measures *measures, double ball_ra
   for (int k = 0; (n = carom_number_of(CAROM_PART_MEASURES, k)) != NULL; k++) {
     double x;
     memcpy(&x, (const char *)measures + n->offset, sizeof x);
-    if ((pockets || k <= AT(nose_height)) && !(x >= n->low && x <= n->high))
+    if ((pockets || k <= AT(nose_height) || k >= AT(slope_x)) && !(x >= n->low && x <= n->high))
       return blame(fault, k, -1, 0.0);
   }
   const openings f = openings_of(measures);

@@ -148,7 +148,8 @@ namespace Carom {
 
     /// <summary>What the library reads of it.</summary>
     internal Shot Data(ShotEvent *events) {
-      return new Shot { events = events, room = Events.Length, count = Events.Length, time = Time };
+      return new Shot { events = events,          room = Events.Length,    count = Events.Length,
+                        time = Time,              slope_x = table.slope_x, slope_y = table.slope_y };
     }
 
     /// <summary>The states of all balls at a time, s.</summary>
