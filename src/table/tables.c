@@ -190,7 +190,7 @@ static const carom_measures built_in[] = {
   [CAROM_TABLE_POOL_9FT] = {1.27, 2.54, WPA},
   /* the playing area by the rules of the sport, whose templates of pockets are not published; nose
    * at 7/5 R as in the 2010 paper; parallel facings, well-rounded jaws */
-  [CAROM_TABLE_SNOOKER] = {1.778, 3.569, 1.4 * 0.02619375, 0.0508,
+  [CAROM_TABLE_SNOOKER] = {1.778, 3.569, 1.4 * 0.02625, 0.0508,
                            0.0865, 135.0, 0.02995, 0.07, 0.055,
                            0.0865, 90.0, 0.0085, 0.04, 0.05,
                            0.8, 0.2},
