@@ -1,0 +1,318 @@
+"""The cloth of a picture: its colour, its four edges, and what lies on it.
+
+Colours are compared as logarithms of ratios, log r/g and log b/g, which a shadow hardly changes.
+The cloth's own are quadratics of the pixel, fitted with weights that leave out balls and marks.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dtypes import Doubles
+from carom.film._camera import Camera, Evidence, begin, fit
+from carom.tracks import TrackError
+
+_DARK = 8.0  # levels added to colours, so that noise in the dark does not count
+_SHADOW = 0.35  # a change of the logarithm of the brightness up to which cloth is cloth
+_LEAST = 0.06  # of the picture: a smaller piece of one colour is no table
+# outward normals of the sides x = 0, y = 0, x = W, y = L
+NORMALS = np.array([[-1.0, 0.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0]])
+_POINTS = 60  # along each edge
+_REACH = 12  # pixels to each side of where an edge is expected
+_SEEN = 0.3  # of the points of an edge: where fewer are found, the side is not in the picture
+_MOUTH = 0.04  # m around a pocket in which a ball is about to fall
+_NEAR = 1.5  # pixels: an edge that is farther from where it was has moved
+
+Picture = np.ndarray[tuple[int, ...], np.dtype[np.uint8]]
+
+
+class FilmError(TrackError):
+    """A film cannot be tracked. The message says why, and what would help."""
+
+
+def ratios(picture: Picture) -> Doubles:
+    """log b/g, log r/g and log of the brightness of each pixel, (height, width, 3)."""
+    logs = np.log(np.arange(256, dtype=np.float32) + _DARK)
+    blue, green, red = cv2.split(cv2.LUT(picture, logs))
+    return np.asarray(cv2.merge([blue - green, red - green, (blue + green + red) / 3.0]))
+
+
+def quadrilateral(picture: Picture) -> Doubles:
+    """The corners of the cloth, counterclockwise from the lower left one as seen, (4, 2)."""
+    lab = cv2.cvtColor(cv2.GaussianBlur(picture, (5, 5), 0), cv2.COLOR_BGR2LAB)
+    height, width = lab.shape[:2]
+    # the cloth is the commonest colour of the middle that is no grey
+    middle = lab[height // 5 : -height // 5, width // 5 : -width // 5, 1:].reshape(-1, 2)
+    vivid = middle[np.hypot(*(middle.astype(np.float64) - 128.0).T) > 12.0]
+    if len(vivid) < 0.1 * len(middle):
+        raise FilmError("no cloth is found: the middle of the picture is grey; --corners helps")
+    counts, _, _ = np.histogram2d(*vivid.T.astype(np.float64), bins=64, range=[[0, 256]] * 2)
+    peak = 4.0 * np.array(np.unravel_index(counts.argmax(), counts.shape)) + 2.0
+    near = vivid[np.abs(vivid - peak).max(axis=1) < 14]
+    away = np.abs(lab[..., 1:] - np.median(near, axis=0)).max(axis=2)
+    mask = cv2.morphologyEx((away < 14).astype(np.uint8), cv2.MORPH_OPEN, np.ones((5, 5), np.uint8))
+    _, labels, sizes, _ = cv2.connectedComponentsWithStats(mask)
+    largest = 1 + int(sizes[1:, cv2.CC_STAT_AREA].argmax()) if len(sizes) > 1 else 0
+    if not largest or sizes[largest, cv2.CC_STAT_AREA] < _LEAST * height * width:
+        raise FilmError(
+            f"no cloth is found: no piece of one colour covers {100 * _LEAST:.0f} % of the picture; --corners helps"
+        )
+    outlines, _ = cv2.findContours(
+        (labels == largest).astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
+    )
+    outline = max(outlines, key=cv2.contourArea)
+    hull = cv2.convexHull(outline)
+    polygon = cv2.approxPolyDP(hull, 0.01 * cv2.arcLength(hull, True), True)[:, 0]
+    # the four longest edges are the sides: between them pockets cut off the corners
+    ways = np.roll(polygon, -1, axis=0) - polygon
+    sides = np.sort(np.argsort(-np.hypot(*ways.T.astype(np.float64)))[:4])
+    corners = polygon[:0].astype(np.float64)
+    if len(sides) == 4:
+        ends = np.stack([polygon[sides], polygon[sides] + ways[sides]], axis=1)
+        corners = _crossings(ends.astype(np.float64), outline[:, 0].astype(np.float64))
+    quad = np.abs(area(corners)) if len(corners) else np.inf
+    if not 0.95 * cv2.contourArea(hull) < quad < 1.2 * cv2.contourArea(hull):
+        raise FilmError(
+            "the cloth has not four straight sides: is all of the table in the picture? --corners helps"
+        )
+    middles = ends.mean(axis=1)
+    border = np.array([width, height]) - 1.0
+    if (np.minimum(middles, border - middles) < 3.0).any():
+        raise FilmError(
+            "the cloth reaches the border of the picture: all of the table must be in it, or --corners given"
+        )
+    corners = corners if area(corners) > 0.0 else corners[::-1]
+    lower_left = int(np.argmin(corners[:, 0] - corners[:, 1]))
+    return np.roll(corners, -lower_left, axis=0)
+
+
+def _crossings(sides: Doubles, outline: Doubles) -> Doubles:
+    """Where lines through the outline near each side, (4, 2, 2), meet those of the side before."""
+    lines = []
+    for a, b in sides:
+        length = np.linalg.norm(b - a)
+        along = (outline - a) @ (b - a) / length**2
+        across = (outline - a) @ np.array([a[1] - b[1], b[0] - a[0]]) / length
+        near = (along > 0.1) & (along < 0.9) & (np.abs(across) < 0.02 * length + 2.0)
+        if near.sum() < 10:
+            return np.zeros((0, 2))
+        line = cv2.fitLine(outline[near].astype(np.float32), cv2.DIST_HUBER, 0, 0.01, 0.01).ravel()
+        normal = np.array([-line[1], line[0]], np.float64)
+        lines.append((normal, normal @ line[2:]))
+    pairs = [(lines[k - 1], lines[k]) for k in range(4)]
+    return np.array([np.linalg.solve([a[0], b[0]], [a[1], b[1]]) for a, b in pairs])
+
+
+def area(corners: Doubles) -> float:
+    """Positive if they are counterclockwise as seen, where y of the picture goes down."""
+    x, y = corners.T
+    return 0.5 * float(y @ np.roll(x, -1) - x @ np.roll(y, -1))
+
+
+@dataclass(frozen=True)
+class Bed:
+    """A table as a camera sees it: the noses run from (0, 0) to (width, length)."""
+
+    width: float  # m
+    length: float
+    nose: float  # m above the slate
+    depth: float  # m: of the cushions, from the noses to the edge of the cloth
+    radius: float  # m: of the balls
+    pockets: Doubles  # (n, 3): places and radii, m
+
+    @property
+    def corners(self) -> Doubles:
+        return np.array(
+            [[0.0, 0.0], [self.width, 0.0], [self.width, self.length], [0.0, self.length]]
+        )
+
+    def near_pocket(self, places: Doubles) -> NDArray[np.bool_]:
+        """Whether balls at places, (n, 2), are in a pocket or about to fall."""
+        away = np.hypot(*(places[:, None] - self.pockets[:, :2]).transpose(2, 0, 1))
+        return np.asarray((away < self.pockets[:, 2] + _MOUTH).any(axis=1))
+
+    def side(self, number: int, offset: float, shares: Doubles) -> Doubles:
+        """Points of a side moved outwards, at shares of its length, at the height of the noses."""
+        a, b = self.corners[[number - 1, number]]
+        line = a + shares[:, None] * (b - a) + offset * NORMALS[number]
+        return np.column_stack([line, np.full(len(shares), self.nose)])
+
+
+
+    def project(self, camera: Camera, number: int, offset: float, shares: Doubles) -> Doubles:
+        """The pixels of `side`."""
+        return camera.project(self.side(number, offset, shares))
+
+
+class Cloth:
+    """What a camera sees of a table, prepared for many pictures."""
+
+    def __init__(self, picture: Picture, camera: Camera, bed: Bed, depths: Doubles) -> None:
+        self.camera, self.bed = camera, bed
+        shares = np.linspace(0.0, 1.0, 30)
+        outline = np.concatenate(
+            [bed.project(camera, side, depths[side], shares) for side in range(4)]
+        )
+        # the part of the picture that is looked at
+        low = np.maximum(np.floor(outline.min(axis=0)).astype(int) - _REACH - 2, 0)
+        high = np.minimum(np.ceil(outline.max(axis=0)).astype(int) + _REACH + 3, camera.size)
+        if (high - low < 50).any():
+            raise FilmError("the table is not in the picture: --corners must be pixels on it")
+        self.low = low.astype(np.float64)
+        self.part = slice(low[1], high[1]), slice(low[0], high[0])
+        self.shape = int(high[1] - low[1]), int(high[0] - low[0])
+        # where balls are seen: cushions on the camera's side hide what is behind their noses
+        inner = []
+        for side in range(4):
+            target = (bed.corners[side] @ NORMALS[side]).item()
+            hides = camera.eye[:2] @ NORMALS[side] > target
+            inner.append(bed.project(camera, side, 0.0 if hides else depths[side] - 0.006, shares))
+        self.mask = self._filled(np.concatenate(inner))
+        turn = np.linspace(0.0, 2.0 * np.pi, 40)
+        for x, y, radius in bed.pockets:
+            ring = np.column_stack([x + radius * np.cos(turn), y + radius * np.sin(turn)])
+            for height in (0.0, bed.nose):
+                hole = camera.project(np.column_stack([ring, np.full(40, height)]))
+                self.mask[self._filled(hole) > 0] = 0
+        self._learn(picture)
+        self._find_edges(picture, depths)
+
+    def _filled(self, polygon: Doubles) -> Picture:
+        mask = np.zeros(self.shape, np.uint8)
+        cv2.fillPoly(mask, [np.round(polygon - self.low).astype(np.int32)], 1)
+        return mask
+
+    def _learn(self, picture: Picture) -> None:
+        """The cloth's own ratios at each pixel, and how much they scatter."""
+        found = ratios(picture[self.part])
+        y, x = np.mgrid[: self.shape[0], : self.shape[1]].astype(np.float32)
+        y, x = 2.0 * y / self.shape[0] - 1.0, 2.0 * x / self.shape[1] - 1.0
+        terms = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=2)
+        chosen = np.flatnonzero(self.mask)[::7]
+        A, b = terms.reshape(-1, 6)[chosen], found.reshape(-1, 3)[chosen]
+        # from the median on, pixels that are far from the quadratic lose their weight
+        model = np.zeros((6, 3), np.float32)
+        model[0] = np.median(b, axis=0)
+        limits = np.array([0.3, 0.3, 0.5], np.float32)
+        for _ in range(8):
+            good = (np.abs(b - A @ model) < limits).all(axis=1)
+            if good.sum() < 0.3 * len(b):
+                raise FilmError(
+                    "most of the table has not one colour: are the --corners those of the noses, in the order that --help says?"
+                )
+            model = np.linalg.lstsq(A[good], b[good], rcond=None)[0].astype(np.float32)
+            limits = np.maximum(4.0 * 1.4826 * np.median(np.abs(b - A @ model), axis=0), 0.02)
+        self.own = terms @ model
+        self.noise = float(np.hypot(*(limits[:2] / 4.0)))
+        self.threshold = max(5.0 * self.noise, 0.15)
+
+    def distance(self, picture: Picture) -> Doubles:
+        """How far each pixel's colour is from the cloth's, of the part that is looked at."""
+        blue, red, bright = cv2.split(ratios(picture[self.part]) - self.own)
+        dark = np.maximum(np.abs(bright) - _SHADOW, 0.0)
+        return np.asarray(np.sqrt(blue * blue + red * red + dark * dark))
+
+    def _find_edges(self, picture: Picture, depths: Doubles) -> None:
+        """Where the cloth ends along each side, in this picture."""
+        shares = np.linspace(0.06, 0.94, _POINTS)
+        steps = np.arange(-_REACH, _REACH + 1.0)
+        points, grids = [], []
+        for side in range(4):
+            middle = self.bed.project(self.camera, side, depths[side], shares)
+            outer = self.bed.project(self.camera, side, depths[side] + 0.01, shares)
+            outward = (outer - middle) / np.linalg.norm(outer - middle, axis=1, keepdims=True)
+            points.append((middle, outward))
+            grids.append(middle[:, None] + steps[:, None] * outward[:, None] - self.low)
+        self.points, self.grid = points, np.concatenate(grids).astype(np.float32)
+        self.edges = self.edge_offsets(self.distance(picture))
+
+    def edge_offsets(self, distance: Doubles) -> Doubles:
+        """How far outwards the cloth ends from where it is expected, pixels, (4, points); nan where
+        it is not found.
+        """
+        image = distance.astype(np.float32)
+        x, y = np.ascontiguousarray(self.grid[..., 0]), np.ascontiguousarray(self.grid[..., 1])
+        profile = cv2.remap(image, x, y, cv2.INTER_LINEAR, borderValue=0.0)
+        inside = profile[:, :-3] < self.threshold
+        outside = np.minimum.reduce([profile[:, k : profile.shape[1] - 3 + k] for k in (1, 2, 3)])
+        ends = inside[:, :] & (outside >= self.threshold)
+        k = ends.shape[1] - 1 - np.argmax(ends[:, ::-1], axis=1)
+        rows = np.arange(len(profile))
+        # the edge is where the colour is half way, by a line through two pixels
+        half = 0.5 * np.minimum(profile[rows, np.minimum(k + 3, profile.shape[1] - 1)], 1.0)
+        later = profile[:, 1:] >= half[:, None]
+        later &= np.arange(later.shape[1]) >= k[:, None]
+        j = np.argmax(later, axis=1)
+        a, b = profile[rows, j], profile[rows, j + 1]
+        place = j + (half - a) / np.maximum(b - a, 1e-6) - _REACH
+        found = np.where(ends.any(axis=1) & later.any(axis=1), place, np.nan)
+        return found.reshape(4, -1)
+
+    def is_seen(self, distance: Doubles) -> bool:
+        """Whether at least three edges are where they were."""
+        moved = np.abs(self.edge_offsets(distance) - self.edges)
+        near = (moved < _NEAR).sum(axis=1)
+        return int((near >= _SEEN * np.isfinite(self.edges).sum(axis=1)).sum()) >= 3
+
+    def evidence(self) -> list[Evidence]:
+        """The edges as evidence about the camera."""
+        parts = []
+        for side, (middle, outward) in enumerate(self.points):
+            good = np.isfinite(self.edges[side])
+            pixels = (middle + self.edges[side][:, None] * outward)[good]
+            target = np.full(len(pixels), (self.bed.corners[side] @ NORMALS[side]).item())
+            normals = np.tile(NORMALS[side], (len(pixels), 1))
+            # neighbours share what disturbs them, so 60 points tell less than 60 times one
+            parts.append(Evidence.of(pixels, self.bed.nose, normals, target, (1.5, 0.002), side))
+        return parts
+
+
+def calibrated(
+    picture: Picture,
+    bed: Bed,
+    corners: Doubles | None,
+    focal: float | None,
+    lens: float | None,
+) -> tuple[Camera, Doubles, list[Evidence]]:
+    """A camera from the corners of the noses, if they are given, and from the edges of the cloth;
+    the depths of the cushions, and the evidence.
+    """
+    size = picture.shape[1], picture.shape[0]
+    given: list[Evidence] = []
+    best: tuple[float, Camera, Doubles] | None = None
+    if corners is None:
+        outer, starts = quadrilateral(picture), (0, 1)
+        away = bed.depth * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    else:
+        outer, starts, away = corners, (0,), np.zeros((4, 2))
+        for axis in np.eye(2):
+            target = bed.corners @ axis
+            given.append(Evidence.of(corners, bed.nose, np.tile(axis, (4, 1)), target, (1.5, 0.0)))
+    # which side of the picture is which of the table: the way that fits better
+    for start in starts:
+        camera = begin(np.roll(outer, -start, axis=0), bed.corners + away, bed.nose, size)
+        evidence = list(given)
+        if corners is None:
+            shares = np.linspace(0.1, 0.9, 9)[:, None]
+            for side in range(4):
+                ends = np.roll(outer, -start, axis=0)[[side - 1, side]]
+                pixels = ends[0] + shares * (ends[1] - ends[0])
+                target = np.full(9, (bed.corners[side] @ NORMALS[side]).item())
+                normals = np.tile(NORMALS[side], (9, 1))
+                evidence.append(Evidence.of(pixels, bed.nose, normals, target, (3.0, 0.0), side))
+        camera, depths, cost = fit(camera, Evidence.joined(evidence), bed.depth, focal, lens)
+        if best is None or cost < best[0]:
+            best = cost, camera, depths
+    assert best is not None
+    _, camera, depths = best
+    # the edges are found anew where the better camera expects them
+    evidence = given
+    for _ in range(3):
+        cloth = Cloth(picture, camera, bed, depths)
+        evidence = given + cloth.evidence()
+        camera, depths, _ = fit(camera, Evidence.joined(evidence), bed.depth, focal, lens)
+    return camera, depths, evidence
