@@ -17,6 +17,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path as FilePath
+from typing import TextIO
 
 try:
     import cv2  # noqa: F401
@@ -66,16 +67,19 @@ class Film:
     begins: list[float]
     """When each shot's clock begins, s of the film."""
 
-    def write(self, path: str | FilePath) -> None:
+    def write(self, file: str | FilePath | TextIO) -> None:
         """Writes the tracks as the CSV that `carom.tracks.read` takes."""
-        with open(path, "w", newline="", encoding="utf-8") as file:
-            rows = csv.writer(file, lineterminator="\n")
-            rows.writerow(("shot", "ball", "t", "x", "y"))
-            for shot in self.recordings:
-                for ball, places in zip(shot.balls, shot.tracks):
-                    rows.writerows(
-                        (shot.id, ball, f"{t:.5f}", f"{x:.5f}", f"{y:.5f}") for t, x, y in places
-                    )
+        if isinstance(file, (str, FilePath)):
+            with open(file, "w", newline="", encoding="utf-8") as opened:
+                self.write(opened)
+            return
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(("shot", "ball", "t", "x", "y"))
+        for shot in self.recordings:
+            for ball, places in zip(shot.balls, shot.tracks):
+                rows.writerows(
+                    (shot.id, ball, f"{t:.5f}", f"{x:.5f}", f"{y:.5f}") for t, x, y in places
+                )
 
 
 def track(
@@ -154,8 +158,7 @@ def track(
 def bed_of(table: str) -> Bed:
     """The table of a kind, as a camera sees it."""
     measures = tables.measures(table)
-    maker = tables.pool_9ft.__name__ if table == "9ft" else f"pool_{table}"
-    made = getattr(tables, table if hasattr(tables, table) else maker)()
+    made = getattr(tables, f"pool_{table}" if table[0].isdigit() else table)()
     pockets = [(*pocket["centre"], pocket["radius"]) for pocket in made.pockets]
     return Bed(
         measures["width"],

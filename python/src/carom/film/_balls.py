@@ -25,7 +25,7 @@ blob = np.dtype(
 )
 """A ball that is seen."""
 
-_LEAST = 0.5  # of a ball's area: less is a mark
+_LEAST = 0.6  # of a ball's area: less is a mark
 _MOST = 1.45  # and more, unless it is long, is more than a ball
 _LONG = 4.0  # of a ball's area: a moving ball is no longer than that in one exposure
 _SOLID = 0.93  # of its hull: a blurred ball, where two balls have a waist

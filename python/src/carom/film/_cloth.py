@@ -21,6 +21,7 @@ _SHADOW = 0.35  # a change of the logarithm of the brightness up to which cloth 
 _LEAST = 0.06  # of the picture: a smaller piece of one colour is no table
 # outward normals of the sides x = 0, y = 0, x = W, y = L
 NORMALS = np.array([[-1.0, 0.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0]])
+_STRAIGHT = 0.2  # rad: edges that turn by less are one side
 _POINTS = 60  # along each edge
 _REACH = 12  # pixels to each side of where an edge is expected
 _SEEN = 0.3  # of the points of an edge: where fewer are found, the side is not in the picture
@@ -67,8 +68,16 @@ def quadrilateral(picture: Picture) -> Doubles:
     outline = max(outlines, key=cv2.contourArea)
     hull = cv2.convexHull(outline)
     polygon = cv2.approxPolyDP(hull, 0.01 * cv2.arcLength(hull, True), True)[:, 0]
-    # the four longest edges are the sides: between them pockets cut off the corners
+    # a side that a lens bends, or a pocket interrupts, is one; the four longest edges are the
+    # sides, between which pockets cut off the corners
     ways = np.roll(polygon, -1, axis=0) - polygon
+    while len(polygon) > 4:
+        angles = np.arctan2(*ways.T.astype(np.float64))
+        bends = np.abs((angles - np.roll(angles, 1) + np.pi) % (2.0 * np.pi) - np.pi)
+        if bends.min() > _STRAIGHT:
+            break
+        polygon = np.delete(polygon, int(bends.argmin()), axis=0)
+        ways = np.roll(polygon, -1, axis=0) - polygon
     sides = np.sort(np.argsort(-np.hypot(*ways.T.astype(np.float64)))[:4])
     corners = polygon[:0].astype(np.float64)
     if len(sides) == 4:

@@ -51,7 +51,7 @@ def _ink(text: str) -> Doubles:
 
 def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) -> list[str]:
     """The names of balls that are there at one time, by their colours (n, 3), shares of white, and
-    how long each was seen: of two that claim one name, the longer seen is taken first.
+    how long each was seen: of two that look alike, the one that is seen longer has the name.
     """
     kinds = _KINDS.get(table, _POOL)
     brightness = colours.mean(axis=1)
@@ -63,12 +63,13 @@ def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) ->
     seen = _lab(colours / light * 255.0)
     wanted = _lab(np.array([_ink(ink) for ink, _ in kinds.values()]))
     costs = np.sqrt(((seen[:, None] - wanted) ** 2 * [0.35, 1.0, 1.0]).sum(axis=2))
+    short = 40.0 * (1.0 - lengths / max(lengths.max(initial=0.0), 1.0))
     keys = list(kinds)
     if kinds is _POOL:
-        return _pool(costs, keys, whites)
+        return _pool(costs, keys, whites, short)
     names = [""] * len(colours)
     left = {name: count for name, (_, count) in kinds.items()}
-    for flat in np.argsort(costs - 1e-3 * lengths[:, None], axis=None):
+    for flat in np.argsort(costs + short[:, None], axis=None):
         ball, kind = divmod(int(flat), len(keys))
         name, count = keys[kind], kinds[keys[kind]][1]
         if names[ball] or not left[name] or costs[ball, kind] > _STRANGE:
@@ -78,11 +79,11 @@ def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) ->
     return _filled(names)
 
 
-def _pool(costs: Doubles, keys: list[str], whites: Doubles) -> list[str]:
+def _pool(costs: Doubles, keys: list[str], whites: Doubles, short: Doubles) -> list[str]:
     """Numbers of pool: a stripe has white, and the colour of the number 8 less."""
     names = [""] * len(costs)
     striped = (whites > _STRIPED[0]) & (whites < _STRIPED[1])
-    for flat in np.argsort(costs, axis=None):
+    for flat in np.argsort(costs + short[:, None], axis=None):
         ball, kind = divmod(int(flat), len(keys))
         name = keys[kind]
         if striped[ball]:

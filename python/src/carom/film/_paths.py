@@ -17,7 +17,8 @@ _FASTEST = 9.0  # m/s
 _RESTING = 0.03  # m/s: below, a ball lies, however long it is hidden
 _HIDDEN = 0.5  # s: a moving ball that is hidden for longer is another
 _ALIKE = 60.0  # levels of one colour between which a ball is the same
-_MIDDLE = 0.25  # s: a path that is shorter is no ball's
+_MOMENT = 0.25  # s: a path that is shorter is no ball's
+_WHOLE = 0.72  # of a ball's area: a path of less is a shadow's or a mark's
 _PAUSE = 0.7  # s: balls that rest for longer separate two shots
 _LEAST = 0.03  # m: the longest way of a shot
 _BEFORE, _AFTER = 0.4, 0.2  # s of a shot before the first motion and after the last
@@ -73,7 +74,9 @@ def linked(found: list[NDArray[np.void]], times: Doubles, radius: float) -> list
     return [
         path
         for path in done + live
-        if times[path.numbers[-1]] - times[path.numbers[0]] >= _MIDDLE and len(path.numbers) >= 5
+        if times[path.numbers[-1]] - times[path.numbers[0]] >= _MOMENT
+        and len(path.numbers) >= 5
+        and np.median([blob["share"] for blob in path.blobs]) > _WHOLE
     ]
 
 
@@ -125,7 +128,7 @@ def spans(paths: list[Path], times: Doubles, noise: float) -> list[tuple[float, 
         if max(ways, default=0.0) >= _LEAST and end > begin:
             shots.append((begin, end + window))
     # a shot has no row of its neighbours'
-    ends = [-np.inf, *(end for _, end in shots)]
+    ends = [float(times[0]), *(end for _, end in shots)]
     begins = [*(begin for begin, _ in shots), np.inf]
     return [
         (max(begin - _BEFORE, before), min(end + _AFTER, after))
