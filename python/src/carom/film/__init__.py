@@ -157,8 +157,9 @@ def track(
 
 def bed_of(table: str) -> Bed:
     """The table of a kind, as a camera sees it."""
+    table = f"pool_{table}" if table[:1].isdigit() else table
     measures = tables.measures(table)
-    made = getattr(tables, f"pool_{table}" if table[0].isdigit() else table)()
+    made = getattr(tables, table)()
     pockets = [(*pocket["centre"], pocket["radius"]) for pocket in made.pockets]
     return Bed(
         measures["width"],

@@ -29,6 +29,7 @@ _LEAST = 0.6  # of a ball's area: less is a mark
 _MOST = 1.45  # and more, unless it is long, is more than a ball
 _LONG = 4.0  # of a ball's area: a moving ball is no longer than that in one exposure
 _SOLID = 0.93  # of its hull: a blurred ball, where two balls have a waist
+_BRIGHT, _GREY = 75.0, 0.38  # levels of white at least, and its colours' greatest difference
 _PARTS = 16  # balls that touch
 _LEFT = 0.16  # of a blob that discs do not explain: a hand or a cue
 
@@ -193,7 +194,7 @@ class Finder:
         if not len(pixels):
             pixels = np.zeros((1, 3))
         high, low = pixels.max(axis=1), pixels.min(axis=1)
-        white = (low > 110.0) & (high - low < 0.42 * high)
+        white = (high > _BRIGHT) & (high - low < _GREY * high)
         # a highlight is white too, so a coloured ball is described by what is not
         coloured = pixels[~white] if white.mean() < 0.9 else pixels
         place = self.cloth.camera.places(centre[None] + self.cloth.low, self.cloth.bed.radius)[0]

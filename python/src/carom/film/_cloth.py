@@ -103,15 +103,18 @@ def _crossings(sides: Doubles, outline: Doubles) -> Doubles:
     """Where lines through the outline near each side, (4, 2, 2), meet those of the side before."""
     lines = []
     for a, b in sides:
-        length = np.linalg.norm(b - a)
+        length = float(np.linalg.norm(b - a))
         along = (outline - a) @ (b - a) / length**2
-        across = (outline - a) @ np.array([a[1] - b[1], b[0] - a[0]]) / length
-        near = (along > 0.1) & (along < 0.9) & (np.abs(across) < 0.02 * length + 2.0)
-        if near.sum() < 10:
-            return np.zeros((0, 2))
-        line = cv2.fitLine(outline[near].astype(np.float32), cv2.DIST_HUBER, 0, 0.01, 0.01).ravel()
-        normal = np.array([-line[1], line[0]], np.float64)
-        lines.append((normal, normal @ line[2:]))
+        middle = (along > 0.1) & (along < 0.9)
+        place, normal = a, np.array([a[1] - b[1], b[0] - a[0]]) / length
+        # the corners of the polygon are rough, so the first line looks farther
+        for reach in (0.05 * length, 0.02 * length, 3.0):
+            near = outline[middle & (np.abs((outline - place) @ normal) < reach)]
+            if len(near) < 10:
+                return np.zeros((0, 2))
+            line = cv2.fitLine(near.astype(np.float32), cv2.DIST_HUBER, 0, 0.01, 0.01).ravel()
+            place, normal = line[2:].astype(np.float64), np.array([-line[1], line[0]], np.float64)
+        lines.append((normal, normal @ place))
     pairs = [(lines[k - 1], lines[k]) for k in range(4)]
     return np.array([np.linalg.solve([a[0], b[0]], [a[1], b[1]]) for a, b in pairs])
 
@@ -238,6 +241,22 @@ class Cloth:
             grids.append(middle[:, None] + steps[:, None] * outward[:, None] - self.low)
         self.points, self.grid = points, np.concatenate(grids).astype(np.float32)
         self.edges = self.edge_offsets(self.distance(picture))
+        # a lens bends an edge like a parabola; pockets and blocks of the compression do not
+        terms = np.vander(shares, 4)
+        for edge in self.edges:
+            for limit in (3.0, 1.5, 0.8):
+                good = np.isfinite(edge)
+                if good.sum() < 12:
+                    break
+                # the least sum of distances, by weights
+                weights = np.ones(int(good.sum()))
+                for _ in range(8):
+                    root = np.sqrt(weights)
+                    model = np.linalg.lstsq(
+                        terms[good] * root[:, None], edge[good] * root, rcond=None
+                    )[0]
+                    weights = 1.0 / np.maximum(np.abs(edge[good] - terms[good] @ model), 0.05)
+                edge[np.abs(edge - terms @ model) > limit] = np.nan
 
     def edge_offsets(self, distance: Doubles) -> Doubles:
         """How far outwards the cloth ends from where it is expected, pixels, (4, points); nan where
@@ -276,7 +295,7 @@ class Cloth:
             target = np.full(len(pixels), (self.bed.corners[side] @ NORMALS[side]).item())
             normals = np.tile(NORMALS[side], (len(pixels), 1))
             # neighbours share what disturbs them, so 60 points tell less than 60 times one
-            parts.append(Evidence.of(pixels, self.bed.nose, normals, target, (1.5, 0.002), side))
+            parts.append(Evidence.of(pixels, self.bed.nose, normals, target, (1.0, 0.001), side))
         return parts
 
 
@@ -320,7 +339,7 @@ def calibrated(
     _, camera, depths = best
     # the edges are found anew where the better camera expects them
     evidence = given
-    for _ in range(3):
+    for _ in range(4):
         cloth = Cloth(picture, camera, bed, depths)
         evidence = given + cloth.evidence()
         camera, depths, _ = fit(camera, Evidence.joined(evidence), bed.depth, focal, lens)

@@ -94,15 +94,24 @@ def _pairs(
             way = float(np.hypot(*step))
             if way > _FASTEST * gap + radius:
                 continue
-            colour = float(np.abs(blob["colour"] - last["colour"]).max())
-            colour += 60.0 * abs(float(blob["white"] - last["white"]))
+            colour = _difference(blob, last)
+            if colour > _ALIKE:
+                continue
             miss = min(float(np.hypot(*(step - velocity * gap))), 0.6 * way + 0.1 * radius)
-            if miss < reach and colour < 2.0 * _ALIKE:
+            if miss < reach:
                 pairs.append((miss + 2e-4 * colour, i, j))
-            elif gap < 0.3 and colour < _ALIKE:
+            elif gap < 0.3:
                 # a ball that was struck, or turned: after all that go on as they went
                 pairs.append((10.0 + way + 0.004 * colour, i, j))
     return pairs
+
+
+def _difference(blob: np.void, other: np.void) -> float:
+    """Of two colours, levels. A ball that rolls shows more or less of its white."""
+    levels = float(np.abs(blob["colour"] - other["colour"]).max())
+    plain = 1.0 - max(float(blob["white"]), float(other["white"]))
+    turned = abs(float(blob["white"] - other["white"]))
+    return 1.3 * plain * levels + 150.0 * max(turned - 0.4, 0.0)
 
 
 def spans(paths: list[Path], times: Doubles, noise: float) -> list[tuple[float, float]]:
