@@ -12,7 +12,7 @@ import numpy as np
 CLOTHS = {"green": (60, 120, 30), "blue": (150, 90, 30)}  # blue, green, red
 INKS = {
     "cue": (225, 235, 240),
-    "red": (35, 25, 175),
+    "red": (38, 28, 205),
     "yellow": (40, 190, 225),
     "green": (85, 75, 5),
     "brown": (30, 60, 105),

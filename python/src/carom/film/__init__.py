@@ -47,7 +47,9 @@ _FIRST = 3.0  # s from which the table is learned
 _AWAY = 0.5  # s: a table that is not seen for longer is gone
 _SHARES = 0.8, 1.3  # of its usual area: less is hidden in part, more is merged
 _SPOT = 0.06  # m: a ball of snooker that rests nearer to its spot lies on it
-_TRUSTED = 0.004  # m: deviation of a ball from its spot, and half of that of a turn from the noses
+_PLACED = 0.004  # m: deviation of a ball from its spot
+_TURNED = 0.003  # m: of a ball that turns from its radius off the noses
+_FAR = 0.02  # m: and one that turns farther from there was hit by another
 
 Progress = Callable[[str, float], None]
 
@@ -213,7 +215,7 @@ class _Seen:
             part = picture[self.cloth.part]
             distance = self.cloth.distance(picture)
             rows, foreign = np.zeros(0, blob), 0.0
-            if self.cloth.is_seen(distance):
+            if self.cloth.is_seen(picture, distance):
                 rows, foreign = self.finder.find(picture, distance)
                 hidden, seen = [], t
             else:
@@ -312,10 +314,15 @@ def _marks(
     marks = []
     size = (bed.width, bed.length)
     for side, place in turns(paths, times, size):
+        normal = NORMALS[side]
+        nose = (bed.corners[side] @ normal).item()
+        if abs(place @ normal - nose + bed.radius) > _FAR:
+            continue
+        # a cushion on the camera's side hides a part of the ball
+        deviation = _TURNED * (2.0 if camera.eye[:2] @ normal > nose else 1.0)
         pixel = camera.project(np.array([[*place, bed.radius]]))
-        target = np.array([(bed.corners[side] @ NORMALS[side]).item() - bed.radius])
-        normal = NORMALS[side][None]
-        marks.append(Evidence.of(pixel, bed.radius, normal, target, (0.5, 0.5 * _TRUSTED)))
+        target = np.array([nose - bed.radius])
+        marks.append(Evidence.of(pixel, bed.radius, normal[None], target, (0.5, deviation)))
     if table == "snooker":
         colours = np.array([np.median([b["colour"] for b in path.blobs], axis=0) for path in paths])
         whites = np.array([np.median([b["white"] for b in path.blobs]) for path in paths])
@@ -329,7 +336,7 @@ def _marks(
             pixel = np.mean([row["pixel"] for row in rows], axis=0)[None]
             for axis in np.eye(2):
                 target = np.array([spot @ axis])
-                marks.append(Evidence.of(pixel, bed.radius, axis[None], target, (0.3, _TRUSTED)))
+                marks.append(Evidence.of(pixel, bed.radius, axis[None], target, (0.3, _PLACED)))
     return marks
 
 
@@ -346,15 +353,16 @@ def _name(table: str, paths: list[Path]) -> None:
     for k, path in enumerate(paths):
         if not path.name.startswith("ball"):
             continue
-        # what it would be called, were it alone with those of its time
+        # what it would be called among those of its time, if none of these has that name
         others = [
             j
             for j, other in enumerate(paths)
-            if j == k
-            or (other.numbers[0] <= path.numbers[-1] and other.numbers[-1] >= path.numbers[0])
+            if other.numbers[0] <= path.numbers[-1] and other.numbers[-1] >= path.numbers[0]
         ]
         again = names_of(table, colours[others], whites[others], lengths[others])
-        path.name = again[others.index(k)] if again[others.index(k)][:4] != "ball" else path.name
+        name = again[others.index(k)]
+        if not name.startswith("ball") and name not in [paths[j].name for j in others]:
+            path.name = name
 
 
 def _told(

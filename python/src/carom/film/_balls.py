@@ -26,7 +26,7 @@ blob = np.dtype(
 """A ball that is seen."""
 
 _LEAST = 0.6  # of a ball's area: less is a mark
-_MOST = 1.45  # and more, unless it is long, is more than a ball
+_MOST = 1.6  # and more, unless it is long, is more than a ball
 _LONG = 4.0  # of a ball's area: a moving ball is no longer than that in one exposure
 _SOLID = 0.93  # of its hull: a blurred ball, where two balls have a waist
 _BRIGHT, _GREY = 75.0, 0.38  # levels of white at least, and its colours' greatest difference
@@ -97,7 +97,7 @@ class Finder:
         A highlight or a number differs from both, so all that differs as much is covered.
         """
         middle = max(float(np.quantile(distance[own], 0.6)), self.cloth.threshold)
-        return np.clip(2.0 * distance / middle - 0.5, 0.0, 1.0)
+        return np.clip((distance / middle - 0.15) / 0.35, 0.0, 1.0)
 
     def _middle(self, cover: Doubles, box: tuple[slice, slice]) -> Doubles:
         weights = cover / cover.sum()

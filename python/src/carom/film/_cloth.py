@@ -240,7 +240,7 @@ class Cloth:
             points.append((middle, outward))
             grids.append(middle[:, None] + steps[:, None] * outward[:, None] - self.low)
         self.points, self.grid = points, np.concatenate(grids).astype(np.float32)
-        self.edges = self.edge_offsets(self.distance(picture))
+        self.edges = self.edge_offsets(picture, self.distance(picture))
         # a lens bends an edge like a parabola; pockets and blocks of the compression do not
         terms = np.vander(shares, 4)
         for edge in self.edges:
@@ -258,31 +258,35 @@ class Cloth:
                     weights = 1.0 / np.maximum(np.abs(edge[good] - terms[good] @ model), 0.05)
                 edge[np.abs(edge - terms @ model) > limit] = np.nan
 
-    def edge_offsets(self, distance: Doubles) -> Doubles:
+    def edge_offsets(self, picture: Picture, distance: Doubles) -> Doubles:
         """How far outwards the cloth ends from where it is expected, pixels, (4, points); nan where
         it is not found.
         """
-        image = distance.astype(np.float32)
         x, y = np.ascontiguousarray(self.grid[..., 0]), np.ascontiguousarray(self.grid[..., 1])
-        profile = cv2.remap(image, x, y, cv2.INTER_LINEAR, borderValue=0.0)
+        profile = cv2.remap(distance.astype(np.float32), x, y, cv2.INTER_LINEAR)
         inside = profile[:, :-3] < self.threshold
         outside = np.minimum.reduce([profile[:, k : profile.shape[1] - 3 + k] for k in (1, 2, 3)])
-        ends = inside[:, :] & (outside >= self.threshold)
+        ends = inside & (outside >= self.threshold)
+        rows, last = np.arange(len(profile)), profile.shape[1] - 1
         k = ends.shape[1] - 1 - np.argmax(ends[:, ::-1], axis=1)
-        rows = np.arange(len(profile))
-        # the edge is where the colour is half way, by a line through two pixels
-        half = 0.5 * np.minimum(profile[rows, np.minimum(k + 3, profile.shape[1] - 1)], 1.0)
-        later = profile[:, 1:] >= half[:, None]
-        later &= np.arange(later.shape[1]) >= k[:, None]
-        j = np.argmax(later, axis=1)
-        a, b = profile[rows, j], profile[rows, j + 1]
-        place = j + (half - a) / np.maximum(b - a, 1e-6) - _REACH
-        found = np.where(ends.any(axis=1) & later.any(axis=1), place, np.nan)
+
+        # the edge is where the colour is half way between both sides, by a line through two pixels
+        colours = cv2.remap(picture[self.part], x, y, cv2.INTER_LINEAR).astype(np.float64)
+        inner = colours[rows, np.maximum(k - 4, 0)]
+        way = colours[rows, np.minimum(k + 5, last)] - inner
+        share = ((colours - inner[:, None]) * way[:, None]).sum(axis=2)
+        share /= np.maximum((way**2).sum(axis=1), 1.0)[:, None]
+        near = np.abs(np.arange(last) - k[:, None]) < 4
+        half = (share[:, :-1] < 0.5) & (share[:, 1:] >= 0.5) & near
+        j = np.argmax(half, axis=1)
+        a, b = share[rows, j], share[rows, j + 1]
+        place = j + (0.5 - a) / np.maximum(b - a, 1e-6) - _REACH
+        found = np.where(ends.any(axis=1) & half.any(axis=1), place, np.nan)
         return found.reshape(4, -1)
 
-    def is_seen(self, distance: Doubles) -> bool:
+    def is_seen(self, picture: Picture, distance: Doubles) -> bool:
         """Whether at least three edges are where they were."""
-        moved = np.abs(self.edge_offsets(distance) - self.edges)
+        moved = np.abs(self.edge_offsets(picture, distance) - self.edges)
         near = (moved < _NEAR).sum(axis=1)
         return int((near >= _SEEN * np.isfinite(self.edges).sum(axis=1)).sum()) >= 3
 
