@@ -9,7 +9,7 @@ slate, the noses' plane and the balls.
 import cv2
 import numpy as np
 
-CLOTHS = {"green": (60, 120, 30), "blue": (150, 90, 30)}  # blue, green, red
+CLOTHS = {"green": (60, 120, 30), "blue": (175, 130, 40)}  # blue, green, red
 INKS = {
     "cue": (225, 235, 240),
     "red": (38, 28, 205),
@@ -39,18 +39,22 @@ class Film:
     """A table before a camera at `eye`, m, that looks at `target`; focal in pixels."""
 
     def __init__(self, table, eye, target, focal, k1=0.0, size=(1280, 720), cloth="green", seed=1):
-        self.table, self.size, self.cloth = table, size, np.array(CLOTHS[cloth], float)
+        self.table, self.cloth = table, np.array(CLOTHS[cloth], float)
         self.random = np.random.default_rng(seed)
-        self.focal, self.k1, self.eye = focal, k1, np.array(eye, float)
+        self.place(eye, target, focal, k1, size)
+        self.nose = float(table.rails["height"][0])
+        self.grain = None
+        self._background()
+
+    def place(self, eye, target, focal, k1, size=(1280, 720)):
+        """Puts the camera there."""
+        self.size, self.focal, self.k1, self.eye = size, focal, k1, np.array(eye, float)
         forward = np.array(target, float) - self.eye
         forward /= np.linalg.norm(forward)
         # right of the picture is along x, if the camera looks straight down
         right = np.cross(forward, [0.0, 1e-3, 1.0])
         right /= np.linalg.norm(right)
         self.axes = np.array([right, np.cross(forward, right), forward])
-        self.nose = float(table.rails["height"][0])
-        self.grain = None
-        self._background()
 
     def pixels(self, points):
         """Where points are seen, (n, 2); a pixel's middle has whole coordinates."""
@@ -178,14 +182,14 @@ def positions(shot, times):
     return shot.positions(np.clip(times, 0.0, shot.time))
 
 
-def write(path, scene, names, shot, radius, rate, file_rate, before=0.6, after=0.4, arm=None):
-    """A film of a shot: `rate` new pictures a second in a file of another rate; `arm(t)` gives the
-    places of an arm, or None. Returns the times and places of the new pictures.
+def write(path, scene, names, shot, radius, rate, file_rate, seconds, arm=None):
+    """A film of the first seconds of a shot, and 0.6 s before it: `rate` new pictures a second in a
+    file of another rate; `arm(t)` gives the places of an arm, or None. Returns the times and the
+    places of the new pictures.
     """
     code = cv2.VideoWriter_fourcc(*("MJPG" if path.suffix == ".avi" else "mp4v"))
     writer = cv2.VideoWriter(str(path), code, file_rate, scene.size)
-    count = int((before + shot.time + after) * rate)
-    times = np.arange(count) / rate - before
+    times = np.arange(int((0.6 + seconds) * rate)) / rate - 0.6
     exposure = np.array([-2e-3, 0.0, 2e-3])
     axes = scene.random.normal(size=(len(names), 3))
     axes /= np.linalg.norm(axes, axis=1, keepdims=True)

@@ -140,7 +140,8 @@ def track(
     paths = linked([seen.blobs[k] for k in new], clock.times, bed.radius)
     paths = [path for path in paths if np.mean(bed.near_pocket(path.places)) < 0.8]
     if not paths:
-        raise FilmError(f"{clip}: no ball is found on the table; is it a {table} table with balls?")
+        where = "" if given is None else " whose noses meet at the given corners"
+        raise FilmError(f"{clip}: no ball is found; is there a {table} table{where}, with balls?")
 
     # turns at cushions and balls on spots measure the camera better than edges of the cloth
     marks = _marks(table, paths, clock.times, camera, bed)

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from carom.dtypes import Doubles
 from carom.film._cloth import FilmError, Picture
 
-_RATES = (12.0, 12.5, 15.0, 24.0 / 1.001, 24.0, 25.0, 30.0 / 1.001, 30.0, 48.0, 50.0, 60.0 / 1.001)
+_RATES = np.array([12.0, 12.5, 15.0, 24.0, 25.0, 30.0, 48.0, 50.0, 60.0])
+_SLOWER = 1.001  # by which television of 30 a second is slower
 _NEAR = 5  # pictures to each side among which the largest change is looked for
 _SAME, _NEW = 0.3, 0.5  # of that change: a picture below repeats the one before, one above is new
 _AGREE = 0.93  # of the pictures that are clear: a rate that explains fewer is none
@@ -85,9 +86,13 @@ def clock_of(times: Doubles, changes: Doubles) -> Clock:
     if same.sum() < 3 or same.sum() < 0.02 * clear.sum():
         return Clock(np.ones(n, bool), times, notes)
 
-    # every usual rate below the file's, at every phase
+    # every usual rate below the file's, at every phase; of rates that explain as many pictures the
+    # first, which is slower if the file's is
+    rates = [*_RATES, *_RATES / _SLOWER]
+    if abs(file_rate * _SLOWER - round(file_rate * _SLOWER)) < abs(file_rate - round(file_rate)):
+        rates = [*_RATES / _SLOWER, *_RATES]
     best = 0.0, file_rate, np.ones(n, bool)
-    for rate in (rate for rate in _RATES if rate < 0.99 * file_rate):
+    for rate in (rate for rate in rates if rate < 0.99 * file_rate):
         for phase in (np.arange(40) + 0.5) / 40.0:
             count = np.floor((times - times[0]) * rate + phase + 1e-9)
             expected = np.diff(count, prepend=count[0] - 1.0) > 0.0

@@ -17,7 +17,7 @@ from carom.film._camera import Camera, Evidence, begin, fit
 from carom.tracks import TrackError
 
 _DARK = 8.0  # levels added to colours, so that noise in the dark does not count
-_SHADOW = 0.35  # a change of the logarithm of the brightness up to which cloth is cloth
+_SHADOW = 0.6  # a change of the logarithm of the brightness up to which cloth is cloth
 _LEAST = 0.06  # of the picture: a smaller piece of one colour is no table
 # outward normals of the sides x = 0, y = 0, x = W, y = L
 NORMALS = np.array([[-1.0, 0.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0]])

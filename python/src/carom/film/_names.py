@@ -35,7 +35,7 @@ _KINDS: dict[str, dict[str, tuple[str, int]]] = {
     "pyramid": {"cue": ("#e6c828", 1), "white": (_WHITE, 15)},
 }
 _POOL = {"cue": (_WHITE, 1)} | {str(k): (colour(k), 1) for k in range(1, 9)}
-_STRIPED = 0.3, 0.9  # share of white of a ball of pool between which it is striped
+_STRIPED = 0.2, 0.9  # share of white of a ball of pool between which it is striped
 _STRANGE = 75.0  # a colour that is farther from all is named "ball"
 
 

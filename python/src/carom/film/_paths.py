@@ -16,6 +16,7 @@ from carom.dtypes import Doubles
 _FASTEST = 9.0  # m/s
 _RESTING = 0.03  # m/s: below, a ball lies, however long it is hidden
 _HIDDEN = 0.5  # s: a moving ball that is hidden for longer is another
+_LOST = 3.0  # s: for so long a ball may be lost, and found as another path
 _ALIKE = 60.0  # levels of one colour between which a ball is the same
 _MOMENT = 0.25  # s: a path that is shorter is no ball's
 _WHOLE = 0.72  # of a ball's area: a path of less is a shadow's or a mark's
@@ -71,13 +72,41 @@ def linked(found: list[NDArray[np.void]], times: Doubles, radius: float) -> list
             rests = not path.velocity(times).any() and len(path.numbers) > 5
             (kept if hidden < _HIDDEN or rests else done).append(path)
         live = kept + new
-    return [
+    return _joined(done + live, times)
+
+
+def _joined(paths: list[Path], times: Doubles) -> list[Path]:
+    """The paths that are longer than a moment. One that begins where another of its colour, which
+    something hid, may have come to is the same ball's.
+    """
+    paths = [
         path
-        for path in done + live
+        for path in paths
         if times[path.numbers[-1]] - times[path.numbers[0]] >= _MOMENT
         and len(path.numbers) >= 5
         and np.median([blob["share"] for blob in path.blobs]) > _WHOLE
     ]
+    pairs = []
+    for i, path in enumerate(paths):
+        for j, other in enumerate(paths):
+            gap = float(times[other.numbers[0]] - times[path.numbers[-1]])
+            way = float(np.hypot(*(other.blobs[0]["place"] - path.blobs[-1]["place"])))
+            alike = _difference(other.blobs[0], path.blobs[-1]) < _ALIKE
+            if 0.0 < gap < _LOST and way < _FASTEST * gap and alike:
+                pairs.append((gap + way, i, j))
+    after: dict[int, int] = {}
+    for _, i, j in sorted(pairs):
+        if i not in after and j not in after.values():
+            after[i] = j
+    # later parts are added to the first of each chain
+    for i in sorted(set(range(len(paths))) - set(after.values())):
+        part = i
+        while part in after:
+            part = after[part]
+            paths[i].numbers += paths[part].numbers
+            paths[i].blobs += paths[part].blobs
+    later = set(after.values())
+    return [path for i, path in enumerate(paths) if i not in later]
 
 
 def _pairs(
