@@ -49,6 +49,7 @@ _SHARES = 0.8, 1.3  # of its usual area: less is hidden in part, more is merged
 _SPOT = 0.06  # m: a ball of snooker that rests nearer to its spot lies on it
 _PLACED = 0.004  # m: deviation of a ball from its spot
 _TURNED = 0.003  # m: of a ball that turns from its radius off the noses
+_JAWS = 0.09  # m around a pocket in which a ball may meet a jaw
 _FAR = 0.02  # m: and one that turns farther from there was hit by another
 
 Progress = Callable[[str, float], None]
@@ -317,7 +318,8 @@ def _marks(
     for side, place in turns(paths, times, size):
         normal = NORMALS[side]
         nose = (bed.corners[side] @ normal).item()
-        if abs(place @ normal - nose + bed.radius) > _FAR:
+        jaws = bool(bed.near_pocket(place[None], _JAWS)[0])
+        if jaws or abs(place @ normal - nose + bed.radius) > _FAR:
             continue
         # a cushion on the camera's side hides a part of the ball
         deviation = _TURNED * (2.0 if camera.eye[:2] @ normal > nose else 1.0)

@@ -142,10 +142,12 @@ class Bed:
             [[0.0, 0.0], [self.width, 0.0], [self.width, self.length], [0.0, self.length]]
         )
 
-    def near_pocket(self, places: Doubles) -> NDArray[np.bool_]:
-        """Whether balls at places, (n, 2), are in a pocket or about to fall."""
+    def near_pocket(self, places: Doubles, mouth: float = _MOUTH) -> NDArray[np.bool_]:
+        """Whether balls at places, (n, 2), are in a pocket or about to fall; or meet its jaws, for
+        a wider mouth, m.
+        """
         away = np.hypot(*(places[:, None] - self.pockets[:, :2]).transpose(2, 0, 1))
-        return np.asarray((away < self.pockets[:, 2] + _MOUTH).any(axis=1))
+        return np.asarray((away < self.pockets[:, 2] + mouth).any(axis=1))
 
     def side(self, number: int, offset: float, shares: Doubles) -> Doubles:
         """Points of a side moved outwards, at shares of its length, at the height of the noses."""

@@ -20,6 +20,7 @@ _LOST = 3.0  # s: for so long a ball may be lost, and found as another path
 _ALIKE = 60.0  # levels of one colour between which a ball is the same
 _MOMENT = 0.25  # s: a path that is shorter is no ball's
 _WHOLE = 0.72  # of a ball's area: a path of less is a shadow's or a mark's
+_STRAIGHT = 0.006  # m: second differences of rows that no event parts
 _PAUSE = 0.7  # s: balls that rest for longer separate two shots
 _LEAST = 0.03  # m: the longest way of a shot
 _BEFORE, _AFTER = 0.4, 0.2  # s of a shot before the first motion and after the last
@@ -182,8 +183,8 @@ def _way(path: Path, times: Doubles, begin: float, end: float) -> float:
 
 
 def turns(paths: list[Path], times: Doubles, size: tuple[float, float]) -> list[tuple[int, Doubles]]:
-    """(side, place) of each turn at a cushion, m: where the lines through two rows before it and
-    two after it meet.
+    """(side, place) of each turn at a cushion, m: where the lines through rows before it and after
+    it meet, three of which are straight on either side.
     """
     found = []
     step = float(np.median(np.diff(times)))
@@ -192,8 +193,8 @@ def turns(paths: list[Path], times: Doubles, size: tuple[float, float]) -> list[
         whole = np.array([blob["whole"] for blob in path.blobs])
         for axis in (0, 1):
             x = places[:, axis]
-            for k in range(2, len(x) - 2):
-                if t[k + 2] - t[k - 2] > 4.5 * step or not whole[k - 2 : k + 3].all():
+            for k in range(3, len(x) - 3):
+                if t[k + 3] - t[k - 3] > 6.5 * step or not whole[k - 3 : k + 4].all():
                     continue
                 # the row before the turn, and that after
                 v, w = (x[k - 1] - x[k - 2]) / step, (x[k + 2] - x[k + 1]) / step
@@ -206,5 +207,8 @@ def turns(paths: list[Path], times: Doubles, size: tuple[float, float]) -> list[
                     continue
                 before = places[k - 1] + later * (places[k - 1] - places[k - 2])
                 after = places[k + 1] + (later - 2.0) * (places[k + 2] - places[k + 1])
+                bends = np.diff(places[[k - 3, k - 2, k - 1, k + 1, k + 2, k + 3]], 2, axis=0)
+                if np.abs(bends[[0, 3]]).max() > _STRAIGHT:
+                    continue
                 found.append((side, 0.5 * (before + after)))
     return found
