@@ -76,7 +76,7 @@ class Film:
         sub = np.arange(2 * max(self.size)) / 2.0 - 0.25
         x, y = np.meshgrid(sub[: 2 * width], sub[: 2 * height])
         self.rays = self._rays(x, y)
-        w, l = self.table.width, self.table.length
+        wide, long = self.table.width, self.table.length
         top = (self.nose - self.eye[2]) / self.rays[..., 2]
         bed = -self.eye[2] / self.rays[..., 2]
         at_top, at_bed = (
@@ -85,11 +85,18 @@ class Film:
 
         def outside(place):
             return np.maximum(
-                np.abs(place[..., 0] - w / 2) - w / 2, np.abs(place[..., 1] - l / 2) - l / 2
+                np.abs(place[..., 0] - wide / 2) - wide / 2,
+                np.abs(place[..., 1] - long / 2) - long / 2,
             )
 
         far, low = outside(at_top), outside(at_bed)
-        light = 1.0 - 0.12 * ((at_bed - [w / 2, l / 2]) ** 2).sum(axis=-1, keepdims=True) / l**2 * 4
+        light = (
+            1.0
+            - 0.12
+            * ((at_bed - [wide / 2, long / 2]) ** 2).sum(axis=-1, keepdims=True)
+            / long**2
+            * 4
+        )
         colour = self.cloth * light
         self.depth = bed.copy()
         self.is_bed = (far < 0.0) & (low < 0.0)
@@ -166,7 +173,10 @@ class Film:
         """
         image = np.clip(image, 0, 255).astype(np.uint8)
         if arm is not None:
-            (a, b, tip), pixels = self.pixels(arm), lambda p: tuple(np.round(p).astype(int).tolist())
+            (a, b, tip), pixels = (
+                self.pixels(arm),
+                lambda p: tuple(np.round(p).astype(int).tolist()),
+            )
             cv2.line(image, pixels(b), pixels(tip), (110, 160, 200), 4, cv2.LINE_AA)
             cv2.line(image, pixels(a), pixels(b), (50, 40, 45), 46, cv2.LINE_AA)
             cv2.circle(image, pixels(b), 26, (120, 150, 205), -1, cv2.LINE_AA)

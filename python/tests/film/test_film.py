@@ -59,8 +59,7 @@ class Drawn:
             ]
             assert alike, (name, self.names)
             away = [
-                np.hypot(*(rows[:, 1:] - self.true(other, rows[:, 0] + begin)).T)
-                for other in alike
+                np.hypot(*(rows[:, 1:] - self.true(other, rows[:, 0] + begin)).T) for other in alike
             ]
             found[name] = min(away, key=np.median)
         return found
@@ -168,9 +167,7 @@ def test_hidden_balls_have_no_rows(snooker):
 def test_a_film_gives_a_fit_and_a_plan(snooker, tmp_path):
     """As a new user would: film, tracks, strike, and a plan of the layout."""
     snooker.film.write(tmp_path / "tracks.csv")
-    shots = carom.tracks.read(
-        tmp_path / "tracks.csv", table=(W, L), radius=snooker.radius
-    )
+    shots = carom.tracks.read(tmp_path / "tracks.csv", table=(W, L), radius=snooker.radius)
     kind = snooker.balls["kind"][0]
     found = carom.fit.fit(shots, (W, L), snooker.radius, constants=kind, free="none")
     print("rmse", found.rmse)
@@ -305,9 +302,9 @@ def test_cameras():
             for axis in np.eye(2):
                 normals = np.tile(axis, (60, 1))
                 evidence.append(
-                    _camera.Evidence.of(seen, height, normals, points @ axis, (0.01, 0.0))
+                    _camera.Evidence.uniform(seen, height, normals, points @ axis, (0.01, 0.0))
                 )
-        joined = _camera.Evidence.joined(evidence)
+        joined = _camera.Evidence.join(evidence)
         camera, _, _ = _camera.fit(start, joined, bed.depth, None, None)
         assert np.abs(camera.eye - eye).max() < 2e-3
         assert abs(camera.numbers[7] - scene.k1) < 2e-3

@@ -22,9 +22,7 @@ from typing import TextIO
 try:
     import cv2  # noqa: F401
 except ImportError as missing:
-    raise ImportError(
-        "carom.film needs OpenCV: pip install opencv-python-headless"
-    ) from missing
+    raise ImportError("carom.film needs OpenCV: pip install opencv-python-headless") from missing
 import numpy as np
 from numpy.typing import NDArray
 
@@ -50,6 +48,7 @@ _SPOT = 0.06  # m: a ball of snooker that rests nearer to its spot lies on it
 _PLACED = 0.004  # m: deviation of a ball from its spot
 _TURNED = 0.003  # m: of a ball that turns from its radius off the noses
 _JAWS = 0.09  # m around a pocket in which a ball may meet a jaw
+_FALLEN = 0.25  # m around a pocket from which a ball that is not seen again has fallen
 _FAR = 0.02  # m: and one that turns farther from there was hit by another
 
 Progress = Callable[[str, float], None]
@@ -146,7 +145,7 @@ def track(
 
     # turns at cushions and balls on spots measure the camera better than edges of the cloth
     marks = _marks(table, paths, clock.times, camera, bed)
-    camera, depths, _ = fit(camera, Evidence.joined([*evidence, *marks]), bed.depth, focal, lens)
+    camera, depths, _ = fit(camera, Evidence.join([*evidence, *marks]), bed.depth, focal, lens)
     for path in paths:
         pixels = np.array([row["pixel"] for row in path.blobs])
         for row, place in zip(path.blobs, camera.places(pixels, bed.radius)):
@@ -196,7 +195,7 @@ def _first(clip: FilePath, start: float, end: float) -> Picture:
             chosen.append(picture)
     if not chosen:
         raise FilmError(f"{clip}: no picture lies between {start:g} and {end:g} s")
-    return np.median(np.array(chosen), axis=0).astype(np.uint8)
+    return np.asarray(np.median(np.array(chosen), axis=0), np.uint8)
 
 
 class _Seen:
@@ -212,7 +211,7 @@ class _Seen:
 
     def read(self, clip: FilePath, start: float, end: float, progress: Progress | None) -> None:
         """Reads until the film ends, or the table is gone."""
-        before, hidden, seen = None, list[float](), math.nan
+        before, hidden, seen, away = None, list[float](), math.nan, 0
         for t, share, picture in pictures(clip, start, end):
             part = picture[self.cloth.part]
             distance = self.cloth.distance(picture)
@@ -222,6 +221,7 @@ class _Seen:
                 hidden, seen = [], t
             else:
                 hidden.append(t)
+                away += 1
             self.times.append(t)
             self.changes.append(0.0 if before is None else change(before, part))
             self.blobs.append(rows)
@@ -229,6 +229,7 @@ class _Seen:
             before = part
             if hidden and t - hidden[0] > _AWAY:
                 self._end(hidden[0], len(hidden))
+                away -= len(hidden)
                 break
             if progress:
                 progress("tracking", min(share, 0.999))
@@ -239,12 +240,16 @@ class _Seen:
             )
         if progress:
             progress("tracking", 1.0)
+        step = float(np.median(np.diff(self.times))) if len(self.times) > 1 else 0.0
+        if away:
+            self.notes.append(
+                f"for {away * step:.2f} s something hid the edges of the table: no rows"
+            )
         usual = float(np.median(self.foreign))
         hands = int((np.array(self.foreign) > usual + 1.0).sum())
         if hands:
-            seconds = hands * float(np.median(np.diff(self.times)))
             self.notes.append(
-                f"a hand, a cue or something else was over the table for {seconds:.1f} s: "
+                f"a hand, a cue or something else was over the table for {hands * step:.1f} s: "
                 "balls that it touched in the picture have no rows then"
             )
 
@@ -280,7 +285,12 @@ def _turned(
         sides = np.where(rows.sides >= 0.0, (rows.sides + 2.0) % 4.0, -1.0)
         turned.append(
             Evidence(
-                rows.pixels, rows.heights, -rows.normals, rows.targets - span, rows.deviations, sides
+                rows.pixels,
+                rows.heights,
+                -rows.normals,
+                rows.targets - span,
+                rows.deviations,
+                sides,
             )
         )
     return Camera(numbers, camera.size), np.roll(depths, 2), turned
@@ -317,7 +327,7 @@ def _marks(
     size = (bed.width, bed.length)
     for side, place in turns(paths, times, size):
         normal = NORMALS[side]
-        nose = (bed.corners[side] @ normal).item()
+        nose = bed.nose_of(side)
         jaws = bool(bed.near_pocket(place[None], _JAWS)[0])
         if jaws or abs(place @ normal - nose + bed.radius) > _FAR:
             continue
@@ -325,7 +335,7 @@ def _marks(
         deviation = _TURNED * (2.0 if camera.eye[:2] @ normal > nose else 1.0)
         pixel = camera.project(np.array([[*place, bed.radius]]))
         target = np.array([nose - bed.radius])
-        marks.append(Evidence.of(pixel, bed.radius, normal[None], target, (0.5, deviation)))
+        marks.append(Evidence.uniform(pixel, bed.radius, normal[None], target, (0.5, deviation)))
     if table == "snooker":
         colours = np.array([np.median([b["colour"] for b in path.blobs], axis=0) for path in paths])
         whites = np.array([np.median([b["white"] for b in path.blobs]) for path in paths])
@@ -339,7 +349,9 @@ def _marks(
             pixel = np.mean([row["pixel"] for row in rows], axis=0)[None]
             for axis in np.eye(2):
                 target = np.array([spot @ axis])
-                marks.append(Evidence.of(pixel, bed.radius, axis[None], target, (0.3, _PLACED)))
+                marks.append(
+                    Evidence.uniform(pixel, bed.radius, axis[None], target, (0.3, _PLACED))
+                )
     return marks
 
 
@@ -376,7 +388,9 @@ def _told(
     told = []
     misfits = [np.abs(rows.residuals(camera, depths)) for rows in edges]
     if misfits:
-        told.append(f"the edges of the cloth fit to {1e3 * np.median(np.concatenate(misfits)):.1f} mm")
+        told.append(
+            f"the edges of the cloth fit to {1e3 * np.median(np.concatenate(misfits)):.1f} mm"
+        )
     if marks:
         misfit = np.abs([rows.residuals(camera, depths)[0] for rows in marks])
         told.append(
@@ -440,6 +454,11 @@ def _shots(
             elif rows[0, 0] > begin + 0.3:
                 late.append(name)
                 continue
+            if len(rows) > 1 and rows[-1, 0] < min(end, times[-1]) - _AWAY:
+                where = (
+                    "is in a pocket" if bed.near_pocket(rows[-1:, 1:], _FALLEN)[0] else "is lost"
+                )
+                notes.append(f"s{number}: {name} {where} from {rows[-1, 0] - begin:.2f} s on")
             names.append(name)
             tracks.append(np.column_stack([rows[:, 0] - begin, rows[:, 1:]]))
         if late:
@@ -448,7 +467,9 @@ def _shots(
             recordings.append(Recording(f"s{number}", tuple(names), tuple(tracks)))
             begins.append(begin)
     if merged:
-        notes.append(f"{merged} places of balls that were hidden in part, merged or about to fall have no rows")
+        notes.append(
+            f"{merged} places of balls that were hidden in part, merged or about to fall have no rows"
+        )
     if not recordings:
         notes.append("no ball moves by 3 cm: there is no shot")
     return recordings, begins

@@ -26,7 +26,9 @@ def _pixel(text: str) -> tuple[float, float]:
     try:
         return float(x), float(y)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{text}: a pixel x,y is needed, such as 212,640") from None
+        raise argparse.ArgumentTypeError(
+            f"{text}: a pixel x,y is needed, such as 212,640"
+        ) from None
 
 
 def _show(what: str, share: float) -> None:

@@ -18,7 +18,11 @@ blob = np.dtype(
         ("pixel", np.float64, 2),
         ("place", np.float64, 2),  # m
         ("share", np.float64),  # of the area that a whole ball has there
-        ("colour", np.float64, 3),  # blue, green, red of its middle, without white where it has more
+        (
+            "colour",
+            np.float64,
+            3,
+        ),  # blue, green, red of its middle, without white where it has more
         ("white", np.float64),  # share of its middle
         ("whole", np.bool_),  # nothing hides it, and no other ball
     ]
@@ -97,26 +101,25 @@ class Finder:
         A highlight or a number differs from both, so all that differs as much is covered.
         """
         middle = max(float(np.quantile(distance[own], 0.6)), self.cloth.threshold)
-        return np.clip((distance / middle - 0.15) / 0.35, 0.0, 1.0)
+        return np.asarray(np.clip((distance / middle - 0.15) / 0.35, 0.0, 1.0))
 
     def _middle(self, cover: Doubles, box: tuple[slice, slice]) -> Doubles:
         weights = cover / cover.sum()
         return np.array([(weights * self.x[box]).sum(), (weights * self.y[box]).sum()])
 
-    def _disc(
-        self, centre: Doubles, radius: float, box: tuple[slice, slice]
-    ) -> Doubles:
+    def _disc(self, centre: Doubles, radius: float, box: tuple[slice, slice]) -> Doubles:
         """How much of each pixel of a box the disc of a ball covers."""
         away = np.hypot(self.x[box] - centre[0], self.y[box] - centre[1])
-        return np.clip(radius + 0.5 - away, 0.0, 1.0)
+        return np.asarray(np.clip(radius + 0.5 - away, 0.0, 1.0))
 
     def _centre(
         self, cover: Doubles, box: tuple[slice, slice], start: Doubles, radius: float
     ) -> tuple[Doubles, float]:
         """The disc whose part that is seen has the blob's middle, and the area of that part."""
         middle, centre, seen = self._middle(cover, box), np.array(start), 0.0
-        wide = slice(max(box[0].start - 8, 0), box[0].stop + 8), slice(
-            max(box[1].start - 8, 0), box[1].stop + 8
+        wide = (
+            slice(max(box[0].start - 8, 0), box[0].stop + 8),
+            slice(max(box[1].start - 8, 0), box[1].stop + 8),
         )
         mask = self.cloth.mask[wide]
         for _ in range(4):
@@ -170,9 +173,15 @@ class Finder:
             mine = (away == away.min(axis=0)) & (away < 1.12 * radius + 0.5)
             weights = mine * cover
             total = np.maximum(weights.sum(axis=(1, 2)), 1e-9)
-            places = np.column_stack(
-                [(weights * self.x[box]).sum(axis=(1, 2)), (weights * self.y[box]).sum(axis=(1, 2))]
-            ) / total[:, None]
+            places = (
+                np.column_stack(
+                    [
+                        (weights * self.x[box]).sum(axis=(1, 2)),
+                        (weights * self.y[box]).sum(axis=(1, 2)),
+                    ]
+                )
+                / total[:, None]
+            )
         discs = np.array([self._disc(place, radius + 0.7, box) for place in places])
         left = float((cover * (1.0 - discs.max(axis=0))).sum() / cover.sum())
         filled = total / (np.pi * radius**2)

@@ -50,14 +50,14 @@ class Camera:
 
     def depths(self, points: Doubles) -> Doubles:
         """How far points are in front of the camera, m, (n,)."""
-        return points @ self.rotation[2] + self.numbers[6]
+        return np.asarray(points @ self.rotation[2] + self.numbers[6])
 
     def project(self, points: Doubles) -> Doubles:
         """The pixels of points, m."""
         q = points @ self.rotation.T + self.numbers[4:7]
         p = q[:, :2] / q[:, 2:]
         lens = 1.0 + self.numbers[7] * (p * p).sum(axis=1, keepdims=True)
-        return self.focal * lens * p + 0.5 * np.array(self.size)
+        return np.asarray(self.focal * lens * p + 0.5 * np.array(self.size))
 
     def places(self, pixels: Doubles, heights: Doubles | float) -> Doubles:
         """Where the rays through pixels are at heights above the slate, m, (n, 2)."""
@@ -66,7 +66,8 @@ class Camera:
         for _ in range(6):  # the lens is weak, so the iteration contracts fast
             p = bent / (1.0 + self.numbers[7] * (p * p).sum(axis=1, keepdims=True))
         rays = np.column_stack([p, np.ones(len(p))]) @ self.rotation
-        return (self.eye + rays * ((heights - self.eye[2]) / rays[:, 2])[:, None])[:, :2]
+        share = (heights - self.eye[2]) / rays[:, 2]
+        return np.asarray(self.eye[:2] + rays[:, :2] * share[:, None])
 
     def radii(self, places: Doubles, radius: float) -> Doubles:
         """The radii in pixels of balls at places, (n,)."""
@@ -86,7 +87,7 @@ class Evidence:
     sides: Doubles  # (n,): the side whose cushion's depth is added to the place, or -1
 
     @classmethod
-    def of(
+    def uniform(
         cls,
         pixels: Doubles,
         height: float,
@@ -102,14 +103,16 @@ class Evidence:
         return cls(pixels, full(height), normals, targets, deviations, full(float(side)))
 
     @classmethod
-    def joined(cls, parts: list[Evidence]) -> Evidence:
-        return cls(*(np.concatenate([vars(part)[name] for part in parts]) for name in vars(parts[0])))
+    def join(cls, parts: list[Evidence]) -> Evidence:
+        return cls(
+            *(np.concatenate([vars(part)[name] for part in parts]) for name in vars(parts[0]))
+        )
 
     def residuals(self, camera: Camera, depths: Doubles) -> Doubles:
         """Place less target, m, (n,)."""
         along = (camera.places(self.pixels, self.heights) * self.normals).sum(axis=1)
         depth = np.where(self.sides >= 0.0, depths[self.sides.astype(int)], 0.0)
-        return along - depth - self.targets
+        return np.asarray(along - depth - self.targets)
 
     def spreads(self, camera: Camera) -> Doubles:
         """The deviation of each row, m: a pixel is as long as it is there."""
@@ -119,14 +122,15 @@ class Evidence:
             for step in 0.5 * np.eye(2)
         ]
         pixel = np.hypot(*((step * self.normals).sum(axis=1) for step in steps))
-        return np.hypot(self.deviations[:, 0] * pixel, self.deviations[:, 1])
+        return np.asarray(np.hypot(self.deviations[:, 0] * pixel, self.deviations[:, 1]))
 
 
 def begin(corners: Doubles, rectangle: Doubles, height: float, size: tuple[int, int]) -> Camera:
     """A camera that sees the corners of a rectangle, m, at these pixels, (4, 2) each: the best of
     several focal lengths.
     """
-    middle, best = 0.5 * np.array(size), (np.inf, None)
+    middle = 0.5 * np.array(size)
+    best: tuple[float, Camera] | None = None
     for share in np.geomspace(0.5, 5.0, 9):
         focal = share * size[0]
         seen = ((corners - middle) / focal).astype(np.float32)
@@ -140,9 +144,9 @@ def begin(corners: Doubles, rectangle: Doubles, height: float, size: tuple[int, 
         camera = Camera(np.concatenate([[np.log(focal)], vector, move, [0.0]]), size)
         points = np.column_stack([rectangle, np.full(4, height)])
         misfit = float(np.linalg.norm(camera.project(points) - corners))
-        if misfit < best[0]:
+        if best is None or misfit < best[0]:
             best = misfit, camera
-    assert best[1] is not None
+    assert best is not None
     return best[1]
 
 
@@ -171,7 +175,9 @@ def fit(
 
     r, damping = residuals(x), 1e-3
     for _ in range(_ROUNDS):
-        J = np.column_stack([(residuals(x + h) - residuals(x - h)) / 2e-6 for h in 1e-6 * np.eye(12)])
+        J = np.column_stack(
+            [(residuals(x + h) - residuals(x - h)) / 2e-6 for h in 1e-6 * np.eye(12)]
+        )
         weights = 2.0 / np.maximum(np.abs(r), 2.0)
         A, g = (J.T * weights) @ J, (J.T * weights) @ r
         # a step that does not lower the cost is tried again, shorter

@@ -48,7 +48,9 @@ def pictures(path: Path, start: float, end: float) -> Iterator[tuple[float, floa
             yield t, min(number / max(count, 1.0), 1.0), np.asarray(picture, np.uint8)
     film.release()
     if not number:
-        raise FilmError(f"{path}: no picture can be read; a film is needed, such as an .mp4 or .avi")
+        raise FilmError(
+            f"{path}: no picture can be read; a film is needed, such as an .mp4 or .avi"
+        )
 
 
 def change(before: Picture, after: Picture) -> float:
@@ -76,7 +78,9 @@ def clock_of(times: Doubles, changes: Doubles) -> Clock:
     gaps = steps[steps > 1.6 * usual]
     if len(gaps):
         lost = round(float((gaps / usual - 1.0).sum()))
-        notes.append(f"the file left out {lost} pictures, at {len(gaps)} places: its own times stand")
+        notes.append(
+            f"the file left out {lost} pictures, at {len(gaps)} places: its own times stand"
+        )
     wide = np.pad(changes, _NEAR, mode="edge")
     largest = np.lib.stride_tricks.sliding_window_view(wide, 2 * _NEAR + 1).max(axis=1)
     still = float(np.quantile(changes, 0.05)) if n else 0.0

@@ -51,7 +51,9 @@ def quadrilateral(picture: Picture) -> Doubles:
     vivid = middle[np.hypot(*(middle.astype(np.float64) - 128.0).T) > 12.0]
     if len(vivid) < 0.1 * len(middle):
         raise FilmError("no cloth is found: the middle of the picture is grey; --corners helps")
-    counts, _, _ = np.histogram2d(*vivid.T.astype(np.float64), bins=64, range=[[0, 256]] * 2)
+    bins = np.arange(0.0, 257.0, 4.0)
+    a, b = vivid.T.astype(np.float64)
+    counts, _, _ = np.histogram2d(a, b, bins=[bins, bins])
     peak = 4.0 * np.array(np.unravel_index(counts.argmax(), counts.shape)) + 2.0
     near = vivid[np.abs(vivid - peak).max(axis=1) < 14]
     away = np.abs(lab[..., 1:] - np.median(near, axis=0)).max(axis=2)
@@ -142,6 +144,16 @@ class Bed:
             [[0.0, 0.0], [self.width, 0.0], [self.width, self.length], [0.0, self.length]]
         )
 
+    def nose_of(self, side: int) -> float:
+        """How far out the noses of a side are along its normal, m."""
+        return float(self.corners[side] @ NORMALS[side])
+
+    def edge(self, side: int, pixels: Doubles, deviation: tuple[float, float]) -> Evidence:
+        """Pixels of the edge of the cloth along a side, as evidence."""
+        targets = np.full(len(pixels), self.nose_of(side))
+        normals = np.tile(NORMALS[side], (len(pixels), 1))
+        return Evidence.uniform(pixels, self.nose, normals, targets, deviation, side)
+
     def near_pocket(self, places: Doubles, mouth: float = _MOUTH) -> NDArray[np.bool_]:
         """Whether balls at places, (n, 2), are in a pocket or about to fall; or meet its jaws, for
         a wider mouth, m.
@@ -154,8 +166,6 @@ class Bed:
         a, b = self.corners[[number - 1, number]]
         line = a + shares[:, None] * (b - a) + offset * NORMALS[number]
         return np.column_stack([line, np.full(len(shares), self.nose)])
-
-
 
     def project(self, camera: Camera, number: int, offset: float, shares: Doubles) -> Doubles:
         """The pixels of `side`."""
@@ -182,8 +192,7 @@ class Cloth:
         # where balls are seen: cushions on the camera's side hide what is behind their noses
         inner = []
         for side in range(4):
-            target = (bed.corners[side] @ NORMALS[side]).item()
-            hides = camera.eye[:2] @ NORMALS[side] > target
+            hides = camera.eye[:2] @ NORMALS[side] > bed.nose_of(side)
             inner.append(bed.project(camera, side, 0.0 if hides else depths[side] - 0.006, shares))
         self.mask = self._filled(np.concatenate(inner))
         turn = np.linspace(0.0, 2.0 * np.pi, 40)
@@ -298,10 +307,8 @@ class Cloth:
         for side, (middle, outward) in enumerate(self.points):
             good = np.isfinite(self.edges[side])
             pixels = (middle + self.edges[side][:, None] * outward)[good]
-            target = np.full(len(pixels), (self.bed.corners[side] @ NORMALS[side]).item())
-            normals = np.tile(NORMALS[side], (len(pixels), 1))
             # neighbours share what disturbs them, so 60 points tell less than 60 times one
-            parts.append(Evidence.of(pixels, self.bed.nose, normals, target, (1.0, 0.001), side))
+            parts.append(self.bed.edge(side, pixels, (1.0, 0.001)))
         return parts
 
 
@@ -319,15 +326,15 @@ def calibrated(
     given: list[Evidence] = []
     best: tuple[float, Camera, Doubles] | None = None
     if corners is None:
-        outer, starts = quadrilateral(picture), (0, 1)
+        outer = quadrilateral(picture)
         away = bed.depth * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     else:
-        outer, starts, away = corners, (0,), np.zeros((4, 2))
+        outer, away = corners, np.zeros((4, 2))
         for axis in np.eye(2):
-            target = bed.corners @ axis
-            given.append(Evidence.of(corners, bed.nose, np.tile(axis, (4, 1)), target, (1.5, 0.0)))
+            normals, target = np.tile(axis, (4, 1)), bed.corners @ axis
+            given.append(Evidence.uniform(corners, bed.nose, normals, target, (1.5, 0.0)))
     # which side of the picture is which of the table: the way that fits better
-    for start in starts:
+    for start in range(2 if corners is None else 1):
         camera = begin(np.roll(outer, -start, axis=0), bed.corners + away, bed.nose, size)
         evidence = list(given)
         if corners is None:
@@ -335,10 +342,8 @@ def calibrated(
             for side in range(4):
                 ends = np.roll(outer, -start, axis=0)[[side - 1, side]]
                 pixels = ends[0] + shares * (ends[1] - ends[0])
-                target = np.full(9, (bed.corners[side] @ NORMALS[side]).item())
-                normals = np.tile(NORMALS[side], (9, 1))
-                evidence.append(Evidence.of(pixels, bed.nose, normals, target, (3.0, 0.0), side))
-        camera, depths, cost = fit(camera, Evidence.joined(evidence), bed.depth, focal, lens)
+                evidence.append(bed.edge(side, pixels, (3.0, 0.0)))
+        camera, depths, cost = fit(camera, Evidence.join(evidence), bed.depth, focal, lens)
         if best is None or cost < best[0]:
             best = cost, camera, depths
     assert best is not None
@@ -348,5 +353,5 @@ def calibrated(
     for _ in range(4):
         cloth = Cloth(picture, camera, bed, depths)
         evidence = given + cloth.evidence()
-        camera, depths, _ = fit(camera, Evidence.joined(evidence), bed.depth, focal, lens)
+        camera, depths, _ = fit(camera, Evidence.join(evidence), bed.depth, focal, lens)
     return camera, depths, evidence

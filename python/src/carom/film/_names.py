@@ -98,4 +98,3 @@ def _filled(names: list[str]) -> list[str]:
     for number, k in enumerate(strangers, 1):
         names[k] = f"ball{number}"
     return names
-

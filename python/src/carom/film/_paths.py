@@ -60,14 +60,14 @@ def linked(found: list[NDArray[np.void]], times: Doubles, radius: float) -> list
         pairs = _pairs(live, blobs, times, k, radius)
         free, used = set(range(len(live))), set[int]()
         # the nearest pair first; each path and each blob once
-        for _, path, blob in sorted(pairs):
-            if path in free and blob not in used:
-                free.discard(path)
-                used.add(blob)
-                live[path].numbers.append(k)
-                live[path].blobs.append(blobs[blob])
+        for _, i, j in sorted(pairs):
+            if i in free and j not in used:
+                free.discard(i)
+                used.add(j)
+                live[i].numbers.append(k)
+                live[i].blobs.append(blobs[j])
         new = [Path([k], [blobs[j]]) for j in range(len(blobs)) if j not in used]
-        kept = []
+        kept: list[Path] = []
         for path in live:
             hidden = times[k] - times[path.numbers[-1]]
             rests = not path.velocity(times).any() and len(path.numbers) > 5
@@ -182,7 +182,9 @@ def _way(path: Path, times: Doubles, begin: float, end: float) -> float:
     return float(np.hypot(*np.ptp(places, axis=0))) if len(places) else 0.0
 
 
-def turns(paths: list[Path], times: Doubles, size: tuple[float, float]) -> list[tuple[int, Doubles]]:
+def turns(
+    paths: list[Path], times: Doubles, size: tuple[float, float]
+) -> list[tuple[int, Doubles]]:
     """(side, place) of each turn at a cushion, m: where the lines through rows before it and after
     it meet, three of which are straight on either side.
     """
