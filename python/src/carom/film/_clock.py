@@ -23,6 +23,7 @@ _RATES = np.array([12.0, 12.5, 15.0, 24.0, 25.0, 30.0, 48.0, 50.0, 60.0])
 _SLOWER = 1.001  # by which television of 30 a second is slower
 _NEAR = 5  # pictures to each side among which the largest change is looked for
 _SAME, _NEW = 0.3, 0.5  # of that change: a picture below repeats the one before, one above is new
+_PHASES = 60
 _AGREE = 0.93  # of the pictures that are clear: a rate that explains fewer is none
 _CHANGED = 400  # pixels: about those that a moving ball changes
 
@@ -97,7 +98,11 @@ def clock_of(times: Doubles, changes: Doubles) -> Clock:
         rates = [*_RATES / _SLOWER, *_RATES]
     best = 0.0, file_rate, np.ones(n, bool)
     for rate in (rate for rate in rates if rate < 0.99 * file_rate):
-        for phase in (np.arange(40) + 0.5) / 40.0:
+        # the pattern changes at these phases; of rates with no common period there are too many
+        phases = np.unique(np.round(-(times - times[0]) * rate % 1.0, 4))
+        if len(phases) > _PHASES:
+            phases = np.arange(_PHASES) / _PHASES
+        for phase in phases + 0.5 * np.diff(phases, append=phases[0] + 1.0):
             count = np.floor((times - times[0]) * rate + phase + 1e-9)
             expected = np.diff(count, prepend=count[0] - 1.0) > 0.0
             agreed = float((expected[clear] == new[clear]).mean())
