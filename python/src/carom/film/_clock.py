@@ -24,6 +24,7 @@ _SLOWER = 1.001  # by which television of 30 a second is slower
 _NEAR = 5  # pictures to each side among which the largest change is looked for
 _SAME, _NEW = 0.3, 0.5  # of that change: a picture below repeats the one before, one above is new
 _PHASES = 60
+_TIES = 4.0  # pictures, as at the ends of a motion
 _AGREE = 0.93  # of the pictures that are clear: a rate that explains fewer is none
 _CHANGED = 400  # pixels: about those that a moving ball changes
 
@@ -91,24 +92,27 @@ def clock_of(times: Doubles, changes: Doubles) -> Clock:
     if same.sum() < 3 or same.sum() < 0.02 * clear.sum():
         return Clock(np.ones(n, bool), times, notes)
 
-    # every usual rate below the file's, at every phase; of rates that explain as many pictures the
-    # first, which is slower if the file's is
+    # every usual rate below the file's, at every phase; of rates that explain about as many
+    # pictures the first, which is slower if the file's is
     rates = [*_RATES, *_RATES / _SLOWER]
     if abs(file_rate * _SLOWER - round(file_rate * _SLOWER)) < abs(file_rate - round(file_rate)):
         rates = [*_RATES / _SLOWER, *_RATES]
-    best = 0.0, file_rate, np.ones(n, bool)
+    tries = []
     for rate in (rate for rate in rates if rate < 0.99 * file_rate):
         # the pattern changes at these phases; of rates with no common period there are too many
         phases = np.unique(np.round(-(times - times[0]) * rate % 1.0, 4))
         if len(phases) > _PHASES:
             phases = np.arange(_PHASES) / _PHASES
+        best = 0.0, rate, new
         for phase in phases + 0.5 * np.diff(phases, append=phases[0] + 1.0):
             count = np.floor((times - times[0]) * rate + phase + 1e-9)
             expected = np.diff(count, prepend=count[0] - 1.0) > 0.0
             agreed = float((expected[clear] == new[clear]).mean())
             if agreed > best[0] + 1e-9:
                 best = agreed, rate, expected
-    agreed, rate, expected = best
+        tries.append(best)
+    least = max((best[0] for best in tries), default=1.0) - _TIES / clear.sum()
+    agreed, rate, expected = next((best for best in tries if best[0] >= least), (0.0, 0.0, new))
     if agreed >= _AGREE:
         expected[0] = True
         notes.append(
