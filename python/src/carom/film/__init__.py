@@ -43,12 +43,13 @@ __dir__ = listing(__name__)
 
 _FIRST = 3.0  # s from which the table is learned
 _AWAY = 0.5  # s: a table that is not seen for longer is gone
-_SHARES = 0.8, 1.3  # of its usual area: less is hidden in part, more is merged
+_PART = 0.8  # of its usual area: a ball that shows less is hidden in part
 _SPOT = 0.06  # m: a ball of snooker that rests nearer to its spot lies on it
+_ODD = 0.015  # m: by which a cushion's depth may differ from that of its kind
 _PLACED = 0.004  # m: deviation of a ball from its spot
 _TURNED = 0.003  # m: of a ball that turns from its radius off the noses
 _JAWS = 0.09  # m around a pocket in which a ball may meet a jaw
-_FALLEN = 0.25  # m around a pocket from which a ball that is not seen again has fallen
+_FALLEN = 0.15  # m around a pocket from which a ball that is not seen again has fallen
 _FAR = 0.02  # m: and one that turns farther from there was hit by another
 
 Progress = Callable[[str, float], None]
@@ -132,7 +133,7 @@ def track(
     if given is None and turned is None and table == "snooker":
         turned = _spots_turned(first, camera, bed, depths)
     if given is None and _turns_round(camera, bed) != bool(turned):
-        camera, depths, evidence = _turned(camera, bed, depths, evidence)
+        camera, depths, evidence = calibrated(first, bed, None, focal, lens, half_turn=True)
     seen = _Seen(Cloth(first, camera, bed, depths))
     seen.read(clip, start, end, progress)
     clock = clock_of(np.array(seen.times), np.array(seen.changes))
@@ -143,6 +144,7 @@ def track(
         where = "" if given is None else " whose noses meet at the given corners"
         raise FilmError(f"{clip}: no ball is found; is there a {table} table{where}, with balls?")
 
+    _name(table, paths)
     # turns at cushions and balls on spots measure the camera better than edges of the cloth
     marks = _marks(table, paths, clock.times, camera, bed)
     camera, depths, _ = fit(camera, Evidence.join([*evidence, *marks]), bed.depth, focal, lens)
@@ -150,7 +152,6 @@ def track(
         pixels = np.array([row["pixel"] for row in path.blobs])
         for row, place in zip(path.blobs, camera.places(pixels, bed.radius)):
             row["place"] = place
-    _name(table, paths)
     notes = [*clock.notes, *seen.notes, *_told(camera, depths, evidence, marks, bed)]
     recordings, begins = _shots(paths, clock, bed, notes)
     begin = begins[0] if begins else start
@@ -270,32 +271,6 @@ def _turns_round(camera: Camera, bed: Bed) -> bool:
     return bool(way[1] > 0.0 if abs(way[1]) > abs(way[0]) else way[0] < 0.0)
 
 
-def _turned(
-    camera: Camera, bed: Bed, depths: Doubles, evidence: list[Evidence]
-) -> tuple[Camera, Doubles, list[Evidence]]:
-    """The same camera of the table turned by 180 degrees."""
-    half = np.diag([-1.0, -1.0, 1.0])
-    rotation = camera.rotation @ half
-    move = camera.numbers[4:7] + camera.rotation @ np.array([bed.width, bed.length, 0.0])
-    vector = np.asarray(cv2.Rodrigues(rotation)[0]).ravel()
-    numbers = np.concatenate([camera.numbers[:1], vector, move, camera.numbers[7:]])
-    turned = []
-    for rows in evidence:
-        span = rows.normals @ np.array([bed.width, bed.length])
-        sides = np.where(rows.sides >= 0.0, (rows.sides + 2.0) % 4.0, -1.0)
-        turned.append(
-            Evidence(
-                rows.pixels,
-                rows.heights,
-                -rows.normals,
-                rows.targets - span,
-                rows.deviations,
-                sides,
-            )
-        )
-    return Camera(numbers, camera.size), np.roll(depths, 2), turned
-
-
 def _spots() -> dict[str, Doubles]:
     """The spots of snooker's colours."""
     rack = racks.snooker(tables.snooker())
@@ -337,14 +312,11 @@ def _marks(
         target = np.array([nose - bed.radius])
         marks.append(Evidence.uniform(pixel, bed.radius, normal[None], target, (0.5, deviation)))
     if table == "snooker":
-        colours = np.array([np.median([b["colour"] for b in path.blobs], axis=0) for path in paths])
-        whites = np.array([np.median([b["white"] for b in path.blobs]) for path in paths])
-        names = names_of(table, colours, whites, np.array([len(path.numbers) for path in paths]))
+        named = {path.name: path.blobs[:8] for path in paths}
         for name, spot in _spots().items():
-            if name not in names:
-                continue
-            rows = paths[names.index(name)].blobs[:8]
-            if np.hypot(*(np.mean([row["place"] for row in rows], axis=0) - spot)) > _SPOT:
+            rows = named.get(name, [])
+            away = [np.hypot(*(row["place"] - spot)) for row in rows]
+            if not away or max(away) > _SPOT:
                 continue
             pixel = np.mean([row["pixel"] for row in rows], axis=0)[None]
             for axis in np.eye(2):
@@ -356,28 +328,12 @@ def _marks(
 
 
 def _name(table: str, paths: list[Path]) -> None:
-    """Names the paths. One that begins after another has ended is the same ball, if its colour is
-    that of one ball alone.
-    """
+    """Names the paths by what they look like over all their rows."""
     colours = np.array([np.median([b["colour"] for b in path.blobs], axis=0) for path in paths])
     whites = np.array([np.median([b["white"] for b in path.blobs]) for path in paths])
     lengths = np.array([float(len(path.numbers)) for path in paths])
-    alone = names_of(table, colours, whites, lengths)
-    for path, name in zip(paths, alone):
+    for path, name in zip(paths, names_of(table, colours, whites, lengths)):
         path.name = name
-    for k, path in enumerate(paths):
-        if not path.name.startswith("ball"):
-            continue
-        # what it would be called among those of its time, if none of these has that name
-        others = [
-            j
-            for j, other in enumerate(paths)
-            if other.numbers[0] <= path.numbers[-1] and other.numbers[-1] >= path.numbers[0]
-        ]
-        again = names_of(table, colours[others], whites[others], lengths[others])
-        name = again[others.index(k)]
-        if not name.startswith("ball") and name not in [paths[j].name for j in others]:
-            path.name = name
 
 
 def _told(
@@ -401,6 +357,11 @@ def _told(
             f"no ball turned at a cushion: the cushions are taken as {1e3 * depths.mean():.0f} mm deep, "
             "and places may be too far out or in by some mm"
         )
+    if np.abs(depths - bed.depth).max() > _ODD:
+        told.append(
+            f"the cushions come out {1e3 * depths.min():.0f} to {1e3 * depths.max():.0f} mm deep, not "
+            f"{1e3 * bed.depth:.0f}: does the outline of --check lie on the noses?"
+        )
     x, y, z = camera.eye
     told.append(
         f"the camera is at x = {x:.2f}, y = {y:.2f} m, {z:.2f} m above the slate; focal length "
@@ -416,7 +377,7 @@ def _rows(path: Path, times: Doubles, bed: Bed) -> tuple[Doubles, int]:
     shares = np.array([row["share"] for row in path.blobs])
     usual = float(np.median(shares))
     whole = np.array([row["whole"] for row in path.blobs])
-    whole &= (shares > _SHARES[0] * usual) & (shares < _SHARES[1] * usual)
+    whole &= shares > _PART * usual
     whole &= ~bed.near_pocket(path.places)
     return np.column_stack([times[path.numbers], path.places])[whole], int((~whole).sum())
 

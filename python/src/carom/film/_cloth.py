@@ -17,7 +17,8 @@ from carom.film._camera import Camera, Evidence, begin, fit
 from carom.tracks import TrackError
 
 _DARK = 8.0  # levels added to colours, so that noise in the dark does not count
-_SHADOW = 0.6  # a change of the logarithm of the brightness up to which cloth is cloth
+# changes of the logarithm of the brightness up to which cloth is cloth: darker and brighter
+_SHADOW, _LIGHT = 0.6, 0.15
 _LEAST = 0.06  # of the picture: a smaller piece of one colour is no table
 # outward normals of the sides x = 0, y = 0, x = W, y = L
 NORMALS = np.array([[-1.0, 0.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0]])
@@ -69,6 +70,10 @@ def quadrilateral(picture: Picture) -> Doubles:
     )
     outline = max(outlines, key=cv2.contourArea)
     hull = cv2.convexHull(outline)
+    # the outline itself, without what goes inwards, such as an arm and the shadow of a cushion
+    ring = np.zeros((height, width), np.uint8)
+    cv2.polylines(ring, [hull], True, 1, 9)
+    outline = outline[ring[outline[:, 0, 1], outline[:, 0, 0]] > 0]
     polygon = cv2.approxPolyDP(hull, 0.01 * cv2.arcLength(hull, True), True)[:, 0]
     # a side that a lens bends, or a pocket interrupts, is one; the four longest edges are the
     # sides, between which pockets cut off the corners
@@ -236,7 +241,7 @@ class Cloth:
     def distance(self, picture: Picture) -> Doubles:
         """How far each pixel's colour is from the cloth's, of the part that is looked at."""
         blue, red, bright = cv2.split(ratios(picture[self.part]) - self.own)
-        dark = np.maximum(np.abs(bright) - _SHADOW, 0.0)
+        dark = np.maximum(np.maximum(-bright - _SHADOW, bright - _LIGHT), 0.0)
         return np.asarray(np.sqrt(blue * blue + red * red + dark * dark))
 
     def _find_edges(self, picture: Picture, depths: Doubles) -> None:
@@ -306,6 +311,8 @@ class Cloth:
         parts = []
         for side, (middle, outward) in enumerate(self.points):
             good = np.isfinite(self.edges[side])
+            if not good.any():
+                continue
             pixels = (middle + self.edges[side][:, None] * outward)[good]
             # neighbours share what disturbs them, so 60 points tell less than 60 times one
             parts.append(self.bed.edge(side, pixels, (1.0, 0.001)))
@@ -318,15 +325,16 @@ def calibrated(
     corners: Doubles | None,
     focal: float | None,
     lens: float | None,
+    half_turn: bool = False,
 ) -> tuple[Camera, Doubles, list[Evidence]]:
     """A camera from the corners of the noses, if they are given, and from the edges of the cloth;
-    the depths of the cushions, and the evidence.
+    the depths of the cushions, and the evidence. A table that is found may lie either way.
     """
     size = picture.shape[1], picture.shape[0]
     given: list[Evidence] = []
     best: tuple[float, Camera, Doubles] | None = None
     if corners is None:
-        outer = quadrilateral(picture)
+        outer = np.roll(quadrilateral(picture), 2 * half_turn, axis=0)
         away = bed.depth * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     else:
         outer, away = corners, np.zeros((4, 2))

@@ -53,6 +53,8 @@ def names_of(table: str, colours: Doubles, whites: Doubles, lengths: Doubles) ->
     """The names of balls that are there at one time, by their colours (n, 3), shares of white, and
     how long each was seen: of two that look alike, the one that is seen longer has the name.
     """
+    if not len(colours):
+        return []
     kinds = _KINDS.get(table, _POOL)
     brightness = colours.mean(axis=1)
     # the cue ball shows the light
