@@ -352,7 +352,9 @@ def _told(
         told.append(
             f"{len(marks)} turns at cushions and coordinates of spots fit to {1e3 * np.median(misfit):.1f} mm (median)"
         )
-    else:
+    if len(edges) < 3:
+        told.append("fewer than three edges of the cloth are found: a moved camera goes unnoticed")
+    if not marks:
         told.append(
             f"no ball turned at a cushion: the cushions are taken as {1e3 * depths.mean():.0f} mm deep, "
             "and places may be too far out or in by some mm"
