@@ -394,9 +394,9 @@ typedef struct carom_table {
                          into it if its centre is at most this high above the cloth where it leaves
                          the circle; 0: the greatest height of a nose. */
   /* Always read. */
-  double slope_x, slope_y; /* by how much the cloth rises for each metre along x and y; 0: level.
-                              Its size must be below mu_roll and mu_slide of every ball, so that
-                              balls come to rest. Contacts neglect it. */
+  double slope_x, slope_y; /* by how much the cloth rises for each metre along x and y, -1 to 1; 0:
+                              level. The size of this slope must be below mu_roll and mu_slide of
+                              every ball, so that balls come to rest. Contacts neglect it. */
 } carom_table;
 
 /* Built-in tables, with their playing areas. The pool tables have the pockets of the WPA's rules,
