@@ -305,8 +305,9 @@ static void lay_table(const shoot_flags *f, layout *l) {
   l->table_name = f->table.text != NULL ? f->table.text : carom_table_name(kind);
   const double *slope = f->shared.with.slope;
   if (slope[0] != 0.0 || slope[1] != 0.0) {
-    snprintf(l->sloped, sizeof l->sloped, "%.100s,slope_x=%.17g,slope_y=%.17g", l->table_name,
-             slope[0], slope[1]);
+    char x[NUMBER_TEXT], y[NUMBER_TEXT];
+    snprintf(l->sloped, sizeof l->sloped, "%.100s,slope_x=%s,slope_y=%s", l->table_name,
+             number_text(slope[0], x), number_text(slope[1], y));
     l->table_name = l->sloped;
   }
   named_table *t = built_in_table(l->table_name, &(json_fault){{0}});
