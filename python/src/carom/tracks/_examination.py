@@ -38,7 +38,7 @@ from carom.tracks._recordings import (
 _RATES = (25.0, 30.0, 24.0, 50.0, 60.0, 100.0, 120.0, 240.0, 23.976, 29.97, 48.0, 59.94)  # 1/s
 _SLIDING = 1.95  # m/s^2: mu_slide g of most cloths, 0.17 to 0.22 times g
 _ROWS = (7, 14, 28, 56)  # that tell how a ball slides, of 25 to 240 pictures a second
-_SLIDES = 0.18  # s: it slides so long
+_SLIDES = (0.18, 0.6)  # s: it slides so long
 _CLOCK = 1.18  # a clock that is wrong by less is no other than a cloth that is unlike most
 _HELD = 0.03  # share of repeated pictures among those of moving balls, above chance
 _SMOOTHER = 0.6  # of the scatter that a right clock leaves, at most
@@ -149,7 +149,8 @@ def _time_scale(recordings: Sequence[Recording], least: int, with_struck: bool =
         first = int(np.argmin(widths))
         middle = float(slowing[first : first + half].mean())
         scale = math.sqrt(_SLIDING / middle)
-        if widths[first] < 0.4 * middle and rows * picture > _SLIDES * scale:
+        lasts = rows * picture / scale
+        if widths[first] < 0.4 * middle and _SLIDES[0] < lasts < _SLIDES[1]:
             return scale
     return math.nan
 
@@ -392,6 +393,9 @@ def _gaps(shot: Recording) -> list[tuple[float, float, float]]:
     if len(times) < 8:
         return []
     picture, found = float(np.median(np.diff(times))), []
+    # rows that are thinned by displacement are so far apart
+    displacements = [np.hypot(*np.diff(track[:, 1:], axis=0).T) for track in shot.tracks]
+    thin = float(np.quantile(np.concatenate(displacements), 0.05))
     for k in np.flatnonzero(np.diff(times) > _GAP * picture).tolist():
         begin, end = float(times[k]), float(times[k + 1])
         ways, steps = [0.0], [0.0]
@@ -400,7 +404,7 @@ def _gaps(shot: Recording) -> list[tuple[float, float, float]]:
             if 2 <= row < len(track) and track[row - 1, 0] >= begin - picture:
                 ways.append(float(np.hypot(*(track[row, 1:] - track[row - 1, 1:]))))
                 steps.append(float(np.hypot(*(track[row - 1, 1:] - track[row - 2, 1:]))))
-        if max(ways) > max(_GAP_WAY, 1.5 * max(steps)):
+        if max(ways) > max(_GAP_WAY, 1.5 * max(steps), 4.0 * thin):
             found.append((begin, end, max(ways)))
     return found
 
