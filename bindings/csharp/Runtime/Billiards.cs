@@ -150,8 +150,8 @@ namespace Carom {
     internal Shot Data(ShotEvent *events) {
       var shot = new Shot { events = events, room = Events.Length, count = Events.Length };
       shot.time = Time;
-      shot.slope_x = table.slope_x;
-      shot.slope_y = table.slope_y;
+      shot.slopeX = table.slopeX;
+      shot.slopeY = table.slopeY;
       return shot;
     }
 

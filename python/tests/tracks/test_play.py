@@ -69,7 +69,9 @@ def test_a_fit_plays_the_numbers_of_a_shot(game, friction):
         again = carom.simulate(ground.table, known, cue, cushion_model=cushion)
         assert again.final.tobytes() == shot.final.tobytes(), model
         found = fit.fit([seen(shot, ("cue", "red"))], size, radius, free="none", **how)
-        assert found.rmse[0] < NOISY and found.cushion_model == cushion, (model, found.rmse)
+        # contacts magnify the errors of places of rest, also where the strike is the true one
+        most = max(NOISY, off_of_the_truth(found, 0, shot))
+        assert found.rmse[0] < most and found.cushion_model == cushion, (model, found.rmse)
 
 
 # ---- Tables with pockets

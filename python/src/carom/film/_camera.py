@@ -22,8 +22,8 @@ import numpy as np
 from carom.dtypes import Doubles
 
 _FOCAL = 1.3, 0.7  # of the picture's width, and its deviation as a logarithm: 25 to 110 degrees
-_LENS = 0.15  # deviation of k1
-_DEPTH = 0.008, 0.004  # m: deviations of a cushion's depth, and of one side from the others
+_LENS = 0.03  # deviation of what the lens shifts at half the width of the picture, of this
+_DEPTH = 0.008, 0.008  # m: deviations of a cushion's depth, and of one side from the others
 _ROUNDS = 30
 
 
@@ -158,14 +158,16 @@ def fit(
 
     A focal length (pixels) and a k1 that are given stay.
     """
-    widths = np.array([_FOCAL[1] if focal is None else 1e-6, _LENS if lens is None else 1e-6])
-    wanted = np.array([np.log(focal or _FOCAL[0] * camera.size[0]), lens or 0.0])
+    wanted = np.log(focal or _FOCAL[0] * camera.size[0])
+    half = 0.5 * camera.size[0]
     x = np.concatenate([camera.numbers, np.full(4, depth)])
     spreads = evidence.spreads(camera)
 
     def residuals(x: Doubles) -> Doubles:
         mean = x[8:].mean()
-        prior = [(x[[0, 7]] - wanted) / widths, [(mean - depth) / _DEPTH[0]]]
+        bend = x[7] * (half / np.exp(x[0])) ** 2 / _LENS if lens is None else (x[7] - lens) / 1e-6
+        length = (x[0] - wanted) / (_FOCAL[1] if focal is None else 1e-6)
+        prior = [[length, bend, (mean - depth) / _DEPTH[0]]]
         found = evidence.residuals(Camera(x[:8], camera.size), x[8:]) / spreads
         return np.concatenate([found, *prior, (x[8:] - mean) / _DEPTH[1]])
 
