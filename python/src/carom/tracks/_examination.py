@@ -42,7 +42,7 @@ _SLIDES = (0.18, 0.6)  # s: it slides so long
 _CLOCK = 1.18  # a clock that is wrong by less is no other than a cloth that is unlike most
 _HELD = 0.03  # share of repeated pictures among those of moving balls, above chance
 _SMOOTHER = 0.6  # of the scatter that a right clock leaves, at most
-_MOVES = 2e-3  # m: least step of a ball that moves, for its clock
+_MOVES, _FAST = 2e-3, 20e-3  # m: least steps of balls that move, for their clock, and move fast
 _CROOKED = 8e-3  # m: tracks that are farther off are told
 _BEYOND = 15e-3  # m: a ball that turns farther off a cushion tells of another table
 _GAP, _GAP_WAY = 2.5, 0.04  # pictures, and m that a ball goes meanwhile: more is said
@@ -212,7 +212,7 @@ def _pictures(shot: Recording, least: float = _MOVES) -> _Pictures:
         way = np.minimum(windows[: len(steps)].max(axis=1), windows[4:].max(axis=1))
         rows = np.searchsorted(times, track[1:, 0])
         is_new[rows[steps > np.maximum(0.05 * way, least)]] = True
-        is_repeated[rows[(way > 4.0 * _MOVES) & (steps <= 0.05 * way)]] = True
+        is_repeated[rows[(way > _FAST) & (steps <= 0.05 * way)]] = True
     return _Pictures(times, is_new, is_repeated & ~is_new)
 
 
