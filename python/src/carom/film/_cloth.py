@@ -59,6 +59,9 @@ def quadrilateral(picture: Picture) -> Doubles:
     near = vivid[np.abs(vivid - peak).max(axis=1) < 14]
     away = np.abs(lab[..., 1:] - np.median(near, axis=0)).max(axis=2)
     mask = cv2.morphologyEx((away < 14).astype(np.uint8), cv2.MORPH_OPEN, np.ones((5, 5), np.uint8))
+    # a dark line under a nose does not part its cushion from the bed
+    wide = np.ones((height // 60, height // 60), np.uint8)
+    mask = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, wide)
     _, labels, sizes, _ = cv2.connectedComponentsWithStats(mask)
     largest = 1 + int(sizes[1:, cv2.CC_STAT_AREA].argmax()) if len(sizes) > 1 else 0
     if not largest or sizes[largest, cv2.CC_STAT_AREA] < _LEAST * height * width:
@@ -246,7 +249,9 @@ class Cloth:
 
     def _find_edges(self, picture: Picture, depths: Doubles) -> None:
         """Where the cloth ends along each side, in this picture."""
-        shares = np.linspace(0.06, 0.94, _POINTS)
+        # away from the pockets, where cushions are cut or curved
+        shares = np.concatenate([np.linspace(0.1, 0.44, _POINTS // 2)] * 2)
+        shares[_POINTS // 2 :] = 1.0 - shares[_POINTS // 2 :]
         steps = np.arange(-_REACH, _REACH + 1.0)
         points, grids = [], []
         for side in range(4):
