@@ -316,7 +316,7 @@ class Cloth:
         parts = []
         for side, (middle, outward) in enumerate(self.points):
             good = np.isfinite(self.edges[side])
-            if not good.any():
+            if good.sum() < _POINTS // 4:
                 continue
             pixels = (middle + self.edges[side][:, None] * outward)[good]
             # neighbours share what disturbs them, so 60 points tell less than 60 times one
@@ -337,7 +337,7 @@ def calibrated(
     """
     size = picture.shape[1], picture.shape[0]
     given: list[Evidence] = []
-    best: tuple[float, Camera, Doubles] | None = None
+    best: tuple[float, Camera, Doubles, list[Evidence]] | None = None
     if corners is None:
         outer = np.roll(quadrilateral(picture), 2 * half_turn, axis=0)
         away = bed.depth * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
@@ -358,13 +358,15 @@ def calibrated(
                 evidence.append(bed.edge(side, pixels, (3.0, 0.0)))
         camera, depths, cost = fit(camera, Evidence.join(evidence), bed.depth, focal, lens)
         if best is None or cost < best[0]:
-            best = cost, camera, depths
+            best = cost, camera, depths, evidence[len(given) :]
     assert best is not None
-    _, camera, depths = best
-    # the edges are found anew where the better camera expects them
+    _, camera, depths, rough = best
+    # the edges are found anew where the better camera expects them; of one that is not, the rough
+    # line stands
     evidence = given
     for _ in range(4):
-        cloth = Cloth(picture, camera, bed, depths)
-        evidence = given + cloth.evidence()
+        fine = Cloth(picture, camera, bed, depths).evidence()
+        sides = {float(rows.sides[0]) for rows in fine}
+        evidence = [*given, *fine, *(rows for rows in rough if rows.sides[0] not in sides)]
         camera, depths, _ = fit(camera, Evidence.join(evidence), bed.depth, focal, lens)
     return camera, depths, evidence
